@@ -1,0 +1,13 @@
+//! What the thesis says: vocabulary, tables, units and laws. No behaviour, no dependencies.
+#![no_std]
+#![deny(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::indexing_slicing
+)]
+
+pub mod effect;
+pub mod joint;
+pub mod layout;
+pub mod units;
