@@ -1,1 +1,6 @@
-//! Room.
+//! What the equations compute: the reference model, one equation one function, f64, clarity first.
+
+pub mod axis;
+pub mod bench;
+pub mod brake;
+pub mod effects;

@@ -46,6 +46,8 @@ pub enum Mechanism {
     Spring,
     /// Constant force.
     ConstantBias,
+    /// Constant force that drifts with the time since the start.
+    BiasDrift,
     /// Wrong inertia.
     InertiaError,
     /// Extra mass at the tip.
@@ -74,7 +76,7 @@ pub enum Mechanism {
 
 impl Mechanism {
     /// Every mechanism, in the order of the design document.
-    pub const ALL: [Mechanism; 32] = [
+    pub const ALL: [Mechanism; 33] = [
         Mechanism::DryOffset,
         Mechanism::GainError,
         Mechanism::Viscous,
@@ -95,6 +97,7 @@ impl Mechanism {
         Mechanism::Gravity,
         Mechanism::Spring,
         Mechanism::ConstantBias,
+        Mechanism::BiasDrift,
         Mechanism::InertiaError,
         Mechanism::Payload,
         Mechanism::BearingFriction,
@@ -132,6 +135,7 @@ impl Mechanism {
             Mechanism::Gravity => "gravity",
             Mechanism::Spring => "spring",
             Mechanism::ConstantBias => "constant_bias",
+            Mechanism::BiasDrift => "bias_drift",
             Mechanism::InertiaError => "inertia_error",
             Mechanism::Payload => "payload",
             Mechanism::BearingFriction => "bearing_friction",
@@ -164,8 +168,8 @@ impl Mechanism {
             Mechanism::DirectionAsymmetry => {
                 const {
                     &[
-                        Parameter::new("dry", Effort),
                         Parameter::new("viscous", EffortPerSpeed),
+                        Parameter::new("dry", Effort),
                     ]
                 }
             }
@@ -206,6 +210,7 @@ impl Mechanism {
             }
             Mechanism::Spring => const { &[Parameter::new("stiffness", EffortPerTravel)] },
             Mechanism::ConstantBias => const { &[Parameter::new("level", Effort)] },
+            Mechanism::BiasDrift => const { &[Parameter::new("rate", EffortPerTime)] },
             Mechanism::NonlinearSpring => {
                 const { &[Parameter::new("cubic", EffortPerCubicTravel)] }
             }
@@ -249,6 +254,8 @@ pub enum Quantity {
     EffortPerSpeed,
     /// Effort over cubed travel.
     EffortPerCubicTravel,
+    /// Effort over time.
+    EffortPerTime,
     /// One over travel.
     PerTravel,
     /// Effort over acceleration: mass or moment of inertia.
@@ -281,6 +288,7 @@ impl Quantity {
             Quantity::EffortPerTravel => effort.per(travel),
             Quantity::EffortPerSpeed => effort.per(speed),
             Quantity::EffortPerCubicTravel => effort.per(travel.power(3)),
+            Quantity::EffortPerTime => effort.per(Dimension::TIME),
             Quantity::PerTravel => Dimension::NUMBER.per(travel),
             Quantity::Inertia => effort.per(speed.per(Dimension::TIME)),
         }

@@ -9,5 +9,7 @@
 
 pub mod effect;
 pub mod joint;
+pub mod laws;
 pub mod layout;
+pub mod tables;
 pub mod units;

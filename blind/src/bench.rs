@@ -1,0 +1,157 @@
+//! This file turns a brake or a damper along an imposed motion and meters its resistance.
+//!
+//! Each law is integrated in displacement where it is a law of displacement, on a fine grid between samples. Dry
+//! friction keeps its last sign while the velocity is exactly zero.
+
+use crate::brake::Brake;
+use crate::element::{Element, Instant, sliding_resistance};
+use crate::law::{Effect, Law};
+use crate::run::{Delay, Run};
+use crate::setup::Setup;
+
+/// Runs the bench with the laws the nominal model knows and the hidden effects, `fine_steps` to a sample.
+pub fn run(setup: &Setup, known: &[Law], hidden: &[Effect], fine_steps: usize) -> Run {
+    let step_s = 1.0 / (setup.rate_hz * fine_steps as f64);
+    let samples = (setup.duration_s * setup.rate_hz) as usize;
+    let mut bench = Bench::new(setup, known, hidden);
+    let delay_s = hidden
+        .iter()
+        .find_map(|effect| match effect.law {
+            Law::Skew { delay } => Some(delay),
+            _ => None,
+        })
+        .unwrap_or(0.0);
+    let mut late_position = Delay::new(-delay_s, step_s);
+    let mut late_effort = Delay::new(delay_s, step_s);
+    let mut skewed = Delay::new(delay_s.abs(), step_s);
+    let mut run = Run {
+        hidden: vec![Vec::with_capacity(samples); hidden.len()],
+        ..Run::default()
+    };
+    for fine in 0..samples * fine_steps {
+        let time_s = fine as f64 * step_s;
+        if fine > 0 {
+            bench.advance(setup, time_s, step_s);
+        }
+        let at = bench.at;
+        let effort = bench.effort();
+        late_position.push(at.position);
+        late_effort.push(effort);
+        skewed.push(effort);
+        if fine.is_multiple_of(fine_steps) {
+            run.time_s.push(time_s);
+            run.position.push(at.position);
+            run.velocity.push(at.velocity);
+            run.moving.push(at.velocity != 0.0);
+            run.shown_position.push(late_position.value());
+            run.shown_effort.push(late_effort.value());
+            if let Some((_, currents)) = setup.brake() {
+                run.shown_input.push(currents.at(time_s));
+            }
+            for (effect, force) in hidden.iter().zip(&mut run.hidden) {
+                force.push(match effect.law {
+                    Law::Skew { .. } => skewed.value() - effort,
+                    law if law.is_upstream() => bench.brake_excess(),
+                    _ => bench.resistance_of(effect),
+                });
+            }
+        }
+    }
+    run
+}
+
+struct Bench {
+    elements: Vec<Element>,
+    /// The true brake and the one the nominal model knows.
+    brakes: Option<(Brake, Brake)>,
+    at: Instant,
+}
+
+impl Bench {
+    fn new(setup: &Setup, known: &[Law], hidden: &[Effect]) -> Bench {
+        let (position, velocity) = setup.path.at(0.0);
+        let (_, first_velocity) = setup.path.at(1.0 / setup.rate_hz);
+        let upstream = hidden
+            .iter()
+            .copied()
+            .find(|effect| effect.law.is_upstream());
+        let brakes = setup.brake().map(|(joint, currents)| {
+            let current_a = currents.at(0.0);
+            (
+                Brake::new(joint, upstream, position, current_a),
+                Brake::new(joint, None, position, current_a),
+            )
+        });
+        Bench {
+            elements: known
+                .iter()
+                .map(|law| Effect::always(*law))
+                .chain(hidden.iter().copied())
+                .map(Element::new)
+                .collect(),
+            brakes,
+            at: Instant {
+                time_s: 0.0,
+                position,
+                velocity,
+                direction: first_velocity.signum(),
+                effort: 0.0,
+            },
+        }
+    }
+
+    fn advance(&mut self, setup: &Setup, time_s: f64, step_s: f64) {
+        let (position, velocity) = setup.path.at(time_s);
+        let travel = position - self.at.position;
+        let mut before = self.at;
+        if travel != 0.0 {
+            before.direction = travel.signum();
+        }
+        for element in &mut self.elements {
+            element.advance(&before, travel, step_s);
+        }
+        let direction = if velocity == 0.0 {
+            before.direction
+        } else {
+            velocity.signum()
+        };
+        self.at = Instant {
+            time_s,
+            position,
+            velocity,
+            direction,
+            effort: 0.0,
+        };
+        if let (Some((brake, nominal)), Some((_, currents))) = (&mut self.brakes, setup.brake()) {
+            // The current of the step that ends here is the one commanded at its middle.
+            let current_a = currents.at(time_s - 0.5 * step_s);
+            brake.step(time_s, position, velocity, current_a, step_s);
+            nominal.step(time_s, position, velocity, current_a, step_s);
+        }
+    }
+
+    /// Metered resistance, positive in the sense of positive velocity.
+    fn effort(&self) -> f64 {
+        let brake = self
+            .brakes
+            .as_ref()
+            .map_or(0.0, |(brake, _)| brake.yield_nm());
+        self.at.direction * brake + sliding_resistance(&self.elements, &self.at, 0.0)
+    }
+
+    fn brake_excess(&self) -> f64 {
+        self.brakes.as_ref().map_or(0.0, |(brake, nominal)| {
+            self.at.direction * (brake.yield_nm() - nominal.yield_nm())
+        })
+    }
+
+    fn resistance_of(&self, effect: &Effect) -> f64 {
+        self.elements
+            .iter()
+            .filter(|element| element.effect == *effect)
+            .map(|element| {
+                element.force(&self.at, 0.0) + self.at.direction * element.bound(&self.at)
+            })
+            .sum()
+    }
+}

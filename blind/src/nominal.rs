@@ -1,0 +1,42 @@
+//! This file says which physics the nominal model already has.
+
+use crate::draw::Draw;
+use crate::law::Law;
+use crate::plant::Plant;
+use crate::setup::Setup;
+
+/// Draws the laws of the nominal model, true in the plant; nothing hidden is among them.
+pub fn draw(plant: Plant, setup: &Setup, hidden: &[Law], draw: &mut Draw) -> Vec<Law> {
+    let hides = |name: &str| hidden.iter().any(|law| law.name() == name);
+    let asymmetry = hidden.iter().find_map(|law| match law {
+        Law::Asymmetry { dry, viscous } => Some((*dry != 0.0, *viscous != 0.0)),
+        _ => None,
+    });
+    let (needs_dry, needs_viscous) = asymmetry.unwrap_or((false, false));
+    let may_dry = !hides(setup.dry.name());
+    let may_viscous = !hides(setup.viscous.name());
+    // Asymmetry and bias are one and the same shift of dry friction, so one is never nominal when the other is hidden.
+    let may_bias = asymmetry.is_none() && !hides(setup.bias.name());
+    let damper = plant == Plant::Bench && setup.brake().is_none();
+    let (dry_chance, viscous_chance, bias_chance) = match plant {
+        Plant::Axis => (0.6, 0.6, 0.0),
+        Plant::Bench if damper => (1.0, 0.5, 0.3),
+        Plant::Bench => (0.0, 0.4, 0.0),
+    };
+    let (dry, viscous, bias) = (
+        draw.chance(dry_chance),
+        draw.chance(viscous_chance) || (damper && !may_dry),
+        draw.chance(bias_chance),
+    );
+    let mut laws = Vec::new();
+    if may_viscous && (viscous || needs_viscous) {
+        laws.push(setup.viscous);
+    }
+    if may_dry && (dry || needs_dry) {
+        laws.push(setup.dry);
+    }
+    if may_bias && bias {
+        laws.push(setup.bias);
+    }
+    laws
+}

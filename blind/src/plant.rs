@@ -1,0 +1,35 @@
+//! This file names the two plants a case can be recorded on.
+
+use crate::error::Error;
+use serde::{Deserialize, Serialize};
+
+/// The plant of a recording.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Plant {
+    /// One driven joint: position and command are recorded.
+    Axis,
+    /// A brake or damper moved by a motor: position and resisting effort are recorded.
+    Bench,
+}
+
+impl Plant {
+    /// The name used in files and on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Plant::Axis => "axis",
+            Plant::Bench => "bench",
+        }
+    }
+
+    /// The plant of a name.
+    ///
+    /// # Errors
+    /// [`Error::UnknownPlant`] for any other text.
+    pub fn from_name(name: &str) -> Result<Plant, Error> {
+        [Plant::Axis, Plant::Bench]
+            .into_iter()
+            .find(|plant| plant.name() == name)
+            .ok_or_else(|| Error::UnknownPlant(name.to_owned()))
+    }
+}

@@ -1,0 +1,329 @@
+//! This file scores a diagnosis against the answer, from the report's JSON alone.
+
+use crate::answer::{Answer, HiddenEffect};
+use crate::error::Error;
+use crate::stratum::Stratum;
+use rigproof_spec::units::Unit;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::collections::BTreeSet;
+
+/// How one diagnosis did.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Score {
+    /// The kind of case.
+    pub stratum: Stratum,
+    /// The report's verdict.
+    pub verdict: String,
+    /// The named set is the true set; for an effect too small to see, naming nothing is right as well; for a data
+    /// fault nothing may be named and the verdict must be `data_fault`.
+    pub exact: bool,
+    /// Every true effect is named, ambiguous with a named one, or replaced by a physical equivalent. An effect too
+    /// small to see is not asked for.
+    pub inside: bool,
+    /// Names that are neither true, nor equivalent, nor declared ambiguous with a true one.
+    pub false_names: Vec<String>,
+    /// The verdict says that the library or the data do not allow a name.
+    pub flagged: bool,
+    /// Mechanisms named or offered as ambiguous: a diagnosis that offers everything is inside of everything.
+    pub offered: usize,
+    /// Distance between the true onset and the named one, s, where both are there.
+    pub onset_error_s: Option<f64>,
+    /// Errors of the parameters that truth and report both have.
+    pub parameters: Vec<ParameterError>,
+}
+
+/// How far one parameter is from the truth.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ParameterError {
+    /// The mechanism's name.
+    pub mechanism: String,
+    /// The parameter's name.
+    pub name: String,
+    /// |found − true| / |true|.
+    pub relative: f64,
+    /// Whether the report's 95 % interval holds the truth; absent when it gives none.
+    pub covered: Option<bool>,
+}
+
+/// Scores a report.
+///
+/// # Errors
+/// [`Error::Report`] when `verdict` or `effects` is missing.
+pub fn score(answer: &Answer, report: &Value) -> Result<Score, Error> {
+    let verdict = report
+        .get("verdict")
+        .and_then(Value::as_str)
+        .ok_or(Error::Report("string \"verdict\""))?;
+    let found = found_effects(report)?;
+    let named: BTreeSet<&str> = found.iter().map(|effect| effect.name).collect();
+    let offered: BTreeSet<&str> = found
+        .iter()
+        .flat_map(|effect| effect.alternatives.iter().copied())
+        .chain(named.iter().copied())
+        .collect();
+    let truth: BTreeSet<&str> = answer
+        .effects
+        .iter()
+        .map(|effect| effect.mechanism.as_str())
+        .collect();
+    let too_small = answer.stratum == Stratum::TooSmall;
+    let flagged = match verdict {
+        "data_fault" => answer.stratum == Stratum::DataFault,
+        "none_of_library" => answer.stratum != Stratum::DataFault,
+        "partly_explained" => answer.stratum == Stratum::NotInLibrary && named.is_empty(),
+        _ => false,
+    };
+    let exact = match answer.stratum {
+        Stratum::DataFault => flagged && named.is_empty(),
+        Stratum::TooSmall => named.is_empty() || named == truth,
+        _ => named == truth,
+    };
+    Ok(Score {
+        stratum: answer.stratum,
+        verdict: verdict.to_owned(),
+        exact,
+        inside: too_small || answer.effects.iter().all(|e| is_inside(e, &offered)),
+        false_names: found
+            .iter()
+            .filter(|effect| !is_defensible(effect, answer, &truth))
+            .map(|effect| effect.name.to_owned())
+            .collect(),
+        flagged,
+        offered: offered.len(),
+        onset_error_s: onset_error_s(answer, &found),
+        parameters: parameter_errors(answer, &found),
+    })
+}
+
+/// One named effect of a report.
+struct Found<'a> {
+    name: &'a str,
+    onset_s: Option<f64>,
+    parameters: Option<&'a serde_json::Map<String, Value>>,
+    alternatives: Vec<&'a str>,
+}
+
+fn found_effects(report: &Value) -> Result<Vec<Found<'_>>, Error> {
+    let effects = report
+        .get("effects")
+        .and_then(Value::as_array)
+        .ok_or(Error::Report("array \"effects\""))?;
+    effects
+        .iter()
+        .enumerate()
+        .map(|(index, effect)| {
+            let mut alternatives = Vec::new();
+            let of_report = report
+                .get("ambiguous_with")
+                .and_then(|list| list.get(index));
+            for list in [of_report, effect.get("ambiguous_with")]
+                .into_iter()
+                .flatten()
+            {
+                collect_strings(list, &mut alternatives);
+            }
+            Ok(Found {
+                name: effect
+                    .get("mechanism")
+                    .and_then(Value::as_str)
+                    .ok_or(Error::Report("string \"mechanism\" in an effect"))?,
+                onset_s: effect.get("onset_s").and_then(Value::as_f64),
+                parameters: effect.get("parameters").and_then(Value::as_object),
+                alternatives,
+            })
+        })
+        .collect()
+}
+
+fn collect_strings<'a>(value: &'a Value, into: &mut Vec<&'a str>) {
+    match value {
+        Value::String(text) => into.push(text),
+        Value::Array(items) => items.iter().for_each(|item| collect_strings(item, into)),
+        _ => {}
+    }
+}
+
+fn is_inside(truth: &HiddenEffect, offered: &BTreeSet<&str>) -> bool {
+    offered.contains(truth.mechanism.as_str())
+        || truth
+            .equivalent
+            .iter()
+            .any(|set| set.iter().all(|name| offered.contains(name.as_str())))
+}
+
+fn is_defensible(found: &Found<'_>, answer: &Answer, truth: &BTreeSet<&str>) -> bool {
+    truth.contains(found.name)
+        || answer
+            .effects
+            .iter()
+            .flat_map(|effect| effect.equivalent.iter().flatten())
+            .any(|name| name == found.name)
+        || found.alternatives.iter().any(|name| truth.contains(name))
+}
+
+fn onset_error_s(answer: &Answer, found: &[Found<'_>]) -> Option<f64> {
+    answer.effects.iter().find_map(|truth| {
+        let named = found.iter().find(|f| f.name == truth.mechanism)?;
+        Some((named.onset_s? - truth.onset_s?).abs())
+    })
+}
+
+fn parameter_errors(answer: &Answer, found: &[Found<'_>]) -> Vec<ParameterError> {
+    let mut errors = Vec::new();
+    for truth in &answer.effects {
+        let Some(parameters) = found
+            .iter()
+            .find(|f| f.name == truth.mechanism)
+            .and_then(|f| f.parameters)
+        else {
+            continue;
+        };
+        for parameter in &truth.parameters {
+            let Some(estimate) = parameters.get(&parameter.name) else {
+                continue;
+            };
+            let unit = estimate.get("unit").and_then(Value::as_str).unwrap_or("1");
+            let (Some(stated), Some(true_unit)) = (Unit::parse(unit), Unit::parse(&parameter.unit))
+            else {
+                continue;
+            };
+            if stated.dimension != true_unit.dimension {
+                continue;
+            }
+            let number = |key| Some(estimate.get(key)?.as_f64()? * stated.to_si);
+            let Some(value) = number("value") else {
+                continue;
+            };
+            // The sign of a delay is a convention of the reader, not of the recording.
+            let is_delay = truth.mechanism == "channel_skew";
+            let sign = if is_delay && value * parameter.value < 0.0 {
+                -1.0
+            } else {
+                1.0
+            };
+            let true_value = sign * parameter.value * true_unit.to_si;
+            if true_value != 0.0 {
+                errors.push(ParameterError {
+                    mechanism: truth.mechanism.clone(),
+                    name: parameter.name.clone(),
+                    relative: ((value - true_value) / true_value).abs(),
+                    covered: number("low95")
+                        .zip(number("high95"))
+                        .map(|(low, high)| (low..=high).contains(&true_value)),
+                });
+            }
+        }
+    }
+    errors
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::answer::TrueParameter;
+    use crate::plant::Plant;
+    use serde_json::json;
+
+    fn effect(mechanism: &str, equivalent: &[&[&str]]) -> HiddenEffect {
+        HiddenEffect {
+            mechanism: mechanism.to_owned(),
+            onset_s: Some(8.25),
+            parameters: vec![TrueParameter {
+                name: "level".to_owned(),
+                value: 0.02,
+                unit: "N·m".to_owned(),
+            }],
+            size: 7.0,
+            distinctness: 3.0,
+            strength: 90.0,
+            equivalent: equivalent
+                .iter()
+                .map(|set| set.iter().map(|n| (*n).to_owned()).collect())
+                .collect(),
+        }
+    }
+
+    fn answer(stratum: Stratum, effects: Vec<HiddenEffect>) -> Answer {
+        Answer {
+            seed: 3,
+            plant: Plant::Axis,
+            stratum,
+            effects,
+            fault: None,
+            block_noise: 0.01,
+        }
+    }
+
+    #[test]
+    fn the_true_name_is_exact_and_its_parameter_is_compared_in_si() {
+        let answer = answer(Stratum::LateOnset, vec![effect("dry_offset", &[])]);
+        let report = json!({"verdict": "explained", "effects": [{
+            "mechanism": "dry_offset", "onset_s": 8.0,
+            "parameters": {"level": {"value": 21.0, "unit": "mN·m", "low95": 19.0, "high95": 23.0}}}]});
+        let score = score(&answer, &report).unwrap();
+        assert!(score.exact && score.inside && score.false_names.is_empty());
+        assert_eq!(score.onset_error_s, Some(0.25));
+        assert!((score.parameters[0].relative - 0.05).abs() < 1e-12);
+        assert_eq!(score.parameters[0].covered, Some(true));
+    }
+
+    #[test]
+    fn a_declared_ambiguity_is_inside_but_not_exact() {
+        let answer = answer(
+            Stratum::Single,
+            vec![effect("presliding", &[&["hysteresis"]])],
+        );
+        let report = |with: Value| {
+            json!({"verdict": "ambiguous", "ambiguous_with": [with],
+                   "effects": [{"mechanism": "stribeck"}]})
+        };
+        let good = score(&answer, &report(json!([["presliding"]]))).unwrap();
+        assert!(!good.exact && good.inside && good.false_names.is_empty());
+        assert_eq!(good.offered, 2);
+        let twin = score(&answer, &report(json!([["hysteresis"]]))).unwrap();
+        assert!(twin.inside);
+        assert_eq!(twin.false_names, ["stribeck"]);
+        let bad = score(&answer, &report(json!([]))).unwrap();
+        assert!(!bad.inside);
+        assert_eq!(bad.false_names, ["stribeck"]);
+    }
+
+    #[test]
+    fn flags_belong_to_their_strata() {
+        let verdict = |stratum, verdict: &str, effects: Value| {
+            score(
+                &answer(stratum, vec![]),
+                &json!({"verdict": verdict, "effects": effects}),
+            )
+            .unwrap()
+        };
+        assert!(verdict(Stratum::DataFault, "data_fault", json!([])).exact);
+        assert!(!verdict(Stratum::DataFault, "consistent", json!([])).exact);
+        assert!(verdict(Stratum::NotInLibrary, "partly_explained", json!([])).flagged);
+        let named = json!([{"mechanism": "spring"}]);
+        let partly = verdict(Stratum::NotInLibrary, "partly_explained", named.clone());
+        assert!(!partly.flagged && partly.false_names == ["spring"]);
+        assert!(verdict(Stratum::Nothing, "consistent", json!([])).exact);
+        assert!(!verdict(Stratum::Nothing, "explained", named).exact);
+    }
+
+    #[test]
+    fn silence_about_an_effect_too_small_to_see_is_right() {
+        let answer = answer(Stratum::TooSmall, vec![effect("spring", &[])]);
+        let quiet = score(&answer, &json!({"verdict": "consistent", "effects": []})).unwrap();
+        assert!(quiet.exact && quiet.inside);
+        let loud = json!({"verdict": "explained", "effects": [{"mechanism": "ripple"}]});
+        let loud = score(&answer, &loud).unwrap();
+        assert!(!loud.exact && loud.false_names == ["ripple"]);
+    }
+
+    #[test]
+    fn a_report_without_a_verdict_is_refused() {
+        let answer = answer(Stratum::Nothing, vec![]);
+        let message = score(&answer, &json!({"effects": []}))
+            .unwrap_err()
+            .to_string();
+        assert!(message.contains("verdict"), "{message}");
+    }
+}

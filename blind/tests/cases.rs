@@ -1,0 +1,104 @@
+//! This file claims what a user of the room relies on: seeds, seals and rig descriptions.
+
+use proptest::prelude::*;
+use rigproof_blind::{Plant, Stratum, Table, make, open, score};
+use rigproof_spec::effect::Mechanism;
+use rigproof_trace::rig::Rig;
+use std::path::Path;
+
+fn plant() -> impl Strategy<Value = Plant> {
+    prop_oneof![Just(Plant::Axis), Just(Plant::Bench)]
+}
+
+/// Bits, so that an empty cell equals an empty cell.
+fn bits(trace: &rigproof_trace::Trace) -> Vec<(String, String, Vec<u64>)> {
+    let bits = |samples: &[f64]| samples.iter().map(|x| x.to_bits()).collect();
+    let mut all = vec![("t".to_owned(), "s".to_owned(), bits(&trace.time_s))];
+    all.extend(
+        trace
+            .channels
+            .iter()
+            .map(|c| (c.name.clone(), c.unit.clone(), bits(&c.samples))),
+    );
+    all
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(40))]
+
+    #[test]
+    fn a_seed_makes_the_same_case_twice_and_another_seed_another(plant in plant(), seed: u64) {
+        let first = make(plant, seed, None).unwrap();
+        let second = make(plant, seed, None).unwrap();
+        prop_assert_eq!(bits(&first.trace), bits(&second.trace));
+        prop_assert_eq!(&first.rig_toml, &second.rig_toml);
+        prop_assert_eq!(&first.sealed, &second.sealed);
+        let other = make(plant, seed ^ 0x55, None).unwrap();
+        prop_assert_ne!(bits(&first.trace), bits(&other.trace));
+    }
+
+    #[test]
+    fn the_seal_hides_and_keeps_the_answer(plant in plant(), seed: u64) {
+        let case = make(plant, seed, None).unwrap();
+        let answer = open(&case.sealed).unwrap();
+        prop_assert_eq!(answer.seed, seed);
+        prop_assert_eq!(answer.stratum, Stratum::of_seed(plant, seed));
+        prop_assert!(case.sealed.contains(&case.commitment));
+        for mechanism in Mechanism::ALL {
+            prop_assert!(!case.sealed.contains(mechanism.name()));
+        }
+        // Nothing hidden is nominal physics.
+        for effect in &answer.effects {
+            let line = format!("mechanism = \"{}\"", effect.mechanism);
+            prop_assert!(!case.rig_toml.contains(&line), "{}", line);
+        }
+    }
+
+    #[test]
+    fn the_rig_description_reads_and_fits_the_recording(plant in plant(), seed: u64) {
+        let case = make(plant, seed, Some(Stratum::Single)).unwrap();
+        let origin = Path::new("case.toml");
+        let rig = Rig::parse(&case.rig_toml, origin).unwrap();
+        prop_assert_eq!(&rig.name, &format!("blind {} {seed}", plant.name()));
+        let recording = rig.apply(&case.trace, origin).unwrap();
+        prop_assert_eq!(recording.time_s.len(), case.trace.len());
+    }
+}
+
+#[test]
+fn every_seed_of_a_run_of_two_hundred_makes_a_case() {
+    let mut table = Table::default();
+    for plant in [Plant::Axis, Plant::Bench] {
+        for seed in 0..200 {
+            let case = make(plant, seed, None).unwrap();
+            let answer = open(&case.sealed).unwrap();
+            assert_eq!(answer.fault.is_some(), answer.stratum == Stratum::DataFault);
+            let hidden = match answer.stratum {
+                Stratum::Nothing | Stratum::DataFault => 0,
+                Stratum::Masked => 2,
+                _ => 1,
+            };
+            assert_eq!(answer.effects.len(), hidden);
+            let seconds = *case.trace.time_s.last().unwrap();
+            for effect in &answer.effects {
+                assert_eq!(
+                    effect.onset_s.is_some(),
+                    answer.stratum == Stratum::LateOnset
+                );
+                if let Some(onset_s) = effect.onset_s {
+                    assert!(onset_s > 0.32 * seconds && onset_s < 0.68 * seconds);
+                }
+            }
+            // A diagnosis that says nothing scores on the cases that hide nothing.
+            let silent = serde_json::json!({"verdict": "consistent", "effects": []});
+            table.add(plant, seed, score(&answer, &silent).unwrap());
+        }
+    }
+    for row in table.rows() {
+        let right = matches!(row.stratum, "nothing" | "too_small");
+        match row.stratum {
+            "all" => assert_eq!((row.n, row.exact.count), (400, 100)),
+            _ => assert_eq!(row.exact.count, if right { row.n } else { 0 }, "{row:?}"),
+        }
+    }
+}

@@ -1,0 +1,61 @@
+//! This file says how a verb ends: its exit code, its one line of error, and its output.
+
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+use rigproof_trace::TraceError;
+
+/// How a verb ended that did its work.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Outcome {
+    /// Whether every check held: exit code 0, or 1 when one did not.
+    pub checks_hold: bool,
+}
+
+impl Outcome {
+    /// The work is done and nothing was to be checked.
+    pub const DONE: Outcome = Outcome { checks_hold: true };
+}
+
+/// Why a verb could not do its work.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Failure {
+    /// The command line is wrong in a way its parser cannot see; exit code 2.
+    Usage(String),
+    /// An input is not usable, or a file cannot be read or written; exit code 3.
+    Input(String),
+}
+
+impl From<TraceError> for Failure {
+    fn from(error: TraceError) -> Failure {
+        Failure::Input(error.to_string())
+    }
+}
+
+/// Prints the error, if there is one, and gives the exit code.
+pub fn exit(result: Result<Outcome, Failure>) -> ExitCode {
+    let (code, message) = match result {
+        Ok(outcome) => return ExitCode::from(u8::from(!outcome.checks_hold)),
+        Err(Failure::Usage(message)) => (2, message),
+        Err(Failure::Input(message)) => (3, message),
+    };
+    // An input may hold anything; the message stays on one line and cannot steer the terminal.
+    let message: String = message
+        .chars()
+        .map(|c| if c.is_control() { '\u{fffd}' } else { c })
+        .collect();
+    // Nobody is left to be told when this fails.
+    let _ = writeln!(io::stderr(), "error: {message}");
+    ExitCode::from(code)
+}
+
+/// Prints the result of a verb on standard output; a reader that went away is no error.
+pub fn print(text: &str) -> Result<Outcome, Failure> {
+    let mut out = io::stdout().lock();
+    match writeln!(out, "{text}").and_then(|()| out.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(Failure::Input(format!("cannot write the result: {error}")))
+        }
+        _ => Ok(Outcome::DONE),
+    }
+}

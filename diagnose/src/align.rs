@@ -1,0 +1,389 @@
+//! This file is stage 0: a recording is put on regular samples, its faults are named, its noise is measured.
+
+use crate::filter::{LowPass, gradient};
+use crate::run::{PlantKind, Run, rms};
+use rigproof_model::effects::Instant;
+use rustfft::{FftPlanner, num_complex::Complex64};
+
+/// What stage 0 takes: the plant's roles in SI units, NaN where nothing was recorded.
+#[derive(Clone, Debug)]
+pub struct Signals {
+    /// The plant.
+    pub plant: PlantKind,
+    /// Time stamps, s, increasing.
+    pub time_s: Vec<f64>,
+    /// Position, m or rad.
+    pub position: Vec<f64>,
+    /// Axis: command times its gain. Bench: metered effort. N or N·m.
+    pub effort: Vec<f64>,
+    /// Bench: effort that somebody's simulation predicts.
+    pub predicted: Option<Vec<f64>>,
+    /// Bench: the current, A.
+    pub current: Option<Vec<f64>>,
+    /// Whether the drive holds its value between samples.
+    pub held: bool,
+    /// Resolution of the position, if stated.
+    pub position_quantum: Option<f64>,
+    /// Noise of the position, if stated.
+    pub position_noise: Option<f64>,
+    /// Noise of the effort, if stated.
+    pub effort_noise: Option<f64>,
+    /// Magnitude at which the effort saturates, if stated.
+    pub effort_limit: Option<f64>,
+}
+
+/// Why no conclusion can be drawn from a recording.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fault {
+    /// The role of the channel.
+    pub channel: &'static str,
+    /// When it begins, s.
+    pub from_s: f64,
+    /// When it ends, s.
+    pub to_s: f64,
+    /// What is wrong, in words.
+    pub reason: String,
+}
+
+/// A gap longer than this ends the diagnosis, s.
+const LONGEST_GAP_S: f64 = 0.1;
+/// Share of samples that may be missing.
+const MOST_MISSING: f64 = 0.02;
+/// Seconds for which a live channel may repeat one value to the bit.
+const LONGEST_FREEZE_S: f64 = 0.25;
+
+/// Aligns a recording, or says why nothing can be concluded from it.
+pub fn align(signals: &Signals) -> Result<Run, Fault> {
+    let step_s = median_step(&signals.time_s);
+    check_clock(&signals.time_s, step_s)?;
+    check_missing("position", &signals.time_s, &signals.position)?;
+    check_missing("effort", &signals.time_s, &signals.effort)?;
+    check_frozen(signals, step_s)?;
+    check_clipped(signals)?;
+    let count = regular_count(&signals.time_s, step_s);
+    let (position, recorded_p) = resample(&signals.time_s, &signals.position, step_s, count);
+    let (effort, recorded_e) = resample(&signals.time_s, &signals.effort, step_s, count);
+    let optional = |values: &Option<Vec<f64>>| {
+        let values = values.as_ref()?;
+        Some(resample(&signals.time_s, values, step_s, count).0)
+    };
+    let predicted = optional(&signals.predicted);
+    let current = optional(&signals.current);
+    let quantum = signals
+        .position_quantum
+        .unwrap_or_else(|| smallest_step(&signals.position));
+    let position_noise = (quantum / 12f64.sqrt()).hypot(signals.position_noise.unwrap_or(0.0));
+    let effort_noise = signals
+        .effort_noise
+        .unwrap_or_else(|| smallest_step(&effort) / 12f64.sqrt());
+    let band_hz = band_hz(&effort, step_s);
+    let (motion, speed_floor) = smoothed_motion(&position, step_s, band_hz, position_noise);
+    let run = Run {
+        plant: signals.plant,
+        step_s,
+        start_s: 0.0,
+        held: signals.held,
+        position,
+        motion,
+        effort,
+        predicted,
+        current,
+        position_noise,
+        effort_noise,
+        recorded: recorded_p
+            .into_iter()
+            .zip(recorded_e)
+            .map(|(a, b)| a && b)
+            .collect(),
+        speed_floor,
+    };
+    check_sign(&run)?;
+    Ok(run)
+}
+
+fn median_step(time_s: &[f64]) -> f64 {
+    let mut steps: Vec<f64> = time_s
+        .windows(2)
+        .map(|w| w.iter().rev().copied().reduce(|b, a| b - a).unwrap_or(0.0))
+        .collect();
+    steps.sort_by(f64::total_cmp);
+    steps.get(steps.len() / 2).copied().unwrap_or(1.0)
+}
+
+fn check_clock(time_s: &[f64], step_s: f64) -> Result<(), Fault> {
+    let longest = LONGEST_GAP_S.max(8.0 * step_s);
+    for pair in time_s.windows(2) {
+        if let [before, after] = pair
+            && after - before > longest
+        {
+            return Err(Fault {
+                channel: "time",
+                from_s: *before,
+                to_s: *after,
+                reason: format!(
+                    "{:.3} s without a sample, where {:.4} s is the usual step; cut the recording there",
+                    after - before,
+                    step_s
+                ),
+            });
+        }
+    }
+    Ok(())
+}
+
+fn check_missing(channel: &'static str, time_s: &[f64], values: &[f64]) -> Result<(), Fault> {
+    let missing = values.iter().filter(|x| x.is_nan()).count();
+    let mut since: Option<f64> = None;
+    for (&t, x) in time_s.iter().zip(values) {
+        match (x.is_nan(), since) {
+            (true, None) => since = Some(t),
+            (false, Some(start)) if t - start > LONGEST_GAP_S => {
+                return Err(Fault {
+                    channel,
+                    from_s: start,
+                    to_s: t,
+                    reason: format!("no value for {:.3} s; cut the recording there", t - start),
+                });
+            }
+            (false, _) => since = None,
+            _ => {}
+        }
+    }
+    if missing as f64 > MOST_MISSING * values.len() as f64 {
+        return Err(Fault {
+            channel,
+            from_s: time_s.first().copied().unwrap_or(0.0),
+            to_s: time_s.last().copied().unwrap_or(0.0),
+            reason: format!("{missing} of {} values are missing", values.len()),
+        });
+    }
+    Ok(())
+}
+
+/// A channel that repeats one value to the bit while the other one shows that the plant is alive.
+fn check_frozen(signals: &Signals, step_s: f64) -> Result<(), Fault> {
+    let least = (LONGEST_FREEZE_S / step_s).ceil() as usize;
+    for (first, end) in constant_runs(&signals.position, least) {
+        if moved_behind(signals, first, end) {
+            return Err(frozen("position", signals, first, end));
+        }
+    }
+    // A metered effort has noise: on a bench a constant one is a dead channel, unless the motion rests too.
+    if signals.plant == PlantKind::Bench {
+        for (first, end) in constant_runs(&signals.effort, least) {
+            let moving = signals.position.get(first..end).unwrap_or_default();
+            if moving.windows(2).filter(|w| w.first() != w.last()).count() > least / 2 {
+                return Err(frozen("effort", signals, first, end));
+            }
+        }
+    }
+    Ok(())
+}
+
+fn frozen(channel: &'static str, signals: &Signals, first: usize, end: usize) -> Fault {
+    let at = |k: usize| signals.time_s.get(k).copied().unwrap_or(0.0);
+    Fault {
+        channel,
+        from_s: at(first),
+        to_s: at(end.saturating_sub(1)),
+        reason: "the same value to the bit while the plant moves; check the cable".to_owned(),
+    }
+}
+
+/// Runs of at least `least` samples of one value.
+fn constant_runs(values: &[f64], least: usize) -> Vec<(usize, usize)> {
+    let mut runs = Vec::new();
+    let mut first = 0;
+    for k in 1..=values.len() {
+        if k == values.len() || values.get(k) != values.get(first) {
+            if k - first >= least.max(3) {
+                runs.push((first, k));
+            }
+            first = k;
+        }
+    }
+    runs
+}
+
+/// Whether a constant position must be a fault: it ends in a jump that no motion before or after explains.
+fn moved_behind(signals: &Signals, first: usize, end: usize) -> bool {
+    let steps = |from: usize, to: usize| {
+        signals
+            .position
+            .get(from..to)
+            .unwrap_or_default()
+            .windows(2)
+            .map(|w| (w.last().unwrap_or(&0.0) - w.first().unwrap_or(&0.0)).abs())
+            .fold(0.0, f64::max)
+    };
+    let n = signals.position.len();
+    if end + 1 >= n {
+        return false;
+    }
+    let jump = steps(end - 1, end + 1);
+    let usual = steps(first.saturating_sub(400), first).max(steps(end, (end + 400).min(n)));
+    jump > 6.0 * usual.max(2.0 * smallest_step(&signals.position))
+}
+
+/// A metered effort that rests on its own extreme for many samples.
+fn check_clipped(signals: &Signals) -> Result<(), Fault> {
+    if signals.plant == PlantKind::Axis {
+        return Ok(());
+    }
+    let live: Vec<f64> = signals
+        .effort
+        .iter()
+        .copied()
+        .filter(|x| !x.is_nan())
+        .collect();
+    let high = live.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let low = live.iter().copied().fold(f64::INFINITY, f64::min);
+    for extreme in [high, low] {
+        let count = live.iter().filter(|&&x| x == extreme).count();
+        if count > 20 && count as f64 > 0.005 * live.len() as f64 && high > low {
+            let from = signals
+                .effort
+                .iter()
+                .position(|&x| x == extreme)
+                .unwrap_or(0);
+            return Err(Fault {
+                channel: "effort",
+                from_s: signals.time_s.get(from).copied().unwrap_or(0.0),
+                to_s: signals.time_s.last().copied().unwrap_or(0.0),
+                reason: format!(
+                    "{count} samples at exactly {extreme}: the sensor or its converter is saturated"
+                ),
+            });
+        }
+    }
+    Ok(())
+}
+
+/// A resistance that gives energy on the whole has a channel with the wrong sign.
+fn check_sign(run: &Run) -> Result<(), Fault> {
+    if run.plant == PlantKind::Axis {
+        return Ok(());
+    }
+    let mean = run.effort.iter().sum::<f64>() / run.len().max(1) as f64;
+    let (mut power, mut size) = (0.0, 0.0);
+    for (now, effort) in run.motion.iter().zip(&run.effort) {
+        power += now.speed * (effort - mean);
+        size += (now.speed * (effort - mean)).abs();
+    }
+    if power < -0.2 * size {
+        return Err(Fault {
+            channel: "effort",
+            from_s: 0.0,
+            to_s: run.duration_s(),
+            reason: "the resistance drives the motion: energy comes out of the brake; one of the two channels has the wrong sign (set `sign = -1`)".to_owned(),
+        });
+    }
+    Ok(())
+}
+
+fn regular_count(time_s: &[f64], step_s: f64) -> usize {
+    match (time_s.first(), time_s.last()) {
+        (Some(first), Some(last)) => ((last - first) / step_s).round() as usize + 1,
+        _ => 0,
+    }
+}
+
+/// Values on regular samples: the recorded one where a stamp lies within a tenth of a step, else interpolated.
+///
+/// The second vector says which values were recorded.
+fn resample(time_s: &[f64], values: &[f64], step_s: f64, count: usize) -> (Vec<f64>, Vec<bool>) {
+    let start = time_s.first().copied().unwrap_or(0.0);
+    let known: Vec<(f64, f64)> = time_s
+        .iter()
+        .copied()
+        .zip(values.iter().copied())
+        .filter(|(_, x)| !x.is_nan())
+        .collect();
+    let mut next = 0;
+    let mut out = Vec::with_capacity(count);
+    let mut recorded = Vec::with_capacity(count);
+    for k in 0..count {
+        let t = start + k as f64 * step_s;
+        while known
+            .get(next + 1)
+            .is_some_and(|(after, _)| *after <= t + 0.1 * step_s)
+        {
+            next += 1;
+        }
+        let (t0, x0) = known.get(next).copied().unwrap_or((t, 0.0));
+        let (t1, x1) = known.get(next + 1).copied().unwrap_or((t0, x0));
+        let near = (t - t0).abs() <= 0.1 * step_s;
+        let share = if t1 > t0 {
+            ((t - t0) / (t1 - t0)).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
+        out.push(if near { x0 } else { x0 + share * (x1 - x0) });
+        recorded.push(near || t1 - t0 < 2.5 * step_s);
+    }
+    (out, recorded)
+}
+
+/// The smallest difference between two values that differ: the resolution of a quantised channel.
+fn smallest_step(values: &[f64]) -> f64 {
+    let mut sorted: Vec<f64> = values.iter().copied().filter(|x| x.is_finite()).collect();
+    sorted.sort_by(f64::total_cmp);
+    let span = sorted.last().unwrap_or(&0.0) - sorted.first().unwrap_or(&0.0);
+    sorted
+        .windows(2)
+        .map(|w| w.last().unwrap_or(&0.0) - w.first().unwrap_or(&0.0))
+        .filter(|d| *d > 1e-9 * span)
+        .fold(span, f64::min)
+}
+
+/// The frequency below which 95 % of an effort's varying power lies, Hz.
+pub fn band_hz(effort: &[f64], step_s: f64) -> f64 {
+    let mean = effort.iter().sum::<f64>() / effort.len().max(1) as f64;
+    let mut spectrum: Vec<Complex64> = effort
+        .iter()
+        .map(|x| Complex64::new(x - mean, 0.0))
+        .collect();
+    FftPlanner::new()
+        .plan_fft_forward(spectrum.len())
+        .process(&mut spectrum);
+    let power: Vec<f64> = spectrum
+        .iter()
+        .take(effort.len() / 2)
+        .map(|c| c.norm_sqr())
+        .collect();
+    let total: f64 = power.iter().sum();
+    let mut sum = 0.0;
+    let index = power
+        .iter()
+        .position(|p| {
+            sum += p;
+            sum >= 0.95 * total
+        })
+        .unwrap_or(1);
+    (index.max(1)) as f64 / (step_s * effort.len() as f64)
+}
+
+/// Position and speed after a zero-phase low-pass that keeps twice the effort's band, and the speed below which
+/// noise decides the sign.
+fn smoothed_motion(position: &[f64], step_s: f64, band_hz: f64, noise: f64) -> (Vec<Instant>, f64) {
+    let rate_hz = 1.0 / step_s;
+    let cutoff_hz = (2.0 * band_hz).clamp(25.0f64.min(0.25 * rate_hz), 0.35 * rate_hz);
+    let smooth = LowPass::butterworth(4, 2.0 * cutoff_hz / rate_hz).zero_phase(position);
+    let speed = gradient(&smooth, step_s);
+    // White noise through the filter and the difference: ∫(2πf)² up to the cut-off.
+    let noise_speed =
+        noise * core::f64::consts::TAU * cutoff_hz * (2.0 * cutoff_hz / rate_hz / 3.0).sqrt();
+    let floor = (4.0 * noise_speed).max(1e-4 * rms(&speed));
+    let motion = smooth
+        .iter()
+        .zip(&speed)
+        .enumerate()
+        .map(|(k, (&position, &speed))| Instant {
+            time_s: k as f64 * step_s,
+            position,
+            speed,
+            sense: (speed / floor).clamp(-1.0, 1.0),
+        })
+        .collect();
+    (motion, floor)
+}

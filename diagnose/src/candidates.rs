@@ -1,0 +1,175 @@
+//! This file says which shapes of each mechanism are tried on a recording.
+
+use crate::problem::{Problem, Term, add};
+use crate::regression::Fit;
+use core::f64::consts::TAU;
+use rigproof_model::effects::LIBRARY;
+use rigproof_spec::effect::Mechanism;
+
+/// The mechanisms that have a meaning on this plant, in the library's order.
+pub fn mechanisms(problem: &Problem) -> Vec<Mechanism> {
+    LIBRARY
+        .iter()
+        .map(|entry| entry.mechanism)
+        .filter(|&mechanism| {
+            // A gain can only be wrong against something that is known.
+            mechanism != Mechanism::GainError || problem.known.iter().any(|e| *e != 0.0)
+        })
+        .collect()
+}
+
+/// The variants of a mechanism that are tried beside the terms of `fitted`: one term a shape.
+pub fn variants(
+    problem: &Problem,
+    mechanism: Mechanism,
+    terms: &[&Term],
+    fitted: &Fit,
+) -> Vec<Term> {
+    let effort = modelled_effort(problem, terms, fitted);
+    shapes(problem, mechanism, &fitted.residual)
+        .iter()
+        .filter_map(|shape| realise(problem, mechanism, shape, None, &effort))
+        .collect()
+}
+
+/// The term of any mechanism; `effort` is what the other terms give.
+pub fn realise(
+    problem: &Problem,
+    mechanism: Mechanism,
+    shape: &[f64],
+    onset_s: Option<f64>,
+    effort: &[f64],
+) -> Option<Term> {
+    problem
+        .term(mechanism, shape, onset_s)
+        .or_else(|| problem.drive_term(mechanism, shape, onset_s, effort))
+}
+
+/// The effort that the known part and the fitted terms give together, sample by sample; a change of the drive
+/// among them is left out, because it acts on what the others give.
+pub fn modelled_effort(problem: &Problem, terms: &[&Term], fitted: &Fit) -> Vec<f64> {
+    let mut effort = problem.known.clone();
+    let mut coefficients = fitted.coefficients.iter().copied();
+    if let Some(column) = &problem.inertia_column {
+        add(
+            &mut effort,
+            &column.signal,
+            coefficients.next().unwrap_or(0.0),
+        );
+    }
+    for term in terms {
+        let mut given = term.known.iter().flatten().copied();
+        for rows in &term.free {
+            let times = if term.known.is_some() {
+                given.next()
+            } else {
+                coefficients.next()
+            };
+            add(&mut effort, &rows.signal, times.unwrap_or(0.0));
+        }
+    }
+    effort
+}
+
+fn shapes(problem: &Problem, mechanism: Mechanism, residual: &[f64]) -> Vec<Vec<f64>> {
+    let run = problem.run;
+    let travel = run.travel().max(1e-12);
+    let fastest = fastest(problem);
+    let one = |values: Vec<f64>| values.into_iter().map(|v| vec![v]).collect();
+    match mechanism {
+        Mechanism::Stribeck => one(geometric(
+            (2.0 * run.speed_floor).max(0.005 * fastest),
+            0.5 * fastest,
+            8,
+        )),
+        Mechanism::Presliding => one(geometric(
+            (3.0 * run.position_noise).max(1e-4 * travel),
+            0.2 * travel,
+            12,
+        )),
+        Mechanism::Hysteresis => geometric(0.2 / travel, 40.0 / travel, 6)
+            .into_iter()
+            .flat_map(|gamma| [-1.4, -0.7, 0.7, 1.4].map(|ratio| vec![gamma, gamma * ratio]))
+            .collect(),
+        Mechanism::Ripple => one(periods(problem, residual)),
+        Mechanism::Lag => one(geometric(0.5 * run.step_s, 0.25, 14)),
+        Mechanism::ChannelSkew => {
+            let sizes = geometric(0.5 * run.step_s, 0.08f64.max(4.0 * run.step_s), 12);
+            one(sizes.iter().flat_map(|&s| [s, -s]).collect())
+        }
+        _ => vec![vec![]],
+    }
+}
+
+/// The speed that all but one in a hundred samples stay below.
+fn fastest(problem: &Problem) -> f64 {
+    let mut speeds: Vec<f64> = problem
+        .run
+        .motion
+        .iter()
+        .map(|now| now.speed.abs())
+        .collect();
+    speeds.sort_by(f64::total_cmp);
+    speeds
+        .get(speeds.len() * 99 / 100)
+        .copied()
+        .unwrap_or(1.0)
+        .max(1e-12)
+}
+
+/// `count` values from `low` to `high` in equal ratios.
+fn geometric(low: f64, high: f64, count: usize) -> Vec<f64> {
+    let ratio = libm::log(high.max(1.01 * low) / low) / (count.max(2) - 1) as f64;
+    (0..count)
+        .map(|k| low * libm::exp(ratio * k as f64))
+        .collect()
+}
+
+/// Spatial frequencies looked at, in cycles over the travel, and their spacing.
+const MOST_CYCLES: f64 = 200.0;
+const FEWEST_CYCLES: f64 = 2.0;
+const SPACING: f64 = 0.35;
+/// Peaks of the residual's spectrum over position that are tried.
+const PEAKS: usize = 4;
+
+/// The periods at the highest peaks of the residual's spectrum over position.
+fn periods(problem: &Problem, residual: &[f64]) -> Vec<f64> {
+    let travel = problem.run.travel().max(1e-12);
+    let points: Vec<(f64, f64)> = problem
+        .windows
+        .centres
+        .iter()
+        .zip(residual)
+        .zip(&problem.windows.usable)
+        .filter(|(_, usable)| **usable)
+        .filter_map(|((&centre, &r), _)| {
+            problem.run.motion.get(centre).map(|now| (now.position, r))
+        })
+        .collect();
+    let count = ((MOST_CYCLES - FEWEST_CYCLES) / SPACING) as usize;
+    let mut peaks: Vec<(f64, f64)> = (0..count)
+        .map(|k| FEWEST_CYCLES + SPACING * k as f64)
+        .map(|cycles| (power(&points, TAU * cycles / travel), cycles))
+        .collect();
+    peaks.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut chosen: Vec<f64> = Vec::new();
+    for (_, cycles) in peaks {
+        if chosen.iter().all(|c: &f64| (c - cycles).abs() > 2.0) {
+            chosen.push(cycles);
+        }
+        if chosen.len() == PEAKS {
+            break;
+        }
+    }
+    chosen.into_iter().map(|cycles| travel / cycles).collect()
+}
+
+fn power(points: &[(f64, f64)], wave_number: f64) -> f64 {
+    let (mut re, mut im) = (0.0, 0.0);
+    for &(position, r) in points {
+        let (sin, cos) = libm::sincos(wave_number * position);
+        re += r * cos;
+        im += r * sin;
+    }
+    re * re + im * im
+}

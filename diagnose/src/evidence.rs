@@ -1,0 +1,411 @@
+//! This file says how sure a selection is: intervals, rivals, what would have been seen, what cannot be told.
+
+use crate::candidates::{mechanisms, modelled_effort, realise, variants};
+use crate::problem::{Problem, Term};
+use crate::regression::{
+    Blocks, covariance, dot, fit, free_columns, nested_block_losses, norm, paired, reduced_target,
+};
+use crate::report::{NotSeen, NullDirection};
+use crate::select::{Found, Gates, Selection, TIE_Z, refs};
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use rand_pcg::Pcg64Mcg;
+use rand_pcg::rand_core::{Rng, SeedableRng};
+use rigproof_model::effects::entry;
+use rigproof_spec::effect::{Mechanism, Motion};
+use std::collections::BTreeMap;
+
+/// Share of an effect's gain that a rival must reach to be ambiguous with it.
+const RIVAL_SHARE: f64 = 0.9;
+/// Bootstrap replicates of the inclusion frequency.
+const REPLICATES: usize = 500;
+
+/// Standard errors of every parameter of every term, and of the inertia first when it is estimated.
+#[derive(Clone, Debug)]
+pub struct Errors {
+    /// Of the inertia.
+    pub inertia: Option<f64>,
+    /// Of each term's parameters in the vocabulary's order; NaN where the recording does not determine one.
+    pub terms: Vec<Vec<f64>>,
+}
+
+/// Generalised least-squares standard errors, shape parameters included through their sensitivities.
+pub fn standard_errors(problem: &Problem, selection: &Selection) -> Errors {
+    let terms = refs(&selection.nominal, &selection.found);
+    let columns = sensitivities(problem, &terms, selection);
+    let white: Vec<&[f64]> = columns.iter().map(|c| c.values.as_slice()).collect();
+    let target = reduced_target(problem, &terms);
+    let degrees =
+        (target.white.iter().filter(|x| **x != 0.0).count() as f64 - white.len() as f64).max(1.0);
+    let variance = (selection.after.loss / degrees).max(1.0);
+    let spread: Vec<f64> = match covariance(&white) {
+        Some(covariance) => covariance
+            .diagonal()
+            .iter()
+            .map(|v| (variance * v.max(0.0)).sqrt())
+            .collect(),
+        None => vec![f64::NAN; white.len()],
+    };
+    let mut errors = Errors {
+        inertia: None,
+        terms: terms
+            .iter()
+            .map(|t| vec![f64::NAN; parameter_count(t)])
+            .collect(),
+    };
+    for (column, deviation) in columns.iter().zip(spread) {
+        match column.place {
+            None => errors.inertia = Some(deviation),
+            Some((term, parameter)) => {
+                if let Some(slot) = errors
+                    .terms
+                    .get_mut(term)
+                    .and_then(|t| t.get_mut(parameter))
+                {
+                    *slot = deviation;
+                }
+            }
+        }
+    }
+    errors
+}
+
+fn parameter_count(term: &Term) -> usize {
+    entry(term.mechanism).map_or(0, |e| e.linear) + term.shape.len()
+}
+
+/// The whitened change of the modelled effort with one parameter.
+struct Sensitivity {
+    place: Option<(usize, usize)>,
+    values: Vec<f64>,
+}
+
+fn sensitivities(problem: &Problem, terms: &[&Term], selection: &Selection) -> Vec<Sensitivity> {
+    let fitted = &selection.after;
+    let mut columns = Vec::new();
+    let mut redundant = fitted.redundant.iter();
+    let mut coefficients = fitted.coefficients.iter().copied();
+    if let Some(column) = &problem.inertia_column {
+        coefficients.next();
+        if redundant.next() == Some(&false) {
+            columns.push(Sensitivity {
+                place: None,
+                values: column.white.clone(),
+            });
+        }
+    }
+    for (index, term) in terms.iter().enumerate() {
+        let mut own: Vec<f64> = term.known.clone().unwrap_or_default();
+        if term.known.is_none() {
+            for (parameter, rows) in term.free.iter().enumerate() {
+                own.push(coefficients.next().unwrap_or(0.0));
+                if redundant.next() == Some(&false) {
+                    columns.push(Sensitivity {
+                        place: Some((index, parameter)),
+                        values: rows.white.clone(),
+                    });
+                }
+            }
+            columns.extend(shape_sensitivities(problem, terms, selection, index, &own));
+        }
+    }
+    columns
+}
+
+/// Relative difference step of a shape parameter.
+const SHAPE_STEP: f64 = 1e-3;
+
+fn shape_sensitivities(
+    problem: &Problem,
+    terms: &[&Term],
+    selection: &Selection,
+    index: usize,
+    own: &[f64],
+) -> Vec<Sensitivity> {
+    let Some(term) = terms.get(index) else {
+        return Vec::new();
+    };
+    let linear = entry(term.mechanism).map_or(0, |e| e.linear);
+    let effort = modelled_effort(problem, terms, &selection.after);
+    let at = |shape: &[f64]| -> Option<Vec<f64>> {
+        let moved = realise(problem, term.mechanism, shape, term.onset_s, &effort)?;
+        let mut sum = vec![0.0; problem.windows.centres.len()];
+        let scaled = own.iter().copied().zip(&moved.free);
+        for (c, rows) in scaled.chain(moved.fixed.iter().map(|r| (1.0, r))) {
+            crate::problem::add(&mut sum, &rows.white, c);
+        }
+        Some(sum)
+    };
+    (0..term.shape.len())
+        .filter_map(|k| {
+            let step = SHAPE_STEP * term.shape.get(k)?.abs();
+            let moved = |by: f64| {
+                let mut shape = term.shape.clone();
+                if let Some(value) = shape.get_mut(k) {
+                    *value += by;
+                }
+                at(&shape)
+            };
+            let (ahead, behind) = (moved(step)?, moved(-step)?);
+            let values = ahead
+                .iter()
+                .zip(&behind)
+                .map(|(a, b)| (a - b) / (2.0 * step))
+                .collect();
+            Some(Sensitivity {
+                place: Some((index, linear + k)),
+                values,
+            })
+        })
+        .collect()
+}
+
+/// For each found mechanism, those that explain as much in its place.
+pub fn rivals(problem: &Problem, selection: &Selection) -> Vec<Vec<Mechanism>> {
+    let blocks = Blocks::new(problem);
+    (0..selection.found.len())
+        .map(|index| rivals_of(problem, selection, index, &blocks))
+        .collect()
+}
+
+fn rivals_of(
+    problem: &Problem,
+    selection: &Selection,
+    index: usize,
+    blocks: &Blocks,
+) -> Vec<Mechanism> {
+    let others = without(&selection.found, index);
+    let common = refs(&selection.nominal, &others);
+    let bare = fit(problem, &common, blocks);
+    let taken: Vec<Mechanism> = refs(&selection.nominal, &selection.found)
+        .iter()
+        .map(|t| t.mechanism)
+        .collect();
+    let all = vec![true; blocks.ranges.len()];
+    let gain = bare.left_out() - selection.after.left_out();
+    let own = selection.found.get(index);
+    mechanisms(problem)
+        .into_iter()
+        .filter(|m| !taken.contains(m))
+        .filter(|&m| {
+            let mut tried = variants(problem, m, &common, &bare);
+            if let Some(onset_s) = own.and_then(|f| f.term.onset_s) {
+                let effort = modelled_effort(problem, &common, &bare);
+                tried.extend(
+                    tried
+                        .clone()
+                        .iter()
+                        .filter_map(|t| realise(problem, m, &t.shape, Some(onset_s), &effort)),
+                );
+            }
+            let losses = nested_block_losses(problem, &common, &tried, blocks);
+            let (_, z) = paired(&losses, &selection.after.block_loss, &all);
+            let reached = bare.left_out() - losses.iter().sum::<f64>();
+            z < TIE_Z || (reached >= RIVAL_SHARE * gain && reached > 0.0 && z < 2.0 * TIE_Z)
+        })
+        .collect()
+}
+
+fn without(found: &[Found], index: usize) -> Vec<Found> {
+    let others = found.iter().enumerate().filter(|(k, _)| *k != index);
+    others.map(|(_, f)| f.clone()).collect()
+}
+
+/// Share of block-bootstrap replicates in which a found mechanism still takes the gates' share of the loss away.
+pub fn inclusion(problem: &Problem, selection: &Selection, index: usize, gates: Gates) -> f64 {
+    let blocks = Blocks::new(problem);
+    let others = without(&selection.found, index);
+    let bare = fit(problem, &refs(&selection.nominal, &others), &blocks);
+    let pairs: Vec<(f64, f64)> = bare
+        .block_loss
+        .iter()
+        .copied()
+        .zip(selection.after.block_loss.iter().copied())
+        .collect();
+    let mut random = Pcg64Mcg::seed_from_u64(7);
+    let passed = (0..REPLICATES)
+        .filter(|_| {
+            let (mut before, mut after) = (0.0, 0.0);
+            for _ in 0..pairs.len() {
+                let drawn = (random.next_u64() % pairs.len() as u64) as usize;
+                let (b, a) = pairs.get(drawn).copied().unwrap_or_default();
+                before += b;
+                after += a;
+            }
+            after < (1.0 - gates.share) * before
+        })
+        .count();
+    passed as f64 / REPLICATES as f64
+}
+
+/// z a coefficient must have to be seen with 80 % power at the gates' z.
+const POWER_Z: f64 = 0.84;
+
+/// The least size of every mechanism that was not named.
+pub fn not_seen(
+    problem: &Problem,
+    selection: &Selection,
+    gates: Gates,
+    motion: Motion,
+) -> Vec<NotSeen> {
+    let terms = refs(&selection.nominal, &selection.found);
+    let taken: Vec<Mechanism> = terms.iter().map(|t| t.mechanism).collect();
+    let basis: Vec<&[f64]> = free_columns(problem, &terms)
+        .iter()
+        .map(|r| r.white.as_slice())
+        .collect();
+    let basis = orthonormal(&basis);
+    mechanisms(problem)
+        .into_iter()
+        .filter(|m| !taken.contains(m))
+        .filter_map(|mechanism| {
+            let tried = variants(problem, mechanism, &terms, &selection.after);
+            let least = |t: &Term| least_size(t, &basis, selection.after.loss, gates);
+            let minimum = tried.iter().filter_map(least).fold(f64::INFINITY, f64::min);
+            let parameter = mechanism.parameters().first()?;
+            minimum.is_finite().then(|| NotSeen {
+                mechanism: mechanism.name(),
+                joint: None,
+                parameter: parameter.name,
+                minimum_detectable: minimum,
+                unit: parameter.quantity.dimension(motion).to_string(),
+            })
+        })
+        .collect()
+}
+
+/// The size of a term's leading parameter at which it passes the gates.
+fn least_size(term: &Term, basis: &[Vec<f64>], loss: f64, gates: Gates) -> Option<f64> {
+    let (rows, unit) = match (&term.fixed, term.free.first()) {
+        (Some(fixed), _) => (fixed, term.shape.first()?.abs()),
+        (None, Some(free)) => (free, 1.0),
+        (None, None) => return None,
+    };
+    let mut rest = rows.white.clone();
+    for unit in basis {
+        let along = dot(&rest, unit);
+        for (x, u) in rest.iter_mut().zip(unit) {
+            *x -= along * u;
+        }
+    }
+    let own = norm(&rest);
+    let needed = (gates.z + POWER_Z).max((gates.share * loss).sqrt());
+    (own > 1e-9 * norm(&rows.white)).then(|| unit * needed / own)
+}
+
+fn orthonormal(columns: &[&[f64]]) -> Vec<Vec<f64>> {
+    let mut basis: Vec<Vec<f64>> = Vec::new();
+    for column in columns {
+        let mut rest = column.to_vec();
+        for unit in &basis {
+            let along = dot(&rest, unit);
+            for (x, u) in rest.iter_mut().zip(unit) {
+                *x -= along * u;
+            }
+        }
+        let own = norm(&rest);
+        if own > 1e-9 * norm(column) {
+            rest.iter_mut().for_each(|x| *x /= own);
+            basis.push(rest);
+        }
+    }
+    basis
+}
+
+/// Eigenvalue ratio below which a direction counts as unknowable.
+const NULL_RATIO: f64 = 1e-9;
+
+/// Combinations of printed parameters that change nothing: for Bouc-Wen, `β`, `γ` and `δ` with the sensitivities
+/// of the two products that the equation holds.
+pub fn null_directions(problem: &Problem, selection: &Selection) -> Vec<NullDirection> {
+    let terms = refs(&selection.nominal, &selection.found);
+    let columns = sensitivities(problem, &terms, selection);
+    terms
+        .iter()
+        .enumerate()
+        .filter(|(_, t)| t.mechanism == Mechanism::Hysteresis)
+        .filter_map(|(index, term)| {
+            let product = |parameter: usize| {
+                let column = columns
+                    .iter()
+                    .find(|c| c.place == Some((index, parameter)))?;
+                let value = term.shape.get(parameter - 1)?;
+                Some(
+                    column
+                        .values
+                        .iter()
+                        .map(|x| x * value)
+                        .collect::<Vec<f64>>(),
+                )
+            };
+            // In relative changes: β moves both products, γ the first, δ the second.
+            let (gamma, delta) = (product(1)?, product(2)?);
+            let beta: Vec<f64> = gamma.iter().zip(&delta).map(|(g, d)| g + d).collect();
+            smallest_direction(&["beta", "gamma", "delta"], &[beta, gamma, delta])
+        })
+        .collect()
+}
+
+fn smallest_direction(names: &[&str], columns: &[Vec<f64>]) -> Option<NullDirection> {
+    let information = DMatrix::from_fn(columns.len(), columns.len(), |i, j| {
+        match (columns.get(i), columns.get(j)) {
+            (Some(a), Some(b)) => dot(a, b),
+            _ => 0.0,
+        }
+    });
+    let eigen = SymmetricEigen::new(information);
+    let smallest = eigen.eigenvalues.imin();
+    let ratio = eigen.eigenvalues.min().abs() / eigen.eigenvalues.max().max(1e-300);
+    let column: DVector<f64> = eigen.eigenvectors.column(smallest).into();
+    let sign = column
+        .iter()
+        .copied()
+        .find(|x| x.abs() > 1e-6)
+        .unwrap_or(1.0)
+        .signum();
+    let direction: BTreeMap<String, f64> = names
+        .iter()
+        .zip(column.iter())
+        .map(|(name, x)| ((*name).to_owned(), sign * x))
+        .collect();
+    (ratio < NULL_RATIO).then(|| NullDirection {
+        mechanism: Mechanism::Hysteresis.name(),
+        direction,
+        eigenvalue_ratio: ratio,
+        meaning: "beta can be scaled up while gamma and delta are scaled down by the same factor without any change of the motion: only the products beta·gamma and beta·delta are determined".to_owned(),
+    })
+}
+
+/// The parameters of a term in the vocabulary's order: linear ones from the fit, then the shape.
+pub fn parameters(term: &Term, coefficients: &[f64]) -> Vec<f64> {
+    let linear = term.known.clone().unwrap_or_else(|| coefficients.to_vec());
+    let linear = match term.mechanism {
+        // The column is the known effort: y = e + c·e, so that the applied gain is 1/(1 + c) of the stated one.
+        Mechanism::GainError => linear.iter().map(|c| -c / (1.0 + c)).collect(),
+        _ => linear,
+    };
+    linear
+        .into_iter()
+        .chain(term.shape.iter().copied())
+        .collect()
+}
+
+/// The coefficients of each term of a selection, in order.
+pub fn coefficients_by_term(
+    problem: &Problem,
+    selection: &Selection,
+) -> (Option<f64>, Vec<Vec<f64>>) {
+    let mut values = selection.after.coefficients.iter().copied();
+    let inertia = problem.inertia_column.as_ref().and_then(|_| values.next());
+    let terms = refs(&selection.nominal, &selection.found);
+    let by_term = terms
+        .iter()
+        .map(|t| {
+            if t.known.is_some() {
+                Vec::new()
+            } else {
+                values.by_ref().take(t.free.len()).collect()
+            }
+        })
+        .collect();
+    (inertia, by_term)
+}

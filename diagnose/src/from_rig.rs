@@ -1,0 +1,109 @@
+//! This file turns a rig description and its recording into the plant's equations.
+
+use crate::align::{Fault, Signals, align};
+use crate::problem::{Inertia, NominalEffect};
+use crate::run::{PlantKind, Run};
+use crate::simulate::{Effect, Interpolation, Plant, Protocol};
+use rigproof_model::brake::Brake;
+use rigproof_trace::rig::{Drive, Plant as RigPlant, Recording, Rig, Status};
+
+/// Aligns a recording of a rig.
+///
+/// # Errors
+/// The fault that makes any conclusion meaningless.
+pub fn aligned(rig: &Rig, recording: &Recording) -> Result<Run, Fault> {
+    let axis = recording.plant == RigPlant::Axis;
+    let gain = rig.parameters.map_or(1.0, |p| p.command_gain.value);
+    let drive = recording.drive.as_ref();
+    let effort = if axis { drive } else { recording.force.as_ref() };
+    let scale = if axis { gain } else { 1.0 };
+    let scaled = |x: Option<f64>| x.map(|x| x * scale.abs());
+    let quantum_noise = |quantum: f64| quantum / 12f64.sqrt();
+    let effort_noise = effort.and_then(|e| match (e.noise, e.quantum) {
+        (None, None) => None,
+        (noise, quantum) => Some(noise.unwrap_or(0.0).hypot(quantum_noise(quantum.unwrap_or(0.0)))),
+    });
+    let mut run = align(&Signals {
+        plant: if axis { PlantKind::Axis } else { PlantKind::Bench },
+        time_s: recording.time_s.clone(),
+        position: recording.position.samples.clone(),
+        effort: effort.map_or_else(Vec::new, |e| e.samples.iter().map(|x| x * scale).collect()),
+        predicted: recording.simulated.as_ref().map(|s| s.samples.clone()),
+        current: drive.filter(|_| !axis).map(|d| d.samples.clone()),
+        held: rig.protocol.drive == Drive::Held,
+        position_quantum: recording.position.quantum,
+        position_noise: recording.position.noise,
+        effort_noise: scaled(effort_noise),
+        effort_limit: scaled(effort.and_then(|e| e.limit)),
+    })?;
+    if let (Some(joint), Some(current)) = (rig.brake, &run.current) {
+        run.predicted = Some(braked(Brake::new(joint, first_angle(&run)), &run, current));
+    }
+    Ok(run)
+}
+
+fn first_angle(run: &Run) -> f64 {
+    run.motion.first().map_or(0.0, |now| now.position)
+}
+
+/// The torque of the thesis's brake along the recorded motion and current.
+fn braked(mut brake: Brake, run: &Run, current: &[f64]) -> Vec<f64> {
+    run.motion
+        .iter()
+        .zip(current)
+        .map(|(now, &current)| {
+            let torque = brake.step(current, now.position, now.speed, run.step_s);
+            // Where the sense cannot be told the torque is spread over it, as for the dry laws.
+            torque.abs() * now.sense
+        })
+        .collect()
+}
+
+/// The inertia as the rig states it.
+pub fn inertia(rig: &Rig) -> Inertia {
+    match (rig.plant, rig.parameters) {
+        (RigPlant::Axis, Some(parameters)) => match parameters.inertia.status {
+            Status::Known => Inertia::Known(parameters.inertia.value),
+            _ => Inertia::Unknown(parameters.inertia.value),
+        },
+        _ => Inertia::None,
+    }
+}
+
+/// The physics that the nominal model has.
+pub fn nominal(rig: &Rig) -> Vec<NominalEffect> {
+    rig.effects
+        .iter()
+        .map(|effect| NominalEffect {
+            mechanism: effect.mechanism,
+            parameters: effect.values.iter().map(|v| v.value).collect(),
+            unknown: effect.values.iter().any(|v| v.status != Status::Known),
+            onset_s: effect.onset.map(|v| v.value),
+        })
+        .collect()
+}
+
+/// The plant with every number as the rig states it.
+pub fn plant(rig: &Rig) -> Plant {
+    Plant {
+        inertia: rig.parameters.map_or(0.0, |p| p.inertia.value),
+        effects: nominal(rig)
+            .into_iter()
+            .map(|n| Effect { mechanism: n.mechanism, parameters: n.parameters, onset_s: n.onset_s })
+            .collect(),
+    }
+}
+
+/// The protocol of free runs that the rig states.
+pub fn protocol(rig: &Rig) -> Protocol {
+    Protocol {
+        interpolation: match rig.protocol.drive {
+            Drive::Held => Interpolation::Hold,
+            Drive::Straight => Interpolation::Linear,
+            Drive::Periodic => Interpolation::Band,
+        },
+        start_samples: rig.protocol.start_samples,
+        substeps: rig.protocol.substeps,
+        warm_up_periods: rig.protocol.warm_up_periods,
+    }
+}

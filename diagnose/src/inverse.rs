@@ -1,0 +1,83 @@
+//! This file is the inverse model under the published protocol of robot identification (Janot, Gautier, Brunot
+//! 2019): filter, differentiate, decimate, least squares.
+
+use crate::filter::{LowPass, decimate, gradient};
+use crate::run::{PlantKind, Run};
+use nalgebra::{DMatrix, DVector};
+use rigproof_model::bench::column;
+use rigproof_model::effects::{Instant, entry, law};
+use rigproof_spec::effect::Mechanism;
+
+/// Cut-off of the position filter, Hz, as published for 1 kHz recordings.
+const CUTOFF_HZ: f64 = 100.0;
+/// Decimation factor, as published.
+const DECIMATION: usize = 10;
+/// Samples dropped at each end, where the filters see no data.
+const BORDER: usize = 50;
+
+/// Least-squares parameters and the relative error.
+#[derive(Clone, Debug)]
+pub struct InverseModel {
+    /// Mass or moment of inertia.
+    pub inertia: f64,
+    /// Linear parameters of each mechanism, in order.
+    pub parameters: Vec<(Mechanism, Vec<f64>)>,
+    /// 100·‖effort − model‖ / ‖effort‖.
+    pub error_percent: f64,
+}
+
+/// Fits the inverse model of an axis with these memoryless mechanisms (given with their shapes).
+///
+/// `None` on a bench, on a recording slower than 400 Hz, or when the columns are dependent.
+pub fn inverse_model(run: &Run, mechanisms: &[(Mechanism, Vec<f64>)]) -> Option<InverseModel> {
+    let rate_hz = 1.0 / run.step_s;
+    if run.plant == PlantKind::Bench || rate_hz < 4.0 * CUTOFF_HZ {
+        return None;
+    }
+    let position = LowPass::butterworth(4, 2.0 * CUTOFF_HZ / rate_hz).zero_phase(&run.position);
+    let speed = gradient(&position, run.step_s);
+    let acceleration = gradient(&speed, run.step_s);
+    let motion: Vec<Instant> = position
+        .iter()
+        .zip(&speed)
+        .enumerate()
+        .map(|(k, (&position, &speed))| Instant {
+            time_s: run.start_s + k as f64 * run.step_s,
+            position,
+            speed,
+            sense: if speed == 0.0 { 0.0 } else { speed.signum() },
+        })
+        .collect();
+    let mut columns = vec![decimated(&acceleration)];
+    for (mechanism, shape) in mechanisms {
+        for index in 0..entry(*mechanism)?.linear {
+            let mut parameters = vec![0.0; entry(*mechanism)?.linear];
+            *parameters.get_mut(index)? = 1.0;
+            parameters.extend_from_slice(shape);
+            let law = law(*mechanism, &parameters)?;
+            columns.push(decimated(&column(law.as_ref(), &motion, run.step_s)));
+        }
+    }
+    solve(&columns, &decimated(&run.effort), mechanisms)
+}
+
+fn decimated(signal: &[f64]) -> Vec<f64> {
+    let inner = signal.get(BORDER..signal.len().saturating_sub(BORDER)).unwrap_or_default();
+    decimate(inner, DECIMATION)
+}
+
+fn solve(columns: &[Vec<f64>], effort: &[f64], mechanisms: &[(Mechanism, Vec<f64>)]) -> Option<InverseModel> {
+    let matrix = DMatrix::from_fn(effort.len(), columns.len(), |i, j| {
+        columns.get(j).and_then(|c| c.get(i)).copied().unwrap_or(0.0)
+    });
+    let target = DVector::from_column_slice(effort);
+    let solution = matrix.clone().svd(true, true).solve(&target, 1e-12).ok()?;
+    let error = (&target - &matrix * &solution).norm();
+    let mut values = solution.iter().copied();
+    let inertia = values.next()?;
+    let parameters = mechanisms
+        .iter()
+        .map(|(m, _)| (*m, values.by_ref().take(entry(*m).map_or(0, |e| e.linear)).collect()))
+        .collect();
+    Some(InverseModel { inertia, parameters, error_percent: 100.0 * error / target.norm() })
+}

@@ -1,0 +1,186 @@
+//! This file says where the unexplained energy is: by sense and size of speed, time since a reversal, position,
+//! time.
+
+use crate::problem::Problem;
+use crate::report::Located;
+use crate::run::PlantKind;
+use rand_pcg::Pcg64Mcg;
+use rand_pcg::rand_core::{Rng, SeedableRng};
+
+/// Time since a reversal below which a window belongs to it, s.
+const REVERSAL_S: f64 = 0.1;
+/// Bootstrap replicates of the shares, and blocks they draw from.
+const REPLICATES: usize = 200;
+const BLOCKS: usize = 20;
+
+/// What a window looks like.
+struct Cell {
+    label: &'static str,
+    member: Vec<bool>,
+}
+
+/// Regimes ranked by how much more than their share of time they hold of `before`'s energy.
+///
+/// `before` and `after` are residuals, one value a window; every recorded window counts, the ambiguous ones too.
+pub fn locate(problem: &Problem, before: &[f64], after: &[f64]) -> Vec<Located> {
+    let times = problem.windows.times_s();
+    let mut found: Vec<Located> = cells(problem)
+        .into_iter()
+        .filter(|cell| cell.member.iter().any(|m| *m))
+        .map(|cell| {
+            let inside = |values: &[f64]| share(values, &cell.member);
+            let (low, high) = interval(before, &cell.member);
+            let mut when = times
+                .iter()
+                .zip(&cell.member)
+                .filter(|(_, m)| **m)
+                .map(|(t, _)| *t);
+            let from_s = when.next().unwrap_or(0.0);
+            Located {
+                output: match problem.run.plant {
+                    PlantKind::Axis => "effort balance",
+                    PlantKind::Bench => "metered effort",
+                },
+                joint: None,
+                regime: cell.label.to_owned(),
+                from_s,
+                to_s: when.last().unwrap_or(from_s),
+                share_of_time: cell.member.iter().filter(|m| **m).count() as f64
+                    / before.len().max(1) as f64,
+                share: inside(before),
+                share_low95: low,
+                share_high95: high,
+                share_after: inside(after),
+            }
+        })
+        .collect();
+    let excess = |l: &Located| l.share / l.share_of_time.max(1e-9);
+    found.sort_by(|a, b| excess(b).total_cmp(&excess(a)));
+    found
+}
+
+fn share(values: &[f64], member: &[bool]) -> f64 {
+    let total: f64 = values.iter().map(|v| v * v).sum();
+    let part: f64 = values
+        .iter()
+        .zip(member)
+        .filter(|(_, m)| **m)
+        .map(|(v, _)| v * v)
+        .sum();
+    part / total.max(1e-300)
+}
+
+/// 95 % interval of a share, by resampling contiguous blocks of windows.
+fn interval(values: &[f64], member: &[bool]) -> (f64, f64) {
+    let size = values.len().div_ceil(BLOCKS).max(1);
+    let blocks: Vec<(f64, f64)> = values
+        .chunks(size)
+        .zip(member.chunks(size))
+        .map(|(v, m)| {
+            let total: f64 = v.iter().map(|x| x * x).sum();
+            (share(v, m) * total, total)
+        })
+        .collect();
+    let mut random = Pcg64Mcg::seed_from_u64(1);
+    let mut shares: Vec<f64> = (0..REPLICATES)
+        .map(|_| {
+            let (mut part, mut total) = (0.0, 0.0);
+            for _ in 0..blocks.len() {
+                let drawn = (random.next_u64() % blocks.len() as u64) as usize;
+                let (p, t) = blocks.get(drawn).copied().unwrap_or_default();
+                part += p;
+                total += t;
+            }
+            part / total.max(1e-300)
+        })
+        .collect();
+    shares.sort_by(f64::total_cmp);
+    let at = |q: f64| {
+        shares
+            .get((q * (REPLICATES - 1) as f64).round() as usize)
+            .copied()
+            .unwrap_or(0.0)
+    };
+    (at(0.025), at(0.975))
+}
+
+fn cells(problem: &Problem) -> Vec<Cell> {
+    let run = problem.run;
+    let since = since_reversal_s(problem);
+    let mut speeds: Vec<f64> = run.motion.iter().map(|now| now.speed.abs()).collect();
+    speeds.sort_by(f64::total_cmp);
+    let quantile = |q: f64| {
+        speeds
+            .get((q * speeds.len() as f64) as usize)
+            .copied()
+            .unwrap_or(0.0)
+    };
+    let top = quantile(0.99);
+    let low = run.position.iter().copied().fold(f64::INFINITY, f64::min);
+    let travel = run.travel().max(1e-300);
+    let last_s = run.duration_s().max(1e-9);
+    let cell = |label, rule: &dyn Fn(usize, &rigproof_model::effects::Instant) -> bool| Cell {
+        label,
+        member: problem
+            .windows
+            .centres
+            .iter()
+            .enumerate()
+            .map(|(row, &centre)| run.motion.get(centre).is_some_and(|now| rule(row, now)))
+            .collect(),
+    };
+    let reversal = |row: usize| since.get(row).is_some_and(|s| *s < REVERSAL_S);
+    vec![
+        cell("within 0.1 s of a reversal", &|row, _| reversal(row)),
+        cell("away from reversals", &|row, _| !reversal(row)),
+        cell("slow (below 10 % of top speed)", &|_, now| {
+            now.speed.abs() < 0.1 * top
+        }),
+        cell("medium speed (10 to 60 % of top)", &|_, now| {
+            (0.1..0.6).contains(&(now.speed.abs() / top.max(1e-300)))
+        }),
+        cell("fast (above 60 % of top speed)", &|_, now| {
+            now.speed.abs() >= 0.6 * top
+        }),
+        cell("moving in the positive sense", &|_, now| now.sense > 0.0),
+        cell("moving in the negative sense", &|_, now| now.sense < 0.0),
+        cell("lower third of the travel", &|_, now| {
+            now.position < low + travel / 3.0
+        }),
+        cell("upper third of the travel", &|_, now| {
+            now.position > low + travel / 1.5
+        }),
+        cell("first third of the recording", &|_, now| {
+            now.time_s < last_s / 3.0
+        }),
+        cell("last third of the recording", &|_, now| {
+            now.time_s > last_s / 1.5
+        }),
+    ]
+}
+
+/// Time from each window's centre to the nearest change of sense, s.
+fn since_reversal_s(problem: &Problem) -> Vec<f64> {
+    let run = problem.run;
+    let mut sense = 0.0;
+    let mut reversals: Vec<f64> = Vec::new();
+    for now in &run.motion {
+        if now.sense.abs() >= 1.0 {
+            if sense * now.sense < 0.0 {
+                reversals.push(now.time_s);
+            }
+            sense = now.sense;
+        }
+    }
+    problem
+        .windows
+        .times_s()
+        .iter()
+        .map(|t| {
+            reversals
+                .iter()
+                .map(|r| (t - r).abs())
+                .fold(f64::INFINITY, f64::min)
+        })
+        .collect()
+}

@@ -1,0 +1,344 @@
+//! This file is the regression problem of one recording: what the nominal model leaves over, window by window,
+//! and the columns that a mechanism could explain it with.
+
+use crate::filter::gradient;
+use crate::run::{PlantKind, Run};
+use crate::weak::Windows;
+use crate::whiten::Whitener;
+use rigproof_model::bench::column;
+use rigproof_model::effects::{Form, entry, first_order_lag, law};
+use rigproof_spec::effect::Mechanism;
+
+/// One column of the regression over all windows.
+#[derive(Clone, Debug)]
+pub struct Rows {
+    /// Sample by sample.
+    pub signal: Vec<f64>,
+    /// As averaged by the test function.
+    pub raw: Vec<f64>,
+    /// After whitening.
+    pub white: Vec<f64>,
+}
+
+/// A mechanism with its shape fixed: what it adds to the regression.
+#[derive(Clone, Debug)]
+pub struct Term {
+    /// The mechanism.
+    pub mechanism: Mechanism,
+    /// The parameters that shape it, in the vocabulary's order after the linear ones.
+    pub shape: Vec<f64>,
+    /// When it begins, s; `None` from the start.
+    pub onset_s: Option<f64>,
+    /// Columns whose coefficients are the linear parameters.
+    pub free: Vec<Rows>,
+    /// A column that enters with coefficient 1: a change of the drive.
+    pub fixed: Option<Rows>,
+    /// Given values of the linear parameters, where the nominal model states them as known.
+    pub known: Option<Vec<f64>>,
+}
+
+/// What the nominal model says about one mechanism.
+#[derive(Clone, Debug)]
+pub struct NominalEffect {
+    /// The mechanism.
+    pub mechanism: Mechanism,
+    /// Its parameters in the vocabulary's order, SI.
+    pub parameters: Vec<f64>,
+    /// Whether its linear parameters are to be estimated.
+    pub unknown: bool,
+    /// When it begins, s.
+    pub onset_s: Option<f64>,
+}
+
+/// The inertia of an axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Inertia {
+    /// A bench: none.
+    None,
+    /// Known, kg or kg·m².
+    Known(f64),
+    /// To be estimated, with a start value.
+    Unknown(f64),
+}
+
+/// The regression problem of one recording.
+pub struct Problem<'a> {
+    /// The recording.
+    pub run: &'a Run,
+    /// The windows.
+    pub windows: Windows,
+    /// The noise model.
+    pub whitener: Whitener,
+    /// Effort less everything the nominal model knows.
+    pub target: Rows,
+    /// The effort that the nominal model knows, sample by sample: known inertia, predicted effort.
+    pub known: Vec<f64>,
+    /// The averaged acceleration, when the inertia is to be estimated.
+    pub inertia_column: Option<Rows>,
+    /// The inertia.
+    pub inertia: Inertia,
+    /// Predicted standard deviation of one residual from sensor noise alone.
+    pub floor: f64,
+}
+
+impl<'a> Problem<'a> {
+    /// Sets up the problem with a white noise model; `rewhiten` refines it.
+    pub fn new(run: &'a Run, windows: Windows, inertia: Inertia) -> Problem<'a> {
+        let start = match inertia {
+            Inertia::None => 0.0,
+            Inertia::Known(value) | Inertia::Unknown(value) => value,
+        };
+        let floor = windows.floor(run, start);
+        let acceleration = second_difference(&run.position, run.step_s);
+        let mut known = run
+            .predicted
+            .clone()
+            .unwrap_or_else(|| vec![0.0; run.len()]);
+        if let Inertia::Known(value) = inertia {
+            add(&mut known, &acceleration, value);
+        }
+        let target: Vec<f64> = acting_effort(run)
+            .iter()
+            .zip(&known)
+            .map(|(e, k)| e - k)
+            .collect();
+        let flat = vec![0.0; windows.centres.len()];
+        let whitener = Whitener::new(&flat, &windows.usable, floor.max(1e-12));
+        let mut problem = Problem {
+            run,
+            whitener,
+            target: rows(&windows, target),
+            known,
+            inertia_column: matches!(inertia, Inertia::Unknown(_))
+                .then(|| rows(&windows, acceleration)),
+            inertia,
+            floor,
+            windows,
+        };
+        problem.whiten_own();
+        problem
+    }
+
+    /// Replaces the noise model by that of these residuals (one value a window).
+    pub fn rewhiten(&mut self, residual: &[f64]) {
+        self.whitener = Whitener::new(residual, &self.windows.usable, 1e-3 * self.floor);
+        self.whiten_own();
+    }
+
+    /// The same windows and noise with another target (one value a window) and no column of its own.
+    pub fn with_target(&self, residual: &[f64]) -> Problem<'a> {
+        Problem {
+            run: self.run,
+            windows: self.windows.clone(),
+            whitener: self.whitener.clone(),
+            target: self.rows_of(residual.to_vec()),
+            known: Vec::new(),
+            inertia_column: None,
+            inertia: Inertia::None,
+            floor: self.floor,
+        }
+    }
+
+    /// A column given window by window.
+    pub fn rows_of(&self, raw: Vec<f64>) -> Rows {
+        Rows {
+            signal: Vec::new(),
+            white: self.whitener.whiten(&raw),
+            raw,
+        }
+    }
+
+    fn whiten_own(&mut self) {
+        self.target.white = self.whitener.whiten(&self.target.raw);
+        if let Some(column) = &mut self.inertia_column {
+            column.white = self.whitener.whiten(&column.raw);
+        }
+    }
+
+    /// The term of a resistance with this shape; `None` for a mechanism that acts on the drive.
+    pub fn term(&self, mechanism: Mechanism, shape: &[f64], onset_s: Option<f64>) -> Option<Term> {
+        let entry = entry(mechanism)?;
+        if let Form::Drive = entry.form {
+            return None;
+        }
+        let free = self
+            .resistance_columns(mechanism, entry.linear, shape)
+            .into_iter()
+            .map(|signal| self.rows(signal, onset_s))
+            .collect();
+        Some(Term {
+            mechanism,
+            shape: shape.to_vec(),
+            onset_s,
+            free,
+            fixed: None,
+            known: None,
+        })
+    }
+
+    /// The term of a change of the drive, linearised about `fitted`: the effort, sample by sample, that the model
+    /// gives with the other terms. `None` where the mechanism has no meaning on this plant.
+    ///
+    /// The recorded effort stays the target and the model's side is changed, because a change of the target
+    /// would make every residual small that the change itself makes small.
+    pub fn drive_term(
+        &self,
+        mechanism: Mechanism,
+        shape: &[f64],
+        onset_s: Option<f64>,
+        fitted: &[f64],
+    ) -> Option<Term> {
+        let (free, fixed) = self.drive_columns(mechanism, shape, fitted)?;
+        Some(Term {
+            mechanism,
+            shape: shape.to_vec(),
+            onset_s,
+            free: free
+                .map(|signal| self.rows(signal, onset_s))
+                .into_iter()
+                .collect(),
+            fixed: fixed.map(|signal| self.rows(signal, onset_s)),
+            known: None,
+        })
+    }
+
+    /// A term of the nominal model: its columns where unknown, else its value as a fixed column.
+    pub fn nominal_term(&self, effect: &NominalEffect) -> Option<Term> {
+        let linear = entry(effect.mechanism)?.linear;
+        let shape = effect.parameters.get(linear..).unwrap_or_default();
+        let mut term = self.term(effect.mechanism, shape, effect.onset_s)?;
+        if !effect.unknown {
+            term.known = Some(effect.parameters.iter().take(linear).copied().collect());
+        }
+        Some(term)
+    }
+
+    /// Whitens a term again after the noise model changed.
+    pub fn refresh(&self, term: &mut Term) {
+        for rows in term.free.iter_mut().chain(&mut term.fixed) {
+            rows.white = self.whitener.whiten(&rows.raw);
+        }
+    }
+
+    /// One column for each linear parameter: the law with that parameter 1 and the others 0.
+    fn resistance_columns(
+        &self,
+        mechanism: Mechanism,
+        linear: usize,
+        shape: &[f64],
+    ) -> Vec<Vec<f64>> {
+        (0..linear)
+            .filter_map(|index| {
+                let mut parameters = vec![0.0; linear];
+                if let Some(one) = parameters.get_mut(index) {
+                    *one = 1.0;
+                }
+                parameters.extend_from_slice(shape);
+                law(mechanism, &parameters)
+            })
+            .map(|law| column(law.as_ref(), &self.run.motion, self.run.step_s))
+            .collect()
+    }
+
+    fn rows(&self, mut signal: Vec<f64>, onset_s: Option<f64>) -> Rows {
+        if let Some(onset_s) = onset_s {
+            let first = self.run.sample_at(onset_s);
+            signal.iter_mut().take(first).for_each(|x| *x = 0.0);
+        }
+        let mut rows = rows(&self.windows, signal);
+        rows.white = self.whitener.whiten(&rows.raw);
+        rows
+    }
+
+    /// Column of a mechanism that acts on the drive: a free one, or one with coefficient 1.
+    #[expect(
+        clippy::type_complexity,
+        reason = "a pair of columns is plainer than a type for it"
+    )]
+    fn drive_columns(
+        &self,
+        mechanism: Mechanism,
+        shape: &[f64],
+        fitted: &[f64],
+    ) -> Option<(Option<Vec<f64>>, Option<Vec<f64>>)> {
+        let value = shape.first().copied().unwrap_or(0.0);
+        let step_s = self.run.step_s;
+        let less = |changed: Vec<f64>| -> Vec<f64> {
+            changed.iter().zip(fitted).map(|(a, b)| a - b).collect()
+        };
+        match (mechanism, self.run.plant) {
+            // The command is ahead of the effort that moves the joint: gain·u = e + time_constant·de/dt.
+            (Mechanism::Lag, PlantKind::Axis) => {
+                let slope = gradient(fitted, step_s);
+                Some((None, Some(slope.into_iter().map(|s| value * s).collect())))
+            }
+            (Mechanism::Lag, PlantKind::Bench) => {
+                Some((None, Some(less(first_order_lag(fitted, step_s, value)))))
+            }
+            (Mechanism::ChannelSkew, PlantKind::Axis) => {
+                Some((None, Some(less(shifted(fitted, value / step_s)))))
+            }
+            (Mechanism::ChannelSkew, PlantKind::Bench) => {
+                Some((None, Some(less(shifted(fitted, -value / step_s)))))
+            }
+            (Mechanism::GainError, _) if self.inertia_column.is_none() => {
+                Some((Some(self.known.clone()), None))
+            }
+            _ => None,
+        }
+    }
+}
+
+/// A signal with its averages; not yet whitened.
+fn rows(windows: &Windows, signal: Vec<f64>) -> Rows {
+    Rows {
+        raw: windows.average(&signal),
+        signal,
+        white: Vec::new(),
+    }
+}
+
+/// The effort that acts around each sample: of a drive that holds, half of the last value and half of this one
+/// (exact for the discrete second difference of the position).
+fn acting_effort(run: &Run) -> Vec<f64> {
+    if !run.held {
+        return run.effort.clone();
+    }
+    let before = run.effort.first().into_iter().chain(&run.effort);
+    before
+        .zip(&run.effort)
+        .map(|(b, e)| 0.5 * (b + e))
+        .collect()
+}
+
+/// The discrete second derivative, 0 at both ends.
+fn second_difference(position: &[f64], step_s: f64) -> Vec<f64> {
+    let mut out = vec![0.0; position.len()];
+    for (value, window) in out.iter_mut().skip(1).zip(position.windows(3)) {
+        if let [a, b, c] = window {
+            *value = (a - 2.0 * b + c) / (step_s * step_s);
+        }
+    }
+    out
+}
+
+/// `signal(t + delay)` in samples, linear between samples, held at the ends.
+pub fn shifted(signal: &[f64], delay: f64) -> Vec<f64> {
+    let last = signal.len().saturating_sub(1) as f64;
+    (0..signal.len())
+        .map(|k| {
+            let at = (k as f64 + delay).clamp(0.0, last);
+            let low = at.floor();
+            let a = signal.get(low as usize).copied().unwrap_or(0.0);
+            let b = signal.get(low as usize + 1).copied().unwrap_or(a);
+            a + (at - low) * (b - a)
+        })
+        .collect()
+}
+
+/// Adds `times` a signal to another.
+pub fn add(to: &mut [f64], what: &[f64], times: f64) {
+    for (x, y) in to.iter_mut().zip(what) {
+        *x += times * y;
+    }
+}

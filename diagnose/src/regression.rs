@@ -1,0 +1,311 @@
+//! This file is least squares on white windows, and its cross-validation over contiguous blocks of time.
+
+use crate::problem::{Problem, Rows, Term};
+use nalgebra::{DMatrix, DVector};
+
+/// Blocks of time that are left out in turn.
+#[derive(Clone, Debug)]
+pub struct Blocks {
+    /// Window ranges `(first, end)`; the windows between two blocks belong to neither (the purge gap).
+    pub ranges: Vec<(usize, usize)>,
+}
+
+/// Length of one block, s, and the bounds on their number.
+const BLOCK_S: f64 = 1.25;
+const FEWEST: usize = 8;
+const MOST: usize = 24;
+/// Windows between blocks that belong to neither: the reach of a window plus that of the noise model.
+const PURGE: usize = 8;
+
+impl Blocks {
+    /// Equal blocks over all windows of a problem.
+    pub fn new(problem: &Problem) -> Blocks {
+        let windows = problem.windows.centres.len();
+        let count = ((problem.run.duration_s() / BLOCK_S) as usize).clamp(FEWEST, MOST);
+        let purge = PURGE.min(windows / (4 * count));
+        let ranges = (0..count)
+            .map(|b| (b * windows / count, (b + 1) * windows / count - purge))
+            .collect();
+        Blocks { ranges }
+    }
+}
+
+/// A fitted set of terms.
+#[derive(Clone, Debug)]
+pub struct Fit {
+    /// Coefficient of each free column, in the order base, then term by term; 0 where a column was redundant.
+    pub coefficients: Vec<f64>,
+    /// Which free columns were redundant: their direction lies in the earlier ones.
+    pub redundant: Vec<bool>,
+    /// Sum of squared white residuals over all windows.
+    pub loss: f64,
+    /// Left-out loss of each block.
+    pub block_loss: Vec<f64>,
+    /// Residual before whitening, one value a window.
+    pub residual: Vec<f64>,
+}
+
+impl Fit {
+    /// The sum of left-out losses.
+    pub fn left_out(&self) -> f64 {
+        self.block_loss.iter().sum()
+    }
+}
+
+/// Share of a column's length that must stand out of the earlier columns for it to count as its own.
+const OWN_SHARE: f64 = 0.02;
+
+/// Normal equations of one range of windows.
+#[derive(Clone)]
+struct Normal {
+    gram: DMatrix<f64>,
+    moment: DVector<f64>,
+    square: f64,
+}
+
+/// Fits the terms and cross-validates them over the blocks.
+pub fn fit(problem: &Problem, terms: &[&Term], blocks: &Blocks) -> Fit {
+    let columns = free_columns(problem, terms);
+    let target = reduced_target(problem, terms);
+    let redundant = redundancy(&columns);
+    let own: Vec<&[f64]> = kept(&columns, &redundant)
+        .map(|rows| rows.white.as_slice())
+        .collect();
+    let all = normal(&own, &target.white, 0, target.white.len());
+    let solution = solve(&all);
+    let block_loss = block_losses(&own, &target.white, blocks);
+    let mut values = solution.iter();
+    let coefficients: Vec<f64> = redundant
+        .iter()
+        .map(|&r| {
+            if r {
+                0.0
+            } else {
+                values.next().copied().unwrap_or(0.0)
+            }
+        })
+        .collect();
+    let mut residual = target.raw;
+    for (rows, c) in columns.iter().zip(&coefficients) {
+        for (r, x) in residual.iter_mut().zip(&rows.raw) {
+            *r -= c * x;
+        }
+    }
+    Fit {
+        coefficients,
+        redundant,
+        loss: loss(&all, &solution),
+        block_loss,
+        residual,
+    }
+}
+
+/// The left-out losses when, inside each fold, the best of several variants is chosen on the other blocks.
+pub fn nested_block_losses(
+    problem: &Problem,
+    common: &[&Term],
+    variants: &[Term],
+    blocks: &Blocks,
+) -> Vec<f64> {
+    let mut best = vec![(f64::INFINITY, f64::INFINITY); blocks.ranges.len()];
+    for variant in variants {
+        let mut terms = common.to_vec();
+        terms.push(variant);
+        let columns = free_columns(problem, &terms);
+        let target = reduced_target(problem, &terms);
+        let redundant = redundancy(&columns);
+        let own: Vec<&[f64]> = kept(&columns, &redundant)
+            .map(|rows| rows.white.as_slice())
+            .collect();
+        for (best, (trained, left_out)) in
+            best.iter_mut()
+                .zip(fold_losses(&own, &target.white, blocks))
+        {
+            if trained < best.0 {
+                *best = (trained, left_out);
+            }
+        }
+    }
+    best.into_iter().map(|(_, left_out)| left_out).collect()
+}
+
+/// All free columns: inertia first, then term by term.
+pub fn free_columns<'b>(problem: &'b Problem, terms: &[&'b Term]) -> Vec<&'b Rows> {
+    let of_terms = terms
+        .iter()
+        .filter(|t| t.known.is_none())
+        .flat_map(|t| &t.free);
+    problem.inertia_column.iter().chain(of_terms).collect()
+}
+
+/// The target less the columns that enter with a given coefficient.
+pub fn reduced_target(problem: &Problem, terms: &[&Term]) -> Rows {
+    let mut target = problem.target.clone();
+    for term in terms {
+        let known = term.known.iter().flatten().copied().zip(&term.free);
+        for (times, rows) in known.chain(term.fixed.iter().map(|rows| (1.0, rows))) {
+            for (x, y) in target.raw.iter_mut().zip(&rows.raw) {
+                *x -= times * y;
+            }
+            for (x, y) in target.white.iter_mut().zip(&rows.white) {
+                *x -= times * y;
+            }
+        }
+    }
+    target
+}
+
+fn kept<'b>(columns: &'b [&'b Rows], redundant: &'b [bool]) -> impl Iterator<Item = &'b Rows> {
+    columns
+        .iter()
+        .zip(redundant)
+        .filter(|(_, r)| !**r)
+        .map(|(c, _)| *c)
+}
+
+/// Modified Gram-Schmidt in order: a column that hardly stands out of the earlier ones is redundant.
+fn redundancy(columns: &[&Rows]) -> Vec<bool> {
+    let mut basis: Vec<Vec<f64>> = Vec::new();
+    columns
+        .iter()
+        .map(|rows| {
+            let length = norm(&rows.white);
+            let mut rest = rows.white.clone();
+            for unit in &basis {
+                let along = dot(&rest, unit);
+                for (x, u) in rest.iter_mut().zip(unit) {
+                    *x -= along * u;
+                }
+            }
+            let own = norm(&rest);
+            let redundant = own.is_nan() || own <= OWN_SHARE * length || length == 0.0;
+            if !redundant {
+                rest.iter_mut().for_each(|x| *x /= own);
+                basis.push(rest);
+            }
+            redundant
+        })
+        .collect()
+}
+
+fn block_losses(columns: &[&[f64]], target: &[f64], blocks: &Blocks) -> Vec<f64> {
+    fold_losses(columns, target, blocks)
+        .into_iter()
+        .map(|(_, left_out)| left_out)
+        .collect()
+}
+
+/// For each block: the loss on the other blocks and the loss on the block left out.
+fn fold_losses(columns: &[&[f64]], target: &[f64], blocks: &Blocks) -> Vec<(f64, f64)> {
+    let parts: Vec<Normal> = blocks
+        .ranges
+        .iter()
+        .map(|&(first, end)| normal(columns, target, first, end))
+        .collect();
+    let mut sum = normal(columns, target, 0, 0);
+    for part in &parts {
+        sum.gram += &part.gram;
+        sum.moment += &part.moment;
+        sum.square += part.square;
+    }
+    parts
+        .iter()
+        .map(|part| {
+            let others = Normal {
+                gram: &sum.gram - &part.gram,
+                moment: &sum.moment - &part.moment,
+                square: sum.square - part.square,
+            };
+            let solution = solve(&others);
+            (loss(&others, &solution), loss(part, &solution))
+        })
+        .collect()
+}
+
+fn normal(columns: &[&[f64]], target: &[f64], first: usize, end: usize) -> Normal {
+    let part =
+        |column: &'_ [f64]| -> Vec<f64> { column.get(first..end).unwrap_or_default().to_vec() };
+    let columns: Vec<Vec<f64>> = columns.iter().map(|c| part(c)).collect();
+    let target = part(target);
+    let size = columns.len();
+    Normal {
+        gram: DMatrix::from_fn(size, size, |i, j| match (columns.get(i), columns.get(j)) {
+            (Some(a), Some(b)) if i <= j => dot(a, b),
+            _ => 0.0,
+        }),
+        moment: DVector::from_iterator(size, columns.iter().map(|c| dot(c, &target))),
+        square: dot(&target, &target),
+    }
+}
+
+/// Solves the normal equations with each column scaled to length 1 and a ridge at rounding level, so that a
+/// block without excitation does not decide.
+fn solve(normal: &Normal) -> DVector<f64> {
+    let size = normal.moment.len();
+    let scale = DVector::from_iterator(
+        size,
+        normal
+            .gram
+            .diagonal()
+            .iter()
+            .map(|d| 1.0 / d.sqrt().max(1e-150)),
+    );
+    let gram = symmetric(&normal.gram);
+    let mut scaled = DMatrix::from_fn(size, size, |i, j| gram[(i, j)] * scale[i] * scale[j]);
+    for i in 0..size {
+        scaled[(i, i)] += 1e-10;
+    }
+    let right = normal.moment.component_mul(&scale);
+    match scaled.cholesky() {
+        Some(factor) => factor.solve(&right).component_mul(&scale),
+        None => DVector::zeros(size),
+    }
+}
+
+fn symmetric(upper: &DMatrix<f64>) -> DMatrix<f64> {
+    let mut full = upper.clone();
+    full.fill_lower_triangle_with_upper_triangle();
+    full
+}
+
+fn loss(normal: &Normal, solution: &DVector<f64>) -> f64 {
+    let quadratic = (symmetric(&normal.gram) * solution).dot(solution);
+    (normal.square - 2.0 * normal.moment.dot(solution) + quadratic).max(0.0)
+}
+
+/// Covariance of the coefficients of these columns for white noise of variance 1; `None` when singular.
+pub fn covariance(columns: &[&[f64]]) -> Option<DMatrix<f64>> {
+    let none = vec![0.0; columns.first().map_or(0, |c| c.len())];
+    let normal = normal(columns, &none, 0, none.len());
+    symmetric(&normal.gram).try_inverse()
+}
+
+/// Paired comparison of block losses: `(mean gain, z)` over the blocks where `excited` says there is evidence.
+///
+/// Positive means `after` is better.
+pub fn paired(before: &[f64], after: &[f64], excited: &[bool]) -> (f64, f64) {
+    let gains: Vec<f64> = before
+        .iter()
+        .zip(after)
+        .zip(excited)
+        .filter(|(_, e)| **e)
+        .map(|((b, a), _)| b - a)
+        .collect();
+    let n = gains.len() as f64;
+    if gains.len() < 3 {
+        return (0.0, 0.0);
+    }
+    let mean = gains.iter().sum::<f64>() / n;
+    let variance = gains.iter().map(|g| (g - mean) * (g - mean)).sum::<f64>() / (n - 1.0);
+    (mean, mean / (variance / n).sqrt().max(1e-300))
+}
+
+/// The inner product of two columns.
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}
+
+/// The Euclidean length of a column.
+pub fn norm(a: &[f64]) -> f64 {
+    dot(a, a).sqrt()
+}

@@ -1,0 +1,296 @@
+//! This file is the report: what a diagnosis says, in the fields that `report.json` has.
+
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// Version of the report's shape.
+pub const SCHEMA: &str = "rigproof-report/1";
+
+/// What a diagnosis found.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    /// Version of this shape.
+    pub schema: &'static str,
+    /// Name and version of the program.
+    pub tool: String,
+    /// The files that were read.
+    pub inputs: Vec<InputFile>,
+    /// `axis` or `bench`.
+    pub plant: &'static str,
+    /// One of the seven verdicts.
+    pub verdict: Verdict,
+    /// The verdict in one sentence.
+    pub summary: String,
+    /// How it was measured, line by line.
+    pub protocol: Vec<String>,
+    /// Residual against what sensor noise alone predicts.
+    pub floor: Option<Floor>,
+    /// Where the unexplained energy is, largest excess first.
+    pub located: Vec<Located>,
+    /// How the mechanisms were named, one after another.
+    pub stages: Vec<StageReport>,
+    /// The mechanisms that are named.
+    pub effects: Vec<EffectReport>,
+    /// For each effect, the mechanisms that explain as much in its place.
+    pub ambiguous_with: Vec<Vec<&'static str>>,
+    /// Mechanisms that help, but by less than what stays unexplained: not named.
+    pub too_small_to_name: Vec<String>,
+    /// The nominal model's own unknowns after the fit.
+    pub nominal: BTreeMap<String, Number>,
+    /// For each mechanism that is not named, what would have been seen.
+    pub not_seen: Vec<NotSeen>,
+    /// Combinations of parameters that this recording cannot tell.
+    pub null_directions: Vec<NullDirection>,
+    /// The shape of what is left, when it is more than noise.
+    pub unknown: Option<Unknown>,
+    /// Before and after, on what was fitted and on what was held out.
+    pub fit: Option<FitReport>,
+    /// Not computed by this version.
+    pub next_experiment: Option<String>,
+    /// Not computed by this version.
+    pub self_calibration: Option<String>,
+    /// The file that holds the calibrated model, beside the report.
+    pub calibration_file: Option<String>,
+    /// The fault that ended the diagnosis.
+    pub fault: Option<FaultReport>,
+}
+
+/// A file with its hash.
+#[derive(Clone, Debug, Serialize)]
+pub struct InputFile {
+    /// As given.
+    pub path: String,
+    /// SHA-256 in hexadecimal.
+    pub sha256: String,
+}
+
+/// The seven verdicts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// The nominal model explains the recording.
+    Consistent,
+    /// The named mechanisms explain the recording down to its noise.
+    Explained,
+    /// Mechanisms are named, and something beyond noise is left.
+    PartlyExplained,
+    /// Another set of mechanisms explains it as well.
+    Ambiguous,
+    /// Something is left out that is not in the library.
+    NoneOfLibrary,
+    /// The recording moves too little to tell.
+    NotExcited,
+    /// The recording itself is at fault.
+    DataFault,
+}
+
+impl Verdict {
+    /// The name in files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Verdict::Consistent => "consistent",
+            Verdict::Explained => "explained",
+            Verdict::PartlyExplained => "partly_explained",
+            Verdict::Ambiguous => "ambiguous",
+            Verdict::NoneOfLibrary => "none_of_library",
+            Verdict::NotExcited => "not_excited",
+            Verdict::DataFault => "data_fault",
+        }
+    }
+}
+
+/// Residual of the windows against the predicted noise.
+#[derive(Clone, Debug, Serialize)]
+pub struct Floor {
+    /// Predicted standard deviation.
+    pub predicted: f64,
+    /// Root mean square with the nominal model.
+    pub measured_before: f64,
+    /// Root mean square with the named mechanisms.
+    pub measured_after: f64,
+    /// `measured_before / predicted`.
+    pub ratio_before: f64,
+    /// `measured_after / predicted`.
+    pub ratio_after: f64,
+    /// Unit of the first three.
+    pub unit: String,
+}
+
+/// A regime and its share of the unexplained energy.
+#[derive(Clone, Debug, Serialize)]
+pub struct Located {
+    /// The equation that does not balance.
+    pub output: &'static str,
+    /// The joint, where there are several.
+    pub joint: Option<&'static str>,
+    /// The regime, in words.
+    pub regime: String,
+    /// First time in that regime, s.
+    pub from_s: f64,
+    /// Last time in that regime, s.
+    pub to_s: f64,
+    /// Share of the windows that lie in it.
+    pub share_of_time: f64,
+    /// Share of the nominal model's unexplained energy.
+    pub share: f64,
+    /// 95 % interval of `share` by block bootstrap.
+    pub share_low95: f64,
+    /// Upper end.
+    pub share_high95: f64,
+    /// Share of the energy that is left with the named mechanisms.
+    pub share_after: f64,
+}
+
+/// One step of the naming.
+#[derive(Clone, Debug, Serialize)]
+pub struct StageReport {
+    /// What entered.
+    pub entered: &'static str,
+    /// What stood then.
+    pub standing: Vec<&'static str>,
+    /// Root-mean-square residual of the windows then.
+    pub residual: f64,
+}
+
+/// A number with its unit and interval.
+#[derive(Clone, Debug, Serialize)]
+pub struct Number {
+    /// The value.
+    pub value: f64,
+    /// Its unit.
+    pub unit: String,
+    /// 95 % interval; absent when the recording does not determine it.
+    pub low95: Option<f64>,
+    /// Upper end.
+    pub high95: Option<f64>,
+}
+
+/// A named mechanism.
+#[derive(Clone, Debug, Serialize)]
+pub struct EffectReport {
+    /// Its name in the vocabulary.
+    pub mechanism: &'static str,
+    /// The joint, where there are several.
+    pub joint: Option<&'static str>,
+    /// Its parameters.
+    pub parameters: BTreeMap<String, Number>,
+    /// When it begins, s.
+    pub onset_s: Option<f64>,
+    /// Paired z over left-out blocks against the model without it.
+    pub z: f64,
+    /// Share of block-bootstrap replicates in which it still passes.
+    pub inclusion: f64,
+    /// Share of the left-out loss that it removes from the model without it.
+    pub share_explained: f64,
+    /// Its equation.
+    pub equation: &'static str,
+    /// What would refute it.
+    pub refuted_by: &'static str,
+}
+
+/// The least size at which a mechanism would have been named.
+#[derive(Clone, Debug, Serialize)]
+pub struct NotSeen {
+    /// The mechanism.
+    pub mechanism: &'static str,
+    /// The joint, where there are several.
+    pub joint: Option<&'static str>,
+    /// The parameter that was bounded.
+    pub parameter: &'static str,
+    /// Its least visible size.
+    pub minimum_detectable: f64,
+    /// Unit of that size.
+    pub unit: String,
+}
+
+/// A combination of parameters along which nothing changes.
+#[derive(Clone, Debug, Serialize)]
+pub struct NullDirection {
+    /// The mechanism.
+    pub mechanism: &'static str,
+    /// Relative change of each parameter, unit length.
+    pub direction: BTreeMap<String, f64>,
+    /// Smallest over largest eigenvalue of the information matrix.
+    pub eigenvalue_ratio: f64,
+    /// In words.
+    pub meaning: String,
+}
+
+/// The shape of what the library does not explain.
+#[derive(Clone, Debug, Serialize)]
+pub struct Unknown {
+    /// The variable that orders it best.
+    pub variable: &'static str,
+    /// Unit of the variable.
+    pub variable_unit: String,
+    /// Share of the remaining energy that a curve over that variable takes away, on left-out blocks.
+    pub share: f64,
+    /// Points of the curve: variable, residual.
+    pub shape: Vec<(f64, f64)>,
+    /// Whether the rising and the falling branch differ.
+    pub memory: bool,
+    /// `odd`, `even` or `neither` in the variable.
+    pub parity: &'static str,
+    /// What family of physics has such a shape.
+    pub suggestion: String,
+}
+
+/// Before and after.
+#[derive(Clone, Debug, Serialize)]
+pub struct FitReport {
+    /// How it was measured.
+    pub protocol: String,
+    /// Unit of all errors below.
+    pub unit: String,
+    /// On the fitted part.
+    pub train: BeforeAfter,
+    /// On the held-out part.
+    pub held_out: Option<BeforeAfter>,
+    /// Held-out part with the mechanisms named, but the numbers of the windows (no output-error refit).
+    pub held_out_without_refit: Option<f64>,
+    /// Error after a given time from the recorded state.
+    pub horizon: Vec<Horizon>,
+    /// Share of the achievable improvement that was reached on the held-out part (or the fitted one).
+    pub recovered_share: f64,
+    /// Whether the held-out part improved.
+    pub improved: bool,
+    /// A slow drift that the free run needed and the windows could not see.
+    pub drift: Option<String>,
+}
+
+/// A figure before and after.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct BeforeAfter {
+    /// With the nominal model, its unknowns fitted.
+    pub before: f64,
+    /// With the named mechanisms.
+    pub after: f64,
+    /// `before` in per cent of the output's standard deviation.
+    pub nrmse_before: f64,
+    /// `after` in per cent of the output's standard deviation.
+    pub nrmse_after: f64,
+}
+
+/// Error at a horizon.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Horizon {
+    /// Time from the recorded state, s.
+    pub horizon_s: f64,
+    /// Nominal model.
+    pub before: f64,
+    /// With the named mechanisms.
+    pub after: f64,
+}
+
+/// Why no conclusion can be drawn.
+#[derive(Clone, Debug, Serialize)]
+pub struct FaultReport {
+    /// The channel's role.
+    pub channel: &'static str,
+    /// Begin, s.
+    pub from_s: f64,
+    /// End, s.
+    pub to_s: f64,
+    /// The reason.
+    pub reason: String,
+}

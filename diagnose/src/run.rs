@@ -1,0 +1,102 @@
+//! This file is an aligned recording: regular samples, smoothed motion, known efforts, noise levels.
+
+use rigproof_model::effects::Instant;
+
+/// Which plant's equations a recording obeys.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlantKind {
+    /// Driven joint: the residual is `gain·u − inertia·q̈ − resistance`.
+    Axis,
+    /// Imposed motion: the residual is the metered effort less the resistance.
+    Bench,
+}
+
+/// An aligned recording in SI units, one value a sample in every vector.
+#[derive(Clone, Debug)]
+pub struct Run {
+    /// The plant.
+    pub plant: PlantKind,
+    /// Sample interval, s.
+    pub step_s: f64,
+    /// Time of the first sample, s.
+    pub start_s: f64,
+    /// Whether the drive holds its value between samples, so that it acts half a sample late on average.
+    pub held: bool,
+    /// Recorded position, m or rad.
+    pub position: Vec<f64>,
+    /// Smoothed motion: what the laws are evaluated on.
+    pub motion: Vec<Instant>,
+    /// Axis: `gain·u`. Bench: the metered effort. N or N·m.
+    pub effort: Vec<f64>,
+    /// Bench: the effort that the nominal model already predicts (a brake, or somebody's simulation).
+    pub predicted: Option<Vec<f64>>,
+    /// Bench: the current, A.
+    pub current: Option<Vec<f64>>,
+    /// Standard deviation of one position sample, m or rad.
+    pub position_noise: f64,
+    /// Standard deviation of one effort sample, N or N·m.
+    pub effort_noise: f64,
+    /// Samples that were recorded, not filled in.
+    pub recorded: Vec<bool>,
+    /// Speed below which the sense of motion cannot be told, m/s or rad/s.
+    pub speed_floor: f64,
+}
+
+impl Run {
+    /// The number of samples.
+    pub fn len(&self) -> usize {
+        self.position.len()
+    }
+
+    /// Whether there are no samples.
+    pub fn is_empty(&self) -> bool {
+        self.position.is_empty()
+    }
+
+    /// The length of the recording, s.
+    pub fn duration_s(&self) -> f64 {
+        self.step_s * self.len().saturating_sub(1) as f64
+    }
+
+    /// The samples `from..to`, times kept.
+    pub fn slice(&self, from: usize, to: usize) -> Run {
+        let part = |values: &Vec<f64>| values.get(from..to).unwrap_or_default().to_vec();
+        Run {
+            plant: self.plant,
+            step_s: self.step_s,
+            start_s: self.start_s + from as f64 * self.step_s,
+            held: self.held,
+            position: part(&self.position),
+            motion: self.motion.get(from..to).unwrap_or_default().to_vec(),
+            effort: part(&self.effort),
+            predicted: self.predicted.as_ref().map(part),
+            current: self.current.as_ref().map(part),
+            position_noise: self.position_noise,
+            effort_noise: self.effort_noise,
+            recorded: self.recorded.get(from..to).unwrap_or_default().to_vec(),
+            speed_floor: self.speed_floor,
+        }
+    }
+
+    /// The first sample at or after a time, s.
+    pub fn sample_at(&self, time_s: f64) -> usize {
+        ((time_s - self.start_s) / self.step_s).ceil().max(0.0) as usize
+    }
+
+    /// The range of positions, m or rad.
+    pub fn travel(&self) -> f64 {
+        let low = self.position.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = self
+            .position
+            .iter()
+            .copied()
+            .fold(f64::NEG_INFINITY, f64::max);
+        (high - low).max(0.0)
+    }
+}
+
+/// Root mean square; 0 for an empty slice.
+pub fn rms(values: &[f64]) -> f64 {
+    let sum: f64 = values.iter().map(|x| x * x).sum();
+    (sum / values.len().max(1) as f64).sqrt()
+}

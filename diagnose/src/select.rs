@@ -1,0 +1,589 @@
+//! This file chooses mechanisms: forward, backward and swap steps judged on left-out blocks of time.
+
+use crate::candidates::{mechanisms, modelled_effort, realise, variants};
+use crate::problem::{Problem, Term};
+use crate::regression::{Blocks, Fit, dot, fit, nested_block_losses, paired};
+use crate::run::rms;
+use rigproof_model::effects::entry;
+use rigproof_spec::effect::Mechanism;
+
+/// What a mechanism must show before it is named.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gates {
+    /// Paired z over blocks.
+    pub z: f64,
+    /// Share of the current left-out loss that must go away.
+    pub share: f64,
+    /// Root-mean-square contribution, as a share of the effort's.
+    pub relevance: f64,
+}
+
+impl Default for Gates {
+    fn default() -> Gates {
+        Gates {
+            z: 2.5,
+            share: 0.02,
+            relevance: 0.002,
+        }
+    }
+}
+
+/// One mechanism that was found, with the evidence for it.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// The term.
+    pub term: Term,
+    /// Paired z over blocks when it entered.
+    pub z: f64,
+    /// Share of the left-out loss it removed when it entered.
+    pub share: f64,
+}
+
+/// What stood after one mechanism was named.
+#[derive(Clone, Debug)]
+pub struct Stage {
+    /// The mechanism that entered.
+    pub entered: Mechanism,
+    /// All mechanisms that stood then.
+    pub standing: Vec<Mechanism>,
+    /// Root-mean-square residual of the windows, N or N·m.
+    pub residual: f64,
+}
+
+/// The outcome of the selection.
+#[derive(Clone, Debug)]
+pub struct Selection {
+    /// Terms of the nominal model.
+    pub nominal: Vec<Term>,
+    /// Mechanisms found, in the order they were named.
+    pub found: Vec<Found>,
+    /// Mechanisms that pass the gates but explain less than what stays unexplained: not named.
+    pub too_small: Vec<Mechanism>,
+    /// How the mechanisms were named, one after another.
+    pub stages: Vec<Stage>,
+    /// The fit of the nominal model alone.
+    pub before: Fit,
+    /// The fit of everything.
+    pub after: Fit,
+}
+
+/// The most mechanisms that are named on one recording.
+const MOST_FOUND: usize = 8;
+/// The most mechanisms that are taken in, those that go again included.
+const MOST_STAGES: usize = 14;
+/// Rounds in which a change of the drive is linearised again about the fit it gave.
+const RELINEARISE: usize = 3;
+/// Memoryless mechanisms of one parameter: they are named first, and the others must still be needed beside or
+/// instead of them.
+const ELEMENTARY: [Mechanism; 3] = [
+    Mechanism::DryOffset,
+    Mechanism::ConstantBias,
+    Mechanism::Viscous,
+];
+/// A simpler mechanism is taken when it explains at least this share of what the best one does.
+const SIMPLER_SHARE: f64 = 0.9;
+/// z below which two explanations are not told apart.
+pub const TIE_Z: f64 = 2.0;
+
+/// Runs the whole search; the noise model is refined twice on the way.
+pub fn select(problem: &mut Problem, mut nominal: Vec<Term>, gates: Gates) -> Selection {
+    let blocks = Blocks::new(problem);
+    let rich = rich_residual(problem, &nominal, &blocks);
+    rewhiten(problem, &rich, &mut nominal, &mut []);
+    let mut stages = Vec::new();
+    let mut found = search(problem, &nominal, Vec::new(), &blocks, gates, &mut stages);
+    let residual = fit(problem, &refs(&nominal, &found), &blocks).residual;
+    rewhiten(problem, &residual, &mut nominal, &mut found);
+    found = search(problem, &nominal, found, &blocks, gates, &mut stages);
+    let before = fit(problem, &nominal.iter().collect::<Vec<_>>(), &blocks);
+    let after = fit(problem, &refs(&nominal, &found), &blocks);
+    Selection {
+        nominal,
+        found,
+        stages,
+        before,
+        after,
+    }
+}
+
+/// Share of the unexplained energy (beyond the floor) that a mechanism must explain by itself to be named.
+const OWN_TO_UNEXPLAINED: f64 = 0.5;
+/// Residual over floor up to which nothing counts as unexplained.
+pub const FLOOR_RATIO: f64 = 1.3;
+
+/// Takes out, weakest first, every mechanism that explains less than half of what stays unexplained: beside an
+/// unknown of that size it may only be soaking it up.
+fn prune(problem: &Problem, nominal: &[Term], found: &mut Vec<Found>, blocks: &Blocks) -> Vec<Mechanism> {
+    let energy = |found: &[Found]| {
+        let size = usable_rms(problem, &fit(problem, &refs(nominal, found), blocks).residual);
+        size * size
+    };
+    let floor = FLOOR_RATIO * problem.floor;
+    let mut taken_out = Vec::new();
+    loop {
+        let left = energy(found);
+        let unexplained = left - floor * floor;
+        let weakest = (0..found.len())
+            .map(|index| {
+                let mut fewer = found.clone();
+                fewer.remove(index);
+                (energy(&fewer) - left, index)
+            })
+            .min_by(|a, b| a.0.total_cmp(&b.0));
+        match weakest {
+            Some((own, index)) if own < OWN_TO_UNEXPLAINED * unexplained => {
+                taken_out.push(found.remove(index).term.mechanism);
+            }
+            _ => return taken_out,
+        }
+    }
+}
+
+fn rewhiten(problem: &mut Problem, residual: &[f64], nominal: &mut [Term], found: &mut [Found]) {
+    problem.rewhiten(residual);
+    for term in nominal
+        .iter_mut()
+        .chain(found.iter_mut().map(|f| &mut f.term))
+    {
+        problem.refresh(term);
+    }
+}
+
+/// The residual when every mechanism may help at once: a first idea of the noise.
+fn rich_residual(problem: &Problem, nominal: &[Term], blocks: &Blocks) -> Vec<f64> {
+    let mut terms: Vec<Term> = nominal.to_vec();
+    let common: Vec<&Term> = nominal.iter().collect();
+    let plain = fit(problem, &common, blocks);
+    for mechanism in mechanisms(problem) {
+        let tried = variants(problem, mechanism, &common, &plain);
+        let step = (tried.len() / 3).max(1);
+        terms.extend(
+            tried
+                .into_iter()
+                .skip(step / 2)
+                .step_by(step)
+                .filter(|t| t.fixed.is_none()),
+        );
+    }
+    fit(problem, &terms.iter().collect::<Vec<_>>(), blocks).residual
+}
+
+/// The nominal terms and the found ones, in the order of the fit's columns.
+pub fn refs<'b>(nominal: &'b [Term], found: &'b [Found]) -> Vec<&'b Term> {
+    nominal
+        .iter()
+        .chain(found.iter().map(|f| &f.term))
+        .collect()
+}
+
+fn search(
+    problem: &Problem,
+    nominal: &[Term],
+    mut found: Vec<Found>,
+    blocks: &Blocks,
+    gates: Gates,
+    stages: &mut Vec<Stage>,
+) -> Vec<Found> {
+    settle(problem, nominal, &mut found, blocks, gates);
+    while found.len() < MOST_FOUND && stages.len() < MOST_STAGES {
+        let Some(next) = forward(problem, nominal, &found, blocks, gates) else {
+            break;
+        };
+        let entered = next.term.mechanism;
+        found.push(next);
+        refine(problem, nominal, &mut found, blocks);
+        let residual = fit(problem, &refs(nominal, &found), blocks).residual;
+        stages.push(Stage {
+            entered,
+            standing: found.iter().map(|f| f.term.mechanism).collect(),
+            residual: usable_rms(problem, &residual),
+        });
+        let standing: Vec<Mechanism> = found.iter().map(|f| f.term.mechanism).collect();
+        settle(problem, nominal, &mut found, blocks, gates);
+        note_swaps(problem, nominal, &found, &standing, blocks, stages);
+        if found.iter().all(|f| f.term.mechanism != entered) && stages.last().is_some_and(|s| s.entered == entered) {
+            break;
+        }
+    }
+    found
+}
+
+/// A mechanism that came in by replacing others is a stage of its own.
+fn note_swaps(
+    problem: &Problem,
+    nominal: &[Term],
+    found: &[Found],
+    standing: &[Mechanism],
+    blocks: &Blocks,
+    stages: &mut Vec<Stage>,
+) {
+    for new in found.iter().map(|f| f.term.mechanism).filter(|m| !standing.contains(m)) {
+        let residual = fit(problem, &refs(nominal, found), blocks).residual;
+        stages.push(Stage {
+            entered: new,
+            standing: found.iter().map(|f| f.term.mechanism).collect(),
+            residual: usable_rms(problem, &residual),
+        });
+    }
+}
+
+/// Root mean square over the usable windows.
+pub fn usable_rms(problem: &Problem, values: &[f64]) -> f64 {
+    let usable: Vec<f64> = values
+        .iter()
+        .zip(&problem.windows.usable)
+        .filter(|(_, u)| **u)
+        .map(|(v, _)| *v)
+        .collect();
+    rms(&usable)
+}
+
+/// Swap and backward passes.
+fn settle(
+    problem: &Problem,
+    nominal: &[Term],
+    found: &mut Vec<Found>,
+    blocks: &Blocks,
+    gates: Gates,
+) {
+    swap(problem, nominal, found, blocks, gates);
+    backward(problem, nominal, found, blocks, gates);
+}
+
+/// Mechanisms that are neither nominal nor found.
+fn open(problem: &Problem, nominal: &[Term], found: &[Found]) -> Vec<Mechanism> {
+    let taken: Vec<Mechanism> = refs(nominal, found).iter().map(|t| t.mechanism).collect();
+    mechanisms(problem)
+        .into_iter()
+        .filter(|m| !taken.contains(m))
+        .collect()
+}
+
+struct Trial {
+    found: Found,
+    losses: Vec<f64>,
+    parameters: usize,
+}
+
+/// The next mechanism: an elementary one as long as any passes the gates, then any other, then one that begins
+/// during the recording.
+fn forward(
+    problem: &Problem,
+    nominal: &[Term],
+    found: &[Found],
+    blocks: &Blocks,
+    gates: Gates,
+) -> Option<Found> {
+    let common = refs(nominal, found);
+    let current = fit(problem, &common, blocks);
+    let (elementary, others): (Vec<_>, Vec<_>) = open(problem, nominal, found)
+        .into_iter()
+        .partition(|m| ELEMENTARY.contains(m));
+    let from_start = |m: &Mechanism| variants(problem, *m, &common, &current);
+    let effort = modelled_effort(problem, &common, &current);
+    let later = |m: &Mechanism| with_onsets(problem, from_start(m), &effort);
+    let judged =
+        |mechanisms: &[Mechanism], tried: &dyn Fn(&Mechanism) -> Vec<Term>| -> Option<Found> {
+            let trials = mechanisms
+                .iter()
+                .filter_map(|m| judge(problem, &common, &current, tried(m), blocks, gates))
+                .collect();
+            simplest(trials, current.left_out())
+        };
+    judged(&elementary, &from_start)
+        .or_else(|| judged(&others, &from_start))
+        .or_else(|| judged(&elementary, &later))
+        .or_else(|| judged(&others, &later))
+}
+
+/// Times at which an effect may begin: twelfths of the recording, ends left out.
+fn with_onsets(problem: &Problem, variants: Vec<Term>, effort: &[f64]) -> Vec<Term> {
+    let step = (variants.len() / 3).max(1);
+    let chosen: Vec<Term> = variants.into_iter().skip(step / 2).step_by(step).collect();
+    (2..=10)
+        .map(|k| problem.run.duration_s() * k as f64 / 12.0)
+        .flat_map(|onset_s| {
+            chosen
+                .iter()
+                .filter_map(move |t| realise(problem, t.mechanism, &t.shape, Some(onset_s), effort))
+                .collect::<Vec<_>>()
+        })
+        .collect()
+}
+
+fn judge(
+    problem: &Problem,
+    common: &[&Term],
+    current: &Fit,
+    tried: Vec<Term>,
+    blocks: &Blocks,
+    gates: Gates,
+) -> Option<Trial> {
+    let tried: Vec<Term> = tried
+        .into_iter()
+        .map(|t| match effort_beside(problem, common, &t, blocks) {
+            Some(effort) => problem
+                .drive_term(t.mechanism, &t.shape, t.onset_s, &effort)
+                .unwrap_or(t),
+            None => t,
+        })
+        .collect();
+    let losses = nested_block_losses(problem, common, &tried, blocks);
+    let term = best(problem, common, tried, blocks)?;
+    let (mean, z) = paired(&current.block_loss, &losses, &excited(&term, blocks));
+    let share = 1.0 - losses.iter().sum::<f64>() / current.left_out().max(1e-300);
+    let mut terms = common.to_vec();
+    terms.push(&term);
+    let fitted = fit(problem, &terms, blocks);
+    let linear = entry(term.mechanism)?;
+    let own = own_coefficients(&term, &fitted);
+    let energy = contribution(problem, &term, own);
+    let relevant = energy >= gates.relevance * rms(&problem.windows.average(&problem.run.effort));
+    let allowed = !linear.dissipative || own.first().is_none_or(|c| *c > 0.0);
+    let parameters = linear.linear + term.shape.len() + usize::from(term.onset_s.is_some());
+    (mean > 0.0 && z >= gates.z && share >= gates.share && relevant && allowed).then(|| Trial {
+        found: Found { term, z, share },
+        losses,
+        parameters,
+    })
+}
+
+/// The coefficients of the last term of a fit.
+pub fn own_coefficients<'f>(term: &Term, fitted: &'f Fit) -> &'f [f64] {
+    let count = if term.known.is_some() {
+        0
+    } else {
+        term.free.len()
+    };
+    let first = fitted.coefficients.len().saturating_sub(count);
+    fitted.coefficients.get(first..).unwrap_or_default()
+}
+
+/// Root-mean-square effort that a term contributes over the usable windows, N or N·m.
+pub fn contribution(problem: &Problem, term: &Term, coefficients: &[f64]) -> f64 {
+    let mut sum = vec![0.0; problem.target.raw.len()];
+    let columns = coefficients.iter().copied().zip(&term.free);
+    for (c, rows) in columns.chain(term.fixed.iter().map(|rows| (1.0, rows))) {
+        for (s, x) in sum.iter_mut().zip(&rows.raw) {
+            *s += c * x;
+        }
+    }
+    usable_rms(problem, &sum)
+}
+
+/// Blocks in which a term's columns are alive: the others say nothing about it.
+fn excited(term: &Term, blocks: &Blocks) -> Vec<bool> {
+    let energy: Vec<f64> = blocks
+        .ranges
+        .iter()
+        .map(|&(first, end)| {
+            term.free
+                .iter()
+                .chain(&term.fixed)
+                .filter_map(|rows| rows.white.get(first..end))
+                .map(|part| dot(part, part))
+                .sum()
+        })
+        .collect();
+    let mean = energy.iter().sum::<f64>() / energy.len().max(1) as f64;
+    energy.iter().map(|e| *e > 0.05 * mean).collect()
+}
+
+/// The variant with the least loss over all blocks.
+fn best(problem: &Problem, common: &[&Term], tried: Vec<Term>, blocks: &Blocks) -> Option<Term> {
+    let score = |term: &Term| {
+        let mut terms = common.to_vec();
+        terms.push(term);
+        fit(problem, &terms, blocks).loss
+    };
+    tried
+        .into_iter()
+        .map(|term| (score(&term), term))
+        .min_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, term)| term)
+}
+
+/// The trial with the fewest parameters among those that tie with the best one or explain nearly as much.
+fn simplest(mut trials: Vec<Trial>, loss_without: f64) -> Option<Found> {
+    let total = |trial: &Trial| trial.losses.iter().sum::<f64>();
+    trials.sort_by(|a, b| total(a).total_cmp(&total(b)));
+    let leader = trials.first()?.losses.clone();
+    let most = loss_without - leader.iter().sum::<f64>();
+    let all = vec![true; leader.len()];
+    trials
+        .into_iter()
+        .enumerate()
+        .filter(|(rank, t)| {
+            let nearly = loss_without - total(t) >= SIMPLER_SHARE * most;
+            *rank == 0 || nearly || paired(&t.losses, &leader, &all).1 < TIE_Z
+        })
+        .min_by_key(|(rank, t)| (t.parameters, *rank))
+        .map(|(_, t)| t.found)
+}
+
+/// Improves the shape (and onset) of each found term by halving steps on the loss over all blocks.
+fn refine(problem: &Problem, nominal: &[Term], found: &mut [Found], blocks: &Blocks) {
+    for index in 0..found.len() {
+        let Some(current) = found.get(index).map(|f| f.term.clone()) else {
+            continue;
+        };
+        if current.shape.is_empty() && current.onset_s.is_none() {
+            continue;
+        }
+        let others: Vec<Term> = found
+            .iter()
+            .enumerate()
+            .filter(|(k, _)| *k != index)
+            .map(|(_, f)| f.term.clone())
+            .collect();
+        let mut common: Vec<&Term> = nominal.iter().collect();
+        common.extend(others.iter());
+        let better = refined(problem, &common, current, blocks);
+        if let Some(slot) = found.get_mut(index) {
+            slot.term = better;
+        }
+    }
+}
+
+/// Pattern search over the logarithms of the shape parameters and the onset.
+fn refined(problem: &Problem, common: &[&Term], start: Term, blocks: &Blocks) -> Term {
+    let score = |term: &Term| {
+        let mut terms = common.to_vec();
+        terms.push(term);
+        fit(problem, &terms, blocks).loss
+    };
+    let fitted = fit(problem, common, blocks);
+    let effort = effort_beside(problem, common, &start, blocks)
+        .unwrap_or_else(|| modelled_effort(problem, common, &fitted));
+    let mut best = (score(&start), start);
+    let coarse = if best.1.mechanism == Mechanism::Ripple {
+        0.004
+    } else {
+        0.3
+    };
+    let mut stride = coarse;
+    for _ in 0..6 {
+        for index in 0..=best.1.shape.len() {
+            for direction in [1.0, -1.0] {
+                let Some(moved) = moved(problem, &best.1, index, direction * stride, &effort)
+                else {
+                    continue;
+                };
+                let loss = score(&moved);
+                if loss < best.0 {
+                    best = (loss, moved);
+                }
+            }
+        }
+        stride *= 0.5;
+    }
+    best.1
+}
+
+/// What the other terms give when a change of the drive stands beside them: the point to linearise about.
+fn effort_beside(
+    problem: &Problem,
+    common: &[&Term],
+    drive: &Term,
+    blocks: &Blocks,
+) -> Option<Vec<f64>> {
+    drive.fixed.as_ref()?;
+    let mut term = drive.clone();
+    let mut effort = Vec::new();
+    for _ in 0..RELINEARISE {
+        let mut terms = common.to_vec();
+        terms.push(&term);
+        let fitted = fit(problem, &terms, blocks);
+        effort = modelled_effort(problem, common, &fitted);
+        term = problem.drive_term(term.mechanism, &term.shape, term.onset_s, &effort)?;
+    }
+    Some(effort)
+}
+
+/// The term with shape parameter `index` scaled by `1 + stride`, or its onset moved when `index` is past them.
+fn moved(
+    problem: &Problem,
+    term: &Term,
+    index: usize,
+    stride: f64,
+    effort: &[f64],
+) -> Option<Term> {
+    let mut shape = term.shape.clone();
+    let mut onset_s = term.onset_s;
+    match shape.get_mut(index) {
+        Some(value) => *value *= 1.0 + stride,
+        None => onset_s = Some(onset_s? + 0.15 * stride * problem.run.duration_s()),
+    }
+    realise(problem, term.mechanism, &shape, onset_s, effort)
+}
+
+/// Drops every found mechanism that the others make unnecessary.
+fn backward(
+    problem: &Problem,
+    nominal: &[Term],
+    found: &mut Vec<Found>,
+    blocks: &Blocks,
+    gates: Gates,
+) {
+    let mut index = 0;
+    while index < found.len() {
+        let current = fit(problem, &refs(nominal, found), blocks);
+        let mut fewer = found.clone();
+        let removed = fewer.remove(index);
+        let without = fit(problem, &refs(nominal, &fewer), blocks);
+        let (_, z) = paired(
+            &without.block_loss,
+            &current.block_loss,
+            &excited(&removed.term, blocks),
+        );
+        let share = 1.0 - current.left_out() / without.left_out().max(1e-300);
+        if z < gates.z - 1.0 || share < 0.5 * gates.share {
+            *found = fewer;
+        } else {
+            if let Some(kept) = found.get_mut(index) {
+                (kept.z, kept.share) = (z, share);
+            }
+            index += 1;
+        }
+    }
+}
+
+/// Replaces a found mechanism where another one explains clearly more in its place.
+fn swap(problem: &Problem, nominal: &[Term], found: &mut [Found], blocks: &Blocks, gates: Gates) {
+    for index in 0..found.len() {
+        let others: Vec<Found> = found
+            .iter()
+            .enumerate()
+            .filter(|(k, _)| *k != index)
+            .map(|(_, f)| f.clone())
+            .collect();
+        let common = refs(nominal, &others);
+        let without = fit(problem, &common, blocks);
+        let current = fit(problem, &refs(nominal, found), blocks);
+        let trials: Vec<Trial> = open(problem, nominal, found)
+            .into_iter()
+            .filter_map(|m| {
+                judge(
+                    problem,
+                    &common,
+                    &without,
+                    variants(problem, m, &common, &without),
+                    blocks,
+                    gates,
+                )
+            })
+            .filter(|t| {
+                let all = vec![true; t.losses.len()];
+                let gained = without.left_out() - t.losses.iter().sum::<f64>();
+                let had = without.left_out() - current.left_out();
+                had < SIMPLER_SHARE * gained
+                    && paired(&current.block_loss, &t.losses, &all).1 >= TIE_Z
+            })
+            .collect();
+        if let (Some(better), Some(slot)) =
+            (simplest(trials, without.left_out()), found.get_mut(index))
+        {
+            *slot = better;
+        }
+    }
+}

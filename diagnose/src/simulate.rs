@@ -1,0 +1,328 @@
+//! This file runs a calibrated plant from the recorded inputs, without looking at the recorded output again.
+
+use crate::problem::shifted;
+use crate::run::{PlantKind, Run};
+use rigproof_model::axis::Axis;
+use rigproof_model::bench::resistance;
+use rigproof_model::effects::{Instant, Law, first_order_lag, law};
+use rigproof_spec::effect::Mechanism;
+use rustfft::{FftPlanner, num_complex::Complex64};
+
+/// A mechanism with numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Effect {
+    /// The mechanism.
+    pub mechanism: Mechanism,
+    /// Its parameters in the vocabulary's order, SI.
+    pub parameters: Vec<f64>,
+    /// When it begins, s.
+    pub onset_s: Option<f64>,
+}
+
+/// A plant with all its numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plant {
+    /// Mass or moment of inertia; unused on a bench.
+    pub inertia: f64,
+    /// Everything that acts.
+    pub effects: Vec<Effect>,
+}
+
+/// What the effort does between two samples.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Interpolation {
+    /// It holds, as a digital controller's output does.
+    #[default]
+    Hold,
+    /// It goes straight.
+    Linear,
+    /// It is band-limited and periodic over the recording.
+    Band,
+}
+
+/// The protocol of a free run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Protocol {
+    /// What the effort does between samples.
+    pub interpolation: Interpolation,
+    /// Samples from which the start state is estimated (a parabola); 0 starts from rest at the first position.
+    pub start_samples: usize,
+    /// Integration steps a sample.
+    pub substeps: usize,
+    /// Periods that are run before the one that counts (a periodic recording in steady state).
+    pub warm_up_periods: usize,
+}
+
+impl Default for Protocol {
+    fn default() -> Protocol {
+        Protocol {
+            interpolation: Interpolation::Hold,
+            start_samples: 20,
+            substeps: 1,
+            warm_up_periods: 0,
+        }
+    }
+}
+
+/// The output of a run: position of an axis, or effort of a bench, one value a sample.
+///
+/// The first `start_samples` of an axis repeat the recording, because the state is taken from them.
+pub fn output(plant: &Plant, run: &Run, protocol: &Protocol) -> Vec<f64> {
+    match run.plant {
+        PlantKind::Axis => free_run(plant, run, protocol),
+        PlantKind::Bench => bench(plant, run),
+    }
+}
+
+fn laws(plant: &Plant) -> Vec<Box<dyn Law>> {
+    plant
+        .effects
+        .iter()
+        .filter_map(|e| law(e.mechanism, &e.parameters).map(|law| with_onset(law, e.onset_s)))
+        .collect()
+}
+
+/// A law that acts from a given time on.
+struct Late {
+    law: Box<dyn Law>,
+    onset_s: f64,
+}
+
+impl Law for Late {
+    fn smooth(&self, now: &Instant, memory: f64) -> f64 {
+        if now.time_s < self.onset_s {
+            0.0
+        } else {
+            self.law.smooth(now, memory)
+        }
+    }
+
+    fn dry(&self, now: &Instant) -> f64 {
+        if now.time_s < self.onset_s {
+            0.0
+        } else {
+            self.law.dry(now)
+        }
+    }
+
+    fn memory_rate(&self, now: &Instant, memory: f64) -> f64 {
+        self.law.memory_rate(now, memory)
+    }
+}
+
+fn with_onset(law: Box<dyn Law>, onset_s: Option<f64>) -> Box<dyn Law> {
+    match onset_s {
+        Some(onset_s) => Box::new(Late { law, onset_s }),
+        None => law,
+    }
+}
+
+/// The effort after the changes of the drive: gain, time shift, lag. On an axis the recorded command is ahead of
+/// the effort; on a bench `effort` is what the laws give and the recorded one is behind.
+fn driven(plant: &Plant, effort: &[f64], run: &Run) -> Vec<f64> {
+    let step_s = run.step_s;
+    let mut out = effort.to_vec();
+    for effect in &plant.effects {
+        let value = effect.parameters.first().copied().unwrap_or(0.0);
+        let changed = match effect.mechanism {
+            Mechanism::GainError => out.iter().map(|e| e * (1.0 + value)).collect(),
+            Mechanism::ChannelSkew => shifted(&out, -value / step_s),
+            Mechanism::Lag => first_order_lag(&out, step_s, value),
+            _ => continue,
+        };
+        let first = effect.onset_s.map_or(0, |t| run.sample_at(t));
+        for (o, c) in out.iter_mut().zip(changed).skip(first) {
+            *o = c;
+        }
+    }
+    out
+}
+
+fn bench(plant: &Plant, run: &Run) -> Vec<f64> {
+    let mut effort = resistance(&laws(plant), &run.motion, run.step_s);
+    let gain = plant
+        .effects
+        .iter()
+        .find(|e| e.mechanism == Mechanism::GainError)
+        .and_then(|e| e.parameters.first().copied())
+        .unwrap_or(0.0);
+    if let Some(predicted) = &run.predicted {
+        for (e, p) in effort.iter_mut().zip(predicted) {
+            *e += (1.0 + gain) * p;
+        }
+    }
+    let rest = Plant {
+        inertia: 0.0,
+        effects: plant
+            .effects
+            .iter()
+            .filter(|e| e.mechanism != Mechanism::GainError)
+            .cloned()
+            .collect(),
+    };
+    driven(&rest, &effort, run)
+}
+
+fn free_run(plant: &Plant, run: &Run, protocol: &Protocol) -> Vec<f64> {
+    let axis = Axis {
+        inertia: plant.inertia,
+        laws: laws(plant),
+    };
+    let effort = driven(plant, &run.effort, run);
+    let fine = fine_effort(&effort, protocol);
+    let (first, position, speed) = start(run, protocol.start_samples);
+    let mut state = axis.state(run.start_s + first as f64 * run.step_s, position, speed);
+    saturate_presliding(plant, &mut state.memory, speed);
+    let mut out = run.position.get(..first).unwrap_or_default().to_vec();
+    let step_s = run.step_s / protocol.substeps as f64;
+    for period in 0..=protocol.warm_up_periods {
+        let counts = period == protocol.warm_up_periods;
+        let from = if period == 0 { first } else { 0 };
+        if counts && period > 0 {
+            out.clear();
+        }
+        for pairs in fine.chunks(protocol.substeps).skip(from) {
+            if counts {
+                out.push(state.position);
+            }
+            for &(begin, end) in pairs {
+                axis.step(&mut state, begin, end, step_s);
+            }
+        }
+    }
+    out
+}
+
+/// A bristle that has been sliding is bent by all it can bend.
+fn saturate_presliding(plant: &Plant, memory: &mut [f64], speed: f64) {
+    let with_law = plant
+        .effects
+        .iter()
+        .filter(|e| law(e.mechanism, &e.parameters).is_some());
+    for (effect, memory) in with_law.zip(memory) {
+        if effect.mechanism == Mechanism::Presliding && speed != 0.0 {
+            *memory = speed.signum();
+        }
+    }
+}
+
+/// Effort at the beginning and the end of every integration step.
+fn fine_effort(effort: &[f64], protocol: &Protocol) -> Vec<(f64, f64)> {
+    let n = protocol.substeps;
+    let next = |k: usize| effort.get(k + 1).or(effort.last()).copied().unwrap_or(0.0);
+    match protocol.interpolation {
+        Interpolation::Hold => effort
+            .iter()
+            .flat_map(|&e| core::iter::repeat_n((e, e), n))
+            .collect(),
+        Interpolation::Linear => effort
+            .iter()
+            .enumerate()
+            .flat_map(|(k, &e)| {
+                let slope = (next(k) - e) / n as f64;
+                (0..n).map(move |j| (e + slope * j as f64, e + slope * (j + 1) as f64))
+            })
+            .collect(),
+        Interpolation::Band => {
+            let fine = band_limited(effort, n);
+            let after = fine.iter().skip(1).chain(fine.first());
+            fine.iter().copied().zip(after.copied()).collect()
+        }
+    }
+}
+
+/// A periodic signal at `factor` times its rate, by its Fourier series.
+fn band_limited(signal: &[f64], factor: usize) -> Vec<f64> {
+    let n = signal.len();
+    let mut planner = FftPlanner::new();
+    let mut spectrum: Vec<Complex64> = signal.iter().map(|&x| Complex64::new(x, 0.0)).collect();
+    planner.plan_fft_forward(n).process(&mut spectrum);
+    let mut wide = vec![Complex64::default(); n * factor];
+    let half = n.div_ceil(2);
+    for (to, from) in wide.iter_mut().zip(spectrum.iter().take(half)) {
+        *to = *from;
+    }
+    for (to, from) in wide
+        .iter_mut()
+        .rev()
+        .zip(spectrum.iter().rev().take(n - half))
+    {
+        *to = *from;
+    }
+    planner.plan_fft_inverse(n * factor).process(&mut wide);
+    wide.into_iter().map(|c| c.re / n as f64).collect()
+}
+
+/// Start sample, position and speed: the end of a parabola through the first `samples` positions.
+fn start(run: &Run, samples: usize) -> (usize, f64, f64) {
+    if samples < 3 {
+        return (0, run.position.first().copied().unwrap_or(0.0), 0.0);
+    }
+    let last = samples - 1;
+    let points: Vec<(f64, f64)> = run
+        .position
+        .iter()
+        .take(samples)
+        .enumerate()
+        .map(|(k, &x)| ((k as f64 - last as f64) * run.step_s, x))
+        .collect();
+    let [position, speed, _] = parabola(&points);
+    (last, position, speed)
+}
+
+/// Least-squares coefficients of 1, t, t².
+fn parabola(points: &[(f64, f64)]) -> [f64; 3] {
+    let mut gram = nalgebra::Matrix3::zeros();
+    let mut right = nalgebra::Vector3::zeros();
+    let scale = points.first().map_or(1.0, |p| p.0.abs().max(1e-12));
+    for &(t, x) in points {
+        let row = nalgebra::Vector3::new(1.0, t / scale, t * t / (scale * scale));
+        gram += row * row.transpose();
+        right += row * x;
+    }
+    let c = gram.lu().solve(&right).unwrap_or_default();
+    [c.x, c.y / scale, c.z / (scale * scale)]
+}
+
+/// The position `count` samples after sample `first`, started from the recorded state there.
+pub fn predict(
+    plant: &Plant,
+    run: &Run,
+    first: usize,
+    count: usize,
+    protocol: &Protocol,
+) -> Option<f64> {
+    let begin = run.motion.get(first)?;
+    let axis = Axis {
+        inertia: plant.inertia,
+        laws: laws(plant),
+    };
+    let effort = driven(plant, run.effort.get(first..first + count)?, run);
+    let mut state = axis.state(
+        begin.time_s,
+        begin.position,
+        if begin.sense.abs() < 1.0 {
+            0.0
+        } else {
+            begin.speed
+        },
+    );
+    saturate_presliding(plant, &mut state.memory, state.speed);
+    let step_s = run.step_s / protocol.substeps as f64;
+    let local = Protocol {
+        interpolation: local_interpolation(protocol.interpolation),
+        ..*protocol
+    };
+    for (from, to) in fine_effort(&effort, &local) {
+        axis.step(&mut state, from, to, step_s);
+    }
+    Some(state.position)
+}
+
+/// Over a short stretch a band-limited effort goes straight between its samples.
+fn local_interpolation(interpolation: Interpolation) -> Interpolation {
+    match interpolation {
+        Interpolation::Band => Interpolation::Linear,
+        other => other,
+    }
+}

@@ -1,0 +1,189 @@
+//! This file is the weak form: the equations of motion multiplied by compact test functions and summed, so
+//! that positions enter and accelerations do not.
+
+use crate::run::{PlantKind, Run, rms};
+
+/// Order of the bump `(1 − x²)^4`: three continuous derivatives at its ends.
+const BUMP_ORDER: i32 = 4;
+/// Share of a window's weight that may lie where the sense of motion cannot be told.
+const MOST_AMBIGUOUS: f64 = 0.10;
+
+/// The test function and the windows it is applied to.
+#[derive(Clone, Debug)]
+pub struct Windows {
+    /// Weights of the test function, sum 1, odd length.
+    pub bump: Vec<f64>,
+    /// Discrete second difference of `bump` over the squared step, two samples longer: summation by parts is
+    /// exact with it, and it sums to zero.
+    pub curvature: Vec<f64>,
+    /// Samples between window centres.
+    pub hop: usize,
+    /// Centre sample of each window.
+    pub centres: Vec<usize>,
+    /// Whether the window may be used: recorded throughout, and its sense of motion known.
+    pub usable: Vec<bool>,
+    /// Sample interval, s.
+    pub step_s: f64,
+    /// Time of the run's first sample, s.
+    pub start_s: f64,
+}
+
+impl Windows {
+    /// Windows of about `width_s` over a run, a quarter of a width apart.
+    pub fn new(run: &Run, width_s: f64) -> Windows {
+        let half = ((0.5 * width_s / run.step_s).round() as usize).max(2);
+        let bump = bump(half);
+        let curvature = second_difference(&bump, run.step_s);
+        let hop = (half / 2).max(1);
+        let margin = half + 1;
+        let centres: Vec<usize> = (margin..run.len().saturating_sub(margin))
+            .step_by(hop)
+            .collect();
+        let usable = centres
+            .iter()
+            .map(|&centre| is_usable(run, centre, &bump))
+            .collect();
+        Windows {
+            bump,
+            curvature,
+            hop,
+            centres,
+            usable,
+            step_s: run.step_s,
+            start_s: run.start_s,
+        }
+    }
+
+    /// `Σ φ·signal`, one value a window.
+    pub fn average(&self, signal: &[f64]) -> Vec<f64> {
+        self.apply(&self.bump, signal)
+    }
+
+    /// `Σ φ″·position`: the averaged acceleration, one value a window.
+    pub fn acceleration(&self, position: &[f64]) -> Vec<f64> {
+        self.apply(&self.curvature, position)
+    }
+
+    fn apply(&self, weights: &[f64], signal: &[f64]) -> Vec<f64> {
+        let half = weights.len() / 2;
+        self.centres
+            .iter()
+            .map(|&centre| {
+                let window = signal.get(centre - half..).unwrap_or_default();
+                weights.iter().zip(window).map(|(w, x)| w * x).sum()
+            })
+            .collect()
+    }
+
+    /// Time of each window's centre, s.
+    pub fn times_s(&self) -> Vec<f64> {
+        self.centres
+            .iter()
+            .map(|&c| self.start_s + c as f64 * self.step_s)
+            .collect()
+    }
+
+    /// Standard deviation that position noise and effort noise alone give one residual: the predicted floor.
+    ///
+    /// `inertia` is 0 on a bench; `damping` is the slope of resistance over speed.
+    pub fn floor(&self, run: &Run, inertia: f64) -> f64 {
+        let norm = |weights: &[f64]| weights.iter().map(|w| w * w).sum::<f64>().sqrt();
+        let from_position = inertia * run.position_noise * norm(&self.curvature);
+        let from_effort = run.effort_noise * norm(&self.bump);
+        from_position.hypot(from_effort)
+    }
+}
+
+/// The widths that are tried, s; the last is taken when no narrower one is quiet enough.
+const WIDTHS_S: [f64; 3] = [0.040, 0.080, 0.160];
+/// A width is quiet enough when the floor is below this share of the effort.
+const QUIET: f64 = 0.003;
+
+/// The narrowest window whose predicted floor is small against the effort, narrowed again where the effort
+/// itself is faster than that (at least eight samples, five on a bench).
+pub fn choose_width(run: &Run, inertia: f64, band_hz: f64) -> f64 {
+    let scale = rms(&run.effort);
+    let quiet = |width_s: &&f64| {
+        let windows = Windows::new(run, **width_s);
+        windows.floor(run, inertia) <= QUIET * scale
+    };
+    let width_s = match run.plant {
+        PlantKind::Axis => WIDTHS_S.iter().find(quiet).copied().unwrap_or(WIDTHS_S[2]),
+        PlantKind::Bench => WIDTHS_S[0],
+    };
+    let least = match run.plant {
+        PlantKind::Axis => 8.0,
+        PlantKind::Bench => 5.0,
+    };
+    width_s.min(2.0 / band_hz).max(least * run.step_s)
+}
+
+/// `(1 − x²)^4` at `2·half + 1` points strictly inside (−1, 1), scaled to sum 1.
+fn bump(half: usize) -> Vec<f64> {
+    let scale = (half + 1) as f64;
+    let raw: Vec<f64> = (0..=2 * half)
+        .map(|k| {
+            let x = (k as f64 - half as f64) / scale;
+            (1.0 - x * x).powi(BUMP_ORDER)
+        })
+        .collect();
+    let sum: f64 = raw.iter().sum();
+    raw.into_iter().map(|w| w / sum).collect()
+}
+
+fn second_difference(weights: &[f64], step_s: f64) -> Vec<f64> {
+    let mut padded = vec![0.0; 2];
+    padded.extend_from_slice(weights);
+    padded.extend([0.0; 2]);
+    let scale = 1.0 / (step_s * step_s);
+    padded
+        .windows(3)
+        .map(|w| match w {
+            [a, b, c] => (a - 2.0 * b + c) * scale,
+            _ => 0.0,
+        })
+        .collect()
+}
+
+fn is_usable(run: &Run, centre: usize, bump: &[f64]) -> bool {
+    let start = centre - bump.len() / 2 - 1;
+    let recorded = run
+        .recorded
+        .iter()
+        .skip(start)
+        .take(bump.len() + 2)
+        .all(|&r| r);
+    let motion = run.motion.iter().skip(start + 1);
+    let ambiguous: f64 = bump
+        .iter()
+        .zip(motion)
+        .filter(|(_, now)| now.sense.abs() < 1.0)
+        .map(|(w, _)| w)
+        .sum();
+    recorded && ambiguous <= MOST_AMBIGUOUS
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn summation_by_parts_is_exact_and_constants_and_ramps_have_no_acceleration() {
+        let weights = bump(7);
+        let curvature = second_difference(&weights, 0.01);
+        let signal: Vec<f64> = (0..17).map(|k| libm::sin(0.7 * k as f64) + 3.1).collect();
+        let by_curvature: f64 = curvature.iter().zip(&signal).map(|(w, x)| w * x).sum();
+        let by_acceleration: f64 = weights
+            .iter()
+            .enumerate()
+            .map(|(k, w)| w * (signal[k] - 2.0 * signal[k + 1] + signal[k + 2]) / 1e-4)
+            .sum();
+        assert!((by_curvature - by_acceleration).abs() < 1e-9 * by_acceleration.abs());
+        let ramp: f64 = curvature
+            .iter()
+            .enumerate()
+            .map(|(k, w)| w * (2.7 + 0.3 * k as f64))
+            .sum();
+        assert!(ramp.abs() < 1e-8, "{ramp}");
+    }
+}

@@ -1,0 +1,153 @@
+//! This file makes correlated residuals white: an autoregressive model of the noise, applied within each
+//! unbroken stretch of windows.
+
+/// Order of the autoregression, in windows: two window widths at a hop of a quarter.
+const ORDER: usize = 8;
+
+/// Prediction-error filters of order 0 to `ORDER`, so that the first windows of a stretch are whitened too.
+#[derive(Clone, Debug)]
+pub struct Whitener {
+    /// For each order, the predictor's coefficients and the standard deviation of its error.
+    filters: Vec<(Vec<f64>, f64)>,
+    /// Window ranges `(first, end)` without a gap.
+    stretches: Vec<(usize, usize)>,
+}
+
+impl Whitener {
+    /// The noise model of `residual` (one value a window) over the usable windows.
+    ///
+    /// `floor` is the least standard deviation the noise can have: it keeps a perfect fit from giving infinite
+    /// weight.
+    pub fn new(residual: &[f64], usable: &[bool], floor: f64) -> Whitener {
+        let stretches = stretches(usable);
+        let mut covariance = autocovariance(residual, &stretches);
+        if let Some(variance) = covariance.first_mut() {
+            // A ridge of the floor's own share keeps the recursion well conditioned.
+            *variance = variance.max(floor * floor) * (1.0 + 1e-6) + 1e-300;
+        }
+        Whitener {
+            filters: levinson(&covariance),
+            stretches,
+        }
+    }
+
+    /// White rows: each usable window of each stretch, divided by its prediction error's standard deviation.
+    ///
+    /// Windows that are not usable come out as 0 and so carry no weight.
+    pub fn whiten(&self, rows: &[f64]) -> Vec<f64> {
+        let mut white = vec![0.0; rows.len()];
+        for &(first, end) in &self.stretches {
+            for k in first..end {
+                let order = (k - first).min(self.filters.len() - 1);
+                let Some((coefficients, deviation)) = self.filters.get(order) else {
+                    continue;
+                };
+                let past = rows.get(k - order..k).unwrap_or_default();
+                let predicted: f64 = coefficients
+                    .iter()
+                    .zip(past.iter().rev())
+                    .map(|(c, x)| c * x)
+                    .sum();
+                if let (Some(out), Some(x)) = (white.get_mut(k), rows.get(k)) {
+                    *out = (x - predicted) / deviation;
+                }
+            }
+        }
+        white
+    }
+}
+
+/// Ranges of consecutive usable windows.
+fn stretches(usable: &[bool]) -> Vec<(usize, usize)> {
+    let mut found = Vec::new();
+    let mut first = None;
+    for (k, &ok) in usable.iter().chain([&false]).enumerate() {
+        match (first, ok) {
+            (None, true) => first = Some(k),
+            (Some(start), false) => {
+                found.push((start, k));
+                first = None;
+            }
+            _ => {}
+        }
+    }
+    found
+}
+
+/// Mean product at each lag over the pairs that lie in one stretch.
+fn autocovariance(residual: &[f64], stretches: &[(usize, usize)]) -> Vec<f64> {
+    (0..=ORDER)
+        .map(|lag| {
+            let parts = stretches
+                .iter()
+                .filter_map(|&(first, end)| residual.get(first..end));
+            let (sum, pairs) = parts
+                .flat_map(|part| part.iter().zip(part.iter().skip(lag)))
+                .fold((0.0, 0usize), |(sum, pairs), (a, b)| {
+                    (sum + a * b, pairs + 1)
+                });
+            sum / pairs.max(1) as f64
+        })
+        .collect()
+}
+
+/// Levinson-Durbin: the best predictors of every order from an autocovariance.
+fn levinson(covariance: &[f64]) -> Vec<(Vec<f64>, f64)> {
+    let lag = |k: usize| covariance.get(k).copied().unwrap_or(0.0);
+    let mut coefficients: Vec<f64> = Vec::new();
+    let mut variance = lag(0);
+    let mut filters = vec![(coefficients.clone(), variance.sqrt())];
+    for order in 1..covariance.len() {
+        let known: f64 = coefficients
+            .iter()
+            .enumerate()
+            .map(|(j, c)| c * lag(order - 1 - j))
+            .sum();
+        let reflection = (lag(order) - known) / variance;
+        // Gaps can make the sample covariance inconsistent: stop at the last order that is sound.
+        if reflection.abs() >= 1.0 {
+            break;
+        }
+        let mirrored: Vec<f64> = coefficients
+            .iter()
+            .zip(coefficients.iter().rev())
+            .map(|(c, r)| c - reflection * r)
+            .collect();
+        coefficients = mirrored;
+        coefficients.push(reflection);
+        variance *= 1.0 - reflection * reflection;
+        filters.push((coefficients.clone(), variance.sqrt()));
+    }
+    filters
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_coloured_sequence_comes_out_white() {
+        // A linear congruential sequence as noise, coloured by a moving average of four.
+        let mut seed = 12_345_u64;
+        let mut noise = || {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            (seed >> 40) as f64 / (1u64 << 24) as f64 - 0.5
+        };
+        let raw: Vec<f64> = (0..6000).map(|_| noise()).collect();
+        let coloured: Vec<f64> = raw
+            .windows(4)
+            .map(|w| 0.1 * w[0] + 0.3 * w[1] + 0.5 * w[2] + 1.1 * w[3])
+            .collect();
+        let usable: Vec<bool> = (0..coloured.len()).map(|k| k % 400 != 0).collect();
+        let white = Whitener::new(&coloured, &usable, 0.0).whiten(&coloured);
+        let covariance = autocovariance(&white, &stretches(&usable));
+        assert!((covariance[0] - 1.0).abs() < 0.05, "{}", covariance[0]);
+        for lag in 1..=4 {
+            assert!(
+                covariance[lag].abs() < 0.05,
+                "lag {lag}: {}",
+                covariance[lag]
+            );
+        }
+    }
+}

@@ -1,0 +1,77 @@
+//! This file writes what was found as a rig description: the calibration that a simulation can read.
+
+use crate::evidence::Errors;
+use crate::report::Number;
+use crate::simulate::Plant;
+use rigproof_spec::effect::Motion;
+use rigproof_trace::rig::{Rig, RigEffect, Status, Value};
+use std::collections::BTreeMap;
+
+/// The rig with the plant's numbers and their intervals; found effects follow the nominal ones.
+pub fn calibrated(rig: &Rig, plant: &Plant, errors: &Errors, refitted: bool) -> Rig {
+    let mut out = rig.clone();
+    if let Some(parameters) = &mut out.parameters
+        && parameters.inertia.status != Status::Known
+    {
+        parameters.inertia = with_interval(plant.inertia, errors.inertia);
+    }
+    out.effects = plant
+        .effects
+        .iter()
+        .enumerate()
+        .map(|(index, effect)| {
+            let given = rig.effects.get(index);
+            let spread = errors.terms.get(index);
+            let values = effect.parameters.iter().enumerate().map(|(k, &value)| {
+                match given.and_then(|g| g.values.get(k)) {
+                    Some(known) if known.status == Status::Known => *known,
+                    _ => with_interval(value, spread.and_then(|s| s.get(k)).copied()),
+                }
+            });
+            RigEffect {
+                mechanism: effect.mechanism,
+                values: values.collect(),
+                onset: effect.onset_s.map(Value::known),
+            }
+        })
+        .collect();
+    let how = if refitted { "output-error refit of free runs; intervals from the weighted windows" } else { "weighted windows" };
+    out.provenance.insert("fit".to_owned(), how.to_owned());
+    out
+}
+
+fn with_interval(value: f64, deviation: Option<f64>) -> Value {
+    let mut out = Value::unknown(value);
+    if let Some(deviation) = deviation.filter(|d| d.is_finite()) {
+        out.low95 = Some(value - 1.96 * deviation);
+        out.high95 = Some(value + 1.96 * deviation);
+    }
+    out
+}
+
+/// An effect's parameters as the report prints them.
+pub fn numbers(effect: &RigEffect, motion: Motion) -> BTreeMap<String, Number> {
+    let parameters = effect.mechanism.parameters().iter().zip(&effect.values);
+    parameters
+        .map(|(parameter, value)| (parameter.name.to_owned(), number(value, parameter.quantity.dimension(motion).to_string())))
+        .collect()
+}
+
+fn number(value: &Value, unit: String) -> Number {
+    Number { value: value.value, unit, low95: value.low95, high95: value.high95 }
+}
+
+/// The nominal model's own numbers after the fit, `mechanism.parameter` by name, the inertia as `inertia`.
+pub fn nominal_numbers(rig: &Rig, calibration: &Rig) -> BTreeMap<String, Number> {
+    let mut out = BTreeMap::new();
+    if let Some(parameters) = &calibration.parameters {
+        let unit = rigproof_spec::effect::Quantity::Inertia.dimension(rig.motion).to_string();
+        out.insert("inertia".to_owned(), number(&parameters.inertia, unit));
+    }
+    for effect in calibration.effects.iter().take(rig.effects.len()) {
+        for (name, number) in numbers(effect, rig.motion) {
+            out.insert(format!("{}.{name}", effect.mechanism.name()), number);
+        }
+    }
+    out
+}

@@ -1,0 +1,246 @@
+//! This file is the axis: one driven joint, `inertia·q̈ = gain·u − Σ resistance`, with dry friction as a set.
+//!
+//! In motion the sense is fixed over a step and the smooth equations are integrated by the classical
+//! Runge-Kutta rule; the instant of a stop is located inside the step, and at rest the joint stays stuck for
+//! as long as the applied effort lies between the two breakaway levels.
+
+use crate::effects::{Instant, Law};
+
+/// One driven joint. Travel in m (N, kg) or rad (N·m, kg·m²).
+pub struct Axis {
+    /// Mass or moment of inertia.
+    pub inertia: f64,
+    /// The resistance laws that act together.
+    pub laws: Vec<Box<dyn Law>>,
+}
+
+/// The most laws that can act together.
+pub const MOST_LAWS: usize = 16;
+
+/// The state of an axis: position, speed, and one memory for each law.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct State {
+    /// Time since the first sample, s.
+    pub time_s: f64,
+    /// Position, m or rad.
+    pub position: f64,
+    /// Speed, m/s or rad/s; exactly 0 while stuck.
+    pub speed: f64,
+    /// The memory of each law, in the order of `Axis::laws`.
+    pub memory: [f64; MOST_LAWS],
+}
+
+/// Stops that one step may contain before the rest of the step is taken as stuck.
+const STOPS_A_STEP: usize = 4;
+/// Halvings used to locate a stop inside a step: to one part in 2^20 of the step.
+const STOP_HALVINGS: usize = 20;
+
+impl Axis {
+    /// The state at this position and speed with every law's memory empty.
+    pub fn state(&self, time_s: f64, position: f64, speed: f64) -> State {
+        State {
+            time_s,
+            position,
+            speed,
+            memory: [0.0; MOST_LAWS],
+        }
+    }
+
+    /// Advances the state by `step_s` under a driving effort that goes linearly from `effort` to `effort_end`.
+    pub fn step(&self, state: &mut State, effort: f64, effort_end: f64, step_s: f64) {
+        let slope = (effort_end - effort) / step_s;
+        let mut done_s = 0.0;
+        for _ in 0..STOPS_A_STEP {
+            let left_s = step_s - done_s;
+            if left_s <= 0.0 {
+                return;
+            }
+            let begin = effort + slope * done_s;
+            let sense = self.sense(state, begin, begin + slope * left_s);
+            if sense == 0.0 {
+                break;
+            }
+            let mut next = self.slide(state, sense, begin, slope, left_s);
+            if next.speed * sense >= 0.0 {
+                *state = next;
+                return;
+            }
+            let slid_s = self.locate_stop(state, sense, begin, slope, left_s);
+            next = self.slide(state, sense, begin, slope, slid_s);
+            next.speed = 0.0;
+            done_s += slid_s;
+            *state = next;
+        }
+        state.time_s += step_s - done_s;
+    }
+
+    /// The sense in which the joint moves next: that of its speed, or at rest that of an effort which breaks it
+    /// loose now or before the end of the step, or 0.
+    fn sense(&self, state: &State, effort: f64, effort_end: f64) -> f64 {
+        if state.speed != 0.0 {
+            return state.speed.signum();
+        }
+        for applied in [effort, effort_end] {
+            for sense in [1.0, -1.0] {
+                let now = instant(state, sense);
+                let net = applied - self.smooth(&now, &state.memory);
+                if net * sense > self.dry(&now) {
+                    return sense;
+                }
+            }
+        }
+        0.0
+    }
+
+    fn locate_stop(&self, state: &State, sense: f64, effort: f64, slope: f64, step_s: f64) -> f64 {
+        let (mut low_s, mut high_s) = (0.0, step_s);
+        for _ in 0..STOP_HALVINGS {
+            let middle_s = 0.5 * (low_s + high_s);
+            let speed = self.slide(state, sense, effort, slope, middle_s).speed;
+            if speed * sense >= 0.0 {
+                low_s = middle_s;
+            } else {
+                high_s = middle_s;
+            }
+        }
+        high_s
+    }
+
+    /// One Runge-Kutta step with the sense of motion held.
+    fn slide(&self, from: &State, sense: f64, effort: f64, slope: f64, step_s: f64) -> State {
+        let rate = |at: &State, after_s: f64| self.rate(at, sense, effort + slope * after_s);
+        let half_s = 0.5 * step_s;
+        let k1 = rate(from, 0.0);
+        let k2 = rate(&from.advanced(&k1, half_s), half_s);
+        let k3 = rate(&from.advanced(&k2, half_s), half_s);
+        let k4 = rate(&from.advanced(&k3, step_s), step_s);
+        from.advanced(&k1, step_s / 6.0)
+            .advanced(&k2, step_s / 3.0)
+            .advanced(&k3, step_s / 3.0)
+            .advanced(&k4, step_s / 6.0)
+    }
+
+    /// The time derivative of the state, in the state's own fields.
+    fn rate(&self, at: &State, sense: f64, effort: f64) -> State {
+        let now = instant(at, sense);
+        let resistance = self.smooth(&now, &at.memory) + self.dry(&now) * sense;
+        let mut memory = [0.0; MOST_LAWS];
+        for ((rate, law), &memory) in memory.iter_mut().zip(&self.laws).zip(&at.memory) {
+            *rate = law.memory_rate(&now, memory);
+        }
+        State {
+            time_s: 1.0,
+            position: at.speed,
+            speed: (effort - resistance) / self.inertia,
+            memory,
+        }
+    }
+
+    fn smooth(&self, now: &Instant, memory: &[f64]) -> f64 {
+        let each = self.laws.iter().zip(memory);
+        each.map(|(law, &memory)| law.smooth(now, memory)).sum()
+    }
+
+    /// The dry level in this sense; a negative sum (only possible with odd parameters) holds nothing.
+    fn dry(&self, now: &Instant) -> f64 {
+        self.laws
+            .iter()
+            .map(|law| law.dry(now))
+            .sum::<f64>()
+            .max(0.0)
+    }
+}
+
+fn instant(state: &State, sense: f64) -> Instant {
+    Instant {
+        time_s: state.time_s,
+        position: state.position,
+        speed: state.speed,
+        sense,
+    }
+}
+
+impl State {
+    /// The state after moving along `rate` for `step_s`.
+    fn advanced(&self, rate: &State, step_s: f64) -> State {
+        let mut to = *self;
+        to.time_s += step_s * rate.time_s;
+        to.position += step_s * rate.position;
+        to.speed += step_s * rate.speed;
+        for (memory, rate) in to.memory.iter_mut().zip(&rate.memory) {
+            *memory += step_s * rate;
+        }
+        to
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects::law;
+    use rigproof_spec::effect::Mechanism;
+
+    fn axis(parameters: &[(Mechanism, &[f64])]) -> Axis {
+        Axis {
+            inertia: 1.3,
+            laws: parameters
+                .iter()
+                .map(|(mechanism, values)| law(*mechanism, values).unwrap())
+                .collect(),
+        }
+    }
+
+    #[test]
+    fn a_joint_under_less_than_the_breakaway_level_does_not_creep() {
+        let axis = axis(&[(Mechanism::DryOffset, &[0.7]), (Mechanism::Viscous, &[0.2])]);
+        let mut state = axis.state(0.0, 0.11, 0.0);
+        for _ in 0..10_000 {
+            axis.step(&mut state, 0.69, 0.69, 1e-3);
+        }
+        assert_eq!((state.position, state.speed), (0.11, 0.0));
+    }
+
+    #[test]
+    fn a_sliding_joint_stops_where_energy_says() {
+        let axis = axis(&[(Mechanism::DryOffset, &[0.7])]);
+        let mut state = axis.state(0.0, 0.0, 0.9);
+        for _ in 0..3000 {
+            axis.step(&mut state, 0.0, 0.0, 1e-3);
+        }
+        assert_eq!(state.speed, 0.0);
+        assert!((state.position - 0.5 * 1.3 * 0.81 / 0.7).abs() < 1e-9);
+    }
+
+    #[test]
+    fn asymmetric_breakaway_levels_differ_with_the_sense() {
+        let axis = axis(&[
+            (Mechanism::DryOffset, &[0.7]),
+            (Mechanism::DirectionAsymmetry, &[0.0, 0.15]),
+        ]);
+        for (effort, moves) in [(0.8, false), (0.9, true), (-0.5, false), (-0.6, true)] {
+            let mut state = axis.state(0.0, 0.0, 0.0);
+            axis.step(&mut state, effort, effort, 1e-3);
+            assert_eq!(state.speed != 0.0, moves, "effort {effort}");
+        }
+    }
+
+    #[test]
+    fn halving_the_step_changes_a_stick_slip_run_very_little() {
+        let run = |divisions: usize| {
+            let axis = axis(&[
+                (Mechanism::DryOffset, &[0.4]),
+                (Mechanism::Presliding, &[0.3, 0.002]),
+                (Mechanism::Viscous, &[0.11]),
+            ]);
+            let mut state = axis.state(0.0, 0.0, 0.0);
+            let step_s = 1e-3 / divisions as f64;
+            for k in 0..4000 * divisions {
+                let effort = 1.9 * libm::sin(2.3 * k as f64 * step_s);
+                let end = 1.9 * libm::sin(2.3 * (k + 1) as f64 * step_s);
+                axis.step(&mut state, effort, end, step_s);
+            }
+            state.position
+        };
+        assert!((run(1) - run(2)).abs() < 1e-6, "{}", run(1) - run(2));
+    }
+}

@@ -1,0 +1,116 @@
+//! This file is the list of physics that a plant's nominal model may leave out: a new mechanism is one file
+//! and one line here.
+//!
+//! Every law gives a *resistance*: an effort counted positive against positive motion, so that an axis obeys
+//! `inertia·q̈ = gain·u − Σ resistance` and a bench meters `Σ resistance`.
+
+mod bias_drift;
+mod constant_bias;
+mod direction_asymmetry;
+mod dry_offset;
+mod hysteresis;
+mod lag;
+mod nonlinear_spring;
+mod presliding;
+mod ripple;
+mod spring;
+mod stribeck;
+mod viscous;
+
+pub use lag::first_order_lag;
+
+use rigproof_spec::effect::Mechanism;
+
+/// What a law may look at: one instant of the motion. Travel in m or rad.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Instant {
+    /// Time since the recording's first sample, s.
+    pub time_s: f64,
+    /// Position, m or rad.
+    pub position: f64,
+    /// Speed, m/s or rad/s.
+    pub speed: f64,
+    /// Sense of motion: +1, −1, or 0 at rest; between them only where a recording cannot tell.
+    pub sense: f64,
+}
+
+/// A resistance law. Parameters are fixed when the law is built; memory is one number that the plant
+/// integrates.
+pub trait Law: Send + Sync {
+    /// The part of the resistance that is a function of the instant and the memory (N or N·m).
+    fn smooth(&self, _now: &Instant, _memory: f64) -> f64 {
+        0.0
+    }
+
+    /// The dry level: the resistance is `level·sense` in motion and anything up to `level` at rest.
+    fn dry(&self, _now: &Instant) -> f64 {
+        0.0
+    }
+
+    /// The time derivative of the memory, 0 for a law without any.
+    fn memory_rate(&self, _now: &Instant, _memory: f64) -> f64 {
+        0.0
+    }
+}
+
+/// How a mechanism enters the equations of a plant.
+#[derive(Clone, Copy)]
+pub enum Form {
+    /// A resistance along the motion, built from the parameters in the vocabulary's order.
+    Resistance(fn(&[f64]) -> Box<dyn Law>),
+    /// A change of the driving effort (lag, gain error, time shift), applied by the plant itself.
+    Drive,
+}
+
+/// One mechanism as the diagnosis and the plants use it.
+#[derive(Clone, Copy)]
+pub struct Entry {
+    /// Its name in the vocabulary.
+    pub mechanism: Mechanism,
+    /// How it enters.
+    pub form: Form,
+    /// How many of its leading parameters are linear coefficients; the others shape the law.
+    pub linear: usize,
+    /// Whether it may only take energy out, so that its leading coefficient cannot be negative.
+    pub dissipative: bool,
+    /// What would refute it, in words for the report.
+    pub refuted_by: &'static str,
+    /// The equation as the report prints it.
+    pub equation: &'static str,
+}
+
+/// The library. Order is the order in which ties are reported.
+pub const LIBRARY: &[Entry] = &[
+    dry_offset::ENTRY,
+    constant_bias::ENTRY,
+    viscous::ENTRY,
+    direction_asymmetry::ENTRY,
+    stribeck::ENTRY,
+    presliding::ENTRY,
+    hysteresis::ENTRY,
+    ripple::ENTRY,
+    spring::ENTRY,
+    nonlinear_spring::ENTRY,
+    bias_drift::ENTRY,
+    lag::ENTRY,
+    lag::GAIN_ENTRY,
+    lag::SKEW_ENTRY,
+];
+
+/// The entry of a mechanism, or `None` while the library has no law for it.
+pub fn entry(mechanism: Mechanism) -> Option<&'static Entry> {
+    LIBRARY.iter().find(|entry| entry.mechanism == mechanism)
+}
+
+/// The resistance law of a mechanism with these parameters; `None` for a mechanism that acts on the drive.
+pub fn law(mechanism: Mechanism, parameters: &[f64]) -> Option<Box<dyn Law>> {
+    match entry(mechanism)?.form {
+        Form::Resistance(build) => Some(build(parameters)),
+        Form::Drive => None,
+    }
+}
+
+/// The parameter at an index, 0 when the list is short.
+fn parameter(parameters: &[f64], index: usize) -> f64 {
+    parameters.get(index).copied().unwrap_or(0.0)
+}

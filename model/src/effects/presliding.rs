@@ -1,0 +1,33 @@
+//! This file is elastic motion before sliding: Dahl's bristle (P. R. Dahl, 1968).
+
+use super::{Entry, Form, Instant, Law, parameter};
+use rigproof_spec::effect::Mechanism;
+
+pub(super) const ENTRY: Entry = Entry {
+    mechanism: Mechanism::Presliding,
+    form: Form::Resistance(|p| {
+        Box::new(Dahl {
+            level: parameter(p, 0),
+            travel: parameter(p, 1),
+        })
+    }),
+    linear: 1,
+    dissipative: true,
+    refuted_by: "a full change of force at a reversal without any travel",
+    equation: "level·w, travel·dw/dt = q̇ − |q̇|·w",
+};
+
+struct Dahl {
+    level: f64,
+    travel: f64,
+}
+
+impl Law for Dahl {
+    fn smooth(&self, _now: &Instant, memory: f64) -> f64 {
+        self.level * memory
+    }
+
+    fn memory_rate(&self, now: &Instant, memory: f64) -> f64 {
+        (now.speed - now.speed.abs() * memory) / self.travel
+    }
+}

@@ -1,0 +1,33 @@
+//! This file is an effort periodic in position (cogging, a bent shaft, a tooth mesh).
+
+use super::{Entry, Form, Instant, Law, parameter};
+use core::f64::consts::TAU;
+use rigproof_spec::effect::Mechanism;
+
+pub(super) const ENTRY: Entry = Entry {
+    mechanism: Mechanism::Ripple,
+    form: Form::Resistance(|p| {
+        Box::new(Ripple {
+            sine: parameter(p, 0),
+            cosine: parameter(p, 1),
+            period: parameter(p, 2),
+        })
+    }),
+    linear: 2,
+    dissipative: false,
+    refuted_by: "no line in the spectrum over position",
+    equation: "sine·sin(2π·q/period) + cosine·cos(2π·q/period)",
+};
+
+struct Ripple {
+    sine: f64,
+    cosine: f64,
+    period: f64,
+}
+
+impl Law for Ripple {
+    fn smooth(&self, now: &Instant, _memory: f64) -> f64 {
+        let (sin, cos) = libm::sincos(TAU * now.position / self.period);
+        self.sine * sin + self.cosine * cos
+    }
+}

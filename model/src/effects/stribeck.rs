@@ -1,0 +1,30 @@
+//! This file is the Stribeck peak: dry friction that is higher near standstill (Armstrong-Hélouvry 1994).
+
+use super::{Entry, Form, Instant, Law, parameter};
+use rigproof_spec::effect::Mechanism;
+
+pub(super) const ENTRY: Entry = Entry {
+    mechanism: Mechanism::Stribeck,
+    form: Form::Resistance(|p| {
+        Box::new(Stribeck {
+            peak: parameter(p, 0),
+            speed: parameter(p, 1),
+        })
+    }),
+    linear: 1,
+    dissipative: true,
+    refuted_by: "the same resistance while slowing down to rest as in fast motion",
+    equation: "peak·exp(−(q̇/speed)²)·sgn(q̇)",
+};
+
+struct Stribeck {
+    peak: f64,
+    speed: f64,
+}
+
+impl Law for Stribeck {
+    fn dry(&self, now: &Instant) -> f64 {
+        let ratio = now.speed / self.speed;
+        self.peak * libm::exp(-ratio * ratio)
+    }
+}

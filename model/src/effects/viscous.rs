@@ -1,0 +1,27 @@
+//! This file is viscous friction: resistance in proportion to speed (thesis §3.3.2 measured and neglected it).
+
+use super::{Entry, Form, Instant, Law, parameter};
+use rigproof_spec::effect::Mechanism;
+
+pub(super) const ENTRY: Entry = Entry {
+    mechanism: Mechanism::Viscous,
+    form: Form::Resistance(|p| {
+        Box::new(Viscous {
+            coefficient: parameter(p, 0),
+        })
+    }),
+    linear: 1,
+    dissipative: true,
+    refuted_by: "a resistance that does not grow on a speed ramp",
+    equation: "coefficient·q̇",
+};
+
+struct Viscous {
+    coefficient: f64,
+}
+
+impl Law for Viscous {
+    fn smooth(&self, now: &Instant, _memory: f64) -> f64 {
+        self.coefficient * now.speed
+    }
+}

@@ -1,0 +1,52 @@
+//! Laws: what must hold on every rig, in every run, each a plain function that anybody may call.
+
+mod current_limit;
+mod dissipation;
+mod torque_limit;
+
+pub use current_limit::current_limit;
+pub use dissipation::dissipation;
+pub use torque_limit::{torque_limit, yield_limit};
+
+/// How far a law is from failing, in the unit the law states.
+///
+/// A margin that is not a number holds for no law: an undefined value is a failure, never a pass.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub struct Margin(pub f64);
+
+impl Margin {
+    /// Whether the law holds: the margin is zero or more.
+    pub fn holds(self) -> bool {
+        self.0 >= 0.0
+    }
+
+    /// The margin of two laws together: the smaller one, and undefined if either is.
+    pub fn and(self, other: Margin) -> Margin {
+        if self.0.is_nan() || self.0 < other.0 {
+            self
+        } else {
+            other
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_laws_hold_together_when_both_hold() {
+        let (wide, narrow, broken) = (Margin(2.6), Margin(0.3), Margin(-0.7));
+        assert_eq!(wide.and(narrow), narrow);
+        assert_eq!(narrow.and(broken), broken);
+        assert_eq!(broken.and(wide), broken);
+    }
+
+    #[test]
+    fn an_undefined_margin_holds_for_no_law() {
+        let undefined = Margin(f64::NAN);
+        assert!(!undefined.holds());
+        assert!(!undefined.and(Margin(1.7)).holds());
+        assert!(!Margin(1.7).and(undefined).holds());
+    }
+}

@@ -1,0 +1,147 @@
+//! This file says that the tables agree with their second transcription, and that the text's other numbers were weighed.
+
+use rigproof_spec::joint::Joint;
+use rigproof_spec::tables::{Edge, backlash_width_deg, time_constant_fit, torque_gain_fit};
+use rigproof_spec::units::{rad_from_deg, rad_s_from_rpm};
+
+/// The rows of `spec/thesis/tables/<name>.csv`: leading words and numbers.
+fn rows(name: &str, words: usize) -> Vec<(Vec<String>, Vec<f64>)> {
+    let path = format!(
+        "{}/../spec/thesis/tables/{name}.csv",
+        env!("CARGO_MANIFEST_DIR")
+    );
+    let mut reader = csv::Reader::from_path(path).unwrap();
+    reader
+        .records()
+        .map(|record| {
+            let record = record.unwrap();
+            let text = record.iter().take(words).map(str::to_owned).collect();
+            let numbers = record.iter().skip(words).map(|cell| cell.parse().unwrap());
+            (text, numbers.collect())
+        })
+        .collect()
+}
+
+#[test]
+fn table_3_1_agrees_with_its_second_transcription() {
+    let table = rows("3.1", 1);
+    assert_eq!(table.len(), Joint::ALL.len());
+    for (joint, (words, numbers)) in Joint::ALL.into_iter().zip(table) {
+        assert_eq!(words, [joint.letter()]);
+        assert_eq!(numbers, [backlash_width_deg(joint)]);
+    }
+}
+
+#[test]
+fn table_3_2_agrees_with_its_second_transcription() {
+    let table = rows("3.2", 1);
+    assert_eq!(table.len(), Joint::ALL.len());
+    for (joint, (words, numbers)) in Joint::ALL.into_iter().zip(table) {
+        let fit = torque_gain_fit(joint);
+        assert_eq!(words, [joint.letter()]);
+        assert_eq!(
+            numbers,
+            [fit.k_1, fit.k_2, fit.k_3, fit.k_4, fit.k_5, fit.r_squared]
+        );
+    }
+}
+
+#[test]
+fn table_3_3_agrees_with_its_second_transcription() {
+    let keys = Edge::ALL
+        .into_iter()
+        .flat_map(|edge| Joint::ALL.map(|joint| (edge, joint)));
+    let table = rows("3.3", 2);
+    assert_eq!(table.len(), Edge::ALL.len() * Joint::ALL.len());
+    for ((edge, joint), (words, numbers)) in keys.zip(table) {
+        let fit = time_constant_fit(joint, edge);
+        assert_eq!(words, [edge.name(), joint.letter()]);
+        assert_eq!(
+            numbers,
+            [
+                fit.a_avg_s,
+                fit.a_1,
+                fit.a_2,
+                fit.a_3,
+                fit.a_4,
+                fit.a_5,
+                fit.a_6,
+                fit.r_squared
+            ]
+        );
+    }
+}
+
+#[test]
+fn step_law_gives_elapsed_time_with_its_labels_exchanged() {
+    let (initial_nm, final_nm, a_s) = (0.31, 4.27, 0.0083);
+    let mut printed_before = f64::INFINITY;
+    for t_s in [0.0017, 0.0061, 0.0239] {
+        let torque_nm = final_nm + (initial_nm - final_nm) * libm::exp(-t_s / a_s);
+        //= thesis (3.4) test
+        let law = |tau_1: f64, tau_2: f64| -libm::log((torque_nm - tau_1) / (tau_2 - tau_1));
+        assert!((law(final_nm, initial_nm) - t_s / a_s).abs() < 1e-12);
+        let printed = law(initial_nm, final_nm);
+        assert!(printed < printed_before, "{printed} rises with time");
+        printed_before = printed;
+    }
+}
+
+#[test]
+fn coil_is_slower_than_the_fitted_brake() {
+    //= thesis (3.1) test
+    let coil_s = 0.150 / 8.0;
+    assert!((coil_s - 0.018_75_f64).abs() < 1e-15);
+    for joint in Joint::ALL {
+        for edge in Edge::ALL {
+            assert!(time_constant_fit(joint, edge).a_avg_s < coil_s / 2.0);
+        }
+    }
+}
+
+#[test]
+fn viscous_drag_at_60_rpm_exceeds_the_off_state_torque() {
+    let viscous_nm_s_per_rad = 0.0082 / rad_s_from_rpm(1.0);
+    assert!((viscous_nm_s_per_rad - 0.0783).abs() < 5e-5);
+    let drag_nm = viscous_nm_s_per_rad * rad_s_from_rpm(60.0);
+    assert!((drag_nm - 0.492).abs() < 1e-12);
+    for joint in Joint::ALL {
+        assert!(drag_nm > 1.8 * torque_gain_fit(joint).off_state_nm());
+    }
+}
+
+#[test]
+fn one_newton_metre_is_outside_the_95_percent_interval() {
+    let greatest_deviation_nm = 0.4;
+    let half_width_nm = 1.959_964 * greatest_deviation_nm;
+    assert!((half_width_nm - 0.784_f64).abs() < 1e-4);
+    assert!(1.0 > half_width_nm);
+    // Two-sided probability of 2.5 standard deviations: 98.8 %, not 95 %.
+    let inside = libm::erf(1.0 / greatest_deviation_nm / core::f64::consts::SQRT_2);
+    assert!((inside - 0.9876).abs() < 5e-5);
+}
+
+#[test]
+fn backlash_example_is_wider_than_quantization_explains() {
+    let widest_deg = Joint::ALL
+        .map(backlash_width_deg)
+        .into_iter()
+        .fold(0.0, f64::max);
+    let count_deg = 360.0 / (1024.0 * 100.0);
+    assert!((count_deg - 0.0035_f64).abs() < 2e-5);
+    assert!(1.9 - widest_deg > 20.0 * count_deg);
+}
+
+#[test]
+fn full_lockdown_leaves_less_than_a_square_centimetre() {
+    // Arm lengths of table 5.1: AE 0.305 m (3-brake) and 0.264 m (4-brake), ED 0.305 m.
+    assert_eq!(backlash_width_deg(Joint::A), 0.0);
+    let turn_about_e_m = 0.305 * rad_from_deg(backlash_width_deg(Joint::E));
+    assert!((turn_about_e_m - 0.009_05).abs() < 5e-6);
+    let window_rad = rad_from_deg(backlash_width_deg(Joint::C));
+    for arm_ae_m in [0.305, 0.264] {
+        // The two arms sweep at most their product times both windows, at a right angle at E.
+        let area_m2 = arm_ae_m * 0.305 * window_rad * window_rad;
+        assert!(area_m2 < 1.0e-4, "{area_m2} m²");
+    }
+}

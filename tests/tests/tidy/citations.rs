@@ -1,0 +1,210 @@
+//! This file says that page and code stay tied: every equation is obeyed and witnessed, or its defect is written down.
+
+use std::collections::BTreeSet;
+use std::fs;
+
+use toml::{Table, Value};
+
+use crate::assert_tidy;
+use crate::rust::test_names;
+use crate::workspace::{numbered, root, sources};
+
+/// One `//= thesis (3.3)` line.
+struct Citation {
+    place: String,
+    room: String,
+    equation: String,
+    /// Nothing above code; `test` or `proof` above a witness.
+    witness: String,
+}
+
+#[test]
+fn every_cited_equation_is_known() {
+    let known = equations();
+    let violations = citations()
+        .iter()
+        .filter(|citation| {
+            !known.contains(&citation.equation)
+                || !["", "test", "proof"].contains(&citation.witness.as_str())
+        })
+        .map(|citation| {
+            format!(
+                "{}: cite a number of spec/thesis/equations.md, alone or followed by `test` or `proof`",
+                citation.place
+            )
+        })
+        .collect();
+    assert_tidy("unknown citations", violations);
+}
+
+#[test]
+fn every_equation_is_obeyed_and_witnessed_or_accounted_for() {
+    let citations = citations();
+    let accounted: BTreeSet<String> = [records("errata", "erratum"), records("gaps", "gap")]
+        .concat()
+        .iter()
+        .filter_map(|record| record.get("equation"))
+        .map(|equation| equation.as_str().unwrap().to_owned())
+        .collect();
+    let mut violations = Vec::new();
+    for equation in equations() {
+        let of = |citation: &&Citation| citation.equation == equation;
+        let obeyed = citations
+            .iter()
+            .filter(of)
+            .any(|c| c.room == "model" && c.witness.is_empty());
+        let witnessed = citations.iter().filter(of).any(|c| c.witness == "test");
+        let tied = obeyed && witnessed;
+        if !tied && !accounted.contains(&equation) {
+            violations.push(format!(
+                "spec/thesis/equations.md: ({equation}): cite it in model and above a test, or account for it in \
+                 errata.toml or gaps.toml"
+            ));
+        }
+    }
+    assert_tidy("equations without code or witness", violations);
+}
+
+#[test]
+fn every_erratum_and_gap_is_whole() {
+    let tests = test_names();
+    let known = equations();
+    let mut violations = Vec::new();
+    for (file, kind, keys) in [
+        (
+            "errata",
+            "erratum",
+            ["printed", "intended", "reason", "evidence"],
+        ),
+        ("gaps", "gap", ["where", "open", "chosen", "decision"]),
+    ] {
+        let mut ids = BTreeSet::new();
+        for record in records(file, kind) {
+            let id = text(&record, "id").unwrap_or_default();
+            let mut fail = |advice: String| {
+                violations.push(format!(
+                    "spec/thesis/{file}.toml: [[{kind}]] `{id}`: {advice}"
+                ));
+            };
+            if !ids.insert(id.clone()) || id.is_empty() {
+                fail("give it an id of its own".to_owned());
+            }
+            for key in keys {
+                if text(&record, key).is_none_or(|value| value.is_empty()) {
+                    fail(format!("say `{key}`"));
+                }
+            }
+            if let Some(evidence) = text(&record, "evidence")
+                && !tests.contains(&evidence)
+            {
+                fail(format!("no test is named `{evidence}`"));
+            }
+            if let Some(decision) = text(&record, "decision")
+                && !root().join(&decision).is_file()
+            {
+                fail(format!("no file `{decision}`"));
+            }
+            match text(&record, "equation") {
+                Some(equation) if !known.contains(&equation) => {
+                    fail(format!("({equation}) is not in spec/thesis/equations.md"));
+                }
+                None if text(&record, "where").is_none() => {
+                    fail("say `equation` or `where`".to_owned());
+                }
+                _ => {}
+            }
+        }
+    }
+    assert_tidy("errata and gaps", violations);
+}
+
+#[test]
+fn every_erratum_or_gap_named_in_a_comment_exists() {
+    let ids: BTreeSet<String> = [records("errata", "erratum"), records("gaps", "gap")]
+        .concat()
+        .iter()
+        .filter_map(|record| text(record, "id"))
+        .collect();
+    let mut violations = Vec::new();
+    for source in sources() {
+        for (number, line) in numbered(&source.content) {
+            for kind in ["(erratum `", "(gap `"] {
+                for (start, _) in line
+                    .match_indices(kind)
+                    .filter(|_| line.trim().starts_with("//"))
+                {
+                    let id = line
+                        .split_at(start + kind.len())
+                        .1
+                        .split('`')
+                        .next()
+                        .unwrap();
+                    if !ids.contains(id) {
+                        violations.push(format!(
+                            "{}:{number}: `{id}` is in neither file",
+                            source.path
+                        ));
+                    }
+                }
+            }
+        }
+    }
+    assert_tidy("errata and gaps named in comments", violations);
+}
+
+/// The numbers in the first column of `spec/thesis/equations.md`.
+fn equations() -> BTreeSet<String> {
+    let table = fs::read_to_string(root().join("spec/thesis/equations.md")).unwrap();
+    let numbers: BTreeSet<String> = table
+        .lines()
+        .filter_map(|line| line.strip_prefix("| ("))
+        .filter_map(|line| line.split_once(") |"))
+        .map(|(number, _)| number.to_owned())
+        .collect();
+    assert!(
+        numbers.contains("3.3"),
+        "spec/thesis/equations.md is not read"
+    );
+    numbers
+}
+
+fn citations() -> Vec<Citation> {
+    let mut citations = Vec::new();
+    for source in sources() {
+        for (number, line) in numbered(&source.content) {
+            let Some(cited) = line.trim().strip_prefix("//= thesis") else {
+                continue;
+            };
+            let (equation, witness) = cited.trim().split_once(')').unwrap_or_default();
+            citations.push(Citation {
+                place: format!("{}:{number}", source.path),
+                room: source.path.split('/').next().unwrap().to_owned(),
+                equation: equation.trim_start_matches('(').to_owned(),
+                witness: witness.trim().to_owned(),
+            });
+        }
+    }
+    assert!(
+        citations.len() > 7,
+        "only {} citations are read",
+        citations.len()
+    );
+    citations
+}
+
+fn records(file: &str, kind: &str) -> Vec<Table> {
+    let path = format!("spec/thesis/{file}.toml");
+    let content = fs::read_to_string(root().join(&path)).unwrap();
+    let table: Table = content
+        .parse()
+        .unwrap_or_else(|error| panic!("{path}: {error}"));
+    let records = table[kind].as_array().unwrap();
+    records
+        .iter()
+        .map(|record| record.as_table().unwrap().clone())
+        .collect()
+}
+
+fn text(record: &Table, key: &str) -> Option<String> {
+    record.get(key).and_then(Value::as_str).map(str::to_owned)
+}

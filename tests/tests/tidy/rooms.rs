@@ -1,0 +1,158 @@
+//! This file says which room may depend on which.
+
+use std::fs;
+
+use toml::{Table, Value};
+
+use crate::assert_tidy;
+use crate::workspace::root;
+
+/// Every room, built or coming, and the rooms it may depend on. A room that is not here has no place.
+const ROOMS: [(&str, &[&str]); 12] = [
+    ("spec", &[]),
+    ("model", &["spec"]),
+    ("impl", &["spec"]),
+    ("trace", &["spec"]),
+    ("golden", &["spec", "model", "trace"]),
+    ("proofs", &["spec", "model", "impl"]),
+    ("diagnose", &["spec", "model", "trace"]),
+    ("blind", &["spec", "trace"]),
+    ("certify", &["spec", "model", "impl", "trace"]),
+    ("report", &["spec", "trace", "diagnose", "certify"]),
+    (
+        "cli",
+        &[
+            "spec", "model", "impl", "trace", "golden", "diagnose", "blind", "certify", "report",
+        ],
+    ),
+    (
+        "tests",
+        &[
+            "spec", "model", "impl", "trace", "golden", "proofs", "diagnose", "blind", "certify",
+            "report", "cli",
+        ],
+    ),
+];
+
+#[test]
+fn rooms_depend_in_one_direction() {
+    let mut violations = Vec::new();
+    for room in members() {
+        let Some((_, allowed)) = ROOMS.iter().find(|(name, _)| *name == room) else {
+            violations.push(format!(
+                "Cargo.toml: `{room}` is no room: name it in tests/tests/tidy/rooms.rs with what it may depend on"
+            ));
+            continue;
+        };
+        for dependency in dependencies(&room) {
+            let Some(other) = dependency.strip_prefix("rigproof-") else {
+                continue;
+            };
+            if !allowed.contains(&other) {
+                violations.push(forbidden(
+                    &room,
+                    &dependency,
+                    &format!("`{room}` may depend on {allowed:?} only"),
+                ));
+            }
+        }
+    }
+    assert_tidy("room edges", violations);
+}
+
+#[test]
+fn spec_depends_on_nothing() {
+    let violations = dependencies("spec")
+        .iter()
+        .map(|name| forbidden("spec", name, "spec is `no_std` and stands alone"))
+        .collect();
+    assert_tidy("dependencies of spec", violations);
+}
+
+#[test]
+fn every_version_stands_in_the_root() {
+    let mut violations = Vec::new();
+    for room in members() {
+        for (name, value) in dependency_entries(&room) {
+            let inherits = value.get("workspace").and_then(Value::as_bool) == Some(true);
+            if !inherits {
+                violations.push(forbidden(
+                    &room,
+                    &name,
+                    "write `workspace = true`, and the version in the root Cargo.toml",
+                ));
+            }
+        }
+    }
+    assert_tidy("versions outside the root", violations);
+}
+
+#[test]
+fn every_dependency_has_its_reason() {
+    let reasons = fs::read_to_string(root().join("docs/dependencies.md")).unwrap();
+    let violations = manifest("Cargo.toml")["workspace"]["dependencies"]
+        .as_table()
+        .unwrap()
+        .keys()
+        .filter(|name| !name.starts_with("rigproof-") && !reasons.contains(&format!("`{name}`")))
+        .map(|name| format!("Cargo.toml: `{name}`: say why in docs/dependencies.md"))
+        .collect();
+    assert_tidy("dependencies without a reason", violations);
+}
+
+fn forbidden(room: &str, dependency: &str, advice: &str) -> String {
+    let path = format!("{room}/Cargo.toml");
+    let text = fs::read_to_string(root().join(&path)).unwrap();
+    let line = text
+        .lines()
+        .position(|line| line.starts_with(dependency) || line.ends_with(&format!(".{dependency}]")))
+        .map_or(1, |index| index + 1);
+    format!("{path}:{line}: `{dependency}`: {advice}")
+}
+
+/// The folders of the workspace's packages.
+fn members() -> Vec<String> {
+    let manifest = manifest("Cargo.toml");
+    let members = manifest["workspace"]["members"].as_array().unwrap();
+    members
+        .iter()
+        .map(|member| member.as_str().unwrap().to_owned())
+        .collect()
+}
+
+/// Every package a room names, under whichever heading of its manifest; a renamed one by its own name.
+fn dependencies(room: &str) -> Vec<String> {
+    let entries = dependency_entries(room).into_iter();
+    entries
+        .map(
+            |(key, value)| match value.get("package").and_then(Value::as_str) {
+                Some(package) => package.to_owned(),
+                None => key,
+            },
+        )
+        .collect()
+}
+
+fn dependency_entries(room: &str) -> Vec<(String, Value)> {
+    let manifest = manifest(&format!("{room}/Cargo.toml"));
+    let targets = manifest.get("target").and_then(Value::as_table);
+    let targets = targets
+        .into_iter()
+        .flat_map(Table::values)
+        .filter_map(Value::as_table);
+    let mut entries = Vec::new();
+    for table in targets.chain([&manifest]) {
+        for heading in ["dependencies", "dev-dependencies", "build-dependencies"] {
+            if let Some(named) = table.get(heading).and_then(Value::as_table) {
+                entries.extend(named.clone());
+            }
+        }
+    }
+    entries
+}
+
+fn manifest(path: &str) -> Table {
+    let text = fs::read_to_string(root().join(path)).unwrap();
+    text.parse()
+        .unwrap_or_else(|error| panic!("{path}: {error}"))
+}

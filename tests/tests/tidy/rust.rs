@@ -1,0 +1,266 @@
+//! This file says how a Rust source may look: its first line, its length, its functions and its tests.
+
+use std::collections::BTreeSet;
+
+use proc_macro2::{Delimiter, Group, Ident, TokenStream, TokenTree};
+
+use crate::assert_tidy;
+use crate::workspace::{Text, sources};
+
+const LONGEST_FILE: usize = 500;
+const LONGEST_FUNCTION: usize = 70;
+
+#[test]
+fn every_source_opens_with_what_it_says() {
+    let violations = sources()
+        .iter()
+        .filter(|source| !source.content.starts_with("//! "))
+        .map(|source| format!("{}:1: open with one `//!` sentence", source.path))
+        .collect();
+    assert_tidy("first lines", violations);
+}
+
+#[test]
+fn no_source_is_longer_than_500_lines() {
+    let violations = sources()
+        .iter()
+        .map(|source| (source, source.content.lines().count()))
+        .filter(|(_, lines)| *lines > LONGEST_FILE)
+        .map(|(source, lines)| format!("{}:{lines}: divide the file by purpose", source.path))
+        .collect();
+    assert_tidy("long files", violations);
+}
+
+#[test]
+fn no_function_is_longer_than_70_lines() {
+    let violations = check_sources(&|tokens, report| {
+        for function in functions(tokens) {
+            let first = function.name.span().start().line;
+            let lines = function.body.span_close().end().line + 1 - first;
+            if lines > LONGEST_FUNCTION {
+                let name = &function.name;
+                report(name, format!("`{name}` has {lines} lines: name its parts"));
+            }
+        }
+    });
+    assert_tidy("long functions", violations);
+}
+
+#[test]
+fn every_property_is_marked_as_a_test() {
+    let violations = check_sources(&|tokens, report| {
+        for (name, body) in macros(tokens) {
+            if name == "proptest" {
+                for function in functions(&inner(&body)) {
+                    if function.nested == 0 && !function.has_attribute("test") {
+                        let name = &function.name;
+                        report(name, format!("`{name}` never runs: put #[test] above it"));
+                    }
+                }
+            }
+        }
+    });
+    assert_tidy("properties that never run", violations);
+}
+
+#[test]
+fn no_test_is_ignored_and_no_code_unfinished() {
+    let unfinished = [concat!("to", "do"), concat!("unimple", "mented")];
+    let violations = check_sources(&|tokens, report| {
+        for (name, _) in macros(tokens) {
+            if unfinished.iter().any(|word| name == *word) {
+                report(&name, format!("`{name}!` is no result: write the code"));
+            }
+        }
+        for attribute in attributes(tokens) {
+            if attribute == "ignore" {
+                report(&attribute, "run the test or delete it".to_owned());
+            }
+        }
+    });
+    assert_tidy("unfinished code", violations);
+}
+
+#[test]
+fn rules_see_what_breaks_them() {
+    let tokens = parse(
+        "example",
+        "proptest! { fn p(x in 0..3) { todo!(); } #[test] fn q() {} } #[ignore] fn r() {}",
+    );
+    let names: Vec<String> = functions(&tokens)
+        .iter()
+        .map(|f| f.name.to_string())
+        .collect();
+    assert_eq!(names, ["p", "q", "r"]);
+    assert!(!functions(&tokens)[0].has_attribute("test"));
+    assert!(functions(&tokens)[1].has_attribute("test"));
+    assert!(functions(&tokens)[2].has_attribute("ignore"));
+    assert_eq!(macros(&tokens).len(), 2);
+    assert_eq!(attributes(&tokens).len(), 2);
+}
+
+/// The names of every test function of the workspace.
+pub fn test_names() -> BTreeSet<String> {
+    let mut names = BTreeSet::new();
+    for source in sources() {
+        for function in functions(&tokens(&source)) {
+            if function.has_attribute("test") {
+                names.insert(function.name.to_string());
+            }
+        }
+    }
+    names
+}
+
+type Report<'a> = &'a mut dyn FnMut(&Ident, String);
+
+fn check_sources(rule: &dyn Fn(&[TokenTree], Report)) -> Vec<String> {
+    let mut violations = Vec::new();
+    for source in sources() {
+        rule(&tokens(&source), &mut |place: &Ident, advice: String| {
+            let line = place.span().start().line;
+            violations.push(format!("{}:{line}: {advice}", source.path));
+        });
+    }
+    violations
+}
+
+fn tokens(source: &Text) -> Vec<TokenTree> {
+    parse(&source.path, &source.content)
+}
+
+fn parse(path: &str, content: &str) -> Vec<TokenTree> {
+    match content.parse::<TokenStream>() {
+        Ok(stream) => stream.into_iter().collect(),
+        Err(error) => panic!("{path}:{}: {error}", error.span().start().line),
+    }
+}
+
+struct Function {
+    name: Ident,
+    body: Group,
+    attributes: Vec<Ident>,
+    /// How many functions it stands in.
+    nested: usize,
+}
+
+impl Function {
+    fn has_attribute(&self, name: &str) -> bool {
+        self.attributes.iter().any(|attribute| attribute == name)
+    }
+}
+
+/// Every function with a body, in order, those inside others and inside macros included.
+fn functions(tokens: &[TokenTree]) -> Vec<Function> {
+    let mut found = Vec::new();
+    collect_functions(tokens, 0, &mut found);
+    found
+}
+
+fn collect_functions(tokens: &[TokenTree], nested: usize, found: &mut Vec<Function>) {
+    let mut attributes = Vec::new();
+    let mut rest = tokens;
+    while let Some((token, after)) = rest.split_first() {
+        rest = after;
+        match token {
+            TokenTree::Ident(word) if word == "fn" => {
+                let (Some(TokenTree::Ident(name)), Some((body, after))) =
+                    (after.first(), body(after))
+                else {
+                    continue;
+                };
+                found.push(Function {
+                    name: name.clone(),
+                    body: body.clone(),
+                    attributes: std::mem::take(&mut attributes),
+                    nested,
+                });
+                collect_functions(&inner(body), nested + 1, found);
+                rest = after;
+            }
+            TokenTree::Punct(mark) if mark.as_char() == '#' => {
+                if let Some((TokenTree::Group(attribute), after)) = after.split_first() {
+                    attributes.extend(first_word(attribute));
+                    rest = after;
+                }
+            }
+            TokenTree::Punct(mark) if [';', ','].contains(&mark.as_char()) => attributes.clear(),
+            TokenTree::Group(group) => {
+                collect_functions(&inner(group), nested, found);
+                if group.delimiter() == Delimiter::Brace {
+                    attributes.clear();
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+/// The braces of a function whose name and parameters come first, and what follows them.
+fn body(tokens: &[TokenTree]) -> Option<(&Group, &[TokenTree])> {
+    let mut rest = tokens;
+    while let Some((token, after)) = rest.split_first() {
+        match token {
+            TokenTree::Group(group) if group.delimiter() == Delimiter::Brace => {
+                return Some((group, after));
+            }
+            TokenTree::Punct(mark) if mark.as_char() == ';' => return None,
+            _ => rest = after,
+        }
+    }
+    None
+}
+
+/// Every macro call: its name and its argument.
+fn macros(tokens: &[TokenTree]) -> Vec<(Ident, Group)> {
+    let mut found = Vec::new();
+    for window in tokens.windows(3) {
+        if let [
+            TokenTree::Ident(name),
+            TokenTree::Punct(mark),
+            TokenTree::Group(argument),
+        ] = window
+            && mark.as_char() == '!'
+        {
+            found.push((name.clone(), argument.clone()));
+        }
+    }
+    for group in groups(tokens) {
+        found.extend(macros(&inner(group)));
+    }
+    found
+}
+
+/// The name of every attribute.
+fn attributes(tokens: &[TokenTree]) -> Vec<Ident> {
+    let mut found = Vec::new();
+    for window in tokens.windows(2) {
+        if let [TokenTree::Punct(mark), TokenTree::Group(attribute)] = window
+            && mark.as_char() == '#'
+        {
+            found.extend(first_word(attribute));
+        }
+    }
+    for group in groups(tokens) {
+        found.extend(attributes(&inner(group)));
+    }
+    found
+}
+
+fn groups(tokens: &[TokenTree]) -> impl Iterator<Item = &Group> {
+    tokens.iter().filter_map(|token| match token {
+        TokenTree::Group(group) => Some(group),
+        _ => None,
+    })
+}
+
+fn first_word(group: &Group) -> Option<Ident> {
+    match group.stream().into_iter().next() {
+        Some(TokenTree::Ident(word)) => Some(word),
+        _ => None,
+    }
+}
+
+fn inner(group: &Group) -> Vec<TokenTree> {
+    group.stream().into_iter().collect()
+}

@@ -1,0 +1,121 @@
+//! This file takes a text file apart, line by line and cell by cell, in bounded memory.
+
+use std::io::{BufRead, BufReader, Read};
+use std::path::Path;
+
+use crate::error::{Place, TraceError};
+
+/// The longest line that is read, bytes.
+const LONGEST_LINE: usize = 1 << 20;
+
+/// The lines of a file that hold something: no blank line, no comment.
+pub(super) struct Lines<'a, R> {
+    source: BufReader<R>,
+    file: &'a Path,
+    number: usize,
+    buffer: Vec<u8>,
+}
+
+impl<'a, R: Read> Lines<'a, R> {
+    pub(super) fn new(source: R, file: &'a Path) -> Self {
+        Lines {
+            source: BufReader::with_capacity(1 << 16, source),
+            file,
+            number: 0,
+            buffer: Vec::new(),
+        }
+    }
+
+    /// The place of the line read last.
+    pub(super) fn place(&self) -> Place {
+        Place::line(self.file, self.number)
+    }
+
+    /// The next line without its end, or `None` at the end of the file.
+    pub(super) fn next_line(&mut self) -> Result<Option<&str>, TraceError> {
+        loop {
+            self.buffer.clear();
+            let longest = u64::try_from(LONGEST_LINE + 1).unwrap_or(u64::MAX);
+            let read = (&mut self.source)
+                .take(longest)
+                .read_until(b'\n', &mut self.buffer)
+                .map_err(TraceError::io("read", self.file))?;
+            if read == 0 {
+                return Ok(None);
+            }
+            self.number += 1;
+            let shown = self.text()?.trim_start();
+            if !shown.is_empty() && !shown.starts_with('#') {
+                break;
+            }
+        }
+        self.text().map(Some)
+    }
+
+    /// The buffered line, without its end and a byte-order mark.
+    fn text(&self) -> Result<&str, TraceError> {
+        let refuse = |problem| TraceError::NotText {
+            place: self.place(),
+            problem,
+        };
+        if self.buffer.contains(&0) {
+            return Err(refuse("the file holds NUL bytes, so it is no text"));
+        }
+        if self.buffer.len() > LONGEST_LINE {
+            return Err(refuse("the line is longer than 1 MiB"));
+        }
+        let text = std::str::from_utf8(&self.buffer)
+            .map_err(|_| refuse("the line holds bytes that are no UTF-8"))?;
+        let text = text.trim_end_matches(['\n', '\r']);
+        if text.contains('\r') {
+            return Err(refuse(
+                "the line holds a carriage return; end lines with a line feed",
+            ));
+        }
+        let first = self.number == 1;
+        Ok(text
+            .strip_prefix('\u{feff}')
+            .filter(|_| first)
+            .unwrap_or(text))
+    }
+}
+
+/// Splits a line into cells; quotes are taken off, blanks around a cell stay.
+pub(super) struct Splitter {
+    reader: csv_core::Reader,
+    line: Vec<u8>,
+    text: Vec<u8>,
+    ends: Vec<usize>,
+}
+
+impl Splitter {
+    pub(super) fn new() -> Splitter {
+        Splitter {
+            reader: csv_core::Reader::new(),
+            line: Vec::new(),
+            text: Vec::new(),
+            ends: Vec::new(),
+        }
+    }
+
+    /// The cells of one line. A quote that is not closed loses its cell, so that the count comes out wrong.
+    pub(super) fn cells<'s>(&'s mut self, line: &str) -> impl Iterator<Item = &'s str> {
+        self.line.clear();
+        self.line.extend_from_slice(line.as_bytes());
+        self.line.push(b'\n');
+        // A cell never grows by unquoting, and there is one cell more than separators.
+        self.text.resize(self.line.len(), 0);
+        self.ends.resize(self.line.len(), 0);
+        self.reader.reset();
+        let (_, _, _, count) = self
+            .reader
+            .read_record(&self.line, &mut self.text, &mut self.ends);
+        let (text, ends) = (&self.text, self.ends.iter().take(count));
+        let mut start = 0;
+        ends.map(move |&end| {
+            let cell = text.get(start..end).unwrap_or_default();
+            start = end;
+            std::str::from_utf8(cell).unwrap_or_default()
+        })
+    }
+}

@@ -1,0 +1,248 @@
+//! This file is the rig description: the plant, its parameters, the physics its nominal model has, and what the
+//! channels of its recordings mean.
+//!
+//! A calibration file is the same description with the effects that a diagnosis added.
+
+mod apply;
+mod read;
+mod table;
+mod write;
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use rigproof_spec::effect::{Mechanism, Motion, Quantity};
+use rigproof_spec::joint::Joint;
+use rigproof_spec::units::{Dimension, Unit};
+
+use crate::csv::TimeColumn;
+use crate::error::TraceError;
+use crate::store;
+
+pub use apply::{Recording, Signal};
+
+/// A rig: what it is, what is known of it, and how its recordings are to be read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rig {
+    /// What people call it.
+    pub name: String,
+    /// What kind of plant it is.
+    pub plant: Plant,
+    /// Whether it slides or turns.
+    pub motion: Motion,
+    /// Where its recordings come from, in free words.
+    pub source: Option<String>,
+    /// What the channels of its recordings mean.
+    pub channels: Channels,
+    /// Parameters of an `axis`; a `bench` has none.
+    pub parameters: Option<Parameters>,
+    /// The joint whose brake the nominal model holds; only on a turning `bench`.
+    pub brake: Option<Joint>,
+    /// The physics that the nominal model has.
+    pub effects: Vec<RigEffect>,
+    /// Where a calibration came from: words of the program that wrote it, by topic.
+    pub provenance: BTreeMap<String, String>,
+}
+
+/// A kind of plant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Plant {
+    /// One driven joint: command in, position out.
+    Axis,
+    /// One metered brake or damper: position in, force or torque out.
+    Bench,
+}
+
+impl Plant {
+    /// The name in files and reports.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Plant::Axis => "axis",
+            Plant::Bench => "bench",
+        }
+    }
+}
+
+/// The name of a kind of motion in files and reports.
+pub const fn motion_name(motion: Motion) -> &'static str {
+    match motion {
+        Motion::Linear => "linear",
+        Motion::Rotary => "rotary",
+    }
+}
+
+/// The channels of a rig's recordings, by role.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Channels {
+    /// The time, where the header of a recording does not say it.
+    pub time: Option<TimeColumn>,
+    /// Displacement, m or rad.
+    pub position: ChannelMap,
+    /// Drive command of an `axis`, in any unit.
+    pub command: Option<ChannelMap>,
+    /// Force or torque of a `bench`, N or N·m.
+    pub force: Option<ChannelMap>,
+    /// Current of a `bench`, A.
+    pub current: Option<ChannelMap>,
+}
+
+/// How one channel becomes an SI quantity: sign × scale × (recorded − offset).
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChannelMap {
+    /// The name in the recording.
+    pub channel: String,
+    /// The unit as printed; it holds for the column unless its header names another one of the same kind.
+    pub unit: String,
+    /// What is subtracted, in `unit`.
+    pub offset: f64,
+    /// Factor after the offset is gone.
+    pub scale: f64,
+    /// +1, or −1 for a channel that counts the other way.
+    pub sign: f64,
+    /// Resolution, in `unit`.
+    pub quantum: Option<f64>,
+    /// Standard deviation of the noise, in `unit`.
+    pub noise: Option<f64>,
+    /// Magnitude at which the channel saturates, in `unit`.
+    pub limit: Option<f64>,
+}
+
+impl ChannelMap {
+    /// A channel in a unit, taken as it is.
+    pub fn plain(channel: &str, unit: &str) -> ChannelMap {
+        ChannelMap {
+            channel: channel.to_string(),
+            unit: unit.to_string(),
+            offset: 0.0,
+            scale: 1.0,
+            sign: 1.0,
+            quantum: None,
+            noise: None,
+            limit: None,
+        }
+    }
+
+    /// The unit's dimension; a plain number when the unit is not known.
+    pub fn dimension(&self) -> Dimension {
+        Unit::parse(&self.unit).map_or(Dimension::NUMBER, |unit| unit.dimension)
+    }
+}
+
+/// Parameters of an `axis`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parameters {
+    /// Mass, kg, or moment of inertia, kg·m²/rad.
+    pub inertia: Value,
+    /// Force or torque for one SI unit of the command.
+    pub command_gain: Value,
+}
+
+/// How well a value is known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Status {
+    /// Not to be changed by a fit.
+    Known,
+    /// Known up to a standard deviation.
+    Uncertain,
+    /// A start value for a fit.
+    Unknown,
+}
+
+impl Status {
+    /// The name in files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Status::Known => "known",
+            Status::Uncertain => "uncertain",
+            Status::Unknown => "unknown",
+        }
+    }
+}
+
+/// A number in SI units and how well it is known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Value {
+    /// The number.
+    pub value: f64,
+    /// How well it is known.
+    pub status: Status,
+    /// Standard deviation, given exactly when the status is [`Status::Uncertain`].
+    pub sd: Option<f64>,
+    /// Lower end of the 95 % interval; given together with the upper one.
+    pub low95: Option<f64>,
+    /// Upper end of the 95 % interval.
+    pub high95: Option<f64>,
+}
+
+impl Value {
+    /// A value that a fit leaves alone.
+    pub const fn known(value: f64) -> Value {
+        Value::new(value, Status::Known)
+    }
+
+    /// A start value for a fit.
+    pub const fn unknown(value: f64) -> Value {
+        Value::new(value, Status::Unknown)
+    }
+
+    const fn new(value: f64, status: Status) -> Value {
+        Value {
+            value,
+            status,
+            sd: None,
+            low95: None,
+            high95: None,
+        }
+    }
+}
+
+/// A mechanism with its parameters.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RigEffect {
+    /// The mechanism.
+    pub mechanism: Mechanism,
+    /// One value for each of [`Mechanism::parameters`], in that order.
+    pub values: Vec<Value>,
+    /// When it sets in, s; from the start when absent.
+    pub onset: Option<Value>,
+}
+
+impl RigEffect {
+    /// The value of the parameter of that name, or `None`.
+    pub fn parameter(&self, name: &str) -> Option<&Value> {
+        let parameters = self.mechanism.parameters().iter();
+        let mut named = parameters.zip(&self.values);
+        named
+            .find(|(parameter, _)| parameter.name == name)
+            .map(|(_, value)| value)
+    }
+}
+
+impl Rig {
+    /// Reads a rig description from a TOML file.
+    ///
+    /// # Errors
+    /// The file cannot be read, or as [`Rig::parse`].
+    pub fn read(path: &Path) -> Result<Rig, TraceError> {
+        Rig::parse(&store::read_text(path)?, path)
+    }
+
+    /// Writes the description as a TOML file, whole or not at all.
+    ///
+    /// # Errors
+    /// The system refuses.
+    pub fn write(&self, path: &Path) -> Result<(), TraceError> {
+        store::write_aside(path, self.to_toml().as_bytes())
+    }
+
+    /// The dimension of force or torque, whichever the rig has.
+    pub fn effort(&self) -> Dimension {
+        Quantity::Effort.dimension(self.motion)
+    }
+
+    /// The dimension of the command gain, when the rig has a command.
+    pub fn command_gain_dimension(&self) -> Option<Dimension> {
+        let command = self.channels.command.as_ref()?;
+        Some(self.effort().per(command.dimension()))
+    }
+}

@@ -1,0 +1,202 @@
+//! This file turns a recording into the plant's quantities, as the rig description says.
+
+use std::path::Path;
+
+use rigproof_spec::effect::Motion;
+use rigproof_spec::units::{Dimension, Unit};
+
+use super::{ChannelMap, Plant, Rig};
+use crate::csv;
+use crate::error::TraceError;
+use crate::series::Trace;
+use crate::suggest::advice;
+
+/// A recording of a plant, in SI units; every signal is as long as `time_s`, NaN where a sample is missing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Recording {
+    /// The kind of plant.
+    pub plant: Plant,
+    /// Whether it slides or turns.
+    pub motion: Motion,
+    /// Time stamps, s, strictly growing, not always evenly.
+    pub time_s: Vec<f64>,
+    /// Displacement, m or rad.
+    pub position: Signal,
+    /// What drives the plant: the command of an axis in its SI unit, the current of a bench in A.
+    pub drive: Option<Signal>,
+    /// Force, N, or torque, N·m, of a bench.
+    pub force: Option<Signal>,
+}
+
+/// One quantity of a recording, in SI units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Signal {
+    /// The channel's name in the recording.
+    pub channel: String,
+    /// What kind of quantity it is.
+    pub dimension: Dimension,
+    /// One value for each time stamp; NaN where a sample is missing.
+    pub samples: Vec<f64>,
+    /// Resolution.
+    pub quantum: Option<f64>,
+    /// Standard deviation of the noise.
+    pub noise: Option<f64>,
+    /// Magnitude at which the channel saturates.
+    pub limit: Option<f64>,
+}
+
+impl Rig {
+    /// Reads a recording of this rig from a comma-separated text file.
+    ///
+    /// # Errors
+    /// As [`csv::read`] and [`Rig::apply`].
+    pub fn read_recording(&self, path: &Path) -> Result<Recording, TraceError> {
+        let trace = csv::read_with_time(path, self.channels.time.as_ref())?;
+        self.apply(&trace, path)
+    }
+
+    /// Turns a recording into SI quantities; `origin` is the file that messages name.
+    ///
+    /// # Errors
+    /// A channel of the rig is missing, or its unit in the header does not convert to the rig's.
+    pub fn apply(&self, trace: &Trace, origin: &Path) -> Result<Recording, TraceError> {
+        let signal = |map: &ChannelMap| self.signal(map, trace, origin);
+        let optional = |map: &Option<ChannelMap>| map.as_ref().map(signal).transpose();
+        Ok(Recording {
+            plant: self.plant,
+            motion: self.motion,
+            time_s: trace.time_s.clone(),
+            position: signal(&self.channels.position)?,
+            drive: match self.plant {
+                Plant::Axis => optional(&self.channels.command)?,
+                Plant::Bench => optional(&self.channels.current)?,
+            },
+            force: optional(&self.channels.force)?,
+        })
+    }
+
+    fn signal(&self, map: &ChannelMap, trace: &Trace, origin: &Path) -> Result<Signal, TraceError> {
+        let refused = |problem: String| TraceError::recording(origin, problem);
+        let name = map.channel.as_str();
+        let Some(channel) = trace.channel(name) else {
+            let names: Vec<&str> = trace.channels.iter().map(|c| c.name.as_str()).collect();
+            let advice = advice(name, "channels of the recording", &names);
+            let rig = &self.name;
+            return Err(refused(format!(
+                "the channel `{name}` of the rig `{rig}` is missing: correct the rig file, or it is the recording of another plant; {advice}"
+            )));
+        };
+        let rig_unit = Unit::parse(&map.unit).ok_or_else(|| {
+            refused(format!(
+                "`{}`, the unit of `{name}` in the rig, is no known unit",
+                map.unit
+            ))
+        })?;
+        let header_unit = match channel.unit.as_str() {
+            "" => Some(rig_unit),
+            printed => Unit::parse(printed),
+        };
+        let header_unit = header_unit
+            .filter(|unit| unit.dimension == rig_unit.dimension)
+            .ok_or_else(|| {
+                refused(format!(
+                    "the column `{name}` is in `{}`, which does not convert to `{}`, its unit in the rig; correct the one that is wrong",
+                    channel.unit, map.unit
+                ))
+            })?;
+        let to_rig_unit = header_unit.to_si / rig_unit.to_si;
+        let to_si = map.sign * map.scale * rig_unit.to_si;
+        let in_si = |magnitude: Option<f64>| magnitude.map(|x| x * to_si.abs());
+        Ok(Signal {
+            channel: name.to_string(),
+            dimension: rig_unit.dimension,
+            samples: channel
+                .samples
+                .iter()
+                .map(|recorded| to_si * (recorded * to_rig_unit - map.offset))
+                .collect(),
+            quantum: in_si(map.quantum),
+            noise: in_si(map.noise),
+            limit: in_si(map.limit),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::series::Channel;
+
+    const RIG: &str = r#"
+        name = "slide"
+        plant = "axis"
+        motion = "linear"
+        [channels]
+        position = { channel = "x", unit = "mm", offset = 2.5, scale = 3, sign = -1, quantum = 0.5, limit = 40 }
+        command = { channel = "u", unit = "V" }
+        [parameters]
+        inertia = { value = 1.7, unit = "kg" }
+        command_gain = { value = 35.5, unit = "N/V" }
+    "#;
+
+    fn apply(channels: &[(&str, &str)]) -> Result<Recording, String> {
+        let rig = Rig::parse(RIG, Path::new("rig.toml")).unwrap();
+        let channels = channels.iter().map(|(name, unit)| Channel {
+            name: name.to_string(),
+            unit: unit.to_string(),
+            samples: vec![4.5, f64::NAN],
+        });
+        let trace = Trace {
+            time_s: vec![0.1, 0.3],
+            channels: channels.collect(),
+        };
+        rig.apply(&trace, Path::new("run.csv"))
+            .map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn offset_scale_sign_and_unit_apply_in_this_order() {
+        let recording = apply(&[("u", ""), ("x", "")]).unwrap();
+        let x = &recording.position;
+        assert!((x.samples[0] + 3.0 * 2.0e-3).abs() < 1e-18);
+        assert!(x.samples[1].is_nan());
+        assert!((x.quantum.unwrap() - 1.5e-3).abs() < 1e-18);
+        assert!((x.limit.unwrap() - 0.12).abs() < 1e-15);
+        assert_eq!(recording.drive.unwrap().samples[0], 4.5);
+        assert_eq!(recording.force, None);
+    }
+
+    #[test]
+    fn the_header_says_what_the_column_is_in() {
+        let recording = apply(&[("u", "V"), ("x", "cm")]).unwrap();
+        assert!((recording.position.samples[0] + 3.0 * (45.0 - 2.5) * 1e-3).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_recording_that_does_not_suit_the_rig_is_refused() {
+        for (channels, expected) in [
+            (
+                [("u", "V"), ("x", "deg")],
+                "`x` is in `deg`, which does not convert to `mm`",
+            ),
+            (
+                [("u", "furlong"), ("x", "mm")],
+                "`u` is in `furlong`, which does not convert to `V`",
+            ),
+            (
+                [("U", "V"), ("x", "mm")],
+                "`u` of the rig `slide` is missing",
+            ),
+            (
+                [("U", "V"), ("x", "mm")],
+                "did you mean `U`? the channels of the recording are `U`, `x`",
+            ),
+        ] {
+            let message = apply(&channels).unwrap_err();
+            assert!(
+                message.starts_with("run.csv: ") && message.contains(expected),
+                "{message}"
+            );
+        }
+    }
+}

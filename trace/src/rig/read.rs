@@ -1,0 +1,344 @@
+//! This file reads a rig description from TOML and refuses what it does not know.
+
+use std::path::Path;
+
+use rigproof_spec::effect::{Mechanism, Motion, Quantity};
+use rigproof_spec::joint::Joint;
+use rigproof_spec::units::{Dimension, Unit};
+use toml::de::DeTable;
+
+use super::table::{Source, Table};
+use super::{ChannelMap, Channels, Parameters, Plant, Rig, RigEffect, Status, Value, motion_name};
+use crate::csv::TimeColumn;
+use crate::error::TraceError;
+use crate::suggest::{advice, quoted};
+
+impl Rig {
+    /// Reads a rig description; `origin` is the file that messages name. Every value becomes SI.
+    ///
+    /// # Errors
+    /// The text is no TOML, a key is unknown or missing, a unit is not known or measures something else, or a
+    /// number is out of its range; the message gives line and column.
+    pub fn parse(text: &str, origin: &Path) -> Result<Rig, TraceError> {
+        let source = Source { text, file: origin };
+        let document = DeTable::parse(text).map_err(|error| {
+            let at = error.span().map_or(0, |span| span.start);
+            let message = error.message().lines().collect::<Vec<_>>().join("; ");
+            source.error(at, format!("the text is no TOML: {message}"))
+        })?;
+        let root = Table::root(source, &document);
+        root.only(&[
+            "name",
+            "plant",
+            "motion",
+            "source",
+            "channels",
+            "parameters",
+            "brake",
+            "effect",
+            "provenance",
+        ])?;
+        let name = root.need("name", root.text("name")?)?.to_string();
+        let plant = choice(&root, "plant", [Plant::Axis, Plant::Bench], Plant::name)?;
+        let motion = choice(
+            &root,
+            "motion",
+            [Motion::Linear, Motion::Rotary],
+            motion_name,
+        )?;
+        let channels = read_channels(
+            &root.need("channels", root.table("channels")?)?,
+            plant,
+            motion,
+        )?;
+        Ok(Rig {
+            name,
+            plant,
+            motion,
+            source: root.text("source")?.map(str::to_string),
+            parameters: read_parameters(&root, motion, channels.command.as_ref())?,
+            brake: read_brake(&root, motion, channels.current.as_ref())?,
+            effects: root
+                .tables("effect")?
+                .iter()
+                .map(|table| read_effect(table, motion))
+                .collect::<Result<_, _>>()?,
+            provenance: match root.table("provenance")? {
+                Some(table) => table
+                    .keys()
+                    .map(|key| {
+                        Ok((
+                            key.to_string(),
+                            table.need(key, table.text(key)?)?.to_string(),
+                        ))
+                    })
+                    .collect::<Result<_, TraceError>>()?,
+                None => Default::default(),
+            },
+            channels,
+        })
+    }
+}
+
+/// One of a few words.
+fn choice<T: Copy, const N: usize>(
+    table: &Table<'_>,
+    key: &str,
+    choices: [T; N],
+    name: fn(T) -> &'static str,
+) -> Result<T, TraceError> {
+    let word = table.need(key, table.text(key)?)?;
+    let chosen = choices.into_iter().find(|choice| name(*choice) == word);
+    chosen.ok_or_else(|| {
+        let names = choices.map(name);
+        table.error_at(
+            key,
+            format!("`{word}` is no {key}; {}", advice(word, "words", &names)),
+        )
+    })
+}
+
+fn read_channels(table: &Table<'_>, plant: Plant, motion: Motion) -> Result<Channels, TraceError> {
+    table.only(match plant {
+        Plant::Axis => &["time", "position", "command"],
+        Plant::Bench => &["time", "position", "force", "torque", "current"],
+    })?;
+    let effort = Quantity::Effort.dimension(motion);
+    let force_key = if table.has("torque") {
+        "torque"
+    } else {
+        "force"
+    };
+    if table.has("torque") && table.has("force") {
+        return Err(table.error_at("torque", "`force` and `torque` are the same role; give one"));
+    }
+    let travel = Quantity::Travel.dimension(motion);
+    let position = read_channel(table, "position", Some(travel))?;
+    let channels = Channels {
+        time: read_time(table)?,
+        position: table.need("position", position)?,
+        command: read_channel(table, "command", None)?,
+        force: read_channel(table, force_key, Some(effort))?,
+        current: read_channel(table, "current", Some(Dimension::CURRENT))?,
+    };
+    match plant {
+        Plant::Axis => table.need("command", channels.command.as_ref()).map(drop)?,
+        Plant::Bench => table.need(force_key, channels.force.as_ref()).map(drop)?,
+    }
+    Ok(channels)
+}
+
+fn read_time(table: &Table<'_>) -> Result<Option<TimeColumn>, TraceError> {
+    let Some(table) = table.table("time")? else {
+        return Ok(None);
+    };
+    table.only(&["channel", "unit"])?;
+    if table.has("unit") {
+        read_unit(&table, Some(Dimension::TIME), false)?;
+    }
+    Ok(Some(TimeColumn {
+        name: table.need("channel", table.text("channel")?)?.to_string(),
+        unit: table.text("unit")?.unwrap_or_default().to_string(),
+    }))
+}
+
+fn read_channel(
+    table: &Table<'_>,
+    role: &str,
+    expected: Option<Dimension>,
+) -> Result<Option<ChannelMap>, TraceError> {
+    let Some(table) = table.table(role)? else {
+        return Ok(None);
+    };
+    table.only(&[
+        "channel", "unit", "offset", "scale", "sign", "quantum", "noise", "limit",
+    ])?;
+    read_unit(&table, expected, false)?;
+    let scale = table.number("scale")?.unwrap_or(1.0);
+    if scale == 0.0 {
+        return Err(table.error_at("scale", "`scale` is 0, which would erase the channel"));
+    }
+    let sign = table.number("sign")?.unwrap_or(1.0);
+    if sign.abs() != 1.0 {
+        return Err(table.error_at("sign", format!("`sign` is {sign}; it must be 1 or -1")));
+    }
+    Ok(Some(ChannelMap {
+        channel: table.need("channel", table.text("channel")?)?.to_string(),
+        unit: table.text("unit")?.unwrap_or_default().to_string(),
+        offset: table.number("offset")?.unwrap_or(0.0),
+        scale,
+        sign,
+        quantum: table.positive("quantum")?,
+        noise: table.positive("noise")?,
+        limit: table.positive("limit")?,
+    }))
+}
+
+fn read_parameters(
+    root: &Table<'_>,
+    motion: Motion,
+    command: Option<&ChannelMap>,
+) -> Result<Option<Parameters>, TraceError> {
+    let table = root.table("parameters")?;
+    let Some(command) = command else {
+        return match table {
+            Some(table) => table.only(&[]).map(|()| None),
+            None => Ok(None),
+        };
+    };
+    let table = root.need("parameters", table)?;
+    table.only(&["inertia", "command_gain"])?;
+    let mass = Quantity::Inertia.dimension(motion);
+    let gain = Quantity::Effort.dimension(motion).per(command.dimension());
+    let inertia = table.need("inertia", read_value(&table, "inertia", mass)?)?;
+    let command_gain = table.need("command_gain", read_value(&table, "command_gain", gain)?)?;
+    above_zero(&table, "inertia", &inertia, mass)?;
+    if command_gain.value == 0.0 {
+        return Err(table.error_at("command_gain", "the command gain is 0, so no command acts"));
+    }
+    Ok(Some(Parameters {
+        inertia,
+        command_gain,
+    }))
+}
+
+fn read_brake(
+    root: &Table<'_>,
+    motion: Motion,
+    current: Option<&ChannelMap>,
+) -> Result<Option<Joint>, TraceError> {
+    let Some(table) = root.table("brake")? else {
+        return Ok(None);
+    };
+    table.only(&["joint"])?;
+    if motion != Motion::Rotary || current.is_none() {
+        return Err(table.error(
+            "a brake belongs to a bench with rotary motion and a `current` channel; change these or leave it out",
+        ));
+    }
+    choice(&table, "joint", Joint::ALL, Joint::letter).map(Some)
+}
+
+fn read_effect(table: &Table<'_>, motion: Motion) -> Result<RigEffect, TraceError> {
+    let word = table.need("mechanism", table.text("mechanism")?)?;
+    let mechanism = Mechanism::from_name(word)
+        .filter(|mechanism| !mechanism.parameters().is_empty())
+        .ok_or_else(|| {
+            let computed = Mechanism::ALL.iter().filter(|m| !m.parameters().is_empty());
+            let names: Vec<&str> = computed.map(|mechanism| mechanism.name()).collect();
+            let advice = advice(word, "mechanisms that a model computes", &names);
+            table.error_at("mechanism", format!("`{word}` cannot be used; {advice}"))
+        })?;
+    let parameters = mechanism.parameters();
+    let mut known = vec!["mechanism", "onset"];
+    known.extend(parameters.iter().map(|parameter| parameter.name));
+    table.only(&known)?;
+    let mut values = Vec::with_capacity(parameters.len());
+    for parameter in parameters {
+        let dimension = parameter.quantity.dimension(motion);
+        let value = read_value(table, parameter.name, dimension)?;
+        let value = table.need(parameter.name, value)?;
+        if matches!(parameter.quantity, Quantity::Travel | Quantity::Speed) {
+            above_zero(table, parameter.name, &value, dimension)?;
+        }
+        values.push(value);
+    }
+    Ok(RigEffect {
+        mechanism,
+        values,
+        onset: read_value(table, "onset", Dimension::TIME)?,
+    })
+}
+
+/// A value with its unit, in SI.
+fn read_value(
+    table: &Table<'_>,
+    key: &str,
+    dimension: Dimension,
+) -> Result<Option<Value>, TraceError> {
+    let Some(table) = table.table(key)? else {
+        return Ok(None);
+    };
+    table.only(&["value", "unit", "status", "sd", "low95", "high95"])?;
+    let to_si = read_unit(&table, Some(dimension), true)?.to_si;
+    let in_si = |number: Option<f64>| number.map(|number| number * to_si);
+    let status = match table.has("status") {
+        true => choice(
+            &table,
+            "status",
+            [Status::Known, Status::Uncertain, Status::Unknown],
+            Status::name,
+        )?,
+        false => Status::Known,
+    };
+    let value = Value {
+        value: table.need("value", table.number("value")?)? * to_si,
+        status,
+        sd: in_si(table.positive("sd")?),
+        low95: in_si(table.number("low95")?),
+        high95: in_si(table.number("high95")?),
+    };
+    if value.sd.is_some() != (status == Status::Uncertain) {
+        return Err(table.error(format!(
+            "the status is {}; a standard deviation `sd` goes with the status `uncertain`, and only with it",
+            status.name()
+        )));
+    }
+    match (value.low95, value.high95) {
+        (Some(low), Some(high)) if low <= high => Ok(Some(value)),
+        (None, None) => Ok(Some(value)),
+        _ => Err(table.error("the 95 % interval needs `low95` and `high95`, the lower one first")),
+    }
+}
+
+/// The unit of a table, checked against what it is to measure. A unit with mass in it may leave out the radian,
+/// as the field does (`N·m·s`, `kg·m^2`).
+fn read_unit(
+    table: &Table<'_>,
+    expected: Option<Dimension>,
+    may_leave_out_radian: bool,
+) -> Result<Unit, TraceError> {
+    let text = table.need("unit", table.text("unit")?)?;
+    let Some(unit) = Unit::parse(text) else {
+        let wanted = expected.map_or("a unit such as `V`".to_string(), |d| format!("`{d}`"));
+        return Err(table.error_at("unit", format!("`{text}` is no known unit; give {wanted}")));
+    };
+    let without_radian = |Dimension([m, kg, s, a, _]): Dimension| [m, kg, s, a];
+    let Dimension([_, mass, _, _, radian]) = unit.dimension;
+    let fits = expected.is_none_or(|expected| {
+        unit.dimension == expected
+            || may_leave_out_radian
+                && mass != 0
+                && radian == 0
+                && without_radian(unit.dimension) == without_radian(expected)
+    });
+    match expected {
+        Some(expected) if !fits => Err(table.error_at(
+            "unit",
+            format!("`{text}` does not convert to `{expected}`; give a unit of that kind"),
+        )),
+        _ => Ok(unit),
+    }
+}
+
+fn above_zero(
+    table: &Table<'_>,
+    key: &str,
+    value: &Value,
+    dimension: Dimension,
+) -> Result<(), TraceError> {
+    if value.value > 0.0 {
+        return Ok(());
+    }
+    Err(table.error_at(
+        key,
+        format!(
+            "{} is {} {dimension}; it must be above 0",
+            quoted([key]),
+            value.value
+        ),
+    ))
+}
+
+#[cfg(test)]
+mod tests;

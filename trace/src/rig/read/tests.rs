@@ -1,0 +1,224 @@
+//! This file holds what a rig description may say, and what it is told when it says something else.
+
+use super::*;
+use crate::rig::{Channels, Parameters};
+use proptest::prelude::*;
+
+const AXIS: &str = r#"name = "slide"
+plant = "axis"
+motion = "linear"
+[channels]
+position = { channel = "x", unit = "mm" }
+command = { channel = "u", unit = "V" }
+[parameters]
+inertia = { value = 1700, unit = "g", status = "uncertain", sd = 30 }
+command_gain = { value = 35.5, unit = "N/V" }
+[[effect]]
+mechanism = "viscous"
+coefficient = { value = 120.5, unit = "mN·s/mm", status = "unknown" }
+onset = { value = 250, unit = "ms" }
+"#;
+
+const BRAKE: &str = r#"name = "brake A"
+plant = "bench"
+motion = "rotary"
+[channels]
+time = { channel = "stamp", unit = "ms" }
+position = { channel = "angle", unit = "deg" }
+torque = { channel = "torque", unit = "mNm" }
+current = { channel = "current", unit = "A" }
+[brake]
+joint = "E"
+"#;
+
+fn parse(text: &str) -> Result<Rig, String> {
+    Rig::parse(text, Path::new("rig.toml")).map_err(|error| error.to_string())
+}
+
+#[test]
+fn values_become_si() {
+    let rig = parse(AXIS).unwrap();
+    let inertia = rig.parameters.unwrap().inertia;
+    assert!((inertia.value - 1.7).abs() < 1e-15);
+    assert!((inertia.sd.unwrap() - 0.03).abs() < 1e-15);
+    let viscous = &rig.effects[0];
+    assert!((viscous.parameter("coefficient").unwrap().value - 120.5).abs() < 1e-12);
+    assert_eq!(viscous.parameter("level"), None);
+    assert!((viscous.onset.unwrap().value - 0.25).abs() < 1e-15);
+    assert_eq!(rig.command_gain_dimension().unwrap().to_string(), "N/V");
+}
+
+#[test]
+fn a_brake_on_a_bench_is_read() {
+    let rig = parse(BRAKE).unwrap();
+    assert_eq!(
+        (rig.plant, rig.motion, rig.brake),
+        (Plant::Bench, Motion::Rotary, Some(Joint::E))
+    );
+    assert_eq!(rig.channels.force.as_ref().unwrap().channel, "torque");
+    assert_eq!(rig.channels.time.as_ref().unwrap().unit, "ms");
+    assert_eq!(parse(&rig.to_toml()).unwrap(), rig);
+}
+
+#[test]
+fn a_turning_plant_may_leave_out_the_radian_beside_a_mass() {
+    let turning = |unit: &str| {
+        AXIS.replace("linear", "rotary")
+            .replace("\"mm\"", "\"deg\"")
+            .replace("\"g\"", &format!("\"{unit}\""))
+            .replace("N/V", "N·m/V")
+            .replace("mN·s/mm", "N·m·s")
+    };
+    let rig = parse(&turning("kg·m^2")).unwrap();
+    assert!(rig.to_toml().contains("kg·m^2/rad"));
+    let message = parse(&turning("kg")).unwrap_err();
+    assert!(
+        message.contains("`kg` does not convert to `kg·m^2/rad`"),
+        "{message}"
+    );
+    let message = parse(&turning("g").replace("\"deg\"", "\"1\"")).unwrap_err();
+    assert!(
+        message.contains("`1` does not convert to `rad`"),
+        "{message}"
+    );
+}
+
+/// A sound description, a text in it, what replaces it, and a part of the message.
+#[rustfmt::skip]
+const FAULTS: &[(&str, &str, &str, &str)] = &[
+    (AXIS, "= \"axis", "= axis", "rig.toml, line 2, column 9: the text is no TOML"),
+    (AXIS, "plant = \"axis\"\n", "", "line 1, column 1: `plant` is missing in the file; add it"),
+    (AXIS, "\"axis\"", "\"axes\"", "line 2, column 9: `axes` is no plant; did you mean `axis`?"),
+    (AXIS, "motion", "motoin", "line 3, column 1: `motoin` is no key of the file; did you mean `motion`?"),
+    (AXIS, "channel = \"x\"", "chanel = \"x\"", "line 5, column 14: `chanel` is no key of `position`"),
+    (AXIS, "command =", "force =", "line 6, column 1: `force` is no key of `channels`; the keys are"),
+    (AXIS, "command = { channel = \"u\", unit = \"V\" }", "", "`command` is missing in `channels`"),
+    (AXIS, "\"mm\"", "\"deg\"", "line 5, column 36: `deg` does not convert to `m`"),
+    (AXIS, "\"mm\"", "\"furlong\"", "`furlong` is no known unit; give `m`"),
+    (AXIS, "\"mm\"", "\"mm\", sign = 2", "`sign` is 2; it must be 1 or -1"),
+    (AXIS, "\"mm\"", "\"mm\", scale = 0", "`scale` is 0"),
+    (AXIS, "\"mm\"", "\"mm\", quantum = -1", "`quantum` is -1; it must be above 0"),
+    (AXIS, "\"mm\"", "\"mm\", offset = inf", "`offset` is inf; give a finite number"),
+    (AXIS, "1700,", "\"1700\",", "`value` is of type string; give a number"),
+    (AXIS, "1700,", "-1700,", "`inertia` is -1.7 kg; it must be above 0"),
+    (AXIS, "35.5", "0", "the command gain is 0"),
+    (AXIS, "N/V", "N", "line 9, column 39: `N` does not convert to `N/V`"),
+    (AXIS, ", sd = 30", "", "the status is uncertain; a standard deviation `sd`"),
+    (AXIS, "sd = 30", "sd = 30, low95 = 1", "the 95 % interval needs"),
+    (AXIS, "inertia =", "inertia = 4\ninert =", "`inert` is no key of `parameters`"),
+    (AXIS, "\"viscous\"", "\"viscuos\"", "line 11, column 13: `viscuos` cannot be used; did you mean `viscous`?"),
+    (AXIS, "\"viscous\"", "\"payload\"", "`payload` cannot be used; the mechanisms that a model computes are"),
+    (AXIS, "coefficient", "coeficient", "line 12, column 1: `coeficient` is no key of `[[effect]]`; did you mean `coefficient`?"),
+    (AXIS, "coefficient", "# coefficient", "line 10, column 1: `coefficient` is missing in `[[effect]]`"),
+    (AXIS, "\"ms\"", "\"mm\"", "`mm` does not convert to `s`"),
+    (BRAKE, "\"E\"", "\"D\"", "`D` is no joint; the words are `A`, `E`, `B`, `C`"),
+    (BRAKE, "current =", "# current =", "a brake belongs to a bench with rotary motion and a `current` channel"),
+    (BRAKE, "current =", "force =", "`force` and `torque` are the same role"),
+    (BRAKE, "[brake]", "[parameters]", "`joint` is no key of `parameters`; there are no keys"),
+    (BRAKE, "\"ms\"", "\"A\"", "`A` does not convert to `s`"),
+];
+
+#[test]
+fn every_fault_has_its_place_and_its_remedy() {
+    for (text, from, to, expected) in FAULTS {
+        let changed = text.replacen(from, to, 1);
+        assert_ne!(changed, *text, "{from}");
+        let message = parse(&changed).unwrap_err();
+        assert!(message.contains(expected), "{message} lacks {expected}");
+        let one_line = message.starts_with("rig.toml, line ") && !message.contains('\n');
+        assert!(one_line, "{message}");
+    }
+}
+
+fn number() -> impl Strategy<Value = f64> {
+    prop::num::f64::NORMAL | prop::num::f64::SUBNORMAL | prop::num::f64::ZERO
+}
+
+prop_compose! {
+    fn any_value(above_zero: bool)(
+        value in number(), sd in number(), ends in (number(), number()), status in 0..3_usize, interval: bool,
+    ) -> Value {
+        let value = if above_zero { value.abs() + f64::MIN_POSITIVE } else { value };
+        let (low, high) = (ends.0.min(ends.1), ends.0.max(ends.1));
+        Value {
+            value,
+            status: [Status::Known, Status::Uncertain, Status::Unknown][status],
+            sd: (status == 1).then(|| sd.abs() + f64::MIN_POSITIVE),
+            low95: interval.then_some(low),
+            high95: interval.then_some(high),
+        }
+    }
+}
+
+prop_compose! {
+    fn any_channel(unit: &'static str)(
+        channel in ".*", offset in number(), scale in number(), sign: bool,
+        magnitudes in prop::array::uniform3(prop::option::of(1e-300..1e300_f64)),
+    ) -> ChannelMap {
+        let [quantum, noise, limit] = magnitudes;
+        let (scale, sign) = (if scale == 0.0 { 1.5 } else { scale }, if sign { 1.0 } else { -1.0 });
+        ChannelMap { channel, unit: unit.into(), offset, scale, sign, quantum, noise, limit }
+    }
+}
+
+fn any_effect() -> impl Strategy<Value = RigEffect> {
+    let computed: Vec<Mechanism> = Mechanism::ALL
+        .into_iter()
+        .filter(|m| !m.parameters().is_empty())
+        .collect();
+    let values = prop::array::uniform4(any_value(true));
+    (
+        prop::sample::select(computed),
+        values,
+        prop::option::of(any_value(false)),
+    )
+        .prop_map(|(mechanism, values, onset)| RigEffect {
+            mechanism,
+            values: values
+                .into_iter()
+                .take(mechanism.parameters().len())
+                .collect(),
+            onset,
+        })
+}
+
+prop_compose! {
+    fn any_axis()(
+        words in prop::array::uniform2(".*"),
+        rotary: bool,
+        position in any_channel("m"),
+        command in any_channel("V"),
+        inertia in any_value(true),
+        command_gain in any_value(true),
+        effects in prop::collection::vec(any_effect(), 0..4),
+        provenance in prop::collection::btree_map(".*", ".*", 0..3),
+    ) -> Rig {
+        let [name, source] = words;
+        let motion = if rotary { Motion::Rotary } else { Motion::Linear };
+        let unit = if rotary { "deg" } else { "mm" }.to_string();
+        Rig {
+            name, motion, effects, provenance,
+            source: Some(source),
+            plant: Plant::Axis,
+            channels: Channels {
+                time: None,
+                position: ChannelMap { unit, ..position },
+                command: Some(command),
+                force: None,
+                current: None,
+            },
+            parameters: Some(Parameters { inertia, command_gain }),
+            brake: None,
+        }
+    }
+}
+
+proptest! {
+    #[test]
+    fn a_description_reads_back_bit_for_bit(rig in any_axis()) {
+        let text = rig.to_toml();
+        let back = parse(&text).unwrap();
+        prop_assert_eq!(back.to_toml(), text);
+        prop_assert_eq!(back, rig);
+    }
+}

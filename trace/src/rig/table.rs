@@ -1,0 +1,178 @@
+//! This file walks a TOML table and says where in the text it stops making sense.
+
+use std::ops::Range;
+use std::path::Path;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use crate::error::{Place, TraceError};
+use crate::suggest::advice;
+
+/// The text of a TOML file.
+#[derive(Clone, Copy)]
+pub(super) struct Source<'a> {
+    pub(super) text: &'a str,
+    pub(super) file: &'a Path,
+}
+
+impl Source<'_> {
+    /// An error at a byte position of the text.
+    pub(super) fn error(&self, at: usize, problem: impl Into<String>) -> TraceError {
+        let before = self.text.get(..at).unwrap_or(self.text);
+        let line_start = before.rfind('\n').map_or(0, |end| end + 1);
+        let in_line = before.get(line_start..).unwrap_or_default();
+        TraceError::Rig {
+            place: Place {
+                column: in_line.chars().count() + 1,
+                ..Place::line(self.file, before.matches('\n').count() + 1)
+            },
+            problem: problem.into(),
+        }
+    }
+}
+
+/// One table of the file.
+pub(super) struct Table<'a> {
+    source: Source<'a>,
+    /// How a message calls the table.
+    title: String,
+    span: Range<usize>,
+    entries: &'a DeTable<'a>,
+}
+
+impl<'a> Table<'a> {
+    pub(super) fn root(source: Source<'a>, document: &'a Spanned<DeTable<'a>>) -> Table<'a> {
+        Table {
+            source,
+            title: "the file".into(),
+            span: 0..0,
+            entries: document.get_ref(),
+        }
+    }
+
+    /// An error at the table as a whole.
+    pub(super) fn error(&self, problem: impl Into<String>) -> TraceError {
+        self.source.error(self.span.start, problem)
+    }
+
+    /// An error at the value of a key.
+    pub(super) fn error_at(&self, key: &str, problem: impl Into<String>) -> TraceError {
+        let at = self
+            .get(key)
+            .map_or(self.span.start, |value| value.span().start);
+        self.source.error(at, problem)
+    }
+
+    /// Refuses every key that is not listed.
+    pub(super) fn only(&self, known: &[&str]) -> Result<(), TraceError> {
+        for key in self.entries.keys() {
+            let name: &str = key.get_ref();
+            if !known.contains(&name) {
+                let advice = advice(name, "keys", known);
+                let problem = format!("`{name}` is no key of {}; {advice}", self.title);
+                return Err(self.source.error(key.span().start, problem));
+            }
+        }
+        Ok(())
+    }
+
+    pub(super) fn keys(&self) -> impl Iterator<Item = &'a str> {
+        self.entries.keys().map(|key| -> &str { key.get_ref() })
+    }
+
+    pub(super) fn has(&self, key: &str) -> bool {
+        self.get(key).is_some()
+    }
+
+    pub(super) fn text(&self, key: &str) -> Result<Option<&'a str>, TraceError> {
+        self.typed(key, "text in quotes", DeValue::as_str)
+    }
+
+    pub(super) fn number(&self, key: &str) -> Result<Option<f64>, TraceError> {
+        let number = self.typed(key, "a number", |value| {
+            let integer = || value.as_integer().filter(|n| n.radix() == 10);
+            let float = value.as_float().map(|n| n.as_str());
+            float
+                .or_else(|| integer().map(|n| n.as_str()))?
+                .parse()
+                .ok()
+        })?;
+        match number {
+            Some(number) if !f64::is_finite(number) => {
+                Err(self.error_at(key, format!("`{key}` is {number}; give a finite number")))
+            }
+            _ => Ok(number),
+        }
+    }
+
+    /// A number above zero.
+    pub(super) fn positive(&self, key: &str) -> Result<Option<f64>, TraceError> {
+        match self.number(key)? {
+            Some(number) if number <= 0.0 => {
+                Err(self.error_at(key, format!("`{key}` is {number}; it must be above 0")))
+            }
+            number => Ok(number),
+        }
+    }
+
+    pub(super) fn table(&self, key: &str) -> Result<Option<Table<'a>>, TraceError> {
+        let entries = self.typed(key, "a table", DeValue::as_table)?;
+        Ok(entries.map(|entries| self.child(key, entries)))
+    }
+
+    /// The tables of an array, `[[key]]`.
+    pub(super) fn tables(&self, key: &str) -> Result<Vec<Table<'a>>, TraceError> {
+        let expected = format!("a list of tables, `[[{key}]]`");
+        let array = self.typed(key, &expected, DeValue::as_array)?;
+        let items = array.into_iter().flat_map(|array| array.iter());
+        items
+            .map(|item| match item.get_ref().as_table() {
+                Some(entries) => Ok(Table {
+                    title: format!("`[[{key}]]`"),
+                    span: item.span(),
+                    source: self.source,
+                    entries,
+                }),
+                None => Err(self
+                    .source
+                    .error(item.span().start, format!("give {expected}"))),
+            })
+            .collect()
+    }
+
+    /// A value that must be there.
+    pub(super) fn need<T>(&self, key: &str, value: Option<T>) -> Result<T, TraceError> {
+        value.ok_or_else(|| self.error(format!("`{key}` is missing in {}; add it", self.title)))
+    }
+
+    fn child(&self, key: &str, entries: &'a DeTable<'a>) -> Table<'a> {
+        Table {
+            source: self.source,
+            title: format!("`{key}`"),
+            span: self.get(key).map_or(self.span.clone(), Spanned::span),
+            entries,
+        }
+    }
+
+    fn get(&self, key: &str) -> Option<&'a Spanned<DeValue<'a>>> {
+        let mut entries = self.entries.iter();
+        entries
+            .find(|(name, _)| name.get_ref() == key)
+            .map(|(_, value)| value)
+    }
+
+    fn typed<T>(
+        &self,
+        key: &str,
+        expected: &str,
+        read: impl FnOnce(&'a DeValue<'a>) -> Option<T>,
+    ) -> Result<Option<T>, TraceError> {
+        let Some(value) = self.get(key) else {
+            return Ok(None);
+        };
+        let found = value.get_ref().type_str();
+        let wrong = || self.error_at(key, format!("`{key}` is of type {found}; give {expected}"));
+        read(value.get_ref()).map(Some).ok_or_else(wrong)
+    }
+}

@@ -1,0 +1,139 @@
+//! This file writes a rig description as TOML that reads back bit for bit.
+
+use std::fmt::Write;
+
+use rigproof_spec::effect::{Motion, Quantity};
+use rigproof_spec::units::Dimension;
+
+use super::{ChannelMap, Rig, RigEffect, Status, Value, motion_name};
+
+impl Rig {
+    /// The description as TOML, every value in SI units.
+    pub fn to_toml(&self) -> String {
+        let mut lines = vec![
+            format!("name = {}", string(&self.name)),
+            format!("plant = {}", string(self.plant.name())),
+            format!("motion = {}", string(motion_name(self.motion))),
+        ];
+        lines.extend(
+            self.source
+                .as_ref()
+                .map(|text| format!("source = {}", string(text))),
+        );
+        self.write_channels(&mut lines);
+        if let (Some(parameters), Some(gain)) = (&self.parameters, self.command_gain_dimension()) {
+            let inertia = Quantity::Inertia.dimension(self.motion);
+            lines.push("\n[parameters]".into());
+            lines.push(format!("inertia = {}", value(&parameters.inertia, inertia)));
+            lines.push(format!(
+                "command_gain = {}",
+                value(&parameters.command_gain, gain)
+            ));
+        }
+        if let Some(joint) = self.brake {
+            lines.push(format!("\n[brake]\njoint = {}", string(joint.letter())));
+        }
+        for effect in &self.effects {
+            write_effect(effect, self.motion, &mut lines);
+        }
+        if !self.provenance.is_empty() {
+            lines.push("\n[provenance]".into());
+            let entries = self.provenance.iter();
+            lines.extend(entries.map(|(key, text)| format!("{} = {}", string(key), string(text))));
+        }
+        lines.join("\n") + "\n"
+    }
+
+    fn write_channels(&self, lines: &mut Vec<String>) {
+        lines.push("\n[channels]".into());
+        if let Some(time) = &self.channels.time {
+            let unit = match time.unit.as_str() {
+                "" => String::new(),
+                unit => format!(", unit = {}", string(unit)),
+            };
+            lines.push(format!(
+                "time = {{ channel = {}{unit} }}",
+                string(&time.name)
+            ));
+        }
+        let effort = match self.motion {
+            Motion::Linear => "force",
+            Motion::Rotary => "torque",
+        };
+        let roles = [
+            ("position", Some(&self.channels.position)),
+            ("command", self.channels.command.as_ref()),
+            (effort, self.channels.force.as_ref()),
+            ("current", self.channels.current.as_ref()),
+        ];
+        for (role, map) in roles {
+            lines.extend(map.map(|map| format!("{role} = {}", channel(map))));
+        }
+    }
+}
+
+fn write_effect(effect: &RigEffect, motion: Motion, lines: &mut Vec<String>) {
+    lines.push("\n[[effect]]".into());
+    lines.push(format!("mechanism = {}", string(effect.mechanism.name())));
+    for (parameter, number) in effect.mechanism.parameters().iter().zip(&effect.values) {
+        let dimension = parameter.quantity.dimension(motion);
+        lines.push(format!("{} = {}", parameter.name, value(number, dimension)));
+    }
+    let onset = effect.onset.as_ref();
+    lines.extend(onset.map(|onset| format!("onset = {}", value(onset, Dimension::TIME))));
+}
+
+fn channel(map: &ChannelMap) -> String {
+    let mut text = format!(
+        "{{ channel = {}, unit = {}",
+        string(&map.channel),
+        string(&map.unit)
+    );
+    for (key, number, default) in [
+        ("offset", map.offset, 0.0),
+        ("scale", map.scale, 1.0),
+        ("sign", map.sign, 1.0),
+    ] {
+        if number.to_bits() != f64::to_bits(default) {
+            append(&mut text, key, Some(number));
+        }
+    }
+    append(&mut text, "quantum", map.quantum);
+    append(&mut text, "noise", map.noise);
+    append(&mut text, "limit", map.limit);
+    text + " }"
+}
+
+fn value(number: &Value, dimension: Dimension) -> String {
+    let unit = string(&dimension.to_string());
+    let mut text = format!("{{ value = {:?}, unit = {unit}", number.value);
+    if number.status != Status::Known {
+        text += &format!(", status = {}", string(number.status.name()));
+    }
+    append(&mut text, "sd", number.sd);
+    append(&mut text, "low95", number.low95);
+    append(&mut text, "high95", number.high95);
+    text + " }"
+}
+
+fn append(text: &mut String, key: &str, number: Option<f64>) {
+    if let Some(number) = number {
+        *text += &format!(", {key} = {number:?}");
+    }
+}
+
+/// A basic string of TOML; control characters are escaped, so that it may be a key as well.
+fn string(text: &str) -> String {
+    let mut quoted = String::from("\"");
+    for character in text.chars() {
+        match character {
+            '"' | '\\' => quoted.extend(['\\', character]),
+            _ if character.is_control() => {
+                // Writing to a string cannot fail.
+                let _ = write!(quoted, "\\u{:04X}", u32::from(character));
+            }
+            _ => quoted.push(character),
+        }
+    }
+    quoted + "\""
+}

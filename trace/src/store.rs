@@ -1,0 +1,151 @@
+//! This file writes every output of the program: whole, or not at all.
+
+mod folder;
+
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Read, Write};
+use std::path::{Path, PathBuf};
+
+use crate::error::{Place, TraceError};
+
+pub use folder::Folder;
+
+/// The largest text file that is taken in at once, bytes.
+const LARGEST_TEXT: u64 = 16 << 20;
+
+/// Writes a file beside its place, flushes it to the disk and renames it, so that nothing half-written is left.
+///
+/// A file that stands there already is replaced, through a symbolic link too.
+///
+/// # Errors
+/// The place is a folder or a device, or the system refuses.
+pub fn write_aside(path: &Path, bytes: &[u8]) -> Result<(), TraceError> {
+    let refused = || TraceError::io("write", path);
+    let place = match fs::metadata(path) {
+        Ok(metadata) if metadata.is_file() => fs::canonicalize(path).map_err(refused())?,
+        Ok(metadata) if metadata.is_dir() => {
+            return Err(refused()(io::ErrorKind::IsADirectory.into()));
+        }
+        // A rename would take a device or a pipe away.
+        Ok(_) => {
+            return Err(refused()(io::Error::other(
+                "it is no ordinary file; name one",
+            )));
+        }
+        Err(_) => path.to_path_buf(),
+    };
+    let parent = parent(&place);
+    let mut temporary = builder()
+        .make_in(&parent, |aside| {
+            OpenOptions::new().write(true).create_new(true).open(aside)
+        })
+        .map_err(refused())?;
+    temporary.write_all(bytes).map_err(refused())?;
+    temporary.as_file().sync_all().map_err(refused())?;
+    temporary
+        .persist(&place)
+        .map_err(|error| refused()(error.error))?;
+    sync_folder(&parent).map_err(refused())
+}
+
+/// Reads a small text file, such as a rig description.
+///
+/// # Errors
+/// The system refuses, or the file is no UTF-8 text or larger than 16 MiB.
+pub fn read_text(path: &Path) -> Result<String, TraceError> {
+    let refused = || TraceError::io("read", path);
+    let not_text = |problem| TraceError::NotText {
+        place: Place::file(path),
+        problem,
+    };
+    let file = File::open(path).map_err(refused())?;
+    let mut bytes = Vec::new();
+    file.take(LARGEST_TEXT + 1)
+        .read_to_end(&mut bytes)
+        .map_err(refused())?;
+    if bytes.contains(&0) {
+        return Err(not_text("the file holds NUL bytes, so it is no text"));
+    }
+    if bytes.len() as u64 > LARGEST_TEXT {
+        return Err(not_text("the file is larger than 16 MiB"));
+    }
+    String::from_utf8(bytes).map_err(|_| not_text("the file holds bytes that are no UTF-8"))
+}
+
+/// Names for what is not finished yet.
+fn builder() -> tempfile::Builder<'static, 'static> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".rigproof-").suffix(".part");
+    builder
+}
+
+/// The folder that holds a path.
+fn parent(path: &Path) -> PathBuf {
+    match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent.to_path_buf(),
+        _ => PathBuf::from("."),
+    }
+}
+
+/// Makes a rename last through a power cut, where the system can.
+fn sync_folder(folder: &Path) -> io::Result<()> {
+    if cfg!(unix) {
+        File::open(folder)?.sync_all()?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_is_replaced_whole_and_nothing_else_is_left() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("out.csv");
+        write_aside(&path, b"first, and longer").unwrap();
+        write_aside(&path, b"second").unwrap();
+        assert_eq!(read_text(&path).unwrap(), "second");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_is_followed_and_a_device_is_left_alone() {
+        use std::os::unix::fs::FileTypeExt;
+        let folder = tempfile::tempdir().unwrap();
+        let (file, link) = (
+            folder.path().join("out.csv"),
+            folder.path().join("link.csv"),
+        );
+        fs::write(&file, "earlier").unwrap();
+        std::os::unix::fs::symlink(&file, &link).unwrap();
+        write_aside(&link, b"new").unwrap();
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+        assert_eq!(read_text(&file).unwrap(), "new");
+        let socket = folder.path().join("socket");
+        let _listener = std::os::unix::net::UnixListener::bind(&socket).unwrap();
+        let message = write_aside(&socket, b"new").unwrap_err().to_string();
+        assert!(message.contains("it is no ordinary file"), "{message}");
+        assert!(
+            fs::symlink_metadata(&socket)
+                .unwrap()
+                .file_type()
+                .is_socket()
+        );
+    }
+
+    #[test]
+    fn a_place_that_cannot_be_written_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let message = write_aside(folder.path(), b"x").unwrap_err().to_string();
+        assert!(
+            message.contains("cannot write") && message.contains("it is a folder"),
+            "{message}"
+        );
+        let missing = folder.path().join("no").join("out.csv");
+        let message = write_aside(&missing, b"x").unwrap_err().to_string();
+        assert!(message.contains("no such file or folder"), "{message}");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+    }
+}
