@@ -1,7 +1,9 @@
 //! This file runs the stages in order: align, locate, explain, refit, show.
 
 use crate::align::band_hz;
-use crate::evidence::{coefficients_by_term, inclusion, not_seen, null_directions, parameters, rivals, standard_errors};
+use crate::evidence::{
+    coefficients_by_term, inclusion, not_seen, null_directions, parameters, rivals, standard_errors,
+};
 use crate::free_run::{HORIZONS_S, Shown, figure, horizon_error, show};
 use crate::from_rig;
 use crate::locate::locate;
@@ -30,7 +32,11 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Options {
-        Options { gates: Gates::default(), hold_out_share: 0.25, refit: true }
+        Options {
+            gates: Gates::default(),
+            hold_out_share: 0.25,
+            refit: true,
+        }
     }
 }
 
@@ -73,7 +79,12 @@ pub struct Curves {
 const FEWEST_WINDOWS: usize = 40;
 
 /// Diagnoses a recording of a rig; `held_out` is another recording of the same rig.
-pub fn diagnose(rig: &Rig, recording: &Recording, held_out: Option<&Recording>, options: &Options) -> Diagnosis {
+pub fn diagnose(
+    rig: &Rig,
+    recording: &Recording,
+    held_out: Option<&Recording>,
+    options: &Options,
+) -> Diagnosis {
     let aligned = match from_rig::aligned(rig, recording) {
         Ok(run) => run,
         Err(fault) => return faulty(rig, "recording", fault),
@@ -97,9 +108,21 @@ pub fn diagnose(rig: &Rig, recording: &Recording, held_out: Option<&Recording>, 
         return not_excited(rig, &train, usable);
     }
     let mut problem = Problem::new(&train, windows, inertia);
-    let nominal: Vec<Term> = from_rig::nominal(rig).iter().filter_map(|n| problem.nominal_term(n)).collect();
+    let nominal: Vec<Term> = from_rig::nominal(rig)
+        .iter()
+        .filter_map(|n| problem.nominal_term(n))
+        .collect();
     let selection = select(&mut problem, nominal, options.gates);
-    Stand { rig, problem: &problem, selection: &selection, train: &train, test: &test, options, width_s }.report(held_out.is_some())
+    Stand {
+        rig,
+        problem: &problem,
+        selection: &selection,
+        train: &train,
+        test: &test,
+        options,
+        width_s,
+    }
+    .report(held_out.is_some())
 }
 
 fn split(run: &Run, share: f64) -> (Run, Run) {
@@ -133,9 +156,17 @@ impl Stand<'_> {
         let floor = self.floor();
         let verdict = self.verdict(&floor, &rivals);
         let unknown = (floor.ratio_after > FLOOR_RATIO)
-            .then(|| unknown(self.problem, &self.selection.after.residual, self.rig.motion))
+            .then(|| {
+                unknown(
+                    self.problem,
+                    &self.selection.after.residual,
+                    self.rig.motion,
+                )
+            })
             .flatten();
-        let fit = fitted.as_ref().map(|f| self.fit_report(f, &protocol, other_recording));
+        let fit = fitted
+            .as_ref()
+            .map(|f| self.fit_report(f, &protocol, other_recording));
         let plants = match &fitted {
             Some(f) => (f.nominal.plant.clone(), f.found.plant.clone()),
             None => (self.plant(false), self.plant(true)),
@@ -152,13 +183,30 @@ impl Stand<'_> {
             summary,
             protocol: self.protocol_lines(&protocol, other_recording),
             floor: Some(floor),
-            located: locate(self.problem, &self.selection.before.residual, &self.selection.after.residual),
+            located: locate(
+                self.problem,
+                &self.selection.before.residual,
+                &self.selection.after.residual,
+            ),
             stages: self.stages(),
             effects: self.effects(&calibration),
-            ambiguous_with: rivals.iter().map(|r| r.iter().map(|m| m.name()).collect()).collect(),
-            too_small_to_name: self.selection.too_small.iter().map(|m| m.name().to_owned()).collect(),
+            ambiguous_with: rivals
+                .iter()
+                .map(|r| r.iter().map(|m| m.name()).collect())
+                .collect(),
+            too_small_to_name: self
+                .selection
+                .too_small
+                .iter()
+                .map(|m| m.name().to_owned())
+                .collect(),
             nominal: crate::write_rig::nominal_numbers(self.rig, &calibration),
-            not_seen: not_seen(self.problem, self.selection, self.options.gates, self.rig.motion),
+            not_seen: not_seen(
+                self.problem,
+                self.selection,
+                self.options.gates,
+                self.rig.motion,
+            ),
             null_directions: null_directions(self.problem, self.selection),
             unknown,
             fit,
@@ -168,7 +216,11 @@ impl Stand<'_> {
             fault: None,
         };
         let curves = self.curves(&plants.0, &plants.1, &protocol);
-        Diagnosis { report, calibration, curves }
+        Diagnosis {
+            report,
+            calibration,
+            curves,
+        }
     }
 
     /// The plant of the windows' fit, with or without the mechanisms found.
@@ -190,7 +242,10 @@ impl Stand<'_> {
             })
             .collect();
         let given = from_rig::plant(self.rig).inertia;
-        Plant { inertia: inertia.unwrap_or(given).max(1e-3 * given), effects }
+        Plant {
+            inertia: inertia.unwrap_or(given).max(1e-3 * given),
+            effects,
+        }
     }
 
     fn fit(&self, protocol: &Protocol) -> Option<Fitted> {
@@ -198,13 +253,36 @@ impl Stand<'_> {
             return None;
         }
         let inertia_free = matches!(self.problem.inertia, Inertia::Unknown(_));
-        let known_nominal: Vec<bool> = self.selection.nominal.iter().map(|t| t.known.is_some()).collect();
+        let known_nominal: Vec<bool> = self
+            .selection
+            .nominal
+            .iter()
+            .map(|t| t.known.is_some())
+            .collect();
         let mut known_all = known_nominal.clone();
         known_all.extend(self.selection.found.iter().map(|_| false));
         let by_windows = self.plant(true);
-        let found = show(&by_windows, inertia_free, &known_all, self.train, protocol, !self.selection.found.is_empty());
-        let nominal = show(&self.plant(false), inertia_free, &known_nominal, self.train, protocol, false);
-        Some(Fitted { nominal, found, by_windows })
+        let found = show(
+            &by_windows,
+            inertia_free,
+            &known_all,
+            self.train,
+            protocol,
+            !self.selection.found.is_empty(),
+        );
+        let nominal = show(
+            &self.plant(false),
+            inertia_free,
+            &known_nominal,
+            self.train,
+            protocol,
+            false,
+        );
+        Some(Fitted {
+            nominal,
+            found,
+            by_windows,
+        })
     }
 
     fn floor(&self) -> Floor {
@@ -280,7 +358,12 @@ impl Stand<'_> {
             let (before, size) = figure(&fitted.nominal.plant, run, protocol);
             let (after, _) = figure(&fitted.found.plant, run, protocol);
             let percent = |x: f64| 100.0 * x / size.max(1e-300);
-            BeforeAfter { before, after, nrmse_before: percent(before), nrmse_after: percent(after) }
+            BeforeAfter {
+                before,
+                after,
+                nrmse_before: percent(before),
+                nrmse_after: percent(after),
+            }
         };
         let (train, held_out) = (pair(self.train), pair(self.test));
         let floor = match self.train.plant {
@@ -314,7 +397,11 @@ impl Stand<'_> {
     }
 
     fn fit_protocol(&self, protocol: &Protocol, other_recording: bool) -> String {
-        let held_out = if other_recording { "another recording" } else { "the end of the recording" };
+        let held_out = if other_recording {
+            "another recording"
+        } else {
+            "the end of the recording"
+        };
         match self.train.plant {
             PlantKind::Axis => format!(
                 "free run from the recorded drive only; state from a parabola through the first {} samples, error from there on; drive {} between samples; Runge-Kutta 4 with located stops, {} step(s) a sample; {} warm-up period(s); held out: {held_out}",
@@ -327,7 +414,9 @@ impl Stand<'_> {
                 protocol.substeps,
                 protocol.warm_up_periods,
             ),
-            PlantKind::Bench => format!("effort along the recorded motion (zero-phase low-pass, central difference), memories empty at the start, no sample discarded; held out: {held_out}"),
+            PlantKind::Bench => format!(
+                "effort along the recorded motion (zero-phase low-pass, central difference), memories empty at the start, no sample discarded; held out: {held_out}"
+            ),
         }
     }
 
@@ -341,7 +430,11 @@ impl Stand<'_> {
                 1.0 / self.train.step_s,
                 self.train.duration_s(),
                 self.test.len(),
-                if other_recording { " of another recording" } else { " at the end of the recording" },
+                if other_recording {
+                    " of another recording"
+                } else {
+                    " at the end of the recording"
+                },
             ),
             format!(
                 "windows: bump (1 - x²)⁴, {:.1} ms wide, {} samples apart, {usable} of {} usable (sense of motion known)",
@@ -366,7 +459,9 @@ impl Stand<'_> {
     fn curves(&self, before: &Plant, after: &Plant, protocol: &Protocol) -> Curves {
         let run = self.test;
         Curves {
-            time_s: (0..run.len()).map(|k| run.start_s + k as f64 * run.step_s).collect(),
+            time_s: (0..run.len())
+                .map(|k| run.start_s + k as f64 * run.step_s)
+                .collect(),
             recorded: match run.plant {
                 PlantKind::Axis => run.position.clone(),
                 PlantKind::Bench => run.effort.clone(),
@@ -384,13 +479,22 @@ impl Stand<'_> {
 }
 
 fn summary(verdict: Verdict, selection: &Selection, fit: Option<&FitReport>) -> String {
-    let names: Vec<&str> = selection.found.iter().map(|f| f.term.mechanism.name()).collect();
+    let names: Vec<&str> = selection
+        .found
+        .iter()
+        .map(|f| f.term.mechanism.name())
+        .collect();
     let named = names.join(", ");
     let shown = match fit.and_then(|f| f.held_out.map(|h| (h, f))) {
         Some((held, fit)) if !names.is_empty() && fit.improved => {
-            format!("; on data it never saw the error falls from {:.4e} to {:.4e} {}", held.before, held.after, fit.unit)
+            format!(
+                "; on data it never saw the error falls from {:.4e} to {:.4e} {}",
+                held.before, held.after, fit.unit
+            )
         }
-        Some(_) if !names.is_empty() => "; but the held-out part did not improve: do not use this calibration".to_owned(),
+        Some(_) if !names.is_empty() => {
+            "; but the held-out part did not improve: do not use this calibration".to_owned()
+        }
         _ => String::new(),
     };
     match verdict {
@@ -439,7 +543,10 @@ fn faulty(rig: &Rig, which: &str, fault: crate::align::Fault) -> Diagnosis {
     let mut diagnosis = empty(
         rig,
         Verdict::DataFault,
-        format!("the {which} is at fault: {} from {:.3} to {:.3} s: {}", fault.channel, fault.from_s, fault.to_s, fault.reason),
+        format!(
+            "the {which} is at fault: {} from {:.3} to {:.3} s: {}",
+            fault.channel, fault.from_s, fault.to_s, fault.reason
+        ),
     );
     diagnosis.report.fault = Some(FaultReport {
         channel: fault.channel,
@@ -454,6 +561,10 @@ fn not_excited(rig: &Rig, run: &Run, usable: usize) -> Diagnosis {
     empty(
         rig,
         Verdict::NotExcited,
-        format!("the recording moves too little: {usable} usable windows, travel {:.3e} against a position noise of {:.3e}", run.travel(), run.position_noise),
+        format!(
+            "the recording moves too little: {usable} usable windows, travel {:.3e} against a position noise of {:.3e}",
+            run.travel(),
+            run.position_noise
+        ),
     )
 }

@@ -15,7 +15,10 @@ const DRIFT_SHARE: f64 = 0.5;
 pub fn free_numbers(plant: &Plant, inertia_free: bool, known: &[bool], shapes: bool) -> Vec<Free> {
     let mut free = Vec::new();
     if inertia_free {
-        free.push(Free { place: None, scale: 0.02 * plant.inertia });
+        free.push(Free {
+            place: None,
+            scale: 0.02 * plant.inertia,
+        });
     }
     for (index, (effect, known)) in plant.effects.iter().zip(known).enumerate() {
         let linear = entry(effect.mechanism).map_or(0, |e| e.linear);
@@ -26,8 +29,15 @@ pub fn free_numbers(plant: &Plant, inertia_free: bool, known: &[bool], shapes: b
                 continue;
             }
             // A coefficient that happens to be near zero still needs a step that is felt.
-            let least = if is_shape { 0.0 } else { 1e-3 * size_of(effect, parameter, size) };
-            free.push(Free { place: Some((index, parameter)), scale: (0.02 * value.abs()).max(least).max(1e-12) });
+            let least = if is_shape {
+                0.0
+            } else {
+                1e-3 * size_of(effect, parameter, size)
+            };
+            free.push(Free {
+                place: Some((index, parameter)),
+                scale: (0.02 * value.abs()).max(least).max(1e-12),
+            });
         }
     }
     free
@@ -36,14 +46,26 @@ pub fn free_numbers(plant: &Plant, inertia_free: bool, known: &[bool], shapes: b
 /// The largest leading coefficient among the efforts of the plant: what "small" is measured against.
 fn leading_size(plant: &Plant) -> f64 {
     let efforts = plant.effects.iter().filter(|e| {
-        matches!(e.mechanism, Mechanism::DryOffset | Mechanism::ConstantBias | Mechanism::Presliding)
+        matches!(
+            e.mechanism,
+            Mechanism::DryOffset | Mechanism::ConstantBias | Mechanism::Presliding
+        )
     });
-    efforts.filter_map(|e| e.parameters.first()).map(|p| p.abs()).fold(0.0, f64::max)
+    efforts
+        .filter_map(|e| e.parameters.first())
+        .map(|p| p.abs())
+        .fold(0.0, f64::max)
 }
 
 fn size_of(effect: &Effect, parameter: usize, effort: f64) -> f64 {
     match (effect.mechanism, parameter) {
-        (Mechanism::DryOffset | Mechanism::ConstantBias | Mechanism::Presliding | Mechanism::Ripple, _) => effort,
+        (
+            Mechanism::DryOffset
+            | Mechanism::ConstantBias
+            | Mechanism::Presliding
+            | Mechanism::Ripple,
+            _,
+        ) => effort,
         (Mechanism::DirectionAsymmetry, 1) => effort,
         (Mechanism::BiasDrift, _) => 0.1 * effort,
         _ => 0.0,
@@ -62,33 +84,68 @@ pub struct Shown {
 
 /// Refits a plant on a recording: first what enters linearly, then the shapes, then a slow drift if the free run
 /// of an axis shows one.
-pub fn show(plant: &Plant, inertia_free: bool, known: &[bool], run: &Run, protocol: &Protocol, drift: bool) -> Shown {
+pub fn show(
+    plant: &Plant,
+    inertia_free: bool,
+    known: &[bool],
+    run: &Run,
+    protocol: &Protocol,
+    drift: bool,
+) -> Shown {
     let mut best = staged(plant, inertia_free, known, run, protocol);
-    let has_drift = plant.effects.iter().any(|e| e.mechanism == Mechanism::BiasDrift);
+    let has_drift = plant
+        .effects
+        .iter()
+        .any(|e| e.mechanism == Mechanism::BiasDrift);
     if !drift || has_drift || run.plant == PlantKind::Bench {
         return best;
     }
     let mut with_drift = plant.clone();
-    with_drift.effects.push(Effect { mechanism: Mechanism::BiasDrift, parameters: vec![0.0], onset_s: None });
+    with_drift.effects.push(Effect {
+        mechanism: Mechanism::BiasDrift,
+        parameters: vec![0.0],
+        onset_s: None,
+    });
     let mut known = known.to_vec();
     known.push(false);
     let drifting = staged(&with_drift, inertia_free, &known, run, protocol);
     if drifting.train * drifting.train < (1.0 - DRIFT_SHARE) * best.train * best.train {
-        let rate = drifting.plant.effects.last().and_then(|e| e.parameters.first().copied());
-        best = Shown { drift: rate, ..drifting };
+        let rate = drifting
+            .plant
+            .effects
+            .last()
+            .and_then(|e| e.parameters.first().copied());
+        best = Shown {
+            drift: rate,
+            ..drifting
+        };
     }
     best
 }
 
-fn staged(plant: &Plant, inertia_free: bool, known: &[bool], run: &Run, protocol: &Protocol) -> Shown {
+fn staged(
+    plant: &Plant,
+    inertia_free: bool,
+    known: &[bool],
+    run: &Run,
+    protocol: &Protocol,
+) -> Shown {
     let linear = free_numbers(plant, inertia_free, known, false);
     let first = refit(plant, &linear, run, protocol);
     let all = free_numbers(&first.plant, inertia_free, known, true);
     if all.len() == linear.len() {
-        return Shown { plant: first.plant, train: first.after, drift: None };
+        return Shown {
+            plant: first.plant,
+            train: first.after,
+            drift: None,
+        };
     }
     let second = refit(&first.plant, &all, run, protocol);
-    Shown { plant: second.plant, train: second.after, drift: None }
+    Shown {
+        plant: second.plant,
+        train: second.after,
+        drift: None,
+    }
 }
 
 /// Horizons at which the error is shown, s.

@@ -15,16 +15,28 @@ pub fn aligned(rig: &Rig, recording: &Recording) -> Result<Run, Fault> {
     let axis = recording.plant == RigPlant::Axis;
     let gain = rig.parameters.map_or(1.0, |p| p.command_gain.value);
     let drive = recording.drive.as_ref();
-    let effort = if axis { drive } else { recording.force.as_ref() };
+    let effort = if axis {
+        drive
+    } else {
+        recording.force.as_ref()
+    };
     let scale = if axis { gain } else { 1.0 };
     let scaled = |x: Option<f64>| x.map(|x| x * scale.abs());
     let quantum_noise = |quantum: f64| quantum / 12f64.sqrt();
     let effort_noise = effort.and_then(|e| match (e.noise, e.quantum) {
         (None, None) => None,
-        (noise, quantum) => Some(noise.unwrap_or(0.0).hypot(quantum_noise(quantum.unwrap_or(0.0)))),
+        (noise, quantum) => Some(
+            noise
+                .unwrap_or(0.0)
+                .hypot(quantum_noise(quantum.unwrap_or(0.0))),
+        ),
     });
     let mut run = align(&Signals {
-        plant: if axis { PlantKind::Axis } else { PlantKind::Bench },
+        plant: if axis {
+            PlantKind::Axis
+        } else {
+            PlantKind::Bench
+        },
         time_s: recording.time_s.clone(),
         position: recording.position.samples.clone(),
         effort: effort.map_or_else(Vec::new, |e| e.samples.iter().map(|x| x * scale).collect()),
@@ -89,7 +101,11 @@ pub fn plant(rig: &Rig) -> Plant {
         inertia: rig.parameters.map_or(0.0, |p| p.inertia.value),
         effects: nominal(rig)
             .into_iter()
-            .map(|n| Effect { mechanism: n.mechanism, parameters: n.parameters, onset_s: n.onset_s })
+            .map(|n| Effect {
+                mechanism: n.mechanism,
+                parameters: n.parameters,
+                onset_s: n.onset_s,
+            })
             .collect(),
     }
 }

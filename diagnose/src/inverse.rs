@@ -62,13 +62,23 @@ pub fn inverse_model(run: &Run, mechanisms: &[(Mechanism, Vec<f64>)]) -> Option<
 }
 
 fn decimated(signal: &[f64]) -> Vec<f64> {
-    let inner = signal.get(BORDER..signal.len().saturating_sub(BORDER)).unwrap_or_default();
+    let inner = signal
+        .get(BORDER..signal.len().saturating_sub(BORDER))
+        .unwrap_or_default();
     decimate(inner, DECIMATION)
 }
 
-fn solve(columns: &[Vec<f64>], effort: &[f64], mechanisms: &[(Mechanism, Vec<f64>)]) -> Option<InverseModel> {
+fn solve(
+    columns: &[Vec<f64>],
+    effort: &[f64],
+    mechanisms: &[(Mechanism, Vec<f64>)],
+) -> Option<InverseModel> {
     let matrix = DMatrix::from_fn(effort.len(), columns.len(), |i, j| {
-        columns.get(j).and_then(|c| c.get(i)).copied().unwrap_or(0.0)
+        columns
+            .get(j)
+            .and_then(|c| c.get(i))
+            .copied()
+            .unwrap_or(0.0)
     });
     let target = DVector::from_column_slice(effort);
     let solution = matrix.clone().svd(true, true).solve(&target, 1e-12).ok()?;
@@ -77,7 +87,19 @@ fn solve(columns: &[Vec<f64>], effort: &[f64], mechanisms: &[(Mechanism, Vec<f64
     let inertia = values.next()?;
     let parameters = mechanisms
         .iter()
-        .map(|(m, _)| (*m, values.by_ref().take(entry(*m).map_or(0, |e| e.linear)).collect()))
+        .map(|(m, _)| {
+            (
+                *m,
+                values
+                    .by_ref()
+                    .take(entry(*m).map_or(0, |e| e.linear))
+                    .collect(),
+            )
+        })
         .collect();
-    Some(InverseModel { inertia, parameters, error_percent: 100.0 * error / target.norm() })
+    Some(InverseModel {
+        inertia,
+        parameters,
+        error_percent: 100.0 * error / target.norm(),
+    })
 }

@@ -95,11 +95,13 @@ pub fn select(problem: &mut Problem, mut nominal: Vec<Term>, gates: Gates) -> Se
     let residual = fit(problem, &refs(&nominal, &found), &blocks).residual;
     rewhiten(problem, &residual, &mut nominal, &mut found);
     found = search(problem, &nominal, found, &blocks, gates, &mut stages);
+    let too_small = prune(problem, &nominal, &mut found, &blocks);
     let before = fit(problem, &nominal.iter().collect::<Vec<_>>(), &blocks);
     let after = fit(problem, &refs(&nominal, &found), &blocks);
     Selection {
         nominal,
         found,
+        too_small,
         stages,
         before,
         after,
@@ -113,21 +115,20 @@ pub const FLOOR_RATIO: f64 = 1.3;
 
 /// Takes out, weakest first, every mechanism that explains less than half of what stays unexplained: beside an
 /// unknown of that size it may only be soaking it up.
+///
+/// Both are left-out white losses; the part of the loss that sensor noise accounts for is not unexplained.
 fn prune(problem: &Problem, nominal: &[Term], found: &mut Vec<Found>, blocks: &Blocks) -> Vec<Mechanism> {
-    let energy = |found: &[Found]| {
-        let size = usable_rms(problem, &fit(problem, &refs(nominal, found), blocks).residual);
-        size * size
-    };
-    let floor = FLOOR_RATIO * problem.floor;
     let mut taken_out = Vec::new();
     loop {
-        let left = energy(found);
-        let unexplained = left - floor * floor;
+        let current = fit(problem, &refs(nominal, found), blocks);
+        let ratio = usable_rms(problem, &current.residual) / (FLOOR_RATIO * problem.floor);
+        let unexplained = current.left_out() * (1.0 - 1.0 / (ratio * ratio)).max(0.0);
         let weakest = (0..found.len())
             .map(|index| {
                 let mut fewer = found.clone();
                 fewer.remove(index);
-                (energy(&fewer) - left, index)
+                let without = fit(problem, &refs(nominal, &fewer), blocks);
+                (without.left_out() - current.left_out(), index)
             })
             .min_by(|a, b| a.0.total_cmp(&b.0));
         match weakest {
@@ -201,7 +202,9 @@ fn search(
         let standing: Vec<Mechanism> = found.iter().map(|f| f.term.mechanism).collect();
         settle(problem, nominal, &mut found, blocks, gates);
         note_swaps(problem, nominal, &found, &standing, blocks, stages);
-        if found.iter().all(|f| f.term.mechanism != entered) && stages.last().is_some_and(|s| s.entered == entered) {
+        if found.iter().all(|f| f.term.mechanism != entered)
+            && stages.last().is_some_and(|s| s.entered == entered)
+        {
             break;
         }
     }
@@ -217,7 +220,11 @@ fn note_swaps(
     blocks: &Blocks,
     stages: &mut Vec<Stage>,
 ) {
-    for new in found.iter().map(|f| f.term.mechanism).filter(|m| !standing.contains(m)) {
+    for new in found
+        .iter()
+        .map(|f| f.term.mechanism)
+        .filter(|m| !standing.contains(m))
+    {
         let residual = fit(problem, &refs(nominal, found), blocks).residual;
         stages.push(Stage {
             entered: new,

@@ -35,7 +35,11 @@ pub fn calibrated(rig: &Rig, plant: &Plant, errors: &Errors, refitted: bool) -> 
             }
         })
         .collect();
-    let how = if refitted { "output-error refit of free runs; intervals from the weighted windows" } else { "weighted windows" };
+    let how = if refitted {
+        "output-error refit of free runs; intervals from the weighted windows"
+    } else {
+        "weighted windows"
+    };
     out.provenance.insert("fit".to_owned(), how.to_owned());
     out
 }
@@ -53,19 +57,31 @@ fn with_interval(value: f64, deviation: Option<f64>) -> Value {
 pub fn numbers(effect: &RigEffect, motion: Motion) -> BTreeMap<String, Number> {
     let parameters = effect.mechanism.parameters().iter().zip(&effect.values);
     parameters
-        .map(|(parameter, value)| (parameter.name.to_owned(), number(value, parameter.quantity.dimension(motion).to_string())))
+        .map(|(parameter, value)| {
+            (
+                parameter.name.to_owned(),
+                number(value, parameter.quantity.dimension(motion).to_string()),
+            )
+        })
         .collect()
 }
 
 fn number(value: &Value, unit: String) -> Number {
-    Number { value: value.value, unit, low95: value.low95, high95: value.high95 }
+    Number {
+        value: value.value,
+        unit,
+        low95: value.low95,
+        high95: value.high95,
+    }
 }
 
 /// The nominal model's own numbers after the fit, `mechanism.parameter` by name, the inertia as `inertia`.
 pub fn nominal_numbers(rig: &Rig, calibration: &Rig) -> BTreeMap<String, Number> {
     let mut out = BTreeMap::new();
     if let Some(parameters) = &calibration.parameters {
-        let unit = rigproof_spec::effect::Quantity::Inertia.dimension(rig.motion).to_string();
+        let unit = rigproof_spec::effect::Quantity::Inertia
+            .dimension(rig.motion)
+            .to_string();
         out.insert("inertia".to_owned(), number(&parameters.inertia, unit));
     }
     for effect in calibration.effects.iter().take(rig.effects.len()) {

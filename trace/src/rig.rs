@@ -4,6 +4,7 @@
 //! A calibration file is the same description with the effects that a diagnosis added.
 
 mod apply;
+mod protocol;
 mod read;
 mod table;
 mod write;
@@ -20,6 +21,7 @@ use crate::error::TraceError;
 use crate::store;
 
 pub use apply::{Recording, Signal};
+pub use protocol::{Drive, Protocol};
 
 /// A rig: what it is, what is known of it, and how its recordings are to be read.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,6 +42,8 @@ pub struct Rig {
     pub brake: Option<Joint>,
     /// The physics that the nominal model has.
     pub effects: Vec<RigEffect>,
+    /// How free runs are made.
+    pub protocol: Protocol,
     /// Where a calibration came from: words of the program that wrote it, by topic.
     pub provenance: BTreeMap<String, String>,
 }
@@ -84,6 +88,8 @@ pub struct Channels {
     pub force: Option<ChannelMap>,
     /// Current of a `bench`, A.
     pub current: Option<ChannelMap>,
+    /// What somebody's own simulation gives for the force or torque of a `bench`, N or N·m.
+    pub simulated: Option<ChannelMap>,
 }
 
 /// How one channel becomes an SI quantity: sign × scale × (recorded − offset).

@@ -26,6 +26,8 @@ pub struct Recording {
     pub drive: Option<Signal>,
     /// Force, N, or torque, N·m, of a bench.
     pub force: Option<Signal>,
+    /// What somebody's own simulation gives for it.
+    pub simulated: Option<Signal>,
 }
 
 /// One quantity of a recording, in SI units.
@@ -72,6 +74,7 @@ impl Rig {
                 Plant::Bench => optional(&self.channels.current)?,
             },
             force: optional(&self.channels.force)?,
+            simulated: optional(&self.channels.simulated)?,
         })
     }
 

@@ -8,7 +8,9 @@ use rigproof_spec::units::{Dimension, Unit};
 use toml::de::DeTable;
 
 use super::table::{Source, Table};
-use super::{ChannelMap, Channels, Parameters, Plant, Rig, RigEffect, Status, Value, motion_name};
+use super::{
+    ChannelMap, Channels, Parameters, Plant, Protocol, Rig, RigEffect, Status, Value, motion_name,
+};
 use crate::csv::TimeColumn;
 use crate::error::TraceError;
 use crate::suggest::{advice, quoted};
@@ -36,6 +38,7 @@ impl Rig {
             "parameters",
             "brake",
             "effect",
+            "protocol",
             "provenance",
         ])?;
         let name = root.need("name", root.text("name")?)?.to_string();
@@ -63,6 +66,7 @@ impl Rig {
                 .iter()
                 .map(|table| read_effect(table, motion))
                 .collect::<Result<_, _>>()?,
+            protocol: Protocol::read(&root)?,
             provenance: match root.table("provenance")? {
                 Some(table) => table
                     .keys()
@@ -81,7 +85,7 @@ impl Rig {
 }
 
 /// One of a few words.
-fn choice<T: Copy, const N: usize>(
+pub(super) fn choice<T: Copy, const N: usize>(
     table: &Table<'_>,
     key: &str,
     choices: [T; N],
@@ -101,7 +105,14 @@ fn choice<T: Copy, const N: usize>(
 fn read_channels(table: &Table<'_>, plant: Plant, motion: Motion) -> Result<Channels, TraceError> {
     table.only(match plant {
         Plant::Axis => &["time", "position", "command"],
-        Plant::Bench => &["time", "position", "force", "torque", "current"],
+        Plant::Bench => &[
+            "time",
+            "position",
+            "force",
+            "torque",
+            "current",
+            "simulated",
+        ],
     })?;
     let effort = Quantity::Effort.dimension(motion);
     let force_key = if table.has("torque") {
@@ -120,6 +131,7 @@ fn read_channels(table: &Table<'_>, plant: Plant, motion: Motion) -> Result<Chan
         command: read_channel(table, "command", None)?,
         force: read_channel(table, force_key, Some(effort))?,
         current: read_channel(table, "current", Some(Dimension::CURRENT))?,
+        simulated: read_channel(table, "simulated", Some(effort))?,
     };
     match plant {
         Plant::Axis => table.need("command", channels.command.as_ref()).map(drop)?,

@@ -36,6 +36,7 @@ impl Rig {
         for effect in &self.effects {
             write_effect(effect, self.motion, &mut lines);
         }
+        lines.extend(self.protocol.lines());
         if !self.provenance.is_empty() {
             lines.push("\n[provenance]".into());
             let entries = self.provenance.iter();
@@ -65,6 +66,7 @@ impl Rig {
             ("command", self.channels.command.as_ref()),
             (effort, self.channels.force.as_ref()),
             ("current", self.channels.current.as_ref()),
+            ("simulated", self.channels.simulated.as_ref()),
         ];
         for (role, map) in roles {
             lines.extend(map.map(|map| format!("{role} = {}", channel(map))));

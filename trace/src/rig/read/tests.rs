@@ -1,7 +1,7 @@
 //! This file holds what a rig description may say, and what it is told when it says something else.
 
 use super::*;
-use crate::rig::{Channels, Parameters};
+use crate::rig::{Channels, Drive, Parameters};
 use proptest::prelude::*;
 
 const AXIS: &str = r#"name = "slide"
@@ -184,6 +184,8 @@ fn any_effect() -> impl Strategy<Value = RigEffect> {
 
 prop_compose! {
     fn any_axis()(
+        drive in prop::sample::select(&Drive::ALL[..]),
+        (start_samples, substeps, warm_up_periods) in (0..1000_usize, 1..100_usize, 0..10_usize),
         words in prop::array::uniform2(".*"),
         rotary: bool,
         position in any_channel("m"),
@@ -206,7 +208,9 @@ prop_compose! {
                 command: Some(command),
                 force: None,
                 current: None,
+                simulated: None,
             },
+            protocol: Protocol { drive, start_samples, substeps, warm_up_periods },
             parameters: Some(Parameters { inertia, command_gain }),
             brake: None,
         }
