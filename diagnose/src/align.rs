@@ -77,7 +77,13 @@ pub fn align(signals: &Signals) -> Result<Run, Fault> {
         .effort_noise
         .unwrap_or_else(|| smallest_step(&effort) / 12f64.sqrt());
     let band_hz = band_hz(&effort, step_s);
-    let (motion, speed_floor) = smoothed_motion(&position, step_s, band_hz, position_noise);
+    let (mut motion, speed_floor) = smoothed_motion(&position, step_s, band_hz, position_noise);
+    forget_sense_at_rest(
+        &mut motion,
+        &position,
+        step_s,
+        (2.0 * quantum).max(6.0 * position_noise),
+    );
     let run = Run {
         plant: signals.plant,
         step_s,
@@ -113,6 +119,16 @@ fn median_step(time_s: &[f64]) -> f64 {
 fn check_clock(time_s: &[f64], step_s: f64) -> Result<(), Fault> {
     let longest = LONGEST_GAP_S.max(8.0 * step_s);
     for pair in time_s.windows(2) {
+        if let [before, after] = pair
+            && !(after - before > 0.0)
+        {
+            return Err(Fault {
+                channel: "time",
+                from_s: *before,
+                to_s: *after,
+                reason: "the clock stands or runs backward; cut the recording there".to_owned(),
+            });
+        }
         if let [before, after] = pair
             && after - before > longest
         {
@@ -386,4 +402,22 @@ fn smoothed_motion(position: &[f64], step_s: f64, band_hz: f64, noise: f64) -> (
         })
         .collect();
     (motion, floor)
+}
+
+/// Half the stretch of time over which a joint must have moved for its sense to be known, s.
+const REST_S: f64 = 0.025;
+
+/// Takes the sense away wherever the recorded position stays within `still` for a while: smoothing rings there.
+fn forget_sense_at_rest(motion: &mut [Instant], position: &[f64], step_s: f64, still: f64) {
+    let reach = (REST_S / step_s).round().max(1.0) as usize;
+    for (k, now) in motion.iter_mut().enumerate() {
+        let around = position
+            .get(k.saturating_sub(reach)..(k + reach + 1).min(position.len()))
+            .unwrap_or_default();
+        let low = around.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = around.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        if high - low <= still {
+            now.sense = 0.0;
+        }
+    }
 }

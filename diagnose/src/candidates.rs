@@ -77,11 +77,14 @@ fn shapes(problem: &Problem, mechanism: Mechanism, residual: &[f64]) -> Vec<Vec<
     let fastest = fastest(problem);
     let one = |values: Vec<f64>| values.into_iter().map(|v| vec![v]).collect();
     match mechanism {
-        Mechanism::Stribeck => one(geometric(
+        Mechanism::Stribeck => geometric(
             (2.0 * run.speed_floor).max(0.005 * fastest),
             0.5 * fastest,
             8,
-        )),
+        )
+        .into_iter()
+        .flat_map(|speed| [1.0, 2.0].map(|exponent| vec![speed, exponent]))
+        .collect(),
         Mechanism::Presliding => one(geometric(
             (3.0 * run.position_noise).max(1e-4 * travel),
             0.2 * travel,
@@ -89,7 +92,9 @@ fn shapes(problem: &Problem, mechanism: Mechanism, residual: &[f64]) -> Vec<Vec<
         )),
         Mechanism::Hysteresis => geometric(0.2 / travel, 40.0 / travel, 6)
             .into_iter()
-            .flat_map(|gamma| [-1.4, -0.7, 0.7, 1.4].map(|ratio| vec![gamma, gamma * ratio]))
+            .flat_map(|gamma| {
+                [-1.4, -0.7, -0.35, 0.35, 0.7, 1.4].map(|ratio| vec![gamma, gamma * ratio])
+            })
             .collect(),
         Mechanism::Ripple => one(periods(problem, residual)),
         Mechanism::Lag => one(geometric(0.5 * run.step_s, 0.25, 14)),

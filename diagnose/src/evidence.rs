@@ -3,7 +3,7 @@
 use crate::candidates::{mechanisms, modelled_effort, realise, variants};
 use crate::problem::{Problem, Term};
 use crate::regression::{
-    Blocks, covariance, dot, fit, free_columns, nested_block_losses, norm, paired, reduced_target,
+    Blocks, covariance, dot, fit, free_columns, nested_block_losses, norm, paired,
 };
 use crate::report::{NotSeen, NullDirection};
 use crate::select::{Found, Gates, Selection, TIE_Z, refs};
@@ -33,15 +33,13 @@ pub fn standard_errors(problem: &Problem, selection: &Selection) -> Errors {
     let terms = refs(&selection.nominal, &selection.found);
     let columns = sensitivities(problem, &terms, selection);
     let white: Vec<&[f64]> = columns.iter().map(|c| c.values.as_slice()).collect();
-    let target = reduced_target(problem, &terms);
-    let degrees =
-        (target.white.iter().filter(|x| **x != 0.0).count() as f64 - white.len() as f64).max(1.0);
-    let variance = (selection.after.loss / degrees).max(1.0);
-    let spread: Vec<f64> = match covariance(&white) {
+    let residual = problem.whitener.whiten(&selection.after.residual);
+    let blocks = Blocks::new(problem);
+    let spread: Vec<f64> = match sandwich(&white, &residual, &blocks) {
         Some(covariance) => covariance
             .diagonal()
             .iter()
-            .map(|v| (variance * v.max(0.0)).sqrt())
+            .map(|v| v.max(0.0).sqrt())
             .collect(),
         None => vec![f64::NAN; white.len()],
     };
@@ -67,6 +65,29 @@ pub fn standard_errors(problem: &Problem, selection: &Selection) -> Errors {
         }
     }
     errors
+}
+
+/// Covariance of the coefficients that trusts neither whiteness nor equal size of the residuals: scores summed
+/// over contiguous blocks, and never less than white residuals of variance 1 would give.
+fn sandwich(columns: &[&[f64]], residual: &[f64], blocks: &Blocks) -> Option<DMatrix<f64>> {
+    let bread = covariance(columns)?;
+    let mut filling = DMatrix::zeros(columns.len(), columns.len());
+    for &(first, end) in &blocks.ranges {
+        let part = |values: &[f64]| values.get(first..end).unwrap_or_default().to_vec();
+        let rest = part(residual);
+        let score =
+            DVector::from_iterator(columns.len(), columns.iter().map(|c| dot(&part(c), &rest)));
+        filling += &score * score.transpose();
+    }
+    let count = blocks.ranges.len() as f64;
+    let robust = &bread * filling * &bread * (count / (count - 1.0));
+    Some(DMatrix::from_fn(columns.len(), columns.len(), |i, j| {
+        if i == j {
+            robust[(i, j)].max(bread[(i, j)])
+        } else {
+            robust[(i, j)]
+        }
+    }))
 }
 
 fn parameter_count(term: &Term) -> usize {

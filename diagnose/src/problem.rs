@@ -4,7 +4,7 @@
 use crate::filter::gradient;
 use crate::run::{PlantKind, Run};
 use crate::weak::Windows;
-use crate::whiten::Whitener;
+use crate::whiten::{ORDER, Whitener};
 use rigproof_model::bench::column;
 use rigproof_model::effects::{Form, entry, first_order_lag, law};
 use rigproof_spec::effect::Mechanism;
@@ -102,8 +102,8 @@ impl<'a> Problem<'a> {
             .zip(&known)
             .map(|(e, k)| e - k)
             .collect();
-        let flat = vec![0.0; windows.centres.len()];
-        let whitener = Whitener::new(&flat, &windows.usable, floor.max(1e-12));
+        let covariance = windows.noise_covariance(run, start, 0.0, ORDER + 1);
+        let whitener = Whitener::new(&covariance, &windows.usable);
         let mut problem = Problem {
             run,
             whitener,
@@ -119,9 +119,19 @@ impl<'a> Problem<'a> {
         problem
     }
 
-    /// Replaces the noise model by that of these residuals (one value a window).
-    pub fn rewhiten(&mut self, residual: &[f64]) {
-        self.whitener = Whitener::new(residual, &self.windows.usable, 1e-3 * self.floor);
+    /// Refines the noise model: what these residuals have beyond the floor counts as unexplained white effort.
+    ///
+    /// `rms` is the root mean square of the residuals over the usable windows.
+    pub fn rewhiten(&mut self, rms: f64) {
+        let excess = (rms * rms - self.floor * self.floor).max(0.0);
+        let inertia = match self.inertia {
+            Inertia::None => 0.0,
+            Inertia::Known(value) | Inertia::Unknown(value) => value,
+        };
+        let covariance = self
+            .windows
+            .noise_covariance(self.run, inertia, excess, ORDER + 1);
+        self.whitener = Whitener::new(&covariance, &self.windows.usable);
         self.whiten_own();
     }
 
@@ -164,7 +174,7 @@ impl<'a> Problem<'a> {
         let free = self
             .resistance_columns(mechanism, entry.linear, shape)
             .into_iter()
-            .map(|signal| self.rows(signal, onset_s))
+            .map(|signal| self.rows(self.seen(signal), onset_s))
             .collect();
         Some(Term {
             mechanism,
@@ -240,6 +250,15 @@ impl<'a> Problem<'a> {
             .collect()
     }
 
+    /// A resistance as the discrete second difference of the position sees it: on an axis with Numerov's weights,
+    /// exact to fourth order in the step for a signal that is smooth between samples.
+    fn seen(&self, signal: Vec<f64>) -> Vec<f64> {
+        match self.run.plant {
+            PlantKind::Axis => numerov(&signal),
+            PlantKind::Bench => signal,
+        }
+    }
+
     fn rows(&self, mut signal: Vec<f64>, onset_s: Option<f64>) -> Rows {
         if let Some(onset_s) = onset_s {
             let first = self.run.sample_at(onset_s);
@@ -298,17 +317,31 @@ fn rows(windows: &Windows, signal: Vec<f64>) -> Rows {
     }
 }
 
-/// The effort that acts around each sample: of a drive that holds, half of the last value and half of this one
-/// (exact for the discrete second difference of the position).
+/// The effort as the discrete second difference of the position sees it: half of the last value and half of this
+/// one for a drive that holds, Numerov's weights for one that was sampled; the metered effort itself on a bench.
 fn acting_effort(run: &Run) -> Vec<f64> {
-    if !run.held {
-        return run.effort.clone();
+    match (run.plant, run.held) {
+        (PlantKind::Bench, _) => run.effort.clone(),
+        (PlantKind::Axis, true) => {
+            let before = run.effort.first().into_iter().chain(&run.effort);
+            before
+                .zip(&run.effort)
+                .map(|(b, e)| 0.5 * (b + e))
+                .collect()
+        }
+        (PlantKind::Axis, false) => numerov(&run.effort),
     }
-    let before = run.effort.first().into_iter().chain(&run.effort);
-    before
-        .zip(&run.effort)
-        .map(|(b, e)| 0.5 * (b + e))
-        .collect()
+}
+
+/// Numerov's weights 1/12, 10/12, 1/12; the end samples stay.
+fn numerov(signal: &[f64]) -> Vec<f64> {
+    let mut out = signal.to_vec();
+    for (value, window) in out.iter_mut().skip(1).zip(signal.windows(3)) {
+        if let [a, b, c] = window {
+            *value = (a + 10.0 * b + c) / 12.0;
+        }
+    }
+    out
 }
 
 /// The discrete second derivative, 0 at both ends.

@@ -80,6 +80,9 @@ const ELEMENTARY: [Mechanism; 3] = [
     Mechanism::ConstantBias,
     Mechanism::Viscous,
 ];
+/// A mechanism that begins during the recording is preferred when the best one from the start explains less than
+/// this share of what it does.
+const LATE_SHARE: f64 = 0.8;
 /// A simpler mechanism is taken when it explains at least this share of what the best one does.
 const SIMPLER_SHARE: f64 = 0.9;
 /// z below which two explanations are not told apart.
@@ -108,16 +111,21 @@ pub fn select(problem: &mut Problem, mut nominal: Vec<Term>, gates: Gates) -> Se
     }
 }
 
-/// Share of the unexplained energy (beyond the floor) that a mechanism must explain by itself to be named.
-const OWN_TO_UNEXPLAINED: f64 = 0.5;
+/// Multiple of the unexplained energy (beyond the floor) that a mechanism must explain by itself to be named.
+const OWN_TO_UNEXPLAINED: f64 = 1.0;
 /// Residual over floor up to which nothing counts as unexplained.
 pub const FLOOR_RATIO: f64 = 1.3;
 
-/// Takes out, weakest first, every mechanism that explains less than half of what stays unexplained: beside an
+/// Takes out, weakest first, every mechanism that explains less than what stays unexplained: beside an
 /// unknown of that size it may only be soaking it up.
 ///
 /// Both are left-out white losses; the part of the loss that sensor noise accounts for is not unexplained.
-fn prune(problem: &Problem, nominal: &[Term], found: &mut Vec<Found>, blocks: &Blocks) -> Vec<Mechanism> {
+fn prune(
+    problem: &Problem,
+    nominal: &[Term],
+    found: &mut Vec<Found>,
+    blocks: &Blocks,
+) -> Vec<Mechanism> {
     let mut taken_out = Vec::new();
     loop {
         let current = fit(problem, &refs(nominal, found), blocks);
@@ -141,7 +149,7 @@ fn prune(problem: &Problem, nominal: &[Term], found: &mut Vec<Found>, blocks: &B
 }
 
 fn rewhiten(problem: &mut Problem, residual: &[f64], nominal: &mut [Term], found: &mut [Found]) {
-    problem.rewhiten(residual);
+    problem.rewhiten(usable_rms(problem, residual));
     for term in nominal
         .iter_mut()
         .chain(found.iter_mut().map(|f| &mut f.term))
@@ -270,6 +278,8 @@ struct Trial {
     found: Found,
     losses: Vec<f64>,
     parameters: usize,
+    /// Whether nothing beyond sensor noise is left with it.
+    at_floor: bool,
 }
 
 /// The next mechanism: an elementary one as long as any passes the gates, then any other, then one that begins
@@ -297,10 +307,14 @@ fn forward(
                 .collect();
             simplest(trials, current.left_out())
         };
-    judged(&elementary, &from_start)
-        .or_else(|| judged(&others, &from_start))
-        .or_else(|| judged(&elementary, &later))
-        .or_else(|| judged(&others, &later))
+    let early = judged(&elementary, &from_start).or_else(|| judged(&others, &from_start));
+    let all: Vec<Mechanism> = elementary.iter().chain(&others).copied().collect();
+    let late = judged(&all, &later);
+    match (early, late) {
+        (Some(early), Some(late)) if early.share < LATE_SHARE * late.share => Some(late),
+        (None, late) => late,
+        (early, _) => early,
+    }
 }
 
 /// Times at which an effect may begin: twelfths of the recording, ends left out.
@@ -352,6 +366,7 @@ fn judge(
         found: Found { term, z, share },
         losses,
         parameters,
+        at_floor: usable_rms(problem, &fitted.residual) <= FLOOR_RATIO * problem.floor,
     })
 }
 
@@ -410,18 +425,20 @@ fn best(problem: &Problem, common: &[&Term], tried: Vec<Term>, blocks: &Blocks) 
         .map(|(_, term)| term)
 }
 
-/// The trial with the fewest parameters among those that tie with the best one or explain nearly as much.
+/// The trial with the fewest parameters among those that tie with the best one, or that explain nearly as much
+/// where even the best one leaves more than noise.
 fn simplest(mut trials: Vec<Trial>, loss_without: f64) -> Option<Found> {
     let total = |trial: &Trial| trial.losses.iter().sum::<f64>();
     trials.sort_by(|a, b| total(a).total_cmp(&total(b)));
     let leader = trials.first()?.losses.clone();
+    let at_floor = trials.first()?.at_floor;
     let most = loss_without - leader.iter().sum::<f64>();
     let all = vec![true; leader.len()];
     trials
         .into_iter()
         .enumerate()
         .filter(|(rank, t)| {
-            let nearly = loss_without - total(t) >= SIMPLER_SHARE * most;
+            let nearly = !at_floor && loss_without - total(t) >= SIMPLER_SHARE * most;
             *rank == 0 || nearly || paired(&t.losses, &leader, &all).1 < TIE_Z
         })
         .min_by_key(|(rank, t)| (t.parameters, *rank))
@@ -524,7 +541,7 @@ fn moved(
     realise(problem, term.mechanism, &shape, onset_s, effort)
 }
 
-/// Drops every found mechanism that the others make unnecessary.
+/// Drops every found mechanism that the others, with their shapes adjusted, make unnecessary.
 fn backward(
     problem: &Problem,
     nominal: &[Term],
@@ -537,6 +554,7 @@ fn backward(
         let current = fit(problem, &refs(nominal, found), blocks);
         let mut fewer = found.clone();
         let removed = fewer.remove(index);
+        refine(problem, nominal, &mut fewer, blocks);
         let without = fit(problem, &refs(nominal, &fewer), blocks);
         let (_, z) = paired(
             &without.block_loss,
@@ -544,7 +562,7 @@ fn backward(
             &excited(&removed.term, blocks),
         );
         let share = 1.0 - current.left_out() / without.left_out().max(1e-300);
-        if z < gates.z - 1.0 || share < 0.5 * gates.share {
+        if z < TIE_Z || share < gates.share {
             *found = fewer;
         } else {
             if let Some(kept) = found.get_mut(index) {
@@ -583,7 +601,7 @@ fn swap(problem: &Problem, nominal: &[Term], found: &mut [Found], blocks: &Block
                 let all = vec![true; t.losses.len()];
                 let gained = without.left_out() - t.losses.iter().sum::<f64>();
                 let had = without.left_out() - current.left_out();
-                had < SIMPLER_SHARE * gained
+                (t.at_floor || had < SIMPLER_SHARE * gained)
                     && paired(&current.block_loss, &t.losses, &all).1 >= TIE_Z
             })
             .collect();

@@ -83,15 +83,38 @@ impl Windows {
             .collect()
     }
 
-    /// Standard deviation that position noise and effort noise alone give one residual: the predicted floor.
+    /// Autocovariance over windows of one residual: sensor noise through the test function, and `excess` (a
+    /// variance) of effort that nothing explains, as white effort through the same function.
     ///
-    /// `inertia` is 0 on a bench; `damping` is the slope of resistance over speed.
-    pub fn floor(&self, run: &Run, inertia: f64) -> f64 {
-        let norm = |weights: &[f64]| weights.iter().map(|w| w * w).sum::<f64>().sqrt();
-        let from_position = inertia * run.position_noise * norm(&self.curvature);
-        let from_effort = run.effort_noise * norm(&self.bump);
-        from_position.hypot(from_effort)
+    /// `inertia` is 0 on a bench; `lags` values, one window hop apart.
+    pub fn noise_covariance(&self, run: &Run, inertia: f64, excess: f64, lags: usize) -> Vec<f64> {
+        let from_position = (inertia * run.position_noise).powi(2);
+        let from_effort = run.effort_noise.powi(2) + excess / overlap(&self.bump, 0).max(1e-300);
+        (0..lags)
+            .map(|lag| {
+                let shift = lag * self.hop;
+                from_position * overlap(&self.curvature, shift)
+                    + from_effort * overlap(&self.bump, shift)
+            })
+            .collect()
     }
+
+    /// Standard deviation that position noise and effort noise alone give one residual: the predicted floor.
+    pub fn floor(&self, run: &Run, inertia: f64) -> f64 {
+        self.noise_covariance(run, inertia, 0.0, 1)
+            .iter()
+            .sum::<f64>()
+            .sqrt()
+    }
+}
+
+/// Inner product of weights with themselves `shift` samples later.
+fn overlap(weights: &[f64], shift: usize) -> f64 {
+    weights
+        .iter()
+        .zip(weights.iter().skip(shift))
+        .map(|(a, b)| a * b)
+        .sum()
 }
 
 /// The widths that are tried, s; the last is taken when no narrower one is quiet enough.

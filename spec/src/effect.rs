@@ -178,6 +178,7 @@ impl Mechanism {
                     &[
                         Parameter::new("peak", Effort),
                         Parameter::new("speed", Speed),
+                        Parameter::new("exponent", Number),
                     ]
                 }
             }

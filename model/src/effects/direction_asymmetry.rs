@@ -24,11 +24,10 @@ struct Asymmetry {
 }
 
 impl Law for Asymmetry {
+    /// In motion the dry part does not change sign with the sense, so it is no dry level but a constant; at rest
+    /// it shifts the two breakaway levels, because each is tried with its own sense.
     fn smooth(&self, now: &Instant, _memory: f64) -> f64 {
-        self.viscous * now.speed.abs()
-    }
-
-    fn dry(&self, now: &Instant) -> f64 {
-        self.dry * now.sense
+        let dry = if now.sense == 0.0 { 0.0 } else { self.dry };
+        self.viscous * now.speed.abs() + dry
     }
 }

@@ -1,4 +1,5 @@
-//! This file is the Stribeck peak: dry friction that is higher near standstill (Armstrong-Hélouvry 1994).
+//! This file is the Stribeck peak: dry friction that is higher near standstill (Stribeck 1902; the exponent
+//! is 1 after Tustin 1947, 2 after Bo and Pavelescu 1982; Armstrong-Hélouvry 1994).
 
 use super::{Entry, Form, Instant, Law, parameter};
 use rigproof_spec::effect::Mechanism;
@@ -9,22 +10,24 @@ pub(super) const ENTRY: Entry = Entry {
         Box::new(Stribeck {
             peak: parameter(p, 0),
             speed: parameter(p, 1),
+            exponent: parameter(p, 2),
         })
     }),
     linear: 1,
     dissipative: true,
     refuted_by: "the same resistance while slowing down to rest as in fast motion",
-    equation: "peak·exp(−(q̇/speed)²)·sgn(q̇)",
+    equation: "peak·exp(−|q̇/speed|^exponent)·sgn(q̇)",
 };
 
 struct Stribeck {
     peak: f64,
     speed: f64,
+    exponent: f64,
 }
 
 impl Law for Stribeck {
     fn dry(&self, now: &Instant) -> f64 {
-        let ratio = now.speed / self.speed;
-        self.peak * libm::exp(-ratio * ratio)
+        let ratio = (now.speed / self.speed).abs();
+        self.peak * libm::exp(-libm::pow(ratio, self.exponent))
     }
 }
