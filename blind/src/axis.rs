@@ -29,6 +29,7 @@ pub fn run(
         hidden: vec![Vec::with_capacity(samples); hidden.len()],
         ..Run::default()
     };
+    let mut last_velocity = joint.velocity;
     for fine in 0..samples * fine_steps {
         let time_s = fine as f64 * step_s;
         let command_v = command(setup, drive, time_s, joint.position, joint.velocity);
@@ -58,7 +59,11 @@ pub fn run(
         }
         let middle_s = time_s + 0.5 * step_s;
         let middle = joint.position + 0.5 * step_s * joint.velocity;
-        let middle_v = command(setup, drive, middle_s, middle, joint.velocity);
+        // The velocity half a step ahead, by extrapolation: with this step's own start velocity the servo's damping
+        // would act late and look like a smaller inertia.
+        let ahead = joint.velocity + 0.5 * (joint.velocity - last_velocity);
+        let middle_v = command(setup, drive, middle_s, middle, ahead);
+        last_velocity = joint.velocity;
         amplifier.advance(time_s, middle_v, 0.5 * step_s);
         let effort = amplifier.effort(middle_s, middle_v);
         amplifier.advance(middle_s, middle_v, 0.5 * step_s);

@@ -3,7 +3,7 @@
 //! Each law is integrated in displacement where it is a law of displacement, on a fine grid between samples. Dry
 //! friction keeps its last sign while the velocity is exactly zero.
 
-use crate::brake::Brake;
+use crate::brake::{Brake, BrakeStep};
 use crate::element::{Element, Instant, sliding_resistance};
 use crate::law::{Effect, Law};
 use crate::run::{Delay, Run};
@@ -75,11 +75,10 @@ impl Bench {
             .iter()
             .copied()
             .find(|effect| effect.law.is_upstream());
-        let brakes = setup.brake().map(|(joint, currents)| {
-            let current_a = currents.at(0.0);
+        let brakes = setup.brake().map(|(joint, _)| {
             (
-                Brake::new(joint, upstream, position, current_a),
-                Brake::new(joint, None, position, current_a),
+                Brake::new(joint, upstream, position),
+                Brake::new(joint, None, position),
             )
         });
         Bench {
@@ -123,10 +122,15 @@ impl Bench {
             effort: 0.0,
         };
         if let (Some((brake, nominal)), Some((_, currents))) = (&mut self.brakes, setup.brake()) {
-            // The current of the step that ends here is the one commanded at its middle.
-            let current_a = currents.at(time_s - 0.5 * step_s);
-            brake.step(time_s, position, velocity, current_a, step_s);
-            nominal.step(time_s, position, velocity, current_a, step_s);
+            let step = BrakeStep {
+                step_s,
+                // The current of the step that ends here is the one commanded at its middle.
+                current_a: currents.at(time_s - 0.5 * step_s),
+                position_rad: position,
+                speed_rad_s: velocity,
+            };
+            brake.step(time_s, &step);
+            nominal.step(time_s, &step);
         }
     }
 

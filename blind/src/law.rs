@@ -102,19 +102,13 @@ impl Law {
             Law::Asymmetry { dry, viscous } => {
                 vec![("dry", dry, Effort), ("viscous", viscous, EffortPerSpeed)]
             }
-            // The vocabulary's parameters are those of exponent 2; another exponent has a third.
-            Law::Stribeck {
-                peak,
-                speed,
-                exponent: 2.0,
-            } => vec![("peak", peak, Effort), ("speed", speed, Speed)],
             Law::Stribeck {
                 peak,
                 speed,
                 exponent,
             } => vec![
-                ("tustin_peak", peak, Effort),
-                ("tustin_speed", speed, Speed),
+                ("peak", peak, Effort),
+                ("speed", speed, Speed),
                 ("exponent", exponent, Number),
             ],
             Law::Dahl { level, travel } => {

@@ -38,6 +38,7 @@ mod stratum;
 mod table;
 
 pub use answer::{Answer, HiddenEffect, TrueParameter};
+pub use brake::{BrakeStep, brake_yield_nm};
 pub use error::Error;
 pub use make::{Case, make};
 pub use plant::Plant;

@@ -84,6 +84,9 @@ pub fn align(signals: &Signals) -> Result<Run, Fault> {
         step_s,
         (2.0 * quantum).max(6.0 * position_noise),
     );
+    if signals.plant == PlantKind::Axis {
+        forget_sense_at_reversals(&mut motion);
+    }
     let run = Run {
         plant: signals.plant,
         step_s,
@@ -418,6 +421,23 @@ fn forget_sense_at_rest(motion: &mut [Instant], position: &[f64], step_s: f64, s
         let high = around.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         if high - low <= still {
             now.sense = 0.0;
+        }
+    }
+}
+
+/// Takes the sense away on both sides of a reversal between two samples: dry friction jumps at an instant that the
+/// samples do not tell, and on an axis the acceleration jumps with it.
+fn forget_sense_at_reversals(motion: &mut [Instant]) {
+    let senses: Vec<f64> = motion.iter().map(|now| now.sense).collect();
+    for (k, pair) in senses.windows(2).enumerate() {
+        if let [before, after] = pair
+            && before * after < 0.0
+        {
+            motion
+                .iter_mut()
+                .skip(k)
+                .take(2)
+                .for_each(|now| now.sense = 0.0);
         }
     }
 }

@@ -12,7 +12,7 @@ use crate::report::*;
 use crate::run::{PlantKind, Run};
 use crate::select::{FLOOR_RATIO, Gates, Selection, refs, select, usable_rms};
 use crate::simulate::{Effect, Plant, Protocol, output};
-use crate::unknown::unknown;
+use crate::unknown::{surrogates, unknown};
 use crate::weak::{Windows, choose_width};
 use crate::write_rig::calibrated;
 use rigproof_model::effects::entry;
@@ -112,17 +112,31 @@ pub fn diagnose(
         .iter()
         .filter_map(|n| problem.nominal_term(n))
         .collect();
-    let selection = select(&mut problem, nominal, options.gates);
+    let mut selection = select(&mut problem, nominal, options.gates);
+    let withdrawn = withdraw_surrogates(&problem, &mut selection, rig);
     Stand {
         rig,
         problem: &problem,
         selection: &selection,
+        withdrawn: &withdrawn,
         train: &train,
         test: &test,
         options,
         width_s,
     }
     .report(held_out.is_some())
+}
+
+/// Takes out the names that only stand in for another law, where more than noise is left.
+fn withdraw_surrogates(problem: &Problem, selection: &mut Selection, rig: &Rig) -> Vec<Mechanism> {
+    let ratio = usable_rms(problem, &selection.after.residual) / problem.floor;
+    if ratio <= FLOOR_RATIO {
+        return Vec::new();
+    }
+    let found: Vec<Mechanism> = selection.found.iter().map(|f| f.term.mechanism).collect();
+    let withdrawn = surrogates(problem, &selection.after.residual, &found, rig.motion);
+    selection.withdraw(problem, &withdrawn);
+    withdrawn
 }
 
 fn split(run: &Run, share: f64) -> (Run, Run) {
@@ -135,6 +149,7 @@ struct Stand<'a> {
     rig: &'a Rig,
     problem: &'a Problem<'a>,
     selection: &'a Selection,
+    withdrawn: &'a [Mechanism],
     train: &'a Run,
     test: &'a Run,
     options: &'a Options,
@@ -152,7 +167,7 @@ impl Stand<'_> {
     fn report(&self, other_recording: bool) -> Diagnosis {
         let protocol = from_rig::protocol(self.rig);
         let fitted = self.fit(&protocol);
-        let rivals = rivals(self.problem, self.selection);
+        let rivals = self.rivals();
         let floor = self.floor();
         let verdict = self.verdict(&floor, &rivals);
         let unknown = (floor.ratio_after > FLOOR_RATIO)
@@ -200,6 +215,7 @@ impl Stand<'_> {
                 .iter()
                 .map(|m| m.name().to_owned())
                 .collect(),
+            withdrawn: self.withdrawn.iter().map(|m| m.name()).collect(),
             nominal: crate::write_rig::nominal_numbers(self.rig, &calibration),
             not_seen: not_seen(
                 self.problem,
@@ -283,6 +299,26 @@ impl Stand<'_> {
             found,
             by_windows,
         })
+    }
+
+    /// For each effect, what explains as much in its place: measured rivals, and the twin that no recording of this
+    /// plant can tell: a constant that changes no sign with the motion is a bias or a direction asymmetry.
+    fn rivals(&self) -> Vec<Vec<Mechanism>> {
+        let mut all = rivals(self.problem, self.selection);
+        for (rivals, found) in all.iter_mut().zip(&self.selection.found) {
+            let twin = match found.term.mechanism {
+                Mechanism::ConstantBias => Mechanism::DirectionAsymmetry,
+                Mechanism::DirectionAsymmetry => Mechanism::ConstantBias,
+                _ => continue,
+            };
+            let taken = refs(&self.selection.nominal, &self.selection.found)
+                .iter()
+                .any(|t| t.mechanism == twin);
+            if !taken && !rivals.contains(&twin) {
+                rivals.push(twin);
+            }
+        }
+        all
     }
 
     fn floor(&self) -> Floor {
@@ -524,6 +560,7 @@ fn empty(rig: &Rig, verdict: Verdict, summary: String) -> Diagnosis {
             effects: Vec::new(),
             ambiguous_with: Vec::new(),
             too_small_to_name: Vec::new(),
+            withdrawn: Vec::new(),
             nominal: Default::default(),
             not_seen: Vec::new(),
             null_directions: Vec::new(),

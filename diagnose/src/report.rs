@@ -35,6 +35,8 @@ pub struct Report {
     pub ambiguous_with: Vec<Vec<&'static str>>,
     /// Mechanisms that help, but by less than what stays unexplained: not named.
     pub too_small_to_name: Vec<String>,
+    /// Mechanisms that only stand in for another law over the same variable: not named.
+    pub withdrawn: Vec<&'static str>,
     /// The nominal model's own unknowns after the fit.
     pub nominal: BTreeMap<String, Number>,
     /// For each mechanism that is not named, what would have been seen.

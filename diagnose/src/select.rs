@@ -177,6 +177,16 @@ fn rich_residual(problem: &Problem, nominal: &[Term], blocks: &Blocks) -> Vec<f6
     fit(problem, &terms.iter().collect::<Vec<_>>(), blocks).residual
 }
 
+impl Selection {
+    /// Takes mechanisms out again and fits what stays.
+    pub fn withdraw(&mut self, problem: &Problem, mechanisms: &[Mechanism]) {
+        self.found
+            .retain(|f| !mechanisms.contains(&f.term.mechanism));
+        let blocks = Blocks::new(problem);
+        self.after = fit(problem, &refs(&self.nominal, &self.found), &blocks);
+    }
+}
+
 /// The nominal terms and the found ones, in the order of the fit's columns.
 pub fn refs<'b>(nominal: &'b [Term], found: &'b [Found]) -> Vec<&'b Term> {
     nominal
@@ -349,8 +359,14 @@ fn judge(
             None => t,
         })
         .collect();
+    let grid = tried.len();
+    let mut tried = tried;
+    let mut term = best(problem, common, &tried, blocks)?;
+    if grid > 1 {
+        term = refined(problem, common, term, blocks);
+        tried.push(term.clone());
+    }
     let losses = nested_block_losses(problem, common, &tried, blocks);
-    let term = best(problem, common, tried, blocks)?;
     let (mean, z) = paired(&current.block_loss, &losses, &excited(&term, blocks));
     let share = 1.0 - losses.iter().sum::<f64>() / current.left_out().max(1e-300);
     let mut terms = common.to_vec();
@@ -412,17 +428,17 @@ fn excited(term: &Term, blocks: &Blocks) -> Vec<bool> {
 }
 
 /// The variant with the least loss over all blocks.
-fn best(problem: &Problem, common: &[&Term], tried: Vec<Term>, blocks: &Blocks) -> Option<Term> {
+fn best(problem: &Problem, common: &[&Term], tried: &[Term], blocks: &Blocks) -> Option<Term> {
     let score = |term: &Term| {
         let mut terms = common.to_vec();
         terms.push(term);
         fit(problem, &terms, blocks).loss
     };
     tried
-        .into_iter()
-        .map(|term| (score(&term), term))
+        .iter()
+        .map(|term| (score(term), term))
         .min_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, term)| term)
+        .map(|(_, term)| term.clone())
 }
 
 /// The trial with the fewest parameters among those that tie with the best one, or that explain nearly as much
@@ -562,7 +578,7 @@ fn backward(
             &excited(&removed.term, blocks),
         );
         let share = 1.0 - current.left_out() / without.left_out().max(1e-300);
-        if z < TIE_Z || share < gates.share {
+        if z < TIE_Z || share < gates.share || drives(found, index, &current) {
             *found = fewer;
         } else {
             if let Some(kept) = found.get_mut(index) {
@@ -571,6 +587,17 @@ fn backward(
             index += 1;
         }
     }
+}
+
+/// Whether a dissipative mechanism came out with a sign that gives energy.
+fn drives(found: &[Found], index: usize, fitted: &Fit) -> bool {
+    let Some(term) = found.get(index).map(|f| &f.term) else {
+        return false;
+    };
+    let later: usize = found.iter().skip(index).map(|f| f.term.free.len()).sum();
+    let leading = fitted.coefficients.get(fitted.coefficients.len() - later);
+    let dissipative = entry(term.mechanism).is_some_and(|e| e.dissipative);
+    dissipative && !term.free.is_empty() && leading.is_some_and(|c| *c < 0.0)
 }
 
 /// Replaces a found mechanism where another one explains clearly more in its place.

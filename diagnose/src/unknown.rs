@@ -27,6 +27,53 @@ pub fn unknown(problem: &Problem, residual: &[f64], motion: Motion) -> Option<Un
         .map(|(name, unit, values, share)| describe(problem, residual, name, unit, &values, share))
 }
 
+/// Share of the remaining loss that a free curve must take away before the named laws over the same variable count
+/// as surrogates of another law.
+const SURROGATE_SHARE: f64 = 0.5;
+
+/// The found mechanisms that only stand in for another law over their own variable: with them in place, a free
+/// curve over that variable still takes most of the remaining loss away.
+pub fn surrogates(
+    problem: &Problem,
+    residual: &[f64],
+    found: &[Mechanism],
+    motion: Motion,
+) -> Vec<Mechanism> {
+    let blocks = Blocks::new(problem);
+    let plain = left_out(problem, residual, &[], &blocks);
+    let mut surrogates = Vec::new();
+    for (name, _, values) in variables(problem, motion) {
+        let over: Vec<Mechanism> = found
+            .iter()
+            .copied()
+            .filter(|m| variable_of(*m) == Some(name))
+            .collect();
+        if over.is_empty() {
+            continue;
+        }
+        let share =
+            1.0 - left_out(problem, residual, &hats(problem, &values), &blocks) / plain.max(1e-300);
+        if share > SURROGATE_SHARE {
+            surrogates.extend(over);
+        }
+    }
+    surrogates
+}
+
+/// The variable that a memoryless law is a function of.
+fn variable_of(mechanism: Mechanism) -> Option<&'static str> {
+    match mechanism {
+        Mechanism::DryOffset
+        | Mechanism::Viscous
+        | Mechanism::Stribeck
+        | Mechanism::DirectionAsymmetry => Some("speed"),
+        Mechanism::Spring | Mechanism::NonlinearSpring | Mechanism::Ripple => Some("position"),
+        Mechanism::BiasDrift => Some("time"),
+        Mechanism::GainError => Some("effort"),
+        _ => None,
+    }
+}
+
 fn variables(problem: &Problem, motion: Motion) -> Vec<(&'static str, String, Vec<f64>)> {
     let at = |pick: &dyn Fn(&rigproof_model::effects::Instant) -> f64| -> Vec<f64> {
         let centres = problem.windows.centres.iter();

@@ -6,7 +6,7 @@ use crate::run::{PlantKind, Run, rms};
 /// Order of the bump `(1 − x²)^4`: three continuous derivatives at its ends.
 const BUMP_ORDER: i32 = 4;
 /// Share of a window's weight that may lie where the sense of motion cannot be told.
-const MOST_AMBIGUOUS: f64 = 0.10;
+const MOST_AMBIGUOUS: f64 = 0.002;
 
 /// The test function and the windows it is applied to.
 #[derive(Clone, Debug)]
