@@ -15,7 +15,7 @@ pub struct Score {
     pub stratum: Stratum,
     /// The report's verdict.
     pub verdict: String,
-    /// The named set is the true set; for an effect too small to see, naming nothing is right as well; for a data
+    /// The named set is the true set, or one that physics makes identical to a single true effect; for an effect too small to see, naming nothing is right as well; for a data
     /// fault nothing may be named and the verdict must be `data_fault`.
     pub exact: bool,
     /// Every true effect is named, ambiguous with a named one, or replaced by a physical equivalent. An effect too
@@ -77,7 +77,7 @@ pub fn score(answer: &Answer, report: &Value) -> Result<Score, Error> {
     let exact = match answer.stratum {
         Stratum::DataFault => flagged && named.is_empty(),
         Stratum::TooSmall => named.is_empty() || named == truth,
-        _ => named == truth,
+        _ => named == truth || is_twin(answer, &named),
     };
     Ok(Score {
         stratum: answer.stratum,
@@ -150,6 +150,15 @@ fn is_inside(truth: &HiddenEffect, offered: &BTreeSet<&str>) -> bool {
             .equivalent
             .iter()
             .any(|set| set.iter().all(|name| offered.contains(name.as_str())))
+}
+
+/// Whether the names are a set that no recording could tell from the only true effect.
+fn is_twin(answer: &Answer, named: &BTreeSet<&str>) -> bool {
+    let [only] = answer.effects.as_slice() else {
+        return false;
+    };
+    let mut twins = only.equivalent.iter();
+    twins.any(|set| set.iter().map(String::as_str).collect::<BTreeSet<_>>() == *named)
 }
 
 fn is_defensible(found: &Found<'_>, answer: &Answer, truth: &BTreeSet<&str>) -> bool {

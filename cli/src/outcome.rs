@@ -26,6 +26,12 @@ pub enum Failure {
     Input(String),
 }
 
+impl From<rigproof_blind::Error> for Failure {
+    fn from(error: rigproof_blind::Error) -> Failure {
+        Failure::Input(error.to_string())
+    }
+}
+
 impl From<TraceError> for Failure {
     fn from(error: TraceError) -> Failure {
         Failure::Input(error.to_string())

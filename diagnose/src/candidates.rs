@@ -106,6 +106,24 @@ fn shapes(problem: &Problem, mechanism: Mechanism, residual: &[f64]) -> Vec<Vec<
     }
 }
 
+/// The range that each shape parameter of a mechanism may take: that of the shapes tried, for a period all of them.
+pub fn shape_bounds(problem: &Problem, mechanism: Mechanism) -> Vec<(f64, f64)> {
+    if mechanism == Mechanism::Ripple {
+        let travel = problem.run.travel().max(1e-12);
+        return vec![(travel / MOST_CYCLES, travel)];
+    }
+    let tried = shapes(problem, mechanism, &[]);
+    let count = tried.first().map_or(0, Vec::len);
+    (0..count)
+        .map(|k| {
+            let values = tried.iter().filter_map(|shape| shape.get(k).copied());
+            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
+                (low.min(v), high.max(v))
+            })
+        })
+        .collect()
+}
+
 /// The speed that all but one in a hundred samples stay below.
 fn fastest(problem: &Problem) -> f64 {
     let mut speeds: Vec<f64> = problem

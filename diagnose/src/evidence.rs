@@ -201,7 +201,7 @@ fn rivals_of(
         .iter()
         .map(|t| t.mechanism)
         .collect();
-    let all = vec![true; blocks.ranges.len()];
+    let all = vec![1.0; blocks.ranges.len()];
     let gain = bare.left_out() - selection.after.left_out();
     let own = selection.found.get(index);
     mechanisms(problem)

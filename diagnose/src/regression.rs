@@ -280,25 +280,35 @@ pub fn covariance(columns: &[&[f64]]) -> Option<DMatrix<f64>> {
     symmetric(&normal.gram).try_inverse()
 }
 
-/// Paired comparison of block losses: `(mean gain, z)` over the blocks where `excited` says there is evidence.
+/// Paired comparison of block losses: `(total gain, z)`; positive means `after` is better.
 ///
-/// Positive means `after` is better.
-pub fn paired(before: &[f64], after: &[f64], excited: &[bool]) -> (f64, f64) {
-    let gains: Vec<f64> = before
+/// `weight` is the gain that each block can be expected to show (its excitation, or 1): the gain is compared with
+/// its scatter about that share, so that a mechanism which lives in few blocks is not judged by the others.
+pub fn paired(before: &[f64], after: &[f64], weight: &[f64]) -> (f64, f64) {
+    let mean_weight = weight.iter().sum::<f64>() / weight.len().max(1) as f64;
+    let blocks: Vec<(f64, f64)> = before
         .iter()
         .zip(after)
-        .zip(excited)
-        .filter(|(_, e)| **e)
-        .map(|((b, a), _)| b - a)
+        .zip(weight)
+        .filter(|(_, w)| **w > LEAST_WEIGHT * mean_weight)
+        .map(|((b, a), w)| (b - a, *w))
         .collect();
-    let n = gains.len() as f64;
-    if gains.len() < 3 {
+    let n = blocks.len() as f64;
+    if blocks.len() < 3 {
         return (0.0, 0.0);
     }
-    let mean = gains.iter().sum::<f64>() / n;
-    let variance = gains.iter().map(|g| (g - mean) * (g - mean)).sum::<f64>() / (n - 1.0);
-    (mean, mean / (variance / n).sqrt().max(1e-300))
+    let gain: f64 = blocks.iter().map(|(g, _)| g).sum();
+    let total: f64 = blocks.iter().map(|(_, w)| w).sum();
+    let share = gain / total;
+    let scatter: f64 = blocks
+        .iter()
+        .map(|(g, w)| (g - share * w) * (g - share * w))
+        .sum();
+    (gain, gain / (scatter * n / (n - 1.0)).sqrt().max(1e-300))
 }
+
+/// Share of the mean weight below which a block says nothing.
+const LEAST_WEIGHT: f64 = 0.05;
 
 /// The inner product of two columns.
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {

@@ -1,7 +1,7 @@
 //! This file chooses mechanisms: forward, backward and swap steps judged on left-out blocks of time.
 
-use crate::candidates::{mechanisms, modelled_effort, realise, variants};
-use crate::problem::{Problem, Term};
+use crate::candidates::{mechanisms, modelled_effort, realise, shape_bounds, variants};
+use crate::problem::{Problem, Term, add};
 use crate::regression::{Blocks, Fit, dot, fit, nested_block_losses, paired};
 use crate::run::rms;
 use rigproof_model::effects::entry;
@@ -80,9 +80,10 @@ const ELEMENTARY: [Mechanism; 3] = [
     Mechanism::ConstantBias,
     Mechanism::Viscous,
 ];
-/// A mechanism that begins during the recording is preferred when the best one from the start explains less than
-/// this share of what it does.
-const LATE_SHARE: f64 = 0.8;
+/// Share of the best gain that an elementary mechanism must reach to be named first.
+const ELEMENTARY_SHARE: f64 = 0.5;
+/// Share of the best gain that a mechanism from the start must reach to be preferred to one that begins later.
+const EARLY_SHARE: f64 = 0.8;
 /// A simpler mechanism is taken when it explains at least this share of what the best one does.
 const SIMPLER_SHARE: f64 = 0.9;
 /// z below which two explanations are not told apart.
@@ -292,8 +293,8 @@ struct Trial {
     at_floor: bool,
 }
 
-/// The next mechanism: an elementary one as long as any passes the gates, then any other, then one that begins
-/// during the recording.
+/// The next mechanism: an elementary one, any other, or one that begins during the recording, in this order as
+/// long as it explains enough of what the best of them does.
 fn forward(
     problem: &Problem,
     nominal: &[Term],
@@ -317,14 +318,18 @@ fn forward(
                 .collect();
             simplest(trials, current.left_out())
         };
-    let early = judged(&elementary, &from_start).or_else(|| judged(&others, &from_start));
     let all: Vec<Mechanism> = elementary.iter().chain(&others).copied().collect();
-    let late = judged(&all, &later);
-    match (early, late) {
-        (Some(early), Some(late)) if early.share < LATE_SHARE * late.share => Some(late),
-        (None, late) => late,
-        (early, _) => early,
-    }
+    let ranked = [
+        (judged(&elementary, &from_start), ELEMENTARY_SHARE),
+        (judged(&others, &from_start), EARLY_SHARE),
+        (judged(&all, &later), 1.0),
+    ];
+    let shares = ranked.iter().flat_map(|(found, _)| found).map(|f| f.share);
+    let most = shares.fold(0.0, f64::max);
+    let mut enough = ranked
+        .into_iter()
+        .filter_map(|(found, least)| found.filter(|f| f.share >= least * most));
+    enough.next()
 }
 
 /// Times at which an effect may begin: twelfths of the recording, ends left out.
@@ -367,18 +372,22 @@ fn judge(
         tried.push(term.clone());
     }
     let losses = nested_block_losses(problem, common, &tried, blocks);
-    let (mean, z) = paired(&current.block_loss, &losses, &excited(&term, blocks));
-    let share = 1.0 - losses.iter().sum::<f64>() / current.left_out().max(1e-300);
     let mut terms = common.to_vec();
     terms.push(&term);
     let fitted = fit(problem, &terms, blocks);
-    let linear = entry(term.mechanism)?;
     let own = own_coefficients(&term, &fitted);
+    let (gain, z) = paired(
+        &current.block_loss,
+        &losses,
+        &excitation(&term, own, blocks),
+    );
+    let share = 1.0 - losses.iter().sum::<f64>() / current.left_out().max(1e-300);
+    let linear = entry(term.mechanism)?;
     let energy = contribution(problem, &term, own);
     let relevant = energy >= gates.relevance * rms(&problem.windows.average(&problem.run.effort));
-    let allowed = !linear.dissipative || own.first().is_none_or(|c| *c > 0.0);
+    let allowed = !drives(&term, own);
     let parameters = linear.linear + term.shape.len() + usize::from(term.onset_s.is_some());
-    (mean > 0.0 && z >= gates.z && share >= gates.share && relevant && allowed).then(|| Trial {
+    (gain > 0.0 && z >= gates.z && share >= gates.share && relevant && allowed).then(|| Trial {
         found: Found { term, z, share },
         losses,
         parameters,
@@ -409,22 +418,33 @@ pub fn contribution(problem: &Problem, term: &Term, coefficients: &[f64]) -> f64
     usable_rms(problem, &sum)
 }
 
-/// Blocks in which a term's columns are alive: the others say nothing about it.
-fn excited(term: &Term, blocks: &Blocks) -> Vec<bool> {
-    let energy: Vec<f64> = blocks
-        .ranges
-        .iter()
-        .map(|&(first, end)| {
-            term.free
-                .iter()
-                .chain(&term.fixed)
-                .filter_map(|rows| rows.white.get(first..end))
-                .map(|part| dot(part, part))
-                .sum()
-        })
-        .collect();
-    let mean = energy.iter().sum::<f64>() / energy.len().max(1) as f64;
-    energy.iter().map(|e| *e > 0.05 * mean).collect()
+/// White energy that a term contributes in each block: the gain that can be expected there.
+fn excitation(term: &Term, coefficients: &[f64], blocks: &Blocks) -> Vec<f64> {
+    let length = term
+        .free
+        .first()
+        .or(term.fixed.as_ref())
+        .map_or(0, |rows| rows.white.len());
+    let mut sum = vec![0.0; length];
+    let columns = coefficients.iter().copied().zip(&term.free);
+    for (c, rows) in columns.chain(term.fixed.iter().map(|rows| (1.0, rows))) {
+        add(&mut sum, &rows.white, c);
+    }
+    let blocks = blocks.ranges.iter();
+    blocks
+        .map(|&(first, end)| sum.get(first..end).map_or(0.0, |part| dot(part, part)))
+        .collect()
+}
+
+/// The coefficients of one found mechanism in the fit of all of them.
+fn coefficients_of<'f>(found: &[Found], index: usize, fitted: &'f Fit) -> &'f [f64] {
+    let later: usize = found.iter().skip(index).map(|f| f.term.free.len()).sum();
+    let count = found.get(index).map_or(0, |f| f.term.free.len());
+    let first = fitted.coefficients.len().saturating_sub(later);
+    fitted
+        .coefficients
+        .get(first..first + count)
+        .unwrap_or_default()
 }
 
 /// The variant with the least loss over all blocks.
@@ -449,7 +469,7 @@ fn simplest(mut trials: Vec<Trial>, loss_without: f64) -> Option<Found> {
     let leader = trials.first()?.losses.clone();
     let at_floor = trials.first()?.at_floor;
     let most = loss_without - leader.iter().sum::<f64>();
-    let all = vec![true; leader.len()];
+    let all = vec![1.0; leader.len()];
     trials
         .into_iter()
         .enumerate()
@@ -495,29 +515,59 @@ fn refined(problem: &Problem, common: &[&Term], start: Term, blocks: &Blocks) ->
     let fitted = fit(problem, common, blocks);
     let effort = effort_beside(problem, common, &start, blocks)
         .unwrap_or_else(|| modelled_effort(problem, common, &fitted));
+    let bounds = shape_bounds(problem, start.mechanism);
     let mut best = (score(&start), start);
-    let coarse = if best.1.mechanism == Mechanism::Ripple {
+    let mut stride = if best.1.mechanism == Mechanism::Ripple {
         0.004
     } else {
         0.3
     };
-    let mut stride = coarse;
-    for _ in 0..6 {
-        for index in 0..=best.1.shape.len() {
-            for direction in [1.0, -1.0] {
-                let Some(moved) = moved(problem, &best.1, index, direction * stride, &effort)
-                else {
-                    continue;
-                };
-                let loss = score(&moved);
-                if loss < best.0 {
-                    best = (loss, moved);
-                }
+    let mut halvings = 0;
+    for _ in 0..MOST_ROUNDS {
+        let before = best.0;
+        for direction in directions(best.1.shape.len(), best.1.onset_s.is_some()) {
+            let Some(moved) = moved(problem, &best.1, &direction, stride, &bounds, &effort) else {
+                continue;
+            };
+            let loss = score(&moved);
+            if loss < best.0 {
+                best = (loss, moved);
             }
         }
-        stride *= 0.5;
+        if best.0 > (1.0 - 1e-4) * before {
+            stride *= 0.5;
+            halvings += 1;
+        }
+        if halvings == HALVINGS {
+            break;
+        }
     }
     best.1
+}
+
+/// Bounds on the rounds of a pattern search, and the halvings of its stride that end it.
+const MOST_ROUNDS: usize = 24;
+const HALVINGS: usize = 6;
+
+/// Every direction of the pattern: each parameter alone both ways, and pairs of shape parameters together.
+fn directions(shape: usize, onset: bool) -> Vec<Vec<f64>> {
+    let size = shape + usize::from(onset);
+    let unit = |index: usize, sign: f64| {
+        (0..size)
+            .map(|k| if k == index { sign } else { 0.0 })
+            .collect()
+    };
+    let mut all: Vec<Vec<f64>> = (0..size)
+        .flat_map(|k| [unit(k, 1.0), unit(k, -1.0)])
+        .collect();
+    if shape == 2 {
+        for (a, b) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
+            let mut pair: Vec<f64> = vec![a, b];
+            pair.resize(size, 0.0);
+            all.push(pair);
+        }
+    }
+    all
 }
 
 /// What the other terms give when a change of the drive stands beside them: the point to linearise about.
@@ -540,19 +590,34 @@ fn effort_beside(
     Some(effort)
 }
 
-/// The term with shape parameter `index` scaled by `1 + stride`, or its onset moved when `index` is past them.
+/// Share of the recording at each end in which no onset is placed: one that begins there is no onset.
+const ONSET_MARGIN: f64 = 0.08;
+
+/// The term with its shape scaled by `1 + stride` along a direction, and its onset moved by the last component.
+/// `None` outside the bounds.
 fn moved(
     problem: &Problem,
     term: &Term,
-    index: usize,
+    direction: &[f64],
     stride: f64,
+    bounds: &[(f64, f64)],
     effort: &[f64],
 ) -> Option<Term> {
     let mut shape = term.shape.clone();
+    for ((value, along), (low, high)) in shape.iter_mut().zip(direction).zip(bounds) {
+        *value *= 1.0 + stride * along;
+        if *value < *low || *value > *high {
+            return None;
+        }
+    }
+    let length_s = problem.run.duration_s();
     let mut onset_s = term.onset_s;
-    match shape.get_mut(index) {
-        Some(value) => *value *= 1.0 + stride,
-        None => onset_s = Some(onset_s? + 0.15 * stride * problem.run.duration_s()),
+    if let (Some(onset), Some(along)) = (&mut onset_s, direction.get(term.shape.len())) {
+        *onset += 0.15 * stride * along * length_s;
+        let share = (*onset - problem.run.start_s) / length_s;
+        if !(ONSET_MARGIN..1.0 - ONSET_MARGIN).contains(&share) {
+            return None;
+        }
     }
     realise(problem, term.mechanism, &shape, onset_s, effort)
 }
@@ -568,6 +633,7 @@ fn backward(
     let mut index = 0;
     while index < found.len() {
         let current = fit(problem, &refs(nominal, found), blocks);
+        let own = coefficients_of(found, index, &current).to_vec();
         let mut fewer = found.clone();
         let removed = fewer.remove(index);
         refine(problem, nominal, &mut fewer, blocks);
@@ -575,10 +641,10 @@ fn backward(
         let (_, z) = paired(
             &without.block_loss,
             &current.block_loss,
-            &excited(&removed.term, blocks),
+            &excitation(&removed.term, &own, blocks),
         );
         let share = 1.0 - current.left_out() / without.left_out().max(1e-300);
-        if z < TIE_Z || share < gates.share || drives(found, index, &current) {
+        if z < TIE_Z || share < gates.share || drives(&removed.term, &own) {
             *found = fewer;
         } else {
             if let Some(kept) = found.get_mut(index) {
@@ -590,14 +656,9 @@ fn backward(
 }
 
 /// Whether a dissipative mechanism came out with a sign that gives energy.
-fn drives(found: &[Found], index: usize, fitted: &Fit) -> bool {
-    let Some(term) = found.get(index).map(|f| &f.term) else {
-        return false;
-    };
-    let later: usize = found.iter().skip(index).map(|f| f.term.free.len()).sum();
-    let leading = fitted.coefficients.get(fitted.coefficients.len() - later);
+fn drives(term: &Term, own: &[f64]) -> bool {
     let dissipative = entry(term.mechanism).is_some_and(|e| e.dissipative);
-    dissipative && !term.free.is_empty() && leading.is_some_and(|c| *c < 0.0)
+    dissipative && own.first().is_some_and(|c| *c < 0.0)
 }
 
 /// Replaces a found mechanism where another one explains clearly more in its place.
@@ -625,7 +686,7 @@ fn swap(problem: &Problem, nominal: &[Term], found: &mut [Found], blocks: &Block
                 )
             })
             .filter(|t| {
-                let all = vec![true; t.losses.len()];
+                let all = vec![1.0; t.losses.len()];
                 let gained = without.left_out() - t.losses.iter().sum::<f64>();
                 let had = without.left_out() - current.left_out();
                 (t.at_floor || had < SIMPLER_SHARE * gained)

@@ -29,7 +29,7 @@ pub fn unknown(problem: &Problem, residual: &[f64], motion: Motion) -> Option<Un
 
 /// Share of the remaining loss that a free curve must take away before the named laws over the same variable count
 /// as surrogates of another law.
-const SURROGATE_SHARE: f64 = 0.5;
+const SURROGATE_SHARE: f64 = 0.3;
 
 /// The found mechanisms that only stand in for another law over their own variable: with them in place, a free
 /// curve over that variable still takes most of the remaining loss away.

@@ -1,0 +1,139 @@
+//! This file finds out why a recording disagrees with its rig's model.
+
+use std::path::{Path, PathBuf};
+
+use rigproof_diagnose::report::{Report, Verdict};
+use rigproof_diagnose::{Diagnosis, Options, diagnose};
+use rigproof_trace::rig::Rig;
+use rigproof_trace::store::Folder;
+
+use crate::input::{self, Cut};
+use crate::outcome::{Failure, Outcome, print};
+use crate::{folder, progress, shell, text};
+
+/// What is to be diagnosed.
+#[derive(clap::Args)]
+#[command(after_help = AFTER_HELP)]
+pub struct Args {
+    /// The recording, CSV
+    recording: PathBuf,
+    /// The rig description: what the channels mean and which physics the nominal model has
+    #[arg(long, value_name = "TOML")]
+    rig: PathBuf,
+    /// Another recording of the rig, on which the result is shown
+    #[arg(long, value_name = "CSV", conflicts_with = "hold_out_share")]
+    hold_out: Option<PathBuf>,
+    /// Share of the recording's end on which the result is shown, 0.05 to 0.8
+    #[arg(long, value_name = "SHARE", default_value_t = 0.25, value_parser = parse_share)]
+    hold_out_share: f64,
+    /// The folder to write [default: the recording's name with `-diagnosis`]
+    #[arg(long, value_name = "FOLDER")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    cut: Cut,
+    /// Print the report as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+const AFTER_HELP: &str = "\
+Exit codes:
+  0  diagnosed
+  1  the recording is at fault or moves too little, or the held-out part did not improve
+  2  the command line is wrong
+  3  an input is not usable, or a file cannot be written
+
+Examples:
+  rigproof diagnose DATA_EMPS.csv --rig rigs/emps.toml --hold-out DATA_EMPS_PULSES.csv
+  rigproof diagnose ensaio.A.1.csv --rig rigs/mr-damper.toml --from-s 2.5 --out damper --json";
+
+/// Diagnoses a recording, writes the folder and prints the report.
+pub fn run(args: &Args) -> Result<Outcome, Failure> {
+    let out = out(args)?;
+    // A wrong place is refused before the work, not after it.
+    drop(Folder::begin(&out)?);
+    let rig = Rig::read(&args.rig)?;
+    let recording = input::recording(&rig, &args.recording, args.cut)?;
+    let held_out = match &args.hold_out {
+        Some(file) => Some(input::recording(&rig, file, Cut::default())?),
+        None => None,
+    };
+    let files = [Some(&args.recording), args.hold_out.as_ref(), Some(&args.rig)];
+    let identities = files.into_iter().flatten();
+    let identities = identities.map(|file| input::identity(file));
+    let identities = identities.collect::<Result<Vec<_>, _>>()?;
+    let options = Options {
+        hold_out_share: args.hold_out_share,
+        ..Options::default()
+    };
+    let mark = progress::spinner("diagnosing");
+    let mut diagnosis = diagnose(&rig, &recording, held_out.as_ref(), &options);
+    drop(mark);
+    diagnosis.report.inputs = identities;
+    let folder = Folder::begin(&out)?;
+    let files = folder::write(&folder, &rig.name, &mut diagnosis)?;
+    folder.finish()?;
+    say(args, &out, &files, &diagnosis)?;
+    Ok(Outcome {
+        checks_hold: text::holds(&diagnosis.report),
+    })
+}
+
+fn say(
+    args: &Args,
+    out: &Path,
+    files: &[&str],
+    diagnosis: &Diagnosis,
+) -> Result<Outcome, Failure> {
+    if args.json {
+        return print(&folder::json(diagnosis)?);
+    }
+    let paths = files.iter().map(|file| format!("  {}", out.join(file).display()));
+    print(&text::join([
+        vec![text::report(&diagnosis.report)],
+        text::section("Files", paths),
+        text::section("Next", [format!("  {}", next(args, out, &diagnosis.report))]),
+    ]))
+}
+
+/// What to do now, as a command where there is one.
+fn next(args: &Args, out: &Path, report: &Report) -> String {
+    let calibration = out.join(folder::CALIBRATION);
+    match report.verdict {
+        Verdict::DataFault => "mend the recording or the rig file, or cut the fault away with --from-s and --to-s; then diagnose again".to_owned(),
+        Verdict::NotExcited => "record again with more motion: several reversals at several speeds".to_owned(),
+        _ if !text::holds(report) => "record for longer, or hold out another recording with --hold-out".to_owned(),
+        Verdict::NoneOfLibrary => format!(
+            "look at {} and at `unknown` in the report: the shape says what to look for on the rig",
+            out.join("residual.svg").display()
+        ),
+        _ => shell::line(
+            &["rigproof", "simulate"],
+            &[
+                ("", args.hold_out.as_ref().unwrap_or(&args.recording)),
+                ("--rig", &args.rig),
+                ("--calibration", &calibration),
+            ],
+        ),
+    }
+}
+
+fn out(args: &Args) -> Result<PathBuf, Failure> {
+    if let Some(out) = &args.out {
+        return Ok(out.clone());
+    }
+    let Some(stem) = args.recording.file_stem() else {
+        let file = args.recording.display();
+        return Err(Failure::Input(format!("{file}: it names no file; name a recording")));
+    };
+    let mut name = stem.to_os_string();
+    name.push("-diagnosis");
+    Ok(PathBuf::from(name))
+}
+
+fn parse_share(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(share) if (0.05..=0.8).contains(&share) => Ok(share),
+        _ => Err("give a share from 0.05 to 0.8".to_owned()),
+    }
+}

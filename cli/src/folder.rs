@@ -1,0 +1,54 @@
+//! This file writes what a diagnosis leaves behind: report, calibration and pictures in one folder.
+
+use rigproof_diagnose::Diagnosis;
+use rigproof_trace::store::Folder;
+
+use crate::outcome::Failure;
+use crate::picture;
+
+/// The report's file.
+pub const REPORT: &str = "report.json";
+/// The calibrated model's file.
+pub const CALIBRATION: &str = "calibration.toml";
+
+/// Writes the files of a diagnosis, enters the calibration into the report, and gives their names.
+///
+/// After a fault there is only the report: nothing was fitted and nothing can be drawn.
+///
+/// # Errors
+/// The system refuses.
+pub fn write(
+    folder: &Folder,
+    rig_name: &str,
+    diagnosis: &mut Diagnosis,
+) -> Result<Vec<&'static str>, Failure> {
+    let mut files = vec![REPORT];
+    if diagnosis.report.fit.is_some() {
+        diagnosis.report.calibration_file = Some(CALIBRATION.to_owned());
+        folder.write(CALIBRATION, diagnosis.calibration.to_toml().as_bytes())?;
+        files.push(CALIBRATION);
+        let report = &diagnosis.report;
+        let curves = &diagnosis.curves;
+        for (name, drawn) in [
+            (
+                "before-after.svg",
+                picture::before_after(rig_name, report, curves),
+            ),
+            ("residual.svg", picture::residual(rig_name, report, curves)),
+        ] {
+            folder.write(name, drawn.as_bytes())?;
+            files.push(name);
+        }
+    }
+    folder.write(REPORT, (json(diagnosis)? + "\n").as_bytes())?;
+    Ok(files)
+}
+
+/// The report as JSON.
+///
+/// # Errors
+/// It cannot be written as JSON.
+pub fn json(diagnosis: &Diagnosis) -> Result<String, Failure> {
+    serde_json::to_string_pretty(&diagnosis.report)
+        .map_err(|error| Failure::Input(format!("cannot write the report as JSON: {error}")))
+}

@@ -1,0 +1,126 @@
+//! This file reads what a verb is given: recordings, cut if asked, and what identifies a file.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use rigproof_diagnose::report::InputFile;
+use rigproof_trace::csv::LEAST_SAMPLES;
+use rigproof_trace::rig::{Recording, Rig, Signal};
+use rigproof_trace::{Place, TraceError};
+use sha2::{Digest, Sha256};
+
+use crate::outcome::Failure;
+
+/// Which part of a recording counts.
+#[derive(Clone, Copy, Debug, Default, clap::Args)]
+pub struct Cut {
+    /// Leave out what was recorded before this time stamp
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
+    from_s: Option<f64>,
+    /// Leave out what was recorded after this time stamp
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
+    to_s: Option<f64>,
+}
+
+/// Reads a recording of a rig and cuts it.
+///
+/// # Errors
+/// The file is not usable, or the cut leaves too little.
+pub fn recording(rig: &Rig, file: &Path, cut: Cut) -> Result<Recording, Failure> {
+    let recording = rig.read_recording(file)?;
+    let first_s = cut.from_s.unwrap_or(f64::NEG_INFINITY);
+    let last_s = cut.to_s.unwrap_or(f64::INFINITY);
+    let kept: Vec<bool> = recording
+        .time_s
+        .iter()
+        .map(|t| (first_s..=last_s).contains(t))
+        .collect();
+    let count = kept.iter().filter(|kept| **kept).count();
+    if count < LEAST_SAMPLES {
+        let problem = format!(
+            "{count} samples lie between --from-s and --to-s, at least {LEAST_SAMPLES} are needed; the recording runs from {} s to {} s",
+            recording.time_s.first().unwrap_or(&f64::NAN),
+            recording.time_s.last().unwrap_or(&f64::NAN),
+        );
+        return Err(TraceError::recording(file, problem).into());
+    }
+    Ok(Recording {
+        time_s: part(&recording.time_s, &kept),
+        position: signal(&recording.position, &kept),
+        drive: recording.drive.as_ref().map(|s| signal(s, &kept)),
+        force: recording.force.as_ref().map(|s| signal(s, &kept)),
+        simulated: recording.simulated.as_ref().map(|s| signal(s, &kept)),
+        ..recording
+    })
+}
+
+/// A file's path as given and its SHA-256.
+///
+/// # Errors
+/// The file cannot be read, or is none that can be read twice.
+pub fn identity(file: &Path) -> Result<InputFile, Failure> {
+    let refused = || TraceError::io("read", file);
+    let mut open = File::open(file).map_err(refused())?;
+    if !open.metadata().map_err(refused())?.is_file() {
+        let error = TraceError::NotText {
+            place: Place::file(file),
+            problem: "it is no ordinary file",
+        };
+        return Err(error.into());
+    }
+    let mut hash = Sha256::new();
+    let mut bytes = vec![0; 1 << 16];
+    loop {
+        let count = open.read(&mut bytes).map_err(refused())?;
+        match bytes.get(..count) {
+            Some(read) if count > 0 => hash.update(read),
+            _ => break,
+        }
+    }
+    Ok(InputFile {
+        path: file.display().to_string(),
+        sha256: hexadecimal(&hash.finalize()),
+    })
+}
+
+/// The identity of bytes that are written under a name.
+pub fn identity_of(name: &str, bytes: &[u8]) -> InputFile {
+    InputFile {
+        path: name.to_owned(),
+        sha256: hexadecimal(&Sha256::digest(bytes)),
+    }
+}
+
+fn hexadecimal(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+fn signal(signal: &Signal, kept: &[bool]) -> Signal {
+    Signal {
+        samples: part(&signal.samples, kept),
+        ..signal.clone()
+    }
+}
+
+fn part(samples: &[f64], kept: &[bool]) -> Vec<f64> {
+    let pairs = samples.iter().zip(kept);
+    pairs.filter(|(_, kept)| **kept).map(|(x, _)| *x).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_hash_is_that_of_the_standard() {
+        // FIPS 180-4, the example "abc".
+        let expected = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
+        assert_eq!(identity_of("abc.txt", b"abc").sha256, expected);
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("abc.txt");
+        std::fs::write(&file, "abc").unwrap();
+        assert_eq!(identity(&file).unwrap().sha256, expected);
+        assert!(identity(folder.path()).is_err());
+    }
+}

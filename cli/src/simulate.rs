@@ -1,0 +1,156 @@
+//! This file runs a rig's model along a recording and says how far the two lie apart.
+
+use std::path::{Path, PathBuf};
+
+use rigproof_diagnose::align::Fault;
+use rigproof_diagnose::from_rig;
+use rigproof_diagnose::run::{PlantKind, Run};
+use rigproof_diagnose::simulate::{Protocol, output};
+use rigproof_spec::effect::Quantity;
+use rigproof_trace::compare::{Comparison, compare};
+use rigproof_trace::rig::{Rig, motion_name};
+use rigproof_trace::{Channel, Trace, TraceError, csv};
+use serde_json::json;
+
+use crate::input::{self, Cut};
+use crate::outcome::{Failure, Outcome, print};
+use crate::progress;
+use crate::text::number::{significant, with_unit};
+
+/// What is to be simulated.
+#[derive(clap::Args)]
+#[command(after_help = AFTER_HELP)]
+pub struct Args {
+    /// The recording, CSV
+    recording: PathBuf,
+    /// The rig description
+    #[arg(long, value_name = "TOML")]
+    rig: PathBuf,
+    /// The calibration that a diagnosis wrote; without it the rig's own numbers count
+    #[arg(long, value_name = "TOML")]
+    calibration: Option<PathBuf>,
+    /// A CSV file to write: time, recorded and simulated output
+    #[arg(long, value_name = "CSV")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    cut: Cut,
+    /// Print the result as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+const AFTER_HELP: &str = "\
+An axis runs freely from the recorded command; a bench follows the recorded motion.
+
+Example:
+  rigproof simulate run.csv --rig rig.toml --calibration run-diagnosis/calibration.toml \\
+      --out simulated.csv";
+
+/// Simulates, compares, and writes both outputs.
+pub fn run(args: &Args) -> Result<Outcome, Failure> {
+    let rig = Rig::read(&args.rig)?;
+    let recording = input::recording(&rig, &args.recording, args.cut)?;
+    let model = model(args, &rig)?;
+    let run = from_rig::aligned(&model, &recording)
+        .map_err(|fault| Failure::Input(refusal(&args.recording, &fault)))?;
+    let protocol = from_rig::protocol(&model);
+    let mark = progress::spinner("simulating");
+    let simulated = output(&from_rig::plant(&model), &run, &protocol);
+    drop(mark);
+    let (name, recorded, quantity) = match run.plant {
+        PlantKind::Axis => ("position", &run.position, Quantity::Travel),
+        PlantKind::Bench => ("effort", &run.effort, Quantity::Effort),
+    };
+    let unit = quantity.dimension(model.motion).to_string();
+    let comparison = compare(&counted(&run, recorded, &protocol), &simulated)?;
+    if let Some(out) = &args.out {
+        let first_s = recording.time_s.first().copied().unwrap_or(0.0);
+        let channel = |source: &str, samples: &[f64]| Channel {
+            name: format!("{name}_{source}"),
+            unit: unit.clone(),
+            samples: samples.to_vec(),
+        };
+        let times = (0..run.len()).map(|k| first_s + run.start_s + k as f64 * run.step_s);
+        let trace = Trace {
+            time_s: times.collect(),
+            channels: vec![
+                channel("recorded", recorded),
+                channel("simulated", &simulated),
+            ],
+        };
+        csv::write(out, &trace)?;
+    }
+    say(args, &unit, &comparison)
+}
+
+/// The rig whose numbers count.
+fn model(args: &Args, rig: &Rig) -> Result<Rig, Failure> {
+    let Some(file) = &args.calibration else {
+        return Ok(rig.clone());
+    };
+    let calibration = Rig::read(file)?;
+    if (calibration.plant, calibration.motion) != (rig.plant, rig.motion) {
+        let problem = format!(
+            "the calibration is of a {} {}, the rig is a {} {}; give the calibration of this rig",
+            motion_name(calibration.motion),
+            calibration.plant.name(),
+            motion_name(rig.motion),
+            rig.plant.name(),
+        );
+        return Err(TraceError::recording(file, problem).into());
+    }
+    Ok(calibration)
+}
+
+/// The recorded output where it counts: not where it gave the start state, and not where a sample was filled in.
+fn counted(run: &Run, recorded: &[f64], protocol: &Protocol) -> Vec<f64> {
+    let start = match run.plant {
+        PlantKind::Axis if protocol.warm_up_periods == 0 => protocol.start_samples,
+        _ => 0,
+    };
+    let samples = recorded.iter().zip(&run.recorded).enumerate();
+    samples
+        .map(|(k, (&x, &was_recorded))| if was_recorded && k >= start { x } else { f64::NAN })
+        .collect()
+}
+
+fn refusal(file: &Path, fault: &Fault) -> String {
+    format!(
+        "{}: the {} is at fault from {:.3} s to {:.3} s: {}; mend it or cut it away with --from-s and --to-s",
+        file.display(),
+        fault.channel,
+        fault.from_s,
+        fault.to_s,
+        fault.reason
+    )
+}
+
+fn say(args: &Args, unit: &str, comparison: &Comparison) -> Result<Outcome, Failure> {
+    let path = |path: &Option<PathBuf>| path.as_ref().map(|path| path.display().to_string());
+    if args.json {
+        let result = json!({
+            "recording": args.recording.display().to_string(),
+            "rig": args.rig.display().to_string(),
+            "calibration": path(&args.calibration),
+            "unit": unit,
+            "samples": comparison.pairs,
+            "rms": comparison.rms,
+            "maximum": comparison.maximum,
+            "nrmse_percent": comparison.nrmse_percent,
+            "file": path(&args.out),
+        });
+        return print(&result.to_string());
+    }
+    let nrmse = comparison.nrmse_percent.map_or_else(
+        || "not defined: the recorded output never moves".to_owned(),
+        |nrmse| format!("{} %", significant(nrmse, 3)),
+    );
+    let mut lines = vec![
+        format!("simulated less recorded over {} samples", comparison.pairs),
+        format!("  rms      {}", with_unit(comparison.rms, unit)),
+        format!("  maximum  {}", with_unit(comparison.maximum, unit)),
+        format!("  NRMSE    {nrmse}"),
+    ];
+    lines.extend(path(&args.out).map(|file| format!("  file     {file}")));
+    print(&lines.join("\n"))
+}

@@ -1,0 +1,54 @@
+//! This file says how far the model lies from the recording, before and after.
+
+use rigproof_diagnose::report::{BeforeAfter, Report};
+
+use super::number::significant;
+use super::section;
+
+/// The errors before and after, on what was fitted and on what was not.
+pub fn before_after(report: &Report) -> Vec<String> {
+    let Some(fit) = &report.fit else {
+        return Vec::new();
+    };
+    let unit = fit.unit.as_str();
+    let mut lines = vec![part("fitted part", fit.train, unit)];
+    lines.extend(fit.held_out.map(|errors| part("held-out part", errors, unit)));
+    lines.extend(fit.held_out_without_refit.map(|error| {
+        format!(
+            "  {:<26} {} {unit} with the numbers of the windows alone",
+            "held-out part",
+            significant(error, 4)
+        )
+    }));
+    lines.extend(fit.horizon.iter().map(|horizon| {
+        format!(
+            "  {:<26} {} → {} {unit}",
+            format!("{} s ahead", horizon.horizon_s),
+            significant(horizon.before, 4),
+            significant(horizon.after, 4),
+        )
+    }));
+    if !report.effects.is_empty() {
+        lines.push(if fit.improved {
+            let share = 100.0 * fit.recovered_share;
+            format!("  {share:.0} % of the improvement that sensor noise allows is reached on the held-out part")
+        } else {
+            "  the held-out part did not improve: do not use this calibration".to_owned()
+        });
+    }
+    lines.extend(fit.drift.iter().map(|drift| format!("  {drift}")));
+    section(
+        "Before and after (nominal model fitted → with what is named)",
+        lines,
+    )
+}
+
+fn part(name: &str, errors: BeforeAfter, unit: &str) -> String {
+    format!(
+        "  {name:<26} {} → {} {unit}   NRMSE {} % → {} %",
+        significant(errors.before, 4),
+        significant(errors.after, 4),
+        significant(errors.nrmse_before, 3),
+        significant(errors.nrmse_after, 3),
+    )
+}

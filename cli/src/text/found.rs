@@ -1,0 +1,87 @@
+//! This file says where a recording disagrees, how the cause was named, and what it is.
+
+use rigproof_diagnose::report::{EffectReport, Report};
+
+use super::number::{percent, significant, with_interval, with_unit};
+use super::section;
+
+/// Regimes that are printed; the report holds all.
+const PLACES: usize = 3;
+
+/// Where the nominal model fails most.
+pub fn place(report: &Report) -> Vec<String> {
+    let lines = report.located.iter().take(PLACES).map(|place| {
+        format!(
+            "  {:<34} {} of what is unexplained (95 %: {} to {}), in {} of the time",
+            place.regime,
+            percent(place.share),
+            percent(place.share_low95),
+            percent(place.share_high95),
+            percent(place.share_of_time),
+        )
+    });
+    section("Where the nominal model fails", lines)
+}
+
+/// How the mechanisms were named, one after another.
+pub fn naming(report: &Report) -> Vec<String> {
+    let Some(floor) = &report.floor else {
+        return Vec::new();
+    };
+    let line = |what: &str, residual: f64, standing: String| {
+        format!("  {what:<26} {:>11}{standing}", significant(residual, 4))
+    };
+    let mut lines = vec![line("nominal model", floor.measured_before, String::new())];
+    lines.extend(report.stages.iter().map(|stage| {
+        let standing = format!("   with {}", stage.standing.join(", "));
+        line(&format!("+ {}", stage.entered), stage.residual, standing)
+    }));
+    if !report.stages.is_empty() {
+        lines.push(line("what is named", floor.measured_after, String::new()));
+    }
+    lines.push(line("sensor noise predicts", floor.predicted, String::new()));
+    let heading = format!("How it was named (residual of the windows, {})", floor.unit);
+    section(&heading, lines)
+}
+
+/// The mechanisms that are named.
+pub fn effects(report: &Report) -> Vec<String> {
+    let none: &[&str] = &[];
+    let rivals = report.ambiguous_with.iter().map(Vec::as_slice);
+    let rivals = rivals.chain(std::iter::repeat(none));
+    let lines = report.effects.iter().zip(rivals);
+    section(
+        "What the model left out",
+        lines.flat_map(|(effect, rivals)| one(effect, rivals)),
+    )
+}
+
+fn one(effect: &EffectReport, rivals: &[&str]) -> Vec<String> {
+    let mut lines = vec![format!("  {}: {}", effect.mechanism, effect.equation)];
+    let parameters = effect.parameters.iter();
+    lines.extend(parameters.map(|(name, number)| format!("    {name} = {}", with_interval(number))));
+    if let Some(onset_s) = effect.onset_s {
+        lines.push(format!(
+            "    begins {} after the first sample",
+            with_unit(onset_s, "s")
+        ));
+    }
+    lines.push(format!(
+        "    z = {:.1} over left-out blocks; stays in {} of the resampled recordings; takes away {} of the loss",
+        effect.z,
+        percent(effect.inclusion),
+        percent(effect.share_explained),
+    ));
+    if !rivals.is_empty() {
+        lines.push(format!("    cannot be told from: {}", rivals.join(", ")));
+    }
+    lines.push(format!("    would be refuted by: {}", effect.refuted_by));
+    lines
+}
+
+/// The numbers of the nominal model after the fit.
+pub fn nominal(report: &Report) -> Vec<String> {
+    let numbers = report.nominal.iter();
+    let lines = numbers.map(|(name, number)| format!("  {name} = {}", with_interval(number)));
+    section("The nominal model's own numbers after the fit", lines)
+}

@@ -1,0 +1,70 @@
+//! This file writes numbers the way a report prints them.
+
+use rigproof_diagnose::report::Number;
+
+/// A number with as many significant digits, in powers of ten only where it is very large or small.
+pub fn significant(value: f64, digits: usize) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return value.to_string();
+    }
+    let scientific = format!("{value:.*e}", digits.saturating_sub(1));
+    let exponent = scientific
+        .split_once('e')
+        .and_then(|(_, e)| e.parse::<i32>().ok());
+    match exponent {
+        Some(exponent @ -3..=5) => {
+            let decimals = usize::try_from(digits as i32 - 1 - exponent).unwrap_or(0);
+            format!("{value:.decimals$}")
+        }
+        _ => scientific,
+    }
+}
+
+/// A share as per cent.
+pub fn percent(share: f64) -> String {
+    format!("{:.0} %", 100.0 * share)
+}
+
+/// A number with its unit and interval.
+pub fn with_interval(number: &Number) -> String {
+    let value = with_unit(number.value, &number.unit);
+    match (number.low95, number.high95) {
+        (Some(low), Some(high)) => format!(
+            "{value}   (95 %: {} to {})",
+            significant(low, 4),
+            significant(high, 4)
+        ),
+        _ => format!("{value}   (no interval)"),
+    }
+}
+
+/// A value with its unit; a plain number has none.
+pub fn with_unit(value: f64, unit: &str) -> String {
+    let value = significant(value, 4);
+    match unit {
+        "" | "1" => value,
+        unit => format!("{value} {unit}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_are_those_that_say_something() {
+        for (value, expected) in [
+            (0.034594, "0.03459"),
+            (-123_456.0, "-123456"),
+            (9.999_96, "10.00"),
+            (2.5e-7, "2.500e-7"),
+            (7.25e8, "7.250e8"),
+            (0.0, "0"),
+            (f64::NAN, "NaN"),
+        ] {
+            assert_eq!(significant(value, 4), expected);
+        }
+        assert_eq!(with_unit(1.5, "1"), "1.500");
+        assert_eq!(percent(0.374), "37 %");
+    }
+}
