@@ -5,6 +5,9 @@ mod make;
 mod score;
 mod trial;
 
+pub use make::{FILES, contents};
+pub use score::in_words;
+
 use clap::Subcommand;
 use rigproof_blind::{Answer, HiddenEffect, Plant, Stratum};
 
@@ -54,7 +57,10 @@ fn parse_stratum(name: &str) -> Result<Stratum, String> {
 /// What was hidden, a line an effect.
 pub fn truth(answer: &Answer) -> Vec<String> {
     if let Some(fault) = &answer.fault {
-        return vec![format!("  a fault of the recording: {}", fault.replace('_', " "))];
+        return vec![format!(
+            "  a fault of the recording: {}",
+            fault.replace('_', " ")
+        )];
     }
     if answer.effects.is_empty() {
         return vec!["  nothing".to_owned()];

@@ -58,7 +58,11 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
         Some(file) => Some(input::recording(&rig, file, Cut::default())?),
         None => None,
     };
-    let files = [Some(&args.recording), args.hold_out.as_ref(), Some(&args.rig)];
+    let files = [
+        Some(&args.recording),
+        args.hold_out.as_ref(),
+        Some(&args.rig),
+    ];
     let identities = files.into_iter().flatten();
     let identities = identities.map(|file| input::identity(file));
     let identities = identities.collect::<Result<Vec<_>, _>>()?;
@@ -79,20 +83,20 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     })
 }
 
-fn say(
-    args: &Args,
-    out: &Path,
-    files: &[&str],
-    diagnosis: &Diagnosis,
-) -> Result<Outcome, Failure> {
+fn say(args: &Args, out: &Path, files: &[&str], diagnosis: &Diagnosis) -> Result<Outcome, Failure> {
     if args.json {
         return print(&folder::json(diagnosis)?);
     }
-    let paths = files.iter().map(|file| format!("  {}", out.join(file).display()));
+    let paths = files
+        .iter()
+        .map(|file| format!("  {}", out.join(file).display()));
     print(&text::join([
         vec![text::report(&diagnosis.report)],
         text::section("Files", paths),
-        text::section("Next", [format!("  {}", next(args, out, &diagnosis.report))]),
+        text::section(
+            "Next",
+            [format!("  {}", next(args, out, &diagnosis.report))],
+        ),
     ]))
 }
 
@@ -124,7 +128,9 @@ fn out(args: &Args) -> Result<PathBuf, Failure> {
     }
     let Some(stem) = args.recording.file_stem() else {
         let file = args.recording.display();
-        return Err(Failure::Input(format!("{file}: it names no file; name a recording")));
+        return Err(Failure::Input(format!(
+            "{file}: it names no file; name a recording"
+        )));
     };
     let mut name = stem.to_os_string();
     name.push("-diagnosis");

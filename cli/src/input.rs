@@ -43,7 +43,7 @@ pub fn recording(rig: &Rig, file: &Path, cut: Cut) -> Result<Recording, Failure>
             recording.time_s.first().unwrap_or(&f64::NAN),
             recording.time_s.last().unwrap_or(&f64::NAN),
         );
-        return Err(TraceError::recording(file, problem).into());
+        return Err(Failure::unusable(file, problem));
     }
     Ok(Recording {
         time_s: part(&recording.time_s, &kept),
@@ -60,9 +60,13 @@ pub fn recording(rig: &Rig, file: &Path, cut: Cut) -> Result<Recording, Failure>
 /// # Errors
 /// The file cannot be read, or is none that can be read twice.
 pub fn identity(file: &Path) -> Result<InputFile, Failure> {
-    let refused = || TraceError::io("read", file);
-    let mut open = File::open(file).map_err(refused())?;
-    if !open.metadata().map_err(refused())?.is_file() {
+    let refused = |source| TraceError::File {
+        action: "read",
+        path: file.to_path_buf(),
+        source,
+    };
+    let mut open = File::open(file).map_err(refused)?;
+    if !open.metadata().map_err(refused)?.is_file() {
         let error = TraceError::NotText {
             place: Place::file(file),
             problem: "it is no ordinary file",
@@ -72,7 +76,7 @@ pub fn identity(file: &Path) -> Result<InputFile, Failure> {
     let mut hash = Sha256::new();
     let mut bytes = vec![0; 1 << 16];
     loop {
-        let count = open.read(&mut bytes).map_err(refused())?;
+        let count = open.read(&mut bytes).map_err(refused)?;
         match bytes.get(..count) {
             Some(read) if count > 0 => hash.update(read),
             _ => break,

@@ -2,8 +2,18 @@
 //!
 //! A verb is a module with `Args` and `run`, a line in [`Verb`] and a line in [`run`].
 
+mod blind;
 mod convert;
+mod demo;
+mod diagnose;
+mod folder;
+mod input;
 mod outcome;
+mod picture;
+mod progress;
+mod shell;
+mod simulate;
+mod text;
 
 use std::process::ExitCode;
 
@@ -21,6 +31,14 @@ struct Program {
 
 #[derive(Subcommand)]
 enum Verb {
+    /// Find out why a recording disagrees with the rig's model, and calibrate the model
+    Diagnose(diagnose::Args),
+    /// Run a rig's model along a recording and say how far the two lie apart
+    Simulate(simulate::Args),
+    /// Show the whole of it on a recording that is made for it: hide, diagnose, open the seal
+    Demo(demo::Args),
+    /// Test the diagnosis with recordings whose cause is hidden
+    Blind(blind::Args),
     /// Turn a recording in HDF5, MATLAB or CSV into a normalised CSV file
     Convert(convert::Args),
 }
@@ -32,13 +50,16 @@ Exit codes:
   2  the command line is wrong
   3  an input is not usable, or a file cannot be read or written
 
-Example:
-  rigproof convert --list test.h5
-  rigproof convert test.h5 multisine.csv --group multisine --variables u,y --rate-from fs \\
-      --unit u=N --unit y=m";
+Examples:
+  rigproof demo
+  rigproof diagnose run.csv --rig rig.toml";
 
 fn run(verb: &Verb) -> Result<Outcome, Failure> {
     match verb {
+        Verb::Diagnose(args) => diagnose::run(args),
+        Verb::Simulate(args) => simulate::run(args),
+        Verb::Demo(args) => demo::run(args),
+        Verb::Blind(args) => blind::run(args),
         Verb::Convert(args) => convert::run(args),
     }
 }

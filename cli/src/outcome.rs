@@ -1,6 +1,7 @@
 //! This file says how a verb ends: its exit code, its one line of error, and its output.
 
 use std::io::{self, Write};
+use std::path::Path;
 use std::process::ExitCode;
 
 use rigproof_trace::TraceError;
@@ -24,6 +25,14 @@ pub enum Failure {
     Usage(String),
     /// An input is not usable, or a file cannot be read or written; exit code 3.
     Input(String),
+}
+
+impl Failure {
+    /// A file that can be read but not used, and why.
+    pub fn unusable(file: &Path, problem: String) -> Failure {
+        let file = file.to_path_buf();
+        TraceError::Recording { file, problem }.into()
+    }
 }
 
 impl From<rigproof_blind::Error> for Failure {

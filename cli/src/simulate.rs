@@ -9,7 +9,7 @@ use rigproof_diagnose::simulate::{Protocol, output};
 use rigproof_spec::effect::Quantity;
 use rigproof_trace::compare::{Comparison, compare};
 use rigproof_trace::rig::{Rig, motion_name};
-use rigproof_trace::{Channel, Trace, TraceError, csv};
+use rigproof_trace::{Channel, Trace, csv};
 use serde_json::json;
 
 use crate::input::{self, Cut};
@@ -97,7 +97,7 @@ fn model(args: &Args, rig: &Rig) -> Result<Rig, Failure> {
             motion_name(rig.motion),
             rig.plant.name(),
         );
-        return Err(TraceError::recording(file, problem).into());
+        return Err(Failure::unusable(file, problem));
     }
     Ok(calibration)
 }
@@ -110,7 +110,13 @@ fn counted(run: &Run, recorded: &[f64], protocol: &Protocol) -> Vec<f64> {
     };
     let samples = recorded.iter().zip(&run.recorded).enumerate();
     samples
-        .map(|(k, (&x, &was_recorded))| if was_recorded && k >= start { x } else { f64::NAN })
+        .map(|(k, (&x, &was_recorded))| {
+            if was_recorded && k >= start {
+                x
+            } else {
+                f64::NAN
+            }
+        })
         .collect()
 }
 

@@ -244,22 +244,21 @@ fn moved_behind(signals: &Signals, first: usize, end: usize) -> bool {
     jump > 6.0 * usual.max(2.0 * smallest_step(&signals.position))
 }
 
-/// A metered effort that rests on its own extreme for many samples.
+/// An effort that rests on its own extreme for many samples, unless the rig says that it saturates there.
 fn check_clipped(signals: &Signals) -> Result<(), Fault> {
-    if signals.plant == PlantKind::Axis {
-        return Ok(());
-    }
-    let live: Vec<f64> = signals
-        .effort
-        .iter()
-        .copied()
-        .filter(|x| !x.is_nan())
-        .collect();
-    let high = live.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let low = live.iter().copied().fold(f64::INFINITY, f64::min);
+    let live = || signals.effort.iter().copied().filter(|x| !x.is_nan());
+    let high = live().fold(f64::NEG_INFINITY, f64::max);
+    let low = live().fold(f64::INFINITY, f64::min);
     for extreme in [high, low] {
-        let count = live.iter().filter(|&&x| x == extreme).count();
-        if count > 20 && count as f64 > 0.005 * live.len() as f64 && high > low {
+        let stated = signals
+            .effort_limit
+            .is_some_and(|limit| extreme.abs() >= 0.999 * limit);
+        let count = live().filter(|&x| x == extreme).count();
+        if !stated
+            && count > MOST_CLIPPED
+            && count as f64 > 0.005 * signals.effort.len() as f64
+            && high > low
+        {
             let from = signals
                 .effort
                 .iter()
@@ -270,13 +269,16 @@ fn check_clipped(signals: &Signals) -> Result<(), Fault> {
                 from_s: signals.time_s.get(from).copied().unwrap_or(0.0),
                 to_s: signals.time_s.last().copied().unwrap_or(0.0),
                 reason: format!(
-                    "{count} samples at exactly {extreme}: the sensor or its converter is saturated"
+                    "{count} samples at exactly {extreme} (SI): the channel is clipped; if the drive itself saturates there, state it as `limit` in the rig"
                 ),
             });
         }
     }
     Ok(())
 }
+
+/// Samples at one extreme that may be chance.
+const MOST_CLIPPED: usize = 20;
 
 /// A resistance that gives energy on the whole has a channel with the wrong sign.
 fn check_sign(run: &Run) -> Result<(), Fault> {

@@ -1,6 +1,6 @@
 //! This file runs the stages in order: align, locate, explain, refit, show.
 
-use crate::align::band_hz;
+use crate::align::{Fault, band_hz};
 use crate::evidence::{
     coefficients_by_term, inclusion, not_seen, null_directions, parameters, rivals, standard_errors,
 };
@@ -113,6 +113,9 @@ pub fn diagnose(
         .filter_map(|n| problem.nominal_term(n))
         .collect();
     let mut selection = select(&mut problem, nominal, options.gates);
+    if let Some(fault) = reversed_drive(&problem, &selection) {
+        return faulty(rig, "recording", fault);
+    }
     let withdrawn = withdraw_surrogates(&problem, &mut selection, rig);
     Stand {
         rig,
@@ -125,6 +128,23 @@ pub fn diagnose(
         width_s,
     }
     .report(held_out.is_some())
+}
+
+/// A gain error of more than the whole gain is a channel with the wrong sign.
+fn reversed_drive(problem: &Problem, selection: &Selection) -> Option<Fault> {
+    let (_, coefficients) = coefficients_by_term(problem, selection);
+    let terms = refs(&selection.nominal, &selection.found);
+    let fraction = terms
+        .iter()
+        .zip(&coefficients)
+        .find(|(term, _)| term.mechanism == Mechanism::GainError)
+        .and_then(|(term, own)| parameters(term, own).first().copied())?;
+    (fraction < -1.0).then(|| Fault {
+        channel: "drive",
+        from_s: problem.run.start_s,
+        to_s: problem.run.start_s + problem.run.duration_s(),
+        reason: "the plant answers against its drive: the command, the force or the position has the wrong sign (set `sign = -1`)".to_owned(),
+    })
 }
 
 /// Takes out the names that only stand in for another law, where more than noise is left.
@@ -576,7 +596,7 @@ fn empty(rig: &Rig, verdict: Verdict, summary: String) -> Diagnosis {
     }
 }
 
-fn faulty(rig: &Rig, which: &str, fault: crate::align::Fault) -> Diagnosis {
+fn faulty(rig: &Rig, which: &str, fault: Fault) -> Diagnosis {
     let mut diagnosis = empty(
         rig,
         Verdict::DataFault,

@@ -89,6 +89,10 @@ impl<'a> Problem<'a> {
             Inertia::Known(value) | Inertia::Unknown(value) => value,
         };
         let floor = windows.floor(run, start);
+        let mut windows = windows;
+        if let Some(predicted) = &run.predicted {
+            windows.avoid_steps(predicted, floor);
+        }
         let acceleration = second_difference(&run.position, run.step_s);
         let mut known = run
             .predicted

@@ -223,18 +223,19 @@ fn fold_losses(columns: &[&[f64]], target: &[f64], blocks: &Blocks) -> Vec<(f64,
 }
 
 fn normal(columns: &[&[f64]], target: &[f64], first: usize, end: usize) -> Normal {
-    let part =
-        |column: &'_ [f64]| -> Vec<f64> { column.get(first..end).unwrap_or_default().to_vec() };
-    let columns: Vec<Vec<f64>> = columns.iter().map(|c| part(c)).collect();
-    let target = part(target);
+    let columns: Vec<&[f64]> = columns
+        .iter()
+        .map(|column| column.get(first..end).unwrap_or_default())
+        .collect();
+    let target = target.get(first..end).unwrap_or_default();
     let size = columns.len();
     Normal {
         gram: DMatrix::from_fn(size, size, |i, j| match (columns.get(i), columns.get(j)) {
             (Some(a), Some(b)) if i <= j => dot(a, b),
             _ => 0.0,
         }),
-        moment: DVector::from_iterator(size, columns.iter().map(|c| dot(c, &target))),
-        square: dot(&target, &target),
+        moment: DVector::from_iterator(size, columns.iter().map(|c| dot(c, target))),
+        square: dot(target, target),
     }
 }
 
@@ -310,9 +311,18 @@ pub fn paired(before: &[f64], after: &[f64], weight: &[f64]) -> (f64, f64) {
 /// Share of the mean weight below which a block says nothing.
 const LEAST_WEIGHT: f64 = 0.05;
 
-/// The inner product of two columns.
+/// The inner product of two columns, in four running sums so that the processor can overlap them.
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
+    let (a4, a_rest) = a.as_chunks::<4>();
+    let (b4, b_rest) = b.as_chunks::<4>();
+    let mut sums = [0.0; 4];
+    for (x, y) in a4.iter().zip(b4) {
+        for (sum, (x, y)) in sums.iter_mut().zip(x.iter().zip(y)) {
+            *sum += x * y;
+        }
+    }
+    let rest: f64 = a_rest.iter().zip(b_rest).map(|(x, y)| x * y).sum();
+    sums.iter().sum::<f64>() + rest
 }
 
 /// The Euclidean length of a column.

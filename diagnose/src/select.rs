@@ -37,6 +37,8 @@ pub struct Found {
     pub z: f64,
     /// Share of the left-out loss it removed when it entered.
     pub share: f64,
+    /// Whether nothing beyond sensor noise was left with it.
+    pub at_floor: bool,
 }
 
 /// What stood after one mechanism was named.
@@ -289,8 +291,6 @@ struct Trial {
     found: Found,
     losses: Vec<f64>,
     parameters: usize,
-    /// Whether nothing beyond sensor noise is left with it.
-    at_floor: bool,
 }
 
 /// The next mechanism: an elementary one, any other, or one that begins during the recording, in this order as
@@ -304,94 +304,130 @@ fn forward(
 ) -> Option<Found> {
     let common = refs(nominal, found);
     let current = fit(problem, &common, blocks);
-    let (elementary, others): (Vec<_>, Vec<_>) = open(problem, nominal, found)
+    let lists: Vec<Vec<Term>> = open(problem, nominal, found)
         .into_iter()
-        .partition(|m| ELEMENTARY.contains(m));
-    let from_start = |m: &Mechanism| variants(problem, *m, &common, &current);
+        .map(|m| variants(problem, m, &common, &current))
+        .collect();
+    let (early, bests) = trials(problem, &common, &current, lists, blocks, gates);
     let effort = modelled_effort(problem, &common, &current);
-    let later = |m: &Mechanism| with_onsets(problem, from_start(m), &effort);
-    let judged =
-        |mechanisms: &[Mechanism], tried: &dyn Fn(&Mechanism) -> Vec<Term>| -> Option<Found> {
-            let trials = mechanisms
-                .iter()
-                .filter_map(|m| judge(problem, &common, &current, tried(m), blocks, gates))
-                .collect();
-            simplest(trials, current.left_out())
-        };
-    let all: Vec<Mechanism> = elementary.iter().chain(&others).copied().collect();
+    let onsets = bests
+        .iter()
+        .map(|t| with_onsets(problem, t, &effort))
+        .collect();
+    let (late, _) = trials(problem, &common, &current, onsets, blocks, gates);
+    let (elementary, others): (Vec<Trial>, Vec<Trial>) = early
+        .into_iter()
+        .partition(|t| ELEMENTARY.contains(&t.found.term.mechanism));
+    let without = current.left_out();
     let ranked = [
-        (judged(&elementary, &from_start), ELEMENTARY_SHARE),
-        (judged(&others, &from_start), EARLY_SHARE),
-        (judged(&all, &later), 1.0),
+        (simplest(elementary, without), ELEMENTARY_SHARE),
+        (simplest(others, without), EARLY_SHARE),
+        (simplest(late, without), 1.0),
     ];
     let shares = ranked.iter().flat_map(|(found, _)| found).map(|f| f.share);
     let most = shares.fold(0.0, f64::max);
+    // One that leaves nothing but noise is not passed over for one that leaves more.
+    let floor_reached = ranked
+        .iter()
+        .flat_map(|(found, _)| found)
+        .any(|f| f.at_floor);
     let mut enough = ranked
         .into_iter()
-        .filter_map(|(found, least)| found.filter(|f| f.share >= least * most));
+        .filter_map(|(found, least)| found.filter(|f| f.share >= least * most))
+        .filter(|f| f.at_floor || !floor_reached);
     enough.next()
 }
 
-/// Times at which an effect may begin: twelfths of the recording, ends left out.
-fn with_onsets(problem: &Problem, variants: Vec<Term>, effort: &[f64]) -> Vec<Term> {
-    let step = (variants.len() / 3).max(1);
-    let chosen: Vec<Term> = variants.into_iter().skip(step / 2).step_by(step).collect();
+/// A term that begins at twelfths of the recording, ends left out.
+fn with_onsets(problem: &Problem, term: &Term, effort: &[f64]) -> Vec<Term> {
     (2..=10)
-        .map(|k| problem.run.duration_s() * k as f64 / 12.0)
-        .flat_map(|onset_s| {
-            chosen
-                .iter()
-                .filter_map(move |t| realise(problem, t.mechanism, &t.shape, Some(onset_s), effort))
-                .collect::<Vec<_>>()
+        .map(|k| problem.run.start_s + problem.run.duration_s() * k as f64 / 12.0)
+        .filter_map(|t| realise(problem, term.mechanism, &term.shape, Some(t), effort))
+        .collect()
+}
+
+/// Share of the best gain that a mechanism must reach on its grid to have its shape refined and be judged.
+const PROMISING: f64 = 0.3;
+
+/// Judges one mechanism a list of variants: those that pass the gates, and the best variant of every list.
+fn trials(
+    problem: &Problem,
+    common: &[&Term],
+    current: &Fit,
+    lists: Vec<Vec<Term>>,
+    blocks: &Blocks,
+    gates: Gates,
+) -> (Vec<Trial>, Vec<Term>) {
+    let candidates: Vec<(Vec<Term>, Term, f64)> = lists
+        .into_iter()
+        .map(|list| linearised(problem, common, list, blocks))
+        .filter_map(|list| {
+            let (term, loss) = best(problem, common, &list, blocks)?;
+            Some((list, term, loss))
+        })
+        .collect();
+    let least = candidates.iter().map(|c| c.2).fold(current.loss, f64::min);
+    let bests = candidates.iter().map(|c| c.1.clone()).collect();
+    let trials = candidates
+        .into_iter()
+        .filter(|(_, _, loss)| current.loss - loss >= PROMISING * (current.loss - least))
+        .filter_map(|(mut list, mut term, _)| {
+            if list.len() > 1 {
+                term = refined(problem, common, term, blocks);
+                list.push(term.clone());
+            }
+            judge(problem, common, current, &list, term, blocks, gates)
+        })
+        .collect();
+    (trials, bests)
+}
+
+/// Changes of the drive, linearised about what the other terms give beside them.
+fn linearised(problem: &Problem, common: &[&Term], list: Vec<Term>, blocks: &Blocks) -> Vec<Term> {
+    list.into_iter()
+        .map(|t| {
+            let effort = effort_beside(problem, common, &t, blocks);
+            effort
+                .and_then(|e| problem.drive_term(t.mechanism, &t.shape, t.onset_s, &e))
+                .unwrap_or(t)
         })
         .collect()
 }
 
+/// A mechanism with its variants against the gates.
 fn judge(
     problem: &Problem,
     common: &[&Term],
     current: &Fit,
-    tried: Vec<Term>,
+    tried: &[Term],
+    term: Term,
     blocks: &Blocks,
     gates: Gates,
 ) -> Option<Trial> {
-    let tried: Vec<Term> = tried
-        .into_iter()
-        .map(|t| match effort_beside(problem, common, &t, blocks) {
-            Some(effort) => problem
-                .drive_term(t.mechanism, &t.shape, t.onset_s, &effort)
-                .unwrap_or(t),
-            None => t,
-        })
-        .collect();
-    let grid = tried.len();
-    let mut tried = tried;
-    let mut term = best(problem, common, &tried, blocks)?;
-    if grid > 1 {
-        term = refined(problem, common, term, blocks);
-        tried.push(term.clone());
-    }
-    let losses = nested_block_losses(problem, common, &tried, blocks);
+    let losses = nested_block_losses(problem, common, tried, blocks);
     let mut terms = common.to_vec();
     terms.push(&term);
     let fitted = fit(problem, &terms, blocks);
     let own = own_coefficients(&term, &fitted);
-    let (gain, z) = paired(
-        &current.block_loss,
-        &losses,
-        &excitation(&term, own, blocks),
-    );
+    let expected = excitation(&term, own, blocks);
+    let (gain, z) = paired(&current.block_loss, &losses, &expected);
     let share = 1.0 - losses.iter().sum::<f64>() / current.left_out().max(1e-300);
-    let linear = entry(term.mechanism)?;
-    let energy = contribution(problem, &term, own);
-    let relevant = energy >= gates.relevance * rms(&problem.windows.average(&problem.run.effort));
-    let allowed = !drives(&term, own);
-    let parameters = linear.linear + term.shape.len() + usize::from(term.onset_s.is_some());
-    (gain > 0.0 && z >= gates.z && share >= gates.share && relevant && allowed).then(|| Trial {
-        found: Found { term, z, share },
+    let least = gates.relevance * rms(&problem.windows.average(&problem.run.effort));
+    let passes = gain > 0.0
+        && z >= gates.z
+        && share >= gates.share
+        && contribution(problem, &term, own) >= least
+        && !drives(&term, own);
+    let linear = entry(term.mechanism)?.linear;
+    passes.then(|| Trial {
+        parameters: linear + term.shape.len() + usize::from(term.onset_s.is_some()),
+        found: Found {
+            at_floor: usable_rms(problem, &fitted.residual) <= FLOOR_RATIO * problem.floor,
+            term,
+            z,
+            share,
+        },
         losses,
-        parameters,
-        at_floor: usable_rms(problem, &fitted.residual) <= FLOOR_RATIO * problem.floor,
     })
 }
 
@@ -447,18 +483,25 @@ fn coefficients_of<'f>(found: &[Found], index: usize, fitted: &'f Fit) -> &'f [f
         .unwrap_or_default()
 }
 
-/// The variant with the least loss over all blocks.
-fn best(problem: &Problem, common: &[&Term], tried: &[Term], blocks: &Blocks) -> Option<Term> {
-    let score = |term: &Term| {
-        let mut terms = common.to_vec();
-        terms.push(term);
-        fit(problem, &terms, blocks).loss
-    };
+/// The variant with the least loss over all blocks, and that loss.
+fn best(
+    problem: &Problem,
+    common: &[&Term],
+    tried: &[Term],
+    blocks: &Blocks,
+) -> Option<(Term, f64)> {
     tried
         .iter()
-        .map(|term| (score(term), term))
-        .min_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, term)| term.clone())
+        .map(|term| (term, loss_with(problem, common, term, blocks)))
+        .min_by(|a, b| a.1.total_cmp(&b.1))
+        .map(|(term, loss)| (term.clone(), loss))
+}
+
+/// Loss over all blocks with one more term.
+fn loss_with(problem: &Problem, common: &[&Term], term: &Term, blocks: &Blocks) -> f64 {
+    let mut terms = common.to_vec();
+    terms.push(term);
+    fit(problem, &terms, blocks).loss
 }
 
 /// The trial with the fewest parameters among those that tie with the best one, or that explain nearly as much
@@ -467,7 +510,7 @@ fn simplest(mut trials: Vec<Trial>, loss_without: f64) -> Option<Found> {
     let total = |trial: &Trial| trial.losses.iter().sum::<f64>();
     trials.sort_by(|a, b| total(a).total_cmp(&total(b)));
     let leader = trials.first()?.losses.clone();
-    let at_floor = trials.first()?.at_floor;
+    let at_floor = trials.first()?.found.at_floor;
     let most = loss_without - leader.iter().sum::<f64>();
     let all = vec![1.0; leader.len()];
     trials
@@ -507,11 +550,7 @@ fn refine(problem: &Problem, nominal: &[Term], found: &mut [Found], blocks: &Blo
 
 /// Pattern search over the logarithms of the shape parameters and the onset.
 fn refined(problem: &Problem, common: &[&Term], start: Term, blocks: &Blocks) -> Term {
-    let score = |term: &Term| {
-        let mut terms = common.to_vec();
-        terms.push(term);
-        fit(problem, &terms, blocks).loss
-    };
+    let score = |term: &Term| loss_with(problem, common, term, blocks);
     let fitted = fit(problem, common, blocks);
     let effort = effort_beside(problem, common, &start, blocks)
         .unwrap_or_else(|| modelled_effort(problem, common, &fitted));
@@ -538,7 +577,12 @@ fn refined(problem: &Problem, common: &[&Term], start: Term, blocks: &Blocks) ->
             stride *= 0.5;
             halvings += 1;
         }
-        if halvings == HALVINGS {
+        let limit = if best.1.onset_s.is_some() {
+            ONSET_HALVINGS
+        } else {
+            HALVINGS
+        };
+        if halvings == limit {
             break;
         }
     }
@@ -546,8 +590,10 @@ fn refined(problem: &Problem, common: &[&Term], start: Term, blocks: &Blocks) ->
 }
 
 /// Bounds on the rounds of a pattern search, and the halvings of its stride that end it.
-const MOST_ROUNDS: usize = 24;
+const MOST_ROUNDS: usize = 30;
 const HALVINGS: usize = 6;
+/// Halvings that place an onset to about a sample.
+const ONSET_HALVINGS: usize = 11;
 
 /// Every direction of the pattern: each parameter alone both ways, and pairs of shape parameters together.
 fn directions(shape: usize, onset: bool) -> Vec<Vec<f64>> {
@@ -673,28 +719,23 @@ fn swap(problem: &Problem, nominal: &[Term], found: &mut [Found], blocks: &Block
         let common = refs(nominal, &others);
         let without = fit(problem, &common, blocks);
         let current = fit(problem, &refs(nominal, found), blocks);
-        let trials: Vec<Trial> = open(problem, nominal, found)
+        let lists = open(problem, nominal, found)
             .into_iter()
-            .filter_map(|m| {
-                judge(
-                    problem,
-                    &common,
-                    &without,
-                    variants(problem, m, &common, &without),
-                    blocks,
-                    gates,
-                )
-            })
+            .map(|m| variants(problem, m, &common, &without))
+            .collect();
+        let (passed, _) = trials(problem, &common, &without, lists, blocks, gates);
+        let better: Vec<Trial> = passed
+            .into_iter()
             .filter(|t| {
                 let all = vec![1.0; t.losses.len()];
                 let gained = without.left_out() - t.losses.iter().sum::<f64>();
                 let had = without.left_out() - current.left_out();
-                (t.at_floor || had < SIMPLER_SHARE * gained)
+                (t.found.at_floor || had < SIMPLER_SHARE * gained)
                     && paired(&current.block_loss, &t.losses, &all).1 >= TIE_Z
             })
             .collect();
         if let (Some(better), Some(slot)) =
-            (simplest(trials, without.left_out()), found.get_mut(index))
+            (simplest(better, without.left_out()), found.get_mut(index))
         {
             *slot = better;
         }

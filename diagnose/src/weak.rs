@@ -8,6 +8,9 @@ const BUMP_ORDER: i32 = 4;
 /// Share of a window's weight that may lie where the sense of motion cannot be told.
 const MOST_AMBIGUOUS: f64 = 0.002;
 
+/// Averaged change of a predicted effort from sample to sample, in floors, up to which a window is used.
+const MOST_STEP: f64 = 2.0;
+
 /// The test function and the windows it is applied to.
 #[derive(Clone, Debug)]
 pub struct Windows {
@@ -62,6 +65,20 @@ impl Windows {
     /// `Σ φ″·position`: the averaged acceleration, one value a window.
     pub fn acceleration(&self, position: &[f64]) -> Vec<f64> {
         self.apply(&self.curvature, position)
+    }
+
+    /// Gives up the windows in which a predicted effort changes so fast that a sample's error in its timing would be
+    /// more than `floor` (current steps, entry into a backlash).
+    pub fn avoid_steps(&mut self, predicted: &[f64], floor: f64) {
+        let steps: Vec<f64> = predicted
+            .windows(2)
+            .map(|w| (w.last().unwrap_or(&0.0) - w.first().unwrap_or(&0.0)).abs())
+            .chain([0.0])
+            .collect();
+        let moved = self.average(&steps);
+        for (usable, moved) in self.usable.iter_mut().zip(moved) {
+            *usable &= moved <= MOST_STEP * floor;
+        }
     }
 
     fn apply(&self, weights: &[f64], signal: &[f64]) -> Vec<f64> {

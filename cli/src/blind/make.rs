@@ -57,7 +57,10 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     let folder = Folder::begin(&args.out)?;
     let case = make(args.plant, args.seed, args.stratum)?;
     if !args.json {
-        print(&format!("SHA-256 of the sealed answer: {}", case.commitment))?;
+        print(&format!(
+            "SHA-256 of the sealed answer: {}",
+            case.commitment
+        ))?;
     }
     for (name, bytes) in FILES.into_iter().zip(contents(&case)?) {
         folder.write(name, &bytes)?;

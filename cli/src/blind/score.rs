@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 
 use rigproof_blind::{Answer, Score, open, score};
-use rigproof_trace::TraceError;
 use rigproof_trace::store::read_text;
 use serde_json::{Value, json};
 
@@ -32,15 +31,17 @@ Example:
 /// Scores a report.
 pub fn run(args: &Args) -> Result<Outcome, Failure> {
     let sealed = read_text(&args.answer)?;
-    let at = |file: &PathBuf, problem: String| {
-        Failure::from(TraceError::recording(file, problem))
-    };
-    let answer = open(&sealed).map_err(|error| at(&args.answer, error.to_string()))?;
+    let answer =
+        open(&sealed).map_err(|error| Failure::unusable(&args.answer, error.to_string()))?;
     let text = read_text(&args.report)?;
     let report: Value = serde_json::from_str(&text).map_err(|error| {
-        at(&args.report, format!("{error}; give the report.json that a diagnosis wrote"))
+        Failure::unusable(
+            &args.report,
+            format!("{error}; give the report.json that a diagnosis wrote"),
+        )
     })?;
-    let score = score(&answer, &report).map_err(|error| at(&args.report, error.to_string()))?;
+    let score = score(&answer, &report)
+        .map_err(|error| Failure::unusable(&args.report, error.to_string()))?;
     if args.json {
         return print(&json!({ "answer": answer, "score": score }).to_string());
     }
@@ -50,7 +51,10 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
 /// What was hidden beside what was named.
 pub fn in_words(answer: &Answer, report: &Value, score: &Score) -> String {
     join([
-        section(&format!("Hidden ({})", answer.stratum.name()), truth(answer)),
+        section(
+            &format!("Hidden ({})", answer.stratum.name()),
+            truth(answer),
+        ),
         section(&format!("Named ({})", score.verdict), named(report)),
         section("Score", lines(score)),
     ])
@@ -91,7 +95,10 @@ fn lines(score: &Score) -> Vec<String> {
     let yes = |holds: bool| if holds { "yes" } else { "no" };
     let mut lines = vec![
         format!("  the names are the true ones: {}", yes(score.exact)),
-        format!("  the truth is named, ambiguous with a name, or equivalent: {}", yes(score.inside)),
+        format!(
+            "  the truth is named, ambiguous with a name, or equivalent: {}",
+            yes(score.inside)
+        ),
         match score.false_names.as_slice() {
             [] => "  false names: none".to_owned(),
             names => format!("  false names: {}", names.join(", ")),
@@ -114,7 +121,10 @@ fn lines(score: &Score) -> Vec<String> {
         } else {
             percent(error.relative)
         };
-        format!("  {} {} is off by {relative}{covered}", error.mechanism, error.name)
+        format!(
+            "  {} {} is off by {relative}{covered}",
+            error.mechanism, error.name
+        )
     }));
     lines
 }

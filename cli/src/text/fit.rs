@@ -12,7 +12,10 @@ pub fn before_after(report: &Report) -> Vec<String> {
     };
     let unit = fit.unit.as_str();
     let mut lines = vec![part("fitted part", fit.train, unit)];
-    lines.extend(fit.held_out.map(|errors| part("held-out part", errors, unit)));
+    lines.extend(
+        fit.held_out
+            .map(|errors| part("held-out part", errors, unit)),
+    );
     lines.extend(fit.held_out_without_refit.map(|error| {
         format!(
             "  {:<26} {} {unit} with the numbers of the windows alone",

@@ -39,7 +39,11 @@ pub fn naming(report: &Report) -> Vec<String> {
     if !report.stages.is_empty() {
         lines.push(line("what is named", floor.measured_after, String::new()));
     }
-    lines.push(line("sensor noise predicts", floor.predicted, String::new()));
+    lines.push(line(
+        "sensor noise predicts",
+        floor.predicted,
+        String::new(),
+    ));
     let heading = format!("How it was named (residual of the windows, {})", floor.unit);
     section(&heading, lines)
 }
@@ -59,7 +63,8 @@ pub fn effects(report: &Report) -> Vec<String> {
 fn one(effect: &EffectReport, rivals: &[&str]) -> Vec<String> {
     let mut lines = vec![format!("  {}: {}", effect.mechanism, effect.equation)];
     let parameters = effect.parameters.iter();
-    lines.extend(parameters.map(|(name, number)| format!("    {name} = {}", with_interval(number))));
+    lines
+        .extend(parameters.map(|(name, number)| format!("    {name} = {}", with_interval(number))));
     if let Some(onset_s) = effect.onset_s {
         lines.push(format!(
             "    begins {} after the first sample",

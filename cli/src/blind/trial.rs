@@ -1,0 +1,221 @@
+//! This file makes, diagnoses and scores many recordings with hidden causes.
+
+use std::ops::Range;
+use std::path::Path;
+
+use indicatif::ProgressBar;
+use rayon::prelude::*;
+use rigproof_blind::{Answer, Plant, Score, Table, make, open, score};
+use rigproof_diagnose::{Options, diagnose};
+use rigproof_trace::rig::Rig;
+use serde_json::{Value, json};
+
+use super::claims::{CLAIMS, Measured};
+use super::truth;
+use crate::outcome::{Failure, Outcome, print};
+use crate::progress;
+use crate::text::{join, section};
+
+/// What is to be tried.
+#[derive(clap::Args)]
+#[command(after_help = AFTER_HELP)]
+pub struct Args {
+    /// The seeds, from the first to before the last
+    #[arg(long, value_name = "FIRST..END", value_parser = parse_seeds)]
+    seeds: Range<u64>,
+    /// The plant; both: even seeds on the axis, odd seeds on the bench
+    #[arg(long, value_enum, default_value_t = Which::Both)]
+    plant: Which,
+    /// Recordings that are diagnosed at once; 0 takes every processor. The result does not depend on it
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    jobs: usize,
+    /// Say what became of every seed
+    #[arg(long)]
+    details: bool,
+    /// Print the result as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum Which {
+    Axis,
+    Bench,
+    Both,
+}
+
+const AFTER_HELP: &str = "\
+The naming alone is tried: each recording as a whole, without refit and without a held-out part.
+Exit code 1 says that a claim does not hold.
+
+Example:
+  rigproof blind trial --seeds 0..200 --jobs 8 --details";
+
+/// One case, its diagnosis and its score.
+pub struct Tried {
+    /// What was hidden.
+    pub answer: Answer,
+    /// What was found.
+    pub report: Value,
+    /// How well.
+    pub score: Score,
+}
+
+/// Tries the seeds and prints table and claims.
+pub fn run(args: &Args) -> Result<Outcome, Failure> {
+    let threads = rayon::ThreadPoolBuilder::new().num_threads(args.jobs);
+    let threads = threads.build().map_err(|error| {
+        Failure::Input(format!(
+            "cannot start {} jobs: {error}; give fewer",
+            args.jobs
+        ))
+    })?;
+    let cases: Vec<(Plant, u64)> = args
+        .seeds
+        .clone()
+        .map(|s| (plant(args.plant, s), s))
+        .collect();
+    let bar = progress::bar(cases.len(), "recordings");
+    let tried = threads.install(|| {
+        let cases = cases.par_iter().with_max_len(1);
+        cases
+            .map(|&(plant, seed)| one(plant, seed, &bar))
+            .collect::<Result<Vec<Tried>, Failure>>()
+    })?;
+    drop(bar);
+    let mut table = Table::default();
+    for case in &tried {
+        table.add(case.answer.plant, case.answer.seed, case.score.clone());
+    }
+    let claims: Vec<Measured<'_>> = CLAIMS.iter().map(|claim| claim.measure(&tried)).collect();
+    if args.json {
+        let mut result = table.to_json();
+        result["plant"] = assignment(args.plant).into();
+        result["claims"] = claims.iter().map(Measured::json).collect();
+        if args.details {
+            result["cases"] = tried.iter().map(Tried::json).collect();
+        }
+        print(&result.to_string())?;
+    } else {
+        let details = tried.iter().filter(|_| args.details).map(Tried::line);
+        print(&join([
+            section("Seeds", details),
+            vec![
+                table.to_string().trim_end().to_owned(),
+                assignment(args.plant).to_owned(),
+            ],
+            section("Claims", claims.iter().map(Measured::line)),
+        ]))?;
+    }
+    Ok(Outcome {
+        checks_hold: claims.iter().all(|claim| claim.holds() != Some(false)),
+    })
+}
+
+fn plant(which: Which, seed: u64) -> Plant {
+    match which {
+        Which::Axis => Plant::Axis,
+        Which::Bench => Plant::Bench,
+        Which::Both if seed.is_multiple_of(2) => Plant::Axis,
+        Which::Both => Plant::Bench,
+    }
+}
+
+const fn assignment(which: Which) -> &'static str {
+    match which {
+        Which::Axis => "Every seed is on the axis.",
+        Which::Bench => "Every seed is on the bench.",
+        Which::Both => "Even seeds are on the axis, odd seeds on the bench.",
+    }
+}
+
+/// Makes, diagnoses and scores one case; a recording that cannot be read counts as a data fault.
+fn one(plant: Plant, seed: u64, bar: &ProgressBar) -> Result<Tried, Failure> {
+    let case = make(plant, seed, None)?;
+    let rig = Rig::parse(&case.rig_toml, Path::new("rig.toml"))?;
+    let options = Options {
+        refit: false,
+        hold_out_share: 0.0,
+        ..Options::default()
+    };
+    let report = match rig.apply(&case.trace, Path::new("recording.csv")) {
+        Ok(recording) => serde_json::to_value(diagnose(&rig, &recording, None, &options).report)
+            .map_err(|error| Failure::Input(format!("the report of seed {seed}: {error}")))?,
+        Err(error) => {
+            json!({ "verdict": "data_fault", "effects": [], "summary": error.to_string() })
+        }
+    };
+    let answer = open(&case.sealed)?;
+    let score = score(&answer, &report)?;
+    bar.inc(1);
+    Ok(Tried {
+        answer,
+        report,
+        score,
+    })
+}
+
+impl Tried {
+    /// The mechanisms that the report names.
+    pub fn named(&self) -> Vec<&str> {
+        let effects = self.report.get("effects").and_then(Value::as_array);
+        let effects = effects.into_iter().flatten();
+        effects
+            .filter_map(|effect| effect.get("mechanism")?.as_str())
+            .collect()
+    }
+
+    fn ambiguous(&self) -> Vec<&str> {
+        let lists = self.report.get("ambiguous_with").and_then(Value::as_array);
+        let lists = lists.into_iter().flatten().filter_map(Value::as_array);
+        lists.flatten().filter_map(Value::as_str).collect()
+    }
+
+    fn line(&self) -> String {
+        let list = |names: &[&str]| match names {
+            [] => "–".to_owned(),
+            names => names.join(", "),
+        };
+        let hidden: Vec<String> = truth(&self.answer)
+            .iter()
+            .map(|line| line.trim().to_owned())
+            .collect();
+        let mut flags = vec![if self.score.exact {
+            "exact"
+        } else {
+            "not exact"
+        }];
+        flags.extend((!self.score.inside).then_some("truth outside"));
+        flags.extend((!self.score.false_names.is_empty()).then_some("false name"));
+        flags.extend(self.score.flagged.then_some("flagged"));
+        format!(
+            "  {} {} {} | {} | {} | named {} | ambiguous {} | {}",
+            self.answer.seed,
+            self.answer.plant.name(),
+            self.answer.stratum.name(),
+            hidden.join("; "),
+            self.score.verdict,
+            list(&self.named()),
+            list(&self.ambiguous()),
+            flags.join(", "),
+        )
+    }
+
+    fn json(&self) -> Value {
+        json!({
+            "seed": self.answer.seed, "plant": self.answer.plant, "answer": self.answer,
+            "named": self.named(), "ambiguous": self.ambiguous(), "score": self.score,
+        })
+    }
+}
+
+fn parse_seeds(text: &str) -> Result<Range<u64>, String> {
+    let advice = || "write FIRST..END with whole numbers, END greater than FIRST, such as 0..200";
+    let (first, end) = text.split_once("..").ok_or_else(advice)?;
+    let number = |text: &str| text.trim().parse::<u64>().map_err(|_| advice());
+    let seeds = number(first)?..number(end)?;
+    if seeds.is_empty() {
+        return Err(advice().to_owned());
+    }
+    Ok(seeds)
+}
