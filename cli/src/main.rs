@@ -67,3 +67,44 @@ fn run(verb: &Verb) -> Result<Outcome, Failure> {
 fn main() -> ExitCode {
     outcome::exit(run(&Program::parse().verb))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::{Command, CommandFactory};
+
+    /// Every verb and every verb below a verb.
+    fn verbs(command: &Command) -> Vec<Command> {
+        let below = command.get_subcommands();
+        let below = below.filter(|verb| verb.get_name() != "help");
+        below
+            .flat_map(|verb| std::iter::once(verb.clone()).chain(verbs(verb)))
+            .collect()
+    }
+
+    /// The commands of the examples, continued lines joined.
+    fn examples(help: &str) -> Vec<String> {
+        let (_, examples) = help.split_once("Example").unwrap();
+        let joined = examples.replace("\\\n", " ");
+        let lines = joined.lines().map(str::trim);
+        let commands = lines.filter(|line| line.starts_with("rigproof "));
+        commands.map(|line| line.replace('\'', "")).collect()
+    }
+
+    #[test]
+    fn the_help_of_every_verb_ends_with_examples_that_are_right() {
+        let program = Program::command();
+        let verbs = verbs(&program);
+        assert!(verbs.len() >= 8);
+        for verb in std::iter::once(program).chain(verbs) {
+            let name = verb.get_name();
+            let help = verb.get_after_help().unwrap().to_string();
+            let examples = examples(&help);
+            assert!(!examples.is_empty(), "{name}");
+            for example in examples {
+                let parsed = Program::try_parse_from(example.split_whitespace());
+                assert!(parsed.is_ok(), "{example}: {}", parsed.err().unwrap());
+            }
+        }
+    }
+}

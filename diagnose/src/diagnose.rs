@@ -103,11 +103,11 @@ pub fn diagnose(
     };
     let width_s = choose_width(&train, start, band_hz(&train.effort, train.step_s));
     let windows = Windows::new(&train, width_s);
-    let usable = windows.usable.iter().filter(|u| **u).count();
+    let mut problem = Problem::new(&train, windows, inertia);
+    let usable = problem.windows.usable.iter().filter(|u| **u).count();
     if usable < FEWEST_WINDOWS || train.travel() < 20.0 * train.position_noise {
         return not_excited(rig, &train, usable);
     }
-    let mut problem = Problem::new(&train, windows, inertia);
     let nominal: Vec<Term> = from_rig::nominal(rig)
         .iter()
         .filter_map(|n| problem.nominal_term(n))
@@ -443,6 +443,14 @@ impl Stand<'_> {
             train,
             held_out: Some(held_out),
             held_out_without_refit: Some(windows_only),
+            held_out_from_rest: (protocol.warm_up_periods > 0).then(|| {
+                let from_rest = Protocol {
+                    warm_up_periods: 0,
+                    start_samples: 0,
+                    ..*protocol
+                };
+                figure(&fitted.found.plant, self.test, &from_rest).0
+            }),
             horizon,
             recovered_share: (held_out.before - held_out.after) / (held_out.before - floor).max(1e-300),
             improved: held_out.after < held_out.before,

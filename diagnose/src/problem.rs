@@ -90,7 +90,7 @@ impl<'a> Problem<'a> {
         };
         let floor = windows.floor(run, start);
         let mut windows = windows;
-        if let Some(predicted) = &run.predicted {
+        if let (Some(predicted), Some(_)) = (&run.predicted, &run.current) {
             windows.avoid_steps(predicted, floor);
         }
         let acceleration = second_difference(&run.position, run.step_s);

@@ -23,10 +23,6 @@ pub struct Refit {
     pub before: f64,
     /// After.
     pub after: f64,
-    /// Standard errors of the adjusted numbers, white errors assumed.
-    pub standard_error: Vec<f64>,
-    /// Sensitivities `d output / d number`, one column a number (scaled).
-    pub jacobian: DMatrix<f64>,
 }
 
 /// Adjusts the free numbers of a plant over a recording.
@@ -39,6 +35,14 @@ pub fn refit(plant: &Plant, free: &[Free], run: &Run, protocol: &Protocol) -> Re
         x: DVector::zeros(free.len()),
     };
     let before = error_rms(plant, run, protocol);
+    let unchanged = Refit {
+        plant: plant.clone(),
+        before,
+        after: before,
+    };
+    if free.is_empty() {
+        return unchanged;
+    }
     let (solved, _) = LevenbergMarquardt::new()
         .with_stepbound(1.0)
         .with_patience(30)
@@ -48,26 +52,14 @@ pub fn refit(plant: &Plant, free: &[Free], run: &Run, protocol: &Protocol) -> Re
         .minimize(problem);
     let found = solved.plant();
     let after = error_rms(&found, run, protocol);
-    let jacobian = solved
-        .jacobian()
-        .unwrap_or_else(|| DMatrix::zeros(0, free.len()));
-    let standard_error = standard_errors(&jacobian, free, after);
     // A refit that made it worse is no refit.
     if after.is_nan() || after > before {
-        return Refit {
-            plant: plant.clone(),
-            before,
-            after: before,
-            standard_error,
-            jacobian,
-        };
+        return unchanged;
     }
     Refit {
         plant: found,
         before,
         after,
-        standard_error,
-        jacobian,
     }
 }
 
@@ -171,18 +163,5 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for OutputError<'_> {
             .collect();
         let jacobian = DMatrix::from_columns(&columns);
         jacobian.iter().all(|e| e.is_finite()).then_some(jacobian)
-    }
-}
-
-fn standard_errors(jacobian: &DMatrix<f64>, free: &[Free], rms: f64) -> Vec<f64> {
-    let information = jacobian.tr_mul(jacobian);
-    match information.try_inverse() {
-        Some(inverse) => inverse
-            .diagonal()
-            .iter()
-            .zip(free)
-            .map(|(v, f)| rms * v.max(0.0).sqrt() * f.scale)
-            .collect(),
-        None => vec![f64::NAN; free.len()],
     }
 }

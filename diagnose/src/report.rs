@@ -250,6 +250,8 @@ pub struct FitReport {
     pub held_out: Option<BeforeAfter>,
     /// Held-out part with the mechanisms named, but the numbers of the windows (no output-error refit).
     pub held_out_without_refit: Option<f64>,
+    /// Held-out part of a periodic protocol, with the mechanisms named, started from rest without a warm-up.
+    pub held_out_from_rest: Option<f64>,
     /// Error after a given time from the recorded state.
     pub horizon: Vec<Horizon>,
     /// Share of the achievable improvement that was reached on the held-out part (or the fitted one).

@@ -6,21 +6,33 @@ use rigproof_diagnose::report::Report;
 use super::before_after::range;
 use super::panel::Panel;
 use super::scale::Scale;
-use super::{NAMED, NOISE, NOMINAL, heading, legend, page, shares};
+use super::{LEFT, NAMED, NOISE, NOMINAL, heading, legend, page, shares, text};
 use crate::text::number::significant;
+
+/// Half of the noise panel's range, in standard deviations.
+const NOISE_RANGE: f64 = 8.0;
+
+const NOISE_WORDS: &str = "The same at the scale of the noise. Windows at rest or across a reversal reach beyond; they do not count in the naming.";
 
 /// The picture as SVG.
 pub fn residual(rig: &str, report: &Report, curves: &Curves) -> String {
-    let (first, last) = range(curves.window_time_s.iter().copied());
-    let time = Scale::exact(first, last, "time from the first sample", "s");
+    let time = || {
+        let (first, last) = range(curves.window_time_s.iter().copied());
+        Scale::exact(first, last, "time from the first sample", "s")
+    };
+    let effort = |low, high| Scale::around(low, high, "residual effort", &curves.residual_unit);
     let band = 1.96 * curves.floor;
     let residuals = curves.residual_before.iter().chain(&curves.residual_after);
     let (low, high) = range(residuals.copied().chain([-band, band]));
-    let effort = Scale::around(low, high, "residual effort", &curves.residual_unit);
-    let mut upper = Panel::new(92.0, 280.0, time, effort);
-    upper.curve(&curves.window_time_s, &curves.residual_before, NOMINAL, 1.0);
-    upper.curve(&curves.window_time_s, &curves.residual_after, NAMED, 1.0);
-    upper.band(-band, band, NOISE);
+    let mut whole = Panel::new(92.0, 220.0, time(), effort(low, high));
+    whole.band(-band, band, NOISE);
+    whole.curve(&curves.window_time_s, &curves.residual_before, NOMINAL, 1.0);
+    whole.curve(&curves.window_time_s, &curves.residual_after, NAMED, 1.0);
+
+    let reach = NOISE_RANGE * curves.floor;
+    let mut noise = Panel::new(388.0, 150.0, time(), effort(-reach, reach));
+    noise.band(-band, band, NOISE);
+    noise.curve(&curves.window_time_s, &curves.residual_after, NAMED, 1.0);
 
     let figures = report.floor.as_ref().map_or_else(String::new, |floor| {
         format!(
@@ -30,8 +42,7 @@ pub fn residual(rig: &str, report: &Report, curves: &Curves) -> String {
         )
     });
     let subtitle = format!("{rig}, residual of the windows on the fitted part{figures}");
-    let height = 470.0 + shares::height(report);
-    let page = page(height, &heading(report), &subtitle);
+    let page = page(604.0 + shares::height(report), &heading(report), &subtitle);
     let page = legend(
         page,
         76.0,
@@ -41,7 +52,9 @@ pub fn residual(rig: &str, report: &Report, curves: &Curves) -> String {
             ("95 % of sensor noise alone", NOISE, 7.0),
         ],
     );
-    page.add(upper.finish("residual"))
-        .add(shares::chart(430.0, report, curves))
+    page.add(whole.finish("residual"))
+        .add(text(LEFT, 376.0, NOISE_WORDS))
+        .add(noise.finish("noise"))
+        .add(shares::chart(602.0, report, curves))
         .to_string()
 }

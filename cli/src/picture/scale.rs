@@ -110,7 +110,7 @@ mod tests {
         let small = Scale::exact(-0.0031, 0.0042, "position", "rad");
         assert_eq!(small.label(), "position (10⁻³ rad)");
         assert_eq!(labels(&small), ["−3", "−2", "−1", "0", "1", "2", "3", "4"]);
-        let plain = Scale::exact(12.3, 13.9, "time", "s");
+        let plain = Scale::exact(12.3, 14.2, "time", "s");
         assert_eq!(plain.label(), "time (s)");
         assert_eq!(labels(&plain), ["12.5", "13.0", "13.5"]);
         assert_eq!(power_of_ten(-15), "10⁻¹⁵");

@@ -69,5 +69,8 @@ pub fn not_seen(report: &Report) -> Vec<String> {
             with_unit(bound.minimum_detectable, &bound.unit),
         )
     });
-    section("What is not there: it would have been seen", lines)
+    section(
+        "Not named, and from which size on each would have been",
+        lines,
+    )
 }

@@ -1,0 +1,119 @@
+//! This file holds the verbs that hide causes and score what is found.
+
+use crate::desk::Desk;
+use serde_json::{Value, json};
+
+#[test]
+fn a_case_follows_from_its_seed_and_is_committed_to_first() {
+    let desk = Desk::new();
+    let line = "blind make --plant bench --seed 29 --stratum late_onset";
+    let made = desk.json(&format!("{line} --out one --json"), 0);
+    let text = desk.prints(&format!("{line} --out two"), 0);
+    let commitment = made["commitment"].as_str().unwrap();
+    assert!(text.lines().next().unwrap().ends_with(commitment), "{text}");
+    for name in ["recording.csv", "rig.toml", "answer.sealed"] {
+        let (one, two) = (
+            desk.read(&format!("one/{name}")),
+            desk.read(&format!("two/{name}")),
+        );
+        assert!(one == two && one.len() > 200, "{name}");
+    }
+    desk.prints("blind make --plant bench --seed 30 --out two", 0);
+    assert_ne!(
+        desk.read("one/recording.csv"),
+        desk.read("two/recording.csv")
+    );
+}
+
+#[test]
+fn a_report_is_scored_against_the_sealed_answer() {
+    let desk = Desk::new();
+    desk.prints(
+        "blind make --plant axis --seed 5 --stratum late_onset --out case",
+        0,
+    );
+    desk.put(
+        "report.json",
+        &json!({ "verdict": "consistent", "effects": [] }).to_string(),
+    );
+    let scored = desk.json("blind score case/answer.sealed report.json --json", 0);
+    let hidden = scored["answer"]["effects"][0]["mechanism"]
+        .as_str()
+        .unwrap();
+    assert_eq!(scored["score"]["exact"], false);
+    let right = json!({ "verdict": "explained", "effects": [{ "mechanism": hidden }] });
+    desk.put("report.json", &right.to_string());
+    let scored = desk.json("blind score case/answer.sealed report.json --json", 0);
+    assert_eq!(scored["score"]["exact"], true);
+    let text = desk.prints("blind score case/answer.sealed report.json", 0);
+    assert!(
+        text.contains("Hidden (late_onset)") && text.contains(hidden),
+        "{text}"
+    );
+    assert!(text.contains("beginning at"), "{text}");
+}
+
+#[test]
+fn a_changed_answer_or_another_file_is_refused() {
+    let desk = Desk::new();
+    desk.prints("blind make --plant axis --seed 5 --out case", 0);
+    desk.put("report.json", "{}");
+    let sealed = desk.read("case/answer.sealed");
+    let key = "\"sealed\": \"";
+    let (head, tail) = sealed.split_once(key).unwrap();
+    let digit = if tail.starts_with('a') { "b" } else { "a" };
+    desk.put(
+        "changed.sealed",
+        &format!("{head}{key}{digit}{}", &tail[1..]),
+    );
+    for (line, expected) in [
+        (
+            "changed.sealed report.json",
+            "was changed after it was sealed",
+        ),
+        ("report.json report.json", "sealed answer, line 1"),
+        (
+            "case/answer.sealed case/rig.toml",
+            "give the report.json that a diagnosis wrote",
+        ),
+        ("case/answer.sealed report.json", "the report has no"),
+        ("case/answer.sealed none.json", "there is no such file"),
+    ] {
+        let answer = desk.rigproof(&format!("blind score {line}"));
+        let message = String::from_utf8(answer.stderr).unwrap();
+        assert_eq!(answer.status.code(), Some(3), "{message}");
+        assert!(message.contains(expected), "{message} lacks {expected}");
+    }
+}
+
+#[test]
+fn a_trial_does_not_depend_on_the_number_of_jobs() {
+    let desk = Desk::new();
+    let line = "blind trial --seeds 10..12 --details";
+    let answer = desk.rigproof(&format!("{line} --json --jobs 1"));
+    let trial: Value = serde_json::from_slice(&answer.stdout).unwrap();
+    let cases = trial["cases"].as_array().unwrap();
+    let plants: Vec<&Value> = cases.iter().map(|case| &case["plant"]).collect();
+    assert_eq!(plants, ["axis", "bench"]);
+    let claims = trial["claims"].as_array().unwrap();
+    assert_eq!(claims.len(), 4);
+    let broken = claims.iter().any(|claim| claim["holds"] == false);
+    assert_eq!(answer.status.code(), Some(i32::from(broken)));
+
+    let two = desk.rigproof(&format!("{line} --json --jobs 2"));
+    assert_eq!(two.stdout, answer.stdout);
+    let text = desk.rigproof(&format!("{line} --jobs 2")).stdout;
+    let text = String::from_utf8(text).unwrap();
+    assert!(
+        text.starts_with("Seeds\n  10 axis ") && text.contains("\n  11 bench "),
+        "{text}"
+    );
+    assert!(
+        text.contains("Even seeds are on the axis") && text.contains("Wilson"),
+        "{text}"
+    );
+    assert_eq!(
+        text.matches(": no case").count(),
+        claims.iter().filter(|c| c["holds"].is_null()).count()
+    );
+}

@@ -1,0 +1,8 @@
+//! This file joins the tests of the verbs, which run the program as a person does.
+
+mod bad_diagnosis;
+mod blind;
+mod demo;
+mod desk;
+mod diagnose;
+mod help;
