@@ -21,9 +21,16 @@ struct Cell {
 
 /// Regimes ranked by how much more than their share of time they hold of `before`'s energy.
 ///
-/// `before` and `after` are residuals, one value a window; every recorded window counts, the ambiguous ones too.
+/// `before` and `after` are residuals, one value a window; every window in motion counts, the ambiguous ones too.
 pub fn locate(problem: &Problem, before: &[f64], after: &[f64]) -> Vec<Located> {
     let times = problem.windows.times_s();
+    let moving = moving(problem);
+    let only = |values: &[f64]| -> Vec<f64> {
+        let kept = values.iter().zip(&moving);
+        kept.map(|(v, m)| if *m { *v } else { 0.0 }).collect()
+    };
+    let (before, after) = (&only(before)[..], &only(after)[..]);
+    let in_motion = moving.iter().filter(|m| **m).count().max(1) as f64;
     let mut found: Vec<Located> = cells(problem)
         .into_iter()
         .filter(|cell| cell.member.iter().any(|m| *m))
@@ -45,8 +52,7 @@ pub fn locate(problem: &Problem, before: &[f64], after: &[f64]) -> Vec<Located> 
                 regime: cell.label.to_owned(),
                 from_s,
                 to_s: when.last().unwrap_or(from_s),
-                share_of_time: cell.member.iter().filter(|m| **m).count() as f64
-                    / before.len().max(1) as f64,
+                share_of_time: cell.member.iter().filter(|m| **m).count() as f64 / in_motion,
                 share: inside(before),
                 share_low95: low,
                 share_high95: high,
@@ -57,6 +63,20 @@ pub fn locate(problem: &Problem, before: &[f64], after: &[f64]) -> Vec<Located> 
     let excess = |l: &Located| l.share / l.share_of_time.max(1e-9);
     found.sort_by(|a, b| excess(b).total_cmp(&excess(a)));
     found
+}
+
+/// Windows whose centre is in motion: at rest a resistance is anything up to its level and says nothing.
+fn moving(problem: &Problem) -> Vec<bool> {
+    let centres = problem.windows.centres.iter();
+    centres
+        .map(|&centre| {
+            problem
+                .run
+                .motion
+                .get(centre)
+                .is_some_and(|now| now.sense != 0.0)
+        })
+        .collect()
 }
 
 fn share(values: &[f64], member: &[bool]) -> f64 {
@@ -126,7 +146,7 @@ fn cells(problem: &Problem) -> Vec<Cell> {
             .centres
             .iter()
             .enumerate()
-            .map(|(row, &centre)| run.motion.get(centre).is_some_and(|now| rule(row, now)))
+            .map(|(row, &centre)| run.motion.get(centre).is_some_and(|now| now.sense != 0.0 && rule(row, now)))
             .collect(),
     };
     let reversal = |row: usize| since.get(row).is_some_and(|s| *s < REVERSAL_S);

@@ -74,7 +74,7 @@ impl Measured<'_> {
     /// Whether the claim holds; `None` when no case is about it.
     pub fn holds(&self) -> Option<bool> {
         let share = self.share.count as f64 / self.cases as f64;
-        (self.cases > 0).then(|| match self.claim.bound {
+        (self.cases > 0).then_some(match self.claim.bound {
             Bound::AtMost(bound) => share <= bound,
             Bound::AtLeast(bound) => share >= bound,
         })

@@ -89,12 +89,14 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     }
     let claims: Vec<Measured<'_>> = CLAIMS.iter().map(|claim| claim.measure(&tried)).collect();
     if args.json {
-        let mut result = table.to_json();
-        result["plant"] = assignment(args.plant).into();
-        result["claims"] = claims.iter().map(Measured::json).collect();
-        if args.details {
-            result["cases"] = tried.iter().map(Tried::json).collect();
-        }
+        let cases = tried.iter().map(Tried::json);
+        let result = json!({
+            "plant": assignment(args.plant),
+            "protocol": table.protocol(),
+            "rows": table.rows(),
+            "claims": claims.iter().map(Measured::json).collect::<Vec<_>>(),
+            "cases": args.details.then(|| cases.collect::<Vec<_>>()),
+        });
         print(&result.to_string())?;
     } else {
         let details = tried.iter().filter(|_| args.details).map(Tried::line);

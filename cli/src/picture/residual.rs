@@ -9,10 +9,10 @@ use super::scale::Scale;
 use super::{LEFT, NAMED, NOISE, NOMINAL, heading, legend, page, shares, text};
 use crate::text::number::significant;
 
-/// Half of the noise panel's range, in standard deviations.
-const NOISE_RANGE: f64 = 8.0;
+/// Half of the second panel's range, in standard deviations of the noise or of what is left.
+const REACH: f64 = 8.0;
 
-const NOISE_WORDS: &str = "The same at the scale of the noise. Windows at rest or across a reversal reach beyond; they do not count in the naming.";
+const CLOSER: &str = "The same closer. Windows at rest or across a reversal reach beyond; they do not count in the naming.";
 
 /// The picture as SVG.
 pub fn residual(rig: &str, report: &Report, curves: &Curves) -> String {
@@ -29,10 +29,14 @@ pub fn residual(rig: &str, report: &Report, curves: &Curves) -> String {
     whole.curve(&curves.window_time_s, &curves.residual_before, NOMINAL, 1.0);
     whole.curve(&curves.window_time_s, &curves.residual_after, NAMED, 1.0);
 
-    let reach = NOISE_RANGE * curves.floor;
-    let mut noise = Panel::new(388.0, 150.0, time(), effort(-reach, reach));
-    noise.band(-band, band, NOISE);
-    noise.curve(&curves.window_time_s, &curves.residual_after, NAMED, 1.0);
+    let left = report
+        .floor
+        .as_ref()
+        .map_or(0.0, |floor| floor.measured_after);
+    let reach = REACH * curves.floor.max(0.5 * left);
+    let mut closer = Panel::new(388.0, 150.0, time(), effort(-reach, reach));
+    closer.band(-band, band, NOISE);
+    closer.curve(&curves.window_time_s, &curves.residual_after, NAMED, 1.0);
 
     let figures = report.floor.as_ref().map_or_else(String::new, |floor| {
         format!(
@@ -53,8 +57,8 @@ pub fn residual(rig: &str, report: &Report, curves: &Curves) -> String {
         ],
     );
     page.add(whole.finish("residual"))
-        .add(text(LEFT, 376.0, NOISE_WORDS))
-        .add(noise.finish("noise"))
+        .add(text(LEFT, 376.0, CLOSER))
+        .add(closer.finish("closer"))
         .add(shares::chart(602.0, report, curves))
         .to_string()
 }

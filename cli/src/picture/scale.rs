@@ -112,7 +112,7 @@ mod tests {
         assert_eq!(labels(&small), ["−3", "−2", "−1", "0", "1", "2", "3", "4"]);
         let plain = Scale::exact(12.3, 14.2, "time", "s");
         assert_eq!(plain.label(), "time (s)");
-        assert_eq!(labels(&plain), ["12.5", "13.0", "13.5"]);
+        assert_eq!(labels(&plain), ["12.5", "13.0", "13.5", "14.0"]);
         assert_eq!(power_of_ten(-15), "10⁻¹⁵");
     }
 

@@ -16,13 +16,15 @@ pub fn before_after(report: &Report) -> Vec<String> {
         fit.held_out
             .map(|errors| part("held-out part", errors, unit)),
     );
-    lines.extend(fit.held_out_without_refit.map(|error| {
-        format!(
-            "  {:<26} {} {unit} with the numbers of the windows alone",
-            "held-out part",
-            significant(error, 4)
-        )
-    }));
+    let alone = |error: f64, how: &str| {
+        let error = significant(error, 4);
+        format!("  {:<26} {error} {unit} {how}", "held-out part")
+    };
+    let windows = fit.held_out_without_refit;
+    lines
+        .extend(windows.map(|error| alone(error, "with the numbers of the windows, not refitted")));
+    let rest = fit.held_out_from_rest;
+    lines.extend(rest.map(|error| alone(error, "started from rest, without a warm-up")));
     lines.extend(fit.horizon.iter().map(|horizon| {
         format!(
             "  {:<26} {} → {} {unit}",

@@ -13,7 +13,7 @@ fn desk() -> Desk {
          command = { channel = \"u\", unit = \"V\" }\n\n[parameters]\n\
          inertia = { value = 1.7, unit = \"kg\" }\ncommand_gain = { value = 35.5, unit = \"N/V\" }\n",
     );
-    desk.put("run.csv", &recording("x_mm", 400));
+    desk.put("run.csv", &recording("x", 400));
     desk
 }
 
@@ -21,7 +21,7 @@ fn recording(position: &str, samples: usize) -> String {
     let rows: String = (0..samples)
         .map(|k| format!("{},{}e-2,{}e-1\n", 3.5 + k as f64 * 1e-3, k % 13, k % 7))
         .collect();
-    format!("t_s,{position},u_V\n{rows}")
+    format!("t_s,{position} (mm),u (V)\n{rows}")
 }
 
 /// Runs a line that is refused, and looks that nothing is left behind.
@@ -42,11 +42,8 @@ fn refused(desk: &Desk, line: &str, expected: &str) {
 #[test]
 fn a_recording_that_does_not_suit_is_refused() {
     let desk = desk();
-    desk.put("other.csv", &recording("y_mm", 40));
-    desk.put(
-        "backward.csv",
-        &recording("x_mm", 40).replace("3.52,", "3.5,"),
-    );
+    desk.put("other.csv", &recording("y", 40));
+    desk.put("backward.csv", &recording("x", 40).replace("3.52,", "3.5,"));
     desk.put("text.toml", "name = ");
     std::fs::create_dir(desk.path("folder")).unwrap();
     for verb in ["diagnose", "simulate"] {

@@ -135,7 +135,7 @@ fn a_simulation_is_written_with_its_units_and_times() {
 fn a_faulty_recording_ends_in_a_report_and_nothing_else() {
     let desk = Desk::new();
     desk.prints(
-        "blind make --plant axis --seed 0 --stratum data_fault --out case",
+        "blind make --plant axis --seed 10 --stratum data_fault --out case",
         0,
     );
     let text = desk.prints(

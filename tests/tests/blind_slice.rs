@@ -1,0 +1,53 @@
+//! This file runs a small fixed slice of the blind trial; the whole of it is `rigproof blind trial --seeds 0..200`.
+
+use rigproof_blind::{Plant, Stratum, make, open, score};
+use rigproof_diagnose::{Options, diagnose};
+use rigproof_trace::rig::Rig;
+use std::path::Path;
+
+/// Seeds of the slice: none of them was used to choose a threshold (those were 1000 to 1080).
+const SEEDS: std::ops::Range<u64> = 200..206;
+
+fn examined(plant: Plant, seed: u64, stratum: Stratum) -> rigproof_blind::Score {
+    let case = make(plant, seed, Some(stratum)).unwrap();
+    let rig = Rig::parse(&case.rig_toml, Path::new("rig.toml")).unwrap();
+    let recording = rig.apply(&case.trace, Path::new("recording.csv")).unwrap();
+    let options = Options {
+        refit: false,
+        hold_out_share: 0.0,
+        ..Options::default()
+    };
+    let report = diagnose(&rig, &recording, None, &options).report;
+    score(
+        &open(&case.sealed).unwrap(),
+        &serde_json::to_value(&report).unwrap(),
+    )
+    .unwrap()
+}
+
+#[test]
+fn nothing_hidden_gets_no_name() {
+    for seed in SEEDS {
+        for plant in [Plant::Axis, Plant::Bench] {
+            let score = examined(plant, seed, Stratum::Nothing);
+            assert!(
+                score.false_names.is_empty(),
+                "{plant:?} {seed}: {:?}",
+                score.false_names
+            );
+        }
+    }
+}
+
+#[test]
+fn a_single_effect_is_inside_what_is_named_or_ambiguous() {
+    let mut exact = 0;
+    for seed in SEEDS {
+        for plant in [Plant::Axis, Plant::Bench] {
+            let score = examined(plant, seed, Stratum::Single);
+            assert!(score.inside, "{plant:?} {seed}: {}", score.verdict);
+            exact += usize::from(score.exact);
+        }
+    }
+    assert!(exact >= 10, "{exact} of 12 exact");
+}
