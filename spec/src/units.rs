@@ -111,6 +111,8 @@ const SI_NAMES: &[(&str, Dimension)] = &[
             .times(Dimension::TIME.power(2))
             .per(Dimension::ANGLE),
     ),
+    ("N/s", Dimension::FORCE.per(Dimension::TIME)),
+    ("N·m/s", Dimension::TORQUE.per(Dimension::TIME)),
     ("N/V", Dimension::FORCE.per(Dimension::VOLTAGE)),
     ("N·m/V", Dimension::TORQUE.per(Dimension::VOLTAGE)),
     ("N·m/A", Dimension::TORQUE.per(Dimension::CURRENT)),

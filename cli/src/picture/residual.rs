@@ -12,7 +12,7 @@ use crate::text::number::significant;
 /// Half of the second panel's range, in standard deviations of the noise or of what is left.
 const REACH: f64 = 8.0;
 
-const CLOSER: &str = "The same closer. Windows at rest or across a reversal reach beyond; they do not count in the naming.";
+const CLOSER: &str = "The same closer. Windows at rest or across a reversal may reach beyond; they do not count in the naming.";
 
 /// The picture as SVG.
 pub fn residual(rig: &str, report: &Report, curves: &Curves) -> String {
