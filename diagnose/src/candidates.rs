@@ -196,3 +196,38 @@ fn power(points: &[(f64, f64)], wave_number: f64) -> f64 {
     }
     re * re + im * im
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    use crate::problem::Inertia;
+    use crate::recorded::exact_bench;
+    use crate::weak::Windows;
+
+    #[test]
+    fn the_period_of_a_ripple_is_among_those_tried() {
+        let run = exact_bench(&[(Mechanism::Viscous, &[2.3])], 11_000);
+        let problem = Problem::new(&run, Windows::new(&run, 0.017), Inertia::None);
+        let period = run.travel() / 23.7;
+        let residual: Vec<f64> = problem
+            .windows
+            .centres
+            .iter()
+            .map(|c| 0.4 * libm::sin(TAU * run.motion[*c].position / period + 0.9))
+            .collect();
+        let best = periods(&problem, &residual)[0];
+        assert!((best / period - 1.0).abs() < 0.02, "{best} {period}");
+    }
+
+    #[test]
+    fn a_geometric_grid_meets_both_ends_in_equal_ratios() {
+        let grid = geometric(0.013, 4.7, 9);
+        assert!((grid[0] - 0.013).abs() < 1e-12 && (grid[8] - 4.7).abs() < 1e-9);
+        let ratio = grid[1] / grid[0];
+        assert!(
+            grid.windows(2)
+                .all(|w| (w[1] / w[0] / ratio - 1.0).abs() < 1e-9)
+        );
+    }
+}

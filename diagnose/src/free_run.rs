@@ -11,8 +11,8 @@ const DRIFT_SHARE: f64 = 0.5;
 
 /// Which numbers of a plant the refit may move: those of effects that are not known, and the inertia if unknown.
 ///
-/// `errors` gives the scale of each (its standard error from the windows), `known` says which effects stay.
-pub fn free_numbers(plant: &Plant, inertia_free: bool, known: &[bool], shapes: bool) -> Vec<Free> {
+/// `known` says which effects stay; shape parameters move with `shapes` only.
+fn free_numbers(plant: &Plant, inertia_free: bool, known: &[bool], shapes: bool) -> Vec<Free> {
     let mut free = Vec::new();
     if inertia_free {
         free.push(Free {
@@ -136,14 +136,14 @@ fn staged(
     if all.len() == linear.len() {
         return Shown {
             plant: first.plant,
-            train: first.after,
+            train: first.error,
             drift: None,
         };
     }
     let second = refit(&first.plant, &all, run, protocol);
     Shown {
         plant: second.plant,
-        train: second.after,
+        train: second.error,
         drift: None,
     }
 }

@@ -72,7 +72,7 @@ fn braked(mut brake: Brake, run: &Run, current: &[f64]) -> Vec<f64> {
 }
 
 /// The inertia as the rig states it.
-pub fn inertia(rig: &Rig) -> Inertia {
+pub(crate) fn inertia(rig: &Rig) -> Inertia {
     match (rig.plant, rig.parameters) {
         (RigPlant::Axis, Some(parameters)) => match parameters.inertia.status {
             Status::Known => Inertia::Known(parameters.inertia.value),
@@ -83,7 +83,7 @@ pub fn inertia(rig: &Rig) -> Inertia {
 }
 
 /// The physics that the nominal model has.
-pub fn nominal(rig: &Rig) -> Vec<NominalEffect> {
+pub(crate) fn nominal(rig: &Rig) -> Vec<NominalEffect> {
     rig.effects
         .iter()
         .map(|effect| NominalEffect {

@@ -103,3 +103,24 @@ fn solve(
         error_percent: 100.0 * error / target.norm(),
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    use crate::recorded::{INERTIA, NOMINAL, exact_axis};
+
+    #[test]
+    fn the_inverse_model_of_an_exact_recording_has_its_numbers() {
+        let run = exact_axis(NOMINAL, 6100, true);
+        let mechanisms = [(Mechanism::Viscous, vec![]), (Mechanism::Spring, vec![])];
+        let model = inverse_model(&run, &mechanisms).unwrap();
+        let near = |found: f64, planted: f64| {
+            assert!((found / planted - 1.0).abs() < 0.01, "{found} {planted}");
+        };
+        near(model.inertia, INERTIA);
+        near(model.parameters[0].1[0], 7.3);
+        near(model.parameters[1].1[0], 41.7);
+        assert!(model.error_percent < 1.0, "{} %", model.error_percent);
+    }
+}

@@ -1,25 +1,33 @@
 //! Why a recording disagrees: align, locate, explain, refit, show.
-#![deny(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+#![deny(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::indexing_slicing
+)]
 
 pub mod align;
-pub mod candidates;
+mod candidates;
 mod diagnose;
-pub mod evidence;
-pub mod filter;
+mod evidence;
+mod filter;
 pub mod free_run;
 pub mod from_rig;
 pub mod inverse;
-pub mod locate;
-pub mod problem;
-pub mod refit;
-pub mod regression;
+mod locate;
+mod problem;
+#[cfg(test)]
+mod recorded;
+mod refit;
+mod regression;
 pub mod report;
 pub mod run;
-pub mod select;
+mod select;
 pub mod simulate;
-pub mod unknown;
-pub mod weak;
-pub mod whiten;
-pub mod write_rig;
+mod unknown;
+mod weak;
+mod whiten;
+mod write_rig;
 
 pub use diagnose::{Curves, Diagnosis, Options, diagnose};
+pub use select::Gates;

@@ -51,7 +51,7 @@ pub fn locate(problem: &Problem, before: &[f64], after: &[f64]) -> Vec<Located> 
                 joint: None,
                 regime: cell.label.to_owned(),
                 from_s,
-                to_s: when.last().unwrap_or(from_s),
+                to_s: when.next_back().unwrap_or(from_s),
                 share_of_time: cell.member.iter().filter(|m| **m).count() as f64 / in_motion,
                 share: inside(before),
                 share_low95: low,
@@ -146,7 +146,11 @@ fn cells(problem: &Problem) -> Vec<Cell> {
             .centres
             .iter()
             .enumerate()
-            .map(|(row, &centre)| run.motion.get(centre).is_some_and(|now| now.sense != 0.0 && rule(row, now)))
+            .map(|(row, &centre)| {
+                run.motion
+                    .get(centre)
+                    .is_some_and(|now| now.sense != 0.0 && rule(row, now))
+            })
             .collect(),
     };
     let reversal = |row: usize| since.get(row).is_some_and(|s| *s < REVERSAL_S);
@@ -203,4 +207,37 @@ fn since_reversal_s(problem: &Problem) -> Vec<f64> {
                 .fold(f64::INFINITY, f64::min)
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    use crate::problem::Inertia;
+    use crate::recorded::exact_bench;
+    use crate::weak::Windows;
+    use rigproof_spec::effect::Mechanism;
+
+    #[test]
+    fn energy_near_reversals_is_located_there() {
+        let run = exact_bench(&[(Mechanism::Viscous, &[2.3])], 11_000);
+        let problem = Problem::new(&run, Windows::new(&run, 0.043), Inertia::None);
+        let since = since_reversal_s(&problem);
+        let before: Vec<f64> = since
+            .iter()
+            .map(|s| 0.9 * libm::exp(-s / 0.04) + 0.01)
+            .collect();
+        let after = vec![0.01; before.len()];
+        let found = locate(&problem, &before, &after);
+        let first = &found[0];
+        assert_eq!(first.regime, "within 0.1 s of a reversal");
+        assert!(
+            first.share > 0.9 && first.share_of_time < 0.6,
+            "{} of {}",
+            first.share,
+            first.share_of_time
+        );
+        assert!(first.share_low95 <= first.share && first.share <= first.share_high95);
+        assert!((first.share_after - first.share_of_time).abs() < 1e-9);
+    }
 }

@@ -61,6 +61,16 @@ pub enum Inertia {
     Unknown(f64),
 }
 
+impl Inertia {
+    /// The value that is known or started from, kg or kg·m²; 0 on a bench.
+    pub fn start(self) -> f64 {
+        match self {
+            Inertia::None => 0.0,
+            Inertia::Known(value) | Inertia::Unknown(value) => value,
+        }
+    }
+}
+
 /// The regression problem of one recording.
 pub struct Problem<'a> {
     /// The recording.
@@ -84,10 +94,7 @@ pub struct Problem<'a> {
 impl<'a> Problem<'a> {
     /// Sets up the problem with a white noise model; `rewhiten` refines it.
     pub fn new(run: &'a Run, windows: Windows, inertia: Inertia) -> Problem<'a> {
-        let start = match inertia {
-            Inertia::None => 0.0,
-            Inertia::Known(value) | Inertia::Unknown(value) => value,
-        };
+        let start = inertia.start();
         let floor = windows.floor(run, start);
         let mut windows = windows;
         if let (Some(predicted), Some(_)) = (&run.predicted, &run.current) {
@@ -128,29 +135,12 @@ impl<'a> Problem<'a> {
     /// `rms` is the root mean square of the residuals over the usable windows.
     pub fn rewhiten(&mut self, rms: f64) {
         let excess = (rms * rms - self.floor * self.floor).max(0.0);
-        let inertia = match self.inertia {
-            Inertia::None => 0.0,
-            Inertia::Known(value) | Inertia::Unknown(value) => value,
-        };
+        let inertia = self.inertia.start();
         let covariance = self
             .windows
             .noise_covariance(self.run, inertia, excess, ORDER + 1);
         self.whitener = Whitener::new(&covariance, &self.windows.usable);
         self.whiten_own();
-    }
-
-    /// The same windows and noise with another target (one value a window) and no column of its own.
-    pub fn with_target(&self, residual: &[f64]) -> Problem<'a> {
-        Problem {
-            run: self.run,
-            windows: self.windows.clone(),
-            whitener: self.whitener.clone(),
-            target: self.rows_of(residual.to_vec()),
-            known: Vec::new(),
-            inertia_column: None,
-            inertia: Inertia::None,
-            floor: self.floor,
-        }
     }
 
     /// A column given window by window.
@@ -377,5 +367,87 @@ pub fn shifted(signal: &[f64], delay: f64) -> Vec<f64> {
 pub fn add(to: &mut [f64], what: &[f64], times: f64) {
     for (x, y) in to.iter_mut().zip(what) {
         *x += times * y;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    use crate::recorded::{INERTIA, NOMINAL, exact_axis};
+    use crate::regression::reduced_target;
+    use crate::run::rms;
+
+    /// The residual of the usable windows when the nominal model knows everything, over the effort.
+    fn relative_residual(run: &Run) -> f64 {
+        let mut laws = NOMINAL.to_vec();
+        laws.push((Mechanism::DryOffset, &[1.73]));
+        let problem = Problem::new(run, Windows::new(run, 0.077), Inertia::Known(INERTIA));
+        let terms: Vec<Term> = laws
+            .iter()
+            .filter_map(|(mechanism, parameters)| {
+                problem.nominal_term(&NominalEffect {
+                    mechanism: *mechanism,
+                    parameters: parameters.to_vec(),
+                    unknown: false,
+                    onset_s: None,
+                })
+            })
+            .collect();
+        assert_eq!(terms.len(), 3);
+        let residual = reduced_target(&problem, &terms.iter().collect::<Vec<_>>()).raw;
+        // The exact motion knows its sense everywhere: windows that hold a reversal are left out here.
+        let senses: Vec<f64> = run.motion.iter().map(|now| now.sense).collect();
+        let half = problem.windows.bump.len() / 2 + 2;
+        let away: Vec<f64> = residual
+            .iter()
+            .zip(&problem.windows.centres)
+            .filter(|(_, c)| {
+                senses[**c - half + 1..**c + half]
+                    .iter()
+                    .all(|s| *s == senses[**c])
+            })
+            .map(|(r, _)| *r)
+            .collect();
+        assert!(away.len() > 100, "{} windows", away.len());
+        rms(&away) / rms(&run.effort)
+    }
+
+    #[test]
+    fn the_weak_form_holds_on_exact_motion_and_only_with_the_right_drive() {
+        let mut laws = NOMINAL.to_vec();
+        laws.push((Mechanism::DryOffset, &[1.73]));
+        for held in [true, false] {
+            let mut run = exact_axis(&laws, 5300, held);
+            let right = relative_residual(&run);
+            assert!(right < 1e-7, "held {held}: {right:e}");
+            run.held = !held;
+            let wrong = relative_residual(&run);
+            assert!(
+                wrong > 1e3 * right,
+                "held {held}: {wrong:e} against {right:e}"
+            );
+        }
+    }
+
+    #[test]
+    fn numerov_averages_a_fourth_order_polynomial_as_its_double_integral_does() {
+        // f = t²; its double integral t⁴/12 has the second difference t² + 1/6.
+        let f: Vec<f64> = (0..9).map(|k| (k as f64 + 0.37).powi(2)).collect();
+        let twice: Vec<f64> = (0..9).map(|k| (k as f64 + 0.37).powi(4) / 12.0).collect();
+        let (seen, accelerated) = (numerov(&f), second_difference(&twice, 1.0));
+        for k in 1..8 {
+            assert!((seen[k] - accelerated[k]).abs() < 1e-11, "{k}");
+        }
+    }
+
+    #[test]
+    fn a_shifted_signal_reads_between_its_samples_and_holds_its_ends() {
+        let signal = [0.3, 1.7, -2.9, 4.1];
+        let ahead = shifted(&signal, 0.25);
+        let expected = [0.65, 0.55, -1.15, 4.1];
+        for (a, e) in ahead.iter().zip(expected) {
+            assert!((a - e).abs() < 1e-12, "{a} {e}");
+        }
     }
 }

@@ -19,10 +19,8 @@ pub struct Free {
 pub struct Refit {
     /// The adjusted plant.
     pub plant: Plant,
-    /// Root-mean-square error of the free run before and after.
-    pub before: f64,
-    /// After.
-    pub after: f64,
+    /// Root-mean-square error of its free run.
+    pub error: f64,
 }
 
 /// Adjusts the free numbers of a plant over a recording.
@@ -37,8 +35,7 @@ pub fn refit(plant: &Plant, free: &[Free], run: &Run, protocol: &Protocol) -> Re
     let before = error_rms(plant, run, protocol);
     let unchanged = Refit {
         plant: plant.clone(),
-        before,
-        after: before,
+        error: before,
     };
     if free.is_empty() {
         return unchanged;
@@ -51,15 +48,14 @@ pub fn refit(plant: &Plant, free: &[Free], run: &Run, protocol: &Protocol) -> Re
         .with_gtol(0.0)
         .minimize(problem);
     let found = solved.plant();
-    let after = error_rms(&found, run, protocol);
+    let error = error_rms(&found, run, protocol);
     // A refit that made it worse is no refit.
-    if after.is_nan() || after > before {
+    if error.is_nan() || error > before {
         return unchanged;
     }
     Refit {
         plant: found,
-        before,
-        after,
+        error,
     }
 }
 
@@ -151,6 +147,10 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for OutputError<'_> {
         errors.iter().all(|e| e.is_finite()).then_some(errors)
     }
 
+    #[expect(
+        clippy::indexing_slicing,
+        reason = "an index below the vector's own length"
+    )]
     fn jacobian(&self) -> Option<DMatrix<f64>> {
         let columns: Vec<DVector<f64>> = (0..self.x.len())
             .map(|k| {
@@ -163,5 +163,81 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for OutputError<'_> {
             .collect();
         let jacobian = DMatrix::from_columns(&columns);
         jacobian.iter().all(|e| e.is_finite()).then_some(jacobian)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    use crate::recorded::{INERTIA, NOMINAL, exact_axis};
+    use crate::simulate::Effect;
+    use rigproof_spec::effect::Mechanism;
+
+    fn plant(inertia: f64, viscous: f64, dry: f64) -> Plant {
+        let effect = |mechanism, value| Effect {
+            mechanism,
+            parameters: vec![value],
+            onset_s: None,
+        };
+        Plant {
+            inertia,
+            effects: vec![
+                effect(Mechanism::Viscous, viscous),
+                effect(Mechanism::Spring, 41.7),
+                effect(Mechanism::DryOffset, dry),
+            ],
+        }
+    }
+
+    #[test]
+    fn a_refit_of_the_free_run_recovers_planted_numbers() {
+        let mut laws = NOMINAL.to_vec();
+        laws.push((Mechanism::DryOffset, &[1.73]));
+        let run = exact_axis(&laws, 2900, true);
+        let free = [
+            Free {
+                place: None,
+                scale: 0.027,
+            },
+            Free {
+                place: Some((0, 0)),
+                scale: 0.13,
+            },
+            Free {
+                place: Some((2, 0)),
+                scale: 0.034,
+            },
+        ];
+        let start = plant(1.19, 8.1, 1.31);
+        let protocol = Protocol::default();
+        let before = error_rms(&start, &run, &protocol);
+        let refitted = refit(&start, &free, &run, &protocol);
+        let numbers = [
+            (refitted.plant.inertia, INERTIA),
+            (refitted.plant.effects[0].parameters[0], 7.3),
+            (refitted.plant.effects[1].parameters[0], 41.7),
+            (refitted.plant.effects[2].parameters[0], 1.73),
+        ];
+        for (found, planted) in numbers {
+            assert!((found / planted - 1.0).abs() < 2e-3, "{found} {planted}");
+        }
+        assert!(
+            refitted.error < 1e-2 * before,
+            "{} {before}",
+            refitted.error
+        );
+    }
+
+    #[test]
+    fn a_refit_without_free_numbers_changes_nothing() {
+        let run = exact_axis(NOMINAL, 700, true);
+        let start = plant(1.19, 8.1, 1.31);
+        let refitted = refit(&start, &[], &run, &Protocol::default());
+        assert_eq!(refitted.plant, start);
+        assert_eq!(
+            refitted.error,
+            error_rms(&start, &run, &Protocol::default())
+        );
     }
 }

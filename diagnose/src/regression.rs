@@ -129,6 +129,16 @@ pub fn nested_block_losses(
     best.into_iter().map(|(_, left_out)| left_out).collect()
 }
 
+/// Left-out loss of a white target over the blocks with these columns.
+pub fn left_out_loss(target: &[f64], columns: &[Rows], blocks: &Blocks) -> f64 {
+    let columns: Vec<&Rows> = columns.iter().collect();
+    let redundant = redundancy(&columns);
+    let own: Vec<&[f64]> = kept(&columns, &redundant)
+        .map(|rows| rows.white.as_slice())
+        .collect();
+    block_losses(&own, target, blocks).iter().sum()
+}
+
 /// All free columns: inertia first, then term by term.
 pub fn free_columns<'b>(problem: &'b Problem, terms: &[&'b Term]) -> Vec<&'b Rows> {
     let of_terms = terms
@@ -241,6 +251,10 @@ fn normal(columns: &[&[f64]], target: &[f64], first: usize, end: usize) -> Norma
 
 /// Solves the normal equations with each column scaled to length 1 and a ridge at rounding level, so that a
 /// block without excitation does not decide.
+#[expect(
+    clippy::indexing_slicing,
+    reason = "indices below the matrix's own size"
+)]
 fn solve(normal: &Normal) -> DVector<f64> {
     let size = normal.moment.len();
     let scale = DVector::from_iterator(
@@ -328,4 +342,144 @@ pub fn dot(a: &[f64], b: &[f64]) -> f64 {
 /// The Euclidean length of a column.
 pub fn norm(a: &[f64]) -> f64 {
     dot(a, a).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    use crate::problem::{Inertia, Problem, Term};
+    use crate::recorded::{Noise, exact_bench};
+    use crate::weak::Windows;
+    use rigproof_spec::effect::Mechanism;
+
+    fn rows(white: Vec<f64>) -> Rows {
+        Rows {
+            signal: Vec::new(),
+            raw: white.clone(),
+            white,
+        }
+    }
+
+    fn noise(count: usize, seed: u64) -> Vec<f64> {
+        let mut noise = Noise::new(seed);
+        (0..count).map(|_| noise.draw()).collect()
+    }
+
+    #[test]
+    fn no_sample_reaches_into_two_blocks() {
+        let run = exact_bench(&[(Mechanism::Viscous, &[2.3])], 11_000);
+        let problem = Problem::new(&run, Windows::new(&run, 0.043), Inertia::None);
+        let blocks = Blocks::new(&problem);
+        assert_eq!(blocks.ranges.len(), 9);
+        let centres = &problem.windows.centres;
+        let reach = problem.windows.bump.len() / 2;
+        for pair in blocks.ranges.windows(2) {
+            let last_sample = centres[pair[0].1 - 1] + reach;
+            let first_sample = centres[pair[1].0] - reach;
+            assert!(last_sample < first_sample, "{pair:?}");
+        }
+    }
+
+    #[test]
+    fn a_left_out_block_judges_a_fit_of_the_others() {
+        let (x, e) = (noise(160, 3), noise(160, 4));
+        let target: Vec<f64> = x.iter().zip(&e).map(|(x, e)| 1.9 * x + 0.3 * e).collect();
+        let blocks = Blocks {
+            ranges: (0..8).map(|b| (20 * b, 20 * b + 17)).collect(),
+        };
+        let found = left_out_loss(&target, &[rows(x.clone())], &blocks);
+        let mut expected = 0.0;
+        for left in &blocks.ranges {
+            let others = blocks.ranges.iter().filter(|r| *r != left);
+            let (mut xy, mut xx) = (0.0, 0.0);
+            for k in others.flat_map(|r| r.0..r.1) {
+                xy += x[k] * target[k];
+                xx += x[k] * x[k];
+            }
+            let slope = xy / xx;
+            expected += (left.0..left.1)
+                .map(|k| (target[k] - slope * x[k]).powi(2))
+                .sum::<f64>();
+        }
+        assert!(
+            (found - expected).abs() < 1e-8 * expected,
+            "{found} {expected}"
+        );
+    }
+
+    #[test]
+    fn the_best_variant_is_chosen_without_the_block_it_is_judged_on() {
+        let run = exact_bench(&[(Mechanism::Viscous, &[2.3])], 11_000);
+        let mut problem = Problem::new(&run, Windows::new(&run, 0.043), Inertia::None);
+        let count = problem.windows.centres.len();
+        let blocks = Blocks::new(&problem);
+        let (one, other) = (noise(count, 11), noise(count, 12));
+        // One variant is right in the first block only, where it is far stronger; the other one everywhere else.
+        let first = blocks.ranges[0];
+        let target: Vec<f64> = (0..count)
+            .map(|k| {
+                if k < first.1 {
+                    9.0 * one[k]
+                } else {
+                    0.7 * other[k]
+                }
+            })
+            .collect();
+        problem.target = rows(target.clone());
+        let term = |column: &Vec<f64>| Term {
+            mechanism: Mechanism::Viscous,
+            shape: Vec::new(),
+            onset_s: None,
+            free: vec![rows(column.clone())],
+            fixed: None,
+            known: None,
+        };
+        let variants = [term(&one), term(&other)];
+        let nested = nested_block_losses(&problem, &[], &variants, &blocks);
+        let alone: Vec<Vec<f64>> = variants
+            .iter()
+            .map(|v| fit(&problem, &[v], &blocks).block_loss)
+            .collect();
+        // Chosen on all blocks it would be the first variant; judged on the first block it must be the second.
+        assert!(
+            fit(&problem, &[&variants[0]], &blocks).loss
+                < fit(&problem, &[&variants[1]], &blocks).loss
+        );
+        assert!((nested[0] - alone[1][0]).abs() < 1e-9 * nested[0]);
+        assert!((nested[0] - alone[0][0]).abs() > 1e-3 * nested[0]);
+        assert!((nested[3] - alone[0][3]).abs() < 1e-9 * nested[3]);
+    }
+
+    #[test]
+    fn a_column_inside_the_earlier_ones_is_redundant() {
+        let (a, b, c) = (noise(300, 21), noise(300, 22), noise(300, 23));
+        let mixed = |share: f64| -> Rows {
+            let sum = a.iter().zip(&b).zip(&c);
+            rows(
+                sum.map(|((a, b), c)| 1.3 * a - 0.7 * b + share * c)
+                    .collect(),
+            )
+        };
+        let (near, apart) = (mixed(0.005), mixed(0.3));
+        let (a, b) = (rows(a.clone()), rows(b.clone()));
+        assert_eq!(
+            redundancy(&[&a, &b, &near, &apart]),
+            [false, false, true, false]
+        );
+    }
+
+    #[test]
+    fn a_paired_gain_is_compared_with_its_scatter() {
+        let before = [7.1, 8.3, 6.9, 9.2, 7.7];
+        let gains = [0.9, 1.1, 1.3, 0.7, 1.0];
+        let after: Vec<f64> = before.iter().zip(gains).map(|(b, g)| b - g).collect();
+        let (gain, z) = paired(&before, &after, &[1.0; 5]);
+        assert!((gain - 5.0).abs() < 1e-12);
+        // Scatter about 1.0: 0.01 + 0.01 + 0.09 + 0.09 + 0 = 0.2, times 5/4.
+        assert!((z - 5.0 / 0.25_f64.sqrt()).abs() < 1e-9, "{z}");
+        assert!((paired(&after, &before, &[1.0; 5]).1 + z).abs() < 1e-9);
+        let (_, few) = paired(&before, &after, &[1.0, 1.0, 0.01, 0.01, 0.01]);
+        assert_eq!(few, 0.0);
+    }
 }

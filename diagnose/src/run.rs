@@ -100,3 +100,21 @@ pub fn rms(values: &[f64]) -> f64 {
     let sum: f64 = values.iter().map(|x| x * x).sum();
     (sum / values.len().max(1) as f64).sqrt()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    use crate::recorded::{NOMINAL, STEP_S, exact_axis};
+
+    #[test]
+    fn a_slice_keeps_its_times() {
+        let run = exact_axis(NOMINAL, 500, true);
+        let part = run.slice(113, 401);
+        assert_eq!(part.len(), 288);
+        assert_eq!(part.motion[0].time_s, run.motion[113].time_s);
+        assert!((part.start_s - 113.0 * STEP_S).abs() < 1e-12);
+        assert_eq!(part.sample_at(run.motion[117].time_s - 0.3 * STEP_S), 4);
+        assert_eq!(part.effort, run.effort[113..401]);
+    }
+}

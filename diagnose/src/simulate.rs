@@ -326,3 +326,112 @@ fn local_interpolation(interpolation: Interpolation) -> Interpolation {
         other => other,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    use crate::recorded::{INERTIA, NOMINAL, exact_axis};
+    use core::f64::consts::TAU;
+
+    #[test]
+    fn band_limited_interpolation_is_exact_on_a_multisine() {
+        let value = |at: f64| {
+            1.3 * libm::sin(TAU * 3.0 * at + 0.4) - 0.7 * libm::cos(TAU * 11.0 * at) + 0.17
+        };
+        for count in [48, 49] {
+            let signal: Vec<f64> = (0..count).map(|k| value(k as f64 / count as f64)).collect();
+            let fine = band_limited(&signal, 7);
+            assert_eq!(fine.len(), 7 * count);
+            for (k, x) in fine.iter().enumerate() {
+                let exact = value(k as f64 / (7 * count) as f64);
+                assert!(
+                    (x - exact).abs() < 1e-12,
+                    "{count} samples, {k}: {x} {exact}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn the_start_state_of_a_parabola_is_its_end() {
+        let mut run = exact_axis(NOMINAL, 40, true);
+        let at = |t: f64| 0.37 - 1.9 * t + 5.3 * t * t;
+        for (k, x) in run.position.iter_mut().enumerate() {
+            *x = at(k as f64 * run.step_s);
+        }
+        let (first, position, speed) = start(&run, 17);
+        let t = 16.0 * run.step_s;
+        assert_eq!(first, 16);
+        assert!((position - at(t)).abs() < 1e-12, "{position}");
+        assert!((speed - (10.6 * t - 1.9)).abs() < 1e-9, "{speed}");
+    }
+
+    #[test]
+    fn a_held_effort_and_a_straight_one_differ_inside_the_step() {
+        let protocol = |interpolation| Protocol {
+            interpolation,
+            substeps: 2,
+            ..Protocol::default()
+        };
+        let effort = [0.3, 1.1, -0.7];
+        let held = fine_effort(&effort, &protocol(Interpolation::Hold));
+        assert_eq!(held[2..4], [(1.1, 1.1), (1.1, 1.1)]);
+        let straight = fine_effort(&effort, &protocol(Interpolation::Linear));
+        for ((begin, end), expected) in straight[2..4].iter().zip([(1.1, 0.2), (0.2, -0.7)]) {
+            assert!((begin - expected.0).abs() + (end - expected.1).abs() < 1e-12);
+        }
+    }
+
+    fn plant() -> Plant {
+        Plant {
+            inertia: INERTIA,
+            effects: NOMINAL
+                .iter()
+                .map(|(mechanism, parameters)| Effect {
+                    mechanism: *mechanism,
+                    parameters: parameters.to_vec(),
+                    onset_s: None,
+                })
+                .collect(),
+        }
+    }
+
+    #[test]
+    fn a_free_run_with_the_true_numbers_is_the_recording() {
+        let run = exact_axis(NOMINAL, 1900, true);
+        let protocol = Protocol {
+            start_samples: 9,
+            ..Protocol::default()
+        };
+        let simulated = output(&plant(), &run, &protocol);
+        assert_eq!(simulated.len(), run.len());
+        let worst = simulated
+            .iter()
+            .zip(&run.position)
+            .map(|(s, r)| (s - r).abs())
+            .fold(0.0, f64::max);
+        assert!(worst < 1e-6, "{worst} m");
+        let ahead = predict(&plant(), &run, 611, 700, &protocol).unwrap();
+        assert!((ahead - run.position[1311]).abs() < 1e-8, "{ahead}");
+    }
+
+    #[test]
+    fn an_effect_acts_from_its_onset_on() {
+        let run = exact_axis(NOMINAL, 900, true);
+        let mut late = plant();
+        let onset_s = 401.5 * run.step_s;
+        late.effects.push(Effect {
+            mechanism: Mechanism::ConstantBias,
+            parameters: vec![2.7],
+            onset_s: Some(onset_s),
+        });
+        let protocol = Protocol::default();
+        let (without, with) = (
+            output(&plant(), &run, &protocol),
+            output(&late, &run, &protocol),
+        );
+        assert_eq!(without[..402], with[..402]);
+        assert!((without[899] - with[899]).abs() > 1e-3);
+    }
+}

@@ -1,7 +1,7 @@
 //! This file draws the shape of what no mechanism of the library explains.
 
-use crate::problem::{Problem, Rows, Term};
-use crate::regression::{Blocks, fit};
+use crate::problem::{Problem, Rows};
+use crate::regression::{Blocks, left_out_loss};
 use crate::report::Unknown;
 use rigproof_spec::effect::{Mechanism, Motion, Quantity};
 use rigproof_spec::units::Dimension;
@@ -105,15 +105,8 @@ fn variables(problem: &Problem, motion: Motion) -> Vec<(&'static str, String, Ve
 
 /// Left-out loss of the residual with a set of columns.
 fn left_out(problem: &Problem, residual: &[f64], columns: &[Rows], blocks: &Blocks) -> f64 {
-    let own = Term {
-        mechanism: Mechanism::VelocityPower,
-        shape: Vec::new(),
-        onset_s: None,
-        free: columns.to_vec(),
-        fixed: None,
-        known: None,
-    };
-    fit(&problem.with_target(residual), &[&own], blocks).left_out()
+    let white = problem.whitener.whiten(residual);
+    left_out_loss(&white, columns, blocks)
 }
 
 /// Piecewise linear hats over equal shares of the windows.
@@ -258,5 +251,46 @@ fn suggestion(variable: &str, memory: bool, parity: &str) -> &'static str {
         _ => {
             "a drive that is not a straight line (saturation, dead zone), or friction that grows with load"
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    use crate::problem::Inertia;
+    use crate::recorded::exact_bench;
+    use crate::weak::Windows;
+
+    #[test]
+    fn a_curve_over_the_position_is_found_and_drawn() {
+        let run = exact_bench(&[(Mechanism::Viscous, &[2.3])], 11_000);
+        let problem = Problem::new(&run, Windows::new(&run, 0.043), Inertia::None);
+        let centres = &problem.windows.centres;
+        let residual: Vec<f64> = centres
+            .iter()
+            .map(|c| 0.9 * (run.motion[*c].position / 0.5).powi(3))
+            .collect();
+        let unknown = unknown(&problem, &residual, Motion::Linear).unwrap();
+        assert_eq!(
+            (unknown.variable, unknown.parity, unknown.memory),
+            ("position", "odd", false)
+        );
+        assert!(unknown.share > 0.9, "{}", unknown.share);
+        let found = [Mechanism::Viscous, Mechanism::Spring];
+        assert_eq!(
+            surrogates(&problem, &residual, &found, Motion::Linear),
+            [Mechanism::Spring]
+        );
+    }
+
+    #[test]
+    fn hats_add_up_to_one_between_the_end_knots() {
+        let knots = [-1.3, -0.2, 0.7, 2.9];
+        for value in [-1.1, -0.2, 0.31, 2.3] {
+            let sum: f64 = (0..4).map(|k| hat(&knots, k, value)).sum();
+            assert!((sum - 1.0).abs() < 1e-12, "{value}: {sum}");
+        }
+        assert_eq!(hat(&knots, 1, 0.7), 0.0);
     }
 }

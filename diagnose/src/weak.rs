@@ -62,11 +62,6 @@ impl Windows {
         self.apply(&self.bump, signal)
     }
 
-    /// `Σ φ″·position`: the averaged acceleration, one value a window.
-    pub fn acceleration(&self, position: &[f64]) -> Vec<f64> {
-        self.apply(&self.curvature, position)
-    }
-
     /// Gives up the windows in which a predicted effort changes so fast that a sample's error in its timing would be
     /// more than `floor` (current steps, entry into a backlash).
     pub fn avoid_steps(&mut self, predicted: &[f64], floor: f64) {
@@ -206,6 +201,10 @@ fn is_usable(run: &Run, centre: usize, bump: &[f64]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::align::align;
+    use crate::recorded::{INERTIA, NOMINAL, Noise, exact_axis, exact_bench, signals};
+    use crate::whiten::{ORDER, Whitener};
+    use rigproof_spec::effect::Mechanism;
 
     #[test]
     fn summation_by_parts_is_exact_and_constants_and_ramps_have_no_acceleration() {
@@ -225,5 +224,86 @@ mod tests {
             .map(|(k, w)| w * (2.7 + 0.3 * k as f64))
             .sum();
         assert!(ramp.abs() < 1e-8, "{ramp}");
+    }
+
+    fn correlation(values: &[f64], lag: usize) -> f64 {
+        let products = values
+            .iter()
+            .zip(values.iter().skip(lag))
+            .map(|(a, b)| a * b);
+        products.sum::<f64>() / (values.len() - lag) as f64
+    }
+
+    #[test]
+    fn overlapping_windows_are_correlated_and_the_noise_model_undoes_it() {
+        let mut run = exact_bench(&[(Mechanism::Viscous, &[2.3])], 60_000);
+        run.position_noise = 2.9e-6;
+        let mut noise = Noise::new(31);
+        let position: Vec<f64> = (0..run.len())
+            .map(|_| run.position_noise * noise.draw())
+            .collect();
+        let effort: Vec<f64> = (0..run.len())
+            .map(|_| run.effort_noise * noise.draw())
+            .collect();
+        let windows = Windows::new(&run, 0.077);
+        let rows: Vec<f64> = windows
+            .apply(&windows.curvature, &[&[0.0][..], &position].concat())
+            .iter()
+            .zip(windows.average(&effort))
+            .map(|(a, e)| INERTIA * a + e)
+            .collect();
+        let covariance = windows.noise_covariance(&run, INERTIA, 0.0, ORDER + 1);
+        for lag in 0..3 {
+            let seen = correlation(&rows, lag);
+            assert!(
+                (seen - covariance[lag]).abs() < 0.08 * covariance[0],
+                "lag {lag}"
+            );
+        }
+        assert!(correlation(&rows, 1) > 0.3 * correlation(&rows, 0));
+        let white = Whitener::new(&covariance, &vec![true; rows.len()]).whiten(&rows);
+        assert!(
+            (correlation(&white, 0) - 1.0).abs() < 0.08,
+            "{}",
+            correlation(&white, 0)
+        );
+        for lag in 1..=4 {
+            let left = correlation(&white, lag);
+            assert!(left.abs() < 0.06, "lag {lag}: {left}");
+        }
+    }
+
+    #[test]
+    fn on_an_axis_no_window_touches_a_reversal_or_a_rest() {
+        let mut laws = NOMINAL.to_vec();
+        // Enough dry friction that the joint sticks at some reversals.
+        laws.push((Mechanism::DryOffset, &[4.7]));
+        let exact = exact_axis(&laws, 9000, true);
+        let rests = exact.motion.iter().filter(|now| now.sense == 0.0).count();
+        assert!(rests > 50, "{rests} samples at rest");
+        let run = align(&signals(&exact, 41)).unwrap();
+        let windows = Windows::new(&run, 0.077);
+        let half = windows.bump.len() / 2;
+        let mut touching = 0;
+        for (&centre, &usable) in windows.centres.iter().zip(&windows.usable) {
+            let here = exact.motion[centre].sense;
+            let inside = &exact.motion[centre - half..=centre + half];
+            let foreign: f64 = inside
+                .iter()
+                .zip(&windows.bump)
+                .filter(|(now, _)| here == 0.0 || now.sense != here)
+                .map(|(_, w)| w)
+                .sum();
+            touching += usize::from(foreign > MOST_AMBIGUOUS);
+            assert!(
+                !usable || foreign <= MOST_AMBIGUOUS,
+                "window at sample {centre}: {foreign}"
+            );
+        }
+        let usable = windows.usable.iter().filter(|u| **u).count();
+        assert!(
+            touching > 20 && usable > 200,
+            "{touching} touching, {usable} usable"
+        );
     }
 }

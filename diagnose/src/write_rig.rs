@@ -91,3 +91,17 @@ pub fn nominal_numbers(rig: &Rig, calibration: &Rig) -> BTreeMap<String, Number>
     }
     out
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_interval_is_written_where_the_recording_gives_one() {
+        let value = with_interval(3.7, Some(0.19));
+        assert!((value.low95.unwrap() - 3.3276).abs() < 1e-12);
+        assert!((value.high95.unwrap() - 4.0724).abs() < 1e-12);
+        assert_eq!(with_interval(3.7, Some(f64::NAN)).low95, None);
+        assert_eq!(with_interval(3.7, None).high95, None);
+    }
+}

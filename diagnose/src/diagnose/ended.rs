@@ -1,0 +1,76 @@
+//! This file answers for recordings from which nothing can be concluded.
+
+use super::{Curves, Diagnosis};
+use crate::align::Fault;
+use crate::report::{FaultReport, Report, SCHEMA, Verdict};
+use crate::run::Run;
+use rigproof_trace::rig::Rig;
+
+/// The answer where a channel is at fault; `which` says in which recording.
+pub(super) fn faulty(rig: &Rig, which: &str, fault: Fault) -> Diagnosis {
+    let mut diagnosis = empty(
+        rig,
+        Verdict::DataFault,
+        format!(
+            "the {which} is at fault: {} from {:.3} to {:.3} s: {}",
+            fault.channel, fault.from_s, fault.to_s, fault.reason
+        ),
+    );
+    diagnosis.report.fault = Some(FaultReport {
+        channel: fault.channel,
+        from_s: fault.from_s,
+        to_s: fault.to_s,
+        reason: fault.reason,
+    });
+    diagnosis
+}
+
+/// The answer where the motion is too small or too short.
+pub(super) fn not_excited(rig: &Rig, run: &Run, usable: usize) -> Diagnosis {
+    empty(
+        rig,
+        Verdict::NotExcited,
+        format!(
+            "the recording moves too little: {usable} usable windows, travel {:.3e} against a position noise of {:.3e}",
+            run.travel(),
+            run.position_noise
+        ),
+    )
+}
+
+fn empty(rig: &Rig, verdict: Verdict, summary: String) -> Diagnosis {
+    Diagnosis {
+        report: blank(rig, verdict, summary),
+        calibration: rig.clone(),
+        curves: Curves::default(),
+    }
+}
+
+/// A report that says what was concluded and nothing else.
+pub(super) fn blank(rig: &Rig, verdict: Verdict, summary: String) -> Report {
+    Report {
+        schema: SCHEMA,
+        tool: concat!("rigproof ", env!("CARGO_PKG_VERSION")).to_owned(),
+        inputs: Vec::new(),
+        plant: rig.plant.name(),
+        verdict,
+        summary,
+        protocol: Vec::new(),
+        floor: None,
+        located: Vec::new(),
+        stages: Vec::new(),
+        effects: Vec::new(),
+        ambiguous_with: Vec::new(),
+        too_small_to_name: Vec::new(),
+        withdrawn: Vec::new(),
+        nominal: Default::default(),
+        not_seen: Vec::new(),
+        null_directions: Vec::new(),
+        unknown: None,
+        fit: None,
+        next_experiment: None,
+        self_calibration: None,
+        calibration_file: None,
+        fault: None,
+    }
+}

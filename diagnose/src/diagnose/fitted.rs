@@ -1,0 +1,139 @@
+//! This file fits the plants before and after, and shows their free runs.
+
+use super::write::Stand;
+use crate::evidence::{coefficients_by_term, parameters};
+use crate::free_run::{HORIZONS_S, Shown, figure, horizon_error, show};
+use crate::from_rig;
+use crate::problem::Inertia;
+use crate::report::{BeforeAfter, FitReport, Horizon};
+use crate::run::{PlantKind, Run};
+use crate::select::refs;
+use crate::simulate::{Effect, Plant, Protocol};
+use rigproof_spec::effect::Quantity;
+
+/// The plants before and after, and their free runs.
+pub(super) struct Fitted {
+    pub(super) nominal: Shown,
+    pub(super) found: Shown,
+    pub(super) by_windows: Plant,
+}
+
+impl Stand<'_> {
+    /// The plant of the windows' fit, with or without the mechanisms found.
+    pub(super) fn plant(&self, found: bool) -> Plant {
+        let mut selection = self.selection.clone();
+        if !found {
+            selection.found.clear();
+            selection.after = selection.before.clone();
+        }
+        let (inertia, coefficients) = coefficients_by_term(self.problem, &selection);
+        let terms = refs(&selection.nominal, &selection.found);
+        let effects = terms
+            .iter()
+            .zip(&coefficients)
+            .map(|(term, own)| Effect {
+                mechanism: term.mechanism,
+                parameters: parameters(term, own),
+                onset_s: term.onset_s,
+            })
+            .collect();
+        let given = from_rig::plant(self.rig).inertia;
+        Plant {
+            inertia: inertia.unwrap_or(given).max(1e-3 * given),
+            effects,
+        }
+    }
+
+    pub(super) fn fit(&self, protocol: &Protocol) -> Option<Fitted> {
+        if !self.options.refit {
+            return None;
+        }
+        let inertia_free = matches!(self.problem.inertia, Inertia::Unknown(_));
+        let known_nominal: Vec<bool> = self
+            .selection
+            .nominal
+            .iter()
+            .map(|t| t.known.is_some())
+            .collect();
+        let mut known_all = known_nominal.clone();
+        known_all.extend(self.selection.found.iter().map(|_| false));
+        let by_windows = self.plant(true);
+        let found = show(
+            &by_windows,
+            inertia_free,
+            &known_all,
+            self.train,
+            protocol,
+            !self.selection.found.is_empty(),
+        );
+        let nominal = show(
+            &self.plant(false),
+            inertia_free,
+            &known_nominal,
+            self.train,
+            protocol,
+            false,
+        );
+        Some(Fitted {
+            nominal,
+            found,
+            by_windows,
+        })
+    }
+
+    pub(super) fn fit_report(
+        &self,
+        fitted: &Fitted,
+        protocol: &Protocol,
+        other_recording: bool,
+    ) -> FitReport {
+        let pair = |run: &Run| {
+            let (before, size) = figure(&fitted.nominal.plant, run, protocol);
+            let (after, _) = figure(&fitted.found.plant, run, protocol);
+            let percent = |x: f64| 100.0 * x / size.max(1e-300);
+            BeforeAfter {
+                before,
+                after,
+                nrmse_before: percent(before),
+                nrmse_after: percent(after),
+            }
+        };
+        let (train, held_out) = (pair(self.train), pair(self.test));
+        let floor = match self.train.plant {
+            PlantKind::Axis => self.train.position_noise,
+            PlantKind::Bench => self.train.effort_noise,
+        };
+        let horizon = HORIZONS_S
+            .into_iter()
+            .filter_map(|horizon_s| {
+                Some(Horizon {
+                    horizon_s,
+                    before: horizon_error(&fitted.nominal.plant, self.test, protocol, horizon_s)?,
+                    after: horizon_error(&fitted.found.plant, self.test, protocol, horizon_s)?,
+                })
+            })
+            .collect();
+        let (windows_only, _) = figure(&fitted.by_windows, self.test, protocol);
+        FitReport {
+            protocol: self.fit_protocol(protocol, other_recording),
+            unit: self.output_unit(),
+            train,
+            held_out: Some(held_out),
+            held_out_without_refit: Some(windows_only),
+            held_out_from_rest: (protocol.warm_up_periods > 0).then(|| {
+                let from_rest = Protocol {
+                    warm_up_periods: 0,
+                    start_samples: 0,
+                    ..*protocol
+                };
+                figure(&fitted.found.plant, self.test, &from_rest).0
+            }),
+            horizon,
+            recovered_share: (held_out.before - held_out.after) / (held_out.before - floor).max(1e-300),
+            improved: held_out.after < held_out.before,
+            drift: fitted.found.drift.map(|rate| {
+                format!("the free run of the fitted part drifts by a constant effort that changes at {rate:.4e} {}; a warming drive, a slow load or wear would look the same", Quantity::EffortPerTime.dimension(self.rig.motion))
+            }),
+        }
+    }
+}

@@ -1,0 +1,208 @@
+//! This file writes the report of a recording from which something could be concluded.
+
+use super::ended::blank;
+use super::words::summary;
+use super::{Curves, Diagnosis, Options};
+use crate::evidence::{inclusion, not_seen, null_directions, rivals, standard_errors};
+use crate::from_rig;
+use crate::locate::locate;
+use crate::problem::Problem;
+use crate::report::{EffectReport, Floor, Report, StageReport, Verdict};
+use crate::run::{PlantKind, Run};
+use crate::select::{FLOOR_RATIO, Selection, refs, usable_rms};
+use crate::simulate::{Plant, Protocol, output};
+use crate::unknown::unknown;
+use crate::write_rig::{calibrated, nominal_numbers, numbers};
+use rigproof_model::effects::entry;
+use rigproof_spec::effect::{Mechanism, Quantity};
+use rigproof_trace::rig::Rig;
+
+/// Everything the report is written from.
+pub(super) struct Stand<'a> {
+    pub(super) rig: &'a Rig,
+    pub(super) problem: &'a Problem<'a>,
+    pub(super) selection: &'a Selection,
+    pub(super) withdrawn: &'a [Mechanism],
+    pub(super) train: &'a Run,
+    pub(super) test: &'a Run,
+    pub(super) options: &'a Options,
+    pub(super) width_s: f64,
+}
+
+impl Stand<'_> {
+    /// The diagnosis; `other_recording` says whether the held-out part is a recording of its own.
+    pub(super) fn report(&self, other_recording: bool) -> Diagnosis {
+        let protocol = from_rig::protocol(self.rig);
+        let fitted = self.fit(&protocol);
+        let rivals = self.rivals();
+        let floor = self.floor();
+        let verdict = self.verdict(&floor, &rivals);
+        let unknown = (floor.ratio_after > FLOOR_RATIO)
+            .then(|| {
+                unknown(
+                    self.problem,
+                    &self.selection.after.residual,
+                    self.rig.motion,
+                )
+            })
+            .flatten();
+        let fit = fitted
+            .as_ref()
+            .map(|f| self.fit_report(f, &protocol, other_recording));
+        let plants = match &fitted {
+            Some(f) => (f.nominal.plant.clone(), f.found.plant.clone()),
+            None => (self.plant(false), self.plant(true)),
+        };
+        let errors = standard_errors(self.problem, self.selection);
+        let calibration = calibrated(self.rig, &plants.1, &errors, fitted.is_some());
+        let summary = summary(verdict, self.selection, fit.as_ref());
+        let report = Report {
+            protocol: self.protocol_lines(&protocol, other_recording),
+            floor: Some(floor),
+            located: locate(
+                self.problem,
+                &self.selection.before.residual,
+                &self.selection.after.residual,
+            ),
+            stages: self.stages(),
+            effects: self.effects(&calibration),
+            ambiguous_with: rivals
+                .iter()
+                .map(|r| r.iter().map(|m| m.name()).collect())
+                .collect(),
+            too_small_to_name: self
+                .selection
+                .too_small
+                .iter()
+                .map(|m| m.name().to_owned())
+                .collect(),
+            withdrawn: self.withdrawn.iter().map(|m| m.name()).collect(),
+            nominal: nominal_numbers(self.rig, &calibration),
+            not_seen: not_seen(
+                self.problem,
+                self.selection,
+                self.options.gates,
+                self.rig.motion,
+            ),
+            null_directions: null_directions(self.problem, self.selection),
+            unknown,
+            fit,
+            ..blank(self.rig, verdict, summary)
+        };
+        let curves = self.curves(&plants.0, &plants.1, &protocol);
+        Diagnosis {
+            report,
+            calibration,
+            curves,
+        }
+    }
+
+    /// For each effect, what explains as much in its place: measured rivals, and the twin that no recording of this
+    /// plant can tell: a constant that changes no sign with the motion is a bias or a direction asymmetry.
+    fn rivals(&self) -> Vec<Vec<Mechanism>> {
+        let mut all = rivals(self.problem, self.selection);
+        for (rivals, found) in all.iter_mut().zip(&self.selection.found) {
+            let twin = match found.term.mechanism {
+                Mechanism::ConstantBias => Mechanism::DirectionAsymmetry,
+                Mechanism::DirectionAsymmetry => Mechanism::ConstantBias,
+                _ => continue,
+            };
+            let taken = refs(&self.selection.nominal, &self.selection.found)
+                .iter()
+                .any(|t| t.mechanism == twin);
+            if !taken && !rivals.contains(&twin) {
+                rivals.push(twin);
+            }
+        }
+        all
+    }
+
+    fn floor(&self) -> Floor {
+        let predicted = self.problem.floor;
+        let before = usable_rms(self.problem, &self.selection.before.residual);
+        let after = usable_rms(self.problem, &self.selection.after.residual);
+        Floor {
+            predicted,
+            measured_before: before,
+            measured_after: after,
+            ratio_before: before / predicted,
+            ratio_after: after / predicted,
+            unit: Quantity::Effort.dimension(self.rig.motion).to_string(),
+        }
+    }
+
+    fn verdict(&self, floor: &Floor, rivals: &[Vec<Mechanism>]) -> Verdict {
+        let explained = floor.ratio_after <= FLOOR_RATIO;
+        match (self.selection.found.is_empty(), explained) {
+            (true, true) => Verdict::Consistent,
+            (true, false) => Verdict::NoneOfLibrary,
+            (false, false) => Verdict::PartlyExplained,
+            (false, true) if rivals.iter().any(|r| !r.is_empty()) => Verdict::Ambiguous,
+            (false, true) => Verdict::Explained,
+        }
+    }
+
+    fn stages(&self) -> Vec<StageReport> {
+        let stages = self.selection.stages.iter();
+        stages
+            .map(|stage| StageReport {
+                entered: stage.entered.name(),
+                standing: stage.standing.iter().map(|m| m.name()).collect(),
+                residual: stage.residual,
+            })
+            .collect()
+    }
+
+    fn effects(&self, calibration: &Rig) -> Vec<EffectReport> {
+        let offset = self.selection.nominal.len();
+        self.selection
+            .found
+            .iter()
+            .enumerate()
+            .filter_map(|(index, found)| {
+                let entry = entry(found.term.mechanism)?;
+                let fitted = calibration.effects.get(offset + index)?;
+                Some(EffectReport {
+                    mechanism: found.term.mechanism.name(),
+                    joint: None,
+                    parameters: numbers(fitted, self.rig.motion),
+                    onset_s: found.term.onset_s,
+                    z: found.z,
+                    inclusion: inclusion(self.problem, self.selection, index, self.options.gates),
+                    share_explained: found.share,
+                    equation: entry.equation,
+                    refuted_by: entry.refuted_by,
+                })
+            })
+            .collect()
+    }
+
+    fn curves(&self, before: &Plant, after: &Plant, protocol: &Protocol) -> Curves {
+        let run = self.test;
+        Curves {
+            time_s: (0..run.len())
+                .map(|k| run.start_s + k as f64 * run.step_s)
+                .collect(),
+            recorded: match run.plant {
+                PlantKind::Axis => run.position.clone(),
+                PlantKind::Bench => run.effort.clone(),
+            },
+            before: output(before, run, protocol),
+            after: output(after, run, protocol),
+            unit: self.output_unit(),
+            window_time_s: self.problem.windows.times_s(),
+            residual_before: self.selection.before.residual.clone(),
+            residual_after: self.selection.after.residual.clone(),
+            floor: self.problem.floor,
+            residual_unit: Quantity::Effort.dimension(self.rig.motion).to_string(),
+        }
+    }
+
+    pub(super) fn output_unit(&self) -> String {
+        let quantity = match self.train.plant {
+            PlantKind::Axis => Quantity::Travel,
+            PlantKind::Bench => Quantity::Effort,
+        };
+        quantity.dimension(self.rig.motion).to_string()
+    }
+}

@@ -1,0 +1,143 @@
+//! This file judges candidates: each against the gates, and against one another.
+
+use super::refine::refined;
+use super::weigh::{
+    contribution, drives, effort_beside, excitation, loss_with, own_coefficients, usable_rms,
+};
+use super::{FLOOR_RATIO, Found, Gates, TIE_Z};
+use crate::problem::{Problem, Term};
+use crate::regression::{Blocks, Fit, fit, nested_block_losses, paired};
+use crate::run::rms;
+use rigproof_model::effects::entry;
+
+/// A candidate that passed the gates.
+pub(super) struct Trial {
+    /// The mechanism with the evidence for it.
+    pub(super) found: Found,
+    /// Left-out loss of each block with it.
+    pub(super) losses: Vec<f64>,
+    /// How many numbers it has.
+    parameters: usize,
+}
+
+/// Share of the best gain that a mechanism must reach on its grid to have its shape refined and be judged.
+const PROMISING: f64 = 0.3;
+
+/// Judges one mechanism a list of variants: those that pass the gates, and the best variant of every list.
+pub(super) fn trials(
+    problem: &Problem,
+    common: &[&Term],
+    current: &Fit,
+    lists: Vec<Vec<Term>>,
+    blocks: &Blocks,
+    gates: Gates,
+) -> (Vec<Trial>, Vec<Term>) {
+    let candidates: Vec<(Vec<Term>, Term, f64)> = lists
+        .into_iter()
+        .map(|list| linearised(problem, common, list, blocks))
+        .filter_map(|list| {
+            let (term, loss) = best(problem, common, &list, blocks)?;
+            Some((list, term, loss))
+        })
+        .collect();
+    let least = candidates.iter().map(|c| c.2).fold(current.loss, f64::min);
+    let bests = candidates.iter().map(|c| c.1.clone()).collect();
+    let trials = candidates
+        .into_iter()
+        .filter(|(_, _, loss)| current.loss - loss >= PROMISING * (current.loss - least))
+        .filter_map(|(mut list, mut term, _)| {
+            if list.len() > 1 {
+                term = refined(problem, common, term, blocks);
+                list.push(term.clone());
+            }
+            judge(problem, common, current, &list, term, blocks, gates)
+        })
+        .collect();
+    (trials, bests)
+}
+
+/// Changes of the drive, linearised about what the other terms give beside them.
+fn linearised(problem: &Problem, common: &[&Term], list: Vec<Term>, blocks: &Blocks) -> Vec<Term> {
+    list.into_iter()
+        .map(|t| {
+            let effort = effort_beside(problem, common, &t, blocks);
+            effort
+                .and_then(|e| problem.drive_term(t.mechanism, &t.shape, t.onset_s, &e))
+                .unwrap_or(t)
+        })
+        .collect()
+}
+
+/// A mechanism with its variants against the gates.
+fn judge(
+    problem: &Problem,
+    common: &[&Term],
+    current: &Fit,
+    tried: &[Term],
+    term: Term,
+    blocks: &Blocks,
+    gates: Gates,
+) -> Option<Trial> {
+    let losses = nested_block_losses(problem, common, tried, blocks);
+    let mut terms = common.to_vec();
+    terms.push(&term);
+    let fitted = fit(problem, &terms, blocks);
+    let own = own_coefficients(&term, &fitted);
+    let expected = excitation(&term, own, blocks);
+    let (gain, z) = paired(&current.block_loss, &losses, &expected);
+    let share = 1.0 - losses.iter().sum::<f64>() / current.left_out().max(1e-300);
+    let least = gates.relevance * rms(&problem.windows.average(&problem.run.effort));
+    let passes = gain > 0.0
+        && z >= gates.z
+        && share >= gates.share
+        && contribution(problem, &term, own) >= least
+        && !drives(&term, own);
+    let linear = entry(term.mechanism)?.linear;
+    passes.then(|| Trial {
+        parameters: linear + term.shape.len() + usize::from(term.onset_s.is_some()),
+        found: Found {
+            at_floor: usable_rms(problem, &fitted.residual) <= FLOOR_RATIO * problem.floor,
+            term,
+            z,
+            share,
+        },
+        losses,
+    })
+}
+
+/// The variant with the least loss over all blocks, and that loss.
+fn best(
+    problem: &Problem,
+    common: &[&Term],
+    tried: &[Term],
+    blocks: &Blocks,
+) -> Option<(Term, f64)> {
+    tried
+        .iter()
+        .map(|term| (term, loss_with(problem, common, term, blocks)))
+        .min_by(|a, b| a.1.total_cmp(&b.1))
+        .map(|(term, loss)| (term.clone(), loss))
+}
+
+/// The trial with the fewest parameters among those that tie with the best one, or that explain nearly as much
+/// where even the best one leaves more than noise.
+pub(super) fn simplest(mut trials: Vec<Trial>, loss_without: f64) -> Option<Found> {
+    let total = |trial: &Trial| trial.losses.iter().sum::<f64>();
+    trials.sort_by(|a, b| total(a).total_cmp(&total(b)));
+    let leader = trials.first()?.losses.clone();
+    let at_floor = trials.first()?.found.at_floor;
+    let most = loss_without - leader.iter().sum::<f64>();
+    let all = vec![1.0; leader.len()];
+    trials
+        .into_iter()
+        .enumerate()
+        .filter(|(rank, t)| {
+            let nearly = !at_floor && loss_without - total(t) >= SIMPLER_SHARE * most;
+            *rank == 0 || nearly || paired(&t.losses, &leader, &all).1 < TIE_Z
+        })
+        .min_by_key(|(rank, t)| (t.parameters, *rank))
+        .map(|(_, t)| t.found)
+}
+
+/// A simpler mechanism is taken when it explains at least this share of what the best one does.
+pub(super) const SIMPLER_SHARE: f64 = 0.9;

@@ -1,0 +1,134 @@
+//! This file refines the shape and the onset of a mechanism by a pattern search inside their bounds.
+
+use super::Found;
+use super::weigh::{effort_beside, loss_with};
+use crate::candidates::{modelled_effort, realise, shape_bounds};
+use crate::problem::{Problem, Term};
+use crate::regression::{Blocks, fit};
+use rigproof_spec::effect::Mechanism;
+
+/// Improves the shape (and onset) of each found term by halving steps on the loss over all blocks.
+pub(super) fn refine(problem: &Problem, nominal: &[Term], found: &mut [Found], blocks: &Blocks) {
+    for index in 0..found.len() {
+        let Some(current) = found.get(index).map(|f| f.term.clone()) else {
+            continue;
+        };
+        if current.shape.is_empty() && current.onset_s.is_none() {
+            continue;
+        }
+        let others: Vec<Term> = found
+            .iter()
+            .enumerate()
+            .filter(|(k, _)| *k != index)
+            .map(|(_, f)| f.term.clone())
+            .collect();
+        let mut common: Vec<&Term> = nominal.iter().collect();
+        common.extend(others.iter());
+        let better = refined(problem, &common, current, blocks);
+        if let Some(slot) = found.get_mut(index) {
+            slot.term = better;
+        }
+    }
+}
+
+/// Bounds on the rounds of a pattern search, and the halvings of its stride that end it.
+const MOST_ROUNDS: usize = 30;
+
+const HALVINGS: usize = 6;
+
+/// Halvings that place an onset to about a sample.
+const ONSET_HALVINGS: usize = 11;
+
+/// Pattern search over the logarithms of the shape parameters and the onset.
+pub(super) fn refined(problem: &Problem, common: &[&Term], start: Term, blocks: &Blocks) -> Term {
+    let score = |term: &Term| loss_with(problem, common, term, blocks);
+    let fitted = fit(problem, common, blocks);
+    let effort = effort_beside(problem, common, &start, blocks)
+        .unwrap_or_else(|| modelled_effort(problem, common, &fitted));
+    let bounds = shape_bounds(problem, start.mechanism);
+    let mut best = (score(&start), start);
+    let mut stride = if best.1.mechanism == Mechanism::Ripple {
+        0.004
+    } else {
+        0.3
+    };
+    let mut halvings = 0;
+    for _ in 0..MOST_ROUNDS {
+        let before = best.0;
+        for direction in directions(best.1.shape.len(), best.1.onset_s.is_some()) {
+            let Some(moved) = moved(problem, &best.1, &direction, stride, &bounds, &effort) else {
+                continue;
+            };
+            let loss = score(&moved);
+            if loss < best.0 {
+                best = (loss, moved);
+            }
+        }
+        if best.0 > (1.0 - 1e-4) * before {
+            stride *= 0.5;
+            halvings += 1;
+        }
+        let limit = if best.1.onset_s.is_some() {
+            ONSET_HALVINGS
+        } else {
+            HALVINGS
+        };
+        if halvings == limit {
+            break;
+        }
+    }
+    best.1
+}
+
+/// Every direction of the pattern: each parameter alone both ways, and pairs of shape parameters together.
+fn directions(shape: usize, onset: bool) -> Vec<Vec<f64>> {
+    let size = shape + usize::from(onset);
+    let unit = |index: usize, sign: f64| {
+        (0..size)
+            .map(|k| if k == index { sign } else { 0.0 })
+            .collect()
+    };
+    let mut all: Vec<Vec<f64>> = (0..size)
+        .flat_map(|k| [unit(k, 1.0), unit(k, -1.0)])
+        .collect();
+    if shape == 2 {
+        for (a, b) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
+            let mut pair: Vec<f64> = vec![a, b];
+            pair.resize(size, 0.0);
+            all.push(pair);
+        }
+    }
+    all
+}
+
+/// Share of the recording at each end in which no onset is placed: one that begins there is no onset.
+const ONSET_MARGIN: f64 = 0.08;
+
+/// The term with its shape scaled by `1 + stride` along a direction, and its onset moved by the last component.
+/// `None` outside the bounds.
+fn moved(
+    problem: &Problem,
+    term: &Term,
+    direction: &[f64],
+    stride: f64,
+    bounds: &[(f64, f64)],
+    effort: &[f64],
+) -> Option<Term> {
+    let mut shape = term.shape.clone();
+    for ((value, along), (low, high)) in shape.iter_mut().zip(direction).zip(bounds) {
+        *value *= 1.0 + stride * along;
+        if *value < *low || *value > *high {
+            return None;
+        }
+    }
+    let length_s = problem.run.duration_s();
+    let mut onset_s = term.onset_s;
+    if let (Some(onset), Some(along)) = (&mut onset_s, direction.get(term.shape.len())) {
+        *onset += 0.15 * stride * along * length_s;
+        let share = (*onset - problem.run.start_s) / length_s;
+        if !(ONSET_MARGIN..1.0 - ONSET_MARGIN).contains(&share) {
+            return None;
+        }
+    }
+    realise(problem, term.mechanism, &shape, onset_s, effort)
+}

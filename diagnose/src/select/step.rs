@@ -1,0 +1,125 @@
+//! This file takes one step of the search: a mechanism more, or one in the place of another.
+
+use super::judge::{SIMPLER_SHARE, Trial, simplest, trials};
+use super::{Found, Gates, TIE_Z, refs};
+use crate::candidates::{mechanisms, modelled_effort, realise, variants};
+use crate::problem::{Problem, Term};
+use crate::regression::{Blocks, fit, paired};
+use rigproof_spec::effect::Mechanism;
+
+/// Memoryless mechanisms of one parameter: they are named first, and the others must still be needed beside or
+/// instead of them.
+const ELEMENTARY: [Mechanism; 3] = [
+    Mechanism::DryOffset,
+    Mechanism::ConstantBias,
+    Mechanism::Viscous,
+];
+
+/// Share of the best gain that an elementary mechanism must reach to be named first.
+const ELEMENTARY_SHARE: f64 = 0.5;
+
+/// Share of the best gain that a mechanism from the start must reach to be preferred to one that begins later.
+const EARLY_SHARE: f64 = 0.8;
+
+/// The next mechanism: an elementary one, any other, or one that begins during the recording, in this order as
+/// long as it explains enough of what the best of them does.
+pub(super) fn forward(
+    problem: &Problem,
+    nominal: &[Term],
+    found: &[Found],
+    blocks: &Blocks,
+    gates: Gates,
+) -> Option<Found> {
+    let common = refs(nominal, found);
+    let current = fit(problem, &common, blocks);
+    let lists: Vec<Vec<Term>> = open(problem, nominal, found)
+        .into_iter()
+        .map(|m| variants(problem, m, &common, &current))
+        .collect();
+    let (early, bests) = trials(problem, &common, &current, lists, blocks, gates);
+    let effort = modelled_effort(problem, &common, &current);
+    let onsets = bests
+        .iter()
+        .map(|t| with_onsets(problem, t, &effort))
+        .collect();
+    let (late, _) = trials(problem, &common, &current, onsets, blocks, gates);
+    let (elementary, others): (Vec<Trial>, Vec<Trial>) = early
+        .into_iter()
+        .partition(|t| ELEMENTARY.contains(&t.found.term.mechanism));
+    let without = current.left_out();
+    let ranked = [
+        (simplest(elementary, without), ELEMENTARY_SHARE),
+        (simplest(others, without), EARLY_SHARE),
+        (simplest(late, without), 1.0),
+    ];
+    let shares = ranked.iter().flat_map(|(found, _)| found).map(|f| f.share);
+    let most = shares.fold(0.0, f64::max);
+    // One that leaves nothing but noise is not passed over for one that leaves more.
+    let floor_reached = ranked
+        .iter()
+        .flat_map(|(found, _)| found)
+        .any(|f| f.at_floor);
+    let mut enough = ranked
+        .into_iter()
+        .filter_map(|(found, least)| found.filter(|f| f.share >= least * most))
+        .filter(|f| f.at_floor || !floor_reached);
+    enough.next()
+}
+
+/// Replaces a found mechanism where another one explains clearly more in its place.
+pub(super) fn swap(
+    problem: &Problem,
+    nominal: &[Term],
+    found: &mut [Found],
+    blocks: &Blocks,
+    gates: Gates,
+) {
+    for index in 0..found.len() {
+        let others: Vec<Found> = found
+            .iter()
+            .enumerate()
+            .filter(|(k, _)| *k != index)
+            .map(|(_, f)| f.clone())
+            .collect();
+        let common = refs(nominal, &others);
+        let without = fit(problem, &common, blocks);
+        let current = fit(problem, &refs(nominal, found), blocks);
+        let lists = open(problem, nominal, found)
+            .into_iter()
+            .map(|m| variants(problem, m, &common, &without))
+            .collect();
+        let (passed, _) = trials(problem, &common, &without, lists, blocks, gates);
+        let better: Vec<Trial> = passed
+            .into_iter()
+            .filter(|t| {
+                let all = vec![1.0; t.losses.len()];
+                let gained = without.left_out() - t.losses.iter().sum::<f64>();
+                let had = without.left_out() - current.left_out();
+                (t.found.at_floor || had < SIMPLER_SHARE * gained)
+                    && paired(&current.block_loss, &t.losses, &all).1 >= TIE_Z
+            })
+            .collect();
+        if let (Some(better), Some(slot)) =
+            (simplest(better, without.left_out()), found.get_mut(index))
+        {
+            *slot = better;
+        }
+    }
+}
+
+/// Mechanisms that are neither nominal nor found.
+pub(super) fn open(problem: &Problem, nominal: &[Term], found: &[Found]) -> Vec<Mechanism> {
+    let taken: Vec<Mechanism> = refs(nominal, found).iter().map(|t| t.mechanism).collect();
+    mechanisms(problem)
+        .into_iter()
+        .filter(|m| !taken.contains(m))
+        .collect()
+}
+
+/// A term that begins at twelfths of the recording, ends left out.
+fn with_onsets(problem: &Problem, term: &Term, effort: &[f64]) -> Vec<Term> {
+    (2..=10)
+        .map(|k| problem.run.start_s + problem.run.duration_s() * k as f64 / 12.0)
+        .filter_map(|t| realise(problem, term.mechanism, &term.shape, Some(t), effort))
+        .collect()
+}

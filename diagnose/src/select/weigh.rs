@@ -1,0 +1,107 @@
+//! This file weighs one mechanism in a fit: its coefficients, its contribution, its sign.
+
+use super::Found;
+use crate::candidates::modelled_effort;
+use crate::problem::{Problem, Term, add};
+use crate::regression::{Blocks, Fit, dot, fit};
+use crate::run::rms;
+use rigproof_model::effects::entry;
+
+/// The coefficients of the last term of a fit.
+pub(super) fn own_coefficients<'f>(term: &Term, fitted: &'f Fit) -> &'f [f64] {
+    let count = if term.known.is_some() {
+        0
+    } else {
+        term.free.len()
+    };
+    let first = fitted.coefficients.len().saturating_sub(count);
+    fitted.coefficients.get(first..).unwrap_or_default()
+}
+
+/// The coefficients of one found mechanism in the fit of all of them.
+pub(super) fn coefficients_of<'f>(found: &[Found], index: usize, fitted: &'f Fit) -> &'f [f64] {
+    let later: usize = found.iter().skip(index).map(|f| f.term.free.len()).sum();
+    let count = found.get(index).map_or(0, |f| f.term.free.len());
+    let first = fitted.coefficients.len().saturating_sub(later);
+    fitted
+        .coefficients
+        .get(first..first + count)
+        .unwrap_or_default()
+}
+
+/// Root-mean-square effort that a term contributes over the usable windows, N or N·m.
+pub(super) fn contribution(problem: &Problem, term: &Term, coefficients: &[f64]) -> f64 {
+    let mut sum = vec![0.0; problem.target.raw.len()];
+    let columns = coefficients.iter().copied().zip(&term.free);
+    for (c, rows) in columns.chain(term.fixed.iter().map(|rows| (1.0, rows))) {
+        for (s, x) in sum.iter_mut().zip(&rows.raw) {
+            *s += c * x;
+        }
+    }
+    usable_rms(problem, &sum)
+}
+
+/// White energy that a term contributes in each block: the gain that can be expected there.
+pub(super) fn excitation(term: &Term, coefficients: &[f64], blocks: &Blocks) -> Vec<f64> {
+    let length = term
+        .free
+        .first()
+        .or(term.fixed.as_ref())
+        .map_or(0, |rows| rows.white.len());
+    let mut sum = vec![0.0; length];
+    let columns = coefficients.iter().copied().zip(&term.free);
+    for (c, rows) in columns.chain(term.fixed.iter().map(|rows| (1.0, rows))) {
+        add(&mut sum, &rows.white, c);
+    }
+    let blocks = blocks.ranges.iter();
+    blocks
+        .map(|&(first, end)| sum.get(first..end).map_or(0.0, |part| dot(part, part)))
+        .collect()
+}
+
+/// Root mean square over the usable windows.
+pub fn usable_rms(problem: &Problem, values: &[f64]) -> f64 {
+    let usable: Vec<f64> = values
+        .iter()
+        .zip(&problem.windows.usable)
+        .filter(|(_, u)| **u)
+        .map(|(v, _)| *v)
+        .collect();
+    rms(&usable)
+}
+
+/// Whether a dissipative mechanism came out with a sign that gives energy.
+pub(super) fn drives(term: &Term, own: &[f64]) -> bool {
+    let dissipative = entry(term.mechanism).is_some_and(|e| e.dissipative);
+    dissipative && own.first().is_some_and(|c| *c < 0.0)
+}
+
+/// Loss over all blocks with one more term.
+pub(super) fn loss_with(problem: &Problem, common: &[&Term], term: &Term, blocks: &Blocks) -> f64 {
+    let mut terms = common.to_vec();
+    terms.push(term);
+    fit(problem, &terms, blocks).loss
+}
+
+/// Rounds in which a change of the drive is linearised again about the fit it gave.
+const RELINEARISE: usize = 3;
+
+/// What the other terms give when a change of the drive stands beside them: the point to linearise about.
+pub(super) fn effort_beside(
+    problem: &Problem,
+    common: &[&Term],
+    drive: &Term,
+    blocks: &Blocks,
+) -> Option<Vec<f64>> {
+    drive.fixed.as_ref()?;
+    let mut term = drive.clone();
+    let mut effort = Vec::new();
+    for _ in 0..RELINEARISE {
+        let mut terms = common.to_vec();
+        terms.push(&term);
+        let fitted = fit(problem, &terms, blocks);
+        effort = modelled_effort(problem, common, &fitted);
+        term = problem.drive_term(term.mechanism, &term.shape, term.onset_s, &effort)?;
+    }
+    Some(effort)
+}
