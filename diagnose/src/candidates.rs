@@ -79,7 +79,7 @@ fn shapes(problem: &Problem, mechanism: Mechanism, residual: &[f64]) -> Vec<Vec<
     match mechanism {
         Mechanism::Stribeck => geometric(
             (2.0 * run.speed_floor).max(0.005 * fastest),
-            0.5 * fastest,
+            0.3 * fastest,
             8,
         )
         .into_iter()

@@ -146,7 +146,11 @@ fn cells(problem: &Problem) -> Vec<Cell> {
             .centres
             .iter()
             .enumerate()
-            .map(|(row, &centre)| run.motion.get(centre).is_some_and(|now| now.sense != 0.0 && rule(row, now)))
+            .map(|(row, &centre)| {
+                run.motion
+                    .get(centre)
+                    .is_some_and(|now| now.sense != 0.0 && rule(row, now))
+            })
             .collect(),
     };
     let reversal = |row: usize| since.get(row).is_some_and(|s| *s < REVERSAL_S);

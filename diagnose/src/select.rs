@@ -703,8 +703,8 @@ fn backward(
 
 /// Whether a dissipative mechanism came out with a sign that gives energy.
 fn drives(term: &Term, own: &[f64]) -> bool {
-    let dissipative = entry(term.mechanism).is_some_and(|e| e.dissipative);
-    dissipative && own.first().is_some_and(|c| *c < 0.0)
+    let passive = entry(term.mechanism).is_some_and(|e| e.passive);
+    passive && own.first().is_some_and(|c| *c < 0.0)
 }
 
 /// Replaces a found mechanism where another one explains clearly more in its place.
