@@ -124,6 +124,23 @@ pub fn shape_bounds(problem: &Problem, mechanism: Mechanism) -> Vec<(f64, f64)> 
         .collect()
 }
 
+/// Whether a term's first shape parameter has run into the upper end of its range: a law that wants to be slower,
+/// wider or faster than it can mean is standing in for another one.
+pub fn is_at_edge(problem: &Problem, term: &Term) -> bool {
+    let bounded = matches!(
+        term.mechanism,
+        Mechanism::Lag | Mechanism::ChannelSkew | Mechanism::Stribeck | Mechanism::Presliding
+    );
+    let bounds = shape_bounds(problem, term.mechanism);
+    match (term.shape.first(), bounds.first()) {
+        (Some(value), Some((_, high))) => bounded && *value > EDGE * high,
+        _ => false,
+    }
+}
+
+/// Share of the upper end of a range from which a shape counts as being at its edge.
+const EDGE: f64 = 0.98;
+
 /// The speed that all but one in a hundred samples stay below.
 fn fastest(problem: &Problem) -> f64 {
     let mut speeds: Vec<f64> = problem

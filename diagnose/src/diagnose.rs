@@ -304,7 +304,8 @@ impl Stand<'_> {
             &known_all,
             self.train,
             protocol,
-            !self.selection.found.is_empty(),
+            // Where the windows leave only noise there is nothing that a drift could stand for.
+            !self.selection.found.is_empty() && self.floor().ratio_after > FLOOR_RATIO,
         );
         let nominal = show(
             &self.plant(false),

@@ -1,6 +1,6 @@
 //! This file chooses mechanisms: forward, backward and swap steps judged on left-out blocks of time.
 
-use crate::candidates::{mechanisms, modelled_effort, realise, shape_bounds, variants};
+use crate::candidates::{is_at_edge, mechanisms, modelled_effort, realise, shape_bounds, variants};
 use crate::problem::{Problem, Term, add};
 use crate::regression::{Blocks, Fit, dot, fit, nested_block_losses, paired};
 use crate::run::rms;
@@ -417,7 +417,8 @@ fn judge(
         && z >= gates.z
         && share >= gates.share
         && contribution(problem, &term, own) >= least
-        && !drives(&term, own);
+        && !drives(&term, own)
+        && !is_at_edge(problem, &term);
     let linear = entry(term.mechanism)?.linear;
     passes.then(|| Trial {
         parameters: linear + term.shape.len() + usize::from(term.onset_s.is_some()),
