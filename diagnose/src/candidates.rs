@@ -79,7 +79,7 @@ fn shapes(problem: &Problem, mechanism: Mechanism, residual: &[f64]) -> Vec<Vec<
     match mechanism {
         Mechanism::Stribeck => geometric(
             (2.0 * run.speed_floor).max(0.005 * fastest),
-            0.5 * fastest,
+            0.3 * fastest,
             8,
         )
         .into_iter()
@@ -123,6 +123,23 @@ pub fn shape_bounds(problem: &Problem, mechanism: Mechanism) -> Vec<(f64, f64)> 
         })
         .collect()
 }
+
+/// Whether a term's first shape parameter has run into the upper end of its range: a law that wants to be slower,
+/// wider or faster than it can mean is standing in for another one.
+pub fn is_at_edge(problem: &Problem, term: &Term) -> bool {
+    let bounded = matches!(
+        term.mechanism,
+        Mechanism::Lag | Mechanism::ChannelSkew | Mechanism::Stribeck | Mechanism::Presliding
+    );
+    let bounds = shape_bounds(problem, term.mechanism);
+    match (term.shape.first(), bounds.first()) {
+        (Some(value), Some((_, high))) => bounded && *value > EDGE * high,
+        _ => false,
+    }
+}
+
+/// Share of the upper end of a range from which a shape counts as being at its edge.
+const EDGE: f64 = 0.98;
 
 /// The speed that all but one in a hundred samples stay below.
 fn fastest(problem: &Problem) -> f64 {

@@ -298,6 +298,9 @@ pub fn not_seen(
         .collect()
 }
 
+/// Share of a column that must stand out of the named ones for a bound on it to mean anything.
+const TELLABLE: f64 = 0.02;
+
 /// The size of a term's leading parameter at which it passes the gates.
 fn least_size(term: &Term, basis: &[Vec<f64>], loss: f64, gates: Gates) -> Option<f64> {
     let (rows, unit) = match (&term.fixed, term.free.first()) {
@@ -314,7 +317,7 @@ fn least_size(term: &Term, basis: &[Vec<f64>], loss: f64, gates: Gates) -> Optio
     }
     let own = norm(&rest);
     let needed = (gates.z + POWER_Z).max((gates.share * loss).sqrt());
-    (own > 1e-9 * norm(&rows.white)).then(|| unit * needed / own)
+    (own > TELLABLE * norm(&rows.white)).then(|| unit * needed / own)
 }
 
 fn orthonormal(columns: &[&[f64]]) -> Vec<Vec<f64>> {

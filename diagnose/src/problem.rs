@@ -108,7 +108,7 @@ impl<'a> Problem<'a> {
         if let Inertia::Known(value) = inertia {
             add(&mut known, &acceleration, value);
         }
-        let target: Vec<f64> = acting_effort(run)
+        let target: Vec<f64> = acting_effort(run, &run.effort)
             .iter()
             .zip(&known)
             .map(|(e, k)| e - k)
@@ -263,6 +263,18 @@ impl<'a> Problem<'a> {
         rows
     }
 
+    /// What a recorded drive has more than the one that acts, as the position sees it.
+    fn missing_effort(&self, acting: &[f64]) -> Vec<f64> {
+        let missing: Vec<f64> = self
+            .run
+            .effort
+            .iter()
+            .zip(acting)
+            .map(|(e, a)| e - a)
+            .collect();
+        acting_effort(self.run, &missing)
+    }
+
     /// Column of a mechanism that acts on the drive: a free one, or one with coefficient 1.
     #[expect(
         clippy::type_complexity,
@@ -280,17 +292,32 @@ impl<'a> Problem<'a> {
             changed.iter().zip(fitted).map(|(a, b)| a - b).collect()
         };
         match (mechanism, self.run.plant) {
-            // The command is ahead of the effort that moves the joint: gain·u = e + time_constant·de/dt.
+            // With a known inertia the command itself can be delayed: it has less noise than an acceleration.
+            (Mechanism::Lag, PlantKind::Axis) if self.inertia_column.is_none() => {
+                let acting = first_order_lag(&self.run.effort, step_s, value);
+                Some((None, Some(self.missing_effort(&acting))))
+            }
+            (Mechanism::ChannelSkew, PlantKind::Axis) if self.inertia_column.is_none() => {
+                let acting = shifted(&self.run.effort, -value / step_s);
+                Some((None, Some(self.missing_effort(&acting))))
+            }
+            // Else the command is ahead of the effort that moves the joint: gain·u = e + time_constant·de/dt.
             (Mechanism::Lag, PlantKind::Axis) => {
                 let slope = gradient(fitted, step_s);
                 Some((None, Some(slope.into_iter().map(|s| value * s).collect())))
             }
-            (Mechanism::Lag, PlantKind::Bench) => {
-                Some((None, Some(less(first_order_lag(fitted, step_s, value)))))
-            }
             (Mechanism::ChannelSkew, PlantKind::Axis) => {
                 Some((None, Some(less(shifted(fitted, value / step_s)))))
             }
+            // The yield of a brake lags, its sign does not (docs/decisions/0001).
+            (Mechanism::Lag, PlantKind::Bench) => match (&self.run.predicted, &self.run.current) {
+                (Some(predicted), Some(_)) => {
+                    let lagged = lagged_yield(predicted, step_s, value);
+                    let change = lagged.iter().zip(predicted).map(|(l, p)| l - p).collect();
+                    Some((None, Some(change)))
+                }
+                _ => Some((None, Some(less(first_order_lag(fitted, step_s, value))))),
+            },
             (Mechanism::ChannelSkew, PlantKind::Bench) => {
                 Some((None, Some(less(shifted(fitted, -value / step_s)))))
             }
@@ -300,6 +327,16 @@ impl<'a> Problem<'a> {
             _ => None,
         }
     }
+}
+
+/// A brake's signed torque with its magnitude delayed by a first-order lag and its sign kept.
+pub fn lagged_yield(predicted: &[f64], step_s: f64, time_constant_s: f64) -> Vec<f64> {
+    let magnitude: Vec<f64> = predicted.iter().map(|p| p.abs()).collect();
+    let lagged = first_order_lag(&magnitude, step_s, time_constant_s);
+    let signed = lagged.iter().zip(predicted);
+    signed
+        .map(|(l, p)| if *p == 0.0 { 0.0 } else { l * p.signum() })
+        .collect()
 }
 
 /// A signal with its averages; not yet whitened.
@@ -313,17 +350,14 @@ fn rows(windows: &Windows, signal: Vec<f64>) -> Rows {
 
 /// The effort as the discrete second difference of the position sees it: half of the last value and half of this
 /// one for a drive that holds, Numerov's weights for one that was sampled; the metered effort itself on a bench.
-fn acting_effort(run: &Run) -> Vec<f64> {
+fn acting_effort(run: &Run, effort: &[f64]) -> Vec<f64> {
     match (run.plant, run.held) {
-        (PlantKind::Bench, _) => run.effort.clone(),
+        (PlantKind::Bench, _) => effort.to_vec(),
         (PlantKind::Axis, true) => {
-            let before = run.effort.first().into_iter().chain(&run.effort);
-            before
-                .zip(&run.effort)
-                .map(|(b, e)| 0.5 * (b + e))
-                .collect()
+            let before = effort.first().into_iter().chain(effort);
+            before.zip(effort).map(|(b, e)| 0.5 * (b + e)).collect()
         }
-        (PlantKind::Axis, false) => numerov(&run.effort),
+        (PlantKind::Axis, false) => numerov(effort),
     }
 }
 

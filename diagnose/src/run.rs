@@ -103,8 +103,6 @@ pub fn rms(values: &[f64]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-
     use crate::recorded::{NOMINAL, STEP_S, exact_axis};
 
     #[test]

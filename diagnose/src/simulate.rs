@@ -1,6 +1,6 @@
 //! This file runs a calibrated plant from the recorded inputs, without looking at the recorded output again.
 
-use crate::problem::shifted;
+use crate::problem::{lagged_yield, shifted};
 use crate::run::{PlantKind, Run};
 use rigproof_model::axis::Axis;
 use rigproof_model::bench::resistance;
@@ -139,16 +139,29 @@ fn driven(plant: &Plant, effort: &[f64], run: &Run) -> Vec<f64> {
 }
 
 fn bench(plant: &Plant, run: &Run) -> Vec<f64> {
+    let value = |mechanism: Mechanism| {
+        let effect = plant.effects.iter().find(|e| e.mechanism == mechanism);
+        effect.and_then(|e| e.parameters.first().copied())
+    };
     let mut effort = resistance(&laws(plant), &run.motion, run.step_s);
-    let gain = plant
-        .effects
-        .iter()
-        .find(|e| e.mechanism == Mechanism::GainError)
-        .and_then(|e| e.parameters.first().copied())
-        .unwrap_or(0.0);
+    let mut on_sum = vec![Mechanism::ChannelSkew, Mechanism::Lag];
     if let Some(predicted) = &run.predicted {
+        let mut predicted = predicted.clone();
+        // The yield of a brake lags; anything else lags as a whole, below.
+        if let (Some(time_constant_s), Some(_)) = (value(Mechanism::Lag), &run.current) {
+            let onset = plant.effects.iter().find(|e| e.mechanism == Mechanism::Lag);
+            let first = onset
+                .and_then(|e| e.onset_s)
+                .map_or(0, |t| run.sample_at(t));
+            let lagged = lagged_yield(&predicted, run.step_s, time_constant_s);
+            for (p, l) in predicted.iter_mut().zip(lagged).skip(first) {
+                *p = l;
+            }
+            on_sum.pop();
+        }
+        let gain = 1.0 + value(Mechanism::GainError).unwrap_or(0.0);
         for (e, p) in effort.iter_mut().zip(predicted) {
-            *e += (1.0 + gain) * p;
+            *e += gain * p;
         }
     }
     let rest = Plant {
@@ -156,7 +169,7 @@ fn bench(plant: &Plant, run: &Run) -> Vec<f64> {
         effects: plant
             .effects
             .iter()
-            .filter(|e| e.mechanism != Mechanism::GainError)
+            .filter(|e| on_sum.contains(&e.mechanism))
             .cloned()
             .collect(),
     };

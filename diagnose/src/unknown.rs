@@ -7,7 +7,7 @@ use rigproof_spec::effect::{Mechanism, Motion, Quantity};
 use rigproof_spec::units::Dimension;
 
 /// Knots of the curve.
-const KNOTS: usize = 12;
+const KNOTS: usize = 20;
 /// Share of the remaining loss that a curve must take away on left-out blocks to be drawn.
 const LEAST_SHARE: f64 = 0.02;
 

@@ -71,8 +71,8 @@ pub struct Entry {
     pub form: Form,
     /// How many of its leading parameters are linear coefficients; the others shape the law.
     pub linear: usize,
-    /// Whether it may only take energy out, so that its leading coefficient cannot be negative.
-    pub dissipative: bool,
+    /// Whether its leading coefficient cannot be negative, because the mechanism would give energy.
+    pub passive: bool,
     /// What would refute it, in words for the report.
     pub refuted_by: &'static str,
     /// The equation as the report prints it.

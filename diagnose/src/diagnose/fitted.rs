@@ -7,7 +7,7 @@ use crate::from_rig;
 use crate::problem::Inertia;
 use crate::report::{BeforeAfter, FitReport, Horizon};
 use crate::run::{PlantKind, Run};
-use crate::select::refs;
+use crate::select::{FLOOR_RATIO, refs};
 use crate::simulate::{Effect, Plant, Protocol};
 use rigproof_spec::effect::Quantity;
 
@@ -64,7 +64,8 @@ impl Stand<'_> {
             &known_all,
             self.train,
             protocol,
-            !self.selection.found.is_empty(),
+            // Where the windows leave only noise there is nothing that a drift could stand for.
+            !self.selection.found.is_empty() && self.floor().ratio_after > FLOOR_RATIO,
         );
         let nominal = show(
             &self.plant(false),

@@ -117,7 +117,7 @@ impl Stand<'_> {
         all
     }
 
-    fn floor(&self) -> Floor {
+    pub(super) fn floor(&self) -> Floor {
         let predicted = self.problem.floor;
         let before = usable_rms(self.problem, &self.selection.before.residual);
         let after = usable_rms(self.problem, &self.selection.after.residual);

@@ -5,6 +5,7 @@ use super::weigh::{
     contribution, drives, effort_beside, excitation, loss_with, own_coefficients, usable_rms,
 };
 use super::{FLOOR_RATIO, Found, Gates, TIE_Z};
+use crate::candidates::is_at_edge;
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, Fit, fit, nested_block_losses, paired};
 use crate::run::rms;
@@ -91,7 +92,8 @@ fn judge(
         && z >= gates.z
         && share >= gates.share
         && contribution(problem, &term, own) >= least
-        && !drives(&term, own);
+        && !drives(&term, own)
+        && !is_at_edge(problem, &term);
     let linear = entry(term.mechanism)?.linear;
     passes.then(|| Trial {
         parameters: linear + term.shape.len() + usize::from(term.onset_s.is_some()),

@@ -70,10 +70,10 @@ pub fn usable_rms(problem: &Problem, values: &[f64]) -> f64 {
     rms(&usable)
 }
 
-/// Whether a dissipative mechanism came out with a sign that gives energy.
+/// Whether a passive mechanism came out with a sign that gives energy.
 pub(super) fn drives(term: &Term, own: &[f64]) -> bool {
-    let dissipative = entry(term.mechanism).is_some_and(|e| e.dissipative);
-    dissipative && own.first().is_some_and(|c| *c < 0.0)
+    let passive = entry(term.mechanism).is_some_and(|e| e.passive);
+    passive && own.first().is_some_and(|c| *c < 0.0)
 }
 
 /// Loss over all blocks with one more term.

@@ -11,7 +11,7 @@ pub(super) const ENTRY: Entry = Entry {
         })
     }),
     linear: 1,
-    dissipative: false,
+    passive: false,
     refuted_by: "an offset that is the same at the start and at the end of the recording",
     equation: "rate·t",
 };

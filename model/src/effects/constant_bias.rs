@@ -11,7 +11,7 @@ pub(super) const ENTRY: Entry = Entry {
         })
     }),
     linear: 1,
-    dissipative: false,
+    passive: false,
     refuted_by: "an offset that differs between slow motion in the two directions by more than its sign",
     equation: "level",
 };

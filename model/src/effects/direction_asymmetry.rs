@@ -12,7 +12,7 @@ pub(super) const ENTRY: Entry = Entry {
         })
     }),
     linear: 2,
-    dissipative: false,
+    passive: false,
     refuted_by: "equal resistance at equal speed in both directions",
     equation: "viscous·|q̇| + dry·[q̇ ≠ 0]",
 };

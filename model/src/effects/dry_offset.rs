@@ -11,7 +11,7 @@ pub(super) const ENTRY: Entry = Entry {
         })
     }),
     linear: 1,
-    dissipative: true,
+    passive: true,
     refuted_by: "a resistance that stays the same when the motion reverses, or that vanishes with speed",
     equation: "level·sgn(q̇)",
 };

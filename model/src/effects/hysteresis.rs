@@ -15,7 +15,7 @@ pub(super) const ENTRY: Entry = Entry {
         })
     }),
     linear: 1,
-    dissipative: false,
+    passive: true,
     refuted_by: "equal force on the way out and on the way back at every amplitude",
     equation: "alpha·z, dz/dt = q̇ − beta_gamma·|q̇|·z − beta_delta·q̇·|z|",
 };

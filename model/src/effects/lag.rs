@@ -7,7 +7,7 @@ pub(super) const ENTRY: Entry = Entry {
     mechanism: Mechanism::Lag,
     form: Form::Drive,
     linear: 0,
-    dissipative: false,
+    passive: false,
     refuted_by: "an effort that follows a step of the command at once",
     equation: "time_constant·de/dt = gain·u − e",
 };
@@ -16,7 +16,7 @@ pub(super) const GAIN_ENTRY: Entry = Entry {
     mechanism: Mechanism::GainError,
     form: Form::Drive,
     linear: 1,
-    dissipative: false,
+    passive: false,
     refuted_by: "the same effort error at small and at large command",
     equation: "e = (1 + fraction)·gain·u",
 };
@@ -25,7 +25,7 @@ pub(super) const SKEW_ENTRY: Entry = Entry {
     mechanism: Mechanism::ChannelSkew,
     form: Form::Drive,
     linear: 0,
-    dissipative: false,
+    passive: false,
     refuted_by: "an effort error that does not follow the slope of the effort",
     equation: "e(t) = gain·u(t − delay)",
 };

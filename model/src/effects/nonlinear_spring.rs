@@ -11,7 +11,7 @@ pub(super) const ENTRY: Entry = Entry {
         })
     }),
     linear: 1,
-    dissipative: false,
+    passive: false,
     refuted_by: "a force that grows in proportion to position",
     equation: "cubic·q³",
 };

@@ -12,7 +12,7 @@ pub(super) const ENTRY: Entry = Entry {
         })
     }),
     linear: 1,
-    dissipative: true,
+    passive: true,
     refuted_by: "a full change of force at a reversal without any travel",
     equation: "level·w, travel·dw/dt = q̇ − |q̇|·w",
 };

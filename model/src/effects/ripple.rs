@@ -14,7 +14,7 @@ pub(super) const ENTRY: Entry = Entry {
         })
     }),
     linear: 2,
-    dissipative: false,
+    passive: false,
     refuted_by: "no line in the spectrum over position",
     equation: "sine·sin(2π·q/period) + cosine·cos(2π·q/period)",
 };

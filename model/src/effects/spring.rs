@@ -11,7 +11,7 @@ pub(super) const ENTRY: Entry = Entry {
         })
     }),
     linear: 1,
-    dissipative: false,
+    passive: true,
     refuted_by: "no change of force with position in slow motion",
     equation: "stiffness·q",
 };

@@ -14,7 +14,7 @@ pub(super) const ENTRY: Entry = Entry {
         })
     }),
     linear: 1,
-    dissipative: true,
+    passive: true,
     refuted_by: "the same resistance while slowing down to rest as in fast motion",
     equation: "peak·exp(−|q̇/speed|^exponent)·sgn(q̇)",
 };

@@ -11,7 +11,7 @@ pub(super) const ENTRY: Entry = Entry {
         })
     }),
     linear: 1,
-    dissipative: true,
+    passive: true,
     refuted_by: "a resistance that does not grow on a speed ramp",
     equation: "coefficient·q̇",
 };
