@@ -20,7 +20,7 @@ pub const INERTIA: f64 = 1.37;
 /// Resolution of the axis's position, m.
 pub const QUANTUM: f64 = 1.3e-6;
 /// Standard deviation of the bench's metered force, N.
-pub const EFFORT_NOISE: f64 = 0.017;
+pub const EFFORT_NOISE: f64 = 0.043;
 /// What the nominal axis has.
 pub const NOMINAL: Laws = &[(Mechanism::Viscous, &[7.3]), (Mechanism::Spring, &[41.7])];
 /// Steps of the reference model a sample.

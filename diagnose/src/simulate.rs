@@ -414,7 +414,7 @@ mod tests {
     fn a_free_run_with_the_true_numbers_is_the_recording() {
         let run = exact_axis(NOMINAL, 1900, true);
         let protocol = Protocol {
-            start_samples: 9,
+            start_samples: 0,
             ..Protocol::default()
         };
         let simulated = output(&plant(), &run, &protocol);
@@ -424,7 +424,7 @@ mod tests {
             .zip(&run.position)
             .map(|(s, r)| (s - r).abs())
             .fold(0.0, f64::max);
-        assert!(worst < 1e-6, "{worst} m");
+        assert!(worst < 1e-9, "{worst} m");
         let ahead = predict(&plant(), &run, 611, 700, &protocol).unwrap();
         assert!((ahead - run.position[1311]).abs() < 1e-8, "{ahead}");
     }

@@ -237,7 +237,7 @@ mod tests {
     #[test]
     fn overlapping_windows_are_correlated_and_the_noise_model_undoes_it() {
         let mut run = exact_bench(&[(Mechanism::Viscous, &[2.3])], 60_000);
-        run.position_noise = 2.9e-6;
+        run.position_noise = 1.1e-6;
         let mut noise = Noise::new(31);
         let position: Vec<f64> = (0..run.len())
             .map(|_| run.position_noise * noise.draw())
@@ -247,7 +247,7 @@ mod tests {
             .collect();
         let windows = Windows::new(&run, 0.077);
         let rows: Vec<f64> = windows
-            .apply(&windows.curvature, &[&[0.0][..], &position].concat())
+            .apply(&windows.curvature, &position)
             .iter()
             .zip(windows.average(&effort))
             .map(|(a, e)| INERTIA * a + e)
@@ -260,7 +260,10 @@ mod tests {
                 "lag {lag}"
             );
         }
-        assert!(correlation(&rows, 1) > 0.3 * correlation(&rows, 0));
+        let most = (1..=2)
+            .map(|lag| correlation(&rows, lag).abs())
+            .fold(0.0, f64::max);
+        assert!(most > 0.3 * correlation(&rows, 0), "{most}");
         let white = Whitener::new(&covariance, &vec![true; rows.len()]).whiten(&rows);
         assert!(
             (correlation(&white, 0) - 1.0).abs() < 0.08,
@@ -273,8 +276,11 @@ mod tests {
         }
     }
 
+    /// Weight of a window's end in which two samples of unknown sense still weigh little enough.
+    const LAST_WEIGHT: f64 = 0.02;
+
     #[test]
-    fn on_an_axis_no_window_touches_a_reversal_or_a_rest() {
+    fn on_an_axis_a_usable_window_holds_no_reversal_and_no_rest() {
         let mut laws = NOMINAL.to_vec();
         // Enough dry friction that the joint sticks at some reversals.
         laws.push((Mechanism::DryOffset, &[4.7]));
@@ -294,9 +300,9 @@ mod tests {
                 .filter(|(now, _)| here == 0.0 || now.sense != here)
                 .map(|(_, w)| w)
                 .sum();
-            touching += usize::from(foreign > MOST_AMBIGUOUS);
+            touching += usize::from(foreign > LAST_WEIGHT);
             assert!(
-                !usable || foreign <= MOST_AMBIGUOUS,
+                !usable || foreign <= LAST_WEIGHT,
                 "window at sample {centre}: {foreign}"
             );
         }
