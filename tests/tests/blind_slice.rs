@@ -5,7 +5,7 @@ use rigproof_diagnose::{Options, diagnose};
 use rigproof_trace::rig::Rig;
 use std::path::Path;
 
-/// Seeds of the slice: none of them was used to choose a threshold (those were 1000 to 1080).
+/// Seeds of the slice: none of them was used to choose a threshold (those were 1000 to 1379).
 const SEEDS: std::ops::Range<u64> = 200..206;
 
 fn examined(plant: Plant, seed: u64, stratum: Stratum) -> rigproof_blind::Score {
