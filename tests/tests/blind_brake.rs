@@ -1,6 +1,9 @@
 //! This file says that the brake of blind recordings is the brake of the nominal model: two programs, one set of
 //! decisions (0001 to 0006), so that a recording with nothing hidden shows nothing.
 
+mod budget;
+
+use budget::assert_within_budget;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
@@ -36,21 +39,6 @@ fn disagreements_nm(joint: Joint, steps: &[BrakeStep]) -> Vec<f64> {
             }
         })
         .collect()
-}
-
-/// Compares quantiles with the entry of `budgets.toml`.
-fn assert_within_budget(name: &str, mut values: Vec<f64>) {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/budgets.toml");
-    let budgets: toml::Table = std::fs::read_to_string(path).unwrap().parse().unwrap();
-    values.sort_by(f64::total_cmp);
-    for (key, rank) in [("q75", 0.75), ("q99", 0.99), ("max", 1.0)] {
-        let budget = budgets[name][key].as_float().unwrap();
-        let value = values[((values.len() - 1) as f64 * rank) as usize];
-        assert!(
-            value <= budget,
-            "{name}: {key} is {value:e}, tests/budgets.toml allows {budget:e}"
-        );
-    }
 }
 
 /// A stretch of constant current and speed: currents around every edge of the fits and beyond, speeds from creeping

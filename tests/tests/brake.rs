@@ -1,5 +1,8 @@
 //! This file says what holds for a brake under every current and motion, and checks it against hand calculation.
 
+mod budget;
+
+use budget::assert_within_budget;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{FileFailurePersistence, TestRunner};
@@ -266,21 +269,6 @@ fn disagreements_nm(
         disagreements_nm.extend(coarse.iter().zip(&fine).map(|(c, f)| (c - f).abs()));
     }
     disagreements_nm
-}
-
-/// Compares quantiles with the entry of `budgets.toml`.
-fn assert_within_budget(name: &str, mut values: Vec<f64>) {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/budgets.toml");
-    let budgets: toml::Table = std::fs::read_to_string(path).unwrap().parse().unwrap();
-    values.sort_by(f64::total_cmp);
-    for (key, rank) in [("q75", 0.75), ("q99", 0.99), ("max", 1.0)] {
-        let budget = budgets[name][key].as_float().unwrap();
-        let value = values[((values.len() - 1) as f64 * rank) as usize];
-        assert!(
-            value <= budget,
-            "{name}: {key} is {value:e}, tests/budgets.toml allows {budget:e}"
-        );
-    }
 }
 
 #[test]
