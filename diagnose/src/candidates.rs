@@ -90,11 +90,9 @@ fn shapes(problem: &Problem, mechanism: Mechanism, residual: &[f64]) -> Vec<Vec<
             0.2 * travel,
             12,
         )),
-        Mechanism::Hysteresis => geometric(0.2 / travel, 40.0 / travel, 6)
+        Mechanism::Hysteresis => geometric(0.2 / travel, 40.0 / travel, 8)
             .into_iter()
-            .flat_map(|gamma| {
-                [-1.4, -0.7, -0.35, 0.35, 0.7, 1.4].map(|ratio| vec![gamma, gamma * ratio])
-            })
+            .flat_map(|gamma| [-1.4, -0.5, 0.5, 1.4].map(|ratio| vec![gamma, gamma * ratio]))
             .collect(),
         Mechanism::Ripple => one(periods(problem, residual)),
         Mechanism::Lag => one(geometric(0.5 * run.step_s, 0.25, 14)),

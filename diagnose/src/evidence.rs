@@ -6,7 +6,7 @@ use crate::regression::{
     Blocks, covariance, dot, fit, free_columns, nested_block_losses, norm, paired,
 };
 use crate::report::{NotSeen, NullDirection};
-use crate::select::{Found, Gates, Selection, TIE_Z, refs};
+use crate::select::{Found, Gates, Selection, TIE_Z, best_loss, refined, refs};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
@@ -16,6 +16,8 @@ use std::collections::BTreeMap;
 
 /// Share of an effect's gain that a rival must reach to be ambiguous with it.
 const RIVAL_SHARE: f64 = 0.9;
+/// Share of an effect's gain from which on the grid of a rival's shapes is refined.
+const NEAR_RIVAL: f64 = 0.7;
 /// Bootstrap replicates of the inclusion frequency.
 const REPLICATES: usize = 500;
 
@@ -222,10 +224,24 @@ fn rivals_of(
                         .filter_map(|t| realise(problem, m, &t.shape, Some(onset_s), &effort)),
                 );
             }
-            let losses = nested_block_losses(problem, &common, &tried, blocks);
-            let (_, z) = paired(&losses, &selection.after.block_loss, &all);
-            let reached = bare.left_out() - losses.iter().sum::<f64>();
-            z < TIE_Z || (reached >= RIVAL_SHARE * gain && reached > 0.0 && z < 2.0 * TIE_Z)
+            let is_rival = |tried: &[Term]| {
+                let losses = nested_block_losses(problem, &common, tried, blocks);
+                let (_, z) = paired(&losses, &selection.after.block_loss, &all);
+                let reached = bare.left_out() - losses.iter().sum::<f64>();
+                z < TIE_Z || (reached >= RIVAL_SHARE * gain && reached > 0.0 && z < 2.0 * TIE_Z)
+            };
+            if is_rival(&tried) {
+                return true;
+            }
+            // A shape between two of the grid may do what neither of them does.
+            let Some((start, loss)) = best_loss(problem, &common, &tried, blocks) else {
+                return false;
+            };
+            let near = bare.loss - loss >= NEAR_RIVAL * (bare.loss - selection.after.loss);
+            near && !start.shape.is_empty() && {
+                tried.push(refined(problem, &common, start, blocks));
+                is_rival(&tried)
+            }
         })
         .collect()
 }

@@ -97,6 +97,9 @@ impl<'a> Problem<'a> {
         let start = inertia.start();
         let floor = windows.floor(run, start);
         let mut windows = windows;
+        if run.plant == PlantKind::Axis {
+            windows.avoid_rests(run, floor);
+        }
         if let (Some(predicted), Some(_)) = (&run.predicted, &run.current) {
             windows.avoid_steps(predicted, floor);
         }

@@ -225,6 +225,8 @@ pub struct Unknown {
     pub variable: &'static str,
     /// Unit of the variable.
     pub variable_unit: String,
+    /// Whether the curve is a level along the motion, as a friction's is, instead of an effort.
+    pub along_motion: bool,
     /// Share of the remaining energy that a curve over that variable takes away, on left-out blocks.
     pub share: f64,
     /// Points of the curve: variable, residual.

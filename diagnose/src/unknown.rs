@@ -4,77 +4,117 @@ use crate::problem::{Problem, Rows};
 use crate::regression::{Blocks, left_out_loss};
 use crate::report::Unknown;
 use rigproof_spec::effect::{Mechanism, Motion, Quantity};
-use rigproof_spec::units::Dimension;
 
-/// Knots of the curve.
+/// Knots of a curve.
 const KNOTS: usize = 20;
+/// Blocks between two knots of a curve over time: a block that is left out must leave something of each hat.
+const BLOCKS_A_KNOT: usize = 2;
 /// Share of the remaining loss that a curve must take away on left-out blocks to be drawn.
 const LEAST_SHARE: f64 = 0.02;
 
 /// Screens position, speed, time and effort for the curve that takes away most of the residual, or `None` when no
 /// curve over one of them helps.
 pub fn unknown(problem: &Problem, residual: &[f64], motion: Motion) -> Option<Unknown> {
-    let blocks = Blocks::new(problem);
-    let plain = left_out(problem, residual, &[], &blocks);
-    variables(problem, motion)
+    let screened = screen(problem, residual, variables(problem, motion));
+    let best = screened
         .into_iter()
-        .filter_map(|(name, unit, values)| {
-            let curve = hats(problem, &values);
-            let share = 1.0 - left_out(problem, residual, &curve, &blocks) / plain.max(1e-300);
-            (share > LEAST_SHARE).then_some((name, unit, values, share))
+        .filter(|(_, share)| *share > LEAST_SHARE)
+        .max_by(|a, b| a.1.total_cmp(&b.1));
+    best.map(|(variable, share)| describe(problem, residual, &variable, share))
+}
+
+/// Each variable with the share of the left-out loss that a free curve over it takes away.
+fn screen(problem: &Problem, residual: &[f64], variables: Vec<Variable>) -> Vec<(Variable, f64)> {
+    let blocks = Blocks::new(problem);
+    let plain = left_out(problem, residual, &[], &blocks).max(1e-300);
+    variables
+        .into_iter()
+        .map(|variable| {
+            let curve = variable.columns(problem, &blocks);
+            let share = 1.0 - left_out(problem, residual, &curve, &blocks) / plain;
+            (variable, share)
         })
-        .max_by(|a, b| a.3.total_cmp(&b.3))
-        .map(|(name, unit, values, share)| describe(problem, residual, name, unit, &values, share))
+        .collect()
 }
 
 /// Share of the remaining loss that a free curve must take away before the named laws over the same variable count
 /// as surrogates of another law.
 const SURROGATE_SHARE: f64 = 0.3;
 
-/// The found mechanisms that only stand in for another law over their own variable: with them in place, a free
-/// curve over that variable still takes most of the remaining loss away.
+/// The found mechanisms that only stand in for another law: with them in place, a free curve over a variable that
+/// they are functions of, or that their level should not depend on, still takes most of the remaining loss away.
 pub fn surrogates(
     problem: &Problem,
     residual: &[f64],
     found: &[Mechanism],
     motion: Motion,
 ) -> Vec<Mechanism> {
-    let blocks = Blocks::new(problem);
-    let plain = left_out(problem, residual, &[], &blocks);
-    let mut surrogates = Vec::new();
-    for (name, _, values) in variables(problem, motion) {
-        let over: Vec<Mechanism> = found
-            .iter()
-            .copied()
-            .filter(|m| variable_of(*m) == Some(name))
-            .collect();
-        if over.is_empty() {
-            continue;
-        }
-        let share =
-            1.0 - left_out(problem, residual, &hats(problem, &values), &blocks) / plain.max(1e-300);
-        if share > SURROGATE_SHARE {
-            surrogates.extend(over);
-        }
-    }
-    surrogates
+    let related = variables(problem, motion)
+        .into_iter()
+        .filter(|v| found.iter().any(|m| v.concerns(*m)))
+        .collect();
+    let curves: Vec<Variable> = screen(problem, residual, related)
+        .into_iter()
+        .filter(|(_, share)| *share > SURROGATE_SHARE)
+        .map(|(variable, _)| variable)
+        .collect();
+    let stands_in = |m: &Mechanism| curves.iter().any(|v| v.concerns(*m));
+    found.iter().copied().filter(stands_in).collect()
 }
 
-/// The variable that a memoryless law is a function of.
-fn variable_of(mechanism: Mechanism) -> Option<&'static str> {
-    match mechanism {
-        Mechanism::DryOffset
-        | Mechanism::Viscous
-        | Mechanism::Stribeck
-        | Mechanism::DirectionAsymmetry => Some("speed"),
-        Mechanism::Spring | Mechanism::NonlinearSpring | Mechanism::Ripple => Some("position"),
-        Mechanism::BiasDrift => Some("time"),
-        Mechanism::GainError => Some("effort"),
-        _ => None,
+/// What a free curve can be drawn over.
+struct Variable {
+    name: &'static str,
+    unit: String,
+    /// Whether the curve is the level of a friction: its effort is along the motion.
+    level: bool,
+    /// One value a window.
+    values: Vec<f64>,
+    /// The sense of motion of each window.
+    sense: Vec<f64>,
+}
+
+impl Variable {
+    /// Whether a mechanism is a function of this variable, or has a level that should not depend on it.
+    fn concerns(&self, mechanism: Mechanism) -> bool {
+        match mechanism {
+            Mechanism::DryOffset | Mechanism::Viscous | Mechanism::Stribeck => {
+                self.level || self.name == "speed"
+            }
+            Mechanism::DirectionAsymmetry => self.name == "speed",
+            Mechanism::Spring | Mechanism::NonlinearSpring | Mechanism::Ripple => {
+                self.name == "position" && !self.level
+            }
+            Mechanism::BiasDrift => self.name == "time" && !self.level,
+            Mechanism::GainError => self.name == "effort",
+            _ => false,
+        }
+    }
+
+    fn knots(&self, blocks: &Blocks) -> Vec<f64> {
+        let count = match self.name {
+            "time" => (blocks.ranges.len() / BLOCKS_A_KNOT + 1).min(KNOTS),
+            _ => KNOTS,
+        };
+        knots(&self.values, count)
+    }
+
+    /// Piecewise linear hats over equal shares of the windows, along the motion for a level.
+    fn columns(&self, problem: &Problem, blocks: &Blocks) -> Vec<Rows> {
+        let knots = self.knots(blocks);
+        let rows = self.values.iter().zip(&self.sense);
+        (0..knots.len())
+            .map(|k| {
+                let hat = |(v, sense): (&f64, &f64)| {
+                    hat(&knots, k, *v) * if self.level { *sense } else { 1.0 }
+                };
+                problem.rows_of(rows.clone().map(hat).collect())
+            })
+            .collect()
     }
 }
 
-fn variables(problem: &Problem, motion: Motion) -> Vec<(&'static str, String, Vec<f64>)> {
+fn variables(problem: &Problem, motion: Motion) -> Vec<Variable> {
     let at = |pick: &dyn Fn(&rigproof_model::effects::Instant) -> f64| -> Vec<f64> {
         let centres = problem.windows.centres.iter();
         centres
@@ -82,24 +122,26 @@ fn variables(problem: &Problem, motion: Motion) -> Vec<(&'static str, String, Ve
             .map(pick)
             .collect()
     };
+    let sense = at(&|now| now.sense);
     let effort = problem.windows.average(&problem.run.effort);
+    let load = effort.iter().zip(&sense).map(|(e, s)| e * s).collect();
+    let variable = |name, quantity: Quantity, level, values| Variable {
+        name,
+        unit: quantity.dimension(motion).to_string(),
+        level,
+        values,
+        sense: sense.clone(),
+    };
+    let position = at(&|now| now.position);
+    let time = at(&|now| now.time_s);
     vec![
-        (
-            "position",
-            Quantity::Travel.dimension(motion).to_string(),
-            at(&|now| now.position),
-        ),
-        (
-            "speed",
-            Quantity::Speed.dimension(motion).to_string(),
-            at(&|now| now.speed),
-        ),
-        ("time", Dimension::TIME.to_string(), at(&|now| now.time_s)),
-        (
-            "effort",
-            Quantity::Effort.dimension(motion).to_string(),
-            effort,
-        ),
+        variable("position", Quantity::Travel, false, position.clone()),
+        variable("speed", Quantity::Speed, false, at(&|now| now.speed)),
+        variable("time", Quantity::Time, false, time.clone()),
+        variable("effort", Quantity::Effort, false, effort),
+        variable("position", Quantity::Travel, true, position),
+        variable("time", Quantity::Time, true, time),
+        variable("effort", Quantity::Effort, true, load),
     ]
 }
 
@@ -109,20 +151,13 @@ fn left_out(problem: &Problem, residual: &[f64], columns: &[Rows], blocks: &Bloc
     left_out_loss(&white, columns, blocks)
 }
 
-/// Piecewise linear hats over equal shares of the windows.
-fn hats(problem: &Problem, values: &[f64]) -> Vec<Rows> {
-    let knots = knots(values);
-    (0..knots.len())
-        .map(|k| problem.rows_of(values.iter().map(|&v| hat(&knots, k, v)).collect()))
-        .collect()
-}
-
-fn knots(values: &[f64]) -> Vec<f64> {
+/// Quantiles of the values, in equal shares.
+fn knots(values: &[f64], count: usize) -> Vec<f64> {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
     let last = sorted.len().saturating_sub(1);
-    let mut knots: Vec<f64> = (0..KNOTS)
-        .filter_map(|k| sorted.get(k * last / (KNOTS - 1)).copied())
+    let mut knots: Vec<f64> = (0..count)
+        .filter_map(|k| sorted.get(k * last / (count - 1)).copied())
         .collect();
     knots.dedup();
     knots
@@ -140,37 +175,32 @@ fn hat(knots: &[f64], k: usize, value: f64) -> f64 {
     }
 }
 
-fn describe(
-    problem: &Problem,
-    residual: &[f64],
-    variable: &'static str,
-    variable_unit: String,
-    values: &[f64],
-    share: f64,
-) -> Unknown {
-    let knots = knots(values);
-    let rising = means(
-        &knots,
-        values,
-        residual,
-        &problem.windows.usable,
-        Some(true),
-    );
-    let falling = means(
-        &knots,
-        values,
-        residual,
-        &problem.windows.usable,
-        Some(false),
-    );
-    let all = means(&knots, values, residual, &problem.windows.usable, None);
-    let size = spread(&all);
-    let gap: Vec<f64> = rising.iter().zip(&falling).map(|(r, f)| r - f).collect();
-    let memory = spread(&gap) > size;
+fn describe(problem: &Problem, residual: &[f64], variable: &Variable, share: f64) -> Unknown {
+    let knots = variable.knots(&Blocks::new(problem));
+    let along: Vec<f64> = match variable.level {
+        true => residual
+            .iter()
+            .zip(&variable.sense)
+            .map(|(r, s)| r * s)
+            .collect(),
+        false => residual.to_vec(),
+    };
+    let branch = |rising| {
+        let usable = &problem.windows.usable;
+        means(&knots, &variable.values, &along, usable, rising)
+    };
+    let all = branch(None);
+    let gap: Vec<f64> = branch(Some(true))
+        .iter()
+        .zip(branch(Some(false)))
+        .map(|(r, f)| r - f)
+        .collect();
+    let memory = spread(&gap) > spread(&all);
     let parity = parity(&all);
     Unknown {
-        variable,
-        variable_unit,
+        variable: variable.name,
+        variable_unit: variable.unit.clone(),
+        along_motion: variable.level,
         share,
         shape: knots.into_iter().zip(all).collect(),
         memory,
@@ -229,8 +259,15 @@ fn parity(shape: &[f64]) -> &'static str {
     }
 }
 
-fn suggestion(variable: &str, memory: bool, parity: &str) -> &'static str {
-    match (variable, memory, parity) {
+fn suggestion(variable: &Variable, memory: bool, parity: &str) -> &'static str {
+    match (variable.name, memory, parity) {
+        ("position", _, _) if variable.level => {
+            "a friction that changes along the travel (a guide, a screw, a seal)"
+        }
+        ("time", _, _) if variable.level => {
+            "a friction that changes during the recording (temperature, settling, wear); time and dissipated energy cannot be told apart here"
+        }
+        (_, _, _) if variable.level => "a friction that depends on the load that it carries",
         ("speed", false, "odd") => {
             "a friction law that is not a straight line over speed (drag that grows faster, or fades)"
         }
@@ -281,6 +318,27 @@ mod tests {
         assert_eq!(
             surrogates(&problem, &residual, &found, Motion::Linear),
             [Mechanism::Spring]
+        );
+    }
+
+    #[test]
+    fn a_friction_whose_level_fades_is_no_dry_friction() {
+        let run = exact_bench(&[(Mechanism::Viscous, &[2.3])], 11_000);
+        let problem = Problem::new(&run, Windows::new(&run, 0.043), Inertia::None);
+        let centres = &problem.windows.centres;
+        // What a constant level leaves over of one that falls along the recording.
+        let residual: Vec<f64> = centres
+            .iter()
+            .map(|c| &run.motion[*c])
+            .map(|now| now.sense * 0.9 * (0.5 - now.time_s / run.duration_s()))
+            .collect();
+        let unknown = unknown(&problem, &residual, Motion::Linear).unwrap();
+        assert_eq!((unknown.variable, unknown.along_motion), ("time", true));
+        assert!(unknown.shape.windows(2).all(|w| w[1].1 < w[0].1));
+        let found = [Mechanism::DryOffset, Mechanism::Spring];
+        assert_eq!(
+            surrogates(&problem, &residual, &found, Motion::Linear),
+            [Mechanism::DryOffset]
         );
     }
 

@@ -7,9 +7,11 @@ use crate::run::{PlantKind, Run, rms};
 const BUMP_ORDER: i32 = 4;
 /// Share of a window's weight that may lie where the sense of motion cannot be told.
 const MOST_AMBIGUOUS: f64 = 0.002;
+/// What a friction as large as the whole effort may do there, in floors.
+const MOST_UNTOLD: f64 = 0.5;
 
 /// Averaged change of a predicted effort from sample to sample, in floors, up to which a window is used.
-const MOST_STEP: f64 = 2.0;
+const MOST_STEP: f64 = 0.5;
 
 /// The test function and the windows it is applied to.
 #[derive(Clone, Debug)]
@@ -44,7 +46,9 @@ impl Windows {
             .collect();
         let usable = centres
             .iter()
-            .map(|&centre| is_usable(run, centre, &bump))
+            .map(|&centre| {
+                is_recorded(run, centre, &bump) && untold(run, centre, &bump) <= MOST_AMBIGUOUS
+            })
             .collect();
         Windows {
             bump,
@@ -73,6 +77,15 @@ impl Windows {
         let moved = self.average(&steps);
         for (usable, moved) in self.usable.iter_mut().zip(moved) {
             *usable &= moved <= MOST_STEP * floor;
+        }
+    }
+
+    /// Gives up the windows of an axis in which a friction as large as the effort could be more than the floor where
+    /// the sense of motion cannot be told: a rest that begins or ends there is not seen.
+    pub fn avoid_rests(&mut self, run: &Run, floor: f64) {
+        let most = MOST_UNTOLD * floor / rms(&run.effort).max(1e-300);
+        for (usable, &centre) in self.usable.iter_mut().zip(&self.centres) {
+            *usable &= untold(run, centre, &self.bump) <= most;
         }
     }
 
@@ -180,22 +193,20 @@ fn second_difference(weights: &[f64], step_s: f64) -> Vec<f64> {
         .collect()
 }
 
-fn is_usable(run: &Run, centre: usize, bump: &[f64]) -> bool {
+fn is_recorded(run: &Run, centre: usize, bump: &[f64]) -> bool {
     let start = centre - bump.len() / 2 - 1;
-    let recorded = run
-        .recorded
-        .iter()
-        .skip(start)
-        .take(bump.len() + 2)
-        .all(|&r| r);
-    let motion = run.motion.iter().skip(start + 1);
-    let ambiguous: f64 = bump
-        .iter()
-        .zip(motion)
+    let mut samples = run.recorded.iter().skip(start).take(bump.len() + 2);
+    samples.all(|&r| r)
+}
+
+/// Share of a window's weight that lies where the sense of motion cannot be told.
+fn untold(run: &Run, centre: usize, bump: &[f64]) -> f64 {
+    let motion = run.motion.iter().skip(centre - bump.len() / 2);
+    let weighted = bump.iter().zip(motion);
+    weighted
         .filter(|(_, now)| now.sense.abs() < 1.0)
         .map(|(w, _)| w)
-        .sum();
-    recorded && ambiguous <= MOST_AMBIGUOUS
+        .sum()
 }
 
 #[cfg(test)]

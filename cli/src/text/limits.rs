@@ -48,7 +48,12 @@ fn shape(unknown: &Unknown) -> Vec<String> {
     };
     vec![
         format!(
-            "  a curve over {}{unit} takes away {} of it, {} in that variable, {branches}",
+            "  a {} over {}{unit} takes away {} of it, {} in that variable, {branches}",
+            if unknown.along_motion {
+                "friction level"
+            } else {
+                "curve"
+            },
             unknown.variable,
             percent(unknown.share),
             match unknown.parity {

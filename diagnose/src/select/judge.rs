@@ -108,7 +108,7 @@ fn judge(
 }
 
 /// The variant with the least loss over all blocks, and that loss.
-fn best(
+pub(crate) fn best(
     problem: &Problem,
     common: &[&Term],
     tried: &[Term],

@@ -40,7 +40,7 @@ const HALVINGS: usize = 6;
 const ONSET_HALVINGS: usize = 11;
 
 /// Pattern search over the logarithms of the shape parameters and the onset.
-pub(super) fn refined(problem: &Problem, common: &[&Term], start: Term, blocks: &Blocks) -> Term {
+pub(crate) fn refined(problem: &Problem, common: &[&Term], start: Term, blocks: &Blocks) -> Term {
     let score = |term: &Term| loss_with(problem, common, term, blocks);
     let fitted = fit(problem, common, blocks);
     let effort = effort_beside(problem, common, &start, blocks)
