@@ -105,6 +105,10 @@ impl Law for Late {
         }
     }
 
+    fn remembers(&self) -> bool {
+        self.law.remembers()
+    }
+
     fn memory_rate(&self, now: &Instant, memory: f64) -> f64 {
         self.law.memory_rate(now, memory)
     }

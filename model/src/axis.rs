@@ -110,14 +110,41 @@ impl Axis {
     fn slide(&self, from: &State, sense: f64, effort: f64, slope: f64, step_s: f64) -> State {
         let rate = |at: &State, after_s: f64| self.rate(at, sense, effort + slope * after_s);
         let half_s = 0.5 * step_s;
-        let k1 = rate(from, 0.0);
-        let k2 = rate(&from.advanced(&k1, half_s), half_s);
-        let k3 = rate(&from.advanced(&k2, half_s), half_s);
-        let k4 = rate(&from.advanced(&k3, step_s), step_s);
-        from.advanced(&k1, step_s / 6.0)
-            .advanced(&k2, step_s / 3.0)
-            .advanced(&k3, step_s / 3.0)
-            .advanced(&k4, step_s / 6.0)
+        let (mut to, mut at) = (*from, *from);
+        let mut k = rate(from, 0.0);
+        self.advance(&mut to, &k, step_s / 6.0);
+        for (after_s, made_s) in [
+            (half_s, step_s / 3.0),
+            (half_s, step_s / 3.0),
+            (step_s, step_s / 6.0),
+        ] {
+            self.place(&mut at, from, &k, after_s);
+            k = rate(&at, after_s);
+            self.advance(&mut to, &k, made_s);
+        }
+        to
+    }
+
+    /// Moves a state along `rate` for `step_s`; memories that no law has stay as they are.
+    fn advance(&self, state: &mut State, rate: &State, step_s: f64) {
+        state.time_s += step_s * rate.time_s;
+        state.position += step_s * rate.position;
+        state.speed += step_s * rate.speed;
+        let memories = state.memory.iter_mut().zip(&rate.memory);
+        for (memory, rate) in memories.take(self.laws.len()) {
+            *memory += step_s * rate;
+        }
+    }
+
+    /// Sets a state to the one that lies `step_s` along `rate` from another.
+    fn place(&self, state: &mut State, from: &State, rate: &State, step_s: f64) {
+        state.time_s = from.time_s + step_s * rate.time_s;
+        state.position = from.position + step_s * rate.position;
+        state.speed = from.speed + step_s * rate.speed;
+        let memories = state.memory.iter_mut().zip(&from.memory).zip(&rate.memory);
+        for ((memory, from), rate) in memories.take(self.laws.len()) {
+            *memory = from + step_s * rate;
+        }
     }
 
     /// The time derivative of the state, in the state's own fields.
@@ -157,20 +184,6 @@ fn instant(state: &State, sense: f64) -> Instant {
         position: state.position,
         speed: state.speed,
         sense,
-    }
-}
-
-impl State {
-    /// The state after moving along `rate` for `step_s`.
-    fn advanced(&self, rate: &State, step_s: f64) -> State {
-        let mut to = *self;
-        to.time_s += step_s * rate.time_s;
-        to.position += step_s * rate.position;
-        to.speed += step_s * rate.speed;
-        for (memory, rate) in to.memory.iter_mut().zip(&rate.memory) {
-            *memory += step_s * rate;
-        }
-        to
     }
 }
 
