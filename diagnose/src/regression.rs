@@ -2,6 +2,7 @@
 
 use crate::problem::{Problem, Rows, Term};
 use nalgebra::{DMatrix, DVector};
+use std::sync::Arc;
 
 /// Blocks of time that are left out in turn.
 #[derive(Clone, Debug)]
@@ -100,6 +101,18 @@ pub fn fit(problem: &Problem, terms: &[&Term], blocks: &Blocks) -> Fit {
     }
 }
 
+/// The loss over all windows of a fit, without the fit.
+pub fn loss_of(problem: &Problem, terms: &[&Term]) -> f64 {
+    let columns = free_columns(problem, terms);
+    let target = reduced_target(problem, terms);
+    let redundant = redundancy(&columns);
+    let own: Vec<&[f64]> = kept(&columns, &redundant)
+        .map(|rows| rows.white.as_slice())
+        .collect();
+    let all = normal(&own, &target.white, 0, target.white.len());
+    loss(&all, &solve(&all))
+}
+
 /// The left-out losses when, inside each fold, the best of several variants is chosen on the other blocks.
 pub fn nested_block_losses(
     problem: &Problem,
@@ -144,13 +157,17 @@ pub fn free_columns<'b>(problem: &'b Problem, terms: &[&'b Term]) -> Vec<&'b Row
     let of_terms = terms
         .iter()
         .filter(|t| t.known.is_none())
-        .flat_map(|t| &t.free);
+        .flat_map(|t| t.free.iter().map(Arc::as_ref));
     problem.inertia_column.iter().chain(of_terms).collect()
 }
 
-/// The target less the columns that enter with a given coefficient.
+/// The target less the columns that enter with a given coefficient, window by window.
 pub fn reduced_target(problem: &Problem, terms: &[&Term]) -> Rows {
-    let mut target = problem.target.clone();
+    let mut target = Rows {
+        signal: Vec::new(),
+        raw: problem.target.raw.clone(),
+        white: problem.target.white.clone(),
+    };
     for term in terms {
         let known = term.known.iter().flatten().copied().zip(&term.free);
         for (times, rows) in known.chain(term.fixed.iter().map(|rows| (1.0, rows))) {
@@ -431,7 +448,7 @@ mod tests {
             mechanism: Mechanism::Viscous,
             shape: Vec::new(),
             onset_s: None,
-            free: vec![rows(column.clone())],
+            free: vec![Arc::new(rows(column.clone()))],
             fixed: None,
             known: None,
         };
