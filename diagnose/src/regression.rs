@@ -69,9 +69,7 @@ pub fn fit(problem: &Problem, terms: &[&Term], blocks: &Blocks) -> Fit {
     let columns = free_columns(problem, terms);
     let target = reduced_target(problem, terms);
     let redundant = redundancy(&columns);
-    let own: Vec<&[f64]> = kept(&columns, &redundant)
-        .map(|rows| rows.white.as_slice())
-        .collect();
+    let own = kept(&columns, &redundant);
     let all = normal(&own, &target.white, 0, target.white.len());
     let solution = solve(&all);
     let block_loss = block_losses(&own, &target.white, blocks);
@@ -106,9 +104,7 @@ pub fn loss_of(problem: &Problem, terms: &[&Term]) -> f64 {
     let columns = free_columns(problem, terms);
     let target = reduced_target(problem, terms);
     let redundant = redundancy(&columns);
-    let own: Vec<&[f64]> = kept(&columns, &redundant)
-        .map(|rows| rows.white.as_slice())
-        .collect();
+    let own = kept(&columns, &redundant);
     let all = normal(&own, &target.white, 0, target.white.len());
     loss(&all, &solve(&all))
 }
@@ -127,9 +123,7 @@ pub fn nested_block_losses(
         let columns = free_columns(problem, &terms);
         let target = reduced_target(problem, &terms);
         let redundant = redundancy(&columns);
-        let own: Vec<&[f64]> = kept(&columns, &redundant)
-            .map(|rows| rows.white.as_slice())
-            .collect();
+        let own = kept(&columns, &redundant);
         for (best, (trained, left_out)) in
             best.iter_mut()
                 .zip(fold_losses(&own, &target.white, blocks))
@@ -146,9 +140,7 @@ pub fn nested_block_losses(
 pub fn left_out_loss(target: &[f64], columns: &[Rows], blocks: &Blocks) -> f64 {
     let columns: Vec<&Rows> = columns.iter().collect();
     let redundant = redundancy(&columns);
-    let own: Vec<&[f64]> = kept(&columns, &redundant)
-        .map(|rows| rows.white.as_slice())
-        .collect();
+    let own = kept(&columns, &redundant);
     block_losses(&own, target, blocks).iter().sum()
 }
 
@@ -182,12 +174,10 @@ pub fn reduced_target(problem: &Problem, terms: &[&Term]) -> Rows {
     target
 }
 
-fn kept<'b>(columns: &'b [&'b Rows], redundant: &'b [bool]) -> impl Iterator<Item = &'b Rows> {
-    columns
-        .iter()
-        .zip(redundant)
-        .filter(|(_, r)| !**r)
-        .map(|(c, _)| *c)
+/// The white columns that are not redundant.
+fn kept<'b>(columns: &[&'b Rows], redundant: &[bool]) -> Vec<&'b [f64]> {
+    let own = columns.iter().zip(redundant).filter(|(_, r)| !**r);
+    own.map(|(rows, _)| rows.white.as_slice()).collect()
 }
 
 /// Modified Gram-Schmidt in order: a column that hardly stands out of the earlier ones is redundant.
