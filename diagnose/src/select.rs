@@ -58,6 +58,8 @@ pub struct Stage {
     pub entered: Mechanism,
     /// All mechanisms that stood then.
     pub standing: Vec<Mechanism>,
+    /// The shape and the onset of each of them.
+    pub shapes: Vec<(Vec<f64>, Option<f64>)>,
     /// Root-mean-square residual of the windows, N or N·m.
     pub residual: f64,
 }
@@ -178,6 +180,7 @@ fn search(
         stages.push(Stage {
             entered,
             standing: found.iter().map(|f| f.term.mechanism).collect(),
+            shapes: shapes(&found),
             residual: usable_rms(problem, &residual),
         });
         let standing: Vec<Mechanism> = found.iter().map(|f| f.term.mechanism).collect();
@@ -190,6 +193,11 @@ fn search(
         }
     }
     found
+}
+
+fn shapes(found: &[Found]) -> Vec<(Vec<f64>, Option<f64>)> {
+    let terms = found.iter().map(|f| &f.term);
+    terms.map(|t| (t.shape.clone(), t.onset_s)).collect()
 }
 
 /// A mechanism that came in by replacing others is a stage of its own.
@@ -210,6 +218,7 @@ fn note_swaps(
         stages.push(Stage {
             entered: new,
             standing: found.iter().map(|f| f.term.mechanism).collect(),
+            shapes: shapes(found),
             residual: usable_rms(problem, &residual),
         });
     }
