@@ -6,7 +6,7 @@
 //! therefore never drives, at any step.
 
 use crate::element::{Element, Instant, sliding_resistance, total_bound};
-use crate::law::{Effect, Law};
+use crate::law::{Effect, Law, skew_s};
 use crate::run::{Delay, Run};
 use crate::setup::{Drive, Setup};
 
@@ -25,10 +25,7 @@ pub fn run(
     let delay_s = skew_s(hidden);
     let mut late_position = Delay::new(delay_s, step_s);
     let mut late_command = Delay::new(delay_s.abs(), step_s);
-    let mut run = Run {
-        hidden: vec![Vec::with_capacity(samples); hidden.len()],
-        ..Run::default()
-    };
+    let mut run = Run::new(hidden.len(), samples);
     let mut last_velocity = joint.velocity;
     for fine in 0..samples * fine_steps {
         let time_s = fine as f64 * step_s;
@@ -36,11 +33,8 @@ pub fn run(
         late_position.push(joint.position);
         late_command.push(command_v);
         if fine.is_multiple_of(fine_steps) {
-            run.time_s.push(time_s);
-            run.position.push(joint.position);
-            run.velocity.push(joint.velocity);
-            run.moving.push(joint.velocity != 0.0);
-            run.shown_position.push(late_position.value());
+            let shown = late_position.value();
+            run.take(time_s, joint.position, joint.velocity, shown);
             run.shown_input.push(if delay_s < 0.0 {
                 late_command.value()
             } else {
@@ -70,16 +64,6 @@ pub fn run(
         joint.step(time_s, effort, step_s);
     }
     run
-}
-
-fn skew_s(hidden: &[Effect]) -> f64 {
-    hidden
-        .iter()
-        .find_map(|effect| match effect.law {
-            Law::Skew { delay } => Some(delay),
-            _ => None,
-        })
-        .unwrap_or(0.0)
 }
 
 /// The servo's command at an instant, V.

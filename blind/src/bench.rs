@@ -5,7 +5,7 @@
 
 use crate::brake::{Brake, BrakeStep};
 use crate::element::{Element, Instant, sliding_resistance};
-use crate::law::{Effect, Law};
+use crate::law::{Effect, Law, skew_s};
 use crate::run::{Delay, Run};
 use crate::setup::Setup;
 
@@ -14,20 +14,11 @@ pub fn run(setup: &Setup, known: &[Law], hidden: &[Effect], fine_steps: usize) -
     let step_s = 1.0 / (setup.rate_hz * fine_steps as f64);
     let samples = (setup.duration_s * setup.rate_hz) as usize;
     let mut bench = Bench::new(setup, known, hidden);
-    let delay_s = hidden
-        .iter()
-        .find_map(|effect| match effect.law {
-            Law::Skew { delay } => Some(delay),
-            _ => None,
-        })
-        .unwrap_or(0.0);
+    let delay_s = skew_s(hidden);
     let mut late_position = Delay::new(-delay_s, step_s);
     let mut late_effort = Delay::new(delay_s, step_s);
     let mut skewed = Delay::new(delay_s.abs(), step_s);
-    let mut run = Run {
-        hidden: vec![Vec::with_capacity(samples); hidden.len()],
-        ..Run::default()
-    };
+    let mut run = Run::new(hidden.len(), samples);
     for fine in 0..samples * fine_steps {
         let time_s = fine as f64 * step_s;
         if fine > 0 {
@@ -39,11 +30,7 @@ pub fn run(setup: &Setup, known: &[Law], hidden: &[Effect], fine_steps: usize) -
         late_effort.push(effort);
         skewed.push(effort);
         if fine.is_multiple_of(fine_steps) {
-            run.time_s.push(time_s);
-            run.position.push(at.position);
-            run.velocity.push(at.velocity);
-            run.moving.push(at.velocity != 0.0);
-            run.shown_position.push(late_position.value());
+            run.take(time_s, at.position, at.velocity, late_position.value());
             run.shown_effort.push(late_effort.value());
             if let Some((_, currents)) = setup.brake() {
                 run.shown_input.push(currents.at(time_s));

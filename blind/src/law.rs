@@ -237,3 +237,12 @@ impl Effect {
         self.onset_s.is_none_or(|onset_s| time_s >= onset_s)
     }
 }
+
+/// The time by which a hidden skew delays a channel, s; 0 without one.
+pub fn skew_s(hidden: &[Effect]) -> f64 {
+    let skew = hidden.iter().find_map(|effect| match effect.law {
+        Law::Skew { delay } => Some(delay),
+        _ => None,
+    });
+    skew.unwrap_or(0.0)
+}

@@ -19,6 +19,25 @@ pub struct Run {
     pub hidden: Vec<Vec<f64>>,
 }
 
+impl Run {
+    /// An empty run with room for this many effects and samples.
+    pub fn new(effects: usize, samples: usize) -> Run {
+        Run {
+            hidden: vec![Vec::with_capacity(samples); effects],
+            ..Run::default()
+        }
+    }
+
+    /// Takes one instant of the motion, and what the position channel shows of it.
+    pub fn take(&mut self, time_s: f64, position: f64, velocity: f64, shown_position: f64) {
+        self.time_s.push(time_s);
+        self.position.push(position);
+        self.velocity.push(velocity);
+        self.moving.push(velocity != 0.0);
+        self.shown_position.push(shown_position);
+    }
+}
+
 /// A signal's recent past on the fine grid, to show a channel late.
 #[derive(Clone, Debug)]
 pub struct Delay {

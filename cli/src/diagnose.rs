@@ -7,7 +7,7 @@ use rigproof_diagnose::{Diagnosis, Options, diagnose};
 use rigproof_trace::rig::Rig;
 use rigproof_trace::store::Folder;
 
-use crate::input::{self, Cut};
+use crate::input::{self, Cut, Source};
 use crate::outcome::{Failure, Outcome, print};
 use crate::{folder, progress, shell, text};
 
@@ -15,11 +15,8 @@ use crate::{folder, progress, shell, text};
 #[derive(clap::Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct Args {
-    /// The recording, CSV
-    recording: PathBuf,
-    /// The rig description: what the channels mean and which physics the nominal model has
-    #[arg(long, value_name = "TOML")]
-    rig: PathBuf,
+    #[command(flatten)]
+    source: Source,
     /// Another recording of the rig, on which the result is shown
     #[arg(long, value_name = "CSV", conflicts_with = "hold_out_share")]
     hold_out: Option<PathBuf>,
@@ -29,8 +26,6 @@ pub struct Args {
     /// The folder to write [default: the recording's name with `-diagnosis`]
     #[arg(long, value_name = "FOLDER")]
     out: Option<PathBuf>,
-    #[command(flatten)]
-    cut: Cut,
     /// Print the report as JSON
     #[arg(long)]
     json: bool,
@@ -52,16 +47,16 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     let out = out(args)?;
     // A wrong place is refused before the work, not after it.
     drop(Folder::begin(&out)?);
-    let rig = Rig::read(&args.rig)?;
-    let recording = input::recording(&rig, &args.recording, args.cut)?;
+    let rig = Rig::read(&args.source.rig)?;
+    let recording = input::recording(&rig, &args.source.recording, args.source.cut)?;
     let held_out = match &args.hold_out {
         Some(file) => Some(input::recording(&rig, file, Cut::default())?),
         None => None,
     };
     let files = [
-        Some(&args.recording),
+        Some(&args.source.recording),
         args.hold_out.as_ref(),
-        Some(&args.rig),
+        Some(&args.source.rig),
     ];
     let identities = files.into_iter().flatten();
     let identities = identities.map(|file| input::identity(file));
@@ -114,8 +109,8 @@ fn next(args: &Args, out: &Path, report: &Report) -> String {
         _ => shell::line(
             &["rigproof", "simulate"],
             &[
-                ("", args.hold_out.as_ref().unwrap_or(&args.recording)),
-                ("--rig", &args.rig),
+                ("", args.hold_out.as_ref().unwrap_or(&args.source.recording)),
+                ("--rig", &args.source.rig),
                 ("--calibration", &calibration),
             ],
         ),
@@ -126,8 +121,8 @@ fn out(args: &Args) -> Result<PathBuf, Failure> {
     if let Some(out) = &args.out {
         return Ok(out.clone());
     }
-    let Some(stem) = args.recording.file_stem() else {
-        let file = args.recording.display();
+    let Some(stem) = args.source.recording.file_stem() else {
+        let file = args.source.recording.display();
         return Err(Failure::Input(format!(
             "{file}: it names no file; name a recording"
         )));

@@ -2,7 +2,7 @@
 
 use std::fs::File;
 use std::io::Read;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use rigproof_diagnose::report::InputFile;
 use rigproof_trace::csv::LEAST_SAMPLES;
@@ -21,6 +21,18 @@ pub struct Cut {
     /// Leave out what was recorded after this time stamp
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     to_s: Option<f64>,
+}
+
+/// A recording, the rig it is of, and the part that counts.
+#[derive(Clone, Debug, clap::Args)]
+pub struct Source {
+    /// The recording, CSV
+    pub recording: PathBuf,
+    /// The rig description: what the channels mean and which physics the nominal model has
+    #[arg(long, value_name = "TOML")]
+    pub rig: PathBuf,
+    #[command(flatten)]
+    pub cut: Cut,
 }
 
 /// Reads a recording of a rig and cuts it.

@@ -12,7 +12,7 @@ use rigproof_trace::rig::{Rig, motion_name};
 use rigproof_trace::{Channel, Trace, csv};
 use serde_json::json;
 
-use crate::input::{self, Cut};
+use crate::input::{self, Source};
 use crate::outcome::{Failure, Outcome, print};
 use crate::progress;
 use crate::text::number::{significant, with_unit};
@@ -21,19 +21,14 @@ use crate::text::number::{significant, with_unit};
 #[derive(clap::Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct Args {
-    /// The recording, CSV
-    recording: PathBuf,
-    /// The rig description
-    #[arg(long, value_name = "TOML")]
-    rig: PathBuf,
+    #[command(flatten)]
+    source: Source,
     /// The calibration that a diagnosis wrote; without it the rig's own numbers count
     #[arg(long, value_name = "TOML")]
     calibration: Option<PathBuf>,
     /// A CSV file to write: time, recorded and simulated output
     #[arg(long, value_name = "CSV")]
     out: Option<PathBuf>,
-    #[command(flatten)]
-    cut: Cut,
     /// Print the result as JSON
     #[arg(long)]
     json: bool,
@@ -48,11 +43,11 @@ Example:
 
 /// Simulates, compares, and writes both outputs.
 pub fn run(args: &Args) -> Result<Outcome, Failure> {
-    let rig = Rig::read(&args.rig)?;
-    let recording = input::recording(&rig, &args.recording, args.cut)?;
+    let rig = Rig::read(&args.source.rig)?;
+    let recording = input::recording(&rig, &args.source.recording, args.source.cut)?;
     let model = model(args, &rig)?;
     let run = from_rig::aligned(&model, &recording)
-        .map_err(|fault| Failure::Input(refusal(&args.recording, &fault)))?;
+        .map_err(|fault| Failure::Input(refusal(&args.source.recording, &fault)))?;
     let protocol = from_rig::protocol(&model);
     let mark = progress::spinner("simulating");
     let simulated = output(&from_rig::plant(&model), &run, &protocol);
@@ -135,8 +130,8 @@ fn say(args: &Args, unit: &str, comparison: &Comparison) -> Result<Outcome, Fail
     let path = |path: &Option<PathBuf>| path.as_ref().map(|path| path.display().to_string());
     if args.json {
         let result = json!({
-            "recording": args.recording.display().to_string(),
-            "rig": args.rig.display().to_string(),
+            "recording": args.source.recording.display().to_string(),
+            "rig": args.source.rig.display().to_string(),
             "calibration": path(&args.calibration),
             "unit": unit,
             "samples": comparison.pairs,

@@ -14,6 +14,7 @@ pub fn report(report: &Report) -> String {
         vec![head],
         found::place(report),
         found::naming(report),
+        found::inverse(report),
         found::effects(report),
         found::nominal(report),
         fit::before_after(report),

@@ -1,7 +1,10 @@
 //! This file says what a diagnosis costs over the length of a recording, and what the free run costs.
 #![allow(clippy::unwrap_used, reason = "a bench may stop at the first surprise")]
 
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use core::f64::consts::TAU;
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use rand_pcg::Pcg64Mcg;
+use rand_pcg::rand_core::{Rng, SeedableRng};
 use rigproof_diagnose::simulate::output;
 use rigproof_diagnose::{Options, diagnose, from_rig};
 use rigproof_model::axis::Axis;
@@ -16,7 +19,7 @@ const RIG: &str = r#"name = "slide"
 plant = "axis"
 motion = "linear"
 [channels]
-position = { channel = "x", unit = "m", quantum = 1e-6 }
+position = { channel = "x", unit = "m", noise = 1e-6 }
 command = { channel = "u", unit = "N", quantum = 1e-3 }
 [parameters]
 inertia = { value = 1.3, unit = "kg", status = "unknown" }
@@ -32,8 +35,16 @@ drive = "held"
 "#;
 
 const STEP_S: f64 = 1e-3;
+/// Period of the motion, s: a longer recording is the same motion more often, with other noise.
+const PERIOD_S: f64 = 2.5;
+/// Standard deviation of the position's noise, m, as the rig states it.
+const NOISE_M: f64 = 1e-6;
+/// Shortest recording, s, and how many times longer the others are.
+const SHORTEST_S: f64 = 7.5;
+const TIMES: [usize; 3] = [1, 4, 16];
 
-/// A slide on a spring under three sines, with the dry friction that its rig leaves out; 1 kHz.
+/// A slide on a spring under three sines that repeat, with the dry friction that its rig leaves out; 1 kHz. It has
+/// run in for one period before the recording begins.
 fn recording(rig: &Rig, duration_s: f64) -> Recording {
     let laws: [(Mechanism, &[f64]); 3] = [
         (Mechanism::Viscous, &[7.3]),
@@ -47,17 +58,26 @@ fn recording(rig: &Rig, duration_s: f64) -> Recording {
             .map(|(m, values)| law(*m, values).unwrap())
             .collect(),
     };
+    let mut random = Pcg64Mcg::seed_from_u64(29);
+    // Twelve uniform numbers less six: standard deviation 1, close to Gaussian.
+    let mut noise = || {
+        let uniform = |x: u64| (x >> 11) as f64 / (1u64 << 53) as f64;
+        (0..12).map(|_| uniform(random.next_u64())).sum::<f64>() - 6.0
+    };
     let mut state = axis.state(0.0, 0.013, 0.0);
     let (mut time_s, mut position, mut command) = (Vec::new(), Vec::new(), Vec::new());
-    for k in 0..(duration_s / STEP_S) as usize {
-        let t = k as f64 * STEP_S;
-        let exact = 6.3 * libm::sin(2.33 * t)
-            + 5.1 * libm::sin(5.2 * t + 1.2)
-            + 2.7 * libm::sin(11.9 * t + 0.4);
+    let run_in = (PERIOD_S / STEP_S) as usize;
+    for k in 0..run_in + (duration_s / STEP_S) as usize {
+        let turn = TAU * (k % run_in) as f64 / run_in as f64;
+        let exact = 6.3 * libm::sin(turn)
+            + 5.1 * libm::sin(2.0 * turn + 1.2)
+            + 2.7 * libm::sin(5.0 * turn + 0.4);
         let sent = 1e-3 * (exact * 1e3).round();
-        time_s.push(t);
-        position.push(1e-6 * (state.position * 1e6).round());
-        command.push(sent);
+        if k >= run_in {
+            time_s.push((k - run_in) as f64 * STEP_S);
+            position.push(state.position + NOISE_M * noise());
+            command.push(sent);
+        }
         axis.step(&mut state, sent, sent, STEP_S);
     }
     let channel = |name: &str, unit: &str, samples| Channel {
@@ -74,26 +94,25 @@ fn recording(rig: &Rig, duration_s: f64) -> Recording {
 
 fn lengths(criterion: &mut Criterion) {
     let rig = Rig::parse(RIG, Path::new("rig.toml")).unwrap();
-    let naming = Options {
-        refit: false,
+    let options = |refit| Options {
+        refit,
         ..Options::default()
     };
-    for (name, samples) in [("diagnose", 10), ("free_run", 20)] {
+    for (name, samples) in [("name", 10), ("diagnose", 10), ("free_run", 20)] {
         let mut group = criterion.benchmark_group(name);
         group.sample_size(samples);
-        for duration_s in [6.25, 25.0, 100.0] {
-            let recording = recording(&rig, duration_s);
+        for times in TIMES {
+            let recording = recording(&rig, SHORTEST_S * times as f64);
             let run = from_rig::aligned(&rig, &recording).unwrap();
             let (plant, protocol) = (from_rig::plant(&rig), from_rig::protocol(&rig));
             group.throughput(Throughput::Elements(recording.time_s.len() as u64));
-            group.bench_function(BenchmarkId::from_parameter(duration_s), |bencher| {
+            group.bench_function(format!("{times}x"), |bencher| {
                 bencher.iter(|| match name {
-                    "diagnose" => {
-                        black_box(diagnose(&rig, &recording, None, &naming))
-                            .curves
-                            .after
+                    "free_run" => black_box(output(&plant, &run, &protocol)),
+                    _ => {
+                        let found = diagnose(&rig, &recording, None, &options(name == "diagnose"));
+                        black_box(found).curves.after
                     }
-                    _ => black_box(output(&plant, &run, &protocol)),
                 });
             });
         }

@@ -4,7 +4,7 @@ use crate::filter::{LowPass, gradient};
 use crate::run::{PlantKind, Run, rms};
 use core::cmp::Ordering;
 use rigproof_model::effects::Instant;
-use rustfft::{FftPlanner, num_complex::Complex64};
+use rustfft::{FftPlannerScalar, num_complex::Complex64};
 
 /// What stage 0 takes: the plant's roles in SI units, NaN where nothing was recorded.
 #[derive(Clone, Debug)]
@@ -365,7 +365,7 @@ pub fn band_hz(effort: &[f64], step_s: f64) -> f64 {
         .iter()
         .map(|x| Complex64::new(x - mean, 0.0))
         .collect();
-    FftPlanner::new()
+    FftPlannerScalar::new()
         .plan_fft_forward(spectrum.len())
         .process(&mut spectrum);
     let power: Vec<f64> = spectrum

@@ -28,7 +28,11 @@ pub fn variants(
     let effort = modelled_effort(problem, terms, fitted);
     shapes(problem, mechanism, &fitted.residual)
         .iter()
-        .filter_map(|shape| realise(problem, mechanism, shape, None, &effort))
+        .filter_map(|shape| {
+            problem
+                .kept_term(mechanism, shape)
+                .or_else(|| realise(problem, mechanism, shape, None, &effort))
+        })
         .collect()
 }
 

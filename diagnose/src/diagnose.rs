@@ -2,6 +2,7 @@
 
 mod ended;
 mod fitted;
+mod stages;
 mod words;
 mod write;
 

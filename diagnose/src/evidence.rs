@@ -234,7 +234,7 @@ fn rivals_of(
                 return true;
             }
             // A shape between two of the grid may do what neither of them does.
-            let Some((start, loss)) = best_loss(problem, &common, &tried, blocks) else {
+            let Some((start, loss)) = best_loss(problem, &common, &tried) else {
                 return false;
             };
             let near = bare.loss - loss >= NEAR_RIVAL * (bare.loss - selection.after.loss);

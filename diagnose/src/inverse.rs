@@ -8,10 +8,12 @@ use rigproof_model::bench::column;
 use rigproof_model::effects::{Instant, entry, law};
 use rigproof_spec::effect::Mechanism;
 
+/// Order of the position filter (Butterworth, forward and backward), as published.
+pub const FILTER_ORDER: usize = 4;
 /// Cut-off of the position filter, Hz, as published for 1 kHz recordings.
-const CUTOFF_HZ: f64 = 100.0;
+pub const CUTOFF_HZ: f64 = 100.0;
 /// Decimation factor, as published.
-const DECIMATION: usize = 10;
+pub const DECIMATION: usize = 10;
 /// Samples dropped at each end, where the filters see no data.
 const BORDER: usize = 50;
 
@@ -28,13 +30,14 @@ pub struct InverseModel {
 
 /// Fits the inverse model of an axis with these memoryless mechanisms (given with their shapes).
 ///
-/// `None` on a bench, on a recording slower than 400 Hz, or when the columns are dependent.
+/// `None` on a bench, on a recording slower than 400 Hz, or with a mechanism that has a memory or acts on the drive.
 pub fn inverse_model(run: &Run, mechanisms: &[(Mechanism, Vec<f64>)]) -> Option<InverseModel> {
     let rate_hz = 1.0 / run.step_s;
     if run.plant == PlantKind::Bench || rate_hz < 4.0 * CUTOFF_HZ {
         return None;
     }
-    let position = LowPass::butterworth(4, 2.0 * CUTOFF_HZ / rate_hz).zero_phase(&run.position);
+    let position =
+        LowPass::butterworth(FILTER_ORDER, 2.0 * CUTOFF_HZ / rate_hz).zero_phase(&run.position);
     let speed = gradient(&position, run.step_s);
     let acceleration = gradient(&speed, run.step_s);
     let motion: Vec<Instant> = position
@@ -54,11 +57,18 @@ pub fn inverse_model(run: &Run, mechanisms: &[(Mechanism, Vec<f64>)]) -> Option<
             let mut parameters = vec![0.0; entry(*mechanism)?.linear];
             *parameters.get_mut(index)? = 1.0;
             parameters.extend_from_slice(shape);
-            let law = law(*mechanism, &parameters)?;
+            let law = law(*mechanism, &parameters).filter(|law| !law.remembers())?;
             columns.push(decimated(&column(law.as_ref(), &motion, run.step_s)));
         }
     }
     solve(&columns, &decimated(&run.effort), mechanisms)
+}
+
+/// The protocol in words.
+pub fn protocol() -> String {
+    format!(
+        "position through a Butterworth low-pass of order {FILTER_ORDER} at {CUTOFF_HZ} Hz, forward and backward; central differences; {BORDER} samples dropped at each end; every {DECIMATION}th sample of all columns after a Chebyshev low-pass of order 8; ordinary least squares of the inertia and of every linear number; 100·‖effort − model‖ / ‖effort‖"
+    )
 }
 
 fn decimated(signal: &[f64]) -> Vec<f64> {

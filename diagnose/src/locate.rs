@@ -196,15 +196,17 @@ fn since_reversal_s(problem: &Problem) -> Vec<f64> {
             sense = now.sense;
         }
     }
-    problem
-        .windows
-        .times_s()
-        .iter()
+    // Both are in the order of time, so that one pass finds the reversals on either side of each window.
+    let mut past = f64::NEG_INFINITY;
+    let mut coming = reversals.into_iter().peekable();
+    let times = problem.windows.times_s().into_iter();
+    times
         .map(|t| {
-            reversals
-                .iter()
-                .map(|r| (t - r).abs())
-                .fold(f64::INFINITY, f64::min)
+            while let Some(reversal) = coming.next_if(|r| *r <= t) {
+                past = reversal;
+            }
+            let next = coming.peek().copied().unwrap_or(f64::INFINITY);
+            (t - past).abs().min((t - next).abs())
         })
         .collect()
 }

@@ -5,9 +5,11 @@ use crate::filter::gradient;
 use crate::run::{PlantKind, Run};
 use crate::weak::Windows;
 use crate::whiten::{ORDER, Whitener};
+use core::cell::RefCell;
 use rigproof_model::bench::column;
 use rigproof_model::effects::{Form, entry, first_order_lag, law};
 use rigproof_spec::effect::Mechanism;
+use std::sync::Arc;
 
 /// One column of the regression over all windows.
 #[derive(Clone, Debug)]
@@ -30,9 +32,9 @@ pub struct Term {
     /// When it begins, s; `None` from the start.
     pub onset_s: Option<f64>,
     /// Columns whose coefficients are the linear parameters.
-    pub free: Vec<Rows>,
+    pub free: Vec<Arc<Rows>>,
     /// A column that enters with coefficient 1: a change of the drive.
-    pub fixed: Option<Rows>,
+    pub fixed: Option<Arc<Rows>>,
     /// Given values of the linear parameters, where the nominal model states them as known.
     pub known: Option<Vec<f64>>,
 }
@@ -89,6 +91,8 @@ pub struct Problem<'a> {
     pub inertia: Inertia,
     /// Predicted standard deviation of one residual from sensor noise alone.
     pub floor: f64,
+    /// Terms from the start of the recording that are asked for again and again.
+    kept: RefCell<Vec<Term>>,
 }
 
 impl<'a> Problem<'a> {
@@ -128,6 +132,7 @@ impl<'a> Problem<'a> {
             inertia,
             floor,
             windows,
+            kept: RefCell::default(),
         };
         problem.whiten_own();
         problem
@@ -144,6 +149,11 @@ impl<'a> Problem<'a> {
             .noise_covariance(self.run, inertia, excess, ORDER + 1);
         self.whitener = Whitener::new(&covariance, &self.windows.usable);
         self.whiten_own();
+        let mut kept = self.kept.take();
+        for term in &mut kept {
+            self.refresh(term);
+        }
+        self.kept = RefCell::new(kept);
     }
 
     /// A column given window by window.
@@ -168,11 +178,19 @@ impl<'a> Problem<'a> {
         if let Form::Drive = entry.form {
             return None;
         }
-        let free = self
-            .resistance_columns(mechanism, entry.linear, shape)
-            .into_iter()
-            .map(|signal| self.rows(self.seen(signal), onset_s))
-            .collect();
+        let free = match (self.kept(mechanism, shape), onset_s) {
+            (Some(kept), None) => return Some(kept),
+            (Some(kept), onset_s) => kept
+                .free
+                .iter()
+                .map(|rows| Arc::new(self.rows(rows.signal.clone(), onset_s)))
+                .collect(),
+            (None, onset_s) => self
+                .resistance_columns(mechanism, entry.linear, shape)
+                .into_iter()
+                .map(|signal| Arc::new(self.rows(self.seen(signal), onset_s)))
+                .collect(),
+        };
         Some(Term {
             mechanism,
             shape: shape.to_vec(),
@@ -181,6 +199,22 @@ impl<'a> Problem<'a> {
             fixed: None,
             known: None,
         })
+    }
+
+    /// The term of a resistance that acts from the start, kept for the next time: for shapes that are tried in every
+    /// step of the search.
+    pub fn kept_term(&self, mechanism: Mechanism, shape: &[f64]) -> Option<Term> {
+        self.kept(mechanism, shape).or_else(|| {
+            let term = self.term(mechanism, shape, None)?;
+            self.kept.borrow_mut().push(term.clone());
+            Some(term)
+        })
+    }
+
+    fn kept(&self, mechanism: Mechanism, shape: &[f64]) -> Option<Term> {
+        let kept = self.kept.borrow();
+        let same = |t: &&Term| t.mechanism == mechanism && t.shape == shape;
+        kept.iter().find(same).cloned()
     }
 
     /// The term of a change of the drive, linearised about `fitted`: the effort, sample by sample, that the model
@@ -201,10 +235,10 @@ impl<'a> Problem<'a> {
             shape: shape.to_vec(),
             onset_s,
             free: free
-                .map(|signal| self.rows(signal, onset_s))
+                .map(|signal| Arc::new(self.rows(signal, onset_s)))
                 .into_iter()
                 .collect(),
-            fixed: fixed.map(|signal| self.rows(signal, onset_s)),
+            fixed: fixed.map(|signal| Arc::new(self.rows(signal, onset_s))),
             known: None,
         })
     }
@@ -223,7 +257,8 @@ impl<'a> Problem<'a> {
     /// Whitens a term again after the noise model changed.
     pub fn refresh(&self, term: &mut Term) {
         for rows in term.free.iter_mut().chain(&mut term.fixed) {
-            rows.white = self.whitener.whiten(&rows.raw);
+            let white = self.whitener.whiten(&rows.raw);
+            Arc::make_mut(rows).white = white;
         }
     }
 

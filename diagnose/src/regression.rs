@@ -2,6 +2,7 @@
 
 use crate::problem::{Problem, Rows, Term};
 use nalgebra::{DMatrix, DVector};
+use std::sync::Arc;
 
 /// Blocks of time that are left out in turn.
 #[derive(Clone, Debug)]
@@ -68,9 +69,7 @@ pub fn fit(problem: &Problem, terms: &[&Term], blocks: &Blocks) -> Fit {
     let columns = free_columns(problem, terms);
     let target = reduced_target(problem, terms);
     let redundant = redundancy(&columns);
-    let own: Vec<&[f64]> = kept(&columns, &redundant)
-        .map(|rows| rows.white.as_slice())
-        .collect();
+    let own = kept(&columns, &redundant);
     let all = normal(&own, &target.white, 0, target.white.len());
     let solution = solve(&all);
     let block_loss = block_losses(&own, &target.white, blocks);
@@ -100,6 +99,16 @@ pub fn fit(problem: &Problem, terms: &[&Term], blocks: &Blocks) -> Fit {
     }
 }
 
+/// The loss over all windows of a fit, without the fit.
+pub fn loss_of(problem: &Problem, terms: &[&Term]) -> f64 {
+    let columns = free_columns(problem, terms);
+    let target = reduced_target(problem, terms);
+    let redundant = redundancy(&columns);
+    let own = kept(&columns, &redundant);
+    let all = normal(&own, &target.white, 0, target.white.len());
+    loss(&all, &solve(&all))
+}
+
 /// The left-out losses when, inside each fold, the best of several variants is chosen on the other blocks.
 pub fn nested_block_losses(
     problem: &Problem,
@@ -114,9 +123,7 @@ pub fn nested_block_losses(
         let columns = free_columns(problem, &terms);
         let target = reduced_target(problem, &terms);
         let redundant = redundancy(&columns);
-        let own: Vec<&[f64]> = kept(&columns, &redundant)
-            .map(|rows| rows.white.as_slice())
-            .collect();
+        let own = kept(&columns, &redundant);
         for (best, (trained, left_out)) in
             best.iter_mut()
                 .zip(fold_losses(&own, &target.white, blocks))
@@ -133,9 +140,7 @@ pub fn nested_block_losses(
 pub fn left_out_loss(target: &[f64], columns: &[Rows], blocks: &Blocks) -> f64 {
     let columns: Vec<&Rows> = columns.iter().collect();
     let redundant = redundancy(&columns);
-    let own: Vec<&[f64]> = kept(&columns, &redundant)
-        .map(|rows| rows.white.as_slice())
-        .collect();
+    let own = kept(&columns, &redundant);
     block_losses(&own, target, blocks).iter().sum()
 }
 
@@ -144,13 +149,17 @@ pub fn free_columns<'b>(problem: &'b Problem, terms: &[&'b Term]) -> Vec<&'b Row
     let of_terms = terms
         .iter()
         .filter(|t| t.known.is_none())
-        .flat_map(|t| &t.free);
+        .flat_map(|t| t.free.iter().map(Arc::as_ref));
     problem.inertia_column.iter().chain(of_terms).collect()
 }
 
-/// The target less the columns that enter with a given coefficient.
+/// The target less the columns that enter with a given coefficient, window by window.
 pub fn reduced_target(problem: &Problem, terms: &[&Term]) -> Rows {
-    let mut target = problem.target.clone();
+    let mut target = Rows {
+        signal: Vec::new(),
+        raw: problem.target.raw.clone(),
+        white: problem.target.white.clone(),
+    };
     for term in terms {
         let known = term.known.iter().flatten().copied().zip(&term.free);
         for (times, rows) in known.chain(term.fixed.iter().map(|rows| (1.0, rows))) {
@@ -165,12 +174,10 @@ pub fn reduced_target(problem: &Problem, terms: &[&Term]) -> Rows {
     target
 }
 
-fn kept<'b>(columns: &'b [&'b Rows], redundant: &'b [bool]) -> impl Iterator<Item = &'b Rows> {
-    columns
-        .iter()
-        .zip(redundant)
-        .filter(|(_, r)| !**r)
-        .map(|(c, _)| *c)
+/// The white columns that are not redundant.
+fn kept<'b>(columns: &[&'b Rows], redundant: &[bool]) -> Vec<&'b [f64]> {
+    let own = columns.iter().zip(redundant).filter(|(_, r)| !**r);
+    own.map(|(rows, _)| rows.white.as_slice()).collect()
 }
 
 /// Modified Gram-Schmidt in order: a column that hardly stands out of the earlier ones is redundant.
@@ -431,7 +438,7 @@ mod tests {
             mechanism: Mechanism::Viscous,
             shape: Vec::new(),
             onset_s: None,
-            free: vec![rows(column.clone())],
+            free: vec![Arc::new(rows(column.clone()))],
             fixed: None,
             known: None,
         };

@@ -39,6 +39,8 @@ pub struct Report {
     pub withdrawn: Vec<&'static str>,
     /// The nominal model's own unknowns after the fit.
     pub nominal: BTreeMap<String, Number>,
+    /// The inverse model of an axis under the published filter protocol; its errors stand with the stages.
+    pub inverse_model: Option<InverseReport>,
     /// For each mechanism that is not named, what would have been seen.
     pub not_seen: Vec<NotSeen>,
     /// Combinations of parameters that this recording cannot tell.
@@ -152,6 +154,24 @@ pub struct StageReport {
     pub standing: Vec<&'static str>,
     /// Root-mean-square residual of the windows then.
     pub residual: f64,
+    /// Error of the inverse model with what stood then, per cent; absent where `inverse_model` is, or where a law has a
+    /// memory, an onset, or acts on the drive.
+    pub inverse_error_percent: Option<f64>,
+}
+
+/// The inverse model under the published filter protocol: for comparison with published figures, no verdict rests on it.
+#[derive(Clone, Debug, Serialize)]
+pub struct InverseReport {
+    /// The protocol in words.
+    pub protocol: String,
+    /// Order of the position filter, run forward and backward.
+    pub filter_order: usize,
+    /// Its cut-off, Hz.
+    pub cutoff_hz: f64,
+    /// Every how many samples one is kept.
+    pub decimation: usize,
+    /// Error with the nominal model alone, per cent of the effort.
+    pub nominal_error_percent: f64,
 }
 
 /// A number with its unit and interval.

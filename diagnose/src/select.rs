@@ -60,6 +60,8 @@ pub struct Stage {
     pub entered: Mechanism,
     /// All mechanisms that stood then.
     pub standing: Vec<Mechanism>,
+    /// The shape and the onset of each of them.
+    pub shapes: Vec<(Vec<f64>, Option<f64>)>,
     /// Root-mean-square residual of the windows, N or N·m.
     pub residual: f64,
 }
@@ -180,6 +182,7 @@ fn search(
         stages.push(Stage {
             entered,
             standing: found.iter().map(|f| f.term.mechanism).collect(),
+            shapes: shapes(&found),
             residual: usable_rms(problem, &residual),
         });
         let standing: Vec<Mechanism> = found.iter().map(|f| f.term.mechanism).collect();
@@ -192,6 +195,11 @@ fn search(
         }
     }
     found
+}
+
+fn shapes(found: &[Found]) -> Vec<(Vec<f64>, Option<f64>)> {
+    let terms = found.iter().map(|f| &f.term);
+    terms.map(|t| (t.shape.clone(), t.onset_s)).collect()
 }
 
 /// A mechanism that came in by replacing others is a stage of its own.
@@ -212,6 +220,7 @@ fn note_swaps(
         stages.push(Stage {
             entered: new,
             standing: found.iter().map(|f| f.term.mechanism).collect(),
+            shapes: shapes(found),
             residual: usable_rms(problem, &residual),
         });
     }

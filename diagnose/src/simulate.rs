@@ -6,7 +6,7 @@ use rigproof_model::axis::Axis;
 use rigproof_model::bench::resistance;
 use rigproof_model::effects::{Instant, Law, first_order_lag, law};
 use rigproof_spec::effect::Mechanism;
-use rustfft::{FftPlanner, num_complex::Complex64};
+use rustfft::{FftPlannerScalar, num_complex::Complex64};
 
 /// A mechanism with numbers.
 #[derive(Clone, Debug, PartialEq)]
@@ -103,6 +103,10 @@ impl Law for Late {
         } else {
             self.law.dry(now)
         }
+    }
+
+    fn remembers(&self) -> bool {
+        self.law.remembers()
     }
 
     fn memory_rate(&self, now: &Instant, memory: f64) -> f64 {
@@ -247,7 +251,8 @@ fn fine_effort(effort: &[f64], protocol: &Protocol) -> Vec<(f64, f64)> {
 /// A periodic signal at `factor` times its rate, by its Fourier series.
 fn band_limited(signal: &[f64], factor: usize) -> Vec<f64> {
     let n = signal.len();
-    let mut planner = FftPlanner::new();
+    // The scalar planner gives the same bits on every processor.
+    let mut planner = FftPlannerScalar::new();
     let mut spectrum: Vec<Complex64> = signal.iter().map(|&x| Complex64::new(x, 0.0)).collect();
     planner.plan_fft_forward(n).process(&mut spectrum);
     let mut wide = vec![Complex64::default(); n * factor];

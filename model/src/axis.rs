@@ -108,24 +108,38 @@ impl Axis {
 
     /// One Runge-Kutta step with the sense of motion held.
     fn slide(&self, from: &State, sense: f64, effort: f64, slope: f64, step_s: f64) -> State {
-        let rate = |at: &State, after_s: f64| self.rate(at, sense, effort + slope * after_s);
+        let memories = self.memories();
+        let rate =
+            |at: &State, after_s: f64| self.rate(at, sense, effort + slope * after_s, memories);
         let half_s = 0.5 * step_s;
-        let k1 = rate(from, 0.0);
-        let k2 = rate(&from.advanced(&k1, half_s), half_s);
-        let k3 = rate(&from.advanced(&k2, half_s), half_s);
-        let k4 = rate(&from.advanced(&k3, step_s), step_s);
-        from.advanced(&k1, step_s / 6.0)
-            .advanced(&k2, step_s / 3.0)
-            .advanced(&k3, step_s / 3.0)
-            .advanced(&k4, step_s / 6.0)
+        let (mut to, mut at) = (*from, *from);
+        let mut k = rate(from, 0.0);
+        to.advance(&k, step_s / 6.0, memories);
+        for (after_s, made_s) in [
+            (half_s, step_s / 3.0),
+            (half_s, step_s / 3.0),
+            (step_s, step_s / 6.0),
+        ] {
+            at.place(from, &k, after_s, memories);
+            k = rate(&at, after_s);
+            to.advance(&k, made_s, memories);
+        }
+        to
+    }
+
+    /// How many memories move: up to that of the last law that has one.
+    fn memories(&self) -> usize {
+        let last = self.laws.iter().rposition(|law| law.remembers());
+        last.map_or(0, |last| last + 1)
     }
 
     /// The time derivative of the state, in the state's own fields.
-    fn rate(&self, at: &State, sense: f64, effort: f64) -> State {
+    fn rate(&self, at: &State, sense: f64, effort: f64, memories: usize) -> State {
         let now = instant(at, sense);
         let resistance = self.smooth(&now, &at.memory) + self.dry(&now) * sense;
         let mut memory = [0.0; MOST_LAWS];
-        for ((rate, law), &memory) in memory.iter_mut().zip(&self.laws).zip(&at.memory) {
+        let moving = memory.iter_mut().zip(&self.laws).zip(&at.memory);
+        for ((rate, law), &memory) in moving.take(memories) {
             *rate = law.memory_rate(&now, memory);
         }
         State {
@@ -161,16 +175,26 @@ fn instant(state: &State, sense: f64) -> Instant {
 }
 
 impl State {
-    /// The state after moving along `rate` for `step_s`.
-    fn advanced(&self, rate: &State, step_s: f64) -> State {
-        let mut to = *self;
-        to.time_s += step_s * rate.time_s;
-        to.position += step_s * rate.position;
-        to.speed += step_s * rate.speed;
-        for (memory, rate) in to.memory.iter_mut().zip(&rate.memory) {
+    /// Moves along `rate` for `step_s`; the memories from `memories` on stay.
+    fn advance(&mut self, rate: &State, step_s: f64, memories: usize) {
+        self.time_s += step_s * rate.time_s;
+        self.position += step_s * rate.position;
+        self.speed += step_s * rate.speed;
+        let moving = self.memory.iter_mut().zip(&rate.memory);
+        for (memory, rate) in moving.take(memories) {
             *memory += step_s * rate;
         }
-        to
+    }
+
+    /// Becomes the state that lies `step_s` along `rate` from another.
+    fn place(&mut self, from: &State, rate: &State, step_s: f64, memories: usize) {
+        self.time_s = from.time_s + step_s * rate.time_s;
+        self.position = from.position + step_s * rate.position;
+        self.speed = from.speed + step_s * rate.speed;
+        let moving = self.memory.iter_mut().zip(&from.memory).zip(&rate.memory);
+        for ((memory, from), rate) in moving.take(memories) {
+            *memory = from + step_s * rate;
+        }
     }
 }
 

@@ -18,6 +18,10 @@ pub fn resistance(laws: &[Box<dyn Law>], motion: &[Instant], step_s: f64) -> Vec
 
 /// The resistance of one law along an imposed motion.
 pub fn column(law: &dyn Law, motion: &[Instant], step_s: f64) -> Vec<f64> {
+    let given = |now: &Instant, memory| law.smooth(now, memory) + law.dry(now) * now.sense;
+    if !law.remembers() {
+        return motion.iter().map(|now| given(now, 0.0)).collect();
+    }
     let mut memory = 0.0;
     let mut before: Option<&Instant> = None;
     motion
@@ -27,7 +31,7 @@ pub fn column(law: &dyn Law, motion: &[Instant], step_s: f64) -> Vec<f64> {
                 memory = advanced(law, before, now, memory, step_s);
             }
             before = Some(now);
-            law.smooth(now, memory) + law.dry(now) * now.sense
+            given(now, memory)
         })
         .collect()
 }
@@ -67,8 +71,24 @@ fn advanced(law: &dyn Law, before: &Instant, now: &Instant, memory: f64, step_s:
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::effects::law;
+    use crate::effects::{LIBRARY, law};
     use rigproof_spec::effect::Mechanism;
+
+    #[test]
+    fn a_law_remembers_exactly_if_its_memory_moves() {
+        let now = Instant {
+            time_s: 0.7,
+            position: 0.031,
+            speed: -0.13,
+            sense: -1.0,
+        };
+        for entry in LIBRARY {
+            if let Some(law) = law(entry.mechanism, &[1.3, 0.017, 2.9]) {
+                let moves = law.memory_rate(&now, 0.41) != 0.0;
+                assert_eq!(law.remembers(), moves, "{:?}", entry.mechanism);
+            }
+        }
+    }
 
     #[test]
     fn a_bristle_saturates_exponentially_with_travel() {

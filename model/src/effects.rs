@@ -47,6 +47,11 @@ pub trait Law: Send + Sync {
         0.0
     }
 
+    /// Whether the law has a memory.
+    fn remembers(&self) -> bool {
+        false
+    }
+
     /// The time derivative of the memory, 0 for a law without any.
     fn memory_rate(&self, _now: &Instant, _memory: f64) -> f64 {
         0.0

@@ -56,6 +56,14 @@ fn emps_names_dry_friction_and_bias_then_the_asymmetry() {
         ["dry_offset", "constant_bias", "direction_asymmetry"]
     );
     assert_eq!(named(&report), ["dry_offset", "direction_asymmetry"]);
+    let inverse: Vec<String> = report
+        .stages
+        .iter()
+        .skip(1)
+        .take(2)
+        .map(|stage| format!("{:.4}", stage.inverse_error_percent.unwrap()))
+        .collect();
+    assert_eq!(inverse, ["4.0390", "3.0584"]);
     let fit = report.fit.unwrap();
     let held_out = fit.held_out.unwrap();
     assert!(fit.improved);

@@ -48,6 +48,28 @@ pub fn naming(report: &Report) -> Vec<String> {
     section(&heading, lines)
 }
 
+/// The inverse model of each stage, for comparison with published figures.
+pub fn inverse(report: &Report) -> Vec<String> {
+    let Some(inverse) = &report.inverse_model else {
+        return Vec::new();
+    };
+    let line = |what: &str, percent: f64| format!("  {what:<26} {percent:>11.4} %");
+    let mut lines = vec![line("nominal model", inverse.nominal_error_percent)];
+    lines.extend(report.stages.iter().filter_map(|stage| {
+        let percent = stage.inverse_error_percent?;
+        let with = stage.standing.join(", ");
+        Some(format!(
+            "{}   with {with}",
+            line(&format!("+ {}", stage.entered), percent)
+        ))
+    }));
+    lines.push(format!("  {}", inverse.protocol));
+    section(
+        "Inverse model under the published filter protocol (no verdict rests on it)",
+        lines,
+    )
+}
+
 /// The mechanisms that are named.
 pub fn effects(report: &Report) -> Vec<String> {
     let none: &[&str] = &[];

@@ -64,6 +64,7 @@ pub(super) fn blank(rig: &Rig, verdict: Verdict, summary: String) -> Report {
         too_small_to_name: Vec::new(),
         withdrawn: Vec::new(),
         nominal: Default::default(),
+        inverse_model: None,
         not_seen: Vec::new(),
         null_directions: Vec::new(),
         unknown: None,

@@ -7,7 +7,7 @@ use crate::evidence::{inclusion, not_seen, null_directions, rivals, standard_err
 use crate::from_rig;
 use crate::locate::locate;
 use crate::problem::Problem;
-use crate::report::{EffectReport, Floor, Report, StageReport, Verdict};
+use crate::report::{EffectReport, Floor, Report, Verdict};
 use crate::run::{PlantKind, Run};
 use crate::select::{FLOOR_RATIO, Selection, refs, usable_rms};
 use crate::simulate::{Plant, Protocol, output};
@@ -78,6 +78,7 @@ impl Stand<'_> {
                 .collect(),
             withdrawn: self.withdrawn.iter().map(|m| m.name()).collect(),
             nominal: nominal_numbers(self.rig, &calibration),
+            inverse_model: self.inverse_model(),
             not_seen: not_seen(
                 self.problem,
                 self.selection,
@@ -140,17 +141,6 @@ impl Stand<'_> {
             (false, true) if rivals.iter().any(|r| !r.is_empty()) => Verdict::Ambiguous,
             (false, true) => Verdict::Explained,
         }
-    }
-
-    fn stages(&self) -> Vec<StageReport> {
-        let stages = self.selection.stages.iter();
-        stages
-            .map(|stage| StageReport {
-                entered: stage.entered.name(),
-                standing: stage.standing.iter().map(|m| m.name()).collect(),
-                residual: stage.residual,
-            })
-            .collect()
     }
 
     fn effects(&self, calibration: &Rig) -> Vec<EffectReport> {

@@ -37,7 +37,7 @@ pub(super) fn trials(
         .into_iter()
         .map(|list| linearised(problem, common, list, blocks))
         .filter_map(|list| {
-            let (term, loss) = best(problem, common, &list, blocks)?;
+            let (term, loss) = best(problem, common, &list)?;
             Some((list, term, loss))
         })
         .collect();
@@ -108,15 +108,10 @@ fn judge(
 }
 
 /// The variant with the least loss over all blocks, and that loss.
-pub(crate) fn best(
-    problem: &Problem,
-    common: &[&Term],
-    tried: &[Term],
-    blocks: &Blocks,
-) -> Option<(Term, f64)> {
+pub(crate) fn best(problem: &Problem, common: &[&Term], tried: &[Term]) -> Option<(Term, f64)> {
     tried
         .iter()
-        .map(|term| (term, loss_with(problem, common, term, blocks)))
+        .map(|term| (term, loss_with(problem, common, term)))
         .min_by(|a, b| a.1.total_cmp(&b.1))
         .map(|(term, loss)| (term.clone(), loss))
 }

@@ -41,7 +41,7 @@ const ONSET_HALVINGS: usize = 11;
 
 /// Pattern search over the logarithms of the shape parameters and the onset.
 pub(crate) fn refined(problem: &Problem, common: &[&Term], start: Term, blocks: &Blocks) -> Term {
-    let score = |term: &Term| loss_with(problem, common, term, blocks);
+    let score = |term: &Term| loss_with(problem, common, term);
     let fitted = fit(problem, common, blocks);
     let effort = effort_beside(problem, common, &start, blocks)
         .unwrap_or_else(|| modelled_effort(problem, common, &fitted));

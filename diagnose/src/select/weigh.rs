@@ -3,7 +3,7 @@
 use super::Found;
 use crate::candidates::modelled_effort;
 use crate::problem::{Problem, Term, add};
-use crate::regression::{Blocks, Fit, dot, fit};
+use crate::regression::{Blocks, Fit, dot, fit, loss_of};
 use crate::run::rms;
 use rigproof_model::effects::entry;
 
@@ -77,10 +77,10 @@ pub(super) fn drives(term: &Term, own: &[f64]) -> bool {
 }
 
 /// Loss over all blocks with one more term.
-pub(super) fn loss_with(problem: &Problem, common: &[&Term], term: &Term, blocks: &Blocks) -> f64 {
+pub(super) fn loss_with(problem: &Problem, common: &[&Term], term: &Term) -> f64 {
     let mut terms = common.to_vec();
     terms.push(term);
-    fit(problem, &terms, blocks).loss
+    loss_of(problem, &terms)
 }
 
 /// Rounds in which a change of the drive is linearised again about the fit it gave.

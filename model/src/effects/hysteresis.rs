@@ -31,6 +31,10 @@ impl Law for BoucWen {
         self.alpha * memory
     }
 
+    fn remembers(&self) -> bool {
+        true
+    }
+
     fn memory_rate(&self, now: &Instant, memory: f64) -> f64 {
         now.speed
             - self.beta_gamma * now.speed.abs() * memory

@@ -27,6 +27,10 @@ impl Law for Dahl {
         self.level * memory
     }
 
+    fn remembers(&self) -> bool {
+        true
+    }
+
     fn memory_rate(&self, now: &Instant, memory: f64) -> f64 {
         (now.speed - now.speed.abs() * memory) / self.travel
     }
