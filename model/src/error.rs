@@ -50,6 +50,17 @@ pub enum ModelError {
         /// The greatest allowed, m.
         greatest_m: f64,
     },
+    /// Arms AE and BC have passed each other.
+    #[error(
+        "arms AE and BC have passed each other: the angle at A, {theta_a_deg} °, is less than the angle at B, {theta_b_deg} °; \
+         it must be at least that"
+    )]
+    BaseArmsCrossed {
+        /// θA, degrees.
+        theta_a_deg: f64,
+        /// θB, degrees.
+        theta_b_deg: f64,
+    },
     /// The outer arms cannot meet in the tip.
     #[error(
         "joints E and C are {distance_m} m apart, arms ED and CD meet only between {least_m} m and {greatest_m} m; \
@@ -73,6 +84,18 @@ pub enum ModelError {
         /// Its unit.
         unit: &'static str,
     },
+    /// The tip is off the table.
+    #[error(
+        "the tip at ({x_m} m, {y_m} m) is off the table; each coordinate must lie between -{half_side_m} m and {half_side_m} m"
+    )]
+    OffTable {
+        /// x of the tip, m.
+        x_m: f64,
+        /// y of the tip, m.
+        y_m: f64,
+        /// Half the side of the table, m.
+        half_side_m: f64,
+    },
     /// Two arms are parallel, or folded beyond it.
     #[error(
         "arms {} and {} are parallel or folded over: the angle at joint {} is {value_deg} °, it must lie between {least_deg} ° and {greatest_deg} °; \
@@ -88,6 +111,18 @@ pub enum ModelError {
         least_deg: f64,
         /// The angle at the other singularity, degrees; itself not allowed.
         greatest_deg: f64,
+    },
+    /// The grid of a workspace is not usable.
+    #[error(
+        "the step of the grid is {step_m} m; it must be between {least_m} m and {greatest_m} m for arms of this size"
+    )]
+    Step {
+        /// The step, m.
+        step_m: f64,
+        /// The least allowed, m.
+        least_m: f64,
+        /// The greatest allowed, m.
+        greatest_m: f64,
     },
     /// The tip is out of reach.
     #[error(

@@ -1,11 +1,15 @@
 //! The five-bar linkage of thesis chapters 4 and 5.1: where its joints are and how its tip moves with them.
 
 mod circles;
+pub mod device;
 pub mod forward;
 pub mod inverse;
 pub mod jacobian;
 pub mod limits;
+pub mod paths;
+pub mod printed;
 pub mod singularity;
+pub mod workspace;
 
 use rigproof_spec::geometry::{Angle, Arms};
 

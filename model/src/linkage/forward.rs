@@ -3,7 +3,9 @@
 use rigproof_spec::geometry::Arms;
 
 use super::circles::{apex, beside};
-use super::{Pose, along, check_arms, from_to, point_a_m, point_b_m, pose_of_points};
+use super::{
+    Pair, Pose, along, check_arms, from_to, point_a_m, point_b_m, pose_of_points, singularity,
+};
 use crate::error::ModelError;
 
 /// The pose that belongs to two base angles.
@@ -37,6 +39,9 @@ pub fn pose(arms: &Arms, theta_a_rad: f64, theta_b_rad: f64) -> Result<Pose, Mod
     let [l_ce_x, l_ce_y] = from_to(point_e_m, point_c_m);
     let l_ce = libm::hypot(l_ce_x, l_ce_y);
     let Some(place) = apex(l_ce, arms.l_ed_m, arms.l_cd_m) else {
+        if l_ce == 0.0 && arms.l_ed_m == arms.l_cd_m {
+            return Err(singularity::at(Pair::EdCd, 0.0));
+        }
         return Err(ModelError::CannotClose {
             distance_m: l_ce,
             least_m: (arms.l_ed_m - arms.l_cd_m).abs(),

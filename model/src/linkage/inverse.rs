@@ -5,7 +5,7 @@ use core::f64::consts::{FRAC_PI_2, PI};
 use rigproof_spec::geometry::Arms;
 
 use super::circles::{apex, beside};
-use super::{Pose, check_arms, from_to, point_a_m, point_b_m, pose_of_points};
+use super::{Pair, Pose, check_arms, from_to, point_a_m, point_b_m, pose_of_points, singularity};
 use crate::error::ModelError;
 
 /// The pose that belongs to a tip position.
@@ -34,8 +34,8 @@ pub fn pose(arms: &Arms, tip_m: [f64; 2]) -> Result<Pose, ModelError> {
             });
         }
     }
-    let left = (point_a_m(arms), "A", [arms.l_ae_m, arms.l_ed_m], 1.0);
-    let right = (point_b_m(arms), "B", [arms.l_bc_m, arms.l_cd_m], -1.0);
+    let left = (point_a_m(arms), Pair::AeEd, [arms.l_ae_m, arms.l_ed_m]);
+    let right = (point_b_m(arms), Pair::BcCd, [arms.l_bc_m, arms.l_cd_m]);
     let point_e_m = elbow(left, tip_m)?;
     let point_c_m = elbow(right, tip_m)?;
     let [ae_x, ae_y] = from_to(point_a_m(arms), point_e_m);
@@ -47,14 +47,22 @@ pub fn pose(arms: &Arms, tip_m: [f64; 2]) -> Result<Pose, ModelError> {
     pose_of_points(arms, [theta_a_rad, theta_b_rad], points)
 }
 
-/// The joint between two arms that run from a base joint to the tip, to the left (`side` 1) or right (−1) of that way.
+/// The joint between a pair of arms that run from a base joint to the tip: E to the left of that way, C to the right.
 fn elbow(
-    (base_m, base, [inner_m, outer_m], side): ([f64; 2], &'static str, [f64; 2], f64),
+    (base_m, pair, [inner_m, outer_m]): ([f64; 2], Pair, [f64; 2]),
     tip_m: [f64; 2],
 ) -> Result<[f64; 2], ModelError> {
+    let (base, side) = match pair {
+        Pair::AeEd => ("A", 1.0),
+        Pair::BcCd | Pair::EdCd => ("B", -1.0),
+    };
     let [to_tip_x, to_tip_y] = from_to(base_m, tip_m);
     let distance_m = libm::hypot(to_tip_x, to_tip_y);
     let Some([along, height]) = apex(distance_m, inner_m, outer_m) else {
+        if distance_m == 0.0 && inner_m == outer_m {
+            // The outer arm lies folded back on the inner one.
+            return Err(singularity::at(pair, 180.0));
+        }
         let [x_m, y_m] = tip_m;
         return Err(ModelError::Unreachable {
             x_m,

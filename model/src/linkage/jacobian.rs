@@ -30,6 +30,9 @@ pub fn jacobian(arms: &Arms, pose: &Pose) -> Result<SMatrix<f64, 4, 2>, ModelErr
 }
 
 /// J₁ of (5.35), 2×2, rows x, y, columns A, E, m/rad: ẋ = J₁·(θ̇A, θ̇E).
+///
+/// It is the derivative of the left side's tip position (5.34).
+//= thesis (5.34)
 //= thesis (5.35)
 //= thesis (5.36)
 pub fn from_a_and_e(arms: &Arms, pose: &Pose) -> Matrix2<f64> {

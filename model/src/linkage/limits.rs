@@ -1,9 +1,9 @@
 //! This file says whether a pose lies inside the ranges of its angles.
 
-use rigproof_spec::geometry::{Angle, AngleRanges};
+use rigproof_spec::geometry::{Angle, AngleRanges, Arms};
 use rigproof_spec::units::RAD_PER_DEG;
 
-use super::Pose;
+use super::{Pose, inverse};
 use crate::error::ModelError;
 
 /// Checks that every angle of a pose lies in its range, both ends included (table 4.2).
@@ -41,6 +41,35 @@ pub fn check_ranges(ranges: &AngleRanges) -> Result<(), ModelError> {
                 greatest_deg: range.greatest_deg,
             });
         }
+    }
+    Ok(())
+}
+
+/// The pose of a tip position inside the workspace: it is reached, every angle is in its range, and arms AE and BC have not
+/// passed each other.
+///
+/// θA ≥ θB stands in no stop that the thesis names, but without it the 4-brake linkage turns over to the other side of its
+/// base, and its least θD is not that of table 4.2 (gap `base-order`).
+///
+/// # Errors
+/// Those of [`inverse::pose`] and [`check`]; [`ModelError::BaseArmsCrossed`].
+pub fn reach(arms: &Arms, ranges: &AngleRanges, tip_m: [f64; 2]) -> Result<Pose, ModelError> {
+    let pose = inverse::pose(arms, tip_m)?;
+    inside(ranges, &pose)?;
+    Ok(pose)
+}
+
+/// Checks that a pose is inside the workspace, as [`reach`] has it.
+///
+/// # Errors
+/// Those of [`check`]; [`ModelError::BaseArmsCrossed`].
+pub fn inside(ranges: &AngleRanges, pose: &Pose) -> Result<(), ModelError> {
+    check(ranges, pose)?;
+    if pose.theta_a_rad < pose.theta_b_rad {
+        return Err(ModelError::BaseArmsCrossed {
+            theta_a_deg: pose.theta_a_rad / RAD_PER_DEG,
+            theta_b_deg: pose.theta_b_rad / RAD_PER_DEG,
+        });
     }
     Ok(())
 }
