@@ -9,6 +9,7 @@ pub mod limits;
 pub mod paths;
 pub mod printed;
 pub mod singularity;
+pub mod sweep;
 pub mod workspace;
 
 use rigproof_spec::geometry::{Angle, Arms};

@@ -48,8 +48,8 @@ pub fn check_ranges(ranges: &AngleRanges) -> Result<(), ModelError> {
 /// The pose of a tip position inside the workspace: it is reached, every angle is in its range, and arms AE and BC have not
 /// passed each other.
 ///
-/// θA ≥ θB stands in no stop that the thesis names, but without it the 4-brake linkage turns over to the other side of its
-/// base, and its least θD is not that of table 4.2 (gap `base-order`).
+/// θA ≥ θB stands in no stop that the thesis names, but without it the least θD of the 4-brake layout is 36.5°, not the 51°
+/// of table 4.2 (gap `base-order`).
 ///
 /// # Errors
 /// Those of [`inverse::pose`] and [`check`]; [`ModelError::BaseArmsCrossed`].

@@ -97,9 +97,33 @@ pub fn three_brake() -> impl Strategy<Value = [f64; 2]> {
     })
 }
 
-/// Base angles over the rectangle of table 4.2 of the 4-brake layout; some are outside its other ranges.
+/// Base angles over the whole range of table 4.2 of the 4-brake layout.
 pub fn four_brake() -> impl Strategy<Value = [f64; 2]> {
-    (37.0..180.0_f64, 0.0..143.0_f64).prop_map(|(a, b)| [rad(a), rad(b)])
+    let base = (37.0..180.0_f64, 0.0..143.0_f64).prop_map(|(a, b)| [rad(a), rad(b)]);
+    base.prop_filter("the other angles are in the range of table 4.2", |base| {
+        in_four_brake_ranges(*base)
+    })
+}
+
+/// Whether θE, θC and θD are in the 4-brake ranges of table 4.2.
+pub fn in_four_brake_ranges(base: [f64; 2]) -> bool {
+    let arms = rigproof_spec::geometry::arms(rigproof_spec::layout::Layout::FourBrake);
+    let tip = moved(&arms, base, [0.0, 0.0]).tip.map(|c| c.re);
+    let half = arms.l_ab_m / 2.0;
+    let e = [
+        arms.l_ae_m * libm::cos(base[0]) - half,
+        arms.l_ae_m * libm::sin(base[0]),
+    ];
+    let c = [
+        arms.l_bc_m * libm::cos(base[1]) + half,
+        arms.l_bc_m * libm::sin(base[1]),
+    ];
+    let direction = |[x, y]: [f64; 2]| libm::atan2(tip[1] - y, tip[0] - x);
+    let turn = |angle: f64| libm::fmod(angle + rad(720.0), rad(360.0));
+    let (ed, cd) = (direction(e), direction(c));
+    (rad(210.0)..rad(350.0)).contains(&turn(ed - base[0]))
+        && (rad(10.0)..rad(150.0)).contains(&turn(cd - base[1]))
+        && (rad(51.0)..rad(170.0)).contains(&turn(cd - ed))
 }
 
 type C = Complex<f64>;

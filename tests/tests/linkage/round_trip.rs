@@ -14,6 +14,7 @@ fn cases(cases: u32) -> ProptestConfig {
     ProptestConfig {
         cases,
         max_global_rejects: 4 * cases,
+        max_local_rejects: 4 * cases,
         ..ProptestConfig::default()
     }
 }
@@ -93,15 +94,7 @@ proptest! {
 
     #[test]
     fn the_four_brake_layout_goes_there_and_back(base in four_brake()) {
-        let arms = arms(Layout::FourBrake);
-        // Beyond its other ranges the rectangle holds poses down to a singularity.
-        let away = forward::pose(&arms, base[0], base[1]).is_ok_and(|pose| {
-            [pose.theta_c_rad, pose.theta_d_rad, pose.theta_e_rad - core::f64::consts::PI]
-                .into_iter()
-                .all(|angle| (rad(9.9)..rad(170.1)).contains(&angle))
-        });
-        prop_assume!(away);
-        check_there_and_back(&arms, base)?;
+        check_there_and_back(&arms(Layout::FourBrake), base)?;
     }
 }
 
