@@ -116,12 +116,8 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
 fn draw(shape: Shape, step_m: Option<f64>) -> Result<Drawn, Failure> {
     let device = shape.device();
     let map = workspace::map(&device, step_m.unwrap_or_else(|| shape.usual_step_m()))?;
-    let figures = map.figures().ok_or_else(|| {
-        Failure::Input(format!(
-            "no cell of {} m lies in the workspace of `{}`; give a smaller --step",
-            map.grid.step_m, shape.name
-        ))
-    })?;
+    let figures = map.figures();
+    let figures = figures.ok_or_else(|| shape::empty(&shape, map.grid.step_m))?;
     Ok(Drawn {
         boundary: workspace::boundary(&device, map.grid.step_m)?,
         attained: workspace::attained_ranges(&shape.arms, &stops(&shape))?,
@@ -166,5 +162,10 @@ fn swept(ranges: &AngleRanges, jobs: usize) -> Result<Vec<Candidate>, Failure> {
     let candidates = threads.install(|| pairs.par_iter().map(one).collect::<Result<Vec<_>, _>>());
     let mut ranked = candidates?;
     ranked.sort_by(|a, b| b.score().total_cmp(&a.score()));
-    Ok(ranked)
+    match ranked.first().map(Candidate::score) {
+        Some(best) if best > 0.0 => Ok(ranked),
+        _ => Err(Failure::Input(
+            "no pair of lengths of the sweep has well-spaced paths within the ranges; widen them or give --no-sweep".into(),
+        )),
+    }
 }

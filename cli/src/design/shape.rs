@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
+use rigproof_model::linkage::check_arms;
 use rigproof_model::linkage::device::{Brakes, Device};
 use rigproof_model::linkage::limits::check_ranges;
-use rigproof_model::linkage::{check_arms, workspace};
 use rigproof_spec::geometry::{Angle, AngleRange, AngleRanges, Arms, STOPS};
 use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
@@ -150,12 +150,6 @@ impl Own {
         for shape in &shapes {
             check_arms(&shape.arms)?;
             check_ranges(&shape.ranges)?;
-            if workspace::map(&shape.device(), shape.usual_step_m())?
-                .figures()
-                .is_none()
-            {
-                return Err(empty(shape));
-            }
         }
         Ok(shapes)
     }
@@ -186,8 +180,8 @@ impl Own {
     }
 }
 
-/// The arms never meet, or only outside the ranges.
-fn empty(shape: &Shape) -> Failure {
+/// No cell of a grid lies in the workspace: the arms never meet, or only outside the ranges, or between the cells.
+pub fn empty(shape: &Shape, step_m: f64) -> Failure {
     let Arms {
         l_ae_m,
         l_ed_m,
@@ -196,8 +190,9 @@ fn empty(shape: &Shape) -> Failure {
         l_ab_m,
     } = shape.arms;
     Failure::Input(format!(
-        "the linkage `{}` has no workspace: both sides reach {} m and {} m, the base joints are {l_ab_m} m apart, and no tip \
-         is left within the ranges of the angles; change the lengths or widen the ranges",
+        "the linkage `{}` has no workspace on a grid of {step_m:.4} m: its sides reach {:.4} m and {:.4} m, the base joints are \
+         {l_ab_m:.4} m apart, and no cell is within the ranges of the angles; change the lengths, widen the ranges or give a \
+         smaller --step",
         shape.name,
         l_ae_m + l_ed_m,
         l_bc_m + l_cd_m,

@@ -160,6 +160,14 @@ fn what_is_no_linkage_is_refused_by_name_value_and_range() {
             format!("{own} --step -1mm"),
             "the step of the grid is -0.001 m",
         ),
+        (
+            format!("{own} --range C=10..11 --range E=200..201"),
+            "has no workspace on a grid",
+        ),
+        (
+            "--range A=0..1 --range B=179..180".to_owned(),
+            "no pair of lengths",
+        ),
         ("--linkage missing.toml".to_owned(), "there is no such file"),
     ] {
         let message = refused(&desk, &format!("design {line}"), 3);
