@@ -118,12 +118,10 @@ fn arms_of_the_sweep(ranked: &[Candidate]) -> Vec<Statement> {
         .filter(same)
         .map(well_spaced)
         .fold(0.0, f64::max);
-    let near: Vec<String> = ranked
-        .iter()
-        .filter(same)
-        .filter(|c| well_spaced(c) > 0.99 * widest)
-        .map(|c| format!("{}", c.l_ab))
-        .collect();
+    let near = ranked.iter().filter(same);
+    let near = near.filter(|c| well_spaced(c) > 0.99 * widest);
+    let mut near: Vec<String> = near.map(|c| c.l_ab.to_string()).collect();
+    near.sort();
     vec![
         Statement {
             place: "§4.3",
