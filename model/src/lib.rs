@@ -4,3 +4,7 @@ pub mod axis;
 pub mod bench;
 pub mod brake;
 pub mod effects;
+pub mod error;
+pub mod linkage;
+
+pub use error::ModelError;

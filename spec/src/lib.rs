@@ -8,6 +8,7 @@
 )]
 
 pub mod effect;
+pub mod geometry;
 pub mod joint;
 pub mod laws;
 pub mod layout;

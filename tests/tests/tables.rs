@@ -1,8 +1,10 @@
 //! This file says that the tables agree with their second transcription, and that the text's other numbers were weighed.
 
+use rigproof_spec::geometry::{Angle, angle_ranges, arms};
 use rigproof_spec::joint::Joint;
+use rigproof_spec::layout::Layout;
 use rigproof_spec::tables::{Edge, backlash_width_deg, time_constant_fit, torque_gain_fit};
-use rigproof_spec::units::{rad_from_deg, rad_s_from_rpm};
+use rigproof_spec::units::{Unit, rad_from_deg, rad_s_from_rpm};
 
 /// The rows of `spec/thesis/tables/<name>.csv`: leading words and numbers.
 fn rows(name: &str, words: usize) -> Vec<(Vec<String>, Vec<f64>)> {
@@ -69,6 +71,44 @@ fn table_3_3_agrees_with_its_second_transcription() {
                 fit.r_squared
             ]
         );
+    }
+}
+
+#[test]
+fn table_4_1_agrees_with_its_second_transcription() {
+    let cm = Unit::parse("cm").unwrap().to_si;
+    let [three, four] = [Layout::ThreeBrake, Layout::FourBrake].map(arms);
+    let table = rows("4.1", 1);
+    let lengths = [
+        ("L_AE", three.l_ae_m, four.l_ae_m),
+        ("L_BC", three.l_bc_m, four.l_bc_m),
+        ("L_ED", three.l_ed_m, four.l_ed_m),
+        ("L_CD", three.l_cd_m, four.l_cd_m),
+        ("L_AB", three.l_ab_m, four.l_ab_m),
+    ];
+    assert_eq!(table.len(), lengths.len());
+    for ((name, three_m, four_m), (words, numbers)) in lengths.into_iter().zip(table) {
+        assert_eq!(words, [name]);
+        let [three_cm, four_cm] = numbers[..] else {
+            panic!("{name}: {numbers:?}");
+        };
+        assert!((three_cm * cm - three_m).abs() < 1e-15 && (four_cm * cm - four_m).abs() < 1e-15);
+    }
+}
+
+#[test]
+fn table_4_2_agrees_with_its_second_transcription() {
+    let table = rows("4.2", 1);
+    assert_eq!(table.len(), Angle::ALL.len());
+    for (words, numbers) in table {
+        let angle = Angle::ALL
+            .into_iter()
+            .find(|angle| words == [angle.letter()])
+            .unwrap();
+        let printed = [Layout::ThreeBrake, Layout::FourBrake]
+            .map(|layout| angle_ranges(layout).of(angle))
+            .map(|range| [range.least_deg, range.greatest_deg]);
+        assert_eq!(numbers, printed.concat());
     }
 }
 

@@ -1,0 +1,146 @@
+//! This file says what the reference model refuses to compute, with the value, its range and what to do.
+
+use rigproof_spec::geometry::Angle;
+
+use crate::linkage::Pair;
+
+/// What the reference model refuses to compute.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum ModelError {
+    /// An angle lies outside its range.
+    #[error(
+        "the angle at joint {} is {value_deg} °, its range is {least_deg} ° to {greatest_deg} °; move the tip or change the range",
+        angle.letter()
+    )]
+    AngleRange {
+        /// Which angle.
+        angle: Angle,
+        /// Its value, degrees.
+        value_deg: f64,
+        /// The least allowed, degrees.
+        least_deg: f64,
+        /// The greatest allowed, degrees.
+        greatest_deg: f64,
+    },
+    /// A range of angles has no inside.
+    #[error(
+        "the range of the angle at joint {} runs from {least_deg} ° to {greatest_deg} °; give the lower end first, and no other than finite numbers",
+        angle.letter()
+    )]
+    AngleRangeCrossed {
+        /// Which angle.
+        angle: Angle,
+        /// The lower end as given, degrees.
+        least_deg: f64,
+        /// The upper end as given, degrees.
+        greatest_deg: f64,
+    },
+    /// An arm length is no length.
+    #[error(
+        "the length {arm} is {value_m} m; it must be {} and at most {greatest_m} m: check the number and its unit",
+        if *least_m > 0.0 { format!("at least {least_m} m") } else { "0 m or more".to_owned() }
+    )]
+    ArmLength {
+        /// The length as the thesis writes it.
+        arm: &'static str,
+        /// Its value, m.
+        value_m: f64,
+        /// The least allowed, m.
+        least_m: f64,
+        /// The greatest allowed, m.
+        greatest_m: f64,
+    },
+    /// Arms AE and BC have passed each other.
+    #[error(
+        "arms AE and BC have passed each other: the angle at A, {theta_a_deg} °, is less than the angle at B, {theta_b_deg} °; \
+         it must be at least that"
+    )]
+    BaseArmsCrossed {
+        /// θA, degrees.
+        theta_a_deg: f64,
+        /// θB, degrees.
+        theta_b_deg: f64,
+    },
+    /// The outer arms cannot meet in the tip.
+    #[error(
+        "joints E and C are {distance_m} m apart, arms ED and CD meet only between {least_m} m and {greatest_m} m; \
+         change the base angles or the arm lengths"
+    )]
+    CannotClose {
+        /// Distance between joints E and C, m.
+        distance_m: f64,
+        /// The least at which the arms meet, m.
+        least_m: f64,
+        /// The greatest at which the arms meet, m.
+        greatest_m: f64,
+    },
+    /// A number is not finite.
+    #[error("{quantity} is {value} {unit}; it must be a finite number")]
+    NotFinite {
+        /// What was given.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+        /// Its unit.
+        unit: &'static str,
+    },
+    /// The tip is off the table.
+    #[error(
+        "the tip at ({x_m} m, {y_m} m) is off the table; each coordinate must lie between -{half_side_m} m and {half_side_m} m"
+    )]
+    OffTable {
+        /// x of the tip, m.
+        x_m: f64,
+        /// y of the tip, m.
+        y_m: f64,
+        /// Half the side of the table, m.
+        half_side_m: f64,
+    },
+    /// Two arms are parallel, or folded beyond it.
+    #[error(
+        "arms {} and {} are parallel or folded over: the angle at joint {} is {value_deg} °, it must lie between {least_deg} ° and {greatest_deg} °; \
+         move away from the singularity",
+        pair.arms()[0], pair.arms()[1], pair.angle().letter()
+    )]
+    Singular {
+        /// The two arms.
+        pair: Pair,
+        /// The angle between them, degrees.
+        value_deg: f64,
+        /// The angle at one singularity, degrees; itself not allowed.
+        least_deg: f64,
+        /// The angle at the other singularity, degrees; itself not allowed.
+        greatest_deg: f64,
+    },
+    /// The grid of a workspace is not usable.
+    #[error(
+        "the step of the grid is {step_m} m; it must be between {least_m} m and {greatest_m} m for arms of this size"
+    )]
+    Step {
+        /// The step, m.
+        step_m: f64,
+        /// The least allowed, m.
+        least_m: f64,
+        /// The greatest allowed, m.
+        greatest_m: f64,
+    },
+    /// The tip is out of reach.
+    #[error(
+        "the tip at ({x_m} m, {y_m} m) is {distance_m} m away from base joint {base}, its arms reach from {least_m} m to {greatest_m} m; \
+         move the tip or change the arm lengths"
+    )]
+    Unreachable {
+        /// x of the tip, m.
+        x_m: f64,
+        /// y of the tip, m.
+        y_m: f64,
+        /// The base joint, A or B.
+        base: &'static str,
+        /// Distance of the tip from it, m.
+        distance_m: f64,
+        /// The least reach of its arms, m.
+        least_m: f64,
+        /// The greatest reach of its arms, m.
+        greatest_m: f64,
+    },
+}
