@@ -8,3 +8,5 @@ pub mod error;
 pub mod linkage;
 
 pub use error::ModelError;
+pub mod motion;
+pub mod rig;

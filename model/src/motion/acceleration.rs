@@ -97,8 +97,6 @@ impl Equations {
     /// [`ModelError::NoAcceleration`]: it has none.
     //= thesis (5.68)
     pub fn inverse(&self) -> Result<SMatrix<f64, UNKNOWNS, UNKNOWNS>, ModelError> {
-        self.matrix
-            .try_inverse()
-            .ok_or(ModelError::NoAcceleration)
+        self.matrix.try_inverse().ok_or(ModelError::NoAcceleration)
     }
 }

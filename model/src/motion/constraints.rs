@@ -35,7 +35,18 @@ pub type ConstraintMatrix = SMatrix<f64, CONSTRAINTS, COORDINATES>;
 //= thesis (A.35)
 pub fn constraints(arms: &Arms, inertia: &Inertia, q: &Ten) -> Eight {
     let [
-        [x, y, theta_a, theta_e, x_ed, y_ed, theta_b, theta_c, x_cd, y_cd],
+        [
+            x,
+            y,
+            theta_a,
+            theta_e,
+            x_ed,
+            y_ed,
+            theta_b,
+            theta_c,
+            x_cd,
+            y_cd,
+        ],
     ] = q.data.0;
     let (l_ed, l_cd) = (inertia.ed.centre_m, inertia.cd.centre_m);
     let (sin_a, cos_a) = libm::sincos(theta_a);

@@ -25,7 +25,7 @@ pub fn mass_matrix(inertia: &Inertia) -> SMatrix<f64, COORDINATES, COORDINATES> 
         two_arms(inertia.bc, inertia.cd),
         point(inertia.cd.mass_kg),
     ];
-    let mut mass = SMatrix::zeros();
+    let mut mass = SMatrix::<f64, COORDINATES, COORDINATES>::zeros();
     for (place, block) in blocks.iter().enumerate() {
         mass.fixed_view_mut::<2, 2>(2 * place, 2 * place)
             .copy_from(block);
@@ -64,7 +64,18 @@ fn point(mass_kg: f64) -> Matrix2<f64> {
 //= thesis (A.11)
 pub fn kinetic_energy_j(inertia: &Inertia, q_dot: &Ten) -> f64 {
     let [
-        [x, y, theta_a, theta_e, x_ed, y_ed, theta_b, theta_c, x_cd, y_cd],
+        [
+            x,
+            y,
+            theta_a,
+            theta_e,
+            x_ed,
+            y_ed,
+            theta_b,
+            theta_c,
+            x_cd,
+            y_cd,
+        ],
     ] = q_dot.data.0;
     let Inertia { ae, ed, bc, cd, .. } = inertia;
     let turning = |arm: &ArmInertia, rate: f64| 0.5 * arm.inertia_kg_m2 * rate * rate;

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix2, SMatrix, Vector2, Vector4};
 use rigproof_spec::geometry::Arms;
-use rigproof_spec::inertia::Inertia;
+use rigproof_spec::inertia::{ArmInertia, Inertia};
 
 use crate::linkage::{Pose, point_a_m, point_b_m};
 
@@ -47,7 +47,81 @@ pub fn two_coordinate(
     pose: &Pose,
     rates_rad_s: [f64; 2],
 ) -> TwoCoordinate {
-    let u = Vector2::from(rates_rad_s);
+    let [left, right] = sides(arms, pose, Vector2::from(rates_rad_s));
+    let centre_ed = left.point(inertia.ed.centre_m / arms.l_ed_m);
+    let centre_cd = right.point(inertia.cd.centre_m / arms.l_cd_m);
+    let tip = left.point(1.0);
+    let mut mass = Matrix2::zeros();
+    let mut bias = Vector2::zeros();
+    for (mass_kg, point) in [
+        (inertia.ed.mass_kg, centre_ed),
+        (inertia.cd.mass_kg, centre_cd),
+        (inertia.payload_kg, tip),
+    ] {
+        mass += point.rows.transpose() * point.rows * mass_kg;
+        bias += point.rows.transpose() * point.bias * mass_kg;
+    }
+    for (inertia_kg_m2, arm) in [
+        (about_joint(&inertia.ae), left.base),
+        (about_joint(&inertia.bc), right.base),
+        (inertia.ed.inertia_kg_m2, left.carried),
+        (inertia.cd.inertia_kg_m2, right.carried),
+    ] {
+        mass += arm.row * arm.row.transpose() * inertia_kg_m2;
+        bias += arm.row * (inertia_kg_m2 * arm.bias);
+    }
+    let row_e = left.carried.row - left.base.row;
+    let row_c = right.carried.row - right.base.row;
+    let rows = [left.base.row, row_e, right.base.row, row_c];
+    TwoCoordinate {
+        mass,
+        bias,
+        joints: SMatrix::from_rows(&rows.map(|row| row.transpose())),
+        joints_bias: Vector4::new(0.0, left.carried.bias, 0.0, right.carried.bias),
+        tip: tip.rows,
+        centres: [centre_ed.rows, centre_cd.rows],
+    }
+}
+
+/// How an arm turns: its rate is `row`·u, its acceleration `row`·u̇ + `bias`.
+#[derive(Clone, Copy)]
+struct Arm {
+    vector: Vector2<f64>,
+    row: Vector2<f64>,
+    rate: f64,
+    bias: f64,
+}
+
+/// How a point moves: its velocity is `rows`·u, its acceleration `rows`·u̇ + `bias`.
+#[derive(Clone, Copy)]
+struct Point {
+    rows: Matrix2<f64>,
+    bias: Vector2<f64>,
+}
+
+/// A base arm and the arm it carries to the tip.
+struct Side {
+    base: Arm,
+    carried: Arm,
+}
+
+impl Side {
+    /// The point at a share of the carried arm.
+    fn point(&self, share: f64) -> Point {
+        let Side { base, carried } = self;
+        let reach = carried.vector * share;
+        Point {
+            rows: quarter_turn(&base.vector) * base.row.transpose()
+                + quarter_turn(&reach) * carried.row.transpose(),
+            bias: quarter_turn(&reach) * carried.bias
+                - base.vector * (base.rate * base.rate)
+                - reach * (carried.rate * carried.rate),
+        }
+    }
+}
+
+/// The sides A, E, D and B, C, D of the linkage.
+fn sides(arms: &Arms, pose: &Pose, u: Vector2<f64>) -> [Side; 2] {
     let (point_e, point_c) = (Vector2::from(pose.point_e_m), Vector2::from(pose.point_c_m));
     let tip_m = Vector2::from(pose.tip_m);
     let a = point_e - Vector2::from(point_a_m(arms));
@@ -55,65 +129,35 @@ pub fn two_coordinate(
     let c = point_c - Vector2::from(point_b_m(arms));
     let d = tip_m - point_c;
     let across = quarter_turn(&b).dot(&d);
-
-    let (unit_a, unit_b) = (Vector2::new(1.0, 0.0), Vector2::new(0.0, 1.0));
-    let phi_1 = (unit_b * quarter_turn(&c).dot(&d) - unit_a * quarter_turn(&a).dot(&d)) / across;
-    let phi_2 = (unit_b * quarter_turn(&c).dot(&b) - unit_a * quarter_turn(&a).dot(&b)) / across;
-    let (rate_a, rate_b) = (u.x, u.y);
+    // What the base arms would open between ED and CD if these did not turn, seen along v.
+    let opening = |v: &Vector2<f64>| {
+        let (of_a, of_b) = (-quarter_turn(&a).dot(v), quarter_turn(&c).dot(v));
+        Vector2::new(of_a, of_b) / across
+    };
+    let (phi_1, phi_2) = (opening(&d), opening(&b));
     let (rate_1, rate_2) = (phi_1.dot(&u), phi_2.dot(&u));
-    let inward = a * (rate_a * rate_a) + b * (rate_1 * rate_1)
-        - c * (rate_b * rate_b)
-        - d * (rate_2 * rate_2);
-    let (bias_1, bias_2) = (inward.dot(&d) / across, inward.dot(&b) / across);
-
-    let point = |base: &Vector2<f64>, base_row: &Vector2<f64>, reach: Vector2<f64>, row: &Vector2<f64>| {
-        quarter_turn(base) * base_row.transpose() + quarter_turn(&reach) * row.transpose()
-    };
-    let point_bias = |base: &Vector2<f64>, base_rate: f64, reach: Vector2<f64>, rate: f64, bias: f64| {
-        quarter_turn(&reach) * bias - base * (base_rate * base_rate) - reach * (rate * rate)
-    };
-    let to_ed = b * (inertia.ed.centre_m / arms.l_ed_m);
-    let to_cd = d * (inertia.cd.centre_m / arms.l_cd_m);
-    let centre_ed = point(&a, &unit_a, to_ed, &phi_1);
-    let centre_cd = point(&c, &unit_b, to_cd, &phi_2);
-    let tip = point(&a, &unit_a, b, &phi_1);
-    let points = [
-        (inertia.ed.mass_kg, centre_ed, point_bias(&a, rate_a, to_ed, rate_1, bias_1)),
-        (inertia.cd.mass_kg, centre_cd, point_bias(&c, rate_b, to_cd, rate_2, bias_2)),
-        (inertia.payload_kg, tip, point_bias(&a, rate_a, b, rate_1, bias_1)),
-    ];
-    let about_base = |arm: &rigproof_spec::inertia::ArmInertia| {
-        arm.inertia_kg_m2 + arm.mass_kg * arm.centre_m * arm.centre_m
-    };
-    let turning = [
-        (about_base(&inertia.ae), unit_a, 0.0),
-        (about_base(&inertia.bc), unit_b, 0.0),
-        (inertia.ed.inertia_kg_m2, phi_1, bias_1),
-        (inertia.cd.inertia_kg_m2, phi_2, bias_2),
-    ];
-    let mut mass = Matrix2::zeros();
-    let mut bias = Vector2::zeros();
-    for (mass_kg, rows, point_bias) in points {
-        mass += rows.transpose() * rows * mass_kg;
-        bias += rows.transpose() * point_bias * mass_kg;
-    }
-    for (inertia_kg_m2, row, turn_bias) in turning {
-        mass += row * row.transpose() * inertia_kg_m2;
-        bias += row * (inertia_kg_m2 * turn_bias);
-    }
-    TwoCoordinate {
-        mass,
+    let inward = a * (u.x * u.x) + b * (rate_1 * rate_1) - c * (u.y * u.y) - d * (rate_2 * rate_2);
+    let arm = |vector, row, rate, bias| Arm {
+        vector,
+        row,
+        rate,
         bias,
-        joints: SMatrix::from_rows(&[
-            unit_a.transpose(),
-            (phi_1 - unit_a).transpose(),
-            unit_b.transpose(),
-            (phi_2 - unit_b).transpose(),
-        ]),
-        joints_bias: Vector4::new(0.0, bias_1, 0.0, bias_2),
-        tip,
-        centres: [centre_ed, centre_cd],
-    }
+    };
+    [
+        Side {
+            base: arm(a, Vector2::x(), u.x, 0.0),
+            carried: arm(b, phi_1, rate_1, inward.dot(&d) / across),
+        },
+        Side {
+            base: arm(c, Vector2::y(), u.y, 0.0),
+            carried: arm(d, phi_2, rate_2, inward.dot(&b) / across),
+        },
+    ]
+}
+
+/// The moment of inertia about an arm's own joint, kg·m².
+fn about_joint(arm: &ArmInertia) -> f64 {
+    arm.inertia_kg_m2 + arm.mass_kg * arm.centre_m * arm.centre_m
 }
 
 impl TwoCoordinate {
