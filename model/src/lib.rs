@@ -4,6 +4,7 @@ pub mod axis;
 pub mod bench;
 pub mod brake;
 pub mod effects;
+pub mod encoder;
 pub mod error;
 pub mod linkage;
 

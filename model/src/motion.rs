@@ -4,7 +4,10 @@ pub mod acceleration;
 pub mod constraints;
 pub mod coordinates;
 pub mod friction;
+pub mod lumped;
 pub mod mass;
+pub mod stick;
+pub mod ten_coordinates;
 pub mod two_coordinate;
 
 use rigproof_spec::inertia::Inertia;

@@ -1,7 +1,9 @@
 //! This file is the rig: the five-bar linkage, its three or four brakes and a force on its tip, moved from step to step.
+#![expect(clippy::indexing_slicing, reason = "indices run over the four joints")]
 
 mod contact;
 mod flow;
+pub mod release;
 
 use nalgebra::Vector2;
 use rigproof_spec::geometry::{Arms, arms};
@@ -96,6 +98,8 @@ pub struct Rig {
     form: TwoCoordinate,
     torques_nm: [f64; 4],
     yields_nm: [f64; 4],
+    longest_step_s: f64,
+    events: u64,
     time_s: f64,
     work_j: f64,
     dissipated_j: f64,
@@ -146,10 +150,33 @@ impl Rig {
             form,
             torques_nm: [0.0; 4],
             yields_nm: brakes.map(|brake| brake.map_or(0.0, |brake| brake.yield_torque())),
+            longest_step_s: LONGEST_STEP_S,
+            events: 0,
             time_s: 0.0,
             work_j: 0.0,
             dissipated_j: 0.0,
         })
+    }
+
+    /// The same rig with another longest step of the integrator, s, for studies of convergence.
+    ///
+    /// # Errors
+    /// [`ModelError::TimeStep`]: it is not above 0 s and at most [`GREATEST_STEP_S`].
+    pub fn with_longest_step_s(self, longest_step_s: f64) -> Result<Rig, ModelError> {
+        check_step(longest_step_s)?;
+        Ok(Rig {
+            longest_step_s,
+            ..self
+        })
+    }
+
+    /// The same rig, its brakes in the middle of a backlash that is entered after `entry_deg` of travel, for studies of what
+    /// the entry travel changes.
+    pub fn with_backlash_entry_deg(self, entry_deg: f64) -> Rig {
+        let angles = self.joint_angles_rad();
+        let brakes = [0, 1, 2, 3]
+            .map(|i| self.brakes[i].map(|brake| brake.with_backlash_entry(angles[i], entry_deg)));
+        Rig { brakes, ..self }
     }
 
     /// Advances by `step_s` under a constant force on the tip, x and y, N, and constant currents A, E, B, C, A.
@@ -178,14 +205,11 @@ impl Rig {
         step_s: f64,
     ) -> Result<(), ModelError> {
         self.check_currents(currents_a)?;
-        if !(step_s > 0.0 && step_s <= GREATEST_STEP_S) {
-            return Err(ModelError::TimeStep {
-                value_s: step_s,
-                greatest_s: GREATEST_STEP_S,
-            });
-        }
+        check_step(step_s)?;
         let mut next = self.clone();
-        let steps = (step_s / LONGEST_STEP_S * (1.0 - 1e-9)).ceil().max(1.0);
+        let steps = (step_s / self.longest_step_s * (1.0 - 1e-9))
+            .ceil()
+            .max(1.0);
         for _ in 0..steps as u64 {
             next.short_step(tip_force, currents_a, step_s / steps)?;
         }
@@ -215,6 +239,7 @@ impl Rig {
             self.decide(tip_force)?;
             left_s -= taken_s;
             events += 1;
+            self.events += 1;
             if events > MOST_EVENTS {
                 return Err(ModelError::Events {
                     events,
@@ -378,6 +403,12 @@ impl Rig {
         self.time_s
     }
 
+    /// How often a brake has changed what it does inside a step: stuck, slipped, entered or left its backlash, or changed the
+    /// form of its time constant.
+    pub fn events(&self) -> u64 {
+        self.events
+    }
+
     /// Kinetic energy, J.
     pub fn kinetic_energy_j(&self) -> f64 {
         self.form.kinetic_energy_j(self.rates_rad_s)
@@ -438,4 +469,14 @@ fn check_finite(
         }
     }
     Ok(())
+}
+
+fn check_step(value_s: f64) -> Result<(), ModelError> {
+    if value_s > 0.0 && value_s <= GREATEST_STEP_S {
+        return Ok(());
+    }
+    Err(ModelError::TimeStep {
+        value_s,
+        greatest_s: GREATEST_STEP_S,
+    })
 }

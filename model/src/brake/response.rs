@@ -56,6 +56,15 @@ impl Brake {
         }
     }
 
+    /// The same brake with its shaft at `theta_rad` in the middle of a backlash that is entered after `entry_deg` of travel, for
+    /// studies of what the entry travel changes.
+    pub fn with_backlash_entry(self, theta_rad: f64, entry_deg: f64) -> Brake {
+        Brake {
+            backlash: Backlash::with_entry(self.joint, theta_rad, entry_deg),
+            ..self
+        }
+    }
+
     /// Advances by `dt_s` and returns the resistance at its end, N·m: positive in the sense of the velocity, so that
     /// the torque on the shaft is minus it. Zero at standstill, where any torque up to [`Brake::yield_torque`] may act.
     ///

@@ -1,4 +1,5 @@
 //! This file says how two coordinates move against up to four dry brakes: the exact solution in finitely many cases.
+#![expect(clippy::indexing_slicing, reason = "indices run over the four joints")]
 
 use nalgebra::{Matrix2, SMatrix, Vector2};
 
@@ -119,16 +120,15 @@ impl DryBrakes {
         }
         let side = normal.dot(drive).signum();
         let mut rest = -drive;
-        for j in 0..4 {
-            let component = self.component(j, &normal);
-            if component != 0.0 {
-                torques_nm[j] = -share * self.bounds_nm[j] * side * component.signum();
-                rest -= self.row(j) * torques_nm[j];
-            }
+        let crossing = |j: &usize| self.component(*j, &normal) != 0.0;
+        for j in (0..4).filter(crossing) {
+            let sign = self.component(j, &normal).signum();
+            torques_nm[j] = -share * self.bounds_nm[j] * side * sign;
+            rest -= self.row(j) * torques_nm[j];
         }
         // What is left lies along the side of the polygon and is shared by the brakes parallel to it.
         let along = quarter_turn(normal);
-        let parallel = |j: &usize| self.component(*j, &normal) == 0.0;
+        let parallel = |j: &usize| !crossing(j);
         let strength: f64 = (0..4)
             .filter(parallel)
             .map(|j| self.bounds_nm[j] * self.row(j).dot(&along).abs())

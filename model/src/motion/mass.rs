@@ -17,6 +17,16 @@ use super::coordinates::{COORDINATES, Ten};
 /// It does not depend on q. With table 5.1's `m_D` = 0 it has no inverse; (5.66) has a solution all the same.
 //= thesis (5.53)
 //= thesis (A.22)
+//= thesis (A.12)
+//= thesis (A.13)
+//= thesis (A.14)
+//= thesis (A.15)
+//= thesis (A.16)
+//= thesis (A.17)
+//= thesis (A.18)
+//= thesis (A.19)
+//= thesis (A.20)
+//= thesis (A.21)
 pub fn mass_matrix(inertia: &Inertia) -> SMatrix<f64, COORDINATES, COORDINATES> {
     let blocks = [
         point(inertia.payload_kg),

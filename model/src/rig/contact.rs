@@ -1,4 +1,5 @@
 //! This file says which brakes hold and which slip, from one event to the next.
+#![expect(clippy::indexing_slicing, reason = "indices run over the four joints")]
 
 use nalgebra::Vector2;
 
@@ -155,7 +156,7 @@ impl Contacts {
         };
         let g = row(form, first);
         if self.rest || others.iter().any(|&j| !parallel(&g, &row(form, j))) {
-            let next = self.from_rest(form, form.drive(force_n), yields_nm);
+            let next = self.leaving_rest(form, form.drive(force_n), yields_nm);
             return (next, Vector2::zeros());
         }
         let mut next = *self;
@@ -172,7 +173,7 @@ impl Contacts {
     }
 
     /// What the brakes do when the whole linkage has come to rest.
-    fn from_rest(
+    fn leaving_rest(
         &self,
         form: &TwoCoordinate,
         drive: Vector2<f64>,

@@ -1,4 +1,8 @@
 //! This file says how the rig moves while its brakes hold and slip as they do: a fourth-order Runge-Kutta step.
+#![expect(
+    clippy::indexing_slicing,
+    reason = "indices run over the four joints and the ten entries of a state"
+)]
 
 use nalgebra::{SVector, Vector2};
 
