@@ -212,6 +212,14 @@ fn lumped_rule_holds_as_long_as_it_should_on_three_brakes_and_not_on_four() {
     assert!(four.lets_go_late == 0.0 && (40.0..60.0).contains(&four.lets_go_early));
     assert!((70.0..90.0).contains(&four.other_brakes_held));
     assert!((75.0..95.0).contains(&four.a_brake_drives));
+    assert!(four.least_force < 0.02);
+    // Where both move, the direction is right in the middle on three brakes and off by 20° on four.
+    assert!(
+        three.both_move > 99.0
+            && three.direction_off_deg[0] < 1e-3
+            && three.direction_off_deg[1] > 30.0
+    );
+    assert!(four.both_move < 60.0 && four.direction_off_deg[0] > 10.0);
 }
 
 //= thesis (5.68) test

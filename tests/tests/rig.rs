@@ -260,7 +260,10 @@ fn bad_input_is_a_named_error_and_moves_nothing() {
         error.to_string().contains("joint C carries no brake"),
         "{error}"
     );
+}
 
+#[test]
+fn a_rig_that_cannot_be_is_a_named_error() {
     let error = Rig::new(Layout::FourBrake, [0.037, 0.93]).unwrap_err();
     assert!(matches!(error, ModelError::Unreachable { .. }), "{error}");
     let moving = |change: &dyn Fn(&mut Parameters), rates_rad_s| {

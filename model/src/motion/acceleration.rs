@@ -46,6 +46,8 @@ pub struct Equations {
 /// # Differs from the thesis
 ///
 /// (5.41) and (A.2) print `λ_j` for the multiplier of constraint i (erratum `multiplier-index`).
+//= thesis (5.41)
+//= thesis (A.2)
 //= thesis (5.52)
 //= thesis (5.66)
 //= thesis (A.3)

@@ -68,7 +68,7 @@ impl Release {
     /// The experiment of a figure, with what is lost chosen: 9 N from the left towards the right of the workspace.
     pub fn of(layout: Layout, locked: Option<Joint>) -> Release {
         let (start_m, cylinder_m) = match layout {
-            Layout::ThreeBrake => ([-0.13, 0.31], [0.21, 0.43]),
+            Layout::ThreeBrake => ([-0.05, 0.47], [0.13, 0.43]),
             Layout::FourBrake => ([-0.13, 0.37], [0.19, 0.41]),
         };
         Release {
