@@ -105,7 +105,9 @@ pub enum ModelError {
         time_s: f64,
     },
     /// A mass or a moment of inertia is none.
-    #[error("{symbol} of {part} is {value} {unit}; it must be above 0 {unit} and finite")]
+    #[error(
+        "{symbol} of {part} is {value} {unit}; it must be finite and above 0 {unit}, only that of the tip may be 0: check table 5.1 or the payload"
+    )]
     Mass {
         /// Which part.
         part: &'static str,

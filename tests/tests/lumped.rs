@@ -39,7 +39,7 @@ fn pose(layout: Layout, x_m: f64, y_m: f64) -> Option<Pose> {
 /// Yields anywhere between the off-state torque and the torque at 1 A.
 fn pushed(layout: Layout) -> impl Strategy<Value = Pushed> {
     let shares = prop::array::uniform4(0.0..1.0_f64);
-    (-0.57..0.57, 0.02..0.6, shares, 0.0..6.28_f64).prop_filter_map(
+    (-0.57..0.57, 0.02..0.6, shares, -3.1..3.1_f64).prop_filter_map(
         "outside the workspace",
         move |(x_m, y_m, shares, angle_rad)| {
             let mut yields_nm = [0.0; 4];

@@ -108,15 +108,18 @@ impl Release {
             }
         }
         rig.step([0.0; 2], currents_a, 1.0)?;
-        let released_s = rig.time_s();
         let ranges = angle_ranges(self.layout);
         let mut samples = vec![sample(&rig, 0.0)];
-        while rig.time_s() - released_s < self.duration_s - 0.5 * self.sample_s {
+        loop {
+            let time_s = samples.len() as f64 * self.sample_s;
+            if time_s > self.duration_s * (1.0 + 1e-12) {
+                break;
+            }
             rig.step_under(&|tip_m, _| self.pull_n(tip_m), currents_a, self.sample_s)?;
             if self.distance_m(rig.tip_m()) < self.radius_m || !inside(&ranges, &rig) {
                 break;
             }
-            samples.push(sample(&rig, rig.time_s() - released_s));
+            samples.push(sample(&rig, time_s));
         }
         Ok(samples)
     }
