@@ -255,6 +255,49 @@ fn one_and_two_stuck_joints_get_what_stops_them() {
     }
 }
 
+#[test]
+fn two_stuck_brakes_hold_as_long_as_they_should_and_then_slip_nearly_right() {
+    let (mut cases, mut other, mut drives) = (0, 0, 0);
+    for (mut case, pair, size) in draw(
+        (pushed(Layout::FourBrake), 0_usize..6, 0.3..2.1_f64),
+        20_000,
+    ) {
+        let kept = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]][pair];
+        case.yields_nm = [0, 1, 2, 3].map(|i| {
+            if kept.contains(&i) {
+                case.yields_nm[i]
+            } else {
+                0.0
+            }
+        });
+        let size_n = size * case.breaking_n();
+        let joints = case.joints(size_n);
+        let (torques_nm, held) =
+            KarnoppBrakes::new(1e-3).torques_nm(&joints, [0.0; 4], case.yields_nm);
+        let drive = case.form().drive(case.force_n(size_n));
+        let exact = dry_motion(&case.form().mass, &drive, &case.brakes());
+        if size < 1.0 {
+            assert!(kept.iter().all(|&i| held[i] && exact.held[i]), "{case:?}");
+            continue;
+        }
+        cases += 1;
+        let accelerated = joints.accelerations_rad_s2(torques_nm);
+        let scale = joints.free.amax();
+        other += u32::from(kept.iter().any(|&i| held[i] != exact.held[i]));
+        drives += u32::from(
+            kept.iter()
+                .any(|&i| torques_nm[i] * accelerated[i] > 1e-9 * scale),
+        );
+    }
+    let percent = |count: u32| 100.0 * f64::from(count) / f64::from(cases);
+    println!(
+        "of {cases} that slip: other brakes held {:.2} %, a brake drives {:.2} %",
+        percent(other),
+        percent(drives)
+    );
+    assert!((0.3..3.0).contains(&percent(other)) && (0.3..3.0).contains(&percent(drives)));
+}
+
 //= thesis (5.67) test
 #[test]
 fn karnopp_rule_by_hand() {

@@ -1,7 +1,6 @@
 //! This file says that the tables agree with their second transcription, and that the text's other numbers were weighed.
 
 use rigproof_spec::geometry::{Angle, angle_ranges, arms};
-use rigproof_spec::geometry::arms;
 use rigproof_spec::inertia::inertia;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
