@@ -74,6 +74,55 @@ pub enum ModelError {
         /// The greatest at which the arms meet, m.
         greatest_m: f64,
     },
+    /// A current that the amplifiers cannot give.
+    #[error(
+        "the current of brake {brake} is {value_a} A; it must be between 0 A and {greatest_a} A"
+    )]
+    Current {
+        /// The brake's joint.
+        brake: &'static str,
+        /// The current, A.
+        value_a: f64,
+        /// The greatest allowed, A.
+        greatest_a: f64,
+    },
+    /// A current for a joint without a brake.
+    #[error("joint {joint} carries no brake on this layout but is given {value_a} A; give it 0 A")]
+    CurrentWithoutBrake {
+        /// The joint.
+        joint: &'static str,
+        /// The current, A.
+        value_a: f64,
+    },
+    /// Brakes stick and slip again without end.
+    #[error(
+        "the brakes stuck and slipped {events} times within one step at {time_s} s; check the force for steps inside a step"
+    )]
+    Events {
+        /// How often.
+        events: u32,
+        /// When, s.
+        time_s: f64,
+    },
+    /// A mass or a moment of inertia is none.
+    #[error(
+        "{symbol} of {part} is {value} {unit}; it must be finite and above 0 {unit}, only that of the tip may be 0: check table 5.1 or the payload"
+    )]
+    Mass {
+        /// Which part.
+        part: &'static str,
+        /// The symbol of table 5.1.
+        symbol: &'static str,
+        /// Its value.
+        value: f64,
+        /// Its unit.
+        unit: &'static str,
+    },
+    /// The equations of motion have no solution.
+    #[error(
+        "the equations of motion (5.66) have no solution at this pose; move away from the singularity or give every arm a mass"
+    )]
+    NoAcceleration,
     /// A number is not finite.
     #[error("{quantity} is {value} {unit}; it must be a finite number")]
     NotFinite {
@@ -123,6 +172,14 @@ pub enum ModelError {
         least_m: f64,
         /// The greatest allowed, m.
         greatest_m: f64,
+    },
+    /// A duration that is none.
+    #[error("the step is {value_s} s; it must be above 0 s and at most {greatest_s} s")]
+    TimeStep {
+        /// The step, s.
+        value_s: f64,
+        /// The greatest allowed, s.
+        greatest_s: f64,
     },
     /// The tip is out of reach.
     #[error(

@@ -4,7 +4,10 @@ pub mod axis;
 pub mod bench;
 pub mod brake;
 pub mod effects;
+pub mod encoder;
 pub mod error;
 pub mod linkage;
 
 pub use error::ModelError;
+pub mod motion;
+pub mod rig;

@@ -9,6 +9,7 @@
 
 pub mod effect;
 pub mod geometry;
+pub mod inertia;
 pub mod joint;
 pub mod laws;
 pub mod layout;

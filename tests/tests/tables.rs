@@ -1,6 +1,7 @@
 //! This file says that the tables agree with their second transcription, and that the text's other numbers were weighed.
 
 use rigproof_spec::geometry::{Angle, angle_ranges, arms};
+use rigproof_spec::inertia::inertia;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
 use rigproof_spec::tables::{Edge, backlash_width_deg, time_constant_fit, torque_gain_fit};
@@ -183,5 +184,40 @@ fn full_lockdown_leaves_less_than_a_square_centimetre() {
         // The two arms sweep at most their product times both windows, at a right angle at E.
         let area_m2 = arm_ae_m * 0.305 * window_rad * window_rad;
         assert!(area_m2 < 1.0e-4, "{area_m2} m²");
+    }
+}
+
+#[test]
+fn table_5_1_agrees_with_its_second_transcription() {
+    let path = format!(
+        "{}/../spec/thesis/tables/5.1.csv",
+        env!("CARGO_MANIFEST_DIR")
+    );
+    let mut reader = csv::Reader::from_path(path).unwrap();
+    let mut expected = Vec::new();
+    for (name, layout) in [
+        ("3-brake", Layout::ThreeBrake),
+        ("4-brake", Layout::FourBrake),
+    ] {
+        let (inertia, arms) = (inertia(layout), arms(layout));
+        for (arm, row, length_m) in [
+            ("AE", inertia.ae, arms.l_ae_m),
+            ("ED", inertia.ed, arms.l_ed_m),
+            ("BC", inertia.bc, arms.l_bc_m),
+            ("CD", inertia.cd, arms.l_cd_m),
+        ] {
+            let numbers = [row.mass_kg, row.inertia_kg_m2, length_m, row.centre_m];
+            expected.push((name, arm, numbers.map(Some)));
+        }
+        expected.push((name, "AB", [None, None, Some(arms.l_ab_m), None]));
+        expected.push((name, "D", [Some(inertia.payload_kg), None, None, None]));
+    }
+    let records: Vec<_> = reader.records().map(Result::unwrap).collect();
+    assert_eq!(records.len(), expected.len());
+    for (record, (layout, component, numbers)) in records.iter().zip(expected) {
+        assert_eq!([&record[0], &record[1]], [layout, component]);
+        for (cell, number) in record.iter().skip(2).zip(numbers) {
+            assert_eq!(cell.parse().ok(), number, "{layout} {component}: {cell}");
+        }
     }
 }

@@ -23,16 +23,23 @@ pub const ENTRY_TRAVEL_DEG: f64 = 0.02;
 pub struct Backlash {
     theta_1_rad: f64,
     width_rad: f64,
+    entry_rad: f64,
     inside: bool,
 }
 
 impl Backlash {
     /// The backlash of a brake (table 3.1), with the shaft in its middle at `theta_rad`.
     pub fn new(joint: Joint, theta_rad: f64) -> Backlash {
+        Backlash::with_entry(joint, theta_rad, ENTRY_TRAVEL_DEG)
+    }
+
+    /// As [`Backlash::new`] with another entry travel, degrees, for studies of what it changes.
+    pub fn with_entry(joint: Joint, theta_rad: f64, entry_deg: f64) -> Backlash {
         let width_rad = rad_from_deg(backlash_width_deg(joint));
         let mut backlash = Backlash {
             theta_1_rad: theta_rad - width_rad / 2.0,
             width_rad,
+            entry_rad: rad_from_deg(entry_deg),
             inside: false,
         };
         backlash.update(theta_rad);
@@ -42,7 +49,7 @@ impl Backlash {
     /// Moves the shaft to `theta_rad`, and the boundaries with it where it reaches one; returns whether it is inside.
     pub fn update(&mut self, theta_rad: f64) -> bool {
         let (theta_1_rad, theta_2_rad) = self.boundaries_rad();
-        let entry_rad = rad_from_deg(ENTRY_TRAVEL_DEG);
+        let entry_rad = self.entry_rad;
         if theta_rad >= theta_2_rad {
             self.theta_1_rad = theta_rad - self.width_rad;
             self.inside = false;

@@ -3,6 +3,7 @@
 use rigproof_spec::joint::Joint;
 use rigproof_spec::tables::{Edge, GREATEST_CURRENT_A, torque_gain_fit};
 
+use super::time_constant::{SpeedBand, time_constant_within};
 use super::{Backlash, bounded_time_constant, torque_gain};
 
 /// Excess of the yield torque over its target below which a fall counts as finished, N·m: half the last digit
@@ -55,6 +56,15 @@ impl Brake {
         }
     }
 
+    /// The same brake with its shaft at `theta_rad` in the middle of a backlash that is entered after `entry_deg` of travel, for
+    /// studies of what the entry travel changes.
+    pub fn with_backlash_entry(self, theta_rad: f64, entry_deg: f64) -> Brake {
+        Brake {
+            backlash: Backlash::with_entry(self.joint, theta_rad, entry_deg),
+            ..self
+        }
+    }
+
     /// Advances by `dt_s` and returns the resistance at its end, N·m: positive in the sense of the velocity, so that
     /// the torque on the shaft is minus it. Zero at standstill, where any torque up to [`Brake::yield_torque`] may act.
     ///
@@ -72,6 +82,44 @@ impl Brake {
         } else {
             0.0
         }
+    }
+
+    /// What the brake does at a current and a speed until the current, the form of its time constant, the backlash or the
+    /// direction of its change is another one.
+    pub fn course(&self, current_a: f64, omega_rad_s: f64) -> Course {
+        let target_nm = self.target_nm(current_a, self.backlash.is_inside());
+        let origin_a = if self.yield_nm <= target_nm + SETTLED_NM {
+            current_a
+        } else {
+            self.fall_origin_a
+        };
+        let (edge, current_a) = if self.yield_nm <= target_nm {
+            (Edge::Rising, current_a)
+        } else {
+            (Edge::Falling, origin_a)
+        };
+        Course {
+            joint: self.joint,
+            target_nm,
+            edge,
+            current_a,
+            band: SpeedBand::of(omega_rad_s, edge),
+            origin_a,
+        }
+    }
+
+    /// The yield torque after a course has run for `exponent` time constants, ∫dt/a, N·m.
+    //= thesis (3.2)
+    pub fn yield_along(&self, course: &Course, exponent: f64) -> f64 {
+        let change_nm = course.target_nm - self.yield_nm;
+        self.within_limits(self.yield_nm - change_nm * libm::expm1(-exponent))
+    }
+
+    /// Advances along a course by `exponent` time constants, with the shaft at `theta_rad` at its end.
+    pub fn follow(&mut self, course: &Course, exponent: f64, theta_rad: f64) {
+        self.yield_nm = self.yield_along(course, exponent);
+        self.fall_origin_a = course.origin_a;
+        self.backlash.update(theta_rad);
     }
 
     /// The greatest torque the brake resists with now, N·m: what it exerts in motion, a bound at standstill.
@@ -108,6 +156,33 @@ impl Brake {
         } else {
             bounded_time_constant(self.joint, self.fall_origin_a, omega_rad_s, Edge::Falling)
         }
+    }
+}
+
+/// One course of a [`Brake`]: its yield torque on the way to one target with one form of the time constant.
+///
+/// A simulation that couples brake and motion integrates 1/a along the course and ends its step where the course does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Course {
+    joint: Joint,
+    target_nm: f64,
+    edge: Edge,
+    current_a: f64,
+    band: SpeedBand,
+    origin_a: f64,
+}
+
+impl Course {
+    /// 1/a at a speed, 1/s.
+    pub fn rate_per_s(&self, omega_rad_s: f64) -> f64 {
+        let Course {
+            joint,
+            current_a,
+            edge,
+            band,
+            ..
+        } = *self;
+        1.0 / time_constant_within(joint, current_a, omega_rad_s, edge, band)
     }
 }
 

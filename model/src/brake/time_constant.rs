@@ -2,8 +2,8 @@
 
 use rigproof_spec::joint::Joint;
 use rigproof_spec::tables::{
-    Edge, GREATEST_CURRENT_A, GREATEST_TESTED_SPEED_RPM, LEAST_TESTED_CURRENT_A,
-    LEAST_TESTED_SPEED_RPM, time_constant_fit,
+    Edge, GREATEST_CURRENT_A, LEAST_TESTED_CURRENT_A, LEAST_TESTED_SPEED_RPM, TimeConstantFit,
+    time_constant_fit,
 };
 use rigproof_spec::units::rpm_from_rad_s;
 
@@ -43,19 +43,72 @@ pub fn time_constant(joint: Joint, current_a: f64, omega_rad_s: f64, edge: Edge)
 ///
 /// The thesis extrapolates outside the tested range (erratum `time-constant-extrapolation`).
 pub fn bounded_time_constant(joint: Joint, current_a: f64, omega_rad_s: f64, edge: Edge) -> f64 {
-    let current_a = current_a.clamp(LEAST_TESTED_CURRENT_A, GREATEST_CURRENT_A);
-    let omega_rpm =
-        rpm_from_rad_s(omega_rad_s.abs()).clamp(LEAST_TESTED_SPEED_RPM, GREATEST_TESTED_SPEED_RPM);
-    surface(joint, current_a, omega_rpm, edge)
+    let band = SpeedBand::of(omega_rad_s, edge);
+    time_constant_within(joint, current_a, omega_rad_s, edge, band)
 }
 
-//= thesis (3.5)
-//= thesis (3.6)
+/// Which form of [`bounded_time_constant`] a speed takes: the boundaries between them are kinks or steps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum SpeedBand {
+    /// Below the lowest tested speed: the value there.
+    Least,
+    /// The low-speed surface.
+    Surface,
+    /// From the threshold of (3.5) or (3.6): the average.
+    Average,
+}
+
+impl SpeedBand {
+    /// The band of a speed, rad/s.
+    pub fn of(omega_rad_s: f64, edge: Edge) -> SpeedBand {
+        let omega_rpm = rpm_from_rad_s(omega_rad_s.abs());
+        if omega_rpm >= edge.threshold_rpm() {
+            SpeedBand::Average
+        } else if omega_rpm > LEAST_TESTED_SPEED_RPM {
+            SpeedBand::Surface
+        } else {
+            SpeedBand::Least
+        }
+    }
+}
+
+/// Time constant a in the form of a given band, s: smooth in the speed also a little beyond the band, for an integrator
+/// that looks ahead before it finds the boundary.
+pub fn time_constant_within(
+    joint: Joint,
+    current_a: f64,
+    omega_rad_s: f64,
+    edge: Edge,
+    band: SpeedBand,
+) -> f64 {
+    let current_a = current_a.clamp(LEAST_TESTED_CURRENT_A, GREATEST_CURRENT_A);
+    let fit = time_constant_fit(joint, edge);
+    match band {
+        SpeedBand::Least => low_speed(&fit, current_a, LEAST_TESTED_SPEED_RPM),
+        SpeedBand::Surface => {
+            let (least_rpm, greatest_rpm) = (LEAST_TESTED_SPEED_RPM, edge.threshold_rpm());
+            let omega_rpm = rpm_from_rad_s(omega_rad_s.abs());
+            low_speed(
+                &fit,
+                current_a,
+                omega_rpm.clamp(0.5 * least_rpm, 2.0 * greatest_rpm),
+            )
+        }
+        SpeedBand::Average => fit.a_avg_s,
+    }
+}
+
 fn surface(joint: Joint, current_a: f64, omega_rpm: f64, edge: Edge) -> f64 {
     let fit = time_constant_fit(joint, edge);
     if omega_rpm >= edge.threshold_rpm() {
         return fit.a_avg_s;
     }
+    low_speed(&fit, current_a, omega_rpm)
+}
+
+//= thesis (3.5)
+//= thesis (3.6)
+fn low_speed(fit: &TimeConstantFit, current_a: f64, omega_rpm: f64) -> f64 {
     //= thesis (3.7)
     let omega_l = libm::log2(omega_rpm);
     fit.a_1 * current_a
