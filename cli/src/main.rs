@@ -11,6 +11,7 @@ mod input;
 mod outcome;
 mod picture;
 mod progress;
+mod reproduce;
 mod shell;
 mod simulate;
 mod text;
@@ -39,6 +40,8 @@ enum Verb {
     Demo(demo::Args),
     /// Test the diagnosis with recordings whose cause is hidden
     Blind(blind::Args),
+    /// Run again what the thesis ran, and set its numbers beside ours
+    Reproduce(reproduce::Args),
     /// Turn a recording in HDF5, MATLAB or CSV into a normalised CSV file
     Convert(convert::Args),
 }
@@ -60,6 +63,7 @@ fn run(verb: &Verb) -> Result<Outcome, Failure> {
         Verb::Simulate(args) => simulate::run(args),
         Verb::Demo(args) => demo::run(args),
         Verb::Blind(args) => blind::run(args),
+        Verb::Reproduce(args) => reproduce::run(args),
         Verb::Convert(args) => convert::run(args),
     }
 }

@@ -9,6 +9,7 @@ fn every_verb_shows_an_example_and_says_what_it_does() {
         &["simulate"],
         &["demo"],
         &["convert"],
+        &["reproduce"],
         &["blind"],
         &["blind", "make"],
         &["blind", "score"],

@@ -6,3 +6,4 @@ mod demo;
 mod desk;
 mod diagnose;
 mod help;
+mod reproduce;
