@@ -155,6 +155,6 @@ mod tests {
             curves.into(),
         )));
         assert_eq!(drawn.matches("<polyline").count(), 3);
-        assert!(drawn.contains("q (rad)") && drawn.contains(">a<"));
+        assert!(drawn.contains("q (rad)") && drawn.contains("\na\n"));
     }
 }

@@ -29,7 +29,12 @@ pub struct Backlash {
 impl Backlash {
     /// The backlash of a brake (table 3.1), with the shaft in its middle at `theta_rad`.
     pub fn new(joint: Joint, theta_rad: f64) -> Backlash {
-        let width_rad = rad_from_deg(backlash_width_deg(joint));
+        Backlash::of_width(backlash_width_deg(joint), theta_rad)
+    }
+
+    /// A backlash of any width, degrees, with the shaft in its middle at `theta_rad`.
+    pub fn of_width(width_deg: f64, theta_rad: f64) -> Backlash {
+        let width_rad = rad_from_deg(width_deg);
         let mut backlash = Backlash {
             theta_1_rad: theta_rad - width_rad / 2.0,
             width_rad,

@@ -1,9 +1,9 @@
 //! This file says how a brake resists from one step to the next.
 
 use rigproof_spec::joint::Joint;
-use rigproof_spec::tables::{Edge, GREATEST_CURRENT_A, torque_gain_fit};
+use rigproof_spec::tables::{BrakeTable, Edge, brake_table};
 
-use super::{Backlash, bounded_time_constant, torque_gain};
+use super::{Backlash, fitted_torque_gain, table_time_constant};
 
 /// Excess of the yield torque over its target below which a fall counts as finished, N·m: half the last digit
 /// printed in table 3.2.
@@ -18,8 +18,8 @@ const SETTLED_NM: f64 = 0.005;
 /// | symbol | here | unit |
 /// |---|---|---|
 /// | τ | [`Brake::yield_torque`], positive (§5.3.4) | N·m |
-/// | K | [`torque_gain`], or the off-state torque inside the [`Backlash`] | N·m |
-/// | a | [`bounded_time_constant`] | s |
+/// | K | [`torque_gain`](super::torque_gain), or the off-state torque inside the [`Backlash`] | N·m |
+/// | a | [`table_time_constant`] | s |
 /// | I, θ, ω | `current_a`, `theta_rad`, `omega_rad_s` | A, rad, rad/s |
 ///
 /// # Differs from the thesis
@@ -38,7 +38,7 @@ const SETTLED_NM: f64 = 0.005;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Brake {
-    joint: Joint,
+    table: BrakeTable,
     backlash: Backlash,
     yield_nm: f64,
     fall_origin_a: f64,
@@ -47,10 +47,15 @@ pub struct Brake {
 impl Brake {
     /// A brake without current, settled, its shaft at `theta_rad` in the middle of the backlash.
     pub fn new(joint: Joint, theta_rad: f64) -> Brake {
+        Brake::of(brake_table(joint), theta_rad)
+    }
+
+    /// A brake of somebody's own table, as [`Brake::new`].
+    pub fn of(table: BrakeTable, theta_rad: f64) -> Brake {
         Brake {
-            joint,
-            backlash: Backlash::new(joint, theta_rad),
-            yield_nm: torque_gain_fit(joint).off_state_nm(),
+            table,
+            backlash: Backlash::of_width(table.backlash_width_deg, theta_rad),
+            yield_nm: table.torque_gain.off_state_nm(),
             fall_origin_a: 0.0,
         }
     }
@@ -86,15 +91,24 @@ impl Brake {
 
     fn target_nm(&self, current_a: f64, inside: bool) -> f64 {
         if inside {
-            torque_gain_fit(self.joint).off_state_nm()
+            self.table.torque_gain.off_state_nm()
         } else {
-            self.within_limits(torque_gain(self.joint, current_a))
+            self.within_limits(fitted_torque_gain(&self.table.torque_gain, current_a))
         }
     }
 
     fn within_limits(&self, torque_nm: f64) -> f64 {
-        let off_state_nm = torque_gain_fit(self.joint).off_state_nm();
-        torque_nm.clamp(off_state_nm, torque_gain(self.joint, GREATEST_CURRENT_A))
+        let (off_state_nm, greatest_nm) = (
+            self.table.torque_gain.off_state_nm(),
+            self.table.greatest_nm(),
+        );
+        if torque_nm < off_state_nm {
+            off_state_nm
+        } else if torque_nm > greatest_nm {
+            greatest_nm
+        } else {
+            torque_nm
+        }
     }
 
     /// The time constant towards `target_nm`: of the target current while rising, of the current that the fall
@@ -104,9 +118,9 @@ impl Brake {
             self.fall_origin_a = current_a;
         }
         if self.yield_nm <= target_nm {
-            bounded_time_constant(self.joint, current_a, omega_rad_s, Edge::Rising)
+            table_time_constant(&self.table, current_a, omega_rad_s, Edge::Rising)
         } else {
-            bounded_time_constant(self.joint, self.fall_origin_a, omega_rad_s, Edge::Falling)
+            table_time_constant(&self.table, self.fall_origin_a, omega_rad_s, Edge::Falling)
         }
     }
 }

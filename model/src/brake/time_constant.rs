@@ -1,10 +1,7 @@
 //! This file says how fast a brake's torque follows its current.
 
 use rigproof_spec::joint::Joint;
-use rigproof_spec::tables::{
-    Edge, GREATEST_CURRENT_A, GREATEST_TESTED_SPEED_RPM, LEAST_TESTED_CURRENT_A,
-    LEAST_TESTED_SPEED_RPM, time_constant_fit,
-};
+use rigproof_spec::tables::{BrakeTable, Edge, TimeConstantFit, brake_table, time_constant_fit};
 use rigproof_spec::units::rpm_from_rad_s;
 
 /// Time constant a of a brake as printed, s (3.5), (3.6).
@@ -32,7 +29,8 @@ use rigproof_spec::units::rpm_from_rad_s;
 /// assert_eq!(a, 0.0075);
 /// ```
 pub fn time_constant(joint: Joint, current_a: f64, omega_rad_s: f64, edge: Edge) -> f64 {
-    surface(joint, current_a, rpm_from_rad_s(omega_rad_s.abs()), edge)
+    let fit = time_constant_fit(joint, edge);
+    surface(&fit, current_a, rpm_from_rad_s(omega_rad_s.abs()), edge)
 }
 
 /// Time constant a of a brake for simulation, s: (3.5) and (3.6) at the nearest tested current and speed.
@@ -43,16 +41,37 @@ pub fn time_constant(joint: Joint, current_a: f64, omega_rad_s: f64, edge: Edge)
 ///
 /// The thesis extrapolates outside the tested range (erratum `time-constant-extrapolation`).
 pub fn bounded_time_constant(joint: Joint, current_a: f64, omega_rad_s: f64, edge: Edge) -> f64 {
-    let current_a = current_a.clamp(LEAST_TESTED_CURRENT_A, GREATEST_CURRENT_A);
-    let omega_rpm =
-        rpm_from_rad_s(omega_rad_s.abs()).clamp(LEAST_TESTED_SPEED_RPM, GREATEST_TESTED_SPEED_RPM);
-    surface(joint, current_a, omega_rpm, edge)
+    table_time_constant(&brake_table(joint), current_a, omega_rad_s, edge)
+}
+
+/// Time constant a of any brake whose table is known, s: (3.5) and (3.6) at the nearest measured current and speed.
+///
+/// Positive and bounded exactly if the table's surfaces are, over its own range of currents and speeds.
+pub fn table_time_constant(
+    table: &BrakeTable,
+    current_a: f64,
+    omega_rad_s: f64,
+    edge: Edge,
+) -> f64 {
+    let current_a = nearest(current_a, table.current_range_a);
+    let omega_rpm = nearest(rpm_from_rad_s(omega_rad_s.abs()), table.speed_range_rpm);
+    surface(table.time_constant(edge), current_a, omega_rpm, edge)
+}
+
+/// The nearest value of a range; what is no number stays none.
+fn nearest(value: f64, [least, greatest]: [f64; 2]) -> f64 {
+    if value < least {
+        least
+    } else if value > greatest {
+        greatest
+    } else {
+        value
+    }
 }
 
 //= thesis (3.5)
 //= thesis (3.6)
-fn surface(joint: Joint, current_a: f64, omega_rpm: f64, edge: Edge) -> f64 {
-    let fit = time_constant_fit(joint, edge);
+fn surface(fit: &TimeConstantFit, current_a: f64, omega_rpm: f64, edge: Edge) -> f64 {
     if omega_rpm >= edge.threshold_rpm() {
         return fit.a_avg_s;
     }
@@ -151,7 +170,12 @@ mod tests {
         ] {
             for (current_a, percent) in [(0.2, at_least_current), (1.0, at_greatest_current)] {
                 let above = time_constant_fit(joint, edge).a_avg_s;
-                let below = surface(joint, current_a, edge.threshold_rpm().next_down(), edge);
+                let below = surface(
+                    &time_constant_fit(joint, edge),
+                    current_a,
+                    edge.threshold_rpm().next_down(),
+                    edge,
+                );
                 let step = (below / above - 1.0) * 100.0;
                 assert!(
                     (step - percent).abs() < 0.005,
