@@ -6,4 +6,4 @@ mod step;
 
 pub use fits::{GainFit, SurfaceFit, average, gain_fit, surface_fit};
 pub use least_squares::{Estimate, Fit, Row, least_squares};
-pub use step::{StepFit, elapsed_over_time_constant, fit_step};
+pub use step::{StepFit, TRANSIENT, elapsed_over_time_constant, fit_step};

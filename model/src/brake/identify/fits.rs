@@ -91,17 +91,39 @@ pub fn surface_fit(measured: &[(f64, f64, f64)], edge: Edge) -> Option<SurfaceFi
         low.copied().collect()
     };
     let below = up_to(threshold_rpm * (1.0 - AT_THRESHOLD));
-    match surface_of(&below) {
+    let enough = distinct_speeds(&below) > 2;
+    match surface_of(&below).filter(|_| enough) {
         Some(fit) => Some(fit),
-        None => surface_of(&up_to(threshold_rpm * (1.0 + AT_THRESHOLD))).map(|fit| SurfaceFit {
-            with_threshold: true,
-            ..fit
-        }),
+        None => {
+            let with_threshold = up_to(threshold_rpm * (1.0 + AT_THRESHOLD));
+            let enough = distinct_speeds(&with_threshold) > 2;
+            surface_of(&with_threshold)
+                .filter(|_| enough)
+                .map(|fit| SurfaceFit {
+                    with_threshold: true,
+                    ..fit
+                })
+        }
     }
 }
 
 /// Share of the threshold within which a speed counts as the threshold.
 const AT_THRESHOLD: f64 = 0.05;
+
+/// How many speeds there are; two that are closer than 10 % are one that was measured twice.
+fn distinct_speeds(measured: &[(f64, f64, f64)]) -> usize {
+    let mut speeds: Vec<f64> = measured.iter().map(|m| m.1).collect();
+    speeds.sort_by(f64::total_cmp);
+    let mut before = 0.0;
+    let mut count = 0;
+    for speed in speeds {
+        if speed > 1.1 * before {
+            count += 1;
+        }
+        before = speed;
+    }
+    count
+}
 
 fn surface_of(measured: &[(f64, f64, f64)]) -> Option<SurfaceFit> {
     let rows = |spread: &dyn Fn(usize) -> f64| -> Vec<Row<6>> {

@@ -36,7 +36,7 @@ pub struct Fit<const P: usize> {
 }
 
 /// Share of the largest direction below which a direction of the unknowns counts as undetermined.
-const LEAST_SHARE: f64 = 1e-10;
+const LEAST_SHARE: f64 = 1e-5;
 
 /// Unweighted least squares; `None` when the measurements do not determine the unknowns.
 ///

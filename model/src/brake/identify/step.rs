@@ -38,8 +38,8 @@ pub struct StepFit {
     pub samples: usize,
 }
 
-/// Share of the step that is left where the transient region begins and where it ends at the latest.
-const REGION: [f64; 2] = [0.95, 0.05];
+/// The transient region: the share of the step that is left where it begins and where it ends at the latest.
+pub const TRANSIENT: [f64; 2] = [0.95, 0.05];
 /// The region ends where less than this many standard deviations of the noise are left.
 const LEAST_SIGNAL: f64 = 4.0;
 /// Samples that a slope needs.
@@ -48,16 +48,18 @@ const LEAST_SAMPLES: usize = 3;
 /// The time constant of one step: the inverse slope of (3.4) over the transient region, by least squares.
 ///
 /// `time_s` and `torque_nm` begin at the step or a little before it; `noise_nm` is the standard deviation of the torque's
-/// noise. The logarithm magnifies the noise where little is left of the step; each sample is weighted accordingly.
-/// `None` when fewer than three samples lie in the region, from 95 % to 5 % of the step left, or when it does not fall.
+/// noise; `region` is [`TRANSIENT`], or less of it where the time constant changes on the way and only the start counts.
+/// The logarithm magnifies the noise where little is left of the step; each sample is weighted accordingly. `None` when
+/// fewer than three samples lie in the region, or when what is left does not fall.
 pub fn fit_step(
     time_s: &[f64],
     torque_nm: &[f64],
     [initial_nm, final_nm]: [f64; 2],
     noise_nm: f64,
+    [first, last]: [f64; 2],
 ) -> Option<StepFit> {
     let step_nm = initial_nm - final_nm;
-    let last = REGION[1].max(LEAST_SIGNAL * noise_nm / step_nm.abs());
+    let last = last.max(LEAST_SIGNAL * noise_nm / step_nm.abs());
     let mut sums = [0.0; 5];
     let mut samples = 0;
     for (time_s, torque_nm) in time_s.iter().zip(torque_nm) {
@@ -65,7 +67,7 @@ pub fn fit_step(
         if left < last {
             break;
         }
-        if left >= REGION[0] {
+        if left >= first {
             // Before the step, or noise on the torque before it.
             sums = [0.0; 5];
             samples = 0;
@@ -123,7 +125,7 @@ mod tests {
             (0.047, 0.0081, [0.27, 6.6]),
         ] {
             let (time_s, torque_nm) = step(a_s, start_s, ends);
-            let fit = fit_step(&time_s, &torque_nm, ends, 0.0).unwrap();
+            let fit = fit_step(&time_s, &torque_nm, ends, 0.0, TRANSIENT).unwrap();
             assert!((fit.time_constant_s - a_s).abs() < 1e-12, "{fit:?}");
             assert!((fit.start_s - start_s).abs() < 1e-11, "{fit:?}");
             assert!(fit.samples > 10);
@@ -133,11 +135,20 @@ mod tests {
     #[test]
     fn a_step_without_a_transient_gives_nothing() {
         let (time_s, torque_nm) = step(0.0002, 0.0317, [0.23, 4.71]);
-        assert_eq!(fit_step(&time_s, &torque_nm, [0.23, 4.71], 0.0), None);
+        assert_eq!(
+            fit_step(&time_s, &torque_nm, [0.23, 4.71], 0.0, TRANSIENT),
+            None
+        );
         // Away from where the step ends: the share that is left grows.
         let (time_s, torque_nm) = step(0.0053, 0.0317, [0.23, 4.71]);
-        assert_eq!(fit_step(&time_s, &torque_nm, [4.71, 0.23], 0.0), None);
-        assert_eq!(fit_step(&[], &[], [0.3, 2.1], 0.01), None);
-        assert_eq!(fit_step(&time_s, &torque_nm, [1.7, 1.7], 0.01), None);
+        assert_eq!(
+            fit_step(&time_s, &torque_nm, [4.71, 0.23], 0.0, TRANSIENT),
+            None
+        );
+        assert_eq!(fit_step(&[], &[], [0.3, 2.1], 0.01, TRANSIENT), None);
+        assert_eq!(
+            fit_step(&time_s, &torque_nm, [1.7, 1.7], 0.01, TRANSIENT),
+            None
+        );
     }
 }
