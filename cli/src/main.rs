@@ -7,6 +7,7 @@ mod convert;
 mod demo;
 mod diagnose;
 mod folder;
+mod identify;
 mod input;
 mod outcome;
 mod picture;
@@ -38,6 +39,8 @@ enum Verb {
     Simulate(simulate::Args),
     /// Show the whole of it on a recording that is made for it: hide, diagnose, open the seal
     Demo(demo::Args),
+    /// Turn bench recordings into the numbers of a rig
+    Identify(identify::Args),
     /// Test the diagnosis with recordings whose cause is hidden
     Blind(blind::Args),
     /// Run again what the thesis ran, and set its numbers beside ours
@@ -62,6 +65,7 @@ fn run(verb: &Verb) -> Result<Outcome, Failure> {
         Verb::Diagnose(args) => diagnose::run(args),
         Verb::Simulate(args) => simulate::run(args),
         Verb::Demo(args) => demo::run(args),
+        Verb::Identify(args) => identify::run(args),
         Verb::Blind(args) => blind::run(args),
         Verb::Reproduce(args) => reproduce::run(args),
         Verb::Convert(args) => convert::run(args),

@@ -10,6 +10,8 @@ fn every_verb_shows_an_example_and_says_what_it_does() {
         &["demo"],
         &["convert"],
         &["reproduce"],
+        &["identify"],
+        &["identify", "brake"],
         &["blind"],
         &["blind", "make"],
         &["blind", "score"],

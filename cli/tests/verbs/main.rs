@@ -6,4 +6,5 @@ mod demo;
 mod desk;
 mod diagnose;
 mod help;
+mod identify;
 mod reproduce;

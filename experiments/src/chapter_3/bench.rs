@@ -58,3 +58,14 @@ impl Recorded {
         )
     }
 }
+
+/// The same for every brake, as text: `A 6.44, E 5.05, …`.
+pub fn each(text: impl Fn(Joint) -> String) -> String {
+    let of = |joint: Joint| format!("{} {}", joint.letter(), text(joint));
+    Joint::ALL.map(of).join(", ")
+}
+
+/// A file's or curve's name for a brake.
+pub fn name(joint: Joint) -> String {
+    format!("brake-{}", joint.letter().to_lowercase())
+}
