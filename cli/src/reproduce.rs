@@ -195,10 +195,9 @@ fn text(out: &Path, files: &[String], done: &[Done]) -> String {
 
 const fn plural(verdict: Verdict, count: usize) -> &'static str {
     match (verdict, count) {
-        (Verdict::Agrees, 1) | (Verdict::Disagrees | Verdict::CannotBeCompared, _) => {
-            verdict.name()
-        }
+        (_, 1) | (Verdict::CannotBeCompared, _) => verdict.name(),
         (Verdict::Agrees, _) => "agree",
+        (Verdict::Disagrees, _) => "disagree",
     }
 }
 

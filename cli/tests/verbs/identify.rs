@@ -95,7 +95,7 @@ const ALL: &str =
 fn recordings_become_a_brake_in_the_rig_file_that_the_program_takes() {
     let desk = desk();
     let printed = desk.prints(ALL, 0);
-    assert!(printed.starts_with("60 steps"), "{printed}");
+    assert!(printed.starts_with("90 steps"), "{printed}");
     let rig = rigproof_trace::rig::Rig::read(&desk.path("bench-brake.toml")).unwrap();
     let brake = rig.brake.clone().unwrap();
     let gain = brake.torque_gain.as_ref().unwrap();

@@ -171,3 +171,22 @@ fn findings(shown: &[(Joint, Recorded)], rows: &[(Joint, f64, f64, f64)]) -> Vec
         ),
     ]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_inspected_width_exceeds_the_backlash_by_the_lag() {
+        // At 1 Hz brake E crosses its 1.7° in (1/2π)·acos(1 − 1.7/9.549) = 96.5 ms, moving then at 34.2°/s; half the
+        // torque is back 7.0 ms·ln 2 = 4.9 ms later, after 0.166° more.
+        let width = |hertz: f64| inspected_width_deg(Joint::E, &sinusoid(Joint::E, 1.0, hertz));
+        assert!((width(1.0) - 1.866).abs() < 0.02, "{}", width(1.0));
+        // At 0.25 Hz the shaft is slower there: 17.7°/s, 0.09°.
+        assert!((width(0.25) - 1.79).abs() < 0.02, "{}", width(0.25));
+        assert_eq!(
+            inspected_width_deg(Joint::A, &sinusoid(Joint::A, 1.0, 1.0)),
+            0.0
+        );
+    }
+}
