@@ -154,8 +154,8 @@ impl<'a> Session<'a> {
         let torque = self.brake.torque(i) + SCATTER_NM * i * self.normal();
         let omega = 2.0 * core::f64::consts::PI * hertz;
         let (mut left, mut held) = (-width / 2.0, off);
-        // The window is entered and left between two samples: 40 steps to one sample.
-        let step_s = SAMPLE_S / 40.0;
+        // The window is entered and left between two samples: 20 steps to one sample.
+        let step_s = SAMPLE_S / 20.0;
         for step in 0..(4.0 / hertz / step_s) as u32 {
             let phase = omega * step_s * f64::from(step) + 0.7;
             let (angle, rpm) = (-60.0 / omega * libm::cos(phase), 10.0 * libm::sin(phase));
@@ -166,7 +166,7 @@ impl<'a> Session<'a> {
             let edge = usize::from(target < held);
             let a = self.brake.time(edge, i, rpm.abs());
             held = target + (held - target) * libm::exp(-step_s / a);
-            if step % 40 == 0 {
+            if step.is_multiple_of(20) {
                 self.record(i, angle, held * rpm.signum());
             }
         }
