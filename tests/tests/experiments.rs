@@ -1,18 +1,35 @@
-//! This file says that what the experiments find is accounted for, and that their findings can be relied on.
+//! This file says that what the experiments find is accounted for, and that what they leave behind can be relied on.
 
 use std::collections::BTreeSet;
+use std::sync::OnceLock;
 
-use rigproof_experiments::{Experiment, Finding, Verdict, all};
+use rayon::prelude::*;
+use rigproof_experiments::{Experiment, Finding, Outcome, Verdict, all};
 
-fn findings() -> Vec<(Experiment, Finding)> {
-    let of = |experiment: Experiment| {
-        let outcome = (experiment.run)().unwrap();
+/// Every experiment with what it left behind; run once for all tests.
+fn outcomes() -> &'static [(Experiment, Outcome)] {
+    static OUTCOMES: OnceLock<Vec<(Experiment, Outcome)>> = OnceLock::new();
+    OUTCOMES.get_or_init(run)
+}
+
+fn run() -> Vec<(Experiment, Outcome)> {
+    let experiments = all();
+    let one = |experiment: &Experiment| {
+        let outcome = (experiment.run)();
+        let outcome = outcome.unwrap_or_else(|error| panic!("{}: {error}", experiment.id));
+        (*experiment, outcome)
+    };
+    experiments.par_iter().with_max_len(1).map(one).collect()
+}
+
+fn findings() -> impl Iterator<Item = (&'static str, &'static Finding)> {
+    let of = |(experiment, outcome): &'static (Experiment, Outcome)| {
         outcome
             .findings
-            .into_iter()
-            .map(move |finding| (experiment, finding))
+            .iter()
+            .map(|finding| (experiment.id, finding))
     };
-    all().into_iter().flat_map(of).collect()
+    outcomes().iter().flat_map(of)
 }
 
 fn ids(file: &str, kind: &str) -> BTreeSet<String> {
@@ -32,8 +49,7 @@ fn every_disagreement_with_the_text_is_accounted_for_by_an_erratum_or_a_gap() {
         .cloned()
         .collect();
     let mut verdicts = [0; 3];
-    for (experiment, finding) in findings() {
-        let id = experiment.id;
+    for (id, finding) in findings() {
         verdicts[finding.verdict as usize] += 1;
         match finding.account {
             Some(account) => assert!(
@@ -49,23 +65,52 @@ fn every_disagreement_with_the_text_is_accounted_for_by_an_erratum_or_a_gap() {
 
 #[test]
 fn an_account_does_not_outlive_its_disagreement() {
-    for (experiment, finding) in findings() {
+    for (id, finding) in findings() {
         if finding.account.is_some() {
-            assert_eq!(
-                finding.verdict,
-                Verdict::Disagrees,
-                "{}: {finding:?}",
-                experiment.id
-            );
+            assert_eq!(finding.verdict, Verdict::Disagrees, "{id}: {finding:?}");
         }
     }
 }
 
 #[test]
 fn an_experiment_comes_out_the_same_twice() {
-    for experiment in all() {
+    for ((experiment, first), (_, second)) in outcomes().iter().zip(run()) {
         // As text, in which a missing number is equal to itself.
-        let run = || format!("{:?}", (experiment.run)());
-        assert!(run() == run(), "{}", experiment.id);
+        assert!(
+            format!("{first:?}") == format!("{second:?}"),
+            "{}",
+            experiment.id
+        );
+    }
+}
+
+#[test]
+fn every_experiment_leaves_tables_pictures_and_findings_that_can_be_written() {
+    for (experiment, outcome) in outcomes() {
+        let id = experiment.id;
+        assert!(!outcome.tables.is_empty(), "{id} writes no table");
+        assert!(!outcome.findings.is_empty(), "{id} finds nothing");
+        for table in &outcome.tables {
+            let bytes = table
+                .to_csv()
+                .unwrap_or_else(|error| panic!("{id}: {error}"));
+            assert!(bytes.iter().filter(|b| **b == b'\n').count() > 1, "{id}");
+        }
+        let panels = outcome.pictures.iter().flat_map(|picture| {
+            assert!(!picture.panels.is_empty(), "{id}: {}", picture.name);
+            &picture.panels
+        });
+        for curve in panels.flat_map(|panel| &panel.curves) {
+            assert_eq!(curve.x.len(), curve.y.len(), "{id}: {}", curve.name);
+            let finite = curve
+                .x
+                .iter()
+                .zip(&curve.y)
+                .filter(|(x, y)| x.is_finite() && y.is_finite());
+            assert!(finite.count() > 1, "{id}: {}", curve.name);
+        }
+        for finding in &outcome.findings {
+            assert!(!finding.because.is_empty(), "{id}: {}", finding.statement);
+        }
     }
 }

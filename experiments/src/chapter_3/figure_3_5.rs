@@ -164,6 +164,13 @@ fn findings(shown: &[(Joint, Recorded)], rows: &[(Joint, f64, f64, f64)]) -> Vec
         .accounted("backlash-inspection"),
         Finding::claim(
             "§3.3.3",
+            "brake A has no detectable backlash",
+            "none",
+            (format!("{}°", width(Joint::A, 1.0, 1.0)), width(Joint::A, 1.0, 1.0) == 0.0),
+            "its torque never falls to half on a turn",
+        ),
+        Finding::claim(
+            "§3.3.3",
             "the torque stalls at its off-state value as the velocity switches sign",
             "off-state",
             (each(|j| format!("{} N·m", torque_gain_fit(j).off_state_nm())), stalled),

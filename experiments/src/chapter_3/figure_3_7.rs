@@ -141,6 +141,7 @@ fn fit() -> Result<Outcome, Error> {
         rows.push((joint, fit));
     }
     outcome.findings.push(coefficients(&rows));
+    outcome.findings.push(rated());
     let letters: Vec<&str> = rows.iter().map(|row| row.0.letter()).collect();
     let mut columns = vec![Column::words("brake", &letters)];
     let units = ["N·m/A", "N·m", "N·m/A^2", "N·m/A", "N·m"];
@@ -156,6 +157,19 @@ fn fit() -> Result<Outcome, Error> {
     }
     outcome.tables.push(Table::new("coefficients", columns));
     Ok(outcome)
+}
+
+fn rated() -> Finding {
+    let least = Joint::ALL.map(|joint| torque_gain_fit(joint).greatest_nm());
+    let least = least.into_iter().fold(f64::INFINITY, f64::min);
+    let all = each(|joint| format!("{:.2} N·m", torque_gain_fit(joint).greatest_nm()));
+    Finding::claim(
+        "§3.1",
+        "the rated torque output at 1 A",
+        "5.6 N·m",
+        (all, least >= 5.6),
+        "a rating is what every brake gives at least; by table 3.2 they give 5 to 34 % more",
+    )
 }
 
 /// Whether the coefficients of table 3.2 come out within their own standard errors.

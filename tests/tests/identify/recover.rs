@@ -187,3 +187,46 @@ fn the_currents_of_the_thesis_alone_leave_k_1_to_the_break() {
     );
     assert!(found.brake.torque_gain.is_some());
 }
+
+#[test]
+fn a_noisy_current_and_the_other_direction_change_little() {
+    let brake = &printed()[2];
+    let mut traces = Vec::new();
+    for (index, rpm) in SPEEDS_RPM.into_iter().enumerate() {
+        let mut trace = Session::new(brake, 900 + index as u64).steps(&CURRENTS_A, rpm);
+        for channel in &mut trace.channels {
+            let name = channel.name.clone();
+            for (k, x) in channel.samples.iter_mut().enumerate() {
+                match name.as_str() {
+                    // A ripple of 7 mA that no sample has like its neighbour.
+                    "current" => *x += 0.007 * libm::sin(2.3 * k as f64),
+                    _ => *x = -*x,
+                }
+            }
+        }
+        traces.push((format!("{rpm} rpm"), trace));
+    }
+    let disturbed = identify(&applied(traces)).unwrap().brake;
+    let clean = identify(&steps(brake, 9, &CURRENTS_A)).unwrap().brake;
+    let both = disturbed
+        .torque_gain
+        .unwrap()
+        .k
+        .into_iter()
+        .zip(clean.torque_gain.unwrap().k);
+    for (disturbed, clean) in both {
+        let half = clean.high95.unwrap() - clean.value;
+        assert!(
+            (disturbed.value - clean.value).abs() < 0.1 * half,
+            "{disturbed:?} {clean:?}"
+        );
+    }
+    let (disturbed, clean) = (disturbed.rising.unwrap(), clean.rising.unwrap());
+    for (disturbed, clean) in surface(&disturbed).into_iter().zip(surface(&clean)) {
+        let half = clean.high95.unwrap() - clean.value;
+        assert!(
+            (disturbed.value - clean.value).abs() < 0.1 * half,
+            "{disturbed:?} {clean:?}"
+        );
+    }
+}
