@@ -166,3 +166,48 @@ pub fn width(reversals: &[Reversal]) -> Option<Value> {
     }
     average(&seen).map(|mean| with_interval(&mean))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn motion_turns_where_it_comes_back_by_more_than_three_degrees() {
+        // Up to 17°, back by 2°, up to 23°, down to −4°, up again.
+        let corners = [0.0, 17.0, 15.0, 23.0, -4.0, 9.0];
+        let mut position = Vec::new();
+        for pair in corners.windows(2) {
+            position.extend(
+                (0..100)
+                    .map(|k| rad_from_deg(pair[0] + (pair[1] - pair[0]) * f64::from(k) / 100.0)),
+            );
+        }
+        assert_eq!(turns(&position), [0, 300, 400, 499]);
+        let constant = vec![0.3; 50];
+        assert_eq!(turns(&constant), [0, 49]);
+    }
+
+    #[test]
+    fn most_reversals_without_backlash_make_a_brake_without() {
+        let reversal = |width_rad: f64| Reversal {
+            recording: 0,
+            time_s: 1.7,
+            current_a: 0.9,
+            width_rad,
+            resolution_rad: if width_rad == 0.0 { 0.0011 } else { 0.0 },
+        };
+        let none = width(&[reversal(0.0), reversal(0.0), reversal(0.027)]).unwrap();
+        assert_eq!(
+            (none.value, none.low95, none.high95),
+            (0.0, Some(0.0), Some(0.0011))
+        );
+        let some = width(&[reversal(0.026), reversal(0.0), reversal(0.028)]).unwrap();
+        assert!((some.value - 0.027).abs() < 1e-15);
+        // Two values: 12.706 of Student's t with one degree of freedom, times 0.001.
+        assert!(
+            (some.high95.unwrap() - 0.027 - 0.012_706).abs() < 1e-6,
+            "{some:?}"
+        );
+        assert_eq!(width(&[]), None);
+    }
+}

@@ -67,3 +67,52 @@ fn noise_a(current: &[f64]) -> f64 {
     // The median of |x − y| of two normal numbers is 0.6745·√2 of their deviation.
     median(&steps) / 0.953_9
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sampled(current_a: Vec<f64>) -> Sampled {
+        let count = current_a.len();
+        let line = |slope: f64| (0..count).map(|k| slope * k as f64).collect();
+        Sampled {
+            name: "run".to_owned(),
+            time_s: line(0.001),
+            position_rad: line(0.003),
+            torque_nm: vec![0.7; count],
+            current_a,
+        }
+    }
+
+    #[test]
+    fn a_ramp_between_two_currents_belongs_to_neither() {
+        let mut current = vec![0.0; 150];
+        current.extend((1..=7).map(|k| 0.1 * f64::from(k)));
+        current.extend(vec![0.73; 130]);
+        let found = plateaus(&sampled(current));
+        assert_eq!(found.len(), 2);
+        assert_eq!(found[0].samples, 0..150);
+        assert!((157..=158).contains(&found[1].samples.start), "{found:?}");
+        assert!((found[1].current_a - 0.73).abs() < 1e-3);
+    }
+
+    #[test]
+    fn one_disturbed_sample_divides_nothing_and_a_short_stretch_counts_for_nothing() {
+        let mut current = vec![0.41; 300];
+        current[170] = 0.9;
+        current.extend(vec![0.62; 60]);
+        let found = plateaus(&sampled(current));
+        assert_eq!(found.len(), 1);
+        assert_eq!(found[0].samples, 0..300);
+        assert!((found[0].current_a - 0.41).abs() < 0.002);
+    }
+
+    #[test]
+    fn a_current_that_never_stands_still_has_no_plateau() {
+        let current = (0..900).map(|k| 0.5 + 0.5 * libm::sin(0.02 * f64::from(k)));
+        for plateau in plateaus(&sampled(current.collect())) {
+            // At most around the crests, where it hardly moves.
+            assert!(plateau.samples.len() < 120, "{plateau:?}");
+        }
+    }
+}

@@ -131,3 +131,28 @@ fn level(levels: &[f64], value: f64) -> usize {
         .count()
         .saturating_sub(1)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn neighbours_within_the_tolerance_are_one_level() {
+        let values = [0.61, 0.2, 0.59, 0.0, 0.215, 0.004];
+        let found = levels(values.into_iter(), |low, high| high - low < SAME_CURRENT_A);
+        assert_eq!(found, [0.0, 0.2, 0.59]);
+        assert_eq!(values.map(|value| level(&found, value)), [2, 1, 2, 0, 1, 0]);
+    }
+
+    #[test]
+    fn values_are_kept_apart_by_their_key() {
+        let items = [
+            ((0, 1, 0), [0.5, 4.0, 1.7]),
+            ((1, 1, 0), [0.5, 4.0, 9.1]),
+            ((0, 1, 0), [0.7, 4.2, 1.9]),
+        ];
+        let sets = grouped(items.into_iter());
+        assert_eq!(sets.len(), 2);
+        assert_eq!(sets[0].1, [vec![0.5, 0.7], vec![4.0, 4.2], vec![1.7, 1.9]]);
+    }
+}
