@@ -8,10 +8,12 @@ mod demo;
 mod design;
 mod diagnose;
 mod folder;
+mod identify;
 mod input;
 mod outcome;
 mod picture;
 mod progress;
+mod reproduce;
 mod shell;
 mod simulate;
 mod text;
@@ -38,10 +40,14 @@ enum Verb {
     Simulate(simulate::Args),
     /// Show the whole of it on a recording that is made for it: hide, diagnose, open the seal
     Demo(demo::Args),
+    /// Turn bench recordings into the numbers of a rig
+    Identify(identify::Args),
     /// Test the diagnosis with recordings whose cause is hidden
     Blind(blind::Args),
     /// Draw the workspace of a linkage, compare it with others, and rank arm lengths
     Design(design::Args),
+    /// Run again what the thesis ran, and set its numbers beside ours
+    Reproduce(reproduce::Args),
     /// Turn a recording in HDF5, MATLAB or CSV into a normalised CSV file
     Convert(convert::Args),
 }
@@ -62,8 +68,10 @@ fn run(verb: &Verb) -> Result<Outcome, Failure> {
         Verb::Diagnose(args) => diagnose::run(args),
         Verb::Simulate(args) => simulate::run(args),
         Verb::Demo(args) => demo::run(args),
+        Verb::Identify(args) => identify::run(args),
         Verb::Blind(args) => blind::run(args),
         Verb::Design(args) => design::run(args),
+        Verb::Reproduce(args) => reproduce::run(args),
         Verb::Convert(args) => convert::run(args),
     }
 }

@@ -47,6 +47,12 @@ impl From<rigproof_model::ModelError> for Failure {
     }
 }
 
+impl From<rigproof_experiments::Error> for Failure {
+    fn from(error: rigproof_experiments::Error) -> Failure {
+        Failure::Input(error.to_string())
+    }
+}
+
 impl From<TraceError> for Failure {
     fn from(error: TraceError) -> Failure {
         Failure::Input(error.to_string())

@@ -2,6 +2,7 @@
 
 mod before_after;
 mod columns;
+mod figure;
 pub mod linkage;
 mod panel;
 mod plane;
@@ -14,6 +15,7 @@ use svg::Document;
 use svg::node::element::{Line, Rectangle, Text, Title};
 
 pub use before_after::before_after;
+pub use figure::figure;
 pub use residual::residual;
 
 /// Colours that people with any colour vision tell apart (Okabe and Ito 2008).

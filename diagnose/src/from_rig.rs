@@ -48,8 +48,9 @@ pub fn aligned(rig: &Rig, recording: &Recording) -> Result<Run, Fault> {
         effort_noise: scaled(effort_noise),
         effort_limit: scaled(effort.and_then(|e| e.limit)),
     })?;
-    if let (Some(joint), Some(current)) = (rig.brake, &run.current) {
-        run.predicted = Some(braked(Brake::new(joint, first_angle(&run)), &run, current));
+    if let (Some(brake), Some(current)) = (&rig.brake, &run.current) {
+        let brake = Brake::of(brake.table(), first_angle(&run));
+        run.predicted = Some(braked(brake, &run, current));
     }
     Ok(run)
 }

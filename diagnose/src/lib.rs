@@ -13,6 +13,7 @@ mod evidence;
 mod filter;
 pub mod free_run;
 pub mod from_rig;
+pub mod identify;
 pub mod inverse;
 mod locate;
 mod problem;

@@ -10,6 +10,8 @@ pub const GREATEST_CURRENT_A: f64 = 1.0;
 pub const LEAST_TESTED_CURRENT_A: f64 = 0.2;
 /// Lowest speed of the step tests, rpm: the motor could hold no lower one (§3.4).
 pub const LEAST_TESTED_SPEED_RPM: f64 = 0.5;
+/// Current at which the torque gain changes from its linear to its quadratic piece, A (3.3).
+pub const GAIN_BREAK_A: f64 = 0.2;
 /// Highest speed of the step tests, rpm (§3.4).
 pub const GREATEST_TESTED_SPEED_RPM: f64 = 64.0;
 
@@ -157,6 +159,52 @@ const fn falling(joint: Joint) -> [f64; 8] {
         Joint::E => [0.0054, 0.0017, -0.0002, -0.0017, 0.0006, 0.0000, 0.0050, 0.8473],
         Joint::B => [0.0057, 0.0018, -0.0007, -0.0015, 0.0011, -0.0003, 0.0052, 0.8548],
         Joint::C => [0.0052, 0.0045, -0.0003, -0.0017, 0.0032, -0.0028, 0.0023, 0.9267],
+    }
+}
+
+/// Everything a brake is described by: tables 3.1 to 3.3, and the range that its numbers were measured over.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BrakeTable {
+    /// Backlash width, degrees.
+    pub backlash_width_deg: f64,
+    /// Torque gain (3.3).
+    pub torque_gain: TorqueGainFit,
+    /// Rising time constant (3.5).
+    pub rising: TimeConstantFit,
+    /// Falling time constant (3.6).
+    pub falling: TimeConstantFit,
+    /// Smallest current of the steps other than zero, and the greatest one, A.
+    pub current_range_a: [f64; 2],
+    /// Lowest and highest speed of the steps, rpm.
+    pub speed_range_rpm: [f64; 2],
+}
+
+impl BrakeTable {
+    /// Torque at the greatest current, N·m: the most the brake resists with.
+    pub const fn greatest_nm(&self) -> f64 {
+        let TorqueGainFit { k_3, k_4, k_5, .. } = self.torque_gain;
+        let [_, current_a] = self.current_range_a;
+        k_3 * current_a * current_a + k_4 * current_a + k_5
+    }
+
+    /// The time constant coefficients of an edge.
+    pub const fn time_constant(&self, edge: Edge) -> &TimeConstantFit {
+        match edge {
+            Edge::Rising => &self.rising,
+            Edge::Falling => &self.falling,
+        }
+    }
+}
+
+/// The table of one of the thesis's brakes.
+pub const fn brake_table(joint: Joint) -> BrakeTable {
+    BrakeTable {
+        backlash_width_deg: backlash_width_deg(joint),
+        torque_gain: torque_gain_fit(joint),
+        rising: time_constant_fit(joint, Edge::Rising),
+        falling: time_constant_fit(joint, Edge::Falling),
+        current_range_a: [LEAST_TESTED_CURRENT_A, GREATEST_CURRENT_A],
+        speed_range_rpm: [LEAST_TESTED_SPEED_RPM, GREATEST_TESTED_SPEED_RPM],
     }
 }
 

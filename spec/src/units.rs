@@ -117,6 +117,11 @@ const SI_NAMES: &[(&str, Dimension)] = &[
     ("N·m/V", Dimension::TORQUE.per(Dimension::VOLTAGE)),
     ("N·m/A", Dimension::TORQUE.per(Dimension::CURRENT)),
     ("N/A", Dimension::FORCE.per(Dimension::CURRENT)),
+    (
+        "N·m/A^2",
+        Dimension::TORQUE.per(Dimension::CURRENT.power(2)),
+    ),
+    ("s/A", Dimension::TIME.per(Dimension::CURRENT)),
 ];
 
 /// A printed unit: its factor to SI and its dimension.
@@ -206,6 +211,11 @@ pub fn rad_s_from_rpm(omega_rpm: f64) -> f64 {
 /// Angle in rad from degrees.
 pub fn rad_from_deg(angle_deg: f64) -> f64 {
     angle_deg * RAD_PER_DEG
+}
+
+/// Angle in degrees from rad.
+pub fn deg_from_rad(angle_rad: f64) -> f64 {
+    angle_rad / RAD_PER_DEG
 }
 
 fn symbol_unit(symbol: &str) -> Option<Unit> {

@@ -4,6 +4,7 @@
 //! A calibration file is the same description with the effects that a diagnosis added.
 
 mod apply;
+mod brake;
 pub mod linkage;
 mod protocol;
 mod read;
@@ -14,7 +15,6 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use rigproof_spec::effect::{Mechanism, Motion, Quantity};
-use rigproof_spec::joint::Joint;
 use rigproof_spec::units::{Dimension, Unit};
 
 use crate::csv::TimeColumn;
@@ -22,6 +22,7 @@ use crate::error::TraceError;
 use crate::store;
 
 pub use apply::{Recording, Signal};
+pub use brake::{Brake, Gain, Surface};
 pub use protocol::{Drive, Protocol};
 
 /// A rig: what it is, what is known of it, and how its recordings are to be read.
@@ -39,8 +40,8 @@ pub struct Rig {
     pub channels: Channels,
     /// Parameters of an `axis`; a `bench` has none.
     pub parameters: Option<Parameters>,
-    /// The joint whose brake the nominal model holds; only on a turning `bench`.
-    pub brake: Option<Joint>,
+    /// The brake that the nominal model holds; only on a turning `bench`.
+    pub brake: Option<Brake>,
     /// The physics that the nominal model has.
     pub effects: Vec<RigEffect>,
     /// How free runs are made.

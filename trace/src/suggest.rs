@@ -26,7 +26,7 @@ pub fn quoted<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
 }
 
 /// "; did you mean `x`? …": the nearest name if there is one, and all of them.
-pub(crate) fn advice(name: &str, what: &str, candidates: &[&str]) -> String {
+pub fn advice(name: &str, what: &str, candidates: &[&str]) -> String {
     let known = match candidates {
         [] => format!("there are no {what}"),
         _ => format!("the {what} are {}", quoted(candidates.iter().copied())),

@@ -26,6 +26,30 @@ pub fn thinned(points: impl IntoIterator<Item = (f64, f64)>) -> Vec<(f64, f64)> 
     kept
 }
 
+/// The stretches of a curve between points that are not finite, without the points that nobody could tell from
+/// the one before.
+pub fn interrupted(points: impl IntoIterator<Item = (f64, f64)>) -> Vec<Vec<(f64, f64)>> {
+    let mut stretches: Vec<Vec<(f64, f64)>> = vec![Vec::new()];
+    for (x, y) in points {
+        let Some(open) = stretches.last_mut() else {
+            continue;
+        };
+        if !x.is_finite() || !y.is_finite() {
+            stretches.push(Vec::new());
+        } else if open
+            .last()
+            .is_none_or(|(a, b)| (x - a).abs().max((y - b).abs()) > LEAST_PIXELS)
+        {
+            open.push((x, y));
+        }
+    }
+    stretches.retain(|stretch| !stretch.is_empty());
+    stretches
+}
+
+/// Distance below which two points of a curve fall together.
+const LEAST_PIXELS: f64 = 0.3;
+
 struct Column {
     index: f64,
     lowest: (f64, f64),
@@ -68,6 +92,19 @@ mod tests {
         assert!(kept.len() <= 2 * 131, "{}", kept.len());
         assert!(kept.iter().any(|(_, y)| *y == 77.7));
         assert!(kept.windows(2).all(|pair| pair[0].0 <= pair[1].0));
+    }
+
+    #[test]
+    fn a_curve_that_turns_back_keeps_its_turns_and_its_gaps() {
+        let points = [
+            (1.3, 2.0),
+            (1.4, 2.1),
+            (5.5, 2.2),
+            (f64::NAN, 2.3),
+            (0.2, 7.7),
+        ];
+        let kept = interrupted(points);
+        assert_eq!(kept, [vec![(1.3, 2.0), (5.5, 2.2)], vec![(0.2, 7.7)]]);
     }
 
     #[test]

@@ -1,8 +1,8 @@
 //! This file is a panel: a frame with two scales, and the curves and bands inside it.
 
-use svg::node::element::{ClipPath, Definitions, Group, Line, Polyline, Rectangle};
+use svg::node::element::{Circle, ClipPath, Definitions, Group, Line, Polyline, Rectangle};
 
-use super::columns::thinned;
+use super::columns::{interrupted, thinned};
 use super::scale::Scale;
 use super::{INK, LEFT, RIGHT, WIDTH, pixel, text};
 
@@ -41,6 +41,40 @@ impl Panel {
             .set("stroke-width", width)
             .set("stroke-linejoin", "round");
         self.inside = std::mem::take(&mut self.inside).add(curve);
+    }
+
+    /// Draws a curve that may turn back; a point that is not finite interrupts it.
+    pub fn path(&mut self, x: &[f64], y: &[f64], colour: &str, width: f64) {
+        let points = x.iter().zip(y).map(|(&x, &y)| (self.at_x(x), self.at_y(y)));
+        for stretch in interrupted(points) {
+            let points: Vec<String> = stretch
+                .into_iter()
+                .map(|(x, y)| format!("{},{}", pixel(x), pixel(y)))
+                .collect();
+            let curve = Polyline::new()
+                .set("points", points.join(" "))
+                .set("fill", "none")
+                .set("stroke", colour)
+                .set("stroke-width", width)
+                .set("stroke-linejoin", "round");
+            self.inside = std::mem::take(&mut self.inside).add(curve);
+        }
+    }
+
+    /// Draws a dot for each point.
+    pub fn dots(&mut self, x: &[f64], y: &[f64], colour: &str) {
+        for (&x, &y) in x
+            .iter()
+            .zip(y)
+            .filter(|(x, y)| x.is_finite() && y.is_finite())
+        {
+            let dot = Circle::new()
+                .set("cx", pixel(self.at_x(x)))
+                .set("cy", pixel(self.at_y(y)))
+                .set("r", 2.5)
+                .set("fill", colour);
+            self.inside = std::mem::take(&mut self.inside).add(dot);
+        }
     }
 
     /// Shades the values from `low` to `high`.
@@ -106,7 +140,8 @@ impl Panel {
     }
 }
 
-fn width() -> f64 {
+/// Width of every panel.
+pub fn width() -> f64 {
     WIDTH - LEFT - RIGHT
 }
 

@@ -7,3 +7,5 @@ mod design;
 mod desk;
 mod diagnose;
 mod help;
+mod identify;
+mod reproduce;

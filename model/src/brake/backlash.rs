@@ -30,12 +30,12 @@ pub struct Backlash {
 impl Backlash {
     /// The backlash of a brake (table 3.1), with the shaft in its middle at `theta_rad`.
     pub fn new(joint: Joint, theta_rad: f64) -> Backlash {
-        Backlash::with_entry(joint, theta_rad, ENTRY_TRAVEL_DEG)
+        Backlash::of_width(backlash_width_deg(joint), ENTRY_TRAVEL_DEG, theta_rad)
     }
 
-    /// As [`Backlash::new`] with another entry travel, degrees, for studies of what it changes.
-    pub fn with_entry(joint: Joint, theta_rad: f64, entry_deg: f64) -> Backlash {
-        let width_rad = rad_from_deg(backlash_width_deg(joint));
+    /// A backlash of any width and entry travel, degrees, with the shaft in its middle at `theta_rad`.
+    pub fn of_width(width_deg: f64, entry_deg: f64, theta_rad: f64) -> Backlash {
+        let width_rad = rad_from_deg(width_deg);
         let mut backlash = Backlash {
             theta_1_rad: theta_rad - width_rad / 2.0,
             width_rad,

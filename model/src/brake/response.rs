@@ -1,10 +1,10 @@
 //! This file says how a brake resists from one step to the next.
 
 use rigproof_spec::joint::Joint;
-use rigproof_spec::tables::{Edge, GREATEST_CURRENT_A, torque_gain_fit};
+use rigproof_spec::tables::{BrakeTable, Edge, brake_table};
 
 use super::time_constant::{SpeedBand, time_constant_within};
-use super::{Backlash, bounded_time_constant, torque_gain};
+use super::{Backlash, ENTRY_TRAVEL_DEG, fitted_torque_gain, table_time_constant};
 
 /// Excess of the yield torque over its target below which a fall counts as finished, N·m: half the last digit
 /// printed in table 3.2.
@@ -19,8 +19,8 @@ const SETTLED_NM: f64 = 0.005;
 /// | symbol | here | unit |
 /// |---|---|---|
 /// | τ | [`Brake::yield_torque`], positive (§5.3.4) | N·m |
-/// | K | [`torque_gain`], or the off-state torque inside the [`Backlash`] | N·m |
-/// | a | [`bounded_time_constant`] | s |
+/// | K | [`torque_gain`](super::torque_gain), or the off-state torque inside the [`Backlash`] | N·m |
+/// | a | [`table_time_constant`] | s |
 /// | I, θ, ω | `current_a`, `theta_rad`, `omega_rad_s` | A, rad, rad/s |
 ///
 /// # Differs from the thesis
@@ -39,7 +39,7 @@ const SETTLED_NM: f64 = 0.005;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Brake {
-    joint: Joint,
+    table: BrakeTable,
     backlash: Backlash,
     yield_nm: f64,
     fall_origin_a: f64,
@@ -48,10 +48,15 @@ pub struct Brake {
 impl Brake {
     /// A brake without current, settled, its shaft at `theta_rad` in the middle of the backlash.
     pub fn new(joint: Joint, theta_rad: f64) -> Brake {
+        Brake::of(brake_table(joint), theta_rad)
+    }
+
+    /// A brake of somebody's own table, as [`Brake::new`].
+    pub fn of(table: BrakeTable, theta_rad: f64) -> Brake {
         Brake {
-            joint,
-            backlash: Backlash::new(joint, theta_rad),
-            yield_nm: torque_gain_fit(joint).off_state_nm(),
+            table,
+            backlash: Backlash::of_width(table.backlash_width_deg, ENTRY_TRAVEL_DEG, theta_rad),
+            yield_nm: table.torque_gain.off_state_nm(),
             fall_origin_a: 0.0,
         }
     }
@@ -60,7 +65,7 @@ impl Brake {
     /// studies of what the entry travel changes.
     pub fn with_backlash_entry(self, theta_rad: f64, entry_deg: f64) -> Brake {
         Brake {
-            backlash: Backlash::with_entry(self.joint, theta_rad, entry_deg),
+            backlash: Backlash::of_width(self.table.backlash_width_deg, entry_deg, theta_rad),
             ..self
         }
     }
@@ -99,11 +104,11 @@ impl Brake {
             (Edge::Falling, origin_a)
         };
         Course {
-            joint: self.joint,
+            table: self.table,
             target_nm,
             edge,
             current_a,
-            band: SpeedBand::of(omega_rad_s, edge),
+            band: SpeedBand::of(&self.table, omega_rad_s, edge),
             origin_a,
         }
     }
@@ -134,15 +139,24 @@ impl Brake {
 
     fn target_nm(&self, current_a: f64, inside: bool) -> f64 {
         if inside {
-            torque_gain_fit(self.joint).off_state_nm()
+            self.table.torque_gain.off_state_nm()
         } else {
-            self.within_limits(torque_gain(self.joint, current_a))
+            self.within_limits(fitted_torque_gain(&self.table.torque_gain, current_a))
         }
     }
 
     fn within_limits(&self, torque_nm: f64) -> f64 {
-        let off_state_nm = torque_gain_fit(self.joint).off_state_nm();
-        torque_nm.clamp(off_state_nm, torque_gain(self.joint, GREATEST_CURRENT_A))
+        let (off_state_nm, greatest_nm) = (
+            self.table.torque_gain.off_state_nm(),
+            self.table.greatest_nm(),
+        );
+        if torque_nm < off_state_nm {
+            off_state_nm
+        } else if torque_nm > greatest_nm {
+            greatest_nm
+        } else {
+            torque_nm
+        }
     }
 
     /// The time constant towards `target_nm`: of the target current while rising, of the current that the fall
@@ -152,9 +166,9 @@ impl Brake {
             self.fall_origin_a = current_a;
         }
         if self.yield_nm <= target_nm {
-            bounded_time_constant(self.joint, current_a, omega_rad_s, Edge::Rising)
+            table_time_constant(&self.table, current_a, omega_rad_s, Edge::Rising)
         } else {
-            bounded_time_constant(self.joint, self.fall_origin_a, omega_rad_s, Edge::Falling)
+            table_time_constant(&self.table, self.fall_origin_a, omega_rad_s, Edge::Falling)
         }
     }
 }
@@ -164,7 +178,7 @@ impl Brake {
 /// A simulation that couples brake and motion integrates 1/a along the course and ends its step where the course does.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Course {
-    joint: Joint,
+    table: BrakeTable,
     target_nm: f64,
     edge: Edge,
     current_a: f64,
@@ -175,14 +189,13 @@ pub struct Course {
 impl Course {
     /// 1/a at a speed, 1/s.
     pub fn rate_per_s(&self, omega_rad_s: f64) -> f64 {
-        let Course {
-            joint,
-            current_a,
-            edge,
-            band,
-            ..
-        } = *self;
-        1.0 / time_constant_within(joint, current_a, omega_rad_s, edge, band)
+        1.0 / time_constant_within(
+            &self.table,
+            self.current_a,
+            omega_rad_s,
+            self.edge,
+            self.band,
+        )
     }
 }
 

@@ -1,10 +1,7 @@
 //! This file says how fast a brake's torque follows its current.
 
 use rigproof_spec::joint::Joint;
-use rigproof_spec::tables::{
-    Edge, GREATEST_CURRENT_A, LEAST_TESTED_CURRENT_A, LEAST_TESTED_SPEED_RPM, TimeConstantFit,
-    time_constant_fit,
-};
+use rigproof_spec::tables::{BrakeTable, Edge, TimeConstantFit, brake_table, time_constant_fit};
 use rigproof_spec::units::rpm_from_rad_s;
 
 /// Time constant a of a brake as printed, s (3.5), (3.6).
@@ -32,7 +29,8 @@ use rigproof_spec::units::rpm_from_rad_s;
 /// assert_eq!(a, 0.0075);
 /// ```
 pub fn time_constant(joint: Joint, current_a: f64, omega_rad_s: f64, edge: Edge) -> f64 {
-    surface(joint, current_a, rpm_from_rad_s(omega_rad_s.abs()), edge)
+    let fit = time_constant_fit(joint, edge);
+    surface(&fit, current_a, rpm_from_rad_s(omega_rad_s.abs()), edge)
 }
 
 /// Time constant a of a brake for simulation, s: (3.5) and (3.6) at the nearest tested current and speed.
@@ -43,31 +41,48 @@ pub fn time_constant(joint: Joint, current_a: f64, omega_rad_s: f64, edge: Edge)
 ///
 /// The thesis extrapolates outside the tested range (erratum `time-constant-extrapolation`).
 pub fn bounded_time_constant(joint: Joint, current_a: f64, omega_rad_s: f64, edge: Edge) -> f64 {
-    let band = SpeedBand::of(omega_rad_s, edge);
-    time_constant_within(joint, current_a, omega_rad_s, edge, band)
+    table_time_constant(&brake_table(joint), current_a, omega_rad_s, edge)
 }
 
-/// Which form of [`bounded_time_constant`] a speed takes: the boundaries between them are kinks or steps.
+/// Time constant a of any brake whose table is known, s: (3.5) and (3.6) at the nearest measured current and speed.
+///
+/// Positive and bounded exactly if the table's surfaces are, over its own range of currents and speeds.
+pub fn table_time_constant(
+    table: &BrakeTable,
+    current_a: f64,
+    omega_rad_s: f64,
+    edge: Edge,
+) -> f64 {
+    let band = SpeedBand::of(table, omega_rad_s, edge);
+    time_constant_within(table, current_a, omega_rad_s, edge, band)
+}
+
+/// Which form of [`table_time_constant`] a speed takes: the boundaries between them are kinks or steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SpeedBand {
-    /// Below the lowest tested speed: the value there.
+    /// Below the lowest measured speed: the value there.
     Least,
     /// The low-speed surface.
     Surface,
+    /// Above the highest measured speed, where that is a low one: the value there.
+    Greatest,
     /// From the threshold of (3.5) or (3.6): the average.
     Average,
 }
 
 impl SpeedBand {
     /// The band of a speed, rad/s.
-    pub fn of(omega_rad_s: f64, edge: Edge) -> SpeedBand {
+    pub fn of(table: &BrakeTable, omega_rad_s: f64, edge: Edge) -> SpeedBand {
         let omega_rpm = rpm_from_rad_s(omega_rad_s.abs());
-        if omega_rpm >= edge.threshold_rpm() {
+        let [least_rpm, greatest_rpm] = table.speed_range_rpm;
+        if nearest(omega_rpm, table.speed_range_rpm) >= edge.threshold_rpm() {
             SpeedBand::Average
-        } else if omega_rpm > LEAST_TESTED_SPEED_RPM {
-            SpeedBand::Surface
-        } else {
+        } else if omega_rpm <= least_rpm {
             SpeedBand::Least
+        } else if omega_rpm >= greatest_rpm {
+            SpeedBand::Greatest
+        } else {
+            SpeedBand::Surface
         }
     }
 }
@@ -75,35 +90,43 @@ impl SpeedBand {
 /// Time constant a in the form of a given band, s: smooth in the speed also a little beyond the band, for an integrator
 /// that looks ahead before it finds the boundary.
 pub fn time_constant_within(
-    joint: Joint,
+    table: &BrakeTable,
     current_a: f64,
     omega_rad_s: f64,
     edge: Edge,
     band: SpeedBand,
 ) -> f64 {
-    let current_a = current_a.clamp(LEAST_TESTED_CURRENT_A, GREATEST_CURRENT_A);
-    let fit = time_constant_fit(joint, edge);
+    let current_a = nearest(current_a, table.current_range_a);
+    let fit = table.time_constant(edge);
+    let [least_rpm, greatest_rpm] = table.speed_range_rpm;
     match band {
-        SpeedBand::Least => low_speed(&fit, current_a, LEAST_TESTED_SPEED_RPM),
+        SpeedBand::Least => low_speed(fit, current_a, least_rpm),
         SpeedBand::Surface => {
-            let (least_rpm, greatest_rpm) = (LEAST_TESTED_SPEED_RPM, edge.threshold_rpm());
             let omega_rpm = rpm_from_rad_s(omega_rad_s.abs());
-            low_speed(
-                &fit,
-                current_a,
-                omega_rpm.clamp(0.5 * least_rpm, 2.0 * greatest_rpm),
-            )
+            let beyond_rpm = 2.0 * edge.threshold_rpm().min(greatest_rpm);
+            low_speed(fit, current_a, omega_rpm.clamp(0.5 * least_rpm, beyond_rpm))
         }
+        SpeedBand::Greatest => low_speed(fit, current_a, greatest_rpm),
         SpeedBand::Average => fit.a_avg_s,
     }
 }
 
-fn surface(joint: Joint, current_a: f64, omega_rpm: f64, edge: Edge) -> f64 {
-    let fit = time_constant_fit(joint, edge);
+/// The nearest value of a range; what is no number stays none.
+fn nearest(value: f64, [least, greatest]: [f64; 2]) -> f64 {
+    if value < least {
+        least
+    } else if value > greatest {
+        greatest
+    } else {
+        value
+    }
+}
+
+fn surface(fit: &TimeConstantFit, current_a: f64, omega_rpm: f64, edge: Edge) -> f64 {
     if omega_rpm >= edge.threshold_rpm() {
         return fit.a_avg_s;
     }
-    low_speed(&fit, current_a, omega_rpm)
+    low_speed(fit, current_a, omega_rpm)
 }
 
 //= thesis (3.5)
@@ -204,7 +227,12 @@ mod tests {
         ] {
             for (current_a, percent) in [(0.2, at_least_current), (1.0, at_greatest_current)] {
                 let above = time_constant_fit(joint, edge).a_avg_s;
-                let below = surface(joint, current_a, edge.threshold_rpm().next_down(), edge);
+                let below = surface(
+                    &time_constant_fit(joint, edge),
+                    current_a,
+                    edge.threshold_rpm().next_down(),
+                    edge,
+                );
                 let step = (below / above - 1.0) * 100.0;
                 assert!(
                     (step - percent).abs() < 0.005,

@@ -1,7 +1,7 @@
 //! This file says how much torque a current buys once the brake has settled.
 
 use rigproof_spec::joint::Joint;
-use rigproof_spec::tables::torque_gain_fit;
+use rigproof_spec::tables::{GAIN_BREAK_A, TorqueGainFit, torque_gain_fit};
 
 /// Torque gain K of a brake, N·m (3.3).
 ///
@@ -24,10 +24,14 @@ use rigproof_spec::tables::torque_gain_fit;
 /// // Brake A at 1 A: -3.68 + 12.05 - 0.84.
 /// assert!((torque_gain(Joint::A, 1.0) - 7.53).abs() < 1e-12);
 /// ```
-//= thesis (3.3)
 pub fn torque_gain(joint: Joint, current_a: f64) -> f64 {
-    let fit = torque_gain_fit(joint);
-    if current_a < 0.2 {
+    fitted_torque_gain(&torque_gain_fit(joint), current_a)
+}
+
+/// Torque gain K of any brake whose coefficients are known, N·m (3.3); see [`torque_gain`].
+//= thesis (3.3)
+pub fn fitted_torque_gain(fit: &TorqueGainFit, current_a: f64) -> f64 {
+    if current_a < GAIN_BREAK_A {
         fit.k_1 * current_a + fit.k_2
     } else {
         fit.k_3 * current_a * current_a + fit.k_4 * current_a + fit.k_5

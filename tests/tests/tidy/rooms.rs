@@ -8,7 +8,7 @@ use crate::assert_tidy;
 use crate::workspace::root;
 
 /// Every room, built or coming, and the rooms it may depend on. A room that is not here has no place.
-const ROOMS: [(&str, &[&str]); 12] = [
+const ROOMS: [(&str, &[&str]); 13] = [
     ("spec", &[]),
     ("model", &["spec"]),
     ("impl", &["spec"]),
@@ -17,19 +17,39 @@ const ROOMS: [(&str, &[&str]); 12] = [
     ("proofs", &["spec", "model", "impl"]),
     ("diagnose", &["spec", "model", "trace"]),
     ("blind", &["spec", "trace"]),
+    ("experiments", &["spec", "model", "trace"]),
     ("certify", &["spec", "model", "impl", "trace"]),
     ("report", &["spec", "trace", "diagnose", "certify"]),
     (
         "cli",
         &[
-            "spec", "model", "impl", "trace", "golden", "diagnose", "blind", "certify", "report",
+            "spec",
+            "model",
+            "impl",
+            "trace",
+            "golden",
+            "diagnose",
+            "blind",
+            "experiments",
+            "certify",
+            "report",
         ],
     ),
     (
         "tests",
         &[
-            "spec", "model", "impl", "trace", "golden", "proofs", "diagnose", "blind", "certify",
-            "report", "cli",
+            "spec",
+            "model",
+            "impl",
+            "trace",
+            "golden",
+            "proofs",
+            "diagnose",
+            "blind",
+            "experiments",
+            "certify",
+            "report",
+            "cli",
         ],
     ),
 ];

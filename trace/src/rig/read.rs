@@ -3,13 +3,13 @@
 use std::path::Path;
 
 use rigproof_spec::effect::{Mechanism, Motion, Quantity};
-use rigproof_spec::joint::Joint;
 use rigproof_spec::units::{Dimension, Unit};
 use toml::de::DeTable;
 
 use super::table::{Source, Table};
 use super::{
-    ChannelMap, Channels, Parameters, Plant, Protocol, Rig, RigEffect, Status, Value, motion_name,
+    Brake, ChannelMap, Channels, Parameters, Plant, Protocol, Rig, RigEffect, Status, Value,
+    motion_name,
 };
 use crate::csv::TimeColumn;
 use crate::error::TraceError;
@@ -60,7 +60,7 @@ impl Rig {
             motion,
             source: root.text("source")?.map(str::to_string),
             parameters: read_parameters(&root, motion, channels.command.as_ref())?,
-            brake: read_brake(&root, motion, channels.current.as_ref())?,
+            brake: Brake::read(&root, motion, channels.current.as_ref())?,
             effects: root
                 .tables("effect")?
                 .iter()
@@ -214,23 +214,6 @@ fn read_parameters(
     }))
 }
 
-fn read_brake(
-    root: &Table<'_>,
-    motion: Motion,
-    current: Option<&ChannelMap>,
-) -> Result<Option<Joint>, TraceError> {
-    let Some(table) = root.table("brake")? else {
-        return Ok(None);
-    };
-    table.only(&["joint"])?;
-    if motion != Motion::Rotary || current.is_none() {
-        return Err(table.error(
-            "a brake belongs to a bench with rotary motion and a `current` channel; change these or leave it out",
-        ));
-    }
-    choice(&table, "joint", Joint::ALL, Joint::letter).map(Some)
-}
-
 fn read_effect(table: &Table<'_>, motion: Motion) -> Result<RigEffect, TraceError> {
     let word = table.need("mechanism", table.text("mechanism")?)?;
     let mechanism = Mechanism::from_name(word)
@@ -263,7 +246,7 @@ fn read_effect(table: &Table<'_>, motion: Motion) -> Result<RigEffect, TraceErro
 }
 
 /// A value with its unit, in SI.
-fn read_value(
+pub(super) fn read_value(
     table: &Table<'_>,
     key: &str,
     dimension: Dimension,

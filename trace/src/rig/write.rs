@@ -5,7 +5,7 @@ use std::fmt::Write;
 use rigproof_spec::effect::{Motion, Quantity};
 use rigproof_spec::units::Dimension;
 
-use super::{ChannelMap, Rig, RigEffect, Status, Value, motion_name};
+use super::{Brake, ChannelMap, Rig, RigEffect, Status, Value, motion_name};
 
 impl Rig {
     /// The description as TOML, every value in SI units.
@@ -30,9 +30,7 @@ impl Rig {
                 value(&parameters.command_gain, gain)
             ));
         }
-        if let Some(joint) = self.brake {
-            lines.push(format!("\n[brake]\njoint = {}", string(joint.letter())));
-        }
+        lines.extend(self.brake.iter().flat_map(Brake::lines));
         for effect in &self.effects {
             write_effect(effect, self.motion, &mut lines);
         }
@@ -106,7 +104,7 @@ fn channel(map: &ChannelMap) -> String {
     text + " }"
 }
 
-fn value(number: &Value, dimension: Dimension) -> String {
+pub(super) fn value(number: &Value, dimension: Dimension) -> String {
     let unit = string(&dimension.to_string());
     let mut text = format!("{{ value = {:?}, unit = {unit}", number.value);
     if number.status != Status::Known {
@@ -125,7 +123,7 @@ fn append(text: &mut String, key: &str, number: Option<f64>) {
 }
 
 /// A basic string of TOML; control characters are escaped, so that it may be a key as well.
-fn string(text: &str) -> String {
+pub(super) fn string(text: &str) -> String {
     let mut quoted = String::from("\"");
     for character in text.chars() {
         match character {

@@ -3,6 +3,7 @@
 use super::*;
 use crate::rig::{Channels, Drive, Parameters};
 use proptest::prelude::*;
+use rigproof_spec::joint::Joint;
 
 const AXIS: &str = r#"name = "slide"
 plant = "axis"
@@ -52,8 +53,12 @@ fn values_become_si() {
 fn a_brake_on_a_bench_is_read() {
     let rig = parse(BRAKE).unwrap();
     assert_eq!(
-        (rig.plant, rig.motion, rig.brake),
-        (Plant::Bench, Motion::Rotary, Some(Joint::E))
+        (rig.plant, rig.motion, rig.brake.clone()),
+        (
+            Plant::Bench,
+            Motion::Rotary,
+            Some(Brake::of_thesis(Joint::E))
+        )
     );
     assert_eq!(rig.channels.force.as_ref().unwrap().channel, "torque");
     assert_eq!(rig.channels.time.as_ref().unwrap().unit, "ms");
