@@ -3,11 +3,14 @@
 pub mod axis;
 pub mod bench;
 pub mod brake;
+pub mod control;
 pub mod effects;
 pub mod encoder;
 pub mod error;
 pub mod linkage;
+pub mod metrics;
 
-pub use error::ModelError;
 pub mod motion;
 pub mod rig;
+
+pub use error::ModelError;

@@ -38,6 +38,8 @@ pub enum Reason {
     FreeSide,
     /// None: no brake helps, and the operator does not push away from the path.
     NoneHelps,
+    /// None: the linkage is at a singularity, where no joint torque has a known force.
+    SingularPose,
     /// None: nothing calls for a force.
     NothingToDo,
     /// None: an input is not a finite number.
