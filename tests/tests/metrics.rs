@@ -3,6 +3,7 @@
 use core::f64::consts::PI;
 
 use proptest::prelude::*;
+use proptest::test_runner::FileFailurePersistence;
 use rigproof_model::ModelError;
 use rigproof_model::control::path::{Line, Path};
 use rigproof_model::metrics::{
@@ -338,6 +339,12 @@ fn the_printed_dft_sum_is_complex() {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig {
+        cases: 2000,
+        failure_persistence: Some(Box::new(FileFailurePersistence::WithSource("regressions"))),
+        ..ProptestConfig::default()
+    })]
+
     #[test]
     fn the_transform_agrees_with_its_printed_sum(a in prop::collection::vec(-7.3..9.1_f64, 2..90)) {
         let fast = dft_magnitudes(&a);

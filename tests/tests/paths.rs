@@ -3,6 +3,7 @@
 use core::f64::consts::PI;
 
 use proptest::prelude::*;
+use proptest::test_runner::FileFailurePersistence;
 use rigproof_model::ModelError;
 use rigproof_model::control::path::{Arc, Line, Nearest, Path, Polyline, Spline};
 
@@ -144,7 +145,11 @@ fn check(path: &dyn Path, on: &[[f64; 2]], point: [f64; 2]) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1500))]
+    #![proptest_config(ProptestConfig {
+        cases: 2000,
+        failure_persistence: Some(Box::new(FileFailurePersistence::WithSource("regressions"))),
+        ..ProptestConfig::default()
+    })]
 
     #[test]
     fn the_foot_on_a_line_is_the_nearest((path, on) in line(), point in point()) {

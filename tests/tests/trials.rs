@@ -157,7 +157,7 @@ fn the_gap_lowers_force_and_smoothness_sum_and_costs_accuracy() {
     let (with, without) = (Method::SdofWithGap, Method::Sdof);
     assert_eq!(below(with, without, |cell| cell.tip_force_n), (12, 12));
     assert_eq!(below(with, without, |cell| cell.dft_sum_e5), (12, 12));
-    assert_eq!(below(without, with, |cell| cell.path_error_cm), (7, 12));
+    assert_eq!(below(without, with, |cell| cell.path_error_cm), (8, 12));
 }
 
 #[test]
@@ -184,7 +184,7 @@ fn the_low_gain_is_as_smooth_as_no_control_but_not_as_light() {
     let smoothness = mean(low, |cell| cell.dft_sum_e5) / mean(none, |cell| cell.dft_sum_e5);
     let force = mean(low, |cell| cell.tip_force_n) / mean(none, |cell| cell.tip_force_n);
     assert!((smoothness - 0.86).abs() < 0.005, "{smoothness}");
-    assert!((force - 1.37).abs() < 0.005, "{force}");
+    assert!((force - 1.40).abs() < 0.005, "{force}");
 }
 
 #[test]

@@ -15,7 +15,7 @@ use nalgebra::Vector2;
 /// Anything with a tangent at every point (§6.2: "as long as the angle of the line of tangency is known at each point").
 ///
 /// An open path goes on straight beyond its ends (gap `path-ends`).
-pub trait Path {
+pub trait Path: core::fmt::Debug {
     /// The point of the path that is nearest to `point_m`, x and y in m; of several, the first along the path.
     fn nearest(&self, point_m: [f64; 2]) -> Nearest;
 }
