@@ -406,7 +406,10 @@ proptest! {
     ) {
         let (there, back) = (Line::through(from, to).unwrap(), Line::through(to, from).unwrap());
         let tangent = there.nearest(moment.sensed.pose.tip_m).tangent;
-        prop_assume!(tangent.dot(&Vector2::from(moment.sensed.tip_force_n)).abs() > 1e-9);
+        let along_n = tangent.dot(&Vector2::from(moment.sensed.tip_force_n));
+        if along_n.abs() < 1e-9 {
+            return Ok(());
+        }
         for method in Method::ALL {
             let actuation = Actuation::thesis(moment.layout);
             let on = |line| controller(method, GainUnit::PerCentimetre, actuation, line).unwrap().command(&moment.sensed);
