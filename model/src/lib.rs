@@ -11,6 +11,8 @@ pub mod linkage;
 pub mod metrics;
 
 pub mod motion;
+pub mod operator;
 pub mod rig;
+pub mod trial;
 
 pub use error::ModelError;

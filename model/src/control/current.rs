@@ -14,7 +14,7 @@ const PIECES_MEET_A: f64 = 0.2;
 /// | I | result | A | 0 to 1 |
 ///
 /// A torque up to the off-state torque needs no current; one above that of 1 A gets 1 A; one that is not a number gets
-/// none. Of the two currents that give the same torque just below 0.2 A it is the smaller one (gap `gain-inverse`).
+/// none. Of the two currents that give the same torque just below 0.2 A it is the smaller one (gap `gain-inverse-control`).
 ///
 /// ```
 /// use rigproof_model::control::current_for_torque;
