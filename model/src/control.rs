@@ -21,7 +21,7 @@ pub use impedance::{Impedance, Virtual};
 pub use method::{GainUnit, Uncontrolled, controller};
 use nalgebra::Vector2;
 pub use obstacle::{Obstacle, Side};
-pub use optimal::{Optimal, Weights};
+pub use optimal::{Optimal, Weights, tip_mass};
 pub use proportional::{Proportional, influence};
 use rigproof_spec::command::Command;
 use rigproof_spec::joint::Joint;

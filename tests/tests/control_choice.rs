@@ -267,15 +267,17 @@ fn an_obstacle_lets_the_tip_out_and_leads_it_along_its_boundary() {
     );
 }
 
+/// The message of a refused setting.
+fn refused(result: Result<(), ModelError>, expected: &str) {
+    let error = result.unwrap_err();
+    assert!(matches!(error, ModelError::SettingRange { .. }));
+    assert_eq!(error.to_string(), expected);
+}
+
 #[test]
 fn settings_out_of_range_are_named() {
     let actuation = Actuation::thesis(Layout::FourBrake);
     let line = Line::through([-0.31, 0.35], [0.29, 0.37]).unwrap();
-    let refused = |result: Result<(), ModelError>, expected: &str| {
-        let error = result.unwrap_err();
-        assert!(matches!(error, ModelError::SettingRange { .. }));
-        assert_eq!(error.to_string(), expected);
-    };
     for (boundary_m, gap_m, expected) in [
         (
             0.05,
@@ -323,6 +325,12 @@ fn settings_out_of_range_are_named() {
             expected,
         );
     }
+}
+
+#[test]
+fn settings_of_the_controllers_of_chapter_2_are_named() {
+    let actuation = Actuation::thesis(Layout::FourBrake);
+    let line = Line::through([-0.31, 0.35], [0.29, 0.37]).unwrap();
     let ratio = VelocityRatio::new(actuation, line, 0.05, -0.3).map(|_| ());
     refused(
         ratio,

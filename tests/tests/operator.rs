@@ -1,18 +1,24 @@
 //! This file says what the five methods of table 6.1 do in a closed loop: under the constant push of §6.4 and under a
 //! simulated operator.
 
+use std::sync::LazyLock;
+
 use rigproof_model::ModelError;
 use rigproof_model::control::path::Line;
-use rigproof_model::control::{Actuation, GainUnit, controller};
+use rigproof_model::control::{
+    Actuation, Controller, GainUnit, Impedance, Obstacle, Optimal, Proportional, Sdof, Side,
+    Uncontrolled, VelocityRatio, Virtual, Weights, controller, tip_mass,
+};
+use rigproof_model::linkage::Pose;
 use rigproof_model::operator::{Abilities, ConstantPush, Hand, Operator};
-use rigproof_model::rig::Rig;
+use rigproof_model::rig::{Parameters, Rig};
 use rigproof_model::trial::{LINES, Metrics, Record, Segment, run, trial};
 use rigproof_spec::laws::{brake_count, braked_joints, current_limit};
 use rigproof_spec::layout::Layout;
 use rigproof_spec::methods::{Method, SAMPLE_STEP_S};
 
 const LAYOUTS: [Layout; 2] = [Layout::ThreeBrake, Layout::FourBrake];
-const SEEDS: u64 = 7;
+const SEEDS: u64 = 21;
 
 /// §6.4: line y = 38 cm, started 4 cm below it, pushed with 7 N along and 3 N towards it. Where along it the run starts
 /// is not said; here from x = -15 cm to 15 cm.
@@ -34,12 +40,11 @@ fn proof_of_concept(layout: Layout, method: Method, unit: GainUnit) -> Record {
     record
 }
 
-/// Greatest distance from the line y = 38 cm after it was first reached to 5 mm, m.
-fn greatest_error_m(record: &Record) -> f64 {
-    let errors = record.tips_m.iter().map(|[_, y]| (y - 0.38).abs());
-    errors
-        .skip_while(|error| *error > 0.005)
-        .fold(0.0, f64::max)
+/// Average distance from the line y = 38 cm over the last third of the run, when the path has been reached, m.
+fn settled_error_m(record: &Record) -> f64 {
+    let late = record.tips_m.iter().filter(|[x, _]| *x > 0.05);
+    let errors: Vec<f64> = late.map(|[_, y]| (y - 0.38).abs()).collect();
+    errors.iter().sum::<f64>() / errors.len() as f64
 }
 
 fn switches(record: &Record) -> usize {
@@ -53,7 +58,7 @@ fn proportional_control_is_more_accurate_than_sdof_and_switches_more() {
     for layout in LAYOUTS {
         let sdof = proof_of_concept(layout, Method::Sdof, GainUnit::PerMetre);
         let proportional = proof_of_concept(layout, Method::ProportionalHigh, GainUnit::PerMetre);
-        let (theirs_m, ours_m) = (greatest_error_m(&sdof), greatest_error_m(&proportional));
+        let (theirs_m, ours_m) = (settled_error_m(&sdof), settled_error_m(&proportional));
         println!("{layout:?}: SDOF {theirs_m} m, proportional {ours_m} m");
         assert!(
             ours_m < 0.25 * theirs_m,
@@ -97,12 +102,42 @@ fn a_low_gain_of_5_newton_seconds_a_metre_does_not_hold_the_path() {
     }
 }
 
-/// Medians over the seeds.
-fn medians(layout: Layout, method: Method, unit: GainUnit, segment: Segment) -> Metrics {
-    let line = Line::through(segment.from_m, segment.to_m).unwrap();
+/// Medians over the seeds, by layout, line and method.
+static MEDIANS: LazyLock<Vec<(Layout, usize, Method, Metrics)>> = LazyLock::new(|| {
+    let groups: Vec<(Layout, usize)> = LAYOUTS
+        .into_iter()
+        .flat_map(|layout| [(layout, 0), (layout, 1)])
+        .collect();
+    std::thread::scope(|scope| {
+        let running: Vec<_> = groups
+            .into_iter()
+            .map(|(layout, line)| {
+                scope.spawn(move || {
+                    Method::ALL
+                        .map(|method| (layout, line, method, median_of(layout, method, line)))
+                })
+            })
+            .collect();
+        running
+            .into_iter()
+            .flat_map(|thread| thread.join().unwrap())
+            .collect()
+    })
+});
+
+fn medians(layout: Layout, line: usize, method: Method) -> Metrics {
+    let same = |entry: &&(Layout, usize, Method, Metrics)| {
+        (entry.0, entry.1, entry.2) == (layout, line, method)
+    };
+    MEDIANS.iter().find(same).unwrap().3
+}
+
+fn median_of(layout: Layout, method: Method, line: usize) -> Metrics {
+    let segment = LINES[line];
+    let path = Line::through(segment.from_m, segment.to_m).unwrap();
     let all: Vec<Metrics> = (0..SEEDS)
         .map(|seed| {
-            let seed = 7919 * seed + 13;
+            let (seed, unit) = (7919 * seed + 13, GainUnit::PerCentimetre);
             let record = trial(layout, method, unit, segment, Abilities::CAREFUL, seed).unwrap();
             assert!(
                 record.arrived,
@@ -117,7 +152,7 @@ fn medians(layout: Layout, method: Method, unit: GainUnit, segment: Segment) -> 
                         .all(|current_a| current_limit(*current_a).holds())
                 );
             }
-            record.metrics(&line).unwrap()
+            record.metrics(&path).unwrap()
         })
         .collect();
     let median = |quantity: fn(&Metrics) -> f64| {
@@ -135,9 +170,9 @@ fn medians(layout: Layout, method: Method, unit: GainUnit, segment: Segment) -> 
 #[test]
 fn a_simulated_operator_orders_the_five_methods_as_people_did() {
     for layout in LAYOUTS {
-        for (number, segment) in (1..).zip(LINES) {
-            let of = |method| medians(layout, method, GainUnit::PerCentimetre, segment);
-            let [none, sdof, gap, low, high] = Method::ALL.map(of);
+        for line in [0, 1] {
+            let [none, sdof, gap, low, high] =
+                Method::ALL.map(|method| medians(layout, line, method));
             for (name, m) in [
                 ("N", none),
                 ("S", sdof),
@@ -146,7 +181,8 @@ fn a_simulated_operator_orders_the_five_methods_as_people_did() {
                 ("L", low),
             ] {
                 println!(
-                    "{layout:?} line {number} {name}: {:.3} cm {:.2} N {:.3e} m/s³",
+                    "{layout:?} line {} {name}: {:.3} cm {:.2} N {:.3e} m/s³",
+                    line + 1,
                     m.path_error_m * 100.0,
                     m.tip_force_n,
                     m.dft_sum_m_s3
@@ -156,42 +192,166 @@ fn a_simulated_operator_orders_the_five_methods_as_people_did() {
             for controlled in [sdof, gap, low, high] {
                 assert!(controlled.path_error_m < 0.65 * none.path_error_m);
             }
-            // "Adding an uncontrolled gap … increased smoothness and decreased workload"; so did lowering the gain.
+            // "Adding an uncontrolled gap … increased smoothness and decreased workload"; lowering the gain the workload.
             assert!(gap.tip_force_n < sdof.tip_force_n && gap.dft_sum_m_s3 < sdof.dft_sum_m_s3);
             assert!(low.tip_force_n < 0.75 * high.tip_force_n);
             // "Similar levels of workload … to the uncontrolled experiment."
             assert!(low.tip_force_n < 1.4 * none.tip_force_n);
             // "Overall the proportional controller exhibited … higher levels of smoothness than the SDOF controller."
             assert!(high.dft_sum_m_s3 < sdof.dft_sum_m_s3 && low.dft_sum_m_s3 < gap.dft_sum_m_s3);
-            if layout == Layout::FourBrake {
-                assert!(low.dft_sum_m_s3 < 1.5 * none.dft_sum_m_s3);
-                assert!(low.dft_sum_m_s3 < high.dft_sum_m_s3);
-            }
         }
     }
 }
 
 #[test]
-fn the_low_gain_is_not_as_smooth_as_no_control_on_three_brakes() {
-    // What does not come out: on the 3-brake layout no brake may help, and then every brake locks for a moment.
-    for segment in LINES {
-        let of = |method| medians(Layout::ThreeBrake, method, GainUnit::PerCentimetre, segment);
-        let (none, low) = (of(Method::Uncontrolled), of(Method::ProportionalLow));
-        let ratio = low.dft_sum_m_s3 / none.dft_sum_m_s3;
-        println!("{segment:?}: {ratio}");
-        assert!(ratio > 1.5, "{ratio}");
+fn the_low_gain_is_as_smooth_as_no_control_on_four_brakes_only() {
+    // What does not come out on the 3-brake layout: no brake may help, and then every brake locks for a moment.
+    for (layout, line, range) in [
+        (Layout::FourBrake, 0, 0.8..1.5),
+        (Layout::FourBrake, 1, 0.8..1.5),
+        (Layout::ThreeBrake, 0, 1.5..7.0),
+        (Layout::ThreeBrake, 1, 3.0..7.0),
+    ] {
+        let of = |method| medians(layout, line, method).dft_sum_m_s3;
+        let ratio = of(Method::ProportionalLow) / of(Method::Uncontrolled);
+        println!("{layout:?} line {}: {ratio}", line + 1);
+        assert!(range.contains(&ratio), "{layout:?} {line}: {ratio}");
     }
 }
 
 #[test]
 fn the_gap_costs_a_simulated_operator_more_than_people() {
-    // People lost nothing (0.24 to 0.25 cm in the mean of tables C); here the gap of 0.5 cm fills with the aim's error.
+    // People lost nothing (0.24 cm in the mean of tables C with and without); here the gap of 0.5 cm fills with the
+    // aim's error. On four brakes it stays rougher than the high gain, where people found it smoother.
     for layout in LAYOUTS {
-        for segment in LINES {
-            let of = |method| medians(layout, method, GainUnit::PerCentimetre, segment);
-            let ratio = of(Method::SdofWithGap).path_error_m / of(Method::Sdof).path_error_m;
-            assert!(ratio > 2.5, "{ratio}");
+        for line in [0, 1] {
+            let of = |method| medians(layout, line, method);
+            let (gap, sdof, high) = (
+                of(Method::SdofWithGap),
+                of(Method::Sdof),
+                of(Method::ProportionalHigh),
+            );
+            assert!(gap.path_error_m > 2.5 * sdof.path_error_m);
+            println!(
+                "{layout:?} line {}: {}",
+                line + 1,
+                gap.dft_sum_m_s3 / high.dft_sum_m_s3
+            );
         }
+    }
+}
+
+/// The controllers of chapter 2 and of §7.3 on a line, each with settings of its own.
+fn others(layout: Layout, line: Line) -> Vec<(&'static str, Box<dyn Controller>)> {
+    let actuation = Actuation::thesis(layout);
+    let elements = Virtual {
+        stiffness_n_per_m: 3000.0,
+        damping_across_n_s_per_m: 300.0,
+        damping_along_n_s_per_m: 100.0,
+    };
+    let weights = Weights {
+        angle: 1.0,
+        energy: 0.01,
+        horizon_s: 0.03,
+    };
+    let inertia = move |pose: &Pose| tip_mass(&Parameters::of(layout), pose);
+    vec![
+        (
+            "velocity ratio",
+            Box::new(VelocityRatio::new(actuation, line, 0.05, 30.0).unwrap()),
+        ),
+        (
+            "optimal",
+            Box::new(Optimal::new(actuation, line, 0.05, weights, inertia).unwrap()),
+        ),
+        (
+            "impedance",
+            Box::new(Impedance::new(actuation, line, elements).unwrap()),
+        ),
+    ]
+}
+
+#[test]
+fn the_controllers_of_chapter_2_lead_a_simulated_operator_closer_to_the_path() {
+    for layout in LAYOUTS {
+        let segment = LINES[1];
+        let line = Line::through(segment.from_m, segment.to_m).unwrap();
+        let none_m = medians(layout, 1, Method::Uncontrolled).path_error_m;
+        for (name, mut controller) in others(layout, line) {
+            let mut errors_m = Vec::new();
+            for seed in 0..5 {
+                let mut operator =
+                    Operator::new(line, Abilities::CAREFUL, 7919 * seed + 13).unwrap();
+                let mut rig = Rig::new(layout, segment.from_m).unwrap();
+                let past = |[x, y]: [f64; 2]| 0.17 * (x - 0.09) + 0.14 * (y - 0.43) >= 0.0;
+                let record = run(&mut rig, &mut *controller, &mut operator, 20.0, past).unwrap();
+                assert!(record.arrived, "{layout:?} {name} did not arrive");
+                for command in &record.commands {
+                    assert!(
+                        brake_count(command, 2).holds() && braked_joints(layout, command).holds()
+                    );
+                }
+                let balance_j = rig.work_j() - rig.kinetic_energy_j() - rig.dissipated_j();
+                assert!(
+                    balance_j.abs() < 1e-6 * rig.work_j(),
+                    "{balance_j} J appear"
+                );
+                errors_m.push(record.metrics(&line).unwrap().path_error_m);
+            }
+            errors_m.sort_by(f64::total_cmp);
+            println!(
+                "{layout:?} {name}: {} m, uncontrolled {none_m} m",
+                errors_m[2]
+            );
+            assert!(
+                errors_m[2] < 0.8 * none_m,
+                "{layout:?} {name}: {} m",
+                errors_m[2]
+            );
+        }
+    }
+}
+
+#[test]
+fn an_obstacle_is_entered_by_millimetres_where_an_open_rig_goes_through() {
+    // A wall y = 0.39 m, solid above; pushed along it with 4 N and into it with 3 N from 3 cm below.
+    let wall = Line::through([-0.3, 0.39], [0.3, 0.39]).unwrap();
+    for layout in LAYOUTS {
+        let depth_m = |controller: &mut dyn Controller| {
+            let mut rig = Rig::new(layout, [-0.12, 0.36]).unwrap();
+            let mut push = ConstantPush([4.0, 3.0]);
+            let record = run(&mut rig, controller, &mut push, 3.0, |[x, _]| x > 0.12).unwrap();
+            record
+                .tips_m
+                .iter()
+                .map(|[_, y]| y - 0.39)
+                .fold(f64::NEG_INFINITY, f64::max)
+        };
+        let actuation = Actuation::thesis(layout);
+        let sdof = Sdof::new(actuation, wall, 0.05, 0.0).unwrap();
+        let proportional = Proportional::new(actuation, wall, 0.05, 10_000.0).unwrap();
+        let through_m = depth_m(&mut Uncontrolled);
+        let with_sdof_m = depth_m(&mut Obstacle::new(wall, Side::Left, sdof));
+        let with_proportional_m = depth_m(&mut Obstacle::new(wall, Side::Left, proportional));
+        println!(
+            "{layout:?}: open {through_m} m, SDOF {with_sdof_m} m, proportional {with_proportional_m} m"
+        );
+        assert!(with_sdof_m < 0.012 && with_proportional_m < 0.012 && through_m > 0.02);
+    }
+}
+
+#[test]
+fn tip_mass_carries_the_kinetic_energy_of_the_rig() {
+    for layout in LAYOUTS {
+        let parameters = Parameters::of(layout);
+        let rig = Rig::moving(parameters, [2.1, 1.13], [0.37, -0.53]).unwrap();
+        let [x, y] = rig.tip_velocity_m_s();
+        let mass = tip_mass(&parameters, rig.pose()).unwrap();
+        let energy_j = 0.5 * (mass.m11 * x * x + 2.0 * mass.m12 * x * y + mass.m22 * y * y);
+        assert!(
+            (energy_j / rig.kinetic_energy_j() - 1.0).abs() < 1e-12,
+            "{mass}"
+        );
     }
 }
 

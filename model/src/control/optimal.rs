@@ -10,6 +10,8 @@ use super::path::Path;
 use super::{Actuation, Controller, GREATEST_DISTANCE_M, SHORTEST_PIECE_M, Sensed, setting};
 use crate::error::ModelError;
 use crate::linkage::Pose;
+use crate::motion::two_coordinate::two_coordinate;
+use crate::rig::Parameters;
 
 /// Levels of force that are tried on each brake, besides none.
 const LEVELS: u32 = 20;
@@ -139,4 +141,15 @@ impl<P: Path, M: Fn(&Pose) -> Option<Matrix2<f64>>> Controller for Optimal<P, M>
             None => Command::none(Reason::NoneHelps),
         }
     }
+}
+
+/// The mass matrix of a rig as its tip feels it, kg, 2×2, rows and columns x, y: the kinetic energy is half of v·M·v.
+///
+/// `None` at a singularity.
+pub fn tip_mass(parameters: &Parameters, pose: &Pose) -> Option<Matrix2<f64>> {
+    crate::linkage::singularity::check(pose).ok()?;
+    let Parameters { arms, inertia, .. } = parameters;
+    let form = two_coordinate(arms, inertia, pose, [0.0; 2]);
+    let rates_from_tip = form.tip.try_inverse()?;
+    Some(rates_from_tip.transpose() * form.mass * rates_from_tip)
 }
