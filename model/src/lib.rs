@@ -9,7 +9,6 @@ pub mod encoder;
 pub mod error;
 pub mod linkage;
 pub mod metrics;
-
 pub mod motion;
 pub mod operator;
 pub mod rig;
