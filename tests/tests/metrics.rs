@@ -1,7 +1,10 @@
 //! This file says that the metrics compute what the page prints: against SciPy, against sums by hand, and by their scaling.
 
+mod budget;
+
 use core::f64::consts::PI;
 
+use budget::assert_within_budget;
 use proptest::prelude::*;
 use proptest::test_runner::FileFailurePersistence;
 use rigproof_model::ModelError;
@@ -138,29 +141,28 @@ fn positions_m() -> Vec<[f64; 2]> {
         .collect()
 }
 
-fn assert_near(ours: impl IntoIterator<Item = f64>, reference: &[f64], tolerance: f64) {
+/// Differences of two computations of one record.
+fn differences(ours: impl IntoIterator<Item = f64>, reference: &[f64]) -> Vec<f64> {
     let ours: Vec<f64> = ours.into_iter().collect();
     assert_eq!(ours.len(), reference.len());
-    for (k, (ours, reference)) in ours.iter().zip(reference).enumerate() {
-        assert!(
-            (ours - reference).abs() <= tolerance,
-            "{k}: {ours} against {reference}"
-        );
-    }
+    ours.iter()
+        .zip(reference)
+        .map(|(ours, reference)| (ours - reference).abs())
+        .collect()
 }
 
 #[test]
 fn the_filter_agrees_with_scipy() {
     let filter = Butterworth::low_pass(25.0, 0.001).unwrap();
-    assert_near(filter.both_ways(&samples()).unwrap(), &BOTH_WAYS, 1e-12);
-    assert_near(
+    let other = Butterworth::low_pass(3.7, 1.0 / 83.0).unwrap();
+    let slow = other.both_ways(&samples()).unwrap();
+    let mut all = differences(filter.both_ways(&samples()).unwrap(), &BOTH_WAYS);
+    all.extend(differences(
         filter.one_way(&samples()).into_iter().step_by(6),
         &ONE_WAY,
-        1e-12,
-    );
-    let other = Butterworth::low_pass(3.7, 1.0 / 83.0).unwrap();
-    let filtered = other.both_ways(&samples()).unwrap();
-    assert_near(filtered.into_iter().step_by(5), &OTHER_CUTOFF, 1e-12);
+    ));
+    all.extend(differences(slow.into_iter().step_by(5), &OTHER_CUTOFF));
+    assert_within_budget("metric_filter_against_scipy", all);
 }
 
 #[test]
@@ -191,8 +193,9 @@ fn acceleration_agrees_with_scipy() {
         .map(|[x, y]| (x, y))
         .unzip();
     assert_eq!(x.len(), 307 - 12);
-    assert_near(x.into_iter().step_by(59), &A_X, 1e-10);
-    assert_near(y.into_iter().step_by(59), &A_Y, 1e-10);
+    let mut all = differences(x.into_iter().step_by(59), &A_X);
+    all.extend(differences(y.into_iter().step_by(59), &A_Y));
+    assert_within_budget("metric_acceleration_against_scipy", all);
 }
 
 //= thesis (6.19) test
@@ -200,7 +203,10 @@ fn acceleration_agrees_with_scipy() {
 #[test]
 fn the_dft_sum_agrees_with_numpy() {
     let ours = smoothness(&positions_m(), SAMPLE_STEP_S).unwrap();
-    assert!((ours / SMOOTHNESS - 1.0).abs() < 1e-12, "{ours}");
+    assert_within_budget(
+        "metric_sums_against_scipy",
+        vec![(ours / SMOOTHNESS - 1.0).abs()],
+    );
 }
 
 //= thesis (6.16b) test
@@ -211,7 +217,10 @@ fn the_average_force_agrees_with_scipy() {
         .map(|[x, y]| [1000.0 * (x - 0.05), 700.0 * (y - 0.37)])
         .collect();
     let ours = average_tip_force(&forces_n, SAMPLE_STEP_S).unwrap();
-    assert!((ours / TIP_FORCE - 1.0).abs() < 1e-12, "{ours}");
+    assert_within_budget(
+        "metric_sums_against_scipy",
+        vec![(ours / TIP_FORCE - 1.0).abs()],
+    );
 }
 
 #[test]
@@ -225,7 +234,10 @@ fn filtering_one_way_gives_another_smoothness() {
     let y = once(once(positions_m().iter().map(|[_, y]| *y).collect()));
     let a: Vec<f64> = x.iter().zip(&y).map(|(x, y)| libm::hypot(*x, *y)).collect();
     let ours = dft_sum(&a, SAMPLE_STEP_S).unwrap();
-    assert!((ours / SMOOTHNESS_ONE_WAY - 1.0).abs() < 1e-11, "{ours}");
+    assert_within_budget(
+        "metric_sums_against_scipy",
+        vec![(ours / SMOOTHNESS_ONE_WAY - 1.0).abs()],
+    );
 }
 
 #[test]
@@ -265,10 +277,11 @@ fn the_path_error_is_weighted_by_the_way() {
     ];
     let expected_m = 0.01 * (2.0 * l_2 + 2.0 * l_3 + 4.0 * l_4) / (l_2 + l_3 + l_4);
     assert!((path_error(&line, &tips_m).unwrap() - expected_m).abs() < 1e-15);
-    assert_near(
-        step_lengths(&tips_m),
-        &[0.01 * l_2, 0.01 * l_3, 0.01 * l_4],
-        1e-15,
+    let by_hand = [0.01 * l_2, 0.01 * l_3, 0.01 * l_4];
+    assert!(
+        differences(step_lengths(&tips_m), &by_hand)
+            .iter()
+            .all(|off| *off < 1e-15)
     );
     assert!((path_length(&tips_m) - 0.01 * (l_2 + l_3 + l_4)).abs() < 1e-15);
 }

@@ -113,8 +113,14 @@ static MEDIANS: LazyLock<Vec<(Layout, usize, Method, Metrics)>> = LazyLock::new(
             .into_iter()
             .map(|(layout, line)| {
                 scope.spawn(move || {
-                    Method::ALL
-                        .map(|method| (layout, line, method, median_of(layout, method, line)))
+                    Method::ALL.map(|method| {
+                        (
+                            layout,
+                            line,
+                            method,
+                            median_of(layout, method, line, Abilities::CAREFUL, SEEDS),
+                        )
+                    })
                 })
             })
             .collect();
@@ -132,10 +138,16 @@ fn medians(layout: Layout, line: usize, method: Method) -> Metrics {
     MEDIANS.iter().find(same).unwrap().3
 }
 
-fn median_of(layout: Layout, method: Method, line: usize) -> Metrics {
+fn median_of(
+    layout: Layout,
+    method: Method,
+    line: usize,
+    abilities: Abilities,
+    seeds: u64,
+) -> Metrics {
     let segment = LINES[line];
     let path = Line::through(segment.from_m, segment.to_m).unwrap();
-    let all: Vec<Metrics> = (0..SEEDS)
+    let all: Vec<Metrics> = (0..seeds)
         .map(|seed| {
             let (seed, unit) = (7919 * seed + 13, GainUnit::PerCentimetre);
             let record = trial(layout, method, unit, segment, Abilities::CAREFUL, seed).unwrap();
@@ -199,6 +211,31 @@ fn a_simulated_operator_orders_the_five_methods_as_people_did() {
             assert!(low.tip_force_n < 1.4 * none.tip_force_n);
             // "Overall the proportional controller exhibited … higher levels of smoothness than the SDOF controller."
             assert!(high.dft_sum_m_s3 < sdof.dft_sum_m_s3 && low.dft_sum_m_s3 < gap.dft_sum_m_s3);
+        }
+    }
+}
+
+#[test]
+fn what_holds_for_one_operator_holds_for_a_slower_eye_and_a_softer_hand() {
+    let careful = Abilities::CAREFUL;
+    let slow_eye = Abilities {
+        delay_s: 0.22,
+        ..careful
+    };
+    let soft = Abilities {
+        correction_n_per_m: 35.0,
+        damping_n_s_per_m: 14.0,
+        ..careful
+    };
+    for abilities in [slow_eye, soft] {
+        for layout in LAYOUTS {
+            let of = |method| median_of(layout, method, 1, abilities, 5);
+            let [none, sdof, gap, low, high] = Method::ALL.map(of);
+            for controlled in [sdof, gap, low, high] {
+                assert!(controlled.path_error_m < none.path_error_m);
+            }
+            assert!(gap.tip_force_n < sdof.tip_force_n && gap.dft_sum_m_s3 < sdof.dft_sum_m_s3);
+            assert!(low.tip_force_n < high.tip_force_n && high.dft_sum_m_s3 < sdof.dft_sum_m_s3);
         }
     }
 }
