@@ -48,7 +48,7 @@ fn moment() -> impl Strategy<Value = Moment> {
     let layout = prop::sample::select(vec![Layout::ThreeBrake, Layout::FourBrake]);
     let motion = (0.0013..0.41_f64, -PI..PI, 0.13..21.0_f64, -PI..PI);
     let path = (-0.09..0.09_f64, -PI..PI);
-    (layout, 0.18..3.14_f64, 0.0..2.96_f64, motion, path).prop_filter_map(
+    (layout, 0.18..3.13_f64, 0.0..2.96_f64, motion, path).prop_filter_map(
         "inside table 4.2",
         |(layout, a, b, (speed, heading, push, aim), (aside, angle))| {
             let pose = forward::pose(&arms(layout), a, b).ok()?;

@@ -28,7 +28,7 @@ fn layout() -> impl Strategy<Value = Layout> {
 
 /// A pose inside the ranges of table 4.2.
 fn pose() -> impl Strategy<Value = (Arms, Pose)> {
-    (layout(), 0.18..3.14_f64, 0.0..2.96_f64).prop_filter_map(
+    (layout(), 0.18..3.13_f64, 0.0..2.96_f64).prop_filter_map(
         "inside table 4.2",
         |(layout, a, b)| {
             let (arms, ranges) = (arms(layout), angle_ranges(layout));
