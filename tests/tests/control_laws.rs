@@ -163,11 +163,11 @@ fn controllers<'a>(
     ]
 }
 
-fn proportional<'a>(
+fn proportional(
     actuation: Actuation,
-    path: &'a dyn Path,
+    path: &dyn Path,
     gain: f64,
-) -> rigproof_model::control::Proportional<&'a dyn Path> {
+) -> rigproof_model::control::Proportional<&dyn Path> {
     rigproof_model::control::Proportional::new(actuation, path, BLEND_BOUNDARY_M, gain).unwrap()
 }
 
