@@ -89,7 +89,7 @@ fn pushes(moment: &Moment) -> Vec<Vector2<f64>> {
 
 proptest! {
     #![proptest_config(ProptestConfig {
-        cases: 5000,
+        cases: 20_000,
         failure_persistence: Some(Box::new(FileFailurePersistence::WithSource("regressions"))),
         ..ProptestConfig::default()
     })]
@@ -98,16 +98,17 @@ proptest! {
     fn translated_torques_make_the_wanted_direction(moment in moment(), size in 0.3..90.0_f64, angle in -PI..PI) {
         let wanted = Vector2::new(size * libm::cos(angle), size * libm::sin(angle));
         let pushes = pushes(&moment);
-        // The nearest direction to the wanted one in the cone of each pair, by trying many mixtures.
-        let mut least_rad = PI;
+        // Whether the wanted direction lies between the two of any pair, by angles, and how far from any edge.
+        let (mut between, mut edge_rad) = (false, PI);
+        let from = |a: Vector2<f64>, b: Vector2<f64>| {
+            libm::remainder(libm::atan2(b.y, b.x) - libm::atan2(a.y, a.x), 2.0 * PI)
+        };
         for (k, first) in pushes.iter().enumerate() {
             for second in pushes.iter().skip(k + 1) {
-                for mix in 0..=400 {
-                    let mix = f64::from(mix) / 400.0;
-                    let sum = first.normalize() * (1.0 - mix) + second.normalize() * mix;
-                    least_rad = libm::atan2(wanted.perp(&sum), wanted.dot(&sum)).abs().min(least_rad);
-                }
+                let (width, way) = (from(*first, *second), from(*first, wanted));
+                between |= if width > 0.0 { (0.0..=width).contains(&way) } else { (width..=0.0).contains(&way) };
             }
+            edge_rad = from(*first, wanted).abs().min(edge_rad);
         }
         match translate(&moment.rows, moment.velocity(), wanted) {
             Some([first, second]) => {
@@ -124,9 +125,9 @@ proptest! {
                 prop_assert!(wanted.dot(&sum) > 0.0 && sum.norm() <= wanted.norm() * (1.0 + 1e-9));
                 prop_assert!(opposition(sum.into(), moment.sensed.tip_velocity_m_s).holds());
             }
-            None => prop_assert!(least_rad > 0.0, "a mixture points exactly there"),
+            None => prop_assert!(!between || edge_rad < 1e-9, "a pair makes that direction"),
         }
-        if least_rad > 0.02 {
+        if !between && edge_rad > 1e-9 {
             prop_assert!(translate(&moment.rows, moment.velocity(), wanted).is_none());
         }
     }

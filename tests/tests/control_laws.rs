@@ -6,7 +6,7 @@ use nalgebra::{Matrix2, Vector2};
 use proptest::prelude::*;
 use proptest::test_runner::FileFailurePersistence;
 use rigproof_model::brake::torque_gain;
-use rigproof_model::control::path::{Arc, Line, Path, Polyline, Spline};
+use rigproof_model::control::path::{Arc, Line, Nearest, Path, Polyline, Spline};
 use rigproof_model::control::{
     Actuation, Controller, GainUnit, Impedance, Obstacle, Optimal, Sdof, Sensed, Side,
     VelocityRatio, Virtual, Weights, controller,
@@ -105,6 +105,23 @@ fn near_path(tip_m: [f64; 2]) -> impl Strategy<Value = Box<dyn Path>> {
 
 fn moment_and_path() -> impl Strategy<Value = (Moment, Box<dyn Path>)> {
     moment().prop_flat_map(|moment| (Just(moment), near_path(moment.sensed.pose.tip_m)))
+}
+
+/// A path that gives no number for one of its answers.
+#[derive(Clone, Copy, Debug)]
+struct Lost(usize);
+
+impl Path for Lost {
+    fn nearest(&self, [x, y]: [f64; 2]) -> Nearest {
+        let mut numbers = [x - 0.013, y - 0.017, 0.6, 0.8, 0.0213];
+        numbers[self.0] = f64::NAN;
+        let [foot_x, foot_y, along_x, along_y, offset_m] = numbers;
+        Nearest {
+            foot_m: Vector2::new(foot_x, foot_y),
+            tangent: Vector2::new(along_x, along_y),
+            offset_m,
+        }
+    }
 }
 
 /// Every controller there is, with the number of brakes it may use at once.
@@ -249,6 +266,15 @@ proptest! {
         for (mut controller, _) in controllers(moment.layout, &*path, 1.3) {
             let command = controller.command(&sensed);
             prop_assert!(undefined_input(&sensed.inputs(), &command).holds(), "{command:?}");
+            prop_assert_eq!(command.reason, Reason::UndefinedInput);
+        }
+    }
+
+    #[test]
+    fn a_path_that_does_not_know_never_actuates(moment in moment(), which in 0..5_usize) {
+        for (mut controller, _) in controllers(moment.layout, &Lost(which), 1.3) {
+            let command = controller.command(&moment.sensed);
+            prop_assert!(undefined_input(&[f64::NAN], &command).holds(), "{command:?}");
             prop_assert_eq!(command.reason, Reason::UndefinedInput);
         }
     }

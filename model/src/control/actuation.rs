@@ -9,6 +9,7 @@ use rigproof_spec::methods::greatest_desired_force_n;
 use rigproof_spec::tables::GREATEST_CURRENT_A;
 
 use super::force_limit::force_magnitude;
+use super::path::{Nearest, Path};
 use super::{JointRow, Sensed, current_for_torque, setting};
 use crate::error::ModelError;
 use crate::linkage::jacobian::jacobian;
@@ -76,6 +77,19 @@ impl Actuation {
             .collect())
     }
 
+    /// How the tip lies to a path.
+    ///
+    /// # Errors
+    /// [`Reason::UndefinedInput`]: the path does not know.
+    pub(super) fn nearest(path: &impl Path, sensed: &Sensed) -> Result<Nearest, Reason> {
+        let nearest = path.nearest(sensed.pose.tip_m);
+        if nearest.is_defined() {
+            Ok(nearest)
+        } else {
+            Err(Reason::UndefinedInput)
+        }
+    }
+
     /// The 4×2 Jacobian, rows A, E, B, C, columns x, y.
     ///
     /// # Errors
@@ -89,7 +103,12 @@ impl Actuation {
 
     /// The current with which a brake gives a force at the tip, A (§6.1.3): the inverse of (6.3), then the current gain.
     pub(super) fn current_for_force(&self, joint: Joint, row: Vector2<f64>, force_n: f64) -> f64 {
-        let force_n = force_n.min(self.greatest_force_n);
+        // Not f64::min, which would make the greatest force of one that is not a number.
+        let force_n = if force_n > self.greatest_force_n {
+            self.greatest_force_n
+        } else {
+            force_n
+        };
         current_for_torque(joint, force_n / force_magnitude(row, 1.0))
     }
 

@@ -82,7 +82,10 @@ impl<P: Path> Controller for Impedance<P> {
             Ok(rows) => rows,
             Err(reason) => return Command::none(reason),
         };
-        let nearest = self.path.nearest(sensed.pose.tip_m);
+        let nearest = match Actuation::nearest(&self.path, sensed) {
+            Ok(nearest) => nearest,
+            Err(reason) => return Command::none(reason),
+        };
         let velocity_m_s = Vector2::from(sensed.tip_velocity_m_s);
         let [across, along] = self.wanted(&nearest, velocity_m_s);
         if across == Vector2::zeros() && along == Vector2::zeros() {

@@ -2,7 +2,7 @@
 
 use rigproof_spec::command::{Command, Reason};
 
-use super::path::Path;
+use super::path::{Nearest, Path};
 use super::{Controller, Sensed};
 
 /// On which side of its boundary an obstacle lies, seen along the boundary's tangent.
@@ -37,20 +37,24 @@ impl<P: Path, C: Controller> Obstacle<P, C> {
 
     /// How deep a point is inside the obstacle, m; negative on the free side.
     pub fn depth_m(&self, point_m: [f64; 2]) -> f64 {
-        let offset_m = self.boundary.nearest(point_m).offset_m;
+        self.depth_of(&self.boundary.nearest(point_m))
+    }
+
+    fn depth_of(&self, nearest: &Nearest) -> f64 {
         match self.solid {
-            Side::Left => offset_m,
-            Side::Right => -offset_m,
+            Side::Left => nearest.offset_m,
+            Side::Right => -nearest.offset_m,
         }
     }
 }
 
 impl<P: Path, C: Controller> Controller for Obstacle<P, C> {
     fn command(&mut self, sensed: &Sensed) -> Command {
-        if !sensed.is_defined() {
+        let nearest = self.boundary.nearest(sensed.pose.tip_m);
+        if !sensed.is_defined() || !nearest.is_defined() {
             return Command::none(Reason::UndefinedInput);
         }
-        if self.depth_m(sensed.pose.tip_m) > 0.0 {
+        if self.depth_of(&nearest) > 0.0 {
             self.inner.command(sensed)
         } else {
             Command::none(Reason::FreeSide)

@@ -101,6 +101,10 @@ impl<P: Path, M: Fn(&Pose) -> Option<Matrix2<f64>>> Controller for Optimal<P, M>
             Ok(rows) => rows,
             Err(reason) => return Command::none(reason),
         };
+        let nearest = match Actuation::nearest(&self.path, sensed) {
+            Ok(nearest) => nearest,
+            Err(reason) => return Command::none(reason),
+        };
         let Some((mass, mobility)) =
             (self.inertia)(&sensed.pose).and_then(|mass| Some((mass, mass.try_inverse()?)))
         else {
@@ -111,7 +115,6 @@ impl<P: Path, M: Fn(&Pose) -> Option<Matrix2<f64>>> Controller for Optimal<P, M>
             return Command::none(Reason::NothingToDo);
         }
         let push_n = Vector2::from(sensed.tip_force_n);
-        let nearest = self.path.nearest(sensed.pose.tip_m);
         let desired = desired_velocity(&nearest, push_n, self.boundary_m).direction;
         let pushed = velocity + mobility * push_n * self.weights.horizon_s;
         let mut lowest = self.cost(&mass, velocity, pushed, desired);

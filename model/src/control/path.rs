@@ -49,6 +49,12 @@ impl Nearest {
         self.offset_m.abs()
     }
 
+    /// Whether foot, tangent and distance are finite numbers.
+    pub fn is_defined(&self) -> bool {
+        let numbers = [self.foot_m.x, self.foot_m.y, self.tangent.x, self.tangent.y];
+        self.offset_m.is_finite() && numbers.iter().all(|number| number.is_finite())
+    }
+
     /// The direction towards the path, of length one; `None` on the path, where there is no side.
     pub fn towards(&self) -> Option<Vector2<f64>> {
         let left = left_of(self.tangent);

@@ -53,7 +53,10 @@ impl<P: Path> Controller for Sdof<P> {
             Ok(rows) => rows,
             Err(reason) => return Command::none(reason),
         };
-        let nearest = self.path.nearest(sensed.pose.tip_m);
+        let nearest = match Actuation::nearest(&self.path, sensed) {
+            Ok(nearest) => nearest,
+            Err(reason) => return Command::none(reason),
+        };
         let force_n = Vector2::from(sensed.tip_force_n);
         let desired = desired_velocity(&nearest, force_n, self.boundary_m);
         let Some(towards) = desired

@@ -66,7 +66,10 @@ impl<P: Path> Controller for VelocityRatio<P> {
             Ok(j) => j,
             Err(reason) => return Command::none(reason),
         };
-        let nearest = self.path.nearest(sensed.pose.tip_m);
+        let nearest = match Actuation::nearest(&self.path, sensed) {
+            Ok(nearest) => nearest,
+            Err(reason) => return Command::none(reason),
+        };
         let desired =
             desired_velocity(&nearest, Vector2::from(sensed.tip_force_n), self.boundary_m);
         let links = base_rows(&j);

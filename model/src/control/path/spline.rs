@@ -7,9 +7,7 @@ use super::polyline::enough;
 use super::{Nearest, Path, beside, length, nearer};
 use crate::error::ModelError;
 
-/// Samples of a piece between which at most one nearest point is looked for.
-const SAMPLES: u32 = 24;
-/// Halvings of the bracket of a nearest point: more than a double has digits.
+/// Halvings of a bracket: more than a double has digits.
 const HALVINGS: u32 = 64;
 
 /// A smooth curve through points: a centripetal Catmull-Rom spline, whose tangent is continuous and which neither loops
@@ -94,26 +92,88 @@ impl Cubic {
         beside(point, self.at(share), self.tangent(share))
     }
 
+    /// The coefficients of [`Cubic::receding`] as a polynomial of the share, constant first.
+    fn receding_coefficients(&self, point: Vector2<f64>) -> [f64; 6] {
+        let [c_0, c_1, c_2, c_3] = self.0;
+        let away = c_0 - point;
+        [
+            away.dot(&c_1),
+            2.0 * away.dot(&c_2) + c_1.dot(&c_1),
+            3.0 * away.dot(&c_3) + 3.0 * c_1.dot(&c_2),
+            4.0 * c_1.dot(&c_3) + 2.0 * c_2.dot(&c_2),
+            5.0 * c_2.dot(&c_3),
+            3.0 * c_3.dot(&c_3),
+        ]
+    }
+
     /// The nearest point of this piece, its ends included.
     fn nearest(&self, point: Vector2<f64>) -> Nearest {
         let mut best = nearer(self.beside(point, 0.0), self.beside(point, 1.0));
-        for sample in 0..SAMPLES {
-            let mut low = f64::from(sample) / f64::from(SAMPLES);
-            let mut high = f64::from(sample + 1) / f64::from(SAMPLES);
-            if self.receding(point, low) < 0.0 && self.receding(point, high) >= 0.0 {
-                for _ in 0..HALVINGS {
-                    let middle = 0.5 * (low + high);
-                    if self.receding(point, middle) < 0.0 {
-                        low = middle;
-                    } else {
-                        high = middle;
-                    }
-                }
-                best = nearer(best, self.beside(point, high));
+        let slopes = derivative(&self.receding_coefficients(point));
+        let monotonic = between_ends(&roots(&slopes));
+        for (low, high) in monotonic.iter().zip(monotonic.iter().skip(1)) {
+            if self.receding(point, *low) < 0.0 && self.receding(point, *high) >= 0.0 {
+                let share = bisect(|share| self.receding(point, share), *low, *high);
+                best = nearer(best, self.beside(point, share));
             }
         }
         best
     }
+}
+
+/// The coefficients of the derivative of a polynomial, constant first.
+fn derivative(coefficients: &[f64]) -> Vec<f64> {
+    let powers = coefficients.iter().enumerate().skip(1);
+    powers
+        .map(|(power, coefficient)| power as f64 * coefficient)
+        .collect()
+}
+
+/// Where a polynomial changes its sign between 0 and 1: it does so at most once between two roots of its derivative.
+fn roots(coefficients: &[f64]) -> Vec<f64> {
+    if coefficients.len() < 2 {
+        return Vec::new();
+    }
+    let value = |share: f64| {
+        coefficients
+            .iter()
+            .rev()
+            .fold(0.0, |sum, c| sum * share + c)
+    };
+    let monotonic = between_ends(&roots(&derivative(coefficients)));
+    let pairs = monotonic.iter().zip(monotonic.iter().skip(1));
+    pairs
+        .filter(|(low, high)| (value(**low) < 0.0) != (value(**high) < 0.0))
+        .map(|(low, high)| {
+            let rising = value(*low) < 0.0;
+            bisect(
+                |share| if rising { value(share) } else { -value(share) },
+                *low,
+                *high,
+            )
+        })
+        .collect()
+}
+
+/// Shares in order, with 0 before and 1 after them.
+fn between_ends(inner: &[f64]) -> Vec<f64> {
+    let mut all = vec![0.0];
+    all.extend(inner);
+    all.push(1.0);
+    all
+}
+
+/// Where a function that is negative at `low` and not at `high` ceases to be negative.
+fn bisect(function: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        if function(middle) < 0.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    high
 }
 
 impl Path for Spline {
