@@ -145,6 +145,34 @@ pub enum ModelError {
         /// Half the side of the table, m.
         half_side_m: f64,
     },
+    /// A piece of a path is too short to have a direction.
+    #[error(
+        "the {piece} is {length_m} m long; it must be at least {least_m} m: check the points and their unit"
+    )]
+    PathPiece {
+        /// Which piece.
+        piece: &'static str,
+        /// Its length, m.
+        length_m: f64,
+        /// The least allowed, m.
+        least_m: f64,
+    },
+    /// A setting lies outside its range.
+    #[error(
+        "{setting} is {value} {unit}; it must lie between {least} {unit} and {greatest} {unit}"
+    )]
+    SettingRange {
+        /// Which setting.
+        setting: &'static str,
+        /// Its value.
+        value: f64,
+        /// The least allowed.
+        least: f64,
+        /// The greatest allowed.
+        greatest: f64,
+        /// Its unit.
+        unit: &'static str,
+    },
     /// Two arms are parallel, or folded beyond it.
     #[error(
         "arms {} and {} are parallel or folded over: the angle at joint {} is {value_deg} °, it must lie between {least_deg} ° and {greatest_deg} °; \
@@ -180,6 +208,16 @@ pub enum ModelError {
         value_s: f64,
         /// The greatest allowed, s.
         greatest_s: f64,
+    },
+    /// Too few points or samples.
+    #[error("{count} {what} are too few; give at least {least}")]
+    TooFew {
+        /// Of what.
+        what: &'static str,
+        /// How many there are.
+        count: usize,
+        /// The least allowed.
+        least: usize,
     },
     /// The tip is out of reach.
     #[error(

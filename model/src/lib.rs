@@ -3,11 +3,15 @@
 pub mod axis;
 pub mod bench;
 pub mod brake;
+pub mod control;
 pub mod effects;
 pub mod encoder;
 pub mod error;
 pub mod linkage;
+pub mod metrics;
+pub mod motion;
+pub mod operator;
+pub mod rig;
+pub mod trial;
 
 pub use error::ModelError;
-pub mod motion;
-pub mod rig;

@@ -1,11 +1,19 @@
 //! Laws: what must hold on every rig, in every run, each a plain function that anybody may call.
 
+mod brake_count;
 mod current_limit;
+mod desired_force;
 mod dissipation;
+mod influence;
+mod quiet;
 mod torque_limit;
 
+pub use brake_count::{brake_count, braked_joints};
 pub use current_limit::current_limit;
+pub use desired_force::{desired_force, opposition};
 pub use dissipation::dissipation;
+pub use influence::{best_influence, influence_rank};
+pub use quiet::{free_side, gap, lock, undefined_input};
 pub use torque_limit::{torque_limit, yield_limit};
 
 /// How far a law is from failing, in the unit the law states.

@@ -7,11 +7,14 @@
     clippy::indexing_slicing
 )]
 
+pub mod command;
 pub mod effect;
 pub mod geometry;
 pub mod inertia;
 pub mod joint;
 pub mod laws;
 pub mod layout;
+pub mod methods;
 pub mod tables;
+pub mod trials;
 pub mod units;

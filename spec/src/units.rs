@@ -195,6 +195,8 @@ fn integer_power(base: f64, exponent: i8) -> f64 {
 
 /// Revolutions per minute to radians per second.
 pub const RAD_S_PER_RPM: f64 = 2.0 * PI / 60.0;
+/// Centimetres to metres.
+pub const M_PER_CM: f64 = 0.01;
 /// Degrees to radians.
 pub const RAD_PER_DEG: f64 = PI / 180.0;
 
