@@ -5,6 +5,7 @@
 mod blind;
 mod convert;
 mod demo;
+mod design;
 mod diagnose;
 mod folder;
 mod input;
@@ -39,6 +40,8 @@ enum Verb {
     Demo(demo::Args),
     /// Test the diagnosis with recordings whose cause is hidden
     Blind(blind::Args),
+    /// Draw the workspace of a linkage, compare it with others, and rank arm lengths
+    Design(design::Args),
     /// Turn a recording in HDF5, MATLAB or CSV into a normalised CSV file
     Convert(convert::Args),
 }
@@ -60,6 +63,7 @@ fn run(verb: &Verb) -> Result<Outcome, Failure> {
         Verb::Simulate(args) => simulate::run(args),
         Verb::Demo(args) => demo::run(args),
         Verb::Blind(args) => blind::run(args),
+        Verb::Design(args) => design::run(args),
         Verb::Convert(args) => convert::run(args),
     }
 }

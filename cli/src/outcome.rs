@@ -41,6 +41,12 @@ impl From<rigproof_blind::Error> for Failure {
     }
 }
 
+impl From<rigproof_model::ModelError> for Failure {
+    fn from(error: rigproof_model::ModelError) -> Failure {
+        Failure::Input(error.to_string())
+    }
+}
+
 impl From<TraceError> for Failure {
     fn from(error: TraceError) -> Failure {
         Failure::Input(error.to_string())

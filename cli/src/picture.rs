@@ -2,7 +2,9 @@
 
 mod before_after;
 mod columns;
+pub mod linkage;
 mod panel;
+mod plane;
 mod residual;
 mod scale;
 mod shares;

@@ -4,6 +4,7 @@
 //! A calibration file is the same description with the effects that a diagnosis added.
 
 mod apply;
+pub mod linkage;
 mod protocol;
 mod read;
 mod table;

@@ -8,6 +8,7 @@ fn every_verb_shows_an_example_and_says_what_it_does() {
         &["diagnose"][..],
         &["simulate"],
         &["demo"],
+        &["design"],
         &["convert"],
         &["blind"],
         &["blind", "make"],

@@ -3,6 +3,7 @@
 mod bad_diagnosis;
 mod blind;
 mod demo;
+mod design;
 mod desk;
 mod diagnose;
 mod help;

@@ -22,6 +22,19 @@ use crate::error::ModelError;
 /// # Errors
 /// [`ModelError::ArmLength`]; [`ModelError::NotFinite`]; [`ModelError::CannotClose`] when the outer arms do not reach each
 /// other; [`ModelError::Singular`] at a singularity and in every assembly that lies beyond one.
+///
+/// ```
+/// use rigproof_model::linkage::forward;
+/// use rigproof_spec::geometry::arms;
+/// use rigproof_spec::layout::Layout;
+/// use rigproof_spec::units::rad_from_deg;
+/// // The 3-brake arms of table 4.1 with AE straight to the left and BC straight up: the tip is at (−30.5 cm, 30.5 cm).
+/// let arms = arms(Layout::ThreeBrake);
+/// let pose = forward::pose(&arms, rad_from_deg(180.0), rad_from_deg(90.0))?;
+/// let [x_m, y_m] = pose.tip_m;
+/// assert!((x_m + 0.305).abs() < 1e-15 && (y_m - 0.305).abs() < 1e-15);
+/// # Ok::<(), rigproof_model::ModelError>(())
+/// ```
 pub fn pose(arms: &Arms, theta_a_rad: f64, theta_b_rad: f64) -> Result<Pose, ModelError> {
     check_arms(arms)?;
     for (quantity, value) in [("θA", theta_a_rad), ("θB", theta_b_rad)] {

@@ -21,6 +21,16 @@ use crate::error::ModelError;
 /// # Errors
 /// [`ModelError::ArmLength`]; [`ModelError::NotFinite`]; [`ModelError::Unreachable`]; [`ModelError::Singular`] at a
 /// singularity and where the outer arms would have to cross over.
+///
+/// ```
+/// use rigproof_model::linkage::inverse;
+/// use rigproof_spec::geometry::arms;
+/// use rigproof_spec::layout::Layout;
+/// // On the y axis the 4-brake linkage of table 4.1 is its own mirror image: θA = 180° − θB.
+/// let pose = inverse::pose(&arms(Layout::FourBrake), [0.0, 0.41])?;
+/// assert!((pose.theta_a_rad + pose.theta_b_rad - core::f64::consts::PI).abs() < 1e-14);
+/// # Ok::<(), rigproof_model::ModelError>(())
+/// ```
 pub fn pose(arms: &Arms, tip_m: [f64; 2]) -> Result<Pose, ModelError> {
     check_arms(arms)?;
     let [x_m, y_m] = tip_m;

@@ -5,7 +5,7 @@ use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
 
 use super::device::{Brakes, Device};
-use super::workspace::{Figures, map};
+use super::workspace::{Figures, boundary, map};
 use crate::error::ModelError;
 
 /// A set of arm lengths and what its workspace is like; lengths are in units of `L_ED` = `L_CD`, areas in its square.
@@ -27,7 +27,8 @@ pub fn pairs() -> impl Iterator<Item = [f64; 2]> {
     (1..=20).flat_map(|ae| (0..=20).map(move |ab| [f64::from(ae) / 10.0, f64::from(ab) / 10.0]))
 }
 
-/// Traverses the workspace of one pair, with `L_ED` = 1: three brakes where the base joints share an axis, else four.
+/// Traverses the workspace of one pair, with `L_ED` = 1: three brakes where the base joints share an axis, else four. The
+/// share of the rectangle is that of the traced boundary, which a grid's cells do not blur.
 ///
 /// # Errors
 /// Those of [`map`].
@@ -49,6 +50,15 @@ pub fn candidate([l_ae, l_ab]: [f64; 2], ranges: &AngleRanges) -> Result<Candida
         brakes: Brakes::Joints(brakes),
     };
     let figures = map(&device, STEP)?.figures();
+    let traced = boundary(&device, 2.0 * STEP)?;
+    let figures = figures.map(|figures| Figures {
+        fill: if traced.loops.is_empty() {
+            figures.fill
+        } else {
+            traced.fill()
+        },
+        ..figures
+    });
     Ok(Candidate {
         l_ae,
         l_ab,

@@ -16,7 +16,7 @@ const BALANCED: f64 = 1e-12;
 type Rows = SMatrix<f64, 4, 2>;
 
 /// The Jacobian from complex steps of the base angles: rows A, E, B, C.
-fn complex_step(arms: &Arms, base: [f64; 2]) -> Rows {
+pub fn complex_step(arms: &Arms, base: [f64; 2]) -> Rows {
     let (along_a, along_b) = (moved(arms, base, [1.0, 0.0]), moved(arms, base, [0.0, 1.0]));
     let tip_by_base = Matrix2::new(
         along_a.tip[0].im,
@@ -47,7 +47,7 @@ fn angles(pose: &Pose) -> Vector4<f64> {
 }
 
 /// The Jacobian from central differences of fourth order of the inverse kinematics.
-fn central(arms: &Arms, [x, y]: [f64; 2], step_m: f64) -> Rows {
+pub fn central(arms: &Arms, [x, y]: [f64; 2], step_m: f64) -> Rows {
     let here = angles(&inverse::pose(arms, [x, y]).unwrap());
     // The base angles jump by a turn where they are cut.
     let turn = 2.0 * core::f64::consts::PI;
@@ -76,20 +76,24 @@ fn statics(arms: &Arms, pose: &Pose) -> Rows {
     Rows::from_fn(|i, k| rows[i][k])
 }
 
+/// The shortest arm, m.
+pub fn shortest_m(arms: &Arms) -> f64 {
+    [arms.l_ae_m, arms.l_ed_m, arms.l_bc_m, arms.l_cd_m]
+        .into_iter()
+        .fold(f64::INFINITY, f64::min)
+}
+
 /// Greatest difference, relative to the longest row.
-fn difference(left: &Rows, right: &Rows) -> f64 {
+pub fn difference(left: &Rows, right: &Rows) -> f64 {
     (left - right).amax() / left.amax()
 }
 
 fn check(arms: &Arms, base: [f64; 2]) -> Result<(), TestCaseError> {
     let pose = forward::pose(arms, base[0], base[1])?;
     let j = jacobian(arms, &pose)?;
-    let shortest = [arms.l_ae_m, arms.l_ed_m, arms.l_bc_m, arms.l_cd_m]
-        .into_iter()
-        .fold(f64::INFINITY, f64::min);
     let off = difference(&j, &complex_step(arms, base));
     prop_assert!(off < SAME, "complex step {off:e}");
-    let off = difference(&j, &central(arms, pose.tip_m, 4e-5 * shortest));
+    let off = difference(&j, &central(arms, pose.tip_m, 4e-5 * shortest_m(arms)));
     prop_assert!(off < SAME, "central {off:e}");
     let off = difference(&j, &statics(arms, &pose));
     prop_assert!(off < SAME, "statics {off:e}");

@@ -1,6 +1,9 @@
 //! This file says that the five-bar linkage moves as its geometry demands, beside the page and against other computations.
 
+#[path = "../budget/mod.rs"]
+mod budget;
 mod jacobian;
+mod measured;
 mod oracle;
 mod page;
 mod round_trip;

@@ -126,7 +126,8 @@ fn without_the_factor_two_the_acos_has_mostly_no_value() {
         without += usize::from(lambda_2.is_nan() || lambda_4.is_nan());
         let half = arms.l_ab_m / 2.0;
         let printed_a = libm::atan2(tip_m[1], tip_m[0] + half) + lambda_4;
-        wrong += usize::from(!((printed_a - a).abs() < 1e-3));
+        let off = (printed_a - a).abs();
+        wrong += usize::from(off.is_nan() || off > 1e-3);
     }
     println!("{without} of {poses} poses have no printed λ2 or λ4; {wrong} a wrong θA");
     assert!(

@@ -20,7 +20,7 @@ fn cases(cases: u32) -> ProptestConfig {
 }
 
 /// The greatest difference between an arm's length and the distance of the points it joins.
-fn gap_m(arms: &Arms, pose: &Pose) -> f64 {
+pub fn gap_m(arms: &Arms, pose: &Pose) -> f64 {
     [
         (point_a_m(arms), pose.point_e_m, arms.l_ae_m),
         (pose.point_e_m, pose.tip_m, arms.l_ed_m),
@@ -32,7 +32,7 @@ fn gap_m(arms: &Arms, pose: &Pose) -> f64 {
     .fold(0.0, f64::max)
 }
 
-fn distance([x_1, y_1]: [f64; 2], [x_2, y_2]: [f64; 2]) -> f64 {
+pub fn distance([x_1, y_1]: [f64; 2], [x_2, y_2]: [f64; 2]) -> f64 {
     libm::hypot(x_2 - x_1, y_2 - y_1)
 }
 

@@ -65,7 +65,7 @@ fn the_measure_falls_to_its_least_value_and_then_the_pose_is_refused() {
     for (which, pair) in Pair::ALL.into_iter().enumerate() {
         let mut last = f64::INFINITY;
         for power in 1..9 {
-            let near_rad = libm::pow(10.0, -f64::from(power));
+            let near_rad = 1.07 * libm::pow(10.0, -f64::from(power));
             let (e, c) = match pair {
                 Pair::AeEd => (rad(180.0) + near_rad, rad(77.0)),
                 Pair::BcCd => (rad(283.0), near_rad),
@@ -90,6 +90,14 @@ fn the_measure_falls_to_its_least_value_and_then_the_pose_is_refused() {
                     );
                     assert!(here < last && here >= LEAST_MEASURE);
                     assert!(jacobian(&made.arms, &pose).is_ok());
+                    let (a, b) = (pose.theta_a_rad, pose.theta_b_rad);
+                    let there = forward::pose(&made.arms, a, b).unwrap();
+                    let back = inverse::pose(&made.arms, there.tip_m).unwrap();
+                    let off = (back.theta_a_rad - a)
+                        .abs()
+                        .max((back.theta_b_rad - b).abs());
+                    println!("{pair:?} {near_rad:e} rad away: round trip {off:e} rad");
+                    assert!(off < 1e-10, "{pair:?} {near_rad:e}: {off:e}");
                     last = here;
                 }
                 Err(error) => {

@@ -295,3 +295,21 @@ fn the_chosen_arms_are_near_the_best_of_the_sweep() {
         .unwrap();
     assert_eq!((largest.l_ae, largest.l_ab), (2.0, 0.0));
 }
+
+#[test]
+fn the_share_of_the_rectangle_is_known_to_a_per_cent_at_a_fiftieth_of_the_reach() {
+    // The 3-brake workspace by hand: from θA = 180°, θB = 170° to its mirror image, and from θA = 180°, θB = 10° up to arms
+    // symmetric about the y axis at 10°. A grid cuts the tips of its cusps off.
+    let device = Device::layout(Layout::ThreeBrake);
+    let width_m = 2.0 * 0.305 * (1.0 + libm::cos(rad(10.0)));
+    let (highest_m, lowest_m) = (
+        2.0 * 0.305 * libm::cos(rad(5.0)),
+        0.305 * libm::sin(rad(10.0)),
+    );
+    let exact = three_brake_area_m2() / (width_m * (highest_m - lowest_m));
+    for step_m in [0.0117, 0.0083, 0.0041] {
+        let fill = workspace::boundary(&device, step_m).unwrap().fill();
+        println!("{step_m} m: fills {fill:.5}, by hand {exact:.5}");
+        assert!((fill / exact - 1.0).abs() < 1e-2, "{fill} {exact}");
+    }
+}

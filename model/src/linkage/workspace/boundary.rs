@@ -26,6 +26,19 @@ impl Boundary {
         });
         doubled.sum::<f64>() / 2.0
     }
+
+    /// Share of the upright rectangle around the boundary that it encloses; not a number without a boundary.
+    ///
+    /// Its points lie on the boundary, so that the rectangle is not tied to a grid as that of a map is.
+    pub fn fill(&self) -> f64 {
+        let points = || self.loops.iter().flatten().map(|(point, _)| *point);
+        let width = |coordinate: fn([f64; 2]) -> f64| {
+            let least = points().map(coordinate).fold(f64::INFINITY, f64::min);
+            let greatest = points().map(coordinate).fold(f64::NEG_INFINITY, f64::max);
+            greatest - least
+        };
+        self.area_m2() / (width(|[x, _]| x) * width(|[_, y]| y))
+    }
 }
 
 /// How often the crossing of an edge is halved: a step of 1 m ends below 1e-12 m.
