@@ -121,6 +121,40 @@ proptest! {
     }
 }
 
+#[test]
+fn a_rate_that_rounding_puts_back_is_passed_all_the_same() {
+    // Found by the property above: while brake E holds, θ̇A passes 4 rpm, where the time constant of brake A changes its form,
+    // and taking the last bits of E's rate away puts it back below.
+    let [x, y] = middle_m(Layout::FourBrake);
+    let start_m = [x + 0.048_784_602_336_851_12, y - 0.024_170_208_328_378_982];
+    let mut rig = Rig::new(Layout::FourBrake, start_m).unwrap();
+    for (force_n, currents_a, steps) in [
+        (
+            [-21.263_571_794_570_773, -14.845_988_422_371_025],
+            [0.0, 0.339_600_327_830_738_96, 0.0, 1.0],
+            37,
+        ),
+        (
+            [1.988_979_717_878_971_7, 10.978_400_711_782_156],
+            [0.0, 1.0, 0.391_189_924_890_892_9, 1.0],
+            15,
+        ),
+        (
+            [17.712_759_586_943_346, -25.950_690_929_828_92],
+            [0.0, 0.721_465_731_545_583_8, 0.475_810_888_382_587_7, 1.0],
+            27,
+        ),
+    ] {
+        let force = confined(force_n, middle_m(Layout::FourBrake));
+        for _ in 0..steps {
+            rig.step_under(&force, currents_a, 0.001_675_487_055_616_519_4)
+                .unwrap();
+            assert_passive(&rig);
+        }
+    }
+    assert!(rig.events() < 100, "{} changes", rig.events());
+}
+
 /// A rig of other lengths and masses, moving; every third has its base joints on one axis, where E and C are parallel.
 fn other_rig() -> impl Strategy<Value = Rig> {
     let lengths = prop::array::uniform5(0.17..0.43_f64);
@@ -177,10 +211,11 @@ proptest! {
 
     #[test]
     fn any_rig_pushed_anywhere_stays_passive_until_it_cannot_close(
-        mut rig in other_rig(), history in prop::collection::vec(stretch(), 1..9),
+        rig in other_rig(), history in prop::collection::vec(stretch(), 1..9),
     ) {
+        let mut rig = rig.with_longest_step_s(0.25e-3).unwrap();
         let started_j = rig.kinetic_energy_j();
-        'run: for stretch in history {
+        for stretch in history {
             let mut currents_a = stretch.currents_a;
             if rig.parameters().layout == Layout::ThreeBrake {
                 currents_a[3] = 0.0;
@@ -188,17 +223,18 @@ proptest! {
             for _ in 0..stretch.steps {
                 match rig.step(stretch.force_n, currents_a, 1e-3) {
                     Ok(()) => assert_passive(&rig),
-                    Err(ModelError::Singular { .. } | ModelError::CannotClose { .. }) => break 'run,
+                    Err(ModelError::Singular { .. } | ModelError::CannotClose { .. }) => return Ok(()),
                     Err(error) => panic!("{error}"),
                 }
+                let balance_j = started_j + rig.work_j() - rig.kinetic_energy_j() - rig.dissipated_j();
+                let passed_j = started_j + rig.dissipated_j() + rig.work_j().abs();
+                // Towards a singularity a joint's rate grows without bound and no step is small.
+                let clear = Pair::ALL.iter().map(|pair| measure(rig.pose(), *pair)).fold(1.0, f64::min);
+                if clear < 0.3 {
+                    return Ok(());
+                }
+                prop_assert!(balance_j.abs() <= 1e-6 * passed_j, "{balance_j} of {passed_j} J, {clear} clear");
             }
-            // Close to a singularity a step of 1 ms is no longer small.
-            if Pair::ALL.iter().any(|pair| measure(rig.pose(), *pair) < 0.2) {
-                break;
-            }
-            let balance_j = started_j + rig.work_j() - rig.kinetic_energy_j() - rig.dissipated_j();
-            let passed_j = started_j + rig.dissipated_j() + rig.work_j().abs();
-            prop_assert!(balance_j.abs() <= 1e-6 * passed_j, "{balance_j} of {passed_j} J");
         }
     }
 }

@@ -179,16 +179,26 @@ impl Contacts {
         drive: Vector2<f64>,
         yields_nm: [f64; 4],
     ) -> Contacts {
-        let dry = dry_brakes(form, yields_nm.map(|nm| nm * (1.0 + ROUNDING)));
-        let next = dry_motion(&form.mass, &drive, &dry);
-        let direction = Vector2::from(next.motion);
+        let bounds_nm = yields_nm.map(|yield_nm| yield_nm * (1.0 + ROUNDING));
+        self.after(form, &drive, bounds_nm).0
+    }
+
+    /// What the brakes do and how θA and θB move, where a drive meets dry friction of these bounds.
+    pub fn after(
+        &self,
+        form: &TwoCoordinate,
+        drive: &Vector2<f64>,
+        bounds: [f64; 4],
+    ) -> (Contacts, Vector2<f64>) {
+        let next = dry_motion(&form.mass, drive, &dry_brakes(form, bounds));
+        let motion = Vector2::from(next.motion);
         let of = [0, 1, 2, 3].map(|i| match self.of[i] {
             Contact::Absent => Contact::Absent,
             _ if next.held[i] => Contact::Held,
-            _ => Contact::Slips(row(form, i).dot(&direction).signum()),
+            _ => Contact::Slips(row(form, i).dot(&motion).signum()),
         });
-        let rest = direction == Vector2::zeros();
-        Contacts { of, rest }
+        let rest = motion == Vector2::zeros();
+        (Contacts { of, rest }, motion)
     }
 }
 

@@ -97,6 +97,14 @@ impl<'a, F: TipForce> Flow<'a, F> {
         })
     }
 
+    /// The time constants that the brakes run in `step_s` at some rates of the joints.
+    pub fn exponents(&self, joint_rates_rad_s: [f64; 4], step_s: f64) -> [f64; 4] {
+        [0, 1, 2, 3].map(|i| match &self.courses[i] {
+            Some(course) => course.rate_per_s(joint_rates_rad_s[i]) * step_s,
+            None => 0.0,
+        })
+    }
+
     fn rate(&self, y: &State) -> Result<State, ModelError> {
         let instant = self.instant(y)?;
         let omega = instant.form.joint_rates_rad_s([y[2], y[3]]);
