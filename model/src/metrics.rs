@@ -43,16 +43,20 @@ fn enough(count: usize, least: usize) -> Result<(), ModelError> {
     }
 }
 
+/// Shortest and longest time from sample to sample that is taken for one, s.
+const SAMPLING_PERIODS_S: [f64; 2] = [1e-9, 1e3];
+
 /// Checks a time from sample to sample.
 fn sampling_period(step_s: f64) -> Result<(), ModelError> {
-    if step_s > 0.0 && step_s.is_finite() {
+    let [least, greatest] = SAMPLING_PERIODS_S;
+    if (least..=greatest).contains(&step_s) {
         Ok(())
     } else {
         Err(ModelError::SettingRange {
             setting: "the sampling period",
             value: step_s,
-            least: f64::MIN_POSITIVE,
-            greatest: f64::MAX,
+            least,
+            greatest,
             unit: "s",
         })
     }

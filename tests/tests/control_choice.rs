@@ -99,14 +99,21 @@ proptest! {
         let wanted = Vector2::new(size * libm::cos(angle), size * libm::sin(angle));
         let pushes = pushes(&moment);
         // Whether the wanted direction lies between the two of any pair, by angles, and how far from any edge.
-        let (mut between, mut edge_rad) = (false, PI);
+        let (mut between, mut edge_rad, mut least_nm) = (false, PI, f64::INFINITY);
         let from = |a: Vector2<f64>, b: Vector2<f64>| {
             libm::remainder(libm::atan2(b.y, b.x) - libm::atan2(a.y, a.x), 2.0 * PI)
         };
         for (k, first) in pushes.iter().enumerate() {
             for second in pushes.iter().skip(k + 1) {
                 let (width, way) = (from(*first, *second), from(*first, wanted));
-                between |= if width > 0.0 { (0.0..=width).contains(&way) } else { (width..=0.0).contains(&way) };
+                let inside = if width > 0.0 { (0.0..=width).contains(&way) } else { (width..=0.0).contains(&way) };
+                between |= inside;
+                if inside {
+                    // The law of sines in the triangle of the two forces and their sum.
+                    let first_nm = libm::sin(width - way) / (libm::sin(width) * first.norm());
+                    let second_nm = libm::sin(way) / (libm::sin(width) * second.norm());
+                    least_nm = least_nm.min(size * (first_nm + second_nm));
+                }
             }
             edge_rad = from(*first, wanted).abs().min(edge_rad);
         }
@@ -124,6 +131,9 @@ proptest! {
                 prop_assert!(wanted.perp(&sum).abs() <= 1e-8 * wanted.norm() * sum.norm());
                 prop_assert!(wanted.dot(&sum) > 0.0 && sum.norm() <= wanted.norm() * (1.0 + 1e-9));
                 prop_assert!(opposition(sum.into(), moment.sensed.tip_velocity_m_s).holds());
+                // Scaled back to the wanted size, no other pair needs less.
+                let needed_nm = (first.torque_nm + second.torque_nm) * size / sum.norm();
+                prop_assert!(needed_nm <= least_nm * (1.0 + 1e-7), "{needed_nm} N·m, not {least_nm} N·m");
             }
             None => prop_assert!(!between || edge_rad < 1e-9, "a pair makes that direction"),
         }
@@ -191,6 +201,21 @@ proptest! {
         let small = 1e-6 * actual.norm() / taken.norm();
         prop_assert!(turn(actual + taken * small) <= turn(actual) + 1e-12, "{command:?} turns away");
         prop_assert!(taken.x * actual.x + taken.y * actual.y <= 0.0);
+        // Of two coupling brakes that help, the one with the greater lever on the link that is too fast.
+        if matches!(joint, Joint::E | Joint::C) {
+            let a_is_fast = wanted.x / actual.x < wanted.y / actual.y;
+            let lever = |joint: Joint| {
+                let through = base.transpose().try_inverse().unwrap() * moment.row(joint);
+                let taken = through * -through.dot(&actual).signum();
+                let (fast, other) = if a_is_fast { ((taken.x, actual.x), (taken.y, actual.y)) } else { ((taken.y, actual.y), (taken.x, actual.x)) };
+                (fast.0 * fast.1 < 0.0 && other.0 * other.1 > 0.0).then_some(fast.0.abs())
+            };
+            let ours = lever(joint);
+            prop_assert!(ours.is_some(), "{command:?} does not help");
+            for rival in moment.layout.brakes().iter().filter(|brake| matches!(brake, Joint::E | Joint::C)) {
+                prop_assert!(lever(*rival).is_none_or(|theirs| theirs <= ours.unwrap() * (1.0 + 1e-9)));
+            }
+        }
     }
 
     #[test]

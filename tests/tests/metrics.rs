@@ -443,9 +443,25 @@ fn records_that_cannot_be_measured_are_named() {
             Err(ModelError::SettingRange { .. })
         ));
     }
+}
+
+#[test]
+fn refusals_say_value_unit_and_range() {
+    let line = Line::through([-0.7, 0.3], [0.9, 0.31]).unwrap();
+    let still = [[0.13, 0.37]; 40];
     let text = Butterworth::low_pass(612.0, 0.001).unwrap_err().to_string();
     assert_eq!(
         text,
         "the cut-off of the filter is 612 Hz; it must lie between 0 Hz and 500 Hz"
+    );
+    let text = acceleration(&still, -0.001).unwrap_err().to_string();
+    assert_eq!(
+        text,
+        "the sampling period is -0.001 s; it must lie between 0.000000001 s and 1000 s"
+    );
+    let text = path_error(&line, &still).unwrap_err().to_string();
+    assert_eq!(
+        text,
+        "the way of the tip is 0 m long; it must be at least 0.0000001 m: check the points and their unit"
     );
 }

@@ -1,6 +1,7 @@
 //! This file says how far a run strayed from its path: (6.14) to (6.16a).
 
 use super::{enough, finite};
+use crate::control::SHORTEST_PIECE_M;
 use crate::control::path::Path;
 use crate::error::ModelError;
 
@@ -26,11 +27,11 @@ pub fn path_error(path: &impl Path, tips_m: &[[f64; 2]]) -> Result<f64, ModelErr
     finite("a tip position", "m", tips_m)?;
     let lengths_m = step_lengths(tips_m);
     let length_m = path_length(tips_m);
-    if length_m <= 0.0 {
+    if length_m < SHORTEST_PIECE_M {
         return Err(ModelError::PathPiece {
             piece: "way of the tip",
             length_m,
-            least_m: f64::MIN_POSITIVE,
+            least_m: SHORTEST_PIECE_M,
         });
     }
     let weighted_m2: f64 = tips_m
