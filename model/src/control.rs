@@ -1,7 +1,6 @@
 //! The controllers of thesis chapter 6 and of those it compares itself with: from what is sensed to four brake currents.
 
 mod actuation;
-mod current;
 pub mod desired_velocity;
 pub mod force_angle;
 pub mod force_limit;
@@ -16,7 +15,6 @@ pub mod torque_translation;
 mod velocity_ratio;
 
 pub use actuation::Actuation;
-pub use current::current_for_torque;
 pub use impedance::{Impedance, Virtual};
 pub use method::{GainUnit, Uncontrolled, controller};
 use nalgebra::Vector2;

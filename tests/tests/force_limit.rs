@@ -6,8 +6,7 @@ use core::f64::consts::PI;
 use nalgebra::{Vector2, Vector4};
 use proptest::prelude::*;
 use proptest::test_runner::FileFailurePersistence;
-use rigproof_model::brake::torque_gain;
-use rigproof_model::control::current_for_torque;
+use rigproof_model::brake::{current_gain, torque_gain};
 use rigproof_model::control::force_angle::{force_angle, opposing_force, path_angles};
 use rigproof_model::control::force_limit::{
     force_from_elbow, force_magnitude, greatest_common_force, least_force, tip_force,
@@ -18,7 +17,7 @@ use rigproof_spec::joint::Joint;
 use rigproof_spec::laws::{desired_force, opposition};
 use rigproof_spec::layout::Layout;
 use rigproof_spec::methods::greatest_desired_force_n;
-use rigproof_spec::tables::torque_gain_fit;
+use rigproof_spec::tables::{brake_table, torque_gain_fit};
 
 const LAYOUTS: [Layout; 2] = [Layout::ThreeBrake, Layout::FourBrake];
 
@@ -167,15 +166,15 @@ proptest! {
     }
 
     #[test]
-    fn current_for_torque_inverts_the_torque_gain(
+    fn current_gain_inverts_the_torque_gain(
         joint in prop::sample::select(Joint::ALL.to_vec()), share in 0.0..1.0_f64,
     ) {
         let fit = torque_gain_fit(joint);
         let torque_nm = fit.off_state_nm() + share * (fit.greatest_nm() - fit.off_state_nm());
-        let current_a = current_for_torque(joint, torque_nm);
+        let current_a = current_gain(&brake_table(joint), torque_nm);
         prop_assert!((0.0..=1.0).contains(&current_a));
         prop_assert!((torque_gain(joint, current_a) - torque_nm).abs() < 1e-12);
-        let more = current_for_torque(joint, torque_nm + 1e-3);
+        let more = current_gain(&brake_table(joint), torque_nm + 1e-3);
         prop_assert!(more >= current_a, "more torque takes no less current");
     }
 }
@@ -272,7 +271,7 @@ fn the_smaller_of_two_currents_is_taken_just_below_200_milliampere() {
         let lower_nm = torque_gain(joint, 0.2);
         for share in [0.13, 0.57, 0.91] {
             let torque_nm = lower_nm + share * (upper_nm - lower_nm);
-            let current_a = current_for_torque(joint, torque_nm);
+            let current_a = current_gain(&brake_table(joint), torque_nm);
             assert!(current_a < 0.2, "{}: {current_a} A", joint.letter());
             // The other answer, above 0.2 A, gives the same torque.
             let (mut low, mut high) = (0.2, 0.3);
@@ -293,10 +292,16 @@ fn the_smaller_of_two_currents_is_taken_just_below_200_milliampere() {
 fn torques_beyond_the_brake_get_the_nearest_current_and_undefined_ones_none() {
     for joint in Joint::ALL {
         let fit = torque_gain_fit(joint);
-        assert_eq!(current_for_torque(joint, fit.off_state_nm() - 0.013), 0.0);
-        assert_eq!(current_for_torque(joint, -3.7), 0.0);
-        assert_eq!(current_for_torque(joint, fit.greatest_nm() + 0.013), 1.0);
-        assert_eq!(current_for_torque(joint, f64::INFINITY), 1.0);
-        assert_eq!(current_for_torque(joint, f64::NAN), 0.0);
+        assert_eq!(
+            current_gain(&brake_table(joint), fit.off_state_nm() - 0.013),
+            0.0
+        );
+        assert_eq!(current_gain(&brake_table(joint), -3.7), 0.0);
+        assert_eq!(
+            current_gain(&brake_table(joint), fit.greatest_nm() + 0.013),
+            1.0
+        );
+        assert_eq!(current_gain(&brake_table(joint), f64::INFINITY), 1.0);
+        assert_eq!(current_gain(&brake_table(joint), f64::NAN), 0.0);
     }
 }

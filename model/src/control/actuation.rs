@@ -6,13 +6,14 @@ use rigproof_spec::geometry::{Arms, arms};
 use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
 use rigproof_spec::methods::greatest_desired_force_n;
-use rigproof_spec::tables::GREATEST_CURRENT_A;
 
 use super::force_limit::force_magnitude;
 use super::path::{Nearest, Path};
-use super::{JointRow, Sensed, current_for_torque, setting};
+use super::{JointRow, Sensed, setting};
+use crate::brake::current_gain;
 use crate::error::ModelError;
 use crate::linkage::jacobian::jacobian;
+use rigproof_spec::tables::{GREATEST_CURRENT_A, brake_table};
 
 /// Largest force limit that is taken for one of this rig, N.
 const GREATEST_FORCE_LIMIT_N: f64 = 1000.0;
@@ -109,7 +110,7 @@ impl Actuation {
         } else {
             force_n
         };
-        current_for_torque(joint, force_n / force_magnitude(row, 1.0))
+        current_gain(&brake_table(joint), force_n / force_magnitude(row, 1.0))
     }
 
     /// A command to one brake.

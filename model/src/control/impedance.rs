@@ -5,8 +5,10 @@ use rigproof_spec::command::{Command, Reason};
 
 use super::path::{Nearest, Path};
 use super::torque_translation::{Share, translate};
-use super::{Actuation, Controller, Sensed, current_for_torque, setting};
+use super::{Actuation, Controller, Sensed, setting};
+use crate::brake::current_gain;
 use crate::error::ModelError;
+use rigproof_spec::tables::brake_table;
 
 /// Largest stiffness that is taken for a virtual spring of this rig, N/m.
 const GREATEST_STIFFNESS_N_PER_M: f64 = 1e6;
@@ -100,7 +102,7 @@ impl<P: Path> Controller for Impedance<P> {
                 let given = |share: Share| {
                     (
                         share.joint,
-                        current_for_torque(share.joint, share.torque_nm),
+                        current_gain(&brake_table(share.joint), share.torque_nm),
                     )
                 };
                 Actuation::two(given(first), given(second))

@@ -7,11 +7,10 @@ use rigproof_spec::joint::Joint;
 
 use super::desired_velocity::desired_velocity;
 use super::path::Path;
-use super::{
-    Actuation, Controller, GREATEST_DISTANCE_M, SHORTEST_PIECE_M, Sensed, current_for_torque,
-    setting,
-};
+use super::{Actuation, Controller, GREATEST_DISTANCE_M, SHORTEST_PIECE_M, Sensed, setting};
+use crate::brake::current_gain;
 use crate::error::ModelError;
+use rigproof_spec::tables::brake_table;
 
 /// Largest gain that is taken for one of this rig, N·m·s/rad.
 const GREATEST_GAIN_NM_S_PER_RAD: f64 = 1e6;
@@ -56,7 +55,7 @@ impl<P: Path> VelocityRatio<P> {
     }
 
     fn current_a(&self, joint: Joint, excess_rad_s: f64) -> f64 {
-        current_for_torque(joint, self.gain_nm_s_per_rad * excess_rad_s)
+        current_gain(&brake_table(joint), self.gain_nm_s_per_rad * excess_rad_s)
     }
 }
 
