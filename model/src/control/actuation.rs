@@ -69,7 +69,7 @@ impl Actuation {
     ///
     /// # Errors
     /// The reason for which no brake may act: an undefined input, or a singular pose.
-    pub(super) fn rows(&self, sensed: &Sensed) -> Result<Vec<JointRow>, Reason> {
+    fn rows(&self, sensed: &Sensed) -> Result<Vec<JointRow>, Reason> {
         let j = self.jacobian(sensed)?;
         let all = Joint::ALL.into_iter().zip(j.row_iter());
         Ok(all
@@ -89,6 +89,18 @@ impl Actuation {
         } else {
             Err(Reason::UndefinedInput)
         }
+    }
+
+    /// The brakes' rows of the Jacobian, and how the tip lies to a path.
+    ///
+    /// # Errors
+    /// The reason for which no brake may act: as [`Actuation::rows`] and [`Actuation::nearest`].
+    pub(super) fn situation(
+        &self,
+        path: &impl Path,
+        sensed: &Sensed,
+    ) -> Result<(Vec<JointRow>, Nearest), Reason> {
+        Ok((self.rows(sensed)?, Actuation::nearest(path, sensed)?))
     }
 
     /// The 4×2 Jacobian, rows A, E, B, C, columns x, y.

@@ -80,12 +80,8 @@ impl<P: Path> Impedance<P> {
 
 impl<P: Path> Controller for Impedance<P> {
     fn command(&mut self, sensed: &Sensed) -> Command {
-        let rows = match self.actuation.rows(sensed) {
-            Ok(rows) => rows,
-            Err(reason) => return Command::none(reason),
-        };
-        let nearest = match Actuation::nearest(&self.path, sensed) {
-            Ok(nearest) => nearest,
+        let (rows, nearest) = match self.actuation.situation(&self.path, sensed) {
+            Ok(situation) => situation,
             Err(reason) => return Command::none(reason),
         };
         let velocity_m_s = Vector2::from(sensed.tip_velocity_m_s);

@@ -97,12 +97,8 @@ impl<P: Path, M: Fn(&Pose) -> Option<Matrix2<f64>>> Optimal<P, M> {
 
 impl<P: Path, M: Fn(&Pose) -> Option<Matrix2<f64>>> Controller for Optimal<P, M> {
     fn command(&mut self, sensed: &Sensed) -> Command {
-        let rows = match self.actuation.rows(sensed) {
-            Ok(rows) => rows,
-            Err(reason) => return Command::none(reason),
-        };
-        let nearest = match Actuation::nearest(&self.path, sensed) {
-            Ok(nearest) => nearest,
+        let (rows, nearest) = match self.actuation.situation(&self.path, sensed) {
+            Ok(situation) => situation,
             Err(reason) => return Command::none(reason),
         };
         let Some((mass, mobility)) =

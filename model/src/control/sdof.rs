@@ -49,12 +49,8 @@ impl<P: Path> Sdof<P> {
 
 impl<P: Path> Controller for Sdof<P> {
     fn command(&mut self, sensed: &Sensed) -> Command {
-        let rows = match self.actuation.rows(sensed) {
-            Ok(rows) => rows,
-            Err(reason) => return Command::none(reason),
-        };
-        let nearest = match Actuation::nearest(&self.path, sensed) {
-            Ok(nearest) => nearest,
+        let (rows, nearest) = match self.actuation.situation(&self.path, sensed) {
+            Ok(situation) => situation,
             Err(reason) => return Command::none(reason),
         };
         let force_n = Vector2::from(sensed.tip_force_n);

@@ -64,7 +64,10 @@ fn files(folder: &Path) -> Vec<String> {
             let entry = entry.unwrap();
             let name = entry.file_name().into_string().unwrap();
             let kind = entry.file_type().unwrap();
-            if kind.is_dir() && !["target", ".git"].contains(&name.as_str()) {
+            if ["target", ".git"].contains(&name.as_str()) {
+                continue;
+            }
+            if kind.is_dir() {
                 waiting.push(entry.path());
             } else if kind.is_file() {
                 found.push(entry.path());

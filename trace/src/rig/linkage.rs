@@ -5,7 +5,6 @@ use std::path::Path;
 use rigproof_spec::geometry::{Angle, AngleRange, AngleRanges, Arms, STOPS};
 use rigproof_spec::joint::Joint;
 use rigproof_spec::units::{Dimension, RAD_PER_DEG, Unit};
-use toml::de::DeTable;
 
 use super::table::{Source, Table};
 use crate::error::TraceError;
@@ -43,11 +42,7 @@ impl Linkage {
     /// gives line and column.
     pub fn parse(text: &str, origin: &Path) -> Result<Linkage, TraceError> {
         let source = Source { text, file: origin };
-        let document = DeTable::parse(text).map_err(|error| {
-            let at = error.span().map_or(0, |span| span.start);
-            let message = error.message().lines().collect::<Vec<_>>().join("; ");
-            source.error(at, format!("the text is no TOML: {message}"))
-        })?;
+        let document = source.document()?;
         let root = Table::root(source, &document);
         root.only(&["name", "lengths", "angles", "brakes"])?;
         let name = root.need("name", root.text("name")?)?.to_owned();

@@ -4,7 +4,6 @@ use std::path::Path;
 
 use rigproof_spec::effect::{Mechanism, Motion, Quantity};
 use rigproof_spec::units::{Dimension, Unit};
-use toml::de::DeTable;
 
 use super::table::{Source, Table};
 use super::{
@@ -23,11 +22,7 @@ impl Rig {
     /// number is out of its range; the message gives line and column.
     pub fn parse(text: &str, origin: &Path) -> Result<Rig, TraceError> {
         let source = Source { text, file: origin };
-        let document = DeTable::parse(text).map_err(|error| {
-            let at = error.span().map_or(0, |span| span.start);
-            let message = error.message().lines().collect::<Vec<_>>().join("; ");
-            source.error(at, format!("the text is no TOML: {message}"))
-        })?;
+        let document = source.document()?;
         let root = Table::root(source, &document);
         root.only(&[
             "name",

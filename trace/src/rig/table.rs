@@ -16,7 +16,19 @@ pub(super) struct Source<'a> {
     pub(super) file: &'a Path,
 }
 
-impl Source<'_> {
+impl<'a> Source<'a> {
+    /// The text as TOML.
+    ///
+    /// # Errors
+    /// It is none; the message gives line and column.
+    pub(super) fn document(&self) -> Result<Spanned<DeTable<'a>>, TraceError> {
+        DeTable::parse(self.text).map_err(|error| {
+            let at = error.span().map_or(0, |span| span.start);
+            let message = error.message().lines().collect::<Vec<_>>().join("; ");
+            self.error(at, format!("the text is no TOML: {message}"))
+        })
+    }
+
     /// An error at a byte position of the text.
     pub(super) fn error(&self, at: usize, problem: impl Into<String>) -> TraceError {
         let before = self.text.get(..at).unwrap_or(self.text);
