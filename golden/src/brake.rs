@@ -21,8 +21,9 @@ const START_RAD: f64 = 0.31;
 
 const STEP_CURRENTS_A: [f64; 4] = [0.2, 0.5, 0.8, 1.0];
 const STEP_SPEEDS_RPM: [f64; 3] = [0.5, 4.0, 32.0];
-/// When the current rises and falls, and the end, s: half the widest backlash, 0.9°, takes 0.3 s at 0.5 rpm.
-const STEP_TIMES_S: [f64; 3] = [0.35, 0.5, 0.65];
+/// When the current rises and falls, and the end, s: half the widest backlash, 0.9°, takes 0.3 s at 0.5 rpm, and 1 A there
+/// has time constants of up to 0.1 s.
+const STEP_TIMES_S: [f64; 3] = [0.35, 0.7, 0.85];
 
 const SINUSOID_HZ: [f64; 2] = [0.25, 1.0];
 const SINUSOID_CURRENTS_A: [f64; 2] = [0.5, 1.0];

@@ -28,6 +28,8 @@ pub enum Shows {
     EndsWithin(f64),
     /// A greatest and a least value at least this far apart.
     Spans(f64),
+    /// A value that is not zero in at least so many rows.
+    Lasts(usize),
     /// A sign that changes at least so often.
     SignChanges(usize),
     /// A cell that is not like the one before it, at least so often.
@@ -121,6 +123,10 @@ impl Shows {
                 let span = greatest - least;
                 (span >= *value, format!("spans {span:?}"))
             }
+            Shows::Lasts(least) => {
+                let rows = numbers.iter().filter(|value| **value != 0.0).count();
+                (rows >= *least, format!("is not zero in {rows} rows"))
+            }
             Shows::SignChanges(least) => {
                 let changes = pairs(numbers).filter(|(a, b)| **a * **b < 0.0).count();
                 (changes >= *least, format!("changes sign {changes} times"))
@@ -139,22 +145,24 @@ fn pairs<T>(values: &[T]) -> impl Iterator<Item = (&T, &T)> {
 mod tests {
     use super::*;
 
-    /// One run with a torque column and a reason column.
-    fn table(rows: &[(f64, &str)]) -> Table {
-        let mut table = Table::new(&[("run", ""), ("torque", "N·m"), ("reason", "")]);
-        for (torque_nm, reason) in rows {
+    /// One run: torque, whether the brake holds, and a reason.
+    fn table(rows: &[(f64, u8, &str)]) -> Table {
+        let columns = [("run", ""), ("torque", "N·m"), ("held", ""), ("reason", "")];
+        let mut table = Table::new(&columns);
+        for (torque_nm, held, reason) in rows {
             table.push(1, &[*torque_nm]);
-            table.extend([reason]);
+            table.extend([held.to_string(), (*reason).to_owned()]);
         }
         table
     }
 
-    fn claims() -> [Claim; 7] {
+    fn claims() -> [Claim; 8] {
         [
             Claim::each("it reaches", "torque", Shows::Reaches(3.7)),
             Claim::each("it falls", "torque", Shows::Reaches(-1.9)),
             Claim::of(1, "it ends", "torque", Shows::EndsWithin(0.3)),
             Claim::each("it spans", "torque", Shows::Spans(5.5)),
+            Claim::each("it lasts", "held", Shows::Lasts(2)),
             Claim::each("it turns", "torque", Shows::SignChanges(2)),
             Claim::each("it switches", "reason", Shows::Changes(2)),
             Claim::each("it locks", "reason", Shows::Has("locked".to_owned())),
@@ -163,7 +171,11 @@ mod tests {
 
     #[test]
     fn a_lively_run_meets_every_claim() {
-        let run = table(&[(3.8, "chosen_a"), (-1.93, "locked"), (0.21, "chosen_a")]);
+        let run = table(&[
+            (3.8, 1, "chosen_a"),
+            (-1.93, 1, "locked"),
+            (0.21, 0, "chosen_a"),
+        ]);
         for claim in claims() {
             assert!(claim.missing(1, &Table::default(), &run).is_empty());
         }
@@ -172,8 +184,8 @@ mod tests {
     #[test]
     fn a_vacuous_run_meets_none() {
         let nothing = table(&[]);
-        let flat = table(&[(1.3, "chosen_a"); 3]);
-        let unknown = table(&[(f64::NAN, "chosen_a"); 3]);
+        let flat = table(&[(1.3, 0, "chosen_a"); 3]);
+        let unknown = table(&[(f64::NAN, 0, "chosen_a"); 3]);
         for run in [nothing, flat, unknown] {
             for claim in claims() {
                 let missing = claim.missing(1, &Table::default(), &run);
@@ -184,7 +196,7 @@ mod tests {
 
     #[test]
     fn a_claim_about_a_run_or_a_column_that_is_not_there_fails() {
-        let run = table(&[(3.8, "chosen_a"), (-1.93, "locked")]);
+        let run = table(&[(3.8, 1, "chosen_a"), (-1.93, 1, "locked")]);
         let claim = Claim::of(2, "it locks", "reason", Shows::Has("locked".to_owned()));
         assert_eq!(claim.missing(2, &Table::default(), &run).len(), 1);
         let claim = Claim::each("it moves", "speed", Shows::Spans(0.1));

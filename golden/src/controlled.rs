@@ -28,6 +28,11 @@ const ROWS_TICKS: usize = 20;
 const LONGEST_S: f64 = 4.0;
 /// Seed of the simulated operator.
 const SEED: u64 = 4127;
+/// A hand that strays 2 cm, so that gap and wall are left and entered (decision 0060).
+const ABILITIES: Abilities = Abilities {
+    aim_error_m: 0.02,
+    ..Abilities::CAREFUL
+};
 /// The line that is followed: the second of decision 0047, oblique to both axes.
 const SEGMENT: Segment = {
     let [_, oblique] = LINES;
@@ -57,7 +62,8 @@ fn case(layout: Layout) -> Case {
             Parameter::number("line to y", to_y, "m"),
             Parameter::number("force held for", ROWS_S, "s"),
             Parameter::number("longest duration", LONGEST_S, "s"),
-            Parameter::word("hand", format!("decision 0047, careful, seed {SEED}")),
+            Parameter::word("hand", format!("the careful operator of decision 0047 with another error of the aim, seed {SEED}")),
+            Parameter::number("error of the aim", ABILITIES.aim_error_m, "m"),
         ],
         runs: Steered::ALL.map(|steered| Run {
             what: steered.name().to_owned(),
@@ -77,7 +83,7 @@ fn input(layout: Layout) -> Result<Table, ModelError> {
     let past_end =
         |[x, y]: [f64; 2]| (x - to_x) * (to_x - from_x) + (y - to_y) * (to_y - from_y) >= 0.0;
     for (index, steered) in Steered::ALL.into_iter().enumerate() {
-        let mut hand = Held::new(Operator::new(line, Abilities::CAREFUL, SEED)?);
+        let mut hand = Held::new(Operator::new(line, ABILITIES, SEED)?);
         let seen = seen(layout, steered, &mut hand, LONGEST_S, past_end)?;
         let mut row = |tick: usize, force_n: [f64; 2]| {
             let [x, y] = force_n;

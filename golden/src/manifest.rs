@@ -215,6 +215,7 @@ fn shows(shows: &Shows) -> String {
         Shows::Reaches(value) => format!("reaches = {value:?}"),
         Shows::EndsWithin(value) => format!("ends_within = {value:?}"),
         Shows::Spans(value) => format!("spans = {value:?}"),
+        Shows::Lasts(least) => format!("lasts = {least}"),
         Shows::SignChanges(least) => format!("sign_changes = {least}"),
         Shows::Changes(least) => format!("changes = {least}"),
         Shows::Has(word) => format!("has = {}", quoted(word)),

@@ -8,6 +8,7 @@ use rigproof_model::control::{
 };
 use rigproof_model::linkage::Pose;
 use rigproof_model::rig::Parameters;
+use rigproof_model::trial::Segment;
 use rigproof_spec::layout::Layout;
 use rigproof_spec::methods::{BLEND_BOUNDARY_M, Method, Setting};
 use rigproof_spec::units::M_PER_CM;
@@ -26,7 +27,7 @@ pub enum Steered {
     Optimal,
     /// Impedance control with torque translation.
     Impedance,
-    /// SDOF control on one side of the line only.
+    /// SDOF control on the solid side of a wall only.
     Obstacle,
 }
 
@@ -43,6 +44,12 @@ const ELEMENTS: Virtual = Virtual {
     stiffness_n_per_m: 3000.0,
     damping_across_n_s_per_m: 300.0,
     damping_along_n_s_per_m: 100.0,
+};
+
+/// The obstacle's boundary: it crosses the line, so that the hand starts free and runs into it.
+const WALL: Segment = Segment {
+    from_m: [-0.085, 0.296],
+    to_m: [0.11, 0.41],
 };
 
 impl Steered {
@@ -70,7 +77,7 @@ impl Steered {
             Steered::VelocityRatio => "velocity ratio",
             Steered::Optimal => "optimal",
             Steered::Impedance => "impedance with torque translation",
-            Steered::Obstacle => "SDOF, obstacle on the left of the line",
+            Steered::Obstacle => "obstacle, with SDOF control",
         }
     }
 
@@ -122,10 +129,17 @@ impl Steered {
                 Parameter::number("damping across", ELEMENTS.damping_across_n_s_per_m, "N·s/m"),
                 Parameter::number("damping along", ELEMENTS.damping_along_n_s_per_m, "N·s/m"),
             ]),
-            Steered::Obstacle => parameters.extend([
-                Parameter::word("controller inside", "Sdof"),
-                Parameter::word("solid side", "left"),
-            ]),
+            Steered::Obstacle => {
+                let [[from_x, from_y], [to_x, to_y]] = [WALL.from_m, WALL.to_m];
+                parameters.extend([
+                    Parameter::word("controller inside", "Sdof"),
+                    Parameter::word("solid side of the wall", "left"),
+                    Parameter::number("wall from x", from_x, "m"),
+                    Parameter::number("wall from y", from_y, "m"),
+                    Parameter::number("wall to x", to_x, "m"),
+                    Parameter::number("wall to y", to_y, "m"),
+                ]);
+            }
         }
         parameters
     }
@@ -149,8 +163,9 @@ impl Steered {
             }
             Steered::Impedance => Box::new(Impedance::new(actuation, line, ELEMENTS)?),
             Steered::Obstacle => {
-                let inner = Sdof::new(actuation, line, boundary_m, 0.0)?;
-                Box::new(Obstacle::new(line, Side::Left, inner))
+                let wall = Line::through(WALL.from_m, WALL.to_m)?;
+                let inner = Sdof::new(actuation, wall, boundary_m, 0.0)?;
+                Box::new(Obstacle::new(wall, Side::Left, inner))
             }
         })
     }
@@ -158,5 +173,44 @@ impl Steered {
 
 /// What the runs of a layout must show.
 pub fn must_show(layout: Layout) -> Vec<Claim> {
-    vec![Claim::each("the tip moves", "tip_x", Shows::Spans(0.1))]
+    let says = "the tip goes along the line, which is 0.17 m wide, for 0.14 m";
+    let mut claims = vec![Claim::each(says, "tip_x", Shows::Spans(0.14))];
+    for (index, steered) in Steered::ALL.into_iter().enumerate() {
+        let (run, (least, reasons)) = (index + 1, steered.reasons(layout));
+        if least > 0 {
+            let says = format!("the controller changes its mind {least} times from row to row");
+            claims.push(Claim::of(run, says, "reason", Shows::Changes(least)));
+        }
+        for reason in reasons {
+            let says = format!("the controller comes to `{reason}`");
+            let has = Shows::Has((*reason).to_owned());
+            claims.push(Claim::of(run, says, "reason", has));
+        }
+    }
+    claims
+}
+
+impl Steered {
+    /// How often the reason must change, and the reasons that must be there.
+    const fn reasons(self, layout: Layout) -> (usize, &'static [&'static str]) {
+        let three = matches!(layout, Layout::ThreeBrake);
+        match self {
+            Steered::Method(Method::Uncontrolled) => (0, &["uncontrolled"]),
+            Steered::Method(Method::Sdof) if three => (20, &["chosen_A", "chosen_E", "chosen_B"]),
+            Steered::Method(Method::Sdof) => (20, &["chosen_B", "chosen_C"]),
+            Steered::Method(Method::SdofWithGap) => (4, &["inside_gap", "chosen_B"]),
+            Steered::Method(Method::ProportionalLow | Method::ProportionalHigh) if three => {
+                (10, &["chosen_E", "chosen_B", "locked_pushed_away"])
+            }
+            Steered::Method(Method::ProportionalLow | Method::ProportionalHigh) => (
+                5,
+                &["chosen_B", "chosen_C", "none_helps", "locked_pushed_away"],
+            ),
+            Steered::VelocityRatio => (5, &["chosen_E", "chosen_B", "nothing_to_do"]),
+            Steered::Optimal => (10, &["chosen_A", "chosen_E", "chosen_B", "nothing_to_do"]),
+            Steered::Impedance => (10, &["chosen_A_E", "chosen_A_B", "none_helps"]),
+            Steered::Obstacle if three => (5, &["free_side", "chosen_E"]),
+            Steered::Obstacle => (5, &["free_side", "chosen_C"]),
+        }
+    }
 }
