@@ -8,6 +8,7 @@ mod demo;
 mod design;
 mod diagnose;
 mod folder;
+mod golden;
 mod identify;
 mod input;
 mod outcome;
@@ -48,6 +49,8 @@ enum Verb {
     Design(design::Args),
     /// Run again what the thesis ran, and set its numbers beside ours
     Reproduce(reproduce::Args),
+    /// Check the golden cases against the model, or write them anew
+    Golden(golden::Args),
     /// Turn a recording in HDF5, MATLAB or CSV into a normalised CSV file
     Convert(convert::Args),
 }
@@ -72,6 +75,7 @@ fn run(verb: &Verb) -> Result<Outcome, Failure> {
         Verb::Blind(args) => blind::run(args),
         Verb::Design(args) => design::run(args),
         Verb::Reproduce(args) => reproduce::run(args),
+        Verb::Golden(args) => golden::run(args),
         Verb::Convert(args) => convert::run(args),
     }
 }

@@ -53,6 +53,12 @@ impl From<rigproof_experiments::Error> for Failure {
     }
 }
 
+impl From<rigproof_golden::Error> for Failure {
+    fn from(error: rigproof_golden::Error) -> Failure {
+        Failure::Input(error.to_string())
+    }
+}
+
 impl From<TraceError> for Failure {
     fn from(error: TraceError) -> Failure {
         Failure::Input(error.to_string())

@@ -11,6 +11,8 @@ fn every_verb_shows_an_example_and_says_what_it_does() {
         &["design"],
         &["convert"],
         &["reproduce"],
+        &["golden", "check"],
+        &["golden", "regenerate"],
         &["identify"],
         &["identify", "brake"],
         &["blind"],

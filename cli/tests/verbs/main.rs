@@ -6,6 +6,7 @@ mod demo;
 mod design;
 mod desk;
 mod diagnose;
+mod golden;
 mod help;
 mod identify;
 mod reproduce;
