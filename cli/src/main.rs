@@ -3,6 +3,7 @@
 //! A verb is a module with `Args` and `run`, a line in [`Verb`] and a line in [`run`].
 
 mod blind;
+mod cite;
 mod convert;
 mod demo;
 mod design;
@@ -48,6 +49,8 @@ enum Verb {
     Design(design::Args),
     /// Run again what the thesis ran, and set its numbers beside ours
     Reproduce(reproduce::Args),
+    /// Say where an equation of the thesis is obeyed, witnessed, and known to be wrong
+    Cite(cite::Args),
     /// Turn a recording in HDF5, MATLAB or CSV into a normalised CSV file
     Convert(convert::Args),
 }
@@ -72,6 +75,7 @@ fn run(verb: &Verb) -> Result<Outcome, Failure> {
         Verb::Blind(args) => blind::run(args),
         Verb::Design(args) => design::run(args),
         Verb::Reproduce(args) => reproduce::run(args),
+        Verb::Cite(args) => cite::run(args),
         Verb::Convert(args) => convert::run(args),
     }
 }

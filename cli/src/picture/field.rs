@@ -63,10 +63,7 @@ pub fn bands(field: &Field) -> Vec<(String, &'static str)> {
 
 fn corner(field: &Field, column: usize, row: usize) -> [f64; 2] {
     let [x, y] = field.origin;
-    [
-        x + column as f64 * field.step,
-        y + row as f64 * field.step,
-    ]
+    [x + column as f64 * field.step, y + row as f64 * field.step]
 }
 
 /// The colour of the first band that the value does not exceed; below the first band there is that of the first.

@@ -11,6 +11,7 @@ fn every_verb_shows_an_example_and_says_what_it_does() {
         &["design"],
         &["convert"],
         &["reproduce"],
+        &["cite"],
         &["identify"],
         &["identify", "brake"],
         &["blind"],

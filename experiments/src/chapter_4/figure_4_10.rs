@@ -49,14 +49,20 @@ fn run(layout: Layout, title: &str) -> Result<Outcome, Error> {
     let device = Device::layout(layout);
     let refused = |problem| Error::model("the map of paths", problem);
     let boundary = workspace::boundary(&device, STEP_M).map_err(refused)?;
-    let arcs: Vec<Arc> = layout.brakes().iter().flat_map(|j| arcs_of(layout, *j)).collect();
+    let arcs: Vec<Arc> = layout
+        .brakes()
+        .iter()
+        .flat_map(|j| arcs_of(layout, *j))
+        .collect();
     let mut curves: Vec<Curve> = layout.brakes().iter().map(|j| family(&arcs, *j)).collect();
     curves.push(base(&arms(layout)));
     curves.push(outline("end of the workspace", &boundary));
     let picture = Picture {
         name: "paths".to_owned(),
         title: title.to_owned(),
-        subtitle: format!("where the tip can go while one brake is locked, at every {ARCS_DEG}° of its angle"),
+        subtitle: format!(
+            "where the tip can go while one brake is locked, at every {ARCS_DEG}° of its angle"
+        ),
         panels: vec![Panel::new(("x", "m"), ("y", "m"), curves).map()],
     };
     let mut findings = vec![distinct(layout)?, square_to_forces(&arcs)];
@@ -173,7 +179,10 @@ fn distinct(layout: Layout) -> Result<Finding, Error> {
     }
     let (place, stated) = match layout {
         Layout::ThreeBrake => ("§4.2.3", "three"),
-        Layout::FourBrake => ("§4.2.4", "four: a brake on C adds one where A and B are apart"),
+        Layout::FourBrake => (
+            "§4.2.4",
+            "four: a brake on C adds one where A and B are apart",
+        ),
     };
     Ok(Finding::claim(
         place,
@@ -265,7 +274,9 @@ fn table(arcs: &[Arc]) -> Table {
         let of = |arc: &'_ Arc| {
             let points = arc.points_m.clone().into_iter();
             let (joint, at_deg) = (arc.joint, arc.at_deg);
-            points.filter(|[x, _]| x.is_finite()).map(move |p| (joint, at_deg, p))
+            points
+                .filter(|[x, _]| x.is_finite())
+                .map(move |p| (joint, at_deg, p))
         };
         arcs.iter().flat_map(of)
     };

@@ -2,9 +2,9 @@
 
 use rigproof_model::ModelError;
 use rigproof_model::linkage::device::Device;
+use rigproof_model::linkage::limits;
 use rigproof_model::linkage::singularity::{Pair, measure};
 use rigproof_model::linkage::workspace::{self, Boundary, Grid};
-use rigproof_model::linkage::limits;
 use rigproof_spec::geometry::{Angle, AngleRange, AngleRanges, STOPS, angle_ranges, arms};
 use rigproof_spec::layout::Layout;
 
@@ -239,7 +239,10 @@ fn ends(of: &Bounded) -> Finding {
     let shares: Vec<String> = shares.collect();
     Finding::lost(
         "§4.5",
-        format!("the angles that form the boundary of the {} layout", name(of.layout)),
+        format!(
+            "the angles that form the boundary of the {} layout",
+            name(of.layout)
+        ),
         format!("{} of {whole_m:.2} m", shares.join(", ")),
         "the angles were written into the figure",
     )

@@ -63,7 +63,8 @@ fn run() -> Result<Outcome, Error> {
     let traverse = Picture {
         name: "paths".to_owned(),
         title: EXPERIMENT.title.to_owned(),
-        subtitle: "the way the tip can go while one brake is locked, at every tenth of L_ED".to_owned(),
+        subtitle: "the way the tip can go while one brake is locked, at every tenth of L_ED"
+            .to_owned(),
         panels: vec![panel.map()],
     };
     let lines = sweep_picture(&ranked);
@@ -212,7 +213,9 @@ fn sweep_table(ranked: &[Candidate]) -> Table {
             column("l_ab", |c| c.l_ab),
             column("score", Candidate::score),
             column("area", |c| c.figures.map_or(0.0, |f| f.area_m2)),
-            column("well_spaced", |c| c.figures.map_or(0.0, |f| f.well_spaced_m2)),
+            column("well_spaced", |c| {
+                c.figures.map_or(0.0, |f| f.well_spaced_m2)
+            }),
             column("fill", |c| c.figures.map_or(f64::NAN, |f| f.fill)),
         ],
     )

@@ -50,7 +50,8 @@ fn run(layout: Layout, title: &str) -> Result<Outcome, Error> {
     let picture = Picture {
         name: "greatest-angle".to_owned(),
         title: title.to_owned(),
-        subtitle: "greatest angle between adjacent paths with one brake locked, over the workspace".to_owned(),
+        subtitle: "greatest angle between adjacent paths with one brake locked, over the workspace"
+            .to_owned(),
         panels: vec![
             Panel::new(("x", "m"), ("y", "m"), curves)
                 .map()
