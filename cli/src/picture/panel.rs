@@ -72,6 +72,7 @@ impl Panel {
             // Neighbours overlap by a hair, so that no seam shows.
             .set("width", pixel(right - left + 0.3))
             .set("height", pixel(bottom - top + 0.3))
+            .set("shape-rendering", "crispEdges")
             .set("fill", colour);
         self.inside = std::mem::take(&mut self.inside).add(cell);
     }

@@ -192,7 +192,7 @@ fn distinct(layout: Layout) -> Result<Finding, Error> {
             format!("no two paths are less than {:.1}° apart", deg(least_rad)),
             deg(least_rad) > 1.0,
         ),
-        "over the workspace, tips 6 mm apart; two paths are one below 1°",
+        "over the workspace, tips 6 mm apart; under 1° two paths would count as one",
     ))
 }
 

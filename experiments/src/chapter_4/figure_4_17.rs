@@ -8,7 +8,7 @@ use rigproof_model::linkage::workspace::{self, Boundary, Grid};
 use rigproof_spec::geometry::{Angle, AngleRange, AngleRanges, STOPS, angle_ranges, arms};
 use rigproof_spec::layout::Layout;
 
-use super::layouts::{base, deg, limit, name, outline};
+use super::layouts::{base, deg, limit, loops, name, outline};
 use super::statements;
 use crate::table::Column;
 use crate::{Curve, Error, Experiment, Finding, Outcome, Panel, Picture, Table};
@@ -107,11 +107,14 @@ fn pieces(boundary: &Boundary) -> Vec<Curve> {
         .into_iter()
         .map(|limit| {
             let (mut x, mut y) = (Vec::new(), Vec::new());
-            for points in &boundary.loops {
+            for points in loops(boundary) {
+                let mut before = false;
                 for ([point_x, point_y], error) in points.iter().chain(points.first()) {
                     let here = word(error) == limit;
-                    x.push(if here { *point_x } else { f64::NAN });
+                    // Each piece reaches the first point of the next.
+                    x.push(if here || before { *point_x } else { f64::NAN });
                     y.push(*point_y);
+                    before = here;
                 }
                 x.push(f64::NAN);
                 y.push(f64::NAN);
@@ -198,8 +201,9 @@ fn stop_at_d() -> Result<Finding, Error> {
             ),
             three.greatest_deg < 170.001 && four.greatest_deg < 170.001,
         ),
-        "derived from the rings on C and E, the bumpers and θA ≥ θB",
-    ))
+        "derived from the rings on C and E, the bumpers and θA ≥ θB; at 180° ED and CD are parallel",
+    )
+    .accounted("stop-at-d"))
 }
 
 fn middles(layout: Layout) -> Result<Vec<[f64; 2]>, Error> {
@@ -234,7 +238,7 @@ fn ends(of: &Bounded) -> Finding {
     let whole_m: f64 = lengths.iter().map(|(_, length_m)| length_m).sum();
     let shares = lengths.iter().map(|(word, length_m)| {
         let percent = 100.0 * length_m / whole_m;
-        format!("{word} {percent:.0} %")
+        format!("{word} {percent:.1} %")
     });
     let shares: Vec<String> = shares.collect();
     Finding::lost(

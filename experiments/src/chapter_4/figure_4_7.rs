@@ -16,7 +16,7 @@ use crate::{Curve, Error, Experiment, Finding, Outcome, Panel, Picture, Table};
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment {
     id: "4.7",
-    title: "Local SDOF paths for L_AE = L_AB = 0.9",
+    title: "Local SDOF paths for L_ED = L_AB = .9",
     what: "Lengths in units of L_ED, within the stops of §4.5: the paths at every tenth of L_ED, and the sweep along the two lines through 0.9/0.9 (`rigproof design` sweeps all 420 pairs). The text names neither increment nor stops.",
     run,
 };
@@ -62,8 +62,8 @@ fn run() -> Result<Outcome, Error> {
     });
     let traverse = Picture {
         name: "paths".to_owned(),
-        title: EXPERIMENT.title.to_owned(),
-        subtitle: "the way the tip can go while one brake is locked, at every tenth of L_ED"
+        title: "Local SDOF paths for L_AE = L_AB = 0.9".to_owned(),
+        subtitle: "the way the tip can go while one brake is locked, at every tenth of L_ED; the print says L_ED for L_AE"
             .to_owned(),
         panels: vec![panel.map()],
     };

@@ -20,7 +20,7 @@ use crate::{Error, Experiment, Finding, Outcome, Panel, Picture};
 pub const THREE: Experiment = Experiment {
     id: "4.8",
     title: "Contour plot of maximum angle between local SDOF paths for 3-brake configuration",
-    what: "The workspace of tables 4.1 and 4.2 on a grid of 3 mm; the text gives neither step nor contours.",
+    what: "The workspace of tables 4.1 and 4.2 on a grid of 2 mm; the text gives neither step nor contours.",
     run: || run(Layout::ThreeBrake, THREE.title),
 };
 
@@ -33,7 +33,7 @@ pub const FOUR: Experiment = Experiment {
 };
 
 /// Side of the cells that are shaded, of those that concepts are compared on, and of those that controllers are asked in, m.
-const STEP_M: f64 = 0.003;
+const STEP_M: f64 = 0.002;
 const CONCEPT_STEP_M: f64 = 0.006;
 const ASKED_STEP_M: f64 = 0.03;
 
@@ -88,7 +88,7 @@ fn run(layout: Layout, title: &str) -> Result<Outcome, Error> {
     })
 }
 
-/// The map that is written down: a tenth of the cells that are shaded.
+/// The map that is written down: a ninth of the cells that are shaded.
 fn coarse(device: &Device) -> Result<Map, Error> {
     workspace::map(device, 3.0 * STEP_M).map_err(|e| Error::model("the contour plot", e))
 }

@@ -105,10 +105,19 @@ pub fn base(arms: &Arms) -> Curve {
     Curve::dots("base joints A, B", &x, &y)
 }
 
+/// Fewest points of a loop that is drawn: a grid leaves specks where a workspace tapers off.
+const FEWEST_POINTS: usize = 25;
+
+/// The loops of a boundary that are more than specks.
+pub fn loops(boundary: &Boundary) -> impl Iterator<Item = &Vec<([f64; 2], ModelError)>> {
+    let loops = boundary.loops.iter();
+    loops.filter(|points| points.len() >= FEWEST_POINTS)
+}
+
 /// The loops of a boundary as one interrupted line.
 pub fn outline(name: &str, boundary: &Boundary) -> Curve {
     let (mut x, mut y) = (Vec::new(), Vec::new());
-    for points in &boundary.loops {
+    for points in loops(boundary) {
         for ([point_x, point_y], _) in points.iter().chain(points.first()) {
             x.push(*point_x);
             y.push(*point_y);
