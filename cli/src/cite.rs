@@ -60,12 +60,16 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     let repository = Repository::around(&start)?;
     let equations = equation::all(&repository)?;
     let equation = equation::find(&equations, &args.number).map_err(Failure::Usage)?;
+    let sources = repository.sources()?;
     let concerns = |kind| -> Result<Vec<Record>, Failure> {
         let mut records = record::all(&repository, kind)?;
         records.retain(|record| record.concerns(&equation.number));
+        for record in &mut records {
+            record.locate(&sources);
+        }
         Ok(records)
     };
-    let mut citations = citation::all(&repository)?;
+    let mut citations: Vec<Citation> = sources.iter().flat_map(citation::of).collect();
     citations.retain(|citation| citation.equation == equation.number);
     let named_by = equations.iter().filter(|other| {
         other.number != equation.number && other.says.contains(&equation.in_brackets())

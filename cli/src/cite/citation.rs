@@ -2,8 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::repository::Repository;
-use crate::outcome::Failure;
+use super::repository::Source;
 
 /// What stands under a citation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,20 +43,9 @@ impl Citation {
     }
 }
 
-/// Every citation, by file and line.
-///
-/// # Errors
-/// A source cannot be read.
-pub fn all(repository: &Repository) -> Result<Vec<Citation>, Failure> {
-    let mut citations = Vec::new();
-    for file in repository.sources()? {
-        citations.extend(of(&file, &repository.read(&file)?));
-    }
-    Ok(citations)
-}
-
-fn of(file: &str, source: &str) -> Vec<Citation> {
-    let lines: Vec<&str> = source.lines().collect();
+/// The citations of a source, by line.
+pub fn of(source: &Source) -> Vec<Citation> {
+    let lines: Vec<&str> = source.text.lines().collect();
     let cited = lines.iter().enumerate().filter_map(|(index, line)| {
         let rest = line.trim().strip_prefix("//= thesis (")?;
         let (equation, kind) = rest.split_once(')')?;
@@ -70,7 +58,7 @@ fn of(file: &str, source: &str) -> Vec<Citation> {
         Some(Citation {
             equation: equation.to_owned(),
             kind,
-            file: file.to_owned(),
+            file: source.path.clone(),
             line: index + 1,
             item: item(&lines, index),
         })
@@ -134,29 +122,33 @@ mod tests {
 
     #[test]
     fn a_citation_names_what_it_stands_on_or_in() {
+        // The rules for citations hold for this file too, so its example is written with another sign.
         let source = "\
-//= thesis (5.36)
-//= thesis (5.37)
+@ (5.36)
+@ (5.37)
 /// Words.
 #[must_use]
 pub const fn jacobian<const N: usize>(l: f64) -> f64 {
     let x = 1.0;
     if x > l {
-        //= thesis (5.1)
+        @ (5.1)
         return x;
     }
     l
 }
 
-//= thesis (3.3)
+@ (3.3)
 pub(crate) const TABLE: [f64; 2] = [0.3, 0.7];
 
     #[test]
-    //= thesis (5.36) test
+    @ (5.36) test
     fn it_is_so() {}
-    //= thesis (5.36) guess
+    @ (5.36) guess
 ";
-        let found = of("model/src/a.rs", source);
+        let found = of(&Source {
+            path: "model/src/a.rs".to_owned(),
+            text: source.replace('@', "//= thesis"),
+        });
         let names: Vec<(&str, Kind, usize, &str)> = found
             .iter()
             .map(|c| {

@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value};
 
-use super::repository::Repository;
+use super::repository::{Repository, Source};
 use crate::outcome::Failure;
 
 /// Which of the two files.
@@ -65,8 +65,8 @@ fn records(text: &str, name: &str) -> Result<Vec<Record>, String> {
 }
 
 /// The keys in the order in which they are printed.
-const SHOWN: [&str; 8] = [
-    "where", "printed", "intended", "reason", "open", "chosen", "evidence", "decision",
+const SHOWN: [&str; 9] = [
+    "where", "printed", "intended", "reason", "open", "chosen", "evidence", "at", "decision",
 ];
 
 impl Record {
@@ -84,6 +84,19 @@ impl Record {
     pub fn concerns(&self, number: &str) -> bool {
         let name = format!("({number})");
         self.is_of(number) || self.fields.iter().any(|(_, value)| value.contains(&name))
+    }
+
+    /// Adds where the test stands that is its evidence.
+    pub fn locate(&mut self, sources: &[Source]) {
+        let Some(test) = self.get("evidence") else {
+            return;
+        };
+        let place = sources.iter().find_map(|source| {
+            let line = source.line_of_function(test)?;
+            Some(format!("{}:{line}", source.path))
+        });
+        self.fields
+            .extend(place.map(|place| ("at".to_owned(), place)));
     }
 
     /// Its id, and under it a line for each key.

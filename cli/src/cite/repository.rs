@@ -10,6 +10,23 @@ pub struct Repository {
     root: PathBuf,
 }
 
+/// A Rust source: its path below the root, with forward slashes, and its text.
+pub struct Source {
+    /// The path.
+    pub path: String,
+    /// The text.
+    pub text: String,
+}
+
+impl Source {
+    /// The line on which a function of that name begins, from one.
+    pub fn line_of_function(&self, name: &str) -> Option<usize> {
+        let begins = format!("fn {name}(");
+        let line = self.text.lines().position(|line| line.contains(&begins))?;
+        Some(line + 1)
+    }
+}
+
 /// By this file a repository is known.
 const MARK: &str = super::equation::FILE;
 
@@ -47,11 +64,21 @@ impl Repository {
         Ok(String::from_utf8_lossy(&bytes).into_owned())
     }
 
-    /// The paths of its Rust sources below the root, with forward slashes, sorted; no build output and nothing hidden.
+    /// Its Rust sources, by path.
     ///
     /// # Errors
-    /// A folder cannot be read.
-    pub fn sources(&self) -> Result<Vec<String>, Failure> {
+    /// A folder or a source cannot be read.
+    pub fn sources(&self) -> Result<Vec<Source>, Failure> {
+        let paths = self.paths()?.into_iter();
+        let read = paths.map(|path| {
+            let text = self.read(&path)?;
+            Ok(Source { path, text })
+        });
+        read.collect()
+    }
+
+    /// The paths of its Rust sources, sorted; no build output and nothing hidden.
+    fn paths(&self) -> Result<Vec<String>, Failure> {
         let mut found = Vec::new();
         let mut waiting = vec![String::new()];
         while let Some(folder) = waiting.pop() {

@@ -32,7 +32,10 @@ fn an_equation_is_cited_with_its_code_its_tests_and_its_errata() {
     assert!(holds(obeyed, "//= thesis (4.4)"));
     let tests = cited["tests"].as_array().unwrap();
     assert!(!tests.is_empty() && tests.iter().all(|place| holds(place, "(4.4) test")));
-    assert_eq!(cited["errata"][0]["id"], "j-theta");
+    let erratum = &cited["errata"][0];
+    assert_eq!(erratum["id"], "j-theta");
+    let at = erratum["at"].as_str().unwrap();
+    assert!(at.starts_with("tests/tests/linkage/jacobian.rs:"), "{at}");
 
     let inside = format!("{root}/cli/src");
     let text = desk.prints(&format!("cite (5.24) --root {inside}"), 0);
