@@ -96,13 +96,10 @@ pub fn angle_table(map: &Map) -> Table {
     )
 }
 
-/// The base joints as dots.
+/// The base joints as dots, on one another where they share an axis.
 pub fn base(arms: &Arms) -> Curve {
-    let [a, b] = [point_a_m(arms), point_b_m(arms)];
-    let joints = if a == b { vec![a] } else { vec![a, b] };
-    let (x, y) = joints.into_iter().map(|[x, y]| (x, y)).unzip();
-    let (x, y): (Vec<f64>, Vec<f64>) = (x, y);
-    Curve::dots("base joints A, B", &x, &y)
+    let ([a_x, a_y], [b_x, b_y]) = (point_a_m(arms), point_b_m(arms));
+    Curve::dots("base joints A, B", &[a_x, b_x], &[a_y, b_y])
 }
 
 /// Fewest points of a loop that is drawn: a grid leaves specks where a workspace tapers off.
