@@ -2,14 +2,14 @@
 
 use rigproof_model::linkage::device::{Brakes, Device};
 use rigproof_model::linkage::paths::directions_rad;
-use rigproof_model::linkage::workspace::{self, Grid};
+use rigproof_model::linkage::workspace;
 use rigproof_model::linkage::{inverse, limits, point_a_m, point_b_m};
 use rigproof_spec::geometry::{Angle, Arms, angle_ranges, arms};
 use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
 use rigproof_spec::units::rad_from_deg;
 
-use super::layouts::{base, between_rad, deg, locked, name, outline};
+use super::layouts::{Spot, base, between_rad, deg, locked, name, outline, spots};
 use crate::table::Column;
 use crate::{Curve, Error, Experiment, Finding, Outcome, Panel, Picture, Table};
 
@@ -32,8 +32,9 @@ pub const FOUR: Experiment = Experiment {
 /// Angles between the arcs of a brake, and between the points of an arc, degrees.
 const ARCS_DEG: f64 = 15.0;
 const POINTS_DEG: f64 = 0.5;
-/// Side of the cells in whose middles the paths are compared, m.
+/// Side of the cells in whose middles the paths are compared, and of those that the boundary is traced on, m.
 const STEP_M: f64 = 0.006;
+const TRACED_M: f64 = 0.002;
 
 /// The way of the tip while a joint is locked at an angle.
 struct Arc {
@@ -48,7 +49,7 @@ struct Arc {
 fn run(layout: Layout, title: &str) -> Result<Outcome, Error> {
     let device = Device::layout(layout);
     let refused = |problem| Error::model("the map of paths", problem);
-    let boundary = workspace::boundary(&device, STEP_M).map_err(refused)?;
+    let boundary = workspace::boundary(&device, TRACED_M).map_err(refused)?;
     let arcs: Vec<Arc> = layout
         .brakes()
         .iter()
@@ -156,20 +157,10 @@ fn family(arcs: &[Arc], joint: Joint) -> Curve {
     Curve::thin(locked(joint), &x, &y)
 }
 
-/// The middles of a grid's cells that lie in the workspace, with the tip force of each brake.
-fn traversed(device: &Device) -> Result<Vec<([f64; 2], Vec<[f64; 2]>)>, Error> {
-    let grid = Grid::over(device, STEP_M).map_err(|e| Error::model("the map of paths", e))?;
-    let cells = (0..grid.rows).flat_map(|row| (0..grid.columns).map(move |column| (column, row)));
-    let tips = cells.map(|(column, row)| grid.middle_m(column, row));
-    Ok(tips
-        .filter_map(|tip_m| Some((tip_m, device.tip_forces(tip_m).ok()?)))
-        .collect())
-}
-
 /// Whether every brake of a layout has a path of its own.
 fn distinct(layout: Layout) -> Result<Finding, Error> {
     let mut least_rad = f64::INFINITY;
-    for (_, forces) in traversed(&Device::layout(layout))? {
+    for Spot { forces, .. } in spots(&Device::layout(layout), STEP_M)? {
         let paths = directions_rad(&forces);
         for (index, first) in paths.iter().enumerate() {
             for second in paths.iter().skip(index + 1) {
@@ -232,7 +223,7 @@ fn redundant() -> Result<Finding, Error> {
         brakes: Brakes::Joints(&[Joint::E, Joint::C]),
     };
     let mut off_rad = [0.0_f64; 2];
-    for (tip_m, forces) in traversed(&device)? {
+    for Spot { tip_m, forces } in spots(&device, STEP_M)? {
         let [of_e, of_c] = directions_rad(&forces)[..] else {
             continue;
         };

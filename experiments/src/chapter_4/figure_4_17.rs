@@ -2,13 +2,13 @@
 
 use rigproof_model::ModelError;
 use rigproof_model::linkage::device::Device;
-use rigproof_model::linkage::limits;
+use rigproof_model::linkage::inverse;
 use rigproof_model::linkage::singularity::{Pair, measure};
-use rigproof_model::linkage::workspace::{self, Boundary, Grid};
-use rigproof_spec::geometry::{Angle, AngleRange, AngleRanges, STOPS, angle_ranges, arms};
+use rigproof_model::linkage::workspace::{self, Boundary};
+use rigproof_spec::geometry::{Angle, AngleRange, AngleRanges, STOPS, arms};
 use rigproof_spec::layout::Layout;
 
-use super::layouts::{base, deg, limit, loops, name, outline};
+use super::layouts::{Spot, base, deg, limit, loops, name, outline, spots};
 use super::statements;
 use crate::table::Column;
 use crate::{Curve, Error, Experiment, Finding, Outcome, Panel, Picture, Table};
@@ -17,11 +17,12 @@ use crate::{Curve, Error, Experiment, Finding, Outcome, Panel, Picture, Table};
 pub const EXPERIMENT: Experiment = Experiment {
     id: "4.17",
     title: "Workspace boundaries",
-    what: "The boundaries of both layouts within table 4.2, traced on a grid of 3 mm and halved onto the limit; the ranges derived from the stops of §4.5.",
+    what: "The boundaries of both layouts within table 4.2, traced on a grid of 1 mm and halved onto the limit; the ranges derived from the stops of §4.5.",
     run,
 };
 
-/// Side of the cells that boundaries are traced on and areas are counted on, m.
+/// Side of the cells that boundaries are traced on, and of those that areas are counted on, m.
+const TRACED_M: f64 = 0.001;
 const STEP_M: f64 = 0.003;
 
 struct Bounded {
@@ -72,7 +73,7 @@ fn bounded(layout: Layout) -> Result<Bounded, Error> {
     let refused = |problem| Error::model("the boundary", problem);
     Ok(Bounded {
         layout,
-        boundary: workspace::boundary(&Device::layout(layout), STEP_M).map_err(refused)?,
+        boundary: workspace::boundary(&Device::layout(layout), TRACED_M).map_err(refused)?,
         attained: attained(layout, &STOPS)?,
     })
 }
@@ -163,12 +164,11 @@ fn further_limited(four: &Bounded) -> Finding {
 fn unreachable_singularities() -> Result<Finding, Error> {
     let mut least = f64::INFINITY;
     for layout in [Layout::ThreeBrake, Layout::FourBrake] {
-        let (arms, ranges) = (arms(layout), angle_ranges(layout));
-        for tip_m in middles(layout)? {
-            if let Ok(pose) = limits::reach(&arms, &ranges, tip_m) {
-                let measures = Pair::ALL.map(|pair| measure(&pose, pair));
-                least = measures.into_iter().fold(least, f64::min);
-            }
+        for Spot { tip_m, .. } in spots(&Device::layout(layout), STEP_M)? {
+            let pose = inverse::pose(&arms(layout), tip_m);
+            let pose = pose.map_err(|e| Error::model("the singularities", e))?;
+            let measures = Pair::ALL.map(|pair| measure(&pose, pair));
+            least = measures.into_iter().fold(least, f64::min);
         }
     }
     let nearest_deg = deg(libm::asin(least));
@@ -206,20 +206,12 @@ fn stop_at_d() -> Result<Finding, Error> {
     .accounted("stop-at-d"))
 }
 
-fn middles(layout: Layout) -> Result<Vec<[f64; 2]>, Error> {
-    let grid = Grid::over(&Device::layout(layout), STEP_M);
-    let grid = grid.map_err(|e| Error::model("the workspace", e))?;
-    let cells = (0..grid.rows).flat_map(|row| (0..grid.columns).map(move |column| (column, row)));
-    Ok(cells
-        .map(|(column, row)| grid.middle_m(column, row))
-        .collect())
-}
-
 fn overlap(three: &Bounded, four: &Bounded) -> Result<Finding, Error> {
-    let [first, second] = [three, four].map(|b| Device::layout(b.layout));
-    let inside = middles(four.layout)?
-        .into_iter()
-        .filter(|tip_m| first.tip_forces(*tip_m).is_ok() && second.tip_forces(*tip_m).is_ok());
+    let other = Device::layout(three.layout);
+    let inside = spots(&Device::layout(four.layout), STEP_M)?;
+    let inside = inside
+        .iter()
+        .filter(|spot| other.tip_forces(spot.tip_m).is_ok());
     let common_m2 = inside.count() as f64 * STEP_M * STEP_M;
     let (three_m2, four_m2) = (three.boundary.area_m2(), four.boundary.area_m2());
     Ok(Finding::lost(

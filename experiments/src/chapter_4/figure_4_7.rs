@@ -3,12 +3,12 @@
 use rigproof_model::linkage::device::{Brakes, Device};
 use rigproof_model::linkage::paths::{directions_rad, greatest_angle_rad};
 use rigproof_model::linkage::sweep::{Candidate, candidate};
-use rigproof_model::linkage::workspace::{self, Grid};
+use rigproof_model::linkage::workspace;
 use rigproof_spec::geometry::{Arms, STOPS, arms};
 use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
 
-use super::layouts::{base, deg, figures, locked, outline};
+use super::layouts::{Spot, base, deg, figures, locked, outline, spots};
 use super::statements;
 use crate::table::Column;
 use crate::{Curve, Error, Experiment, Finding, Outcome, Panel, Picture, Table};
@@ -33,12 +33,6 @@ const ARMS: Arms = Arms {
 const DRAWN: f64 = 0.1;
 const COUNTED: f64 = 0.01;
 
-/// A tip with the tip force of each brake.
-struct Spot {
-    tip: [f64; 2],
-    forces: Vec<[f64; 2]>,
-}
-
 fn run() -> Result<Outcome, Error> {
     let refused = |problem| Error::model("the traverse", problem);
     let device = Device::Linkage {
@@ -46,7 +40,7 @@ fn run() -> Result<Outcome, Error> {
         ranges: STOPS,
         brakes: Brakes::Joints(Layout::FourBrake.brakes()),
     };
-    let spots = spots(&device)?;
+    let spots = spots(&device, DRAWN)?;
     let boundary = workspace::boundary(&device, 2.0 * COUNTED).map_err(refused)?;
     let figures = figures(&workspace::map(&device, COUNTED).map_err(refused)?)?;
     let mut ranked = lines_of_the_sweep()?;
@@ -119,23 +113,11 @@ fn changed_slightly() -> Finding {
     )
 }
 
-fn spots(device: &Device) -> Result<Vec<Spot>, Error> {
-    let grid = Grid::over(device, DRAWN).map_err(|e| Error::model("the traverse", e))?;
-    let cells = (0..grid.rows).flat_map(|row| (0..grid.columns).map(move |column| (column, row)));
-    let tips = cells.map(|(column, row)| grid.middle_m(column, row));
-    Ok(tips
-        .filter_map(|tip| {
-            let forces = device.tip_forces(tip).ok()?;
-            Some(Spot { tip, forces })
-        })
-        .collect())
-}
-
 /// The strokes of one brake's paths.
 fn strokes(name: &str, spots: &[Spot], brake: usize) -> Curve {
     let (mut x, mut y) = (Vec::new(), Vec::new());
-    for Spot { tip, forces } in spots {
-        let [tip_x, tip_y] = *tip;
+    for Spot { tip_m, forces } in spots {
+        let [tip_x, tip_y] = *tip_m;
         if let Some(direction) = directions_rad(forces).get(brake) {
             let (sine, cosine) = libm::sincos(*direction);
             let half = 0.42 * DRAWN;
@@ -151,8 +133,8 @@ fn path_table(spots: &[Spot]) -> Table {
         Column::numbers(name, unit, &spots.iter().map(of).collect::<Vec<f64>>())
     };
     let mut columns = vec![
-        column("x".to_owned(), "", &|spot| spot.tip[0]),
-        column("y".to_owned(), "", &|spot| spot.tip[1]),
+        column("x".to_owned(), "", &|spot| spot.tip_m[0]),
+        column("y".to_owned(), "", &|spot| spot.tip_m[1]),
     ];
     columns.extend(Joint::ALL.into_iter().enumerate().map(|(index, joint)| {
         let path = format!("path_{}", joint.letter().to_lowercase());

@@ -6,13 +6,15 @@ use rigproof_model::control::force_angle::opposing_force;
 use rigproof_model::control::influence;
 use rigproof_model::linkage::device::{Concept, Device};
 use rigproof_model::linkage::paths::greatest_angle_rad;
-use rigproof_model::linkage::workspace::{self, Grid, Map};
+use rigproof_model::linkage::workspace::{self, Map};
 use rigproof_spec::geometry::arms;
 use rigproof_spec::laws::influence_rank;
 use rigproof_spec::layout::Layout;
 use rigproof_spec::units::rad_from_deg;
 
-use super::layouts::{angle_table, base, deg, figures, name, outline, spread, well_spaced_percent};
+use super::layouts::{
+    Spot, angle_table, base, deg, figures, name, outline, spots, spread, well_spaced_percent,
+};
 use super::statements;
 use crate::{Error, Experiment, Finding, Outcome, Panel, Picture};
 
@@ -95,13 +97,8 @@ fn coarse(device: &Device) -> Result<Map, Error> {
 
 /// Whether there are invalid solutions exactly where the greatest angle exceeds 90°.
 fn invalid_beyond_90(device: &Device) -> Result<Finding, Error> {
-    let grid = Grid::over(device, ASKED_STEP_M).map_err(|e| Error::model("the contour plot", e))?;
-    let cells = (0..grid.rows).flat_map(|row| (0..grid.columns).map(move |column| (column, row)));
     let (mut within, mut beyond) = ([0, 0], [0, 0]);
-    for (column, row) in cells {
-        let Ok(forces) = device.tip_forces(grid.middle_m(column, row)) else {
-            continue;
-        };
+    for Spot { forces, .. } in spots(device, ASKED_STEP_M)? {
         let greatest_deg = deg(greatest_angle_rad(&forces));
         let invalid = usize::from(has_invalid_solution(&forces));
         // Near 90° an invalid direction is narrower than the directions are apart.

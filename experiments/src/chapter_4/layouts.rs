@@ -1,7 +1,8 @@
 //! This file is what the figures of chapter 4 share: a workspace that is traversed, shaded, outlined and bounded.
 
 use rigproof_model::ModelError;
-use rigproof_model::linkage::workspace::{Boundary, Figures, Map};
+use rigproof_model::linkage::device::Device;
+use rigproof_model::linkage::workspace::{Boundary, Figures, Grid, Map};
 use rigproof_model::linkage::{point_a_m, point_b_m};
 use rigproof_spec::geometry::Arms;
 use rigproof_spec::joint::Joint;
@@ -20,6 +21,26 @@ pub const fn name(layout: Layout) -> &'static str {
         Layout::ThreeBrake => "3-brake",
         Layout::FourBrake => "4-brake",
     }
+}
+
+/// A tip with the tip force of each brake, 1/m.
+pub struct Spot {
+    /// The tip, m.
+    pub tip_m: [f64; 2],
+    /// The forces, in the order of the brakes.
+    pub forces: Vec<[f64; 2]>,
+}
+
+/// The middles of a grid's cells that lie in the workspace.
+pub fn spots(device: &Device, step_m: f64) -> Result<Vec<Spot>, Error> {
+    let grid = Grid::over(device, step_m).map_err(|e| Error::model("the workspace", e))?;
+    let cells = (0..grid.rows).flat_map(|row| (0..grid.columns).map(move |column| (column, row)));
+    let tips = cells.map(|(column, row)| grid.middle_m(column, row));
+    let spots = tips.filter_map(|tip_m| {
+        let forces = device.tip_forces(tip_m).ok()?;
+        Some(Spot { tip_m, forces })
+    });
+    Ok(spots.collect())
 }
 
 /// A map of a workspace as a field, degrees.
