@@ -3,6 +3,7 @@
 //! A verb is a module with `Args` and `run`, a line in [`Verb`] and a line in [`run`].
 
 mod blind;
+mod cite;
 mod convert;
 mod demo;
 mod design;
@@ -51,6 +52,8 @@ enum Verb {
     Reproduce(reproduce::Args),
     /// Check the golden cases against the model, or write them anew
     Golden(golden::Args),
+    /// Say where an equation of the thesis is obeyed, witnessed, and known to be wrong
+    Cite(cite::Args),
     /// Turn a recording in HDF5, MATLAB or CSV into a normalised CSV file
     Convert(convert::Args),
 }
@@ -76,6 +79,7 @@ fn run(verb: &Verb) -> Result<Outcome, Failure> {
         Verb::Design(args) => design::run(args),
         Verb::Reproduce(args) => reproduce::run(args),
         Verb::Golden(args) => golden::run(args),
+        Verb::Cite(args) => cite::run(args),
         Verb::Convert(args) => convert::run(args),
     }
 }

@@ -2,6 +2,7 @@
 
 mod before_after;
 mod columns;
+mod field;
 mod figure;
 pub mod linkage;
 mod panel;

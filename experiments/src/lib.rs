@@ -7,6 +7,7 @@
 )]
 
 pub mod chapter_3;
+pub mod chapter_4;
 mod error;
 mod experiment;
 mod finding;
@@ -16,12 +17,12 @@ mod table;
 pub use error::Error;
 pub use experiment::{Experiment, Outcome};
 pub use finding::{Finding, Verdict};
-pub use picture::{Axis, Curve, Mark, Panel, Picture};
+pub use picture::{Axis, Curve, Field, Mark, Panel, Picture};
 pub use table::{Cells, Column, Table};
 
 /// Every experiment, in the order of the thesis. A chapter is a module with its list `EXPERIMENTS`.
 pub fn all() -> Vec<Experiment> {
-    [chapter_3::EXPERIMENTS].concat()
+    [chapter_3::EXPERIMENTS, chapter_4::EXPERIMENTS].concat()
 }
 
 /// The experiment of that id, or `None`.

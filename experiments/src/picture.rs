@@ -22,8 +22,27 @@ pub struct Panel {
     pub y: Axis,
     /// Whether a metre to the right is as long as a metre upwards, as on a map.
     pub equal_scales: bool,
+    /// What is shaded below the curves.
+    pub field: Option<Field>,
     /// What is drawn; its order gives the colours, its names the legend.
     pub curves: Vec<Curve>,
+}
+
+/// A value over the plane, shaded in bands as a contour map is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Field {
+    /// Side of a cell, in the unit of both axes.
+    pub step: f64,
+    /// The lower left corner of the first cell.
+    pub origin: [f64; 2],
+    /// Cells along x, at least one.
+    pub columns: usize,
+    /// The value in each cell, row by row from below; NaN leaves a cell empty.
+    pub values: Vec<f64>,
+    /// Where bands begin and end, growing: a value belongs to the band that it is at most the end of.
+    pub bounds: Vec<f64>,
+    /// The unit of the values.
+    pub unit: String,
 }
 
 /// What an axis shows.
@@ -70,6 +89,7 @@ impl Panel {
             x: axis(x),
             y: axis(y),
             equal_scales: false,
+            field: None,
             curves,
         }
     }
@@ -78,6 +98,13 @@ impl Panel {
     #[must_use]
     pub fn map(mut self) -> Panel {
         self.equal_scales = true;
+        self
+    }
+
+    /// The panel with a shaded field below its curves.
+    #[must_use]
+    pub fn over(mut self, field: Field) -> Panel {
+        self.field = Some(field);
         self
     }
 }

@@ -21,7 +21,10 @@ pub fn report(design: &Design, out: &Path, files: &[String]) -> String {
     let statements = statements(design);
     let statements = statements.iter().flat_map(|statement| {
         [
-            format!("  {}: {}", statement.place, statement.says),
+            format!(
+                "  {}: {}: {}",
+                statement.place, statement.statement, statement.stated
+            ),
             format!("    {}: {}", statement.verdict.name(), statement.ours),
         ]
     });

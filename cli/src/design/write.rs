@@ -2,11 +2,12 @@
 
 use std::fmt::Write;
 
+use rigproof_experiments::chapter_4::limit;
 use rigproof_model::linkage::paths::directions_rad;
 use rigproof_spec::joint::Joint;
 use rigproof_trace::store::Folder;
 
-use super::tables::{deg, json, limit};
+use super::tables::{deg, json};
 use super::{Design, Drawn};
 use crate::outcome::Failure;
 use crate::picture::linkage as picture;

@@ -3,6 +3,7 @@
 use rigproof_experiments::{Axis, Curve, Mark, Panel as Content, Picture};
 
 use super::before_after::range;
+use super::field::{self, Run};
 use super::panel::{Panel, width};
 use super::scale::Scale;
 use super::{NAMED, NOISE, NOMINAL, RECORDED, legend, page};
@@ -15,8 +16,9 @@ const COLOURS: [&str; 8] = [
 /// Height of a panel, and the most that a map may take.
 const HEIGHT: f64 = 260.0;
 const MOST: f64 = 760.0;
-/// Room above a panel for its legend, and below it for ticks and label.
+/// Room above a panel for its legend, for that of its field, and below it for ticks and label.
 const ABOVE: f64 = 34.0;
+const FIELD: f64 = 20.0;
 const BELOW: f64 = 44.0;
 
 /// The picture as SVG.
@@ -29,7 +31,9 @@ pub fn figure(picture: &Picture) -> String {
             (content, x, y, height)
         })
         .collect();
-    let heights = placed.iter().map(|(.., height)| ABOVE + height + BELOW);
+    let heights = placed
+        .iter()
+        .map(|(content, .., height)| above(content) + height + BELOW);
     let mut page = page(
         62.0 + heights.sum::<f64>(),
         &picture.title,
@@ -44,14 +48,28 @@ pub fn figure(picture: &Picture) -> String {
             .map(|(curve, colour)| (curve.name.as_str(), *colour, stroke_width(curve.mark)))
             .collect();
         page = legend(page, top + 22.0, &names);
-        let mut panel = Panel::new(top + ABOVE, height, x, y);
+        let mut panel = Panel::new(top + above(content), height, x, y);
+        if let Some(shaded) = &content.field {
+            for run in field::runs(shaded) {
+                panel.fill(run.low, run.high, run.colour);
+            }
+            let bands = field::bands(shaded);
+            let bands: Vec<(&str, &str, f64)> =
+                bands.iter().map(|(n, c)| (n.as_str(), *c, 12.0)).collect();
+            page = legend(page, top + 22.0 + FIELD, &bands);
+        }
         for (curve, colour) in content.curves.iter().zip(&colours) {
             draw(&mut panel, curve, colour);
         }
         page = page.add(panel.finish(&format!("panel-{index}")));
-        top += ABOVE + height + BELOW;
+        top += above(content) + height + BELOW;
     }
     page.to_string()
+}
+
+/// Room above a panel.
+fn above(content: &Content) -> f64 {
+    ABOVE + content.field.as_ref().map_or(0.0, |_| FIELD)
 }
 
 fn draw(panel: &mut Panel, curve: &Curve, colour: &str) {
@@ -88,10 +106,14 @@ fn colours(curves: &[Curve]) -> Vec<&'static str> {
 
 /// Both scales and the height of a panel.
 fn scales(content: &Content) -> (Scale, Scale, f64) {
-    let along =
-        |pick: fn(&Curve) -> &Vec<f64>| range(content.curves.iter().flat_map(pick).copied());
-    let (x_low, x_high) = along(|curve| &curve.x);
-    let (y_low, y_high) = along(|curve| &curve.y);
+    let shaded: Vec<Run> = content.field.iter().flat_map(field::runs).collect();
+    let along = |pick: fn(&Curve) -> &Vec<f64>, corner: fn(&[f64; 2]) -> f64| {
+        let corners = shaded.iter().flat_map(|run| [run.low, run.high]);
+        let corners: Vec<f64> = corners.map(|point| corner(&point)).collect();
+        range(content.curves.iter().flat_map(pick).copied().chain(corners))
+    };
+    let (x_low, x_high) = along(|curve| &curve.x, |[x, _]| *x);
+    let (y_low, y_high) = along(|curve| &curve.y, |[_, y]| *y);
     let scale = |low, high, axis: &Axis| Scale::around(low, high, &axis.quantity, &axis.unit);
     if !content.equal_scales {
         let (x, y) = (

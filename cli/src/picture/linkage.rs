@@ -1,26 +1,15 @@
 //! This file draws linkages: how evenly their paths are spread, where the paths point, and where their workspaces end.
 
+use rigproof_experiments::chapter_4::spread;
 use rigproof_model::linkage::paths::directions_rad;
 use rigproof_model::linkage::sweep::Candidate;
 use rigproof_model::linkage::workspace::{Boundary, Map};
 use rigproof_spec::geometry::Arms;
 use rigproof_spec::joint::Joint;
-use rigproof_spec::units::rad_from_deg;
 use svg::Document;
 
 use super::plane::Plane;
-use super::{INK, NAMED, NOISE, NOMINAL, RECORDED, legend, page};
-
-/// Bands of the greatest angle between adjacent paths: up to how many degrees, and a colour that darkens with it.
-const BANDS: [(f64, &str); 7] = [
-    (60.0, "#fde725"),
-    (75.0, "#a0da39"),
-    (90.0, "#4ac16d"),
-    (105.0, "#1fa187"),
-    (120.0, "#277f8e"),
-    (150.0, "#46327e"),
-    (180.0, "#2b0a3d"),
-];
+use super::{INK, NAMED, NOISE, NOMINAL, RECORDED, field, legend, page};
 
 /// Where a page's frame begins.
 const TOP: f64 = 88.0;
@@ -38,19 +27,13 @@ const fn joint_colour(joint: Joint) -> &'static str {
 /// The contour map of the greatest angle between adjacent local paths (figures 4.8 and 4.9).
 pub fn angle_map(title: &str, arms: &Arms, map: &Map, boundary: &Boundary) -> Document {
     let mut plane = frame(map);
-    for run in runs(map) {
-        let low = map.grid.corner_m(run.first, run.row);
-        let high = map.grid.corner_m(run.end, run.row + 1);
-        plane.fill(low, high, run.colour, None);
+    let spread = spread(map);
+    for run in field::runs(&spread) {
+        plane.fill(run.low, run.high, run.colour, None);
     }
     outlines(&mut plane, boundary, INK);
     base(&mut plane, arms);
-    let mut names = Vec::new();
-    let mut least_deg = 45.0;
-    for (greatest_deg, colour) in BANDS {
-        names.push((format!("{least_deg} to {greatest_deg}°"), colour));
-        least_deg = greatest_deg;
-    }
+    let names = field::bands(&spread);
     let entries: Vec<(&str, &str, f64)> =
         names.iter().map(|(n, c)| (n.as_str(), *c, 12.0)).collect();
     let subtitle =
@@ -182,45 +165,6 @@ pub fn sweep(ranked: &[Candidate]) -> Document {
     entries.push(("above", top, 12.0));
     let subtitle = "share of the best score; 0.9 is the pair the thesis found, + the arms it built";
     finish(plane, "Sweep of the arm lengths", subtitle, &entries)
-}
-
-/// Cells of a row that stand in the same band.
-struct Run {
-    row: usize,
-    first: usize,
-    end: usize,
-    colour: &'static str,
-}
-
-fn runs(map: &Map) -> Vec<Run> {
-    let mut runs: Vec<Run> = Vec::new();
-    for (row, cells) in map.angles_rad.chunks(map.grid.columns.max(1)).enumerate() {
-        for (column, angle) in cells.iter().enumerate() {
-            let Some(colour) = angle.map(band) else {
-                continue;
-            };
-            match runs.last_mut() {
-                Some(run) if run.row == row && run.end == column && run.colour == colour => {
-                    run.end += 1
-                }
-                _ => runs.push(Run {
-                    row,
-                    first: column,
-                    end: column + 1,
-                    colour,
-                }),
-            }
-        }
-    }
-    runs
-}
-
-fn band(angle_rad: f64) -> &'static str {
-    let [.., (_, last)] = BANDS;
-    let within = BANDS
-        .iter()
-        .find(|(limit_deg, _)| angle_rad <= rad_from_deg(*limit_deg));
-    within.map_or(last, |(_, colour)| colour)
 }
 
 /// A frame around the cells of a workspace, with the base in it.

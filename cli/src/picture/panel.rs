@@ -61,6 +61,22 @@ impl Panel {
         }
     }
 
+    /// Fills a rectangle.
+    pub fn fill(&mut self, low: [f64; 2], high: [f64; 2], colour: &str) {
+        let ([left, bottom], [right, top]) = (low, high);
+        let (left, right) = (self.at_x(left), self.at_x(right));
+        let (top, bottom) = (self.at_y(top), self.at_y(bottom));
+        let cell = Rectangle::new()
+            .set("x", pixel(left))
+            .set("y", pixel(top))
+            // Neighbours overlap by a hair, so that no seam shows.
+            .set("width", pixel(right - left + 0.3))
+            .set("height", pixel(bottom - top + 0.3))
+            .set("shape-rendering", "crispEdges")
+            .set("fill", colour);
+        self.inside = std::mem::take(&mut self.inside).add(cell);
+    }
+
     /// Draws a dot for each point.
     pub fn dots(&mut self, x: &[f64], y: &[f64], colour: &str) {
         for (&x, &y) in x

@@ -46,6 +46,7 @@ impl Plane {
             // Neighbours overlap by a hair, so that no seam shows.
             .set("width", pixel(right - left + 0.3))
             .set("height", pixel(bottom - top + 0.3))
+            .set("shape-rendering", "crispEdges")
             .set("fill", colour);
         if let Some(title) = title {
             cell = cell.add(Title::new(title));

@@ -13,6 +13,7 @@ fn every_verb_shows_an_example_and_says_what_it_does() {
         &["reproduce"],
         &["golden", "check"],
         &["golden", "regenerate"],
+        &["cite"],
         &["identify"],
         &["identify", "brake"],
         &["blind"],

@@ -2,6 +2,7 @@
 
 mod bad_diagnosis;
 mod blind;
+mod cite;
 mod demo;
 mod design;
 mod desk;

@@ -2,6 +2,7 @@
 
 #[path = "../budget/mod.rs"]
 mod budget;
+mod chapter;
 mod jacobian;
 mod measured;
 mod oracle;

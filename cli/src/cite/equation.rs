@@ -1,0 +1,136 @@
+//! This file reads the numbered equations of the thesis, and says which are next to a number that there is none of.
+
+use super::repository::Repository;
+use crate::outcome::Failure;
+
+/// Where they stand.
+pub const FILE: &str = "spec/thesis/equations.md";
+
+/// How many are offered for a number that there is none of.
+const OFFERED: usize = 3;
+
+/// One row of the table.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Equation {
+    /// Its number, such as `5.36`.
+    pub number: String,
+    /// What it says.
+    pub says: String,
+    /// Its symbols.
+    pub symbols: String,
+    /// The line of the file, from one.
+    pub line: usize,
+}
+
+impl Equation {
+    /// The number as it is printed.
+    pub fn in_brackets(&self) -> String {
+        format!("({})", self.number)
+    }
+}
+
+/// Every equation, in the order of the file.
+///
+/// # Errors
+/// The file cannot be read.
+pub fn all(repository: &Repository) -> Result<Vec<Equation>, Failure> {
+    let table = repository.read(FILE)?;
+    let rows = table.lines().enumerate();
+    Ok(rows
+        .filter_map(|(index, row)| equation(row, index + 1))
+        .collect())
+}
+
+/// The equation of a row; a bar inside a cell is written `\|`.
+fn equation(row: &str, line: usize) -> Option<Equation> {
+    let (number, rest) = row.strip_prefix("| (")?.split_once(") |")?;
+    let rest = rest.trim_end().strip_suffix('|')?.replace("\\|", "\u{1}");
+    let (says, symbols) = rest.rsplit_once('|')?;
+    let cell = |text: &str| text.replace('\u{1}', "|").trim().to_owned();
+    Some(Equation {
+        number: number.to_owned(),
+        says: cell(says),
+        symbols: cell(symbols),
+        line,
+    })
+}
+
+/// The equation of a number, with or without brackets; else a message with the nearest ones.
+pub fn find(equations: &[Equation], number: &str) -> Result<Equation, String> {
+    let wanted = number.trim().trim_start_matches('(').trim_end_matches(')');
+    let found = equations
+        .iter()
+        .find(|equation| equation.number.eq_ignore_ascii_case(wanted));
+    found.cloned().ok_or_else(|| {
+        let nearest = nearest(equations, wanted);
+        let advice = match nearest.as_slice() {
+            [] => "give a chapter and a number, such as 5.36 or A.7".to_owned(),
+            nearest => format!("the nearest are {}", nearest.join(", ")),
+        };
+        format!("the thesis has no equation ({wanted}); {advice}")
+    })
+}
+
+/// The numbers next to one that there is none of: of its chapter if there is any, nearest first.
+fn nearest(equations: &[Equation], wanted: &str) -> Vec<String> {
+    let Some((chapter, place)) = split(wanted) else {
+        return Vec::new();
+    };
+    let mut near: Vec<(u32, &str)> = equations
+        .iter()
+        .filter_map(|equation| {
+            let (of, at) = split(&equation.number)?;
+            let same = of.eq_ignore_ascii_case(chapter);
+            same.then_some((at.abs_diff(place), equation.number.as_str()))
+        })
+        .collect();
+    near.sort_by_key(|(distance, _)| *distance);
+    let near = near.into_iter().take(OFFERED);
+    near.map(|(_, number)| number.to_owned()).collect()
+}
+
+/// Chapter and place of a number; a letter behind it is left out.
+fn split(number: &str) -> Option<(&str, u32)> {
+    let (chapter, place) = number.split_once('.')?;
+    let place = place.trim_end_matches(|c: char| c.is_ascii_alphabetic());
+    Some((chapter, place.parse().ok()?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ROWS: &str = "| number | says | symbols |\n|---|---|---|\n\
+        | (6.13) | law: F = K·\\|v\\| | F force, N |\n| (6.16a) | way | – |\n| (6.16b) | force | – |\n| (A.7) | T | J |\n";
+
+    fn rows() -> Vec<Equation> {
+        let rows = ROWS.lines().enumerate();
+        rows.filter_map(|(index, row)| equation(row, index + 1))
+            .collect()
+    }
+
+    #[test]
+    fn a_row_is_read_with_the_bars_inside_its_cells() {
+        let equations = rows();
+        assert_eq!(equations.len(), 4);
+        assert_eq!(equations[0].says, "law: F = K·|v|");
+        assert_eq!(
+            (equations[0].symbols.as_str(), equations[0].line),
+            ("F force, N", 3)
+        );
+        assert_eq!(find(&equations, "(a.7)").unwrap(), equations[3]);
+    }
+
+    #[test]
+    fn a_number_without_an_equation_is_answered_with_its_neighbours() {
+        let message = find(&rows(), "6.16").unwrap_err();
+        assert_eq!(
+            message,
+            "the thesis has no equation (6.16); the nearest are 6.16a, 6.16b, 6.13"
+        );
+        for nowhere in ["9.1", "five", "", "6.x"] {
+            let message = find(&rows(), nowhere).unwrap_err();
+            assert!(message.ends_with("such as 5.36 or A.7"), "{message}");
+        }
+    }
+}
