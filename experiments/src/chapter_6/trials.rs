@@ -1,0 +1,149 @@
+//! This file runs the human-subject experiment with simulated operators: three of them, three runs each, as in §6.5.1.
+
+use std::sync::OnceLock;
+
+use rigproof_model::control::GainUnit;
+use rigproof_model::control::path::Line;
+use rigproof_model::operator::Abilities;
+use rigproof_model::trial::{LINES, Metrics, trial};
+use rigproof_spec::layout::Layout;
+use rigproof_spec::methods::Method;
+
+use crate::Error;
+
+/// The configurations, in the order of tables C.1 to C.6.
+pub const LAYOUTS: [Layout; 2] = [Layout::ThreeBrake, Layout::FourBrake];
+
+/// A controller as it was tried.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Tried {
+    /// Its letter (table 6.2).
+    pub letter: &'static str,
+    /// In words.
+    pub words: &'static str,
+    pub method: Method,
+    pub unit: GainUnit,
+}
+
+const N: Tried = row("N", "no control", Method::Uncontrolled);
+const S: Tried = row("S", "SDOF", Method::Sdof);
+const G: Tried = row("G", "SDOF with gap", Method::SdofWithGap);
+const H: Tried = row("H", "high gain", Method::ProportionalHigh);
+const L: Tried = row("L", "low gain, 5 N·s/cm", Method::ProportionalLow);
+
+/// The five of table 6.2 in its order, the gains read as N·s/cm (erratum `gain-unit`).
+pub const FIVE: [Tried; 5] = [N, S, G, H, L];
+
+/// The low gain in its printed unit.
+pub const AS_PRINTED: Tried = Tried {
+    letter: "L as printed",
+    words: "low gain, 5 N·s/m",
+    method: Method::ProportionalLow,
+    unit: GainUnit::PerMetre,
+};
+
+/// All that were tried.
+pub const ALL: [Tried; 6] = [N, S, G, H, L, AS_PRINTED];
+
+const fn row(letter: &'static str, words: &'static str, method: Method) -> Tried {
+    Tried {
+        letter,
+        words,
+        method,
+        unit: GainUnit::PerCentimetre,
+    }
+}
+
+/// The three operators: that of decision 0047, one who sees later, and one with a softer hand (decision 0063).
+const OPERATORS: [Abilities; 3] = [
+    Abilities::CAREFUL,
+    Abilities {
+        delay_s: 0.22,
+        ..Abilities::CAREFUL
+    },
+    Abilities {
+        correction_n_per_m: 35.0,
+        damping_n_s_per_m: 14.0,
+        ..Abilities::CAREFUL
+    },
+];
+/// Runs of each operator under each set of conditions (§6.5.1).
+const RUNS: u64 = 3;
+
+/// One run of the experiment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Trial {
+    pub layout: Layout,
+    /// 1 or 2.
+    pub line: u8,
+    pub tried: Tried,
+    /// 1, 2 or 3.
+    pub operator: u8,
+    pub metrics: Metrics,
+}
+
+type Group = Result<Vec<Trial>, Error>;
+
+/// Each group of conditions: configuration, line, controller.
+const GROUPS: usize = LAYOUTS.len() * LINES.len() * ALL.len();
+
+/// The groups that some figure has run already: three figures show the same runs.
+static RUN: [OnceLock<Group>; GROUPS] = [const { OnceLock::new() }; GROUPS];
+
+/// Every run, in the order of the tables. `first` says with which third of the groups to begin, so that the three figures,
+/// when they are run at once, begin with different ones.
+pub fn all(first: usize) -> Result<Vec<Trial>, Error> {
+    let conditions: Vec<(Layout, u8, Tried)> = LAYOUTS
+        .into_iter()
+        .flat_map(|layout| [(layout, 1), (layout, 2)])
+        .flat_map(|(layout, line)| ALL.map(|tried| (layout, line, tried)))
+        .collect();
+    let places = RUN.iter().zip(&conditions);
+    for (place, (layout, line, tried)) in
+        places.clone().cycle().skip(first * GROUPS / 3).take(GROUPS)
+    {
+        place.get_or_init(|| group(*layout, *line, *tried));
+    }
+    let mut trials = Vec::new();
+    for (place, (layout, line, tried)) in places {
+        trials.extend(
+            place
+                .get_or_init(|| group(*layout, *line, *tried))
+                .clone()?,
+        );
+    }
+    Ok(trials)
+}
+
+fn group(layout: Layout, line: u8, tried: Tried) -> Group {
+    let refused = |error| Error::model("a trial of the simulated operator", error);
+    let segment = match line {
+        1 => LINES[0],
+        _ => LINES[1],
+    };
+    let path = Line::through(segment.from_m, segment.to_m).map_err(refused)?;
+    let mut trials = Vec::new();
+    for (operator, abilities) in (1..).zip(OPERATORS) {
+        for run in 0..RUNS {
+            // Every run has an aim and a tremor of its own.
+            let seed = 1009 * u64::from(operator) + 7919 * run + 31;
+            let (method, unit) = (tried.method, tried.unit);
+            let record = trial(layout, method, unit, segment, abilities, seed).map_err(refused)?;
+            if !record.arrived {
+                let problem = format!(
+                    "operator {operator} does not reach the end of line {line} with {} in 20 s",
+                    tried.words
+                );
+                return Err(Error::model("a trial of the simulated operator", problem));
+            }
+            trials.push(Trial {
+                layout,
+                line,
+                tried,
+                operator,
+                metrics: record.metrics(&path).map_err(refused)?,
+            });
+        }
+    }
+    Ok(trials)
+}
