@@ -8,7 +8,7 @@ use rigproof_spec::units::M_PER_CM;
 use crate::{Curve, Error};
 
 /// Side of the cells that the boundary is traced over, m; each of its points is exact.
-const STEP_M: f64 = 0.01;
+const STEP_M: f64 = 0.004;
 
 /// The boundary of a layout's workspace by tables 4.1 and 4.2, cm.
 pub fn outline(layout: Layout) -> Result<Curve, Error> {

@@ -105,17 +105,18 @@ pub fn panel(compared: &Compared, layout: Layout) -> Panel {
     }
     curves.push(Curve::dots("people", &x, &y));
     let metric = &compared.metric;
-    Panel::new(
-        (
-            &format!(
-                "controller of table 6.2, {} configuration",
-                outline::name(layout)
-            ),
-            "",
-        ),
-        (metric.name, metric.unit),
-        curves,
-    )
+    let places = format!(
+        "{} configuration: 1 N, 2 S, 3 G, 4 H, 5 L (table 6.2), 6 L in the printed unit",
+        outline::name(layout)
+    );
+    if !metric.logarithmic {
+        return Panel::new((&places, ""), (metric.name, metric.unit), curves);
+    }
+    for value in curves.iter_mut().flat_map(|curve| &mut curve.y) {
+        *value = libm::log10(*value);
+    }
+    let quantity = format!("log10 of the {} in {}", metric.name, metric.unit);
+    Panel::new((&places, ""), (&quantity, ""), curves)
 }
 
 #[cfg(test)]

@@ -14,6 +14,8 @@ use crate::{Column, Error, Finding, Outcome, Picture, Table};
 pub struct Metric {
     pub name: &'static str,
     pub unit: &'static str,
+    /// Whether it is drawn by its logarithm.
+    pub logarithmic: bool,
     /// Of a run, in that unit.
     pub of: fn(&Metrics) -> f64,
     /// Of a cell of tables C.1 to C.6, in that unit.
@@ -27,11 +29,11 @@ pub struct Compared {
 }
 
 impl Compared {
-    /// Runs what has not been run.
-    pub fn new(metric: Metric, first: usize) -> Result<Compared, Error> {
+    /// Runs the experiment.
+    pub fn new(metric: Metric) -> Result<Compared, Error> {
         Ok(Compared {
             metric,
-            trials: all(first)?,
+            trials: all()?,
         })
     }
 
@@ -153,7 +155,7 @@ impl Compared {
         Picture {
             name: "boxes".to_owned(),
             title: title.to_owned(),
-            subtitle: "three simulated operators, three runs each on both lines; dots: people, means of three (tables C.1 to C.6)"
+            subtitle: "three simulated operators, three runs each on both lines; crossbars: outliers; dots: people, means of three (tables C.1 to C.6)"
                 .to_owned(),
             panels: LAYOUTS.map(|layout| panel(self, layout)).into(),
         }

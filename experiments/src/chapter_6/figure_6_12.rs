@@ -9,7 +9,7 @@ use rigproof_spec::methods::Method;
 use rigproof_spec::trials::{Averages, OPERATORS, averages};
 
 use super::sample;
-use crate::outline::{cm, outline};
+use crate::outline::cm;
 use crate::{Curve, Error, Experiment, Finding, Outcome, Panel, Picture};
 
 /// The sample.
@@ -43,11 +43,13 @@ fn run() -> Result<Outcome, Error> {
         ("5 N·s/m as printed", &printed),
     ];
     let [from, to] = [segment.from_m, segment.to_m].map(|end| end.map(cm));
-    let mut map = vec![
-        outline(LAYOUT)?,
-        Curve::thin("desired path", &[from[0], to[0]], &[from[1], to[1]]),
-    ];
-    map.extend(runs.iter().map(|(name, record)| sample::way(name, record)));
+    let ways = runs.iter().map(|(name, record)| sample::way(name, record));
+    let mut map: Vec<Curve> = ways.collect();
+    map.push(Curve::thin(
+        "desired path",
+        &[from[0], to[0]],
+        &[from[1], to[1]],
+    ));
     Ok(Outcome {
         tables: vec![
             sample::table("no-control", &none, &line, LAYOUT),
@@ -58,7 +60,7 @@ fn run() -> Result<Outcome, Error> {
             name: "sample".to_owned(),
             title: "A simulated operator with low gain proportional control, 3-brake configuration"
                 .to_owned(),
-            subtitle: "line 1 of decision 0047; the person's run is lost; currents: 5 N·s/cm"
+            subtitle: "line 1; the person's run is lost; currents: 5 N·s/cm, each brake 1.25 A above the one before"
                 .to_owned(),
             panels: vec![
                 Panel::new(("x", "cm"), ("y", "cm"), map).map(),

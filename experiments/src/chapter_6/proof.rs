@@ -1,12 +1,20 @@
 //! This file runs the simulations of §6.4: a constant push along the line y = 38 cm and towards it.
 
+use rigproof_model::ModelError;
+use rigproof_model::brake::torque_gain;
+use rigproof_model::control::force_limit::force_magnitude;
 use rigproof_model::control::path::Line;
 use rigproof_model::control::{Actuation, GainUnit, controller};
+use rigproof_model::linkage::inverse;
+use rigproof_model::linkage::jacobian::jacobian;
 use rigproof_model::operator::ConstantPush;
 use rigproof_model::rig::Rig;
 use rigproof_model::trial::{Record, run};
+use rigproof_spec::command::Reason;
+use rigproof_spec::geometry::arms;
 use rigproof_spec::layout::Layout;
-use rigproof_spec::methods::{Method, SAMPLE_STEP_S};
+use rigproof_spec::methods::{Method, SAMPLE_STEP_S, greatest_desired_force_n};
+use rigproof_spec::tables::GREATEST_CURRENT_A;
 
 use crate::Error;
 use crate::outline::cm;
@@ -26,6 +34,8 @@ pub struct Proof {
     pub error_cm: f64,
     /// Average distance from the path over the last third, cm.
     pub late_cm: f64,
+    /// Share of the commands to a brake that ask for the greatest force.
+    pub full: f64,
     /// Changes from one brake, or none, to another a second.
     pub switches_hz: f64,
 }
@@ -58,10 +68,31 @@ pub fn proof(layout: Layout, method: Method, unit: GainUnit) -> Result<Proof, Er
     let next = record.commands.iter().skip(1);
     let pairs = record.commands.iter().zip(next);
     let switches = pairs.filter(|(a, b)| a.reason != b.reason).count();
+    let full = full_force(layout, &record).map_err(refused)?;
     Ok(Proof {
+        full,
         error_cm: cm(metrics.path_error_m),
         late_cm: cm(sum_m / count),
         switches_hz: switches as f64 / (SAMPLE_STEP_S * record.tips_m.len() as f64),
         record,
     })
+}
+
+/// Share of the commands to one brake that ask for the greatest force of §6.1.2, or for the brake's own greatest.
+fn full_force(layout: Layout, record: &Record) -> Result<f64, ModelError> {
+    let (arms, greatest_n) = (arms(layout), greatest_desired_force_n(layout));
+    let (mut full, mut chosen) = (0_u32, 0_u32);
+    for (tip_m, command) in record.tips_m.iter().zip(&record.commands) {
+        let Reason::Chosen(joint) = command.reason else {
+            continue;
+        };
+        let j = jacobian(&arms, &inverse::pose(&arms, *tip_m)?)?;
+        let current_a = command.currents_a.get(joint as usize).copied();
+        let current_a = current_a.unwrap_or(0.0);
+        let row = j.row(joint as usize).transpose();
+        let force_n = force_magnitude(row, torque_gain(joint, current_a));
+        chosen += 1;
+        full += u32::from(current_a >= GREATEST_CURRENT_A || force_n > 0.999 * greatest_n);
+    }
+    Ok(f64::from(full) / f64::from(chosen))
 }

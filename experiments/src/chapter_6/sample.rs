@@ -96,9 +96,5 @@ pub fn commands(record: &Record, layout: Layout) -> Panel {
         let name = format!("brake {}", joint.letter());
         Curve::thin(name, &time_s(record), &current)
     });
-    Panel::new(
-        ("time", "s"),
-        ("current, each brake 1.25 A above the one before", "A"),
-        curves.collect(),
-    )
+    Panel::new(("time", "s"), ("current, shifted", "A"), curves.collect())
 }

@@ -1,7 +1,5 @@
 //! This file runs the human-subject experiment with simulated operators: three of them, three runs each, as in §6.5.1.
 
-use std::sync::OnceLock;
-
 use rigproof_model::control::GainUnit;
 use rigproof_model::control::path::Line;
 use rigproof_model::operator::Abilities;
@@ -82,40 +80,19 @@ pub struct Trial {
     pub metrics: Metrics,
 }
 
-type Group = Result<Vec<Trial>, Error>;
-
-/// Each group of conditions: configuration, line, controller.
-const GROUPS: usize = LAYOUTS.len() * LINES.len() * ALL.len();
-
-/// The groups that some figure has run already: three figures show the same runs.
-static RUN: [OnceLock<Group>; GROUPS] = [const { OnceLock::new() }; GROUPS];
-
-/// Every run, in the order of the tables. `first` says with which third of the groups to begin, so that the three figures,
-/// when they are run at once, begin with different ones.
-pub fn all(first: usize) -> Result<Vec<Trial>, Error> {
-    let conditions: Vec<(Layout, u8, Tried)> = LAYOUTS
-        .into_iter()
-        .flat_map(|layout| [(layout, 1), (layout, 2)])
-        .flat_map(|(layout, line)| ALL.map(|tried| (layout, line, tried)))
-        .collect();
-    let places = RUN.iter().zip(&conditions);
-    for (place, (layout, line, tried)) in
-        places.clone().cycle().skip(first * GROUPS / 3).take(GROUPS)
-    {
-        place.get_or_init(|| group(*layout, *line, *tried));
-    }
+/// Every run, in the order of the tables.
+pub fn all() -> Result<Vec<Trial>, Error> {
     let mut trials = Vec::new();
-    for (place, (layout, line, tried)) in places {
-        trials.extend(
-            place
-                .get_or_init(|| group(*layout, *line, *tried))
-                .clone()?,
-        );
+    for (layout, line) in LAYOUTS.into_iter().flat_map(|l| [(l, 1), (l, 2)]) {
+        for tried in ALL {
+            trials.extend(group(layout, line, tried)?);
+        }
     }
     Ok(trials)
 }
 
-fn group(layout: Layout, line: u8, tried: Tried) -> Group {
+/// The runs of one set of conditions.
+fn group(layout: Layout, line: u8, tried: Tried) -> Result<Vec<Trial>, Error> {
     let refused = |error| Error::model("a trial of the simulated operator", error);
     let segment = match line {
         1 => LINES[0],
