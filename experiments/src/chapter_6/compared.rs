@@ -25,7 +25,7 @@ pub struct Metric {
 /// All runs, and one metric of them.
 pub struct Compared {
     pub metric: Metric,
-    pub trials: Vec<Trial>,
+    pub trials: &'static [Trial],
 }
 
 impl Compared {

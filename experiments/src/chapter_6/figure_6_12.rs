@@ -2,10 +2,11 @@
 
 use rigproof_model::control::GainUnit;
 use rigproof_model::control::path::Line;
+use rigproof_model::metrics::acceleration;
 use rigproof_model::operator::Abilities;
 use rigproof_model::trial::{LINES, Metrics, Record, trial};
 use rigproof_spec::layout::Layout;
-use rigproof_spec::methods::Method;
+use rigproof_spec::methods::{Method, SAMPLE_STEP_S};
 use rigproof_spec::trials::{Averages, OPERATORS, averages};
 
 use super::sample;
@@ -73,6 +74,7 @@ fn run() -> Result<Outcome, Error> {
             shown("no control", &uncontrolled),
             shown("5 N·s/cm", &ours),
             shown("5 N·s/m as printed", &as_printed),
+            vibration(&none, &low)?,
             beside("average path error", "cm", cm(ours.path_error_m), |cell| {
                 cell.path_error_cm
             }),
@@ -95,6 +97,28 @@ fn shown(name: &str, metrics: &Metrics) -> Finding {
         ),
         "the person's run is lost; path error, tip force and DFT sum of the one shown here",
     )
+}
+
+/// "The low gain was chosen such that there was no detectable vibration."
+fn vibration(none: &Record, low: &Record) -> Result<Finding, Error> {
+    let rms = |record: &Record| -> Result<f64, Error> {
+        let acceleration = acceleration(&record.tips_m, SAMPLE_STEP_S)
+            .map_err(|error| Error::model("the acceleration of the tip", error))?;
+        let squares: f64 = acceleration.iter().map(|[x, y]| x * x + y * y).sum();
+        Ok(libm::sqrt(squares / acceleration.len() as f64))
+    };
+    let (without, with) = (rms(none)?, rms(low)?);
+    Ok(Finding {
+        stated: "none detectable".to_owned(),
+        ..Finding::lost(
+            "§6.5.1",
+            "the low gain was chosen such that there was no detectable vibration",
+            format!(
+                "acceleration below 25 Hz {with:.2} m/s² rms, without control {without:.2} m/s²"
+            ),
+            "the text gives no limit of detection",
+        )
+    })
 }
 
 /// Whether the run lies within a factor of two of what the three people had under the same conditions.
