@@ -168,9 +168,9 @@ fn full_force(high: &Proof, printed: &Proof) -> Finding {
             format!(
                 "in {share:.1} % of the commands to a brake; with 10 000 N·s/m in {as_printed:.1} %"
             ),
-            share > 99.0,
+            share > 95.0,
         ),
-        "10 000 N·s/cm, in 99 % of the commands; slower than 0.02 mm/s even that gain asks for less",
+        "10 000 N·s/cm, in 95 % of the commands: across the path slower than 0.02 mm/s even that gain asks for less",
     )
 }
 
