@@ -155,7 +155,7 @@ impl Compared {
         Picture {
             name: "boxes".to_owned(),
             title: title.to_owned(),
-            subtitle: "three simulated operators, three runs each on both lines; crossbars: outliers; dots: people, means of three (tables C.1 to C.6)"
+            subtitle: "three simulated operators, nine runs each on both lines; crossbars: outliers; dots: people, means of three (tables C.1 to C.6)"
                 .to_owned(),
             panels: LAYOUTS.map(|layout| panel(self, layout)).into(),
         }

@@ -11,7 +11,7 @@ use crate::{Error, Experiment, Finding, Outcome};
 pub const EXPERIMENT: Experiment = Experiment {
     id: "6.13",
     title: "Average path error by configuration and controller",
-    what: "The experiment of §6.5 with three simulated operators, three runs each on two lines, both configurations and the five controllers (gains in N·s/cm), and the low gain as printed; people and lines are lost.",
+    what: "The experiment of §6.5 with three simulated operators, nine runs each on two lines, both configurations and the five controllers (gains in N·s/cm), and the low gain as printed; people and lines are lost.",
     run,
 };
 
