@@ -6,11 +6,15 @@
     clippy::indexing_slicing
 )]
 
+pub mod appendix_b;
 pub mod chapter_3;
 pub mod chapter_4;
+pub mod chapter_5;
+pub mod chapter_6;
 mod error;
 mod experiment;
 mod finding;
+mod outline;
 mod picture;
 mod table;
 
@@ -22,7 +26,14 @@ pub use table::{Cells, Column, Table};
 
 /// Every experiment, in the order of the thesis. A chapter is a module with its list `EXPERIMENTS`.
 pub fn all() -> Vec<Experiment> {
-    [chapter_3::EXPERIMENTS, chapter_4::EXPERIMENTS].concat()
+    [
+        chapter_3::EXPERIMENTS,
+        chapter_4::EXPERIMENTS,
+        chapter_5::EXPERIMENTS,
+        chapter_6::EXPERIMENTS,
+        appendix_b::EXPERIMENTS,
+    ]
+    .concat()
 }
 
 /// The experiment of that id, or `None`.
