@@ -71,17 +71,16 @@ pub fn find(equations: &[Equation], number: &str) -> Result<Equation, String> {
     })
 }
 
-/// The numbers next to one that there is none of: of its chapter if there is any, nearest first.
+/// The numbers next to one that there is none of, nearest first.
 fn nearest(equations: &[Equation], wanted: &str) -> Vec<String> {
-    let Some((chapter, place)) = split(wanted) else {
+    let Some(wanted) = place(wanted) else {
         return Vec::new();
     };
-    let mut near: Vec<(u32, &str)> = equations
+    let mut near: Vec<(u64, &str)> = equations
         .iter()
         .filter_map(|equation| {
-            let (of, at) = split(&equation.number)?;
-            let same = of.eq_ignore_ascii_case(chapter);
-            same.then_some((at.abs_diff(place), equation.number.as_str()))
+            let distance = place(&equation.number)?.abs_diff(wanted);
+            Some((distance, equation.number.as_str()))
         })
         .collect();
     near.sort_by_key(|(distance, _)| *distance);
@@ -89,11 +88,18 @@ fn nearest(equations: &[Equation], wanted: &str) -> Vec<String> {
     near.map(|(_, number)| number.to_owned()).collect()
 }
 
-/// Chapter and place of a number; a letter behind it is left out.
-fn split(number: &str) -> Option<(&str, u32)> {
+/// Where a number stands in the thesis: chapters, the appendices after them, are a thousand places apart; a letter behind
+/// the number is left out.
+fn place(number: &str) -> Option<u64> {
     let (chapter, place) = number.split_once('.')?;
+    let chapter = match chapter.as_bytes() {
+        [letter] if letter.is_ascii_alphabetic() => {
+            u64::from(letter.to_ascii_uppercase() - b'A') + 10
+        }
+        _ => u64::from(chapter.parse::<u32>().ok()?),
+    };
     let place = place.trim_end_matches(|c: char| c.is_ascii_alphabetic());
-    Some((chapter, place.parse().ok()?))
+    Some(1000 * chapter + u64::from(place.parse::<u32>().ok()?))
 }
 
 #[cfg(test)]
@@ -128,7 +134,9 @@ mod tests {
             message,
             "the thesis has no equation (6.16); the nearest are 6.16a, 6.16b, 6.13"
         );
-        for nowhere in ["9.1", "five", "", "6.x"] {
+        let message = find(&rows(), "9.1").unwrap_err();
+        assert!(message.ends_with("A.7, 6.16a, 6.16b"), "{message}");
+        for nowhere in ["five", "", "6.x", "ä.1", "6.99999999999"] {
             let message = find(&rows(), nowhere).unwrap_err();
             assert!(message.ends_with("such as 5.36 or A.7"), "{message}");
         }
