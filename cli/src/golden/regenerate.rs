@@ -51,6 +51,6 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     }
     let unchanged = 3 * cases.len() - written.len();
     let lines = written.iter().map(|file| format!("  {file}"));
-    let unchanged = format!("  {unchanged} files are as they were");
+    let unchanged = format!("  as they were: {unchanged}");
     print(&join([section("Written", lines.chain([unchanged]))]))
 }
