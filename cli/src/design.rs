@@ -16,6 +16,7 @@ use rigproof_trace::store::Folder;
 
 use crate::outcome::{Failure, Outcome, print};
 use crate::progress;
+use crate::threads;
 use shape::{Own, Shape, parse_length};
 
 /// What is to be designed.
@@ -31,7 +32,7 @@ pub struct Args {
     #[arg(long)]
     no_sweep: bool,
     /// Pairs of lengths that are traversed at once; 0 takes every processor. The result does not depend on it
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = threads::parse)]
     jobs: usize,
     /// The folder to write
     #[arg(long, value_name = "FOLDER", default_value = "rigproof-design")]
@@ -89,6 +90,10 @@ pub(crate) struct Design {
 pub fn run(args: &Args) -> Result<Outcome, Failure> {
     let shapes = args.own.shapes()?;
     let ranges = args.own.sweep_ranges()?;
+    if args.no_sweep && args.own.is_thesis() && ranges != STOPS {
+        let advice = "--range changes a linkage of one's own and the sweep; give lengths, or leave --no-sweep out";
+        return Err(Failure::Usage(advice.to_owned()));
+    }
     let folder = Folder::begin(&args.out)?;
     let mark = progress::spinner("traversing");
     let drawn = shapes.into_iter().map(|shape| draw(shape, args.step));
@@ -148,10 +153,7 @@ const CONCEPT_STEP_M: f64 = 0.003;
 
 /// Traverses every pair of the sweep, best first; equal scores keep the order of the pairs.
 fn swept(ranges: &AngleRanges, jobs: usize) -> Result<Vec<Candidate>, Failure> {
-    let threads = rayon::ThreadPoolBuilder::new().num_threads(jobs);
-    let threads = threads.build().map_err(|error| {
-        Failure::Input(format!("cannot start {jobs} jobs: {error}; give fewer"))
-    })?;
+    let threads = threads::pool(jobs)?;
     let pairs: Vec<[f64; 2]> = sweep::pairs().collect();
     let bar = progress::bar(pairs.len(), "pairs of lengths");
     let one = |pair: &[f64; 2]| {

@@ -19,6 +19,7 @@ mod reproduce;
 mod shell;
 mod simulate;
 mod text;
+mod threads;
 
 use std::process::ExitCode;
 

@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 
 use crate::outcome::{Failure, Outcome, print};
 use crate::text::{join, section};
-use crate::{picture, progress};
+use crate::{picture, progress, threads};
 
 /// What is to be run again.
 #[derive(clap::Args)]
@@ -22,7 +22,7 @@ pub struct Args {
     #[arg(long, value_name = "FOLDER", default_value = "rigproof-reproduced")]
     out: PathBuf,
     /// Experiments that run at once; 0 takes every processor. The result does not depend on it
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = threads::parse)]
     jobs: usize,
     /// Print the findings as JSON
     #[arg(long)]
@@ -57,11 +57,7 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     let experiments = chosen(&args.ids)?;
     // A wrong place is refused before the work, not after it.
     drop(Folder::begin(&args.out)?);
-    let threads = rayon::ThreadPoolBuilder::new().num_threads(args.jobs);
-    let threads = threads.build().map_err(|error| {
-        let jobs = args.jobs;
-        Failure::Input(format!("cannot start {jobs} jobs: {error}; give fewer"))
-    })?;
+    let threads = threads::pool(args.jobs)?;
     let bar = progress::bar(experiments.len(), "experiments");
     let done = threads.install(|| {
         let one = |experiment: &Experiment| {

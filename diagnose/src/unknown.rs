@@ -37,12 +37,12 @@ fn screen(problem: &Problem, residual: &[f64], variables: Vec<Variable>) -> Vec<
         .collect()
 }
 
-/// Share of the remaining loss that a free curve must take away before the named laws over the same variable count
-/// as surrogates of another law.
+/// Share of the remaining loss that a free curve must take away before the named laws that it concerns count as
+/// surrogates of another law.
 const SURROGATE_SHARE: f64 = 0.3;
 
 /// The found mechanisms that only stand in for another law: with them in place, a free curve over a variable that
-/// they are functions of, or that their level should not depend on, still takes most of the remaining loss away.
+/// they are functions of, or that their level should not depend on, still takes a good part of the remaining loss away.
 pub fn surrogates(
     problem: &Problem,
     residual: &[f64],
@@ -86,7 +86,7 @@ impl Variable {
                 self.name == "position" && !self.level
             }
             Mechanism::BiasDrift => self.name == "time" && !self.level,
-            Mechanism::GainError => self.name == "effort",
+            Mechanism::GainError => matches!(self.name, "effort" | "load"),
             _ => false,
         }
     }
@@ -141,7 +141,7 @@ fn variables(problem: &Problem, motion: Motion) -> Vec<Variable> {
         variable("effort", Quantity::Effort, false, effort),
         variable("position", Quantity::Travel, true, position),
         variable("time", Quantity::Time, true, time),
-        variable("effort", Quantity::Effort, true, load),
+        variable("load", Quantity::Effort, true, load),
     ]
 }
 

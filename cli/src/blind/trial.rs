@@ -15,6 +15,7 @@ use super::truth;
 use crate::outcome::{Failure, Outcome, print};
 use crate::progress;
 use crate::text::{join, section};
+use crate::threads;
 
 /// What is to be tried.
 #[derive(clap::Args)]
@@ -27,7 +28,7 @@ pub struct Args {
     #[arg(long, value_enum, default_value_t = Which::Both)]
     plant: Which,
     /// Recordings that are diagnosed at once; 0 takes every processor. The result does not depend on it
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = threads::parse)]
     jobs: usize,
     /// Say what became of every seed
     #[arg(long)]
@@ -63,13 +64,7 @@ pub struct Tried {
 
 /// Tries the seeds and prints table and claims.
 pub fn run(args: &Args) -> Result<Outcome, Failure> {
-    let threads = rayon::ThreadPoolBuilder::new().num_threads(args.jobs);
-    let threads = threads.build().map_err(|error| {
-        Failure::Input(format!(
-            "cannot start {} jobs: {error}; give fewer",
-            args.jobs
-        ))
-    })?;
+    let threads = threads::pool(args.jobs)?;
     let cases: Vec<(Plant, u64)> = args
         .seeds
         .clone()

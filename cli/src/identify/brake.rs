@@ -1,5 +1,6 @@
 //! This file turns bench recordings of a brake into a brake table in the rig file (§3.4).
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use rigproof_diagnose::identify::{Identified, identify};
@@ -46,6 +47,7 @@ Example:
 /// Identifies, writes the rig file and prints the table.
 pub fn run(args: &Args) -> Result<Outcome, Failure> {
     let out = out(args)?;
+    once_each(&args.recordings)?;
     let rig = Rig::read(&args.rig)?;
     let read = |file: &PathBuf| -> Result<(String, Recording), Failure> {
         Ok((file.display().to_string(), rig.read_recording(file)?))
@@ -83,6 +85,18 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     Ok(Outcome {
         checks_hold: found.missing.is_empty() && file.is_some(),
     })
+}
+
+/// Refuses a recording that is given twice: it would count as two, and make the intervals too narrow.
+fn once_each(recordings: &[PathBuf]) -> Result<(), Failure> {
+    let mut seen = BTreeSet::new();
+    for file in recordings {
+        if !seen.insert(file.canonicalize().unwrap_or_else(|_| file.clone())) {
+            let problem = "it is given twice; give each recording once".to_owned();
+            return Err(Failure::unusable(file, problem));
+        }
+    }
+    Ok(())
 }
 
 /// The rig with the parts that were found; those that were not stay as they were.
