@@ -249,14 +249,7 @@ fn parse_range(text: &str) -> Result<(Angle, AngleRange), String> {
         .ok_or_else(|| format!("`{letter}` is no angle; the angles are A, E, B, C, D"))?;
     let (least, greatest) = range.split_once("..").ok_or(advice)?;
     let number = |text: &str| text.trim().parse::<f64>().map_err(|_| advice.to_owned());
-    let (least, greatest) = (number(least)?, number(greatest)?);
-    if [least, greatest]
-        .iter()
-        .any(|bound| !(-360.0..=360.0).contains(bound))
-    {
-        return Err("an angle lies between -360 and 360 degrees".to_owned());
-    }
-    Ok((angle, AngleRange::new(least, greatest)))
+    Ok((angle, AngleRange::new(number(least)?, number(greatest)?)))
 }
 
 #[cfg(test)]
