@@ -6,7 +6,7 @@ use crate::regression::{
     Blocks, covariance, dot, fit, free_columns, nested_block_losses, norm, paired,
 };
 use crate::report::{NotSeen, NullDirection};
-use crate::select::{Found, Gates, Selection, TIE_Z, best_loss, refined, refs};
+use crate::select::{Found, Gates, Selection, TIE_Z, best_variant, refined, refs};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
@@ -234,7 +234,7 @@ fn rivals_of(
                 return true;
             }
             // A shape between two of the grid may do what neither of them does.
-            let Some((start, loss)) = best_loss(problem, &common, &tried) else {
+            let Some((start, loss)) = best_variant(problem, &common, &tried) else {
                 return false;
             };
             let near = bare.loss - loss >= NEAR_RIVAL * (bare.loss - selection.after.loss);

@@ -14,7 +14,7 @@ use refine::refine;
 use rigproof_spec::effect::Mechanism;
 use step::{forward, swap};
 
-pub(crate) use judge::best as best_loss;
+pub(crate) use judge::best as best_variant;
 pub use prune::OWN_TO_UNEXPLAINED;
 pub(crate) use refine::refined;
 pub use weigh::usable_rms;

@@ -80,12 +80,12 @@ impl Windows {
         }
     }
 
-    /// Gives up the windows of an axis in which a friction as large as the effort could be more than the floor where
-    /// the sense of motion cannot be told: a rest that begins or ends there is not seen.
+    /// Gives up the windows of an axis in which a friction as large as the effort could be more than half the floor
+    /// where the sense of motion cannot be told: a rest that begins or ends there is not seen.
     pub fn avoid_rests(&mut self, run: &Run, floor: f64) {
         let most = MOST_UNTOLD * floor / rms(&run.effort).max(1e-300);
         for (usable, &centre) in self.usable.iter_mut().zip(&self.centres) {
-            *usable &= untold(run, centre, &self.bump) <= most;
+            *usable = *usable && untold(run, centre, &self.bump) <= most;
         }
     }
 

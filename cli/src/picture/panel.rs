@@ -30,35 +30,30 @@ impl Panel {
     /// Draws a curve.
     pub fn curve(&mut self, x: &[f64], y: &[f64], colour: &str, width: f64) {
         let points = x.iter().zip(y).map(|(&x, &y)| (self.at_x(x), self.at_y(y)));
-        let points: Vec<String> = thinned(points)
-            .into_iter()
-            .map(|(x, y)| format!("{},{}", pixel(x), pixel(y)))
-            .collect();
-        let curve = Polyline::new()
-            .set("points", points.join(" "))
-            .set("fill", "none")
-            .set("stroke", colour)
-            .set("stroke-width", width)
-            .set("stroke-linejoin", "round");
-        self.inside = std::mem::take(&mut self.inside).add(curve);
+        self.line(thinned(points), colour, width);
     }
 
     /// Draws a curve that may turn back; a point that is not finite interrupts it.
     pub fn path(&mut self, x: &[f64], y: &[f64], colour: &str, width: f64) {
         let points = x.iter().zip(y).map(|(&x, &y)| (self.at_x(x), self.at_y(y)));
         for stretch in interrupted(points) {
-            let points: Vec<String> = stretch
-                .into_iter()
-                .map(|(x, y)| format!("{},{}", pixel(x), pixel(y)))
-                .collect();
-            let curve = Polyline::new()
-                .set("points", points.join(" "))
-                .set("fill", "none")
-                .set("stroke", colour)
-                .set("stroke-width", width)
-                .set("stroke-linejoin", "round");
-            self.inside = std::mem::take(&mut self.inside).add(curve);
+            self.line(stretch, colour, width);
         }
+    }
+
+    /// Draws a line through points of the page.
+    fn line(&mut self, points: Vec<(f64, f64)>, colour: &str, width: f64) {
+        let points: Vec<String> = points
+            .into_iter()
+            .map(|(x, y)| format!("{},{}", pixel(x), pixel(y)))
+            .collect();
+        let line = Polyline::new()
+            .set("points", points.join(" "))
+            .set("fill", "none")
+            .set("stroke", colour)
+            .set("stroke-width", width)
+            .set("stroke-linejoin", "round");
+        self.inside = std::mem::take(&mut self.inside).add(line);
     }
 
     /// Fills a rectangle.
