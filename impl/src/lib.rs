@@ -1,0 +1,14 @@
+//! What the rig runs: one tick of a controller, one step of the plant. No standard library, no heap, no panic, and as much
+//! work in every tick as in any other.
+#![no_std]
+#![deny(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::indexing_slicing
+)]
+
+pub mod command;
+pub mod number;
+pub mod select;
+pub mod vector;
