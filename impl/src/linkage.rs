@@ -1,0 +1,175 @@
+//! This file says where the arms are when the base joints are turned, and how joints and tip move together: closed form, no angles.
+
+use rigproof_spec::geometry::Arms;
+
+use crate::number::Real;
+use crate::select::Rows;
+use crate::vector::Vector;
+
+/// Least sine of the angle between two arms at which a pose is used, as in the reference.
+pub const LEAST_SINE: f64 = 1e-5;
+
+/// Arm lengths and what is computed from them once.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shape<R> {
+    /// Arms AE, ED, BC, CD, m.
+    pub lengths_m: [R; 4],
+    /// Base joint A is at minus this on the x axis, B at plus this, m.
+    pub half_base_m: R,
+    /// (`L_ED`² − `L_CD`²)/2, m².
+    half_difference_m2: R,
+}
+
+impl<R: Real> Shape<R> {
+    /// The shape of arms; the lengths must be those of a linkage (finite, above zero but for `L_AB`).
+    pub fn new(arms: &Arms) -> Shape<R> {
+        let squares = arms.l_ed_m * arms.l_ed_m - arms.l_cd_m * arms.l_cd_m;
+        Shape {
+            lengths_m: [arms.l_ae_m, arms.l_ed_m, arms.l_bc_m, arms.l_cd_m].map(R::of),
+            half_base_m: R::of(0.5 * arms.l_ab_m),
+            half_difference_m2: R::of(0.5 * squares),
+        }
+    }
+}
+
+/// A closed linkage: its arms as vectors, m.
+///
+/// Branch-free: where the arms cannot close some component is not a number; [`Linkage::is_sound`] tells.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Linkage<R> {
+    /// From A to E.
+    pub ae: Vector<R>,
+    /// From E to the tip.
+    pub ed: Vector<R>,
+    /// From B to C.
+    pub bc: Vector<R>,
+    /// From C to the tip.
+    pub cd: Vector<R>,
+    /// The tip.
+    pub tip_m: Vector<R>,
+}
+
+/// The linkage whose base arms AE and BC point along two directions of length one: the tip is the point at `L_ED` from E and `L_CD` from
+/// C, to the left of the way from E to C (5.1) to (5.17).
+//= thesis (5.14)
+//= thesis (5.15)
+pub fn linkage<R: Real>(shape: &Shape<R>, ae: Vector<R>, bc: Vector<R>) -> Linkage<R> {
+    let [l_ae, l_ed, l_bc, _] = shape.lengths_m;
+    let (ae, bc) = (ae * l_ae, bc * l_bc);
+    let base = Vector::new(shape.half_base_m + shape.half_base_m, R::zero());
+    let across = base + bc - ae;
+    let distance_squared = across.norm_squared();
+    let inverse = R::of(1.0) / distance_squared;
+    // Shares of the way from E to C: along it and beside it.
+    let along = R::of(0.5) + shape.half_difference_m2 * inverse;
+    let beside = (l_ed * l_ed * inverse - along * along).sqrt();
+    let ed = across * along + across.left() * beside;
+    Linkage {
+        ae,
+        ed,
+        bc,
+        cd: ed - across,
+        tip_m: Vector::new(ae.x - shape.half_base_m, ae.y) + ed,
+    }
+}
+
+impl<R: Real> Linkage<R> {
+    /// Whether the linkage is closed and away from its singularities: the sine of the angle between the arms of each pair is at least
+    /// [`LEAST_SINE`] on the thesis's side.
+    pub fn is_sound(&self, shape: &Shape<R>) -> bool {
+        let [l_ae, l_ed, l_bc, l_cd] = shape.lengths_m;
+        let least = R::of(LEAST_SINE);
+        self.ed.cross(self.ae) >= least * l_ae * l_ed
+            && self.bc.cross(self.cd) >= least * l_bc * l_cd
+            && self.ed.cross(self.cd) >= least * l_ed * l_cd
+    }
+
+    /// The rows of the Jacobian, 1/m, in the order A, E, B, C: θ̇ = J·ẋ (5.39).
+    ///
+    /// The inverse of J₁, whose columns are the tip's velocities at unit rates of A and E, in its closed form.
+    //= thesis (5.39)
+    pub fn rows(&self) -> [Vector<R>; 4] {
+        let left = R::of(1.0) / self.ae.cross(self.ed);
+        let right = R::of(1.0) / self.bc.cross(self.cd);
+        [
+            self.ed * left,
+            -(self.ae + self.ed) * left,
+            self.cd * right,
+            -(self.bc + self.cd) * right,
+        ]
+    }
+
+    /// The rows of the brakes only, for a selection.
+    pub fn braked_rows(&self, braked: [bool; 4]) -> Rows<R> {
+        let [a, e, b, c] = self.rows();
+        let [with_a, with_e, with_b, with_c] = braked;
+        [
+            with_a.then_some(a),
+            with_e.then_some(e),
+            with_b.then_some(b),
+            with_c.then_some(c),
+        ]
+    }
+
+    /// How fast arms ED and CD turn for rates (θ̇A, θ̇B) of the base joints: two rows, 1.
+    pub fn turning(&self) -> [Vector<R>; 2] {
+        let inverse = R::of(1.0) / self.ed.cross(self.cd);
+        let row =
+            |other: Vector<R>| Vector::new(-self.ae.cross(other), self.bc.cross(other)) * inverse;
+        [row(self.cd), row(self.ed)]
+    }
+
+    /// The velocity of the tip for rates of the base joints, rad/s, m/s.
+    pub fn tip_velocity(&self, rates_rad_s: Vector<R>) -> Vector<R> {
+        let [turning_ed, _] = self.turning();
+        self.ae.left() * rates_rad_s.x + self.ed.left() * turning_ed.dot(rates_rad_s)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rigproof_spec::geometry::arms;
+    use rigproof_spec::layout::Layout;
+
+    fn at(layout: Layout, theta_a_rad: f64, theta_b_rad: f64) -> (Shape<f64>, Linkage<f64>) {
+        let shape = Shape::new(&arms(layout));
+        let unit = |angle: f64| {
+            let (sine, cosine) = libm::sincos(angle);
+            Vector::new(cosine, sine)
+        };
+        (shape, linkage(&shape, unit(theta_a_rad), unit(theta_b_rad)))
+    }
+
+    //= thesis (5.14) test
+    //= thesis (5.15) test
+    #[test]
+    fn the_parallelogram_of_the_three_brake_layout_closes() {
+        // AE straight to the left and BC straight up: the tip is at (−30.5 cm, 30.5 cm).
+        let half_turn = core::f64::consts::PI;
+        let (shape, linkage) = at(Layout::ThreeBrake, half_turn, 0.5 * half_turn);
+        let off = linkage.tip_m - Vector::new(-0.305, 0.305);
+        assert!(off.norm() < 1e-15 && linkage.is_sound(&shape));
+    }
+
+    //= thesis (5.39) test
+    #[test]
+    fn rows_undo_the_tip_velocity() {
+        let (_, linkage) = at(Layout::FourBrake, 2.17, 0.83);
+        let rates = Vector::new(0.71, -0.37);
+        let velocity = linkage.tip_velocity(rates);
+        let [turning_ed, turning_cd] = linkage.turning().map(|row| row.dot(rates));
+        let expected = [rates.x, turning_ed - rates.x, rates.y, turning_cd - rates.y];
+        for (row, rate) in linkage.rows().into_iter().zip(expected) {
+            assert!((row.dot(velocity) - rate).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn arms_that_do_not_meet_are_not_sound() {
+        let (shape, apart) = at(Layout::FourBrake, 3.1, 0.02);
+        assert!(!apart.is_sound(&shape));
+        let (shape, crossed) = at(Layout::ThreeBrake, 0.8, 1.9);
+        assert!(!crossed.is_sound(&shape));
+    }
+}
