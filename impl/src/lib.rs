@@ -9,6 +9,7 @@
 )]
 
 pub mod command;
+pub mod law;
 pub mod linkage;
 pub mod number;
 pub mod select;

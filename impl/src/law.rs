@@ -1,0 +1,24 @@
+//! This file is what a control law is told and what it answers.
+
+use crate::command::Command;
+use crate::linkage::Linkage;
+use crate::vector::Vector;
+
+/// What a control law knows in one tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Situation<R> {
+    /// Where the arms are.
+    pub linkage: Linkage<R>,
+    /// The rows of the Jacobian, 1/m, A, E, B, C.
+    pub rows: [Vector<R>; 4],
+    /// Velocity of the tip, m/s.
+    pub tip_velocity_m_s: Vector<R>,
+    /// Force of the operator on the tip, N.
+    pub tip_force_n: Vector<R>,
+}
+
+/// A control law: one command a tick, whatever it is told, in bounded work.
+pub trait Law<R> {
+    /// What to ask of the brakes now.
+    fn command(&mut self, now: &Situation<R>) -> Command<R>;
+}
