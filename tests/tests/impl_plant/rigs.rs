@@ -73,7 +73,7 @@ impl Draw {
     }
 
     pub fn one_in(&mut self, many: u64) -> bool {
-        self.0.next_u64() % many == 0
+        self.0.next_u64().is_multiple_of(many)
     }
 
     /// Arms of a layout, or any.
