@@ -1,7 +1,9 @@
 //! This file says with which order the two schemes near the reference, with brakes switching, sticking and slipping.
 
 use rigproof_impl::plant::Scheme;
-use rigproof_model::rig::Rig;
+use rigproof_model::rig::{Parameters, Rig};
+use rigproof_spec::geometry::arms;
+use rigproof_spec::inertia::{Inertia, inertia};
 use rigproof_spec::layout::Layout;
 
 use crate::rigs::{LAYOUTS, advance, apart_rad, middle_m, plant_of};
@@ -56,6 +58,10 @@ fn error_rad(
 fn reference(layout: Layout, switching: bool) -> Vec<Rig> {
     let [x, y] = middle_m(layout);
     let rig = Rig::new(layout, [x + 0.061, y - 0.023]).unwrap();
+    run(rig, layout, switching)
+}
+
+fn run(rig: Rig, layout: Layout, switching: bool) -> Vec<Rig> {
     let mut rig = rig.with_longest_step_s(0.0625e-3).unwrap();
     let mut rigs = vec![rig.clone()];
     for k in 0..70 {
@@ -97,4 +103,33 @@ fn error_falls_with_the_square_of_the_step_also_through_stick_and_slip() {
             );
         }
     }
+}
+
+#[test]
+fn brakes_on_parallel_joints_hold_and_slip_as_in_the_reference() {
+    // Four brakes on the three-brake arms, whose joints E and C turn alike, with a payload.
+    let three = Layout::ThreeBrake;
+    let parameters = Parameters {
+        layout: Layout::FourBrake,
+        arms: arms(three),
+        inertia: Inertia {
+            payload_kg: 0.37,
+            ..inertia(three)
+        },
+    };
+    let angles = Rig::new(three, middle_m(three)).unwrap().base_angles_rad();
+    let rig = Rig::moving(parameters, angles, [0.0; 2]).unwrap();
+    let rigs = run(rig, Layout::FourBrake, true);
+    let both = rigs
+        .iter()
+        .filter(|rig| rig.stuck()[1] && rig.stuck()[3])
+        .count();
+    assert!(both > 1, "{both}");
+    let errors =
+        STEPS_S.map(|step_s| error_rad(Layout::FourBrake, true, Scheme::Midpoint, step_s, &rigs));
+    println!("{both} of {} with E and C held: {errors:?}", rigs.len());
+    assert!(
+        errors[1] < 1e-4 && errors[0] / errors[4] > 30.0,
+        "{errors:?}"
+    );
 }

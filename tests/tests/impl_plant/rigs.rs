@@ -21,9 +21,12 @@ pub fn middle_m(layout: Layout) -> [f64; 2] {
 
 /// The plant where a rig stands.
 pub fn plant_of(rig: &Rig, scheme: Scheme) -> Plant {
+    let of = rig.parameters();
     let parameters = Parameters {
+        arms: of.arms,
+        inertia: of.inertia,
         scheme,
-        ..Parameters::of(rig.parameters().layout)
+        ..Parameters::of(of.layout)
     };
     let angles = rig.base_angles_rad();
     Plant::new(&parameters, angles, rig.base_rates_rad_s(), &[]).unwrap()
