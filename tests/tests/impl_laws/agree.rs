@@ -95,6 +95,8 @@ fn campaign(first_seed: u64, ticks: u64, draw: fn(&mut Sampler) -> Tick) -> Tall
             tally
         })
         .reduce(Tally::default, Tally::join);
+    println!("rounding: {}", quantiles(&tally.rounding_a));
+    println!("amplified: {}", quantiles(&tally.amplified_a));
     println!(
         "{} ticks: {} the same, {} within rounding, {} amplified, ties {:?}, reasons {:?}",
         tally.ticks,
@@ -107,10 +109,26 @@ fn campaign(first_seed: u64, ticks: u64, draw: fn(&mut Sampler) -> Tick) -> Tall
     tally
 }
 
+/// The quantiles that a budget has, printed.
+pub fn quantiles(values: &[f64]) -> String {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let [q75, q99, max] = [0.75, 0.99, 1.0].map(|rank| {
+        let place = sorted.len().saturating_sub(1) as f64 * rank;
+        sorted.get(place as usize).copied().unwrap_or(f64::NAN)
+    });
+    format!("q75 {q75:e}, q99 {q99:e}, max {max:e}")
+}
+
 fn assert_none_wrong(tally: &Tally) {
-    if let Some(first) = tally.wrong.first() {
-        panic!("{} of {} ticks: {first}", tally.wrong.len(), tally.ticks);
-    }
+    let wrong: Vec<_> = tally.wrong.iter().take(5).cloned().collect();
+    let count = tally.wrong.len();
+    assert!(
+        count == 0,
+        "{count} of {} ticks: {}",
+        tally.ticks,
+        wrong.join("\n")
+    );
 }
 
 #[test]

@@ -6,3 +6,4 @@ mod both;
 mod budget;
 mod permitted;
 mod sample;
+mod single;
