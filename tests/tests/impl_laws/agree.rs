@@ -13,7 +13,7 @@ use crate::both::View;
 use crate::both::{reference_command, rig_law, situation};
 use crate::budget::assert_within_budget;
 use crate::permitted::{Permitted, Tie, permitted};
-use crate::sample::{Sampler, Tick};
+use crate::sample::{LawKind, Sampler, Tick};
 
 /// Ticks of one seed.
 const CHUNK: u64 = 1000;
@@ -184,4 +184,31 @@ fn a_planted_wrong_answer_is_reported() {
             );
         }
     }
+}
+
+//= thesis (6.11) test
+#[test]
+fn a_brake_whose_joint_stands_is_not_actuated_by_the_rig() {
+    let mut sampler = Sampler::new(31);
+    let (mut stood, mut by_reference) = (0, 0);
+    while stood < 4000 {
+        let mut tick = sampler.plain();
+        tick.law = LawKind::Proportional(5.3e3);
+        for (place, row) in situation::<f64>(&tick).rows.into_iter().enumerate() {
+            // At a right angle to the row, by a power of two: the products cancel exactly.
+            let across = row.left() * 0.031_25;
+            tick.velocity_m_s = across.into();
+            let Some(reference) = reference_command(&tick, View::EXACT) else {
+                continue;
+            };
+            assert_eq!(row.dot(across), 0.0);
+            let rig = Command::from(rig_law::<f64>(&tick).unwrap().command(&situation(&tick)));
+            let holds =
+                |command: Command| !command.reason.is_lock() && command.currents_a[place] > 0.0;
+            assert!(!holds(rig), "{rig:?} in {tick:?}");
+            stood += 1;
+            by_reference += u32::from(holds(reference));
+        }
+    }
+    assert!(by_reference > 100, "{by_reference} of {stood}");
 }

@@ -5,5 +5,6 @@ mod both;
 #[path = "../budget/mod.rs"]
 mod budget;
 mod permitted;
+mod properties;
 mod sample;
 mod single;
