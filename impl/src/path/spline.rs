@@ -7,8 +7,9 @@ use crate::vector::Vector;
 
 /// A smooth curve of at most `N` pieces: a centripetal Catmull-Rom spline (Yuksel, Schaefer and Keyser, Computer-Aided Design 43, 2011).
 ///
-/// Greatest work of a tick: for every piece at most 15 crossings of 16 steps each, 5 of them where the distance turns, and only where
-/// the signs of its Bernstein coefficients change more than once the others to part them (decision 0072). Pieces whose control points all lie farther away than some end of a piece are left out, which on most curves are all but one or two.
+/// Greatest work of a tick: for every piece at most 15 crossings of 16 steps each, 5 of them where the distance turns and, where the
+/// signs of its Bernstein coefficients change more than once, 10 to part those (decision 0072). A piece whose control points all lie
+/// farther away than the nearest end of any piece is left out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spline<R, const N: usize> {
     /// The pieces, without a gap from the first on.

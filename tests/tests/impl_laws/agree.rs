@@ -212,3 +212,27 @@ fn a_brake_whose_joint_stands_is_not_actuated_by_the_rig() {
     }
     assert!(by_reference > 100, "{by_reference} of {stood}");
 }
+
+#[test]
+fn two_currents_are_permitted_only_where_they_give_one_torque() {
+    // Brake E at 0.1985 A gives 4.32·0.1985 + 0.21 = 1.067 52 N·m, and at 0.201 491 A the quadratic piece gives the same.
+    let (mut sampler, mut nudger) = (Sampler::new(37), Sampler::new(41));
+    let tick = sampler.plain();
+    let at = |current_a: f64| Command {
+        currents_a: [0.0, current_a, 0.0, 0.0],
+        reason: Reason::Chosen(Joint::E),
+    };
+    let quadratic_a = {
+        let (k_3, k_4, k_5) = (-2.72, 9.37, -0.71 - 1.067_52);
+        (-k_4 + libm::sqrt(k_4 * k_4 - 4.0 * k_3 * k_5)) / (2.0 * k_3)
+    };
+    let verdict = permitted(&tick, Some(at(0.1985)), at(quadratic_a), &mut nudger);
+    assert_eq!(verdict, Ok(Permitted::Tie(Tie::CurrentStep)));
+    let verdict = permitted(
+        &tick,
+        Some(at(0.1985)),
+        at(quadratic_a + 2.3e-7),
+        &mut nudger,
+    );
+    assert!(verdict.is_err(), "{verdict:?}");
+}

@@ -10,6 +10,7 @@ use rigproof_impl::select::{GREATEST_INPUT, LEAST_ROW_SQUARED_PER_M2};
 use rigproof_model::brake::torque_gain;
 use rigproof_model::control::path::Nearest;
 use rigproof_spec::command::{Command, Reason};
+use rigproof_spec::geometry::Arms;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::settings::RATIO_GAIN_RANGE_NM_S_PER_RAD;
 
@@ -179,7 +180,13 @@ const KINDS: [Kind; 4] = [
         };
         // Now and then as the rig's code sees it, where zero may be exact.
         *view = match as_seen(tick, situation(tick).linkage.tip_m.into()) {
-            Some(seen) if nudger.nudge() < 0.0 => View::Given(seen),
+            Some(mut seen) if nudger.nudge() < 0.0 => {
+                if nudger.nudge() < 0.0 {
+                    let left = Vector2::new(-seen.tangent.y, seen.tangent.x);
+                    seen.tangent += left * (size * nudger.nudge());
+                }
+                View::Given(seen)
+            }
             _ => nudged,
         };
     }),
@@ -193,6 +200,11 @@ const KINDS: [Kind; 4] = [
         tick.base_rad = tick
             .base_rad
             .map(|angle_rad| angle_rad + size * nudger.nudge());
+        // Where the outer arms are all but stretched, the tip hardly depends on the angles, and all the more on the lengths.
+        let Arms { l_ed_m, l_cd_m, .. } = &mut tick.arms;
+        for length_m in [l_ed_m, l_cd_m] {
+            *length_m *= 1.0 + size * nudger.nudge();
+        }
     }),
 ];
 
