@@ -8,10 +8,15 @@
     clippy::indexing_slicing
 )]
 
+pub mod actuation;
 pub mod command;
+pub mod current;
 pub mod law;
 pub mod linkage;
 pub mod number;
 pub mod plant;
+pub mod path;
 pub mod select;
+mod setting;
+pub mod tip_mass;
 pub mod vector;

@@ -45,9 +45,23 @@ pub trait Real: Scalar + Div<Output = Self> {
     fn is_finite(self) -> bool;
 }
 
+/// The smaller of two numbers; the second if the first is none.
+pub(crate) fn least<S: Scalar>(one: S, other: S) -> S {
+    if one < other { one } else { other }
+}
+
 impl Scalar for f64 {
     fn of(constant: f64) -> f64 {
         constant
+    }
+
+    // The same answers as the trait's, each in one comparison.
+    fn magnitude(self) -> f64 {
+        self.abs()
+    }
+
+    fn is_within(self, bound: f64) -> bool {
+        self.abs() <= bound
     }
 }
 
@@ -76,6 +90,14 @@ impl Real for f64 {
 impl Scalar for f32 {
     fn of(constant: f64) -> f32 {
         constant as f32
+    }
+
+    fn magnitude(self) -> f32 {
+        self.abs()
+    }
+
+    fn is_within(self, bound: f32) -> bool {
+        self.abs() <= bound
     }
 }
 
