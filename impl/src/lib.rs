@@ -9,8 +9,12 @@
 )]
 
 pub mod command;
+pub mod encoder;
+pub mod guard;
 pub mod law;
 pub mod linkage;
 pub mod number;
 pub mod select;
+pub mod tick;
 pub mod vector;
+pub mod velocity;
