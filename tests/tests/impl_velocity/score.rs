@@ -11,7 +11,7 @@ const WARM_UP: usize = 80;
 /// Samples into a rest from which an estimate must be zero.
 const SETTLED: usize = 50;
 /// Largest delay that is looked for, samples.
-const LONGEST_DELAY: usize = 40;
+const LONGEST_DELAY: usize = 31;
 
 /// How far an estimator is from the truth.
 #[derive(Clone, Debug)]
