@@ -5,6 +5,7 @@ use rigproof_spec::geometry::{Arms, arms};
 use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
 use rigproof_spec::methods::SAMPLE_STEP_S;
+use rigproof_spec::settings::{LONGEST_ARM_M, SHORTEST_ARM_M};
 
 use crate::command::Command;
 use crate::encoder::{COUNTS_PER_TURN, Encoder};
@@ -50,6 +51,13 @@ pub const GREATEST_RATE_RAD_S: f64 = 30.0;
 /// Tip force beyond which a sensor is not believed: ten times what the thesis asks of a brake (decision 0074), N.
 pub const GREATEST_FORCE_N: f64 = 200.0;
 
+/// Time from one sample to the next that is taken, s.
+pub const SAMPLE_RANGE_S: [f64; 2] = [1e-6, 1.0];
+/// Greatest rates that are taken, rad/s.
+pub const GREATEST_RATE_RANGE_RAD_S: [f64; 2] = [1e-3, 1e4];
+/// Greatest forces that are taken, N.
+pub const GREATEST_FORCE_RANGE_N: [f64; 2] = [1e-3, 1e6];
+
 impl Settings {
     /// The thesis's rig (tables 4.1 and 4.2, §4.6, §6.5.1).
     pub const fn thesis(layout: Layout) -> Settings {
@@ -73,14 +81,14 @@ impl Settings {
             l_cd_m,
             l_ab_m,
         } = self.arms;
-        let lengths = [l_ae_m, l_ed_m, l_bc_m, l_cd_m];
-        lengths
+        let inside = |value: f64, [least, greatest]: [f64; 2]| (least..=greatest).contains(&value);
+        [l_ae_m, l_ed_m, l_bc_m, l_cd_m]
             .into_iter()
-            .all(|length| (1e-6..=300.0).contains(&length))
-            && (0.0..=300.0).contains(&l_ab_m)
-            && (1e-6..=1.0).contains(&self.sample_s)
-            && (1e-3..=1e4).contains(&self.greatest_rate_rad_s)
-            && (1e-3..=1e6).contains(&self.greatest_force_n)
+            .all(|length_m| inside(length_m, [SHORTEST_ARM_M, LONGEST_ARM_M]))
+            && inside(l_ab_m, [0.0, LONGEST_ARM_M])
+            && inside(self.sample_s, SAMPLE_RANGE_S)
+            && inside(self.greatest_rate_rad_s, GREATEST_RATE_RANGE_RAD_S)
+            && inside(self.greatest_force_n, GREATEST_FORCE_RANGE_N)
     }
 }
 
@@ -99,8 +107,8 @@ pub struct Tick<R, L> {
 impl<R: Real, L: Law<R>> Tick<R, L> {
     /// A controller that has seen nothing; `None` for settings that no rig has.
     ///
-    /// Arms from 10⁻⁶ to 300 m (`L_AB` from 0), 1 to 2²⁴ counts a turn, a sample of 10⁻⁶ to 1 s, a greatest rate of 10⁻³ to 10⁴ rad/s
-    /// and a greatest force of 10⁻³ to 10⁶ N are taken.
+    /// Taken are arms from [`SHORTEST_ARM_M`] to [`LONGEST_ARM_M`] (`L_AB` from 0), 1 to 2²⁴ counts a turn, and what lies inside
+    /// [`SAMPLE_RANGE_S`], [`GREATEST_RATE_RANGE_RAD_S`] and [`GREATEST_FORCE_RANGE_N`].
     pub fn new(settings: &Settings, law: L) -> Option<Tick<R, L>> {
         if !settings.are_sound() {
             return None;

@@ -19,7 +19,7 @@ pub struct Score {
     /// Root mean square error of the base joints' rates, rad/s.
     pub rms: f64,
     /// Greatest error, rad/s.
-    worst: f64,
+    pub worst: f64,
     /// Shift of the truth that fits best, ms.
     delay_ms: f64,
     /// Share of the samples of a turning joint (A, E, B, C) whose estimate turns the other way.
