@@ -1,8 +1,4 @@
 //! This file times a tick of the controller, and its estimator of velocity alone. Each number is of one tick of a moving tip.
-#![expect(
-    missing_docs,
-    reason = "criterion_group makes an undocumented function"
-)]
 
 use std::f64::consts::TAU;
 use std::hint::black_box;
