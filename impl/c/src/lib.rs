@@ -8,13 +8,13 @@
 #[cfg(feature = "std")]
 extern crate std;
 
-mod law;
 mod settings;
 mod words;
 
+use rigproof_impl::law::PathLaw;
+use rigproof_impl::path::AnyPath;
 use rigproof_impl::tick::{Sensed, Tick};
 
-use law::AnyLaw;
 pub use settings::{RIGPROOF_MOST_CORNERS, RigproofTickSettings, rigproof_tick_thesis};
 pub use words::{
     RigproofTickCommand, RigproofTickLaw, RigproofTickReason, RigproofTickSensed,
@@ -37,7 +37,7 @@ pub struct RigproofTick {
 }
 
 /// What lies in the words.
-type Controller = Tick<f64, AnyLaw>;
+type Controller = Tick<f64, PathLaw<f64, AnyPath<f64, RIGPROOF_MOST_CORNERS>>>;
 
 const _: () = assert!(
     size_of::<Controller>() <= 8 * RIGPROOF_TICK_WORDS

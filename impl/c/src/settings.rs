@@ -1,13 +1,13 @@
 //! This file turns the settings that a program in C gives into a controller, or refuses them.
 
 use rigproof_impl::actuation::Actuation;
-use rigproof_impl::law::{Proportional, Sdof, Uncontrolled};
+use rigproof_impl::law::{PathLaw, Proportional, Sdof, Uncontrolled};
+use rigproof_impl::path::{AnyPath, Line, Polyline};
 use rigproof_impl::tick::{Settings, Tick};
 use rigproof_spec::geometry::Arms;
 use rigproof_spec::layout::Layout;
 use rigproof_spec::methods::{BLEND_BOUNDARY_M, greatest_desired_force_n};
 
-use crate::law::{AnyLaw, AnyPath};
 use crate::words::RigproofTickLaw;
 use crate::{Controller, RIGPROOF_TICK_VERSION, RigproofTickStatus, is_usable};
 
@@ -108,29 +108,36 @@ impl RigproofTickSettings {
         Tick::new(&settings, self.law(layout, &settings.arms)?)
     }
 
-    fn law(&self, layout: Layout, arms: &Arms) -> Option<AnyLaw> {
+    fn path(&self) -> Option<ChosenPath> {
+        let corners_m = self.corners_m.get(..self.corners as usize)?;
+        match (self.closed, corners_m) {
+            (0, [from_m, to_m]) => Some(AnyPath::Line(Line::through(*from_m, *to_m)?)),
+            (0, _) => Some(AnyPath::Polyline(Polyline::open(corners_m)?)),
+            (1, _) => Some(AnyPath::Polyline(Polyline::closed(corners_m)?)),
+            _ => None,
+        }
+    }
+
+    fn law(&self, layout: Layout, arms: &Arms) -> Option<PathLaw<f64, ChosenPath>> {
         if self.law == RigproofTickLaw::Uncontrolled as u32 {
-            return Some(AnyLaw::Uncontrolled(Uncontrolled));
+            return Some(PathLaw::Uncontrolled(Uncontrolled));
         }
         let actuation = Actuation::new(layout, arms, self.greatest_desired_force_n)?;
-        let corners_m = self.corners_m.get(..self.corners as usize)?;
-        let closed = match self.closed {
-            0 => false,
-            1 => true,
-            _ => return None,
-        };
-        let path = AnyPath::through(corners_m, closed)?;
+        let path = self.path()?;
         if self.law == RigproofTickLaw::Proportional as u32 {
             let law = Proportional::new(actuation, path, self.boundary_m, self.gain_n_s_per_m)?;
-            Some(AnyLaw::Proportional(law))
+            Some(PathLaw::Proportional(law))
         } else if self.law == RigproofTickLaw::Sdof as u32 {
             let law = Sdof::new(actuation, path, self.boundary_m, self.gap_m)?;
-            Some(AnyLaw::Sdof(law))
+            Some(PathLaw::Sdof(law))
         } else {
             None
         }
     }
 }
+
+/// A path that C can describe.
+type ChosenPath = AnyPath<f64, RIGPROOF_MOST_CORNERS>;
 
 /// The layout with so many brakes.
 fn layout(brakes: u32) -> Option<Layout> {
