@@ -23,6 +23,9 @@ use rigproof_spec::units::M_PER_CM;
 
 use crate::budget::assert_within_budget;
 
+/// A joint that turns slower than this share of the fastest one stands, in double precision.
+pub const STANDING: f64 = 1e-12;
+
 /// One trial: which rig, line and method, and which operator.
 #[derive(Clone, Copy, Debug)]
 pub struct Trial {
@@ -53,7 +56,7 @@ pub fn trials(seed: u64) -> Vec<Trial> {
 }
 
 /// A tick with the trial's law.
-pub fn tick<R: Real>(trial: &Trial) -> impl FnMut(&Sample<R>) -> Command {
+pub fn tick<R: Real + 'static>(trial: &Trial) -> impl FnMut(&Sample<R>) -> Command + use<R> {
     let line = TickLine::<R>::through(trial.segment.from_m, trial.segment.to_m).unwrap();
     let actuation = TickActuation::<R>::thesis(trial.layout);
     let law: Box<dyn Law<R>> = match trial.method.setting() {
@@ -113,7 +116,7 @@ pub fn run(trial: &Trial, watch: &mut dyn FnMut(&Sample<f64>, Command)) {
 }
 
 /// The reference's controller with the reference's estimator of velocity in front of it.
-struct Reference {
+pub struct Reference {
     trial: Trial,
     encoder: Encoder,
     estimators: Option<[AdaptiveWindow; 2]>,
@@ -121,7 +124,7 @@ struct Reference {
 }
 
 impl Reference {
-    fn new(trial: Trial) -> Reference {
+    pub fn new(trial: Trial) -> Reference {
         let line = Line::through(trial.segment.from_m, trial.segment.to_m).unwrap();
         let actuation = Actuation::thesis(trial.layout);
         Reference {
@@ -132,7 +135,8 @@ impl Reference {
         }
     }
 
-    fn command(&mut self, sample: &Sample<f64>) -> Command {
+    /// What it asks for, and how slowly the slowest braked joint turns as a share of the fastest one.
+    pub fn command(&mut self, sample: &Sample<f64>) -> (Command, f64) {
         let counts = sample.counts.map(i64::from);
         let encoder = self.encoder;
         let estimators = self.estimators.get_or_insert_with(|| {
@@ -144,12 +148,19 @@ impl Reference {
         let [theta_a, theta_b] = counts.map(|count| count as f64 * encoder.resolution_rad());
         let pose = forward::pose(&arms, theta_a, theta_b).unwrap();
         let form = two_coordinate(&arms, &inertia(self.trial.layout), &pose, rates_rad_s);
-        self.controller.command(&Sensed {
+        let omega_rad_s = form.joint_rates_rad_s(rates_rad_s);
+        let command = self.controller.command(&Sensed {
             pose,
             tip_velocity_m_s: form.tip_velocity_m_s(rates_rad_s),
-            omega_rad_s: form.joint_rates_rad_s(rates_rad_s),
+            omega_rad_s,
             tip_force_n: sample.tip_force_n.into(),
-        })
+        });
+        let braked = self.trial.layout.brakes();
+        let speeds = braked
+            .iter()
+            .map(|joint| omega_rad_s[*joint as usize].abs());
+        let fastest = speeds.clone().fold(f64::MIN_POSITIVE, f64::max);
+        (command, speeds.fold(f64::INFINITY, f64::min) / fastest)
     }
 }
 
@@ -161,7 +172,7 @@ fn inside_the_loop_tick_and_reference_decide_alike() {
             let mut reference = Reference::new(trial);
             let (mut asked, mut apart, mut differences) = (0, 0, Vec::new());
             run(&trial, &mut |sample, command| {
-                let expected = reference.command(sample);
+                let (expected, slowest) = reference.command(sample);
                 if command.reason == Reason::Starting {
                     return;
                 }
@@ -170,7 +181,12 @@ fn inside_the_loop_tick_and_reference_decide_alike() {
                     let pairs = command.currents_a.into_iter().zip(expected.currents_a);
                     differences.extend(pairs.map(|(a, b)| (a - b).abs()));
                 } else {
-                    // The exception of the tie checker: a joint that stands exactly is not actuated.
+                    // The one tie of this loop: a joint that stands has no sign to be braked against, but its row of the Jacobian
+                    // times the tip's velocity has one, of rounding.
+                    assert!(
+                        slowest < STANDING,
+                        "{command:?} {expected:?} {slowest:e} {trial:?}"
+                    );
                     apart += 1;
                 }
             });
@@ -181,7 +197,7 @@ fn inside_the_loop_tick_and_reference_decide_alike() {
     let apart: u64 = outcomes.iter().map(|(_, apart, _)| apart).sum();
     println!("{asked} ticks inside the loop, {apart} decided otherwise");
     assert!(asked > 20_000);
-    assert!(1000 * apart <= asked, "{apart} of {asked}");
+    assert!(20 * apart <= asked, "{apart} of {asked}");
     let differences = outcomes
         .into_iter()
         .flat_map(|(.., differences)| differences);

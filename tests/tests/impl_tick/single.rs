@@ -12,7 +12,10 @@ use rigproof_spec::geometry::arms;
 use rigproof_spec::methods::SAMPLE_STEP_S;
 
 use crate::budget::assert_within_budget;
-use crate::closed_loop::{Trial, run, tick, trials};
+use crate::closed_loop::{Reference, Trial, run, tick, trials};
+
+/// A joint that turns slower than this share of the fastest one stands, in single precision.
+const STANDING: f64 = 1e-5;
 
 /// What is sensed, in single precision: the counts are the same.
 fn single(sample: &Sensed<f64>) -> Sensed<f32> {
@@ -63,19 +66,22 @@ struct Apart {
     velocity_m_s: Vec<f64>,
     current_a: Vec<f64>,
     decisions: Vec<f64>,
+    standing: Vec<f64>,
 }
 
 fn watched(trial: &Trial) -> Apart {
     let mut narrow = tick::<f32>(trial);
     let (mut wide_seen, mut narrow_seen) = (Seen::<f64>::new(trial), Seen::<f32>::new(trial));
     let mut apart = Apart::default();
-    let (mut asked, mut otherwise) = (0.0, 0.0);
+    let (mut asked, mut otherwise, mut standing) = (0.0, 0.0, 0.0);
+    let mut reference = Reference::new(*trial);
     run(trial, &mut |sample, command| {
         let [angles, tips, velocities] = {
             let (one, other) = (wide_seen.of(sample.counts), narrow_seen.of(sample.counts));
             [0, 1, 2].map(|i| [0, 1].map(|j| (one[i][j] - other[i][j]).abs()))
         };
         let narrow = narrow(&single(sample));
+        let (_, slowest) = reference.command(sample);
         if command.reason == Reason::Starting {
             return;
         }
@@ -86,10 +92,13 @@ fn watched(trial: &Trial) -> Apart {
         if narrow.reason == command.reason {
             let pairs = narrow.currents_a.into_iter().zip(command.currents_a);
             apart.current_a.extend(pairs.map(|(a, b)| (a - b).abs()));
+        } else if slowest < STANDING {
+            standing += 1.0;
         } else {
             otherwise += 1.0;
         }
     });
+    apart.standing.push(standing / asked);
     apart.decisions.push(otherwise / asked);
     apart
 }
@@ -115,4 +124,5 @@ fn single_precision_keeps_every_count_and_nearly_every_decision() {
     assert_within_budget("tick_f32_velocity", of(|apart| &apart.velocity_m_s));
     assert_within_budget("tick_f32_current", of(|apart| &apart.current_a));
     assert_within_budget("tick_f32_decisions", of(|apart| &apart.decisions));
+    assert_within_budget("tick_f32_standing", of(|apart| &apart.standing));
 }
