@@ -8,7 +8,7 @@ use crate::number::{Real, least};
 ///
 /// # Differs from the thesis
 ///
-/// As the reference: of the two currents of a torque inside the step at 0.2 A the smaller one (gap `gain-inverse`).
+/// Of the two currents of a torque inside the step at 0.2 A the smaller one (gap `gain-inverse`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CurrentGain<R> {
     off_state_nm: R,

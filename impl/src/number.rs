@@ -54,6 +54,15 @@ impl Scalar for f64 {
     fn of(constant: f64) -> f64 {
         constant
     }
+
+    // The same answers as the trait's, each in one comparison.
+    fn magnitude(self) -> f64 {
+        self.abs()
+    }
+
+    fn is_within(self, bound: f64) -> bool {
+        self.abs() <= bound
+    }
 }
 
 impl Real for f64 {
@@ -81,6 +90,14 @@ impl Real for f64 {
 impl Scalar for f32 {
     fn of(constant: f64) -> f32 {
         constant as f32
+    }
+
+    fn magnitude(self) -> f32 {
+        self.abs()
+    }
+
+    fn is_within(self, bound: f32) -> bool {
+        self.abs() <= bound
     }
 }
 

@@ -13,7 +13,7 @@ use crate::both::View;
 use crate::both::{reference_command, rig_law, situation};
 use crate::budget::assert_within_budget;
 use crate::permitted::{Permitted, Tie, permitted};
-use crate::sample::{Sampler, Tick};
+use crate::sample::{LawKind, Sampler, Tick};
 
 /// Ticks of one seed.
 const CHUNK: u64 = 1000;
@@ -95,6 +95,8 @@ fn campaign(first_seed: u64, ticks: u64, draw: fn(&mut Sampler) -> Tick) -> Tall
             tally
         })
         .reduce(Tally::default, Tally::join);
+    println!("rounding: {}", quantiles(&tally.rounding_a));
+    println!("amplified: {}", quantiles(&tally.amplified_a));
     println!(
         "{} ticks: {} the same, {} within rounding, {} amplified, ties {:?}, reasons {:?}",
         tally.ticks,
@@ -107,10 +109,26 @@ fn campaign(first_seed: u64, ticks: u64, draw: fn(&mut Sampler) -> Tick) -> Tall
     tally
 }
 
+/// The quantiles that a budget has, printed.
+pub fn quantiles(values: &[f64]) -> String {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let [q75, q99, max] = [0.75, 0.99, 1.0].map(|rank| {
+        let place = sorted.len().saturating_sub(1) as f64 * rank;
+        sorted.get(place as usize).copied().unwrap_or(f64::NAN)
+    });
+    format!("q75 {q75:e}, q99 {q99:e}, max {max:e}")
+}
+
 fn assert_none_wrong(tally: &Tally) {
-    if let Some(first) = tally.wrong.first() {
-        panic!("{} of {} ticks: {first}", tally.wrong.len(), tally.ticks);
-    }
+    let wrong: Vec<_> = tally.wrong.iter().take(5).cloned().collect();
+    let count = tally.wrong.len();
+    assert!(
+        count == 0,
+        "{count} of {} ticks: {}",
+        tally.ticks,
+        wrong.join("\n")
+    );
 }
 
 #[test]
@@ -166,4 +184,31 @@ fn a_planted_wrong_answer_is_reported() {
             );
         }
     }
+}
+
+//= thesis (6.11) test
+#[test]
+fn a_brake_whose_joint_stands_is_not_actuated_by_the_rig() {
+    let mut sampler = Sampler::new(31);
+    let (mut stood, mut by_reference) = (0, 0);
+    while stood < 4000 {
+        let mut tick = sampler.plain();
+        tick.law = LawKind::Proportional(5.3e3);
+        for (place, row) in situation::<f64>(&tick).rows.into_iter().enumerate() {
+            // At a right angle to the row, by a power of two: the products cancel exactly.
+            let across = row.left() * 0.031_25;
+            tick.velocity_m_s = across.into();
+            let Some(reference) = reference_command(&tick, View::EXACT) else {
+                continue;
+            };
+            assert_eq!(row.dot(across), 0.0);
+            let rig = Command::from(rig_law::<f64>(&tick).unwrap().command(&situation(&tick)));
+            let holds =
+                |command: Command| !command.reason.is_lock() && command.currents_a[place] > 0.0;
+            assert!(!holds(rig), "{rig:?} in {tick:?}");
+            stood += 1;
+            by_reference += u32::from(holds(reference));
+        }
+    }
+    assert!(by_reference > 100, "{by_reference} of {stood}");
 }

@@ -103,6 +103,8 @@ pub fn reference_distance_m(tick: &Tick) -> Option<f64> {
 pub fn reference(tick: &Tick, view: View) -> Result<Box<dyn Controller>, ModelError> {
     let actuation = Actuation::new(tick.layout, tick.arms, tick.limit_n)?;
     let path = || Ok(Seen(reference_path(&tick.path)?, view));
+    // A law without a path is not compared on one that is refused.
+    path()?;
     let boundary_m = tick.boundary_m;
     let parameters = Parameters {
         layout: tick.layout,

@@ -5,5 +5,7 @@ mod both;
 #[path = "../budget/mod.rs"]
 mod budget;
 mod permitted;
+mod properties;
 mod sample;
+mod single;
 mod ticks;

@@ -1,7 +1,7 @@
 //! This file says where the rig's code may answer otherwise than the reference, and checks that it does so nowhere else.
 //!
 //! A tie is a tick whose decision turns within rounding: the reference itself takes the rig's decision when one of its inputs is nudged by
-//! at most [`NUDGES`] of itself. Nothing else is called a tie but the four exceptions that [`Tie`] names, each with its own check.
+//! at most [`NUDGES`] of itself. Nothing else is called a tie but the exceptions that [`Tie`] names, each with its own check.
 
 use nalgebra::Vector2;
 use rigproof_impl::law::Situation;
@@ -11,16 +11,21 @@ use rigproof_model::brake::torque_gain;
 use rigproof_model::control::path::Nearest;
 use rigproof_spec::command::{Command, Reason};
 use rigproof_spec::joint::Joint;
+use rigproof_spec::settings::RATIO_GAIN_RANGE_NM_S_PER_RAD;
 
 use crate::both::{View, reference_command, reference_path, reference_tip, rig_path, situation};
-use crate::sample::{Sampler, Tick};
+use crate::sample::{LawKind, Sampler, Tick};
 
 /// Sizes of the nudges, relative to what is nudged; of an angle, rad, of the distance from the path, m.
 const NUDGES: [f64; 3] = [1e-15, 3e-14, 1e-12];
+/// A nudge of the last one or two digits.
+const LAST_DIGITS: f64 = 1e-14;
 /// Nudges of each kind and size that are tried.
-const TRIES: u32 = 24;
+const TRIES: u32 = 100;
 /// Currents that count as equal, A; how near they are in fact stands in `tests/budgets.toml`.
 const EQUAL_A: f64 = 1e-8;
+/// How far beyond the currents of nudged ticks a current may lie, A.
+const AMONG_A: f64 = 1e-7;
 /// How far two torques may be apart that are one before the current gain, N·m.
 const EQUAL_NM: f64 = 1e-7;
 /// How far two feet may be from the path, and their distances from each other, m.
@@ -35,7 +40,8 @@ pub enum Permitted {
     Same,
     /// The same decision; the currents differ by this much, A.
     Rounding(f64),
-    /// The same decision in a pose so near a singularity that nudging it by a last digit moves the reference's currents as much.
+    /// The same decision where nudging the tick by [`LAST_DIGITS`] moves the reference's currents as much: near a singularity, or where a
+    /// great gain multiplies the rounding of a great velocity.
     Amplified(f64),
     /// Another decision, or another of two currents, where the decision turns.
     Tie(Tie),
@@ -60,6 +66,8 @@ pub enum Tie {
     CurrentStep,
     /// Exception: a braked joint stands exactly, and the rig's code does not actuate it (gap `joint-at-rest`).
     JointAtRest,
+    /// Exception: velocity ratio control finds both ratios equal, the reference all but equal.
+    Even,
     /// Exception: an input beyond what the rig's code takes, which lets go.
     Gate,
     /// Exception: a velocity or a push so small that its square loses digits.
@@ -88,22 +96,28 @@ pub fn permitted(
         if is_step(&reference, &rig) {
             return Ok(Permitted::Tie(Tie::CurrentStep));
         }
-        if nudged(tick, &KINDS, NUDGES[0], nudger).any(|other| {
-            other.reason == rig.reason && apart_a <= 8.0 * self::apart_a(&reference, &other)
-        }) {
+        if nudged(tick, &KINDS, LAST_DIGITS, nudger)
+            .any(|other| other.reason == rig.reason && apart_a <= self::apart_a(&reference, &other))
+        {
             return Ok(Permitted::Amplified(apart_a));
         }
     }
     if is_beyond(&now) && rig == Command::none(Reason::UndefinedInput) {
         return Ok(Permitted::Tie(Tie::Gate));
     }
-    if let Some(nearest) = other_foot(tick)
-        && agrees(reference_command(tick, View::Given(nearest)), &rig)
+    if let Some(tip_m) = reference_tip(tick)
+        && let Some(nearest) = as_seen(tick, tip_m)
+        && let Some(other) = reference_command(tick, View::Given(nearest))
+        && other.reason == rig.reason
+        && self::apart_a(&other, &rig) <= AMONG_A
     {
         return Ok(Permitted::Tie(Tie::Foot));
     }
     if let Some(tie) = tie(tick, &rig, nudger) {
         return Ok(Permitted::Tie(tie));
+    }
+    if rig == Command::none(Reason::NothingToDo) && is_even(tick) {
+        return Ok(Permitted::Tie(Tie::Even));
     }
     if stands(tick, &now) {
         return Ok(Permitted::Tie(Tie::JointAtRest));
@@ -131,16 +145,25 @@ fn without_pose(tick: &Tick, rig: Command, nudger: &mut Sampler) -> Result<Permi
     }
 }
 
-/// The first kind of nudge, of the smallest size, with which the reference decides as the rig's code.
+/// The first kind of nudge, of the smallest size, with which the reference decides as the rig's code; the rig's currents lie among
+/// those that it then asks for.
 fn tie(tick: &Tick, rig: &Command, nudger: &mut Sampler) -> Option<Tie> {
     let each = KINDS.map(|kind| (kind.0, vec![kind]));
     let kinds = each.into_iter().chain([(Tie::Together, KINDS.to_vec())]);
     let kinds: Vec<_> = kinds.collect();
     NUDGES.into_iter().find_map(|size| {
         kinds.iter().find_map(|(tie, kinds)| {
-            nudged(tick, kinds, size, nudger)
-                .any(|other| agrees(Some(other), rig))
-                .then_some(*tie)
+            let mut ranges_a = [(f64::INFINITY, f64::NEG_INFINITY); 4];
+            let others = nudged(tick, kinds, size, nudger);
+            for other in others.filter(|other| other.reason == rig.reason) {
+                for ((least, greatest), current_a) in ranges_a.iter_mut().zip(other.currents_a) {
+                    *least = least.min(current_a - AMONG_A);
+                    *greatest = greatest.max(current_a + AMONG_A);
+                }
+            }
+            let among = |((least, greatest), current_a)| (least..=greatest).contains(&current_a);
+            let all = ranges_a.into_iter().zip(rig.currents_a).all(among);
+            all.then_some(*tie)
         })
     })
 }
@@ -149,10 +172,15 @@ fn tie(tick: &Tick, rig: &Command, nudger: &mut Sampler) -> Option<Tie> {
 type Kind = (Tie, fn(&mut Tick, &mut View, f64, &mut Sampler));
 
 const KINDS: [Kind; 4] = [
-    (Tie::Path, |_, view, size, nudger| {
-        *view = View::Nudged {
+    (Tie::Path, |tick, view, size, nudger| {
+        let nudged = View::Nudged {
             offset_m: size * nudger.nudge(),
             turn_rad: size * nudger.nudge(),
+        };
+        // Now and then as the rig's code sees it, where zero may be exact.
+        *view = match as_seen(tick, situation(tick).linkage.tip_m.into()) {
+            Some(seen) if nudger.nudge() < 0.0 => View::Given(seen),
+            _ => nudged,
         };
     }),
     (Tie::Push, |tick, _, size, nudger| {
@@ -190,13 +218,6 @@ fn nudged<'a>(
     })
 }
 
-/// Whether a command is the same decision with currents as near as the conditioning of a nudged tick lets them be.
-fn agrees(reference: Option<Command>, rig: &Command) -> bool {
-    reference.is_some_and(|reference| {
-        reference.reason == rig.reason && apart_a(&reference, rig) <= 100.0 * EQUAL_A
-    })
-}
-
 /// The greatest difference of two commands' currents, A; infinite where one is undefined.
 fn apart_a(one: &Command, other: &Command) -> f64 {
     let pairs = one.currents_a.iter().zip(other.currents_a);
@@ -222,6 +243,16 @@ fn is_step(one: &Command, other: &Command) -> bool {
     })
 }
 
+/// Whether no link is faster than its share by a speed for which even the greatest gain asks for a current.
+fn is_even(tick: &Tick) -> bool {
+    let LawKind::Ratio(_) = tick.law else {
+        return false;
+    };
+    let mut strongest = tick.clone();
+    strongest.law = LawKind::Ratio(RATIO_GAIN_RANGE_NM_S_PER_RAD[1]);
+    reference_command(&strongest, View::EXACT).is_some_and(|command| command.currents_a == [0.0; 4])
+}
+
 /// Whether an input lies beyond what the rig's code takes.
 fn is_beyond(now: &Situation<f64>) -> bool {
     let rows = now.rows;
@@ -243,9 +274,8 @@ fn is_beyond(now: &Situation<f64>) -> bool {
             .any(|vector| beyond(vector.into()))
 }
 
-/// The nearest point that the rig's code sees, if it is another one than the reference's and as near, on the path.
-fn other_foot(tick: &Tick) -> Option<Nearest> {
-    let tip_m = reference_tip(tick)?;
+/// The nearest point of the path as the rig's code sees it, if the reference finds it on the path and as near as its own.
+fn as_seen(tick: &Tick, tip_m: [f64; 2]) -> Option<Nearest> {
     let path = reference_path(&tick.path).ok()?;
     let seen = rig_path::<f64>(&tick.path)?.nearest(tip_m.into());
     let tangent = Vector2::from(<[f64; 2]>::from(seen.tangent));

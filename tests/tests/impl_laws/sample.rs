@@ -4,6 +4,7 @@ use core::f64::consts::PI;
 
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
+use rigproof_model::linkage::forward;
 use rigproof_spec::geometry::{Arms, arms};
 use rigproof_spec::layout::Layout;
 use rigproof_spec::methods::greatest_desired_force_n;
@@ -88,6 +89,7 @@ impl Sampler {
                 l_ab_m: self.between(0.0, 0.43),
             };
         }
+        let base_rad = self.base_rad(&lengths);
         let boundary_m = self.magnitude(-3.1, -0.3);
         let speed_m_s = self.magnitude(-3.7, 0.2);
         let push_n = self.magnitude(-1.3, 1.9);
@@ -99,7 +101,7 @@ impl Sampler {
             } else {
                 greatest_desired_force_n(layout)
             },
-            base_rad: [self.between(0.18, 3.17), self.between(-0.07, 2.99)],
+            base_rad,
             velocity_m_s: self.polar(speed_m_s),
             force_n: self.polar(push_n),
             path: self.path(),
@@ -111,6 +113,18 @@ impl Sampler {
                 None
             },
         }
+    }
+
+    /// Base angles, rad, at which the arms mostly close.
+    fn base_rad(&mut self, lengths: &Arms) -> [f64; 2] {
+        let mut base_rad = [0.0; 2];
+        for _ in 0..6 {
+            base_rad = [self.between(0.18, 3.17), self.between(-0.07, 2.99)];
+            if forward::pose(lengths, base_rad[0], base_rad[1]).is_ok() {
+                break;
+            }
+        }
+        base_rad
     }
 
     fn point(&mut self) -> [f64; 2] {
@@ -208,7 +222,13 @@ impl Sampler {
             f64::INFINITY,
             f64::NAN,
         ];
-        [self.pick(&all), self.pick(&all)]
+        let usual = [0.0, -0.0, -1.0, 0.37];
+        let [first, second] = [self.pick(&all), self.pick(&usual)];
+        if self.one_in(2) {
+            [first, second]
+        } else {
+            [second, first]
+        }
     }
 
     fn angle(&mut self) -> f64 {
@@ -218,7 +238,7 @@ impl Sampler {
             0.5 * PI,
             PI,
             -0.5 * PI,
-            1e17,
+            27.3,
             2.07,
             f64::NAN,
             f64::INFINITY,
