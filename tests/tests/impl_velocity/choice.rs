@@ -127,12 +127,14 @@ fn inside_the_loop_the_chosen_estimator_has_the_least_worst_error_of_all_that_fi
         println!("  {:25} {score}", format!("{candidate:?}"));
         scores.push(score);
     }
-    let (rms, wrong_sign) = worst.pop().unwrap();
-    assert!(
-        worst
-            .iter()
-            .all(|other| rms <= 1.1 * other.0 && wrong_sign <= other.1)
-    );
+    let [difference, filters @ .., chosen] = scores.as_slice() else {
+        unreachable!()
+    };
+    assert!(chosen.restless == 0.0 && chosen.rms < 0.5 * difference.rms);
+    for other in filters {
+        assert!(chosen.rms <= 1.25 * other.rms && chosen.worst < other.worst);
+        assert!(chosen.wrong_sign <= 1.05 * other.wrong_sign);
+    }
 }
 
 fn in_the_loop(
