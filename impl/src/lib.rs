@@ -11,6 +11,8 @@
 pub mod actuation;
 pub mod command;
 pub mod current;
+pub mod encoder;
+pub mod guard;
 pub mod law;
 pub mod linkage;
 pub mod number;
@@ -18,5 +20,7 @@ pub mod plant;
 pub mod path;
 pub mod select;
 mod setting;
+pub mod tick;
 pub mod tip_mass;
 pub mod vector;
+pub mod velocity;

@@ -8,3 +8,4 @@ mod permitted;
 mod properties;
 mod sample;
 mod single;
+mod ticks;
