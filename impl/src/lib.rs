@@ -8,6 +8,8 @@
     clippy::indexing_slicing
 )]
 
+#[cfg(feature = "batch")]
+pub mod batch;
 pub mod command;
 pub mod law;
 pub mod linkage;

@@ -9,6 +9,7 @@ pub const GREATEST_TURN_RAD: f64 = 0.25;
 /// A vector turned by a small angle, rad, to the left: sine to the 11th power, cosine to the 12th.
 ///
 /// What is left out is at most 2.4e-18 of the length at [`GREATEST_TURN_RAD`].
+#[inline(always)]
 pub fn turned<R: Real>(vector: Vector<R>, angle_rad: R) -> Vector<R> {
     let square = angle_rad * angle_rad;
     let sine = angle_rad
@@ -38,6 +39,7 @@ pub fn turned<R: Real>(vector: Vector<R>, angle_rad: R) -> Vector<R> {
 }
 
 /// A vector of nearly length one with length one: a Newton step.
+#[inline(always)]
 pub fn renormalised<R: Real>(vector: Vector<R>) -> Vector<R> {
     vector * (R::of(1.5) - R::of(0.5) * vector.norm_squared())
 }
@@ -67,6 +69,7 @@ pub fn is_small<R: Real>(from: Vector<R>, to: Vector<R>) -> bool {
 }
 
 /// A polynomial by Horner's rule, lowest power first.
+#[inline(always)]
 pub fn series<R: Real, const N: usize>(x: R, coefficients: [f64; N]) -> R {
     let highest_first = coefficients.into_iter().rev();
     highest_first.fold(R::zero(), |sum, coefficient| sum * x + R::of(coefficient))
