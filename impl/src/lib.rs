@@ -9,6 +9,8 @@
 )]
 
 pub mod actuation;
+#[cfg(feature = "batch")]
+pub mod batch;
 pub mod command;
 pub mod current;
 pub mod encoder;
@@ -16,8 +18,8 @@ pub mod guard;
 pub mod law;
 pub mod linkage;
 pub mod number;
-pub mod plant;
 pub mod path;
+pub mod plant;
 pub mod select;
 mod setting;
 pub mod tick;

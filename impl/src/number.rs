@@ -15,18 +15,21 @@ pub trait Scalar:
     fn of(constant: f64) -> Self;
 
     /// Zero.
+    #[inline(always)]
     fn zero() -> Self {
         Self::of(0.0)
     }
 
     /// The magnitude; what is no number stays none.
+    #[inline(always)]
     fn magnitude(self) -> Self {
         if self < Self::zero() { -self } else { self }
     }
 
     /// Whether it is a number of at most this magnitude. Nothing undefined or infinite is.
+    #[inline(always)]
     fn is_within(self, bound: Self) -> bool {
-        -bound <= self && self <= bound
+        (-bound <= self) & (self <= bound)
     }
 }
 
@@ -51,6 +54,7 @@ pub(crate) fn least<S: Scalar>(one: S, other: S) -> S {
 }
 
 impl Scalar for f64 {
+    #[inline(always)]
     fn of(constant: f64) -> f64 {
         constant
     }
@@ -88,6 +92,7 @@ impl Real for f64 {
 }
 
 impl Scalar for f32 {
+    #[inline(always)]
     fn of(constant: f64) -> f32 {
         constant as f32
     }

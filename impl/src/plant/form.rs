@@ -56,7 +56,7 @@ pub struct Mass<R> {
 
 impl<R: Real> Mass<R> {
     /// The matrix times a vector.
-    #[inline]
+    #[inline(always)]
     pub fn times(&self, vector: Vector<R>) -> Vector<R> {
         Vector::new(
             self.aa * vector.x + self.ab * vector.y,
@@ -65,7 +65,7 @@ impl<R: Real> Mass<R> {
     }
 
     /// The vector that the matrix turns into `right`.
-    #[inline]
+    #[inline(always)]
     pub fn solve(&self, right: Vector<R>) -> Vector<R> {
         let inverse = R::of(1.0) / (self.aa * self.bb - self.ab * self.ab);
         Vector::new(
@@ -94,7 +94,7 @@ pub struct Form<R> {
 /// derivatives are dot products times differences of rates. Each body adds its share by the principle of virtual power.
 //= thesis (5.40)
 //= thesis (A.1)
-#[inline]
+#[inline(always)]
 pub fn form<R: Real>(bodies: &Bodies<R>, at: &Linkage<R>, rates_rad_s: Vector<R>) -> Form<R> {
     let Linkage {
         ae: a,
@@ -152,7 +152,7 @@ pub fn form<R: Real>(bodies: &Bodies<R>, at: &Linkage<R>, rates_rad_s: Vector<R>
 
 impl<R: Real> Form<R> {
     /// What a force on the tip drives the two coordinates with: Tᵀ·F, N·m.
-    #[inline]
+    #[inline(always)]
     pub fn tip_load(&self, at: &Linkage<R>, force_n: Vector<R>) -> Vector<R> {
         let [left, _] = self.turning;
         Vector::new(at.ae.cross(force_n), R::zero()) + left * at.ed.cross(force_n)

@@ -27,6 +27,32 @@ pub enum Outcome {
     Undefined,
 }
 
+/// What stands against a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Checks {
+    /// Force or step are no numbers of this rig.
+    pub undefined: bool,
+    /// An arm would turn too far.
+    pub too_fast: bool,
+    /// The linkage would not be sound.
+    pub singular: bool,
+}
+
+impl Checks {
+    /// What the step comes to.
+    pub fn outcome(self) -> Outcome {
+        if self.undefined {
+            Outcome::Undefined
+        } else if self.too_fast {
+            Outcome::TooFast
+        } else if self.singular {
+            Outcome::Singular
+        } else {
+            Outcome::Moved
+        }
+    }
+}
+
 /// Where in a step the forces are looked at.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Scheme {
@@ -39,6 +65,7 @@ pub enum Scheme {
 
 impl Scheme {
     /// The part of the step before the forces are looked at.
+    #[inline(always)]
     pub fn lead<R: Real>(self) -> R {
         match self {
             Scheme::Midpoint => R::of(0.5),
@@ -134,7 +161,7 @@ impl<R: Real> Motion<R> {
     }
 
     /// The first part of a step under a force on the tip, N.
-    #[inline]
+    #[inline(always)]
     pub fn midway(&self, mechanism: &Mechanism<R>, force_n: Vector<R>, step_s: R) -> Midway<R> {
         let lead_s = step_s * mechanism.scheme.lead();
         let angles = self.rates_rad_s * lead_s;
@@ -157,7 +184,7 @@ impl<R: Real> Motion<R> {
     }
 
     /// The second part, at new rates, rad/s.
-    #[inline]
+    #[inline(always)]
     pub fn arrive(
         &self,
         mechanism: &Mechanism<R>,
@@ -179,10 +206,10 @@ impl<R: Real> Motion<R> {
     }
 
     /// Whether rates turn both base arms by no more in a time than can be computed.
-    #[inline]
+    #[inline(always)]
     pub fn is_slow(rates_rad_s: Vector<R>, time_s: R) -> bool {
         let greatest = R::of(GREATEST_TURN_RAD);
-        (rates_rad_s.x * time_s).is_within(greatest) && (rates_rad_s.y * time_s).is_within(greatest)
+        (rates_rad_s.x * time_s).is_within(greatest) & (rates_rad_s.y * time_s).is_within(greatest)
     }
 
     /// One step without brakes or other physics.
@@ -193,57 +220,68 @@ impl<R: Real> Motion<R> {
         force_n: Vector<R>,
         step_s: R,
     ) -> Outcome {
-        if !is_defined(force_n, step_s) {
-            return Outcome::Undefined;
-        }
-        let midway = self.midway(mechanism, force_n, step_s);
-        let momentum_nm_s = midway.momentum_nm_s + midway.load_nm * step_s;
-        let rates_rad_s = midway.form.mass.solve(momentum_nm_s);
-        let next = self.arrive(mechanism, &midway, rates_rad_s, step_s);
-        let outcome = match self.outcome_midway(mechanism, &midway) {
-            Outcome::Moved => next.outcome_end(mechanism, &midway, step_s),
-            stopped => stopped,
-        };
+        let (next, checks) = self.after_free(mechanism, force_n, step_s);
+        let outcome = checks.outcome();
         if outcome == Outcome::Moved {
             *self = next;
         }
         outcome
     }
 
+    /// Where a step without brakes leads, and whether it may be taken. Without a branch, so that rigs can go side by side.
+    #[inline(always)]
+    pub fn after_free(
+        &self,
+        mechanism: &Mechanism<R>,
+        force_n: Vector<R>,
+        step_s: R,
+    ) -> (Motion<R>, Checks) {
+        let midway = self.midway(mechanism, force_n, step_s);
+        let momentum_nm_s = midway.momentum_nm_s + midway.load_nm * step_s;
+        let rates_rad_s = midway.form.mass.solve(momentum_nm_s);
+        let next = self.arrive(mechanism, &midway, rates_rad_s, step_s);
+        let first = self.checks(mechanism, &midway.linkage, midway.lead_s);
+        let second = next.checks(mechanism, &next.linkage, step_s - midway.lead_s);
+        let checks = Checks {
+            undefined: !is_defined(force_n, step_s),
+            // Rates that come out of an unsound linkage say nothing.
+            too_fast: first.too_fast | (!first.singular & second.too_fast),
+            singular: first.singular | second.singular,
+        };
+        (next, checks)
+    }
+
+    /// Whether the rates here may turn the arms for a time, and whether a linkage may be used.
+    #[inline(always)]
+    fn checks(&self, mechanism: &Mechanism<R>, linkage: &Linkage<R>, time_s: R) -> Checks {
+        Checks {
+            undefined: false,
+            too_fast: !Motion::is_slow(self.rates_rad_s, time_s),
+            singular: !linkage.is_sound(&mechanism.shape),
+        }
+    }
+
     /// Whether the first part of a step from here may be taken.
     #[inline]
     pub fn outcome_midway(&self, mechanism: &Mechanism<R>, midway: &Midway<R>) -> Outcome {
-        outcome(
-            Motion::is_slow(self.rates_rad_s, midway.lead_s),
-            midway.linkage.is_sound(&mechanism.shape),
-        )
+        self.checks(mechanism, &midway.linkage, midway.lead_s)
+            .outcome()
     }
 
     /// Whether the second part of a step that ends here may be taken.
     #[inline]
     pub fn outcome_end(&self, mechanism: &Mechanism<R>, midway: &Midway<R>, step_s: R) -> Outcome {
-        outcome(
-            Motion::is_slow(self.rates_rad_s, step_s - midway.lead_s),
-            self.linkage.is_sound(&mechanism.shape),
-        )
-    }
-}
-
-#[inline]
-fn outcome(slow: bool, sound: bool) -> Outcome {
-    match (slow, sound) {
-        (false, _) => Outcome::TooFast,
-        (true, false) => Outcome::Singular,
-        (true, true) => Outcome::Moved,
+        self.checks(mechanism, &self.linkage, step_s - midway.lead_s)
+            .outcome()
     }
 }
 
 /// Whether force and step are numbers of this rig.
-#[inline]
+#[inline(always)]
 pub fn is_defined<R: Real>(force_n: Vector<R>, step_s: R) -> bool {
     let greatest_n = R::of(GREATEST_FORCE_N);
     force_n.x.is_within(greatest_n)
-        && force_n.y.is_within(greatest_n)
-        && step_s > R::zero()
-        && step_s <= R::of(GREATEST_STEP_S)
+        & force_n.y.is_within(greatest_n)
+        & (step_s > R::zero())
+        & (step_s <= R::of(GREATEST_STEP_S))
 }

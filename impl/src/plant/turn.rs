@@ -9,7 +9,7 @@ pub const GREATEST_TURN_RAD: f64 = 0.0625;
 /// A vector turned by a small angle, rad, to the left: sine to the 7th power, cosine to the 8th.
 ///
 /// What is left out is at most 4e-17 of the length at [`GREATEST_TURN_RAD`].
-#[inline]
+#[inline(always)]
 pub fn turned<R: Real>(vector: Vector<R>, angle_rad: R) -> Vector<R> {
     let square = angle_rad * angle_rad;
     let sine = series(square, [1.0, -1.0 / 6.0, 1.0 / 120.0, -1.0 / 5_040.0]);
@@ -21,7 +21,7 @@ pub fn turned<R: Real>(vector: Vector<R>, angle_rad: R) -> Vector<R> {
 }
 
 /// A vector of nearly length one with length one: a Newton step.
-#[inline]
+#[inline(always)]
 pub fn renormalised<R: Real>(vector: Vector<R>) -> Vector<R> {
     vector * (R::of(1.5) - R::of(0.5) * vector.norm_squared())
 }
@@ -44,7 +44,7 @@ pub fn is_small<R: Real>(from: Vector<R>, to: Vector<R>) -> bool {
 }
 
 /// A polynomial, lowest power first: four by Horner's rule in x⁴ side by side, which is twice as fast as one in x.
-#[inline]
+#[inline(always)]
 pub fn series<R: Real, const N: usize>(x: R, coefficients: [f64; N]) -> R {
     let square = x * x;
     let fourth = square * square;
