@@ -231,7 +231,7 @@ fn nudged<'a>(
 }
 
 /// The greatest difference of two commands' currents, A; infinite where one is undefined.
-fn apart_a(one: &Command, other: &Command) -> f64 {
+pub fn apart_a(one: &Command, other: &Command) -> f64 {
     let pairs = one.currents_a.iter().zip(other.currents_a);
     pairs
         .map(|(a, b)| (a - b).abs())
