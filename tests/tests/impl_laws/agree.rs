@@ -73,7 +73,8 @@ impl Tally {
     }
 }
 
-fn ticks() -> u64 {
+/// How many ticks are compared, a half of them plain.
+pub fn ticks() -> u64 {
     match std::env::var("RIGPROOF_CAMPAIGN") {
         Ok(count) => count
             .parse()

@@ -69,6 +69,8 @@ pub enum Tie {
     JointAtRest,
     /// Exception: velocity ratio control finds both ratios equal, the reference all but equal.
     Even,
+    /// Exception: impedance control asks for the same currents, and names another idle brake of the pair, or none.
+    IdleBrake,
     /// Exception: an input beyond what the rig's code takes, which lets go.
     Gate,
     /// Exception: a velocity or a push so small that its square loses digits.
@@ -119,6 +121,9 @@ pub fn permitted(
     }
     if rig == Command::none(Reason::NothingToDo) && is_even(tick) {
         return Ok(Permitted::Tie(Tie::Even));
+    }
+    if matches!(tick.law, LawKind::Impedance(_)) && apart_a <= EQUAL_A {
+        return Ok(Permitted::Tie(Tie::IdleBrake));
     }
     if stands(tick, &now) {
         return Ok(Permitted::Tie(Tie::JointAtRest));
@@ -231,7 +236,7 @@ fn nudged<'a>(
 }
 
 /// The greatest difference of two commands' currents, A; infinite where one is undefined.
-fn apart_a(one: &Command, other: &Command) -> f64 {
+pub fn apart_a(one: &Command, other: &Command) -> f64 {
     let pairs = one.currents_a.iter().zip(other.currents_a);
     pairs
         .map(|(a, b)| (a - b).abs())
