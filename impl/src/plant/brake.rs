@@ -9,6 +9,8 @@ use super::decay::decayed;
 /// Excess of the yield torque over its target below which a fall counts as finished, N·m: half the last digit
 /// printed in table 3.2.
 const SETTLED_NM: f64 = 0.005;
+/// Distance from the target that is no more than rounding, N·m: from there the yield torque stands.
+const ROUNDING_NM: f64 = 1e-15;
 
 /// The state of one brake: the first-order system (3.2) with its backlash.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,27 +57,31 @@ impl Brake {
     pub fn step(&mut self, table: &BrakeTable, current_a: f64, turn: &Turn) -> f64 {
         let [from_rad, to_rad] = turn.way_rad;
         let was_inside = self.backlash.is_inside();
-        let (speed, step_s) = (turn.speed_rad_s, turn.step_s);
-        let impulse = match self.backlash.turn(from_rad, to_rad) {
+        let (last_a, speed, step_s) = (self.current_a, turn.speed_rad_s, turn.step_s);
+        let mean_nm = match self.backlash.turn(from_rad, to_rad) {
             None => self.follow(table, was_inside, current_a, speed, step_s),
             Some(crossing) => {
+                let mut impulse = |inside: bool, current_a: f64, time_s: f64| {
+                    self.follow(table, inside, current_a, speed, time_s) * time_s
+                };
                 let [before_s, after_s] = turn.around_s;
                 let moment_s = (before_s + after_s) * crossing.part - before_s;
-                if moment_s < 0.0 {
-                    self.follow(table, was_inside, self.current_a, speed, moment_s)
-                        + self.follow(table, crossing.inside, self.current_a, speed, -moment_s)
-                        + self.follow(table, crossing.inside, current_a, speed, step_s)
+                let impulses = if moment_s < 0.0 {
+                    impulse(was_inside, last_a, moment_s)
+                        + impulse(crossing.inside, last_a, -moment_s)
+                        + impulse(crossing.inside, current_a, step_s)
                 } else {
-                    self.follow(table, was_inside, current_a, speed, moment_s)
-                        + self.follow(table, crossing.inside, current_a, speed, step_s - moment_s)
-                }
+                    impulse(was_inside, current_a, moment_s)
+                        + impulse(crossing.inside, current_a, step_s - moment_s)
+                };
+                impulses / step_s
             }
         };
         self.current_a = current_a;
-        within(impulse / step_s, self.limits_nm)
+        within(mean_nm, self.limits_nm)
     }
 
-    /// Follows one course for a time, s, backwards where that is below zero; returns ∫ yield dt, N·m·s.
+    /// Follows one course for a time, s, backwards where that is below zero; returns the mean of the yield torque, N·m.
     #[inline]
     fn follow(
         &mut self,
@@ -90,10 +96,15 @@ impl Brake {
         } else {
             within(gain_nm(&table.torque_gain, current_a), self.limits_nm)
         };
-        if self.yield_nm <= target_nm + SETTLED_NM {
+        let off_nm = self.yield_nm - target_nm;
+        if off_nm <= SETTLED_NM {
             self.fall_origin_a = current_a;
         }
-        let (edge, of_current_a) = if self.yield_nm <= target_nm {
+        if off_nm.abs() <= ROUNDING_NM {
+            self.yield_nm = target_nm;
+            return target_nm;
+        }
+        let (edge, of_current_a) = if off_nm <= 0.0 {
             (Edge::Rising, current_a)
         } else {
             (Edge::Falling, self.fall_origin_a)
@@ -101,12 +112,11 @@ impl Brake {
         let a_s = time_constant_s(table, of_current_a, speed_rad_s, edge);
         let exponent = time_s / a_s;
         let mean_share = decayed(exponent);
-        let off_nm = self.yield_nm - target_nm;
         self.yield_nm = within(
             self.yield_nm - off_nm * exponent * mean_share,
             self.limits_nm,
         );
-        (target_nm + off_nm * mean_share) * time_s
+        target_nm + off_nm * mean_share
     }
 
     /// The greatest torque the brake resists with now, N·m.

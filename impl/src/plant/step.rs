@@ -77,16 +77,21 @@ impl Plant {
         self.contact = dry.contact;
         self.held = dry.held;
         self.time_s += step_s;
+        let per_s = 1.0 / (step_s * dry.part);
         let shares = resistance.yields_nm.iter().zip(resistance.dry_nm);
         for ((torque_nm, impulse), (yield_nm, dry_nm)) in
             self.torques_nm.iter_mut().zip(dry.impulses).zip(shares)
         {
-            let bound_nm = yield_nm + dry_nm;
-            *torque_nm = if bound_nm > 0.0 {
-                impulse / (step_s * dry.part) * (yield_nm / bound_nm)
-            } else {
-                0.0
-            };
+            *torque_nm = impulse * per_s;
+            if dry_nm != 0.0 {
+                // The rest is that of the other dry friction.
+                let bound_nm = yield_nm + dry_nm;
+                *torque_nm *= if bound_nm > 0.0 {
+                    yield_nm / bound_nm
+                } else {
+                    0.0
+                };
+            }
         }
         Outcome::Moved
     }
