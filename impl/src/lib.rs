@@ -12,5 +12,6 @@ pub mod command;
 pub mod law;
 pub mod linkage;
 pub mod number;
+pub mod plant;
 pub mod select;
 pub mod vector;
