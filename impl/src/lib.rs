@@ -8,10 +8,19 @@
     clippy::indexing_slicing
 )]
 
+pub mod actuation;
 pub mod command;
+pub mod current;
+pub mod encoder;
+pub mod guard;
 pub mod law;
 pub mod linkage;
 pub mod number;
+pub mod path;
 pub mod plant;
 pub mod select;
+mod setting;
+pub mod tick;
+pub mod tip_mass;
 pub mod vector;
+pub mod velocity;
