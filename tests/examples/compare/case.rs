@@ -8,6 +8,9 @@ use rigproof_spec::tables::{GREATEST_CURRENT_A, torque_gain_fit};
 /// Time for which force and currents hold, s.
 pub const TICK_S: f64 = 1e-3;
 
+/// Time under its currents and no force before a run, s: the yield torques have settled.
+pub const SETTLING_S: f64 = 1.0;
+
 /// What resists at the joints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Joints {
@@ -73,8 +76,12 @@ impl Case {
         }
     }
 
-    /// The force on the tip from a tick on, N.
-    pub fn force_n(&self, tick: usize) -> [f64; 2] {
+    /// The force on the tip in every tick, N.
+    pub fn forces_n(&self) -> Vec<[f64; 2]> {
+        (0..self.ticks()).map(|tick| self.force_n(tick)).collect()
+    }
+
+    fn force_n(&self, tick: usize) -> [f64; 2] {
         let t = tick as f64 * TICK_S;
         match self.joints {
             Joints::Free => [

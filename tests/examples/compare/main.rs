@@ -6,17 +6,24 @@
 )]
 
 mod case;
+mod engine;
+mod fixed_step;
 mod output;
 mod reference;
 mod timing;
 
 use std::path::PathBuf;
 
-use case::Case;
-use output::{Entry, Folder, apart_m};
+use rigproof_impl::plant::Scheme;
+
+use case::{Case, Joints};
+use engine::{Engine, apart_m, run, time};
+use output::{Entry, Folder, Ours};
 
 /// How often a run is timed.
 const REPEATS: usize = 31;
+/// Steps a tick of the converged solution, and of the one it is compared with.
+const CONVERGED: [u32; 2] = [16, 32];
 
 fn main() {
     let Some(path) = std::env::args().nth(1) else {
@@ -24,14 +31,55 @@ fn main() {
         std::process::exit(2);
     };
     let folder = Folder::new(PathBuf::from(path));
-    let entries = Case::all().iter().map(|case| entry(case, &folder)).collect();
+    let entries = Case::all()
+        .iter()
+        .map(|case| entry(case, &folder))
+        .collect();
     folder.write_index(entries);
 }
 
 fn entry(case: &Case, folder: &Folder) -> Entry {
-    let converged = reference::run(case, reference::CONVERGED_STEP_S);
-    let finer = reference::run(case, 0.5 * reference::CONVERGED_STEP_S);
-    folder.write_run(&format!("{}-converged", case.name()), case, &converged);
-    let engines = [reference::engine(case, folder, REPEATS)];
-    Entry::new(case, apart_m(&converged, &finer), &engines)
+    let [converged, finer] = CONVERGED.map(|steps| match case.joints {
+        Joints::Free => run(&reference::Free::new(case, steps), case),
+        Joints::Dry | Joints::Locked => run(&reference::Braked::new(case, steps), case),
+    });
+    folder.write_run("converged", case, &converged);
+    let reference = ["reference model", "RK4, ends a step where a brake changes"];
+    let midpoint = ["fixed step", "midpoint"];
+    let euler = ["fixed step", "semi-implicit Euler"];
+    let schemes = [
+        (midpoint, Scheme::Midpoint),
+        (euler, Scheme::SemiImplicitEuler),
+    ];
+    let mut ours = match case.joints {
+        Joints::Free => vec![one(case, folder, reference, &reference::Free::new(case, 1))],
+        _ => vec![one(
+            case,
+            folder,
+            reference,
+            &reference::Braked::new(case, 1),
+        )],
+    };
+    for (name, scheme) in schemes {
+        ours.push(match case.joints {
+            Joints::Free => one(case, folder, name, &fixed_step::Free::new(case, scheme)),
+            _ => one(case, folder, name, &fixed_step::Braked::new(case, scheme)),
+        });
+    }
+    Entry::new(case, apart_m(&converged, &finer), &ours)
+}
+
+fn one(
+    case: &Case,
+    folder: &Folder,
+    [engine, settings]: [&'static str; 2],
+    start: &impl Engine,
+) -> Ours {
+    let file = format!("{engine}-{settings}").replace([' ', ','], "-");
+    Ours {
+        engine,
+        settings,
+        cost: time(start, case, REPEATS),
+        run: folder.write_run(&file, case, &run(start, case)),
+    }
 }

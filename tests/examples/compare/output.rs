@@ -8,37 +8,19 @@ use rigproof_spec::inertia::{ArmInertia, inertia};
 use serde_json::{Value, json};
 
 use crate::case::{Case, TICK_S};
+use crate::engine::Sample;
 use crate::timing::Cost;
 
-/// The rig at the start of a tick.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sample {
-    /// θA and θB, rad.
-    pub base_rad: [f64; 2],
-    /// Their rates, rad/s.
-    pub rates_rad_s: [f64; 2],
-    /// The tip, m.
-    pub tip_m: [f64; 2],
-}
-
-/// Greatest distance between the tips of two runs, m.
-pub fn apart_m(one: &[Sample], other: &[Sample]) -> f64 {
-    one.iter().zip(other).fold(0.0, |most: f64, (a, b)| {
-        let ([a_x, a_y], [b_x, b_y]) = (a.tip_m, b.tip_m);
-        most.max(libm::hypot(a_x - b_x, a_y - b_y))
-    })
-}
-
 /// One of our engines on one case: what it is, what a step costs, and the file with its run.
-pub struct Engine {
+pub struct Ours {
     /// What ran.
     pub engine: &'static str,
     /// With which settings.
-    pub settings: String,
+    pub settings: &'static str,
     /// What a step costs.
     pub cost: Cost,
-    /// The file with the run; none where only the cost is of interest.
-    pub run: Option<String>,
+    /// The file with its run.
+    pub run: String,
 }
 
 /// One case: all that another engine needs, and our engines.
@@ -46,7 +28,7 @@ pub struct Entry(Value);
 
 impl Entry {
     /// The entry of a case, with how far its converged solution is from a finer one, m.
-    pub fn new(case: &Case, apart_m: f64, engines: &[Engine]) -> Entry {
+    pub fn new(case: &Case, apart_m: f64, engines: &[Ours]) -> Entry {
         let (arms, inertia) = (arms(case.layout), inertia(case.layout));
         let arm = |length_m: f64, of: ArmInertia| json!({ "length_m": length_m, "mass_kg": of.mass_kg, "inertia_kg_m2": of.inertia_kg_m2, "centre_m": of.centre_m });
         let start = case.start();
@@ -69,7 +51,7 @@ impl Entry {
     }
 }
 
-fn engine(engine: &Engine) -> Value {
+fn engine(engine: &Ours) -> Value {
     json!({
         "engine": engine.engine,
         "settings": engine.settings,
@@ -91,7 +73,7 @@ impl Folder {
 
     /// Writes a run as CSV, a line a tick and one for the end: the force holds from its line on.
     pub fn write_run(&self, name: &str, case: &Case, run: &[Sample]) -> String {
-        let file = format!("{name}.csv");
+        let file = format!("{}-{name}.csv", case.name());
         let mut csv = csv::Writer::from_path(self.0.join(&file)).unwrap();
         csv.write_record([
             "time_s",
@@ -105,8 +87,10 @@ impl Folder {
             "tip_y_m",
         ])
         .unwrap();
+        let forces_n = case.forces_n();
         for (tick, sample) in run.iter().enumerate() {
-            let [force_x, force_y] = case.force_n(tick);
+            // After the last tick no force acts.
+            let [force_x, force_y] = forces_n.get(tick).copied().unwrap_or_default();
             let ([a, b], [rate_a, rate_b], [x, y]) =
                 (sample.base_rad, sample.rates_rad_s, sample.tip_m);
             let time_s = tick as f64 * TICK_S;
