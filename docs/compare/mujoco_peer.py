@@ -6,8 +6,8 @@ import mujoco
 import numpy as np
 from mujoco import rollout
 
-# What is set for each name of settings. "default" leaves the solver as MuJoCo has it; "stiff" asks for the hardest constraints that it allows:
-# a reference time of two steps (the least that its safeguard lets pass) and impedances of 0.9999; "no slip" adds the pass that takes away the creep.
+# "default" leaves the solver as MuJoCo has it; "stiff" asks for the hardest constraints that it allows: a reference time of two steps, the least
+# that its safeguard lets pass, and impedances of 0.9999. "no slip" is its pass that takes away what friction lets creep.
 CLOSURE = {"default": "", "stiff": 'solref="{two_steps} 1" solimp="0.9999 0.9999 0.001 0.5 2"'}
 FRICTION = {"default": "", "stiff": 'solreffriction="{two_steps} 1" solimpfriction="0.9999 0.9999 0.001 0.5 2"'}
 
@@ -36,6 +36,7 @@ def xml(case, integrator, solver, step_s, noslip=0):
         </body>"""
 
     half = 0.5 * case["base_m"]
+    # Without an inertial frame of its own the massless body's force would act elsewhere.
     left_tip = '<site name="left" pos="{at}"/><body name="tip" pos="{at}"><inertial pos="0 0 0" mass="0" diaginertia="0 0 0"/></body>'
     left = chain(-half, "AE", "ED", joint("A", 0), joint("E", 1), left_tip)
     right = chain(half, "BC", "CD", joint("B", 2), joint("C", 3), '<site name="right" pos="{at}"/>')
@@ -76,15 +77,28 @@ class Peer:
             control_spec=int(mujoco.mjtState.mjSTATE_XFRC_APPLIED), state=self.state, skip_checks=False,
         )
 
-    def angles_rad(self):
-        """The angles of A, E, B, C, a row a tick, the start first."""
+    def tips_m(self):
+        """The tips of ED and of CD, a row a tick."""
         self.roll()
         # Full physics: the time, then the positions.
         every = self.state[0, self.steps_a_tick - 1 :: self.steps_a_tick, 1:5]
-        return np.vstack([self.case["start_rad"], every])
+        angles = np.vstack([self.case["start_rad"], every])
+        half = 0.5 * self.case["base_m"]
+        return self._tip(-half, "AE", "ED", angles[:, :2]), self._tip(half, "BC", "CD", angles[:, 2:])
 
-    def step_ns(self):
-        """The CPU time of a step in one whole run, ns."""
-        start = time.process_time_ns()
-        self.roll()
-        return (time.process_time_ns() - start) / self.control.shape[1]
+    def _tip(self, x, inner, outer, angles):
+        inner, outer = (self.case["arms"][name]["length_m"] for name in (inner, outer))
+        first, second = angles[:, 0], angles.sum(axis=1)
+        return np.column_stack([
+            x + inner * np.cos(first) + outer * np.cos(second),
+            inner * np.sin(first) + outer * np.sin(second),
+        ])
+
+    def steps_ns(self, runs):
+        """The CPU time of a step in each of several whole runs, ns: median and least."""
+        each = []
+        for _ in range(runs):
+            start = time.process_time_ns()
+            self.roll()
+            each.append((time.process_time_ns() - start) / self.control.shape[1])
+        return [float(np.median(each)), min(each)]

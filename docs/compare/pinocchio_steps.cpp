@@ -1,6 +1,7 @@
 // This program steps the five-bar with Pinocchio's constrained dynamics: two open chains whose tips a 3D constraint keeps together.
 //
-// file for the run. Prints the CPU time of a step, ns: the median and the least of the timed runs.
+// Arguments: rig file, force file, scheme (euler or rk4), steps a tick, rate of Baumgarte's stabilisation (1/s), timed runs, file for the
+// run. Prints the CPU time of a step, ns: the median and the least of the timed runs.
 //
 // Rig file, numbers only: step, distance of the base joints; length, mass, inertia, centre of mass of AE, ED, BC, CD; angles of A, E, B, C at the
 // start. Force file: x and y, a line a tick.
@@ -17,7 +18,6 @@
 
 #include <pinocchio/fwd.hpp>
 #include <pinocchio/algorithm/constrained-dynamics.hpp>
-#include <pinocchio/algorithm/loop-constrained-aba.hpp>
 #include <pinocchio/multibody.hpp>
 #include <pinocchio/multibody/joint.hpp>
 
@@ -64,8 +64,10 @@ struct Linkage {
   pin::Data data;
   std::vector<pin::RigidConstraintModel> constraints;
   std::vector<pin::RigidConstraintData> constraint_data;
+  // The third row of the constraint is empty in the plane: the proximal term makes it solvable.
   pin::ProximalSettings settings{1e-12, 1e-10, 10};
 
+  Linkage(const Rig &of, double rate) : rig(of) {
     const auto e = add(add(0, -0.5 * rig.base, rig.ae), rig.ae.length, rig.ed);
     const auto c = add(add(0, 0.5 * rig.base, rig.bc), rig.bc.length, rig.cd);
     data = pin::Data(model);
@@ -142,21 +144,23 @@ static double cpu_ns() {
 }
 
 int main(int argc, char **argv) {
-  if (argc != 9) {
+  if (argc != 8) {
+    std::cerr << "arguments: rig forces euler|rk4 steps rate runs out\n";
     return 2;
   }
   const auto forces = read_forces(argv[2]);
   const bool fourth_order = std::string(argv[3]) == "rk4";
-  const int steps = std::atoi(argv[5]);
+  const int steps = std::atoi(argv[4]), runs = std::atoi(argv[6]);
+  Linkage linkage(read_rig(argv[1]), std::atof(argv[5]));
   const auto states = run(linkage, forces, fourth_order, steps);
-  std::ofstream out(argv[8]);
+  std::ofstream out(argv[7]);
   out << "left_x_m,left_y_m,right_x_m,right_y_m\n" << std::setprecision(17);
   for (const Four &q : states) {
     const Two left = linkage.left(q), right = linkage.right(q);
     out << left.x() << ',' << left.y() << ',' << right.x() << ',' << right.y() << '\n';
   }
   std::vector<double> each;
-  for (int i = 0; i < std::atoi(argv[7]); ++i) {
+  for (int i = 0; i < runs; ++i) {
     const double start = cpu_ns();
     run(linkage, forces, fourth_order, steps);
     each.push_back((cpu_ns() - start) / (double(forces.size()) * steps));

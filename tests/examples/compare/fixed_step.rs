@@ -1,4 +1,4 @@
-//! This file runs the fixed-step implementation: its equations of motion alone, its plant, and the plant under a controller.
+//! This file runs the fixed-step implementation: its equations of motion alone, and its plant.
 
 use rigproof_impl::plant::motion::{Mechanism, Motion};
 use rigproof_impl::plant::{Outcome, Parameters, Plant, Scheme};
@@ -11,26 +11,35 @@ use crate::engine::{Engine, Sample};
 pub struct Free {
     mechanism: Mechanism<f64>,
     motion: Motion<f64>,
+    /// Steps a tick.
+    steps: u32,
 }
 
 impl Free {
-    /// At the start of a case.
-    pub fn new(case: &Case, scheme: Scheme) -> Free {
+    /// At the start of a case, with so many steps a tick.
+    pub fn new(case: &Case, scheme: Scheme, steps: u32) -> Free {
         let Parameters { arms, inertia, .. } = Parameters::of(case.layout);
         let mechanism = Mechanism::new(&arms, &inertia, scheme);
         let start = case.start();
         let theta_rad = [start.theta_a_rad, start.theta_b_rad].into();
         let motion = Motion::new(&mechanism, theta_rad, [0.0; 2].into()).unwrap();
-        Free { mechanism, motion }
+        Free {
+            mechanism,
+            motion,
+            steps,
+        }
     }
 }
 
 impl Engine for Free {
     fn tick(&mut self, force_n: [f64; 2]) {
-        let outcome = self
-            .motion
-            .step_free(&self.mechanism, force_n.into(), TICK_S);
-        assert_eq!(outcome, Outcome::Moved);
+        let step_s = TICK_S / f64::from(self.steps);
+        for _ in 0..self.steps {
+            let outcome = self
+                .motion
+                .step_free(&self.mechanism, force_n.into(), step_s);
+            assert_eq!(outcome, Outcome::Moved);
+        }
     }
 
     fn sample(&self) -> Sample {
@@ -47,11 +56,13 @@ impl Engine for Free {
 pub struct Braked {
     plant: Plant,
     currents_a: [f64; 4],
+    /// Steps a tick.
+    steps: u32,
 }
 
 impl Braked {
-    /// At the start of a case, its yield torques settled.
-    pub fn new(case: &Case, scheme: Scheme) -> Braked {
+    /// At the start of a case, its yield torques settled, with so many steps a tick.
+    pub fn new(case: &Case, scheme: Scheme, steps: u32) -> Braked {
         let parameters = Parameters {
             scheme,
             ..Parameters::of(case.layout)
@@ -62,6 +73,7 @@ impl Braked {
         let mut braked = Braked {
             plant,
             currents_a: case.currents_a(),
+            steps,
         };
         for _ in 0..libm::round(SETTLING_S / TICK_S) as usize {
             braked.tick([0.0; 2]);
@@ -72,8 +84,11 @@ impl Braked {
 
 impl Engine for Braked {
     fn tick(&mut self, force_n: [f64; 2]) {
-        let outcome = self.plant.step(force_n, self.currents_a, TICK_S);
-        assert_eq!(outcome, Outcome::Moved);
+        let step_s = TICK_S / f64::from(self.steps);
+        for _ in 0..self.steps {
+            let outcome = self.plant.step(force_n, self.currents_a, step_s);
+            assert_eq!(outcome, Outcome::Moved);
+        }
     }
 
     fn sample(&self) -> Sample {

@@ -25,6 +25,17 @@ const REPEATS: usize = 31;
 /// Steps a tick of the converged solution, and of the one it is compared with.
 const CONVERGED: [u32; 2] = [16, 32];
 
+const REFERENCE: &str = "reference model";
+const FIXED: &str = "fixed step";
+/// The schemes of the fixed-step implementation: what they are called, and steps a tick.
+const SCHEMES: [(&str, Scheme, u32); 5] = [
+    ("semi-implicit Euler", Scheme::SemiImplicitEuler, 1),
+    ("midpoint", Scheme::Midpoint, 1),
+    ("midpoint, 4 steps a ms", Scheme::Midpoint, 4),
+    ("midpoint, 16 steps a ms", Scheme::Midpoint, 16),
+    ("midpoint, 64 steps a ms", Scheme::Midpoint, 64),
+];
+
 fn main() {
     let Some(path) = std::env::args().nth(1) else {
         eprintln!("name the folder to write to");
@@ -44,26 +55,39 @@ fn entry(case: &Case, folder: &Folder) -> Entry {
         Joints::Dry | Joints::Locked => run(&reference::Braked::new(case, steps), case),
     });
     folder.write_run("converged", case, &converged);
-    let reference = ["reference model", "RK4, ends a step where a brake changes"];
-    let midpoint = ["fixed step", "midpoint"];
-    let euler = ["fixed step", "semi-implicit Euler"];
-    let schemes = [
-        (midpoint, Scheme::Midpoint),
-        (euler, Scheme::SemiImplicitEuler),
-    ];
-    let mut ours = match case.joints {
-        Joints::Free => vec![one(case, folder, reference, &reference::Free::new(case, 1))],
-        _ => vec![one(
+    let name = "RK4, ends a step where a brake changes";
+    let mut ours = vec![match case.joints {
+        Joints::Free => one(
             case,
             folder,
-            reference,
+            REFERENCE,
+            "RK4",
+            &reference::Free::new(case, 1),
+        ),
+        _ => one(
+            case,
+            folder,
+            REFERENCE,
+            name,
             &reference::Braked::new(case, 1),
-        )],
-    };
-    for (name, scheme) in schemes {
+        ),
+    }];
+    for (settings, scheme, steps) in SCHEMES {
         ours.push(match case.joints {
-            Joints::Free => one(case, folder, name, &fixed_step::Free::new(case, scheme)),
-            _ => one(case, folder, name, &fixed_step::Braked::new(case, scheme)),
+            Joints::Free => one(
+                case,
+                folder,
+                FIXED,
+                settings,
+                &fixed_step::Free::new(case, scheme, steps),
+            ),
+            _ => one(
+                case,
+                folder,
+                FIXED,
+                settings,
+                &fixed_step::Braked::new(case, scheme, steps),
+            ),
         });
     }
     Entry::new(case, apart_m(&converged, &finer), &ours)
@@ -72,7 +96,8 @@ fn entry(case: &Case, folder: &Folder) -> Entry {
 fn one(
     case: &Case,
     folder: &Folder,
-    [engine, settings]: [&'static str; 2],
+    engine: &'static str,
+    settings: &'static str,
     start: &impl Engine,
 ) -> Ours {
     let file = format!("{engine}-{settings}").replace([' ', ','], "-");
