@@ -1,8 +1,9 @@
 //! This file says how two coordinates move against up to four dry brakes: the exact solution in finitely many cases.
 //!
-//! As in the reference, with two differences that a time step asks for. A brake's torque acts where the forces are looked at, but its
-//! joint's rate is that at the end of the step: two rows a brake. And what the brakes did in the last step is tried first; the
-//! solution is one, so that the order of the cases does not change it.
+//! As in the reference, with three differences that a time step asks for. A brake's torque acts where the forces are looked at, but its
+//! joint's rate is that at the end of the step: two rows a brake. What the brakes did in the last step is tried first; the
+//! solution is one, so that the order of the cases does not change it. And where a slipping joint turns back within the step, the
+//! step is divided at that moment: opposed to the rate at the end all along, the torque would be wrong before it.
 
 use super::form::Mass;
 use crate::vector::Vector;
@@ -21,6 +22,8 @@ pub struct DryBrake {
     pub rate_row: Plane,
     /// Greatest impulse of the brake, N·m·s, 0 or more; 0 is no brake.
     pub bound: f64,
+    /// The rate of its joint at the start, rad/s.
+    pub start_rad_s: f64,
 }
 
 /// What the brakes of a rig do.
@@ -28,8 +31,13 @@ pub struct DryBrake {
 pub enum Contact {
     /// The linkage stands.
     Rest,
-    /// This brake, of A, E, B, C, and those parallel to it hold; the linkage moves along.
-    Along(usize),
+    /// One brake and those parallel to it hold; the linkage moves along.
+    Along {
+        /// Which of A, E, B, C.
+        held: usize,
+        /// The signs of the rates of the others.
+        signs: [f64; 4],
+    },
     /// Every brake slips, with these signs of the rates.
     Slipping([f64; 4]),
 }
@@ -39,8 +47,10 @@ pub enum Contact {
 pub struct Dry {
     /// The rates of the two coordinates.
     pub rates_rad_s: Plane,
-    /// Impulses of A, E, B, C on their joints, N·m·s.
+    /// Impulses of A, E, B, C on their joints, N·m·s, of the part of the step after the last turn.
     pub impulses: [f64; 4],
+    /// That part: 1 where no joint turned back.
+    pub part: f64,
     /// Which brakes hold their joint.
     pub held: [bool; 4],
     /// What the brakes do.
@@ -48,6 +58,16 @@ pub struct Dry {
 }
 
 impl DryBrake {
+    /// None.
+    pub fn absent() -> DryBrake {
+        DryBrake {
+            force_row: Vector::zero(),
+            rate_row: Vector::zero(),
+            bound: 0.0,
+            start_rad_s: 0.0,
+        }
+    }
+
     fn acts(&self) -> bool {
         self.bound > 0.0
     }
@@ -68,20 +88,71 @@ fn exact_zero(one: Plane, other: Plane) -> f64 {
     }
 }
 
-/// Solves M·v = r + Σ Gᵢᵀ·λᵢ, where λᵢ opposes the joint's rate with its bound, or is any impulse inside it where the joint stands.
+/// The rates after a step that begins with `momentum` and adds `impulse`, N·m·s, against brakes that did `last` in the step before.
+///
+/// M·v = r + Σ Gᵢᵀ·λᵢ, where λᵢ opposes the joint's rate with its bound, or is any impulse inside it where the joint stands:
 ///
 /// 1. v = 0 if and only if −r lies in the zonotope Σ Gᵢᵀ·[−boundᵢ, boundᵢ], a polygon whose sides are parallel to the Gᵢ;
 /// 2. else v runs along a direction that one brake, or several parallel ones, holds;
 /// 3. else v lies in one of the sectors between these directions, where every sign is known.
 ///
 /// The first case that is consistent is the answer; where rounding leaves none, the one with the smallest contradiction is.
-pub fn dry_motion(mass: &Mass<f64>, drive: Plane, brakes: &[DryBrake; 4], last: Contact) -> Dry {
-    let problem = Problem {
+pub fn dry_motion(
+    mass: &Mass<f64>,
+    momentum: Plane,
+    impulse: Plane,
+    brakes: &[DryBrake; 4],
+    last: Contact,
+) -> Dry {
+    let drive = momentum + impulse;
+    let whole = Problem {
         mass,
         drive,
         brakes,
     };
-    problem.as_before(last).unwrap_or_else(|| problem.any())
+    let (signs, dry) = match last {
+        Contact::Rest => return whole.rest().unwrap_or_else(|| whole.any()),
+        Contact::Slipping(signs) => (signs, whole.sector(signs)),
+        Contact::Along { held, signs } => match whole.holding(held, signs) {
+            Some(dry) => (signs, dry),
+            None => return whole.any(),
+        },
+    };
+    let before = first_turn(brakes, signs, dry.rates_rad_s);
+    if before >= 1.0 {
+        return dry;
+    }
+    // Up to the turn everything went on as it was; from there on the brakes are free to do what they must.
+    let until = (impulse + sum(brakes, dry.impulses)) * before;
+    let part = 1.0 - before;
+    let mut left = *brakes;
+    for brake in &mut left {
+        brake.bound *= part;
+    }
+    let rest = Problem {
+        mass,
+        drive: momentum + until + impulse * part,
+        brakes: &left,
+    };
+    Dry { part, ..rest.any() }
+}
+
+/// The part of a step, up to which every slipping joint keeps its sign if the rates change evenly; 1 where all do.
+fn first_turn(brakes: &[DryBrake; 4], signs: [f64; 4], rates_rad_s: Plane) -> f64 {
+    let mut first = 1.0;
+    for (brake, sign) in brakes.iter().zip(signs) {
+        let end = sign * brake.rate_row.dot(rates_rad_s);
+        if brake.acts() && sign != 0.0 && end <= 0.0 {
+            let start = sign * brake.start_rad_s;
+            let part = if start > 0.0 {
+                start / (start - end)
+            } else {
+                0.0
+            };
+            first = if part < first { part } else { first };
+        }
+    }
+    first
 }
 
 struct Problem<'a> {
@@ -91,23 +162,11 @@ struct Problem<'a> {
 }
 
 impl Problem<'_> {
-    /// The motion if the brakes do what they did, where that is consistent.
-    fn as_before(&self, last: Contact) -> Option<Dry> {
-        match last {
-            Contact::Rest => self.rest(),
-            Contact::Along(held) => {
-                let brake = self.brakes.get(held).filter(|brake| brake.acts())?;
-                let (contradiction, dry) = self.along(held, brake);
-                (contradiction <= 0.0).then_some(dry)
-            }
-            Contact::Slipping(signs) => {
-                let dry = self.sector(signs);
-                let agrees = |(brake, sign): (&DryBrake, f64)| {
-                    !brake.acts() || sign * brake.rate_row.dot(dry.rates_rad_s) > 0.0
-                };
-                self.brakes.iter().zip(signs).all(agrees).then_some(dry)
-            }
-        }
+    /// The motion if a brake goes on holding while the others slip as they did; none where it cannot.
+    fn holding(&self, held: usize, signs: [f64; 4]) -> Option<Dry> {
+        let brake = self.brakes.get(held).filter(|brake| brake.acts())?;
+        let (share, dry) = self.along(held, brake, signs);
+        (share.abs() <= 1.0).then_some(dry)
     }
 
     /// The motion, whatever the brakes did before.
@@ -122,7 +181,7 @@ impl Problem<'_> {
                 .enumerate()
                 .filter(|(_, brake)| brake.acts())
         };
-        let one_held = cases().map(|(held, brake)| self.along(held, brake));
+        let one_held = cases().map(|(held, brake)| self.one_held(held, brake));
         let sectors = cases().flat_map(|(_, brake)| {
             [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)].map(|(way, side)| {
                 let dry = self.sector(self.signs(brake, way, side));
@@ -164,6 +223,7 @@ impl Problem<'_> {
         (share <= 1.0 && !nobody).then(|| Dry {
             rates_rad_s: Vector::zero(),
             impulses: self.impulses_at_rest(share, normal),
+            part: 1.0,
             held: self.brakes.map(|brake| brake.acts()),
             contact: Contact::Rest,
         })
@@ -215,29 +275,41 @@ impl Problem<'_> {
     }
 
     /// The motion that one brake and those parallel to it let through, and how far it contradicts their bounds.
-    fn along(&self, index: usize, brake: &DryBrake) -> (f64, Dry) {
+    fn one_held(&self, index: usize, brake: &DryBrake) -> (f64, Dry) {
         let direction = brake.rate_row.left();
-        let (row, normal) = (brake.force_row, brake.force_row.left());
-        let components = self.brakes.map(|other| other.rate(direction));
-        let push = normal.dot(self.drive);
+        let push = brake.force_row.left().dot(self.drive);
         let way = push.signum();
+        let signs = self.brakes.map(|other| {
+            let component = other.rate(direction);
+            if component == 0.0 {
+                0.0
+            } else {
+                way * component.signum()
+            }
+        });
+        let (share, dry) = self.along(index, brake, signs);
+        let against = -way * direction.dot(dry.rates_rad_s);
+        (f64::max(share.abs() - 1.0, against), dry)
+    }
+
+    /// The motion if one brake and those parallel to it, whose sign is 0, hold, and the part of their strength that this takes.
+    fn along(&self, index: usize, brake: &DryBrake, signs: [f64; 4]) -> (f64, Dry) {
+        let direction = brake.rate_row.left();
+        let row = brake.force_row;
         let mut held = [false; 4];
         let mut impulses = [0.0; 4];
         let mut strength = 0.0;
-        let each = self.brakes.iter().zip(components);
-        for ((is_held, impulse), (other, component)) in held.iter_mut().zip(&mut impulses).zip(each)
-        {
-            if component == 0.0 {
-                *is_held = other.acts();
+        let places = held.iter_mut().zip(&mut impulses);
+        for ((is_held, impulse), (other, sign)) in places.zip(self.brakes.iter().zip(signs)) {
+            *is_held = sign == 0.0 && other.acts();
+            *impulse = -sign * other.bound;
+            if *is_held {
                 strength += other.bound * other.force_row.dot(row).abs();
-            } else {
-                *impulse = -way * other.bound * component.signum();
             }
         }
         let load = self.drive + sum(self.brakes, impulses);
-        let surplus = way * normal.dot(load);
         let accelerated = self.mass.times(direction);
-        let speed = way * surplus / normal.dot(accelerated);
+        let speed = row.left().dot(load) / row.left().dot(accelerated);
         // What is missing lies along the row and is what the brakes hold with.
         let missing = accelerated * speed - load;
         let share = missing.dot(row) / strength;
@@ -246,14 +318,14 @@ impl Problem<'_> {
                 *impulse = share * other.bound * other.force_row.dot(row).signum();
             }
         }
-        let contradiction = (share.abs() - 1.0).max(-surplus / push.abs());
         let dry = Dry {
             rates_rad_s: direction * speed,
             impulses,
+            part: 1.0,
             held,
-            contact: Contact::Along(index),
+            contact: Contact::Along { held: index, signs },
         };
-        (contradiction, dry)
+        (share, dry)
     }
 
     /// The motion if every brake slips with a given sign.
@@ -265,6 +337,7 @@ impl Problem<'_> {
         Dry {
             rates_rad_s: self.mass.solve(self.drive + sum(self.brakes, impulses)),
             impulses,
+            part: 1.0,
             held: [false; 4],
             contact: Contact::Slipping(signs),
         }
@@ -320,7 +393,7 @@ mod tests {
         bb: 0.37,
     };
 
-    fn brakes(bounds: [f64; 4]) -> [DryBrake; 4] {
+    fn brakes(bounds: [f64; 4], rates_rad_s: Plane) -> [DryBrake; 4] {
         let rows = [(1.0, 0.0), (-1.3, 0.7), (0.0, 1.0), (0.4, -1.9)];
         let mut brakes = rows.map(|(x, y)| {
             let row = Vector::new(x, y);
@@ -328,6 +401,7 @@ mod tests {
                 force_row: row,
                 rate_row: row,
                 bound: 0.0,
+                start_rad_s: row.dot(rates_rad_s),
             }
         });
         for (brake, bound) in brakes.iter_mut().zip(bounds) {
@@ -336,42 +410,50 @@ mod tests {
         brakes
     }
 
+    fn from_rest(drive: Plane, bounds: [f64; 4]) -> Dry {
+        let brakes = brakes(bounds, Vector::zero());
+        dry_motion(&MASS, Vector::zero(), drive, &brakes, Contact::Rest)
+    }
+
     #[test]
     fn a_load_that_the_brakes_can_hold_moves_nothing() {
-        let drive = Vector::new(0.23, -0.31);
-        let dry = dry_motion(
-            &MASS,
-            drive,
-            &brakes([0.17, 0.23, 0.19, 0.13]),
-            Contact::Rest,
-        );
+        let dry = from_rest(Vector::new(0.23, -0.31), [0.17, 0.23, 0.19, 0.13]);
         assert_eq!(dry.rates_rad_s, Vector::zero());
         assert_eq!(dry.held, [true; 4]);
     }
 
     #[test]
-    fn what_the_brakes_did_before_changes_no_answer() {
-        let brakes = brakes([0.017, 0.41, 0.019, 0.013]);
-        for drive in [
-            Vector::new(0.7, 0.43),
-            Vector::new(-0.9, 1.7),
-            Vector::new(0.031, 0.011),
-        ] {
-            let fresh = dry_motion(&MASS, drive, &brakes, Contact::Rest);
-            let held = (0..4).map(Contact::Along);
-            for last in held.chain([fresh.contact, Contact::Slipping([1.0, -1.0, 1.0, -1.0])]) {
-                let dry = dry_motion(&MASS, drive, &brakes, last);
-                assert_eq!(dry.held, fresh.held);
-                assert!((dry.rates_rad_s - fresh.rates_rad_s).norm() < 1e-15);
-            }
-        }
+    fn no_brake_leaves_the_motion_free() {
+        let drive = Vector::new(0.23, -0.31);
+        let dry = from_rest(drive, [0.0; 4]);
+        assert_eq!(dry.rates_rad_s, MASS.solve(drive));
+        assert_eq!(dry.held, [false; 4]);
     }
 
     #[test]
-    fn no_brake_leaves_the_motion_free() {
-        let drive = Vector::new(0.23, -0.31);
-        let dry = dry_motion(&MASS, drive, &brakes([0.0; 4]), Contact::Rest);
-        assert_eq!(dry.rates_rad_s, MASS.solve(drive));
-        assert_eq!(dry.held, [false; 4]);
+    fn a_brake_that_went_on_holding_still_does() {
+        let bounds = [0.017, 0.41, 0.019, 0.013];
+        let drive = Vector::new(0.43, 0.7);
+        let fresh = from_rest(drive, bounds);
+        assert_eq!(fresh.held, [false, true, false, false]);
+        let brakes = brakes(bounds, fresh.rates_rad_s * 0.3);
+        let momentum = MASS.times(fresh.rates_rad_s * 0.3);
+        let again = dry_motion(&MASS, momentum, drive - momentum, &brakes, fresh.contact);
+        assert_eq!(again.held, fresh.held);
+        assert!((again.rates_rad_s - fresh.rates_rad_s).norm() < 1e-15);
+    }
+
+    #[test]
+    fn a_joint_that_turns_back_is_braked_one_way_and_then_the_other() {
+        // Brake B alone, on a diagonal mass: 0.37·v falls from 0.011 under −0.043 − 0.019 to nothing, and on under −0.043 + 0.019.
+        let mass = Mass { ab: 0.0, ..MASS };
+        let rates = Vector::new(0.0, 0.011 / 0.37);
+        let brakes = brakes([0.0, 0.0, 0.019, 0.0], rates);
+        let impulse = Vector::new(0.0, -0.043);
+        let last = Contact::Slipping([0.0, 0.0, 1.0, 0.0]);
+        let dry = dry_motion(&mass, mass.times(rates), impulse, &brakes, last);
+        let left = 1.0 - 0.011 / 0.062;
+        assert!((dry.part - left).abs() < 1e-15);
+        assert!((dry.rates_rad_s.y + 0.024 * left / 0.37).abs() < 1e-15);
     }
 }

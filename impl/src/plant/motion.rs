@@ -103,8 +103,10 @@ pub struct Midway<R> {
     pub rates_rad_s: Vector<R>,
     /// The form of the motion then.
     pub form: Form<R>,
-    /// M·v + h·(Tᵀ·F − b): what the momentum would be without brakes, N·m·s.
+    /// M·v, N·m·s.
     pub momentum_nm_s: Vector<R>,
+    /// Tᵀ·F − b, N·m.
+    pub load_nm: Vector<R>,
 }
 
 impl<R: Real> Motion<R> {
@@ -148,7 +150,8 @@ impl<R: Real> Motion<R> {
             linkage,
             rates_rad_s,
             form,
-            momentum_nm_s: form.mass.times(self.rates_rad_s) + load_nm * step_s,
+            momentum_nm_s: form.mass.times(self.rates_rad_s),
+            load_nm,
         }
     }
 
@@ -190,7 +193,8 @@ impl<R: Real> Motion<R> {
             return Outcome::Undefined;
         }
         let midway = self.midway(mechanism, force_n, step_s);
-        let rates_rad_s = midway.form.mass.solve(midway.momentum_nm_s);
+        let momentum_nm_s = midway.momentum_nm_s + midway.load_nm * step_s;
+        let rates_rad_s = midway.form.mass.solve(momentum_nm_s);
         let next = self.arrive(mechanism, &midway, rates_rad_s, step_s);
         let outcome = match self.outcome_midway(mechanism, &midway) {
             Outcome::Moved => next.outcome_end(mechanism, &midway, step_s),

@@ -69,7 +69,7 @@ impl Plant {
         rates
     }
 
-    /// What the brakes A, E, B, C exerted on their joints in the mean of the last step, in the sense of the joint's angle, N·m.
+    /// What the brakes A, E, B, C exerted on their joints in the end of the last step, in the sense of the joint's angle, N·m.
     pub fn brake_torques_nm(&self) -> [f64; 4] {
         self.torques_nm
     }

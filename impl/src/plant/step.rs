@@ -83,7 +83,7 @@ impl Plant {
         {
             let bound_nm = yield_nm + dry_nm;
             *torque_nm = if bound_nm > 0.0 {
-                impulse / step_s * (yield_nm / bound_nm)
+                impulse / (step_s * dry.part) * (yield_nm / bound_nm)
             } else {
                 0.0
             };
@@ -200,23 +200,30 @@ impl Plant {
         resistance: &Resistance,
         step_s: f64,
     ) -> super::friction::Dry {
-        let ahead = midway.form.joint_rows_ahead(midway.lead_s);
+        let (lead_s, v) = (midway.lead_s, self.motion.rates_rad_s);
+        let start = midway.form.joint_rows_ahead(-lead_s);
+        let ends = start.into_iter().zip(midway.form.joint_rows_ahead(lead_s));
         let bounds = resistance.yields_nm.into_iter().zip(resistance.dry_nm);
-        let mut brakes = [DryBrake {
-            force_row: Vector::zero(),
-            rate_row: Vector::zero(),
-            bound: 0.0,
-        }; 4];
-        let rows = look.rows.into_iter().zip(ahead).zip(bounds);
-        for (brake, ((force_row, rate_row), (yield_nm, dry_nm))) in brakes.iter_mut().zip(rows) {
+        let mut brakes = [DryBrake::absent(); 4];
+        let rows = look.rows.into_iter().zip(ends).zip(bounds);
+        for (brake, ((force_row, (start_row, rate_row)), (yield_nm, dry_nm))) in
+            brakes.iter_mut().zip(rows)
+        {
             *brake = DryBrake {
                 force_row,
                 rate_row,
                 bound: (yield_nm + dry_nm) * step_s,
+                start_rad_s: start_row.dot(v),
             };
         }
-        let drive = midway.momentum_nm_s - resistance.smooth_nm * step_s;
-        dry_motion(&midway.form.mass, drive, &brakes, self.contact)
+        let impulse = (midway.load_nm - resistance.smooth_nm) * step_s;
+        dry_motion(
+            &midway.form.mass,
+            midway.momentum_nm_s,
+            impulse,
+            &brakes,
+            self.contact,
+        )
     }
 
     /// Moves the memories of the effects over a step in which the rates became new ones, rad/s.

