@@ -1,4 +1,4 @@
-//! This file says what 10 s at 1 kHz cost: the whole loop, the controller alone, the plant alone, and the linkage without brakes.
+//! This file says what 10 s at 1 kHz cost: the whole loop, and its controller and its plant alone.
 #![allow(clippy::unwrap_used, missing_docs, reason = "a bench may stop at the first surprise")]
 
 mod rig;
@@ -6,9 +6,7 @@ mod rig;
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use rigproof_impl::plant::motion::{Mechanism, Motion};
-use rigproof_impl::plant::{Parameters, Plant, Scheme};
-use rigproof_spec::layout::Layout;
+use rigproof_impl::plant::Plant;
 use rigproof_spec::methods::SAMPLE_STEP_S;
 
 use rig::{ClosedLoop, TICKS, hand, record};
@@ -43,26 +41,8 @@ fn ten_seconds(bencher: &mut Criterion) {
             plant
         });
     });
-    let Parameters { arms, inertia, .. } = Parameters::of(Layout::FourBrake);
-    let mechanism: Mechanism<f64> = Mechanism::new(&arms, &inertia, Scheme::Midpoint);
-    let theta_rad = start.plant.base_angles_rad().into();
-    let motion = Motion::new(&mechanism, theta_rad, [0.0; 2].into()).unwrap();
-    group.bench_function("linkage without brakes", |b| {
-        b.iter(|| {
-            let mut motion = motion;
-            for tick in 0..TICKS {
-                // Drives round and back without a drift.
-                let [x, y] = PUSHES_N[tick / 16 % PUSHES_N.len()];
-                motion.step_free(&mechanism, black_box([x, y]).into(), SAMPLE_STEP_S);
-            }
-            motion
-        });
-    });
     group.finish();
 }
-
-/// Forces that come to nothing over a round, N.
-const PUSHES_N: [[f64; 2]; 4] = [[7.3, 3.1], [-7.3, -3.1], [-7.3, -3.1], [7.3, 3.1]];
 
 criterion_group!(benches, ten_seconds);
 criterion_main!(benches);

@@ -40,21 +40,19 @@ impl<R: Real> Velocity<R> {
 
     /// The joint's rate at its next travel, rad/s.
     pub fn update(&mut self, travel: i32) -> R {
-        // A line passes a count `i` samples ago within one count if its slope lies between these.
+        // A line passes a count `i` samples ago within one count if its slope lies between these. Without a branch: how long a
+        // window is cannot be predicted, and asking costs more than going on.
         let (mut least, mut greatest) = (i64::MIN, i64::MAX);
-        let mut slope = 0;
+        let (mut slope, mut straight) = (0, true);
         for (past, share) in self.past.into_iter().zip(SHARES.map(i64::from)) {
             let candidate = (i64::from(travel) - i64::from(past)) * share;
-            if candidate < least || greatest < candidate {
-                break;
-            }
-            slope = candidate;
+            straight &= (least <= candidate) & (candidate <= greatest);
+            slope = if straight { candidate } else { slope };
             least = least.max(candidate - share);
             greatest = greatest.min(candidate + share);
         }
-        self.past.rotate_right(1);
-        let [newest, ..] = &mut self.past;
-        *newest = travel;
+        let [a, b, c, d, e, f, g, _] = self.past;
+        self.past = [travel, a, b, c, d, e, f, g];
         R::of(slope as f64) * self.rad_s_per_part
     }
 }
