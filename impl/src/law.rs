@@ -1,5 +1,6 @@
 //! This file is what a control law is told and what it answers.
 
+mod any;
 mod desired_velocity;
 mod impedance;
 mod obstacle;
@@ -9,6 +10,7 @@ mod sdof;
 mod uncontrolled;
 mod velocity_ratio;
 
+pub use any::{AnyLaw, PathLaw};
 pub use desired_velocity::Field;
 pub use impedance::{Impedance, Virtual};
 pub use obstacle::{Obstacle, Side};

@@ -1,11 +1,13 @@
 //! This file says what a law has to know of a desired path: how far away it is and how it runs there.
 
+mod any;
 mod arc;
 mod line;
 mod polyline;
 mod roots;
 mod spline;
 
+pub use any::AnyPath;
 pub use arc::Arc;
 pub use line::Line;
 pub use polyline::Polyline;
