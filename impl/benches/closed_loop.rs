@@ -1,5 +1,9 @@
 //! This file says what 10 s at 1 kHz cost: the whole loop, and its controller and its plant alone.
-#![allow(clippy::unwrap_used, missing_docs, reason = "a bench may stop at the first surprise")]
+#![allow(
+    clippy::unwrap_used,
+    missing_docs,
+    reason = "a bench may stop at the first surprise"
+)]
 
 mod rig;
 

@@ -67,7 +67,10 @@ impl ClosedLoop {
         let per_rad = f64::from(COUNTS_PER_TURN) / core::f64::consts::TAU;
         Sensed {
             number: self.number,
-            counts: self.plant.base_angles_rad().map(|angle| (angle * per_rad) as i32),
+            counts: self
+                .plant
+                .base_angles_rad()
+                .map(|angle| (angle * per_rad) as i32),
             tip_force_n: (hand_m - self.plant.tip_m()) * PULL_N_PER_M,
         }
     }
@@ -76,7 +79,9 @@ impl ClosedLoop {
     pub fn step(&mut self, hand_m: Vector<f64>) -> (Sensed<f64>, Command<f64>) {
         let sensed = self.sensed(hand_m);
         let command = self.controller.tick(&sensed);
-        let outcome = self.plant.step(sensed.tip_force_n.into(), command.currents_a, SAMPLE_STEP_S);
+        let outcome = self
+            .plant
+            .step(sensed.tip_force_n.into(), command.currents_a, SAMPLE_STEP_S);
         assert_eq!(outcome, Outcome::Moved);
         self.number = self.number.wrapping_add(1);
         (sensed, command)
