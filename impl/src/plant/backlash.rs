@@ -37,6 +37,7 @@ impl Backlash {
     }
 
     /// Turns the shaft straight from one angle to another, rad; where that changed whether it is inside, says when.
+    #[inline]
     pub fn turn(&mut self, from_rad: f64, to_rad: f64) -> Option<Crossing> {
         let (low, high) = (self.theta_1_rad, self.theta_1_rad + self.width_rad);
         let entry = self.entry_rad;
@@ -78,6 +79,7 @@ impl Backlash {
 }
 
 /// The nearest number of 0 to 1; what is no number counts as 1.
+#[inline]
 fn within_one(part: f64) -> f64 {
     if part < 0.0 {
         0.0

@@ -1,6 +1,6 @@
 //! This file says how a brake's yield torque moves over a step and what its mean is.
 
-use rigproof_spec::tables::{BrakeTable, Edge, GAIN_BREAK_A, TimeConstantFit};
+use rigproof_spec::tables::{BrakeTable, Edge, GAIN_BREAK_A, TimeConstantFit, TorqueGainFit};
 use rigproof_spec::units::rpm_from_rad_s;
 
 use super::backlash::Backlash;
@@ -13,6 +13,8 @@ const SETTLED_NM: f64 = 0.005;
 /// The state of one brake: the first-order system (3.2) with its backlash.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Brake {
+    /// Off-state torque and torque at the greatest current, N·m.
+    limits_nm: [f64; 2],
     backlash: Backlash,
     yield_nm: f64,
     fall_origin_a: f64,
@@ -36,6 +38,7 @@ impl Brake {
     /// A brake without current, settled, its shaft at `theta_rad` in the middle of the backlash.
     pub fn new(table: &BrakeTable, theta_rad: f64) -> Brake {
         Brake {
+            limits_nm: [table.torque_gain.off_state_nm(), table.greatest_nm()],
             backlash: Backlash::new(table.backlash_width_deg, theta_rad),
             yield_nm: table.torque_gain.off_state_nm(),
             fall_origin_a: 0.0,
@@ -69,10 +72,11 @@ impl Brake {
             }
         };
         self.current_a = current_a;
-        within_limits(table, impulse / step_s)
+        within(impulse / step_s, self.limits_nm)
     }
 
     /// Follows one course for a time, s, backwards where that is below zero; returns ∫ yield dt, N·m·s.
+    #[inline]
     fn follow(
         &mut self,
         table: &BrakeTable,
@@ -81,7 +85,11 @@ impl Brake {
         speed_rad_s: f64,
         time_s: f64,
     ) -> f64 {
-        let target_nm = target_nm(table, current_a, inside);
+        let target_nm = if inside {
+            table.torque_gain.off_state_nm()
+        } else {
+            within(gain_nm(&table.torque_gain, current_a), self.limits_nm)
+        };
         if self.yield_nm <= target_nm + SETTLED_NM {
             self.fall_origin_a = current_a;
         }
@@ -94,7 +102,10 @@ impl Brake {
         let exponent = time_s / a_s;
         let mean_share = decayed(exponent);
         let off_nm = self.yield_nm - target_nm;
-        self.yield_nm = within_limits(table, self.yield_nm - off_nm * exponent * mean_share);
+        self.yield_nm = within(
+            self.yield_nm - off_nm * exponent * mean_share,
+            self.limits_nm,
+        );
         (target_nm + off_nm * mean_share) * time_s
     }
 
@@ -109,30 +120,19 @@ impl Brake {
     }
 }
 
-/// Where the yield torque goes, N·m (3.3).
+/// Torque gain K, N·m (3.3).
 //= thesis (3.3)
-fn target_nm(table: &BrakeTable, current_a: f64, inside: bool) -> f64 {
-    let gain = &table.torque_gain;
-    if inside {
-        gain.off_state_nm()
-    } else if current_a < GAIN_BREAK_A {
-        within_limits(table, gain.k_1 * current_a + gain.k_2)
+#[inline]
+fn gain_nm(fit: &TorqueGainFit, current_a: f64) -> f64 {
+    if current_a < GAIN_BREAK_A {
+        fit.k_1 * current_a + fit.k_2
     } else {
-        within_limits(
-            table,
-            (gain.k_3 * current_a + gain.k_4) * current_a + gain.k_5,
-        )
+        (fit.k_3 * current_a + fit.k_4) * current_a + fit.k_5
     }
 }
 
-fn within_limits(table: &BrakeTable, torque_nm: f64) -> f64 {
-    within(
-        torque_nm,
-        [table.torque_gain.off_state_nm(), table.greatest_nm()],
-    )
-}
-
 /// The nearest value of a range; what is no number stays none.
+#[inline]
 fn within(value: f64, [least, greatest]: [f64; 2]) -> f64 {
     if value < least {
         least
@@ -146,6 +146,7 @@ fn within(value: f64, [least, greatest]: [f64; 2]) -> f64 {
 /// Time constant a at the nearest measured current and speed, s (3.5), (3.6).
 //= thesis (3.5)
 //= thesis (3.6)
+#[inline]
 pub fn time_constant_s(table: &BrakeTable, current_a: f64, speed_rad_s: f64, edge: Edge) -> f64 {
     let speed_rpm = within(rpm_from_rad_s(speed_rad_s.abs()), table.speed_range_rpm);
     let fit: &TimeConstantFit = table.time_constant(edge);

@@ -56,6 +56,7 @@ pub struct Mass<R> {
 
 impl<R: Real> Mass<R> {
     /// The matrix times a vector.
+    #[inline]
     pub fn times(&self, vector: Vector<R>) -> Vector<R> {
         Vector::new(
             self.aa * vector.x + self.ab * vector.y,
@@ -64,6 +65,7 @@ impl<R: Real> Mass<R> {
     }
 
     /// The vector that the matrix turns into `right`.
+    #[inline]
     pub fn solve(&self, right: Vector<R>) -> Vector<R> {
         let inverse = R::of(1.0) / (self.aa * self.bb - self.ab * self.ab);
         Vector::new(
@@ -92,6 +94,7 @@ pub struct Form<R> {
 /// derivatives are dot products times differences of rates. Each body adds its share by the principle of virtual power.
 //= thesis (5.40)
 //= thesis (A.1)
+#[inline]
 pub fn form<R: Real>(bodies: &Bodies<R>, at: &Linkage<R>, rates_rad_s: Vector<R>) -> Form<R> {
     let Linkage {
         ae: a,
@@ -149,18 +152,21 @@ pub fn form<R: Real>(bodies: &Bodies<R>, at: &Linkage<R>, rates_rad_s: Vector<R>
 
 impl<R: Real> Form<R> {
     /// What a force on the tip drives the two coordinates with: Tᵀ·F, N·m.
+    #[inline]
     pub fn tip_load(&self, at: &Linkage<R>, force_n: Vector<R>) -> Vector<R> {
         let [left, _] = self.turning;
         Vector::new(at.ae.cross(force_n), R::zero()) + left * at.ed.cross(force_n)
     }
 
     /// G: how fast the joints A, E, B, C turn by v, rows, 1.
+    #[inline]
     pub fn joint_rows(&self) -> [Vector<R>; 4] {
         let [left, right] = self.turning;
         rows(left, right)
     }
 
     /// G after `ahead_s` at the rates of the form.
+    #[inline]
     pub fn joint_rows_ahead(&self, ahead_s: R) -> [Vector<R>; 4] {
         let [left, right] = self.turning;
         let [left_rate, right_rate] = self.turning_rate;
@@ -173,6 +179,7 @@ impl<R: Real> Form<R> {
     }
 }
 
+#[inline]
 fn rows<R: Real>(left: Vector<R>, right: Vector<R>) -> [Vector<R>; 4] {
     let (one, none) = (R::of(1.0), R::zero());
     let (base_a, base_b) = (Vector::new(one, none), Vector::new(none, one));

@@ -73,6 +73,7 @@ impl DryBrake {
     }
 
     /// The rate of the joint along a direction; exactly zero where they are at right angles.
+    #[inline]
     fn rate(&self, along: Plane) -> f64 {
         exact_zero(self.rate_row, along)
     }
@@ -138,6 +139,7 @@ pub fn dry_motion(
 }
 
 /// The part of a step, up to which every slipping joint keeps its sign if the rates change evenly; 1 where all do.
+#[inline]
 fn first_turn(brakes: &[DryBrake; 4], signs: [f64; 4], rates_rad_s: Plane) -> f64 {
     let mut first = 1.0;
     for (brake, sign) in brakes.iter().zip(signs) {
@@ -329,6 +331,7 @@ impl Problem<'_> {
     }
 
     /// The motion if every brake slips with a given sign.
+    #[inline]
     fn sector(&self, signs: [f64; 4]) -> Dry {
         let mut impulses = signs;
         for (impulse, brake) in impulses.iter_mut().zip(self.brakes) {
@@ -376,6 +379,7 @@ impl Problem<'_> {
 }
 
 /// What impulses of the brakes come to.
+#[inline]
 fn sum(brakes: &[DryBrake; 4], impulses: [f64; 4]) -> Plane {
     let each = brakes.iter().zip(impulses);
     each.fold(Vector::zero(), |sum, (brake, impulse)| {

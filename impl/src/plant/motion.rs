@@ -134,6 +134,7 @@ impl<R: Real> Motion<R> {
     }
 
     /// The first part of a step under a force on the tip, N.
+    #[inline]
     pub fn midway(&self, mechanism: &Mechanism<R>, force_n: Vector<R>, step_s: R) -> Midway<R> {
         let lead_s = step_s * mechanism.scheme.lead();
         let angles = self.rates_rad_s * lead_s;
@@ -156,6 +157,7 @@ impl<R: Real> Motion<R> {
     }
 
     /// The second part, at new rates, rad/s.
+    #[inline]
     pub fn arrive(
         &self,
         mechanism: &Mechanism<R>,
@@ -177,12 +179,14 @@ impl<R: Real> Motion<R> {
     }
 
     /// Whether rates turn both base arms by no more in a time than can be computed.
+    #[inline]
     pub fn is_slow(rates_rad_s: Vector<R>, time_s: R) -> bool {
         let greatest = R::of(GREATEST_TURN_RAD);
         (rates_rad_s.x * time_s).is_within(greatest) && (rates_rad_s.y * time_s).is_within(greatest)
     }
 
     /// One step without brakes or other physics.
+    #[inline]
     pub fn step_free(
         &mut self,
         mechanism: &Mechanism<R>,
@@ -207,6 +211,7 @@ impl<R: Real> Motion<R> {
     }
 
     /// Whether the first part of a step from here may be taken.
+    #[inline]
     pub fn outcome_midway(&self, mechanism: &Mechanism<R>, midway: &Midway<R>) -> Outcome {
         outcome(
             Motion::is_slow(self.rates_rad_s, midway.lead_s),
@@ -215,6 +220,7 @@ impl<R: Real> Motion<R> {
     }
 
     /// Whether the second part of a step that ends here may be taken.
+    #[inline]
     pub fn outcome_end(&self, mechanism: &Mechanism<R>, midway: &Midway<R>, step_s: R) -> Outcome {
         outcome(
             Motion::is_slow(self.rates_rad_s, step_s - midway.lead_s),
@@ -223,6 +229,7 @@ impl<R: Real> Motion<R> {
     }
 }
 
+#[inline]
 fn outcome(slow: bool, sound: bool) -> Outcome {
     match (slow, sound) {
         (false, _) => Outcome::TooFast,
@@ -232,6 +239,7 @@ fn outcome(slow: bool, sound: bool) -> Outcome {
 }
 
 /// Whether force and step are numbers of this rig.
+#[inline]
 pub fn is_defined<R: Real>(force_n: Vector<R>, step_s: R) -> bool {
     let greatest_n = R::of(GREATEST_FORCE_N);
     force_n.x.is_within(greatest_n)

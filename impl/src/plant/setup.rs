@@ -167,6 +167,7 @@ impl Plant {
 }
 
 /// The directions of ED seen from AE and of CD seen from BC, m².
+#[inline]
 pub(super) fn elbows(linkage: &Linkage<f64>) -> [Vector<f64>; 2] {
     let seen = |from: Vector<f64>, arm: Vector<f64>| Vector::new(from.dot(arm), from.cross(arm));
     [seen(linkage.ae, linkage.ed), seen(linkage.bc, linkage.cd)]

@@ -91,6 +91,7 @@ impl Plant {
         Outcome::Moved
     }
 
+    #[inline]
     fn takes(&self, currents_a: [f64; 4]) -> bool {
         self.tables
             .iter()
@@ -102,6 +103,7 @@ impl Plant {
     }
 
     /// The joints halfway; none where an elbow turned further than can be computed.
+    #[inline]
     fn look(&self, midway: &Midway<f64>) -> Option<Look> {
         let elbows = elbows(&midway.linkage);
         let [from_e, from_c] = self.elbows;
@@ -126,6 +128,7 @@ impl Plant {
     }
 
     /// What resists under some currents.
+    #[inline]
     fn resistance(
         &self,
         midway: &Midway<f64>,
@@ -167,7 +170,7 @@ impl Plant {
     }
 
     fn add_effects(&self, sum: &mut Resistance, midway: &Midway<f64>, look: &Look, step_s: f64) {
-        for Effect { joint, law, memory } in self.effects.iter().flatten() {
+        for Effect { joint, law, memory } in self.effects.iter().map_while(Option::as_ref) {
             let (position, speed, row) = at(look, *joint);
             let now = Instant {
                 time_s: self.time_s + midway.lead_s,
@@ -193,6 +196,7 @@ impl Plant {
     }
 
     /// The rates after the step and what the brakes did for them.
+    #[inline]
     fn dry(
         &self,
         midway: &Midway<f64>,
@@ -229,7 +233,7 @@ impl Plant {
     /// Moves the memories of the effects over a step in which the rates became new ones, rad/s.
     fn remember(&mut self, look: &Look, rates_rad_s: Plane, step_s: f64) {
         let mean = (self.motion.rates_rad_s + rates_rad_s) * 0.5;
-        for Effect { joint, law, memory } in self.effects.iter_mut().flatten() {
+        for Effect { joint, law, memory } in self.effects.iter_mut().map_while(Option::as_mut) {
             let (_, _, row) = at(look, *joint);
             [*memory, _] = law.remember(*memory, row.dot(mean), step_s);
         }
@@ -237,6 +241,7 @@ impl Plant {
 }
 
 /// Angle, rate and row of a joint.
+#[inline]
 fn at(look: &Look, joint: Joint) -> (f64, f64, Plane) {
     let [a, e, b, c] = look.angles_rad;
     let [rate_a, rate_e, rate_b, rate_c] = look.rates_rad_s;

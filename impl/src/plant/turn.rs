@@ -4,63 +4,40 @@ use crate::number::Real;
 use crate::vector::Vector;
 
 /// Greatest angle, rad, that [`turned`] and [`angle_between`] are exact to rounding for.
-pub const GREATEST_TURN_RAD: f64 = 0.25;
+pub const GREATEST_TURN_RAD: f64 = 0.0625;
 
-/// A vector turned by a small angle, rad, to the left: sine to the 11th power, cosine to the 12th.
+/// A vector turned by a small angle, rad, to the left: sine to the 7th power, cosine to the 8th.
 ///
-/// What is left out is at most 2.4e-18 of the length at [`GREATEST_TURN_RAD`].
+/// What is left out is at most 4e-17 of the length at [`GREATEST_TURN_RAD`].
+#[inline]
 pub fn turned<R: Real>(vector: Vector<R>, angle_rad: R) -> Vector<R> {
     let square = angle_rad * angle_rad;
-    let sine = angle_rad
-        * series(
-            square,
-            [
-                1.0,
-                -1.0 / 6.0,
-                1.0 / 120.0,
-                -1.0 / 5_040.0,
-                1.0 / 362_880.0,
-                -1.0 / 39_916_800.0,
-            ],
-        );
+    let sine = series(square, [1.0, -1.0 / 6.0, 1.0 / 120.0, -1.0 / 5_040.0]);
     let less = series(
         square,
-        [
-            -1.0 / 2.0,
-            1.0 / 24.0,
-            -1.0 / 720.0,
-            1.0 / 40_320.0,
-            -1.0 / 3_628_800.0,
-            1.0 / 479_001_600.0,
-        ],
+        [-1.0 / 2.0, 1.0 / 24.0, -1.0 / 720.0, 1.0 / 40_320.0],
     );
-    vector + vector * (square * less) + vector.left() * sine
+    vector + vector * (square * less) + vector.left() * (angle_rad * sine)
 }
 
 /// A vector of nearly length one with length one: a Newton step.
+#[inline]
 pub fn renormalised<R: Real>(vector: Vector<R>) -> Vector<R> {
     vector * (R::of(1.5) - R::of(0.5) * vector.norm_squared())
 }
 
 /// The small angle from one vector to another of the same length, rad: twice the arc tangent of half of it.
 ///
-/// What is left out is at most 6e-17 rad at [`GREATEST_TURN_RAD`].
+/// What is left out is at most 5e-18 rad at [`GREATEST_TURN_RAD`].
+#[inline]
 pub fn angle_between<R: Real>(from: Vector<R>, to: Vector<R>) -> R {
     let half = from.cross(to) / (from.norm_squared() + from.dot(to));
-    let powers = [
-        2.0,
-        -2.0 / 3.0,
-        2.0 / 5.0,
-        -2.0 / 7.0,
-        2.0 / 9.0,
-        -2.0 / 11.0,
-        2.0 / 13.0,
-        -2.0 / 15.0,
-    ];
+    let powers = [2.0, -2.0 / 3.0, 2.0 / 5.0, -2.0 / 7.0, 2.0 / 9.0];
     half * series(half * half, powers)
 }
 
 /// Whether the angle between two vectors is one that [`angle_between`] is exact for.
+#[inline]
 pub fn is_small<R: Real>(from: Vector<R>, to: Vector<R>) -> bool {
     from.cross(to)
         .is_within(from.dot(to) * R::of(GREATEST_TURN_RAD))

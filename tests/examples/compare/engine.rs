@@ -33,16 +33,14 @@ pub fn run(engine: &impl Engine, case: &Case) -> Vec<Sample> {
     samples
 }
 
-/// What a tick of a case costs: nothing is looked at but the end.
+/// What a tick of a case costs: nothing is looked at.
 pub fn time(engine: &impl Engine, case: &Case, repeats: usize) -> Cost {
-    let forces_n = case.forces_n();
-    cost(repeats, forces_n.len(), || {
-        let mut engine = engine.clone();
-        for force_n in &forces_n {
-            engine.tick(*force_n);
-        }
-        engine.sample()
-    })
+    cost(
+        repeats,
+        &case.forces_n(),
+        || engine.clone(),
+        |engine, force_n| engine.tick(force_n),
+    )
 }
 
 /// Greatest distance between the tips of two runs, m.

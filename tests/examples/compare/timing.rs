@@ -1,29 +1,48 @@
-//! This file says how a step is timed: whole runs, one after the other, on the clock of the wall.
+//! This file says how a tick is timed: in short pieces, so that what else the machine does falls out of the median.
 
 use std::time::Instant;
 
-/// What a step costs, ns.
+/// Ticks of a piece.
+const PIECE: usize = 50;
+
+/// What a tick costs, ns: the median and the least of the repeats of every piece, averaged over the pieces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cost {
-    /// The median of the runs.
+    /// By the medians.
     pub median_ns: f64,
-    /// The least of the runs.
+    /// By the least.
     pub least_ns: f64,
 }
 
-/// The cost of a step in runs of `steps` steps; the first run is not counted.
-pub fn cost<T>(repeats: usize, steps: usize, mut run: impl FnMut() -> T) -> Cost {
-    std::hint::black_box(run());
-    let mut each_ns: Vec<f64> = (0..repeats)
-        .map(|_| {
-            let start = Instant::now();
-            std::hint::black_box(run());
-            start.elapsed().as_secs_f64() * 1e9 / steps as f64
-        })
-        .collect();
-    each_ns.sort_by(f64::total_cmp);
+/// The cost of a tick where `start` begins a run and `tick` takes one tick of it under a force; the first run is not counted.
+pub fn cost<E>(
+    repeats: usize,
+    forces_n: &[[f64; 2]],
+    start: impl Fn() -> E,
+    tick: impl Fn(&mut E, [f64; 2]),
+) -> Cost {
+    let mut pieces_ns = vec![Vec::with_capacity(repeats); forces_n.len().div_ceil(PIECE)];
+    for repeat in 0..=repeats {
+        let mut engine = start();
+        for (piece_ns, piece) in pieces_ns.iter_mut().zip(forces_n.chunks(PIECE)) {
+            let from = Instant::now();
+            for force_n in piece {
+                tick(&mut engine, *force_n);
+            }
+            if repeat > 0 {
+                piece_ns.push(from.elapsed().as_secs_f64() * 1e9);
+            }
+        }
+        std::hint::black_box(engine);
+    }
+    for piece_ns in &mut pieces_ns {
+        piece_ns.sort_by(f64::total_cmp);
+    }
+    let mean = |at: usize| {
+        pieces_ns.iter().map(|piece_ns| piece_ns[at]).sum::<f64>() / forces_n.len() as f64
+    };
     Cost {
-        median_ns: each_ns[each_ns.len() / 2],
-        least_ns: each_ns[0],
+        median_ns: mean(repeats / 2),
+        least_ns: mean(0),
     }
 }

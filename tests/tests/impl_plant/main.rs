@@ -3,5 +3,13 @@
 #[path = "../budget/mod.rs"]
 mod budget;
 
+mod brakes;
+mod closed_loop;
 mod convergence;
+mod dry;
+mod effects;
+mod energy;
+mod form;
+mod golden;
+mod one_step;
 mod rigs;

@@ -1,7 +1,11 @@
-//! This file makes the same rig twice, as the reference and as the plant.
+//! This file makes the same rig twice, as the reference and as the plant, and draws numbers.
 
+use rand_pcg::Pcg64Mcg;
+use rand_pcg::rand_core::{Rng, SeedableRng};
 use rigproof_impl::plant::{Outcome, Parameters, Plant, Scheme};
 use rigproof_model::rig::Rig;
+use rigproof_spec::geometry::Arms;
+use rigproof_spec::inertia::{ArmInertia, Inertia};
 use rigproof_spec::layout::Layout;
 
 /// Both layouts.
@@ -15,33 +19,26 @@ pub fn middle_m(layout: Layout) -> [f64; 2] {
     }
 }
 
-/// The plant where a rig at rest stands.
+/// The plant where a rig stands.
 pub fn plant_of(rig: &Rig, scheme: Scheme) -> Plant {
     let parameters = Parameters {
         scheme,
         ..Parameters::of(rig.parameters().layout)
     };
-    Plant::new(
-        &parameters,
-        rig.base_angles_rad(),
-        rig.base_rates_rad_s(),
-        &[],
-    )
-    .unwrap()
+    let angles = rig.base_angles_rad();
+    Plant::new(&parameters, angles, rig.base_rates_rad_s(), &[]).unwrap()
 }
 
-/// Advances by a time in steps of a length, the force drawn anew at every step, s.
+/// Advances by a time, s, in steps of a length, s.
 pub fn advance(
     plant: &mut Plant,
-    force: impl Fn(f64) -> [f64; 2],
+    force_n: [f64; 2],
     currents_a: [f64; 4],
-    [from_s, time_s, step_s]: [f64; 3],
+    time_s: f64,
+    step_s: f64,
 ) {
-    let steps = libm::round(time_s / step_s) as u32;
-    for k in 0..steps {
-        let middle_s = from_s + (f64::from(k) + 0.5) * step_s;
-        let outcome = plant.step(force(middle_s), currents_a, step_s);
-        assert_eq!(outcome, Outcome::Moved);
+    for _ in 0..libm::round(time_s / step_s) as u32 {
+        assert_eq!(plant.step(force_n, currents_a, step_s), Outcome::Moved);
     }
 }
 
@@ -54,4 +51,60 @@ pub fn apart_rad(plant: &Plant, rig: &Rig) -> f64 {
     pairs.fold(0.0, |most, (one, other)| {
         f64::max(most, (one - other).abs())
     })
+}
+
+/// How many cases a campaign has: `RIGPROOF_CAMPAIGN`, or what a test has time for.
+pub fn campaign(usually: usize) -> usize {
+    let asked = std::env::var("RIGPROOF_CAMPAIGN");
+    asked.map_or(usually, |size| size.parse().unwrap())
+}
+
+/// Numbers from a seed.
+pub struct Draw(Pcg64Mcg);
+
+impl Draw {
+    pub fn new(seed: u64) -> Draw {
+        Draw(Pcg64Mcg::seed_from_u64(seed))
+    }
+
+    pub fn between(&mut self, least: f64, greatest: f64) -> f64 {
+        let part = (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
+        least + (greatest - least) * part
+    }
+
+    pub fn one_in(&mut self, many: u64) -> bool {
+        self.0.next_u64() % many == 0
+    }
+
+    /// Arms of a layout, or any.
+    pub fn arms(&mut self, kind: usize) -> Arms {
+        match kind % 3 {
+            0 => rigproof_spec::geometry::arms(Layout::ThreeBrake),
+            1 => rigproof_spec::geometry::arms(Layout::FourBrake),
+            _ => Arms {
+                l_ae_m: self.between(0.07, 1.9),
+                l_ed_m: self.between(0.07, 1.9),
+                l_bc_m: self.between(0.07, 1.9),
+                l_cd_m: self.between(0.07, 1.9),
+                l_ab_m: self.between(0.01, 0.9),
+            },
+        }
+    }
+
+    /// Any masses.
+    pub fn inertia(&mut self) -> Inertia {
+        let mut arm = || ArmInertia {
+            mass_kg: self.between(0.3, 4.7),
+            inertia_kg_m2: self.between(0.013, 0.071),
+            centre_m: self.between(-0.11, 0.31),
+        };
+        let (ae, ed, bc, cd) = (arm(), arm(), arm(), arm());
+        Inertia {
+            ae,
+            ed,
+            bc,
+            cd,
+            payload_kg: self.between(0.07, 1.3),
+        }
+    }
 }
