@@ -65,6 +65,20 @@ impl<R: Real> Actuation<R> {
         self.greatest_force_n
     }
 
+    /// As [`Actuation::situation`], for a law whose selection does not refuse rows itself.
+    pub(crate) fn situation_of_sound_rows(
+        &self,
+        path: &impl Path<R>,
+        now: &Situation<R>,
+    ) -> Result<(Rows<R>, Nearest<R>), Reason> {
+        let situation = self.situation(path, now)?;
+        if now.rows.iter().all(sound_row) {
+            Ok(situation)
+        } else {
+            Err(Reason::UndefinedInput)
+        }
+    }
+
     /// The brakes' rows of the Jacobian, 1/m, and how the tip lies to a path; or the reason for which no brake may act.
     pub(crate) fn situation(
         &self,
@@ -148,12 +162,9 @@ impl<R: Real> Actuation<R> {
     }
 }
 
-/// Whether every number that a law is told is one it takes, as [`crate::select::is_sound`] does.
+/// Whether tip, velocity and push are numbers that a law takes, as [`crate::select::is_sound`] does.
 pub(crate) fn is_defined<R: Real>(now: &Situation<R>) -> bool {
-    bounded(&now.linkage.tip_m)
-        && bounded(&now.tip_velocity_m_s)
-        && bounded(&now.tip_force_n)
-        && now.rows.iter().all(sound_row)
+    bounded(&now.linkage.tip_m) && bounded(&now.tip_velocity_m_s) && bounded(&now.tip_force_n)
 }
 
 /// What belongs to a joint.

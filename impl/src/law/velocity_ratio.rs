@@ -44,7 +44,7 @@ impl<R: Real, P: Path<R>> VelocityRatio<R, P> {
 
 impl<R: Real, P: Path<R>> Law<R> for VelocityRatio<R, P> {
     fn command(&mut self, now: &Situation<R>) -> Command<R> {
-        let (rows, nearest) = match self.actuation.situation(&self.path, now) {
+        let (rows, nearest) = match self.actuation.situation_of_sound_rows(&self.path, now) {
             Ok(situation) => situation,
             Err(reason) => return Command::none(reason),
         };

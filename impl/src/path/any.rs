@@ -6,10 +6,6 @@ use crate::vector::Vector;
 
 /// One of the four kinds of path; at most `N` pieces.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[expect(
-    clippy::large_enum_variant,
-    reason = "without a heap the largest kind has to fit"
-)]
 pub enum AnyPath<R, const N: usize> {
     /// A straight line.
     Line(Line<R>),
