@@ -35,7 +35,7 @@ PINOCCHIO = [
     ("semi-implicit Euler, stabilised at 100/s", ("euler", 100.0)),
     ("RK4", ("rk4", 0.0)),
 ]
-# The settings whose motion must come to the reference's as the step shrinks, and by how many steps a tick.
+# Steps a tick at which the peers' motion must come to the reference's.
 FINE = [4, 16, 64]
 # Time after which a locked rig has taken up its backlash, s: creep is counted from there.
 TAKEN_UP_S = 1.0
@@ -60,7 +60,8 @@ class Case:
         """How far a run is from the converged one; peers have no backlash to take up, so that a locked one is judged by its creep."""
         off_mm = 1e3 * np.linalg.norm(left - self.tips_m, axis=1)
         line = {"engine": engine, "settings": settings}
-        line["opening_m"] = 0.0 if right is None else float(np.linalg.norm(left - right, axis=1).max())
+        if right is not None:
+            line["opening_m"] = float(np.linalg.norm(left - right, axis=1).max())
         if self.locked:
             from_tick = round(TAKEN_UP_S / self.entry["step_s"])
             time_s = (len(left) - 1 - from_tick) * self.entry["step_s"]

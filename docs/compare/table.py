@@ -20,18 +20,18 @@ def row(cells):
     return "| " + " | ".join(cells) + " |"
 
 
-def speed(line, lines):
-    """How many times longer MuJoCo takes: beside its fastest settings, and beside its fastest whose error is no larger than this line's."""
-    peers = [peer for peer in lines if peer["engine"] == "MuJoCo"]
-    fastest = min(peers, key=lambda peer: peer["median_ns"])
-    return f"{fastest['median_ns'] / line['median_ns']:.1f}"
+def slower(line, lines):
+    """How many times longer the fastest of MuJoCo's settings takes whose error, or creep, is no smaller than this line's."""
+    measure = "creep_mm_s" if "creep_mm_s" in line else "greatest_mm"
+    peers = [peer["median_ns"] for peer in lines if peer["engine"] == "MuJoCo" and peer[measure] >= line[measure]]
+    return f"{min(peers) / line['median_ns']:.1f}" if peers and line["engine"] != "MuJoCo" else "–"
 
 
 def markdown(result):
     machine = result["machine"]
     out = [
         f"{machine['processor']}, {machine['cores']} cores, {machine['mhz']} MHz, one core used; MuJoCo {machine['mujoco']}, "
-        f"Pinocchio {machine['pin']}; median of {result['rounds']} rounds taken in turn, least of all runs.",
+        f"Pinocchio {machine['pin']}; median of {result['rounds']} rounds taken in turn, least of all; other work on the machine.",
         "",
     ]
     for case in result["cases"]:
@@ -40,13 +40,13 @@ def markdown(result):
         out += [f"### {LAYOUTS[layout]}, {TITLES[kind]}", ""]
         heads = ["engine", "settings", "µs a millisecond, median", "least", "greatest tip error, mm", "at the end, mm", "loop open, m"]
         heads += ["creep, mm/s"] if locked else []
-        heads += ["MuJoCo's fastest is slower by"]
+        heads += ["times as fast as MuJoCo at no larger " + ("creep" if locked else "error")]
         out += [row(heads), row(["---"] * len(heads))]
         for line in case["lines"]:
             cells = [line["engine"], line["settings"], micro(line["median_ns"]), micro(line["least_ns"])]
-            cells += [number(line.get("greatest_mm")), number(line.get("end_mm")), number(line["opening_m"])]
+            cells += [number(line.get("greatest_mm")), number(line.get("end_mm")), number(line.get("opening_m"))]
             cells += [number(line["creep_mm_s"])] if locked else []
-            cells += [speed(line, case["lines"])]
+            cells += [slower(line, case["lines"])]
             out.append(row(cells))
         out += ["", f"The converged solution and one of half its step are {number(case['converged_apart_mm'])} mm apart.", ""]
         if case["finer"]:
