@@ -53,14 +53,14 @@ impl Samples {
         self.tick += 1;
         let draw = self.random.next_u64();
         self.number = self.number.wrapping_add(1);
-        let rare = draw % 13 == 0;
+        let rare = draw.is_multiple_of(13);
         match self.kind {
             // At rest.
             0 => {}
             // A count every few ticks.
             1 => self.turn([
-                i32::from(self.tick % 5 == 0),
-                -i32::from(self.tick % 7 == 0),
+                i32::from(self.tick.is_multiple_of(5)),
+                -i32::from(self.tick.is_multiple_of(7)),
             ]),
             // A sample repeated or missed.
             2 if rare => {
