@@ -3,7 +3,7 @@
 use rigproof_spec::tables::{BrakeTable, Edge, GAIN_BREAK_A, TimeConstantFit, TorqueGainFit};
 use rigproof_spec::units::rpm_from_rad_s;
 
-use super::backlash::Backlash;
+use super::backlash::{Backlash, Crossing};
 use super::decay::decayed;
 
 /// Excess of the yield torque over its target below which a fall counts as finished, N·m: half the last digit
@@ -54,35 +54,47 @@ impl Brake {
     /// at, at the moment s after the start of the step, the torque changes course then. Where s lies before the start, the
     /// torque is taken back to s on its old course; what its mean then missed is added to this step's.
     //= thesis (3.2)
+    #[inline]
     pub fn step(&mut self, table: &BrakeTable, current_a: f64, turn: &Turn) -> f64 {
         let [from_rad, to_rad] = turn.way_rad;
         let was_inside = self.backlash.is_inside();
-        let (last_a, speed, step_s) = (self.current_a, turn.speed_rad_s, turn.step_s);
         let mean_nm = match self.backlash.turn(from_rad, to_rad) {
-            None => self.follow(table, was_inside, current_a, speed, step_s),
-            Some(crossing) => {
-                let mut impulse = |inside: bool, current_a: f64, time_s: f64| {
-                    self.follow(table, inside, current_a, speed, time_s) * time_s
-                };
-                let [before_s, after_s] = turn.around_s;
-                let moment_s = (before_s + after_s) * crossing.part - before_s;
-                let impulses = if moment_s < 0.0 {
-                    impulse(was_inside, last_a, moment_s)
-                        + impulse(crossing.inside, last_a, -moment_s)
-                        + impulse(crossing.inside, current_a, step_s)
-                } else {
-                    impulse(was_inside, current_a, moment_s)
-                        + impulse(crossing.inside, current_a, step_s - moment_s)
-                };
-                impulses / step_s
-            }
+            None => self.follow(table, was_inside, current_a, turn.speed_rad_s, turn.step_s),
+            Some(crossing) => self.cross(table, was_inside, crossing, current_a, turn),
         };
         self.current_a = current_a;
         within(mean_nm, self.limits_nm)
     }
 
+    /// A step in which a boundary of the backlash was passed; seldom, so kept apart.
+    #[inline(never)]
+    fn cross(
+        &mut self,
+        table: &BrakeTable,
+        was_inside: bool,
+        crossing: Crossing,
+        current_a: f64,
+        turn: &Turn,
+    ) -> f64 {
+        let (last_a, step_s) = (self.current_a, turn.step_s);
+        let mut impulse = |inside: bool, current_a: f64, time_s: f64| {
+            self.follow(table, inside, current_a, turn.speed_rad_s, time_s) * time_s
+        };
+        let [before_s, after_s] = turn.around_s;
+        let moment_s = (before_s + after_s) * crossing.part - before_s;
+        let impulses = if moment_s < 0.0 {
+            impulse(was_inside, last_a, moment_s)
+                + impulse(crossing.inside, last_a, -moment_s)
+                + impulse(crossing.inside, current_a, step_s)
+        } else {
+            impulse(was_inside, current_a, moment_s)
+                + impulse(crossing.inside, current_a, step_s - moment_s)
+        };
+        impulses / step_s
+    }
+
     /// Follows one course for a time, s, backwards where that is below zero; returns the mean of the yield torque, N·m.
-    #[inline]
+    #[inline(always)]
     fn follow(
         &mut self,
         table: &BrakeTable,

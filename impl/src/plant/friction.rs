@@ -80,6 +80,7 @@ impl DryBrake {
 }
 
 /// The dot product; exactly zero where the two are at right angles.
+#[inline]
 fn exact_zero(one: Plane, other: Plane) -> f64 {
     let product = one.dot(other);
     if product * product <= PARALLEL_SQUARED * one.norm_squared() * other.norm_squared() {
@@ -163,6 +164,16 @@ struct Problem<'a> {
     brakes: &'a [DryBrake; 4],
 }
 
+/// A side of the polygon that the brakes can hold.
+struct Side {
+    normal: Plane,
+    /// Of the brakes' rows along the normal; exactly zero for those parallel to the side.
+    components: [f64; 4],
+    /// The load along the normal, with its sign, and the most that the brakes hold there.
+    load: f64,
+    strength: f64,
+}
+
 impl Problem<'_> {
     /// The motion if a brake goes on holding while the others slip as they did; none where it cannot.
     fn holding(&self, held: usize, signs: [f64; 4]) -> Option<Dry> {
@@ -203,75 +214,80 @@ impl Problem<'_> {
 
     /// Rest, if the brakes can hold the load.
     fn rest(&self) -> Option<Dry> {
-        let (mut share, mut normal) = (0.0, Vector::zero());
-        for brake in self.brakes.iter().filter(|brake| brake.acts()) {
-            // The sides' normals, and the sides' own directions for brakes that are all parallel.
-            for direction in [brake.force_row.left(), brake.force_row] {
-                let strength = self.strength(direction);
-                let push = direction.dot(self.drive);
-                let needed = if strength > 0.0 {
-                    push.abs() / strength
-                } else if exact_zero(direction, self.drive) != 0.0 {
-                    return None;
-                } else {
-                    0.0
-                };
-                if needed > share {
-                    (share, normal) = (needed, direction);
-                }
-            }
+        let mut impulses = [0.0; 4];
+        if self.drive != Vector::zero() {
+            impulses = self.impulses_at_rest(&self.tightest()?);
         }
-        let nobody = !self.brakes.iter().any(DryBrake::acts) && self.drive != Vector::zero();
-        (share <= 1.0 && !nobody).then(|| Dry {
+        Some(Dry {
             rates_rad_s: Vector::zero(),
-            impulses: self.impulses_at_rest(share, normal),
+            impulses,
             part: 1.0,
-            held: self.brakes.map(|brake| brake.acts()),
+            held: self.brakes.each_ref().map(DryBrake::acts),
             contact: Contact::Rest,
         })
     }
 
-    /// Greatest component of the brakes' impulses along a direction, times its length.
-    fn strength(&self, along: Plane) -> f64 {
-        let each = |brake: &DryBrake| brake.bound * exact_zero(brake.force_row, along).abs();
-        self.brakes.iter().map(each).sum()
+    /// The side of the polygon along whose normal the load takes most of the brakes' strength; none where it takes more than there is.
+    fn tightest(&self) -> Option<Side> {
+        let mut tightest: Option<Side> = None;
+        for brake in self.brakes.iter().filter(|brake| brake.acts()) {
+            let mut side = self.side(brake.force_row.left());
+            if side.strength == 0.0 {
+                // All brakes are parallel: they hold nothing across, and what they hold lies along them.
+                if exact_zero(side.normal, self.drive) != 0.0 {
+                    return None;
+                }
+                side = self.side(brake.force_row);
+            }
+            if side.load.abs() > side.strength {
+                return None;
+            }
+            let tighter =
+                |other: &Side| side.load.abs() * other.strength > other.load.abs() * side.strength;
+            if tightest.as_ref().is_none_or(tighter) {
+                tightest = Some(side);
+            }
+        }
+        tightest
+    }
+
+    #[inline]
+    fn side(&self, normal: Plane) -> Side {
+        let components = self.brakes.each_ref().map(|brake| {
+            let component = exact_zero(brake.force_row, normal);
+            [component, brake.bound * component.abs()]
+        });
+        let [[a, of_a], [e, of_e], [b, of_b], [c, of_c]] = components;
+        Side {
+            normal,
+            components: [a, e, b, c],
+            load: normal.dot(self.drive),
+            strength: of_a + of_e + of_b + of_c,
+        }
     }
 
     /// The impulses that balance the load and load every brake least by its bound.
-    fn impulses_at_rest(&self, share: f64, normal: Plane) -> [f64; 4] {
-        if share == 0.0 {
-            return [0.0; 4];
-        }
-        let side = normal.dot(self.drive).signum();
-        let crossing = self.brakes.map(|brake| {
-            let component = exact_zero(brake.force_row, normal);
+    fn impulses_at_rest(&self, side: &Side) -> [f64; 4] {
+        let share = side.load / side.strength;
+        let along = side.normal.left();
+        let mut impulses = [0.0; 4];
+        // What the brakes across the side do not carry lies along it and is shared by those parallel to it.
+        let (mut left, mut strength) = (-self.drive, 0.0);
+        let places = impulses.iter_mut().zip(self.brakes).zip(side.components);
+        for ((impulse, brake), component) in places {
             if component == 0.0 {
-                0.0
+                strength += brake.bound * brake.force_row.dot(along).abs();
             } else {
-                -share * brake.bound * side * component.signum()
+                *impulse = -share * brake.bound * component.signum();
+                left = left - brake.force_row * *impulse;
             }
-        });
-        let carried = sum(self.brakes, crossing);
-        // What is left lies along the side of the polygon and is shared by the brakes parallel to it.
-        let rest = Vector::zero() - self.drive - carried;
-        let along = normal.left();
-        let parallel = self.brakes.map(|brake| {
-            if exact_zero(brake.force_row, normal) == 0.0 {
-                brake.bound
-            } else {
-                0.0
+        }
+        if strength > 0.0 {
+            let part = left.dot(along) / strength;
+            let places = impulses.iter_mut().zip(self.brakes).zip(side.components);
+            for ((impulse, brake), _) in places.filter(|(_, component)| *component == 0.0) {
+                *impulse = part * brake.bound * brake.force_row.dot(along).signum();
             }
-        });
-        let each = |(brake, bound): (&DryBrake, f64)| bound * brake.force_row.dot(along).abs();
-        let strength: f64 = self.brakes.iter().zip(parallel).map(each).sum();
-        let part = if strength > 0.0 {
-            rest.dot(along) / strength
-        } else {
-            0.0
-        };
-        let mut impulses = crossing;
-        for ((impulse, brake), bound) in impulses.iter_mut().zip(self.brakes).zip(parallel) {
-            *impulse += part * bound * brake.force_row.dot(along).signum();
         }
         impulses
     }

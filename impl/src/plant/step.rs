@@ -24,9 +24,7 @@ struct Look {
 
 /// What resists in a step.
 struct Resistance {
-    /// Of every brake: its state at the end, and the mean of its yield torque, N·m; 0 without a brake.
-    brakes: [Brake; 4],
-    paths: [CurrentPath; 4],
+    /// The mean of every brake's yield torque, N·m; 0 without a brake.
     yields_nm: [f64; 4],
     /// What other dry friction adds to the yield, N·m.
     dry_nm: [f64; 4],
@@ -54,7 +52,9 @@ impl Plant {
         let Some(look) = self.look(&midway) else {
             return Outcome::TooFast;
         };
-        let resistance = self.resistance(&midway, &look, currents_a, step_s);
+        let (mut brakes, mut paths) = (self.brakes, self.paths);
+        let driven = brakes.iter_mut().zip(paths.iter_mut().zip(currents_a));
+        let resistance = self.resistance(&midway, &look, driven, step_s);
         let dry = self.dry(&midway, &look, &resistance, step_s);
         let mut next = self
             .motion
@@ -69,8 +69,7 @@ impl Plant {
         }
         self.remember(&look, dry.rates_rad_s, step_s);
         self.motion = next;
-        self.brakes = resistance.brakes;
-        self.paths = resistance.paths;
+        (self.brakes, self.paths) = (brakes, paths);
         self.looked_rad = look.angles_rad;
         self.elbows = look.elbows;
         self.since_look_s = step_s - midway.lead_s;
@@ -132,32 +131,25 @@ impl Plant {
         })
     }
 
-    /// What resists under some currents.
-    #[inline]
-    fn resistance(
+    /// What resists; the brakes and the way of their currents, A, go on by a step.
+    #[inline(always)]
+    fn resistance<'a>(
         &self,
         midway: &Midway<f64>,
         look: &Look,
-        currents_a: [f64; 4],
+        driven: impl Iterator<Item = (&'a mut Brake, (&'a mut CurrentPath, f64))>,
         step_s: f64,
     ) -> Resistance {
         let mut resistance = Resistance {
-            brakes: self.brakes,
-            paths: self.paths,
             yields_nm: [0.0; 4],
             dry_nm: [0.0; 4],
             smooth_nm: Vector::zero(),
         };
         let around_s = [self.since_look_s, midway.lead_s];
-        let ways = self
-            .looked_rad
-            .into_iter()
-            .zip(look.angles_rad)
-            .zip(look.rates_rad_s);
-        let brakes = resistance.brakes.iter_mut().zip(&self.tables);
-        let paths = resistance.paths.iter_mut().zip(currents_a);
-        let each = brakes.zip(paths).zip(ways).zip(&mut resistance.yields_nm);
-        for ((((brake, table), (path, current_a)), ((from_rad, to_rad), speed_rad_s)), yield_nm) in
+        let ways = self.looked_rad.into_iter().zip(look.angles_rad);
+        let turns = ways.zip(look.rates_rad_s).zip(&self.tables);
+        let each = driven.zip(turns).zip(&mut resistance.yields_nm);
+        for (((brake, (path, current_a)), (((from_rad, to_rad), speed_rad_s), table)), yield_nm) in
             each
         {
             if let Some(table) = table {
@@ -175,6 +167,9 @@ impl Plant {
     }
 
     fn add_effects(&self, sum: &mut Resistance, midway: &Midway<f64>, look: &Look, step_s: f64) {
+        if let [None, ..] = self.effects {
+            return;
+        }
         for Effect { joint, law, memory } in self.effects.iter().map_while(Option::as_ref) {
             let (position, speed, row) = at(look, *joint);
             let now = Instant {
