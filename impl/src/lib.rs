@@ -8,6 +8,8 @@
     clippy::indexing_slicing
 )]
 
+#[cfg(any(kani, feature = "claims"))]
+pub mod claim;
 pub mod command;
 pub mod law;
 pub mod linkage;

@@ -1,0 +1,49 @@
+//! This file says which code a ledger is about.
+
+use std::fs;
+use std::io;
+use std::path::Path;
+
+use sha2::{Digest, Sha256};
+
+/// What the claims run, the claims themselves and the mutants.
+const ABOUT: [&str; 7] = [
+    "impl/src/claim.rs",
+    "impl/src/number.rs",
+    "impl/src/select",
+    "impl/src/select.rs",
+    "impl/src/vector.rs",
+    "proofs/mutants.toml",
+    "spec/src/laws",
+];
+
+/// The SHA-256 of these files, each after its path, in hexadecimal.
+///
+/// # Errors
+/// That of the file that cannot be read.
+pub fn fingerprint(root: &Path) -> io::Result<String> {
+    let mut digest = Sha256::new();
+    for path in ABOUT {
+        add(root, path, &mut digest)?;
+    }
+    let bytes = digest.finalize();
+    Ok(bytes.iter().map(|byte| format!("{byte:02x}")).collect())
+}
+
+fn add(root: &Path, path: &str, digest: &mut Sha256) -> io::Result<()> {
+    let place = root.join(path);
+    if !place.is_dir() {
+        digest.update(path.as_bytes());
+        digest.update(fs::read_to_string(place)?.replace("\r\n", "\n").as_bytes());
+        return Ok(());
+    }
+    let mut names = Vec::new();
+    for entry in fs::read_dir(place)? {
+        names.push(entry?.file_name().to_string_lossy().into_owned());
+    }
+    names.sort();
+    for name in names {
+        add(root, &format!("{path}/{name}"), digest)?;
+    }
+    Ok(())
+}
