@@ -59,6 +59,50 @@ impl Interval {
         }
     }
 
+    /// The numbers that are in both.
+    #[must_use]
+    pub fn and(self, other: Interval) -> Interval {
+        Interval {
+            undefined: self.undefined && other.undefined,
+            ..self.at_most(other.high).at_least(other.low)
+        }
+    }
+
+    /// The rounded results of an operation that is monotone in each argument: the ends are results of ends, because rounding keeps order.
+    /// Of what may be infinite or undefined nothing is known.
+    #[must_use]
+    pub fn combined(self, other: Interval, operation: fn(f64, f64) -> f64) -> Interval {
+        if !(self.is_bounded() && other.is_bounded()) {
+            return Interval::default();
+        }
+        let ends = [
+            (self.low, other.low),
+            (self.low, other.high),
+            (self.high, other.low),
+            (self.high, other.high),
+        ];
+        let results = ends.map(|(one, two)| operation(one, two));
+        Interval {
+            low: results.into_iter().fold(f64::INFINITY, f64::min),
+            high: results.into_iter().fold(f64::NEG_INFINITY, f64::max),
+            undefined: false,
+        }
+    }
+
+    /// The negative numbers of these.
+    #[must_use]
+    pub fn negated(self) -> Interval {
+        Interval {
+            low: -self.high,
+            high: -self.low,
+            undefined: self.undefined,
+        }
+    }
+
+    fn is_bounded(self) -> bool {
+        self.low.is_finite() && self.high.is_finite() && !self.undefined
+    }
+
     fn at_most(self, bound: f64) -> Interval {
         Interval {
             high: if bound < self.high { bound } else { self.high },
@@ -97,6 +141,33 @@ mod tests {
 
     fn contains(interval: Interval, value: f64) -> bool {
         (interval.low <= value && value <= interval.high) || (value.is_nan() && interval.undefined)
+    }
+
+    #[test]
+    fn no_result_of_numbers_inside_is_lost() {
+        let interval = |low, high| Interval {
+            low,
+            high,
+            undefined: false,
+        };
+        let (one, two) = (interval(-1.3, 2.7), interval(-0.9, 0.4));
+        let operations: [fn(f64, f64) -> f64; 3] = [|a, b| a + b, |a, b| a - b, |a, b| a * b];
+        for operation in operations {
+            let results = one.combined(two, operation);
+            for a in [-1.3, -0.71, 0.0, 1.1, 2.7] {
+                assert!(contains(one.negated(), -(-a)) == contains(one, -a));
+                for b in [-0.9, -0.31, 0.0, 0.27, 0.4] {
+                    assert!(contains(results, operation(a, b)), "{a} and {b}");
+                }
+            }
+        }
+        let unbounded = interval(1.7, f64::INFINITY);
+        assert_eq!(one.combined(unbounded, |a, b| a * b), Interval::default());
+        assert_eq!(
+            one.combined(Interval::of(f64::NAN), |a, b| a * b),
+            Interval::default()
+        );
+        assert_eq!(one.and(two), interval(-0.9, 0.4));
     }
 
     #[test]

@@ -193,11 +193,18 @@ impl Arena {
         stored & possible
     }
 
+    /// What a term can be: what its parts can be, and what comparisons left of it.
     fn interval(&self, term: u32) -> Interval {
-        match self.constant(term) {
-            Some(constant) => Interval::of(constant),
-            None => self.intervals.get(&term).copied().unwrap_or_default(),
-        }
+        let of_parts = match self.terms[term as usize] {
+            Term::Constant(bits) => return Interval::of(f64::from_bits(bits)),
+            Term::Input(_) => Interval::default(),
+            Term::Neg(a) => self.interval(a).negated(),
+            Term::Add(a, b) => self.interval(a).combined(self.interval(b), |a, b| a + b),
+            Term::Sub(a, b) => self.interval(a).combined(self.interval(b), |a, b| a - b),
+            Term::Mul(a, b) => self.interval(a).combined(self.interval(b), |a, b| a * b),
+        };
+        let left = self.intervals.get(&term);
+        left.map_or(of_parts, |left| left.and(of_parts))
     }
 
     fn narrow(&mut self, relation: Relation, left: u32, right: u32, holds: bool) {
