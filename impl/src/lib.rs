@@ -8,11 +8,16 @@
     clippy::indexing_slicing
 )]
 
+pub mod actuation;
 #[cfg(any(kani, feature = "claims"))]
 pub mod claim;
 pub mod command;
+pub mod current;
 pub mod law;
 pub mod linkage;
 pub mod number;
+pub mod path;
 pub mod select;
+mod setting;
+pub mod tip_mass;
 pub mod vector;

@@ -45,6 +45,11 @@ pub trait Real: Scalar + Div<Output = Self> {
     fn is_finite(self) -> bool;
 }
 
+/// The smaller of two numbers; the second if the first is none.
+pub(crate) fn least<S: Scalar>(one: S, other: S) -> S {
+    if one < other { one } else { other }
+}
+
 impl Scalar for f64 {
     fn of(constant: f64) -> f64 {
         constant
