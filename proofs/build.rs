@@ -9,8 +9,8 @@ use toml::{Table, Value};
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
 /// What is copied, below `impl/src`; it refers to the rest of `impl` where it stands.
-const TREE: [&str; 2] = ["vector.rs", "select.rs"];
-const FOLDER: &str = "select";
+const TREE: [&str; 3] = ["vector.rs", "select.rs", "guard.rs"];
+const FOLDERS: [&str; 2] = ["select", "guard"];
 
 fn main() -> Result<()> {
     let source = Path::new("../impl/src");
@@ -18,7 +18,9 @@ fn main() -> Result<()> {
     println!("cargo::rerun-if-changed=mutants.toml");
     println!("cargo::rerun-if-changed=../impl/src");
     let mut files: Vec<String> = TREE.map(str::to_owned).into();
-    walk(source, FOLDER, &mut files)?;
+    for folder in FOLDERS {
+        walk(source, folder, &mut files)?;
+    }
     let table: Table = fs::read_to_string("mutants.toml")?.parse()?;
     let mutants = table
         .get("mutant")
@@ -54,11 +56,14 @@ fn main() -> Result<()> {
         if !planted {
             return Err(format!("mutants.toml: {name}: {file} is not copied").into());
         }
-        fs::write(folder.join("mod.rs"), "pub mod select;\npub mod vector;\n")?;
+        fs::write(
+            folder.join("mod.rs"),
+            "pub mod guard;\npub mod select;\npub mod vector;\n",
+        )?;
         let place = folder.join("mod.rs");
         modules += &format!("#[path = {place:?}]\npub mod {name};\n");
         entries += &format!(
-            "Planted {{ name: {name:?}, file: {file:?}, from: {from:?}, to: {to:?}, claims: {name}::select::proofs::claims::<C>().collect() }},\n"
+            "Planted {{ name: {name:?}, file: {file:?}, from: {from:?}, to: {to:?}, claims: {name}::select::proofs::claims::<C>().chain({name}::guard::proofs::claims()).collect() }},\n"
         );
     }
     let all = format!(
@@ -92,8 +97,17 @@ fn relocate(content: &str, name: &str) -> String {
     content
         .replace("#[cfg(any(kani, feature = \"claims\"))]\n", "")
         .replace("#[cfg(test)]", "#[cfg(any())]")
-        .replace("crate::select", &format!("crate::planted::{name}::select"))
-        .replace("crate::vector", &format!("crate::planted::{name}::vector"))
-        .replace("use crate::claim", "use rigproof_impl::claim")
-        .replace("use crate::number", "use rigproof_impl::number")
+        .replace("crate::", "rigproof_impl::")
+        .replace(
+            "rigproof_impl::guard",
+            &format!("crate::planted::{name}::guard"),
+        )
+        .replace(
+            "rigproof_impl::select",
+            &format!("crate::planted::{name}::select"),
+        )
+        .replace(
+            "rigproof_impl::vector",
+            &format!("crate::planted::{name}::vector"),
+        )
 }

@@ -19,6 +19,7 @@ pub mod law;
 pub mod linkage;
 pub mod number;
 pub mod path;
+pub mod plant;
 pub mod select;
 mod setting;
 pub mod tick;

@@ -7,8 +7,11 @@ use std::path::Path;
 use sha2::{Digest, Sha256};
 
 /// What the claims run, the claims themselves and the mutants.
-const ABOUT: [&str; 7] = [
+const ABOUT: [&str; 10] = [
     "impl/src/claim.rs",
+    "impl/src/command.rs",
+    "impl/src/guard",
+    "impl/src/guard.rs",
     "impl/src/number.rs",
     "impl/src/select",
     "impl/src/select.rs",

@@ -20,5 +20,7 @@ use rigproof_impl::claim::{Checker, Claim};
 
 /// Every claim of this ledger.
 pub fn claims<C: Checker>() -> Vec<Claim<C>> {
-    rigproof_impl::select::proofs::claims().collect()
+    rigproof_impl::select::proofs::claims()
+        .chain(rigproof_impl::guard::proofs::claims())
+        .collect()
 }
