@@ -36,6 +36,8 @@ pub enum Domain {
     Finite,
     /// Numbers: a solver can settle it, a sampler can only test it.
     Numbers,
+    /// Numbers too, but beyond the solver; the statement says why.
+    Sampled,
 }
 
 /// A claim in the hands of an engine.

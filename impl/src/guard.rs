@@ -137,9 +137,9 @@ pub fn release<S: Scalar>(command: Command<S>, braked: [bool; 4]) -> Command<S> 
     }
 }
 
-/// Whether it is a finite number: only those are nothing more than themselves.
+/// Whether it is a number that both widths have: neither infinite nor undefined.
 fn is_finite<S: Scalar>(number: S) -> bool {
-    number - number == S::zero()
+    number.is_within(S::of(f64::from(f32::MAX)))
 }
 
 /// A current put inside what the amplifiers take, A.

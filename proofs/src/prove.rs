@@ -134,6 +134,7 @@ fn entry(subject: &Subject, solver: Option<&Solver>) -> Entry {
             .verdicts
             .extend(enumeration_verdict(&subject.enumerated)),
         Domain::Numbers => entry.verdicts.push(smt_verdict(subject, solver)),
+        Domain::Sampled => {}
     }
     entry.verdicts.push(sampled);
     entry

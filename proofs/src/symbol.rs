@@ -68,6 +68,8 @@ pub struct Arena {
     pub path: Vec<Literal>,
     intervals: HashMap<u32, Interval, Fast>,
     orders: HashMap<(u32, u32), u8, Fast>,
+    /// Whether the path contradicts itself: no number walks it.
+    pub contradicted: bool,
 }
 
 const LESS: u8 = 1;
@@ -93,6 +95,7 @@ impl Arena {
         self.path.clear();
         self.intervals.clear();
         self.orders.clear();
+        self.contradicted = false;
     }
 
     fn term(&mut self, term: Term) -> Symbol {
@@ -145,7 +148,8 @@ impl Arena {
             (Relation::LessOrEqual, true) => GREATER | EQUAL,
         };
         let possible = self.possible(pair);
-        if possible & !wanted == 0 {
+        self.contradicted |= possible == 0;
+        if self.contradicted || possible & !wanted == 0 {
             return true;
         }
         if possible & wanted == 0 {

@@ -12,7 +12,7 @@ use crate::solver::{Answer, Solver};
 use crate::symbol::{Literal, Symbol, with_arena};
 
 /// Longest walk over one claim's paths.
-const LONGEST_WALK: Duration = Duration::from_secs(200);
+const LONGEST_WALK: Duration = Duration::from_secs(240);
 
 /// What became of a claim.
 #[derive(Clone, Debug)]
@@ -70,7 +70,8 @@ impl Checker for Walker {
     }
 
     fn check(&mut self, condition: bool) -> Held {
-        if !condition {
+        let contradicted = with_arena(|arena| arena.contradicted);
+        if !condition && !contradicted {
             self.failing = Some(Failing {
                 path: with_arena(|arena| arena.path.clone()),
                 choices: self.choices.clone(),
@@ -88,7 +89,6 @@ pub fn examine(claim: &Claim<Walker>, again: &Claim<Replay>, solver: &Solver) ->
     let start = Instant::now();
     with_arena(|arena| *arena = Default::default());
     let (mut paths, mut queries) = (0, 0);
-    let mut undecided = None;
     let outcome = loop {
         paths += 1;
         with_arena(|arena| arena.restart());
@@ -98,12 +98,11 @@ pub fn examine(claim: &Claim<Walker>, again: &Claim<Replay>, solver: &Solver) ->
             queries += 1;
             match question(&failing, again, solver) {
                 Outcome::Proved => {}
-                Outcome::Undecided(why) => undecided = Some(why),
-                refuted @ Outcome::Refuted(_) => break refuted,
+                settled => break settled,
             }
         }
         if !with_arena(|arena| arena.forks.advance()) {
-            break undecided.map_or(Outcome::Proved, Outcome::Undecided);
+            break Outcome::Proved;
         }
         if start.elapsed() > LONGEST_WALK {
             break Outcome::Undecided(format!("more than {paths} paths"));
