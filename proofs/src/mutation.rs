@@ -1,5 +1,7 @@
 //! This file examines the planted mutants: an engine has to refute each.
 
+use std::time::Duration;
+
 use rigproof_impl::claim::{Claim, Domain};
 
 use crate::engine::enumeration::{Enumerator, enumerate};
@@ -12,6 +14,8 @@ use crate::work::on_every_core;
 
 /// Draws for one claim of a mutant.
 const DRAWS: u64 = 30_000;
+/// Longest walk over the paths of one claim of a mutant.
+const LONGEST_WALK: Duration = Duration::from_secs(20);
 
 /// What became of a mutant.
 #[derive(Clone, Debug)]
@@ -71,7 +75,12 @@ fn refutation(
     let solver = solver?;
     for (claim, again) in &mutant.walked {
         let is_number = claim.domain == Domain::Numbers;
-        if is_number && matches!(examine(claim, again, solver).outcome, Outcome::Refuted(_)) {
+        if is_number
+            && matches!(
+                examine(claim, again, solver, LONGEST_WALK).outcome,
+                Outcome::Refuted(_)
+            )
+        {
             return Some((claim.name, "smt"));
         }
     }

@@ -183,7 +183,7 @@ fn smt_verdict(subject: &Subject, solver: Option<&Solver>) -> Verdict {
             seconds: 0.0,
         };
     };
-    let found: smt::Examined = examine(&subject.walked, &subject.again, solver);
+    let found: smt::Examined = examine(&subject.walked, &subject.again, solver, smt::LONGEST_WALK);
     let walked = format!("{} paths, {} questions", found.paths, found.queries);
     let (word, how) = match found.outcome {
         Outcome::Proved => (Word::Proved, walked),

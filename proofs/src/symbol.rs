@@ -178,7 +178,8 @@ impl Arena {
         let stored = self.orders.get(&pair).copied();
         let stored = stored.unwrap_or(LESS | EQUAL | GREATER | UNORDERED);
         if left == right {
-            return stored & (EQUAL | UNORDERED);
+            let undefined = self.interval(left).undefined;
+            return stored & if undefined { EQUAL | UNORDERED } else { EQUAL };
         }
         let (left, right) = (self.interval(left), self.interval(right));
         let mut possible = 0;

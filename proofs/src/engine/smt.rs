@@ -11,8 +11,8 @@ use crate::script::script;
 use crate::solver::{Answer, Solver};
 use crate::symbol::{Literal, Symbol, with_arena};
 
-/// Longest walk over one claim's paths.
-const LONGEST_WALK: Duration = Duration::from_secs(240);
+/// Longest walk over the paths of a claim that should hold.
+pub const LONGEST_WALK: Duration = Duration::from_secs(240);
 
 /// What became of a claim.
 #[derive(Clone, Debug)]
@@ -85,7 +85,12 @@ impl Checker for Walker {
 }
 
 /// Proves or refutes a claim; a refutation is replayed on binary64 before it counts.
-pub fn examine(claim: &Claim<Walker>, again: &Claim<Replay>, solver: &Solver) -> Examined {
+pub fn examine(
+    claim: &Claim<Walker>,
+    again: &Claim<Replay>,
+    solver: &Solver,
+    longest: Duration,
+) -> Examined {
     let start = Instant::now();
     with_arena(|arena| *arena = Default::default());
     let (mut paths, mut queries) = (0, 0);
@@ -104,7 +109,7 @@ pub fn examine(claim: &Claim<Walker>, again: &Claim<Replay>, solver: &Solver) ->
         if !with_arena(|arena| arena.forks.advance()) {
             break Outcome::Proved;
         }
-        if start.elapsed() > LONGEST_WALK {
+        if start.elapsed() > longest {
             break Outcome::Undecided(format!("more than {paths} paths"));
         }
     };
