@@ -67,7 +67,9 @@ impl ReferenceStateMachine for Play {
 
     fn init_state() -> BoxedStrategy<Play> {
         let width = prop_oneof![Just(0.0), Just(1.7), 0.05..2.3_f64];
-        (width, -3.1..3.1_f64).prop_map(|(width, start)| Play::new(width, start)).boxed()
+        (width, -3.1..3.1_f64)
+            .prop_map(|(width, start)| Play::new(width, start))
+            .boxed()
     }
 
     /// Small turns, turns across the window, and ones that end a hair beside an edge.
@@ -125,7 +127,10 @@ impl StateMachineTest for Both {
         let crossing = both.rig.turn(both.shaft_rad, state.shaft_rad);
         both.shaft_rad = state.shaft_rad;
         for (before, after) in before.into_iter().zip(both.windows()) {
-            assert!(backlash_travel(&before, &after, SLACK_RAD).holds(), "{before:?} {after:?}");
+            assert!(
+                backlash_travel(&before, &after, SLACK_RAD).holds(),
+                "{before:?} {after:?}"
+            );
         }
         if let Some(crossing) = crossing {
             assert_eq!(crossing.inside, both.rig.is_inside());
@@ -138,7 +143,10 @@ impl StateMachineTest for Both {
         for window in both.windows() {
             assert!(backlash_width(&window, state.width_deg * RAD, SLACK_RAD).holds());
             assert!(backlash_window(&window, SLACK_RAD).holds(), "{window:?}");
-            assert!((window.theta_1_rad - state.low_rad).abs() < SLACK_RAD, "{window:?} {state:?}");
+            assert!(
+                (window.theta_1_rad - state.low_rad).abs() < SLACK_RAD,
+                "{window:?} {state:?}"
+            );
             if state.clearance_rad() > SLACK_RAD {
                 assert_eq!(window.inside, state.inside, "{window:?} {state:?}");
             }

@@ -52,7 +52,9 @@ impl Record {
             Some(Event::Jump(_)) if self.started => Verdict::Fault(Reason::JumpedCounts),
             Some(Event::Unreached) => Verdict::Fault(Reason::JumpedCounts),
             Some(Event::Force(_)) => Verdict::Fault(Reason::UndefinedInput),
-            _ if self.good.iter().rev().take_while(|good| **good).count() < WINDOW => Verdict::Early,
+            _ if self.good.iter().rev().take_while(|good| **good).count() < WINDOW => {
+                Verdict::Early
+            }
             _ => Verdict::Good,
         }
     }
@@ -72,7 +74,12 @@ impl ReferenceStateMachine for Record {
     }
 
     fn transitions(_: &Record) -> BoxedStrategy<Event> {
-        let force = prop_oneof![Just(f64::NAN), Just(f64::INFINITY), Just(-1e300), 200.1..1e4_f64];
+        let force = prop_oneof![
+            Just(f64::NAN),
+            Just(f64::INFINITY),
+            Just(-1e300),
+            200.1..1e4_f64
+        ];
         prop_oneof![
             12 => (-479..480_i32, -97..98_i32).prop_map(|(a, b)| Event::Next([a, b])),
             2 => Just(Event::Again),
@@ -94,7 +101,11 @@ impl ReferenceStateMachine for Record {
             return record;
         }
         record.repeats = 0;
-        let skipped = if let Event::Lost(lost) = event { *lost } else { 0 };
+        let skipped = if let Event::Lost(lost) = event {
+            *lost
+        } else {
+            0
+        };
         record.number = record.number.wrapping_add(1).wrapping_add(skipped);
         let [a, b] = match event {
             Event::Next(moved) => *moved,
@@ -140,13 +151,17 @@ impl StateMachineTest for Watched {
             _ => [3.7, -1.9],
         };
         let reached = !matches!(event, Event::Unreached);
-        let judged = watched.guard.judge(record.number, record.travels, reached, force_n);
+        let judged = watched
+            .guard
+            .judge(record.number, record.travels, reached, force_n);
         watched.verdict = Some(judged);
         watched
     }
 
     fn check_invariants(watched: &Watched, record: &Record) {
-        let Some(verdict) = watched.verdict else { return };
+        let Some(verdict) = watched.verdict else {
+            return;
+        };
         assert_eq!(verdict, record.verdict(), "{record:?}");
         if verdict == Verdict::Good {
             assert!(record.good.iter().rev().take(WINDOW).all(|good| *good));

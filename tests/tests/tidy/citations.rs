@@ -84,7 +84,8 @@ fn an_equation_without_code_or_witness_is_noticed() {
         equation: equation.to_owned(),
         witness: witness.to_owned(),
     };
-    let set = |numbers: &[&str]| -> BTreeSet<String> { numbers.iter().map(|&n| n.to_owned()).collect() };
+    let set =
+        |numbers: &[&str]| -> BTreeSet<String> { numbers.iter().map(|&n| n.to_owned()).collect() };
     let citations = [
         cited("model", "3.3", ""),
         cited("tests", "3.3", "test"),
@@ -95,7 +96,10 @@ fn an_equation_without_code_or_witness_is_noticed() {
     ];
     let all = set(&["3.3", "3.4", "3.5", "3.6"]);
     assert_eq!(untied(all.clone(), &citations, &set(&["3.6"])).len(), 2);
-    assert_eq!(untied(all.clone(), &citations, &set(&["3.4", "3.5", "3.6"])).len(), 0);
+    assert_eq!(
+        untied(all.clone(), &citations, &set(&["3.4", "3.5", "3.6"])).len(),
+        0
+    );
     assert_eq!(unknown(&citations, &all).len(), 1);
     assert_eq!(unknown(&citations, &set(&["3.4", "3.5"])).len(), 3);
 }

@@ -35,17 +35,28 @@ fn a_ledger_without_a_line_is_noticed() {
             "mutants": [{"mutant": "dead", "engine": "smt"}, {"mutant": "alive", "engine": null}]}"#,
     )
     .unwrap();
-    let names = |names: &[&str]| -> Vec<String> { names.iter().map(|&name| name.to_owned()).collect() };
+    let names =
+        |names: &[&str]| -> Vec<String> { names.iter().map(|&name| name.to_owned()).collect() };
     assert_eq!(outside(&names(&["here"]), &ledger).len(), 0);
-    assert_eq!(outside(&names(&["here", "elsewhere", "broken"]), &ledger).len(), 2);
+    assert_eq!(
+        outside(&names(&["here", "elsewhere", "broken"]), &ledger).len(),
+        2
+    );
     assert_eq!(living(&names(&["dead"]), &ledger).len(), 0);
-    assert_eq!(living(&names(&["dead", "alive", "unknown"]), &ledger).len(), 2);
+    assert_eq!(
+        living(&names(&["dead", "alive", "unknown"]), &ledger).len(),
+        2
+    );
 }
 
 /// Claims that the ledger does not name, or that it says are refuted.
 fn outside(claims: &[String], ledger: &Value) -> Vec<String> {
     let fine = |name: &String| {
-        let entry = ledger["claims"].as_array().unwrap().iter().find(|entry| entry["claim"] == **name);
+        let entry = ledger["claims"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .find(|entry| entry["claim"] == **name);
         entry.is_some_and(|entry| {
             let verdicts = entry["verdicts"].as_array().unwrap();
             verdicts.iter().all(|verdict| verdict["word"] != "REFUTED")
@@ -53,7 +64,9 @@ fn outside(claims: &[String], ledger: &Value) -> Vec<String> {
     };
     let absent = claims.iter().filter(|name| !fine(name));
     absent
-        .map(|name| format!("proofs/ledger.json: `{name}` does not stand there unrefuted: run `prove`"))
+        .map(|name| {
+            format!("proofs/ledger.json: `{name}` does not stand there unrefuted: run `prove`")
+        })
         .collect()
 }
 
@@ -61,10 +74,16 @@ fn outside(claims: &[String], ledger: &Value) -> Vec<String> {
 fn living(mutants: &[String], ledger: &Value) -> Vec<String> {
     let refuted = |name: &String| {
         let entries = ledger["mutants"].as_array().unwrap();
-        entries.iter().any(|entry| entry["mutant"] == **name && entry["engine"].is_string())
+        entries
+            .iter()
+            .any(|entry| entry["mutant"] == **name && entry["engine"].is_string())
     };
     let alive = mutants.iter().filter(|name| !refuted(name));
-    alive.map(|name| format!("proofs/mutants.toml: `{name}` is not refuted in the ledger: run `prove`")).collect()
+    alive
+        .map(|name| {
+            format!("proofs/mutants.toml: `{name}` is not refuted in the ledger: run `prove`")
+        })
+        .collect()
 }
 
 fn ledger() -> Value {

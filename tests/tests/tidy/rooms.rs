@@ -76,7 +76,9 @@ fn rooms_depend_in_one_direction() {
 /// The rooms among these dependencies that are not allowed.
 fn against(allowed: &[&str], dependencies: &[String]) -> Vec<String> {
     let room = |name: &String| name.strip_prefix("rigproof-").map(str::to_owned);
-    let rooms = dependencies.iter().filter(|name| room(name).is_some_and(|room| !allowed.contains(&room.as_str())));
+    let rooms = dependencies
+        .iter()
+        .filter(|name| room(name).is_some_and(|room| !allowed.contains(&room.as_str())));
     rooms.cloned().collect()
 }
 

@@ -74,9 +74,14 @@ fn properties_that_never_run(tokens: &[TokenTree]) -> Vec<Ident> {
         // A machine's property ends in a semicolon: its attributes stand right before it.
         if name == "prop_state_machine" {
             let tokens = inner(&body);
-            let marked = attributes(&tokens).iter().filter(|name| *name == "test").count();
+            let marked = attributes(&tokens)
+                .iter()
+                .filter(|name| *name == "test")
+                .count();
             let names = tokens.windows(2).filter_map(|pair| match pair {
-                [TokenTree::Ident(word), TokenTree::Ident(name)] if word == "fn" => Some(name.clone()),
+                [TokenTree::Ident(word), TokenTree::Ident(name)] if word == "fn" => {
+                    Some(name.clone())
+                }
                 _ => None,
             });
             found.extend(names.skip(marked));
@@ -91,7 +96,11 @@ pub fn claim_names() -> Vec<String> {
     for source in sources() {
         for (name, body) in macros(&tokens(&source)) {
             if name == "claims" && source.path.starts_with("impl/") {
-                names.extend(functions(&inner(&body)).iter().map(|claim| claim.name.to_string()));
+                names.extend(
+                    functions(&inner(&body))
+                        .iter()
+                        .map(|claim| claim.name.to_string()),
+                );
             }
         }
     }
@@ -104,10 +113,22 @@ fn a_property_without_its_mark_and_a_long_file_are_noticed() {
         let never = properties_that_never_run(&parse("example", content));
         never.iter().map(Ident::to_string).collect::<Vec<_>>()
     };
-    assert_eq!(properties("proptest! { #[test] fn p(x in 0..3) {} }").len(), 0);
-    assert_eq!(properties("proptest! { #[test] fn p(x in 0..3) {} fn q() {} }"), ["q"]);
-    assert_eq!(properties("prop_state_machine! { fn p(sequential 1..3 => T); }"), ["p"]);
-    assert_eq!(properties("prop_state_machine! { #[test] fn p(sequential 1..3 => T); }").len(), 0);
+    assert_eq!(
+        properties("proptest! { #[test] fn p(x in 0..3) {} }").len(),
+        0
+    );
+    assert_eq!(
+        properties("proptest! { #[test] fn p(x in 0..3) {} fn q() {} }"),
+        ["q"]
+    );
+    assert_eq!(
+        properties("prop_state_machine! { fn p(sequential 1..3 => T); }"),
+        ["p"]
+    );
+    assert_eq!(
+        properties("prop_state_machine! { #[test] fn p(sequential 1..3 => T); }").len(),
+        0
+    );
     let file = |lines| Text {
         path: "example.rs".to_owned(),
         content: "//! This.\n".repeat(lines),

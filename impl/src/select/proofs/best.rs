@@ -78,6 +78,27 @@ claims! {
         c.check(rank.is_none_or(|rank| i8::try_from(rank) == Ok(1 - along)))?;
     }
 
+    /// Of two vectors of any small whole components and squares of lengths the one of the greater cosine is closer, whatever their lengths.
+    /// Source: §6.3. Assumes numbers that are computed exactly.
+    Finite fn closeness_is_the_cosine(c) {
+        let (one, other) = (i32::from(c.choice(9)) - 4, i32::from(c.choice(9)) - 4);
+        let (one_squared, other_squared) = (1 + i32::from(c.choice(5)), 1 + i32::from(c.choice(5)));
+        let of = |component: i32, squared: i32| Candidate {
+            rank: 0,
+            component: C::Number::of(f64::from(component)),
+            length_squared: C::Number::of(f64::from(squared)),
+        };
+        let (left, right) = (one * one * other_squared, other * other * one_squared);
+        let expected = match (one.signum(), other.signum()) {
+            (1, 1) => left > right,
+            (-1, -1) => left < right,
+            (sign, other_sign) => sign > other_sign,
+        };
+        c.cover("closer", expected);
+        c.cover("not closer", !expected);
+        c.check(closer(&of(one, one_squared), &of(other, other_squared)) == expected)?;
+    }
+
     /// No brake is closer than itself, and of two brakes at most one is closer.
     /// Source: none in the thesis. Assumes what the gate leaves.
     Numbers fn closeness_is_an_order_of_two(c) {

@@ -34,12 +34,13 @@ claims! {
         }
     }
 
-    /// Moving along a brake's local path does not turn its joint: the computed rate is zero exactly.
+    /// Moving along a brake's local path does not turn its joint: the computed rate is zero exactly. Nor has a row a part beside itself.
     /// Source: (6.10). Assumes the gate.
     Numbers fn the_local_path_leaves_its_joint_alone(c) {
         let (row, _, _) = gated(c)?;
         c.cover("any row", true);
         c.check(row.dot(row.left()) == C::Number::zero())?;
+        c.check(row.cross(row) == C::Number::zero())?;
     }
 
     /// What a brake is compared by is finite, and its length is not nothing.
