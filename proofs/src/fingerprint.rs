@@ -50,3 +50,19 @@ fn add(root: &Path, path: &str, digest: &mut Sha256) -> io::Result<()> {
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_ledger_is_about_this_code() {
+        let root = crate::prove::root();
+        let ledger = fs::read_to_string(root.join("proofs/ledger.json")).unwrap();
+        let code = fingerprint(&root).unwrap();
+        assert!(
+            ledger.contains(&code),
+            "run `cargo run --release -p rigproof-proofs -- prove`"
+        );
+    }
+}
