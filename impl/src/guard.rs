@@ -1,5 +1,8 @@
 //! This file says what may come into a tick and what may leave it; whatever else comes, the brakes are let go (decision 0074).
 
+#[cfg(any(kani, feature = "claims"))]
+pub mod proofs;
+
 use rigproof_spec::command::Reason;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::tables::GREATEST_CURRENT_A;
@@ -119,12 +122,12 @@ impl<R: Real> Guard<R> {
 ///
 /// A brake takes power from its joint whichever way that turns, so that a current has no sign to be wrong; which brake may act is
 /// the law's to know.
-pub fn release<R: Real>(command: Command<R>, braked: [bool; 4]) -> Command<R> {
+pub fn release<S: Scalar>(command: Command<S>, braked: [bool; 4]) -> Command<S> {
     let asked = Joint::ALL.into_iter().zip(braked).zip(command.currents_a);
     for ((joint, braked), current_a) in asked {
-        let silent = current_a == R::zero();
+        let silent = current_a == S::zero();
         let allowed = braked && names(command.reason, joint);
-        if !(silent || allowed && current_a.is_finite()) {
+        if !(silent || allowed && is_finite(current_a)) {
             return Command::none(Reason::RefusedCommand);
         }
     }
@@ -132,6 +135,11 @@ pub fn release<R: Real>(command: Command<R>, braked: [bool; 4]) -> Command<R> {
         currents_a: command.currents_a.map(clamped),
         reason: command.reason,
     }
+}
+
+/// Whether it is a number that both widths have: neither infinite nor undefined.
+fn is_finite<S: Scalar>(number: S) -> bool {
+    number.is_within(S::of(f64::from(f32::MAX)))
 }
 
 /// A current put inside what the amplifiers take, A.

@@ -11,6 +11,8 @@
 pub mod actuation;
 #[cfg(feature = "batch")]
 pub mod batch;
+#[cfg(any(kani, feature = "claims"))]
+pub mod claim;
 pub mod command;
 pub mod current;
 pub mod encoder;

@@ -4,6 +4,8 @@
 //! proved on the numbers the rig computes with.
 
 mod best;
+#[cfg(any(kani, feature = "claims"))]
+pub mod proofs;
 pub mod proportional;
 pub mod sdof;
 

@@ -1,19 +1,29 @@
 //! Laws: what must hold on every rig, in every run, each a plain function that anybody may call.
 
+mod backlash;
 mod brake_count;
+mod clamp;
 mod current_limit;
 mod desired_force;
 mod dissipation;
 mod influence;
+mod passivity;
+mod power_balance;
 mod quiet;
+mod time_constant;
 mod torque_limit;
 
+pub use backlash::{Window, backlash_torque, backlash_travel, backlash_width, backlash_window};
 pub use brake_count::{brake_count, braked_joints};
+pub use clamp::clamped;
 pub use current_limit::current_limit;
 pub use desired_force::{desired_force, opposition};
 pub use dissipation::dissipation;
 pub use influence::{best_influence, influence_rank};
+pub use passivity::{in_quarter_turn, opposes};
+pub use power_balance::power_balance;
 pub use quiet::{free_side, gap, lock, undefined_input};
+pub use time_constant::time_constant;
 pub use torque_limit::{torque_limit, yield_limit};
 
 /// How far a law is from failing, in the unit the law states.

@@ -49,6 +49,8 @@ mod tests {
     fn a_second_brake_breaks_the_law_unless_the_rig_is_locked() {
         let two = [0.31, 0.0, 0.72, 0.0];
         assert!(!brake_count(&command(two, Reason::Chosen(Joint::A)), 1).holds());
+        let one = [0.0, 0.0, 0.72, 0.0];
+        assert!(brake_count(&command(one, Reason::Chosen(Joint::B)), 1).holds());
         assert!(brake_count(&command(two, Reason::ChosenPair(Joint::A, Joint::B)), 2).holds());
         assert!(brake_count(&command([1.0; 4], Reason::LockedMovingBack), 1).holds());
         let undefined = [f64::NAN, 0.41, 0.0, 0.0];

@@ -37,6 +37,7 @@ mod tests {
 
     #[test]
     fn a_force_along_the_motion_breaks_the_law() {
+        assert_eq!(opposition([-1.5, 0.5], [0.25, 0.125]), Margin(0.3125));
         assert!(opposition([-1.3, 0.4], [0.07, 0.02]).holds());
         assert!(!opposition([1.3, 0.4], [0.07, 0.02]).holds());
         assert!(!opposition([f64::NAN, 0.4], [0.07, 0.02]).holds());

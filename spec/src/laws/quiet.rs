@@ -93,6 +93,7 @@ mod tests {
     #[test]
     fn current_on_the_free_side_breaks_the_law() {
         assert!(!free_side(-0.013, &ACTING).holds());
+        assert!(!free_side(0.0, &ACTING).holds());
         assert!(!free_side(f64::NAN, &ACTING).holds());
         assert!(free_side(0.013, &ACTING).holds());
     }

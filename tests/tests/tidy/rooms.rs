@@ -65,20 +65,30 @@ fn rooms_depend_in_one_direction() {
             ));
             continue;
         };
-        for dependency in dependencies(&room) {
-            let Some(other) = dependency.strip_prefix("rigproof-") else {
-                continue;
-            };
-            if !allowed.contains(&other) {
-                violations.push(forbidden(
-                    &room,
-                    &dependency,
-                    &format!("`{room}` may depend on {allowed:?} only"),
-                ));
-            }
+        for dependency in against(allowed, &dependencies(&room)) {
+            let advice = format!("`{room}` may depend on {allowed:?} only");
+            violations.push(forbidden(&room, &dependency, &advice));
         }
     }
     assert_tidy("room edges", violations);
+}
+
+/// The rooms among these dependencies that are not allowed.
+fn against(allowed: &[&str], dependencies: &[String]) -> Vec<String> {
+    let room = |name: &String| name.strip_prefix("rigproof-").map(str::to_owned);
+    let rooms = dependencies
+        .iter()
+        .filter(|name| room(name).is_some_and(|room| !allowed.contains(&room.as_str())));
+    rooms.cloned().collect()
+}
+
+#[test]
+fn a_forbidden_edge_is_noticed() {
+    let dependencies = ["libm", "rigproof-spec", "rigproof-model"].map(str::to_owned);
+    assert_eq!(against(&["spec"], &dependencies), ["rigproof-model"]);
+    assert!(against(&["spec", "model"], &dependencies).is_empty());
+    let advice = forbidden("model", "libm", "an example");
+    assert!(advice.starts_with("model/Cargo.toml:") && advice.ends_with("`libm`: an example"));
 }
 
 #[test]

@@ -22,13 +22,16 @@ fn every_source_opens_with_what_it_says() {
 
 #[test]
 fn no_source_is_longer_than_500_lines() {
-    let violations = sources()
+    assert_tidy("long files", long_files(&sources()));
+}
+
+fn long_files(sources: &[Text]) -> Vec<String> {
+    sources
         .iter()
         .map(|source| (source, source.content.lines().count()))
         .filter(|(_, lines)| *lines > LONGEST_FILE)
         .map(|(source, lines)| format!("{}:{lines}: divide the file by purpose", source.path))
-        .collect();
-    assert_tidy("long files", violations);
+        .collect()
 }
 
 #[test]
@@ -49,18 +52,89 @@ fn no_function_is_longer_than_70_lines() {
 #[test]
 fn every_property_is_marked_as_a_test() {
     let violations = check_sources(&|tokens, report| {
-        for (name, body) in macros(tokens) {
-            if name == "proptest" {
-                for function in functions(&inner(&body)) {
-                    if function.nested == 0 && !function.has_attribute("test") {
-                        let name = &function.name;
-                        report(name, format!("`{name}` never runs: put #[test] above it"));
-                    }
-                }
-            }
+        for name in properties_that_never_run(tokens) {
+            let advice = format!("`{name}` never runs: put #[test] above it");
+            report(&name, advice);
         }
     });
     assert_tidy("properties that never run", violations);
+}
+
+/// Properties, of values or of sequences of operations, that are no tests.
+fn properties_that_never_run(tokens: &[TokenTree]) -> Vec<Ident> {
+    let mut found = Vec::new();
+    for (name, body) in macros(tokens) {
+        if name == "proptest" {
+            let all = functions(&inner(&body)).into_iter();
+            found.extend(
+                all.filter(|function| function.nested == 0 && !function.has_attribute("test"))
+                    .map(|function| function.name),
+            );
+        }
+        // A machine's property ends in a semicolon: its attributes stand right before it.
+        if name == "prop_state_machine" {
+            let tokens = inner(&body);
+            let marked = attributes(&tokens)
+                .iter()
+                .filter(|name| *name == "test")
+                .count();
+            let names = tokens.windows(2).filter_map(|pair| match pair {
+                [TokenTree::Ident(word), TokenTree::Ident(name)] if word == "fn" => {
+                    Some(name.clone())
+                }
+                _ => None,
+            });
+            found.extend(names.skip(marked));
+        }
+    }
+    found
+}
+
+/// The names of every claim of the rig's own code.
+pub fn claim_names() -> Vec<String> {
+    let mut names = Vec::new();
+    for source in sources() {
+        for (name, body) in macros(&tokens(&source)) {
+            if name == "claims" && source.path.starts_with("impl/") {
+                names.extend(
+                    functions(&inner(&body))
+                        .iter()
+                        .map(|claim| claim.name.to_string()),
+                );
+            }
+        }
+    }
+    names
+}
+
+#[test]
+fn a_property_without_its_mark_and_a_long_file_are_noticed() {
+    let properties = |content| {
+        let never = properties_that_never_run(&parse("example", content));
+        never.iter().map(Ident::to_string).collect::<Vec<_>>()
+    };
+    assert_eq!(
+        properties("proptest! { #[test] fn p(x in 0..3) {} }").len(),
+        0
+    );
+    assert_eq!(
+        properties("proptest! { #[test] fn p(x in 0..3) {} fn q() {} }"),
+        ["q"]
+    );
+    assert_eq!(
+        properties("prop_state_machine! { fn p(sequential 1..3 => T); }"),
+        ["p"]
+    );
+    assert_eq!(
+        properties("prop_state_machine! { #[test] fn p(sequential 1..3 => T); }").len(),
+        0
+    );
+    let file = |lines| Text {
+        path: "example.rs".to_owned(),
+        content: "//! This.\n".repeat(lines),
+    };
+    assert_eq!(long_files(&[file(LONGEST_FILE)]).len(), 0);
+    assert_eq!(long_files(&[file(LONGEST_FILE + 1)]).len(), 1);
 }
 
 #[test]

@@ -1,0 +1,44 @@
+//! This file runs a claim again on the numbers that a solver found.
+
+use rigproof_impl::claim::{Checker, Claim, Held};
+
+/// Given numbers and choices, in the order of asking; what was not given is a small number that nothing else is.
+pub struct Replay {
+    numbers: std::vec::IntoIter<f64>,
+    choices: std::vec::IntoIter<u8>,
+    failed: bool,
+}
+
+impl Checker for Replay {
+    type Number = f64;
+
+    fn scalar(&mut self) -> f64 {
+        self.numbers.next().unwrap_or(0.372_951)
+    }
+
+    fn choice(&mut self, _: u8) -> u8 {
+        self.choices.next().unwrap_or(0)
+    }
+
+    fn assume(&mut self, condition: bool) -> Held {
+        condition.then_some(())
+    }
+
+    fn check(&mut self, condition: bool) -> Held {
+        self.failed |= !condition;
+        condition.then_some(())
+    }
+
+    fn cover(&mut self, _: &'static str, _: bool) {}
+}
+
+/// Whether the claim fails on these numbers and choices.
+pub fn replay(claim: &Claim<Replay>, numbers: &[f64], choices: &[u8]) -> bool {
+    let mut replay = Replay {
+        numbers: numbers.to_vec().into_iter(),
+        choices: choices.to_vec().into_iter(),
+        failed: false,
+    };
+    let _ = (claim.body)(&mut replay);
+    replay.failed
+}
