@@ -35,8 +35,8 @@ impl Checker for Replay {
 /// Whether the claim fails on these numbers and choices.
 pub fn replay(claim: &Claim<Replay>, numbers: &[f64], choices: &[u8]) -> bool {
     let mut replay = Replay {
-        numbers: numbers.to_vec().into_iter(),
-        choices: choices.to_vec().into_iter(),
+        numbers: Vec::from(numbers).into_iter(),
+        choices: Vec::from(choices).into_iter(),
         failed: false,
     };
     let _ = (claim.body)(&mut replay);
