@@ -80,6 +80,7 @@ impl<R: Real> Actuation<R> {
     }
 
     /// The brakes' rows of the Jacobian, 1/m, and how the tip lies to a path; or the reason for which no brake may act.
+    #[inline]
     pub(crate) fn situation(
         &self,
         path: &impl Path<R>,
@@ -111,6 +112,7 @@ impl<R: Real> Actuation<R> {
     }
 
     /// A selection's decision as a command; the brake that acts gets the current for `force_n` at the tip.
+    #[inline]
     pub(crate) fn carry_out(&self, decision: Decision, rows: &Rows<R>, force_n: R) -> Command<R> {
         match decision {
             Decision::Act(joint) => self.one(joint, self.torque_nm(of(joint, rows), force_n)),

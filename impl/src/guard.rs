@@ -50,6 +50,7 @@ impl<R: Real> Guard<R> {
     }
 
     /// Judges a sample: its number, the travels of A and B and whether they are possible, the force on the tip, N.
+    #[inline]
     pub fn judge(
         &mut self,
         number: u32,
@@ -119,18 +120,25 @@ impl<R: Real> Guard<R> {
 ///
 /// A brake takes power from its joint whichever way that turns, so that a current has no sign to be wrong; which brake may act is
 /// the law's to know.
+#[inline]
 pub fn release<R: Real>(command: Command<R>, braked: [bool; 4]) -> Command<R> {
-    let asked = Joint::ALL.into_iter().zip(braked).zip(command.currents_a);
-    for ((joint, braked), current_a) in asked {
+    let [with_a, with_e, with_b, with_c] = braked;
+    let [a, e, b, c] = command.currents_a;
+    let allowed = |joint, braked: bool, current_a: R| {
         let silent = current_a == R::zero();
-        let allowed = braked && names(command.reason, joint);
-        if !(silent || allowed && current_a.is_finite()) {
-            return Command::none(Reason::RefusedCommand);
+        silent || braked && names(command.reason, joint) && current_a.is_finite()
+    };
+    if allowed(Joint::A, with_a, a)
+        && allowed(Joint::E, with_e, e)
+        && allowed(Joint::B, with_b, b)
+        && allowed(Joint::C, with_c, c)
+    {
+        Command {
+            currents_a: [clamped(a), clamped(e), clamped(b), clamped(c)],
+            reason: command.reason,
         }
-    }
-    Command {
-        currents_a: command.currents_a.map(clamped),
-        reason: command.reason,
+    } else {
+        Command::none(Reason::RefusedCommand)
     }
 }
 
