@@ -138,6 +138,7 @@ impl<R: Real> Actuation<R> {
     }
 
     /// A command for a torque of one brake, N·m.
+    #[inline]
     pub(crate) fn one(&self, joint: Joint, torque_nm: R) -> Command<R> {
         let mut command = Command::none(Reason::Chosen(joint));
         self.give(&mut command, joint, torque_nm);
@@ -157,6 +158,7 @@ impl<R: Real> Actuation<R> {
         of(joint, &self.gains).map_or(R::zero(), |gain| gain.greatest_nm())
     }
 
+    #[inline]
     fn give(&self, command: &mut Command<R>, joint: Joint, torque_nm: R) {
         if let Some(gain) = of(joint, &self.gains) {
             *of_mut(joint, &mut command.currents_a) = gain.current_a(torque_nm);
@@ -165,6 +167,7 @@ impl<R: Real> Actuation<R> {
 }
 
 /// Whether tip, velocity and push are numbers that a law takes, as [`crate::select::is_sound`] does.
+#[inline]
 pub(crate) fn is_defined<R: Real>(now: &Situation<R>) -> bool {
     bounded(&now.linkage.tip_m) && bounded(&now.tip_velocity_m_s) && bounded(&now.tip_force_n)
 }

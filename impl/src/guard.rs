@@ -5,7 +5,7 @@ use rigproof_spec::joint::Joint;
 use rigproof_spec::tables::GREATEST_CURRENT_A;
 
 use crate::command::Command;
-use crate::number::{Real, Scalar};
+use crate::number::{Real, Scalar, least, most};
 use crate::velocity::LONGEST_WINDOW;
 
 /// Ticks without a new sample over which the last command holds; in the next one the brakes are let go.
@@ -123,15 +123,14 @@ impl<R: Real> Guard<R> {
 #[inline]
 pub fn release<R: Real>(command: Command<R>, braked: [bool; 4]) -> Command<R> {
     let [with_a, with_e, with_b, with_c] = braked;
+    let [named_a, named_e, named_b, named_c] = named(command.reason);
     let [a, e, b, c] = command.currents_a;
-    let allowed = |joint, braked: bool, current_a: R| {
-        let silent = current_a == R::zero();
-        silent || braked && names(command.reason, joint) && current_a.is_finite()
-    };
-    if allowed(Joint::A, with_a, a)
-        && allowed(Joint::E, with_e, e)
-        && allowed(Joint::B, with_b, b)
-        && allowed(Joint::C, with_c, c)
+    let allowed =
+        |may_act: bool, current_a: R| (current_a == R::zero()) | (may_act & current_a.is_finite());
+    if allowed(with_a & named_a, a)
+        & allowed(with_e & named_e, e)
+        & allowed(with_b & named_b, b)
+        & allowed(with_c & named_c, c)
     {
         Command {
             currents_a: [clamped(a), clamped(e), clamped(b), clamped(c)],
@@ -142,24 +141,17 @@ pub fn release<R: Real>(command: Command<R>, braked: [bool; 4]) -> Command<R> {
     }
 }
 
-/// A current put inside what the amplifiers take, A.
+/// A current put inside what the amplifiers take, A; none for what is no number.
 fn clamped<S: Scalar>(current_a: S) -> S {
-    let greatest_a = S::of(GREATEST_CURRENT_A);
-    if current_a > greatest_a {
-        greatest_a
-    } else if current_a > S::zero() {
-        current_a
-    } else {
-        S::zero()
-    }
+    most(least(S::of(GREATEST_CURRENT_A), current_a), S::zero())
 }
 
-/// Whether a reason is one to give current to a joint's brake.
-fn names(reason: Reason, joint: Joint) -> bool {
+/// The joints, A, E, B, C, to whose brakes a reason gives current.
+fn named(reason: Reason) -> [bool; 4] {
     match reason {
-        Reason::Chosen(chosen) => chosen == joint,
-        Reason::ChosenPair(one, other) => one == joint || other == joint,
-        reason => reason.is_lock(),
+        Reason::Chosen(chosen) => Joint::ALL.map(|joint| joint == chosen),
+        Reason::ChosenPair(one, other) => Joint::ALL.map(|joint| joint == one || joint == other),
+        reason => [reason.is_lock(); 4],
     }
 }
 

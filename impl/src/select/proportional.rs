@@ -55,17 +55,19 @@ pub fn classify<S: Scalar>(
 ) -> Option<Candidate<S>> {
     let force = opposing(row, velocity_m_s)?;
     let length_squared = row.norm_squared();
-    let along = direction.dot(force);
     let across = direction.cross(force);
-    let influence = [
-        sign(along, direction.dot(velocity_m_s), length_squared),
-        match direction.cross(velocity_m_s) {
-            // No force takes from a component that is not there.
-            speed if speed == S::zero() => sign(across.magnitude(), speed, length_squared),
-            speed => sign(across, speed, length_squared),
-        },
-    ];
-    influence_rank(influence).map(|rank| Candidate {
+    let on_across = match direction.cross(velocity_m_s) {
+        // No force takes from a component that is not there.
+        speed if speed == S::zero() => sign(across.magnitude(), speed, length_squared),
+        speed => sign(across, speed, length_squared),
+    };
+    // Nothing else has a rank: about half of the brakes are out before the other component is computed.
+    if on_across != -1 {
+        return None;
+    }
+    let along = direction.dot(force);
+    let on_along = sign(along, direction.dot(velocity_m_s), length_squared);
+    influence_rank([on_along, on_across]).map(|rank| Candidate {
         rank,
         component: along,
         length_squared,
