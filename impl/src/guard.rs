@@ -61,14 +61,12 @@ impl<R: Real> Guard<R> {
         if self.last.is_some_and(|(last, _)| last == number) {
             return self.repeat();
         }
+        let ([x_n, y_n], greatest_n) = (force_n, self.greatest_force_n);
         let fault = if self.has_missed(number) {
             Some(Reason::StaleSample)
         } else if !reached || self.has_jumped(travels) {
             Some(Reason::JumpedCounts)
-        } else if !force_n
-            .into_iter()
-            .all(|component| component.is_within(self.greatest_force_n))
-        {
+        } else if !(x_n.is_within(greatest_n) && y_n.is_within(greatest_n)) {
             Some(Reason::UndefinedInput)
         } else {
             None

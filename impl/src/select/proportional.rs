@@ -54,13 +54,13 @@ pub fn classify<S: Scalar>(
     direction: Vector<S>,
 ) -> Option<Candidate<S>> {
     let force = opposing(row, velocity_m_s)?;
+    let unwanted = direction.cross(velocity_m_s);
+    // No force takes from a component that is not there.
+    if unwanted == S::zero() {
+        return None;
+    }
     let length_squared = row.norm_squared();
-    let across = direction.cross(force);
-    let on_across = match direction.cross(velocity_m_s) {
-        // No force takes from a component that is not there.
-        speed if speed == S::zero() => sign(across.magnitude(), speed, length_squared),
-        speed => sign(across, speed, length_squared),
-    };
+    let on_across = sign(direction.cross(force), unwanted, length_squared);
     // Nothing else has a rank: about half of the brakes are out before the other component is computed.
     if on_across != -1 {
         return None;
