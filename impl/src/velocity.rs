@@ -20,7 +20,7 @@ const SHARES: [f64; LONGEST_WINDOW] = [840.0, 420.0, 280.0, 210.0, 168.0, 140.0,
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Velocity<R> {
     /// Travels, the newest first.
-    past: [f64; LONGEST_WINDOW],
+    past: [i32; LONGEST_WINDOW],
     rad_s_per_part: R,
 }
 
@@ -28,31 +28,31 @@ impl<R: Real> Velocity<R> {
     /// The estimator of a joint that stands at a travel of zero, sampled every `sample_s`, s.
     pub fn new(encoder: &Encoder<R>, sample_s: f64) -> Velocity<R> {
         Velocity {
-            past: [0.0; LONGEST_WINDOW],
+            past: [0; LONGEST_WINDOW],
             rad_s_per_part: encoder.rad_per_count() * R::of(1.0 / (sample_s * PARTS)),
         }
     }
 
     /// Forgets the past: the joint stands at a travel.
     pub fn restart(&mut self, travel: i32) {
-        self.past = [f64::from(travel); LONGEST_WINDOW];
+        self.past = [travel; LONGEST_WINDOW];
     }
 
     /// The joint's rate at its next travel, rad/s.
     // Always inline: a compiler that sees both joints does them at once, one in each half of a register.
     #[inline(always)]
     pub fn update(&mut self, travel: i32) -> R {
-        let travel = f64::from(travel);
         let [a, b, c, d, e, f, g, h] = self.past;
         self.past = [travel, a, b, c, d, e, f, g];
         let [one, shares @ ..] = SHARES;
-        let mut slope = (travel - a) * one;
+        let travel = f64::from(travel);
+        let mut slope = (travel - f64::from(a)) * one;
         // A line passes a count `i` samples ago within one count if its slope lies between these. Without a branch: how long a
         // window is cannot be predicted, and asking costs more than going on.
         let (mut lowest, mut highest) = (slope - one, slope + one);
         let mut straight = true;
         for (past, share) in [b, c, d, e, f, g, h].into_iter().zip(shares) {
-            let candidate = (travel - past) * share;
+            let candidate = (travel - f64::from(past)) * share;
             straight &= (lowest <= candidate) & (candidate <= highest);
             slope = if straight { candidate } else { slope };
             lowest = most(candidate - share, lowest);
