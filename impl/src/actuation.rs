@@ -80,6 +80,7 @@ impl<R: Real> Actuation<R> {
     }
 
     /// The brakes' rows of the Jacobian, 1/m, and how the tip lies to a path; or the reason for which no brake may act.
+    #[inline]
     pub(crate) fn situation(
         &self,
         path: &impl Path<R>,
@@ -111,6 +112,7 @@ impl<R: Real> Actuation<R> {
     }
 
     /// A selection's decision as a command; the brake that acts gets the current for `force_n` at the tip.
+    #[inline]
     pub(crate) fn carry_out(&self, decision: Decision, rows: &Rows<R>, force_n: R) -> Command<R> {
         match decision {
             Decision::Act(joint) => self.one(joint, self.torque_nm(of(joint, rows), force_n)),
@@ -136,6 +138,7 @@ impl<R: Real> Actuation<R> {
     }
 
     /// A command for a torque of one brake, N·m.
+    #[inline]
     pub(crate) fn one(&self, joint: Joint, torque_nm: R) -> Command<R> {
         let mut command = Command::none(Reason::Chosen(joint));
         self.give(&mut command, joint, torque_nm);
@@ -155,6 +158,7 @@ impl<R: Real> Actuation<R> {
         of(joint, &self.gains).map_or(R::zero(), |gain| gain.greatest_nm())
     }
 
+    #[inline]
     fn give(&self, command: &mut Command<R>, joint: Joint, torque_nm: R) {
         if let Some(gain) = of(joint, &self.gains) {
             *of_mut(joint, &mut command.currents_a) = gain.current_a(torque_nm);
@@ -163,6 +167,7 @@ impl<R: Real> Actuation<R> {
 }
 
 /// Whether tip, velocity and push are numbers that a law takes, as [`crate::select::is_sound`] does.
+#[inline]
 pub(crate) fn is_defined<R: Real>(now: &Situation<R>) -> bool {
     bounded(&now.linkage.tip_m) && bounded(&now.tip_velocity_m_s) && bounded(&now.tip_force_n)
 }

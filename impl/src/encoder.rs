@@ -13,19 +13,18 @@ pub const MOST_COUNTS_PER_TURN: u32 = 1 << 24;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Encoder<R> {
     zero_count: i32,
-    counts_per_turn: i32,
+    counts_per_turn: u32,
     rad_per_count: R,
 }
 
 impl<R: Real> Encoder<R> {
     /// An encoder of 1 to [`MOST_COUNTS_PER_TURN`] counts a turn, and its count at angle zero; `None` beyond.
     pub fn new(counts_per_turn: u32, zero_count: i32) -> Option<Encoder<R>> {
-        let counts = i32::try_from(counts_per_turn).ok()?;
         (1..=MOST_COUNTS_PER_TURN)
             .contains(&counts_per_turn)
             .then(|| Encoder {
                 zero_count,
-                counts_per_turn: counts,
+                counts_per_turn,
                 rad_per_count: R::of(TAU / f64::from(counts_per_turn)),
             })
     }
@@ -37,7 +36,7 @@ impl<R: Real> Encoder<R> {
 
     /// Whether a travel is one that a base joint can have, which is stopped long before a whole turn (§4.5).
     pub fn reaches(&self, travel: i32) -> bool {
-        (-self.counts_per_turn..=self.counts_per_turn).contains(&travel)
+        travel.unsigned_abs() <= self.counts_per_turn
     }
 
     /// The angle of one count, rad.

@@ -8,7 +8,7 @@ use rigproof_spec::joint::Joint;
 use rigproof_spec::tables::GREATEST_CURRENT_A;
 
 use crate::command::Command;
-use crate::number::{Real, Scalar};
+use crate::number::{Real, Scalar, least, most};
 use crate::velocity::LONGEST_WINDOW;
 
 /// Ticks without a new sample over which the last command holds; in the next one the brakes are let go.
@@ -53,6 +53,7 @@ impl<R: Real> Guard<R> {
     }
 
     /// Judges a sample: its number, the travels of A and B and whether they are possible, the force on the tip, N.
+    #[inline]
     pub fn judge(
         &mut self,
         number: u32,
@@ -63,14 +64,12 @@ impl<R: Real> Guard<R> {
         if self.last.is_some_and(|(last, _)| last == number) {
             return self.repeat();
         }
+        let ([x_n, y_n], greatest_n) = (force_n, self.greatest_force_n);
         let fault = if self.has_missed(number) {
             Some(Reason::StaleSample)
         } else if !reached || self.has_jumped(travels) {
             Some(Reason::JumpedCounts)
-        } else if !force_n
-            .into_iter()
-            .all(|component| component.is_within(self.greatest_force_n))
-        {
+        } else if !(x_n.is_within(greatest_n) && y_n.is_within(greatest_n)) {
             Some(Reason::UndefinedInput)
         } else {
             None
@@ -122,44 +121,44 @@ impl<R: Real> Guard<R> {
 ///
 /// A brake takes power from its joint whichever way that turns, so that a current has no sign to be wrong; which brake may act is
 /// the law's to know.
+#[inline]
 pub fn release<S: Scalar>(command: Command<S>, braked: [bool; 4]) -> Command<S> {
-    let asked = Joint::ALL.into_iter().zip(braked).zip(command.currents_a);
-    for ((joint, braked), current_a) in asked {
-        let silent = current_a == S::zero();
-        let allowed = braked && names(command.reason, joint);
-        if !(silent || allowed && is_finite(current_a)) {
-            return Command::none(Reason::RefusedCommand);
+    let [with_a, with_e, with_b, with_c] = braked;
+    let [named_a, named_e, named_b, named_c] = named(command.reason);
+    let [a, e, b, c] = command.currents_a;
+    let allowed =
+        |may_act: bool, current_a: S| (current_a == S::zero()) | (may_act & is_finite(current_a));
+    if allowed(with_a & named_a, a)
+        & allowed(with_e & named_e, e)
+        & allowed(with_b & named_b, b)
+        & allowed(with_c & named_c, c)
+    {
+        Command {
+            currents_a: [clamped(a), clamped(e), clamped(b), clamped(c)],
+            reason: command.reason,
         }
-    }
-    Command {
-        currents_a: command.currents_a.map(clamped),
-        reason: command.reason,
+    } else {
+        Command::none(Reason::RefusedCommand)
     }
 }
 
 /// Whether it is a number that both widths have: neither infinite nor undefined.
+#[inline]
 fn is_finite<S: Scalar>(number: S) -> bool {
     number.is_within(S::of(f64::from(f32::MAX)))
 }
 
-/// A current put inside what the amplifiers take, A.
+/// A current put inside what the amplifiers take, A; none for what is no number.
 fn clamped<S: Scalar>(current_a: S) -> S {
-    let greatest_a = S::of(GREATEST_CURRENT_A);
-    if current_a > greatest_a {
-        greatest_a
-    } else if current_a > S::zero() {
-        current_a
-    } else {
-        S::zero()
-    }
+    most(least(S::of(GREATEST_CURRENT_A), current_a), S::zero())
 }
 
-/// Whether a reason is one to give current to a joint's brake.
-fn names(reason: Reason, joint: Joint) -> bool {
+/// The joints, A, E, B, C, to whose brakes a reason gives current.
+fn named(reason: Reason) -> [bool; 4] {
     match reason {
-        Reason::Chosen(chosen) => chosen == joint,
-        Reason::ChosenPair(one, other) => one == joint || other == joint,
-        reason => reason.is_lock(),
+        Reason::Chosen(chosen) => Joint::ALL.map(|joint| joint == chosen),
+        Reason::ChosenPair(one, other) => Joint::ALL.map(|joint| joint == one || joint == other),
+        reason => [reason.is_lock(); 4],
     }
 }
 

@@ -90,6 +90,7 @@ impl<R: Real> Linkage<R> {
     ///
     /// The inverse of J₁, whose columns are the tip's velocities at unit rates of A and E, in its closed form.
     //= thesis (5.39)
+    #[inline]
     pub fn rows(&self) -> [Vector<R>; 4] {
         let left = R::of(1.0) / self.ae.cross(self.ed);
         let right = R::of(1.0) / self.bc.cross(self.cd);
@@ -114,6 +115,7 @@ impl<R: Real> Linkage<R> {
     }
 
     /// How fast arms ED and CD turn for rates (θ̇A, θ̇B) of the base joints: two rows, 1.
+    #[inline]
     pub fn turning(&self) -> [Vector<R>; 2] {
         let inverse = R::of(1.0) / self.ed.cross(self.cd);
         let row =
@@ -122,6 +124,7 @@ impl<R: Real> Linkage<R> {
     }
 
     /// The velocity of the tip for rates of the base joints, rad/s, m/s.
+    #[inline]
     pub fn tip_velocity(&self, rates_rad_s: Vector<R>) -> Vector<R> {
         let [turning_ed, _] = self.turning();
         self.ae.left() * rates_rad_s.x + self.ed.left() * turning_ed.dot(rates_rad_s)

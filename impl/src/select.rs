@@ -60,21 +60,29 @@ impl Decision {
 
 /// Whether every number is one that a selection takes: finite, not beyond [`GREATEST_INPUT`], no row shorter than
 /// [`LEAST_ROW_SQUARED_PER_M2`] allows.
+#[inline]
 pub fn is_sound<S: Scalar>(rows: &Rows<S>, vectors: &[Vector<S>], desired: &Desired<S>) -> bool {
+    let [a, e, b, c] = rows;
+    let sound = |row: &Option<Vector<S>>| row.as_ref().is_none_or(sound_row);
     vectors.iter().all(bounded)
         && bounded(&desired.direction)
         && bounded(&desired.along)
         && desired.towards.iter().all(bounded)
-        && rows.iter().flatten().all(sound_row)
+        && sound(a)
+        && sound(e)
+        && sound(b)
+        && sound(c)
 }
 
 /// Whether both components are numbers not beyond [`GREATEST_INPUT`].
+#[inline]
 pub fn bounded<S: Scalar>(vector: &Vector<S>) -> bool {
     let greatest = S::of(GREATEST_INPUT);
     vector.x.is_within(greatest) && vector.y.is_within(greatest)
 }
 
 /// Whether a row of the Jacobian is bounded and no shorter than [`LEAST_ROW_SQUARED_PER_M2`] allows.
+#[inline]
 pub fn sound_row<S: Scalar>(row: &Vector<S>) -> bool {
     bounded(row) && row.norm_squared() >= S::of(LEAST_ROW_SQUARED_PER_M2)
 }

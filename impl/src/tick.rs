@@ -141,13 +141,13 @@ impl<R: Real, L: Law<R>> Tick<R, L> {
         let travels = pair(self.encoders, sensed.counts, |encoder, count| {
             encoder.travel(count)
         });
-        let reached = pair(self.encoders, travels, |encoder, travel| {
-            encoder.reaches(travel)
-        });
+        let [encoder_a, encoder_b] = &self.encoders;
+        let [of_a, of_b] = travels;
+        let reached = encoder_a.reaches(of_a) & encoder_b.reaches(of_b);
         let force_n = sensed.tip_force_n;
         match self
             .guard
-            .judge(sensed.number, travels, reached == [true; 2], force_n.into())
+            .judge(sensed.number, travels, reached, force_n.into())
         {
             Verdict::Repeated => {}
             Verdict::Good => {
@@ -170,6 +170,8 @@ impl<R: Real, L: Law<R>> Tick<R, L> {
     }
 
     /// The rates of A and B, rad/s.
+    // A function of its own, so that a compiler sees the two joints side by side and nothing else.
+    #[inline(never)]
     fn rates(&mut self, [of_a, of_b]: [i32; 2]) -> Vector<R> {
         let [a, b] = &mut self.velocities;
         Vector::new(a.update(of_a), b.update(of_b))

@@ -30,6 +30,7 @@ impl<R: Real> Field<R> {
     ///
     /// The angle between path and desired velocity is 90° times the distance over the boundary. A force without a component along the
     /// path counts as one along its tangent (gap `force-across-path`).
+    #[inline]
     pub fn desired(&self, nearest: &Nearest<R>, force_n: Vector<R>) -> Desired<R> {
         let along = if nearest.tangent.dot(force_n) < R::zero() {
             -nearest.tangent

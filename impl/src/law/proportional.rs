@@ -39,6 +39,7 @@ impl<R: Real, P: Path<R>> Proportional<R, P> {
 
 impl<R: Real, P: Path<R>> Law<R> for Proportional<R, P> {
     //= thesis (6.13)
+    #[inline]
     fn command(&mut self, now: &Situation<R>) -> Command<R> {
         let (rows, nearest) = match self.actuation.situation(&self.path, now) {
             Ok(situation) => situation,

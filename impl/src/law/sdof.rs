@@ -36,6 +36,7 @@ impl<R: Real, P: Path<R>> Sdof<R, P> {
 }
 
 impl<R: Real, P: Path<R>> Law<R> for Sdof<R, P> {
+    #[inline]
     fn command(&mut self, now: &Situation<R>) -> Command<R> {
         let (rows, nearest) = match self.actuation.situation(&self.path, now) {
             Ok(situation) => situation,

@@ -17,25 +17,36 @@ pub struct Candidate<S> {
 
 /// The brake of the lowest rank; among those the one whose vector lies closest to the desired direction; among those the first
 /// in the order A, E, B, C.
+#[inline]
 pub fn best<S: Scalar>(candidates: [Option<Candidate<S>>; 4]) -> Option<Joint> {
-    let mut first: Option<(Joint, Candidate<S>)> = None;
-    for (joint, candidate) in Joint::ALL.into_iter().zip(candidates) {
-        let Some(candidate) = candidate else { continue };
-        let better = match &first {
-            None => true,
-            Some((_, other)) => {
-                candidate.rank < other.rank
-                    || (candidate.rank == other.rank && closer(&candidate, other))
-            }
-        };
-        if better {
-            first = Some((joint, candidate));
+    let [a, e, b, c] = candidates;
+    let first = a.map(|a| (Joint::A, a));
+    let first = better(first, Joint::E, e);
+    let first = better(first, Joint::B, b);
+    better(first, Joint::C, c).map(|(joint, _)| joint)
+}
+
+/// The first so far, or another that is better.
+#[inline(always)]
+fn better<S: Scalar>(
+    first: Option<(Joint, Candidate<S>)>,
+    joint: Joint,
+    candidate: Option<Candidate<S>>,
+) -> Option<(Joint, Candidate<S>)> {
+    match (&first, candidate) {
+        (None, Some(candidate)) => Some((joint, candidate)),
+        (Some((_, other)), Some(candidate))
+            if candidate.rank < other.rank
+                || (candidate.rank == other.rank && closer(&candidate, other)) =>
+        {
+            Some((joint, candidate))
         }
+        _ => first,
     }
-    first.map(|(joint, _)| joint)
 }
 
 /// Whether one vector makes the smaller angle with the desired direction: c₁/√n₁ > c₂/√n₂, by squares that keep their signs.
+#[inline]
 pub fn closer<S: Scalar>(one: &Candidate<S>, other: &Candidate<S>) -> bool {
     let signed_square =
         |candidate: &Candidate<S>| candidate.component * candidate.component.magnitude();

@@ -19,6 +19,7 @@ use crate::vector::Vector;
 ///
 /// What [`is_sound`] refuses decides for no brake.
 //= thesis (6.12)
+#[inline]
 pub fn decide<S: Scalar>(
     rows: &Rows<S>,
     velocity_m_s: Vector<S>,
@@ -31,7 +32,9 @@ pub fn decide<S: Scalar>(
     if desired.direction.dot(velocity_m_s) < S::zero() {
         return Decision::Lock(Reason::LockedMovingBack);
     }
-    match best(rows.map(|row| classify(row?, velocity_m_s, desired.direction))) {
+    let [a, e, b, c] = *rows;
+    let candidate = |row: Option<Vector<S>>| classify(row?, velocity_m_s, desired.direction);
+    match best([candidate(a), candidate(e), candidate(b), candidate(c)]) {
         Some(joint) => Decision::Act(joint),
         None if pushes_away(desired, force_n) => Decision::Lock(Reason::LockedPushedAway),
         None => Decision::Rest(Reason::NoneHelps),
@@ -44,24 +47,27 @@ pub fn decide<S: Scalar>(
 ///
 /// A brake whose joint stands is not actuated, where (6.11) takes the force of a joint that turns forwards: what rounds to zero has no
 /// sign that could be trusted (gap `joint-at-rest`).
+#[inline]
 pub fn classify<S: Scalar>(
     row: Vector<S>,
     velocity_m_s: Vector<S>,
     direction: Vector<S>,
 ) -> Option<Candidate<S>> {
     let force = opposing(row, velocity_m_s)?;
+    let unwanted = direction.cross(velocity_m_s);
+    // No force takes from a component that is not there.
+    if unwanted == S::zero() {
+        return None;
+    }
     let length_squared = row.norm_squared();
+    let on_across = sign(direction.cross(force), unwanted, length_squared);
+    // Nothing else has a rank: about half of the brakes are out before the other component is computed.
+    if on_across != -1 {
+        return None;
+    }
     let along = direction.dot(force);
-    let across = direction.cross(force);
-    let influence = [
-        sign(along, direction.dot(velocity_m_s), length_squared),
-        match direction.cross(velocity_m_s) {
-            // No force takes from a component that is not there.
-            speed if speed == S::zero() => sign(across.magnitude(), speed, length_squared),
-            speed => sign(across, speed, length_squared),
-        },
-    ];
-    influence_rank(influence).map(|rank| Candidate {
+    let on_along = sign(along, direction.dot(velocity_m_s), length_squared);
+    influence_rank([on_along, on_across]).map(|rank| Candidate {
         rank,
         component: along,
         length_squared,

@@ -10,6 +10,7 @@ use crate::vector::Vector;
 /// to the desired direction, between the direction of the path and the one towards it; else a lock if the operator pushes away.
 ///
 /// `in_gap` is whether the tip is inside the gap; the other symbols are those of [`super::proportional::decide`].
+#[inline]
 pub fn decide<S: Scalar>(
     rows: &Rows<S>,
     force_n: Vector<S>,
@@ -22,7 +23,9 @@ pub fn decide<S: Scalar>(
     let Some(towards) = desired.towards.filter(|_| !in_gap) else {
         return Decision::Rest(Reason::InsideGap);
     };
-    match best(rows.map(|row| classify(row?, desired, towards))) {
+    let [a, e, b, c] = *rows;
+    let candidate = |row: Option<Vector<S>>| classify(row?, desired, towards);
+    match best([candidate(a), candidate(e), candidate(b), candidate(c)]) {
         Some(joint) => Decision::Act(joint),
         None if pushes_away(desired, force_n) => Decision::Lock(Reason::LockedPushedAway),
         None => Decision::Rest(Reason::NoneHelps),
