@@ -7,18 +7,23 @@ use rigproof_model::linkage::singularity::{Pair, measure};
 use rigproof_spec::command::Command;
 
 use crate::agree::{quantiles, ticks};
-use crate::both::{rig_law, sensed, situation};
+use crate::both::{View, reference_command, rig_law, sensed, situation};
 use crate::budget::assert_within_budget;
-use crate::permitted::apart_a;
+use crate::permitted::{apart_a, as_seen};
 use crate::sample::{Sampler, Tick};
 
 /// Ticks that may decide otherwise, or whose currents differ by more than [`ROUNDING_A`], as a share of all; each is checked: double precision
 /// does the same when the tick is nudged.
 const GREATEST_SHARE: f64 = 1e-4;
-/// Currents that differ by no more than this differ by rounding, A.
-const ROUNDING_A: f64 = 1e-4;
+/// Currents that differ by no more than this differ by rounding, A. What differs by more has to be amplified.
+const ROUNDING_A: f64 = 1e-5;
+/// Currents that may at all count as equal, A. What is neither amplified nor beyond this goes to the budget of `tests/budgets.toml`, which is
+/// nearer to [`ROUNDING_A`].
+const EQUAL_A: f64 = 1e-3;
 /// Least sine between two arms at which ticks are compared: 2°, where table 4.2 stops at 10°.
 const LEAST_SINE: f64 = 0.035;
+/// How far two feet may be from the path, and their distances from each other, m: some digits of a float.
+const EQUAL_M: f64 = 1e-6;
 /// Size of the nudges, relative: some digits of a float, which a pose near a singularity multiplies.
 const NUDGES: [f64; 3] = [2e-7, 4e-6, 1e-4];
 /// Nudges of each size that are tried.
@@ -63,14 +68,20 @@ fn single_precision_decides_as_double_precision_but_for_ties_of_its_own() {
             rounding_a.push(apart_a);
             continue;
         }
+        let takes = |other: Command| {
+            let reached = self::apart_a(&other, &single) <= 0.1 * apart_a;
+            let moved = self::apart_a(&double, &other) >= apart_a;
+            other.reason == single.reason && (!same || reached || moved)
+        };
         let turns = NUDGES.into_iter().any(|size| {
-            (0..TRIES).any(|_| {
-                let other = command::<f64>(&nudged(&tick, size, &mut nudger));
-                let reached = self::apart_a(&other, &single) <= ROUNDING_A;
-                let moved = self::apart_a(&double, &other) >= apart_a;
-                other.reason == single.reason && (!same || reached || moved)
-            })
-        });
+            (0..TRIES).any(|_| takes(command::<f64>(&nudged(&tick, size, &mut nudger))))
+        }) || as_seen::<f32>(&tick, EQUAL_M)
+            .and_then(|nearest| reference_command(&tick, View::Given(nearest)))
+            .is_some_and(takes);
+        if !turns && same && apart_a <= EQUAL_A {
+            rounding_a.push(apart_a);
+            continue;
+        }
         assert!(
             turns,
             "{double:?}, in single precision {single:?}, in {tick:?}"
