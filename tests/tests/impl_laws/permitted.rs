@@ -5,7 +5,6 @@
 
 use nalgebra::Vector2;
 use rigproof_impl::law::Situation;
-use rigproof_impl::number::Real;
 use rigproof_impl::path::Path as _;
 use rigproof_impl::select::{GREATEST_INPUT, LEAST_ROW_SQUARED_PER_M2};
 use rigproof_model::brake::torque_gain;
@@ -56,7 +55,7 @@ pub enum Permitted {
 /// Where a decision turns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Tie {
-    /// Two points of the path are as near; the reference agrees when it is given the other one.
+    /// Two points of the path are as near, or one to rounding; the reference agrees when it is given the one that the rig's code sees.
     Foot,
     /// The path: on it, at the end of the gap, at a corner, exactly across the push.
     Path,
@@ -116,7 +115,7 @@ pub fn permitted(
     if is_beyond(&now) && rig == Command::none(Reason::UndefinedInput) {
         return Ok(Permitted::Tie(Tie::Gate));
     }
-    let seen = as_seen::<f64>(tick, EQUAL_M).map(View::Given);
+    let seen = as_seen(tick).map(View::Given);
     if let Some(seen) = seen
         && let Some(other) = reference_command(tick, seen)
         && other.reason == rig.reason
@@ -201,7 +200,7 @@ const KINDS: [Kind; 4] = [
             turn_rad: size * nudger.nudge(),
         };
         // Now and then as the rig's code sees it, where zero may be exact.
-        *view = match as_seen::<f64>(tick, EQUAL_M) {
+        *view = match as_seen(tick) {
             Some(mut seen) if nudger.nudge() < 0.0 => {
                 if nudger.nudge() < 0.0 {
                     let left = Vector2::new(-seen.tangent.y, seen.tangent.x);
@@ -318,22 +317,21 @@ fn is_beyond(now: &Situation<f64>) -> bool {
             .any(|vector| beyond(vector.into()))
 }
 
-/// The nearest point of the path as the rig's code sees it, if the reference finds it on the path and as near as its own, to so many m.
-pub fn as_seen<R: Real>(tick: &Tick, equal_m: f64) -> Option<Nearest> {
+/// The nearest point of the path as the rig's code sees it, if the reference finds it on the path and as near as its own.
+fn as_seen(tick: &Tick) -> Option<Nearest> {
     let path = reference_path(&tick.path).ok()?;
-    let tip_m = situation::<R>(tick).linkage.tip_m;
-    let seen = rig_path::<R>(&tick.path)?.nearest(tip_m);
-    let in_double = |vector| Vector2::from(<[R; 2]>::from(vector).map(R::to_f64));
-    let (tip_m, tangent) = (in_double(tip_m), in_double(seen.tangent));
+    let tip_m = situation::<f64>(tick).linkage.tip_m;
+    let seen = rig_path::<f64>(&tick.path)?.nearest(tip_m);
+    let tip_m = <[f64; 2]>::from(tip_m);
+    let tangent = Vector2::from(<[f64; 2]>::from(seen.tangent));
     let left = Vector2::new(-tangent.y, tangent.x);
-    let offset_m = seen.offset_m.to_f64();
     let nearest = Nearest {
-        foot_m: tip_m - left * offset_m,
+        foot_m: Vector2::from(tip_m) - left * seen.offset_m,
         tangent,
-        offset_m,
+        offset_m: seen.offset_m,
     };
-    let as_near = (nearest.distance_m() - path.nearest(tip_m.into()).distance_m()).abs() <= equal_m;
-    let on_path = path.nearest(nearest.foot_m.into()).distance_m() <= equal_m;
+    let as_near = (nearest.distance_m() - path.nearest(tip_m).distance_m()).abs() <= EQUAL_M;
+    let on_path = path.nearest(nearest.foot_m.into()).distance_m() <= EQUAL_M;
     (as_near && on_path).then_some(nearest)
 }
 
