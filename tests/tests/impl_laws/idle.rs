@@ -5,12 +5,13 @@
 
 use nalgebra::Vector2;
 use rigproof_model::brake::current_gain;
+use rigproof_model::control::path::Nearest;
 use rigproof_model::control::torque_translation::{Share, translate};
 use rigproof_spec::command::{Command, Reason};
 use rigproof_spec::joint::Joint;
 use rigproof_spec::tables::brake_table;
 
-use crate::both::{reference_path, reference_rows, reference_tip};
+use crate::both::reference_rows;
 use crate::permitted::LAST_DIGITS;
 use crate::sample::{LawKind, Tick};
 
@@ -23,8 +24,8 @@ const SMALL_N: f64 = 1e-6;
 type Row = (Joint, Vector2<f64>);
 
 /// What impedance control may answer where a brake makes a wanted force alone; nothing elsewhere. A joint that all but stands may turn
-/// either way.
-pub fn answers(tick: &Tick) -> Vec<Command> {
+/// either way; `nearest` is how the tip lies to the path, of several points as near as told.
+pub fn answers(tick: &Tick, nearest: &Nearest) -> Vec<Command> {
     let length_m_s = Vector2::from(tick.velocity_m_s).norm();
     let rows = reference_rows(tick).unwrap_or_default();
     let units = rows.iter().map(|row| row.normalize());
@@ -34,13 +35,13 @@ pub fn answers(tick: &Tick) -> Vec<Command> {
     all.flat_map(|moved_m_s| {
         let mut tick = tick.clone();
         tick.velocity_m_s = (Vector2::from(tick.velocity_m_s) + moved_m_s).into();
-        answers_as_told(&tick)
+        answers_as_told(&tick, nearest)
     })
     .collect()
 }
 
-fn answers_as_told(tick: &Tick) -> Vec<Command> {
-    let (Some(wanted_n), Some(rows)) = (wanted_n(tick), reference_rows(tick)) else {
+fn answers_as_told(tick: &Tick, nearest: &Nearest) -> Vec<Command> {
+    let (Some(wanted_n), Some(rows)) = (wanted_n(tick, nearest), reference_rows(tick)) else {
         return Vec::new();
     };
     let braked = |(joint, _): &Row| tick.layout.brakes().contains(joint);
@@ -89,13 +90,10 @@ fn beside_an_idle_one(
 }
 
 /// The forces that are tried, N, as decision 0044 has them; `None` for another law, or where nothing is wanted.
-fn wanted_n(tick: &Tick) -> Option<Vec<Vector2<f64>>> {
+fn wanted_n(tick: &Tick, nearest: &Nearest) -> Option<Vec<Vector2<f64>>> {
     let LawKind::Impedance([stiffness, across, along]) = tick.law else {
         return None;
     };
-    let nearest = reference_path(&tick.path)
-        .ok()?
-        .nearest(reference_tip(tick)?);
     let velocity_m_s = Vector2::from(tick.velocity_m_s);
     let tangent = nearest.tangent;
     let left = Vector2::new(-tangent.y, tangent.x);
@@ -172,7 +170,7 @@ fn command(shares: [Share; 2]) -> Command {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::both::{View, reference_command};
+    use crate::both::{View, reference_command, reference_nearest};
     use crate::permitted::permitted;
     use crate::sample::{PathKind, Sampler};
 
@@ -223,7 +221,7 @@ mod tests {
             let Some((tick, joint)) = along_a_push(&mut sampler, 0.0) else {
                 continue;
             };
-            let answers = answers(&tick);
+            let answers = answers(&tick, &reference_nearest(&tick).unwrap());
             let Some(right) = answers.iter().find(|command| {
                 command.currents_a.iter().filter(|a| **a > 0.01).count() == 1
                     && command.currents_a[joint as usize] > 0.01
@@ -274,7 +272,8 @@ mod tests {
             let Some((tick, _)) = along_a_push(&mut sampler, turn_rad) else {
                 continue;
             };
-            assert_eq!(answers(&tick), []);
+            let nearest = reference_nearest(&tick).unwrap();
+            assert_eq!(answers(&tick, &nearest), []);
             let Some(reference) = reference_command(&tick, View::EXACT) else {
                 continue;
             };

@@ -14,7 +14,9 @@ use rigproof_spec::geometry::Arms;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::settings::RATIO_GAIN_RANGE_NM_S_PER_RAD;
 
-use crate::both::{View, reference_command, reference_path, rig_path, situation};
+use crate::both::{
+    View, reference_command, reference_nearest, reference_path, rig_path, situation,
+};
 use crate::idle;
 use crate::sample::{LawKind, Sampler, Tick};
 
@@ -115,22 +117,29 @@ pub fn permitted(
     if is_beyond(&now) && rig == Command::none(Reason::UndefinedInput) {
         return Ok(Permitted::Tie(Tie::Gate));
     }
-    let seen = as_seen(tick).map(View::Given);
-    if let Some(seen) = seen
-        && let Some(other) = reference_command(tick, seen)
+    let seen = as_seen(tick);
+    let seen_view = seen.map(View::Given);
+    if let Some(view) = seen_view
+        && let Some(other) = reference_command(tick, view)
         && other.reason == rig.reason
         && self::apart_a(&other, &rig) <= AMONG_A
     {
         return Ok(Permitted::Tie(Tie::Foot));
     }
-    if is_beside_an_idle_brake(tick, &reference, &rig) {
+    let may_be_idle = matches!(reference.reason, Reason::ChosenPair(..) | Reason::NoneHelps);
+    if may_be_idle
+        && [reference_nearest(tick), seen]
+            .into_iter()
+            .flatten()
+            .any(|nearest| is_beside_an_idle_brake(tick, &nearest, &rig))
+    {
         return Ok(Permitted::Tie(Tie::IdleBrake));
     }
     if let Some(tie) = tie(tick, &rig, nudger) {
         return Ok(Permitted::Tie(tie));
     }
     if rig == Command::none(Reason::NothingToDo)
-        && [Some(View::EXACT), seen]
+        && [Some(View::EXACT), seen_view]
             .into_iter()
             .flatten()
             .any(|view| is_even(tick, view))
@@ -279,11 +288,10 @@ fn is_step(one: &Command, other: &Command) -> bool {
 }
 
 /// Whether a brake makes a wanted force alone, and the rig's command is one of those that this leaves.
-fn is_beside_an_idle_brake(tick: &Tick, reference: &Command, rig: &Command) -> bool {
-    matches!(reference.reason, Reason::ChosenPair(..) | Reason::NoneHelps)
-        && idle::answers(tick).iter().any(|answer| {
-            answer.reason == rig.reason && (apart_a(answer, rig) <= AMONG_A || is_step(answer, rig))
-        })
+fn is_beside_an_idle_brake(tick: &Tick, nearest: &Nearest, rig: &Command) -> bool {
+    idle::answers(tick, nearest).iter().any(|answer| {
+        answer.reason == rig.reason && (apart_a(answer, rig) <= AMONG_A || is_step(answer, rig))
+    })
 }
 
 /// Whether no link is faster than its share by a speed for which even the greatest gain asks for a current.
