@@ -90,8 +90,12 @@ fn campaign(first_seed: u64, ticks: u64, draw: fn(&mut Sampler) -> Tick) -> Tall
         .map(|seed| {
             let (mut sampler, mut nudger) = (Sampler::new(seed), Sampler::new(!seed));
             let mut tally = Tally::default();
-            for _ in 0..CHUNK {
+            for number in 0..CHUNK {
+                let before = tally.wrong.len();
                 tally.add(&draw(&mut sampler), &mut nudger);
+                for wrong in tally.wrong.iter_mut().skip(before) {
+                    *wrong = format!("seed {seed}, tick {number}: {wrong}");
+                }
             }
             tally
         })

@@ -92,11 +92,15 @@ pub fn reference_rows(tick: &Tick) -> Option<Vec<Vector2<f64>>> {
     Some(j.row_iter().map(|row| row.transpose()).collect())
 }
 
+/// How the tip lies to the path.
+pub fn reference_nearest(tick: &Tick) -> Option<Nearest> {
+    let tip_m = reference_tip(tick)?;
+    Some(reference_path(&tick.path).ok()?.nearest(tip_m))
+}
+
 /// How far the tip is from the path, m.
 pub fn reference_distance_m(tick: &Tick) -> Option<f64> {
-    let tip_m = reference_tip(tick)?;
-    let nearest = reference_path(&tick.path).ok()?.nearest(tip_m);
-    Some(nearest.distance_m())
+    Some(reference_nearest(tick)?.distance_m())
 }
 
 /// The reference's controller, its path seen as told.

@@ -4,6 +4,7 @@ mod agree;
 mod both;
 #[path = "../budget/mod.rs"]
 mod budget;
+mod idle;
 mod permitted;
 mod properties;
 mod sample;

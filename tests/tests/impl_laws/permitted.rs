@@ -14,16 +14,22 @@ use rigproof_spec::geometry::Arms;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::settings::RATIO_GAIN_RANGE_NM_S_PER_RAD;
 
-use crate::both::{View, reference_command, reference_path, reference_tip, rig_path, situation};
+use crate::both::{
+    View, reference_command, reference_nearest, reference_path, rig_path, situation,
+};
+use crate::idle;
 use crate::sample::{LawKind, Sampler, Tick};
 
 /// Sizes of the nudges, relative to what is nudged; of an angle, rad, of the distance from the path, m.
 const NUDGES: [f64; 3] = [1e-15, 3e-14, 1e-12];
 /// A nudge of the last one or two digits.
-const LAST_DIGITS: f64 = 1e-14;
+pub const LAST_DIGITS: f64 = 1e-14;
 /// Nudges of each kind and size that are tried.
 const TRIES: u32 = 100;
-/// Currents that count as equal, A; how near they are in fact stands in `tests/budgets.toml`.
+/// Currents that differ by no more than this differ by rounding, A. What differs by more has to be amplified.
+const ROUNDING_A: f64 = 1e-12;
+/// Currents that may at all count as equal, A. What is neither amplified nor beyond this goes to the budget of `tests/budgets.toml`, which is
+/// nearer to [`ROUNDING_A`].
 const EQUAL_A: f64 = 1e-8;
 /// How far beyond the currents of nudged ticks a current may lie, A.
 const AMONG_A: f64 = 1e-7;
@@ -51,7 +57,7 @@ pub enum Permitted {
 /// Where a decision turns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Tie {
-    /// Two points of the path are as near; the reference agrees when it is given the other one.
+    /// Two points of the path are as near, or one to rounding; the reference agrees when it is given the one that the rig's code sees.
     Foot,
     /// The path: on it, at the end of the gap, at a corner, exactly across the push.
     Path,
@@ -69,7 +75,7 @@ pub enum Tie {
     JointAtRest,
     /// Exception: velocity ratio control finds both ratios equal, the reference all but equal.
     Even,
-    /// Exception: impedance control asks for the same currents, and names another idle brake of the pair, or none.
+    /// Exception: one brake makes the force of impedance control alone; the two name different idle ones beside it, or one of them no pair.
     IdleBrake,
     /// Exception: an input beyond what the rig's code takes, which lets go.
     Gate,
@@ -93,7 +99,7 @@ pub fn permitted(
     }
     let apart_a = apart_a(&reference, &rig);
     if reference.reason == rig.reason {
-        if apart_a <= EQUAL_A {
+        if apart_a <= ROUNDING_A {
             return Ok(Permitted::Rounding(apart_a));
         }
         if is_step(&reference, &rig) {
@@ -104,26 +110,41 @@ pub fn permitted(
         {
             return Ok(Permitted::Amplified(apart_a));
         }
+        if apart_a <= EQUAL_A {
+            return Ok(Permitted::Rounding(apart_a));
+        }
     }
     if is_beyond(&now) && rig == Command::none(Reason::UndefinedInput) {
         return Ok(Permitted::Tie(Tie::Gate));
     }
-    if let Some(tip_m) = reference_tip(tick)
-        && let Some(nearest) = as_seen(tick, tip_m)
-        && let Some(other) = reference_command(tick, View::Given(nearest))
+    let seen = as_seen(tick);
+    let seen_view = seen.map(View::Given);
+    if let Some(view) = seen_view
+        && let Some(other) = reference_command(tick, view)
         && other.reason == rig.reason
         && self::apart_a(&other, &rig) <= AMONG_A
     {
         return Ok(Permitted::Tie(Tie::Foot));
     }
+    let may_be_idle = matches!(reference.reason, Reason::ChosenPair(..) | Reason::NoneHelps);
+    if may_be_idle
+        && [reference_nearest(tick), seen]
+            .into_iter()
+            .flatten()
+            .any(|nearest| is_beside_an_idle_brake(tick, &nearest, &rig))
+    {
+        return Ok(Permitted::Tie(Tie::IdleBrake));
+    }
     if let Some(tie) = tie(tick, &rig, nudger) {
         return Ok(Permitted::Tie(tie));
     }
-    if rig == Command::none(Reason::NothingToDo) && is_even(tick) {
+    if rig == Command::none(Reason::NothingToDo)
+        && [Some(View::EXACT), seen_view]
+            .into_iter()
+            .flatten()
+            .any(|view| is_even(tick, view))
+    {
         return Ok(Permitted::Tie(Tie::Even));
-    }
-    if matches!(tick.law, LawKind::Impedance(_)) && apart_a <= EQUAL_A {
-        return Ok(Permitted::Tie(Tie::IdleBrake));
     }
     if stands(tick, &now) {
         return Ok(Permitted::Tie(Tie::JointAtRest));
@@ -160,16 +181,20 @@ fn tie(tick: &Tick, rig: &Command, nudger: &mut Sampler) -> Option<Tie> {
     NUDGES.into_iter().find_map(|size| {
         kinds.iter().find_map(|(tie, kinds)| {
             let mut ranges_a = [(f64::INFINITY, f64::NEG_INFINITY); 4];
-            let others = nudged(tick, kinds, size, nudger);
-            for other in others.filter(|other| other.reason == rig.reason) {
+            let mut others = nudged(tick, kinds, size, nudger);
+            let reached = others.any(|other| {
+                if other.reason != rig.reason {
+                    return false;
+                }
                 for ((least, greatest), current_a) in ranges_a.iter_mut().zip(other.currents_a) {
                     *least = least.min(current_a - AMONG_A);
                     *greatest = greatest.max(current_a + AMONG_A);
                 }
-            }
-            let among = |((least, greatest), current_a)| (least..=greatest).contains(&current_a);
-            let all = ranges_a.into_iter().zip(rig.currents_a).all(among);
-            all.then_some(*tie)
+                let mut currents_a = ranges_a.into_iter().zip(rig.currents_a);
+                currents_a
+                    .all(|((least, greatest), current_a)| (least..=greatest).contains(&current_a))
+            });
+            reached.then_some(*tie)
         })
     })
 }
@@ -184,7 +209,7 @@ const KINDS: [Kind; 4] = [
             turn_rad: size * nudger.nudge(),
         };
         // Now and then as the rig's code sees it, where zero may be exact.
-        *view = match as_seen(tick, situation(tick).linkage.tip_m.into()) {
+        *view = match as_seen(tick) {
             Some(mut seen) if nudger.nudge() < 0.0 => {
                 if nudger.nudge() < 0.0 {
                     let left = Vector2::new(-seen.tangent.y, seen.tangent.x);
@@ -253,21 +278,30 @@ pub fn apart_a(one: &Command, other: &Command) -> f64 {
 /// Whether the currents that differ give the same torques, from both sides of 0.2 A.
 fn is_step(one: &Command, other: &Command) -> bool {
     let pairs = one.currents_a.into_iter().zip(other.currents_a);
-    Joint::ALL.into_iter().zip(pairs).all(|(joint, (a, b))| {
+    let mut joints = Joint::ALL.into_iter().zip(pairs);
+    let all = joints.all(|(joint, (a, b))| {
         let torques_nm = [a, b].map(|current_a| torque_gain(joint, current_a));
         let same_torque = (torques_nm[0] - torques_nm[1]).abs() <= EQUAL_NM;
         (a - b).abs() <= EQUAL_A || ((a < 0.2) != (b < 0.2) && same_torque)
+    });
+    all && apart_a(one, other) > EQUAL_A
+}
+
+/// Whether a brake makes a wanted force alone, and the rig's command is one of those that this leaves.
+fn is_beside_an_idle_brake(tick: &Tick, nearest: &Nearest, rig: &Command) -> bool {
+    idle::answers(tick, nearest).iter().any(|answer| {
+        answer.reason == rig.reason && (apart_a(answer, rig) <= AMONG_A || is_step(answer, rig))
     })
 }
 
 /// Whether no link is faster than its share by a speed for which even the greatest gain asks for a current.
-fn is_even(tick: &Tick) -> bool {
+fn is_even(tick: &Tick, view: View) -> bool {
     let LawKind::Ratio(_) = tick.law else {
         return false;
     };
     let mut strongest = tick.clone();
     strongest.law = LawKind::Ratio(RATIO_GAIN_RANGE_NM_S_PER_RAD[1]);
-    reference_command(&strongest, View::EXACT).is_some_and(|command| command.currents_a == [0.0; 4])
+    reference_command(&strongest, view).is_some_and(|command| command.currents_a == [0.0; 4])
 }
 
 /// Whether an input lies beyond what the rig's code takes.
@@ -292,9 +326,11 @@ fn is_beyond(now: &Situation<f64>) -> bool {
 }
 
 /// The nearest point of the path as the rig's code sees it, if the reference finds it on the path and as near as its own.
-fn as_seen(tick: &Tick, tip_m: [f64; 2]) -> Option<Nearest> {
+fn as_seen(tick: &Tick) -> Option<Nearest> {
     let path = reference_path(&tick.path).ok()?;
-    let seen = rig_path::<f64>(&tick.path)?.nearest(tip_m.into());
+    let tip_m = situation::<f64>(tick).linkage.tip_m;
+    let seen = rig_path::<f64>(&tick.path)?.nearest(tip_m);
+    let tip_m = <[f64; 2]>::from(tip_m);
     let tangent = Vector2::from(<[f64; 2]>::from(seen.tangent));
     let left = Vector2::new(-tangent.y, tangent.x);
     let nearest = Nearest {

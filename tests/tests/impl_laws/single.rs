@@ -12,11 +12,16 @@ use crate::budget::assert_within_budget;
 use crate::permitted::apart_a;
 use crate::sample::{Sampler, Tick};
 
-/// Ticks that may decide otherwise, or whose currents differ by more than [`ROUNDING_A`], as a share of all; each is checked: double precision
-/// does the same when the tick is nudged.
-const GREATEST_SHARE: f64 = 1e-4;
-/// Currents that differ by no more than this differ by rounding, A.
-const ROUNDING_A: f64 = 1e-4;
+/// Ticks that may decide otherwise, as a share of all; each is checked: double precision decides so when the tick is nudged.
+const GREATEST_SHARE_OF_TIES: f64 = 1e-5;
+/// Ticks whose currents may differ by more than [`ROUNDING_A`], as a share of all; each is checked: nudging the tick moves the currents in double
+/// precision as much, or nine tenths of the way to these.
+const GREATEST_SHARE_AMPLIFIED: f64 = 3e-4;
+/// Currents that differ by no more than this differ by rounding, A. What differs by more has to be amplified.
+const ROUNDING_A: f64 = 1e-5;
+/// Currents that may at all count as equal, A. What is neither amplified nor beyond this goes to the budget of `tests/budgets.toml`, which is
+/// nearer to [`ROUNDING_A`].
+const EQUAL_A: f64 = 1e-3;
 /// Least sine between two arms at which ticks are compared: 2°, where table 4.2 stops at 10°.
 const LEAST_SINE: f64 = 0.035;
 /// Size of the nudges, relative: some digits of a float, which a pose near a singularity multiplies.
@@ -63,14 +68,18 @@ fn single_precision_decides_as_double_precision_but_for_ties_of_its_own() {
             rounding_a.push(apart_a);
             continue;
         }
+        let takes = |other: Command| {
+            let reached = self::apart_a(&other, &single) <= 0.1 * apart_a;
+            let moved = self::apart_a(&double, &other) >= apart_a;
+            other.reason == single.reason && (!same || reached || moved)
+        };
         let turns = NUDGES.into_iter().any(|size| {
-            (0..TRIES).any(|_| {
-                let other = command::<f64>(&nudged(&tick, size, &mut nudger));
-                let reached = self::apart_a(&other, &single) <= ROUNDING_A;
-                let moved = self::apart_a(&double, &other) >= apart_a;
-                other.reason == single.reason && (!same || reached || moved)
-            })
+            (0..TRIES).any(|_| takes(command::<f64>(&nudged(&tick, size, &mut nudger))))
         });
+        if !turns && same && apart_a <= EQUAL_A {
+            rounding_a.push(apart_a);
+            continue;
+        }
         assert!(
             turns,
             "{double:?}, in single precision {single:?}, in {tick:?}"
@@ -87,7 +96,8 @@ fn single_precision_decides_as_double_precision_but_for_ties_of_its_own() {
         "{amplified} amplified: {}, {ties} ties",
         quantiles(&amplified_a)
     );
-    assert!((ties + amplified) as f64 <= GREATEST_SHARE * ticks as f64);
+    assert!(ties as f64 <= GREATEST_SHARE_OF_TIES * ticks as f64);
+    assert!(amplified as f64 <= GREATEST_SHARE_AMPLIFIED * ticks as f64);
     assert_within_budget("rig_law_current_single", rounding_a);
 }
 
