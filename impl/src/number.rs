@@ -50,13 +50,13 @@ pub trait Real: Scalar + Div<Output = Self> {
 
 /// The smaller of two numbers; the second if the first is none.
 #[inline(always)]
-pub(crate) fn least<S: Scalar>(one: S, other: S) -> S {
+pub fn least<S: Scalar>(one: S, other: S) -> S {
     if one < other { one } else { other }
 }
 
 /// The greater of two numbers; the second if the first is none.
 #[inline(always)]
-pub(crate) fn most<S: Scalar>(one: S, other: S) -> S {
+pub fn most<S: Scalar>(one: S, other: S) -> S {
     if one > other { one } else { other }
 }
 
