@@ -54,7 +54,7 @@ impl Brake {
     /// at, at the moment s after the start of the step, the torque changes course then. Where s lies before the start, the
     /// torque is taken back to s on its old course; what its mean then missed is added to this step's.
     //= thesis (3.2)
-    #[inline]
+    #[inline(always)]
     pub fn step(&mut self, table: &BrakeTable, current_a: f64, turn: &Turn) -> f64 {
         let [from_rad, to_rad] = turn.way_rad;
         let was_inside = self.backlash.is_inside();

@@ -220,7 +220,7 @@ impl CurrentPath {
     }
 
     /// The brake's current over a step, A: what it is in the middle, kept inside 0 to 1 A; the path at its end.
-    #[inline]
+    #[inline(always)]
     pub fn step(&mut self, asked_a: f64, step_s: f64) -> f64 {
         let target_a = asked_a * (1.0 + self.fraction);
         let middle_a = if self.time_constant_s > 0.0 {

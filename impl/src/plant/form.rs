@@ -155,14 +155,14 @@ impl<R: Real> Form<R> {
     #[inline(always)]
     pub fn tip_load(&self, at: &Linkage<R>, force_n: Vector<R>) -> Vector<R> {
         let [left, _] = self.turning;
-        Vector::new(at.ae.cross(force_n), R::zero()) + left * at.ed.cross(force_n)
+        tip_load(left, at, force_n)
     }
 
     /// G: how fast the joints A, E, B, C turn by v, rows, 1.
     #[inline]
     pub fn joint_rows(&self) -> [Vector<R>; 4] {
         let [left, right] = self.turning;
-        rows(left, right)
+        joint_rows(left, right)
     }
 
     /// G after `ahead_s` at the rates of the form.
@@ -170,7 +170,7 @@ impl<R: Real> Form<R> {
     pub fn joint_rows_ahead(&self, ahead_s: R) -> [Vector<R>; 4] {
         let [left, right] = self.turning;
         let [left_rate, right_rate] = self.turning_rate;
-        rows(left + left_rate * ahead_s, right + right_rate * ahead_s)
+        joint_rows(left + left_rate * ahead_s, right + right_rate * ahead_s)
     }
 
     /// Kinetic energy ½·vᵀ·M·v, J.
@@ -179,8 +179,15 @@ impl<R: Real> Form<R> {
     }
 }
 
+/// Tᵀ·F of a linkage whose arm ED turns by a row.
+#[inline(always)]
+pub fn tip_load<R: Real>(turning_ed: Vector<R>, at: &Linkage<R>, force_n: Vector<R>) -> Vector<R> {
+    Vector::new(at.ae.cross(force_n), R::zero()) + turning_ed * at.ed.cross(force_n)
+}
+
+/// G of a linkage whose arms ED and CD turn by two rows.
 #[inline]
-fn rows<R: Real>(left: Vector<R>, right: Vector<R>) -> [Vector<R>; 4] {
+pub fn joint_rows<R: Real>(left: Vector<R>, right: Vector<R>) -> [Vector<R>; 4] {
     let (one, none) = (R::of(1.0), R::zero());
     let (base_a, base_b) = (Vector::new(one, none), Vector::new(none, one));
     [base_a, left - base_a, base_b, right - base_b]

@@ -139,6 +139,21 @@ pub fn dry_motion(
     Dry { part, ..rest.any() }
 }
 
+/// What the brakes do if the linkage stands and goes on standing under an impulse, N·m·s; none if they cannot hold it.
+pub fn standing(impulse: Plane, brakes: &[DryBrake; 4]) -> Option<Dry> {
+    let none = Mass {
+        aa: 0.0,
+        ab: 0.0,
+        bb: 0.0,
+    };
+    let problem = Problem {
+        mass: &none,
+        drive: impulse,
+        brakes,
+    };
+    problem.rest()
+}
+
 /// The part of a step, up to which every slipping joint keeps its sign if the rates change evenly; 1 where all do.
 #[inline]
 fn first_turn(brakes: &[DryBrake; 4], signs: [f64; 4], rates_rad_s: Plane) -> f64 {

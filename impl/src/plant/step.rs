@@ -6,10 +6,12 @@ use rigproof_spec::tables::GREATEST_CURRENT_A;
 use super::Plant;
 use super::brake::{Brake, Turn};
 use super::effect::{CurrentPath, Effect, Instant};
-use super::friction::{Contact, DryBrake, dry_motion};
-use super::motion::{Midway, Outcome, is_defined};
+use super::form::{joint_rows, tip_load};
+use super::friction::{Contact, Dry, DryBrake, dry_motion, standing};
+use super::motion::{Midway, Motion, Outcome, is_defined};
 use super::setup::elbows;
 use super::turn::{angle_between, is_small};
+use crate::linkage::Linkage;
 use crate::vector::Vector;
 
 type Plane = Vector<f64>;
@@ -44,17 +46,22 @@ impl Plant {
         if !is_defined(force_n, step_s) || !self.takes(currents_a) {
             return Outcome::Undefined;
         }
+        if self.stays(force_n, currents_a, step_s) {
+            return Outcome::Moved;
+        }
         let midway = self.motion.midway(&self.mechanism, force_n, step_s);
         let outcome = self.motion.outcome_midway(&self.mechanism, &midway);
         if outcome != Outcome::Moved {
             return outcome;
         }
-        let Some(look) = self.look(&midway) else {
+        let rows = midway.form.joint_rows();
+        let Some(look) = self.look(&midway.linkage, midway.theta_rad, midway.rates_rad_s, rows)
+        else {
             return Outcome::TooFast;
         };
         let (mut brakes, mut paths) = (self.brakes, self.paths);
         let driven = brakes.iter_mut().zip(paths.iter_mut().zip(currents_a));
-        let resistance = self.resistance(&midway, &look, driven, step_s);
+        let resistance = self.resistance(&look, driven, midway.lead_s, step_s);
         let dry = self.dry(&midway, &look, &resistance, step_s);
         let mut next = self
             .motion
@@ -70,9 +77,63 @@ impl Plant {
         self.remember(&look, dry.rates_rad_s, step_s);
         self.motion = next;
         (self.brakes, self.paths) = (brakes, paths);
+        self.take_on(&look, &resistance, &dry, midway.lead_s, step_s);
+        Outcome::Moved
+    }
+
+    /// Takes the step if the linkage stands and the brakes hold it: nothing moves but they, and no other force needs to be known.
+    #[inline]
+    fn stays(&mut self, force_n: Plane, currents_a: [f64; 4], step_s: f64) -> bool {
+        let Motion {
+            theta_rad,
+            rates_rad_s,
+            accelerations_rad_s2,
+            linkage,
+            ..
+        } = self.motion;
+        let none = Vector::zero();
+        if rates_rad_s != none || accelerations_rad_s2 != none {
+            return false;
+        }
+        let [left, right] = linkage.turning();
+        let lead_s = step_s * self.mechanism.scheme.lead::<f64>();
+        let Some(look) = self.look(&linkage, theta_rad, none, joint_rows(left, right)) else {
+            return false;
+        };
+        let (mut brakes, mut paths) = (self.brakes, self.paths);
+        let driven = brakes.iter_mut().zip(paths.iter_mut().zip(currents_a));
+        let resistance = self.resistance(&look, driven, lead_s, step_s);
+        let bounds = resistance.yields_nm.into_iter().zip(resistance.dry_nm);
+        let mut holding = [DryBrake::absent(); 4];
+        for (brake, (row, (yield_nm, dry_nm))) in
+            holding.iter_mut().zip(look.rows.into_iter().zip(bounds))
+        {
+            (brake.force_row, brake.rate_row) = (row, row);
+            brake.bound = (yield_nm + dry_nm) * step_s;
+        }
+        let load_nm = tip_load(left, &linkage, force_n) - resistance.smooth_nm;
+        let Some(dry) = standing(load_nm * step_s, &holding) else {
+            return false;
+        };
+        self.remember(&look, none, step_s);
+        (self.brakes, self.paths) = (brakes, paths);
+        self.take_on(&look, &resistance, &dry, lead_s, step_s);
+        true
+    }
+
+    /// Keeps what was seen and done in a step.
+    #[inline(always)]
+    fn take_on(
+        &mut self,
+        look: &Look,
+        resistance: &Resistance,
+        dry: &Dry,
+        lead_s: f64,
+        step_s: f64,
+    ) {
         self.looked_rad = look.angles_rad;
         self.elbows = look.elbows;
-        self.since_look_s = step_s - midway.lead_s;
+        self.since_look_s = step_s - lead_s;
         self.contact = dry.contact;
         self.held = dry.held;
         self.time_s += step_s;
@@ -92,7 +153,6 @@ impl Plant {
                 };
             }
         }
-        Outcome::Moved
     }
 
     #[inline]
@@ -107,17 +167,21 @@ impl Plant {
     }
 
     /// The joints halfway; none where an elbow turned further than can be computed.
-    #[inline]
-    fn look(&self, midway: &Midway<f64>) -> Option<Look> {
-        let elbows = elbows(&midway.linkage);
+    #[inline(always)]
+    fn look(
+        &self,
+        linkage: &Linkage<f64>,
+        theta: Plane,
+        rates_rad_s: Plane,
+        rows: [Plane; 4],
+    ) -> Option<Look> {
+        let elbows = elbows(linkage);
         let [from_e, from_c] = self.elbows;
         let [to_e, to_c] = elbows;
         if !is_small(from_e, to_e) || !is_small(from_c, to_c) {
             return None;
         }
         let [_, e, _, c] = self.looked_rad;
-        let theta = midway.theta_rad;
-        let rows = midway.form.joint_rows();
         Some(Look {
             angles_rad: [
                 theta.x,
@@ -126,7 +190,7 @@ impl Plant {
                 c + angle_between(from_c, to_c),
             ],
             elbows,
-            rates_rad_s: rows.map(|row| row.dot(midway.rates_rad_s)),
+            rates_rad_s: rows.map(|row| row.dot(rates_rad_s)),
             rows,
         })
     }
@@ -135,9 +199,9 @@ impl Plant {
     #[inline(always)]
     fn resistance<'a>(
         &self,
-        midway: &Midway<f64>,
         look: &Look,
         driven: impl Iterator<Item = (&'a mut Brake, (&'a mut CurrentPath, f64))>,
+        lead_s: f64,
         step_s: f64,
     ) -> Resistance {
         let mut resistance = Resistance {
@@ -145,7 +209,7 @@ impl Plant {
             dry_nm: [0.0; 4],
             smooth_nm: Vector::zero(),
         };
-        let around_s = [self.since_look_s, midway.lead_s];
+        let around_s = [self.since_look_s, lead_s];
         let ways = self.looked_rad.into_iter().zip(look.angles_rad);
         let turns = ways.zip(look.rates_rad_s).zip(&self.tables);
         let each = driven.zip(turns).zip(&mut resistance.yields_nm);
@@ -162,18 +226,18 @@ impl Plant {
                 *yield_nm = brake.step(table, path.step(current_a, step_s), &turn);
             }
         }
-        self.add_effects(&mut resistance, midway, look, step_s);
+        self.add_effects(&mut resistance, look, lead_s, step_s);
         resistance
     }
 
-    fn add_effects(&self, sum: &mut Resistance, midway: &Midway<f64>, look: &Look, step_s: f64) {
+    fn add_effects(&self, sum: &mut Resistance, look: &Look, lead_s: f64, step_s: f64) {
         if let [None, ..] = self.effects {
             return;
         }
         for Effect { joint, law, memory } in self.effects.iter().map_while(Option::as_ref) {
             let (position, speed, row) = at(look, *joint);
             let now = Instant {
-                time_s: self.time_s + midway.lead_s,
+                time_s: self.time_s + lead_s,
                 position,
                 speed,
                 // At rest the two breakaway levels differ by what depends on the sense: either sense shifts both.
@@ -197,13 +261,7 @@ impl Plant {
 
     /// The rates after the step and what the brakes did for them.
     #[inline]
-    fn dry(
-        &self,
-        midway: &Midway<f64>,
-        look: &Look,
-        resistance: &Resistance,
-        step_s: f64,
-    ) -> super::friction::Dry {
+    fn dry(&self, midway: &Midway<f64>, look: &Look, resistance: &Resistance, step_s: f64) -> Dry {
         let (lead_s, v) = (midway.lead_s, self.motion.rates_rad_s);
         let start = midway.form.joint_rows_ahead(-lead_s);
         let ends = start.into_iter().zip(midway.form.joint_rows_ahead(lead_s));
