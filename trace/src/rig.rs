@@ -9,6 +9,7 @@ pub mod linkage;
 mod protocol;
 mod read;
 mod table;
+mod text;
 mod write;
 
 use std::collections::BTreeMap;
@@ -17,7 +18,7 @@ use std::path::Path;
 use rigproof_spec::effect::{Mechanism, Motion, Quantity};
 use rigproof_spec::units::{Dimension, Unit};
 
-use crate::csv::TimeColumn;
+use crate::csv::{Hints, TimeColumn};
 use crate::error::TraceError;
 use crate::store;
 
@@ -38,6 +39,8 @@ pub struct Rig {
     pub source: Option<String>,
     /// What the channels of its recordings mean.
     pub channels: Channels,
+    /// How its recordings are written down, where that cannot be seen in them.
+    pub text: Hints,
     /// Parameters of an `axis`; a `bench` has none.
     pub parameters: Option<Parameters>,
     /// The brake that the nominal model holds; only on a turning `bench`.

@@ -3,6 +3,7 @@
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
+use super::dialect::Separator;
 use crate::error::{Place, TraceError};
 
 /// The longest line that is read, bytes.
@@ -24,6 +25,11 @@ impl<'a, R: Read> Lines<'a, R> {
             number: 0,
             buffer: Vec::new(),
         }
+    }
+
+    /// The number of the line read last.
+    pub(super) fn number(&self) -> usize {
+        self.number
     }
 
     /// The place of the line read last.
@@ -83,15 +89,18 @@ impl<'a, R: Read> Lines<'a, R> {
 /// Splits a line into cells; quotes are taken off, blanks around a cell stay.
 pub(super) struct Splitter {
     reader: csv_core::Reader,
+    separator: Separator,
     line: Vec<u8>,
     text: Vec<u8>,
     ends: Vec<usize>,
 }
 
 impl Splitter {
-    pub(super) fn new() -> Splitter {
+    pub(super) fn new(separator: Separator) -> Splitter {
+        let mut builder = csv_core::ReaderBuilder::new();
         Splitter {
-            reader: csv_core::Reader::new(),
+            reader: builder.delimiter(separator.byte()).build(),
+            separator,
             line: Vec::new(),
             text: Vec::new(),
             ends: Vec::new(),
@@ -101,7 +110,15 @@ impl Splitter {
     /// The cells of one line. A quote that is not closed loses its cell, so that the count comes out wrong.
     pub(super) fn cells<'s>(&'s mut self, line: &str) -> impl Iterator<Item = &'s str> {
         self.line.clear();
-        self.line.extend_from_slice(line.as_bytes());
+        if self.separator == Separator::Blank {
+            for word in line.split_whitespace() {
+                self.line.extend_from_slice(word.as_bytes());
+                self.line.push(b' ');
+            }
+            self.line.pop();
+        } else {
+            self.line.extend_from_slice(line.as_bytes());
+        }
         self.line.push(b'\n');
         // A cell never grows by unquoting, and there is one cell more than separators.
         self.text.resize(self.line.len(), 0);

@@ -6,7 +6,7 @@ use rigproof_spec::effect::Motion;
 use rigproof_spec::units::{Dimension, Unit};
 
 use super::{ChannelMap, Plant, Rig};
-use crate::csv;
+use crate::csv::{self, Dialect, Hints};
 use crate::error::TraceError;
 use crate::series::Trace;
 use crate::suggest::advice;
@@ -48,13 +48,27 @@ pub struct Signal {
 }
 
 impl Rig {
-    /// Reads a recording of this rig from a comma-separated text file.
+    /// Reads a recording of this rig from a text file.
     ///
     /// # Errors
     /// As [`csv::read`] and [`Rig::apply`].
     pub fn read_recording(&self, path: &Path) -> Result<Recording, TraceError> {
-        let trace = csv::read_with_time(path, self.channels.time.as_ref())?;
-        self.apply(&trace, path)
+        self.read_recording_as(path, &Hints::default())
+            .map(|(recording, _)| recording)
+    }
+
+    /// Reads a recording of this rig in a dialect that is partly known, and says in which it was.
+    ///
+    /// # Errors
+    /// As [`csv::read`] and [`Rig::apply`].
+    pub fn read_recording_as(
+        &self,
+        path: &Path,
+        hints: &Hints,
+    ) -> Result<(Recording, Dialect), TraceError> {
+        let (trace, dialect) =
+            csv::read_as(path, self.channels.time.as_ref(), &hints.or(self.text))?;
+        Ok((self.apply(&trace, path)?, dialect))
     }
 
     /// Turns a recording into SI quantities; `origin` is the file that messages name.
