@@ -5,12 +5,13 @@ use std::path::{Path, PathBuf};
 use clap::ArgGroup;
 use rigproof_spec::units::Unit;
 use rigproof_trace::arrays::{Arrays, Selection, TimeSource};
-use rigproof_trace::csv::{self, TimeColumn};
+use rigproof_trace::csv::{self, Dialect, TimeColumn};
 use rigproof_trace::suggest::quoted;
 use rigproof_trace::{Trace, TraceError};
 use serde_json::{Value, json};
 
 use crate::outcome::{Failure, Outcome, print};
+use crate::reading::{self, Reading};
 
 /// What is to be converted.
 #[derive(clap::Args)]
@@ -46,6 +47,8 @@ pub struct Args {
     /// Print the result as JSON
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    reading: Reading,
 }
 
 const AFTER_HELP: &str = "\
@@ -62,12 +65,12 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     let Some(output) = &args.output else {
         return list(args, arrays.as_ref());
     };
-    let trace = match arrays {
-        Some(arrays) => arrays.recording(&selection(args)?)?,
-        None => text_recording(args)?,
+    let (trace, dialect) = match arrays {
+        Some(arrays) => (arrays.recording(&selection(args)?)?, None),
+        None => text_recording(args).map(|(trace, dialect)| (trace, Some(dialect)))?,
     };
     csv::write(output, &trace)?;
-    report(args, output, &trace)
+    report(args, output, &trace, dialect)
 }
 
 /// The arrays of an HDF5 or MATLAB file, or `None` for text.
@@ -118,7 +121,7 @@ fn selection(args: &Args) -> Result<Selection, Failure> {
     })
 }
 
-fn text_recording(args: &Args) -> Result<Trace, Failure> {
+fn text_recording(args: &Args) -> Result<(Trace, Dialect), Failure> {
     if args.rate_hz.is_some() || args.rate_from.is_some() || args.group.is_some() {
         return Err(Failure::Usage(
             "--rate-hz, --rate-from and --group are for HDF5 and MATLAB files; a text file has a time column".into(),
@@ -133,7 +136,7 @@ fn text_recording(args: &Args) -> Result<Trace, Failure> {
             unit,
         }
     });
-    let mut trace = csv::read_with_time(&args.input, time.as_ref())?;
+    let (mut trace, dialect) = csv::read_as(&args.input, time.as_ref(), &args.reading.hints())?;
     let missing = |trace: &Trace, name: &str| {
         let names = quoted(trace.channels.iter().map(|channel| channel.name.as_str()));
         let problem =
@@ -160,13 +163,14 @@ fn text_recording(args: &Args) -> Result<Trace, Failure> {
         });
         trace.channels = chosen.collect::<Result<_, _>>()?;
     }
-    Ok(trace)
+    Ok((trace, dialect))
 }
 
 fn list(args: &Args, arrays: Option<&Arrays>) -> Result<Outcome, Failure> {
     let file = args.input.display().to_string();
     let Some(arrays) = arrays else {
-        return report(args, &args.input, &text_recording(args)?);
+        let (trace, dialect) = text_recording(args)?;
+        return report(args, &args.input, &trace, Some(dialect));
     };
     let entries = arrays.entries();
     if args.json {
@@ -184,7 +188,12 @@ fn list(args: &Args, arrays: Option<&Arrays>) -> Result<Outcome, Failure> {
 }
 
 /// Says what a recording holds.
-fn report(args: &Args, file: &Path, trace: &Trace) -> Result<Outcome, Failure> {
+fn report(
+    args: &Args,
+    file: &Path,
+    trace: &Trace,
+    dialect: Option<Dialect>,
+) -> Result<Outcome, Failure> {
     let from_s = trace.time_s.first();
     let to_s = trace.time_s.last();
     if args.json {
@@ -196,6 +205,7 @@ fn report(args: &Args, file: &Path, trace: &Trace) -> Result<Outcome, Failure> {
         let file = file.display().to_string();
         let result = json!({
             "file": file, "samples": trace.len(), "from_s": from_s, "to_s": to_s, "channels": channels,
+            "read_as": dialect.map(reading::in_json),
         });
         return print(&result.to_string());
     }
@@ -208,8 +218,11 @@ fn report(args: &Args, file: &Path, trace: &Trace) -> Result<Outcome, Failure> {
         });
     let channels: Vec<String> = channels.collect();
     let (from_s, to_s) = (from_s.unwrap_or(&0.0), to_s.unwrap_or(&0.0));
+    let said = dialect.map_or(String::new(), |dialect| {
+        format!("\n{}", reading::in_words(&args.input, &dialect))
+    });
     print(&format!(
-        "{}: {} samples from {from_s} s to {to_s} s; {}",
+        "{}: {} samples from {from_s} s to {to_s} s; {}{said}",
         file.display(),
         trace.len(),
         channels.join(", ")

@@ -86,7 +86,10 @@ impl Arrays {
     }
 
     /// One column of an array: `name`, or `name[k]` with k counted from 0 where there is more than one.
-    fn column(&self, wanted: &str) -> Result<Vec<f64>, TraceError> {
+    ///
+    /// # Errors
+    /// There is no such array or column, or the file is damaged.
+    pub fn column(&self, wanted: &str) -> Result<Vec<f64>, TraceError> {
         let refused = |problem: String| TraceError::recording(&self.path, problem);
         let (name, index) = split_index(wanted);
         let Some(entry) = self.entries.iter().find(|entry| entry.name == name) else {

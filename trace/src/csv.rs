@@ -14,6 +14,5 @@ pub use dialect::{Decimal, Dialect, Encoding, Hints, Separator};
 pub use read::{LEAST_SAMPLES, parse, parse_as, read, read_as};
 pub use write::{to_bytes, write};
 
-
 #[cfg(test)]
 mod dialects;

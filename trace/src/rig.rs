@@ -26,6 +26,9 @@ pub use apply::{Recording, Signal};
 pub use brake::{Brake, Gain, Surface};
 pub use protocol::{Drive, Protocol};
 
+/// What stands in a description that was begun for somebody, wherever something is to be filled in.
+pub const FILL_IN: &str = "fill in";
+
 /// A rig: what it is, what is known of it, and how its recordings are to be read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rig {

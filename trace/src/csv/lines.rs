@@ -97,9 +97,19 @@ pub(super) struct Splitter {
 
 impl Splitter {
     pub(super) fn new(separator: Separator) -> Splitter {
+        Splitter::of(separator, false)
+    }
+
+    /// A splitter for a few lines: made at once, but slower on a whole file.
+    pub(super) fn for_few_lines(separator: Separator) -> Splitter {
+        Splitter::of(separator, true)
+    }
+
+    fn of(separator: Separator, few_lines: bool) -> Splitter {
         let mut builder = csv_core::ReaderBuilder::new();
+        let builder = builder.delimiter(separator.byte()).nfa(few_lines);
         Splitter {
-            reader: builder.delimiter(separator.byte()).build(),
+            reader: builder.build(),
             separator,
             line: Vec::new(),
             text: Vec::new(),

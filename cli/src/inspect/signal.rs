@@ -1,0 +1,146 @@
+//! This file says what a channel looks like: range, quantum, missing samples, and a line of text as its picture.
+
+use rigproof_trace::Channel;
+use serde_json::{Value, json};
+
+use super::sparkline;
+use crate::text::number::{significant, with_unit};
+
+/// How far off its grid a value may lie, in steps of the grid: printed digits are rounded.
+const OFF_GRID: f64 = 0.02;
+/// Fewer different values do not make a grid.
+const LEAST_VALUES: usize = 4;
+/// More steps than this cannot be told from no grid: rounding of the printed digits adds up.
+const MOST_STEPS: f64 = 1e7;
+
+/// A channel as it is shown.
+pub struct SignalView {
+    pub channel: Channel,
+    /// Samples that are missing or not finite.
+    missing: usize,
+    /// Least and greatest sample, or nothing where all are missing.
+    range: Option<(f64, f64)>,
+    /// The smallest step between two values that occur, and whether all lie on its grid.
+    pub quantum: Option<(f64, bool)>,
+}
+
+impl SignalView {
+    pub fn of(channel: Channel) -> SignalView {
+        let mut values: Vec<f64> = channel.samples.clone();
+        values.retain(|x| x.is_finite());
+        let missing = channel.samples.len() - values.len();
+        values.sort_by(f64::total_cmp);
+        let range = values.first().copied().zip(values.last().copied());
+        SignalView {
+            missing,
+            range,
+            quantum: quantum(&values),
+            channel,
+        }
+    }
+
+    pub fn json(&self, ascii: bool) -> Value {
+        let channel = &self.channel;
+        json!({
+            "name": channel.name, "unit": channel.unit, "samples": channel.samples.len(),
+            "missing": self.missing,
+            "minimum": self.range.map(|(least, _)| least),
+            "maximum": self.range.map(|(_, greatest)| greatest),
+            "quantum": self.quantum.map(|(step, _)| step),
+            "on_grid": self.quantum.map(|(_, on_grid)| on_grid),
+            "sparkline": sparkline::draw(&channel.samples, self.range, ascii),
+        })
+    }
+
+    fn cells(&self, ascii: bool) -> [String; 5] {
+        let channel = &self.channel;
+        let (name, unit) = (channel.name.as_str(), channel.unit.as_str());
+        let range = self
+            .range
+            .map_or("no sample".to_owned(), |(least, greatest)| {
+                format!("{} to {}", significant(least, 4), with_unit(greatest, unit))
+            });
+        let quantum = match self.quantum {
+            None => "never moves".to_owned(),
+            Some((step, true)) => format!("quantum {}", with_unit(step, unit)),
+            Some((step, false)) => format!("no grid, least step {}", significant(step, 2)),
+        };
+        let missing = match self.missing {
+            0 => String::new(),
+            count => format!("{count} missing"),
+        };
+        let picture = sparkline::draw(&channel.samples, self.range, ascii);
+        [name.to_owned(), picture, range, quantum, missing]
+    }
+}
+
+/// The channels in a table.
+pub fn lines(signals: &[SignalView], ascii: bool) -> Vec<String> {
+    let rows: Vec<[String; 5]> = signals.iter().map(|signal| signal.cells(ascii)).collect();
+    let width = |column: usize| {
+        let cells = rows.iter().filter_map(|row| row.get(column));
+        cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
+    };
+    let line = |row: &[String; 5]| {
+        let cells = row.iter().enumerate().map(|(column, cell)| {
+            let width = width(column);
+            format!("  {cell:<width$}")
+        });
+        cells.collect::<String>().trim_end().to_owned()
+    };
+    rows.iter().map(line).collect()
+}
+
+/// The smallest step between sorted values, and whether all lie on the grid that it makes.
+fn quantum(sorted: &[f64]) -> Option<(f64, bool)> {
+    let (least, greatest) = (sorted.first()?, sorted.last()?);
+    let mut values: Vec<f64> = sorted.to_vec();
+    // What differs in the last bits only is one value.
+    let same = 1e-13 * least.abs().max(greatest.abs());
+    values.dedup_by(|b, a| *b - *a <= same);
+    let steps = values.windows(2).filter_map(|pair| match pair {
+        [a, b] => Some(b - a),
+        _ => None,
+    });
+    let step = steps
+        .min_by(f64::total_cmp)
+        .filter(|step| step.is_finite())?;
+    let on_grid = values.iter().all(|value| {
+        let steps = (value - least) / step;
+        steps < MOST_STEPS && (steps - steps.round()).abs() < OFF_GRID * steps.max(1.0).min(10.0)
+    });
+    Some((step, on_grid && values.len() >= LEAST_VALUES))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn view(samples: Vec<f64>) -> SignalView {
+        SignalView::of(Channel {
+            name: "x".into(),
+            unit: "mm".into(),
+            samples,
+        })
+    }
+
+    #[test]
+    fn an_encoder_lies_on_a_grid_and_noise_does_not() {
+        let encoder = (0..90)
+            .map(|k| 0.25 + 0.05 * f64::from((k * k) % 37))
+            .collect();
+        let (step, on_grid) = view(encoder).quantum.unwrap();
+        assert!((step - 0.05).abs() < 1e-12 && on_grid, "{step}");
+        let noise = (1..90).map(|k| libm::sin(37.7 * f64::from(k))).collect();
+        assert!(!view(noise).quantum.unwrap().1);
+        assert!(view(vec![2.5; 40]).quantum.is_none());
+    }
+
+    #[test]
+    fn missing_samples_are_counted_and_left_out() {
+        let seen = view(vec![1.5, f64::NAN, -2.5, f64::NAN]);
+        assert_eq!((seen.missing, seen.range), (2, Some((-2.5, 1.5))));
+        let unseen = view(vec![f64::NAN; 3]);
+        assert_eq!(unseen.cells(true)[1..3], ["   ", "no sample"]);
+    }
+}
