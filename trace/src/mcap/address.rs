@@ -46,6 +46,11 @@ impl Way {
         }
     }
 
+    /// The way to a field of the message itself, whatever its name.
+    pub(super) fn field(name: &str) -> Way {
+        Way(vec![Part::Field(name.to_string())])
+    }
+
     /// The same way with a field after it.
     pub(super) fn then(&self, field: &str) -> Way {
         let mut parts = self.0.clone();

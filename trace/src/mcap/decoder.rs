@@ -83,11 +83,6 @@ impl Decoder {
         unit.to_string()
     }
 
-    /// The exact name that the schema gives a field of the message itself.
-    pub(super) fn title(&self, leaf: &Leaf) -> Option<&str> {
-        self.property(leaf)?.title.as_deref()
-    }
-
     fn property(&self, leaf: &Leaf) -> Option<&Property> {
         match leaf.path.as_slice() {
             [Step::Field(name)] => self.properties.get(name),

@@ -7,6 +7,7 @@ use std::path::Path;
 
 use super::account::{Message, Visitor};
 use super::address;
+use super::clock::lag_s;
 use super::decoder::Decoder;
 use super::flat::{ELEMENTS, Flat, Leaf, Step};
 use super::integrity::Integrity;
@@ -233,9 +234,7 @@ impl Tally {
             && let Some((s, ns)) = places.stamp
             && let (Some(s), Some(ns)) = (at(s), at(ns))
         {
-            let log_s = (message.log_time_ns / 1_000_000_000) as f64;
-            let log_ns = (message.log_time_ns % 1_000_000_000) as f64;
-            self.lags_s.push((log_s - s) + (log_ns - ns) * 1e-9);
+            self.lags_s.push(lag_s(message, s, ns));
         }
         Ok(())
     }
@@ -271,7 +270,7 @@ impl Tally {
 }
 
 /// Where the seconds and nanoseconds of `header.stamp` stand.
-fn stamp(leaves: &[Leaf]) -> Option<(usize, usize)> {
+pub(super) fn stamp(leaves: &[Leaf]) -> Option<(usize, usize)> {
     let at = |names: &[&str]| {
         leaves.iter().position(|leaf| match leaf.path.as_slice() {
             [Step::Field(header), Step::Field(stamp), Step::Field(part)] => {
