@@ -6,11 +6,12 @@ use std::path::{Path, PathBuf};
 
 use rigproof_diagnose::report::InputFile;
 use rigproof_trace::csv::LEAST_SAMPLES;
+use rigproof_trace::mcap;
 use rigproof_trace::rig::{Recording, Rig, Signal};
 use rigproof_trace::{Place, TraceError};
 use sha2::{Digest, Sha256};
 
-use crate::outcome::Failure;
+use crate::outcome::{self, Failure};
 
 /// Which part of a recording counts.
 #[derive(Clone, Copy, Debug, Default, clap::Args)]
@@ -26,7 +27,7 @@ pub struct Cut {
 /// A recording, the rig it is of, and the part that counts.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Source {
-    /// The recording, CSV
+    /// The recording: CSV or MCAP, told apart by its content
     pub recording: PathBuf,
     /// The rig description: what the channels mean and which physics the nominal model has
     #[arg(long, value_name = "TOML")]
@@ -40,7 +41,14 @@ pub struct Source {
 /// # Errors
 /// The file is not usable, or the cut leaves too little.
 pub fn recording(rig: &Rig, file: &Path, cut: Cut) -> Result<Recording, Failure> {
-    let recording = rig.read_recording(file)?;
+    let recording = match mcap::is_mcap(file)? {
+        true => {
+            let (recording, lines) = rig.read_mcap(file)?;
+            outcome::note(file, &lines);
+            recording
+        }
+        false => rig.read_recording(file)?,
+    };
     let first_s = cut.from_s.unwrap_or(f64::NEG_INFINITY);
     let last_s = cut.to_s.unwrap_or(f64::INFINITY);
     let kept: Vec<bool> = recording

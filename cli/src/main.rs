@@ -55,7 +55,7 @@ enum Verb {
     Golden(golden::Args),
     /// Say where an equation of the thesis is obeyed, witnessed, and known to be wrong
     Cite(cite::Args),
-    /// Turn a recording in HDF5, MATLAB or CSV into a normalised CSV file
+    /// Turn a recording in HDF5, MATLAB, MCAP or CSV into a normalised CSV file, or into MCAP for viewers
     Convert(convert::Args),
 }
 

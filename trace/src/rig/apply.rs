@@ -8,6 +8,7 @@ use rigproof_spec::units::{Dimension, Unit};
 use super::{ChannelMap, Plant, Rig};
 use crate::csv;
 use crate::error::TraceError;
+use crate::mcap;
 use crate::series::Trace;
 use crate::suggest::advice;
 
@@ -48,13 +49,18 @@ pub struct Signal {
 }
 
 impl Rig {
-    /// Reads a recording of this rig from a comma-separated text file.
+    /// Reads a recording of this rig from a text file or an MCAP file, as its content says.
     ///
     /// # Errors
-    /// As [`csv::read`] and [`Rig::apply`].
+    /// As [`csv::read`], [`mcap::read()`] and [`Rig::apply`].
     pub fn read_recording(&self, path: &Path) -> Result<Recording, TraceError> {
-        let trace = csv::read_with_time(path, self.channels.time.as_ref())?;
-        self.apply(&trace, path)
+        match mcap::is_mcap(path)? {
+            true => self.read_mcap(path).map(|(recording, _)| recording),
+            false => {
+                let trace = csv::read_with_time(path, self.channels.time.as_ref())?;
+                self.apply(&trace, path)
+            }
+        }
     }
 
     /// Turns a recording into SI quantities; `origin` is the file that messages name.
