@@ -1,4 +1,6 @@
-//! This file turns other people's recordings into CSV.
+//! This file turns other people's recordings into CSV or MCAP.
+
+mod messages;
 
 use std::path::{Path, PathBuf};
 
@@ -6,6 +8,7 @@ use clap::ArgGroup;
 use rigproof_spec::units::Unit;
 use rigproof_trace::arrays::{Arrays, Selection, TimeSource};
 use rigproof_trace::csv::{self, Dialect, TimeColumn};
+use rigproof_trace::mcap;
 use rigproof_trace::suggest::quoted;
 use rigproof_trace::{Trace, TraceError};
 use serde_json::{Value, json};
@@ -18,9 +21,9 @@ use crate::reading::{self, Reading};
 #[command(after_help = AFTER_HELP)]
 #[command(group = ArgGroup::new("time").args(["rate_hz", "rate_from", "time_from"]))]
 pub struct Args {
-    /// The recording: HDF5, MATLAB (version 5 to 7.3) or CSV, told apart by its content
+    /// The recording: HDF5, MATLAB (version 5 to 7.3), MCAP or CSV, told apart by its content
     input: PathBuf,
-    /// The CSV file to write
+    /// The file to write: MCAP if its name ends in `.mcap`, else CSV
     #[arg(required_unless_present = "list", conflicts_with = "list")]
     output: Option<PathBuf>,
     /// Say what the file holds, and write nothing
@@ -38,12 +41,16 @@ pub struct Args {
     /// Time runs at the rate, in Hz, that this variable holds
     #[arg(long, value_name = "NAME")]
     rate_from: Option<String>,
-    /// Time stamps are in this variable or column, in s unless `--unit` says otherwise
+    /// Time stamps are in this variable or column, in s unless `--unit` says otherwise; of MCAP also `log_time`,
+    /// `publish_time` or a field such as `header.stamp`
     #[arg(long, value_name = "NAME")]
     time_from: Option<String>,
     /// State the unit of a variable; the numbers stay as they are
     #[arg(long = "unit", value_name = "NAME=UNIT", value_parser = parse_unit)]
     units: Vec<(String, String)>,
+    /// Put this file into the MCAP file, such as the rig description or the calibration
+    #[arg(long, value_name = "FILE")]
+    attach: Vec<PathBuf>,
     /// Print the result as JSON
     #[arg(long)]
     json: bool,
@@ -56,10 +63,23 @@ Examples:
   rigproof convert --list data_simulation_4.4_MRdamper.mat
   rigproof convert data_simulation_4.4_MRdamper.mat damper.csv --variables 'dist1[1],forc1[1]' \\
       --time-from 'forc1[0]' --unit 'dist1[1]=mm' --unit 'forc1[1]=N'
-  rigproof convert test.h5 multisine.csv --group multisine --variables u,y --rate-hz 750";
+  rigproof convert test.h5 multisine.csv --group multisine --variables u,y --rate-hz 750
+  rigproof convert run.csv run.mcap --attach rig.toml
+  rigproof convert bag.mcap run.csv --variables '/joint_states.position[name=elbow],/wrench.wrench.torque.z'";
 
 /// Converts a recording, or lists what it holds.
 pub fn run(args: &Args) -> Result<Outcome, Failure> {
+    let to_mcap = args.output.as_ref().is_some_and(|output| {
+        let extension = output.extension().unwrap_or_default();
+        extension.eq_ignore_ascii_case("mcap")
+    });
+    if !to_mcap && !args.attach.is_empty() {
+        let problem = "--attach is for MCAP files; give the output a name that ends in `.mcap`";
+        return Err(Failure::Usage(problem.into()));
+    }
+    if mcap::is_mcap(&args.input)? {
+        return messages::run(args, to_mcap);
+    }
     let arrays = open(&args.input)?;
     // Without an output the command line asks for the list.
     let Some(output) = &args.output else {
@@ -69,8 +89,22 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
         Some(arrays) => (arrays.recording(&selection(args)?)?, None),
         None => text_recording(args).map(|(trace, dialect)| (trace, Some(dialect)))?,
     };
-    csv::write(output, &trace)?;
-    report(args, output, &trace, dialect)
+    write(args, output, &trace, dialect, to_mcap)
+}
+
+/// Writes the recording and says what it holds.
+fn write(
+    args: &Args,
+    output: &Path,
+    trace: &Trace,
+    dialect: Option<Dialect>,
+    to_mcap: bool,
+) -> Result<Outcome, Failure> {
+    match to_mcap {
+        true => mcap::write(output, trace, &messages::extras(args)?)?,
+        false => csv::write(output, trace)?,
+    }
+    report(args, output, trace, dialect)
 }
 
 /// The arrays of an HDF5 or MATLAB file, or `None` for text.

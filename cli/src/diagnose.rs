@@ -55,11 +55,11 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
         Some(file) => Some((file, read(file, Cut::default())?)),
         None => None,
     };
-    let mut files = vec![(&source.recording, Some(dialect))];
+    let mut files = vec![(&source.recording, dialect)];
     files.extend(
         held_out
             .iter()
-            .map(|(file, (_, dialect))| (*file, Some(*dialect))),
+            .map(|(file, (_, dialect))| (*file, *dialect)),
     );
     let dialects: Vec<String> = files
         .iter()

@@ -6,11 +6,12 @@ use std::path::{Path, PathBuf};
 
 use rigproof_diagnose::report::{InputFile, ReadAs};
 use rigproof_trace::csv::{Dialect, LEAST_SAMPLES};
+use rigproof_trace::mcap;
 use rigproof_trace::rig::{Recording, Rig, Signal};
 use rigproof_trace::{Place, TraceError};
 use sha2::{Digest, Sha256};
 
-use crate::outcome::Failure;
+use crate::outcome::{self, Failure};
 use crate::reading::Reading;
 
 /// Which part of a recording counts.
@@ -27,7 +28,7 @@ pub struct Cut {
 /// A recording, the rig it is of, and the part that counts.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Source {
-    /// The recording, CSV in any dialect
+    /// The recording: CSV in any dialect or MCAP, told apart by its content
     pub recording: PathBuf,
     /// The rig description: what the channels mean and which physics the nominal model has
     #[arg(long, value_name = "TOML")]
@@ -36,6 +37,24 @@ pub struct Source {
     pub cut: Cut,
     #[command(flatten)]
     pub reading: Reading,
+}
+
+/// Reads a recording of a rig, and says how it was read where it is text.
+///
+/// # Errors
+/// The file is not usable.
+pub fn whole(
+    rig: &Rig,
+    file: &Path,
+    reading: &Reading,
+) -> Result<(Recording, Option<Dialect>), Failure> {
+    if mcap::is_mcap(file)? {
+        let (recording, lines) = rig.read_mcap(file)?;
+        outcome::note(file, &lines);
+        return Ok((recording, None));
+    }
+    let (recording, dialect) = rig.read_text(file, &reading.hints())?;
+    Ok((recording, Some(dialect)))
 }
 
 /// Reads a recording of a rig and cuts it, and says how it was read.
@@ -47,8 +66,8 @@ pub fn recording(
     file: &Path,
     cut: Cut,
     reading: &Reading,
-) -> Result<(Recording, Dialect), Failure> {
-    let (recording, dialect) = rig.read_recording_as(file, &reading.hints())?;
+) -> Result<(Recording, Option<Dialect>), Failure> {
+    let (recording, dialect) = whole(rig, file, reading)?;
     let first_s = cut.from_s.unwrap_or(f64::NEG_INFINITY);
     let last_s = cut.to_s.unwrap_or(f64::INFINITY);
     let kept: Vec<bool> = recording

@@ -1,5 +1,6 @@
 //! This file says what is in a recording that nobody has described yet, and begins a rig description for it.
 
+mod messages;
 mod pace;
 mod signal;
 mod skeleton;
@@ -7,9 +8,9 @@ mod sparkline;
 
 use std::path::{Path, PathBuf};
 
-use rigproof_trace::Channel;
 use rigproof_trace::arrays::Arrays;
 use rigproof_trace::csv::{self, Dialect, TimeColumn};
+use rigproof_trace::{Channel, mcap};
 use serde_json::{Value, json};
 
 use crate::outcome::{Failure, Outcome, print};
@@ -26,7 +27,7 @@ const SHOWN: usize = 64;
 #[derive(clap::Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct Args {
-    /// The recording: CSV in any dialect, HDF5 or MATLAB (version 5 to 7.3), told apart by its content
+    /// The recording: CSV in any dialect, MCAP, HDF5 or MATLAB (version 5 to 7.3), told apart by its content
     recording: PathBuf,
     /// The column that holds the time, where its name does not say so
     #[arg(long, value_name = "NAME")]
@@ -55,6 +56,9 @@ Examples:
 
 /// Looks at a recording, and writes the beginning of a rig description if asked.
 pub fn run(args: &Args) -> Result<Outcome, Failure> {
+    if mcap::is_mcap(&args.recording)? {
+        return messages::run(args);
+    }
     match Arrays::open(&args.recording)? {
         Some(arrays) => variables(args, &arrays),
         None => text(args),
@@ -72,6 +76,7 @@ fn text(args: &Args) -> Result<Outcome, Failure> {
     let pace = Pace::of(&trace.time_s);
     let signals: Vec<SignalView> = trace.channels.into_iter().map(SignalView::of).collect();
     if let Some(file) = &args.write_rig {
+        let signals: Vec<&SignalView> = signals.iter().collect();
         let text = skeleton::toml(&args.recording, time.as_ref(), &hints, &signals);
         write_rig(file, &text)?;
     }

@@ -59,7 +59,7 @@ enum Verb {
     Cite(cite::Args),
     /// Say what is in a recording, and begin a rig description for it
     Inspect(inspect::Args),
-    /// Turn a recording in HDF5, MATLAB or CSV into a normalised CSV file
+    /// Turn a recording in HDF5, MATLAB, MCAP or CSV into a normalised CSV file, or into MCAP for viewers
     Convert(convert::Args),
 }
 

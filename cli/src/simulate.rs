@@ -133,13 +133,13 @@ fn say(
     args: &Args,
     unit: &str,
     comparison: &Comparison,
-    dialect: Dialect,
+    dialect: Option<Dialect>,
 ) -> Result<Outcome, Failure> {
     let path = |path: &Option<PathBuf>| path.as_ref().map(|path| path.display().to_string());
     if args.json {
         let result = json!({
             "recording": args.source.recording.display().to_string(),
-            "read_as": reading::in_json(dialect),
+            "read_as": dialect.map(reading::in_json),
             "rig": args.source.rig.display().to_string(),
             "calibration": path(&args.calibration),
             "unit": unit,
@@ -161,7 +161,7 @@ fn say(
         format!("  maximum  {}", with_unit(comparison.maximum, unit)),
         format!("  NRMSE    {nrmse}"),
     ];
-    lines.push(format!("  read as  {dialect}"));
+    lines.extend(dialect.map(|dialect| format!("  read as  {dialect}")));
     lines.extend(path(&args.out).map(|file| format!("  file     {file}")));
     print(&lines.join("\n"))
 }

@@ -10,6 +10,7 @@ mod clock;
 mod decoder;
 mod feed;
 mod flat;
+mod fuzz;
 mod integrity;
 mod json;
 mod pace;
@@ -24,6 +25,7 @@ mod summary;
 mod topics;
 mod write;
 
+pub use fuzz::{read_bytes, read_message_bytes};
 pub use integrity::{Check, Integrity};
 pub use pace::GAP_STEPS;
 pub use read::{Reading, Selection, Wanted, read, read_from};
@@ -32,7 +34,7 @@ pub use summary::{ChannelSummary, Summary, TopicSummary, summarise, summary};
 pub use write::{Extras, to_bytes, write};
 
 use std::fs::File;
-use std::io::{Cursor, Read};
+use std::io::Read;
 use std::path::Path;
 
 use crate::error::TraceError;
@@ -50,25 +52,4 @@ pub fn is_mcap(path: &Path) -> Result<bool, TraceError> {
         })
         .map_err(TraceError::io("read", path))?;
     Ok(start == ::mcap::MAGIC)
-}
-
-/// Reads any bytes in every way there is: the entry for a fuzzer. It panics only where the reader has a defect.
-pub fn read_bytes(bytes: &[u8]) {
-    let file = Path::new("bytes.mcap");
-    let Ok(summary) = summarise(Cursor::new(bytes), file) else {
-        return;
-    };
-    let channels = summary.topics.iter().flat_map(|topic| &topic.channels);
-    let wanted = channels.take(4).map(|channel| Wanted {
-        address: channel.address.clone(),
-        between: Between::Line,
-    });
-    let selection = Selection {
-        channels: wanted.collect(),
-        time: None,
-    };
-    for selection in [selection, Selection::default()] {
-        // An error is a fine answer to damage.
-        let _ = read_from(Cursor::new(bytes), file, &selection);
-    }
 }

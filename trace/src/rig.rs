@@ -6,6 +6,7 @@
 mod apply;
 mod brake;
 pub mod linkage;
+mod messages;
 mod protocol;
 mod read;
 mod table;

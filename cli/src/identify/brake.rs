@@ -13,7 +13,7 @@ use super::words;
 use crate::outcome::{Failure, Outcome, print};
 use crate::reading::{self, Reading};
 use crate::text::{join, section};
-use crate::{progress, shell};
+use crate::{input, progress, shell};
 
 /// What is to be identified.
 #[derive(clap::Args)]
@@ -55,8 +55,8 @@ pub fn run<'a>(args: &'a Args) -> Result<Outcome, Failure> {
     let rig = Rig::read(&args.rig)?;
     let mut dialects: Vec<(&PathBuf, Dialect)> = Vec::new();
     let read = |file: &'a PathBuf| -> Result<(String, Recording), Failure> {
-        let (recording, dialect) = rig.read_recording_as(file, &args.reading.hints())?;
-        dialects.push((file, dialect));
+        let (recording, dialect) = input::whole(&rig, file, &args.reading)?;
+        dialects.extend(dialect.map(|dialect| (file, dialect)));
         Ok((file.display().to_string(), recording))
     };
     let recordings = args.recordings.iter().map(read);

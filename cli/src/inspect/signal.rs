@@ -1,6 +1,7 @@
 //! This file says what a channel looks like: range, quantum, missing samples, and a line of text as its picture.
 
 use rigproof_trace::Channel;
+use rigproof_trace::mcap::ChannelSummary;
 use serde_json::{Value, json};
 
 use super::sparkline;
@@ -15,46 +16,67 @@ const MOST_STEPS: f64 = 1e7;
 
 /// A channel as it is shown.
 pub struct SignalView {
-    pub channel: Channel,
+    pub name: String,
+    /// As printed; empty when the recording does not say.
+    pub unit: String,
+    /// Samples, missing ones among them.
+    count: u64,
     /// Samples that are missing or not finite.
-    missing: usize,
+    missing: u64,
     /// Least and greatest sample, or nothing where all are missing.
     range: Option<(f64, f64)>,
     /// The smallest step between two values that occur, and whether all lie on its grid.
     pub quantum: Option<(f64, bool)>,
+    /// What its picture shows.
+    outline: Vec<f64>,
 }
 
 impl SignalView {
+    /// Of a channel that is at hand.
     pub fn of(channel: Channel) -> SignalView {
         let mut values: Vec<f64> = channel.samples.clone();
         values.retain(|x| x.is_finite());
         let missing = channel.samples.len() - values.len();
         values.sort_by(f64::total_cmp);
-        let range = values.first().copied().zip(values.last().copied());
         SignalView {
-            missing,
-            range,
+            count: channel.samples.len() as u64,
+            missing: missing as u64,
+            range: values.first().copied().zip(values.last().copied()),
             quantum: quantum(&values),
-            channel,
+            name: channel.name,
+            unit: channel.unit,
+            outline: channel.samples,
+        }
+    }
+
+    /// Of a channel that was summed up while its file went by; nobody looked for its grid.
+    pub fn of_summary(channel: ChannelSummary) -> SignalView {
+        let middle = |(least, greatest): &(f64, f64)| least / 2.0 + greatest / 2.0;
+        let range = (channel.minimum, channel.maximum);
+        SignalView {
+            count: channel.count + channel.not_finite,
+            missing: channel.not_finite,
+            range: Some(range).filter(|_| channel.count > 0),
+            quantum: channel.quantum.map(|step| (step, false)),
+            outline: channel.outline.iter().map(middle).collect(),
+            name: channel.address,
+            unit: channel.unit,
         }
     }
 
     pub fn json(&self, ascii: bool) -> Value {
-        let channel = &self.channel;
         json!({
-            "name": channel.name, "unit": channel.unit, "samples": channel.samples.len(),
-            "missing": self.missing,
+            "name": self.name, "unit": self.unit, "samples": self.count, "missing": self.missing,
             "minimum": self.range.map(|(least, _)| least),
             "maximum": self.range.map(|(_, greatest)| greatest),
             "quantum": self.quantum.map(|(step, _)| step),
             "on_grid": self.quantum.map(|(_, on_grid)| on_grid),
-            "sparkline": sparkline::draw(&channel.samples, self.range, ascii),
+            "sparkline": sparkline::draw(&self.outline, self.range, ascii),
         })
     }
 
     fn cells(&self, ascii: bool) -> [String; 5] {
-        let channel = &self.channel;
-        let (name, unit) = (channel.name.as_str(), channel.unit.as_str());
+        let unit = self.unit.as_str();
         let range = self
             .range
             .map_or("no sample".to_owned(), |(least, greatest)| {
@@ -63,14 +85,14 @@ impl SignalView {
         let quantum = match self.quantum {
             None => "never moves".to_owned(),
             Some((step, true)) => format!("quantum {}", with_unit(step, unit)),
-            Some((step, false)) => format!("no grid, least step {}", significant(step, 2)),
+            Some((step, false)) => format!("least step {}", with_unit(step, unit)),
         };
         let missing = match self.missing {
             0 => String::new(),
             count => format!("{count} missing"),
         };
-        let picture = sparkline::draw(&channel.samples, self.range, ascii);
-        [name.to_owned(), picture, range, quantum, missing]
+        let picture = sparkline::draw(&self.outline, self.range, ascii);
+        [self.name.clone(), picture, range, quantum, missing]
     }
 }
 

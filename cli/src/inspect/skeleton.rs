@@ -54,7 +54,7 @@ pub fn toml(
     recording: &Path,
     time: Option<&TimeColumn>,
     hints: &Hints,
-    signals: &[SignalView],
+    signals: &[&SignalView],
 ) -> String {
     let position = POSITION.guess(signals);
     let effort = EFFORT.guess(signals);
@@ -65,8 +65,8 @@ pub fn toml(
         (true, true) => None,
     };
     let rotary = position.iter().chain(&effort).find_map(|signal| {
-        let Dimension([.., radian]) = Unit::parse(&signal.channel.unit)?.dimension;
-        let torque = Unit::parse(&signal.channel.unit)?.dimension == Dimension::TORQUE;
+        let Dimension([.., radian]) = Unit::parse(&signal.unit)?.dimension;
+        let torque = Unit::parse(&signal.unit)?.dimension == Dimension::TORQUE;
         Some(radian != 0 || torque)
     });
     let motion = rotary.map(|rotary| if rotary { "rotary" } else { "linear" });
@@ -95,8 +95,8 @@ pub fn toml(
     };
     let unused = signals
         .iter()
-        .filter(|s| !used.iter().any(|u| std::ptr::eq(*u, *s)));
-    let unused: Vec<&str> = unused.map(|s| s.channel.name.as_str()).collect();
+        .filter(|s| !used.iter().any(|u| std::ptr::eq(*u, **s)));
+    let unused: Vec<&str> = unused.map(|s| s.name.as_str()).collect();
     lines
         .extend((!unused.is_empty()).then(|| format!("# not used: {}", plain(&unused.join(", ")))));
     if plant != Some("bench") {
@@ -126,11 +126,11 @@ pub fn toml(
 
 impl Role {
     /// The channels that may have this role: by unit and name, else by unit, else by name where there is no unit.
-    fn guess<'a>(&self, signals: &'a [SignalView]) -> Vec<&'a SignalView> {
-        let unit = |s: &SignalView| Unit::parse(&s.channel.unit).map(|unit| unit.dimension);
+    fn guess<'a>(&self, signals: &[&'a SignalView]) -> Vec<&'a SignalView> {
+        let unit = |s: &SignalView| Unit::parse(&s.unit).map(|unit| unit.dimension);
         let by_unit = |s: &&SignalView| unit(s).is_some_and(|d| self.dimensions.contains(&d));
         let by_name = |s: &&SignalView| {
-            let name = s.channel.name.to_lowercase();
+            let name = s.name.to_lowercase();
             let word = name.split(['_', ' ', '.', '[']).next().unwrap_or_default();
             self.names.contains(&word)
         };
@@ -138,21 +138,22 @@ impl Role {
         let filters: [&dyn Fn(&&SignalView) -> bool; 3] =
             [&|s| by_unit(s) && by_name(s), &by_unit, &no_unit];
         let guesses = filters.into_iter();
-        let mut guesses = guesses.map(|filter| signals.iter().filter(filter).collect::<Vec<_>>());
+        let mut guesses =
+            guesses.map(|filter| signals.iter().copied().filter(filter).collect::<Vec<_>>());
         guesses.find(|found| !found.is_empty()).unwrap_or_default()
     }
 
     fn line(&self, found: &[&SignalView]) -> String {
         let key = self.key;
         let [signal] = found else {
-            let names: Vec<&str> = found.iter().map(|s| s.channel.name.as_str()).collect();
+            let names: Vec<&str> = found.iter().map(|s| s.name.as_str()).collect();
             let why = match names.as_slice() {
                 [] => "no name or unit suggests a channel".to_owned(),
                 names => format!("which of {}?", plain(&names.join(", "))),
             };
             return format!("{key} = {{ channel = {FILL_IN:?}, unit = {FILL_IN:?} }}   # {why}");
         };
-        let unit = &signal.channel.unit;
+        let unit = &signal.unit;
         let unit = Unit::parse(unit).map_or(FILL_IN, |_| unit);
         let quantum = match signal.quantum {
             Some((step, true)) => format!(", quantum = {}", significant(step, 4)),
@@ -160,7 +161,7 @@ impl Role {
         };
         format!(
             "{key} = {{ channel = {}, unit = {}{quantum} }}   # guess",
-            string(&signal.channel.name),
+            string(&signal.name),
             string(unit)
         )
     }

@@ -136,6 +136,7 @@ impl RosReader {
         Ok(())
     }
 
+    /// Passes over what nobody asked for.
     fn read_past(&self, kind: Kind, count: usize, cursor: &mut Cursor<'_>) -> Result<(), String> {
         let mut nowhere = Flat::new(0);
         for _ in 0..count {
@@ -145,3 +146,6 @@ impl RosReader {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests;

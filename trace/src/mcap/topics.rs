@@ -27,7 +27,22 @@ pub struct Topic {
     pub schema: Option<Arc<Schema>>,
     /// What its writer said of it.
     pub metadata: BTreeMap<String, String>,
-    schema_id: u16,
+}
+
+impl Topic {
+    pub(super) fn new(
+        name: &str,
+        encoding: &str,
+        schema: Option<Arc<Schema>>,
+        metadata: BTreeMap<String, String>,
+    ) -> Topic {
+        Topic {
+            name: name.to_string(),
+            encoding: encoding.to_string(),
+            schema,
+            metadata,
+        }
+    }
 }
 
 /// Everything declared so far.
@@ -93,13 +108,12 @@ impl Topics {
                 channel.schema_id
             ));
         }
-        let topic = Topic {
-            name: channel.topic,
-            encoding: channel.message_encoding,
+        let topic = Topic::new(
+            &channel.topic,
+            &channel.message_encoding,
             schema,
-            metadata: channel.metadata,
-            schema_id: channel.schema_id,
-        };
+            channel.metadata,
+        );
         match self.places.get(&channel.id).copied() {
             Some(Some(place)) if self.topics.get(place) == Some(&topic) => return Ok(None),
             Some(None) => return Ok(None),

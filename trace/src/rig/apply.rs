@@ -8,6 +8,7 @@ use rigproof_spec::units::{Dimension, Unit};
 use super::{ChannelMap, Plant, Rig};
 use crate::csv::{self, Dialect, Hints};
 use crate::error::TraceError;
+use crate::mcap;
 use crate::series::Trace;
 use crate::suggest::advice;
 
@@ -48,20 +49,24 @@ pub struct Signal {
 }
 
 impl Rig {
-    /// Reads a recording of this rig from a text file.
+    /// Reads a recording of this rig from a text file or an MCAP file, as its content says.
     ///
     /// # Errors
-    /// As [`csv::read`] and [`Rig::apply`].
+    /// As [`csv::read`], [`mcap::read()`] and [`Rig::apply`].
     pub fn read_recording(&self, path: &Path) -> Result<Recording, TraceError> {
-        self.read_recording_as(path, &Hints::default())
-            .map(|(recording, _)| recording)
+        match mcap::is_mcap(path)? {
+            true => self.read_mcap(path).map(|(recording, _)| recording),
+            false => self
+                .read_text(path, &Hints::default())
+                .map(|(recording, _)| recording),
+        }
     }
 
-    /// Reads a recording of this rig in a dialect that is partly known, and says in which it was.
+    /// Reads a text recording of this rig whose dialect is partly known, and says in which it was.
     ///
     /// # Errors
     /// As [`csv::read`] and [`Rig::apply`].
-    pub fn read_recording_as(
+    pub fn read_text(
         &self,
         path: &Path,
         hints: &Hints,
