@@ -52,7 +52,7 @@ From an unknown file to a first diagnosis:
 Examples:
   rigproof inspect run.csv
   rigproof inspect run.csv --write-rig rig.toml
-  rigproof inspect scope.txt --separator ; --decimal , --header-lines 12 --json";
+  rigproof inspect scope.txt --separator ';' --decimal ',' --header-lines 12 --json";
 
 /// Looks at a recording, and writes the beginning of a rig description if asked.
 pub fn run(args: &Args) -> Result<Outcome, Failure> {

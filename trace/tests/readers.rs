@@ -122,3 +122,8 @@ fn no_bytes_make_the_rig_reader_panic() {
 fn no_bytes_make_the_array_readers_panic() {
     feed("arrays", claims::arrays);
 }
+
+#[test]
+fn no_bytes_make_the_message_reader_panic() {
+    feed("mcap", rigproof_trace::mcap::read_bytes);
+}

@@ -64,11 +64,7 @@ pub fn toml(
         (true, false) => Some("axis"),
         (true, true) => None,
     };
-    let rotary = position.iter().chain(&effort).find_map(|signal| {
-        let Dimension([.., radian]) = Unit::parse(&signal.unit)?.dimension;
-        let torque = Unit::parse(&signal.unit)?.dimension == Dimension::TORQUE;
-        Some(radian != 0 || torque)
-    });
+    let rotary = rotary(position.iter().chain(&effort));
     let motion = rotary.map(|rotary| if rotary { "rotary" } else { "linear" });
     let stem = recording.file_stem().unwrap_or_default().to_string_lossy();
     let mut lines = vec![
@@ -80,17 +76,17 @@ pub fn toml(
         "\n[channels]".to_owned(),
     ];
     lines.extend(time.map(|time| format!("time = {{ channel = {} }}", string(&time.name))));
-    lines.push(POSITION.line(&position));
+    lines.push(POSITION.line(&position, rotary));
     let used = match plant {
         Some("bench") => {
-            lines.push(EFFORT.line(&effort));
+            lines.push(EFFORT.line(&effort, rotary));
             let current = CURRENT.guess(signals);
-            lines.extend((!current.is_empty()).then(|| CURRENT.line(&current)));
+            lines.extend((!current.is_empty()).then(|| CURRENT.line(&current, rotary)));
             [position, effort, current].concat()
         }
         _ => {
-            lines.push(COMMAND.line(&command));
-            [position, command].concat()
+            lines.push(COMMAND.line(&command, rotary));
+            [position, command.clone()].concat()
         }
     };
     let unused = signals
@@ -100,17 +96,7 @@ pub fn toml(
     lines
         .extend((!unused.is_empty()).then(|| format!("# not used: {}", plain(&unused.join(", ")))));
     if plant != Some("bench") {
-        let [mass, gain] = match rotary {
-            Some(true) => ["kg·m^2/rad", "N·m/V"],
-            _ => ["kg", "N/V"],
-        };
-        lines.push("\n# The plant's own numbers; `status = \"unknown\"` makes a value the start of a fit.\n[parameters]".to_owned());
-        lines.push(format!(
-            "inertia = {{ value = {FILL_IN:?}, unit = {mass:?} }}"
-        ));
-        lines.push(format!(
-            "command_gain = {{ value = {FILL_IN:?}, unit = {gain:?} }}"
-        ));
+        lines.extend(parameters(&command, rotary));
     }
     lines.extend(hinted(hints));
     let viscous = match rotary {
@@ -122,6 +108,31 @@ pub fn toml(
          # [[effect]]\n# mechanism = \"viscous\"\n# coefficient = {{ value = 0.5, unit = {viscous:?}, status = \"unknown\" }}"
     ));
     lines.join("\n") + "\n"
+}
+
+/// Whether the plant turns, as the first unit that tells says.
+fn rotary<'a>(signals: impl Iterator<Item = &'a &'a SignalView>) -> Option<bool> {
+    let mut dimensions = signals.filter_map(|signal| Some(Unit::parse(&signal.unit)?.dimension));
+    let dimension = dimensions.next()?;
+    let Dimension([.., radian]) = dimension;
+    Some(radian != 0 || dimension == Dimension::TORQUE)
+}
+
+/// The numbers of an axis, which no recording tells.
+fn parameters(command: &[&SignalView], rotary: Option<bool>) -> [String; 3] {
+    let [mass, effort] = match rotary {
+        Some(true) => ["kg·m^2/rad", "N·m"],
+        _ => ["kg", "N"],
+    };
+    let gain = match command {
+        [signal] if !signal.unit.is_empty() => format!("{effort}/{}", signal.unit),
+        _ => FILL_IN.to_owned(),
+    };
+    [
+        "\n# The plant's own numbers; `status = \"unknown\"` makes a value the start of a fit.\n[parameters]".to_owned(),
+        format!("inertia = {{ value = {FILL_IN:?}, unit = {mass:?} }}"),
+        format!("command_gain = {{ value = {FILL_IN:?}, unit = {} }}", string(&gain)),
+    ]
 }
 
 impl Role {
@@ -143,8 +154,11 @@ impl Role {
         guesses.find(|found| !found.is_empty()).unwrap_or_default()
     }
 
-    fn line(&self, found: &[&SignalView]) -> String {
-        let key = self.key;
+    fn line(&self, found: &[&SignalView], rotary: Option<bool>) -> String {
+        let key = match (self.key, rotary) {
+            ("force", Some(true)) => "torque",
+            (key, _) => key,
+        };
         let [signal] = found else {
             let names: Vec<&str> = found.iter().map(|s| s.name.as_str()).collect();
             let why = match names.as_slice() {

@@ -156,3 +156,73 @@ fn a_dialect_can_be_said_and_every_verb_says_how_it_read() {
     let answer = desk.rigproof("inspect run.csv --separator tab");
     assert_eq!(answer.status.code(), Some(3));
 }
+
+#[test]
+fn an_mcap_file_is_looked_into() {
+    let desk = Desk::new();
+    desk.prints(
+        "blind make --plant bench --seed 11 --stratum single --out case",
+        0,
+    );
+    desk.prints("convert case/recording.csv run.mcap", 0);
+    let said = desk.json("inspect run.mcap --json --write-rig rig.toml", 0);
+    assert_eq!(said["whole"], true);
+    let topics = said["topics"].as_array().unwrap();
+    let run = topics
+        .iter()
+        .find(|topic| topic["name"] == "/rigproof/run")
+        .unwrap();
+    assert_eq!(run["messages"], 8500);
+    assert!((run["rate_hz"].as_f64().unwrap() - 500.0).abs() < 1e-6);
+    let channels = run["channels"].as_array().unwrap();
+    assert!(
+        channels
+            .iter()
+            .any(|c| c["name"].as_str().unwrap().contains("torque")),
+        "{run}"
+    );
+    assert!(channels.iter().all(|c| c["missing"] == 0));
+    let rig = desk.read("rig.toml");
+    assert!(
+        rig.contains("name = \"run\"") && rig.contains("\ntorque = {"),
+        "{rig}"
+    );
+    let text = desk.prints("inspect run.mcap", 0);
+    assert!(
+        text.contains("check sums: chunks verified") && text.contains("rate 500.0 Hz"),
+        "{text}"
+    );
+}
+
+#[test]
+fn structures_of_a_matlab_file_are_shown_one_by_one() {
+    let desk = Desk::new();
+    let file = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../trace/fuzz/corpus/arrays/structures.mat"
+    );
+    let said = desk.json(&format!("inspect {file} --json"), 0);
+    let names: Vec<&str> = said["channels"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|c| c["name"].as_str().unwrap())
+        .collect();
+    assert_eq!(names, ["n", "run[0].Data", "run[1].Data"]);
+    let data = &said["channels"][1];
+    assert_eq!(
+        (data["minimum"].as_f64(), data["maximum"].as_f64()),
+        (Some(0.5), Some(4.5))
+    );
+    assert_eq!(
+        (data["quantum"].as_f64(), data["on_grid"].as_bool()),
+        (Some(0.25), Some(true))
+    );
+    let text = desk.prints(&format!("inspect {file}"), 0);
+    assert!(
+        text.contains("run[1].Data") && text.contains("rigproof convert"),
+        "{text}"
+    );
+    let answer = desk.rigproof(&format!("inspect {file} --write-rig rig.toml"));
+    assert_eq!(answer.status.code(), Some(2));
+}

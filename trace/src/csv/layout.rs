@@ -95,7 +95,7 @@ fn first_lines(start: &[u8], file: &Path) -> Vec<(usize, String)> {
 
 impl Table {
     fn new(separator: Separator, decimal: Option<Decimal>, lines: &[(usize, String)]) -> Table {
-        let mut splitter = Splitter::for_few_lines(separator);
+        let mut splitter = Splitter::new(separator);
         let rows = lines.iter().map(|(number, line)| {
             let cells = splitter.cells(line);
             (*number, cells.map(|cell| cell.trim().to_owned()).collect())

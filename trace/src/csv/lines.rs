@@ -2,6 +2,7 @@
 
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
+use std::sync::OnceLock;
 
 use super::dialect::Separator;
 use crate::error::{Place, TraceError};
@@ -97,19 +98,21 @@ pub(super) struct Splitter {
 
 impl Splitter {
     pub(super) fn new(separator: Separator) -> Splitter {
-        Splitter::of(separator, false)
-    }
-
-    /// A splitter for a few lines: made at once, but slower on a whole file.
-    pub(super) fn for_few_lines(separator: Separator) -> Splitter {
-        Splitter::of(separator, true)
-    }
-
-    fn of(separator: Separator, few_lines: bool) -> Splitter {
-        let mut builder = csv_core::ReaderBuilder::new();
-        let builder = builder.delimiter(separator.byte()).nfa(few_lines);
+        // Building a splitter takes longer than reading a short file.
+        static READERS: OnceLock<[csv_core::Reader; 4]> = OnceLock::new();
+        let build = |separator: Separator| {
+            let mut builder = csv_core::ReaderBuilder::new();
+            builder.delimiter(separator.byte()).build()
+        };
+        let [comma, semicolon, tab, blank] = READERS.get_or_init(|| Separator::ALL.map(build));
+        let reader = match separator {
+            Separator::Comma => comma,
+            Separator::Semicolon => semicolon,
+            Separator::Tab => tab,
+            Separator::Blank => blank,
+        };
         Splitter {
-            reader: builder.build(),
+            reader: reader.clone(),
             separator,
             line: Vec::new(),
             text: Vec::new(),
