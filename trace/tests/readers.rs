@@ -12,6 +12,7 @@ use std::path::Path;
 
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
+use rigproof_trace::{Channel, Trace, mcap};
 
 /// Damaged files for each reader.
 const FILES: u32 = 1500;
@@ -74,19 +75,21 @@ fn apply(bytes: &mut Vec<u8>, damage: &Damage, seeds: &[Vec<u8>]) {
     }
 }
 
-/// Feeds the corpus of a reader as it is, then damaged.
-fn feed(reader: &str, claim: fn(&[u8])) {
+/// The files that fuzzing begins with, and those that once did harm.
+fn corpus(reader: &str) -> Vec<Vec<u8>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("fuzz/corpus")
         .join(reader);
-    let mut paths: Vec<_> = fs::read_dir(folder)
-        .unwrap()
-        .map(|e| e.unwrap().path())
-        .collect();
+    let entries = fs::read_dir(folder).unwrap();
+    let mut paths: Vec<_> = entries.map(|entry| entry.unwrap().path()).collect();
     paths.sort();
-    let seeds: Vec<Vec<u8>> = paths.iter().map(|path| fs::read(path).unwrap()).collect();
-    assert!(seeds.len() > 2, "{reader}");
-    for seed in &seeds {
+    paths.iter().map(|path| fs::read(path).unwrap()).collect()
+}
+
+/// Feeds files to a reader as they are, then damaged.
+fn feed(seeds: &[Vec<u8>], claim: fn(&[u8])) {
+    assert!(seeds.len() > 2);
+    for seed in seeds {
         claim(seed);
     }
     let said = std::env::var("RIGPROOF_CAMPAIGN").ok();
@@ -100,7 +103,7 @@ fn feed(reader: &str, claim: fn(&[u8])) {
     let run = runner.run(&input, |(seed, damages)| {
         let mut bytes = seeds[seed].clone();
         for damage in &damages {
-            apply(&mut bytes, damage, &seeds);
+            apply(&mut bytes, damage, seeds);
         }
         claim(&bytes);
         Ok(())
@@ -110,20 +113,33 @@ fn feed(reader: &str, claim: fn(&[u8])) {
 
 #[test]
 fn no_bytes_make_the_text_reader_panic() {
-    feed("csv", claims::csv);
+    feed(&corpus("csv"), claims::csv);
 }
 
 #[test]
 fn no_bytes_make_the_rig_reader_panic() {
-    feed("rig", claims::rig);
+    feed(&corpus("rig"), claims::rig);
 }
 
 #[test]
 fn no_bytes_make_the_array_readers_panic() {
-    feed("arrays", claims::arrays);
+    feed(&corpus("arrays"), claims::arrays);
 }
 
 #[test]
 fn no_bytes_make_the_message_reader_panic() {
-    feed("mcap", rigproof_trace::mcap::read_bytes);
+    let file = |units: [&str; 2]| {
+        let channel = |(k, unit): (usize, &str)| Channel {
+            name: format!("channel {k}"),
+            unit: unit.to_owned(),
+            samples: (0..20).map(|j| f64::from(j) * 0.75 - k as f64).collect(),
+        };
+        let trace = Trace {
+            time_s: (0..20).map(|j| 0.5 + 0.25 * f64::from(j)).collect(),
+            channels: units.into_iter().enumerate().map(channel).collect(),
+        };
+        mcap::to_bytes(&trace, &mcap::Extras::default()).unwrap()
+    };
+    let seeds = [["mm", "N"], ["deg", "N·m"], ["V", "A"]].map(file);
+    feed(&seeds, mcap::read_bytes);
 }
