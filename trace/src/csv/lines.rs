@@ -2,7 +2,6 @@
 
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
-use std::sync::OnceLock;
 
 use super::dialect::Separator;
 use crate::error::{Place, TraceError};
@@ -98,21 +97,10 @@ pub(super) struct Splitter {
 
 impl Splitter {
     pub(super) fn new(separator: Separator) -> Splitter {
-        // Building a splitter takes longer than reading a short file.
-        static READERS: OnceLock<[csv_core::Reader; 4]> = OnceLock::new();
-        let build = |separator: Separator| {
-            let mut builder = csv_core::ReaderBuilder::new();
-            builder.delimiter(separator.byte()).build()
-        };
-        let [comma, semicolon, tab, blank] = READERS.get_or_init(|| Separator::ALL.map(build));
-        let reader = match separator {
-            Separator::Comma => comma,
-            Separator::Semicolon => semicolon,
-            Separator::Tab => tab,
-            Separator::Blank => blank,
-        };
+        let mut builder = csv_core::ReaderBuilder::new();
         Splitter {
-            reader: reader.clone(),
+            // Built, not cloned: a clone of csv-core's reader forgets its classes of bytes.
+            reader: builder.delimiter(separator.byte()).build(),
             separator,
             line: Vec::new(),
             text: Vec::new(),
