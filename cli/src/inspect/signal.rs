@@ -153,7 +153,7 @@ mod tests {
             .collect();
         let (step, on_grid) = view(encoder).quantum.unwrap();
         assert!((step - 0.05).abs() < 1e-12 && on_grid, "{step}");
-        let noise = (1..90).map(|k| libm::sin(37.7 * f64::from(k))).collect();
+        let noise = (1..90).map(|k| libm::sin(1.7 * f64::from(k * k))).collect();
         assert!(!view(noise).quantum.unwrap().1);
         assert!(view(vec![2.5; 40]).quantum.is_none());
     }

@@ -40,7 +40,7 @@ mod tests {
         ramp[40..44].fill(f64::NAN);
         let line = draw(&ramp, Some((-7.0, 150.5)), false);
         assert!(
-            line.starts_with("▁▁▁▁▂") && line.ends_with("▇███"),
+            line.starts_with("▁▁▂▂▂") && line.ends_with("▇███"),
             "{line}"
         );
         assert_eq!(line.chars().count(), 32);
