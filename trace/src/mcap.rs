@@ -11,6 +11,7 @@ mod decoder;
 mod feed;
 mod flat;
 mod fuzz;
+mod guard;
 mod integrity;
 mod json;
 mod pace;

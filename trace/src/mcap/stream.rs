@@ -1,7 +1,6 @@
 //! This file walks over an MCAP file record by record, past damage where there is a way past it.
 
 use std::io::{self, Read};
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 use ::mcap::MAGIC;
@@ -9,6 +8,7 @@ use ::mcap::records::op;
 
 use super::account::{Account, Section, Visitor};
 use super::chunk::{self, Head, LARGEST_RECORD, RECORD_HEAD, Unpacker};
+use super::guard::guarded;
 use super::integrity::Integrity;
 use super::source::Source;
 use super::topics::Topic;
@@ -145,7 +145,7 @@ impl<R: Read, V: Visitor> Walk<'_, R, V> {
             let result = guarded(|| {
                 chunk::pieces(&head, length, &mut rest, &mut |k, c| account.record(k, c))
             });
-            let reason = result.err().unwrap_or_default();
+            let reason = result.err().unwrap_or_else(|| "its end is missing".into());
             self.lose(start, before, &reason);
         }
     }
@@ -282,10 +282,4 @@ fn attachment_name(content: &[u8]) -> Option<String> {
     let (length, rest) = content.get(16..)?.split_first_chunk()?;
     let name = rest.get(..u32::from_le_bytes(*length) as usize)?;
     Some(super::topics::short(std::str::from_utf8(name).ok()?))
-}
-
-/// Runs what calls into the format's crate, which may panic on damage that it did not foresee.
-fn guarded(run: impl FnOnce() -> Result<(), String>) -> Result<(), String> {
-    catch_unwind(AssertUnwindSafe(run))
-        .unwrap_or_else(|_| Err("it breaks the format in a way that stops its reader".into()))
 }
