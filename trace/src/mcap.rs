@@ -20,6 +20,7 @@ mod read;
 mod resample;
 mod ros;
 mod run;
+mod shapes;
 mod source;
 mod stream;
 mod summary;
