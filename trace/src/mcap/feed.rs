@@ -134,7 +134,7 @@ impl Feeds {
         };
         let name = &feed.name;
         let clock = feed.clock.name(self.time.as_ref());
-        let from = match self.origin.from_s() {
+        let from = match self.origin.second() {
             0 => String::new(),
             from_s => format!(", counted from {from_s} s"),
         };
