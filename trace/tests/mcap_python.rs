@@ -124,6 +124,15 @@ fn python_reads_what_we_write_sample_for_sample() {
     assert_eq!(lines("extras")[0][1..], ["rig.toml", "4711"]);
 }
 
+/// What the script says it wrote: times, ns, and angles.
+fn times_and_angles(said: &str) -> Vec<(i64, f64)> {
+    let row = |line: &str| {
+        let words: Vec<&str> = line.split(' ').collect();
+        (words[0].parse().unwrap(), words[2].parse().unwrap())
+    };
+    said.lines().map(row).collect()
+}
+
 #[test]
 fn we_read_what_python_writes_sample_for_sample() {
     let Some(python) = python() else {
@@ -131,13 +140,7 @@ fn we_read_what_python_writes_sample_for_sample() {
     };
     let folder = tempfile::tempdir().unwrap();
     let said = script(&python, "write.py", folder.path());
-    let truth: Vec<(i64, f64)> = said
-        .lines()
-        .map(|line| {
-            let words: Vec<&str> = line.split(' ').collect();
-            (words[0].parse().unwrap(), words[2].parse().unwrap())
-        })
-        .collect();
+    let truth = times_and_angles(&said);
     assert_eq!(truth.len(), 50);
     let wanted = |address: &str| Wanted {
         address: address.into(),

@@ -72,6 +72,11 @@ impl Head {
         self.packed_size == u64::MAX || self.unpacked_size == u64::MAX
     }
 
+    /// Whether the content is not packed.
+    fn is_plain(&self) -> bool {
+        self.bytes.len() == HEAD_START + 8
+    }
+
     /// The record's start with sizes that a reader can live with when the true ones were never written.
     fn opened(&self) -> Vec<u8> {
         let far = i64::MAX as u64;
@@ -106,6 +111,9 @@ impl Unpacker {
             let mut rest = Source::new(record.get(head.length as usize..).unwrap_or_default());
             return pieces(head, record.len() as u64, &mut rest, hand_on);
         }
+        if head.is_plain() {
+            return plain(record, head, hand_on);
+        }
         // A reader that failed is not used again.
         let mut reader = self.reader.take().unwrap_or_else(|| {
             let options = options().with_prevalidate_chunk_crcs(true);
@@ -139,6 +147,29 @@ impl Unpacker {
         self.reader = Some(reader);
         Ok(())
     }
+}
+
+/// Hands on the records of a chunk that is not packed, from where they stand.
+fn plain(record: &[u8], head: &Head, hand_on: &mut dyn FnMut(u8, &[u8])) -> Result<(), String> {
+    let records = record.get(head.length as usize..).unwrap_or_default();
+    let size = usize::try_from(head.packed_size).ok();
+    let mut rest = size
+        .and_then(|size| records.get(..size))
+        .filter(|_| head.packed_size == head.unpacked_size)
+        .ok_or("its lengths contradict each other")?;
+    if head.sum != 0 && head.sum != crc32fast::hash(rest) {
+        return Err("its check sum fails".into());
+    }
+    while !rest.is_empty() {
+        let ends = || "it ends in the middle of a record".to_string();
+        let (&[kind, length @ ..], behind) =
+            rest.split_first_chunk::<RECORD_HEAD>().ok_or_else(ends)?;
+        let length = usize::try_from(u64::from_le_bytes(length)).map_err(|_| ends())?;
+        let (content, behind) = behind.split_at_checked(length).ok_or_else(ends)?;
+        hand_on(kind, content);
+        rest = behind;
+    }
+    Ok(())
 }
 
 /// Hands on the records of a chunk as they are unpacked, before its sum is known; `length` is the record's.

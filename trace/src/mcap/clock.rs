@@ -116,7 +116,7 @@ impl Origin {
     }
 
     /// The second that the recording's time is counted from.
-    pub(super) fn from_s(self) -> i64 {
+    pub(super) fn second(self) -> i64 {
         self.ns.unwrap_or(0) / 1_000_000_000
     }
 }

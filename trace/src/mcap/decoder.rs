@@ -79,8 +79,11 @@ impl Decoder {
             Step::Field(name) => Some(name.as_str()),
             Step::Index(_) => None,
         });
-        let (_, unit) = name_and_unit(fields.next().unwrap_or_default());
-        unit.to_string()
+        match name_and_unit(fields.next().unwrap_or_default()) {
+            // In lower case both nanometre and newton metre are written so.
+            (_, "nm") => String::new(),
+            (_, unit) => unit.to_string(),
+        }
     }
 
     fn property(&self, leaf: &Leaf) -> Option<&Property> {

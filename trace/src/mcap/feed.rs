@@ -11,12 +11,13 @@ use super::pace::median;
 use super::read::{Selection, Wanted};
 use super::resample::{Between, Ordered};
 use super::run::Run;
+use super::shapes::Shapes;
 use super::summary::stamp;
 use super::topics::Topic;
 use crate::csv::TimeColumn;
 
-/// Shapes of messages that are remembered for a channel.
-const SHAPES: usize = 64;
+/// Addresses of a topic that a message names.
+const NAMED: usize = 64;
 /// Messages whose own stamp is compared with the time of writing.
 const STAMPS: usize = 4096;
 
@@ -60,7 +61,7 @@ pub(super) struct WantedPlace {
 struct Reader {
     feed: usize,
     decoder: Decoder,
-    shapes: HashMap<u64, Slots>,
+    shapes: Shapes<Slots>,
 }
 
 /// Where the wanted numbers of messages of one shape stand.
@@ -133,7 +134,7 @@ impl Feeds {
         };
         let name = &feed.name;
         let clock = feed.clock.name(self.time.as_ref());
-        let from = match self.origin.from_s() {
+        let from = match self.origin.second() {
             0 => String::new(),
             from_s => format!(", counted from {from_s} s"),
         };
@@ -206,7 +207,7 @@ impl Visitor for Feeds {
                 Ok(decoder) => Some(Reader {
                     feed,
                     decoder,
-                    shapes: HashMap::new(),
+                    shapes: Shapes::new(),
                 }),
                 Err(reason) => {
                     self.refusals.insert(topic.name.clone(), reason);
@@ -229,12 +230,11 @@ impl Visitor for Feeds {
             self.refusals.entry(feed.name.clone()).or_insert(reason);
             return;
         }
-        let shape = flat.shape();
-        if !reader.shapes.contains_key(&shape) {
+        if reader.shapes.get(flat.shape()).is_none() {
             let addresses = self.addresses.entry(feed.name.clone()).or_default();
-            reader.learn(shape, message, flat, feed, addresses);
+            reader.learn(message, flat, feed, addresses);
         }
-        let Some(slots) = reader.shapes.get(&shape) else {
+        let Some(slots) = reader.shapes.get(flat.shape()) else {
             return;
         };
         let at = |place: usize| flat.numbers.get(place).copied().unwrap_or(f64::NAN);
@@ -257,7 +257,6 @@ impl Reader {
     /// Finds out where the numbers stand in messages of this shape.
     fn learn(
         &mut self,
-        shape: u64,
         message: Message<'_>,
         flat: &mut Flat,
         feed: &mut Feed,
@@ -270,7 +269,7 @@ impl Reader {
         let leaves = flat.leaves();
         *addresses = leaves
             .iter()
-            .take(SHAPES)
+            .take(NAMED)
             .map(|leaf| address::print(&feed.name, leaf))
             .collect();
         let mut columns = Vec::new();
@@ -281,14 +280,11 @@ impl Reader {
             }
             columns.push(place);
         }
-        if self.shapes.len() >= SHAPES {
-            self.shapes.clear();
-        }
         let slots = Slots {
             time: feed.clock.slot(&leaves, &self.decoder),
             columns,
             stamp: stamp(&leaves),
         };
-        self.shapes.insert(shape, slots);
+        self.shapes.add(flat.shape(), slots);
     }
 }

@@ -7,6 +7,8 @@ pub(super) const ELEMENTS: usize = 64;
 /// The most numbers of one message.
 const MOST_NUMBERS: usize = 4096;
 
+/// The longest shape that is kept as it is, bytes; what is beyond is kept as a hash.
+const LONGEST_SHAPE: usize = 4096;
 /// The most texts of one message that may name numbers.
 const MOST_TEXTS: usize = 1024;
 
@@ -29,7 +31,9 @@ pub(super) struct Leaf {
 pub(super) struct Flat {
     pub(super) numbers: Vec<f64>,
     pub(super) elements: usize,
-    shape: DefaultHasher,
+    shape: Vec<u8>,
+    /// What did not fit into the shape.
+    beyond: Option<DefaultHasher>,
     names: Option<Names>,
 }
 
@@ -45,7 +49,8 @@ impl Flat {
         Flat {
             numbers: Vec::new(),
             elements,
-            shape: DefaultHasher::new(),
+            shape: Vec::new(),
+            beyond: None,
             names: None,
         }
     }
@@ -53,13 +58,17 @@ impl Flat {
     /// Begins a message; with `named`, the place of every number is kept.
     pub(super) fn begin(&mut self, named: bool) {
         self.numbers.clear();
-        self.shape = DefaultHasher::new();
+        self.shape.clear();
+        self.beyond = None;
         self.names = named.then(Names::default);
     }
 
     /// What the places depend on: messages with the same shape have their numbers at the same places.
-    pub(super) fn shape(&self) -> u64 {
-        self.shape.finish()
+    pub(super) fn shape(&mut self) -> &[u8] {
+        if let Some(beyond) = self.beyond.take() {
+            self.shape.extend(beyond.finish().to_le_bytes());
+        }
+        &self.shape
     }
 
     /// The places of the numbers of a message begun with `named`.
@@ -70,6 +79,7 @@ impl Flat {
             .unwrap_or_default()
     }
 
+    #[inline]
     pub(super) fn number(&mut self, value: f64) {
         if self.numbers.len() >= MOST_NUMBERS {
             return;
@@ -83,6 +93,7 @@ impl Flat {
     }
 
     /// A text as an element of a list: it may name what stands at the same position of other lists.
+    #[inline]
     pub(super) fn element_text(&mut self, text: &[u8]) {
         self.depends_on(text);
         if let Some(names) = &mut self.names
@@ -94,21 +105,47 @@ impl Flat {
     }
 
     /// The places depend on these bytes.
+    #[inline]
     pub(super) fn depends_on(&mut self, bytes: &[u8]) {
-        self.shape.write_usize(bytes.len());
-        self.shape.write(bytes);
+        self.depends_on_count(bytes.len());
+        self.add_to_shape(bytes);
     }
 
+    #[inline]
     pub(super) fn depends_on_count(&mut self, count: usize) {
-        self.shape.write_usize(count);
+        self.add_to_shape(&count.to_le_bytes());
     }
 
+    #[inline]
+    fn add_to_shape(&mut self, bytes: &[u8]) {
+        if self.shape.len() + bytes.len() <= LONGEST_SHAPE {
+            self.shape.extend_from_slice(bytes);
+        } else {
+            self.beyond.get_or_insert_default().write(bytes);
+        }
+    }
+
+    /// Numbers of a list, all of them looked into.
+    pub(super) fn list(&mut self, numbers: impl ExactSizeIterator<Item = f64>) {
+        if self.names.is_none() && self.numbers.len() + numbers.len() <= MOST_NUMBERS {
+            self.numbers.extend(numbers);
+            return;
+        }
+        for (index, number) in numbers.enumerate() {
+            self.element(index);
+            self.number(number);
+            self.up();
+        }
+    }
+
+    #[inline]
     pub(super) fn field(&mut self, name: &str) {
         if let Some(names) = &mut self.names {
             names.path.push(Step::Field(name.to_string()));
         }
     }
 
+    #[inline]
     pub(super) fn element(&mut self, index: usize) {
         if let Some(names) = &mut self.names {
             names.path.push(Step::Index(index));
@@ -116,6 +153,7 @@ impl Flat {
     }
 
     /// Back up from a field or an element.
+    #[inline]
     pub(super) fn up(&mut self) {
         if let Some(names) = &mut self.names {
             names.path.pop();

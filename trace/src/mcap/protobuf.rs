@@ -3,6 +3,7 @@
 use prost_reflect::{DescriptorPool, DynamicMessage, MessageDescriptor, ReflectMessage, Value};
 
 use super::flat::Flat;
+use super::guard::guarded;
 use super::topics::{Schema, short};
 
 /// The largest message that is read, bytes: taken apart, it needs many times its size.
@@ -24,8 +25,11 @@ impl ProtobufReader {
                 "its descriptors take more than {LARGEST_SCHEMA} bytes"
             ));
         }
-        let pool = DescriptorPool::decode(schema.data.as_slice())
-            .map_err(|_| "its schema is no set of file descriptors".to_string())?;
+        // The crate panics where a damaged set has an error to report at a place that it does not hold.
+        let pool = guarded(|| {
+            DescriptorPool::decode(schema.data.as_slice())
+                .map_err(|_| "its schema is no set of file descriptors".to_string())
+        })?;
         let descriptor = pool.get_message_by_name(&schema.name);
         let descriptor = descriptor
             .ok_or_else(|| format!("its schema does not describe `{}`", short(&schema.name)))?;

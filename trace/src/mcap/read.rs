@@ -64,17 +64,10 @@ pub fn read_from(
     selection: &Selection,
 ) -> Result<Reading, TraceError> {
     let mut feeds = Feeds::new(selection);
-    let (topics, integrity) = walk(source, file, &mut feeds)?;
+    let (_, integrity) = walk(source, file, &mut feeds)?;
     let refused = |problem: String| TraceError::recording(file, problem);
     if feeds.wanted.is_empty() {
-        let names = quoted(topics.iter().map(|topic| topic.name.as_str()));
-        let heard = integrity.missing.join("; ");
-        return Err(refused(match topics.is_empty() {
-            true => format!("the file holds no channel; {heard}"),
-            false => format!(
-                "the file was not written by this program, so say which numbers are meant, as `topic.field[index]`; the topics are {names}"
-            ),
-        }));
+        return Err(refused(nothing_wanted(&feeds.topics, &integrity)));
     }
     let mut protocol = Vec::new();
     let mut base: Option<(usize, Ordered)> = None;
@@ -144,14 +137,25 @@ fn resampled(address: &str, between: Between, gaps: usize) -> String {
     }
 }
 
+/// Nobody said what is wanted, and there is no run that says it.
+fn nothing_wanted(topics: &[String], integrity: &Integrity) -> String {
+    match topics {
+        [] => format!(
+            "the file holds no channel; {}",
+            integrity.missing.join("; ")
+        ),
+        _ => format!(
+            "the file was not written by this program, so say which numbers are meant, as `topic.field[index]`; the topics are {}",
+            quoted(topics.iter().map(String::as_str))
+        ),
+    }
+}
+
 /// Why a number is not there, and what is.
 fn absent(feeds: &Feeds, wanted: &str, integrity: &Integrity) -> String {
     let topics: Vec<&str> = feeds.topics.iter().map(String::as_str).collect();
-    let of_topic = feeds
-        .topics
-        .iter()
-        .filter(|t| address::within(wanted, t).is_some());
-    let problem = match of_topic.last() {
+    let is_its = |topic: &&String| address::within(wanted, topic).is_some();
+    let problem = match feeds.topics.iter().rfind(is_its) {
         None => {
             let topic = wanted.split('.').next().unwrap_or(wanted);
             format!(

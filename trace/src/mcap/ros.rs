@@ -97,11 +97,7 @@ impl RosReader {
         }
         if let Kind::Number(number) = field.kind {
             let looked_into = count.min(flat.elements);
-            for index in 0..looked_into {
-                flat.element(index);
-                flat.number(cursor.number(number)?);
-                flat.up();
-            }
+            cursor.numbers(number, looked_into, flat)?;
             return cursor.skip(count - looked_into, number.bytes());
         }
         for index in 0..count {

@@ -2,6 +2,9 @@
 
 use std::io::{self, Read};
 
+/// Bytes that are set aside at once for what a length promises.
+const STEP: usize = 1 << 20;
+
 /// A reader that knows where it is and what the bytes since the last mark sum up to.
 pub(super) struct Source<R> {
     inner: R,
@@ -32,13 +35,23 @@ impl<R: Read> Source<R> {
         self.sum.update(bytes);
     }
 
-    /// Fills the buffer with up to `count` bytes, fewer only at the end of the file; memory grows with what is
-    /// there, not with what is asked for.
-    pub(super) fn read(&mut self, count: u64, buffer: &mut Vec<u8>) -> io::Result<()> {
-        buffer.clear();
-        let read = (&mut self.inner).take(count).read_to_end(buffer)?;
-        self.position += read as u64;
-        Ok(())
+    /// Reads up to `count` bytes, fewer only at the end of the file, to the front of the buffer, and answers how many.
+    /// The buffer grows with what is there, not with what is asked for, and never shrinks.
+    pub(super) fn read(&mut self, count: u64, buffer: &mut Vec<u8>) -> io::Result<usize> {
+        let count = usize::try_from(count).unwrap_or(usize::MAX);
+        let mut filled = 0;
+        while filled < count {
+            let end = count.min(filled + STEP);
+            if buffer.len() < end {
+                buffer.resize(end, 0);
+            }
+            let read = self.fill(buffer.get_mut(filled..end).unwrap_or_default())?;
+            filled += read;
+            if filled < end {
+                break;
+            }
+        }
+        Ok(filled)
     }
 
     /// Fills as much of the slice as there is and answers how much that was.
@@ -60,12 +73,12 @@ impl<R: Read> Source<R> {
     pub(super) fn skip(&mut self, count: u64, buffer: &mut Vec<u8>) -> io::Result<u64> {
         let mut skipped = 0;
         while skipped < count {
-            self.read((count - skipped).min(1 << 16), buffer)?;
-            if buffer.is_empty() {
+            let read = self.read((count - skipped).min(1 << 16), buffer)?;
+            if read == 0 {
                 break;
             }
-            self.sum.update(buffer);
-            skipped += buffer.len() as u64;
+            self.sum.update(buffer.get(..read).unwrap_or_default());
+            skipped += read as u64;
         }
         Ok(skipped)
     }

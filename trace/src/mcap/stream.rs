@@ -1,7 +1,6 @@
 //! This file walks over an MCAP file record by record, past damage where there is a way past it.
 
 use std::io::{self, Read};
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 use ::mcap::MAGIC;
@@ -9,6 +8,7 @@ use ::mcap::records::op;
 
 use super::account::{Account, Section, Visitor};
 use super::chunk::{self, Head, LARGEST_RECORD, RECORD_HEAD, Unpacker};
+use super::guard::guarded;
 use super::integrity::Integrity;
 use super::source::Source;
 use super::topics::Topic;
@@ -99,15 +99,16 @@ impl<R: Read, V: Visitor> Walk<'_, R, V> {
             _ if large => return self.pass_over(extent, false),
             _ => {}
         }
-        let mut content = std::mem::take(&mut self.buffer);
-        self.source.read(length, &mut content)?;
-        self.source.add_to_sum(&content);
-        let whole = content.len() as u64 == length;
+        let mut buffer = std::mem::take(&mut self.buffer);
+        let read = self.source.read(length, &mut buffer)?;
+        let content = buffer.get(..read).unwrap_or_default();
+        self.source.add_to_sum(content);
+        let whole = read as u64 == length;
         match (kind, self.account.section) {
-            (op::CHUNK, Section::Data) => self.chunk(extent, &content),
+            (op::CHUNK, Section::Data) => self.chunk(extent, content),
             _ if whole => {
                 let taken = guarded(|| {
-                    self.account.record(kind, &content);
+                    self.account.record(kind, content);
                     Ok(())
                 });
                 if let Err(reason) = taken {
@@ -116,7 +117,7 @@ impl<R: Read, V: Visitor> Walk<'_, R, V> {
             }
             _ => {}
         }
-        self.buffer = content;
+        self.buffer = buffer;
         self.check_end(extent, whole)
     }
 
@@ -145,7 +146,7 @@ impl<R: Read, V: Visitor> Walk<'_, R, V> {
             let result = guarded(|| {
                 chunk::pieces(&head, length, &mut rest, &mut |k, c| account.record(k, c))
             });
-            let reason = result.err().unwrap_or_default();
+            let reason = result.err().unwrap_or_else(|| "its end is missing".into());
             self.lose(start, before, &reason);
         }
     }
@@ -180,17 +181,18 @@ impl<R: Read, V: Visitor> Walk<'_, R, V> {
     /// Passes over a record that is not looked into; an attachment's name is.
     fn pass_over(&mut self, extent: Extent, attachment: bool) -> io::Result<bool> {
         let Extent { start, length } = extent;
-        let mut content = std::mem::take(&mut self.buffer);
-        self.source.read(length.min(4096), &mut content)?;
-        self.source.add_to_sum(&content);
-        match attachment_name(&content) {
+        let mut buffer = std::mem::take(&mut self.buffer);
+        let read = self.source.read(length.min(4096), &mut buffer)?;
+        let content = buffer.get(..read).unwrap_or_default();
+        self.source.add_to_sum(content);
+        match attachment_name(content) {
             Some(name) if attachment => self.account.visitor.attachment(&name, length),
             _ if attachment => self.miss(format!("the attachment at byte {start} has no name")),
             _ => self.miss(format!(
                 "the record at byte {start} announces {length} bytes, at most {LARGEST_RECORD} are read; it is left out"
             )),
         }
-        self.buffer = content;
+        self.buffer = buffer;
         self.skip_rest(extent)
     }
 
@@ -246,15 +248,16 @@ impl<R: Read, V: Visitor> Walk<'_, R, V> {
 
     /// Reads a closing record, sums its first bytes, and answers the check sum that stands behind them.
     fn closing_sum(&mut self, extent: Extent, before: usize) -> io::Result<Option<u32>> {
-        let mut content = std::mem::take(&mut self.buffer);
+        let mut buffer = std::mem::take(&mut self.buffer);
         let most = LARGEST_RECORD as u64;
-        self.source.read(extent.length.min(most), &mut content)?;
+        let read = self.source.read(extent.length.min(most), &mut buffer)?;
+        let content = buffer.get(..read).unwrap_or_default();
         let stated = content.split_at_checked(before).and_then(|(summed, rest)| {
             self.source.add_to_sum(summed);
             rest.first_chunk().map(|bytes| u32::from_le_bytes(*bytes))
         });
-        let whole = content.len() as u64 == extent.length;
-        self.buffer = content;
+        let whole = read as u64 == extent.length;
+        self.buffer = buffer;
         if self.check_end(extent, whole)? && stated.is_none() {
             let start = extent.start;
             self.miss(format!("the closing record at byte {start} is too short"));
@@ -282,10 +285,4 @@ fn attachment_name(content: &[u8]) -> Option<String> {
     let (length, rest) = content.get(16..)?.split_first_chunk()?;
     let name = rest.get(..u32::from_le_bytes(*length) as usize)?;
     Some(super::topics::short(std::str::from_utf8(name).ok()?))
-}
-
-/// Runs what calls into the format's crate, which may panic on damage that it did not foresee.
-fn guarded(run: impl FnOnce() -> Result<(), String>) -> Result<(), String> {
-    catch_unwind(AssertUnwindSafe(run))
-        .unwrap_or_else(|_| Err("it breaks the format in a way that stops its reader".into()))
 }

@@ -12,6 +12,7 @@ use super::decoder::Decoder;
 use super::flat::{ELEMENTS, Flat, Leaf, Step};
 use super::integrity::Integrity;
 use super::pace::{Pace, median};
+use super::shapes::Shapes;
 use super::stream::walk;
 use super::topics::Topic;
 use crate::error::TraceError;
@@ -20,8 +21,6 @@ use crate::error::TraceError;
 const STRETCHES: usize = 128;
 /// Messages whose own stamp is compared with the time of writing.
 const STAMPS: usize = 4096;
-/// Shapes of messages that are remembered for a channel; one that changes more often is looked up every time.
-const SHAPES: usize = 64;
 /// Numbers of one channel that are followed.
 const NUMBERS: usize = 1024;
 
@@ -139,7 +138,7 @@ struct Tally {
     damaged: u64,
     pace: Pace,
     lags_s: Vec<f64>,
-    shapes: HashMap<u64, Places>,
+    shapes: Shapes<Places>,
     numbers: Vec<Number>,
     by_address: HashMap<String, usize>,
 }
@@ -160,7 +159,7 @@ impl Visitor for Pass {
             damaged: 0,
             pace: Pace::default(),
             lags_s: Vec::new(),
-            shapes: HashMap::new(),
+            shapes: Shapes::new(),
             numbers: Vec::new(),
             by_address: HashMap::new(),
         });
@@ -195,8 +194,7 @@ impl Tally {
             return Ok(());
         };
         decoder.read(message.data, flat, false)?;
-        let shape = flat.shape();
-        if !self.shapes.contains_key(&shape) {
+        if self.shapes.get(flat.shape()).is_none() {
             decoder.read(message.data, flat, true)?;
             let leaves = flat.leaves();
             let (numbers, by_address) = (&mut self.numbers, &mut self.by_address);
@@ -216,12 +214,9 @@ impl Tally {
                 numbers: leaves.iter().map(&mut place).collect(),
                 stamp: stamp(&leaves),
             };
-            if self.shapes.len() >= SHAPES {
-                self.shapes.clear();
-            }
-            self.shapes.insert(shape, places);
+            self.shapes.add(flat.shape(), places);
         }
-        let Some(places) = self.shapes.get(&shape) else {
+        let Some(places) = self.shapes.get(flat.shape()) else {
             return Ok(());
         };
         for (value, place) in flat.numbers.iter().zip(&places.numbers) {

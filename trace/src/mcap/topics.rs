@@ -49,7 +49,8 @@ impl Topic {
 #[derive(Default)]
 pub(super) struct Topics {
     schemas: HashMap<u16, Arc<Schema>>,
-    places: HashMap<u16, Option<usize>>,
+    /// By number: none for a channel that is not declared, and `None` inside for one declared twice.
+    places: Vec<Option<Option<usize>>>,
     topics: Vec<Topic>,
 }
 
@@ -60,7 +61,21 @@ impl Topics {
 
     /// The place of a channel, or `None` when it was not declared, or declared twice in different ways.
     pub(super) fn place(&self, id: u16) -> Option<usize> {
-        self.places.get(&id).copied().flatten()
+        self.places
+            .get(usize::from(id))
+            .copied()
+            .flatten()
+            .flatten()
+    }
+
+    fn put(&mut self, id: u16, place: Option<usize>) {
+        let id = usize::from(id);
+        if self.places.len() <= id {
+            self.places.resize(id + 1, None);
+        }
+        if let Some(entry) = self.places.get_mut(id) {
+            *entry = Some(place);
+        }
     }
 
     /// Takes a schema in, or says why not.
@@ -102,7 +117,7 @@ impl Topics {
         let name = short(&channel.topic);
         let schema = self.schemas.get(&channel.schema_id).cloned();
         if channel.schema_id != 0 && schema.is_none() {
-            self.places.insert(channel.id, None);
+            self.put(channel.id, None);
             return Err(format!(
                 "the channel `{name}` refers to schema {}, which the file does not hold; its messages are left out",
                 channel.schema_id
@@ -114,11 +129,11 @@ impl Topics {
             schema,
             channel.metadata,
         );
-        match self.places.get(&channel.id).copied() {
+        match self.places.get(usize::from(channel.id)).copied().flatten() {
             Some(Some(place)) if self.topics.get(place) == Some(&topic) => return Ok(None),
             Some(None) => return Ok(None),
             Some(Some(_)) => {
-                self.places.insert(channel.id, None);
+                self.put(channel.id, None);
                 return Err(format!(
                     "channel {} is declared twice in different ways, the second time as `{name}`; its messages from there on are left out",
                     channel.id
@@ -127,7 +142,7 @@ impl Topics {
             None => {}
         }
         let place = self.topics.len();
-        self.places.insert(channel.id, Some(place));
+        self.put(channel.id, Some(place));
         self.topics.push(topic);
         Ok(self.topics.last().map(|topic| (place, topic)))
     }

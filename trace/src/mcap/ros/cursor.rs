@@ -1,6 +1,7 @@
 //! This file reads numbers and texts out of bytes, never past their end.
 
 use super::definition::Number;
+use crate::mcap::flat::Flat;
 
 /// A place in a message.
 pub(super) struct Cursor<'a> {
@@ -42,16 +43,21 @@ impl<'a> Cursor<'a> {
         }
     }
 
+    #[inline]
     pub(super) fn left(&self) -> usize {
         self.data.len().saturating_sub(self.at)
     }
 
+    #[inline]
     fn align(&mut self, size: usize) {
         if let Some(from) = self.aligned_from {
-            self.at = from + self.at.saturating_sub(from).next_multiple_of(size.max(1));
+            // Sizes are powers of two.
+            let mask = size.max(1) - 1;
+            self.at = from + ((self.at.saturating_sub(from) + mask) & !mask);
         }
     }
 
+    #[inline]
     fn take<const N: usize>(&mut self) -> Result<[u8; N], String> {
         self.align(N);
         let rest = self.data.get(self.at..).unwrap_or_default();
@@ -64,6 +70,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// Passes over `count` things of `size` bytes.
+    #[inline]
     pub(super) fn skip(&mut self, count: usize, size: usize) -> Result<(), String> {
         if count == 0 {
             return Ok(());
@@ -77,11 +84,13 @@ impl<'a> Cursor<'a> {
     }
 
     /// How many elements a list says it has.
+    #[inline]
     pub(super) fn count(&mut self) -> Result<usize, String> {
         Ok(u32::from_le_bytes(self.take()?) as usize)
     }
 
     /// The bytes of a text, without the zero that may end it.
+    #[inline]
     pub(super) fn text(&mut self) -> Result<&'a [u8], String> {
         let count = self.count()?;
         let rest = self.data.get(self.at..).unwrap_or_default();
@@ -90,6 +99,31 @@ impl<'a> Cursor<'a> {
         Ok(text.strip_suffix(&[0]).unwrap_or(text))
     }
 
+    /// Hands the numbers of a list on.
+    pub(super) fn numbers(
+        &mut self,
+        number: Number,
+        count: usize,
+        flat: &mut Flat,
+    ) -> Result<(), String> {
+        if let (Number::F64, true, true) = (number, self.lowest_first, count > 0) {
+            self.align(8);
+            let start = self.at;
+            self.skip(count, 8)?;
+            let bytes = self.data.get(start..self.at).unwrap_or_default();
+            let (numbers, _) = bytes.as_chunks::<8>();
+            flat.list(numbers.iter().map(|bytes| f64::from_le_bytes(*bytes)));
+            return Ok(());
+        }
+        for index in 0..count {
+            flat.element(index);
+            flat.number(self.number(number)?);
+            flat.up();
+        }
+        Ok(())
+    }
+
+    #[inline]
     pub(super) fn number(&mut self, number: Number) -> Result<f64, String> {
         Ok(match number {
             Number::Bool => f64::from(u8::from(self.take::<1>()? != [0])),
