@@ -186,5 +186,9 @@ fn word(reason: Reason) -> String {
         Reason::NothingToDo => "nothing_to_do".to_owned(),
         Reason::UndefinedInput => "undefined_input".to_owned(),
         Reason::Uncontrolled => "uncontrolled".to_owned(),
+        Reason::Starting => "starting".to_owned(),
+        Reason::StaleSample => "stale_sample".to_owned(),
+        Reason::JumpedCounts => "jumped_counts".to_owned(),
+        Reason::RefusedCommand => "refused_command".to_owned(),
     }
 }

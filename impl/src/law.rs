@@ -1,5 +1,25 @@
 //! This file is what a control law is told and what it answers.
 
+mod any;
+mod desired_velocity;
+mod impedance;
+mod obstacle;
+mod optimal;
+mod proportional;
+mod sdof;
+mod uncontrolled;
+mod velocity_ratio;
+
+pub use any::{AnyLaw, PathLaw};
+pub use desired_velocity::Field;
+pub use impedance::{Impedance, Virtual};
+pub use obstacle::{Obstacle, Side};
+pub use optimal::{Optimal, Weights};
+pub use proportional::Proportional;
+pub use sdof::Sdof;
+pub use uncontrolled::Uncontrolled;
+pub use velocity_ratio::VelocityRatio;
+
 use crate::command::Command;
 use crate::linkage::Linkage;
 use crate::vector::Vector;

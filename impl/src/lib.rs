@@ -8,9 +8,21 @@
     clippy::indexing_slicing
 )]
 
+pub mod actuation;
+#[cfg(feature = "batch")]
+pub mod batch;
 pub mod command;
+pub mod current;
+pub mod encoder;
+pub mod guard;
 pub mod law;
 pub mod linkage;
 pub mod number;
+pub mod path;
+pub mod plant;
 pub mod select;
+mod setting;
+pub mod tick;
+pub mod tip_mass;
 pub mod vector;
+pub mod velocity;

@@ -53,6 +53,7 @@ pub struct Linkage<R> {
 /// C, to the left of the way from E to C (5.1) to (5.17).
 //= thesis (5.14)
 //= thesis (5.15)
+#[inline(always)]
 pub fn linkage<R: Real>(shape: &Shape<R>, ae: Vector<R>, bc: Vector<R>) -> Linkage<R> {
     let [l_ae, l_ed, l_bc, _] = shape.lengths_m;
     let (ae, bc) = (ae * l_ae, bc * l_bc);
@@ -76,12 +77,13 @@ pub fn linkage<R: Real>(shape: &Shape<R>, ae: Vector<R>, bc: Vector<R>) -> Linka
 impl<R: Real> Linkage<R> {
     /// Whether the linkage is closed and away from its singularities: the sine of the angle between the arms of each pair is at least
     /// [`LEAST_SINE`] on the thesis's side.
+    #[inline(always)]
     pub fn is_sound(&self, shape: &Shape<R>) -> bool {
         let [l_ae, l_ed, l_bc, l_cd] = shape.lengths_m;
         let least = R::of(LEAST_SINE);
-        self.ed.cross(self.ae) >= least * l_ae * l_ed
-            && self.bc.cross(self.cd) >= least * l_bc * l_cd
-            && self.ed.cross(self.cd) >= least * l_ed * l_cd
+        (self.ed.cross(self.ae) >= least * l_ae * l_ed)
+            & (self.bc.cross(self.cd) >= least * l_bc * l_cd)
+            & (self.ed.cross(self.cd) >= least * l_ed * l_cd)
     }
 
     /// The rows of the Jacobian, 1/m, in the order A, E, B, C: θ̇ = J·ẋ (5.39).

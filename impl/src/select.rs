@@ -59,14 +59,22 @@ impl Decision {
 /// Whether every number is one that a selection takes: finite, not beyond [`GREATEST_INPUT`], no row shorter than
 /// [`LEAST_ROW_SQUARED_PER_M2`] allows.
 pub fn is_sound<S: Scalar>(rows: &Rows<S>, vectors: &[Vector<S>], desired: &Desired<S>) -> bool {
-    let greatest = S::of(GREATEST_INPUT);
-    let bounded = |vector: &Vector<S>| vector.x.is_within(greatest) && vector.y.is_within(greatest);
-    let long = |row: &Vector<S>| row.norm_squared() >= S::of(LEAST_ROW_SQUARED_PER_M2);
     vectors.iter().all(bounded)
         && bounded(&desired.direction)
         && bounded(&desired.along)
         && desired.towards.iter().all(bounded)
-        && rows.iter().flatten().all(|row| bounded(row) && long(row))
+        && rows.iter().flatten().all(sound_row)
+}
+
+/// Whether both components are numbers not beyond [`GREATEST_INPUT`].
+pub fn bounded<S: Scalar>(vector: &Vector<S>) -> bool {
+    let greatest = S::of(GREATEST_INPUT);
+    vector.x.is_within(greatest) && vector.y.is_within(greatest)
+}
+
+/// Whether a row of the Jacobian is bounded and no shorter than [`LEAST_ROW_SQUARED_PER_M2`] allows.
+pub fn sound_row<S: Scalar>(row: &Vector<S>) -> bool {
+    bounded(row) && row.norm_squared() >= S::of(LEAST_ROW_SQUARED_PER_M2)
 }
 
 /// Whether the operator pushes away from the path; never on it.

@@ -15,31 +15,37 @@ pub struct Vector<S> {
 
 impl<S: Scalar> Vector<S> {
     /// The vector of two components.
+    #[inline(always)]
     pub const fn new(x: S, y: S) -> Vector<S> {
         Vector { x, y }
     }
 
     /// The vector without length.
+    #[inline(always)]
     pub fn zero() -> Vector<S> {
         Vector::new(S::zero(), S::zero())
     }
 
     /// x·x + y·y of two vectors.
+    #[inline(always)]
     pub fn dot(self, other: Vector<S>) -> S {
         self.x * other.x + self.y * other.y
     }
 
     /// x·y − y·x: positive where `other` lies to the left.
+    #[inline(always)]
     pub fn cross(self, other: Vector<S>) -> S {
         self.x * other.y - self.y * other.x
     }
 
     /// Turned by 90° to the left.
+    #[inline(always)]
     pub fn left(self) -> Vector<S> {
         Vector::new(-self.y, self.x)
     }
 
     /// The square of the length.
+    #[inline(always)]
     pub fn norm_squared(self) -> S {
         self.dot(self)
     }
@@ -71,6 +77,7 @@ impl<S> From<Vector<S>> for [S; 2] {
 
 impl<S: Scalar> Add for Vector<S> {
     type Output = Vector<S>;
+    #[inline(always)]
     fn add(self, other: Vector<S>) -> Vector<S> {
         Vector::new(self.x + other.x, self.y + other.y)
     }
@@ -78,6 +85,7 @@ impl<S: Scalar> Add for Vector<S> {
 
 impl<S: Scalar> Sub for Vector<S> {
     type Output = Vector<S>;
+    #[inline(always)]
     fn sub(self, other: Vector<S>) -> Vector<S> {
         Vector::new(self.x - other.x, self.y - other.y)
     }
@@ -85,6 +93,7 @@ impl<S: Scalar> Sub for Vector<S> {
 
 impl<S: Scalar> Neg for Vector<S> {
     type Output = Vector<S>;
+    #[inline(always)]
     fn neg(self) -> Vector<S> {
         Vector::new(-self.x, -self.y)
     }
@@ -92,6 +101,7 @@ impl<S: Scalar> Neg for Vector<S> {
 
 impl<S: Scalar> Mul<S> for Vector<S> {
     type Output = Vector<S>;
+    #[inline(always)]
     fn mul(self, factor: S) -> Vector<S> {
         Vector::new(self.x * factor, self.y * factor)
     }

@@ -23,17 +23,13 @@ pub use optimal::{Optimal, Weights, tip_mass};
 pub use proportional::{Proportional, influence};
 use rigproof_spec::command::Command;
 use rigproof_spec::joint::Joint;
+pub use rigproof_spec::settings::{GREATEST_DISTANCE_M, SHORTEST_PIECE_M};
 
 pub use sdof::Sdof;
 pub use velocity_ratio::VelocityRatio;
 
 use crate::error::ModelError;
 use crate::linkage::Pose;
-
-/// Shortest piece of a path that has a direction, m: a hundredth of what one count of an encoder moves the tip.
-pub const SHORTEST_PIECE_M: f64 = 1e-7;
-/// Largest distance that is taken for a boundary or a gap of this rig, m: its greatest reach.
-pub const GREATEST_DISTANCE_M: f64 = 0.61;
 
 /// A joint with its row of the Jacobian, 1/m: the force at the tip of 1 N·m on it, N.
 pub type JointRow = (Joint, Vector2<f64>);

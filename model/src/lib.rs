@@ -13,5 +13,6 @@ pub mod motion;
 pub mod operator;
 pub mod rig;
 pub mod trial;
+pub mod velocity;
 
 pub use error::ModelError;

@@ -66,10 +66,7 @@ impl Pose {
     }
 }
 
-/// Longest arm that is taken for a length of this linkage, m: a thousand times the thesis's, so that a length in mm shows.
-pub const LONGEST_ARM_M: f64 = 300.0;
-/// Shortest arm that is taken for a length of this linkage, m.
-pub const SHORTEST_ARM_M: f64 = 1e-6;
+pub use rigproof_spec::settings::{LONGEST_ARM_M, SHORTEST_ARM_M};
 
 /// Base joint A, m.
 pub const fn point_a_m(arms: &Arms) -> [f64; 2] {

@@ -42,10 +42,18 @@ pub enum Reason {
     SingularPose,
     /// None: nothing calls for a force.
     NothingToDo,
-    /// None: an input is not a finite number.
+    /// None: an input is not a finite number, or beyond what its sensor can give.
     UndefinedInput,
     /// None: this method never brakes (table 6.1, row 1).
     Uncontrolled,
+    /// None: too few good samples since the start or since the last fault (decision 0074).
+    Starting,
+    /// None: no new sample came for too long, or one was missed (decision 0074).
+    StaleSample,
+    /// None: an encoder moved faster than a hand can, or stands where its joint cannot (decision 0074).
+    JumpedCounts,
+    /// None: the control law asked for what no brake may be given (decision 0074).
+    RefusedCommand,
 }
 
 impl Reason {

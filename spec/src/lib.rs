@@ -15,6 +15,7 @@ pub mod joint;
 pub mod laws;
 pub mod layout;
 pub mod methods;
+pub mod settings;
 pub mod tables;
 pub mod trials;
 pub mod units;

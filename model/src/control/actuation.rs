@@ -13,10 +13,8 @@ use super::{JointRow, Sensed, setting};
 use crate::brake::current_gain;
 use crate::error::ModelError;
 use crate::linkage::jacobian::jacobian;
+use rigproof_spec::settings::FORCE_LIMIT_RANGE_N;
 use rigproof_spec::tables::{GREATEST_CURRENT_A, brake_table};
-
-/// Largest force limit that is taken for one of this rig, N.
-const GREATEST_FORCE_LIMIT_N: f64 = 1000.0;
 
 /// Which brakes a controller has, on which arms, and the force it may ask of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,7 +40,7 @@ impl Actuation {
     /// [`ModelError::ArmLength`]; [`ModelError::SettingRange`] when the limit is not between 0 and 1000 N.
     pub fn new(layout: Layout, arms: Arms, greatest_force_n: f64) -> Result<Actuation, ModelError> {
         crate::linkage::check_arms(&arms)?;
-        let range = [0.0, GREATEST_FORCE_LIMIT_N];
+        let range = FORCE_LIMIT_RANGE_N;
         Ok(Actuation {
             layout,
             arms,

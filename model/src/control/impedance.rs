@@ -8,12 +8,8 @@ use super::torque_translation::{Share, translate};
 use super::{Actuation, Controller, Sensed, setting};
 use crate::brake::current_gain;
 use crate::error::ModelError;
+use rigproof_spec::settings::{DAMPING_RANGE_N_S_PER_M, STIFFNESS_RANGE_N_PER_M};
 use rigproof_spec::tables::brake_table;
-
-/// Largest stiffness that is taken for a virtual spring of this rig, N/m.
-const GREATEST_STIFFNESS_N_PER_M: f64 = 1e6;
-/// Largest damping that is taken for a virtual damper of this rig, N·s/m.
-const GREATEST_DAMPING_N_S_PER_M: f64 = 1e6;
 
 /// The virtual spring and dampers. Gomes's law is a spring alone; Charles's and Davis's have all three.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,15 +43,18 @@ impl<P: Path> Impedance<P> {
         path: P,
         elements: Virtual,
     ) -> Result<Impedance<P>, ModelError> {
-        let stiffnesses = [0.0, GREATEST_STIFFNESS_N_PER_M];
-        let dampings = [0.0, GREATEST_DAMPING_N_S_PER_M];
         let stiffness = elements.stiffness_n_per_m;
-        setting("the virtual stiffness", stiffness, stiffnesses, "N/m")?;
+        setting(
+            "the virtual stiffness",
+            stiffness,
+            STIFFNESS_RANGE_N_PER_M,
+            "N/m",
+        )?;
         for (name, damping) in [
             ("the damping across", elements.damping_across_n_s_per_m),
             ("the damping along", elements.damping_along_n_s_per_m),
         ] {
-            setting(name, damping, dampings, "N·s/m")?;
+            setting(name, damping, DAMPING_RANGE_N_S_PER_M, "N·s/m")?;
         }
         Ok(Impedance {
             actuation,

@@ -3,11 +3,12 @@
 use nalgebra::{Matrix2, Vector2};
 use rigproof_spec::command::{Command, Reason};
 use rigproof_spec::joint::Joint;
+use rigproof_spec::settings::{BOUNDARY_RANGE_M, HORIZON_RANGE_S, WEIGHT_RANGE};
 
 use super::desired_velocity::desired_velocity;
 use super::force_angle::opposing_force;
 use super::path::Path;
-use super::{Actuation, Controller, GREATEST_DISTANCE_M, SHORTEST_PIECE_M, Sensed, setting};
+use super::{Actuation, Controller, Sensed, setting};
 use crate::error::ModelError;
 use crate::linkage::Pose;
 use crate::motion::two_coordinate::two_coordinate;
@@ -15,8 +16,6 @@ use crate::rig::Parameters;
 
 /// Levels of force that are tried on each brake, besides none.
 const LEVELS: u32 = 20;
-/// Longest horizon that is taken for one of this rig, s.
-const LONGEST_HORIZON_S: f64 = 1.0;
 
 /// What the optimal controller weighs, and how far it looks ahead.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,21 +56,25 @@ impl<P: Path, M: Fn(&Pose) -> Option<Matrix2<f64>>> Optimal<P, M> {
         weights: Weights,
         inertia: M,
     ) -> Result<Optimal<P, M>, ModelError> {
-        let range = [SHORTEST_PIECE_M, GREATEST_DISTANCE_M];
-        let boundary_m = setting("the boundary of the velocity field", boundary_m, range, "m")?;
+        let boundary_m = setting(
+            "the boundary of the velocity field",
+            boundary_m,
+            BOUNDARY_RANGE_M,
+            "m",
+        )?;
         setting(
             "the weight of the angle",
             weights.angle,
-            [0.0, 1e6],
+            WEIGHT_RANGE,
             "1/rad²",
         )?;
-        setting("the weight of the energy", weights.energy, [0.0, 1e6], "1")?;
         setting(
-            "the horizon",
-            weights.horizon_s,
-            [1e-6, LONGEST_HORIZON_S],
-            "s",
+            "the weight of the energy",
+            weights.energy,
+            WEIGHT_RANGE,
+            "1",
         )?;
+        setting("the horizon", weights.horizon_s, HORIZON_RANGE_S, "s")?;
         Ok(Optimal {
             actuation,
             path,

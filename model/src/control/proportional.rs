@@ -8,13 +8,9 @@ use rigproof_spec::methods::NO_INFLUENCE;
 use super::desired_velocity::{Desired, desired_velocity};
 use super::force_angle::opposing_force;
 use super::path::Path;
-use super::{
-    Actuation, Controller, GREATEST_DISTANCE_M, JointRow, SHORTEST_PIECE_M, Sensed, setting,
-};
+use super::{Actuation, Controller, JointRow, Sensed, setting};
 use crate::error::ModelError;
-
-/// Largest gain that is taken for one of this rig, N·s/m: the high gain of table 6.1, read per centimetre.
-const GREATEST_GAIN_N_S_PER_M: f64 = 1e6;
+use rigproof_spec::settings::{BOUNDARY_RANGE_M, PROPORTIONAL_GAIN_RANGE_N_S_PER_M};
 
 /// Proportional velocity control (§6.3).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,12 +33,16 @@ impl<P: Path> Proportional<P> {
         boundary_m: f64,
         gain_n_s_per_m: f64,
     ) -> Result<Proportional<P>, ModelError> {
-        let range = [SHORTEST_PIECE_M, GREATEST_DISTANCE_M];
-        let gains = [0.0, GREATEST_GAIN_N_S_PER_M];
+        let gains = PROPORTIONAL_GAIN_RANGE_N_S_PER_M;
         Ok(Proportional {
             actuation,
             path,
-            boundary_m: setting("the boundary of the velocity field", boundary_m, range, "m")?,
+            boundary_m: setting(
+                "the boundary of the velocity field",
+                boundary_m,
+                BOUNDARY_RANGE_M,
+                "m",
+            )?,
             gain_n_s_per_m: setting("the proportional gain", gain_n_s_per_m, gains, "N·s/m")?,
         })
     }

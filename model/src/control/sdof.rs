@@ -5,10 +5,9 @@ use rigproof_spec::command::{Command, Reason};
 
 use super::desired_velocity::{Desired, desired_velocity};
 use super::path::Path;
-use super::{
-    Actuation, Controller, GREATEST_DISTANCE_M, JointRow, SHORTEST_PIECE_M, Sensed, setting,
-};
+use super::{Actuation, Controller, JointRow, Sensed, setting};
 use crate::error::ModelError;
+use rigproof_spec::settings::BOUNDARY_RANGE_M;
 
 /// SDOF velocity control (§6.2), with or without a gap (§6.5.1).
 ///
@@ -35,8 +34,12 @@ impl<P: Path> Sdof<P> {
         boundary_m: f64,
         gap_m: f64,
     ) -> Result<Sdof<P>, ModelError> {
-        let range = [SHORTEST_PIECE_M, GREATEST_DISTANCE_M];
-        let boundary_m = setting("the boundary of the velocity field", boundary_m, range, "m")?;
+        let boundary_m = setting(
+            "the boundary of the velocity field",
+            boundary_m,
+            BOUNDARY_RANGE_M,
+            "m",
+        )?;
         let gap_m = setting("the gap around the path", gap_m, [0.0, boundary_m], "m")?;
         Ok(Sdof {
             actuation,

@@ -7,13 +7,11 @@ use rigproof_spec::joint::Joint;
 
 use super::desired_velocity::desired_velocity;
 use super::path::Path;
-use super::{Actuation, Controller, GREATEST_DISTANCE_M, SHORTEST_PIECE_M, Sensed, setting};
+use super::{Actuation, Controller, Sensed, setting};
 use crate::brake::current_gain;
 use crate::error::ModelError;
+use rigproof_spec::settings::{BOUNDARY_RANGE_M, RATIO_GAIN_RANGE_NM_S_PER_RAD};
 use rigproof_spec::tables::brake_table;
-
-/// Largest gain that is taken for one of this rig, N·m·s/rad.
-const GREATEST_GAIN_NM_S_PER_RAD: f64 = 1e6;
 
 /// Velocity ratio control (§2.2.2; decision 0042).
 ///
@@ -43,13 +41,17 @@ impl<P: Path> VelocityRatio<P> {
         boundary_m: f64,
         gain_nm_s_per_rad: f64,
     ) -> Result<VelocityRatio<P>, ModelError> {
-        let range = [SHORTEST_PIECE_M, GREATEST_DISTANCE_M];
-        let gains = [0.0, GREATEST_GAIN_NM_S_PER_RAD];
+        let gains = RATIO_GAIN_RANGE_NM_S_PER_RAD;
         let unit = "N·m·s/rad";
         Ok(VelocityRatio {
             actuation,
             path,
-            boundary_m: setting("the boundary of the velocity field", boundary_m, range, "m")?,
+            boundary_m: setting(
+                "the boundary of the velocity field",
+                boundary_m,
+                BOUNDARY_RANGE_M,
+                "m",
+            )?,
             gain_nm_s_per_rad: setting("the gain", gain_nm_s_per_rad, gains, unit)?,
         })
     }

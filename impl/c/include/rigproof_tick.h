@@ -1,0 +1,290 @@
+/* The tick of rigproof's controller for C. Made by cbindgen from impl/c/src: change it there. */
+
+#ifndef RIGPROOF_TICK_H
+#define RIGPROOF_TICK_H
+
+#include <stdint.h>
+#include <stddef.h>
+
+/*
+ Version of every struct and function here; one that does not fit is refused.
+ */
+#define RIGPROOF_TICK_VERSION 1
+
+/*
+ Size of a controller, words of eight bytes.
+ */
+#define RIGPROOF_TICK_WORDS 384
+
+/*
+ Most corners of a path.
+ */
+#define RIGPROOF_MOST_CORNERS 16
+
+/*
+ How a call ended.
+ */
+typedef enum RigproofTickStatus {
+  /*
+   As it should.
+   */
+  RIGPROOF_TICK_STATUS_OK = 0,
+  /*
+   A pointer is null or not aligned.
+   */
+  RIGPROOF_TICK_STATUS_BAD_POINTER = 1,
+  /*
+   Size or version are not those of this library.
+   */
+  RIGPROOF_TICK_STATUS_BAD_VERSION = 2,
+  /*
+   A setting is outside its range.
+   */
+  RIGPROOF_TICK_STATUS_BAD_SETTINGS = 3,
+  /*
+   There is no controller.
+   */
+  RIGPROOF_TICK_STATUS_NOT_CREATED = 4,
+} RigproofTickStatus;
+
+/*
+ The control laws that C can choose; in the settings their number is given.
+ */
+typedef enum RigproofTickLaw {
+  /*
+   No brake ever acts.
+   */
+  RIGPROOF_TICK_LAW_UNCONTROLLED = 0,
+  /*
+   Proportional velocity control (§6.3).
+   */
+  RIGPROOF_TICK_LAW_PROPORTIONAL = 1,
+  /*
+   SDOF velocity control (§6.2).
+   */
+  RIGPROOF_TICK_LAW_SDOF = 2,
+} RigproofTickLaw;
+
+/*
+ Why these currents.
+ */
+typedef enum RigproofTickReason {
+  /*
+   One brake was chosen.
+   */
+  RIGPROOF_TICK_REASON_CHOSEN = 0,
+  /*
+   Two brakes were chosen together.
+   */
+  RIGPROOF_TICK_REASON_CHOSEN_PAIR = 1,
+  /*
+   All brakes hold: none helps and the operator pushes away from the path.
+   */
+  RIGPROOF_TICK_REASON_LOCKED_PUSHED_AWAY = 2,
+  /*
+   All brakes hold: the tip moves against the desired direction.
+   */
+  RIGPROOF_TICK_REASON_LOCKED_MOVING_BACK = 3,
+  /*
+   None: the tip is on the path, or inside its gap.
+   */
+  RIGPROOF_TICK_REASON_INSIDE_GAP = 4,
+  /*
+   None: the tip is on the free side of the obstacle's boundary.
+   */
+  RIGPROOF_TICK_REASON_FREE_SIDE = 5,
+  /*
+   None: no brake helps, and the operator does not push away from the path.
+   */
+  RIGPROOF_TICK_REASON_NONE_HELPS = 6,
+  /*
+   None: the linkage is at a singularity.
+   */
+  RIGPROOF_TICK_REASON_SINGULAR_POSE = 7,
+  /*
+   None: nothing calls for a force.
+   */
+  RIGPROOF_TICK_REASON_NOTHING_TO_DO = 8,
+  /*
+   None: an input is not a finite number, or beyond what its sensor can give.
+   */
+  RIGPROOF_TICK_REASON_UNDEFINED_INPUT = 9,
+  /*
+   None: this method never brakes.
+   */
+  RIGPROOF_TICK_REASON_UNCONTROLLED = 10,
+  /*
+   None: too few good samples since the start or since the last fault.
+   */
+  RIGPROOF_TICK_REASON_STARTING = 11,
+  /*
+   None: no new sample came for too long, or one was missed.
+   */
+  RIGPROOF_TICK_REASON_STALE_SAMPLE = 12,
+  /*
+   None: an encoder moved faster than a hand can, or stands where its joint cannot.
+   */
+  RIGPROOF_TICK_REASON_JUMPED_COUNTS = 13,
+  /*
+   None: the control law asked for what no brake may be given.
+   */
+  RIGPROOF_TICK_REASON_REFUSED_COMMAND = 14,
+} RigproofTickReason;
+
+/*
+ A controller. Its memory is the caller's and its content this library's; it may be copied with memcpy.
+ */
+typedef struct RigproofTick {
+  uint64_t mark;
+  uint64_t words[RIGPROOF_TICK_WORDS];
+} RigproofTick;
+
+/*
+ What is fixed about a rig, its law and its path. `rigproof_tick_thesis` fills it in.
+ */
+typedef struct RigproofTickSettings {
+  /*
+   Size of this struct, bytes.
+   */
+  uint32_t size;
+  /*
+   `RIGPROOF_TICK_VERSION`.
+   */
+  uint32_t version;
+  /*
+   How many brakes: 3 (A, E, B) or 4 (A, E, B, C).
+   */
+  uint32_t brakes;
+  /*
+   The law: a number of `RigproofTickLaw`.
+   */
+  uint32_t law;
+  /*
+   Lengths of AE, ED, BC, CD and AB, m.
+   */
+  double arms_m[5];
+  /*
+   Counts a turn of the encoders on A and B.
+   */
+  uint32_t counts_per_turn[2];
+  /*
+   Their counts where the angle is zero.
+   */
+  int32_t zero_counts[2];
+  /*
+   Time from one sample to the next, s.
+   */
+  double sample_s;
+  /*
+   Greatest rate at which a base joint is believed to turn, rad/s.
+   */
+  double greatest_rate_rad_s;
+  /*
+   Greatest component of a tip force that is believed, N.
+   */
+  double greatest_force_n;
+  /*
+   Greatest force asked of a brake at the tip, N.
+   */
+  double greatest_desired_force_n;
+  /*
+   Boundary of the velocity field, m.
+   */
+  double boundary_m;
+  /*
+   Gain of proportional control, N·s/m.
+   */
+  double gain_n_s_per_m;
+  /*
+   Gap of SDOF control, m; 0 for none.
+   */
+  double gap_m;
+  /*
+   How many corners the path has: 2 for an endless line, more for a chain.
+   */
+  uint32_t corners;
+  /*
+   Whether the chain returns to its first corner: 0 or 1.
+   */
+  uint32_t closed;
+  /*
+   The corners, x and y, m.
+   */
+  double corners_m[RIGPROOF_MOST_CORNERS][2];
+} RigproofTickSettings;
+
+/*
+ What a tick is told.
+ */
+typedef struct RigproofTickSensed {
+  /*
+   Number of the sample: one more than that of the sample before, then 0 after the greatest.
+   */
+  uint32_t number;
+  /*
+   Counts of the encoders on A and B.
+   */
+  int32_t counts[2];
+  /*
+   Force of the operator on the tip, x and y, N.
+   */
+  double tip_force_n[2];
+} RigproofTickSensed;
+
+/*
+ What a tick asks of the amplifiers.
+ */
+typedef struct RigproofTickCommand {
+  /*
+   Brake currents, A, in the order A, E, B, C: 0 to 1.
+   */
+  double currents_a[4];
+  /*
+   Why: a number of `RigproofTickReason`.
+   */
+  uint32_t reason;
+  /*
+   The brakes that were chosen, 0 to 3 in the order A, E, B, C; -1 for none.
+   */
+  int32_t chosen[2];
+} RigproofTickCommand;
+
+#ifdef __cplusplus
+extern "C" {
+#endif // __cplusplus
+
+/*
+ Makes a controller in `tick` that has seen nothing.
+
+ # Safety
+ `tick` must be null or point to a `RigproofTick` that may be written, `settings` be null or point to `settings->size` bytes that may be
+ read.
+ */
+enum RigproofTickStatus rigproof_tick_create(struct RigproofTick *tick,
+                                             const struct RigproofTickSettings *settings);
+
+/*
+ The currents of one tick, and why. Bounded work, whatever is sensed.
+
+ # Safety
+ Each pointer must be null or point to what it says; `tick` to a controller that was created (one that was not is told by its mark,
+ unless chance wrote the mark) and that no other thread uses.
+ */
+enum RigproofTickStatus rigproof_tick_step(struct RigproofTick *tick,
+                                           const struct RigproofTickSensed *sensed,
+                                           struct RigproofTickCommand *command);
+
+/*
+ Fills in the thesis's rig with 3 or 4 brakes; law, gain, gap and path are left to choose.
+
+ # Safety
+ `settings` must be null or point to a `RigproofTickSettings` that may be written.
+ */
+enum RigproofTickStatus rigproof_tick_thesis(struct RigproofTickSettings *settings,
+                                             uint32_t brakes);
+
+#ifdef __cplusplus
+}  // extern "C"
+#endif  // __cplusplus
+
+#endif  /* RIGPROOF_TICK_H */

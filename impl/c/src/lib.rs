@@ -1,0 +1,132 @@
+//! This file is the tick of the controller for a program in C: no heap, fixed sizes, an error code for all that can be checked.
+#![no_std]
+#![expect(
+    unsafe_code,
+    reason = "what C hands over are pointers; each is checked for null and alignment, and trusted for the rest"
+)]
+
+#[cfg(feature = "std")]
+extern crate std;
+
+mod settings;
+mod words;
+
+use rigproof_impl::law::PathLaw;
+use rigproof_impl::path::AnyPath;
+use rigproof_impl::tick::{Sensed, Tick};
+
+pub use settings::{RIGPROOF_MOST_CORNERS, RigproofTickSettings, rigproof_tick_thesis};
+pub use words::{
+    RigproofTickCommand, RigproofTickLaw, RigproofTickReason, RigproofTickSensed,
+    RigproofTickStatus,
+};
+
+/// Version of every struct and function here; one that does not fit is refused.
+pub const RIGPROOF_TICK_VERSION: u32 = 1;
+/// Size of a controller, words of eight bytes.
+pub const RIGPROOF_TICK_WORDS: usize = 384;
+
+/// What marks a controller that was created.
+const MARK: u64 = 0x5249_4750_524f_4f46;
+
+/// A controller. Its memory is the caller's and its content this library's; it may be copied with memcpy.
+#[repr(C)]
+pub struct RigproofTick {
+    mark: u64,
+    words: [u64; RIGPROOF_TICK_WORDS],
+}
+
+/// What lies in the words.
+type Controller = Tick<f64, PathLaw<f64, AnyPath<f64, RIGPROOF_MOST_CORNERS>>>;
+
+const _: () = assert!(
+    size_of::<Controller>() <= 8 * RIGPROOF_TICK_WORDS
+        && align_of::<Controller>() <= align_of::<u64>()
+);
+
+/// Makes a controller in `tick` that has seen nothing.
+///
+/// # Safety
+/// `tick` must be null or point to a `RigproofTick` that may be written, `settings` be null or point to `settings->size` bytes that may be
+/// read.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rigproof_tick_create(
+    tick: *mut RigproofTick,
+    settings: *const RigproofTickSettings,
+) -> RigproofTickStatus {
+    if !is_usable(tick) || !is_usable(settings) {
+        return RigproofTickStatus::BadPointer;
+    }
+    // SAFETY: not null, aligned, and the caller's to write.
+    unsafe { (&raw mut (*tick).mark).write(0) };
+    // SAFETY: not null and aligned; size and version are the first fields of every version and are read before any other.
+    let (size, version) = unsafe { ((*settings).size, (*settings).version) };
+    if version != RIGPROOF_TICK_VERSION || size as usize != size_of::<RigproofTickSettings>() {
+        return RigproofTickStatus::BadVersion;
+    }
+    // SAFETY: not null, aligned, and of this very size; every pattern of bits is one of its numbers.
+    let settings = unsafe { &*settings };
+    let Some(controller) = settings.controller() else {
+        return RigproofTickStatus::BadSettings;
+    };
+    // SAFETY: the words are the caller's to write, large enough and aligned for a controller (asserted above).
+    unsafe {
+        (&raw mut (*tick).words)
+            .cast::<Controller>()
+            .write(controller);
+        (&raw mut (*tick).mark).write(MARK);
+    }
+    RigproofTickStatus::Ok
+}
+
+/// The currents of one tick, and why. Bounded work, whatever is sensed.
+///
+/// # Safety
+/// Each pointer must be null or point to what it says; `tick` to a controller that was created (one that was not is told by its mark,
+/// unless chance wrote the mark) and that no other thread uses.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rigproof_tick_step(
+    tick: *mut RigproofTick,
+    sensed: *const RigproofTickSensed,
+    command: *mut RigproofTickCommand,
+) -> RigproofTickStatus {
+    if !is_usable(command) {
+        return RigproofTickStatus::BadPointer;
+    }
+    // SAFETY: not null, aligned, and the caller's to write. Whatever goes wrong from here on, no brake has current.
+    unsafe { command.write(RigproofTickCommand::none()) };
+    if !is_usable(tick) || !is_usable(sensed) {
+        return RigproofTickStatus::BadPointer;
+    }
+    // SAFETY: not null, aligned, and the caller's to read.
+    if unsafe { (&raw const (*tick).mark).read() } != MARK {
+        return RigproofTickStatus::NotCreated;
+    }
+    // SAFETY: not null, aligned; every pattern of bits is one of its numbers.
+    let sensed = unsafe { *sensed };
+    // SAFETY: the mark says that `rigproof_tick_create` wrote a controller there, and nobody else uses it.
+    let controller = unsafe { &mut *(&raw mut (*tick).words).cast::<Controller>() };
+    let answer = controller.tick(&Sensed {
+        number: sensed.number,
+        counts: sensed.counts,
+        tip_force_n: sensed.tip_force_n.into(),
+    });
+    // SAFETY: as above.
+    unsafe { command.write(answer.into()) };
+    RigproofTickStatus::Ok
+}
+
+/// Whether a pointer is neither null nor at an address where what it points to cannot lie.
+pub(crate) fn is_usable<T>(pointer: *const T) -> bool {
+    !pointer.is_null() && pointer.is_aligned()
+}
+
+/// Without the standard library nothing catches a panic. None can happen (`impl/examples/no_panic.rs`); should one, the tick stops and
+/// the amplifiers' watchdog lets go.
+#[cfg(all(not(feature = "std"), not(test)))]
+#[panic_handler]
+fn stop(_: &core::panic::PanicInfo) -> ! {
+    loop {
+        core::hint::spin_loop();
+    }
+}

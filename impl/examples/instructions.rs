@@ -1,0 +1,56 @@
+//! This program runs the closed loop, its controller or its plant for so many ticks, to be counted by an instrument.
+//!
+//! What a tick costs is the difference of two runs, one of them longer: start and inputs cost the same in both.
+#![allow(
+    clippy::unwrap_used,
+    reason = "a program that is counted stops at the first surprise"
+)]
+
+#[path = "../benches/rig/mod.rs"]
+mod rig;
+
+use std::hint::black_box;
+
+use rigproof_impl::plant::motion::{Mechanism, Motion};
+use rigproof_impl::plant::{Parameters, Scheme};
+use rigproof_spec::layout::Layout;
+use rigproof_spec::methods::SAMPLE_STEP_S;
+
+use rig::{ClosedLoop, hand, record};
+
+/// Held on the tip while the linkage without brakes is stepped, N: it turns round before the tip is anywhere.
+const PUSH_N: [f64; 2] = [0.013, 0.011];
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().collect();
+    let [_, what, ticks] = arguments.as_slice() else {
+        eprintln!("arguments: loop|controller|plant|linkage ticks");
+        std::process::exit(2);
+    };
+    let ticks: usize = ticks.parse().unwrap();
+    let (mut start, places, record) = (ClosedLoop::new(), hand(), record());
+    let Parameters { arms, inertia, .. } = Parameters::of(Layout::FourBrake);
+    let mechanism = Mechanism::new(&arms, &inertia, Scheme::Midpoint);
+    let theta_rad = start.plant.base_angles_rad().into();
+    let mut motion = Motion::new(&mechanism, theta_rad, [0.0; 2].into()).unwrap();
+    for tick in 0..ticks {
+        let (sensed, command) = black_box(&record[tick]);
+        match what.as_str() {
+            "loop" => {
+                black_box(start.step(black_box(places[tick])));
+            }
+            "controller" => {
+                black_box(start.controller.tick(sensed));
+            }
+            "plant" => {
+                let force_n = sensed.tip_force_n.into();
+                black_box(start.plant.step(force_n, command.currents_a, SAMPLE_STEP_S));
+            }
+            "linkage" => {
+                black_box(motion.step_free(&mechanism, PUSH_N.into(), SAMPLE_STEP_S));
+            }
+            _ => return,
+        }
+    }
+    black_box((start, motion));
+}

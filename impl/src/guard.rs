@@ -1,0 +1,271 @@
+//! This file says what may come into a tick and what may leave it; whatever else comes, the brakes are let go (decision 0074).
+
+use rigproof_spec::command::Reason;
+use rigproof_spec::joint::Joint;
+use rigproof_spec::tables::GREATEST_CURRENT_A;
+
+use crate::command::Command;
+use crate::number::{Real, Scalar};
+use crate::velocity::LONGEST_WINDOW;
+
+/// Ticks without a new sample over which the last command holds; in the next one the brakes are let go.
+pub const MOST_REPEATS: u8 = 2;
+/// Good samples in a row after a start or a fault from which on a law is asked: a whole window of velocity.
+pub const RECOVERY_SAMPLES: u8 = LONGEST_WINDOW as u8;
+
+/// What the guard makes of a sample.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// New and sound.
+    Good,
+    /// New and sound, but one of the first.
+    Early,
+    /// The one that is known already, and not for long.
+    Repeated,
+    /// Not to be used.
+    Fault(Reason),
+}
+
+/// What watches the samples.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Guard<R> {
+    /// Most counts from one sample to the next, A and B.
+    greatest_step: [u32; 2],
+    greatest_force_n: R,
+    last: Option<(u32, [i32; 2])>,
+    repeats: u8,
+    good: u8,
+}
+
+impl<R: Real> Guard<R> {
+    /// A guard that has seen nothing: most counts a sample of A and B, and the greatest force that the sensor gives, N.
+    pub fn new(greatest_step: [u32; 2], greatest_force_n: R) -> Guard<R> {
+        Guard {
+            greatest_step,
+            greatest_force_n,
+            last: None,
+            repeats: 0,
+            good: 0,
+        }
+    }
+
+    /// Judges a sample: its number, the travels of A and B and whether they are possible, the force on the tip, N.
+    pub fn judge(
+        &mut self,
+        number: u32,
+        travels: [i32; 2],
+        reached: bool,
+        force_n: [R; 2],
+    ) -> Verdict {
+        if self.last.is_some_and(|(last, _)| last == number) {
+            return self.repeat();
+        }
+        let fault = if self.has_missed(number) {
+            Some(Reason::StaleSample)
+        } else if !reached || self.has_jumped(travels) {
+            Some(Reason::JumpedCounts)
+        } else if !force_n
+            .into_iter()
+            .all(|component| component.is_within(self.greatest_force_n))
+        {
+            Some(Reason::UndefinedInput)
+        } else {
+            None
+        };
+        self.last = Some((number, travels));
+        self.repeats = 0;
+        if let Some(reason) = fault {
+            self.good = 0;
+            return Verdict::Fault(reason);
+        }
+        self.good = self.good.saturating_add(1);
+        if self.good < RECOVERY_SAMPLES {
+            Verdict::Early
+        } else {
+            Verdict::Good
+        }
+    }
+
+    fn repeat(&mut self) -> Verdict {
+        self.repeats = self.repeats.saturating_add(1);
+        if self.repeats <= MOST_REPEATS {
+            return Verdict::Repeated;
+        }
+        self.good = 0;
+        Verdict::Fault(Reason::StaleSample)
+    }
+
+    /// Whether a sample came out of turn.
+    fn has_missed(&self, number: u32) -> bool {
+        self.last
+            .is_some_and(|(last, _)| number != last.wrapping_add(1))
+    }
+
+    /// Whether a joint moved further than it can in one sample.
+    fn has_jumped(&self, travels: [i32; 2]) -> bool {
+        let Some((_, last)) = self.last else {
+            return false;
+        };
+        travels
+            .into_iter()
+            .zip(last)
+            .zip(self.greatest_step)
+            .any(|((travel, last), greatest)| travel.abs_diff(last) > greatest)
+    }
+}
+
+/// What may leave: currents of 0 to 1 A on brakes that are there and that the reason names. A law that asks for anything else is
+/// taken for broken and the brakes are let go; only what lies beside the range is put at its end.
+///
+/// A brake takes power from its joint whichever way that turns, so that a current has no sign to be wrong; which brake may act is
+/// the law's to know.
+pub fn release<R: Real>(command: Command<R>, braked: [bool; 4]) -> Command<R> {
+    let asked = Joint::ALL.into_iter().zip(braked).zip(command.currents_a);
+    for ((joint, braked), current_a) in asked {
+        let silent = current_a == R::zero();
+        let allowed = braked && names(command.reason, joint);
+        if !(silent || allowed && current_a.is_finite()) {
+            return Command::none(Reason::RefusedCommand);
+        }
+    }
+    Command {
+        currents_a: command.currents_a.map(clamped),
+        reason: command.reason,
+    }
+}
+
+/// A current put inside what the amplifiers take, A.
+fn clamped<S: Scalar>(current_a: S) -> S {
+    let greatest_a = S::of(GREATEST_CURRENT_A);
+    if current_a > greatest_a {
+        greatest_a
+    } else if current_a > S::zero() {
+        current_a
+    } else {
+        S::zero()
+    }
+}
+
+/// Whether a reason is one to give current to a joint's brake.
+fn names(reason: Reason, joint: Joint) -> bool {
+    match reason {
+        Reason::Chosen(chosen) => chosen == joint,
+        Reason::ChosenPair(one, other) => one == joint || other == joint,
+        reason => reason.is_lock(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FORCE_N: [f64; 2] = [3.7, -1.9];
+
+    /// A guard after so many good samples, the last of number 41 + `samples` at travels (613, −287).
+    fn running(samples: u32) -> Guard<f64> {
+        let mut guard = Guard::new([479, 97], 200.0);
+        for number in 42..42 + samples {
+            guard.judge(number, [613, -287], true, FORCE_N);
+        }
+        guard
+    }
+
+    #[test]
+    fn a_law_is_asked_after_a_whole_window_of_good_samples() {
+        let mut guard = running(u32::from(RECOVERY_SAMPLES) - 2);
+        assert_eq!(guard.judge(48, [613, -287], true, FORCE_N), Verdict::Early);
+        assert_eq!(guard.judge(49, [613, -287], true, FORCE_N), Verdict::Good);
+    }
+
+    #[test]
+    fn a_number_may_wrap_round() {
+        let mut guard = Guard::<f64>::new([479, 97], 200.0);
+        guard.judge(u32::MAX, [613, -287], true, FORCE_N);
+        assert_eq!(guard.judge(0, [613, -287], true, FORCE_N), Verdict::Early);
+    }
+
+    #[test]
+    fn a_missed_sample_is_a_fault_until_the_window_is_full_again() {
+        let mut guard = running(20);
+        let stale = Verdict::Fault(Reason::StaleSample);
+        assert_eq!(guard.judge(63, [613, -287], true, FORCE_N), stale);
+        for number in 64..71 {
+            assert_eq!(
+                guard.judge(number, [613, -287], true, FORCE_N),
+                Verdict::Early
+            );
+        }
+        assert_eq!(guard.judge(71, [613, -287], true, FORCE_N), Verdict::Good);
+        assert_eq!(guard.judge(70, [613, -287], true, FORCE_N), stale);
+    }
+
+    #[test]
+    fn a_sample_may_repeat_twice() {
+        let mut guard = running(20);
+        let mut again = || guard.judge(61, [613, -287], true, FORCE_N);
+        assert_eq!([again(), again()], [Verdict::Repeated; 2]);
+        for _ in 0..600 {
+            assert_eq!(again(), Verdict::Fault(Reason::StaleSample));
+        }
+        assert_eq!(guard.judge(62, [613, -287], true, FORCE_N), Verdict::Early);
+    }
+
+    #[test]
+    fn a_joint_that_jumps_or_stands_where_it_cannot_is_a_fault() {
+        let jumped = Verdict::Fault(Reason::JumpedCounts);
+        for (travels, expected) in [
+            ([613 + 479, -287 - 97], Verdict::Good),
+            ([613 + 480, -287], jumped),
+            ([613, -287 - 98], jumped),
+            ([i32::MIN, -287], jumped),
+        ] {
+            assert_eq!(running(20).judge(62, travels, true, FORCE_N), expected);
+        }
+        assert_eq!(running(20).judge(62, [613, -287], false, FORCE_N), jumped);
+    }
+
+    #[test]
+    fn a_force_that_is_none_or_beyond_its_sensor_is_a_fault() {
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 200.1, -1e300] {
+            for force_n in [[bad, 1.3], [1.3, bad]] {
+                let verdict = running(20).judge(62, [613, -287], true, force_n);
+                assert_eq!(verdict, Verdict::Fault(Reason::UndefinedInput));
+            }
+        }
+    }
+
+    #[test]
+    fn what_no_brake_may_be_given_is_refused() {
+        let all = [true; 4];
+        let three = [true, true, true, false];
+        for (currents_a, reason, braked) in [
+            ([f64::NAN, 0.0, 0.0, 0.0], Reason::Chosen(Joint::A), all),
+            (
+                [0.0, f64::INFINITY, 0.0, 0.0],
+                Reason::LockedMovingBack,
+                all,
+            ),
+            ([0.31, 0.0, 0.0, 0.0], Reason::Chosen(Joint::E), all),
+            ([0.0, 0.0, 0.31, 0.0], Reason::NoneHelps, all),
+            ([0.0, 0.0, 0.0, 0.31], Reason::Chosen(Joint::C), three),
+            ([0.31, 0.7, 0.2, 0.31], Reason::LockedPushedAway, three),
+            (
+                [0.31, 0.7, 0.2, 0.0],
+                Reason::ChosenPair(Joint::A, Joint::B),
+                all,
+            ),
+        ] {
+            let released = release(Command { currents_a, reason }, braked);
+            assert_eq!(released, Command::none(Reason::RefusedCommand));
+        }
+    }
+
+    #[test]
+    fn a_current_beside_the_range_is_put_at_its_end() {
+        let reason = Reason::LockedMovingBack;
+        let currents_a = [1.000_7, -0.003, 0.37, 0.999_3];
+        let released = release(Command { currents_a, reason }, [true; 4]);
+        assert_eq!(released.currents_a, [1.0, 0.0, 0.37, 0.999_3]);
+        assert_eq!(released.reason, reason);
+    }
+}

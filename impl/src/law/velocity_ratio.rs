@@ -1,0 +1,126 @@
+//! This file says which links are too fast for the desired direction, and slows them down: Swanson's velocity ratio
+//! control (§2.2.2).
+
+use rigproof_spec::command::Reason;
+use rigproof_spec::joint::Joint;
+use rigproof_spec::settings::RATIO_GAIN_RANGE_NM_S_PER_RAD;
+
+use super::{Field, Law, Situation};
+use crate::actuation::Actuation;
+use crate::command::Command;
+use crate::number::Real;
+use crate::path::Path;
+use crate::select::Rows;
+use crate::setting::setting;
+use crate::vector::Vector;
+
+/// Velocity ratio control (§2.2.2; gap `velocity-ratio`): the links AE and BC are slowed by brakes A and B, or by a coupling brake, E
+/// or C, that slows the one and speeds up the other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VelocityRatio<R, P> {
+    actuation: Actuation<R>,
+    path: P,
+    field: Field<R>,
+    gain_nm_s_per_rad: R,
+}
+
+impl<R: Real, P: Path<R>> VelocityRatio<R, P> {
+    /// The law on a path, with the boundary of the velocity field, m ([`rigproof_spec::settings::BOUNDARY_RANGE_M`]), and its gain, N·m·s/rad,
+    /// inside [`RATIO_GAIN_RANGE_NM_S_PER_RAD`].
+    pub fn new(
+        actuation: Actuation<R>,
+        path: P,
+        boundary_m: f64,
+        gain_nm_s_per_rad: f64,
+    ) -> Option<VelocityRatio<R, P>> {
+        Some(VelocityRatio {
+            actuation,
+            path,
+            field: Field::new(boundary_m)?,
+            gain_nm_s_per_rad: setting(gain_nm_s_per_rad, RATIO_GAIN_RANGE_NM_S_PER_RAD)?,
+        })
+    }
+}
+
+impl<R: Real, P: Path<R>> Law<R> for VelocityRatio<R, P> {
+    fn command(&mut self, now: &Situation<R>) -> Command<R> {
+        let (rows, nearest) = match self.actuation.situation_of_sound_rows(&self.path, now) {
+            Ok(situation) => situation,
+            Err(reason) => return Command::none(reason),
+        };
+        let direction = self.field.desired(&nearest, now.tip_force_n).direction;
+        let [row_a, _, row_b, _] = now.rows;
+        let links = |vector: Vector<R>| Vector::new(row_a.dot(vector), row_b.dot(vector));
+        let actual = links(now.tip_velocity_m_s);
+        let excess = excess_speeds(actual, links(direction));
+        let torque_nm = |excess_rad_s: R| self.gain_nm_s_per_rad * excess_rad_s;
+        let (fast_a, fast_b) = (excess.x > R::zero(), excess.y > R::zero());
+        if fast_a != fast_b
+            && let Some(joint) = coupling(&rows, [row_a, row_b], actual, fast_a)
+        {
+            let faster = if fast_a { excess.x } else { excess.y };
+            return self.actuation.one(joint, torque_nm(faster));
+        }
+        match (fast_a, fast_b) {
+            _ if excess == Vector::zero() => Command::none(Reason::NothingToDo),
+            (true, false) => self.actuation.one(Joint::A, torque_nm(excess.x)),
+            (false, _) => self.actuation.one(Joint::B, torque_nm(excess.y)),
+            (true, true) => self.actuation.two(
+                (Joint::A, torque_nm(excess.x)),
+                (Joint::B, torque_nm(excess.y)),
+            ),
+        }
+    }
+}
+
+/// By how much each link is faster than its share of the desired motion, rad/s: (1 − ratio)·|speed|, all its speed where it moves against it.
+fn excess_speeds<R: Real>(actual: Vector<R>, wanted: Vector<R>) -> Vector<R> {
+    let ratio = |wanted: R, actual: R| {
+        if actual == R::zero() {
+            R::zero()
+        } else {
+            wanted / actual
+        }
+    };
+    let (ratio_a, ratio_b) = (ratio(wanted.x, actual.x), ratio(wanted.y, actual.y));
+    let highest = if ratio_a > ratio_b { ratio_a } else { ratio_b };
+    let excess = |ratio: R, actual: R| {
+        if ratio > R::zero() {
+            (R::of(1.0) - ratio / highest) * actual.magnitude()
+        } else {
+            actual.magnitude()
+        }
+    };
+    Vector::new(excess(ratio_a, actual.x), excess(ratio_b, actual.y))
+}
+
+/// The coupling brake, if any, that slows the one link that is too fast and speeds up the other; of two, the one that takes more from the
+/// fast link.
+fn coupling<R: Real>(
+    rows: &Rows<R>,
+    [row_a, row_b]: [Vector<R>; 2],
+    actual: Vector<R>,
+    fast_a: bool,
+) -> Option<Joint> {
+    let [_, row_e, _, row_c] = rows;
+    let inverse = R::of(1.0) / row_a.cross(row_b);
+    let mut best: Option<(R, Joint)> = None;
+    for (joint, row) in [(Joint::E, row_e), (Joint::C, row_c)] {
+        let Some(row) = row else { continue };
+        // The joint's rate is so much of link A's and so much of link B's.
+        let shares = Vector::new(row.cross(row_b), row_a.cross(*row)) * inverse;
+        // A brake takes from the links what its own joint loses.
+        let torques = shares * -shares.dot(actual);
+        let (fast, other, taken) = if fast_a {
+            (torques.x * actual.x, torques.y * actual.y, shares.x)
+        } else {
+            (torques.y * actual.y, torques.x * actual.x, shares.y)
+        };
+        let helps = fast < R::zero() && other > R::zero();
+        let taken = taken.magnitude();
+        if helps && best.is_none_or(|(most, _)| taken > most) {
+            best = Some((taken, joint));
+        }
+    }
+    best.map(|(_, joint)| joint)
+}

@@ -1,0 +1,123 @@
+//! This file says when a shaft is inside its brake's backlash.
+
+use rigproof_spec::units::rad_from_deg;
+
+/// Reverse travel after which a shaft counts as inside the backlash, degrees (gap `backlash-entry`, decision 0004).
+pub const ENTRY_TRAVEL_DEG: f64 = 0.02;
+
+/// Two boundaries that hold still while the shaft is between them and travel with it otherwise (§3.4.3).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Backlash {
+    theta_1_rad: f64,
+    width_rad: f64,
+    entry_rad: f64,
+    inside: bool,
+}
+
+/// How the shaft passed a boundary that changes what the brake is asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crossing {
+    /// The part of the way that lay before it.
+    pub part: f64,
+    /// Whether it came inside.
+    pub inside: bool,
+}
+
+impl Backlash {
+    /// A backlash of a width, degrees, with the shaft in its middle at an angle, rad.
+    pub fn new(width_deg: f64, theta_rad: f64) -> Backlash {
+        let width_rad = rad_from_deg(width_deg);
+        let entry_rad = rad_from_deg(ENTRY_TRAVEL_DEG);
+        Backlash {
+            theta_1_rad: theta_rad - 0.5 * width_rad,
+            width_rad,
+            entry_rad,
+            inside: 0.5 * width_rad > entry_rad,
+        }
+    }
+
+    /// Turns the shaft straight from one angle to another, rad; where that changed whether it is inside, says when.
+    #[inline]
+    pub fn turn(&mut self, from_rad: f64, to_rad: f64) -> Option<Crossing> {
+        let (low, high) = (self.theta_1_rad, self.theta_1_rad + self.width_rad);
+        let entry = self.entry_rad;
+        let was_inside = self.inside;
+        let (boundary, inside) = if to_rad >= high {
+            self.theta_1_rad = to_rad - self.width_rad;
+            (high, false)
+        } else if to_rad <= low {
+            self.theta_1_rad = to_rad;
+            (low, false)
+        } else if to_rad - low > entry && high - to_rad > entry {
+            (
+                if to_rad < from_rad {
+                    high - entry
+                } else {
+                    low + entry
+                },
+                true,
+            )
+        } else {
+            return None;
+        };
+        self.inside = inside;
+        (inside != was_inside).then(|| Crossing {
+            part: within_one((boundary - from_rad) / (to_rad - from_rad)),
+            inside,
+        })
+    }
+
+    /// Whether the shaft is inside, where the brake resists with its off-state torque only.
+    pub fn is_inside(&self) -> bool {
+        self.inside
+    }
+
+    /// The boundaries θ1 and θ2, rad.
+    pub fn boundaries_rad(&self) -> [f64; 2] {
+        [self.theta_1_rad, self.theta_1_rad + self.width_rad]
+    }
+}
+
+/// The nearest number of 0 to 1; what is no number counts as 1.
+#[inline]
+fn within_one(part: f64) -> f64 {
+    if part < 0.0 {
+        0.0
+    } else if part < 1.0 {
+        part
+    } else {
+        1.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(angle_deg: f64) -> f64 {
+        rad_from_deg(angle_deg)
+    }
+
+    #[test]
+    fn the_moment_of_crossing_is_on_the_way() {
+        let mut backlash = Backlash::new(1.7, at(11.1));
+        assert!(backlash.is_inside());
+        // The boundary is at 11.95°.
+        let out = backlash.turn(at(11.75), at(12.35)).unwrap();
+        assert!(!out.inside && (out.part - 1.0 / 3.0).abs() < 1e-9);
+        // Inside again from 12.33° downwards.
+        let entered = backlash.turn(at(12.35), at(12.25)).unwrap();
+        assert!(entered.inside && (entered.part - 0.2).abs() < 1e-9);
+        assert_eq!(backlash.turn(at(12.25), at(11.1)), None);
+    }
+
+    #[test]
+    fn a_brake_without_backlash_is_never_inside() {
+        let mut backlash = Backlash::new(0.0, at(7.7));
+        let angles_deg = [7.7, 8.1, 7.9, 7.899, 9.3, -4.1];
+        for way in angles_deg.windows(2) {
+            assert_eq!(backlash.turn(at(way[0]), at(way[1])), None);
+            assert!(!backlash.is_inside());
+        }
+    }
+}

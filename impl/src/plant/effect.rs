@@ -1,0 +1,281 @@
+//! This file is physics that the thesis leaves out: the resistance laws of the effect library on a joint of the rig.
+
+use rigproof_spec::effect::Mechanism;
+use rigproof_spec::joint::Joint;
+
+use super::decay::decayed;
+
+/// Most effects of a rig.
+pub const MOST_EFFECTS: usize = 8;
+
+/// One effect as it is asked for: where, which and with which parameters, in the vocabulary's order and units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Asked<'a> {
+    /// The joint, or the joint whose brake's current it changes.
+    pub joint: Joint,
+    /// The mechanism.
+    pub mechanism: Mechanism,
+    /// Its parameters.
+    pub parameters: &'a [f64],
+}
+
+/// What a law looks at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Instant {
+    /// Time since the start, s.
+    pub time_s: f64,
+    /// Angle of the joint, rad.
+    pub position: f64,
+    /// Its rate, rad/s.
+    pub speed: f64,
+    /// Sense of motion: +1 or −1; at rest the sense that is tried.
+    pub sense: f64,
+}
+
+/// A law with its parameters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(
+    missing_docs,
+    reason = "the vocabulary names the parameters and what they measure"
+)]
+pub enum Law {
+    /// level·sgn q̇ (Coulomb).
+    DryOffset { level: f64 },
+    /// level.
+    ConstantBias { level: f64 },
+    /// coefficient·q̇.
+    Viscous { coefficient: f64 },
+    /// viscous·|q̇| + dry.
+    DirectionAsymmetry { viscous: f64, dry: f64 },
+    /// peak·exp(−|q̇/speed|^exponent)·sgn q̇.
+    Stribeck {
+        peak: f64,
+        speed: f64,
+        exponent: f64,
+    },
+    /// level·w, travel·dw/dt = q̇ − |q̇|·w (Dahl 1968).
+    Presliding { level: f64, travel: f64 },
+    /// alpha·z, dz/dt = q̇ − `beta_gamma`·|q̇|·z − `beta_delta`·q̇·|z| (Bouc 1967, Wen 1976).
+    Hysteresis {
+        alpha: f64,
+        beta_gamma: f64,
+        beta_delta: f64,
+    },
+    /// sine·sin(2π·q/period) + cosine·cos(2π·q/period).
+    Ripple { sine: f64, cosine: f64, period: f64 },
+    /// stiffness·q.
+    Spring { stiffness: f64 },
+    /// cubic·q³.
+    NonlinearSpring { cubic: f64 },
+    /// rate·t.
+    BiasDrift { rate: f64 },
+}
+
+impl Law {
+    /// The resistance law of a mechanism; none for a mechanism that is no resistance, for parameters that are not as many as the
+    /// vocabulary names or not finite, and for a length or a speed that is not above zero.
+    pub fn new(mechanism: Mechanism, parameters: &[f64]) -> Option<Law> {
+        if !parameters.iter().all(|parameter| parameter.is_finite()) {
+            return None;
+        }
+        let law = match (mechanism, parameters) {
+            (Mechanism::DryOffset, &[level]) => Law::DryOffset { level },
+            (Mechanism::ConstantBias, &[level]) => Law::ConstantBias { level },
+            (Mechanism::Viscous, &[coefficient]) => Law::Viscous { coefficient },
+            (Mechanism::DirectionAsymmetry, &[viscous, dry]) => {
+                Law::DirectionAsymmetry { viscous, dry }
+            }
+            (Mechanism::Stribeck, &[peak, speed, exponent]) if speed > 0.0 => Law::Stribeck {
+                peak,
+                speed,
+                exponent,
+            },
+            (Mechanism::Presliding, &[level, travel]) if travel > 0.0 => {
+                Law::Presliding { level, travel }
+            }
+            (Mechanism::Hysteresis, &[alpha, beta_gamma, beta_delta]) => Law::Hysteresis {
+                alpha,
+                beta_gamma,
+                beta_delta,
+            },
+            (Mechanism::Ripple, &[sine, cosine, period]) if period > 0.0 => Law::Ripple {
+                sine,
+                cosine,
+                period,
+            },
+            (Mechanism::Spring, &[stiffness]) => Law::Spring { stiffness },
+            (Mechanism::NonlinearSpring, &[cubic]) => Law::NonlinearSpring { cubic },
+            (Mechanism::BiasDrift, &[rate]) => Law::BiasDrift { rate },
+            _ => return None,
+        };
+        Some(law)
+    }
+
+    /// The part of the resistance that follows from the instant and the memory, N·m.
+    pub fn smooth(&self, now: &Instant, memory: f64) -> f64 {
+        match *self {
+            Law::DryOffset { .. } | Law::Stribeck { .. } => 0.0,
+            Law::ConstantBias { level } => level,
+            Law::Viscous { coefficient } => coefficient * now.speed,
+            Law::DirectionAsymmetry { viscous, dry } => {
+                let dry = if now.sense == 0.0 { 0.0 } else { dry };
+                viscous * now.speed.abs() + dry
+            }
+            Law::Presliding { level, .. } => level * memory,
+            Law::Hysteresis { alpha, .. } => alpha * memory,
+            Law::Ripple {
+                sine,
+                cosine,
+                period,
+            } => {
+                let (sin, cos) = libm::sincos(core::f64::consts::TAU * now.position / period);
+                sine * sin + cosine * cos
+            }
+            Law::Spring { stiffness } => stiffness * now.position,
+            Law::NonlinearSpring { cubic } => cubic * now.position * now.position * now.position,
+            Law::BiasDrift { rate } => rate * now.time_s,
+        }
+    }
+
+    /// The dry level: the resistance against motion and up to which it holds at rest, N·m.
+    pub fn dry(&self, now: &Instant) -> f64 {
+        match *self {
+            Law::DryOffset { level } => level,
+            Law::Stribeck {
+                peak,
+                speed,
+                exponent,
+            } => peak * libm::exp(-libm::pow((now.speed / speed).abs(), exponent)),
+            _ => 0.0,
+        }
+    }
+
+    /// The memory after a time, s, at a constant rate, rad/s, and halfway: exact while the memory keeps its sign.
+    pub fn remember(&self, memory: f64, speed: f64, time_s: f64) -> [f64; 2] {
+        let (gain, decay) = match *self {
+            Law::Presliding { travel, .. } => (speed / travel, speed.abs() / travel),
+            Law::Hysteresis {
+                beta_gamma,
+                beta_delta,
+                ..
+            } => {
+                let side = if memory == 0.0 {
+                    speed.signum()
+                } else {
+                    memory.signum()
+                };
+                (speed, beta_gamma * speed.abs() + beta_delta * speed * side)
+            }
+            _ => return [memory, memory],
+        };
+        let exponent = decay * time_s;
+        let share = decayed(exponent);
+        let rate = gain - decay * memory;
+        let half = 0.5 * time_s;
+        [
+            memory + rate * time_s * share,
+            memory + rate * half * decayed(0.5 * exponent),
+        ]
+    }
+}
+
+/// A law on a joint, with its memory.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Effect {
+    /// Where.
+    pub joint: Joint,
+    /// What.
+    pub law: Law,
+    /// w or z; zero for a law without memory.
+    pub memory: f64,
+}
+
+/// What lies between the current that is asked for and the one that the brake has.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CurrentPath {
+    /// Time constant of a lag, s; zero for none.
+    time_constant_s: f64,
+    /// Error of the gain.
+    fraction: f64,
+    current_a: f64,
+}
+
+impl CurrentPath {
+    /// The same path with one more mechanism on it; none for a mechanism that is not of this kind.
+    pub fn with(self, mechanism: Mechanism, parameters: &[f64]) -> Option<CurrentPath> {
+        match (mechanism, parameters) {
+            (Mechanism::Lag, &[time_constant_s])
+                if (0.0..=GREATEST_LAG_S).contains(&time_constant_s) =>
+            {
+                Some(CurrentPath {
+                    time_constant_s,
+                    ..self
+                })
+            }
+            (Mechanism::GainError, &[fraction]) if fraction.is_finite() => {
+                Some(CurrentPath { fraction, ..self })
+            }
+            _ => None,
+        }
+    }
+
+    /// The brake's current over a step, A: what it is in the middle, kept inside 0 to 1 A; the path at its end.
+    #[inline]
+    pub fn step(&mut self, asked_a: f64, step_s: f64) -> f64 {
+        let target_a = asked_a * (1.0 + self.fraction);
+        let middle_a = if self.time_constant_s > 0.0 {
+            let exponent = step_s / self.time_constant_s;
+            let change_a = target_a - self.current_a;
+            let half = 0.5 * exponent;
+            let middle_a = self.current_a + change_a * half * decayed(half);
+            self.current_a += change_a * exponent * decayed(exponent);
+            middle_a
+        } else {
+            self.current_a = target_a;
+            target_a
+        };
+        middle_a.clamp(0.0, rigproof_spec::tables::GREATEST_CURRENT_A)
+    }
+}
+
+/// Longest lag of a current, s.
+const GREATEST_LAG_S: f64 = 100.0;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_bristle_bends_along_its_exponential() {
+        let law = Law::new(Mechanism::Presliding, &[0.31, 0.007]).unwrap();
+        let mut memory = -0.43;
+        for _ in 0..17 {
+            [memory, _] = law.remember(memory, 0.61, 1.1e-3);
+        }
+        let expected = 1.0 - 1.43 * libm::exp(-17.0 * 0.61 * 1.1e-3 / 0.007);
+        assert!((memory - expected).abs() < 1e-14);
+    }
+
+    #[test]
+    fn a_lagging_current_follows_its_exponential() {
+        let path = CurrentPath::default().with(Mechanism::Lag, &[0.037]);
+        let mut path = path.unwrap().with(Mechanism::GainError, &[-0.13]).unwrap();
+        for _ in 0..50 {
+            path.step(0.9, 0.74e-3);
+        }
+        let expected = 0.9 * 0.87 * (1.0 - libm::exp(-1.0));
+        assert!((path.current_a - expected).abs() < 1e-14);
+    }
+
+    #[test]
+    fn what_is_no_law_is_refused() {
+        assert_eq!(Law::new(Mechanism::Presliding, &[0.31, 0.0]), None);
+        assert_eq!(Law::new(Mechanism::Viscous, &[0.31, 0.7]), None);
+        assert_eq!(Law::new(Mechanism::Spring, &[f64::NAN]), None);
+        assert_eq!(Law::new(Mechanism::Lag, &[0.31]), None);
+        assert_eq!(
+            CurrentPath::default().with(Mechanism::ChannelSkew, &[0.01]),
+            None
+        );
+    }
+}

@@ -1,0 +1,255 @@
+//! This file is one step of the plant.
+
+use rigproof_spec::joint::Joint;
+use rigproof_spec::tables::GREATEST_CURRENT_A;
+
+use super::Plant;
+use super::brake::{Brake, Turn};
+use super::effect::{CurrentPath, Effect, Instant};
+use super::friction::{Contact, DryBrake, dry_motion};
+use super::motion::{Midway, Outcome, is_defined};
+use super::setup::elbows;
+use super::turn::{angle_between, is_small};
+use crate::vector::Vector;
+
+type Plane = Vector<f64>;
+
+/// The joints at the moment at which the forces are looked at.
+struct Look {
+    angles_rad: [f64; 4],
+    elbows: [Plane; 2],
+    rates_rad_s: [f64; 4],
+    rows: [Plane; 4],
+}
+
+/// What resists in a step.
+struct Resistance {
+    /// The mean of every brake's yield torque, N·m; 0 without a brake.
+    yields_nm: [f64; 4],
+    /// What other dry friction adds to the yield, N·m.
+    dry_nm: [f64; 4],
+    /// What else resists, on the coordinates, N·m.
+    smooth_nm: Plane,
+}
+
+impl Plant {
+    /// Advances by `step_s`, at most [`GREATEST_STEP_S`](super::motion::GREATEST_STEP_S), under a constant force on the tip, x and y,
+    /// N, and constant currents A, E, B, C, A: 0 to 1, and 0 where there is no brake.
+    ///
+    /// M·v⁺ = M·v + h·(Tᵀ·F − b) + Σ Gᵢᵀ·λᵢ with everything at the moment of [`Scheme`](super::Scheme), each brake's impulse λᵢ bounded by h
+    /// times the mean of its yield torque and opposed to its joint's rate at the end of the step, so that no brake drives.
+    //= thesis (5.40)
+    pub fn step(&mut self, tip_force_n: [f64; 2], currents_a: [f64; 4], step_s: f64) -> Outcome {
+        let force_n = Vector::from(tip_force_n);
+        if !is_defined(force_n, step_s) || !self.takes(currents_a) {
+            return Outcome::Undefined;
+        }
+        let midway = self.motion.midway(&self.mechanism, force_n, step_s);
+        let outcome = self.motion.outcome_midway(&self.mechanism, &midway);
+        if outcome != Outcome::Moved {
+            return outcome;
+        }
+        let Some(look) = self.look(&midway) else {
+            return Outcome::TooFast;
+        };
+        let (mut brakes, mut paths) = (self.brakes, self.paths);
+        let driven = brakes.iter_mut().zip(paths.iter_mut().zip(currents_a));
+        let resistance = self.resistance(&midway, &look, driven, step_s);
+        let dry = self.dry(&midway, &look, &resistance, step_s);
+        let mut next = self
+            .motion
+            .arrive(&self.mechanism, &midway, dry.rates_rad_s, step_s);
+        let outcome = next.outcome_end(&self.mechanism, &midway, step_s);
+        if outcome != Outcome::Moved {
+            return outcome;
+        }
+        if dry.contact == Contact::Rest {
+            // Nothing is foreseen to move on from rest.
+            next.accelerations_rad_s2 = Vector::zero();
+        }
+        self.remember(&look, dry.rates_rad_s, step_s);
+        self.motion = next;
+        (self.brakes, self.paths) = (brakes, paths);
+        self.looked_rad = look.angles_rad;
+        self.elbows = look.elbows;
+        self.since_look_s = step_s - midway.lead_s;
+        self.contact = dry.contact;
+        self.held = dry.held;
+        self.time_s += step_s;
+        let per_s = 1.0 / (step_s * dry.part);
+        let shares = resistance.yields_nm.iter().zip(resistance.dry_nm);
+        for ((torque_nm, impulse), (yield_nm, dry_nm)) in
+            self.torques_nm.iter_mut().zip(dry.impulses).zip(shares)
+        {
+            *torque_nm = impulse * per_s;
+            if dry_nm != 0.0 {
+                // The rest is that of the other dry friction.
+                let bound_nm = yield_nm + dry_nm;
+                *torque_nm *= if bound_nm > 0.0 {
+                    yield_nm / bound_nm
+                } else {
+                    0.0
+                };
+            }
+        }
+        Outcome::Moved
+    }
+
+    #[inline]
+    fn takes(&self, currents_a: [f64; 4]) -> bool {
+        self.tables
+            .iter()
+            .zip(currents_a)
+            .all(|(table, current_a)| match table {
+                Some(_) => (0.0..=GREATEST_CURRENT_A).contains(&current_a),
+                None => current_a == 0.0,
+            })
+    }
+
+    /// The joints halfway; none where an elbow turned further than can be computed.
+    #[inline]
+    fn look(&self, midway: &Midway<f64>) -> Option<Look> {
+        let elbows = elbows(&midway.linkage);
+        let [from_e, from_c] = self.elbows;
+        let [to_e, to_c] = elbows;
+        if !is_small(from_e, to_e) || !is_small(from_c, to_c) {
+            return None;
+        }
+        let [_, e, _, c] = self.looked_rad;
+        let theta = midway.theta_rad;
+        let rows = midway.form.joint_rows();
+        Some(Look {
+            angles_rad: [
+                theta.x,
+                e + angle_between(from_e, to_e),
+                theta.y,
+                c + angle_between(from_c, to_c),
+            ],
+            elbows,
+            rates_rad_s: rows.map(|row| row.dot(midway.rates_rad_s)),
+            rows,
+        })
+    }
+
+    /// What resists; the brakes and the way of their currents, A, go on by a step.
+    #[inline(always)]
+    fn resistance<'a>(
+        &self,
+        midway: &Midway<f64>,
+        look: &Look,
+        driven: impl Iterator<Item = (&'a mut Brake, (&'a mut CurrentPath, f64))>,
+        step_s: f64,
+    ) -> Resistance {
+        let mut resistance = Resistance {
+            yields_nm: [0.0; 4],
+            dry_nm: [0.0; 4],
+            smooth_nm: Vector::zero(),
+        };
+        let around_s = [self.since_look_s, midway.lead_s];
+        let ways = self.looked_rad.into_iter().zip(look.angles_rad);
+        let turns = ways.zip(look.rates_rad_s).zip(&self.tables);
+        let each = driven.zip(turns).zip(&mut resistance.yields_nm);
+        for (((brake, (path, current_a)), (((from_rad, to_rad), speed_rad_s), table)), yield_nm) in
+            each
+        {
+            if let Some(table) = table {
+                let turn = Turn {
+                    way_rad: [from_rad, to_rad],
+                    around_s,
+                    speed_rad_s,
+                    step_s,
+                };
+                *yield_nm = brake.step(table, path.step(current_a, step_s), &turn);
+            }
+        }
+        self.add_effects(&mut resistance, midway, look, step_s);
+        resistance
+    }
+
+    fn add_effects(&self, sum: &mut Resistance, midway: &Midway<f64>, look: &Look, step_s: f64) {
+        if let [None, ..] = self.effects {
+            return;
+        }
+        for Effect { joint, law, memory } in self.effects.iter().map_while(Option::as_ref) {
+            let (position, speed, row) = at(look, *joint);
+            let now = Instant {
+                time_s: self.time_s + midway.lead_s,
+                position,
+                speed,
+                // At rest the two breakaway levels differ by what depends on the sense: either sense shifts both.
+                sense: if speed < 0.0 { -1.0 } else { 1.0 },
+            };
+            let [_, halfway] = law.remember(*memory, speed, step_s);
+            sum.smooth_nm = sum.smooth_nm + row * law.smooth(&now, halfway);
+            if let Some(dry_nm) = sum.dry_nm.get_mut(*joint as usize) {
+                *dry_nm += law.dry(&now);
+            }
+        }
+        for (dry_nm, yield_nm) in sum.dry_nm.iter_mut().zip(sum.yields_nm) {
+            // Dry friction below zero takes from the brake's, and no more than that.
+            *dry_nm = if *dry_nm < -yield_nm {
+                -yield_nm
+            } else {
+                *dry_nm
+            };
+        }
+    }
+
+    /// The rates after the step and what the brakes did for them.
+    #[inline]
+    fn dry(
+        &self,
+        midway: &Midway<f64>,
+        look: &Look,
+        resistance: &Resistance,
+        step_s: f64,
+    ) -> super::friction::Dry {
+        let (lead_s, v) = (midway.lead_s, self.motion.rates_rad_s);
+        let start = midway.form.joint_rows_ahead(-lead_s);
+        let ends = start.into_iter().zip(midway.form.joint_rows_ahead(lead_s));
+        let bounds = resistance.yields_nm.into_iter().zip(resistance.dry_nm);
+        let mut brakes = [DryBrake::absent(); 4];
+        let rows = look.rows.into_iter().zip(ends).zip(bounds);
+        for (brake, ((force_row, (start_row, rate_row)), (yield_nm, dry_nm))) in
+            brakes.iter_mut().zip(rows)
+        {
+            *brake = DryBrake {
+                force_row,
+                rate_row,
+                bound: (yield_nm + dry_nm) * step_s,
+                start_rad_s: start_row.dot(v),
+            };
+        }
+        let impulse = (midway.load_nm - resistance.smooth_nm) * step_s;
+        dry_motion(
+            &midway.form.mass,
+            midway.momentum_nm_s,
+            impulse,
+            &brakes,
+            self.contact,
+        )
+    }
+
+    /// Moves the memories of the effects over a step in which the rates became new ones, rad/s.
+    fn remember(&mut self, look: &Look, rates_rad_s: Plane, step_s: f64) {
+        let mean = (self.motion.rates_rad_s + rates_rad_s) * 0.5;
+        for Effect { joint, law, memory } in self.effects.iter_mut().map_while(Option::as_mut) {
+            let (_, _, row) = at(look, *joint);
+            [*memory, _] = law.remember(*memory, row.dot(mean), step_s);
+        }
+    }
+}
+
+/// Angle, rate and row of a joint.
+#[inline]
+fn at(look: &Look, joint: Joint) -> (f64, f64, Plane) {
+    let [a, e, b, c] = look.angles_rad;
+    let [rate_a, rate_e, rate_b, rate_c] = look.rates_rad_s;
+    let [row_a, row_e, row_b, row_c] = look.rows;
+    match joint {
+        Joint::A => (a, rate_a, row_a),
+        Joint::E => (e, rate_e, row_e),
+        Joint::B => (b, rate_b, row_b),
+        Joint::C => (c, rate_c, row_c),
+    }
+}

@@ -1,0 +1,11 @@
+//! This file holds the rig's control laws to the reference's, tick by tick, and to the laws of `spec`.
+
+mod agree;
+mod both;
+#[path = "../budget/mod.rs"]
+mod budget;
+mod permitted;
+mod properties;
+mod sample;
+mod single;
+mod ticks;

@@ -1,0 +1,145 @@
+//! This file says that a whole tick of the rig, from counts and force, answers as the reference that is told what the counts say.
+//!
+//! `RIGPROOF_CAMPAIGN` is the number of ticks; without it a slice runs.
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+use rigproof_impl::guard::RECOVERY_SAMPLES;
+use rigproof_impl::tick::{Sensed, Settings, Tick as RigTick};
+use rigproof_impl::vector::Vector;
+use rigproof_model::encoder::Encoder;
+use rigproof_model::motion::two_coordinate::two_coordinate;
+use rigproof_model::velocity::AdaptiveWindow;
+use rigproof_spec::command::Command;
+use rigproof_spec::inertia::inertia;
+use rigproof_spec::methods::SAMPLE_STEP_S;
+
+use crate::both::{View, reference_command, rig_law};
+use crate::budget::assert_within_budget;
+use crate::permitted::{Permitted, Tie, permitted};
+use crate::sample::{Sampler, Tick};
+
+/// Ticks of the slice that every test run takes.
+const SLICE: u64 = 40_000;
+/// Ticks of one seed.
+const CHUNK: u64 = 500;
+
+/// What became of many ticks.
+#[derive(Default)]
+struct Tally {
+    same: u64,
+    rounding_a: Vec<f64>,
+    amplified: u64,
+    standing: u64,
+    acted: u64,
+    ties: BTreeMap<Tie, u64>,
+    wrong: Vec<String>,
+}
+
+/// A tick as it comes from counts: the samples that lead to it, and what the reference makes of them.
+fn from_counts(sampler: &mut Sampler) -> (Tick, Vec<Sensed<f64>>, Settings, [f64; 2]) {
+    let mut tick = sampler.plain();
+    let mut settings = Settings {
+        arms: tick.arms,
+        ..Settings::thesis(tick.layout)
+    };
+    settings.zero_counts = [20_011, -31_013];
+    let encoders = settings.counts_per_turn.map(Encoder::new);
+    let mut travels = [0, 1].map(|joint| encoders[joint].count(tick.base_rad[joint]));
+    let mut estimators =
+        [0, 1].map(|joint| AdaptiveWindow::new(encoders[joint], SAMPLE_STEP_S, travels[joint]));
+    let paces = [0, 1].map(|_| 3.0 * sampler.nudge());
+    let mut rates_rad_s = [0.0; 2];
+    let samples = (0..u32::from(RECOVERY_SAMPLES) + 1)
+        .map(|number| {
+            for joint in 0..2 {
+                travels[joint] += (paces[joint] * (1.0 + 0.3 * sampler.nudge())).round() as i64;
+                rates_rad_s[joint] = estimators[joint].update(travels[joint]);
+            }
+            let [force_x, force_y] = tick.force_n;
+            Sensed {
+                number,
+                counts: [0, 1].map(|joint| travels[joint] as i32 + settings.zero_counts[joint]),
+                tip_force_n: Vector::new(force_x, force_y),
+            }
+        })
+        .collect();
+    tick.base_rad = [0, 1].map(|joint| travels[joint] as f64 * encoders[joint].resolution_rad());
+    // The tip's velocity by the reference's Jacobian.
+    if let Some(sensed) = crate::both::sensed(&tick) {
+        let form = two_coordinate(&tick.arms, &inertia(tick.layout), &sensed.pose, rates_rad_s);
+        tick.velocity_m_s = form.tip_velocity_m_s(rates_rad_s);
+    }
+    (tick, samples, settings, rates_rad_s)
+}
+
+fn tally(seed: u64) -> Tally {
+    let (mut sampler, mut nudger) = (Sampler::new(seed), Sampler::new(!seed));
+    let mut tally = Tally::default();
+    for _ in 0..CHUNK {
+        let (tick, samples, settings, rates_rad_s) = from_counts(&mut sampler);
+        let Some(mut rig) = rig_law::<f64>(&tick).and_then(|law| RigTick::new(&settings, law))
+        else {
+            tally.wrong.push(format!("refused: {tick:?}"));
+            continue;
+        };
+        let mut rig_command = Command::none(rigproof_spec::command::Reason::Starting);
+        for sensed in &samples {
+            rig_command = rig.tick(sensed).into();
+        }
+        tally.acted += u64::from(rig_command.currents_a != [0.0; 4]);
+        let reference = reference_command(&tick, View::EXACT);
+        match permitted(&tick, reference, rig_command, &mut nudger) {
+            Ok(Permitted::Same) => tally.same += 1,
+            Ok(Permitted::Rounding(current_a)) => tally.rounding_a.push(current_a),
+            Ok(Permitted::Amplified(_)) => tally.amplified += 1,
+            Ok(Permitted::Tie(tie)) => *tally.ties.entry(tie).or_default() += 1,
+            // A base joint stands exactly: its row of the Jacobian times the tip's velocity is rounding, and has a sign.
+            Err(_) if rates_rad_s.contains(&0.0) => tally.standing += 1,
+            Err(wrong) => tally.wrong.push(wrong),
+        }
+    }
+    tally
+}
+
+fn join(mut one: Tally, other: Tally) -> Tally {
+    one.same += other.same;
+    one.amplified += other.amplified;
+    one.standing += other.standing;
+    one.acted += other.acted;
+    one.rounding_a.extend(other.rounding_a);
+    one.wrong.extend(other.wrong);
+    for (tie, count) in other.ties {
+        *one.ties.entry(tie).or_default() += count;
+    }
+    one
+}
+
+#[test]
+fn a_whole_tick_from_counts_is_answered_as_by_the_reference() {
+    let ticks = std::env::var("RIGPROOF_CAMPAIGN").map_or(SLICE, |text| text.parse().unwrap());
+    let seeds = 57_000_000..57_000_000 + ticks.div_ceil(CHUNK);
+    let all = seeds
+        .into_par_iter()
+        .map(tally)
+        .reduce(Tally::default, join);
+    println!(
+        "{ticks} ticks from counts: {} acted, {} the same, {} within rounding, {} amplified, {} beside a standing link, ties {:?}",
+        all.acted,
+        all.same,
+        all.rounding_a.len(),
+        all.amplified,
+        all.standing,
+        all.ties
+    );
+    let wrong: Vec<_> = all.wrong.iter().take(3).cloned().collect();
+    assert!(
+        wrong.is_empty(),
+        "{} wrong: {}",
+        all.wrong.len(),
+        wrong.join("\n")
+    );
+    assert!(5 * all.acted > ticks && 200 * all.standing < ticks);
+    assert_within_budget("rig_tick_current_from_counts", all.rounding_a);
+}
