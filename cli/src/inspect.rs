@@ -1,6 +1,7 @@
 //! This file says what is in a recording that nobody has described yet, and begins a rig description for it.
 
 mod messages;
+mod noise;
 mod pace;
 mod signal;
 mod skeleton;
@@ -100,7 +101,7 @@ fn text(args: &Args) -> Result<Outcome, Failure> {
             &dialect,
         )],
         section("Time", pace.lines()),
-        section("Channels", signal::lines(&signals, args.ascii)),
+        section("Channels", signal::lines(&signals, args.ascii, usize::MAX)),
         section("Next", [format!("  {}", next(args))]),
     ]))
 }
@@ -167,7 +168,7 @@ fn variables(args: &Args, arrays: &Arrays) -> Result<Outcome, Failure> {
     let more =
         (left_out > 0).then(|| format!("  and {left_out} more, which --list of convert names"));
     let advice = format!(
-        "  {} --variables NAMES --time-from NAME",
+        "  {} --variables NAMES --time-from NAME   (or --rate-from NAME, or --rate-hz HZ)",
         shell::line(
             &["rigproof", "convert"],
             &[("", &args.recording), ("", Path::new("run.csv"))]
@@ -177,7 +178,9 @@ fn variables(args: &Args, arrays: &Arrays) -> Result<Outcome, Failure> {
         vec![format!("{file}: {} variables", arrays.entries().len())],
         section(
             "Variables",
-            signal::lines(&signals, args.ascii).into_iter().chain(more),
+            signal::lines(&signals, args.ascii, SHOWN)
+                .into_iter()
+                .chain(more),
         ),
         section("Next", [advice]),
     ]))

@@ -114,7 +114,9 @@ fn a_verb_reads_a_recording_whatever_it_is_called() {
         ]);
         assert_eq!(answer.status.code(), Some(0), "{answer:?}");
         let mut said: serde_json::Value = serde_json::from_slice(&answer.stdout).unwrap();
-        for key in ["recording", "rig", "inputs", "file"] {
+        let is_text = said["read_as"].is_object();
+        assert_eq!(is_text, recording == "in.csv", "{said}");
+        for key in ["recording", "rig", "inputs", "file", "read_as"] {
             said.as_object_mut().unwrap().remove(key);
         }
         answers.push(said);

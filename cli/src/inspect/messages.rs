@@ -8,6 +8,11 @@ use crate::outcome::{Failure, Outcome, print};
 use crate::text::number::significant;
 use crate::text::{join, section};
 
+/// Channels of a topic that never move and are shown.
+const MOST_STILL: usize = 8;
+/// A stamp that lies further from the writing of its message, in s, is of another clock: about three years.
+const ANOTHER_CLOCK_S: f64 = 1e8;
+
 /// What was found of one topic.
 struct TopicView {
     topic: TopicSummary,
@@ -63,8 +68,9 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
         ),
     ];
     sections.extend(topics.iter().map(|view| view.lines(args.ascii)));
-    sections.push(section("Texts and files inside", metadata.chain(inside)));
-    sections.push(section("Next", [format!("  {}", next(args))]));
+    sections.push(section("Metadata and attachments", metadata.chain(inside)));
+    let seen = topics.iter().any(|view| !view.signals.is_empty());
+    sections.push(section("Next", seen.then(|| format!("  {}", next(args)))));
     print(&join(sections))
 }
 
@@ -80,37 +86,45 @@ impl TopicView {
         };
         let mut lines = vec![
             format!("{} ({kind})", topic.name),
-            format!(
-                "  {} messages in {} s, {} of them damaged",
-                topic.messages,
-                s(seconds),
-                topic.damaged
-            ),
+            match topic.messages {
+                1 => "  1 message".to_owned(),
+                count => format!("  {count} messages in {} s", s(seconds)),
+            },
         ];
+        lines.extend(
+            (topic.damaged > 0).then(|| format!("  {} of them are damaged", topic.damaged)),
+        );
         if topic.messages > 1 {
             lines.push(format!(
-                "  rate {} Hz; a step of {} s, 5 % to 95 %: {} to {} s; {} gaps, the longest step {} s; {} backward",
+                "  rate {} Hz, a step of {} s (nine of ten: {} to {} s)",
                 s(1.0 / topic.step_s),
                 s(topic.step_s),
                 s(low_s),
                 s(high_s),
-                topic.gaps,
-                s(topic.longest_step_s),
-                topic.backward
             ));
+            lines.extend((topic.gaps > 0).then(|| {
+                let longest = s(topic.longest_step_s);
+                format!("  {} gaps, the longest {longest} s", topic.gaps)
+            }));
+            lines.extend(
+                (topic.backward > 0)
+                    .then(|| format!("  time runs backward {} times", topic.backward)),
+            );
         }
-        lines.extend(
-            topic
-                .lag_s
-                .map(|lag_s| format!("  written {} s after its own stamp", s(lag_s))),
-        );
+        lines.extend(topic.lag_s.map(|lag_s| match (lag_s.abs(), lag_s >= 0.0) {
+            (lag_s, _) if lag_s > ANOTHER_CLOCK_S => {
+                "  stamped by another clock than that of the file".to_owned()
+            }
+            (lag_s, true) => format!("  stamped {} s before it was written", s(lag_s)),
+            (lag_s, false) => format!("  stamped {} s after it was written", s(lag_s)),
+        }));
         lines.extend(
             topic
                 .unreadable
                 .as_ref()
                 .map(|why| format!("  not read: {why}")),
         );
-        lines.extend(signal::lines(&self.signals, ascii));
+        lines.extend(signal::lines(&self.signals, ascii, MOST_STILL));
         lines
     }
 

@@ -6,6 +6,8 @@ use crate::text::number::significant;
 
 /// A step this many times the usual one is a gap.
 const GAP_STEPS: f64 = 1.5;
+/// Jitter below this share of a step is made by the rounding of the printed digits.
+const ROUNDING: f64 = 1e-8;
 
 /// How time runs.
 pub struct Pace {
@@ -70,6 +72,13 @@ impl Pace {
                 s(*from)
             ),
         };
+        let jitter = match self.jitter_s / self.step_s {
+            share if share < ROUNDING => "none".to_owned(),
+            share => format!(
+                "{} % of a step (standard deviation)",
+                significant(100.0 * share, 2)
+            ),
+        };
         vec![
             format!("  from    {} to {}", s(self.from_s), s(self.to_s)),
             format!(
@@ -77,10 +86,7 @@ impl Pace {
                 significant(1.0 / self.step_s, 4),
                 s(self.step_s)
             ),
-            format!(
-                "  jitter  {} % of a step (standard deviation)",
-                significant(100.0 * self.jitter_s / self.step_s, 2)
-            ),
+            format!("  jitter  {jitter}"),
             format!("  gaps    {gaps}"),
         ]
     }

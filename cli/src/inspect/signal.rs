@@ -1,9 +1,10 @@
-//! This file says what a channel looks like: range, quantum, missing samples, and a line of text as its picture.
+//! This file says what a channel looks like: range, quantum, noise, missing samples, and a line of text as its picture.
 
 use rigproof_trace::Channel;
 use rigproof_trace::mcap::ChannelSummary;
 use serde_json::{Value, json};
 
+use super::noise;
 use super::sparkline;
 use crate::text::number::{significant, with_unit};
 
@@ -27,6 +28,8 @@ pub struct SignalView {
     range: Option<(f64, f64)>,
     /// The smallest step between two values that occur, and whether all lie on its grid.
     pub quantum: Option<(f64, bool)>,
+    /// About the standard deviation of the noise of a sample, where there are samples enough to tell.
+    pub noise: Option<f64>,
     /// What its picture shows.
     outline: Vec<f64>,
 }
@@ -43,6 +46,7 @@ impl SignalView {
             missing: missing as u64,
             range: values.first().copied().zip(values.last().copied()),
             quantum: quantum(&values),
+            noise: noise::of(&channel.samples),
             name: channel.name,
             unit: channel.unit,
             outline: channel.samples,
@@ -58,6 +62,7 @@ impl SignalView {
             missing: channel.not_finite,
             range: Some(range).filter(|_| channel.count > 0),
             quantum: channel.quantum.map(|step| (step, false)),
+            noise: None,
             outline: channel.outline.iter().map(middle).collect(),
             name: channel.address,
             unit: channel.unit,
@@ -71,21 +76,27 @@ impl SignalView {
             "maximum": self.range.map(|(_, greatest)| greatest),
             "quantum": self.quantum.map(|(step, _)| step),
             "on_grid": self.quantum.map(|(_, on_grid)| on_grid),
+            "noise": self.noise,
             "sparkline": sparkline::draw(&self.outline, self.range, ascii),
         })
     }
 
     fn cells(&self, ascii: bool) -> [String; 5] {
         let unit = self.unit.as_str();
-        let range = self
-            .range
-            .map_or("no sample".to_owned(), |(least, greatest)| {
+        let range = match (self.range, self.quantum) {
+            (None, _) => "no sample".to_owned(),
+            (Some((value, _)), None) => with_unit(value, unit),
+            (Some((least, greatest)), _) => {
                 format!("{} to {}", significant(least, 4), with_unit(greatest, unit))
-            });
-        let quantum = match self.quantum {
-            None => "never moves".to_owned(),
-            Some((step, true)) => format!("quantum {}", with_unit(step, unit)),
-            Some((step, false)) => format!("least step {}", with_unit(step, unit)),
+            }
+        };
+        let quantum = match (self.quantum, self.noise) {
+            (None, _) if self.range.is_none() => String::new(),
+            (None, _) if self.count == 1 => "one sample".to_owned(),
+            (None, _) => "never moves".to_owned(),
+            (Some((step, true)), _) => format!("quantum {}", with_unit(step, unit)),
+            (Some(_), Some(noise)) => format!("noise about {}", with_unit(noise, unit)),
+            (Some((step, false)), None) => format!("least step {}", with_unit(step, unit)),
         };
         let missing = match self.missing {
             0 => String::new(),
@@ -96,9 +107,14 @@ impl SignalView {
     }
 }
 
-/// The channels in a table.
-pub fn lines(signals: &[SignalView], ascii: bool) -> Vec<String> {
-    let rows: Vec<[String; 5]> = signals.iter().map(|signal| signal.cells(ascii)).collect();
+/// The channels in a table, and how many that never move are left out because there are too many of them.
+pub fn lines(signals: &[SignalView], ascii: bool, most_still: usize) -> Vec<String> {
+    let mut still = 0;
+    let shown = signals.iter().filter(|signal| {
+        still += usize::from(signal.quantum.is_none());
+        signal.quantum.is_some() || still <= most_still
+    });
+    let rows: Vec<[String; 5]> = shown.map(|signal| signal.cells(ascii)).collect();
     let width = |column: usize| {
         let cells = rows.iter().filter_map(|row| row.get(column));
         cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
@@ -110,7 +126,10 @@ pub fn lines(signals: &[SignalView], ascii: bool) -> Vec<String> {
         });
         cells.collect::<String>().trim_end().to_owned()
     };
-    rows.iter().map(line).collect()
+    let left_out = still.saturating_sub(most_still);
+    let more = (left_out > 0)
+        .then(|| format!("  and {left_out} more that never move, which --json names"));
+    rows.iter().map(line).chain(more).collect()
 }
 
 /// The smallest step between sorted values, and whether all lie on the grid that it makes.

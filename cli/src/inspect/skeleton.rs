@@ -169,12 +169,13 @@ impl Role {
         };
         let unit = &signal.unit;
         let unit = Unit::parse(unit).map_or(FILL_IN, |_| unit);
-        let quantum = match signal.quantum {
-            Some((step, true)) => format!(", quantum = {}", significant(step, 4)),
+        let resolution = match (signal.quantum, signal.noise) {
+            (Some((step, true)), _) => format!(", quantum = {}", significant(step, 4)),
+            (_, Some(noise)) => format!(", noise = {}", significant(noise, 3)),
             _ => String::new(),
         };
         format!(
-            "{key} = {{ channel = {}, unit = {}{quantum} }}   # guess",
+            "{key} = {{ channel = {}, unit = {}{resolution} }}   # guess",
             string(&signal.name),
             string(unit)
         )

@@ -17,6 +17,15 @@ fn foreign(recording: &str) -> String {
     format!("Recorder 1\r\n\r\n{names}\r\n{units}\r\n{rows}")
 }
 
+/// The mechanisms that a diagnosis names.
+fn names(found: &serde_json::Value) -> Vec<&str> {
+    let effects = found["effects"].as_array().unwrap();
+    effects
+        .iter()
+        .map(|effect| effect["mechanism"].as_str().unwrap())
+        .collect()
+}
+
 #[test]
 fn three_commands_lead_from_an_unknown_file_to_a_diagnosis() {
     let desk = Desk::new();
@@ -25,6 +34,11 @@ fn three_commands_lead_from_an_unknown_file_to_a_diagnosis() {
         0,
     );
     desk.put("run.csv", &foreign(&desk.read("case/recording.csv")));
+    let known = desk.json(
+        "diagnose case/recording.csv --rig case/rig.toml --out known --json",
+        0,
+    );
+    let own_rig = desk.read("case/rig.toml");
     std::fs::remove_dir_all(desk.path("case")).unwrap();
 
     let text = desk.prints("inspect run.csv", 0);
@@ -39,8 +53,23 @@ fn three_commands_lead_from_an_unknown_file_to_a_diagnosis() {
     desk.prints("inspect run.csv --write-rig rig.toml", 0);
     let rig = desk.read("rig.toml");
     assert!(rig.contains("plant = \"bench\"   # guess"), "{rig}");
+    // The noise of the load cell is guessed to a tenth of what the maker of the recording put in.
+    let noise = |rig: &str| -> f64 {
+        let number = rig.split("noise = ").nth(1).unwrap().split(' ').next();
+        number.unwrap().parse().unwrap()
+    };
+    assert!(
+        (noise(&rig) / noise(&own_rig) - 1.0).abs() < 0.1,
+        "{rig}\n{own_rig}"
+    );
+    // What a person fills in is the physics that the model has.
+    let physics = own_rig.find("[[effect]]").unwrap();
+    desk.put("rig.toml", &(rig + &own_rig[physics..]));
     let found = desk.json("diagnose run.csv --rig rig.toml --json", 0);
     assert_shape(&found);
+    assert_eq!(found["verdict"], known["verdict"]);
+    assert_eq!(names(&found), ["stribeck"]);
+    assert_eq!(names(&found), names(&known));
     assert_eq!(found["inputs"][0]["read_as"]["separator"], ";");
     assert_eq!(found["inputs"][0]["read_as"]["header_lines"], 2);
     assert!(found["inputs"][1]["read_as"].is_null());
@@ -109,7 +138,7 @@ fn channels_that_look_alike_are_left_to_a_person() {
     assert!(rig.contains("plant = \"fill in\""), "{rig}");
     let said = desk.json("inspect run.csv --ascii --json", 0);
     assert_eq!(said["gaps"].as_array().unwrap().len(), 1);
-    assert_eq!(said["step_s"].as_f64().unwrap(), 4.0 * 1e-3);
+    assert!((said["step_s"].as_f64().unwrap() - 4e-3).abs() < 1e-12);
     let [a, _, spare] = [0, 1, 2].map(|k| &said["channels"][k]);
     assert_eq!(
         (a["quantum"].as_f64(), a["on_grid"].as_bool()),
