@@ -118,7 +118,7 @@ fn next(args: &Args) -> String {
     match &args.write_rig {
         Some(file) => {
             let command = shell::line(&["rigproof", "diagnose"], &[recording, ("--rig", file)]);
-            format!("{command}   (fill in first what {} marks)", file.display())
+            format!("{command}   (check and complete {} first)", file.display())
         }
         None => shell::line(
             &["rigproof", "inspect"],

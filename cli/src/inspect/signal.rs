@@ -95,7 +95,7 @@ impl SignalView {
             (None, _) if self.count == 1 => "one sample".to_owned(),
             (None, _) => "never moves".to_owned(),
             (Some((step, true)), _) => format!("quantum {}", with_unit(step, unit)),
-            (Some(_), Some(noise)) => format!("noise about {}", with_unit(noise, unit)),
+            (Some(_), Some(noise)) => format!("noise up to {}", with_unit(noise, unit)),
             (Some((step, false)), None) => format!("least step {}", with_unit(step, unit)),
         };
         let missing = match self.missing {
