@@ -88,7 +88,8 @@ impl<'a, R: Read> Lines<'a, R> {
 
 /// Splits a line into cells; quotes are taken off, blanks around a cell stay.
 pub(super) struct Splitter {
-    reader: csv_core::Reader,
+    /// Built at the first quote: its tables cost more than a short file takes to read.
+    reader: Option<csv_core::Reader>,
     separator: Separator,
     line: Vec<u8>,
     text: Vec<u8>,
@@ -97,10 +98,8 @@ pub(super) struct Splitter {
 
 impl Splitter {
     pub(super) fn new(separator: Separator) -> Splitter {
-        let mut builder = csv_core::ReaderBuilder::new();
         Splitter {
-            // Built, not cloned: a clone of csv-core's reader forgets its classes of bytes.
-            reader: builder.delimiter(separator.byte()).build(),
+            reader: None,
             separator,
             line: Vec::new(),
             text: Vec::new(),
@@ -120,20 +119,80 @@ impl Splitter {
         } else {
             self.line.extend_from_slice(line.as_bytes());
         }
+        // Between cells that are not unquoted their separators still stand.
+        let between = if self.line.contains(&b'"') || self.line.is_empty() {
+            self.unquote();
+            0
+        } else {
+            self.divide();
+            1
+        };
+        let (text, mut start) = (&self.text, 0);
+        self.ends.iter().map(move |&end| {
+            let cell = text.get(start..end).unwrap_or_default();
+            start = end + between;
+            std::str::from_utf8(cell).unwrap_or_default()
+        })
+    }
+
+    /// Finds the cells of a line without quotes.
+    fn divide(&mut self) {
+        self.text.clone_from(&self.line);
+        let separator = self.separator.byte();
+        let bytes = self.line.iter().enumerate();
+        let separators = bytes.filter(|(_, byte)| **byte == separator);
+        self.ends.clear();
+        self.ends.extend(separators.map(|(at, _)| at));
+        self.ends.push(self.line.len());
+    }
+
+    /// Finds the cells of a line with quotes, and takes the quotes off.
+    fn unquote(&mut self) {
+        let separator = self.separator.byte();
+        let reader = self.reader.get_or_insert_with(|| {
+            let mut builder = csv_core::ReaderBuilder::new();
+            builder.delimiter(separator).build()
+        });
         self.line.push(b'\n');
         // A cell never grows by unquoting, and there is one cell more than separators.
         self.text.resize(self.line.len(), 0);
         self.ends.resize(self.line.len(), 0);
-        self.reader.reset();
-        let (_, _, _, count) = self
-            .reader
-            .read_record(&self.line, &mut self.text, &mut self.ends);
-        let (text, ends) = (&self.text, self.ends.iter().take(count));
-        let mut start = 0;
-        ends.map(move |&end| {
-            let cell = text.get(start..end).unwrap_or_default();
-            start = end;
-            std::str::from_utf8(cell).unwrap_or_default()
-        })
+        reader.reset();
+        let (_, _, _, count) = reader.read_record(&self.line, &mut self.text, &mut self.ends);
+        self.ends.truncate(count);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_is_split_alike_with_quotes_and_without() {
+        for separator in Separator::ALL {
+            let mark = char::from(separator.byte());
+            let mut splitter = Splitter::new(separator);
+            for cells in [
+                &["0.25", "-1.5e3", "µm"][..],
+                &["a", "7.5", "b c", "x"],
+                &["3.25"],
+                &["", "0.75", ""],
+            ] {
+                let splits = separator != Separator::Blank;
+                if !splits
+                    && cells
+                        .iter()
+                        .any(|cell| cell.is_empty() || cell.contains(' '))
+                {
+                    continue;
+                }
+                let plain = cells.join(&mark.to_string());
+                let quoted = cells.iter().map(|cell| format!("\"{cell}\""));
+                let quoted = quoted.collect::<Vec<_>>().join(&mark.to_string());
+                for line in [plain, quoted] {
+                    assert_eq!(splitter.cells(&line).collect::<Vec<_>>(), cells, "{line}");
+                }
+            }
+        }
     }
 }
