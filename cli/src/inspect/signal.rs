@@ -148,7 +148,7 @@ fn quantum(sorted: &[f64]) -> Option<(f64, bool)> {
         .filter(|step| step.is_finite())?;
     let on_grid = values.iter().all(|value| {
         let steps = (value - least) / step;
-        steps < MOST_STEPS && (steps - steps.round()).abs() < OFF_GRID * steps.max(1.0).min(10.0)
+        steps < MOST_STEPS && (steps - steps.round()).abs() < OFF_GRID * steps.clamp(1.0, 10.0)
     });
     Some((step, on_grid && values.len() >= LEAST_VALUES))
 }

@@ -127,9 +127,10 @@ fn matrix(mut bytes: Bytes<'_>, name: &str, found: &mut Found, deeper: usize) ->
             Some(())
         }
         class if NUMERIC.contains(&class) => match dimensions.as_slice() {
-            &[rows, columns] if flags & COMPLEX == 0 => {
+            [rows, columns] if flags & COMPLEX == 0 => {
                 let (kind, real) = bytes.element()?;
                 let numbers = Numbers::new(kind, real)?;
+                let (rows, columns) = (*rows, *columns);
                 let count = rows.checked_mul(columns)?;
                 // An empty array of any shape announces no number.
                 (numbers.len() == count).then_some(())?;
@@ -141,7 +142,7 @@ fn matrix(mut bytes: Bytes<'_>, name: &str, found: &mut Found, deeper: usize) ->
                 found.file.arrays.push((name, numbers));
                 Some(())
             }
-            &[_, _] => {
+            [_, _] => {
                 pass_over(found, &name, "complex");
                 Some(())
             }

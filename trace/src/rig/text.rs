@@ -26,7 +26,7 @@ pub(super) fn read(root: &Table<'_>) -> Result<Hints, TraceError> {
         hints.decimal = Some(choice(&table, "decimal", Decimal::ALL, Decimal::name)?);
     }
     if let Some(count) = table.number("header_lines")? {
-        if count < 0.0 || count > 1e6 || count.fract() != 0.0 {
+        if !(0.0..=1e6).contains(&count) || count.fract() != 0.0 {
             let problem =
                 format!("`header_lines` is {count}; give a whole number from 0 to 1000000");
             return Err(table.error_at("header_lines", problem));
