@@ -5,13 +5,20 @@
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::sync::OnceLock;
 
 use rigproof_trace::csv::TimeColumn;
 use rigproof_trace::mcap::{self, Between, Extras, Selection, Wanted};
 use rigproof_trace::{Channel, Trace};
 
-/// The interpreter of an environment that has the packages, or `None` with a printed line.
+/// The interpreter of an environment that has the packages, or `None` with a printed line. It is made once, whichever
+/// test comes first.
 fn python() -> Option<PathBuf> {
+    static PYTHON: OnceLock<Option<PathBuf>> = OnceLock::new();
+    PYTHON.get_or_init(environment).clone()
+}
+
+fn environment() -> Option<PathBuf> {
     let home = Path::new(env!("CARGO_TARGET_TMPDIR")).join("python");
     let python = home.join("bin").join("python");
     let ready = |python: &Path| {
@@ -27,7 +34,7 @@ fn python() -> Option<PathBuf> {
             .output();
         let packages = ["mcap==1.*", "mcap-ros2-support==0.6.*", "rosbags==0.11.*"];
         let _ = Command::new(&python)
-            .args(["-m", "pip", "install", "--quiet"])
+            .args(["-m", "pip", "install", "--quiet", "--retries", "1"])
             .args(packages)
             .output();
     }
