@@ -115,6 +115,7 @@ impl TopicView {
             (lag_s, _) if lag_s > ANOTHER_CLOCK_S => {
                 "  stamped by another clock than that of the file".to_owned()
             }
+            (0.0, _) => "  stamped as it was written".to_owned(),
             (lag_s, true) => format!("  stamped {} s before it was written", s(lag_s)),
             (lag_s, false) => format!("  stamped {} s after it was written", s(lag_s)),
         }));

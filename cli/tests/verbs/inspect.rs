@@ -17,6 +17,12 @@ fn foreign(recording: &str) -> String {
     format!("Recorder 1\r\n\r\n{names}\r\n{units}\r\n{rows}")
 }
 
+/// The first noise of a rig description.
+fn noise(rig: &str) -> f64 {
+    let number = rig.split("noise = ").nth(1).unwrap().split(' ').next();
+    number.unwrap().parse().unwrap()
+}
+
 /// The mechanisms that a diagnosis names.
 fn names(found: &serde_json::Value) -> Vec<&str> {
     let effects = found["effects"].as_array().unwrap();
@@ -54,10 +60,6 @@ fn three_commands_lead_from_an_unknown_file_to_a_diagnosis() {
     let rig = desk.read("rig.toml");
     assert!(rig.contains("plant = \"bench\"   # guess"), "{rig}");
     // The noise of the load cell is guessed to a tenth of what the maker of the recording put in.
-    let noise = |rig: &str| -> f64 {
-        let number = rig.split("noise = ").nth(1).unwrap().split(' ').next();
-        number.unwrap().parse().unwrap()
-    };
     assert!(
         (noise(&rig) / noise(&own_rig) - 1.0).abs() < 0.1,
         "{rig}\n{own_rig}"
@@ -90,6 +92,8 @@ fn what_is_not_known_is_filled_in_by_a_person() {
         0,
     );
     desk.prints("inspect case/recording.csv --write-rig rig.toml", 0);
+    let noise = |name: &str| noise(&desk.read(name));
+    assert!((noise("rig.toml") / noise("case/rig.toml") - 1.0).abs() < 0.1);
     let refused = |expected: &str| {
         let answer = desk.rigproof("diagnose case/recording.csv --rig rig.toml");
         let message = String::from_utf8(answer.stderr).unwrap();
