@@ -1,25 +1,29 @@
-//! This file turns other people's recordings into CSV.
+//! This file turns other people's recordings into CSV or MCAP.
+
+mod messages;
 
 use std::path::{Path, PathBuf};
 
 use clap::ArgGroup;
 use rigproof_spec::units::Unit;
 use rigproof_trace::arrays::{Arrays, Selection, TimeSource};
-use rigproof_trace::csv::{self, TimeColumn};
+use rigproof_trace::csv::{self, Dialect, TimeColumn};
+use rigproof_trace::mcap;
 use rigproof_trace::suggest::quoted;
 use rigproof_trace::{Trace, TraceError};
 use serde_json::{Value, json};
 
 use crate::outcome::{Failure, Outcome, print};
+use crate::reading::{self, Reading};
 
 /// What is to be converted.
 #[derive(clap::Args)]
 #[command(after_help = AFTER_HELP)]
 #[command(group = ArgGroup::new("time").args(["rate_hz", "rate_from", "time_from"]))]
 pub struct Args {
-    /// The recording: HDF5, MATLAB (version 5 to 7.3) or CSV, told apart by its content
+    /// The recording: HDF5, MATLAB (version 5 to 7.3), MCAP or CSV, told apart by its content
     input: PathBuf,
-    /// The CSV file to write
+    /// The file to write: MCAP if its name ends in `.mcap`, else CSV
     #[arg(required_unless_present = "list", conflicts_with = "list")]
     output: Option<PathBuf>,
     /// Say what the file holds, and write nothing
@@ -37,15 +41,21 @@ pub struct Args {
     /// Time runs at the rate, in Hz, that this variable holds
     #[arg(long, value_name = "NAME")]
     rate_from: Option<String>,
-    /// Time stamps are in this variable or column, in s unless `--unit` says otherwise
+    /// Time stamps are in this variable or column, in s unless `--unit` says otherwise; of MCAP also `log_time`,
+    /// `publish_time` or a field such as `header.stamp`
     #[arg(long, value_name = "NAME")]
     time_from: Option<String>,
     /// State the unit of a variable; the numbers stay as they are
     #[arg(long = "unit", value_name = "NAME=UNIT", value_parser = parse_unit)]
     units: Vec<(String, String)>,
+    /// Put this file into the MCAP file, such as the rig description or the calibration
+    #[arg(long, value_name = "FILE")]
+    attach: Vec<PathBuf>,
     /// Print the result as JSON
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    reading: Reading,
 }
 
 const AFTER_HELP: &str = "\
@@ -53,21 +63,48 @@ Examples:
   rigproof convert --list data_simulation_4.4_MRdamper.mat
   rigproof convert data_simulation_4.4_MRdamper.mat damper.csv --variables 'dist1[1],forc1[1]' \\
       --time-from 'forc1[0]' --unit 'dist1[1]=mm' --unit 'forc1[1]=N'
-  rigproof convert test.h5 multisine.csv --group multisine --variables u,y --rate-hz 750";
+  rigproof convert test.h5 multisine.csv --group multisine --variables u,y --rate-hz 750
+  rigproof convert run.csv run.mcap --attach rig.toml
+  rigproof convert bag.mcap run.csv --variables '/joint_states.position[name=elbow],/wrench.wrench.torque.z'";
 
 /// Converts a recording, or lists what it holds.
 pub fn run(args: &Args) -> Result<Outcome, Failure> {
+    let to_mcap = args.output.as_ref().is_some_and(|output| {
+        let extension = output.extension().unwrap_or_default();
+        extension.eq_ignore_ascii_case("mcap")
+    });
+    if !to_mcap && !args.attach.is_empty() {
+        let problem = "--attach is for MCAP files; give the output a name that ends in `.mcap`";
+        return Err(Failure::Usage(problem.into()));
+    }
+    if mcap::is_mcap(&args.input)? {
+        return messages::run(args, to_mcap);
+    }
     let arrays = open(&args.input)?;
     // Without an output the command line asks for the list.
     let Some(output) = &args.output else {
         return list(args, arrays.as_ref());
     };
-    let trace = match arrays {
-        Some(arrays) => arrays.recording(&selection(args)?)?,
-        None => text_recording(args)?,
+    let (trace, dialect) = match arrays {
+        Some(arrays) => (arrays.recording(&selection(args)?)?, None),
+        None => text_recording(args).map(|(trace, dialect)| (trace, Some(dialect)))?,
     };
-    csv::write(output, &trace)?;
-    report(args, output, &trace)
+    write(args, output, &trace, dialect, to_mcap)
+}
+
+/// Writes the recording and says what it holds.
+fn write(
+    args: &Args,
+    output: &Path,
+    trace: &Trace,
+    dialect: Option<Dialect>,
+    to_mcap: bool,
+) -> Result<Outcome, Failure> {
+    match to_mcap {
+        true => mcap::write(output, trace, &messages::extras(args)?)?,
+        false => csv::write(output, trace)?,
+    }
+    report(args, output, trace, dialect)
 }
 
 /// The arrays of an HDF5 or MATLAB file, or `None` for text.
@@ -118,7 +155,7 @@ fn selection(args: &Args) -> Result<Selection, Failure> {
     })
 }
 
-fn text_recording(args: &Args) -> Result<Trace, Failure> {
+fn text_recording(args: &Args) -> Result<(Trace, Dialect), Failure> {
     if args.rate_hz.is_some() || args.rate_from.is_some() || args.group.is_some() {
         return Err(Failure::Usage(
             "--rate-hz, --rate-from and --group are for HDF5 and MATLAB files; a text file has a time column".into(),
@@ -133,7 +170,7 @@ fn text_recording(args: &Args) -> Result<Trace, Failure> {
             unit,
         }
     });
-    let mut trace = csv::read_with_time(&args.input, time.as_ref())?;
+    let (mut trace, dialect) = csv::read_as(&args.input, time.as_ref(), &args.reading.hints())?;
     let missing = |trace: &Trace, name: &str| {
         let names = quoted(trace.channels.iter().map(|channel| channel.name.as_str()));
         let problem =
@@ -160,13 +197,14 @@ fn text_recording(args: &Args) -> Result<Trace, Failure> {
         });
         trace.channels = chosen.collect::<Result<_, _>>()?;
     }
-    Ok(trace)
+    Ok((trace, dialect))
 }
 
 fn list(args: &Args, arrays: Option<&Arrays>) -> Result<Outcome, Failure> {
     let file = args.input.display().to_string();
     let Some(arrays) = arrays else {
-        return report(args, &args.input, &text_recording(args)?);
+        let (trace, dialect) = text_recording(args)?;
+        return report(args, &args.input, &trace, Some(dialect));
     };
     let entries = arrays.entries();
     if args.json {
@@ -184,7 +222,12 @@ fn list(args: &Args, arrays: Option<&Arrays>) -> Result<Outcome, Failure> {
 }
 
 /// Says what a recording holds.
-fn report(args: &Args, file: &Path, trace: &Trace) -> Result<Outcome, Failure> {
+fn report(
+    args: &Args,
+    file: &Path,
+    trace: &Trace,
+    dialect: Option<Dialect>,
+) -> Result<Outcome, Failure> {
     let from_s = trace.time_s.first();
     let to_s = trace.time_s.last();
     if args.json {
@@ -196,6 +239,7 @@ fn report(args: &Args, file: &Path, trace: &Trace) -> Result<Outcome, Failure> {
         let file = file.display().to_string();
         let result = json!({
             "file": file, "samples": trace.len(), "from_s": from_s, "to_s": to_s, "channels": channels,
+            "read_as": dialect.map(reading::in_json),
         });
         return print(&result.to_string());
     }
@@ -208,8 +252,11 @@ fn report(args: &Args, file: &Path, trace: &Trace) -> Result<Outcome, Failure> {
         });
     let channels: Vec<String> = channels.collect();
     let (from_s, to_s) = (from_s.unwrap_or(&0.0), to_s.unwrap_or(&0.0));
+    let said = dialect.map_or(String::new(), |dialect| {
+        format!("\n{}", reading::in_words(&args.input, &dialect))
+    });
     print(&format!(
-        "{}: {} samples from {from_s} s to {to_s} s; {}",
+        "{}: {} samples from {from_s} s to {to_s} s; {}{said}",
         file.display(),
         trace.len(),
         channels.join(", ")

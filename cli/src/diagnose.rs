@@ -9,7 +9,7 @@ use rigproof_trace::store::Folder;
 
 use crate::input::{self, Cut, Source};
 use crate::outcome::{Failure, Outcome, print};
-use crate::{folder, progress, shell, text};
+use crate::{folder, progress, reading, shell, text};
 
 /// What is to be diagnosed.
 #[derive(clap::Args)]
@@ -48,27 +48,37 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     // A wrong place is refused before the work, not after it.
     drop(Folder::begin(&out)?);
     let rig = Rig::read(&args.source.rig)?;
-    let recording = input::recording(&rig, &args.source.recording, args.source.cut)?;
+    let source = &args.source;
+    let read = |file: &PathBuf, cut| input::recording(&rig, file, cut, &source.reading);
+    let (recording, dialect) = read(&source.recording, source.cut)?;
     let held_out = match &args.hold_out {
-        Some(file) => Some(input::recording(&rig, file, Cut::default())?),
+        Some(file) => Some((file, read(file, Cut::default())?)),
         None => None,
     };
-    let files = [
-        Some(&args.source.recording),
-        args.hold_out.as_ref(),
-        Some(&args.source.rig),
-    ];
-    let identities = files.into_iter().flatten();
-    let identities = identities.map(|file| input::identity(file));
+    let mut files = vec![(&source.recording, dialect)];
+    files.extend(
+        held_out
+            .iter()
+            .map(|(file, (_, dialect))| (*file, *dialect)),
+    );
+    let dialects: Vec<String> = files
+        .iter()
+        .filter_map(|(file, dialect)| Some(reading::in_words(file, dialect.as_ref()?)))
+        .collect();
+    files.push((&source.rig, None));
+    let identities = files.into_iter();
+    let identities = identities.map(|(file, dialect)| input::identity(file, dialect));
     let identities = identities.collect::<Result<Vec<_>, _>>()?;
     let options = Options {
         hold_out_share: args.hold_out_share,
         ..Options::default()
     };
     let mark = progress::spinner("diagnosing");
+    let held_out = held_out.map(|(_, (recording, _))| recording);
     let mut diagnosis = diagnose(&rig, &recording, held_out.as_ref(), &options);
     drop(mark);
     diagnosis.report.inputs = identities;
+    diagnosis.report.protocol.extend(dialects);
     let folder = Folder::begin(&out)?;
     let files = folder::write(&folder, &rig.name, &mut diagnosis)?;
     folder.finish()?;

@@ -1,6 +1,7 @@
 //! This file is the verb of the golden cases: what the model computed, checked in.
 
 mod check;
+mod export;
 mod regenerate;
 
 use clap::Subcommand;
@@ -22,6 +23,8 @@ enum Verb {
     Check(check::Args),
     /// Write cases anew from the model
     Regenerate(regenerate::Args),
+    /// Write what the model computes as MCAP files, to look at
+    Export(export::Args),
 }
 
 const AFTER_HELP: &str = "\
@@ -29,13 +32,15 @@ A case is a folder with manifest.toml, input.csv and expected.csv. Nothing but `
 
 Example:
   rigproof golden check
-  rigproof golden regenerate brake_step_a";
+  rigproof golden regenerate brake_step_a
+  rigproof golden export golden-mcap brake_step_a";
 
 /// Runs one of the verbs.
 pub fn run(args: &Args) -> Result<Outcome, Failure> {
     match &args.verb {
         Verb::Check(args) => check::run(args),
         Verb::Regenerate(args) => regenerate::run(args),
+        Verb::Export(args) => export::run(args),
     }
 }
 

@@ -4,13 +4,15 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use rigproof_diagnose::report::InputFile;
-use rigproof_trace::csv::LEAST_SAMPLES;
+use rigproof_diagnose::report::{InputFile, ReadAs};
+use rigproof_trace::csv::{Dialect, LEAST_SAMPLES};
+use rigproof_trace::mcap;
 use rigproof_trace::rig::{Recording, Rig, Signal};
 use rigproof_trace::{Place, TraceError};
 use sha2::{Digest, Sha256};
 
-use crate::outcome::Failure;
+use crate::outcome::{self, Failure};
+use crate::reading::Reading;
 
 /// Which part of a recording counts.
 #[derive(Clone, Copy, Debug, Default, clap::Args)]
@@ -26,21 +28,46 @@ pub struct Cut {
 /// A recording, the rig it is of, and the part that counts.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Source {
-    /// The recording, CSV
+    /// The recording: CSV in any dialect or MCAP, told apart by its content
     pub recording: PathBuf,
     /// The rig description: what the channels mean and which physics the nominal model has
     #[arg(long, value_name = "TOML")]
     pub rig: PathBuf,
     #[command(flatten)]
     pub cut: Cut,
+    #[command(flatten)]
+    pub reading: Reading,
 }
 
-/// Reads a recording of a rig and cuts it.
+/// Reads a recording of a rig, and says how it was read where it is text.
+///
+/// # Errors
+/// The file is not usable.
+pub fn whole(
+    rig: &Rig,
+    file: &Path,
+    reading: &Reading,
+) -> Result<(Recording, Option<Dialect>), Failure> {
+    if mcap::is_mcap(file)? {
+        let (recording, lines) = rig.read_mcap(file)?;
+        outcome::note(file, &lines);
+        return Ok((recording, None));
+    }
+    let (recording, dialect) = rig.read_text(file, &reading.hints())?;
+    Ok((recording, Some(dialect)))
+}
+
+/// Reads a recording of a rig and cuts it, and says how it was read.
 ///
 /// # Errors
 /// The file is not usable, or the cut leaves too little.
-pub fn recording(rig: &Rig, file: &Path, cut: Cut) -> Result<Recording, Failure> {
-    let recording = rig.read_recording(file)?;
+pub fn recording(
+    rig: &Rig,
+    file: &Path,
+    cut: Cut,
+    reading: &Reading,
+) -> Result<(Recording, Option<Dialect>), Failure> {
+    let (recording, dialect) = whole(rig, file, reading)?;
     let first_s = cut.from_s.unwrap_or(f64::NEG_INFINITY);
     let last_s = cut.to_s.unwrap_or(f64::INFINITY);
     let kept: Vec<bool> = recording
@@ -57,21 +84,22 @@ pub fn recording(rig: &Rig, file: &Path, cut: Cut) -> Result<Recording, Failure>
         );
         return Err(Failure::unusable(file, problem));
     }
-    Ok(Recording {
+    let cut = Recording {
         time_s: part(&recording.time_s, &kept),
         position: signal(&recording.position, &kept),
         drive: recording.drive.as_ref().map(|s| signal(s, &kept)),
         force: recording.force.as_ref().map(|s| signal(s, &kept)),
         simulated: recording.simulated.as_ref().map(|s| signal(s, &kept)),
         ..recording
-    })
+    };
+    Ok((cut, dialect))
 }
 
-/// A file's path as given and its SHA-256.
+/// A file's path as given, its SHA-256, and how it was read if it is a text recording.
 ///
 /// # Errors
 /// The file cannot be read, or is none that can be read twice.
-pub fn identity(file: &Path) -> Result<InputFile, Failure> {
+pub fn identity(file: &Path, dialect: Option<Dialect>) -> Result<InputFile, Failure> {
     let refused = |source| TraceError::File {
         action: "read",
         path: file.to_path_buf(),
@@ -97,6 +125,7 @@ pub fn identity(file: &Path) -> Result<InputFile, Failure> {
     Ok(InputFile {
         path: file.display().to_string(),
         sha256: hexadecimal(&hash.finalize()),
+        read_as: dialect.map(ReadAs::from),
     })
 }
 
@@ -105,6 +134,7 @@ pub fn identity_of(name: &str, bytes: &[u8]) -> InputFile {
     InputFile {
         path: name.to_owned(),
         sha256: hexadecimal(&Sha256::digest(bytes)),
+        read_as: None,
     }
 }
 
@@ -136,7 +166,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("abc.txt");
         std::fs::write(&file, "abc").unwrap();
-        assert_eq!(identity(&file).unwrap().sha256, expected);
-        assert!(identity(folder.path()).is_err());
+        assert_eq!(identity(&file, None).unwrap().sha256, expected);
+        assert!(identity(folder.path(), None).is_err());
     }
 }

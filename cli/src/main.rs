@@ -12,9 +12,11 @@ mod folder;
 mod golden;
 mod identify;
 mod input;
+mod inspect;
 mod outcome;
 mod picture;
 mod progress;
+mod reading;
 mod reproduce;
 mod shell;
 mod simulate;
@@ -55,7 +57,9 @@ enum Verb {
     Golden(golden::Args),
     /// Say where an equation of the thesis is obeyed, witnessed, and known to be wrong
     Cite(cite::Args),
-    /// Turn a recording in HDF5, MATLAB or CSV into a normalised CSV file
+    /// Say what is in a recording, and begin a rig description for it
+    Inspect(inspect::Args),
+    /// Turn a recording in HDF5, MATLAB, MCAP or CSV into a normalised CSV file, or into MCAP for viewers
     Convert(convert::Args),
 }
 
@@ -81,6 +85,7 @@ fn run(verb: &Verb) -> Result<Outcome, Failure> {
         Verb::Reproduce(args) => reproduce::run(args),
         Verb::Golden(args) => golden::run(args),
         Verb::Cite(args) => cite::run(args),
+        Verb::Inspect(args) => inspect::run(args),
         Verb::Convert(args) => convert::run(args),
     }
 }

@@ -22,7 +22,7 @@ pub use check::{Cell, Difference, check, orphans};
 pub use claim::{Claim, Shows};
 pub use error::Error;
 pub use manifest::Manifest;
-pub use regenerate::regenerate;
+pub use regenerate::{Computed, computed, regenerate};
 pub use table::Table;
 
 /// Where the cases lie, seen from the root of the project.

@@ -1,6 +1,7 @@
 //! This file takes arrays out of HDF5 and MATLAB files and makes a recording of them.
 
 mod assemble;
+mod bytes;
 mod hdf5;
 mod matlab;
 
@@ -19,12 +20,26 @@ pub struct Arrays {
     path: PathBuf,
     content: Content,
     entries: Vec<Entry>,
+    passed_over: Vec<PassedOver>,
 }
+
+/// A variable that holds no array of real numbers, and what it is instead.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PassedOver {
+    /// The name.
+    pub name: String,
+    /// What it is.
+    pub what: &'static str,
+}
+
+/// The most numbers that are read of one array: 1 GiB.
+const MOST_NUMBERS: usize = 1 << 27;
 
 /// One array of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Entry {
-    /// The name, with the groups it stands in before it, separated by `/`.
+    /// The name, with what it stands in before it: groups of HDF5 end in `/`, structures of MATLAB in `.` (`Y[1].Data`
+    /// of the second structure of an array).
     pub name: String,
     /// Rows; a vector stands upright.
     pub rows: usize,
@@ -34,10 +49,10 @@ pub struct Entry {
 
 #[derive(Debug)]
 enum Content {
-    Hdf5(Box<hdf5_pure::File>),
+    Hdf5(hdf5::Datasets),
     /// HDF5 as MATLAB writes it: every array lies on its side.
-    Matlab73(Box<hdf5_pure::File>),
-    Matlab(matfile::MatFile),
+    Matlab73(hdf5::Datasets),
+    Matlab(matlab::MatFile),
 }
 
 impl Arrays {
@@ -52,18 +67,20 @@ impl Arrays {
             .and_then(|file| file.take(1024).read_to_end(&mut start))
             .map_err(TraceError::io("read", path))?;
         let is_hdf5 = hdf5_pure::is_hdf5(path).map_err(TraceError::io("read", path))?;
-        let (content, mut entries) = if is_hdf5 {
-            let (file, mut entries) = hdf5::open(path)?;
-            if start.starts_with(b"MATLAB 7.3") {
+        let (content, mut entries, passed_over) = if is_hdf5 {
+            let from_matlab = start.starts_with(b"MATLAB 7.3");
+            let (datasets, mut entries, passed_over) = hdf5::open(path, from_matlab)?;
+            if from_matlab {
                 for entry in &mut entries {
                     (entry.rows, entry.columns) = (entry.columns, entry.rows);
                 }
-                (Content::Matlab73(Box::new(file)), entries)
+                (Content::Matlab73(datasets), entries, passed_over)
             } else {
-                (Content::Hdf5(Box::new(file)), entries)
+                (Content::Hdf5(datasets), entries, passed_over)
             }
         } else if start.starts_with(b"MATLAB 5.0") {
-            matlab::open(path).map(|(file, entries)| (Content::Matlab(file), entries))?
+            let (file, entries, passed_over) = matlab::open(path)?;
+            (Content::Matlab(file), entries, passed_over)
         } else {
             return Ok(None);
         };
@@ -77,6 +94,7 @@ impl Arrays {
             path: path.to_path_buf(),
             content,
             entries,
+            passed_over,
         }))
     }
 
@@ -85,14 +103,54 @@ impl Arrays {
         &self.entries
     }
 
+    /// Variables that hold no array of real numbers.
+    pub fn passed_over(&self) -> &[PassedOver] {
+        &self.passed_over
+    }
+
+    /// The array of that name; structures may be named as MATLAB does, `Y(2).Data` for `Y[1].Data`.
+    fn entry(&self, name: &str) -> Option<&Entry> {
+        let named = |name: &str| self.entries.iter().find(|entry| entry.name == name);
+        if let Content::Hdf5(_) = self.content {
+            return named(name);
+        }
+        let name = from_matlab(name);
+        // A single structure has no index.
+        named(&name).or_else(|| named(&name.replace("[0].", ".")))
+    }
+
+    fn no_variable(&self, name: &str) -> String {
+        let own = self
+            .passed_over
+            .iter()
+            .find(|other| from_matlab(name).starts_with(&other.name));
+        if let Some(PassedOver { name, what }) = own {
+            return format!(
+                "`{name}` is {what}, which is not read; in MATLAB, save its numbers as arrays, such as `t = {name}.Time; x = {name}.Data`"
+            );
+        }
+        let names: Vec<&str> = self.entries.iter().map(|e| e.name.as_str()).collect();
+        let advice = advice(name, "variables", &names);
+        format!("there is no variable `{name}`; {advice}")
+    }
+
     /// One column of an array: `name`, or `name[k]` with k counted from 0 where there is more than one.
-    fn column(&self, wanted: &str) -> Result<Vec<f64>, TraceError> {
+    ///
+    /// # Errors
+    /// There is no such array or column, or the file is damaged.
+    pub fn column(&self, wanted: &str) -> Result<Vec<f64>, TraceError> {
         let refused = |problem: String| TraceError::recording(&self.path, problem);
         let (name, index) = split_index(wanted);
-        let Some(entry) = self.entries.iter().find(|entry| entry.name == name) else {
-            let names: Vec<&str> = self.entries.iter().map(|e| e.name.as_str()).collect();
-            let advice = advice(name, "variables", &names);
-            return Err(refused(format!("there is no variable `{name}`; {advice}")));
+        let Some(entry) = self.entry(name) else {
+            return Err(refused(self.no_variable(name)));
+        };
+        let name = entry.name.as_str();
+        let count = entry.rows.checked_mul(entry.columns);
+        let Some(count) = count.filter(|count| *count <= MOST_NUMBERS) else {
+            return Err(refused(format!(
+                "`{name}` has {} × {} numbers, at most {MOST_NUMBERS} are read",
+                entry.rows, entry.columns
+            )));
         };
         let index = match (index, entry.columns) {
             (Some(index), columns) if index < columns => index,
@@ -105,11 +163,11 @@ impl Arrays {
             }
         };
         let (values, row_major) = match &self.content {
-            Content::Hdf5(file) => (hdf5::values(file, &self.path, name)?, true),
-            Content::Matlab73(file) => (hdf5::values(file, &self.path, name)?, false),
+            Content::Hdf5(datasets) => (hdf5::values(datasets, &self.path, name)?, true),
+            Content::Matlab73(datasets) => (hdf5::values(datasets, &self.path, name)?, false),
             Content::Matlab(file) => (matlab::values(file, name), false),
         };
-        if values.len() != entry.rows * entry.columns {
+        if values.len() != count {
             let (found, rows, columns) = (values.len(), entry.rows, entry.columns);
             return Err(refused(format!(
                 "`{name}` holds {found} numbers where {rows} × {columns} were announced; the file is damaged"
@@ -128,6 +186,26 @@ impl Arrays {
     }
 }
 
+/// A path as MATLAB writes it, or with `/`, in the form of [`Entry::name`].
+fn from_matlab(path: &str) -> String {
+    let mut name = String::new();
+    let mut rest = path;
+    while let Some((before, after)) = rest.split_once('(') {
+        let index = after.split_once(')').and_then(|(index, after)| {
+            let index: usize = index.parse().ok()?;
+            Some((index.checked_sub(1)?, after))
+        });
+        name += before;
+        let (index, after) = match index {
+            Some((index, after)) => (format!("[{index}]"), after),
+            None => ("(".to_owned(), after),
+        };
+        name += &index;
+        rest = after;
+    }
+    (name + rest).replace('/', ".")
+}
+
 /// The name and the index of `name[k]`.
 fn split_index(text: &str) -> (&str, Option<usize>) {
     let indexed = || {
@@ -137,5 +215,7 @@ fn split_index(text: &str) -> (&str, Option<usize>) {
     indexed().map_or((text, None), |(name, index)| (name, Some(index)))
 }
 
+#[cfg(test)]
+mod structures;
 #[cfg(test)]
 mod tests;

@@ -64,7 +64,7 @@ pub enum TraceError {
         source: io::Error,
     },
     /// The file is no text.
-    #[error("{place}: {problem}; give a comma-separated text file in UTF-8")]
+    #[error("{place}: {problem}; give a text file in UTF-8, or in UTF-16 with a byte-order mark")]
     NotText {
         /// Where.
         place: Place,
@@ -99,7 +99,7 @@ pub enum TraceError {
     },
     /// A line has another number of cells than the header.
     #[error(
-        "{place}: the line has {found} cells, the header has {expected}; the line is cut off or holds a decimal comma"
+        "{place}: the line has {found} cells, the header has {expected}; the line is cut off, or its decimal commas look like separators: export it with another separator or with decimal points"
     )]
     CellCount {
         /// Where.

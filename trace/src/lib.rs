@@ -12,6 +12,7 @@ pub mod compare;
 pub mod csv;
 pub mod error;
 pub mod header;
+pub mod mcap;
 pub mod rig;
 pub mod series;
 pub mod store;

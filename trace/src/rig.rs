@@ -6,9 +6,11 @@
 mod apply;
 mod brake;
 pub mod linkage;
+mod messages;
 mod protocol;
 mod read;
 mod table;
+mod text;
 mod write;
 
 use std::collections::BTreeMap;
@@ -17,13 +19,16 @@ use std::path::Path;
 use rigproof_spec::effect::{Mechanism, Motion, Quantity};
 use rigproof_spec::units::{Dimension, Unit};
 
-use crate::csv::TimeColumn;
+use crate::csv::{Hints, TimeColumn};
 use crate::error::TraceError;
 use crate::store;
 
 pub use apply::{Recording, Signal};
 pub use brake::{Brake, Gain, Surface};
 pub use protocol::{Drive, Protocol};
+
+/// What stands in a description that was begun for somebody, wherever something is to be filled in.
+pub const FILL_IN: &str = "fill in";
 
 /// A rig: what it is, what is known of it, and how its recordings are to be read.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,6 +43,8 @@ pub struct Rig {
     pub source: Option<String>,
     /// What the channels of its recordings mean.
     pub channels: Channels,
+    /// How its recordings are written down, where that cannot be seen in them.
+    pub text: Hints,
     /// Parameters of an `axis`; a `bench` has none.
     pub parameters: Option<Parameters>,
     /// The brake that the nominal model holds; only on a turning `bench`.

@@ -20,6 +20,17 @@ const LARGEST_TEXT: u64 = 16 << 20;
 /// # Errors
 /// The place is a folder or a device, or the system refuses.
 pub fn write_aside(path: &Path, bytes: &[u8]) -> Result<(), TraceError> {
+    write_aside_with(path, |file| file.write_all(bytes))
+}
+
+/// As [`write_aside`], with a file to write to instead of bytes.
+///
+/// # Errors
+/// As [`write_aside`], or what the writing itself ran into.
+pub fn write_aside_with(
+    path: &Path,
+    write: impl FnOnce(&mut File) -> io::Result<()>,
+) -> Result<(), TraceError> {
     let refused = || TraceError::io("write", path);
     let place = match fs::metadata(path) {
         Ok(metadata) if metadata.is_file() => fs::canonicalize(path).map_err(refused())?,
@@ -40,7 +51,7 @@ pub fn write_aside(path: &Path, bytes: &[u8]) -> Result<(), TraceError> {
             OpenOptions::new().write(true).create_new(true).open(aside)
         })
         .map_err(refused())?;
-    temporary.write_all(bytes).map_err(refused())?;
+    write(temporary.as_file_mut()).map_err(refused())?;
     temporary.as_file().sync_all().map_err(refused())?;
     temporary
         .persist(&place)

@@ -5,13 +5,15 @@ use std::path::{Path, PathBuf};
 
 use rigproof_diagnose::identify::{Identified, identify};
 use rigproof_trace::TraceError;
+use rigproof_trace::csv::Dialect;
 use rigproof_trace::rig::{Brake, Recording, Rig};
 use rigproof_trace::store::write_aside;
 
 use super::words;
 use crate::outcome::{Failure, Outcome, print};
+use crate::reading::{self, Reading};
 use crate::text::{join, section};
-use crate::{progress, shell};
+use crate::{input, progress, shell};
 
 /// What is to be identified.
 #[derive(clap::Args)]
@@ -29,6 +31,8 @@ pub struct Args {
     /// Print the result as JSON
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    reading: Reading,
 }
 
 const AFTER_HELP: &str = "\
@@ -45,12 +49,15 @@ Example:
   rigproof identify brake steps-0.5-rpm.csv steps-4-rpm.csv sine.csv --rig bench.toml --out brake.toml";
 
 /// Identifies, writes the rig file and prints the table.
-pub fn run(args: &Args) -> Result<Outcome, Failure> {
+pub fn run<'a>(args: &'a Args) -> Result<Outcome, Failure> {
     let out = out(args)?;
     once_each(&args.recordings)?;
     let rig = Rig::read(&args.rig)?;
-    let read = |file: &PathBuf| -> Result<(String, Recording), Failure> {
-        Ok((file.display().to_string(), rig.read_recording(file)?))
+    let mut dialects: Vec<(&PathBuf, Dialect)> = Vec::new();
+    let read = |file: &'a PathBuf| -> Result<(String, Recording), Failure> {
+        let (recording, dialect) = input::whole(&rig, file, &args.reading)?;
+        dialects.extend(dialect.map(|dialect| (file, dialect)));
+        Ok((file.display().to_string(), recording))
     };
     let recordings = args.recordings.iter().map(read);
     let recordings = recordings.collect::<Result<Vec<_>, _>>()?;
@@ -69,13 +76,21 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     };
     let refused = written.as_ref().err().map(String::as_str);
     if args.json {
-        print(&words::json(&found, file, refused).to_string())?;
+        let mut result = words::json(&found, file, refused);
+        let read_as = dialects
+            .iter()
+            .map(|(_, dialect)| reading::in_json(*dialect));
+        result["read_as"] = read_as.collect();
+        print(&result.to_string())?;
     } else {
+        let said = dialects.iter();
+        let said = said.map(|(file, dialect)| format!("  {}", reading::in_words(file, dialect)));
         let next = file.map(|file| next(args, file));
         print(&join(
             words::sections(&found, recordings.len())
                 .into_iter()
                 .chain([
+                    section("Recordings", said),
                     section("No rig file was written", refused.map(|r| format!("  {r}"))),
                     section("Files", file.map(|file| format!("  {}", file.display()))),
                     section("Next", next.map(|next| format!("  {next}"))),

@@ -10,6 +10,7 @@ fn every_verb_shows_an_example_and_says_what_it_does() {
         &["demo"],
         &["design"],
         &["convert"],
+        &["inspect"],
         &["reproduce"],
         &["golden", "check"],
         &["golden", "regenerate"],

@@ -10,4 +10,5 @@ mod diagnose;
 mod golden;
 mod help;
 mod identify;
+mod inspect;
 mod reproduce;

@@ -1,60 +1,161 @@
-//! This file reads the numeric datasets of an HDF5 file.
+//! This file reads the numeric datasets of an HDF5 file, and what MATLAB 7.3 makes of structures.
 
+use std::collections::HashMap;
 use std::path::Path;
 
-use hdf5_pure::{DType, File, Group};
+use hdf5_pure::{DType, Dataset, File, Group, Object};
 
-use super::Entry;
+use super::{Entry, PassedOver};
 use crate::error::TraceError;
 
 /// Groups deeper than this are not looked into, so that a file that refers to itself ends.
 const DEEPEST: usize = 16;
+/// The most groups and datasets that are looked at, so that such a file ends soon.
+const MOST_OBJECTS: usize = 1 << 16;
 
-pub(super) fn open(path: &Path) -> Result<(File, Vec<Entry>), TraceError> {
+/// The datasets by their names.
+#[derive(Debug, Default)]
+pub(super) struct Datasets(HashMap<String, Dataset>);
+
+/// What was found on the way.
+struct Found {
+    /// Whether MATLAB wrote the file.
+    matlab: bool,
+    datasets: Datasets,
+    entries: Vec<Entry>,
+    passed_over: Vec<PassedOver>,
+    seen: usize,
+}
+
+pub(super) fn open(
+    path: &Path,
+    matlab: bool,
+) -> Result<(Datasets, Vec<Entry>, Vec<PassedOver>), TraceError> {
     let file = File::open_streaming(path).map_err(damaged(path))?;
-    let mut entries = Vec::new();
-    collect(&file.root(), "", DEEPEST, &mut entries).map_err(damaged(path))?;
-    Ok((file, entries))
+    let mut found = Found {
+        matlab,
+        datasets: Datasets::default(),
+        entries: Vec::new(),
+        passed_over: Vec::new(),
+        seen: 0,
+    };
+    found
+        .group(&file.root(), "", DEEPEST)
+        .map_err(damaged(path))?;
+    Ok((found.datasets, found.entries, found.passed_over))
 }
 
-pub(super) fn values(file: &File, path: &Path, name: &str) -> Result<Vec<f64>, TraceError> {
-    let dataset = file.dataset(name).map_err(damaged(path))?;
-    dataset.read_f64().map_err(damaged(path))
+pub(super) fn values(datasets: &Datasets, path: &Path, name: &str) -> Result<Vec<f64>, TraceError> {
+    match datasets.0.get(name) {
+        Some(dataset) => dataset.read_f64().map_err(damaged(path)),
+        None => Ok(Vec::new()),
+    }
 }
 
-fn collect(
-    group: &Group,
-    prefix: &str,
-    deeper: usize,
-    entries: &mut Vec<Entry>,
-) -> Result<(), hdf5_pure::Error> {
-    for name in group.datasets()? {
-        let dataset = group.dataset(&name)?;
-        let shape: Vec<usize> = dataset
-            .shape()?
-            .into_iter()
-            .filter_map(|n| n.try_into().ok())
-            .collect();
-        let (rows, columns) = match (shape.as_slice(), is_number(&dataset.dtype()?)) {
+impl Found {
+    fn group(
+        &mut self,
+        group: &Group,
+        prefix: &str,
+        deeper: usize,
+    ) -> Result<(), hdf5_pure::Error> {
+        self.seen += 1;
+        if self.seen > MOST_OBJECTS {
+            return Ok(());
+        }
+        for name in group.datasets()? {
+            let dataset = group.dataset(&name)?;
+            self.dataset(dataset, prefix, &name, deeper)?;
+        }
+        // What MATLAB keeps for itself is called `#refs#` and `#subsystem#`.
+        let groups = group.groups()?.into_iter();
+        let groups = groups.filter(|name| !(self.matlab && name.starts_with('#')));
+        let groups: Vec<String> = groups.collect();
+        for name in groups.into_iter().filter(|_| deeper > 0) {
+            let end = if self.matlab { '.' } else { '/' };
+            let inner = format!("{prefix}{name}{end}");
+            self.group(&group.group(&name)?, &inner, deeper - 1)?;
+        }
+        Ok(())
+    }
+
+    fn dataset(
+        &mut self,
+        dataset: Dataset,
+        prefix: &str,
+        name: &str,
+        deeper: usize,
+    ) -> Result<(), hdf5_pure::Error> {
+        self.seen += 1;
+        let full = format!("{prefix}{name}");
+        let dtype = dataset.dtype()?;
+        if self.seen > MOST_OBJECTS {
+            return Ok(());
+        }
+        if self.matlab {
+            let attributes = dataset.attrs().unwrap_or_default();
+            if attributes.contains_key("MATLAB_object_decode") {
+                self.pass_over(full, "an object of MATLAB");
+                return Ok(());
+            }
+            if dtype == DType::ObjectReference {
+                return self.field_of_several(&dataset, prefix, name, deeper);
+            }
+        }
+        let shape = dataset.shape()?.into_iter();
+        let shape: Vec<usize> = shape.filter_map(|n| n.try_into().ok()).collect();
+        let (rows, columns) = match (shape.as_slice(), is_number(&dtype)) {
             ([], true) => (1, 1),
             (&[rows], true) => (rows, 1),
             (&[rows, columns], true) => (rows, columns),
-            _ => continue,
+            (_, true) => {
+                self.pass_over(full, "of more than two dimensions");
+                return Ok(());
+            }
+            _ => return Ok(()),
         };
-        let name = format!("{prefix}{name}");
-        entries.push(Entry {
-            name,
+        self.entries.push(Entry {
+            name: full.clone(),
             rows,
             columns,
         });
+        self.datasets.0.insert(full, dataset);
+        Ok(())
     }
-    if deeper > 0 {
-        for name in group.groups()? {
-            let inner = format!("{prefix}{name}/");
-            collect(&group.group(&name)?, &inner, deeper - 1, entries)?;
+
+    /// A field of an array of structures: references, one for each structure. A cell array looks the same and gives
+    /// the same names: what stands at the top has no structure before it.
+    fn field_of_several(
+        &mut self,
+        references: &Dataset,
+        prefix: &str,
+        field: &str,
+        deeper: usize,
+    ) -> Result<(), hdf5_pure::Error> {
+        let Some(owner) = prefix.strip_suffix('.') else {
+            self.pass_over(field.to_owned(), "a cell array");
+            return Ok(());
+        };
+        let count: u64 = references.shape()?.into_iter().fold(1, u64::saturating_mul);
+        if deeper == 0 || count > MOST_OBJECTS as u64 {
+            return Ok(());
         }
+        for (index, object) in references.dereference()?.into_iter().enumerate() {
+            let prefix = format!("{owner}[{index}].");
+            match object {
+                Object::Dataset(dataset) => self.dataset(*dataset, &prefix, field, deeper - 1)?,
+                Object::Group(group) => {
+                    self.group(&group, &format!("{prefix}{field}."), deeper - 1)?;
+                }
+                _ => {}
+            }
+        }
+        Ok(())
     }
-    Ok(())
+
+    fn pass_over(&mut self, name: String, what: &'static str) {
+        self.passed_over.push(PassedOver { name, what });
+    }
 }
 
 fn is_number(dtype: &DType) -> bool {

@@ -1,61 +1,221 @@
-//! This file reads the numeric arrays of a MATLAB file, version 5 to 7.
+//! This file reads the numeric arrays of a MATLAB file, version 5 to 7, those in structures among them.
+//!
+//! The layout is that of "MAT-File Format" by MathWorks, chapter 1, "Level 5 MAT-File Format".
 
 use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 
-use matfile::{MatFile, NumericData};
+use flate2::read::ZlibDecoder;
 
-use super::Entry;
+use super::bytes::{Bytes, COMPRESSED, MATRIX, Numbers};
+use super::{Entry, PassedOver};
 use crate::error::TraceError;
 
-pub(super) fn open(path: &Path) -> Result<(MatFile, Vec<Entry>), TraceError> {
-    let file = File::open(path).map_err(TraceError::io("read", path))?;
-    let file = MatFile::parse(file).map_err(|error| {
-        let reason = match error {
-            matfile::Error::IOError(error) => error.to_string(),
-            _ => "it breaks the format of version 5".to_string(),
-        };
-        TraceError::recording(path, format!("the MATLAB file cannot be read: {reason}"))
-    })?;
-    let entries = file.arrays().iter().filter_map(|array| {
-        let &[rows, columns] = array.size().as_slice() else {
-            return None;
-        };
-        real(array.data())?;
-        Some(Entry {
-            name: array.name().to_string(),
-            rows,
-            columns,
-        })
+/// The largest file, and the most that its compressed parts may hold together, bytes.
+const LARGEST: u64 = 1 << 30;
+const HEADER: usize = 128;
+/// Structures deeper than this are not looked into.
+const DEEPEST: usize = 16;
+
+const CELL: u32 = 1;
+const STRUCTURE: u32 = 2;
+const OBJECT: u32 = 3;
+const NUMERIC: std::ops::RangeInclusive<u32> = 6..=15;
+const OPAQUE: u32 = 17;
+const COMPLEX: u32 = 0x0800;
+
+/// The arrays of a file.
+#[derive(Debug, Default)]
+pub(super) struct MatFile {
+    arrays: Vec<(String, Numbers)>,
+}
+
+/// What was found on the way.
+#[derive(Default)]
+struct Found {
+    file: MatFile,
+    entries: Vec<Entry>,
+    passed_over: Vec<PassedOver>,
+}
+
+/// The arrays of a file, their names and sizes, and what is none.
+type Opened = (MatFile, Vec<Entry>, Vec<PassedOver>);
+
+pub(super) fn open(path: &Path) -> Result<Opened, TraceError> {
+    open_within(path, LARGEST)
+}
+
+/// Opens a file that takes no more than so many bytes, and no more again when it is inflated.
+pub(super) fn open_within(path: &Path, largest: u64) -> Result<Opened, TraceError> {
+    let refused = |problem: &str| {
+        let problem = format!("the MATLAB file cannot be read: {problem}");
+        TraceError::recording(path, problem)
+    };
+    let mut bytes = Vec::new();
+    File::open(path)
+        .and_then(|file| file.take(largest.saturating_add(1)).read_to_end(&mut bytes))
+        .map_err(TraceError::io("read", path))?;
+    if bytes.len() as u64 > largest {
+        return Err(refused("it is larger than 1 GiB; save it with `-v7.3`"));
+    }
+    let header = bytes
+        .get(..HEADER)
+        .ok_or_else(|| refused("it is cut off"))?;
+    let big = match header.get(HEADER - 2..) {
+        Some(b"IM") => false,
+        Some(b"MI") => true,
+        _ => return Err(refused("it breaks the format of version 5")),
+    };
+    let mut source = Bytes::new(bytes.get(HEADER..).unwrap_or_default(), big);
+    let mut found = Found::default();
+    let mut left = largest;
+    while !source.is_empty() {
+        let read = element(&mut source, &mut left, &mut found);
+        read.ok_or_else(|| refused("it is cut off or breaks the format of version 5"))?;
+    }
+    Ok((found.file, found.entries, found.passed_over))
+}
+
+/// One variable of the file; `left` is what may still be inflated.
+fn element(source: &mut Bytes<'_>, left: &mut u64, found: &mut Found) -> Option<()> {
+    let (kind, bytes) = source.element()?;
+    match kind {
+        MATRIX => matrix(bytes, "", found, DEEPEST),
+        COMPRESSED => {
+            let mut inflated = Vec::new();
+            let decoder = ZlibDecoder::new(bytes.rest());
+            decoder.take(*left).read_to_end(&mut inflated).ok()?;
+            *left = left
+                .checked_sub(inflated.len() as u64)
+                .filter(|left| *left > 0)?;
+            let mut inside = Bytes::new(&inflated, bytes.is_big());
+            match inside.element()? {
+                (MATRIX, bytes) => matrix(bytes, "", found, DEEPEST),
+                _ => Some(()),
+            }
+        }
+        _ => Some(()),
+    }
+}
+
+/// One array with what it holds; `name` is what stands for its own name inside a structure.
+fn matrix(mut bytes: Bytes<'_>, name: &str, found: &mut Found, deeper: usize) -> Option<()> {
+    if bytes.is_empty() {
+        return Some(());
+    }
+    let (_, mut flags) = bytes.element()?;
+    let flags = flags.word()?;
+    let class = flags & 0xff;
+    if class == OPAQUE {
+        let (_, own) = bytes.element()?;
+        pass_over(found, &text(own.rest(), name), "an object of MATLAB");
+        return Some(());
+    }
+    let (_, dimensions) = bytes.element()?;
+    let dimensions = dimensions.sizes()?;
+    let (_, own) = bytes.element()?;
+    let name = text(own.rest(), name);
+    match class {
+        STRUCTURE if deeper > 0 => structure(bytes, &name, &dimensions, found, deeper),
+        OBJECT => {
+            pass_over(found, &name, "an object of MATLAB");
+            Some(())
+        }
+        CELL => {
+            pass_over(found, &name, "a cell array");
+            Some(())
+        }
+        class if NUMERIC.contains(&class) => match dimensions.as_slice() {
+            [rows, columns] if flags & COMPLEX == 0 => {
+                let (kind, real) = bytes.element()?;
+                let numbers = Numbers::new(kind, real)?;
+                let (rows, columns) = (*rows, *columns);
+                let count = rows.checked_mul(columns)?;
+                // An empty array of any shape announces no number.
+                (numbers.len() == count).then_some(())?;
+                found.entries.push(Entry {
+                    name: name.clone(),
+                    rows,
+                    columns,
+                });
+                found.file.arrays.push((name, numbers));
+                Some(())
+            }
+            [_, _] => {
+                pass_over(found, &name, "complex");
+                Some(())
+            }
+            _ => {
+                pass_over(found, &name, "of more than two dimensions");
+                Some(())
+            }
+        },
+        _ => Some(()),
+    }
+}
+
+/// The fields of a structure, `name.field`, or of each of several, `name[k].field`.
+fn structure(
+    mut bytes: Bytes<'_>,
+    name: &str,
+    dimensions: &[usize],
+    found: &mut Found,
+    deeper: usize,
+) -> Option<()> {
+    let (_, mut width) = bytes.element()?;
+    let width = usize::try_from(width.word()?)
+        .ok()
+        .filter(|width| *width > 0)?;
+    let (_, names) = bytes.element()?;
+    let fields: Vec<String> = names
+        .rest()
+        .chunks(width)
+        .map(|field| text(field, ""))
+        .collect();
+    let count = dimensions
+        .iter()
+        .try_fold(1_usize, |all, n| all.checked_mul(*n))?;
+    if fields.is_empty() {
+        return Some(());
+    }
+    for index in 0..count {
+        for field in &fields {
+            // A cut file ends here: there is no element left for a field that was announced.
+            let (kind, value) = bytes.element()?;
+            if kind != MATRIX {
+                return None;
+            }
+            let path = match count {
+                1 => format!("{name}.{field}"),
+                _ => format!("{name}[{index}].{field}"),
+            };
+            matrix(value, &path, found, deeper - 1)?;
+        }
+    }
+    Some(())
+}
+
+fn pass_over(found: &mut Found, name: &str, what: &'static str) {
+    found.passed_over.push(PassedOver {
+        name: name.to_owned(),
+        what,
     });
-    let entries = entries.collect();
-    Ok((file, entries))
+}
+
+/// A name up to its first NUL, or another one where it is empty.
+fn text(bytes: &[u8], else_name: &str) -> String {
+    let end = bytes.iter().position(|byte| *byte == 0);
+    match bytes.get(..end.unwrap_or(bytes.len())) {
+        Some(own @ [_, ..]) => String::from_utf8_lossy(own).into_owned(),
+        _ => else_name.to_owned(),
+    }
 }
 
 /// The numbers of an array, column after column; none when there is no such array.
 pub(super) fn values(file: &MatFile, name: &str) -> Vec<f64> {
-    let array = file.find_by_name(name);
+    let array = file.arrays.iter().find(|(own, _)| own == name);
     array
-        .and_then(|array| real(array.data()))
+        .map(|(_, numbers)| numbers.values())
         .unwrap_or_default()
-}
-
-/// The numbers of an array without an imaginary part.
-fn real(data: &NumericData) -> Option<Vec<f64>> {
-    fn wide<T: Copy + Into<f64>>(values: &[T]) -> Vec<f64> {
-        values.iter().map(|&value| value.into()).collect()
-    }
-    match data {
-        NumericData::Int8 { real, imag: None } => Some(wide(real)),
-        NumericData::UInt8 { real, imag: None } => Some(wide(real)),
-        NumericData::Int16 { real, imag: None } => Some(wide(real)),
-        NumericData::UInt16 { real, imag: None } => Some(wide(real)),
-        NumericData::Int32 { real, imag: None } => Some(wide(real)),
-        NumericData::UInt32 { real, imag: None } => Some(wide(real)),
-        NumericData::Single { real, imag: None } => Some(wide(real)),
-        NumericData::Double { real, imag: None } => Some(real.clone()),
-        NumericData::Int64 { real, imag: None } => Some(real.iter().map(|&n| n as f64).collect()),
-        NumericData::UInt64 { real, imag: None } => Some(real.iter().map(|&n| n as f64).collect()),
-        _ => None,
-    }
 }

@@ -3,6 +3,7 @@
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
+use super::dialect::Separator;
 use crate::error::{Place, TraceError};
 
 /// The longest line that is read, bytes.
@@ -24,6 +25,11 @@ impl<'a, R: Read> Lines<'a, R> {
             number: 0,
             buffer: Vec::new(),
         }
+    }
+
+    /// The number of the line read last.
+    pub(super) fn number(&self) -> usize {
+        self.number
     }
 
     /// The place of the line read last.
@@ -82,16 +88,19 @@ impl<'a, R: Read> Lines<'a, R> {
 
 /// Splits a line into cells; quotes are taken off, blanks around a cell stay.
 pub(super) struct Splitter {
-    reader: csv_core::Reader,
+    /// Built at the first quote: its tables cost more than a short file takes to read.
+    reader: Option<csv_core::Reader>,
+    separator: Separator,
     line: Vec<u8>,
     text: Vec<u8>,
     ends: Vec<usize>,
 }
 
 impl Splitter {
-    pub(super) fn new() -> Splitter {
+    pub(super) fn new(separator: Separator) -> Splitter {
         Splitter {
-            reader: csv_core::Reader::new(),
+            reader: None,
+            separator,
             line: Vec::new(),
             text: Vec::new(),
             ends: Vec::new(),
@@ -101,21 +110,89 @@ impl Splitter {
     /// The cells of one line. A quote that is not closed loses its cell, so that the count comes out wrong.
     pub(super) fn cells<'s>(&'s mut self, line: &str) -> impl Iterator<Item = &'s str> {
         self.line.clear();
-        self.line.extend_from_slice(line.as_bytes());
+        if self.separator == Separator::Blank {
+            for word in line.split_whitespace() {
+                self.line.extend_from_slice(word.as_bytes());
+                self.line.push(b' ');
+            }
+            self.line.pop();
+        } else {
+            self.line.extend_from_slice(line.as_bytes());
+        }
+        // Between cells that are not unquoted their separators still stand.
+        let between = if self.line.contains(&b'"') || self.line.is_empty() {
+            self.unquote();
+            0
+        } else {
+            self.divide();
+            1
+        };
+        let (text, mut start) = (&self.text, 0);
+        self.ends.iter().map(move |&end| {
+            let cell = text.get(start..end).unwrap_or_default();
+            start = end + between;
+            std::str::from_utf8(cell).unwrap_or_default()
+        })
+    }
+
+    /// Finds the cells of a line without quotes.
+    fn divide(&mut self) {
+        self.text.clone_from(&self.line);
+        let separator = self.separator.byte();
+        let bytes = self.line.iter().enumerate();
+        let separators = bytes.filter(|(_, byte)| **byte == separator);
+        self.ends.clear();
+        self.ends.extend(separators.map(|(at, _)| at));
+        self.ends.push(self.line.len());
+    }
+
+    /// Finds the cells of a line with quotes, and takes the quotes off.
+    fn unquote(&mut self) {
+        let separator = self.separator.byte();
+        let reader = self.reader.get_or_insert_with(|| {
+            let mut builder = csv_core::ReaderBuilder::new();
+            builder.delimiter(separator).build()
+        });
         self.line.push(b'\n');
         // A cell never grows by unquoting, and there is one cell more than separators.
         self.text.resize(self.line.len(), 0);
         self.ends.resize(self.line.len(), 0);
-        self.reader.reset();
-        let (_, _, _, count) = self
-            .reader
-            .read_record(&self.line, &mut self.text, &mut self.ends);
-        let (text, ends) = (&self.text, self.ends.iter().take(count));
-        let mut start = 0;
-        ends.map(move |&end| {
-            let cell = text.get(start..end).unwrap_or_default();
-            start = end;
-            std::str::from_utf8(cell).unwrap_or_default()
-        })
+        reader.reset();
+        let (_, _, _, count) = reader.read_record(&self.line, &mut self.text, &mut self.ends);
+        self.ends.truncate(count);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_is_split_alike_with_quotes_and_without() {
+        for separator in Separator::ALL {
+            let mark = char::from(separator.byte());
+            let mut splitter = Splitter::new(separator);
+            for cells in [
+                &["0.25", "-1.5e3", "µm"][..],
+                &["a", "7.5", "b c", "x"],
+                &["3.25"],
+                &["", "0.75", ""],
+            ] {
+                let splits = separator != Separator::Blank;
+                if !splits
+                    && cells
+                        .iter()
+                        .any(|cell| cell.is_empty() || cell.contains(' '))
+                {
+                    continue;
+                }
+                let plain = cells.join(&mark.to_string());
+                let quoted = cells.iter().map(|cell| format!("\"{cell}\""));
+                let quoted = quoted.collect::<Vec<_>>().join(&mark.to_string());
+                for line in [plain, quoted] {
+                    assert_eq!(splitter.cells(&line).collect::<Vec<_>>(), cells, "{line}");
+                }
+            }
+        }
     }
 }

@@ -6,8 +6,9 @@ use rigproof_spec::effect::Motion;
 use rigproof_spec::units::{Dimension, Unit};
 
 use super::{ChannelMap, Plant, Rig};
-use crate::csv;
+use crate::csv::{self, Dialect, Hints};
 use crate::error::TraceError;
+use crate::mcap;
 use crate::series::Trace;
 use crate::suggest::advice;
 
@@ -48,13 +49,31 @@ pub struct Signal {
 }
 
 impl Rig {
-    /// Reads a recording of this rig from a comma-separated text file.
+    /// Reads a recording of this rig from a text file or an MCAP file, as its content says.
+    ///
+    /// # Errors
+    /// As [`csv::read`], [`mcap::read()`] and [`Rig::apply`].
+    pub fn read_recording(&self, path: &Path) -> Result<Recording, TraceError> {
+        match mcap::is_mcap(path)? {
+            true => self.read_mcap(path).map(|(recording, _)| recording),
+            false => self
+                .read_text(path, &Hints::default())
+                .map(|(recording, _)| recording),
+        }
+    }
+
+    /// Reads a text recording of this rig whose dialect is partly known, and says in which it was.
     ///
     /// # Errors
     /// As [`csv::read`] and [`Rig::apply`].
-    pub fn read_recording(&self, path: &Path) -> Result<Recording, TraceError> {
-        let trace = csv::read_with_time(path, self.channels.time.as_ref())?;
-        self.apply(&trace, path)
+    pub fn read_text(
+        &self,
+        path: &Path,
+        hints: &Hints,
+    ) -> Result<(Recording, Dialect), TraceError> {
+        let (trace, dialect) =
+            csv::read_as(path, self.channels.time.as_ref(), &hints.or(self.text))?;
+        Ok((self.apply(&trace, path)?, dialect))
     }
 
     /// Turns a recording into SI quantities; `origin` is the file that messages name.

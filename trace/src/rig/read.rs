@@ -8,7 +8,7 @@ use rigproof_spec::units::{Dimension, Unit};
 use super::table::{Source, Table};
 use super::{
     Brake, ChannelMap, Channels, Parameters, Plant, Protocol, Rig, RigEffect, Status, Value,
-    motion_name,
+    motion_name, text,
 };
 use crate::csv::TimeColumn;
 use crate::error::TraceError;
@@ -30,6 +30,7 @@ impl Rig {
             "motion",
             "source",
             "channels",
+            "text",
             "parameters",
             "brake",
             "effect",
@@ -62,6 +63,7 @@ impl Rig {
                 .map(|table| read_effect(table, motion))
                 .collect::<Result<_, _>>()?,
             protocol: Protocol::read(&root)?,
+            text: text::read(&root)?,
             provenance: match root.table("provenance")? {
                 Some(table) => table
                     .keys()

@@ -6,6 +6,7 @@ use std::path::Path;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::FILL_IN;
 use crate::error::{Place, TraceError};
 use crate::suggest::advice;
 
@@ -183,6 +184,11 @@ impl<'a> Table<'a> {
         let Some(value) = self.get(key) else {
             return Ok(None);
         };
+        if value.get_ref().as_str() == Some(FILL_IN) {
+            let title = &self.title;
+            let problem = format!("`{key}` of {title} is still to be filled in; give {expected}");
+            return Err(self.error_at(key, problem));
+        }
         let found = value.get_ref().type_str();
         let wrong = || self.error_at(key, format!("`{key}` is of type {found}; give {expected}"));
         read(value.get_ref()).map(Some).ok_or_else(wrong)

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use rigproof_spec::effect::{Motion, Quantity};
 use rigproof_spec::units::Dimension;
 
-use super::{Brake, ChannelMap, Rig, RigEffect, Status, Value, motion_name};
+use super::{Brake, ChannelMap, Rig, RigEffect, Status, Value, motion_name, text};
 
 impl Rig {
     /// The description as TOML, every value in SI units.
@@ -21,6 +21,7 @@ impl Rig {
                 .map(|text| format!("source = {}", string(text))),
         );
         self.write_channels(&mut lines);
+        lines.extend(text::lines(&self.text));
         if let (Some(parameters), Some(gain)) = (&self.parameters, self.command_gain_dimension()) {
             let inertia = Quantity::Inertia.dimension(self.motion);
             lines.push("\n[parameters]".into());

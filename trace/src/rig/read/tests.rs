@@ -1,6 +1,7 @@
 //! This file holds what a rig description may say, and what it is told when it says something else.
 
 use super::*;
+use crate::csv::{Decimal, Hints, Separator};
 use crate::rig::{Channels, Drive, Parameters};
 use proptest::prelude::*;
 use rigproof_spec::joint::Joint;
@@ -188,6 +189,16 @@ fn any_effect() -> impl Strategy<Value = RigEffect> {
 }
 
 prop_compose! {
+    fn any_text()(
+        separator in prop::option::of(prop::sample::select(Separator::ALL.to_vec())),
+        decimal in prop::option::of(prop::sample::select(Decimal::ALL.to_vec())),
+        header_lines in prop::option::of(1_usize..90),
+    ) -> Hints {
+        Hints { separator, decimal, header_lines }
+    }
+}
+
+prop_compose! {
     fn any_axis()(
         drive in prop::sample::select(&Drive::ALL[..]),
         (start_samples, substeps, warm_up_periods) in (0..1000_usize, 1..100_usize, 0..10_usize),
@@ -199,6 +210,7 @@ prop_compose! {
         command_gain in any_value(true),
         effects in prop::collection::vec(any_effect(), 0..4),
         provenance in prop::collection::btree_map(".*", ".*", 0..3),
+        text in any_text(),
     ) -> Rig {
         let [name, source] = words;
         let motion = if rotary { Motion::Rotary } else { Motion::Linear };
@@ -218,6 +230,7 @@ prop_compose! {
             protocol: Protocol { drive, start_samples, substeps, warm_up_periods },
             parameters: Some(Parameters { inertia, command_gain }),
             brake: None,
+            text,
         }
     }
 }

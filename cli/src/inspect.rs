@@ -1,0 +1,187 @@
+//! This file says what is in a recording that nobody has described yet, and begins a rig description for it.
+
+mod messages;
+mod noise;
+mod pace;
+mod signal;
+mod skeleton;
+mod sparkline;
+
+use std::path::{Path, PathBuf};
+
+use rigproof_trace::arrays::Arrays;
+use rigproof_trace::csv::{self, Dialect, TimeColumn};
+use rigproof_trace::{Channel, mcap};
+use serde_json::{Value, json};
+
+use crate::outcome::{Failure, Outcome, print};
+use crate::reading::{self, Reading};
+use crate::shell;
+use crate::text::{join, section};
+use pace::Pace;
+use signal::SignalView;
+
+/// Columns of a file without time stamps that are shown.
+const SHOWN: usize = 64;
+
+/// What is to be looked at.
+#[derive(clap::Args)]
+#[command(after_help = AFTER_HELP)]
+pub struct Args {
+    /// The recording: CSV in any dialect, MCAP, HDF5 or MATLAB (version 5 to 7.3), told apart by its content
+    recording: PathBuf,
+    /// The column that holds the time, where its name does not say so
+    #[arg(long, value_name = "NAME")]
+    time_from: Option<String>,
+    /// A rig description to begin with; what must be filled in says so
+    #[arg(long, value_name = "TOML")]
+    write_rig: Option<PathBuf>,
+    /// Draw with ASCII characters only
+    #[arg(long)]
+    ascii: bool,
+    /// Print the result as JSON
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    reading: Reading,
+}
+
+const AFTER_HELP: &str = "\
+From an unknown file to a first diagnosis:
+  1. look at it and begin a rig description   2. fill in what is marked `fill in`   3. diagnose
+
+Examples:
+  rigproof inspect run.csv
+  rigproof inspect run.csv --write-rig rig.toml
+  rigproof inspect scope.txt --separator ';' --decimal ',' --header-lines 12 --json";
+
+/// Looks at a recording, and writes the beginning of a rig description if asked.
+pub fn run(args: &Args) -> Result<Outcome, Failure> {
+    if mcap::is_mcap(&args.recording)? {
+        return messages::run(args);
+    }
+    match Arrays::open(&args.recording)? {
+        Some(arrays) => variables(args, &arrays),
+        None => text(args),
+    }
+}
+
+/// A text recording.
+fn text(args: &Args) -> Result<Outcome, Failure> {
+    let time = args.time_from.as_ref().map(|name| TimeColumn {
+        name: name.clone(),
+        unit: String::new(),
+    });
+    let hints = args.reading.hints();
+    let (trace, dialect) = csv::read_as(&args.recording, time.as_ref(), &hints)?;
+    let pace = Pace::of(&trace.time_s);
+    let signals: Vec<SignalView> = trace.channels.into_iter().map(SignalView::of).collect();
+    if let Some(file) = &args.write_rig {
+        let signals: Vec<&SignalView> = signals.iter().collect();
+        let text = skeleton::toml(&args.recording, time.as_ref(), &hints, &signals);
+        write_rig(file, &text)?;
+    }
+    if args.json {
+        let mut result = pace.json();
+        result["file"] = json!(args.recording.display().to_string());
+        result["read_as"] = reading::in_json(dialect);
+        result["channels"] = signals.iter().map(|s| s.json(args.ascii)).collect();
+        result["rig"] = json!(
+            args.write_rig
+                .as_ref()
+                .map(|file| file.display().to_string())
+        );
+        return print(&result.to_string());
+    }
+    print(&join([
+        vec![head(
+            &args.recording,
+            trace.time_s.len(),
+            signals.len(),
+            &dialect,
+        )],
+        section("Time", pace.lines()),
+        section("Channels", signal::lines(&signals, args.ascii, usize::MAX)),
+        section("Next", [format!("  {}", next(args))]),
+    ]))
+}
+
+fn head(file: &Path, samples: usize, channels: usize, dialect: &Dialect) -> String {
+    format!(
+        "{}: {samples} samples of {channels} channels\nread as: {dialect}",
+        file.display()
+    )
+}
+
+fn next(args: &Args) -> String {
+    let recording = ("", args.recording.as_path());
+    match &args.write_rig {
+        Some(file) => {
+            let command = shell::line(&["rigproof", "diagnose"], &[recording, ("--rig", file)]);
+            format!("{command}   (check and complete {} first)", file.display())
+        }
+        None => shell::line(
+            &["rigproof", "inspect"],
+            &[recording, ("--write-rig", Path::new("rig.toml"))],
+        ),
+    }
+}
+
+/// Writes the description unless one stands there: it may hold somebody's work.
+fn write_rig(file: &Path, text: &str) -> Result<(), Failure> {
+    if file.exists() {
+        let problem = "a file stands there already; name another".to_owned();
+        return Err(Failure::unusable(file, problem));
+    }
+    Ok(rigproof_trace::store::write_aside(file, text.as_bytes())?)
+}
+
+/// A file of arrays, which do not say what the time is.
+fn variables(args: &Args, arrays: &Arrays) -> Result<Outcome, Failure> {
+    let file = args.recording.display();
+    if args.write_rig.is_some() || args.time_from.is_some() {
+        return Err(Failure::Usage(format!(
+            "{file}: --write-rig and --time-from are for text recordings; take one out of this file with `rigproof convert` first"
+        )));
+    }
+    let entries = arrays.entries().iter();
+    let columns = entries.flat_map(|entry| (0..entry.columns).map(move |k| (entry, k)));
+    let mut signals = Vec::new();
+    for (entry, k) in columns.clone().take(SHOWN) {
+        let name = match entry.columns {
+            1 => entry.name.clone(),
+            _ => format!("{}[{k}]", entry.name),
+        };
+        signals.push(SignalView::of(Channel {
+            samples: arrays.column(&name)?,
+            unit: String::new(),
+            name,
+        }));
+    }
+    let left_out = columns.count() - signals.len();
+    if args.json {
+        let channels: Vec<Value> = signals.iter().map(|s| s.json(args.ascii)).collect();
+        let result =
+            json!({ "file": file.to_string(), "channels": channels, "left_out": left_out });
+        return print(&result.to_string());
+    }
+    let more =
+        (left_out > 0).then(|| format!("  and {left_out} more, which --list of convert names"));
+    let advice = format!(
+        "  {} --variables NAMES --time-from NAME   (or --rate-from NAME, or --rate-hz HZ)",
+        shell::line(
+            &["rigproof", "convert"],
+            &[("", &args.recording), ("", Path::new("run.csv"))]
+        )
+    );
+    print(&join([
+        vec![format!("{file}: {} variables", arrays.entries().len())],
+        section(
+            "Variables",
+            signal::lines(&signals, args.ascii, SHOWN)
+                .into_iter()
+                .chain(more),
+        ),
+        section("Next", [advice]),
+    ]))
+}

@@ -1,0 +1,143 @@
+//! This file says what is in an MCAP file.
+
+use rigproof_trace::mcap::{self, TopicSummary};
+use serde_json::{Value, json};
+
+use super::{Args, next, signal, signal::SignalView, skeleton, write_rig};
+use crate::outcome::{Failure, Outcome, print};
+use crate::text::number::significant;
+use crate::text::{join, section};
+
+/// Channels of a topic that never move and are shown.
+const MOST_STILL: usize = 8;
+/// A stamp that lies further from the writing of its message, in s, is of another clock: about three years.
+const ANOTHER_CLOCK_S: f64 = 1e8;
+
+/// What was found of one topic.
+struct TopicView {
+    topic: TopicSummary,
+    signals: Vec<SignalView>,
+}
+
+/// Looks at an MCAP file, and writes the beginning of a rig description if asked.
+pub fn run(args: &Args) -> Result<Outcome, Failure> {
+    let summary = mcap::summary(&args.recording)?;
+    let topics = summary.topics.into_iter().map(|mut topic| TopicView {
+        signals: topic
+            .channels
+            .drain(..)
+            .map(SignalView::of_summary)
+            .collect(),
+        topic,
+    });
+    let topics: Vec<TopicView> = topics.collect();
+    if let Some(file) = &args.write_rig {
+        let signals: Vec<&SignalView> = topics.iter().flat_map(|view| &view.signals).collect();
+        let text = skeleton::toml(&args.recording, None, &args.reading.hints(), &signals);
+        write_rig(file, &text)?;
+    }
+    let integrity = summary.integrity.lines();
+    if args.json {
+        let result = json!({
+            "file": args.recording.display().to_string(),
+            "topics": topics.iter().map(|view| view.json(args.ascii)).collect::<Vec<_>>(),
+            "metadata": summary.metadata,
+            "attachments": summary.attachments.iter().map(|(name, _)| name).collect::<Vec<_>>(),
+            "whole": summary.integrity.is_whole(),
+            "integrity": integrity,
+            "rig": args.write_rig.as_ref().map(|file| file.display().to_string()),
+        });
+        return print(&result.to_string());
+    }
+    let head = format!(
+        "{}: {} messages on {} topics",
+        args.recording.display(),
+        summary.integrity.messages,
+        topics.len()
+    );
+    let inside = summary
+        .attachments
+        .iter()
+        .map(|(name, bytes)| format!("  {name}, {bytes} bytes"));
+    let metadata = summary.metadata.iter().map(|name| format!("  {name}"));
+    let mut sections = vec![
+        vec![head],
+        section(
+            "Integrity",
+            integrity.iter().map(|line| format!("  {line}")),
+        ),
+    ];
+    sections.extend(topics.iter().map(|view| view.lines(args.ascii)));
+    sections.push(section("Metadata and attachments", metadata.chain(inside)));
+    let seen = topics.iter().any(|view| !view.signals.is_empty());
+    sections.push(section("Next", seen.then(|| format!("  {}", next(args)))));
+    print(&join(sections))
+}
+
+impl TopicView {
+    fn lines(&self, ascii: bool) -> Vec<String> {
+        let topic = &self.topic;
+        let seconds = (topic.last_ns - topic.first_ns.min(topic.last_ns)) as f64 * 1e-9;
+        let (low_s, high_s) = topic.step_range_s;
+        let s = |value: f64| significant(value, 4);
+        let kind = match topic.type_name.as_str() {
+            "" => topic.encoding.clone(),
+            name => format!("{name}, {}", topic.encoding),
+        };
+        let mut lines = vec![
+            format!("{} ({kind})", topic.name),
+            match topic.messages {
+                1 => "  1 message".to_owned(),
+                count => format!("  {count} messages in {} s", s(seconds)),
+            },
+        ];
+        lines.extend(
+            (topic.damaged > 0).then(|| format!("  {} of them are damaged", topic.damaged)),
+        );
+        if topic.messages > 1 {
+            lines.push(format!(
+                "  rate {} Hz, a step of {} s (nine of ten: {} to {} s)",
+                s(1.0 / topic.step_s),
+                s(topic.step_s),
+                s(low_s),
+                s(high_s),
+            ));
+            lines.extend((topic.gaps > 0).then(|| {
+                let longest = s(topic.longest_step_s);
+                format!("  {} gaps, the longest {longest} s", topic.gaps)
+            }));
+            lines.extend(
+                (topic.backward > 0)
+                    .then(|| format!("  time runs backward {} times", topic.backward)),
+            );
+        }
+        lines.extend(topic.lag_s.map(|lag_s| match (lag_s.abs(), lag_s >= 0.0) {
+            (lag_s, _) if lag_s > ANOTHER_CLOCK_S => {
+                "  stamped by another clock than that of the file".to_owned()
+            }
+            (0.0, _) => "  stamped as it was written".to_owned(),
+            (lag_s, true) => format!("  stamped {} s before it was written", s(lag_s)),
+            (lag_s, false) => format!("  stamped {} s after it was written", s(lag_s)),
+        }));
+        lines.extend(
+            topic
+                .unreadable
+                .as_ref()
+                .map(|why| format!("  not read: {why}")),
+        );
+        lines.extend(signal::lines(&self.signals, ascii, MOST_STILL));
+        lines
+    }
+
+    fn json(&self, ascii: bool) -> Value {
+        let topic = &self.topic;
+        json!({
+            "name": topic.name, "encoding": topic.encoding, "type": topic.type_name, "messages": topic.messages,
+            "damaged": topic.damaged, "unreadable": topic.unreadable, "first_ns": topic.first_ns,
+            "last_ns": topic.last_ns, "step_s": topic.step_s, "rate_hz": 1.0 / topic.step_s,
+            "gaps": topic.gaps, "longest_step_s": topic.longest_step_s, "backward": topic.backward,
+            "lag_s": topic.lag_s,
+            "channels": self.signals.iter().map(|signal| signal.json(ascii)).collect::<Vec<_>>(),
+        })
+    }
+}

@@ -1,0 +1,187 @@
+//! This file says what a channel looks like: range, quantum, noise, missing samples, and a line of text as its picture.
+
+use rigproof_trace::Channel;
+use rigproof_trace::mcap::ChannelSummary;
+use serde_json::{Value, json};
+
+use super::noise;
+use super::sparkline;
+use crate::text::number::{significant, with_unit};
+
+/// How far off its grid a value may lie, in steps of the grid: printed digits are rounded.
+const OFF_GRID: f64 = 0.02;
+/// Fewer different values do not make a grid.
+const LEAST_VALUES: usize = 4;
+/// More steps than this cannot be told from no grid: rounding of the printed digits adds up.
+const MOST_STEPS: f64 = 1e7;
+
+/// A channel as it is shown.
+pub struct SignalView {
+    pub name: String,
+    /// As printed; empty when the recording does not say.
+    pub unit: String,
+    /// Samples, missing ones among them.
+    count: u64,
+    /// Samples that are missing or not finite.
+    missing: u64,
+    /// Least and greatest sample, or nothing where all are missing.
+    range: Option<(f64, f64)>,
+    /// The smallest step between two values that occur, and whether all lie on its grid.
+    pub quantum: Option<(f64, bool)>,
+    /// About the standard deviation of the noise of a sample, where there are samples enough to tell.
+    pub noise: Option<f64>,
+    /// What its picture shows.
+    outline: Vec<f64>,
+}
+
+impl SignalView {
+    /// Of a channel that is at hand.
+    pub fn of(channel: Channel) -> SignalView {
+        let mut values: Vec<f64> = channel.samples.clone();
+        values.retain(|x| x.is_finite());
+        let missing = channel.samples.len() - values.len();
+        values.sort_by(f64::total_cmp);
+        SignalView {
+            count: channel.samples.len() as u64,
+            missing: missing as u64,
+            range: values.first().copied().zip(values.last().copied()),
+            quantum: quantum(&values),
+            noise: noise::of(&channel.samples),
+            name: channel.name,
+            unit: channel.unit,
+            outline: channel.samples,
+        }
+    }
+
+    /// Of a channel that was summed up while its file went by; nobody looked for its grid.
+    pub fn of_summary(channel: ChannelSummary) -> SignalView {
+        let middle = |(least, greatest): &(f64, f64)| least / 2.0 + greatest / 2.0;
+        let range = (channel.minimum, channel.maximum);
+        SignalView {
+            count: channel.count + channel.not_finite,
+            missing: channel.not_finite,
+            range: Some(range).filter(|_| channel.count > 0),
+            quantum: channel.quantum.map(|step| (step, false)),
+            noise: None,
+            outline: channel.outline.iter().map(middle).collect(),
+            name: channel.address,
+            unit: channel.unit,
+        }
+    }
+
+    pub fn json(&self, ascii: bool) -> Value {
+        json!({
+            "name": self.name, "unit": self.unit, "samples": self.count, "missing": self.missing,
+            "minimum": self.range.map(|(least, _)| least),
+            "maximum": self.range.map(|(_, greatest)| greatest),
+            "quantum": self.quantum.map(|(step, _)| step),
+            "on_grid": self.quantum.map(|(_, on_grid)| on_grid),
+            "noise": self.noise,
+            "sparkline": sparkline::draw(&self.outline, self.range, ascii),
+        })
+    }
+
+    fn cells(&self, ascii: bool) -> [String; 5] {
+        let unit = self.unit.as_str();
+        let range = match (self.range, self.quantum) {
+            (None, _) => "no sample".to_owned(),
+            (Some((value, _)), None) => with_unit(value, unit),
+            (Some((least, greatest)), _) => {
+                format!("{} to {}", significant(least, 4), with_unit(greatest, unit))
+            }
+        };
+        let quantum = match (self.quantum, self.noise) {
+            (None, _) if self.range.is_none() => String::new(),
+            (None, _) if self.count == 1 => "one sample".to_owned(),
+            (None, _) => "never moves".to_owned(),
+            (Some((step, true)), _) => format!("quantum {}", with_unit(step, unit)),
+            (Some(_), Some(noise)) => format!("noise up to {}", with_unit(noise, unit)),
+            (Some((step, false)), None) => format!("least step {}", with_unit(step, unit)),
+        };
+        let missing = match self.missing {
+            0 => String::new(),
+            count => format!("{count} missing"),
+        };
+        let picture = sparkline::draw(&self.outline, self.range, ascii);
+        [self.name.clone(), picture, range, quantum, missing]
+    }
+}
+
+/// The channels in a table, and how many that never move are left out because there are too many of them.
+pub fn lines(signals: &[SignalView], ascii: bool, most_still: usize) -> Vec<String> {
+    let mut still = 0;
+    let shown = signals.iter().filter(|signal| {
+        still += usize::from(signal.quantum.is_none());
+        signal.quantum.is_some() || still <= most_still
+    });
+    let rows: Vec<[String; 5]> = shown.map(|signal| signal.cells(ascii)).collect();
+    let width = |column: usize| {
+        let cells = rows.iter().filter_map(|row| row.get(column));
+        cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
+    };
+    let line = |row: &[String; 5]| {
+        let cells = row.iter().enumerate().map(|(column, cell)| {
+            let width = width(column);
+            format!("  {cell:<width$}")
+        });
+        cells.collect::<String>().trim_end().to_owned()
+    };
+    let left_out = still.saturating_sub(most_still);
+    let more = (left_out > 0)
+        .then(|| format!("  and {left_out} more that never move, which --json names"));
+    rows.iter().map(line).chain(more).collect()
+}
+
+/// The smallest step between sorted values, and whether all lie on the grid that it makes.
+fn quantum(sorted: &[f64]) -> Option<(f64, bool)> {
+    let (least, greatest) = (sorted.first()?, sorted.last()?);
+    let mut values: Vec<f64> = sorted.to_vec();
+    // What differs in the last bits only is one value.
+    let same = 1e-13 * least.abs().max(greatest.abs());
+    values.dedup_by(|b, a| *b - *a <= same);
+    let steps = values.windows(2).filter_map(|pair| match pair {
+        [a, b] => Some(b - a),
+        _ => None,
+    });
+    let step = steps
+        .min_by(f64::total_cmp)
+        .filter(|step| step.is_finite())?;
+    let on_grid = values.iter().all(|value| {
+        let steps = (value - least) / step;
+        steps < MOST_STEPS && (steps - steps.round()).abs() < OFF_GRID * steps.clamp(1.0, 10.0)
+    });
+    Some((step, on_grid && values.len() >= LEAST_VALUES))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn view(samples: Vec<f64>) -> SignalView {
+        SignalView::of(Channel {
+            name: "x".into(),
+            unit: "mm".into(),
+            samples,
+        })
+    }
+
+    #[test]
+    fn an_encoder_lies_on_a_grid_and_noise_does_not() {
+        let encoder = (0..90)
+            .map(|k| 0.25 + 0.05 * f64::from((k * k) % 37))
+            .collect();
+        let (step, on_grid) = view(encoder).quantum.unwrap();
+        assert!((step - 0.05).abs() < 1e-12 && on_grid, "{step}");
+        let noise = (1..90).map(|k| libm::sin(1.7 * f64::from(k * k))).collect();
+        assert!(!view(noise).quantum.unwrap().1);
+        assert!(view(vec![2.5; 40]).quantum.is_none());
+    }
+
+    #[test]
+    fn missing_samples_are_counted_and_left_out() {
+        let seen = view(vec![1.5, f64::NAN, -2.5, f64::NAN]);
+        assert_eq!((seen.missing, seen.range), (2, Some((-2.5, 1.5))));
+        let unseen = view(vec![f64::NAN; 3]);
+        assert_eq!(unseen.cells(true)[1..3], ["   ", "no sample"]);
+    }
+}

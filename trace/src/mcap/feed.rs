@@ -1,0 +1,290 @@
+//! This file collects the wanted numbers of every channel while a file passes.
+
+use std::collections::HashMap;
+
+use super::account::{Message, Visitor};
+use super::address::{self, Way, within};
+use super::clock::{Clock, Origin, Slot};
+use super::decoder::Decoder;
+use super::flat::{ELEMENTS, Flat};
+use super::pace::median;
+use super::read::{Selection, Wanted};
+use super::resample::{Between, Ordered};
+use super::run::Run;
+use super::shapes::Shapes;
+use super::summary::stamp;
+use super::topics::Topic;
+use crate::csv::TimeColumn;
+
+/// Addresses of a topic that a message names.
+const NAMED: usize = 64;
+/// Messages whose own stamp is compared with the time of writing.
+const STAMPS: usize = 4096;
+
+/// Everything collected.
+pub(super) struct Feeds {
+    pub(super) wanted: Vec<Wanted>,
+    pub(super) feeds: Vec<Feed>,
+    /// Names of the topics, as they were declared.
+    pub(super) topics: Vec<String>,
+    takes_run: bool,
+    time: Option<TimeColumn>,
+    origin: Origin,
+    flat: Flat,
+    readers: Vec<Option<Reader>>,
+    refusals: HashMap<String, String>,
+    addresses: HashMap<String, Vec<String>>,
+}
+
+/// The samples of one topic.
+pub(super) struct Feed {
+    pub(super) time_s: Vec<f64>,
+    /// A column for each way, NaN where a message lacks the number.
+    pub(super) columns: Vec<Vec<f64>>,
+    name: String,
+    clock: Clock,
+    /// The number of the wanted one, and the way to it.
+    ways: Vec<(usize, Way)>,
+    units: Vec<Option<String>>,
+    lags_s: Vec<f64>,
+    damaged: usize,
+}
+
+/// Where a wanted number was collected.
+#[derive(Clone, Copy)]
+pub(super) struct WantedPlace {
+    pub(super) feed: usize,
+    pub(super) column: usize,
+}
+
+/// One channel of a topic; a topic may have several.
+struct Reader {
+    feed: usize,
+    decoder: Decoder,
+    shapes: Shapes<Slots>,
+}
+
+/// Where the wanted numbers of messages of one shape stand.
+struct Slots {
+    time: Option<Slot>,
+    columns: Vec<Option<usize>>,
+    stamp: Option<(usize, usize)>,
+}
+
+impl Feeds {
+    pub(super) fn new(selection: &Selection) -> Feeds {
+        Feeds {
+            wanted: selection.channels.clone(),
+            feeds: Vec::new(),
+            topics: Vec::new(),
+            takes_run: selection.channels.is_empty(),
+            time: selection.time.clone(),
+            origin: Origin::default(),
+            flat: Flat::new(ELEMENTS),
+            readers: Vec::new(),
+            refusals: HashMap::new(),
+            addresses: HashMap::new(),
+        }
+    }
+
+    /// Where each wanted number was found first.
+    pub(super) fn places(&self) -> Vec<Option<WantedPlace>> {
+        let place = |wanted: usize| {
+            self.feeds.iter().enumerate().find_map(|(feed, content)| {
+                let found =
+                    |column: &usize| content.units.get(*column).is_some_and(Option::is_some);
+                let columns = content.ways.iter().enumerate();
+                let column = columns
+                    .filter(|(_, (of, _))| *of == wanted)
+                    .map(|(column, _)| column)
+                    .find(found)?;
+                Some(WantedPlace { feed, column })
+            })
+        };
+        (0..self.wanted.len()).map(place).collect()
+    }
+
+    pub(super) fn unit(&self, place: WantedPlace) -> String {
+        let feed = self.feeds.get(place.feed);
+        let unit = feed.and_then(|feed| feed.units.get(place.column)?.clone());
+        unit.unwrap_or_default()
+    }
+
+    pub(super) fn feed(&self, place: WantedPlace) -> (&[f64], &[f64]) {
+        self.feeds.get(place.feed).map_or((&[], &[]), |feed| {
+            let column = feed.columns.get(place.column);
+            (feed.time_s.as_slice(), column.map_or(&[], Vec::as_slice))
+        })
+    }
+
+    /// Why a topic cannot be read, if it cannot.
+    pub(super) fn why_not(&self, topic: &str) -> Option<&str> {
+        self.refusals.get(topic).map(String::as_str)
+    }
+
+    /// The numbers of a topic that is read.
+    pub(super) fn addresses(&self, topic: &str) -> &[String] {
+        self.addresses.get(topic).map_or(&[], Vec::as_slice)
+    }
+
+    /// How the times of a feed came about.
+    pub(super) fn time_lines(&self, place: WantedPlace, ordered: &Ordered) -> Vec<String> {
+        let Some(feed) = self.feeds.get(place.feed) else {
+            return Vec::new();
+        };
+        let name = &feed.name;
+        let clock = feed.clock.name(self.time.as_ref());
+        let from = match self.origin.second() {
+            0 => String::new(),
+            from_s => format!(", counted from {from_s} s"),
+        };
+        let mut lines = vec![format!("time of `{name}`: {clock}{from}")];
+        let mut say = |count: usize, what: &str| {
+            if count > 0 {
+                lines.push(format!("{count} messages of `{name}` {what}"));
+            }
+        };
+        say(
+            ordered.moved,
+            "came after a later one; they were put in order",
+        );
+        say(
+            ordered.dropped,
+            "have no time of their own; of equal times the first counts",
+        );
+        say(feed.damaged, "could not be read");
+        let lag_ms = 1e3 * median(feed.lags_s.clone());
+        if lag_ms.is_finite() && feed.clock == Clock::Log {
+            lines.push(format!(
+                "`{name}` was written {lag_ms:.3} ms after its own stamps (median); `header.stamp` as time uses those"
+            ));
+        }
+        lines
+    }
+
+    fn feed_of(&mut self, topic: &Topic) -> Option<usize> {
+        if let Some(place) = self.feeds.iter().position(|feed| feed.name == topic.name) {
+            return Some(place);
+        }
+        let run = Run::of(topic);
+        if self.takes_run && self.wanted.is_empty() {
+            let columns = run.iter().flat_map(|run| &run.columns);
+            self.wanted.extend(columns.map(|column| Wanted {
+                address: column.name.clone(),
+                between: Between::Line,
+            }));
+        }
+        let mut ways = Vec::new();
+        for (place, wanted) in self.wanted.iter().enumerate() {
+            let inside = within(&wanted.address, &topic.name).and_then(Way::parse);
+            let named = || Some(Way::field(&run.as_ref()?.column(&wanted.address)?.key));
+            ways.extend(inside.or_else(named).map(|way| (place, way)));
+        }
+        let own = run.as_ref().map(|run| run.time.as_str());
+        let clock = Clock::new(self.time.as_ref(), &topic.name, own);
+        let elements = ways.iter().map(|(_, way)| way.elements()).max()?;
+        self.flat.elements = self.flat.elements.max(elements);
+        self.feeds.push(Feed {
+            time_s: Vec::new(),
+            columns: vec![Vec::new(); ways.len()],
+            name: topic.name.clone(),
+            clock: clock?,
+            units: vec![None; ways.len()],
+            ways,
+            lags_s: Vec::new(),
+            damaged: 0,
+        });
+        Some(self.feeds.len() - 1)
+    }
+}
+
+impl Visitor for Feeds {
+    fn topic(&mut self, _place: usize, topic: &Topic) {
+        self.topics.push(topic.name.clone());
+        let reader = self
+            .feed_of(topic)
+            .and_then(|feed| match Decoder::new(topic) {
+                Ok(decoder) => Some(Reader {
+                    feed,
+                    decoder,
+                    shapes: Shapes::new(),
+                }),
+                Err(reason) => {
+                    self.refusals.insert(topic.name.clone(), reason);
+                    None
+                }
+            });
+        self.readers.push(reader);
+    }
+
+    fn message(&mut self, message: Message<'_>) {
+        let Some(Some(reader)) = self.readers.get_mut(message.topic) else {
+            return;
+        };
+        let Some(feed) = self.feeds.get_mut(reader.feed) else {
+            return;
+        };
+        let flat = &mut self.flat;
+        if let Err(reason) = reader.decoder.read(message.data, flat, false) {
+            feed.damaged += 1;
+            self.refusals.entry(feed.name.clone()).or_insert(reason);
+            return;
+        }
+        if reader.shapes.get(flat.shape()).is_none() {
+            let addresses = self.addresses.entry(feed.name.clone()).or_default();
+            reader.learn(message, flat, feed, addresses);
+        }
+        let Some(slots) = reader.shapes.get(flat.shape()) else {
+            return;
+        };
+        let at = |place: usize| flat.numbers.get(place).copied().unwrap_or(f64::NAN);
+        let time_s = match slots.time {
+            Some(slot) => self.origin.time_s(slot, message, &flat.numbers),
+            None => f64::NAN,
+        };
+        feed.time_s.push(time_s);
+        for (column, slot) in feed.columns.iter_mut().zip(&slots.columns) {
+            column.push(slot.map_or(f64::NAN, at));
+        }
+        if let (Some((s, ns)), true) = (slots.stamp, feed.lags_s.len() < STAMPS) {
+            feed.lags_s
+                .push(super::clock::lag_s(message, at(s), at(ns)));
+        }
+    }
+}
+
+impl Reader {
+    /// Finds out where the numbers stand in messages of this shape.
+    fn learn(
+        &mut self,
+        message: Message<'_>,
+        flat: &mut Flat,
+        feed: &mut Feed,
+        addresses: &mut Vec<String>,
+    ) {
+        // The same bytes were read a moment ago.
+        if self.decoder.read(message.data, flat, true).is_err() {
+            return;
+        }
+        let leaves = flat.leaves();
+        *addresses = leaves
+            .iter()
+            .take(NAMED)
+            .map(|leaf| address::print(&feed.name, leaf))
+            .collect();
+        let mut columns = Vec::new();
+        for ((_, way), unit) in feed.ways.iter().zip(&mut feed.units) {
+            let place = leaves.iter().position(|leaf| way.leads_to(leaf));
+            if let Some(leaf) = place.and_then(|place| leaves.get(place)) {
+                unit.get_or_insert_with(|| self.decoder.unit(leaf));
+            }
+            columns.push(place);
+        }
+        let slots = Slots {
+            time: feed.clock.slot(&leaves, &self.decoder),
+            columns,
+            stamp: stamp(&leaves),
+        };
+        self.shapes.add(flat.shape(), slots);
+    }
+}

@@ -1,0 +1,116 @@
+//! This file brings samples from their own times to the times of another channel.
+
+use super::pace::{GAP_STEPS, median};
+
+/// How a signal goes on between its samples.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Between {
+    /// In a straight line, and not across a gap: for what is measured.
+    Line,
+    /// At the last value until the next one comes: for commands.
+    Held,
+}
+
+/// Samples in the order of their times, each time once.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Ordered {
+    /// Places of the samples that count.
+    pub(super) places: Vec<usize>,
+    pub(super) time_s: Vec<f64>,
+    /// Samples that came after a later one.
+    pub(super) moved: usize,
+    /// Samples left out because their time was taken, or is none.
+    pub(super) dropped: usize,
+}
+
+/// Puts times in order; of equal ones the first counts.
+pub(super) fn order(time_s: &[f64]) -> Ordered {
+    let mut places: Vec<usize> = (0..time_s.len()).collect();
+    let at = |place: usize| time_s.get(place).copied().unwrap_or(f64::NAN);
+    let moved = time_s
+        .windows(2)
+        .filter(|pair| matches!(pair, [a, b] if b < a))
+        .count();
+    places.retain(|place| at(*place).is_finite());
+    if moved > 0 {
+        places.sort_by(|a, b| at(*a).total_cmp(&at(*b)));
+    }
+    places.dedup_by(|later, first| at(*later) <= at(*first));
+    Ordered {
+        time_s: places.iter().map(|place| at(*place)).collect(),
+        dropped: time_s.len() - places.len(),
+        places,
+        moved,
+    }
+}
+
+/// The values at other times, NaN before the first sample, and, in straight lines, across a gap and after the last.
+///
+/// A sample at the very time asked for is taken as it is. A gap is a step longer than [`GAP_STEPS`] times the median
+/// step; the number of gaps is answered too.
+pub(super) fn resample(
+    time_s: &[f64],
+    values: &[f64],
+    wanted_s: &[f64],
+    between: Between,
+) -> (Vec<f64>, usize) {
+    let steps = || {
+        time_s
+            .windows(2)
+            .filter_map(|pair| Some(pair.get(1)? - pair.first()?))
+    };
+    let limit_s = match between {
+        Between::Line => GAP_STEPS * median(steps().collect()),
+        Between::Held => f64::INFINITY,
+    };
+    let gaps = steps().filter(|step_s| *step_s > limit_s).count();
+    let mut after = 0;
+    let value = |place: usize| values.get(place).copied().unwrap_or(f64::NAN);
+    let sampled = wanted_s.iter().map(|&wanted_s| {
+        while time_s.get(after).is_some_and(|time_s| *time_s <= wanted_s) {
+            after += 1;
+        }
+        let Some(before) = after.checked_sub(1) else {
+            return f64::NAN;
+        };
+        let start_s = time_s.get(before).copied().unwrap_or(f64::NAN);
+        match (between, time_s.get(after)) {
+            _ if start_s == wanted_s => value(before),
+            (Between::Held, _) => value(before),
+            (Between::Line, Some(end_s)) if end_s - start_s <= limit_s => {
+                let share = (wanted_s - start_s) / (end_s - start_s);
+                value(before) + share * (value(after) - value(before))
+            }
+            _ => f64::NAN,
+        }
+    });
+    (sampled.collect(), gaps)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn straight_lines_end_at_gaps_and_held_values_do_not() {
+        let time_s = [0.11, 0.21, 0.31, 0.91, 1.01];
+        let values = [3.0, 5.0, 4.0, 8.0, 9.5];
+        let wanted_s = [0.05, 0.11, 0.135, 0.31, 0.6, 0.96, 1.2];
+        let (line, gaps) = resample(&time_s, &values, &wanted_s, Between::Line);
+        assert_eq!(gaps, 1);
+        assert!(line[0].is_nan() && line[4].is_nan() && line[6].is_nan());
+        assert_eq!((line[1], line[3]), (3.0, 4.0));
+        assert!((line[2] - 3.5).abs() < 1e-12 && (line[5] - 8.75).abs() < 1e-12);
+        let (held, gaps) = resample(&time_s, &values, &wanted_s, Between::Held);
+        assert_eq!(gaps, 0);
+        assert!(held[0].is_nan());
+        assert_eq!(held[1..], [3.0, 3.0, 4.0, 4.0, 8.0, 9.5]);
+    }
+
+    #[test]
+    fn samples_out_of_order_are_moved_and_repeated_times_count_once() {
+        let ordered = order(&[0.3, 0.1, f64::NAN, 0.2, 0.3, f64::INFINITY]);
+        assert_eq!(ordered.places, [1, 3, 0]);
+        assert_eq!((ordered.moved, ordered.dropped), (1, 3));
+    }
+}
