@@ -13,8 +13,8 @@ use crate::velocity::LONGEST_WINDOW;
 
 /// Ticks without a new sample over which the last command holds; in the next one the brakes are let go.
 pub const MOST_REPEATS: u8 = 2;
-/// Good samples in a row after a start or a fault from which on a law is asked: a whole window of velocity.
-pub const RECOVERY_SAMPLES: u8 = LONGEST_WINDOW as u8;
+/// Good samples in a row after a start or a fault from which on a law is asked: the newest and a whole window of velocity before it.
+pub const RECOVERY_SAMPLES: u8 = LONGEST_WINDOW as u8 + 1;
 
 /// What the guard makes of a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,7 +35,9 @@ pub struct Guard<R> {
     /// Most counts from one sample to the next, A and B.
     greatest_step: [u32; 2],
     greatest_force_n: R,
-    last: Option<(u32, [i32; 2])>,
+    last_number: Option<u32>,
+    /// The last travels that were possible: whatever comes later has to lie beside them.
+    believed: Option<[i32; 2]>,
     repeats: u8,
     good: u8,
 }
@@ -46,7 +48,8 @@ impl<R: Real> Guard<R> {
         Guard {
             greatest_step,
             greatest_force_n,
-            last: None,
+            last_number: None,
+            believed: None,
             repeats: 0,
             good: 0,
         }
@@ -61,20 +64,26 @@ impl<R: Real> Guard<R> {
         reached: bool,
         force_n: [R; 2],
     ) -> Verdict {
-        if self.last.is_some_and(|(last, _)| last == number) {
+        if self.last_number == Some(number) {
             return self.repeat();
         }
-        let ([x_n, y_n], greatest_n) = (force_n, self.greatest_force_n);
-        let fault = if self.has_missed(number) {
-            Some(Reason::StaleSample)
-        } else if !reached || self.has_jumped(travels) {
+        let jumped = !reached || self.has_jumped(travels);
+        let fault = if jumped {
             Some(Reason::JumpedCounts)
-        } else if !(x_n.is_within(greatest_n) && y_n.is_within(greatest_n)) {
+        } else if self.has_missed(number) {
+            Some(Reason::StaleSample)
+        } else if !force_n
+            .into_iter()
+            .all(|component| component.is_within(self.greatest_force_n))
+        {
             Some(Reason::UndefinedInput)
         } else {
             None
         };
-        self.last = Some((number, travels));
+        self.last_number = Some(number);
+        if !jumped {
+            self.believed = Some(travels);
+        }
         self.repeats = 0;
         if let Some(reason) = fault {
             self.good = 0;
@@ -99,20 +108,21 @@ impl<R: Real> Guard<R> {
 
     /// Whether a sample came out of turn.
     fn has_missed(&self, number: u32) -> bool {
-        self.last
-            .is_some_and(|(last, _)| number != last.wrapping_add(1))
+        self.last_number
+            .is_some_and(|last| number != last.wrapping_add(1))
     }
 
-    /// Whether a joint moved further than it can in one sample.
+    /// Whether a joint is further from where it was last believed than it can move in one sample. Counts that were lost stay lost: the
+    /// brakes are free until the counter is back or the controller is made anew.
     fn has_jumped(&self, travels: [i32; 2]) -> bool {
-        let Some((_, last)) = self.last else {
+        let Some(believed) = self.believed else {
             return false;
         };
         travels
             .into_iter()
-            .zip(last)
+            .zip(believed)
             .zip(self.greatest_step)
-            .any(|((travel, last), greatest)| travel.abs_diff(last) > greatest)
+            .any(|((travel, believed), greatest)| travel.abs_diff(believed) > greatest)
     }
 }
 
@@ -180,8 +190,8 @@ mod tests {
     #[test]
     fn a_law_is_asked_after_a_whole_window_of_good_samples() {
         let mut guard = running(u32::from(RECOVERY_SAMPLES) - 2);
-        assert_eq!(guard.judge(48, [613, -287], true, FORCE_N), Verdict::Early);
-        assert_eq!(guard.judge(49, [613, -287], true, FORCE_N), Verdict::Good);
+        assert_eq!(guard.judge(49, [613, -287], true, FORCE_N), Verdict::Early);
+        assert_eq!(guard.judge(50, [613, -287], true, FORCE_N), Verdict::Good);
     }
 
     #[test]
@@ -196,13 +206,13 @@ mod tests {
         let mut guard = running(20);
         let stale = Verdict::Fault(Reason::StaleSample);
         assert_eq!(guard.judge(63, [613, -287], true, FORCE_N), stale);
-        for number in 64..71 {
+        for number in 64..72 {
             assert_eq!(
                 guard.judge(number, [613, -287], true, FORCE_N),
                 Verdict::Early
             );
         }
-        assert_eq!(guard.judge(71, [613, -287], true, FORCE_N), Verdict::Good);
+        assert_eq!(guard.judge(72, [613, -287], true, FORCE_N), Verdict::Good);
         assert_eq!(guard.judge(70, [613, -287], true, FORCE_N), stale);
     }
 
@@ -215,6 +225,26 @@ mod tests {
             assert_eq!(again(), Verdict::Fault(Reason::StaleSample));
         }
         assert_eq!(guard.judge(62, [613, -287], true, FORCE_N), Verdict::Early);
+    }
+
+    #[test]
+    fn lost_counts_are_never_believed_again() {
+        let jumped = Verdict::Fault(Reason::JumpedCounts);
+        let mut guard = running(20);
+        // The number of the first is missed as well.
+        for number in 63..900 {
+            assert_eq!(
+                guard.judge(number, [613 - 5000, -287], true, FORCE_N),
+                jumped
+            );
+        }
+        for number in 900..908 {
+            assert_eq!(
+                guard.judge(number, [620, -287], true, FORCE_N),
+                Verdict::Early
+            );
+        }
+        assert_eq!(guard.judge(908, [620, -287], true, FORCE_N), Verdict::Good);
     }
 
     #[test]

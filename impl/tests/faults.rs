@@ -61,14 +61,7 @@ fn acts(command: &Command<f64>) -> bool {
 fn plant(bad: Sensed<f64>, expected: Reason) {
     let (mut subject, before) = running();
     assert_eq!(subject.tick(&bad), Command::none(expected));
-    // Counts that jumped have to jump back.
-    let jumped = bad.counts != good(0).counts;
-    let next = bad.number.wrapping_add(1);
-    if jumped {
-        let back = subject.tick(&good(next));
-        assert_eq!(back, Command::none(Reason::JumpedCounts));
-    }
-    let first = next.wrapping_add(u32::from(jumped));
+    let first = bad.number.wrapping_add(1);
     for i in 0..u32::from(RECOVERY_SAMPLES) - 1 {
         let command = subject.tick(&good(first.wrapping_add(i)));
         assert_eq!(command, Command::none(Reason::Starting));
@@ -118,6 +111,19 @@ fn counts_that_jump_let_go() {
     };
     let (mut subject, _) = running();
     assert!(subject.tick(&fast).reason != Reason::JumpedCounts);
+}
+
+#[test]
+fn counts_that_were_lost_let_go_for_good() {
+    let (mut subject, _) = running();
+    let [a, b] = good(20).counts;
+    for number in 20..3000 {
+        let lost = Sensed {
+            counts: [a.wrapping_sub(5_000), b],
+            ..good(number)
+        };
+        assert_eq!(subject.tick(&lost), Command::none(Reason::JumpedCounts));
+    }
 }
 
 #[test]

@@ -10,7 +10,7 @@ use rigproof_spec::command::Reason;
 const GREATEST_STEP: [u32; 2] = [479, 97];
 const GREATEST_FORCE_N: f64 = 200.0;
 /// Good samples in a row after which a law is asked (decision 0074).
-const WINDOW: usize = 8;
+const WINDOW: usize = 9;
 /// Ticks without a new sample that are let pass.
 const REPEATS: usize = 2;
 
@@ -25,6 +25,8 @@ enum Event {
     Lost(u32),
     /// A joint moved further than it can.
     Jump(i32),
+    /// The counts are where they were last believed.
+    Back,
     /// A joint stands where it cannot.
     Unreached,
     /// A force that is no number or beyond its sensor.
@@ -37,6 +39,9 @@ struct Record {
     number: u32,
     travels: [i32; 2],
     started: bool,
+    /// The last travels that were possible.
+    believed: Option<[i32; 2]>,
+    jumped: bool,
     /// `true` for a good sample, `false` for a fault, in the order of the ticks.
     good: Vec<bool>,
     repeats: usize,
@@ -48,9 +53,8 @@ impl Record {
         match &self.event {
             Some(Event::Again) if self.started && self.repeats <= REPEATS => Verdict::Repeated,
             Some(Event::Again) if self.started => Verdict::Fault(Reason::StaleSample),
+            _ if self.jumped => Verdict::Fault(Reason::JumpedCounts),
             Some(Event::Lost(_)) if self.started => Verdict::Fault(Reason::StaleSample),
-            Some(Event::Jump(_)) if self.started => Verdict::Fault(Reason::JumpedCounts),
-            Some(Event::Unreached) => Verdict::Fault(Reason::JumpedCounts),
             Some(Event::Force(_)) => Verdict::Fault(Reason::UndefinedInput),
             _ if self.good.iter().rev().take_while(|good| **good).count() < WINDOW => {
                 Verdict::Early
@@ -85,6 +89,7 @@ impl ReferenceStateMachine for Record {
             2 => Just(Event::Again),
             1 => (1..u32::MAX - 1).prop_map(Event::Lost),
             1 => prop_oneof![480..9000_i32, -9000..-479_i32].prop_map(Event::Jump),
+            1 => Just(Event::Back),
             1 => Just(Event::Unreached),
             1 => force.prop_map(Event::Force),
         ]
@@ -110,14 +115,27 @@ impl ReferenceStateMachine for Record {
         let [a, b] = match event {
             Event::Next(moved) => *moved,
             Event::Jump(moved) => [*moved, 0],
+            Event::Back => {
+                let [to_a, to_b] = record.believed.unwrap_or(record.travels);
+                [to_a - record.travels[0], to_b - record.travels[1]]
+            }
             _ => [0, 0],
         };
         record.travels = [record.travels[0] + a, record.travels[1] + b];
-        let good = match event {
-            Event::Unreached | Event::Force(_) => false,
-            Event::Lost(_) | Event::Jump(_) => !record.started,
-            Event::Next(_) | Event::Again => true,
+        let far = |believed: [i32; 2]| {
+            let apart = [0, 1].map(|i| record.travels[i].abs_diff(believed[i]));
+            apart[0] > GREATEST_STEP[0] || apart[1] > GREATEST_STEP[1]
         };
+        record.jumped = matches!(event, Event::Unreached) || record.believed.is_some_and(far);
+        if !record.jumped {
+            record.believed = Some(record.travels);
+        }
+        let good = !record.jumped
+            && match event {
+                Event::Unreached | Event::Force(_) => false,
+                Event::Lost(_) => !record.started,
+                Event::Jump(_) | Event::Back | Event::Next(_) | Event::Again => true,
+            };
         record.good.push(good);
         // What came before the first sample cannot have been missed.
         if !record.started && good {
