@@ -1,5 +1,5 @@
-//! What the rig runs: one tick of a controller, one step of the plant. No standard library, no heap, no panic, and as much
-//! work in every tick as in any other.
+//! What the rig runs: one tick of a controller, one step of the plant. No standard library but for the feature `batch`, no heap, no
+//! panic, and bounded work in every tick.
 #![no_std]
 #![deny(
     clippy::unwrap_used,

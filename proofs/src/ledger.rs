@@ -92,7 +92,8 @@ pub struct Ledger {
 /// What has to be believed.
 const TRUSTED: &str = "\
 What has to be believed: the Rust compiler keeps IEEE 754 for `+`, `-`, `*` and comparisons of f64, without contraction; the symbolic number \
-(`symbol.rs`, `interval.rs`) records what the code computes and rules out only branches that contradict a comparison already made; the script \
+(`symbol.rs`, `interval.rs`) records what the code computes and rules out only branches that contradict a comparison already made, which decides most \
+checks without a question to the solver; magnitude and bound of a number, which f64 computes by `abs`, are what the symbolic number computes by comparisons; the script \
 (`script.rs`) says the same in SMT-LIB 2; bitwuzla is right when it says UNSAT. What it finds satisfiable is replayed on f64 before it counts \
 as refuted. That a computed sum of two products below zero means an exact one below zero rests on rounding to nearest keeping order.";
 
@@ -107,6 +108,14 @@ impl Ledger {
                 .filter(|verdict| verdict.word == Word::Refuted);
             failures.extend(
                 refuted.map(|by| format!("{}: refuted by {}: {}", entry.claim, by.engine, by.how)),
+            );
+            let undecided = entry
+                .verdicts
+                .iter()
+                .filter(|verdict| verdict.word == Word::Undecided);
+            failures.extend(
+                undecided
+                    .map(|by| format!("{}: undecided by {}: {}", entry.claim, by.engine, by.how)),
             );
             if entry.classes.is_empty() {
                 failures.push(format!("{}: no class was met", entry.claim));

@@ -7,7 +7,8 @@
 #include <stddef.h>
 
 /*
- Version of every struct and function here; one that does not fit is refused.
+ Version of every struct and function here. Settings of another version or size are refused; the other structs have neither, so that a program
+ has to be built with the header of the library it is linked with.
  */
 #define RIGPROOF_TICK_VERSION 1
 

@@ -21,13 +21,15 @@ pub use words::{
     RigproofTickStatus,
 };
 
-/// Version of every struct and function here; one that does not fit is refused.
+/// Version of every struct and function here. Settings of another version or size are refused; the other structs have neither, so that a program
+/// has to be built with the header of the library it is linked with.
 pub const RIGPROOF_TICK_VERSION: u32 = 1;
 /// Size of a controller, words of eight bytes.
 pub const RIGPROOF_TICK_WORDS: usize = 384;
 
-/// What marks a controller that was created.
-const MARK: u64 = 0x5249_4750_524f_4f46;
+/// What marks a controller that was created by a library of this version whose controllers are of this size.
+const MARK: u64 =
+    0x5249_4750_524f_4f46 ^ ((RIGPROOF_TICK_VERSION as u64) << 32) ^ size_of::<Controller>() as u64;
 
 /// A controller. Its memory is the caller's and its content this library's; it may be copied with memcpy.
 #[repr(C)]
@@ -122,7 +124,7 @@ pub(crate) fn is_usable<T>(pointer: *const T) -> bool {
 }
 
 /// Without the standard library nothing catches a panic. None can happen (`impl/examples/no_panic.rs`); should one, the tick stops and
-/// the amplifiers' watchdog lets go.
+/// the amplifiers' own watchdog, which a rig needs, lets go (decision 0074).
 #[cfg(all(not(feature = "std"), not(test)))]
 #[panic_handler]
 fn stop(_: &core::panic::PanicInfo) -> ! {

@@ -5,26 +5,15 @@
 //! solution is one, so that the order of the cases does not change it. And where a slipping joint turns back within the step, the
 //! step is divided at that moment: opposed to the rate at the end all along, the torque would be wrong before it.
 
+mod dry_brake;
+
 use super::form::Mass;
 use crate::vector::Vector;
 
-/// Square of the sine below which two brakes count as parallel: they hold and release the same motion.
-const PARALLEL_SQUARED: f64 = 1e-24;
+pub use dry_brake::DryBrake;
+use dry_brake::exact_zero;
 
 type Plane = Vector<f64>;
-
-/// One dry brake on two coordinates.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DryBrake {
-    /// How its torque acts on the coordinates.
-    pub force_row: Plane,
-    /// The rate of its joint by the coordinates' rates.
-    pub rate_row: Plane,
-    /// Greatest impulse of the brake, N·m·s, 0 or more; 0 is no brake.
-    pub bound: f64,
-    /// The rate of its joint at the start, rad/s.
-    pub start_rad_s: f64,
-}
 
 /// What the brakes of a rig do.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,39 +46,6 @@ pub struct Dry {
     pub contact: Contact,
 }
 
-impl DryBrake {
-    /// None.
-    pub fn absent() -> DryBrake {
-        DryBrake {
-            force_row: Vector::zero(),
-            rate_row: Vector::zero(),
-            bound: 0.0,
-            start_rad_s: 0.0,
-        }
-    }
-
-    fn acts(&self) -> bool {
-        self.bound > 0.0
-    }
-
-    /// The rate of the joint along a direction; exactly zero where they are at right angles.
-    #[inline]
-    fn rate(&self, along: Plane) -> f64 {
-        exact_zero(self.rate_row, along)
-    }
-}
-
-/// The dot product; exactly zero where the two are at right angles.
-#[inline]
-fn exact_zero(one: Plane, other: Plane) -> f64 {
-    let product = one.dot(other);
-    if product * product <= PARALLEL_SQUARED * one.norm_squared() * other.norm_squared() {
-        0.0
-    } else {
-        product
-    }
-}
-
 /// The rates after a step that begins with `momentum` and adds `impulse`, N·m·s, against brakes that did `last` in the step before.
 ///
 /// M·v = r + Σ Gᵢᵀ·λᵢ, where λᵢ opposes the joint's rate with its bound, or is any impulse inside it where the joint stands:
@@ -114,7 +70,9 @@ pub fn dry_motion(
     };
     let (signs, dry) = match last {
         Contact::Rest => return whole.rest().unwrap_or_else(|| whole.any()),
-        Contact::Slipping(signs) => (signs, whole.sector(signs)),
+        // A brake that acts now and did not has no sign to go on with.
+        Contact::Slipping(signs) if knows(brakes, signs) => (signs, whole.sector(signs)),
+        Contact::Slipping(_) => return whole.any(),
         Contact::Along { held, signs } => match whole.holding(held, signs) {
             Some(dry) => (signs, dry),
             None => return whole.any(),
@@ -152,6 +110,13 @@ pub fn standing(impulse: Plane, brakes: &[DryBrake; 4]) -> Option<Dry> {
         brakes,
     };
     problem.rest()
+}
+
+/// Whether every brake that acts has a sign.
+#[inline]
+fn knows(brakes: &[DryBrake; 4], signs: [f64; 4]) -> bool {
+    let mut pairs = brakes.iter().zip(signs);
+    pairs.all(|(brake, sign)| sign != 0.0 || !brake.acts())
 }
 
 /// The part of a step, up to which every slipping joint keeps its sign if the rates change evenly; 1 where all do.

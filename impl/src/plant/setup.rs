@@ -70,7 +70,15 @@ impl Parameters {
         };
         let resists = |table: &BrakeTable| {
             let off_nm = table.torque_gain.off_state_nm();
-            off_nm >= 0.0 && off_nm <= table.greatest_nm() && table.greatest_nm().is_finite()
+            let positive = |[least, greatest]: [f64; 2]| {
+                least > 0.0 && least <= greatest && greatest.is_finite()
+            };
+            off_nm >= 0.0
+                && off_nm <= table.greatest_nm()
+                && table.greatest_nm().is_finite()
+                && (0.0..=360.0).contains(&table.backlash_width_deg)
+                && positive(table.current_range_a)
+                && positive(table.speed_range_rpm)
         };
         lengths
             .into_iter()
