@@ -140,6 +140,7 @@ fn no_bytes_make_the_message_reader_panic() {
         };
         mcap::to_bytes(&trace, &mcap::Extras::default()).unwrap()
     };
-    let seeds = [["mm", "N"], ["deg", "N·m"], ["V", "A"]].map(file);
+    let mut seeds = Vec::from([["mm", "N"], ["deg", "N·m"], ["V", "A"]].map(file));
+    seeds.extend(corpus("mcap"));
     feed(&seeds, mcap::read_bytes);
 }
