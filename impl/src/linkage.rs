@@ -3,7 +3,6 @@
 use rigproof_spec::geometry::Arms;
 
 use crate::number::Real;
-use crate::select::Rows;
 use crate::vector::Vector;
 
 /// Least sine of the angle between two arms at which a pose is used, as in the reference.
@@ -99,18 +98,6 @@ impl<R: Real> Linkage<R> {
             -(self.ae + self.ed) * left,
             self.cd * right,
             -(self.bc + self.cd) * right,
-        ]
-    }
-
-    /// The rows of the brakes only, for a selection.
-    pub fn braked_rows(&self, braked: [bool; 4]) -> Rows<R> {
-        let [a, e, b, c] = self.rows();
-        let [with_a, with_e, with_b, with_c] = braked;
-        [
-            with_a.then_some(a),
-            with_e.then_some(e),
-            with_b.then_some(b),
-            with_c.then_some(c),
         ]
     }
 

@@ -253,26 +253,12 @@ impl<R: Real> Motion<R> {
 
     /// Whether the rates here may turn the arms for a time, and whether a linkage may be used.
     #[inline(always)]
-    fn checks(&self, mechanism: &Mechanism<R>, linkage: &Linkage<R>, time_s: R) -> Checks {
+    pub fn checks(&self, mechanism: &Mechanism<R>, linkage: &Linkage<R>, time_s: R) -> Checks {
         Checks {
             undefined: false,
             too_fast: !Motion::is_slow(self.rates_rad_s, time_s),
             singular: !linkage.is_sound(&mechanism.shape),
         }
-    }
-
-    /// Whether the first part of a step from here may be taken.
-    #[inline]
-    pub fn outcome_midway(&self, mechanism: &Mechanism<R>, midway: &Midway<R>) -> Outcome {
-        self.checks(mechanism, &midway.linkage, midway.lead_s)
-            .outcome()
-    }
-
-    /// Whether the second part of a step that ends here may be taken.
-    #[inline]
-    pub fn outcome_end(&self, mechanism: &Mechanism<R>, midway: &Midway<R>, step_s: R) -> Outcome {
-        self.checks(mechanism, &self.linkage, step_s - midway.lead_s)
-            .outcome()
     }
 }
 

@@ -50,7 +50,10 @@ impl Plant {
             return Outcome::Moved;
         }
         let midway = self.motion.midway(&self.mechanism, force_n, step_s);
-        let outcome = self.motion.outcome_midway(&self.mechanism, &midway);
+        let first = self
+            .motion
+            .checks(&self.mechanism, &midway.linkage, midway.lead_s);
+        let outcome = first.outcome();
         if outcome != Outcome::Moved {
             return outcome;
         }
@@ -66,7 +69,8 @@ impl Plant {
         let mut next = self
             .motion
             .arrive(&self.mechanism, &midway, dry.rates_rad_s, step_s);
-        let outcome = next.outcome_end(&self.mechanism, &midway, step_s);
+        let second = next.checks(&self.mechanism, &next.linkage, step_s - midway.lead_s);
+        let outcome = second.outcome();
         if outcome != Outcome::Moved {
             return outcome;
         }
