@@ -361,7 +361,11 @@ fn tick_and_plant_joined_are_the_reference_in_every_tick() {
     );
     assert!(all.ticks > runs * u64::from(TICKS) / 2);
     // When in a step a joint comes to stand is the greatest of what the plant does not resolve.
-    assert!(all.held_otherwise * 500 < all.ticks, "{} steps", all.held_otherwise);
+    assert!(
+        all.held_otherwise * 500 < all.ticks,
+        "{} steps",
+        all.held_otherwise
+    );
     assert_within_budget("joined_current", all.rounding_a);
     for (kind, apart) in all.apart {
         let kind = format!("{kind:?}").to_lowercase();
