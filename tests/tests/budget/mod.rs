@@ -8,6 +8,7 @@ pub fn assert_within_budget(name: &str, mut values: Vec<f64>) {
     for (key, rank) in [("q75", 0.75), ("q99", 0.99), ("max", 1.0)] {
         let budget = budgets[name][key].as_float().unwrap();
         let value = values[((values.len() - 1) as f64 * rank) as usize];
+        println!("{name}: {key} is {value:e} of {budget:e}");
         assert!(
             value <= budget,
             "{name}: {key} is {value:e}, tests/budgets.toml allows {budget:e}"
