@@ -341,22 +341,21 @@ fn as_seen(tick: &Tick) -> Option<Nearest> {
 
 /// Whether a velocity or a push is so small that its square loses digits, and the rig lets go, or answers as it may without it.
 fn is_without_what_is_tiny(tick: &Tick, rig: Command, nudger: &mut Sampler) -> bool {
-    without_what_is_tiny(tick).is_some_and(|without| {
-        let reference = reference_command(&without, View::EXACT);
-        rig == Command::none(rig.reason) || permitted(&without, reference, rig, nudger).is_ok()
-    })
-}
-
-/// The tick without the velocity or the push whose square loses digits; `None` where there is none.
-fn without_what_is_tiny(tick: &Tick) -> Option<Tick> {
-    let mut without = tick.clone();
-    let mut found = false;
-    for vector in [&mut without.velocity_m_s, &mut without.force_n] {
-        let [x, y] = *vector;
+    let mut still = [tick.clone(), tick.clone()];
+    let [without_velocity, without_push] = &mut still;
+    without_velocity.velocity_m_s = [0.0; 2];
+    without_push.force_n = [0.0; 2];
+    let vectors = [tick.velocity_m_s, tick.force_n];
+    let tiny = vectors.map(|[x, y]| {
         let length = libm::hypot(x, y);
-        if length > 0.0 && length < LEAST_SQUARABLE {
-            (*vector, found) = ([0.0; 2], true);
-        }
-    }
-    found.then_some(without)
+        length > 0.0 && length < LEAST_SQUARABLE
+    });
+    still
+        .iter()
+        .zip(tiny)
+        .filter(|(_, tiny)| *tiny)
+        .any(|(without, _)| {
+            let reference = reference_command(without, View::EXACT);
+            rig == Command::none(rig.reason) || permitted(without, reference, rig, nudger).is_ok()
+        })
 }
