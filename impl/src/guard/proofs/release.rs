@@ -5,10 +5,10 @@ use rigproof_spec::joint::Joint;
 use rigproof_spec::laws;
 use rigproof_spec::tables::GREATEST_CURRENT_A;
 
-use super::release;
 use crate::claim::Checker;
 use crate::claims;
 use crate::command::Command;
+use crate::guard::release;
 use crate::number::Scalar;
 
 /// Any reason that a law may give, of each kind one or more.
@@ -79,7 +79,8 @@ claims! {
         let (mut command, braked) = asked(c);
         let place = c.choice(4);
         let value = c.scalar();
-        c.assume(!value.is_within(C::Number::of(f64::MAX)))?;
+        let greatest = c.greatest();
+        c.assume(!value.is_within(greatest))?;
         for (index, current_a) in (0..).zip(&mut command.currents_a) {
             if index == place {
                 *current_a = value;
