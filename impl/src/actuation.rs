@@ -60,6 +60,11 @@ impl<R: Real> Actuation<R> {
         &self.shape
     }
 
+    /// Whether these are the arms, and the joints with a brake, of a rig.
+    pub(crate) fn is_of(&self, shape: &Shape<R>, braked: [bool; 4]) -> bool {
+        self.shape == *shape && self.gains.map(|gain| gain.is_some()) == braked
+    }
+
     /// The greatest force asked for at the tip, N.
     pub const fn greatest_force_n(&self) -> R {
         self.greatest_force_n

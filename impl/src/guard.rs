@@ -13,6 +13,8 @@ use crate::velocity::LONGEST_WINDOW;
 
 /// Ticks without a new sample over which the last command holds; in the next one the brakes are let go.
 pub const MOST_REPEATS: u8 = 2;
+/// How far beside the amplifiers' range a law's current may lie, A: a hundredth of it, far beyond rounding.
+pub const SLACK_A: f64 = 0.01 * GREATEST_CURRENT_A;
 /// Good samples in a row after a start or a fault from which on a law is asked: the newest and a whole window of velocity before it.
 pub const RECOVERY_SAMPLES: u8 = LONGEST_WINDOW as u8 + 1;
 
@@ -127,7 +129,7 @@ impl<S: Scalar> Guard<S> {
 }
 
 /// What may leave: currents of 0 to 1 A on brakes that are there and that the reason names. A law that asks for anything else is
-/// taken for broken and the brakes are let go; only what lies beside the range is put at its end.
+/// taken for broken and the brakes are let go; only what lies beside the range by [`SLACK_A`] or less is put at its end (decision 0101).
 ///
 /// A brake takes power from its joint whichever way that turns, so that a current has no sign to be wrong; which brake may act is
 /// the law's to know.
@@ -137,7 +139,7 @@ pub fn release<S: Scalar>(command: Command<S>, braked: [bool; 4]) -> Command<S> 
     let [named_a, named_e, named_b, named_c] = named(command.reason);
     let [a, e, b, c] = command.currents_a;
     let allowed =
-        |may_act: bool, current_a: S| (current_a == S::zero()) | (may_act & is_finite(current_a));
+        |may_act: bool, current_a: S| (current_a == S::zero()) | (may_act & is_in_range(current_a));
     if allowed(with_a & named_a, a)
         & allowed(with_e & named_e, e)
         & allowed(with_b & named_b, b)
@@ -152,10 +154,10 @@ pub fn release<S: Scalar>(command: Command<S>, braked: [bool; 4]) -> Command<S> 
     }
 }
 
-/// Whether it is a number that both widths have: neither infinite nor undefined.
+/// Whether a current is in the amplifiers' range, or beside it by [`SLACK_A`] or less; what is no number is not.
 #[inline]
-fn is_finite<S: Scalar>(number: S) -> bool {
-    number.is_within(S::of(f64::from(f32::MAX)))
+fn is_in_range<S: Scalar>(current_a: S) -> bool {
+    (S::of(-SLACK_A) <= current_a) & (current_a <= S::of(GREATEST_CURRENT_A + SLACK_A))
 }
 
 /// A current put inside what the amplifiers take, A; none for what is no number.
@@ -282,6 +284,9 @@ mod tests {
                 Reason::LockedMovingBack,
                 all,
             ),
+            ([0.0, 0.0, 1.011, 0.0], Reason::Chosen(Joint::B), all),
+            ([-0.011, 0.0, 0.0, 0.0], Reason::Chosen(Joint::A), all),
+            ([0.31, 0.7, 1.9, 0.2], Reason::LockedMovingBack, all),
             ([0.31, 0.0, 0.0, 0.0], Reason::Chosen(Joint::E), all),
             ([0.0, 0.0, 0.31, 0.0], Reason::NoneHelps, all),
             ([0.0, 0.0, 0.0, 0.31], Reason::Chosen(Joint::C), three),

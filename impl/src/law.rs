@@ -20,6 +20,7 @@ pub use sdof::Sdof;
 pub use uncontrolled::Uncontrolled;
 pub use velocity_ratio::VelocityRatio;
 
+use crate::actuation::Actuation;
 use crate::command::Command;
 use crate::linkage::Linkage;
 use crate::vector::Vector;
@@ -41,4 +42,7 @@ pub struct Situation<R> {
 pub trait Law<R> {
     /// What to ask of the brakes now.
     fn command(&mut self, now: &Situation<R>) -> Command<R>;
+
+    /// The arms and brakes that it is made for; `None` for a law of any rig. A tick takes no law of another rig than its own.
+    fn actuation(&self) -> Option<&Actuation<R>>;
 }

@@ -11,6 +11,7 @@ pub mod sdof;
 
 use rigproof_spec::command::Reason;
 use rigproof_spec::joint::Joint;
+use rigproof_spec::methods::STANDING;
 
 use crate::number::Scalar;
 use crate::vector::Vector;
@@ -85,6 +86,19 @@ pub fn bounded<S: Scalar>(vector: &Vector<S>) -> bool {
 #[inline]
 pub fn sound_row<S: Scalar>(row: &Vector<S>) -> bool {
     bounded(row) && row.norm_squared() >= S::of(LEAST_ROW_SQUARED_PER_M2)
+}
+
+/// The rate of a joint whose row of the Jacobian is `row`, rad/s; exactly zero where the joint stands: at [`STANDING`] of the greatest rate
+/// that it can have at this speed, or below, by squares.
+#[inline]
+pub fn joint_rate<S: Scalar>(row: Vector<S>, velocity_m_s: Vector<S>) -> S {
+    let rate = row.dot(velocity_m_s);
+    let least = S::of(STANDING * STANDING) * row.norm_squared();
+    if rate * rate <= least * velocity_m_s.norm_squared() {
+        S::zero()
+    } else {
+        rate
+    }
 }
 
 /// Whether the operator pushes away from the path; never on it.

@@ -105,7 +105,7 @@ pub struct Tick<R, L> {
 }
 
 impl<R: Real, L: Law<R>> Tick<R, L> {
-    /// A controller that has seen nothing; `None` for settings that no rig has.
+    /// A controller that has seen nothing; `None` for settings that no rig has, and for a law of other arms or brakes.
     ///
     /// Taken are arms from [`SHORTEST_ARM_M`] to [`LONGEST_ARM_M`] (`L_AB` from 0), 1 to 2²⁴ counts a turn, and what lies inside
     /// [`SAMPLE_RANGE_S`], [`GREATEST_RATE_RANGE_RAD_S`] and [`GREATEST_FORCE_RANGE_N`].
@@ -121,10 +121,14 @@ impl<R: Real, L: Law<R>> Tick<R, L> {
             // A travel of a turn is the most there is; a float beyond u32 becomes the greatest u32.
             libm::ceil(turns * f64::from(counts_per_turn)) as u32
         };
-        let layout = settings.layout;
+        let shape = Shape::new(&settings.arms);
+        let braked = Joint::ALL.map(|joint| settings.layout.brakes().contains(&joint));
+        if law.actuation().is_some_and(|of| !of.is_of(&shape, braked)) {
+            return None;
+        }
         Some(Tick {
-            shape: Shape::new(&settings.arms),
-            braked: Joint::ALL.map(|joint| layout.brakes().contains(&joint)),
+            shape,
+            braked,
             velocities: encoders.map(|encoder| Velocity::new(&encoder, settings.sample_s)),
             encoders,
             guard: Guard::new(

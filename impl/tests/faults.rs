@@ -188,6 +188,10 @@ fn a_pose_that_cannot_be_lets_go() {
 struct Mad(Command<f64>);
 
 impl Law<f64> for Mad {
+    fn actuation(&self) -> Option<&Actuation<f64>> {
+        None
+    }
+
     fn command(&mut self, _: &Situation<f64>) -> Command<f64> {
         self.0
     }
@@ -213,10 +217,12 @@ fn a_law_that_asks_for_what_no_brake_may_be_given_is_let_go() {
         ([1.0, 1.0, 1.0, 1.0], Reason::LockedMovingBack),
         ([0.0, 0.31, 0.0, 0.0], Reason::Chosen(Joint::A)),
         ([0.31, 0.0, 0.0, 0.0], Reason::InsideGap),
+        ([1.7, 0.41, 0.37, 0.0], Reason::LockedPushedAway),
+        ([0.93, -0.3, 0.37, 0.0], Reason::LockedPushedAway),
     ] {
         assert_eq!(mad(currents_a, reason), refused);
     }
-    let clamped = mad([1.7, -0.3, 0.37, 0.0], Reason::LockedPushedAway);
+    let clamped = mad([1.007, -0.003, 0.37, 0.0], Reason::LockedPushedAway);
     assert_eq!(clamped.currents_a, [1.0, 0.0, 0.37, 0.0]);
 }
 
@@ -238,5 +244,22 @@ fn settings_of_no_rig_are_refused() {
         let mut settings = settings();
         change(&mut settings);
         assert!(Tick::new(&settings, law).is_none());
+    }
+}
+
+#[test]
+fn a_law_of_another_rig_is_refused() {
+    let line = Line::through([-0.113, 0.383], [0.107, 0.412]).unwrap();
+    let law = |actuation| Sdof::new(actuation, line, BLEND_BOUNDARY_M, 0.0).unwrap();
+    let layout = Layout::ThreeBrake;
+    let arms = rigproof_spec::geometry::arms(layout);
+    let mut longer = arms;
+    longer.l_cd_m += 1e-15;
+    let rig = settings();
+    let own = Actuation::new(layout, &arms, 11.3).unwrap();
+    assert!(Tick::<f64, _>::new(&rig, law(own)).is_some());
+    let with_c = Actuation::new(Layout::FourBrake, &arms, 11.3).unwrap();
+    for other in [Actuation::new(layout, &longer, 11.3).unwrap(), with_c] {
+        assert!(Tick::<f64, _>::new(&rig, law(other)).is_none());
     }
 }

@@ -13,6 +13,6 @@ pub use backlash::{Backlash, ENTRY_TRAVEL_DEG};
 pub use current_gain::current_gain;
 pub use fluid::{bingham_stress, laminae_yield_stress};
 pub use one_joint::{OneJoint, SPRING_NM_PER_DEG, VirtualSpring, WALL_NM_PER_DEG};
-pub use response::{Brake, Course};
+pub use response::{Brake, BrakeState, Course};
 pub use time_constant::{bounded_time_constant, table_time_constant, time_constant};
 pub use torque_gain::{fitted_torque_gain, torque_gain};

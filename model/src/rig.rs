@@ -5,6 +5,7 @@ mod contact;
 mod flow;
 mod reading;
 pub mod release;
+mod resume;
 mod step;
 
 use rigproof_spec::geometry::{Arms, arms};
@@ -20,6 +21,7 @@ use crate::motion::two_coordinate::{TwoCoordinate, two_coordinate};
 
 pub use contact::Contact;
 use contact::Contacts;
+pub use resume::Moment;
 
 /// Longest step of the integrator, s; longer steps are divided.
 pub const LONGEST_STEP_S: f64 = 1e-3;

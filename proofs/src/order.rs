@@ -1,4 +1,4 @@
-//! This file says how two rounded products lie to each other where the order of their factors is known: rounding to nearest keeps order.
+//! This file says how two rounded sums or products lie to each other where the order of their parts is known: rounding to nearest keeps order.
 
 use crate::interval::Interval;
 
@@ -30,6 +30,25 @@ pub fn reversed(orders: u8) -> u8 {
     kept | less | greater
 }
 
+/// Which orders are possible between two sums, given those of their parts: the sum of the greater ones is the greater one.
+pub fn of_sums([one, other]: [u8; 2]) -> u8 {
+    if no_less(one) && no_less(other) {
+        EQUAL | GREATER | UNORDERED
+    } else if no_greater(one) && no_greater(other) {
+        LESS | EQUAL | UNORDERED
+    } else {
+        ANY
+    }
+}
+
+fn no_less(orders: u8) -> bool {
+    orders & (LESS | UNORDERED) == 0
+}
+
+fn no_greater(orders: u8) -> bool {
+    orders & (GREATER | UNORDERED) == 0
+}
+
 /// Which orders are possible between two products.
 ///
 /// Where each factor keeps its sign, the product of the greater magnitudes has the greater magnitude: exactly, so also rounded.
@@ -39,8 +58,6 @@ pub fn of_products([one, other]: [Factors; 2]) -> u8 {
     else {
         return ANY;
     };
-    let no_less = |orders: u8| orders & (LESS | UNORDERED) == 0;
-    let no_greater = |orders: u8| orders & (GREATER | UNORDERED) == 0;
     let of_magnitudes = if no_less(one) && no_less(other) {
         EQUAL | GREATER
     } else if no_greater(one) && no_greater(other) {
@@ -117,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn no_order_that_two_products_have_is_ruled_out() {
+    fn no_order_that_two_sums_or_products_have_is_ruled_out() {
         let mut ruled = 0;
         for a in NUMBERS {
             for b in NUMBERS {
@@ -129,6 +146,9 @@ mod tests {
                             let found = order(a * b, c * d);
                             assert!(possible & found != 0, "{a} {b} {c} {d} {factors:?}");
                             ruled += u32::from(possible != ANY);
+                            let sums = of_sums(factors.map(|factors| factors.orders));
+                            let found = order(a + b, c + d);
+                            assert!(sums & found != 0, "{a} {b} {c} {d} {factors:?}");
                         }
                     }
                 }

@@ -14,7 +14,7 @@ use rigproof_impl::number::Scalar;
 
 use crate::fork::Forks;
 use crate::interval::Interval;
-use crate::order::{ANY, EQUAL, Factors, GREATER, LESS, UNORDERED, of_products, reversed};
+use crate::order::{ANY, EQUAL, Factors, GREATER, LESS, UNORDERED, of_products, of_sums, reversed};
 use crate::width::Width;
 
 /// A term of the arena.
@@ -223,6 +223,8 @@ impl Arena {
         };
         match (self.terms[left as usize], self.terms[right as usize]) {
             (Term::Neg(one), Term::Neg(other)) => reversed(between(one, other)),
+            (Term::Add(a, b), Term::Add(c, d)) => of_sums([between(a, c), between(b, d)]),
+            (Term::Sub(a, b), Term::Sub(c, d)) => of_sums([between(a, c), reversed(between(b, d))]),
             (Term::Mul(a, b), Term::Mul(c, d)) => {
                 let factors = |one: u32, other: u32| Factors {
                     orders: between(one, other),

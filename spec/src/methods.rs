@@ -13,6 +13,11 @@ pub const METRIC_CUTOFF_HZ: f64 = 25.0;
 /// The thesis prints a 0 for "no effect", which no measured pose gives; this is far below any angle that an encoder
 /// can tell from zero.
 pub const NO_INFLUENCE: f64 = 1e-9;
+/// Share of the rate that a joint would have if the tip moved straight along its force, at or below which the joint stands (gap
+/// `joint-at-rest`).
+///
+/// One count in the longest window beside the greatest rate that is believed is 2.6·10⁻⁴; rounding in single precision is 10⁻⁶.
+pub const STANDING: f64 = 1e-4;
 
 /// Greatest force that a controller asks for at the tip, N (§6.1.2).
 pub const fn greatest_desired_force_n(layout: Layout) -> f64 {

@@ -20,7 +20,7 @@ use rigproof_spec::laws::{
     opposition, undefined_input,
 };
 use rigproof_spec::layout::Layout;
-use rigproof_spec::methods::{BLEND_BOUNDARY_M, Method};
+use rigproof_spec::methods::{BLEND_BOUNDARY_M, Method, STANDING};
 use rigproof_spec::units::M_PER_CM;
 
 /// One moment of a rig: its layout and what is sensed.
@@ -393,6 +393,10 @@ proptest! {
         let mut closest = Vec::new();
         for (joint, row) in moment.rows() {
             let omega = row.dot(&moment.velocity());
+            if omega.abs() <= STANDING * row.norm() * moment.velocity().norm() {
+                prop_assert!(command.reason != Reason::Chosen(joint), "a joint that stands is braked");
+                continue;
+            }
             let push = if omega < 0.0 { row } else { -row };
             let [f_x, f_y] = turned(push.into(), beta);
             let small = 1e-3 * v_x.min(v_y.abs()) / libm::hypot(f_x, f_y);

@@ -138,8 +138,9 @@ fn has_invalid_solution(forces: &[[f64; 2]]) -> bool {
         };
         let velocity = unit(velocity_deg);
         forces.iter().any(|force| {
-            let opposing = opposing_force(Vector2::from(*force), velocity);
-            influence_rank(influence(opposing, &desired, velocity)).is_some()
+            opposing_force(Vector2::from(*force), velocity).is_some_and(|opposing| {
+                influence_rank(influence(opposing, &desired, velocity)).is_some()
+            })
         })
     };
     (0..360).map(f64::from).any(|direction_deg| {

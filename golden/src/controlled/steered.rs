@@ -208,7 +208,8 @@ impl Steered {
             ),
             Steered::VelocityRatio => (5, &["chosen_E", "chosen_B", "nothing_to_do"]),
             Steered::Optimal => (10, &["chosen_A", "chosen_E", "chosen_B", "nothing_to_do"]),
-            Steered::Impedance => (10, &["chosen_A_E", "chosen_A_B", "none_helps"]),
+            Steered::Impedance if three => (10, &["chosen_A_E", "chosen_A_B", "none_helps"]),
+            Steered::Impedance => (5, &["chosen_A_E", "chosen_A_B", "none_helps"]),
             Steered::Obstacle if three => (5, &["free_side", "chosen_E"]),
             Steered::Obstacle => (5, &["free_side", "chosen_C"]),
         }

@@ -53,8 +53,12 @@ volatile double current_a;
 void start(void)
 {
     RigproofTickSettings settings;
-    RigproofTickSensed sensed = {0, {0, 0}, {0.0, 0.0}};
+    RigproofTickSensed sensed = {sizeof sensed, RIGPROOF_TICK_VERSION, 0, {0, 0}, {0.0, 0.0}};
     RigproofTickCommand command;
+    settings.size = sizeof settings;
+    command.size = sizeof command;
+    tick.size = sizeof tick;
+    settings.version = command.version = tick.version = RIGPROOF_TICK_VERSION;
     if (rigproof_tick_thesis(&settings, 4) == RIGPROOF_TICK_STATUS_OK &&
         rigproof_tick_create(&tick, &settings) == RIGPROOF_TICK_STATUS_OK) {
         for (;; sensed.number++) {

@@ -17,6 +17,8 @@ static int settings_of(int argc, char **argv, RigproofTickSettings *settings)
         return 0;
     }
     uint32_t brakes = (uint32_t)strtoul(argv[1], NULL, 10);
+    settings->size = sizeof *settings;
+    settings->version = RIGPROOF_TICK_VERSION;
     if (rigproof_tick_thesis(settings, brakes) != RIGPROOF_TICK_STATUS_OK) {
         return 0;
     }
@@ -45,6 +47,10 @@ int main(int argc, char **argv)
         fprintf(stderr, "usage: tick BRAKES LAW GAIN_N_S_PER_M GAP_M CLOSED CORNERS X Y [X Y ...] < samples\n");
         return 2;
     }
+    tick.size = sizeof tick;
+    sensed.size = sizeof sensed;
+    command.size = sizeof command;
+    tick.version = sensed.version = command.version = RIGPROOF_TICK_VERSION;
     RigproofTickStatus status = rigproof_tick_create(&tick, &settings);
     if (status != RIGPROOF_TICK_STATUS_OK) {
         fprintf(stderr, "no controller: status %d\n", (int)status);

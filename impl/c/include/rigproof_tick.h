@@ -7,10 +7,10 @@
 #include <stddef.h>
 
 /*
- Version of every struct and function here. Settings of another version or size are refused; the other structs have neither, so that a program
- has to be built with the header of the library it is linked with.
+ Version of every struct and function here. Every struct begins with its size and this version, which the caller writes before it hands the
+ struct over; one of another size or version is refused, and nothing is written to it.
  */
-#define RIGPROOF_TICK_VERSION 1
+#define RIGPROOF_TICK_VERSION 2
 
 /*
  Size of a controller, words of eight bytes.
@@ -133,9 +133,17 @@ typedef enum RigproofTickReason {
 } RigproofTickReason;
 
 /*
- A controller. Its memory is the caller's and its content this library's; it may be copied with memcpy.
+ A controller. Its memory is the caller's and its content, but for size and version, this library's; it may be copied with memcpy.
  */
 typedef struct RigproofTick {
+  /*
+   Size of this struct, bytes.
+   */
+  uint32_t size;
+  /*
+   `RIGPROOF_TICK_VERSION`.
+   */
+  uint32_t version;
   uint64_t mark;
   uint64_t words[RIGPROOF_TICK_WORDS];
 } RigproofTick;
@@ -219,6 +227,14 @@ typedef struct RigproofTickSettings {
  */
 typedef struct RigproofTickSensed {
   /*
+   Size of this struct, bytes.
+   */
+  uint32_t size;
+  /*
+   `RIGPROOF_TICK_VERSION`.
+   */
+  uint32_t version;
+  /*
    Number of the sample: one more than that of the sample before, then 0 after the greatest.
    */
   uint32_t number;
@@ -236,6 +252,14 @@ typedef struct RigproofTickSensed {
  What a tick asks of the amplifiers.
  */
 typedef struct RigproofTickCommand {
+  /*
+   Size of this struct, bytes.
+   */
+  uint32_t size;
+  /*
+   `RIGPROOF_TICK_VERSION`.
+   */
+  uint32_t version;
   /*
    Brake currents, A, in the order A, E, B, C: 0 to 1.
    */
@@ -258,17 +282,18 @@ extern "C" {
  Makes a controller in `tick` that has seen nothing.
 
  # Safety
- `tick` must be null or point to a `RigproofTick` that may be written, `settings` be null or point to `settings->size` bytes that may be
+ `tick` must be null or point to `tick->size` bytes that may be written, `settings` be null or point to `settings->size` bytes that may be
  read.
  */
 enum RigproofTickStatus rigproof_tick_create(struct RigproofTick *tick,
                                              const struct RigproofTickSettings *settings);
 
 /*
- The currents of one tick, and why. Bounded work, whatever is sensed.
+ The currents of one tick, and why. Bounded work, whatever is sensed. Where the command's pointer, size or version are wrong it is not written;
+ where anything else is, it has no current.
 
  # Safety
- Each pointer must be null or point to what it says; `tick` to a controller that was created (one that was not is told by its mark,
+ Each pointer must be null or point to as many bytes as its size says; `tick` to a controller that was created (one that was not is told by its mark,
  unless chance wrote the mark) and that no other thread uses.
  */
 enum RigproofTickStatus rigproof_tick_step(struct RigproofTick *tick,
@@ -276,10 +301,10 @@ enum RigproofTickStatus rigproof_tick_step(struct RigproofTick *tick,
                                            struct RigproofTickCommand *command);
 
 /*
- Fills in the thesis's rig with 3 or 4 brakes; law, gain, gap and path are left to choose.
+ Fills in the thesis's rig with 3 or 4 brakes; law, gain, gap and path are left to choose. Size and version have to be there already.
 
  # Safety
- `settings` must be null or point to a `RigproofTickSettings` that may be written.
+ `settings` must be null or point to `settings->size` bytes that may be read and written.
  */
 enum RigproofTickStatus rigproof_tick_thesis(struct RigproofTickSettings *settings,
                                              uint32_t brakes);

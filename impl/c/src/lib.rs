@@ -21,9 +21,9 @@ pub use words::{
     RigproofTickStatus,
 };
 
-/// Version of every struct and function here. Settings of another version or size are refused; the other structs have neither, so that a program
-/// has to be built with the header of the library it is linked with.
-pub const RIGPROOF_TICK_VERSION: u32 = 1;
+/// Version of every struct and function here. Every struct begins with its size and this version, which the caller writes before it hands the
+/// struct over; one of another size or version is refused, and nothing is written to it.
+pub const RIGPROOF_TICK_VERSION: u32 = 2;
 /// Size of a controller, words of eight bytes.
 pub const RIGPROOF_TICK_WORDS: usize = 384;
 
@@ -31,9 +31,13 @@ pub const RIGPROOF_TICK_WORDS: usize = 384;
 const MARK: u64 =
     0x5249_4750_524f_4f46 ^ ((RIGPROOF_TICK_VERSION as u64) << 32) ^ size_of::<Controller>() as u64;
 
-/// A controller. Its memory is the caller's and its content this library's; it may be copied with memcpy.
+/// A controller. Its memory is the caller's and its content, but for size and version, this library's; it may be copied with memcpy.
 #[repr(C)]
 pub struct RigproofTick {
+    /// Size of this struct, bytes.
+    pub size: u32,
+    /// `RIGPROOF_TICK_VERSION`.
+    pub version: u32,
     mark: u64,
     words: [u64; RIGPROOF_TICK_WORDS],
 }
@@ -49,7 +53,7 @@ const _: () = assert!(
 /// Makes a controller in `tick` that has seen nothing.
 ///
 /// # Safety
-/// `tick` must be null or point to a `RigproofTick` that may be written, `settings` be null or point to `settings->size` bytes that may be
+/// `tick` must be null or point to `tick->size` bytes that may be written, `settings` be null or point to `settings->size` bytes that may be
 /// read.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rigproof_tick_create(
@@ -59,11 +63,14 @@ pub unsafe extern "C" fn rigproof_tick_create(
     if !is_usable(tick) || !is_usable(settings) {
         return RigproofTickStatus::BadPointer;
     }
-    // SAFETY: not null, aligned, and the caller's to write.
+    // SAFETY: not null, aligned, and the caller's to read.
+    if unsafe { !is_of_this_version(tick) } {
+        return RigproofTickStatus::BadVersion;
+    }
+    // SAFETY: not null, aligned, of this very size, and the caller's to write.
     unsafe { (&raw mut (*tick).mark).write(0) };
-    // SAFETY: not null and aligned; size and version are the first fields of every version and are read before any other.
-    let (size, version) = unsafe { ((*settings).size, (*settings).version) };
-    if version != RIGPROOF_TICK_VERSION || size as usize != size_of::<RigproofTickSettings>() {
+    // SAFETY: not null, aligned, and the caller's to read.
+    if unsafe { !is_of_this_version(settings) } {
         return RigproofTickStatus::BadVersion;
     }
     // SAFETY: not null, aligned, and of this very size; every pattern of bits is one of its numbers.
@@ -81,10 +88,11 @@ pub unsafe extern "C" fn rigproof_tick_create(
     RigproofTickStatus::Ok
 }
 
-/// The currents of one tick, and why. Bounded work, whatever is sensed.
+/// The currents of one tick, and why. Bounded work, whatever is sensed. Where the command's pointer, size or version are wrong it is not written;
+/// where anything else is, it has no current.
 ///
 /// # Safety
-/// Each pointer must be null or point to what it says; `tick` to a controller that was created (one that was not is told by its mark,
+/// Each pointer must be null or point to as many bytes as its size says; `tick` to a controller that was created (one that was not is told by its mark,
 /// unless chance wrote the mark) and that no other thread uses.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rigproof_tick_step(
@@ -95,12 +103,20 @@ pub unsafe extern "C" fn rigproof_tick_step(
     if !is_usable(command) {
         return RigproofTickStatus::BadPointer;
     }
-    // SAFETY: not null, aligned, and the caller's to write. Whatever goes wrong from here on, no brake has current.
+    // SAFETY: not null, aligned, and the caller's to read.
+    if unsafe { !is_of_this_version(command) } {
+        return RigproofTickStatus::BadVersion;
+    }
+    // SAFETY: not null, aligned, of this very size, and the caller's to write. Whatever goes wrong from here on, no brake has current.
     unsafe { command.write(RigproofTickCommand::none()) };
     if !is_usable(tick) || !is_usable(sensed) {
         return RigproofTickStatus::BadPointer;
     }
     // SAFETY: not null, aligned, and the caller's to read.
+    if unsafe { !is_of_this_version(tick) || !is_of_this_version(sensed) } {
+        return RigproofTickStatus::BadVersion;
+    }
+    // SAFETY: not null, aligned, of this very size, and the caller's to read.
     if unsafe { (&raw const (*tick).mark).read() } != MARK {
         return RigproofTickStatus::NotCreated;
     }
@@ -122,6 +138,24 @@ pub unsafe extern "C" fn rigproof_tick_step(
 pub(crate) fn is_usable<T>(pointer: *const T) -> bool {
     !pointer.is_null() && pointer.is_aligned()
 }
+
+/// Whether a struct of C says that it is of this size and version.
+///
+/// # Safety
+/// `pointer` must be usable and point to what begins with its size and version, 32 bits each, as every struct here does.
+pub(crate) unsafe fn is_of_this_version<T: Versioned>(pointer: *const T) -> bool {
+    // SAFETY: size and version are the first fields of every version and are read before any other.
+    let [size, version] = unsafe { pointer.cast::<[u32; 2]>().read() };
+    version == RIGPROOF_TICK_VERSION && size as usize == size_of::<T>()
+}
+
+/// A struct of C that begins with its size and version.
+pub(crate) trait Versioned {}
+
+impl Versioned for RigproofTick {}
+impl Versioned for RigproofTickSettings {}
+impl Versioned for RigproofTickSensed {}
+impl Versioned for RigproofTickCommand {}
 
 /// Without the standard library nothing catches a panic. None can happen (`impl/examples/no_panic.rs`); should one, the tick stops and
 /// the amplifiers' own watchdog, which a rig needs, lets go (decision 0074).

@@ -9,7 +9,7 @@ use rigproof_spec::layout::Layout;
 use rigproof_spec::methods::{BLEND_BOUNDARY_M, greatest_desired_force_n};
 
 use crate::words::RigproofTickLaw;
-use crate::{Controller, RIGPROOF_TICK_VERSION, RigproofTickStatus, is_usable};
+use crate::{Controller, RIGPROOF_TICK_VERSION, RigproofTickStatus, is_of_this_version, is_usable};
 
 /// Most corners of a path.
 pub const RIGPROOF_MOST_CORNERS: usize = 16;
@@ -148,10 +148,10 @@ fn layout(brakes: u32) -> Option<Layout> {
     }
 }
 
-/// Fills in the thesis's rig with 3 or 4 brakes; law, gain, gap and path are left to choose.
+/// Fills in the thesis's rig with 3 or 4 brakes; law, gain, gap and path are left to choose. Size and version have to be there already.
 ///
 /// # Safety
-/// `settings` must be null or point to a `RigproofTickSettings` that may be written.
+/// `settings` must be null or point to `settings->size` bytes that may be read and written.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rigproof_tick_thesis(
     settings: *mut RigproofTickSettings,
@@ -160,10 +160,14 @@ pub unsafe extern "C" fn rigproof_tick_thesis(
     if !is_usable(settings) {
         return RigproofTickStatus::BadPointer;
     }
+    // SAFETY: not null, aligned, and the caller's to read.
+    if unsafe { !is_of_this_version(settings) } {
+        return RigproofTickStatus::BadVersion;
+    }
     let Some(layout) = layout(brakes) else {
         return RigproofTickStatus::BadSettings;
     };
-    // SAFETY: not null, aligned, and the caller's to write.
+    // SAFETY: not null, aligned, of this very size, and the caller's to write.
     unsafe { settings.write(RigproofTickSettings::thesis(layout)) };
     RigproofTickStatus::Ok
 }

@@ -4,6 +4,8 @@ use rigproof_impl::command::Command;
 use rigproof_spec::command::Reason;
 use rigproof_spec::joint::Joint;
 
+use crate::RIGPROOF_TICK_VERSION;
+
 /// How a call ended.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,6 +38,10 @@ pub enum RigproofTickLaw {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RigproofTickSensed {
+    /// Size of this struct, bytes.
+    pub size: u32,
+    /// `RIGPROOF_TICK_VERSION`.
+    pub version: u32,
     /// Number of the sample: one more than that of the sample before, then 0 after the greatest.
     pub number: u32,
     /// Counts of the encoders on A and B.
@@ -48,6 +54,10 @@ pub struct RigproofTickSensed {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RigproofTickCommand {
+    /// Size of this struct, bytes.
+    pub size: u32,
+    /// `RIGPROOF_TICK_VERSION`.
+    pub version: u32,
     /// Brake currents, A, in the order A, E, B, C: 0 to 1.
     pub currents_a: [f64; 4],
     /// Why: a number of `RigproofTickReason`.
@@ -103,6 +113,8 @@ impl From<Command<f64>> for RigproofTickCommand {
     fn from(command: Command<f64>) -> RigproofTickCommand {
         let (reason, chosen) = word(command.reason);
         RigproofTickCommand {
+            size: size_of::<RigproofTickCommand>() as u32,
+            version: RIGPROOF_TICK_VERSION,
             currents_a: command.currents_a,
             reason: reason as u32,
             chosen,

@@ -5,24 +5,38 @@ use std::mem::MaybeUninit;
 use std::ptr::{null, null_mut};
 
 use rigproof_impl_c::{
-    RIGPROOF_MOST_CORNERS, RigproofTick, RigproofTickCommand, RigproofTickLaw, RigproofTickReason,
-    RigproofTickSensed, RigproofTickSettings, RigproofTickStatus as Status, rigproof_tick_create,
-    rigproof_tick_step, rigproof_tick_thesis,
+    RIGPROOF_MOST_CORNERS, RIGPROOF_TICK_VERSION, RigproofTick, RigproofTickCommand,
+    RigproofTickLaw, RigproofTickReason, RigproofTickSensed, RigproofTickSettings,
+    RigproofTickStatus as Status, rigproof_tick_create, rigproof_tick_step, rigproof_tick_thesis,
 };
 
 static SENSED: RigproofTickSensed = RigproofTickSensed {
+    size: size_of::<RigproofTickSensed>() as u32,
+    version: RIGPROOF_TICK_VERSION,
     number: 17,
     counts: [33_421, 14_327],
     tip_force_n: [1.3, -2.7],
 };
 
-fn settings() -> RigproofTickSettings {
-    let mut settings = MaybeUninit::uninit();
-    // SAFETY: the pointer is to memory of this size; the thesis's settings are written to it.
+/// Memory of a struct of C whose numbers are all zero but for its size and version.
+fn zeroed<T>() -> Box<T> {
+    let size = size_of::<T>() as u32;
+    // SAFETY: a struct of C is numbers only, of which the first two are its size and version; zero is one.
     unsafe {
-        assert_eq!(rigproof_tick_thesis(settings.as_mut_ptr(), 4), Status::Ok);
-        settings.assume_init()
+        let mut memory = Box::new(MaybeUninit::<T>::zeroed());
+        memory
+            .as_mut_ptr()
+            .cast::<[u32; 2]>()
+            .write([size, RIGPROOF_TICK_VERSION]);
+        memory.assume_init()
     }
+}
+
+fn settings() -> RigproofTickSettings {
+    let mut settings = zeroed();
+    // SAFETY: the pointer is to settings.
+    unsafe { assert_eq!(rigproof_tick_thesis(&mut *settings, 4), Status::Ok) };
+    *settings
 }
 
 fn sdof() -> RigproofTickSettings {
@@ -34,21 +48,15 @@ fn sdof() -> RigproofTickSettings {
     settings
 }
 
-/// Memory of a controller that was never one.
-fn zeroed() -> Box<RigproofTick> {
-    // SAFETY: a controller's memory is numbers only; zero is one.
-    unsafe { Box::new(MaybeUninit::zeroed().assume_init()) }
-}
-
 fn create(settings: &RigproofTickSettings) -> Status {
     // SAFETY: both point to what they say.
-    unsafe { rigproof_tick_create(&mut *zeroed(), settings) }
+    unsafe { rigproof_tick_create(&mut *zeroed::<RigproofTick>(), settings) }
 }
 
 #[test]
 fn a_null_pointer_is_refused_everywhere() {
     let (mut tick, sdof) = (zeroed(), sdof());
-    let mut command = MaybeUninit::uninit();
+    let mut command = zeroed::<RigproofTickCommand>();
     // SAFETY: each pointer is null or points to what it says.
     unsafe {
         assert_eq!(rigproof_tick_thesis(null_mut(), 4), Status::BadPointer);
@@ -60,9 +68,9 @@ fn a_null_pointer_is_refused_everywhere() {
             Status::BadPointer
         );
         for (tick, sensed) in [(null_mut(), &raw const SENSED), (&raw mut *tick, null())] {
-            let status = rigproof_tick_step(tick, sensed, command.as_mut_ptr());
+            command.currents_a = [0.7; 4];
+            let status = rigproof_tick_step(tick, sensed, &mut *command);
             assert_eq!(status, Status::BadPointer);
-            let command: RigproofTickCommand = command.assume_init();
             assert_eq!(command.currents_a, [0.0; 4]);
         }
     }
@@ -71,18 +79,18 @@ fn a_null_pointer_is_refused_everywhere() {
 #[test]
 fn a_controller_that_was_not_created_gives_no_current() {
     let mut tick = zeroed();
-    let mut command = MaybeUninit::<RigproofTickCommand>::uninit();
+    let mut command = zeroed::<RigproofTickCommand>();
     let mut bad = sdof();
     bad.sample_s = f64::NAN;
     // SAFETY: each pointer points to what it says.
     unsafe {
-        let step = rigproof_tick_step(&mut *tick, &SENSED, command.as_mut_ptr());
+        let step = rigproof_tick_step(&mut *tick, &SENSED, &mut *command);
         assert_eq!(step, Status::NotCreated);
-        assert_eq!(command.assume_init().currents_a, [0.0; 4]);
+        assert_eq!(command.currents_a, [0.0; 4]);
         // One that was made anew from bad settings is none any more.
         assert_eq!(rigproof_tick_create(&mut *tick, &sdof()), Status::Ok);
         assert_eq!(rigproof_tick_create(&mut *tick, &bad), Status::BadSettings);
-        let step = rigproof_tick_step(&mut *tick, &SENSED, command.as_mut_ptr());
+        let step = rigproof_tick_step(&mut *tick, &SENSED, &mut *command);
         assert_eq!(step, Status::NotCreated);
     }
 }
@@ -97,6 +105,47 @@ fn another_version_or_size_is_refused() {
         let mut settings = sdof();
         change(&mut settings);
         assert_eq!(create(&settings), Status::BadVersion);
+    }
+}
+
+/// Another size or version at the beginning of a struct.
+fn changed<T>(mut memory: Box<T>, change: [u32; 2]) -> Box<T> {
+    let head = (&raw mut *memory).cast::<[u32; 2]>();
+    // SAFETY: every struct of C begins with its size and version.
+    unsafe {
+        let [size, version] = head.read();
+        head.write([
+            size.wrapping_add(change[0]),
+            version.wrapping_add(change[1]),
+        ]);
+    }
+    memory
+}
+
+#[test]
+fn nothing_is_written_to_a_struct_of_another_version_or_size() {
+    for change in [[0, 1], [u32::MAX - 7, 0], [8, 0]] {
+        let mut settings = changed(zeroed::<RigproofTickSettings>(), change);
+        let mut tick = changed(zeroed::<RigproofTick>(), change);
+        let mut command = changed(zeroed::<RigproofTickCommand>(), change);
+        let before = (*settings, *command);
+        // SAFETY: each pointer points to at least what it says.
+        unsafe {
+            let refused = [
+                rigproof_tick_thesis(&mut *settings, 4),
+                rigproof_tick_create(&mut *tick, &sdof()),
+                rigproof_tick_step(&mut *tick, &SENSED, &mut *command),
+            ];
+            assert_eq!(refused, [Status::BadVersion; 3]);
+            assert_eq!((*settings, *command), before);
+            // A sample of another version is not read: no current.
+            let sensed = changed(Box::new(SENSED), change);
+            let (mut tick, mut command) = (zeroed(), zeroed::<RigproofTickCommand>());
+            command.currents_a = [0.7; 4];
+            assert_eq!(rigproof_tick_create(&mut *tick, &sdof()), Status::Ok);
+            let status = rigproof_tick_step(&mut *tick, &*sensed, &mut *command);
+            assert_eq!((status, command.currents_a), (Status::BadVersion, [0.0; 4]));
+        }
     }
 }
 
@@ -132,14 +181,13 @@ fn settings_of_no_rig_are_refused() {
 #[test]
 fn a_started_controller_says_so() {
     let mut tick = zeroed();
-    let mut command = MaybeUninit::<RigproofTickCommand>::uninit();
+    let mut command = zeroed::<RigproofTickCommand>();
     // SAFETY: each pointer points to what it says.
-    let command = unsafe {
+    unsafe {
         assert_eq!(rigproof_tick_create(&mut *tick, &sdof()), Status::Ok);
-        let step = rigproof_tick_step(&mut *tick, &SENSED, command.as_mut_ptr());
+        let step = rigproof_tick_step(&mut *tick, &SENSED, &mut *command);
         assert_eq!(step, Status::Ok);
-        command.assume_init()
-    };
+    }
     assert_eq!(command.reason, RigproofTickReason::Starting as u32);
     assert_eq!((command.currents_a, command.chosen), ([0.0; 4], [-1, -1]));
 }

@@ -3,6 +3,7 @@
 use super::{
     Impedance, Law, Obstacle, Optimal, Proportional, Sdof, Situation, Uncontrolled, VelocityRatio,
 };
+use crate::actuation::Actuation;
 use crate::command::Command;
 use crate::number::Real;
 use crate::path::Path;
@@ -30,6 +31,17 @@ impl<R: Real, P: Path<R>> Law<R> for PathLaw<R, P> {
             PathLaw::Impedance(law) => law.command(now),
         }
     }
+
+    fn actuation(&self) -> Option<&Actuation<R>> {
+        match self {
+            PathLaw::Uncontrolled(law) => law.actuation(),
+            PathLaw::Sdof(law) => law.actuation(),
+            PathLaw::Proportional(law) => law.actuation(),
+            PathLaw::VelocityRatio(law) => law.actuation(),
+            PathLaw::Optimal(law) => law.actuation(),
+            PathLaw::Impedance(law) => law.actuation(),
+        }
+    }
 }
 
 /// Any law: one for a path, or one that keeps the tip out of an obstacle.
@@ -45,6 +57,13 @@ impl<R: Real, P: Path<R>> Law<R> for AnyLaw<R, P> {
         match self {
             AnyLaw::Path(law) => law.command(now),
             AnyLaw::Obstacle(law) => law.command(now),
+        }
+    }
+
+    fn actuation(&self) -> Option<&Actuation<R>> {
+        match self {
+            AnyLaw::Path(law) => law.actuation(),
+            AnyLaw::Obstacle(law) => law.actuation(),
         }
     }
 }

@@ -96,6 +96,10 @@ impl<R: Real, P: Path<R>> Law<R> for Impedance<R, P> {
             None => Command::none(Reason::NoneHelps),
         }
     }
+
+    fn actuation(&self) -> Option<&Actuation<R>> {
+        Some(&self.actuation)
+    }
 }
 
 /// A brake and the magnitude of its torque, N·m.

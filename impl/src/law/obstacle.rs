@@ -3,7 +3,7 @@
 use rigproof_spec::command::Reason;
 
 use super::{Law, Situation};
-use crate::actuation::is_defined;
+use crate::actuation::{Actuation, is_defined};
 use crate::command::Command;
 use crate::number::Real;
 use crate::path::Path;
@@ -51,5 +51,9 @@ impl<R: Real, P: Path<R>, L: Law<R>> Law<R> for Obstacle<P, L> {
         } else {
             Command::none(Reason::FreeSide)
         }
+    }
+
+    fn actuation(&self) -> Option<&Actuation<R>> {
+        self.inner.actuation()
     }
 }

@@ -134,4 +134,8 @@ impl<R: Real, P: Path<R>> Law<R> for Optimal<R, P> {
             None => Command::none(Reason::NoneHelps),
         }
     }
+
+    fn actuation(&self) -> Option<&Actuation<R>> {
+        Some(&self.actuation)
+    }
 }

@@ -51,4 +51,8 @@ impl<R: Real, P: Path<R>> Law<R> for Proportional<R, P> {
         let force_n = self.gain_n_s_per_m * unwanted_m_s;
         self.actuation.carry_out(decision, &rows, force_n)
     }
+
+    fn actuation(&self) -> Option<&Actuation<R>> {
+        Some(&self.actuation)
+    }
 }

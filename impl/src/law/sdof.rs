@@ -48,4 +48,8 @@ impl<R: Real, P: Path<R>> Law<R> for Sdof<R, P> {
         let force_n = self.actuation.greatest_force_n();
         self.actuation.carry_out(decision, &rows, force_n)
     }
+
+    fn actuation(&self) -> Option<&Actuation<R>> {
+        Some(&self.actuation)
+    }
 }

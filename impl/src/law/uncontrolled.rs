@@ -3,6 +3,7 @@
 use rigproof_spec::command::Reason;
 
 use super::{Law, Situation};
+use crate::actuation::Actuation;
 use crate::command::Command;
 use crate::number::Real;
 
@@ -13,5 +14,9 @@ pub struct Uncontrolled;
 impl<R: Real> Law<R> for Uncontrolled {
     fn command(&mut self, _: &Situation<R>) -> Command<R> {
         Command::none(Reason::Uncontrolled)
+    }
+
+    fn actuation(&self) -> Option<&Actuation<R>> {
+        None
     }
 }

@@ -10,7 +10,7 @@ use crate::actuation::Actuation;
 use crate::command::Command;
 use crate::number::Real;
 use crate::path::Path;
-use crate::select::Rows;
+use crate::select::{Rows, joint_rate};
 use crate::setting::setting;
 use crate::vector::Vector;
 
@@ -50,13 +50,15 @@ impl<R: Real, P: Path<R>> Law<R> for VelocityRatio<R, P> {
         };
         let direction = self.field.desired(&nearest, now.tip_force_n).direction;
         let [row_a, _, row_b, _] = now.rows;
-        let links = |vector: Vector<R>| Vector::new(row_a.dot(vector), row_b.dot(vector));
-        let actual = links(now.tip_velocity_m_s);
-        let excess = excess_speeds(actual, links(direction));
+        let rate = |row| joint_rate(row, now.tip_velocity_m_s);
+        let actual = Vector::new(rate(row_a), rate(row_b));
+        let wanted = Vector::new(row_a.dot(direction), row_b.dot(direction));
+        let excess = excess_speeds(actual, wanted);
         let torque_nm = |excess_rad_s: R| self.gain_nm_s_per_rad * excess_rad_s;
         let (fast_a, fast_b) = (excess.x > R::zero(), excess.y > R::zero());
         if fast_a != fast_b
-            && let Some(joint) = coupling(&rows, [row_a, row_b], actual, fast_a)
+            && let Some(joint) =
+                coupling(&rows, [row_a, row_b], now.tip_velocity_m_s, actual, fast_a)
         {
             let faster = if fast_a { excess.x } else { excess.y };
             return self.actuation.one(joint, torque_nm(faster));
@@ -70,6 +72,10 @@ impl<R: Real, P: Path<R>> Law<R> for VelocityRatio<R, P> {
                 (Joint::B, torque_nm(excess.y)),
             ),
         }
+    }
+
+    fn actuation(&self) -> Option<&Actuation<R>> {
+        Some(&self.actuation)
     }
 }
 
@@ -99,6 +105,7 @@ fn excess_speeds<R: Real>(actual: Vector<R>, wanted: Vector<R>) -> Vector<R> {
 fn coupling<R: Real>(
     rows: &Rows<R>,
     [row_a, row_b]: [Vector<R>; 2],
+    velocity_m_s: Vector<R>,
     actual: Vector<R>,
     fast_a: bool,
 ) -> Option<Joint> {
@@ -106,9 +113,11 @@ fn coupling<R: Real>(
     let inverse = R::of(1.0) / row_a.cross(row_b);
     let mut best: Option<(R, Joint)> = None;
     for (joint, row) in [(Joint::E, row_e), (Joint::C, row_c)] {
-        let Some(row) = row else { continue };
+        let Some(row) = row.filter(|row| joint_rate(*row, velocity_m_s) != R::zero()) else {
+            continue;
+        };
         // The joint's rate is so much of link A's and so much of link B's.
-        let shares = Vector::new(row.cross(row_b), row_a.cross(*row)) * inverse;
+        let shares = Vector::new(row.cross(row_b), row_a.cross(row)) * inverse;
         // A brake takes from the links what its own joint loses.
         let torques = shares * -shares.dot(actual);
         let (fast, other, taken) = if fast_a {

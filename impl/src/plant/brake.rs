@@ -133,6 +133,11 @@ impl Brake {
         self.yield_nm
     }
 
+    /// The current that its last fall started from, A.
+    pub fn fall_origin_a(&self) -> f64 {
+        self.fall_origin_a
+    }
+
     /// Its backlash.
     pub fn backlash(&self) -> &Backlash {
         &self.backlash

@@ -4,7 +4,7 @@ use rigproof_spec::command::Reason;
 use rigproof_spec::laws::influence_rank;
 use rigproof_spec::methods::NO_INFLUENCE;
 
-use super::{Candidate, Decision, Desired, Rows, best, is_sound, pushes_away};
+use super::{Candidate, Decision, Desired, Rows, best, is_sound, joint_rate, pushes_away};
 use crate::number::Scalar;
 use crate::vector::Vector;
 
@@ -45,8 +45,8 @@ pub fn decide<S: Scalar>(
 ///
 /// # Differs from the thesis
 ///
-/// A brake whose joint stands is not actuated, where (6.11) takes the force of a joint that turns forwards: what rounds to zero has no
-/// sign that could be trusted (gap `joint-at-rest`).
+/// A brake whose joint stands is not actuated, where (6.11) takes the force of a joint that turns forwards: a rate beside zero is
+/// rounding, with a sign that cannot be trusted (gap `joint-at-rest`).
 #[inline]
 pub fn classify<S: Scalar>(
     row: Vector<S>,
@@ -76,8 +76,9 @@ pub fn classify<S: Scalar>(
 
 /// The force of 1 N·m of a brake against its joint's rate, N; `None` where the joint stands.
 //= thesis (6.11)
+#[inline]
 pub fn opposing<S: Scalar>(row: Vector<S>, velocity_m_s: Vector<S>) -> Option<Vector<S>> {
-    let rate = row.dot(velocity_m_s);
+    let rate = joint_rate(row, velocity_m_s);
     if rate < S::zero() {
         Some(row)
     } else if rate > S::zero() {

@@ -46,6 +46,15 @@ impl Backlash {
         backlash
     }
 
+    /// The backlash of a brake with its boundary θ1 at an angle, rad, and the shaft inside or not.
+    pub fn resumed(joint: Joint, theta_1_rad: f64, inside: bool) -> Backlash {
+        Backlash {
+            theta_1_rad,
+            inside,
+            ..Backlash::new(joint, theta_1_rad)
+        }
+    }
+
     /// Moves the shaft to `theta_rad`, and the boundaries with it where it reaches one; returns whether it is inside.
     pub fn update(&mut self, theta_rad: f64) -> bool {
         let (theta_1_rad, theta_2_rad) = self.boundaries_rad();

@@ -45,6 +45,19 @@ pub struct Brake {
     fall_origin_a: f64,
 }
 
+/// Everything that the next step of a brake depends on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BrakeState {
+    /// Yield torque, N·m.
+    pub yield_nm: f64,
+    /// Current that the last fall started from, A.
+    pub fall_origin_a: f64,
+    /// The boundary θ1 of its backlash, rad.
+    pub boundary_rad: f64,
+    /// Whether the shaft is inside its backlash.
+    pub is_inside: bool,
+}
+
 impl Brake {
     /// A brake without current, settled, its shaft at `theta_rad` in the middle of the backlash.
     pub fn new(joint: Joint, theta_rad: f64) -> Brake {
@@ -58,6 +71,16 @@ impl Brake {
             backlash: Backlash::of_width(table.backlash_width_deg, ENTRY_TRAVEL_DEG, theta_rad),
             yield_nm: table.torque_gain.off_state_nm(),
             fall_origin_a: 0.0,
+        }
+    }
+
+    /// A brake of the thesis in a state that it has reached.
+    pub fn resumed(joint: Joint, state: &BrakeState) -> Brake {
+        Brake {
+            backlash: Backlash::resumed(joint, state.boundary_rad, state.is_inside),
+            yield_nm: state.yield_nm,
+            fall_origin_a: state.fall_origin_a,
+            ..Brake::new(joint, state.boundary_rad)
         }
     }
 

@@ -119,7 +119,10 @@ impl<P: Path, M: Fn(&Pose) -> Option<Matrix2<f64>>> Controller for Optimal<P, M>
         let mut lowest = self.cost(&mass, velocity, pushed, desired);
         let mut best: Option<(Joint, Vector2<f64>, f64)> = None;
         for (joint, row) in &rows {
-            let brake = opposing_force(*row, velocity) / libm::hypot(row.x, row.y);
+            let Some(against) = opposing_force(*row, velocity) else {
+                continue;
+            };
+            let brake = against / libm::hypot(row.x, row.y);
             let slowed = mobility * brake * self.weights.horizon_s;
             let stop_n = -row.dot(&pushed) / row.dot(&slowed);
             if stop_n.is_nan() || row.dot(&pushed) * row.dot(&velocity) <= 0.0 {

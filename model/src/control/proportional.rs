@@ -133,7 +133,9 @@ fn most_useful(
 ) -> Option<JointRow> {
     let mut best: Option<((u8, f64), JointRow)> = None;
     for (joint, row) in rows {
-        let force_n = opposing_force(*row, velocity_m_s);
+        let Some(force_n) = opposing_force(*row, velocity_m_s) else {
+            continue;
+        };
         let closeness = force_n.dot(&desired.direction) / libm::hypot(row.x, row.y);
         let Some(rank) = influence_rank(influence(force_n, desired, velocity_m_s)) else {
             continue;

@@ -5,6 +5,7 @@ use rigproof_spec::joint::Joint;
 use rigproof_spec::tables::torque_gain_fit;
 
 use super::JointRow;
+use super::force_angle::opposing_force;
 
 /// Sine of the angle between two brakes' forces below which they count as parallel.
 const PARALLEL: f64 = 1e-9;
@@ -38,9 +39,7 @@ pub fn translate(
 ) -> Option<[Share; 2]> {
     let moving: Vec<JointRow> = rows
         .iter()
-        .map(|(joint, row)| (*joint, *row, row.dot(&velocity_m_s)))
-        .filter(|(_, _, omega_rad_s)| *omega_rad_s != 0.0)
-        .map(|(joint, row, omega_rad_s)| (joint, row * -libm::copysign(1.0, omega_rad_s)))
+        .filter_map(|(joint, row)| Some((*joint, opposing_force(*row, velocity_m_s)?)))
         .collect();
     if force_n == Vector2::zeros() {
         return None;

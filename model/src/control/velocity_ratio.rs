@@ -6,6 +6,7 @@ use rigproof_spec::command::{Command, Reason};
 use rigproof_spec::joint::Joint;
 
 use super::desired_velocity::desired_velocity;
+use super::force_angle::joint_rate;
 use super::path::Path;
 use super::{Actuation, Controller, Sensed, setting};
 use crate::brake::current_gain;
@@ -74,14 +75,16 @@ impl<P: Path> Controller for VelocityRatio<P> {
         let desired =
             desired_velocity(&nearest, Vector2::from(sensed.tip_force_n), self.boundary_m);
         let links = base_rows(&j);
-        let actual = links * Vector2::from(sensed.tip_velocity_m_s);
+        let velocity_m_s = Vector2::from(sensed.tip_velocity_m_s);
+        let rate = |row: usize| joint_rate(j.row(row).transpose(), velocity_m_s);
+        let actual = Vector2::new(rate(0), rate(2));
         let wanted = links * desired.direction;
         let excess = excess_speeds([actual.x, actual.y], [wanted.x, wanted.y]);
         let [excess_a, excess_b] = excess;
         if excess == [0.0, 0.0] {
             return Command::none(Reason::NothingToDo);
         }
-        if let Some(joint) = coupling(&self.actuation, &j, actual, excess) {
+        if let Some(joint) = coupling(&self.actuation, &j, velocity_m_s, actual, excess) {
             return Actuation::one(joint, self.current_a(joint, excess_a.max(excess_b)));
         }
         match (excess_a > 0.0, excess_b > 0.0) {
@@ -125,6 +128,7 @@ fn excess_speeds(actual_rad_s: [f64; 2], wanted: [f64; 2]) -> [f64; 2] {
 fn coupling(
     actuation: &Actuation,
     j: &SMatrix<f64, 4, 2>,
+    velocity_m_s: Vector2<f64>,
     actual: Vector2<f64>,
     [excess_a, excess_b]: [f64; 2],
 ) -> Option<Joint> {
@@ -141,6 +145,9 @@ fn coupling(
         }
         let through_links: RowVector2<f64> = j.row(row) * tip_from_links;
         let speed_rad_s = (through_links * actual).x;
+        if joint_rate(j.row(row).transpose(), velocity_m_s) == 0.0 {
+            continue;
+        }
         // A brake takes from the links what its own joint loses.
         let torques = through_links * -speed_rad_s;
         let [needed_a, needed_b] = needed;

@@ -53,6 +53,19 @@ impl Contacts {
         Contacts { of, rest }
     }
 
+    /// Brakes in the middle of a run: those that are held, and the others as at the start.
+    pub fn resumed(brakes: [bool; 4], held: [bool; 4], joint_rates_rad_s: [f64; 4]) -> Contacts {
+        let starting = Contacts::starting(brakes, joint_rates_rad_s);
+        let of = [0, 1, 2, 3].map(|i| {
+            if brakes[i] && held[i] {
+                Contact::Held
+            } else {
+                starting.of[i]
+            }
+        });
+        Contacts { of, ..starting }
+    }
+
     /// What each brake does.
     pub fn of(&self) -> [Contact; 4] {
         self.of

@@ -175,7 +175,7 @@ impl Rig {
     }
 
     /// Goes on with rates that lack what rounding left of the held joints' rates; the brakes take its energy.
-    fn go_on_with(&mut self, before: [f64; 2], rates: Vector2<f64>) {
+    pub(super) fn go_on_with(&mut self, before: [f64; 2], rates: Vector2<f64>) {
         let rates: [f64; 2] = rates.into();
         if rates != before {
             self.dissipated_j +=

@@ -36,7 +36,7 @@ impl View {
 }
 
 #[derive(Debug)]
-struct Seen(Box<dyn Path>, View);
+pub struct Seen(pub Box<dyn Path>, pub View);
 
 impl Path for Seen {
     fn nearest(&self, point_m: [f64; 2]) -> Nearest {

@@ -9,6 +9,7 @@ use rigproof_model::control::path::Nearest;
 use rigproof_model::control::torque_translation::{Share, translate};
 use rigproof_spec::command::{Command, Reason};
 use rigproof_spec::joint::Joint;
+use rigproof_spec::methods::STANDING;
 use rigproof_spec::tables::brake_table;
 
 use crate::both::reference_rows;
@@ -110,8 +111,9 @@ fn wanted_n(tick: &Tick, nearest: &Nearest) -> Option<Vec<Vector2<f64>>> {
 
 /// The force of 1 N·m of a brake against its joint's motion, N; none of a joint at rest.
 fn push(row: &Vector2<f64>, tick: &Tick) -> Vector2<f64> {
-    let rate_rad_s = row.dot(&Vector2::from(tick.velocity_m_s));
-    if rate_rad_s == 0.0 {
+    let velocity_m_s = Vector2::from(tick.velocity_m_s);
+    let rate_rad_s = row.dot(&velocity_m_s);
+    if rate_rad_s.abs() <= STANDING * row.norm() * velocity_m_s.norm() {
         Vector2::zeros()
     } else {
         row * -rate_rad_s.signum()

@@ -5,6 +5,7 @@ mod both;
 #[path = "../budget/mod.rs"]
 mod budget;
 mod idle;
+mod joined;
 mod permitted;
 mod properties;
 mod sample;

@@ -71,15 +71,14 @@ pub enum Tie {
     Together,
     /// Exception: a torque in the step of (3.3) at 0.2 A, which two currents give.
     CurrentStep,
-    /// Exception: a braked joint stands exactly, and the rig's code does not actuate it (gap `joint-at-rest`).
-    JointAtRest,
     /// Exception: velocity ratio control finds both ratios equal, the reference all but equal.
     Even,
     /// Exception: one brake makes the force of impedance control alone; the two name different idle ones beside it, or one of them no pair.
     IdleBrake,
     /// Exception: an input beyond what the rig's code takes, which lets go.
     Gate,
-    /// Exception: a velocity or a push so small that its square loses digits.
+    /// Exception: a velocity or a push so small that its square loses digits; the rig's code lets go, or answers as the reference does
+    /// without it.
     Underflow,
 }
 
@@ -146,10 +145,16 @@ pub fn permitted(
     {
         return Ok(Permitted::Tie(Tie::Even));
     }
-    if stands(tick, &now) {
-        return Ok(Permitted::Tie(Tie::JointAtRest));
-    }
-    if is_tiny(tick) {
+    if let Some(without) = without_what_is_tiny(tick)
+        && (rig == Command::none(rig.reason)
+            || permitted(
+                &without,
+                reference_command(&without, View::EXACT),
+                rig,
+                nudger,
+            )
+            .is_ok())
+    {
         return Ok(Permitted::Tie(Tie::Underflow));
     }
     Err(format!("{reference:?}\nbut the rig {rig:?}\nin {tick:?}"))
@@ -343,20 +348,16 @@ fn as_seen(tick: &Tick) -> Option<Nearest> {
     (as_near && on_path).then_some(nearest)
 }
 
-/// Whether a braked joint's rate is exactly zero although the tip moves, as the rig's code computes it.
-fn stands(tick: &Tick, now: &Situation<f64>) -> bool {
-    let braked = |joint: &Joint| tick.layout.brakes().contains(joint);
-    let joints = Joint::ALL.into_iter().zip(now.rows);
-    tick.velocity_m_s != [0.0; 2]
-        && joints
-            .filter(|(joint, _)| braked(joint))
-            .any(|(_, row)| row.dot(now.tip_velocity_m_s) == 0.0)
-}
-
-/// Whether the square of a velocity or of a push loses digits.
-fn is_tiny(tick: &Tick) -> bool {
-    [tick.velocity_m_s, tick.force_n].into_iter().any(|[x, y]| {
+/// The tick without the velocity or the push whose square loses digits; `None` where there is none.
+fn without_what_is_tiny(tick: &Tick) -> Option<Tick> {
+    let mut without = tick.clone();
+    let mut found = false;
+    for vector in [&mut without.velocity_m_s, &mut without.force_n] {
+        let [x, y] = *vector;
         let length = libm::hypot(x, y);
-        length > 0.0 && length < LEAST_SQUARABLE
-    })
+        if length > 0.0 && length < LEAST_SQUARABLE {
+            (*vector, found) = ([0.0; 2], true);
+        }
+    }
+    found.then_some(without)
 }

@@ -88,6 +88,7 @@ fn tally(seed: u64) -> Tally {
         for sensed in &samples {
             rig_command = rig.tick(sensed).into();
         }
+        tally.standing += u64::from(rates_rad_s.contains(&0.0));
         tally.acted += u64::from(rig_command.currents_a != [0.0; 4]);
         let reference = reference_command(&tick, View::EXACT);
         match permitted(&tick, reference, rig_command, &mut nudger) {
@@ -95,8 +96,6 @@ fn tally(seed: u64) -> Tally {
             Ok(Permitted::Rounding(current_a)) => tally.rounding_a.push(current_a),
             Ok(Permitted::Amplified(_)) => tally.amplified += 1,
             Ok(Permitted::Tie(tie)) => *tally.ties.entry(tie).or_default() += 1,
-            // A base joint stands exactly: its row of the Jacobian times the tip's velocity is rounding, and has a sign.
-            Err(_) if rates_rad_s.contains(&0.0) => tally.standing += 1,
             Err(wrong) => tally.wrong.push(wrong),
         }
     }
@@ -125,7 +124,7 @@ fn a_whole_tick_from_counts_is_answered_as_by_the_reference() {
         .map(tally)
         .reduce(Tally::default, join);
     println!(
-        "{ticks} ticks from counts: {} acted, {} the same, {} within rounding, {} amplified, {} beside a standing link, ties {:?}",
+        "{ticks} ticks from counts: {} acted, {} the same, {} within rounding, {} amplified, {} with a standing link, ties {:?}",
         all.acted,
         all.same,
         all.rounding_a.len(),
@@ -140,6 +139,7 @@ fn a_whole_tick_from_counts_is_answered_as_by_the_reference() {
         all.wrong.len(),
         wrong.join("\n")
     );
-    assert!(5 * all.acted > ticks && 200 * all.standing < ticks);
+    // One count in the window or none: links that stand are among them.
+    assert!(5 * all.acted > ticks && 200 * all.standing > ticks);
     assert_within_budget("rig_tick_current_from_counts", all.rounding_a);
 }

@@ -91,3 +91,125 @@ fn dry_friction_moves_and_holds_as_in_the_reference() {
     assert!(slipping > 1000 || motions.len() < 50_000);
     assert_within_budget("plant_dry_motion", motions);
 }
+
+/// A step that begins with rates and goes on as it was until a joint turns back, worked with the reference's solution of the friction: the rates
+/// at its end, and whether the step was divided. `held` is a brake that holds, `signs` are those of the others.
+fn going_on(
+    mass: &Matrix2<f64>,
+    rates: Vector2<f64>,
+    impulse: Vector2<f64>,
+    brakes: &DryBrakes,
+    (held, signs): (Option<usize>, [f64; 4]),
+) -> (Vector2<f64>, bool) {
+    let momentum = mass * rates;
+    let ends = |drive: Vector2<f64>, share: f64| {
+        let bounds_nm = brakes.bounds_nm.map(|bound| bound * share);
+        Vector2::from(
+            dry_motion(
+                mass,
+                &drive,
+                &DryBrakes {
+                    bounds_nm,
+                    ..*brakes
+                },
+            )
+            .motion,
+        )
+    };
+    // The brakes that slip push; the one that holds does so with whatever it takes.
+    let pushing = (0..4).fold(momentum + impulse, |sum, i| {
+        sum - brakes.rows.row(i).transpose() * (signs[i] * brakes.bounds_nm[i])
+    });
+    let holding = |i: usize| if held == Some(i) { 1e6 } else { 0.0 };
+    let bounds_nm = [0, 1, 2, 3].map(holding);
+    let on = dry_motion(
+        mass,
+        &pushing,
+        &DryBrakes {
+            bounds_nm,
+            ..*brakes
+        },
+    );
+    let end = Vector2::from(on.motion);
+    let strength = held.map_or(f64::INFINITY, |held| {
+        let row = brakes.rows.row(held);
+        let parallel = (0..4).filter(|&i| signs[i] == 0.0);
+        let shares = parallel.map(|i| brakes.bounds_nm[i] * brakes.rows.row(i).norm());
+        shares.sum::<f64>() / row.norm()
+    });
+    if held.is_some_and(|held| on.torques_nm[held].abs() > strength) {
+        return (ends(momentum + impulse, 1.0), false);
+    }
+    let turned = (0..4).filter(|&i| brakes.bounds_nm[i] > 0.0 && signs[i] != 0.0);
+    let turned = turned.filter_map(|i| {
+        let [before, after] = [rates, end].map(|v| signs[i] * (brakes.rows.row(i) * v).x);
+        (after <= 0.0).then(|| before / (before - after))
+    });
+    let part = turned.fold(1.0, f64::min);
+    if part >= 1.0 {
+        return (ends(momentum + impulse, 1.0), false);
+    }
+    let at_turn = momentum + mass * (end - rates) * part;
+    (ends(at_turn + impulse * (1.0 - part), 1.0 - part), true)
+}
+
+#[test]
+fn a_step_goes_on_as_it_was_until_a_joint_turns_back_as_the_reference_divided_there() {
+    let mut draw = Draw::new(4409);
+    let mut motions = Vec::new();
+    let [mut divided, mut held_on, mut slipped_on] = [0; 3];
+    for k in 0..campaign(40_000) {
+        let (mass, impulse, brakes) = problem(&mut draw);
+        let row = |i: usize| brakes.rows.row(i).transpose();
+        let held = (k % 2 == 0 && brakes.bounds_nm[k / 2 % 4] > 0.0).then_some(k / 2 % 4);
+        let size = libm::pow(10.0, draw.between(-1.5, 2.0));
+        let rates = match held {
+            Some(held) => Vector2::new(-row(held).y, row(held).x) * draw.between(-size, size),
+            None => Vector2::new(draw.between(-size, size), draw.between(-size, size)),
+        };
+        let along = |i: usize| {
+            held.is_some_and(|held| {
+                row(i).perp(&row(held)).abs() <= 1e-12 * row(i).norm() * row(held).norm()
+            })
+        };
+        let signs = [0, 1, 2, 3].map(|i| {
+            if along(i) {
+                0.0
+            } else {
+                (brakes.rows.row(i) * rates).x.signum()
+            }
+        });
+        let (expected, is_divided) = going_on(&mass, rates, impulse, &brakes, (held, signs));
+        let mut own = [DryBrake::absent(); 4];
+        for (i, one) in own.iter_mut().enumerate() {
+            let row = Vector::new(row(i).x, row(i).y);
+            *one = DryBrake {
+                force_row: row,
+                rate_row: row,
+                bound: brakes.bounds_nm[i],
+                start_rad_s: row.dot(Vector::new(rates.x, rates.y)),
+            };
+        }
+        let own_mass = Mass {
+            aa: mass.m11,
+            ab: mass.m12,
+            bb: mass.m22,
+        };
+        let last = match held {
+            Some(held) => Contact::Along { held, signs },
+            None => Contact::Slipping(signs),
+        };
+        let plane = |v: Vector2<f64>| Vector::new(v.x, v.y);
+        let got = plant_motion(&own_mass, plane(mass * rates), plane(impulse), &own, last);
+        let off = got.rates_rad_s - plane(expected);
+        let reach = impulse.norm() + (mass * rates).norm() + brakes.bounds_nm.iter().sum::<f64>();
+        motions.push(off.norm() / (reach * mass.try_inverse().unwrap().norm()));
+        assert_eq!(got.part < 1.0, is_divided, "{got:?} {held:?} {signs:?}");
+        divided += u32::from(is_divided);
+        held_on += u32::from(!is_divided && got.contact == last && held.is_some());
+        slipped_on += u32::from(!is_divided && got.contact == last && held.is_none());
+    }
+    println!("{divided} divided, {held_on} held on, {slipped_on} slipped on");
+    assert!(divided > 1000 && held_on > 1000 && slipped_on > 1000 || motions.len() < 40_000);
+    assert_within_budget("plant_dry_going_on", motions);
+}

@@ -31,6 +31,8 @@ const REPEATS: u32 = 2;
 const GREATEST_STEP: i64 = 478;
 /// A component of a unit vector below which nothing is said about its sign.
 const HAIR: f64 = 1e-6;
+/// The share of a joint's greatest rate below which nothing is said about whether it stands: ten times what counts as standing (decision 0100).
+const STANDING: f64 = 1e-3;
 
 /// What happens in a tick.
 #[derive(Clone, Debug)]
@@ -157,9 +159,11 @@ impl Scene {
         let across = self.desired.direction.perp(&row);
         let unwanted = self.desired.direction.perp(&velocity);
         // The force is the row against its joint's rate; it has to point against the unwanted component.
-        match [rate, across, unwanted].map(|value| Sure::above(value.abs(), HAIR)) {
-            [Sure::Yes, Sure::Yes, Sure::Yes] => Sure::above(rate * across * unwanted, 0.0),
-            _ => Sure::Either,
+        let clear = rate.abs() > STANDING && across.abs() > HAIR && unwanted.abs() > HAIR;
+        if clear {
+            Sure::above(rate * across * unwanted, 0.0)
+        } else {
+            Sure::Either
         }
     }
 

@@ -8,7 +8,7 @@ use rigproof_spec::tables::GREATEST_CURRENT_A;
 use crate::claim::Checker;
 use crate::claims;
 use crate::command::Command;
-use crate::guard::release;
+use crate::guard::{SLACK_A, release};
 use crate::number::Scalar;
 
 /// Any reason that a law may give, of each kind one or more.
@@ -87,6 +87,28 @@ claims! {
             }
         }
         c.cover("any place", true);
+        let released = release(command, braked);
+        c.check(released.reason == Reason::RefusedCommand)?;
+        for current_a in released.currents_a {
+            c.check(current_a == C::Number::zero())?;
+        }
+    }
+
+    /// A current that lies beside the range by more than the slack, wherever it stands, lets every brake go.
+    /// Source: none in the thesis: decision 0101. Assumes one such current.
+    Numbers fn a_current_far_beside_the_range_lets_every_brake_go(c) {
+        let (mut command, braked) = asked(c);
+        let place = c.choice(4);
+        let value = c.scalar();
+        let (below, above) = (C::Number::of(-SLACK_A), C::Number::of(GREATEST_CURRENT_A + SLACK_A));
+        c.assume(value < below || above < value)?;
+        for (index, current_a) in (0..).zip(&mut command.currents_a) {
+            if index == place {
+                *current_a = value;
+            }
+        }
+        c.cover("below", value < below);
+        c.cover("above", above < value);
         let released = release(command, braked);
         c.check(released.reason == Reason::RefusedCommand)?;
         for current_a in released.currents_a {

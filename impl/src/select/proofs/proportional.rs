@@ -1,7 +1,7 @@
 //! This file holds what is claimed about one brake under proportional control (§6.3).
 
 use rigproof_spec::laws;
-use rigproof_spec::methods::NO_INFLUENCE;
+use rigproof_spec::methods::{NO_INFLUENCE, STANDING};
 
 use super::gated;
 use crate::claims;
@@ -39,12 +39,13 @@ claims! {
         c.check(on_shaft * rate <= zero)?;
     }
 
-    /// A joint that stands, as far as the numbers tell, is never actuated.
+    /// A joint that stands, its rate at most a ten-thousandth of the greatest that it can have at this speed, is never actuated.
     /// Source: (6.11) and its gap. Assumes the gate.
     Numbers fn a_standing_joint_is_not_actuated(c) {
         let (row, velocity, desired) = gated(c)?;
         let rate = row.dot(velocity);
-        let turns = rate < C::Number::zero() || rate > C::Number::zero();
+        let least = C::Number::of(STANDING * STANDING) * row.norm_squared();
+        let turns = rate * rate > least * velocity.norm_squared();
         c.cover("a joint that stands", !turns);
         c.cover("a joint that turns", turns);
         c.check(turns || classify(row, velocity, desired.direction).is_none())?;
