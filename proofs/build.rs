@@ -9,8 +9,8 @@ use toml::{Table, Value};
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
 /// What is copied, below `impl/src`; it refers to the rest of `impl` where it stands.
-const TREE: [&str; 3] = ["vector.rs", "select.rs", "guard.rs"];
-const FOLDERS: [&str; 2] = ["select", "guard"];
+const TREE: [&str; 4] = ["vector.rs", "select.rs", "guard.rs", "plant/backlash.rs"];
+const FOLDERS: [&str; 3] = ["select", "guard", "plant/backlash"];
 
 fn main() -> Result<()> {
     let source = Path::new("../impl/src");
@@ -58,12 +58,18 @@ fn main() -> Result<()> {
         }
         fs::write(
             folder.join("mod.rs"),
-            "pub mod guard;\npub mod select;\npub mod vector;\n",
+            "pub mod guard;\npub mod plant {\n    pub mod backlash;\n}\npub mod select;\npub mod vector;\n",
         )?;
+        // Only what the change can reach is asked: a mutant of the guard cannot touch selection, nor the other way round.
+        let room = match file {
+            _ if file.starts_with("guard") => "guard",
+            _ if file.starts_with("plant/backlash") => "plant::backlash",
+            _ => "select",
+        };
         let place = folder.join("mod.rs");
         modules += &format!("#[path = {place:?}]\npub mod {name};\n");
         entries += &format!(
-            "Planted {{ name: {name:?}, file: {file:?}, from: {from:?}, to: {to:?}, claims: {name}::select::proofs::claims::<C>().chain({name}::guard::proofs::claims()).collect() }},\n"
+            "Planted {{ name: {name:?}, file: {file:?}, from: {from:?}, to: {to:?}, claims: {name}::{room}::proofs::claims::<C>().into_iter().collect() }},\n"
         );
     }
     let all = format!(

@@ -13,6 +13,9 @@ pub trait Checker {
     /// Any number: infinite and undefined ones too.
     fn scalar(&mut self) -> Self::Number;
 
+    /// The greatest finite number.
+    fn greatest(&self) -> Self::Number;
+
     /// Any whole number below `count`.
     fn choice(&mut self, count: u8) -> u8;
 
@@ -80,11 +83,24 @@ macro_rules! claims {
 
         #[cfg(kani)]
         mod harnesses {
+            $crate::harnesses!(double f64 $($name)+);
+            $crate::harnesses!(single f32 $($name)+);
+        }
+    };
+}
+
+/// The Kani harness of each claim, on numbers of one width.
+#[cfg(kani)]
+#[macro_export]
+macro_rules! harnesses {
+    ($width:ident $number:ident $($name:ident)+) => {
+        mod $width {
             $(
                 #[cfg_attr(not(kani_shim), kani::proof, kani::unwind(5))]
                 #[cfg_attr(kani_shim, allow(dead_code))]
                 fn $name() {
-                    let _ = super::$name(&mut $crate::claim::kani_engine::Kani);
+                    let mut kani = $crate::claim::kani_engine::Kani::<$number>::default();
+                    let _ = super::super::$name(&mut kani);
                 }
             )+
         }
@@ -94,18 +110,50 @@ macro_rules! claims {
 /// Kani as an engine.
 #[cfg(kani)]
 pub mod kani_engine {
+    use core::marker::PhantomData;
+
     use super::{Checker, Held};
+    use crate::number::Scalar;
     #[cfg(kani_shim)]
     use shim as kani;
 
-    /// Any input, all at once.
-    pub struct Kani;
+    /// Any input, all at once, on numbers of one width.
+    #[derive(Default)]
+    pub struct Kani<S>(PhantomData<S>);
 
-    impl Checker for Kani {
-        type Number = f64;
+    /// What both widths have.
+    pub trait Width: Scalar + From<i8> {
+        /// Any number.
+        fn any() -> Self;
+        /// The greatest finite one.
+        const GREATEST: Self;
+    }
 
-        fn scalar(&mut self) -> f64 {
+    impl Width for f64 {
+        fn any() -> f64 {
             kani::any()
+        }
+
+        const GREATEST: f64 = f64::MAX;
+    }
+
+    impl Width for f32 {
+        fn any() -> f32 {
+            kani::any()
+        }
+
+        const GREATEST: f32 = f32::MAX;
+    }
+
+    impl<S: Width> Checker for Kani<S> {
+        type Number = S;
+
+        fn scalar(&mut self) -> S {
+            S::any()
+        }
+
+        fn greatest(&self) -> S {
+            S::GREATEST
         }
 
         fn choice(&mut self, count: u8) -> u8 {

@@ -8,7 +8,7 @@ use rigproof_spec::joint::Joint;
 use rigproof_spec::tables::GREATEST_CURRENT_A;
 
 use crate::command::Command;
-use crate::number::{Real, Scalar, least, most};
+use crate::number::{Scalar, least, most};
 use crate::velocity::LONGEST_WINDOW;
 
 /// Ticks without a new sample over which the last command holds; in the next one the brakes are let go.
@@ -33,10 +33,10 @@ pub enum Verdict {
 
 /// What watches the samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Guard<R> {
+pub struct Guard<S> {
     /// Most counts from one sample to the next, A and B.
     greatest_step: [u32; 2],
-    greatest_force_n: R,
+    greatest_force_n: S,
     last_number: Option<u32>,
     /// The last travels that were possible: whatever comes later has to lie beside them.
     believed: Option<[i32; 2]>,
@@ -44,9 +44,9 @@ pub struct Guard<R> {
     good: u8,
 }
 
-impl<R: Real> Guard<R> {
+impl<S: Scalar> Guard<S> {
     /// A guard that has seen nothing: most counts a sample of A and B, and the greatest force that the sensor gives, N.
-    pub fn new(greatest_step: [u32; 2], greatest_force_n: R) -> Guard<R> {
+    pub fn new(greatest_step: [u32; 2], greatest_force_n: S) -> Guard<S> {
         Guard {
             greatest_step,
             greatest_force_n,
@@ -64,7 +64,7 @@ impl<R: Real> Guard<R> {
         number: u32,
         travels: [i32; 2],
         reached: bool,
-        force_n: [R; 2],
+        force_n: [S; 2],
     ) -> Verdict {
         if self.last_number == Some(number) {
             return self.repeat();

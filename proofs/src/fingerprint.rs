@@ -6,19 +6,30 @@ use std::path::Path;
 
 use sha2::{Digest, Sha256};
 
-/// What the claims run, the claims themselves and the mutants.
-const ABOUT: [&str; 11] = [
+/// What the claims run, the claims themselves, the mutants, and what examines them.
+const ABOUT: [&str; 22] = [
     "impl/src/claim.rs",
     "impl/src/command.rs",
     "impl/src/guard",
     "impl/src/guard.rs",
     "impl/src/number.rs",
+    "impl/src/plant/backlash",
+    "impl/src/plant/backlash.rs",
     "impl/src/select",
     "impl/src/select.rs",
+    "impl/src/tick.rs",
     "impl/src/vector.rs",
+    "impl/src/velocity.rs",
+    "proofs/build.rs",
     "proofs/mutants.toml",
+    "proofs/src",
+    "spec/src/command.rs",
+    "spec/src/joint.rs",
     "spec/src/laws",
+    "spec/src/laws.rs",
     "spec/src/methods.rs",
+    "spec/src/tables.rs",
+    "spec/src/units.rs",
 ];
 
 /// The SHA-256 of these files, each after its path, in hexadecimal.

@@ -1,6 +1,7 @@
 //! This file is what comparisons with constants leave of a number.
 
 use crate::symbol::Relation;
+use crate::width::Width;
 
 /// The numbers from `low` to `high`, both included, and whether it may be no number.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,6 +87,16 @@ impl Interval {
             low: results.into_iter().fold(f64::INFINITY, f64::min),
             high: results.into_iter().fold(f64::NEG_INFINITY, f64::max),
             undefined: false,
+        }
+    }
+
+    /// These numbers rounded to a width.
+    #[must_use]
+    pub fn rounded(self, width: Width) -> Interval {
+        Interval {
+            low: width.rounded(self.low),
+            high: width.rounded(self.high),
+            ..self
         }
     }
 

@@ -4,6 +4,8 @@ use std::fmt::Write;
 
 use serde::Serialize;
 
+use crate::campaign::Campaign;
+
 /// What came out; no other word stands in the ledger.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Word {
@@ -85,16 +87,20 @@ pub struct Ledger {
     pub engines: Vec<(&'static str, String)>,
     /// Every claim.
     pub claims: Vec<Entry>,
+    /// Claims that are false, which the solver has to refute.
+    pub false_claims: Vec<Entry>,
+    /// Long campaigns of the property tests.
+    pub campaigns: Vec<Campaign>,
     /// Every planted mutant.
     pub mutants: Vec<Mutant>,
 }
 
 /// What has to be believed.
 const TRUSTED: &str = "\
-What has to be believed: the Rust compiler keeps IEEE 754 for `+`, `-`, `*` and comparisons of f64, without contraction; the symbolic number \
-(`symbol.rs`, `interval.rs`) records what the code computes and rules out only branches that contradict a comparison already made, which decides most \
-checks without a question to the solver; magnitude and bound of a number, which f64 computes by `abs`, are what the symbolic number computes by comparisons; the script \
-(`script.rs`) says the same in SMT-LIB 2; bitwuzla is right when it says UNSAT. What it finds satisfiable is replayed on f64 before it counts \
+What has to be believed: the Rust compiler keeps IEEE 754 for `+`, `-`, `*` and comparisons of f64 and f32, without contraction; the symbolic number \
+(`symbol.rs`, `interval.rs`, `order.rs`) records what the code computes and rules out only branches that contradict a comparison already made, or the order that rounding keeps \
+of products whose factors are ordered, which decides most checks without a question to the solver; that f32 results are f64 results rounded once more (`width.rs`); magnitude and bound of a number, which f64 computes by `abs`, are what the symbolic number computes by comparisons; the script \
+(`script.rs`) says the same in SMT-LIB 2; bitwuzla is right when it says UNSAT. What it finds satisfiable is replayed on f64 or f32 before it counts \
 as refuted. That a computed sum of two products below zero means an exact one below zero rests on rounding to nearest keeping order.";
 
 impl Ledger {
@@ -123,6 +129,18 @@ impl Ledger {
             let dead = entry.classes.iter().filter(|(_, hits)| *hits == 0);
             failures
                 .extend(dead.map(|(class, _)| format!("{}: `{class}` was never met", entry.claim)));
+        }
+        for entry in &self.false_claims {
+            let believed = entry
+                .verdicts
+                .iter()
+                .filter(|verdict| verdict.word != Word::Refuted && verdict.word != Word::NotRun);
+            failures.extend(believed.map(|by| {
+                format!(
+                    "{} is false and not refuted by {}: {}",
+                    entry.claim, by.engine, by.how
+                )
+            }));
         }
         let survivors = self.mutants.iter().filter(|mutant| mutant.engine.is_none());
         failures.extend(survivors.map(|mutant| format!("mutant {}: not refuted", mutant.mutant)));
@@ -159,6 +177,8 @@ impl Ledger {
                 .collect();
             let _ = writeln!(page, "- met: {}\n", classes.join("; "));
         }
+        page += &self.false_claims_markdown();
+        page += &self.campaigns_markdown();
         let _ = writeln!(
             page,
             "## Planted mutants\n\n| mutant | file | refuted by | engine |\n|---|---|---|---|"
@@ -174,6 +194,43 @@ impl Ledger {
                 mutant.mutant, mutant.file
             );
         }
+        page
+    }
+
+    fn false_claims_markdown(&self) -> String {
+        let mut page = String::new();
+        let _ = writeln!(
+            page,
+            "## Claims that are false\n\nWhat an engine that can say no has to refute.\n"
+        );
+        for entry in &self.false_claims {
+            let _ = writeln!(page, "- `{}`: {}", entry.claim, entry.statement);
+            for verdict in &entry.verdicts {
+                let (engine, word) = (verdict.engine, verdict.word.text());
+                let _ = writeln!(page, "  - {engine}: **{word}**, {}", verdict.how);
+            }
+        }
+        page.push('\n');
+        page
+    }
+
+    fn campaigns_markdown(&self) -> String {
+        let mut page = String::new();
+        let _ = writeln!(
+            page,
+            "## Long campaigns\n\nProperty tests that were run once with `PROPTEST_CASES` at the number of cases (`proofs/campaigns.toml`).\n\n\
+             | tests | cases of each | time | result |\n|---|---|---|---|"
+        );
+        for campaign in &self.campaigns {
+            let Campaign {
+                tests,
+                cases,
+                seconds,
+                result,
+            } = campaign;
+            let _ = writeln!(page, "| {tests} | {cases} | {seconds} s | {result} |");
+        }
+        page.push('\n');
         page
     }
 }
@@ -197,6 +254,13 @@ mod tests {
                 }],
                 classes: vec![("any", hits)],
             }],
+            false_claims: Vec::new(),
+            campaigns: vec![Campaign {
+                tests: "machines guard".to_owned(),
+                cases: 4703,
+                seconds: 3,
+                result: "held".to_owned(),
+            }],
             mutants: vec![Mutant {
                 mutant: "half_flip",
                 file: "select.rs".to_owned(),
@@ -216,6 +280,11 @@ mod tests {
         let mut empty = ledger(Word::Proved, 3, Some("smt"));
         empty.claims[0].classes.clear();
         assert_eq!(empty.failures().len(), 1);
+        for (word, expected) in [(Word::Refuted, 0), (Word::Proved, 1), (Word::Undecided, 1)] {
+            let mut with_false = ledger(Word::Proved, 3, Some("smt"));
+            with_false.false_claims = ledger(word, 0, None).claims;
+            assert_eq!(with_false.failures().len(), expected);
+        }
     }
 
     #[test]
@@ -228,6 +297,7 @@ mod tests {
             "any 3",
             "c0de",
             "nothing",
+            "| machines guard | 4703 | 3 s | held |",
         ] {
             assert!(page.contains(text), "{text}");
         }

@@ -32,12 +32,14 @@ pub struct Examined {
 struct Mutant {
     enumerated: Planted<Enumerator>,
     sampled: Planted<Sampler>,
-    walked: Vec<(Claim<Walker>, Claim<Replay>)>,
+    walked: Vec<(Claim<Walker>, Claim<Replay<f64>>)>,
 }
 
 /// Every planted mutant, by enumeration, then by sampling, and by the solver, if there is one, where neither refutes it.
 pub fn examine_mutants(solver: Option<&Solver>, seed: u64) -> Vec<Examined> {
-    let walked = planted::<Walker>().into_iter().zip(planted::<Replay>());
+    let walked = planted::<Walker>()
+        .into_iter()
+        .zip(planted::<Replay<f64>>());
     let walked =
         walked.map(|(walked, again)| walked.claims.into_iter().zip(again.claims).collect());
     let mutants: Vec<Mutant> = planted()

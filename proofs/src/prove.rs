@@ -13,8 +13,9 @@ use crate::ledger::{Entry, Ledger, Mutant, Verdict, Word};
 use crate::mutation::examine_mutants;
 use crate::replay::Replay;
 use crate::solver::{Solver, VERSION};
+use crate::width::Number;
 use crate::work::on_every_core;
-use crate::{claims, fingerprint, kani};
+use crate::{campaign, claims, false_claims, fingerprint, kani};
 
 /// Draws for one claim.
 pub const DRAWS: u64 = 400_000;
@@ -38,6 +39,14 @@ struct Subject {
     sampled: Claim<Sampler>,
     walked: Claim<Walker>,
     again: Claim<Replay>,
+    /// On f32.
+    single: Single,
+}
+
+/// One claim on f32.
+struct Single {
+    sampled: Claim<Sampler<f32>>,
+    again: Claim<Replay<f32>>,
 }
 
 /// Runs every engine that is there; only on claims whose name contains `only`, and then on no mutant.
@@ -47,25 +56,34 @@ struct Subject {
 pub fn prove(place: &Place, only: Option<&str>) -> Result<Ledger, String> {
     let solver = Solver::find(&place.python);
     let proved_by_kani = kani::is_set_up(&place.root).then(|| kani::proves(&place.root));
-    let subjects: Vec<Subject> = claims()
-        .into_iter()
-        .zip(claims())
+    let double = claims().into_iter().zip(claims());
+    let double = double.zip(claims().into_iter().zip(claims()));
+    let subjects: Vec<Subject> = double
         .zip(claims().into_iter().zip(claims()))
-        .map(|((enumerated, sampled), (walked, again))| Subject {
-            enumerated,
-            sampled,
-            walked,
-            again,
-        })
+        .map(
+            |(((enumerated, sampled), (walked, again)), (of_single, again_single))| Subject {
+                enumerated,
+                sampled,
+                walked,
+                again,
+                single: Single {
+                    sampled: of_single,
+                    again: again_single,
+                },
+            },
+        )
         .filter(|subject| only.is_none_or(|text| subject.sampled.name.contains(text)))
         .collect();
     let mut entries = on_every_core(&subjects, |subject| entry(subject, solver.as_ref().ok()));
     for entry in &mut entries {
         entry.verdicts.push(kani_verdict(proved_by_kani));
     }
-    let mutants = match only {
-        Some(_) => Vec::new(),
-        None => examine_mutants(solver.as_ref().ok(), SEED),
+    let (mutants, false_claims) = match only {
+        Some(_) => (Vec::new(), Vec::new()),
+        None => (
+            examine_mutants(solver.as_ref().ok(), SEED),
+            false_entries(solver.as_ref().ok()),
+        ),
     };
     let code =
         fingerprint::fingerprint(&place.root).map_err(|error| format!("the code: {error}"))?;
@@ -73,6 +91,8 @@ pub fn prove(place: &Place, only: Option<&str>) -> Result<Ledger, String> {
         code,
         engines: engines(place, &solver, proved_by_kani.is_some()),
         claims: entries,
+        false_claims,
+        campaigns: campaign::campaigns(&place.root)?,
         mutants: mutants
             .into_iter()
             .map(|mutant| Mutant {
@@ -92,7 +112,7 @@ fn engines(
     with_kani: bool,
 ) -> Vec<(&'static str, String)> {
     let smt = match solver {
-        Ok(_) => format!("bitwuzla {VERSION} on IEEE binary64, over a pipe"),
+        Ok(_) => format!("bitwuzla {VERSION} on IEEE 754 binary64 and binary32, over a pipe"),
         Err(_) => format!(
             "NOT RUN: `python3 -m venv .venv-proofs && .venv-proofs/bin/pip install bitwuzla=={VERSION}`, then `--solver-python \
              .venv-proofs/bin/python`"
@@ -122,7 +142,7 @@ fn engines(
 
 fn entry(subject: &Subject, solver: Option<&Solver>) -> Entry {
     let claim = &subject.sampled;
-    let (sampled, classes) = random_verdict(claim);
+    let (sampled, classes) = random_verdict(claim, "random");
     let mut entry = Entry {
         claim: claim.name,
         statement: claim.statement.trim().to_owned(),
@@ -133,11 +153,43 @@ fn entry(subject: &Subject, solver: Option<&Solver>) -> Entry {
         Domain::Finite => entry
             .verdicts
             .extend(enumeration_verdict(&subject.enumerated)),
-        Domain::Numbers => entry.verdicts.push(smt_verdict(subject, solver)),
+        Domain::Numbers => {
+            let (walked, single) = (&subject.walked, &subject.single);
+            let verdicts = &mut entry.verdicts;
+            verdicts.push(smt_verdict("smt", walked, &subject.again, solver));
+            verdicts.push(smt_verdict("smt, f32", walked, &single.again, solver));
+        }
         Domain::Sampled => {}
     }
     entry.verdicts.push(sampled);
+    if claim.domain != Domain::Finite {
+        let (verdict, classes) = random_verdict(&subject.single.sampled, "random, f32");
+        entry.verdicts.push(verdict);
+        for (of_double, of_single) in entry.classes.iter_mut().zip(classes.0) {
+            // A class has to be met on both widths.
+            of_double.1 = of_double.1.min(of_single.1);
+        }
+    }
     entry
+}
+
+/// The claims that are false, in the hands of the solver.
+fn false_entries(solver: Option<&Solver>) -> Vec<Entry> {
+    let again = false_claims::claims()
+        .into_iter()
+        .zip(false_claims::claims());
+    let claims = false_claims::claims::<Walker>().into_iter().zip(again);
+    claims
+        .map(|(walked, (double, single))| Entry {
+            claim: walked.name,
+            statement: walked.statement.trim().to_owned(),
+            verdicts: vec![
+                smt_verdict::<f64>("smt", &walked, &double, solver),
+                smt_verdict::<f32>("smt, f32", &walked, &single, solver),
+            ],
+            classes: Vec::new(),
+        })
+        .collect()
 }
 
 fn enumeration_verdict(claim: &Claim<Enumerator>) -> Option<Verdict> {
@@ -155,11 +207,14 @@ fn enumeration_verdict(claim: &Claim<Enumerator>) -> Option<Verdict> {
     })
 }
 
-fn random_verdict(claim: &Claim<Sampler>) -> (Verdict, Classes) {
+fn random_verdict<N: Number>(
+    claim: &Claim<Sampler<N>>,
+    engine: &'static str,
+) -> (Verdict, Classes) {
     let start = Instant::now();
     let found = sample(claim, SEED, DRAWS);
     let verdict = Verdict {
-        engine: "random",
+        engine,
         word: if found.refuted_by.is_some() {
             Word::Refuted
         } else {
@@ -174,16 +229,21 @@ fn random_verdict(claim: &Claim<Sampler>) -> (Verdict, Classes) {
     (verdict, found.classes)
 }
 
-fn smt_verdict(subject: &Subject, solver: Option<&Solver>) -> Verdict {
+fn smt_verdict<N: Number>(
+    engine: &'static str,
+    walked: &Claim<Walker>,
+    again: &Claim<Replay<N>>,
+    solver: Option<&Solver>,
+) -> Verdict {
     let Some(solver) = solver else {
         return Verdict {
-            engine: "smt",
+            engine,
             word: Word::NotRun,
             how: "the solver is not there".to_owned(),
             seconds: 0.0,
         };
     };
-    let found: smt::Examined = examine(&subject.walked, &subject.again, solver, smt::LONGEST_WALK);
+    let found: smt::Examined = examine(walked, again, solver, smt::LONGEST_WALK);
     let walked = format!("{} paths, {} questions", found.paths, found.queries);
     let (word, how) = match found.outcome {
         Outcome::Proved => (Word::Proved, walked),
@@ -191,7 +251,7 @@ fn smt_verdict(subject: &Subject, solver: Option<&Solver>) -> Verdict {
         Outcome::Undecided(why) => (Word::Undecided, format!("{walked}: {why}")),
     };
     Verdict {
-        engine: "smt",
+        engine,
         word,
         how,
         seconds: found.seconds,

@@ -1,19 +1,28 @@
 //! This file runs a claim again on the numbers that a solver found.
 
+use std::marker::PhantomData;
+
 use rigproof_impl::claim::{Checker, Claim, Held};
 
+use crate::width::Number;
+
 /// Given numbers and choices, in the order of asking; what was not given is a small number that nothing else is.
-pub struct Replay {
+pub struct Replay<N = f64> {
     numbers: std::vec::IntoIter<f64>,
     choices: std::vec::IntoIter<u8>,
     failed: bool,
+    width: PhantomData<N>,
 }
 
-impl Checker for Replay {
-    type Number = f64;
+impl<N: Number> Checker for Replay<N> {
+    type Number = N;
 
-    fn scalar(&mut self) -> f64 {
-        self.numbers.next().unwrap_or(0.372_951)
+    fn scalar(&mut self) -> N {
+        N::of(self.numbers.next().unwrap_or(0.372_951))
+    }
+
+    fn greatest(&self) -> N {
+        N::of(N::WIDTH.greatest())
     }
 
     fn choice(&mut self, _: u8) -> u8 {
@@ -33,11 +42,12 @@ impl Checker for Replay {
 }
 
 /// Whether the claim fails on these numbers and choices.
-pub fn replay(claim: &Claim<Replay>, numbers: &[f64], choices: &[u8]) -> bool {
+pub fn replay<N: Number>(claim: &Claim<Replay<N>>, numbers: &[f64], choices: &[u8]) -> bool {
     let mut replay = Replay {
         numbers: Vec::from(numbers).into_iter(),
         choices: Vec::from(choices).into_iter(),
         failed: false,
+        width: PhantomData,
     };
     let _ = (claim.body)(&mut replay);
     replay.failed

@@ -1,9 +1,10 @@
-//! This file writes a path as a question in SMT-LIB 2: numbers are IEEE binary64, every operation rounds to nearest, ties to even.
+//! This file writes a path as a question in SMT-LIB 2: numbers are IEEE 754 of one width, every operation rounds to nearest, ties to even.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use crate::symbol::{Literal, Relation, Term};
+use crate::width::Width;
 
 /// A question, and which unknowns an answer has to give numbers for.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,10 +13,16 @@ pub struct Script {
     pub text: String,
     /// Numbers of the unknowns in it, ascending.
     pub inputs: Vec<u32>,
+    /// Their width.
+    pub width: Width,
 }
 
 /// Whether any numbers walk this path.
-pub fn script(terms: &[Term], path: &[Literal]) -> Script {
+pub fn script(width: Width, terms: &[Term], path: &[Literal]) -> Script {
+    let (sort, bits, of_bits) = match width {
+        Width::Double => ("Float64", 64, "(_ to_fp 11 53)"),
+        Width::Single => ("Float32", 32, "(_ to_fp 8 24)"),
+    };
     let needed = needed(terms, path);
     let mut inputs = Vec::new();
     let mut text = String::from("(set-option :produce-models true)\n(set-logic QF_BVFP)\n");
@@ -25,24 +32,25 @@ pub fn script(terms: &[Term], path: &[Literal]) -> Script {
                 inputs.push(input);
                 writeln!(
                     text,
-                    "(declare-const i{input} (_ BitVec 64))\n(define-fun t{id} () Float64 ((_ to_fp 11 53) i{input}))"
+                    "(declare-const i{input} (_ BitVec {bits}))\n(define-fun t{id} () {sort} ({of_bits} i{input}))"
                 )
             }
-            Term::Constant(bits) => {
+            Term::Constant(constant) => {
+                let (digits, constant) = (bits / 4, width.bits(f64::from_bits(constant)));
                 writeln!(
                     text,
-                    "(define-fun t{id} () Float64 ((_ to_fp 11 53) #x{bits:016x}))"
+                    "(define-fun t{id} () {sort} ({of_bits} #x{constant:0digits$x}))"
                 )
             }
-            Term::Neg(a) => writeln!(text, "(define-fun t{id} () Float64 (fp.neg t{a}))"),
+            Term::Neg(a) => writeln!(text, "(define-fun t{id} () {sort} (fp.neg t{a}))"),
             Term::Add(a, b) => {
-                writeln!(text, "(define-fun t{id} () Float64 (fp.add RNE t{a} t{b}))")
+                writeln!(text, "(define-fun t{id} () {sort} (fp.add RNE t{a} t{b}))")
             }
             Term::Sub(a, b) => {
-                writeln!(text, "(define-fun t{id} () Float64 (fp.sub RNE t{a} t{b}))")
+                writeln!(text, "(define-fun t{id} () {sort} (fp.sub RNE t{a} t{b}))")
             }
             Term::Mul(a, b) => {
-                writeln!(text, "(define-fun t{id} () Float64 (fp.mul RNE t{a} t{b}))")
+                writeln!(text, "(define-fun t{id} () {sort} (fp.mul RNE t{a} t{b}))")
             }
         };
     }
@@ -61,7 +69,11 @@ pub fn script(terms: &[Term], path: &[Literal]) -> Script {
     }
     text.push_str("(check-sat)\n");
     inputs.sort_unstable();
-    Script { text, inputs }
+    Script {
+        text,
+        inputs,
+        width,
+    }
 }
 
 /// The terms that a path speaks of and those they are made of, ascending: a term is made of earlier ones.
@@ -101,7 +113,7 @@ mod tests {
             right: 1,
             holds: false,
         }];
-        let script = script(&terms, &path);
+        let script = script(Width::Double, &terms, &path);
         assert_eq!(script.inputs, [0]);
         let expected = [
             "(set-option :produce-models true)",
@@ -114,5 +126,8 @@ mod tests {
             "(check-sat)",
         ];
         assert_eq!(script.text.lines().collect::<Vec<_>>(), expected);
+        let single = super::script(Width::Single, &terms, &path).text;
+        assert!(single.contains("(declare-const i0 (_ BitVec 32))"));
+        assert!(single.contains("(define-fun t1 () Float32 ((_ to_fp 8 24) #x3fc00000))"));
     }
 }

@@ -5,6 +5,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
+use crate::script::Script;
+use crate::width::Width;
+
 /// Which solver: installed with `pip install bitwuzla==0.9.1`.
 pub const VERSION: &str = "0.9.1";
 /// Longest time for one question.
@@ -53,10 +56,15 @@ impl Solver {
         })
     }
 
-    /// Asks; `inputs` are the unknowns that an answer gives numbers for.
-    pub fn ask(&self, question: &str, inputs: &[u32]) -> Answer {
-        match self.run(question, inputs) {
-            Ok(answer) => read_answer(&answer, inputs),
+    /// Asks.
+    pub fn ask(&self, script: &Script) -> Answer {
+        let Script {
+            text,
+            inputs,
+            width,
+        } = script;
+        match self.run(text, inputs) {
+            Ok(answer) => read_answer(&answer, inputs, *width),
             Err(why) => Answer::Unknown(why),
         }
     }
@@ -103,7 +111,7 @@ fn wait(child: &mut Child) -> Result<(), String> {
 }
 
 /// Only the word UNSAT proves.
-fn read_answer(answer: &str, inputs: &[u32]) -> Answer {
+fn read_answer(answer: &str, inputs: &[u32], width: Width) -> Answer {
     let mut lines = answer.lines();
     match lines.next() {
         Some("UNSAT") => Answer::Unsatisfiable,
@@ -111,9 +119,10 @@ fn read_answer(answer: &str, inputs: &[u32]) -> Answer {
             let count = inputs.last().map_or(0, |last| *last as usize + 1);
             let mut numbers = vec![0.0; count];
             for (input, bits) in inputs.iter().zip(lines) {
-                match u64::from_str_radix(bits.trim(), 2) {
-                    Ok(bits) => numbers[*input as usize] = f64::from_bits(bits),
-                    Err(_) => return Answer::Unknown(format!("the solver gave the bits `{bits}`")),
+                let number = u64::from_str_radix(bits.trim(), 2).ok();
+                match number.and_then(|bits| width.of_bits(bits)) {
+                    Some(number) => numbers[*input as usize] = number,
+                    None => return Answer::Unknown(format!("the solver gave the bits `{bits}`")),
                 }
             }
             Answer::Satisfiable(numbers)
@@ -128,18 +137,25 @@ mod tests {
 
     #[test]
     fn only_the_word_unsat_proves() {
-        assert_eq!(read_answer("UNSAT\n", &[0]), Answer::Unsatisfiable);
+        assert_eq!(
+            read_answer("UNSAT\n", &[0], Width::Double),
+            Answer::Unsatisfiable
+        );
         for answer in ["", "UNKNOWN\n", "unsat", "SAT\nx\n", "Traceback"] {
             assert!(
-                matches!(read_answer(answer, &[0]), Answer::Unknown(_)),
+                matches!(read_answer(answer, &[0], Width::Double), Answer::Unknown(_)),
                 "{answer}"
             );
         }
         let three = format!("SAT\n{:b}\n", 3.25_f64.to_bits());
         assert_eq!(
-            read_answer(&three, &[1]),
+            read_answer(&three, &[1], Width::Double),
             Answer::Satisfiable(vec![0.0, 3.25])
         );
+        assert!(matches!(
+            read_answer(&three, &[1], Width::Single),
+            Answer::Unknown(_)
+        ));
     }
 
     #[test]
@@ -148,10 +164,12 @@ mod tests {
             let solver = Solver {
                 python: PathBuf::from(python),
             };
-            assert!(matches!(
-                solver.ask("(check-sat)\n", &[]),
-                Answer::Unknown(_)
-            ));
+            let script = Script {
+                text: "(check-sat)\n".to_owned(),
+                inputs: Vec::new(),
+                width: Width::Double,
+            };
+            assert!(matches!(solver.ask(&script), Answer::Unknown(_)));
             assert!(Solver::find(Path::new(python)).is_err());
         }
     }

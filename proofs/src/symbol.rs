@@ -14,13 +14,15 @@ use rigproof_impl::number::Scalar;
 
 use crate::fork::Forks;
 use crate::interval::Interval;
+use crate::order::{ANY, EQUAL, Factors, GREATER, LESS, UNORDERED, of_products, of_sums, reversed};
+use crate::width::Width;
 
 /// A term of the arena.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Term {
-    /// Any binary64 number, by its number in the order of asking.
+    /// Any number, by its number in the order of asking.
     Input(u32),
-    /// A constant, by its bits.
+    /// A constant, by its bits as an f64.
     Constant(u64),
     /// The negative of a term.
     Neg(u32),
@@ -59,6 +61,8 @@ pub struct Literal {
 /// Terms, and the path that is being walked.
 #[derive(Default)]
 pub struct Arena {
+    /// The width of every number.
+    pub width: Width,
     terms: Vec<Term>,
     known: HashMap<Term, u32, Fast>,
     inputs: u32,
@@ -72,12 +76,15 @@ pub struct Arena {
     pub contradicted: bool,
 }
 
-const LESS: u8 = 1;
-const EQUAL: u8 = 2;
-const GREATER: u8 = 4;
-const UNORDERED: u8 = 8;
-
 impl Arena {
+    /// An arena of numbers of one width, without a term.
+    pub fn of(width: Width) -> Arena {
+        Arena {
+            width,
+            ..Arena::default()
+        }
+    }
+
     /// Every term, those it is made of before it.
     pub fn terms(&self) -> &[Term] {
         &self.terms
@@ -104,6 +111,12 @@ impl Arena {
             terms.push(term);
             u32::try_from(terms.len() - 1).expect("fewer terms than 2^32")
         }))
+    }
+
+    /// The nearest constant of the width.
+    fn nearest(&mut self, constant: f64) -> Symbol {
+        let bits = self.width.rounded(constant).to_bits();
+        self.term(Term::Constant(bits))
     }
 
     fn constant(&self, term: u32) -> Option<f64> {
@@ -176,11 +189,12 @@ impl Arena {
     fn possible(&self, pair: (u32, u32)) -> u8 {
         let (left, right) = pair;
         let stored = self.orders.get(&pair).copied();
-        let stored = stored.unwrap_or(LESS | EQUAL | GREATER | UNORDERED);
+        let stored = stored.unwrap_or(ANY);
         if left == right {
             let undefined = self.interval(left).undefined;
             return stored & if undefined { EQUAL | UNORDERED } else { EQUAL };
         }
+        let stored = stored & self.by_parts(left, right);
         let (left, right) = (self.interval(left), self.interval(right));
         let mut possible = 0;
         if left.low < right.high {
@@ -198,6 +212,30 @@ impl Arena {
         stored & possible
     }
 
+    /// Which orders of two terms the orders of their parts leave.
+    fn by_parts(&self, left: u32, right: u32) -> u8 {
+        let between = |one: u32, other: u32| {
+            if one > other {
+                reversed(self.possible((other, one)))
+            } else {
+                self.possible((one, other))
+            }
+        };
+        match (self.terms[left as usize], self.terms[right as usize]) {
+            (Term::Neg(one), Term::Neg(other)) => reversed(between(one, other)),
+            (Term::Add(a, b), Term::Add(c, d)) => of_sums([between(a, c), between(b, d)]),
+            (Term::Sub(a, b), Term::Sub(c, d)) => of_sums([between(a, c), reversed(between(b, d))]),
+            (Term::Mul(a, b), Term::Mul(c, d)) => {
+                let factors = |one: u32, other: u32| Factors {
+                    orders: between(one, other),
+                    intervals: [self.interval(one), self.interval(other)],
+                };
+                of_products([factors(a, c), factors(b, d)])
+            }
+            _ => ANY,
+        }
+    }
+
     /// What a term can be: what its parts can be, and what comparisons left of it.
     fn interval(&self, term: u32) -> Interval {
         let of_parts = match self.terms[term as usize] {
@@ -208,6 +246,7 @@ impl Arena {
             Term::Sub(a, b) => self.interval(a).combined(self.interval(b), |a, b| a - b),
             Term::Mul(a, b) => self.interval(a).combined(self.interval(b), |a, b| a * b),
         };
+        let of_parts = of_parts.rounded(self.width);
         let left = self.intervals.get(&term);
         left.map_or(of_parts, |left| left.and(of_parts))
     }
@@ -243,7 +282,7 @@ fn operation(
     b: Symbol,
 ) -> Symbol {
     with_arena(|arena| match (arena.constant(a.0), arena.constant(b.0)) {
-        (Some(a), Some(b)) => arena.term(Term::Constant(exact(a, b).to_bits())),
+        (Some(a), Some(b)) => arena.nearest(exact(a, b)),
         _ => arena.term(term(a.0, b.0)),
     })
 }
@@ -320,7 +359,7 @@ impl From<i8> for Symbol {
 
 impl Scalar for Symbol {
     fn of(constant: f64) -> Symbol {
-        with_arena(|arena| arena.term(Term::Constant(constant.to_bits())))
+        with_arena(|arena| arena.nearest(constant))
     }
 }
 

@@ -1,16 +1,21 @@
-//! This file says when a shaft is inside its brake's backlash.
+//! This file says when a shaft is inside its brake's backlash, and what the brake is then asked for.
+
+#[cfg(any(kani, feature = "claims"))]
+pub mod proofs;
 
 use rigproof_spec::units::rad_from_deg;
+
+use crate::number::{Scalar, least, most};
 
 /// Reverse travel after which a shaft counts as inside the backlash, degrees (gap `backlash-entry`, decision 0004).
 pub const ENTRY_TRAVEL_DEG: f64 = 0.02;
 
 /// Two boundaries that hold still while the shaft is between them and travel with it otherwise (§3.4.3).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Backlash {
-    theta_1_rad: f64,
-    width_rad: f64,
-    entry_rad: f64,
+pub struct Backlash<S = f64> {
+    theta_1_rad: S,
+    width_rad: S,
+    entry_rad: S,
     inside: bool,
 }
 
@@ -39,32 +44,41 @@ impl Backlash {
     /// Turns the shaft straight from one angle to another, rad; where that changed whether it is inside, says when.
     #[inline]
     pub fn turn(&mut self, from_rad: f64, to_rad: f64) -> Option<Crossing> {
-        let (low, high) = (self.theta_1_rad, self.theta_1_rad + self.width_rad);
-        let entry = self.entry_rad;
         let was_inside = self.inside;
-        let (boundary, inside) = if to_rad >= high {
-            self.theta_1_rad = to_rad - self.width_rad;
-            (high, false)
-        } else if to_rad <= low {
-            self.theta_1_rad = to_rad;
-            (low, false)
-        } else if to_rad - low > entry && high - to_rad > entry {
-            (
-                if to_rad < from_rad {
-                    high - entry
-                } else {
-                    low + entry
-                },
-                true,
-            )
-        } else {
-            return None;
-        };
-        self.inside = inside;
+        let boundary = self.pass(from_rad, to_rad)?;
+        let inside = self.inside;
         (inside != was_inside).then(|| Crossing {
             part: within_one((boundary - from_rad) / (to_rad - from_rad)),
             inside,
         })
+    }
+}
+
+impl<S: Scalar> Backlash<S> {
+    /// Turns the shaft from one angle to another, rad, and returns the angle on the way at which it is, or would have come, inside or out;
+    /// none in the travel of entry, where it stays what it was.
+    #[inline(always)]
+    fn pass(&mut self, from_rad: S, to_rad: S) -> Option<S> {
+        let (low, high) = (self.theta_1_rad, self.theta_1_rad + self.width_rad);
+        let entry = self.entry_rad;
+        if to_rad >= high {
+            self.theta_1_rad = to_rad - self.width_rad;
+            self.inside = false;
+            Some(high)
+        } else if to_rad <= low {
+            self.theta_1_rad = to_rad;
+            self.inside = false;
+            Some(low)
+        } else if to_rad - low > entry && high - to_rad > entry {
+            self.inside = true;
+            Some(if to_rad < from_rad {
+                high - entry
+            } else {
+                low + entry
+            })
+        } else {
+            None
+        }
     }
 
     /// Whether the shaft is inside, where the brake resists with its off-state torque only.
@@ -73,8 +87,19 @@ impl Backlash {
     }
 
     /// The boundaries θ1 and θ2, rad.
-    pub fn boundaries_rad(&self) -> [f64; 2] {
+    pub fn boundaries_rad(&self) -> [S; 2] {
         [self.theta_1_rad, self.theta_1_rad + self.width_rad]
+    }
+}
+
+/// What the yield torque moves towards, N·m: the off-state torque inside the backlash, else what the current asks for, within the off-state
+/// torque and the greatest.
+#[inline]
+pub fn target_nm<S: Scalar>(inside: bool, asked_nm: S, [off_state_nm, greatest_nm]: [S; 2]) -> S {
+    if inside {
+        off_state_nm
+    } else {
+        most(off_state_nm, least(greatest_nm, asked_nm))
     }
 }
 

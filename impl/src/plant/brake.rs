@@ -3,7 +3,7 @@
 use rigproof_spec::tables::{BrakeTable, Edge, GAIN_BREAK_A, TimeConstantFit, TorqueGainFit};
 use rigproof_spec::units::rpm_from_rad_s;
 
-use super::backlash::{Backlash, Crossing};
+use super::backlash::{Backlash, Crossing, target_nm};
 use super::decay::decayed;
 
 /// Excess of the yield torque over its target below which a fall counts as finished, N·m: half the last digit
@@ -103,11 +103,8 @@ impl Brake {
         speed_rad_s: f64,
         time_s: f64,
     ) -> f64 {
-        let target_nm = if inside {
-            table.torque_gain.off_state_nm()
-        } else {
-            within(gain_nm(&table.torque_gain, current_a), self.limits_nm)
-        };
+        let asked_nm = gain_nm(&table.torque_gain, current_a);
+        let target_nm = target_nm(inside, asked_nm, self.limits_nm);
         let off_nm = self.yield_nm - target_nm;
         if off_nm <= SETTLED_NM {
             self.fall_origin_a = current_a;

@@ -2,6 +2,7 @@
 
 mod best;
 mod decide;
+mod gate;
 mod proportional;
 mod sdof;
 
@@ -13,6 +14,7 @@ use crate::vector::Vector;
 pub fn claims<C: Checker>() -> impl Iterator<Item = Claim<C>> {
     best::claims()
         .into_iter()
+        .chain(gate::claims())
         .chain(proportional::claims())
         .chain(sdof::claims())
         .chain(decide::claims())

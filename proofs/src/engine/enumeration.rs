@@ -33,6 +33,10 @@ impl Checker for Enumerator {
         f64::NAN
     }
 
+    fn greatest(&self) -> f64 {
+        f64::MAX
+    }
+
     fn choice(&mut self, count: u8) -> u8 {
         self.forks.take(count)
     }

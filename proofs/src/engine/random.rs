@@ -1,10 +1,13 @@
 //! This file tests claims on seeded random numbers, and counts what they met.
 
+use std::marker::PhantomData;
+
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rigproof_impl::claim::{Checker, Claim, Held};
 
 use crate::classes::Classes;
+use crate::width::Number;
 
 /// What became of a claim.
 #[derive(Clone, Debug)]
@@ -20,8 +23,9 @@ pub struct Sampled {
 }
 
 /// Numbers of four kinds: any bits, any size, few small whole ones (for ties and zeros), and the ends of ranges.
-pub struct Sampler {
+pub struct Sampler<N = f64> {
     random: Pcg64,
+    width: PhantomData<N>,
     kind: u32,
     numbers: Vec<f64>,
     classes: Classes,
@@ -44,7 +48,7 @@ const ENDS: [f64; 12] = [
     -1_000_000.000_000_000_1,
 ];
 
-impl Sampler {
+impl<N: Number> Sampler<N> {
     fn number(&mut self) -> f64 {
         let random = &mut self.random;
         let kind = if random.random_range(0..7) == 0 {
@@ -53,7 +57,11 @@ impl Sampler {
             self.kind
         };
         match kind {
-            0 => f64::from_bits(random.next_u64()),
+            0 => {
+                let bits = random.next_u64();
+                let wide = N::WIDTH.of_bits(bits);
+                wide.or_else(|| N::WIDTH.of_bits(bits >> 32)).unwrap_or(0.0)
+            }
             1 => ENDS[random.random_range(0..ENDS.len())],
             2 | 3 => f64::from(random.random_range(-2..3_i8)),
             4 => random.random_range(0.0..1.3),
@@ -68,13 +76,17 @@ impl Sampler {
     }
 }
 
-impl Checker for Sampler {
-    type Number = f64;
+impl<N: Number> Checker for Sampler<N> {
+    type Number = N;
 
-    fn scalar(&mut self) -> f64 {
-        let number = self.number();
-        self.numbers.push(number);
+    fn scalar(&mut self) -> N {
+        let number = N::of(self.number());
+        self.numbers.push(number.into());
         number
+    }
+
+    fn greatest(&self) -> N {
+        N::of(N::WIDTH.greatest())
     }
 
     fn choice(&mut self, count: u8) -> u8 {
@@ -96,8 +108,9 @@ impl Checker for Sampler {
 }
 
 /// Draws until the claim is refuted or this many were made.
-pub fn sample(claim: &Claim<Sampler>, seed: u64, draws: u64) -> Sampled {
+pub fn sample<N: Number>(claim: &Claim<Sampler<N>>, seed: u64, draws: u64) -> Sampled {
     let mut sampler = Sampler {
+        width: PhantomData,
         random: Pcg64::seed_from_u64(seed),
         kind: 0,
         numbers: Vec::new(),

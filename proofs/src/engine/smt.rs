@@ -4,12 +4,14 @@
 use std::time::{Duration, Instant};
 
 use rigproof_impl::claim::{Checker, Claim, Held};
+use rigproof_impl::number::Scalar;
 
 use crate::replay::Replay;
 use crate::replay::replay;
 use crate::script::script;
 use crate::solver::{Answer, Solver};
-use crate::symbol::{Literal, Symbol, with_arena};
+use crate::symbol::{Arena, Literal, Symbol, with_arena};
+use crate::width::Number;
 
 /// Longest walk over the paths of a claim that should hold.
 pub const LONGEST_WALK: Duration = Duration::from_secs(240);
@@ -59,6 +61,10 @@ impl Checker for Walker {
         with_arena(|arena| arena.input())
     }
 
+    fn greatest(&self) -> Symbol {
+        Symbol::of(with_arena(|arena| arena.width.greatest()))
+    }
+
     fn choice(&mut self, count: u8) -> u8 {
         let choice = with_arena(|arena| arena.forks.take(count));
         self.choices.push(choice);
@@ -84,15 +90,15 @@ impl Checker for Walker {
     fn cover(&mut self, _: &'static str, _: bool) {}
 }
 
-/// Proves or refutes a claim; a refutation is replayed on binary64 before it counts.
-pub fn examine(
+/// Proves or refutes a claim on numbers of one width; a refutation is replayed on them before it counts.
+pub fn examine<N: Number>(
     claim: &Claim<Walker>,
-    again: &Claim<Replay>,
+    again: &Claim<Replay<N>>,
     solver: &Solver,
     longest: Duration,
 ) -> Examined {
     let start = Instant::now();
-    with_arena(|arena| *arena = Default::default());
+    with_arena(|arena| *arena = Arena::of(N::WIDTH));
     let (mut paths, mut queries) = (0, 0);
     let outcome = loop {
         paths += 1;
@@ -122,9 +128,9 @@ pub fn examine(
 }
 
 /// Whether any numbers walk a failing path.
-fn question(failing: &Failing, again: &Claim<Replay>, solver: &Solver) -> Outcome {
-    let script = with_arena(|arena| script(arena.terms(), &failing.path));
-    match solver.ask(&script.text, &script.inputs) {
+fn question<N: Number>(failing: &Failing, again: &Claim<Replay<N>>, solver: &Solver) -> Outcome {
+    let script = with_arena(|arena| script(arena.width, arena.terms(), &failing.path));
+    match solver.ask(&script) {
         Answer::Unsatisfiable => Outcome::Proved,
         Answer::Unknown(why) => Outcome::Undecided(why),
         Answer::Satisfiable(numbers) => {

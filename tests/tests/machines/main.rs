@@ -2,3 +2,6 @@
 
 mod backlash;
 mod guard;
+mod lock_and_gap;
+mod reader;
+mod stick_slip;

@@ -106,55 +106,94 @@ fn an_equation_without_code_or_witness_is_noticed() {
 
 #[test]
 fn every_erratum_and_gap_is_whole() {
-    let tests = test_names();
-    let known = equations();
+    let (tests, known) = (test_names(), equations());
     let mut violations = Vec::new();
-    for (file, kind, keys) in [
-        (
-            "errata",
-            "erratum",
-            ["printed", "intended", "reason", "evidence"],
-        ),
-        ("gaps", "gap", ["where", "open", "chosen", "decision"]),
-    ] {
-        let mut ids = BTreeSet::new();
-        for record in records(file, kind) {
-            let id = text(&record, "id").unwrap_or_default();
-            let mut fail = |advice: String| {
-                violations.push(format!(
-                    "spec/thesis/{file}.toml: [[{kind}]] `{id}`: {advice}"
-                ));
-            };
-            if !ids.insert(id.clone()) || id.is_empty() {
-                fail("give it an id of its own".to_owned());
-            }
-            for key in keys {
-                if text(&record, key).is_none_or(|value| value.is_empty()) {
-                    fail(format!("say `{key}`"));
-                }
-            }
-            if let Some(evidence) = text(&record, "evidence")
-                && !tests.contains(&evidence)
-            {
-                fail(format!("no test is named `{evidence}`"));
-            }
-            if let Some(decision) = text(&record, "decision")
-                && !root().join(&decision).is_file()
-            {
-                fail(format!("no file `{decision}`"));
-            }
-            match text(&record, "equation") {
-                Some(equation) if !known.contains(&equation) => {
-                    fail(format!("({equation}) is not in spec/thesis/equations.md"));
-                }
-                None if text(&record, "where").is_none() => {
-                    fail("say `equation` or `where`".to_owned());
-                }
-                _ => {}
-            }
+    for (file, kind, keys) in [("errata", "erratum", ERRATUM), ("gaps", "gap", GAP)] {
+        for (id, advice) in broken(&records(file, kind), keys, &tests, &known) {
+            violations.push(format!(
+                "spec/thesis/{file}.toml: [[{kind}]] `{id}`: {advice}"
+            ));
         }
     }
     assert_tidy("errata and gaps", violations);
+}
+
+/// What an erratum and a gap have to say.
+const ERRATUM: [&str; 4] = ["printed", "intended", "reason", "evidence"];
+const GAP: [&str; 4] = ["where", "open", "chosen", "decision"];
+
+/// Each record's id and what it lacks.
+fn broken(
+    records: &[Table],
+    keys: [&str; 4],
+    tests: &BTreeSet<String>,
+    known: &BTreeSet<String>,
+) -> Vec<(String, String)> {
+    let (mut ids, mut broken) = (BTreeSet::new(), Vec::new());
+    for record in records {
+        let id = text(record, "id").unwrap_or_default();
+        let mut fail = |advice: String| broken.push((id.clone(), advice));
+        if !ids.insert(id.clone()) || id.is_empty() {
+            fail("give it an id of its own".to_owned());
+        }
+        for key in keys {
+            if text(record, key).is_none_or(|value| value.is_empty()) {
+                fail(format!("say `{key}`"));
+            }
+        }
+        if let Some(evidence) = text(record, "evidence")
+            && !tests.contains(&evidence)
+        {
+            fail(format!("no test is named `{evidence}`"));
+        }
+        if let Some(decision) = text(record, "decision")
+            && !root().join(&decision).is_file()
+        {
+            fail(format!("no file `{decision}`"));
+        }
+        match text(record, "equation") {
+            Some(equation) if !known.contains(&equation) => {
+                fail(format!("({equation}) is not in spec/thesis/equations.md"));
+            }
+            None if text(record, "where").is_none() => {
+                fail("say `equation` or `where`".to_owned());
+            }
+            _ => {}
+        }
+    }
+    broken
+}
+
+#[test]
+fn an_erratum_that_says_too_little_is_noticed() {
+    let record = |text: &str| -> Table { text.parse().unwrap() };
+    let set = |name: &str| BTreeSet::from([name.to_owned()]);
+    let whole = "printed = \"a\"\nintended = \"b\"\nreason = \"c\"\nevidence = \"it_is_so\"\n";
+    let broken = |records: &[Table]| {
+        let found = broken(records, ERRATUM, &set("it_is_so"), &set("3.3"));
+        found.into_iter().map(|(id, _)| id).collect::<Vec<_>>()
+    };
+    let fine = record(&format!("id = \"fine\"\nequation = \"3.3\"\n{whole}"));
+    assert!(broken(std::slice::from_ref(&fine)).is_empty());
+    assert_eq!(broken(&[fine.clone(), fine]), ["fine"]);
+    for (id, text) in [
+        ("elsewhere", format!("equation = \"9.9\"\n{whole}")),
+        ("nowhere", whole.to_owned()),
+        (
+            "unseen",
+            whole.replace("it_is_so", "is_it") + "where = \"4.1\"\n",
+        ),
+        (
+            "undecided",
+            format!("where = \"4.1\"\ndecision = \"docs/none.md\"\n{whole}"),
+        ),
+        (
+            "silent",
+            whole.replace("\"b\"", "\"\"") + "where = \"4.1\"\n",
+        ),
+    ] {
+        assert_eq!(broken(&[record(&format!("id = \"{id}\"\n{text}"))]), [id]);
+    }
 }
 
 #[test]
@@ -167,28 +206,30 @@ fn every_erratum_or_gap_named_in_a_comment_exists() {
     let mut violations = Vec::new();
     for source in sources() {
         for (number, line) in numbered(&source.content) {
-            for kind in ["(erratum `", "(gap `"] {
-                for (start, _) in line
-                    .match_indices(kind)
-                    .filter(|_| line.trim().starts_with("//"))
-                {
-                    let id = line
-                        .split_at(start + kind.len())
-                        .1
-                        .split('`')
-                        .next()
-                        .unwrap();
-                    if !ids.contains(id) {
-                        violations.push(format!(
-                            "{}:{number}: `{id}` is in neither file",
-                            source.path
-                        ));
-                    }
-                }
-            }
+            let missing = named(line).filter(|id| !ids.contains(*id));
+            violations.extend(
+                missing.map(|id| format!("{}:{number}: `{id}` is in neither file", source.path)),
+            );
         }
     }
     assert_tidy("errata and gaps named in comments", violations);
+}
+
+/// The errata and gaps that a comment names.
+fn named(line: &str) -> impl Iterator<Item = &str> {
+    let is_comment = line.trim().starts_with("//");
+    let named = ["(erratum `", "(gap `"].into_iter().flat_map(|kind| {
+        let after = line.split(kind).skip(1);
+        after.map(|rest| rest.split('`').next().unwrap())
+    });
+    named.filter(move |_| is_comment)
+}
+
+#[test]
+fn an_erratum_named_in_a_comment_is_read() {
+    let line = "    /// As printed (erratum `one`), but (gap `two`) for (gap `three`).";
+    assert_eq!(named(line).collect::<Vec<_>>(), ["one", "two", "three"]);
+    assert_eq!(named("let text = \"(gap `two`)\";").count(), 0);
 }
 
 /// The numbers in the first column of `spec/thesis/equations.md`.

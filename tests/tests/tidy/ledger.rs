@@ -29,6 +29,36 @@ fn every_planted_mutant_is_refuted_in_the_ledger() {
 }
 
 #[test]
+fn every_false_claim_is_refuted_in_the_ledger() {
+    let ledger = ledger();
+    let false_claims = ledger["false_claims"].as_array().unwrap();
+    assert!(
+        false_claims.len() > 1,
+        "{} false claims",
+        false_claims.len()
+    );
+    assert_tidy("false claims that are believed", believed(false_claims));
+}
+
+/// False claims that some engine did not refute.
+fn believed(false_claims: &[Value]) -> Vec<String> {
+    let refuted = |entry: &&Value| {
+        let verdicts = entry["verdicts"].as_array().unwrap();
+        let says_no = |verdict: &Value| verdict["word"] == "REFUTED";
+        !verdicts.is_empty() && verdicts.iter().all(says_no)
+    };
+    let believed = false_claims.iter().filter(|entry| !refuted(entry));
+    believed
+        .map(|entry| {
+            format!(
+                "proofs/ledger.json: {} is false and not refuted",
+                entry["claim"]
+            )
+        })
+        .collect()
+}
+
+#[test]
 fn a_ledger_without_a_line_is_noticed() {
     let ledger: Value = serde_json::from_str(
         r#"{"claims": [{"claim": "here", "verdicts": [{"word": "PROVED"}]}, {"claim": "broken", "verdicts": [{"word": "REFUTED"}]}],
@@ -42,6 +72,7 @@ fn a_ledger_without_a_line_is_noticed() {
         outside(&names(&["here", "elsewhere", "broken"]), &ledger).len(),
         2
     );
+    assert_eq!(believed(ledger["claims"].as_array().unwrap()).len(), 1);
     assert_eq!(living(&names(&["dead"]), &ledger).len(), 0);
     assert_eq!(
         living(&names(&["dead", "alive", "unknown"]), &ledger).len(),

@@ -104,31 +104,59 @@ fn spec_depends_on_nothing() {
 fn every_version_stands_in_the_root() {
     let mut violations = Vec::new();
     for room in members() {
-        for (name, value) in dependency_entries(&room) {
-            let inherits = value.get("workspace").and_then(Value::as_bool) == Some(true);
-            if !inherits {
-                violations.push(forbidden(
-                    &room,
-                    &name,
-                    "write `workspace = true`, and the version in the root Cargo.toml",
-                ));
-            }
+        for name in with_versions(dependency_entries(&room)) {
+            violations.push(forbidden(
+                &room,
+                &name,
+                "write `workspace = true`, and the version in the root Cargo.toml",
+            ));
         }
     }
     assert_tidy("versions outside the root", violations);
 }
 
+/// Dependencies that do not inherit what the root says of them.
+fn with_versions(entries: Vec<(String, Value)>) -> Vec<String> {
+    let inherits = |value: &Value| value.get("workspace").and_then(Value::as_bool) == Some(true);
+    entries
+        .into_iter()
+        .filter(|(_, value)| !inherits(value))
+        .map(|(name, _)| name)
+        .collect()
+}
+
 #[test]
 fn every_dependency_has_its_reason() {
     let reasons = fs::read_to_string(root().join("docs/dependencies.md")).unwrap();
-    let violations = manifest("Cargo.toml")["workspace"]["dependencies"]
+    let violations = without_reason(&manifest("Cargo.toml"), &reasons);
+    assert_tidy("dependencies without a reason", violations);
+}
+
+fn without_reason(manifest: &Table, reasons: &str) -> Vec<String> {
+    let names = manifest["workspace"]["dependencies"]
         .as_table()
         .unwrap()
-        .keys()
+        .keys();
+    names
         .filter(|name| !name.starts_with("rigproof-") && !reasons.contains(&format!("`{name}`")))
         .map(|name| format!("Cargo.toml: `{name}`: say why in docs/dependencies.md"))
-        .collect();
-    assert_tidy("dependencies without a reason", violations);
+        .collect()
+}
+
+#[test]
+fn a_dependency_with_a_version_or_without_a_reason_is_noticed() {
+    let read = |text: &str| -> Table { text.parse().unwrap() };
+    let room = read(
+        "[dependencies]\nlibm.workspace = true\n[dev-dependencies]\nrand = \"0.9\"\n\
+         [target.'cfg(unix)'.dependencies]\nhdf5 = { version = \"0.47\", package = \"hdf5-pure\" }\n",
+    );
+    let entries = entries(&room);
+    assert_eq!(entries.len(), 3);
+    assert_eq!(with_versions(entries), ["hdf5", "rand"]);
+    let root =
+        read("[workspace.dependencies]\nlibm = \"0.2\"\nrand = \"0.9\"\nrigproof-spec = \"0.1\"\n");
+    assert_eq!(without_reason(&root, "`libm` computes sines.").len(), 1);
+    assert_eq!(against(&[], &["rigproof-model".to_owned()]).len(), 1);
 }
 
 fn forbidden(room: &str, dependency: &str, advice: &str) -> String {
@@ -165,14 +193,17 @@ fn dependencies(room: &str) -> Vec<String> {
 }
 
 fn dependency_entries(room: &str) -> Vec<(String, Value)> {
-    let manifest = manifest(&format!("{room}/Cargo.toml"));
+    entries(&manifest(&format!("{room}/Cargo.toml")))
+}
+
+fn entries(manifest: &Table) -> Vec<(String, Value)> {
     let targets = manifest.get("target").and_then(Value::as_table);
     let targets = targets
         .into_iter()
         .flat_map(Table::values)
         .filter_map(Value::as_table);
     let mut entries = Vec::new();
-    for table in targets.chain([&manifest]) {
+    for table in targets.chain([manifest]) {
         for heading in ["dependencies", "dev-dependencies", "build-dependencies"] {
             if let Some(named) = table.get(heading).and_then(Value::as_table) {
                 entries.extend(named.clone());

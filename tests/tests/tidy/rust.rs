@@ -12,12 +12,16 @@ const LONGEST_FUNCTION: usize = 70;
 
 #[test]
 fn every_source_opens_with_what_it_says() {
-    let violations = sources()
+    assert_tidy("first lines", unopened(&sources()));
+}
+
+fn unopened(sources: &[Text]) -> Vec<String> {
+    let silent = sources
         .iter()
-        .filter(|source| !source.content.starts_with("//! "))
+        .filter(|source| !source.content.starts_with("//! "));
+    silent
         .map(|source| format!("{}:1: open with one `//!` sentence", source.path))
-        .collect();
-    assert_tidy("first lines", violations);
+        .collect()
 }
 
 #[test]
@@ -37,16 +41,24 @@ fn long_files(sources: &[Text]) -> Vec<String> {
 #[test]
 fn no_function_is_longer_than_70_lines() {
     let violations = check_sources(&|tokens, report| {
-        for function in functions(tokens) {
-            let first = function.name.span().start().line;
-            let lines = function.body.span_close().end().line + 1 - first;
-            if lines > LONGEST_FUNCTION {
-                let name = &function.name;
-                report(name, format!("`{name}` has {lines} lines: name its parts"));
-            }
+        for (name, lines) in long_functions(tokens) {
+            let advice = format!("`{name}` has {lines} lines: name its parts");
+            report(&name, advice);
         }
     });
     assert_tidy("long functions", violations);
+}
+
+fn long_functions(tokens: &[TokenTree]) -> Vec<(Ident, usize)> {
+    let functions = functions(tokens).into_iter();
+    let lengths = functions.map(|function| {
+        let first = function.name.span().start().line;
+        let lines = function.body.span_close().end().line + 1 - first;
+        (function.name, lines)
+    });
+    lengths
+        .filter(|(_, lines)| *lines > LONGEST_FUNCTION)
+        .collect()
 }
 
 #[test]
@@ -94,14 +106,19 @@ fn properties_that_never_run(tokens: &[TokenTree]) -> Vec<Ident> {
 pub fn claim_names() -> Vec<String> {
     let mut names = Vec::new();
     for source in sources() {
-        for (name, body) in macros(&tokens(&source)) {
-            if name == "claims" && source.path.starts_with("impl/") {
-                names.extend(
-                    functions(&inner(&body))
-                        .iter()
-                        .map(|claim| claim.name.to_string()),
-                );
-            }
+        if source.path.starts_with("impl/") {
+            names.extend(names_of_claims(&tokens(&source)));
+        }
+    }
+    names
+}
+
+fn names_of_claims(tokens: &[TokenTree]) -> Vec<String> {
+    let mut names = Vec::new();
+    for (name, body) in macros(tokens) {
+        if name == "claims" {
+            let claims = functions(&inner(&body));
+            names.extend(claims.iter().map(|claim| claim.name.to_string()));
         }
     }
     names
@@ -139,20 +156,74 @@ fn a_property_without_its_mark_and_a_long_file_are_noticed() {
 
 #[test]
 fn no_test_is_ignored_and_no_code_unfinished() {
-    let unfinished = [concat!("to", "do"), concat!("unimple", "mented")];
     let violations = check_sources(&|tokens, report| {
-        for (name, _) in macros(tokens) {
-            if unfinished.iter().any(|word| name == *word) {
-                report(&name, format!("`{name}!` is no result: write the code"));
-            }
-        }
-        for attribute in attributes(tokens) {
-            if attribute == "ignore" {
-                report(&attribute, "run the test or delete it".to_owned());
-            }
+        for (name, advice) in unfinished(tokens) {
+            report(&name, advice);
         }
     });
     assert_tidy("unfinished code", violations);
+}
+
+fn unfinished(tokens: &[TokenTree]) -> Vec<(Ident, String)> {
+    let words = [concat!("to", "do"), concat!("unimple", "mented")];
+    let mut found = Vec::new();
+    for (name, _) in macros(tokens) {
+        if words.iter().any(|word| name == *word) {
+            let advice = format!("`{name}!` is no result: write the code");
+            found.push((name, advice));
+        }
+    }
+    let ignored = attributes(tokens)
+        .into_iter()
+        .filter(|attribute| attribute == "ignore");
+    found.extend(ignored.map(|attribute| (attribute, "run the test or delete it".to_owned())));
+    found
+}
+
+#[test]
+fn every_kani_harness_is_made_of_a_claim() {
+    let violations = check_sources(&|tokens, report| {
+        for attribute in harnesses_by_hand(tokens) {
+            let advice =
+                "write the claim in `claims!`, which makes its harness and its line in the ledger";
+            report(&attribute, advice.to_owned());
+        }
+    });
+    assert_tidy("harnesses without a claim", violations);
+}
+
+/// Attributes of Kani above a function; the macro of the claims has them inside another.
+fn harnesses_by_hand(tokens: &[TokenTree]) -> Vec<Ident> {
+    let mut attributes = attributes(tokens);
+    attributes.retain(|attribute| attribute == "kani");
+    attributes
+}
+
+#[test]
+fn a_source_that_breaks_a_rule_is_noticed() {
+    let source = |content: &str| Text {
+        path: "example.rs".to_owned(),
+        content: content.to_owned(),
+    };
+    assert_eq!(
+        unopened(&[source("// This.\n"), source("//! This.\n")]).len(),
+        1
+    );
+    let long = |lines: usize| {
+        let body = "    f();\n".repeat(lines - 2);
+        long_functions(&parse("example", &format!("fn f() {{\n{body}}}\n"))).len()
+    };
+    assert_eq!((long(LONGEST_FUNCTION), long(LONGEST_FUNCTION + 1)), (0, 1));
+    let word = concat!("to", "do");
+    let tokens = parse(
+        "example",
+        &format!("fn f() {{ {word}!() }} #[ignore] fn g() {{}}"),
+    );
+    assert_eq!(unfinished(&tokens).len(), 2);
+    let harness = "#[kani::proof] fn p() {} #[cfg_attr(not(kani_shim), kani::proof)] fn q() {}";
+    assert_eq!(harnesses_by_hand(&parse("example", harness)).len(), 1);
+    let claims = "claims! { /// It holds.\n Finite fn one(c) {} Numbers fn two(c) {} }";
+    assert_eq!(names_of_claims(&parse("example", claims)), ["one", "two"]);
 }
 
 #[test]

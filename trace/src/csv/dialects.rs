@@ -200,6 +200,17 @@ fn what_is_not_clear_is_refused_and_what_the_caller_says_holds() {
 }
 
 #[test]
+fn a_fault_in_an_early_row_does_not_hide_the_row_of_units() {
+    let text = format!(
+        "t;x;y\ns;mm;V\n0,1;1,5;2,5\n0,2;far;2,5\n{}",
+        table(";", true, "", "")
+    );
+    let message = read_text(&text, &Hints::default()).unwrap_err();
+    let expected = "line 4, column 2 `x`: `far` is no finite number";
+    assert!(message.contains(expected), "{message}");
+}
+
+#[test]
 fn a_fault_below_a_header_block_has_its_place() {
     let good = format!("Recorder;x\n\nt;x;y\ns;mm;V\n{}", table(";", true, "", ""));
     for (line, expected) in [

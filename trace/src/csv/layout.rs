@@ -72,7 +72,9 @@ impl Layout {
             // Faulty rows may hide the table; a first line that names the time is a header all the same.
             let named = |table: &&Table| table.cells(0).is_some_and(|cells| has_time(cells, time));
             best = tables.iter().find(named).unwrap_or(best);
-            head = Some((best.likely_names(time), false));
+            let names = best.likely_names(time);
+            let units_row = best.cells(names + 1).is_some_and(is_units_row);
+            head = Some((names, units_row));
         }
         let (names, units_row) = head?;
         best.layout(names, units_row, encoding)

@@ -67,7 +67,8 @@ fn spoil<C: Checker>(c: &mut C, vectors: &mut [Option<&mut Vector<C::Number>>]) 
     let count = u8::try_from(2 * vectors.len()).ok()?;
     let place = usize::from(c.choice(count));
     let value = c.scalar();
-    c.assume(!value.is_within(C::Number::of(f64::MAX)))?;
+    let greatest = c.greatest();
+    c.assume(!value.is_within(greatest))?;
     let vector = vectors.get_mut(place / 2)?.as_mut()?;
     if place % 2 == 0 {
         vector.x = value;

@@ -20,7 +20,8 @@ claims! {
         c.cover("a joint that stands", force.is_none());
         if let Some(force) = force {
             c.check(laws::opposes(force.into(), velocity.into()))?;
-            c.check(force.dot(velocity).is_within(Scalar::of(f64::MAX)))?;
+            let greatest = c.greatest();
+            c.check(force.dot(velocity).is_within(greatest))?;
         }
     }
 
@@ -30,7 +31,8 @@ claims! {
         let (torque, rate) = (c.scalar(), c.scalar());
         let zero = C::Number::zero();
         c.assume(zero <= torque && torque <= Scalar::of(10.0))?;
-        c.assume(rate.is_within(Scalar::of(f64::MAX)))?;
+        let greatest = c.greatest();
+        c.assume(rate.is_within(greatest))?;
         let on_shaft = if rate > zero { -torque } else { torque };
         c.cover("forwards", rate > zero);
         c.cover("backwards", rate < zero);
