@@ -10,7 +10,6 @@ pub const ENTRY_TRAVEL_DEG: f64 = 0.02;
 pub struct Backlash {
     theta_1_rad: f64,
     width_rad: f64,
-    entry_rad: f64,
     inside: bool,
 }
 
@@ -27,12 +26,10 @@ impl Backlash {
     /// A backlash of a width, degrees, with the shaft in its middle at an angle, rad.
     pub fn new(width_deg: f64, theta_rad: f64) -> Backlash {
         let width_rad = rad_from_deg(width_deg);
-        let entry_rad = rad_from_deg(ENTRY_TRAVEL_DEG);
         Backlash {
             theta_1_rad: theta_rad - 0.5 * width_rad,
             width_rad,
-            entry_rad,
-            inside: 0.5 * width_rad > entry_rad,
+            inside: 0.5 * width_rad > rad_from_deg(ENTRY_TRAVEL_DEG),
         }
     }
 
@@ -40,7 +37,7 @@ impl Backlash {
     #[inline]
     pub fn turn(&mut self, from_rad: f64, to_rad: f64) -> Option<Crossing> {
         let (low, high) = (self.theta_1_rad, self.theta_1_rad + self.width_rad);
-        let entry = self.entry_rad;
+        let entry = rad_from_deg(ENTRY_TRAVEL_DEG);
         let was_inside = self.inside;
         let (boundary, inside) = if to_rad >= high {
             self.theta_1_rad = to_rad - self.width_rad;
