@@ -162,9 +162,9 @@ impl Plant {
     /// The currents that the brakes have over a step, A.
     #[inline]
     fn arriving_a(&self, mut currents_a: [f64; 4], step_s: f64) -> [f64; 4] {
-        if let Some(paths) = self.paths {
-            for (current_a, mut path) in currents_a.iter_mut().zip(paths) {
-                *current_a = path.step(*current_a, step_s);
+        if let Some(paths) = &self.paths {
+            for (current_a, path) in currents_a.iter_mut().zip(paths) {
+                *current_a = path.clone().step(*current_a, step_s);
             }
         }
         currents_a
@@ -173,8 +173,10 @@ impl Plant {
     /// Moves what lies between the currents that are asked for, A, and the brakes' over a step.
     #[inline]
     fn pass_on(&mut self, currents_a: [f64; 4], step_s: f64) {
-        for (path, current_a) in self.paths.iter_mut().flatten().zip(currents_a) {
-            path.step(current_a, step_s);
+        if let Some(paths) = &mut self.paths {
+            for (path, current_a) in paths.iter_mut().zip(currents_a) {
+                path.step(current_a, step_s);
+            }
         }
     }
 
