@@ -1,7 +1,7 @@
 //! This file says how a brake's yield torque moves over a step and what its mean is.
 
 use rigproof_spec::tables::{BrakeTable, Edge, GAIN_BREAK_A, TimeConstantFit, TorqueGainFit};
-use rigproof_spec::units::rpm_from_rad_s;
+use rigproof_spec::units::{rad_s_from_rpm, rpm_from_rad_s};
 
 use super::backlash::{Backlash, Crossing};
 use super::decay::decayed;
@@ -19,6 +19,7 @@ pub struct Characteristic {
     table: BrakeTable,
     /// Off-state torque and torque at the greatest current, N·m.
     limits_nm: [f64; 2],
+    speed_range_rad_s: [f64; 2],
     /// Binary logarithm of the slowest measured speed in rpm, at which every slower one is taken.
     slowest_l: f64,
 }
@@ -39,6 +40,7 @@ impl Characteristic {
         Characteristic {
             table: *table,
             limits_nm: [table.torque_gain.off_state_nm(), table.greatest_nm()],
+            speed_range_rad_s: table.speed_range_rpm.map(rad_s_from_rpm),
             slowest_l: libm::log2(slowest_rpm),
         }
     }
@@ -59,18 +61,18 @@ impl Characteristic {
     //= thesis (3.6)
     #[inline(always)]
     pub fn time_constant_s(&self, current_a: f64, speed_rad_s: f64, edge: Edge) -> f64 {
-        let speed_range_rpm @ [slowest_rpm, _] = self.table.speed_range_rpm;
-        let speed_rpm = within(rpm_from_rad_s(speed_rad_s.abs()), speed_range_rpm);
+        let [slowest_rad_s, _] = self.speed_range_rad_s;
+        let speed_rad_s = within(speed_rad_s.abs(), self.speed_range_rad_s);
         let fit: &TimeConstantFit = self.table.time_constant(edge);
-        if speed_rpm >= edge.threshold_rpm() {
+        if speed_rad_s >= rad_s_from_rpm(edge.threshold_rpm()) {
             return fit.a_avg_s;
         }
         let current_a = within(current_a, self.table.current_range_a);
         //= thesis (3.7)
-        let speed_l = if speed_rpm <= slowest_rpm {
+        let speed_l = if speed_rad_s <= slowest_rad_s {
             self.slowest_l
         } else {
-            libm::log2(speed_rpm)
+            libm::log2(rpm_from_rad_s(speed_rad_s))
         };
         let square = fit.a_4 + fit.a_5 * current_a;
         let slope = fit.a_2 + fit.a_3 * current_a;
