@@ -52,6 +52,8 @@ use crate::vector::Vector;
 pub struct Plant {
     mechanism: Mechanism<f64>,
     characteristics: [Option<Characteristic>; 4],
+    /// The greatest current that is taken, A: 0 where there is no brake.
+    greatest_a: [f64; 4],
     motion: Motion<f64>,
     brakes: [Brake; 4],
     /// Where the joints were last looked at: their angles, rad, and the directions from arm to arm at E and C.

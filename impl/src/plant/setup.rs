@@ -4,7 +4,7 @@ use rigproof_spec::geometry::{Arms, arms};
 use rigproof_spec::inertia::{ArmInertia, Inertia, inertia};
 use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
-use rigproof_spec::tables::{BrakeTable, brake_table};
+use rigproof_spec::tables::{BrakeTable, GREATEST_CURRENT_A, brake_table};
 
 use super::Plant;
 use super::brake::{Brake, Characteristic};
@@ -128,6 +128,13 @@ impl Plant {
         let mut plant = Plant {
             mechanism,
             characteristics: tables.map(|table| Some(Characteristic::new(&table?))),
+            greatest_a: tables.map(|table| {
+                if table.is_some() {
+                    GREATEST_CURRENT_A
+                } else {
+                    0.0
+                }
+            }),
             motion,
             brakes: [
                 brake(table_a, Joint::A, a),

@@ -1,7 +1,6 @@
 //! This file is one step of the plant.
 
 use rigproof_spec::joint::Joint;
-use rigproof_spec::tables::GREATEST_CURRENT_A;
 
 use super::Plant;
 use super::brake::Turn;
@@ -182,15 +181,10 @@ impl Plant {
 
     #[inline]
     fn takes(&self, currents_a: [f64; 4]) -> bool {
-        let mut brakes = self.characteristics.iter().zip(currents_a);
-        brakes.all(|(brake, current_a)| {
-            let greatest_a = if brake.is_some() {
-                GREATEST_CURRENT_A
-            } else {
-                0.0
-            };
-            (0.0..=greatest_a).contains(&current_a)
-        })
+        let [a, e, b, c] = currents_a;
+        let [most_a, most_e, most_b, most_c] = self.greatest_a;
+        let within = |current_a: f64, most_a: f64| (current_a >= 0.0) & (current_a <= most_a);
+        within(a, most_a) & within(e, most_e) & within(b, most_b) & within(c, most_c)
     }
 
     #[inline]

@@ -19,7 +19,13 @@ impl Problem<'_> {
     pub(super) fn rest(&self) -> Option<Dry> {
         let mut impulses = [0.0; 4];
         if self.drive != Vector::zero() {
-            impulses = self.impulses_at_rest(&self.tightest()?);
+            let sides = self.sides();
+            let side = self.tightest(&sides)?;
+            impulses = if side.strength > 0.0 {
+                self.impulses_at_rest(side)
+            } else {
+                self.impulses_of_parallels(side.normal)?
+            };
         }
         Some(Dry {
             rates_rad_s: Vector::zero(),
@@ -31,29 +37,40 @@ impl Problem<'_> {
     }
 
     /// The side of the polygon along whose normal the load takes most of the brakes' strength; none where it takes more than there is.
-    fn tightest(&self) -> Option<Side> {
-        let mut tightest: Option<Side> = None;
-        let each = self.brakes.iter().zip(self.sides());
-        for (brake, mut side) in each.filter(|(brake, _)| brake.acts()) {
-            if side.strength == 0.0 {
-                // All brakes are parallel: they hold nothing across, and what they hold lies along them.
-                if exact_zero(side.normal, self.drive) != 0.0 {
-                    return None;
-                }
-                let along = self.brakes.each_ref();
-                let along = along.map(|other| exact_zero(other.force_row, brake.force_row));
-                side = self.side(brake.force_row, along);
+    #[inline]
+    fn tightest<'a>(&self, sides: &'a [Side; 4]) -> Option<&'a Side> {
+        let mut tightest: Option<&Side> = None;
+        for (brake, side) in self.brakes.iter().zip(sides) {
+            let load = side.load.abs();
+            if !brake.acts() {
+                continue;
             }
-            if side.load.abs() > side.strength {
+            // Along nothing: all brakes are parallel.
+            if side.strength == 0.0 {
+                return Some(side);
+            }
+            if load > side.strength {
                 return None;
             }
-            let tighter =
-                |other: &Side| side.load.abs() * other.strength > other.load.abs() * side.strength;
-            if tightest.as_ref().is_none_or(tighter) {
+            if tightest.is_none_or(|other| load * other.strength > other.load.abs() * side.strength)
+            {
                 tightest = Some(side);
             }
         }
         tightest
+    }
+
+    /// The impulses where all brakes are parallel: they hold nothing across, and what they hold lies along them.
+    #[inline(never)]
+    fn impulses_of_parallels(&self, normal: Plane) -> Option<[f64; 4]> {
+        if exact_zero(normal, self.drive) != 0.0 {
+            return None;
+        }
+        let row = -normal.left();
+        let components = self.brakes.each_ref();
+        let components = components.map(|brake| exact_zero(brake.force_row, row));
+        let side = self.side(row, components);
+        (side.load.abs() <= side.strength).then(|| self.impulses_at_rest(&side))
     }
 
     /// The sides of the polygon, one parallel to the row of every brake.
