@@ -37,6 +37,9 @@ PINOCCHIO = [
 ]
 # Steps a tick at which the peers' motion must come to the reference's.
 FINE = [4, 16, 64]
+# Steps a tick of 8 ms in the case that asks for work and precision: 8 ms to 1/32 ms, and how often the many small ones are timed in a round.
+WORK = [1, 2, 4, 8, 16, 32, 64, 128, 256]
+RUNS_OF_SMALL = 2
 # Time after which a locked rig has taken up its backlash, s: creep is counted from there.
 TAKEN_UP_S = 1.0
 
@@ -54,6 +57,8 @@ class Case:
         run = read(folder / f"{self.name}-converged.csv")
         self.forces_n = np.column_stack([run["force_x_n"], run["force_y_n"]])[:-1]
         self.tips_m = tips(run)
+        self.work = self.name.endswith("work")
+        self.tick_ms = 1e3 * entry["step_s"]
         self.peers = []
 
     def line(self, engine, settings, left, right=None):
@@ -87,12 +92,13 @@ def peers_of(case, program, folder):
     peers = []
     choices = MUJOCO if case.free else MUJOCO + MUJOCO_DRY
     for settings, (integrator, solver, noslip) in choices:
-        peer = mujoco_peer.Peer(case.entry, case.forces_n, integrator, solver, 1, noslip)
-        peers.append((peer, case.line("MuJoCo", settings, *peer.tips_m())))
+        for steps in WORK if case.work else [1]:
+            peer = mujoco_peer.Peer(case.entry, case.forces_n, integrator, solver, steps, noslip)
+            peers.append((peer, {**case.line("MuJoCo", settings, *peer.tips_m()), "steps_a_tick": steps}))
     if case.free:
         for settings, (scheme, rate) in PINOCCHIO:
             peer = pinocchio_peer.Peer(program, folder, case.entry, case.forces_n, scheme, 1, rate)
-            peers.append((peer, case.line("Pinocchio", settings, *peer.tips_m())))
+            peers.append((peer, {**case.line("Pinocchio", settings, *peer.tips_m()), "steps_a_tick": 1}))
     return peers
 
 
@@ -141,27 +147,34 @@ def main():
     for turn in range(choice.rounds):
         rounds.append(our_run(choice.program, choice.out / "again"))
         for case in cases:
-            for at, (peer, _) in enumerate(case.peers):
-                times.setdefault((case.name, at), []).append(peer.steps_ns(choice.runs))
+            for at, (peer, line) in enumerate(case.peers):
+                runs = RUNS_OF_SMALL if line["steps_a_tick"] > 16 else choice.runs
+                times.setdefault((case.name, at), []).append(peer.steps_ns(runs))
         print(f"round {turn + 1} of {choice.rounds}", file=sys.stderr)
     result = {"machine": machine(), "rounds": choice.rounds, "runs_a_round": choice.runs, "cases": []}
     for at_case, case in enumerate(cases):
-        lines = [{**line, **cost(times[case.name, at])} for at, (_, line) in enumerate(case.peers)]
+        lines = [
+            {**line, **cost(times[case.name, at], line["steps_a_tick"] / case.tick_ms)}
+            for at, (_, line) in enumerate(case.peers)
+        ]
         for at, ours in enumerate(case.entry["engines"]):
             line = case.line(ours["engine"], ours["settings"], tips(read(choice.out / "runs" / ours["run"])))
             each = [[of[at_case]["engines"][at][key] for key in ("median_ns", "least_ns")] for of in rounds]
-            lines.append({**line, **cost(each)})
+            lines.append({**line, "steps_a_tick": ours["steps_a_tick"], **cost(each, 1.0 / case.tick_ms)})
         converged_mm = 1e3 * case.entry["converged_apart_m"]
-        finer = [] if case.locked else fine(case, steps, folders[case.name])
-        result["cases"].append({"name": case.name, "converged_apart_mm": converged_mm, "lines": lines, "finer": finer})
+        finer = [] if case.locked or case.work else fine(case, steps, folders[case.name])
+        result["cases"].append({
+            "name": case.name, "tick_ms": case.tick_ms, "converged_apart_mm": converged_mm, "lines": lines, "finer": finer,
+        })
     (choice.out / "compare.json").write_text(json.dumps(result, indent=1) + "\n")
     (choice.out / "compare.md").write_text(markdown(result))
     print(markdown(result))
 
 
-def cost(each):
-    """The median of the rounds' medians and the least of all."""
-    return {"median_ns": float(np.median([median for median, _ in each])), "least_ns": min(least for _, least in each)}
+def cost(each, times):
+    """The median of the rounds' medians and the least of all, for 1 ms of motion."""
+    median_ns = float(np.median([median for median, _ in each]))
+    return {"median_ns": times * median_ns, "least_ns": times * min(least for _, least in each)}
 
 
 if __name__ == "__main__":

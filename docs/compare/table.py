@@ -1,8 +1,11 @@
 """This file says how the comparison is printed."""
 
+import work
+
 TITLES = {
     "free": "free motion, no friction, 1.5 s",
     "dry": "dry joints, 1.5 s: the brakes without current",
+    "work": "dry joints, 1.5 s, the force holds for 8 ms, steps of every length",
     "locked": "all brakes locked, 11 N on the tip, 5 s",
 }
 LAYOUTS = {"three": "3-brake layout", "four": "4-brake layout"}
@@ -38,12 +41,17 @@ def markdown(result):
         layout, kind = case["name"].split("-")
         locked = kind == "locked"
         out += [f"### {LAYOUTS[layout]}, {TITLES[kind]}", ""]
+        if kind == "work":
+            out += work.markdown(case)
+            continue
         heads = ["engine", "settings", "µs a millisecond, median", "least", "greatest tip error, mm", "at the end, mm", "loop open, m"]
         heads += ["creep, mm/s"] if locked else []
         heads += ["times as fast as MuJoCo at no larger " + ("creep" if locked else "error")]
         out += [row(heads), row(["---"] * len(heads))]
         for line in case["lines"]:
-            cells = [line["engine"], line["settings"], micro(line["median_ns"]), micro(line["least_ns"])]
+            steps = line["steps_a_tick"]
+            settings = line["settings"] + (f", {steps} steps a ms" if steps > 1 else "")
+            cells = [line["engine"], settings, micro(line["median_ns"]), micro(line["least_ns"])]
             cells += [number(line.get("greatest_mm")), number(line.get("end_mm")), number(line.get("opening_m"))]
             cells += [number(line["creep_mm_s"])] if locked else []
             cells += [slower(line, case["lines"])]

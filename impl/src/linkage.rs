@@ -46,6 +46,8 @@ pub struct Linkage<R> {
     pub cd: Vector<R>,
     /// The tip.
     pub tip_m: Vector<R>,
+    /// ED × CD, m²: 0 where they lie on one line.
+    pub opening_m2: R,
 }
 
 /// The linkage whose base arms AE and BC point along two directions of length one: the tip is the point at `L_ED` from E and `L_CD` from
@@ -59,17 +61,18 @@ pub fn linkage<R: Real>(shape: &Shape<R>, ae: Vector<R>, bc: Vector<R>) -> Linka
     let base = Vector::new(shape.half_base_m + shape.half_base_m, R::zero());
     let across = base + bc - ae;
     let distance_squared = across.norm_squared();
-    let inverse = R::of(1.0) / distance_squared;
-    // Shares of the way from E to C: along it and beside it.
-    let along = R::of(0.5) + shape.half_difference_m2 * inverse;
-    let beside = (l_ed * l_ed * inverse - along * along).sqrt();
-    let ed = across * along + across.left() * beside;
+    let scaled = across * (R::of(1.0) / distance_squared);
+    // Of ED along the way from E to C and beside it, times the distance; a quotient and a root that do not wait for each other.
+    let along = R::of(0.5) * distance_squared + shape.half_difference_m2;
+    let beside = (l_ed * l_ed * distance_squared - along * along).sqrt();
+    let ed = scaled * along + scaled.left() * beside;
     Linkage {
         ae,
         ed,
         bc,
         cd: ed - across,
         tip_m: Vector::new(ae.x - shape.half_base_m, ae.y) + ed,
+        opening_m2: beside,
     }
 }
 
@@ -82,7 +85,7 @@ impl<R: Real> Linkage<R> {
         let least = R::of(LEAST_SINE);
         (self.ed.cross(self.ae) >= least * l_ae * l_ed)
             & (self.bc.cross(self.cd) >= least * l_bc * l_cd)
-            & (self.ed.cross(self.cd) >= least * l_ed * l_cd)
+            & (self.opening_m2 >= least * l_ed * l_cd)
     }
 
     /// The rows of the Jacobian, 1/m, in the order A, E, B, C: θ̇ = J·ẋ (5.39).
@@ -104,7 +107,7 @@ impl<R: Real> Linkage<R> {
     /// How fast arms ED and CD turn for rates (θ̇A, θ̇B) of the base joints: two rows, 1.
     #[inline]
     pub fn turning(&self) -> [Vector<R>; 2] {
-        let inverse = R::of(1.0) / self.ed.cross(self.cd);
+        let inverse = R::of(1.0) / self.opening_m2;
         let row =
             |other: Vector<R>| Vector::new(-self.ae.cross(other), self.bc.cross(other)) * inverse;
         [row(self.cd), row(self.ed)]

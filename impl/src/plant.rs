@@ -12,9 +12,7 @@ mod setup;
 mod step;
 pub mod turn;
 
-use rigproof_spec::tables::BrakeTable;
-
-use brake::Brake;
+use brake::{Brake, Characteristic};
 use effect::{CurrentPath, Effect, MOST_EFFECTS};
 use friction::Contact;
 use motion::{Mechanism, Motion};
@@ -53,7 +51,9 @@ use crate::vector::Vector;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plant {
     mechanism: Mechanism<f64>,
-    tables: [Option<BrakeTable>; 4],
+    characteristics: [Option<Characteristic>; 4],
+    /// The greatest current that is taken, A: 0 where there is no brake.
+    greatest_a: [f64; 4],
     motion: Motion<f64>,
     brakes: [Brake; 4],
     /// Where the joints were last looked at: their angles, rad, and the directions from arm to arm at E and C.
@@ -65,6 +65,7 @@ pub struct Plant {
     held: [bool; 4],
     torques_nm: [f64; 4],
     time_s: f64,
-    paths: [CurrentPath; 4],
+    /// None where every brake has the current that it is asked for.
+    paths: Option<[CurrentPath; 4]>,
     effects: [Option<Effect>; MOST_EFFECTS],
 }

@@ -15,7 +15,6 @@ pub const ENTRY_TRAVEL_DEG: f64 = 0.02;
 pub struct Backlash<S = f64> {
     theta_1_rad: S,
     width_rad: S,
-    entry_rad: S,
     inside: bool,
 }
 
@@ -32,12 +31,10 @@ impl Backlash {
     /// A backlash of a width, degrees, with the shaft in its middle at an angle, rad.
     pub fn new(width_deg: f64, theta_rad: f64) -> Backlash {
         let width_rad = rad_from_deg(width_deg);
-        let entry_rad = rad_from_deg(ENTRY_TRAVEL_DEG);
         Backlash {
             theta_1_rad: theta_rad - 0.5 * width_rad,
             width_rad,
-            entry_rad,
-            inside: 0.5 * width_rad > entry_rad,
+            inside: 0.5 * width_rad > rad_from_deg(ENTRY_TRAVEL_DEG),
         }
     }
 
@@ -45,7 +42,7 @@ impl Backlash {
     #[inline]
     pub fn turn(&mut self, from_rad: f64, to_rad: f64) -> Option<Crossing> {
         let was_inside = self.inside;
-        let boundary = self.pass(from_rad, to_rad)?;
+        let boundary = self.pass(from_rad, to_rad, rad_from_deg(ENTRY_TRAVEL_DEG))?;
         let inside = self.inside;
         (inside != was_inside).then(|| Crossing {
             part: within_one((boundary - from_rad) / (to_rad - from_rad)),
@@ -56,11 +53,10 @@ impl Backlash {
 
 impl<S: Scalar> Backlash<S> {
     /// Turns the shaft from one angle to another, rad, and returns the angle on the way at which it is, or would have come, inside or out;
-    /// none in the travel of entry, where it stays what it was.
+    /// none in the travel of `entry`, rad, where it stays what it was.
     #[inline(always)]
-    fn pass(&mut self, from_rad: S, to_rad: S) -> Option<S> {
+    fn pass(&mut self, from_rad: S, to_rad: S, entry: S) -> Option<S> {
         let (low, high) = (self.theta_1_rad, self.theta_1_rad + self.width_rad);
-        let entry = self.entry_rad;
         if to_rad >= high {
             self.theta_1_rad = to_rad - self.width_rad;
             self.inside = false;

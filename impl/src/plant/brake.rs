@@ -1,10 +1,11 @@
 //! This file says how a brake's yield torque moves over a step and what its mean is.
 
 use rigproof_spec::tables::{BrakeTable, Edge, GAIN_BREAK_A, TimeConstantFit, TorqueGainFit};
-use rigproof_spec::units::rpm_from_rad_s;
+use rigproof_spec::units::{rad_s_from_rpm, rpm_from_rad_s};
 
 use super::backlash::{Backlash, Crossing, target_nm};
 use super::decay::decayed;
+use crate::number::{least, most};
 
 /// Excess of the yield torque over its target below which a fall counts as finished, N·m: half the last digit
 /// printed in table 3.2.
@@ -12,15 +13,60 @@ const SETTLED_NM: f64 = 0.005;
 /// Distance from the target that is no more than rounding, N·m: from there the yield torque stands.
 const ROUNDING_NM: f64 = 1e-15;
 
+/// A brake's table, with what is computed from it once.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Characteristic {
+    table: BrakeTable,
+    /// Off-state torque and torque at the greatest current, N·m.
+    limits_nm: [f64; 2],
+    speed_range_rad_s: [f64; 2],
+    /// Binary logarithm of the slowest measured speed in rpm, at which every slower one is taken.
+    slowest_l: f64,
+}
+
 /// The state of one brake: the first-order system (3.2) with its backlash.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Brake {
-    /// Off-state torque and torque at the greatest current, N·m.
-    limits_nm: [f64; 2],
     backlash: Backlash,
     yield_nm: f64,
     fall_origin_a: f64,
     current_a: f64,
+}
+
+impl Characteristic {
+    /// What a table says.
+    pub fn new(table: &BrakeTable) -> Characteristic {
+        let [slowest_rpm, _] = table.speed_range_rpm;
+        Characteristic {
+            table: *table,
+            limits_nm: [table.torque_gain.off_state_nm(), table.greatest_nm()],
+            speed_range_rad_s: table.speed_range_rpm.map(rad_s_from_rpm),
+            slowest_l: libm::log2(slowest_rpm),
+        }
+    }
+
+    /// Time constant a at the nearest measured current and speed, s (3.5), (3.6).
+    //= thesis (3.5)
+    //= thesis (3.6)
+    #[inline(always)]
+    pub fn time_constant_s(&self, current_a: f64, speed_rad_s: f64, edge: Edge) -> f64 {
+        let [slowest_rad_s, _] = self.speed_range_rad_s;
+        let speed_rad_s = within(speed_rad_s.abs(), self.speed_range_rad_s);
+        let fit: &TimeConstantFit = self.table.time_constant(edge);
+        if speed_rad_s >= rad_s_from_rpm(edge.threshold_rpm()) {
+            return fit.a_avg_s;
+        }
+        let current_a = within(current_a, self.table.current_range_a);
+        //= thesis (3.7)
+        let speed_l = if speed_rad_s <= slowest_rad_s {
+            self.slowest_l
+        } else {
+            libm::log2(rpm_from_rad_s(speed_rad_s))
+        };
+        let square = fit.a_4 + fit.a_5 * current_a;
+        let slope = fit.a_2 + fit.a_3 * current_a;
+        fit.a_1 * current_a + fit.a_6 + speed_l * (slope + speed_l * square)
+    }
 }
 
 /// How a shaft turns over a step.
@@ -40,7 +86,6 @@ impl Brake {
     /// A brake without current, settled, its shaft at `theta_rad` in the middle of the backlash.
     pub fn new(table: &BrakeTable, theta_rad: f64) -> Brake {
         Brake {
-            limits_nm: [table.torque_gain.off_state_nm(), table.greatest_nm()],
             backlash: Backlash::new(table.backlash_width_deg, theta_rad),
             yield_nm: table.torque_gain.off_state_nm(),
             fall_origin_a: 0.0,
@@ -55,22 +100,22 @@ impl Brake {
     /// torque is taken back to s on its old course; what its mean then missed is added to this step's.
     //= thesis (3.2)
     #[inline(always)]
-    pub fn step(&mut self, table: &BrakeTable, current_a: f64, turn: &Turn) -> f64 {
+    pub fn step(&mut self, of: &Characteristic, current_a: f64, turn: &Turn) -> f64 {
         let [from_rad, to_rad] = turn.way_rad;
         let was_inside = self.backlash.is_inside();
         let mean_nm = match self.backlash.turn(from_rad, to_rad) {
-            None => self.follow(table, was_inside, current_a, turn.speed_rad_s, turn.step_s),
-            Some(crossing) => self.cross(table, was_inside, crossing, current_a, turn),
+            None => self.follow(of, was_inside, current_a, turn.speed_rad_s, turn.step_s),
+            Some(crossing) => self.cross(of, was_inside, crossing, current_a, turn),
         };
         self.current_a = current_a;
-        within(mean_nm, self.limits_nm)
+        within(mean_nm, of.limits_nm)
     }
 
     /// A step in which a boundary of the backlash was passed; seldom, so kept apart.
     #[inline(never)]
     fn cross(
         &mut self,
-        table: &BrakeTable,
+        of: &Characteristic,
         was_inside: bool,
         crossing: Crossing,
         current_a: f64,
@@ -78,7 +123,7 @@ impl Brake {
     ) -> f64 {
         let (last_a, step_s) = (self.current_a, turn.step_s);
         let mut impulse = |inside: bool, current_a: f64, time_s: f64| {
-            self.follow(table, inside, current_a, turn.speed_rad_s, time_s) * time_s
+            self.follow(of, inside, current_a, turn.speed_rad_s, time_s) * time_s
         };
         let [before_s, after_s] = turn.around_s;
         let moment_s = (before_s + after_s) * crossing.part - before_s;
@@ -97,14 +142,14 @@ impl Brake {
     #[inline(always)]
     fn follow(
         &mut self,
-        table: &BrakeTable,
+        of: &Characteristic,
         inside: bool,
         current_a: f64,
         speed_rad_s: f64,
         time_s: f64,
     ) -> f64 {
-        let asked_nm = gain_nm(&table.torque_gain, current_a);
-        let target_nm = target_nm(inside, asked_nm, self.limits_nm);
+        let asked_nm = gain_nm(&of.table.torque_gain, current_a);
+        let target_nm = target_nm(inside, asked_nm, of.limits_nm);
         let off_nm = self.yield_nm - target_nm;
         if off_nm <= SETTLED_NM {
             self.fall_origin_a = current_a;
@@ -118,13 +163,10 @@ impl Brake {
         } else {
             (Edge::Falling, self.fall_origin_a)
         };
-        let a_s = time_constant_s(table, of_current_a, speed_rad_s, edge);
+        let a_s = of.time_constant_s(of_current_a, speed_rad_s, edge);
         let exponent = time_s / a_s;
         let mean_share = decayed(exponent);
-        self.yield_nm = within(
-            self.yield_nm - off_nm * exponent * mean_share,
-            self.limits_nm,
-        );
+        self.yield_nm = within(self.yield_nm - off_nm * exponent * mean_share, of.limits_nm);
         target_nm + off_nm * mean_share
     }
 
@@ -157,32 +199,8 @@ fn gain_nm(fit: &TorqueGainFit, current_a: f64) -> f64 {
 
 /// The nearest value of a range; what is no number stays none.
 #[inline]
-fn within(value: f64, [least, greatest]: [f64; 2]) -> f64 {
-    if value < least {
-        least
-    } else if value > greatest {
-        greatest
-    } else {
-        value
-    }
-}
-
-/// Time constant a at the nearest measured current and speed, s (3.5), (3.6).
-//= thesis (3.5)
-//= thesis (3.6)
-#[inline]
-pub fn time_constant_s(table: &BrakeTable, current_a: f64, speed_rad_s: f64, edge: Edge) -> f64 {
-    let speed_rpm = within(rpm_from_rad_s(speed_rad_s.abs()), table.speed_range_rpm);
-    let fit: &TimeConstantFit = table.time_constant(edge);
-    if speed_rpm >= edge.threshold_rpm() {
-        return fit.a_avg_s;
-    }
-    let current_a = within(current_a, table.current_range_a);
-    //= thesis (3.7)
-    let speed_l = libm::log2(speed_rpm);
-    let square = fit.a_4 + fit.a_5 * current_a;
-    let slope = fit.a_2 + fit.a_3 * current_a;
-    fit.a_1 * current_a + fit.a_6 + speed_l * (slope + speed_l * square)
+fn within(value: f64, [from, to]: [f64; 2]) -> f64 {
+    least(to, most(from, value))
 }
 
 #[cfg(test)]
@@ -205,11 +223,12 @@ mod tests {
     #[test]
     fn a_step_of_current_follows_its_exponential_in_value_and_mean() {
         // Brake A at 2.7 rad/s: 7.5 ms towards 6.4448 N·m, whatever the step.
+        let of = Characteristic::new(&brake_table(Joint::A));
         let mut brake = Brake::new(&brake_table(Joint::A), 0.31);
         let (mut theta_rad, mut impulse) = (0.31, 0.0);
         for _ in 0..30 {
             let turn = turning(theta_rad, theta_rad + 2.7e-3, 1e-3);
-            impulse += brake.step(&brake_table(Joint::A), 0.8, &turn) * 1e-3;
+            impulse += brake.step(&of, 0.8, &turn) * 1e-3;
             theta_rad += 2.7e-3;
         }
         let left_nm = (6.4448 - 0.22) * libm::exp(-4.0);
@@ -224,25 +243,24 @@ mod tests {
     fn a_slow_rise_has_its_time_constant_by_hand() {
         // A at 0.73 A and 0.5 rpm: 0.0697·0.73 − 0.0129 + 0.0623·0.73 − 0.0055 + 0.0141·0.73 + 0.0025 = 0.090753 s.
         let slow = core::f64::consts::PI / 60.0;
-        let a_s = time_constant_s(&brake_table(Joint::A), 0.73, -slow, Edge::Rising);
+        let of = Characteristic::new(&brake_table(Joint::A));
+        let a_s = of.time_constant_s(0.73, -slow, Edge::Rising);
         assert!((a_s - 0.090_753).abs() < 1e-12);
-        assert_eq!(
-            time_constant_s(&brake_table(Joint::A), 0.73, 0.0, Edge::Rising),
-            a_s
-        );
+        assert_eq!(of.time_constant_s(0.73, 0.0, Edge::Rising), a_s);
     }
 
     //= thesis (3.6) test
     #[test]
     fn a_fall_is_as_fast_as_the_current_it_started_from() {
         // B at 0.5 rpm from 0.91 A: 0.0018·0.91 + 0.0007 + 0.0015·0.91 + 0.0011 − 0.0003·0.91 + 0.0052 = 0.00973 s.
+        let of = Characteristic::new(&brake_table(Joint::B));
         let mut brake = Brake::new(&brake_table(Joint::B), 0.31);
         let slow = core::f64::consts::PI / 60.0;
         let mut theta_rad = 0.31;
         let mut turn = |brake: &mut Brake, current_a, step_s| {
             let turn = turning(theta_rad, theta_rad + slow * step_s, step_s);
             theta_rad += slow * step_s;
-            brake.step(&brake_table(Joint::B), current_a, &turn);
+            brake.step(&of, current_a, &turn);
             brake.yield_nm()
         };
         let mut start_nm = 0.0;

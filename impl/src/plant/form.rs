@@ -104,26 +104,29 @@ pub fn form<R: Real>(bodies: &Bodies<R>, at: &Linkage<R>, rates_rad_s: Vector<R>
         ..
     } = *at;
     let u = rates_rad_s;
-    let inverse = R::of(1.0) / b.cross(d);
+    let inverse = R::of(1.0) / at.opening_m2;
     let left = Vector::new(-a.cross(d), c.cross(d)) * inverse;
     let right = Vector::new(-a.cross(b), c.cross(b)) * inverse;
     let (rate_ed, rate_cd) = (left.dot(u), right.dot(u));
-    let opening = (rate_cd - rate_ed) * b.dot(d) * inverse;
     let (with_a, with_c) = (a.dot(b), c.dot(d));
-    let left_rate = Vector::new(
-        -(rate_cd - u.x) * a.dot(d) * inverse - left.x * opening,
-        (rate_cd - u.y) * with_c * inverse - left.y * opening,
+    // The rows' derivatives: of the numerators, and less the rows times that of the denominator.
+    let opening = (rate_cd - rate_ed) * (b.dot(d) * inverse);
+    let left_part = Vector::new(
+        (u.x - rate_cd) * (a.dot(d) * inverse),
+        (rate_cd - u.y) * (with_c * inverse),
     );
-    let right_rate = Vector::new(
-        -(rate_ed - u.x) * with_a * inverse - right.x * opening,
-        (rate_ed - u.y) * c.dot(b) * inverse - right.y * opening,
+    let right_part = Vector::new(
+        (u.x - rate_ed) * (with_a * inverse),
+        (rate_ed - u.y) * (c.dot(b) * inverse),
     );
+    let (left_rate, right_rate) = (left_part - left * opening, right_part - right * opening);
+    let bias_ed = left_part.dot(u) - rate_ed * opening;
+    let bias_cd = right_part.dot(u) - rate_cd * opening;
     let [base_a, base_b] = bodies.base_kg_m2;
     let [carried_a, carried_b] = bodies.carried_kg;
     let [outer_a, outer_b] = bodies.outer_kg_m2;
     let (couple_a, couple_b) = (carried_a * with_a, carried_b * with_c);
     let (twist_a, twist_b) = (carried_a * a.cross(b), carried_b * c.cross(d));
-    let (bias_ed, bias_cd) = (left_rate.dot(u), right_rate.dot(u));
     let mass = Mass {
         aa: base_a
             + (couple_a + couple_a) * left.x

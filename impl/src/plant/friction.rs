@@ -6,12 +6,12 @@
 //! step is divided at that moment: opposed to the rate at the end all along, the torque would be wrong before it.
 
 mod dry_brake;
+mod rest;
 
 use super::form::Mass;
 use crate::vector::Vector;
 
 pub use dry_brake::DryBrake;
-use dry_brake::exact_zero;
 
 type Plane = Vector<f64>;
 
@@ -144,16 +144,6 @@ struct Problem<'a> {
     brakes: &'a [DryBrake; 4],
 }
 
-/// A side of the polygon that the brakes can hold.
-struct Side {
-    normal: Plane,
-    /// Of the brakes' rows along the normal; exactly zero for those parallel to the side.
-    components: [f64; 4],
-    /// The load along the normal, with its sign, and the most that the brakes hold there.
-    load: f64,
-    strength: f64,
-}
-
 impl Problem<'_> {
     /// The motion if a brake goes on holding while the others slip as they did; none where it cannot.
     fn holding(&self, held: usize, signs: [f64; 4]) -> Option<Dry> {
@@ -190,86 +180,6 @@ impl Problem<'_> {
             }
         }
         best.map_or_else(|| self.sector([0.0; 4]), |(_, dry)| dry)
-    }
-
-    /// Rest, if the brakes can hold the load.
-    fn rest(&self) -> Option<Dry> {
-        let mut impulses = [0.0; 4];
-        if self.drive != Vector::zero() {
-            impulses = self.impulses_at_rest(&self.tightest()?);
-        }
-        Some(Dry {
-            rates_rad_s: Vector::zero(),
-            impulses,
-            part: 1.0,
-            held: self.brakes.each_ref().map(DryBrake::acts),
-            contact: Contact::Rest,
-        })
-    }
-
-    /// The side of the polygon along whose normal the load takes most of the brakes' strength; none where it takes more than there is.
-    fn tightest(&self) -> Option<Side> {
-        let mut tightest: Option<Side> = None;
-        for brake in self.brakes.iter().filter(|brake| brake.acts()) {
-            let mut side = self.side(brake.force_row.left());
-            if side.strength == 0.0 {
-                // All brakes are parallel: they hold nothing across, and what they hold lies along them.
-                if exact_zero(side.normal, self.drive) != 0.0 {
-                    return None;
-                }
-                side = self.side(brake.force_row);
-            }
-            if side.load.abs() > side.strength {
-                return None;
-            }
-            let tighter =
-                |other: &Side| side.load.abs() * other.strength > other.load.abs() * side.strength;
-            if tightest.as_ref().is_none_or(tighter) {
-                tightest = Some(side);
-            }
-        }
-        tightest
-    }
-
-    #[inline]
-    fn side(&self, normal: Plane) -> Side {
-        let components = self.brakes.each_ref().map(|brake| {
-            let component = exact_zero(brake.force_row, normal);
-            [component, brake.bound * component.abs()]
-        });
-        let [[a, of_a], [e, of_e], [b, of_b], [c, of_c]] = components;
-        Side {
-            normal,
-            components: [a, e, b, c],
-            load: normal.dot(self.drive),
-            strength: of_a + of_e + of_b + of_c,
-        }
-    }
-
-    /// The impulses that balance the load and load every brake least by its bound.
-    fn impulses_at_rest(&self, side: &Side) -> [f64; 4] {
-        let share = side.load / side.strength;
-        let along = side.normal.left();
-        let mut impulses = [0.0; 4];
-        // What the brakes across the side do not carry lies along it and is shared by those parallel to it.
-        let (mut left, mut strength) = (-self.drive, 0.0);
-        let places = impulses.iter_mut().zip(self.brakes).zip(side.components);
-        for ((impulse, brake), component) in places {
-            if component == 0.0 {
-                strength += brake.bound * brake.force_row.dot(along).abs();
-            } else {
-                *impulse = -share * brake.bound * component.signum();
-                left = left - brake.force_row * *impulse;
-            }
-        }
-        if strength > 0.0 {
-            let part = left.dot(along) / strength;
-            let places = impulses.iter_mut().zip(self.brakes).zip(side.components);
-            for ((impulse, brake), _) in places.filter(|(_, component)| *component == 0.0) {
-                *impulse = part * brake.bound * brake.force_row.dot(along).signum();
-            }
-        }
-        impulses
     }
 
     /// The motion that one brake and those parallel to it let through, and how far it contradicts their bounds.

@@ -77,8 +77,8 @@ impl Plant {
     /// The yield torques of the brakes A, E, B, C, N·m; zero where there is none.
     pub fn yield_torques_nm(&self) -> [f64; 4] {
         let mut yields_nm = self.brakes.map(|brake| brake.yield_nm());
-        for (yield_nm, table) in yields_nm.iter_mut().zip(&self.tables) {
-            *yield_nm = if table.is_some() { *yield_nm } else { 0.0 };
+        for (yield_nm, brake) in yields_nm.iter_mut().zip(&self.characteristics) {
+            *yield_nm = if brake.is_some() { *yield_nm } else { 0.0 };
         }
         yields_nm
     }

@@ -4,11 +4,11 @@ use rigproof_spec::geometry::{Arms, arms};
 use rigproof_spec::inertia::{ArmInertia, Inertia, inertia};
 use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
-use rigproof_spec::tables::{BrakeTable, brake_table};
+use rigproof_spec::tables::{BrakeTable, GREATEST_CURRENT_A, brake_table};
 
 use super::Plant;
-use super::brake::Brake;
-use super::effect::{Asked, CurrentPath, Effect, Law, MOST_EFFECTS};
+use super::brake::{Brake, Characteristic};
+use super::effect::{Asked, Effect, Law, MOST_EFFECTS};
 use super::friction::Contact;
 use super::motion::{Mechanism, Motion, Scheme};
 use crate::linkage::Linkage;
@@ -127,7 +127,14 @@ impl Plant {
         };
         let mut plant = Plant {
             mechanism,
-            tables: *tables,
+            characteristics: tables.map(|table| Some(Characteristic::new(&table?))),
+            greatest_a: tables.map(|table| {
+                if table.is_some() {
+                    GREATEST_CURRENT_A
+                } else {
+                    0.0
+                }
+            }),
             motion,
             brakes: [
                 brake(table_a, Joint::A, a),
@@ -142,7 +149,7 @@ impl Plant {
             held: [false; 4],
             torques_nm: [0.0; 4],
             time_s: 0.0,
-            paths: [CurrentPath::default(); 4],
+            paths: None,
             effects: [None; MOST_EFFECTS],
         };
         for effect in effects {
@@ -166,8 +173,9 @@ impl Plant {
             });
         } else {
             let index = joint as usize;
-            self.tables.get(index)?.as_ref()?;
-            let path = self.paths.get_mut(index)?;
+            self.characteristics.get(index)?.as_ref()?;
+            let paths = self.paths.get_or_insert_default();
+            let path = paths.get_mut(index)?;
             *path = path.with(mechanism, parameters)?;
         }
         Some(())

@@ -1,11 +1,10 @@
 //! This file is one step of the plant.
 
 use rigproof_spec::joint::Joint;
-use rigproof_spec::tables::GREATEST_CURRENT_A;
 
 use super::Plant;
-use super::brake::{Brake, Turn};
-use super::effect::{CurrentPath, Effect, Instant};
+use super::brake::Turn;
+use super::effect::{Effect, Instant};
 use super::form::{joint_rows, tip_load};
 use super::friction::{Contact, Dry, DryBrake, dry_motion, standing};
 use super::motion::{Midway, Motion, Outcome, is_defined};
@@ -62,9 +61,8 @@ impl Plant {
         else {
             return Outcome::TooFast;
         };
-        let (mut brakes, mut paths) = (self.brakes, self.paths);
-        let driven = brakes.iter_mut().zip(paths.iter_mut().zip(currents_a));
-        let resistance = self.resistance(&look, driven, midway.lead_s, step_s);
+        let brakes = self.brakes;
+        let resistance = self.resistance(&look, currents_a, midway.lead_s, step_s);
         let dry = self.dry(&midway, &look, &resistance, step_s);
         let mut next = self
             .motion
@@ -72,6 +70,7 @@ impl Plant {
         let second = next.checks(&self.mechanism, &next.linkage, step_s - midway.lead_s);
         let outcome = second.outcome();
         if outcome != Outcome::Moved {
+            self.brakes = brakes;
             return outcome;
         }
         if dry.contact == Contact::Rest {
@@ -80,8 +79,8 @@ impl Plant {
         }
         self.remember(&look, dry.rates_rad_s, step_s);
         self.motion = next;
-        (self.brakes, self.paths) = (brakes, paths);
         self.take_on(&look, &resistance, &dry, midway.lead_s, step_s);
+        self.pass_on(currents_a, step_s);
         Outcome::Moved
     }
 
@@ -104,9 +103,8 @@ impl Plant {
         let Some(look) = self.look(&linkage, theta_rad, none, joint_rows(left, right)) else {
             return false;
         };
-        let (mut brakes, mut paths) = (self.brakes, self.paths);
-        let driven = brakes.iter_mut().zip(paths.iter_mut().zip(currents_a));
-        let resistance = self.resistance(&look, driven, lead_s, step_s);
+        let brakes = self.brakes;
+        let resistance = self.resistance(&look, currents_a, lead_s, step_s);
         let bounds = resistance.yields_nm.into_iter().zip(resistance.dry_nm);
         let mut holding = [DryBrake::absent(); 4];
         for (brake, (row, (yield_nm, dry_nm))) in
@@ -117,11 +115,12 @@ impl Plant {
         }
         let load_nm = tip_load(left, &linkage, force_n) - resistance.smooth_nm;
         let Some(dry) = standing(load_nm * step_s, &holding) else {
+            self.brakes = brakes;
             return false;
         };
         self.remember(&look, none, step_s);
-        (self.brakes, self.paths) = (brakes, paths);
         self.take_on(&look, &resistance, &dry, lead_s, step_s);
+        self.pass_on(currents_a, step_s);
         true
     }
 
@@ -142,15 +141,15 @@ impl Plant {
         self.held = dry.held;
         self.time_s += step_s;
         let per_s = 1.0 / (step_s * dry.part);
-        let shares = resistance.yields_nm.iter().zip(resistance.dry_nm);
-        for ((torque_nm, impulse), (yield_nm, dry_nm)) in
-            self.torques_nm.iter_mut().zip(dry.impulses).zip(shares)
-        {
-            *torque_nm = impulse * per_s;
-            if dry_nm != 0.0 {
-                // The rest is that of the other dry friction.
+        self.torques_nm = dry.impulses.map(|impulse| impulse * per_s);
+        if self.has_effects() {
+            // The rest is that of the other dry friction.
+            let shares = resistance.yields_nm.iter().zip(resistance.dry_nm);
+            for (torque_nm, (yield_nm, dry_nm)) in self.torques_nm.iter_mut().zip(shares) {
                 let bound_nm = yield_nm + dry_nm;
-                *torque_nm *= if bound_nm > 0.0 {
+                *torque_nm *= if dry_nm == 0.0 {
+                    1.0
+                } else if bound_nm > 0.0 {
                     yield_nm / bound_nm
                 } else {
                     0.0
@@ -159,15 +158,39 @@ impl Plant {
         }
     }
 
+    /// The currents that the brakes have over a step, A.
+    #[inline]
+    fn arriving_a(&self, mut currents_a: [f64; 4], step_s: f64) -> [f64; 4] {
+        if let Some(paths) = &self.paths {
+            for (current_a, path) in currents_a.iter_mut().zip(paths) {
+                *current_a = path.clone().step(*current_a, step_s);
+            }
+        }
+        currents_a
+    }
+
+    /// Moves what lies between the currents that are asked for, A, and the brakes' over a step.
+    #[inline]
+    fn pass_on(&mut self, currents_a: [f64; 4], step_s: f64) {
+        if let Some(paths) = &mut self.paths {
+            for (path, current_a) in paths.iter_mut().zip(currents_a) {
+                path.step(current_a, step_s);
+            }
+        }
+    }
+
     #[inline]
     fn takes(&self, currents_a: [f64; 4]) -> bool {
-        self.tables
-            .iter()
-            .zip(currents_a)
-            .all(|(table, current_a)| match table {
-                Some(_) => (0.0..=GREATEST_CURRENT_A).contains(&current_a),
-                None => current_a == 0.0,
-            })
+        let [a, e, b, c] = currents_a;
+        let [most_a, most_e, most_b, most_c] = self.greatest_a;
+        let within = |current_a: f64, most_a: f64| (current_a >= 0.0) & (current_a <= most_a);
+        within(a, most_a) & within(e, most_e) & within(b, most_b) & within(c, most_c)
+    }
+
+    #[inline]
+    fn has_effects(&self) -> bool {
+        let [first, ..] = &self.effects;
+        first.is_some()
     }
 
     /// The joints halfway; none where an elbow turned further than can be computed.
@@ -199,12 +222,12 @@ impl Plant {
         })
     }
 
-    /// What resists; the brakes and the way of their currents, A, go on by a step.
+    /// What resists; the brakes go on by a step.
     #[inline(always)]
-    fn resistance<'a>(
-        &self,
+    fn resistance(
+        &mut self,
         look: &Look,
-        driven: impl Iterator<Item = (&'a mut Brake, (&'a mut CurrentPath, f64))>,
+        currents_a: [f64; 4],
         lead_s: f64,
         step_s: f64,
     ) -> Resistance {
@@ -214,30 +237,29 @@ impl Plant {
             smooth_nm: Vector::zero(),
         };
         let around_s = [self.since_look_s, lead_s];
+        let currents_a = self.arriving_a(currents_a, step_s);
         let ways = self.looked_rad.into_iter().zip(look.angles_rad);
-        let turns = ways.zip(look.rates_rad_s).zip(&self.tables);
-        let each = driven.zip(turns).zip(&mut resistance.yields_nm);
-        for (((brake, (path, current_a)), (((from_rad, to_rad), speed_rad_s), table)), yield_nm) in
-            each
-        {
-            if let Some(table) = table {
+        let turns = ways.zip(look.rates_rad_s).zip(currents_a);
+        let brakes = self.brakes.iter_mut().zip(&self.characteristics);
+        let each = brakes.zip(turns).zip(&mut resistance.yields_nm);
+        for (((brake, of), (((from_rad, to_rad), speed_rad_s), current_a)), yield_nm) in each {
+            if let Some(of) = of {
                 let turn = Turn {
                     way_rad: [from_rad, to_rad],
                     around_s,
                     speed_rad_s,
                     step_s,
                 };
-                *yield_nm = brake.step(table, path.step(current_a, step_s), &turn);
+                *yield_nm = brake.step(of, current_a, &turn);
             }
         }
-        self.add_effects(&mut resistance, look, lead_s, step_s);
+        if self.has_effects() {
+            self.add_effects(&mut resistance, look, lead_s, step_s);
+        }
         resistance
     }
 
     fn add_effects(&self, sum: &mut Resistance, look: &Look, lead_s: f64, step_s: f64) {
-        if let [None, ..] = self.effects {
-            return;
-        }
         for Effect { joint, law, memory } in self.effects.iter().map_while(Option::as_ref) {
             let (position, speed, row) = at(look, *joint);
             let now = Instant {

@@ -29,7 +29,7 @@ pub fn renormalised<R: Real>(vector: Vector<R>) -> Vector<R> {
 /// The small angle from one vector to another of the same length, rad: twice the arc tangent of half of it.
 ///
 /// What is left out is at most 5e-18 rad at [`GREATEST_TURN_RAD`].
-#[inline]
+#[inline(always)]
 pub fn angle_between<R: Real>(from: Vector<R>, to: Vector<R>) -> R {
     let half = from.cross(to) / (from.norm_squared() + from.dot(to));
     let powers = [2.0, -2.0 / 3.0, 2.0 / 5.0, -2.0 / 7.0, 2.0 / 9.0];

@@ -1,12 +1,9 @@
-//! This file says what is run: two layouts, free, with dry joints, and with every brake locked.
+//! This file says what is run: two layouts, free, with dry joints twice, and with every brake locked.
 
 use rigproof_model::linkage::{Pose, inverse};
 use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
 use rigproof_spec::tables::{GREATEST_CURRENT_A, torque_gain_fit};
-
-/// Time for which force and currents hold, s.
-pub const TICK_S: f64 = 1e-3;
 
 /// Time under its currents and no force before a run, s: the yield torques have settled.
 pub const SETTLING_S: f64 = 1.0;
@@ -18,6 +15,8 @@ pub enum Joints {
     Free,
     /// The brakes without current: dry friction of their off-state torque.
     Dry,
+    /// The same under forces that hold for 8 ms, so that every engine may step as far.
+    Work,
     /// The brakes at their greatest current.
     Locked,
 }
@@ -34,7 +33,7 @@ pub struct Case {
 impl Case {
     /// Every case.
     pub fn all() -> Vec<Case> {
-        let joints = [Joints::Free, Joints::Dry, Joints::Locked];
+        let joints = [Joints::Free, Joints::Dry, Joints::Work, Joints::Locked];
         [Layout::ThreeBrake, Layout::FourBrake]
             .into_iter()
             .flat_map(|layout| joints.map(|joints| Case { layout, joints }))
@@ -50,6 +49,7 @@ impl Case {
         let joints = match self.joints {
             Joints::Free => "free",
             Joints::Dry => "dry",
+            Joints::Work => "work",
             Joints::Locked => "locked",
         };
         format!("{layout}-{joints}")
@@ -68,10 +68,19 @@ impl Case {
         inverse::pose(&rigproof_spec::geometry::arms(self.layout), self.start_m()).unwrap()
     }
 
+    /// Time for which the force on the tip holds, s.
+    pub fn tick_s(&self) -> f64 {
+        match self.joints {
+            Joints::Work => 8e-3,
+            Joints::Free | Joints::Dry | Joints::Locked => 1e-3,
+        }
+    }
+
     /// Ticks of the run.
     pub fn ticks(&self) -> usize {
         match self.joints {
             Joints::Locked => 5000,
+            Joints::Work => 188,
             Joints::Free | Joints::Dry => 1500,
         }
     }
@@ -82,13 +91,13 @@ impl Case {
     }
 
     fn force_n(&self, tick: usize) -> [f64; 2] {
-        let t = tick as f64 * TICK_S;
+        let t = tick as f64 * self.tick_s();
         match self.joints {
             Joints::Free => [
                 4.3 * libm::cos(7.7 * t) + 7.9 * libm::cos(17.3 * t + 0.4),
                 6.1 * libm::cos(9.1 * t + 0.3) - 5.3 * libm::cos(21.7 * t),
             ],
-            Joints::Dry => [
+            Joints::Dry | Joints::Work => [
                 9.7 * libm::cos(7.7 * t) + 5.9 * libm::cos(17.3 * t + 0.4),
                 11.3 * libm::cos(9.1 * t + 0.3) - 6.7 * libm::cos(21.7 * t),
             ],
@@ -115,7 +124,7 @@ impl Case {
             match self.joints {
                 _ if !self.layout.brakes().contains(&joint) => 0.0,
                 Joints::Free => 0.0,
-                Joints::Dry => fit.off_state_nm(),
+                Joints::Dry | Joints::Work => fit.off_state_nm(),
                 Joints::Locked => fit.greatest_nm(),
             }
         })

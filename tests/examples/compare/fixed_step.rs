@@ -3,7 +3,7 @@
 use rigproof_impl::plant::motion::{Mechanism, Motion};
 use rigproof_impl::plant::{Outcome, Parameters, Plant, Scheme};
 
-use crate::case::{Case, SETTLING_S, TICK_S};
+use crate::case::{Case, SETTLING_S};
 use crate::engine::{Engine, Sample};
 
 /// The linkage without brakes.
@@ -13,6 +13,7 @@ pub struct Free {
     motion: Motion<f64>,
     /// Steps a tick.
     steps: u32,
+    step_s: f64,
 }
 
 impl Free {
@@ -27,17 +28,17 @@ impl Free {
             mechanism,
             motion,
             steps,
+            step_s: case.tick_s() / f64::from(steps),
         }
     }
 }
 
 impl Engine for Free {
     fn tick(&mut self, force_n: [f64; 2]) {
-        let step_s = TICK_S / f64::from(self.steps);
         for _ in 0..self.steps {
             let outcome = self
                 .motion
-                .step_free(&self.mechanism, force_n.into(), step_s);
+                .step_free(&self.mechanism, force_n.into(), self.step_s);
             assert_eq!(outcome, Outcome::Moved);
         }
     }
@@ -58,6 +59,7 @@ pub struct Braked {
     currents_a: [f64; 4],
     /// Steps a tick.
     steps: u32,
+    step_s: f64,
 }
 
 impl Braked {
@@ -74,8 +76,9 @@ impl Braked {
             plant,
             currents_a: case.currents_a(),
             steps,
+            step_s: case.tick_s() / f64::from(steps),
         };
-        for _ in 0..libm::round(SETTLING_S / TICK_S) as usize {
+        for _ in 0..libm::round(SETTLING_S / case.tick_s()) as usize {
             braked.tick([0.0; 2]);
         }
         braked
@@ -84,9 +87,8 @@ impl Braked {
 
 impl Engine for Braked {
     fn tick(&mut self, force_n: [f64; 2]) {
-        let step_s = TICK_S / f64::from(self.steps);
         for _ in 0..self.steps {
-            let outcome = self.plant.step(force_n, self.currents_a, step_s);
+            let outcome = self.plant.step(force_n, self.currents_a, self.step_s);
             assert_eq!(outcome, Outcome::Moved);
         }
     }

@@ -22,18 +22,24 @@ use output::{Entry, Folder, Ours};
 
 /// How often a run is timed.
 const REPEATS: usize = 15;
-/// Steps a tick of the converged solution, and of the one it is compared with.
-const CONVERGED: [u32; 2] = [16, 32];
+/// Steps a millisecond of the converged solution, and of the one it is compared with.
+const CONVERGED: [f64; 2] = [16.0, 32.0];
 
 const REFERENCE: &str = "reference model";
 const FIXED: &str = "fixed step";
 /// The schemes of the fixed-step implementation: what they are called, and steps a tick.
-const SCHEMES: [(&str, Scheme, u32); 4] = [
-    ("semi-implicit Euler", Scheme::SemiImplicitEuler, 1),
-    ("midpoint", Scheme::Midpoint, 1),
-    ("midpoint, 4 steps a ms", Scheme::Midpoint, 4),
-    ("midpoint, 16 steps a ms", Scheme::Midpoint, 16),
+const SCHEMES: [(&str, Scheme, &[u32]); 2] = [
+    ("semi-implicit Euler", Scheme::SemiImplicitEuler, &[1]),
+    ("midpoint", Scheme::Midpoint, &[1, 4, 16]),
 ];
+/// The same where the tick is long: steps of 8 ms to 1/16 ms.
+const WORK: [(&str, Scheme, &[u32]); 2] = {
+    let steps = &[1, 2, 4, 8, 16, 32, 64, 128];
+    [
+        ("semi-implicit Euler", Scheme::SemiImplicitEuler, steps),
+        ("midpoint", Scheme::Midpoint, steps),
+    ]
+};
 
 fn main() {
     let Some(path) = std::env::args().nth(1) else {
@@ -49,61 +55,70 @@ fn main() {
 }
 
 fn entry(case: &Case, folder: &Folder) -> Entry {
-    let [converged, finer] = CONVERGED.map(|steps| match case.joints {
-        Joints::Free => run(&reference::Free::new(case, steps), case),
-        Joints::Dry | Joints::Locked => run(&reference::Braked::new(case, steps), case),
+    let one_a_ms = case.tick_s() * 1e3;
+    let [converged, finer] = CONVERGED.map(|steps_a_ms| {
+        let steps = libm::round(steps_a_ms * one_a_ms) as u32;
+        match case.joints {
+            Joints::Free => run(&reference::Free::new(case, steps), case),
+            _ => run(&reference::Braked::new(case, steps), case),
+        }
     });
     folder.write_run("converged", case, &converged);
-    let name = "RK4, ends a step where a brake changes";
+    let one = |engine, settings, steps| Line {
+        case,
+        folder,
+        engine,
+        settings,
+        steps,
+    };
+    let of_the_reference = one(REFERENCE, "RK4", libm::round(one_a_ms) as u32);
     let mut ours = vec![match case.joints {
-        Joints::Free => one(
-            case,
-            folder,
-            REFERENCE,
-            "RK4",
-            &reference::Free::new(case, 1),
-        ),
-        _ => one(
-            case,
-            folder,
-            REFERENCE,
-            name,
-            &reference::Braked::new(case, 1),
-        ),
+        Joints::Free => of_the_reference.of(&reference::Free::new(case, of_the_reference.steps)),
+        _ => Line {
+            settings: "RK4, ends a step where a brake changes",
+            ..of_the_reference
+        }
+        .of(&reference::Braked::new(case, of_the_reference.steps)),
     }];
-    for (settings, scheme, steps) in SCHEMES {
-        ours.push(match case.joints {
-            Joints::Free => one(
-                case,
-                folder,
-                FIXED,
-                settings,
-                &fixed_step::Free::new(case, scheme, steps),
-            ),
-            _ => one(
-                case,
-                folder,
-                FIXED,
-                settings,
-                &fixed_step::Braked::new(case, scheme, steps),
-            ),
-        });
+    let schemes = match case.joints {
+        Joints::Work => WORK,
+        _ => SCHEMES,
+    };
+    for (settings, scheme, all_steps) in schemes {
+        for steps in all_steps {
+            let line = one(FIXED, settings, *steps);
+            ours.push(match case.joints {
+                Joints::Free => line.of(&fixed_step::Free::new(case, scheme, *steps)),
+                _ => line.of(&fixed_step::Braked::new(case, scheme, *steps)),
+            });
+        }
     }
     Entry::new(case, apart_m(&converged, &finer), &ours)
 }
 
-fn one(
-    case: &Case,
-    folder: &Folder,
+/// One engine with its settings on a case.
+#[derive(Clone, Copy)]
+struct Line<'a> {
+    case: &'a Case,
+    folder: &'a Folder,
     engine: &'static str,
     settings: &'static str,
-    start: &impl Engine,
-) -> Ours {
-    let file = format!("{engine}-{settings}").replace([' ', ','], "-");
-    Ours {
-        engine,
-        settings,
-        cost: time(start, case, REPEATS),
-        run: folder.write_run(&file, case, &run(start, case)),
+    steps: u32,
+}
+
+impl Line<'_> {
+    /// Its run, written down, and what that costs.
+    fn of(&self, start: &impl Engine) -> Ours {
+        let file = format!("{}-{}-{}", self.engine, self.settings, self.steps);
+        let file = file.replace([' ', ','], "-");
+        Ours {
+            engine: self.engine,
+            settings: self.settings,
+            steps: self.steps,
+            cost: time(start, self.case, REPEATS),
+            run: self
+                .folder
+                .write_run(&file, self.case, &run(start, self.case)),
+        }
     }
 }

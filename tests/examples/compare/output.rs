@@ -7,7 +7,7 @@ use rigproof_spec::geometry::arms;
 use rigproof_spec::inertia::{ArmInertia, inertia};
 use serde_json::{Value, json};
 
-use crate::case::{Case, TICK_S};
+use crate::case::Case;
 use crate::engine::Sample;
 use crate::timing::Cost;
 
@@ -17,6 +17,8 @@ pub struct Ours {
     pub engine: &'static str,
     /// With which settings.
     pub settings: &'static str,
+    /// Steps a tick.
+    pub steps: u32,
     /// What a step costs.
     pub cost: Cost,
     /// The file with its run.
@@ -35,7 +37,7 @@ impl Entry {
         let engines: Vec<Value> = engines.iter().map(engine).collect();
         Entry(json!({
             "name": case.name(),
-            "step_s": TICK_S,
+            "step_s": case.tick_s(),
             "base_m": arms.l_ab_m,
             "arms": {
                 "AE": arm(arms.l_ae_m, inertia.ae),
@@ -55,6 +57,7 @@ fn engine(engine: &Ours) -> Value {
     json!({
         "engine": engine.engine,
         "settings": engine.settings,
+        "steps_a_tick": engine.steps,
         "median_ns": engine.cost.median_ns,
         "least_ns": engine.cost.least_ns,
         "run": engine.run,
@@ -93,7 +96,7 @@ impl Folder {
             let [force_x, force_y] = forces_n.get(tick).copied().unwrap_or_default();
             let ([a, b], [rate_a, rate_b], [x, y]) =
                 (sample.base_rad, sample.rates_rad_s, sample.tip_m);
-            let time_s = tick as f64 * TICK_S;
+            let time_s = tick as f64 * case.tick_s();
             let row = [time_s, force_x, force_y, a, b, rate_a, rate_b, x, y];
             csv.write_record(row.map(|value| format!("{value:e}")))
                 .unwrap();

@@ -4,7 +4,7 @@ use rigproof_model::linkage::forward;
 use rigproof_model::motion::two_coordinate::two_coordinate;
 use rigproof_model::rig::{Parameters, Rig};
 
-use crate::case::{Case, SETTLING_S, TICK_S};
+use crate::case::{Case, SETTLING_S};
 use crate::engine::{Engine, Sample};
 
 /// Equation (5.40) without brakes, by the classical Runge-Kutta formula.
@@ -15,6 +15,7 @@ pub struct Free {
     state: [f64; 4],
     /// Steps a tick.
     steps: u32,
+    step_s: f64,
 }
 
 impl Free {
@@ -25,6 +26,7 @@ impl Free {
             parameters: Parameters::of(case.layout),
             state: [start.theta_a_rad, start.theta_b_rad, 0.0, 0.0],
             steps,
+            step_s: case.tick_s() / f64::from(steps),
         }
     }
 
@@ -39,7 +41,7 @@ impl Free {
 
 impl Engine for Free {
     fn tick(&mut self, force_n: [f64; 2]) {
-        let h = TICK_S / f64::from(self.steps);
+        let h = self.step_s;
         for _ in 0..self.steps {
             let y = self.state;
             let plus = |k: [f64; 4], h: f64| [0, 1, 2, 3].map(|i| y[i] + h * k[i]);
@@ -67,6 +69,7 @@ impl Engine for Free {
 pub struct Braked {
     rig: Rig,
     currents_a: [f64; 4],
+    tick_s: f64,
 }
 
 impl Braked {
@@ -74,15 +77,23 @@ impl Braked {
     pub fn new(case: &Case, steps: u32) -> Braked {
         let rig = Rig::new(case.layout, case.start_m()).unwrap();
         let currents_a = case.currents_a();
-        let mut rig = rig.with_longest_step_s(TICK_S / f64::from(steps)).unwrap();
+        let mut rig = rig
+            .with_longest_step_s(case.tick_s() / f64::from(steps))
+            .unwrap();
         rig.step([0.0; 2], currents_a, SETTLING_S).unwrap();
-        Braked { rig, currents_a }
+        Braked {
+            rig,
+            currents_a,
+            tick_s: case.tick_s(),
+        }
     }
 }
 
 impl Engine for Braked {
     fn tick(&mut self, force_n: [f64; 2]) {
-        self.rig.step(force_n, self.currents_a, TICK_S).unwrap();
+        self.rig
+            .step(force_n, self.currents_a, self.tick_s)
+            .unwrap();
     }
 
     fn sample(&self) -> Sample {

@@ -1,7 +1,7 @@
 //! This file holds the plant's brakes against the reference's: yield torque, time constant and backlash.
 
 use rigproof_impl::plant::backlash::Backlash as OwnBacklash;
-use rigproof_impl::plant::brake::{Brake as OwnBrake, Turn, time_constant_s};
+use rigproof_impl::plant::brake::{Brake as OwnBrake, Characteristic, Turn};
 use rigproof_model::brake::{Backlash, Brake, bounded_time_constant};
 use rigproof_spec::joint::Joint;
 use rigproof_spec::tables::{Edge, backlash_width_deg, brake_table};
@@ -18,9 +18,8 @@ fn the_time_constant_is_the_references() {
         let edge = Edge::ALL[(k / 4) % 2];
         let (current_a, speed) = (draw.between(-0.1, 1.2), draw.between(-0.51, 0.51));
         let expected_s = bounded_time_constant(joint, current_a, speed, edge);
-        off.push(
-            (time_constant_s(&brake_table(joint), current_a, speed, edge) / expected_s - 1.0).abs(),
-        );
+        let own = Characteristic::new(&brake_table(joint));
+        off.push((own.time_constant_s(current_a, speed, edge) / expected_s - 1.0).abs());
     }
     assert_within_budget("plant_time_constant", off);
 }
@@ -64,6 +63,7 @@ fn the_yield_torque_is_the_references_through_changes_of_current() {
         let clear = 0.047 * speed.signum();
         let mut theta = draw.between(-3.1, 3.1);
         let table = brake_table(joint);
+        let of = Characteristic::new(&table);
         let (mut expected, mut own) = (Brake::new(joint, theta), OwnBrake::new(&table, theta));
         let mut current_a = draw.between(0.0, 1.0);
         expected.step(current_a, theta + clear, speed, 1e-9);
@@ -73,7 +73,7 @@ fn the_yield_torque_is_the_references_through_changes_of_current() {
             speed_rad_s: speed,
             step_s: 1e-9,
         };
-        own.step(&table, current_a, &out);
+        own.step(&of, current_a, &out);
         theta += clear;
         for _ in 0..150 {
             if draw.one_in(17) {
@@ -89,7 +89,7 @@ fn the_yield_torque_is_the_references_through_changes_of_current() {
                 step_s,
             };
             let before_nm = own.yield_nm();
-            let mean_nm = own.step(&table, current_a, &turn);
+            let mean_nm = own.step(&of, current_a, &turn);
             let (low, high) = (before_nm.min(own.yield_nm()), before_nm.max(own.yield_nm()));
             assert!(mean_nm >= low - 1e-12 && mean_nm <= high + 1e-12);
             off.push((own.yield_nm() - expected.yield_torque()).abs());

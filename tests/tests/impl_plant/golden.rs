@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use rigproof_impl::plant::brake::{Brake, Turn};
+use rigproof_impl::plant::brake::{Brake, Characteristic, Turn};
 use rigproof_impl::plant::{Outcome, Scheme};
 use rigproof_model::rig::Rig;
 use rigproof_spec::joint::Joint;
@@ -65,6 +65,7 @@ fn golden_brakes_are_the_plants() {
                 let rows_s = numbers(&expected, "time");
                 let mut theta = numbers(&expected, "angle")[0];
                 let table = brake_table(joint);
+                let of = Characteristic::new(&table);
                 let mut brake = Brake::new(&table, theta);
                 let (mut row, mut tick) = (1, 0_u32);
                 for (k, until_s) in times_s.iter().enumerate().skip(1) {
@@ -78,7 +79,7 @@ fn golden_brakes_are_the_plants() {
                             speed_rad_s: speed,
                             step_s: STEP_S,
                         };
-                        brake.step(&table, current_a, &turn);
+                        brake.step(&of, current_a, &turn);
                         theta = to;
                         tick += 1;
                         if rows_s
