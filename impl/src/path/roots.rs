@@ -169,6 +169,9 @@ mod tests {
         assert_eq!(bracketed(cubic), whole());
         let share = crossing(&cubic, 0.0, 1.0).unwrap_or(f64::NAN);
         assert!((share * share * share + share - 0.7).abs() < 1e-15);
+        // −0.1 + 2·x − 3.5·x² + 2·x³ turns twice but has one root and one change of sign.
+        let turning = [-0.1, 2.0, -3.5, 2.0, 0.0, 0.0];
+        assert_eq!(bracketed(turning), whole());
     }
 
     #[test]
