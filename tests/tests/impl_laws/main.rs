@@ -5,6 +5,7 @@ mod both;
 #[path = "../budget/mod.rs"]
 mod budget;
 mod idle;
+mod paths;
 mod permitted;
 mod properties;
 mod sample;
