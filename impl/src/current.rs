@@ -106,4 +106,22 @@ mod tests {
         assert!(current_a > 0.195 && current_a < 0.2);
         assert!(gain.current_a(1.0741) > 0.2);
     }
+
+    #[test]
+    fn the_torque_where_the_linear_piece_ends_is_given_by_the_quadratic_one() {
+        // Brake E at 0.2 A gives 1.0552 N·m, the linear piece would end at 1.074 N·m.
+        let gain = CurrentGain::<f64>::new(&brake_table(Joint::E));
+        let mut torque_nm = 1.073_999_999_999_99;
+        while (torque_nm - gain.off_state_nm) / gain.k_1_nm_per_a < GAIN_BREAK_A {
+            torque_nm = f64::next_up(torque_nm);
+        }
+        assert_eq!(
+            (torque_nm - gain.off_state_nm) / gain.k_1_nm_per_a,
+            GAIN_BREAK_A
+        );
+        let current_a = gain.current_a(torque_nm);
+        assert!(
+            (-2.72 * current_a * current_a + 9.37 * current_a - 0.71 - torque_nm).abs() < 1e-14
+        );
+    }
 }

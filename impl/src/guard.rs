@@ -310,4 +310,38 @@ mod tests {
         assert_eq!(released.currents_a, [1.0, 0.0, 0.37, 0.999_3]);
         assert_eq!(released.reason, reason);
     }
+
+    #[test]
+    fn a_current_of_minus_zero_leaves_without_its_sign() {
+        let asked = Command {
+            currents_a: [-0.0, 0.37, -0.0, 0.0],
+            reason: Reason::Chosen(Joint::E),
+        };
+        let currents_a: [f64; 4] = release(asked, [true; 4]).currents_a;
+        assert_eq!(currents_a, [0.0, 0.37, 0.0, 0.0]);
+        assert!(
+            currents_a
+                .iter()
+                .all(|current_a| current_a.is_sign_positive())
+        );
+    }
+
+    #[test]
+    fn a_named_brake_may_be_given_no_current() {
+        for (currents_a, reason) in [
+            ([0.0; 4], Reason::Chosen(Joint::B)),
+            (
+                [0.31, 0.0, 0.0, 0.0],
+                Reason::ChosenPair(Joint::A, Joint::C),
+            ),
+            (
+                [0.0, 0.0, 0.0, 0.31],
+                Reason::ChosenPair(Joint::A, Joint::C),
+            ),
+            ([0.31, 0.0, 0.7, 0.2], Reason::LockedPushedAway),
+        ] {
+            let asked = Command { currents_a, reason };
+            assert_eq!(release(asked, [true; 4]), asked);
+        }
+    }
 }

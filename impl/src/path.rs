@@ -117,3 +117,20 @@ fn piece(from_m: [f64; 2], to_m: [f64; 2]) -> Option<(Vector<f64>, f64)> {
 fn of<R: Real>(vector: Vector<f64>) -> Vector<R> {
     Vector::new(R::of(vector.x), R::of(vector.y))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_two_places_as_near_the_first_is_kept() {
+        let nearest = |x, offset_m| Nearest {
+            tangent: Vector::new(x, 0.0),
+            offset_m,
+        };
+        let first = nearest(1.0, 0.37);
+        assert_eq!(first.or_nearer(nearest(-1.0, -0.37)), first);
+        let nearer = nearest(-1.0, -0.369);
+        assert_eq!(first.or_nearer(nearer), nearer);
+    }
+}

@@ -108,3 +108,62 @@ fn pushes_away<S: Scalar>(desired: &Desired<S>, force_n: Vector<S>) -> bool {
         None => false,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rows, velocity, force, direction, along, towards: sound ones.
+    const SOUND: [[f64; 2]; 9] = [
+        [1.3, -2.1],
+        [-0.7, 1.9],
+        [2.3, 0.9],
+        [-1.1, -0.4],
+        [0.11, -0.07],
+        [3.1, -1.7],
+        [0.8, 0.6],
+        [1.0, 0.1],
+        [-0.1, 1.0],
+    ];
+
+    fn takes(numbers: [[f64; 2]; 9]) -> bool {
+        let [a, e, b, c, velocity, force, direction, along, towards] = numbers.map(Vector::from);
+        let desired = Desired {
+            direction,
+            along,
+            towards: Some(towards),
+        };
+        is_sound(&[a, e, b, c].map(Some), &[velocity, force], &desired)
+    }
+
+    #[test]
+    fn a_number_of_no_rig_is_refused_wherever_it_stands() {
+        assert!(takes(SOUND));
+        for bad in [
+            f64::NAN,
+            f64::INFINITY,
+            f64::NEG_INFINITY,
+            1.000_1e6,
+            -1e300,
+        ] {
+            for place in 0..SOUND.len() {
+                for component in 0..2 {
+                    let mut numbers = SOUND;
+                    numbers[place][component] = bad;
+                    assert!(!takes(numbers), "{numbers:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_row_as_of_a_joint_a_kilometre_away_is_refused() {
+        for place in 0..4 {
+            for (row, is_taken) in [([0.7e-3, 0.7e-3], false), ([-0.8e-3, 0.7e-3], true)] {
+                let mut numbers = SOUND;
+                numbers[place] = row;
+                assert_eq!(takes(numbers), is_taken);
+            }
+        }
+    }
+}

@@ -120,4 +120,14 @@ mod tests {
             assert!(velocity.update(travel).is_finite());
         }
     }
+
+    #[test]
+    fn a_joint_that_is_restarted_has_no_rate_where_it_stands() {
+        let mut velocity = estimator();
+        for travel in [3, 17, 41, 60] {
+            velocity.update(travel);
+        }
+        velocity.restart(613);
+        assert_eq!(velocity.update(613), 0.0);
+    }
 }

@@ -144,3 +144,19 @@ fn pair<R: Real>([one, other]: [Vector<R>; 2], force_n: Vector<R>) -> Option<[R;
     let [one_nm, other_nm] = torques_nm;
     (one_nm >= R::zero() && other_nm >= R::zero()).then_some(torques_nm)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn brakes_that_push_along_one_line_to_a_billionth_are_no_pair() {
+        let between = Vector::new(1.0, 0.4e-9);
+        for (sine, is_pair) in [(0.9e-9, false), (1.1e-9, true)] {
+            for [one, other] in [[13.0, 0.07], [0.07, 13.0], [17.0, 19.0], [0.03, 0.05]] {
+                let forces = [Vector::new(one, 0.0), Vector::new(other, other * sine)];
+                assert_eq!(pair(forces, between).is_some(), is_pair, "{forces:?}");
+            }
+        }
+    }
+}

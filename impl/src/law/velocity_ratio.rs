@@ -133,3 +133,37 @@ fn coupling<R: Real>(
     }
     best.map(|(_, joint)| joint)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BASE: [Vector<f64>; 2] = [Vector::new(1.7, 0.0), Vector::new(0.0, 1.3)];
+
+    #[test]
+    fn a_link_that_stands_is_not_sped_up_by_a_coupling_brake() {
+        // The joint's rate is the difference of the links': its brake slows the one and speeds up the other.
+        let rows = [None, Some(Vector::new(1.7, -1.3)), None, None];
+        for speed in [0.31, -0.31] {
+            for (actual, fast_a) in [([speed, 0.2 * speed], true), ([0.2 * speed, speed], false)] {
+                assert_eq!(coupling(&rows, BASE, actual.into(), fast_a), Some(Joint::E));
+            }
+            for (actual, fast_a) in [([speed, 0.0], true), ([0.0, speed], false)] {
+                assert_eq!(coupling(&rows, BASE, actual.into(), fast_a), None);
+            }
+        }
+    }
+
+    #[test]
+    fn of_two_coupling_brakes_the_one_that_takes_more_acts_and_of_two_alike_the_first() {
+        let (weak, strong) = (Some(Vector::new(1.7, -1.3)), Some(Vector::new(2.9, -1.9)));
+        for (rows, expected) in [
+            ([None, weak, None, strong], Joint::C),
+            ([None, strong, None, weak], Joint::E),
+            ([None, weak, None, weak], Joint::E),
+        ] {
+            let actual = Vector::new(0.31, 0.07);
+            assert_eq!(coupling(&rows, BASE, actual, true), Some(expected));
+        }
+    }
+}

@@ -143,3 +143,40 @@ fn around<R: Real>(away_m: Vector<R>, before: Vector<R>, after: Vector<R>) -> Ne
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_two_pieces_as_near_the_first_along_the_chain_is_taken() {
+        let corners = [[-0.25, 1.0], [-0.25, -1.0], [0.25, -1.0], [0.25, 1.0]];
+        let chain = Polyline::<f64, 3>::open(&corners).unwrap();
+        let nearest = chain.nearest(Vector::new(0.0, 0.37));
+        assert_eq!(nearest.tangent, Vector::new(0.0, -1.0));
+        assert_eq!(nearest.offset_m, 0.25);
+    }
+
+    #[test]
+    fn outside_a_corner_is_the_right_of_a_chain_that_turns_left_and_the_left_of_one_that_turns_right()
+     {
+        let corners = [[-0.31, 0.17], [0.29, 0.17], [0.29, 0.63], [-0.31, 0.63]];
+        let mut back = corners;
+        back.reverse();
+        for (corners, side) in [(corners, -1.0), (back, 1.0)] {
+            let chain = Polyline::<f64, 4>::closed(&corners).unwrap();
+            // Three to the right and four down from the second corner, and turned so at the others.
+            for (point, [x, y]) in [
+                ([0.32, 0.13], [0.8, 0.6]),
+                ([0.33, 0.66], [-0.6, 0.8]),
+                ([-0.34, 0.67], [-0.8, -0.6]),
+                ([-0.35, 0.14], [0.6, -0.8]),
+            ] {
+                let nearest = chain.nearest(Vector::from(point));
+                assert!((nearest.offset_m - side * 0.05).abs() < 1e-15);
+                let along = Vector::new(-side * x, -side * y);
+                assert!((nearest.tangent - along).norm() < 1e-14, "{nearest:?}");
+            }
+        }
+    }
+}

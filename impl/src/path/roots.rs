@@ -169,6 +169,9 @@ mod tests {
         assert_eq!(bracketed(cubic), whole());
         let share = crossing(&cubic, 0.0, 1.0).unwrap_or(f64::NAN);
         assert!((share * share * share + share - 0.7).abs() < 1e-15);
+        // −0.1 + 2·x − 3.5·x² + 2·x³ turns twice but has one root and one change of sign.
+        let turning = [-0.1, 2.0, -3.5, 2.0, 0.0, 0.0];
+        assert_eq!(bracketed(turning), whole());
     }
 
     #[test]
@@ -186,5 +189,39 @@ mod tests {
             sum += binomial * b * libm::pow(x, f64::from(i)) * libm::pow(1.0 - x, f64::from(5 - i));
         }
         assert!((sum - value_and_slope(&coefficients, x).0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_crossing_lies_between_the_shares_it_was_looked_for_between() {
+        // Five roots that all but coincide: Newton's method alone goes elsewhere.
+        for (polynomial, low, high) in [
+            (
+                [
+                    -0.985_538_954_671_224_5,
+                    4.942_071_895_731_245,
+                    -9.912_981_715_925_536,
+                    9.941_903_562_990_454,
+                    -4.985_454_788_124_736,
+                    1.0,
+                ],
+                0.997_224_677_089_616_3,
+                0.997_433_427_962_159_7,
+            ),
+            (
+                [
+                    -0.004_538_316_980_522_644_6,
+                    0.066_755_452_544_392_79,
+                    -0.392_769_915_389_964_9,
+                    1.155_471_533_814_656,
+                    -1.699_612_240_525_003_6,
+                    1.0,
+                ],
+                0.339_373_518_305_024_1,
+                0.339_612_889_610_511_5,
+            ),
+        ] {
+            let share: f64 = crossing(&polynomial, low, high).unwrap();
+            assert!((low..=high).contains(&share), "{share}");
+        }
     }
 }

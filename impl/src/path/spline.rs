@@ -174,3 +174,59 @@ impl<R: Real, const N: usize> Path<R> for Spline<R, N> {
         best.or_nearer(straight_on(point_m - last.end_m, tangent, R::of(1.0)))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const POINTS: [[f64; 2]; 6] = [
+        [-0.31, 0.17],
+        [0.07, 0.63],
+        [0.11, 0.21],
+        [0.43, 0.29],
+        [0.13, 0.19],
+        [-0.27, 0.57],
+    ];
+
+    /// Every window of four of the points, in every order.
+    fn windows() -> impl Iterator<Item = [Vector<f64>; 4]> {
+        let orders = (0..6 * 6 * 6 * 6).map(|k| [k % 6, k / 6 % 6, k / 36 % 6, k / 216]);
+        let distinct = |order: &[usize; 4]| (1..4).all(|i| !order[..i].contains(&order[i]));
+        orders
+            .filter(distinct)
+            .map(|order| order.map(|place| POINTS[place].into()))
+    }
+
+    #[test]
+    fn the_disc_over_the_chord_holds_the_control_points() {
+        for window in windows() {
+            let piece = Cubic::<f64>::centripetal(window);
+            let [c_0, c_1, c_2, _] = piece.coefficients_m;
+            let (centre_m, radius_m) = piece.disc_m;
+            let inner_m = [
+                c_0 + c_1 * (1.0 / 3.0),
+                c_0 + c_1 * (2.0 / 3.0) + c_2 * (1.0 / 3.0),
+            ]
+            .map(|point_m| (point_m - centre_m).norm())
+            .into_iter()
+            .fold(0.0, f64::max);
+            let ends_m = (c_0 - centre_m).norm();
+            assert!((ends_m - (piece.end_m - centre_m).norm()).abs() < 1e-15);
+            assert!((radius_m - ends_m).abs() < 1e-15 && inner_m <= radius_m + 1e-15);
+        }
+    }
+
+    #[test]
+    fn a_piece_out_of_reach_is_left_out() {
+        let window = POINTS.map(Vector::from);
+        let piece = Cubic::<f64>::centripetal([window[0], window[1], window[2], window[3]]);
+        let (centre_m, radius_m) = piece.disc_m;
+        for distance_m in [0.07, 0.31, 2.3] {
+            for (share, is_left_out) in [(0.999, false), (1.001, true), (1.7, true)] {
+                let way_m = Vector::new(0.6, -0.8) * (share * (radius_m + distance_m));
+                let is_farther = piece.is_farther(centre_m + way_m, distance_m);
+                assert_eq!(is_farther, is_left_out, "{distance_m} {share}");
+            }
+        }
+    }
+}

@@ -151,4 +151,15 @@ mod tests {
             None
         );
     }
+
+    #[test]
+    fn a_component_counts_from_a_billionth_of_its_force_on() {
+        for (component, counts) in [(0.9e-9, 0), (1.1e-9, 1), (-1.1e-9, -1), (-3.7e-7, -1)] {
+            assert_eq!(
+                sign(component * 2.3, 0.7, 2.3 * 2.3),
+                counts,
+                "{component:e}"
+            );
+        }
+    }
 }

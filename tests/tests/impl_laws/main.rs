@@ -6,6 +6,7 @@ mod both;
 mod budget;
 mod idle;
 mod joined;
+mod paths;
 mod permitted;
 mod properties;
 mod sample;
