@@ -57,6 +57,6 @@ pub fn read_message_bytes(bytes: &[u8]) {
             // An error is a fine answer to damage.
             let _ = decoder.read(message, &mut flat, named);
         }
-        flat.leaves();
+        flat.learned();
     }
 }

@@ -193,13 +193,11 @@ impl Tally {
         let Ok(decoder) = &self.decoder else {
             return Ok(());
         };
-        decoder.read(message.data, flat, false)?;
-        if self.shapes.get(flat.shape()).is_none() {
-            decoder.read(message.data, flat, true)?;
-            let leaves = flat.leaves();
-            let (numbers, by_address) = (&mut self.numbers, &mut self.by_address);
+        let (numbers, by_address) = (&mut self.numbers, &mut self.by_address);
+        let name = &self.name;
+        let read = self.shapes.read(decoder, message.data, flat, |leaves| {
             let mut place = |leaf: &Leaf| {
-                let address = address::print(&self.name, leaf);
+                let address = address::print(name, leaf);
                 if let Some(place) = by_address.get(&address) {
                     return Some(*place);
                 }
@@ -210,26 +208,22 @@ impl Tally {
                     place
                 })
             };
-            let places = Places {
+            Places {
                 numbers: leaves.iter().map(&mut place).collect(),
-                stamp: stamp(&leaves),
-            };
-            self.shapes.add(flat.shape(), places);
-        }
-        let Some(places) = self.shapes.get(flat.shape()) else {
+                stamp: stamp(leaves),
+            }
+        })?;
+        let Some((places, values)) = read else {
             return Ok(());
         };
-        for (value, place) in flat.numbers.iter().zip(&places.numbers) {
+        for (at, place) in places.numbers.iter().enumerate() {
             if let Some(number) = place.and_then(|place| self.numbers.get_mut(place)) {
-                number.add(*value);
+                number.add(values.at(at));
             }
         }
-        let at = |place: usize| flat.numbers.get(place).copied();
-        if self.lags_s.len() < STAMPS
-            && let Some((s, ns)) = places.stamp
-            && let (Some(s), Some(ns)) = (at(s), at(ns))
-        {
-            self.lags_s.push(lag_s(message, s, ns));
+        if let (Some((s, ns)), true) = (places.stamp, self.lags_s.len() < STAMPS) {
+            let lag_s = lag_s(message, values.at(s), values.at(ns));
+            self.lags_s.push(lag_s);
         }
         Ok(())
     }
