@@ -3,10 +3,10 @@
 use rigproof_trace::mcap::{self, TopicSummary};
 use serde_json::{Value, json};
 
-use super::{Args, next, signal, signal::SignalView, skeleton, write_rig};
+use super::{Args, next, show, signal, signal::SignalView, skeleton, write_rig};
 use crate::outcome::{Failure, Outcome, print};
 use crate::text::number::significant;
-use crate::text::{join, section};
+use crate::text::section;
 
 /// Channels of a topic that never move and are shown.
 const MOST_STILL: usize = 8;
@@ -33,7 +33,13 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     let topics: Vec<TopicView> = topics.collect();
     if let Some(file) = &args.write_rig {
         let signals: Vec<&SignalView> = topics.iter().flat_map(|view| &view.signals).collect();
-        let text = skeleton::toml(&args.recording, None, &args.reading.hints(), &signals);
+        let time = args.time_column();
+        let text = skeleton::toml(
+            &args.recording,
+            time.as_ref(),
+            &args.reading.hints(),
+            &signals,
+        );
         write_rig(file, &text)?;
     }
     let integrity = summary.integrity.lines();
@@ -71,7 +77,7 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     sections.push(section("Metadata and attachments", metadata.chain(inside)));
     let seen = topics.iter().any(|view| !view.signals.is_empty());
     sections.push(section("Next", seen.then(|| format!("  {}", next(args)))));
-    print(&join(sections))
+    show(sections)
 }
 
 impl TopicView {

@@ -37,10 +37,8 @@ pub struct SignalView {
 impl SignalView {
     /// Of a channel that is at hand.
     pub fn of(channel: Channel) -> SignalView {
-        let mut values: Vec<f64> = channel.samples.clone();
-        values.retain(|x| x.is_finite());
+        let values = sorted(channel.samples.clone());
         let missing = channel.samples.len() - values.len();
-        values.sort_by(f64::total_cmp);
         SignalView {
             count: channel.samples.len() as u64,
             missing: missing as u64,
@@ -53,16 +51,24 @@ impl SignalView {
         }
     }
 
-    /// Of a channel that was summed up while its file went by; nobody looked for its grid.
+    /// Of a channel that was summed up while its file went by: the grid is made by the least step between neighbours,
+    /// and the values that were kept are looked at.
     pub fn of_summary(channel: ChannelSummary) -> SignalView {
         let middle = |(least, greatest): &(f64, f64)| least / 2.0 + greatest / 2.0;
         let range = (channel.minimum, channel.maximum);
+        let mut kept = channel.runs.concat();
+        kept.extend([channel.minimum, channel.maximum]);
+        let kept = sorted(kept);
+        // A step in the last bits only is none; the least one between the values kept is then.
+        let step = channel.quantum.filter(|step| *step > same(&kept));
         SignalView {
             count: channel.count + channel.not_finite,
             missing: channel.not_finite,
             range: Some(range).filter(|_| channel.count > 0),
-            quantum: channel.quantum.map(|step| (step, false)),
-            noise: None,
+            quantum: step
+                .map(|step| (step, is_grid(&kept, step)))
+                .or_else(|| quantum(&kept)),
+            noise: noise::of_runs(channel.runs.iter().copied()),
             outline: channel.outline.iter().map(middle).collect(),
             name: channel.address,
             unit: channel.unit,
@@ -132,25 +138,45 @@ pub fn lines(signals: &[SignalView], ascii: bool, most_still: usize) -> Vec<Stri
     rows.iter().map(line).chain(more).collect()
 }
 
+/// The values that are some, from the least to the greatest.
+fn sorted(mut values: Vec<f64>) -> Vec<f64> {
+    values.retain(|x| x.is_finite());
+    values.sort_by(f64::total_cmp);
+    values
+}
+
+/// What differs by less, in the last bits only, is one value.
+fn same(sorted: &[f64]) -> f64 {
+    let ends = [sorted.first(), sorted.last()].into_iter().flatten();
+    1e-13 * ends.fold(0.0, |most, end| end.abs().max(most))
+}
+
 /// The smallest step between sorted values, and whether all lie on the grid that it makes.
 fn quantum(sorted: &[f64]) -> Option<(f64, bool)> {
-    let (least, greatest) = (sorted.first()?, sorted.last()?);
-    let mut values: Vec<f64> = sorted.to_vec();
-    // What differs in the last bits only is one value.
-    let same = 1e-13 * least.abs().max(greatest.abs());
-    values.dedup_by(|b, a| *b - *a <= same);
-    let steps = values.windows(2).filter_map(|pair| match pair {
+    let same = same(sorted);
+    let steps = sorted.windows(2).filter_map(|pair| match pair {
         [a, b] => Some(b - a),
         _ => None,
     });
     let step = steps
+        .filter(|step| *step > same)
         .min_by(f64::total_cmp)
         .filter(|step| step.is_finite())?;
-    let on_grid = values.iter().all(|value| {
+    Some((step, is_grid(sorted, step)))
+}
+
+/// Whether sorted values, several of which differ, lie on a grid of this step.
+fn is_grid(sorted: &[f64], step: f64) -> bool {
+    let Some(least) = sorted.first() else {
+        return false;
+    };
+    let on_grid = |value: &f64| {
         let steps = (value - least) / step;
         steps < MOST_STEPS && (steps - steps.round()).abs() < OFF_GRID * steps.clamp(1.0, 10.0)
-    });
-    Some((step, on_grid && values.len() >= LEAST_VALUES))
+    };
+    let mut values = sorted.to_vec();
+    values.dedup_by(|b, a| *b - *a < step / 2.0);
+    values.len() >= LEAST_VALUES && sorted.iter().all(on_grid)
 }
 
 #[cfg(test)]

@@ -291,3 +291,50 @@ impl Feed {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::mcap::topics::Schema;
+
+    #[test]
+    fn an_address_far_down_another_topics_list_moves_no_number() {
+        let topic = |name: &str| {
+            let schema = Schema {
+                name: "a/msg/Lists".into(),
+                encoding: "ros2msg".into(),
+                data: b"float64[] x\nfloat64 y\n".to_vec(),
+            };
+            Topic::new(name, "cdr", Some(Arc::new(schema)), BTreeMap::new())
+        };
+        let wanted = |address: &str| Wanted {
+            address: address.into(),
+            between: Between::Line,
+        };
+        let mut feeds = Feeds::new(&Selection {
+            channels: vec![wanted("/a.y"), wanted("/b.x[150]")],
+            time: None,
+        });
+        let mut data = [[0, 1, 0, 0], 200_u32.to_le_bytes(), [0; 4]].concat();
+        for k in 0..=200 {
+            data.extend((0.25 + f64::from(k)).to_le_bytes());
+        }
+        let message = |topic: usize| Message {
+            topic,
+            log_time_ns: 7,
+            publish_time_ns: 11,
+            data: &data,
+        };
+        feeds.topic(0, &topic("/a"));
+        feeds.message(message(0));
+        feeds.topic(1, &topic("/b"));
+        for topic in [0, 1, 0, 0] {
+            feeds.message(message(topic));
+        }
+        assert_eq!(feeds.feeds[0].columns, [[200.25; 4]]);
+        assert_eq!(feeds.feeds[1].columns, [[150.25]]);
+    }
+}
