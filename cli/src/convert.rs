@@ -270,7 +270,10 @@ fn report(
 }
 
 fn parse_unit(text: &str) -> Result<(String, String), String> {
-    let (name, unit) = text.split_once('=').ok_or("write NAME=UNIT, such as u=N")?;
+    // A name may hold the mark itself, as `/joint_states.position[name=elbow]` does; a unit does not.
+    let (name, unit) = text
+        .rsplit_once('=')
+        .ok_or("write NAME=UNIT, such as u=N")?;
     match Unit::parse(unit) {
         Some(_) => Ok((name.to_string(), unit.to_string())),
         None => Err(format!("`{unit}` is no known unit")),

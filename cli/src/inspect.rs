@@ -83,8 +83,8 @@ fn text(args: &Args) -> Result<Outcome, Failure> {
     let (trace, dialect) = csv::read_as(&args.recording, time.as_ref(), &hints)?;
     let pace = Pace::of(&trace.time_s);
     let signals: Vec<SignalView> = trace.channels.into_iter().map(SignalView::of).collect();
+    let signals: Vec<&SignalView> = signals.iter().collect();
     if let Some(file) = &args.write_rig {
-        let signals: Vec<&SignalView> = signals.iter().collect();
         let text = skeleton::toml(&args.recording, time.as_ref(), &hints, &signals);
         write_rig(file, &text)?;
     }
@@ -196,7 +196,7 @@ fn variables(args: &Args, arrays: &Arrays) -> Result<Outcome, Failure> {
         vec![format!("{file}: {} variables", arrays.entries().len())],
         section(
             "Variables",
-            signal::lines(&signals, args.ascii, SHOWN)
+            signal::lines(&signals.iter().collect::<Vec<_>>(), args.ascii, SHOWN)
                 .into_iter()
                 .chain(more),
         ),

@@ -93,7 +93,14 @@ impl SignalView {
             (None, _) => "no sample".to_owned(),
             (Some((value, _)), None) => with_unit(value, unit),
             (Some((least, greatest)), _) => {
-                format!("{} to {}", significant(least, 4), with_unit(greatest, unit))
+                // As many digits as tell the ends apart.
+                let differ =
+                    |digits: &usize| significant(least, *digits) != significant(greatest, *digits);
+                let digits = (4..17).find(differ).unwrap_or(17);
+                let [least, greatest] = [least, greatest].map(|end| significant(end, digits));
+                format!("{least} to {greatest} {unit}")
+                    .trim_end()
+                    .to_owned()
             }
         };
         let quantum = match (self.quantum, self.noise) {
@@ -114,7 +121,7 @@ impl SignalView {
 }
 
 /// The channels in a table, and how many that never move are left out because there are too many of them.
-pub fn lines(signals: &[SignalView], ascii: bool, most_still: usize) -> Vec<String> {
+pub fn lines(signals: &[&SignalView], ascii: bool, most_still: usize) -> Vec<String> {
     let mut still = 0;
     let shown = signals.iter().filter(|signal| {
         still += usize::from(signal.quantum.is_none());
@@ -201,6 +208,13 @@ mod tests {
         let noise = (1..90).map(|k| libm::sin(1.7 * f64::from(k * k))).collect();
         assert!(!view(noise).quantum.unwrap().1);
         assert!(view(vec![2.5; 40]).quantum.is_none());
+    }
+
+    #[test]
+    fn a_range_has_as_many_digits_as_tell_its_ends_apart() {
+        let late = view(vec![1.490e9, 1.490e9 + 7.0]);
+        assert_eq!(late.cells(true)[2], "1.490000000e9 to 1.490000007e9 mm");
+        assert_eq!(view(vec![-2.5, 7.25]).cells(true)[2], "-2.500 to 7.250 mm");
     }
 
     #[test]
