@@ -106,11 +106,11 @@ fn cpu_s() -> Result<f64, Box<dyn Error>> {
     Ok(ns * 1e-9)
 }
 
+/// Reads a file through and answers its messages.
+type Way<'a> = dyn Fn() -> Result<usize, Box<dyn Error>> + 'a;
+
 /// Times every way a few times in turn, the first one being the measure, and prints the least time of each.
-fn race(
-    title: &str,
-    ways: &[(&str, &dyn Fn() -> Result<usize, Box<dyn Error>>)],
-) -> Result<(), Box<dyn Error>> {
+fn race(title: &str, ways: &[(&str, &Way<'_>)]) -> Result<(), Box<dyn Error>> {
     let mut least_s = vec![f64::INFINITY; ways.len()];
     let mut counts = vec![0; ways.len()];
     for _ in 0..ROUNDS {
