@@ -6,14 +6,14 @@ use std::path::{Path, PathBuf};
 
 use clap::ArgGroup;
 use rigproof_spec::units::Unit;
-use rigproof_trace::arrays::{Arrays, Selection, TimeSource};
+use rigproof_trace::arrays::{Arrays, PassedOver, Selection, TimeSource};
 use rigproof_trace::csv::{self, Dialect, TimeColumn};
 use rigproof_trace::mcap;
 use rigproof_trace::suggest::quoted;
 use rigproof_trace::{Trace, TraceError};
 use serde_json::{Value, json};
 
-use crate::outcome::{Failure, Outcome, print};
+use crate::outcome::{Failure, Outcome, plain, print};
 use crate::reading::{self, Reading};
 
 /// What is to be converted.
@@ -212,12 +212,18 @@ fn list(args: &Args, arrays: Option<&Arrays>) -> Result<Outcome, Failure> {
             .iter()
             .map(|e| json!({ "name": e.name, "rows": e.rows, "columns": e.columns }))
             .collect();
-        return print(&json!({ "file": file, "variables": variables }).to_string());
+        let left_out = arrays.passed_over().iter();
+        let left_out: Vec<String> = left_out.map(PassedOver::advice).collect();
+        let result = json!({ "file": file, "variables": variables, "not_read": left_out });
+        return print(&result.to_string());
     }
     let lines = entries
         .iter()
         .map(|e| format!("  {}  {} × {}", e.name, e.rows, e.columns));
-    let lines: Vec<String> = std::iter::once(file).chain(lines).collect();
+    let left_out = arrays.passed_over().iter();
+    let left_out = left_out.map(|other| format!("  {}", other.advice()));
+    let lines = std::iter::once(file).chain(lines).chain(left_out);
+    let lines: Vec<String> = lines.map(|line| plain(&line)).collect();
     print(&lines.join("\n"))
 }
 
@@ -264,7 +270,10 @@ fn report(
 }
 
 fn parse_unit(text: &str) -> Result<(String, String), String> {
-    let (name, unit) = text.split_once('=').ok_or("write NAME=UNIT, such as u=N")?;
+    // A name may hold the mark itself, as `/joint_states.position[name=elbow]` does; a unit does not.
+    let (name, unit) = text
+        .rsplit_once('=')
+        .ok_or("write NAME=UNIT, such as u=N")?;
     match Unit::parse(unit) {
         Some(_) => Ok((name.to_string(), unit.to_string())),
         None => Err(format!("`{unit}` is no known unit")),

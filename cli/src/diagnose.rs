@@ -9,7 +9,7 @@ use rigproof_trace::store::Folder;
 
 use crate::input::{self, Cut, Source};
 use crate::outcome::{Failure, Outcome, print};
-use crate::{folder, progress, reading, shell, text};
+use crate::{folder, progress, shell, text};
 
 /// What is to be diagnosed.
 #[derive(clap::Args)]
@@ -50,23 +50,19 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     let rig = Rig::read(&args.source.rig)?;
     let source = &args.source;
     let read = |file: &PathBuf, cut| input::recording(&rig, file, cut, &source.reading);
-    let (recording, dialect) = read(&source.recording, source.cut)?;
+    let (recording, how) = read(&source.recording, source.cut)?;
     let held_out = match &args.hold_out {
         Some(file) => Some((file, read(file, Cut::default())?)),
         None => None,
     };
-    let mut files = vec![(&source.recording, dialect)];
-    files.extend(
-        held_out
-            .iter()
-            .map(|(file, (_, dialect))| (*file, *dialect)),
-    );
-    let dialects: Vec<String> = files
+    let mut recordings = vec![(&source.recording, &how)];
+    recordings.extend(held_out.iter().map(|(file, (_, how))| (*file, how)));
+    let read_as: Vec<String> = recordings
         .iter()
-        .filter_map(|(file, dialect)| Some(reading::in_words(file, dialect.as_ref()?)))
+        .flat_map(|(file, how)| how.lines(file))
         .collect();
-    files.push((&source.rig, None));
-    let identities = files.into_iter();
+    let files = recordings.iter().map(|(file, how)| (*file, how.dialect()));
+    let identities = files.chain([(&source.rig, None)]);
     let identities = identities.map(|(file, dialect)| input::identity(file, dialect));
     let identities = identities.collect::<Result<Vec<_>, _>>()?;
     let options = Options {
@@ -78,7 +74,7 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     let mut diagnosis = diagnose(&rig, &recording, held_out.as_ref(), &options);
     drop(mark);
     diagnosis.report.inputs = identities;
-    diagnosis.report.protocol.extend(dialects);
+    diagnosis.report.protocol.extend(read_as);
     let folder = Folder::begin(&out)?;
     let files = folder::write(&folder, &rig.name, &mut diagnosis)?;
     folder.finish()?;

@@ -9,10 +9,11 @@ use rigproof_trace::csv::{Dialect, LEAST_SAMPLES};
 use rigproof_trace::mcap;
 use rigproof_trace::rig::{Recording, Rig, Signal};
 use rigproof_trace::{Place, TraceError};
+use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
 use crate::outcome::{self, Failure};
-use crate::reading::Reading;
+use crate::reading::{self, Reading};
 
 /// Which part of a recording counts.
 #[derive(Clone, Copy, Debug, Default, clap::Args)]
@@ -39,22 +40,58 @@ pub struct Source {
     pub reading: Reading,
 }
 
-/// Reads a recording of a rig, and says how it was read where it is text.
+/// How a recording was read.
+#[derive(Clone, Debug)]
+pub enum HowRead {
+    /// As text in this dialect.
+    Text(Dialect),
+    /// As MCAP: check sums, what is missing, which times, what was resampled.
+    Messages(Vec<String>),
+}
+
+impl HowRead {
+    /// For a person, a line each; `file` is what they name.
+    pub fn lines(&self, file: &Path) -> Vec<String> {
+        match self {
+            HowRead::Text(dialect) => vec![reading::in_words(file, dialect)],
+            HowRead::Messages(lines) => {
+                let lines = lines.iter();
+                lines
+                    .map(|line| format!("{}: {line}", file.display()))
+                    .collect()
+            }
+        }
+    }
+
+    /// The dialect, or the lines of an MCAP file.
+    pub fn json(&self) -> Value {
+        match self {
+            HowRead::Text(dialect) => reading::in_json(*dialect),
+            HowRead::Messages(lines) => json!(lines),
+        }
+    }
+
+    /// The dialect of a text.
+    pub fn dialect(&self) -> Option<Dialect> {
+        match self {
+            HowRead::Text(dialect) => Some(*dialect),
+            HowRead::Messages(_) => None,
+        }
+    }
+}
+
+/// Reads a recording of a rig, and says how it was read.
 ///
 /// # Errors
 /// The file is not usable.
-pub fn whole(
-    rig: &Rig,
-    file: &Path,
-    reading: &Reading,
-) -> Result<(Recording, Option<Dialect>), Failure> {
+pub fn whole(rig: &Rig, file: &Path, reading: &Reading) -> Result<(Recording, HowRead), Failure> {
     if mcap::is_mcap(file)? {
         let (recording, lines) = rig.read_mcap(file)?;
-        outcome::note(file, &lines);
-        return Ok((recording, None));
+        let lines = lines.iter().map(|line| outcome::plain(line)).collect();
+        return Ok((recording, HowRead::Messages(lines)));
     }
     let (recording, dialect) = rig.read_text(file, &reading.hints())?;
-    Ok((recording, Some(dialect)))
+    Ok((recording, HowRead::Text(dialect)))
 }
 
 /// Reads a recording of a rig and cuts it, and says how it was read.
@@ -66,8 +103,8 @@ pub fn recording(
     file: &Path,
     cut: Cut,
     reading: &Reading,
-) -> Result<(Recording, Option<Dialect>), Failure> {
-    let (recording, dialect) = whole(rig, file, reading)?;
+) -> Result<(Recording, HowRead), Failure> {
+    let (recording, how) = whole(rig, file, reading)?;
     let first_s = cut.from_s.unwrap_or(f64::NEG_INFINITY);
     let last_s = cut.to_s.unwrap_or(f64::INFINITY);
     let kept: Vec<bool> = recording
@@ -92,7 +129,7 @@ pub fn recording(
         simulated: recording.simulated.as_ref().map(|s| signal(s, &kept)),
         ..recording
     };
-    Ok((cut, dialect))
+    Ok((cut, how))
 }
 
 /// A file's path as given, its SHA-256, and how it was read if it is a text recording.

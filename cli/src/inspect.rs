@@ -9,12 +9,12 @@ mod sparkline;
 
 use std::path::{Path, PathBuf};
 
-use rigproof_trace::arrays::Arrays;
+use rigproof_trace::arrays::{Arrays, PassedOver};
 use rigproof_trace::csv::{self, Dialect, TimeColumn};
 use rigproof_trace::{Channel, mcap};
 use serde_json::{Value, json};
 
-use crate::outcome::{Failure, Outcome, print};
+use crate::outcome::{Failure, Outcome, plain, print};
 use crate::reading::{self, Reading};
 use crate::shell;
 use crate::text::{join, section};
@@ -30,7 +30,8 @@ const SHOWN: usize = 64;
 pub struct Args {
     /// The recording: CSV in any dialect, MCAP, HDF5 or MATLAB (version 5 to 7.3), told apart by its content
     recording: PathBuf,
-    /// The column that holds the time, where its name does not say so
+    /// The column that holds the time, where its name does not say so; of MCAP `log_time`, `publish_time` or a field such
+    /// as `header.stamp`
     #[arg(long, value_name = "NAME")]
     time_from: Option<String>,
     /// A rig description to begin with; what must be filled in says so
@@ -44,6 +45,15 @@ pub struct Args {
     json: bool,
     #[command(flatten)]
     reading: Reading,
+}
+
+impl Args {
+    fn time_column(&self) -> Option<TimeColumn> {
+        self.time_from.as_ref().map(|name| TimeColumn {
+            name: name.clone(),
+            unit: String::new(),
+        })
+    }
 }
 
 const AFTER_HELP: &str = "\
@@ -68,16 +78,13 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
 
 /// A text recording.
 fn text(args: &Args) -> Result<Outcome, Failure> {
-    let time = args.time_from.as_ref().map(|name| TimeColumn {
-        name: name.clone(),
-        unit: String::new(),
-    });
+    let time = args.time_column();
     let hints = args.reading.hints();
     let (trace, dialect) = csv::read_as(&args.recording, time.as_ref(), &hints)?;
     let pace = Pace::of(&trace.time_s);
     let signals: Vec<SignalView> = trace.channels.into_iter().map(SignalView::of).collect();
+    let signals: Vec<&SignalView> = signals.iter().collect();
     if let Some(file) = &args.write_rig {
-        let signals: Vec<&SignalView> = signals.iter().collect();
         let text = skeleton::toml(&args.recording, time.as_ref(), &hints, &signals);
         write_rig(file, &text)?;
     }
@@ -93,24 +100,29 @@ fn text(args: &Args) -> Result<Outcome, Failure> {
         );
         return print(&result.to_string());
     }
-    print(&join([
-        vec![head(
-            &args.recording,
-            trace.time_s.len(),
-            signals.len(),
-            &dialect,
-        )],
+    show([
+        head(&args.recording, trace.time_s.len(), signals.len(), &dialect),
         section("Time", pace.lines()),
         section("Channels", signal::lines(&signals, args.ascii, usize::MAX)),
         section("Next", [format!("  {}", next(args))]),
-    ]))
+    ])
 }
 
-fn head(file: &Path, samples: usize, channels: usize, dialect: &Dialect) -> String {
-    format!(
-        "{}: {samples} samples of {channels} channels\nread as: {dialect}",
-        file.display()
-    )
+fn head(file: &Path, samples: usize, channels: usize, dialect: &Dialect) -> Vec<String> {
+    vec![
+        format!(
+            "{}: {samples} samples of {channels} channels",
+            file.display()
+        ),
+        format!("read as: {dialect}"),
+    ]
+}
+
+/// Prints sections; what a file calls things cannot steer the terminal.
+fn show(sections: impl IntoIterator<Item = Vec<String>>) -> Result<Outcome, Failure> {
+    let sections = sections.into_iter();
+    let sections = sections.map(|lines| lines.iter().map(|line| plain(line)).collect());
+    print(&join(sections))
 }
 
 fn next(args: &Args) -> String {
@@ -159,10 +171,16 @@ fn variables(args: &Args, arrays: &Arrays) -> Result<Outcome, Failure> {
         }));
     }
     let left_out = columns.count() - signals.len();
+    let not_read: Vec<String> = arrays
+        .passed_over()
+        .iter()
+        .map(PassedOver::advice)
+        .collect();
     if args.json {
         let channels: Vec<Value> = signals.iter().map(|s| s.json(args.ascii)).collect();
-        let result =
-            json!({ "file": file.to_string(), "channels": channels, "left_out": left_out });
+        let result = json!({
+            "file": file.to_string(), "channels": channels, "left_out": left_out, "not_read": not_read,
+        });
         return print(&result.to_string());
     }
     let more =
@@ -174,14 +192,15 @@ fn variables(args: &Args, arrays: &Arrays) -> Result<Outcome, Failure> {
             &[("", &args.recording), ("", Path::new("run.csv"))]
         )
     );
-    print(&join([
+    show([
         vec![format!("{file}: {} variables", arrays.entries().len())],
         section(
             "Variables",
-            signal::lines(&signals, args.ascii, SHOWN)
+            signal::lines(&signals.iter().collect::<Vec<_>>(), args.ascii, SHOWN)
                 .into_iter()
                 .chain(more),
         ),
-        section("Next", [advice]),
-    ]))
+        section("Not read", not_read.iter().map(|line| format!("  {line}"))),
+        section("Next", (!signals.is_empty()).then_some(advice)),
+    ])
 }

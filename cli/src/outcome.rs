@@ -73,27 +73,26 @@ pub fn exit(result: Result<Outcome, Failure>) -> ExitCode {
         Err(Failure::Input(message)) => (3, message),
     };
     // An input may hold anything; the message stays on one line and cannot steer the terminal.
-    let message: String = message.chars().map(shown).collect();
     // Nobody is left to be told when this fails.
-    let _ = writeln!(io::stderr(), "error: {message}");
+    let _ = writeln!(io::stderr(), "error: {}", plain(&message));
     ExitCode::from(code)
 }
 
 /// Says beside the result how a file was read and what of it is missing.
 pub fn note(file: &Path, lines: &[String]) {
     for line in lines {
-        let line: String = line.chars().map(shown).collect();
         // Nobody is left to be told when this fails.
-        let _ = writeln!(io::stderr(), "{}: {line}", file.display());
+        let _ = writeln!(io::stderr(), "{}: {}", file.display(), plain(line));
     }
 }
 
-/// A character of an input as it may be printed: none that steers the terminal or ends the line.
-fn shown(character: char) -> char {
-    match character.is_control() {
+/// A text of an input as it may be printed: nothing in it steers the terminal or ends the line.
+pub fn plain(text: &str) -> String {
+    let shown = |character: char| match character.is_control() {
         true => '\u{fffd}',
         false => character,
-    }
+    };
+    text.chars().map(shown).collect()
 }
 
 /// Prints the result of a verb on standard output; a reader that went away is no error.

@@ -8,15 +8,14 @@ use rigproof_diagnose::run::{PlantKind, Run};
 use rigproof_diagnose::simulate::{Protocol, output};
 use rigproof_spec::effect::Quantity;
 use rigproof_trace::compare::{Comparison, compare};
-use rigproof_trace::csv::Dialect;
 use rigproof_trace::rig::{Rig, motion_name};
 use rigproof_trace::{Channel, Trace, csv};
 use serde_json::json;
 
-use crate::input::{self, Source};
+use crate::input::{self, HowRead, Source};
 use crate::outcome::{Failure, Outcome, print};
+use crate::progress;
 use crate::text::number::{significant, with_unit};
-use crate::{progress, reading};
 
 /// What is to be simulated.
 #[derive(clap::Args)]
@@ -46,8 +45,7 @@ Example:
 pub fn run(args: &Args) -> Result<Outcome, Failure> {
     let rig = Rig::read(&args.source.rig)?;
     let source = &args.source;
-    let (recording, dialect) =
-        input::recording(&rig, &source.recording, source.cut, &source.reading)?;
+    let (recording, how) = input::recording(&rig, &source.recording, source.cut, &source.reading)?;
     let model = model(args, &rig)?;
     let run = from_rig::aligned(&model, &recording)
         .map_err(|fault| Failure::Input(refusal(&args.source.recording, &fault)))?;
@@ -78,7 +76,7 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
         };
         csv::write(out, &trace)?;
     }
-    say(args, &unit, &comparison, dialect)
+    say(args, &unit, &comparison, &how)
 }
 
 /// The rig whose numbers count.
@@ -133,13 +131,13 @@ fn say(
     args: &Args,
     unit: &str,
     comparison: &Comparison,
-    dialect: Option<Dialect>,
+    how: &HowRead,
 ) -> Result<Outcome, Failure> {
     let path = |path: &Option<PathBuf>| path.as_ref().map(|path| path.display().to_string());
     if args.json {
         let result = json!({
             "recording": args.source.recording.display().to_string(),
-            "read_as": dialect.map(reading::in_json),
+            "read_as": how.json(),
             "rig": args.source.rig.display().to_string(),
             "calibration": path(&args.calibration),
             "unit": unit,
@@ -161,7 +159,10 @@ fn say(
         format!("  maximum  {}", with_unit(comparison.maximum, unit)),
         format!("  NRMSE    {nrmse}"),
     ];
-    lines.extend(dialect.map(|dialect| format!("  read as  {dialect}")));
+    lines.extend(match how {
+        HowRead::Text(dialect) => vec![format!("  read as  {dialect}")],
+        HowRead::Messages(lines) => lines.iter().map(|line| format!("  {line}")).collect(),
+    });
     lines.extend(path(&args.out).map(|file| format!("  file     {file}")));
     print(&lines.join("\n"))
 }

@@ -75,6 +75,19 @@ fn text_goes_to_mcap_and_back_to_the_same_bytes() {
     ] {
         assert!(listed.contains(expected), "{listed}");
     }
+    let position = "/joint_states.position[name=x]";
+    let taken = rigproof(&[
+        "convert",
+        &path("run.MCAP"),
+        &path("position.csv"),
+        "--variables",
+        position,
+        "--unit",
+        &format!("{position}=m"),
+    ]);
+    assert_eq!(taken.status.code(), Some(0), "{taken:?}");
+    let text = fs::read_to_string(path("position.csv")).unwrap();
+    assert!(text.contains(&format!("{position} (m)")), "{text:.200}");
     let refused = rigproof(&[
         "convert",
         &path("in.csv"),

@@ -29,7 +29,42 @@ pub struct PassedOver {
     /// The name.
     pub name: String,
     /// What it is.
-    pub what: &'static str,
+    pub what: Other,
+}
+
+/// What is no array of real numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Other {
+    /// A `timeseries`, a table, a text of the newer kind: MATLAB does not say how they are laid out.
+    Object,
+    /// A cell array.
+    Cells,
+    /// Complex numbers.
+    Complex,
+    /// Numbers in more than two dimensions.
+    ManyDimensions,
+}
+
+impl PassedOver {
+    /// "`ts` is an object of MATLAB, which is not read; …", with what to save instead.
+    pub fn advice(&self) -> String {
+        let name = &self.name;
+        let (what, instead) = match self.what {
+            Other::Object => (
+                "is an object of MATLAB",
+                format!("`t = {name}.Time; x = {name}.Data`"),
+            ),
+            Other::Cells => ("is a cell array", format!("`x = {name}{{1}}`")),
+            Other::Complex => ("is complex", format!("`x = real({name})`")),
+            Other::ManyDimensions => (
+                "has more than two dimensions",
+                format!("`x = squeeze({name}(1, 1, :))`"),
+            ),
+        };
+        format!(
+            "`{name}` {what}, which is not read; in MATLAB, save its numbers as arrays, such as {instead}"
+        )
+    }
 }
 
 /// The most numbers that are read of one array: 1 GiB.
@@ -124,10 +159,8 @@ impl Arrays {
             .passed_over
             .iter()
             .find(|other| from_matlab(name).starts_with(&other.name));
-        if let Some(PassedOver { name, what }) = own {
-            return format!(
-                "`{name}` is {what}, which is not read; in MATLAB, save its numbers as arrays, such as `t = {name}.Time; x = {name}.Data`"
-            );
+        if let Some(own) = own {
+            return own.advice();
         }
         let names: Vec<&str> = self.entries.iter().map(|e| e.name.as_str()).collect();
         let advice = advice(name, "variables", &names);

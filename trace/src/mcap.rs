@@ -25,6 +25,7 @@ mod source;
 mod stream;
 mod summary;
 mod topics;
+mod track;
 mod write;
 
 pub use fuzz::{read_bytes, read_message_bytes};

@@ -1,10 +1,11 @@
 //! This file damages MCAP files in every place: nothing panics, nothing changes in silence, what is missing is said.
 
-use std::collections::BTreeMap;
+mod chunked;
+
 use std::io::Cursor;
 use std::path::Path;
 
-use mcap::records::{MessageHeader, op};
+use mcap::records::op;
 use mcap::{Compression, WriteOptions};
 use rigproof_trace::mcap::{
     Between, Check, Extras, Selection, Summary, Wanted, read_bytes, read_from, summarise, to_bytes,
@@ -36,33 +37,10 @@ fn back(bytes: &[u8]) -> Option<Trace> {
     read.ok().map(|reading| reading.trace)
 }
 
-/// A file of `count` messages, four to a chunk, through the format's own crate.
+/// A file of `count` messages, four to a chunk.
 fn chunked(count: u32, compression: Option<Compression>, options: WriteOptions) -> Vec<u8> {
-    let mut bytes = Cursor::new(Vec::new());
-    let options = options.compression(compression).chunk_size(None);
-    let mut writer = options.create(&mut bytes).unwrap();
-    let channel = writer
-        .add_channel(0, "/load", "json", &BTreeMap::new())
-        .unwrap();
-    for sequence in 0..count {
-        let time = 7_000_003 + 1_000_017 * u64::from(sequence);
-        let header = MessageHeader {
-            channel_id: channel,
-            sequence,
-            log_time: time,
-            publish_time: time,
-        };
-        let text = format!("{{\"x\": {}.25}}", sequence + 3);
-        writer
-            .write_to_known_channel(&header, text.as_bytes())
-            .unwrap();
-        if sequence % 4 == 3 {
-            writer.flush().unwrap();
-        }
-    }
-    writer.finish().unwrap();
-    drop(writer);
-    bytes.into_inner()
+    let messages = (0..count).map(|k| format!("{{\"x\": {}.25}}", k + 3).into_bytes());
+    chunked::chunked(options.compression(compression), "/load", 4, messages)
 }
 
 /// The places of the chunks in a file.

@@ -1,10 +1,10 @@
 //! This file reads more than fits the memory and measures what the process took.
 
-use std::collections::BTreeMap;
+mod chunked;
+
 use std::io::{Cursor, Read};
 use std::path::Path;
 
-use mcap::records::MessageHeader;
 use mcap::{Compression, WriteOptions};
 use rigproof_trace::mcap::{read_bytes, summarise};
 
@@ -15,32 +15,16 @@ fn peak_mb() -> Option<f64> {
     Some(line.split_whitespace().nth(1)?.parse::<f64>().ok()? / 1024.0)
 }
 
-/// Two chunks of a megabyte each, the channel in both, and nothing behind.
+/// A file of one chunk, whose messages have so many bytes each.
 fn piece(compression: Option<Compression>, bytes_each: usize, count: u32) -> Vec<u8> {
-    let mut bytes = Cursor::new(Vec::new());
-    let options = WriteOptions::new()
-        .compression(compression)
-        .chunk_size(None);
-    let mut writer = options.create(&mut bytes).unwrap();
-    let channel = writer
-        .add_channel(0, "/bulk", "json", &BTreeMap::new())
-        .unwrap();
-    for sequence in 0..count {
-        let time = 11_000_003 + 1_000_017 * u64::from(sequence);
-        let header = MessageHeader {
-            channel_id: channel,
-            sequence,
-            log_time: time,
-            publish_time: time,
-        };
-        let mut text = format!("{{\"x\": {}.25, \"rest\": \"", sequence + 3).into_bytes();
-        text.resize(bytes_each - 2, b'a' + (sequence % 23) as u8);
+    let messages = (0..count).map(|k| {
+        let mut text = format!("{{\"x\": {}.25, \"rest\": \"", k + 3).into_bytes();
+        text.resize(bytes_each - 2, b'a' + (k % 23) as u8);
         text.extend(b"\"}");
-        writer.write_to_known_channel(&header, &text).unwrap();
-    }
-    writer.finish().unwrap();
-    drop(writer);
-    bytes.into_inner()
+        text
+    });
+    let options = WriteOptions::new().compression(compression);
+    chunked::chunked(options, "/bulk", u32::MAX, messages)
 }
 
 /// The bytes of the first chunk of a file, its head included.

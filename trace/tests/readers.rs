@@ -144,3 +144,8 @@ fn no_bytes_make_the_message_reader_panic() {
     seeds.extend(corpus("mcap"));
     feed(&seeds, mcap::read_bytes);
 }
+
+#[test]
+fn no_bytes_make_a_decoder_panic_or_remember() {
+    feed(&corpus("messages"), mcap::read_message_bytes);
+}

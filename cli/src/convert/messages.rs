@@ -106,7 +106,8 @@ fn list(args: &Args) -> Result<Outcome, Failure> {
         .into_iter()
         .map(|line| format!("  {line}"));
     let topics = summary.topics.iter().flat_map(topic_lines);
-    let lines: Vec<String> = head.chain(said).chain(topics).collect();
+    let lines = head.chain(said).chain(topics);
+    let lines: Vec<String> = lines.map(|line| outcome::plain(&line)).collect();
     print(&lines.join("\n"))
 }
 

@@ -5,13 +5,13 @@ use std::path::{Path, PathBuf};
 
 use rigproof_diagnose::identify::{Identified, identify};
 use rigproof_trace::TraceError;
-use rigproof_trace::csv::Dialect;
 use rigproof_trace::rig::{Brake, Recording, Rig};
 use rigproof_trace::store::write_aside;
 
 use super::words;
+use crate::input::HowRead;
 use crate::outcome::{Failure, Outcome, print};
-use crate::reading::{self, Reading};
+use crate::reading::Reading;
 use crate::text::{join, section};
 use crate::{input, progress, shell};
 
@@ -19,7 +19,7 @@ use crate::{input, progress, shell};
 #[derive(clap::Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct Args {
-    /// The recordings, CSV: steps of current at constant speeds, and motion that reverses at constant current
+    /// The recordings, CSV or MCAP: steps of current at constant speeds, and motion that reverses at constant current
     #[arg(required = true)]
     recordings: Vec<PathBuf>,
     /// The rig description: a turning bench with position, torque and current
@@ -53,10 +53,10 @@ pub fn run<'a>(args: &'a Args) -> Result<Outcome, Failure> {
     let out = out(args)?;
     once_each(&args.recordings)?;
     let rig = Rig::read(&args.rig)?;
-    let mut dialects: Vec<(&PathBuf, Dialect)> = Vec::new();
+    let mut read_as: Vec<(&PathBuf, HowRead)> = Vec::new();
     let read = |file: &'a PathBuf| -> Result<(String, Recording), Failure> {
-        let (recording, dialect) = input::whole(&rig, file, &args.reading)?;
-        dialects.extend(dialect.map(|dialect| (file, dialect)));
+        let (recording, how) = input::whole(&rig, file, &args.reading)?;
+        read_as.push((file, how));
         Ok((file.display().to_string(), recording))
     };
     let recordings = args.recordings.iter().map(read);
@@ -77,14 +77,11 @@ pub fn run<'a>(args: &'a Args) -> Result<Outcome, Failure> {
     let refused = written.as_ref().err().map(String::as_str);
     if args.json {
         let mut result = words::json(&found, file, refused);
-        let read_as = dialects
-            .iter()
-            .map(|(_, dialect)| reading::in_json(*dialect));
-        result["read_as"] = read_as.collect();
+        result["read_as"] = read_as.iter().map(|(_, how)| how.json()).collect();
         print(&result.to_string())?;
     } else {
-        let said = dialects.iter();
-        let said = said.map(|(file, dialect)| format!("  {}", reading::in_words(file, dialect)));
+        let said = read_as.iter().flat_map(|(file, how)| how.lines(file));
+        let said = said.map(|line| format!("  {line}"));
         let next = file.map(|file| next(args, file));
         print(&join(
             words::sections(&found, recordings.len())

@@ -3,15 +3,18 @@
 use rigproof_trace::mcap::{self, TopicSummary};
 use serde_json::{Value, json};
 
-use super::{Args, next, signal, signal::SignalView, skeleton, write_rig};
+use super::{Args, next, show, signal, signal::SignalView, skeleton, write_rig};
 use crate::outcome::{Failure, Outcome, print};
 use crate::text::number::significant;
-use crate::text::{join, section};
+use crate::text::section;
 
 /// Channels of a topic that never move and are shown.
 const MOST_STILL: usize = 8;
 /// A stamp that lies further from the writing of its message, in s, is of another clock: about three years.
 const ANOTHER_CLOCK_S: f64 = 1e8;
+
+/// Numbers of stamps that are named.
+const STAMPS: usize = 2;
 
 /// What was found of one topic.
 struct TopicView {
@@ -33,7 +36,13 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     let topics: Vec<TopicView> = topics.collect();
     if let Some(file) = &args.write_rig {
         let signals: Vec<&SignalView> = topics.iter().flat_map(|view| &view.signals).collect();
-        let text = skeleton::toml(&args.recording, None, &args.reading.hints(), &signals);
+        let time = args.time_column();
+        let text = skeleton::toml(
+            &args.recording,
+            time.as_ref(),
+            &args.reading.hints(),
+            &signals,
+        );
         write_rig(file, &text)?;
     }
     let integrity = summary.integrity.lines();
@@ -71,7 +80,7 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     sections.push(section("Metadata and attachments", metadata.chain(inside)));
     let seen = topics.iter().any(|view| !view.signals.is_empty());
     sections.push(section("Next", seen.then(|| format!("  {}", next(args)))));
-    print(&join(sections))
+    show(sections)
 }
 
 impl TopicView {
@@ -94,7 +103,7 @@ impl TopicView {
         lines.extend(
             (topic.damaged > 0).then(|| format!("  {} of them are damaged", topic.damaged)),
         );
-        if topic.messages > 1 {
+        if topic.messages > 2 {
             lines.push(format!(
                 "  rate {} Hz, a step of {} s (nine of ten: {} to {} s)",
                 s(1.0 / topic.step_s),
@@ -125,7 +134,19 @@ impl TopicView {
                 .as_ref()
                 .map(|why| format!("  not read: {why}")),
         );
-        lines.extend(signal::lines(&self.signals, ascii, MOST_STILL));
+        let (stamps, numbers): (Vec<_>, Vec<_>) = self
+            .signals
+            .iter()
+            .partition(|signal| is_stamp(&signal.name));
+        lines.extend(signal::lines(&numbers, ascii, MOST_STILL));
+        if numbers.is_empty() && topic.unreadable.is_none() && topic.messages > 0 {
+            lines.push("  no numbers in it".to_owned());
+        }
+        lines.extend((!stamps.is_empty()).then(|| {
+            let names = stamps.iter().map(|stamp| stamp.name.as_str());
+            let names: Vec<&str> = names.take(STAMPS).collect();
+            format!("  stamps: {}", names.join(", "))
+        }));
         lines
     }
 
@@ -140,4 +161,10 @@ impl TopicView {
             "channels": self.signals.iter().map(|signal| signal.json(ascii)).collect::<Vec<_>>(),
         })
     }
+}
+
+/// Whether a number is a part of a stamp, which is no channel to look at.
+fn is_stamp(name: &str) -> bool {
+    let part = name.rsplit_once(".stamp.").map(|(_, part)| part);
+    part.is_some_and(|part| ["sec", "nanosec", "nsec", "secs", "nsecs"].contains(&part))
 }

@@ -12,12 +12,17 @@ const VARIANCE: f64 = 20.0;
 /// Third differences take away what changes slowly from sample to sample, and their median what jumps now and then.
 /// What the motion makes within four samples counts as noise, so that slowly sampled channels look too noisy.
 pub fn of(samples: &[f64]) -> Option<f64> {
-    let mut sizes: Vec<f64> = samples
-        .windows(4)
-        .filter_map(|four| match four {
-            [a, b, c, d] => Some((d - 3.0 * c + 3.0 * b - a).abs()),
-            _ => None,
-        })
+    of_runs(
+        samples
+            .windows(4)
+            .filter_map(|run| run.first_chunk().copied()),
+    )
+}
+
+/// The same, of runs of four samples that follow each other.
+pub fn of_runs(runs: impl Iterator<Item = [f64; 4]>) -> Option<f64> {
+    let mut sizes: Vec<f64> = runs
+        .map(|[a, b, c, d]| (d - 3.0 * c + 3.0 * b - a).abs())
         .filter(|size| size.is_finite())
         .collect();
     sizes.sort_by(f64::total_cmp);
@@ -30,6 +35,8 @@ pub fn of(samples: &[f64]) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
+    use approx::assert_relative_eq;
+
     use super::*;
 
     #[test]
@@ -52,7 +59,7 @@ mod tests {
             .collect();
         samples[77] = f64::NAN;
         let noise = of(&samples).unwrap();
-        assert!((noise / 0.0237 - 1.0).abs() < 0.06, "{noise}");
+        assert_relative_eq!(noise, 0.0237, max_relative = 0.06);
         assert!(of(&samples[..40]).is_none());
         assert!(of(&[2.5; 90]).is_none());
     }

@@ -37,10 +37,8 @@ pub struct SignalView {
 impl SignalView {
     /// Of a channel that is at hand.
     pub fn of(channel: Channel) -> SignalView {
-        let mut values: Vec<f64> = channel.samples.clone();
-        values.retain(|x| x.is_finite());
+        let values = sorted(channel.samples.clone());
         let missing = channel.samples.len() - values.len();
-        values.sort_by(f64::total_cmp);
         SignalView {
             count: channel.samples.len() as u64,
             missing: missing as u64,
@@ -53,16 +51,24 @@ impl SignalView {
         }
     }
 
-    /// Of a channel that was summed up while its file went by; nobody looked for its grid.
+    /// Of a channel that was summed up while its file went by: the grid is made by the least step between neighbours,
+    /// and the values that were kept are looked at.
     pub fn of_summary(channel: ChannelSummary) -> SignalView {
         let middle = |(least, greatest): &(f64, f64)| least / 2.0 + greatest / 2.0;
         let range = (channel.minimum, channel.maximum);
+        let mut kept = channel.runs.concat();
+        kept.extend([channel.minimum, channel.maximum]);
+        let kept = sorted(kept);
+        // A step in the last bits only is none; the least one between the values kept is then.
+        let step = channel.quantum.filter(|step| *step > same(&kept));
         SignalView {
             count: channel.count + channel.not_finite,
             missing: channel.not_finite,
             range: Some(range).filter(|_| channel.count > 0),
-            quantum: channel.quantum.map(|step| (step, false)),
-            noise: None,
+            quantum: step
+                .map(|step| (step, is_grid(&kept, step)))
+                .or_else(|| quantum(&kept)),
+            noise: noise::of_runs(channel.runs.iter().copied()),
             outline: channel.outline.iter().map(middle).collect(),
             name: channel.address,
             unit: channel.unit,
@@ -87,7 +93,14 @@ impl SignalView {
             (None, _) => "no sample".to_owned(),
             (Some((value, _)), None) => with_unit(value, unit),
             (Some((least, greatest)), _) => {
-                format!("{} to {}", significant(least, 4), with_unit(greatest, unit))
+                // As many digits as tell the ends apart.
+                let differ =
+                    |digits: &usize| significant(least, *digits) != significant(greatest, *digits);
+                let digits = (4..17).find(differ).unwrap_or(17);
+                let [least, greatest] = [least, greatest].map(|end| significant(end, digits));
+                format!("{least} to {greatest} {unit}")
+                    .trim_end()
+                    .to_owned()
             }
         };
         let quantum = match (self.quantum, self.noise) {
@@ -108,7 +121,7 @@ impl SignalView {
 }
 
 /// The channels in a table, and how many that never move are left out because there are too many of them.
-pub fn lines(signals: &[SignalView], ascii: bool, most_still: usize) -> Vec<String> {
+pub fn lines(signals: &[&SignalView], ascii: bool, most_still: usize) -> Vec<String> {
     let mut still = 0;
     let shown = signals.iter().filter(|signal| {
         still += usize::from(signal.quantum.is_none());
@@ -132,25 +145,45 @@ pub fn lines(signals: &[SignalView], ascii: bool, most_still: usize) -> Vec<Stri
     rows.iter().map(line).chain(more).collect()
 }
 
+/// The values that are some, from the least to the greatest.
+fn sorted(mut values: Vec<f64>) -> Vec<f64> {
+    values.retain(|x| x.is_finite());
+    values.sort_by(f64::total_cmp);
+    values
+}
+
+/// What differs by less, in the last bits only, is one value.
+fn same(sorted: &[f64]) -> f64 {
+    let ends = [sorted.first(), sorted.last()].into_iter().flatten();
+    1e-13 * ends.fold(0.0, |most, end| end.abs().max(most))
+}
+
 /// The smallest step between sorted values, and whether all lie on the grid that it makes.
 fn quantum(sorted: &[f64]) -> Option<(f64, bool)> {
-    let (least, greatest) = (sorted.first()?, sorted.last()?);
-    let mut values: Vec<f64> = sorted.to_vec();
-    // What differs in the last bits only is one value.
-    let same = 1e-13 * least.abs().max(greatest.abs());
-    values.dedup_by(|b, a| *b - *a <= same);
-    let steps = values.windows(2).filter_map(|pair| match pair {
+    let same = same(sorted);
+    let steps = sorted.windows(2).filter_map(|pair| match pair {
         [a, b] => Some(b - a),
         _ => None,
     });
     let step = steps
+        .filter(|step| *step > same)
         .min_by(f64::total_cmp)
         .filter(|step| step.is_finite())?;
-    let on_grid = values.iter().all(|value| {
+    Some((step, is_grid(sorted, step)))
+}
+
+/// Whether sorted values, several of which differ, lie on a grid of this step.
+fn is_grid(sorted: &[f64], step: f64) -> bool {
+    let Some(least) = sorted.first() else {
+        return false;
+    };
+    let on_grid = |value: &f64| {
         let steps = (value - least) / step;
         steps < MOST_STEPS && (steps - steps.round()).abs() < OFF_GRID * steps.clamp(1.0, 10.0)
-    });
-    Some((step, on_grid && values.len() >= LEAST_VALUES))
+    };
+    let mut values = sorted.to_vec();
+    values.dedup_by(|b, a| *b - *a < step / 2.0);
+    values.len() >= LEAST_VALUES && sorted.iter().all(on_grid)
 }
 
 #[cfg(test)]
@@ -175,6 +208,13 @@ mod tests {
         let noise = (1..90).map(|k| libm::sin(1.7 * f64::from(k * k))).collect();
         assert!(!view(noise).quantum.unwrap().1);
         assert!(view(vec![2.5; 40]).quantum.is_none());
+    }
+
+    #[test]
+    fn a_range_has_as_many_digits_as_tell_its_ends_apart() {
+        let late = view(vec![1.490e9, 1.490e9 + 7.0]);
+        assert_eq!(late.cells(true)[2], "1.490000000e9 to 1.490000007e9 mm");
+        assert_eq!(view(vec![-2.5, 7.25]).cells(true)[2], "-2.500 to 7.250 mm");
     }
 
     #[test]

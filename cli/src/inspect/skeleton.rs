@@ -141,9 +141,15 @@ impl Role {
         let unit = |s: &SignalView| Unit::parse(&s.unit).map(|unit| unit.dimension);
         let by_unit = |s: &&SignalView| unit(s).is_some_and(|d| self.dimensions.contains(&d));
         let by_name = |s: &&SignalView| {
+            // Of an address, the field at its end.
             let name = s.name.to_lowercase();
-            let word = name.split(['_', ' ', '.', '[']).next().unwrap_or_default();
-            self.names.contains(&word)
+            let name = name.split('[').next().unwrap_or_default();
+            let field = name.rsplit('.').next().unwrap_or_default();
+            let mut words = [name, field].into_iter();
+            words.any(|name| {
+                let word = name.split(['_', ' ', '.']).next().unwrap_or_default();
+                self.names.contains(&word)
+            })
         };
         let no_unit = |s: &&SignalView| unit(s).is_none() && by_name(s);
         let filters: [&dyn Fn(&&SignalView) -> bool; 3] =

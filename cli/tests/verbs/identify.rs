@@ -123,6 +123,25 @@ fn recordings_become_a_brake_in_the_rig_file_that_the_program_takes() {
 }
 
 #[test]
+fn what_is_missing_of_an_mcap_recording_is_said() {
+    let desk = desk();
+    desk.prints("convert s6.csv s6.mcap", 0);
+    let mut bytes = std::fs::read(desk.path("s6.mcap")).unwrap();
+    bytes.truncate(bytes.len() - 5);
+    std::fs::write(desk.path("s6.mcap"), bytes).unwrap();
+    let printed = desk.prints("identify brake s6.mcap s20.csv --rig bench.toml", 1);
+    for expected in [
+        "s6.mcap: check sums: chunks verified",
+        "s6.mcap: the file's last bytes are not those of MCAP",
+        "s20.csv read as:",
+    ] {
+        assert!(printed.contains(expected), "{printed}");
+    }
+    let result = desk.json("identify brake s6.mcap s20.csv --rig bench.toml --json", 1);
+    assert!(result["read_as"][0].is_array() && result["read_as"][1].is_object());
+}
+
+#[test]
 fn what_is_not_in_the_recordings_is_said_and_no_half_table_is_written() {
     let desk = desk();
     let result = desk.json("identify brake s6.csv s20.csv --rig bench.toml --json", 1);

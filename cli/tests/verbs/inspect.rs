@@ -1,5 +1,7 @@
 //! This file holds what `rigproof inspect` says of a recording, and the way from an unknown file to a diagnosis.
 
+use approx::assert_relative_eq;
+
 use crate::desk::{Desk, assert_shape};
 
 /// A recording as a German spreadsheet saves it: `;`, decimal commas, a remark and a units row.
@@ -60,10 +62,7 @@ fn three_commands_lead_from_an_unknown_file_to_a_diagnosis() {
     let rig = desk.read("rig.toml");
     assert!(rig.contains("plant = \"bench\"   # guess"), "{rig}");
     // The noise of the load cell is guessed to a tenth of what the maker of the recording put in.
-    assert!(
-        (noise(&rig) / noise(&own_rig) - 1.0).abs() < 0.1,
-        "{rig}\n{own_rig}"
-    );
+    assert_relative_eq!(noise(&rig), noise(&own_rig), max_relative = 0.1);
     // What a person fills in is the physics that the model has.
     let physics = own_rig.find("[[effect]]").unwrap();
     desk.put("rig.toml", &(rig + &own_rig[physics..]));
@@ -93,7 +92,11 @@ fn what_is_not_known_is_filled_in_by_a_person() {
     );
     desk.prints("inspect case/recording.csv --write-rig rig.toml", 0);
     let noise = |name: &str| noise(&desk.read(name));
-    assert!((noise("rig.toml") / noise("case/rig.toml") - 1.0).abs() < 0.1);
+    assert_relative_eq!(
+        noise("rig.toml"),
+        noise("case/rig.toml"),
+        max_relative = 0.1
+    );
     let refused = |expected: &str| {
         let answer = desk.rigproof("diagnose case/recording.csv --rig rig.toml");
         let message = String::from_utf8(answer.stderr).unwrap();
@@ -219,6 +222,18 @@ fn an_mcap_file_is_looked_into() {
     assert!(
         rig.contains("name = \"run\"") && rig.contains("\ntorque = {"),
         "{rig}"
+    );
+    // What was guessed of the CSV is guessed of the messages, and a person fills in the physics.
+    let own_rig = desk.read("case/rig.toml");
+    assert_relative_eq!(noise(&rig), noise(&own_rig), max_relative = 0.1);
+    let physics = own_rig.find("[[effect]]").unwrap();
+    desk.put("rig.toml", &(rig + &own_rig[physics..]));
+    let found = desk.json("diagnose run.mcap --rig rig.toml --json", 0);
+    assert_eq!(names(&found), ["stribeck"]);
+    let protocol = found["protocol"].to_string();
+    assert!(
+        protocol.contains("run.mcap: check sums: chunks verified"),
+        "{protocol}"
     );
     let text = desk.prints("inspect run.mcap", 0);
     assert!(

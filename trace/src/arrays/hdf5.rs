@@ -5,7 +5,7 @@ use std::path::Path;
 
 use hdf5_pure::{DType, Dataset, File, Group, Object};
 
-use super::{Entry, PassedOver};
+use super::{Entry, Other, PassedOver};
 use crate::error::TraceError;
 
 /// Groups deeper than this are not looked into, so that a file that refers to itself ends.
@@ -95,7 +95,7 @@ impl Found {
         if self.matlab {
             let attributes = dataset.attrs().unwrap_or_default();
             if attributes.contains_key("MATLAB_object_decode") {
-                self.pass_over(full, "an object of MATLAB");
+                self.pass_over(full, Other::Object);
                 return Ok(());
             }
             if dtype == DType::ObjectReference {
@@ -109,7 +109,7 @@ impl Found {
             (&[rows], true) => (rows, 1),
             (&[rows, columns], true) => (rows, columns),
             (_, true) => {
-                self.pass_over(full, "of more than two dimensions");
+                self.pass_over(full, Other::ManyDimensions);
                 return Ok(());
             }
             _ => return Ok(()),
@@ -133,7 +133,7 @@ impl Found {
         deeper: usize,
     ) -> Result<(), hdf5_pure::Error> {
         let Some(owner) = prefix.strip_suffix('.') else {
-            self.pass_over(field.to_owned(), "a cell array");
+            self.pass_over(field.to_owned(), Other::Cells);
             return Ok(());
         };
         let count: u64 = references.shape()?.into_iter().fold(1, u64::saturating_mul);
@@ -153,7 +153,7 @@ impl Found {
         Ok(())
     }
 
-    fn pass_over(&mut self, name: String, what: &'static str) {
+    fn pass_over(&mut self, name: String, what: Other) {
         self.passed_over.push(PassedOver { name, what });
     }
 }

@@ -9,7 +9,7 @@ use std::path::Path;
 use flate2::read::ZlibDecoder;
 
 use super::bytes::{Bytes, COMPRESSED, MATRIX, Numbers};
-use super::{Entry, PassedOver};
+use super::{Entry, Other, PassedOver};
 use crate::error::TraceError;
 
 /// The largest file, and the most that its compressed parts may hold together, bytes.
@@ -109,7 +109,7 @@ fn matrix(mut bytes: Bytes<'_>, name: &str, found: &mut Found, deeper: usize) ->
     let class = flags & 0xff;
     if class == OPAQUE {
         let (_, own) = bytes.element()?;
-        pass_over(found, &text(own.rest(), name), "an object of MATLAB");
+        pass_over(found, &text(own.rest(), name), Other::Object);
         return Some(());
     }
     let (_, dimensions) = bytes.element()?;
@@ -119,11 +119,11 @@ fn matrix(mut bytes: Bytes<'_>, name: &str, found: &mut Found, deeper: usize) ->
     match class {
         STRUCTURE if deeper > 0 => structure(bytes, &name, &dimensions, found, deeper),
         OBJECT => {
-            pass_over(found, &name, "an object of MATLAB");
+            pass_over(found, &name, Other::Object);
             Some(())
         }
         CELL => {
-            pass_over(found, &name, "a cell array");
+            pass_over(found, &name, Other::Cells);
             Some(())
         }
         class if NUMERIC.contains(&class) => match dimensions.as_slice() {
@@ -143,11 +143,11 @@ fn matrix(mut bytes: Bytes<'_>, name: &str, found: &mut Found, deeper: usize) ->
                 Some(())
             }
             [_, _] => {
-                pass_over(found, &name, "complex");
+                pass_over(found, &name, Other::Complex);
                 Some(())
             }
             _ => {
-                pass_over(found, &name, "of more than two dimensions");
+                pass_over(found, &name, Other::ManyDimensions);
                 Some(())
             }
         },
@@ -196,7 +196,7 @@ fn structure(
     Some(())
 }
 
-fn pass_over(found: &mut Found, name: &str, what: &'static str) {
+fn pass_over(found: &mut Found, name: &str, what: Other) {
     found.passed_over.push(PassedOver {
         name: name.to_owned(),
         what,

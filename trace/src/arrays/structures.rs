@@ -235,7 +235,11 @@ fn structures_of_version_7_3_are_opened() {
         .recording(&selection(&["logged.signals(2).values"], "logged/time"))
         .unwrap();
     assert_eq!((trace.time_s[4], trace.channels[0].samples[4]), (4.5, 8.25));
-    assert_eq!(arrays.passed_over()[0].name, "ts");
+    let advice = arrays.passed_over()[0].advice();
+    assert_eq!(
+        advice,
+        "`ts` is an object of MATLAB, which is not read; in MATLAB, save its numbers as arrays, such as `t = ts.Time; x = ts.Data`"
+    );
 }
 
 #[test]

@@ -230,7 +230,7 @@ fn no_time(columns: &[Column], time: Option<&TimeColumn>) -> String {
             column.name
         ),
         None => format!(
-            "there is no time column; call it `time (s)` or `t_s`; the columns are {listed}"
+            "there is no time column; call it `time (s)` or `t_s`, or name it: `--time-from NAME`, in a rig file `time = {{ channel = \"NAME\" }}`; the columns are {listed}"
         ),
     }
 }

@@ -1,6 +1,7 @@
 //! This file writes a recording as a comma-separated text file.
 
 use std::collections::BTreeSet;
+use std::io::{self, Write};
 use std::path::Path;
 
 use crate::error::TraceError;
@@ -14,8 +15,8 @@ use crate::store;
 /// # Errors
 /// The recording cannot be written so that it reads back the same, or the system refuses.
 pub fn write(path: &Path, trace: &Trace) -> Result<(), TraceError> {
-    let bytes = to_bytes(trace).map_err(|problem| TraceError::recording(path, problem))?;
-    store::write_aside(path, &bytes)
+    let headers = headers(trace).map_err(|problem| TraceError::recording(path, problem))?;
+    store::write_aside_with(path, |file| rows(trace, &headers, file))
 }
 
 /// The bytes of the file that [`write()`] would write.
@@ -23,6 +24,13 @@ pub fn write(path: &Path, trace: &Trace) -> Result<(), TraceError> {
 /// # Errors
 /// Says which name, length or value could not be read back.
 pub fn to_bytes(trace: &Trace) -> Result<Vec<u8>, String> {
+    let mut bytes = Vec::new();
+    rows(trace, &headers(trace)?, &mut bytes).map_err(|error| error.to_string())?;
+    Ok(bytes)
+}
+
+/// The cells of the first line, when everything below can be written.
+fn headers(trace: &Trace) -> Result<Vec<String>, String> {
     let mut headers = vec!["time (s)".to_string()];
     let mut names = BTreeSet::from(["time"]);
     for channel in &trace.channels {
@@ -40,29 +48,39 @@ pub fn to_bytes(trace: &Trace) -> Result<Vec<u8>, String> {
             format!("the channel `{name}` with unit `{unit}` would not read back; rename it")
         })?);
     }
-    let mut file = ::csv::Writer::from_writer(Vec::new());
-    let failed = |error: ::csv::Error| error.to_string();
-    file.write_record(&headers).map_err(failed)?;
+    let columns = trace.channels.iter().map(|channel| &channel.samples);
+    let infinite = std::iter::once(&trace.time_s)
+        .chain(columns)
+        .filter_map(|column| column.iter().position(|value| value.is_infinite()));
+    match infinite.min() {
+        Some(index) => Err(format!(
+            "sample {} is infinite, which is no recording",
+            index + 1
+        )),
+        None => Ok(headers),
+    }
+}
+
+fn rows(trace: &Trace, headers: &[String], target: impl Write) -> io::Result<()> {
+    let mut file = ::csv::WriterBuilder::new()
+        .buffer_capacity(1 << 18)
+        .from_writer(target);
+    file.write_record(headers)?;
     let mut cells: Vec<String> = Vec::with_capacity(headers.len());
     for (index, &time_s) in trace.time_s.iter().enumerate() {
         let samples = trace.channels.iter().filter_map(|c| c.samples.get(index));
         cells.clear();
-        for &value in std::iter::once(&time_s).chain(samples) {
-            if value.is_infinite() {
-                return Err(format!(
-                    "sample {} is infinite, which is no recording",
-                    index + 1
-                ));
-            }
-            cells.push(if value.is_nan() {
-                String::new()
-            } else {
-                format!("{value:?}")
-            });
-        }
-        file.write_record(&cells).map_err(failed)?;
+        cells.extend(
+            std::iter::once(&time_s)
+                .chain(samples)
+                .map(|value| match value.is_nan() {
+                    true => String::new(),
+                    false => format!("{value:?}"),
+                }),
+        );
+        file.write_record(&cells)?;
     }
-    file.into_inner().map_err(|error| error.to_string())
+    file.flush()
 }
 
 #[cfg(test)]

@@ -147,7 +147,7 @@ impl<'v, V: Visitor> Account<'v, V> {
         if self.strangers > 0 {
             let count = self.strangers;
             self.integrity.miss(format!(
-                "{count} messages belong to channels that the file does not declare once and for all; they are left out"
+                "{count} messages belong to channels that the file does not declare, or declares in two ways; they are left out"
             ));
         }
         let read = self.integrity.messages;

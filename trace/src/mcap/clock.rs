@@ -4,6 +4,7 @@ use super::account::Message;
 use super::address::{Way, within};
 use super::decoder::Decoder;
 use super::flat::Leaf;
+use super::track::Numbers;
 use crate::csv::{TimeColumn, time_to_s};
 
 /// Stamps from here on, ns, are counted from the first one: about eleven days, below which a double keeps them to
@@ -97,13 +98,12 @@ pub(super) struct Origin {
 
 impl Origin {
     /// The time of a message, s; NaN where it has none.
-    pub(super) fn time_s(&mut self, slot: Slot, message: Message<'_>, numbers: &[f64]) -> f64 {
-        let at = |place: usize| numbers.get(place).copied().unwrap_or(f64::NAN);
+    pub(super) fn time_s(&mut self, slot: Slot, message: Message<'_>, numbers: Numbers<'_>) -> f64 {
         let ns = match slot {
             Slot::Log => i64::try_from(message.log_time_ns).ok(),
             Slot::Publish => i64::try_from(message.publish_time_ns).ok(),
-            Slot::Number(place, to_s) => return at(place) * to_s,
-            Slot::Parts(whole, ns) => whole_ns(at(whole), at(ns)),
+            Slot::Number(place, to_s) => return numbers.at(place) * to_s,
+            Slot::Parts(whole, ns) => whole_ns(numbers.at(whole), numbers.at(ns)),
         };
         let Some(ns) = ns else {
             return f64::NAN;

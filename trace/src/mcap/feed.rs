@@ -6,7 +6,7 @@ use super::account::{Message, Visitor};
 use super::address::{self, Way, within};
 use super::clock::{Clock, Origin, Slot};
 use super::decoder::Decoder;
-use super::flat::{ELEMENTS, Flat};
+use super::flat::{ELEMENTS, Flat, Leaf};
 use super::pace::median;
 use super::read::{Selection, Wanted};
 use super::resample::{Between, Ordered};
@@ -62,6 +62,8 @@ struct Reader {
     feed: usize,
     decoder: Decoder,
     shapes: Shapes<Slots>,
+    /// Elements of a list that are looked into.
+    elements: usize,
 }
 
 /// Where the wanted numbers of messages of one shape stand.
@@ -110,11 +112,17 @@ impl Feeds {
         unit.unwrap_or_default()
     }
 
-    pub(super) fn feed(&self, place: WantedPlace) -> (&[f64], &[f64]) {
-        self.feeds.get(place.feed).map_or((&[], &[]), |feed| {
-            let column = feed.columns.get(place.column);
-            (feed.time_s.as_slice(), column.map_or(&[], Vec::as_slice))
-        })
+    /// The times of a topic, which are no longer here afterwards.
+    pub(super) fn take_times(&mut self, place: WantedPlace) -> Vec<f64> {
+        let feed = self.feeds.get_mut(place.feed);
+        feed.map_or(Vec::new(), |feed| std::mem::take(&mut feed.time_s))
+    }
+
+    /// The samples of a wanted number, which are no longer here afterwards; no two wanted ones share a column.
+    pub(super) fn take_column(&mut self, place: WantedPlace) -> Vec<f64> {
+        let feed = self.feeds.get_mut(place.feed);
+        let column = feed.and_then(|feed| feed.columns.get_mut(place.column));
+        column.map(std::mem::take).unwrap_or_default()
     }
 
     /// Why a topic cannot be read, if it cannot.
@@ -182,8 +190,9 @@ impl Feeds {
         }
         let own = run.as_ref().map(|run| run.time.as_str());
         let clock = Clock::new(self.time.as_ref(), &topic.name, own);
-        let elements = ways.iter().map(|(_, way)| way.elements()).max()?;
-        self.flat.elements = self.flat.elements.max(elements);
+        if ways.is_empty() {
+            return None;
+        }
         self.feeds.push(Feed {
             time_s: Vec::new(),
             columns: vec![Vec::new(); ways.len()],
@@ -201,19 +210,24 @@ impl Feeds {
 impl Visitor for Feeds {
     fn topic(&mut self, _place: usize, topic: &Topic) {
         self.topics.push(topic.name.clone());
-        let reader = self
-            .feed_of(topic)
-            .and_then(|feed| match Decoder::new(topic) {
+        let reader = self.feed_of(topic).and_then(|feed| {
+            let ways = self.feeds.get(feed)?.ways.iter();
+            let elements = ways
+                .map(|(_, way)| way.elements())
+                .fold(ELEMENTS, usize::max);
+            match Decoder::new(topic) {
                 Ok(decoder) => Some(Reader {
                     feed,
                     decoder,
                     shapes: Shapes::new(),
+                    elements,
                 }),
                 Err(reason) => {
                     self.refusals.insert(topic.name.clone(), reason);
                     None
                 }
-            });
+            }
+        });
         self.readers.push(reader);
     }
 
@@ -224,67 +238,103 @@ impl Visitor for Feeds {
         let Some(feed) = self.feeds.get_mut(reader.feed) else {
             return;
         };
-        let flat = &mut self.flat;
-        if let Err(reason) = reader.decoder.read(message.data, flat, false) {
-            feed.damaged += 1;
-            self.refusals.entry(feed.name.clone()).or_insert(reason);
-            return;
-        }
-        if reader.shapes.get(flat.shape()).is_none() {
-            let addresses = self.addresses.entry(feed.name.clone()).or_default();
-            reader.learn(message, flat, feed, addresses);
-        }
-        let Some(slots) = reader.shapes.get(flat.shape()) else {
-            return;
+        let addresses = &mut self.addresses;
+        self.flat.elements = reader.elements;
+        let decoder = &reader.decoder;
+        let read = reader
+            .shapes
+            .read(decoder, message.data, &mut self.flat, |leaves| {
+                let named = leaves.iter().take(NAMED);
+                let printed = named.map(|leaf| address::print(&feed.name, leaf));
+                addresses.insert(feed.name.clone(), printed.collect());
+                feed.slots(leaves, decoder)
+            });
+        let (slots, numbers) = match read {
+            Ok(Some(read)) => read,
+            Ok(None) => return,
+            Err(reason) => {
+                feed.damaged += 1;
+                self.refusals.entry(feed.name.clone()).or_insert(reason);
+                return;
+            }
         };
-        let at = |place: usize| flat.numbers.get(place).copied().unwrap_or(f64::NAN);
         let time_s = match slots.time {
-            Some(slot) => self.origin.time_s(slot, message, &flat.numbers),
+            Some(slot) => self.origin.time_s(slot, message, numbers),
             None => f64::NAN,
         };
         feed.time_s.push(time_s);
         for (column, slot) in feed.columns.iter_mut().zip(&slots.columns) {
-            column.push(slot.map_or(f64::NAN, at));
+            column.push(slot.map_or(f64::NAN, |place| numbers.at(place)));
         }
         if let (Some((s, ns)), true) = (slots.stamp, feed.lags_s.len() < STAMPS) {
-            feed.lags_s
-                .push(super::clock::lag_s(message, at(s), at(ns)));
+            let lag_s = super::clock::lag_s(message, numbers.at(s), numbers.at(ns));
+            feed.lags_s.push(lag_s);
         }
     }
 }
 
-impl Reader {
-    /// Finds out where the numbers stand in messages of this shape.
-    fn learn(
-        &mut self,
-        message: Message<'_>,
-        flat: &mut Flat,
-        feed: &mut Feed,
-        addresses: &mut Vec<String>,
-    ) {
-        // The same bytes were read a moment ago.
-        if self.decoder.read(message.data, flat, true).is_err() {
-            return;
-        }
-        let leaves = flat.leaves();
-        *addresses = leaves
-            .iter()
-            .take(NAMED)
-            .map(|leaf| address::print(&feed.name, leaf))
-            .collect();
+impl Feed {
+    /// Finds out where the numbers stand in messages of one shape.
+    fn slots(&mut self, leaves: &[Leaf], decoder: &Decoder) -> Slots {
         let mut columns = Vec::new();
-        for ((_, way), unit) in feed.ways.iter().zip(&mut feed.units) {
+        for ((_, way), unit) in self.ways.iter().zip(&mut self.units) {
             let place = leaves.iter().position(|leaf| way.leads_to(leaf));
             if let Some(leaf) = place.and_then(|place| leaves.get(place)) {
-                unit.get_or_insert_with(|| self.decoder.unit(leaf));
+                unit.get_or_insert_with(|| decoder.unit(leaf));
             }
             columns.push(place);
         }
-        let slots = Slots {
-            time: feed.clock.slot(&leaves, &self.decoder),
+        Slots {
+            time: self.clock.slot(leaves, decoder),
             columns,
-            stamp: stamp(&leaves),
+            stamp: stamp(leaves),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::mcap::topics::Schema;
+
+    #[test]
+    fn an_address_far_down_another_topics_list_moves_no_number() {
+        let topic = |name: &str| {
+            let schema = Schema {
+                name: "a/msg/Lists".into(),
+                encoding: "ros2msg".into(),
+                data: b"float64[] x\nfloat64 y\n".to_vec(),
+            };
+            Topic::new(name, "cdr", Some(Arc::new(schema)), BTreeMap::new())
         };
-        self.shapes.add(flat.shape(), slots);
+        let wanted = |address: &str| Wanted {
+            address: address.into(),
+            between: Between::Line,
+        };
+        let mut feeds = Feeds::new(&Selection {
+            channels: vec![wanted("/a.y"), wanted("/b.x[150]")],
+            time: None,
+        });
+        let mut data = [[0, 1, 0, 0], 200_u32.to_le_bytes(), [0; 4]].concat();
+        for k in 0..=200 {
+            data.extend((0.25 + f64::from(k)).to_le_bytes());
+        }
+        let message = |topic: usize| Message {
+            topic,
+            log_time_ns: 7,
+            publish_time_ns: 11,
+            data: &data,
+        };
+        feeds.topic(0, &topic("/a"));
+        feeds.message(message(0));
+        feeds.topic(1, &topic("/b"));
+        for topic in [0, 1, 0, 0] {
+            feeds.message(message(topic));
+        }
+        assert_eq!(feeds.feeds[0].columns, [[200.25; 4]]);
+        assert_eq!(feeds.feeds[1].columns, [[150.25]]);
     }
 }

@@ -2,6 +2,8 @@
 
 use std::hash::{DefaultHasher, Hasher};
 
+use super::track::{Pins, Spot, Track};
+
 /// Elements of a list that are looked into, unless a reader asks for more.
 pub(super) const ELEMENTS: usize = 64;
 /// The most numbers of one message.
@@ -42,6 +44,9 @@ struct Names {
     path: Vec<Step>,
     leaves: Vec<Leaf>,
     texts: Vec<(Vec<Step>, String)>,
+    /// Where the numbers stand in the bytes, for languages in which they have places of their own.
+    spots: Vec<Spot>,
+    track: Option<Track>,
 }
 
 impl Flat {
@@ -71,12 +76,34 @@ impl Flat {
         &self.shape
     }
 
-    /// The places of the numbers of a message begun with `named`.
-    pub(super) fn leaves(&mut self) -> Vec<Leaf> {
-        self.names
-            .take()
-            .map(Names::into_leaves)
-            .unwrap_or_default()
+    #[inline]
+    pub(super) fn is_named(&self) -> bool {
+        self.names.is_some()
+    }
+
+    /// The message was walked through by `pins`: so will others be that have the same there.
+    pub(super) fn keep_track(&mut self, data: &[u8], pins: Pins) {
+        if let Some(names) = &mut self.names {
+            names.track = Track::new(data, pins, std::mem::take(&mut names.spots));
+        }
+    }
+
+    /// The places of the numbers of a message begun with `named`, and the way to them where it can be taken again.
+    pub(super) fn learned(&mut self) -> (Vec<Leaf>, Option<Track>) {
+        let mut names = self.names.take().unwrap_or_default();
+        let track = names.track.take();
+        (names.into_leaves(), track)
+    }
+
+    /// A number and where it stands in the message.
+    #[inline]
+    pub(super) fn number_at(&mut self, value: f64, spot: Spot) {
+        if let Some(names) = &mut self.names
+            && self.numbers.len() < MOST_NUMBERS
+        {
+            names.spots.push(spot);
+        }
+        self.number(value);
     }
 
     #[inline]
@@ -125,17 +152,10 @@ impl Flat {
         }
     }
 
-    /// Numbers of a list, all of them looked into.
-    pub(super) fn list(&mut self, numbers: impl ExactSizeIterator<Item = f64>) {
-        if self.names.is_none() && self.numbers.len() + numbers.len() <= MOST_NUMBERS {
-            self.numbers.extend(numbers);
-            return;
-        }
-        for (index, number) in numbers.enumerate() {
-            self.element(index);
-            self.number(number);
-            self.up();
-        }
+    /// Numbers of a list, all of them looked into, whose places nobody wants to know.
+    pub(super) fn list(&mut self, numbers: impl Iterator<Item = f64>) {
+        let left = MOST_NUMBERS.saturating_sub(self.numbers.len());
+        self.numbers.extend(numbers.take(left));
     }
 
     #[inline]

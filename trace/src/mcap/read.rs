@@ -70,47 +70,35 @@ pub fn read_from(
         return Err(refused(nothing_wanted(&feeds.topics, &integrity)));
     }
     let mut protocol = Vec::new();
-    let mut base: Option<(usize, Ordered)> = None;
+    // The times of every topic that is needed; the first one's are the recording's.
+    let mut times: Vec<(usize, Ordered)> = Vec::new();
     let mut channels = Vec::new();
-    for (wanted, place) in feeds.wanted.iter().zip(feeds.places()) {
+    for (wanted, place) in feeds.wanted.clone().into_iter().zip(feeds.places()) {
         let Some(place) = place else {
             return Err(refused(absent(&feeds, &wanted.address, &integrity)));
         };
-        let (time_s, values) = feeds.feed(place);
-        let in_order = |ordered: &Ordered| -> Vec<f64> {
-            let places = ordered.places.iter();
-            places
-                .filter_map(|place| values.get(*place).copied())
-                .collect()
+        if !times.iter().any(|(feed, _)| *feed == place.feed) {
+            let own = order(feeds.take_times(place));
+            protocol.extend(feeds.time_lines(place, &own));
+            times.push((place.feed, own));
+        }
+        let own = times.iter().find(|(feed, _)| *feed == place.feed);
+        let (Some((_, own)), Some((base, ordered))) = (own, times.first()) else {
+            continue;
         };
-        let samples = match &base {
-            Some((feed, ordered)) if *feed == place.feed => in_order(ordered),
-            Some((_, ordered)) => {
-                let own = order(time_s);
-                protocol.extend(feeds.time_lines(place, &own));
-                let (samples, gaps) = resample(
-                    &own.time_s,
-                    &in_order(&own),
-                    &ordered.time_s,
-                    wanted.between,
-                );
-                protocol.push(resampled(&wanted.address, wanted.between, gaps));
-                samples
-            }
-            None => {
-                let own = order(time_s);
-                protocol.extend(feeds.time_lines(place, &own));
-                let samples = in_order(&own);
-                base = Some((place.feed, own));
-                samples
-            }
-        };
+        let mut samples = own.put(feeds.take_column(place));
+        if *base != place.feed {
+            let gaps;
+            (samples, gaps) = resample(&own.time_s, &samples, &ordered.time_s, wanted.between);
+            protocol.push(resampled(&wanted.address, wanted.between, gaps));
+        }
         channels.push(Channel {
-            name: wanted.address.clone(),
             unit: feeds.unit(place),
+            name: wanted.address,
             samples,
         });
     }
+    let base = times.into_iter().next();
     let time_s = base.map_or(Vec::new(), |(_, ordered)| ordered.time_s);
     if time_s.len() < LEAST_SAMPLES {
         return Err(TraceError::TooFewSamples {
@@ -119,7 +107,6 @@ pub fn read_from(
             least: LEAST_SAMPLES,
         });
     }
-    protocol.dedup();
     Ok(Reading {
         trace: Trace { time_s, channels },
         integrity,

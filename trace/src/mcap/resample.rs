@@ -11,20 +11,43 @@ pub enum Between {
     Held,
 }
 
-/// Samples in the order of their times, each time once.
+/// Times in order, each of them once.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Ordered {
-    /// Places of the samples that count.
-    pub(super) places: Vec<usize>,
     pub(super) time_s: Vec<f64>,
+    /// Places of the samples that count, where not all of them do as they came.
+    places: Option<Vec<usize>>,
     /// Samples that came after a later one.
     pub(super) moved: usize,
     /// Samples left out because their time was taken, or is none.
     pub(super) dropped: usize,
 }
 
-/// Puts times in order; of equal ones the first counts.
-pub(super) fn order(time_s: &[f64]) -> Ordered {
+impl Ordered {
+    /// The samples of these times.
+    pub(super) fn put(&self, values: Vec<f64>) -> Vec<f64> {
+        match &self.places {
+            None => values,
+            Some(places) => at_places(&values, places),
+        }
+    }
+}
+
+fn at_places(values: &[f64], places: &[usize]) -> Vec<f64> {
+    let samples = places.iter().map(|place| values.get(*place).copied());
+    samples.map(|value| value.unwrap_or(f64::NAN)).collect()
+}
+
+/// Puts times in order; of equal ones the first counts. What is in order stays where it is in memory.
+pub(super) fn order(time_s: Vec<f64>) -> Ordered {
+    let in_order = time_s.is_sorted_by(|a, b| a < b);
+    let ends = [time_s.first(), time_s.last()];
+    if in_order && ends.into_iter().flatten().all(|time_s| time_s.is_finite()) {
+        return Ordered {
+            time_s,
+            ..Ordered::default()
+        };
+    }
     let mut places: Vec<usize> = (0..time_s.len()).collect();
     let at = |place: usize| time_s.get(place).copied().unwrap_or(f64::NAN);
     let moved = time_s
@@ -37,9 +60,9 @@ pub(super) fn order(time_s: &[f64]) -> Ordered {
     }
     places.dedup_by(|later, first| at(*later) <= at(*first));
     Ordered {
-        time_s: places.iter().map(|place| at(*place)).collect(),
+        time_s: at_places(&time_s, &places),
         dropped: time_s.len() - places.len(),
-        places,
+        places: Some(places),
         moved,
     }
 }
@@ -109,8 +132,17 @@ mod tests {
 
     #[test]
     fn samples_out_of_order_are_moved_and_repeated_times_count_once() {
-        let ordered = order(&[0.3, 0.1, f64::NAN, 0.2, 0.3, f64::INFINITY]);
-        assert_eq!(ordered.places, [1, 3, 0]);
+        let ordered = order(vec![0.3, 0.1, f64::NAN, 0.2, 0.3, f64::INFINITY]);
+        assert_eq!(ordered.time_s, [0.1, 0.2, 0.3]);
+        let values = vec![7.5, 3.25, 8.5, 4.75, 9.5, 1.5];
+        assert_eq!(ordered.put(values.clone()), [3.25, 4.75, 7.5]);
         assert_eq!((ordered.moved, ordered.dropped), (1, 3));
+        for time_s in [[0.1, 0.2, f64::INFINITY], [f64::NEG_INFINITY, 0.1, 0.2]] {
+            let ordered = order(time_s.to_vec());
+            assert_eq!((ordered.time_s, ordered.dropped), (vec![0.1, 0.2], 1));
+        }
+        let untouched = order(vec![0.1, 0.25, 0.3]);
+        assert_eq!(untouched.put(values[..3].to_vec()), values[..3]);
+        assert_eq!((untouched.moved, untouched.dropped), (0, 0));
     }
 }

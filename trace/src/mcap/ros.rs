@@ -2,9 +2,11 @@
 
 mod cursor;
 mod definition;
+mod number;
 
 use cursor::Cursor;
 use definition::{Count, Definitions, Field, Kind};
+pub(super) use number::Number;
 
 use super::flat::Flat;
 
@@ -44,7 +46,14 @@ impl RosReader {
             Wire::Cdr => Cursor::cdr(data)?,
             Wire::Ros1 => Cursor::packed(data),
         };
-        self.fields(0, &mut cursor, flat)
+        if named {
+            cursor.keep_pins();
+        }
+        self.fields(0, &mut cursor, flat)?;
+        if let Some(pins) = cursor.into_pins() {
+            flat.keep_track(data, pins);
+        }
+        Ok(())
     }
 
     fn fields(
@@ -120,9 +129,9 @@ impl RosReader {
         element: bool,
     ) -> Result<(), String> {
         match kind {
-            Kind::Number(number) => flat.number(cursor.number(number)?),
+            Kind::Number(number) => cursor.number(number, flat)?,
             Kind::Text => {
-                let text = cursor.text()?;
+                let text = cursor.text(element)?;
                 if element {
                     flat.element_text(text);
                 }

@@ -21,6 +21,8 @@ use crate::error::TraceError;
 const STRETCHES: usize = 128;
 /// Messages whose own stamp is compared with the time of writing.
 const STAMPS: usize = 4096;
+/// Runs of four values that are kept of a number.
+const RUNS: usize = 512;
 /// Numbers of one channel that are followed.
 const NUMBERS: usize = 1024;
 
@@ -89,6 +91,8 @@ pub struct ChannelSummary {
     pub maximum: f64,
     /// The smallest difference between two values that follow each other; `None` when it never moves.
     pub quantum: Option<f64>,
+    /// Up to 512 runs of four values that follow each other, evenly spread; a value that is none is NaN.
+    pub runs: Vec<[f64; 4]>,
     /// Least and greatest value of up to 128 stretches of equally many messages, in order.
     pub outline: Vec<(f64, f64)>,
 }
@@ -193,13 +197,11 @@ impl Tally {
         let Ok(decoder) = &self.decoder else {
             return Ok(());
         };
-        decoder.read(message.data, flat, false)?;
-        if self.shapes.get(flat.shape()).is_none() {
-            decoder.read(message.data, flat, true)?;
-            let leaves = flat.leaves();
-            let (numbers, by_address) = (&mut self.numbers, &mut self.by_address);
+        let (numbers, by_address) = (&mut self.numbers, &mut self.by_address);
+        let name = &self.name;
+        let read = self.shapes.read(decoder, message.data, flat, |leaves| {
             let mut place = |leaf: &Leaf| {
-                let address = address::print(&self.name, leaf);
+                let address = address::print(name, leaf);
                 if let Some(place) = by_address.get(&address) {
                     return Some(*place);
                 }
@@ -210,26 +212,22 @@ impl Tally {
                     place
                 })
             };
-            let places = Places {
+            Places {
                 numbers: leaves.iter().map(&mut place).collect(),
-                stamp: stamp(&leaves),
-            };
-            self.shapes.add(flat.shape(), places);
-        }
-        let Some(places) = self.shapes.get(flat.shape()) else {
+                stamp: stamp(leaves),
+            }
+        })?;
+        let Some((places, values)) = read else {
             return Ok(());
         };
-        for (value, place) in flat.numbers.iter().zip(&places.numbers) {
+        for (at, place) in places.numbers.iter().enumerate() {
             if let Some(number) = place.and_then(|place| self.numbers.get_mut(place)) {
-                number.add(*value);
+                number.add(values.at(at));
             }
         }
-        let at = |place: usize| flat.numbers.get(place).copied();
-        if self.lags_s.len() < STAMPS
-            && let Some((s, ns)) = places.stamp
-            && let (Some(s), Some(ns)) = (at(s), at(ns))
-        {
-            self.lags_s.push(lag_s(message, s, ns));
+        if let (Some((s, ns)), true) = (places.stamp, self.lags_s.len() < STAMPS) {
+            let lag_s = lag_s(message, values.at(s), values.at(ns));
+            self.lags_s.push(lag_s);
         }
         Ok(())
     }
@@ -286,6 +284,9 @@ struct Number {
     maximum: f64,
     last: f64,
     quantum: f64,
+    runs: Vec<[f64; 4]>,
+    /// Values from the start of one run to that of the next.
+    run_step: u64,
     outline: Vec<(f64, f64)>,
     /// Values of a stretch, and how many of them are in the last one.
     stretch: u64,
@@ -303,6 +304,8 @@ impl Number {
             maximum: f64::NAN,
             last: f64::NAN,
             quantum: f64::INFINITY,
+            runs: Vec::new(),
+            run_step: 4,
             outline: Vec::new(),
             stretch: 1,
             filled: 0,
@@ -310,6 +313,7 @@ impl Number {
     }
 
     fn add(&mut self, value: f64) {
+        self.add_to_run(value);
         if !value.is_finite() {
             self.not_finite += 1;
             return;
@@ -337,6 +341,26 @@ impl Number {
         self.filled += 1;
     }
 
+    fn add_to_run(&mut self, value: f64) {
+        let place = (self.count + self.not_finite) % self.run_step;
+        if place == 0 {
+            if self.runs.len() == RUNS {
+                let mut is_second = true;
+                self.runs.retain(|_| {
+                    is_second = !is_second;
+                    !is_second
+                });
+                self.run_step *= 2;
+            }
+            self.runs.push([f64::NAN; 4]);
+        }
+        let place = usize::try_from(place).unwrap_or(usize::MAX);
+        let run = self.runs.last_mut();
+        if let Some(slot) = run.and_then(|run| run.get_mut(place)) {
+            *slot = value;
+        }
+    }
+
     /// Joins two stretches to one each.
     fn halve(&mut self) {
         let pairs = self.outline.chunks(2).map(|pair| {
@@ -360,7 +384,36 @@ impl Number {
             minimum: self.minimum,
             maximum: self.maximum,
             quantum: self.quantum.is_finite().then_some(self.quantum),
+            runs: self.runs,
             outline: self.outline,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn runs_are_neighbours_and_spread_over_everything() {
+        let mut number = Number::new("/a.x", String::new());
+        for k in 0..70_001 {
+            number.add(if k == 8193 {
+                f64::INFINITY
+            } else {
+                f64::from(k) + 0.25
+            });
+        }
+        let runs = number.finish().runs;
+        assert!((RUNS / 2..=RUNS).contains(&runs.len()), "{}", runs.len());
+        let step = runs[1][0] - runs[0][0];
+        for (at, run) in runs.iter().enumerate().take(runs.len() - 1) {
+            assert_eq!(run[0], at as f64 * step + 0.25);
+            for (k, value) in run.iter().enumerate() {
+                let missing = run[0] == 8192.25 && k == 1;
+                assert!(*value == run[0] + k as f64 || missing, "{run:?}");
+            }
+        }
+        assert!(runs[runs.len() - 1][0] > 69_000.0);
     }
 }

@@ -1,7 +1,8 @@
 //! This file reads numbers and texts out of bytes, never past their end.
 
-use super::definition::Number;
+use super::number::{Number, bytes};
 use crate::mcap::flat::Flat;
+use crate::mcap::track::{Pins, Spot};
 
 /// A place in a message.
 pub(super) struct Cursor<'a> {
@@ -10,6 +11,8 @@ pub(super) struct Cursor<'a> {
     /// Where multiples of a number's size are counted from; none where numbers stand close together.
     aligned_from: Option<usize>,
     lowest_first: bool,
+    /// What the way depends on, where somebody wants to know.
+    pins: Option<Pins>,
 }
 
 impl<'a> Cursor<'a> {
@@ -30,6 +33,7 @@ impl<'a> Cursor<'a> {
             at: 4,
             aligned_from: Some(4),
             lowest_first,
+            pins: None,
         })
     }
 
@@ -40,6 +44,26 @@ impl<'a> Cursor<'a> {
             at: 0,
             aligned_from: None,
             lowest_first: true,
+            pins: None,
+        }
+    }
+
+    /// From here on, what the way depends on is kept; the bytes before belong to it.
+    pub(super) fn keep_pins(&mut self) {
+        let mut pins = Pins::default();
+        pins.add(0..self.at);
+        self.pins = Some(pins);
+    }
+
+    pub(super) fn into_pins(self) -> Option<Pins> {
+        self.pins
+    }
+
+    /// The way depends on the bytes since `start`.
+    #[inline]
+    fn pin(&mut self, start: usize) {
+        if let Some(pins) = &mut self.pins {
+            pins.add(start..self.at);
         }
     }
 
@@ -55,18 +79,6 @@ impl<'a> Cursor<'a> {
             let mask = size.max(1) - 1;
             self.at = from + ((self.at.saturating_sub(from) + mask) & !mask);
         }
-    }
-
-    #[inline]
-    fn take<const N: usize>(&mut self) -> Result<[u8; N], String> {
-        self.align(N);
-        let rest = self.data.get(self.at..).unwrap_or_default();
-        let mut bytes = *rest.first_chunk::<N>().ok_or_else(too_short)?;
-        self.at += N;
-        if !self.lowest_first {
-            bytes.reverse();
-        }
-        Ok(bytes)
     }
 
     /// Passes over `count` things of `size` bytes.
@@ -86,16 +98,23 @@ impl<'a> Cursor<'a> {
     /// How many elements a list says it has.
     #[inline]
     pub(super) fn count(&mut self) -> Result<usize, String> {
-        Ok(u32::from_le_bytes(self.take()?) as usize)
+        self.align(4);
+        let bytes = bytes(self.data, self.at, self.lowest_first).ok_or_else(too_short)?;
+        self.at += bytes.len();
+        self.pin(self.at - bytes.len());
+        Ok(u32::from_le_bytes(bytes) as usize)
     }
 
-    /// The bytes of a text, without the zero that may end it.
+    /// The bytes of a text, without the zero that may end it; `names` says whether places depend on it.
     #[inline]
-    pub(super) fn text(&mut self) -> Result<&'a [u8], String> {
+    pub(super) fn text(&mut self, names: bool) -> Result<&'a [u8], String> {
         let count = self.count()?;
         let rest = self.data.get(self.at..).unwrap_or_default();
         let text = rest.get(..count).ok_or_else(too_short)?;
         self.at += count;
+        if names {
+            self.pin(self.at - count);
+        }
         Ok(text.strip_suffix(&[0]).unwrap_or(text))
     }
 
@@ -106,7 +125,9 @@ impl<'a> Cursor<'a> {
         count: usize,
         flat: &mut Flat,
     ) -> Result<(), String> {
-        if let (Number::F64, true, true) = (number, self.lowest_first, count > 0) {
+        if let (Number::F64, true, false) = (number, self.lowest_first, flat.is_named())
+            && count > 0
+        {
             self.align(8);
             let start = self.at;
             self.skip(count, 8)?;
@@ -117,27 +138,26 @@ impl<'a> Cursor<'a> {
         }
         for index in 0..count {
             flat.element(index);
-            flat.number(self.number(number)?);
+            self.number(number, flat)?;
             flat.up();
         }
         Ok(())
     }
 
+    /// Hands a number on.
     #[inline]
-    pub(super) fn number(&mut self, number: Number) -> Result<f64, String> {
-        Ok(match number {
-            Number::Bool => f64::from(u8::from(self.take::<1>()? != [0])),
-            Number::U8 => f64::from(u8::from_le_bytes(self.take()?)),
-            Number::I8 => f64::from(i8::from_le_bytes(self.take()?)),
-            Number::U16 => f64::from(u16::from_le_bytes(self.take()?)),
-            Number::I16 => f64::from(i16::from_le_bytes(self.take()?)),
-            Number::U32 => f64::from(u32::from_le_bytes(self.take()?)),
-            Number::I32 => f64::from(i32::from_le_bytes(self.take()?)),
-            Number::U64 => u64::from_le_bytes(self.take()?) as f64,
-            Number::I64 => i64::from_le_bytes(self.take()?) as f64,
-            Number::F32 => f64::from(f32::from_le_bytes(self.take()?)),
-            Number::F64 => f64::from_le_bytes(self.take()?),
-        })
+    pub(super) fn number(&mut self, number: Number, flat: &mut Flat) -> Result<(), String> {
+        self.align(number.bytes());
+        let (at, lowest_first) = (self.at, self.lowest_first);
+        let value = number.read(self.data, at, lowest_first);
+        let spot = Spot {
+            number,
+            at,
+            lowest_first,
+        };
+        flat.number_at(value.ok_or_else(too_short)?, spot);
+        self.at += number.bytes();
+        Ok(())
     }
 }
 

@@ -2,38 +2,11 @@
 
 use std::collections::HashMap;
 
-use super::Wire;
+use super::{Number, Wire};
 use crate::mcap::topics::short;
 
 /// The deepest that types may stand in each other.
 const DEEPEST: usize = 32;
-
-/// A kind of number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Number {
-    Bool,
-    U8,
-    I8,
-    U16,
-    I16,
-    U32,
-    I32,
-    U64,
-    I64,
-    F32,
-    F64,
-}
-
-impl Number {
-    pub(super) const fn bytes(self) -> usize {
-        match self {
-            Number::Bool | Number::U8 | Number::I8 => 1,
-            Number::U16 | Number::I16 => 2,
-            Number::U32 | Number::I32 | Number::F32 => 4,
-            Number::U64 | Number::I64 | Number::F64 => 8,
-        }
-    }
-}
 
 /// What a field holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -85,7 +85,7 @@ fn lists_of_texts_name_the_elements_beside_them() {
     reader
         .read(&message([0, 1, 0, 0], |_| {}), &mut flat, true)
         .unwrap();
-    let leaves = flat.leaves();
+    let (leaves, _) = flat.learned();
     let printed: Vec<String> = leaves.iter().map(|leaf| print("/hand", leaf)).collect();
     assert_eq!(
         printed[1..4],
