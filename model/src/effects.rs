@@ -10,6 +10,7 @@ mod direction_asymmetry;
 mod dry_offset;
 mod hysteresis;
 mod lag;
+mod linkage;
 mod nonlinear_spring;
 mod presliding;
 mod ripple;
@@ -65,6 +66,8 @@ pub enum Form {
     Resistance(fn(&[f64]) -> Box<dyn Law>),
     /// A change of the driving effort (lag, gain error, time shift), applied by the plant itself.
     Drive,
+    /// Something that only a linkage has: its masses, its weight, the sensor at its tip.
+    Linkage,
 }
 
 /// One mechanism as the diagnosis and the plants use it.
@@ -100,6 +103,13 @@ pub const LIBRARY: &[Entry] = &[
     lag::ENTRY,
     lag::GAIN_ENTRY,
     lag::SKEW_ENTRY,
+    linkage::BEARING_FRICTION,
+    linkage::GRAVITY,
+    linkage::INERTIA_ERROR,
+    linkage::PAYLOAD,
+    linkage::FORCE_GAIN,
+    linkage::FORCE_BIAS,
+    linkage::FORCE_ROTATION,
 ];
 
 /// The entry of a mechanism, or `None` while the library has no law for it.
@@ -111,7 +121,7 @@ pub fn entry(mechanism: Mechanism) -> Option<&'static Entry> {
 pub fn law(mechanism: Mechanism, parameters: &[f64]) -> Option<Box<dyn Law>> {
     match entry(mechanism)?.form {
         Form::Resistance(build) => Some(build(parameters)),
-        Form::Drive => None,
+        Form::Drive | Form::Linkage => None,
     }
 }
 

@@ -216,6 +216,32 @@ impl Mechanism {
                 const { &[Parameter::new("cubic", EffortPerCubicTravel)] }
             }
             Mechanism::ChannelSkew => const { &[Parameter::new("delay", Time)] },
+            Mechanism::BearingFriction => const { &[Parameter::new("level", Effort)] },
+            Mechanism::Gravity => {
+                const {
+                    &[
+                        Parameter::new("x", Acceleration),
+                        Parameter::new("y", Acceleration),
+                    ]
+                }
+            }
+            Mechanism::InertiaError => {
+                const {
+                    &[
+                        Parameter::new("arm_ae", MomentOfInertia),
+                        Parameter::new("arm_bc", MomentOfInertia),
+                        Parameter::new("arm_ed", MomentOfInertia),
+                        Parameter::new("arm_cd", MomentOfInertia),
+                        Parameter::new("tip", Mass),
+                    ]
+                }
+            }
+            Mechanism::Payload => const { &[Parameter::new("mass", Mass)] },
+            Mechanism::ForceGain => const { &[Parameter::new("fraction", Number)] },
+            Mechanism::ForceBias => {
+                const { &[Parameter::new("x", Force), Parameter::new("y", Force)] }
+            }
+            Mechanism::ForceRotation => const { &[Parameter::new("angle", Angle)] },
             _ => &[],
         }
     }
@@ -261,6 +287,16 @@ pub enum Quantity {
     PerTravel,
     /// Effort over acceleration: mass or moment of inertia.
     Inertia,
+    /// Metres per squared second, whatever the plant does.
+    Acceleration,
+    /// Kilograms, whatever the plant does.
+    Mass,
+    /// Kilograms times squared metres, whatever the plant does.
+    MomentOfInertia,
+    /// Newtons, whatever the plant does.
+    Force,
+    /// Radians, whatever the plant does.
+    Angle,
 }
 
 /// Whether a plant slides or turns.
@@ -292,6 +328,15 @@ impl Quantity {
             Quantity::EffortPerTime => effort.per(Dimension::TIME),
             Quantity::PerTravel => Dimension::NUMBER.per(travel),
             Quantity::Inertia => effort.per(speed.per(Dimension::TIME)),
+            Quantity::Acceleration => Dimension::LENGTH.per(Dimension::TIME.power(2)),
+            Quantity::Mass => Dimension::FORCE
+                .per(Dimension::LENGTH)
+                .times(Dimension::TIME.power(2)),
+            Quantity::MomentOfInertia => Dimension::FORCE
+                .times(Dimension::LENGTH)
+                .times(Dimension::TIME.power(2)),
+            Quantity::Force => Dimension::FORCE,
+            Quantity::Angle => Dimension::ANGLE,
         }
     }
 }

@@ -1,0 +1,76 @@
+//! This file says which causes are tried on a recording of the five-bar, where, and in which shapes.
+
+use super::run::FiveBarRun;
+use crate::candidates::{fastest, geometric, stribeck_shapes};
+use crate::problem::Cause;
+use rigproof_spec::effect::Mechanism;
+use rigproof_spec::joint::Joint;
+
+/// What can be left out at a joint with a brake.
+const AT_BRAKES: [Mechanism; 7] = [
+    Mechanism::DryOffset,
+    Mechanism::Viscous,
+    Mechanism::GainError,
+    Mechanism::DirectionAsymmetry,
+    Mechanism::Stribeck,
+    Mechanism::Presliding,
+    Mechanism::Lag,
+];
+
+/// What can be left out of the linkage as a whole, and of its sensors.
+const OF_THE_WHOLE: [Mechanism; 7] = [
+    Mechanism::Gravity,
+    Mechanism::Payload,
+    Mechanism::InertiaError,
+    Mechanism::ForceGain,
+    Mechanism::ForceBias,
+    Mechanism::ForceRotation,
+    Mechanism::ChannelSkew,
+];
+
+/// The causes that have a meaning on this layout.
+pub fn causes(run: &FiveBarRun) -> Vec<Cause> {
+    let braked = run.parameters.layout.brakes();
+    let at = |mechanism, joint| Cause {
+        mechanism,
+        joint: Some(joint),
+    };
+    let brakes = AT_BRAKES
+        .into_iter()
+        .flat_map(|mechanism| braked.iter().map(move |joint| at(mechanism, *joint)));
+    let bearings = Joint::ALL
+        .into_iter()
+        .filter(|joint| !braked.contains(joint))
+        .map(|joint| at(Mechanism::BearingFriction, joint));
+    let springs = [Joint::A, Joint::B].map(|joint| at(Mechanism::Spring, joint));
+    brakes
+        .chain(bearings)
+        .chain(springs)
+        .chain(OF_THE_WHOLE.map(Cause::of))
+        .collect()
+}
+
+/// The shapes of a cause that are tried.
+pub fn shapes(run: &FiveBarRun, cause: Cause) -> Vec<Vec<f64>> {
+    let motion = cause.joint.map_or(&[][..], |joint| run.motion(joint));
+    let one = |values: Vec<f64>| values.into_iter().map(|v| vec![v]).collect();
+    match cause.mechanism {
+        Mechanism::Stribeck => stribeck_shapes(run.speed_floor, fastest(motion)),
+        Mechanism::Presliding => {
+            let positions = motion.iter().map(|now| now.position);
+            let low = positions.clone().fold(f64::INFINITY, f64::min);
+            let travel = (positions.fold(f64::NEG_INFINITY, f64::max) - low).max(1e-12);
+            one(geometric(
+                (3.0 * run.theta_noise).max(1e-4 * travel),
+                0.2 * travel,
+                10,
+            ))
+        }
+        Mechanism::Lag => one(geometric(0.5 * run.step_s, 0.25, 12)),
+        Mechanism::ChannelSkew => {
+            let sizes = geometric(0.25 * run.step_s, 0.04f64.max(4.0 * run.step_s), 10);
+            one(sizes.iter().flat_map(|&s| [s, -s]).collect())
+        }
+        _ => vec![vec![]],
+    }
+}
