@@ -151,7 +151,11 @@ pub(crate) fn check_clock(time_s: &[f64], step_s: f64) -> Result<(), Fault> {
     Ok(())
 }
 
-pub(crate) fn check_missing(channel: &'static str, time_s: &[f64], values: &[f64]) -> Result<(), Fault> {
+pub(crate) fn check_missing(
+    channel: &'static str,
+    time_s: &[f64],
+    values: &[f64],
+) -> Result<(), Fault> {
     let missing = values.iter().filter(|x| x.is_nan()).count();
     let mut since: Option<f64> = None;
     for (&t, x) in time_s.iter().zip(values) {
@@ -313,7 +317,12 @@ pub(crate) fn regular_count(time_s: &[f64], step_s: f64) -> usize {
 /// Values on regular samples: the recorded one where a stamp lies within a tenth of a step, else interpolated.
 ///
 /// The second vector says which values were recorded.
-pub(crate) fn resample(time_s: &[f64], values: &[f64], step_s: f64, count: usize) -> (Vec<f64>, Vec<bool>) {
+pub(crate) fn resample(
+    time_s: &[f64],
+    values: &[f64],
+    step_s: f64,
+    count: usize,
+) -> (Vec<f64>, Vec<bool>) {
     let start = time_s.first().copied().unwrap_or(0.0);
     let known: Vec<(f64, f64)> = time_s
         .iter()
@@ -387,7 +396,12 @@ pub fn band_hz(effort: &[f64], step_s: f64) -> f64 {
 
 /// Position and speed after a zero-phase low-pass that keeps twice the effort's band, and the speed below which
 /// noise decides the sign.
-pub(crate) fn smoothed_motion(position: &[f64], step_s: f64, band_hz: f64, noise: f64) -> (Vec<Instant>, f64) {
+pub(crate) fn smoothed_motion(
+    position: &[f64],
+    step_s: f64,
+    band_hz: f64,
+    noise: f64,
+) -> (Vec<Instant>, f64) {
     let rate_hz = 1.0 / step_s;
     let cutoff_hz = (2.0 * band_hz).clamp(25.0f64.min(0.25 * rate_hz), 0.35 * rate_hz);
     let smooth = LowPass::butterworth(4, 2.0 * cutoff_hz / rate_hz).zero_phase(position);
@@ -414,7 +428,12 @@ pub(crate) fn smoothed_motion(position: &[f64], step_s: f64, band_hz: f64, noise
 const REST_S: f64 = 0.025;
 
 /// Takes the sense away wherever the recorded position stays within `still` for a while: smoothing rings there.
-pub(crate) fn forget_sense_at_rest(motion: &mut [Instant], position: &[f64], step_s: f64, still: f64) {
+pub(crate) fn forget_sense_at_rest(
+    motion: &mut [Instant],
+    position: &[f64],
+    step_s: f64,
+    still: f64,
+) {
     let reach = (REST_S / step_s).round().max(1.0) as usize;
     for (k, now) in motion.iter_mut().enumerate() {
         let around = position

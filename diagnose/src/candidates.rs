@@ -2,8 +2,8 @@
 
 use crate::five_bar;
 use crate::problem::{Cause, PlantRun, Problem, Term, add};
-use crate::run::Run;
 use crate::regression::Fit;
+use crate::run::Run;
 use core::f64::consts::TAU;
 use rigproof_model::effects::{Form, Instant, LIBRARY};
 use rigproof_spec::effect::Mechanism;
@@ -25,12 +25,7 @@ pub fn causes(problem: &Problem) -> Vec<Cause> {
 }
 
 /// The variants of a cause that are tried beside the terms of `fitted`: one term a shape.
-pub fn variants(
-    problem: &Problem,
-    cause: Cause,
-    terms: &[&Term],
-    fitted: &Fit,
-) -> Vec<Term> {
+pub fn variants(problem: &Problem, cause: Cause, terms: &[&Term], fitted: &Fit) -> Vec<Term> {
     let effort = modelled_effort(problem, terms, fitted);
     shapes(problem, cause, &fitted.residual)
         .iter()
@@ -91,11 +86,7 @@ fn shapes(problem: &Problem, cause: Cause, residual: &[f64]) -> Vec<Vec<f64>> {
     }
 }
 
-fn joint_shapes(
-    run: &Run,
-    mechanism: Mechanism,
-    periods: impl Fn() -> Vec<f64>,
-) -> Vec<Vec<f64>> {
+fn joint_shapes(run: &Run, mechanism: Mechanism, periods: impl Fn() -> Vec<f64>) -> Vec<Vec<f64>> {
     let travel = run.travel().max(1e-12);
     let fastest = fastest(&run.motion);
     let one = |values: Vec<f64>| values.into_iter().map(|v| vec![v]).collect();

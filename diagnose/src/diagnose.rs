@@ -180,12 +180,21 @@ fn reversed_drive(problem: &Problem, selection: &Selection) -> Option<Fault> {
 }
 
 /// Takes out the names that only stand in for another law, where more than noise is left.
-fn withdraw_surrogates(problem: &Problem, run: &Run, selection: &mut Selection, rig: &Rig) -> Vec<Cause> {
+fn withdraw_surrogates(
+    problem: &Problem,
+    run: &Run,
+    selection: &mut Selection,
+    rig: &Rig,
+) -> Vec<Cause> {
     let ratio = usable_rms(problem, &selection.after.residual) / problem.floor;
     if ratio <= FLOOR_RATIO {
         return Vec::new();
     }
-    let found: Vec<Mechanism> = selection.found.iter().map(|f| f.term.cause.mechanism).collect();
+    let found: Vec<Mechanism> = selection
+        .found
+        .iter()
+        .map(|f| f.term.cause.mechanism)
+        .collect();
     let residual = &selection.after.residual;
     let withdrawn: Vec<Cause> = surrogates(problem, run, residual, &found, rig.motion)
         .into_iter()

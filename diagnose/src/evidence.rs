@@ -425,7 +425,9 @@ pub fn parameters(term: &Term, coefficients: &[f64]) -> Vec<f64> {
     let linear = term.known.clone().unwrap_or_else(|| coefficients.to_vec());
     let linear = match term.cause.mechanism {
         // The column is the known effort: y = e + c·e, so that the applied gain is 1/(1 + c) of the stated one.
-        Mechanism::GainError if term.cause.joint.is_none() => linear.iter().map(|c| -c / (1.0 + c)).collect(),
+        Mechanism::GainError if term.cause.joint.is_none() => {
+            linear.iter().map(|c| -c / (1.0 + c)).collect()
+        }
         Mechanism::ForceGain => linear.iter().map(|c| c / (1.0 - c)).collect(),
         _ => linear,
     };

@@ -6,8 +6,8 @@ pub mod diagnose;
 mod from_rig;
 mod locate;
 pub mod noise;
-pub mod run;
 #[cfg(test)]
 mod recorded;
+pub mod run;
 #[cfg(test)]
 mod tests;

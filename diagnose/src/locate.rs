@@ -32,7 +32,14 @@ pub fn locate(problem: &Problem, run: &Run, before: &[f64], after: &[f64]) -> Ve
         PlantKind::Bench => "metered effort",
     };
     let counted = moving(problem, run);
-    ranked(problem, output, &counted, cells(problem, run), before, after)
+    ranked(
+        problem,
+        output,
+        &counted,
+        cells(problem, run),
+        before,
+        after,
+    )
 }
 
 /// Cells ranked by their excess of `before`'s energy over the rows that count.
@@ -91,11 +98,7 @@ pub fn ranked(
 fn moving(problem: &Problem, run: &Run) -> Vec<bool> {
     let centres = problem.windows.centres.iter();
     centres
-        .map(|&centre| {
-            run.motion
-                .get(centre)
-                .is_some_and(|now| now.sense != 0.0)
-        })
+        .map(|&centre| run.motion.get(centre).is_some_and(|now| now.sense != 0.0))
         .collect()
 }
 

@@ -146,8 +146,7 @@ fn rich_residual(problem: &Problem, nominal: &[Term], blocks: &Blocks) -> Vec<f6
 impl Selection {
     /// Takes mechanisms out again and fits what stays.
     pub fn withdraw(&mut self, problem: &Problem, causes: &[Cause]) {
-        self.found
-            .retain(|f| !causes.contains(&f.term.cause));
+        self.found.retain(|f| !causes.contains(&f.term.cause));
         let blocks = Blocks::new(problem);
         self.after = fit(problem, &refs(&self.nominal, &self.found), &blocks);
     }

@@ -56,7 +56,10 @@ impl Whitener {
             for earlier in rows.iter().skip(first) {
                 let shared = earlier.before.len().min(before.len());
                 let mine = before.iter().rev().take(shared);
-                let known: f64 = mine.zip(earlier.before.iter().rev()).map(|(a, b)| a * b).sum();
+                let known: f64 = mine
+                    .zip(earlier.before.iter().rev())
+                    .map(|(a, b)| a * b)
+                    .sum();
                 before.push((covariance(row, earlier.row) - known) / earlier.diagonal);
             }
             // A ridge at rounding level keeps the factor real.
@@ -76,7 +79,9 @@ impl Whitener {
     /// Windows that are not usable come out as 0 and so carry no weight.
     pub fn whiten(&self, rows: &[f64]) -> Vec<f64> {
         match self {
-            Whitener::Stationary { filters, stretches } => predicted_apart(filters, stretches, rows),
+            Whitener::Stationary { filters, stretches } => {
+                predicted_apart(filters, stretches, rows)
+            }
             Whitener::Banded(factor) => substituted(factor, rows),
         }
     }
@@ -110,15 +115,15 @@ fn predicted_apart(
             let Some((coefficients, deviation)) = filters.get(order) else {
                 continue;
             };
-                let past = rows.get(k - order..k).unwrap_or_default();
-                let predicted: f64 = coefficients
-                    .iter()
-                    .zip(past.iter().rev())
-                    .map(|(c, x)| c * x)
-                    .sum();
-                if let (Some(out), Some(x)) = (white.get_mut(k), rows.get(k)) {
-                    *out = (x - predicted) / deviation;
-                }
+            let past = rows.get(k - order..k).unwrap_or_default();
+            let predicted: f64 = coefficients
+                .iter()
+                .zip(past.iter().rev())
+                .map(|(c, x)| c * x)
+                .sum();
+            if let (Some(out), Some(x)) = (white.get_mut(k), rows.get(k)) {
+                *out = (x - predicted) / deviation;
+            }
         }
     }
     white

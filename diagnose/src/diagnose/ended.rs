@@ -4,7 +4,6 @@ use super::{Curves, Description, Diagnosis};
 use crate::align::Fault;
 use crate::report::{FaultReport, Report, SCHEMA, Verdict};
 
-
 /// The answer where a channel is at fault; `which` says in which recording.
 pub(crate) fn faulty(description: Description, which: &str, fault: Fault) -> Diagnosis {
     let mut diagnosis = empty(

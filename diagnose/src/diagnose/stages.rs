@@ -38,7 +38,9 @@ impl Stand<'_> {
         if let Some(stage) = stage {
             let shapes = stage.shapes.iter().cloned();
             let standing = stage.standing.iter().copied().zip(shapes);
-            laws.extend(standing.map(|(cause, (shape, onset_s))| (cause.mechanism, shape, onset_s)));
+            laws.extend(
+                standing.map(|(cause, (shape, onset_s))| (cause.mechanism, shape, onset_s)),
+            );
         }
         let from_start = |(mechanism, shape, onset_s)| match onset_s {
             None => Some((mechanism, shape)),

@@ -108,26 +108,30 @@ fn weight(run: &FiveBarRun, axis: usize) -> Vec<f64> {
         payload_kg,
     } = run.parameters.inertia;
     let [joint_a, _, joint_b, _] = &run.joints;
-    stacked(run.forms.iter().zip(joint_a).zip(joint_b).map(
-        |((form, a), b)| {
-            // A base arm's centre moves across its arm.
-            let across = |angle: f64| {
-                let (sine, cosine) = libm::sincos(angle);
-                if axis == 0 { -sine } else { cosine }
-            };
-            let base = Vector2::new(
-                ae.mass_kg * ae.centre_m * across(a.position),
-                bc.mass_kg * bc.centre_m * across(b.position),
-            );
-            let row = |rows: &Matrix2<f64>| rows.row(axis).transpose();
-            let [centre_ed, centre_cd] = form.centres();
-            let sum = base
-                + row(centre_ed) * ed.mass_kg
-                + row(centre_cd) * cd.mass_kg
-                + row(&form.tip) * payload_kg;
-            (-sum).into()
-        },
-    ))
+    stacked(
+        run.forms
+            .iter()
+            .zip(joint_a)
+            .zip(joint_b)
+            .map(|((form, a), b)| {
+                // A base arm's centre moves across its arm.
+                let across = |angle: f64| {
+                    let (sine, cosine) = libm::sincos(angle);
+                    if axis == 0 { -sine } else { cosine }
+                };
+                let base = Vector2::new(
+                    ae.mass_kg * ae.centre_m * across(a.position),
+                    bc.mass_kg * bc.centre_m * across(b.position),
+                );
+                let row = |rows: &Matrix2<f64>| rows.row(axis).transpose();
+                let [centre_ed, centre_cd] = form.centres();
+                let sum = base
+                    + row(centre_ed) * ed.mass_kg
+                    + row(centre_cd) * cd.mass_kg
+                    + row(&form.tip) * payload_kg;
+                (-sum).into()
+            }),
+    )
 }
 
 fn forms_of(run: &FiveBarRun, inertia: &Inertia) -> Vec<TwoCoordinate> {
@@ -176,10 +180,22 @@ fn unit_inertias(nominal: &Inertia) -> [Inertia; 5] {
         }
     };
     [
-        Inertia { ae: turning, ..NOTHING },
-        Inertia { bc: turning, ..NOTHING },
-        Inertia { ed: carried(&nominal.ed), ..NOTHING },
-        Inertia { cd: carried(&nominal.cd), ..NOTHING },
+        Inertia {
+            ae: turning,
+            ..NOTHING
+        },
+        Inertia {
+            bc: turning,
+            ..NOTHING
+        },
+        Inertia {
+            ed: carried(&nominal.ed),
+            ..NOTHING
+        },
+        Inertia {
+            cd: carried(&nominal.cd),
+            ..NOTHING
+        },
         tip_mass(),
     ]
 }

@@ -159,7 +159,11 @@ impl Stand<'_> {
                 1.0 / self.train.step_s,
                 self.train.duration_s(),
                 self.test.len(),
-                if other_recording { " of another recording" } else { " at the end of the recording" },
+                if other_recording {
+                    " of another recording"
+                } else {
+                    " at the end of the recording"
+                },
             ),
             format!(
                 "equations: momentum form on θA and θB; arms and masses of tables 4.1 and 5.1, brakes of tables 3.1 to 3.3 along the recorded motion, currents held from sample to sample, in the middle of their backlash at the start",

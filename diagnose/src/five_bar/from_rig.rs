@@ -2,7 +2,7 @@
 
 use super::run::{FiveBarRun, forms, yields};
 use crate::align::{
-    Fault, Signals, band_hz, check_clock, check_clipped, check_frozen, check_missing,
+    Fault, Signals, band_hz, check_clipped, check_clock, check_frozen, check_missing,
     forget_sense_at_rest, forget_sense_at_reversals, median_step, regular_count, resample,
     smallest_step, smoothed_motion,
 };
@@ -27,7 +27,10 @@ pub fn aligned(rig: &FiveBar, recording: &FiveBarRecording) -> Result<FiveBarRun
     let mut regular = |channel: &'static str, samples: &[f64]| {
         check_missing(channel, time_s, samples)?;
         let (values, own) = resample(time_s, samples, step_s, count);
-        recorded.iter_mut().zip(own).for_each(|(all, own)| *all &= own);
+        recorded
+            .iter_mut()
+            .zip(own)
+            .for_each(|(all, own)| *all &= own);
         Ok::<_, Fault>(values)
     };
     let [theta_a, theta_b] = &recording.theta;
@@ -50,13 +53,19 @@ pub fn aligned(rig: &FiveBar, recording: &FiveBarRecording) -> Result<FiveBarRun
         (theta_a, force_x, ["theta_a", "force_x"]),
         (theta_b, force_y, ["theta_b", "force_y"]),
     ] {
-        check_pair(time_s, &angle.samples, &force.samples, force.limit, step_s).map_err(|fault| {
-            let [angle, force] = names;
-            Fault {
-                channel: if fault.channel == "position" { angle } else { force },
-                ..fault
-            }
-        })?;
+        check_pair(time_s, &angle.samples, &force.samples, force.limit, step_s).map_err(
+            |fault| {
+                let [angle, force] = names;
+                Fault {
+                    channel: if fault.channel == "position" {
+                        angle
+                    } else {
+                        force
+                    },
+                    ..fault
+                }
+            },
+        )?;
     }
     let quantum = theta_a
         .quantum
@@ -70,7 +79,11 @@ pub fn aligned(rig: &FiveBar, recording: &FiveBarRecording) -> Result<FiveBarRun
     let smoothed = theta
         .each_ref()
         .map(|theta| smoothed_motion(theta, step_s, band, theta_noise));
-    let speed_floor = smoothed.each_ref().map(|s| s.1).into_iter().fold(0.0, f64::max);
+    let speed_floor = smoothed
+        .each_ref()
+        .map(|s| s.1)
+        .into_iter()
+        .fold(0.0, f64::max);
     let base = smoothed.map(|(motion, _)| motion);
     let parameters = Parameters::of(rig.layout);
     let made = forms(&parameters, &base).map_err(|(k, error)| Fault {
@@ -91,13 +104,14 @@ pub fn aligned(rig: &FiveBar, recording: &FiveBarRecording) -> Result<FiveBarRun
         force,
         currents,
         yields: [const { Vec::new() }; 4],
+        backlash_steps: [const { Vec::new() }; 4],
         theta_noise,
         force_noise,
         recorded,
         speed_floor,
     };
     run.joints = Joint::ALL.map(|joint| joint_motion(&run, &base, joint, still));
-    run.yields = brakes(&run);
+    let_brakes_follow(&mut run);
     Ok(run)
 }
 
@@ -154,22 +168,31 @@ fn joint_motion(
         })
         .collect();
     let position: Vec<f64> = motion.iter().map(|now| now.position).collect();
-    forget_sense_at_rest(&mut motion, &position, run.step_s, still * greatest.max(1.0));
+    forget_sense_at_rest(
+        &mut motion,
+        &position,
+        run.step_s,
+        still * greatest.max(1.0),
+    );
     forget_sense_at_reversals(&mut motion);
     motion
 }
 
-/// The yield torques of the nominal brakes; 0 at a joint without one.
-fn brakes(run: &FiveBarRun) -> [Vec<f64>; 4] {
-    let mut out = [const { Vec::new() }; 4];
-    let joints = Joint::ALL.into_iter().zip(&run.joints).zip(&run.currents);
-    for (slot, ((joint, motion), current)) in out.iter_mut().zip(joints) {
-        *slot = match current {
+/// Lets the nominal brakes follow the motion; a joint without one resists with 0.
+fn let_brakes_follow(run: &mut FiveBarRun) {
+    let followed: Vec<(Vec<f64>, Vec<f64>)> = Joint::ALL
+        .into_iter()
+        .zip(&run.joints)
+        .zip(&run.currents)
+        .map(|((joint, motion), current)| match current {
             Some(current) => yields(joint, motion, current, run.step_s),
-            None => vec![0.0; motion.len()],
-        };
+            None => (vec![0.0; motion.len()], vec![0.0; motion.len()]),
+        })
+        .collect();
+    let slots = run.yields.iter_mut().zip(&mut run.backlash_steps);
+    for ((yields, steps), followed) in slots.zip(followed) {
+        (*yields, *steps) = followed;
     }
-    out
 }
 
 /// The physics that the nominal model has beyond the thesis's.

@@ -12,12 +12,7 @@ use rigproof_spec::units::RAD_S_PER_RPM;
 const ON_A: f64 = 0.05;
 
 /// Regimes of each joint and thirds of the recording, ranked as on a plant of one joint.
-pub fn locate(
-    problem: &Problem,
-    run: &FiveBarRun,
-    before: &[f64],
-    after: &[f64],
-) -> Vec<Located> {
+pub fn locate(problem: &Problem, run: &FiveBarRun, before: &[f64], after: &[f64]) -> Vec<Located> {
     let mut cells: Vec<Cell> = Joint::ALL
         .into_iter()
         .flat_map(|joint| joint_cells(problem, run, joint))
@@ -40,11 +35,20 @@ pub fn locate(
         cells.push(Cell {
             label,
             joint: None,
-            member: rows.map(|row| row % problem.windows.outputs == output).collect(),
+            member: rows
+                .map(|row| row % problem.windows.outputs == output)
+                .collect(),
         });
     }
     let usable = &problem.windows.usable;
-    ranked(problem, "efforts of θA and θB", usable, cells, before, after)
+    ranked(
+        problem,
+        "efforts of θA and θB",
+        usable,
+        cells,
+        before,
+        after,
+    )
 }
 
 fn joint_cells(problem: &Problem, run: &FiveBarRun, joint: Joint) -> Vec<Cell> {

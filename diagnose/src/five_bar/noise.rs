@@ -10,8 +10,12 @@ use nalgebra::Matrix2;
 /// What the brakes may do where the sense of motion cannot be told, in floors.
 const MOST_UNTOLD: f64 = 0.5;
 
-/// Gives up the rows whose window holds a missing sample, or in which a brake could do more than half the floor where its
-/// joint's sense cannot be told: a reversal, a joint at rest or held. What a held brake transmits is no measurement.
+/// Samples by which an entry into the backlash, or its end, may be mistaken.
+const ENTRY_SAMPLES: f64 = 3.0;
+
+/// Gives up the rows whose window holds a missing sample; in which a brake could do more than half the floor where its
+/// joint's sense cannot be told: a reversal, a joint at rest or held (what a held brake transmits is no measurement); or in
+/// which the torque steps by as much where the backlash begins or ends, because its angle is known to a few counts only.
 pub fn keep_moving(run: &FiveBarRun, windows: &mut Windows) {
     let most = MOST_UNTOLD * floor(run, windows);
     let untold: Vec<Vec<f64>> = run
@@ -25,10 +29,14 @@ pub fn keep_moving(run: &FiveBarRun, windows: &mut Windows) {
                 .collect()
         })
         .collect();
+    let steps = run.backlash_steps.each_ref().map(|steps| {
+        let errors = steps.iter().map(|step| ENTRY_SAMPLES * step);
+        errors.collect::<Vec<f64>>()
+    });
     windows.keep(|centre, bump| {
         let first = centre - bump.len() / 2;
         is_recorded(&run.recorded, centre, bump)
-            && untold.iter().all(|untold| {
+            && untold.iter().chain(&steps).all(|untold| {
                 let window = untold.iter().skip(first);
                 window.zip(bump).map(|(y, w)| y * w).sum::<f64>() <= most
             })

@@ -14,6 +14,8 @@ use std::path::Path;
 
 /// Sample interval, s.
 const STEP_S: f64 = 1e-3;
+/// Steps of the reference model a sample.
+const PARTS: usize = 4;
 /// Standard deviation of the force sensor, N.
 const FORCE_NOISE: f64 = 0.037;
 /// Counts of an encoder in a turn.
@@ -31,7 +33,10 @@ pub fn nothing(_: &Pose, _: [f64; 4], _: f64) -> [f64; 4] {
 pub fn rig(layout: Layout) -> FiveBar {
     let (name, last) = match layout {
         Layout::ThreeBrake => ("three_brake", ""),
-        Layout::FourBrake => ("four_brake", "current_c = { channel = \"ic\", unit = \"A\" }\n"),
+        Layout::FourBrake => (
+            "four_brake",
+            "current_c = { channel = \"ic\", unit = \"A\" }\n",
+        ),
     };
     let count_rad = core::f64::consts::TAU / COUNTS;
     let text = format!(
@@ -78,24 +83,34 @@ pub fn recording(layout: Layout, seconds: f64, seed: u64, left_out: LeftOut) -> 
             [0, 1].map(|i| 420.0 * (to[i] - tip[i]) - 11.0 * speed[i])
         };
         let now = hand(time_s, own.tip_m(), own.tip_velocity_m_s());
-        let currents =
-            [0, 1, 2, 3].map(|place| if braked(place) { current(place, time_s) } else { 0.0 });
-        let counts = own
-            .base_angles_rad()
-            .map(|angle| (angle * COUNTS / core::f64::consts::TAU).round() * core::f64::consts::TAU / COUNTS);
+        let currents = [0, 1, 2, 3].map(|place| {
+            if braked(place) {
+                current(place, time_s)
+            } else {
+                0.0
+            }
+        });
+        let counts = own.base_angles_rad().map(|angle| {
+            (angle * COUNTS / core::f64::consts::TAU).round() * core::f64::consts::TAU / COUNTS
+        });
         let seen = now.map(|f| f + FORCE_NOISE * noise.draw());
         let row = counts.into_iter().chain(seen).chain(currents);
         columns.iter_mut().zip(row).for_each(|(c, x)| c.push(x));
-        let force = |tip: [f64; 2], speed: [f64; 2]| {
-            let at = hand(time_s, tip, speed);
-            let pose = inverse::pose(&arms, tip).unwrap();
-            let j = jacobian(&arms, &pose).unwrap();
-            let rates = j * nalgebra::Vector2::from(speed);
-            let torques = left_out(&pose, rates.into(), time_s);
-            let extra = j.transpose() * nalgebra::Vector4::from(torques);
-            [at[0] + extra.x, at[1] + extra.y]
-        };
-        own.step_under(&force, currents, STEP_S).unwrap();
+        for part in 0..PARTS {
+            // The hand's goal stands still within a part: in its middle, so that its mean is right.
+            let middle_s = time_s + (part as f64 + 0.5) * STEP_S / PARTS as f64;
+            let force = |tip: [f64; 2], speed: [f64; 2]| {
+                let at = hand(middle_s, tip, speed);
+                let pose = inverse::pose(&arms, tip).unwrap();
+                let j = jacobian(&arms, &pose).unwrap();
+                let rates = j * nalgebra::Vector2::from(speed);
+                let torques = left_out(&pose, rates.into(), middle_s);
+                let extra = j.transpose() * nalgebra::Vector4::from(torques);
+                [at[0] + extra.x, at[1] + extra.y]
+            };
+            own.step_under(&force, currents, STEP_S / PARTS as f64)
+                .unwrap();
+        }
     }
     let trace = Trace {
         time_s: (0..count).map(|k| k as f64 * STEP_S).collect(),

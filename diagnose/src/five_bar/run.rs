@@ -1,7 +1,7 @@
 //! This file is an aligned recording of the five-bar: joint motions, forms of the equations of motion, nominal brakes.
 
 use nalgebra::{Matrix2, Vector2};
-use rigproof_model::brake::Brake;
+use rigproof_model::brake::{Brake, torque_gain};
 use rigproof_model::effects::Instant;
 use rigproof_model::error::ModelError;
 use rigproof_model::linkage::{Pose, forward};
@@ -32,6 +32,8 @@ pub struct FiveBarRun {
     pub currents: [Option<Vec<f64>>; 4],
     /// Yield torques of the nominal brakes at A, E, B, C, N·m; 0 without a brake.
     pub yields: [Vec<f64>; 4],
+    /// How far a brake's torque has to go where its backlash begins or ends at a sample, N·m; 0 elsewhere.
+    pub backlash_steps: [Vec<f64>; 4],
     /// Standard deviation of one angle sample, rad.
     pub theta_noise: f64,
     /// Standard deviation of one force sample, N.
@@ -128,6 +130,7 @@ impl FiveBarRun {
             force: self.force.each_ref().map(part),
             currents: self.currents.each_ref().map(|c| c.as_ref().map(part)),
             yields: self.yields.each_ref().map(part),
+            backlash_steps: self.backlash_steps.each_ref().map(part),
             theta_noise: self.theta_noise,
             force_noise: self.force_noise,
             recorded: self.recorded.get(from..to).unwrap_or_default().to_vec(),
@@ -155,7 +158,8 @@ pub fn forms(
     let pairs = a.iter().zip(b).enumerate();
     pairs
         .map(|(k, (a, b))| {
-            let pose = forward::pose(&parameters.arms, a.position, b.position).map_err(|e| (k, e))?;
+            let pose =
+                forward::pose(&parameters.arms, a.position, b.position).map_err(|e| (k, e))?;
             let rates = [a.speed, b.speed];
             let form = two_coordinate(&parameters.arms, &parameters.inertia, &pose, rates);
             Ok((pose, form))
@@ -163,18 +167,26 @@ pub fn forms(
         .collect()
 }
 
-/// The yield torque of a nominal brake along a joint's motion, the current of each sample held to the next.
-pub fn yields(joint: Joint, motion: &[Instant], current: &[f64], step_s: f64) -> Vec<f64> {
+/// The yield torque of a nominal brake along a joint's motion, the current of each sample held to the next, and how far it has
+/// to go at the samples where its backlash begins or ends.
+pub fn yields(
+    joint: Joint,
+    motion: &[Instant],
+    current: &[f64],
+    step_s: f64,
+) -> (Vec<f64>, Vec<f64>) {
     let start = motion.first().map_or(0.0, |now| now.position);
     let mut brake = Brake::new(joint, start);
-    let mut out = vec![brake.yield_torque()];
-    let ends = motion.iter().skip(1);
-    out.extend(ends.zip(current).map(|(now, &current)| {
+    let (mut own, mut steps) = (vec![brake.yield_torque()], vec![0.0]);
+    for (now, &current) in motion.iter().skip(1).zip(current) {
+        let was_inside = brake.backlash().is_inside();
         brake.step(current, now.position, now.speed, step_s);
-        brake.yield_torque()
-    }));
-    out.truncate(motion.len());
-    out
+        own.push(brake.yield_torque());
+        let turned = brake.backlash().is_inside() != was_inside;
+        let full = torque_gain(joint, current) - torque_gain(joint, 0.0);
+        steps.push(if turned { full } else { 0.0 });
+    }
+    (own, steps)
 }
 
 /// What the inertia of some mass matrices takes, sample by sample, as the second difference of the angles sees it:

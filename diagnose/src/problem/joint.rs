@@ -1,6 +1,6 @@
 //! This file is the columns of a plant of one joint: resistances along its motion, and changes of its drive.
 
-use super::{Problem, less, lagged_yield, numerov, shifted};
+use super::{Problem, lagged_yield, less, numerov, shifted};
 use crate::filter::gradient;
 use crate::run::{PlantKind, Run};
 use rigproof_model::bench::column;
