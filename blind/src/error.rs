@@ -4,7 +4,7 @@
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// The plant's name is not known.
-    #[error("plant \"{0}\" is not known; name one of: axis, bench")]
+    #[error("plant \"{0}\" is not known; name one of: axis, bench, rig")]
     UnknownPlant(String),
     /// The stratum's name is not known.
     #[error("stratum \"{name}\" is not known; name one of: {known}")]

@@ -47,8 +47,14 @@ pub fn make(plant: Plant, seed: u64, stratum: Option<Stratum>) -> Result<Case, E
     let stratum = stratum.unwrap_or_else(|| Stratum::of_seed(plant, seed));
     let secret = secret(plant, seed, stratum)?;
     let mut trace = record(&secret, &mut Draw::new(plant, seed, "sensors"));
-    let fault = (stratum == Stratum::DataFault)
-        .then(|| fault::spoil(plant, &mut trace, &mut Draw::new(plant, seed, "fault")));
+    let fault = (stratum == Stratum::DataFault).then(|| {
+        let effort = match plant {
+            Plant::Axis => "command",
+            _ => "torque",
+        };
+        let mut draw = Draw::new(plant, seed, "fault");
+        fault::spoil("position", effort, &mut trace, &mut draw)
+    });
     // A motor on a bench holds any bias; on an axis only dry friction can carry one off as an asymmetry.
     let dry_in_plant = plant == Plant::Bench
         || secret
@@ -87,10 +93,10 @@ pub(crate) fn secret(plant: Plant, seed: u64, stratum: Stratum) -> Result<Secret
     let setup = Setup::draw(plant, &mut Draw::new(plant, seed, "setup"));
     let mut draw = Draw::new(plant, seed, stratum.name());
     for _ in 0..ATTEMPTS {
-        let laws = hide::draw(plant, &setup, stratum, &mut draw);
+        let laws = hide::draw(&setup, stratum, &mut draw);
         let onset_s = (stratum == Stratum::LateOnset)
             .then(|| setup.duration_s * draw.uniform(1.0 / 3.0, 2.0 / 3.0));
-        let known = nominal::draw(plant, &setup, &laws, &mut draw);
+        let known = nominal::draw(&setup, &laws, &mut draw);
         let hidden: Vec<Effect> = laws
             .into_iter()
             .map(|law| Effect { law, onset_s })
