@@ -14,6 +14,16 @@ pub enum Error {
         /// The names that exist.
         known: String,
     },
+    /// The plant has no such stratum.
+    #[error(
+        "the {plant} plant has no cases of the stratum \"{stratum}\"; take another stratum or plant"
+    )]
+    OtherPlant {
+        /// The stratum's name.
+        stratum: &'static str,
+        /// The plant's name.
+        plant: &'static str,
+    },
     /// No draw met the stratum's rule of size.
     #[error(
         "seed {seed} gives no {stratum} case on the {plant} plant in {attempts} draws; choose another seed"

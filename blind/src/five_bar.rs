@@ -4,12 +4,20 @@ mod braked;
 mod drive;
 mod element;
 mod hand;
+mod hide;
 mod law;
 mod linkage;
+mod make;
 mod mass;
 mod plant;
 mod preisach;
+mod residual;
+mod run;
+mod setup;
+mod size;
 mod stick;
+
+pub use make::make;
 
 use linkage::angles_of_tip;
 use plant::FiveBar;

@@ -40,7 +40,6 @@ const PAIRS_BRAKE: [[Recipe; 2]; 2] = [[dry, gain], [viscous, lag]];
 pub fn draw(setup: &Setup, stratum: Stratum, draw: &mut Draw) -> Vec<Law> {
     let driven = !matches!(setup.kind, Kind::Bench(None));
     match stratum {
-        Stratum::Nothing | Stratum::DataFault => Vec::new(),
         Stratum::Masked => {
             let mut pairs = PAIRS_ANYWHERE.to_vec();
             match setup.kind {
@@ -76,6 +75,8 @@ pub fn draw(setup: &Setup, stratum: Stratum, draw: &mut Draw) -> Vec<Law> {
             let share = draw.log_uniform(0.15, 1.0);
             vec![if is_effort { law.scaled(share) } else { law }]
         }
+        // Nothing, a fault of the data, or a stratum of the five-bar.
+        _ => Vec::new(),
     }
 }
 

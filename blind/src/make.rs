@@ -8,9 +8,9 @@ use crate::plant::Plant;
 use crate::run::Run;
 use crate::seal;
 use crate::setup::{Kind, Setup};
-use crate::size::{CLEAR_DISTINCTNESS, CLEAR_SIZE, FAINT_STRENGTH, Size, block_noise, sizes};
+use crate::size::{FAINT_STRENGTH, Size, block_noise, sizes};
 use crate::stratum::Stratum;
-use crate::{axis, bench, fault, hide, nominal, rig};
+use crate::{axis, bench, fault, five_bar, hide, nominal, rig};
 use rigproof_spec::effect::Quantity;
 use rigproof_trace::{Channel, Trace};
 
@@ -42,9 +42,19 @@ pub(crate) struct Secret {
 /// Makes the case of a seed; `None` lets the seed draw the stratum.
 ///
 /// # Errors
-/// [`Error::NoCase`] when no draw of the seed meets the stratum's rule of size.
+/// [`Error::NoCase`] when no draw of the seed meets the stratum's rule of size; [`Error::OtherPlant`] when the plant has no such
+/// stratum.
 pub fn make(plant: Plant, seed: u64, stratum: Option<Stratum>) -> Result<Case, Error> {
     let stratum = stratum.unwrap_or_else(|| Stratum::of_seed(plant, seed));
+    if stratum.of_twenty(plant) == 0 {
+        return Err(Error::OtherPlant {
+            stratum: stratum.name(),
+            plant: plant.name(),
+        });
+    }
+    if plant == Plant::Rig {
+        return five_bar::make(seed, stratum);
+    }
     let secret = secret(plant, seed, stratum)?;
     let mut trace = record(&secret, &mut Draw::new(plant, seed, "sensors"));
     let fault = (stratum == Stratum::DataFault).then(|| {
@@ -135,15 +145,7 @@ impl Secret {
 
     fn fits(&self, stratum: Stratum) -> bool {
         let moves = self.run.moving.iter().filter(|m| **m).count() * 2 > self.run.moving.len();
-        moves
-            && self.sizes.iter().all(|size| match stratum {
-                Stratum::Nothing | Stratum::DataFault => true,
-                Stratum::TooSmall => size.strength <= FAINT_STRENGTH,
-                Stratum::NotInLibrary => size.distinctness >= CLEAR_SIZE,
-                Stratum::Single | Stratum::Masked | Stratum::LateOnset => {
-                    size.size >= CLEAR_SIZE && size.distinctness >= CLEAR_DISTINCTNESS
-                }
-            })
+        moves && self.sizes.iter().all(|size| size.fits(stratum))
     }
 }
 
