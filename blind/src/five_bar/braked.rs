@@ -20,8 +20,9 @@ const LEAST_SHARE: f64 = 0.3;
 /// A brake, true and nominal, and its hidden effects.
 #[derive(Clone, Debug)]
 pub struct Braked {
-    true_brake: Brake,
     nominal: Brake,
+    /// The brake with what is hidden ahead of its yield; the nominal one where nothing is.
+    upstream: Option<Brake>,
     effects: Vec<(usize, Effect)>,
     preisach: Preisach,
     lagged_nm: f64,
@@ -42,12 +43,15 @@ impl Braked {
             }
             _ => None,
         });
-        let true_brake = Brake::new(joint, width, angle_rad);
         let nominal = Brake::new(joint, None, angle_rad);
+        let is_upstream = |(_, effect): &(usize, Effect)| {
+            matches!(effect.law, Law::Backlash { .. } | Law::Preisach { .. })
+        };
+        let upstream = effects.iter().any(is_upstream);
         Braked {
-            lagged_nm: true_brake.yield_nm(),
-            true_brake,
+            lagged_nm: nominal.yield_nm(),
             nominal,
+            upstream: upstream.then(|| Brake::new(joint, width, angle_rad)),
             effects,
             preisach: Preisach::new(),
             fluid_k: 0.0,
@@ -70,18 +74,15 @@ impl Braked {
         } else {
             self.travel_rad += travel;
         }
-        let mut current_a = step.current_a;
-        self.preisach.take(step.current_a);
-        for (_, effect) in &self.effects {
-            if let Law::Preisach { share } = effect.law
-                && effect.acts(time_s)
-            {
-                current_a += share * (self.preisach.output() - step.current_a.clamp(0.0, 1.0));
-            }
-        }
         let power_w = self.yield_nm() * step.speed_rad_s.abs();
-        self.true_brake
-            .step(time_s, &BrakeStep { current_a, ..*step });
+        let current_a = self.magnetic_current_a(time_s, step.current_a);
+        let target_nm = match &mut self.upstream {
+            Some(brake) => {
+                brake.step(time_s, &BrakeStep { current_a, ..*step });
+                brake.yield_nm()
+            }
+            None => self.nominal.yield_nm(),
+        };
         let lag_s = self
             .effects
             .iter()
@@ -89,7 +90,6 @@ impl Braked {
                 Law::Lag { time_constant } if effect.acts(time_s) => Some(time_constant),
                 _ => None,
             });
-        let target_nm = self.true_brake.yield_nm();
         self.lagged_nm = lag_s.map_or(target_nm, |lag_s| {
             target_nm + (self.lagged_nm - target_nm) * libm::exp(-step.step_s / lag_s)
         });
@@ -103,6 +103,22 @@ impl Braked {
             self.housing_k += step.step_s * (between_w - HOUSING_TO_AIR_W_PER_K * self.housing_k)
                 / HOUSING_J_PER_K;
         }
+    }
+
+    /// The current that the fluid sees, A.
+    fn magnetic_current_a(&mut self, time_s: f64, current_a: f64) -> f64 {
+        let share = self
+            .effects
+            .iter()
+            .find_map(|(_, effect)| match effect.law {
+                Law::Preisach { share } if effect.acts(time_s) => Some(share),
+                _ => None,
+            });
+        let Some(share) = share else {
+            return current_a;
+        };
+        self.preisach.take(current_a);
+        current_a + share * (self.preisach.output() - current_a.clamp(0.0, 1.0))
     }
 
     /// Yield torque, N·m, at least zero.

@@ -107,14 +107,16 @@ impl FiveBar {
         let half_s = 0.5 * step_s;
         let middle_s = time_s + half_s;
         let rates = plus(self.rates, half_s, self.acceleration);
-        let ahead = |by_s: f64| {
-            let theta = plus(self.theta, by_s, self.rates);
-            Pose::at(
-                &self.arms,
-                plus(theta, 0.5 * by_s * by_s, self.acceleration),
-            )
-        };
-        let (middle, end) = (ahead(half_s)?, ahead(step_s)?);
+        let theta = plus(self.theta, half_s, self.rates);
+        let middle = Pose::at(
+            &self.arms,
+            plus(theta, 0.5 * half_s * half_s, self.acceleration),
+        )?;
+        // The rows at the end, as far beyond the middle as the middle is beyond the start.
+        let mut end = middle.rows;
+        for (row, start) in end.iter_mut().zip(self.pose.rows) {
+            *row = plus(row.map(|x| 2.0 * x), -1.0, start);
+        }
         let form = Form::new(&self.arms, &self.inertia, &middle, rates);
         let force_n = force(
             middle_s,
@@ -160,7 +162,7 @@ impl FiveBar {
                 plus(pushed, -1.0, form.bias),
             ),
             forces: middle.rows,
-            rates: end.rows,
+            rates: end,
             impulses: bounds.map(|bound| bound * step_s),
         };
         let motion = contact.settle(self.signs);

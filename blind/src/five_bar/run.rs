@@ -15,7 +15,7 @@ pub struct Sample {
     pub acceleration: Pair,
     /// Which joints stick.
     pub stuck: [bool; 4],
-    /// Whether these change at the sample.
+    /// Whether a joint sticks, slides or turns round just then.
     pub changes: bool,
     /// Force of the hand, N, true and as the sensor has it, without noise.
     pub force_n: Pair,
@@ -67,6 +67,7 @@ pub fn run(setup: &Setup, hidden: &[Effect]) -> Option<Vec<Sample>> {
             nominal_yields_nm: rig.nominal_yields_nm(),
             hidden_nm,
         });
+        let signs = rig.signs;
         for fine in 0..FINE_STEPS {
             let time_s = sample_s + fine as f64 * step_s;
             let mut hand_n = [0.0; 2];
@@ -92,7 +93,7 @@ pub fn run(setup: &Setup, hidden: &[Effect]) -> Option<Vec<Sample>> {
                 // The acceleration of the sample's instant is between those of the steps that meet there.
                 sample.acceleration =
                     plus(sample.acceleration, 1.0, rig.acceleration).map(|x| 0.5 * x);
-                sample.changes = sample.stuck != rig.stuck();
+                sample.changes = signs != rig.signs;
             }
         }
     }

@@ -35,10 +35,30 @@ const PARALLEL: f64 = 1e-9;
 impl Contact<'_> {
     /// The motion; `last` is that of the step before, which is nearly always still right.
     pub fn settle(&self, last: [f64; 4]) -> Motion {
+        if last == [0.0; 4] && self.holds() {
+            return Motion {
+                rates: [0.0; 2],
+                signs: last,
+            };
+        }
         match self.with_signs(last) {
             Some(motion) if self.agrees(&motion, last) => motion,
             _ => self.least(),
         }
+    }
+
+    /// Whether friction can hold everything: the momentum is inside the zonotope of all sets, whose faces are along the rows.
+    fn holds(&self) -> bool {
+        let mut rows = self.frictional().map(|k| self.force(k)).peekable();
+        // The rows themselves count where all are parallel.
+        rows.peek().is_some()
+            && rows.flat_map(|row| [turned(row), row]).all(|normal| {
+                let room: f64 = self
+                    .frictional()
+                    .map(|k| self.bound(k) * dot(self.force(k), normal).abs())
+                    .sum();
+                dot(self.momentum, normal).abs() <= room
+            })
     }
 
     /// The velocity if the joints that slid still slide and those that stuck still stick.

@@ -161,3 +161,49 @@ fn under_every_brake_and_a_push_below_their_yield_nothing_moves() {
         assert_eq!(rig.rates, [0.0; 2]);
     }
 }
+
+#[test]
+fn explore() {
+    use crate::stratum::Stratum;
+    for stratum in Stratum::ALL {
+        for seed in 0..2 {
+            let begun = cpu_s();
+            match make::secret(seed, stratum) {
+                Ok(secret) => {
+                    let sizes: Vec<String> = secret
+                        .sizes
+                        .sizes
+                        .iter()
+                        .map(|s| format!("{:.1}/{:.1}/{:.1}", s.size, s.distinctness, s.strength))
+                        .collect();
+                    let names: Vec<String> = secret
+                        .hidden
+                        .iter()
+                        .map(|e| format!("{}@{:?}", e.name(), e.joint))
+                        .collect();
+                    let left = size::left_over(&secret.setup, &secret.hidden, &secret.samples);
+                    eprintln!(
+                        "{} {seed} {:?} {}s noise {:.4} slide {:.2} left {:.3} {names:?} {sizes:?} {:.2} s",
+                        stratum.name(),
+                        secret.setup.layout,
+                        secret.setup.duration_s,
+                        secret.sizes.block_noise,
+                        secret.sizes.sliding,
+                        left,
+                        cpu_s() - begun
+                    );
+                }
+                Err(error) => eprintln!(
+                    "{} {seed} {error} {:.2} s",
+                    stratum.name(),
+                    cpu_s() - begun
+                ),
+            }
+        }
+    }
+}
+
+fn cpu_s() -> f64 {
+    let stat = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap();
+    stat.split(' ').next().unwrap().parse::<f64>().unwrap() * 1e-9
+}
