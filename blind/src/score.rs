@@ -237,6 +237,7 @@ mod tests {
     fn effect(mechanism: &str, equivalent: &[&[&str]]) -> HiddenEffect {
         HiddenEffect {
             mechanism: mechanism.to_owned(),
+            joint: None,
             onset_s: Some(8.25),
             parameters: vec![TrueParameter {
                 name: "level".to_owned(),
