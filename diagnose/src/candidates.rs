@@ -15,7 +15,8 @@ pub fn causes(problem: &Problem) -> Vec<Cause> {
     }
     LIBRARY
         .iter()
-        .filter(|entry| !matches!(entry.form, Form::Linkage))
+        .filter(|entry| !ONLY_OF_BRAKES.contains(&entry.mechanism))
+        .filter(|entry| matches!(entry.form, Form::Resistance(_) | Form::Drive))
         .map(|entry| Cause::of(entry.mechanism))
         .filter(|cause| {
             // A gain can only be wrong against something that is known.
@@ -23,6 +24,9 @@ pub fn causes(problem: &Problem) -> Vec<Cause> {
         })
         .collect()
 }
+
+/// What only the brakes of the five-bar are asked for: the rules of the other plants were chosen without them.
+const ONLY_OF_BRAKES: [Mechanism; 2] = [Mechanism::ReversalOvershoot, Mechanism::Settling];
 
 /// The variants of a cause that are tried beside the terms of `fitted`: one term a shape.
 pub fn variants(problem: &Problem, cause: Cause, terms: &[&Term], fitted: &Fit) -> Vec<Term> {

@@ -1,5 +1,6 @@
 //! This file runs the stages in order: align, locate, explain, refit, show.
 
+mod description;
 pub(crate) mod ended;
 mod fitted;
 mod stages;
@@ -15,9 +16,9 @@ use crate::run::Run;
 use crate::select::{FLOOR_RATIO, Gates, Selection, refs, select, usable_rms};
 use crate::unknown::surrogates;
 use crate::weak::{Windows, choose_width};
+pub use description::{Description, Measured};
 use ended::{faulty, not_excited};
 use rigproof_spec::effect::Mechanism;
-use rigproof_trace::rig::five_bar::FiveBar;
 use rigproof_trace::rig::{Recording, Rig};
 use write::Stand;
 
@@ -38,33 +39,6 @@ impl Default for Options {
             gates: Gates::default(),
             hold_out_share: 0.25,
             refit: true,
-        }
-    }
-}
-
-/// What a rig file describes.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Description {
-    /// A plant of one joint.
-    Joint(Rig),
-    /// The five-bar.
-    FiveBar(FiveBar),
-}
-
-impl Description {
-    /// The plant's name in reports.
-    pub const fn plant_name(&self) -> &'static str {
-        match self {
-            Description::Joint(rig) => rig.plant.name(),
-            Description::FiveBar(_) => "rig",
-        }
-    }
-
-    /// As TOML.
-    pub fn to_toml(&self) -> String {
-        match self {
-            Description::Joint(rig) => rig.to_toml(),
-            Description::FiveBar(rig) => rig.to_toml(),
         }
     }
 }

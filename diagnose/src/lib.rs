@@ -31,5 +31,5 @@ mod weak;
 mod whiten;
 mod write_rig;
 
-pub use diagnose::{Curves, Description, Diagnosis, Options, diagnose};
+pub use diagnose::{Curves, Description, Diagnosis, Measured, Options, diagnose};
 pub use select::Gates;

@@ -1,20 +1,26 @@
 //! This file says which causes are tried on a recording of the five-bar, where, and in which shapes.
 
-use super::run::FiveBarRun;
+use super::run::{FiveBarRun, place};
 use crate::candidates::{fastest, geometric, stribeck_shapes};
 use crate::problem::Cause;
 use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
 
 /// What can be left out at a joint with a brake.
-const AT_BRAKES: [Mechanism; 7] = [
+const AT_BRAKES: [Mechanism; 13] = [
     Mechanism::DryOffset,
     Mechanism::Viscous,
     Mechanism::GainError,
     Mechanism::DirectionAsymmetry,
     Mechanism::Stribeck,
     Mechanism::Presliding,
+    Mechanism::ReversalOvershoot,
+    Mechanism::Settling,
     Mechanism::Lag,
+    Mechanism::DeadTime,
+    Mechanism::Saturation,
+    Mechanism::CurrentHysteresis,
+    Mechanism::ThermalFade,
 ];
 
 /// What can be left out of the linkage as a whole, and of its sensors.
@@ -50,6 +56,17 @@ pub fn causes(run: &FiveBarRun) -> Vec<Cause> {
         .collect()
 }
 
+/// Currents below the greatest one that a brake was given, A: where its amplifier may have stopped.
+fn limits(run: &FiveBarRun, cause: Cause) -> Vec<f64> {
+    let current = cause.joint.and_then(|joint| run.currents.get(place(joint)));
+    let given = current.into_iter().flatten().flatten().copied();
+    let greatest = given.fold(0.0, f64::max);
+    if greatest < 0.05 {
+        return Vec::new();
+    }
+    geometric(0.3 * greatest, 0.97 * greatest, 8)
+}
+
 /// The shapes of a cause that are tried.
 pub fn shapes(run: &FiveBarRun, cause: Cause) -> Vec<Vec<f64>> {
     let motion = cause.joint.map_or(&[][..], |joint| run.motion(joint));
@@ -66,7 +83,13 @@ pub fn shapes(run: &FiveBarRun, cause: Cause) -> Vec<Vec<f64>> {
                 10,
             ))
         }
+        Mechanism::ReversalOvershoot => one(geometric(0.01, 1.5, 6)),
+        Mechanism::Settling => one(geometric(0.3, 30.0, 5)),
         Mechanism::Lag => one(geometric(0.5 * run.step_s, 0.25, 12)),
+        Mechanism::DeadTime => one(geometric(run.step_s, 0.08, 8)),
+        Mechanism::Saturation => one(limits(run, cause)),
+        Mechanism::CurrentHysteresis => one(geometric(0.01, 0.3, 5)),
+        Mechanism::ThermalFade => one(geometric(3.0, 300.0, 4)),
         Mechanism::ChannelSkew => {
             let sizes = geometric(0.25 * run.step_s, 0.04f64.max(4.0 * run.step_s), 10);
             one(sizes.iter().flat_map(|&s| [s, -s]).collect())

@@ -1,10 +1,11 @@
 //! This file is the columns of the five-bar: what each cause would add to the efforts of θA and θB.
 
-use super::run::{FiveBarRun, inertial, place, stacked};
+use super::brakes;
+use super::run::{FiveBarRun, inertial, stacked};
 use crate::problem::{Cause, less, numerov, shifted};
 use nalgebra::{Matrix2, Vector2};
 use rigproof_model::bench::column;
-use rigproof_model::effects::{entry, first_order_lag, law};
+use rigproof_model::effects::{entry, law};
 use rigproof_model::motion::two_coordinate::{TwoCoordinate, two_coordinate};
 use rigproof_spec::effect::Mechanism;
 use rigproof_spec::inertia::{ArmInertia, Inertia};
@@ -30,6 +31,16 @@ pub fn free(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<f64
     match (cause.mechanism, cause.joint) {
         (Mechanism::GainError, Some(joint)) => {
             Some(vec![seen(&run.at_joint(joint, &run.brake_torque(joint)))])
+        }
+        (Mechanism::CurrentHysteresis | Mechanism::ThermalFade, Some(joint)) => {
+            let change = brakes::unit(run, cause.mechanism, joint, shape)?;
+            Some(vec![along_motion(run, joint, &change)])
+        }
+        // A spring at a joint has its rest angle where it likes: the second column is its torque at θ = 0.
+        (Mechanism::Spring, Some(joint)) => {
+            let mut columns = at_joint(run, Mechanism::Spring, joint, shape)?;
+            columns.extend(at_joint(run, Mechanism::ConstantBias, joint, shape)?);
+            Some(columns)
         }
         (Mechanism::BearingFriction, Some(joint)) => {
             at_joint(run, Mechanism::DryOffset, joint, shape)
@@ -60,13 +71,10 @@ pub fn free(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<f64
 pub fn fixed(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<f64>> {
     let value = *shape.first()?;
     match (cause.mechanism, cause.joint) {
-        // The yield of a brake lags, its sign does not (docs/decisions/0001).
-        (Mechanism::Lag, Some(joint)) => {
-            let yields = run.yields.get(place(joint))?;
-            let change = less(&first_order_lag(yields, run.step_s, value), yields);
-            let motion = run.motion(joint).iter().zip(change);
-            let torque: Vec<f64> = motion.map(|(now, c)| now.sense * c).collect();
-            Some(seen(&run.at_joint(joint, &torque)))
+        // The yield of a brake changes, its sign does not (docs/decisions/0001).
+        (mechanism, Some(joint)) => {
+            let change = brakes::change(run, mechanism, joint, value)?;
+            Some(along_motion(run, joint, &change))
         }
         // The recorded force is the one of a while ago: what acts is ahead of it.
         (Mechanism::ChannelSkew, None) => {
@@ -79,6 +87,13 @@ pub fn fixed(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<f64>> 
         }
         _ => None,
     }
+}
+
+/// A change of a brake's yield torque along its joint's motion.
+fn along_motion(run: &FiveBarRun, joint: Joint, change: &[f64]) -> Vec<f64> {
+    let pairs = run.motion(joint).iter().zip(change);
+    let torque: Vec<f64> = pairs.map(|(now, c)| now.sense * c).collect();
+    seen(&run.at_joint(joint, &torque))
 }
 
 /// The signals of a joint's own law.

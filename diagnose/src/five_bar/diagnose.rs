@@ -18,15 +18,15 @@ use crate::select::{Selection, refs, select};
 use crate::weak::Windows;
 use crate::write_rig::{numbers, with_interval};
 use rigproof_model::effects::entry;
-use rigproof_spec::effect::Motion;
+use rigproof_spec::effect::{Mechanism, Motion};
 use rigproof_spec::joint::Joint;
 use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording, JointEffect};
 use rigproof_trace::rig::{RigEffect, Value};
 
 /// The widths of windows that are tried, s; the last is taken when no narrower one is quiet enough.
 const WIDTHS_S: [f64; 3] = [0.040, 0.080, 0.160];
-/// A width is quiet enough when the floor is below this share of the driving effort.
-const QUIET: f64 = 0.003;
+/// A width is quiet enough when the floor is below this, N·m: contributions of 0.01 N·m are to be seen in a few windows.
+const QUIET_NM: f64 = 0.0075;
 
 /// Diagnoses a recording of a five-bar; `held_out` is another recording of the same rig.
 pub fn diagnose(
@@ -75,7 +75,7 @@ fn problem(run: &FiveBarRun) -> Problem<'_> {
         let windows = Windows::over(run.len(), 2, (run.step_s, run.start_s), width_s);
         Problem::of_five_bar(run, windows)
     };
-    let quiet = |problem: &Problem| problem.floor <= QUIET * problem.effort_size;
+    let quiet = |problem: &Problem| problem.floor <= QUIET_NM;
     let [narrow, middle, wide] = WIDTHS_S;
     let narrow = over(narrow);
     if quiet(&narrow) {
@@ -120,11 +120,12 @@ impl Stand<'_> {
         let floor = floor(problem, selection, Motion::Rotary);
         let verdict = verdict(selection, &floor, &rivals);
         let test = self.balanced(self.test);
-        let fit = self.fit_report(&test, other_recording);
+        let fit = (self.options.refit && self.test.len() > 0)
+            .then(|| self.fit_report(&test, other_recording));
         let errors = standard_errors(problem, selection);
         let calibration = self.calibrated(&errors);
         let (before, after) = (&selection.before.residual, &selection.after.residual);
-        let summary = summary(verdict, selection, Some(&fit));
+        let summary = summary(verdict, selection, fit.as_ref());
         let report = Report {
             protocol: self.protocol(other_recording),
             located: locate(problem, self.train, before, after),
@@ -136,7 +137,7 @@ impl Stand<'_> {
                 .collect(),
             too_small_to_name: selection.too_small.iter().map(|c| c.name()).collect(),
             not_seen: not_seen(problem, selection, self.options.gates, Motion::Rotary),
-            fit: Some(fit),
+            fit,
             floor: Some(floor.clone()),
             ..blank("rig", verdict, summary)
         };
@@ -259,19 +260,20 @@ impl Stand<'_> {
                     return given.clone();
                 }
                 let spread = errors.terms.get(index);
-                let values = parameters(term, own).into_iter().enumerate();
+                let count = term.cause.mechanism.parameters().len();
+                let values = parameters(term, own).into_iter().take(count).enumerate();
                 let values = values
                     .map(|(k, value)| with_interval(value, spread.and_then(|s| s.get(k)).copied()));
-                JointEffect {
-                    joint: term.cause.joint,
-                    effect: RigEffect {
-                        mechanism: term.cause.mechanism,
-                        values: values.collect(),
-                        onset: term.onset_s.map(Value::known),
-                    },
-                }
+                joint_effect(term, term.cause.mechanism, values.collect())
             })
             .collect();
+        // A spring's torque at θ = 0, which the vocabulary has as a law of its own.
+        let springs = terms.iter().zip(&coefficients);
+        rig.effects.extend(springs.filter_map(|(term, own)| {
+            let preload = *own.get(1).filter(|_| term.cause.mechanism == Mechanism::Spring)?;
+            let level = with_interval(preload, None);
+            Some(joint_effect(term, Mechanism::ConstantBias, vec![level]))
+        }));
         rig.provenance
             .insert("fit".to_owned(), "weighted windows".to_owned());
         rig
@@ -323,6 +325,17 @@ impl Stand<'_> {
             floor: self.problem.floor,
             residual_unit: unit,
         }
+    }
+}
+
+fn joint_effect(term: &Term, mechanism: Mechanism, values: Vec<Value>) -> JointEffect {
+    JointEffect {
+        joint: term.cause.joint,
+        effect: RigEffect {
+            mechanism,
+            values,
+            onset: term.onset_s.map(Value::known),
+        },
     }
 }
 

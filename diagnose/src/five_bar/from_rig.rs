@@ -8,6 +8,7 @@ use crate::align::{
 };
 use crate::problem::{Cause, NominalEffect};
 use crate::run::PlantKind;
+use rigproof_model::brake::{Brake, torque_gain};
 use rigproof_model::effects::Instant;
 use rigproof_model::rig::Parameters;
 use rigproof_spec::joint::Joint;
@@ -180,13 +181,20 @@ fn joint_motion(
 
 /// Lets the nominal brakes follow the motion; a joint without one resists with 0.
 fn let_brakes_follow(run: &mut FiveBarRun) {
-    let followed: Vec<(Vec<f64>, Vec<f64>)> = Joint::ALL
-        .into_iter()
-        .zip(&run.joints)
-        .zip(&run.currents)
-        .map(|((joint, motion), current)| match current {
-            Some(current) => yields(joint, motion, current, run.step_s),
-            None => (vec![0.0; motion.len()], vec![0.0; motion.len()]),
+    let joints = Joint::ALL.into_iter().zip(&run.joints).zip(&run.currents);
+    let followed: Vec<(Vec<f64>, Vec<f64>)> = joints
+        .map(|((joint, motion), current)| {
+            let Some(current) = current else {
+                return (vec![0.0; motion.len()], vec![0.0; motion.len()]);
+            };
+            let start = motion.first().map_or(0.0, |now| now.position);
+            let (own, turned) = yields(Brake::new(joint, start), motion, current, run.step_s);
+            let off = torque_gain(joint, 0.0);
+            let full = |(turned, current): (&bool, &f64)| match turned {
+                true => (torque_gain(joint, *current) - off).abs(),
+                false => 0.0,
+            };
+            (own, turned.iter().zip(current).map(full).collect())
         })
         .collect();
     let slots = run.yields.iter_mut().zip(&mut run.backlash_steps);

@@ -1,7 +1,7 @@
 //! This file is an aligned recording of the five-bar: joint motions, forms of the equations of motion, nominal brakes.
 
 use nalgebra::{Matrix2, Vector2};
-use rigproof_model::brake::{Brake, torque_gain};
+use rigproof_model::brake::Brake;
 use rigproof_model::effects::Instant;
 use rigproof_model::error::ModelError;
 use rigproof_model::linkage::{Pose, forward};
@@ -167,26 +167,22 @@ pub fn forms(
         .collect()
 }
 
-/// The yield torque of a nominal brake along a joint's motion, the current of each sample held to the next, and how far it has
-/// to go at the samples where its backlash begins or ends.
+/// The yield torque of a brake along a joint's motion, the current of each sample held to the next, and at which samples its
+/// backlash begins or ends.
 pub fn yields(
-    joint: Joint,
+    mut brake: Brake,
     motion: &[Instant],
     current: &[f64],
     step_s: f64,
-) -> (Vec<f64>, Vec<f64>) {
-    let start = motion.first().map_or(0.0, |now| now.position);
-    let mut brake = Brake::new(joint, start);
-    let (mut own, mut steps) = (vec![brake.yield_torque()], vec![0.0]);
+) -> (Vec<f64>, Vec<bool>) {
+    let (mut own, mut turned) = (vec![brake.yield_torque()], vec![false]);
     for (now, &current) in motion.iter().skip(1).zip(current) {
         let was_inside = brake.backlash().is_inside();
         brake.step(current, now.position, now.speed, step_s);
         own.push(brake.yield_torque());
-        let turned = brake.backlash().is_inside() != was_inside;
-        let full = torque_gain(joint, current) - torque_gain(joint, 0.0);
-        steps.push(if turned { full } else { 0.0 });
+        turned.push(brake.backlash().is_inside() != was_inside);
     }
-    (own, steps)
+    (own, turned)
 }
 
 /// What the inertia of some mass matrices takes, sample by sample, as the second difference of the angles sees it:

@@ -14,7 +14,7 @@ use super::read::{choice, read_channel, read_effect, read_provenance, read_time}
 use super::table::{Source, Table};
 use super::write::{channel, effect_lines, string, time_line};
 use super::{ChannelMap, Protocol, RigEffect, text};
-use crate::csv::{self, Hints, TimeColumn};
+use crate::csv::{self, Dialect, Hints, TimeColumn};
 use crate::error::TraceError;
 use crate::series::Trace;
 use crate::store;
@@ -155,8 +155,22 @@ impl FiveBar {
     /// # Errors
     /// As [`csv::read`] and [`FiveBar::apply`].
     pub fn read_recording(&self, path: &Path) -> Result<FiveBarRecording, TraceError> {
-        let (trace, _) = csv::read_as(path, self.channels.time.as_ref(), &self.text)?;
-        self.apply(&trace, path)
+        let (recording, _) = self.read_text(path, &Hints::default())?;
+        Ok(recording)
+    }
+
+    /// Reads a text recording of this rig whose dialect is partly known, and says in which it was.
+    ///
+    /// # Errors
+    /// As [`csv::read`] and [`FiveBar::apply`].
+    pub fn read_text(
+        &self,
+        path: &Path,
+        hints: &Hints,
+    ) -> Result<(FiveBarRecording, Dialect), TraceError> {
+        let (trace, dialect) =
+            csv::read_as(path, self.channels.time.as_ref(), &hints.or(self.text))?;
+        Ok((self.apply(&trace, path)?, dialect))
     }
 
     /// Turns a recording into SI quantities; `origin` is the file that messages name.
