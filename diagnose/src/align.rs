@@ -394,6 +394,12 @@ pub fn band_hz(effort: &[f64], step_s: f64) -> f64 {
     (index.max(1)) as f64 / (step_s * effort.len() as f64)
 }
 
+/// Where the low-pass of the motion ends, Hz.
+pub(crate) fn cutoff_hz(step_s: f64, band_hz: f64) -> f64 {
+    let rate_hz = 1.0 / step_s;
+    (2.0 * band_hz).clamp(25.0f64.min(0.25 * rate_hz), 0.35 * rate_hz)
+}
+
 /// Position and speed after a zero-phase low-pass that keeps twice the effort's band, and the speed below which
 /// noise decides the sign.
 pub(crate) fn smoothed_motion(
@@ -403,7 +409,7 @@ pub(crate) fn smoothed_motion(
     noise: f64,
 ) -> (Vec<Instant>, f64) {
     let rate_hz = 1.0 / step_s;
-    let cutoff_hz = (2.0 * band_hz).clamp(25.0f64.min(0.25 * rate_hz), 0.35 * rate_hz);
+    let cutoff_hz = cutoff_hz(step_s, band_hz);
     let smooth = LowPass::butterworth(4, 2.0 * cutoff_hz / rate_hz).zero_phase(position);
     let speed = gradient(&smooth, step_s);
     // White noise through the filter and the difference: ∫(2πf)² up to the cut-off.

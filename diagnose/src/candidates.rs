@@ -83,10 +83,10 @@ pub fn modelled_effort(problem: &Problem, terms: &[&Term], fitted: &Fit) -> Vec<
 fn shapes(problem: &Problem, cause: Cause, residual: &[f64]) -> Vec<Vec<f64>> {
     match problem.plant {
         PlantRun::Joint(run) => {
-            let periods = || periods(problem, run, residual);
+            let periods = || periods(&points(problem, run, residual), run.travel());
             joint_shapes(run, cause.mechanism, periods)
         }
-        PlantRun::FiveBar(run) => five_bar::candidates::shapes(run, cause),
+        PlantRun::FiveBar(run) => five_bar::candidates::shapes(problem, run, cause, residual),
     }
 }
 
@@ -117,8 +117,12 @@ fn joint_shapes(run: &Run, mechanism: Mechanism, periods: impl Fn() -> Vec<f64>)
 
 /// The range that each shape parameter of a mechanism may take: that of the shapes tried, for a period all of them.
 pub fn shape_bounds(problem: &Problem, cause: Cause) -> Vec<(f64, f64)> {
-    if let (Mechanism::Ripple, PlantRun::Joint(run)) = (cause.mechanism, problem.plant) {
-        let travel = run.travel().max(1e-12);
+    if cause.mechanism == Mechanism::Ripple {
+        let travel = match problem.plant {
+            PlantRun::Joint(run) => run.travel(),
+            PlantRun::FiveBar(run) => five_bar::candidates::travel(run, cause),
+        };
+        let travel = travel.max(1e-12);
         return vec![(travel / MOST_CYCLES, travel)];
     }
     let tried = shapes(problem, cause, &[]);
@@ -185,10 +189,9 @@ const SPACING: f64 = 0.35;
 /// Peaks of the residual's spectrum over position that are tried.
 const PEAKS: usize = 4;
 
-/// The periods at the highest peaks of the residual's spectrum over position.
-fn periods(problem: &Problem, run: &Run, residual: &[f64]) -> Vec<f64> {
-    let travel = run.travel().max(1e-12);
-    let points: Vec<(f64, f64)> = problem
+/// Position and residual of each usable window.
+fn points(problem: &Problem, run: &Run, residual: &[f64]) -> Vec<(f64, f64)> {
+    problem
         .windows
         .centres
         .iter()
@@ -196,11 +199,16 @@ fn periods(problem: &Problem, run: &Run, residual: &[f64]) -> Vec<f64> {
         .zip(&problem.windows.usable)
         .filter(|(_, usable)| **usable)
         .filter_map(|((&centre, &r), _)| run.motion.get(centre).map(|now| (now.position, r)))
-        .collect();
+        .collect()
+}
+
+/// The periods at the highest peaks of the spectrum of values over their positions.
+pub fn periods(points: &[(f64, f64)], travel: f64) -> Vec<f64> {
+    let travel = travel.max(1e-12);
     let count = ((MOST_CYCLES - FEWEST_CYCLES) / SPACING) as usize;
     let mut peaks: Vec<(f64, f64)> = (0..count)
         .map(|k| FEWEST_CYCLES + SPACING * k as f64)
-        .map(|cycles| (power(&points, TAU * cycles / travel), cycles))
+        .map(|cycles| (power(points, TAU * cycles / travel), cycles))
         .collect();
     peaks.sort_by(|a, b| b.0.total_cmp(&a.0));
     let mut chosen: Vec<f64> = Vec::new();
@@ -244,7 +252,7 @@ mod tests {
             .iter()
             .map(|c| 0.4 * libm::sin(TAU * run.motion[*c].position / period + 0.9))
             .collect();
-        let best = periods(&problem, &run, &residual)[0];
+        let best = periods(&points(&problem, &run, &residual), run.travel())[0];
         assert!((best / period - 1.0).abs() < 0.02, "{best} {period}");
     }
 

@@ -193,11 +193,9 @@ fn explore() {
                         cpu_s() - begun
                     );
                 }
-                Err(error) => eprintln!(
-                    "{} {seed} {error} {:.2} s",
-                    stratum.name(),
-                    cpu_s() - begun
-                ),
+                Err(error) => {
+                    eprintln!("{} {seed} {error} {:.2} s", stratum.name(), cpu_s() - begun)
+                }
             }
         }
     }

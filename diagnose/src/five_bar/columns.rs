@@ -5,7 +5,7 @@ use super::run::{FiveBarRun, inertial, stacked};
 use crate::problem::{Cause, less, numerov, shifted};
 use nalgebra::{Matrix2, Vector2};
 use rigproof_model::bench::column;
-use rigproof_model::effects::{entry, law};
+use rigproof_model::effects::{Form, entry, law};
 use rigproof_model::motion::two_coordinate::{TwoCoordinate, two_coordinate};
 use rigproof_spec::effect::Mechanism;
 use rigproof_spec::inertia::{ArmInertia, Inertia};
@@ -103,8 +103,11 @@ fn at_joint(
     joint: Joint,
     shape: &[f64],
 ) -> Option<Vec<Vec<f64>>> {
-    let linear = entry(mechanism)?.linear;
-    crate::problem::unit_parameters(linear, shape)
+    let entry = entry(mechanism)?;
+    if !matches!(entry.form, Form::Resistance(_)) {
+        return None;
+    }
+    crate::problem::unit_parameters(entry.linear, shape)
         .map(|parameters| {
             let law = law(mechanism, &parameters)?;
             let resistance = column(law.as_ref(), run.motion(joint), run.step_s);

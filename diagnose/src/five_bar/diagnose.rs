@@ -270,7 +270,9 @@ impl Stand<'_> {
         // A spring's torque at θ = 0, which the vocabulary has as a law of its own.
         let springs = terms.iter().zip(&coefficients);
         rig.effects.extend(springs.filter_map(|(term, own)| {
-            let preload = *own.get(1).filter(|_| term.cause.mechanism == Mechanism::Spring)?;
+            let preload = *own
+                .get(1)
+                .filter(|_| term.cause.mechanism == Mechanism::Spring)?;
             let level = with_interval(preload, None);
             Some(joint_effect(term, Mechanism::ConstantBias, vec![level]))
         }));

@@ -2,12 +2,13 @@
 
 use super::run::{FiveBarRun, forms, yields};
 use crate::align::{
-    Fault, Signals, band_hz, check_clipped, check_clock, check_frozen, check_missing,
+    Fault, Signals, band_hz, check_clipped, cutoff_hz, check_clock, check_frozen, check_missing,
     forget_sense_at_rest, forget_sense_at_reversals, median_step, regular_count, resample,
     smallest_step, smoothed_motion,
 };
 use crate::problem::{Cause, NominalEffect};
 use crate::run::PlantKind;
+use core::f64::consts::TAU;
 use rigproof_model::brake::{Brake, torque_gain};
 use rigproof_model::effects::Instant;
 use rigproof_model::rig::Parameters;
@@ -111,7 +112,8 @@ pub fn aligned(rig: &FiveBar, recording: &FiveBarRecording) -> Result<FiveBarRun
         recorded,
         speed_floor,
     };
-    run.joints = Joint::ALL.map(|joint| joint_motion(&run, &base, joint, still));
+    let untold = untold_speeds(&run, &base, cutoff_hz(step_s, band));
+    run.joints = Joint::ALL.map(|joint| joint_motion(&run, &base, joint, still, &untold));
     let_brakes_follow(&mut run);
     Ok(run)
 }
@@ -140,20 +142,48 @@ fn check_pair(
     check_clipped(&signals)
 }
 
+/// Half the stretch of time over which the bend of the smoothed angles counts, s.
+const BEND_S: f64 = 0.02;
+
+/// The speeds of θA and θB below which their sense cannot be told, sample by sample, rad/s: what noise does, and what the
+/// low-pass does where it bends the recorded angle, because the acceleration jumps there.
+fn untold_speeds(run: &FiveBarRun, base: &[Vec<Instant>; 2], cutoff_hz: f64) -> [Vec<f64>; 2] {
+    let reach = (BEND_S / run.step_s).round().max(1.0) as usize;
+    let of = |(theta, motion): (&Vec<f64>, &Vec<Instant>)| -> Vec<f64> {
+        let pairs = theta.iter().zip(motion);
+        let bend: Vec<f64> = pairs.map(|(raw, now)| (raw - now.position).abs()).collect();
+        (0..bend.len())
+            .map(|k| {
+                let around = bend.get(k.saturating_sub(reach)..(k + reach + 1).min(bend.len()));
+                let greatest = around.into_iter().flatten().copied().fold(0.0, f64::max);
+                // White noise bends by up to four times its size, which the floor already counts.
+                let excess = (greatest - 4.0 * run.theta_noise).max(0.0);
+                run.speed_floor + TAU * cutoff_hz * excess
+            })
+            .collect()
+    };
+    let [theta_a, theta_b] = &run.theta;
+    let [a, b] = base;
+    [of((theta_a, a)), of((theta_b, b))]
+}
+
 /// The motion of a joint that the angles and rates of A and B imply.
 fn joint_motion(
     run: &FiveBarRun,
     base: &[Vec<Instant>; 2],
     joint: Joint,
     still: f64,
+    untold: &[Vec<f64>; 2],
 ) -> Vec<Instant> {
     let [a, b] = base;
+    let [untold_a, untold_b] = untold;
     let pairs = a.iter().zip(b).zip(&run.poses).zip(run.joint_rows(joint));
+    let pairs = pairs.zip(untold_a.iter().zip(untold_b));
     let mut greatest = 0.0f64;
     let mut motion: Vec<Instant> = pairs
-        .map(|(((a, b), pose), [by_a, by_b])| {
-            let gain = by_a.abs() + by_b.abs();
-            greatest = greatest.max(gain);
+        .map(|((((a, b), pose), [by_a, by_b]), (untold_a, untold_b))| {
+            let floor = by_a.abs() * untold_a + by_b.abs() * untold_b;
+            greatest = greatest.max(by_a.abs() + by_b.abs());
             let speed = by_a * a.speed + by_b * b.speed;
             Instant {
                 time_s: a.time_s,
@@ -164,7 +194,7 @@ fn joint_motion(
                     Joint::C => pose.theta_c_rad,
                 },
                 speed,
-                sense: (speed / (gain * run.speed_floor).max(1e-300)).clamp(-1.0, 1.0),
+                sense: (speed / floor.max(1e-300)).clamp(-1.0, 1.0),
             }
         })
         .collect();
