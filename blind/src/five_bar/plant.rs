@@ -15,6 +15,9 @@ use rigproof_spec::inertia::{ArmInertia, Inertia, inertia};
 use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
 
+/// A moment over which a bristle's rate is taken, s.
+const MOMENT_S: f64 = 1e-7;
+
 /// The rig with what is hidden in it.
 #[derive(Clone, Debug)]
 pub struct FiveBar {
@@ -30,6 +33,10 @@ pub struct FiveBar {
     /// Direction of each joint, 0 where it sticks.
     pub signs: [f64; 4],
     pub pose: Pose,
+    /// Work of the force on the tip, J.
+    pub work_j: f64,
+    /// What brakes and hidden effects took at the joints, J; springs and bristles give some back.
+    pub taken_j: f64,
 }
 
 /// One joint: its brake, what is hidden there, and where it started.
@@ -40,19 +47,6 @@ struct At {
     elements: Vec<(usize, Element)>,
     start_rad: f64,
     angle_rad: f64,
-}
-
-/// What a step did.
-#[derive(Clone, Copy, Debug)]
-pub struct Step {
-    /// Force on the tip at the middle, N.
-    pub force_n: Pair,
-    /// Torque against each sliding joint at the middle, N·m.
-    pub resistance_nm: [f64; 4],
-    /// How far each joint turned, rad.
-    pub travel_rad: [f64; 4],
-    /// How far the tip moved, m.
-    pub tip_travel_m: Pair,
 }
 
 impl FiveBar {
@@ -92,6 +86,8 @@ impl FiveBar {
             acceleration: [0.0; 2],
             signs: [0.0; 4],
             pose,
+            work_j: 0.0,
+            taken_j: 0.0,
         })
     }
 
@@ -103,7 +99,7 @@ impl FiveBar {
         step_s: f64,
         currents_a: [f64; 4],
         force: &mut impl FnMut(f64, Pair, Pair) -> Pair,
-    ) -> Option<Step> {
+    ) -> Option<()> {
         let half_s = 0.5 * step_s;
         let middle_s = time_s + half_s;
         let rates = plus(self.rates, half_s, self.acceleration);
@@ -168,20 +164,15 @@ impl FiveBar {
         let motion = contact.settle(self.signs);
         let theta = plus(self.theta, half_s, plus(self.rates, 1.0, motion.rates));
         let pose = Pose::at(&self.arms, theta)?;
-        let tip_travel_m = plus(pose.tip_m, -1.0, self.pose.tip_m);
+        self.work_j += dot(force_n, plus(pose.tip_m, -1.0, self.pose.tip_m));
         self.acceleration = plus(motion.rates, -1.0, self.rates).map(|x| x / step_s);
         (self.theta, self.rates, self.pose, self.signs) = (theta, motion.rates, pose, motion.signs);
-        let travel_rad = self.turn_joints(time_s + step_s, step_s, currents_a, load_n);
-        let mut resistance_nm = torques;
-        for ((torque, bound), sign) in resistance_nm.iter_mut().zip(bounds).zip(self.signs) {
-            *torque += bound * sign;
-        }
-        Some(Step {
-            force_n,
-            resistance_nm,
-            travel_rad,
-            tip_travel_m,
-        })
+        let travels = self.turn_joints(time_s + step_s, step_s, currents_a, load_n);
+        let each = torques.into_iter().zip(bounds).zip(self.signs).zip(travels);
+        self.taken_j += each
+            .map(|(((torque, bound), sign), travel)| (torque + bound * sign) * travel)
+            .sum::<f64>();
+        Some(())
     }
 
     /// Brakes and memories after a step that ends at `time_s`; returns how far each joint turned.
@@ -278,7 +269,9 @@ impl FiveBar {
                 load_n,
             };
             for (number, element) in &joint.elements {
-                let torque_nm = element.torque_nm(&at, 0.0, 0.0) + sign * element.bound_nm(&at);
+                let travel = MOMENT_S * rate_rad_s;
+                let torque_nm =
+                    element.torque_nm(&at, travel, MOMENT_S) + sign * element.bound_nm(&at);
                 add(*number, torque_nm, row);
             }
             for (number, more_nm) in joint.brake.iter().flat_map(Braked::added_nm) {

@@ -19,6 +19,8 @@ pub struct Sizes {
     pub sizes: Vec<Size>,
     pub block_noise: f64,
     pub sliding: f64,
+    /// Root mean square of what the nominal equations lack and no hidden effect accounts for, in block noise: the plant's own error.
+    pub left: f64,
 }
 
 /// What somebody could take for a hidden effect: a name with a joint, and its generalised force.
@@ -66,7 +68,12 @@ pub fn sizes(setup: &Setup, hidden: &[Effect], samples: &[Sample]) -> Sizes {
         }
     });
     let count = blocks.len().max(1) as f64;
+    let left = column(&|seen, _| {
+        let rest = seen.hidden_nm.iter();
+        rest.fold(seen.lacking_nm, |rest, force| plus(rest, -1.0, *force))
+    });
     Sizes {
+        left: (remainder(&left, &[]) / (2.0 * count)).sqrt(),
         sizes: of.collect(),
         block_noise: blocks.iter().map(|block| block.noise).sum::<f64>() / count,
         sliding: blocks.len() as f64 * length as f64 / samples.len().max(1) as f64,
@@ -189,24 +196,4 @@ fn is_own(setup: &Setup, effect: &Effect, imitation: &Imitation) -> bool {
         }
         _ => here && effect.name() == imitation.name,
     }
-}
-
-/// Root mean square of what the nominal equations lack in sliding, over the block noise: 1 or less when nothing is hidden.
-#[cfg(test)]
-pub fn left_over(setup: &Setup, hidden: &[Effect], samples: &[Sample]) -> f64 {
-    let seen = seen(setup, hidden, samples);
-    let length = (BLOCK_S * RATE_HZ) as usize;
-    let mut values = Vec::new();
-    for (seen, samples) in seen.chunks_exact(length).zip(samples.chunks_exact(length)) {
-        if let Some(block) = Block::new(setup, seen, samples) {
-            let rest = |seen: &Seen, _: &Sample| {
-                seen.hidden_nm
-                    .iter()
-                    .fold(seen.lacking_nm, |rest, force| plus(rest, -1.0, *force))
-            };
-            values.extend(block.mean(&rest));
-        }
-    }
-    let square: f64 = values.iter().map(|x| x * x).sum();
-    (square / values.len() as f64).sqrt()
 }
