@@ -70,22 +70,32 @@ pub fn run(setup: &Setup, hidden: &[Effect]) -> Option<Vec<Sample>> {
         let signs = rig.signs;
         for fine in 0..FINE_STEPS {
             let time_s = sample_s + fine as f64 * step_s;
-            let mut hand_n = [0.0; 2];
+            let mut hand_n = None;
+            let mut spring_n = [0.0; 2];
             rig.step(
                 time_s,
                 step_s,
                 currents_a,
-                &mut |time_s, tip_m, velocity| match &mut handle {
-                    None => {
-                        hand_n = setup.hand.force_n(time_s, tip_m, velocity);
-                        hand_n
-                    }
-                    Some(handle) => {
-                        hand_n = setup.hand.force_n(time_s, handle.at_m, handle.velocity);
-                        handle.step(step_s, hand_n, tip_m, velocity)
+                &mut |time_s, tip_m, velocity| {
+                    let (at_m, hand_velocity) = match &handle {
+                        None => (tip_m, velocity),
+                        Some(handle) => (handle.at_m, handle.velocity),
+                    };
+                    let force_n = setup.hand.force_n(time_s, at_m, hand_velocity);
+                    hand_n.get_or_insert(force_n);
+                    match &handle {
+                        None => force_n,
+                        Some(handle) => {
+                            spring_n = handle.spring_n(tip_m, velocity);
+                            spring_n
+                        }
                     }
                 },
             )?;
+            let hand_n = hand_n.unwrap_or_default();
+            if let Some(handle) = &mut handle {
+                handle.step(step_s, plus(hand_n, -1.0, spring_n));
+            }
             forces.push(hand_n);
             if fine == 0
                 && let Some(sample) = samples.last_mut()
@@ -180,20 +190,19 @@ impl Handle {
         })
     }
 
-    /// Moves the handle under the hand's force; returns the spring's force on the tip, N.
-    fn step(&mut self, step_s: f64, hand_n: Pair, tip_m: Pair, tip_velocity: Pair) -> Pair {
+    /// The spring's force on the tip, N.
+    fn spring_n(&self, tip_m: Pair, tip_velocity: Pair) -> Pair {
         let stretch = plus(self.at_m, -1.0, tip_m).map(|x| x * self.stiffness);
-        let spring_n = plus(
+        plus(
             stretch,
             self.damping,
             plus(self.velocity, -1.0, tip_velocity),
-        );
-        self.velocity = plus(
-            self.velocity,
-            step_s / self.mass,
-            plus(hand_n, -1.0, spring_n),
-        );
+        )
+    }
+
+    /// Moves the handle under what is left of the hand's force, N.
+    fn step(&mut self, step_s: f64, net_n: Pair) {
+        self.velocity = plus(self.velocity, step_s / self.mass, net_n);
         self.at_m = plus(self.at_m, step_s, self.velocity);
-        spring_n
     }
 }
