@@ -125,14 +125,14 @@ fn a_block_of_five_bar_seeds_holds_every_stratum_and_repeats() {
         let rig = FiveBar::parse(&case.rig_toml, origin).unwrap();
         assert_eq!(rig.to_toml(), case.rig_toml);
         let recording = rig.apply(&case.trace, origin).unwrap();
-        let [theta_a, theta_b] = &recording.theta;
-        assert!(theta_a.quantum == theta_b.quantum && theta_a.quantum.unwrap() < 7e-5);
+        assert!(
+            recording
+                .theta
+                .iter()
+                .all(|theta| theta.quantum.unwrap() < 7e-5)
+        );
         let currents = recording.currents.iter().flatten().count();
         assert_eq!(currents, rig.layout.brakes().len());
-        if answer.stratum != Stratum::DataFault {
-            let inside = |x: &f64| (0.3..2.9).contains(x);
-            assert!(theta_a.samples.iter().chain(&theta_b.samples).all(inside));
-        }
         if seed % 5 == 0 {
             let again = make(Plant::Rig, seed, None).unwrap();
             assert_eq!(bits(&again.trace), bits(&case.trace));

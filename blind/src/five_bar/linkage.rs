@@ -1,6 +1,8 @@
 //! This file closes the five-bar by intersecting two circles, and says how each arm and joint turns with θA and θB.
 
-use rigproof_spec::geometry::Arms;
+use rigproof_spec::geometry::{AngleRange, AngleRanges, Arms};
+use rigproof_spec::units::RAD_PER_DEG;
+use std::f64::consts::TAU;
 
 /// A vector of the plane, or a pair of the coordinates (θA, θB).
 pub type Pair = [f64; 2];
@@ -88,6 +90,22 @@ impl Pose {
         let [ae, ed, bc, cd] = self.along;
         let angle = |from, to| libm::atan2(cross(from, to), dot(from, to));
         [theta_a, angle(ae, ed), theta_b, angle(bc, cd)]
+    }
+
+    /// Whether every angle is in its range of table 4.2, where no stop is touched.
+    pub fn is_within(&self, ranges: &AngleRanges, theta: Pair) -> bool {
+        let [_, ed, _, cd] = self.along;
+        let [a, e, b, c] = self.joint_angles_rad(theta);
+        let d = libm::atan2(cross(ed, cd), dot(ed, cd));
+        let inside = |angle_rad: f64, range: AngleRange| {
+            (range.least_deg..=range.greatest_deg).contains(&(angle_rad / RAD_PER_DEG))
+        };
+        // θE is counted from 0° to 360°.
+        inside(a, ranges.a)
+            && inside(e + TAU, ranges.e)
+            && inside(b, ranges.b)
+            && inside(c, ranges.c)
+            && inside(d, ranges.d)
     }
 
     /// The tip's velocity, m/s, at rates of θA and θB.

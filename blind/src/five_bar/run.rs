@@ -5,6 +5,7 @@ use super::law::{Effect, Law};
 use super::linkage::{Pair, plus};
 use super::plant::FiveBar;
 use super::setup::{RATE_HZ, Setup};
+use rigproof_spec::geometry::angle_ranges;
 use std::f64::consts::TAU;
 
 /// The rig at one sample.
@@ -38,11 +39,13 @@ struct Handle {
 /// Damping ratio of the handle.
 const HANDLE_DAMPING: f64 = 0.08;
 
-/// Runs the rig with its hidden effects, `FINE_STEPS` to a sample; `None` where the hand pulls it apart.
+/// Runs the rig with its hidden effects, `FINE_STEPS` to a sample; `None` where the hand
+/// takes it out of the ranges of its angles (table 4.2), whose stops the plant does not have.
 pub fn run(setup: &Setup, hidden: &[Effect]) -> Option<Vec<Sample>> {
     let step_s = 1.0 / (RATE_HZ * FINE_STEPS as f64);
     let count = (setup.duration_s * RATE_HZ) as usize;
     let mut rig = FiveBar::new(setup.layout, setup.start, hidden)?;
+    let ranges = angle_ranges(setup.layout);
     let mut drive = setup.drive.clone();
     let mut handle = Handle::of(hidden, rig.pose.tip_m);
     // Force of the hand at the middle of every fine step.
@@ -50,6 +53,9 @@ pub fn run(setup: &Setup, hidden: &[Effect]) -> Option<Vec<Sample>> {
     let mut samples: Vec<Sample> = Vec::with_capacity(count);
     for k in 0..count {
         let sample_s = k as f64 / RATE_HZ;
+        if !rig.pose.is_within(&ranges, rig.theta) {
+            return None;
+        }
         let seen = quantised(setup, shown_theta(setup, hidden, rig.theta));
         let currents_a = drive.currents_a(&rig.arms, sample_s, seen, 1.0 / RATE_HZ);
         let [fx, fy] = forces.last().copied().unwrap_or_default();
