@@ -154,7 +154,7 @@ impl FiveBar {
         let form = Form::new(&self.arms, &self.inertia, &middle, rates);
         let velocity = middle.tip_velocity(&self.arms, rates);
         let force_n = force(middle_s, middle.tip_m, velocity);
-        let mut pushed = middle.from_tip_force(&self.arms, force_n);
+        let mut pushed = middle.tip_force_along(&self.arms, force_n);
         pushed = plus(pushed, 1.0, self.weight(middle_s, &middle));
         let [fx, fy] = force_n;
         let load_n = fx.hypot(fy);

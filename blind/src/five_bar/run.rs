@@ -18,8 +18,7 @@ pub struct Sample {
     pub stuck: [bool; 4],
     /// Whether a joint sticks, slides or turns round just then.
     pub changes: bool,
-    /// Force of the hand, N, true and as the sensor has it, without noise.
-    pub force_n: Pair,
+    /// Force of the hand, N, as the sensor has it, without noise.
     pub shown_force_n: Pair,
     pub currents_a: [f64; 4],
     pub nominal_yields_nm: [f64; 4],
@@ -67,7 +66,6 @@ pub fn run(setup: &Setup, hidden: &[Effect]) -> Option<Vec<Sample>> {
             acceleration: rig.acceleration,
             stuck: rig.stuck(),
             changes: false,
-            force_n: [0.0; 2],
             shown_force_n: [0.0; 2],
             currents_a,
             nominal_yields_nm: rig.nominal_yields_nm(),
@@ -115,9 +113,9 @@ pub fn run(setup: &Setup, hidden: &[Effect]) -> Option<Vec<Sample>> {
     }
     for (k, sample) in samples.iter_mut().enumerate() {
         let time_s = k as f64 / RATE_HZ;
-        let at = |time_s: f64| between(&forces, time_s / step_s - 0.5);
-        sample.force_n = at(time_s);
-        sample.shown_force_n = shown_force(hidden, time_s, at);
+        sample.shown_force_n = shown_force(hidden, time_s, |time_s| {
+            between(&forces, time_s / step_s - 0.5)
+        });
     }
     Some(samples)
 }
