@@ -74,32 +74,7 @@ pub fn run(setup: &Setup, hidden: &[Effect]) -> Option<Vec<Sample>> {
         let signs = rig.signs;
         for fine in 0..FINE_STEPS {
             let time_s = sample_s + fine as f64 * step_s;
-            let mut hand_n = None;
-            let mut spring_n = [0.0; 2];
-            rig.step(
-                time_s,
-                step_s,
-                currents_a,
-                &mut |time_s, tip_m, velocity| {
-                    let (at_m, hand_velocity) = match &handle {
-                        None => (tip_m, velocity),
-                        Some(handle) => (handle.at_m, handle.velocity),
-                    };
-                    let force_n = setup.hand.force_n(time_s, at_m, hand_velocity);
-                    hand_n.get_or_insert(force_n);
-                    match &handle {
-                        None => force_n,
-                        Some(handle) => {
-                            spring_n = handle.spring_n(tip_m, velocity);
-                            spring_n
-                        }
-                    }
-                },
-            )?;
-            let hand_n = hand_n.unwrap_or_default();
-            if let Some(handle) = &mut handle {
-                handle.step(step_s, plus(hand_n, -1.0, spring_n));
-            }
+            let hand_n = push(setup, &mut rig, &mut handle, time_s, step_s, currents_a)?;
             forces.push(hand_n);
             if fine == 0
                 && let Some(sample) = samples.last_mut()
@@ -118,6 +93,44 @@ pub fn run(setup: &Setup, hidden: &[Effect]) -> Option<Vec<Sample>> {
         });
     }
     Some(samples)
+}
+
+/// One fine step; returns the hand's force at its middle, N.
+fn push(
+    setup: &Setup,
+    rig: &mut FiveBar,
+    handle: &mut Option<Handle>,
+    time_s: f64,
+    step_s: f64,
+    currents_a: [f64; 4],
+) -> Option<Pair> {
+    let mut hand_n = None;
+    let mut spring_n = [0.0; 2];
+    rig.step(
+        time_s,
+        step_s,
+        currents_a,
+        &mut |time_s, tip_m, velocity| {
+            let (at_m, hand_velocity) = match &*handle {
+                None => (tip_m, velocity),
+                Some(handle) => (handle.at_m, handle.velocity),
+            };
+            let force_n = setup.hand.force_n(time_s, at_m, hand_velocity);
+            hand_n.get_or_insert(force_n);
+            match &*handle {
+                None => force_n,
+                Some(handle) => {
+                    spring_n = handle.spring_n(tip_m, velocity);
+                    spring_n
+                }
+            }
+        },
+    )?;
+    let hand_n = hand_n.unwrap_or_default();
+    if let Some(handle) = handle {
+        handle.step(step_s, plus(hand_n, -1.0, spring_n));
+    }
+    Some(hand_n)
 }
 
 /// A value between its neighbours; the first and the last one hold beyond the ends.
