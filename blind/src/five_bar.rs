@@ -45,6 +45,10 @@ pub struct RigState {
     pub rates_rad_s: [f64; 2],
     /// Which of the joints A, E, B, C stick.
     pub stuck: [bool; 4],
+    /// Work of the force on the tip since the start, J.
+    pub work_j: f64,
+    /// What the brakes took of it, J.
+    pub dissipated_j: f64,
 }
 
 /// The motion of this room's five-bar with nothing hidden from rest at a tip position, m: its state after each step of
@@ -71,6 +75,8 @@ pub fn five_bar_motion(
             theta_rad: rig.theta,
             rates_rad_s: rig.rates,
             stuck: rig.stuck(),
+            work_j: rig.work_j,
+            dissipated_j: rig.taken_j,
         })
     });
     states.collect()

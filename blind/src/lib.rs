@@ -23,6 +23,7 @@ mod element;
 mod error;
 mod fault;
 mod five_bar;
+mod found;
 mod hide;
 mod law;
 mod make;

@@ -266,7 +266,7 @@ impl Controller {
             if size == 0.0 || rate.abs() < STANDING_RAD_S {
                 return 0.0;
             }
-            let resists = pose.to_tip_force(arms, row.map(|x| -x * rate.signum()));
+            let resists = pose.tip_force_of(arms, row.map(|x| -x * rate.signum()));
             let [fx, fy] = resists;
             let part = dot(resists, [x, y]) / (size * fx.hypot(fy));
             if part > 0.0 { level_a * part } else { 0.0 }
@@ -350,7 +350,7 @@ mod tests {
                 if current > 0.0 {
                     used += 1;
                     let resists = row.map(|x| -x * dot(row, rates).signum());
-                    assert!(dot(pose.to_tip_force(&arms, resists), error) > 0.0);
+                    assert!(dot(pose.tip_force_of(&arms, resists), error) > 0.0);
                 }
             }
         }

@@ -11,7 +11,7 @@ use rigproof_spec::units::RAD_PER_DEG;
 use std::f64::consts::TAU;
 
 /// How an effect at a joint is drawn; one that has no joint leaves it.
-type Recipe = fn(Joint, &mut Draw) -> Effect;
+pub type Recipe = fn(Joint, &mut Draw) -> Effect;
 
 /// At a joint with a brake.
 const JOINT: [Recipe; 7] = [dry, viscous, stribeck, presliding, spring, ripple, load];
@@ -48,6 +48,13 @@ const MASKED: [&[Recipe]; 10] = [
     &[payload, viscous],
     &[dry, viscous, gain],
 ];
+
+/// Every recipe but that of a bearing.
+#[cfg(test)]
+pub fn every() -> Vec<Recipe> {
+    let groups: [&[Recipe]; 5] = [&JOINT, &BRAKE, &WHOLE, &SENSOR, &FOREIGN];
+    groups.concat()
+}
 
 /// Draws the hidden effects of a stratum.
 pub fn draw(setup: &Setup, stratum: Stratum, draw: &mut Draw) -> Vec<Effect> {

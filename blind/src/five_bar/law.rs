@@ -216,8 +216,7 @@ impl Effect {
     pub fn parameters(&self) -> Vec<(&'static str, f64, Dimension)> {
         let effort = Quantity::Effort.dimension(Motion::Rotary);
         let of = |quantity: Quantity| quantity.dimension(Motion::Rotary);
-        let acceleration = Dimension::LENGTH.per(Dimension::TIME.power(2));
-        let (number, angle, time) = (Dimension::NUMBER, Dimension::ANGLE, Dimension::TIME);
+        let (number, angle) = (Dimension::NUMBER, Dimension::ANGLE);
         match self.law {
             Law::Dry { level } | Law::Bias { level } => vec![("level", level, effort)],
             Law::Viscous { coefficient } => {
@@ -265,6 +264,15 @@ impl Effect {
                 ("dry", dry, effort),
                 ("viscous", viscous, of(Quantity::EffortPerSpeed)),
             ],
+            _ => self.other_parameters(),
+        }
+    }
+
+    /// Those of brakes, masses and sensors.
+    fn other_parameters(&self) -> Vec<(&'static str, f64, Dimension)> {
+        let (number, angle, time) = (Dimension::NUMBER, Dimension::ANGLE, Dimension::TIME);
+        let acceleration = Dimension::LENGTH.per(Dimension::TIME.power(2));
+        match self.law {
             Law::Gain { fraction }
             | Law::Inertia { fraction }
             | Law::EncoderScale { fraction }
@@ -292,6 +300,7 @@ impl Effect {
             Law::ForceBias { force: [x, y] } => {
                 vec![("x", x, Dimension::FORCE), ("y", y, Dimension::FORCE)]
             }
+            _ => Vec::new(),
         }
     }
 }

@@ -1,6 +1,8 @@
 //! This file closes the five-bar by intersecting two circles, and says how each arm and joint turns with θA and θB.
 
-use rigproof_spec::geometry::Arms;
+use rigproof_spec::geometry::{AngleRange, AngleRanges, Arms};
+use rigproof_spec::units::RAD_PER_DEG;
+use std::f64::consts::TAU;
 
 /// A vector of the plane, or a pair of the coordinates (θA, θB).
 pub type Pair = [f64; 2];
@@ -53,7 +55,9 @@ impl Pose {
         let (ed_square, cd_square) = (arms.l_ed_m * arms.l_ed_m, arms.l_cd_m * arms.l_cd_m);
         let share = 0.5 * (1.0 + (ed_square - cd_square) / square);
         let height_square = ed_square / square - share * share;
-        if !(height_square > 0.0) {
+        // The comparison is false for what is no number, too.
+        let reaches = height_square > 0.0;
+        if !reaches {
             return None;
         }
         let tip_m = plus(plus(e, share, base), height_square.sqrt(), turned(base));
@@ -90,6 +94,22 @@ impl Pose {
         [theta_a, angle(ae, ed), theta_b, angle(bc, cd)]
     }
 
+    /// Whether every angle is in its range of table 4.2, where no stop is touched.
+    pub fn is_within(&self, ranges: &AngleRanges, theta: Pair) -> bool {
+        let [_, ed, _, cd] = self.along;
+        let [a, e, b, c] = self.joint_angles_rad(theta);
+        let d = libm::atan2(cross(ed, cd), dot(ed, cd));
+        let inside = |angle_rad: f64, range: AngleRange| {
+            (range.least_deg..=range.greatest_deg).contains(&(angle_rad / RAD_PER_DEG))
+        };
+        // θE is counted from 0° to 360°.
+        inside(a, ranges.a)
+            && inside(e + TAU, ranges.e)
+            && inside(b, ranges.b)
+            && inside(c, ranges.c)
+            && inside(d, ranges.d)
+    }
+
     /// The tip's velocity, m/s, at rates of θA and θB.
     pub fn tip_velocity(&self, arms: &Arms, rates: Pair) -> Pair {
         let [ae, ed, _, _] = self.along;
@@ -102,7 +122,7 @@ impl Pose {
     }
 
     /// What a force on the tip, N, does along θA and θB, N·m.
-    pub fn from_tip_force(&self, arms: &Arms, force_n: Pair) -> Pair {
+    pub fn tip_force_along(&self, arms: &Arms, force_n: Pair) -> Pair {
         let [ae, ed, _, _] = self.along;
         let [ae_turns, ed_turns, _, _] = self.turns;
         plus(
@@ -113,9 +133,9 @@ impl Pose {
     }
 
     /// The force on the tip, N, that does the same as generalised forces along θA and θB, N·m.
-    pub fn to_tip_force(&self, arms: &Arms, generalised_nm: Pair) -> Pair {
-        let [xa, xb] = self.from_tip_force(arms, [1.0, 0.0]);
-        let [ya, yb] = self.from_tip_force(arms, [0.0, 1.0]);
+    pub fn tip_force_of(&self, arms: &Arms, generalised_nm: Pair) -> Pair {
+        let [xa, xb] = self.tip_force_along(arms, [1.0, 0.0]);
+        let [ya, yb] = self.tip_force_along(arms, [0.0, 1.0]);
         let [a, b] = generalised_nm;
         let determinant = xa * yb - xb * ya;
         [
@@ -170,9 +190,9 @@ mod tests {
                     assert!((rate - dot(*row, rates)).abs() < 1e-8, "joint {k}");
                 }
                 let force = [3.7, -5.9];
-                let work = dot(pose.from_tip_force(&arms, force), rates);
+                let work = dot(pose.tip_force_along(&arms, force), rates);
                 assert!((work - dot(force, velocity)).abs() < 1e-12);
-                let back = pose.to_tip_force(&arms, pose.from_tip_force(&arms, force));
+                let back = pose.tip_force_of(&arms, pose.tip_force_along(&arms, force));
                 assert!((back[0] - force[0]).hypot(back[1] - force[1]) < 1e-10);
             }
         }

@@ -32,6 +32,9 @@ pub struct Secret {
 /// Least share of a recording in which something slides.
 const LEAST_SLIDING: f64 = 0.5;
 
+/// Greatest error of the plant's own, in block noise.
+const GREATEST_LEFT: f64 = 0.5;
+
 /// Makes the case of a seed.
 pub fn make(seed: u64, stratum: Stratum) -> Result<Case, Error> {
     let plant = Plant::Rig;
@@ -82,7 +85,7 @@ pub fn secret(seed: u64, stratum: Stratum) -> Result<Secret, Error> {
             }
         }
         let fits = tried.sizes.sizes.iter().all(|size| size.fits(stratum));
-        if fits && tried.sizes.sliding >= LEAST_SLIDING {
+        if fits && tried.sizes.sliding >= LEAST_SLIDING && tried.sizes.left <= GREATEST_LEFT {
             return Ok(tried);
         }
     }
@@ -95,7 +98,7 @@ pub fn secret(seed: u64, stratum: Stratum) -> Result<Secret, Error> {
 }
 
 impl Secret {
-    fn new(setup: Setup, hidden: Vec<Effect>) -> Option<Secret> {
+    pub fn new(setup: Setup, hidden: Vec<Effect>) -> Option<Secret> {
         let samples = run(&setup, &hidden)?;
         let sizes = sizes(&setup, &hidden, &samples);
         Some(Secret {

@@ -8,12 +8,15 @@ use super::element::{Element, Instant};
 use super::law::{Effect, Law};
 use super::linkage::{Pair, Pose, dot, plus};
 use super::mass::{Form, weight};
-use super::stick::Contact;
+use super::stick::{Contact, Motion};
 use crate::brake::BrakeStep;
 use rigproof_spec::geometry::{Arms, arms};
 use rigproof_spec::inertia::{ArmInertia, Inertia, inertia};
 use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
+
+/// A moment over which a bristle's rate is taken, s.
+const MOMENT_S: f64 = 1e-7;
 
 /// The rig with what is hidden in it.
 #[derive(Clone, Debug)]
@@ -30,30 +33,38 @@ pub struct FiveBar {
     /// Direction of each joint, 0 where it sticks.
     pub signs: [f64; 4],
     pub pose: Pose,
+    /// Work of the force on the tip, J.
+    pub work_j: f64,
+    /// What brakes and hidden effects took at the joints, J; springs and bristles give some back.
+    pub taken_j: f64,
 }
 
 /// One joint: its brake, what is hidden there, and where it started.
 #[derive(Clone, Debug)]
 struct At {
     brake: Option<Braked>,
-    last_yield_nm: f64,
+    /// Rate of the yield torque over the last step, N·m/s.
+    yield_rate: f64,
     elements: Vec<(usize, Element)>,
     start_rad: f64,
     angle_rad: f64,
 }
 
-/// What a step did.
-#[derive(Clone, Copy, Debug)]
-pub struct Step {
-    /// Force on the tip at the middle, N.
-    pub force_n: Pair,
-    /// Torque against each sliding joint at the middle, N·m.
-    pub resistance_nm: [f64; 4],
-    /// How far each joint turned, rad.
-    pub travel_rad: [f64; 4],
-    /// How far the tip moved, m.
-    pub tip_travel_m: Pair,
+/// A step that may be taken.
+struct Tried {
+    motion: Motion,
+    /// Share of the step after which the first sliding joint is at rest; 1 or more when none is.
+    until_rest: f64,
+    /// Single-valued and set-valued torques at the joints, N·m.
+    torques: [f64; 4],
+    bounds: [f64; 4],
+    force_n: Pair,
 }
+
+/// Cuts a step can have.
+const CUTS: usize = 4;
+/// A rest this near to either end of a step is not worth a cut.
+const LEAST_CUT: f64 = 0.01;
 
 impl FiveBar {
     /// A rig at rest at θA and θB, rad; `None` where the arms do not meet.
@@ -73,7 +84,7 @@ impl FiveBar {
             let elements =
                 here().filter(|(_, effect)| !effect.is_of_brake() && !effect.is_residual());
             At {
-                last_yield_nm: brake.as_ref().map_or(0.0, Braked::yield_nm),
+                yield_rate: 0.0,
                 brake,
                 elements: elements
                     .map(|(k, effect)| (k, Element::new(effect)))
@@ -92,96 +103,119 @@ impl FiveBar {
             acceleration: [0.0; 2],
             signs: [0.0; 4],
             pose,
+            work_j: 0.0,
+            taken_j: 0.0,
         })
     }
 
-    /// Moves the rig under currents, A, and a force on the tip, N, that is asked for at a time, a tip position and a tip velocity;
-    /// `None` where the arms would not meet any more.
+    /// Moves the rig under currents, A, and a force on the tip, N, that is asked for at a time, a tip position and a tip velocity, first
+    /// at the middle of the step; `None` where the arms would not meet any more. A step in which a sliding joint comes to rest or turns
+    /// round is cut there.
     pub fn step(
         &mut self,
         time_s: f64,
         step_s: f64,
         currents_a: [f64; 4],
         force: &mut impl FnMut(f64, Pair, Pair) -> Pair,
-    ) -> Option<Step> {
+    ) -> Option<()> {
+        let (mut time_s, mut left_s) = (time_s, step_s);
+        for _ in 0..CUTS {
+            let tried = self.try_step(time_s, left_s, force)?;
+            if !(LEAST_CUT..1.0 - LEAST_CUT).contains(&tried.until_rest) {
+                return self.take(tried, time_s, left_s, currents_a);
+            }
+            let part_s = tried.until_rest * left_s;
+            let part = self.try_step(time_s, part_s, force)?;
+            self.take(part, time_s, part_s, currents_a)?;
+            (time_s, left_s) = (time_s + part_s, left_s - part_s);
+        }
+        let last = self.try_step(time_s, left_s, force)?;
+        self.take(last, time_s, left_s, currents_a)
+    }
+
+    /// What a step would do.
+    fn try_step(
+        &self,
+        time_s: f64,
+        step_s: f64,
+        force: &mut impl FnMut(f64, Pair, Pair) -> Pair,
+    ) -> Option<Tried> {
         let half_s = 0.5 * step_s;
         let middle_s = time_s + half_s;
         let rates = plus(self.rates, half_s, self.acceleration);
         let theta = plus(self.theta, half_s, self.rates);
-        let middle = Pose::at(
-            &self.arms,
-            plus(theta, 0.5 * half_s * half_s, self.acceleration),
-        )?;
+        let theta = plus(theta, 0.5 * half_s * half_s, self.acceleration);
+        let middle = Pose::at(&self.arms, theta)?;
         // The rows at the end, as far beyond the middle as the middle is beyond the start.
         let mut end = middle.rows;
         for (row, start) in end.iter_mut().zip(self.pose.rows) {
             *row = plus(row.map(|x| 2.0 * x), -1.0, start);
         }
         let form = Form::new(&self.arms, &self.inertia, &middle, rates);
-        let force_n = force(
-            middle_s,
-            middle.tip_m,
-            middle.tip_velocity(&self.arms, rates),
-        );
-        let mut pushed = middle.from_tip_force(&self.arms, force_n);
+        let velocity = middle.tip_velocity(&self.arms, rates);
+        let force_n = force(middle_s, middle.tip_m, velocity);
+        let mut pushed = middle.tip_force_along(&self.arms, force_n);
         pushed = plus(pushed, 1.0, self.weight(middle_s, &middle));
         let [fx, fy] = force_n;
         let load_n = fx.hypot(fy);
         let mut torques = [0.0; 4];
         let mut bounds = [0.0; 4];
         let each = self.joints.iter().zip(self.signs).zip(middle.rows);
-        for (((joint, sign), row), (torque, bound)) in each.zip(torques.iter_mut().zip(&mut bounds))
-        {
-            *bound = joint.yield_ahead_nm();
-            let at = |rate_rad_s: f64| Instant {
-                time_s: middle_s,
-                angle_rad: joint.angle_rad - joint.start_rad + half_s * rate_rad_s,
-                rate_rad_s,
-                load_n,
-            };
-            *bound += joint
-                .elements
-                .iter()
-                .map(|(_, e)| e.bound_nm(&at(0.0)))
-                .sum::<f64>();
-            let sticks = sign == 0.0 && *bound > 0.0;
-            let at = at(if sticks { 0.0 } else { dot(row, rates) });
-            let travel = half_s * at.rate_rad_s;
-            *torque = joint
-                .elements
-                .iter()
-                .map(|(_, e)| e.torque_nm(&at, travel, half_s))
-                .sum();
+        let out = torques.iter_mut().zip(&mut bounds);
+        for (((joint, sign), row), (torque, bound)) in each.zip(out) {
+            let sticks = sign == 0.0 && joint.is_frictional();
+            let rate_rad_s = if sticks { 0.0 } else { dot(row, rates) };
+            let at = joint.instant(middle_s, half_s * rate_rad_s, rate_rad_s, load_n);
+            (*torque, *bound) = joint.resists(&at, half_s);
             pushed = plus(pushed, -*torque, row);
         }
+        let momentum = plus(
+            form.times(self.rates),
+            step_s,
+            plus(pushed, -1.0, form.bias),
+        );
         let contact = Contact {
             form: &form,
-            momentum: plus(
-                form.times(self.rates),
-                step_s,
-                plus(pushed, -1.0, form.bias),
-            ),
+            momentum,
             forces: middle.rows,
             rates: end,
             impulses: bounds.map(|bound| bound * step_s),
         };
-        let motion = contact.settle(self.signs);
-        let theta = plus(self.theta, half_s, plus(self.rates, 1.0, motion.rates));
+        Some(Tried {
+            motion: contact.settle(self.signs),
+            until_rest: contact
+                .until_rest(self.signs, self.pose.rows.map(|row| dot(row, self.rates))),
+            torques,
+            bounds,
+            force_n,
+        })
+    }
+
+    /// Does what was tried.
+    fn take(&mut self, tried: Tried, time_s: f64, step_s: f64, currents_a: [f64; 4]) -> Option<()> {
+        let Tried {
+            motion,
+            torques,
+            bounds,
+            force_n,
+            ..
+        } = tried;
+        let theta = plus(
+            self.theta,
+            0.5 * step_s,
+            plus(self.rates, 1.0, motion.rates),
+        );
         let pose = Pose::at(&self.arms, theta)?;
-        let tip_travel_m = plus(pose.tip_m, -1.0, self.pose.tip_m);
+        self.work_j += dot(force_n, plus(pose.tip_m, -1.0, self.pose.tip_m));
         self.acceleration = plus(motion.rates, -1.0, self.rates).map(|x| x / step_s);
         (self.theta, self.rates, self.pose, self.signs) = (theta, motion.rates, pose, motion.signs);
-        let travel_rad = self.turn_joints(time_s + step_s, step_s, currents_a, load_n);
-        let mut resistance_nm = torques;
-        for ((torque, bound), sign) in resistance_nm.iter_mut().zip(bounds).zip(self.signs) {
-            *torque += bound * sign;
-        }
-        Some(Step {
-            force_n,
-            resistance_nm,
-            travel_rad,
-            tip_travel_m,
-        })
+        let [fx, fy] = force_n;
+        let travels = self.turn_joints(time_s + step_s, step_s, currents_a, fx.hypot(fy));
+        let each = torques.into_iter().zip(bounds).zip(self.signs).zip(travels);
+        self.taken_j += each
+            .map(|(((torque, bound), sign), travel)| (torque + bound * sign) * travel)
+            .sum::<f64>();
+        Some(())
     }
 
     /// Brakes and memories after a step that ends at `time_s`; returns how far each joint turned.
@@ -214,7 +248,7 @@ impl FiveBar {
             }
             joint.angle_rad = angle_rad;
             if let Some(brake) = &mut joint.brake {
-                joint.last_yield_nm = brake.yield_nm();
+                let before_nm = brake.yield_nm();
                 let step = BrakeStep {
                     step_s,
                     current_a,
@@ -222,6 +256,7 @@ impl FiveBar {
                     speed_rad_s: rate_rad_s,
                 };
                 brake.step(time_s, &step);
+                joint.yield_rate = (brake.yield_nm() - before_nm) / step_s;
             }
         }
         travels
@@ -278,7 +313,9 @@ impl FiveBar {
                 load_n,
             };
             for (number, element) in &joint.elements {
-                let torque_nm = element.torque_nm(&at, 0.0, 0.0) + sign * element.bound_nm(&at);
+                let travel = MOMENT_S * rate_rad_s;
+                let torque_nm =
+                    element.torque_nm(&at, travel, MOMENT_S) + sign * element.bound_nm(&at);
                 add(*number, torque_nm, row);
             }
             for (number, more_nm) in joint.brake.iter().flat_map(Braked::added_nm) {
@@ -305,11 +342,27 @@ impl FiveBar {
 }
 
 impl At {
-    /// Yield torque half a step ahead, by extrapolation, N·m.
-    fn yield_ahead_nm(&self) -> f64 {
-        self.brake.as_ref().map_or(0.0, |brake| {
-            let now_nm = brake.yield_nm();
-            (now_nm + 0.5 * (now_nm - self.last_yield_nm)).max(0.0)
+    fn instant(&self, time_s: f64, ahead_rad: f64, rate_rad_s: f64, load_n: f64) -> Instant {
+        Instant {
+            time_s,
+            angle_rad: self.angle_rad - self.start_rad + ahead_rad,
+            rate_rad_s,
+            load_n,
+        }
+    }
+
+    /// Single-valued and set-valued torque half a step ahead, N·m; the yield torque by extrapolation.
+    fn resists(&self, at: &Instant, half_s: f64) -> (f64, f64) {
+        let travel = half_s * at.rate_rad_s;
+        let yield_nm = self.brake.as_ref().map_or(0.0, |brake| {
+            (brake.yield_nm() + half_s * self.yield_rate).max(0.0)
+        });
+        let elements = self.elements.iter().map(|(_, element)| element);
+        elements.fold((0.0, yield_nm), |(torque, bound), element| {
+            (
+                torque + element.torque_nm(at, travel, half_s),
+                bound + element.bound_nm(at),
+            )
         })
     }
 

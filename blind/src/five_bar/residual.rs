@@ -50,7 +50,7 @@ fn see(setup: &Setup, hidden: &[Effect], sample: &Sample) -> Option<Seen> {
         }
     }
     let form = Form::new(&arms, &inertia(setup.layout), &pose, rates);
-    let pushed = pose.from_tip_force(&arms, sample.shown_force_n);
+    let pushed = pose.tip_force_along(&arms, sample.shown_force_n);
     let mut lacking_nm = plus(
         plus(pushed, -1.0, form.bias),
         -1.0,

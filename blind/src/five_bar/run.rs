@@ -5,6 +5,7 @@ use super::law::{Effect, Law};
 use super::linkage::{Pair, plus};
 use super::plant::FiveBar;
 use super::setup::{RATE_HZ, Setup};
+use rigproof_spec::geometry::angle_ranges;
 use std::f64::consts::TAU;
 
 /// The rig at one sample.
@@ -17,8 +18,7 @@ pub struct Sample {
     pub stuck: [bool; 4],
     /// Whether a joint sticks, slides or turns round just then.
     pub changes: bool,
-    /// Force of the hand, N, true and as the sensor has it, without noise.
-    pub force_n: Pair,
+    /// Force of the hand, N, as the sensor has it, without noise.
     pub shown_force_n: Pair,
     pub currents_a: [f64; 4],
     pub nominal_yields_nm: [f64; 4],
@@ -38,11 +38,13 @@ struct Handle {
 /// Damping ratio of the handle.
 const HANDLE_DAMPING: f64 = 0.08;
 
-/// Runs the rig with its hidden effects, `FINE_STEPS` to a sample; `None` where the hand pulls it apart.
+/// Runs the rig with its hidden effects, `FINE_STEPS` to a sample; `None` where the hand
+/// takes it out of the ranges of its angles (table 4.2), whose stops the plant does not have.
 pub fn run(setup: &Setup, hidden: &[Effect]) -> Option<Vec<Sample>> {
     let step_s = 1.0 / (RATE_HZ * FINE_STEPS as f64);
     let count = (setup.duration_s * RATE_HZ) as usize;
     let mut rig = FiveBar::new(setup.layout, setup.start, hidden)?;
+    let ranges = angle_ranges(setup.layout);
     let mut drive = setup.drive.clone();
     let mut handle = Handle::of(hidden, rig.pose.tip_m);
     // Force of the hand at the middle of every fine step.
@@ -50,6 +52,9 @@ pub fn run(setup: &Setup, hidden: &[Effect]) -> Option<Vec<Sample>> {
     let mut samples: Vec<Sample> = Vec::with_capacity(count);
     for k in 0..count {
         let sample_s = k as f64 / RATE_HZ;
+        if !rig.pose.is_within(&ranges, rig.theta) {
+            return None;
+        }
         let seen = quantised(setup, shown_theta(setup, hidden, rig.theta));
         let currents_a = drive.currents_a(&rig.arms, sample_s, seen, 1.0 / RATE_HZ);
         let [fx, fy] = forces.last().copied().unwrap_or_default();
@@ -61,7 +66,6 @@ pub fn run(setup: &Setup, hidden: &[Effect]) -> Option<Vec<Sample>> {
             acceleration: rig.acceleration,
             stuck: rig.stuck(),
             changes: false,
-            force_n: [0.0; 2],
             shown_force_n: [0.0; 2],
             currents_a,
             nominal_yields_nm: rig.nominal_yields_nm(),
@@ -70,22 +74,7 @@ pub fn run(setup: &Setup, hidden: &[Effect]) -> Option<Vec<Sample>> {
         let signs = rig.signs;
         for fine in 0..FINE_STEPS {
             let time_s = sample_s + fine as f64 * step_s;
-            let mut hand_n = [0.0; 2];
-            rig.step(
-                time_s,
-                step_s,
-                currents_a,
-                &mut |time_s, tip_m, velocity| match &mut handle {
-                    None => {
-                        hand_n = setup.hand.force_n(time_s, tip_m, velocity);
-                        hand_n
-                    }
-                    Some(handle) => {
-                        hand_n = setup.hand.force_n(time_s, handle.at_m, handle.velocity);
-                        handle.step(step_s, hand_n, tip_m, velocity)
-                    }
-                },
-            )?;
+            let hand_n = push(setup, &mut rig, &mut handle, time_s, step_s, currents_a)?;
             forces.push(hand_n);
             if fine == 0
                 && let Some(sample) = samples.last_mut()
@@ -99,11 +88,49 @@ pub fn run(setup: &Setup, hidden: &[Effect]) -> Option<Vec<Sample>> {
     }
     for (k, sample) in samples.iter_mut().enumerate() {
         let time_s = k as f64 / RATE_HZ;
-        let at = |time_s: f64| between(&forces, time_s / step_s - 0.5);
-        sample.force_n = at(time_s);
-        sample.shown_force_n = shown_force(hidden, time_s, at);
+        sample.shown_force_n = shown_force(hidden, time_s, |time_s| {
+            between(&forces, time_s / step_s - 0.5)
+        });
     }
     Some(samples)
+}
+
+/// One fine step; returns the hand's force at its middle, N.
+fn push(
+    setup: &Setup,
+    rig: &mut FiveBar,
+    handle: &mut Option<Handle>,
+    time_s: f64,
+    step_s: f64,
+    currents_a: [f64; 4],
+) -> Option<Pair> {
+    let mut hand_n = None;
+    let mut spring_n = [0.0; 2];
+    rig.step(
+        time_s,
+        step_s,
+        currents_a,
+        &mut |time_s, tip_m, velocity| {
+            let (at_m, hand_velocity) = match &*handle {
+                None => (tip_m, velocity),
+                Some(handle) => (handle.at_m, handle.velocity),
+            };
+            let force_n = setup.hand.force_n(time_s, at_m, hand_velocity);
+            hand_n.get_or_insert(force_n);
+            match &*handle {
+                None => force_n,
+                Some(handle) => {
+                    spring_n = handle.spring_n(tip_m, velocity);
+                    spring_n
+                }
+            }
+        },
+    )?;
+    let hand_n = hand_n.unwrap_or_default();
+    if let Some(handle) = handle {
+        handle.step(step_s, plus(hand_n, -1.0, spring_n));
+    }
+    Some(hand_n)
 }
 
 /// A value between its neighbours; the first and the last one hold beyond the ends.
@@ -180,20 +207,19 @@ impl Handle {
         })
     }
 
-    /// Moves the handle under the hand's force; returns the spring's force on the tip, N.
-    fn step(&mut self, step_s: f64, hand_n: Pair, tip_m: Pair, tip_velocity: Pair) -> Pair {
+    /// The spring's force on the tip, N.
+    fn spring_n(&self, tip_m: Pair, tip_velocity: Pair) -> Pair {
         let stretch = plus(self.at_m, -1.0, tip_m).map(|x| x * self.stiffness);
-        let spring_n = plus(
+        plus(
             stretch,
             self.damping,
             plus(self.velocity, -1.0, tip_velocity),
-        );
-        self.velocity = plus(
-            self.velocity,
-            step_s / self.mass,
-            plus(hand_n, -1.0, spring_n),
-        );
+        )
+    }
+
+    /// Moves the handle under what is left of the hand's force, N.
+    fn step(&mut self, step_s: f64, net_n: Pair) {
+        self.velocity = plus(self.velocity, step_s / self.mass, net_n);
         self.at_m = plus(self.at_m, step_s, self.velocity);
-        spring_n
     }
 }

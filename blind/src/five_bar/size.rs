@@ -19,13 +19,18 @@ pub struct Sizes {
     pub sizes: Vec<Size>,
     pub block_noise: f64,
     pub sliding: f64,
+    /// Root mean square of what the nominal equations lack and no hidden effect accounts for, in block noise: the plant's own error.
+    pub left: f64,
 }
+
+/// A generalised force at a sample, N·m.
+type Force = dyn Fn(&Seen, &Sample) -> Pair;
 
 /// What somebody could take for a hidden effect: a name with a joint, and its generalised force.
 struct Imitation {
     name: &'static str,
     joint: Joint,
-    force: Box<dyn Fn(&Seen, &Sample) -> Pair>,
+    force: Box<Force>,
 }
 
 /// Measures all effects of a run.
@@ -37,11 +42,10 @@ pub fn sizes(setup: &Setup, hidden: &[Effect], samples: &[Sample]) -> Sizes {
         .zip(samples.chunks_exact(length))
         .filter_map(|(seen, samples)| Block::new(setup, seen, samples))
         .collect();
-    let column = |force: &dyn Fn(&Seen, &Sample) -> Pair| -> Vec<f64> {
-        blocks.iter().flat_map(|block| block.mean(force)).collect()
-    };
+    let column =
+        |force: &Force| -> Vec<f64> { blocks.iter().flat_map(|block| block.mean(force)).collect() };
     let forces: Vec<Vec<f64>> = (0..hidden.len())
-        .map(|k| column(&|seen, _| seen.hidden_nm.get(k).copied().unwrap_or_default()))
+        .map(|k| column(&move |seen, _| seen.hidden_nm.get(k).copied().unwrap_or_default()))
         .collect();
     let imitations = imitations(setup);
     let imitating: Vec<Vec<f64>> = imitations
@@ -66,7 +70,12 @@ pub fn sizes(setup: &Setup, hidden: &[Effect], samples: &[Sample]) -> Sizes {
         }
     });
     let count = blocks.len().max(1) as f64;
+    let left = column(&|seen, _| {
+        let rest = seen.hidden_nm.iter();
+        rest.fold(seen.lacking_nm, |rest, force| plus(rest, -1.0, *force))
+    });
     Sizes {
+        left: (remainder(&left, &[]) / (2.0 * count)).sqrt(),
         sizes: of.collect(),
         block_noise: blocks.iter().map(|block| block.noise).sum::<f64>() / count,
         sliding: blocks.len() as f64 * length as f64 / samples.len().max(1) as f64,
@@ -104,7 +113,7 @@ impl<'a> Block<'a> {
     }
 
     /// The whitened average of what stuck joints do not take.
-    fn mean(&self, force: &dyn Fn(&Seen, &Sample) -> Pair) -> Pair {
+    fn mean(&self, force: &Force) -> Pair {
         let sum = self.seen.iter().fold([0.0; 2], |sum, (seen, sample)| {
             plus(sum, 1.0, seen.told(force(seen, sample)))
         });
@@ -123,8 +132,8 @@ fn covariance(setup: &Setup, seen: &Seen) -> [f64; 3] {
     let angle = setup.quantum_rad() / 12_f64.sqrt();
     let acceleration = (720.0 / count).sqrt() * angle / (BLOCK_S * BLOCK_S);
     let [m11, m12, m22] = Form::new(&arms, &inertia(setup.layout), &seen.pose, [0.0; 2]).mass;
-    let [xa, xb] = seen.pose.from_tip_force(&arms, [1.0, 0.0]);
-    let [ya, yb] = seen.pose.from_tip_force(&arms, [0.0, 1.0]);
+    let [xa, xb] = seen.pose.tip_force_along(&arms, [1.0, 0.0]);
+    let [ya, yb] = seen.pose.tip_force_along(&arms, [0.0, 1.0]);
     let (a2, f2) = (
         acceleration * acceleration,
         setup.force_noise_n * setup.force_noise_n / count,
@@ -160,7 +169,7 @@ fn imitations(setup: &Setup) -> Vec<Imitation> {
         }
     }
     for (joint, force) in [(Joint::A, [1.0, 0.0]), (Joint::B, [0.0, 1.0])] {
-        let force: Box<dyn Fn(&Seen, &Sample) -> Pair> = Box::new(move |_, _| force);
+        let force: Box<Force> = Box::new(move |_, _| force);
         all.push(Imitation {
             name: "constant_bias",
             joint,
@@ -189,24 +198,4 @@ fn is_own(setup: &Setup, effect: &Effect, imitation: &Imitation) -> bool {
         }
         _ => here && effect.name() == imitation.name,
     }
-}
-
-/// Root mean square of what the nominal equations lack in sliding, over the block noise: 1 or less when nothing is hidden.
-#[cfg(test)]
-pub fn left_over(setup: &Setup, hidden: &[Effect], samples: &[Sample]) -> f64 {
-    let seen = seen(setup, hidden, samples);
-    let length = (BLOCK_S * RATE_HZ) as usize;
-    let mut values = Vec::new();
-    for (seen, samples) in seen.chunks_exact(length).zip(samples.chunks_exact(length)) {
-        if let Some(block) = Block::new(setup, seen, samples) {
-            let rest = |seen: &Seen, _: &Sample| {
-                seen.hidden_nm
-                    .iter()
-                    .fold(seen.lacking_nm, |rest, force| plus(rest, -1.0, *force))
-            };
-            values.extend(block.mean(&rest));
-        }
-    }
-    let square: f64 = values.iter().map(|x| x * x).sum();
-    (square / values.len() as f64).sqrt()
 }

@@ -47,6 +47,25 @@ impl Contact<'_> {
         }
     }
 
+    /// Share of the step after which the first joint that slides would be at rest if all went on as they are, its rate going
+    /// straight from that at the start; infinite when none would.
+    pub fn until_rest(&self, signs: [f64; 4], start: [f64; 4]) -> f64 {
+        let Some(onward) = self.with_signs(signs) else {
+            return f64::INFINITY;
+        };
+        let each = self.frictional().map(|k| {
+            let (before, after) = (sign(&start, k), dot(self.row(k), onward.rates));
+            let turns =
+                sign(&signs, k) != 0.0 && before * sign(&signs, k) > 0.0 && before * after < 0.0;
+            if turns {
+                before / (before - after)
+            } else {
+                f64::INFINITY
+            }
+        });
+        each.fold(f64::INFINITY, f64::min)
+    }
+
     /// Whether friction can hold everything: the momentum is inside the zonotope of all sets, whose faces are along the rows.
     fn holds(&self) -> bool {
         let mut rows = self.frictional().map(|k| self.force(k)).peekable();

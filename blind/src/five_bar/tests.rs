@@ -1,11 +1,19 @@
 //! This file claims what holds for the five-bar's plant: its energy, its friction, its convergence.
 
+use super::hide;
 use super::law::{Effect, Law};
 use super::linkage::{Pair, dot};
+use super::make::{Secret, secret};
 use super::mass::Form;
+use super::setup::Setup;
 use super::*;
+use crate::draw::Draw;
+use crate::plant::Plant;
+use crate::stratum::Stratum;
+use rigproof_spec::effect::{Mechanism, Motion};
 use rigproof_spec::inertia::inertia;
 use rigproof_spec::joint::Joint;
+use std::collections::{BTreeMap, BTreeSet};
 
 fn effect(law: Law, joint: Joint) -> Effect {
     Effect {
@@ -51,39 +59,38 @@ fn kinetic_j(rig: &FiveBar, layout: Layout) -> f64 {
     0.5 * dot(rig.rates, form.times(rig.rates))
 }
 
-/// Work of the hand is kinetic energy plus what the joints took, to 1e-5 of the work turned over.
+/// Work of the hand is kinetic energy plus what the joints took, to 1e-5 of what they took; nothing hidden gives any back.
 #[test]
 fn energy_balances_and_no_joint_ever_gives_any() {
     for layout in [Layout::ThreeBrake, Layout::FourBrake] {
         let hidden = [effect(Law::Viscous { coefficient: 0.057 }, Joint::E)];
         let mut rig = start(layout, &hidden);
-        let (mut work_j, mut turned_j, mut taken_j, mut given_j) = (0.0, 0.0, 0.0, 0.0);
+        let mut given_j = 0.0;
         let (mut stuck, mut slid) = ([0; 4], [0; 4]);
         for k in 0..120_000 {
             let time_s = f64::from(k) * 1e-4;
-            let step = rig.step(time_s, 1e-4, currents(time_s), &mut push).unwrap();
-            let work = dot(step.force_n, step.tip_travel_m);
-            work_j += work;
-            turned_j += work.abs();
-            for (joint, (torque, travel)) in
-                step.resistance_nm.iter().zip(step.travel_rad).enumerate()
-            {
-                let power = torque * travel;
-                taken_j += power;
-                given_j += (-power).max(0.0);
-                if rig.stuck()[joint] {
-                    stuck[joint] += 1
+            let before_j = rig.taken_j;
+            rig.step(time_s, 1e-4, currents(time_s), &mut push).unwrap();
+            given_j += (before_j - rig.taken_j).max(0.0);
+            for (joint, sticks) in rig.stuck().into_iter().enumerate() {
+                if sticks {
+                    stuck[joint] += 1;
                 } else {
-                    slid[joint] += 1
+                    slid[joint] += 1;
                 }
             }
         }
         // A joint that turns round inside a step seems to give what its friction took on the way there.
-        assert!(given_j < 1e-6 * taken_j, "{given_j} J of {taken_j} J");
-        let left = work_j - taken_j - kinetic_j(&rig, layout);
         assert!(
-            left.abs() < 1e-5 * turned_j,
-            "{layout:?}: {left} J of {turned_j} J"
+            given_j < 1e-6 * rig.taken_j,
+            "{given_j} J of {} J",
+            rig.taken_j
+        );
+        let left = rig.work_j - rig.taken_j - kinetic_j(&rig, layout);
+        assert!(
+            left.abs() < 1e-5 * rig.taken_j,
+            "{layout:?}: {left} J of {} J",
+            rig.taken_j
         );
         let braked = layout.brakes().len();
         assert!(
@@ -162,46 +169,109 @@ fn under_every_brake_and_a_push_below_their_yield_nothing_moves() {
     }
 }
 
+/// Six seconds of a laboratory with one hidden effect.
+fn short(seed: u64, hide: impl Fn(&Setup, &mut Draw) -> Vec<Effect>) -> Option<Secret> {
+    let mut draw = Draw::new(Plant::Rig, seed, "short");
+    let mut setup = Setup::draw(Stratum::Single, &mut draw)?;
+    setup.duration_s = 6.0;
+    let hidden = hide(&setup, &mut draw);
+    Secret::new(setup, hidden)
+}
+
+/// What the nominal equations lack along the motion is what the effects were written down to do: what is left of it is below half of
+/// the noise of an 80 ms average for every law (measured: 0.0015 at
+/// most).
 #[test]
-fn explore() {
-    use crate::stratum::Stratum;
-    for stratum in Stratum::ALL {
-        for seed in 0..2 {
-            let begun = cpu_s();
-            match make::secret(seed, stratum) {
-                Ok(secret) => {
-                    let sizes: Vec<String> = secret
-                        .sizes
-                        .sizes
-                        .iter()
-                        .map(|s| format!("{:.1}/{:.1}/{:.1}", s.size, s.distinctness, s.strength))
-                        .collect();
-                    let names: Vec<String> = secret
-                        .hidden
-                        .iter()
-                        .map(|e| format!("{}@{:?}", e.name(), e.joint))
-                        .collect();
-                    let left = size::left_over(&secret.setup, &secret.hidden, &secret.samples);
-                    eprintln!(
-                        "{} {seed} {:?} {}s noise {:.4} slide {:.2} left {:.3} {names:?} {sizes:?} {:.2} s",
-                        stratum.name(),
-                        secret.setup.layout,
-                        secret.setup.duration_s,
-                        secret.sizes.block_noise,
-                        secret.sizes.sliding,
-                        left,
-                        cpu_s() - begun
-                    );
-                }
-                Err(error) => {
-                    eprintln!("{} {seed} {error} {:.2} s", stratum.name(), cpu_s() - begun)
-                }
-            }
+fn the_bookkeeping_of_every_law_closes() {
+    let mut names = BTreeSet::new();
+    for (seed, recipe) in hide::every().into_iter().enumerate() {
+        for attempt in 0..4 {
+            let seed = seed as u64 + 100 * attempt;
+            let hide = |setup: &Setup, draw: &mut Draw| {
+                vec![recipe(draw.pick(setup.layout.brakes()), draw)]
+            };
+            let Some(secret) = short(seed, hide) else {
+                continue;
+            };
+            let effect = secret.hidden[0];
+            assert!(
+                secret.sizes.left < 0.5,
+                "{} {}",
+                effect.name(),
+                secret.sizes.left
+            );
+            assert!(!effect.parameters().is_empty());
+            names.insert(effect.name());
+            break;
+        }
+    }
+    assert_eq!(names.len(), 27, "{names:?}");
+}
+
+#[test]
+fn with_nothing_hidden_the_nominal_equations_lack_nothing() {
+    for seed in 0..6 {
+        let secret = short(seed, |_, _| Vec::new()).unwrap();
+        assert!(secret.sizes.left < 0.1, "{}", secret.sizes.left);
+    }
+}
+
+/// The vocabulary's names, and its parameters where it has some.
+#[test]
+fn laws_are_named_as_the_vocabulary_has_them() {
+    let mut draw = Draw::new(Plant::Rig, 3, "names");
+    for recipe in hide::every() {
+        let effect = recipe(Joint::B, &mut draw);
+        let Some(mechanism) = Mechanism::from_name(effect.name()) else {
+            continue;
+        };
+        let own: BTreeMap<_, _> = effect
+            .parameters()
+            .iter()
+            .map(|(n, _, d)| (*n, *d))
+            .collect();
+        let theirs: BTreeMap<_, _> = mechanism
+            .parameters()
+            .iter()
+            .map(|p| (p.name, p.quantity.dimension(Motion::Rotary)))
+            .collect();
+        if !theirs.is_empty() {
+            assert_eq!(own, theirs, "{}", effect.name());
         }
     }
 }
 
-fn cpu_s() -> f64 {
-    let stat = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap();
-    stat.split(' ').next().unwrap().parse::<f64>().unwrap() * 1e-9
+/// On the 3-brake layout friction at C and at E is one and the same: the recordings agree bit for bit in all but rounding.
+#[test]
+fn on_three_brakes_a_bearing_at_c_is_a_bearing_at_e() {
+    let run = |joint: Joint| {
+        let hidden = [effect(
+            Law::Bearing {
+                dry: 0.17,
+                viscous: 0.06,
+            },
+            joint,
+        )];
+        let mut rig = start(Layout::ThreeBrake, &hidden);
+        for k in 0..20_000 {
+            let time_s = f64::from(k) * 1e-4;
+            rig.step(time_s, 1e-4, currents(time_s), &mut push).unwrap();
+        }
+        rig.theta
+    };
+    let ([a, b], [c, d]) = (run(Joint::C), run(Joint::E));
+    assert!((a - c).abs() < 1e-9 && (b - d).abs() < 1e-9);
+}
+
+#[test]
+fn strata_have_the_sizes_they_say() {
+    for seed in 40..43 {
+        for stratum in [Stratum::Single, Stratum::TooSmall, Stratum::Unidentifiable] {
+            let secret = secret(seed, stratum).unwrap();
+            for size in &secret.sizes.sizes {
+                assert!(size.fits(stratum), "{seed} {} {size:?}", stratum.name());
+                assert!(size.distinctness <= size.size && size.strength > 0.02);
+            }
+        }
+    }
 }
