@@ -29,6 +29,9 @@ pub struct Answer {
 pub struct HiddenEffect {
     /// The vocabulary's name, or a name of this room for physics outside the vocabulary.
     pub mechanism: String,
+    /// The joint of a five-bar it acts at: A, E, B or C; absent where it has none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub joint: Option<String>,
     /// When it begins, s; absent when it acts throughout.
     pub onset_s: Option<f64>,
     /// True parameters.
@@ -39,7 +42,7 @@ pub struct HiddenEffect {
     pub distinctness: f64,
     /// Signal-to-noise ratio of a matched filter over the whole recording.
     pub strength: f64,
-    /// Sets of mechanisms that describe any recording of this kind equally well, from physics.
+    /// Sets of mechanisms that describe any recording of this kind equally well, from physics; a joint stands behind ` at `.
     pub equivalent: Vec<Vec<String>>,
 }
 
@@ -55,6 +58,11 @@ pub struct TrueParameter {
 }
 
 impl HiddenEffect {
+    /// Mechanism and joint, such as `viscous at E`; the mechanism alone where there is no joint.
+    pub fn key(&self) -> String {
+        key(&self.mechanism, self.joint.as_deref())
+    }
+
     pub(crate) fn new(
         effect: &Effect,
         size: Size,
@@ -64,6 +72,7 @@ impl HiddenEffect {
     ) -> HiddenEffect {
         HiddenEffect {
             mechanism: effect.law.name().to_owned(),
+            joint: None,
             onset_s: effect.onset_s,
             parameters: effect
                 .law
@@ -84,6 +93,14 @@ impl HiddenEffect {
                 .collect(),
         }
     }
+}
+
+/// The name of a mechanism at a joint.
+pub(crate) fn key(mechanism: &str, joint: Option<&str>) -> String {
+    joint.map_or_else(
+        || mechanism.to_owned(),
+        |joint| format!("{mechanism} at {joint}"),
+    )
 }
 
 /// Sets of mechanisms that no recording can tell from a law.

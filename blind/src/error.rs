@@ -4,7 +4,7 @@
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// The plant's name is not known.
-    #[error("plant \"{0}\" is not known; name one of: axis, bench")]
+    #[error("plant \"{0}\" is not known; name one of: axis, bench, rig")]
     UnknownPlant(String),
     /// The stratum's name is not known.
     #[error("stratum \"{name}\" is not known; name one of: {known}")]
@@ -13,6 +13,16 @@ pub enum Error {
         name: String,
         /// The names that exist.
         known: String,
+    },
+    /// The plant has no such stratum.
+    #[error(
+        "the {plant} plant has no cases of the stratum \"{stratum}\"; take another stratum or plant"
+    )]
+    OtherPlant {
+        /// The stratum's name.
+        stratum: &'static str,
+        /// The plant's name.
+        plant: &'static str,
     },
     /// No draw met the stratum's rule of size.
     #[error(

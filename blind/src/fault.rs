@@ -1,18 +1,13 @@
 //! This file spoils a recording in the ways a careful technician would throw it away for.
 
 use crate::draw::Draw;
-use crate::plant::Plant;
 use rigproof_trace::{Channel, Trace};
 
-/// Spoils the recording and returns the fault's name.
-pub fn spoil(plant: Plant, trace: &mut Trace, draw: &mut Draw) -> &'static str {
-    let effort = match plant {
-        Plant::Axis => "command",
-        Plant::Bench => "torque",
-    };
+/// Spoils the recording in its channel of position or in that of effort and returns the fault's name.
+pub fn spoil(position: &str, effort: &str, trace: &mut Trace, draw: &mut Draw) -> &'static str {
     match draw.below(5) {
         0 => {
-            stick(channel_mut(trace, "position"), draw);
+            stick(channel_mut(trace, position), draw);
             "stuck_position"
         }
         1 => {
@@ -20,7 +15,7 @@ pub fn spoil(plant: Plant, trace: &mut Trace, draw: &mut Draw) -> &'static str {
             "clipped_channel"
         }
         2 => {
-            drop_samples(channel_mut(trace, "position"), draw);
+            drop_samples(channel_mut(trace, position), draw);
             "dropped_samples"
         }
         3 => {
@@ -111,6 +106,7 @@ fn jump(time_s: &mut [f64], draw: &mut Draw) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plant::Plant;
 
     fn recording() -> Trace {
         let time_s: Vec<f64> = (0..4000).map(|k| f64::from(k) * 1e-3).collect();
@@ -134,7 +130,8 @@ mod tests {
         for seed in 0..60 {
             let mut trace = recording();
             let name = spoil(
-                Plant::Axis,
+                "position",
+                "command",
                 &mut trace,
                 &mut Draw::new(Plant::Axis, seed, "fault"),
             );

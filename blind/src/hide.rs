@@ -2,7 +2,6 @@
 
 use crate::draw::Draw;
 use crate::law::Law;
-use crate::plant::Plant;
 use crate::setup::{Kind, Setup};
 use crate::stratum::Stratum;
 use rigproof_spec::joint::Joint;
@@ -38,17 +37,15 @@ const PAIRS_AXIS: [[Recipe; 2]; 2] = [[viscous, lag], [viscous, gain]];
 const PAIRS_BRAKE: [[Recipe; 2]; 2] = [[dry, gain], [viscous, lag]];
 
 /// Draws the hidden laws of a stratum: none, one or two.
-pub fn draw(plant: Plant, setup: &Setup, stratum: Stratum, draw: &mut Draw) -> Vec<Law> {
-    let brake = setup.brake().is_some();
-    let driven = plant == Plant::Axis || brake;
+pub fn draw(setup: &Setup, stratum: Stratum, draw: &mut Draw) -> Vec<Law> {
+    let driven = !matches!(setup.kind, Kind::Bench(None));
     match stratum {
-        Stratum::Nothing | Stratum::DataFault => Vec::new(),
         Stratum::Masked => {
             let mut pairs = PAIRS_ANYWHERE.to_vec();
-            match plant {
-                Plant::Axis => pairs.extend(PAIRS_AXIS),
-                Plant::Bench if brake => pairs.extend(PAIRS_BRAKE),
-                Plant::Bench => {}
+            match setup.kind {
+                Kind::Axis(_) => pairs.extend(PAIRS_AXIS),
+                Kind::Bench(Some(_)) => pairs.extend(PAIRS_BRAKE),
+                Kind::Bench(None) => {}
             }
             draw.pick(&pairs)
                 .into_iter()
@@ -57,10 +54,10 @@ pub fn draw(plant: Plant, setup: &Setup, stratum: Stratum, draw: &mut Draw) -> V
         }
         Stratum::NotInLibrary => {
             let mut recipes = FOREIGN_ANYWHERE.to_vec();
-            match plant {
-                Plant::Axis => recipes.extend(FOREIGN_AXIS),
-                Plant::Bench if brake => recipes.extend(FOREIGN_BRAKE),
-                Plant::Bench => {}
+            match setup.kind {
+                Kind::Axis(_) => recipes.extend(FOREIGN_AXIS),
+                Kind::Bench(Some(_)) => recipes.extend(FOREIGN_BRAKE),
+                Kind::Bench(None) => {}
             }
             vec![draw.pick(&recipes)(setup, draw)]
         }
@@ -78,6 +75,8 @@ pub fn draw(plant: Plant, setup: &Setup, stratum: Stratum, draw: &mut Draw) -> V
             let share = draw.log_uniform(0.15, 1.0);
             vec![if is_effort { law.scaled(share) } else { law }]
         }
+        // Nothing, a fault of the data, or a stratum of the five-bar.
+        _ => Vec::new(),
     }
 }
 

@@ -8,9 +8,9 @@ use crate::plant::Plant;
 use crate::run::Run;
 use crate::seal;
 use crate::setup::{Kind, Setup};
-use crate::size::{CLEAR_DISTINCTNESS, CLEAR_SIZE, FAINT_STRENGTH, Size, block_noise, sizes};
+use crate::size::{FAINT_STRENGTH, Size, block_noise, sizes};
 use crate::stratum::Stratum;
-use crate::{axis, bench, fault, hide, nominal, rig};
+use crate::{axis, bench, fault, five_bar, hide, nominal, rig};
 use rigproof_spec::effect::Quantity;
 use rigproof_trace::{Channel, Trace};
 
@@ -42,13 +42,29 @@ pub(crate) struct Secret {
 /// Makes the case of a seed; `None` lets the seed draw the stratum.
 ///
 /// # Errors
-/// [`Error::NoCase`] when no draw of the seed meets the stratum's rule of size.
+/// [`Error::NoCase`] when no draw of the seed meets the stratum's rule of size; [`Error::OtherPlant`] when the plant has no such
+/// stratum.
 pub fn make(plant: Plant, seed: u64, stratum: Option<Stratum>) -> Result<Case, Error> {
     let stratum = stratum.unwrap_or_else(|| Stratum::of_seed(plant, seed));
+    if stratum.of_twenty(plant) == 0 {
+        return Err(Error::OtherPlant {
+            stratum: stratum.name(),
+            plant: plant.name(),
+        });
+    }
+    if plant == Plant::Rig {
+        return five_bar::make(seed, stratum);
+    }
     let secret = secret(plant, seed, stratum)?;
     let mut trace = record(&secret, &mut Draw::new(plant, seed, "sensors"));
-    let fault = (stratum == Stratum::DataFault)
-        .then(|| fault::spoil(plant, &mut trace, &mut Draw::new(plant, seed, "fault")));
+    let fault = (stratum == Stratum::DataFault).then(|| {
+        let effort = match plant {
+            Plant::Axis => "command",
+            _ => "torque",
+        };
+        let mut draw = Draw::new(plant, seed, "fault");
+        fault::spoil("position", effort, &mut trace, &mut draw)
+    });
     // A motor on a bench holds any bias; on an axis only dry friction can carry one off as an asymmetry.
     let dry_in_plant = plant == Plant::Bench
         || secret
@@ -87,10 +103,10 @@ pub(crate) fn secret(plant: Plant, seed: u64, stratum: Stratum) -> Result<Secret
     let setup = Setup::draw(plant, &mut Draw::new(plant, seed, "setup"));
     let mut draw = Draw::new(plant, seed, stratum.name());
     for _ in 0..ATTEMPTS {
-        let laws = hide::draw(plant, &setup, stratum, &mut draw);
+        let laws = hide::draw(&setup, stratum, &mut draw);
         let onset_s = (stratum == Stratum::LateOnset)
             .then(|| setup.duration_s * draw.uniform(1.0 / 3.0, 2.0 / 3.0));
-        let known = nominal::draw(plant, &setup, &laws, &mut draw);
+        let known = nominal::draw(&setup, &laws, &mut draw);
         let hidden: Vec<Effect> = laws
             .into_iter()
             .map(|law| Effect { law, onset_s })
@@ -129,15 +145,7 @@ impl Secret {
 
     fn fits(&self, stratum: Stratum) -> bool {
         let moves = self.run.moving.iter().filter(|m| **m).count() * 2 > self.run.moving.len();
-        moves
-            && self.sizes.iter().all(|size| match stratum {
-                Stratum::Nothing | Stratum::DataFault => true,
-                Stratum::TooSmall => size.strength <= FAINT_STRENGTH,
-                Stratum::NotInLibrary => size.distinctness >= CLEAR_SIZE,
-                Stratum::Single | Stratum::Masked | Stratum::LateOnset => {
-                    size.size >= CLEAR_SIZE && size.distinctness >= CLEAR_DISTINCTNESS
-                }
-            })
+        moves && self.sizes.iter().all(|size| size.fits(stratum))
     }
 }
 

@@ -2,11 +2,10 @@
 
 use crate::draw::Draw;
 use crate::law::Law;
-use crate::plant::Plant;
-use crate::setup::Setup;
+use crate::setup::{Kind, Setup};
 
 /// Draws the laws of the nominal model, true in the plant; nothing hidden is among them.
-pub fn draw(plant: Plant, setup: &Setup, hidden: &[Law], draw: &mut Draw) -> Vec<Law> {
+pub fn draw(setup: &Setup, hidden: &[Law], draw: &mut Draw) -> Vec<Law> {
     let hides = |name: &str| hidden.iter().any(|law| law.name() == name);
     let asymmetry = hidden.iter().find_map(|law| match law {
         Law::Asymmetry { dry, viscous } => Some((*dry != 0.0, *viscous != 0.0)),
@@ -17,11 +16,11 @@ pub fn draw(plant: Plant, setup: &Setup, hidden: &[Law], draw: &mut Draw) -> Vec
     let may_viscous = !hides(setup.viscous.name());
     // Asymmetry and bias are one and the same shift of dry friction, so one is never nominal when the other is hidden.
     let may_bias = asymmetry.is_none() && !hides(setup.bias.name());
-    let damper = plant == Plant::Bench && setup.brake().is_none();
-    let (dry_chance, viscous_chance, bias_chance) = match plant {
-        Plant::Axis => (0.6, 0.6, 0.0),
-        Plant::Bench if damper => (1.0, 0.5, 0.3),
-        Plant::Bench => (0.0, 0.4, 0.0),
+    let damper = matches!(setup.kind, Kind::Bench(None));
+    let (dry_chance, viscous_chance, bias_chance) = match setup.kind {
+        Kind::Axis(_) => (0.6, 0.6, 0.0),
+        Kind::Bench(None) => (1.0, 0.5, 0.3),
+        Kind::Bench(Some(_)) => (0.0, 0.4, 0.0),
     };
     let (dry, viscous, bias) = (
         draw.chance(dry_chance),

@@ -1,4 +1,4 @@
-//! This file names the two plants a case can be recorded on.
+//! This file names the plants a case can be recorded on.
 
 use crate::error::Error;
 use serde::{Deserialize, Serialize};
@@ -11,14 +11,20 @@ pub enum Plant {
     Axis,
     /// A brake or damper moved by a motor: position and resisting effort are recorded.
     Bench,
+    /// The five-bar with three or four brakes: angles, force on the tip and currents are recorded.
+    Rig,
 }
 
 impl Plant {
+    /// Every plant.
+    pub const ALL: [Plant; 3] = [Plant::Axis, Plant::Bench, Plant::Rig];
+
     /// The name used in files and on the command line.
     pub const fn name(self) -> &'static str {
         match self {
             Plant::Axis => "axis",
             Plant::Bench => "bench",
+            Plant::Rig => "rig",
         }
     }
 
@@ -27,7 +33,7 @@ impl Plant {
     /// # Errors
     /// [`Error::UnknownPlant`] for any other text.
     pub fn from_name(name: &str) -> Result<Plant, Error> {
-        [Plant::Axis, Plant::Bench]
+        Plant::ALL
             .into_iter()
             .find(|plant| plant.name() == name)
             .ok_or_else(|| Error::UnknownPlant(name.to_owned()))

@@ -2,6 +2,7 @@
 
 use crate::answer::{Answer, HiddenEffect};
 use crate::error::Error;
+use crate::found::{Found, found_effects};
 use crate::stratum::Stratum;
 use rigproof_spec::units::Unit;
 use serde::{Deserialize, Serialize};
@@ -18,6 +19,15 @@ pub struct Score {
     /// The named set is the true set, or one that physics makes identical to a single true effect; for an effect too small to see, naming nothing is right as well; for a data
     /// fault nothing may be named and the verdict must be `data_fault`.
     pub exact: bool,
+    /// The mechanisms are the true ones, wherever they are said to be; what else `exact` asks is asked here as well.
+    #[serde(default)]
+    pub mechanism_exact: bool,
+    /// What was hidden, and what was named: mechanisms, on a five-bar with their joints.
+    #[serde(default)]
+    pub hidden: Vec<String>,
+    /// What was named.
+    #[serde(default)]
+    pub named: Vec<String>,
     /// Every true effect is named, ambiguous with a named one, or replaced by a physical equivalent. An effect too
     /// small to see is not asked for.
     pub inside: bool,
@@ -55,97 +65,79 @@ pub fn score(answer: &Answer, report: &Value) -> Result<Score, Error> {
         .get("verdict")
         .and_then(Value::as_str)
         .ok_or(Error::Report("string \"verdict\""))?;
-    let found = found_effects(report)?;
-    let named: BTreeSet<&str> = found.iter().map(|effect| effect.name).collect();
-    let offered: BTreeSet<&str> = found
-        .iter()
-        .flat_map(|effect| effect.alternatives.iter().copied())
+    let found = found_effects(answer.plant, report)?;
+    let named: BTreeSet<&str> = found.iter().map(|effect| effect.name.as_str()).collect();
+    let alternatives = found.iter().flat_map(|effect| &effect.alternatives);
+    let offered: BTreeSet<&str> = alternatives
+        .map(String::as_str)
         .chain(named.iter().copied())
         .collect();
-    let truth: BTreeSet<&str> = answer
-        .effects
-        .iter()
-        .map(|effect| effect.mechanism.as_str())
-        .collect();
-    let too_small = answer.stratum == Stratum::TooSmall;
+    let keys: Vec<String> = answer.effects.iter().map(HiddenEffect::key).collect();
+    let truth: BTreeSet<&str> = keys.iter().map(String::as_str).collect();
     let flagged = match verdict {
         "data_fault" => answer.stratum == Stratum::DataFault,
         "none_of_library" => answer.stratum != Stratum::DataFault,
         "partly_explained" => answer.stratum == Stratum::NotInLibrary && named.is_empty(),
         _ => false,
     };
-    let exact = match answer.stratum {
+    let right = |same: bool| match answer.stratum {
         Stratum::DataFault => flagged && named.is_empty(),
-        Stratum::TooSmall => named.is_empty() || named == truth,
-        _ => named == truth || is_twin(answer, &named),
+        Stratum::TooSmall => named.is_empty() || same,
+        Stratum::Unidentifiable => says_the_tie(answer, &offered),
+        _ => same || is_twin(answer, &named),
     };
+    let mechanisms = |names: &BTreeSet<&str>| -> BTreeSet<String> {
+        names.iter().map(|name| mechanism_of(name)).collect()
+    };
+    let too_small = answer.stratum == Stratum::TooSmall;
     Ok(Score {
         stratum: answer.stratum,
         verdict: verdict.to_owned(),
-        exact,
+        exact: right(named == truth),
+        mechanism_exact: right(mechanisms(&named) == mechanisms(&truth)),
         inside: too_small || answer.effects.iter().all(|e| is_inside(e, &offered)),
         false_names: found
             .iter()
             .filter(|effect| !is_defensible(effect, answer, &truth))
-            .map(|effect| effect.name.to_owned())
+            .map(|effect| effect.name.clone())
             .collect(),
         flagged,
         offered: offered.len(),
         onset_error_s: onset_error_s(answer, &found),
         parameters: parameter_errors(answer, &found),
+        hidden: truth.iter().map(|name| (*name).to_owned()).collect(),
+        named: named.iter().map(|name| (*name).to_owned()).collect(),
     })
 }
 
-/// One named effect of a report.
-struct Found<'a> {
-    name: &'a str,
-    onset_s: Option<f64>,
-    parameters: Option<&'a serde_json::Map<String, Value>>,
-    alternatives: Vec<&'a str>,
-}
-
-fn found_effects(report: &Value) -> Result<Vec<Found<'_>>, Error> {
-    let effects = report
-        .get("effects")
-        .and_then(Value::as_array)
-        .ok_or(Error::Report("array \"effects\""))?;
-    effects
-        .iter()
-        .enumerate()
-        .map(|(index, effect)| {
-            let mut alternatives = Vec::new();
-            let of_report = report
-                .get("ambiguous_with")
-                .and_then(|list| list.get(index));
-            for list in [of_report, effect.get("ambiguous_with")]
-                .into_iter()
-                .flatten()
-            {
-                collect_strings(list, &mut alternatives);
-            }
-            Ok(Found {
-                name: effect
-                    .get("mechanism")
-                    .and_then(Value::as_str)
-                    .ok_or(Error::Report("string \"mechanism\" in an effect"))?,
-                onset_s: effect.get("onset_s").and_then(Value::as_f64),
-                parameters: effect.get("parameters").and_then(Value::as_object),
-                alternatives,
-            })
-        })
-        .collect()
-}
-
-fn collect_strings<'a>(value: &'a Value, into: &mut Vec<&'a str>) {
-    match value {
-        Value::String(text) => into.push(text),
-        Value::Array(items) => items.iter().for_each(|item| collect_strings(item, into)),
-        _ => {}
+impl Score {
+    /// Whether the diagnosis failed: it is not what the stratum calls right, or a name is false.
+    pub fn is_miss(&self) -> bool {
+        let right = match self.stratum {
+            Stratum::NotInLibrary => self.flagged && self.named.is_empty(),
+            _ => self.exact,
+        };
+        !right || !self.false_names.is_empty()
     }
 }
 
+/// A name without its joint.
+pub(crate) fn mechanism_of(name: &str) -> String {
+    name.split(" at ").next().unwrap_or(name).to_owned()
+}
+
+/// Whether the truth and at least one of its twins are offered.
+fn says_the_tie(answer: &Answer, offered: &BTreeSet<&str>) -> bool {
+    answer.effects.iter().all(|effect| {
+        let twins = effect.equivalent.iter().flatten().map(String::as_str);
+        let told = twins.filter(|twin| offered.contains(twin)).count();
+        let own = usize::from(offered.contains(effect.key().as_str()));
+        told + own >= 2
+    })
+}
+
 fn is_inside(truth: &HiddenEffect, offered: &BTreeSet<&str>) -> bool {
-    offered.contains(truth.mechanism.as_str())
+    offered.contains(truth.key().as_str())
         || truth
             .equivalent
             .iter()
@@ -162,18 +154,21 @@ fn is_twin(answer: &Answer, named: &BTreeSet<&str>) -> bool {
 }
 
 fn is_defensible(found: &Found<'_>, answer: &Answer, truth: &BTreeSet<&str>) -> bool {
-    truth.contains(found.name)
+    truth.contains(found.name.as_str())
         || answer
             .effects
             .iter()
             .flat_map(|effect| effect.equivalent.iter().flatten())
-            .any(|name| name == found.name)
-        || found.alternatives.iter().any(|name| truth.contains(name))
+            .any(|name| *name == found.name)
+        || found
+            .alternatives
+            .iter()
+            .any(|name| truth.contains(name.as_str()))
 }
 
 fn onset_error_s(answer: &Answer, found: &[Found<'_>]) -> Option<f64> {
     answer.effects.iter().find_map(|truth| {
-        let named = found.iter().find(|f| f.name == truth.mechanism)?;
+        let named = found.iter().find(|f| f.mechanism == truth.mechanism)?;
         Some((named.onset_s? - truth.onset_s?).abs())
     })
 }
@@ -183,7 +178,7 @@ fn parameter_errors(answer: &Answer, found: &[Found<'_>]) -> Vec<ParameterError>
     for truth in &answer.effects {
         let Some(parameters) = found
             .iter()
-            .find(|f| f.name == truth.mechanism)
+            .find(|f| f.mechanism == truth.mechanism)
             .and_then(|f| f.parameters)
         else {
             continue;
@@ -237,6 +232,7 @@ mod tests {
     fn effect(mechanism: &str, equivalent: &[&[&str]]) -> HiddenEffect {
         HiddenEffect {
             mechanism: mechanism.to_owned(),
+            joint: None,
             onset_s: Some(8.25),
             parameters: vec![TrueParameter {
                 name: "level".to_owned(),
@@ -296,6 +292,56 @@ mod tests {
         let bad = score(&answer, &report(json!([]))).unwrap();
         assert!(!bad.inside);
         assert_eq!(bad.false_names, ["stribeck"]);
+    }
+
+    #[test]
+    fn on_a_rig_the_joint_belongs_to_the_name() {
+        let mut hidden = effect("viscous", &[&["bearing_friction at C"]]);
+        hidden.joint = Some("E".to_owned());
+        let answer = Answer {
+            plant: Plant::Rig,
+            ..answer(Stratum::Single, vec![hidden])
+        };
+        let with = |joint: Value, ties: Value| {
+            let report = json!({"verdict": "explained",
+                "effects": [{"mechanism": "viscous", "joint": joint, "ambiguous_with": ties}]});
+            score(&answer, &report).unwrap()
+        };
+        let right = with(json!("E"), json!([]));
+        assert!(right.exact && right.mechanism_exact && !right.is_miss());
+        for joint in [json!("B"), json!(null)] {
+            let wrong = with(joint, json!([]));
+            assert!(!wrong.exact && wrong.mechanism_exact && !wrong.inside && wrong.is_miss());
+            assert_eq!(wrong.false_names.len(), 1);
+        }
+        for tie in [
+            json!([{"mechanism": "viscous", "joint": "E"}]),
+            json!("viscous at E"),
+        ] {
+            let tied = with(json!("B"), tie);
+            assert!(!tied.exact && tied.inside && tied.false_names.is_empty());
+        }
+        let twin = json!({"verdict": "explained",
+            "effects": [{"mechanism": "bearing_friction", "joint": "C"}]});
+        assert!(score(&answer, &twin).unwrap().exact);
+    }
+
+    #[test]
+    fn what_cannot_be_told_apart_has_to_be_called_a_tie() {
+        let mut hidden = effect("gain_error", &[&["dry_offset at A"]]);
+        hidden.joint = Some("A".to_owned());
+        let answer = Answer {
+            plant: Plant::Rig,
+            ..answer(Stratum::Unidentifiable, vec![hidden])
+        };
+        let with = |ties: Value| {
+            let report = json!({"verdict": "ambiguous",
+                "effects": [{"mechanism": "gain_error", "joint": "A", "ambiguous_with": ties}]});
+            score(&answer, &report).unwrap()
+        };
+        let lucky = with(json!([]));
+        assert!(!lucky.exact && lucky.inside && lucky.false_names.is_empty());
+        assert!(with(json!(["dry_offset at A"])).exact);
     }
 
     #[test]

@@ -119,6 +119,7 @@ mod tests {
             stratum: Stratum::Single,
             effects: vec![HiddenEffect {
                 mechanism: "stribeck".to_owned(),
+                joint: None,
                 onset_s: Some(7.31),
                 parameters: vec![TrueParameter {
                     name: "peak".to_owned(),

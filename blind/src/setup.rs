@@ -80,13 +80,13 @@ impl Currents {
 }
 
 impl Setup {
-    /// The lab of a seed and a stratum.
+    /// The lab of an axis or of a bench.
     pub fn draw(plant: Plant, draw: &mut Draw) -> Setup {
         let rate_hz = draw.pick(&[500.0, 1000.0]);
         let duration_s = draw.uniform(16.0, 30.0).floor();
         match plant {
             Plant::Axis => axis(draw, rate_hz, duration_s),
-            Plant::Bench => bench(draw, rate_hz, duration_s),
+            _ => bench(draw, rate_hz, duration_s),
         }
     }
 

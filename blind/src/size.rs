@@ -8,6 +8,7 @@
 use crate::law::Law;
 use crate::run::Run;
 use crate::setup::{Kind, Setup};
+use crate::stratum::Stratum;
 
 /// Length of an average, s.
 pub const BLOCK_S: f64 = 0.08;
@@ -28,6 +29,23 @@ pub struct Size {
     pub distinctness: f64,
     /// Signal-to-noise ratio of a matched filter over the whole recording: size times the root of the blocks.
     pub strength: f64,
+}
+
+impl Size {
+    /// Whether an effect of this size belongs into a stratum.
+    pub fn fits(&self, stratum: Stratum) -> bool {
+        match stratum {
+            Stratum::Nothing | Stratum::DataFault => true,
+            Stratum::TooSmall => self.strength <= FAINT_STRENGTH,
+            Stratum::NotInLibrary => self.distinctness >= CLEAR_SIZE,
+            Stratum::Unidentifiable | Stratum::WrongInertia => self.size >= CLEAR_SIZE,
+            Stratum::Single
+            | Stratum::Masked
+            | Stratum::LateOnset
+            | Stratum::Noisy
+            | Stratum::InLoop => self.size >= CLEAR_SIZE && self.distinctness >= CLEAR_DISTINCTNESS,
+        }
+    }
 }
 
 /// Standard deviation of the equivalent effort noise in an 80 ms average, N or N·m.
@@ -142,7 +160,7 @@ impl Blocks {
 }
 
 /// Sum of squares of what is left of a signal after least squares on columns (modified Gram–Schmidt).
-fn remainder(signal: &[f64], columns: &[&[f64]]) -> f64 {
+pub fn remainder(signal: &[f64], columns: &[&[f64]]) -> f64 {
     let mut basis: Vec<Vec<f64>> = Vec::new();
     for column in columns {
         let mut direction = column.to_vec();

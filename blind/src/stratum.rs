@@ -23,11 +23,19 @@ pub enum Stratum {
     NotInLibrary,
     /// A recording that a careful technician throws away.
     DataFault,
+    /// One effect, with five times the noise on the force.
+    Noisy,
+    /// One effect, with a controller that looks at the encoders.
+    InLoop,
+    /// One effect that the experiment cannot tell from another.
+    Unidentifiable,
+    /// Masses and inertias up to 5 % away from the nominal ones.
+    WrongInertia,
 }
 
 impl Stratum {
     /// Every stratum, in the order of the table.
-    pub const ALL: [Stratum; 7] = [
+    pub const ALL: [Stratum; 11] = [
         Stratum::Nothing,
         Stratum::Single,
         Stratum::Masked,
@@ -35,6 +43,10 @@ impl Stratum {
         Stratum::TooSmall,
         Stratum::NotInLibrary,
         Stratum::DataFault,
+        Stratum::Noisy,
+        Stratum::InLoop,
+        Stratum::Unidentifiable,
+        Stratum::WrongInertia,
     ];
 
     /// The name used in files and on the command line.
@@ -47,6 +59,10 @@ impl Stratum {
             Stratum::TooSmall => "too_small",
             Stratum::NotInLibrary => "not_in_library",
             Stratum::DataFault => "data_fault",
+            Stratum::Noisy => "noisy",
+            Stratum::InLoop => "in_loop",
+            Stratum::Unidentifiable => "unidentifiable",
+            Stratum::WrongInertia => "wrong_inertia",
         }
     }
 
@@ -64,14 +80,20 @@ impl Stratum {
             })
     }
 
-    /// How many of 20 consecutive seeds, counted from a multiple of 20, hold this stratum.
-    pub const fn of_twenty(self) -> usize {
-        match self {
-            Stratum::Single => 6,
-            Stratum::Nothing | Stratum::Masked => 3,
-            Stratum::LateOnset | Stratum::TooSmall | Stratum::NotInLibrary | Stratum::DataFault => {
-                2
-            }
+    /// How many of 20 consecutive seeds of a plant, counted from a multiple of 20, hold this stratum.
+    pub const fn of_twenty(self, plant: Plant) -> usize {
+        let [joint, rig] = match self {
+            Stratum::Single => [6, 5],
+            Stratum::Nothing => [3, 3],
+            Stratum::Masked => [3, 2],
+            Stratum::LateOnset => [2, 2],
+            Stratum::TooSmall | Stratum::NotInLibrary | Stratum::DataFault => [2, 1],
+            Stratum::InLoop => [0, 2],
+            Stratum::Noisy | Stratum::Unidentifiable | Stratum::WrongInertia => [0, 1],
+        };
+        match plant {
+            Plant::Rig => rig,
+            Plant::Axis | Plant::Bench => joint,
         }
     }
 
@@ -79,7 +101,7 @@ impl Stratum {
     pub fn of_seed(plant: Plant, seed: u64) -> Stratum {
         let mut deck: Vec<Stratum> = Stratum::ALL
             .into_iter()
-            .flat_map(|stratum| std::iter::repeat_n(stratum, stratum.of_twenty()))
+            .flat_map(|stratum| std::iter::repeat_n(stratum, stratum.of_twenty(plant)))
             .collect();
         let mut draw = Draw::new(plant, seed / 20, "stratum");
         let mut dealt = Stratum::Nothing;
@@ -96,14 +118,14 @@ mod tests {
 
     #[test]
     fn every_block_of_twenty_seeds_holds_the_stated_proportions() {
-        for plant in [Plant::Axis, Plant::Bench] {
+        for plant in Plant::ALL {
             for block in [0, 3, 17] {
                 let drawn: Vec<Stratum> = (20 * block..20 * block + 20)
                     .map(|seed| Stratum::of_seed(plant, seed))
                     .collect();
                 for stratum in Stratum::ALL {
                     let count = drawn.iter().filter(|s| **s == stratum).count();
-                    assert_eq!(count, stratum.of_twenty(), "{}", stratum.name());
+                    assert_eq!(count, stratum.of_twenty(plant), "{}", stratum.name());
                 }
             }
         }

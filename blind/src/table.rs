@@ -2,10 +2,11 @@
 
 use crate::make::FINE_STEPS;
 use crate::plant::Plant;
-use crate::score::Score;
+use crate::score::{Score, mechanism_of};
 use crate::size::{BLOCK_S, CLEAR_DISTINCTNESS, CLEAR_SIZE, FAINT_STRENGTH};
 use crate::stratum::Stratum;
 use serde::Serialize;
+use std::collections::BTreeMap;
 use std::fmt;
 
 /// Scores of one protocol.
@@ -34,6 +35,8 @@ pub struct Row {
     pub n: usize,
     /// The named set is the true set.
     pub exact: Share,
+    /// The mechanisms are the true ones, at these joints or others.
+    pub mechanism_exact: Share,
     /// The truth is named, ambiguous with a name or replaced by an equivalent.
     pub inside: Share,
     /// At least one false name.
@@ -75,9 +78,48 @@ impl Table {
             .collect()
     }
 
+    /// What was named where at most one effect was hidden: for each hidden mechanism, how often which name was given. Several names
+    /// are one entry, and so are a true mechanism at a wrong joint and a refusal.
+    pub fn confusion(&self) -> BTreeMap<String, BTreeMap<String, usize>> {
+        let mut matrix: BTreeMap<String, BTreeMap<String, usize>> = BTreeMap::new();
+        for (_, _, score) in &self.scores {
+            let hidden = match score.hidden.as_slice() {
+                [] if score.stratum == Stratum::DataFault => "data fault".to_owned(),
+                [] => "nothing".to_owned(),
+                [only] => mechanism_of(only),
+                _ => continue,
+            };
+            let named = match score.named.as_slice() {
+                [] if score.flagged => score.verdict.replace('_', " "),
+                [] => "nothing".to_owned(),
+                [only] if score.hidden.contains(only) => mechanism_of(only),
+                [only] if mechanism_of(only) == hidden => format!("{hidden} at another joint"),
+                [only] => mechanism_of(only),
+                _ => "several".to_owned(),
+            };
+            *matrix.entry(hidden).or_default().entry(named).or_default() += 1;
+        }
+        matrix
+    }
+
+    /// The confusion matrix, a line a hidden mechanism, without its zeros.
+    pub fn confusion_lines(&self) -> Vec<String> {
+        let line = |(hidden, named): (String, BTreeMap<String, usize>)| {
+            let total: usize = named.values().sum();
+            let mut named: Vec<(String, usize)> = named.into_iter().collect();
+            named.sort_by_key(|(name, count)| (std::cmp::Reverse(*count), name.clone()));
+            let named: Vec<String> = named
+                .into_iter()
+                .map(|(name, count)| format!("{name} {count}"))
+                .collect();
+            format!("  {hidden} ({total}): {}", named.join(", "))
+        };
+        self.confusion().into_iter().map(line).collect()
+    }
+
     /// The protocol in one paragraph.
     pub fn protocol(&self) -> String {
-        let plants: Vec<String> = [Plant::Axis, Plant::Bench]
+        let plants: Vec<String> = Plant::ALL
             .into_iter()
             .filter_map(|plant| {
                 let seeds = self
@@ -108,6 +150,7 @@ impl Table {
         serde_json::json!({
             "protocol": self.protocol(),
             "rows": self.rows(),
+            "confusion": self.confusion(),
         })
     }
 }
@@ -126,6 +169,7 @@ impl Row {
             stratum,
             n,
             exact: share(|score| score.exact),
+            mechanism_exact: share(|score| score.mechanism_exact),
             inside: share(|score| score.inside),
             any_false_name: share(|score| !score.false_names.is_empty()),
             flagged: share(|score| score.flagged),
@@ -174,10 +218,11 @@ impl fmt::Display for Table {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(
             f,
-            "{:<15}{:>5}  {:<17}{:<17}{:<17}{:<17}{:>7}{:>11}{:>12}",
+            "{:<15}{:>5}  {:<17}{:<17}{:<17}{:<17}{:<17}{:>7}{:>11}{:>12}",
             "stratum",
             "n",
             "exact",
+            "mechanism",
             "inside",
             "any false name",
             "flagged",
@@ -188,10 +233,11 @@ impl fmt::Display for Table {
         for row in self.rows() {
             writeln!(
                 f,
-                "{:<15}{:>5}  {:<17}{:<17}{:<17}{:<17}{:>7.1}{:>11}{:>12}",
+                "{:<15}{:>5}  {:<17}{:<17}{:<17}{:<17}{:<17}{:>7.1}{:>11}{:>12}",
                 row.stratum,
                 row.n,
                 row.exact,
+                row.mechanism_exact,
                 row.inside,
                 row.any_false_name,
                 row.flagged,
@@ -233,6 +279,13 @@ mod tests {
             stratum: Stratum::Single,
             verdict: "explained".to_owned(),
             exact,
+            mechanism_exact: exact,
+            hidden: vec!["viscous at E".to_owned()],
+            named: name
+                .iter()
+                .chain(exact.then_some(&"viscous at E"))
+                .map(|n| (*n).to_owned())
+                .collect(),
             inside: true,
             false_names: name.iter().map(|n| (*n).to_owned()).collect(),
             flagged: false,
@@ -242,7 +295,7 @@ mod tests {
         };
         let mut table = Table::default();
         table.add(Plant::Axis, 7, score(true, &[]));
-        table.add(Plant::Axis, 9, score(false, &["ripple"]));
+        table.add(Plant::Axis, 9, score(false, &["viscous at B"]));
         let rows = table.rows();
         assert_eq!(rows.len(), 2);
         assert_eq!((rows[0].n, rows[0].exact.count), (2, 1));
@@ -250,6 +303,10 @@ mod tests {
         assert_eq!(rows[1].mean_offered, 1.5);
         let text = table.to_string();
         assert!(text.contains("axis: 2 cases, seeds 7 to 9"), "{text}");
+        assert_eq!(
+            table.confusion_lines(),
+            ["  viscous (2): viscous 1, viscous at another joint 1"]
+        );
         assert_eq!(table.to_json()["rows"][0]["exact"]["count"], 1);
     }
 }

@@ -4,6 +4,7 @@ use proptest::prelude::*;
 use rigproof_blind::{Plant, Stratum, Table, make, open, score};
 use rigproof_spec::effect::Mechanism;
 use rigproof_trace::rig::Rig;
+use rigproof_trace::rig::five_bar::FiveBar;
 use std::path::Path;
 
 fn plant() -> impl Strategy<Value = Plant> {
@@ -101,4 +102,55 @@ fn every_seed_of_a_run_of_two_hundred_makes_a_case() {
             _ => assert_eq!(row.exact.count, if right { row.n } else { 0 }, "{row:?}"),
         }
     }
+}
+
+/// One block of seeds: every stratum of the five-bar, each case made twice.
+#[test]
+fn a_block_of_five_bar_seeds_holds_every_stratum_and_repeats() {
+    let origin = Path::new("case.toml");
+    let mut strata = std::collections::BTreeSet::new();
+    let mut rows = Table::default();
+    for seed in 20..40 {
+        let case = make(Plant::Rig, seed, None).unwrap();
+        let answer = open(&case.sealed).unwrap();
+        strata.insert(answer.stratum);
+        assert_eq!(answer.stratum, Stratum::of_seed(Plant::Rig, seed));
+        assert_eq!(answer.fault.is_some(), answer.stratum == Stratum::DataFault);
+        for effect in &answer.effects {
+            assert!(!case.sealed.contains(&effect.mechanism));
+            let late = answer.stratum == Stratum::LateOnset;
+            assert_eq!(effect.onset_s.is_some(), late);
+        }
+        assert!(FiveBar::describes(&case.rig_toml, origin).unwrap());
+        let rig = FiveBar::parse(&case.rig_toml, origin).unwrap();
+        assert_eq!(rig.to_toml(), case.rig_toml);
+        let recording = rig.apply(&case.trace, origin).unwrap();
+        assert!(
+            recording
+                .theta
+                .iter()
+                .all(|theta| theta.quantum.unwrap() < 7e-5)
+        );
+        let currents = recording.currents.iter().flatten().count();
+        assert_eq!(currents, rig.layout.brakes().len());
+        if seed % 5 == 0 {
+            let again = make(Plant::Rig, seed, None).unwrap();
+            assert_eq!(bits(&again.trace), bits(&case.trace));
+            assert_eq!(again.sealed, case.sealed);
+        }
+        // A diagnosis that says nothing is right where nothing can be said.
+        let silent = serde_json::json!({"verdict": "consistent", "effects": []});
+        let score = score(&answer, &silent).unwrap();
+        let right = matches!(answer.stratum, Stratum::Nothing | Stratum::TooSmall);
+        assert_eq!((score.exact, score.is_miss()), (right, !right));
+        rows.add(Plant::Rig, seed, score);
+    }
+    assert_eq!(strata.len(), Stratum::ALL.len());
+    assert!(rows.protocol().contains("rig: 20 cases, seeds 20 to 39"));
+}
+
+#[test]
+fn strata_of_the_five_bar_are_refused_elsewhere() {
+    let refusal = make(Plant::Axis, 3, Some(Stratum::InLoop)).unwrap_err();
+    assert!(refusal.to_string().contains("\"in_loop\""), "{refusal}");
 }

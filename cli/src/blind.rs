@@ -77,5 +77,5 @@ fn hidden(effect: &HiddenEffect) -> String {
     let onset = effect.onset_s.map_or_else(String::new, |onset_s| {
         format!(", beginning at {} s", significant(onset_s, 4))
     });
-    format!("  {}: {}{onset}", effect.mechanism, numbers.join(", "))
+    format!("  {}: {}{onset}", effect.key(), numbers.join(", "))
 }

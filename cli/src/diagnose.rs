@@ -3,8 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use rigproof_diagnose::report::{Report, Verdict};
-use rigproof_diagnose::{Diagnosis, Options, diagnose};
-use rigproof_trace::rig::Rig;
+use rigproof_diagnose::{Description, Diagnosis, Options};
 use rigproof_trace::store::Folder;
 
 use crate::input::{self, Cut, Source};
@@ -47,9 +46,9 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     let out = out(args)?;
     // A wrong place is refused before the work, not after it.
     drop(Folder::begin(&out)?);
-    let rig = Rig::read(&args.source.rig)?;
+    let rig = Description::read(&args.source.rig)?;
     let source = &args.source;
-    let read = |file: &PathBuf, cut| input::recording(&rig, file, cut, &source.reading);
+    let read = |file: &PathBuf, cut| input::measured(&rig, file, cut, &source.reading);
     let (recording, how) = read(&source.recording, source.cut)?;
     let held_out = match &args.hold_out {
         Some(file) => Some((file, read(file, Cut::default())?)),
@@ -71,12 +70,16 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     };
     let mark = progress::spinner("diagnosing");
     let held_out = held_out.map(|(_, (recording, _))| recording);
-    let mut diagnosis = diagnose(&rig, &recording, held_out.as_ref(), &options);
+    let diagnosis = rig.diagnose(&recording, held_out.as_ref(), &options);
     drop(mark);
+    let Some(mut diagnosis) = diagnosis else {
+        let problem = "the held-out recording is one of another plant".to_owned();
+        return Err(Failure::unusable(&args.source.recording, problem));
+    };
     diagnosis.report.inputs = identities;
     diagnosis.report.protocol.extend(read_as);
     let folder = Folder::begin(&out)?;
-    let files = folder::write(&folder, &rig.name, &mut diagnosis)?;
+    let files = folder::write(&folder, rig.name(), &mut diagnosis)?;
     folder.finish()?;
     say(args, &out, &files, &diagnosis)?;
     Ok(Outcome {

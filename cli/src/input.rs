@@ -5,8 +5,10 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use rigproof_diagnose::report::{InputFile, ReadAs};
+use rigproof_diagnose::{Description, Measured};
 use rigproof_trace::csv::{Dialect, LEAST_SAMPLES};
 use rigproof_trace::mcap;
+use rigproof_trace::rig::five_bar::FiveBarRecording;
 use rigproof_trace::rig::{Recording, Rig, Signal};
 use rigproof_trace::{Place, TraceError};
 use serde_json::{Value, json};
@@ -24,6 +26,26 @@ pub struct Cut {
     /// Leave out what was recorded after this time stamp
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     to_s: Option<f64>,
+}
+
+impl Cut {
+    /// Which samples count.
+    fn kept(self, file: &Path, time_s: &[f64]) -> Result<Vec<bool>, Failure> {
+        let first_s = self.from_s.unwrap_or(f64::NEG_INFINITY);
+        let last_s = self.to_s.unwrap_or(f64::INFINITY);
+        let inside = time_s.iter().map(|t| (first_s..=last_s).contains(t));
+        let kept: Vec<bool> = inside.collect();
+        let count = kept.iter().filter(|kept| **kept).count();
+        if count < LEAST_SAMPLES {
+            let problem = format!(
+                "{count} samples lie between --from-s and --to-s, at least {LEAST_SAMPLES} are needed; the recording runs from {} s to {} s",
+                time_s.first().unwrap_or(&f64::NAN),
+                time_s.last().unwrap_or(&f64::NAN),
+            );
+            return Err(Failure::unusable(file, problem));
+        }
+        Ok(kept)
+    }
 }
 
 /// A recording, the rig it is of, and the part that counts.
@@ -105,22 +127,7 @@ pub fn recording(
     reading: &Reading,
 ) -> Result<(Recording, HowRead), Failure> {
     let (recording, how) = whole(rig, file, reading)?;
-    let first_s = cut.from_s.unwrap_or(f64::NEG_INFINITY);
-    let last_s = cut.to_s.unwrap_or(f64::INFINITY);
-    let kept: Vec<bool> = recording
-        .time_s
-        .iter()
-        .map(|t| (first_s..=last_s).contains(t))
-        .collect();
-    let count = kept.iter().filter(|kept| **kept).count();
-    if count < LEAST_SAMPLES {
-        let problem = format!(
-            "{count} samples lie between --from-s and --to-s, at least {LEAST_SAMPLES} are needed; the recording runs from {} s to {} s",
-            recording.time_s.first().unwrap_or(&f64::NAN),
-            recording.time_s.last().unwrap_or(&f64::NAN),
-        );
-        return Err(Failure::unusable(file, problem));
-    }
+    let kept = cut.kept(file, &recording.time_s)?;
     let cut = Recording {
         time_s: part(&recording.time_s, &kept),
         position: signal(&recording.position, &kept),
@@ -130,6 +137,42 @@ pub fn recording(
         ..recording
     };
     Ok((cut, how))
+}
+
+/// Reads a recording of either kind of rig and cuts it, and says how it was read.
+///
+/// # Errors
+/// The file is not usable, or the cut leaves too little.
+pub fn measured(
+    description: &Description,
+    file: &Path,
+    cut: Cut,
+    reading: &Reading,
+) -> Result<(Measured, HowRead), Failure> {
+    let rig = match description {
+        Description::Joint(rig) => {
+            let (recording, how) = recording(rig, file, cut, reading)?;
+            return Ok((Measured::Joint(recording), how));
+        }
+        Description::FiveBar(rig) => rig,
+    };
+    if mcap::is_mcap(file)? {
+        let problem = "a five-bar's recording is read from text so far: convert it to CSV";
+        return Err(Failure::unusable(file, problem.to_owned()));
+    }
+    let (whole, dialect) = rig.read_text(file, &reading.hints())?;
+    let kept = cut.kept(file, &whole.time_s)?;
+    let pair = |pair: &[Signal; 2]| pair.each_ref().map(|s| signal(s, &kept));
+    let cut = FiveBarRecording {
+        time_s: part(&whole.time_s, &kept),
+        theta: pair(&whole.theta),
+        force: pair(&whole.force),
+        currents: whole
+            .currents
+            .each_ref()
+            .map(|current| current.as_ref().map(|s| signal(s, &kept))),
+    };
+    Ok((Measured::FiveBar(cut), HowRead::Text(dialect)))
 }
 
 /// A file's path as given, its SHA-256, and how it was read if it is a text recording.

@@ -111,7 +111,7 @@ pub fn align(signals: &Signals) -> Result<Run, Fault> {
     Ok(run)
 }
 
-fn median_step(time_s: &[f64]) -> f64 {
+pub(crate) fn median_step(time_s: &[f64]) -> f64 {
     let mut steps: Vec<f64> = time_s
         .windows(2)
         .map(|w| w.iter().rev().copied().reduce(|b, a| b - a).unwrap_or(0.0))
@@ -120,7 +120,7 @@ fn median_step(time_s: &[f64]) -> f64 {
     steps.get(steps.len() / 2).copied().unwrap_or(1.0)
 }
 
-fn check_clock(time_s: &[f64], step_s: f64) -> Result<(), Fault> {
+pub(crate) fn check_clock(time_s: &[f64], step_s: f64) -> Result<(), Fault> {
     let longest = LONGEST_GAP_S.max(8.0 * step_s);
     for pair in time_s.windows(2) {
         if let [before, after] = pair
@@ -151,7 +151,11 @@ fn check_clock(time_s: &[f64], step_s: f64) -> Result<(), Fault> {
     Ok(())
 }
 
-fn check_missing(channel: &'static str, time_s: &[f64], values: &[f64]) -> Result<(), Fault> {
+pub(crate) fn check_missing(
+    channel: &'static str,
+    time_s: &[f64],
+    values: &[f64],
+) -> Result<(), Fault> {
     let missing = values.iter().filter(|x| x.is_nan()).count();
     let mut since: Option<f64> = None;
     for (&t, x) in time_s.iter().zip(values) {
@@ -181,7 +185,7 @@ fn check_missing(channel: &'static str, time_s: &[f64], values: &[f64]) -> Resul
 }
 
 /// A channel that repeats one value to the bit while the other one shows that the plant is alive.
-fn check_frozen(signals: &Signals, step_s: f64) -> Result<(), Fault> {
+pub(crate) fn check_frozen(signals: &Signals, step_s: f64) -> Result<(), Fault> {
     let least = (LONGEST_FREEZE_S / step_s).ceil() as usize;
     for (first, end) in constant_runs(&signals.position, least) {
         if moved_behind(signals, first, end) {
@@ -246,7 +250,7 @@ fn moved_behind(signals: &Signals, first: usize, end: usize) -> bool {
 }
 
 /// An effort that rests on its own extreme for many samples, unless the rig says that it saturates there.
-fn check_clipped(signals: &Signals) -> Result<(), Fault> {
+pub(crate) fn check_clipped(signals: &Signals) -> Result<(), Fault> {
     let live = || signals.effort.iter().copied().filter(|x| !x.is_nan());
     let high = live().fold(f64::NEG_INFINITY, f64::max);
     let low = live().fold(f64::INFINITY, f64::min);
@@ -303,7 +307,7 @@ fn check_sign(run: &Run) -> Result<(), Fault> {
     Ok(())
 }
 
-fn regular_count(time_s: &[f64], step_s: f64) -> usize {
+pub(crate) fn regular_count(time_s: &[f64], step_s: f64) -> usize {
     match (time_s.first(), time_s.last()) {
         (Some(first), Some(last)) => ((last - first) / step_s).round() as usize + 1,
         _ => 0,
@@ -313,7 +317,12 @@ fn regular_count(time_s: &[f64], step_s: f64) -> usize {
 /// Values on regular samples: the recorded one where a stamp lies within a tenth of a step, else interpolated.
 ///
 /// The second vector says which values were recorded.
-fn resample(time_s: &[f64], values: &[f64], step_s: f64, count: usize) -> (Vec<f64>, Vec<bool>) {
+pub(crate) fn resample(
+    time_s: &[f64],
+    values: &[f64],
+    step_s: f64,
+    count: usize,
+) -> (Vec<f64>, Vec<bool>) {
     let start = time_s.first().copied().unwrap_or(0.0);
     let known: Vec<(f64, f64)> = time_s
         .iter()
@@ -347,7 +356,7 @@ fn resample(time_s: &[f64], values: &[f64], step_s: f64, count: usize) -> (Vec<f
 }
 
 /// The smallest difference between two values that differ: the resolution of a quantised channel.
-fn smallest_step(values: &[f64]) -> f64 {
+pub(crate) fn smallest_step(values: &[f64]) -> f64 {
     let mut sorted: Vec<f64> = values.iter().copied().filter(|x| x.is_finite()).collect();
     sorted.sort_by(f64::total_cmp);
     let span = sorted.last().unwrap_or(&0.0) - sorted.first().unwrap_or(&0.0);
@@ -385,11 +394,22 @@ pub fn band_hz(effort: &[f64], step_s: f64) -> f64 {
     (index.max(1)) as f64 / (step_s * effort.len() as f64)
 }
 
+/// Where the low-pass of the motion ends, Hz.
+pub(crate) fn cutoff_hz(step_s: f64, band_hz: f64) -> f64 {
+    let rate_hz = 1.0 / step_s;
+    (2.0 * band_hz).clamp(25.0f64.min(0.25 * rate_hz), 0.35 * rate_hz)
+}
+
 /// Position and speed after a zero-phase low-pass that keeps twice the effort's band, and the speed below which
 /// noise decides the sign.
-fn smoothed_motion(position: &[f64], step_s: f64, band_hz: f64, noise: f64) -> (Vec<Instant>, f64) {
+pub(crate) fn smoothed_motion(
+    position: &[f64],
+    step_s: f64,
+    band_hz: f64,
+    noise: f64,
+) -> (Vec<Instant>, f64) {
     let rate_hz = 1.0 / step_s;
-    let cutoff_hz = (2.0 * band_hz).clamp(25.0f64.min(0.25 * rate_hz), 0.35 * rate_hz);
+    let cutoff_hz = cutoff_hz(step_s, band_hz);
     let smooth = LowPass::butterworth(4, 2.0 * cutoff_hz / rate_hz).zero_phase(position);
     let speed = gradient(&smooth, step_s);
     // White noise through the filter and the difference: ∫(2πf)² up to the cut-off.
@@ -414,7 +434,12 @@ fn smoothed_motion(position: &[f64], step_s: f64, band_hz: f64, noise: f64) -> (
 const REST_S: f64 = 0.025;
 
 /// Takes the sense away wherever the recorded position stays within `still` for a while: smoothing rings there.
-fn forget_sense_at_rest(motion: &mut [Instant], position: &[f64], step_s: f64, still: f64) {
+pub(crate) fn forget_sense_at_rest(
+    motion: &mut [Instant],
+    position: &[f64],
+    step_s: f64,
+    still: f64,
+) {
     let reach = (REST_S / step_s).round().max(1.0) as usize;
     for (k, now) in motion.iter_mut().enumerate() {
         let around = position
@@ -430,7 +455,7 @@ fn forget_sense_at_rest(motion: &mut [Instant], position: &[f64], step_s: f64, s
 
 /// Takes the sense away on both sides of a reversal between two samples: dry friction jumps at an instant that the
 /// samples do not tell, and on an axis the acceleration jumps with it.
-fn forget_sense_at_reversals(motion: &mut [Instant]) {
+pub(crate) fn forget_sense_at_reversals(motion: &mut [Instant]) {
     let senses: Vec<f64> = motion.iter().map(|now| now.sense).collect();
     for (k, pair) in senses.windows(2).enumerate() {
         if let [before, after] = pair

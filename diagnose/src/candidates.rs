@@ -1,52 +1,57 @@
 //! This file says which shapes of each mechanism are tried on a recording.
 
-use crate::problem::{Problem, Term, add};
+use crate::five_bar;
+use crate::problem::{Cause, PlantRun, Problem, Term, add};
 use crate::regression::Fit;
+use crate::run::Run;
 use core::f64::consts::TAU;
-use rigproof_model::effects::LIBRARY;
+use rigproof_model::effects::{Form, Instant, LIBRARY};
 use rigproof_spec::effect::Mechanism;
 
-/// The mechanisms that have a meaning on this plant, in the library's order.
-pub fn mechanisms(problem: &Problem) -> Vec<Mechanism> {
+/// The causes that have a meaning on this plant, in the library's order.
+pub fn causes(problem: &Problem) -> Vec<Cause> {
+    if let PlantRun::FiveBar(run) = problem.plant {
+        return five_bar::candidates::causes(run);
+    }
     LIBRARY
         .iter()
-        .map(|entry| entry.mechanism)
-        .filter(|&mechanism| {
+        .filter(|entry| !ONLY_OF_BRAKES.contains(&entry.mechanism))
+        .filter(|entry| matches!(entry.form, Form::Resistance(_) | Form::Drive))
+        .map(|entry| Cause::of(entry.mechanism))
+        .filter(|cause| {
             // A gain can only be wrong against something that is known.
-            mechanism != Mechanism::GainError || problem.known.iter().any(|e| *e != 0.0)
+            cause.mechanism != Mechanism::GainError || problem.known.iter().any(|e| *e != 0.0)
         })
         .collect()
 }
 
-/// The variants of a mechanism that are tried beside the terms of `fitted`: one term a shape.
-pub fn variants(
-    problem: &Problem,
-    mechanism: Mechanism,
-    terms: &[&Term],
-    fitted: &Fit,
-) -> Vec<Term> {
+/// What only the brakes of the five-bar are asked for: the rules of the other plants were chosen without them.
+const ONLY_OF_BRAKES: [Mechanism; 2] = [Mechanism::ReversalOvershoot, Mechanism::Settling];
+
+/// The variants of a cause that are tried beside the terms of `fitted`: one term a shape.
+pub fn variants(problem: &Problem, cause: Cause, terms: &[&Term], fitted: &Fit) -> Vec<Term> {
     let effort = modelled_effort(problem, terms, fitted);
-    shapes(problem, mechanism, &fitted.residual)
+    shapes(problem, cause, &fitted.residual)
         .iter()
         .filter_map(|shape| {
             problem
-                .kept_term(mechanism, shape)
-                .or_else(|| realise(problem, mechanism, shape, None, &effort))
+                .kept_term(cause, shape)
+                .or_else(|| realise(problem, cause, shape, None, &effort))
         })
         .collect()
 }
 
-/// The term of any mechanism; `effort` is what the other terms give.
+/// The term of any cause; `effort` is what the other terms give.
 pub fn realise(
     problem: &Problem,
-    mechanism: Mechanism,
+    cause: Cause,
     shape: &[f64],
     onset_s: Option<f64>,
     effort: &[f64],
 ) -> Option<Term> {
     problem
-        .term(mechanism, shape, onset_s)
-        .or_else(|| problem.drive_term(mechanism, shape, onset_s, effort))
+        .term(cause, shape, onset_s)
+        .or_else(|| problem.drive_term(cause, shape, onset_s, effort))
 }
 
 /// The effort that the known part and the fitted terms give together, sample by sample; a change of the drive
@@ -75,20 +80,22 @@ pub fn modelled_effort(problem: &Problem, terms: &[&Term], fitted: &Fit) -> Vec<
     effort
 }
 
-fn shapes(problem: &Problem, mechanism: Mechanism, residual: &[f64]) -> Vec<Vec<f64>> {
-    let run = problem.run;
+fn shapes(problem: &Problem, cause: Cause, residual: &[f64]) -> Vec<Vec<f64>> {
+    match problem.plant {
+        PlantRun::Joint(run) => {
+            let periods = || periods(&points(problem, run, residual), run.travel());
+            joint_shapes(run, cause.mechanism, periods)
+        }
+        PlantRun::FiveBar(run) => five_bar::candidates::shapes(problem, run, cause, residual),
+    }
+}
+
+fn joint_shapes(run: &Run, mechanism: Mechanism, periods: impl Fn() -> Vec<f64>) -> Vec<Vec<f64>> {
     let travel = run.travel().max(1e-12);
-    let fastest = fastest(problem);
+    let fastest = fastest(&run.motion);
     let one = |values: Vec<f64>| values.into_iter().map(|v| vec![v]).collect();
     match mechanism {
-        Mechanism::Stribeck => geometric(
-            (2.0 * run.speed_floor).max(0.005 * fastest),
-            0.3 * fastest,
-            8,
-        )
-        .into_iter()
-        .flat_map(|speed| [1.0, 2.0].map(|exponent| vec![speed, exponent]))
-        .collect(),
+        Mechanism::Stribeck => stribeck_shapes(run.speed_floor, fastest),
         Mechanism::Presliding => one(geometric(
             (3.0 * run.position_noise).max(1e-4 * travel),
             0.2 * travel,
@@ -98,7 +105,7 @@ fn shapes(problem: &Problem, mechanism: Mechanism, residual: &[f64]) -> Vec<Vec<
             .into_iter()
             .flat_map(|gamma| [-1.4, -0.5, 0.5, 1.4].map(|ratio| vec![gamma, gamma * ratio]))
             .collect(),
-        Mechanism::Ripple => one(periods(problem, residual)),
+        Mechanism::Ripple => one(periods()),
         Mechanism::Lag => one(geometric(0.5 * run.step_s, 0.25, 14)),
         Mechanism::ChannelSkew => {
             let sizes = geometric(0.5 * run.step_s, 0.08f64.max(4.0 * run.step_s), 12);
@@ -109,12 +116,16 @@ fn shapes(problem: &Problem, mechanism: Mechanism, residual: &[f64]) -> Vec<Vec<
 }
 
 /// The range that each shape parameter of a mechanism may take: that of the shapes tried, for a period all of them.
-pub fn shape_bounds(problem: &Problem, mechanism: Mechanism) -> Vec<(f64, f64)> {
-    if mechanism == Mechanism::Ripple {
-        let travel = problem.run.travel().max(1e-12);
+pub fn shape_bounds(problem: &Problem, cause: Cause) -> Vec<(f64, f64)> {
+    if cause.mechanism == Mechanism::Ripple {
+        let travel = match problem.plant {
+            PlantRun::Joint(run) => run.travel(),
+            PlantRun::FiveBar(run) => five_bar::candidates::travel(run, cause),
+        };
+        let travel = travel.max(1e-12);
         return vec![(travel / MOST_CYCLES, travel)];
     }
-    let tried = shapes(problem, mechanism, &[]);
+    let tried = shapes(problem, cause, &[]);
     let count = tried.first().map_or(0, Vec::len);
     (0..count)
         .map(|k| {
@@ -130,10 +141,10 @@ pub fn shape_bounds(problem: &Problem, mechanism: Mechanism) -> Vec<(f64, f64)> 
 /// wider or faster than it can mean is standing in for another one.
 pub fn is_at_edge(problem: &Problem, term: &Term) -> bool {
     let bounded = matches!(
-        term.mechanism,
+        term.cause.mechanism,
         Mechanism::Lag | Mechanism::ChannelSkew | Mechanism::Stribeck | Mechanism::Presliding
     );
-    let bounds = shape_bounds(problem, term.mechanism);
+    let bounds = shape_bounds(problem, term.cause);
     match (term.shape.first(), bounds.first()) {
         (Some(value), Some((_, high))) => bounded && *value > EDGE * high,
         _ => false,
@@ -144,13 +155,8 @@ pub fn is_at_edge(problem: &Problem, term: &Term) -> bool {
 const EDGE: f64 = 0.98;
 
 /// The speed that all but one in a hundred samples stay below.
-fn fastest(problem: &Problem) -> f64 {
-    let mut speeds: Vec<f64> = problem
-        .run
-        .motion
-        .iter()
-        .map(|now| now.speed.abs())
-        .collect();
+pub fn fastest(motion: &[Instant]) -> f64 {
+    let mut speeds: Vec<f64> = motion.iter().map(|now| now.speed.abs()).collect();
     speeds.sort_by(f64::total_cmp);
     speeds
         .get(speeds.len() * 99 / 100)
@@ -159,8 +165,17 @@ fn fastest(problem: &Problem) -> f64 {
         .max(1e-12)
 }
 
+/// Speeds and exponents of a peak near standstill.
+pub fn stribeck_shapes(speed_floor: f64, fastest: f64) -> Vec<Vec<f64>> {
+    let slowest = (2.0 * speed_floor).max(0.005 * fastest);
+    geometric(slowest, 0.3 * fastest, 8)
+        .into_iter()
+        .flat_map(|speed| [1.0, 2.0].map(|exponent| vec![speed, exponent]))
+        .collect()
+}
+
 /// `count` values from `low` to `high` in equal ratios.
-fn geometric(low: f64, high: f64, count: usize) -> Vec<f64> {
+pub fn geometric(low: f64, high: f64, count: usize) -> Vec<f64> {
     let ratio = libm::log(high.max(1.01 * low) / low) / (count.max(2) - 1) as f64;
     (0..count)
         .map(|k| low * libm::exp(ratio * k as f64))
@@ -174,24 +189,26 @@ const SPACING: f64 = 0.35;
 /// Peaks of the residual's spectrum over position that are tried.
 const PEAKS: usize = 4;
 
-/// The periods at the highest peaks of the residual's spectrum over position.
-fn periods(problem: &Problem, residual: &[f64]) -> Vec<f64> {
-    let travel = problem.run.travel().max(1e-12);
-    let points: Vec<(f64, f64)> = problem
+/// Position and residual of each usable window.
+fn points(problem: &Problem, run: &Run, residual: &[f64]) -> Vec<(f64, f64)> {
+    problem
         .windows
         .centres
         .iter()
         .zip(residual)
         .zip(&problem.windows.usable)
         .filter(|(_, usable)| **usable)
-        .filter_map(|((&centre, &r), _)| {
-            problem.run.motion.get(centre).map(|now| (now.position, r))
-        })
-        .collect();
+        .filter_map(|((&centre, &r), _)| run.motion.get(centre).map(|now| (now.position, r)))
+        .collect()
+}
+
+/// The periods at the highest peaks of the spectrum of values over their positions.
+pub fn periods(points: &[(f64, f64)], travel: f64) -> Vec<f64> {
+    let travel = travel.max(1e-12);
     let count = ((MOST_CYCLES - FEWEST_CYCLES) / SPACING) as usize;
     let mut peaks: Vec<(f64, f64)> = (0..count)
         .map(|k| FEWEST_CYCLES + SPACING * k as f64)
-        .map(|cycles| (power(&points, TAU * cycles / travel), cycles))
+        .map(|cycles| (power(points, TAU * cycles / travel), cycles))
         .collect();
     peaks.sort_by(|a, b| b.0.total_cmp(&a.0));
     let mut chosen: Vec<f64> = Vec::new();
@@ -235,7 +252,7 @@ mod tests {
             .iter()
             .map(|c| 0.4 * libm::sin(TAU * run.motion[*c].position / period + 0.9))
             .collect();
-        let best = periods(&problem, &residual)[0];
+        let best = periods(&points(&problem, &run, &residual), run.travel())[0];
         assert!((best / period - 1.0).abs() < 0.02, "{best} {period}");
     }
 

@@ -1,20 +1,22 @@
 //! This file runs the stages in order: align, locate, explain, refit, show.
 
-mod ended;
+mod description;
+pub(crate) mod ended;
 mod fitted;
 mod stages;
-mod words;
-mod write;
+pub(crate) mod words;
+pub(crate) mod write;
 
 use crate::align::{Fault, band_hz};
 use crate::evidence::{coefficients_by_term, parameters};
 use crate::from_rig;
-use crate::problem::{Problem, Term};
+use crate::problem::{Cause, Problem, Term};
 use crate::report::Report;
 use crate::run::Run;
 use crate::select::{FLOOR_RATIO, Gates, Selection, refs, select, usable_rms};
 use crate::unknown::surrogates;
 use crate::weak::{Windows, choose_width};
+pub use description::{Description, Measured};
 use ended::{faulty, not_excited};
 use rigproof_spec::effect::Mechanism;
 use rigproof_trace::rig::{Recording, Rig};
@@ -46,7 +48,7 @@ pub struct Diagnosis {
     /// What was found.
     pub report: Report,
     /// The rig with the physics found and the numbers fitted.
-    pub calibration: Rig,
+    pub calibration: Description,
     /// Curves for the pictures; empty after a fault.
     pub curves: Curves,
 }
@@ -77,7 +79,7 @@ pub struct Curves {
 }
 
 /// Fewest windows from which anything can be said.
-const FEWEST_WINDOWS: usize = 40;
+pub(crate) const FEWEST_WINDOWS: usize = 40;
 
 /// Diagnoses a recording of a rig; `held_out` is another recording of the same rig.
 pub fn diagnose(
@@ -88,12 +90,14 @@ pub fn diagnose(
 ) -> Diagnosis {
     let aligned = match from_rig::aligned(rig, recording) {
         Ok(run) => run,
-        Err(fault) => return faulty(rig, "recording", fault),
+        Err(fault) => return faulty(Description::Joint(rig.clone()), "recording", fault),
     };
     let (train, test) = match held_out {
         Some(recording) => match from_rig::aligned(rig, recording) {
             Ok(run) => (aligned, run),
-            Err(fault) => return faulty(rig, "held-out recording", fault),
+            Err(fault) => {
+                return faulty(Description::Joint(rig.clone()), "held-out recording", fault);
+            }
         },
         None => split(&aligned, options.hold_out_share),
     };
@@ -107,7 +111,8 @@ pub fn diagnose(
     let mut problem = Problem::new(&train, windows, inertia);
     let usable = problem.windows.usable.iter().filter(|u| **u).count();
     if usable < FEWEST_WINDOWS || train.travel() < 20.0 * train.position_noise {
-        return not_excited(rig, &train, usable);
+        let (travel, noise) = (train.travel(), train.position_noise);
+        return not_excited(Description::Joint(rig.clone()), usable, travel, noise);
     }
     let nominal: Vec<Term> = from_rig::nominal(rig)
         .iter()
@@ -115,9 +120,9 @@ pub fn diagnose(
         .collect();
     let mut selection = select(&mut problem, nominal, options.gates);
     if let Some(fault) = reversed_drive(&problem, &selection) {
-        return faulty(rig, "recording", fault);
+        return faulty(Description::Joint(rig.clone()), "recording", fault);
     }
-    let withdrawn = withdraw_surrogates(&problem, &mut selection, rig);
+    let withdrawn = withdraw_surrogates(&problem, &train, &mut selection, rig);
     Stand {
         rig,
         problem: &problem,
@@ -138,24 +143,37 @@ fn reversed_drive(problem: &Problem, selection: &Selection) -> Option<Fault> {
     let fraction = terms
         .iter()
         .zip(&coefficients)
-        .find(|(term, _)| term.mechanism == Mechanism::GainError)
+        .find(|(term, _)| term.cause.mechanism == Mechanism::GainError)
         .and_then(|(term, own)| parameters(term, own).first().copied())?;
     (fraction < -1.0).then(|| Fault {
         channel: "drive",
-        from_s: problem.run.start_s,
-        to_s: problem.run.start_s + problem.run.duration_s(),
+        from_s: problem.plant.start_s(),
+        to_s: problem.plant.start_s() + problem.plant.duration_s(),
         reason: "the plant answers against its drive: the command, the force or the position has the wrong sign (set `sign = -1`)".to_owned(),
     })
 }
 
 /// Takes out the names that only stand in for another law, where more than noise is left.
-fn withdraw_surrogates(problem: &Problem, selection: &mut Selection, rig: &Rig) -> Vec<Mechanism> {
+fn withdraw_surrogates(
+    problem: &Problem,
+    run: &Run,
+    selection: &mut Selection,
+    rig: &Rig,
+) -> Vec<Cause> {
     let ratio = usable_rms(problem, &selection.after.residual) / problem.floor;
     if ratio <= FLOOR_RATIO {
         return Vec::new();
     }
-    let found: Vec<Mechanism> = selection.found.iter().map(|f| f.term.mechanism).collect();
-    let withdrawn = surrogates(problem, &selection.after.residual, &found, rig.motion);
+    let found: Vec<Mechanism> = selection
+        .found
+        .iter()
+        .map(|f| f.term.cause.mechanism)
+        .collect();
+    let residual = &selection.after.residual;
+    let withdrawn: Vec<Cause> = surrogates(problem, run, residual, &found, rig.motion)
+        .into_iter()
+        .map(Cause::of)
+        .collect();
     selection.withdraw(problem, &withdrawn);
     withdrawn
 }

@@ -1,7 +1,7 @@
 //! This file says how sure a selection is: intervals, rivals, what would have been seen, what cannot be told.
 
-use crate::candidates::{mechanisms, modelled_effort, realise, variants};
-use crate::problem::{Problem, Term};
+use crate::candidates::{causes, modelled_effort, realise, variants};
+use crate::problem::{Cause, Problem, Term};
 use crate::regression::{
     Blocks, covariance, dot, fit, free_columns, nested_block_losses, norm, paired,
 };
@@ -12,6 +12,7 @@ use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 use rigproof_model::effects::entry;
 use rigproof_spec::effect::{Mechanism, Motion};
+use rigproof_spec::joint::Joint;
 use std::collections::BTreeMap;
 
 /// Share of an effect's gain that a rival must reach to be ambiguous with it.
@@ -97,7 +98,7 @@ fn sandwich(columns: &[&[f64]], residual: &[f64], blocks: &Blocks) -> Option<DMa
 }
 
 fn parameter_count(term: &Term) -> usize {
-    entry(term.mechanism).map_or(0, |e| e.linear) + term.shape.len()
+    entry(term.cause.mechanism).map_or(0, |e| e.linear) + term.shape.len()
 }
 
 /// The whitened change of the modelled effort with one parameter.
@@ -151,10 +152,10 @@ fn shape_sensitivities(
     let Some(term) = terms.get(index) else {
         return Vec::new();
     };
-    let linear = entry(term.mechanism).map_or(0, |e| e.linear);
+    let linear = entry(term.cause.mechanism).map_or(0, |e| e.linear);
     let effort = modelled_effort(problem, terms, &selection.after);
     let at = |shape: &[f64]| -> Option<Vec<f64>> {
-        let moved = realise(problem, term.mechanism, shape, term.onset_s, &effort)?;
+        let moved = realise(problem, term.cause, shape, term.onset_s, &effort)?;
         let mut sum = vec![0.0; problem.windows.centres.len()];
         let scaled = own.iter().copied().zip(&moved.free);
         for (c, rows) in scaled.chain(moved.fixed.iter().map(|r| (1.0, r))) {
@@ -187,7 +188,7 @@ fn shape_sensitivities(
 }
 
 /// For each found mechanism, those that explain as much in its place.
-pub fn rivals(problem: &Problem, selection: &Selection) -> Vec<Vec<Mechanism>> {
+pub fn rivals(problem: &Problem, selection: &Selection) -> Vec<Vec<Cause>> {
     let blocks = Blocks::new(problem);
     (0..selection.found.len())
         .map(|index| rivals_of(problem, selection, index, &blocks))
@@ -199,29 +200,29 @@ fn rivals_of(
     selection: &Selection,
     index: usize,
     blocks: &Blocks,
-) -> Vec<Mechanism> {
+) -> Vec<Cause> {
     let others = without(&selection.found, index);
     let common = refs(&selection.nominal, &others);
     let bare = fit(problem, &common, blocks);
-    let taken: Vec<Mechanism> = refs(&selection.nominal, &selection.found)
+    let taken: Vec<Cause> = refs(&selection.nominal, &selection.found)
         .iter()
-        .map(|t| t.mechanism)
+        .map(|t| t.cause)
         .collect();
     let all = vec![1.0; blocks.ranges.len()];
     let gain = bare.left_out() - selection.after.left_out();
     let own = selection.found.get(index);
-    mechanisms(problem)
+    causes(problem)
         .into_iter()
-        .filter(|m| !taken.contains(m))
-        .filter(|&m| {
-            let mut tried = variants(problem, m, &common, &bare);
+        .filter(|cause| !taken.contains(cause))
+        .filter(|&cause| {
+            let mut tried = variants(problem, cause, &common, &bare);
             if let Some(onset_s) = own.and_then(|f| f.term.onset_s) {
                 let effort = modelled_effort(problem, &common, &bare);
                 tried.extend(
                     tried
                         .clone()
                         .iter()
-                        .filter_map(|t| realise(problem, m, &t.shape, Some(onset_s), &effort)),
+                        .filter_map(|t| realise(problem, cause, &t.shape, Some(onset_s), &effort)),
                 );
             }
             let is_rival = |tried: &[Term]| {
@@ -289,23 +290,23 @@ pub fn not_seen(
     motion: Motion,
 ) -> Vec<NotSeen> {
     let terms = refs(&selection.nominal, &selection.found);
-    let taken: Vec<Mechanism> = terms.iter().map(|t| t.mechanism).collect();
+    let taken: Vec<Cause> = terms.iter().map(|t| t.cause).collect();
     let basis: Vec<&[f64]> = free_columns(problem, &terms)
         .iter()
         .map(|r| r.white.as_slice())
         .collect();
     let basis = orthonormal(&basis);
-    mechanisms(problem)
+    causes(problem)
         .into_iter()
-        .filter(|m| !taken.contains(m))
-        .filter_map(|mechanism| {
-            let tried = variants(problem, mechanism, &terms, &selection.after);
+        .filter(|cause| !taken.contains(cause))
+        .filter_map(|cause| {
+            let tried = variants(problem, cause, &terms, &selection.after);
             let least = |t: &Term| least_size(t, &basis, selection.after.loss, gates);
             let minimum = tried.iter().filter_map(least).fold(f64::INFINITY, f64::min);
-            let parameter = mechanism.parameters().first()?;
+            let parameter = cause.mechanism.parameters().first()?;
             minimum.is_finite().then(|| NotSeen {
-                mechanism: mechanism.name(),
-                joint: None,
+                mechanism: cause.mechanism.name(),
+                joint: cause.joint.map(Joint::letter),
                 parameter: parameter.name,
                 minimum_detectable: minimum,
                 unit: parameter.quantity.dimension(motion).to_string(),
@@ -366,7 +367,7 @@ pub fn null_directions(problem: &Problem, selection: &Selection) -> Vec<NullDire
     terms
         .iter()
         .enumerate()
-        .filter(|(_, t)| t.mechanism == Mechanism::Hysteresis)
+        .filter(|(_, t)| t.cause.mechanism == Mechanism::Hysteresis)
         .filter_map(|(index, term)| {
             let product = |parameter: usize| {
                 let column = columns
@@ -422,9 +423,12 @@ fn smallest_direction(names: &[&str], columns: &[Vec<f64>]) -> Option<NullDirect
 /// The parameters of a term in the vocabulary's order: linear ones from the fit, then the shape.
 pub fn parameters(term: &Term, coefficients: &[f64]) -> Vec<f64> {
     let linear = term.known.clone().unwrap_or_else(|| coefficients.to_vec());
-    let linear = match term.mechanism {
+    let linear = match term.cause.mechanism {
         // The column is the known effort: y = e + c·e, so that the applied gain is 1/(1 + c) of the stated one.
-        Mechanism::GainError => linear.iter().map(|c| -c / (1.0 + c)).collect(),
+        Mechanism::GainError if term.cause.joint.is_none() => {
+            linear.iter().map(|c| -c / (1.0 + c)).collect()
+        }
+        Mechanism::ForceGain => linear.iter().map(|c| c / (1.0 - c)).collect(),
         _ => linear,
     };
     linear

@@ -1,7 +1,7 @@
 //! This file turns a rig description and its recording into the plant's equations.
 
 use crate::align::{Fault, Signals, align};
-use crate::problem::{Inertia, NominalEffect};
+use crate::problem::{Cause, Inertia, NominalEffect};
 use crate::run::{PlantKind, Run};
 use crate::simulate::{Effect, Interpolation, Plant, Protocol};
 use rigproof_model::brake::Brake;
@@ -88,7 +88,7 @@ pub(crate) fn nominal(rig: &Rig) -> Vec<NominalEffect> {
     rig.effects
         .iter()
         .map(|effect| NominalEffect {
-            mechanism: effect.mechanism,
+            cause: Cause::of(effect.mechanism),
             parameters: effect.values.iter().map(|v| v.value).collect(),
             unknown: effect.values.iter().any(|v| v.status != Status::Known),
             onset_s: effect.onset.map(|v| v.value),
@@ -103,7 +103,7 @@ pub fn plant(rig: &Rig) -> Plant {
         effects: nominal(rig)
             .into_iter()
             .map(|n| Effect {
-                mechanism: n.mechanism,
+                mechanism: n.cause.mechanism,
                 parameters: n.parameters,
                 onset_s: n.onset_s,
             })

@@ -11,6 +11,7 @@ mod candidates;
 mod diagnose;
 mod evidence;
 mod filter;
+pub mod five_bar;
 pub mod free_run;
 pub mod from_rig;
 pub mod identify;
@@ -30,5 +31,5 @@ mod weak;
 mod whiten;
 mod write_rig;
 
-pub use diagnose::{Curves, Diagnosis, Options, diagnose};
+pub use diagnose::{Curves, Description, Diagnosis, Measured, Options, diagnose};
 pub use select::Gates;

@@ -3,7 +3,7 @@
 
 use crate::problem::Problem;
 use crate::report::Located;
-use crate::run::PlantKind;
+use crate::run::{PlantKind, Run};
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 
@@ -13,26 +13,58 @@ const REVERSAL_S: f64 = 0.1;
 const REPLICATES: usize = 200;
 const BLOCKS: usize = 20;
 
-/// What a window looks like.
-struct Cell {
-    label: &'static str,
-    member: Vec<bool>,
+/// Which rows belong to a regime.
+pub struct Cell {
+    /// The regime, in words.
+    pub label: &'static str,
+    /// The joint, where there are several.
+    pub joint: Option<&'static str>,
+    /// One value a row.
+    pub member: Vec<bool>,
 }
 
 /// Regimes ranked by how much more than their share of time they hold of `before`'s energy.
 ///
 /// `before` and `after` are residuals, one value a window; every window in motion counts, the ambiguous ones too.
-pub fn locate(problem: &Problem, before: &[f64], after: &[f64]) -> Vec<Located> {
+pub fn locate(problem: &Problem, run: &Run, before: &[f64], after: &[f64]) -> Vec<Located> {
+    let output = match run.plant {
+        PlantKind::Axis => "effort balance",
+        PlantKind::Bench => "metered effort",
+    };
+    let counted = moving(problem, run);
+    ranked(
+        problem,
+        output,
+        &counted,
+        cells(problem, run),
+        before,
+        after,
+    )
+}
+
+/// Cells ranked by their excess of `before`'s energy over the rows that count.
+pub fn ranked(
+    problem: &Problem,
+    output: &'static str,
+    counted: &[bool],
+    cells: Vec<Cell>,
+    before: &[f64],
+    after: &[f64],
+) -> Vec<Located> {
     let times = problem.windows.times_s();
-    let moving = moving(problem);
     let only = |values: &[f64]| -> Vec<f64> {
-        let kept = values.iter().zip(&moving);
+        let kept = values.iter().zip(counted);
         kept.map(|(v, m)| if *m { *v } else { 0.0 }).collect()
     };
     let (before, after) = (&only(before)[..], &only(after)[..]);
-    let in_motion = moving.iter().filter(|m| **m).count().max(1) as f64;
-    let mut found: Vec<Located> = cells(problem)
+    let count = counted.iter().filter(|m| **m).count().max(1) as f64;
+    let mut found: Vec<Located> = cells
         .into_iter()
+        .map(|mut cell| {
+            let member = cell.member.iter_mut().zip(counted);
+            member.for_each(|(member, counts)| *member &= counts);
+            cell
+        })
         .filter(|cell| cell.member.iter().any(|m| *m))
         .map(|cell| {
             let inside = |values: &[f64]| share(values, &cell.member);
@@ -44,15 +76,12 @@ pub fn locate(problem: &Problem, before: &[f64], after: &[f64]) -> Vec<Located> 
                 .map(|(t, _)| *t);
             let from_s = when.next().unwrap_or(0.0);
             Located {
-                output: match problem.run.plant {
-                    PlantKind::Axis => "effort balance",
-                    PlantKind::Bench => "metered effort",
-                },
-                joint: None,
+                output,
+                joint: cell.joint,
                 regime: cell.label.to_owned(),
                 from_s,
                 to_s: when.next_back().unwrap_or(from_s),
-                share_of_time: cell.member.iter().filter(|m| **m).count() as f64 / in_motion,
+                share_of_time: cell.member.iter().filter(|m| **m).count() as f64 / count,
                 share: inside(before),
                 share_low95: low,
                 share_high95: high,
@@ -66,16 +95,10 @@ pub fn locate(problem: &Problem, before: &[f64], after: &[f64]) -> Vec<Located> 
 }
 
 /// Windows whose centre is in motion: at rest a resistance is anything up to its level and says nothing.
-fn moving(problem: &Problem) -> Vec<bool> {
+fn moving(problem: &Problem, run: &Run) -> Vec<bool> {
     let centres = problem.windows.centres.iter();
     centres
-        .map(|&centre| {
-            problem
-                .run
-                .motion
-                .get(centre)
-                .is_some_and(|now| now.sense != 0.0)
-        })
+        .map(|&centre| run.motion.get(centre).is_some_and(|now| now.sense != 0.0))
         .collect()
 }
 
@@ -124,9 +147,8 @@ fn interval(values: &[f64], member: &[bool]) -> (f64, f64) {
     (at(0.025), at(0.975))
 }
 
-fn cells(problem: &Problem) -> Vec<Cell> {
-    let run = problem.run;
-    let since = since_reversal_s(problem);
+fn cells(problem: &Problem, run: &Run) -> Vec<Cell> {
+    let since = since_reversal_s(problem, run);
     let mut speeds: Vec<f64> = run.motion.iter().map(|now| now.speed.abs()).collect();
     speeds.sort_by(f64::total_cmp);
     let quantile = |q: f64| {
@@ -141,6 +163,7 @@ fn cells(problem: &Problem) -> Vec<Cell> {
     let last_s = run.duration_s().max(1e-9);
     let cell = |label, rule: &dyn Fn(usize, &rigproof_model::effects::Instant) -> bool| Cell {
         label,
+        joint: None,
         member: problem
             .windows
             .centres
@@ -184,8 +207,7 @@ fn cells(problem: &Problem) -> Vec<Cell> {
 }
 
 /// Time from each window's centre to the nearest change of sense, s.
-fn since_reversal_s(problem: &Problem) -> Vec<f64> {
-    let run = problem.run;
+fn since_reversal_s(problem: &Problem, run: &Run) -> Vec<f64> {
     let mut sense = 0.0;
     let mut reversals: Vec<f64> = Vec::new();
     for now in &run.motion {
@@ -224,13 +246,13 @@ mod tests {
     fn energy_near_reversals_is_located_there() {
         let run = exact_bench(&[(Mechanism::Viscous, &[2.3])], 11_000);
         let problem = Problem::new(&run, Windows::new(&run, 0.043), Inertia::None);
-        let since = since_reversal_s(&problem);
+        let since = since_reversal_s(&problem, &run);
         let before: Vec<f64> = since
             .iter()
             .map(|s| 0.9 * libm::exp(-s / 0.04) + 0.01)
             .collect();
         let after = vec![0.01; before.len()];
-        let found = locate(&problem, &before, &after);
+        let found = locate(&problem, &run, &before, &after);
         let near = |regime: &str| found.iter().find(|l| l.regime == regime).unwrap();
         let first = near("within 0.1 s of a reversal");
         assert!(near("away from reversals").share < 0.1);

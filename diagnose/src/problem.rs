@@ -1,25 +1,28 @@
 //! This file is the regression problem of one recording: what the nominal model leaves over, window by window,
-//! and the columns that a mechanism could explain it with.
+//! and the columns that a cause could explain it with.
 
+mod joint;
 mod signals;
 
-use crate::filter::gradient;
-use crate::run::{PlantKind, Run};
+use crate::five_bar;
+use crate::five_bar::run::FiveBarRun;
+use crate::run::{PlantKind, Run, rms};
 use crate::weak::Windows;
 use crate::whiten::{ORDER, Whitener};
 use core::cell::RefCell;
-use rigproof_model::bench::column;
-use rigproof_model::effects::{Form, entry, first_order_lag, law};
+use rigproof_model::effects::entry;
 use rigproof_spec::effect::Mechanism;
-use signals::{numerov, second_difference};
+use rigproof_spec::joint::Joint;
+use signals::second_difference;
 use std::sync::Arc;
 
-pub use signals::{lagged_yield, shifted};
+pub use joint::unit_parameters;
+pub use signals::{lagged_yield, numerov, shifted};
 
 /// One column of the regression over all windows.
 #[derive(Clone, Debug)]
 pub struct Rows {
-    /// Sample by sample.
+    /// Sample by sample, one output after another.
     pub signal: Vec<f64>,
     /// As averaged by the test function.
     pub raw: Vec<f64>,
@@ -27,11 +30,38 @@ pub struct Rows {
     pub white: Vec<f64>,
 }
 
-/// A mechanism with its shape fixed: what it adds to the regression.
-#[derive(Clone, Debug)]
-pub struct Term {
+/// Something that can be left out: a mechanism, and on a linkage the joint at which it acts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cause {
     /// The mechanism.
     pub mechanism: Mechanism,
+    /// The joint; `None` on a plant of one joint and for what belongs to the whole linkage.
+    pub joint: Option<Joint>,
+}
+
+impl Cause {
+    /// A mechanism without a joint.
+    pub const fn of(mechanism: Mechanism) -> Cause {
+        Cause {
+            mechanism,
+            joint: None,
+        }
+    }
+
+    /// The name in reports: `viscous`, `viscous at E`.
+    pub fn name(self) -> String {
+        match self.joint {
+            Some(joint) => format!("{} at {}", self.mechanism.name(), joint.letter()),
+            None => self.mechanism.name().to_owned(),
+        }
+    }
+}
+
+/// A cause with its shape fixed: what it adds to the regression.
+#[derive(Clone, Debug)]
+pub struct Term {
+    /// The cause.
+    pub cause: Cause,
     /// The parameters that shape it, in the vocabulary's order after the linear ones.
     pub shape: Vec<f64>,
     /// When it begins, s; `None` from the start.
@@ -44,11 +74,11 @@ pub struct Term {
     pub known: Option<Vec<f64>>,
 }
 
-/// What the nominal model says about one mechanism.
+/// What the nominal model says about one cause.
 #[derive(Clone, Debug)]
 pub struct NominalEffect {
-    /// The mechanism.
-    pub mechanism: Mechanism,
+    /// The mechanism, and where it acts.
+    pub cause: Cause,
     /// Its parameters in the vocabulary's order, SI.
     pub parameters: Vec<f64>,
     /// Whether its linear parameters are to be estimated.
@@ -78,10 +108,53 @@ impl Inertia {
     }
 }
 
+/// The recording that a problem is about.
+#[derive(Clone, Copy)]
+pub enum PlantRun<'a> {
+    /// A plant of one joint.
+    Joint(&'a Run),
+    /// The five-bar.
+    FiveBar(&'a FiveBarRun),
+}
+
+impl PlantRun<'_> {
+    /// Time of the first sample, s.
+    pub fn start_s(self) -> f64 {
+        match self {
+            PlantRun::Joint(run) => run.start_s,
+            PlantRun::FiveBar(run) => run.start_s,
+        }
+    }
+
+    /// The length of the recording, s.
+    pub fn duration_s(self) -> f64 {
+        match self {
+            PlantRun::Joint(run) => run.duration_s(),
+            PlantRun::FiveBar(run) => run.duration_s(),
+        }
+    }
+
+    /// The driving effort, sample by sample, one output after another.
+    fn effort(self) -> Vec<f64> {
+        match self {
+            PlantRun::Joint(run) => run.effort.clone(),
+            PlantRun::FiveBar(run) => run.driving_effort(),
+        }
+    }
+
+    /// The first sample at or after a time, s.
+    fn sample_at(self, time_s: f64) -> usize {
+        match self {
+            PlantRun::Joint(run) => run.sample_at(time_s),
+            PlantRun::FiveBar(run) => run.sample_at(time_s),
+        }
+    }
+}
+
 /// The regression problem of one recording.
 pub struct Problem<'a> {
     /// The recording.
-    pub run: &'a Run,
+    pub plant: PlantRun<'a>,
     /// The windows.
     pub windows: Windows,
     /// The noise model.
@@ -96,12 +169,14 @@ pub struct Problem<'a> {
     pub inertia: Inertia,
     /// Predicted standard deviation of one residual from sensor noise alone.
     pub floor: f64,
+    /// Root mean square of the averaged driving effort: what a contribution is compared with.
+    pub effort_size: f64,
     /// Terms from the start of the recording that are asked for again and again.
     kept: RefCell<Vec<Term>>,
 }
 
 impl<'a> Problem<'a> {
-    /// Sets up the problem with a white noise model; `rewhiten` refines it.
+    /// Sets up the problem of a plant of one joint with a white noise model; `rewhiten` refines it.
     pub fn new(run: &'a Run, windows: Windows, inertia: Inertia) -> Problem<'a> {
         let start = inertia.start();
         let floor = windows.floor(run, start);
@@ -120,27 +195,63 @@ impl<'a> Problem<'a> {
         if let Inertia::Known(value) = inertia {
             add(&mut known, &acceleration, value);
         }
-        let target: Vec<f64> = acting_effort(run, &run.effort)
-            .iter()
-            .zip(&known)
-            .map(|(e, k)| e - k)
-            .collect();
+        let target = less(&joint::acting_effort(run, &run.effort), &known);
         let covariance = windows.noise_covariance(run, start, 0.0, ORDER + 1);
         let whitener = Whitener::new(&covariance, &windows.usable);
-        let mut problem = Problem {
-            run,
+        let inertia_column = match inertia {
+            Inertia::Unknown(_) => Some(rows(&windows, acceleration)),
+            _ => None,
+        };
+        let mut problem = Problem::with(
+            PlantRun::Joint(run),
+            windows,
+            whitener,
+            (target, known),
+            floor,
+        );
+        problem.inertia = inertia;
+        problem.inertia_column = inertia_column;
+        problem.whiten_own();
+        problem
+    }
+
+    /// Sets up the problem of a five-bar.
+    pub fn of_five_bar(run: &'a FiveBarRun, mut windows: Windows) -> Problem<'a> {
+        five_bar::noise::keep_moving(run, &mut windows);
+        let floor = five_bar::noise::floor(run, &windows);
+        let whitener = five_bar::noise::whitener(run, &windows, 0.0);
+        let known = five_bar::columns::known(run);
+        let target = less(&five_bar::columns::driving(run), &known);
+        let mut problem = Problem::with(
+            PlantRun::FiveBar(run),
+            windows,
+            whitener,
+            (target, known),
+            floor,
+        );
+        problem.whiten_own();
+        problem
+    }
+
+    fn with(
+        plant: PlantRun<'a>,
+        windows: Windows,
+        whitener: Whitener,
+        (target, known): (Vec<f64>, Vec<f64>),
+        floor: f64,
+    ) -> Problem<'a> {
+        Problem {
+            plant,
             whitener,
             target: rows(&windows, target),
             known,
-            inertia_column: matches!(inertia, Inertia::Unknown(_))
-                .then(|| rows(&windows, acceleration)),
-            inertia,
+            inertia_column: None,
+            inertia: Inertia::None,
             floor,
+            effort_size: rms(&windows.average(&plant.effort())),
             windows,
             kept: RefCell::default(),
-        };
-        problem.whiten_own();
-        problem
+        }
     }
 
     /// Refines the noise model: what these residuals have beyond the floor counts as unexplained white effort.
@@ -148,11 +259,16 @@ impl<'a> Problem<'a> {
     /// `rms` is the root mean square of the residuals over the usable windows.
     pub fn rewhiten(&mut self, rms: f64) {
         let excess = (rms * rms - self.floor * self.floor).max(0.0);
-        let inertia = self.inertia.start();
-        let covariance = self
-            .windows
-            .noise_covariance(self.run, inertia, excess, ORDER + 1);
-        self.whitener = Whitener::new(&covariance, &self.windows.usable);
+        self.whitener = match self.plant {
+            PlantRun::Joint(run) => {
+                let inertia = self.inertia.start();
+                let covariance = self
+                    .windows
+                    .noise_covariance(run, inertia, excess, ORDER + 1);
+                Whitener::new(&covariance, &self.windows.usable)
+            }
+            PlantRun::FiveBar(run) => five_bar::noise::whitener(run, &self.windows, excess),
+        };
         self.whiten_own();
         let mut kept = self.kept.take();
         for term in &mut kept {
@@ -161,7 +277,7 @@ impl<'a> Problem<'a> {
         self.kept = RefCell::new(kept);
     }
 
-    /// A column given window by window.
+    /// A column given row by row.
     pub fn rows_of(&self, raw: Vec<f64>) -> Rows {
         Rows {
             signal: Vec::new(),
@@ -177,13 +293,9 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// The term of a resistance with this shape; `None` for a mechanism that acts on the drive.
-    pub fn term(&self, mechanism: Mechanism, shape: &[f64], onset_s: Option<f64>) -> Option<Term> {
-        let entry = entry(mechanism)?;
-        if let Form::Drive = entry.form {
-            return None;
-        }
-        let free = match (self.kept(mechanism, shape), onset_s) {
+    /// The term of a cause whose leading parameters are linear; `None` for one that acts on the drive.
+    pub fn term(&self, cause: Cause, shape: &[f64], onset_s: Option<f64>) -> Option<Term> {
+        let free = match (self.kept(cause, shape), onset_s) {
             (Some(kept), None) => return Some(kept),
             (Some(kept), onset_s) => kept
                 .free
@@ -191,13 +303,13 @@ impl<'a> Problem<'a> {
                 .map(|rows| Arc::new(self.rows(rows.signal.clone(), onset_s)))
                 .collect(),
             (None, onset_s) => self
-                .resistance_columns(mechanism, entry.linear, shape)
+                .free_signals(cause, shape)?
                 .into_iter()
-                .map(|signal| Arc::new(self.rows(self.seen(signal), onset_s)))
+                .map(|signal| Arc::new(self.rows(signal, onset_s)))
                 .collect(),
         };
         Some(Term {
-            mechanism,
+            cause,
             shape: shape.to_vec(),
             onset_s,
             free,
@@ -206,37 +318,47 @@ impl<'a> Problem<'a> {
         })
     }
 
-    /// The term of a resistance that acts from the start, kept for the next time: for shapes that are tried in every
+    fn free_signals(&self, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<f64>>> {
+        match self.plant {
+            PlantRun::Joint(run) => joint::resistances(run, cause.mechanism, shape),
+            PlantRun::FiveBar(run) => five_bar::columns::free(run, cause, shape),
+        }
+    }
+
+    /// The term of a cause that acts from the start, kept for the next time: for shapes that are tried in every
     /// step of the search.
-    pub fn kept_term(&self, mechanism: Mechanism, shape: &[f64]) -> Option<Term> {
-        self.kept(mechanism, shape).or_else(|| {
-            let term = self.term(mechanism, shape, None)?;
+    pub fn kept_term(&self, cause: Cause, shape: &[f64]) -> Option<Term> {
+        self.kept(cause, shape).or_else(|| {
+            let term = self.term(cause, shape, None)?;
             self.kept.borrow_mut().push(term.clone());
             Some(term)
         })
     }
 
-    fn kept(&self, mechanism: Mechanism, shape: &[f64]) -> Option<Term> {
+    fn kept(&self, cause: Cause, shape: &[f64]) -> Option<Term> {
         let kept = self.kept.borrow();
-        let same = |t: &&Term| t.mechanism == mechanism && t.shape == shape;
+        let same = |t: &&Term| t.cause == cause && t.shape == shape;
         kept.iter().find(same).cloned()
     }
 
     /// The term of a change of the drive, linearised about `fitted`: the effort, sample by sample, that the model
-    /// gives with the other terms. `None` where the mechanism has no meaning on this plant.
+    /// gives with the other terms. `None` where the cause has no meaning on this plant.
     ///
     /// The recorded effort stays the target and the model's side is changed, because a change of the target
     /// would make every residual small that the change itself makes small.
     pub fn drive_term(
         &self,
-        mechanism: Mechanism,
+        cause: Cause,
         shape: &[f64],
         onset_s: Option<f64>,
         fitted: &[f64],
     ) -> Option<Term> {
-        let (free, fixed) = self.drive_columns(mechanism, shape, fitted)?;
+        let (free, fixed) = match self.plant {
+            PlantRun::Joint(run) => joint::drive(self, run, cause.mechanism, shape, fitted)?,
+            PlantRun::FiveBar(run) => (None, Some(five_bar::columns::fixed(run, cause, shape)?)),
+        };
         Some(Term {
-            mechanism,
+            cause,
             shape: shape.to_vec(),
             onset_s,
             free: free
@@ -250,9 +372,9 @@ impl<'a> Problem<'a> {
 
     /// A term of the nominal model: its columns where unknown, else its value as a fixed column.
     pub fn nominal_term(&self, effect: &NominalEffect) -> Option<Term> {
-        let linear = entry(effect.mechanism)?.linear;
+        let linear = entry(effect.cause.mechanism)?.linear;
         let shape = effect.parameters.get(linear..).unwrap_or_default();
-        let mut term = self.term(effect.mechanism, shape, effect.onset_s)?;
+        let mut term = self.term(effect.cause, shape, effect.onset_s)?;
         if !effect.unknown {
             term.known = Some(effect.parameters.iter().take(linear).copied().collect());
         }
@@ -267,108 +389,17 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// One column for each linear parameter: the law with that parameter 1 and the others 0.
-    fn resistance_columns(
-        &self,
-        mechanism: Mechanism,
-        linear: usize,
-        shape: &[f64],
-    ) -> Vec<Vec<f64>> {
-        (0..linear)
-            .filter_map(|index| {
-                let mut parameters = vec![0.0; linear];
-                if let Some(one) = parameters.get_mut(index) {
-                    *one = 1.0;
-                }
-                parameters.extend_from_slice(shape);
-                law(mechanism, &parameters)
-            })
-            .map(|law| column(law.as_ref(), &self.run.motion, self.run.step_s))
-            .collect()
-    }
-
-    /// A resistance as the discrete second difference of the position sees it: on an axis with Numerov's weights,
-    /// exact to fourth order in the step for a signal that is smooth between samples.
-    fn seen(&self, signal: Vec<f64>) -> Vec<f64> {
-        match self.run.plant {
-            PlantKind::Axis => numerov(&signal),
-            PlantKind::Bench => signal,
-        }
-    }
-
     fn rows(&self, mut signal: Vec<f64>, onset_s: Option<f64>) -> Rows {
         if let Some(onset_s) = onset_s {
-            let first = self.run.sample_at(onset_s);
-            signal.iter_mut().take(first).for_each(|x| *x = 0.0);
+            let first = self.plant.sample_at(onset_s);
+            let stretch = (signal.len() / self.windows.outputs).max(1);
+            for output in signal.chunks_mut(stretch) {
+                output.iter_mut().take(first).for_each(|x| *x = 0.0);
+            }
         }
         let mut rows = rows(&self.windows, signal);
         rows.white = self.whitener.whiten(&rows.raw);
         rows
-    }
-
-    /// What a recorded drive has more than the one that acts, as the position sees it.
-    fn missing_effort(&self, acting: &[f64]) -> Vec<f64> {
-        let missing: Vec<f64> = self
-            .run
-            .effort
-            .iter()
-            .zip(acting)
-            .map(|(e, a)| e - a)
-            .collect();
-        acting_effort(self.run, &missing)
-    }
-
-    /// Column of a mechanism that acts on the drive: a free one, or one with coefficient 1.
-    #[expect(
-        clippy::type_complexity,
-        reason = "a pair of columns is plainer than a type for it"
-    )]
-    fn drive_columns(
-        &self,
-        mechanism: Mechanism,
-        shape: &[f64],
-        fitted: &[f64],
-    ) -> Option<(Option<Vec<f64>>, Option<Vec<f64>>)> {
-        let value = shape.first().copied().unwrap_or(0.0);
-        let step_s = self.run.step_s;
-        let less = |changed: Vec<f64>| -> Vec<f64> {
-            changed.iter().zip(fitted).map(|(a, b)| a - b).collect()
-        };
-        match (mechanism, self.run.plant) {
-            // With a known inertia the command itself can be delayed: it has less noise than an acceleration.
-            (Mechanism::Lag, PlantKind::Axis) if self.inertia_column.is_none() => {
-                let acting = first_order_lag(&self.run.effort, step_s, value);
-                Some((None, Some(self.missing_effort(&acting))))
-            }
-            (Mechanism::ChannelSkew, PlantKind::Axis) if self.inertia_column.is_none() => {
-                let acting = shifted(&self.run.effort, -value / step_s);
-                Some((None, Some(self.missing_effort(&acting))))
-            }
-            // Else the command is ahead of the effort that moves the joint: gain·u = e + time_constant·de/dt.
-            (Mechanism::Lag, PlantKind::Axis) => {
-                let slope = gradient(fitted, step_s);
-                Some((None, Some(slope.into_iter().map(|s| value * s).collect())))
-            }
-            (Mechanism::ChannelSkew, PlantKind::Axis) => {
-                Some((None, Some(less(shifted(fitted, value / step_s)))))
-            }
-            // The yield of a brake lags, its sign does not (docs/decisions/0001).
-            (Mechanism::Lag, PlantKind::Bench) => match (&self.run.predicted, &self.run.current) {
-                (Some(predicted), Some(_)) => {
-                    let lagged = lagged_yield(predicted, step_s, value);
-                    let change = lagged.iter().zip(predicted).map(|(l, p)| l - p).collect();
-                    Some((None, Some(change)))
-                }
-                _ => Some((None, Some(less(first_order_lag(fitted, step_s, value))))),
-            },
-            (Mechanism::ChannelSkew, PlantKind::Bench) => {
-                Some((None, Some(less(shifted(fitted, -value / step_s)))))
-            }
-            (Mechanism::GainError, _) if self.inertia_column.is_none() => {
-                Some((Some(self.known.clone()), None))
-            }
-            _ => None,
-        }
     }
 }
 
@@ -381,24 +412,16 @@ fn rows(windows: &Windows, signal: Vec<f64>) -> Rows {
     }
 }
 
-/// The effort as the discrete second difference of the position sees it: half of the last value and half of this
-/// one for a drive that holds, Numerov's weights for one that was sampled; the metered effort itself on a bench.
-fn acting_effort(run: &Run, effort: &[f64]) -> Vec<f64> {
-    match (run.plant, run.held) {
-        (PlantKind::Bench, _) => effort.to_vec(),
-        (PlantKind::Axis, true) => {
-            let before = effort.first().into_iter().chain(effort);
-            before.zip(effort).map(|(b, e)| 0.5 * (b + e)).collect()
-        }
-        (PlantKind::Axis, false) => numerov(effort),
-    }
-}
-
 /// Adds `times` a signal to another.
 pub fn add(to: &mut [f64], what: &[f64], times: f64) {
     for (x, y) in to.iter_mut().zip(what) {
         *x += times * y;
     }
+}
+
+/// One signal less another.
+pub fn less(from: &[f64], what: &[f64]) -> Vec<f64> {
+    from.iter().zip(what).map(|(a, b)| a - b).collect()
 }
 
 #[cfg(test)]
@@ -418,7 +441,7 @@ mod tests {
             .iter()
             .filter_map(|(mechanism, parameters)| {
                 problem.nominal_term(&NominalEffect {
-                    mechanism: *mechanism,
+                    cause: Cause::of(*mechanism),
                     parameters: parameters.to_vec(),
                     unknown: false,
                     onset_s: None,

@@ -7,7 +7,7 @@ use std::sync::Arc;
 /// Blocks of time that are left out in turn.
 #[derive(Clone, Debug)]
 pub struct Blocks {
-    /// Window ranges `(first, end)`; the windows between two blocks belong to neither (the purge gap).
+    /// Row ranges `(first, end)`; the windows between two blocks belong to neither (the purge gap).
     pub ranges: Vec<(usize, usize)>,
 }
 
@@ -21,11 +21,13 @@ const PURGE: usize = 8;
 impl Blocks {
     /// Equal blocks over all windows of a problem.
     pub fn new(problem: &Problem) -> Blocks {
-        let windows = problem.windows.centres.len();
-        let count = ((problem.run.duration_s() / BLOCK_S) as usize).clamp(FEWEST, MOST);
+        let outputs = problem.windows.outputs;
+        let windows = problem.windows.centres.len() / outputs;
+        let count = ((problem.plant.duration_s() / BLOCK_S) as usize).clamp(FEWEST, MOST);
         let purge = PURGE.min(windows / (4 * count));
         let ranges = (0..count)
             .map(|b| (b * windows / count, (b + 1) * windows / count - purge))
+            .map(|(first, end)| (outputs * first, outputs * end))
             .collect();
         Blocks { ranges }
     }
@@ -355,7 +357,7 @@ pub fn norm(a: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
-    use crate::problem::{Inertia, Problem, Term};
+    use crate::problem::{Cause, Inertia, Problem, Term};
     use crate::recorded::{Noise, exact_bench};
     use crate::weak::Windows;
     use rigproof_spec::effect::Mechanism;
@@ -435,7 +437,7 @@ mod tests {
             .collect();
         problem.target = rows(target.clone());
         let term = |column: &Vec<f64>| Term {
-            mechanism: Mechanism::Viscous,
+            cause: Cause::of(Mechanism::Viscous),
             shape: Vec::new(),
             onset_s: None,
             free: vec![Arc::new(rows(column.clone()))],

@@ -16,7 +16,7 @@ pub struct Report {
     pub tool: String,
     /// The files that were read.
     pub inputs: Vec<InputFile>,
-    /// `axis` or `bench`.
+    /// `axis`, `bench` or `rig`.
     pub plant: &'static str,
     /// One of the seven verdicts.
     pub verdict: Verdict,
@@ -32,12 +32,12 @@ pub struct Report {
     pub stages: Vec<StageReport>,
     /// The mechanisms that are named.
     pub effects: Vec<EffectReport>,
-    /// For each effect, the mechanisms that explain as much in its place.
-    pub ambiguous_with: Vec<Vec<&'static str>>,
+    /// For each effect, what explains as much in its place: a mechanism, or as `viscous at E` where there are several joints.
+    pub ambiguous_with: Vec<Vec<String>>,
     /// Mechanisms that help, but by less than what stays unexplained: not named.
     pub too_small_to_name: Vec<String>,
     /// Mechanisms that only stand in for another law over the same variable: not named.
-    pub withdrawn: Vec<&'static str>,
+    pub withdrawn: Vec<String>,
     /// The nominal model's own unknowns after the fit.
     pub nominal: BTreeMap<String, Number>,
     /// The inverse model of an axis under the published filter protocol; its errors stand with the stages.
@@ -180,8 +180,10 @@ pub struct Located {
 pub struct StageReport {
     /// What entered.
     pub entered: &'static str,
-    /// What stood then.
-    pub standing: Vec<&'static str>,
+    /// The joint at which it acts, where there are several.
+    pub joint: Option<&'static str>,
+    /// What stood then; with its joint where there are several, as `viscous at E`.
+    pub standing: Vec<String>,
     /// Root-mean-square residual of the windows then.
     pub residual: f64,
     /// Error of the inverse model with what stood then, per cent; absent where `inverse_model` is, or where a law has a

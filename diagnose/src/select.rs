@@ -6,12 +6,11 @@ mod refine;
 mod step;
 mod weigh;
 
-use crate::candidates::{mechanisms, variants};
-use crate::problem::{Problem, Term};
+use crate::candidates::{causes, variants};
+use crate::problem::{Cause, Problem, Term};
 use crate::regression::{Blocks, Fit, fit};
 use prune::{backward, prune};
 use refine::refine;
-use rigproof_spec::effect::Mechanism;
 use step::{forward, swap};
 
 pub(crate) use judge::best as best_variant;
@@ -56,10 +55,10 @@ pub struct Found {
 /// What stood after one mechanism was named.
 #[derive(Clone, Debug)]
 pub struct Stage {
-    /// The mechanism that entered.
-    pub entered: Mechanism,
-    /// All mechanisms that stood then.
-    pub standing: Vec<Mechanism>,
+    /// The cause that entered.
+    pub entered: Cause,
+    /// All causes that stood then.
+    pub standing: Vec<Cause>,
     /// The shape and the onset of each of them.
     pub shapes: Vec<(Vec<f64>, Option<f64>)>,
     /// Root-mean-square residual of the windows, N or N·m.
@@ -74,7 +73,7 @@ pub struct Selection {
     /// Mechanisms found, in the order they were named.
     pub found: Vec<Found>,
     /// Mechanisms that pass the gates but explain less than what stays unexplained: not named.
-    pub too_small: Vec<Mechanism>,
+    pub too_small: Vec<Cause>,
     /// How the mechanisms were named, one after another.
     pub stages: Vec<Stage>,
     /// The fit of the nominal model alone.
@@ -130,8 +129,8 @@ fn rich_residual(problem: &Problem, nominal: &[Term], blocks: &Blocks) -> Vec<f6
     let mut terms: Vec<Term> = nominal.to_vec();
     let common: Vec<&Term> = nominal.iter().collect();
     let plain = fit(problem, &common, blocks);
-    for mechanism in mechanisms(problem) {
-        let tried = variants(problem, mechanism, &common, &plain);
+    for cause in causes(problem) {
+        let tried = variants(problem, cause, &common, &plain);
         let step = (tried.len() / 3).max(1);
         terms.extend(
             tried
@@ -146,9 +145,8 @@ fn rich_residual(problem: &Problem, nominal: &[Term], blocks: &Blocks) -> Vec<f6
 
 impl Selection {
     /// Takes mechanisms out again and fits what stays.
-    pub fn withdraw(&mut self, problem: &Problem, mechanisms: &[Mechanism]) {
-        self.found
-            .retain(|f| !mechanisms.contains(&f.term.mechanism));
+    pub fn withdraw(&mut self, problem: &Problem, causes: &[Cause]) {
+        self.found.retain(|f| !causes.contains(&f.term.cause));
         let blocks = Blocks::new(problem);
         self.after = fit(problem, &refs(&self.nominal, &self.found), &blocks);
     }
@@ -175,20 +173,20 @@ fn search(
         let Some(next) = forward(problem, nominal, &found, blocks, gates) else {
             break;
         };
-        let entered = next.term.mechanism;
+        let entered = next.term.cause;
         found.push(next);
         refine(problem, nominal, &mut found, blocks);
         let residual = fit(problem, &refs(nominal, &found), blocks).residual;
         stages.push(Stage {
             entered,
-            standing: found.iter().map(|f| f.term.mechanism).collect(),
+            standing: found.iter().map(|f| f.term.cause).collect(),
             shapes: shapes(&found),
             residual: usable_rms(problem, &residual),
         });
-        let standing: Vec<Mechanism> = found.iter().map(|f| f.term.mechanism).collect();
+        let standing: Vec<Cause> = found.iter().map(|f| f.term.cause).collect();
         settle(problem, nominal, &mut found, blocks, gates);
         note_swaps(problem, nominal, &found, &standing, blocks, stages);
-        if found.iter().all(|f| f.term.mechanism != entered)
+        if found.iter().all(|f| f.term.cause != entered)
             && stages.last().is_some_and(|s| s.entered == entered)
         {
             break;
@@ -207,19 +205,19 @@ fn note_swaps(
     problem: &Problem,
     nominal: &[Term],
     found: &[Found],
-    standing: &[Mechanism],
+    standing: &[Cause],
     blocks: &Blocks,
     stages: &mut Vec<Stage>,
 ) {
     for new in found
         .iter()
-        .map(|f| f.term.mechanism)
-        .filter(|m| !standing.contains(m))
+        .map(|f| f.term.cause)
+        .filter(|cause| !standing.contains(cause))
     {
         let residual = fit(problem, &refs(nominal, found), blocks).residual;
         stages.push(Stage {
             entered: new,
-            standing: found.iter().map(|f| f.term.mechanism).collect(),
+            standing: found.iter().map(|f| f.term.cause).collect(),
             shapes: shapes(found),
             residual: usable_rms(problem, &residual),
         });

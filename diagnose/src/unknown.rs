@@ -3,6 +3,7 @@
 use crate::problem::{Problem, Rows};
 use crate::regression::{Blocks, left_out_loss};
 use crate::report::Unknown;
+use crate::run::Run;
 use rigproof_spec::effect::{Mechanism, Motion, Quantity};
 
 /// Knots of a curve.
@@ -14,8 +15,8 @@ const LEAST_SHARE: f64 = 0.02;
 
 /// Screens position, speed, time and effort for the curve that takes away most of the residual, or `None` when no
 /// curve over one of them helps.
-pub fn unknown(problem: &Problem, residual: &[f64], motion: Motion) -> Option<Unknown> {
-    let screened = screen(problem, residual, variables(problem, motion));
+pub fn unknown(problem: &Problem, run: &Run, residual: &[f64], motion: Motion) -> Option<Unknown> {
+    let screened = screen(problem, residual, variables(problem, run, motion));
     let best = screened
         .into_iter()
         .filter(|(_, share)| *share > LEAST_SHARE)
@@ -45,11 +46,12 @@ const SURROGATE_SHARE: f64 = 0.3;
 /// they are functions of, or that their level should not depend on, still takes a good part of the remaining loss away.
 pub fn surrogates(
     problem: &Problem,
+    run: &Run,
     residual: &[f64],
     found: &[Mechanism],
     motion: Motion,
 ) -> Vec<Mechanism> {
-    let related = variables(problem, motion)
+    let related = variables(problem, run, motion)
         .into_iter()
         .filter(|v| found.iter().any(|m| v.concerns(*m)))
         .collect();
@@ -114,16 +116,16 @@ impl Variable {
     }
 }
 
-fn variables(problem: &Problem, motion: Motion) -> Vec<Variable> {
+fn variables(problem: &Problem, run: &Run, motion: Motion) -> Vec<Variable> {
     let at = |pick: &dyn Fn(&rigproof_model::effects::Instant) -> f64| -> Vec<f64> {
         let centres = problem.windows.centres.iter();
         centres
-            .filter_map(|&c| problem.run.motion.get(c))
+            .filter_map(|&c| run.motion.get(c))
             .map(pick)
             .collect()
     };
     let sense = at(&|now| now.sense);
-    let effort = problem.windows.average(&problem.run.effort);
+    let effort = problem.windows.average(&run.effort);
     let load = effort.iter().zip(&sense).map(|(e, s)| e * s).collect();
     let variable = |name, quantity: Quantity, level, values| Variable {
         name,
@@ -308,7 +310,7 @@ mod tests {
             .iter()
             .map(|c| 0.9 * (run.motion[*c].position / 0.5).powi(3))
             .collect();
-        let unknown = unknown(&problem, &residual, Motion::Linear).unwrap();
+        let unknown = unknown(&problem, &run, &residual, Motion::Linear).unwrap();
         assert_eq!(
             (unknown.variable, unknown.parity, unknown.memory),
             ("position", "odd", false)
@@ -316,7 +318,7 @@ mod tests {
         assert!(unknown.share > 0.9, "{}", unknown.share);
         let found = [Mechanism::Viscous, Mechanism::Spring];
         assert_eq!(
-            surrogates(&problem, &residual, &found, Motion::Linear),
+            surrogates(&problem, &run, &residual, &found, Motion::Linear),
             [Mechanism::Spring]
         );
     }
@@ -332,12 +334,12 @@ mod tests {
             .map(|c| &run.motion[*c])
             .map(|now| now.sense * 0.9 * (0.5 - now.time_s / run.duration_s()))
             .collect();
-        let unknown = unknown(&problem, &residual, Motion::Linear).unwrap();
+        let unknown = unknown(&problem, &run, &residual, Motion::Linear).unwrap();
         assert_eq!((unknown.variable, unknown.along_motion), ("time", true));
         assert!(unknown.shape.windows(2).all(|w| w[1].1 < w[0].1));
         let found = [Mechanism::DryOffset, Mechanism::Spring];
         assert_eq!(
-            surrogates(&problem, &residual, &found, Motion::Linear),
+            surrogates(&problem, &run, &residual, &found, Motion::Linear),
             [Mechanism::DryOffset]
         );
     }

@@ -2,11 +2,12 @@
 //! that positions enter and accelerations do not.
 
 use crate::run::{PlantKind, Run, rms};
+use rigproof_model::effects::Instant;
 
 /// Order of the bump `(1 − x²)^4`: three continuous derivatives at its ends.
 const BUMP_ORDER: i32 = 4;
 /// Share of a window's weight that may lie where the sense of motion cannot be told.
-const MOST_AMBIGUOUS: f64 = 0.002;
+pub const MOST_AMBIGUOUS: f64 = 0.002;
 /// What a friction as large as the whole effort may do there, in floors.
 const MOST_UNTOLD: f64 = 0.5;
 
@@ -23,9 +24,11 @@ pub struct Windows {
     pub curvature: Vec<f64>,
     /// Samples between window centres.
     pub hop: usize,
-    /// Centre sample of each window.
+    /// How many equations the plant has: each window gives as many rows, one after another.
+    pub outputs: usize,
+    /// Centre sample of each row.
     pub centres: Vec<usize>,
-    /// Whether the window may be used: recorded throughout, and its sense of motion known.
+    /// Whether the row may be used: recorded throughout, and its sense of motion known.
     pub usable: Vec<bool>,
     /// Sample interval, s.
     pub step_s: f64,
@@ -36,32 +39,46 @@ pub struct Windows {
 impl Windows {
     /// Windows of about `width_s` over a run, a quarter of a width apart.
     pub fn new(run: &Run, width_s: f64) -> Windows {
-        let half = ((0.5 * width_s / run.step_s).round() as usize).max(2);
+        let mut windows = Windows::over(run.len(), 1, (run.step_s, run.start_s), width_s);
+        windows.keep(|centre, bump| {
+            is_recorded(&run.recorded, centre, bump)
+                && untold(&run.motion, centre, bump) <= MOST_AMBIGUOUS
+        });
+        windows
+    }
+
+    /// Windows of about `width_s` over `samples` samples of a plant with `outputs` equations, all of them usable; `clock` is
+    /// the sample interval and the time of the first sample, s.
+    pub fn over(samples: usize, outputs: usize, clock: (f64, f64), width_s: f64) -> Windows {
+        let (step_s, start_s) = clock;
+        let half = ((0.5 * width_s / step_s).round() as usize).max(2);
         let bump = bump(half);
-        let curvature = second_difference(&bump, run.step_s);
-        let hop = (half / 2).max(1);
         let margin = half + 1;
-        let centres: Vec<usize> = (margin..run.len().saturating_sub(margin))
+        let hop = (half / 2).max(1);
+        let centres: Vec<usize> = (margin..samples.saturating_sub(margin))
             .step_by(hop)
-            .collect();
-        let usable = centres
-            .iter()
-            .map(|&centre| {
-                is_recorded(run, centre, &bump) && untold(run, centre, &bump) <= MOST_AMBIGUOUS
-            })
+            .flat_map(|centre| core::iter::repeat_n(centre, outputs))
             .collect();
         Windows {
+            curvature: second_difference(&bump, step_s),
             bump,
-            curvature,
             hop,
+            outputs,
+            usable: vec![true; centres.len()],
             centres,
-            usable,
-            step_s: run.step_s,
-            start_s: run.start_s,
+            step_s,
+            start_s,
         }
     }
 
-    /// `Σ φ·signal`, one value a window.
+    /// Gives up the rows whose window does not pass; the rule takes a window's centre and its weights.
+    pub fn keep(&mut self, rule: impl Fn(usize, &[f64]) -> bool) {
+        for (usable, &centre) in self.usable.iter_mut().zip(&self.centres) {
+            *usable = *usable && rule(centre, &self.bump);
+        }
+    }
+
+    /// `Σ φ·signal`, one value a row. A signal holds a stretch of samples for each output, one stretch after another.
     pub fn average(&self, signal: &[f64]) -> Vec<f64> {
         self.apply(&self.bump, signal)
     }
@@ -84,23 +101,24 @@ impl Windows {
     /// where the sense of motion cannot be told: a rest that begins or ends there is not seen.
     pub fn avoid_rests(&mut self, run: &Run, floor: f64) {
         let most = MOST_UNTOLD * floor / rms(&run.effort).max(1e-300);
-        for (usable, &centre) in self.usable.iter_mut().zip(&self.centres) {
-            *usable = *usable && untold(run, centre, &self.bump) <= most;
-        }
+        self.keep(|centre, bump| untold(&run.motion, centre, bump) <= most);
     }
 
     fn apply(&self, weights: &[f64], signal: &[f64]) -> Vec<f64> {
         let half = weights.len() / 2;
+        let stretch = signal.len() / self.outputs;
         self.centres
             .iter()
-            .map(|&centre| {
-                let window = signal.get(centre - half..).unwrap_or_default();
+            .enumerate()
+            .map(|(row, &centre)| {
+                let first = row % self.outputs * stretch + centre - half;
+                let window = signal.get(first..).unwrap_or_default();
                 weights.iter().zip(window).map(|(w, x)| w * x).sum()
             })
             .collect()
     }
 
-    /// Time of each window's centre, s.
+    /// Time of each row's window centre, s.
     pub fn times_s(&self) -> Vec<f64> {
         self.centres
             .iter()
@@ -134,7 +152,7 @@ impl Windows {
 }
 
 /// Inner product of weights with themselves `shift` samples later.
-fn overlap(weights: &[f64], shift: usize) -> f64 {
+pub fn overlap(weights: &[f64], shift: usize) -> f64 {
     weights
         .iter()
         .zip(weights.iter().skip(shift))
@@ -193,15 +211,16 @@ fn second_difference(weights: &[f64], step_s: f64) -> Vec<f64> {
         .collect()
 }
 
-fn is_recorded(run: &Run, centre: usize, bump: &[f64]) -> bool {
+/// Whether all samples of a window were recorded.
+pub fn is_recorded(recorded: &[bool], centre: usize, bump: &[f64]) -> bool {
     let start = centre - bump.len() / 2 - 1;
-    let mut samples = run.recorded.iter().skip(start).take(bump.len() + 2);
+    let mut samples = recorded.iter().skip(start).take(bump.len() + 2);
     samples.all(|&r| r)
 }
 
 /// Share of a window's weight that lies where the sense of motion cannot be told.
-fn untold(run: &Run, centre: usize, bump: &[f64]) -> f64 {
-    let motion = run.motion.iter().skip(centre - bump.len() / 2);
+pub fn untold(motion: &[Instant], centre: usize, bump: &[f64]) -> f64 {
+    let motion = motion.iter().skip(centre - bump.len() / 2);
     let weighted = bump.iter().zip(motion);
     weighted
         .filter(|(_, now)| now.sense.abs() < 1.0)

@@ -1,16 +1,32 @@
-//! This file makes correlated residuals white: an autoregressive model of the noise, applied within each
-//! unbroken stretch of windows.
+//! This file makes correlated residuals white: by an autoregressive model of stationary noise, applied within each
+//! unbroken stretch of windows, or by the Cholesky factor of a covariance with a band.
 
 /// Order of the autoregression, in windows: two window widths at a hop of a quarter.
 pub const ORDER: usize = 8;
 
-/// Prediction-error filters of order 0 to `ORDER`, so that the first windows of a stretch are whitened too.
+/// What makes rows white.
 #[derive(Clone, Debug)]
-pub struct Whitener {
-    /// For each order, the predictor's coefficients and the standard deviation of its error.
-    filters: Vec<(Vec<f64>, f64)>,
-    /// Window ranges `(first, end)` without a gap.
-    stretches: Vec<(usize, usize)>,
+pub enum Whitener {
+    /// Prediction-error filters of order 0 to `ORDER`, so that the first windows of a stretch are whitened too.
+    Stationary {
+        /// For each order, the predictor's coefficients and the standard deviation of its error.
+        filters: Vec<(Vec<f64>, f64)>,
+        /// Window ranges `(first, end)` without a gap.
+        stretches: Vec<(usize, usize)>,
+    },
+    /// The rows of a Cholesky factor.
+    Banded(Vec<FactorRow>),
+}
+
+/// One row of a Cholesky factor with a band.
+#[derive(Clone, Debug)]
+pub struct FactorRow {
+    /// The row of the problem that it whitens.
+    row: usize,
+    /// Its entries left of the diagonal, the last one next to it.
+    before: Vec<f64>,
+    /// Its diagonal entry.
+    diagonal: f64,
 }
 
 impl Whitener {
@@ -21,36 +37,96 @@ impl Whitener {
             // A ridge at rounding level keeps the recursion well conditioned.
             *variance = *variance * (1.0 + 1e-6) + 1e-300;
         }
-        Whitener {
+        Whitener::Stationary {
             filters: levinson(&covariance),
             stretches: stretches(usable),
         }
+    }
+
+    /// The noise model with this covariance of two rows, which is 0 for rows more than `band` apart.
+    pub fn banded(
+        usable: &[bool],
+        band: usize,
+        covariance: impl Fn(usize, usize) -> f64,
+    ) -> Whitener {
+        let mut rows: Vec<FactorRow> = Vec::new();
+        for (row, _) in usable.iter().enumerate().filter(|(_, u)| **u) {
+            let first = rows.partition_point(|earlier| earlier.row + band < row);
+            let mut before: Vec<f64> = Vec::new();
+            for earlier in rows.iter().skip(first) {
+                let shared = earlier.before.len().min(before.len());
+                let mine = before.iter().rev().take(shared);
+                let known: f64 = mine
+                    .zip(earlier.before.iter().rev())
+                    .map(|(a, b)| a * b)
+                    .sum();
+                before.push((covariance(row, earlier.row) - known) / earlier.diagonal);
+            }
+            // A ridge at rounding level keeps the factor real.
+            let variance = covariance(row, row) * (1.0 + 1e-6) + 1e-300;
+            let known: f64 = before.iter().map(|x| x * x).sum();
+            rows.push(FactorRow {
+                row,
+                before,
+                diagonal: (variance - known).max(1e-6 * variance).sqrt(),
+            });
+        }
+        Whitener::Banded(rows)
     }
 
     /// White rows: each usable window of each stretch, divided by its prediction error's standard deviation.
     ///
     /// Windows that are not usable come out as 0 and so carry no weight.
     pub fn whiten(&self, rows: &[f64]) -> Vec<f64> {
-        let mut white = vec![0.0; rows.len()];
-        for &(first, end) in &self.stretches {
-            for k in first..end {
-                let order = (k - first).min(self.filters.len() - 1);
-                let Some((coefficients, deviation)) = self.filters.get(order) else {
-                    continue;
-                };
-                let past = rows.get(k - order..k).unwrap_or_default();
-                let predicted: f64 = coefficients
-                    .iter()
-                    .zip(past.iter().rev())
-                    .map(|(c, x)| c * x)
-                    .sum();
-                if let (Some(out), Some(x)) = (white.get_mut(k), rows.get(k)) {
-                    *out = (x - predicted) / deviation;
-                }
+        match self {
+            Whitener::Stationary { filters, stretches } => {
+                predicted_apart(filters, stretches, rows)
+            }
+            Whitener::Banded(factor) => substituted(factor, rows),
+        }
+    }
+}
+
+/// Forward substitution through a factor.
+fn substituted(factor: &[FactorRow], rows: &[f64]) -> Vec<f64> {
+    let mut white = vec![0.0; rows.len()];
+    let mut solved: Vec<f64> = Vec::with_capacity(factor.len());
+    for line in factor {
+        let past = solved.iter().rev().zip(line.before.iter().rev());
+        let known: f64 = past.map(|(w, l)| w * l).sum();
+        let value = (rows.get(line.row).copied().unwrap_or(0.0) - known) / line.diagonal;
+        solved.push(value);
+        if let Some(out) = white.get_mut(line.row) {
+            *out = value;
+        }
+    }
+    white
+}
+
+fn predicted_apart(
+    filters: &[(Vec<f64>, f64)],
+    stretches: &[(usize, usize)],
+    rows: &[f64],
+) -> Vec<f64> {
+    let mut white = vec![0.0; rows.len()];
+    for &(first, end) in stretches {
+        for k in first..end {
+            let order = (k - first).min(filters.len() - 1);
+            let Some((coefficients, deviation)) = filters.get(order) else {
+                continue;
+            };
+            let past = rows.get(k - order..k).unwrap_or_default();
+            let predicted: f64 = coefficients
+                .iter()
+                .zip(past.iter().rev())
+                .map(|(c, x)| c * x)
+                .sum();
+            if let (Some(out), Some(x)) = (white.get_mut(k), rows.get(k)) {
+                *out = (x - predicted) / deviation;
             }
         }
-        white
     }
+    white
 }
 
 /// Ranges of consecutive usable windows.

@@ -44,7 +44,7 @@ pub fn calibrated(rig: &Rig, plant: &Plant, errors: &Errors, refitted: bool) -> 
     out
 }
 
-fn with_interval(value: f64, deviation: Option<f64>) -> Value {
+pub(crate) fn with_interval(value: f64, deviation: Option<f64>) -> Value {
     let mut out = Value::unknown(value);
     if let Some(deviation) = deviation.filter(|d| d.is_finite()) {
         out.low95 = Some(value - 1.96 * deviation);

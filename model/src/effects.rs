@@ -5,14 +5,18 @@
 //! `inertia·q̈ = gain·u − Σ resistance` and a bench meters `Σ resistance`.
 
 mod bias_drift;
+mod brake;
 mod constant_bias;
 mod direction_asymmetry;
 mod dry_offset;
 mod hysteresis;
 mod lag;
+mod linkage;
 mod nonlinear_spring;
 mod presliding;
+mod reversal_overshoot;
 mod ripple;
+mod settling;
 mod spring;
 mod stribeck;
 mod viscous;
@@ -65,6 +69,10 @@ pub enum Form {
     Resistance(fn(&[f64]) -> Box<dyn Law>),
     /// A change of the driving effort (lag, gain error, time shift), applied by the plant itself.
     Drive,
+    /// Something that a brake does with its current: it needs the brake.
+    Brake,
+    /// Something that only a linkage has: its masses, its weight, the sensor at its tip.
+    Linkage,
 }
 
 /// One mechanism as the diagnosis and the plants use it.
@@ -100,6 +108,20 @@ pub const LIBRARY: &[Entry] = &[
     lag::ENTRY,
     lag::GAIN_ENTRY,
     lag::SKEW_ENTRY,
+    reversal_overshoot::ENTRY,
+    settling::ENTRY,
+    brake::BACKLASH_WIDTH,
+    brake::CURRENT_HYSTERESIS,
+    brake::DEAD_TIME,
+    brake::SATURATION,
+    brake::THERMAL_FADE,
+    linkage::BEARING_FRICTION,
+    linkage::GRAVITY,
+    linkage::INERTIA_ERROR,
+    linkage::PAYLOAD,
+    linkage::FORCE_GAIN,
+    linkage::FORCE_BIAS,
+    linkage::FORCE_ROTATION,
 ];
 
 /// The entry of a mechanism, or `None` while the library has no law for it.
@@ -111,7 +133,7 @@ pub fn entry(mechanism: Mechanism) -> Option<&'static Entry> {
 pub fn law(mechanism: Mechanism, parameters: &[f64]) -> Option<Box<dyn Law>> {
     match entry(mechanism)?.form {
         Form::Resistance(build) => Some(build(parameters)),
-        Form::Drive => None,
+        Form::Drive | Form::Brake | Form::Linkage => None,
     }
 }
 

@@ -216,6 +216,67 @@ impl Mechanism {
                 const { &[Parameter::new("cubic", EffortPerCubicTravel)] }
             }
             Mechanism::ChannelSkew => const { &[Parameter::new("delay", Time)] },
+            Mechanism::ReversalOvershoot => {
+                const {
+                    &[
+                        Parameter::new("level", Effort),
+                        Parameter::new("travel", Travel),
+                    ]
+                }
+            }
+            Mechanism::Settling => {
+                const {
+                    &[
+                        Parameter::new("level", Effort),
+                        Parameter::new("travel", Travel),
+                    ]
+                }
+            }
+            Mechanism::BacklashWidth => const { &[Parameter::new("width", Travel)] },
+            Mechanism::CurrentHysteresis => {
+                const {
+                    &[
+                        Parameter::new("slope", EffortPerCurrent),
+                        Parameter::new("half_width", Current),
+                    ]
+                }
+            }
+            Mechanism::DeadTime => const { &[Parameter::new("delay", Time)] },
+            Mechanism::Saturation => const { &[Parameter::new("limit", Current)] },
+            Mechanism::ThermalFade => {
+                const {
+                    &[
+                        Parameter::new("per_joule", PerEnergy),
+                        Parameter::new("cooling", Time),
+                    ]
+                }
+            }
+            Mechanism::BearingFriction => const { &[Parameter::new("level", Effort)] },
+            Mechanism::Gravity => {
+                const {
+                    &[
+                        Parameter::new("x", Acceleration),
+                        Parameter::new("y", Acceleration),
+                    ]
+                }
+            }
+            Mechanism::InertiaError => {
+                const {
+                    &[
+                        Parameter::new("arm_ae", MomentOfInertia),
+                        Parameter::new("arm_bc", MomentOfInertia),
+                        Parameter::new("arm_ed", MomentOfInertia),
+                        Parameter::new("arm_cd", MomentOfInertia),
+                        Parameter::new("tip", Mass),
+                    ]
+                }
+            }
+            Mechanism::Payload => const { &[Parameter::new("mass", Mass)] },
+            Mechanism::ForceGain => const { &[Parameter::new("fraction", Number)] },
+            Mechanism::ForceBias => {
+                const { &[Parameter::new("x", Force), Parameter::new("y", Force)] }
+            }
+            Mechanism::ForceRotation => const { &[Parameter::new("angle", Angle)] },
             _ => &[],
         }
     }
@@ -261,6 +322,22 @@ pub enum Quantity {
     PerTravel,
     /// Effort over acceleration: mass or moment of inertia.
     Inertia,
+    /// Effort over current.
+    EffortPerCurrent,
+    /// Amperes.
+    Current,
+    /// One over joule.
+    PerEnergy,
+    /// Metres per squared second, whatever the plant does.
+    Acceleration,
+    /// Kilograms, whatever the plant does.
+    Mass,
+    /// Kilograms times squared metres, whatever the plant does.
+    MomentOfInertia,
+    /// Newtons, whatever the plant does.
+    Force,
+    /// Radians, whatever the plant does.
+    Angle,
 }
 
 /// Whether a plant slides or turns.
@@ -292,6 +369,18 @@ impl Quantity {
             Quantity::EffortPerTime => effort.per(Dimension::TIME),
             Quantity::PerTravel => Dimension::NUMBER.per(travel),
             Quantity::Inertia => effort.per(speed.per(Dimension::TIME)),
+            Quantity::EffortPerCurrent => effort.per(Dimension::CURRENT),
+            Quantity::Current => Dimension::CURRENT,
+            Quantity::PerEnergy => Dimension::NUMBER.per(Dimension::FORCE.times(Dimension::LENGTH)),
+            Quantity::Acceleration => Dimension::LENGTH.per(Dimension::TIME.power(2)),
+            Quantity::Mass => Dimension::FORCE
+                .per(Dimension::LENGTH)
+                .times(Dimension::TIME.power(2)),
+            Quantity::MomentOfInertia => Dimension::FORCE
+                .times(Dimension::LENGTH)
+                .times(Dimension::TIME.power(2)),
+            Quantity::Force => Dimension::FORCE,
+            Quantity::Angle => Dimension::ANGLE,
         }
     }
 }

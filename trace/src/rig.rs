@@ -5,6 +5,7 @@
 
 mod apply;
 mod brake;
+pub mod five_bar;
 pub mod linkage;
 mod messages;
 mod protocol;

@@ -15,7 +15,7 @@ use crate::shell;
 #[derive(clap::Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct Args {
-    /// The plant: axis (command in, position out) or bench (motion in, force or torque out)
+    /// The plant: axis (command in, position out), bench (motion in, force or torque out) or rig (the five-bar)
     #[arg(long, value_parser = parse_plant)]
     plant: Plant,
     /// The seed that everything follows from
@@ -33,7 +33,8 @@ pub struct Args {
 }
 
 const AFTER_HELP: &str = "\
-The strata: nothing, single, masked, late_onset, too_small, not_in_library, data_fault.
+The strata: nothing, single, masked, late_onset, too_small, not_in_library, data_fault; on the rig also noisy,
+in_loop, unidentifiable, wrong_inertia.
 The folder holds recording.csv, rig.toml and answer.sealed.
 
 Example:

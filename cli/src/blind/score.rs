@@ -81,7 +81,13 @@ pub fn named(report: &Value) -> Vec<String> {
         let onset = onset.map_or_else(String::new, |onset_s| {
             format!(", beginning at {} s", significant(onset_s, 4))
         });
-        format!("  {}: {}{onset}", name.unwrap_or("?"), numbers.join(", "))
+        let joint = effect.get("joint").and_then(Value::as_str);
+        let joint = joint.map_or_else(String::new, |joint| format!(" at {joint}"));
+        format!(
+            "  {}{joint}: {}{onset}",
+            name.unwrap_or("?"),
+            numbers.join(", ")
+        )
     });
     let lines: Vec<String> = lines.collect();
     if lines.is_empty() {
@@ -95,6 +101,10 @@ fn lines(score: &Score) -> Vec<String> {
     let yes = |holds: bool| if holds { "yes" } else { "no" };
     let mut lines = vec![
         format!("  the names are the true ones: {}", yes(score.exact)),
+        format!(
+            "  the mechanisms are, at any joint: {}",
+            yes(score.mechanism_exact)
+        ),
         format!(
             "  the truth is named, ambiguous with a name, or equivalent: {}",
             yes(score.inside)

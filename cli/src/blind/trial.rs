@@ -1,17 +1,20 @@
 //! This file makes, diagnoses and scores many recordings with hidden causes.
 
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use indicatif::ProgressBar;
 use rayon::prelude::*;
-use rigproof_blind::{Answer, Plant, Score, Table, make, open, score};
+use rigproof_blind::{Answer, Case, Plant, Score, Table, make, open, score};
 use rigproof_diagnose::{Options, diagnose};
 use rigproof_trace::rig::Rig;
+use rigproof_trace::store::{Folder, read_text};
 use serde_json::{Value, json};
 
 use super::claims::{CLAIMS, Measured};
+use super::make::{FILES, contents};
 use super::truth;
+use crate::folder::REPORT;
 use crate::outcome::{Failure, Outcome, print};
 use crate::progress;
 use crate::text::{join, section};
@@ -24,12 +27,18 @@ pub struct Args {
     /// The seeds, from the first to before the last
     #[arg(long, value_name = "FIRST..END", value_parser = parse_seeds)]
     seeds: Range<u64>,
-    /// The plant; both: even seeds on the axis, odd seeds on the bench
+    /// The plant; both: even seeds on the axis, odd seeds on the bench; rig: the five-bar
     #[arg(long, value_enum, default_value_t = Which::Both)]
     plant: Which,
     /// Recordings that are diagnosed at once; 0 takes every processor. The result does not depend on it
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = threads::parse)]
     jobs: usize,
+    /// Score reports that stand here already, FOLDER/SEED/report.json, instead of diagnosing
+    #[arg(long, value_name = "FOLDER")]
+    reports: Option<PathBuf>,
+    /// Write every miss as a recording that can be diagnosed again: FOLDER/SEED/ with the files of a case and the report
+    #[arg(long, value_name = "FOLDER")]
+    misses: Option<PathBuf>,
     /// Say what became of every seed
     #[arg(long)]
     details: bool,
@@ -43,11 +52,12 @@ enum Which {
     Axis,
     Bench,
     Both,
+    Rig,
 }
 
 const AFTER_HELP: &str = "\
 The naming alone is tried: each recording as a whole, without refit and without a held-out part.
-Exit code 1 says that a claim does not hold.
+Exit code 1 says that a claim does not hold. --reports scores anybody's diagnosis of the recordings that `blind make` writes.
 
 Example:
   rigproof blind trial --seeds 0..200 --jobs 8 --details";
@@ -74,13 +84,16 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     let tried = threads.install(|| {
         let cases = cases.par_iter().with_max_len(1);
         cases
-            .map(|&(plant, seed)| one(plant, seed, &bar))
+            .map(|&(plant, seed)| one(args, plant, seed, &bar))
             .collect::<Result<Vec<Tried>, Failure>>()
     })?;
     drop(bar);
     let mut table = Table::default();
     for case in &tried {
         table.add(case.answer.plant, case.answer.seed, case.score.clone());
+    }
+    if let Some(folder) = &args.misses {
+        write_misses(folder, &tried)?;
     }
     let claims: Vec<Measured<'_>> = CLAIMS.iter().map(|claim| claim.measure(&tried)).collect();
     if args.json {
@@ -89,6 +102,7 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
             "plant": assignment(args.plant),
             "protocol": table.protocol(),
             "rows": table.rows(),
+            "confusion": table.confusion(),
             "claims": claims.iter().map(Measured::json).collect::<Vec<_>>(),
             "cases": args.details.then(|| cases.collect::<Vec<_>>()),
         });
@@ -101,6 +115,7 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
                 table.to_string().trim_end().to_owned(),
                 assignment(args.plant).to_owned(),
             ],
+            section("Hidden: named", table.confusion_lines()),
             section("Claims", claims.iter().map(Measured::line)),
         ]))?;
     }
@@ -113,6 +128,7 @@ fn plant(which: Which, seed: u64) -> Plant {
     match which {
         Which::Axis => Plant::Axis,
         Which::Bench => Plant::Bench,
+        Which::Rig => Plant::Rig,
         Which::Both if seed.is_multiple_of(2) => Plant::Axis,
         Which::Both => Plant::Bench,
     }
@@ -122,25 +138,21 @@ const fn assignment(which: Which) -> &'static str {
     match which {
         Which::Axis => "Every seed is on the axis.",
         Which::Bench => "Every seed is on the bench.",
+        Which::Rig => "Every seed is on the five-bar.",
         Which::Both => "Even seeds are on the axis, odd seeds on the bench.",
     }
 }
 
-/// Makes, diagnoses and scores one case; a recording that cannot be read counts as a data fault.
-fn one(plant: Plant, seed: u64, bar: &ProgressBar) -> Result<Tried, Failure> {
+/// Makes, diagnoses and scores one case.
+fn one(args: &Args, plant: Plant, seed: u64, bar: &ProgressBar) -> Result<Tried, Failure> {
     let case = make(plant, seed, None)?;
-    let rig = Rig::parse(&case.rig_toml, Path::new("rig.toml"))?;
-    let options = Options {
-        refit: false,
-        hold_out_share: 0.0,
-        ..Options::default()
-    };
-    let report = match rig.apply(&case.trace, Path::new("recording.csv")) {
-        Ok(recording) => serde_json::to_value(diagnose(&rig, &recording, None, &options).report)
-            .map_err(|error| Failure::Input(format!("the report of seed {seed}: {error}")))?,
-        Err(error) => {
-            json!({ "verdict": "data_fault", "effects": [], "summary": error.to_string() })
+    let report = match &args.reports {
+        Some(folder) => {
+            let path = folder.join(seed.to_string()).join(REPORT);
+            serde_json::from_str(&read_text(&path)?)
+                .map_err(|error| Failure::unusable(&path, error.to_string()))?
         }
+        None => diagnosed(plant, seed, &case)?,
     };
     let answer = open(&case.sealed)?;
     let score = score(&answer, &report)?;
@@ -150,6 +162,44 @@ fn one(plant: Plant, seed: u64, bar: &ProgressBar) -> Result<Tried, Failure> {
         report,
         score,
     })
+}
+
+/// The report of a case; a recording that cannot be read counts as a data fault.
+fn diagnosed(plant: Plant, seed: u64, case: &Case) -> Result<Value, Failure> {
+    if plant == Plant::Rig {
+        let words = "the five-bar is not diagnosed by this program yet; give the reports of its cases with --reports";
+        return Err(Failure::Usage(words.to_owned()));
+    }
+    let rig = Rig::parse(&case.rig_toml, Path::new("rig.toml"))?;
+    let options = Options {
+        refit: false,
+        hold_out_share: 0.0,
+        ..Options::default()
+    };
+    match rig.apply(&case.trace, Path::new("recording.csv")) {
+        Ok(recording) => serde_json::to_value(diagnose(&rig, &recording, None, &options).report)
+            .map_err(|error| Failure::Input(format!("the report of seed {seed}: {error}"))),
+        Err(error) => {
+            Ok(json!({ "verdict": "data_fault", "effects": [], "summary": error.to_string() }))
+        }
+    }
+}
+
+/// Writes the cases that were missed, with their reports.
+fn write_misses(folder: &Path, tried: &[Tried]) -> Result<(), Failure> {
+    let folder = Folder::begin(folder)?;
+    for case in tried.iter().filter(|tried| tried.score.is_miss()) {
+        let (plant, seed) = (case.answer.plant, case.answer.seed);
+        let made = make(plant, seed, None)?;
+        for (name, bytes) in FILES.into_iter().zip(contents(&made)?) {
+            folder.write(&format!("{seed}/{name}"), &bytes)?;
+        }
+        folder.write(
+            &format!("{seed}/{REPORT}"),
+            case.report.to_string().as_bytes(),
+        )?;
+    }
+    Ok(folder.finish()?)
 }
 
 impl Tried {

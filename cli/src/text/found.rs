@@ -1,6 +1,6 @@
 //! This file says where a recording disagrees, how the cause was named, and what it is.
 
-use rigproof_diagnose::report::{EffectReport, Report};
+use rigproof_diagnose::report::{EffectReport, Located, Report};
 
 use super::number::{percent, significant, with_interval, with_unit};
 use super::section;
@@ -12,8 +12,8 @@ const PLACES: usize = 3;
 pub fn place(report: &Report) -> Vec<String> {
     let lines = report.located.iter().take(PLACES).map(|place| {
         format!(
-            "  {:<34} {} of what is unexplained (95 %: {} to {}), in {} of the time",
-            place.regime,
+            "  {:<38} {} of what is unexplained (95 %: {} to {}), in {} of the time",
+            regime(place),
             percent(place.share),
             percent(place.share_low95),
             percent(place.share_high95),
@@ -21,6 +21,21 @@ pub fn place(report: &Report) -> Vec<String> {
         )
     });
     section("Where the nominal model fails", lines)
+}
+
+/// A name with its joint, where there are several.
+pub fn at(name: &str, joint: Option<&str>) -> String {
+    match joint {
+        Some(joint) => format!("{name} at {joint}"),
+        None => name.to_owned(),
+    }
+}
+
+fn regime(place: &Located) -> String {
+    match place.joint {
+        Some(joint) => format!("joint {joint}, {}", place.regime),
+        None => place.regime.clone(),
+    }
 }
 
 /// How the mechanisms were named, one after another.
@@ -34,7 +49,8 @@ pub fn naming(report: &Report) -> Vec<String> {
     let mut lines = vec![line("nominal model", floor.measured_before, String::new())];
     lines.extend(report.stages.iter().map(|stage| {
         let standing = format!("   with {}", stage.standing.join(", "));
-        line(&format!("+ {}", stage.entered), stage.residual, standing)
+        let entered = at(stage.entered, stage.joint);
+        line(&format!("+ {entered}"), stage.residual, standing)
     }));
     if !report.stages.is_empty() {
         lines.push(line("what is named", floor.measured_after, String::new()));
@@ -72,7 +88,7 @@ pub fn inverse(report: &Report) -> Vec<String> {
 
 /// The mechanisms that are named.
 pub fn effects(report: &Report) -> Vec<String> {
-    let none: &[&str] = &[];
+    let none: &[String] = &[];
     let rivals = report.ambiguous_with.iter().map(Vec::as_slice);
     let rivals = rivals.chain(std::iter::repeat(none));
     let lines = report.effects.iter().zip(rivals);
@@ -82,8 +98,12 @@ pub fn effects(report: &Report) -> Vec<String> {
     )
 }
 
-fn one(effect: &EffectReport, rivals: &[&str]) -> Vec<String> {
-    let mut lines = vec![format!("  {}: {}", effect.mechanism, effect.equation)];
+fn one(effect: &EffectReport, rivals: &[String]) -> Vec<String> {
+    let mut lines = vec![format!(
+        "  {}: {}",
+        at(effect.mechanism, effect.joint),
+        effect.equation
+    )];
     let parameters = effect.parameters.iter();
     lines
         .extend(parameters.map(|(name, number)| format!("    {name} = {}", with_interval(number))));

@@ -2,6 +2,7 @@
 
 use rigproof_diagnose::report::{Report, Unknown};
 
+use super::found::at;
 use super::number::{percent, significant, with_unit};
 use super::section;
 
@@ -70,7 +71,7 @@ pub fn not_seen(report: &Report) -> Vec<String> {
     let lines = report.not_seen.iter().map(|bound| {
         format!(
             "  {:<34} from {}",
-            format!("{} {}", bound.mechanism, bound.parameter),
+            format!("{} {}", at(bound.mechanism, bound.joint), bound.parameter),
             with_unit(bound.minimum_detectable, &bound.unit),
         )
     });

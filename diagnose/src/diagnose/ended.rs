@@ -1,15 +1,13 @@
 //! This file answers for recordings from which nothing can be concluded.
 
-use super::{Curves, Diagnosis};
+use super::{Curves, Description, Diagnosis};
 use crate::align::Fault;
 use crate::report::{FaultReport, Report, SCHEMA, Verdict};
-use crate::run::Run;
-use rigproof_trace::rig::Rig;
 
 /// The answer where a channel is at fault; `which` says in which recording.
-pub(super) fn faulty(rig: &Rig, which: &str, fault: Fault) -> Diagnosis {
+pub(crate) fn faulty(description: Description, which: &str, fault: Fault) -> Diagnosis {
     let mut diagnosis = empty(
-        rig,
+        description,
         Verdict::DataFault,
         format!(
             "the {which} is at fault: {} from {:.3} to {:.3} s: {}",
@@ -26,33 +24,36 @@ pub(super) fn faulty(rig: &Rig, which: &str, fault: Fault) -> Diagnosis {
 }
 
 /// The answer where the motion is too small or too short.
-pub(super) fn not_excited(rig: &Rig, run: &Run, usable: usize) -> Diagnosis {
+pub(crate) fn not_excited(
+    description: Description,
+    usable: usize,
+    travel: f64,
+    noise: f64,
+) -> Diagnosis {
     empty(
-        rig,
+        description,
         Verdict::NotExcited,
         format!(
-            "the recording moves too little: {usable} usable windows, travel {:.3e} against a position noise of {:.3e}",
-            run.travel(),
-            run.position_noise
+            "the recording moves too little: {usable} usable windows, travel {travel:.3e} against a position noise of {noise:.3e}"
         ),
     )
 }
 
-fn empty(rig: &Rig, verdict: Verdict, summary: String) -> Diagnosis {
+fn empty(description: Description, verdict: Verdict, summary: String) -> Diagnosis {
     Diagnosis {
-        report: blank(rig, verdict, summary),
-        calibration: rig.clone(),
+        report: blank(description.plant_name(), verdict, summary),
+        calibration: description,
         curves: Curves::default(),
     }
 }
 
 /// A report that says what was concluded and nothing else.
-pub(super) fn blank(rig: &Rig, verdict: Verdict, summary: String) -> Report {
+pub(crate) fn blank(plant: &'static str, verdict: Verdict, summary: String) -> Report {
     Report {
         schema: SCHEMA,
         tool: concat!("rigproof ", env!("CARGO_PKG_VERSION")).to_owned(),
         inputs: Vec::new(),
-        plant: rig.plant.name(),
+        plant,
         verdict,
         summary,
         protocol: Vec::new(),

@@ -32,7 +32,7 @@ impl Stand<'_> {
             .iter()
             .zip(&coefficients)
             .map(|(term, own)| Effect {
-                mechanism: term.mechanism,
+                mechanism: term.cause.mechanism,
                 parameters: parameters(term, own),
                 onset_s: term.onset_s,
             })

@@ -10,8 +10,9 @@ impl Stand<'_> {
         let stages = self.selection.stages.iter();
         stages
             .map(|stage| StageReport {
-                entered: stage.entered.name(),
-                standing: stage.standing.iter().map(|m| m.name()).collect(),
+                entered: stage.entered.mechanism.name(),
+                joint: None,
+                standing: stage.standing.iter().map(|c| c.name()).collect(),
                 residual: stage.residual,
                 inverse_error_percent: self.inverse_error_percent(Some(stage)),
             })
@@ -32,12 +33,14 @@ impl Stand<'_> {
     fn inverse_error_percent(&self, stage: Option<&Stage>) -> Option<f64> {
         let nominal = self.selection.nominal.iter();
         let mut laws: Vec<_> = nominal
-            .map(|t| (t.mechanism, t.shape.clone(), t.onset_s))
+            .map(|t| (t.cause.mechanism, t.shape.clone(), t.onset_s))
             .collect();
         if let Some(stage) = stage {
             let shapes = stage.shapes.iter().cloned();
             let standing = stage.standing.iter().copied().zip(shapes);
-            laws.extend(standing.map(|(mechanism, (shape, onset_s))| (mechanism, shape, onset_s)));
+            laws.extend(
+                standing.map(|(cause, (shape, onset_s))| (cause.mechanism, shape, onset_s)),
+            );
         }
         let from_start = |(mechanism, shape, onset_s)| match onset_s {
             None => Some((mechanism, shape)),

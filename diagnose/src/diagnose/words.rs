@@ -69,11 +69,11 @@ impl Stand<'_> {
     }
 }
 
-pub(super) fn summary(verdict: Verdict, selection: &Selection, fit: Option<&FitReport>) -> String {
-    let names: Vec<&str> = selection
+pub(crate) fn summary(verdict: Verdict, selection: &Selection, fit: Option<&FitReport>) -> String {
+    let names: Vec<String> = selection
         .found
         .iter()
-        .map(|f| f.term.mechanism.name())
+        .map(|f| f.term.cause.name())
         .collect();
     let named = names.join(", ");
     let shown = match fit.and_then(|f| f.held_out.map(|h| (h, f))) {

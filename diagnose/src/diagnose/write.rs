@@ -2,11 +2,11 @@
 
 use super::ended::blank;
 use super::words::summary;
-use super::{Curves, Diagnosis, Options};
+use super::{Curves, Description, Diagnosis, Options};
 use crate::evidence::{inclusion, not_seen, null_directions, rivals, standard_errors};
 use crate::from_rig;
 use crate::locate::locate;
-use crate::problem::Problem;
+use crate::problem::{Cause, Problem};
 use crate::report::{EffectReport, Floor, Report, Verdict};
 use crate::run::{PlantKind, Run};
 use crate::select::{FLOOR_RATIO, Selection, refs, usable_rms};
@@ -14,15 +14,42 @@ use crate::simulate::{Plant, Protocol, output};
 use crate::unknown::unknown;
 use crate::write_rig::{calibrated, nominal_numbers, numbers};
 use rigproof_model::effects::entry;
-use rigproof_spec::effect::{Mechanism, Quantity};
+use rigproof_spec::effect::{Mechanism, Motion, Quantity};
 use rigproof_trace::rig::Rig;
+
+/// The residual of the windows against what sensor noise predicts.
+pub(crate) fn floor(problem: &Problem, selection: &Selection, motion: Motion) -> Floor {
+    let predicted = problem.floor;
+    let before = usable_rms(problem, &selection.before.residual);
+    let after = usable_rms(problem, &selection.after.residual);
+    Floor {
+        predicted,
+        measured_before: before,
+        measured_after: after,
+        ratio_before: before / predicted,
+        ratio_after: after / predicted,
+        unit: Quantity::Effort.dimension(motion).to_string(),
+    }
+}
+
+/// What a selection comes to.
+pub(crate) fn verdict(selection: &Selection, floor: &Floor, rivals: &[Vec<Cause>]) -> Verdict {
+    let explained = floor.ratio_after <= FLOOR_RATIO;
+    match (selection.found.is_empty(), explained) {
+        (true, true) => Verdict::Consistent,
+        (true, false) => Verdict::NoneOfLibrary,
+        (false, false) => Verdict::PartlyExplained,
+        (false, true) if rivals.iter().any(|r| !r.is_empty()) => Verdict::Ambiguous,
+        (false, true) => Verdict::Explained,
+    }
+}
 
 /// Everything the report is written from.
 pub(super) struct Stand<'a> {
     pub(super) rig: &'a Rig,
     pub(super) problem: &'a Problem<'a>,
     pub(super) selection: &'a Selection,
-    pub(super) withdrawn: &'a [Mechanism],
+    pub(super) withdrawn: &'a [Cause],
     pub(super) train: &'a Run,
     pub(super) test: &'a Run,
     pub(super) options: &'a Options,
@@ -36,11 +63,12 @@ impl Stand<'_> {
         let fitted = self.fit(&protocol);
         let rivals = self.rivals();
         let floor = self.floor();
-        let verdict = self.verdict(&floor, &rivals);
+        let verdict = verdict(self.selection, &floor, &rivals);
         let unknown = (floor.ratio_after > FLOOR_RATIO)
             .then(|| {
                 unknown(
                     self.problem,
+                    self.train,
                     &self.selection.after.residual,
                     self.rig.motion,
                 )
@@ -61,6 +89,7 @@ impl Stand<'_> {
             floor: Some(floor),
             located: locate(
                 self.problem,
+                self.train,
                 &self.selection.before.residual,
                 &self.selection.after.residual,
             ),
@@ -68,15 +97,15 @@ impl Stand<'_> {
             effects: self.effects(&calibration),
             ambiguous_with: rivals
                 .iter()
-                .map(|r| r.iter().map(|m| m.name()).collect())
+                .map(|r| r.iter().map(|cause| cause.name()).collect())
                 .collect(),
             too_small_to_name: self
                 .selection
                 .too_small
                 .iter()
-                .map(|m| m.name().to_owned())
+                .map(|cause| cause.name())
                 .collect(),
-            withdrawn: self.withdrawn.iter().map(|m| m.name()).collect(),
+            withdrawn: self.withdrawn.iter().map(|cause| cause.name()).collect(),
             nominal: nominal_numbers(self.rig, &calibration),
             inverse_model: self.inverse_model(),
             not_seen: not_seen(
@@ -88,29 +117,29 @@ impl Stand<'_> {
             null_directions: null_directions(self.problem, self.selection),
             unknown,
             fit,
-            ..blank(self.rig, verdict, summary)
+            ..blank(self.rig.plant.name(), verdict, summary)
         };
         let curves = self.curves(&plants.0, &plants.1, &protocol);
         Diagnosis {
             report,
-            calibration,
+            calibration: Description::Joint(calibration),
             curves,
         }
     }
 
     /// For each effect, what explains as much in its place: measured rivals, and the twin that no recording of this
     /// plant can tell: a constant that changes no sign with the motion is a bias or a direction asymmetry.
-    fn rivals(&self) -> Vec<Vec<Mechanism>> {
+    fn rivals(&self) -> Vec<Vec<Cause>> {
         let mut all = rivals(self.problem, self.selection);
         for (rivals, found) in all.iter_mut().zip(&self.selection.found) {
-            let twin = match found.term.mechanism {
-                Mechanism::ConstantBias => Mechanism::DirectionAsymmetry,
-                Mechanism::DirectionAsymmetry => Mechanism::ConstantBias,
+            let twin = match found.term.cause.mechanism {
+                Mechanism::ConstantBias => Cause::of(Mechanism::DirectionAsymmetry),
+                Mechanism::DirectionAsymmetry => Cause::of(Mechanism::ConstantBias),
                 _ => continue,
             };
             let taken = refs(&self.selection.nominal, &self.selection.found)
                 .iter()
-                .any(|t| t.mechanism == twin);
+                .any(|t| t.cause == twin);
             if !taken && !rivals.contains(&twin) {
                 rivals.push(twin);
             }
@@ -119,28 +148,7 @@ impl Stand<'_> {
     }
 
     pub(super) fn floor(&self) -> Floor {
-        let predicted = self.problem.floor;
-        let before = usable_rms(self.problem, &self.selection.before.residual);
-        let after = usable_rms(self.problem, &self.selection.after.residual);
-        Floor {
-            predicted,
-            measured_before: before,
-            measured_after: after,
-            ratio_before: before / predicted,
-            ratio_after: after / predicted,
-            unit: Quantity::Effort.dimension(self.rig.motion).to_string(),
-        }
-    }
-
-    fn verdict(&self, floor: &Floor, rivals: &[Vec<Mechanism>]) -> Verdict {
-        let explained = floor.ratio_after <= FLOOR_RATIO;
-        match (self.selection.found.is_empty(), explained) {
-            (true, true) => Verdict::Consistent,
-            (true, false) => Verdict::NoneOfLibrary,
-            (false, false) => Verdict::PartlyExplained,
-            (false, true) if rivals.iter().any(|r| !r.is_empty()) => Verdict::Ambiguous,
-            (false, true) => Verdict::Explained,
-        }
+        floor(self.problem, self.selection, self.rig.motion)
     }
 
     fn effects(&self, calibration: &Rig) -> Vec<EffectReport> {
@@ -150,10 +158,10 @@ impl Stand<'_> {
             .iter()
             .enumerate()
             .filter_map(|(index, found)| {
-                let entry = entry(found.term.mechanism)?;
+                let entry = entry(found.term.cause.mechanism)?;
                 let fitted = calibration.effects.get(offset + index)?;
                 Some(EffectReport {
-                    mechanism: found.term.mechanism.name(),
+                    mechanism: found.term.cause.mechanism.name(),
                     joint: None,
                     parameters: numbers(fitted, self.rig.motion),
                     onset_s: found.term.onset_s,

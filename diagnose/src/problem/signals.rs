@@ -13,7 +13,7 @@ pub fn lagged_yield(predicted: &[f64], step_s: f64, time_constant_s: f64) -> Vec
 }
 
 /// Numerov's weights 1/12, 10/12, 1/12; the end samples stay.
-pub(super) fn numerov(signal: &[f64]) -> Vec<f64> {
+pub fn numerov(signal: &[f64]) -> Vec<f64> {
     let mut out = signal.to_vec();
     for (value, window) in out.iter_mut().skip(1).zip(signal.windows(3)) {
         if let [a, b, c] = window {

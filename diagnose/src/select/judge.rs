@@ -8,7 +8,6 @@ use super::{FLOOR_RATIO, Found, Gates, TIE_Z};
 use crate::candidates::is_at_edge;
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, Fit, fit, nested_block_losses, paired};
-use crate::run::rms;
 use rigproof_model::effects::entry;
 
 /// A candidate that passed the gates.
@@ -63,7 +62,7 @@ fn linearised(problem: &Problem, common: &[&Term], list: Vec<Term>, blocks: &Blo
         .map(|t| {
             let effort = effort_beside(problem, common, &t, blocks);
             effort
-                .and_then(|e| problem.drive_term(t.mechanism, &t.shape, t.onset_s, &e))
+                .and_then(|e| problem.drive_term(t.cause, &t.shape, t.onset_s, &e))
                 .unwrap_or(t)
         })
         .collect()
@@ -87,14 +86,14 @@ fn judge(
     let expected = excitation(&term, own, blocks);
     let (gain, z) = paired(&current.block_loss, &losses, &expected);
     let share = 1.0 - losses.iter().sum::<f64>() / current.left_out().max(1e-300);
-    let least = gates.relevance * rms(&problem.windows.average(&problem.run.effort));
+    let least = gates.relevance * problem.effort_size;
     let passes = gain > 0.0
         && z >= gates.z
         && share >= gates.share
         && contribution(problem, &term, own) >= least
         && !drives(&term, own)
         && !is_at_edge(problem, &term);
-    let linear = entry(term.mechanism)?.linear;
+    let linear = entry(term.cause.mechanism)?.linear;
     passes.then(|| Trial {
         parameters: linear + term.shape.len() + usize::from(term.onset_s.is_some()),
         found: Found {

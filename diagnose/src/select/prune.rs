@@ -3,9 +3,8 @@
 use super::refine::refine;
 use super::weigh::{coefficients_of, drives, excitation, usable_rms};
 use super::{FLOOR_RATIO, Found, Gates, TIE_Z, refs};
-use crate::problem::{Problem, Term};
+use crate::problem::{Cause, Problem, Term};
 use crate::regression::{Blocks, fit, paired};
-use rigproof_spec::effect::Mechanism;
 
 /// Drops every found mechanism that the others, with their shapes adjusted, make unnecessary.
 pub(super) fn backward(
@@ -52,7 +51,7 @@ pub(super) fn prune(
     nominal: &[Term],
     found: &mut Vec<Found>,
     blocks: &Blocks,
-) -> Vec<Mechanism> {
+) -> Vec<Cause> {
     let mut taken_out = Vec::new();
     loop {
         let current = fit(problem, &refs(nominal, found), blocks);
@@ -68,7 +67,7 @@ pub(super) fn prune(
             .min_by(|a, b| a.0.total_cmp(&b.0));
         match weakest {
             Some((own, index)) if own < OWN_TO_UNEXPLAINED * unexplained => {
-                taken_out.push(found.remove(index).term.mechanism);
+                taken_out.push(found.remove(index).term.cause);
             }
             _ => return taken_out,
         }

@@ -45,9 +45,9 @@ pub(crate) fn refined(problem: &Problem, common: &[&Term], start: Term, blocks: 
     let fitted = fit(problem, common, blocks);
     let effort = effort_beside(problem, common, &start, blocks)
         .unwrap_or_else(|| modelled_effort(problem, common, &fitted));
-    let bounds = shape_bounds(problem, start.mechanism);
+    let bounds = shape_bounds(problem, start.cause);
     let mut best = (score(&start), start);
-    let mut stride = if best.1.mechanism == Mechanism::Ripple {
+    let mut stride = if best.1.cause.mechanism == Mechanism::Ripple {
         0.004
     } else {
         0.3
@@ -121,14 +121,14 @@ fn moved(
             return None;
         }
     }
-    let length_s = problem.run.duration_s();
+    let length_s = problem.plant.duration_s();
     let mut onset_s = term.onset_s;
     if let (Some(onset), Some(along)) = (&mut onset_s, direction.get(term.shape.len())) {
         *onset += 0.15 * stride * along * length_s;
-        let share = (*onset - problem.run.start_s) / length_s;
+        let share = (*onset - problem.plant.start_s()) / length_s;
         if !(ONSET_MARGIN..1.0 - ONSET_MARGIN).contains(&share) {
             return None;
         }
     }
-    realise(problem, term.mechanism, &shape, onset_s, effort)
+    realise(problem, term.cause, &shape, onset_s, effort)
 }

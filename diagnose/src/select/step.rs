@@ -2,8 +2,8 @@
 
 use super::judge::{SIMPLER_SHARE, Trial, simplest, trials};
 use super::{Found, Gates, TIE_Z, refs};
-use crate::candidates::{mechanisms, modelled_effort, realise, variants};
-use crate::problem::{Problem, Term};
+use crate::candidates::{causes, modelled_effort, realise, variants};
+use crate::problem::{Cause, Problem, Term};
 use crate::regression::{Blocks, fit, paired};
 use rigproof_spec::effect::Mechanism;
 
@@ -45,7 +45,7 @@ pub(super) fn forward(
     let (late, _) = trials(problem, &common, &current, onsets, blocks, gates);
     let (elementary, others): (Vec<Trial>, Vec<Trial>) = early
         .into_iter()
-        .partition(|t| ELEMENTARY.contains(&t.found.term.mechanism));
+        .partition(|t| ELEMENTARY.contains(&t.found.term.cause.mechanism));
     let without = current.left_out();
     let ranked = [
         (simplest(elementary, without), ELEMENTARY_SHARE),
@@ -107,19 +107,19 @@ pub(super) fn swap(
     }
 }
 
-/// Mechanisms that are neither nominal nor found.
-pub(super) fn open(problem: &Problem, nominal: &[Term], found: &[Found]) -> Vec<Mechanism> {
-    let taken: Vec<Mechanism> = refs(nominal, found).iter().map(|t| t.mechanism).collect();
-    mechanisms(problem)
+/// Causes that are neither nominal nor found.
+pub(super) fn open(problem: &Problem, nominal: &[Term], found: &[Found]) -> Vec<Cause> {
+    let taken: Vec<Cause> = refs(nominal, found).iter().map(|t| t.cause).collect();
+    causes(problem)
         .into_iter()
-        .filter(|m| !taken.contains(m))
+        .filter(|cause| !taken.contains(cause))
         .collect()
 }
 
 /// A term that begins at twelfths of the recording, ends left out.
 fn with_onsets(problem: &Problem, term: &Term, effort: &[f64]) -> Vec<Term> {
     (2..=10)
-        .map(|k| problem.run.start_s + problem.run.duration_s() * k as f64 / 12.0)
-        .filter_map(|t| realise(problem, term.mechanism, &term.shape, Some(t), effort))
+        .map(|k| problem.plant.start_s() + problem.plant.duration_s() * k as f64 / 12.0)
+        .filter_map(|t| realise(problem, term.cause, &term.shape, Some(t), effort))
         .collect()
 }

@@ -72,7 +72,7 @@ pub fn usable_rms(problem: &Problem, values: &[f64]) -> f64 {
 
 /// Whether a passive mechanism came out with a sign that gives energy.
 pub(super) fn drives(term: &Term, own: &[f64]) -> bool {
-    let passive = entry(term.mechanism).is_some_and(|e| e.passive);
+    let passive = entry(term.cause.mechanism).is_some_and(|e| e.passive);
     passive && own.first().is_some_and(|c| *c < 0.0)
 }
 
@@ -101,7 +101,7 @@ pub(super) fn effort_beside(
         terms.push(&term);
         let fitted = fit(problem, &terms, blocks);
         effort = modelled_effort(problem, common, &fitted);
-        term = problem.drive_term(term.mechanism, &term.shape, term.onset_s, &effort)?;
+        term = problem.drive_term(term.cause, &term.shape, term.onset_s, &effort)?;
     }
     Some(effort)
 }

@@ -187,6 +187,11 @@ impl TwoCoordinate {
         (self.tip * Vector2::from(rates_rad_s)).into()
     }
 
+    /// The velocities of the centres of mass of arms ED and CD by u, m/rad: 2×2 each, rows x, y.
+    pub const fn centres(&self) -> &[Matrix2<f64>; 2] {
+        &self.centres
+    }
+
     /// The velocities of the centres of mass of arms ED and CD, m/s.
     pub fn centre_velocities_m_s(&self, rates_rad_s: [f64; 2]) -> [[f64; 2]; 2] {
         self.centres

@@ -81,7 +81,7 @@ impl Rig {
     /// # Errors
     /// A channel of the rig is missing, or its unit in the header does not convert to the rig's.
     pub fn apply(&self, trace: &Trace, origin: &Path) -> Result<Recording, TraceError> {
-        let signal = |map: &ChannelMap| self.signal(map, trace, origin);
+        let signal = |map: &ChannelMap| signal(map, &self.name, trace, origin);
         let optional = |map: &Option<ChannelMap>| map.as_ref().map(signal).transpose();
         Ok(Recording {
             plant: self.plant,
@@ -96,52 +96,57 @@ impl Rig {
             simulated: optional(&self.channels.simulated)?,
         })
     }
+}
 
-    fn signal(&self, map: &ChannelMap, trace: &Trace, origin: &Path) -> Result<Signal, TraceError> {
-        let refused = |problem: String| TraceError::recording(origin, problem);
-        let name = map.channel.as_str();
-        let Some(channel) = trace.channel(name) else {
-            let names: Vec<&str> = trace.channels.iter().map(|c| c.name.as_str()).collect();
-            let advice = advice(name, "channels of the recording", &names);
-            let rig = &self.name;
-            return Err(refused(format!(
-                "the channel `{name}` of the rig `{rig}` is missing: correct the rig file, or it is the recording of another plant; {advice}"
-            )));
-        };
-        let rig_unit = Unit::parse(&map.unit).ok_or_else(|| {
+/// One channel of a recording in SI units; `rig` is the name of the description.
+pub(super) fn signal(
+    map: &ChannelMap,
+    rig: &str,
+    trace: &Trace,
+    origin: &Path,
+) -> Result<Signal, TraceError> {
+    let refused = |problem: String| TraceError::recording(origin, problem);
+    let name = map.channel.as_str();
+    let Some(channel) = trace.channel(name) else {
+        let names: Vec<&str> = trace.channels.iter().map(|c| c.name.as_str()).collect();
+        let advice = advice(name, "channels of the recording", &names);
+        return Err(refused(format!(
+            "the channel `{name}` of the rig `{rig}` is missing: correct the rig file, or it is the recording of another plant; {advice}"
+        )));
+    };
+    let rig_unit = Unit::parse(&map.unit).ok_or_else(|| {
+        refused(format!(
+            "`{}`, the unit of `{name}` in the rig, is no known unit",
+            map.unit
+        ))
+    })?;
+    let header_unit = match channel.unit.as_str() {
+        "" => Some(rig_unit),
+        printed => Unit::parse(printed),
+    };
+    let header_unit = header_unit
+        .filter(|unit| unit.dimension == rig_unit.dimension)
+        .ok_or_else(|| {
             refused(format!(
-                "`{}`, the unit of `{name}` in the rig, is no known unit",
-                map.unit
+                "the column `{name}` is in `{}`, which does not convert to `{}`, its unit in the rig; correct the one that is wrong",
+                channel.unit, map.unit
             ))
         })?;
-        let header_unit = match channel.unit.as_str() {
-            "" => Some(rig_unit),
-            printed => Unit::parse(printed),
-        };
-        let header_unit = header_unit
-            .filter(|unit| unit.dimension == rig_unit.dimension)
-            .ok_or_else(|| {
-                refused(format!(
-                    "the column `{name}` is in `{}`, which does not convert to `{}`, its unit in the rig; correct the one that is wrong",
-                    channel.unit, map.unit
-                ))
-            })?;
-        let to_rig_unit = header_unit.to_si / rig_unit.to_si;
-        let to_si = map.sign * map.scale * rig_unit.to_si;
-        let in_si = |magnitude: Option<f64>| magnitude.map(|x| x * to_si.abs());
-        Ok(Signal {
-            channel: name.to_string(),
-            dimension: rig_unit.dimension,
-            samples: channel
-                .samples
-                .iter()
-                .map(|recorded| to_si * (recorded * to_rig_unit - map.offset))
-                .collect(),
-            quantum: in_si(map.quantum),
-            noise: in_si(map.noise),
-            limit: in_si(map.limit),
-        })
-    }
+    let to_rig_unit = header_unit.to_si / rig_unit.to_si;
+    let to_si = map.sign * map.scale * rig_unit.to_si;
+    let in_si = |magnitude: Option<f64>| magnitude.map(|x| x * to_si.abs());
+    Ok(Signal {
+        channel: name.to_string(),
+        dimension: rig_unit.dimension,
+        samples: channel
+            .samples
+            .iter()
+            .map(|recorded| to_si * (recorded * to_rig_unit - map.offset))
+            .collect(),
+        quantum: in_si(map.quantum),
+        noise: in_si(map.noise),
+        limit: in_si(map.limit),
+    })
 }
 
 #[cfg(test)]

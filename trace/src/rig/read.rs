@@ -1,5 +1,6 @@
 //! This file reads a rig description from TOML and refuses what it does not know.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use rigproof_spec::effect::{Mechanism, Motion, Quantity};
@@ -60,22 +61,11 @@ impl Rig {
             effects: root
                 .tables("effect")?
                 .iter()
-                .map(|table| read_effect(table, motion))
+                .map(|table| read_effect(table, motion, &[]))
                 .collect::<Result<_, _>>()?,
             protocol: Protocol::read(&root)?,
             text: text::read(&root)?,
-            provenance: match root.table("provenance")? {
-                Some(table) => table
-                    .keys()
-                    .map(|key| {
-                        Ok((
-                            key.to_string(),
-                            table.need(key, table.text(key)?)?.to_string(),
-                        ))
-                    })
-                    .collect::<Result<_, TraceError>>()?,
-                None => Default::default(),
-            },
+            provenance: read_provenance(&root)?,
             channels,
         })
     }
@@ -137,7 +127,20 @@ fn read_channels(table: &Table<'_>, plant: Plant, motion: Motion) -> Result<Chan
     Ok(channels)
 }
 
-fn read_time(table: &Table<'_>) -> Result<Option<TimeColumn>, TraceError> {
+pub(super) fn read_provenance(root: &Table<'_>) -> Result<BTreeMap<String, String>, TraceError> {
+    let Some(table) = root.table("provenance")? else {
+        return Ok(BTreeMap::new());
+    };
+    table
+        .keys()
+        .map(|key| {
+            let words = table.need(key, table.text(key)?)?;
+            Ok((key.to_string(), words.to_string()))
+        })
+        .collect()
+}
+
+pub(super) fn read_time(table: &Table<'_>) -> Result<Option<TimeColumn>, TraceError> {
     let Some(table) = table.table("time")? else {
         return Ok(None);
     };
@@ -151,7 +154,7 @@ fn read_time(table: &Table<'_>) -> Result<Option<TimeColumn>, TraceError> {
     }))
 }
 
-fn read_channel(
+pub(super) fn read_channel(
     table: &Table<'_>,
     role: &str,
     expected: Option<Dimension>,
@@ -211,7 +214,12 @@ fn read_parameters(
     }))
 }
 
-fn read_effect(table: &Table<'_>, motion: Motion) -> Result<RigEffect, TraceError> {
+/// A mechanism with its parameters; `other_keys` are read by somebody else.
+pub(super) fn read_effect(
+    table: &Table<'_>,
+    motion: Motion,
+    other_keys: &[&str],
+) -> Result<RigEffect, TraceError> {
     let word = table.need("mechanism", table.text("mechanism")?)?;
     let mechanism = Mechanism::from_name(word)
         .filter(|mechanism| !mechanism.parameters().is_empty())
@@ -223,6 +231,7 @@ fn read_effect(table: &Table<'_>, motion: Motion) -> Result<RigEffect, TraceErro
         })?;
     let parameters = mechanism.parameters();
     let mut known = vec!["mechanism", "onset"];
+    known.extend(other_keys);
     known.extend(parameters.iter().map(|parameter| parameter.name));
     table.only(&known)?;
     let mut values = Vec::with_capacity(parameters.len());

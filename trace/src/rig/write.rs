@@ -1,9 +1,12 @@
 //! This file writes a rig description as TOML that reads back bit for bit.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use rigproof_spec::effect::{Motion, Quantity};
 use rigproof_spec::units::Dimension;
+
+use crate::csv::TimeColumn;
 
 use super::{Brake, ChannelMap, Rig, RigEffect, Status, Value, motion_name, text};
 
@@ -33,29 +36,16 @@ impl Rig {
         }
         lines.extend(self.brake.iter().flat_map(Brake::lines));
         for effect in &self.effects {
-            write_effect(effect, self.motion, &mut lines);
+            lines.extend(effect_lines(effect, self.motion));
         }
         lines.extend(self.protocol.lines());
-        if !self.provenance.is_empty() {
-            lines.push("\n[provenance]".into());
-            let entries = self.provenance.iter();
-            lines.extend(entries.map(|(key, text)| format!("{} = {}", string(key), string(text))));
-        }
+        lines.extend(provenance_lines(&self.provenance));
         lines.join("\n") + "\n"
     }
 
     fn write_channels(&self, lines: &mut Vec<String>) {
         lines.push("\n[channels]".into());
-        if let Some(time) = &self.channels.time {
-            let unit = match time.unit.as_str() {
-                "" => String::new(),
-                unit => format!(", unit = {}", string(unit)),
-            };
-            lines.push(format!(
-                "time = {{ channel = {}{unit} }}",
-                string(&time.name)
-            ));
-        }
+        lines.extend(self.channels.time.as_ref().map(time_line));
         let effort = match self.motion {
             Motion::Linear => "force",
             Motion::Rotary => "torque",
@@ -73,18 +63,37 @@ impl Rig {
     }
 }
 
-fn write_effect(effect: &RigEffect, motion: Motion, lines: &mut Vec<String>) {
-    lines.push("\n[[effect]]".into());
-    lines.push(format!("mechanism = {}", string(effect.mechanism.name())));
+pub(super) fn time_line(time: &TimeColumn) -> String {
+    let unit = match time.unit.as_str() {
+        "" => String::new(),
+        unit => format!(", unit = {}", string(unit)),
+    };
+    format!("time = {{ channel = {}{unit} }}", string(&time.name))
+}
+
+pub(super) fn provenance_lines(provenance: &BTreeMap<String, String>) -> Vec<String> {
+    let title = (!provenance.is_empty()).then(|| "\n[provenance]".to_owned());
+    let entries = provenance.iter();
+    let entries = entries.map(|(key, text)| format!("{} = {}", string(key), string(text)));
+    title.into_iter().chain(entries).collect()
+}
+
+/// The title of the table, the mechanism, then its parameters.
+pub(super) fn effect_lines(effect: &RigEffect, motion: Motion) -> Vec<String> {
+    let mut lines = vec![
+        "\n[[effect]]".to_owned(),
+        format!("mechanism = {}", string(effect.mechanism.name())),
+    ];
     for (parameter, number) in effect.mechanism.parameters().iter().zip(&effect.values) {
         let dimension = parameter.quantity.dimension(motion);
         lines.push(format!("{} = {}", parameter.name, value(number, dimension)));
     }
     let onset = effect.onset.as_ref();
     lines.extend(onset.map(|onset| format!("onset = {}", value(onset, Dimension::TIME))));
+    lines
 }
 
-fn channel(map: &ChannelMap) -> String {
+pub(super) fn channel(map: &ChannelMap) -> String {
     let mut text = format!(
         "{{ channel = {}, unit = {}",
         string(&map.channel),

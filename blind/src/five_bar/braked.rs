@@ -1,0 +1,249 @@
+//! This file is a brake of the five-bar with what is hidden in it, beside the brake that the nominal model knows.
+
+use super::law::{Effect, Law};
+use super::preisach::Preisach;
+use crate::brake::{Brake, BrakeStep};
+use crate::law as plain;
+use rigproof_spec::joint::Joint;
+
+/// Heat capacity of the fluid, J/K: some ten millilitres of oil and iron.
+const FLUID_J_PER_K: f64 = 30.0;
+/// Heat capacity of the housing, J/K.
+const HOUSING_J_PER_K: f64 = 400.0;
+/// Conductance from fluid to housing, W/K.
+const FLUID_TO_HOUSING_W_PER_K: f64 = 0.5;
+/// Conductance from housing to air, W/K.
+const HOUSING_TO_AIR_W_PER_K: f64 = 0.5;
+/// The yield does not fall below this share of the cold one.
+const LEAST_SHARE: f64 = 0.3;
+
+/// A brake, true and nominal, and its hidden effects.
+#[derive(Clone, Debug)]
+pub struct Braked {
+    nominal: Brake,
+    /// The brake with what is hidden ahead of its yield; the nominal one where nothing is.
+    upstream: Option<Brake>,
+    effects: Vec<(usize, Effect)>,
+    preisach: Preisach,
+    lagged_nm: f64,
+    fluid_k: f64,
+    housing_k: f64,
+    /// Travel since the last reversal, signed, rad.
+    travel_rad: f64,
+    angle_rad: f64,
+    time_s: f64,
+}
+
+impl Braked {
+    /// The brake of a joint, settled without current, with the effects that act in it and their numbers.
+    pub fn new(joint: Joint, effects: Vec<(usize, Effect)>, angle_rad: f64) -> Braked {
+        let width = effects.iter().find_map(|(_, effect)| match effect.law {
+            Law::Backlash { width } => {
+                Some(plain::Effect::always(plain::Law::BacklashWidth { width }))
+            }
+            _ => None,
+        });
+        let nominal = Brake::new(joint, None, angle_rad);
+        let is_upstream = |(_, effect): &(usize, Effect)| {
+            matches!(effect.law, Law::Backlash { .. } | Law::Preisach { .. })
+        };
+        let upstream = effects.iter().any(is_upstream);
+        Braked {
+            lagged_nm: nominal.yield_nm(),
+            nominal,
+            upstream: upstream.then(|| Brake::new(joint, width, angle_rad)),
+            effects,
+            preisach: Preisach::new(),
+            fluid_k: 0.0,
+            housing_k: 0.0,
+            // No reversal yet.
+            travel_rad: f64::INFINITY,
+            angle_rad,
+            time_s: 0.0,
+        }
+    }
+
+    /// Moves the brake over a step that ends at `time_s`.
+    pub fn step(&mut self, time_s: f64, step: &BrakeStep) {
+        self.nominal.step(time_s, step);
+        self.time_s = time_s;
+        let travel = step.position_rad - self.angle_rad;
+        self.angle_rad = step.position_rad;
+        if travel * self.travel_rad < 0.0 {
+            self.travel_rad = travel;
+        } else {
+            self.travel_rad += travel;
+        }
+        let power_w = self.yield_nm() * step.speed_rad_s.abs();
+        let current_a = self.magnetic_current_a(time_s, step.current_a);
+        let target_nm = match &mut self.upstream {
+            Some(brake) => {
+                brake.step(time_s, &BrakeStep { current_a, ..*step });
+                brake.yield_nm()
+            }
+            None => self.nominal.yield_nm(),
+        };
+        let lag_s = self
+            .effects
+            .iter()
+            .find_map(|(_, effect)| match effect.law {
+                Law::Lag { time_constant } if effect.acts(time_s) => Some(time_constant),
+                _ => None,
+            });
+        self.lagged_nm = lag_s.map_or(target_nm, |lag_s| {
+            target_nm + (self.lagged_nm - target_nm) * libm::exp(-step.step_s / lag_s)
+        });
+        if self
+            .effects
+            .iter()
+            .any(|(_, effect)| matches!(effect.law, Law::Thermal { .. }))
+        {
+            let between_w = FLUID_TO_HOUSING_W_PER_K * (self.fluid_k - self.housing_k);
+            self.fluid_k += step.step_s * (power_w - between_w) / FLUID_J_PER_K;
+            self.housing_k += step.step_s * (between_w - HOUSING_TO_AIR_W_PER_K * self.housing_k)
+                / HOUSING_J_PER_K;
+        }
+    }
+
+    /// The current that the fluid sees, A.
+    fn magnetic_current_a(&mut self, time_s: f64, current_a: f64) -> f64 {
+        let share = self
+            .effects
+            .iter()
+            .find_map(|(_, effect)| match effect.law {
+                Law::Preisach { share } if effect.acts(time_s) => Some(share),
+                _ => None,
+            });
+        let Some(share) = share else {
+            return current_a;
+        };
+        self.preisach.take(current_a);
+        current_a + share * (self.preisach.output() - current_a.clamp(0.0, 1.0))
+    }
+
+    /// Yield torque, N·m, at least zero.
+    pub fn yield_nm(&self) -> f64 {
+        self.raised(|_, _| {})
+    }
+
+    /// Yield torque of the brake that the nominal model knows, N·m.
+    pub fn nominal_yield_nm(&self) -> f64 {
+        self.nominal.yield_nm()
+    }
+
+    /// What each effect adds to the nominal yield torque, N·m, by its number. Current, window and lag come first; gain, heat
+    /// and reversals multiply what is there.
+    pub fn added_nm(&self) -> Vec<(usize, f64)> {
+        let mut added = Vec::new();
+        let upstream_nm = self.lagged_nm - self.nominal.yield_nm();
+        for (number, effect) in &self.effects {
+            if matches!(
+                effect.law,
+                Law::Lag { .. } | Law::Backlash { .. } | Law::Preisach { .. }
+            ) {
+                added.push((*number, upstream_nm));
+            }
+        }
+        self.raised(|number, more_nm| added.push((number, more_nm)));
+        added
+    }
+
+    fn raised(&self, mut tell: impl FnMut(usize, f64)) -> f64 {
+        let mut yield_nm = self.lagged_nm;
+        for (number, effect) in &self.effects {
+            let more = match effect.law {
+                _ if !effect.acts(self.time_s) => 0.0,
+                Law::Gain { fraction } => fraction,
+                Law::Thermal { loss } => (-loss * self.fluid_k).max(LEAST_SHARE - 1.0),
+                Law::Overshoot { fraction, travel } => {
+                    fraction * libm::exp(-self.travel_rad.abs() / travel)
+                }
+                _ => continue,
+            };
+            tell(*number, more * yield_nm);
+            yield_nm *= 1.0 + more;
+        }
+        yield_nm.max(0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn turned(law: Law, current_a: impl Fn(f64) -> f64, seconds: f64) -> (Braked, Vec<f64>) {
+        let effect = Effect {
+            law,
+            joint: Some(Joint::A),
+            onset_s: None,
+        };
+        let mut braked = Braked::new(Joint::A, vec![(3, effect)], 0.4);
+        let mut yields = Vec::new();
+        let step_s = 1e-4;
+        for k in 1..=(seconds / step_s) as u32 {
+            let time_s = f64::from(k) * step_s;
+            let step = BrakeStep {
+                step_s,
+                current_a: current_a(time_s),
+                position_rad: 0.4 + 1.3 * time_s,
+                speed_rad_s: 1.3,
+            };
+            braked.step(time_s, &step);
+            yields.push(braked.yield_nm());
+        }
+        (braked, yields)
+    }
+
+    #[test]
+    fn what_is_added_makes_up_the_difference() {
+        for law in [
+            Law::Gain { fraction: -0.17 },
+            Law::Lag {
+                time_constant: 0.031,
+            },
+            Law::Preisach { share: 0.23 },
+            Law::Thermal { loss: 0.013 },
+            Law::Overshoot {
+                fraction: 0.21,
+                travel: 0.3,
+            },
+        ] {
+            let current_a = |time_s: f64| if time_s < 1.0 { 0.83 } else { 0.41 };
+            let (braked, _) = turned(law, current_a, 1.013);
+            let added: f64 = braked.added_nm().iter().map(|(_, more)| more).sum();
+            let difference = braked.yield_nm() - braked.nominal_yield_nm();
+            assert!((added - difference).abs() < 1e-12, "{law:?}");
+            assert!(
+                difference.abs() > 1e-4 || matches!(law, Law::Overshoot { .. }),
+                "{law:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn the_current_comes_back_on_another_branch() {
+        let ramp = |time_s: f64| if time_s < 1.0 { time_s } else { 2.0 - time_s };
+        let (_, yields) = turned(Law::Preisach { share: 0.23 }, ramp, 1.9);
+        let (up, down) = (yields[4999], yields[14_999]);
+        assert!(down > up + 0.5, "{up} {down}");
+    }
+
+    #[test]
+    fn a_warm_brake_fades_and_comes_back_in_two_steps() {
+        let (mut braked, yields) = turned(Law::Thermal { loss: 0.011 }, |_| 0.7, 30.0);
+        let (early, late) = (yields[2000], yields[299_999]);
+        assert!(late < 0.95 * early, "{early} {late}");
+        let warm = (braked.fluid_k, braked.housing_k);
+        let rest = BrakeStep {
+            step_s: 1e-3,
+            current_a: 0.7,
+            position_rad: 39.4,
+            speed_rad_s: 0.0,
+        };
+        for _ in 0..60_000 {
+            braked.step(31.0, &rest);
+        }
+        assert!(braked.fluid_k < 0.6 * warm.0 && braked.housing_k > warm.1);
+        assert!((braked.fluid_k - braked.housing_k) < 0.4 * (warm.0 - warm.1));
+    }
+}

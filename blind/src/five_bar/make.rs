@@ -1,0 +1,289 @@
+//! This file makes a five-bar case: draws until the hidden effects have the size their stratum asks for, and records.
+
+use super::hide;
+use super::law::{Effect, Law};
+use super::linkage::Pair;
+use super::run::{Sample, quantised, run, shown_theta};
+use super::setup::{RATE_HZ, Setup};
+use super::size::{Sizes, sizes};
+use crate::answer::{Answer, HiddenEffect, TrueParameter};
+use crate::draw::Draw;
+use crate::error::Error;
+use crate::fault;
+use crate::make::Case;
+use crate::plant::Plant;
+use crate::seal;
+use crate::size::FAINT_STRENGTH;
+use crate::stratum::Stratum;
+use rigproof_spec::joint::Joint;
+use rigproof_spec::layout::Layout;
+use rigproof_trace::rig::five_bar::{FiveBar, FiveBarChannels};
+use rigproof_trace::rig::{ChannelMap, Drive, Protocol};
+use rigproof_trace::{Channel, Trace};
+
+/// A case before sensors and seals.
+pub struct Secret {
+    pub setup: Setup,
+    pub hidden: Vec<Effect>,
+    pub samples: Vec<Sample>,
+    pub sizes: Sizes,
+}
+
+/// Least share of a recording in which something slides.
+const LEAST_SLIDING: f64 = 0.5;
+
+/// Greatest error of the plant's own, in block noise.
+const GREATEST_LEFT: f64 = 0.5;
+
+/// Makes the case of a seed.
+pub fn make(seed: u64, stratum: Stratum) -> Result<Case, Error> {
+    let plant = Plant::Rig;
+    let secret = secret(seed, stratum)?;
+    let mut trace = record(&secret, &mut Draw::new(plant, seed, "sensors"));
+    let fault = (stratum == Stratum::DataFault).then(|| {
+        let mut draw = Draw::new(plant, seed, "fault");
+        let (position, effort) = (
+            draw.pick(&["theta_a", "theta_b"]),
+            draw.pick(&["force_x", "force_y"]),
+        );
+        fault::spoil(position, effort, &mut trace, &mut draw).to_owned()
+    });
+    let answer = Answer {
+        seed,
+        plant,
+        stratum,
+        effects: answers(&secret),
+        fault,
+        block_noise: secret.sizes.block_noise,
+    };
+    let (sealed, commitment) = seal::seal(&answer)?;
+    let rig_toml = describe(seed, &secret.setup).to_toml();
+    Ok(Case {
+        trace,
+        rig_toml,
+        sealed,
+        commitment,
+    })
+}
+
+/// Draws until the rule of size is met.
+pub fn secret(seed: u64, stratum: Stratum) -> Result<Secret, Error> {
+    const ATTEMPTS: usize = 24;
+    let mut draw = Draw::new(Plant::Rig, seed, stratum.name());
+    for _ in 0..ATTEMPTS {
+        let Some(setup) = Setup::draw(stratum, &mut draw) else {
+            continue;
+        };
+        let hidden = hide::draw(&setup, stratum, &mut draw);
+        let Some(mut tried) = Secret::new(setup, hidden) else {
+            continue;
+        };
+        if stratum == Stratum::TooSmall {
+            match tried.shrunk(draw.uniform(0.2, 0.7)) {
+                Some(smaller) => tried = smaller,
+                None => continue,
+            }
+        }
+        let fits = tried.sizes.sizes.iter().all(|size| size.fits(stratum));
+        if fits && tried.sizes.sliding >= LEAST_SLIDING && tried.sizes.left <= GREATEST_LEFT {
+            return Ok(tried);
+        }
+    }
+    Err(Error::NoCase {
+        seed,
+        plant: Plant::Rig.name(),
+        stratum: stratum.name(),
+        attempts: ATTEMPTS,
+    })
+}
+
+impl Secret {
+    pub fn new(setup: Setup, hidden: Vec<Effect>) -> Option<Secret> {
+        let samples = run(&setup, &hidden)?;
+        let sizes = sizes(&setup, &hidden, &samples);
+        Some(Secret {
+            setup,
+            hidden,
+            samples,
+            sizes,
+        })
+    }
+
+    /// The same case with its effect scaled until its strength is near the target.
+    fn shrunk(self, target: f64) -> Option<Secret> {
+        let mut secret = self;
+        for _ in 0..3 {
+            let strengths = secret.sizes.sizes.iter().map(|size| size.strength);
+            let strength = strengths.fold(0.0, f64::max);
+            if strength <= FAINT_STRENGTH {
+                break;
+            }
+            let scaled = |effect: &Effect| effect.scaled(target / strength);
+            let hidden = secret.hidden.iter().map(scaled).collect();
+            secret = Secret::new(secret.setup, hidden)?;
+        }
+        Some(secret)
+    }
+}
+
+/// What the sensors make of the run.
+fn record(secret: &Secret, draw: &mut Draw) -> Trace {
+    let Secret {
+        setup,
+        hidden,
+        samples,
+        ..
+    } = secret;
+    let angles: Vec<Pair> = samples
+        .iter()
+        .map(|sample| quantised(setup, shown_theta(setup, hidden, sample.theta)))
+        .collect();
+    let (unit, factor) = match setup.in_counts {
+        true => (String::new(), 1.0 / setup.quantum_rad()),
+        false => ("rad".to_owned(), 1.0),
+    };
+    let angle = |angle: f64| match setup.in_counts {
+        true => (angle * factor).round(),
+        false => angle,
+    };
+    let channel = |name: &str, unit: &str, samples: Vec<f64>| Channel {
+        name: name.to_owned(),
+        unit: unit.to_owned(),
+        samples,
+    };
+    let mut force = |of: fn(&Pair) -> f64| -> Vec<f64> {
+        let noise = setup.force_noise_n;
+        samples
+            .iter()
+            .map(|sample| of(&sample.shown_force_n) + draw.normal(noise))
+            .collect()
+    };
+    let mut channels = vec![
+        channel(
+            "theta_a",
+            &unit,
+            angles.iter().map(|[a, _]| angle(*a)).collect(),
+        ),
+        channel(
+            "theta_b",
+            &unit,
+            angles.iter().map(|[_, b]| angle(*b)).collect(),
+        ),
+        channel("force_x", "N", force(|[x, _]| *x)),
+        channel("force_y", "N", force(|[_, y]| *y)),
+    ];
+    for (k, joint) in Joint::ALL.into_iter().enumerate() {
+        if setup.layout.brakes().contains(&joint) {
+            let current = |sample: &Sample| sample.currents_a.get(k).copied().unwrap_or_default();
+            channels.push(channel(
+                current_name(joint),
+                "A",
+                samples.iter().map(current).collect(),
+            ));
+        }
+    }
+    Trace {
+        time_s: (0..samples.len()).map(|k| k as f64 / RATE_HZ).collect(),
+        channels,
+    }
+}
+
+const fn current_name(joint: Joint) -> &'static str {
+    match joint {
+        Joint::A => "current_a",
+        Joint::E => "current_e",
+        Joint::B => "current_b",
+        Joint::C => "current_c",
+    }
+}
+
+/// The rig description that goes with the recording.
+fn describe(seed: u64, setup: &Setup) -> FiveBar {
+    let quantum = setup.quantum_rad();
+    let theta = |name: &str| match setup.in_counts {
+        true => ChannelMap {
+            scale: quantum,
+            quantum: Some(1.0),
+            ..ChannelMap::plain(name, "rad")
+        },
+        false => ChannelMap {
+            quantum: Some(quantum),
+            ..ChannelMap::plain(name, "rad")
+        },
+    };
+    let noise = Some(setup.force_noise_n);
+    let force = |name: &str| ChannelMap {
+        noise,
+        ..ChannelMap::plain(name, "N")
+    };
+    let current = |joint: Joint| {
+        let braked = setup.layout.brakes().contains(&joint);
+        braked.then(|| ChannelMap::plain(current_name(joint), "A"))
+    };
+    FiveBar {
+        name: format!("blind rig {seed}"),
+        layout: setup.layout,
+        source: None,
+        channels: FiveBarChannels {
+            time: None,
+            theta: [theta("theta_a"), theta("theta_b")],
+            force: [force("force_x"), force("force_y")],
+            currents: Joint::ALL.map(current),
+        },
+        text: Default::default(),
+        effects: Vec::new(),
+        protocol: Protocol {
+            drive: Drive::Held,
+            ..Protocol::default()
+        },
+        provenance: Default::default(),
+    }
+}
+
+fn answers(secret: &Secret) -> Vec<HiddenEffect> {
+    let each = secret.hidden.iter().zip(&secret.sizes.sizes);
+    each.map(|(effect, size)| {
+        let parameters = effect.parameters().into_iter();
+        HiddenEffect {
+            mechanism: effect.name().to_owned(),
+            joint: effect.joint.map(|joint| joint.letter().to_owned()),
+            onset_s: effect.onset_s,
+            parameters: parameters
+                .map(|(name, value, dimension)| TrueParameter {
+                    name: name.to_owned(),
+                    value,
+                    unit: dimension.to_string(),
+                })
+                .collect(),
+            size: size.size,
+            distinctness: size.distinctness,
+            strength: size.strength,
+            equivalent: equivalent(&secret.setup, effect)
+                .iter()
+                .map(|name| vec![(*name).to_owned()])
+                .collect(),
+        }
+    })
+    .collect()
+}
+
+/// Mechanisms that no recording of this experiment can tell from an effect.
+///
+/// - On three brakes arm CD is parallel to AE and ED to BC: the joints E and C turn alike, friction at one is friction at the other.
+/// - Brake A has no backlash: at a constant current a gain error is dry friction.
+/// - A payload is inside what the entries of the mass matrix can be.
+fn equivalent(setup: &Setup, effect: &Effect) -> &'static [&'static str] {
+    let three = setup.layout == Layout::ThreeBrake;
+    match (effect.law, effect.joint) {
+        (Law::Bearing { viscous: 0.0, .. }, _) if three => &["dry_offset at E", "dry_offset at C"],
+        (Law::Bearing { .. }, _) if three => &["viscous at E", "viscous at C"],
+        (Law::Dry { .. }, Some(Joint::E)) if three => &["bearing_friction at C", "dry_offset at C"],
+        (Law::Viscous { .. }, Some(Joint::E)) if three => {
+            &["bearing_friction at C", "viscous at C"]
+        }
+        (Law::Gain { .. }, Some(Joint::A)) if setup.is_constant() => &["dry_offset at A"],
+        (Law::Dry { .. }, Some(Joint::A)) if setup.is_constant() => &["gain_error at A"],
+        (Law::Payload { .. }, _) => &["inertia_error"],
+        _ => &[],
+    }
+}

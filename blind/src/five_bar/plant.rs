@@ -1,0 +1,405 @@
+//! This file moves the five-bar: Lagrange's equations in (θA, θB), with the dry friction of up to four joints as a set.
+//!
+//! A step is the midpoint rule, its middle extrapolated; friction is settled on the rates at the end (Moreau 1988, Jean 1999), so
+//! that a joint that sticks stands, and one that slides is resisted.
+
+use super::braked::Braked;
+use super::element::{Element, Instant};
+use super::law::{Effect, Law};
+use super::linkage::{Pair, Pose, dot, plus};
+use super::mass::{Form, weight};
+use super::stick::{Contact, Motion};
+use crate::brake::BrakeStep;
+use rigproof_spec::geometry::{Arms, arms};
+use rigproof_spec::inertia::{ArmInertia, Inertia, inertia};
+use rigproof_spec::joint::Joint;
+use rigproof_spec::layout::Layout;
+
+/// A moment over which a bristle's rate is taken, s.
+const MOMENT_S: f64 = 1e-7;
+
+/// The rig with what is hidden in it.
+#[derive(Clone, Debug)]
+pub struct FiveBar {
+    pub arms: Arms,
+    inertia: Inertia,
+    /// Gravity in the plane, with its number.
+    gravity: Option<(usize, Effect)>,
+    joints: [At; 4],
+    pub theta: Pair,
+    pub rates: Pair,
+    /// Of the last step, rad/s².
+    pub acceleration: Pair,
+    /// Direction of each joint, 0 where it sticks.
+    pub signs: [f64; 4],
+    pub pose: Pose,
+    /// Work of the force on the tip, J.
+    pub work_j: f64,
+    /// What brakes and hidden effects took at the joints, J; springs and bristles give some back.
+    pub taken_j: f64,
+}
+
+/// One joint: its brake, what is hidden there, and where it started.
+#[derive(Clone, Debug)]
+struct At {
+    brake: Option<Braked>,
+    /// Rate of the yield torque over the last step, N·m/s.
+    yield_rate: f64,
+    elements: Vec<(usize, Element)>,
+    start_rad: f64,
+    angle_rad: f64,
+}
+
+/// A step that may be taken.
+struct Tried {
+    motion: Motion,
+    /// Share of the step after which the first sliding joint is at rest; 1 or more when none is.
+    until_rest: f64,
+    /// Single-valued and set-valued torques at the joints, N·m.
+    torques: [f64; 4],
+    bounds: [f64; 4],
+    force_n: Pair,
+}
+
+/// Cuts a step can have.
+const CUTS: usize = 4;
+/// A rest this near to either end of a step is not worth a cut.
+const LEAST_CUT: f64 = 0.01;
+
+impl FiveBar {
+    /// A rig at rest at θA and θB, rad; `None` where the arms do not meet.
+    pub fn new(layout: Layout, theta: Pair, hidden: &[Effect]) -> Option<FiveBar> {
+        let arms = arms(layout);
+        let pose = Pose::at(&arms, theta)?;
+        let numbered = || hidden.iter().copied().enumerate();
+        let angles = pose.joint_angles_rad(theta);
+        let mut angles = angles.into_iter();
+        let joints = Joint::ALL.map(|joint| {
+            let angle_rad = angles.next().unwrap_or_default();
+            let here = || numbered().filter(|(_, effect)| effect.joint == Some(joint));
+            let brake = layout.brakes().contains(&joint).then(|| {
+                let effects = here().filter(|(_, effect)| effect.is_of_brake());
+                Braked::new(joint, effects.collect(), angle_rad)
+            });
+            let elements =
+                here().filter(|(_, effect)| !effect.is_of_brake() && !effect.is_residual());
+            At {
+                yield_rate: 0.0,
+                brake,
+                elements: elements
+                    .map(|(k, effect)| (k, Element::new(effect)))
+                    .collect(),
+                start_rad: angle_rad,
+                angle_rad,
+            }
+        });
+        Some(FiveBar {
+            arms,
+            inertia: true_inertia(layout, hidden),
+            gravity: numbered().find(|(_, effect)| matches!(effect.law, Law::Gravity { .. })),
+            joints,
+            theta,
+            rates: [0.0; 2],
+            acceleration: [0.0; 2],
+            signs: [0.0; 4],
+            pose,
+            work_j: 0.0,
+            taken_j: 0.0,
+        })
+    }
+
+    /// Moves the rig under currents, A, and a force on the tip, N, that is asked for at a time, a tip position and a tip velocity, first
+    /// at the middle of the step; `None` where the arms would not meet any more. A step in which a sliding joint comes to rest or turns
+    /// round is cut there.
+    pub fn step(
+        &mut self,
+        time_s: f64,
+        step_s: f64,
+        currents_a: [f64; 4],
+        force: &mut impl FnMut(f64, Pair, Pair) -> Pair,
+    ) -> Option<()> {
+        let (mut time_s, mut left_s) = (time_s, step_s);
+        for _ in 0..CUTS {
+            let tried = self.try_step(time_s, left_s, force)?;
+            if !(LEAST_CUT..1.0 - LEAST_CUT).contains(&tried.until_rest) {
+                return self.take(tried, time_s, left_s, currents_a);
+            }
+            let part_s = tried.until_rest * left_s;
+            let part = self.try_step(time_s, part_s, force)?;
+            self.take(part, time_s, part_s, currents_a)?;
+            (time_s, left_s) = (time_s + part_s, left_s - part_s);
+        }
+        let last = self.try_step(time_s, left_s, force)?;
+        self.take(last, time_s, left_s, currents_a)
+    }
+
+    /// What a step would do.
+    fn try_step(
+        &self,
+        time_s: f64,
+        step_s: f64,
+        force: &mut impl FnMut(f64, Pair, Pair) -> Pair,
+    ) -> Option<Tried> {
+        let half_s = 0.5 * step_s;
+        let middle_s = time_s + half_s;
+        let rates = plus(self.rates, half_s, self.acceleration);
+        let theta = plus(self.theta, half_s, self.rates);
+        let theta = plus(theta, 0.5 * half_s * half_s, self.acceleration);
+        let middle = Pose::at(&self.arms, theta)?;
+        // The rows at the end, as far beyond the middle as the middle is beyond the start.
+        let mut end = middle.rows;
+        for (row, start) in end.iter_mut().zip(self.pose.rows) {
+            *row = plus(row.map(|x| 2.0 * x), -1.0, start);
+        }
+        let form = Form::new(&self.arms, &self.inertia, &middle, rates);
+        let velocity = middle.tip_velocity(&self.arms, rates);
+        let force_n = force(middle_s, middle.tip_m, velocity);
+        let mut pushed = middle.tip_force_along(&self.arms, force_n);
+        pushed = plus(pushed, 1.0, self.weight(middle_s, &middle));
+        let [fx, fy] = force_n;
+        let load_n = fx.hypot(fy);
+        let mut torques = [0.0; 4];
+        let mut bounds = [0.0; 4];
+        let each = self.joints.iter().zip(self.signs).zip(middle.rows);
+        let out = torques.iter_mut().zip(&mut bounds);
+        for (((joint, sign), row), (torque, bound)) in each.zip(out) {
+            let sticks = sign == 0.0 && joint.is_frictional();
+            let rate_rad_s = if sticks { 0.0 } else { dot(row, rates) };
+            let at = joint.instant(middle_s, half_s * rate_rad_s, rate_rad_s, load_n);
+            (*torque, *bound) = joint.resists(&at, half_s);
+            pushed = plus(pushed, -*torque, row);
+        }
+        let momentum = plus(
+            form.times(self.rates),
+            step_s,
+            plus(pushed, -1.0, form.bias),
+        );
+        let contact = Contact {
+            form: &form,
+            momentum,
+            forces: middle.rows,
+            rates: end,
+            impulses: bounds.map(|bound| bound * step_s),
+        };
+        Some(Tried {
+            motion: contact.settle(self.signs),
+            until_rest: contact
+                .until_rest(self.signs, self.pose.rows.map(|row| dot(row, self.rates))),
+            torques,
+            bounds,
+            force_n,
+        })
+    }
+
+    /// Does what was tried.
+    fn take(&mut self, tried: Tried, time_s: f64, step_s: f64, currents_a: [f64; 4]) -> Option<()> {
+        let Tried {
+            motion,
+            torques,
+            bounds,
+            force_n,
+            ..
+        } = tried;
+        let theta = plus(
+            self.theta,
+            0.5 * step_s,
+            plus(self.rates, 1.0, motion.rates),
+        );
+        let pose = Pose::at(&self.arms, theta)?;
+        self.work_j += dot(force_n, plus(pose.tip_m, -1.0, self.pose.tip_m));
+        self.acceleration = plus(motion.rates, -1.0, self.rates).map(|x| x / step_s);
+        (self.theta, self.rates, self.pose, self.signs) = (theta, motion.rates, pose, motion.signs);
+        let [fx, fy] = force_n;
+        let travels = self.turn_joints(time_s + step_s, step_s, currents_a, fx.hypot(fy));
+        let each = torques.into_iter().zip(bounds).zip(self.signs).zip(travels);
+        self.taken_j += each
+            .map(|(((torque, bound), sign), travel)| (torque + bound * sign) * travel)
+            .sum::<f64>();
+        Some(())
+    }
+
+    /// Brakes and memories after a step that ends at `time_s`; returns how far each joint turned.
+    fn turn_joints(
+        &mut self,
+        time_s: f64,
+        step_s: f64,
+        currents_a: [f64; 4],
+        load_n: f64,
+    ) -> [f64; 4] {
+        let angles = self.pose.joint_angles_rad(self.theta);
+        let rates = self.joint_rates();
+        let mut travels = [0.0; 4];
+        let each = self
+            .joints
+            .iter_mut()
+            .zip(angles)
+            .zip(rates)
+            .zip(currents_a);
+        for ((((joint, angle_rad), rate_rad_s), current_a), travel) in each.zip(&mut travels) {
+            *travel = angle_rad - joint.angle_rad;
+            let at = Instant {
+                time_s,
+                angle_rad: joint.angle_rad - joint.start_rad,
+                rate_rad_s,
+                load_n,
+            };
+            for (_, element) in &mut joint.elements {
+                element.advance(&at, *travel);
+            }
+            joint.angle_rad = angle_rad;
+            if let Some(brake) = &mut joint.brake {
+                let before_nm = brake.yield_nm();
+                let step = BrakeStep {
+                    step_s,
+                    current_a,
+                    position_rad: angle_rad,
+                    speed_rad_s: rate_rad_s,
+                };
+                brake.step(time_s, &step);
+                joint.yield_rate = (brake.yield_nm() - before_nm) / step_s;
+            }
+        }
+        travels
+    }
+
+    /// Rates of the joints A, E, B, C, rad/s; exactly 0 where one sticks.
+    pub fn joint_rates(&self) -> [f64; 4] {
+        let mut rates = self.pose.rows.map(|row| dot(row, self.rates));
+        for ((rate, sign), joint) in rates.iter_mut().zip(self.signs).zip(&self.joints) {
+            if sign == 0.0 && joint.is_frictional() {
+                *rate = 0.0;
+            }
+        }
+        rates
+    }
+
+    /// Which joints stick.
+    pub fn stuck(&self) -> [bool; 4] {
+        let mut stuck = self.signs.map(|sign| sign == 0.0);
+        for (stuck, joint) in stuck.iter_mut().zip(&self.joints) {
+            *stuck &= joint.is_frictional();
+        }
+        stuck
+    }
+
+    /// Nominal yield torques, N·m, in the order A, E, B, C.
+    pub fn nominal_yields_nm(&self) -> [f64; 4] {
+        let [a, e, b, c] = &self.joints;
+        [a, e, b, c].map(|joint| joint.brake.as_ref().map_or(0.0, Braked::nominal_yield_nm))
+    }
+
+    /// What each effect in the machine resists with along θA and θB, N·m, by its number; nothing at joints that stick.
+    pub fn hidden_nm(&self, time_s: f64, load_n: f64, hidden: &mut [Pair]) {
+        hidden.fill([0.0; 2]);
+        let mut add = |number: usize, torque_nm: f64, row: Pair| {
+            if let Some(force) = hidden.get_mut(number) {
+                *force = plus(*force, torque_nm, row);
+            }
+        };
+        if let Some((number, _)) = self.gravity {
+            add(number, -1.0, self.weight(time_s, &self.pose));
+        }
+        let rates = self.joint_rates();
+        for ((joint, rate_rad_s), row) in self.joints.iter().zip(rates).zip(self.pose.rows) {
+            if rate_rad_s == 0.0 {
+                continue;
+            }
+            let sign = rate_rad_s.signum();
+            let angle_rad = joint.angle_rad - joint.start_rad;
+            let at = Instant {
+                time_s,
+                angle_rad,
+                rate_rad_s,
+                load_n,
+            };
+            for (number, element) in &joint.elements {
+                let travel = MOMENT_S * rate_rad_s;
+                let torque_nm =
+                    element.torque_nm(&at, travel, MOMENT_S) + sign * element.bound_nm(&at);
+                add(*number, torque_nm, row);
+            }
+            for (number, more_nm) in joint.brake.iter().flat_map(Braked::added_nm) {
+                add(number, sign * more_nm, row);
+            }
+        }
+    }
+
+    fn weight(&self, time_s: f64, pose: &Pose) -> Pair {
+        match self.gravity {
+            Some((
+                _,
+                Effect {
+                    law: Law::Gravity { field },
+                    onset_s,
+                    ..
+                },
+            )) if onset_s.is_none_or(|onset_s| time_s >= onset_s) => {
+                weight(&self.arms, &self.inertia, pose, field)
+            }
+            _ => [0.0; 2],
+        }
+    }
+}
+
+impl At {
+    fn instant(&self, time_s: f64, ahead_rad: f64, rate_rad_s: f64, load_n: f64) -> Instant {
+        Instant {
+            time_s,
+            angle_rad: self.angle_rad - self.start_rad + ahead_rad,
+            rate_rad_s,
+            load_n,
+        }
+    }
+
+    /// Single-valued and set-valued torque half a step ahead, N·m; the yield torque by extrapolation.
+    fn resists(&self, at: &Instant, half_s: f64) -> (f64, f64) {
+        let travel = half_s * at.rate_rad_s;
+        let yield_nm = self.brake.as_ref().map_or(0.0, |brake| {
+            (brake.yield_nm() + half_s * self.yield_rate).max(0.0)
+        });
+        let elements = self.elements.iter().map(|(_, element)| element);
+        elements.fold((0.0, yield_nm), |(torque, bound), element| {
+            (
+                torque + element.torque_nm(at, travel, half_s),
+                bound + element.bound_nm(at),
+            )
+        })
+    }
+
+    fn is_frictional(&self) -> bool {
+        let set = |effect: &Effect| {
+            matches!(
+                effect.law,
+                Law::Dry { .. } | Law::Bearing { .. } | Law::Load { .. }
+            )
+        };
+        self.brake.is_some()
+            || self
+                .elements
+                .iter()
+                .any(|(_, element)| set(&element.effect))
+    }
+}
+
+/// Table 5.1 with the hidden masses.
+fn true_inertia(layout: Layout, hidden: &[Effect]) -> Inertia {
+    let mut inertia = inertia(layout);
+    for effect in hidden {
+        match effect.law {
+            Law::Payload { mass } => inertia.payload_kg += mass,
+            Law::Inertia { fraction } => {
+                let scaled = |arm: ArmInertia| ArmInertia {
+                    mass_kg: (1.0 + fraction) * arm.mass_kg,
+                    inertia_kg_m2: (1.0 + fraction) * arm.inertia_kg_m2,
+                    centre_m: arm.centre_m,
+                };
+                inertia.ae = scaled(inertia.ae);
+                inertia.ed = scaled(inertia.ed);
+                inertia.bc = scaled(inertia.bc);
+                inertia.cd = scaled(inertia.cd);
+            }
+            _ => {}
+        }
+    }
+    inertia
+}

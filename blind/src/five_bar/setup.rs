@@ -1,0 +1,90 @@
+//! This file draws the laboratory of a five-bar recording: layout, sensors, hand and currents.
+
+use super::drive::{Drive, constant, controller, programme};
+use super::hand::Hand;
+use super::linkage::{Pair, angles_of_tip};
+use crate::draw::{Draw, rounded};
+use crate::stratum::Stratum;
+use rigproof_spec::geometry::arms;
+use rigproof_spec::layout::Layout;
+
+/// Samples a second.
+pub const RATE_HZ: f64 = 1000.0;
+
+/// One laboratory.
+#[derive(Clone, Debug)]
+pub struct Setup {
+    pub layout: Layout,
+    pub duration_s: f64,
+    pub hand: Hand,
+    pub drive: Drive,
+    /// θA and θB at the start, rad.
+    pub start: Pair,
+    pub counts_per_turn: f64,
+    /// Whether the angles are recorded in counts.
+    pub in_counts: bool,
+    /// Standard deviation of the force channels, N.
+    pub force_noise_n: f64,
+}
+
+impl Setup {
+    /// The laboratory of a seed and a stratum; `None` where the tip cannot be.
+    pub fn draw(stratum: Stratum, draw: &mut Draw) -> Option<Setup> {
+        let layout = match draw.chance(0.5) {
+            true => Layout::ThreeBrake,
+            false => Layout::FourBrake,
+        };
+        let duration_s = draw.uniform(16.0, 30.0).floor();
+        let (height_m, radius_m) = match layout {
+            Layout::ThreeBrake => (0.38, 0.1),
+            Layout::FourBrake => (0.42, 0.085),
+        };
+        let centre_m = [
+            draw.uniform(-0.015, 0.015),
+            height_m + draw.uniform(-0.015, 0.015),
+        ];
+        let person = draw.chance(0.4);
+        let hand = match person {
+            true => Hand::person(draw, centre_m, radius_m, duration_s),
+            false => Hand::experimenter(draw, centre_m, radius_m, duration_s),
+        };
+        let greatest_a = if person {
+            draw.uniform(0.25, 0.45)
+        } else {
+            draw.uniform(0.4, 0.9)
+        };
+        let in_loop = draw.chance(0.25) || stratum == Stratum::InLoop;
+        let drive = if stratum == Stratum::Unidentifiable {
+            constant(draw, layout, duration_s, greatest_a)
+        } else if in_loop {
+            controller(draw, layout, centre_m, radius_m, greatest_a)
+        } else {
+            programme(draw, layout, duration_s, greatest_a)
+        };
+        let noise_n = draw.log_uniform(0.02, 0.1);
+        let louder = if stratum == Stratum::Noisy { 5.0 } else { 1.0 };
+        Some(Setup {
+            layout,
+            duration_s,
+            start: angles_of_tip(&arms(layout), hand.goal.centre_m())?,
+            hand,
+            drive,
+            counts_per_turn: draw.pick(&[1e5, 1e6]),
+            in_counts: draw.chance(0.5),
+            force_noise_n: rounded(louder * noise_n),
+        })
+    }
+
+    /// Whether no current ever changes.
+    pub fn is_constant(&self) -> bool {
+        match &self.drive {
+            Drive::Programme(pieces) => pieces.iter().all(|pieces| pieces.len() < 2),
+            Drive::Loop(_) => false,
+        }
+    }
+
+    /// The angle of one count, rad.
+    pub fn quantum_rad(&self) -> f64 {
+        std::f64::consts::TAU / self.counts_per_turn
+    }
+}

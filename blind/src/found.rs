@@ -1,0 +1,77 @@
+//! This file reads what a report names and offers.
+
+use crate::answer::key;
+use crate::error::Error;
+use crate::plant::Plant;
+use serde_json::{Map, Value};
+
+/// One named effect of a report.
+pub struct Found<'a> {
+    /// The mechanism, on a five-bar with its joint, such as `viscous at E`.
+    pub name: String,
+    pub mechanism: &'a str,
+    pub onset_s: Option<f64>,
+    pub parameters: Option<&'a Map<String, Value>>,
+    pub alternatives: Vec<String>,
+}
+
+/// The effects of a report.
+///
+/// # Errors
+/// [`Error::Report`] when `effects` or the mechanism of one is missing.
+pub fn found_effects(plant: Plant, report: &Value) -> Result<Vec<Found<'_>>, Error> {
+    let effects = report
+        .get("effects")
+        .and_then(Value::as_array)
+        .ok_or(Error::Report("array \"effects\""))?;
+    effects
+        .iter()
+        .enumerate()
+        .map(|(index, effect)| {
+            let mut alternatives = Vec::new();
+            let of_report = report
+                .get("ambiguous_with")
+                .and_then(|list| list.get(index));
+            for list in [of_report, effect.get("ambiguous_with")]
+                .into_iter()
+                .flatten()
+            {
+                collect_names(plant, list, &mut alternatives);
+            }
+            let mechanism = effect
+                .get("mechanism")
+                .and_then(Value::as_str)
+                .ok_or(Error::Report("string \"mechanism\" in an effect"))?;
+            Ok(Found {
+                name: name(plant, mechanism, effect),
+                mechanism,
+                onset_s: effect.get("onset_s").and_then(Value::as_f64),
+                parameters: effect.get("parameters").and_then(Value::as_object),
+                alternatives,
+            })
+        })
+        .collect()
+}
+
+/// On axis and bench there is one joint, which no report has to name.
+fn name(plant: Plant, mechanism: &str, effect: &Value) -> String {
+    match plant {
+        Plant::Rig => key(mechanism, effect.get("joint").and_then(Value::as_str)),
+        Plant::Axis | Plant::Bench => mechanism.to_owned(),
+    }
+}
+
+fn collect_names(plant: Plant, value: &Value, into: &mut Vec<String>) {
+    match value {
+        Value::String(text) => into.push(text.clone()),
+        Value::Array(items) => items
+            .iter()
+            .for_each(|item| collect_names(plant, item, into)),
+        Value::Object(entries) => {
+            if let Some(mechanism) = entries.get("mechanism").and_then(Value::as_str) {
+                into.push(name(plant, mechanism, value));
+            }
+        }
+        _ => {}
+    }
+}

@@ -1,0 +1,14 @@
+//! This room is the five-bar with three or four brakes in the diagnosis: its recording, its noise, its columns.
+
+pub mod brakes;
+pub mod candidates;
+pub mod columns;
+pub mod diagnose;
+mod from_rig;
+mod locate;
+pub mod noise;
+#[cfg(test)]
+mod recorded;
+pub mod run;
+#[cfg(test)]
+mod tests;

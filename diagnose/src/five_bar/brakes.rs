@@ -1,0 +1,79 @@
+//! This file is what a brake may do with its current other than the nominal model says, as changes of its yield torque.
+
+use super::run::{FiveBarRun, place, yields};
+use crate::problem::{less, shifted};
+use rigproof_model::brake::Brake;
+use rigproof_model::effects::first_order_lag;
+use rigproof_spec::effect::Mechanism;
+use rigproof_spec::joint::Joint;
+use rigproof_spec::tables::brake_table;
+use rigproof_spec::units::RAD_PER_DEG;
+
+/// What a cause with coefficient 1 adds to a brake's yield torque, sample by sample, N·m.
+pub fn change(
+    run: &FiveBarRun,
+    mechanism: Mechanism,
+    joint: Joint,
+    value: f64,
+) -> Option<Vec<f64>> {
+    let own = run.yields.get(place(joint))?;
+    let current = run.currents.get(place(joint))?.as_ref()?;
+    let again = |brake: Brake, current: &[f64]| {
+        let (changed, _) = yields(brake, run.motion(joint), current, run.step_s);
+        Some(less(&changed, own))
+    };
+    let start = run.motion(joint).first()?.position;
+    match mechanism {
+        Mechanism::Lag => {
+            let lagged = first_order_lag(current, run.step_s, value);
+            again(Brake::new(joint, start), &lagged)
+        }
+        Mechanism::DeadTime => {
+            let late = shifted(current, -value / run.step_s);
+            again(Brake::new(joint, start), &late)
+        }
+        Mechanism::Saturation => {
+            let limited: Vec<f64> = current.iter().map(|i| i.min(value)).collect();
+            again(Brake::new(joint, start), &limited)
+        }
+        Mechanism::BacklashWidth => {
+            let mut table = brake_table(joint);
+            table.backlash_width_deg = value / RAD_PER_DEG;
+            again(Brake::of(table, start), current)
+        }
+        _ => None,
+    }
+}
+
+/// What a linear cause adds to a brake's yield torque for a coefficient of 1, sample by sample.
+pub fn unit(
+    run: &FiveBarRun,
+    mechanism: Mechanism,
+    joint: Joint,
+    shape: &[f64],
+) -> Option<Vec<f64>> {
+    let own = run.yields.get(place(joint))?;
+    let current = run.currents.get(place(joint))?.as_ref()?;
+    let value = *shape.first()?;
+    match mechanism {
+        Mechanism::CurrentHysteresis => {
+            let mut play = current.first().copied()?;
+            let lag = current.iter().map(|i| {
+                play = play.clamp(i - value, i + value);
+                play - i
+            });
+            Some(lag.collect())
+        }
+        Mechanism::ThermalFade => {
+            let mut heat_j = 0.0;
+            let pairs = own.iter().zip(run.motion(joint));
+            let fade = pairs.map(|(torque, now)| {
+                let lost = torque * heat_j;
+                heat_j += run.step_s * (torque * now.speed.abs() - heat_j / value);
+                -lost
+            });
+            Some(fade.collect())
+        }
+        _ => None,
+    }
+}

@@ -1,0 +1,137 @@
+//! This file says which causes are tried on a recording of the five-bar, where, and in which shapes.
+
+use super::run::{FiveBarRun, place};
+use crate::candidates::{fastest, geometric, periods, stribeck_shapes};
+use crate::problem::{Cause, Problem};
+use rigproof_spec::effect::Mechanism;
+use rigproof_spec::joint::Joint;
+
+/// What can be left out at a joint with a brake.
+const AT_BRAKES: [Mechanism; 15] = [
+    Mechanism::DryOffset,
+    Mechanism::Viscous,
+    Mechanism::GainError,
+    Mechanism::DirectionAsymmetry,
+    Mechanism::Stribeck,
+    Mechanism::Presliding,
+    Mechanism::ReversalOvershoot,
+    Mechanism::Settling,
+    Mechanism::Lag,
+    Mechanism::DeadTime,
+    Mechanism::Saturation,
+    Mechanism::CurrentHysteresis,
+    Mechanism::ThermalFade,
+    Mechanism::BacklashWidth,
+    Mechanism::Ripple,
+];
+
+/// What can be left out of the linkage as a whole, and of its sensors.
+const OF_THE_WHOLE: [Mechanism; 7] = [
+    Mechanism::Gravity,
+    Mechanism::Payload,
+    Mechanism::InertiaError,
+    Mechanism::ForceGain,
+    Mechanism::ForceBias,
+    Mechanism::ForceRotation,
+    Mechanism::ChannelSkew,
+];
+
+/// The causes that have a meaning on this layout.
+pub fn causes(run: &FiveBarRun) -> Vec<Cause> {
+    let braked = run.parameters.layout.brakes();
+    let at = |mechanism, joint| Cause {
+        mechanism,
+        joint: Some(joint),
+    };
+    let brakes = AT_BRAKES
+        .into_iter()
+        .flat_map(|mechanism| braked.iter().map(move |joint| at(mechanism, *joint)));
+    let bearings = Joint::ALL
+        .into_iter()
+        .filter(|joint| !braked.contains(joint))
+        .map(|joint| at(Mechanism::BearingFriction, joint));
+    let springs = [Joint::A, Joint::B].map(|joint| at(Mechanism::Spring, joint));
+    brakes
+        .chain(bearings)
+        .chain(springs)
+        .chain(OF_THE_WHOLE.map(Cause::of))
+        .collect()
+}
+
+/// The range of a joint's angle, rad.
+pub fn travel(run: &FiveBarRun, cause: Cause) -> f64 {
+    let motion = cause.joint.map_or(&[][..], |joint| run.motion(joint));
+    let positions = motion.iter().map(|now| now.position);
+    let low = positions.clone().fold(f64::INFINITY, f64::min);
+    positions.fold(f64::NEG_INFINITY, f64::max) - low
+}
+
+/// The angle of a cause's joint at each usable window, and the residual as a torque there.
+fn points(problem: &Problem, run: &FiveBarRun, cause: Cause, residual: &[f64]) -> Vec<(f64, f64)> {
+    let Some(joint) = cause.joint else {
+        return Vec::new();
+    };
+    let windows = &problem.windows;
+    let rows: Vec<[f64; 2]> = run.joint_rows(joint).collect();
+    let pairs = windows.centres.chunks(2).zip(residual.chunks(2));
+    let pairs = pairs.zip(windows.usable.chunks(2));
+    pairs
+        .filter(|(_, usable)| usable.iter().all(|u| *u))
+        .filter_map(|((centres, residual), _)| {
+            let centre = *centres.first()?;
+            let (row, now) = (rows.get(centre)?, run.motion(joint).get(centre)?);
+            let along: f64 = row.iter().zip(residual).map(|(g, r)| g * r).sum();
+            Some((now.position, along))
+        })
+        .collect()
+}
+
+/// Currents below the greatest one that a brake was given, A: where its amplifier may have stopped.
+fn limits(run: &FiveBarRun, cause: Cause) -> Vec<f64> {
+    let current = cause.joint.and_then(|joint| run.currents.get(place(joint)));
+    let given = current.into_iter().flatten().flatten().copied();
+    let greatest = given.fold(0.0, f64::max);
+    if greatest < 0.05 {
+        return Vec::new();
+    }
+    geometric(0.3 * greatest, 0.97 * greatest, 8)
+}
+
+/// The shapes of a cause that are tried.
+pub fn shapes(
+    problem: &Problem,
+    run: &FiveBarRun,
+    cause: Cause,
+    residual: &[f64],
+) -> Vec<Vec<f64>> {
+    let motion = cause.joint.map_or(&[][..], |joint| run.motion(joint));
+    let one = |values: Vec<f64>| values.into_iter().map(|v| vec![v]).collect();
+    match cause.mechanism {
+        Mechanism::Stribeck => stribeck_shapes(run.speed_floor, fastest(motion)),
+        Mechanism::Presliding => {
+            let travel = travel(run, cause).max(1e-12);
+            one(geometric(
+                (3.0 * run.theta_noise).max(1e-4 * travel),
+                0.2 * travel,
+                10,
+            ))
+        }
+        Mechanism::Ripple => one(periods(
+            &points(problem, run, cause, residual),
+            travel(run, cause),
+        )),
+        Mechanism::ReversalOvershoot => one(geometric(0.01, 1.5, 6)),
+        Mechanism::Settling => one(geometric(0.3, 30.0, 5)),
+        Mechanism::Lag => one(geometric(0.5 * run.step_s, 0.25, 12)),
+        Mechanism::DeadTime => one(geometric(run.step_s, 0.08, 8)),
+        Mechanism::Saturation => one(limits(run, cause)),
+        Mechanism::CurrentHysteresis => one(geometric(0.01, 0.3, 5)),
+        Mechanism::BacklashWidth => one(geometric(0.003, 0.12, 8)),
+        Mechanism::ThermalFade => one(geometric(3.0, 300.0, 4)),
+        Mechanism::ChannelSkew => {
+            let sizes = geometric(0.25 * run.step_s, 0.04f64.max(4.0 * run.step_s), 10);
+            one(sizes.iter().flat_map(|&s| [s, -s]).collect())
+        }
+        _ => vec![vec![]],
+    }
+}

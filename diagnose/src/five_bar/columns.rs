@@ -1,0 +1,227 @@
+//! This file is the columns of the five-bar: what each cause would add to the efforts of θA and θB.
+
+use super::brakes;
+use super::run::{FiveBarRun, inertial, stacked};
+use crate::problem::{Cause, less, numerov, shifted};
+use nalgebra::{Matrix2, Vector2};
+use rigproof_model::bench::column;
+use rigproof_model::effects::{Form, entry, law};
+use rigproof_model::motion::two_coordinate::{TwoCoordinate, two_coordinate};
+use rigproof_spec::effect::Mechanism;
+use rigproof_spec::inertia::{ArmInertia, Inertia};
+use rigproof_spec::joint::Joint;
+
+/// What drives θA and θB, as the second difference of the angles sees it.
+pub fn driving(run: &FiveBarRun) -> Vec<f64> {
+    seen(&run.driving_effort())
+}
+
+/// What the nominal model knows of the resistance: inertia and brakes.
+pub fn known(run: &FiveBarRun) -> Vec<f64> {
+    let mut sum = inertial(run, &run.forms);
+    for joint in run.parameters.layout.brakes() {
+        let torque = run.at_joint(*joint, &run.brake_torque(*joint));
+        crate::problem::add(&mut sum, &seen(&torque), 1.0);
+    }
+    sum
+}
+
+/// One signal for each linear parameter of a cause; `None` where it has another form or no meaning here.
+pub fn free(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<f64>>> {
+    match (cause.mechanism, cause.joint) {
+        (Mechanism::GainError, Some(joint)) => {
+            Some(vec![seen(&run.at_joint(joint, &run.brake_torque(joint)))])
+        }
+        (Mechanism::CurrentHysteresis | Mechanism::ThermalFade, Some(joint)) => {
+            let change = brakes::unit(run, cause.mechanism, joint, shape)?;
+            Some(vec![along_motion(run, joint, &change)])
+        }
+        // A spring at a joint has its rest angle where it likes: the second column is its torque at θ = 0.
+        (Mechanism::Spring, Some(joint)) => {
+            let mut columns = at_joint(run, Mechanism::Spring, joint, shape)?;
+            columns.extend(at_joint(run, Mechanism::ConstantBias, joint, shape)?);
+            Some(columns)
+        }
+        (Mechanism::BearingFriction, Some(joint)) => {
+            at_joint(run, Mechanism::DryOffset, joint, shape)
+        }
+        (mechanism, Some(joint)) => at_joint(run, mechanism, joint, shape),
+        (Mechanism::ForceGain, None) => Some(vec![driving(run)]),
+        (Mechanism::ForceBias, None) => Some(
+            [[1.0, 0.0], [0.0, 1.0]]
+                .map(|unit| seen(&run.at_tip(core::iter::repeat(unit))))
+                .into(),
+        ),
+        (Mechanism::ForceRotation, None) => {
+            let turned = run.forces().map(|[x, y]| [-y, x]);
+            Some(vec![seen(&run.at_tip(turned))])
+        }
+        (Mechanism::Gravity, None) => Some([0, 1].map(|axis| seen(&weight(run, axis))).into()),
+        (Mechanism::Payload, None) => Some(vec![inertial(run, &forms_of(run, &tip_mass()))]),
+        (Mechanism::InertiaError, None) => Some(
+            unit_inertias(&run.parameters.inertia)
+                .map(|unit| inertial(run, &forms_of(run, &unit)))
+                .into(),
+        ),
+        _ => None,
+    }
+}
+
+/// A column with coefficient 1: a change of the brakes or of the clock.
+pub fn fixed(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<f64>> {
+    let value = *shape.first()?;
+    match (cause.mechanism, cause.joint) {
+        // The yield of a brake changes, its sign does not (docs/decisions/0001).
+        (mechanism, Some(joint)) => {
+            let change = brakes::change(run, mechanism, joint, value)?;
+            Some(along_motion(run, joint, &change))
+        }
+        // The recorded force is the one of a while ago: what acts is ahead of it.
+        (Mechanism::ChannelSkew, None) => {
+            let delay = value / run.step_s;
+            let [x, y] = run
+                .force
+                .each_ref()
+                .map(|force| less(force, &shifted(force, delay)));
+            Some(seen(&run.at_tip(x.into_iter().zip(y).map(|(x, y)| [x, y]))))
+        }
+        _ => None,
+    }
+}
+
+/// A change of a brake's yield torque along its joint's motion.
+fn along_motion(run: &FiveBarRun, joint: Joint, change: &[f64]) -> Vec<f64> {
+    let pairs = run.motion(joint).iter().zip(change);
+    let torque: Vec<f64> = pairs.map(|(now, c)| now.sense * c).collect();
+    seen(&run.at_joint(joint, &torque))
+}
+
+/// The signals of a joint's own law.
+fn at_joint(
+    run: &FiveBarRun,
+    mechanism: Mechanism,
+    joint: Joint,
+    shape: &[f64],
+) -> Option<Vec<Vec<f64>>> {
+    let entry = entry(mechanism)?;
+    if !matches!(entry.form, Form::Resistance(_)) {
+        return None;
+    }
+    crate::problem::unit_parameters(entry.linear, shape)
+        .map(|parameters| {
+            let law = law(mechanism, &parameters)?;
+            let resistance = column(law.as_ref(), run.motion(joint), run.step_s);
+            Some(seen(&run.at_joint(joint, &resistance)))
+        })
+        .collect()
+}
+
+/// The weight's resistance for a unit of gravity along x (0) or y (1), N·m.
+fn weight(run: &FiveBarRun, axis: usize) -> Vec<f64> {
+    let Inertia {
+        ae,
+        ed,
+        bc,
+        cd,
+        payload_kg,
+    } = run.parameters.inertia;
+    let [joint_a, _, joint_b, _] = &run.joints;
+    stacked(
+        run.forms
+            .iter()
+            .zip(joint_a)
+            .zip(joint_b)
+            .map(|((form, a), b)| {
+                // A base arm's centre moves across its arm.
+                let across = |angle: f64| {
+                    let (sine, cosine) = libm::sincos(angle);
+                    if axis == 0 { -sine } else { cosine }
+                };
+                let base = Vector2::new(
+                    ae.mass_kg * ae.centre_m * across(a.position),
+                    bc.mass_kg * bc.centre_m * across(b.position),
+                );
+                let row = |rows: &Matrix2<f64>| rows.row(axis).transpose();
+                let [centre_ed, centre_cd] = form.centres();
+                let sum = base
+                    + row(centre_ed) * ed.mass_kg
+                    + row(centre_cd) * cd.mass_kg
+                    + row(&form.tip) * payload_kg;
+                (-sum).into()
+            }),
+    )
+}
+
+fn forms_of(run: &FiveBarRun, inertia: &Inertia) -> Vec<TwoCoordinate> {
+    let arms = &run.parameters.arms;
+    let [joint_a, _, joint_b, _] = &run.joints;
+    let motion = joint_a.iter().zip(joint_b).zip(&run.poses);
+    motion
+        .map(|((a, b), pose)| two_coordinate(arms, inertia, pose, [a.speed, b.speed]))
+        .collect()
+}
+
+const NO_ARM: ArmInertia = ArmInertia {
+    mass_kg: 0.0,
+    inertia_kg_m2: 0.0,
+    centre_m: 0.0,
+};
+
+const NOTHING: Inertia = Inertia {
+    ae: NO_ARM,
+    ed: NO_ARM,
+    bc: NO_ARM,
+    cd: NO_ARM,
+    payload_kg: 0.0,
+};
+
+const fn tip_mass() -> Inertia {
+    Inertia {
+        payload_kg: 1.0,
+        ..NOTHING
+    }
+}
+
+/// One unit of each parameter of an inertia error: AE, BC, ED, CD, tip. A carried arm's moment is that of its own mass at its
+/// own centre.
+fn unit_inertias(nominal: &Inertia) -> [Inertia; 5] {
+    let turning = ArmInertia {
+        inertia_kg_m2: 1.0,
+        ..NO_ARM
+    };
+    let carried = |arm: &ArmInertia| {
+        let about_joint = arm.inertia_kg_m2 + arm.mass_kg * arm.centre_m * arm.centre_m;
+        ArmInertia {
+            mass_kg: arm.mass_kg / about_joint,
+            inertia_kg_m2: arm.inertia_kg_m2 / about_joint,
+            centre_m: arm.centre_m,
+        }
+    };
+    [
+        Inertia {
+            ae: turning,
+            ..NOTHING
+        },
+        Inertia {
+            bc: turning,
+            ..NOTHING
+        },
+        Inertia {
+            ed: carried(&nominal.ed),
+            ..NOTHING
+        },
+        Inertia {
+            cd: carried(&nominal.cd),
+            ..NOTHING
+        },
+        tip_mass(),
+    ]
+}
+
+/// An effort as the second difference of the angles sees it: Numerov's weights on both outputs.
+fn seen(signal: &[f64]) -> Vec<f64> {
+    let (a, b) = signal.split_at(signal.len() / 2);
+    let mut out = numerov(a);
+    out.extend(numerov(b));
+    out
+}

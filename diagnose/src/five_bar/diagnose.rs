@@ -1,0 +1,380 @@
+//! This file runs the stages on a recording of the five-bar: align, locate, explain, doubt, show.
+
+use super::from_rig::{aligned, nominal};
+use super::locate::locate;
+use super::run::FiveBarRun;
+use crate::candidates::realise;
+use crate::diagnose::ended::{blank, faulty, not_excited};
+use crate::diagnose::words::summary;
+use crate::diagnose::write::{floor, verdict};
+use crate::diagnose::{Curves, Description, Diagnosis, FEWEST_WINDOWS, Options};
+use crate::evidence::{
+    Errors, coefficients_by_term, inclusion, not_seen, parameters, rivals, standard_errors,
+};
+use crate::problem::{Problem, Term, add};
+use crate::report::{BeforeAfter, EffectReport, FitReport, Report, StageReport};
+use crate::run::rms;
+use crate::select::{Selection, refs, select};
+use crate::weak::Windows;
+use crate::write_rig::{numbers, with_interval};
+use rigproof_model::effects::entry;
+use rigproof_spec::effect::{Mechanism, Motion};
+use rigproof_spec::joint::Joint;
+use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording, JointEffect};
+use rigproof_trace::rig::{RigEffect, Value};
+
+/// The widths of windows that are tried, s; the last is taken when no narrower one is quiet enough.
+const WIDTHS_S: [f64; 3] = [0.040, 0.080, 0.160];
+/// A width is quiet enough when the floor is below this, N·m: contributions of 0.01 N·m are to be seen in a few windows.
+const QUIET_NM: f64 = 0.0075;
+
+/// Diagnoses a recording of a five-bar; `held_out` is another recording of the same rig.
+pub fn diagnose(
+    rig: &FiveBar,
+    recording: &FiveBarRecording,
+    held_out: Option<&FiveBarRecording>,
+    options: &Options,
+) -> Diagnosis {
+    let description = || Description::FiveBar(rig.clone());
+    let whole = match aligned(rig, recording) {
+        Ok(run) => run,
+        Err(fault) => return faulty(description(), "recording", fault),
+    };
+    let (train, test) = match held_out.map(|recording| aligned(rig, recording)) {
+        Some(Ok(test)) => (whole, test),
+        Some(Err(fault)) => return faulty(description(), "held-out recording", fault),
+        None => {
+            let cut = ((1.0 - options.hold_out_share) * whole.len() as f64).round() as usize;
+            (whole.slice(0, cut), whole.slice(cut, whole.len()))
+        }
+    };
+    let mut problem = problem(&train);
+    let usable = problem.windows.usable.iter().filter(|u| **u).count() / problem.windows.outputs;
+    if usable < FEWEST_WINDOWS {
+        return not_excited(description(), usable, travel(&train), train.theta_noise);
+    }
+    let terms: Vec<Term> = nominal(rig)
+        .iter()
+        .filter_map(|effect| problem.nominal_term(effect))
+        .collect();
+    let selection = select(&mut problem, terms, options.gates);
+    Stand {
+        rig,
+        problem: &problem,
+        selection: &selection,
+        train: &train,
+        test: &test,
+        options,
+    }
+    .report(held_out.is_some())
+}
+
+/// The problem with the narrowest windows whose predicted floor is small against the driving effort.
+fn problem(run: &FiveBarRun) -> Problem<'_> {
+    let over = |width_s| {
+        let windows = Windows::over(run.len(), 2, (run.step_s, run.start_s), width_s);
+        Problem::of_five_bar(run, windows)
+    };
+    let quiet = |problem: &Problem| problem.floor <= QUIET_NM;
+    let [narrow, middle, wide] = WIDTHS_S;
+    let narrow = over(narrow);
+    if quiet(&narrow) {
+        return narrow;
+    }
+    let middle = over(middle);
+    if quiet(&middle) { middle } else { over(wide) }
+}
+
+/// The greatest range of θA and θB, rad.
+fn travel(run: &FiveBarRun) -> f64 {
+    let range = |theta: &Vec<f64>| {
+        let low = theta.iter().copied().fold(f64::INFINITY, f64::min);
+        theta.iter().copied().fold(f64::NEG_INFINITY, f64::max) - low
+    };
+    run.theta.iter().map(range).fold(0.0, f64::max)
+}
+
+/// Everything the report is written from.
+struct Stand<'a> {
+    rig: &'a FiveBar,
+    problem: &'a Problem<'a>,
+    selection: &'a Selection,
+    train: &'a FiveBarRun,
+    test: &'a FiveBarRun,
+    options: &'a Options,
+}
+
+/// The windows of a recording with the models before and after.
+struct Balanced {
+    times_s: Vec<f64>,
+    usable: Vec<bool>,
+    recorded: Vec<f64>,
+    before: Vec<f64>,
+    after: Vec<f64>,
+}
+
+impl Stand<'_> {
+    fn report(&self, other_recording: bool) -> Diagnosis {
+        let (problem, selection) = (self.problem, self.selection);
+        let rivals = rivals(problem, selection);
+        let floor = floor(problem, selection, Motion::Rotary);
+        let verdict = verdict(selection, &floor, &rivals);
+        let test = self.balanced(self.test);
+        let fit = (self.options.refit && self.test.len() > 0)
+            .then(|| self.fit_report(&test, other_recording));
+        let errors = standard_errors(problem, selection);
+        let calibration = self.calibrated(&errors);
+        let (before, after) = (&selection.before.residual, &selection.after.residual);
+        let summary = summary(verdict, selection, fit.as_ref());
+        let report = Report {
+            protocol: self.protocol(other_recording),
+            located: locate(problem, self.train, before, after),
+            stages: self.stages(),
+            effects: self.effects(&calibration),
+            ambiguous_with: rivals
+                .iter()
+                .map(|r| r.iter().map(|cause| cause.name()).collect())
+                .collect(),
+            too_small_to_name: selection.too_small.iter().map(|c| c.name()).collect(),
+            not_seen: not_seen(problem, selection, self.options.gates, Motion::Rotary),
+            fit,
+            floor: Some(floor.clone()),
+            ..blank("rig", verdict, summary)
+        };
+        let curves = self.curves(test, floor.unit);
+        Diagnosis {
+            report,
+            calibration: Description::FiveBar(calibration),
+            curves,
+        }
+    }
+
+    fn protocol(&self, other_recording: bool) -> Vec<String> {
+        let windows = &self.problem.windows;
+        let usable = windows.usable.iter().filter(|u| **u).count() / windows.outputs;
+        let gates = self.options.gates;
+        vec![
+            format!(
+                "fitted part: {} samples at {:.1} Hz, {:.3} s; held-out part: {} samples{}",
+                self.train.len(),
+                1.0 / self.train.step_s,
+                self.train.duration_s(),
+                self.test.len(),
+                if other_recording {
+                    " of another recording"
+                } else {
+                    " at the end of the recording"
+                },
+            ),
+            format!(
+                "equations: momentum form on θA and θB; arms and masses of tables 4.1 and 5.1, brakes of tables 3.1 to 3.3 along the recorded motion, currents held from sample to sample, in the middle of their backlash at the start",
+            ),
+            format!(
+                "windows: bump (1 - x²)⁴, {:.1} ms wide, {} samples apart, {usable} of {} usable (every braked joint moves and its sense is known)",
+                1e3 * windows.bump.len() as f64 * windows.step_s,
+                windows.hop,
+                windows.centres.len() / windows.outputs,
+            ),
+            format!(
+                "noise: angles {:.3e} rad, force {:.3e} N (standard deviation of a sample); rows whitened together by the factor of their covariance",
+                self.train.theta_noise, self.train.force_noise
+            ),
+            format!(
+                "naming: z ≥ {} over left-out contiguous blocks, ≥ {} % of the loss, ≥ {} % of the driving effort",
+                gates.z,
+                100.0 * gates.share,
+                100.0 * gates.relevance
+            ),
+        ]
+    }
+
+    fn stages(&self) -> Vec<StageReport> {
+        let stages = self.selection.stages.iter();
+        stages
+            .map(|stage| StageReport {
+                entered: stage.entered.mechanism.name(),
+                joint: stage.entered.joint.map(Joint::letter),
+                standing: stage.standing.iter().map(|c| c.name()).collect(),
+                residual: stage.residual,
+                inverse_error_percent: None,
+            })
+            .collect()
+    }
+
+    /// The models before and after on a recording, both with the numbers of the fitted part.
+    fn balanced(&self, run: &FiveBarRun) -> Balanced {
+        let width_s = self.problem.windows.bump.len() as f64 * run.step_s;
+        let windows = Windows::over(run.len(), 2, (run.step_s, run.start_s), width_s);
+        let problem = Problem::of_five_bar(run, windows);
+        let mut bare = self.selection.clone();
+        bare.found.clear();
+        bare.after = bare.before.clone();
+        let average = |signal: &[f64]| problem.windows.average(signal);
+        Balanced {
+            times_s: problem.windows.times_s(),
+            usable: problem.windows.usable.clone(),
+            recorded: average(&super::columns::driving(run)),
+            before: average(&modelled(&problem, &bare)),
+            after: average(&modelled(&problem, self.selection)),
+        }
+    }
+
+    fn fit_report(&self, test: &Balanced, other_recording: bool) -> FitReport {
+        let train = before_after(&self.balanced(self.train));
+        let held_out = before_after(test);
+        let least = self.problem.floor;
+        let where_from = if other_recording {
+            "another recording"
+        } else {
+            "the end of the recording"
+        };
+        FitReport {
+            protocol: format!(
+                "balance of efforts over the usable windows along the recorded motion, numbers from the fitted part, no refit by free runs; held out: {where_from}"
+            ),
+            unit: "N·m".to_owned(),
+            train,
+            held_out: Some(held_out),
+            held_out_without_refit: None,
+            held_out_from_rest: None,
+            horizon: Vec::new(),
+            recovered_share: (held_out.before - held_out.after)
+                / (held_out.before - least).max(1e-300),
+            improved: held_out.after < held_out.before,
+            drift: None,
+        }
+    }
+
+    /// The rig with the numbers of all terms; found effects follow the nominal ones.
+    fn calibrated(&self, errors: &Errors) -> FiveBar {
+        let mut rig = self.rig.clone();
+        let (_, coefficients) = coefficients_by_term(self.problem, self.selection);
+        let terms = refs(&self.selection.nominal, &self.selection.found);
+        let known = rig.effects.clone();
+        rig.effects = terms
+            .iter()
+            .zip(&coefficients)
+            .enumerate()
+            .map(|(index, (term, own))| {
+                if let (Some(given), Some(_)) = (known.get(index), &term.known) {
+                    return given.clone();
+                }
+                let spread = errors.terms.get(index);
+                let count = term.cause.mechanism.parameters().len();
+                let values = parameters(term, own).into_iter().take(count).enumerate();
+                let values = values
+                    .map(|(k, value)| with_interval(value, spread.and_then(|s| s.get(k)).copied()));
+                joint_effect(term, term.cause.mechanism, values.collect())
+            })
+            .collect();
+        // A spring's torque at θ = 0, which the vocabulary has as a law of its own.
+        let springs = terms.iter().zip(&coefficients);
+        rig.effects.extend(springs.filter_map(|(term, own)| {
+            let preload = *own
+                .get(1)
+                .filter(|_| term.cause.mechanism == Mechanism::Spring)?;
+            let level = with_interval(preload, None);
+            Some(joint_effect(term, Mechanism::ConstantBias, vec![level]))
+        }));
+        rig.provenance
+            .insert("fit".to_owned(), "weighted windows".to_owned());
+        rig
+    }
+
+    fn effects(&self, calibration: &FiveBar) -> Vec<EffectReport> {
+        let offset = self.selection.nominal.len();
+        let found = self.selection.found.iter().enumerate();
+        found
+            .filter_map(|(index, found)| {
+                let cause = found.term.cause;
+                let entry = entry(cause.mechanism)?;
+                let fitted = calibration.effects.get(offset + index)?;
+                Some(EffectReport {
+                    mechanism: cause.mechanism.name(),
+                    joint: cause.joint.map(Joint::letter),
+                    parameters: numbers(&fitted.effect, Motion::Rotary),
+                    onset_s: found.term.onset_s,
+                    z: found.z,
+                    inclusion: inclusion(self.problem, self.selection, index, self.options.gates),
+                    share_explained: found.share,
+                    equation: entry.equation,
+                    refuted_by: entry.refuted_by,
+                })
+            })
+            .collect()
+    }
+
+    /// The held-out balance and the residual of the output in which more was unexplained.
+    fn curves(&self, test: Balanced, unit: String) -> Curves {
+        let before = &self.selection.before.residual;
+        let energy = |output: usize| -> f64 {
+            let rows = before.iter().skip(output).step_by(2);
+            rows.map(|r| r * r).sum()
+        };
+        let output = usize::from(energy(1) > energy(0));
+        let of = |values: &[f64]| -> Vec<f64> {
+            values.iter().skip(output).step_by(2).copied().collect()
+        };
+        Curves {
+            time_s: of(&test.times_s),
+            recorded: of(&test.recorded),
+            before: of(&test.before),
+            after: of(&test.after),
+            unit: unit.clone(),
+            window_time_s: of(&self.problem.windows.times_s()),
+            residual_before: of(before),
+            residual_after: of(&self.selection.after.residual),
+            floor: self.problem.floor,
+            residual_unit: unit,
+        }
+    }
+}
+
+fn joint_effect(term: &Term, mechanism: Mechanism, values: Vec<Value>) -> JointEffect {
+    JointEffect {
+        joint: term.cause.joint,
+        effect: RigEffect {
+            mechanism,
+            values,
+            onset: term.onset_s.map(Value::known),
+        },
+    }
+}
+
+/// What a selection's numbers give on a problem of another recording, sample by sample.
+fn modelled(problem: &Problem, selection: &Selection) -> Vec<f64> {
+    let (_, coefficients) = coefficients_by_term(problem, selection);
+    let mut sum = problem.known.clone();
+    let terms = refs(&selection.nominal, &selection.found);
+    for (term, own) in terms.iter().zip(&coefficients) {
+        let Some(moved) = realise(problem, term.cause, &term.shape, term.onset_s, &sum) else {
+            continue;
+        };
+        let given = term.known.as_ref().unwrap_or(own);
+        for (c, rows) in given.iter().zip(&moved.free) {
+            add(&mut sum, &rows.signal, *c);
+        }
+        if let Some(rows) = &moved.fixed {
+            add(&mut sum, &rows.signal, 1.0);
+        }
+    }
+    sum
+}
+
+fn before_after(balanced: &Balanced) -> BeforeAfter {
+    let kept = |values: &[f64]| -> Vec<f64> {
+        let pairs = values.iter().zip(&balanced.recorded).zip(&balanced.usable);
+        pairs
+            .filter(|(_, u)| **u)
+            .map(|((v, r), _)| r - v)
+            .collect()
+    };
+    let size = rms(&kept(&vec![0.0; balanced.recorded.len()])).max(1e-300);
+    let (before, after) = (rms(&kept(&balanced.before)), rms(&kept(&balanced.after)));
+    BeforeAfter {
+        before,
+        after,
+        nrmse_before: 100.0 * before / size,
+        nrmse_after: 100.0 * after / size,
+    }
+}

@@ -1,0 +1,250 @@
+//! This file turns a five-bar's description and its recording into an aligned run.
+
+use super::run::{FiveBarRun, forms, yields};
+use crate::align::{
+    Fault, Signals, band_hz, check_clipped, cutoff_hz, check_clock, check_frozen, check_missing,
+    forget_sense_at_rest, forget_sense_at_reversals, median_step, regular_count, resample,
+    smallest_step, smoothed_motion,
+};
+use crate::problem::{Cause, NominalEffect};
+use crate::run::PlantKind;
+use core::f64::consts::TAU;
+use rigproof_model::brake::{Brake, torque_gain};
+use rigproof_model::effects::Instant;
+use rigproof_model::rig::Parameters;
+use rigproof_spec::joint::Joint;
+use rigproof_trace::rig::Status;
+use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording};
+
+/// Aligns a recording of a five-bar.
+///
+/// # Errors
+/// The fault that makes any conclusion meaningless.
+pub fn aligned(rig: &FiveBar, recording: &FiveBarRecording) -> Result<FiveBarRun, Fault> {
+    let time_s = &recording.time_s;
+    let step_s = median_step(time_s);
+    check_clock(time_s, step_s)?;
+    let count = regular_count(time_s, step_s);
+    let mut recorded = vec![true; count];
+    let mut regular = |channel: &'static str, samples: &[f64]| {
+        check_missing(channel, time_s, samples)?;
+        let (values, own) = resample(time_s, samples, step_s, count);
+        recorded
+            .iter_mut()
+            .zip(own)
+            .for_each(|(all, own)| *all &= own);
+        Ok::<_, Fault>(values)
+    };
+    let [theta_a, theta_b] = &recording.theta;
+    let [force_x, force_y] = &recording.force;
+    let theta = [
+        regular("theta_a", &theta_a.samples)?,
+        regular("theta_b", &theta_b.samples)?,
+    ];
+    let force = [
+        regular("force_x", &force_x.samples)?,
+        regular("force_y", &force_y.samples)?,
+    ];
+    let mut currents = [const { None }; 4];
+    for (slot, signal) in currents.iter_mut().zip(&recording.currents) {
+        if let Some(signal) = signal {
+            *slot = Some(regular("current", &signal.samples)?);
+        }
+    }
+    for (angle, force, names) in [
+        (theta_a, force_x, ["theta_a", "force_x"]),
+        (theta_b, force_y, ["theta_b", "force_y"]),
+    ] {
+        check_pair(time_s, &angle.samples, &force.samples, force.limit, step_s).map_err(
+            |fault| {
+                let [angle, force] = names;
+                Fault {
+                    channel: if fault.channel == "position" {
+                        angle
+                    } else {
+                        force
+                    },
+                    ..fault
+                }
+            },
+        )?;
+    }
+    let quantum = theta_a
+        .quantum
+        .unwrap_or_else(|| smallest_step(&theta_a.samples));
+    let theta_noise = (quantum / 12f64.sqrt()).hypot(theta_a.noise.unwrap_or(0.0));
+    let force_noise = force_x
+        .noise
+        .unwrap_or_else(|| smallest_step(&force_x.samples) / 12f64.sqrt());
+    let band = force.iter().map(|f| band_hz(f, step_s)).fold(0.0, f64::max);
+    let still = (2.0 * quantum).max(6.0 * theta_noise);
+    let smoothed = theta
+        .each_ref()
+        .map(|theta| smoothed_motion(theta, step_s, band, theta_noise));
+    let speed_floor = smoothed
+        .each_ref()
+        .map(|s| s.1)
+        .into_iter()
+        .fold(0.0, f64::max);
+    let base = smoothed.map(|(motion, _)| motion);
+    let parameters = Parameters::of(rig.layout);
+    let made = forms(&parameters, &base).map_err(|(k, error)| Fault {
+        channel: "theta_a",
+        from_s: k as f64 * step_s,
+        to_s: k as f64 * step_s,
+        reason: format!("the linkage cannot stand at the recorded angles: {error}; an encoder has lost counts, or its zero or sign is wrong"),
+    })?;
+    let (poses, forms): (Vec<_>, Vec<_>) = made.into_iter().unzip();
+    let mut run = FiveBarRun {
+        parameters,
+        step_s,
+        start_s: 0.0,
+        theta,
+        joints: [const { Vec::new() }; 4],
+        poses,
+        forms,
+        force,
+        currents,
+        yields: [const { Vec::new() }; 4],
+        backlash_steps: [const { Vec::new() }; 4],
+        theta_noise,
+        force_noise,
+        recorded,
+        speed_floor,
+    };
+    let untold = untold_speeds(&run, &base, cutoff_hz(step_s, band));
+    run.joints = Joint::ALL.map(|joint| joint_motion(&run, &base, joint, still, &untold));
+    let_brakes_follow(&mut run);
+    Ok(run)
+}
+
+fn check_pair(
+    time_s: &[f64],
+    angle: &[f64],
+    force: &[f64],
+    limit: Option<f64>,
+    step_s: f64,
+) -> Result<(), Fault> {
+    let signals = Signals {
+        plant: PlantKind::Axis,
+        time_s: time_s.to_vec(),
+        position: angle.to_vec(),
+        effort: force.to_vec(),
+        predicted: None,
+        current: None,
+        held: true,
+        position_quantum: None,
+        position_noise: None,
+        effort_noise: None,
+        effort_limit: limit,
+    };
+    check_frozen(&signals, step_s)?;
+    check_clipped(&signals)
+}
+
+/// Half the stretch of time over which the bend of the smoothed angles counts, s.
+const BEND_S: f64 = 0.02;
+
+/// The speeds of θA and θB below which their sense cannot be told, sample by sample, rad/s: what noise does, and what the
+/// low-pass does where it bends the recorded angle, because the acceleration jumps there.
+fn untold_speeds(run: &FiveBarRun, base: &[Vec<Instant>; 2], cutoff_hz: f64) -> [Vec<f64>; 2] {
+    let reach = (BEND_S / run.step_s).round().max(1.0) as usize;
+    let of = |(theta, motion): (&Vec<f64>, &Vec<Instant>)| -> Vec<f64> {
+        let pairs = theta.iter().zip(motion);
+        let bend: Vec<f64> = pairs.map(|(raw, now)| (raw - now.position).abs()).collect();
+        (0..bend.len())
+            .map(|k| {
+                let around = bend.get(k.saturating_sub(reach)..(k + reach + 1).min(bend.len()));
+                let greatest = around.into_iter().flatten().copied().fold(0.0, f64::max);
+                // White noise bends by up to four times its size, which the floor already counts.
+                let excess = (greatest - 4.0 * run.theta_noise).max(0.0);
+                run.speed_floor + TAU * cutoff_hz * excess
+            })
+            .collect()
+    };
+    let [theta_a, theta_b] = &run.theta;
+    let [a, b] = base;
+    [of((theta_a, a)), of((theta_b, b))]
+}
+
+/// The motion of a joint that the angles and rates of A and B imply.
+fn joint_motion(
+    run: &FiveBarRun,
+    base: &[Vec<Instant>; 2],
+    joint: Joint,
+    still: f64,
+    untold: &[Vec<f64>; 2],
+) -> Vec<Instant> {
+    let [a, b] = base;
+    let [untold_a, untold_b] = untold;
+    let pairs = a.iter().zip(b).zip(&run.poses).zip(run.joint_rows(joint));
+    let pairs = pairs.zip(untold_a.iter().zip(untold_b));
+    let mut greatest = 0.0f64;
+    let mut motion: Vec<Instant> = pairs
+        .map(|((((a, b), pose), [by_a, by_b]), (untold_a, untold_b))| {
+            let floor = by_a.abs() * untold_a + by_b.abs() * untold_b;
+            greatest = greatest.max(by_a.abs() + by_b.abs());
+            let speed = by_a * a.speed + by_b * b.speed;
+            Instant {
+                time_s: a.time_s,
+                position: match joint {
+                    Joint::A => pose.theta_a_rad,
+                    Joint::E => pose.theta_e_rad,
+                    Joint::B => pose.theta_b_rad,
+                    Joint::C => pose.theta_c_rad,
+                },
+                speed,
+                sense: (speed / floor.max(1e-300)).clamp(-1.0, 1.0),
+            }
+        })
+        .collect();
+    let position: Vec<f64> = motion.iter().map(|now| now.position).collect();
+    forget_sense_at_rest(
+        &mut motion,
+        &position,
+        run.step_s,
+        still * greatest.max(1.0),
+    );
+    forget_sense_at_reversals(&mut motion);
+    motion
+}
+
+/// Lets the nominal brakes follow the motion; a joint without one resists with 0.
+fn let_brakes_follow(run: &mut FiveBarRun) {
+    let joints = Joint::ALL.into_iter().zip(&run.joints).zip(&run.currents);
+    let followed: Vec<(Vec<f64>, Vec<f64>)> = joints
+        .map(|((joint, motion), current)| {
+            let Some(current) = current else {
+                return (vec![0.0; motion.len()], vec![0.0; motion.len()]);
+            };
+            let start = motion.first().map_or(0.0, |now| now.position);
+            let (own, turned) = yields(Brake::new(joint, start), motion, current, run.step_s);
+            let off = torque_gain(joint, 0.0);
+            let full = |(turned, current): (&bool, &f64)| match turned {
+                true => (torque_gain(joint, *current) - off).abs(),
+                false => 0.0,
+            };
+            (own, turned.iter().zip(current).map(full).collect())
+        })
+        .collect();
+    let slots = run.yields.iter_mut().zip(&mut run.backlash_steps);
+    for ((yields, steps), followed) in slots.zip(followed) {
+        (*yields, *steps) = followed;
+    }
+}
+
+/// The physics that the nominal model has beyond the thesis's.
+pub fn nominal(rig: &FiveBar) -> Vec<NominalEffect> {
+    rig.effects
+        .iter()
+        .map(|own| NominalEffect {
+            cause: Cause {
+                mechanism: own.effect.mechanism,
+                joint: own.joint,
+            },
+            parameters: own.effect.values.iter().map(|v| v.value).collect(),
+            unknown: own.effect.values.iter().any(|v| v.status != Status::Known),
+            onset_s: own.effect.onset.map(|v| v.value),
+        })
+        .collect()
+}

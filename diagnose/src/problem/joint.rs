@@ -1,0 +1,109 @@
+//! This file is the columns of a plant of one joint: resistances along its motion, and changes of its drive.
+
+use super::{Problem, lagged_yield, less, numerov, shifted};
+use crate::filter::gradient;
+use crate::run::{PlantKind, Run};
+use rigproof_model::bench::column;
+use rigproof_model::effects::{Form, entry, first_order_lag, law};
+use rigproof_spec::effect::Mechanism;
+
+/// A free column, and one with coefficient 1.
+pub type DriveColumns = (Option<Vec<f64>>, Option<Vec<f64>>);
+
+/// One signal for each linear parameter of a resistance, as the position sees it: the law with that parameter 1 and the
+/// others 0. `None` for a mechanism that acts on the drive.
+pub fn resistances(run: &Run, mechanism: Mechanism, shape: &[f64]) -> Option<Vec<Vec<f64>>> {
+    let entry = entry(mechanism)?;
+    if let Form::Drive = entry.form {
+        return None;
+    }
+    unit_parameters(entry.linear, shape)
+        .map(|parameters| {
+            let law = law(mechanism, &parameters)?;
+            Some(seen(run, column(law.as_ref(), &run.motion, run.step_s)))
+        })
+        .collect()
+}
+
+/// The parameters of a law with each of its linear ones 1 in turn and the others 0.
+pub fn unit_parameters(linear: usize, shape: &[f64]) -> impl Iterator<Item = Vec<f64>> {
+    (0..linear).map(move |index| {
+        let unit = (0..linear).map(|k| if k == index { 1.0 } else { 0.0 });
+        unit.chain(shape.iter().copied()).collect()
+    })
+}
+
+/// A resistance as the discrete second difference of the position sees it: on an axis with Numerov's weights,
+/// exact to fourth order in the step for a signal that is smooth between samples.
+fn seen(run: &Run, signal: Vec<f64>) -> Vec<f64> {
+    match run.plant {
+        PlantKind::Axis => numerov(&signal),
+        PlantKind::Bench => signal,
+    }
+}
+
+/// The effort as the discrete second difference of the position sees it: half of the last value and half of this
+/// one for a drive that holds, Numerov's weights for one that was sampled; the metered effort itself on a bench.
+pub fn acting_effort(run: &Run, effort: &[f64]) -> Vec<f64> {
+    match (run.plant, run.held) {
+        (PlantKind::Bench, _) => effort.to_vec(),
+        (PlantKind::Axis, true) => {
+            let before = effort.first().into_iter().chain(effort);
+            before.zip(effort).map(|(b, e)| 0.5 * (b + e)).collect()
+        }
+        (PlantKind::Axis, false) => numerov(effort),
+    }
+}
+
+/// What a recorded drive has more than the one that acts, as the position sees it.
+fn missing_effort(run: &Run, acting: &[f64]) -> Vec<f64> {
+    acting_effort(run, &less(&run.effort, acting))
+}
+
+/// Columns of a mechanism that acts on the drive; `fitted` is what the other terms give.
+pub fn drive(
+    problem: &Problem,
+    run: &Run,
+    mechanism: Mechanism,
+    shape: &[f64],
+    fitted: &[f64],
+) -> Option<DriveColumns> {
+    let value = shape.first().copied().unwrap_or(0.0);
+    let step_s = run.step_s;
+    let inertia_known = problem.inertia_column.is_none();
+    match (mechanism, run.plant) {
+        // With a known inertia the command itself can be delayed: it has less noise than an acceleration.
+        (Mechanism::Lag, PlantKind::Axis) if inertia_known => {
+            let acting = first_order_lag(&run.effort, step_s, value);
+            Some((None, Some(missing_effort(run, &acting))))
+        }
+        (Mechanism::ChannelSkew, PlantKind::Axis) if inertia_known => {
+            let acting = shifted(&run.effort, -value / step_s);
+            Some((None, Some(missing_effort(run, &acting))))
+        }
+        // Else the command is ahead of the effort that moves the joint: gain·u = e + time_constant·de/dt.
+        (Mechanism::Lag, PlantKind::Axis) => {
+            let slope = gradient(fitted, step_s);
+            Some((None, Some(slope.into_iter().map(|s| value * s).collect())))
+        }
+        (Mechanism::ChannelSkew, PlantKind::Axis) => {
+            Some((None, Some(less(&shifted(fitted, value / step_s), fitted))))
+        }
+        // The yield of a brake lags, its sign does not (docs/decisions/0001).
+        (Mechanism::Lag, PlantKind::Bench) => match (&run.predicted, &run.current) {
+            (Some(predicted), Some(_)) => {
+                let lagged = lagged_yield(predicted, step_s, value);
+                Some((None, Some(less(&lagged, predicted))))
+            }
+            _ => {
+                let lagged = first_order_lag(fitted, step_s, value);
+                Some((None, Some(less(&lagged, fitted))))
+            }
+        },
+        (Mechanism::ChannelSkew, PlantKind::Bench) => {
+            Some((None, Some(less(&shifted(fitted, -value / step_s), fitted))))
+        }
+        (Mechanism::GainError, _) if inertia_known => Some((Some(problem.known.clone()), None)),
+        _ => None,
+    }
+}

@@ -1,0 +1,42 @@
+//! This file is a resistance that rest has built up and motion stirs away: settled particles (§3.4.1 names the scatter).
+
+use super::{Entry, Form, Instant, Law, parameter};
+use rigproof_spec::effect::Mechanism;
+
+pub(super) const ENTRY: Entry = Entry {
+    mechanism: Mechanism::Settling,
+    form: Form::Resistance(|p| {
+        Box::new(Settled {
+            level: parameter(p, 0),
+            travel: parameter(p, 1),
+        })
+    }),
+    linear: 1,
+    passive: false,
+    refuted_by: "the same resistance in the first turn after a rest as in the tenth",
+    equation: "level·(1 − m)·sgn(q̇), travel·dm/dt = |q̇|·(1 − m)",
+};
+
+/// The memory is the share that has been stirred since the first sample.
+struct Settled {
+    level: f64,
+    travel: f64,
+}
+
+impl Law for Settled {
+    fn smooth(&self, now: &Instant, memory: f64) -> f64 {
+        -self.level * memory * now.sense
+    }
+
+    fn dry(&self, _now: &Instant) -> f64 {
+        self.level
+    }
+
+    fn remembers(&self) -> bool {
+        true
+    }
+
+    fn memory_rate(&self, now: &Instant, memory: f64) -> f64 {
+        now.speed.abs() * (1.0 - memory) / self.travel
+    }
+}
