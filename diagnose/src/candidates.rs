@@ -55,8 +55,11 @@ pub fn realise(
 }
 
 /// The effort that the known part and the fitted terms give together, sample by sample; a change of the drive
-/// among them is left out, because it acts on what the others give.
+/// among them is left out, because it acts on what the others give. Empty where no change of the drive needs it.
 pub fn modelled_effort(problem: &Problem, terms: &[&Term], fitted: &Fit) -> Vec<f64> {
+    if !problem.plant.is_linearised() {
+        return Vec::new();
+    }
     let mut effort = problem.known.clone();
     let mut coefficients = fitted.coefficients.iter().copied();
     if let Some(column) = &problem.inertia_column {

@@ -22,7 +22,7 @@ pub use signals::{lagged_yield, numerov, shifted};
 /// One column of the regression over all windows.
 #[derive(Clone, Debug)]
 pub struct Rows {
-    /// Sample by sample, one output after another.
+    /// Sample by sample, one output after another; empty where they are not kept.
     pub signal: Vec<f64>,
     /// As averaged by the test function.
     pub raw: Vec<f64>,
@@ -132,6 +132,16 @@ impl PlantRun<'_> {
             PlantRun::Joint(run) => run.duration_s(),
             PlantRun::FiveBar(run) => run.duration_s(),
         }
+    }
+
+    /// Whether a change of the drive depends on what the other terms give; it does not where brakes run again.
+    pub fn is_linearised(self) -> bool {
+        matches!(self, PlantRun::Joint(_))
+    }
+
+    /// Whether terms that are kept hold their samples; the five-bar has too many of both.
+    fn keeps_signals(self) -> bool {
+        matches!(self, PlantRun::Joint(_))
     }
 
     /// The driving effort, sample by sample, one output after another.
@@ -297,12 +307,12 @@ impl<'a> Problem<'a> {
     pub fn term(&self, cause: Cause, shape: &[f64], onset_s: Option<f64>) -> Option<Term> {
         let free = match (self.kept(cause, shape), onset_s) {
             (Some(kept), None) => return Some(kept),
-            (Some(kept), onset_s) => kept
+            (Some(kept), onset_s) if self.plant.keeps_signals() => kept
                 .free
                 .iter()
                 .map(|rows| Arc::new(self.rows(rows.signal.clone(), onset_s)))
                 .collect(),
-            (None, onset_s) => self
+            (_, onset_s) => self
                 .free_signals(cause, shape)?
                 .into_iter()
                 .map(|signal| Arc::new(self.rows(signal, onset_s)))
@@ -326,10 +336,18 @@ impl<'a> Problem<'a> {
     }
 
     /// The term of a cause that acts from the start, kept for the next time: for shapes that are tried in every
-    /// step of the search.
+    /// step of the search. `None` for one that has to be linearised about the other terms.
     pub fn kept_term(&self, cause: Cause, shape: &[f64]) -> Option<Term> {
         self.kept(cause, shape).or_else(|| {
-            let term = self.term(cause, shape, None)?;
+            let mut term = self.term(cause, shape, None).or_else(|| match self.plant {
+                PlantRun::Joint(_) => None,
+                PlantRun::FiveBar(_) => self.drive_term(cause, shape, None, &[]),
+            })?;
+            if !self.plant.keeps_signals() {
+                for rows in term.free.iter_mut().chain(&mut term.fixed) {
+                    Arc::make_mut(rows).signal = Vec::new();
+                }
+            }
             self.kept.borrow_mut().push(term.clone());
             Some(term)
         })

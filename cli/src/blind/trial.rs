@@ -6,8 +6,7 @@ use std::path::{Path, PathBuf};
 use indicatif::ProgressBar;
 use rayon::prelude::*;
 use rigproof_blind::{Answer, Case, Plant, Score, Table, make, open, score};
-use rigproof_diagnose::{Options, diagnose};
-use rigproof_trace::rig::Rig;
+use rigproof_diagnose::{Description, Options};
 use rigproof_trace::store::{Folder, read_text};
 use serde_json::{Value, json};
 
@@ -152,7 +151,7 @@ fn one(args: &Args, plant: Plant, seed: u64, bar: &ProgressBar) -> Result<Tried,
             serde_json::from_str(&read_text(&path)?)
                 .map_err(|error| Failure::unusable(&path, error.to_string()))?
         }
-        None => diagnosed(plant, seed, &case)?,
+        None => diagnosed(seed, &case)?,
     };
     let answer = open(&case.sealed)?;
     let score = score(&answer, &report)?;
@@ -165,24 +164,23 @@ fn one(args: &Args, plant: Plant, seed: u64, bar: &ProgressBar) -> Result<Tried,
 }
 
 /// The report of a case; a recording that cannot be read counts as a data fault.
-fn diagnosed(plant: Plant, seed: u64, case: &Case) -> Result<Value, Failure> {
-    if plant == Plant::Rig {
-        let words = "the five-bar is not diagnosed by this program yet; give the reports of its cases with --reports";
-        return Err(Failure::Usage(words.to_owned()));
-    }
-    let rig = Rig::parse(&case.rig_toml, Path::new("rig.toml"))?;
+fn diagnosed(seed: u64, case: &Case) -> Result<Value, Failure> {
+    let rig = Description::parse(&case.rig_toml, Path::new("rig.toml"))?;
     let options = Options {
         refit: false,
         hold_out_share: 0.0,
         ..Options::default()
     };
-    match rig.apply(&case.trace, Path::new("recording.csv")) {
-        Ok(recording) => serde_json::to_value(diagnose(&rig, &recording, None, &options).report)
-            .map_err(|error| Failure::Input(format!("the report of seed {seed}: {error}"))),
+    let diagnosis = match rig.apply(&case.trace, Path::new("recording.csv")) {
+        Ok(recording) => rig.diagnose(&recording, None, &options),
         Err(error) => {
-            Ok(json!({ "verdict": "data_fault", "effects": [], "summary": error.to_string() }))
+            return Ok(
+                json!({ "verdict": "data_fault", "effects": [], "summary": error.to_string() }),
+            );
         }
-    }
+    };
+    serde_json::to_value(diagnosis.map(|diagnosis| diagnosis.report))
+        .map_err(|error| Failure::Input(format!("the report of seed {seed}: {error}")))
 }
 
 /// Writes the cases that were missed, with their reports.

@@ -2,7 +2,7 @@
 
 use super::run::{FiveBarRun, forms, yields};
 use crate::align::{
-    Fault, Signals, band_hz, check_clipped, cutoff_hz, check_clock, check_frozen, check_missing,
+    Fault, Signals, band_hz, check_clipped, check_clock, check_frozen, check_missing, cutoff_hz,
     forget_sense_at_rest, forget_sense_at_reversals, median_step, regular_count, resample,
     smallest_step, smoothed_motion,
 };

@@ -93,6 +93,9 @@ pub(super) fn effort_beside(
     drive: &Term,
     blocks: &Blocks,
 ) -> Option<Vec<f64>> {
+    if !problem.plant.is_linearised() {
+        return None;
+    }
     drive.fixed.as_ref()?;
     let mut term = drive.clone();
     let mut effort = Vec::new();
