@@ -229,7 +229,9 @@ fn rivals_of(
                 let losses = nested_block_losses(problem, &common, tried, blocks);
                 let (_, z) = paired(&losses, &selection.after.block_loss, &all);
                 let reached = bare.left_out() - losses.iter().sum::<f64>();
-                z < TIE_Z || (reached >= RIVAL_SHARE * gain && reached > 0.0 && z < 2.0 * TIE_Z)
+                let enough = reached >= problem.plant.least_rival_share() * gain;
+                enough && z < TIE_Z
+                    || (reached >= RIVAL_SHARE * gain && reached > 0.0 && z < 2.0 * TIE_Z)
             };
             if is_rival(&tried) {
                 return true;

@@ -139,6 +139,15 @@ impl PlantRun<'_> {
         matches!(self, PlantRun::Joint(_))
     }
 
+    /// Share of an effect's gain below which nothing counts as explaining as much, however the blocks scatter. An effect of the
+    /// five-bar often lives in few blocks; the rules of the other plants were chosen without such a share.
+    pub fn least_rival_share(self) -> f64 {
+        match self {
+            PlantRun::Joint(_) => f64::NEG_INFINITY,
+            PlantRun::FiveBar(_) => 0.5,
+        }
+    }
+
     /// Whether terms that are kept hold their samples; the five-bar has too many of both.
     fn keeps_signals(self) -> bool {
         matches!(self, PlantRun::Joint(_))

@@ -93,10 +93,14 @@ impl SignalView {
             (None, _) => "no sample".to_owned(),
             (Some((value, _)), None) => with_unit(value, unit),
             (Some((least, greatest)), _) => {
-                // As many digits as tell the ends apart.
+                // As many digits as tell the ends apart, and two more where four do not.
                 let differ =
                     |digits: &usize| significant(least, *digits) != significant(greatest, *digits);
-                let digits = (4..17).find(differ).unwrap_or(17);
+                let digits = match (4..15).find(differ) {
+                    Some(4) => 4,
+                    Some(digits) => digits + 2,
+                    None => 17,
+                };
                 let [least, greatest] = [least, greatest].map(|end| significant(end, digits));
                 format!("{least} to {greatest} {unit}")
                     .trim_end()
@@ -213,7 +217,7 @@ mod tests {
     #[test]
     fn a_range_has_as_many_digits_as_tell_its_ends_apart() {
         let late = view(vec![1.490e9, 1.490e9 + 7.0]);
-        assert_eq!(late.cells(true)[2], "1.490000000e9 to 1.490000007e9 mm");
+        assert_eq!(late.cells(true)[2], "1.4900000000e9 to 1.4900000070e9 mm");
         assert_eq!(view(vec![-2.5, 7.25]).cells(true)[2], "-2.500 to 7.250 mm");
     }
 
