@@ -9,6 +9,7 @@ use std::path::Path;
 
 /// What a rig file describes.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(clippy::large_enum_variant, reason = "few are ever made")]
 pub enum Description {
     /// A plant of one joint.
     Joint(Rig),
@@ -104,6 +105,7 @@ impl Description {
 
 /// A recording in SI units.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(clippy::large_enum_variant, reason = "few are ever made")]
 pub enum Measured {
     /// Of a plant of one joint.
     Joint(Recording),

@@ -120,7 +120,7 @@ impl Stand<'_> {
         let floor = floor(problem, selection, Motion::Rotary);
         let verdict = verdict(selection, &floor, &rivals);
         let test = self.balanced(self.test);
-        let fit = (self.options.refit && self.test.len() > 0)
+        let fit = (self.options.refit && !self.test.is_empty())
             .then(|| self.fit_report(&test, other_recording));
         let errors = standard_errors(problem, selection);
         let calibration = self.calibrated(&errors);

@@ -60,6 +60,11 @@ impl FiveBarRun {
         self.recorded.len()
     }
 
+    /// Whether there are no samples.
+    pub fn is_empty(&self) -> bool {
+        self.recorded.is_empty()
+    }
+
     /// The length of the recording, s.
     pub fn duration_s(&self) -> f64 {
         self.step_s * self.len().saturating_sub(1) as f64
