@@ -140,16 +140,22 @@ mod tests {
 
     const BASE: [Vector<f64>; 2] = [Vector::new(1.7, 0.0), Vector::new(0.0, 1.3)];
 
+    /// The coupling brake at rates of the links, rad/s, and the tip velocity that goes with them.
+    fn coupled(rows: &Rows<f64>, [of_a, of_b]: [f64; 2], fast_a: bool) -> Option<Joint> {
+        let velocity_m_s = Vector::new(of_a / 1.7, of_b / 1.3);
+        coupling(rows, BASE, velocity_m_s, Vector::new(of_a, of_b), fast_a)
+    }
+
     #[test]
     fn a_link_that_stands_is_not_sped_up_by_a_coupling_brake() {
         // The joint's rate is the difference of the links': its brake slows the one and speeds up the other.
         let rows = [None, Some(Vector::new(1.7, -1.3)), None, None];
         for speed in [0.31, -0.31] {
             for (actual, fast_a) in [([speed, 0.2 * speed], true), ([0.2 * speed, speed], false)] {
-                assert_eq!(coupling(&rows, BASE, actual.into(), fast_a), Some(Joint::E));
+                assert_eq!(coupled(&rows, actual, fast_a), Some(Joint::E));
             }
             for (actual, fast_a) in [([speed, 0.0], true), ([0.0, speed], false)] {
-                assert_eq!(coupling(&rows, BASE, actual.into(), fast_a), None);
+                assert_eq!(coupled(&rows, actual, fast_a), None);
             }
         }
     }
@@ -162,8 +168,7 @@ mod tests {
             ([None, strong, None, weak], Joint::E),
             ([None, weak, None, weak], Joint::E),
         ] {
-            let actual = Vector::new(0.31, 0.07);
-            assert_eq!(coupling(&rows, BASE, actual, true), Some(expected));
+            assert_eq!(coupled(&rows, [0.31, 0.07], true), Some(expected));
         }
     }
 }

@@ -142,7 +142,7 @@ impl Run {
         let start_m = [0.015 + start_x, 0.403 + start_y];
         // Half of the paths pass near the start.
         let [off_x, off_y] = near(0.02);
-        if seed / (2 * LAWS) % 2 == 0 {
+        if (seed / (2 * LAWS)).is_multiple_of(2) {
             move_to(&mut tick.path, [start_m[0] + off_x, start_m[1] + off_y]);
         }
         let rig = Rig::new(layout, start_m).unwrap();
