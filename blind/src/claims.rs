@@ -48,20 +48,13 @@ fn the_laws_of_the_library_are_named_as_the_vocabulary_has_them() {
             let Some(mechanism) = Mechanism::from_name(name) else {
                 continue;
             };
-            let vocabulary = mechanism.parameters();
-            if vocabulary.is_empty() {
-                continue;
+            // A law of another family has parameters of its own; one with the vocabulary's name is the vocabulary's.
+            for (parameter, _, quantity) in law.parameters() {
+                let theirs = mechanism.parameters().iter();
+                for theirs in theirs.filter(|p| p.name == parameter) {
+                    assert_eq!(quantity, theirs.quantity, "{name} {parameter}");
+                }
             }
-            let own: BTreeMap<_, _> = law
-                .parameters()
-                .iter()
-                .map(|(n, _, q)| (*n, format!("{q:?}")))
-                .collect();
-            let theirs: BTreeMap<_, _> = vocabulary
-                .iter()
-                .map(|p| (p.name, format!("{:?}", p.quantity)))
-                .collect();
-            assert_eq!(own, theirs, "{name}");
         }
     }
     assert_eq!(names.len(), 23, "{names:?}");

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use rigproof_diagnose::Description;
 use rigproof_diagnose::align::Fault;
 use rigproof_diagnose::from_rig;
 use rigproof_diagnose::run::{PlantKind, Run};
@@ -43,7 +44,10 @@ Example:
 
 /// Simulates, compares, and writes both outputs.
 pub fn run(args: &Args) -> Result<Outcome, Failure> {
-    let rig = Rig::read(&args.source.rig)?;
+    let Description::Joint(rig) = Description::read(&args.source.rig)? else {
+        let problem = "free runs of a five-bar are not there yet; `rigproof diagnose` shows the balance of efforts before and after".to_owned();
+        return Err(Failure::unusable(&args.source.rig, problem));
+    };
     let source = &args.source;
     let (recording, how) = input::recording(&rig, &source.recording, source.cut, &source.reading)?;
     let model = model(args, &rig)?;

@@ -78,7 +78,12 @@ pub fn align(signals: &Signals) -> Result<Run, Fault> {
         .effort_noise
         .unwrap_or_else(|| smallest_step(&effort) / 12f64.sqrt());
     let band_hz = band_hz(&effort, step_s);
-    let (mut motion, speed_floor) = smoothed_motion(&position, step_s, band_hz, position_noise);
+    let (mut motion, speed_floor) = smoothed_motion(
+        &position,
+        step_s,
+        cutoff_hz(step_s, band_hz),
+        position_noise,
+    );
     forget_sense_at_rest(
         &mut motion,
         &position,
@@ -394,22 +399,21 @@ pub fn band_hz(effort: &[f64], step_s: f64) -> f64 {
     (index.max(1)) as f64 / (step_s * effort.len() as f64)
 }
 
-/// Where the low-pass of the motion ends, Hz.
+/// Where the low-pass of the motion ends, Hz: it keeps twice the effort's band.
 pub(crate) fn cutoff_hz(step_s: f64, band_hz: f64) -> f64 {
     let rate_hz = 1.0 / step_s;
     (2.0 * band_hz).clamp(25.0f64.min(0.25 * rate_hz), 0.35 * rate_hz)
 }
 
-/// Position and speed after a zero-phase low-pass that keeps twice the effort's band, and the speed below which
+/// Position and speed after a zero-phase low-pass, and the speed below which
 /// noise decides the sign.
 pub(crate) fn smoothed_motion(
     position: &[f64],
     step_s: f64,
-    band_hz: f64,
+    cutoff_hz: f64,
     noise: f64,
 ) -> (Vec<Instant>, f64) {
     let rate_hz = 1.0 / step_s;
-    let cutoff_hz = cutoff_hz(step_s, band_hz);
     let smooth = LowPass::butterworth(4, 2.0 * cutoff_hz / rate_hz).zero_phase(position);
     let speed = gradient(&smooth, step_s);
     // White noise through the filter and the difference: ∫(2πf)² up to the cut-off.

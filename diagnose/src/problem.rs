@@ -148,6 +148,15 @@ impl PlantRun<'_> {
         }
     }
 
+    /// Multiple of the unexplained energy (beyond the floor) that a mechanism must explain by itself to be named. On the five-bar, one of two
+    /// cogging periods alone comes to 1.7, and laws of another family than the one that is there to 4 and more.
+    pub fn own_to_unexplained(self) -> f64 {
+        match self {
+            PlantRun::Joint(_) => 1.0,
+            PlantRun::FiveBar(_) => 2.5,
+        }
+    }
+
     /// Whether terms that are kept hold their samples; the five-bar has too many of both.
     fn keeps_signals(self) -> bool {
         matches!(self, PlantRun::Joint(_))

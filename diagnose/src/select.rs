@@ -14,7 +14,6 @@ use refine::refine;
 use step::{forward, swap};
 
 pub(crate) use judge::best as best_variant;
-pub use prune::OWN_TO_UNEXPLAINED;
 pub(crate) use refine::refined;
 pub use weigh::usable_rms;
 

@@ -119,6 +119,8 @@ pub const LIBRARY: &[Entry] = &[
     linkage::GRAVITY,
     linkage::INERTIA_ERROR,
     linkage::PAYLOAD,
+    linkage::ENCODER_SCALE,
+    linkage::ENCODER_OFFSET,
     linkage::FORCE_GAIN,
     linkage::FORCE_BIAS,
     linkage::FORCE_ROTATION,

@@ -272,6 +272,8 @@ impl Mechanism {
                 }
             }
             Mechanism::Payload => const { &[Parameter::new("mass", Mass)] },
+            Mechanism::EncoderScale => const { &[Parameter::new("fraction", Number)] },
+            Mechanism::EncoderOffset => const { &[Parameter::new("angle", Angle)] },
             Mechanism::ForceGain => const { &[Parameter::new("fraction", Number)] },
             Mechanism::ForceBias => {
                 const { &[Parameter::new("x", Force), Parameter::new("y", Force)] }

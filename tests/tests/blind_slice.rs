@@ -1,8 +1,7 @@
 //! This file runs a small fixed slice of the blind trial; the whole of it is `rigproof blind trial --seeds 0..200`.
 
 use rigproof_blind::{Plant, Stratum, make, open, score};
-use rigproof_diagnose::{Options, diagnose};
-use rigproof_trace::rig::Rig;
+use rigproof_diagnose::{Description, Options};
 use std::path::Path;
 
 /// Seeds of the slice: none of them was used to choose a threshold (those were 1000 to 1379).
@@ -10,14 +9,14 @@ const SEEDS: std::ops::Range<u64> = 200..206;
 
 fn examined(plant: Plant, seed: u64, stratum: Stratum) -> rigproof_blind::Score {
     let case = make(plant, seed, Some(stratum)).unwrap();
-    let rig = Rig::parse(&case.rig_toml, Path::new("rig.toml")).unwrap();
+    let rig = Description::parse(&case.rig_toml, Path::new("rig.toml")).unwrap();
     let recording = rig.apply(&case.trace, Path::new("recording.csv")).unwrap();
     let options = Options {
         refit: false,
         hold_out_share: 0.0,
         ..Options::default()
     };
-    let report = diagnose(&rig, &recording, None, &options).report;
+    let report = rig.diagnose(&recording, None, &options).unwrap().report;
     score(
         &open(&case.sealed).unwrap(),
         &serde_json::to_value(&report).unwrap(),
@@ -50,4 +49,21 @@ fn a_single_effect_is_inside_what_is_named_or_ambiguous() {
         }
     }
     assert!(exact >= 10, "{exact} of 12 exact");
+}
+
+/// Two seeds of the five-bar a stratum, below 10 000, where its rules were chosen.
+#[test]
+fn on_the_five_bar_nothing_hidden_gets_no_name_and_one_effect_gets_its_name_and_joint() {
+    for seed in [1000, 1003] {
+        let score = examined(Plant::Rig, seed, Stratum::Nothing);
+        assert!(
+            score.false_names.is_empty(),
+            "{seed}: {:?}",
+            score.false_names
+        );
+    }
+    for seed in [9, 1007] {
+        let score = examined(Plant::Rig, seed, Stratum::Single);
+        assert!(score.exact, "{seed}: {:?}", score.false_names);
+    }
 }

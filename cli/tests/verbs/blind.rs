@@ -117,3 +117,20 @@ fn a_trial_does_not_depend_on_the_number_of_jobs() {
         claims.iter().filter(|c| c["holds"].is_null()).count()
     );
 }
+
+#[test]
+fn a_five_bar_is_diagnosed_at_its_joint_and_not_simulated_yet() {
+    let desk = Desk::new();
+    desk.prints("blind make --plant rig --seed 9 --out case", 0);
+    let found = "diagnose case/recording.csv --rig case/rig.toml --out found";
+    let text = desk.prints(found, 0);
+    assert!(text.contains("gain_error at B"), "{text}");
+    let scored = desk.json("blind score case/answer.sealed found/report.json --json", 0);
+    assert_eq!(scored["score"]["exact"], true);
+    let calibration = desk.read("found/calibration.toml");
+    assert!(calibration.contains("joint = \"B\""), "{calibration}");
+    let refused = desk.rigproof("simulate case/recording.csv --rig case/rig.toml");
+    assert_eq!(refused.status.code(), Some(3));
+    let message = String::from_utf8(refused.stderr).unwrap();
+    assert!(message.contains("free runs of a five-bar"), "{message}");
+}

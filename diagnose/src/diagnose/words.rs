@@ -3,7 +3,7 @@
 use super::write::Stand;
 use crate::report::{FitReport, Verdict};
 use crate::run::PlantKind;
-use crate::select::{OWN_TO_UNEXPLAINED, Selection};
+use crate::select::Selection;
 use crate::simulate::{Interpolation, Protocol};
 use crate::whiten::ORDER;
 
@@ -35,10 +35,11 @@ impl Stand<'_> {
                 self.train.position_noise, self.train.effort_noise
             ),
             format!(
-                "naming: z ≥ {} over left-out contiguous blocks, ≥ {} % of the loss, ≥ {} % of the effort, ≥ {OWN_TO_UNEXPLAINED} times what stays unexplained",
+                "naming: z ≥ {} over left-out contiguous blocks, ≥ {} % of the loss, ≥ {} % of the effort, ≥ {} times what stays unexplained",
                 self.options.gates.z,
                 100.0 * self.options.gates.share,
-                100.0 * self.options.gates.relevance
+                100.0 * self.options.gates.relevance,
+                self.problem.plant.own_to_unexplained()
             ),
             self.fit_protocol(protocol, other_recording),
         ]

@@ -7,8 +7,9 @@ use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
 
 /// What can be left out at a joint with a brake.
-const AT_BRAKES: [Mechanism; 15] = [
+const AT_BRAKES: [Mechanism; 16] = [
     Mechanism::DryOffset,
+    Mechanism::ConstantBias,
     Mechanism::Viscous,
     Mechanism::GainError,
     Mechanism::DirectionAsymmetry,
@@ -50,10 +51,14 @@ pub fn causes(run: &FiveBarRun) -> Vec<Cause> {
         .into_iter()
         .filter(|joint| !braked.contains(joint))
         .map(|joint| at(Mechanism::BearingFriction, joint));
-    let springs = [Joint::A, Joint::B].map(|joint| at(Mechanism::Spring, joint));
+    let springs = Joint::ALL.map(|joint| at(Mechanism::Spring, joint));
+    let encoders = [Mechanism::EncoderScale, Mechanism::EncoderOffset]
+        .into_iter()
+        .flat_map(|mechanism| [Joint::A, Joint::B].map(|joint| at(mechanism, joint)));
     brakes
         .chain(bearings)
         .chain(springs)
+        .chain(encoders)
         .chain(OF_THE_WHOLE.map(Cause::of))
         .collect()
 }

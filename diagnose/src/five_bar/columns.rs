@@ -1,6 +1,7 @@
 //! This file is the columns of the five-bar: what each cause would add to the efforts of θA and θB.
 
 use super::brakes;
+use super::from_rig::with_angles;
 use super::run::{FiveBarRun, inertial, stacked};
 use crate::problem::{Cause, less, numerov, shifted};
 use nalgebra::{Matrix2, Vector2};
@@ -31,6 +32,9 @@ pub fn free(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<f64
     match (cause.mechanism, cause.joint) {
         (Mechanism::GainError, Some(joint)) => {
             Some(vec![seen(&run.at_joint(joint, &run.brake_torque(joint)))])
+        }
+        (Mechanism::EncoderScale | Mechanism::EncoderOffset, Some(joint)) => {
+            Some(vec![encoder(run, cause.mechanism, joint)?])
         }
         (Mechanism::CurrentHysteresis | Mechanism::ThermalFade, Some(joint)) => {
             let change = brakes::unit(run, cause.mechanism, joint, shape)?;
@@ -65,6 +69,30 @@ pub fn free(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<f64
         ),
         _ => None,
     }
+}
+
+/// Relative step of an encoder's scale, and step of its zero, rad, for their slopes.
+const ENCODER_STEP: f64 = 1e-3;
+
+/// How the balance of efforts changes with the scale or the zero of an encoder.
+fn encoder(run: &FiveBarRun, mechanism: Mechanism, joint: Joint) -> Option<Vec<f64>> {
+    let moved = |angle: &Vec<f64>| -> Vec<f64> {
+        let moved = angle.iter().map(|theta| match mechanism {
+            Mechanism::EncoderScale => theta * (1.0 + ENCODER_STEP),
+            _ => theta + ENCODER_STEP,
+        });
+        moved.collect()
+    };
+    let [a, b] = &run.theta;
+    let theta = match joint {
+        Joint::A => [moved(a), b.clone()],
+        Joint::B => [a.clone(), moved(b)],
+        Joint::E | Joint::C => return None,
+    };
+    let other = with_angles(run.clone(), theta).ok()?;
+    let balance = |run: &FiveBarRun| less(&driving(run), &known(run));
+    let change = less(&balance(&other), &balance(run));
+    Some(change.into_iter().map(|x| x / ENCODER_STEP).collect())
 }
 
 /// A column with coefficient 1: a change of the brakes or of the clock.

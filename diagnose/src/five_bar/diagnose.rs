@@ -180,10 +180,11 @@ impl Stand<'_> {
                 self.train.theta_noise, self.train.force_noise
             ),
             format!(
-                "naming: z ≥ {} over left-out contiguous blocks, ≥ {} % of the loss, ≥ {} % of the driving effort",
+                "naming: z ≥ {} over left-out contiguous blocks, ≥ {} % of the loss, ≥ {} % of the driving effort, ≥ {} times what stays unexplained",
                 gates.z,
                 100.0 * gates.share,
-                100.0 * gates.relevance
+                100.0 * gates.relevance,
+                self.problem.plant.own_to_unexplained()
             ),
         ]
     }

@@ -11,6 +11,7 @@ use crate::run::PlantKind;
 use core::f64::consts::TAU;
 use rigproof_model::brake::{Brake, torque_gain};
 use rigproof_model::effects::Instant;
+use rigproof_model::error::ModelError;
 use rigproof_model::rig::Parameters;
 use rigproof_spec::joint::Joint;
 use rigproof_trace::rig::Status;
@@ -76,46 +77,92 @@ pub fn aligned(rig: &FiveBar, recording: &FiveBarRecording) -> Result<FiveBarRun
     let force_noise = force_x
         .noise
         .unwrap_or_else(|| smallest_step(&force_x.samples) / 12f64.sqrt());
-    let band = force.iter().map(|f| band_hz(f, step_s)).fold(0.0, f64::max);
-    let still = (2.0 * quantum).max(6.0 * theta_noise);
-    let smoothed = theta
-        .each_ref()
-        .map(|theta| smoothed_motion(theta, step_s, band, theta_noise));
-    let speed_floor = smoothed
-        .each_ref()
-        .map(|s| s.1)
-        .into_iter()
-        .fold(0.0, f64::max);
-    let base = smoothed.map(|(motion, _)| motion);
-    let parameters = Parameters::of(rig.layout);
-    let made = forms(&parameters, &base).map_err(|(k, error)| Fault {
-        channel: "theta_a",
-        from_s: k as f64 * step_s,
-        to_s: k as f64 * step_s,
-        reason: format!("the linkage cannot stand at the recorded angles: {error}; an encoder has lost counts, or its zero or sign is wrong"),
-    })?;
-    let (poses, forms): (Vec<_>, Vec<_>) = made.into_iter().unzip();
-    let mut run = FiveBarRun {
-        parameters,
+    let run = FiveBarRun {
+        parameters: Parameters::of(rig.layout),
         step_s,
         start_s: 0.0,
-        theta,
+        theta: [const { Vec::new() }; 2],
         joints: [const { Vec::new() }; 4],
-        poses,
-        forms,
+        poses: Vec::new(),
+        forms: Vec::new(),
+        cutoff_hz: cutoff_hz(
+            step_s,
+            force.iter().map(|f| band_hz(f, step_s)).fold(0.0, f64::max),
+        ),
         force,
         currents,
         yields: [const { Vec::new() }; 4],
         backlash_steps: [const { Vec::new() }; 4],
         theta_noise,
+        still_rad: (2.0 * quantum).max(6.0 * theta_noise),
         force_noise,
         recorded,
-        speed_floor,
+        speed_floor: 0.0,
     };
-    let untold = untold_speeds(&run, &base, cutoff_hz(step_s, band));
-    run.joints = Joint::ALL.map(|joint| joint_motion(&run, &base, joint, still, &untold));
+    let run = with_angles(run, theta).map_err(|(k, error)| Fault {
+        channel: "theta_a",
+        from_s: k as f64 * step_s,
+        to_s: k as f64 * step_s,
+        reason: format!("the linkage cannot stand at the recorded angles: {error}; an encoder has lost counts, or its zero or sign is wrong"),
+    })?;
+    check_sign(&run)?;
+    Ok(run)
+}
+
+/// A run with other angles: its motion, its forms and its brakes follow them.
+///
+/// # Errors
+/// The linkage cannot be assembled at some sample: its number, and why.
+pub fn with_angles(
+    run: FiveBarRun,
+    theta: [Vec<f64>; 2],
+) -> Result<FiveBarRun, (usize, ModelError)> {
+    let smoothed = theta
+        .each_ref()
+        .map(|theta| smoothed_motion(theta, run.step_s, run.cutoff_hz, run.theta_noise));
+    let floors = smoothed.each_ref().map(|(_, floor)| *floor);
+    let base = smoothed.map(|(motion, _)| motion);
+    let (poses, forms) = forms(&run.parameters, &base)?.into_iter().unzip();
+    let mut run = FiveBarRun {
+        theta,
+        poses,
+        forms,
+        speed_floor: floors.into_iter().fold(0.0, f64::max),
+        ..run
+    };
+    let untold = untold_speeds(&run, &base);
+    run.joints = Joint::ALL.map(|joint| joint_motion(&run, &base, joint, &untold));
     let_brakes_follow(&mut run);
     Ok(run)
+}
+
+/// Share of the work to and fro by which the hand may take more out than it puts in: kinetic energy, and where the recording ends.
+const MOST_TAKEN: f64 = 0.2;
+
+/// A linkage with brakes takes energy in: a force that takes it out on the whole has the wrong sign.
+fn check_sign(run: &FiveBarRun) -> Result<(), Fault> {
+    let rates = run.motion(Joint::A).iter().zip(run.motion(Joint::B));
+    let powers: Vec<f64> = run
+        .forms
+        .iter()
+        .zip(run.forces())
+        .zip(rates)
+        .map(|((form, [f_x, f_y]), (a, b))| {
+            let [v_x, v_y] = form.tip_velocity_m_s([a.speed, b.speed]);
+            f_x * v_x + f_y * v_y
+        })
+        .collect();
+    let sum: f64 = powers.iter().sum();
+    let size: f64 = powers.iter().map(|p| p.abs()).sum();
+    if sum < -MOST_TAKEN * size {
+        return Err(Fault {
+            channel: "force_x",
+            from_s: 0.0,
+            to_s: run.duration_s(),
+            reason: "the rig drives the hand: energy comes out of it; a force or an angle has the wrong sign (set `sign = -1`)".to_owned(),
+        });
+    }
+    Ok(())
 }
 
 fn check_pair(
@@ -147,7 +194,7 @@ const BEND_S: f64 = 0.02;
 
 /// The speeds of θA and θB below which their sense cannot be told, sample by sample, rad/s: what noise does, and what the
 /// low-pass does where it bends the recorded angle, because the acceleration jumps there.
-fn untold_speeds(run: &FiveBarRun, base: &[Vec<Instant>; 2], cutoff_hz: f64) -> [Vec<f64>; 2] {
+fn untold_speeds(run: &FiveBarRun, base: &[Vec<Instant>; 2]) -> [Vec<f64>; 2] {
     let reach = (BEND_S / run.step_s).round().max(1.0) as usize;
     let of = |(theta, motion): (&Vec<f64>, &Vec<Instant>)| -> Vec<f64> {
         let pairs = theta.iter().zip(motion);
@@ -158,7 +205,7 @@ fn untold_speeds(run: &FiveBarRun, base: &[Vec<Instant>; 2], cutoff_hz: f64) -> 
                 let greatest = around.into_iter().flatten().copied().fold(0.0, f64::max);
                 // White noise bends by up to four times its size, which the floor already counts.
                 let excess = (greatest - 4.0 * run.theta_noise).max(0.0);
-                run.speed_floor + TAU * cutoff_hz * excess
+                run.speed_floor + TAU * run.cutoff_hz * excess
             })
             .collect()
     };
@@ -172,7 +219,6 @@ fn joint_motion(
     run: &FiveBarRun,
     base: &[Vec<Instant>; 2],
     joint: Joint,
-    still: f64,
     untold: &[Vec<f64>; 2],
 ) -> Vec<Instant> {
     let [a, b] = base;
@@ -203,7 +249,7 @@ fn joint_motion(
         &mut motion,
         &position,
         run.step_s,
-        still * greatest.max(1.0),
+        run.still_rad * greatest.max(1.0),
     );
     forget_sense_at_reversals(&mut motion);
     motion

@@ -36,6 +36,10 @@ pub struct FiveBarRun {
     pub backlash_steps: [Vec<f64>; 4],
     /// Standard deviation of one angle sample, rad.
     pub theta_noise: f64,
+    /// Travel within which a joint may rest, rad.
+    pub still_rad: f64,
+    /// Where the low-pass of the angles ends, Hz.
+    pub cutoff_hz: f64,
     /// Standard deviation of one force sample, N.
     pub force_noise: f64,
     /// Samples that were recorded, not filled in.
@@ -137,6 +141,8 @@ impl FiveBarRun {
             yields: self.yields.each_ref().map(part),
             backlash_steps: self.backlash_steps.each_ref().map(part),
             theta_noise: self.theta_noise,
+            still_rad: self.still_rad,
+            cutoff_hz: self.cutoff_hz,
             force_noise: self.force_noise,
             recorded: self.recorded.get(from..to).unwrap_or_default().to_vec(),
             speed_floor: self.speed_floor,

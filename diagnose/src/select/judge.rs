@@ -95,7 +95,9 @@ fn judge(
         && !is_at_edge(problem, &term);
     let linear = entry(term.cause.mechanism)?.linear;
     passes.then(|| Trial {
-        parameters: linear + term.shape.len() + usize::from(term.onset_s.is_some()),
+        parameters: linear.max(term.free.len())
+            + term.shape.len()
+            + usize::from(term.onset_s.is_some()),
         found: Found {
             at_floor: usable_rms(problem, &fitted.residual) <= FLOOR_RATIO * problem.floor,
             term,

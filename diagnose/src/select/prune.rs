@@ -39,9 +39,6 @@ pub(super) fn backward(
     }
 }
 
-/// Multiple of the unexplained energy (beyond the floor) that a mechanism must explain by itself to be named.
-pub const OWN_TO_UNEXPLAINED: f64 = 1.0;
-
 /// Takes out, weakest first, every mechanism that explains less than what stays unexplained: beside an
 /// unknown of that size it may only be soaking it up.
 ///
@@ -66,7 +63,7 @@ pub(super) fn prune(
             })
             .min_by(|a, b| a.0.total_cmp(&b.0));
         match weakest {
-            Some((own, index)) if own < OWN_TO_UNEXPLAINED * unexplained => {
+            Some((own, index)) if own < problem.plant.own_to_unexplained() * unexplained => {
                 taken_out.push(found.remove(index).term.cause);
             }
             _ => return taken_out,

@@ -50,6 +50,20 @@ pub(super) const PAYLOAD: Entry = entry(
     "mass at the tip, added to the nominal one",
 );
 
+pub(super) const ENCODER_SCALE: Entry = entry(
+    Mechanism::EncoderScale,
+    1,
+    "a full turn that the encoder counts as a full turn",
+    "recorded angle = (1 + fraction)·angle",
+);
+
+pub(super) const ENCODER_OFFSET: Entry = entry(
+    Mechanism::EncoderOffset,
+    1,
+    "an arm on its stop that the encoder shows there",
+    "recorded angle = angle + `angle`",
+);
+
 pub(super) const FORCE_GAIN: Entry = entry(
     Mechanism::ForceGain,
     1,
