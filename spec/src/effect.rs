@@ -216,6 +216,14 @@ impl Mechanism {
                 const { &[Parameter::new("cubic", EffortPerCubicTravel)] }
             }
             Mechanism::ChannelSkew => const { &[Parameter::new("delay", Time)] },
+            _ => self.parameters_at_brake(),
+        }
+    }
+
+    /// Of what a brake does besides, and of what the others do not have.
+    const fn parameters_at_brake(self) -> &'static [Parameter] {
+        use Quantity::*;
+        match self {
             Mechanism::ReversalOvershoot => {
                 const {
                     &[
@@ -251,6 +259,14 @@ impl Mechanism {
                     ]
                 }
             }
+            _ => self.parameters_of_linkage(),
+        }
+    }
+
+    /// Of a linkage as a whole and of its sensors.
+    const fn parameters_of_linkage(self) -> &'static [Parameter] {
+        use Quantity::*;
+        match self {
             Mechanism::BearingFriction => const { &[Parameter::new("level", Effort)] },
             Mechanism::Gravity => {
                 const {

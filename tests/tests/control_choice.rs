@@ -19,6 +19,7 @@ use rigproof_spec::geometry::{angle_ranges, arms};
 use rigproof_spec::joint::Joint;
 use rigproof_spec::laws::opposition;
 use rigproof_spec::layout::Layout;
+use rigproof_spec::methods::STANDING;
 use rigproof_spec::tables::torque_gain_fit;
 
 #[derive(Clone, Debug)]
@@ -67,6 +68,15 @@ fn moment() -> impl Strategy<Value = Moment> {
                 .filter(|(joint, _)| layout.brakes().contains(joint))
                 .map(|(joint, row)| (joint, row.transpose()))
                 .collect();
+            // A joint that stands has no direction (gap `joint-at-rest`): `impl_laws` asks for it by itself.
+            let stands = |row: &Vector2<f64>| {
+                let rate = row.dot(&Vector2::from(tip_velocity_m_s)).abs();
+                rate <= 2.0 * STANDING * row.norm() * speed
+            };
+            let rows: Vec<(Joint, Vector2<f64>)> = rows;
+            if rows.iter().any(|(_, row)| stands(row)) {
+                return None;
+            }
             let [x, y] = pose.tip_m;
             let [dx, dy] = polar(1.0, angle);
             let from = [x - aside * dy, y + aside * dx];

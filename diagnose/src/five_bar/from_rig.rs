@@ -52,24 +52,7 @@ pub fn aligned(rig: &FiveBar, recording: &FiveBarRecording) -> Result<FiveBarRun
             *slot = Some(regular("current", &signal.samples)?);
         }
     }
-    for (angle, force, names) in [
-        (theta_a, force_x, ["theta_a", "force_x"]),
-        (theta_b, force_y, ["theta_b", "force_y"]),
-    ] {
-        check_pair(time_s, &angle.samples, &force.samples, force.limit, step_s).map_err(
-            |fault| {
-                let [angle, force] = names;
-                Fault {
-                    channel: if fault.channel == "position" {
-                        angle
-                    } else {
-                        force
-                    },
-                    ..fault
-                }
-            },
-        )?;
-    }
+    check_channels(recording, step_s)?;
     let quantum = theta_a
         .quantum
         .unwrap_or_else(|| smallest_step(&theta_a.samples));
@@ -161,6 +144,32 @@ fn check_sign(run: &FiveBarRun) -> Result<(), Fault> {
             to_s: run.duration_s(),
             reason: "the rig drives the hand: energy comes out of it; a force or an angle has the wrong sign (set `sign = -1`)".to_owned(),
         });
+    }
+    Ok(())
+}
+
+/// Frozen angles and clipped forces.
+fn check_channels(recording: &FiveBarRecording, step_s: f64) -> Result<(), Fault> {
+    let time_s = &recording.time_s;
+    let [theta_a, theta_b] = &recording.theta;
+    let [force_x, force_y] = &recording.force;
+    for (angle, force, names) in [
+        (theta_a, force_x, ["theta_a", "force_x"]),
+        (theta_b, force_y, ["theta_b", "force_y"]),
+    ] {
+        check_pair(time_s, &angle.samples, &force.samples, force.limit, step_s).map_err(
+            |fault| {
+                let [angle, force] = names;
+                Fault {
+                    channel: if fault.channel == "position" {
+                        angle
+                    } else {
+                        force
+                    },
+                    ..fault
+                }
+            },
+        )?;
     }
     Ok(())
 }

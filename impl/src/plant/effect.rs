@@ -69,6 +69,10 @@ pub enum Law {
     NonlinearSpring { cubic: f64 },
     /// rate·t.
     BiasDrift { rate: f64 },
+    /// level·(sgn q̇ − w)/2, travel·dw/dt = q̇ − |q̇|·w.
+    ReversalOvershoot { level: f64, travel: f64 },
+    /// level·(1 − m)·sgn q̇, travel·dm/dt = |q̇|·(1 − m).
+    Settling { level: f64, travel: f64 },
 }
 
 impl Law {
@@ -106,6 +110,12 @@ impl Law {
             (Mechanism::Spring, &[stiffness]) => Law::Spring { stiffness },
             (Mechanism::NonlinearSpring, &[cubic]) => Law::NonlinearSpring { cubic },
             (Mechanism::BiasDrift, &[rate]) => Law::BiasDrift { rate },
+            (Mechanism::ReversalOvershoot, &[level, travel]) if travel > 0.0 => {
+                Law::ReversalOvershoot { level, travel }
+            }
+            (Mechanism::Settling, &[level, travel]) if travel > 0.0 => {
+                Law::Settling { level, travel }
+            }
             _ => return None,
         };
         Some(law)
@@ -134,13 +144,16 @@ impl Law {
             Law::Spring { stiffness } => stiffness * now.position,
             Law::NonlinearSpring { cubic } => cubic * now.position * now.position * now.position,
             Law::BiasDrift { rate } => rate * now.time_s,
+            Law::ReversalOvershoot { level, .. } => -0.5 * level * memory,
+            Law::Settling { level, .. } => -level * memory * now.sense,
         }
     }
 
     /// The dry level: the resistance against motion and up to which it holds at rest, N·m.
     pub fn dry(&self, now: &Instant) -> f64 {
         match *self {
-            Law::DryOffset { level } => level,
+            Law::DryOffset { level } | Law::Settling { level, .. } => level,
+            Law::ReversalOvershoot { level, .. } => 0.5 * level,
             Law::Stribeck {
                 peak,
                 speed,
@@ -153,7 +166,10 @@ impl Law {
     /// The memory after a time, s, at a constant rate, rad/s, and halfway: exact while the memory keeps its sign.
     pub fn remember(&self, memory: f64, speed: f64, time_s: f64) -> [f64; 2] {
         let (gain, decay) = match *self {
-            Law::Presliding { travel, .. } => (speed / travel, speed.abs() / travel),
+            Law::Presliding { travel, .. } | Law::ReversalOvershoot { travel, .. } => {
+                (speed / travel, speed.abs() / travel)
+            }
+            Law::Settling { travel, .. } => (speed.abs() / travel, speed.abs() / travel),
             Law::Hysteresis {
                 beta_gamma,
                 beta_delta,
