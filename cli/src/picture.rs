@@ -11,6 +11,7 @@ mod residual;
 mod scale;
 mod shares;
 
+use crate::text::found::at;
 use rigproof_diagnose::report::Report;
 use svg::Document;
 use svg::node::element::{Line, Rectangle, Text, Title};
@@ -78,7 +79,8 @@ fn legend(mut page: Document, y: f64, entries: &[(&str, &str, f64)]) -> Document
 
 /// Verdict and names, for a title.
 fn heading(report: &Report) -> String {
-    let names: Vec<&str> = report.effects.iter().map(|e| e.mechanism).collect();
+    let effects = report.effects.iter();
+    let names: Vec<String> = effects.map(|e| at(e.mechanism, e.joint)).collect();
     let verdict = report.verdict.name().replace('_', " ");
     match names.as_slice() {
         [] => format!("Verdict: {verdict}, nothing is named"),

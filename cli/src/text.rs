@@ -1,7 +1,7 @@
 //! This file is the report as text: what somebody at the rig reads.
 
 mod fit;
-mod found;
+pub mod found;
 mod limits;
 pub mod number;
 

@@ -58,7 +58,10 @@ pub struct Diagnosis {
 pub struct Curves {
     /// Time stamps of the held-out part, s.
     pub time_s: Vec<f64>,
-    /// Recorded output: position of an axis, effort of a bench.
+    /// What the output is, in words.
+    pub output: &'static str,
+    /// Recorded output: position of an axis, effort of a bench, on the five-bar the effort on one of its arms; not a number where it
+    /// does not count.
     pub recorded: Vec<f64>,
     /// Output of the nominal model.
     pub before: Vec<f64>,

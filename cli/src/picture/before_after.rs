@@ -10,10 +10,6 @@ use crate::text::number::significant;
 
 /// The picture as SVG.
 pub fn before_after(rig: &str, report: &Report, curves: &Curves) -> String {
-    let output = match report.plant {
-        "bench" => "metered effort",
-        _ => "position",
-    };
     let time = || {
         let (first, last) = range(curves.time_s.iter().copied());
         Scale::exact(first, last, "time from the first sample", "s")
@@ -26,7 +22,7 @@ pub fn before_after(rig: &str, report: &Report, curves: &Curves) -> String {
     let values = Scale::around(
         model_low.max(low - room),
         model_high.min(high + room),
-        output,
+        curves.output,
         &curves.unit,
     );
     let mut upper = Panel::new(92.0, 300.0, time(), values);

@@ -27,10 +27,14 @@ impl Panel {
         }
     }
 
-    /// Draws a curve.
+    /// Draws a curve; a point that is not finite interrupts it.
     pub fn curve(&mut self, x: &[f64], y: &[f64], colour: &str, width: f64) {
         let points = x.iter().zip(y).map(|(&x, &y)| (self.at_x(x), self.at_y(y)));
-        self.line(thinned(points), colour, width);
+        let points: Vec<(f64, f64)> = points.collect();
+        let stretches = points.split(|(x, y)| !x.is_finite() || !y.is_finite());
+        for stretch in stretches.filter(|stretch| !stretch.is_empty()) {
+            self.line(thinned(stretch.iter().copied()), colour, width);
+        }
     }
 
     /// Draws a curve that may turn back; a point that is not finite interrupts it.

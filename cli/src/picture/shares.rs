@@ -4,6 +4,8 @@ use rigproof_diagnose::Curves;
 use rigproof_diagnose::report::{Located, Report};
 use svg::node::element::{Group, Line, Rectangle};
 
+use crate::text::found::regime;
+
 use super::{INK, LEFT, NAMED, NOMINAL, RIGHT, WIDTH, pixel, text};
 
 /// Height of a regime's row.
@@ -45,7 +47,7 @@ fn row(y: f64, place: &Located, left_over: f64) -> Group {
         1.2,
     );
     let time = at(place.share_of_time);
-    let name = text(BARS - 8.0, y + 0.6 * ROW, &place.regime);
+    let name = text(BARS - 8.0, y + 0.6 * ROW, &regime(place));
     Group::new()
         .add(name.set("text-anchor", "end"))
         .add(bar(y, place.share, NOMINAL))
@@ -83,5 +85,6 @@ fn at(share: f64) -> f64 {
 }
 
 fn energy(residual: &[f64]) -> f64 {
-    residual.iter().map(|x| x * x).sum()
+    let finite = residual.iter().filter(|x| x.is_finite());
+    finite.map(|x| x * x).sum()
 }

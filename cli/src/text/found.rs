@@ -31,7 +31,8 @@ pub fn at(name: &str, joint: Option<&str>) -> String {
     }
 }
 
-fn regime(place: &Located) -> String {
+/// A regime with its joint, where there are several.
+pub fn regime(place: &Located) -> String {
     match place.joint {
         Some(joint) => format!("joint {joint}, {}", place.regime),
         None => place.regime.clone(),

@@ -181,6 +181,10 @@ impl Stand<'_> {
             time_s: (0..run.len())
                 .map(|k| run.start_s + k as f64 * run.step_s)
                 .collect(),
+            output: match run.plant {
+                PlantKind::Axis => "position",
+                PlantKind::Bench => "metered effort",
+            },
             recorded: match run.plant {
                 PlantKind::Axis => run.position.clone(),
                 PlantKind::Bench => run.effort.clone(),

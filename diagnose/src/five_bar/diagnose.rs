@@ -305,12 +305,18 @@ impl Stand<'_> {
             .collect()
     }
 
-    /// The held-out balance and the residual of the output in which more was unexplained.
+    /// The held-out balance and the residual of the output in which more was unexplained; not a number where a window does not count.
     fn curves(&self, test: Balanced, unit: String) -> Curves {
-        let before = &self.selection.before.residual;
+        let counted = |values: &[f64], usable: &[bool]| -> Vec<f64> {
+            let pairs = values.iter().zip(usable);
+            pairs.map(|(v, u)| if *u { *v } else { f64::NAN }).collect()
+        };
+        let usable = &self.problem.windows.usable;
+        let before = counted(&self.selection.before.residual, usable);
+        let after = counted(&self.selection.after.residual, usable);
         let energy = |output: usize| -> f64 {
             let rows = before.iter().skip(output).step_by(2);
-            rows.map(|r| r * r).sum()
+            rows.filter(|r| r.is_finite()).map(|r| r * r).sum()
         };
         let output = usize::from(energy(1) > energy(0));
         let of = |values: &[f64]| -> Vec<f64> {
@@ -318,13 +324,18 @@ impl Stand<'_> {
         };
         Curves {
             time_s: of(&test.times_s),
-            recorded: of(&test.recorded),
-            before: of(&test.before),
-            after: of(&test.after),
+            output: if output == 0 {
+                "effort on arm AE (θA)"
+            } else {
+                "effort on arm BC (θB)"
+            },
+            recorded: of(&counted(&test.recorded, &test.usable)),
+            before: of(&counted(&test.before, &test.usable)),
+            after: of(&counted(&test.after, &test.usable)),
             unit: unit.clone(),
             window_time_s: of(&self.problem.windows.times_s()),
-            residual_before: of(before),
-            residual_after: of(&self.selection.after.residual),
+            residual_before: of(&before),
+            residual_after: of(&after),
             floor: self.problem.floor,
             residual_unit: unit,
         }
