@@ -410,7 +410,14 @@ impl<'a> Problem<'a> {
     pub fn nominal_term(&self, effect: &NominalEffect) -> Option<Term> {
         let linear = entry(effect.cause.mechanism)?.linear;
         let shape = effect.parameters.get(linear..).unwrap_or_default();
-        let mut term = self.term(effect.cause, shape, effect.onset_s)?;
+        let mut term =
+            self.term(effect.cause, shape, effect.onset_s)
+                .or_else(|| match self.plant {
+                    PlantRun::Joint(_) => None,
+                    PlantRun::FiveBar(_) => {
+                        self.drive_term(effect.cause, shape, effect.onset_s, &[])
+                    }
+                })?;
         if !effect.unknown {
             term.known = Some(effect.parameters.iter().take(linear).copied().collect());
         }

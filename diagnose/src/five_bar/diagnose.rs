@@ -3,6 +3,7 @@
 use super::from_rig::{aligned, nominal};
 use super::locate::locate;
 use super::run::FiveBarRun;
+use crate::align::Fault;
 use crate::candidates::realise;
 use crate::diagnose::ended::{blank, faulty, not_excited};
 use crate::diagnose::words::summary;
@@ -11,7 +12,7 @@ use crate::diagnose::{Curves, Description, Diagnosis, FEWEST_WINDOWS, Options};
 use crate::evidence::{
     Errors, coefficients_by_term, inclusion, not_seen, parameters, rivals, standard_errors,
 };
-use crate::problem::{Problem, Term, add};
+use crate::problem::{NominalEffect, Problem, Term, add};
 use crate::report::{BeforeAfter, EffectReport, FitReport, Report, StageReport};
 use crate::run::rms;
 use crate::select::{Selection, refs, select};
@@ -40,23 +41,31 @@ pub fn diagnose(
         Ok(run) => run,
         Err(fault) => return faulty(description(), "recording", fault),
     };
-    let (train, test) = match held_out.map(|recording| aligned(rig, recording)) {
-        Some(Ok(test)) => (whole, test),
+    // What is held out of the same recording keeps its past: brakes, heat and memories begin at the recording's first sample.
+    let (train, test, test_from_s) = match held_out.map(|recording| aligned(rig, recording)) {
+        Some(Ok(test)) => (whole, test, 0.0),
         Some(Err(fault)) => return faulty(description(), "held-out recording", fault),
         None => {
             let cut = ((1.0 - options.hold_out_share) * whole.len() as f64).round() as usize;
-            (whole.slice(0, cut), whole.slice(cut, whole.len()))
+            (whole.slice(0, cut), whole, cut as f64)
         }
     };
+    let test_from_s = test_from_s * test.step_s;
     let mut problem = problem(&train);
     let usable = problem.windows.usable.iter().filter(|u| **u).count() / problem.windows.outputs;
     if usable < FEWEST_WINDOWS {
         return not_excited(description(), usable, travel(&train), train.theta_noise);
     }
-    let terms: Vec<Term> = nominal(rig)
-        .iter()
-        .filter_map(|effect| problem.nominal_term(effect))
-        .collect();
+    let mut terms: Vec<Term> = Vec::new();
+    for effect in nominal(rig) {
+        let Some(mut term) = problem.nominal_term(&effect) else {
+            return faulty(description(), "description", meaningless(&effect));
+        };
+        // A spring of the description has its rest angle in a constant bias of its own.
+        let linear = entry(effect.cause.mechanism).map_or(0, |entry| entry.linear);
+        term.free.truncate(linear);
+        terms.push(term);
+    }
     let selection = select(&mut problem, terms, options.gates);
     Stand {
         rig,
@@ -64,9 +73,23 @@ pub fn diagnose(
         selection: &selection,
         train: &train,
         test: &test,
+        test_from_s,
         options,
     }
     .report(held_out.is_some())
+}
+
+/// A nominal effect that has no meaning on this layout or at this joint.
+fn meaningless(effect: &NominalEffect) -> Fault {
+    Fault {
+        channel: "effect",
+        from_s: 0.0,
+        to_s: 0.0,
+        reason: format!(
+            "`{}` cannot stand in the nominal model of this five-bar; take it out, or give it a joint that has it",
+            effect.cause.name()
+        ),
+    }
 }
 
 /// The problem with the narrowest windows whose predicted floor is small against the driving effort.
@@ -101,6 +124,8 @@ struct Stand<'a> {
     selection: &'a Selection,
     train: &'a FiveBarRun,
     test: &'a FiveBarRun,
+    /// Where the held-out part of `test` begins, s after its first sample.
+    test_from_s: f64,
     options: &'a Options,
 }
 
@@ -119,8 +144,8 @@ impl Stand<'_> {
         let rivals = rivals(problem, selection);
         let floor = floor(problem, selection, Motion::Rotary);
         let verdict = verdict(selection, &floor, &rivals);
-        let test = self.balanced(self.test);
-        let fit = (self.options.refit && !self.test.is_empty())
+        let test = self.balanced(self.test, self.test_from_s);
+        let fit = (self.options.refit && self.test_from_s < self.test.duration_s())
             .then(|| self.fit_report(&test, other_recording));
         let errors = standard_errors(problem, selection);
         let calibration = self.calibrated(&errors);
@@ -159,7 +184,7 @@ impl Stand<'_> {
                 self.train.len(),
                 1.0 / self.train.step_s,
                 self.train.duration_s(),
-                self.test.len(),
+                self.test.len() - (self.test_from_s / self.test.step_s).round() as usize,
                 if other_recording {
                     " of another recording"
                 } else {
@@ -167,7 +192,7 @@ impl Stand<'_> {
                 },
             ),
             format!(
-                "equations: momentum form on θA and θB; arms and masses of tables 4.1 and 5.1, brakes of tables 3.1 to 3.3 along the recorded motion, currents held from sample to sample, in the middle of their backlash at the start",
+                "equations: momentum form on θA and θB; arms and masses of tables 4.1 and 5.1, brakes of tables 3.1 to 3.3 along the recorded motion, currents held from sample to sample; brakes start without current in the middle of their backlash",
             ),
             format!(
                 "windows: bump (1 - x²)⁴, {:.1} ms wide, {} samples apart, {usable} of {} usable (every braked joint moves and its sense is known)",
@@ -202,18 +227,25 @@ impl Stand<'_> {
             .collect()
     }
 
-    /// The models before and after on a recording, both with the numbers of the fitted part.
-    fn balanced(&self, run: &FiveBarRun) -> Balanced {
-        let width_s = self.problem.windows.bump.len() as f64 * run.step_s;
-        let windows = Windows::over(run.len(), 2, (run.step_s, run.start_s), width_s);
+    /// The models before and after on a recording from a time on, both with the numbers of the fitted part.
+    fn balanced(&self, run: &FiveBarRun, from_s: f64) -> Balanced {
+        let fitted = &self.problem.windows;
+        let width_s = (fitted.bump.len() - 1) as f64 * fitted.step_s;
+        let mut windows = Windows::over(run.len(), 2, (run.step_s, run.start_s), width_s);
+        windows.keep(|centre, bump| {
+            (centre - bump.len() / 2) as f64 * run.step_s >= from_s - 0.5 * run.step_s
+        });
         let problem = Problem::of_five_bar(run, windows);
         let mut bare = self.selection.clone();
         bare.found.clear();
         bare.after = bare.before.clone();
-        let average = |signal: &[f64]| problem.windows.average(signal);
+        let centres = problem.windows.centres.iter();
+        let before_it = centres.take_while(|&&centre| (centre as f64) * run.step_s < from_s);
+        let first = before_it.count();
+        let average = |signal: &[f64]| problem.windows.average(signal).split_off(first);
         Balanced {
-            times_s: problem.windows.times_s(),
-            usable: problem.windows.usable.clone(),
+            times_s: problem.windows.times_s().split_off(first),
+            usable: problem.windows.usable.clone().split_off(first),
             recorded: average(&super::columns::driving(run)),
             before: average(&modelled(&problem, &bare)),
             after: average(&modelled(&problem, self.selection)),
@@ -221,7 +253,7 @@ impl Stand<'_> {
     }
 
     fn fit_report(&self, test: &Balanced, other_recording: bool) -> FitReport {
-        let train = before_after(&self.balanced(self.train));
+        let train = before_after(&self.balanced(self.train, 0.0));
         let held_out = before_after(test);
         let least = self.problem.floor;
         let where_from = if other_recording {

@@ -14,8 +14,8 @@ use rigproof_model::effects::Instant;
 use rigproof_model::error::ModelError;
 use rigproof_model::rig::Parameters;
 use rigproof_spec::joint::Joint;
-use rigproof_trace::rig::Status;
 use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording};
+use rigproof_trace::rig::{Signal, Status};
 
 /// Aligns a recording of a five-bar.
 ///
@@ -53,13 +53,12 @@ pub fn aligned(rig: &FiveBar, recording: &FiveBarRecording) -> Result<FiveBarRun
         }
     }
     check_channels(recording, step_s)?;
-    let quantum = theta_a
-        .quantum
-        .unwrap_or_else(|| smallest_step(&theta_a.samples));
-    let theta_noise = (quantum / 12f64.sqrt()).hypot(theta_a.noise.unwrap_or(0.0));
-    let force_noise = force_x
-        .noise
-        .unwrap_or_else(|| smallest_step(&force_x.samples) / 12f64.sqrt());
+    check_currents(recording)?;
+    // One number stands for both channels: the greater.
+    let greater = |of: fn(&Signal) -> f64, [one, other]: [&Signal; 2]| of(one).max(of(other));
+    let quantum = greater(quantum_of, [theta_a, theta_b]);
+    let theta_noise = greater(angle_noise, [theta_a, theta_b]);
+    let force_noise = greater(noise_of_force, [force_x, force_y]);
     let run = FiveBarRun {
         parameters: Parameters::of(rig.layout),
         step_s,
@@ -144,6 +143,59 @@ fn check_sign(run: &FiveBarRun) -> Result<(), Fault> {
             to_s: run.duration_s(),
             reason: "the rig drives the hand: energy comes out of it; a force or an angle has the wrong sign (set `sign = -1`)".to_owned(),
         });
+    }
+    Ok(())
+}
+
+fn quantum_of(angle: &Signal) -> f64 {
+    angle
+        .quantum
+        .unwrap_or_else(|| smallest_step(&angle.samples))
+}
+
+fn angle_noise(angle: &Signal) -> f64 {
+    (quantum_of(angle) / 12f64.sqrt()).hypot(angle.noise.unwrap_or(0.0))
+}
+
+/// The noise of a force as stated, else from its second differences, which a smooth force hardly has.
+fn noise_of_force(force: &Signal) -> f64 {
+    if let Some(noise) = force.noise {
+        return noise.hypot(force.quantum.unwrap_or(0.0) / 12f64.sqrt());
+    }
+    let mut bends: Vec<f64> = force
+        .samples
+        .windows(3)
+        .filter_map(|w| match w {
+            [a, b, c] => Some((a - 2.0 * b + c).abs()),
+            _ => None,
+        })
+        .filter(|bend| bend.is_finite())
+        .collect();
+    bends.sort_by(f64::total_cmp);
+    let median = bends.get(bends.len() / 2).copied().unwrap_or(0.0);
+    // White noise: the median of a magnitude is 0.6745 of the standard deviation, that of a second difference √6 of a sample's.
+    (median / (0.6745 * 6f64.sqrt())).max(smallest_step(&force.samples) / 12f64.sqrt())
+}
+
+/// Currents outside of what the brakes were measured at.
+const CURRENTS_A: core::ops::RangeInclusive<f64> = -0.01..=1.5;
+
+fn check_currents(recording: &FiveBarRecording) -> Result<(), Fault> {
+    for signal in recording.currents.iter().flatten() {
+        let outside = |x: &f64| !x.is_nan() && !CURRENTS_A.contains(x);
+        if let Some(k) = signal.samples.iter().position(outside) {
+            let at_s = recording.time_s.get(k).copied().unwrap_or(0.0);
+            let value = signal.samples.get(k).copied().unwrap_or(f64::NAN);
+            return Err(Fault {
+                channel: "current",
+                from_s: at_s,
+                to_s: at_s,
+                reason: format!(
+                    "`{}` is {value} A; a brake takes 0 to 1 A: check the unit (mA?) and the sign in the description",
+                    signal.channel
+                ),
+            });
+        }
     }
     Ok(())
 }

@@ -71,7 +71,7 @@ pub enum Law {
     BiasDrift { rate: f64 },
     /// level·(sgn q̇ − w)/2, travel·dw/dt = q̇ − |q̇|·w.
     ReversalOvershoot { level: f64, travel: f64 },
-    /// level·(1 − m)·sgn q̇, travel·dm/dt = |q̇|·(1 − m).
+    /// level·(1 − m)·sgn q̇, travel·dm/dt = |q̇|·(1 − m); nothing at rest.
     Settling { level: f64, travel: f64 },
 }
 
@@ -145,14 +145,14 @@ impl Law {
             Law::NonlinearSpring { cubic } => cubic * now.position * now.position * now.position,
             Law::BiasDrift { rate } => rate * now.time_s,
             Law::ReversalOvershoot { level, .. } => -0.5 * level * memory,
-            Law::Settling { level, .. } => -level * memory * now.sense,
+            Law::Settling { level, .. } => level * (1.0 - memory) * now.sense,
         }
     }
 
     /// The dry level: the resistance against motion and up to which it holds at rest, N·m.
     pub fn dry(&self, now: &Instant) -> f64 {
         match *self {
-            Law::DryOffset { level } | Law::Settling { level, .. } => level,
+            Law::DryOffset { level } => level,
             Law::ReversalOvershoot { level, .. } => 0.5 * level,
             Law::Stribeck {
                 peak,

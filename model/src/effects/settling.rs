@@ -24,12 +24,9 @@ struct Settled {
 }
 
 impl Law for Settled {
+    // The dry level of a law knows no memory, so that this one acts in motion only: what it holds at rest is left out.
     fn smooth(&self, now: &Instant, memory: f64) -> f64 {
-        -self.level * memory * now.sense
-    }
-
-    fn dry(&self, _now: &Instant) -> f64 {
-        self.level
+        self.level * (1.0 - memory) * now.sense
     }
 
     fn remembers(&self) -> bool {
