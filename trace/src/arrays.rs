@@ -43,6 +43,8 @@ pub enum Other {
     Complex,
     /// Numbers in more than two dimensions.
     ManyDimensions,
+    /// A name that stands in the file more than once.
+    Repeated,
 }
 
 impl PassedOver {
@@ -59,6 +61,10 @@ impl PassedOver {
             Other::ManyDimensions => (
                 "has more than two dimensions",
                 format!("`x = squeeze({name}(1, 1, :))`"),
+            ),
+            Other::Repeated => (
+                "stands in the file more than once, so that it cannot be told which is meant",
+                format!("`x = {name}` in a file of its own"),
             ),
         };
         format!(
@@ -125,12 +131,25 @@ impl Arrays {
             }
         }
         entries.sort_by(|a, b| a.name.cmp(&b.name));
-        Ok(Some(Arrays {
+        let mut arrays = Arrays {
             path: path.to_path_buf(),
             content,
             entries,
             passed_over,
-        }))
+        };
+        arrays.pass_over_repeated();
+        Ok(Some(arrays))
+    }
+
+    fn pass_over_repeated(&mut self) {
+        let same_name = self.entries.chunk_by(|a, b| a.name == b.name);
+        let (once, repeated): (Vec<_>, Vec<_>) = same_name.partition(|same| same.len() == 1);
+        let names = repeated.into_iter().filter_map(|same| same.first());
+        self.passed_over.extend(names.map(|entry| PassedOver {
+            name: entry.name.clone(),
+            what: Other::Repeated,
+        }));
+        self.entries = once.concat();
     }
 
     /// Every array, by name.
@@ -146,8 +165,9 @@ impl Arrays {
     /// The array of that name; structures may be named as MATLAB does, `Y(2).Data` for `Y[1].Data`.
     fn entry(&self, name: &str) -> Option<&Entry> {
         let named = |name: &str| self.entries.iter().find(|entry| entry.name == name);
-        if let Content::Hdf5(_) = self.content {
-            return named(name);
+        let own = named(name);
+        if own.is_some() || matches!(self.content, Content::Hdf5(_)) {
+            return own;
         }
         let name = from_matlab(name);
         // A single structure has no index.
@@ -173,9 +193,16 @@ impl Arrays {
     /// There is no such array or column, or the file is damaged.
     pub fn column(&self, wanted: &str) -> Result<Vec<f64>, TraceError> {
         let refused = |problem: String| TraceError::recording(&self.path, problem);
-        let (name, index) = split_index(wanted);
-        let Some(entry) = self.entry(name) else {
-            return Err(refused(self.no_variable(name)));
+        // A name may itself end in an index.
+        let whole = self.entries.iter().find(|own| own.name == wanted);
+        let (entry, index) = if let Some(entry) = whole {
+            (entry, None)
+        } else {
+            let (name, index) = split_index(wanted);
+            let Some(entry) = self.entry(name) else {
+                return Err(refused(self.no_variable(name)));
+            };
+            (entry, index)
         };
         let name = entry.name.as_str();
         let count = entry.rows.checked_mul(entry.columns);

@@ -275,3 +275,25 @@ fn an_array_that_announces_too_much_is_refused_before_it_is_read() {
     file.extend(lie);
     assert!(open(&file).is_err());
 }
+
+#[test]
+fn a_name_that_stands_twice_is_passed_over() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.mat");
+    let mut file = b"MATLAB 5.0 MAT-file, made here".to_vec();
+    file.resize(124, b' ');
+    file.extend_from_slice(b"\x00\x01IM");
+    for (name, count) in [("twice", 19), ("once", 23), ("twice", 17)] {
+        file.extend(doubles(name, &vec![1.5; count], false));
+    }
+    std::fs::write(&path, file).unwrap();
+    let arrays = Arrays::open(&path).unwrap().unwrap();
+    let names: Vec<&str> = arrays.entries().iter().map(|e| e.name.as_str()).collect();
+    assert_eq!(names, ["once"]);
+    assert_eq!(arrays.passed_over()[0].what, Other::Repeated);
+    let error = arrays.column("twice").unwrap_err().to_string();
+    assert!(
+        error.contains("stands in the file more than once"),
+        "{error}"
+    );
+}
