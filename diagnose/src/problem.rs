@@ -245,7 +245,7 @@ impl<'a> Problem<'a> {
 
     /// Sets up the problem of a five-bar.
     pub fn of_five_bar(run: &'a FiveBarRun, mut windows: Windows) -> Problem<'a> {
-        five_bar::noise::keep_moving(run, &mut windows);
+        five_bar::noise::keep_told(run, &mut windows);
         let floor = five_bar::noise::floor(run, &windows);
         let whitener = five_bar::noise::whitener(run, &windows, 0.0);
         let known = five_bar::columns::known(run);

@@ -30,6 +30,10 @@ pub struct Windows {
     pub centres: Vec<usize>,
     /// Whether the row may be used: recorded throughout, and its sense of motion known.
     pub usable: Vec<bool>,
+    /// For a row that is a combination of all equations, which of `combinations` it is; the window's other rows are not used.
+    pub combined: Vec<Option<usize>>,
+    /// Weights of the equations, sample by sample, one equation after another.
+    pub combinations: Vec<Vec<f64>>,
     /// Sample interval, s.
     pub step_s: f64,
     /// Time of the run's first sample, s.
@@ -65,6 +69,8 @@ impl Windows {
             hop,
             outputs,
             usable: vec![true; centres.len()],
+            combined: vec![None; centres.len()],
+            combinations: Vec::new(),
             centres,
             step_s,
             start_s,
@@ -107,14 +113,39 @@ impl Windows {
     fn apply(&self, weights: &[f64], signal: &[f64]) -> Vec<f64> {
         let half = weights.len() / 2;
         let stretch = signal.len() / self.outputs;
-        self.centres
-            .iter()
-            .enumerate()
-            .map(|(row, &centre)| {
-                let first = row % self.outputs * stretch + centre - half;
+        let rows = self.centres.iter().zip(&self.combined).enumerate();
+        rows.map(|(row, (&centre, combined))| {
+            let first = row % self.outputs * stretch + centre - half;
+            let Some(shares) = combined.and_then(|which| self.combinations.get(which)) else {
                 let window = signal.get(first..).unwrap_or_default();
-                weights.iter().zip(window).map(|(w, x)| w * x).sum()
-            })
+                return weights.iter().zip(window).map(|(w, x)| w * x).sum();
+            };
+            (0..self.outputs)
+                .map(|output| {
+                    let first = output * stretch + centre - half;
+                    let window = signal.get(first..).unwrap_or_default();
+                    let shares = shares.get(first..).unwrap_or_default();
+                    let terms = weights.iter().zip(window).zip(shares);
+                    terms.map(|((w, x), share)| w * x * share).sum::<f64>()
+                })
+                .sum()
+        })
+        .collect()
+    }
+
+    /// The weights of the equations in a row, at its window's centre.
+    pub fn shares(&self, row: usize) -> Vec<f64> {
+        let which = self.combined.get(row).copied().flatten();
+        let Some(shares) = which.and_then(|which| self.combinations.get(which)) else {
+            let own = row % self.outputs;
+            return (0..self.outputs)
+                .map(|k| f64::from(u8::from(k == own)))
+                .collect();
+        };
+        let stretch = shares.len() / self.outputs;
+        let centre = self.centres.get(row).copied().unwrap_or(0);
+        (0..self.outputs)
+            .map(|k| shares.get(k * stretch + centre).copied().unwrap_or(0.0))
             .collect()
     }
 

@@ -133,6 +133,8 @@ struct Stand<'a> {
 struct Balanced {
     times_s: Vec<f64>,
     usable: Vec<bool>,
+    /// Which rows are one output's alone.
+    whole: Vec<bool>,
     recorded: Vec<f64>,
     before: Vec<f64>,
     after: Vec<f64>,
@@ -176,7 +178,15 @@ impl Stand<'_> {
 
     fn protocol(&self, other_recording: bool) -> Vec<String> {
         let windows = &self.problem.windows;
-        let usable = windows.usable.iter().filter(|u| **u).count() / windows.outputs;
+        let rows = || {
+            windows
+                .usable
+                .iter()
+                .zip(&windows.combined)
+                .filter(|(u, _)| **u)
+        };
+        let (single, all) = (rows().filter(|(_, c)| c.is_some()).count(), rows().count());
+        let whole = (all - single) / windows.outputs;
         let gates = self.options.gates;
         vec![
             format!(
@@ -195,7 +205,7 @@ impl Stand<'_> {
                 "equations: momentum form on θA and θB; arms and masses of tables 4.1 and 5.1, brakes of tables 3.1 to 3.3 along the recorded motion, currents held from sample to sample; brakes start without current in the middle of their backlash",
             ),
             format!(
-                "windows: bump (1 - x²)⁴, {:.1} ms wide, {} samples apart, {usable} of {} usable (every braked joint moves and its sense is known)",
+                "windows: bump (1 - x²)⁴, {:.1} ms wide, {} samples apart; of {}, {whole} are usable whole (every braked joint moves and its sense is known) and {single} with the one equation that a joint which is held, or turns back, leaves",
                 1e3 * windows.bump.len() as f64 * windows.step_s,
                 windows.hop,
                 windows.centres.len() / windows.outputs,
@@ -243,9 +253,16 @@ impl Stand<'_> {
         let before_it = centres.take_while(|&&centre| (centre as f64) * run.step_s < from_s);
         let first = before_it.count();
         let average = |signal: &[f64]| problem.windows.average(signal).split_off(first);
+        let usable = problem.windows.usable.clone().split_off(first);
+        let mut combined = problem.windows.combined.clone();
         Balanced {
             times_s: problem.windows.times_s().split_off(first),
-            usable: problem.windows.usable.clone().split_off(first),
+            whole: usable
+                .iter()
+                .zip(combined.split_off(first))
+                .map(|(u, c)| *u && c.is_none())
+                .collect(),
+            usable,
             recorded: average(&super::columns::driving(run)),
             before: average(&modelled(&problem, &bare)),
             after: average(&modelled(&problem, self.selection)),
@@ -343,9 +360,12 @@ impl Stand<'_> {
             let pairs = values.iter().zip(usable);
             pairs.map(|(v, u)| if *u { *v } else { f64::NAN }).collect()
         };
-        let usable = &self.problem.windows.usable;
-        let before = counted(&self.selection.before.residual, usable);
-        let after = counted(&self.selection.after.residual, usable);
+        let windows = &self.problem.windows;
+        // A row that combines both equations belongs to neither picture.
+        let own = windows.usable.iter().zip(&windows.combined);
+        let usable: Vec<bool> = own.map(|(u, combined)| *u && combined.is_none()).collect();
+        let before = counted(&self.selection.before.residual, &usable);
+        let after = counted(&self.selection.after.residual, &usable);
         let energy = |output: usize| -> f64 {
             let rows = before.iter().skip(output).step_by(2);
             rows.filter(|r| r.is_finite()).map(|r| r * r).sum()
@@ -361,9 +381,9 @@ impl Stand<'_> {
             } else {
                 "effort on arm BC (θB)"
             },
-            recorded: of(&counted(&test.recorded, &test.usable)),
-            before: of(&counted(&test.before, &test.usable)),
-            after: of(&counted(&test.after, &test.usable)),
+            recorded: of(&counted(&test.recorded, &test.whole)),
+            before: of(&counted(&test.before, &test.whole)),
+            after: of(&counted(&test.after, &test.whole)),
             unit: unit.clone(),
             window_time_s: of(&self.problem.windows.times_s()),
             residual_before: of(&before),

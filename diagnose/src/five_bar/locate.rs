@@ -36,7 +36,10 @@ pub fn locate(problem: &Problem, run: &FiveBarRun, before: &[f64], after: &[f64]
             label,
             joint: None,
             member: rows
-                .map(|row| row % problem.windows.outputs == output)
+                .map(|row| {
+                    row % problem.windows.outputs == output
+                        && problem.windows.combined.get(row) == Some(&None)
+                })
                 .collect(),
         });
     }

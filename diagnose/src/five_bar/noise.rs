@@ -1,11 +1,13 @@
 //! This file is the noise of the five-bar's residuals: what encoders and force sensor put into each row, and how rows share it.
 
-use super::run::FiveBarRun;
+use super::run::{FiveBarRun, stacked};
 use crate::run::rms;
 use crate::weak::{Windows, is_recorded, overlap};
 use crate::whiten::Whitener;
 use core::cell::OnceCell;
-use nalgebra::Matrix2;
+use nalgebra::{Matrix2, Vector2};
+use rigproof_model::effects::Instant;
+use rigproof_spec::joint::Joint;
 
 /// What the brakes may do where the sense of motion cannot be told, in floors.
 const MOST_UNTOLD: f64 = 0.5;
@@ -13,34 +15,58 @@ const MOST_UNTOLD: f64 = 0.5;
 /// Samples by which an entry into the backlash, or its end, may be mistaken.
 const ENTRY_SAMPLES: f64 = 3.0;
 
-/// Gives up the rows whose window holds a missing sample; in which a brake could do more than half the floor where its
-/// joint's sense cannot be told: a reversal, a joint at rest or held (what a held brake transmits is no measurement); or in
-/// which the torque steps by as much where the backlash begins or ends, because its angle is known to a few counts only.
-pub fn keep_moving(run: &FiveBarRun, windows: &mut Windows) {
+/// Gives up the rows whose window holds a missing sample, or in which a joint's brake cannot be told: it could do more than
+/// half the floor where its joint's sense is not known (a reversal, a joint at rest or held: what a held brake transmits is no
+/// measurement), or its torque steps by as much where the backlash begins or ends, whose angle is known to a few counts only.
+///
+/// Where one joint alone cannot be told, one equation is left: the combination of both in which nothing at that joint acts.
+pub fn keep_told(run: &FiveBarRun, windows: &mut Windows) {
     let most = MOST_UNTOLD * floor(run, windows);
-    let untold: Vec<Vec<f64>> = run
-        .joints
-        .iter()
-        .zip(&run.yields)
-        .map(|(motion, yields)| {
-            let pairs = motion.iter().zip(yields);
-            pairs
-                .map(|(now, y)| if now.sense.abs() < 1.0 { *y } else { 0.0 })
-                .collect()
-        })
-        .collect();
-    let steps = run.backlash_steps.each_ref().map(|steps| {
+    let untold = run.joints.iter().zip(&run.yields).map(|(motion, yields)| {
+        let pairs = motion.iter().zip(yields);
+        let told = |now: &Instant| now.sense.abs() >= 1.0;
+        let untold = pairs.map(|(now, y)| if told(now) { 0.0 } else { *y });
+        untold.collect::<Vec<f64>>()
+    });
+    let steps = run.backlash_steps.iter().map(|steps| {
         let errors = steps.iter().map(|step| ENTRY_SAMPLES * step);
         errors.collect::<Vec<f64>>()
     });
-    windows.keep(|centre, bump| {
-        let first = centre - bump.len() / 2;
-        is_recorded(&run.recorded, centre, bump)
-            && untold.iter().chain(&steps).all(|untold| {
-                let window = untold.iter().skip(first);
-                window.zip(bump).map(|(y, w)| y * w).sum::<f64>() <= most
-            })
-    });
+    let joints: Vec<[Vec<f64>; 2]> = untold.zip(steps).map(|pair| pair.into()).collect();
+    windows.combinations = Joint::ALL.map(|joint| without(run, joint)).into();
+    let Windows {
+        bump,
+        outputs,
+        centres,
+        usable,
+        combined,
+        ..
+    } = windows;
+    for (row, (usable, combined)) in usable.iter_mut().zip(combined).enumerate() {
+        let centre = centres.get(row).copied().unwrap_or(0);
+        let sums_up = |errors: &Vec<f64>| {
+            let window = errors.iter().skip(centre - bump.len() / 2);
+            window.zip(&*bump).map(|(y, w)| y * w).sum::<f64>() > most
+        };
+        let mut unknown = (0..joints.len()).filter(|&j| {
+            joints
+                .get(j)
+                .is_some_and(|errors| errors.iter().any(sums_up))
+        });
+        let (first, second) = (unknown.next(), unknown.next());
+        *combined = first;
+        *usable = is_recorded(&run.recorded, centre, bump)
+            && second.is_none()
+            && (first.is_none() || row % *outputs == 0);
+    }
+}
+
+/// The combination of both equations in which no torque at a joint acts, of length one, sample by sample.
+fn without(run: &FiveBarRun, joint: Joint) -> Vec<f64> {
+    stacked(run.joint_rows(joint).map(|[by_a, by_b]| {
+        let length = by_a.hypot(by_b).max(1e-300);
+        [-by_b / length, by_a / length]
+    }))
 }
 
 /// Root mean square over the usable rows of the standard deviation that sensor noise gives them, N·m.
@@ -67,6 +93,8 @@ pub fn whitener(run: &FiveBarRun, windows: &Windows, excess: f64) -> Whitener {
 struct Noise<'a> {
     run: &'a FiveBarRun,
     windows: &'a Windows,
+    /// The weights of both equations in each row.
+    shares: Vec<Vector2<f64>>,
     /// Overlaps of two windows by their distance in hops: of the curvatures and of the bumps.
     overlaps: Vec<OnceCell<[f64; 2]>>,
     excess: f64,
@@ -78,6 +106,9 @@ impl<'a> Noise<'a> {
         Noise {
             run,
             windows,
+            shares: (0..windows.centres.len())
+                .map(|row| Vector2::from_iterator(windows.shares(row)))
+                .collect(),
             overlaps: vec![OnceCell::new(); windows.curvature.len() / windows.hop + 2],
             excess: excess / white,
         }
@@ -85,10 +116,7 @@ impl<'a> Noise<'a> {
 
     /// Covariance of two rows, (N·m)².
     fn covariance(&self, row: usize, other: usize) -> f64 {
-        let Windows {
-            centres, outputs, ..
-        } = self.windows;
-        let centre = |row: usize| centres.get(row).copied().unwrap_or(0);
+        let centre = |row: usize| self.windows.centres.get(row).copied().unwrap_or(0);
         let (here, there) = (centre(row), centre(other));
         let shift = here.abs_diff(there);
         let Some(cell) = self.overlaps.get(shift / self.windows.hop) else {
@@ -101,11 +129,13 @@ impl<'a> Noise<'a> {
         let (Some(one), Some(two)) = (form(here), form(there)) else {
             return 0.0;
         };
-        let (a, b) = (row % outputs, other % outputs);
-        let entry = |m: Matrix2<f64>| m.get((a, b)).copied().unwrap_or(0.0);
+        let (Some(mine), Some(theirs)) = (self.shares.get(row), self.shares.get(other)) else {
+            return 0.0;
+        };
+        let entry = |m: Matrix2<f64>| mine.dot(&(m * theirs));
         let angles = entry(one.mass * two.mass.transpose()) * self.run.theta_noise.powi(2);
         let force = entry(one.tip.transpose() * two.tip) * self.run.force_noise.powi(2);
-        let excess = if a == b { self.excess } else { 0.0 };
+        let excess = self.excess * mine.dot(theirs);
         angles * curvatures + (force + excess) * bumps
     }
 }

@@ -1,8 +1,13 @@
 //! This file claims that the diagnosis of the five-bar names what was left out, where it was left out, and nothing else.
 
+use super::columns::driving;
 use super::diagnose::diagnose;
+use super::from_rig::aligned;
 use super::recorded::{DRAG, LeftOut, nothing, recording, rig};
+use crate::problem::{Problem, less};
 use crate::report::{Report, Verdict};
+use crate::run::rms;
+use crate::weak::Windows;
 use crate::{Diagnosis, Options};
 use rigproof_spec::layout::Layout;
 
@@ -56,5 +61,39 @@ fn drag_at_one_joint_is_named_there_with_its_coefficient() {
         let found = report.effects[0].parameters["coefficient"].value;
         assert!((found / DRAG - 1.0).abs() < 0.05, "{found} {DRAG}");
         assert!(report.fit.unwrap().improved);
+    }
+}
+
+#[test]
+fn where_one_joint_is_held_or_turns_back_the_other_equation_still_balances() {
+    for (layout, seed) in [(Layout::FourBrake, 11), (Layout::ThreeBrake, 12)] {
+        let recording = recording(layout, SECONDS, seed, &nothing);
+        let run = aligned(&rig(layout), &recording).unwrap();
+        let windows = Windows::over(run.len(), 2, (run.step_s, run.start_s), 0.080);
+        let problem = Problem::of_five_bar(&run, windows);
+        let Windows {
+            combined, usable, ..
+        } = &problem.windows;
+        let single: Vec<usize> = (0..usable.len())
+            .filter(|&row| usable[row] && combined[row].is_some())
+            .collect();
+        assert!(single.len() > 50, "{layout:?}: {}", single.len());
+        let white: Vec<f64> = single
+            .iter()
+            .map(|&row| problem.target.white[row])
+            .collect();
+        assert!(rms(&white) < 1.2, "{layout:?}: {} deviations", rms(&white));
+        // Neither equation alone balances there: what a held brake transmits is in both.
+        let [own, other] = [0, 1].map(|output| {
+            let mut whole = problem.windows.clone();
+            whole.combined.fill(None);
+            let raw = whole.average(&less(&driving(&run), &problem.known));
+            rms(&single
+                .iter()
+                .map(|&row| raw[row + output])
+                .collect::<Vec<f64>>())
+        });
+        let floor = problem.floor;
+        assert!(own.max(other) > 5.0 * floor, "{own} {other} {floor} N·m");
     }
 }
