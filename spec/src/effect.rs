@@ -179,6 +179,7 @@ impl Mechanism {
                         Parameter::new("peak", Effort),
                         Parameter::new("speed", Speed),
                         Parameter::new("exponent", Number),
+                        Parameter::optional("travel", Travel),
                     ]
                 }
             }
@@ -307,11 +308,24 @@ pub struct Parameter {
     pub name: &'static str,
     /// What it measures.
     pub quantity: Quantity,
+    /// Whether it may be left out; none stands before one that may not.
+    pub is_optional: bool,
 }
 
 impl Parameter {
     const fn new(name: &'static str, quantity: Quantity) -> Parameter {
-        Parameter { name, quantity }
+        Parameter {
+            name,
+            quantity,
+            is_optional: false,
+        }
+    }
+
+    const fn optional(name: &'static str, quantity: Quantity) -> Parameter {
+        Parameter {
+            is_optional: true,
+            ..Parameter::new(name, quantity)
+        }
     }
 }
 

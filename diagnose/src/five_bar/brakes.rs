@@ -19,7 +19,7 @@ pub fn change(
     let own = run.yields.get(place(joint))?;
     let current = run.currents.get(place(joint))?.as_ref()?;
     let again = |brake: Brake, current: &[f64]| {
-        let (changed, _) = yields(brake, run.motion(joint), current, run.step_s);
+        let changed = yields(brake, run.motion(joint), current, run.step_s);
         Some(less(&changed, own))
     };
     let start = run.motion(joint).first()?.position;

@@ -37,6 +37,9 @@ const OF_THE_WHOLE: [Mechanism; 7] = [
     Mechanism::ChannelSkew,
 ];
 
+/// Travels within which friction comes to the level of its speed, rad.
+const DELAYS_RAD: [f64; 4] = [0.001, 0.01, 0.05, 0.2];
+
 /// The causes that have a meaning on this layout.
 pub fn causes(run: &FiveBarRun) -> Vec<Cause> {
     let braked = run.parameters.layout.brakes();
@@ -112,7 +115,10 @@ pub fn shapes(
     let motion = cause.joint.map_or(&[][..], |joint| run.motion(joint));
     let one = |values: Vec<f64>| values.into_iter().map(|v| vec![v]).collect();
     match cause.mechanism {
-        Mechanism::Stribeck => stribeck_shapes(run.speed_floor, fastest(motion)),
+        Mechanism::Stribeck => stribeck_shapes(run.speed_floor, fastest(motion))
+            .into_iter()
+            .flat_map(|shape| DELAYS_RAD.map(|travel| [&shape[..], &[travel]].concat()))
+            .collect(),
         Mechanism::Presliding => {
             let travel = travel(run, cause).max(1e-12);
             one(geometric(

@@ -1,6 +1,6 @@
 //! This file turns a five-bar's description and its recording into an aligned run.
 
-use super::run::{FiveBarRun, forms, yields};
+use super::run::{FiveBarRun, forms, place, yields};
 use crate::align::{
     Fault, Signals, band_hz, check_clipped, check_clock, check_frozen, check_missing, cutoff_hz,
     forget_sense_at_rest, forget_sense_at_reversals, median_step, regular_count, resample,
@@ -9,11 +9,13 @@ use crate::align::{
 use crate::problem::{Cause, NominalEffect};
 use crate::run::PlantKind;
 use core::f64::consts::TAU;
-use rigproof_model::brake::{Brake, torque_gain};
+use rigproof_model::brake::{Brake, ENTRY_TRAVEL_DEG};
 use rigproof_model::effects::Instant;
 use rigproof_model::error::ModelError;
 use rigproof_model::rig::Parameters;
 use rigproof_spec::joint::Joint;
+use rigproof_spec::tables::{BrakeTable, brake_table};
+use rigproof_spec::units::RAD_PER_DEG;
 use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording};
 use rigproof_trace::rig::{Signal, Status};
 
@@ -74,7 +76,7 @@ pub fn aligned(rig: &FiveBar, recording: &FiveBarRecording) -> Result<FiveBarRun
         force,
         currents,
         yields: [const { Vec::new() }; 4],
-        backlash_steps: [const { Vec::new() }; 4],
+        yield_errors: [const { Vec::new() }; 4],
         theta_noise,
         still_rad: (2.0 * quantum).max(6.0 * theta_noise),
         force_noise,
@@ -114,7 +116,7 @@ pub fn with_angles(
     };
     let untold = untold_speeds(&run, &base);
     run.joints = Joint::ALL.map(|joint| joint_motion(&run, &base, joint, &untold));
-    let_brakes_follow(&mut run);
+    let_brakes_follow(&mut run, &untold);
     Ok(run)
 }
 
@@ -275,6 +277,10 @@ fn untold_speeds(run: &FiveBarRun, base: &[Vec<Instant>; 2]) -> [Vec<f64>; 2] {
     [of((theta_a, a)), of((theta_b, b))]
 }
 
+/// Share of the rates of θA and θB by which the rate of E or C is in doubt: an encoder's zero a few hundredths of a radian
+/// off, or an arm's length a few per cent, makes a held joint seem to creep.
+const KINEMATIC_DOUBT: f64 = 0.05;
+
 /// The motion of a joint that the angles and rates of A and B imply.
 fn joint_motion(
     run: &FiveBarRun,
@@ -289,7 +295,8 @@ fn joint_motion(
     let mut greatest = 0.0f64;
     let mut motion: Vec<Instant> = pairs
         .map(|((((a, b), pose), [by_a, by_b]), (untold_a, untold_b))| {
-            let floor = by_a.abs() * untold_a + by_b.abs() * untold_b;
+            let floor = by_a.abs() * (untold_a + KINEMATIC_DOUBT * a.speed.abs())
+                + by_b.abs() * (untold_b + KINEMATIC_DOUBT * b.speed.abs());
             greatest = greatest.max(by_a.abs() + by_b.abs());
             let speed = by_a * a.speed + by_b * b.speed;
             Instant {
@@ -317,27 +324,100 @@ fn joint_motion(
 }
 
 /// Lets the nominal brakes follow the motion; a joint without one resists with 0.
-fn let_brakes_follow(run: &mut FiveBarRun) {
-    let joints = Joint::ALL.into_iter().zip(&run.joints).zip(&run.currents);
-    let followed: Vec<(Vec<f64>, Vec<f64>)> = joints
-        .map(|((joint, motion), current)| {
-            let Some(current) = current else {
-                return (vec![0.0; motion.len()], vec![0.0; motion.len()]);
-            };
-            let start = motion.first().map_or(0.0, |now| now.position);
-            let (own, turned) = yields(Brake::new(joint, start), motion, current, run.step_s);
-            let off = torque_gain(joint, 0.0);
-            let full = |(turned, current): (&bool, &f64)| match turned {
-                true => (torque_gain(joint, *current) - off).abs(),
-                false => 0.0,
-            };
-            (own, turned.iter().zip(current).map(full).collect())
-        })
-        .collect();
-    let slots = run.yields.iter_mut().zip(&mut run.backlash_steps);
-    for ((yields, steps), followed) in slots.zip(followed) {
-        (*yields, *steps) = followed;
+fn let_brakes_follow(run: &mut FiveBarRun, untold: &[Vec<f64>; 2]) {
+    let followed = Joint::ALL.map(|joint| {
+        let none = || vec![0.0; run.motion(joint).len()];
+        brake_torques(run, joint, untold).unwrap_or_else(|| (none(), none()))
+    });
+    let slots = run.yields.iter_mut().zip(&mut run.yield_errors);
+    for ((yields, errors), followed) in slots.zip(followed) {
+        (*yields, *errors) = followed;
     }
+}
+
+/// The yield torque of a joint's brake along the motion, and by how much it would differ if the joint turned faster or slower by
+/// what cannot be told, if the backlash began and ended where the angle's own error may put it, or if the shaft did not start in
+/// its middle.
+fn brake_torques(
+    run: &FiveBarRun,
+    joint: Joint,
+    untold: &[Vec<f64>; 2],
+) -> Option<(Vec<f64>, Vec<f64>)> {
+    let motion = run.motion(joint);
+    let current = run.currents.get(place(joint))?.as_ref()?;
+    let start = motion.first()?.position;
+    let along = |brake, motion: &[Instant]| yields(brake, motion, current, run.step_s);
+    let own = along(Brake::new(joint, start), motion);
+    let mut errors = vec![0.0f64; own.len()];
+    let mut doubt = |changed: Vec<f64>| {
+        let pairs = errors.iter_mut().zip(own.iter().zip(&changed));
+        pairs.for_each(|(error, (own, changed))| *error = error.max((own - changed).abs()));
+    };
+    for sign in [1.0, -1.0] {
+        doubt(along(
+            Brake::new(joint, start),
+            &turning(run, joint, untold, sign),
+        ));
+    }
+    let table = brake_table(joint);
+    if table.backlash_width_deg == 0.0 {
+        return Some((own, errors));
+    }
+    let angle_deg = turning_point_error(run, joint, untold) / RAD_PER_DEG;
+    let half = 0.5 * table.backlash_width_deg * RAD_PER_DEG;
+    for (by_deg, start) in [
+        (angle_deg, start),
+        (-angle_deg, start),
+        (0.0, start - half),
+        (0.0, start + half),
+    ] {
+        let changed = BrakeTable {
+            backlash_width_deg: (table.backlash_width_deg + 2.0 * by_deg).max(0.0),
+            ..table
+        };
+        let entry_deg = (ENTRY_TRAVEL_DEG + by_deg).max(0.0);
+        doubt(along(
+            Brake::of(changed, start).with_backlash_entry(start, entry_deg),
+            motion,
+        ));
+    }
+    Some((own, errors))
+}
+
+/// How far the angle at which a joint turns back may be mistaken, rad: by counts, and by the low-pass that rounds it off.
+fn turning_point_error(run: &FiveBarRun, joint: Joint, untold: &[Vec<f64>; 2]) -> f64 {
+    let [untold_a, untold_b] = untold;
+    let pairs = run.joint_rows(joint).zip(untold_a.iter().zip(untold_b));
+    let turns = run.motion(joint).iter().map(|now| now.sense.abs() < 1.0);
+    let errors = pairs
+        .zip(turns)
+        .map(|(([by_a, by_b], (untold_a, untold_b)), turns)| {
+            let speed = by_a.abs() * untold_a + by_b.abs() * untold_b;
+            let rounded = if turns {
+                speed / (TAU * run.cutoff_hz)
+            } else {
+                0.0
+            };
+            (by_a.abs() + by_b.abs()) * run.still_rad + rounded
+        });
+    errors.fold(0.0, f64::max)
+}
+
+/// A joint's motion, faster or slower by what cannot be told of its speed.
+fn turning(run: &FiveBarRun, joint: Joint, untold: &[Vec<f64>; 2], sign: f64) -> Vec<Instant> {
+    let [untold_a, untold_b] = untold;
+    let rows = run.joint_rows(joint).zip(untold_a.iter().zip(untold_b));
+    let pairs = run.motion(joint).iter().zip(rows);
+    pairs
+        .map(|(now, ([by_a, by_b], (untold_a, untold_b)))| {
+            let untold = by_a.abs() * untold_a + by_b.abs() * untold_b;
+            let speed = (now.speed.abs() + sign * untold).max(0.0);
+            Instant {
+                speed: speed.copysign(now.speed),
+                ..*now
+            }
+        })
+        .collect()
 }
 
 /// The physics that the nominal model has beyond the thesis's.

@@ -12,12 +12,9 @@ use rigproof_spec::joint::Joint;
 /// What the brakes may do where the sense of motion cannot be told, in floors.
 const MOST_UNTOLD: f64 = 0.5;
 
-/// Samples by which an entry into the backlash, or its end, may be mistaken.
-const ENTRY_SAMPLES: f64 = 3.0;
-
 /// Gives up the rows whose window holds a missing sample, or in which a joint's brake cannot be told: it could do more than
 /// half the floor where its joint's sense is not known (a reversal, a joint at rest or held: what a held brake transmits is no
-/// measurement), or its torque steps by as much where the backlash begins or ends, whose angle is known to a few counts only.
+/// measurement), or its torque may be mistaken by as much after its backlash began or ended.
 ///
 /// Where one joint alone cannot be told, one equation is left: the combination of both in which nothing at that joint acts.
 pub fn keep_told(run: &FiveBarRun, windows: &mut Windows) {
@@ -28,11 +25,8 @@ pub fn keep_told(run: &FiveBarRun, windows: &mut Windows) {
         let untold = pairs.map(|(now, y)| if told(now) { 0.0 } else { *y });
         untold.collect::<Vec<f64>>()
     });
-    let steps = run.backlash_steps.iter().map(|steps| {
-        let errors = steps.iter().map(|step| ENTRY_SAMPLES * step);
-        errors.collect::<Vec<f64>>()
-    });
-    let joints: Vec<[Vec<f64>; 2]> = untold.zip(steps).map(|pair| pair.into()).collect();
+    let errors = run.yield_errors.iter().cloned();
+    let joints: Vec<[Vec<f64>; 2]> = untold.zip(errors).map(|pair| pair.into()).collect();
     windows.combinations = Joint::ALL.map(|joint| without(run, joint)).into();
     let Windows {
         bump,

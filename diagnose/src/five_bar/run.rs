@@ -32,8 +32,8 @@ pub struct FiveBarRun {
     pub currents: [Option<Vec<f64>>; 4],
     /// Yield torques of the nominal brakes at A, E, B, C, N·m; 0 without a brake.
     pub yields: [Vec<f64>; 4],
-    /// How far a brake's torque has to go where its backlash begins or ends at a sample, N·m; 0 elsewhere.
-    pub backlash_steps: [Vec<f64>; 4],
+    /// By how much the nominal yield torques may be mistaken, because where a backlash begins and ends is known to a few counts, N·m.
+    pub yield_errors: [Vec<f64>; 4],
     /// Standard deviation of one angle sample, rad.
     pub theta_noise: f64,
     /// Travel within which a joint may rest, rad.
@@ -139,7 +139,7 @@ impl FiveBarRun {
             force: self.force.each_ref().map(part),
             currents: self.currents.each_ref().map(|c| c.as_ref().map(part)),
             yields: self.yields.each_ref().map(part),
-            backlash_steps: self.backlash_steps.each_ref().map(part),
+            yield_errors: self.yield_errors.each_ref().map(part),
             theta_noise: self.theta_noise,
             still_rad: self.still_rad,
             cutoff_hz: self.cutoff_hz,
@@ -178,22 +178,14 @@ pub fn forms(
         .collect()
 }
 
-/// The yield torque of a brake along a joint's motion, the current of each sample held to the next, and at which samples its
-/// backlash begins or ends.
-pub fn yields(
-    mut brake: Brake,
-    motion: &[Instant],
-    current: &[f64],
-    step_s: f64,
-) -> (Vec<f64>, Vec<bool>) {
-    let (mut own, mut turned) = (vec![brake.yield_torque()], vec![false]);
+/// The yield torque of a brake along a joint's motion, the current of each sample held to the next.
+pub fn yields(mut brake: Brake, motion: &[Instant], current: &[f64], step_s: f64) -> Vec<f64> {
+    let mut own = vec![brake.yield_torque()];
     for (now, &current) in motion.iter().skip(1).zip(current) {
-        let was_inside = brake.backlash().is_inside();
         brake.step(current, now.position, now.speed, step_s);
         own.push(brake.yield_torque());
-        turned.push(brake.backlash().is_inside() != was_inside);
     }
-    (own, turned)
+    own
 }
 
 /// What the inertia of some mass matrices takes, sample by sample, as the second difference of the angles sees it:

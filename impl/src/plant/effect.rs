@@ -53,6 +53,13 @@ pub enum Law {
         speed: f64,
         exponent: f64,
     },
+    /// peak·w, travel·dw/dt = q̇·exp(−|q̇/speed|^exponent) − |q̇|·w.
+    DelayedStribeck {
+        peak: f64,
+        speed: f64,
+        exponent: f64,
+        travel: f64,
+    },
     /// level·w, travel·dw/dt = q̇ − |q̇|·w (Dahl 1968).
     Presliding { level: f64, travel: f64 },
     /// alpha·z, dz/dt = q̇ − `beta_gamma`·|q̇|·z − `beta_delta`·q̇·|z| (Bouc 1967, Wen 1976).
@@ -94,6 +101,16 @@ impl Law {
                 speed,
                 exponent,
             },
+            (Mechanism::Stribeck, &[peak, speed, exponent, travel])
+                if speed > 0.0 && travel > 0.0 =>
+            {
+                Law::DelayedStribeck {
+                    peak,
+                    speed,
+                    exponent,
+                    travel,
+                }
+            }
             (Mechanism::Presliding, &[level, travel]) if travel > 0.0 => {
                 Law::Presliding { level, travel }
             }
@@ -132,6 +149,7 @@ impl Law {
                 viscous * now.speed.abs() + dry
             }
             Law::Presliding { level, .. } => level * memory,
+            Law::DelayedStribeck { peak, .. } => peak * memory,
             Law::Hysteresis { alpha, .. } => alpha * memory,
             Law::Ripple {
                 sine,
@@ -158,7 +176,7 @@ impl Law {
                 peak,
                 speed,
                 exponent,
-            } => peak * libm::exp(-libm::pow((now.speed / speed).abs(), exponent)),
+            } => peak * near_standstill(now.speed / speed, exponent),
             _ => 0.0,
         }
     }
@@ -168,6 +186,15 @@ impl Law {
         let (gain, decay) = match *self {
             Law::Presliding { travel, .. } | Law::ReversalOvershoot { travel, .. } => {
                 (speed / travel, speed.abs() / travel)
+            }
+            Law::DelayedStribeck {
+                speed: slow,
+                exponent,
+                travel,
+                ..
+            } => {
+                let gain = speed * near_standstill(speed / slow, exponent);
+                (gain / travel, speed.abs() / travel)
             }
             Law::Settling { travel, .. } => (speed.abs() / travel, speed.abs() / travel),
             Law::Hysteresis {
@@ -193,6 +220,11 @@ impl Law {
             memory + rate * half * decayed(0.5 * exponent),
         ]
     }
+}
+
+/// Share of a Stribeck peak at a ratio of speeds.
+fn near_standstill(ratio: f64, exponent: f64) -> f64 {
+    libm::exp(-libm::pow(ratio.abs(), exponent))
 }
 
 /// A law on a joint, with its memory.

@@ -238,6 +238,9 @@ pub(super) fn read_effect(
     for parameter in parameters {
         let dimension = parameter.quantity.dimension(motion);
         let value = read_value(table, parameter.name, dimension)?;
+        if parameter.is_optional && value.is_none() {
+            break;
+        }
         let value = table.need(parameter.name, value)?;
         if matches!(parameter.quantity, Quantity::Travel | Quantity::Speed) {
             above_zero(table, parameter.name, &value, dimension)?;

@@ -177,14 +177,16 @@ fn any_effect() -> impl Strategy<Value = RigEffect> {
         prop::sample::select(computed),
         values,
         prop::option::of(any_value(false)),
+        any::<bool>(),
     )
-        .prop_map(|(mechanism, values, onset)| RigEffect {
-            mechanism,
-            values: values
-                .into_iter()
-                .take(mechanism.parameters().len())
-                .collect(),
-            onset,
+        .prop_map(|(mechanism, values, onset, whole)| {
+            let parameters = mechanism.parameters().iter();
+            let given = parameters.filter(|parameter| whole || !parameter.is_optional);
+            RigEffect {
+                mechanism,
+                values: values.into_iter().take(given.count()).collect(),
+                onset,
+            }
         })
 }
 
