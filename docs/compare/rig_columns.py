@@ -81,7 +81,8 @@ def problem(recording, window_s):
     if "C" not in BRAKES[recording.layout]:
         bearing = [filtered(along(3, torque)) for torque in (signs[3], rates[3])]
         found.append(("bearing_friction", "C", bearing))
-    of_sensors(found, recording, moved, filtered, stack, lacking, lambda other: other_lacking(recording, other, smooth, signs, brakes, filtered, stack))
+    elsewhere = lambda theta: other_lacking(recording, theta, smooth, signs, brakes, filtered, stack)
+    of_sensors(found, recording, moved, filtered, stack, lacking, elsewhere)
     return Problem(lacking, found, filtered(pushed))
 
 

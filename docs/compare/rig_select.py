@@ -43,22 +43,25 @@ class Reduced:
 
 def stepwise(reduced, penalty):
     """Candidates that enter, and leave again, while n·ln(mean square) + penalty·k·ln(n) falls; one shape a name."""
-    rows = reduced.rows
-    cost = lambda chosen: rows * np.log(reduced.unexplained(chosen)) + penalty * np.log(rows) * sum(len(reduced.groups[k][2]) for k in chosen)
-    chosen, best = [], cost([])
+
+    def cost(square, chosen):
+        count = sum(len(reduced.groups[k][2]) for k in chosen)
+        return reduced.rows * np.log(max(square, 1e-18)) + penalty * np.log(reduced.rows) * count
+
+    chosen, square = [], reduced.unexplained([])
     while len(chosen) < MOST_NAMES:
         taken = {reduced.groups[k][:2] for k in chosen}
-        gains = [(k, gain) for k, gain in enumerate(drops(reduced, chosen)) if reduced.groups[k][:2] not in taken]
-        score = lambda gain, k: rows * np.log(max(reduced.unexplained(chosen) - gain, 1e-18)) + penalty * np.log(rows) * len(reduced.groups[k][2])
-        enters = min(gains, key=lambda pair: score(pair[1], pair[0]))[0]
-        more = cost([*chosen, enters])
-        if more >= best:
+        others = [(k, square - drop) for k, drop in enumerate(drops(reduced, chosen)) if reduced.groups[k][:2] not in taken]
+        enters = min(others, key=lambda other: cost(other[1], [*chosen, other[0]]))[0]
+        more = [*chosen, enters]
+        if cost(reduced.unexplained(more), more) >= cost(square, chosen):
             break
-        chosen, best = [*chosen, enters], more
-        for leaves in chosen[:-1]:
+        chosen, square = more, reduced.unexplained(more)
+        for leaves in more[:-1]:
             fewer = [k for k in chosen if k != leaves]
-            if cost(fewer) < best:
-                chosen, best = fewer, cost(fewer)
+            less = reduced.unexplained(fewer)
+            if cost(less, fewer) < cost(square, chosen):
+                chosen, square = fewer, less
     return chosen
 
 
@@ -108,7 +111,7 @@ def fewer_shapes(problem):
     return type(problem)(problem.lacking_nm, candidates, problem.pushed_nm)
 
 
-PENALTIES = (1, 4, 8, 16, 24, 32, 48, 64, 96, 128)
+PENALTIES = (1, 16, 32, 64, 96, 128, 192, 256, 384, 512, 768, 1024)
 THRESHOLDS_NM = tuple(float(f"{x:.2g}") for x in np.geomspace(0.002, 0.2, 11))
 # Without some pull towards nothing an optimiser finds the equation itself in the library: force, inertia and every brake's torque, each times one.
 RIDGES = (1e-4, 1e-3, 1e-2, 5e-2)
