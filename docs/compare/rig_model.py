@@ -111,7 +111,9 @@ def motion(layout, theta_rad, rates_rad_s, accelerations_rad_s2):
     base = c - e
     square = np.abs(base) ** 2
     share = 0.5 * (1 + (ed_m**2 - cd_m**2) / square)
-    tip = e + (share + 1j * np.sqrt(ed_m**2 / square - share**2)) * base
+    # Where a faulty angle tears the arms apart they are taken to touch just so.
+    height = np.sqrt(np.maximum(ed_m**2 / square - share**2, 1e-6))
+    tip = e + (share + 1j * height) * base
     ed, cd = (tip - e) / ed_m, (tip - c) / cd_m
 
     def closed(right_side):
