@@ -162,8 +162,9 @@ def main():
           f"a joint slower than {rig_columns.SLOW_RAD_S} rad/s is left out with a window on either side; a row every {rig_columns.HOP_S:g} s. "
           f"Nothing named and more than {UNEXPLAINED_NM} N·m left: outside the library.\n")
     quiet = [1e3 * lacking_nm for case, lacking_nm in done if next(iter(case.values()))["stratum"] == "nothing" and lacking_nm]
-    print(f"Where nothing is hidden the nominal model lacks {np.median(quiet):.1f} mN·m root mean square in the median recording, "
-          f"{max(quiet):.1f} at most ({len(quiet)} recordings).\n")
+    if quiet:
+        print(f"Where nothing is hidden the nominal model lacks {np.median(quiet):.1f} mN·m root mean square in the median recording, "
+              f"{max(quiet):.1f} at most ({len(quiet)} recordings).\n")
     ours = diagnosed(choice.ours, seeds) if choice.ours else None
     print(table(by_way, ours))
     (choice.out / "naive.txt").write_text("".join(told(seed, case) for seed, case in zip(seeds, cases)))
