@@ -77,8 +77,7 @@ pub enum Tie {
     IdleBrake,
     /// Exception: an input beyond what the rig's code takes, which lets go.
     Gate,
-    /// Exception: a velocity or a push so small that its square loses digits; the rig's code lets go, or answers as the reference does
-    /// without it.
+    /// Exception: a push so small that its square loses digits; the rig's code lets go, or answers as the reference does without it.
     Underflow,
 }
 
@@ -339,23 +338,15 @@ fn as_seen(tick: &Tick) -> Option<Nearest> {
     (as_near && on_path).then_some(nearest)
 }
 
-/// Whether a velocity or a push is so small that its square loses digits, and the rig lets go, or answers as it may without it.
+/// Whether the push is so small that its square loses digits, and the rig lets go, or answers as it may without it.
 fn is_without_what_is_tiny(tick: &Tick, rig: Command, nudger: &mut Sampler) -> bool {
-    let mut still = [tick.clone(), tick.clone()];
-    let [without_velocity, without_push] = &mut still;
-    without_velocity.velocity_m_s = [0.0; 2];
-    without_push.force_n = [0.0; 2];
-    let vectors = [tick.velocity_m_s, tick.force_n];
-    let tiny = vectors.map(|[x, y]| {
-        let length = libm::hypot(x, y);
-        length > 0.0 && length < LEAST_SQUARABLE
-    });
-    still
-        .iter()
-        .zip(tiny)
-        .filter(|(_, tiny)| *tiny)
-        .any(|(without, _)| {
-            let reference = reference_command(without, View::EXACT);
-            rig == Command::none(rig.reason) || permitted(without, reference, rig, nudger).is_ok()
-        })
+    let [x, y] = tick.force_n;
+    let length_n = libm::hypot(x, y);
+    if length_n == 0.0 || length_n >= LEAST_SQUARABLE {
+        return false;
+    }
+    let mut without = tick.clone();
+    without.force_n = [0.0; 2];
+    let reference = reference_command(&without, View::EXACT);
+    rig == Command::none(rig.reason) || permitted(&without, reference, rig, nudger).is_ok()
 }
