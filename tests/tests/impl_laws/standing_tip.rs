@@ -1,4 +1,4 @@
-//! This file says that a tip which is slower than a nanometre a second stands, for reference and rig, whatever its squares come to.
+//! This file says that a tip which is slower than a picometre a second stands, for reference and rig, whatever its squares come to.
 
 use rigproof_impl::law::Law as _;
 use rigproof_impl::number::Real;
@@ -8,8 +8,8 @@ use crate::both::{View, reference_command, rig_law, situation};
 use crate::permitted::permitted;
 use crate::sample::{LawKind, Sampler, Tick};
 
-/// Speeds below a nanometre a second, m/s: squares that are normal numbers, that lose digits and that vanish, in one precision or both.
-const SLOW_M_S: [f64; 5] = [0.97e-9, 3.1e-21, 2.3e-155, 2.3e-162, 7e-322];
+/// Speeds below a picometre a second, m/s: squares that are normal numbers, that lose digits and that vanish, in one precision or both.
+const SLOW_M_S: [f64; 5] = [0.97e-12, 3.1e-21, 2.3e-155, 2.3e-162, 7e-322];
 
 fn rig<R: Real>(tick: &Tick) -> Command {
     let mut law = rig_law::<R>(tick).expect("plain settings");
@@ -17,7 +17,7 @@ fn rig<R: Real>(tick: &Tick) -> Command {
 }
 
 #[test]
-fn a_tip_slower_than_a_nanometre_a_second_stands() {
+fn a_tip_slower_than_a_picometre_a_second_stands() {
     let (mut sampler, mut nudger) = (Sampler::new(43), Sampler::new(47));
     let (mut stood, mut acted) = (0, 0);
     while stood < 20_000 {
@@ -44,7 +44,7 @@ fn a_tip_slower_than_a_nanometre_a_second_stands() {
             permitted(&tick, Some(reference), rig, &mut nudger).unwrap();
             stood += 1;
         }
-        tick.velocity_m_s = at(1.03e-9);
+        tick.velocity_m_s = at(1.03e-12);
         let moving = [
             reference_command(&tick, View::EXACT).unwrap(),
             rig::<f64>(&tick),
