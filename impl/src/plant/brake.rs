@@ -100,7 +100,7 @@ impl Brake {
     /// torque is taken back to s on its old course; what its mean then missed is added to this step's.
     //= thesis (3.2)
     #[inline(always)]
-    pub fn step(&mut self, of: &Characteristic, current_a: f64, turn: &Turn) -> f64 {
+    pub fn step(&mut self, of: &Characteristic, current_a: f64, turn: Turn) -> f64 {
         let [from_rad, to_rad] = turn.way_rad;
         let was_inside = self.backlash.is_inside();
         let mean_nm = match self.backlash.turn(from_rad, to_rad) {
@@ -119,7 +119,7 @@ impl Brake {
         was_inside: bool,
         crossing: Crossing,
         current_a: f64,
-        turn: &Turn,
+        turn: Turn,
     ) -> f64 {
         let (last_a, step_s) = (self.current_a, turn.step_s);
         let mut impulse = |inside: bool, current_a: f64, time_s: f64| {
@@ -228,7 +228,7 @@ mod tests {
         let (mut theta_rad, mut impulse) = (0.31, 0.0);
         for _ in 0..30 {
             let turn = turning(theta_rad, theta_rad + 2.7e-3, 1e-3);
-            impulse += brake.step(&of, 0.8, &turn) * 1e-3;
+            impulse += brake.step(&of, 0.8, turn) * 1e-3;
             theta_rad += 2.7e-3;
         }
         let left_nm = (6.4448 - 0.22) * libm::exp(-4.0);
@@ -260,7 +260,7 @@ mod tests {
         let mut turn = |brake: &mut Brake, current_a, step_s| {
             let turn = turning(theta_rad, theta_rad + slow * step_s, step_s);
             theta_rad += slow * step_s;
-            brake.step(&of, current_a, &turn);
+            brake.step(&of, current_a, turn);
             brake.yield_nm()
         };
         let mut start_nm = 0.0;
