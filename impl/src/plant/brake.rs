@@ -100,40 +100,49 @@ impl Brake {
     /// torque is taken back to s on its old course; what its mean then missed is added to this step's.
     //= thesis (3.2)
     #[inline(always)]
-    pub fn step(&mut self, of: &Characteristic, current_a: f64, turn: Turn) -> f64 {
+    pub fn step(&mut self, of: &Characteristic, current_a: f64, turn: &Turn) -> f64 {
         let [from_rad, to_rad] = turn.way_rad;
         let was_inside = self.backlash.is_inside();
         let mean_nm = match self.backlash.turn(from_rad, to_rad) {
             None => self.follow(of, was_inside, current_a, turn.speed_rad_s, turn.step_s),
-            Some(crossing) => self.cross(of, was_inside, crossing, current_a, turn),
+            Some(Crossing { part, inside }) => {
+                let [before_s, after_s] = turn.around_s;
+                let moment_s = (before_s + after_s) * part - before_s;
+                self.cross(
+                    of,
+                    inside,
+                    moment_s,
+                    current_a,
+                    turn.speed_rad_s,
+                    turn.step_s,
+                )
+            }
         };
         self.current_a = current_a;
         within(mean_nm, of.limits_nm)
     }
 
-    /// A step in which a boundary of the backlash was passed; seldom, so kept apart.
+    /// A step in which a boundary of the backlash was passed, inwards or outwards, at a moment, s after its start; seldom, so kept apart.
     #[inline(never)]
     fn cross(
         &mut self,
         of: &Characteristic,
-        was_inside: bool,
-        crossing: Crossing,
+        inside: bool,
+        moment_s: f64,
         current_a: f64,
-        turn: Turn,
+        speed_rad_s: f64,
+        step_s: f64,
     ) -> f64 {
-        let (last_a, step_s) = (self.current_a, turn.step_s);
+        let last_a = self.current_a;
         let mut impulse = |inside: bool, current_a: f64, time_s: f64| {
-            self.follow(of, inside, current_a, turn.speed_rad_s, time_s) * time_s
+            self.follow(of, inside, current_a, speed_rad_s, time_s) * time_s
         };
-        let [before_s, after_s] = turn.around_s;
-        let moment_s = (before_s + after_s) * crossing.part - before_s;
         let impulses = if moment_s < 0.0 {
-            impulse(was_inside, last_a, moment_s)
-                + impulse(crossing.inside, last_a, -moment_s)
-                + impulse(crossing.inside, current_a, step_s)
+            impulse(!inside, last_a, moment_s)
+                + impulse(inside, last_a, -moment_s)
+                + impulse(inside, current_a, step_s)
         } else {
-            impulse(was_inside, current_a, moment_s)
-                + impulse(crossing.inside, current_a, step_s - moment_s)
+            impulse(!inside, current_a, moment_s) + impulse(inside, current_a, step_s - moment_s)
         };
         impulses / step_s
     }
@@ -228,7 +237,7 @@ mod tests {
         let (mut theta_rad, mut impulse) = (0.31, 0.0);
         for _ in 0..30 {
             let turn = turning(theta_rad, theta_rad + 2.7e-3, 1e-3);
-            impulse += brake.step(&of, 0.8, turn) * 1e-3;
+            impulse += brake.step(&of, 0.8, &turn) * 1e-3;
             theta_rad += 2.7e-3;
         }
         let left_nm = (6.4448 - 0.22) * libm::exp(-4.0);
@@ -260,7 +269,7 @@ mod tests {
         let mut turn = |brake: &mut Brake, current_a, step_s| {
             let turn = turning(theta_rad, theta_rad + slow * step_s, step_s);
             theta_rad += slow * step_s;
-            brake.step(&of, current_a, turn);
+            brake.step(&of, current_a, &turn);
             brake.yield_nm()
         };
         let mut start_nm = 0.0;

@@ -164,7 +164,7 @@ impl Plant {
     }
 
     /// Moves what lies between the currents that are asked for, A, and the brakes' over a step.
-    #[inline(always)]
+    #[inline(never)]
     fn pass_on(&mut self, currents_a: [f64; 4], step_s: f64) {
         if let Some(paths) = &mut self.paths {
             for (path, current_a) in paths.iter_mut().zip(currents_a) {
@@ -247,7 +247,7 @@ impl Plant {
                     speed_rad_s: *speed_rad_s,
                     step_s,
                 };
-                *yield_nm = brake.step(of, *current_a, turn);
+                *yield_nm = brake.step(of, *current_a, &turn);
             }
         }
         if self.has_effects() {
