@@ -211,7 +211,7 @@ impl Plant {
                 c + angle_between(from_c, to_c),
             ],
             elbows,
-            rates_rad_s: rows.map(|row| row.dot(rates_rad_s)),
+            rates_rad_s: joint_rates(&rows, rates_rad_s),
             rows,
         })
     }
@@ -296,19 +296,20 @@ impl Plant {
     fn dry(&self, midway: &Midway<f64>, look: &Look, resistance: &Resistance, step_s: f64) -> Dry {
         let (lead_s, v) = (midway.lead_s, self.motion.rates_rad_s);
         let start = midway.form.joint_rows_ahead(-lead_s);
+        let start = joint_rates(&start, v);
         let end = midway.form.joint_rows_ahead(lead_s);
         let ends = start.iter().zip(&end);
         let bounds = resistance.yields_nm.iter().zip(&resistance.dry_nm);
         let mut brakes = [DryBrake::absent(); 4];
         let rows = look.rows.iter().zip(ends).zip(bounds);
-        for (brake, ((force_row, (start_row, rate_row)), (yield_nm, dry_nm))) in
+        for (brake, ((force_row, (start_rad_s, rate_row)), (yield_nm, dry_nm))) in
             brakes.iter_mut().zip(rows)
         {
             *brake = DryBrake {
                 force_row: *force_row,
                 rate_row: *rate_row,
                 bound: (yield_nm + dry_nm) * step_s,
-                start_rad_s: start_row.dot(v),
+                start_rad_s: *start_rad_s,
             };
         }
         let impulse = (midway.load_nm - resistance.smooth_nm) * step_s;
@@ -339,6 +340,12 @@ fn arriving_a(paths: &[CurrentPath; 4], mut currents_a: [f64; 4], step_s: f64) -
         *current_a = path.clone().step(*current_a, step_s);
     }
     currents_a
+}
+
+/// The rates of A, E, B and C, of which A's and B's are those of the coordinates.
+#[inline]
+fn joint_rates([_, e, _, c]: &[Plane; 4], rates: Plane) -> [f64; 4] {
+    [rates.x, e.dot(rates), rates.y, c.dot(rates)]
 }
 
 /// Angle, rate and row of a joint.
