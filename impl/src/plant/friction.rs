@@ -55,6 +55,7 @@ pub struct Dry {
 /// 3. else v lies in one of the sectors between these directions, where every sign is known.
 ///
 /// The first case that is consistent is the answer; where rounding leaves none, the one with the smallest contradiction is.
+#[inline(always)]
 pub fn dry_motion(
     mass: &Mass<f64>,
     momentum: Plane,
