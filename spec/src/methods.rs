@@ -20,7 +20,7 @@ pub const NO_INFLUENCE: f64 = 1e-9;
 pub const STANDING: f64 = 1e-4;
 /// Speed below which the tip stands, m/s (gap `tip-at-rest`).
 ///
-/// At this speed a count of an encoder takes years. Above it the squares by which the rate of a joint within a hundred metres is judged are
+/// At this speed a count of an encoder takes half a year. Above it the squares by which the rate of a joint within a hundred metres is judged are
 /// normal numbers, in single precision too.
 pub const STANDING_TIP_M_S: f64 = 1e-12;
 
