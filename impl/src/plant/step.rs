@@ -198,18 +198,19 @@ impl Plant {
     ) -> Option<Look> {
         let elbows = elbows(linkage);
         let [from_e, from_c] = self.elbows;
-        let [to_e, to_c] = elbows;
-        if !is_small(from_e, to_e) || !is_small(from_c, to_c) {
-            return None;
-        }
-        let [_, e, _, c] = self.looked_rad;
+        let by_rad = if elbows == self.elbows {
+            // At rest nothing turns, and no quotient has to tell so.
+            [0.0; 2]
+        } else {
+            let [to_e, to_c] = elbows;
+            if !is_small(from_e, to_e) || !is_small(from_c, to_c) {
+                return None;
+            }
+            [angle_between(from_e, to_e), angle_between(from_c, to_c)]
+        };
+        let ([_, e, _, c], [by_e, by_c]) = (self.looked_rad, by_rad);
         Some(Look {
-            angles_rad: [
-                theta.x,
-                e + angle_between(from_e, to_e),
-                theta.y,
-                c + angle_between(from_c, to_c),
-            ],
+            angles_rad: [theta.x, e + by_e, theta.y, c + by_c],
             elbows,
             rates_rad_s: joint_rates(&rows, rates_rad_s),
             rows,
