@@ -13,6 +13,8 @@ use crate::sample::{Sampler, Tick};
 pub struct Answers {
     pub same: u64,
     pub rounding_a: Vec<f64>,
+    /// The greatest of them, A, and where.
+    furthest: (f64, String),
     pub amplified_a: Vec<f64>,
     pub ties: BTreeMap<Tie, u64>,
     pub reasons: BTreeMap<String, u64>,
@@ -25,7 +27,12 @@ impl Answers {
         *self.reasons.entry(format!("{:?}", rig.reason)).or_default() += 1;
         match permitted(tick, reference_command(tick, View::EXACT), rig, nudger) {
             Ok(Permitted::Same) => self.same += 1,
-            Ok(Permitted::Rounding(current_a)) => self.rounding_a.push(current_a),
+            Ok(Permitted::Rounding(current_a)) => {
+                self.rounding_a.push(current_a);
+                if current_a > self.furthest.0 {
+                    self.furthest = (current_a, place.to_owned());
+                }
+            }
             Ok(Permitted::Amplified(current_a)) => self.amplified_a.push(current_a),
             Ok(Permitted::Tie(tie)) => *self.ties.entry(tie).or_default() += 1,
             Err(wrong) => self.wrong.push(format!("{place}: {wrong}")),
@@ -35,6 +42,9 @@ impl Answers {
     pub fn join(&mut self, other: Answers) {
         self.same += other.same;
         self.rounding_a.extend(other.rounding_a);
+        if other.furthest.0 > self.furthest.0 {
+            self.furthest = other.furthest;
+        }
         self.amplified_a.extend(other.amplified_a);
         for (tie, count) in other.ties {
             *self.ties.entry(tie).or_default() += count;
@@ -48,9 +58,11 @@ impl Answers {
     /// The counts in a line.
     pub fn counts(&self) -> String {
         format!(
-            "{} the same, {} within rounding, {} amplified, ties {:?}, reasons {:?}",
+            "{} the same, {} within rounding ({:e} A at {}), {} amplified, ties {:?}, reasons {:?}",
             self.same,
             self.rounding_a.len(),
+            self.furthest.0,
+            self.furthest.1,
             self.amplified_a.len(),
             self.ties,
             self.reasons
