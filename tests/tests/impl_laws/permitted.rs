@@ -37,8 +37,6 @@ const AMONG_A: f64 = 1e-7;
 const EQUAL_NM: f64 = 1e-7;
 /// How far two feet may be from the path, and their distances from each other, m.
 const EQUAL_M: f64 = 1e-11;
-/// Least magnitude whose square keeps its digits.
-const LEAST_SQUARABLE: f64 = 1e-150;
 
 /// What may be between the reference's command and the rig's.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,8 +75,6 @@ pub enum Tie {
     IdleBrake,
     /// Exception: an input beyond what the rig's code takes, which lets go.
     Gate,
-    /// Exception: a push so small that its square loses digits; the rig's code lets go, or answers as the reference does without it.
-    Underflow,
 }
 
 /// What is between two commands for one tick, or what is wrong.
@@ -143,9 +139,6 @@ pub fn permitted(
             .any(|view| is_even(tick, view))
     {
         return Ok(Permitted::Tie(Tie::Even));
-    }
-    if is_without_what_is_tiny(tick, rig, nudger) {
-        return Ok(Permitted::Tie(Tie::Underflow));
     }
     Err(format!("{reference:?}\nbut the rig {rig:?}\nin {tick:?}"))
 }
@@ -336,17 +329,4 @@ fn as_seen(tick: &Tick) -> Option<Nearest> {
     let as_near = (nearest.distance_m() - path.nearest(tip_m).distance_m()).abs() <= EQUAL_M;
     let on_path = path.nearest(nearest.foot_m.into()).distance_m() <= EQUAL_M;
     (as_near && on_path).then_some(nearest)
-}
-
-/// Whether the push is so small that its square loses digits, and the rig lets go, or answers as it may without it.
-fn is_without_what_is_tiny(tick: &Tick, rig: Command, nudger: &mut Sampler) -> bool {
-    let [x, y] = tick.force_n;
-    let length_n = libm::hypot(x, y);
-    if length_n == 0.0 || length_n >= LEAST_SQUARABLE {
-        return false;
-    }
-    let mut without = tick.clone();
-    without.force_n = [0.0; 2];
-    let reference = reference_command(&without, View::EXACT);
-    rig == Command::none(rig.reason) || permitted(&without, reference, rig, nudger).is_ok()
 }
