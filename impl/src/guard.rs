@@ -166,6 +166,7 @@ fn clamped<S: Scalar>(current_a: S) -> S {
 }
 
 /// The joints, A, E, B, C, to whose brakes a reason gives current.
+#[inline(always)]
 fn named(reason: Reason) -> [bool; 4] {
     match reason {
         Reason::Chosen(chosen) => Joint::ALL.map(|joint| joint == chosen),

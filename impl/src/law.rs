@@ -20,9 +20,12 @@ pub use sdof::Sdof;
 pub use uncontrolled::Uncontrolled;
 pub use velocity_ratio::VelocityRatio;
 
+use rigproof_spec::methods::STANDING_TIP_M_S;
+
 use crate::actuation::Actuation;
 use crate::command::Command;
 use crate::linkage::Linkage;
+use crate::number::Real;
 use crate::vector::Vector;
 
 /// What a control law knows in one tick.
@@ -36,6 +39,20 @@ pub struct Situation<R> {
     pub tip_velocity_m_s: Vector<R>,
     /// Force of the operator on the tip, N.
     pub tip_force_n: Vector<R>,
+}
+
+impl<R: Real> Situation<R> {
+    /// The velocity of the tip that a law decides by, m/s: exactly zero where the tip is slower than [`STANDING_TIP_M_S`] (gap
+    /// `tip-at-rest`), so that no square that vanishes decides.
+    #[inline]
+    pub fn decisive_velocity_m_s(&self) -> Vector<R> {
+        let velocity_m_s = self.tip_velocity_m_s;
+        if velocity_m_s.norm_squared() < R::of(STANDING_TIP_M_S * STANDING_TIP_M_S) {
+            Vector::zero()
+        } else {
+            velocity_m_s
+        }
+    }
 }
 
 /// A control law: one command a tick, whatever it is told, in bounded work.

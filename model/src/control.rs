@@ -23,6 +23,7 @@ pub use optimal::{Optimal, Weights, tip_mass};
 pub use proportional::{Proportional, influence};
 use rigproof_spec::command::Command;
 use rigproof_spec::joint::Joint;
+use rigproof_spec::methods::STANDING_TIP_M_S;
 pub use rigproof_spec::settings::{GREATEST_DISTANCE_M, SHORTEST_PIECE_M};
 
 pub use sdof::Sdof;
@@ -72,6 +73,17 @@ impl Sensed {
             force_x,
             force_y,
         ]
+    }
+
+    /// The velocity of the tip that a controller decides by, m/s: exactly zero where the tip is slower than [`STANDING_TIP_M_S`] (gap
+    /// `tip-at-rest`).
+    pub fn decisive_velocity_m_s(&self) -> Vector2<f64> {
+        let [x, y] = self.tip_velocity_m_s;
+        if libm::hypot(x, y) < STANDING_TIP_M_S {
+            Vector2::zeros()
+        } else {
+            Vector2::new(x, y)
+        }
     }
 
     /// Whether every number is finite.

@@ -18,6 +18,11 @@ pub const NO_INFLUENCE: f64 = 1e-9;
 ///
 /// One count in the longest window beside the greatest rate that is believed is 2.6·10⁻⁴; rounding in single precision is 10⁻⁶.
 pub const STANDING: f64 = 1e-4;
+/// Speed below which the tip stands, m/s (gap `tip-at-rest`).
+///
+/// At this speed a count of an encoder takes half a year. Above it the squares by which the rate of a joint within a hundred metres is judged are
+/// normal numbers, in single precision too.
+pub const STANDING_TIP_M_S: f64 = 1e-12;
 
 /// Greatest force that a controller asks for at the tip, N (§6.1.2).
 pub const fn greatest_desired_force_n(layout: Layout) -> f64 {

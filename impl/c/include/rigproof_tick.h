@@ -8,7 +8,8 @@
 
 /*
  Version of every struct and function here. Every struct begins with its size and this version, which the caller writes before it hands the
- struct over; one of another size or version is refused, and nothing is written to it.
+ struct over; one of another size or version is refused. Nothing is written to it, but a command that differs in its version alone loses its
+ currents.
  */
 #define RIGPROOF_TICK_VERSION 2
 
@@ -289,8 +290,8 @@ enum RigproofTickStatus rigproof_tick_create(struct RigproofTick *tick,
                                              const struct RigproofTickSettings *settings);
 
 /*
- The currents of one tick, and why. Bounded work, whatever is sensed. Where the command's pointer, size or version are wrong it is not written;
- where anything else is, it has no current.
+ The currents of one tick, and why. Bounded work, whatever is sensed. Whatever goes wrong, the command has no current, with one exception: where its
+ pointer or its size are wrong nothing can be written, and it keeps what it held. So a caller takes every status but `OK` for no current.
 
  # Safety
  Each pointer must be null or point to as many bytes as its size says; `tick` to a controller that was created (one that was not is told by its mark,

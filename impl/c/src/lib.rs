@@ -22,7 +22,8 @@ pub use words::{
 };
 
 /// Version of every struct and function here. Every struct begins with its size and this version, which the caller writes before it hands the
-/// struct over; one of another size or version is refused, and nothing is written to it.
+/// struct over; one of another size or version is refused. Nothing is written to it, but a command that differs in its version alone loses its
+/// currents.
 pub const RIGPROOF_TICK_VERSION: u32 = 2;
 /// Size of a controller, words of eight bytes.
 pub const RIGPROOF_TICK_WORDS: usize = 384;
@@ -88,8 +89,8 @@ pub unsafe extern "C" fn rigproof_tick_create(
     RigproofTickStatus::Ok
 }
 
-/// The currents of one tick, and why. Bounded work, whatever is sensed. Where the command's pointer, size or version are wrong it is not written;
-/// where anything else is, it has no current.
+/// The currents of one tick, and why. Bounded work, whatever is sensed. Whatever goes wrong, the command has no current, with one exception: where its
+/// pointer or its size are wrong nothing can be written, and it keeps what it held. So a caller takes every status but `OK` for no current.
 ///
 /// # Safety
 /// Each pointer must be null or point to as many bytes as its size says; `tick` to a controller that was created (one that was not is told by its mark,
@@ -105,6 +106,8 @@ pub unsafe extern "C" fn rigproof_tick_step(
     }
     // SAFETY: not null, aligned, and the caller's to read.
     if unsafe { !is_of_this_version(command) } {
+        // SAFETY: not null, aligned, and the caller's to write as far as its size says.
+        unsafe { let_go(command) };
         return RigproofTickStatus::BadVersion;
     }
     // SAFETY: not null, aligned, of this very size, and the caller's to write. Whatever goes wrong from here on, no brake has current.
@@ -132,6 +135,22 @@ pub unsafe extern "C" fn rigproof_tick_step(
     // SAFETY: as above.
     unsafe { command.write(answer.into()) };
     RigproofTickStatus::Ok
+}
+
+/// Makes all numbers of a command of another version zero, whatever they mean, if its size is this version's: it must not keep the currents of a
+/// tick before. Of another size, how much may be written is not known: a struct that was never filled in says any.
+///
+/// # Safety
+/// `command` must be usable and point to as many bytes that may be written as its size says.
+unsafe fn let_go(command: *mut RigproofTickCommand) {
+    const HEAD: usize = size_of::<[u32; 2]>();
+    const SIZE: usize = size_of::<RigproofTickCommand>();
+    // SAFETY: the size is the first field of every version.
+    let size = unsafe { command.cast::<u32>().read() };
+    if size as usize == SIZE {
+        // SAFETY: so many bytes are the caller's to write.
+        unsafe { command.cast::<u8>().add(HEAD).write_bytes(0, SIZE - HEAD) };
+    }
 }
 
 /// Whether a pointer is neither null nor at an address where what it points to cannot lie.

@@ -33,14 +33,15 @@ fn library() -> PathBuf {
         .expect("cargo builds the static library with the tests")
 }
 
-/// The example, compiled; `None` without a C compiler.
-fn example() -> Option<PathBuf> {
+/// A program in C, compiled; `None` without a C compiler.
+fn compiled(source: &str) -> Option<PathBuf> {
     let compiler = std::env::var("CC").unwrap_or_else(|_| "cc".to_owned());
     if Command::new(&compiler).arg("--version").output().is_err() {
-        println!("no C compiler `{compiler}`: the example in C was not built");
+        println!("no C compiler `{compiler}`: {source} was not built");
         return None;
     }
-    let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join("tick");
+    let name = Path::new(source).file_stem().unwrap();
+    let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let status = Command::new(compiler)
         .args([
             "-std=c11",
@@ -52,7 +53,7 @@ fn example() -> Option<PathBuf> {
         .arg(format!("-I{ROOM}/include"))
         .arg("-o")
         .arg(&program)
-        .arg(format!("{ROOM}/examples/tick.c"))
+        .arg(format!("{ROOM}/{source}"))
         .arg(library())
         .args(["-lm", "-lpthread", "-ldl"])
         .status()
@@ -171,7 +172,9 @@ fn agree<L: Law<f64>>(program: &Path, layout: Layout, law: L, arguments: &[&str]
 
 #[test]
 fn the_example_in_c_agrees_bit_for_bit() {
-    let Some(program) = example() else { return };
+    let Some(program) = compiled("examples/tick.c") else {
+        return;
+    };
     let (from_m, to_m) = ([-0.113, 0.383], [0.107, 0.412]);
     let corners_m = [from_m, [0.017, 0.391], to_m];
     let three = Actuation::thesis(Layout::ThreeBrake);
@@ -190,6 +193,16 @@ fn the_example_in_c_agrees_bit_for_bit() {
     ] {
         assert!(acted > 500, "only {acted} ticks gave current");
     }
+}
+
+#[test]
+fn a_refused_tick_leaves_a_command_in_c_without_current() {
+    let Some(program) = compiled("tests/refused.c") else {
+        return;
+    };
+    let output = Command::new(program).output().unwrap();
+    assert_eq!(String::from_utf8(output.stdout).unwrap(), "");
+    assert!(output.status.success());
 }
 
 #[test]

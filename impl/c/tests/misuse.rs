@@ -123,11 +123,12 @@ fn changed<T>(mut memory: Box<T>, change: [u32; 2]) -> Box<T> {
 }
 
 #[test]
-fn nothing_is_written_to_a_struct_of_another_version_or_size() {
+fn a_struct_of_another_version_or_size_is_not_written_but_for_the_currents_of_a_command() {
     for change in [[0, 1], [u32::MAX - 7, 0], [8, 0]] {
         let mut settings = changed(zeroed::<RigproofTickSettings>(), change);
         let mut tick = changed(zeroed::<RigproofTick>(), change);
         let mut command = changed(zeroed::<RigproofTickCommand>(), change);
+        (command.currents_a, command.reason) = ([0.7, 0.31, 0.0, 0.9], 4);
         let before = (*settings, *command);
         // SAFETY: each pointer points to at least what it says.
         unsafe {
@@ -137,7 +138,18 @@ fn nothing_is_written_to_a_struct_of_another_version_or_size() {
                 rigproof_tick_step(&mut *tick, &SENSED, &mut *command),
             ];
             assert_eq!(refused, [Status::BadVersion; 3]);
-            assert_eq!((*settings, *command), before);
+            assert_eq!(*settings, before.0);
+            let expected = if change == [0, 1] {
+                RigproofTickCommand {
+                    currents_a: [0.0; 4],
+                    reason: 0,
+                    chosen: [0, 0],
+                    ..before.1
+                }
+            } else {
+                before.1
+            };
+            assert_eq!(*command, expected);
             // A sample of another version is not read: no current.
             let sensed = changed(Box::new(SENSED), change);
             let (mut tick, mut command) = (zeroed(), zeroed::<RigproofTickCommand>());

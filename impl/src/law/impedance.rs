@@ -80,11 +80,12 @@ impl<R: Real, P: Path<R>> Law<R> for Impedance<R, P> {
             Ok(situation) => situation,
             Err(reason) => return Command::none(reason),
         };
-        let [across, along] = self.wanted(&nearest, now.tip_velocity_m_s);
+        let velocity_m_s = now.decisive_velocity_m_s();
+        let [across, along] = self.wanted(&nearest, velocity_m_s);
         if across == Vector::zero() && along == Vector::zero() {
             return Command::none(Reason::NothingToDo);
         }
-        let forces = rows.map(|row| opposing(row?, now.tip_velocity_m_s));
+        let forces = rows.map(|row| opposing(row?, velocity_m_s));
         match [across + along, across, along]
             .into_iter()
             .find_map(|force_n| translate(&forces, force_n))

@@ -92,7 +92,7 @@ impl<R: Real, P: Path<R>> Law<R> for Optimal<R, P> {
         if !mass.is_definite() {
             return Command::none(Reason::SingularPose);
         }
-        let velocity_m_s = now.tip_velocity_m_s;
+        let velocity_m_s = now.decisive_velocity_m_s();
         if velocity_m_s == Vector::zero() {
             return Command::none(Reason::NothingToDo);
         }

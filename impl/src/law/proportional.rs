@@ -46,8 +46,9 @@ impl<R: Real, P: Path<R>> Law<R> for Proportional<R, P> {
             Err(reason) => return Command::none(reason),
         };
         let desired = self.field.desired(&nearest, now.tip_force_n);
-        let decision = decide(&rows, now.tip_velocity_m_s, now.tip_force_n, &desired);
-        let unwanted_m_s = desired.direction.cross(now.tip_velocity_m_s).magnitude();
+        let velocity_m_s = now.decisive_velocity_m_s();
+        let decision = decide(&rows, velocity_m_s, now.tip_force_n, &desired);
+        let unwanted_m_s = desired.direction.cross(velocity_m_s).magnitude();
         let force_n = self.gain_n_s_per_m * unwanted_m_s;
         self.actuation.carry_out(decision, &rows, force_n)
     }

@@ -50,15 +50,15 @@ impl<R: Real, P: Path<R>> Law<R> for VelocityRatio<R, P> {
         };
         let direction = self.field.desired(&nearest, now.tip_force_n).direction;
         let [row_a, _, row_b, _] = now.rows;
-        let rate = |row| joint_rate(row, now.tip_velocity_m_s);
+        let velocity_m_s = now.decisive_velocity_m_s();
+        let rate = |row| joint_rate(row, velocity_m_s);
         let actual = Vector::new(rate(row_a), rate(row_b));
         let wanted = Vector::new(row_a.dot(direction), row_b.dot(direction));
         let excess = excess_speeds(actual, wanted);
         let torque_nm = |excess_rad_s: R| self.gain_nm_s_per_rad * excess_rad_s;
         let (fast_a, fast_b) = (excess.x > R::zero(), excess.y > R::zero());
         if fast_a != fast_b
-            && let Some(joint) =
-                coupling(&rows, [row_a, row_b], now.tip_velocity_m_s, actual, fast_a)
+            && let Some(joint) = coupling(&rows, [row_a, row_b], velocity_m_s, actual, fast_a)
         {
             let faster = if fast_a { excess.x } else { excess.y };
             return self.actuation.one(joint, torque_nm(faster));

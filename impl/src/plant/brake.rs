@@ -105,35 +105,44 @@ impl Brake {
         let was_inside = self.backlash.is_inside();
         let mean_nm = match self.backlash.turn(from_rad, to_rad) {
             None => self.follow(of, was_inside, current_a, turn.speed_rad_s, turn.step_s),
-            Some(crossing) => self.cross(of, was_inside, crossing, current_a, turn),
+            Some(Crossing { part, inside }) => {
+                let [before_s, after_s] = turn.around_s;
+                let moment_s = (before_s + after_s) * part - before_s;
+                self.cross(
+                    of,
+                    inside,
+                    moment_s,
+                    current_a,
+                    turn.speed_rad_s,
+                    turn.step_s,
+                )
+            }
         };
         self.current_a = current_a;
         within(mean_nm, of.limits_nm)
     }
 
-    /// A step in which a boundary of the backlash was passed; seldom, so kept apart.
+    /// A step in which a boundary of the backlash was passed, inwards or outwards, at a moment, s after its start; seldom, so kept apart.
     #[inline(never)]
     fn cross(
         &mut self,
         of: &Characteristic,
-        was_inside: bool,
-        crossing: Crossing,
+        inside: bool,
+        moment_s: f64,
         current_a: f64,
-        turn: &Turn,
+        speed_rad_s: f64,
+        step_s: f64,
     ) -> f64 {
-        let (last_a, step_s) = (self.current_a, turn.step_s);
+        let last_a = self.current_a;
         let mut impulse = |inside: bool, current_a: f64, time_s: f64| {
-            self.follow(of, inside, current_a, turn.speed_rad_s, time_s) * time_s
+            self.follow(of, inside, current_a, speed_rad_s, time_s) * time_s
         };
-        let [before_s, after_s] = turn.around_s;
-        let moment_s = (before_s + after_s) * crossing.part - before_s;
         let impulses = if moment_s < 0.0 {
-            impulse(was_inside, last_a, moment_s)
-                + impulse(crossing.inside, last_a, -moment_s)
-                + impulse(crossing.inside, current_a, step_s)
+            impulse(!inside, last_a, moment_s)
+                + impulse(inside, last_a, -moment_s)
+                + impulse(inside, current_a, step_s)
         } else {
-            impulse(was_inside, current_a, moment_s)
-                + impulse(crossing.inside, current_a, step_s - moment_s)
+            impulse(!inside, current_a, moment_s) + impulse(inside, current_a, step_s - moment_s)
         };
         impulses / step_s
     }

@@ -55,6 +55,7 @@ pub struct Dry {
 /// 3. else v lies in one of the sectors between these directions, where every sign is known.
 ///
 /// The first case that is consistent is the answer; where rounding leaves none, the one with the smallest contradiction is.
+#[inline(always)]
 pub fn dry_motion(
     mass: &Mass<f64>,
     momentum: Plane,
@@ -125,7 +126,7 @@ fn first_turn(brakes: &[DryBrake; 4], signs: [f64; 4], rates_rad_s: Plane) -> f6
     let mut first = 1.0;
     for (brake, sign) in brakes.iter().zip(signs) {
         let end = sign * brake.rate_row.dot(rates_rad_s);
-        if brake.acts() && sign != 0.0 && end <= 0.0 {
+        if end <= 0.0 && sign != 0.0 && brake.acts() {
             let start = sign * brake.start_rad_s;
             let part = if start > 0.0 {
                 start / (start - end)

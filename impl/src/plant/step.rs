@@ -4,7 +4,7 @@ use rigproof_spec::joint::Joint;
 
 use super::Plant;
 use super::brake::Turn;
-use super::effect::{Effect, Instant};
+use super::effect::{CurrentPath, Effect, Instant};
 use super::form::{joint_rows, tip_load};
 use super::friction::{Contact, Dry, DryBrake, dry_motion, standing};
 use super::motion::{Midway, Motion, Outcome, is_defined};
@@ -16,6 +16,7 @@ use crate::vector::Vector;
 type Plane = Vector<f64>;
 
 /// The joints at the moment at which the forces are looked at.
+#[derive(Clone, Copy)]
 struct Look {
     angles_rad: [f64; 4],
     elbows: [Plane; 2],
@@ -77,7 +78,9 @@ impl Plant {
             // Nothing is foreseen to move on from rest.
             next.accelerations_rad_s2 = Vector::zero();
         }
-        self.remember(&look, dry.rates_rad_s, step_s);
+        if self.has_effects() {
+            self.remember(look, dry.rates_rad_s, step_s);
+        }
         self.motion = next;
         self.take_on(&look, &resistance, &dry, midway.lead_s, step_s);
         self.pass_on(currents_a, step_s);
@@ -105,12 +108,12 @@ impl Plant {
         };
         let brakes = self.brakes;
         let resistance = self.resistance(&look, currents_a, lead_s, step_s);
-        let bounds = resistance.yields_nm.into_iter().zip(resistance.dry_nm);
+        let bounds = resistance.yields_nm.iter().zip(&resistance.dry_nm);
         let mut holding = [DryBrake::absent(); 4];
         for (brake, (row, (yield_nm, dry_nm))) in
-            holding.iter_mut().zip(look.rows.into_iter().zip(bounds))
+            holding.iter_mut().zip(look.rows.iter().zip(bounds))
         {
-            (brake.force_row, brake.rate_row) = (row, row);
+            (brake.force_row, brake.rate_row) = (*row, *row);
             brake.bound = (yield_nm + dry_nm) * step_s;
         }
         let load_nm = tip_load(left, &linkage, force_n) - resistance.smooth_nm;
@@ -118,7 +121,9 @@ impl Plant {
             self.brakes = brakes;
             return false;
         };
-        self.remember(&look, none, step_s);
+        if self.has_effects() {
+            self.remember(look, none, step_s);
+        }
         self.take_on(&look, &resistance, &dry, lead_s, step_s);
         self.pass_on(currents_a, step_s);
         true
@@ -158,19 +163,8 @@ impl Plant {
         }
     }
 
-    /// The currents that the brakes have over a step, A.
-    #[inline]
-    fn arriving_a(&self, mut currents_a: [f64; 4], step_s: f64) -> [f64; 4] {
-        if let Some(paths) = &self.paths {
-            for (current_a, path) in currents_a.iter_mut().zip(paths) {
-                *current_a = path.clone().step(*current_a, step_s);
-            }
-        }
-        currents_a
-    }
-
     /// Moves what lies between the currents that are asked for, A, and the brakes' over a step.
-    #[inline]
+    #[inline(never)]
     fn pass_on(&mut self, currents_a: [f64; 4], step_s: f64) {
         if let Some(paths) = &mut self.paths {
             for (path, current_a) in paths.iter_mut().zip(currents_a) {
@@ -204,20 +198,21 @@ impl Plant {
     ) -> Option<Look> {
         let elbows = elbows(linkage);
         let [from_e, from_c] = self.elbows;
-        let [to_e, to_c] = elbows;
-        if !is_small(from_e, to_e) || !is_small(from_c, to_c) {
-            return None;
-        }
-        let [_, e, _, c] = self.looked_rad;
+        let by_rad = if elbows == self.elbows {
+            // At rest nothing turns, and no quotient has to tell so.
+            [0.0; 2]
+        } else {
+            let [to_e, to_c] = elbows;
+            if !is_small(from_e, to_e) || !is_small(from_c, to_c) {
+                return None;
+            }
+            [angle_between(from_e, to_e), angle_between(from_c, to_c)]
+        };
+        let ([_, e, _, c], [by_e, by_c]) = (self.looked_rad, by_rad);
         Some(Look {
-            angles_rad: [
-                theta.x,
-                e + angle_between(from_e, to_e),
-                theta.y,
-                c + angle_between(from_c, to_c),
-            ],
+            angles_rad: [theta.x, e + by_e, theta.y, c + by_c],
             elbows,
-            rates_rad_s: rows.map(|row| row.dot(rates_rad_s)),
+            rates_rad_s: joint_rates(&rows, rates_rad_s),
             rows,
         })
     }
@@ -237,31 +232,42 @@ impl Plant {
             smooth_nm: Vector::zero(),
         };
         let around_s = [self.since_look_s, lead_s];
-        let currents_a = self.arriving_a(currents_a, step_s);
-        let ways = self.looked_rad.into_iter().zip(look.angles_rad);
-        let turns = ways.zip(look.rates_rad_s).zip(currents_a);
+        let currents_a = match &self.paths {
+            None => currents_a,
+            Some(paths) => arriving_a(paths, currents_a, step_s),
+        };
+        let ways = self.looked_rad.iter().zip(&look.angles_rad);
+        let turns = ways.zip(&look.rates_rad_s).zip(&currents_a);
         let brakes = self.brakes.iter_mut().zip(&self.characteristics);
         let each = brakes.zip(turns).zip(&mut resistance.yields_nm);
         for (((brake, of), (((from_rad, to_rad), speed_rad_s), current_a)), yield_nm) in each {
             if let Some(of) = of {
                 let turn = Turn {
-                    way_rad: [from_rad, to_rad],
+                    way_rad: [*from_rad, *to_rad],
                     around_s,
-                    speed_rad_s,
+                    speed_rad_s: *speed_rad_s,
                     step_s,
                 };
-                *yield_nm = brake.step(of, current_a, &turn);
+                *yield_nm = brake.step(of, *current_a, &turn);
             }
         }
         if self.has_effects() {
-            self.add_effects(&mut resistance, look, lead_s, step_s);
+            return self.with_effects(resistance, *look, lead_s, step_s);
         }
         resistance
     }
 
-    fn add_effects(&self, sum: &mut Resistance, look: &Look, lead_s: f64, step_s: f64) {
+    /// With what the effects add. Kept apart and told everything by value, so that a step without effects need not keep it in memory.
+    #[inline(never)]
+    fn with_effects(
+        &self,
+        mut sum: Resistance,
+        look: Look,
+        lead_s: f64,
+        step_s: f64,
+    ) -> Resistance {
         for Effect { joint, law, memory } in self.effects.iter().map_while(Option::as_ref) {
-            let (position, speed, row) = at(look, *joint);
+            let (position, speed, row) = at(&look, *joint);
             let now = Instant {
                 time_s: self.time_s + lead_s,
                 position,
@@ -283,6 +289,7 @@ impl Plant {
                 *dry_nm
             };
         }
+        sum
     }
 
     /// The rates after the step and what the brakes did for them.
@@ -290,18 +297,20 @@ impl Plant {
     fn dry(&self, midway: &Midway<f64>, look: &Look, resistance: &Resistance, step_s: f64) -> Dry {
         let (lead_s, v) = (midway.lead_s, self.motion.rates_rad_s);
         let start = midway.form.joint_rows_ahead(-lead_s);
-        let ends = start.into_iter().zip(midway.form.joint_rows_ahead(lead_s));
-        let bounds = resistance.yields_nm.into_iter().zip(resistance.dry_nm);
+        let start = joint_rates(&start, v);
+        let end = midway.form.joint_rows_ahead(lead_s);
+        let ends = start.iter().zip(&end);
+        let bounds = resistance.yields_nm.iter().zip(&resistance.dry_nm);
         let mut brakes = [DryBrake::absent(); 4];
-        let rows = look.rows.into_iter().zip(ends).zip(bounds);
-        for (brake, ((force_row, (start_row, rate_row)), (yield_nm, dry_nm))) in
+        let rows = look.rows.iter().zip(ends).zip(bounds);
+        for (brake, ((force_row, (start_rad_s, rate_row)), (yield_nm, dry_nm))) in
             brakes.iter_mut().zip(rows)
         {
             *brake = DryBrake {
-                force_row,
-                rate_row,
+                force_row: *force_row,
+                rate_row: *rate_row,
                 bound: (yield_nm + dry_nm) * step_s,
-                start_rad_s: start_row.dot(v),
+                start_rad_s: *start_rad_s,
             };
         }
         let impulse = (midway.load_nm - resistance.smooth_nm) * step_s;
@@ -315,13 +324,29 @@ impl Plant {
     }
 
     /// Moves the memories of the effects over a step in which the rates became new ones, rad/s.
-    fn remember(&mut self, look: &Look, rates_rad_s: Plane, step_s: f64) {
+    #[inline(never)]
+    fn remember(&mut self, look: Look, rates_rad_s: Plane, step_s: f64) {
         let mean = (self.motion.rates_rad_s + rates_rad_s) * 0.5;
         for Effect { joint, law, memory } in self.effects.iter_mut().map_while(Option::as_mut) {
-            let (_, _, row) = at(look, *joint);
+            let (_, _, row) = at(&look, *joint);
             [*memory, _] = law.remember(*memory, row.dot(mean), step_s);
         }
     }
+}
+
+/// The currents that the brakes have over a step, A.
+#[inline(never)]
+fn arriving_a(paths: &[CurrentPath; 4], mut currents_a: [f64; 4], step_s: f64) -> [f64; 4] {
+    for (current_a, path) in currents_a.iter_mut().zip(paths) {
+        *current_a = path.clone().step(*current_a, step_s);
+    }
+    currents_a
+}
+
+/// The rates of A, E, B and C, of which A's and B's are those of the coordinates.
+#[inline]
+fn joint_rates([_, e, _, c]: &[Plane; 4], rates: Plane) -> [f64; 4] {
+    [rates.x, e.dot(rates), rates.y, c.dot(rates)]
 }
 
 /// Angle, rate and row of a joint.

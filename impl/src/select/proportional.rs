@@ -53,12 +53,12 @@ pub fn classify<S: Scalar>(
     velocity_m_s: Vector<S>,
     direction: Vector<S>,
 ) -> Option<Candidate<S>> {
-    let force = opposing(row, velocity_m_s)?;
     let unwanted = direction.cross(velocity_m_s);
     // No force takes from a component that is not there.
     if unwanted == S::zero() {
         return None;
     }
+    let force = opposing(row, velocity_m_s)?;
     let length_squared = row.norm_squared();
     let on_across = sign(direction.cross(force), unwanted, length_squared);
     // Nothing else has a rank: about half of the brakes are out before the other component is computed.

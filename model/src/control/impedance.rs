@@ -83,7 +83,7 @@ impl<P: Path> Controller for Impedance<P> {
             Ok(situation) => situation,
             Err(reason) => return Command::none(reason),
         };
-        let velocity_m_s = Vector2::from(sensed.tip_velocity_m_s);
+        let velocity_m_s = sensed.decisive_velocity_m_s();
         let [across, along] = self.wanted(&nearest, velocity_m_s);
         if across == Vector2::zeros() && along == Vector2::zeros() {
             return Command::none(Reason::NothingToDo);

@@ -109,7 +109,7 @@ impl<P: Path, M: Fn(&Pose) -> Option<Matrix2<f64>>> Controller for Optimal<P, M>
         else {
             return Command::none(Reason::SingularPose);
         };
-        let velocity = Vector2::from(sensed.tip_velocity_m_s);
+        let velocity = sensed.decisive_velocity_m_s();
         if velocity == Vector2::zeros() {
             return Command::none(Reason::NothingToDo);
         }

@@ -55,7 +55,7 @@ impl<P: Path> Controller for Proportional<P> {
             Err(reason) => return Command::none(reason),
         };
         let force_n = Vector2::from(sensed.tip_force_n);
-        let velocity_m_s = Vector2::from(sensed.tip_velocity_m_s);
+        let velocity_m_s = sensed.decisive_velocity_m_s();
         let desired = desired_velocity(&nearest, force_n, self.boundary_m);
         let [v_beta_x, v_beta_y] = desired.components(velocity_m_s);
         if v_beta_x < 0.0 {

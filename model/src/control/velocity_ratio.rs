@@ -75,7 +75,7 @@ impl<P: Path> Controller for VelocityRatio<P> {
         let desired =
             desired_velocity(&nearest, Vector2::from(sensed.tip_force_n), self.boundary_m);
         let links = base_rows(&j);
-        let velocity_m_s = Vector2::from(sensed.tip_velocity_m_s);
+        let velocity_m_s = sensed.decisive_velocity_m_s();
         let rate = |row: usize| joint_rate(j.row(row).transpose(), velocity_m_s);
         let actual = Vector2::new(rate(0), rate(2));
         let wanted = links * desired.direction;

@@ -2,76 +2,21 @@
 //!
 //! `RIGPROOF_CAMPAIGN` is the number of ticks; without it a slice runs.
 
-use std::collections::BTreeMap;
-
 use rayon::prelude::*;
 use rigproof_impl::law::Law as _;
 use rigproof_spec::command::{Command, Reason};
 use rigproof_spec::joint::Joint;
 
-use crate::both::View;
-use crate::both::{reference_command, rig_law, situation};
+use crate::both::{View, reference_command, rig_law, situation};
 use crate::budget::assert_within_budget;
 use crate::permitted::{Permitted, Tie, permitted};
 use crate::sample::{LawKind, Sampler, Tick};
+use crate::tally::{Answers, quantiles};
 
 /// Ticks of one seed.
 const CHUNK: u64 = 1000;
 /// Ticks of the slice that every test run takes.
 const SLICE: u64 = 200_000;
-
-/// What became of many ticks.
-#[derive(Default)]
-struct Tally {
-    ticks: u64,
-    same: u64,
-    rounding_a: Vec<f64>,
-    amplified_a: Vec<f64>,
-    ties: BTreeMap<Tie, u64>,
-    wrong: Vec<String>,
-    reasons: BTreeMap<String, u64>,
-}
-
-impl Tally {
-    fn add(&mut self, tick: &Tick, nudger: &mut Sampler) {
-        self.ticks += 1;
-        let Some(mut law) = rig_law::<f64>(tick) else {
-            // Settings that the rig's code refuses are refused by the reference.
-            if crate::both::reference(tick, View::EXACT).is_ok() {
-                self.wrong.push(format!("refused: {tick:?}"));
-            }
-            return;
-        };
-        if let Err(error) = crate::both::reference(tick, View::EXACT) {
-            self.wrong.push(format!("taken: {error} in {tick:?}"));
-            return;
-        }
-        let rig = Command::from(law.command(&situation(tick)));
-        *self.reasons.entry(format!("{:?}", rig.reason)).or_default() += 1;
-        match permitted(tick, reference_command(tick, View::EXACT), rig, nudger) {
-            Ok(Permitted::Same) => self.same += 1,
-            Ok(Permitted::Rounding(current_a)) => self.rounding_a.push(current_a),
-            Ok(Permitted::Amplified(current_a)) => self.amplified_a.push(current_a),
-            Ok(Permitted::Tie(tie)) => *self.ties.entry(tie).or_default() += 1,
-            Err(wrong) => self.wrong.push(wrong),
-        }
-    }
-
-    fn join(mut self, other: Tally) -> Tally {
-        self.ticks += other.ticks;
-        self.same += other.same;
-        self.rounding_a.extend(other.rounding_a);
-        self.amplified_a.extend(other.amplified_a);
-        for (tie, count) in other.ties {
-            *self.ties.entry(tie).or_default() += count;
-        }
-        for (reason, count) in other.reasons {
-            *self.reasons.entry(reason).or_default() += count;
-        }
-        self.wrong.extend(other.wrong);
-        self
-    }
-}
 
 /// How many ticks are compared, a half of them plain.
 pub fn ticks() -> u64 {
@@ -83,71 +28,60 @@ pub fn ticks() -> u64 {
     }
 }
 
-fn campaign(first_seed: u64, ticks: u64, draw: fn(&mut Sampler) -> Tick) -> Tally {
+/// Answers one tick, or says that both refuse its settings.
+fn add(answers: &mut Answers, tick: &Tick, nudger: &mut Sampler, place: &str) {
+    let refused = crate::both::reference(tick, View::EXACT).err();
+    match (rig_law::<f64>(tick), refused) {
+        (Some(mut law), None) => {
+            let rig = Command::from(law.command(&situation(tick)));
+            answers.add(tick, rig, nudger, place);
+        }
+        (None, Some(_)) => {}
+        (_, refused) => {
+            let wrong = format!(
+                "{place}: the reference refuses by {refused:?}, the rig not, or not that: {tick:?}"
+            );
+            answers.wrong.push(wrong);
+        }
+    }
+}
+
+fn campaign(first_seed: u64, ticks: u64, draw: fn(&mut Sampler) -> Tick) -> Answers {
     let seeds = first_seed..first_seed + ticks.div_ceil(CHUNK);
-    let tally = seeds
+    let count = CHUNK * (seeds.end - seeds.start);
+    let answers = seeds
         .into_par_iter()
         .map(|seed| {
             let (mut sampler, mut nudger) = (Sampler::new(seed), Sampler::new(!seed));
-            let mut tally = Tally::default();
+            let mut answers = Answers::default();
             for number in 0..CHUNK {
-                let before = tally.wrong.len();
-                tally.add(&draw(&mut sampler), &mut nudger);
-                for wrong in tally.wrong.iter_mut().skip(before) {
-                    *wrong = format!("seed {seed}, tick {number}: {wrong}");
-                }
+                let place = format!("seed {seed}, tick {number}");
+                add(&mut answers, &draw(&mut sampler), &mut nudger, &place);
             }
-            tally
+            answers
         })
-        .reduce(Tally::default, Tally::join);
-    println!("rounding: {}", quantiles(&tally.rounding_a));
-    println!("amplified: {}", quantiles(&tally.amplified_a));
-    println!(
-        "{} ticks: {} the same, {} within rounding, {} amplified, ties {:?}, reasons {:?}",
-        tally.ticks,
-        tally.same,
-        tally.rounding_a.len(),
-        tally.amplified_a.len(),
-        tally.ties,
-        tally.reasons
-    );
-    tally
-}
-
-/// The quantiles that a budget has, printed.
-pub fn quantiles(values: &[f64]) -> String {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let [q75, q99, max] = [0.75, 0.99, 1.0].map(|rank| {
-        let place = sorted.len().saturating_sub(1) as f64 * rank;
-        sorted.get(place as usize).copied().unwrap_or(f64::NAN)
-    });
-    format!("q75 {q75:e}, q99 {q99:e}, max {max:e}")
-}
-
-fn assert_none_wrong(tally: &Tally) {
-    let wrong: Vec<_> = tally.wrong.iter().take(5).cloned().collect();
-    let count = tally.wrong.len();
-    assert!(
-        count == 0,
-        "{count} of {} ticks: {}",
-        tally.ticks,
-        wrong.join("\n")
-    );
+        .reduce(Answers::default, |mut one, other| {
+            one.join(other);
+            one
+        });
+    println!("rounding: {}", quantiles(&answers.rounding_a));
+    println!("amplified: {}", quantiles(&answers.amplified_a));
+    println!("{count} ticks: {}", answers.counts());
+    answers
 }
 
 #[test]
 fn plain_ticks_are_answered_as_by_the_reference() {
-    let tally = campaign(71_000_000, ticks() / 2, Sampler::plain);
-    assert_none_wrong(&tally);
-    assert_within_budget("rig_law_current_plain", tally.rounding_a);
+    let answers = campaign(71_000_000, ticks() / 2, Sampler::plain);
+    answers.assert_none_wrong();
+    assert_within_budget("rig_law_current_plain", answers.rounding_a);
 }
 
 #[test]
 fn adverse_ticks_are_answered_as_by_the_reference() {
-    let tally = campaign(93_000_000, ticks() / 2, Sampler::adverse);
-    assert_none_wrong(&tally);
-    assert_within_budget("rig_law_current_adverse", tally.rounding_a);
+    let answers = campaign(93_000_000, ticks() / 2, Sampler::adverse);
+    answers.assert_none_wrong();
+    assert_within_budget("rig_law_current_adverse", answers.rounding_a);
 }
 
 #[test]

@@ -9,7 +9,7 @@ use rigproof_model::control::path::Nearest;
 use rigproof_model::control::torque_translation::{Share, translate};
 use rigproof_spec::command::{Command, Reason};
 use rigproof_spec::joint::Joint;
-use rigproof_spec::methods::STANDING;
+use rigproof_spec::methods::{STANDING, STANDING_TIP_M_S};
 use rigproof_spec::tables::brake_table;
 
 use crate::both::reference_rows;
@@ -95,7 +95,7 @@ fn wanted_n(tick: &Tick, nearest: &Nearest) -> Option<Vec<Vector2<f64>>> {
     let LawKind::Impedance([stiffness, across, along]) = tick.law else {
         return None;
     };
-    let velocity_m_s = Vector2::from(tick.velocity_m_s);
+    let velocity_m_s = velocity_m_s(tick);
     let tangent = nearest.tangent;
     let left = Vector2::new(-tangent.y, tangent.x);
     let across_n = stiffness * nearest.offset_m + across * left.dot(&velocity_m_s);
@@ -109,9 +109,19 @@ fn wanted_n(tick: &Tick, nearest: &Nearest) -> Option<Vec<Vector2<f64>>> {
     )
 }
 
+/// The velocity of the tip, m/s; none of one that stands.
+fn velocity_m_s(tick: &Tick) -> Vector2<f64> {
+    let velocity_m_s = Vector2::from(tick.velocity_m_s);
+    if velocity_m_s.norm() < STANDING_TIP_M_S {
+        Vector2::zeros()
+    } else {
+        velocity_m_s
+    }
+}
+
 /// The force of 1 N·m of a brake against its joint's motion, N; none of a joint at rest.
 fn push(row: &Vector2<f64>, tick: &Tick) -> Vector2<f64> {
-    let velocity_m_s = Vector2::from(tick.velocity_m_s);
+    let velocity_m_s = velocity_m_s(tick);
     let rate_rad_s = row.dot(&velocity_m_s);
     if rate_rad_s.abs() <= STANDING * row.norm() * velocity_m_s.norm() {
         Vector2::zeros()
@@ -139,7 +149,7 @@ fn pair(
         .filter(|(joint, _)| joints.contains(joint))
         .copied()
         .collect();
-    translate(&two, Vector2::from(tick.velocity_m_s), force_n)
+    translate(&two, velocity_m_s(tick), force_n)
 }
 
 /// The pair of which neither brake is idle with the least sum of torques, that sum, N·m, for a small force.

@@ -22,11 +22,10 @@ use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
 use rigproof_spec::methods::SAMPLE_STEP_S;
 
-use crate::agree::quantiles;
-use crate::both::{Seen, View, reference_command, reference_path, rig_law};
+use crate::both::{Seen, View, reference_path, rig_law};
 use crate::budget::assert_within_budget;
-use crate::permitted::{Permitted, Tie, permitted};
 use crate::sample::{LawKind, PathKind, Sampler, Tick};
+use crate::tally::{Answers, quantiles};
 
 /// Runs of the slice that every test run takes.
 const SLICE: u64 = 200;
@@ -64,12 +63,7 @@ struct Apart {
 struct Tally {
     ticks: u64,
     left: u64,
-    same: u64,
-    rounding_a: Vec<f64>,
-    amplified: u64,
-    ties: BTreeMap<Tie, u64>,
-    reasons: BTreeMap<String, u64>,
-    wrong: Vec<String>,
+    answers: Answers,
     apart: BTreeMap<Kind, Apart>,
     held_otherwise: u64,
 }
@@ -78,17 +72,8 @@ impl Tally {
     fn join(mut self, other: Tally) -> Tally {
         self.ticks += other.ticks;
         self.left += other.left;
-        self.same += other.same;
-        self.amplified += other.amplified;
         self.held_otherwise += other.held_otherwise;
-        self.rounding_a.extend(other.rounding_a);
-        self.wrong.extend(other.wrong);
-        for (tie, count) in other.ties {
-            *self.ties.entry(tie).or_default() += count;
-        }
-        for (reason, count) in other.reasons {
-            *self.reasons.entry(reason).or_default() += count;
-        }
+        self.answers.join(other.answers);
         for (kind, apart) in other.apart {
             let into = self.apart.entry(kind).or_default();
             into.place_rad.extend(apart.place_rad);
@@ -293,21 +278,9 @@ fn tally(seed: u64) -> Tally {
             force_n,
         );
         tally.ticks += 1;
-        *tally
-            .reasons
-            .entry(format!("{:?}", rig.reason))
-            .or_default() += 1;
         if rig.reason != Reason::Starting {
-            let reference = reference_command(&run.tick, View::EXACT);
-            match permitted(&run.tick, reference, rig, &mut nudger) {
-                Ok(Permitted::Same) => tally.same += 1,
-                Ok(Permitted::Rounding(current_a)) => tally.rounding_a.push(current_a),
-                Ok(Permitted::Amplified(_)) => tally.amplified += 1,
-                Ok(Permitted::Tie(tie)) => *tally.ties.entry(tie).or_default() += 1,
-                Err(wrong) => tally
-                    .wrong
-                    .push(format!("seed {seed}, tick {number}: {wrong}")),
-            }
+            let place = format!("seed {seed}, tick {number}");
+            tally.answers.add(&run.tick, rig, &mut nudger, &place);
         }
         if run.step(force_n, rig.currents_a, &mut tally).is_none() {
             tally.left += 1;
@@ -335,16 +308,12 @@ fn tick_and_plant_joined_are_the_reference_in_every_tick() {
         .map(tally)
         .reduce(Tally::default, Tally::join);
     println!(
-        "{runs} runs, {} left the workspace; {} ticks: {} the same, {} within rounding, {} amplified, ties {:?}, reasons {:?}",
+        "{runs} runs, {} left the workspace; {} ticks, at the start or {}",
         all.left,
         all.ticks,
-        all.same,
-        all.rounding_a.len(),
-        all.amplified,
-        all.ties,
-        all.reasons
+        all.answers.counts()
     );
-    println!("currents: {}", quantiles(&all.rounding_a));
+    println!("currents: {}", quantiles(&all.answers.rounding_a));
     for (kind, apart) in &all.apart {
         println!("{kind:?}: {} steps", apart.place_rad.len());
         println!("  place, rad: {}", quantiles(&apart.place_rad));
@@ -352,13 +321,7 @@ fn tick_and_plant_joined_are_the_reference_in_every_tick() {
         println!("  yield, N·m: {}", quantiles(&apart.yield_nm));
     }
     println!("{} steps end with another brake held", all.held_otherwise);
-    let wrong: Vec<_> = all.wrong.iter().take(3).cloned().collect();
-    assert!(
-        wrong.is_empty(),
-        "{} wrong: {}",
-        all.wrong.len(),
-        wrong.join("\n")
-    );
+    all.answers.assert_none_wrong();
     assert!(all.ticks > runs * u64::from(TICKS) / 2);
     // When in a step a joint comes to stand is the greatest of what the plant does not resolve.
     assert!(
@@ -366,7 +329,7 @@ fn tick_and_plant_joined_are_the_reference_in_every_tick() {
         "{} steps",
         all.held_otherwise
     );
-    assert_within_budget("joined_current", all.rounding_a);
+    assert_within_budget("joined_current", all.answers.rounding_a);
     for (kind, apart) in all.apart {
         let kind = format!("{kind:?}").to_lowercase();
         assert_within_budget(&format!("joined_{kind}_place"), apart.place_rad);

@@ -11,4 +11,6 @@ mod permitted;
 mod properties;
 mod sample;
 mod single;
+mod standing_tip;
+mod tally;
 mod ticks;

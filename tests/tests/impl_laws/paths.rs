@@ -68,8 +68,8 @@ fn a_point_lies_to_a_path_as_in_the_reference() {
     }
     println!("{} places, {ties} with two feet", offsets_m.len());
     assert!(f64::from(ties) <= GREATEST_SHARE_OF_TIES * offsets_m.len() as f64);
-    println!("offsets {}", crate::agree::quantiles(&offsets_m));
-    println!("tangents {}", crate::agree::quantiles(&tangents));
+    println!("offsets {}", crate::tally::quantiles(&offsets_m));
+    println!("tangents {}", crate::tally::quantiles(&tangents));
     assert_within_budget("rig_path_offset", offsets_m);
     assert_within_budget("rig_path_tangent", tangents);
 }

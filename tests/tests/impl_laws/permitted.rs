@@ -37,8 +37,6 @@ const AMONG_A: f64 = 1e-7;
 const EQUAL_NM: f64 = 1e-7;
 /// How far two feet may be from the path, and their distances from each other, m.
 const EQUAL_M: f64 = 1e-11;
-/// Least magnitude whose square keeps its digits.
-const LEAST_SQUARABLE: f64 = 1e-150;
 
 /// What may be between the reference's command and the rig's.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,9 +75,6 @@ pub enum Tie {
     IdleBrake,
     /// Exception: an input beyond what the rig's code takes, which lets go.
     Gate,
-    /// Exception: a velocity or a push so small that its square loses digits; the rig's code lets go, or answers as the reference does
-    /// without it.
-    Underflow,
 }
 
 /// What is between two commands for one tick, or what is wrong.
@@ -144,9 +139,6 @@ pub fn permitted(
             .any(|view| is_even(tick, view))
     {
         return Ok(Permitted::Tie(Tie::Even));
-    }
-    if is_without_what_is_tiny(tick, rig, nudger) {
-        return Ok(Permitted::Tie(Tie::Underflow));
     }
     Err(format!("{reference:?}\nbut the rig {rig:?}\nin {tick:?}"))
 }
@@ -337,25 +329,4 @@ fn as_seen(tick: &Tick) -> Option<Nearest> {
     let as_near = (nearest.distance_m() - path.nearest(tip_m).distance_m()).abs() <= EQUAL_M;
     let on_path = path.nearest(nearest.foot_m.into()).distance_m() <= EQUAL_M;
     (as_near && on_path).then_some(nearest)
-}
-
-/// Whether a velocity or a push is so small that its square loses digits, and the rig lets go, or answers as it may without it.
-fn is_without_what_is_tiny(tick: &Tick, rig: Command, nudger: &mut Sampler) -> bool {
-    let mut still = [tick.clone(), tick.clone()];
-    let [without_velocity, without_push] = &mut still;
-    without_velocity.velocity_m_s = [0.0; 2];
-    without_push.force_n = [0.0; 2];
-    let vectors = [tick.velocity_m_s, tick.force_n];
-    let tiny = vectors.map(|[x, y]| {
-        let length = libm::hypot(x, y);
-        length > 0.0 && length < LEAST_SQUARABLE
-    });
-    still
-        .iter()
-        .zip(tiny)
-        .filter(|(_, tiny)| *tiny)
-        .any(|(without, _)| {
-            let reference = reference_command(without, View::EXACT);
-            rig == Command::none(rig.reason) || permitted(without, reference, rig, nudger).is_ok()
-        })
 }

@@ -16,7 +16,7 @@ use rigproof_model::rig::Parameters;
 use rigproof_spec::command::{Command, Reason};
 use rigproof_spec::inertia::inertia;
 
-use crate::agree::{quantiles, ticks};
+use crate::agree::ticks;
 use crate::both::{
     View, reference_command, reference_nearest, reference_path, reference_rows, rig_law, rig_path,
     sensed, situation,
@@ -24,6 +24,7 @@ use crate::both::{
 use crate::budget::assert_within_budget;
 use crate::permitted::apart_a;
 use crate::sample::{LawKind, Sampler, Tick};
+use crate::tally::quantiles;
 
 /// Ticks that may decide otherwise, or take another foot or level, as a share of all; each has a [`Cause`] that was checked. Of five million 54.
 const GREATEST_SHARE_OF_TIES: f64 = 1.3e-5;

@@ -2,8 +2,6 @@
 //!
 //! `RIGPROOF_CAMPAIGN` is the number of ticks; without it a slice runs.
 
-use std::collections::BTreeMap;
-
 use rayon::prelude::*;
 use rigproof_impl::guard::RECOVERY_SAMPLES;
 use rigproof_impl::tick::{Sensed, Settings, Tick as RigTick};
@@ -15,10 +13,10 @@ use rigproof_spec::command::Command;
 use rigproof_spec::inertia::inertia;
 use rigproof_spec::methods::SAMPLE_STEP_S;
 
-use crate::both::{View, reference_command, rig_law};
+use crate::both::rig_law;
 use crate::budget::assert_within_budget;
-use crate::permitted::{Permitted, Tie, permitted};
 use crate::sample::{Sampler, Tick};
+use crate::tally::Answers;
 
 /// Ticks of the slice that every test run takes.
 const SLICE: u64 = 40_000;
@@ -28,13 +26,9 @@ const CHUNK: u64 = 500;
 /// What became of many ticks.
 #[derive(Default)]
 struct Tally {
-    same: u64,
-    rounding_a: Vec<f64>,
-    amplified: u64,
+    answers: Answers,
     standing: u64,
     acted: u64,
-    ties: BTreeMap<Tie, u64>,
-    wrong: Vec<String>,
 }
 
 /// A tick as it comes from counts: the samples that lead to it, and what the reference makes of them.
@@ -77,11 +71,12 @@ fn from_counts(sampler: &mut Sampler) -> (Tick, Vec<Sensed<f64>>, Settings, [f64
 fn tally(seed: u64) -> Tally {
     let (mut sampler, mut nudger) = (Sampler::new(seed), Sampler::new(!seed));
     let mut tally = Tally::default();
-    for _ in 0..CHUNK {
+    for number in 0..CHUNK {
+        let place = format!("seed {seed}, tick {number}");
         let (tick, samples, settings, rates_rad_s) = from_counts(&mut sampler);
         let Some(mut rig) = rig_law::<f64>(&tick).and_then(|law| RigTick::new(&settings, law))
         else {
-            tally.wrong.push(format!("refused: {tick:?}"));
+            tally.answers.wrong.push(format!("{place}: refused"));
             continue;
         };
         let mut rig_command = Command::none(rigproof_spec::command::Reason::Starting);
@@ -90,28 +85,15 @@ fn tally(seed: u64) -> Tally {
         }
         tally.standing += u64::from(rates_rad_s.contains(&0.0));
         tally.acted += u64::from(rig_command.currents_a != [0.0; 4]);
-        let reference = reference_command(&tick, View::EXACT);
-        match permitted(&tick, reference, rig_command, &mut nudger) {
-            Ok(Permitted::Same) => tally.same += 1,
-            Ok(Permitted::Rounding(current_a)) => tally.rounding_a.push(current_a),
-            Ok(Permitted::Amplified(_)) => tally.amplified += 1,
-            Ok(Permitted::Tie(tie)) => *tally.ties.entry(tie).or_default() += 1,
-            Err(wrong) => tally.wrong.push(wrong),
-        }
+        tally.answers.add(&tick, rig_command, &mut nudger, &place);
     }
     tally
 }
 
 fn join(mut one: Tally, other: Tally) -> Tally {
-    one.same += other.same;
-    one.amplified += other.amplified;
+    one.answers.join(other.answers);
     one.standing += other.standing;
     one.acted += other.acted;
-    one.rounding_a.extend(other.rounding_a);
-    one.wrong.extend(other.wrong);
-    for (tie, count) in other.ties {
-        *one.ties.entry(tie).or_default() += count;
-    }
     one
 }
 
@@ -124,22 +106,13 @@ fn a_whole_tick_from_counts_is_answered_as_by_the_reference() {
         .map(tally)
         .reduce(Tally::default, join);
     println!(
-        "{ticks} ticks from counts: {} acted, {} the same, {} within rounding, {} amplified, {} with a standing link, ties {:?}",
+        "{ticks} ticks from counts: {} acted, {} with a standing link, {}",
         all.acted,
-        all.same,
-        all.rounding_a.len(),
-        all.amplified,
         all.standing,
-        all.ties
+        all.answers.counts()
     );
-    let wrong: Vec<_> = all.wrong.iter().take(3).cloned().collect();
-    assert!(
-        wrong.is_empty(),
-        "{} wrong: {}",
-        all.wrong.len(),
-        wrong.join("\n")
-    );
+    all.answers.assert_none_wrong();
     // One count in the window or none: links that stand are among them.
     assert!(5 * all.acted > ticks && 200 * all.standing > ticks);
-    assert_within_budget("rig_tick_current_from_counts", all.rounding_a);
+    assert_within_budget("rig_tick_current_from_counts", all.answers.rounding_a);
 }
