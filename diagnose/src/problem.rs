@@ -201,7 +201,12 @@ pub struct Problem<'a> {
     pub effort_size: f64,
     /// Terms from the start of the recording that are asked for again and again.
     kept: RefCell<Vec<Term>>,
+    /// The signals that were asked for last: several onsets are tried of the same ones.
+    recent: RefCell<Option<Recent>>,
 }
+
+/// A cause, a shape, and what they give.
+type Recent = (Cause, Vec<f64>, Arc<Vec<Vec<f64>>>);
 
 impl<'a> Problem<'a> {
     /// Sets up the problem of a plant of one joint with a white noise model; `rewhiten` refines it.
@@ -279,6 +284,7 @@ impl<'a> Problem<'a> {
             effort_size: rms(&windows.average(&plant.effort())),
             windows,
             kept: RefCell::default(),
+            recent: RefCell::default(),
         }
     }
 
@@ -332,8 +338,8 @@ impl<'a> Problem<'a> {
                 .collect(),
             (_, onset_s) => self
                 .free_signals(cause, shape)?
-                .into_iter()
-                .map(|signal| Arc::new(self.rows(signal, onset_s)))
+                .iter()
+                .map(|signal| Arc::new(self.rows(signal.clone(), onset_s)))
                 .collect(),
         };
         Some(Term {
@@ -346,11 +352,18 @@ impl<'a> Problem<'a> {
         })
     }
 
-    fn free_signals(&self, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<f64>>> {
-        match self.plant {
+    fn free_signals(&self, cause: Cause, shape: &[f64]) -> Option<Arc<Vec<Vec<f64>>>> {
+        if let Some((own, known, signals)) = &*self.recent.borrow()
+            && (*own, &known[..]) == (cause, shape)
+        {
+            return Some(signals.clone());
+        }
+        let signals = Arc::new(match self.plant {
             PlantRun::Joint(run) => joint::resistances(run, cause.mechanism, shape),
             PlantRun::FiveBar(run) => five_bar::columns::free(run, cause, shape),
-        }
+        }?);
+        *self.recent.borrow_mut() = Some((cause, shape.to_vec(), signals.clone()));
+        Some(signals)
     }
 
     /// The term of a cause that acts from the start, kept for the next time: for shapes that are tried in every

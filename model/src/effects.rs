@@ -116,6 +116,7 @@ pub const LIBRARY: &[Entry] = &[
     brake::SATURATION,
     brake::THERMAL_FADE,
     linkage::BEARING_FRICTION,
+    linkage::LOAD_DEPENDENT,
     linkage::GRAVITY,
     linkage::INERTIA_ERROR,
     linkage::PAYLOAD,

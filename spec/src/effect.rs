@@ -252,6 +252,7 @@ impl Mechanism {
             }
             Mechanism::DeadTime => const { &[Parameter::new("delay", Time)] },
             Mechanism::Saturation => const { &[Parameter::new("limit", Current)] },
+            Mechanism::LoadDependent => const { &[Parameter::new("arm", Length)] },
             Mechanism::ThermalFade => {
                 const {
                     &[
@@ -362,6 +363,8 @@ pub enum Quantity {
     PerEnergy,
     /// Metres per squared second, whatever the plant does.
     Acceleration,
+    /// Metres, whatever the plant does.
+    Length,
     /// Kilograms, whatever the plant does.
     Mass,
     /// Kilograms times squared metres, whatever the plant does.
@@ -412,6 +415,7 @@ impl Quantity {
                 .times(Dimension::LENGTH)
                 .times(Dimension::TIME.power(2)),
             Quantity::Force => Dimension::FORCE,
+            Quantity::Length => Dimension::LENGTH,
             Quantity::Angle => Dimension::ANGLE,
         }
     }

@@ -7,7 +7,7 @@ use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
 
 /// What can be left out at a joint with a brake.
-const AT_BRAKES: [Mechanism; 16] = [
+const AT_BRAKES: [Mechanism; 17] = [
     Mechanism::DryOffset,
     Mechanism::ConstantBias,
     Mechanism::Viscous,
@@ -22,6 +22,7 @@ const AT_BRAKES: [Mechanism; 16] = [
     Mechanism::Saturation,
     Mechanism::CurrentHysteresis,
     Mechanism::ThermalFade,
+    Mechanism::LoadDependent,
     Mechanism::BacklashWidth,
     Mechanism::Ripple,
 ];

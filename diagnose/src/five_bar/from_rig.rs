@@ -8,6 +8,7 @@ use crate::align::{
 };
 use crate::problem::{Cause, NominalEffect};
 use crate::run::PlantKind;
+use core::cell::OnceCell;
 use core::f64::consts::TAU;
 use rigproof_model::brake::{Brake, ENTRY_TRAVEL_DEG};
 use rigproof_model::effects::Instant;
@@ -77,19 +78,24 @@ pub fn aligned(rig: &FiveBar, recording: &FiveBarRecording) -> Result<FiveBarRun
         currents,
         yields: [const { Vec::new() }; 4],
         yield_errors: [const { Vec::new() }; 4],
+        loads: OnceCell::new(),
         theta_noise,
         still_rad: (2.0 * quantum).max(6.0 * theta_noise),
         force_noise,
         recorded,
         speed_floor: 0.0,
     };
-    let run = with_angles(run, theta).map_err(|(k, error)| Fault {
+    let (mut run, untold) = moved_by(run, theta).map_err(|(k, error)| Fault {
         channel: "theta_a",
         from_s: k as f64 * step_s,
         to_s: k as f64 * step_s,
         reason: format!("the linkage cannot stand at the recorded angles: {error}; an encoder has lost counts, or its zero or sign is wrong"),
     })?;
     check_sign(&run)?;
+    run.yield_errors = Joint::ALL.map(|joint| {
+        let none = || vec![0.0; run.motion(joint).len()];
+        yield_errors(&run, joint, &untold).unwrap_or_else(none)
+    });
     Ok(run)
 }
 
@@ -101,6 +107,14 @@ pub fn with_angles(
     run: FiveBarRun,
     theta: [Vec<f64>; 2],
 ) -> Result<FiveBarRun, (usize, ModelError)> {
+    moved_by(run, theta).map(|(run, _)| run)
+}
+
+/// The run with other angles, and the speeds of θA and θB below which their sense cannot be told, rad/s.
+fn moved_by(
+    run: FiveBarRun,
+    theta: [Vec<f64>; 2],
+) -> Result<(FiveBarRun, [Vec<f64>; 2]), (usize, ModelError)> {
     let smoothed = theta
         .each_ref()
         .map(|theta| smoothed_motion(theta, run.step_s, run.cutoff_hz, run.theta_noise));
@@ -111,13 +125,17 @@ pub fn with_angles(
         theta,
         poses,
         forms,
+        loads: OnceCell::new(),
         speed_floor: floors.into_iter().fold(0.0, f64::max),
         ..run
     };
     let untold = untold_speeds(&run, &base);
     run.joints = Joint::ALL.map(|joint| joint_motion(&run, &base, joint, &untold));
-    let_brakes_follow(&mut run, &untold);
-    Ok(run)
+    run.yields = Joint::ALL.map(|joint| {
+        let none = || vec![0.0; run.motion(joint).len()];
+        nominal_yields(&run, joint).unwrap_or_else(none)
+    });
+    Ok((run, untold))
 }
 
 /// Share of the work to and fro by which the hand may take more out than it puts in: kinetic energy, and where the recording ends.
@@ -323,45 +341,38 @@ fn joint_motion(
     motion
 }
 
-/// Lets the nominal brakes follow the motion; a joint without one resists with 0.
-fn let_brakes_follow(run: &mut FiveBarRun, untold: &[Vec<f64>; 2]) {
-    let followed = Joint::ALL.map(|joint| {
-        let none = || vec![0.0; run.motion(joint).len()];
-        brake_torques(run, joint, untold).unwrap_or_else(|| (none(), none()))
-    });
-    let slots = run.yields.iter_mut().zip(&mut run.yield_errors);
-    for ((yields, errors), followed) in slots.zip(followed) {
-        (*yields, *errors) = followed;
-    }
-}
-
-/// The yield torque of a joint's brake along the motion, and by how much it would differ if the joint turned faster or slower by
-/// what cannot be told, if the backlash began and ended where the angle's own error may put it, or if the shaft did not start in
-/// its middle.
-fn brake_torques(
-    run: &FiveBarRun,
-    joint: Joint,
-    untold: &[Vec<f64>; 2],
-) -> Option<(Vec<f64>, Vec<f64>)> {
+/// The yield torque of a joint's nominal brake along the motion, N·m; none without a brake.
+fn nominal_yields(run: &FiveBarRun, joint: Joint) -> Option<Vec<f64>> {
     let motion = run.motion(joint);
     let current = run.currents.get(place(joint))?.as_ref()?;
     let start = motion.first()?.position;
+    Some(yields(
+        Brake::new(joint, start),
+        motion,
+        current,
+        run.step_s,
+    ))
+}
+
+/// By how much the yield torque of a joint's brake would differ if the joint turned faster or slower by what cannot be told, if
+/// the backlash began and ended where the angle's own error may put it, or if the shaft did not start in its middle, N·m.
+fn yield_errors(run: &FiveBarRun, joint: Joint, untold: &[Vec<f64>; 2]) -> Option<Vec<f64>> {
+    let (motion, own) = (run.motion(joint), run.yields.get(place(joint))?);
+    let current = run.currents.get(place(joint))?.as_ref()?;
+    let start = motion.first()?.position;
     let along = |brake, motion: &[Instant]| yields(brake, motion, current, run.step_s);
-    let own = along(Brake::new(joint, start), motion);
     let mut errors = vec![0.0f64; own.len()];
     let mut doubt = |changed: Vec<f64>| {
         let pairs = errors.iter_mut().zip(own.iter().zip(&changed));
         pairs.for_each(|(error, (own, changed))| *error = error.max((own - changed).abs()));
     };
     for sign in [1.0, -1.0] {
-        doubt(along(
-            Brake::new(joint, start),
-            &turning(run, joint, untold, sign),
-        ));
+        let turning = turning(run, joint, untold, sign);
+        doubt(along(Brake::new(joint, start), &turning));
     }
     let table = brake_table(joint);
     if table.backlash_width_deg == 0.0 {
-        return Some((own, errors));
+        return Some(errors);
     }
     let angle_deg = turning_point_error(run, joint, untold) / RAD_PER_DEG;
     let half = 0.5 * table.backlash_width_deg * RAD_PER_DEG;
@@ -376,12 +387,10 @@ fn brake_torques(
             ..table
         };
         let entry_deg = (ENTRY_TRAVEL_DEG + by_deg).max(0.0);
-        doubt(along(
-            Brake::of(changed, start).with_backlash_entry(start, entry_deg),
-            motion,
-        ));
+        let brake = Brake::of(changed, start).with_backlash_entry(start, entry_deg);
+        doubt(along(brake, motion));
     }
-    Some((own, errors))
+    Some(errors)
 }
 
 /// How far the angle at which a joint turns back may be mistaken, rad: by counts, and by the low-pass that rounds it off.

@@ -29,6 +29,16 @@ pub(super) const BEARING_FRICTION: Entry = Entry {
     )
 };
 
+pub(super) const LOAD_DEPENDENT: Entry = Entry {
+    passive: true,
+    ..entry(
+        Mechanism::LoadDependent,
+        1,
+        "the same friction whether the hand pulls hard or hardly at all",
+        "arm·|F|·sgn(ω), F the force in the joint's bearing",
+    )
+};
+
 pub(super) const GRAVITY: Entry = entry(
     Mechanism::Gravity,
     2,
