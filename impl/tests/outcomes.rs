@@ -36,6 +36,9 @@ fn one_arm_that_turns_too_far_is_enough() {
         let before = fast;
         assert_eq!(fast.step([0.3, -0.7], [0.0; 4], STEP_S), Outcome::TooFast);
         assert_eq!(fast, before);
+        let mut free = motion([2.17, 0.83], rates).unwrap();
+        let outcome = free.step_free(&mechanism(Scheme::Midpoint), Vector::new(0.3, -0.7), STEP_S);
+        assert_eq!(outcome, Outcome::TooFast);
     }
     // Twice half the step is more than an arm may turn in one half.
     let mut brisk = plant([9.3, 8.7]);
