@@ -1,6 +1,8 @@
 //! This file holds every step with brakes and resistance laws, and what is seen of it, against the same scheme written with the reference's
 //! functions: momentum, yields, memories, the moment at which a joint turns back.
 
+mod checks;
+
 use nalgebra::{SMatrix, Vector2};
 use rigproof_impl::plant::brake::{Brake, Characteristic, Turn};
 use rigproof_impl::plant::effect::{Asked, CurrentPath, Law};
@@ -26,6 +28,35 @@ struct Resisting {
     mechanism: Mechanism,
     parameters: Vec<f64>,
     memory: f64,
+}
+
+impl Resisting {
+    /// Up to three of the library's.
+    fn drawn(draw: &mut Draw) -> Vec<Resisting> {
+        let mut effects = Vec::new();
+        for _ in 0..3 {
+            let entry = &LIBRARY[(draw.between(0.0, 0.999_9) * LIBRARY.len() as f64) as usize];
+            let joint = Joint::ALL[draw.between(0.0, 3.999) as usize];
+            let Form::Resistance(_) = entry.form else {
+                continue;
+            };
+            let names = entry.mechanism.parameters();
+            let mut parameters: Vec<f64> = names.iter().map(|_| draw.between(0.03, 0.31)).collect();
+            match entry.mechanism {
+                // So that rounding of a rate changes nothing.
+                Mechanism::Stribeck => parameters[2] += 1.0,
+                Mechanism::DryOffset if draw.one_in(2) => parameters[0] *= -7.0,
+                _ => {}
+            }
+            effects.push(Resisting {
+                joint,
+                mechanism: entry.mechanism,
+                parameters,
+                memory: 0.0,
+            });
+        }
+        effects
+    }
 }
 
 /// What the reference's functions need to know of a plant beside what is seen of it.
@@ -61,10 +92,6 @@ fn angles_rad(pose: &Pose) -> [f64; 4] {
     ]
 }
 
-fn column(of: [f64; 4]) -> SMatrix<f64, 4, 1> {
-    SMatrix::<f64, 4, 1>::from(of)
-}
-
 /// One step at the moment at which forces are looked at.
 struct Looked {
     form: TwoCoordinate,
@@ -98,51 +125,35 @@ impl Followed {
         } else {
             [draw.between(-1.7, 1.7), draw.between(-1.7, 1.7)]
         };
-        let mut effects = Vec::new();
+        let effects = if draw.one_in(2) {
+            Vec::new()
+        } else {
+            Resisting::drawn(draw)
+        };
+        let currents: &[_] = if draw.one_in(3) {
+            &[
+                (Joint::E, Mechanism::Lag, [draw.between(0.003, 0.03)]),
+                (Joint::B, Mechanism::GainError, [draw.between(-0.3, 0.1)]),
+            ]
+        } else {
+            &[]
+        };
         let mut paths = [CurrentPath::default(); 4];
-        let mut asked: Vec<(Joint, Mechanism, Vec<f64>)> = Vec::new();
-        for _ in 0..if draw.one_in(2) { 0 } else { 3 } {
-            let entry = &LIBRARY[(draw.between(0.0, 0.999_9) * LIBRARY.len() as f64) as usize];
-            let joint = Joint::ALL[(draw.between(0.0, 3.999)) as usize];
-            if !matches!(entry.form, Form::Resistance(_)) {
-                continue;
-            }
-            let mut parameters: Vec<f64> = entry
-                .mechanism
-                .parameters()
-                .iter()
-                .map(|_| draw.between(0.03, 0.31))
-                .collect();
-            if entry.mechanism == Mechanism::Stribeck {
-                // So that rounding of a rate changes nothing.
-                parameters[2] += 1.0;
-            }
-            if entry.mechanism == Mechanism::DryOffset && draw.one_in(2) {
-                parameters[0] *= -7.0;
-            }
-            asked.push((joint, entry.mechanism, parameters.clone()));
-            effects.push(Resisting {
-                joint,
-                mechanism: entry.mechanism,
-                parameters,
-                memory: 0.0,
-            });
+        for (joint, mechanism, parameters) in currents {
+            let path = &mut paths[*joint as usize];
+            *path = path.with(*mechanism, parameters).unwrap();
         }
-        if draw.one_in(3) {
-            for (joint, mechanism, parameter) in [
-                (Joint::E, Mechanism::Lag, draw.between(0.003, 0.03)),
-                (Joint::B, Mechanism::GainError, draw.between(-0.3, 0.1)),
-            ] {
-                paths[joint as usize] =
-                    paths[joint as usize].with(mechanism, &[parameter]).unwrap();
-                asked.push((joint, mechanism, vec![parameter]));
-            }
-        }
-        let asked: Vec<Asked> = asked
+        let resisting = effects
             .iter()
+            .map(|of| (of.joint, of.mechanism, of.parameters.as_slice()));
+        let of_currents = currents
+            .iter()
+            .map(|(joint, mechanism, parameters)| (*joint, *mechanism, parameters.as_slice()));
+        let asked: Vec<Asked> = resisting
+            .chain(of_currents)
             .map(|(joint, mechanism, parameters)| Asked {
-                joint: *joint,
-                mechanism: *mechanism,
+                joint,
+                mechanism,
                 parameters,
             })
             .collect();
@@ -212,42 +223,47 @@ impl Followed {
             };
             yields_nm[i] = brakes[i].step(&Characteristic::new(table), current_a, &turn);
         }
-        let (mut drive, mut bounds_nm) = (form.drive(force_n), [0.0; 4]);
-        let mut is_anyones = false;
+        self.looked_rad = angles_rad(&pose);
+        self.since_look_s = step_s - lead_s;
+        let mut looked = Looked {
+            drive: form.drive(force_n),
+            form,
+            rows,
+            yields_nm,
+            bounds_nm: [0.0; 4],
+            is_anyones: false,
+        };
+        self.resist(&mut looked, speeds, lead_s, step_s);
+        looked
+    }
+
+    /// What the resistance laws add to a step.
+    fn resist(&mut self, looked: &mut Looked, speeds: [f64; 4], lead_s: f64, step_s: f64) {
         for effect in &self.effects {
             let i = effect.joint as usize;
+            let speed = speeds[i];
             let reference = law(effect.mechanism, &effect.parameters).unwrap();
             let now = Instant {
                 time_s: self.time_s + lead_s,
-                position: angles_rad(&pose)[i],
-                speed: speeds[i],
-                sense: if speeds[i] < 0.0 { -1.0 } else { 1.0 },
+                position: self.looked_rad[i],
+                speed,
+                sense: if speed < 0.0 { -1.0 } else { 1.0 },
             };
             let other = Instant {
                 sense: -now.sense,
                 ..now
             };
-            let depends =
-                reference.smooth(&now, effect.memory) != reference.smooth(&other, effect.memory);
-            is_anyones |= depends && speeds[i] != 0.0 && speeds[i].abs() < 1e-9;
+            let smooth = |at| reference.smooth(at, effect.memory);
+            let is_still = speed != 0.0 && speed.abs() < 1e-9;
+            looked.is_anyones |= is_still && smooth(&now) != smooth(&other);
             let own = Law::new(effect.mechanism, &effect.parameters).unwrap();
-            let [_, halfway] = own.remember(effect.memory, speeds[i], step_s);
-            drive -= form.joints.row(i).transpose() * reference.smooth(&now, halfway);
-            bounds_nm[i] += reference.dry(&now);
+            let [_, halfway] = own.remember(effect.memory, speed, step_s);
+            looked.drive -= looked.form.joints.row(i).transpose() * reference.smooth(&now, halfway);
+            looked.bounds_nm[i] += reference.dry(&now);
         }
-        for (bound_nm, yield_nm) in bounds_nm.iter_mut().zip(yields_nm) {
+        for (bound_nm, yield_nm) in looked.bounds_nm.iter_mut().zip(looked.yields_nm) {
             self.seen.below += u32::from(*bound_nm < -yield_nm);
             *bound_nm = f64::max(*bound_nm + yield_nm, 0.0);
-        }
-        self.looked_rad = angles_rad(&pose);
-        self.since_look_s = step_s - lead_s;
-        Looked {
-            form,
-            rows,
-            drive,
-            yields_nm,
-            bounds_nm,
-            is_anyones,
         }
     }
 
@@ -303,151 +319,6 @@ impl Followed {
         }
         self.check_seen(&looked);
         true
-    }
-
-    /// What the brakes exerted in the end of the step, N·m, by what they are said to have done; none where it cannot be told from the share of a
-    /// joint's other friction.
-    fn torques_nm(&self, looked: &Looked) -> Option<[f64; 4]> {
-        let signs = match self.plant.contact() {
-            Contact::Rest => [0.0; 4],
-            Contact::Along { signs, .. } | Contact::Slipping(signs) => signs,
-        };
-        let mut torques_nm = [0.0; 4];
-        for i in 0..4 {
-            let (bound_nm, own_nm) = (looked.bounds_nm[i], self.plant.brake_torques_nm()[i]);
-            let share = if bound_nm > 0.0 {
-                f64::min(looked.yields_nm[i] / bound_nm, f64::INFINITY)
-            } else {
-                1.0
-            };
-            assert_eq!(self.plant.stuck()[i], bound_nm > 0.0 && signs[i] == 0.0);
-            if self.plant.stuck()[i] {
-                if share == 0.0 {
-                    assert_eq!(own_nm, 0.0);
-                    return None;
-                }
-                torques_nm[i] = own_nm / share;
-                assert!(torques_nm[i].abs() <= bound_nm * (1.0 + CLOSE));
-            } else {
-                torques_nm[i] = -signs[i] * bound_nm;
-                assert!(
-                    (own_nm - torques_nm[i] * share).abs() < CLOSE,
-                    "{own_nm} {torques_nm:?} {share}"
-                );
-            }
-        }
-        Some(torques_nm)
-    }
-
-    /// M·(v⁺ − v) is the impulse of forces and brakes, before and after a joint turned back.
-    fn check_momentum(
-        &mut self,
-        before: &Plant,
-        looked: &Looked,
-        change: Vector2<f64>,
-        step_s: f64,
-    ) {
-        let Some(torques_nm) = self.torques_nm(looked) else {
-            return;
-        };
-        let (mass, drive) = (looked.form.mass, looked.drive * step_s);
-        let impulse =
-            |torques_nm: [f64; 4]| looked.form.joints.transpose() * column(torques_nm) * step_s;
-        let left = mass * change - drive - impulse(torques_nm);
-        let close = CLOSE * (drive.norm() + impulse(looked.bounds_nm).norm() + step_s);
-        match (before.contact(), self.plant.contact()) {
-            (Contact::Slipping(signs), now) => {
-                let known = (0..4).all(|i| signs[i] != 0.0 || looked.bounds_nm[i] == 0.0);
-                let (mut first, mut on) = (1.0, [0.0; 4]);
-                if known {
-                    for i in 0..4 {
-                        on[i] = -signs[i] * looked.bounds_nm[i];
-                    }
-                    let v = Vector2::from(before.base_rates_rad_s());
-                    let going_on = v + mass.try_inverse().unwrap() * (drive + impulse(on));
-                    for i in (0..4).filter(|&i| looked.bounds_nm[i] > 0.0) {
-                        let start = signs[i] * (looked.rows[0].row(i) * v).x;
-                        let at_end = signs[i] * (looked.rows[1].row(i) * going_on).x;
-                        if at_end <= 0.0 {
-                            first = f64::min(
-                                first,
-                                f64::max(start, 0.0) / (f64::max(start, 0.0) - at_end),
-                            );
-                        }
-                    }
-                    if first == 1.0 {
-                        assert_eq!(now, before.contact());
-                    }
-                }
-                // The torques that are seen are those after the turn.
-                let first = if first < 1.0 { first } else { 0.0 };
-                let off = left - (impulse(on) - impulse(torques_nm)) * first;
-                let close = close + 1e-6 * first * (1.0 - first) * impulse(looked.bounds_nm).norm();
-                assert!(
-                    off.norm() < close,
-                    "{off:?} of {left:?}, {first}, {torques_nm:?} after {on:?}"
-                );
-                self.seen.divided += u32::from(first > 0.0);
-            }
-            (last, now) if last == Contact::Rest || last == now => {
-                assert!(
-                    left.norm() < close,
-                    "{left:?} by {torques_nm:?}, {last:?} {now:?}"
-                );
-            }
-            _ => {}
-        }
-    }
-
-    /// What is seen of the plant is so.
-    fn check_seen(&mut self, looked: &Looked) {
-        let plant = &self.plant;
-        let (theta, v) = (
-            Vector2::from(plant.base_angles_rad()),
-            Vector2::from(plant.base_rates_rad_s()),
-        );
-        let (pose, form) = self.form_at(theta, v);
-        let rates = form.joint_rates_rad_s(v.into());
-        let foreseen = looked.rows[1] * v;
-        let signs = match plant.contact() {
-            Contact::Rest => [0.0; 4],
-            Contact::Along { signs, .. } | Contact::Slipping(signs) => signs,
-        };
-        for i in 0..4 {
-            assert!((plant.joint_angles_rad()[i] - angles_rad(&pose)[i]).abs() < 1e-11);
-            let seen = plant.joint_rates_rad_s()[i];
-            let torque_nm = plant.brake_torques_nm()[i];
-            if plant.stuck()[i] {
-                assert_eq!(seen, 0.0);
-                assert!(
-                    foreseen[i].abs() <= 1e-7 * v.norm(),
-                    "{} {v:?}",
-                    foreseen[i]
-                );
-            } else {
-                let driven = torque_nm * rates[i] > 0.0;
-                assert!(
-                    (seen - rates[i]).abs() < CLOSE || driven && seen == 0.0,
-                    "{seen} {rates:?}"
-                );
-                assert!(!driven || seen == 0.0 || rates[i].abs() < 1e-13);
-                let told = looked.bounds_nm[i] == 0.0 || signs[i] * foreseen[i] >= -1e-7 * v.norm();
-                assert!(told, "{signs:?} {foreseen:?}");
-            }
-        }
-        let [x, y] = form.tip_velocity_m_s(v.into());
-        let tip = plant.tip_velocity_m_s();
-        assert!((tip.x - x).abs() < CLOSE && (tip.y - y).abs() < CLOSE);
-        let [x, y] = pose.tip_m;
-        assert!((plant.tip_m().x - x).abs() < 1e-12 && (plant.tip_m().y - y).abs() < 1e-12);
-        let energy_j = 0.5 * v.dot(&(form.mass * v));
-        assert!((plant.kinetic_energy_j() - energy_j).abs() <= CLOSE * energy_j);
-        assert!((plant.time_s() - self.time_s).abs() < 1e-12);
-        match plant.contact() {
-            Contact::Rest => self.seen.rest += 1,
-            Contact::Along { .. } => self.seen.held += 1,
-            Contact::Slipping(_) => self.seen.slipping += 1,
-        }
     }
 }
 
