@@ -137,7 +137,7 @@ fn at_the_edge_between_holding_and_slipping_the_motion_is_that_of_both() {
     for _ in 0..60_000 {
         let (mass, mut brakes) = (draw.mass(), draw.brakes());
         // Whatever the size of all impulses.
-        let size = libm::exp2(libm::round(draw.between(-20.0, 70.0)));
+        let size = libm::exp2(libm::round(draw.between(-45.0, 70.0)));
         for brake in &mut brakes {
             brake.bound *= size;
         }
