@@ -31,7 +31,11 @@ fn lengths_and_masses_of_no_linkage_are_refused() {
         assert!(!is_made(|of| of.inertia.ed.centre_m = bad), "{bad}");
     }
     assert!(!is_made(|of| of.inertia.ae.inertia_kg_m2 = 0.0));
+    // Without a base arm all sines are still there.
+    assert!(!is_made(|of| of.arms.l_ae_m = 0.0));
     assert!(!is_made(|of| of.arms.l_ed_m = 0.0));
+    assert!(!is_made(|of| of.arms.l_bc_m = 0.0));
+    assert!(!is_made(|of| of.arms.l_cd_m = 0.0));
     assert!(is_made(|of| {
         of.inertia.ed.mass_kg = 0.0;
         of.inertia.payload_kg = 0.0;

@@ -21,6 +21,7 @@ use rigproof_spec::laws::opposition;
 use rigproof_spec::layout::Layout;
 use rigproof_spec::methods::STANDING;
 use rigproof_spec::tables::torque_gain_fit;
+use rigproof_tests::cases;
 
 #[derive(Clone, Debug)]
 struct Moment {
@@ -99,7 +100,7 @@ fn pushes(moment: &Moment) -> Vec<Vector2<f64>> {
 
 proptest! {
     #![proptest_config(ProptestConfig {
-        cases: 20_000,
+        cases: cases(20_000),
         failure_persistence: Some(Box::new(FileFailurePersistence::WithSource("regressions"))),
         ..ProptestConfig::default()
     })]

@@ -22,6 +22,7 @@ use rigproof_spec::laws::{
 use rigproof_spec::layout::Layout;
 use rigproof_spec::methods::{BLEND_BOUNDARY_M, Method, STANDING};
 use rigproof_spec::units::M_PER_CM;
+use rigproof_tests::cases;
 
 /// One moment of a rig: its layout and what is sensed.
 #[derive(Clone, Copy, Debug)]
@@ -231,7 +232,7 @@ fn obeys_the_laws_of_all(moment: &Moment, command: &Command, most: u8) {
 
 proptest! {
     #![proptest_config(ProptestConfig {
-        cases: 20_000,
+        cases: cases(20_000),
         failure_persistence: Some(Box::new(FileFailurePersistence::WithSource("regressions"))),
         ..ProptestConfig::default()
     })]

@@ -18,6 +18,7 @@ use rigproof_spec::laws::{desired_force, opposition};
 use rigproof_spec::layout::Layout;
 use rigproof_spec::methods::greatest_desired_force_n;
 use rigproof_spec::tables::{brake_table, torque_gain_fit};
+use rigproof_tests::cases;
 
 const LAYOUTS: [Layout; 2] = [Layout::ThreeBrake, Layout::FourBrake];
 
@@ -52,7 +53,7 @@ fn row(arms: &Arms, pose: &Pose, joint: Joint) -> Vector2<f64> {
 
 proptest! {
     #![proptest_config(ProptestConfig {
-        cases: 2000,
+        cases: cases(2_000),
         failure_persistence: Some(Box::new(FileFailurePersistence::WithSource("regressions"))),
         ..ProptestConfig::default()
     })]

@@ -67,3 +67,17 @@ fn rigs_move_the_same_whatever_the_number_of_threads() {
         );
     }
 }
+
+#[test]
+fn a_block_has_so_many_rigs_and_each_begins_with_rates_that_are_numbers() {
+    let layout = Layout::FourBrake;
+    let batch = Batch::new(&arms(layout), &inertia(layout), Scheme::Midpoint);
+    let thetas = [[2.17, 0.83]; LANES];
+    let mut rates = [[0.13, -0.07]; LANES];
+    let block = Block::new(&batch, thetas, rates).unwrap();
+    assert_eq!(block.base_rates_rad_s(LANES - 1), Some([0.13, -0.07]));
+    assert_eq!(block.base_rates_rad_s(LANES), None);
+    assert_eq!(block.base_angles_rad(LANES), None);
+    rates[LANES - 1][1] = f64::NAN;
+    assert_eq!(Block::new(&batch, thetas, rates), None);
+}

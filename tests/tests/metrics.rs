@@ -14,6 +14,7 @@ use rigproof_model::metrics::{
     path_error, path_length, six_step_difference, smoothness, step_lengths,
 };
 use rigproof_spec::methods::SAMPLE_STEP_S;
+use rigproof_tests::cases;
 
 // Every reference number of this file is the output of SciPy 1.17.1 with NumPy 2.4.6:
 //
@@ -353,7 +354,7 @@ fn the_printed_dft_sum_is_complex() {
 
 proptest! {
     #![proptest_config(ProptestConfig {
-        cases: 2000,
+        cases: cases(2_000),
         failure_persistence: Some(Box::new(FileFailurePersistence::WithSource("regressions"))),
         ..ProptestConfig::default()
     })]

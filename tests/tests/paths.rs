@@ -6,6 +6,7 @@ use proptest::prelude::*;
 use proptest::test_runner::FileFailurePersistence;
 use rigproof_model::ModelError;
 use rigproof_model::control::path::{Arc, Line, Nearest, Path, Polyline, Spline};
+use rigproof_tests::cases;
 
 /// A path and densely spread points that lie on it.
 type Sampled = (Box<dyn Path>, Vec<[f64; 2]>);
@@ -146,7 +147,7 @@ fn check(path: &dyn Path, on: &[[f64; 2]], point: [f64; 2]) {
 
 proptest! {
     #![proptest_config(ProptestConfig {
-        cases: 2000,
+        cases: cases(2_000),
         failure_persistence: Some(Box::new(FileFailurePersistence::WithSource("regressions"))),
         ..ProptestConfig::default()
     })]

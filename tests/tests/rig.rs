@@ -14,6 +14,7 @@ use rigproof_spec::inertia::{ArmInertia, Inertia, inertia};
 use rigproof_spec::joint::Joint;
 use rigproof_spec::laws::{dissipation, torque_limit, yield_limit};
 use rigproof_spec::layout::Layout;
+use rigproof_tests::cases;
 
 /// Force and currents that hold for a while.
 #[derive(Clone, Copy, Debug)]
@@ -93,7 +94,7 @@ fn assert_passive(rig: &Rig) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: cases(200), failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn brake_power_is_never_positive_in_any_sample(
@@ -207,7 +208,7 @@ fn other_rig() -> impl Strategy<Value = Rig> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: cases(200), failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn any_rig_pushed_anywhere_stays_passive_until_it_cannot_close(

@@ -79,3 +79,17 @@ impl Real for Lane {
         self.0.is_finite()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_lane_is_the_number_it_holds() {
+        for value in [-0.73, 5e-324, 1.9e17, f64::INFINITY] {
+            assert_eq!(Lane(value).to_f64(), value);
+            assert_eq!(Real::is_finite(Lane(value)), value < f64::INFINITY);
+        }
+        assert!(!Real::is_finite(Lane(f64::NAN)));
+    }
+}

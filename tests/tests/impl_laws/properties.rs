@@ -11,6 +11,7 @@ use rigproof_spec::command::{Command, Reason};
 use rigproof_spec::laws::{
     Margin, brake_count, braked_joints, current_limit, free_side, gap, lock, undefined_input,
 };
+use rigproof_tests::cases;
 
 use crate::both::{rig_law, rig_path, situation};
 use crate::sample::{LawKind, Sampler, Tick};
@@ -124,7 +125,7 @@ fn every_law_is_kept(seed: u64) -> Result<(), TestCaseError> {
 #[test]
 fn every_command_keeps_every_law_and_every_reason_is_met() {
     let config = ProptestConfig {
-        cases: 30_000,
+        cases: cases(30_000),
         failure_persistence: None,
         ..ProptestConfig::default()
     };

@@ -3,6 +3,7 @@
 #[path = "../budget/mod.rs"]
 mod budget;
 
+mod braked_step;
 mod brakes;
 mod closed_loop;
 mod convergence;

@@ -7,6 +7,7 @@ use rigproof_model::linkage::singularity::{base_jacobian, j_theta, j_x};
 use rigproof_model::linkage::{Pose, forward, inverse, point_a_m, point_b_m};
 use rigproof_spec::geometry::{Arms, arms};
 use rigproof_spec::layout::Layout;
+use rigproof_tests::cases;
 
 use crate::oracle::{Made, four_brake, is_assembled, linkages, moved, rad, three_brake};
 
@@ -136,7 +137,7 @@ fn rates() -> impl Strategy<Value = [f64; 2]> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 5_000, max_global_rejects: 20_000, max_local_rejects: 40_000, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: cases(5_000), max_global_rejects: 4 * cases(5_000), max_local_rejects: 8 * cases(5_000), ..ProptestConfig::default() })]
 
     //= thesis (5.39) test
     #[test]

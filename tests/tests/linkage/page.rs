@@ -4,6 +4,7 @@ use proptest::prelude::*;
 use rigproof_model::linkage::{forward, inverse, point_a_m, point_b_m, printed};
 use rigproof_spec::geometry::{Arms, arms};
 use rigproof_spec::layout::Layout;
+use rigproof_tests::cases;
 
 use crate::oracle::{four_brake, in_four_brake_ranges, rad, three_brake};
 
@@ -24,7 +25,7 @@ fn printed_gap_m(arms: &Arms, [a, b]: [f64; 2]) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 4_000, max_local_rejects: 40_000, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: cases(4_000), max_local_rejects: 10 * cases(4_000), ..ProptestConfig::default() })]
 
     //= thesis (5.1) test
     //= thesis (5.2) test

@@ -4,13 +4,15 @@ use proptest::prelude::*;
 use rigproof_model::linkage::{Pose, forward, inverse, point_a_m, point_b_m};
 use rigproof_spec::geometry::{Arms, arms};
 use rigproof_spec::layout::Layout;
+use rigproof_tests::cases;
 
 use crate::oracle::{Made, four_brake, from_down, is_assembled, linkages, rad, three_brake};
 
 const CLOSE_RAD: f64 = 1e-10;
 const CLOSED_M: f64 = 1e-12;
 
-fn cases(cases: u32) -> ProptestConfig {
+fn tries(usually: u32) -> ProptestConfig {
+    let cases = cases(usually);
     ProptestConfig {
         cases,
         max_global_rejects: 4 * cases,
@@ -75,7 +77,7 @@ fn check_there_and_back(arms: &Arms, [a, b]: [f64; 2]) -> Result<(), TestCaseErr
 }
 
 proptest! {
-    #![proptest_config(cases(100_000))]
+    #![proptest_config(tries(100_000))]
 
     #[test]
     fn random_linkages_have_the_pose_they_were_made_with(made in linkages()) {

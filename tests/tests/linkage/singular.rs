@@ -7,6 +7,7 @@ use rigproof_model::linkage::singularity::{LEAST_MEASURE, measure};
 use rigproof_model::linkage::{Pair, forward, inverse, limits};
 use rigproof_spec::geometry::{Angle, AngleRange, Arms, angle_ranges, arms};
 use rigproof_spec::layout::Layout;
+use rigproof_tests::cases;
 
 use crate::oracle::{linkages, make, rad, three_brake};
 
@@ -18,7 +19,7 @@ fn pair_of(error: ModelError) -> Option<Pair> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 20_000, max_global_rejects: 80_000, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: cases(20_000), max_global_rejects: 4 * cases(20_000), ..ProptestConfig::default() })]
 
     #[test]
     fn beyond_a_singularity_of_the_left_side_is_an_error(made in linkages(), e in 10.0..170.0_f64, at_tip in 5.0..175.0_f64) {

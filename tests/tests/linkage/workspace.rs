@@ -9,6 +9,7 @@ use rigproof_model::linkage::paths::{directions_rad, greatest_angle_rad};
 use rigproof_model::linkage::{forward, sweep, workspace};
 use rigproof_spec::geometry::{Angle, STOPS, angle_ranges, arms};
 use rigproof_spec::layout::Layout;
+use rigproof_tests::cases;
 
 use crate::oracle::{four_brake, rad, three_brake};
 
@@ -167,7 +168,7 @@ fn forces(concept: Concept, tip_m: [f64; 2]) -> Vec<[f64; 2]> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 3_000, max_local_rejects: 30_000, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: cases(3_000), max_local_rejects: 10 * cases(3_000), ..ProptestConfig::default() })]
 
     #[test]
     fn parallelograms_have_path_angles_in_closed_form([a, b] in three_brake()) {
