@@ -6,6 +6,8 @@ pub mod columns;
 pub mod diagnose;
 mod from_rig;
 mod locate;
+#[cfg(test)]
+mod mechanisms;
 pub mod noise;
 #[cfg(test)]
 mod recorded;
