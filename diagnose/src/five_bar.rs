@@ -4,7 +4,8 @@ pub mod brakes;
 pub mod candidates;
 pub mod columns;
 pub mod diagnose;
-mod from_rig;
+pub mod free_run;
+pub mod from_rig;
 mod locate;
 #[cfg(test)]
 mod mechanisms;

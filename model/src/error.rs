@@ -95,7 +95,9 @@ pub enum ModelError {
         value_a: f64,
     },
     /// An effect that the rig cannot be given.
-    #[error("the effect `{mechanism}` at {joint} cannot act on the rig: {reason}; take it out or mend it")]
+    #[error(
+        "the effect `{mechanism}` at {joint} cannot act on the rig: {reason}; take it out or mend it"
+    )]
     Effect {
         /// The mechanism's name.
         mechanism: &'static str,

@@ -66,9 +66,7 @@ pub struct LeftOut {
 
 impl PartialEq for LeftOut {
     fn eq(&self, other: &LeftOut) -> bool {
-        self.given == other.given
-            && self.memory == other.memory
-            && self.commands == other.commands
+        self.given == other.given && self.memory == other.memory && self.commands == other.commands
     }
 }
 
@@ -142,7 +140,11 @@ impl LeftOut {
     /// What the brakes get in a step when they are commanded these currents, A.
     pub fn currents(&mut self, commanded_a: [f64; 4], time_s: f64, step_s: f64) -> [f64; 4] {
         let first = self.commands.is_empty();
-        if self.commands.last().is_none_or(|(_, last)| *last != commanded_a) {
+        if self
+            .commands
+            .last()
+            .is_none_or(|(_, last)| *last != commanded_a)
+        {
             self.commands.push((time_s, commanded_a));
         }
         let terms = Arc::clone(&self.terms);
@@ -216,7 +218,10 @@ impl LeftOut {
         let mut drive = Vector2::zeros();
         let mut more_nm = [0.0; 4];
         let mut shares = [1.0; 4];
-        let commanded_a = self.commands.last().map_or([0.0; 4], |(_, currents)| *currents);
+        let commanded_a = self
+            .commands
+            .last()
+            .map_or([0.0; 4], |(_, currents)| *currents);
         for (timed, &memory) in self.terms.iter().zip(&self.memory) {
             if now.time_s < timed.onset_s {
                 continue;
