@@ -13,7 +13,6 @@ use super::{Args, measures, path, read_as, refusal};
 use crate::input::{self, HowRead};
 use crate::outcome::{Failure, Outcome, print};
 use crate::progress;
-use crate::text::number::with_unit;
 
 /// The outputs that are compared, and their units.
 const OUTPUTS: [(&str, &str); 3] = [("theta_a", "rad"), ("theta_b", "rad"), ("tip", "m")];
@@ -135,9 +134,8 @@ fn say(
         return print(&result.to_string());
     }
     let mut lines = vec![format!(
-        "simulated less recorded in {} free runs of {}, each from the recorded state",
-        simulated.runs,
-        with_unit(args.restart_s, "s"),
+        "simulated less recorded in {} free runs of {} s, each from the recorded state",
+        simulated.runs, args.restart_s,
     )];
     if simulated.broken_off > 0 {
         lines.push(format!(

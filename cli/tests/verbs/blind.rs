@@ -136,7 +136,8 @@ fn a_five_bar_is_diagnosed_at_its_joint_and_runs_closer_with_its_calibration() {
     for output in ["theta_a", "theta_b", "tip"] {
         let rms = |said: &Value| said["outputs"][output]["rms"].as_f64().unwrap();
         let (before, after) = (rms(&nominal), rms(&calibrated));
-        assert!(after < 0.6 * before, "{output}: {before} → {after}");
+        // Measured: 0.022, 0.016 and 0.018 of it, from 8.4 mm of the tip to 0.15 mm.
+        assert!(after < 0.04 * before, "{output}: {before} → {after}");
     }
     assert_eq!(calibrated["broken_off"], 0);
     let written = rigproof_trace::csv::read(&desk.path("simulated.csv")).unwrap();

@@ -152,10 +152,12 @@ impl Stand<'_> {
         let calibration = self.calibrated(&errors);
         let fit = (self.options.refit && self.test_from_s < self.test.duration_s())
             .then(|| self.fit_report(&test, &calibration, other_recording));
+        let mut protocol = self.protocol(other_recording);
+        protocol.extend(fit.iter().map(|fit| fit.protocol.clone()));
         let (before, after) = (&selection.before.residual, &selection.after.residual);
         let summary = summary(verdict, selection, fit.as_ref());
         let report = Report {
-            protocol: self.protocol(other_recording),
+            protocol,
             located: locate(problem, self.train, before, after),
             stages: self.stages(),
             effects: self.effects(&calibration),
@@ -298,7 +300,7 @@ impl Stand<'_> {
         };
         FitReport {
             protocol: format!(
-                "balance of efforts over the usable windows along the recorded motion, numbers from the fitted part, no refit by free runs; held out: {where_from}; {free_runs}"
+                "before and after: balance of efforts over the usable windows along the recorded motion, numbers from the fitted part, no refit by free runs; held out: {where_from}; {free_runs}"
             ),
             unit: "N·m".to_owned(),
             train,
