@@ -282,6 +282,13 @@ fn errors(
     Ok(Errors { at, broken_off })
 }
 
+/// Root mean squares over shots: of the angles, rad, and of the tip, mm.
+fn size(shots: &[[f64; 3]]) -> (f64, f64) {
+    let angles: Vec<f64> = shots.iter().flat_map(|[a, b, _]| [*a, *b]).collect();
+    let tips: Vec<f64> = shots.iter().map(|[_, _, tip_m]| 1e3 * tip_m).collect();
+    (rms(&angles), rms(&tips))
+}
+
 /// The errors at the horizons with two models on a part of a recording, and how the runs went, in words.
 ///
 /// # Errors
@@ -311,32 +318,19 @@ pub fn horizons(
         errors(after, run, &starts, &counts)?,
     );
     let horizons = kept.iter().enumerate().map(|(index, &horizon_s)| {
-        let pairs = old.at.iter().zip(&new.at);
-        let pairs: Vec<([f64; 3], [f64; 3])> = pairs
-            .filter_map(|(old, new)| Some(((*old.get(index)?)?, (*new.get(index)?)?)))
-            .collect();
-        let theta = |of: fn(&([f64; 3], [f64; 3])) -> [f64; 3]| {
-            let both = pairs.iter().flat_map(|pair| {
-                let [a, b, _] = of(pair);
-                [a, b]
-            });
-            rms(&both.collect::<Vec<_>>())
-        };
-        let tip = |of: fn(&([f64; 3], [f64; 3])) -> [f64; 3]| {
-            let tips = pairs.iter().map(|pair| {
-                let [_, _, tip_m] = of(pair);
-                1e3 * tip_m
-            });
-            Some(rms(&tips.collect::<Vec<_>>()))
-        };
+        // A shot counts where it came that far with both models.
+        let shots = old.at.iter().zip(&new.at);
+        let shots = shots.filter_map(|(old, new)| Some(((*old.get(index)?)?, (*new.get(index)?)?)));
+        let (of_old, of_new): (Vec<_>, Vec<_>) = shots.unzip();
+        let ((before, tip_before_mm), (after, tip_after_mm)) = (size(&of_old), size(&of_new));
         Horizon {
             horizon_s,
             part: name,
             unit: "rad".to_owned(),
-            before: theta(|pair| pair.0),
-            after: theta(|pair| pair.1),
-            tip_before_mm: tip(|pair| pair.0),
-            tip_after_mm: tip(|pair| pair.1),
+            before,
+            after,
+            tip_before_mm: Some(tip_before_mm),
+            tip_after_mm: Some(tip_after_mm),
         }
     });
     let horizons = horizons.collect();

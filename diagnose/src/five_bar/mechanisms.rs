@@ -6,7 +6,8 @@ use crate::problem::{Cause, add, less};
 use crate::run::rms;
 use rigproof_model::brake::Brake;
 use rigproof_model::effects::{Instant, entry};
-use rigproof_model::rig::{Contact, JointEffect, Rig};
+use rigproof_model::motion::two_coordinate::two_coordinate;
+use rigproof_model::rig::{Contact, JointEffect, Parameters, Rig};
 use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
@@ -28,14 +29,11 @@ fn current(place: usize, time_s: f64) -> f64 {
     0.19 + 0.13 * libm::sin(7.3 * time_s + 1.3 * place as f64)
 }
 
-/// A run of the rig with an effect as an exact recording of it, and which samples count: every joint turns one way around them.
-fn exact(layout: Layout, effects: &[JointEffect]) -> (FiveBarRun, Vec<bool>) {
-    let rig = Rig::new(layout, goal(0.0)).unwrap();
-    let parameters = *rig.parameters();
-    let mut rig = rig.with_effects(effects).unwrap();
-    let braked = |place: usize| layout.brakes().contains(&Joint::ALL[place]);
-    let mut run = FiveBarRun {
-        parameters,
+/// A recording of which nothing has been recorded yet.
+fn blank(layout: Layout) -> FiveBarRun {
+    let braked = |joint| layout.brakes().contains(&joint);
+    FiveBarRun {
+        parameters: Parameters::of(layout),
         step_s: STEP_S,
         start_s: 0.0,
         theta: Default::default(),
@@ -43,7 +41,7 @@ fn exact(layout: Layout, effects: &[JointEffect]) -> (FiveBarRun, Vec<bool>) {
         poses: Vec::new(),
         forms: Vec::new(),
         force: Default::default(),
-        currents: [0, 1, 2, 3].map(|place| braked(place).then(Vec::new)),
+        currents: Joint::ALL.map(|joint| braked(joint).then(Vec::new)),
         yields: Default::default(),
         backlash_steps: Default::default(),
         theta_noise: 1e-9,
@@ -52,69 +50,89 @@ fn exact(layout: Layout, effects: &[JointEffect]) -> (FiveBarRun, Vec<bool>) {
         force_noise: 1e-9,
         recorded: vec![true; COUNT],
         speed_floor: 0.0,
-    };
+    }
+}
+
+/// Records the rig as it is, exactly, with the masses of the nominal model.
+fn record(run: &mut FiveBarRun, rig: &Rig, force: [f64; 2], currents: [f64; 4]) {
+    let theta = rig.base_angles_rad();
+    run.theta
+        .iter_mut()
+        .zip(theta)
+        .for_each(|(own, x)| own.push(x));
+    run.force
+        .iter_mut()
+        .zip(force)
+        .for_each(|(own, x)| own.push(x));
+    let (angles, rates) = (rig.joint_angles_rad(), rig.joint_rates_rad_s());
+    for i in 0..4 {
+        run.joints[i].push(Instant {
+            time_s: rig.time_s(),
+            position: angles[i],
+            speed: rates[i],
+            sense: match rig.contacts()[i] {
+                Contact::Held => 0.0,
+                Contact::Slips(sense) => sense,
+                Contact::Absent => rates[i].signum(),
+            },
+        });
+        run.currents[i]
+            .iter_mut()
+            .for_each(|own| own.push(currents[i]));
+    }
+    let Parameters { arms, inertia, .. } = &run.parameters;
+    let form = two_coordinate(arms, inertia, rig.pose(), rig.base_rates_rad_s());
+    run.poses.push(*rig.pose());
+    run.forms.push(form);
+}
+
+/// Lets the nominal brakes follow; says around which samples every joint turns one way and no brake enters or leaves its backlash.
+fn counted(run: &mut FiveBarRun) -> Vec<bool> {
+    let mut counts = vec![true; COUNT];
+    for i in 0..4 {
+        let motion = &run.joints[i];
+        let (own, turned) = match &run.currents[i] {
+            Some(current) => {
+                let brake = Brake::new(Joint::ALL[i], motion[0].position);
+                yields(brake, motion, current, STEP_S)
+            }
+            None => (vec![0.0; COUNT], vec![false; COUNT]),
+        };
+        run.yields[i] = own;
+        for k in 0..COUNT {
+            let around = k.saturating_sub(3)..(k + 4).min(COUNT);
+            let sense = motion[k].sense;
+            let steady = motion[around.clone()].iter().all(|now| now.sense == sense);
+            counts[k] &=
+                around.len() == 7 && sense != 0.0 && steady && !turned[around].contains(&true);
+        }
+    }
+    counts
+}
+
+/// A run of the rig with an effect as an exact recording of it, and which samples count.
+fn exact(layout: Layout, effects: &[JointEffect]) -> (FiveBarRun, Vec<bool>) {
+    let mut run = blank(layout);
+    let rig = Rig::new(layout, goal(0.0)).unwrap();
+    let mut rig = rig.with_effects(effects).unwrap();
     for k in 0..COUNT {
         let time_s = k as f64 * STEP_S;
         let hand = |at_s: f64, tip: [f64; 2], speed: [f64; 2]| {
             let to = goal(at_s);
             [0, 1].map(|i| 420.0 * (to[i] - tip[i]) - 11.0 * speed[i])
         };
+        let currents = [0, 1, 2, 3].map(|i| match run.currents[i] {
+            Some(_) => current(i, time_s),
+            None => 0.0,
+        });
         let force = hand(time_s, rig.tip_m(), rig.tip_velocity_m_s());
-        for i in 0..2 {
-            run.theta[i].push(rig.base_angles_rad()[i]);
-            run.force[i].push(force[i]);
-        }
-        let (angles, rates) = (rig.joint_angles_rad(), rig.joint_rates_rad_s());
-        let currents = [0, 1, 2, 3].map(|i| if braked(i) { current(i, time_s) } else { 0.0 });
-        for i in 0..4 {
-            run.joints[i].push(Instant {
-                time_s,
-                position: angles[i],
-                speed: rates[i],
-                sense: match rig.contacts()[i] {
-                    Contact::Held => 0.0,
-                    Contact::Slips(sense) => sense,
-                    Contact::Absent => rates[i].signum(),
-                },
-            });
-            if let Some(own) = &mut run.currents[i] {
-                own.push(currents[i]);
-            }
-        }
-        run.poses.push(*rig.pose());
-        run.forms
-            .push(rigproof_model::motion::two_coordinate::two_coordinate(
-                &parameters.arms,
-                &parameters.inertia,
-                rig.pose(),
-                rig.base_rates_rad_s(),
-            ));
+        record(&mut run, &rig, force, currents);
+        // The goal stands still within a step: in its middle, so that its mean is right.
         let middle_s = time_s + 0.5 * STEP_S;
         let force = |tip: [f64; 2], speed: [f64; 2]| hand(middle_s, tip, speed);
         rig.step_under(&force, currents, STEP_S).unwrap();
     }
-    let mut counts = vec![true; COUNT];
-    for i in 0..4 {
-        let motion = &run.joints[i];
-        let mut turned = vec![false; COUNT];
-        run.yields[i] = match &run.currents[i] {
-            Some(current) => {
-                let brake = Brake::new(Joint::ALL[i], motion[0].position);
-                let (own, inside) = yields(brake, motion, current, STEP_S);
-                turned = inside;
-                own
-            }
-            None => vec![0.0; COUNT],
-        };
-        for k in 0..COUNT {
-            let around = k.saturating_sub(3)..(k + 4).min(COUNT);
-            counts[k] &= around.len() == 7
-                && motion[around.clone()]
-                    .iter()
-                    .all(|now| now.sense == motion[k].sense && now.sense != 0.0)
-                && !turned[around].iter().any(|turned| *turned);
-        }
-    }
+    let counts = counted(&mut run);
     (run, counts)
 }
 

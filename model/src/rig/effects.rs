@@ -8,7 +8,7 @@ use rigproof_spec::joint::Joint;
 
 use super::left_out::{LeftOut, Term, Timed};
 use super::{Parameters, Rig};
-use crate::effects::law;
+use crate::effects::{Law, law};
 use crate::error::ModelError;
 use crate::motion::check_inertia;
 use crate::motion::two_coordinate::two_coordinate;
@@ -163,19 +163,23 @@ fn term(rig: &Rig, effect: &JointEffect) -> Result<Term, ModelError> {
             &rig.parameters.inertia,
             [value(0), value(1), value(2), value(3), value(4)],
         ))),
-        mechanism => {
-            let mechanism = match mechanism {
-                Mechanism::BearingFriction => Mechanism::DryOffset,
-                other => other,
-            };
-            let law = law(mechanism, &effect.parameters)
-                .ok_or(refused("it is nothing that a rig does"))?;
+        _ => {
+            let law = resistance(effect).ok_or(refused("it is nothing that a rig does"))?;
             Ok(Term::Law {
                 place: joint()? as usize,
                 law,
             })
         }
     }
+}
+
+/// The resistance law of an effect; that of a bearing is dry friction.
+fn resistance(effect: &JointEffect) -> Option<Box<dyn Law>> {
+    let mechanism = match effect.mechanism {
+        Mechanism::BearingFriction => Mechanism::DryOffset,
+        other => other,
+    };
+    law(mechanism, &effect.parameters)
 }
 
 fn check_numbers(effect: &JointEffect) -> Result<(), &'static str> {
