@@ -212,6 +212,25 @@ fn a_rig_that_was_led_goes_on_as_the_one_that_went_there() {
 }
 
 #[test]
+fn a_delay_a_limit_and_a_lag_act_in_one_order_however_they_are_given() {
+    let mut given = [
+        at(Joint::B, DeadTime, &[0.0173]),
+        at(Joint::B, Saturation, &[0.17]),
+        at(Joint::B, Lag, &[0.029]),
+    ];
+    let end = |effects: &[JointEffect]| {
+        let mut rig = rig(Layout::FourBrake, effects);
+        (0..STEPS).for_each(|k| step(&mut rig, k));
+        rig.base_angles_rad()
+    };
+    let forth = end(&given);
+    assert_ne!(forth, end(&given[..2]));
+    assert_ne!(forth, end(&given[1..]));
+    given.reverse();
+    assert_eq!(forth, end(&given));
+}
+
+#[test]
 fn what_no_rig_can_have_is_refused_by_name() {
     let long = at(Joint::A, Viscous, &[0.1, 0.2]);
     for (effect, expected) in [

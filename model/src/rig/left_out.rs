@@ -150,19 +150,20 @@ impl LeftOut {
         let terms = Arc::clone(&self.terms);
         let mut longest_s = 0.0f64;
         let mut given_a = commanded_a;
-        // A delay and a limit act before a lag.
+        // A delay acts before a limit, both before a lag, in whichever order they are given.
         for timed in terms.iter() {
-            match timed.term {
-                Term::Late { place, delay_s } => {
-                    longest_s = longest_s.max(delay_s);
-                    if time_s >= timed.onset_s {
-                        given_a[place] = self.commanded(place, time_s - delay_s, step_s);
-                    }
+            if let Term::Late { place, delay_s } = timed.term {
+                longest_s = longest_s.max(delay_s);
+                if time_s >= timed.onset_s {
+                    given_a[place] = self.commanded(place, time_s - delay_s, step_s);
                 }
-                Term::Limit { place, most_a } if time_s >= timed.onset_s => {
-                    given_a[place] = given_a[place].min(most_a);
-                }
-                _ => {}
+            }
+        }
+        for timed in terms.iter() {
+            if let Term::Limit { place, most_a } = timed.term
+                && time_s >= timed.onset_s
+            {
+                given_a[place] = given_a[place].min(most_a);
             }
         }
         for (timed, memory) in terms.iter().zip(&mut self.memory) {
