@@ -115,10 +115,6 @@ fn next(args: &Args, out: &Path, report: &Report) -> String {
             "look at {} and at `unknown` in the report: the shape says what to look for on the rig",
             out.join("residual.svg").display()
         ),
-        _ if report.plant == "rig" => format!(
-            "look at {}; the calibration is a description of the same rig: diagnose with it what is recorded next",
-            out.join("before-after.svg").display()
-        ),
         _ => shell::line(
             &["rigproof", "simulate"],
             &[

@@ -1,5 +1,7 @@
 //! This file runs a rig's model along a recording and says how far the two lie apart.
 
+mod five_bar;
+
 use std::path::{Path, PathBuf};
 
 use rigproof_diagnose::Description;
@@ -27,6 +29,9 @@ pub struct Args {
     /// The calibration that a diagnosis wrote; without it the rig's own numbers count
     #[arg(long, value_name = "TOML")]
     calibration: Option<PathBuf>,
+    /// How long a five-bar runs freely before it starts from the recorded state again, s
+    #[arg(long, value_name = "SECONDS", default_value_t = 1.0, value_parser = parse_restart)]
+    restart_s: f64,
     /// A CSV file to write: time, recorded and simulated output
     #[arg(long, value_name = "CSV")]
     out: Option<PathBuf>,
@@ -36,7 +41,8 @@ pub struct Args {
 }
 
 const AFTER_HELP: &str = "\
-An axis runs freely from the recorded command; a bench follows the recorded motion.
+An axis runs freely from the recorded command; a bench follows the recorded motion. A five-bar runs freely from the
+recorded force and currents, each second from the recorded state: nothing holds it where the hand's stiffness did.
 
 Example:
   rigproof simulate run.csv --rig rig.toml --calibration run-diagnosis/calibration.toml \\
@@ -44,9 +50,9 @@ Example:
 
 /// Simulates, compares, and writes both outputs.
 pub fn run(args: &Args) -> Result<Outcome, Failure> {
-    let Description::Joint(rig) = Description::read(&args.source.rig)? else {
-        let problem = "free runs of a five-bar are not there yet; `rigproof diagnose` shows the balance of efforts before and after".to_owned();
-        return Err(Failure::unusable(&args.source.rig, problem));
+    let rig = match Description::read(&args.source.rig)? {
+        Description::Joint(rig) => rig,
+        Description::FiveBar(rig) => return five_bar::run(args, &rig),
     };
     let source = &args.source;
     let (recording, how) = input::recording(&rig, &source.recording, source.cut, &source.reading)?;
@@ -137,7 +143,6 @@ fn say(
     comparison: &Comparison,
     how: &HowRead,
 ) -> Result<Outcome, Failure> {
-    let path = |path: &Option<PathBuf>| path.as_ref().map(|path| path.display().to_string());
     if args.json {
         let result = json!({
             "recording": args.source.recording.display().to_string(),
@@ -153,20 +158,43 @@ fn say(
         });
         return print(&result.to_string());
     }
+    let mut lines = vec![format!(
+        "simulated less recorded over {} samples",
+        comparison.pairs
+    )];
+    lines.extend(measures(comparison, unit));
+    lines.extend(read_as(how));
+    lines.extend(path(&args.out).map(|file| format!("  file     {file}")));
+    print(&lines.join("\n"))
+}
+
+/// How far two outputs lie apart, a line each.
+fn measures(comparison: &Comparison, unit: &str) -> Vec<String> {
     let nrmse = comparison.nrmse_percent.map_or_else(
         || "not defined: the recorded output never moves".to_owned(),
         |nrmse| format!("{} %", significant(nrmse, 3)),
     );
-    let mut lines = vec![
-        format!("simulated less recorded over {} samples", comparison.pairs),
+    vec![
         format!("  rms      {}", with_unit(comparison.rms, unit)),
         format!("  maximum  {}", with_unit(comparison.maximum, unit)),
         format!("  NRMSE    {nrmse}"),
-    ];
-    lines.extend(match how {
+    ]
+}
+
+fn read_as(how: &HowRead) -> Vec<String> {
+    match how {
         HowRead::Text(dialect) => vec![format!("  read as  {dialect}")],
         HowRead::Messages(lines) => lines.iter().map(|line| format!("  {line}")).collect(),
-    });
-    lines.extend(path(&args.out).map(|file| format!("  file     {file}")));
-    print(&lines.join("\n"))
+    }
+}
+
+fn path(path: &Option<PathBuf>) -> Option<String> {
+    path.as_ref().map(|path| path.display().to_string())
+}
+
+fn parse_restart(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(seconds) if (0.001..=3600.0).contains(&seconds) => Ok(seconds),
+        _ => Err("give seconds from 0.001 to 3600".to_owned()),
+    }
 }

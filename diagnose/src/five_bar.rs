@@ -4,8 +4,11 @@ pub mod brakes;
 pub mod candidates;
 pub mod columns;
 pub mod diagnose;
-mod from_rig;
+pub mod free_run;
+pub mod from_rig;
 mod locate;
+#[cfg(test)]
+mod mechanisms;
 pub mod noise;
 #[cfg(test)]
 mod recorded;

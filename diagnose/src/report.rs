@@ -330,15 +330,28 @@ pub struct BeforeAfter {
 }
 
 /// Error at a horizon.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Horizon {
     /// Time from the recorded state, s.
     pub horizon_s: f64,
+    /// The part of the recording on which it was measured.
+    pub part: &'static str,
+    /// Unit of `before` and `after`: that of the position, or of the angles of the five-bar's base joints.
+    pub unit: String,
     /// Nominal model.
     pub before: f64,
     /// With the named mechanisms.
     pub after: f64,
+    /// Distance of a five-bar's tip from the recorded one, mm, nominal model.
+    pub tip_before_mm: Option<f64>,
+    /// Distance of a five-bar's tip from the recorded one, mm, with the named mechanisms.
+    pub tip_after_mm: Option<f64>,
 }
+
+/// What was not fitted, in words.
+pub const HELD_OUT_PART: &str = "held-out part";
+/// What was fitted, in words.
+pub const FITTED_PART: &str = "fitted part";
 
 /// Why no conclusion can be drawn.
 #[derive(Clone, Debug, Serialize)]

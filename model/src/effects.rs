@@ -51,6 +51,12 @@ pub trait Law: Send + Sync {
         0.0
     }
 
+    /// The smooth part and the dry level as a joint of the rig has them, where a dry level may know the memory and holds at rest
+    /// too. `now.sense` is +1 or −1, at rest the sense that is tried.
+    fn parts(&self, now: &Instant, memory: f64) -> (f64, f64) {
+        (self.smooth(now, memory), self.dry(now))
+    }
+
     /// Whether the law has a memory.
     fn remembers(&self) -> bool {
         false
@@ -59,6 +65,12 @@ pub trait Law: Send + Sync {
     /// The time derivative of the memory, 0 for a law without any.
     fn memory_rate(&self, _now: &Instant, _memory: f64) -> f64 {
         0.0
+    }
+
+    /// The memory after a travel in one sense, m or rad: the solution of [`Law::memory_rate`], which every law of the library has
+    /// in proportion to the speed.
+    fn memory_after(&self, memory: f64, _travel: f64) -> f64 {
+        memory
     }
 }
 
@@ -140,7 +152,46 @@ pub fn law(mechanism: Mechanism, parameters: &[f64]) -> Option<Box<dyn Law>> {
     }
 }
 
+/// A memory that relaxes towards `target` within `length` of travel.
+fn relaxed(memory: f64, target: f64, travel: f64, length: f64) -> f64 {
+    target + (memory - target) * libm::exp(-travel.abs() / length)
+}
+
 /// The parameter at an index, 0 when the list is short.
 fn parameter(parameters: &[f64], index: usize) -> f64 {
     parameters.get(index).copied().unwrap_or(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_memory_after_a_travel_solves_its_rate() {
+        let mut tried = 0;
+        for entry in LIBRARY {
+            let Some(law) = law(entry.mechanism, &[1.3, 3.7, 2.3]) else {
+                continue;
+            };
+            for (start, travel) in [(0.21, 0.43), (0.21, -0.43), (-0.17, 0.61), (0.31, -0.7)] {
+                let steps = 20_000;
+                let now = Instant {
+                    time_s: 0.7,
+                    position: 0.031,
+                    speed: travel,
+                    sense: f64::signum(travel),
+                };
+                let h = 1.0 / f64::from(steps);
+                let mut memory = start;
+                for _ in 0..steps {
+                    let middle = memory + 0.5 * h * law.memory_rate(&now, memory);
+                    memory += h * law.memory_rate(&now, middle);
+                }
+                let exact = law.memory_after(start, travel);
+                assert!((memory - exact).abs() < 1e-8, "{:?}", entry.mechanism);
+                tried += usize::from(law.remembers());
+            }
+        }
+        assert_eq!(tried, 16);
+    }
 }

@@ -94,6 +94,18 @@ pub enum ModelError {
         /// The current, A.
         value_a: f64,
     },
+    /// An effect that the rig cannot be given.
+    #[error(
+        "the effect `{mechanism}` at {joint} cannot act on the rig: {reason}; take it out or mend it"
+    )]
+    Effect {
+        /// The mechanism's name.
+        mechanism: &'static str,
+        /// The joint, or that there is none.
+        joint: &'static str,
+        /// Why.
+        reason: &'static str,
+    },
     /// Brakes stick and slip again without end.
     #[error(
         "the brakes stuck and slipped {events} times within one step at {time_s} s; check the force for steps inside a step"

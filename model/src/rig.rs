@@ -2,7 +2,10 @@
 #![expect(clippy::indexing_slicing, reason = "indices run over the four joints")]
 
 mod contact;
+mod effects;
 mod flow;
+mod lead;
+mod left_out;
 mod reading;
 pub mod release;
 mod resume;
@@ -21,6 +24,8 @@ use crate::motion::two_coordinate::{TwoCoordinate, two_coordinate};
 
 pub use contact::Contact;
 use contact::Contacts;
+pub use effects::JointEffect;
+use left_out::LeftOut;
 pub use resume::Moment;
 
 /// Longest step of the integrator, s; longer steps are divided.
@@ -74,7 +79,7 @@ impl<F: Fn([f64; 2], [f64; 2]) -> [f64; 2]> TipForce for F {
 /// # Differs from the thesis
 ///
 /// Which brakes hold is decided exactly (erratum `lumped-rule-drives`), and a held joint stands (erratum `karnopp-creep`). The
-/// stops of §4.5 are not in the way (gap `stops-in-motion`).
+/// stops of §4.5 are not in the way (gap `stops-in-motion`). What the thesis leaves out can be put in: [`Rig::with_effects`].
 ///
 /// ```
 /// use rigproof_model::rig::Rig;
@@ -103,6 +108,7 @@ pub struct Rig {
     time_s: f64,
     work_j: f64,
     dissipated_j: f64,
+    effects: Option<LeftOut>,
 }
 
 impl Rig {
@@ -150,13 +156,16 @@ impl Rig {
             contacts,
             pose,
             form,
-            torques_nm: contacts.balance(&form, [0.0; 2], yields_nm).torques_nm,
+            torques_nm: contacts
+                .balance(&form, form.drive([0.0; 2]), yields_nm)
+                .torques_nm,
             yields_nm,
             longest_step_s: LONGEST_STEP_S,
             events: 0,
             time_s: 0.0,
             work_j: 0.0,
             dissipated_j: 0.0,
+            effects: None,
         })
     }
 

@@ -1,6 +1,6 @@
 //! This file says how far the model lies from the recording, before and after.
 
-use rigproof_diagnose::report::{BeforeAfter, Report};
+use rigproof_diagnose::report::{BeforeAfter, HELD_OUT_PART, Horizon, Report};
 
 use super::number::significant;
 use super::section;
@@ -25,14 +25,7 @@ pub fn before_after(report: &Report) -> Vec<String> {
         .extend(windows.map(|error| alone(error, "with the numbers of the windows, not refitted")));
     let rest = fit.held_out_from_rest;
     lines.extend(rest.map(|error| alone(error, "started from rest, without a warm-up")));
-    lines.extend(fit.horizon.iter().map(|horizon| {
-        format!(
-            "  {:<26} {} → {} {unit}",
-            format!("{} s ahead", horizon.horizon_s),
-            significant(horizon.before, 4),
-            significant(horizon.after, 4),
-        )
-    }));
+    lines.extend(fit.horizon.iter().map(ahead));
     if !report.effects.is_empty() {
         lines.push(if fit.improved {
             let share = 100.0 * fit.recovered_share;
@@ -46,6 +39,25 @@ pub fn before_after(report: &Report) -> Vec<String> {
         "Before and after (nominal model fitted → with what is named)",
         lines,
     )
+}
+
+/// The error some time after the recorded state; that of the held-out part unless it says otherwise.
+fn ahead(horizon: &Horizon) -> String {
+    let mut name = format!("{} s ahead", horizon.horizon_s);
+    if horizon.part != HELD_OUT_PART {
+        name = format!("{name}, {}", horizon.part);
+    }
+    let mut line = format!(
+        "  {name:<26} {} → {} {}",
+        significant(horizon.before, 4),
+        significant(horizon.after, 4),
+        horizon.unit,
+    );
+    if let (Some(before), Some(after)) = (horizon.tip_before_mm, horizon.tip_after_mm) {
+        let (before, after) = (significant(before, 4), significant(after, 4));
+        line.push_str(&format!(", tip {before} → {after} mm"));
+    }
+    line
 }
 
 fn part(name: &str, errors: BeforeAfter, unit: &str) -> String {

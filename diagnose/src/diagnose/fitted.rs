@@ -5,7 +5,7 @@ use crate::evidence::{coefficients_by_term, parameters};
 use crate::free_run::{HORIZONS_S, Shown, figure, horizon_error, show};
 use crate::from_rig;
 use crate::problem::Inertia;
-use crate::report::{BeforeAfter, FitReport, Horizon};
+use crate::report::{BeforeAfter, FitReport, HELD_OUT_PART, Horizon};
 use crate::run::{PlantKind, Run};
 use crate::select::{FLOOR_RATIO, refs};
 use crate::simulate::{Effect, Plant, Protocol};
@@ -109,6 +109,10 @@ impl Stand<'_> {
             .filter_map(|horizon_s| {
                 Some(Horizon {
                     horizon_s,
+                    part: HELD_OUT_PART,
+                    unit: self.output_unit(),
+                    tip_before_mm: None,
+                    tip_after_mm: None,
                     before: horizon_error(&fitted.nominal.plant, self.test, protocol, horizon_s)?,
                     after: horizon_error(&fitted.found.plant, self.test, protocol, horizon_s)?,
                 })

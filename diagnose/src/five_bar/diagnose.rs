@@ -1,5 +1,6 @@
 //! This file runs the stages on a recording of the five-bar: align, locate, explain, doubt, show.
 
+use super::free_run::{Model, horizons};
 use super::from_rig::{aligned, nominal};
 use super::locate::locate;
 use super::run::FiveBarRun;
@@ -13,7 +14,9 @@ use crate::evidence::{
     Errors, coefficients_by_term, inclusion, not_seen, parameters, rivals, standard_errors,
 };
 use crate::problem::{NominalEffect, Problem, Term, add};
-use crate::report::{BeforeAfter, EffectReport, FitReport, Report, StageReport};
+use crate::report::{
+    BeforeAfter, EffectReport, FITTED_PART, FitReport, HELD_OUT_PART, Horizon, Report, StageReport,
+};
 use crate::run::rms;
 use crate::select::{Selection, refs, select};
 use crate::weak::Windows;
@@ -147,14 +150,16 @@ impl Stand<'_> {
         let floor = floor(problem, selection, Motion::Rotary);
         let verdict = verdict(selection, &floor, &rivals);
         let test = self.balanced(self.test, self.test_from_s);
-        let fit = (self.options.refit && self.test_from_s < self.test.duration_s())
-            .then(|| self.fit_report(&test, other_recording));
         let errors = standard_errors(problem, selection);
         let calibration = self.calibrated(&errors);
+        let fit = (self.options.refit && self.test_from_s < self.test.duration_s())
+            .then(|| self.fit_report(&test, &calibration, other_recording));
+        let mut protocol = self.protocol(other_recording);
+        protocol.extend(fit.iter().map(|fit| fit.protocol.clone()));
         let (before, after) = (&selection.before.residual, &selection.after.residual);
         let summary = summary(verdict, selection, fit.as_ref());
         let report = Report {
-            protocol: self.protocol(other_recording),
+            protocol,
             located: locate(problem, self.train, before, after),
             stages: self.stages(),
             effects: self.effects(&calibration),
@@ -269,7 +274,39 @@ impl Stand<'_> {
         }
     }
 
-    fn fit_report(&self, test: &Balanced, other_recording: bool) -> FitReport {
+    /// Errors of free runs with the nominal effects of the calibration and with all of them, and how they were made.
+    fn free_runs(&self, calibration: &FiveBar) -> (Vec<Horizon>, String) {
+        let before = Model::of_first(calibration, self.selection.nominal.len());
+        let after = Model::of(calibration);
+        let first = (self.test_from_s / self.test.step_s).round() as usize;
+        let parts = [
+            (HELD_OUT_PART, self.test, first..self.test.len()),
+            (FITTED_PART, self.train, 0..self.train.len()),
+        ];
+        let (mut all, mut said) = (Vec::new(), Vec::new());
+        for (name, run, part) in parts {
+            match horizons(&before, &after, run, part, name) {
+                Ok((horizons, words)) => {
+                    all.extend(horizons);
+                    said.push(words);
+                }
+                Err(error) => return (Vec::new(), format!("no free runs: {error}")),
+            }
+        }
+        let how = format!(
+            "free runs of the reference rig from the smoothed recorded state, brakes and memories led along the recording to there, steps of at most 1 ms, force straight between samples, currents held; angles of A and B and tip against the recording, {}",
+            said.join(", ")
+        );
+        (all, how)
+    }
+
+    fn fit_report(
+        &self,
+        test: &Balanced,
+        calibration: &FiveBar,
+        other_recording: bool,
+    ) -> FitReport {
+        let (horizon, free_runs) = self.free_runs(calibration);
         let train = before_after(&self.balanced(self.train, 0.0));
         let held_out = before_after(test);
         let least = self.problem.floor;
@@ -280,14 +317,14 @@ impl Stand<'_> {
         };
         FitReport {
             protocol: format!(
-                "balance of efforts over the usable windows along the recorded motion, numbers from the fitted part, no refit by free runs; held out: {where_from}"
+                "before and after: balance of efforts over the usable windows along the recorded motion, numbers from the fitted part, no refit by free runs; held out: {where_from}; {free_runs}"
             ),
             unit: "N·m".to_owned(),
             train,
             held_out: Some(held_out),
             held_out_without_refit: None,
             held_out_from_rest: None,
-            horizon: Vec::new(),
+            horizon,
             recovered_share: (held_out.before - held_out.after)
                 / (held_out.before - least).max(1e-300),
             improved: held_out.after < held_out.before,

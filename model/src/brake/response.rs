@@ -93,6 +93,15 @@ impl Brake {
         }
     }
 
+    /// The same brake with another table, its shaft at `theta_rad` in the middle of the backlash.
+    pub fn with_table(self, table: BrakeTable, theta_rad: f64) -> Brake {
+        Brake {
+            table,
+            backlash: Backlash::of_width(table.backlash_width_deg, ENTRY_TRAVEL_DEG, theta_rad),
+            ..self
+        }
+    }
+
     /// Advances by `dt_s` and returns the resistance at its end, N·m: positive in the sense of the velocity, so that
     /// the torque on the shaft is minus it. Zero at standstill, where any torque up to [`Brake::yield_torque`] may act.
     ///

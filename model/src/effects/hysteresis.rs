@@ -40,4 +40,37 @@ impl Law for BoucWen {
             - self.beta_gamma * now.speed.abs() * memory
             - self.beta_delta * now.speed * memory.abs()
     }
+
+    /// In one sense of travel dz/dx = 1 − rate·z, with one rate while z lies along the travel and another while it lies against it.
+    fn memory_after(&self, memory: f64, travel: f64) -> f64 {
+        let (sense, length) = (travel.signum(), travel.abs());
+        // Along the travel z and x count positive; both ways obey the same equation.
+        let z = memory * sense;
+        let (against, along) = (
+            self.beta_gamma - self.beta_delta,
+            self.beta_gamma + self.beta_delta,
+        );
+        if z >= 0.0 {
+            return sense * grown(z, along, length);
+        }
+        // Where z comes through zero the rate changes.
+        let to_zero = if against.abs() > 1e-12 {
+            libm::log1p(-against * z) / against
+        } else {
+            -z
+        };
+        if to_zero < length {
+            sense * grown(0.0, along, length - to_zero)
+        } else {
+            sense * grown(z, against, length)
+        }
+    }
+}
+
+/// z after a length x of dz/dx = 1 − rate·z.
+fn grown(z: f64, rate: f64, x: f64) -> f64 {
+    if (rate * x).abs() < 1e-12 {
+        return z + x * (1.0 - rate * z);
+    }
+    z - libm::expm1(-rate * x) / rate * (1.0 - rate * z)
 }

@@ -1,6 +1,6 @@
 //! This file is elastic motion before sliding: Dahl's bristle (P. R. Dahl, 1968).
 
-use super::{Entry, Form, Instant, Law, parameter};
+use super::{Entry, Form, Instant, Law, parameter, relaxed};
 use rigproof_spec::effect::Mechanism;
 
 pub(super) const ENTRY: Entry = Entry {
@@ -33,5 +33,9 @@ impl Law for Dahl {
 
     fn memory_rate(&self, now: &Instant, memory: f64) -> f64 {
         (now.speed - now.speed.abs() * memory) / self.travel
+    }
+
+    fn memory_after(&self, memory: f64, travel: f64) -> f64 {
+        relaxed(memory, travel.signum(), travel, self.travel)
     }
 }

@@ -1,6 +1,6 @@
 //! This file is more torque just after a reversal, as §3.5 of the thesis saw it: it decays with the travel since.
 
-use super::{Entry, Form, Instant, Law, parameter};
+use super::{Entry, Form, Instant, Law, parameter, relaxed};
 use rigproof_spec::effect::Mechanism;
 
 pub(super) const ENTRY: Entry = Entry {
@@ -38,5 +38,9 @@ impl Law for Overshoot {
 
     fn memory_rate(&self, now: &Instant, memory: f64) -> f64 {
         (now.speed - now.speed.abs() * memory) / self.travel
+    }
+
+    fn memory_after(&self, memory: f64, travel: f64) -> f64 {
+        relaxed(memory, travel.signum(), travel, self.travel)
     }
 }

@@ -1,6 +1,6 @@
 //! This file is a resistance that rest has built up and motion stirs away: settled particles (§3.4.1 names the scatter).
 
-use super::{Entry, Form, Instant, Law, parameter};
+use super::{Entry, Form, Instant, Law, parameter, relaxed};
 use rigproof_spec::effect::Mechanism;
 
 pub(super) const ENTRY: Entry = Entry {
@@ -24,7 +24,7 @@ struct Settled {
 }
 
 impl Law for Settled {
-    // The dry level of a law knows no memory, so that this one acts in motion only: what it holds at rest is left out.
+    // The dry level of a law knows no memory, so that this one acts in motion only; the rig's `parts` hold at rest too.
     fn smooth(&self, now: &Instant, memory: f64) -> f64 {
         self.level * (1.0 - memory) * now.sense
     }
@@ -35,5 +35,13 @@ impl Law for Settled {
 
     fn memory_rate(&self, now: &Instant, memory: f64) -> f64 {
         now.speed.abs() * (1.0 - memory) / self.travel
+    }
+
+    fn memory_after(&self, memory: f64, travel: f64) -> f64 {
+        relaxed(memory, 1.0, travel, self.travel)
+    }
+
+    fn parts(&self, _now: &Instant, memory: f64) -> (f64, f64) {
+        (0.0, self.level * (1.0 - memory))
     }
 }

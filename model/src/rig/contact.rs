@@ -66,6 +66,21 @@ impl Contacts {
         Contacts { of, ..starting }
     }
 
+    /// The same contacts, with dry friction at a joint that had none.
+    pub fn with_dry(self, place: usize, joint_rate_rad_s: f64) -> Contacts {
+        let mut of = self.of;
+        if of[place] == Contact::Absent {
+            let braked = [0, 1, 2, 3].map(|i| i == place);
+            of[place] = Contacts::starting(braked, [joint_rate_rad_s; 4]).of[place];
+        }
+        Contacts { of, ..self }
+    }
+
+    /// Which joints have a brake, or dry friction of their own.
+    pub fn exist(&self) -> [bool; 4] {
+        self.of.map(|contact| contact != Contact::Absent)
+    }
+
     /// What each brake does.
     pub fn of(&self) -> [Contact; 4] {
         self.of
@@ -90,9 +105,13 @@ impl Contacts {
     /// Forces and accelerations while the contacts last.
     ///
     /// A slipping brake exerts its yield torque against its joint's rate. Brakes that hold while the linkage moves exert
-    /// what keeps their joint's acceleration zero; at rest they balance the load.
-    pub fn balance(&self, form: &TwoCoordinate, force_n: [f64; 2], yields_nm: [f64; 4]) -> Balance {
-        let drive = form.drive(force_n);
+    /// what keeps their joint's acceleration zero; at rest they balance the load, which is `drive` on θA and θB, N·m.
+    pub fn balance(
+        &self,
+        form: &TwoCoordinate,
+        drive: Vector2<f64>,
+        yields_nm: [f64; 4],
+    ) -> Balance {
         if self.rest {
             let hold = dry_brakes(form, yields_nm).hold(&drive);
             return Balance {
@@ -153,7 +172,7 @@ impl Contacts {
         &self,
         form: &TwoCoordinate,
         rates: Vector2<f64>,
-        force_n: [f64; 2],
+        drive: Vector2<f64>,
         yields_nm: [f64; 4],
     ) -> (Contacts, Vector2<f64>) {
         let omega = form.joints * rates;
@@ -169,14 +188,14 @@ impl Contacts {
         };
         let g = row(form, first);
         if self.rest || others.iter().any(|&j| !parallel(&g, &row(form, j))) {
-            let next = self.leaving_rest(form, form.drive(force_n), yields_nm);
+            let next = self.leaving_rest(form, drive, yields_nm);
             return (next, Vector2::zeros());
         }
         let mut next = *self;
         for &j in &still {
             next.of[j] = Contact::Held;
         }
-        let balance = next.balance(form, force_n, yields_nm);
+        let balance = next.balance(form, drive, yields_nm);
         if balance.share > 1.0 + ROUNDING {
             for &j in &still {
                 next.of[j] = Contact::Slips(-balance.torques_nm[j].signum());

@@ -38,6 +38,8 @@ pub struct Instant {
     pub joint_rates_rad_s: [f64; 4],
     pub tip_force_n: [f64; 2],
     pub yields_nm: [f64; 4],
+    /// What the left-out physics does to θA and θB, N·m.
+    pub left_out: Vector2<f64>,
 }
 
 impl<'a, F: TipForce> Flow<'a, F> {
@@ -82,18 +84,27 @@ impl<'a, F: TipForce> Flow<'a, F> {
         let rates = [y[2], y[3]];
         let form = two_coordinate(&parameters.arms, &parameters.inertia, &pose, rates);
         let tip_force_n = self.force.force_n(pose.tip_m, form.tip_velocity_m_s(rates));
-        let yields_nm = [0, 1, 2, 3].map(|i| match (&self.rig.brakes[i], &self.courses[i]) {
+        let own_nm = [0, 1, 2, 3].map(|i| match (&self.rig.brakes[i], &self.courses[i]) {
             (Some(brake), Some(course)) => brake.yield_along(course, y[4 + i]),
             _ => 0.0,
         });
         let contacts = &self.rig.contacts;
+        let joint_rates_rad_s = contacts.joint_rates(&form, Vector2::from(rates));
+        let mut drive = form.drive(tip_force_n);
+        let (mut yields_nm, mut left_out) = (own_nm, Vector2::zeros());
+        if let Some(effects) = &self.rig.effects {
+            let done = effects.at(&self.rig.situation(&pose, &form, joint_rates_rad_s, own_nm));
+            (yields_nm, left_out) = (done.yields_nm, done.drive);
+            drive += left_out;
+        }
         Ok(Instant {
             pose,
             form,
-            balance: contacts.balance(&form, tip_force_n, yields_nm),
-            joint_rates_rad_s: contacts.joint_rates(&form, Vector2::from(rates)),
+            balance: contacts.balance(&form, drive, yields_nm),
+            joint_rates_rad_s,
             tip_force_n,
             yields_nm,
+            left_out,
         })
     }
 
@@ -119,6 +130,9 @@ impl<'a, F: TipForce> Flow<'a, F> {
                 rate[4 + i] = course.rate_per_s(instant.joint_rates_rad_s[i]);
             }
             rate[9] -= instant.balance.torques_nm[i] * omega[i];
+        }
+        if self.rig.effects.is_some() {
+            rate[9] -= instant.left_out.dot(&Vector2::new(y[2], y[3]));
         }
         rate[8] = f_x * v_x + f_y * v_y;
         Ok(rate)

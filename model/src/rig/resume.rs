@@ -32,10 +32,6 @@ impl Rig {
         for (brake, (joint, state)) in rig.brakes.iter_mut().zip(all) {
             *brake = brake.map(|_| Brake::resumed(joint, state));
         }
-        let yields = rig
-            .brakes
-            .map(|brake| brake.map_or(0.0, |brake| brake.yield_torque()));
-        rig.yields_nm = yields;
         let joint_rates = rig.form.joint_rates_rad_s(moment.rates_rad_s);
         let braked = rig.brakes.map(|brake| brake.is_some());
         rig.contacts = Contacts::resumed(braked, moment.held, joint_rates);
@@ -43,7 +39,7 @@ impl Rig {
             .contacts
             .project(&rig.form, Vector2::from(moment.rates_rad_s));
         rig.go_on_with(moment.rates_rad_s, rates);
-        rig.torques_nm = rig.contacts.balance(&rig.form, [0.0; 2], yields).torques_nm;
+        rig.settle();
         Ok(rig)
     }
 }

@@ -66,6 +66,7 @@ impl Rig {
         currents_a: [f64; 4],
         step_s: f64,
     ) -> Result<(), ModelError> {
+        let currents_a = self.given_currents(currents_a, step_s);
         self.decide(tip_force)?;
         let mut left_s = step_s;
         let mut events = 0;
@@ -108,7 +109,7 @@ impl Rig {
         let tip_force_n = tip_force.force_n(self.pose.tip_m, self.tip_velocity_m_s());
         check_finite("force on the tip", "N", tip_force_n)?;
         let momentum = self.form.mass * Vector2::from(self.rates_rad_s);
-        let drive = momentum + self.form.drive(tip_force_n) * step_s;
+        let drive = momentum + self.drive(tip_force_n) * step_s;
         let impulses = self.yields_nm.map(|yield_nm| yield_nm * step_s);
         let (contacts, rates) = self.contacts.after(&self.form, &drive, impulses);
         self.contacts = contacts;
@@ -143,6 +144,7 @@ impl Rig {
             .contacts
             .project(&instant.form, Vector2::new(end[2], end[3]));
         self.brakes = brakes;
+        self.effects_follow(&instant.pose, taken_s);
         self.theta_rad = [end[0], end[1]];
         self.time_s += taken_s;
         self.work_j += end[8];
@@ -163,13 +165,13 @@ impl Rig {
         let (contacts, rates) = self.contacts.decide(
             &self.form,
             Vector2::from(before),
-            tip_force_n,
+            self.drive(tip_force_n),
             self.yields_nm,
         );
         self.contacts = contacts;
         self.go_on_with(before, rates);
         self.torques_nm = contacts
-            .balance(&self.form, tip_force_n, self.yields_nm)
+            .balance(&self.form, self.drive(tip_force_n), self.yields_nm)
             .torques_nm;
         Ok(())
     }
@@ -186,7 +188,7 @@ impl Rig {
         self.rates_rad_s = rates;
     }
 
-    fn check_currents(&self, currents_a: [f64; 4]) -> Result<(), ModelError> {
+    pub(super) fn check_currents(&self, currents_a: [f64; 4]) -> Result<(), ModelError> {
         for ((joint, brake), value_a) in Joint::ALL.iter().zip(&self.brakes).zip(currents_a) {
             if brake.is_none() && value_a != 0.0 {
                 return Err(ModelError::CurrentWithoutBrake {

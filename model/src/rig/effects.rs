@@ -1,0 +1,290 @@
+//! This file says which physics, left out of the thesis's model, a rig can be given, and reads it into terms.
+
+use std::sync::Arc;
+
+use rigproof_spec::effect::Mechanism;
+use rigproof_spec::inertia::{ArmInertia, Inertia};
+use rigproof_spec::joint::Joint;
+
+use super::left_out::{LeftOut, Term, Timed};
+use super::{Parameters, Rig};
+use crate::effects::{Law, law};
+use crate::error::ModelError;
+use crate::motion::check_inertia;
+use crate::motion::two_coordinate::two_coordinate;
+use rigproof_spec::tables::brake_table;
+use rigproof_spec::units::deg_from_rad;
+
+/// Physics that a rig has beyond the thesis's: a mechanism of the library with its numbers, where it acts and from when on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JointEffect {
+    /// The mechanism.
+    pub mechanism: Mechanism,
+    /// The joint; `None` for what belongs to the whole linkage.
+    pub joint: Option<Joint>,
+    /// Its parameters in the vocabulary's order, SI.
+    pub parameters: Vec<f64>,
+    /// When it begins, s of the rig's clock; `None` from the start.
+    pub onset_s: Option<f64>,
+}
+
+impl Rig {
+    /// The same rig with physics that the thesis leaves out; effects that it had are replaced.
+    ///
+    /// Dry levels are added to the yield torque with which a joint slips or holds, which never falls below zero; smooth torques
+    /// act on their joint always. Memories begin empty: nothing bent, nothing stirred, no heat, the currents of the first step.
+    /// [`Rig::dissipated_j`] then holds what the effects took too, stored or lost.
+    ///
+    /// An effect with an onset begins with the first step of the integrator that starts at or after it. Another backlash begins
+    /// with the shaft in its middle (gap `backlash-start`); other masses begin with the rates that there are.
+    ///
+    /// # Errors
+    /// [`ModelError::Effect`]: the mechanism is none of the rig's (those of the sensors are not), or its joint or its
+    /// numbers are not usable; [`ModelError::Mass`]: a mass does not stay above 0.
+    pub fn with_effects(self, effects: &[JointEffect]) -> Result<Rig, ModelError> {
+        let mut rig = Rig {
+            effects: None,
+            ..self
+        };
+        if effects.is_empty() {
+            return Ok(rig);
+        }
+        let mut heaviest = rig.parameters.inertia;
+        let mut terms = Vec::with_capacity(effects.len());
+        for effect in effects {
+            let term = term(&rig, effect)?;
+            if let Term::Masses(more) = &term {
+                heaviest = sum(&heaviest, more);
+                check_inertia(&heaviest)?;
+            }
+            if let (Some(place), true) = (effect.joint, has_dry(effect.mechanism)) {
+                let place = place as usize;
+                let rates = rig.joint_rates_rad_s();
+                let rate = rates.get(place).copied().unwrap_or(0.0);
+                rig.contacts = rig.contacts.with_dry(place, rate);
+            }
+            terms.push(Timed {
+                term,
+                onset_s: effect.onset_s.unwrap_or(f64::NEG_INFINITY),
+            });
+        }
+        rig.effects = Some(LeftOut::new(effects.to_vec(), Arc::from(terms)));
+        rig.begin_effects();
+        rig.settle();
+        Ok(rig)
+    }
+
+    /// The physics that the rig has beyond the thesis's.
+    pub fn effects(&self) -> &[JointEffect] {
+        self.effects.as_ref().map_or(&[], LeftOut::given)
+    }
+}
+
+/// Whether a mechanism makes a joint hold that has no brake.
+const fn has_dry(mechanism: Mechanism) -> bool {
+    matches!(
+        mechanism,
+        Mechanism::DryOffset
+            | Mechanism::BearingFriction
+            | Mechanism::Stribeck
+            | Mechanism::ReversalOvershoot
+            | Mechanism::Settling
+    )
+}
+
+/// Parameters by which a law divides, or that are times: above zero.
+const ABOVE_ZERO: [&str; 7] = [
+    "travel",
+    "speed",
+    "period",
+    "time_constant",
+    "delay",
+    "half_width",
+    "cooling",
+];
+
+fn term(rig: &Rig, effect: &JointEffect) -> Result<Term, ModelError> {
+    let refused = |reason| ModelError::Effect {
+        mechanism: effect.mechanism.name(),
+        joint: effect.joint.map_or("no joint", Joint::letter),
+        reason,
+    };
+    check_numbers(effect).map_err(refused)?;
+    let value = |k: usize| effect.parameters.get(k).copied().unwrap_or(0.0);
+    let joint = || effect.joint.ok_or(refused("it needs a joint"));
+    let braked = || {
+        let joint = joint()?;
+        match rig.brake(joint) {
+            Some(_) => Ok(joint),
+            None => Err(refused("that joint has no brake")),
+        }
+    };
+    let whole = |term| match effect.joint {
+        None => Ok(term),
+        Some(_) => Err(refused("it is of the whole linkage: give it no joint")),
+    };
+    match effect.mechanism {
+        Mechanism::GainError => Ok(Term::Gain {
+            place: braked()? as usize,
+            fraction: value(0),
+        }),
+        Mechanism::ThermalFade => Ok(Term::Fade {
+            place: braked()? as usize,
+            per_joule: value(0),
+            cooling_s: value(1),
+        }),
+        Mechanism::CurrentHysteresis => Ok(Term::Play {
+            place: braked()? as usize,
+            slope_nm_per_a: value(0),
+            half_width_a: value(1),
+        }),
+        Mechanism::DeadTime => Ok(Term::Late {
+            place: braked()? as usize,
+            delay_s: value(0),
+        }),
+        Mechanism::Saturation => Ok(Term::Limit {
+            place: braked()? as usize,
+            most_a: value(0),
+        }),
+        Mechanism::Lag => Ok(Term::Lag {
+            place: braked()? as usize,
+            time_constant_s: value(0),
+        }),
+        Mechanism::BacklashWidth => Ok(Term::Backlash {
+            joint: braked()?,
+            width_rad: value(0),
+        }),
+        Mechanism::Gravity => whole(Term::Weight([value(0), value(1)])),
+        Mechanism::Payload => whole(Term::Masses(Inertia {
+            payload_kg: value(0),
+            ..NOTHING
+        })),
+        Mechanism::InertiaError => whole(Term::Masses(more(
+            &rig.parameters.inertia,
+            [value(0), value(1), value(2), value(3), value(4)],
+        ))),
+        _ => {
+            let law = resistance(effect).ok_or(refused("it is nothing that a rig does"))?;
+            Ok(Term::Law {
+                place: joint()? as usize,
+                law,
+            })
+        }
+    }
+}
+
+/// The resistance law of an effect; that of a bearing is dry friction.
+fn resistance(effect: &JointEffect) -> Option<Box<dyn Law>> {
+    let mechanism = match effect.mechanism {
+        Mechanism::BearingFriction => Mechanism::DryOffset,
+        other => other,
+    };
+    law(mechanism, &effect.parameters)
+}
+
+fn check_numbers(effect: &JointEffect) -> Result<(), &'static str> {
+    let names = effect.mechanism.parameters();
+    if names.len() != effect.parameters.len() {
+        return Err("it has another number of parameters");
+    }
+    for (name, value) in names.iter().zip(&effect.parameters) {
+        if !value.is_finite() {
+            return Err("a parameter is no finite number");
+        }
+        if ABOVE_ZERO.contains(&name.name) && *value <= 0.0 {
+            return Err("a length, a time, a speed or a half width is not above zero");
+        }
+        if name.name == "width" && *value < 0.0 {
+            return Err("a width is below zero");
+        }
+    }
+    Ok(())
+}
+
+impl Rig {
+    /// Begins what begins at a moment and not by acting from then on: another backlash, other masses.
+    pub(super) fn begin_effects(&mut self) {
+        let Some(mut effects) = self.effects.take() else {
+            return;
+        };
+        for k in effects.beginning(self.time_s) {
+            match effects.term(k) {
+                Some(Term::Masses(more)) => {
+                    let before_j = self.kinetic_energy_j();
+                    self.parameters.inertia = sum(&self.parameters.inertia, more);
+                    let Parameters { arms, inertia, .. } = &self.parameters;
+                    self.form = two_coordinate(arms, inertia, &self.pose, self.rates_rad_s);
+                    self.dissipated_j += before_j - self.kinetic_energy_j();
+                }
+                Some(Term::Backlash { joint, width_rad }) => {
+                    let mut table = brake_table(*joint);
+                    table.backlash_width_deg = deg_from_rad(*width_rad);
+                    let angles = self.joint_angles_rad();
+                    let places = self.brakes.iter_mut().zip(angles).zip(Joint::ALL);
+                    for ((brake, angle), own) in places {
+                        if own == *joint {
+                            *brake = brake.map(|brake| brake.with_table(table, angle));
+                        }
+                    }
+                }
+                _ => {}
+            }
+            effects.has_begun(k);
+        }
+        self.effects = Some(effects);
+    }
+}
+
+const NO_ARM: ArmInertia = ArmInertia {
+    mass_kg: 0.0,
+    inertia_kg_m2: 0.0,
+    centre_m: 0.0,
+};
+
+const NOTHING: Inertia = Inertia {
+    ae: NO_ARM,
+    ed: NO_ARM,
+    bc: NO_ARM,
+    cd: NO_ARM,
+    payload_kg: 0.0,
+};
+
+/// Masses that have some moments of inertia about the first joints of the arms AE, BC, ED, CD, kg·m², and a mass at the tip,
+/// kg. A carried arm grows as a whole, its centre of mass stays.
+fn more(nominal: &Inertia, [ae, bc, ed, cd, tip_kg]: [f64; 5]) -> Inertia {
+    let turning = |inertia_kg_m2| ArmInertia {
+        inertia_kg_m2,
+        ..NO_ARM
+    };
+    let carried = |arm: &ArmInertia, added: f64| {
+        let share = added / (arm.inertia_kg_m2 + arm.mass_kg * arm.centre_m * arm.centre_m);
+        ArmInertia {
+            mass_kg: arm.mass_kg * share,
+            inertia_kg_m2: arm.inertia_kg_m2 * share,
+            centre_m: arm.centre_m,
+        }
+    };
+    Inertia {
+        ae: turning(ae),
+        bc: turning(bc),
+        ed: carried(&nominal.ed, ed),
+        cd: carried(&nominal.cd, cd),
+        payload_kg: tip_kg,
+    }
+}
+
+/// Masses with what is added to them; centres of mass stay.
+fn sum(own: &Inertia, more: &Inertia) -> Inertia {
+    let arm = |own: &ArmInertia, more: &ArmInertia| ArmInertia {
+        mass_kg: own.mass_kg + more.mass_kg,
+        inertia_kg_m2: own.inertia_kg_m2 + more.inertia_kg_m2,
+        centre_m: own.centre_m,
+    };
+    Inertia {
+        ae: arm(&own.ae, &more.ae),
+        ed: arm(&own.ed, &more.ed),
+        bc: arm(&own.bc, &more.bc),
+        cd: arm(&own.cd, &more.cd),
+        payload_kg: own.payload_kg + more.payload_kg,
+    }
+}

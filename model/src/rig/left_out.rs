@@ -1,0 +1,315 @@
+//! This file is what the rig's left-out physics does: torques, yields and currents at an instant, and what it remembers.
+#![expect(clippy::indexing_slicing, reason = "indices run over the four joints")]
+
+use std::sync::Arc;
+
+use nalgebra::Vector2;
+use rigproof_spec::inertia::Inertia;
+use rigproof_spec::joint::Joint;
+
+use super::contact::Contact;
+use super::effects::JointEffect;
+use crate::effects::{Instant, Law};
+use crate::linkage::Pose;
+use crate::motion::two_coordinate::TwoCoordinate;
+
+/// The least yield of a joint with dry friction, N·m: what holds has to be able to let go.
+const LEAST_NM: f64 = 1e-9;
+
+/// One effect as the rig computes it; `place` is the joint's in the order A, E, B, C.
+pub enum Term {
+    /// A resistance law of a joint; it may remember.
+    Law { place: usize, law: Box<dyn Law> },
+    /// A brake's torque, more by a share.
+    Gain { place: usize, fraction: f64 },
+    /// A brake's torque, less by what it has heated up; remembers the heat, J.
+    Fade {
+        place: usize,
+        per_joule: f64,
+        cooling_s: f64,
+    },
+    /// A brake's torque, more by how far a play lags behind the current; remembers the play, A.
+    Play {
+        place: usize,
+        slope_nm_per_a: f64,
+        half_width_a: f64,
+    },
+    /// A brake's current comes late.
+    Late { place: usize, delay_s: f64 },
+    /// A brake's current is limited.
+    Limit { place: usize, most_a: f64 },
+    /// A brake's current follows by a first-order lag; remembers it, A.
+    Lag { place: usize, time_constant_s: f64 },
+    /// Another backlash; remembers whether it has begun.
+    Backlash { joint: Joint, width_rad: f64 },
+    /// Weight in the plane, m/s².
+    Weight([f64; 2]),
+    /// More masses; remembers whether they have begun.
+    Masses(Inertia),
+}
+
+/// A term and when it begins, s.
+pub struct Timed {
+    pub term: Term,
+    pub onset_s: f64,
+}
+
+/// The left-out physics of a rig and what it remembers: a number a term.
+#[derive(Clone)]
+pub struct LeftOut {
+    given: Arc<[JointEffect]>,
+    terms: Arc<[Timed]>,
+    memory: Vec<f64>,
+    /// What the brakes were commanded, A, and since when, s: as far back as the longest delay reaches.
+    commands: Vec<(f64, [f64; 4])>,
+}
+
+impl PartialEq for LeftOut {
+    fn eq(&self, other: &LeftOut) -> bool {
+        self.given == other.given && self.memory == other.memory && self.commands == other.commands
+    }
+}
+
+impl core::fmt::Debug for LeftOut {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_struct("LeftOut")
+            .field("given", &self.given)
+            .field("memory", &self.memory)
+            .finish_non_exhaustive()
+    }
+}
+
+/// What the effects look at.
+pub struct Situation<'a> {
+    pub time_s: f64,
+    pub pose: &'a Pose,
+    pub form: &'a TwoCoordinate,
+    pub inertia: &'a Inertia,
+    pub contacts: [Contact; 4],
+    pub angles_rad: [f64; 4],
+    pub joint_rates_rad_s: [f64; 4],
+    /// How far the joints have turned since the memories were last advanced, rad.
+    pub travels_rad: [f64; 4],
+    /// What the brakes alone would yield, N·m.
+    pub own_nm: [f64; 4],
+}
+
+/// What the effects do.
+pub struct Done {
+    /// On θA and θB, N·m.
+    pub drive: Vector2<f64>,
+    /// The yields of the joints, N·m.
+    pub yields_nm: [f64; 4],
+}
+
+impl LeftOut {
+    pub fn new(given: Vec<JointEffect>, terms: Arc<[Timed]>) -> LeftOut {
+        LeftOut {
+            given: Arc::from(given),
+            memory: vec![0.0; terms.len()],
+            terms,
+            commands: Vec::new(),
+        }
+    }
+
+    pub fn given(&self) -> &[JointEffect] {
+        &self.given
+    }
+
+    pub fn term(&self, k: usize) -> Option<&Term> {
+        self.terms.get(k).map(|timed| &timed.term)
+    }
+
+    /// The terms that change the rig itself, whose time has come and that have not begun.
+    pub fn beginning(&self, time_s: f64) -> Vec<usize> {
+        let pairs = self.terms.iter().zip(&self.memory).enumerate();
+        let due = pairs.filter(|(_, (timed, memory))| {
+            matches!(timed.term, Term::Backlash { .. } | Term::Masses(_))
+                && time_s >= timed.onset_s
+                && **memory == 0.0
+        });
+        due.map(|(k, _)| k).collect()
+    }
+
+    pub fn has_begun(&mut self, k: usize) {
+        if let Some(memory) = self.memory.get_mut(k) {
+            *memory = 1.0;
+        }
+    }
+
+    /// What the brakes get in a step when they are commanded these currents, A.
+    pub fn currents(&mut self, commanded_a: [f64; 4], time_s: f64, step_s: f64) -> [f64; 4] {
+        let first = self.commands.is_empty();
+        if self
+            .commands
+            .last()
+            .is_none_or(|(_, last)| *last != commanded_a)
+        {
+            self.commands.push((time_s, commanded_a));
+        }
+        let terms = Arc::clone(&self.terms);
+        let mut longest_s = 0.0f64;
+        let mut given_a = commanded_a;
+        // A delay acts before a limit, both before a lag, in whichever order they are given.
+        for timed in terms.iter() {
+            if let Term::Late { place, delay_s } = timed.term {
+                longest_s = longest_s.max(delay_s);
+                if time_s >= timed.onset_s {
+                    given_a[place] = self.commanded(place, time_s - delay_s, step_s);
+                }
+            }
+        }
+        for timed in terms.iter() {
+            if let Term::Limit { place, most_a } = timed.term
+                && time_s >= timed.onset_s
+            {
+                given_a[place] = given_a[place].min(most_a);
+            }
+        }
+        for (timed, memory) in terms.iter().zip(&mut self.memory) {
+            match timed.term {
+                Term::Lag {
+                    place,
+                    time_constant_s,
+                } => {
+                    if first {
+                        *memory = given_a[place];
+                    }
+                    *memory -= (given_a[place] - *memory) * libm::expm1(-step_s / time_constant_s);
+                    if time_s >= timed.onset_s {
+                        given_a[place] = *memory;
+                    }
+                }
+                Term::Play {
+                    place,
+                    half_width_a,
+                    ..
+                } => {
+                    let now_a = commanded_a[place];
+                    let before_a = if first { now_a } else { *memory };
+                    *memory = before_a.clamp(now_a - half_width_a, now_a + half_width_a);
+                }
+                _ => {}
+            }
+        }
+        let needed_s = time_s - longest_s;
+        while matches!(self.commands.get(1), Some((since_s, _)) if *since_s <= needed_s) {
+            self.commands.remove(0);
+        }
+        given_a
+    }
+
+    /// The mean of a commanded current from a time on, A; before the first command it was the first.
+    fn commanded(&self, place: usize, from_s: f64, step_s: f64) -> f64 {
+        let to_s = from_s + step_s;
+        let ends = self.commands.iter().skip(1).map(|(since_s, _)| *since_s);
+        let ends = ends.chain(core::iter::once(f64::INFINITY));
+        let mut begin_s = f64::NEG_INFINITY;
+        let mut sum = 0.0;
+        for ((_, currents_a), end_s) in self.commands.iter().zip(ends) {
+            let held_s = (end_s.min(to_s) - begin_s.max(from_s)).max(0.0);
+            sum += currents_a[place] * held_s;
+            begin_s = end_s;
+        }
+        sum / step_s
+    }
+
+    /// What the effects do at an instant.
+    pub fn at(&self, now: &Situation<'_>) -> Done {
+        let mut drive = Vector2::zeros();
+        let mut more_nm = [0.0; 4];
+        let mut shares = [1.0; 4];
+        let commanded_a = self
+            .commands
+            .last()
+            .map_or([0.0; 4], |(_, currents)| *currents);
+        for (timed, &memory) in self.terms.iter().zip(&self.memory) {
+            if now.time_s < timed.onset_s {
+                continue;
+            }
+            match &timed.term {
+                Term::Law { place, law } => {
+                    let i = *place;
+                    let memory = law.memory_after(memory, now.travels_rad[i]);
+                    let (smooth, dry) = law.parts(&now.instant(i), memory);
+                    drive -= now.form.joints.row(i).transpose() * smooth;
+                    more_nm[i] += dry;
+                }
+                Term::Gain { place, fraction } => shares[*place] += fraction,
+                Term::Fade {
+                    place, per_joule, ..
+                } => shares[*place] -= per_joule * memory,
+                Term::Play {
+                    place,
+                    slope_nm_per_a,
+                    ..
+                } => more_nm[*place] += slope_nm_per_a * (memory - commanded_a[*place]),
+                Term::Weight(gravity) => drive += now.weight(*gravity),
+                _ => {}
+            }
+        }
+        let yields_nm = [0, 1, 2, 3].map(|i| match now.contacts[i] {
+            Contact::Absent => 0.0,
+            _ => (now.own_nm[i] * shares[i] + more_nm[i]).max(LEAST_NM),
+        });
+        Done { drive, yields_nm }
+    }
+
+    /// Advances what is remembered by a stretch in which the joints turned by `travels_rad` and the brakes alone yielded `own_nm`.
+    pub fn follow(&mut self, travels_rad: [f64; 4], own_nm: [f64; 4], step_s: f64) {
+        for (timed, memory) in self.terms.iter().zip(&mut self.memory) {
+            match &timed.term {
+                Term::Law { place, law } => {
+                    *memory = law.memory_after(*memory, travels_rad[*place]);
+                }
+                Term::Fade {
+                    place, cooling_s, ..
+                } => {
+                    *memory *= libm::exp(-step_s / cooling_s);
+                    *memory += own_nm[*place] * travels_rad[*place].abs();
+                }
+                _ => {}
+            }
+        }
+    }
+}
+
+impl Situation<'_> {
+    fn instant(&self, i: usize) -> Instant {
+        let speed = self.joint_rates_rad_s[i];
+        Instant {
+            time_s: self.time_s,
+            position: self.angles_rad[i],
+            speed,
+            sense: match self.contacts[i] {
+                Contact::Slips(sense) => sense,
+                Contact::Held => 1.0,
+                Contact::Absent => 1.0f64.copysign(speed),
+            },
+        }
+    }
+
+    /// What the weight of arms and tip does to θA and θB, N·m, at a gravity in the plane, m/s².
+    fn weight(&self, gravity: [f64; 2]) -> Vector2<f64> {
+        let Inertia {
+            ae,
+            ed,
+            bc,
+            cd,
+            payload_kg,
+        } = self.inertia;
+        let gravity = Vector2::from(gravity);
+        // The centre of a base arm moves across the arm.
+        let base = |mass_kg: f64, centre_m: f64, theta_rad: f64| {
+            let (sine, cosine) = libm::sincos(theta_rad);
+            mass_kg * centre_m * (cosine * gravity.y - sine * gravity.x)
+        };
+        let [centre_ed, centre_cd] = self.form.centres();
+        Vector2::new(
+            base(ae.mass_kg, ae.centre_m, self.pose.theta_a_rad),
+            base(bc.mass_kg, bc.centre_m, self.pose.theta_b_rad),
+        ) + centre_ed.transpose() * gravity * ed.mass_kg
+            + centre_cd.transpose() * gravity * cd.mass_kg
+            + self.form.tip.transpose() * gravity * *payload_kg
+    }
+}
