@@ -355,7 +355,8 @@ fn nominal_yields(run: &FiveBarRun, joint: Joint) -> Option<Vec<f64>> {
 }
 
 /// By how much the yield torque of a joint's brake would differ if the joint turned faster or slower by what cannot be told, if
-/// the backlash began and ended where the angle's own error may put it, or if the shaft did not start in its middle, N·m.
+/// the backlash began and ended a sample later or where the angle's own error may put it, or if the shaft did not start in its
+/// middle, N·m.
 fn yield_errors(run: &FiveBarRun, joint: Joint, untold: &[Vec<f64>; 2]) -> Option<Vec<f64>> {
     let (motion, own) = (run.motion(joint), run.yields.get(place(joint))?);
     let current = run.currents.get(place(joint))?.as_ref()?;
@@ -374,6 +375,7 @@ fn yield_errors(run: &FiveBarRun, joint: Joint, untold: &[Vec<f64>; 2]) -> Optio
     if table.backlash_width_deg == 0.0 {
         return Some(errors);
     }
+    doubt(along(Brake::new(joint, start), &a_sample_late(motion)));
     let angle_deg = turning_point_error(run, joint, untold) / RAD_PER_DEG;
     let half = 0.5 * table.backlash_width_deg * RAD_PER_DEG;
     for (by_deg, start) in [
@@ -391,6 +393,18 @@ fn yield_errors(run: &FiveBarRun, joint: Joint, untold: &[Vec<f64>; 2]) -> Optio
         doubt(along(brake, motion));
     }
     Some(errors)
+}
+
+/// A motion whose angle is a sample late: within a sample nobody knows where a backlash ends.
+fn a_sample_late(motion: &[Instant]) -> Vec<Instant> {
+    let first = motion.iter().take(1);
+    let pairs = motion.iter().zip(first.chain(motion));
+    pairs
+        .map(|(now, before)| Instant {
+            position: before.position,
+            ..*now
+        })
+        .collect()
 }
 
 /// How far the angle at which a joint turns back may be mistaken, rad: by counts, and by the low-pass that rounds it off.

@@ -43,7 +43,8 @@ fn blank(layout: Layout) -> FiveBarRun {
         force: Default::default(),
         currents: Joint::ALL.map(|joint| braked(joint).then(Vec::new)),
         yields: Default::default(),
-        backlash_steps: Default::default(),
+        yield_errors: Default::default(),
+        loads: Default::default(),
         theta_noise: 1e-9,
         still_rad: 1e-9,
         cutoff_hz: 1e3,
@@ -86,6 +87,16 @@ fn record(run: &mut FiveBarRun, rig: &Rig, force: [f64; 2], currents: [f64; 4]) 
     run.forms.push(form);
 }
 
+/// Where the backlash begins or ends.
+fn turned(mut brake: Brake, motion: &[Instant]) -> Vec<bool> {
+    let along = motion.iter().skip(1).map(|now| {
+        let was_inside = brake.backlash().is_inside();
+        brake.step(0.0, now.position, now.speed, STEP_S);
+        brake.backlash().is_inside() != was_inside
+    });
+    core::iter::once(false).chain(along).collect()
+}
+
 /// Lets the nominal brakes follow; says around which samples every joint turns one way and no brake enters or leaves its backlash.
 fn counted(run: &mut FiveBarRun) -> Vec<bool> {
     let mut counts = vec![true; COUNT];
@@ -94,7 +105,10 @@ fn counted(run: &mut FiveBarRun) -> Vec<bool> {
         let (own, turned) = match &run.currents[i] {
             Some(current) => {
                 let brake = Brake::new(Joint::ALL[i], motion[0].position);
-                yields(brake, motion, current, STEP_S)
+                (
+                    yields(brake, motion, current, STEP_S),
+                    turned(brake, motion),
+                )
             }
             None => (vec![0.0; COUNT], vec![false; COUNT]),
         };
@@ -204,6 +218,7 @@ fn every_mechanism_does_along_a_motion_what_its_column_says() {
         (at(GainError, Joint::B, &[0.17]), None),
         (at(DirectionAsymmetry, Joint::E, &[0.031, 0.071]), None),
         (at(Stribeck, Joint::A, &[0.23, 0.37, 1.3]), None),
+        (at(Stribeck, Joint::E, &[0.31, 0.53, 1.7, 0.029]), None),
         (at(Presliding, Joint::C, &[0.19, 0.013]), None),
         (at(Hysteresis, Joint::E, &[3.1, 11.3, 4.7]), None),
         (at(ReversalOvershoot, Joint::B, &[0.37, 0.083]), None),

@@ -42,7 +42,7 @@ impl Law for BoucWen {
     }
 
     /// In one sense of travel dz/dx = 1 − rate·z, with one rate while z lies along the travel and another while it lies against it.
-    fn memory_after(&self, memory: f64, travel: f64) -> f64 {
+    fn memory_after(&self, memory: f64, travel: f64, _speed: f64) -> f64 {
         let (sense, length) = (travel.signum(), travel.abs());
         // Along the travel z and x count positive; both ways obey the same equation.
         let z = memory * sense;

@@ -40,7 +40,7 @@ impl Law for Overshoot {
         (now.speed - now.speed.abs() * memory) / self.travel
     }
 
-    fn memory_after(&self, memory: f64, travel: f64) -> f64 {
+    fn memory_after(&self, memory: f64, travel: f64, _speed: f64) -> f64 {
         relaxed(memory, travel.signum(), travel, self.travel)
     }
 }

@@ -37,7 +37,7 @@ impl Law for Settled {
         now.speed.abs() * (1.0 - memory) / self.travel
     }
 
-    fn memory_after(&self, memory: f64, travel: f64) -> f64 {
+    fn memory_after(&self, memory: f64, travel: f64, _speed: f64) -> f64 {
         relaxed(memory, 1.0, travel, self.travel)
     }
 

@@ -2,7 +2,7 @@
 //! is 1 after Tustin 1947, 2 after Bo and Pavelescu 1982; Armstrong-Hélouvry 1994). Friction follows the speed with a delay that
 //! is a travel rather than a time (Hess and Soom 1990; Canudas de Wit et al. 1995).
 
-use super::{Entry, Form, Instant, Law, parameter};
+use super::{Entry, Form, Instant, Law, parameter, relaxed};
 use rigproof_spec::effect::Mechanism;
 
 pub(super) const ENTRY: Entry = Entry {
@@ -55,6 +55,18 @@ impl Law for Stribeck {
         match self.remembers() {
             true => (now.speed * self.share(now.speed) - now.speed.abs() * memory) / self.travel,
             false => 0.0,
+        }
+    }
+
+    fn memory_after(&self, memory: f64, travel: f64, speed: f64) -> f64 {
+        match self.remembers() {
+            true => relaxed(
+                memory,
+                self.share(speed).copysign(travel),
+                travel,
+                self.travel,
+            ),
+            false => memory,
         }
     }
 }

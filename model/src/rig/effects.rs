@@ -163,6 +163,7 @@ fn term(rig: &Rig, effect: &JointEffect) -> Result<Term, ModelError> {
             &rig.parameters.inertia,
             [value(0), value(1), value(2), value(3), value(4)],
         ))),
+        Mechanism::LoadDependent => Err(refused("the reference rig does not follow loads yet")),
         _ => {
             let law = resistance(effect).ok_or(refused("it is nothing that a rig does"))?;
             Ok(Term::Law {
@@ -184,7 +185,8 @@ fn resistance(effect: &JointEffect) -> Option<Box<dyn Law>> {
 
 fn check_numbers(effect: &JointEffect) -> Result<(), &'static str> {
     let names = effect.mechanism.parameters();
-    if names.len() != effect.parameters.len() {
+    let needed = names.iter().filter(|name| !name.is_optional).count();
+    if !(needed..=names.len()).contains(&effect.parameters.len()) {
         return Err("it has another number of parameters");
     }
     for (name, value) in names.iter().zip(&effect.parameters) {

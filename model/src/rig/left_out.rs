@@ -230,8 +230,9 @@ impl LeftOut {
             match &timed.term {
                 Term::Law { place, law } => {
                     let i = *place;
-                    let memory = law.memory_after(memory, now.travels_rad[i]);
-                    let (smooth, dry) = law.parts(&now.instant(i), memory);
+                    let instant = now.instant(i);
+                    let memory = law.memory_after(memory, now.travels_rad[i], instant.speed);
+                    let (smooth, dry) = law.parts(&instant, memory);
                     drive -= now.form.joints.row(i).transpose() * smooth;
                     more_nm[i] += dry;
                 }
@@ -260,7 +261,8 @@ impl LeftOut {
         for (timed, memory) in self.terms.iter().zip(&mut self.memory) {
             match &timed.term {
                 Term::Law { place, law } => {
-                    *memory = law.memory_after(*memory, travels_rad[*place]);
+                    let travel = travels_rad[*place];
+                    *memory = law.memory_after(*memory, travel, travel / step_s);
                 }
                 Term::Fade {
                     place, cooling_s, ..
