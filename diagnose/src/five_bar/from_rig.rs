@@ -110,11 +110,14 @@ pub fn with_angles(
     moved_by(run, theta).map(|(run, _)| run)
 }
 
-/// The run with other angles, and the speeds of θA and θB below which their sense cannot be told, rad/s.
+/// The speeds of θA and θB below which their sense cannot be told, sample by sample, rad/s.
+type Untold = [Vec<f64>; 2];
+
+/// The run with other angles, and what cannot be told of them.
 fn moved_by(
     run: FiveBarRun,
     theta: [Vec<f64>; 2],
-) -> Result<(FiveBarRun, [Vec<f64>; 2]), (usize, ModelError)> {
+) -> Result<(FiveBarRun, Untold), (usize, ModelError)> {
     let smoothed = theta
         .each_ref()
         .map(|theta| smoothed_motion(theta, run.step_s, run.cutoff_hz, run.theta_noise));
@@ -275,7 +278,7 @@ const BEND_S: f64 = 0.02;
 
 /// The speeds of θA and θB below which their sense cannot be told, sample by sample, rad/s: what noise does, and what the
 /// low-pass does where it bends the recorded angle, because the acceleration jumps there.
-fn untold_speeds(run: &FiveBarRun, base: &[Vec<Instant>; 2]) -> [Vec<f64>; 2] {
+fn untold_speeds(run: &FiveBarRun, base: &[Vec<Instant>; 2]) -> Untold {
     let reach = (BEND_S / run.step_s).round().max(1.0) as usize;
     let of = |(theta, motion): (&Vec<f64>, &Vec<Instant>)| -> Vec<f64> {
         let pairs = theta.iter().zip(motion);
@@ -304,7 +307,7 @@ fn joint_motion(
     run: &FiveBarRun,
     base: &[Vec<Instant>; 2],
     joint: Joint,
-    untold: &[Vec<f64>; 2],
+    untold: &Untold,
 ) -> Vec<Instant> {
     let [a, b] = base;
     let [untold_a, untold_b] = untold;
@@ -357,7 +360,7 @@ fn nominal_yields(run: &FiveBarRun, joint: Joint) -> Option<Vec<f64>> {
 /// By how much the yield torque of a joint's brake would differ if the joint turned faster or slower by what cannot be told, if
 /// the backlash began and ended a sample later or where the angle's own error may put it, or if the shaft did not start in its
 /// middle, N·m.
-fn yield_errors(run: &FiveBarRun, joint: Joint, untold: &[Vec<f64>; 2]) -> Option<Vec<f64>> {
+fn yield_errors(run: &FiveBarRun, joint: Joint, untold: &Untold) -> Option<Vec<f64>> {
     let (motion, own) = (run.motion(joint), run.yields.get(place(joint))?);
     let current = run.currents.get(place(joint))?.as_ref()?;
     let start = motion.first()?.position;
@@ -408,7 +411,7 @@ fn a_sample_late(motion: &[Instant]) -> Vec<Instant> {
 }
 
 /// How far the angle at which a joint turns back may be mistaken, rad: by counts, and by the low-pass that rounds it off.
-fn turning_point_error(run: &FiveBarRun, joint: Joint, untold: &[Vec<f64>; 2]) -> f64 {
+fn turning_point_error(run: &FiveBarRun, joint: Joint, untold: &Untold) -> f64 {
     let [untold_a, untold_b] = untold;
     let pairs = run.joint_rows(joint).zip(untold_a.iter().zip(untold_b));
     let turns = run.motion(joint).iter().map(|now| now.sense.abs() < 1.0);
@@ -427,7 +430,7 @@ fn turning_point_error(run: &FiveBarRun, joint: Joint, untold: &[Vec<f64>; 2]) -
 }
 
 /// A joint's motion, faster or slower by what cannot be told of its speed.
-fn turning(run: &FiveBarRun, joint: Joint, untold: &[Vec<f64>; 2], sign: f64) -> Vec<Instant> {
+fn turning(run: &FiveBarRun, joint: Joint, untold: &Untold, sign: f64) -> Vec<Instant> {
     let [untold_a, untold_b] = untold;
     let rows = run.joint_rows(joint).zip(untold_a.iter().zip(untold_b));
     let pairs = run.motion(joint).iter().zip(rows);

@@ -13,7 +13,6 @@ use super::coordinates::Ten;
 ///
 /// By (5.52) the multipliers of C₁ and C₂ are the force of the tip on arm ED, those of C₅ and C₆ minus what moves its mass; Newton's law
 /// for the arms gives the rest.
-#[expect(clippy::similar_names, reason = "the thesis's names of coordinates")]
 pub fn reactions_n(
     inertia: &Inertia,
     q: &Ten,
