@@ -92,10 +92,7 @@ pub fn aligned(rig: &FiveBar, recording: &FiveBarRecording) -> Result<FiveBarRun
         reason: format!("the linkage cannot stand at the recorded angles: {error}; an encoder has lost counts, or its zero or sign is wrong"),
     })?;
     check_sign(&run)?;
-    run.yield_errors = Joint::ALL.map(|joint| {
-        let none = || vec![0.0; run.motion(joint).len()];
-        yield_errors(&run, joint, &untold).unwrap_or_else(none)
-    });
+    run.yield_errors = Joint::ALL.map(|joint| yield_errors(&run, joint, &untold));
     Ok(run)
 }
 
@@ -360,7 +357,12 @@ fn nominal_yields(run: &FiveBarRun, joint: Joint) -> Option<Vec<f64>> {
 /// By how much the yield torque of a joint's brake would differ if the joint turned faster or slower by what cannot be told, if
 /// the backlash began and ended a sample later or where the angle's own error may put it, or if the shaft did not start in its
 /// middle, N·m.
-fn yield_errors(run: &FiveBarRun, joint: Joint, untold: &Untold) -> Option<Vec<f64>> {
+fn yield_errors(run: &FiveBarRun, joint: Joint, untold: &Untold) -> Vec<f64> {
+    let none = || vec![0.0; run.motion(joint).len()];
+    errors_of_brake(run, joint, untold).unwrap_or_else(none)
+}
+
+fn errors_of_brake(run: &FiveBarRun, joint: Joint, untold: &Untold) -> Option<Vec<f64>> {
     let (motion, own) = (run.motion(joint), run.yields.get(place(joint))?);
     let current = run.currents.get(place(joint))?.as_ref()?;
     let start = motion.first()?.position;
