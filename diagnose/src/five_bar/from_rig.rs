@@ -85,15 +85,22 @@ pub fn aligned(rig: &FiveBar, recording: &FiveBarRecording) -> Result<FiveBarRun
         recorded,
         speed_floor: 0.0,
     };
-    let (mut run, untold) = moved_by(run, theta).map_err(|(k, error)| Fault {
-        channel: "theta_a",
-        from_s: k as f64 * step_s,
-        to_s: k as f64 * step_s,
-        reason: format!("the linkage cannot stand at the recorded angles: {error}; an encoder has lost counts, or its zero or sign is wrong"),
-    })?;
+    let (mut run, untold) = moved_by(run, theta).map_err(|found| unassembled(step_s, found))?;
     check_sign(&run)?;
     run.yield_errors = Joint::ALL.map(|joint| yield_errors(&run, joint, &untold));
     Ok(run)
+}
+
+/// The fault of angles at which the linkage cannot stand.
+fn unassembled(step_s: f64, (sample, error): (usize, ModelError)) -> Fault {
+    Fault {
+        channel: "theta_a",
+        from_s: sample as f64 * step_s,
+        to_s: sample as f64 * step_s,
+        reason: format!(
+            "the linkage cannot stand at the recorded angles: {error}; an encoder has lost counts, or its zero or sign is wrong"
+        ),
+    }
 }
 
 /// A run with other angles: its motion, its forms and its brakes follow them.
