@@ -112,8 +112,10 @@ fn next(args: &Args, out: &Path, report: &Report) -> String {
         Verdict::NotExcited => "record again with more motion: several reversals at several speeds".to_owned(),
         _ if !text::holds(report) => "record for longer, or hold out another recording with --hold-out".to_owned(),
         Verdict::NoneOfLibrary => format!(
-            "look at {} and at `unknown` in the report: the shape says what to look for on the rig",
-            out.join("residual.svg").display()
+            "look at {} and at {} in the report: {} what to look for on the rig",
+            out.join("residual.svg").display(),
+            report.unknown.as_ref().map_or("`located`", |_| "`unknown`"),
+            report.unknown.as_ref().map_or("joint and regime hint at", |_| "the shape says"),
         ),
         _ => shell::line(
             &["rigproof", "simulate"],
