@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use rigproof_diagnose::report::{Report, Verdict};
 use rigproof_diagnose::{Description, Diagnosis, Options};
+use rigproof_spec::effect::Mechanism;
 use rigproof_trace::store::Folder;
 
 use crate::input::{self, Cut, Source};
@@ -104,6 +105,9 @@ fn say(args: &Args, out: &Path, files: &[&str], diagnosis: &Diagnosis) -> Result
     ]))
 }
 
+/// The mechanism that the reference rig does not compute.
+const LOAD: &str = Mechanism::LoadDependent.name();
+
 /// What to do now, as a command where there is one.
 fn next(args: &Args, out: &Path, report: &Report) -> String {
     let calibration = out.join(folder::CALIBRATION);
@@ -117,6 +121,9 @@ fn next(args: &Args, out: &Path, report: &Report) -> String {
             report.unknown.as_ref().map_or("`located`", |_| "`unknown`"),
             report.unknown.as_ref().map_or("joint and regime hint at", |_| "the shape says"),
         ),
+        _ if report.plant == "rig" && report.effects.iter().any(|e| e.mechanism == LOAD) => {
+            format!("hold {} against a recording with other loads: `simulate` does not follow `{LOAD}` yet", calibration.display())
+        }
         _ => shell::line(
             &["rigproof", "simulate"],
             &[

@@ -42,7 +42,7 @@ pub struct Args {
 
 const AFTER_HELP: &str = "\
 An axis runs freely from the recorded command; a bench follows the recorded motion. A five-bar runs freely from the
-recorded force and currents, each second from the recorded state: nothing holds it where the hand's stiffness did.
+recorded force and currents, every `--restart-s` from the recorded state: nothing holds it where the hand's stiffness did.
 
 Example:
   rigproof simulate run.csv --rig rig.toml --calibration run-diagnosis/calibration.toml \\

@@ -44,6 +44,7 @@ fn others() -> Vec<JointEffect> {
         at(Joint::C, ConstantBias, &[-0.083]),
         at(Joint::E, DirectionAsymmetry, &[0.017, 0.053]),
         at(Joint::A, Presliding, &[0.23, 0.011]),
+        at(Joint::E, Stribeck, &[0.19, 0.41, 1.7, 0.023]),
         at(Joint::B, Hysteresis, &[2.3, 9.7, 3.1]),
         at(Joint::A, Ripple, &[0.071, 0.043, 0.217]),
         at(Joint::E, Spring, &[0.113]),

@@ -90,11 +90,22 @@ pub(crate) fn summary(verdict: Verdict, selection: &Selection, fit: Option<&FitR
         _ => String::new(),
     };
     match verdict {
-        Verdict::Consistent => "the nominal model explains the recording down to its sensor noise".to_owned(),
-        Verdict::Explained => format!("the model left out {named}; with it nothing but sensor noise stays{shown}"),
-        Verdict::PartlyExplained => format!("the model left out {named}; something beyond sensor noise stays{shown}"),
-        Verdict::Ambiguous => format!("the model left out {named}, or what is listed as ambiguous with it{shown}"),
-        Verdict::NoneOfLibrary => "the model left out something that is not in the library; `located` says where".to_owned(),
+        Verdict::Consistent => {
+            "the nominal model explains the recording down to its sensor noise".to_owned()
+        }
+        Verdict::Explained => {
+            format!("the model left out {named}; with it nothing but sensor noise stays{shown}")
+        }
+        Verdict::PartlyExplained => {
+            format!("the model left out {named}; something beyond sensor noise stays{shown}")
+        }
+        Verdict::Ambiguous => {
+            format!("the model left out {named}, or what is listed as ambiguous with it{shown}")
+        }
+        Verdict::NoneOfLibrary => {
+            "the model left out something that is not in the library; `located` says where"
+                .to_owned()
+        }
         Verdict::NotExcited => "the recording moves too little to tell anything".to_owned(),
         Verdict::DataFault => "the recording itself is at fault".to_owned(),
     }

@@ -242,6 +242,15 @@ impl Stand<'_> {
             .collect()
     }
 
+    /// The selection with nothing found.
+    fn bare(&self) -> Selection {
+        Selection {
+            found: Vec::new(),
+            after: self.selection.before.clone(),
+            ..self.selection.clone()
+        }
+    }
+
     /// The models before and after on a recording from a time on, both with the numbers of the fitted part.
     fn balanced(&self, run: &FiveBarRun, from_s: f64) -> Balanced {
         let fitted = &self.problem.windows;
@@ -251,9 +260,7 @@ impl Stand<'_> {
             (centre - bump.len() / 2) as f64 * run.step_s >= from_s - 0.5 * run.step_s
         });
         let problem = Problem::of_five_bar(run, windows);
-        let mut bare = self.selection.clone();
-        bare.found.clear();
-        bare.after = bare.before.clone();
+        let bare = self.bare();
         let centres = problem.windows.centres.iter();
         let before_it = centres.take_while(|&&centre| (centre as f64) * run.step_s < from_s);
         let first = before_it.count();
@@ -276,7 +283,13 @@ impl Stand<'_> {
 
     /// Errors of free runs with the nominal effects of the calibration and with all of them, and how they were made.
     fn free_runs(&self, calibration: &FiveBar) -> (Vec<Horizon>, String) {
-        let before = Model::of_first(calibration, self.selection.nominal.len());
+        let bare = self.bare();
+        let errors = standard_errors(self.problem, &bare);
+        let nominal = Stand {
+            selection: &bare,
+            ..*self
+        };
+        let before = Model::of(&nominal.calibrated(&errors));
         let after = Model::of(calibration);
         let first = (self.test_from_s / self.test.step_s).round() as usize;
         let parts = [

@@ -32,13 +32,6 @@ impl Model {
         Model::with(nominal(description))
     }
 
-    /// The model with the first effects of a description only.
-    pub fn of_first(description: &FiveBar, count: usize) -> Model {
-        let mut effects = nominal(description);
-        effects.truncate(count);
-        Model::with(effects)
-    }
-
     fn with(effects: Vec<NominalEffect>) -> Model {
         let effects = effects.into_iter().map(|own| JointEffect {
             mechanism: own.cause.mechanism,
@@ -145,7 +138,7 @@ fn led(model: &Model, run: &FiveBarRun, starts: &[usize]) -> Result<Vec<Rig>, Mo
         if k > 0 {
             rig.lead(theta, rates, currents_at(run, k - 1), run.step_s)?;
         }
-        if starts.next_if(|start| **start == k).is_some() {
+        while starts.next_if(|start| **start == k).is_some() {
             there.push(rig.clone());
         }
         if starts.peek().is_none() {
@@ -163,7 +156,15 @@ struct Reached {
 }
 
 /// The rig let go at a sample, `count` samples long; shorter where the force drives the linkage out of its assembly.
-fn let_go(mut rig: Rig, run: &FiveBarRun, first: usize, count: usize) -> Vec<Reached> {
+///
+/// # Errors
+/// Those of [`Rig::step`] but where the linkage comes apart.
+fn let_go(
+    mut rig: Rig,
+    run: &FiveBarRun,
+    first: usize,
+    count: usize,
+) -> Result<Vec<Reached>, ModelError> {
     let parts = (run.step_s / LONGEST_STEP_S * (1.0 - 1e-9)).ceil().max(1.0);
     let mut reached = Vec::with_capacity(count);
     for k in first..first + count {
@@ -174,8 +175,12 @@ fn let_go(mut rig: Rig, run: &FiveBarRun, first: usize, count: usize) -> Vec<Rea
             let [b_x, b_y] = begin;
             let [e_x, e_y] = end;
             let force_n = [b_x + share * (e_x - b_x), b_y + share * (e_y - b_y)];
-            if rig.step(force_n, currents_a, run.step_s / parts).is_err() {
-                return reached;
+            match rig.step(force_n, currents_a, run.step_s / parts) {
+                Ok(()) => {}
+                Err(ModelError::Singular { .. } | ModelError::CannotClose { .. }) => {
+                    return Ok(reached);
+                }
+                Err(error) => return Err(error),
             }
         }
         reached.push(Reached {
@@ -183,7 +188,7 @@ fn let_go(mut rig: Rig, run: &FiveBarRun, first: usize, count: usize) -> Vec<Rea
             tip_m: rig.tip_m(),
         });
     }
-    reached
+    Ok(reached)
 }
 
 /// Free runs of a whole recording, one after another, each from the recorded state.
@@ -222,7 +227,7 @@ pub fn simulated(model: &Model, run: &FiveBarRun, restart_s: f64) -> Result<Simu
             theta_rad: rig.base_angles_rad(),
             tip_m: rig.tip_m(),
         };
-        let reached = let_go(rig, &run, first, count);
+        let reached = let_go(rig, &run, first, count)?;
         out.broken_off += usize::from(reached.len() < count);
         let lost = count - reached.len();
         let nowhere = Reached {
@@ -266,7 +271,7 @@ fn errors(
     let shots = led(model, &run, starts)?.into_iter().zip(starts);
     let at = shots
         .map(|(rig, &first)| {
-            let reached = let_go(rig, &run, first, longest);
+            let reached = let_go(rig, &run, first, longest)?;
             broken_off += usize::from(reached.len() < longest);
             let error = |count: &usize| {
                 let (at, k) = (reached.get(count - 1)?, first + count);
@@ -276,9 +281,9 @@ fn errors(
                 let counts = *run.recorded.get(k)? && *run.recorded.get(first)?;
                 counts.then(|| [off[0], off[1], tip_off_m(&run, k, at.tip_m)])
             };
-            counts.iter().map(error).collect()
+            Ok(counts.iter().map(error).collect())
         })
-        .collect();
+        .collect::<Result<_, ModelError>>()?;
     Ok(Errors { at, broken_off })
 }
 
@@ -317,13 +322,16 @@ pub fn horizons(
         errors(before, run, &starts, &counts)?,
         errors(after, run, &starts, &counts)?,
     );
-    let horizons = kept.iter().enumerate().map(|(index, &horizon_s)| {
+    let horizons = kept.iter().enumerate().filter_map(|(index, &horizon_s)| {
         // A shot counts where it came that far with both models.
         let shots = old.at.iter().zip(&new.at);
         let shots = shots.filter_map(|(old, new)| Some(((*old.get(index)?)?, (*new.get(index)?)?)));
         let (of_old, of_new): (Vec<_>, Vec<_>) = shots.unzip();
+        if of_old.is_empty() {
+            return None;
+        }
         let ((before, tip_before_mm), (after, tip_after_mm)) = (size(&of_old), size(&of_new));
-        Horizon {
+        Some(Horizon {
             horizon_s,
             part: name,
             unit: "rad".to_owned(),
@@ -331,7 +339,7 @@ pub fn horizons(
             after,
             tip_before_mm: Some(tip_before_mm),
             tip_after_mm: Some(tip_after_mm),
-        }
+        })
     });
     let horizons = horizons.collect();
     let said = match (old.broken_off, new.broken_off) {

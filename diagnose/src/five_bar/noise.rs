@@ -49,7 +49,8 @@ pub fn keep_told(run: &FiveBarRun, windows: &mut Windows) {
         });
         let (first, second) = (unknown.next(), unknown.next());
         *combined = first;
-        *usable = is_recorded(&run.recorded, centre, bump)
+        *usable = *usable
+            && is_recorded(&run.recorded, centre, bump)
             && second.is_none()
             && (first.is_none() || row % *outputs == 0);
     }

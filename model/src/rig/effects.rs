@@ -29,7 +29,7 @@ pub struct JointEffect {
 }
 
 impl Rig {
-    /// The same rig with physics that the thesis leaves out; effects that it had are replaced.
+    /// A rig without effects with physics that the thesis leaves out.
     ///
     /// Dry levels are added to the yield torque with which a joint slips or holds, which never falls below zero; smooth torques
     /// act on their joint always. Memories begin empty: nothing bent, nothing stirred, no heat, the currents of the first step.
@@ -39,16 +39,20 @@ impl Rig {
     /// with the shaft in its middle (gap `backlash-start`); other masses begin with the rates that there are.
     ///
     /// # Errors
-    /// [`ModelError::Effect`]: the mechanism is none of the rig's (those of the sensors are not), or its joint or its
-    /// numbers are not usable; [`ModelError::Mass`]: a mass does not stay above 0.
+    /// [`ModelError::Effect`]: the mechanism is none of the rig's (those of the sensors are not), its joint or its
+    /// numbers are not usable, or the rig has effects already; [`ModelError::Mass`]: a mass does not stay above 0.
     pub fn with_effects(self, effects: &[JointEffect]) -> Result<Rig, ModelError> {
-        let mut rig = Rig {
-            effects: None,
-            ..self
+        let Some(one) = effects.first() else {
+            return Ok(self);
         };
-        if effects.is_empty() {
-            return Ok(rig);
+        if self.effects.is_some() {
+            return Err(ModelError::Effect {
+                mechanism: one.mechanism.name(),
+                joint: one.joint.map_or("no joint", Joint::letter),
+                reason: "the rig has effects already: give it all of them at once",
+            });
         }
+        let mut rig = self;
         let mut heaviest = rig.parameters.inertia;
         let mut terms = Vec::with_capacity(effects.len());
         for effect in effects {

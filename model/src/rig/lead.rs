@@ -12,7 +12,7 @@ use crate::motion::two_coordinate::{TwoCoordinate, two_coordinate};
 
 impl Rig {
     /// Leads the rig to θA and θB, rad, where they turn at some rates, rad/s: brakes and what the left-out physics remembers follow
-    /// as in a step of `step_s` with these currents, A; every brake slips. What moved the rig is not asked for, so that work and
+    /// as in a step of `step_s` with these currents, A; a brake whose joint turns slips. What moved the rig is not asked for, so that work and
     /// dissipated energy stay as they are.
     ///
     /// So a rig comes to the state that a recording implies, and can be let go there.
