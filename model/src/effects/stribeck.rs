@@ -37,7 +37,10 @@ impl Stribeck {
 
 impl Law for Stribeck {
     fn smooth(&self, _now: &Instant, memory: f64) -> f64 {
-        self.peak * memory
+        match self.remembers() {
+            true => self.peak * memory,
+            false => 0.0,
+        }
     }
 
     fn dry(&self, now: &Instant) -> f64 {

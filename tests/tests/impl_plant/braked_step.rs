@@ -41,7 +41,9 @@ impl Resisting {
                 continue;
             };
             let names = entry.mechanism.parameters();
-            let mut parameters: Vec<f64> = names.iter().map(|_| draw.between(0.03, 0.31)).collect();
+            let whole = draw.one_in(2);
+            let needed = names.iter().filter(|name| !name.is_optional || whole);
+            let mut parameters: Vec<f64> = needed.map(|_| draw.between(0.03, 0.31)).collect();
             match entry.mechanism {
                 // So that rounding of a rate changes nothing.
                 Mechanism::Stribeck => parameters[2] += 1.0,
@@ -254,7 +256,7 @@ impl Followed {
                 ..now
             };
             let smooth = |at| reference.smooth(at, effect.memory);
-            let is_still = speed != 0.0 && speed.abs() < 1e-9;
+            let is_still = speed.abs() < 1e-9;
             looked.is_anyones |= is_still && smooth(&now) != smooth(&other);
             let own = Law::new(effect.mechanism, &effect.parameters).unwrap();
             let [_, halfway] = own.remember(effect.memory, speed, step_s);
