@@ -13,6 +13,16 @@ fn at(angle_deg: f64) -> f64 {
     rad_from_deg(angle_deg)
 }
 
+/// The yield torque at the end of a step and its mean are those expected, N·m.
+fn assert_same(own_nm: [f64; 2], expected_nm: [f64; 2], joint: Joint, moment_s: f64) {
+    for (own, expected) in own_nm.into_iter().zip(expected_nm) {
+        assert!(
+            (own - expected).abs() < 1e-12,
+            "{joint:?} {moment_s}: {own_nm:?} {expected_nm:?}"
+        );
+    }
+}
+
 #[test]
 fn the_moment_of_crossing_downwards_is_on_the_way() {
     let mut backlash = Backlash::new(1.7, at(11.1));
@@ -113,14 +123,11 @@ fn a_brake_that_comes_out_of_its_backlash_rises_from_that_moment_on() {
             let [end_nm, within] = course(since_nm, gain_nm(&table, 0.83), a_s, STEP_S - after_s);
             let missed = since + off_nm * before_s;
             let expected_nm = (missed + off_nm * after_s + within) / STEP_S;
-            assert!(
-                (brake.yield_nm() - end_nm).abs() < 1e-12,
-                "{joint:?} {moment_s}: {} {end_nm}",
-                brake.yield_nm()
-            );
-            assert!(
-                (mean_nm - expected_nm).abs() < 1e-12,
-                "{joint:?} {moment_s}: {mean_nm} {expected_nm}"
+            assert_same(
+                [brake.yield_nm(), mean_nm],
+                [end_nm, expected_nm],
+                joint,
+                moment_s,
             );
         }
     }
@@ -150,14 +157,11 @@ fn a_brake_that_comes_into_its_backlash_falls_from_that_moment_on() {
             let (before_s, after_s) = (moment_s.min(0.0), moment_s.max(0.0));
             let [end_nm, fallen] = course(full_nm, off_nm, a_s, STEP_S - after_s - before_s);
             let expected_nm = (fallen + full_nm * moment_s) / STEP_S;
-            assert!(
-                (brake.yield_nm() - end_nm).abs() < 1e-12,
-                "{joint:?} {moment_s}: {} {end_nm}",
-                brake.yield_nm()
-            );
-            assert!(
-                (mean_nm - expected_nm).abs() < 1e-12,
-                "{joint:?} {moment_s}: {mean_nm} {expected_nm}"
+            assert_same(
+                [brake.yield_nm(), mean_nm],
+                [end_nm, expected_nm],
+                joint,
+                moment_s,
             );
             assert_eq!(brake.fall_origin_a(), 0.83);
         }

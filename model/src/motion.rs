@@ -1,6 +1,7 @@
 //! The motion of the linkage: thesis §5.2, §5.3.5 and appendix A, and the two independent forms it is checked with.
 
 pub mod acceleration;
+pub mod added_mass;
 pub mod constraints;
 pub mod coordinates;
 pub mod friction;

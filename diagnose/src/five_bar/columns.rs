@@ -4,16 +4,16 @@ use super::brakes;
 use super::from_rig::with_angles;
 use super::run::{FiveBarRun, inertial, place, stacked};
 use crate::problem::{Cause, less, numerov, shifted};
-use nalgebra::{Matrix2, Vector2};
 use rigproof_model::bench::column;
 use rigproof_model::effects::{Form, entry, law};
 use rigproof_model::motion::acceleration::equations;
+use rigproof_model::motion::added_mass;
 use rigproof_model::motion::coordinates::{coordinates, forces, rates};
 use rigproof_model::motion::reactions::reactions_n;
 use rigproof_model::motion::two_coordinate::{TwoCoordinate, two_coordinate};
 use rigproof_model::rig::Parameters;
 use rigproof_spec::effect::Mechanism;
-use rigproof_spec::inertia::{ArmInertia, Inertia};
+use rigproof_spec::inertia::Inertia;
 use rigproof_spec::joint::Joint;
 
 /// What drives θA and θB, as the second difference of the angles sees it.
@@ -69,7 +69,10 @@ pub fn free(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<f64
             Some(vec![seen(&run.at_tip(turned))])
         }
         (Mechanism::Gravity, None) => Some([0, 1].map(|axis| seen(&weight(run, axis))).into()),
-        (Mechanism::Payload, None) => Some(vec![inertial(run, &forms_of(run, &tip_mass()))]),
+        (Mechanism::Payload, None) => Some(vec![inertial(
+            run,
+            &forms_of(run, &added_mass::at_tip(1.0)),
+        )]),
         (Mechanism::InertiaError, None) => Some(
             unit_inertias(&run.parameters.inertia)
                 .map(|unit| inertial(run, &forms_of(run, &unit)))
@@ -179,38 +182,13 @@ fn loads(run: &FiveBarRun) -> [Vec<f64>; 4] {
 
 /// The weight's resistance for a unit of gravity along x (0) or y (1), N·m.
 fn weight(run: &FiveBarRun, axis: usize) -> Vec<f64> {
-    let Inertia {
-        ae,
-        ed,
-        bc,
-        cd,
-        payload_kg,
-    } = run.parameters.inertia;
+    let gravity = if axis == 0 { [1.0, 0.0] } else { [0.0, 1.0] };
     let [joint_a, _, joint_b, _] = &run.joints;
-    stacked(
-        run.forms
-            .iter()
-            .zip(joint_a)
-            .zip(joint_b)
-            .map(|((form, a), b)| {
-                // A base arm's centre moves across its arm.
-                let across = |angle: f64| {
-                    let (sine, cosine) = libm::sincos(angle);
-                    if axis == 0 { -sine } else { cosine }
-                };
-                let base = Vector2::new(
-                    ae.mass_kg * ae.centre_m * across(a.position),
-                    bc.mass_kg * bc.centre_m * across(b.position),
-                );
-                let row = |rows: &Matrix2<f64>| rows.row(axis).transpose();
-                let [centre_ed, centre_cd] = form.centres();
-                let sum = base
-                    + row(centre_ed) * ed.mass_kg
-                    + row(centre_cd) * cd.mass_kg
-                    + row(&form.tip) * payload_kg;
-                (-sum).into()
-            }),
-    )
+    let motion = run.forms.iter().zip(joint_a.iter().zip(joint_b));
+    stacked(motion.map(|(form, (a, b))| {
+        let inertia = &run.parameters.inertia;
+        (-form.weight(inertia, [a.position, b.position], gravity)).into()
+    }))
 }
 
 fn forms_of(run: &FiveBarRun, inertia: &Inertia) -> Vec<TwoCoordinate> {
@@ -222,61 +200,12 @@ fn forms_of(run: &FiveBarRun, inertia: &Inertia) -> Vec<TwoCoordinate> {
         .collect()
 }
 
-const NO_ARM: ArmInertia = ArmInertia {
-    mass_kg: 0.0,
-    inertia_kg_m2: 0.0,
-    centre_m: 0.0,
-};
-
-const NOTHING: Inertia = Inertia {
-    ae: NO_ARM,
-    ed: NO_ARM,
-    bc: NO_ARM,
-    cd: NO_ARM,
-    payload_kg: 0.0,
-};
-
-const fn tip_mass() -> Inertia {
-    Inertia {
-        payload_kg: 1.0,
-        ..NOTHING
-    }
-}
-
-/// One unit of each parameter of an inertia error: AE, BC, ED, CD, tip. A carried arm's moment is that of its own mass at its
-/// own centre.
+/// One unit of each parameter of an inertia error: AE, BC, ED, CD, tip.
 fn unit_inertias(nominal: &Inertia) -> [Inertia; 5] {
-    let turning = ArmInertia {
-        inertia_kg_m2: 1.0,
-        ..NO_ARM
-    };
-    let carried = |arm: &ArmInertia| {
-        let about_joint = arm.inertia_kg_m2 + arm.mass_kg * arm.centre_m * arm.centre_m;
-        ArmInertia {
-            mass_kg: arm.mass_kg / about_joint,
-            inertia_kg_m2: arm.inertia_kg_m2 / about_joint,
-            centre_m: arm.centre_m,
-        }
-    };
-    [
-        Inertia {
-            ae: turning,
-            ..NOTHING
-        },
-        Inertia {
-            bc: turning,
-            ..NOTHING
-        },
-        Inertia {
-            ed: carried(&nominal.ed),
-            ..NOTHING
-        },
-        Inertia {
-            cd: carried(&nominal.cd),
-            ..NOTHING
-        },
-        tip_mass(),
-    ]
+    [0, 1, 2, 3, 4].map(|own| {
+        let unit = [0, 1, 2, 3, 4].map(|k| f64::from(u8::from(k == own)));
+        added_mass::in_all(nominal, unit)
+    })
 }
 
 /// An effort as the second difference of the angles sees it: Numerov's weights on both outputs.

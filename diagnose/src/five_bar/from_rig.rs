@@ -379,16 +379,19 @@ fn errors_of_brake(run: &FiveBarRun, joint: Joint, untold: &Untold) -> Option<Ve
         let pairs = errors.iter_mut().zip(own.iter().zip(&changed));
         pairs.for_each(|(error, (own, changed))| *error = error.max((own - changed).abs()));
     };
+    let untold = untold_of_joint(run, joint, untold);
     for sign in [1.0, -1.0] {
-        let turning = turning(run, joint, untold, sign);
-        doubt(along(Brake::new(joint, start), &turning));
+        doubt(along(
+            Brake::new(joint, start),
+            &turning(motion, &untold, sign),
+        ));
     }
     let table = brake_table(joint);
     if table.backlash_width_deg == 0.0 {
         return Some(errors);
     }
     doubt(along(Brake::new(joint, start), &a_sample_late(motion)));
-    let angle_deg = turning_point_error(run, joint, untold) / RAD_PER_DEG;
+    let angle_deg = turning_point_error(run, joint, &untold) / RAD_PER_DEG;
     let half = 0.5 * table.backlash_width_deg * RAD_PER_DEG;
     for (by_deg, start) in [
         (angle_deg, start),
@@ -419,38 +422,39 @@ fn a_sample_late(motion: &[Instant]) -> Vec<Instant> {
         .collect()
 }
 
+/// The speed of a joint below which its sense cannot be told, sample by sample, rad/s.
+fn untold_of_joint(run: &FiveBarRun, joint: Joint, [untold_a, untold_b]: &Untold) -> Vec<f64> {
+    let rows = run.joint_rows(joint).zip(untold_a.iter().zip(untold_b));
+    rows.map(|([by_a, by_b], (a, b))| by_a.abs() * a + by_b.abs() * b)
+        .collect()
+}
+
 /// How far the angle at which a joint turns back may be mistaken, rad: by counts, and by the low-pass that rounds it off.
-fn turning_point_error(run: &FiveBarRun, joint: Joint, untold: &Untold) -> f64 {
-    let [untold_a, untold_b] = untold;
-    let pairs = run.joint_rows(joint).zip(untold_a.iter().zip(untold_b));
-    let turns = run.motion(joint).iter().map(|now| now.sense.abs() < 1.0);
-    let errors = pairs
-        .zip(turns)
-        .map(|(([by_a, by_b], (untold_a, untold_b)), turns)| {
-            let speed = by_a.abs() * untold_a + by_b.abs() * untold_b;
-            let rounded = if turns {
-                speed / (TAU * run.cutoff_hz)
-            } else {
-                0.0
-            };
-            (by_a.abs() + by_b.abs()) * run.still_rad + rounded
-        });
+fn turning_point_error(run: &FiveBarRun, joint: Joint, untold: &[f64]) -> f64 {
+    let pairs = run
+        .joint_rows(joint)
+        .zip(run.motion(joint).iter().zip(untold));
+    let errors = pairs.map(|([by_a, by_b], (now, untold))| {
+        let turns = now.sense.abs() < 1.0;
+        let rounded = if turns {
+            untold / (TAU * run.cutoff_hz)
+        } else {
+            0.0
+        };
+        (by_a.abs() + by_b.abs()) * run.still_rad + rounded
+    });
     errors.fold(0.0, f64::max)
 }
 
-/// A joint's motion, faster or slower by what cannot be told of its speed.
-fn turning(run: &FiveBarRun, joint: Joint, untold: &Untold, sign: f64) -> Vec<Instant> {
-    let [untold_a, untold_b] = untold;
-    let rows = run.joint_rows(joint).zip(untold_a.iter().zip(untold_b));
-    let pairs = run.motion(joint).iter().zip(rows);
+/// A motion, faster or slower by what cannot be told of its speed.
+fn turning(motion: &[Instant], untold: &[f64], sign: f64) -> Vec<Instant> {
+    let pairs = motion.iter().zip(untold);
     pairs
-        .map(|(now, ([by_a, by_b], (untold_a, untold_b)))| {
-            let untold = by_a.abs() * untold_a + by_b.abs() * untold_b;
-            let speed = (now.speed.abs() + sign * untold).max(0.0);
-            Instant {
-                speed: speed.copysign(now.speed),
-                ..*now
-            }
+        .map(|(now, untold)| Instant {
+            speed: (now.speed.abs() + sign * untold)
+                .max(0.0)
+                .copysign(now.speed),
+            ..*now
         })
         .collect()
 }

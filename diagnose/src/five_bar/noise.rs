@@ -36,23 +36,22 @@ pub fn keep_told(run: &FiveBarRun, windows: &mut Windows) {
         combined,
         ..
     } = windows;
-    for (row, (usable, combined)) in usable.iter_mut().zip(combined).enumerate() {
-        let centre = centres.get(row).copied().unwrap_or(0);
+    let rows = usable
+        .chunks_mut(*outputs)
+        .zip(combined.chunks_mut(*outputs));
+    for (&centre, (usable, combined)) in centres.iter().step_by(*outputs).zip(rows) {
         let sums_up = |errors: &Vec<f64>| {
             let window = errors.iter().skip(centre - bump.len() / 2);
             window.zip(&*bump).map(|(y, w)| y * w).sum::<f64>() > most
         };
-        let mut unknown = (0..joints.len()).filter(|&j| {
-            joints
-                .get(j)
-                .is_some_and(|errors| errors.iter().any(sums_up))
-        });
-        let (first, second) = (unknown.next(), unknown.next());
-        *combined = first;
-        *usable = *usable
-            && is_recorded(&run.recorded, centre, bump)
-            && second.is_none()
-            && (first.is_none() || row % *outputs == 0);
+        let joints = joints.iter().enumerate();
+        let mut unknown = joints.filter(|(_, errors)| errors.iter().any(sums_up));
+        let first = unknown.next().map(|(joint, _)| joint);
+        let is_told = unknown.next().is_none() && is_recorded(&run.recorded, centre, bump);
+        for (output, usable) in usable.iter_mut().enumerate() {
+            *usable = *usable && is_told && (first.is_none() || output == 0);
+        }
+        combined.fill(first);
     }
 }
 

@@ -166,6 +166,27 @@ impl TwoCoordinate {
         self.tip.transpose() * Vector2::from(tip_force_n) - self.bias
     }
 
+    /// What the weight of arms and tip does to θA and θB, N·m, at their angles, rad, and a gravity in the plane, m/s².
+    pub fn weight(
+        &self,
+        inertia: &Inertia,
+        theta_rad: [f64; 2],
+        gravity: [f64; 2],
+    ) -> Vector2<f64> {
+        let gravity = Vector2::from(gravity);
+        // The centre of a base arm moves across the arm.
+        let base = |arm: &ArmInertia, theta_rad: f64| {
+            let (sine, cosine) = libm::sincos(theta_rad);
+            arm.mass_kg * arm.centre_m * (cosine * gravity.y - sine * gravity.x)
+        };
+        let [theta_a, theta_b] = theta_rad;
+        let [centre_ed, centre_cd] = &self.centres;
+        Vector2::new(base(&inertia.ae, theta_a), base(&inertia.bc, theta_b))
+            + centre_ed.transpose() * gravity * inertia.ed.mass_kg
+            + centre_cd.transpose() * gravity * inertia.cd.mass_kg
+            + self.tip.transpose() * gravity * inertia.payload_kg
+    }
+
     /// The accelerations of θA and θB under a tip force, N, and joint torques, N·m in the order A, E, B, C.
     pub fn acceleration_rad_s2(&self, tip_force_n: [f64; 2], torques_nm: [f64; 4]) -> [f64; 2] {
         let load = self.drive(tip_force_n) + self.joints.transpose() * Vector4::from(torques_nm);
@@ -186,12 +207,6 @@ impl TwoCoordinate {
     pub fn tip_velocity_m_s(&self, rates_rad_s: [f64; 2]) -> [f64; 2] {
         (self.tip * Vector2::from(rates_rad_s)).into()
     }
-
-    /// The velocities of the centres of mass of arms ED and CD by u, m/rad: 2×2 each, rows x, y.
-    pub const fn centres(&self) -> &[Matrix2<f64>; 2] {
-        &self.centres
-    }
-
     /// The velocities of the centres of mass of arms ED and CD, m/s.
     pub fn centre_velocities_m_s(&self, rates_rad_s: [f64; 2]) -> [[f64; 2]; 2] {
         self.centres

@@ -10,8 +10,8 @@ use super::left_out::{LeftOut, Term, Timed};
 use super::{Parameters, Rig};
 use crate::effects::{Law, law};
 use crate::error::ModelError;
-use crate::motion::check_inertia;
 use crate::motion::two_coordinate::two_coordinate;
+use crate::motion::{added_mass, check_inertia};
 use rigproof_spec::tables::brake_table;
 use rigproof_spec::units::deg_from_rad;
 
@@ -159,11 +159,8 @@ fn term(rig: &Rig, effect: &JointEffect) -> Result<Term, ModelError> {
             width_rad: value(0),
         }),
         Mechanism::Gravity => whole(Term::Weight([value(0), value(1)])),
-        Mechanism::Payload => whole(Term::Masses(Inertia {
-            payload_kg: value(0),
-            ..NOTHING
-        })),
-        Mechanism::InertiaError => whole(Term::Masses(more(
+        Mechanism::Payload => whole(Term::Masses(added_mass::at_tip(value(0)))),
+        Mechanism::InertiaError => whole(Term::Masses(added_mass::in_all(
             &rig.parameters.inertia,
             [value(0), value(1), value(2), value(3), value(4)],
         ))),
@@ -238,44 +235,6 @@ impl Rig {
             effects.has_begun(k);
         }
         self.effects = Some(effects);
-    }
-}
-
-const NO_ARM: ArmInertia = ArmInertia {
-    mass_kg: 0.0,
-    inertia_kg_m2: 0.0,
-    centre_m: 0.0,
-};
-
-const NOTHING: Inertia = Inertia {
-    ae: NO_ARM,
-    ed: NO_ARM,
-    bc: NO_ARM,
-    cd: NO_ARM,
-    payload_kg: 0.0,
-};
-
-/// Masses that have some moments of inertia about the first joints of the arms AE, BC, ED, CD, kg·m², and a mass at the tip,
-/// kg. A carried arm grows as a whole, its centre of mass stays.
-fn more(nominal: &Inertia, [ae, bc, ed, cd, tip_kg]: [f64; 5]) -> Inertia {
-    let turning = |inertia_kg_m2| ArmInertia {
-        inertia_kg_m2,
-        ..NO_ARM
-    };
-    let carried = |arm: &ArmInertia, added: f64| {
-        let share = added / (arm.inertia_kg_m2 + arm.mass_kg * arm.centre_m * arm.centre_m);
-        ArmInertia {
-            mass_kg: arm.mass_kg * share,
-            inertia_kg_m2: arm.inertia_kg_m2 * share,
-            centre_m: arm.centre_m,
-        }
-    };
-    Inertia {
-        ae: turning(ae),
-        bc: turning(bc),
-        ed: carried(&nominal.ed, ed),
-        cd: carried(&nominal.cd, cd),
-        payload_kg: tip_kg,
     }
 }
 

@@ -103,7 +103,6 @@ impl Rig {
     ) -> Situation<'a> {
         Situation {
             time_s: self.time_s,
-            pose,
             form,
             inertia: &self.parameters.inertia,
             contacts: self.contacts.of(),

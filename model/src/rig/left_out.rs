@@ -10,7 +10,6 @@ use rigproof_spec::joint::Joint;
 use super::contact::Contact;
 use super::effects::JointEffect;
 use crate::effects::{Instant, Law};
-use crate::linkage::Pose;
 use crate::motion::two_coordinate::TwoCoordinate;
 
 /// The least yield of a joint with dry friction, N·m: what holds has to be able to let go.
@@ -82,7 +81,6 @@ impl core::fmt::Debug for LeftOut {
 /// What the effects look at.
 pub struct Situation<'a> {
     pub time_s: f64,
-    pub pose: &'a Pose,
     pub form: &'a TwoCoordinate,
     pub inertia: &'a Inertia,
     pub contacts: [Contact; 4],
@@ -245,7 +243,10 @@ impl LeftOut {
                     slope_nm_per_a,
                     ..
                 } => more_nm[*place] += slope_nm_per_a * (memory - commanded_a[*place]),
-                Term::Weight(gravity) => drive += now.weight(*gravity),
+                Term::Weight(gravity) => {
+                    let [theta_a, _, theta_b, _] = now.angles_rad;
+                    drive += now.form.weight(now.inertia, [theta_a, theta_b], *gravity);
+                }
                 _ => {}
             }
         }
@@ -289,29 +290,5 @@ impl Situation<'_> {
                 Contact::Absent => 1.0f64.copysign(speed),
             },
         }
-    }
-
-    /// What the weight of arms and tip does to θA and θB, N·m, at a gravity in the plane, m/s².
-    fn weight(&self, gravity: [f64; 2]) -> Vector2<f64> {
-        let Inertia {
-            ae,
-            ed,
-            bc,
-            cd,
-            payload_kg,
-        } = self.inertia;
-        let gravity = Vector2::from(gravity);
-        // The centre of a base arm moves across the arm.
-        let base = |mass_kg: f64, centre_m: f64, theta_rad: f64| {
-            let (sine, cosine) = libm::sincos(theta_rad);
-            mass_kg * centre_m * (cosine * gravity.y - sine * gravity.x)
-        };
-        let [centre_ed, centre_cd] = self.form.centres();
-        Vector2::new(
-            base(ae.mass_kg, ae.centre_m, self.pose.theta_a_rad),
-            base(bc.mass_kg, bc.centre_m, self.pose.theta_b_rad),
-        ) + centre_ed.transpose() * gravity * ed.mass_kg
-            + centre_cd.transpose() * gravity * cd.mass_kg
-            + self.form.tip.transpose() * gravity * *payload_kg
     }
 }
