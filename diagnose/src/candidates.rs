@@ -15,7 +15,7 @@ pub fn causes(problem: &Problem) -> Vec<Cause> {
     }
     LIBRARY
         .iter()
-        .filter(|entry| !ONLY_OF_BRAKES.contains(&entry.mechanism))
+        .filter(|entry| entry.mechanism != ONLY_OF_BRAKES)
         .filter(|entry| matches!(entry.form, Form::Resistance(_) | Form::Drive))
         .map(|entry| Cause::of(entry.mechanism))
         .filter(|cause| {
@@ -26,7 +26,7 @@ pub fn causes(problem: &Problem) -> Vec<Cause> {
 }
 
 /// What only the brakes of the five-bar are asked for: the rules of the other plants were chosen without them.
-const ONLY_OF_BRAKES: [Mechanism; 2] = [Mechanism::ReversalOvershoot, Mechanism::Settling];
+const ONLY_OF_BRAKES: Mechanism = Mechanism::Settling;
 
 /// The variants of a cause that are tried beside the terms of `fitted`: one term a shape.
 pub fn variants(problem: &Problem, cause: Cause, terms: &[&Term], fitted: &Fit) -> Vec<Term> {

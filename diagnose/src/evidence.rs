@@ -6,7 +6,9 @@ use crate::regression::{
     Blocks, covariance, dot, fit, free_columns, nested_block_losses, norm, paired,
 };
 use crate::report::{NotSeen, NullDirection};
-use crate::select::{Found, Gates, Selection, TIE_Z, best_variant, refined, refs};
+use crate::select::{
+    Found, Gates, Selection, TIE_Z, best_variant, gives_energy, refined, refs,
+};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
@@ -230,8 +232,11 @@ fn rivals_of(
                 let (_, z) = paired(&losses, &selection.after.block_loss, &all);
                 let reached = bare.left_out() - losses.iter().sum::<f64>();
                 let enough = reached >= problem.plant.least_rival_share() * gain;
-                enough && z < TIE_Z
-                    || (reached >= RIVAL_SHARE * gain && reached > 0.0 && z < 2.0 * TIE_Z)
+                let as_good = enough && z < TIE_Z
+                    || (reached >= RIVAL_SHARE * gain && reached > 0.0 && z < 2.0 * TIE_Z);
+                as_good
+                    && best_variant(problem, &common, tried)
+                        .is_none_or(|(best, _)| !gives_energy(problem, &common, &best, blocks))
             };
             if is_rival(&tried) {
                 return true;

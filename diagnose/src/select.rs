@@ -14,6 +14,7 @@ use refine::refine;
 use step::{forward, swap};
 
 pub(crate) use judge::best as best_variant;
+pub(crate) use weigh::gives_energy;
 pub(crate) use refine::refined;
 pub use weigh::usable_rms;
 

@@ -34,6 +34,7 @@ fn what_settles_does_not_act_where_motion_has_no_sense() {
         position: 1.1,
         speed: 0.0,
         sense: 0.0,
+        brake_nm: 0.0,
     };
     assert_eq!(law.smooth(&still, 0.31), 0.0);
 }

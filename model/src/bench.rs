@@ -46,6 +46,7 @@ fn advanced(law: &dyn Law, before: &Instant, now: &Instant, memory: f64, step_s:
         speed: (now.position - before.position) / step_s,
         sense: now.sense,
     };
+    let memory = law.memory_after(memory, 0.0, middle.speed);
     let rate = law.memory_rate(&middle, memory);
     if rate == 0.0 && law.memory_rate(&middle, memory + 1.0) == 0.0 {
         return memory;

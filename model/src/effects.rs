@@ -68,6 +68,7 @@ pub trait Law: Send + Sync {
     }
 
     /// The memory after a travel in one sense, m or rad, at a speed that holds, m/s or rad/s: the solution of [`Law::memory_rate`].
+    /// After no travel it is the memory with which a motion of that sense begins.
     fn memory_after(&self, memory: f64, _travel: f64, _speed: f64) -> f64 {
         memory
     }
@@ -78,6 +79,8 @@ pub trait Law: Send + Sync {
 pub enum Form {
     /// A resistance along the motion, built from the parameters in the vocabulary's order.
     Resistance(fn(&[f64]) -> Box<dyn Law>),
+    /// A share of a brake's torque, positive along the motion: the law says how great a share.
+    ShareOfBrake(fn(&[f64]) -> Box<dyn Law>),
     /// A change of the driving effort (lag, gain error, time shift), applied by the plant itself.
     Drive,
     /// Something that a brake does with its current: it needs the brake.
@@ -143,10 +146,11 @@ pub fn entry(mechanism: Mechanism) -> Option<&'static Entry> {
     LIBRARY.iter().find(|entry| entry.mechanism == mechanism)
 }
 
-/// The resistance law of a mechanism with these parameters; `None` for a mechanism that acts on the drive.
+/// The law of a mechanism with these parameters, of a resistance or of a share of a brake's torque; `None` for a mechanism of
+/// another form.
 pub fn law(mechanism: Mechanism, parameters: &[f64]) -> Option<Box<dyn Law>> {
     match entry(mechanism)?.form {
-        Form::Resistance(build) => Some(build(parameters)),
+        Form::Resistance(build) | Form::ShareOfBrake(build) => Some(build(parameters)),
         Form::Drive | Form::Brake | Form::Linkage => None,
     }
 }
@@ -181,7 +185,7 @@ mod tests {
                     sense: f64::signum(travel),
                 };
                 let h = 1.0 / f64::from(steps);
-                let mut memory = start;
+                let mut memory = law.memory_after(start, 0.0, travel);
                 for _ in 0..steps {
                     let middle = memory + 0.5 * h * law.memory_rate(&now, memory);
                     memory += h * law.memory_rate(&now, middle);

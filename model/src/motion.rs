@@ -7,7 +7,6 @@ pub mod coordinates;
 pub mod friction;
 pub mod lumped;
 pub mod mass;
-pub mod reactions;
 pub mod stick;
 pub mod ten_coordinates;
 pub mod two_coordinate;

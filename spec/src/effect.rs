@@ -2,6 +2,9 @@
 
 use crate::units::Dimension;
 
+/// Rate of a joint below which its sense is rounding and no reversal, rad/s: a count of the encoder takes most of a day.
+pub const LEAST_TURNING_RAD_S: f64 = 1e-9;
+
 /// A physical mechanism that a model may contain or may have left out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
@@ -16,7 +19,7 @@ pub enum Mechanism {
     DirectionAsymmetry,
     /// Friction that falls with rising speed near standstill.
     Stribeck,
-    /// Higher torque just after a reversal.
+    /// Higher torque of a brake just after a reversal.
     ReversalOvershoot,
     /// Wrong width of the backlash window.
     BacklashWidth,
@@ -228,7 +231,7 @@ impl Mechanism {
             Mechanism::ReversalOvershoot => {
                 const {
                     &[
-                        Parameter::new("level", Effort),
+                        Parameter::new("fraction", Number),
                         Parameter::new("travel", Travel),
                     ]
                 }
@@ -245,7 +248,7 @@ impl Mechanism {
             Mechanism::CurrentHysteresis => {
                 const {
                     &[
-                        Parameter::new("slope", EffortPerCurrent),
+                        Parameter::new("share", Number),
                         Parameter::new("half_width", Current),
                     ]
                 }

@@ -34,7 +34,8 @@ fn takers() -> Vec<JointEffect> {
         at(Joint::E, Settling, &[0.37, 0.71]),
         at(Joint::B, GainError, &[0.19]),
         at(Joint::A, ThermalFade, &[0.043, 5.3]),
-        at(Joint::C, CurrentHysteresis, &[1.3, 0.041]),
+        at(Joint::A, LoadDependent, &[0.0071]),
+        at(Joint::C, CurrentHysteresis, &[0.31, 0.041]),
     ]
 }
 
@@ -196,7 +197,10 @@ fn a_rig_that_was_led_goes_on_as_the_one_that_went_there() {
                     .yield_torques_nm()
                     .into_iter()
                     .zip(led.yield_torques_nm());
-                torques.extend(pairs.map(|(free, led)| (free - led).abs()));
+                // A led rig feels no force on its tip before it is let go.
+                if effect.mechanism != LoadDependent {
+                    torques.extend(pairs.map(|(free, led)| (free - led).abs()));
+                }
                 let mut ends = [free.clone(), led.clone()].map(|mut rig| {
                     for later in 0..50 {
                         step(&mut rig, k + 1 + later);

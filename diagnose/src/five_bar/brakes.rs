@@ -45,6 +45,9 @@ pub fn change(
     }
 }
 
+/// Share of a current that hysteresis is linearised with.
+const USUAL_SHARE: f64 = 0.3;
+
 /// What a linear cause adds to a brake's yield torque for a coefficient of 1, sample by sample.
 pub fn unit(
     run: &FiveBarRun,
@@ -56,13 +59,20 @@ pub fn unit(
     let current = run.currents.get(place(joint))?.as_ref()?;
     let value = *shape.first()?;
     match mechanism {
+        // The torque is not linear in the current: a share of the size that is expected stands for the slope.
         Mechanism::CurrentHysteresis => {
             let mut play = current.first().copied()?;
-            let lag = current.iter().map(|i| {
-                play = play.clamp(i - value, i + value);
-                play - i
-            });
-            Some(lag.collect())
+            let held: Vec<f64> = current
+                .iter()
+                .map(|i| {
+                    play = play.clamp(i - value, i + value);
+                    i + USUAL_SHARE * (play - i)
+                })
+                .collect();
+            let start = run.motion(joint).first()?.position;
+            let changed = yields(Brake::new(joint, start), run.motion(joint), &held, run.step_s);
+            let change = less(&changed, own);
+            Some(change.into_iter().map(|c| c / USUAL_SHARE).collect())
         }
         Mechanism::ThermalFade => {
             let mut heat_j = 0.0;

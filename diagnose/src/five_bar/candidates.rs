@@ -137,7 +137,7 @@ pub fn shapes(
         Mechanism::Lag => one(geometric(0.5 * run.step_s, 0.25, 12)),
         Mechanism::DeadTime => one(geometric(run.step_s, 0.08, 8)),
         Mechanism::Saturation => one(limits(run, cause)),
-        Mechanism::CurrentHysteresis => one(geometric(0.01, 0.3, 5)),
+        Mechanism::CurrentHysteresis => one(geometric(0.01, 0.5, 7)),
         Mechanism::BacklashWidth => one(geometric(0.003, 0.12, 8)),
         Mechanism::ThermalFade => one(geometric(3.0, 300.0, 4)),
         Mechanism::ChannelSkew => {

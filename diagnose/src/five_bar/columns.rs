@@ -6,12 +6,8 @@ use super::run::{FiveBarRun, inertial, place, stacked};
 use crate::problem::{Cause, less, numerov, shifted};
 use rigproof_model::bench::column;
 use rigproof_model::effects::{Form, entry, law};
-use rigproof_model::motion::acceleration::equations;
 use rigproof_model::motion::added_mass;
-use rigproof_model::motion::coordinates::{coordinates, forces, rates};
-use rigproof_model::motion::reactions::reactions_n;
 use rigproof_model::motion::two_coordinate::{TwoCoordinate, two_coordinate};
-use rigproof_model::rig::Parameters;
 use rigproof_spec::effect::Mechanism;
 use rigproof_spec::inertia::Inertia;
 use rigproof_spec::joint::Joint;
@@ -54,8 +50,8 @@ pub fn free(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<f64
             at_joint(run, Mechanism::DryOffset, joint, shape)
         }
         (Mechanism::LoadDependent, Some(joint)) => {
-            let loads = run.loads.get_or_init(|| loads(run)).get(place(joint))?;
-            Some(vec![along_motion(run, joint, loads)])
+            let loads: Vec<f64> = run.forces().map(|[x, y]| x.hypot(y)).collect();
+            Some(vec![along_motion(run, joint, &loads)])
         }
         (mechanism, Some(joint)) => at_joint(run, mechanism, joint, shape),
         (Mechanism::ForceGain, None) => Some(vec![driving(run)]),
@@ -143,41 +139,21 @@ fn at_joint(
     shape: &[f64],
 ) -> Option<Vec<Vec<f64>>> {
     let entry = entry(mechanism)?;
-    if !matches!(entry.form, Form::Resistance(_)) {
-        return None;
-    }
+    let of: Option<&Vec<f64>> = match entry.form {
+        Form::Resistance(_) => None,
+        Form::ShareOfBrake(_) => Some(run.yields.get(place(joint))?),
+        Form::Drive | Form::Brake | Form::Linkage => return None,
+    };
     crate::problem::unit_parameters(entry.linear, shape)
         .map(|parameters| {
             let law = law(mechanism, &parameters)?;
-            let resistance = column(law.as_ref(), run.motion(joint), run.step_s);
+            let mut resistance = column(law.as_ref(), run.motion(joint), run.step_s);
+            for (share, torque) in resistance.iter_mut().zip(of.into_iter().flatten()) {
+                *share *= torque;
+            }
             Some(seen(&run.at_joint(joint, &resistance)))
         })
         .collect()
-}
-
-/// The forces in the bearings of A, E, B, C, sample by sample, N, as the reference model has them under the recorded force and
-/// the nominal brakes; nothing where the linkage is singular.
-fn loads(run: &FiveBarRun) -> [Vec<f64>; 4] {
-    let Parameters { arms, inertia, .. } = &run.parameters;
-    let torques = Joint::ALL.map(|joint| run.brake_torque(joint));
-    let mut loads = [const { Vec::new() }; 4];
-    let samples = run.poses.iter().zip(&run.forms).zip(run.forces());
-    for (k, ((pose, form), force)) in samples.enumerate() {
-        let speed = |joint: Joint| run.motion(joint).get(k).map_or(0.0, |now| now.speed);
-        let q = coordinates(arms, inertia, pose);
-        let q_dot = rates(form, [Joint::A, Joint::B].map(speed));
-        let braked = torques
-            .each_ref()
-            .map(|t| -t.get(k).copied().unwrap_or(0.0));
-        let result = equations(arms, inertia, &q, &q_dot).acceleration(&forces(force, braked));
-        let reactions = result.map_or([[0.0; 2]; 4], |result| {
-            reactions_n(inertia, &q, &q_dot, &result)
-        });
-        for (load, [x, y]) in loads.iter_mut().zip(reactions) {
-            load.push(x.hypot(y));
-        }
-    }
-    loads
 }
 
 /// The weight's resistance for a unit of gravity along x (0) or y (1), N·m.

@@ -8,7 +8,6 @@ use crate::align::{
 };
 use crate::problem::{Cause, NominalEffect};
 use crate::run::PlantKind;
-use core::cell::OnceCell;
 use core::f64::consts::TAU;
 use rigproof_model::brake::{Brake, ENTRY_TRAVEL_DEG};
 use rigproof_model::effects::Instant;
@@ -78,7 +77,6 @@ pub fn aligned(rig: &FiveBar, recording: &FiveBarRecording) -> Result<FiveBarRun
         currents,
         yields: [const { Vec::new() }; 4],
         yield_errors: [const { Vec::new() }; 4],
-        loads: OnceCell::new(),
         theta_noise,
         still_rad: (2.0 * quantum).max(6.0 * theta_noise),
         force_noise,
@@ -132,7 +130,6 @@ fn moved_by(
         theta,
         poses,
         forms,
-        loads: OnceCell::new(),
         speed_floor: floors.into_iter().fold(0.0, f64::max),
         ..run
     };

@@ -1,6 +1,5 @@
 //! This file is an aligned recording of the five-bar: joint motions, forms of the equations of motion, nominal brakes.
 
-use core::cell::OnceCell;
 use nalgebra::{Matrix2, Vector2};
 use rigproof_model::brake::Brake;
 use rigproof_model::effects::Instant;
@@ -35,8 +34,6 @@ pub struct FiveBarRun {
     pub yields: [Vec<f64>; 4],
     /// By how much the nominal yield torques may be mistaken, because where a backlash begins and ends is known to a few counts, N·m.
     pub yield_errors: [Vec<f64>; 4],
-    /// The forces in the bearings of A, E, B, C, N, once they were asked for.
-    pub loads: OnceCell<[Vec<f64>; 4]>,
     /// Standard deviation of one angle sample, rad.
     pub theta_noise: f64,
     /// Travel within which a joint may rest, rad.
@@ -143,7 +140,6 @@ impl FiveBarRun {
             currents: self.currents.each_ref().map(|c| c.as_ref().map(part)),
             yields: self.yields.each_ref().map(part),
             yield_errors: self.yield_errors.each_ref().map(part),
-            loads: OnceCell::new(),
             theta_noise: self.theta_noise,
             still_rad: self.still_rad,
             cutoff_hz: self.cutoff_hz,

@@ -76,6 +76,14 @@ pub(super) fn drives(term: &Term, own: &[f64]) -> bool {
     passive && own.first().is_some_and(|c| *c < 0.0)
 }
 
+/// Whether a passive mechanism would come out with a sign that gives energy beside these terms.
+pub fn gives_energy(problem: &Problem, common: &[&Term], term: &Term, blocks: &Blocks) -> bool {
+    let mut terms = common.to_vec();
+    terms.push(term);
+    let fitted = fit(problem, &terms, blocks);
+    drives(term, own_coefficients(term, &fitted))
+}
+
 /// Loss over all blocks with one more term.
 pub(super) fn loss_with(problem: &Problem, common: &[&Term], term: &Term) -> f64 {
     let mut terms = common.to_vec();

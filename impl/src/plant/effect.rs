@@ -1,6 +1,6 @@
 //! This file is physics that the thesis leaves out: the resistance laws of the effect library on a joint of the rig.
 
-use rigproof_spec::effect::Mechanism;
+use rigproof_spec::effect::{LEAST_TURNING_RAD_S, Mechanism};
 use rigproof_spec::joint::Joint;
 
 use super::decay::decayed;
@@ -30,6 +30,8 @@ pub struct Instant {
     pub speed: f64,
     /// Sense of motion: +1 or −1; at rest the sense that is tried.
     pub sense: f64,
+    /// What the joint's brake alone can resist with, N·m.
+    pub brake_nm: f64,
 }
 
 /// A law with its parameters.
@@ -76,8 +78,8 @@ pub enum Law {
     NonlinearSpring { cubic: f64 },
     /// rate·t.
     BiasDrift { rate: f64 },
-    /// level·(sgn q̇ − w)/2, travel·dw/dt = q̇ − |q̇|·w.
-    ReversalOvershoot { level: f64, travel: f64 },
+    /// Of the brake's torque fraction·exp(−x/travel), x travelled since the sense changed.
+    ReversalOvershoot { fraction: f64, travel: f64 },
     /// level·(1 − m)·sgn q̇, travel·dm/dt = |q̇|·(1 − m); nothing at rest.
     Settling { level: f64, travel: f64 },
 }
@@ -127,8 +129,8 @@ impl Law {
             (Mechanism::Spring, &[stiffness]) => Law::Spring { stiffness },
             (Mechanism::NonlinearSpring, &[cubic]) => Law::NonlinearSpring { cubic },
             (Mechanism::BiasDrift, &[rate]) => Law::BiasDrift { rate },
-            (Mechanism::ReversalOvershoot, &[level, travel]) if travel > 0.0 => {
-                Law::ReversalOvershoot { level, travel }
+            (Mechanism::ReversalOvershoot, &[fraction, travel]) if travel > 0.0 => {
+                Law::ReversalOvershoot { fraction, travel }
             }
             (Mechanism::Settling, &[level, travel]) if travel > 0.0 => {
                 Law::Settling { level, travel }
@@ -162,16 +164,20 @@ impl Law {
             Law::Spring { stiffness } => stiffness * now.position,
             Law::NonlinearSpring { cubic } => cubic * now.position * now.position * now.position,
             Law::BiasDrift { rate } => rate * now.time_s,
-            Law::ReversalOvershoot { level, .. } => -0.5 * level * memory,
+            Law::ReversalOvershoot { fraction, .. } => {
+                -0.5 * fraction * now.brake_nm * memory
+            },
             Law::Settling { level, .. } => level * (1.0 - memory) * now.sense,
         }
     }
 
     /// The dry level: the resistance against motion and up to which it holds at rest, N·m.
-    pub fn dry(&self, now: &Instant) -> f64 {
+    pub fn dry(&self, now: &Instant, memory: f64) -> f64 {
         match *self {
             Law::DryOffset { level } => level,
-            Law::ReversalOvershoot { level, .. } => 0.5 * level,
+            Law::ReversalOvershoot { fraction, .. } => {
+                fraction * now.brake_nm * (1.0 - 0.5 * memory.abs())
+            },
             Law::Stribeck {
                 peak,
                 speed,
@@ -183,6 +189,15 @@ impl Law {
 
     /// The memory after a time, s, at a constant rate, rad/s, and halfway: exact while the memory keeps its sign.
     pub fn remember(&self, memory: f64, speed: f64, time_s: f64) -> [f64; 2] {
+        let memory = match *self {
+            // Every change of sense begins anew.
+            Law::ReversalOvershoot { .. }
+                if memory * speed < 0.0 && speed.abs() > LEAST_TURNING_RAD_S =>
+            {
+                0.0
+            }
+            _ => memory,
+        };
         let (gain, decay) = match *self {
             Law::Presliding { travel, .. } | Law::ReversalOvershoot { travel, .. } => {
                 (speed / travel, speed.abs() / travel)

@@ -268,17 +268,19 @@ impl Plant {
     ) -> Resistance {
         for Effect { joint, law, memory } in self.effects.iter().map_while(Option::as_ref) {
             let (position, speed, row) = at(&look, *joint);
+            let brake_nm = sum.yields_nm.get(*joint as usize).copied();
             let now = Instant {
                 time_s: self.time_s + lead_s,
                 position,
                 speed,
                 // At rest the two breakaway levels differ by what depends on the sense: either sense shifts both.
                 sense: if speed < 0.0 { -1.0 } else { 1.0 },
+                brake_nm: brake_nm.unwrap_or(0.0),
             };
             let [_, halfway] = law.remember(*memory, speed, step_s);
             sum.smooth_nm = sum.smooth_nm + row * law.smooth(&now, halfway);
             if let Some(dry_nm) = sum.dry_nm.get_mut(*joint as usize) {
-                *dry_nm += law.dry(&now);
+                *dry_nm += law.dry(&now, halfway);
             }
         }
         for (dry_nm, yield_nm) in sum.dry_nm.iter_mut().zip(sum.yields_nm) {

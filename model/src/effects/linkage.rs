@@ -35,7 +35,7 @@ pub(super) const LOAD_DEPENDENT: Entry = Entry {
         Mechanism::LoadDependent,
         1,
         "the same friction whether the hand pulls hard or hardly at all",
-        "arm·|F|·sgn(ω), F the force in the joint's bearing",
+        "arm·|F|·sgn(ω), F the force on the tip",
     )
 };
 

@@ -1,35 +1,39 @@
-//! This file is more torque just after a reversal, as §3.5 of the thesis saw it: it decays with the travel since.
+//! This file is a brake's greater torque just after a reversal, as §3.5 of the thesis saw it: a share of its torque that decays with
+//! the travel since.
 
 use super::{Entry, Form, Instant, Law, parameter, relaxed};
-use rigproof_spec::effect::Mechanism;
+use rigproof_spec::effect::{LEAST_TURNING_RAD_S, Mechanism};
 
 pub(super) const ENTRY: Entry = Entry {
     mechanism: Mechanism::ReversalOvershoot,
-    form: Form::Resistance(|p| {
+    form: Form::ShareOfBrake(|p| {
         Box::new(Overshoot {
-            level: parameter(p, 0),
+            fraction: parameter(p, 0),
             travel: parameter(p, 1),
         })
     }),
     linear: 1,
     passive: true,
     refuted_by: "the same resistance just after a reversal and long after it",
-    equation: "level·(sgn(q̇) − w)/2, travel·dw/dt = q̇ − |q̇|·w",
+    equation: "τ·fraction·exp(−x/travel), x travelled since the sense changed",
 };
 
-/// The memory is Dahl's: it comes from −1 to +1 with the travel after a reversal, so that what it lacks of the sense decays.
+/// The memory is the share of its travel that a joint has gone since it turned, with the sense in which it goes: every change of
+/// sense begins anew.
 struct Overshoot {
-    level: f64,
+    fraction: f64,
     travel: f64,
 }
 
 impl Law for Overshoot {
-    fn smooth(&self, _now: &Instant, memory: f64) -> f64 {
-        -0.5 * self.level * memory
+    fn smooth(&self, now: &Instant, memory: f64) -> f64 {
+        let since = (memory * now.sense).max(0.0);
+        self.fraction * (1.0 - since) * now.sense
     }
 
-    fn dry(&self, _now: &Instant) -> f64 {
-        0.5 * self.level
+    fn parts(&self, _now: &Instant, memory: f64) -> (f64, f64) {
+        let half = 0.5 * self.fraction;
+        (-half * memory, self.fraction - half * memory.abs())
     }
 
     fn remembers(&self) -> bool {
@@ -40,7 +44,9 @@ impl Law for Overshoot {
         (now.speed - now.speed.abs() * memory) / self.travel
     }
 
-    fn memory_after(&self, memory: f64, travel: f64, _speed: f64) -> f64 {
+    fn memory_after(&self, memory: f64, travel: f64, speed: f64) -> f64 {
+        let turned = memory * speed < 0.0 && speed.abs() > LEAST_TURNING_RAD_S;
+        let memory = if turned { 0.0 } else { memory };
         relaxed(memory, travel.signum(), travel, self.travel)
     }
 }

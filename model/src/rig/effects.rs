@@ -91,7 +91,6 @@ const fn has_dry(mechanism: Mechanism) -> bool {
         Mechanism::DryOffset
             | Mechanism::BearingFriction
             | Mechanism::Stribeck
-            | Mechanism::ReversalOvershoot
             | Mechanism::Settling
     )
 }
@@ -132,6 +131,10 @@ fn term(rig: &Rig, effect: &JointEffect) -> Result<Term, ModelError> {
             place: braked()? as usize,
             fraction: value(0),
         }),
+        Mechanism::ReversalOvershoot => Ok(Term::Share {
+            place: braked()? as usize,
+            law: law(effect.mechanism, &effect.parameters).ok_or(refused("it has no law"))?,
+        }),
         Mechanism::ThermalFade => Ok(Term::Fade {
             place: braked()? as usize,
             per_joule: value(0),
@@ -139,7 +142,7 @@ fn term(rig: &Rig, effect: &JointEffect) -> Result<Term, ModelError> {
         }),
         Mechanism::CurrentHysteresis => Ok(Term::Play {
             place: braked()? as usize,
-            slope_nm_per_a: value(0),
+            share: value(0),
             half_width_a: value(1),
         }),
         Mechanism::DeadTime => Ok(Term::Late {
@@ -164,7 +167,10 @@ fn term(rig: &Rig, effect: &JointEffect) -> Result<Term, ModelError> {
             &rig.parameters.inertia,
             [value(0), value(1), value(2), value(3), value(4)],
         ))),
-        Mechanism::LoadDependent => Err(refused("the reference rig does not follow loads yet")),
+        Mechanism::LoadDependent => Ok(Term::Load {
+            place: braked()? as usize,
+            arm_m: value(0),
+        }),
         _ => {
             let law = resistance(effect).ok_or(refused("it is nothing that a rig does"))?;
             Ok(Term::Law {

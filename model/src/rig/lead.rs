@@ -76,15 +76,22 @@ impl Rig {
     pub(super) fn drive(&self, tip_force_n: [f64; 2]) -> Vector2<f64> {
         let drive = self.form.drive(tip_force_n);
         match &self.effects {
-            Some(effects) => drive + effects.at(&self.present()).drive,
+            Some(effects) => drive + effects.at(&self.present(tip_force_n)).drive,
             None => drive,
+        }
+    }
+
+    /// What a force on the tip, N, makes of the yields.
+    pub(super) fn feel(&mut self, tip_force_n: [f64; 2]) {
+        if let Some(effects) = &self.effects {
+            self.yields_nm = effects.at(&self.present(tip_force_n)).yields_nm;
         }
     }
 
     /// Yields and torques as they belong to the present state without a force on the tip.
     pub(super) fn settle(&mut self) {
         self.yields_nm = match &self.effects {
-            Some(effects) => effects.at(&self.present()).yields_nm,
+            Some(effects) => effects.at(&self.present([0.0; 2])).yields_nm,
             None => self.own_yields_nm(),
         };
         let balance = self
@@ -100,6 +107,7 @@ impl Rig {
         form: &'a TwoCoordinate,
         joint_rates_rad_s: [f64; 4],
         own_nm: [f64; 4],
+        tip_force_n: [f64; 2],
     ) -> Situation<'a> {
         Situation {
             time_s: self.time_s,
@@ -110,15 +118,17 @@ impl Rig {
             joint_rates_rad_s,
             travels_rad: self.travels_rad(pose),
             own_nm,
+            tip_force_n,
         }
     }
 
-    fn present(&self) -> Situation<'_> {
+    fn present(&self, tip_force_n: [f64; 2]) -> Situation<'_> {
         self.situation(
             &self.pose,
             &self.form,
             self.joint_rates_rad_s(),
             self.own_yields_nm(),
+            tip_force_n,
         )
     }
 

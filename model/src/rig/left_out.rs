@@ -19,7 +19,9 @@ const LEAST_NM: f64 = 1e-9;
 pub enum Term {
     /// A resistance law of a joint; it may remember.
     Law { place: usize, law: Box<dyn Law> },
-    /// A brake's torque, more by a share.
+    /// A share of a brake's torque, as a law says; it may remember.
+    Share { place: usize, law: Box<dyn Law> },
+    /// A brake's torque, more by a share that stays.
     Gain { place: usize, fraction: f64 },
     /// A brake's torque, less by what it has heated up; remembers the heat, J.
     Fade {
@@ -27,10 +29,10 @@ pub enum Term {
         per_joule: f64,
         cooling_s: f64,
     },
-    /// A brake's torque, more by how far a play lags behind the current; remembers the play, A.
+    /// A share of a brake's current is that of a play; remembers the play, A.
     Play {
         place: usize,
-        slope_nm_per_a: f64,
+        share: f64,
         half_width_a: f64,
     },
     /// A brake's current comes late.
@@ -41,6 +43,8 @@ pub enum Term {
     Lag { place: usize, time_constant_s: f64 },
     /// Another backlash; remembers whether it has begun.
     Backlash { joint: Joint, width_rad: f64 },
+    /// A brake's torque, more by the force on the tip with an arm.
+    Load { place: usize, arm_m: f64 },
     /// Weight in the plane, m/s².
     Weight([f64; 2]),
     /// More masses; remembers whether they have begun.
@@ -90,6 +94,8 @@ pub struct Situation<'a> {
     pub travels_rad: [f64; 4],
     /// What the brakes alone would yield, N·m.
     pub own_nm: [f64; 4],
+    /// The force on the tip, N.
+    pub tip_force_n: [f64; 2],
 }
 
 /// What the effects do.
@@ -148,7 +154,7 @@ impl LeftOut {
         let terms = Arc::clone(&self.terms);
         let mut longest_s = 0.0f64;
         let mut given_a = commanded_a;
-        // A delay acts before a limit, both before a lag, in whichever order they are given.
+        // A delay acts before a limit, both before a lag and that before the magnet, in whichever order they are given.
         for timed in terms.iter() {
             if let Term::Late { place, delay_s } = timed.term {
                 longest_s = longest_s.max(delay_s);
@@ -178,16 +184,22 @@ impl LeftOut {
                         given_a[place] = *memory;
                     }
                 }
-                Term::Play {
-                    place,
-                    half_width_a,
-                    ..
-                } => {
-                    let now_a = commanded_a[place];
-                    let before_a = if first { now_a } else { *memory };
-                    *memory = before_a.clamp(now_a - half_width_a, now_a + half_width_a);
-                }
                 _ => {}
+            }
+        }
+        for (timed, memory) in terms.iter().zip(&mut self.memory) {
+            if let Term::Play {
+                place,
+                share,
+                half_width_a,
+            } = timed.term
+            {
+                let now_a = given_a[place];
+                let before_a = if first { now_a } else { *memory };
+                *memory = before_a.clamp(now_a - half_width_a, now_a + half_width_a);
+                if time_s >= timed.onset_s {
+                    given_a[place] += share * (*memory - now_a);
+                }
             }
         }
         let needed_s = time_s - longest_s;
@@ -217,32 +229,31 @@ impl LeftOut {
         let mut drive = Vector2::zeros();
         let mut more_nm = [0.0; 4];
         let mut shares = [1.0; 4];
-        let commanded_a = self
-            .commands
-            .last()
-            .map_or([0.0; 4], |(_, currents)| *currents);
         for (timed, &memory) in self.terms.iter().zip(&self.memory) {
             if now.time_s < timed.onset_s {
                 continue;
             }
             match &timed.term {
-                Term::Law { place, law } => {
+                Term::Law { place, law } | Term::Share { place, law } => {
                     let i = *place;
                     let instant = now.instant(i);
                     let memory = law.memory_after(memory, now.travels_rad[i], instant.speed);
                     let (smooth, dry) = law.parts(&instant, memory);
-                    drive -= now.form.joints.row(i).transpose() * smooth;
-                    more_nm[i] += dry;
+                    let of = match timed.term {
+                        Term::Share { .. } => now.own_nm[i],
+                        _ => 1.0,
+                    };
+                    drive -= now.form.joints.row(i).transpose() * (smooth * of);
+                    more_nm[i] += dry * of;
                 }
                 Term::Gain { place, fraction } => shares[*place] += fraction,
                 Term::Fade {
                     place, per_joule, ..
                 } => shares[*place] -= per_joule * memory,
-                Term::Play {
-                    place,
-                    slope_nm_per_a,
-                    ..
-                } => more_nm[*place] += slope_nm_per_a * (memory - commanded_a[*place]),
+                Term::Load { place, arm_m } => {
+                    let [x, y] = now.tip_force_n;
+                    more_nm[*place] += arm_m * x.hypot(y);
+                }
                 Term::Weight(gravity) => {
                     let [theta_a, _, theta_b, _] = now.angles_rad;
                     drive += now.form.weight(now.inertia, [theta_a, theta_b], *gravity);
@@ -261,7 +272,7 @@ impl LeftOut {
     pub fn follow(&mut self, travels_rad: [f64; 4], own_nm: [f64; 4], step_s: f64) {
         for (timed, memory) in self.terms.iter().zip(&mut self.memory) {
             match &timed.term {
-                Term::Law { place, law } => {
+                Term::Law { place, law } | Term::Share { place, law } => {
                     let travel = travels_rad[*place];
                     *memory = law.memory_after(*memory, travel, travel / step_s);
                 }

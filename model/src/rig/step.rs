@@ -108,6 +108,7 @@ impl Rig {
     ) -> Result<(), ModelError> {
         let tip_force_n = tip_force.force_n(self.pose.tip_m, self.tip_velocity_m_s());
         check_finite("force on the tip", "N", tip_force_n)?;
+        self.feel(tip_force_n);
         let momentum = self.form.mass * Vector2::from(self.rates_rad_s);
         let drive = momentum + self.drive(tip_force_n) * step_s;
         let impulses = self.yields_nm.map(|yield_nm| yield_nm * step_s);
@@ -161,6 +162,7 @@ impl Rig {
     fn decide(&mut self, tip_force: &impl TipForce) -> Result<(), ModelError> {
         let tip_force_n = tip_force.force_n(self.pose.tip_m, self.tip_velocity_m_s());
         check_finite("force on the tip", "N", tip_force_n)?;
+        self.feel(tip_force_n);
         let before = self.rates_rad_s;
         let (contacts, rates) = self.contacts.decide(
             &self.form,

@@ -8,7 +8,7 @@ use rigproof_impl::plant::brake::{Brake, Characteristic, Turn};
 use rigproof_impl::plant::effect::{Asked, CurrentPath, Law};
 use rigproof_impl::plant::friction::Contact;
 use rigproof_impl::plant::{Outcome, Parameters, Plant, Scheme};
-use rigproof_model::effects::{Form, Instant, LIBRARY, law};
+use rigproof_model::effects::{Form, Instant, LIBRARY, entry, law};
 use rigproof_model::linkage::{Pose, forward};
 use rigproof_model::motion::two_coordinate::{TwoCoordinate, two_coordinate};
 use rigproof_spec::effect::Mechanism;
@@ -37,7 +37,7 @@ impl Resisting {
         for _ in 0..3 {
             let entry = &LIBRARY[(draw.between(0.0, 0.999_9) * LIBRARY.len() as f64) as usize];
             let joint = Joint::ALL[draw.between(0.0, 3.999) as usize];
-            let Form::Resistance(_) = entry.form else {
+            let (Form::Resistance(_) | Form::ShareOfBrake(_)) = entry.form else {
                 continue;
             };
             let names = entry.mechanism.parameters();
@@ -255,13 +255,22 @@ impl Followed {
                 sense: -now.sense,
                 ..now
             };
-            let smooth = |at| reference.smooth(at, effect.memory);
+            let yield_nm = looked.yields_nm[i];
+            let parts = |at, memory| match entry(effect.mechanism).map(|entry| entry.form) {
+                Some(Form::ShareOfBrake(_)) => {
+                    let (smooth, dry) = reference.parts(at, memory);
+                    [yield_nm * smooth, yield_nm * dry]
+                }
+                _ => [reference.smooth(at, memory), reference.dry(at)],
+            };
+            let smooth = |at| parts(at, effect.memory)[0];
             let is_still = speed.abs() < 1e-9;
             looked.is_anyones |= is_still && smooth(&now) != smooth(&other);
             let own = Law::new(effect.mechanism, &effect.parameters).unwrap();
             let [_, halfway] = own.remember(effect.memory, speed, step_s);
-            looked.drive -= looked.form.joints.row(i).transpose() * reference.smooth(&now, halfway);
-            looked.bounds_nm[i] += reference.dry(&now);
+            let [smooth, dry] = parts(&now, halfway);
+            looked.drive -= looked.form.joints.row(i).transpose() * smooth;
+            looked.bounds_nm[i] += dry;
         }
         for (bound_nm, yield_nm) in looked.bounds_nm.iter_mut().zip(looked.yields_nm) {
             self.seen.below += u32::from(*bound_nm < -yield_nm);

@@ -14,7 +14,7 @@ fn every_resistance_law_of_the_library_is_the_plants() {
     let mut draw = Draw::new(1213);
     for entry in LIBRARY {
         let names = entry.mechanism.parameters();
-        let Form::Resistance(_) = entry.form else {
+        let (Form::Resistance(_) | Form::ShareOfBrake(_)) = entry.form else {
             assert_eq!(Law::new(entry.mechanism, &vec![0.1; names.len()]), None);
             continue;
         };
@@ -34,22 +34,31 @@ fn every_resistance_law_of_the_library_is_the_plants() {
                 speed,
                 sense,
             };
+            let brake_nm = draw.between(0.02, 3.1);
             let own_now = OwnInstant {
                 time_s,
                 position,
                 speed,
                 sense,
+                brake_nm,
             };
-            let [smooth, dry] = [expected.smooth(&now, memory), expected.dry(&now)];
+            let [smooth, dry] = match entry.form {
+                Form::ShareOfBrake(_) => {
+                    let (smooth, dry) = expected.parts(&now, memory);
+                    [smooth * brake_nm, dry * brake_nm]
+                }
+                _ => [expected.smooth(&now, memory), expected.dry(&now)],
+            };
             let name = entry.mechanism.name();
             assert!(
                 (own.smooth(&own_now, memory) - smooth).abs() <= 1e-15 * smooth.abs(),
                 "{name}"
             );
-            assert!((own.dry(&own_now) - dry).abs() <= 1e-15 * dry, "{name}");
+            assert!((own.dry(&own_now, memory) - dry).abs() <= 1e-15 * dry, "{name}");
             // The memory, in a short time, against its rate by the Runge-Kutta formula.
             let step_s = 1e-4;
             let rate = |memory| expected.memory_rate(&now, memory);
+            let memory = expected.memory_after(memory, 0.0, speed);
             let k_1 = rate(memory);
             let k_2 = rate(memory + 0.5 * step_s * k_1);
             let k_3 = rate(memory + 0.5 * step_s * k_2);
