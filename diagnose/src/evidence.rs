@@ -6,9 +6,7 @@ use crate::regression::{
     Blocks, covariance, dot, fit, free_columns, nested_block_losses, norm, paired,
 };
 use crate::report::{NotSeen, NullDirection};
-use crate::select::{
-    Found, Gates, Selection, TIE_Z, best_variant, gives_energy, refined, refs,
-};
+use crate::select::{Found, Gates, Selection, TIE_Z, best_variant, gives_energy, refined, refs};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};

@@ -14,8 +14,8 @@ use refine::refine;
 use step::{forward, swap};
 
 pub(crate) use judge::best as best_variant;
-pub(crate) use weigh::gives_energy;
 pub(crate) use refine::refined;
+pub(crate) use weigh::gives_energy;
 pub use weigh::usable_rms;
 
 /// What a mechanism must show before it is named.

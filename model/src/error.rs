@@ -106,6 +106,22 @@ pub enum ModelError {
         /// Why.
         reason: &'static str,
     },
+    /// A number of an effect that is not one of its mechanism's.
+    #[error(
+        "the effect `{mechanism}` at {joint} cannot act on the rig: its `{parameter}` is {value} in SI units and has to be {allowed}; mend it"
+    )]
+    EffectValue {
+        /// The mechanism's name.
+        mechanism: &'static str,
+        /// The joint, or that there is none.
+        joint: &'static str,
+        /// The parameter's name.
+        parameter: &'static str,
+        /// Its value, SI.
+        value: f64,
+        /// What is allowed.
+        allowed: &'static str,
+    },
     /// Brakes stick and slip again without end.
     #[error(
         "the brakes stuck and slipped {events} times within one step at {time_s} s; check the force for steps inside a step"

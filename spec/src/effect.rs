@@ -358,8 +358,6 @@ pub enum Quantity {
     PerTravel,
     /// Effort over acceleration: mass or moment of inertia.
     Inertia,
-    /// Effort over current.
-    EffortPerCurrent,
     /// Amperes.
     Current,
     /// One over joule.
@@ -407,7 +405,6 @@ impl Quantity {
             Quantity::EffortPerTime => effort.per(Dimension::TIME),
             Quantity::PerTravel => Dimension::NUMBER.per(travel),
             Quantity::Inertia => effort.per(speed.per(Dimension::TIME)),
-            Quantity::EffortPerCurrent => effort.per(Dimension::CURRENT),
             Quantity::Current => Dimension::CURRENT,
             Quantity::PerEnergy => Dimension::NUMBER.per(Dimension::FORCE.times(Dimension::LENGTH)),
             Quantity::Acceleration => Dimension::LENGTH.per(Dimension::TIME.power(2)),

@@ -122,6 +122,11 @@ const SI_NAMES: &[(&str, Dimension)] = &[
         Dimension::TORQUE.per(Dimension::CURRENT.power(2)),
     ),
     ("s/A", Dimension::TIME.per(Dimension::CURRENT)),
+    (
+        "1/J",
+        Dimension::NUMBER.per(Dimension::FORCE.times(Dimension::LENGTH)),
+    ),
+    ("m/s^2", Dimension::LENGTH.per(Dimension::TIME.power(2))),
 ];
 
 /// A printed unit: its factor to SI and its dimension.
@@ -266,6 +271,7 @@ fn plain_symbol(symbol: &str) -> Option<Unit> {
         "N" => (1.0, Dimension::FORCE),
         "lbf" => (4.448_221_615_260_5, Dimension::FORCE),
         "Nm" => (1.0, Dimension::TORQUE),
+        "J" => (1.0, Dimension::FORCE.times(Dimension::LENGTH)),
         "rad" => (1.0, Dimension::ANGLE),
         "deg" | "°" => (RAD_PER_DEG, Dimension::ANGLE),
         "rev" => (2.0 * PI, Dimension::ANGLE),
@@ -292,6 +298,7 @@ mod tests {
         assert!((factor - 1e-3 / RAD_PER_DEG).abs() < 1e-15);
         assert_eq!(dimension, Dimension::TORQUE.per(Dimension::ANGLE));
         assert_eq!(si("m/s²").1, si("m/s^2").1);
+        assert_eq!(si("J").1, si("N·m").1);
         assert!((si("rpm").0 - 0.104_719_755_119_659_8).abs() < 1e-16);
     }
 

@@ -245,10 +245,18 @@ fn what_no_rig_can_have_is_refused_by_name() {
         (whole(Viscous, &[0.07]), "it needs a joint"),
         (at(Joint::C, Lag, &[0.013]), "that joint has no brake"),
         (at(Joint::B, Payload, &[0.13]), "it is of the whole linkage"),
-        (at(Joint::B, Presliding, &[0.13, 0.0]), "is not above zero"),
-        (at(Joint::B, DryOffset, &[f64::NAN]), "no finite number"),
+        (
+            at(Joint::B, Presliding, &[0.13, -0.7]),
+            "`travel` is -0.7 in SI units and has to be above 0",
+        ),
+        (at(Joint::B, DryOffset, &[f64::NAN]), "`level` is NaN"),
+        (at(Joint::B, Saturation, &[-0.13]), "`limit` is -0.13"),
         (long, "another number of parameters"),
         (at(Joint::A, LoadDependent, &[]), "`load_dependent` at A"),
+        (
+            at(Joint::C, LoadDependent, &[0.007]),
+            "that joint has no brake",
+        ),
         (whole(Payload, &[-7.7]), "m_D of the tip is -7"),
     ] {
         let rig = Rig::new(Layout::ThreeBrake, [0.037, 0.411]).unwrap();

@@ -70,7 +70,12 @@ pub fn unit(
                 })
                 .collect();
             let start = run.motion(joint).first()?.position;
-            let changed = yields(Brake::new(joint, start), run.motion(joint), &held, run.step_s);
+            let changed = yields(
+                Brake::new(joint, start),
+                run.motion(joint),
+                &held,
+                run.step_s,
+            );
             let change = less(&changed, own);
             Some(change.into_iter().map(|c| c / USUAL_SHARE).collect())
         }

@@ -164,9 +164,7 @@ impl Law {
             Law::Spring { stiffness } => stiffness * now.position,
             Law::NonlinearSpring { cubic } => cubic * now.position * now.position * now.position,
             Law::BiasDrift { rate } => rate * now.time_s,
-            Law::ReversalOvershoot { fraction, .. } => {
-                -0.5 * fraction * now.brake_nm * memory
-            },
+            Law::ReversalOvershoot { fraction, .. } => -0.5 * fraction * now.brake_nm * memory,
             Law::Settling { level, .. } => level * (1.0 - memory) * now.sense,
         }
     }
@@ -177,7 +175,7 @@ impl Law {
             Law::DryOffset { level } => level,
             Law::ReversalOvershoot { fraction, .. } => {
                 fraction * now.brake_nm * (1.0 - 0.5 * memory.abs())
-            },
+            }
             Law::Stribeck {
                 peak,
                 speed,

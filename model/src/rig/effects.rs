@@ -39,8 +39,8 @@ impl Rig {
     /// with the shaft in its middle (gap `backlash-start`); other masses begin with the rates that there are.
     ///
     /// # Errors
-    /// [`ModelError::Effect`]: the mechanism is none of the rig's (those of the sensors are not), its joint or its
-    /// numbers are not usable, or the rig has effects already; [`ModelError::Mass`]: a mass does not stay above 0.
+    /// [`ModelError::Effect`]: the mechanism is none of the rig's (those of the sensors are not), its joint is not usable, or
+    /// the rig has effects already; [`ModelError::EffectValue`]: a number is not usable; [`ModelError::Mass`]: a mass does not stay above 0.
     pub fn with_effects(self, effects: &[JointEffect]) -> Result<Rig, ModelError> {
         let Some(one) = effects.first() else {
             return Ok(self);
@@ -106,13 +106,16 @@ const ABOVE_ZERO: [&str; 7] = [
     "cooling",
 ];
 
+/// A backlash and a greatest current may be nothing.
+const NOT_BELOW_ZERO: [&str; 2] = ["width", "limit"];
+
 fn term(rig: &Rig, effect: &JointEffect) -> Result<Term, ModelError> {
     let refused = |reason| ModelError::Effect {
         mechanism: effect.mechanism.name(),
         joint: effect.joint.map_or("no joint", Joint::letter),
         reason,
     };
-    check_numbers(effect).map_err(refused)?;
+    check_numbers(effect)?;
     let value = |k: usize| effect.parameters.get(k).copied().unwrap_or(0.0);
     let joint = || effect.joint.ok_or(refused("it needs a joint"));
     let braked = || {
@@ -190,22 +193,34 @@ fn resistance(effect: &JointEffect) -> Option<Box<dyn Law>> {
     law(mechanism, &effect.parameters)
 }
 
-fn check_numbers(effect: &JointEffect) -> Result<(), &'static str> {
+fn check_numbers(effect: &JointEffect) -> Result<(), ModelError> {
+    let joint = effect.joint.map_or("no joint", Joint::letter);
     let names = effect.mechanism.parameters();
     let needed = names.iter().filter(|name| !name.is_optional).count();
     if !(needed..=names.len()).contains(&effect.parameters.len()) {
-        return Err("it has another number of parameters");
+        return Err(ModelError::Effect {
+            mechanism: effect.mechanism.name(),
+            joint,
+            reason: "it has another number of parameters",
+        });
     }
     for (name, value) in names.iter().zip(&effect.parameters) {
-        if !value.is_finite() {
-            return Err("a parameter is no finite number");
-        }
-        if ABOVE_ZERO.contains(&name.name) && *value <= 0.0 {
-            return Err("a length, a time, a speed or a half width is not above zero");
-        }
-        if name.name == "width" && *value < 0.0 {
-            return Err("a width is below zero");
-        }
+        let allowed = if !value.is_finite() {
+            "a finite number"
+        } else if ABOVE_ZERO.contains(&name.name) && *value <= 0.0 {
+            "above 0"
+        } else if NOT_BELOW_ZERO.contains(&name.name) && *value < 0.0 {
+            "0 or more"
+        } else {
+            continue;
+        };
+        return Err(ModelError::EffectValue {
+            mechanism: effect.mechanism.name(),
+            joint,
+            parameter: name.name,
+            value: *value,
+            allowed,
+        });
     }
     Ok(())
 }

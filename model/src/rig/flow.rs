@@ -93,9 +93,9 @@ impl<'a, F: TipForce> Flow<'a, F> {
         let mut drive = form.drive(tip_force_n);
         let (mut yields_nm, mut left_out) = (own_nm, Vector2::zeros());
         if let Some(effects) = &self.rig.effects {
-            let now =
-                self.rig
-                    .situation(&pose, &form, joint_rates_rad_s, own_nm, tip_force_n);
+            let now = self
+                .rig
+                .situation(&pose, &form, joint_rates_rad_s, own_nm, tip_force_n);
             let done = effects.at(&now);
             (yields_nm, left_out) = (done.yields_nm, done.drive);
             drive += left_out;

@@ -54,7 +54,10 @@ fn every_resistance_law_of_the_library_is_the_plants() {
                 (own.smooth(&own_now, memory) - smooth).abs() <= 1e-15 * smooth.abs(),
                 "{name}"
             );
-            assert!((own.dry(&own_now, memory) - dry).abs() <= 1e-15 * dry, "{name}");
+            assert!(
+                (own.dry(&own_now, memory) - dry).abs() <= 1e-15 * dry,
+                "{name}"
+            );
             // The memory, in a short time, against its rate by the Runge-Kutta formula.
             let step_s = 1e-4;
             let rate = |memory| expected.memory_rate(&now, memory);
