@@ -33,9 +33,14 @@ pub fn free(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<f64
         (Mechanism::GainError, Some(joint)) => {
             Some(vec![seen(&run.at_joint(joint, &run.brake_torque(joint)))])
         }
-        (Mechanism::EncoderScale | Mechanism::EncoderOffset, Some(joint)) => {
-            Some(vec![encoder(run, cause.mechanism, joint)?])
+        (Mechanism::EncoderOffset, Some(joint)) => {
+            Some(vec![encoder(run, Mechanism::EncoderOffset, joint)?])
         }
+        // An encoder counts from where it was homed: the second column is its zero.
+        (Mechanism::EncoderScale, Some(joint)) => Some(vec![
+            encoder(run, Mechanism::EncoderScale, joint)?,
+            encoder(run, Mechanism::EncoderOffset, joint)?,
+        ]),
         (Mechanism::CurrentHysteresis | Mechanism::ThermalFade, Some(joint)) => {
             let change = brakes::unit(run, cause.mechanism, joint, shape)?;
             Some(vec![along_motion(run, joint, &change)])
