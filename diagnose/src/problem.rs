@@ -374,14 +374,19 @@ impl<'a> Problem<'a> {
                 PlantRun::Joint(_) => None,
                 PlantRun::FiveBar(_) => self.drive_term(cause, shape, None, &[]),
             })?;
-            if !self.plant.keeps_signals() {
-                for rows in term.free.iter_mut().chain(&mut term.fixed) {
-                    Arc::make_mut(rows).signal = Vec::new();
-                }
-            }
+            self.lighten(&mut term);
             self.kept.borrow_mut().push(term.clone());
             Some(term)
         })
+    }
+
+    /// Lets go of a term's samples where there are too many terms to hold them.
+    pub fn lighten(&self, term: &mut Term) {
+        if !self.plant.keeps_signals() {
+            for rows in term.free.iter_mut().chain(&mut term.fixed) {
+                Arc::make_mut(rows).signal = Vec::new();
+            }
+        }
     }
 
     fn kept(&self, cause: Cause, shape: &[f64]) -> Option<Term> {

@@ -120,6 +120,10 @@ pub(super) fn open(problem: &Problem, nominal: &[Term], found: &[Found]) -> Vec<
 fn with_onsets(problem: &Problem, term: &Term, effort: &[f64]) -> Vec<Term> {
     (2..=10)
         .map(|k| problem.plant.start_s() + problem.plant.duration_s() * k as f64 / 12.0)
-        .filter_map(|t| realise(problem, term.cause, &term.shape, Some(t), effort))
+        .filter_map(|t| {
+            let mut late = realise(problem, term.cause, &term.shape, Some(t), effort)?;
+            problem.lighten(&mut late);
+            Some(late)
+        })
         .collect()
 }
