@@ -4,8 +4,8 @@ use crate::effects::{Instant, Law};
 
 /// The resistance of `laws` along an imposed motion, one value a sample.
 ///
-/// Each law's memory is advanced from sample to sample with the motion's own increments, by the exact update of
-/// a relaxation towards its local equilibrium (Runge-Kutta in sub-steps of equal speed).
+/// Each law's memory is advanced from sample to sample with the motion's own increments, exactly for a speed that
+/// holds between them.
 pub fn resistance(laws: &[Box<dyn Law>], motion: &[Instant], step_s: f64) -> Vec<f64> {
     let mut total = vec![0.0; motion.len()];
     for law in laws {
@@ -28,45 +28,13 @@ pub fn column(law: &dyn Law, motion: &[Instant], step_s: f64) -> Vec<f64> {
         .iter()
         .map(|now| {
             if let Some(before) = before {
-                memory = advanced(law, before, now, memory, step_s);
+                let travel = now.position - before.position;
+                memory = law.memory_after(memory, travel, travel / step_s);
             }
             before = Some(now);
             given(now, memory)
         })
         .collect()
-}
-
-/// Sub-steps a sample is divided into when the memory moves fast.
-const MOST_SUBSTEPS: usize = 64;
-
-fn advanced(law: &dyn Law, before: &Instant, now: &Instant, memory: f64, step_s: f64) -> f64 {
-    let middle = Instant {
-        time_s: 0.5 * (before.time_s + now.time_s),
-        position: 0.5 * (before.position + now.position),
-        speed: (now.position - before.position) / step_s,
-        sense: now.sense,
-    };
-    let memory = law.memory_after(memory, 0.0, middle.speed);
-    let rate = law.memory_rate(&middle, memory);
-    if rate == 0.0 && law.memory_rate(&middle, memory + 1.0) == 0.0 {
-        return memory;
-    }
-    // The relaxation rate sets the sub-step: the memory equations are linear in the memory for a fixed sign.
-    let relaxation = (law.memory_rate(&middle, memory + 1e-6 * (1.0 + memory.abs())) - rate).abs()
-        / (1e-6 * (1.0 + memory.abs()));
-    let substeps = (2.0 * relaxation * step_s)
-        .ceil()
-        .clamp(1.0, MOST_SUBSTEPS as f64);
-    let h = step_s / substeps;
-    let mut state = memory;
-    for _ in 0..substeps as usize {
-        let k1 = law.memory_rate(&middle, state);
-        let k2 = law.memory_rate(&middle, state + 0.5 * h * k1);
-        let k3 = law.memory_rate(&middle, state + 0.5 * h * k2);
-        let k4 = law.memory_rate(&middle, state + h * k3);
-        state += h / 6.0 * (k1 + 2.0 * (k2 + k3) + k4);
-    }
-    state
 }
 
 #[cfg(test)]
