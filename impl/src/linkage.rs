@@ -17,14 +17,24 @@ pub struct Shape<R> {
     pub half_base_m: R,
     /// (`L_ED`² − `L_CD`²)/2, m².
     half_difference_m2: R,
+    /// Least ED × AE, BC × CD and ED × CD at which a pose is used, m².
+    least_m2: [R; 3],
 }
 
 impl<R: Real> Shape<R> {
     /// The shape of arms; the lengths must be those of a linkage (finite, above zero but for `L_AB`).
     pub fn new(arms: &Arms) -> Shape<R> {
         let squares = arms.l_ed_m * arms.l_ed_m - arms.l_cd_m * arms.l_cd_m;
+        let lengths_m = [arms.l_ae_m, arms.l_ed_m, arms.l_bc_m, arms.l_cd_m].map(R::of);
+        let [l_ae, l_ed, l_bc, l_cd] = lengths_m;
+        let least = R::of(LEAST_SINE);
         Shape {
-            lengths_m: [arms.l_ae_m, arms.l_ed_m, arms.l_bc_m, arms.l_cd_m].map(R::of),
+            lengths_m,
+            least_m2: [
+                least * l_ae * l_ed,
+                least * l_bc * l_cd,
+                least * l_ed * l_cd,
+            ],
             half_base_m: R::of(0.5 * arms.l_ab_m),
             half_difference_m2: R::of(0.5 * squares),
         }
@@ -81,11 +91,11 @@ impl<R: Real> Linkage<R> {
     /// [`LEAST_SINE`] on the thesis's side.
     #[inline(always)]
     pub fn is_sound(&self, shape: &Shape<R>) -> bool {
-        let [l_ae, l_ed, l_bc, l_cd] = shape.lengths_m;
-        let least = R::of(LEAST_SINE);
-        (self.ed.cross(self.ae) >= least * l_ae * l_ed)
-            & (self.bc.cross(self.cd) >= least * l_bc * l_cd)
-            & (self.opening_m2 >= least * l_ed * l_cd)
+        let [left, right, opening] = shape.least_m2;
+        // The products that the rows divide by, so that a compiler takes them once.
+        (self.ae.cross(self.ed) <= -left)
+            & (self.bc.cross(self.cd) >= right)
+            & (self.opening_m2 >= opening)
     }
 
     /// The rows of the Jacobian, 1/m, in the order A, E, B, C: θ̇ = J·ẋ (5.39).
