@@ -3,6 +3,7 @@
 use nalgebra::{Matrix2, Vector2};
 use rigproof_model::brake::torque_gain;
 use rigproof_model::control::desired_velocity::desired_velocity;
+use rigproof_model::control::force_angle::opposing_force;
 use rigproof_model::control::tip_mass;
 use rigproof_model::rig::Parameters;
 use rigproof_spec::command::{Command, Reason};
@@ -55,7 +56,7 @@ impl Weighing {
 }
 
 /// What a command costs: the least of the forces that it may mean.
-pub fn least_cost(tick: &Tick, command: &Command) -> Option<Cost> {
+fn least_cost(tick: &Tick, command: &Command) -> Option<Cost> {
     let LawKind::Optimal([angle, energy, horizon_s]) = tick.law else {
         return None;
     };
@@ -82,14 +83,18 @@ pub fn least_cost(tick: &Tick, command: &Command) -> Option<Cost> {
         _ => return None,
     };
     let row = *reference_rows(tick)?.get(joint as usize)?;
-    let slowed = mobility * (row * (-row.dot(&before).signum() / row.norm())) * horizon_s;
+    let slowed = mobility * (opposing_force(row, before)? / row.norm()) * horizon_s;
+    let stop_n = -row.dot(&weighing.pushed) / row.dot(&slowed);
+    if stop_n.is_nan() || stop_n <= 0.0 {
+        // The push stops the joint or turns it round: no force of its brake is tried, as of a joint that stands.
+        return None;
+    }
     let current_a = command.currents_a[joint as usize];
     let most_n = torque_gain(joint, current_a) * row.norm();
     if current_a > 0.0 {
         return Some(weighing.cost(slowed * most_n));
     }
     // Below the off-state torque no current tells which force was meant; none turns the joint round.
-    let stop_n = -row.dot(&weighing.pushed) / row.dot(&slowed);
     let levels = (1..=20).map(|level| (tick.limit_n * f64::from(level) / 20.0).min(stop_n));
     let meant = levels.filter(|force_n| *force_n <= most_n * (1.0 + NO_FURTHER));
     let costs = meant.map(|force_n| weighing.cost(slowed * force_n));
