@@ -1,19 +1,20 @@
 //! This file says what a command of optimal control costs, and when two commands cost the same to rounding.
 
 use nalgebra::{Matrix2, Vector2};
-use rigproof_model::brake::torque_gain;
+use rigproof_model::brake::current_gain;
 use rigproof_model::control::desired_velocity::desired_velocity;
 use rigproof_model::control::force_angle::opposing_force;
 use rigproof_model::control::tip_mass;
 use rigproof_model::rig::Parameters;
 use rigproof_spec::command::{Command, Reason};
 use rigproof_spec::inertia::inertia;
+use rigproof_spec::tables::brake_table;
 
 use crate::both::{reference_nearest, reference_rows, sensed};
 use crate::sample::{LawKind, Tick};
 
-/// How much further than the force of a current a level may lie that is meant by none, relative.
-const NO_FURTHER: f64 = 5e-6;
+/// How far a command's current may be from that of the level that it means, A for each unit of rounding.
+const MEANT_A: f64 = 100.0;
 
 /// A cost, and the sum of the magnitudes of which rounding takes its share.
 type Cost = [f64; 2];
@@ -21,7 +22,7 @@ type Cost = [f64; 2];
 /// Whether the two commands are those of optimal control for forces that cost the same to `rounding`, relative, of what their costs are made
 /// of.
 pub fn cost_the_same(tick: &Tick, one: &Command, other: &Command, rounding: f64) -> bool {
-    let costs = [one, other].map(|command| least_cost(tick, command));
+    let costs = [one, other].map(|command| least_cost(tick, command, rounding));
     matches!(costs, [Some([one, parts]), Some([other, more])] if (one - other).abs() <= rounding * (parts + more))
 }
 
@@ -56,7 +57,7 @@ impl Weighing {
 }
 
 /// What a command costs: the least of the forces that it may mean.
-fn least_cost(tick: &Tick, command: &Command) -> Option<Cost> {
+fn least_cost(tick: &Tick, command: &Command, rounding: f64) -> Option<Cost> {
     let LawKind::Optimal([angle, energy, horizon_s]) = tick.law else {
         return None;
     };
@@ -77,10 +78,17 @@ fn least_cost(tick: &Tick, command: &Command) -> Option<Cost> {
         pushed: before + mobility * push * horizon_s,
         desired: desired_velocity(&reference_nearest(tick)?, push, tick.boundary_m).direction,
     };
-    let joint = match command.reason {
-        Reason::Chosen(joint) => joint,
-        Reason::NoneHelps => return Some(weighing.cost(Vector2::zeros())),
+    let mut others_a = command.currents_a;
+    let chosen = match command.reason {
+        Reason::Chosen(joint) => Some((joint, std::mem::take(&mut others_a[joint as usize]))),
+        Reason::NoneHelps => None,
         _ => return None,
+    };
+    if others_a != [0.0; 4] {
+        return None;
+    }
+    let Some((joint, current_a)) = chosen else {
+        return Some(weighing.cost(Vector2::zeros()));
     };
     let row = *reference_rows(tick)?.get(joint as usize)?;
     let slowed = mobility * (opposing_force(row, before)? / row.norm()) * horizon_s;
@@ -89,14 +97,13 @@ fn least_cost(tick: &Tick, command: &Command) -> Option<Cost> {
         // The push stops the joint or turns it round: no force of its brake is tried, as of a joint that stands.
         return None;
     }
-    let current_a = command.currents_a[joint as usize];
-    let most_n = torque_gain(joint, current_a) * row.norm();
-    if current_a > 0.0 {
-        return Some(weighing.cost(slowed * most_n));
-    }
-    // Below the off-state torque no current tells which force was meant; none turns the joint round.
+    // A level is meant if the reference asks for the command's current for it; below the off-state torque that is true of several. None
+    // turns the joint round.
     let levels = (1..=20).map(|level| (tick.limit_n * f64::from(level) / 20.0).min(stop_n));
-    let meant = levels.filter(|force_n| *force_n <= most_n * (1.0 + NO_FURTHER));
+    let table = brake_table(joint);
+    let meant = levels.filter(|force_n| {
+        (current_gain(&table, force_n / row.norm()) - current_a).abs() <= rounding * MEANT_A
+    });
     let costs = meant.map(|force_n| weighing.cost(slowed * force_n));
     costs.min_by(|[one, _], [other, _]| one.total_cmp(other))
 }
