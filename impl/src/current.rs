@@ -15,7 +15,6 @@ pub struct CurrentGain<R> {
     k_1_nm_per_a: R,
     /// Torque at which the quadratic piece starts, N·m, at [`GAIN_BREAK_A`].
     start_nm: R,
-    break_a: R,
     greatest_nm: R,
     greatest_a: R,
     /// k4², 4·k3, k4 and k5.
@@ -32,7 +31,6 @@ impl<R: Real> CurrentGain<R> {
             off_state_nm: R::of(fit.k_2),
             k_1_nm_per_a: R::of(fit.k_1),
             start_nm: R::of(start_nm),
-            break_a: R::of(GAIN_BREAK_A),
             greatest_nm: R::of(table.greatest_nm()),
             greatest_a: R::of(greatest_a),
             quadratic: [fit.k_4 * fit.k_4, 4.0 * fit.k_3, fit.k_4, fit.k_5].map(R::of),
@@ -60,10 +58,11 @@ impl<R: Real> CurrentGain<R> {
     }
 
     fn between(&self, torque_nm: R, above_nm: R) -> R {
+        let break_a = R::of(GAIN_BREAK_A);
         let linear_a = above_nm / self.k_1_nm_per_a;
         // A torque between the end of the linear and a higher start of the quadratic piece takes the break itself.
-        if linear_a < self.break_a || torque_nm <= self.start_nm {
-            return least(linear_a, self.break_a);
+        if linear_a < break_a || torque_nm <= self.start_nm {
+            return least(linear_a, break_a);
         }
         let [k_4_squared, four_k_3, k_4, k_5] = self.quadratic;
         let above_nm = torque_nm - k_5;

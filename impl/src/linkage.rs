@@ -11,20 +11,33 @@ pub const LEAST_SINE: f64 = 1e-5;
 /// Arm lengths and what is computed from them once.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shape<R> {
-    /// Arms AE, ED, BC, CD, m.
-    pub lengths_m: [R; 4],
+    /// Arms AE and BC, m.
+    base_m: [R; 2],
+    /// `L_ED`², m².
+    ed_squared_m2: R,
     /// Base joint A is at minus this on the x axis, B at plus this, m.
     pub half_base_m: R,
     /// (`L_ED`² − `L_CD`²)/2, m².
     half_difference_m2: R,
+    /// Least ED × AE, BC × CD and ED × CD at which a pose is used, m².
+    least_m2: [R; 3],
 }
 
 impl<R: Real> Shape<R> {
     /// The shape of arms; the lengths must be those of a linkage (finite, above zero but for `L_AB`).
     pub fn new(arms: &Arms) -> Shape<R> {
         let squares = arms.l_ed_m * arms.l_ed_m - arms.l_cd_m * arms.l_cd_m;
+        let lengths_m = [arms.l_ae_m, arms.l_ed_m, arms.l_bc_m, arms.l_cd_m];
+        let [l_ae, l_ed, l_bc, l_cd] = lengths_m.map(R::of);
+        let least = R::of(LEAST_SINE);
         Shape {
-            lengths_m: [arms.l_ae_m, arms.l_ed_m, arms.l_bc_m, arms.l_cd_m].map(R::of),
+            base_m: [l_ae, l_bc],
+            ed_squared_m2: l_ed * l_ed,
+            least_m2: [
+                least * l_ae * l_ed,
+                least * l_bc * l_cd,
+                least * l_ed * l_cd,
+            ],
             half_base_m: R::of(0.5 * arms.l_ab_m),
             half_difference_m2: R::of(0.5 * squares),
         }
@@ -56,7 +69,7 @@ pub struct Linkage<R> {
 //= thesis (5.15)
 #[inline(always)]
 pub fn linkage<R: Real>(shape: &Shape<R>, ae: Vector<R>, bc: Vector<R>) -> Linkage<R> {
-    let [l_ae, l_ed, l_bc, _] = shape.lengths_m;
+    let [l_ae, l_bc] = shape.base_m;
     let (ae, bc) = (ae * l_ae, bc * l_bc);
     let base = Vector::new(shape.half_base_m + shape.half_base_m, R::zero());
     let across = base + bc - ae;
@@ -64,7 +77,7 @@ pub fn linkage<R: Real>(shape: &Shape<R>, ae: Vector<R>, bc: Vector<R>) -> Linka
     let scaled = across * (R::of(1.0) / distance_squared);
     // Of ED along the way from E to C and beside it, times the distance; a quotient and a root that do not wait for each other.
     let along = R::of(0.5) * distance_squared + shape.half_difference_m2;
-    let beside = (l_ed * l_ed * distance_squared - along * along).sqrt();
+    let beside = (shape.ed_squared_m2 * distance_squared - along * along).sqrt();
     let ed = scaled * along + scaled.left() * beside;
     Linkage {
         ae,
@@ -81,11 +94,11 @@ impl<R: Real> Linkage<R> {
     /// [`LEAST_SINE`] on the thesis's side.
     #[inline(always)]
     pub fn is_sound(&self, shape: &Shape<R>) -> bool {
-        let [l_ae, l_ed, l_bc, l_cd] = shape.lengths_m;
-        let least = R::of(LEAST_SINE);
-        (self.ed.cross(self.ae) >= least * l_ae * l_ed)
-            & (self.bc.cross(self.cd) >= least * l_bc * l_cd)
-            & (self.opening_m2 >= least * l_ed * l_cd)
+        let [left, right, opening] = shape.least_m2;
+        // The products that the rows divide by, so that a compiler takes them once.
+        (self.ae.cross(self.ed) <= -left)
+            & (self.bc.cross(self.cd) >= right)
+            & (self.opening_m2 >= opening)
     }
 
     /// The rows of the Jacobian, 1/m, in the order A, E, B, C: θ̇ = J·ẋ (5.39).

@@ -5,7 +5,7 @@ use super::brake::Brake;
 use super::form::form;
 use super::friction::Contact;
 use super::setup::elbows;
-use super::turn::angle_between;
+use super::turn::angles_between;
 use crate::linkage::{Linkage, Shape};
 use crate::vector::Vector;
 
@@ -43,15 +43,9 @@ impl Plant {
     /// The angles of joints A, E, B, C, rad.
     pub fn joint_angles_rad(&self) -> [f64; 4] {
         let [_, e, _, c] = self.looked_rad;
-        let [from_e, from_c] = self.elbows;
-        let [to_e, to_c] = elbows(&self.motion.linkage);
+        let [by_e, by_c] = angles_between(self.elbows, elbows(&self.motion.linkage));
         let theta = self.motion.theta_rad;
-        [
-            theta.x,
-            e + angle_between(from_e, to_e),
-            theta.y,
-            c + angle_between(from_c, to_c),
-        ]
+        [theta.x, e + by_e, theta.y, c + by_c]
     }
 
     /// The rates of joints A, E, B, C, rad/s; exactly zero where a brake holds, never against the sign of a slip by what the end of a

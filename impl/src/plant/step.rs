@@ -9,7 +9,7 @@ use super::form::{joint_rows, tip_load};
 use super::friction::{Contact, Dry, DryBrake, dry_motion, standing};
 use super::motion::{Midway, Motion, Outcome, is_defined};
 use super::setup::elbows;
-use super::turn::{angle_between, is_small};
+use super::turn::{angles_between, is_small};
 use crate::linkage::Linkage;
 use crate::vector::Vector;
 
@@ -83,7 +83,9 @@ impl Plant {
         }
         self.motion = next;
         self.take_on(&look, &resistance, &dry, midway.lead_s, step_s);
-        self.pass_on(currents_a, step_s);
+        if self.paths.is_some() {
+            self.pass_on(currents_a, step_s);
+        }
         Outcome::Moved
     }
 
@@ -125,7 +127,9 @@ impl Plant {
             self.remember(look, none, step_s);
         }
         self.take_on(&look, &resistance, &dry, lead_s, step_s);
-        self.pass_on(currents_a, step_s);
+        if self.paths.is_some() {
+            self.pass_on(currents_a, step_s);
+        }
         true
     }
 
@@ -206,7 +210,7 @@ impl Plant {
             if !is_small(from_e, to_e) || !is_small(from_c, to_c) {
                 return None;
             }
-            [angle_between(from_e, to_e), angle_between(from_c, to_c)]
+            angles_between(self.elbows, elbows)
         };
         let ([_, e, _, c], [by_e, by_c]) = (self.looked_rad, by_rad);
         Some(Look {

@@ -36,7 +36,7 @@ fn add(answers: &mut Answers, tick: &Tick, nudger: &mut Sampler, place: &str) {
             let rig = Command::from(law.command(&situation(tick)));
             answers.add(tick, rig, nudger, place);
         }
-        (None, Some(_)) => {}
+        (None, Some(_)) => answers.refused += 1,
         (_, refused) => {
             let wrong = format!(
                 "{place}: the reference refuses by {refused:?}, the rig not, or not that: {tick:?}"

@@ -18,12 +18,15 @@ use crate::both::{
     View, reference_command, reference_nearest, reference_path, rig_path, situation,
 };
 use crate::idle;
+use crate::level::cost_the_same;
 use crate::sample::{LawKind, Sampler, Tick};
 
 /// Sizes of the nudges, relative to what is nudged; of an angle, rad, of the distance from the path, m.
 const NUDGES: [f64; 3] = [1e-15, 3e-14, 1e-12];
 /// A nudge of the last one or two digits.
 pub const LAST_DIGITS: f64 = 1e-14;
+/// How far two programs may lie apart, by how far [`LAST_DIGITS`] move one of them: both round.
+const BOTH_ROUND: f64 = 2.0;
 /// Nudges of each kind and size that are tried.
 const TRIES: u32 = 100;
 /// Currents that differ by no more than this differ by rounding, A. What differs by more has to be amplified.
@@ -45,7 +48,7 @@ pub enum Permitted {
     Same,
     /// The same decision; the currents differ by this much, A.
     Rounding(f64),
-    /// The same decision where nudging the tick by [`LAST_DIGITS`] moves the reference's currents as much: near a singularity, or where a
+    /// The same decision where nudging the tick by [`LAST_DIGITS`] moves the reference's currents half as much: near a singularity, or where a
     /// great gain multiplies the rounding of a great velocity.
     Amplified(f64),
     /// Another decision, or another of two currents, where the decision turns.
@@ -71,6 +74,8 @@ pub enum Tie {
     CurrentStep,
     /// Exception: velocity ratio control finds both ratios equal, the reference all but equal.
     Even,
+    /// Exception: optimal control takes another brake or level, whose cost is the same to the last digits of what costs are made of.
+    Level,
     /// Exception: one brake makes the force of impedance control alone; the two name different idle ones beside it, or one of them no pair.
     IdleBrake,
     /// Exception: an input beyond what the rig's code takes, which lets go.
@@ -99,9 +104,9 @@ pub fn permitted(
         if is_step(&reference, &rig) {
             return Ok(Permitted::Tie(Tie::CurrentStep));
         }
-        if nudged(tick, &KINDS, LAST_DIGITS, nudger)
-            .any(|other| other.reason == rig.reason && apart_a <= self::apart_a(&reference, &other))
-        {
+        if nudged(tick, &KINDS, LAST_DIGITS, nudger).any(|other| {
+            other.reason == rig.reason && apart_a <= BOTH_ROUND * self::apart_a(&reference, &other)
+        }) {
             return Ok(Permitted::Amplified(apart_a));
         }
         if apart_a <= EQUAL_A {
@@ -131,6 +136,9 @@ pub fn permitted(
     }
     if let Some(tie) = tie(tick, &rig, nudger) {
         return Ok(Permitted::Tie(tie));
+    }
+    if cost_the_same(tick, &reference, &rig, f64::EPSILON) {
+        return Ok(Permitted::Tie(Tie::Level));
     }
     if rig == Command::none(Reason::NothingToDo)
         && [Some(View::EXACT), seen_view]

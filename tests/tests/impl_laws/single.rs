@@ -7,26 +7,20 @@ use rayon::prelude::*;
 use rigproof_impl::law::Law as _;
 use rigproof_impl::number::Real;
 use rigproof_impl::path::Path as _;
-use rigproof_model::brake::torque_gain;
-use rigproof_model::control::desired_velocity::desired_velocity;
+use rigproof_model::control::Sensed;
 use rigproof_model::control::path::Nearest;
-use rigproof_model::control::{Sensed, tip_mass};
 use rigproof_model::linkage::singularity::{Pair, measure};
-use rigproof_model::rig::Parameters;
 use rigproof_spec::command::{Command, Reason};
-use rigproof_spec::inertia::inertia;
 
 use crate::agree::ticks;
-use crate::both::{
-    View, reference_command, reference_nearest, reference_path, reference_rows, rig_law, rig_path,
-    sensed, situation,
-};
+use crate::both::{View, reference_command, reference_path, rig_law, rig_path, sensed, situation};
 use crate::budget::assert_within_budget;
+use crate::level::cost_the_same;
 use crate::permitted::apart_a;
-use crate::sample::{LawKind, Sampler, Tick};
+use crate::sample::{Sampler, Tick};
 use crate::tally::quantiles;
 
-/// Ticks that may decide otherwise, or take another foot or level, as a share of all; each has a [`Cause`] that was checked. Of five million 54.
+/// Ticks that may decide otherwise, or take another foot or level, as a share of all; each has a [`Cause`] that was checked. Of five million 55.
 const GREATEST_SHARE_OF_TIES: f64 = 1.3e-5;
 /// Ticks whose currents may differ by more than [`ROUNDING_A`], as a share of all; each is checked: nudging the tick moves the currents in double
 /// precision as much, or nine tenths of the way to these.
@@ -46,8 +40,8 @@ const TRIES: usize = 300;
 const CHUNK: u64 = 1000;
 /// Wrong ones that are shown.
 const SHOWN: usize = 30;
-/// What rounding to floats makes of a cost, relative to what it is made of; some of it multiplied by the mass of a pose near a singularity.
-const SINGLE: f64 = 5e-6;
+/// What rounding to floats makes of a cost, relative to what it is made of.
+const SINGLE: f64 = f32::EPSILON as f64;
 /// The least of the nudges.
 const LEAST_NUDGE: f64 = NUDGES[0];
 /// Sine up to which a tangent counts as that of a point.
@@ -99,7 +93,7 @@ struct Tally {
 }
 
 impl Tally {
-    fn add(&mut self, tick: &Tick, nudger: &mut Sampler) {
+    fn add(&mut self, tick: &Tick, nudger: &mut Sampler, place: &str) {
         let (double, single) = (command::<f64>(tick), command::<f32>(tick));
         let apart_a = apart_a(&double, &single);
         let same = double.reason == single.reason;
@@ -110,7 +104,7 @@ impl Tally {
             Some(cause) => *self.causes.entry(cause).or_default() += 1,
             None if same && apart_a <= EQUAL_A => self.rounding_a.push(apart_a),
             None => self.wrong.push(format!(
-                "{double:?}, in single precision {single:?}, in {tick:?}"
+                "{place}: {double:?}, in single precision {single:?}, in {tick:?}"
             )),
         }
     }
@@ -156,7 +150,7 @@ fn cause(tick: &Tick, double: &Command, single: &Command, nudger: &mut Sampler) 
             return Some(Cause::Foot);
         }
     }
-    is_another_level(tick, double, single).then_some(Cause::Level)
+    cost_the_same(tick, double, single, SINGLE).then_some(Cause::Level)
 }
 
 /// The nearest point of the path as single precision sees it, if it is one of the path, and as near as any, to a float.
@@ -190,66 +184,11 @@ fn as_seen(tick: &Tick) -> Option<Nearest> {
     })
 }
 
-/// Whether the two commands are those of optimal control for forces that cost the same to [`SINGLE`] of what the cost is made of.
-fn is_another_level(tick: &Tick, double: &Command, single: &Command) -> bool {
-    let LawKind::Optimal(_) = tick.law else {
-        return false;
-    };
-    let costs = [double, single].map(|command| least_cost(tick, command));
-    matches!(costs, [Some([one, slack]), Some([other, more])] if (one - other).abs() <= SINGLE * (slack + more))
-}
-
-/// What a command of optimal control costs, and the sum of the magnitudes that rounding acts on; the least of the forces that it may mean.
-fn least_cost(tick: &Tick, command: &Command) -> Option<[f64; 2]> {
-    let LawKind::Optimal([angle, energy, horizon_s]) = tick.law else {
-        return None;
-    };
-    let sensed = sensed(tick)?;
-    let parameters = Parameters {
-        layout: tick.layout,
-        arms: tick.arms,
-        inertia: inertia(tick.layout),
-    };
-    let mass = tip_mass(&parameters, &sensed.pose)?;
-    let (v, push) = (
-        Vector2::from(tick.velocity_m_s),
-        Vector2::from(tick.force_n),
-    );
-    let nearest = reference_nearest(tick)?;
-    let desired = desired_velocity(&nearest, push, tick.boundary_m).direction;
-    let kinetic = |v: Vector2<f64>| v.dot(&(mass * v));
-    let mobility = mass.try_inverse()?;
-    let cost = |brake_n: Vector2<f64>| {
-        let after = v + mobility * (push + brake_n) * horizon_s;
-        let off = libm::atan2(desired.perp(&after), desired.dot(&after));
-        let ratio = kinetic(after) / kinetic(v);
-        let change = ratio - 1.0;
-        // An angle is rounded by as much as the velocity that it is of.
-        let turned = (v.norm() + (mobility * push).norm() * horizon_s) / after.norm();
-        [
-            angle * off * off + energy * change * change,
-            angle * off.abs() * (off.abs() + turned)
-                + energy * change.abs() * (ratio + turned + 1.0),
-        ]
-    };
-    let Reason::Chosen(joint) = command.reason else {
-        return Some(cost(Vector2::zeros()));
-    };
-    let row = *reference_rows(tick)?.get(joint as usize)?;
-    let against = row * (-row.dot(&v).signum() / row.norm());
-    let current_a = command.currents_a[joint as usize];
-    let most_n = torque_gain(joint, current_a) * row.norm();
-    // Below the off-state torque no current tells which force was meant.
-    let levels = (1..=20).map(|level| tick.limit_n * f64::from(level) / 20.0);
-    let forces: Vec<f64> = if current_a > 0.0 {
-        vec![most_n]
-    } else {
-        levels
-            .filter(|force_n| *force_n <= most_n * (1.0 + SINGLE))
-            .collect()
-    };
-    let costs = forces.into_iter().map(|force_n| cost(against * force_n));
-    costs.min_by(|[one, _], [other, _]| one.total_cmp(other))
+/// The ticks of a seed that are compared.
+fn compared(seed: u64) -> impl Iterator<Item = Tick> {
+    let mut sampler = Sampler::new(seed);
+    let ticks = core::iter::repeat_with(move || sampler.plain());
+    ticks.filter(|tick| sensed(tick).is_some_and(|sensed| is_away(&sensed)))
 }
 
 #[test]
@@ -257,15 +196,11 @@ fn single_precision_decides_as_double_precision_but_for_ties_of_its_own() {
     let ticks = ticks() / 2;
     let seeds = 2_003_000..2_003_000 + ticks.div_ceil(CHUNK);
     let all = seeds.into_par_iter().map(|seed| {
-        let (mut sampler, mut nudger) = (Sampler::new(seed), Sampler::new(!seed));
+        let mut nudger = Sampler::new(!seed);
         let mut tally = Tally::default();
-        let mut compared = 0;
-        while compared < CHUNK {
-            let tick = sampler.plain();
-            if sensed(&tick).is_some_and(|sensed| is_away(&sensed)) {
-                compared += 1;
-                tally.add(&tick, &mut nudger);
-            }
+        for (number, tick) in (0..CHUNK).zip(compared(seed)) {
+            let place = format!("seed {seed}, tick {number}");
+            tally.add(&tick, &mut nudger, &place);
         }
         tally
     });

@@ -11,6 +11,8 @@ use crate::sample::{Sampler, Tick};
 /// What became of many answers.
 #[derive(Default)]
 pub struct Answers {
+    /// Ticks with settings that both refuse.
+    pub refused: u64,
     pub same: u64,
     pub rounding_a: Vec<f64>,
     /// The greatest of them, A, and where.
@@ -40,6 +42,7 @@ impl Answers {
     }
 
     pub fn join(&mut self, other: Answers) {
+        self.refused += other.refused;
         self.same += other.same;
         self.rounding_a.extend(other.rounding_a);
         if other.furthest.0 > self.furthest.0 {
@@ -58,7 +61,8 @@ impl Answers {
     /// The counts in a line.
     pub fn counts(&self) -> String {
         format!(
-            "{} the same, {} within rounding ({:e} A at {}), {} amplified, ties {:?}, reasons {:?}",
+            "{} refused by both, {} the same, {} within rounding ({:e} A at {}), {} amplified, ties {:?}, reasons {:?}",
+            self.refused,
             self.same,
             self.rounding_a.len(),
             self.furthest.0,

@@ -69,7 +69,8 @@ fn the_directions_follow_their_angles_through_a_million_steps() {
         ae = rigproof_impl::plant::turn::renormalised(rigproof_impl::plant::turn::turned(
             ae, angle_rad,
         ));
-        seen_rad += rigproof_impl::plant::turn::angle_between(before, ae);
+        let [by_rad, _] = rigproof_impl::plant::turn::angles_between([before; 2], [ae; 2]);
+        seen_rad += by_rad;
         theta_rad += angle_rad;
         let (sine, cosine) = libm::sincos(theta_rad);
         let off = ae.cross(Vector::new(cosine, sine));
