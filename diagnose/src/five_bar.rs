@@ -13,5 +13,6 @@ pub mod noise;
 #[cfg(test)]
 mod recorded;
 pub mod run;
+mod sign;
 #[cfg(test)]
 mod tests;

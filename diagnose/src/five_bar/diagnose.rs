@@ -4,6 +4,7 @@ use super::free_run::{Model, horizons};
 use super::from_rig::{aligned, nominal};
 use super::locate::locate;
 use super::run::FiveBarRun;
+use super::sign;
 use crate::align::Fault;
 use crate::candidates::realise;
 use crate::diagnose::ended::{blank, faulty, not_excited};
@@ -58,6 +59,9 @@ pub fn diagnose(
     let usable = problem.windows.usable.iter().filter(|u| **u).count() / problem.windows.outputs;
     if usable < FEWEST_WINDOWS {
         return not_excited(description(), usable, travel(&train), train.theta_noise);
+    }
+    if let Err(fault) = sign::check(&train, &problem) {
+        return faulty(description(), "recording", fault);
     }
     let mut terms: Vec<Term> = Vec::new();
     for effect in nominal(rig) {

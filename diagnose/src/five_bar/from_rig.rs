@@ -148,24 +148,26 @@ const MOST_TAKEN: f64 = 0.2;
 /// A linkage with brakes takes energy in: a force that takes it out on the whole has the wrong sign.
 fn check_sign(run: &FiveBarRun) -> Result<(), Fault> {
     let rates = run.motion(Joint::A).iter().zip(run.motion(Joint::B));
-    let powers: Vec<f64> = run
+    let powers: Vec<[f64; 2]> = run
         .forms
         .iter()
         .zip(run.forces())
         .zip(rates)
         .map(|((form, [f_x, f_y]), (a, b))| {
             let [v_x, v_y] = form.tip_velocity_m_s([a.speed, b.speed]);
-            f_x * v_x + f_y * v_y
+            [f_x * v_x, f_y * v_y]
         })
         .collect();
-    let sum: f64 = powers.iter().sum();
-    let size: f64 = powers.iter().map(|p| p.abs()).sum();
-    if sum < -MOST_TAKEN * size {
+    let [by_x, by_y] = powers
+        .iter()
+        .fold([0.0; 2], |[x, y], [p_x, p_y]| [x + p_x, y + p_y]);
+    let size: f64 = powers.iter().map(|[x, y]| (x + y).abs()).sum();
+    if by_x + by_y < -MOST_TAKEN * size {
         return Err(Fault {
-            channel: "force_x",
+            channel: if by_x < by_y { "force_x" } else { "force_y" },
             from_s: 0.0,
             to_s: run.duration_s(),
-            reason: "the rig drives the hand: energy comes out of it; a force or an angle has the wrong sign (set `sign = -1`)".to_owned(),
+            reason: "the rig drives the hand: energy comes out of it, most of it by this component; a force or an angle has the wrong sign (set `sign = -1`)".to_owned(),
         });
     }
     Ok(())

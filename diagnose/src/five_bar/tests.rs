@@ -10,6 +10,7 @@ use crate::run::rms;
 use crate::weak::Windows;
 use crate::{Diagnosis, Options};
 use rigproof_spec::layout::Layout;
+use rigproof_trace::rig::five_bar::FiveBarRecording;
 
 const SECONDS: f64 = 16.0;
 
@@ -111,5 +112,27 @@ fn where_one_joint_is_held_or_turns_back_the_other_equation_still_balances() {
         });
         let floor = problem.floor;
         assert!(own.max(other) > 5.0 * floor, "{own} {other} {floor} N·m");
+    }
+}
+
+#[test]
+fn one_component_of_the_force_with_the_wrong_sign_is_a_fault_and_friction_left_out_is_none() {
+    let drag = |_: &_, rates: [f64; 4], _: f64| rates.map(|rate| -5.0 * DRAG * rate);
+    for (layout, axis, channel) in [
+        (Layout::FourBrake, 0, "force_x"),
+        (Layout::FourBrake, 1, "force_y"),
+        (Layout::ThreeBrake, 1, "force_y"),
+    ] {
+        let mut recording = recording(layout, SECONDS, 13, &drag);
+        let verdict = |recording: &FiveBarRecording| {
+            let report = diagnose(&rig(layout), recording, None, &Options::default()).report;
+            (report.verdict, report.fault.map(|fault| fault.channel))
+        };
+        assert_ne!(verdict(&recording).0, Verdict::DataFault);
+        for force in &mut recording.force[axis].samples {
+            *force = -*force;
+        }
+        let expected = (Verdict::DataFault, Some(channel));
+        assert_eq!(verdict(&recording), expected, "{layout:?}");
     }
 }
