@@ -306,6 +306,8 @@ pub struct NextExperiment {
     pub tried: usize,
     /// How far it sets each pair of explanations apart.
     pub separations: Vec<Separation>,
+    /// Explanations that are in no comparison: the reference rig does not compute them, or they leave most where there are many.
+    pub not_compared: Vec<String>,
     /// Its file, beside the report.
     pub file: Option<String>,
 }

@@ -24,16 +24,21 @@ pub fn experiment(report: &Report) -> Vec<String> {
     }
     lines.extend(next.separations.iter().map(|pair| {
         let (one, other) = (&pair.one, &pair.other);
-        match pair.tellable {
-            true => format!(
-                "  tells {one} from {other} by {} standard deviations of the noise",
-                significant(pair.sigmas, 2)
-            ),
-            false => format!(
-                "  none of the {} experiments that were simulated tells {one} from {other}",
+        let sigmas = significant(pair.sigmas, 2);
+        match (pair.tellable, &next.what) {
+            (true, _) => {
+                format!("  tells {one} from {other} by {sigmas} standard deviations of the noise")
+            }
+            (false, Some(_)) => format!("  does not tell {one} from {other}"),
+            (false, None) => format!(
+                "  none of the {} that were simulated tells {one} from {other}",
                 next.tried
             ),
         }
     }));
+    if !next.not_compared.is_empty() {
+        let names = next.not_compared.join(", ");
+        lines.push(format!("  in no comparison (not computed by the reference rig, or the least likely of many): {names}"));
+    }
     section("Next experiment", lines)
 }

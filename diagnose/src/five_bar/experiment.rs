@@ -17,13 +17,16 @@ use crate::report::{NextExperiment, Separation};
 use crate::select::{Found, Selection, best_variant, refined, refs};
 use crate::weak::Windows;
 use explanation::Explanation;
-use plan::{DURATION_S, Plan, plans};
-use play::{Sensors, play};
+use plan::{DURATION_S, MIDDLE_M, Plan, plans};
+use play::{Sensors, play, with_effects};
+use rigproof_spec::joint::Joint;
 use rigproof_spec::methods::greatest_desired_force_n;
 use rigproof_trace::Trace;
 
 /// The most explanations that are held against one another.
-const MOST_EXPLANATIONS: usize = 5;
+const MOST_EXPLANATIONS: usize = 8;
+/// How many experiments are simulated for every explanation.
+const FINALISTS: usize = 2;
 /// From how many standard deviations of the sensors' noise on two explanations count as told apart.
 const LEAST_SIGMAS: f64 = 10.0;
 
@@ -32,68 +35,100 @@ pub(super) fn next(
     stand: &Stand<'_>,
     rivals: &[Vec<Cause>],
 ) -> Option<(NextExperiment, Option<Trace>)> {
-    let explanations = explanations(stand, rivals);
-    if explanations.len() < 2 {
-        return None;
-    }
     let run = stand.train;
     let layout = run.parameters.layout;
-    let mut joints: Vec<_> = explanations
-        .iter()
-        .filter_map(|e| e.cause().joint)
-        .collect();
-    joints.sort_by_key(|joint| *joint as usize);
-    joints.dedup();
-    let plans = plans(layout, &joints, run.step_s);
-    let told: Vec<Option<Vec<f64>>> = plans
-        .iter()
-        .map(|plan| separations(stand, &explanations, plan))
-        .collect();
-    let pairs = pairs(explanations.len());
-    // What no experiment tells apart decides nothing.
-    let best_of = |pair: usize| {
-        let own = told.iter().flatten().filter_map(|sigmas| sigmas.get(pair));
-        own.copied().fold(0.0, f64::max)
-    };
-    let tellable: Vec<bool> = (0..pairs.len())
-        .map(|pair| best_of(pair) >= LEAST_SIGMAS)
-        .collect();
-    let least = |sigmas: &[f64]| {
-        let own = sigmas.iter().zip(&tellable).filter(|(_, t)| **t);
-        own.map(|(s, _)| *s).fold(f64::INFINITY, f64::min)
-    };
-    let ranked = plans.iter().zip(&told);
-    let ranked = ranked.filter_map(|(plan, sigmas)| Some((plan, sigmas.as_ref()?)));
-    let best = ranked.max_by(|(_, one), (_, other)| least(one).total_cmp(&least(other)));
-    let name = |place: usize| {
-        explanations
-            .get(place)
-            .map_or_else(String::new, |e| e.cause().name())
-    };
-    let separations = pairs
-        .iter()
-        .enumerate()
-        .map(|(pair, [one, other])| Separation {
-            one: name(*one),
-            other: name(*other),
-            sigmas: best
-                .and_then(|(_, sigmas)| sigmas.get(pair).copied())
-                .unwrap_or(0.0),
-            tellable: tellable.get(pair) == Some(&true),
+    let all = explanations(stand, rivals);
+    if all.len() < 2 {
+        return None;
+    }
+    // What the reference rig does not compute cannot be simulated.
+    let simulated = |e: &Explanation| with_effects(&e.model, layout, MIDDLE_M).is_ok();
+    let (mut all, mut left_out): (Vec<_>, Vec<_>) = all.into_iter().partition(simulated);
+    left_out.extend(all.split_off(MOST_EXPLANATIONS.min(all.len())));
+    let plans = plans(layout, &joints(&all), run.step_s);
+    let (plan, separations) = best(stand, &all, &plans)
+        .map_or((None, Vec::new()), |(plan, separations)| {
+            (Some(plan), separations)
         });
-    let chosen = best
-        .filter(|_| tellable.contains(&true))
-        .map(|(plan, _)| plan);
+    let tells = separations.iter().any(|pair| pair.tellable);
+    let chosen = plan.filter(|_| tells);
     let report = NextExperiment {
         what: chosen.map(|plan| plan.words.clone()),
         duration_s: DURATION_S,
         greatest_current_a: chosen.map_or(0.0, greatest_current_a),
         greatest_force_n: greatest_desired_force_n(layout),
-        tried: told.iter().flatten().count(),
-        separations: separations.collect(),
+        tried: plans.len(),
+        separations,
+        not_compared: left_out.iter().map(|e| e.cause().name()).collect(),
         file: None,
     };
     Some((report, chosen.map(|plan| plan.trace(layout))))
+}
+
+/// The best of the plans, and how far it sets each pair of explanations apart; `None` where there are no two.
+fn best<'p>(
+    stand: &Stand<'_>,
+    explanations: &[Explanation],
+    plans: &'p [Plan],
+) -> Option<(&'p Plan, Vec<Separation>)> {
+    let (named, others) = explanations.split_first()?;
+    if others.is_empty() {
+        return None;
+    }
+    // All of them as if what was named were true, then the best of these whatever is true.
+    let screen = |plan: &Plan| -> Vec<f64> {
+        let losses = losses(stand, named, explanations, plan).unwrap_or_default();
+        let others = 1..losses.len();
+        others.map(|other| beyond(&losses, 0, other)).collect()
+    };
+    let screened: Vec<Vec<f64>> = plans.iter().map(screen).collect();
+    let mut finalists: Vec<(&Plan, f64)> = plans.iter().zip(least(&screened)).collect();
+    finalists.sort_by(|(_, one), (_, other)| other.total_cmp(one));
+    finalists.truncate(FINALISTS);
+    let apart: Vec<Vec<f64>> = finalists
+        .iter()
+        .map(|(plan, _)| separations(stand, explanations, plan).unwrap_or_default())
+        .collect();
+    let ranked = finalists.iter().zip(&apart).zip(least(&apart));
+    let (((plan, _), sigmas), _) = ranked.max_by(|(_, one), (_, other)| one.total_cmp(other))?;
+    let name = |place: usize| {
+        explanations
+            .get(place)
+            .map_or_else(String::new, |e| e.cause().name())
+    };
+    let pairs = pairs(explanations.len()).into_iter().zip(sigmas);
+    let separations = pairs.map(|([one, other], sigmas)| Separation {
+        one: name(one),
+        other: name(other),
+        sigmas: *sigmas,
+        tellable: *sigmas >= LEAST_SIGMAS,
+    });
+    Some((plan, separations.collect()))
+}
+
+/// The joints that the explanations are about, each once.
+fn joints(explanations: &[Explanation]) -> Vec<Joint> {
+    let own: Vec<Joint> = explanations
+        .iter()
+        .filter_map(|e| e.cause().joint)
+        .collect();
+    let all = Joint::ALL.into_iter();
+    all.filter(|joint| own.contains(joint)).collect()
+}
+
+/// The least separation of each experiment, those left out that none of them reaches: they decide nothing.
+fn least(all: &[Vec<f64>]) -> Vec<f64> {
+    let greatest = |pair: usize| {
+        let own = all.iter().filter_map(|sigmas| sigmas.get(pair));
+        own.copied().fold(0.0, f64::max)
+    };
+    let least = |sigmas: &Vec<f64>| {
+        let told = sigmas.iter().enumerate();
+        let told = told.filter(|(pair, _)| greatest(*pair) >= LEAST_SIGMAS);
+        let least = told.map(|(_, s)| *s).fold(f64::INFINITY, f64::min);
+        if least.is_finite() { least } else { 0.0 }
+    };
+    all.iter().map(least).collect()
 }
 
 fn greatest_current_a(plan: &Plan) -> f64 {
@@ -121,8 +156,7 @@ fn explanations(stand: &Stand<'_>, rivals: &[Vec<Cause>]) -> Vec<Explanation> {
     let mut others: Vec<Selection> = rivals.iter().filter_map(in_its_place).collect();
     others.sort_by(|a, b| a.after.loss.total_cmp(&b.after.loss));
     let all = core::iter::once(stand.selection).chain(&others);
-    all.take(MOST_EXPLANATIONS)
-        .filter_map(|selection| explanation(stand, selection, index))
+    all.filter_map(|selection| explanation(stand, selection, index))
         .collect()
 }
 
@@ -177,10 +211,14 @@ fn replaced(
     })
 }
 
-/// How far each pair of explanations lies apart on an experiment, in standard deviations of the sensors' noise: what one explanation's recording leaves
-/// unexplained with the other, whose numbers may be others there, beyond what it leaves with itself; the lesser of both ways.
-/// `None` where the rig cannot do the experiment.
-fn separations(stand: &Stand<'_>, explanations: &[Explanation], plan: &Plan) -> Option<Vec<f64>> {
+/// What each explanation leaves of an experiment's recording, with other numbers where they fit better, if one of them is true. `None` where the
+/// rig cannot do the experiment.
+fn losses(
+    stand: &Stand<'_>,
+    truth: &Explanation,
+    explanations: &[Explanation],
+    plan: &Plan,
+) -> Option<Vec<f64>> {
     let layout = stand.train.parameters.layout;
     let sensors = Sensors {
         count_rad: Some(stand.train.theta_noise * 12f64.sqrt()),
@@ -188,21 +226,32 @@ fn separations(stand: &Stand<'_>, explanations: &[Explanation], plan: &Plan) -> 
     };
     let fitted = &stand.problem.windows;
     let width_s = (fitted.bump.len() - 1) as f64 * fitted.step_s;
-    let losses = explanations.iter().map(|truth| {
-        let played = play(&truth.model, layout, plan).ok()?;
-        let run = aligned(stand.rig, &played.recording(layout, sensors)).ok()?;
-        let windows = Windows::over(run.len(), 2, (run.step_s, run.start_s), width_s);
-        let problem = Problem::of_five_bar(&run, windows);
-        let blocks = Blocks::new(&problem);
-        let losses = explanations.iter().map(|e| e.loss(&problem, &blocks));
-        Some(losses.collect())
-    });
-    let losses: Vec<Vec<f64>> = losses.collect::<Option<_>>()?;
-    let beyond = |truth: usize, other: usize| {
-        let own = losses.get(truth);
-        let at = |place| own.and_then(|own| own.get(place)).copied().unwrap_or(0.0);
-        (at(other) - at(truth)).max(0.0).sqrt()
+    let played = play(&truth.model, layout, plan).ok()?;
+    let run = aligned(stand.rig, &played.recording(layout, sensors)).ok()?;
+    let windows = Windows::over(run.len(), 2, (run.step_s, run.start_s), width_s);
+    let problem = Problem::of_five_bar(&run, windows);
+    let blocks = Blocks::new(&problem);
+    let own = explanations.iter().map(|e| e.loss(&problem, &blocks));
+    Some(own.collect())
+}
+
+/// By how many standard deviations of the noise one explanation leaves more than the one that is true.
+fn beyond(losses: &[f64], truth: usize, other: usize) -> f64 {
+    let at = |place: usize| losses.get(place).copied().unwrap_or(0.0);
+    (at(other) - at(truth)).max(0.0).sqrt()
+}
+
+/// How far each pair of explanations lies apart on an experiment, in standard deviations of the noise: the lesser of what either
+/// leaves of the other's recording.
+fn separations(stand: &Stand<'_>, explanations: &[Explanation], plan: &Plan) -> Option<Vec<f64>> {
+    let all = explanations
+        .iter()
+        .map(|truth| losses(stand, truth, explanations, plan));
+    let all: Vec<Vec<f64>> = all.collect::<Option<_>>()?;
+    let way = |truth: usize, other: usize| {
+        let losses = all.get(truth);
+        losses.map_or(0.0, |losses| beyond(losses, truth, other))
     };
-    let apart = |[one, other]: [usize; 2]| beyond(one, other).min(beyond(other, one));
+    let apart = |[one, other]: [usize; 2]| way(one, other).min(way(other, one));
     Some(pairs(explanations.len()).into_iter().map(apart).collect())
 }

@@ -27,7 +27,7 @@ pub const DURATION_S: f64 = 12.0;
 /// The greatest current that is asked for, A.
 pub const STRONGEST_A: f64 = 0.6;
 /// About where the hand moves, x and y, m: the middle of what both layouts reach.
-const MIDDLE_M: [f64; 2] = [0.02, 0.40];
+pub const MIDDLE_M: [f64; 2] = [0.02, 0.40];
 
 /// What the hand does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -19,8 +19,6 @@ use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording};
 const STIFFNESS_N_M: f64 = 420.0;
 /// The damping of a hand, N·s/m.
 const DAMPING_NS_M: f64 = 11.0;
-/// Steps of the rig a sample, so that the hand moves in between; more where a sample is longer than a step may be.
-const FEWEST_PARTS: f64 = 2.0;
 
 /// What is recorded of an experiment, before counts and noise.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,28 +45,36 @@ fn hand_n(layout: Layout, to_m: [f64; 2], tip_m: [f64; 2], velocity_m_s: [f64; 2
     force.map(|f| share * f)
 }
 
-/// Plays a plan on the rig of a model, which starts at rest. What the model says to begin at some time of its own recording is
-/// there from the start.
+/// The rig of a model at rest with its tip at a point, m. What the model says to begin at some time of its own recording is there from
+/// the start.
 ///
 /// # Errors
-/// The rig cannot be given the model's effects, or is driven out of its assembly.
-pub fn play(model: &Model, layout: Layout, plan: &Plan) -> Result<Played, ModelError> {
+/// The rig cannot be given the model's effects, or cannot stand there.
+pub fn with_effects(model: &Model, layout: Layout, tip_m: [f64; 2]) -> Result<Rig, ModelError> {
     let begun = |effect: &JointEffect| JointEffect {
         onset_s: None,
         ..effect.clone()
     };
-    let start = plan.hand_m.first().copied().unwrap_or_default();
     let effects: Vec<JointEffect> = model.rig.iter().map(begun).collect();
-    let mut rig = Rig::new(layout, start)?.with_effects(&effects)?;
+    Rig::new(layout, tip_m)?.with_effects(&effects)
+}
+
+/// Plays a plan on the rig of a model, which starts at rest.
+///
+/// # Errors
+/// Those of [`with_effects`], or the rig is driven out of its assembly.
+pub fn play(model: &Model, layout: Layout, plan: &Plan) -> Result<Played, ModelError> {
+    let start = plan.hand_m.first().copied().unwrap_or_default();
+    let mut rig = with_effects(model, layout, start)?;
     let parts = (plan.step_s / LONGEST_STEP_S * (1.0 - 1e-9))
         .ceil()
-        .max(FEWEST_PARTS);
+        .max(1.0);
     let step_s = plan.step_s / parts;
     let mut played = Played {
         time_s: Vec::new(),
         theta_rad: [const { Vec::new() }; 2],
         force_n: [const { Vec::new() }; 2],
-        currents_a: plan.currents_a.clone(),
+        currents_a: [const { Vec::new() }; 4],
     };
     let next = plan.hand_m.iter().skip(1).chain(plan.hand_m.last());
     for (k, (from, to)) in plan.hand_m.iter().zip(next).enumerate() {
@@ -80,6 +86,8 @@ pub fn play(model: &Model, layout: Layout, plan: &Plan) -> Result<Played, ModelE
             .currents_a
             .each_ref()
             .map(|current| current.get(k).copied().unwrap_or(0.0));
+        let all = played.currents_a.iter_mut().zip(currents);
+        all.for_each(|(own, current)| own.push(current));
         for part in 0..parts as usize {
             // The hand stands still within a part: in its middle, so that its mean is right.
             let share = (part as f64 + 0.5) / parts;
