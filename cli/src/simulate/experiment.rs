@@ -1,7 +1,7 @@
 //! This file plays an experiment on the reference rig and writes down what the rig would record.
 
-use rigproof_diagnose::five_bar::experiment::plan::Plan;
-use rigproof_diagnose::five_bar::experiment::play::{Played, play};
+use rigproof_diagnose::five_bar::experiment::plan::{MIDDLE_M, Plan};
+use rigproof_diagnose::five_bar::experiment::play::{Played, play, with_effects};
 use rigproof_diagnose::five_bar::free_run::Model;
 use rigproof_trace::csv;
 use rigproof_trace::rig::five_bar::FiveBar;
@@ -32,8 +32,11 @@ pub fn plan(args: &Args, rig: &FiveBar) -> Result<Option<Plan>, Failure> {
 /// Plays a plan with a model, and writes what is recorded of it.
 pub fn run(args: &Args, rig: &FiveBar, plan: &Plan, model: &FiveBar) -> Result<Outcome, Failure> {
     let mark = progress::spinner("simulating");
-    let played = play(&Model::of(model), rig.layout, plan)
+    let own = Model::of(model);
+    with_effects(&own, rig.layout, MIDDLE_M)
         .map_err(|error| Failure::unusable(file(args), error.to_string()))?;
+    let played = play(&own, rig.layout, plan)
+        .map_err(|error| Failure::unusable(&args.source.recording, error.to_string()))?;
     drop(mark);
     let said = say(args, &played)?;
     if let Some(out) = &args.out {
