@@ -1,6 +1,7 @@
 //! This file writes what a diagnosis leaves behind: report, calibration and pictures in one folder.
 
 use rigproof_diagnose::Diagnosis;
+use rigproof_trace::csv;
 use rigproof_trace::store::Folder;
 
 use crate::outcome::Failure;
@@ -10,6 +11,8 @@ use crate::picture;
 pub const REPORT: &str = "report.json";
 /// The calibrated model's file.
 pub const CALIBRATION: &str = "calibration.toml";
+/// The file of the experiment that tells rival explanations apart.
+pub const EXPERIMENT: &str = "next-experiment.csv";
 
 /// Writes the files of a diagnosis, enters the calibration into the report, and gives their names.
 ///
@@ -39,6 +42,13 @@ pub fn write(
             folder.write(name, drawn.as_bytes())?;
             files.push(name);
         }
+    }
+    if let (Some(plan), Some(next)) = (&diagnosis.experiment, &mut diagnosis.report.next_experiment)
+    {
+        next.file = Some(EXPERIMENT.to_owned());
+        let bytes = csv::to_bytes(plan).map_err(Failure::Input)?;
+        folder.write(EXPERIMENT, &bytes)?;
+        files.push(EXPERIMENT);
     }
     folder.write(REPORT, (json(diagnosis)? + "\n").as_bytes())?;
     Ok(files)

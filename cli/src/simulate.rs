@@ -1,5 +1,6 @@
 //! This file runs a rig's model along a recording and says how far the two lie apart.
 
+mod experiment;
 mod five_bar;
 
 use std::path::{Path, PathBuf};
@@ -32,9 +33,12 @@ pub struct Args {
     /// How long a five-bar runs freely before it starts from the recorded state again, s
     #[arg(long, value_name = "SECONDS", default_value_t = 1.0, value_parser = parse_restart)]
     restart_s: f64,
-    /// A CSV file to write: time, recorded and simulated output
+    /// A CSV file to write: time, recorded and simulated output; of an experiment, what the rig would record
     #[arg(long, value_name = "CSV")]
     out: Option<PathBuf>,
+    /// Seed of the counts and the noise that the rig file states, in the recording of an experiment; without it there are none
+    #[arg(long, value_name = "NUMBER")]
+    seed: Option<u64>,
     /// Print the result as JSON
     #[arg(long)]
     json: bool,
@@ -43,10 +47,14 @@ pub struct Args {
 const AFTER_HELP: &str = "\
 An axis runs freely from the recorded command; a bench follows the recorded motion. A five-bar runs freely from the
 recorded force and currents, every `--restart-s` from the recorded state: nothing holds it where the hand's stiffness did.
+The experiment that a diagnosis of a five-bar writes (columns hand_x and hand_y in m, current_a and so on in A) is played
+from rest with a hand of 420 N/m and 11 N·s/m; `--out` then is a recording, which `diagnose` takes.
 
-Example:
+Examples:
   rigproof simulate run.csv --rig rig.toml --calibration run-diagnosis/calibration.toml \\
-      --out simulated.csv";
+      --out simulated.csv
+  rigproof simulate run-diagnosis/next-experiment.csv --rig rig.toml --seed 7 \\
+      --calibration run-diagnosis/calibration.toml --out expected.csv";
 
 /// Simulates, compares, and writes both outputs.
 pub fn run(args: &Args) -> Result<Outcome, Failure> {

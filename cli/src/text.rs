@@ -3,6 +3,7 @@
 mod fit;
 pub mod found;
 mod limits;
+mod next;
 pub mod number;
 
 use rigproof_diagnose::report::{Report, Verdict};
@@ -19,6 +20,7 @@ pub fn report(report: &Report) -> String {
         found::nominal(report),
         fit::before_after(report),
         limits::left_over(report),
+        next::experiment(report),
         limits::not_seen(report),
         section("How it was measured", report.protocol.iter().map(indented)),
     ];

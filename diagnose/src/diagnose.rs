@@ -19,6 +19,7 @@ use crate::weak::{Windows, choose_width};
 pub use description::{Description, Measured};
 use ended::{faulty, not_excited};
 use rigproof_spec::effect::Mechanism;
+use rigproof_trace::Trace;
 use rigproof_trace::rig::{Recording, Rig};
 use write::Stand;
 
@@ -31,6 +32,8 @@ pub struct Options {
     pub hold_out_share: f64,
     /// Whether the numbers are refitted by free runs (the naming does not need it).
     pub refit: bool,
+    /// Whether the experiment is looked for that tells a five-bar's rival explanations apart.
+    pub next_experiment: bool,
 }
 
 impl Default for Options {
@@ -39,6 +42,7 @@ impl Default for Options {
             gates: Gates::default(),
             hold_out_share: 0.25,
             refit: true,
+            next_experiment: true,
         }
     }
 }
@@ -51,6 +55,8 @@ pub struct Diagnosis {
     pub calibration: Description,
     /// Curves for the pictures; empty after a fault.
     pub curves: Curves,
+    /// The experiment that would tell rival explanations apart, where there is one.
+    pub experiment: Option<Trace>,
 }
 
 /// Curves over time: of the held-out part before and after, and the residual of the windows.

@@ -1,9 +1,11 @@
 //! This room is the five-bar with three or four brakes in the diagnosis: its recording, its noise, its columns.
 
 pub mod brakes;
+mod calibrated;
 pub mod candidates;
 pub mod columns;
 pub mod diagnose;
+pub mod experiment;
 pub mod free_run;
 pub mod from_rig;
 mod locate;

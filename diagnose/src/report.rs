@@ -50,8 +50,8 @@ pub struct Report {
     pub unknown: Option<Unknown>,
     /// Before and after, on what was fitted and on what was held out.
     pub fit: Option<FitReport>,
-    /// Not computed by this version.
-    pub next_experiment: Option<String>,
+    /// What would tell a five-bar's rival explanations apart; nothing where there are none, and on other plants.
+    pub next_experiment: Option<NextExperiment>,
     /// Not computed by this version.
     pub self_calibration: Option<String>,
     /// The file that holds the calibrated model, beside the report.
@@ -289,6 +289,40 @@ pub struct Unknown {
     pub parity: &'static str,
     /// What family of physics has such a shape.
     pub suggestion: String,
+}
+
+/// The experiment that tells rival explanations apart best, of those that were simulated.
+#[derive(Clone, Debug, Serialize)]
+pub struct NextExperiment {
+    /// What to do; nothing where no experiment tells any two of them apart.
+    pub what: Option<String>,
+    /// How long it takes, s.
+    pub duration_s: f64,
+    /// The greatest current it asks for, A.
+    pub greatest_current_a: f64,
+    /// The greatest force of the hand, N.
+    pub greatest_force_n: f64,
+    /// How many experiments were simulated for every explanation.
+    pub tried: usize,
+    /// How far it sets each pair of explanations apart.
+    pub separations: Vec<Separation>,
+    /// Explanations that are in no comparison: the reference rig does not compute them, or they leave most where there are many.
+    pub not_compared: Vec<String>,
+    /// Its file, beside the report.
+    pub file: Option<String>,
+}
+
+/// Two explanations and how far an experiment sets them apart.
+#[derive(Clone, Debug, Serialize)]
+pub struct Separation {
+    /// One cause.
+    pub one: String,
+    /// The other one in its place.
+    pub other: String,
+    /// Standard deviations of the sensors' noise, summed over the windows, by which either leaves more of the other's recording.
+    pub sigmas: f64,
+    /// Whether any of the experiments tells them apart.
+    pub tellable: bool,
 }
 
 /// Before and after.

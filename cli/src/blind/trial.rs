@@ -168,6 +168,7 @@ fn diagnosed(seed: u64, case: &Case) -> Result<Value, Failure> {
     let rig = Description::parse(&case.rig_toml, Path::new("rig.toml"))?;
     let options = Options {
         refit: false,
+        next_experiment: false,
         hold_out_share: 0.0,
         ..Options::default()
     };

@@ -9,7 +9,7 @@ use rigproof_trace::rig::five_bar::{FiveBar, layout_name};
 use rigproof_trace::{Channel, Trace, csv};
 use serde_json::{Value, json};
 
-use super::{Args, measures, path, read_as, refusal};
+use super::{Args, experiment, measures, path, read_as, refusal};
 use crate::input::{self, HowRead};
 use crate::outcome::{Failure, Outcome, print};
 use crate::progress;
@@ -20,6 +20,9 @@ const OUTPUTS: [(&str, &str); 3] = [("theta_a", "rad"), ("theta_b", "rad"), ("ti
 /// Simulates, compares, and writes both outputs.
 pub fn run(args: &Args, rig: &FiveBar) -> Result<Outcome, Failure> {
     let source = &args.source;
+    if let Some(plan) = experiment::plan(args, rig)? {
+        return experiment::run(args, rig, &plan, &model(args, rig)?);
+    }
     let description = Description::FiveBar(rig.clone());
     let read = input::measured(&description, &source.recording, source.cut, &source.reading)?;
     let (Measured::FiveBar(recording), how) = read else {
@@ -42,7 +45,7 @@ pub fn run(args: &Args, rig: &FiveBar) -> Result<Outcome, Failure> {
 }
 
 /// The file whose numbers count.
-fn file(args: &Args) -> &std::path::Path {
+pub fn file(args: &Args) -> &std::path::Path {
     args.calibration.as_ref().unwrap_or(&args.source.rig)
 }
 

@@ -7,6 +7,7 @@ mod demo;
 mod design;
 mod desk;
 mod diagnose;
+mod experiment;
 mod golden;
 mod help;
 mod identify;

@@ -44,6 +44,7 @@ fn empty(description: Description, verdict: Verdict, summary: String) -> Diagnos
         report: blank(description.plant_name(), verdict, summary),
         calibration: description,
         curves: Curves::default(),
+        experiment: None,
     }
 }
 

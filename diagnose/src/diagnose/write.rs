@@ -124,6 +124,7 @@ impl Stand<'_> {
             report,
             calibration: Description::Joint(calibration),
             curves,
+            experiment: None,
         }
     }
 

@@ -1,5 +1,6 @@
 //! This file runs the stages on a recording of the five-bar: align, locate, explain, doubt, show.
 
+use super::experiment;
 use super::free_run::{Model, horizons};
 use super::from_rig::{aligned, nominal};
 use super::locate::locate;
@@ -11,9 +12,7 @@ use crate::diagnose::ended::{blank, faulty, not_excited};
 use crate::diagnose::words::summary;
 use crate::diagnose::write::{floor, verdict};
 use crate::diagnose::{Curves, Description, Diagnosis, FEWEST_WINDOWS, Options};
-use crate::evidence::{
-    Errors, coefficients_by_term, inclusion, not_seen, parameters, rivals, standard_errors,
-};
+use crate::evidence::{coefficients_by_term, inclusion, not_seen, rivals, standard_errors};
 use crate::problem::{NominalEffect, Problem, Term, add};
 use crate::report::{
     BeforeAfter, EffectReport, FITTED_PART, FitReport, HELD_OUT_PART, Horizon, Report, StageReport,
@@ -21,12 +20,11 @@ use crate::report::{
 use crate::run::rms;
 use crate::select::{Selection, refs, select};
 use crate::weak::Windows;
-use crate::write_rig::{numbers, with_interval};
+use crate::write_rig::numbers;
 use rigproof_model::effects::entry;
-use rigproof_spec::effect::{Mechanism, Motion};
+use rigproof_spec::effect::Motion;
 use rigproof_spec::joint::Joint;
-use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording, JointEffect};
-use rigproof_trace::rig::{RigEffect, Value};
+use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording};
 
 /// The widths of windows that are tried, s; the last is taken when no narrower one is quiet enough.
 const WIDTHS_S: [f64; 3] = [0.040, 0.080, 0.160];
@@ -125,15 +123,15 @@ fn travel(run: &FiveBarRun) -> f64 {
 }
 
 /// Everything the report is written from.
-struct Stand<'a> {
-    rig: &'a FiveBar,
-    problem: &'a Problem<'a>,
-    selection: &'a Selection,
-    train: &'a FiveBarRun,
-    test: &'a FiveBarRun,
+pub(super) struct Stand<'a> {
+    pub(super) rig: &'a FiveBar,
+    pub(super) problem: &'a Problem<'a>,
+    pub(super) selection: &'a Selection,
+    pub(super) train: &'a FiveBarRun,
+    pub(super) test: &'a FiveBarRun,
     /// Where the held-out part of `test` begins, s after its first sample.
-    test_from_s: f64,
-    options: &'a Options,
+    pub(super) test_from_s: f64,
+    pub(super) options: &'a Options,
 }
 
 /// The windows of a recording with the models before and after.
@@ -158,6 +156,10 @@ impl Stand<'_> {
         let calibration = self.calibrated(&errors);
         let fit = (self.options.refit && self.test_from_s < self.test.duration_s())
             .then(|| self.fit_report(&test, &calibration, other_recording));
+        let (next_experiment, experiment) = match self.options.next_experiment {
+            true => experiment::next(self, &rivals).unzip(),
+            false => (None, None),
+        };
         let mut protocol = self.protocol(other_recording);
         protocol.extend(fit.iter().map(|fit| fit.protocol.clone()));
         let (before, after) = (&selection.before.residual, &selection.after.residual);
@@ -174,6 +176,7 @@ impl Stand<'_> {
             too_small_to_name: selection.too_small.iter().map(|c| c.name()).collect(),
             not_seen: not_seen(problem, selection, self.options.gates, Motion::Rotary),
             fit,
+            next_experiment,
             floor: Some(floor.clone()),
             ..blank("rig", verdict, summary)
         };
@@ -182,6 +185,7 @@ impl Stand<'_> {
             report,
             calibration: Description::FiveBar(calibration),
             curves,
+            experiment: experiment.flatten(),
         }
     }
 
@@ -349,42 +353,6 @@ impl Stand<'_> {
         }
     }
 
-    /// The rig with the numbers of all terms; found effects follow the nominal ones.
-    fn calibrated(&self, errors: &Errors) -> FiveBar {
-        let mut rig = self.rig.clone();
-        let (_, coefficients) = coefficients_by_term(self.problem, self.selection);
-        let terms = refs(&self.selection.nominal, &self.selection.found);
-        let known = rig.effects.clone();
-        rig.effects = terms
-            .iter()
-            .zip(&coefficients)
-            .enumerate()
-            .map(|(index, (term, own))| {
-                if let (Some(given), Some(_)) = (known.get(index), &term.known) {
-                    return given.clone();
-                }
-                let spread = errors.terms.get(index);
-                let count = term.cause.mechanism.parameters().len();
-                let values = parameters(term, own).into_iter().take(count).enumerate();
-                let values = values
-                    .map(|(k, value)| with_interval(value, spread.and_then(|s| s.get(k)).copied()));
-                joint_effect(term, term.cause.mechanism, values.collect())
-            })
-            .collect();
-        // A spring's torque at θ = 0, which the vocabulary has as a law of its own.
-        let springs = terms.iter().zip(&coefficients);
-        rig.effects.extend(springs.filter_map(|(term, own)| {
-            let preload = *own
-                .get(1)
-                .filter(|_| term.cause.mechanism == Mechanism::Spring)?;
-            let level = with_interval(preload, None);
-            Some(joint_effect(term, Mechanism::ConstantBias, vec![level]))
-        }));
-        rig.provenance
-            .insert("fit".to_owned(), "weighted windows".to_owned());
-        rig
-    }
-
     fn effects(&self, calibration: &FiveBar) -> Vec<EffectReport> {
         let offset = self.selection.nominal.len();
         let found = self.selection.found.iter().enumerate();
@@ -445,17 +413,6 @@ impl Stand<'_> {
             floor: self.problem.floor,
             residual_unit: unit,
         }
-    }
-}
-
-fn joint_effect(term: &Term, mechanism: Mechanism, values: Vec<Value>) -> JointEffect {
-    JointEffect {
-        joint: term.cause.joint,
-        effect: RigEffect {
-            mechanism,
-            values,
-            onset: term.onset_s.map(Value::known),
-        },
     }
 }
 

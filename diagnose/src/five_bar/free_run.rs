@@ -22,8 +22,8 @@ const MOST_OF_PART: f64 = 0.5;
 /// A five-bar with all its numbers: what acts on the rig, and what its sensors do.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Model {
-    rig: Vec<JointEffect>,
-    sensors: Vec<JointEffect>,
+    pub(super) rig: Vec<JointEffect>,
+    pub(super) sensors: Vec<JointEffect>,
 }
 
 impl Model {

@@ -9,7 +9,7 @@ use super::{ChannelMap, Plant, Rig};
 use crate::csv::{self, Dialect, Hints};
 use crate::error::TraceError;
 use crate::mcap;
-use crate::series::Trace;
+use crate::series::{Channel, Trace};
 use crate::suggest::advice;
 
 /// A recording of a plant, in SI units; every signal is as long as `time_s`, NaN where a sample is missing.
@@ -149,10 +149,30 @@ pub(super) fn signal(
     })
 }
 
+/// A signal in SI units as the channel has it in its file: what [`signal`] makes of it is the signal.
+pub(super) fn printed(
+    map: &ChannelMap,
+    samples: &[f64],
+    origin: &Path,
+) -> Result<Channel, TraceError> {
+    let unit = Unit::parse(&map.unit).ok_or_else(|| {
+        let problem = format!(
+            "`{}`, the unit of `{}` in the rig, is no known unit",
+            map.unit, map.channel
+        );
+        TraceError::recording(origin, problem)
+    })?;
+    let to_si = map.sign * map.scale * unit.to_si;
+    Ok(Channel {
+        name: map.channel.clone(),
+        unit: map.unit.clone(),
+        samples: samples.iter().map(|x| x / to_si + map.offset).collect(),
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::series::Channel;
 
     const RIG: &str = r#"
         name = "slide"
@@ -191,6 +211,27 @@ mod tests {
         assert!((x.limit.unwrap() - 0.12).abs() < 1e-15);
         assert_eq!(recording.drive.unwrap().samples[0], 4.5);
         assert_eq!(recording.force, None);
+    }
+
+    #[test]
+    fn what_is_printed_reads_back() {
+        let rig = Rig::parse(RIG, Path::new("rig.toml")).unwrap();
+        let own = [0.0173, -0.0044];
+        let channel = printed(&rig.channels.position, &own, Path::new("run.csv")).unwrap();
+        let trace = Trace {
+            time_s: vec![0.1, 0.3],
+            channels: vec![channel],
+        };
+        let read = signal(
+            &rig.channels.position,
+            "slide",
+            &trace,
+            Path::new("run.csv"),
+        )
+        .unwrap();
+        for (read, own) in read.samples.iter().zip(own) {
+            assert!((read - own).abs() < 1e-17, "{read} {own}");
+        }
     }
 
     #[test]

@@ -9,7 +9,7 @@ use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
 use rigproof_spec::units::Dimension;
 
-use super::apply::{Signal, signal};
+use super::apply::{Signal, printed, signal};
 use super::read::{choice, read_channel, read_effect, read_provenance, read_time};
 use super::table::{Source, Table};
 use super::write::{channel, effect_lines, string, time_line};
@@ -187,6 +187,30 @@ impl FiveBar {
             theta: pair(&self.channels.theta)?,
             force: pair(&self.channels.force)?,
             currents: [current(a)?, current(e)?, current(b)?, current(c)?],
+        })
+    }
+
+    /// A recording as its file has it: channels, units, scales and offsets as this description says. `origin` is the file that
+    /// messages name.
+    ///
+    /// # Errors
+    /// A unit of the description is not known.
+    pub fn trace(&self, recording: &FiveBarRecording, origin: &Path) -> Result<Trace, TraceError> {
+        let FiveBarChannels {
+            theta,
+            force,
+            currents,
+            ..
+        } = &self.channels;
+        let pairs = theta.iter().zip(&recording.theta);
+        let pairs = pairs.chain(force.iter().zip(&recording.force));
+        let currents = currents.iter().zip(&recording.currents);
+        let pairs =
+            pairs.chain(currents.filter_map(|(map, own)| Some((map.as_ref()?, own.as_ref()?))));
+        let channels = pairs.map(|(map, own)| printed(map, &own.samples, origin));
+        Ok(Trace {
+            time_s: recording.time_s.clone(),
+            channels: channels.collect::<Result<_, TraceError>>()?,
         })
     }
 

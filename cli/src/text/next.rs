@@ -1,0 +1,44 @@
+//! This file says which experiment would tell the explanations of a recording apart.
+
+use rigproof_diagnose::report::Report;
+
+use super::number::{significant, with_unit};
+use super::section;
+
+/// What to do next on the rig, and what it would tell.
+pub fn experiment(report: &Report) -> Vec<String> {
+    let Some(next) = &report.next_experiment else {
+        return Vec::new();
+    };
+    let mut lines = Vec::new();
+    if let Some(what) = &next.what {
+        lines.push(format!("  {what}"));
+        lines.push(format!(
+            "  {} long, the hand with at most {}{}",
+            with_unit(next.duration_s, "s"),
+            with_unit(next.greatest_force_n, "N"),
+            next.file.as_ref().map_or_else(String::new, |file| format!(
+                "; sample by sample in {file}, which `simulate` plays"
+            )),
+        ));
+    }
+    lines.extend(next.separations.iter().map(|pair| {
+        let (one, other) = (&pair.one, &pair.other);
+        let sigmas = significant(pair.sigmas, 2);
+        match (pair.tellable, &next.what) {
+            (true, _) => {
+                format!("  tells {one} from {other} by {sigmas} standard deviations of the noise")
+            }
+            (false, Some(_)) => format!("  does not tell {one} from {other}"),
+            (false, None) => format!(
+                "  none of the {} that were simulated tells {one} from {other}",
+                next.tried
+            ),
+        }
+    }));
+    if !next.not_compared.is_empty() {
+        let names = next.not_compared.join(", ");
+        lines.push(format!("  in no comparison (not computed by the reference rig, or the least likely of many): {names}"));
+    }
+    section("Next experiment", lines)
+}

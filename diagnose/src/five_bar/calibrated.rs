@@ -1,0 +1,59 @@
+//! This file gives a five-bar's description the numbers of a selection.
+
+use super::diagnose::Stand;
+use crate::evidence::{Errors, coefficients_by_term, parameters};
+use crate::problem::Term;
+use crate::select::refs;
+use crate::write_rig::with_interval;
+use rigproof_spec::effect::Mechanism;
+use rigproof_trace::rig::five_bar::{FiveBar, JointEffect};
+use rigproof_trace::rig::{RigEffect, Value};
+
+impl Stand<'_> {
+    /// The rig with the numbers of all terms; found effects follow the nominal ones.
+    pub(super) fn calibrated(&self, errors: &Errors) -> FiveBar {
+        let mut rig = self.rig.clone();
+        let (_, coefficients) = coefficients_by_term(self.problem, self.selection);
+        let terms = refs(&self.selection.nominal, &self.selection.found);
+        let known = rig.effects.clone();
+        rig.effects = terms
+            .iter()
+            .zip(&coefficients)
+            .enumerate()
+            .map(|(index, (term, own))| {
+                if let (Some(given), Some(_)) = (known.get(index), &term.known) {
+                    return given.clone();
+                }
+                let spread = errors.terms.get(index);
+                let count = term.cause.mechanism.parameters().len();
+                let values = parameters(term, own).into_iter().take(count).enumerate();
+                let values = values
+                    .map(|(k, value)| with_interval(value, spread.and_then(|s| s.get(k)).copied()));
+                joint_effect(term, term.cause.mechanism, values.collect())
+            })
+            .collect();
+        // A spring's torque at θ = 0, which the vocabulary has as a law of its own.
+        let springs = terms.iter().zip(&coefficients);
+        rig.effects.extend(springs.filter_map(|(term, own)| {
+            let preload = *own
+                .get(1)
+                .filter(|_| term.cause.mechanism == Mechanism::Spring)?;
+            let level = with_interval(preload, None);
+            Some(joint_effect(term, Mechanism::ConstantBias, vec![level]))
+        }));
+        rig.provenance
+            .insert("fit".to_owned(), "weighted windows".to_owned());
+        rig
+    }
+}
+
+fn joint_effect(term: &Term, mechanism: Mechanism, values: Vec<Value>) -> JointEffect {
+    JointEffect {
+        joint: term.cause.joint,
+        effect: RigEffect {
+            mechanism,
+            values,
+            onset: term.onset_s.map(Value::known),
+        },
+    }
+}
