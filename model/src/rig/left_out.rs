@@ -171,20 +171,18 @@ impl LeftOut {
             }
         }
         for (timed, memory) in terms.iter().zip(&mut self.memory) {
-            match timed.term {
-                Term::Lag {
-                    place,
-                    time_constant_s,
-                } => {
-                    if first {
-                        *memory = given_a[place];
-                    }
-                    *memory -= (given_a[place] - *memory) * libm::expm1(-step_s / time_constant_s);
-                    if time_s >= timed.onset_s {
-                        given_a[place] = *memory;
-                    }
+            if let Term::Lag {
+                place,
+                time_constant_s,
+            } = timed.term
+            {
+                if first {
+                    *memory = given_a[place];
                 }
-                _ => {}
+                *memory -= (given_a[place] - *memory) * libm::expm1(-step_s / time_constant_s);
+                if time_s >= timed.onset_s {
+                    given_a[place] = *memory;
+                }
             }
         }
         for (timed, memory) in terms.iter().zip(&mut self.memory) {
