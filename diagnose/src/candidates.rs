@@ -13,10 +13,18 @@ pub fn causes(problem: &Problem) -> Vec<Cause> {
     if let PlantRun::FiveBar(run) = problem.plant {
         return five_bar::candidates::causes(run);
     }
+    let has_brake = match problem.plant {
+        PlantRun::Joint(run) => run.brake().is_some(),
+        PlantRun::FiveBar(_) => false,
+    };
     LIBRARY
         .iter()
-        .filter(|entry| !ONLY_OF_BRAKES.contains(&entry.mechanism))
-        .filter(|entry| matches!(entry.form, Form::Resistance(_) | Form::Drive))
+        .filter(|entry| match entry.mechanism {
+            Mechanism::CurrentHysteresis | Mechanism::ReversalOvershoot => has_brake,
+            // Only the five-bar is asked for it: the rules of the other plants were chosen without it.
+            Mechanism::Settling => false,
+            _ => matches!(entry.form, Form::Resistance(_) | Form::Drive),
+        })
         .map(|entry| Cause::of(entry.mechanism))
         .filter(|cause| {
             // A gain can only be wrong against something that is known.
@@ -24,9 +32,6 @@ pub fn causes(problem: &Problem) -> Vec<Cause> {
         })
         .collect()
 }
-
-/// What only the brakes of the five-bar are asked for: the rules of the other plants were chosen without them.
-const ONLY_OF_BRAKES: [Mechanism; 2] = [Mechanism::ReversalOvershoot, Mechanism::Settling];
 
 /// The variants of a cause that are tried beside the terms of `fitted`: one term a shape.
 pub fn variants(problem: &Problem, cause: Cause, terms: &[&Term], fitted: &Fit) -> Vec<Term> {
@@ -110,6 +115,8 @@ fn joint_shapes(run: &Run, mechanism: Mechanism, periods: impl Fn() -> Vec<f64>)
             .collect(),
         Mechanism::Ripple => one(periods()),
         Mechanism::Lag => one(geometric(0.5 * run.step_s, 0.25, 14)),
+        Mechanism::ReversalOvershoot => one(geometric(0.01, 1.5, 6)),
+        Mechanism::CurrentHysteresis => one(geometric(0.01, 0.3, 5)),
         Mechanism::ChannelSkew => {
             let sizes = geometric(0.5 * run.step_s, 0.08f64.max(4.0 * run.step_s), 12);
             one(sizes.iter().flat_map(|&s| [s, -s]).collect())

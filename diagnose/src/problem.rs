@@ -16,8 +16,8 @@ use rigproof_spec::joint::Joint;
 use signals::second_difference;
 use std::sync::Arc;
 
-pub use joint::unit_parameters;
-pub use signals::{lagged_yield, numerov, shifted};
+pub use joint::{is_of_brake, of_brake, unit_parameters};
+pub use signals::{lag_of_play, lagged_yield, numerov, shifted};
 
 /// One column of the regression over all windows.
 #[derive(Clone, Debug)]
@@ -217,7 +217,7 @@ impl<'a> Problem<'a> {
         if run.plant == PlantKind::Axis {
             windows.avoid_rests(run, floor);
         }
-        if let (Some(predicted), Some(_)) = (&run.predicted, &run.current) {
+        if let Some((predicted, _)) = run.brake() {
             windows.avoid_steps(predicted, floor);
         }
         let acceleration = second_difference(&run.position, run.step_s);

@@ -48,6 +48,11 @@ impl Run {
         self.position.len()
     }
 
+    /// What a bench with a brake and its current has: the predicted torque, N·m, and the current, A.
+    pub fn brake(&self) -> Option<(&[f64], &[f64])> {
+        Some((self.predicted.as_deref()?, self.current.as_deref()?))
+    }
+
     /// Whether there are no samples.
     pub fn is_empty(&self) -> bool {
         self.position.is_empty()

@@ -1,7 +1,7 @@
 //! This file is what a brake may do with its current other than the nominal model says, as changes of its yield torque.
 
 use super::run::{FiveBarRun, place, yields};
-use crate::problem::{less, shifted};
+use crate::problem::{lag_of_play, less, shifted};
 use rigproof_model::brake::Brake;
 use rigproof_model::effects::first_order_lag;
 use rigproof_spec::effect::Mechanism;
@@ -57,12 +57,7 @@ pub fn unit(
     let value = *shape.first()?;
     match mechanism {
         Mechanism::CurrentHysteresis => {
-            let mut play = current.first().copied()?;
-            let lag = current.iter().map(|i| {
-                play = play.clamp(i - value, i + value);
-                play - i
-            });
-            Some(lag.collect())
+            Some(lag_of_play(current, value))
         }
         Mechanism::ThermalFade => {
             let mut heat_j = 0.0;

@@ -12,6 +12,16 @@ pub fn lagged_yield(predicted: &[f64], step_s: f64, time_constant_s: f64) -> Vec
         .collect()
 }
 
+/// How far a play of half width `half_width_a` that the current moves lags behind it, sample by sample, A.
+pub fn lag_of_play(current_a: &[f64], half_width_a: f64) -> Vec<f64> {
+    let mut play_a = current_a.first().copied().unwrap_or(0.0);
+    let lag = current_a.iter().map(|i| {
+        play_a = play_a.clamp(i - half_width_a, i + half_width_a);
+        play_a - i
+    });
+    lag.collect()
+}
+
 /// Numerov's weights 1/12, 10/12, 1/12; the end samples stay.
 pub fn numerov(signal: &[f64]) -> Vec<f64> {
     let mut out = signal.to_vec();
