@@ -28,7 +28,8 @@ pub fn causes(problem: &Problem) -> Vec<Cause> {
         .map(|entry| Cause::of(entry.mechanism))
         .filter(|cause| {
             // A gain can only be wrong against something that is known.
-            cause.mechanism != Mechanism::GainError || problem.known.iter().any(|e| *e != 0.0)
+            let is_known = problem.known.iter().any(|e| *e != 0.0);
+            cause.mechanism != Mechanism::GainError || is_known && !problem.is_within_trials()
         })
         .collect()
 }

@@ -1,11 +1,14 @@
 //! This file turns a rig description and its recording into the plant's equations.
 
-use crate::align::{Fault, Signals, align};
+use crate::align::{Fault, Signals, align, forget_sense_near_reversals};
 use crate::problem::{Cause, Inertia, NominalEffect};
 use crate::run::{PlantKind, Run};
 use crate::simulate::{Effect, Interpolation, Plant, Protocol};
 use rigproof_model::brake::Brake;
 use rigproof_trace::rig::{Drive, Plant as RigPlant, Recording, Rig, Status};
+
+/// Travel within which a shaft that turns back may also stand, in deviations of its noise: two counts.
+const STILL_NOISES: f64 = 7.0;
 
 /// Aligns a recording of a rig.
 ///
@@ -49,6 +52,8 @@ pub fn aligned(rig: &Rig, recording: &Recording) -> Result<Run, Fault> {
         effort_limit: scaled(effort.and_then(|e| e.limit)),
     })?;
     if let (Some(brake), Some(current)) = (&rig.brake, &run.current) {
+        let still = STILL_NOISES * run.position_noise;
+        forget_sense_near_reversals(&mut run.motion, &run.position, still);
         let brake = Brake::of(brake.table(), first_angle(&run));
         run.predicted = Some(braked(brake, &run, current));
     }

@@ -7,6 +7,7 @@ mod signals;
 use crate::five_bar;
 use crate::five_bar::run::FiveBarRun;
 use crate::run::{PlantKind, Run, rms};
+use crate::scatter::Trials;
 use crate::weak::Windows;
 use crate::whiten::{ORDER, Whitener};
 use core::cell::RefCell;
@@ -199,6 +200,8 @@ pub struct Problem<'a> {
     pub floor: f64,
     /// Root mean square of the averaged driving effort: what a contribution is compared with.
     pub effort_size: f64,
+    /// Trials of a brake whose gains are taken out of every row.
+    trials: Option<Trials>,
     /// Terms from the start of the recording that are asked for again and again.
     kept: RefCell<Vec<Term>>,
     /// The signals that were asked for last: several onsets are tried of the same ones.
@@ -283,9 +286,24 @@ impl<'a> Problem<'a> {
             floor,
             effort_size: rms(&windows.average(&plant.effort())),
             windows,
+            trials: None,
             kept: RefCell::default(),
             recent: RefCell::default(),
         }
+    }
+
+    /// The same problem told within the trials of a brake: what a gain for every trial could do is taken out of every row.
+    pub fn within(mut self, trials: Trials) -> Problem<'a> {
+        trials.take_out(&mut self.target.raw, &self.windows.usable);
+        self.trials = Some(trials);
+        self.kept = RefCell::default();
+        self.whiten_own();
+        self
+    }
+
+    /// Whether gains of trials are taken out.
+    pub fn is_within_trials(&self) -> bool {
+        self.trials.is_some()
     }
 
     /// Refines the noise model: what these residuals have beyond the floor counts as unexplained white effort.
@@ -312,7 +330,10 @@ impl<'a> Problem<'a> {
     }
 
     /// A column given row by row.
-    pub fn rows_of(&self, raw: Vec<f64>) -> Rows {
+    pub fn rows_of(&self, mut raw: Vec<f64>) -> Rows {
+        if let Some(trials) = &self.trials {
+            trials.take_out(&mut raw, &self.windows.usable);
+        }
         Rows {
             signal: Vec::new(),
             white: self.whitener.whiten(&raw),
@@ -454,6 +475,9 @@ impl<'a> Problem<'a> {
             }
         }
         let mut rows = rows(&self.windows, signal);
+        if let Some(trials) = &self.trials {
+            trials.take_out(&mut rows.raw, &self.windows.usable);
+        }
         rows.white = self.whitener.whiten(&rows.raw);
         rows
     }

@@ -228,10 +228,7 @@ fn free_run(plant: &Plant, run: &Run, protocol: &Protocol) -> Vec<f64> {
 
 /// A bristle that has been sliding is bent by all it can bend.
 fn saturate_presliding(plant: &Plant, memory: &mut [f64], speed: f64) {
-    let with_law = plant
-        .effects
-        .iter()
-        .filter(|e| own_law(e).is_some());
+    let with_law = plant.effects.iter().filter(|e| own_law(e).is_some());
     for (effect, memory) in with_law.zip(memory) {
         if effect.mechanism == Mechanism::Presliding && speed != 0.0 {
             *memory = speed.signum();

@@ -49,14 +49,12 @@ impl Stand<'_> {
             return None;
         }
         let inertia_free = matches!(self.problem.inertia, Inertia::Unknown(_));
-        let known_nominal: Vec<bool> = self
-            .selection
-            .nominal
-            .iter()
-            .map(|t| t.known.is_some())
-            .collect();
+        // The edges of a brake's torque are told to a sample and outweigh all else in a run: its numbers stay those of the windows.
+        let stays = self.train.brake().is_some();
+        let nominal = self.selection.nominal.iter();
+        let known_nominal: Vec<bool> = nominal.map(|t| stays || t.known.is_some()).collect();
         let mut known_all = known_nominal.clone();
-        known_all.extend(self.selection.found.iter().map(|_| false));
+        known_all.extend(self.selection.found.iter().map(|_| stays));
         let by_windows = self.plant(true);
         let found = show(
             &by_windows,

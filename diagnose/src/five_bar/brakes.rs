@@ -56,9 +56,7 @@ pub fn unit(
     let current = run.currents.get(place(joint))?.as_ref()?;
     let value = *shape.first()?;
     match mechanism {
-        Mechanism::CurrentHysteresis => {
-            Some(lag_of_play(current, value))
-        }
+        Mechanism::CurrentHysteresis => Some(lag_of_play(current, value)),
         Mechanism::ThermalFade => {
             let mut heat_j = 0.0;
             let pairs = own.iter().zip(run.motion(joint));

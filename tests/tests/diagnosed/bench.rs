@@ -71,9 +71,6 @@ pub fn on_plant(script: &Script, run: usize, table: &BrakeTable) -> Vec<f64> {
     torques
 }
 
-/// Speed below which a shaft stands, rad/s: a sinusoid held in steps comes to 1e-16 there, and its sign is rounding.
-const STANDING_RAD_S: f64 = 1e-9;
-
 fn on_model(script: &Script, run: usize, joint: Joint) -> Vec<f64> {
     let way = turned(script, run);
     let mut brake = Reference::new(joint, way[0].2);
@@ -94,16 +91,11 @@ pub fn recorded(
     torques_nm: &[f64],
 ) -> Recording {
     let count_rad = TAU / COUNTS;
-    let mut noise = Noise::new(name.bytes().fold(4127, |seed, b| seed * 31 % 1_000_003 + u64::from(b)));
+    let mut noise = Noise::new(
+        name.bytes()
+            .fold(4127, |seed, b| seed * 31 % 1_000_003 + u64::from(b)),
+    );
     let way = turned(script, run);
-    // What a standing shaft transmits is a reaction: it is no sample of the brake.
-    let told = |((_, speed, _), torque_nm): (&(f64, f64, f64), &f64)| {
-        if speed.abs() < STANDING_RAD_S {
-            f64::NAN
-        } else {
-            *torque_nm
-        }
-    };
     let rig = format!(
         "name = \"{name}\"\nplant = \"bench\"\nmotion = \"rotary\"\n[channels]\n\
          position = {{ channel = \"angle\", unit = \"rad\", quantum = {count_rad:e} }}\n\
@@ -117,11 +109,15 @@ pub fn recorded(
             "rad",
             counted(way.iter().map(|(_, _, angle)| *angle), count_rad),
         ),
-        ("current", "A", way.iter().map(|(current, ..)| *current).collect()),
+        (
+            "current",
+            "A",
+            way.iter().map(|(current, ..)| *current).collect(),
+        ),
         (
             "torque",
             "N·m",
-            noise.on(way.iter().zip(torques_nm).map(told), TORQUE_NOISE_NM),
+            noise.on(torques_nm.iter().copied(), TORQUE_NOISE_NM),
         ),
     ];
     Recording::new(name.to_owned(), rig, STEP_S, columns)
@@ -144,7 +140,13 @@ pub fn with_gain(gain: f64) -> Vec<Recording> {
 pub fn stronger(table: &BrakeTable, gain: f64) -> BrakeTable {
     let mut table = *table;
     let of = &mut table.torque_gain;
-    for k in [&mut of.k_1, &mut of.k_2, &mut of.k_3, &mut of.k_4, &mut of.k_5] {
+    for k in [
+        &mut of.k_1,
+        &mut of.k_2,
+        &mut of.k_3,
+        &mut of.k_4,
+        &mut of.k_5,
+    ] {
         *k *= gain;
     }
     table

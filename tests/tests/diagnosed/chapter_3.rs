@@ -60,8 +60,14 @@ fn experiments(all: bool) -> Vec<Sample> {
         }));
         trial += 1;
     };
+    // The current is off between two experiments.
+    let after_a_pause =
+        |current_a: f64| move |time_s: f64| if time_s < 0.1 { 0.0 } else { current_a };
     let (speeds_rpm, currents_a): (&[f64], &[f64]) = if all {
-        (&[0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0], &[0.2, 0.4, 0.6, 0.8, 1.0])
+        (
+            &[0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0],
+            &[0.2, 0.4, 0.6, 0.8, 1.0],
+        )
     } else {
         (&[0.5, 4.0, 32.0], &[0.2, 0.6, 1.0])
     };
@@ -77,15 +83,19 @@ fn experiments(all: bool) -> Vec<Sample> {
         }
     }
     // §3.3.2: the speed goes from 0 to 60 rpm, the current stays.
-    for current_a in if all { &[0.0, 0.2, 0.4, 0.6, 0.8, 1.0][..] } else { &[0.0, 0.4, 0.8][..] } {
-        run(3.0, &|_| *current_a, &|time_s| 20.0 * time_s);
-        run(1.0, &|_| *current_a, &|time_s| 60.0 * (1.0 - time_s));
+    for current_a in if all {
+        &[0.0, 0.2, 0.4, 0.6, 0.8, 1.0][..]
+    } else {
+        &[0.0, 0.4, 0.8][..]
+    } {
+        let speed_rpm = |time_s: f64| f64::min(20.0 * time_s, 60.0 * (4.0 - time_s));
+        run(4.0, &after_a_pause(*current_a), &speed_rpm);
     }
     // §3.3.3: sinusoids of speed.
     for current_a in [0.5, 1.0] {
         for (hertz, periods) in [(0.25, if all { 3.0 } else { 1.0 }), (1.0, 4.0)] {
             let speed_rpm = |time_s: f64| 10.0 * libm::sin(TAU * hertz * time_s);
-            run(periods / hertz, &|_| current_a, &speed_rpm);
+            run(periods / hertz, &after_a_pause(current_a), &speed_rpm);
         }
     }
     // §3.5, figure 3.17: the current goes up and down, the speed stays.
@@ -109,7 +119,12 @@ pub fn recording(joint: Joint, planted: Planted, all: bool, seed: u64) -> Record
     // What is left of the sense before the last reversal.
     let mut past_sense = 0.0;
     let (mut angles, mut currents, mut torques) = (Vec::new(), Vec::new(), Vec::new());
-    for Sample { current_a, speed_rad_s, trial } in samples {
+    for Sample {
+        current_a,
+        speed_rad_s,
+        trial,
+    } in samples
+    {
         theta_rad += speed_rad_s * STEP_S;
         let sense = speed_rad_s.signum();
         let kept = libm::exp(-(speed_rad_s * STEP_S).abs() / OVERSHOOT_TRAVEL);

@@ -48,7 +48,11 @@ pub fn recordings(all: bool) -> Vec<Recording> {
             let own = on_plant(&script, run, &Parameters::of(layout));
             let reference = on_rig(&script, run, &own);
             recordings.push(recorded(&format!("{case}-{run}-impl"), layout, &own));
-            recordings.push(recorded(&format!("{case}-{run}-reference"), layout, &reference));
+            recordings.push(recorded(
+                &format!("{case}-{run}-reference"),
+                layout,
+                &reference,
+            ));
         }
     }
     recordings
@@ -158,7 +162,10 @@ pub fn on_rig(script: &Script, run: usize, given: &Run) -> Run {
 /// The recording of a run: counts, forces with noise, currents.
 pub fn recorded(name: &str, layout: Layout, run: &Run) -> Recording {
     let count_rad = TAU / f64::from(COUNTS);
-    let mut noise = Noise::new(name.bytes().fold(4127, |seed, b| seed * 31 % 1_000_003 + u64::from(b)));
+    let mut noise = Noise::new(
+        name.bytes()
+            .fold(4127, |seed, b| seed * 31 % 1_000_003 + u64::from(b)),
+    );
     let theta = |i: usize| counted(run.theta_rad.iter().map(|theta| theta[i]), count_rad);
     // At the instant of a sample a force that jumps there is at the middle of its jump.
     let mut force = |i: usize| {
@@ -201,18 +208,21 @@ pub fn recorded(name: &str, layout: Layout, run: &Run) -> Recording {
 
 /// Path runs of an implementation whose brakes have a greater gain than the table's.
 pub fn with_gain(gain: f64, runs: &[usize]) -> Vec<Recording> {
-    let of = |case: &str| {
+    let of = |(case, place): (&str, usize)| {
         let script = Script::of(case);
         let layout = script.layout();
         let mut parameters = Parameters::of(layout);
-        for table in parameters.brakes.iter_mut().flatten() {
-            *table = stronger(table, gain);
-        }
+        let table = &mut parameters.brakes[place];
+        *table = table.map(|table| stronger(&table, gain));
         let runs = runs.iter().map(|&run| {
             let seen = on_plant(&script, run, &parameters);
-            recorded(&format!("{case}-{run}-gain"), layout, &seen)
+            recorded(&format!("{case}-{run}-gain-{place}"), layout, &seen)
         });
         runs.collect::<Vec<_>>()
     };
-    [of("path_three_brake"), of("path_four_brake")].concat()
+    ["path_three_brake", "path_four_brake"]
+        .into_iter()
+        .flat_map(|case| [1, 2, 3].map(|place| (case, place)))
+        .flat_map(of)
+        .collect()
 }

@@ -48,9 +48,7 @@ pub fn law(script: &Script, run: usize) -> AnyLaw<f64, Line<f64>> {
                 horizon_s: number("horizon"),
             };
             let bodies = Bodies::new(&arms(layout), &inertia(layout));
-            PathLaw::Optimal(
-                Optimal::new(actuation, line, boundary_m(), weights, bodies).unwrap(),
-            )
+            PathLaw::Optimal(Optimal::new(actuation, line, boundary_m(), weights, bodies).unwrap())
         }
         "Impedance" => {
             let elements = Virtual {

@@ -18,13 +18,18 @@ use chapter_3::Planted;
 use recording::Recording;
 use rigproof_spec::joint::Joint;
 
-fn all() -> bool {
-    std::env::var("RIGPROOF_CAMPAIGN").is_ok_and(|asked| asked == "all")
+/// What is asked for: every run, or those whose name holds a word.
+fn asked() -> Option<String> {
+    std::env::var("RIGPROOF_CAMPAIGN").ok()
 }
 
 /// Everything that is to be diagnosed: recordings of the implementation, and of the reference under the same inputs.
 fn recordings() -> Vec<Recording> {
-    [five_bar::recordings(all()), bench::recordings(all())].concat()
+    let all = asked().is_some();
+    let word = asked().filter(|word| word != "all").unwrap_or_default();
+    let mut recordings = [five_bar::recordings(all), bench::recordings(all)].concat();
+    recordings.retain(|recording| recording.name.contains(&word));
+    recordings
 }
 
 fn said(recording: &Recording, report: &Report) -> String {
@@ -62,17 +67,26 @@ fn nothing_is_found_in_any_golden_case() {
 
 #[test]
 fn a_brake_that_is_two_per_cent_too_strong_is_named() {
-    let mut cases = five_bar::with_gain(1.02, &[1, 2, 3, 4, 5, 6, 7, 8, 9]);
+    let mut cases = five_bar::with_gain(1.02, &[1, 6, 8, 9]);
     cases.extend(bench::with_gain(1.02));
     cases.into_par_iter().for_each(|recording| {
         let report = recording.diagnosed();
-        println!("{} {:?}", said(&recording, &report), report.effects.first().map(|e| (&e.parameters, e.z)));
+        println!(
+            "{} {:?}",
+            said(&recording, &report),
+            report.effects.first().map(|e| (&e.parameters, e.z))
+        );
     });
 }
 
 #[test]
 fn what_the_thesis_left_out_is_found_in_its_own_experiments() {
-    let of = |drag, overshoot, play, scatter| Planted { drag, overshoot, play, scatter };
+    let of = |drag, overshoot, play, scatter| Planted {
+        drag,
+        overshoot,
+        play,
+        scatter,
+    };
     let cases = [
         of(false, false, false, false),
         of(true, false, false, false),
@@ -84,11 +98,29 @@ fn what_the_thesis_left_out_is_found_in_its_own_experiments() {
     ];
     let joint = Joint::E;
     cases.into_par_iter().for_each(|planted| {
-        let recording = chapter_3::recording(joint, planted, all(), 4127);
+        let recording = chapter_3::recording(joint, planted, asked().is_some(), 4127);
         let report = recording.diagnosed();
-        println!("{planted:?}: {}, {:#?}", said(&recording, &report), report.summary);
-        for e in &report.effects { println!("   {planted:?} {} {:?} z {} share {}", e.mechanism, e.parameters, e.z, e.share_explained); }
-        println!("   {planted:?} amb {:?} small {:?} withdrawn {:?} floor {:?} unknown {:?}", report.ambiguous_with, report.too_small_to_name, report.withdrawn, report.floor, report.unknown.as_ref().map(|u| (u.variable, u.share)));
-        for e in &report.not_seen { println!("   {planted:?} {e:?}"); }
+        println!(
+            "{planted:?}: {}, {:#?}",
+            said(&recording, &report),
+            report.summary
+        );
+        for e in &report.effects {
+            println!(
+                "   {planted:?} {} {:?} z {} share {}",
+                e.mechanism, e.parameters, e.z, e.share_explained
+            );
+        }
+        println!(
+            "   {planted:?} amb {:?} small {:?} withdrawn {:?} floor {:?} unknown {:?}",
+            report.ambiguous_with,
+            report.too_small_to_name,
+            report.withdrawn,
+            report.floor,
+            report.unknown.as_ref().map(|u| (u.variable, u.share))
+        );
+        for e in &report.not_seen {
+            println!("   {planted:?} {e:?}");
+        }
     });
 }

@@ -87,11 +87,14 @@ impl Noise {
     /// Values with noise of a standard deviation.
     pub fn on(&mut self, values: impl IntoIterator<Item = f64>, deviation: f64) -> Vec<f64> {
         let values = values.into_iter();
-        values.map(|value| value + deviation * self.draw()).collect()
+        values
+            .map(|value| value + deviation * self.draw())
+            .collect()
     }
 
     fn draw(&mut self) -> f64 {
-        let uniform = |random: &mut Pcg64Mcg| (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
+        let uniform =
+            |random: &mut Pcg64Mcg| (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
         (0..12).map(|_| uniform(&mut self.0)).sum::<f64>() - 6.0
     }
 }
