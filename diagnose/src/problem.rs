@@ -3,6 +3,7 @@
 
 mod joint;
 mod signals;
+mod within;
 
 use crate::five_bar;
 use crate::five_bar::run::FiveBarRun;
@@ -292,20 +293,6 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// The same problem told within the trials of a brake: what a gain for every trial could do is taken out of every row.
-    pub fn within(mut self, trials: Trials) -> Problem<'a> {
-        trials.take_out(&mut self.target.raw, &self.windows.usable);
-        self.trials = Some(trials);
-        self.kept = RefCell::default();
-        self.whiten_own();
-        self
-    }
-
-    /// Whether gains of trials are taken out.
-    pub fn is_within_trials(&self) -> bool {
-        self.trials.is_some()
-    }
-
     /// Refines the noise model: what these residuals have beyond the floor counts as unexplained white effort.
     ///
     /// `rms` is the root mean square of the residuals over the usable windows.
@@ -331,9 +318,7 @@ impl<'a> Problem<'a> {
 
     /// A column given row by row.
     pub fn rows_of(&self, mut raw: Vec<f64>) -> Rows {
-        if let Some(trials) = &self.trials {
-            trials.take_out(&mut raw, &self.windows.usable);
-        }
+        self.take_out_trials(&mut raw);
         Rows {
             signal: Vec::new(),
             white: self.whitener.whiten(&raw),
@@ -475,9 +460,7 @@ impl<'a> Problem<'a> {
             }
         }
         let mut rows = rows(&self.windows, signal);
-        if let Some(trials) = &self.trials {
-            trials.take_out(&mut rows.raw, &self.windows.usable);
-        }
+        self.take_out_trials(&mut rows.raw);
         rows.white = self.whitener.whiten(&rows.raw);
         rows
     }

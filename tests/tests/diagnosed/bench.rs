@@ -23,7 +23,7 @@ pub fn recordings(all: bool) -> Vec<Recording> {
         for kind in ["step", "sinusoid", "current"] {
             let case = format!("brake_{kind}_{}", joint.letter().to_lowercase());
             let script = Script::of(&case);
-            for run in script.runs().filter(|run| all || *run == 1 || *run == 4) {
+            for run in script.runs().filter(|run| all || *run == 2) {
                 let own = on_plant(&script, run, &brake_table(joint));
                 let reference = on_model(&script, run, joint);
                 for (who, torques) in [("impl", own), ("reference", reference)] {
@@ -125,7 +125,8 @@ pub fn recorded(
 
 /// The sinusoids of an implementation whose brakes have a greater gain than the table's.
 pub fn with_gain(gain: f64) -> Vec<Recording> {
-    Joint::ALL
+    // Brake A has no backlash: at a constant current its gain error is dry friction.
+    [Joint::E, Joint::B, Joint::C]
         .into_iter()
         .map(|joint| {
             let case = format!("brake_sinusoid_{}", joint.letter().to_lowercase());

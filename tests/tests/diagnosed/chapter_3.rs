@@ -37,6 +37,19 @@ pub struct Planted {
     pub scatter: bool,
 }
 
+impl Planted {
+    fn words(self) -> String {
+        let all = [
+            (self.drag, "-drag"),
+            (self.overshoot, "-overshoot"),
+            (self.play, "-play"),
+            (self.scatter, "-scatter"),
+        ];
+        let own = all.into_iter().filter(|(is_planted, _)| *is_planted);
+        own.map(|(_, word)| word).collect()
+    }
+}
+
 /// One sample of the experiments: current, A, speed, rad/s, and the trial that it belongs to.
 struct Sample {
     current_a: f64,
@@ -150,7 +163,7 @@ pub fn recording(joint: Joint, planted: Planted, all: bool, seed: u64) -> Record
         torques.push(torque_nm);
     }
     let count_rad = TAU / COUNTS;
-    let name = format!("chapter-3-{}-{seed}", joint.letter());
+    let name = format!("chapter-3-{}{}", joint.letter(), planted.words());
     let rig = format!(
         "name = \"{name}\"\nplant = \"bench\"\nmotion = \"rotary\"\n[channels]\n\
          position = {{ channel = \"angle\", unit = \"rad\", quantum = {count_rad:e} }}\n\

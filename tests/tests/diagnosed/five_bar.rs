@@ -44,7 +44,7 @@ pub fn recordings(all: bool) -> Vec<Recording> {
     ] {
         let script = Script::of(case);
         let layout = script.layout();
-        for run in script.runs().filter(|run| all || *run <= 3) {
+        for run in script.runs().filter(|run| all || [1, 4].contains(run)) {
             let own = on_plant(&script, run, &Parameters::of(layout));
             let reference = on_rig(&script, run, &own);
             recordings.push(recorded(&format!("{case}-{run}-impl"), layout, &own));
@@ -206,23 +206,19 @@ pub fn recorded(name: &str, layout: Layout, run: &Run) -> Recording {
     Recording::new(name.to_owned(), rig, SAMPLE_STEP_S, columns)
 }
 
-/// Path runs of an implementation whose brakes have a greater gain than the table's.
-pub fn with_gain(gain: f64, runs: &[usize]) -> Vec<Recording> {
-    let of = |(case, place): (&str, usize)| {
+/// A case, a run of it, and the place of a brake that works in it.
+const STRONGER: [(&str, usize, usize); 2] = [("path_three_brake", 9, 1), ("path_four_brake", 8, 1)];
+
+/// Path runs of an implementation of which one brake has a greater gain than its table's.
+pub fn with_gain(gain: f64) -> Vec<Recording> {
+    let one = |(case, run, place): (&str, usize, usize)| {
         let script = Script::of(case);
         let layout = script.layout();
         let mut parameters = Parameters::of(layout);
         let table = &mut parameters.brakes[place];
         *table = table.map(|table| stronger(&table, gain));
-        let runs = runs.iter().map(|&run| {
-            let seen = on_plant(&script, run, &parameters);
-            recorded(&format!("{case}-{run}-gain-{place}"), layout, &seen)
-        });
-        runs.collect::<Vec<_>>()
+        let seen = on_plant(&script, run, &parameters);
+        recorded(&format!("{case}-{run}-gain"), layout, &seen)
     };
-    ["path_three_brake", "path_four_brake"]
-        .into_iter()
-        .flat_map(|case| [1, 2, 3].map(|place| (case, place)))
-        .flat_map(of)
-        .collect()
+    STRONGER.into_iter().map(one).collect()
 }
