@@ -28,6 +28,11 @@ pub const PLAY_SLOPE: f64 = 6.3;
 /// §3.4.1: standard deviation of the steady torque from trial to trial at the greatest current, N·m.
 pub const SCATTER_NM: f64 = 0.4;
 
+/// The overshoot as a share of the torque.
+pub fn overshoot(joint: Joint) -> f64 {
+    OVERSHOOT_NM / brake_table(joint).greatest_nm()
+}
+
 /// What is planted.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Planted {

@@ -136,12 +136,46 @@ fn what_the_thesis_left_out_is_found_in_its_own_experiments() {
         ]);
     }
     let whole = asked().is_some_and(|word| word == "all");
-    let recordings = cases.iter().map(|planted| chapter_3::recording(Joint::E, *planted, whole, 4127));
+    let recordings = cases
+        .iter()
+        .map(|planted| chapter_3::recording(Joint::E, *planted, whole, 4127));
     for (recording, report) in diagnosed(recordings.collect()) {
-        println!("{}; {}; {:?}", said(&recording, &report), report.summary, report.too_small_to_name);
-        for e in &report.effects {
-            println!("   {} {:?} z {} share {}", e.mechanism, e.parameters, e.z, e.share_explained);
+        println!("{}; {}", said(&recording, &report), report.summary);
+        let scatter = recording.name.contains("-scatter");
+        let mut found = 0;
+        for (word, mechanism, numbers) in [
+            ("-drag", "viscous", &[chapter_3::DRAG][..]),
+            (
+                "-overshoot",
+                "reversal_overshoot",
+                &[chapter_3::overshoot(Joint::E), chapter_3::OVERSHOOT_TRAVEL],
+            ),
+            (
+                "-play",
+                "current_hysteresis",
+                &[chapter_3::PLAY_A, chapter_3::PLAY_SLOPE],
+            ),
+        ] {
+            let effect = report.effects.iter().find(|e| e.mechanism == mechanism);
+            let planted = recording.name.contains(word);
+            // Drag of this size is lost under the scatter (decision 0122).
+            let is_seen = planted && !(scatter && mechanism == "viscous");
+            assert_eq!(effect.is_some(), is_seen, "{mechanism}: {}", report.summary);
+            found += usize::from(is_seen);
+            let values = effect.iter().flat_map(|e| e.parameters.values());
+            for (value, number) in values.zip(numbers) {
+                let most = if scatter { 0.1 } else { 0.01 };
+                let off = value.value / number - 1.0;
+                assert!(off.abs() < most, "{mechanism}: {value:?}, {number}");
+            }
         }
-        println!("   {:?} {:?}", report.ambiguous_with, report.unknown.as_ref().map(|u| (u.variable, u.share, &u.suggestion)));
+        assert_eq!(found, report.effects.len(), "{}", report.summary);
+        let spread = report.unknown.as_ref().map(|unknown| unknown.variable);
+        assert_eq!(spread, scatter.then_some("trial"));
+        if recording.name == "chapter-3-E-scatter" {
+            assert_eq!(report.verdict, Verdict::NoneOfLibrary);
+            let said = &report.unknown.unwrap().suggestion;
+            assert!(said.contains("0.39 N·m"), "{said}");
+        }
     }
 }
