@@ -9,7 +9,7 @@ use crate::report::{BeforeAfter, FitReport, HELD_OUT_PART, Horizon};
 use crate::run::{PlantKind, Run};
 use crate::select::{FLOOR_RATIO, refs};
 use crate::simulate::{Effect, Plant, Protocol};
-use rigproof_spec::effect::Quantity;
+use rigproof_spec::effect::{Mechanism, Quantity};
 
 /// The plants before and after, and their free runs.
 pub(super) struct Fitted {
@@ -33,7 +33,11 @@ impl Stand<'_> {
             .zip(&coefficients)
             .map(|(term, own)| Effect {
                 mechanism: term.cause.mechanism,
-                parameters: parameters(term, own),
+                parameters: match (self.train.plant, term.cause.mechanism) {
+                    // What is metered is the brake's torque itself; on an axis the gain stands on the other side.
+                    (PlantKind::Bench, Mechanism::GainError) => own.clone(),
+                    _ => parameters(term, own),
+                },
                 onset_s: term.onset_s,
             })
             .collect();
