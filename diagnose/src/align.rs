@@ -1,10 +1,14 @@
 //! This file is stage 0: a recording is put on regular samples, its faults are named, its noise is measured.
 
+mod reversals;
+
 use crate::filter::{LowPass, gradient};
 use crate::run::{PlantKind, Run, rms};
 use core::cmp::Ordering;
 use rigproof_model::effects::Instant;
 use rustfft::{FftPlannerScalar, num_complex::Complex64};
+
+pub(crate) use reversals::forget_sense_near_reversals;
 
 /// What stage 0 takes: the plant's roles in SI units, NaN where nothing was recorded.
 #[derive(Clone, Debug)]
@@ -103,6 +107,7 @@ pub fn align(signals: &Signals) -> Result<Run, Fault> {
         effort,
         predicted,
         current,
+        table: None,
         position_noise,
         effort_noise,
         recorded: recorded_p

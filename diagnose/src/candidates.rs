@@ -13,20 +13,26 @@ pub fn causes(problem: &Problem) -> Vec<Cause> {
     if let PlantRun::FiveBar(run) = problem.plant {
         return five_bar::candidates::causes(run);
     }
+    let has_brake = match problem.plant {
+        PlantRun::Joint(run) => run.brake().is_some(),
+        PlantRun::FiveBar(_) => false,
+    };
     LIBRARY
         .iter()
-        .filter(|entry| entry.mechanism != ONLY_OF_BRAKES)
-        .filter(|entry| matches!(entry.form, Form::Resistance(_) | Form::Drive))
+        .filter(|entry| match entry.mechanism {
+            Mechanism::CurrentHysteresis | Mechanism::ReversalOvershoot => has_brake,
+            // Only the five-bar is asked for it: the rules of the other plants were chosen without it.
+            Mechanism::Settling => false,
+            _ => matches!(entry.form, Form::Resistance(_) | Form::Drive),
+        })
         .map(|entry| Cause::of(entry.mechanism))
         .filter(|cause| {
             // A gain can only be wrong against something that is known.
-            cause.mechanism != Mechanism::GainError || problem.known.iter().any(|e| *e != 0.0)
+            let is_known = problem.known.iter().any(|e| *e != 0.0);
+            cause.mechanism != Mechanism::GainError || is_known && !problem.is_within_trials()
         })
         .collect()
 }
-
-/// What only the brakes of the five-bar are asked for: the rules of the other plants were chosen without them.
-const ONLY_OF_BRAKES: Mechanism = Mechanism::Settling;
 
 /// The variants of a cause that are tried beside the terms of `fitted`: one term a shape.
 pub fn variants(problem: &Problem, cause: Cause, terms: &[&Term], fitted: &Fit) -> Vec<Term> {
@@ -110,6 +116,8 @@ fn joint_shapes(run: &Run, mechanism: Mechanism, periods: impl Fn() -> Vec<f64>)
             .collect(),
         Mechanism::Ripple => one(periods()),
         Mechanism::Lag => one(geometric(0.5 * run.step_s, 0.25, 14)),
+        Mechanism::ReversalOvershoot => one(geometric(0.01, 1.5, 6)),
+        Mechanism::CurrentHysteresis => one(geometric(0.01, 0.5, 7)),
         Mechanism::ChannelSkew => {
             let sizes = geometric(0.5 * run.step_s, 0.08f64.max(4.0 * run.step_s), 12);
             one(sizes.iter().flat_map(|&s| [s, -s]).collect())

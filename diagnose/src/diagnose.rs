@@ -13,6 +13,7 @@ use crate::from_rig;
 use crate::problem::{Cause, Problem, Term};
 use crate::report::Report;
 use crate::run::Run;
+use crate::scatter::{Trials, left_over};
 use crate::select::{FLOOR_RATIO, Gates, Selection, refs, select, usable_rms};
 use crate::unknown::surrogates;
 use crate::weak::{Windows, choose_width};
@@ -123,16 +124,22 @@ pub fn diagnose(
         let (travel, noise) = (train.travel(), train.position_noise);
         return not_excited(Description::Joint(rig.clone()), usable, travel, noise);
     }
-    let nominal: Vec<Term> = from_rig::nominal(rig)
-        .iter()
-        .filter_map(|n| problem.nominal_term(n))
-        .collect();
-    let mut selection = select(&mut problem, nominal, options.gates);
+    let terms = nominal(rig, &problem);
+    let mut selection = select(&mut problem, terms, options.gates);
     if let Some(fault) = reversed_drive(&problem, &selection) {
         return faulty(Description::Joint(rig.clone()), "recording", fault);
     }
-    let withdrawn = withdraw_surrogates(&problem, &train, &mut selection, rig);
+    let mut withdrawn = withdraw_surrogates(&problem, &train, &mut selection, rig);
+    let trials = scattered(&problem, &train, &selection);
+    if let Some(trials) = trials.clone() {
+        let windows = problem.windows.clone();
+        problem = Problem::new(&train, windows, inertia).within(trials);
+        let terms = nominal(rig, &problem);
+        selection = select(&mut problem, terms, options.gates);
+        withdrawn = withdraw_surrogates(&problem, &train, &mut selection, rig);
+    }
     Stand {
+        trials: trials.as_ref(),
         rig,
         problem: &problem,
         selection: &selection,
@@ -143,6 +150,23 @@ pub fn diagnose(
         width_s,
     }
     .report(held_out.is_some())
+}
+
+/// The physics of the nominal model as terms.
+fn nominal(rig: &Rig, problem: &Problem) -> Vec<Term> {
+    let effects = from_rig::nominal(rig);
+    let terms = effects.iter().filter_map(|n| problem.nominal_term(n));
+    terms.collect()
+}
+
+/// The trials of a brake, where it is their gains that differ and hide what else may be left out.
+fn scattered(problem: &Problem, run: &Run, selection: &Selection) -> Option<Trials> {
+    let trials = Trials::of(run, &problem.windows)?;
+    let terms = refs(&selection.nominal, &selection.found);
+    let residual = left_over(problem, run, &terms, &selection.after);
+    let least = FLOOR_RATIO * problem.floor;
+    let scatter = trials.scatter(&residual, &problem.windows.usable, least);
+    scatter.map(|_| trials)
 }
 
 /// A gain error of more than the whole gain is a channel with the wrong sign.

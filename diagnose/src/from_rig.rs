@@ -1,11 +1,13 @@
 //! This file turns a rig description and its recording into the plant's equations.
 
-use crate::align::{Fault, Signals, align};
+use crate::align::{Fault, Signals, align, forget_sense_near_reversals};
 use crate::problem::{Cause, Inertia, NominalEffect};
 use crate::run::{PlantKind, Run};
 use crate::simulate::{Effect, Interpolation, Plant, Protocol};
-use rigproof_model::brake::Brake;
 use rigproof_trace::rig::{Drive, Plant as RigPlant, Recording, Rig, Status};
+
+/// Travel within which a shaft that turns back may also stand, in deviations of its noise: two counts.
+const STILL_NOISES: f64 = 7.0;
 
 /// Aligns a recording of a rig.
 ///
@@ -49,27 +51,12 @@ pub fn aligned(rig: &Rig, recording: &Recording) -> Result<Run, Fault> {
         effort_limit: scaled(effort.and_then(|e| e.limit)),
     })?;
     if let (Some(brake), Some(current)) = (&rig.brake, &run.current) {
-        let brake = Brake::of(brake.table(), first_angle(&run));
-        run.predicted = Some(braked(brake, &run, current));
+        let still = STILL_NOISES * run.position_noise;
+        forget_sense_near_reversals(&mut run.motion, &run.position, still);
+        run.table = Some(brake.table());
+        run.predicted = run.braked(current);
     }
     Ok(run)
-}
-
-fn first_angle(run: &Run) -> f64 {
-    run.motion.first().map_or(0.0, |now| now.position)
-}
-
-/// The torque of the thesis's brake along the recorded motion and current.
-fn braked(mut brake: Brake, run: &Run, current: &[f64]) -> Vec<f64> {
-    run.motion
-        .iter()
-        .zip(current)
-        .map(|(now, &current)| {
-            let torque = brake.step(current, now.position, now.speed, run.step_s);
-            // Where the sense cannot be told the torque is spread over it, as for the dry laws.
-            torque.abs() * now.sense
-        })
-        .collect()
 }
 
 /// The inertia as the rig states it.

@@ -24,6 +24,7 @@ mod refit;
 mod regression;
 pub mod report;
 pub mod run;
+mod scatter;
 mod select;
 pub mod simulate;
 mod unknown;

@@ -3,10 +3,12 @@
 
 mod joint;
 mod signals;
+mod within;
 
 use crate::five_bar;
 use crate::five_bar::run::FiveBarRun;
 use crate::run::{PlantKind, Run, rms};
+use crate::scatter::Trials;
 use crate::weak::Windows;
 use crate::whiten::{ORDER, Whitener};
 use core::cell::RefCell;
@@ -16,8 +18,8 @@ use rigproof_spec::joint::Joint;
 use signals::second_difference;
 use std::sync::Arc;
 
-pub use joint::unit_parameters;
-pub use signals::{lagged_yield, numerov, shifted};
+pub use joint::{is_of_brake, of_brake, unit_parameters};
+pub use signals::{USUAL_SHARE, lagged_yield, numerov, shifted, through_play};
 
 /// One column of the regression over all windows.
 #[derive(Clone, Debug)]
@@ -199,6 +201,8 @@ pub struct Problem<'a> {
     pub floor: f64,
     /// Root mean square of the averaged driving effort: what a contribution is compared with.
     pub effort_size: f64,
+    /// Trials of a brake whose gains are taken out of every row.
+    trials: Option<Trials>,
     /// Terms from the start of the recording that are asked for again and again.
     kept: RefCell<Vec<Term>>,
     /// The signals that were asked for last: several onsets are tried of the same ones.
@@ -217,7 +221,7 @@ impl<'a> Problem<'a> {
         if run.plant == PlantKind::Axis {
             windows.avoid_rests(run, floor);
         }
-        if let (Some(predicted), Some(_)) = (&run.predicted, &run.current) {
+        if let Some((predicted, _)) = run.brake() {
             windows.avoid_steps(predicted, floor);
         }
         let acceleration = second_difference(&run.position, run.step_s);
@@ -283,6 +287,7 @@ impl<'a> Problem<'a> {
             floor,
             effort_size: rms(&windows.average(&plant.effort())),
             windows,
+            trials: None,
             kept: RefCell::default(),
             recent: RefCell::default(),
         }
@@ -312,7 +317,8 @@ impl<'a> Problem<'a> {
     }
 
     /// A column given row by row.
-    pub fn rows_of(&self, raw: Vec<f64>) -> Rows {
+    pub fn rows_of(&self, mut raw: Vec<f64>) -> Rows {
+        self.take_out_trials(&mut raw);
         Rows {
             signal: Vec::new(),
             white: self.whitener.whiten(&raw),
@@ -459,6 +465,7 @@ impl<'a> Problem<'a> {
             }
         }
         let mut rows = rows(&self.windows, signal);
+        self.take_out_trials(&mut rows.raw);
         rows.white = self.whitener.whiten(&rows.raw);
         rows
     }

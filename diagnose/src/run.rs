@@ -1,6 +1,8 @@
 //! This file is an aligned recording: regular samples, smoothed motion, known efforts, noise levels.
 
+use rigproof_model::brake::Brake;
 use rigproof_model::effects::Instant;
+use rigproof_spec::tables::BrakeTable;
 
 /// Which plant's equations a recording obeys.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,6 +34,8 @@ pub struct Run {
     pub predicted: Option<Vec<f64>>,
     /// Bench: the current, A.
     pub current: Option<Vec<f64>>,
+    /// Bench: the brake whose torque is predicted.
+    pub table: Option<BrakeTable>,
     /// Standard deviation of one position sample, m or rad.
     pub position_noise: f64,
     /// Standard deviation of one effort sample, N or N·m.
@@ -46,6 +50,23 @@ impl Run {
     /// The number of samples.
     pub fn len(&self) -> usize {
         self.position.len()
+    }
+
+    /// What a bench with a brake and its current has: the predicted torque, N·m, and the current, A.
+    pub fn brake(&self) -> Option<(&[f64], &[f64])> {
+        Some((self.predicted.as_deref()?, self.current.as_deref()?))
+    }
+
+    /// The torque of the thesis's brake along the recorded motion under a current, A; `None` on a plant without one. N·m.
+    pub fn braked(&self, current: &[f64]) -> Option<Vec<f64>> {
+        let mut brake = Brake::of(self.table?, self.motion.first()?.position);
+        let pairs = self.motion.iter().zip(current);
+        let torques = pairs.map(|(now, &current)| {
+            let torque = brake.step(current, now.position, now.speed, self.step_s);
+            // Where the sense cannot be told the torque is spread over it, as for the dry laws.
+            torque.abs() * now.sense
+        });
+        Some(torques.collect())
     }
 
     /// Whether there are no samples.
@@ -71,6 +92,7 @@ impl Run {
             effort: part(&self.effort),
             predicted: self.predicted.as_ref().map(part),
             current: self.current.as_ref().map(part),
+            table: self.table,
             position_noise: self.position_noise,
             effort_noise: self.effort_noise,
             recorded: self.recorded.get(from..to).unwrap_or_default().to_vec(),

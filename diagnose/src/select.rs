@@ -91,6 +91,17 @@ pub const TIE_Z: f64 = 2.0;
 /// Residual over floor up to which nothing counts as unexplained.
 pub const FLOOR_RATIO: f64 = 1.3;
 
+/// Usable windows that tell as much as one that shares no sample with the others: they overlap by three quarters.
+const WINDOWS_A_FREEDOM: f64 = 1.5;
+
+/// Residual over floor up to which nothing counts as unexplained on a recording: of few windows noise alone may be above
+/// [`FLOOR_RATIO`], so three standard deviations of what it comes to are allowed.
+pub fn floor_limit(problem: &Problem) -> f64 {
+    let usable = problem.windows.usable.iter().filter(|u| **u).count();
+    let freedom = (usable as f64 / WINDOWS_A_FREEDOM).max(1.0);
+    FLOOR_RATIO.max(1.0 + 3.0 / (2.0 * freedom).sqrt())
+}
+
 /// Runs the whole search; the noise model is refined twice on the way.
 pub fn select(problem: &mut Problem, mut nominal: Vec<Term>, gates: Gates) -> Selection {
     let blocks = Blocks::new(problem);

@@ -1,6 +1,6 @@
 //! This file runs a calibrated plant from the recorded inputs, without looking at the recorded output again.
 
-use crate::problem::{lagged_yield, shifted};
+use crate::problem::{is_of_brake, lagged_yield, of_brake, shifted};
 use crate::run::{PlantKind, Run};
 use rigproof_model::axis::Axis;
 use rigproof_model::bench::resistance;
@@ -78,8 +78,14 @@ fn laws(plant: &Plant) -> Vec<Box<dyn Law>> {
     plant
         .effects
         .iter()
-        .filter_map(|e| law(e.mechanism, &e.parameters).map(|law| with_onset(law, e.onset_s)))
+        .filter_map(|e| own_law(e).map(|law| with_onset(law, e.onset_s)))
         .collect()
+}
+
+/// The law of an effect that is a resistance of its own, not something that a brake does.
+fn own_law(effect: &Effect) -> Option<Box<dyn Law>> {
+    let is_own = !is_of_brake(effect.mechanism);
+    is_own.then(|| law(effect.mechanism, &effect.parameters))?
 }
 
 /// A law that acts from a given time on.
@@ -111,6 +117,10 @@ impl Law for Late {
 
     fn memory_rate(&self, now: &Instant, memory: f64) -> f64 {
         self.law.memory_rate(now, memory)
+    }
+
+    fn memory_after(&self, memory: f64, travel: f64, speed: f64) -> f64 {
+        self.law.memory_after(memory, travel, speed)
     }
 }
 
@@ -148,6 +158,16 @@ fn bench(plant: &Plant, run: &Run) -> Vec<f64> {
         effect.and_then(|e| e.parameters.first().copied())
     };
     let mut effort = resistance(&laws(plant), &run.motion, run.step_s);
+    for effect in plant.effects.iter().filter(|e| is_of_brake(e.mechanism)) {
+        let [coefficient, shape @ ..] = effect.parameters.as_slice() else {
+            continue;
+        };
+        let signal = of_brake(run, effect.mechanism, shape).unwrap_or_default();
+        let first = effect.onset_s.map_or(0, |t| run.sample_at(t));
+        for (e, s) in effort.iter_mut().zip(signal).skip(first) {
+            *e += coefficient * s;
+        }
+    }
     let mut on_sum = vec![Mechanism::ChannelSkew, Mechanism::Lag];
     if let Some(predicted) = &run.predicted {
         let mut predicted = predicted.clone();
@@ -212,10 +232,7 @@ fn free_run(plant: &Plant, run: &Run, protocol: &Protocol) -> Vec<f64> {
 
 /// A bristle that has been sliding is bent by all it can bend.
 fn saturate_presliding(plant: &Plant, memory: &mut [f64], speed: f64) {
-    let with_law = plant
-        .effects
-        .iter()
-        .filter(|e| law(e.mechanism, &e.parameters).is_some());
+    let with_law = plant.effects.iter().filter(|e| own_law(e).is_some());
     for (effect, memory) in with_law.zip(memory) {
         if effect.mechanism == Mechanism::Presliding && speed != 0.0 {
             *memory = speed.signum();

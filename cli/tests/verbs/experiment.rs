@@ -26,7 +26,7 @@ const TRUTH: &str = "[[effect]]\nmechanism = \"gain_error\"\njoint = \"A\"\nfrac
 fn path() -> String {
     let row = |k: usize| {
         let time_s = k as f64 * 1e-3;
-        let sine = |rate: f64, phase: f64| (rate * time_s + phase).sin();
+        let sine = |rate: f64, phase: f64| libm::sin(rate * time_s + phase);
         let x = 0.02 + 0.056 * sine(2.31, 0.3) + 0.029 * sine(5.13, 1.1);
         let y = 0.40 + 0.041 * sine(3.07, 2.1) + 0.024 * sine(6.71, 0.7);
         format!("{time_s:.3},{x:.9},{y:.9},0.43\n")

@@ -9,7 +9,7 @@ use crate::report::{BeforeAfter, FitReport, HELD_OUT_PART, Horizon};
 use crate::run::{PlantKind, Run};
 use crate::select::{FLOOR_RATIO, refs};
 use crate::simulate::{Effect, Plant, Protocol};
-use rigproof_spec::effect::Quantity;
+use rigproof_spec::effect::{Mechanism, Quantity};
 
 /// The plants before and after, and their free runs.
 pub(super) struct Fitted {
@@ -33,7 +33,11 @@ impl Stand<'_> {
             .zip(&coefficients)
             .map(|(term, own)| Effect {
                 mechanism: term.cause.mechanism,
-                parameters: parameters(term, own),
+                parameters: match (self.train.plant, term.cause.mechanism) {
+                    // What is metered is the brake's torque itself; on an axis the gain stands on the other side.
+                    (PlantKind::Bench, Mechanism::GainError) => own.clone(),
+                    _ => parameters(term, own),
+                },
                 onset_s: term.onset_s,
             })
             .collect();
@@ -49,14 +53,12 @@ impl Stand<'_> {
             return None;
         }
         let inertia_free = matches!(self.problem.inertia, Inertia::Unknown(_));
-        let known_nominal: Vec<bool> = self
-            .selection
-            .nominal
-            .iter()
-            .map(|t| t.known.is_some())
-            .collect();
+        // The edges of a brake's torque are told to a sample and outweigh all else in a run: its numbers stay those of the windows.
+        let stays = self.train.brake().is_some();
+        let nominal = self.selection.nominal.iter();
+        let known_nominal: Vec<bool> = nominal.map(|t| stays || t.known.is_some()).collect();
         let mut known_all = known_nominal.clone();
-        known_all.extend(self.selection.found.iter().map(|_| false));
+        known_all.extend(self.selection.found.iter().map(|_| stays));
         let by_windows = self.plant(true);
         let found = show(
             &by_windows,

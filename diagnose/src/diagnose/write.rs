@@ -7,9 +7,10 @@ use crate::evidence::{inclusion, not_seen, null_directions, rivals, standard_err
 use crate::from_rig;
 use crate::locate::locate;
 use crate::problem::{Cause, Problem};
-use crate::report::{EffectReport, Floor, Report, Verdict};
+use crate::report::{EffectReport, Floor, Report, Unknown, Verdict};
 use crate::run::{PlantKind, Run};
-use crate::select::{FLOOR_RATIO, Selection, refs, usable_rms};
+use crate::scatter::{Trials, left_over};
+use crate::select::{Selection, floor_limit, refs, usable_rms};
 use crate::simulate::{Plant, Protocol, output};
 use crate::unknown::unknown;
 use crate::write_rig::{calibrated, nominal_numbers, numbers};
@@ -33,8 +34,13 @@ pub(crate) fn floor(problem: &Problem, selection: &Selection, motion: Motion) ->
 }
 
 /// What a selection comes to.
-pub(crate) fn verdict(selection: &Selection, floor: &Floor, rivals: &[Vec<Cause>]) -> Verdict {
-    let explained = floor.ratio_after <= FLOOR_RATIO;
+pub(crate) fn verdict(
+    selection: &Selection,
+    floor: &Floor,
+    limit: f64,
+    rivals: &[Vec<Cause>],
+) -> Verdict {
+    let explained = floor.ratio_after <= limit;
     match (selection.found.is_empty(), explained) {
         (true, true) => Verdict::Consistent,
         (true, false) => Verdict::NoneOfLibrary,
@@ -54,6 +60,8 @@ pub(super) struct Stand<'a> {
     pub(super) test: &'a Run,
     pub(super) options: &'a Options,
     pub(super) width_s: f64,
+    /// Trials of a brake whose gains differ; `problem` is told within them.
+    pub(super) trials: Option<&'a Trials>,
 }
 
 impl Stand<'_> {
@@ -63,17 +71,12 @@ impl Stand<'_> {
         let fitted = self.fit(&protocol);
         let rivals = self.rivals();
         let floor = self.floor();
-        let verdict = verdict(self.selection, &floor, &rivals);
-        let unknown = (floor.ratio_after > FLOOR_RATIO)
-            .then(|| {
-                unknown(
-                    self.problem,
-                    self.train,
-                    &self.selection.after.residual,
-                    self.rig.motion,
-                )
-            })
-            .flatten();
+        let verdict = verdict(self.selection, &floor, floor_limit(self.problem), &rivals);
+        let unknown = if floor.ratio_after > floor_limit(self.problem) {
+            self.unknown()
+        } else {
+            None
+        };
         let fit = fitted
             .as_ref()
             .map(|f| self.fit_report(f, &protocol, other_recording));
@@ -149,7 +152,47 @@ impl Stand<'_> {
     }
 
     pub(super) fn floor(&self) -> Floor {
-        floor(self.problem, self.selection, self.rig.motion)
+        let floor = floor(self.problem, self.selection, self.rig.motion);
+        if self.trials.is_none() {
+            return floor;
+        }
+        // What differs from trial to trial is not explained by being taken out.
+        let rms = |of| usable_rms(self.problem, &self.left_over(of));
+        let (before, after) = (rms(false), rms(true));
+        Floor {
+            measured_before: before,
+            measured_after: after,
+            ratio_before: before / floor.predicted,
+            ratio_after: after / floor.predicted,
+            ..floor
+        }
+    }
+
+    /// What the nominal model, or the one with the names, leaves over with the gains of the trials still in it.
+    fn left_over(&self, with_found: bool) -> Vec<f64> {
+        let Selection {
+            nominal,
+            found,
+            before,
+            after,
+            ..
+        } = self.selection;
+        if with_found {
+            left_over(self.problem, self.train, &refs(nominal, found), after)
+        } else {
+            left_over(self.problem, self.train, &refs(nominal, &[]), before)
+        }
+    }
+
+    /// The shape of what is left: a scatter of the trials, or a curve.
+    fn unknown(&self) -> Option<Unknown> {
+        let usable = &self.problem.windows.usable;
+        let scatter = |trials: &Trials| trials.scatter(&self.left_over(true), usable, 0.0);
+        if let Some(scatter) = self.trials.and_then(scatter) {
+            return Some(scatter.described());
+        }
+        let residual = &self.selection.after.residual;
+        unknown(self.problem, self.train, residual, self.rig.motion)
     }
 
     fn effects(&self, calibration: &Rig) -> Vec<EffectReport> {

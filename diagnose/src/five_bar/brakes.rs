@@ -1,7 +1,7 @@
 //! This file is what a brake may do with its current other than the nominal model says, as changes of its yield torque.
 
 use super::run::{FiveBarRun, place, yields};
-use crate::problem::{less, shifted};
+use crate::problem::{USUAL_SHARE, less, shifted, through_play};
 use rigproof_model::brake::Brake;
 use rigproof_model::effects::first_order_lag;
 use rigproof_spec::effect::Mechanism;
@@ -45,9 +45,6 @@ pub fn change(
     }
 }
 
-/// Share of a current that hysteresis is linearised with.
-const USUAL_SHARE: f64 = 0.3;
-
 /// What a linear cause adds to a brake's yield torque for a coefficient of 1, sample by sample.
 pub fn unit(
     run: &FiveBarRun,
@@ -61,14 +58,7 @@ pub fn unit(
     match mechanism {
         // The torque is not linear in the current: a share of the size that is expected stands for the slope.
         Mechanism::CurrentHysteresis => {
-            let mut play = current.first().copied()?;
-            let held: Vec<f64> = current
-                .iter()
-                .map(|i| {
-                    play = play.clamp(i - value, i + value);
-                    i + USUAL_SHARE * (play - i)
-                })
-                .collect();
+            let held = through_play(current, value, USUAL_SHARE);
             let start = run.motion(joint).first()?.position;
             let changed = yields(
                 Brake::new(joint, start),

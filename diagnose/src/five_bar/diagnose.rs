@@ -18,7 +18,7 @@ use crate::report::{
     BeforeAfter, EffectReport, FITTED_PART, FitReport, HELD_OUT_PART, Horizon, Report, StageReport,
 };
 use crate::run::rms;
-use crate::select::{Selection, refs, select};
+use crate::select::{Selection, floor_limit, refs, select};
 use crate::weak::Windows;
 use crate::write_rig::numbers;
 use rigproof_model::effects::entry;
@@ -150,7 +150,7 @@ impl Stand<'_> {
         let (problem, selection) = (self.problem, self.selection);
         let rivals = rivals(problem, selection);
         let floor = floor(problem, selection, Motion::Rotary);
-        let verdict = verdict(selection, &floor, &rivals);
+        let verdict = verdict(selection, &floor, floor_limit(problem), &rivals);
         let test = self.balanced(self.test, self.test_from_s);
         let errors = standard_errors(problem, selection);
         let calibration = self.calibrated(&errors);

@@ -1,6 +1,6 @@
 //! This file is the columns of a plant of one joint: resistances along its motion, and changes of its drive.
 
-use super::{Problem, lagged_yield, less, numerov, shifted};
+use super::{Problem, USUAL_SHARE, lagged_yield, less, numerov, shifted, through_play};
 use crate::filter::gradient;
 use crate::run::{PlantKind, Run};
 use rigproof_model::bench::column;
@@ -13,6 +13,9 @@ pub type DriveColumns = (Option<Vec<f64>>, Option<Vec<f64>>);
 /// One signal for each linear parameter of a resistance, as the position sees it: the law with that parameter 1 and the
 /// others 0. `None` for a mechanism that acts on the drive.
 pub fn resistances(run: &Run, mechanism: Mechanism, shape: &[f64]) -> Option<Vec<Vec<f64>>> {
+    if is_of_brake(mechanism) {
+        return Some(vec![of_brake(run, mechanism, shape)?]);
+    }
     let entry = entry(mechanism)?;
     if let Form::Drive = entry.form {
         return None;
@@ -23,6 +26,35 @@ pub fn resistances(run: &Run, mechanism: Mechanism, shape: &[f64]) -> Option<Vec
             Some(seen(run, column(law.as_ref(), &run.motion, run.step_s)))
         })
         .collect()
+}
+
+/// Whether a mechanism is something that a brake does with its current or its torque.
+pub const fn is_of_brake(mechanism: Mechanism) -> bool {
+    matches!(
+        mechanism,
+        Mechanism::CurrentHysteresis | Mechanism::ReversalOvershoot
+    )
+}
+
+/// What a brake's mechanism adds to the torque for a linear parameter of 1; `None` on a plant without a brake and its current.
+pub fn of_brake(run: &Run, mechanism: Mechanism, shape: &[f64]) -> Option<Vec<f64>> {
+    let (predicted, current) = run.brake()?;
+    let value = *shape.first()?;
+    match mechanism {
+        Mechanism::CurrentHysteresis => {
+            let held = through_play(current, value, USUAL_SHARE);
+            let change = less(&run.braked(&held)?, &run.braked(current)?);
+            Some(change.into_iter().map(|c| c / USUAL_SHARE).collect())
+        }
+        // The law says which share of the brake's torque.
+        Mechanism::ReversalOvershoot => {
+            let law = law(mechanism, &[1.0, value])?;
+            let share = column(law.as_ref(), &run.motion, run.step_s);
+            let pairs = share.iter().zip(predicted);
+            Some(pairs.map(|(share, torque)| share * torque.abs()).collect())
+        }
+        _ => None,
+    }
 }
 
 /// The parameters of a law with each of its linear ones 1 in turn and the others 0.
@@ -90,8 +122,8 @@ pub fn drive(
             Some((None, Some(less(&shifted(fitted, value / step_s), fitted))))
         }
         // The yield of a brake lags, its sign does not (docs/decisions/0001).
-        (Mechanism::Lag, PlantKind::Bench) => match (&run.predicted, &run.current) {
-            (Some(predicted), Some(_)) => {
+        (Mechanism::Lag, PlantKind::Bench) => match run.brake() {
+            Some((predicted, _)) => {
                 let lagged = lagged_yield(predicted, step_s, value);
                 Some((None, Some(less(&lagged, predicted))))
             }

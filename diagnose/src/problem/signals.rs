@@ -12,6 +12,19 @@ pub fn lagged_yield(predicted: &[f64], step_s: f64, time_constant_s: f64) -> Vec
         .collect()
 }
 
+/// Share of a current that hysteresis is linearised with: the torque is not linear in the current.
+pub const USUAL_SHARE: f64 = 0.3;
+
+/// A current of which a share goes through a play of half width `half_width_a`, sample by sample, A.
+pub fn through_play(current_a: &[f64], half_width_a: f64, share: f64) -> Vec<f64> {
+    let mut play_a = current_a.first().copied().unwrap_or(0.0);
+    let held = current_a.iter().map(|i| {
+        play_a = play_a.clamp(i - half_width_a, i + half_width_a);
+        i + share * (play_a - i)
+    });
+    held.collect()
+}
+
 /// Numerov's weights 1/12, 10/12, 1/12; the end samples stay.
 pub fn numerov(signal: &[f64]) -> Vec<f64> {
     let mut out = signal.to_vec();

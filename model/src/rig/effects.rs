@@ -130,50 +130,23 @@ fn term(rig: &Rig, effect: &JointEffect) -> Result<Term, ModelError> {
         Some(_) => Err(refused("it is of the whole linkage: give it no joint")),
     };
     match effect.mechanism {
-        Mechanism::GainError => Ok(Term::Gain {
-            place: braked()? as usize,
-            fraction: value(0),
-        }),
-        Mechanism::ReversalOvershoot => Ok(Term::Share {
-            place: braked()? as usize,
-            law: law(effect.mechanism, &effect.parameters).ok_or(refused("it has no law"))?,
-        }),
-        Mechanism::ThermalFade => Ok(Term::Fade {
-            place: braked()? as usize,
-            per_joule: value(0),
-            cooling_s: value(1),
-        }),
-        Mechanism::CurrentHysteresis => Ok(Term::Play {
-            place: braked()? as usize,
-            share: value(0),
-            half_width_a: value(1),
-        }),
-        Mechanism::DeadTime => Ok(Term::Late {
-            place: braked()? as usize,
-            delay_s: value(0),
-        }),
-        Mechanism::Saturation => Ok(Term::Limit {
-            place: braked()? as usize,
-            most_a: value(0),
-        }),
-        Mechanism::Lag => Ok(Term::Lag {
-            place: braked()? as usize,
-            time_constant_s: value(0),
-        }),
-        Mechanism::BacklashWidth => Ok(Term::Backlash {
-            joint: braked()?,
-            width_rad: value(0),
-        }),
+        Mechanism::GainError
+        | Mechanism::ReversalOvershoot
+        | Mechanism::ThermalFade
+        | Mechanism::CurrentHysteresis
+        | Mechanism::DeadTime
+        | Mechanism::Saturation
+        | Mechanism::Lag
+        | Mechanism::BacklashWidth
+        | Mechanism::LoadDependent => {
+            of_brake(effect, braked()?).ok_or(refused("it is nothing that a brake does"))
+        }
         Mechanism::Gravity => whole(Term::Weight([value(0), value(1)])),
         Mechanism::Payload => whole(Term::Masses(added_mass::at_tip(value(0)))),
         Mechanism::InertiaError => whole(Term::Masses(added_mass::in_all(
             &rig.parameters.inertia,
             [value(0), value(1), value(2), value(3), value(4)],
         ))),
-        Mechanism::LoadDependent => Ok(Term::Load {
-            place: braked()? as usize,
-            arm_m: value(0),
-        }),
         _ => {
             let law = resistance(effect).ok_or(refused("it is nothing that a rig does"))?;
             Ok(Term::Law {
@@ -182,6 +155,53 @@ fn term(rig: &Rig, effect: &JointEffect) -> Result<Term, ModelError> {
             })
         }
     }
+}
+
+/// What an effect changes at the brake of a joint.
+fn of_brake(effect: &JointEffect, joint: Joint) -> Option<Term> {
+    let place = joint as usize;
+    let value = |k: usize| effect.parameters.get(k).copied().unwrap_or(0.0);
+    Some(match effect.mechanism {
+        Mechanism::GainError => Term::Gain {
+            place,
+            fraction: value(0),
+        },
+        Mechanism::ReversalOvershoot => Term::Share {
+            place,
+            law: law(effect.mechanism, &effect.parameters)?,
+        },
+        Mechanism::ThermalFade => Term::Fade {
+            place,
+            per_joule: value(0),
+            cooling_s: value(1),
+        },
+        Mechanism::CurrentHysteresis => Term::Play {
+            place,
+            share: value(0),
+            half_width_a: value(1),
+        },
+        Mechanism::DeadTime => Term::Late {
+            place,
+            delay_s: value(0),
+        },
+        Mechanism::Saturation => Term::Limit {
+            place,
+            most_a: value(0),
+        },
+        Mechanism::Lag => Term::Lag {
+            place,
+            time_constant_s: value(0),
+        },
+        Mechanism::BacklashWidth => Term::Backlash {
+            joint,
+            width_rad: value(0),
+        },
+        Mechanism::LoadDependent => Term::Load {
+            place,
+            arm_m: value(0),
+        },
+        _ => return None,
+    })
 }
 
 /// The resistance law of an effect; that of a bearing is dry friction.

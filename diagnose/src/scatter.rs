@@ -1,0 +1,144 @@
+//! This file tells apart what differs from trial to trial of a brake: the law is the same, but there is more or less of it each time.
+
+use crate::candidates::modelled_effort;
+use crate::problem::{Problem, Term, less};
+use crate::regression::Fit;
+use crate::report::Unknown;
+use crate::run::{Run, rms};
+use crate::weak::Windows;
+
+/// Change of the current between two samples with which a trial begins, A.
+const JUMP_A: f64 = 0.05;
+/// Fewest trials that tell a spread, and fewest usable windows for each of them.
+const FEWEST_TRIALS: usize = 8;
+const WINDOWS_A_TRIAL: usize = 4;
+/// Share of what is left that a gain for every trial must take away.
+const LEAST_SHARE: f64 = 0.7;
+
+/// The trials of a brake on a bench; each begins where the current jumps.
+#[derive(Clone, Debug)]
+pub struct Trials {
+    /// The trial of every row.
+    of_row: Vec<usize>,
+    /// When every trial begins, s.
+    start_s: Vec<f64>,
+    /// The nominal brake's torque, row by row, N·m.
+    torque: Vec<f64>,
+}
+
+/// How a brake's torque differs from trial to trial.
+#[derive(Clone, Debug)]
+pub struct Scatter {
+    /// Standard deviation of the trials' gains.
+    deviation: f64,
+    /// The same at the greatest torque of the recording, N·m.
+    torque_nm: f64,
+    /// Share of what is left that the gains take away.
+    share: f64,
+    /// Start of every trial, s, and by how much its torque was more, as a share.
+    gains: Vec<(f64, f64)>,
+}
+
+impl Trials {
+    /// The trials of a run; `None` where there is no brake or not enough is seen of enough of them.
+    pub fn of(run: &Run, windows: &Windows) -> Option<Trials> {
+        let (predicted, current) = run.brake()?;
+        let mut start_s = vec![run.start_s];
+        let mut jumps = vec![0];
+        for (k, pair) in current.windows(2).enumerate() {
+            if let [before, after] = pair
+                && (after - before).abs() > JUMP_A
+            {
+                jumps.push(k + 1);
+                start_s.push(run.start_s + (k + 1) as f64 * run.step_s);
+            }
+        }
+        let trial = |centre: &usize| jumps.partition_point(|jump| jump <= centre) - 1;
+        let of_row: Vec<usize> = windows.centres.iter().map(trial).collect();
+        let usable = windows.usable.iter().filter(|u| **u).count();
+        let enough = jumps.len() >= FEWEST_TRIALS && usable >= WINDOWS_A_TRIAL * jumps.len();
+        enough.then(|| Trials {
+            of_row,
+            start_s,
+            torque: windows.average(predicted),
+        })
+    }
+
+    /// The share of the brake's torque that fits the rows best, trial by trial; 0 where there are no rows.
+    fn gains(&self, rows: &[f64], usable: &[bool]) -> Vec<f64> {
+        let mut sums = vec![(0.0, 0.0); self.start_s.len()];
+        let each = self
+            .of_row
+            .iter()
+            .zip(&self.torque)
+            .zip(rows.iter().zip(usable));
+        for ((&trial, torque), (row, _)) in each.filter(|(_, (_, usable))| **usable) {
+            if let Some((moment, square)) = sums.get_mut(trial) {
+                *moment += torque * row;
+                *square += torque * torque;
+            }
+        }
+        let gain = |(moment, square): (f64, f64)| if square > 0.0 { moment / square } else { 0.0 };
+        sums.into_iter().map(gain).collect()
+    }
+
+    /// Takes out of rows what a gain for every trial could do.
+    pub fn take_out(&self, rows: &mut [f64], usable: &[bool]) {
+        let gains = self.gains(rows, usable);
+        for (row, (trial, torque)) in rows.iter_mut().zip(self.of_row.iter().zip(&self.torque)) {
+            *row -= gains.get(*trial).copied().unwrap_or(0.0) * torque;
+        }
+    }
+
+    /// The scatter that a fit leaves over; `None` where less is left than `least`, N·m, or where gains of the trials do not explain it.
+    pub fn scatter(&self, residual: &[f64], usable: &[bool], least: f64) -> Option<Scatter> {
+        let size = |rows: &[f64]| {
+            let kept = rows.iter().zip(usable).filter(|(_, u)| **u);
+            rms(&kept.map(|(r, _)| *r).collect::<Vec<f64>>())
+        };
+        let mut within = residual.to_vec();
+        self.take_out(&mut within, usable);
+        let (all, rest) = (size(residual), size(&within));
+        let share = 1.0 - (rest / all).powi(2);
+        if all <= least || share < LEAST_SHARE {
+            return None;
+        }
+        let gains = self.gains(residual, usable);
+        let seen: Vec<f64> = gains.iter().copied().filter(|gain| *gain != 0.0).collect();
+        let mean = seen.iter().sum::<f64>() / seen.len().max(1) as f64;
+        let deviation = rms(&seen.iter().map(|gain| gain - mean).collect::<Vec<f64>>());
+        let greatest = self.torque.iter().fold(0.0f64, |most, t| most.max(t.abs()));
+        Some(Scatter {
+            deviation,
+            torque_nm: deviation * greatest,
+            share,
+            gains: self.start_s.iter().copied().zip(gains).collect(),
+        })
+    }
+}
+
+impl Scatter {
+    /// As the report says it: what is left has a shape, but no law.
+    pub fn described(&self) -> Unknown {
+        Unknown {
+            variable: "trial",
+            variable_unit: "s".to_owned(),
+            along_motion: true,
+            share: self.share,
+            shape: self.gains.clone(),
+            memory: false,
+            parity: "neither",
+            suggestion: format!(
+                "the brake gives more or less of the same torque from trial to trial: standard deviation {:.1} %, {:.2} N·m at the greatest torque; nothing recorded says when, so no law is named for it (temperature and settled particles do this); what is named was told within the trials",
+                100.0 * self.deviation,
+                self.torque_nm
+            ),
+        }
+    }
+}
+
+/// What a fit leaves over of the effort, row by row, with the gains of the trials still in it.
+pub fn left_over(problem: &Problem, run: &Run, terms: &[&Term], fitted: &Fit) -> Vec<f64> {
+    let modelled = modelled_effort(problem, terms, fitted);
+    problem.windows.average(&less(&run.effort, &modelled))
+}

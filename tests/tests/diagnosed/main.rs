@@ -1,0 +1,181 @@
+//! Whether the diagnosis, told the reference model, finds nothing in what the optimised implementation does in every golden case, and names
+//! what is changed in it.
+//!
+//! By default a run of every kind is diagnosed; `RIGPROOF_CAMPAIGN=all` diagnoses every run of every case, `RIGPROOF_CAMPAIGN=path_four_brake-7` those
+//! whose name holds the word. With `RIGPROOF_KEEP=folder` the recordings and their rig descriptions stay there, so that
+//! `rigproof diagnose` can be asked again.
+
+mod bench;
+mod chapter_3;
+mod five_bar;
+mod laws;
+mod recording;
+mod script;
+
+use rayon::prelude::*;
+use rigproof_diagnose::report::{Report, Verdict};
+
+use chapter_3::Planted;
+use recording::Recording;
+use rigproof_spec::joint::Joint;
+
+/// What is asked for: every run, or those whose name holds a word.
+fn asked() -> Option<String> {
+    std::env::var("RIGPROOF_CAMPAIGN").ok()
+}
+
+/// The reports on those that are asked for.
+fn diagnosed(mut recordings: Vec<Recording>) -> Vec<(Recording, Report)> {
+    let word = asked().filter(|word| word != "all").unwrap_or_default();
+    recordings.retain(|recording| recording.name.contains(&word));
+    let pairs = recordings.into_par_iter().map(|recording| {
+        let report = recording.diagnosed();
+        (recording, report)
+    });
+    pairs.collect()
+}
+
+/// Runs about which nothing can be told: too few windows are left.
+///
+/// The chatter of a controller without gap, or with a high gain, holds joints or moves yields in every window; a release of the 3-brake layout is
+/// over within 0.6 s; at 0.5 rpm a brake is inside its backlash for 0.3 s and rises for as long; a sinusoidal current of 1 Hz or more changes the
+/// torque everywhere by more between two samples than noise.
+const NOT_EXCITED: [&str; 11] = [
+    "path_three_brake-2-",
+    "path_four_brake-5-",
+    "release_three_brake-1-",
+    "release_three_brake-3-",
+    "brake_step_a-7-",
+    "brake_step_a-10-",
+    "brake_step_e-10-",
+    "brake_step_b-10-",
+    "brake_step_c-7-",
+    "brake_step_c-10-",
+    "brake_current_",
+];
+
+/// Runs that are told apart from the reference without a name, because joints creep to a stand inside windows: a limit of the diagnosis, on the
+/// reference's own recording too (decision 0121).
+const LIMITS: [&str; 2] = ["path_three_brake-5-", "path_four_brake-7-impl"];
+
+fn expected(name: &str) -> Verdict {
+    let is_of = |list: &[&str]| list.iter().any(|start| name.starts_with(start));
+    match () {
+        () if is_of(&NOT_EXCITED) => Verdict::NotExcited,
+        () if is_of(&LIMITS) => Verdict::NoneOfLibrary,
+        () => Verdict::Consistent,
+    }
+}
+
+fn named(report: &Report) -> Vec<(&'static str, Option<&'static str>)> {
+    let effects = report.effects.iter();
+    effects.map(|e| (e.mechanism, e.joint)).collect()
+}
+
+fn said(recording: &Recording, report: &Report) -> String {
+    let floor = report.floor.as_ref().map_or(f64::NAN, |f| f.ratio_after);
+    let (name, verdict) = (&recording.name, report.verdict.name());
+    format!("{name}: {verdict}, {floor:.2} floors, {:?}", named(report))
+}
+
+#[test]
+fn nothing_is_found_in_any_golden_case() {
+    let all = asked().is_some();
+    let recordings = [five_bar::recordings(all), bench::recordings(all)].concat();
+    let reports = diagnosed(recordings);
+    for (recording, report) in &reports {
+        println!("{}", said(recording, report));
+    }
+    for (recording, report) in &reports {
+        assert_eq!(named(report), [], "{}", said(recording, report));
+        let expected = expected(&recording.name);
+        assert_eq!(report.verdict, expected, "{}", said(recording, report));
+    }
+    let consistent = |(_, report): &&(Recording, Report)| report.verdict == Verdict::Consistent;
+    let consistent = reports.iter().filter(consistent).count();
+    println!("{consistent} of {} consistent", reports.len());
+    assert!(asked().is_some() || consistent > 20, "{consistent}");
+}
+
+#[test]
+fn a_brake_of_the_implementation_that_is_two_per_cent_too_strong_is_named() {
+    for (recording, report) in diagnosed(bench::with_gain(1.02)) {
+        println!("{}", said(&recording, &report));
+        assert_eq!(named(&report), [("gain_error", None)], "{}", report.summary);
+        let fraction = report.effects[0].parameters["fraction"].value;
+        assert!((fraction - 0.02).abs() < 0.002, "{fraction}");
+    }
+    for (recording, report) in diagnosed(five_bar::with_gain(1.02)) {
+        println!("{}", said(&recording, &report));
+        let expected = [("gain_error", Some("E"))];
+        assert_eq!(named(&report), expected, "{}", report.summary);
+        let fraction = report.effects[0].parameters["fraction"].value;
+        assert!((fraction - 0.02).abs() < 0.001, "{fraction}");
+    }
+}
+
+#[test]
+fn what_the_thesis_left_out_is_found_in_its_own_experiments() {
+    let of = |[drag, overshoot, play, scatter]: [bool; 4]| Planted {
+        drag,
+        overshoot,
+        play,
+        scatter,
+    };
+    let mut cases = vec![
+        of([true, true, true, false]),
+        of([false, false, false, true]),
+        of([true, true, true, true]),
+    ];
+    if asked().is_some() {
+        cases.extend([
+            of([false; 4]),
+            of([true, false, false, false]),
+            of([false, true, false, false]),
+            of([false, false, true, false]),
+        ]);
+    }
+    let whole = asked().is_some_and(|word| word == "all");
+    let recordings = cases
+        .iter()
+        .map(|planted| chapter_3::recording(Joint::E, *planted, whole, 4127));
+    for (recording, report) in diagnosed(recordings.collect()) {
+        println!("{}; {}", said(&recording, &report), report.summary);
+        let scatter = recording.name.contains("-scatter");
+        let mut found = 0;
+        for (word, mechanism, numbers) in [
+            ("-drag", "viscous", &[chapter_3::DRAG][..]),
+            (
+                "-overshoot",
+                "reversal_overshoot",
+                &[chapter_3::overshoot(Joint::E), chapter_3::OVERSHOOT_TRAVEL],
+            ),
+            (
+                "-play",
+                "current_hysteresis",
+                &[chapter_3::PLAY_A, chapter_3::PLAY_SHARE],
+            ),
+        ] {
+            let effect = report.effects.iter().find(|e| e.mechanism == mechanism);
+            let planted = recording.name.contains(word);
+            // Drag of this size is lost under the scatter (decision 0122).
+            let is_seen = planted && !(scatter && mechanism == "viscous");
+            assert_eq!(effect.is_some(), is_seen, "{mechanism}: {}", report.summary);
+            found += usize::from(is_seen);
+            let values = effect.iter().flat_map(|e| e.parameters.values());
+            for (value, number) in values.zip(numbers) {
+                let most = if scatter { 0.1 } else { 0.01 };
+                let off = value.value / number - 1.0;
+                assert!(off.abs() < most, "{mechanism}: {value:?}, {number}");
+            }
+        }
+        assert_eq!(found, report.effects.len(), "{}", report.summary);
+        let spread = report.unknown.as_ref().map(|unknown| unknown.variable);
+        assert_eq!(spread, scatter.then_some("trial"));
+        if recording.name == "chapter-3-E-scatter" {
+            assert_eq!(report.verdict, Verdict::NoneOfLibrary);
+            let said = &report.unknown.unwrap().suggestion;
+            assert!(said.contains("0.39 N·m"), "{said}");
+        }
+    }
+}

@@ -1,0 +1,108 @@
+//! This file is a recording with the sensors' noise, written down, read again and diagnosed.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use rand_pcg::Pcg64Mcg;
+use rand_pcg::rand_core::{Rng, SeedableRng};
+use rigproof_diagnose::Options;
+use rigproof_diagnose::report::Report;
+use rigproof_trace::rig::Rig;
+use rigproof_trace::rig::five_bar::FiveBar;
+use rigproof_trace::{Channel, Trace, csv};
+
+/// What a test makes and the diagnosis reads.
+#[derive(Clone)]
+pub struct Recording {
+    /// Case, run, and who made it.
+    pub name: String,
+    /// The rig description.
+    pub rig: String,
+    pub trace: Trace,
+}
+
+impl Recording {
+    /// A recording of columns of equal length, `step_s` between the samples.
+    pub fn new(
+        name: String,
+        rig: String,
+        step_s: f64,
+        columns: Vec<(&str, &str, Vec<f64>)>,
+    ) -> Recording {
+        let count = columns[0].2.len();
+        let channel = |(name, unit, samples): (&str, &str, Vec<f64>)| Channel {
+            name: name.to_owned(),
+            unit: unit.to_owned(),
+            samples,
+        };
+        Recording {
+            name,
+            rig,
+            trace: Trace {
+                time_s: (0..count).map(|k| k as f64 * step_s).collect(),
+                channels: columns.into_iter().map(channel).collect(),
+            },
+        }
+    }
+
+    /// The report on the recording as it stands in its file.
+    pub fn diagnosed(&self) -> Report {
+        let desk = tempfile::tempdir().unwrap();
+        let folder = std::env::var("RIGPROOF_KEEP").map_or(desk.path().into(), PathBuf::from);
+        fs::create_dir_all(&folder).unwrap();
+        let [recording, rig] =
+            ["csv", "toml"].map(|kind| folder.join(format!("{}.{kind}", self.name)));
+        csv::write(&recording, &self.trace).unwrap();
+        fs::write(&rig, &self.rig).unwrap();
+        reported(&recording, &rig)
+    }
+}
+
+fn reported(recording: &Path, rig: &Path) -> Report {
+    // The golden runs are short: most of each is needed.
+    let options = Options {
+        hold_out_share: 0.05,
+        ..Options::default()
+    };
+    let text = fs::read_to_string(rig).unwrap();
+    if FiveBar::describes(&text, rig).unwrap() {
+        let rig = FiveBar::read(rig).unwrap();
+        let recording = rig.read_recording(recording).unwrap();
+        return rigproof_diagnose::five_bar::diagnose::diagnose(&rig, &recording, None, &options)
+            .report;
+    }
+    let rig = Rig::read(rig).unwrap();
+    let recording = rig.read_recording(recording).unwrap();
+    rigproof_diagnose::diagnose(&rig, &recording, None, &options).report
+}
+
+/// What a sensor adds: close to Gaussian.
+pub struct Noise(Pcg64Mcg);
+
+impl Noise {
+    pub fn new(seed: u64) -> Noise {
+        Noise(Pcg64Mcg::seed_from_u64(seed))
+    }
+
+    /// Values with noise of a standard deviation.
+    pub fn on(&mut self, values: impl IntoIterator<Item = f64>, deviation: f64) -> Vec<f64> {
+        let values = values.into_iter();
+        values
+            .map(|value| value + deviation * self.draw())
+            .collect()
+    }
+
+    fn draw(&mut self) -> f64 {
+        let uniform =
+            |random: &mut Pcg64Mcg| (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
+        (0..12).map(|_| uniform(&mut self.0)).sum::<f64>() - 6.0
+    }
+}
+
+/// Angles in whole counts, rad.
+pub fn counted(angles_rad: impl IntoIterator<Item = f64>, count_rad: f64) -> Vec<f64> {
+    let angles_rad = angles_rad.into_iter();
+    angles_rad
+        .map(|angle_rad| libm::round(angle_rad / count_rad) * count_rad)
+        .collect()
+}
