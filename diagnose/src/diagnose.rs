@@ -10,7 +10,7 @@ pub(crate) mod write;
 use crate::align::{Fault, band_hz};
 use crate::evidence::{coefficients_by_term, parameters};
 use crate::from_rig;
-use crate::problem::{Cause, Problem, Term};
+use crate::problem::{Cause, Problem, Term, is_of_brake};
 use crate::report::Report;
 use crate::run::Run;
 use crate::scatter::{Trials, left_over};
@@ -124,6 +124,9 @@ pub fn diagnose(
         let (travel, noise) = (train.travel(), train.position_noise);
         return not_excited(Description::Joint(rig.clone()), usable, travel, noise);
     }
+    if let Some(fault) = without_brake(rig, &train) {
+        return faulty(Description::Joint(rig.clone()), "description", fault);
+    }
     let terms = nominal(rig, &problem);
     let mut selection = select(&mut problem, terms, options.gates);
     if let Some(fault) = reversed_drive(&problem, &selection) {
@@ -150,6 +153,23 @@ pub fn diagnose(
         width_s,
     }
     .report(held_out.is_some())
+}
+
+/// Something that only a brake does in the description of a plant without a brake and its current.
+fn without_brake(rig: &Rig, run: &Run) -> Option<Fault> {
+    let effects = from_rig::nominal(rig);
+    let effect = effects
+        .iter()
+        .find(|n| is_of_brake(n.cause.mechanism) && run.brake().is_none())?;
+    Some(Fault {
+        channel: "effect",
+        from_s: 0.0,
+        to_s: 0.0,
+        reason: format!(
+            "`{}` is something that a brake does; take it out, or describe the brake and its current",
+            effect.cause.name()
+        ),
+    })
 }
 
 /// The physics of the nominal model as terms.

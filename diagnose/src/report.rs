@@ -302,7 +302,7 @@ pub struct NextExperiment {
     pub greatest_current_a: f64,
     /// The greatest force of the hand, N.
     pub greatest_force_n: f64,
-    /// How many experiments were simulated for every explanation.
+    /// How many experiments were simulated for the named explanation; the best two of them were for every one.
     pub tried: usize,
     /// How far it sets each pair of explanations apart.
     pub separations: Vec<Separation>,
@@ -321,7 +321,7 @@ pub struct Separation {
     pub other: String,
     /// Standard deviations of the sensors' noise, summed over the windows, by which either leaves more of the other's recording.
     pub sigmas: f64,
-    /// Whether any of the experiments tells them apart.
+    /// Whether this experiment tells them apart.
     pub tellable: bool,
 }
 

@@ -119,6 +119,14 @@ impl Law for Late {
         self.law.memory_rate(now, memory)
     }
 
+    fn parts(&self, now: &Instant, memory: f64) -> (f64, f64) {
+        if now.time_s < self.onset_s {
+            (0.0, 0.0)
+        } else {
+            self.law.parts(now, memory)
+        }
+    }
+
     fn memory_after(&self, memory: f64, travel: f64, speed: f64) -> f64 {
         self.law.memory_after(memory, travel, speed)
     }

@@ -31,7 +31,7 @@ pub fn experiment(report: &Report) -> Vec<String> {
             }
             (false, Some(_)) => format!("  does not tell {one} from {other}"),
             (false, None) => format!(
-                "  none of the {} that were simulated tells {one} from {other}",
+                "  the best of the {} that were simulated does not tell {one} from {other}",
                 next.tried
             ),
         }

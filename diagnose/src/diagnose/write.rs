@@ -85,7 +85,9 @@ impl Stand<'_> {
             None => (self.plant(false), self.plant(true)),
         };
         let errors = standard_errors(self.problem, self.selection);
-        let calibration = calibrated(self.rig, &plants.1, &errors, fitted.is_some());
+        // A bench with a brake keeps the numbers of its windows.
+        let refitted = fitted.is_some() && self.train.brake().is_none();
+        let calibration = calibrated(self.rig, &plants.1, &errors, refitted);
         let summary = summary(verdict, self.selection, fit.as_ref());
         let report = Report {
             protocol: self.protocol_lines(&protocol, other_recording),

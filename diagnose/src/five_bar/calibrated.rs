@@ -32,18 +32,25 @@ impl Stand<'_> {
                 joint_effect(term, term.cause.mechanism, values.collect())
             })
             .collect();
-        // A spring's torque at θ = 0, which the vocabulary has as a law of its own.
-        let springs = terms.iter().zip(&coefficients);
-        rig.effects.extend(springs.filter_map(|(term, own)| {
-            let preload = *own
-                .get(1)
-                .filter(|_| term.cause.mechanism == Mechanism::Spring)?;
-            let level = with_interval(preload, None);
-            Some(joint_effect(term, Mechanism::ConstantBias, vec![level]))
+        let second = terms.iter().zip(&coefficients);
+        rig.effects.extend(second.filter_map(|(term, own)| {
+            let mechanism = second_of(term.cause.mechanism)?;
+            let level = with_interval(*own.get(1)?, None);
+            Some(joint_effect(term, mechanism, vec![level]))
         }));
         rig.provenance
             .insert("fit".to_owned(), "weighted windows".to_owned());
         rig
+    }
+}
+
+/// What the second column of a mechanism is, which the vocabulary has as one of its own: a spring's torque at θ = 0, the zero of an encoder
+/// that counts from where it was homed.
+const fn second_of(mechanism: Mechanism) -> Option<Mechanism> {
+    match mechanism {
+        Mechanism::Spring => Some(Mechanism::ConstantBias),
+        Mechanism::EncoderScale => Some(Mechanism::EncoderOffset),
+        _ => None,
     }
 }
 

@@ -207,6 +207,7 @@ impl TwoCoordinate {
     pub fn tip_velocity_m_s(&self, rates_rad_s: [f64; 2]) -> [f64; 2] {
         (self.tip * Vector2::from(rates_rad_s)).into()
     }
+
     /// The velocities of the centres of mass of arms ED and CD, m/s.
     pub fn centre_velocities_m_s(&self, rates_rad_s: [f64; 2]) -> [[f64; 2]; 2] {
         self.centres

@@ -1,7 +1,7 @@
 //! Whether the diagnosis, told the reference model, finds nothing in what the optimised implementation does in every golden case, and names
 //! what is changed in it.
 //!
-//! By default a run of every kind is diagnosed; `RIGPROOF_CAMPAIGN=all` diagnoses every run of every case, `RIGPROOF_CAMPAIGN=path_four_brake-7` those
+//! By default a run of every kind is diagnosed; `RIGPROOF_CASES=all` diagnoses every run of every case, `RIGPROOF_CASES=path_four_brake-7` those
 //! whose name holds the word. With `RIGPROOF_KEEP=folder` the recordings and their rig descriptions stay there, so that
 //! `rigproof diagnose` can be asked again.
 
@@ -21,7 +21,7 @@ use rigproof_spec::joint::Joint;
 
 /// What is asked for: every run, or those whose name holds a word.
 fn asked() -> Option<String> {
-    std::env::var("RIGPROOF_CAMPAIGN").ok()
+    std::env::var("RIGPROOF_CASES").ok()
 }
 
 /// The reports on those that are asked for.
@@ -139,13 +139,13 @@ fn what_the_thesis_left_out_is_found_in_its_own_experiments() {
     let mut cases = vec![
         of([true, true, true, false]),
         of([false, false, false, true]),
+        of([false, true, false, false]),
     ];
     if asked().is_some() {
         cases.extend([
             of([true; 4]),
             of([false; 4]),
             of([true, false, false, false]),
-            of([false, true, false, false]),
             of([false, false, true, false]),
         ]);
     }

@@ -245,6 +245,9 @@ pub(super) fn read_effect(
         if matches!(parameter.quantity, Quantity::Travel | Quantity::Speed) {
             above_zero(table, parameter.name, &value, dimension)?;
         }
+        if parameter.name == "half_width" {
+            above_zero(table, parameter.name, &value, dimension)?;
+        }
         values.push(value);
     }
     Ok(RigEffect {
