@@ -51,10 +51,11 @@ pub fn aligned(rig: &Rig, recording: &Recording) -> Result<Run, Fault> {
         effort_limit: scaled(effort.and_then(|e| e.limit)),
     })?;
     if let (Some(brake), Some(current)) = (&rig.brake, &run.current) {
+        run.table = Some(brake.table());
+        // Before the sense is forgotten: a lag follows the yield torque through a reversal.
+        run.predicted = run.braked(current);
         let still = STILL_NOISES * run.position_noise;
         forget_sense_near_reversals(&mut run.motion, &run.position, still);
-        run.table = Some(brake.table());
-        run.predicted = run.braked(current);
     }
     Ok(run)
 }
