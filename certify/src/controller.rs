@@ -1,0 +1,71 @@
+//! This file says what a controller under test is: something that is told what is sensed and answers with currents, or breaks.
+
+use rigproof_impl::law::Law;
+use rigproof_impl::tick::{Sensed, Settings, Tick};
+
+/// A controller at work in one trial.
+pub trait Controller {
+    /// The brake currents of one tick, A, in the order A, E, B, C; nothing about them is promised.
+    ///
+    /// # Errors
+    /// [`Failure`]: the controller did not answer. It is not asked again in this trial.
+    fn tick(&mut self, sensed: &Sensed<f64>) -> Result<[f64; 4], Failure>;
+}
+
+/// What makes controllers: one for every trial, on any thread.
+pub trait Source: Sync {
+    /// A controller that has seen nothing, for a rig and the path it is to keep to.
+    ///
+    /// # Errors
+    /// [`Failure`]: it could not be begun.
+    fn begin(&self, settings: &Settings, path: &Task) -> Result<Box<dyn Controller + '_>, Failure>;
+}
+
+/// What the operator is to follow or to stay out of, in the plane of the rig.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Task {
+    /// A chain of straight lines through these points, m; two points are a line.
+    Chain(Vec<[f64; 2]>),
+    /// An arc about a centre, m, from one angle to another, rad.
+    #[expect(missing_docs, reason = "the variant says it")]
+    Arc {
+        centre_m: [f64; 2],
+        radius_m: f64,
+        from_rad: f64,
+        to_rad: f64,
+    },
+    /// A natural cubic spline through these points, m.
+    Spline(Vec<[f64; 2]>),
+}
+
+/// How a controller broke. Each is a finding about the controller, never the end of a campaign.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Failure {
+    /// It refuses the settings.
+    #[error("the controller refuses the settings: {0}")]
+    Refused(String),
+    /// Its process ended.
+    #[error("the controller's process ended: {0}")]
+    Ended(String),
+    /// It did not answer in time.
+    #[error("the controller did not answer within {limit_ms} ms")]
+    Hung {
+        /// The time it was given, ms.
+        limit_ms: u64,
+    },
+    /// It wrote where it must not.
+    #[error("the controller wrote outside its buffer: {0}")]
+    WroteOutside(String),
+    /// Its process answered what is no answer.
+    #[error("the controller's process answered what is no answer: {0}")]
+    Garbage(String),
+    /// It said itself that it failed.
+    #[error("the controller answered with status {0}")]
+    Status(i32),
+}
+
+impl<L: Law<f64>> Controller for Tick<f64, L> {
+    fn tick(&mut self, sensed: &Sensed<f64>) -> Result<[f64; 4], Failure> {
+        Ok(Tick::tick(self, sensed).currents_a)
+    }
+}
