@@ -1,9 +1,7 @@
 //! This file says that the brake of blind recordings is the brake of the nominal model: two programs, one set of
 //! decisions (0001 to 0006), so that a recording with nothing hidden shows nothing.
 
-mod budget;
-
-use budget::assert_within_budget;
+use crate::budget::assert_within_budget;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;

@@ -1,9 +1,7 @@
 //! This file says that the five-bar of blind recordings is the five-bar of the nominal model: two programs of the same physics, so that
 //! a recording with nothing hidden shows nothing.
 
-mod budget;
-
-use budget::assert_within_budget;
+use crate::budget::assert_within_budget;
 use rigproof_blind::{RigStep, five_bar_motion};
 use rigproof_model::rig::Rig;
 use rigproof_spec::layout::Layout;

@@ -1,8 +1,6 @@
 //! This file says what holds for a brake under every current and motion, and checks it against hand calculation.
 
-mod budget;
-
-use budget::assert_within_budget;
+use crate::budget::assert_within_budget;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{FileFailurePersistence, TestRunner};

@@ -1,10 +1,8 @@
 //! This file says that the metrics compute what the page prints: against SciPy, against sums by hand, and by their scaling.
 
-mod budget;
-
 use core::f64::consts::PI;
 
-use budget::assert_within_budget;
+use crate::budget::assert_within_budget;
 use proptest::prelude::*;
 use proptest::test_runner::FileFailurePersistence;
 use rigproof_model::ModelError;

@@ -1,8 +1,6 @@
 //! This file says that the linkage moves the same in ten coordinates and in two, and that each printed matrix is what it claims.
 
-mod budget;
-
-use budget::assert_within_budget;
+use crate::budget::assert_within_budget;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;

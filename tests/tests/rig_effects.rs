@@ -1,8 +1,6 @@
 //! This file says what holds for a rig with left-out physics: energy, passivity, onset, and the state a led rig comes to.
 
-mod budget;
-
-use budget::assert_within_budget;
+use crate::budget::assert_within_budget;
 use rigproof_model::rig::{JointEffect, Rig};
 use rigproof_spec::effect::Mechanism::{self, *};
 use rigproof_spec::joint::Joint;

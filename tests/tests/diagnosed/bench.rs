@@ -1,18 +1,13 @@
 //! This file turns the brakes of the golden cases, of the implementation and of the reference, and records them.
 
-use core::f64::consts::TAU;
-
 use rigproof_impl::plant::brake::{Brake, Characteristic, Turn};
 use rigproof_model::brake::Brake as Reference;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::tables::{BrakeTable, brake_table};
 
-use crate::recording::{Noise, Recording, counted};
-use crate::script::Script;
+use crate::diagnosed::recording::{Noise, Recording, STEP_S, Turned};
+use crate::diagnosed::script::Script;
 
-const STEP_S: f64 = 1e-3;
-/// Counts of the motor's encoder in a turn of the brake: 1024 lines through a gear of 100 to 1 (§3.2).
-const COUNTS: f64 = 102_400.0;
 /// Standard deviation of the torquemeter, N·m.
 const TORQUE_NOISE_NM: f64 = 0.0057;
 
@@ -90,37 +85,17 @@ pub fn recorded(
     run: usize,
     torques_nm: &[f64],
 ) -> Recording {
-    let count_rad = TAU / COUNTS;
-    let mut noise = Noise::new(
+    let noise = Noise::new(
         name.bytes()
             .fold(4127, |seed, b| seed * 31 % 1_000_003 + u64::from(b)),
     );
     let way = turned(script, run);
-    let rig = format!(
-        "name = \"{name}\"\nplant = \"bench\"\nmotion = \"rotary\"\n[channels]\n\
-         position = {{ channel = \"angle\", unit = \"rad\", quantum = {count_rad:e} }}\n\
-         torque = {{ channel = \"torque\", unit = \"N·m\", noise = {TORQUE_NOISE_NM} }}\n\
-         current = {{ channel = \"current\", unit = \"A\" }}\n[brake]\njoint = \"{}\"\n",
-        joint.letter()
-    );
-    let columns = vec![
-        (
-            "angle",
-            "rad",
-            counted(way.iter().map(|(_, _, angle)| *angle), count_rad),
-        ),
-        (
-            "current",
-            "A",
-            way.iter().map(|(current, ..)| *current).collect(),
-        ),
-        (
-            "torque",
-            "N·m",
-            noise.on(torques_nm.iter().copied(), TORQUE_NOISE_NM),
-        ),
-    ];
-    Recording::new(name.to_owned(), rig, STEP_S, columns)
+    let turned = Turned {
+        angles_rad: way.iter().map(|(_, _, angle)| *angle).collect(),
+        currents_a: way.iter().map(|(current, ..)| *current).collect(),
+        torques_nm: torques_nm.to_vec(),
+    };
+    Recording::of_bench(name.to_owned(), joint, turned, noise, TORQUE_NOISE_NM)
 }
 
 /// The sinusoids of an implementation whose brakes have a greater gain than the table's.

@@ -8,11 +8,8 @@ use rigproof_spec::joint::Joint;
 use rigproof_spec::tables::brake_table;
 use rigproof_spec::units::{RAD_S_PER_RPM, rad_s_from_rpm};
 
-use crate::recording::{Noise, Recording, counted};
+use crate::diagnosed::recording::{Noise, Recording, STEP_S, Turned};
 
-const STEP_S: f64 = 1e-3;
-/// Counts of the motor's encoder in a turn of the brake: 1024 through a gear of 100 to 1 (§3.2).
-const COUNTS: f64 = 102_400.0;
 /// Standard deviation of the torquemeter, N·m: the thesis does not say.
 const TORQUE_NOISE_NM: f64 = 0.019;
 
@@ -137,7 +134,7 @@ pub fn recording(joint: Joint, planted: Planted, all: bool, seed: u64) -> Record
     let mut play_a = samples[0].current_a;
     // What is left of the overshoot since the sense last changed.
     let (mut last_sense, mut left) = (0.0, 1.0);
-    let (mut angles, mut currents, mut torques) = (Vec::new(), Vec::new(), Vec::new());
+    let mut run = Turned::default();
     for Sample {
         current_a,
         speed_rad_s,
@@ -164,23 +161,10 @@ pub fn recording(joint: Joint, planted: Planted, all: bool, seed: u64) -> Record
         if planted.drag {
             torque_nm += DRAG * speed_rad_s;
         }
-        angles.push(theta_rad);
-        currents.push(current_a);
-        torques.push(torque_nm);
+        run.angles_rad.push(theta_rad);
+        run.currents_a.push(current_a);
+        run.torques_nm.push(torque_nm);
     }
-    let count_rad = TAU / COUNTS;
     let name = format!("chapter-3-{}{}", joint.letter(), planted.words());
-    let rig = format!(
-        "name = \"{name}\"\nplant = \"bench\"\nmotion = \"rotary\"\n[channels]\n\
-         position = {{ channel = \"angle\", unit = \"rad\", quantum = {count_rad:e} }}\n\
-         torque = {{ channel = \"torque\", unit = \"N·m\", noise = {TORQUE_NOISE_NM} }}\n\
-         current = {{ channel = \"current\", unit = \"A\" }}\n[brake]\njoint = \"{}\"\n",
-        joint.letter()
-    );
-    let columns = vec![
-        ("angle", "rad", counted(angles, count_rad)),
-        ("current", "A", currents),
-        ("torque", "N·m", noise.on(torques, TORQUE_NOISE_NM)),
-    ];
-    Recording::new(name, rig, STEP_S, columns)
+    Recording::of_bench(name, joint, run, noise, TORQUE_NOISE_NM)
 }

@@ -10,10 +10,10 @@ use rigproof_spec::geometry::arms;
 use rigproof_spec::layout::Layout;
 use rigproof_spec::methods::SAMPLE_STEP_S;
 
-use crate::bench::stronger;
-use crate::laws::law;
-use crate::recording::{Noise, Recording, counted};
-use crate::script::Script;
+use crate::diagnosed::bench::stronger;
+use crate::diagnosed::laws::law;
+use crate::diagnosed::recording::{Noise, Recording, counted};
+use crate::diagnosed::script::Script;
 
 /// Counts of the finer of the thesis's two encoders in a turn (§5.3.1).
 const COUNTS: u32 = 1_000_000;

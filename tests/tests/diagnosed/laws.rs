@@ -10,7 +10,7 @@ use rigproof_impl::tip_mass::Bodies;
 use rigproof_spec::geometry::arms;
 use rigproof_spec::inertia::inertia;
 
-use crate::script::Script;
+use crate::diagnosed::script::Script;
 
 /// The controller of a run of a path case.
 pub fn law(script: &Script, run: usize) -> AnyLaw<f64, Line<f64>> {

@@ -1,5 +1,6 @@
 //! This file is a recording with the sensors' noise, written down, read again and diagnosed.
 
+use core::f64::consts::TAU;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -7,9 +8,23 @@ use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 use rigproof_diagnose::Options;
 use rigproof_diagnose::report::Report;
+use rigproof_spec::joint::Joint;
 use rigproof_trace::rig::Rig;
 use rigproof_trace::rig::five_bar::FiveBar;
 use rigproof_trace::{Channel, Trace, csv};
+
+/// From one sample of a bench to the next, s.
+pub const STEP_S: f64 = 1e-3;
+/// Counts of the motor's encoder in a turn of the brake: 1024 through a gear of 100 to 1 (§3.2).
+const COUNTS: f64 = 102_400.0;
+
+/// What a brake did on the bench, a number a sample.
+#[derive(Default)]
+pub struct Turned {
+    pub angles_rad: Vec<f64>,
+    pub currents_a: Vec<f64>,
+    pub torques_nm: Vec<f64>,
+}
 
 /// What a test makes and the diagnosis reads.
 #[derive(Clone)]
@@ -43,6 +58,30 @@ impl Recording {
                 channels: columns.into_iter().map(channel).collect(),
             },
         }
+    }
+
+    /// The recording of a brake on the bench: counts, and a torquemeter with noise of a standard deviation, N·m.
+    pub fn of_bench(
+        name: String,
+        joint: Joint,
+        turned: Turned,
+        mut noise: Noise,
+        noise_nm: f64,
+    ) -> Recording {
+        let count_rad = TAU / COUNTS;
+        let rig = format!(
+            "name = \"{name}\"\nplant = \"bench\"\nmotion = \"rotary\"\n[channels]\n\
+             position = {{ channel = \"angle\", unit = \"rad\", quantum = {count_rad:e} }}\n\
+             torque = {{ channel = \"torque\", unit = \"N·m\", noise = {noise_nm} }}\n\
+             current = {{ channel = \"current\", unit = \"A\" }}\n[brake]\njoint = \"{}\"\n",
+            joint.letter()
+        );
+        let columns = vec![
+            ("angle", "rad", counted(turned.angles_rad, count_rad)),
+            ("current", "A", turned.currents_a),
+            ("torque", "N·m", noise.on(turned.torques_nm, noise_nm)),
+        ];
+        Recording::new(name, rig, STEP_S, columns)
     }
 
     /// The report on the recording as it stands in its file.

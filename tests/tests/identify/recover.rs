@@ -4,7 +4,7 @@ use rigproof_diagnose::identify::{Identified, identify};
 use rigproof_trace::Trace;
 use rigproof_trace::rig::{Recording, Surface, Value};
 
-use crate::bench::{Printed, SPEEDS_RPM, Session, printed, rig};
+use crate::identify::bench::{Printed, SPEEDS_RPM, Session, printed, rig};
 
 /// The currents of §3.4 and one below 0.2 A, without which k1 is not determined.
 const CURRENTS_A: [f64; 6] = [0.1, 0.2, 0.4, 0.6, 0.8, 1.0];

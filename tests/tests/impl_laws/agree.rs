@@ -7,11 +7,11 @@ use rigproof_impl::law::Law as _;
 use rigproof_spec::command::{Command, Reason};
 use rigproof_spec::joint::Joint;
 
-use crate::both::{View, reference_command, rig_law, situation};
 use crate::budget::assert_within_budget;
-use crate::permitted::{Permitted, Tie, permitted};
-use crate::sample::{LawKind, Sampler, Tick};
-use crate::tally::{Answers, quantiles};
+use crate::impl_laws::both::{View, reference_command, rig_law, situation};
+use crate::impl_laws::permitted::{Permitted, Tie, permitted};
+use crate::impl_laws::sample::{LawKind, Sampler, Tick};
+use crate::impl_laws::tally::{Answers, quantiles};
 
 /// Ticks of one seed.
 const CHUNK: u64 = 1000;
@@ -30,7 +30,7 @@ pub fn ticks() -> u64 {
 
 /// Answers one tick, or says that both refuse its settings.
 fn add(answers: &mut Answers, tick: &Tick, nudger: &mut Sampler, place: &str) {
-    let refused = crate::both::reference(tick, View::EXACT).err();
+    let refused = crate::impl_laws::both::reference(tick, View::EXACT).err();
     match (rig_law::<f64>(tick), refused) {
         (Some(mut law), None) => {
             let rig = Command::from(law.command(&situation(tick)));

@@ -19,7 +19,7 @@ use rigproof_model::rig::Parameters;
 use rigproof_spec::command::Command;
 use rigproof_spec::inertia::inertia;
 
-use crate::sample::{LawKind, PathKind, Tick};
+use crate::impl_laws::sample::{LawKind, PathKind, Tick};
 
 /// How the reference is shown its path: as it is, or nudged, or as the rig's code sees it.
 #[derive(Clone, Copy, Debug)]

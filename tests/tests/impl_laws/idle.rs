@@ -12,9 +12,9 @@ use rigproof_spec::joint::Joint;
 use rigproof_spec::methods::{STANDING, STANDING_TIP_M_S};
 use rigproof_spec::tables::brake_table;
 
-use crate::both::reference_rows;
-use crate::permitted::LAST_DIGITS;
-use crate::sample::{LawKind, Tick};
+use crate::impl_laws::both::reference_rows;
+use crate::impl_laws::permitted::LAST_DIGITS;
+use crate::impl_laws::sample::{LawKind, Tick};
 
 /// Sine of the angle between force and push, and share of one torque in another, that count as none.
 const NONE: f64 = 1e-12;
@@ -182,9 +182,9 @@ fn command(shares: [Share; 2]) -> Command {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::both::{View, reference_command, reference_nearest};
-    use crate::permitted::permitted;
-    use crate::sample::{PathKind, Sampler};
+    use crate::impl_laws::both::{View, reference_command, reference_nearest};
+    use crate::impl_laws::permitted::permitted;
+    use crate::impl_laws::sample::{PathKind, Sampler};
 
     /// A tick whose path lies so that the force across it is along a brake's push; turned by so much, rad.
     fn along_a_push(sampler: &mut Sampler, turn_rad: f64) -> Option<(Tick, Joint)> {

@@ -22,10 +22,10 @@ use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
 use rigproof_spec::methods::SAMPLE_STEP_S;
 
-use crate::both::{Seen, View, reference_path, rig_law};
 use crate::budget::assert_within_budget;
-use crate::sample::{LawKind, PathKind, Sampler, Tick};
-use crate::tally::{Answers, quantiles};
+use crate::impl_laws::both::{Seen, View, reference_path, rig_law};
+use crate::impl_laws::sample::{LawKind, PathKind, Sampler, Tick};
+use crate::impl_laws::tally::{Answers, quantiles};
 
 /// Runs of the slice that every test run takes.
 const SLICE: u64 = 200;
@@ -293,7 +293,7 @@ fn tally(seed: u64) -> Tally {
 /// What the reference makes of a sample: pose, the tip's velocity by its Jacobian, push.
 fn sense(tick: &mut Tick, base_rad: [f64; 2], rates_rad_s: [f64; 2], force_n: [f64; 2]) {
     (tick.base_rad, tick.force_n) = (base_rad, force_n);
-    if let Some(sensed) = crate::both::sensed(tick) {
+    if let Some(sensed) = crate::impl_laws::both::sensed(tick) {
         let form = two_coordinate(&tick.arms, &inertia(tick.layout), &sensed.pose, rates_rad_s);
         tick.velocity_m_s = form.tip_velocity_m_s(rates_rad_s);
     }

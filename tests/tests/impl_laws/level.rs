@@ -10,8 +10,8 @@ use rigproof_spec::command::{Command, Reason};
 use rigproof_spec::inertia::inertia;
 use rigproof_spec::tables::brake_table;
 
-use crate::both::{reference_nearest, reference_rows, sensed};
-use crate::sample::{LawKind, Tick};
+use crate::impl_laws::both::{reference_nearest, reference_rows, sensed};
+use crate::impl_laws::sample::{LawKind, Tick};
 
 /// How far a command's current may be from that of the level that it means, A for each unit of rounding.
 const MEANT_A: f64 = 100.0;

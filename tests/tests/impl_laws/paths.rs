@@ -3,9 +3,9 @@
 use nalgebra::Vector2;
 use rigproof_impl::path::Path as _;
 
-use crate::both::{reference_path, rig_path};
 use crate::budget::assert_within_budget;
-use crate::sample::{PathKind, Sampler};
+use crate::impl_laws::both::{reference_path, rig_path};
+use crate::impl_laws::sample::{PathKind, Sampler};
 
 /// Paths that are drawn; each is asked about as many points as [`POINTS`].
 const PATHS: usize = 20_000;
@@ -68,8 +68,8 @@ fn a_point_lies_to_a_path_as_in_the_reference() {
     }
     println!("{} places, {ties} with two feet", offsets_m.len());
     assert!(f64::from(ties) <= GREATEST_SHARE_OF_TIES * offsets_m.len() as f64);
-    println!("offsets {}", crate::tally::quantiles(&offsets_m));
-    println!("tangents {}", crate::tally::quantiles(&tangents));
+    println!("offsets {}", crate::impl_laws::tally::quantiles(&offsets_m));
+    println!("tangents {}", crate::impl_laws::tally::quantiles(&tangents));
     assert_within_budget("rig_path_offset", offsets_m);
     assert_within_budget("rig_path_tangent", tangents);
 }

@@ -14,12 +14,12 @@ use rigproof_spec::geometry::Arms;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::settings::RATIO_GAIN_RANGE_NM_S_PER_RAD;
 
-use crate::both::{
+use crate::impl_laws::both::{
     View, reference_command, reference_nearest, reference_path, rig_path, situation,
 };
-use crate::idle;
-use crate::level::cost_the_same;
-use crate::sample::{LawKind, Sampler, Tick};
+use crate::impl_laws::idle;
+use crate::impl_laws::level::cost_the_same;
+use crate::impl_laws::sample::{LawKind, Sampler, Tick};
 
 /// Sizes of the nudges, relative to what is nudged; of an angle, rad, of the distance from the path, m.
 const NUDGES: [f64; 3] = [1e-15, 3e-14, 1e-12];

@@ -13,8 +13,8 @@ use rigproof_spec::laws::{
 };
 use rigproof_tests::cases;
 
-use crate::both::{rig_law, rig_path, situation};
-use crate::sample::{LawKind, Sampler, Tick};
+use crate::impl_laws::both::{rig_law, rig_path, situation};
+use crate::impl_laws::sample::{LawKind, Sampler, Tick};
 
 /// The laws that a command breaks.
 fn broken<R: Real>(tick: &Tick, command: &Command) -> Vec<&'static str> {

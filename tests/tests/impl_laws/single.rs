@@ -12,13 +12,15 @@ use rigproof_model::control::path::Nearest;
 use rigproof_model::linkage::singularity::{Pair, measure};
 use rigproof_spec::command::{Command, Reason};
 
-use crate::agree::ticks;
-use crate::both::{View, reference_command, reference_path, rig_law, rig_path, sensed, situation};
 use crate::budget::assert_within_budget;
-use crate::level::cost_the_same;
-use crate::permitted::apart_a;
-use crate::sample::{Sampler, Tick};
-use crate::tally::quantiles;
+use crate::impl_laws::agree::ticks;
+use crate::impl_laws::both::{
+    View, reference_command, reference_path, rig_law, rig_path, sensed, situation,
+};
+use crate::impl_laws::level::cost_the_same;
+use crate::impl_laws::permitted::apart_a;
+use crate::impl_laws::sample::{Sampler, Tick};
+use crate::impl_laws::tally::quantiles;
 
 /// Ticks that may decide otherwise, or take another foot or level, as a share of all; each has a [`Cause`] that was checked. Of five million 55.
 const GREATEST_SHARE_OF_TIES: f64 = 1.3e-5;

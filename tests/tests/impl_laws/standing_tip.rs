@@ -4,9 +4,9 @@ use rigproof_impl::law::Law as _;
 use rigproof_impl::number::Real;
 use rigproof_spec::command::{Command, Reason};
 
-use crate::both::{View, reference_command, rig_law, situation};
-use crate::permitted::permitted;
-use crate::sample::{LawKind, Sampler, Tick};
+use crate::impl_laws::both::{View, reference_command, rig_law, situation};
+use crate::impl_laws::permitted::permitted;
+use crate::impl_laws::sample::{LawKind, Sampler, Tick};
 
 /// Speeds below a picometre a second, m/s: squares that are normal numbers, that lose digits and that vanish, in one precision or both.
 const SLOW_M_S: [f64; 5] = [0.97e-12, 3.1e-21, 2.3e-155, 2.3e-162, 7e-322];

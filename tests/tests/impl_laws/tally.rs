@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use rigproof_spec::command::Command;
 
-use crate::both::{View, reference_command};
-use crate::permitted::{Permitted, Tie, permitted};
-use crate::sample::{Sampler, Tick};
+use crate::impl_laws::both::{View, reference_command};
+use crate::impl_laws::permitted::{Permitted, Tie, permitted};
+use crate::impl_laws::sample::{Sampler, Tick};
 
 /// What became of many answers.
 #[derive(Default)]

@@ -13,10 +13,10 @@ use rigproof_spec::command::Command;
 use rigproof_spec::inertia::inertia;
 use rigproof_spec::methods::SAMPLE_STEP_S;
 
-use crate::both::rig_law;
 use crate::budget::assert_within_budget;
-use crate::sample::{Sampler, Tick};
-use crate::tally::Answers;
+use crate::impl_laws::both::rig_law;
+use crate::impl_laws::sample::{Sampler, Tick};
+use crate::impl_laws::tally::Answers;
 
 /// Ticks of the slice that every test run takes.
 const SLICE: u64 = 40_000;
@@ -61,7 +61,7 @@ fn from_counts(sampler: &mut Sampler) -> (Tick, Vec<Sensed<f64>>, Settings, [f64
         .collect();
     tick.base_rad = [0, 1].map(|joint| travels[joint] as f64 * encoders[joint].resolution_rad());
     // The tip's velocity by the reference's Jacobian.
-    if let Some(sensed) = crate::both::sensed(&tick) {
+    if let Some(sensed) = crate::impl_laws::both::sensed(&tick) {
         let form = two_coordinate(&tick.arms, &inertia(tick.layout), &sensed.pose, rates_rad_s);
         tick.velocity_m_s = form.tip_velocity_m_s(rates_rad_s);
     }

@@ -9,10 +9,10 @@ use rigproof_spec::geometry::Arms;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
 
-use crate::both::{View, reference_command, rig_law, situation};
-use crate::level::cost_the_same;
-use crate::permitted::{Permitted, Tie, permitted};
-use crate::sample::{LawKind, PathKind, Sampler, Tick};
+use crate::impl_laws::both::{View, reference_command, rig_law, situation};
+use crate::impl_laws::level::cost_the_same;
+use crate::impl_laws::permitted::{Permitted, Tie, permitted};
+use crate::impl_laws::sample::{LawKind, PathKind, Sampler, Tick};
 
 fn rig<R: Real>(tick: &Tick) -> Command {
     let mut law = rig_law::<R>(tick).expect("plain settings");

@@ -15,7 +15,7 @@ use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
 
-use crate::rigs::{Draw, LAYOUTS, campaign};
+use crate::impl_plant::rigs::{Draw, LAYOUTS, campaign};
 
 type Rows = SMatrix<f64, 4, 2>;
 

@@ -7,7 +7,7 @@ use rigproof_spec::joint::Joint;
 use rigproof_spec::tables::{Edge, backlash_width_deg, brake_table};
 
 use crate::budget::assert_within_budget;
-use crate::rigs::{Draw, campaign};
+use crate::impl_plant::rigs::{Draw, campaign};
 
 #[test]
 fn the_time_constant_is_the_references() {

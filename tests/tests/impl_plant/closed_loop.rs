@@ -14,7 +14,7 @@ use rigproof_spec::layout::Layout;
 use rigproof_spec::methods::{Method, SAMPLE_STEP_S};
 
 use crate::budget::assert_within_budget;
-use crate::rigs::{Draw, LAYOUTS, campaign, middle_m, plant_of};
+use crate::impl_plant::rigs::{Draw, LAYOUTS, campaign, middle_m, plant_of};
 
 /// Length of a run, s.
 const RUN_S: f64 = 0.4;

@@ -6,7 +6,7 @@ use rigproof_spec::geometry::arms;
 use rigproof_spec::inertia::{Inertia, inertia};
 use rigproof_spec::layout::Layout;
 
-use crate::rigs::{LAYOUTS, advance, apart_rad, middle_m, plant_of};
+use crate::impl_plant::rigs::{LAYOUTS, advance, apart_rad, middle_m, plant_of};
 
 /// Time for which force and currents hold, s: longer than the longest step.
 const HELD_S: f64 = 8e-3;

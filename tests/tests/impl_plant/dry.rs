@@ -7,7 +7,7 @@ use rigproof_impl::vector::Vector;
 use rigproof_model::motion::friction::{DryBrakes, dry_motion};
 
 use crate::budget::assert_within_budget;
-use crate::rigs::{Draw, campaign};
+use crate::impl_plant::rigs::{Draw, campaign};
 
 /// Any two coordinates with up to four brakes, some parallel, some absent, some nearly parallel, loads of all sizes.
 fn problem(draw: &mut Draw) -> (Matrix2<f64>, Vector2<f64>, DryBrakes) {

@@ -7,7 +7,7 @@ use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
 
-use crate::rigs::Draw;
+use crate::impl_plant::rigs::Draw;
 
 #[test]
 fn every_resistance_law_of_the_library_is_the_plants() {

@@ -7,7 +7,7 @@ use rigproof_model::rig::Rig;
 use rigproof_spec::laws::dissipation;
 use rigproof_spec::layout::Layout;
 
-use crate::rigs::{Draw, LAYOUTS, middle_m, plant_of};
+use crate::impl_plant::rigs::{Draw, LAYOUTS, middle_m, plant_of};
 
 const STEP_S: f64 = 1e-3;
 

@@ -7,7 +7,7 @@ use rigproof_model::linkage::forward;
 use rigproof_model::motion::two_coordinate::two_coordinate;
 
 use crate::budget::assert_within_budget;
-use crate::rigs::{Draw, campaign};
+use crate::impl_plant::rigs::{Draw, campaign};
 
 fn unit(angle_rad: f64) -> Vector<f64> {
     let (sine, cosine) = libm::sincos(angle_rad);

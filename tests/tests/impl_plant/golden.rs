@@ -10,7 +10,7 @@ use rigproof_spec::layout::Layout;
 use rigproof_spec::tables::brake_table;
 
 use crate::budget::assert_within_budget;
-use crate::rigs::plant_of;
+use crate::impl_plant::rigs::plant_of;
 
 const STEP_S: f64 = 1e-3;
 

@@ -8,7 +8,7 @@ use rigproof_model::linkage::forward;
 use rigproof_model::motion::two_coordinate::{solve, two_coordinate};
 
 use crate::budget::assert_within_budget;
-use crate::rigs::{Draw, campaign};
+use crate::impl_plant::rigs::{Draw, campaign};
 
 #[test]
 fn a_free_step_is_the_scheme_worked_with_the_references_functions() {

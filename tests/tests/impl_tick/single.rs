@@ -15,7 +15,7 @@ use rigproof_spec::geometry::arms;
 use rigproof_spec::methods::SAMPLE_STEP_S;
 
 use crate::budget::assert_within_budget;
-use crate::closed_loop::{Trial, law, run, tick, trials};
+use crate::impl_tick::closed_loop::{Trial, law, run, tick, trials};
 
 /// Some units in the last place of a float, relative.
 const SINGLE: f64 = 4e-7;

@@ -8,8 +8,8 @@ use rigproof_model::encoder::Encoder as ReferenceEncoder;
 use rigproof_model::velocity::{self as reference, AdaptiveWindow};
 
 use crate::budget::assert_within_budget;
-use crate::candidates::{Candidate, Estimator};
-use crate::motions::{SAMPLE_S, motions};
+use crate::impl_velocity::candidates::{Candidate, Estimator};
+use crate::impl_velocity::motions::{SAMPLE_S, motions};
 
 const COUNTS_PER_TURN: u32 = 100_000;
 
@@ -20,8 +20,9 @@ fn walks() -> Vec<Vec<i64>> {
         .into_iter()
         .flat_map(|motion| {
             [0, 1].map(|joint| {
-                let count =
-                    |sample: &crate::motions::Sample| encoder.count(sample.theta_rad[joint]);
+                let count = |sample: &crate::impl_velocity::motions::Sample| {
+                    encoder.count(sample.theta_rad[joint])
+                };
                 motion.iter().map(count).collect()
             })
         })

@@ -5,9 +5,9 @@ use rigproof_model::trial::LINES;
 use rigproof_spec::layout::Layout;
 use rigproof_spec::methods::Method;
 
-use crate::candidates::{Candidate, Estimator};
-use crate::motions::{Motion, SAMPLE_S, motions, trial};
-use crate::score::{Score, resolution_rad, score};
+use crate::impl_velocity::candidates::{Candidate, Estimator};
+use crate::impl_velocity::motions::{Motion, SAMPLE_S, motions, trial};
+use crate::impl_velocity::score::{Score, resolution_rad, score};
 
 /// The best of each kind by root mean square on seeds 1000 and 1001 at 100 000 counts; of the windows that adapt, what decision 0073 chose.
 const FINALISTS: [Candidate; 5] = [

@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 use std::fmt;
 
-use crate::candidates::{Candidate, Estimator};
-use crate::motions::{Motion, SAMPLE_S, Sample};
+use crate::impl_velocity::candidates::{Candidate, Estimator};
+use crate::impl_velocity::motions::{Motion, SAMPLE_S, Sample};
 
 /// Samples at the start of a motion that are not scored.
 const WARM_UP: usize = 80;

@@ -7,7 +7,7 @@ use rigproof_model::linkage::{forward, limits, workspace};
 use rigproof_spec::geometry::{Angle, AngleRange, AngleRanges, STOPS, arms};
 use rigproof_spec::layout::Layout;
 
-use crate::oracle::rad;
+use crate::linkage::oracle::rad;
 
 #[test]
 fn the_arms_of_about_ninety_percent_are_l_ae_and_l_ab() {

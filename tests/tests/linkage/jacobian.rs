@@ -9,7 +9,7 @@ use rigproof_spec::geometry::{Arms, arms};
 use rigproof_spec::layout::Layout;
 use rigproof_tests::cases;
 
-use crate::oracle::{Made, four_brake, is_assembled, linkages, moved, rad, three_brake};
+use crate::linkage::oracle::{Made, four_brake, is_assembled, linkages, moved, rad, three_brake};
 
 const SAME: f64 = 1e-9;
 const BALANCED: f64 = 1e-12;

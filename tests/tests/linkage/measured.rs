@@ -9,9 +9,9 @@ use rigproof_spec::geometry::{Arms, arms};
 use rigproof_spec::layout::Layout;
 
 use crate::budget::assert_within_budget;
-use crate::jacobian::{central, complex_step, difference, shortest_m};
-use crate::oracle::{four_brake, is_assembled, linkages, three_brake};
-use crate::round_trip::{distance, gap_m};
+use crate::linkage::jacobian::{central, complex_step, difference, shortest_m};
+use crate::linkage::oracle::{four_brake, is_assembled, linkages, three_brake};
+use crate::linkage::round_trip::{distance, gap_m};
 
 /// Values of a strategy, the same in every run.
 fn sample<T>(strategy: impl Strategy<Value = T>, count: usize) -> Vec<T> {

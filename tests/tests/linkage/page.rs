@@ -6,7 +6,7 @@ use rigproof_spec::geometry::{Arms, arms};
 use rigproof_spec::layout::Layout;
 use rigproof_tests::cases;
 
-use crate::oracle::{four_brake, in_four_brake_ranges, rad, three_brake};
+use crate::linkage::oracle::{four_brake, in_four_brake_ranges, rad, three_brake};
 
 const SAME_M: f64 = 1e-9;
 
@@ -174,7 +174,7 @@ fn the_printed_forward_kinematics_do_not_close_beyond_their_domain() {
     println!("θA < θB: the printed closure fails by up to {worst:.3} m");
     assert!(worst > 0.3, "{worst}");
     // On the 4-brake layout the sign of φ2 is lost once E is below the base line.
-    let four = crate::page::arms(Layout::FourBrake);
+    let four = crate::linkage::page::arms(Layout::FourBrake);
     let below = printed_gap_m(&four, [rad(200.3), rad(129.7)]);
     assert!(below.abs() > 0.01, "{below}");
 }

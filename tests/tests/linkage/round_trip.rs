@@ -6,7 +6,9 @@ use rigproof_spec::geometry::{Arms, arms};
 use rigproof_spec::layout::Layout;
 use rigproof_tests::cases;
 
-use crate::oracle::{Made, four_brake, from_down, is_assembled, linkages, rad, three_brake};
+use crate::linkage::oracle::{
+    Made, four_brake, from_down, is_assembled, linkages, rad, three_brake,
+};
 
 const CLOSE_RAD: f64 = 1e-10;
 const CLOSED_M: f64 = 1e-12;

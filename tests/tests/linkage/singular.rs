@@ -9,7 +9,7 @@ use rigproof_spec::geometry::{Angle, AngleRange, Arms, angle_ranges, arms};
 use rigproof_spec::layout::Layout;
 use rigproof_tests::cases;
 
-use crate::oracle::{linkages, make, rad, three_brake};
+use crate::linkage::oracle::{linkages, make, rad, three_brake};
 
 fn pair_of(error: ModelError) -> Option<Pair> {
     match error {

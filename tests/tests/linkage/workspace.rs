@@ -11,7 +11,7 @@ use rigproof_spec::geometry::{Angle, STOPS, angle_ranges, arms};
 use rigproof_spec::layout::Layout;
 use rigproof_tests::cases;
 
-use crate::oracle::{four_brake, rad, three_brake};
+use crate::linkage::oracle::{four_brake, rad, three_brake};
 
 #[test]
 fn the_four_brake_ranges_of_table_4_2_follow_from_the_stops() {

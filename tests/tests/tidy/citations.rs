@@ -5,9 +5,9 @@ use std::fs;
 
 use toml::{Table, Value};
 
-use crate::assert_tidy;
-use crate::rust::test_names;
-use crate::workspace::{numbered, root, sources};
+use crate::tidy::assert_tidy;
+use crate::tidy::rust::test_names;
+use crate::tidy::workspace::{numbered, root, sources};
 
 /// One `//= thesis (3.3)` line.
 struct Citation {

@@ -4,9 +4,9 @@ use std::fs;
 
 use serde_json::Value;
 
-use crate::assert_tidy;
-use crate::rust::claim_names;
-use crate::workspace::root;
+use crate::tidy::assert_tidy;
+use crate::tidy::rust::claim_names;
+use crate::tidy::workspace::root;
 
 #[test]
 fn every_claim_and_harness_has_its_line_in_the_ledger() {

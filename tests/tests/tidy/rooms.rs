@@ -4,8 +4,8 @@ use std::fs;
 
 use toml::{Table, Value};
 
-use crate::assert_tidy;
-use crate::workspace::root;
+use crate::tidy::assert_tidy;
+use crate::tidy::workspace::root;
 
 /// Every room, built or coming, and the rooms it may depend on. A room that is not here has no place.
 const ROOMS: [(&str, &[&str]); 14] = [

@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 
 use proc_macro2::{Delimiter, Group, Ident, TokenStream, TokenTree};
 
-use crate::assert_tidy;
-use crate::workspace::{Text, sources};
+use crate::tidy::assert_tidy;
+use crate::tidy::workspace::{Text, sources};
 
 const LONGEST_FILE: usize = 500;
 const LONGEST_FUNCTION: usize = 70;

@@ -1,7 +1,7 @@
 //! This file says which words and names have no place in the workspace.
 
-use crate::assert_tidy;
-use crate::workspace::{folders, numbered, texts};
+use crate::tidy::assert_tidy;
+use crate::tidy::workspace::{folders, numbered, texts};
 
 /// Written apart, so that this file passes its own rules.
 const UNFINISHED: [&str; 2] = [concat!("TO", "DO"), concat!("FIX", "ME")];

@@ -1,7 +1,5 @@
 //! This file says that the five-bar linkage moves as its geometry demands, beside the page and against other computations.
 
-#[path = "../budget/mod.rs"]
-mod budget;
 mod chapter;
 mod jacobian;
 mod measured;

@@ -1,8 +1,6 @@
 //! This file joins the tests of velocity from counts: which estimator, and whether both rooms compute the same.
 
 mod agree;
-#[path = "../budget/mod.rs"]
-mod budget;
 mod candidates;
 mod choice;
 mod motions;

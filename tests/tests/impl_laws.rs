@@ -2,8 +2,6 @@
 
 mod agree;
 mod both;
-#[path = "../budget/mod.rs"]
-mod budget;
 mod idle;
 mod joined;
 mod level;

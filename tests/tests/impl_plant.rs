@@ -1,8 +1,5 @@
 //! Whether the plant that runs in real time is the reference rig: its parts, its order, its energy and whole runs.
 
-#[path = "../budget/mod.rs"]
-mod budget;
-
 mod braked_step;
 mod brakes;
 mod closed_loop;
