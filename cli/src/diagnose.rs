@@ -2,14 +2,17 @@
 
 use std::path::{Path, PathBuf};
 
+use rayon::ThreadPool;
+use rayon::prelude::*;
 use rigproof_diagnose::report::{Report, Verdict};
-use rigproof_diagnose::{Description, Diagnosis, Options};
+use rigproof_diagnose::self_calibration::SelfTest;
+use rigproof_diagnose::{Description, Diagnosis, Measured, Options};
 use rigproof_spec::effect::Mechanism;
 use rigproof_trace::store::Folder;
 
 use crate::input::{self, Cut, Source};
 use crate::outcome::{Failure, Outcome, print};
-use crate::{folder, progress, shell, text};
+use crate::{folder, progress, shell, text, threads};
 
 /// What is to be diagnosed.
 #[derive(clap::Args)]
@@ -26,6 +29,12 @@ pub struct Args {
     /// The folder to write [default: the recording's name with `-diagnosis`]
     #[arg(long, value_name = "FOLDER")]
     out: Option<PathBuf>,
+    /// Say how far the result can be believed: diagnose as many simulated recordings like this one whose causes are known
+    #[arg(long, value_name = "RUNS", num_args = 0..=1, default_missing_value = "20", value_parser = parse_runs)]
+    calibrate: Option<usize>,
+    /// Simulated recordings that are diagnosed at once; 0 takes every processor. The result does not depend on it
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = threads::parse, requires = "calibrate")]
+    jobs: usize,
     /// Print the report as JSON
     #[arg(long)]
     json: bool,
@@ -40,7 +49,8 @@ Exit codes:
 
 Examples:
   rigproof diagnose DATA_EMPS.csv --rig rigs/emps.toml --hold-out DATA_EMPS_PULSES.csv
-  rigproof diagnose ensaio.A.1.csv --rig rigs/mr-damper.toml --from-s 2.5 --out damper --json";
+  rigproof diagnose ensaio.A.1.csv --rig rigs/mr-damper.toml --from-s 2.5 --out damper --json
+  rigproof diagnose recording.csv --rig rig.toml --calibrate 40";
 
 /// Diagnoses a recording, writes the folder and prints the report.
 pub fn run(args: &Args) -> Result<Outcome, Failure> {
@@ -77,6 +87,18 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
         let problem = "the held-out recording is one of another plant".to_owned();
         return Err(Failure::unusable(&args.source.recording, problem));
     };
+    if let Some(runs) = args.calibrate {
+        let calibration = (runs, threads::pool(args.jobs)?);
+        let (rig, whole) = (&rig, held_out.is_some());
+        calibrate(
+            rig,
+            &recording,
+            whole,
+            &mut diagnosis,
+            &options,
+            calibration,
+        );
+    }
     diagnosis.report.inputs = identities;
     diagnosis.report.protocol.extend(read_as);
     let folder = Folder::begin(&out)?;
@@ -86,6 +108,38 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     Ok(Outcome {
         checks_hold: text::holds(&diagnosis.report),
     })
+}
+
+/// Enters into the report what is named on simulated recordings; where they cannot be simulated the protocol says why.
+fn calibrate(
+    rig: &Description,
+    recording: &Measured,
+    whole: bool,
+    diagnosis: &mut Diagnosis,
+    options: &Options,
+    (runs, threads): (usize, ThreadPool),
+) {
+    let report = &mut diagnosis.report;
+    if report.floor.is_none() {
+        return;
+    }
+    let found = (&diagnosis.calibration, &*report);
+    match SelfTest::new(rig, recording, found, (whole, runs), options) {
+        Ok(test) => {
+            let bar = progress::bar(test.len(), "simulated recordings");
+            let named = threads.install(|| {
+                let all = (0..test.len()).into_par_iter();
+                all.map(|k| {
+                    let named = test.named(k);
+                    bar.inc(1);
+                    named
+                })
+                .collect::<Vec<_>>()
+            });
+            report.self_calibration = Some(test.account(&named));
+        }
+        Err(why) => report.protocol.push(format!("no self-calibration: {why}")),
+    }
 }
 
 fn say(args: &Args, out: &Path, files: &[&str], diagnosis: &Diagnosis) -> Result<Outcome, Failure> {
@@ -148,6 +202,16 @@ fn out(args: &Args) -> Result<PathBuf, Failure> {
     let mut name = stem.to_os_string();
     name.push("-diagnosis");
     Ok(PathBuf::from(name))
+}
+
+/// The most simulated recordings of each kind.
+const MOST_RUNS: usize = 10_000;
+
+fn parse_runs(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(runs) if (1..=MOST_RUNS).contains(&runs) => Ok(runs),
+        _ => Err(format!("give a whole number from 1 to {MOST_RUNS}")),
+    }
 }
 
 fn parse_share(text: &str) -> Result<f64, String> {

@@ -5,6 +5,7 @@ pub mod found;
 mod limits;
 mod next;
 pub mod number;
+mod trust;
 
 use rigproof_diagnose::report::{Report, Verdict};
 
@@ -22,6 +23,7 @@ pub fn report(report: &Report) -> String {
         limits::left_over(report),
         next::experiment(report),
         limits::not_seen(report),
+        trust::simulated(report),
         section("How it was measured", report.protocol.iter().map(indented)),
     ];
     join(sections)

@@ -14,6 +14,7 @@ mod mechanisms;
 pub mod noise;
 #[cfg(test)]
 mod recorded;
+pub(crate) mod replica;
 pub mod run;
 mod sign;
 #[cfg(test)]

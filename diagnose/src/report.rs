@@ -52,12 +52,50 @@ pub struct Report {
     pub fit: Option<FitReport>,
     /// What would tell a five-bar's rival explanations apart; nothing where there are none, and on other plants.
     pub next_experiment: Option<NextExperiment>,
-    /// Not computed by this version.
-    pub self_calibration: Option<String>,
+    /// What the diagnosis says of simulated recordings like this one, where it was asked to try.
+    pub self_calibration: Option<SelfCalibration>,
     /// The file that holds the calibrated model, beside the report.
     pub calibration_file: Option<String>,
     /// The fault that ended the diagnosis.
     pub fault: Option<FaultReport>,
+}
+
+/// What the diagnosis says of simulated recordings that excite what this one excites.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SelfCalibration {
+    /// How the recordings were simulated.
+    pub protocol: String,
+    /// With nothing left out of the model: in how many something was named.
+    pub false_alarms: Rate,
+    /// With what was found left out: in how many it was named and nothing else.
+    pub exact: Option<Rate>,
+    /// With what was found left out: in how many each of it was named.
+    pub found_again: Vec<NamedRate>,
+    /// What was named without being there, with nothing or with what was found left out; the most frequent first.
+    pub false_names: Vec<NamedRate>,
+}
+
+/// How often something happened.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Rate {
+    /// How often it happened.
+    pub count: usize,
+    /// Of how many.
+    pub of: usize,
+    /// Lower end of the 95 % interval of Clopper and Pearson (1934).
+    pub low95: f64,
+    /// Upper end.
+    pub high95: f64,
+}
+
+/// How often a mechanism was named.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct NamedRate {
+    /// A mechanism, or as `viscous at E` where there are several joints.
+    pub name: String,
+    /// How often.
+    #[serde(flatten)]
+    pub rate: Rate,
 }
 
 /// A file with its hash.

@@ -57,7 +57,7 @@ const fn is_of_sensors(mechanism: Mechanism) -> bool {
 }
 
 /// The recording with what its sensors did to force and angles taken back.
-fn truly(model: &Model, run: &FiveBarRun) -> Result<FiveBarRun, ModelError> {
+pub(super) fn truly(model: &Model, run: &FiveBarRun) -> Result<FiveBarRun, ModelError> {
     let mut own = run.clone();
     for effect in &model.sensors {
         let first = effect.onset_s.map_or(0, |onset_s| run.sample_at(onset_s));
@@ -108,14 +108,14 @@ fn unshown(effect: &JointEffect, shown: f64) -> f64 {
 }
 
 /// Currents that a brake can be given, A.
-fn currents_at(run: &FiveBarRun, k: usize) -> [f64; 4] {
+pub(super) fn currents_at(run: &FiveBarRun, k: usize) -> [f64; 4] {
     run.currents.each_ref().map(|current| {
         let own = current.as_ref().and_then(|current| current.get(k));
         own.map_or(0.0, |a| a.clamp(0.0, GREATEST_CURRENT_A))
     })
 }
 
-fn force_at(run: &FiveBarRun, k: usize) -> [f64; 2] {
+pub(super) fn force_at(run: &FiveBarRun, k: usize) -> [f64; 2] {
     let last = run.len().saturating_sub(1);
     run.force
         .each_ref()

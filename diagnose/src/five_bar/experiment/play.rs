@@ -3,8 +3,9 @@
 use super::super::free_run::Model;
 use super::plan::Plan;
 use crate::problem::shifted;
+use crate::sensor::normal;
 use rand_pcg::Pcg64Mcg;
-use rand_pcg::rand_core::{Rng, SeedableRng};
+use rand_pcg::rand_core::SeedableRng;
 use rigproof_model::error::ModelError;
 use rigproof_model::rig::{JointEffect, LONGEST_STEP_S, Rig};
 use rigproof_spec::effect::Mechanism;
@@ -21,7 +22,7 @@ const STIFFNESS_N_M: f64 = 420.0;
 const DAMPING_NS_M: f64 = 11.0;
 
 /// What is recorded of an experiment, before counts and noise.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Played {
     /// Time stamps, s.
     pub time_s: Vec<f64>,
@@ -70,24 +71,16 @@ pub fn play(model: &Model, layout: Layout, plan: &Plan) -> Result<Played, ModelE
         .ceil()
         .max(1.0);
     let step_s = plan.step_s / parts;
-    let mut played = Played {
-        time_s: Vec::new(),
-        theta_rad: [const { Vec::new() }; 2],
-        force_n: [const { Vec::new() }; 2],
-        currents_a: [const { Vec::new() }; 4],
-    };
+    let mut played = Played::default();
     let next = plan.hand_m.iter().skip(1).chain(plan.hand_m.last());
     for (k, (from, to)) in plan.hand_m.iter().zip(next).enumerate() {
         let force = hand_n(layout, *from, rig.tip_m(), rig.tip_velocity_m_s());
-        played.time_s.push(k as f64 * plan.step_s);
-        push(&mut played.theta_rad, rig.base_angles_rad());
-        push(&mut played.force_n, force);
         let currents = plan
             .currents_a
             .each_ref()
             .map(|current| current.get(k).copied().unwrap_or(0.0));
-        let all = played.currents_a.iter_mut().zip(currents);
-        all.for_each(|(own, current)| own.push(current));
+        let time_s = k as f64 * plan.step_s;
+        played.record(time_s, rig.base_angles_rad(), force, currents);
         for part in 0..parts as usize {
             // The hand stands still within a part: in its middle, so that its mean is right.
             let share = (part as f64 + 0.5) / parts;
@@ -101,31 +94,34 @@ pub fn play(model: &Model, layout: Layout, plan: &Plan) -> Result<Played, ModelE
         }
     }
     for effect in model.sensors.iter().rev() {
-        shown(effect, &mut played, plan.step_s);
+        shown(effect, &mut played, plan.step_s, 0);
     }
     Ok(played)
 }
 
-fn push(signals: &mut [Vec<f64>; 2], values: [f64; 2]) {
+fn push<const N: usize>(signals: &mut [Vec<f64>; N], values: [f64; N]) {
     signals.iter_mut().zip(values).for_each(|(s, x)| s.push(x));
 }
 
-/// What a sensor makes of angles and forces.
-fn shown(effect: &JointEffect, played: &mut Played, step_s: f64) {
+/// What a sensor makes of angles and forces from sample `first` on.
+pub fn shown(effect: &JointEffect, played: &mut Played, step_s: f64, first: usize) {
     let value = |k: usize| effect.parameters.get(k).copied().unwrap_or(0.0);
     let [a, b] = &mut played.theta_rad;
     let angle = if effect.joint == Some(Joint::A) { a } else { b };
+    let angle = angle.iter_mut().skip(first);
     let [force_x, force_y] = &mut played.force_n;
     match effect.mechanism {
-        Mechanism::EncoderScale => angle.iter_mut().for_each(|x| *x *= 1.0 + value(0)),
-        Mechanism::EncoderOffset => angle.iter_mut().for_each(|x| *x += value(0)),
+        Mechanism::EncoderScale => angle.for_each(|x| *x *= 1.0 + value(0)),
+        Mechanism::EncoderOffset => angle.for_each(|x| *x += value(0)),
         Mechanism::ChannelSkew => {
             for force in [force_x, force_y] {
-                *force = shifted(force, -value(0) / step_s);
+                let late = shifted(force, -value(0) / step_s);
+                let pairs = force.iter_mut().zip(late).skip(first);
+                pairs.for_each(|(f, l)| *f = l);
             }
         }
         mechanism => {
-            for (x, y) in force_x.iter_mut().zip(force_y) {
+            for (x, y) in force_x.iter_mut().zip(force_y).skip(first) {
                 (*x, *y) = match mechanism {
                     Mechanism::ForceGain => (*x * (1.0 + value(0)), *y * (1.0 + value(0))),
                     Mechanism::ForceBias => (*x + value(0), *y + value(1)),
@@ -140,12 +136,6 @@ fn shown(effect: &JointEffect, played: &mut Played, step_s: f64) {
     }
 }
 
-/// Close to a normal draw of variance 1: the sum of twelve uniform ones.
-fn normal(random: &mut Pcg64Mcg) -> f64 {
-    let mut uniform = || (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
-    (0..12).map(|_| uniform()).sum::<f64>() - 6.0
-}
-
 /// What angles and forces are recorded with, as far as it is known.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sensors {
@@ -156,6 +146,20 @@ pub struct Sensors {
 }
 
 impl Played {
+    /// One sample more.
+    pub fn record(
+        &mut self,
+        time_s: f64,
+        theta_rad: [f64; 2],
+        force_n: [f64; 2],
+        currents_a: [f64; 4],
+    ) {
+        self.time_s.push(time_s);
+        push(&mut self.theta_rad, theta_rad);
+        push(&mut self.force_n, force_n);
+        push(&mut self.currents_a, currents_a);
+    }
+
     /// With the counts of the encoders and the noise of the force sensor that a description states.
     pub fn sensed(mut self, rig: &FiveBar, seed: u64) -> Played {
         let mut random = Pcg64Mcg::seed_from_u64(seed);

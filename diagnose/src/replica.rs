@@ -1,0 +1,57 @@
+//! This file runs a plant of one joint through a recording again: an axis freely under the recorded command, a bench along the recorded motion.
+
+use crate::from_rig::{aligned, plant, protocol};
+use crate::run::PlantKind;
+use crate::simulate::output;
+use rigproof_trace::rig::{Recording, Rig, Signal};
+
+/// A recording before noise and counts, and the noise of position and effort where it states none, in its own units.
+pub(crate) struct Replica {
+    pub recording: Recording,
+    pub position_noise: f64,
+    pub effort_noise: f64,
+}
+
+/// What a plant with the numbers of `model` would have recorded; `nominal` describes the recording.
+///
+/// # Errors
+/// The recording is at fault.
+pub(crate) fn replica(
+    nominal: &Rig,
+    model: &Rig,
+    recording: &Recording,
+) -> Result<Replica, String> {
+    let run = aligned(nominal, recording).map_err(|fault| fault.reason)?;
+    let out = output(&plant(model), &run, &protocol(model));
+    let mut own = recording.clone();
+    let times = 0..run.len();
+    own.time_s = times.map(|k| run.start_s + k as f64 * run.step_s).collect();
+    let mut effort_noise = run.effort_noise;
+    match run.plant {
+        PlantKind::Axis => {
+            own.position.samples = out;
+            let gain = nominal.parameters.map_or(1.0, |p| p.command_gain.value);
+            effort_noise /= gain.abs();
+            set(&mut own.drive, run.effort.iter().map(|e| e / gain));
+        }
+        PlantKind::Bench => {
+            own.position.samples = run.motion.iter().map(|now| now.position).collect();
+            set(&mut own.force, out.into_iter());
+            set(&mut own.drive, run.current.into_iter().flatten());
+            if run.table.is_none() {
+                set(&mut own.simulated, run.predicted.into_iter().flatten());
+            }
+        }
+    }
+    Ok(Replica {
+        recording: own,
+        position_noise: run.position_noise,
+        effort_noise,
+    })
+}
+
+fn set(signal: &mut Option<Signal>, samples: impl Iterator<Item = f64>) {
+    if let Some(signal) = signal {
+        signal.samples = samples.collect();
+    }
+}

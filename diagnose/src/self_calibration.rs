@@ -1,0 +1,247 @@
+//! This file says how far a diagnosis of one recording can be believed: it is made again on simulated recordings like it whose causes are known.
+
+use crate::diagnose::{Description, Measured, Options};
+use crate::report::{NamedRate, Rate, Report, SelfCalibration};
+use crate::sensor::sensed;
+use crate::{five_bar, replica};
+use rand_pcg::Pcg64Mcg;
+use rand_pcg::rand_core::SeedableRng;
+use statrs::distribution::{Beta, ContinuousCDF};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The simulated recordings of one diagnosis, before noise.
+pub struct SelfTest<'a> {
+    rig: &'a Description,
+    options: Options,
+    whole: bool,
+    /// Nothing left out of the model, its numbers fitted.
+    nothing: Exact,
+    /// What was found left out, and its names; `None` where nothing was found.
+    found: Option<(Exact, BTreeSet<String>)>,
+    runs: usize,
+}
+
+enum Exact {
+    Joint(replica::Replica),
+    FiveBar(five_bar::replica::Replica),
+}
+
+/// The names that one simulated recording got; `None` where its diagnosis ended in a fault or too little motion.
+pub type Named = Option<BTreeSet<String>>;
+
+impl<'a> SelfTest<'a> {
+    /// Simulates what the rig would have recorded with what a diagnosis found, and without. `whole`: the diagnosis held out another recording.
+    ///
+    /// # Errors
+    /// Why it cannot be simulated.
+    pub fn new(
+        rig: &'a Description,
+        recording: &Measured,
+        (calibration, report): (&Description, &Report),
+        (whole, runs): (bool, usize),
+        options: &Options,
+    ) -> Result<SelfTest<'a>, String> {
+        let names: BTreeSet<String> = names(report);
+        let nothing = exact(rig, &without(calibration, rig), recording)?;
+        let found = match names.is_empty() {
+            true => None,
+            false => Some((exact(rig, calibration, recording)?, names)),
+        };
+        Ok(SelfTest {
+            rig,
+            options: Options {
+                refit: false,
+                next_experiment: false,
+                ..options.clone()
+            },
+            whole,
+            nothing,
+            found,
+            runs,
+        })
+    }
+
+    /// How many recordings are diagnosed: first those with nothing left out.
+    pub fn len(&self) -> usize {
+        self.runs * (1 + usize::from(self.found.is_some()))
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Diagnoses recording `k`; its noise follows from `k`.
+    pub fn named(&self, k: usize) -> Named {
+        let exact = match &self.found {
+            Some((found, _)) if k >= self.runs => found,
+            _ => &self.nothing,
+        };
+        let recording = exact.sensed(k as u64);
+        let held_out = self.whole.then_some(&recording);
+        let diagnosis = self.rig.diagnose(&recording, held_out, &self.options)?;
+        let report = diagnosis.report;
+        report.floor.is_some().then(|| names(&report))
+    }
+
+    /// The account of all recordings, in the order of their numbers.
+    pub fn account(&self, named: &[Named]) -> SelfCalibration {
+        let nothing = || named.iter().take(self.runs).flatten();
+        let with = || named.iter().skip(self.runs).flatten();
+        let hidden = self.found.as_ref().map(|(_, names)| names);
+        let rate = |count: usize, of: usize| rate(count, of);
+        let diagnosed = with().count();
+        let mut false_names = BTreeMap::new();
+        let none = BTreeSet::new();
+        let extra = with().flat_map(|own| own.difference(hidden.unwrap_or(&none)));
+        for name in nothing().flatten().chain(extra) {
+            *false_names.entry(name.clone()).or_insert(0) += 1;
+        }
+        let all = nothing().count() + diagnosed;
+        let mut false_names: Vec<NamedRate> = false_names
+            .into_iter()
+            .map(|(name, count)| NamedRate {
+                name,
+                rate: rate(count, all),
+            })
+            .collect();
+        false_names.sort_by_key(|own| core::cmp::Reverse(own.rate.count));
+        SelfCalibration {
+            protocol: self.protocol(all),
+            false_alarms: rate(
+                nothing().filter(|own| !own.is_empty()).count(),
+                nothing().count(),
+            ),
+            exact: hidden.map(|names| rate(with().filter(|own| *own == names).count(), diagnosed)),
+            found_again: hidden
+                .into_iter()
+                .flatten()
+                .map(|name| NamedRate {
+                    name: name.clone(),
+                    rate: rate(with().filter(|own| own.contains(name)).count(), diagnosed),
+                })
+                .collect(),
+            false_names,
+        }
+    }
+
+    fn protocol(&self, diagnosed: usize) -> String {
+        let how = match &self.nothing {
+            Exact::FiveBar(_) => {
+                "the reference rig from the recorded first state, under the recorded currents and force, and led by a hand of 420 N/m and 11 N·s/m along the recorded path of its tip"
+            }
+            Exact::Joint(own) if own.recording.force.is_some() => {
+                "the calibrated plant along the recorded motion"
+            }
+            Exact::Joint(_) => "a free run of the calibrated plant under the recorded command",
+        };
+        let ended = self.len() - diagnosed;
+        let without = match ended {
+            0 => String::new(),
+            1 => "; one of them was not usable and does not count".to_owned(),
+            _ => format!("; {ended} of them were not usable and do not count"),
+        };
+        format!(
+            "{how}; fresh noise and counts; {} recordings with nothing left out{}, each named as this one was{without}",
+            self.runs,
+            if self.found.is_some() {
+                format!(" and {} with what was found", self.runs)
+            } else {
+                String::new()
+            }
+        )
+    }
+}
+
+impl Exact {
+    /// A recording with fresh noise.
+    fn sensed(&self, seed: u64) -> Measured {
+        let mut random = Pcg64Mcg::seed_from_u64(seed);
+        match self {
+            Exact::Joint(own) => {
+                let mut out = own.recording.clone();
+                out.position = sensed(&out.position, own.position_noise, &mut random);
+                // The current of a bench is a command: it has no noise of its own.
+                let effort = out.force.as_mut().or(out.drive.as_mut());
+                if let Some(effort) = effort {
+                    *effort = sensed(effort, own.effort_noise, &mut random);
+                }
+                Measured::Joint(out)
+            }
+            Exact::FiveBar(own) => {
+                let mut out = own.recording.clone();
+                for signal in &mut out.theta {
+                    *signal = sensed(signal, own.theta_noise, &mut random);
+                }
+                for signal in &mut out.force {
+                    *signal = sensed(signal, own.force_noise, &mut random);
+                }
+                Measured::FiveBar(out)
+            }
+        }
+    }
+}
+
+fn exact(
+    nominal: &Description,
+    model: &Description,
+    recording: &Measured,
+) -> Result<Exact, String> {
+    match (nominal, model, recording) {
+        (Description::Joint(nominal), Description::Joint(model), Measured::Joint(own)) => {
+            replica::replica(nominal, model, own).map(Exact::Joint)
+        }
+        (Description::FiveBar(nominal), Description::FiveBar(model), Measured::FiveBar(own)) => {
+            five_bar::replica::replica(nominal, model, own).map(Exact::FiveBar)
+        }
+        _ => Err("the recording is one of another plant".to_owned()),
+    }
+}
+
+/// The calibration without what was found: found effects follow the nominal ones.
+fn without(calibration: &Description, nominal: &Description) -> Description {
+    let mut out = calibration.clone();
+    match (&mut out, nominal) {
+        (Description::Joint(out), Description::Joint(nominal)) => {
+            out.effects.truncate(nominal.effects.len());
+        }
+        (Description::FiveBar(out), Description::FiveBar(nominal)) => {
+            out.effects.truncate(nominal.effects.len());
+        }
+        _ => {}
+    }
+    out
+}
+
+fn names(report: &Report) -> BTreeSet<String> {
+    let effects = report.effects.iter();
+    effects
+        .map(|effect| match effect.joint {
+            Some(joint) => format!("{} at {joint}", effect.mechanism),
+            None => effect.mechanism.to_owned(),
+        })
+        .collect()
+}
+
+/// A count of `of` with its 95 % interval.
+fn rate(count: usize, of: usize) -> Rate {
+    // Quantiles of the beta distribution; at the ends of the range the interval ends there.
+    let quantile = |share: f64, a: usize, b: usize| {
+        Beta::new(a as f64, b as f64).map_or(f64::NAN, |beta| beta.inverse_cdf(share))
+    };
+    Rate {
+        count,
+        of,
+        low95: match count {
+            0 => 0.0,
+            _ => quantile(0.025, count, of - count + 1),
+        },
+        high95: match of - count {
+            0 => 1.0,
+            rest => quantile(0.975, count + 1, rest),
+        },
+    }
+}
+
+#[cfg(test)]
+mod tests;
