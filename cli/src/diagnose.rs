@@ -4,10 +4,9 @@ use std::path::{Path, PathBuf};
 
 use rayon::ThreadPool;
 use rayon::prelude::*;
-use rigproof_diagnose::report::{Report, Verdict};
+use rigproof_diagnose::report::{InputFile, Report, Verdict};
 use rigproof_diagnose::self_calibration::SelfTest;
 use rigproof_diagnose::{Description, Diagnosis, Measured, Options};
-use rigproof_spec::effect::Mechanism;
 use rigproof_trace::store::Folder;
 
 use crate::input::{self, Cut, Source};
@@ -50,71 +49,91 @@ Exit codes:
 Examples:
   rigproof diagnose DATA_EMPS.csv --rig rigs/emps.toml --hold-out DATA_EMPS_PULSES.csv
   rigproof diagnose ensaio.A.1.csv --rig rigs/mr-damper.toml --from-s 2.5 --out damper --json
-  rigproof diagnose recording.csv --rig rig.toml --calibrate 40";
+  rigproof diagnose recording.csv --rig rig.toml --calibrate 40
+  rigproof diagnose recordings/ --rig rig.toml
 
-/// Diagnoses a recording, writes the folder and prints the report.
+Of a folder of recordings of one five-bar all are diagnosed together but the last, on which the result is shown.";
+
+/// Diagnoses recordings, writes the folder and prints the report.
 pub fn run(args: &Args) -> Result<Outcome, Failure> {
     let out = out(args)?;
     // A wrong place is refused before the work, not after it.
     drop(Folder::begin(&out)?);
     let rig = Description::read(&args.source.rig)?;
-    let source = &args.source;
-    let read = |file: &PathBuf, cut| input::measured(&rig, file, cut, &source.reading);
-    let (recording, how) = read(&source.recording, source.cut)?;
-    let held_out = match &args.hold_out {
-        Some(file) => Some((file, read(file, Cut::default())?)),
-        None => None,
-    };
-    let mut recordings = vec![(&source.recording, &how)];
-    recordings.extend(held_out.iter().map(|(file, (_, how))| (*file, how)));
-    let read_as: Vec<String> = recordings
-        .iter()
-        .flat_map(|(file, how)| how.lines(file))
-        .collect();
-    let files = recordings.iter().map(|(file, how)| (*file, how.dialect()));
-    let identities = files.chain([(&source.rig, None)]);
-    let identities = identities.map(|(file, dialect)| input::identity(file, dialect));
-    let identities = identities.collect::<Result<Vec<_>, _>>()?;
+    let given = Given::read(args, &rig)?;
     let options = Options {
         hold_out_share: args.hold_out_share,
         ..Options::default()
     };
     let mark = progress::spinner("diagnosing");
-    let held_out = held_out.map(|(_, (recording, _))| recording);
-    let diagnosis = rig.diagnose(&recording, held_out.as_ref(), &options);
+    let diagnosis = rig.diagnose(&given.recordings, given.held_out.as_ref(), &options);
     drop(mark);
     let Some(mut diagnosis) = diagnosis else {
-        let problem = "the held-out recording is one of another plant".to_owned();
-        return Err(Failure::unusable(&args.source.recording, problem));
+        let problem = "several recordings together are of a five-bar: diagnose those of an axis or a bench one by one";
+        return Err(Failure::unusable(
+            &args.source.recording,
+            problem.to_owned(),
+        ));
     };
     if let Some(runs) = args.calibrate {
-        let calibration = (runs, threads::pool(args.jobs)?);
-        let (rig, whole) = (&rig, held_out.is_some());
-        calibrate(
-            rig,
-            &recording,
-            whole,
-            &mut diagnosis,
-            &options,
-            calibration,
-        );
+        let threads = threads::pool(args.jobs)?;
+        calibrate(&rig, &given, &mut diagnosis, &options, (runs, threads));
     }
-    diagnosis.report.inputs = identities;
-    diagnosis.report.protocol.extend(read_as);
+    diagnosis.report.inputs = given.identities;
+    diagnosis.report.protocol.extend(given.read_as);
     let folder = Folder::begin(&out)?;
     let files = folder::write(&folder, rig.name(), &mut diagnosis)?;
     folder.finish()?;
-    say(args, &out, &files, &diagnosis)?;
+    say(args, (&out, &given.shown_on), &files, &diagnosis)?;
     Ok(Outcome {
         checks_hold: text::holds(&diagnosis.report),
     })
 }
 
+/// What the command line names, read.
+struct Given {
+    recordings: Vec<Measured>,
+    held_out: Option<Measured>,
+    /// The file on which the result is shown.
+    shown_on: PathBuf,
+    identities: Vec<InputFile>,
+    /// How each recording was read.
+    read_as: Vec<String>,
+}
+
+impl Given {
+    fn read(args: &Args, rig: &Description) -> Result<Given, Failure> {
+        let source = &args.source;
+        let read = |file: &PathBuf, cut| input::measured(rig, file, cut, &source.reading);
+        let mut files = input::recordings(&source.recording)?;
+        let all = files.iter().map(|file| read(file, source.cut));
+        let all: Vec<_> = all.collect::<Result<_, Failure>>()?;
+        let (recordings, mut hows): (Vec<_>, Vec<_>) = all.into_iter().unzip();
+        let mut held_out = None;
+        if let Some(file) = &args.hold_out {
+            let (recording, how) = read(file, Cut::default())?;
+            held_out = Some(recording);
+            files.push(file.clone());
+            hows.push(how);
+        }
+        let pairs = || files.iter().zip(&hows);
+        let identities = pairs().map(|(file, how)| (file, how.dialect()));
+        let identities = identities.chain([(&source.rig, None)]);
+        let identities = identities.map(|(file, dialect)| input::identity(file, dialect));
+        Ok(Given {
+            recordings,
+            held_out,
+            identities: identities.collect::<Result<_, _>>()?,
+            read_as: pairs().flat_map(|(file, how)| how.lines(file)).collect(),
+            shown_on: files.pop().unwrap_or_default(),
+        })
+    }
+}
+
 /// Enters into the report what is named on simulated recordings; where they cannot be simulated the protocol says why.
 fn calibrate(
     rig: &Description,
-    recording: &Measured,
-    whole: bool,
+    given: &Given,
     diagnosis: &mut Diagnosis,
     options: &Options,
     (runs, threads): (usize, ThreadPool),
@@ -123,7 +142,13 @@ fn calibrate(
     if report.floor.is_none() {
         return;
     }
+    let [recording] = given.recordings.as_slice() else {
+        let why = "no self-calibration: it is made for a single recording";
+        report.protocol.push(why.to_owned());
+        return;
+    };
     let found = (&diagnosis.calibration, &*report);
+    let whole = given.held_out.is_some();
     match SelfTest::new(rig, recording, found, (whole, runs), options) {
         Ok(test) => {
             let bar = progress::bar(test.len(), "simulated recordings");
@@ -142,7 +167,12 @@ fn calibrate(
     }
 }
 
-fn say(args: &Args, out: &Path, files: &[&str], diagnosis: &Diagnosis) -> Result<Outcome, Failure> {
+fn say(
+    args: &Args,
+    (out, shown_on): (&Path, &PathBuf),
+    files: &[&str],
+    diagnosis: &Diagnosis,
+) -> Result<Outcome, Failure> {
     if args.json {
         return print(&folder::json(diagnosis)?);
     }
@@ -154,16 +184,16 @@ fn say(args: &Args, out: &Path, files: &[&str], diagnosis: &Diagnosis) -> Result
         text::section("Files", paths),
         text::section(
             "Next",
-            [format!("  {}", next(args, out, &diagnosis.report))],
+            [format!(
+                "  {}",
+                next(&args.source.rig, out, shown_on, &diagnosis.report)
+            )],
         ),
     ]))
 }
 
-/// The mechanism that the reference rig does not compute.
-const LOAD: &str = Mechanism::LoadDependent.name();
-
 /// What to do now, as a command where there is one.
-fn next(args: &Args, out: &Path, report: &Report) -> String {
+fn next(rig: &Path, out: &Path, shown_on: &Path, report: &Report) -> String {
     let calibration = out.join(folder::CALIBRATION);
     match report.verdict {
         Verdict::DataFault => "mend the recording or the rig file, or cut the fault away with --from-s and --to-s; then diagnose again".to_owned(),
@@ -175,14 +205,11 @@ fn next(args: &Args, out: &Path, report: &Report) -> String {
             report.unknown.as_ref().map_or("`located`", |_| "`unknown`"),
             report.unknown.as_ref().map_or("joint and regime hint at", |_| "the shape says"),
         ),
-        _ if report.plant == "rig" && report.effects.iter().any(|e| e.mechanism == LOAD) => {
-            format!("hold {} against a recording with other loads: `simulate` does not follow `{LOAD}` yet", calibration.display())
-        }
         _ => shell::line(
             &["rigproof", "simulate"],
             &[
-                ("", args.hold_out.as_ref().unwrap_or(&args.source.recording)),
-                ("--rig", &args.source.rig),
+                ("", shown_on),
+                ("--rig", rig),
                 ("--calibration", &calibration),
             ],
         ),

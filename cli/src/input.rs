@@ -48,10 +48,43 @@ impl Cut {
     }
 }
 
+/// The recordings that a path names: itself, or those in a folder, in the order of their names.
+///
+/// # Errors
+/// The folder cannot be read or holds no recording.
+pub fn recordings(path: &Path) -> Result<Vec<PathBuf>, Failure> {
+    if !path.is_dir() {
+        return Ok(vec![path.to_path_buf()]);
+    }
+    let unusable = |why: String| Failure::unusable(path, why);
+    let entries = path
+        .read_dir()
+        .map_err(|error| unusable(error.to_string()))?;
+    let mut found = Vec::new();
+    for entry in entries {
+        let file = entry.map_err(|error| unusable(error.to_string()))?.path();
+        let extension = file.extension().and_then(|e| e.to_str());
+        if file.is_file() && extension.is_some_and(|e| RECORDINGS.contains(&e)) {
+            found.push(file);
+        }
+    }
+    found.sort();
+    match found.is_empty() {
+        true => Err(unusable(format!(
+            "no recording is in this folder: none ends in .{}",
+            RECORDINGS.join(", .")
+        ))),
+        false => Ok(found),
+    }
+}
+
+/// What the name of a recording in a folder ends in.
+const RECORDINGS: [&str; 3] = ["csv", "txt", "mcap"];
+
 /// A recording, the rig it is of, and the part that counts.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Source {
-    /// The recording: CSV in any dialect or MCAP, told apart by its content
+    /// The recording: CSV in any dialect or MCAP, told apart by its content; for `diagnose` also a folder of a five-bar's recordings
     pub recording: PathBuf,
     /// The rig description: what the channels mean and which physics the nominal model has
     #[arg(long, value_name = "TOML")]

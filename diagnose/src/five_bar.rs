@@ -8,10 +8,12 @@ pub mod diagnose;
 pub mod experiment;
 pub mod free_run;
 pub mod from_rig;
+mod joined;
 mod locate;
 #[cfg(test)]
 mod mechanisms;
 pub mod noise;
+mod protocol;
 #[cfg(test)]
 mod recorded;
 pub(crate) mod replica;

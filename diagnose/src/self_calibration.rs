@@ -21,6 +21,7 @@ pub struct SelfTest<'a> {
     runs: usize,
 }
 
+#[expect(clippy::large_enum_variant, reason = "two are ever made")]
 enum Exact {
     Joint(replica::Replica),
     FiveBar(five_bar::replica::Replica),
@@ -77,8 +78,8 @@ impl<'a> SelfTest<'a> {
             Some((found, _)) if k >= self.runs => found,
             _ => &self.nothing,
         };
-        let recording = exact.sensed(k as u64);
-        let held_out = self.whole.then_some(&recording);
+        let recording = [exact.sensed(k as u64)];
+        let held_out = recording.first().filter(|_| self.whole);
         let diagnosis = self.rig.diagnose(&recording, held_out, &self.options)?;
         let report = diagnosis.report;
         report.floor.is_some().then(|| names(&report))

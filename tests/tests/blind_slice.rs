@@ -16,7 +16,7 @@ fn examined(plant: Plant, seed: u64, stratum: Stratum) -> rigproof_blind::Score 
         hold_out_share: 0.0,
         ..Options::default()
     };
-    let report = rig.diagnose(&recording, None, &options).unwrap().report;
+    let report = rig.diagnose(&[recording], None, &options).unwrap().report;
     score(
         &open(&case.sealed).unwrap(),
         &serde_json::to_value(&report).unwrap(),

@@ -173,7 +173,7 @@ fn diagnosed(seed: u64, case: &Case) -> Result<Value, Failure> {
         ..Options::default()
     };
     let diagnosis = match rig.apply(&case.trace, Path::new("recording.csv")) {
-        Ok(recording) => rig.diagnose(&recording, None, &options),
+        Ok(recording) => rig.diagnose(&[recording], None, &options),
         Err(error) => {
             return Ok(
                 json!({ "verdict": "data_fault", "effects": [], "summary": error.to_string() }),

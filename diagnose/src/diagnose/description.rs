@@ -64,31 +64,32 @@ impl Description {
         }
     }
 
-    /// Diagnoses a recording that was applied by this description; `held_out` is another recording of the same rig.
+    /// Diagnoses recordings that were applied by this description, several of them together on the five-bar only; `held_out` is another
+    /// recording of the same rig.
     ///
-    /// `None` where a recording is of another plant.
+    /// `None` where a recording is of another plant, and for several of a plant of one joint.
     pub fn diagnose(
         &self,
-        recording: &Measured,
+        recordings: &[Measured],
         held_out: Option<&Measured>,
         options: &Options,
     ) -> Option<Diagnosis> {
-        match (self, recording) {
-            (Description::Joint(rig), Measured::Joint(recording)) => {
-                let held_out = held_out.map(Measured::joint);
-                Some(match held_out {
-                    Some(held_out) => diagnose(rig, recording, Some(held_out?), options),
-                    None => diagnose(rig, recording, None, options),
-                })
+        match (self, recordings) {
+            (Description::Joint(rig), [Measured::Joint(recording)]) => {
+                let held_out = match held_out {
+                    Some(held_out) => Some(held_out.joint()?),
+                    None => None,
+                };
+                Some(diagnose(rig, recording, held_out, options))
             }
-            (Description::FiveBar(rig), Measured::FiveBar(recording)) => {
-                let held_out = held_out.map(Measured::five_bar);
-                Some(match held_out {
-                    Some(held_out) => {
-                        five_bar::diagnose::diagnose(rig, recording, Some(held_out?), options)
-                    }
-                    None => five_bar::diagnose::diagnose(rig, recording, None, options),
-                })
+            (Description::FiveBar(rig), recordings) => {
+                let own = recordings.iter().map(Measured::five_bar);
+                let own: Vec<&FiveBarRecording> = own.collect::<Option<_>>()?;
+                let held_out = match held_out {
+                    Some(held_out) => Some(held_out.five_bar()?),
+                    None => None,
+                };
+                Some(five_bar::diagnose::diagnose(rig, &own, held_out, options))
             }
             _ => None,
         }

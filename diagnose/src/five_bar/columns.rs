@@ -2,6 +2,7 @@
 
 use super::brakes;
 use super::from_rig::with_angles;
+use super::joined::over_parts;
 use super::run::{FiveBarRun, inertial, place, stacked};
 use crate::problem::{Cause, less, numerov, shifted};
 use rigproof_model::bench::column;
@@ -29,6 +30,10 @@ pub fn known(run: &FiveBarRun) -> Vec<f64> {
 
 /// One signal for each linear parameter of a cause; `None` where it has another form or no meaning here.
 pub fn free(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<f64>>> {
+    over_parts(run, |part| free_of_one(part, cause, shape))
+}
+
+fn free_of_one(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<f64>>> {
     match (cause.mechanism, cause.joint) {
         (Mechanism::GainError, Some(joint)) => {
             Some(vec![seen(&run.at_joint(joint, &run.brake_torque(joint)))])
@@ -109,6 +114,11 @@ fn encoder(run: &FiveBarRun, mechanism: Mechanism, joint: Joint) -> Option<Vec<f
 
 /// A column with coefficient 1: a change of the brakes or of the clock.
 pub fn fixed(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<f64>> {
+    let own = over_parts(run, |part| Some(vec![fixed_of_one(part, cause, shape)?]))?;
+    own.into_iter().next()
+}
+
+fn fixed_of_one(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<f64>> {
     let value = *shape.first()?;
     match (cause.mechanism, cause.joint) {
         // The yield of a brake changes, its sign does not (docs/decisions/0001).

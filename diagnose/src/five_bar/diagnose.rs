@@ -3,6 +3,7 @@
 use super::experiment;
 use super::free_run::{Model, horizons};
 use super::from_rig::{aligned, nominal};
+use super::joined::joined;
 use super::locate::locate;
 use super::run::FiveBarRun;
 use super::sign;
@@ -31,27 +32,42 @@ const WIDTHS_S: [f64; 3] = [0.040, 0.080, 0.160];
 /// A width is quiet enough when the floor is below this, N·m: contributions of 0.01 N·m are to be seen in a few windows.
 const QUIET_NM: f64 = 0.0075;
 
-/// Diagnoses a recording of a five-bar; `held_out` is another recording of the same rig.
+/// Diagnoses recordings of a five-bar together; `held_out` is another recording of the same rig. Without it the last of several is held
+/// out, or the end of a single one.
 pub fn diagnose(
     rig: &FiveBar,
-    recording: &FiveBarRecording,
+    recordings: &[&FiveBarRecording],
     held_out: Option<&FiveBarRecording>,
     options: &Options,
 ) -> Diagnosis {
     let description = || Description::FiveBar(rig.clone());
-    let whole = match aligned(rig, recording) {
+    let mut runs = Vec::with_capacity(recordings.len());
+    for (place, recording) in recordings.iter().enumerate() {
+        match aligned(rig, recording) {
+            Ok(run) => runs.push(run),
+            Err(fault) => return faulty(description(), &which(place, recordings.len()), fault),
+        }
+    }
+    let last = runs.len();
+    let other = match held_out.map(|recording| aligned(rig, recording)) {
+        Some(Ok(run)) => Some(run),
+        Some(Err(fault)) => return faulty(description(), "held-out recording", fault),
+        None if last > 1 => runs.pop(),
+        None => None,
+    };
+    let whole = match joined(runs) {
         Ok(run) => run,
-        Err(fault) => return faulty(description(), "recording", fault),
+        Err((place, fault)) => return faulty(description(), &which(place, last), fault),
     };
     // What is held out of the same recording keeps its past: brakes, heat and memories begin at the recording's first sample.
-    let (train, test, test_from_s) = match held_out.map(|recording| aligned(rig, recording)) {
-        Some(Ok(test)) => (whole, test, 0.0),
-        Some(Err(fault)) => return faulty(description(), "held-out recording", fault),
+    let (train, test, test_from_s) = match other {
+        Some(test) => (whole, test, 0.0),
         None => {
             let cut = ((1.0 - options.hold_out_share) * whole.len() as f64).round() as usize;
             (whole.slice(0, cut), whole, cut as f64)
         }
     };
+    let other_recording = test_from_s == 0.0;
     let test_from_s = test_from_s * test.step_s;
     let mut problem = problem(&train);
     let usable = problem.windows.usable.iter().filter(|u| **u).count() / problem.windows.outputs;
@@ -84,7 +100,15 @@ pub fn diagnose(
         test_from_s,
         options,
     }
-    .report(held_out.is_some())
+    .report(other_recording)
+}
+
+/// What a recording is called.
+fn which(place: usize, of: usize) -> String {
+    match of {
+        1 => "recording".to_owned(),
+        _ => format!("recording {} of {of}", place + 1),
+    }
 }
 
 /// A nominal effect that has no meaning on this layout or at this joint.
@@ -192,54 +216,6 @@ impl Stand<'_> {
         }
     }
 
-    fn protocol(&self, other_recording: bool) -> Vec<String> {
-        let windows = &self.problem.windows;
-        let rows = || {
-            windows
-                .usable
-                .iter()
-                .zip(&windows.combined)
-                .filter(|(u, _)| **u)
-        };
-        let (single, all) = (rows().filter(|(_, c)| c.is_some()).count(), rows().count());
-        let whole = (all - single) / windows.outputs;
-        let gates = self.options.gates;
-        vec![
-            format!(
-                "fitted part: {} samples at {:.1} Hz, {:.3} s; held-out part: {} samples{}",
-                self.train.len(),
-                1.0 / self.train.step_s,
-                self.train.duration_s(),
-                self.test.len() - (self.test_from_s / self.test.step_s).round() as usize,
-                if other_recording {
-                    " of another recording"
-                } else {
-                    " at the end of the recording"
-                },
-            ),
-            format!(
-                "equations: momentum form on θA and θB; arms and masses of tables 4.1 and 5.1, brakes of tables 3.1 to 3.3 along the recorded motion, currents held from sample to sample; brakes start without current in the middle of their backlash",
-            ),
-            format!(
-                "windows: bump (1 - x²)⁴, {:.1} ms wide, {} samples apart; of {}, {whole} are usable whole (every braked joint moves and its sense is known) and {single} with the one equation that a joint which is held, or turns back, leaves",
-                1e3 * windows.bump.len() as f64 * windows.step_s,
-                windows.hop,
-                windows.centres.len() / windows.outputs,
-            ),
-            format!(
-                "noise: angles {:.3e} rad, force {:.3e} N (standard deviation of a sample); rows whitened together by the factor of their covariance",
-                self.train.theta_noise, self.train.force_noise
-            ),
-            format!(
-                "naming: z ≥ {} over left-out contiguous blocks, ≥ {} % of the loss, ≥ {} % of the driving effort, ≥ {} times what stays unexplained",
-                gates.z,
-                100.0 * gates.share,
-                100.0 * gates.relevance,
-                self.problem.plant.own_to_unexplained()
-            ),
-        ]
-    }
-
     fn stages(&self) -> Vec<StageReport> {
         let stages = self.selection.stages.iter();
         stages
@@ -303,9 +279,11 @@ impl Stand<'_> {
         let before = Model::of(&nominal.calibrated(&errors));
         let after = Model::of(calibration);
         let first = (self.test_from_s / self.test.step_s).round() as usize;
+        // Of several recordings the first: a run does not go across a seam.
+        let fitted = self.train.parts.first().unwrap_or(self.train);
         let parts = [
             (HELD_OUT_PART, self.test, first..self.test.len()),
-            (FITTED_PART, self.train, 0..self.train.len()),
+            (FITTED_PART, fitted, 0..fitted.len()),
         ];
         let (mut all, mut said) = (Vec::new(), Vec::new());
         for (name, run, part) in parts {

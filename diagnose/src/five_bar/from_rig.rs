@@ -82,6 +82,7 @@ pub fn aligned(rig: &FiveBar, recording: &FiveBarRecording) -> Result<FiveBarRun
         force_noise,
         recorded,
         speed_floor: 0.0,
+        parts: Vec::new(),
     };
     let (mut run, untold) = moved_by(run, theta).map_err(|found| unassembled(step_s, found))?;
     check_sign(&run)?;

@@ -50,6 +50,7 @@ fn blank(layout: Layout) -> FiveBarRun {
         force_noise: 1e-9,
         recorded: vec![true; COUNT],
         speed_floor: 0.0,
+        parts: Vec::new(),
     }
 }
 

@@ -46,6 +46,8 @@ pub struct FiveBarRun {
     pub recorded: Vec<bool>,
     /// Speed of θA or θB below which its sense cannot be told, rad/s.
     pub speed_floor: f64,
+    /// The recordings that stand in it one after another; empty for one recording.
+    pub parts: Vec<FiveBarRun>,
 }
 
 /// A joint's place in the order A, E, B, C.
@@ -146,6 +148,7 @@ impl FiveBarRun {
             force_noise: self.force_noise,
             recorded: self.recorded.get(from..to).unwrap_or_default().to_vec(),
             speed_floor: self.speed_floor,
+            parts: Vec::new(),
         }
     }
 }

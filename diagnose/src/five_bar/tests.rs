@@ -1,15 +1,20 @@
 //! This file claims that the diagnosis of the five-bar names what was left out, where it was left out, and nothing else.
 
-use super::columns::driving;
+use super::columns::{driving, free};
 use super::diagnose::diagnose;
 use super::from_rig::aligned;
+use super::joined::joined;
 use super::recorded::{DRAG, LeftOut, nothing, recording, rig};
 use super::replica::replica;
-use crate::problem::{Problem, less};
+use super::run::FiveBarRun;
+use crate::problem::{Cause, Problem, less};
 use crate::report::{Report, Verdict};
 use crate::run::rms;
 use crate::weak::Windows;
 use crate::{Diagnosis, Options};
+use rigproof_model::linkage::Pose;
+use rigproof_spec::effect::Mechanism;
+use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
 use rigproof_trace::rig::Signal;
 use rigproof_trace::rig::five_bar::FiveBarRecording;
@@ -18,7 +23,7 @@ const SECONDS: f64 = 16.0;
 
 fn diagnosed(layout: Layout, seed: u64, left_out: LeftOut) -> Diagnosis {
     let recording = recording(layout, SECONDS, seed, left_out);
-    diagnose(&rig(layout), &recording, None, &Options::default())
+    diagnose(&rig(layout), &[&recording], None, &Options::default())
 }
 
 fn named(report: &Report) -> Vec<(&'static str, Option<&'static str>)> {
@@ -127,7 +132,7 @@ fn one_component_of_the_force_with_the_wrong_sign_is_a_fault_and_friction_left_o
     ] {
         let mut recording = recording(layout, SECONDS, 13, &drag);
         let verdict = |recording: &FiveBarRecording| {
-            let report = diagnose(&rig(layout), recording, None, &Options::default()).report;
+            let report = diagnose(&rig(layout), &[recording], None, &Options::default()).report;
             (report.verdict, report.fault.map(|fault| fault.channel))
         };
         // Once for each layout.
@@ -161,4 +166,63 @@ fn a_rig_that_is_led_again_along_its_recording_repeats_it() {
         assert!(force_n < 0.1, "{force_n}");
         assert_eq!(again.currents, recording.currents);
     }
+}
+
+fn viscous_at_e(_: &Pose, rates: [f64; 4], _: f64) -> [f64; 4] {
+    [0.0, -DRAG * rates[1], 0.0, 0.0]
+}
+
+#[test]
+fn several_recordings_are_one_problem_and_no_window_lies_across_a_seam() {
+    let own = rig(Layout::ThreeBrake);
+    let runs: Vec<FiveBarRun> = [21, 22]
+        .map(|seed| {
+            let recording = recording(Layout::ThreeBrake, 3.0, seed, &nothing);
+            aligned(&own, &recording).unwrap()
+        })
+        .into();
+    let whole = joined(runs.clone()).unwrap();
+    let seam = runs[0].len();
+    assert_eq!(whole.len(), seam + runs[1].len());
+    let cause = Cause {
+        mechanism: Mechanism::Presliding,
+        joint: Some(Joint::E),
+    };
+    let signal = |run: &FiveBarRun| free(run, cause, &[0.013]).unwrap().swap_remove(0);
+    let (both, one, other) = (signal(&whole), signal(&runs[0]), signal(&runs[1]));
+    let (one_a, one_b) = one.split_at(seam);
+    let (other_a, other_b) = other.split_at(runs[1].len());
+    assert_eq!(both, [one_a, other_a, one_b, other_b].concat());
+    let windows = Windows::over(whole.len(), 2, (whole.step_s, whole.start_s), 0.080);
+    let problem = Problem::of_five_bar(&whole, windows);
+    let half = problem.windows.bump.len() / 2;
+    let across = |centre: usize| centre - half < seam && centre + half >= seam;
+    let rows = problem.windows.centres.iter().zip(&problem.windows.usable);
+    let across: Vec<bool> = rows
+        .filter(|(centre, _)| across(**centre))
+        .map(|(_, usable)| *usable)
+        .collect();
+    assert!(across.len() >= 8, "{}", across.len());
+    assert!(!across.contains(&true));
+    let mut slow = runs[1].clone();
+    slow.step_s *= 2.0;
+    let (place, fault) = joined(vec![runs[0].clone(), slow]).unwrap_err();
+    assert_eq!((place, fault.channel), (1, "time"));
+}
+
+#[test]
+fn what_several_short_recordings_share_is_named_and_shown_on_the_last() {
+    let layout = Layout::FourBrake;
+    let recordings = [31, 32, 33].map(|seed| recording(layout, 7.0, seed, &viscous_at_e));
+    let all: Vec<&FiveBarRecording> = recordings.iter().collect();
+    let report = diagnose(&rig(layout), &all, None, &Options::default()).report;
+    let expected = [("viscous", Some("E"))];
+    assert_eq!(named(&report), expected, "{}", report.summary);
+    let found = report.effects[0].parameters["coefficient"].value;
+    assert!((found / DRAG - 1.0).abs() < 0.05, "{found} {DRAG}");
+    let fit = report.fit.unwrap();
+    let held_out = fit.held_out.unwrap();
+    // Measured: 27.6 times.
+    assert!(held_out.before > 10.0 * held_out.after, "{held_out:?}");
+    assert!(report.protocol[0].starts_with("2 recordings one after another"));
 }

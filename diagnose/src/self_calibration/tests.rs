@@ -1,3 +1,5 @@
+//! This file claims that rates come with their intervals.
+
 use super::rate;
 
 #[test]

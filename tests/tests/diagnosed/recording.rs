@@ -107,8 +107,13 @@ fn reported(recording: &Path, rig: &Path) -> Report {
     if FiveBar::describes(&text, rig).unwrap() {
         let rig = FiveBar::read(rig).unwrap();
         let recording = rig.read_recording(recording).unwrap();
-        return rigproof_diagnose::five_bar::diagnose::diagnose(&rig, &recording, None, &options)
-            .report;
+        return rigproof_diagnose::five_bar::diagnose::diagnose(
+            &rig,
+            &[&recording],
+            None,
+            &options,
+        )
+        .report;
     }
     let rig = Rig::read(rig).unwrap();
     let recording = rig.read_recording(recording).unwrap();

@@ -49,7 +49,7 @@ fn diagnosed(layout: Layout, recording: &FiveBarRecording) -> Diagnosis {
         refit: false,
         ..Options::default()
     };
-    diagnose(&rig(layout), recording, None, &options)
+    diagnose(&rig(layout), &[recording], None, &options)
 }
 
 /// What a report names, and what it says might stand in its place; what it names together counts as one.
