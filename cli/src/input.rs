@@ -105,6 +105,10 @@ pub enum HowRead {
 }
 
 impl HowRead {
+    fn of_messages(lines: &[String]) -> HowRead {
+        HowRead::Messages(lines.iter().map(|line| outcome::plain(line)).collect())
+    }
+
     /// For a person, a line each; `file` is what they name.
     pub fn lines(&self, file: &Path) -> Vec<String> {
         match self {
@@ -142,8 +146,7 @@ impl HowRead {
 pub fn whole(rig: &Rig, file: &Path, reading: &Reading) -> Result<(Recording, HowRead), Failure> {
     if mcap::is_mcap(file)? {
         let (recording, lines) = rig.read_mcap(file)?;
-        let lines = lines.iter().map(|line| outcome::plain(line)).collect();
-        return Ok((recording, HowRead::Messages(lines)));
+        return Ok((recording, HowRead::of_messages(&lines)));
     }
     let (recording, dialect) = rig.read_text(file, &reading.hints())?;
     Ok((recording, HowRead::Text(dialect)))
@@ -189,11 +192,13 @@ pub fn measured(
         }
         Description::FiveBar(rig) => rig,
     };
-    if mcap::is_mcap(file)? {
-        let problem = "a five-bar's recording is read from text so far: convert it to CSV";
-        return Err(Failure::unusable(file, problem.to_owned()));
-    }
-    let (whole, dialect) = rig.read_text(file, &reading.hints())?;
+    let (whole, how) = if mcap::is_mcap(file)? {
+        let (recording, lines) = rig.read_mcap(file)?;
+        (recording, HowRead::of_messages(&lines))
+    } else {
+        let (recording, dialect) = rig.read_text(file, &reading.hints())?;
+        (recording, HowRead::Text(dialect))
+    };
     let kept = cut.kept(file, &whole.time_s)?;
     let pair = |pair: &[Signal; 2]| pair.each_ref().map(|s| signal(s, &kept));
     let cut = FiveBarRecording {
@@ -205,7 +210,7 @@ pub fn measured(
             .each_ref()
             .map(|current| current.as_ref().map(|s| signal(s, &kept))),
     };
-    Ok((Measured::FiveBar(cut), HowRead::Text(dialect)))
+    Ok((Measured::FiveBar(cut), how))
 }
 
 /// A file's path as given, its SHA-256, and how it was read if it is a text recording.

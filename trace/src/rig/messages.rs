@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use super::{Recording, Rig};
+use super::five_bar::{FiveBar, FiveBarRecording};
+use super::{ChannelMap, Recording, Rig, TimeColumn};
 use crate::error::TraceError;
 use crate::mcap::{self, Between, Selection, Wanted};
 
@@ -25,22 +26,45 @@ impl Rig {
     fn selection(&self) -> Selection {
         let channels = &self.channels;
         let measured = [&channels.force, &channels.current, &channels.simulated];
-        let measured = measured
-            .into_iter()
-            .flatten()
-            .map(|map| (map, Between::Line));
-        let command = channels.command.iter().map(|map| (map, Between::Held));
-        let position = std::iter::once((&channels.position, Between::Line));
-        let wanted = position.chain(command).chain(measured);
-        Selection {
-            channels: wanted
-                .map(|(map, between)| Wanted {
-                    address: map.channel.clone(),
-                    between,
-                })
-                .collect(),
-            time: channels.time.clone(),
-        }
+        let measured = core::iter::once(&channels.position).chain(measured.into_iter().flatten());
+        selected(measured, channels.command.iter(), &channels.time)
+    }
+}
+
+impl FiveBar {
+    /// Reads a recording of this rig from an MCAP file, and says how: check sums, what is missing, which times, what was
+    /// resampled.
+    ///
+    /// The time is that of θA. What is measured goes in straight lines between its samples; a current holds until the next one.
+    ///
+    /// # Errors
+    /// As [`mcap::read()`] and [`FiveBar::apply`].
+    pub fn read_mcap(&self, path: &Path) -> Result<(FiveBarRecording, Vec<String>), TraceError> {
+        let channels = &self.channels;
+        let measured = channels.theta.iter().chain(&channels.force);
+        let currents = channels.currents.iter().flatten();
+        let reading = mcap::read(path, &selected(measured, currents, &channels.time))?;
+        let mut lines = reading.integrity.lines();
+        lines.extend(reading.protocol);
+        Ok((self.apply(&reading.trace, path)?, lines))
+    }
+}
+
+/// What is wanted of a file: what was measured, the first of it with its times, and what was commanded.
+fn selected<'a>(
+    measured: impl Iterator<Item = &'a ChannelMap>,
+    commanded: impl Iterator<Item = &'a ChannelMap>,
+    time: &Option<TimeColumn>,
+) -> Selection {
+    let measured = measured.map(|map| (map, Between::Line));
+    let commanded = commanded.map(|map| (map, Between::Held));
+    let wanted = measured.chain(commanded).map(|(map, between)| Wanted {
+        address: map.channel.clone(),
+        between,
+    });
+    Selection {
+        channels: wanted.collect(),
+        time: time.clone(),
     }
 }
 
@@ -111,5 +135,39 @@ mod tests {
             of_none.contains("did you mean `/joint_states`?"),
             "{of_none}"
         );
+    }
+
+    #[test]
+    fn a_five_bar_is_read_as_its_text_is() {
+        let text = "name = \"rig\"\nplant = \"rig\"\nlayout = \"three_brake\"\n[channels]\n\
+            theta_a = { channel = \"qa\", unit = \"deg\" }\ntheta_b = { channel = \"qb\", unit = \"deg\" }\n\
+            force_x = { channel = \"fx\", unit = \"N\" }\nforce_y = { channel = \"fy\", unit = \"N\" }\n\
+            current_a = { channel = \"ia\", unit = \"A\" }\ncurrent_e = { channel = \"ie\", unit = \"A\" }\n\
+            current_b = { channel = \"ib\", unit = \"A\" }\n";
+        let rig = FiveBar::parse(text, Path::new("rig.toml")).unwrap();
+        let channel = |(name, unit, start): (&str, &str, f64)| Channel {
+            name: name.into(),
+            unit: unit.into(),
+            samples: (0..30).map(|k| start + 0.037 * f64::from(k)).collect(),
+        };
+        let channels = [
+            ("qa", "deg", 141.3),
+            ("qb", "deg", 41.7),
+            ("fx", "N", -1.3),
+            ("fy", "N", 2.1),
+            ("ia", "A", 0.13),
+            ("ie", "A", 0.0),
+            ("ib", "A", 0.31),
+        ];
+        let trace = Trace {
+            time_s: (0..30).map(|k| 0.2 + 0.001 * f64::from(k)).collect(),
+            channels: channels.map(channel).into(),
+        };
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("run");
+        mcap::write(&path, &trace, &mcap::Extras::default()).unwrap();
+        let (recording, lines) = rig.read_mcap(&path).unwrap();
+        assert_eq!(recording, rig.apply(&trace, &path).unwrap());
+        assert!(lines[0].starts_with("check sums"), "{lines:?}");
     }
 }
