@@ -1,6 +1,7 @@
 //! This program runs the closed loop, its controller or its plant for so many ticks, to be counted by an instrument.
 //!
-//! What a tick costs is the difference of two runs, one of them longer: start and inputs cost the same in both.
+//! What a tick costs is the difference of two runs, one of them longer: start and inputs cost the same in both. `bits` prints one number of
+//! all that the closed loop commanded and reached, so that builds for different processors can be compared.
 #![allow(
     clippy::unwrap_used,
     reason = "a program that is counted stops at the first surprise"
@@ -24,7 +25,7 @@ const PUSH_N: [f64; 2] = [0.013, 0.011];
 fn main() {
     let arguments: Vec<String> = std::env::args().collect();
     let [_, what, ticks] = arguments.as_slice() else {
-        eprintln!("arguments: loop|controller|plant|linkage ticks");
+        eprintln!("arguments: loop|controller|plant|linkage|bits ticks");
         std::process::exit(2);
     };
     let ticks: usize = ticks.parse().unwrap();
@@ -32,12 +33,21 @@ fn main() {
     let Parameters { arms, inertia, .. } = Parameters::of(Layout::FourBrake);
     let mechanism = Mechanism::new(&arms, &inertia, Scheme::Midpoint);
     let theta_rad = start.plant.base_angles_rad().into();
+    let mut bits = 0_u64;
     let mut motion = Motion::new(&mechanism, theta_rad, [0.0; 2].into()).unwrap();
     for tick in 0..ticks {
         let (sensed, command) = black_box(&record[tick]);
         match what.as_str() {
             "loop" => {
                 black_box(start.step(black_box(places[tick])));
+            }
+            "bits" => {
+                let (_, command) = start.step(places[tick]);
+                let reached = start.plant.base_angles_rad();
+                for value in command.currents_a.into_iter().chain(reached) {
+                    bits =
+                        (bits.rotate_left(9) ^ value.to_bits()).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+                }
             }
             "controller" => {
                 black_box(start.controller.tick(sensed));
@@ -51,6 +61,9 @@ fn main() {
             }
             _ => return,
         }
+    }
+    if what == "bits" {
+        println!("{bits:016x}");
     }
     black_box((start, motion));
 }
