@@ -22,7 +22,7 @@
  */
 typedef enum RigproofControllerTask {
   /*
-   A chain of straight lines through the points; two points are a line. It is open unless its last point is its first again.
+   A chain of straight lines through the points; two points are a line.
    */
   RIGPROOF_CONTROLLER_TASK_CHAIN = 0,
   /*
@@ -192,6 +192,10 @@ extern int32_t rigproof_controller_tick(const struct RigproofControllerSensed *s
  The trial is over. `init` may follow.
  */
 extern void rigproof_controller_shutdown(void);
+
+extern int setvbuf(void *stream, char *buffer, int mode, size_t size);
+
+extern int fflush(void *stream);
 
 #ifdef __cplusplus
 }  // extern "C"

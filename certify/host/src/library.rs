@@ -31,8 +31,11 @@ impl Exports {
         // SAFETY: its constructors run, which is what this process is for: nothing else is in it that they could harm.
         let opened = unsafe { Library::open(Some(library), RTLD_NOW | RTLD_LOCAL) };
         let opened = opened.map_err(|error| {
+            // The loader's own words are the cause.
+            let why = std::error::Error::source(&error)
+                .map_or_else(|| error.to_string(), |cause| cause.to_string());
             format!(
-                "it is no shared library that can be opened: {error}; build it with `-shared -fPIC` for this machine, with all that it calls"
+                "it is no shared library that can be opened: {why}; build it with `-shared -fPIC` for this machine, with all that it calls"
             )
         })?;
         // SAFETY: the header says this type of this name.

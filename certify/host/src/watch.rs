@@ -23,6 +23,7 @@ const ABOVE_STANDARD: i32 = 3;
 /// Watches. Standard input is the connection to the campaign, whose end ends all; standard output is handed on to the process that works, as what it
 /// is asked and answers over; standard error as where the controller prints.
 pub fn watch() -> ExitCode {
+    close_what_was_inherited();
     let Ok(campaign) = private(stdin()) else {
         return ExitCode::FAILURE;
     };
@@ -41,6 +42,25 @@ pub fn watch() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         // Nobody wants to know.
         Err(_) => ExitCode::FAILURE,
+    }
+}
+
+/// Closes whatever the program was started with beside its standard descriptors: it is nothing of the controller's.
+fn close_what_was_inherited() {
+    const OPEN: &str = "/proc/self/fd";
+    let Ok(entries) = std::fs::read_dir(OPEN) else {
+        return;
+    };
+    let listed: Vec<i32> = entries
+        .flatten()
+        .filter_map(|entry| entry.file_name().to_str()?.parse().ok())
+        .filter(|number| *number >= ABOVE_STANDARD)
+        .collect();
+    // The list's own is closed by now.
+    let is_open = |number: &i32| std::fs::symlink_metadata(format!("{OPEN}/{number}")).is_ok();
+    for number in listed.into_iter().filter(is_open) {
+        // SAFETY: it is open, and nothing in this program, which has opened nothing yet, holds it.
+        unsafe { rustix::io::close(number) };
     }
 }
 
@@ -85,28 +105,45 @@ fn words() -> Vec<OsString> {
 /// Waits for the end, by itself or because nobody wants it any more, and says how it was.
 fn over(mut process: Child, mut wanted: UnixStream) -> Message {
     let pid = Pid::from_child(&process);
-    // While it holds true the number is the process's own: it has not been waited for.
-    let there = Arc::new(Mutex::new(true));
-    let seen = Arc::clone(&there);
+    let state = Arc::new(Mutex::new(State::Works));
+    let seen = Arc::clone(&state);
     std::thread::spawn(move || {
         // Nothing is ever said: this returns when the other end is gone.
         let _ = wanted.read(&mut [0]);
-        let there = seen.lock().unwrap_or_else(PoisonError::into_inner);
-        if *there {
+        let mut state = seen.lock().unwrap_or_else(PoisonError::into_inner);
+        if let State::Works = *state {
+            *state = State::Ended(others(pid));
             end(pid);
         }
     });
     let options = WaitIdOptions::EXITED | WaitIdOptions::NOWAIT;
     while let Err(rustix::io::Errno::INTR) = waitid(WaitId::Pid(pid), options) {}
-    let mut there = there.lock().unwrap_or_else(PoisonError::into_inner);
-    let left = crate::descendants::descendants().len() as u32;
-    // Its number is still that of its group.
+    let mut state = state.lock().unwrap_or_else(PoisonError::into_inner);
+    let left = match *state {
+        State::Works => others(pid),
+        State::Ended(left) => left,
+    };
+    // Its number is still that of its group, until it is waited for.
+    *state = State::Ended(left);
     end(pid);
+    drop(state);
     let status = process.wait();
-    *there = false;
-    drop(there);
     crate::descendants::end_all();
     Message::Ended(status.map_or(End::Lost, how), left)
+}
+
+/// What is known of the process.
+enum State {
+    /// It has not been ended, and its number is its own.
+    Works,
+    /// It has been ended; so many others that it had started were there.
+    Ended(u32),
+}
+
+/// How many processes there are beside the one that works.
+fn others(pid: Pid) -> u32 {
+    let all = crate::descendants::descendants();
+    all.iter().filter(|process| **process != pid).count() as u32
 }
 
 /// Ends a process and its group, which need not be one any more.

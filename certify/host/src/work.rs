@@ -44,6 +44,8 @@ pub fn work(library: &Path, memory_bytes: u64) -> ExitCode {
     {
         answer(&mut link, &mut Controller::new(exports));
     }
+    // The controller may have closed its descriptor, which must not be closed again.
+    std::mem::forget(link);
     ExitCode::from(LOST as u8)
 }
 

@@ -67,7 +67,9 @@ fn time(library: &Path, ticks: u64) -> Result<(), Failure> {
     times_us.sort_by(f64::total_cmp);
     let at = |part: f64| times_us.get((part * times_us.len() as f64) as usize);
     if let (Some(half), Some(most), Some(nearly_all)) = (at(0.5), at(0.9), at(0.999)) {
-        println!("{ticks} ticks: median {half:.1} us, 90 % within {most:.1} us, 99.9 % within {nearly_all:.1} us");
+        println!(
+            "{ticks} ticks: median {half:.1} us, 90 % within {most:.1} us, 99.9 % within {nearly_all:.1} us"
+        );
     }
     Ok(())
 }

@@ -30,7 +30,11 @@ fn in_tick_limited(name: &str, code: &str, limits: Limits) -> Option<Failure> {
 /// Faults before the first tick, twice: the second begin finds the same.
 fn before_ticks(name: &str, faults: &[(&str, &str)]) -> Option<Failure> {
     let library = faulty(name, faults)?;
-    let source = foreign(&library, limits());
+    let limits = Limits {
+        start_ms: 1000,
+        ..limits()
+    };
+    let source = foreign(&library, limits);
     let failure = begin(&source).err().unwrap();
     assert_eq!(begin(&source).err().as_ref(), Some(&failure));
     assert_eq!(running(&format!("faulty_{name}.so")), []);
@@ -67,10 +71,18 @@ fn hung(failure: Option<Failure>, limit_ms: u64) {
 
 #[test]
 fn a_null_pointer_in_tick_is_an_end() {
-    let failure = in_tick("null_in_tick", "fprintf(stderr, \"gain table missing\\n\"); *(volatile int *)0 = 1");
+    let failure = in_tick(
+        "null_in_tick",
+        "fprintf(stderr, \"gain table missing\\n\"); *(volatile int *)0 = 1",
+    );
     ended(
         failure,
-        &["in tick 3 of the trial", "SIGSEGV", "null pointer", "printed: gain table missing"],
+        &[
+            "in tick 3 of the trial",
+            "SIGSEGV",
+            "null pointer",
+            "printed: gain table missing",
+        ],
     );
 }
 
@@ -94,7 +106,7 @@ fn a_tick_that_stops_itself_is_hung() {
 fn an_init_for_ever_is_hung() {
     hung(
         before_ticks("hung_in_init", &[("IN_INIT", "for (;;) { sleep(1); }")]),
-        3000,
+        1000,
     );
 }
 
@@ -102,7 +114,7 @@ fn an_init_for_ever_is_hung() {
 fn a_constructor_for_ever_is_hung() {
     hung(
         before_ticks("hung_at_opening", &[("AT_OPENING", "for (;;) { }")]),
-        3000,
+        1000,
     );
 }
 
@@ -133,13 +145,19 @@ fn closing_every_descriptor_is_an_end() {
 #[test]
 fn closing_every_descriptor_and_going_on_is_an_end() {
     let code = "for (int d = 0; d < 4096; d++) close(d); for (;;) { sleep(1); }";
-    ended(in_tick("closing_for_ever", code), &["closed the connection"]);
+    ended(
+        in_tick("closing_for_ever", code),
+        &["closed the connection"],
+    );
 }
 
 #[test]
 fn exit_in_a_tick_is_an_end() {
     let failure = in_tick("exiting", "puts(\"all done\"); exit(0)");
-    ended(failure, &["it called exit with code 0", "printed: all done"]);
+    ended(
+        failure,
+        &["it called exit with code 0", "printed: all done"],
+    );
 }
 
 #[test]
@@ -174,7 +192,10 @@ fn garbage_in_the_connection_is_garbage() {
     let Failure::Garbage(text) = &failure else {
         panic!("{failure:?}");
     };
-    assert!(text.contains("30 31 32 33") && text.contains("tick 3"), "{text}");
+    assert!(
+        text.contains("30 31 32 33") && text.contains("tick 3"),
+        "{text}"
+    );
 }
 
 #[test]
@@ -196,9 +217,8 @@ fn prints_are_no_fault_however_many() {
 #[test]
 fn a_write_just_after_the_commanded_is_found() {
     let failure = in_tick("after", "currents_a[4] = 0.5");
-    let expected = Failure::WroteOutside(
-        "8 bytes after `commanded`, the nearest 1 after its last".to_owned(),
-    );
+    let expected =
+        Failure::WroteOutside("8 bytes after `commanded`, the nearest 1 after its last".to_owned());
     assert!(failure.is_none_or(|failure| failure == expected));
 }
 
@@ -213,15 +233,20 @@ fn a_write_just_before_the_commanded_is_found() {
 
 #[test]
 fn a_write_into_what_is_sensed_is_found() {
-    let failure = in_tick("into_sensed", "((RigproofControllerSensed *)sensed)->counts[1]++");
-    let expected =
-        Failure::WroteOutside("into `sensed`, which may only be read".to_owned());
+    let failure = in_tick(
+        "into_sensed",
+        "((RigproofControllerSensed *)sensed)->counts[1]++",
+    );
+    let expected = Failure::WroteOutside("into `sensed`, which may only be read".to_owned());
     assert!(failure.is_none_or(|failure| failure == expected));
 }
 
 #[test]
 fn a_write_into_or_beside_the_settings_is_found() {
-    let into = [("IN_INIT", "((RigproofControllerSettings *)settings)->sample_s *= 2")];
+    let into = [(
+        "IN_INIT",
+        "((RigproofControllerSettings *)settings)->sample_s *= 2",
+    )];
     let beside = [("IN_INIT", "((double *)(settings + 1))[1] = 0.3")];
     let expected = [
         "into the settings, which may only be read",
@@ -267,7 +292,14 @@ fn a_current_that_is_no_number_is_handed_on() {
 #[test]
 fn another_version_cannot_be_used() {
     let failure = before_ticks("version", &[("VERSION", "7")]);
-    unusable(failure, &["version 7", "this is version 1", "compile it with the header"]);
+    unusable(
+        failure,
+        &[
+            "version 7",
+            "this is version 1",
+            "compile it with the header",
+        ],
+    );
 }
 
 #[test]
@@ -290,7 +322,10 @@ fn what_is_no_library_cannot_be_used() {
         let source = foreign(&file, limits());
         let failure = begin(&source).err();
         assert_eq!(source.check().err(), failure);
-        unusable(failure, &["no shared library that can be opened", "no_library.so"]);
+        unusable(
+            failure,
+            &["no shared library that can be opened", "no_library.so"],
+        );
     }
     assert_eq!(running("no_library.so"), []);
 }

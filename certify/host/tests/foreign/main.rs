@@ -25,8 +25,5 @@ fn the_header_is_what_cbindgen_makes() {
     assert!(status.success());
     let read = |path: &Path| std::fs::read_to_string(path).unwrap();
     let kept = Path::new(bench::ROOM).join("../c/include/rigproof_controller.h");
-    assert!(
-        read(&made) == read(&kept),
-        "run `make header` in certify/c"
-    );
+    assert!(read(&made) == read(&kept), "run `make header` in certify/c");
 }

@@ -4,7 +4,9 @@ use std::process::{Command, Stdio};
 
 use rigproof_certify::controller::Failure;
 
-use crate::bench::{SOUND_A, begin, faulty, foreign, is_there, limits, running, sensed, trial, wait_for};
+use crate::bench::{
+    SOUND_A, begin, faulty, foreign, is_there, limits, running, sensed, trial, wait_for,
+};
 
 /// A controller whose every `init` starts a process that stays, in its own way.
 fn leaving(name: &str, how: &str) -> Option<()> {
@@ -22,10 +24,16 @@ fn leaving(name: &str, how: &str) -> Option<()> {
     assert_eq!(between.len(), 1);
     assert_eq!((between[0].what.as_str(), between[0].times), (said, 1));
     // It fails with the process there.
-    let Failure::Ended(text) = trial(&source, 3).unwrap_err() else {
+    let mut controller = begin(&source).unwrap();
+    wait_for(&name, 3);
+    let failure = (0..3).find_map(|number| controller.tick(&sensed(number)).err());
+    let Some(Failure::Ended(text)) = failure else {
         panic!("no end");
     };
-    assert!(text.contains("SIGABRT") && text.contains("a process that it had started was ended"), "{text}");
+    assert!(
+        text.contains("SIGABRT") && text.contains("a process that it had started was ended"),
+        "{text}"
+    );
     assert_eq!(running(&name), []);
     Some(())
 }
@@ -42,7 +50,10 @@ fn a_child_in_a_session_of_its_own_is_ended() {
 
 #[test]
 fn a_child_whose_parent_has_ended_is_ended() {
-    leaving("orphan", "if (fork()) _exit(0); setsid(); if (fork()) _exit(0)");
+    leaving(
+        "orphan",
+        "if (fork()) _exit(0); setsid(); if (fork()) _exit(0)",
+    );
 }
 
 #[test]
@@ -59,7 +70,8 @@ fn a_child_that_holds_the_connection_does_not_hide_the_end() {
 
 #[test]
 fn another_program_that_is_started_is_ended() {
-    let code = "if (fork() == 0) { setsid(); execl(\"/bin/sleep\", \"sleep\", \"98765.4321\", NULL); }";
+    let code =
+        "if (fork() == 0) { setsid(); execl(\"/bin/sleep\", \"sleep\", \"98765.4321\", NULL); }";
     let Some(library) = faulty("starting", &[("IN_INIT", code)]) else {
         return;
     };
@@ -73,8 +85,13 @@ fn another_program_that_is_started_is_ended() {
 
 #[test]
 fn a_controller_in_a_group_of_its_own_is_ended() {
-    let Some(library) = faulty("grouped", &[("IN_INIT", "setpgid(0, 0); setsid()"), ("IN_TICK", "for (;;) { }")])
-    else {
+    let Some(library) = faulty(
+        "grouped",
+        &[
+            ("IN_INIT", "setpgid(0, 0); setsid()"),
+            ("IN_TICK", "for (;;) { }"),
+        ],
+    ) else {
         return;
     };
     let source = foreign(&library, limits());

@@ -63,14 +63,24 @@ fn an_init_that_fails_after_another_trial_is_no_fault_of_the_trial() {
     let between = source.between_trials();
     assert_eq!(between.len(), 1);
     assert_eq!(between[0].times, 2);
-    assert!(between[0].what.contains("after another trial") && between[0].what.contains("status 5"));
+    assert!(
+        between[0].what.contains("after another trial") && between[0].what.contains("status 5")
+    );
 }
 
 #[test]
 fn a_fault_in_shutdown_is_kept() {
     for (name, code, part) in [
-        ("shutdown_null", "*(volatile int *)0 = 1", "in shutdown: signal 11"),
-        ("shutdown_hung", "for (;;) { }", "did not answer within 300 ms"),
+        (
+            "shutdown_null",
+            "*(volatile int *)0 = 1",
+            "in shutdown: signal 11",
+        ),
+        (
+            "shutdown_hung",
+            "for (;;) { }",
+            "did not answer within 300 ms",
+        ),
     ] {
         let Some(library) = faulty(name, &[("IN_SHUTDOWN", code)]) else {
             return;
@@ -94,7 +104,10 @@ fn a_finding_shows_nothing_that_an_earlier_trial_printed() {
     // Without an end of line it stays in the C library's buffer.
     let faults = [
         ("IN_INIT", "if (trials == 1) printf(\"of the first\")"),
-        ("IN_TICK", "if (trials == 2) { printf(\"of the second\\n\"); abort(); }"),
+        (
+            "IN_TICK",
+            "if (trials == 2) { printf(\"of the second\\n\"); abort(); }",
+        ),
     ];
     let Some(library) = faulty("printed_before", &faults) else {
         return;
@@ -102,7 +115,10 @@ fn a_finding_shows_nothing_that_an_earlier_trial_printed() {
     let source = foreign(&library, limits());
     assert_eq!(trial(&source, 3), Ok(SOUND_A));
     let failure = trial(&source, 3).unwrap_err().to_string();
-    assert!(failure.ends_with("it last printed: of the second"), "{failure}");
+    assert!(
+        failure.ends_with("it last printed: of the second"),
+        "{failure}"
+    );
 }
 
 #[test]
@@ -112,7 +128,9 @@ fn a_controller_that_failed_is_not_asked_again() {
     };
     let source = foreign(&library, limits());
     let mut controller = begin(&source).unwrap();
-    let answers: Vec<_> = (0..4).map(|number| controller.tick(&sensed(number))).collect();
+    let answers: Vec<_> = (0..4)
+        .map(|number| controller.tick(&sensed(number)))
+        .collect();
     assert_eq!(answers[2], Err(Failure::Status(9)));
     assert!(matches!(&answers[3], Err(Failure::Ended(_))));
 }
@@ -175,7 +193,10 @@ fn every_point_arrives_and_more_are_refused() {
     let Err(Failure::Refused(text)) = source.begin(&settings, &of(65)) else {
         panic!("65 points are taken");
     };
-    assert!(text.contains("65 points") && text.contains("64 at most"), "{text}");
+    assert!(
+        text.contains("65 points") && text.contains("64 at most"),
+        "{text}"
+    );
 }
 
 #[test]
@@ -183,7 +204,10 @@ fn a_host_that_is_none_is_no_fault_of_the_controller() {
     let Some(library) = faulty("hostless", &[]) else {
         return;
     };
-    for (program, part) in [("/bin/false", "ended before it could"), ("/bin/nothing-of-this-name", "cannot be started")] {
+    for (program, part) in [
+        ("/bin/false", "ended before it could"),
+        ("/bin/nothing-of-this-name", "cannot be started"),
+    ] {
         let host = Host {
             program: PathBuf::from(program),
             words: Vec::new(),
@@ -194,6 +218,13 @@ fn a_host_that_is_none_is_no_fault_of_the_controller() {
         };
         assert!(text.contains(part), "{text}");
     }
-    let nowhere = Foreign::new(&library.with_extension("nowhere"), Host { program: PathBuf::new(), words: Vec::new() }, limits());
+    let nowhere = Foreign::new(
+        &library.with_extension("nowhere"),
+        Host {
+            program: PathBuf::new(),
+            words: Vec::new(),
+        },
+        limits(),
+    );
     assert!(matches!(nowhere, Err(Failure::Unusable(text)) if text.contains("cannot be read")));
 }
