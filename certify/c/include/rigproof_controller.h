@@ -193,10 +193,6 @@ extern int32_t rigproof_controller_tick(const struct RigproofControllerSensed *s
  */
 extern void rigproof_controller_shutdown(void);
 
-extern int setvbuf(void *stream, char *buffer, int mode, size_t size);
-
-extern int fflush(void *stream);
-
 #ifdef __cplusplus
 }  // extern "C"
 #endif  // __cplusplus

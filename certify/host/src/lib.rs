@@ -18,8 +18,10 @@ mod watch;
 mod work;
 
 mod run;
+mod tried;
 
 pub use run::{Role, run};
+pub use tried::{Tried, try_out};
 
 /// Version of every struct and function here. Every struct begins with its size and this version, which the caller writes before it hands the
 /// struct over.

@@ -1,7 +1,6 @@
 //! This file says what the program of the host does: watch, or work.
 
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 /// What one process of the host does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,10 +22,10 @@ impl Role {
     }
 }
 
-/// Does what a role does. The words of the program that calls this end in the role, the library and the limit: a watch starts the same program with
+/// Does what a role does; the exit code. The words of the program that calls this end in the role, the library and the limit: a watch starts the same program with
 /// the same words but for the role.
 #[cfg(target_os = "linux")]
-pub fn run(role: Role, library: PathBuf, memory_bytes: u64) -> ExitCode {
+pub fn run(role: Role, library: PathBuf, memory_bytes: u64) -> u8 {
     match role {
         Role::Watch => crate::watch::watch(),
         Role::Work => crate::work::work(&library, memory_bytes),
@@ -35,12 +34,12 @@ pub fn run(role: Role, library: PathBuf, memory_bytes: u64) -> ExitCode {
 
 /// Refuses: the limits of a process are known on Linux only.
 #[cfg(not(target_os = "linux"))]
-pub fn run(_role: Role, _library: PathBuf, _memory_bytes: u64) -> ExitCode {
+pub fn run(_role: Role, _library: PathBuf, _memory_bytes: u64) -> u8 {
     use std::io::Write;
     // Nobody is left to be told when this fails.
     let _ = writeln!(
         std::io::stderr(),
         "error: compiled controllers are run on Linux only"
     );
-    ExitCode::from(3)
+    3
 }

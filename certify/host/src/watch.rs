@@ -5,7 +5,7 @@ use std::io::{self, Read};
 use std::os::fd::OwnedFd;
 use std::os::unix::net::UnixStream;
 use std::os::unix::process::{CommandExt, ExitStatusExt};
-use std::process::{Child, Command, ExitCode, ExitStatus, Stdio};
+use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use rigproof_certify::foreign::link::Link;
@@ -20,16 +20,19 @@ use rustix::stdio::{dup2_stderr, dup2_stdin, dup2_stdout, stdin, stdout};
 /// Lowest number of a descriptor of its own.
 const ABOVE_STANDARD: i32 = 3;
 
-/// Watches. Standard input is the connection to the campaign, whose end ends all; standard output is handed on to the process that works, as what it
+/// The exit code of a watch that nobody could be told of.
+const FAILED: u8 = 1;
+
+/// Watches; the exit code. Standard input is the connection to the campaign, whose end ends all; standard output is handed on to the process that works, as what it
 /// is asked and answers over; standard error as where the controller prints.
-pub fn watch() -> ExitCode {
+pub fn watch() -> u8 {
     close_what_was_inherited();
     let Ok(campaign) = private(stdin()) else {
-        return ExitCode::FAILURE;
+        return FAILED;
     };
     let campaign = UnixStream::from(campaign);
     let Ok(wanted) = campaign.try_clone() else {
-        return ExitCode::FAILURE;
+        return FAILED;
     };
     let mut link = Link::new(campaign);
     let message = match start() {
@@ -39,9 +42,9 @@ pub fn watch() -> ExitCode {
         )),
     };
     match link.send(0, &message) {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(()) => 0,
         // Nobody wants to know.
-        Err(_) => ExitCode::FAILURE,
+        Err(_) => FAILED,
     }
 }
 

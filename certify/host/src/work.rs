@@ -4,7 +4,6 @@ use std::ffi::{c_char, c_int, c_void};
 use std::io::{self, Write};
 use std::os::unix::net::UnixStream;
 use std::path::Path;
-use std::process::ExitCode;
 
 use rigproof_certify::foreign::MARK;
 use rigproof_certify::foreign::link::Link;
@@ -26,10 +25,10 @@ unsafe extern "C" {
 /// `_IOLBF`: a line is written when it is whole.
 const BY_LINES: c_int = 1;
 
-/// Works until nobody asks any more. Standard input is what it is asked over; it is empty for the controller, whose prints go where this process's do.
-pub fn work(library: &Path, memory_bytes: u64) -> ExitCode {
+/// Works until nobody asks any more; the exit code. Standard input is what it is asked over; it is empty for the controller, whose prints go where this process's do.
+pub fn work(library: &Path, memory_bytes: u64) -> u8 {
     let Ok(mut link) = connection() else {
-        return ExitCode::from(LOST as u8);
+        return LOST as u8;
     };
     let first = match limit(memory_bytes) {
         Ok(()) => Exports::of(library),
@@ -46,7 +45,7 @@ pub fn work(library: &Path, memory_bytes: u64) -> ExitCode {
     }
     // The controller may have closed its descriptor, which must not be closed again.
     std::mem::forget(link);
-    ExitCode::from(LOST as u8)
+    LOST as u8
 }
 
 /// The connection, out of the controller's way.

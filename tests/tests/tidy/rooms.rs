@@ -8,7 +8,7 @@ use crate::assert_tidy;
 use crate::workspace::root;
 
 /// Every room, built or coming, and the rooms it may depend on. A room that is not here has no place.
-const ROOMS: [(&str, &[&str]); 14] = [
+const ROOMS: [(&str, &[&str]); 15] = [
     ("spec", &[]),
     ("model", &["spec"]),
     ("impl", &["spec"]),
@@ -20,6 +20,7 @@ const ROOMS: [(&str, &[&str]); 14] = [
     ("blind", &["spec", "trace"]),
     ("experiments", &["spec", "model", "trace"]),
     ("certify", &["spec", "model", "impl", "trace"]),
+    ("certify/host", &["spec", "impl", "impl-c", "certify"]),
     ("report", &["spec", "trace", "diagnose", "certify"]),
     (
         "cli",
@@ -33,6 +34,7 @@ const ROOMS: [(&str, &[&str]); 14] = [
             "blind",
             "experiments",
             "certify",
+            "certify-host",
             "report",
         ],
     ),

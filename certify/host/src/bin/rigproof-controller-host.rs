@@ -1,18 +1,15 @@
-//! This program is the host by itself, for the tests of this room; and it takes the time of a controller's ticks in it.
+//! This program is the host by itself, for the tests of this room; and it tries a controller with it.
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::time::Instant;
 
-use rigproof_certify::controller::{Failure, Source, Task};
+use rigproof_certify::controller::Failure;
 use rigproof_certify::foreign::{Foreign, Host, Limits};
-use rigproof_certify_host::{Role, run};
-use rigproof_impl::tick::{Sensed, Settings};
-use rigproof_impl::vector::Vector;
+use rigproof_certify_host::{Role, run, try_out};
 use rigproof_spec::layout::Layout;
 
 const USAGE: &str = "usage: rigproof-controller-host watch|work LIBRARY MEMORY_BYTES
-       rigproof-controller-host time LIBRARY TICKS";
+       rigproof-controller-host try LIBRARY TICKS";
 
 fn main() -> ExitCode {
     let words: Vec<_> = std::env::args_os().skip(1).collect();
@@ -26,12 +23,12 @@ fn main() -> ExitCode {
         return usage();
     };
     match Role::of(role) {
-        Some(role) => run(role, PathBuf::from(library), number),
-        None if role == "time" => match time(Path::new(library), number) {
+        Some(role) => ExitCode::from(run(role, PathBuf::from(library), number)),
+        None if role == "try" => match tried(Path::new(library), number) {
             Ok(()) => ExitCode::SUCCESS,
             Err(failure) => {
                 eprintln!("error: {failure}");
-                ExitCode::from(1)
+                ExitCode::FAILURE
             }
         },
         None => usage(),
@@ -43,33 +40,13 @@ fn usage() -> ExitCode {
     ExitCode::from(2)
 }
 
-/// Prints how long the ticks of one trial take, there and back.
-fn time(library: &Path, ticks: u64) -> Result<(), Failure> {
+fn tried(library: &Path, ticks: u64) -> Result<(), Failure> {
     let host = Host {
         program: PathBuf::from("/proc/self/exe"),
         words: Vec::new(),
     };
-    let foreign = Foreign::new(library, host, Limits::default())?;
-    let settings = Settings::thesis(Layout::FourBrake);
-    let line = Task::Chain(vec![[-0.113, 0.383], [0.107, 0.412]]);
-    let mut controller = foreign.begin(&settings, &line)?;
-    let mut times_us = Vec::new();
-    for number in 0..ticks {
-        let sensed = Sensed {
-            number: number as u32,
-            counts: [33_421, 14_327],
-            tip_force_n: Vector::new(1.3, -2.7),
-        };
-        let begun = Instant::now();
-        controller.tick(&sensed)?;
-        times_us.push(begun.elapsed().as_secs_f64() * 1e6);
-    }
-    times_us.sort_by(f64::total_cmp);
-    let at = |part: f64| times_us.get((part * times_us.len() as f64) as usize);
-    if let (Some(half), Some(most), Some(nearly_all)) = (at(0.5), at(0.9), at(0.999)) {
-        println!(
-            "{ticks} ticks: median {half:.1} us, 90 % within {most:.1} us, 99.9 % within {nearly_all:.1} us"
-        );
-    }
+    let source = Foreign::new(library, host, Limits::default())?;
+    let ticks = u32::try_from(ticks).unwrap_or(u32::MAX);
+    println!("{:?}", try_out(&source, Layout::FourBrake, ticks)?);
     Ok(())
 }

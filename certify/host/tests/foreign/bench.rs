@@ -15,13 +15,19 @@ pub const ROOM: &str = env!("CARGO_MANIFEST_DIR");
 /// What a controller without a fault answers.
 pub const SOUND_A: [f64; 4] = [0.25, 0.0, 0.0, 0.0];
 
+/// The C compiler, if there is one.
+pub fn compiler() -> Option<String> {
+    let compiler = std::env::var("CC").unwrap_or_else(|_| "cc".to_owned());
+    let answers = Command::new(&compiler).arg("--version").output().is_ok();
+    answers.then_some(compiler)
+}
+
 /// A shared library of this name from a source in C and what else the compiler is told; `None` without a C compiler.
 pub fn compiled(name: &str, source: &str, told: &[&str]) -> Option<PathBuf> {
-    let compiler = std::env::var("CC").unwrap_or_else(|_| "cc".to_owned());
-    if Command::new(&compiler).arg("--version").output().is_err() {
-        println!("no C compiler `{compiler}`: {source} was not built");
+    let Some(compiler) = compiler() else {
+        println!("no C compiler: {source} was not built");
         return None;
-    }
+    };
     let library = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}.so"));
     let output = Command::new(compiler)
         .args(["-std=c11", "-O1", "-shared", "-fPIC", "-ffp-contract=off"])

@@ -122,7 +122,7 @@ fn killed(name: &str, faults: &[(&str, &str)], processes: usize) {
     };
     let name = format!("faulty_{name}.so");
     let mut campaign = Command::new(env!("CARGO_BIN_EXE_rigproof-controller-host"))
-        .arg("time")
+        .arg("try")
         .arg(&library)
         .arg("1000000000")
         .stdout(Stdio::null())
