@@ -2,10 +2,12 @@
 
 #[cfg(target_os = "linux")]
 mod child;
+mod end;
 #[cfg(target_os = "linux")]
 pub mod link;
 #[cfg(target_os = "linux")]
 mod linux;
+#[cfg(target_os = "linux")]
 mod phase;
 #[cfg(target_os = "linux")]
 mod prints;
@@ -77,6 +79,10 @@ impl Limits {
 ///
 /// It keeps the processes that are at rest: as many as there are trials at once. All of them, and whatever they started, end with it.
 #[derive(Debug)]
+#[cfg_attr(
+    not(target_os = "linux"),
+    expect(dead_code, reason = "nothing is run there")
+)]
 pub struct Foreign {
     library: PathBuf,
     host: Host,
@@ -152,6 +158,9 @@ impl Foreign {
     pub fn check(&self) -> Result<(), Failure> {
         Err(elsewhere())
     }
+
+    /// Ends every process that is at rest: none is.
+    pub fn end(&self) {}
 }
 
 #[cfg(not(target_os = "linux"))]

@@ -149,7 +149,6 @@ fn tried(args: &Try) -> Result<Outcome, Failure> {
     {
         return Err(Failure::Input(finding.to_string()));
     }
-    #[cfg(target_os = "linux")]
     source.end();
     let between = source.between_trials();
     let after: Vec<String> = between.into_iter().map(|between| between.what).collect();
@@ -170,7 +169,7 @@ fn as_json(args: &Try, answer: &Result<Tried, Finding>, after: &[String]) -> Val
             "ticks_braking": tried.braking,
             "ticks_without_a_number": tried.undefined,
             "greatest_current_a": tried.greatest_a,
-            "tick_us": {"median": median_us, "within_90_percent": nine_tenths_us, "within_99.9_percent": nearly_all_us},
+            "tick_us": {"median": median_us, "nine_tenths": nine_tenths_us, "999_of_1000": nearly_all_us},
         })
     });
     let finding = answer.as_ref().err().map(ToString::to_string);

@@ -7,7 +7,7 @@ use rigproof_spec::layout::Layout;
 
 use crate::controller::Task;
 
-pub use super::phase::{End, LOST};
+pub use super::end::{End, LOST};
 
 /// What is told.
 #[derive(Clone, Debug, PartialEq)]
