@@ -114,7 +114,9 @@ fn over(mut process: Child, mut wanted: UnixStream) -> Message {
         // Nothing is ever said: this returns when the other end is gone.
         let _ = wanted.read(&mut [0]);
         let mut state = seen.lock().unwrap_or_else(PoisonError::into_inner);
-        if let State::Works = *state {
+        if let State::Works = *state
+            && !has_ended(pid)
+        {
             *state = State::Ended(others(pid));
             end(pid);
         }
@@ -122,9 +124,9 @@ fn over(mut process: Child, mut wanted: UnixStream) -> Message {
     let options = WaitIdOptions::EXITED | WaitIdOptions::NOWAIT;
     while let Err(rustix::io::Errno::INTR) = waitid(WaitId::Pid(pid), options) {}
     let mut state = state.lock().unwrap_or_else(PoisonError::into_inner);
-    let left = match *state {
-        State::Works => others(pid),
-        State::Ended(left) => left,
+    let (by_itself, left) = match *state {
+        State::Works => (true, others(pid)),
+        State::Ended(left) => (false, left),
     };
     // Its number is still that of its group, until it is waited for.
     *state = State::Ended(left);
@@ -132,14 +134,24 @@ fn over(mut process: Child, mut wanted: UnixStream) -> Message {
     drop(state);
     let status = process.wait();
     crate::descendants::end_all();
-    Message::Ended(status.map_or(End::Lost, how), left)
+    let end = match status {
+        Ok(status) if by_itself => how(status),
+        _ => End::Lost,
+    };
+    Message::Ended(end, left)
+}
+
+/// Whether a process has ended that was not waited for.
+fn has_ended(pid: Pid) -> bool {
+    let options = WaitIdOptions::EXITED | WaitIdOptions::NOWAIT | WaitIdOptions::NOHANG;
+    matches!(waitid(WaitId::Pid(pid), options), Ok(Some(_)))
 }
 
 /// What is known of the process.
 enum State {
     /// It has not been ended, and its number is its own.
     Works,
-    /// It has been ended; so many others that it had started were there.
+    /// It was ended here; so many others that it had started were there.
     Ended(u32),
 }
 

@@ -16,7 +16,7 @@ use super::{Host, Limits};
 use crate::controller::Failure;
 
 /// Time for a process that closed its connection to be seen to end, ms.
-const CLOSING_MS: u64 = 500;
+const CLOSING_MS: u64 = 1000;
 /// Time for the watch to end everything, ms; it gives up sooner.
 const ENDING_MS: u64 = 15_000;
 
@@ -126,10 +126,8 @@ impl Child {
     }
 
     fn ended(&mut self, phase: Phase) -> Failure {
-        // How it ended is only known of one that nobody else ended.
-        let by_itself = self.heard(CLOSING_MS);
-        let is_over = by_itself.is_some();
-        if let Some(stopped) = by_itself {
+        // One that ended says so soon; one that does not has only closed its connection, and is ended.
+        if let Some(stopped) = self.heard(CLOSING_MS) {
             self.stopped = Some(stopped);
         }
         let Stopped { end, left, refused } = self.stop();
@@ -138,17 +136,26 @@ impl Child {
             return Failure::Unusable(text);
         }
         let Some(end) = end else {
-            let status = match self.watch.try_wait() {
-                Ok(Some(status)) => status.to_string(),
-                _ => "no status".to_owned(),
-            };
-            return Failure::Unusable(format!(
-                "the program that opens the library ended before it could ({status}){prints}"
-            ));
+            return self.unwatched(phase, &prints);
         };
-        let end = if is_over { end } else { End::Lost };
         let words = end.words(self.limits.memory_bytes);
         Failure::Ended(format!("{phase}: {words}{}{prints}", of_left(left)))
+    }
+
+    /// What is said of a process whose watch ended without a word.
+    fn unwatched(&mut self, phase: Phase, prints: &str) -> Failure {
+        let status = match self.watch.try_wait() {
+            Ok(Some(status)) => status.to_string(),
+            _ => "no status".to_owned(),
+        };
+        match phase {
+            Phase::Open => Failure::Unusable(format!(
+                "the program that opens the library ended before it could ({status}){prints}"
+            )),
+            _ => Failure::Ended(format!(
+                "{phase}: and the process that watches it, which a controller must leave alone ({status}){prints}"
+            )),
+        }
     }
 
     /// What the watch says within this time.

@@ -7,7 +7,7 @@ pub enum End {
     Code(i32),
     /// By a signal.
     Signal(i32),
-    /// Its connection ended before it did.
+    /// It was ended, since nobody was connected to it any more.
     Lost,
 }
 

@@ -100,6 +100,32 @@ fn a_controller_in_a_group_of_its_own_is_ended() {
 }
 
 #[test]
+fn a_controller_that_kills_its_group_or_its_watch_is_ended() {
+    for (name, code, part) in [
+        ("group_killed", "kill(0, SIGKILL)", "signal 9 (SIGKILL)"),
+        (
+            "watch_killed",
+            "kill(getppid(), SIGKILL); for (;;) pause()",
+            "watches it",
+        ),
+    ] {
+        let Some(library) = faulty(name, &[("IN_TICK", code)]) else {
+            return;
+        };
+        let source = foreign(&library, limits());
+        let Err(Failure::Ended(text)) = trial(&source, 3) else {
+            panic!("no end");
+        };
+        assert!(
+            text.contains("in tick 3 of the trial") && text.contains(part),
+            "{text}"
+        );
+        wait_for(&format!("faulty_{name}.so"), 0);
+        assert_eq!(trial(&source, 2), Ok(SOUND_A));
+    }
+}
+
+#[test]
 fn nothing_is_left_of_a_trial_that_is_let_go() {
     let Some(library) = faulty("let_go", &[]) else {
         return;
