@@ -190,6 +190,23 @@ mod tests {
     }
 
     #[test]
+    fn no_message_makes_a_buffer_grow() {
+        let (mut one, mut other) = pair();
+        let room = |link: &Link| (link.inbox.capacity(), link.outbox.capacity());
+        let before = [room(&one), room(&other)];
+        let longest = "x".repeat(3 * LONGEST);
+        let texts = [
+            Message::Unusable(longest.clone()),
+            Message::WroteOutside(longest),
+        ];
+        for message in messages().into_iter().chain(texts) {
+            one.send(3, &message).unwrap();
+            other.receive().unwrap();
+        }
+        assert_eq!([room(&one), room(&other)], before);
+    }
+
+    #[test]
     fn a_current_that_is_no_number_keeps_its_bits() {
         let (mut one, mut other) = pair();
         let odd = f64::from_bits(0x7ff8_0000_dead_beef);
