@@ -100,6 +100,12 @@ pub fn trial(foreign: &Foreign, ticks: u32) -> Result<[f64; 4], Failure> {
     Ok(last_a)
 }
 
+/// What stands on the command lines of a library's processes: its whole path, since the tests may run elsewhere too.
+pub fn named(library: &Path) -> String {
+    let library = library.canonicalize().unwrap();
+    library.to_str().unwrap().to_owned()
+}
+
 /// The processes whose command line holds this, with their numbers. One that has ended and was not waited for has none.
 pub fn running(part: &str) -> Vec<u32> {
     let numbered = std::fs::read_dir("/proc").unwrap().filter_map(|entry| {

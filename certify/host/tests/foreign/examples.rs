@@ -14,7 +14,7 @@ use rigproof_impl::vector::Vector;
 use rigproof_spec::layout::Layout;
 use rigproof_spec::methods::{BLEND_BOUNDARY_M, greatest_desired_force_n};
 
-use crate::bench::{ROOM, compiled, compiler, foreign, limits, line, running};
+use crate::bench::{ROOM, compiled, compiler, foreign, limits, line, named, running};
 
 type AnyOf = AnyPath<f64, MOST_POINTS>;
 
@@ -193,7 +193,7 @@ fn the_damper_brakes_the_faster_joint_and_lets_go_at_a_fault() {
     }
     assert_eq!(source.between_trials(), []);
     drop(source);
-    assert_eq!(running("/damper.so"), []);
+    assert_eq!(running(&named(&library)), []);
 }
 
 #[test]

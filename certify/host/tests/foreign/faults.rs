@@ -3,7 +3,9 @@
 use rigproof_certify::controller::Failure;
 use rigproof_certify::foreign::Limits;
 
-use crate::bench::{SOUND_A, begin, faulty, foreign, is_there, limits, running, trial, wait_for};
+use crate::bench::{
+    SOUND_A, begin, faulty, foreign, is_there, limits, named, running, trial, wait_for,
+};
 
 /// Faults in the third tick of a trial, and the next trial.
 fn in_tick(name: &str, code: &str) -> Option<Failure> {
@@ -13,7 +15,7 @@ fn in_tick(name: &str, code: &str) -> Option<Failure> {
 fn in_tick_limited(name: &str, code: &str, limits: Limits) -> Option<Failure> {
     let library = faulty(name, &[("IN_TICK", code)])?;
     let source = foreign(&library, limits);
-    let name = format!("faulty_{name}.so");
+    let name = named(&library);
     // Two ticks are fine, and two processes are there: the one that works and its watch.
     assert_eq!(trial(&source, 2), Ok(SOUND_A));
     let processes = wait_for(&name, 2);
@@ -37,7 +39,7 @@ fn before_ticks(name: &str, faults: &[(&str, &str)]) -> Option<Failure> {
     let source = foreign(&library, limits);
     let failure = begin(&source).err().unwrap();
     assert_eq!(begin(&source).err().as_ref(), Some(&failure));
-    assert_eq!(running(&format!("faulty_{name}.so")), []);
+    assert_eq!(running(&named(&library)), []);
     Some(failure)
 }
 
@@ -327,5 +329,5 @@ fn what_is_no_library_cannot_be_used() {
             &["no shared library that can be opened", "no_library.so"],
         );
     }
-    assert_eq!(running("no_library.so"), []);
+    assert_eq!(running(&named(&file)), []);
 }

@@ -5,14 +5,14 @@ use std::process::{Command, Stdio};
 use rigproof_certify::controller::Failure;
 
 use crate::bench::{
-    SOUND_A, begin, faulty, foreign, is_there, limits, running, sensed, trial, wait_for,
+    SOUND_A, begin, faulty, foreign, is_there, limits, named, running, sensed, trial, wait_for,
 };
 
 /// A controller whose every `init` starts a process that stays, in its own way.
 fn leaving(name: &str, how: &str) -> Option<()> {
     let code = format!("if (fork() == 0) {{ {how}; for (;;) pause(); }}");
     let library = faulty(name, &[("IN_INIT", &code), ("IN_TICK", "abort()")])?;
-    let name = format!("faulty_{name}.so");
+    let name = named(&library);
     let source = foreign(&library, limits());
     // It answers, and stays when the trial is over.
     assert_eq!(trial(&source, 2), Ok(SOUND_A));
@@ -65,22 +65,25 @@ fn a_child_that_holds_the_connection_does_not_hide_the_end() {
     let source = foreign(&library, limits());
     let failure = trial(&source, 3).unwrap_err();
     assert!(failure.to_string().contains("SIGABRT"), "{failure}");
-    assert_eq!(running("faulty_holding.so"), []);
+    assert_eq!(running(&named(&library)), []);
 }
 
 #[test]
 fn another_program_that_is_started_is_ended() {
-    let code =
-        "if (fork() == 0) { setsid(); execl(\"/bin/sleep\", \"sleep\", \"98765.4321\", NULL); }";
-    let Some(library) = faulty("starting", &[("IN_INIT", code)]) else {
+    // Told from those of other runs of this test by the number of this one.
+    let time_s = format!("98765.{}", std::process::id());
+    let code = format!(
+        "if (fork() == 0) {{ setsid(); execl(\"/bin/sleep\", \"sleep\", \"{time_s}\", NULL); }}"
+    );
+    let Some(library) = faulty("starting", &[("IN_INIT", &code)]) else {
         return;
     };
     let source = foreign(&library, limits());
     let controller = begin(&source).unwrap();
-    wait_for("98765.4321", 1);
+    wait_for(&time_s, 1);
     drop(controller);
     drop(source);
-    assert_eq!(running("98765.4321"), []);
+    assert_eq!(running(&time_s), []);
 }
 
 #[test]
@@ -96,7 +99,7 @@ fn a_controller_in_a_group_of_its_own_is_ended() {
     };
     let source = foreign(&library, limits());
     assert_eq!(trial(&source, 3), Err(Failure::Hung { limit_ms: 700 }));
-    assert_eq!(running("faulty_grouped.so"), []);
+    assert_eq!(running(&named(&library)), []);
 }
 
 #[test]
@@ -120,7 +123,7 @@ fn a_controller_that_kills_its_group_or_its_watch_is_ended() {
             text.contains("in tick 3 of the trial") && text.contains(part),
             "{text}"
         );
-        wait_for(&format!("faulty_{name}.so"), 0);
+        wait_for(&named(&library), 0);
         assert_eq!(trial(&source, 2), Ok(SOUND_A));
     }
 }
@@ -135,10 +138,10 @@ fn nothing_is_left_of_a_trial_that_is_let_go() {
     for controller in &mut controllers {
         assert_eq!(controller.tick(&sensed(0)), Ok(SOUND_A));
     }
-    wait_for("faulty_let_go.so", 6);
+    wait_for(&named(&library), 6);
     drop(controllers);
     drop(source);
-    assert_eq!(running("faulty_let_go.so"), []);
+    assert_eq!(running(&named(&library)), []);
 }
 
 /// Kills a program that runs a campaign, where no destructor runs.
@@ -146,7 +149,7 @@ fn killed(name: &str, faults: &[(&str, &str)], processes: usize) {
     let Some(library) = faulty(name, faults) else {
         return;
     };
-    let name = format!("faulty_{name}.so");
+    let name = named(&library);
     let mut campaign = Command::new(env!("CARGO_BIN_EXE_rigproof-controller-host"))
         .arg("try")
         .arg(&library)

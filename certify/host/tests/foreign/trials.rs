@@ -7,7 +7,9 @@ use rigproof_certify::foreign::{Foreign, Host, Limits, MOST_POINTS};
 use rigproof_impl::tick::Settings;
 use rigproof_spec::layout::Layout;
 
-use crate::bench::{SOUND_A, begin, faulty, foreign, limits, running, sensed, trial, wait_for};
+use crate::bench::{
+    SOUND_A, begin, faulty, foreign, limits, named, running, sensed, trial, wait_for,
+};
 
 #[test]
 fn a_process_is_begun_anew_for_the_next_trial() {
@@ -17,7 +19,7 @@ fn a_process_is_begun_anew_for_the_next_trial() {
     let source = foreign(&library, limits());
     for trials in 1..4 {
         assert_eq!(trial(&source, 3), Ok([0.25, f64::from(trials), 0.0, 0.0]));
-        wait_for("faulty_anew.so", 2);
+        wait_for(&named(&library), 2);
     }
     let one = Limits {
         one_trial_a_process: true,
@@ -47,7 +49,7 @@ fn trials_at_once_have_processes_of_their_own() {
     });
     // The threads that began them are gone, the processes are not.
     assert_eq!(trial(&source, 2), Ok(SOUND_A));
-    assert!((2..=8).contains(&running("faulty_at_once.so").len()));
+    assert!((2..=8).contains(&running(&named(&library)).len()));
     assert_eq!(source.between_trials(), []);
 }
 
