@@ -41,6 +41,9 @@ pub enum Task {
 /// How a controller broke. Each is a finding about the controller, never the end of a campaign.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Failure {
+    /// It cannot be run at all, whatever the settings.
+    #[error("the controller cannot be run: {0}")]
+    Unusable(String),
     /// It refuses the settings.
     #[error("the controller refuses the settings: {0}")]
     Refused(String),

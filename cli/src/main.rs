@@ -4,6 +4,7 @@
 
 mod blind;
 mod cite;
+mod controller;
 mod convert;
 mod demo;
 mod design;
@@ -61,6 +62,8 @@ enum Verb {
     Inspect(inspect::Args),
     /// Turn a recording in HDF5, MATLAB, MCAP or CSV into a normalised CSV file, or into MCAP for viewers
     Convert(convert::Args),
+    /// Try a compiled controller in a process of its own
+    Controller(controller::Args),
 }
 
 const AFTER_HELP: &str = "\
@@ -87,6 +90,7 @@ fn run(verb: &Verb) -> Result<Outcome, Failure> {
         Verb::Cite(args) => cite::run(args),
         Verb::Inspect(args) => inspect::run(args),
         Verb::Convert(args) => convert::run(args),
+        Verb::Controller(args) => controller::run(args),
     }
 }
 

@@ -3,6 +3,7 @@
 mod bad_diagnosis;
 mod blind;
 mod cite;
+mod controller;
 mod demo;
 mod design;
 mod desk;

@@ -8,7 +8,7 @@ use crate::tidy::assert_tidy;
 use crate::tidy::workspace::root;
 
 /// Every room, built or coming, and the rooms it may depend on. A room that is not here has no place.
-const ROOMS: [(&str, &[&str]); 14] = [
+const ROOMS: [(&str, &[&str]); 15] = [
     ("spec", &[]),
     ("model", &["spec"]),
     ("impl", &["spec"]),
@@ -20,6 +20,7 @@ const ROOMS: [(&str, &[&str]); 14] = [
     ("blind", &["spec", "trace"]),
     ("experiments", &["spec", "model", "trace"]),
     ("certify", &["spec", "model", "impl", "trace"]),
+    ("certify/host", &["spec", "impl", "impl-c", "certify"]),
     ("report", &["spec", "trace", "diagnose", "certify"]),
     (
         "cli",
@@ -33,6 +34,7 @@ const ROOMS: [(&str, &[&str]); 14] = [
             "blind",
             "experiments",
             "certify",
+            "certify-host",
             "report",
         ],
     ),
@@ -98,6 +100,52 @@ fn spec_depends_on_nothing() {
         .map(|name| forbidden("spec", name, "spec is `no_std` and stands alone"))
         .collect();
     assert_tidy("dependencies of spec", violations);
+}
+
+/// The rooms with `unsafe`, in blocks that say why they are sound: where C calls, and where C is called.
+const UNSAFE_ROOMS: [&str; 2] = ["impl/c", "certify/host"];
+
+#[test]
+fn unsafe_stands_in_the_rooms_of_c_only() {
+    let workspace = manifest("Cargo.toml");
+    let of_all = workspace["workspace"]["lints"]["rust"]["unsafe_code"].as_str();
+    assert_eq!(of_all, Some("forbid"));
+    let violations = members()
+        .iter()
+        .filter_map(|room| trusted(room, &manifest(&format!("{room}/Cargo.toml"))))
+        .collect();
+    assert_tidy("rooms with unsafe", violations);
+}
+
+/// What is wrong with a room's lints, if anything.
+fn trusted(room: &str, manifest: &Table) -> Option<String> {
+    let nothing = Value::Boolean(false);
+    let lints = manifest.get("lints").unwrap_or(&nothing);
+    let says = |group: &str, lint: &str| {
+        let lint = lints.get(group).and_then(|group| group.get(lint));
+        lint.and_then(Value::as_str) == Some("deny")
+    };
+    let fine = match UNSAFE_ROOMS.contains(&room) {
+        true => says("rust", "unsafe_code") && says("clippy", "undocumented_unsafe_blocks"),
+        false => lints.get("workspace").and_then(Value::as_bool) == Some(true),
+    };
+    (!fine).then(|| {
+        format!("{room}/Cargo.toml: take the workspace's lints, or be named in tests/tests/tidy/rooms.rs and deny unsafe code that does not say why")
+    })
+}
+
+#[test]
+fn a_room_that_allows_itself_unsafe_is_noticed() {
+    let read = |text: &str| -> Table { text.parse().unwrap() };
+    let inherits = read("[lints]\nworkspace = true\n");
+    let own = read(
+        "[lints.rust]\nunsafe_code = \"deny\"\n[lints.clippy]\nundocumented_unsafe_blocks = \"deny\"\n",
+    );
+    let lax = read("[lints.rust]\nunsafe_code = \"deny\"\n");
+    assert!(trusted("model", &inherits).is_none() && trusted("impl/c", &own).is_none());
+    for (room, manifest) in [("model", &own), ("impl/c", &lax), ("impl/c", &inherits)] {
+        assert!(trusted(room, manifest).is_some(), "{room}");
+    }
 }
 
 #[test]

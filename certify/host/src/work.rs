@@ -1,0 +1,98 @@
+//! This file answers for a controller: what it is asked over a private descriptor it asks the library, and says what came of it.
+
+use std::ffi::{c_char, c_int, c_void};
+use std::io::{self, Write};
+use std::os::unix::net::UnixStream;
+use std::path::Path;
+
+use rigproof_certify::foreign::MARK;
+use rigproof_certify::foreign::link::Link;
+use rigproof_certify::foreign::protocol::{LOST, Message};
+use rustix::stdio::{dup2_stdin, stdin};
+
+use crate::call::{Controller, Outcome};
+use crate::library::Exports;
+use crate::limits::limit;
+use crate::watch::private;
+
+// Of the C library that this program is linked to.
+unsafe extern "C" {
+    static stdout: *mut c_void;
+    fn setvbuf(stream: *mut c_void, buffer: *mut c_char, mode: c_int, size: usize) -> c_int;
+    fn fflush(stream: *mut c_void) -> c_int;
+}
+
+/// `_IOLBF`: a line is written when it is whole.
+const BY_LINES: c_int = 1;
+
+/// Works until nobody asks any more; the exit code. Standard input is what it is asked over; it is empty for the controller, whose prints go where this process's do.
+pub fn work(library: &Path, memory_bytes: u64) -> u8 {
+    let Ok(mut link) = connection() else {
+        return LOST as u8;
+    };
+    let first = match limit(memory_bytes) {
+        Ok(()) => Exports::of(library),
+        Err(error) => Err(format!("its process cannot be limited: {error}")),
+    };
+    let (exports, first) = match first {
+        Ok(exports) => (Some(exports), Message::Done),
+        Err(text) => (None, Message::Unusable(text)),
+    };
+    if link.send(0, &first).is_ok()
+        && let Some(exports) = exports
+    {
+        answer(&mut link, &mut Controller::new(exports));
+    }
+    // The controller may have closed its descriptor, which must not be closed again.
+    std::mem::forget(link);
+    LOST as u8
+}
+
+/// The connection, out of the controller's way.
+fn connection() -> io::Result<Link> {
+    let link = Link::new(UnixStream::from(private(stdin())?));
+    dup2_stdin(std::fs::File::open("/dev/null")?)?;
+    // SAFETY: nothing has been printed yet, and the stream is the C library's own.
+    unsafe { setvbuf(stdout, std::ptr::null_mut(), BY_LINES, 0) };
+    Ok(link)
+}
+
+/// Answers until the connection ends.
+fn answer(link: &mut Link, controller: &mut Controller) {
+    while let Ok((number, message)) = link.receive() {
+        let answer = match message {
+            Message::Begin(begin) => {
+                mark();
+                done(controller.init(&begin))
+            }
+            Message::Tick(sensed) => match controller.tick(&sensed) {
+                Outcome::Answered(currents_a) => Message::Currents(currents_a),
+                Outcome::Status(status) => Message::Status(status),
+                Outcome::WroteOutside(place) => Message::WroteOutside(place),
+            },
+            Message::Over => done(controller.shutdown()),
+            // Nothing else is asked.
+            _ => return,
+        };
+        if link.send(number, &answer).is_err() {
+            return;
+        }
+    }
+}
+
+fn done(outcome: Outcome<()>) -> Message {
+    match outcome {
+        Outcome::Answered(()) => Message::Done,
+        Outcome::Status(status) => Message::Status(status),
+        Outcome::WroteOutside(place) => Message::WroteOutside(place),
+    }
+}
+
+/// Divides the prints of one trial from those of the next.
+fn mark() {
+    // SAFETY: null stands for every stream of the C library.
+    unsafe { fflush(std::ptr::null_mut()) };
+    let mut printed = io::stdout().lock();
+    // Where the prints go is the controller's to close.
+    let _ = printed.write_all(MARK).and_then(|()| printed.flush());
+}

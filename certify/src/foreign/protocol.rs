@@ -1,0 +1,279 @@
+//! This file says what the campaign and the process of a controller tell each other: one request, one answer, numbers in little-endian order.
+
+use rigproof_impl::tick::{Sensed, Settings};
+use rigproof_impl::vector::Vector;
+use rigproof_spec::geometry::Arms;
+use rigproof_spec::layout::Layout;
+
+use crate::controller::Task;
+
+pub use super::end::{End, LOST};
+
+/// What is told.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Message {
+    /// Asked: begin a trial.
+    Begin(Box<Begin>),
+    /// Asked: one tick.
+    Tick(Sensed<f64>),
+    /// Asked: the trial is over.
+    Over,
+    /// Answered: it is done.
+    Done,
+    /// Answered: the currents, A.
+    Currents([f64; 4]),
+    /// Answered: the controller's status, which is not 0.
+    Status(i32),
+    /// Answered: where it wrote though it must not.
+    WroteOutside(String),
+    /// Answered: why the library cannot be used.
+    Unusable(String),
+    /// Said by the watch: how the process ended, and how many others that it had started were ended with it.
+    Ended(End, u32),
+}
+
+/// The rig and the path of a trial.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Begin {
+    /// The rig.
+    pub settings: Settings,
+    /// The path.
+    pub task: Task,
+}
+
+/// Size of what stands before every message: its kind, its length in bytes, and the number of the request, which the answer repeats.
+pub const HEAD: usize = 16;
+/// Longest message, bytes.
+pub const LONGEST: usize = 4096;
+
+/// Writes a message with its head at the end of `out`.
+pub fn encode(number: u64, message: &Message, out: &mut Vec<u8>) {
+    let start = out.len();
+    out.extend_from_slice(&kind(message));
+    out.extend_from_slice(&[0; 4]);
+    out.extend_from_slice(&number.to_le_bytes());
+    match message {
+        Message::Begin(begin) => encode_begin(begin, out),
+        Message::Tick(sensed) => {
+            out.extend_from_slice(&sensed.number.to_le_bytes());
+            for count in sensed.counts {
+                out.extend_from_slice(&count.to_le_bytes());
+            }
+            put(out, [sensed.tip_force_n.x, sensed.tip_force_n.y]);
+        }
+        Message::Over | Message::Done => {}
+        Message::Currents(currents_a) => put(out, *currents_a),
+        Message::Status(status) => out.extend_from_slice(&status.to_le_bytes()),
+        Message::WroteOutside(text) | Message::Unusable(text) => {
+            let most = LONGEST.min(text.len());
+            out.extend(text.as_bytes().iter().take(most));
+        }
+        Message::Ended(end, left) => {
+            let (how, number) = match *end {
+                End::Code(code) => (0_u32, code),
+                End::Signal(signal) => (1, signal),
+                End::Lost => (2, 0),
+            };
+            out.extend_from_slice(&how.to_le_bytes());
+            out.extend_from_slice(&number.to_le_bytes());
+            out.extend_from_slice(&left.to_le_bytes());
+        }
+    }
+    // No message is longer than `LONGEST`: a path has at most `MOST_POINTS`.
+    let length = (out.len() - start - HEAD) as u32;
+    let place = out.iter_mut().skip(start + 4);
+    for (byte, of_length) in place.zip(length.to_le_bytes()) {
+        *byte = of_length;
+    }
+}
+
+fn kind(message: &Message) -> [u8; 4] {
+    *match message {
+        Message::Begin(_) => b"RPbe",
+        Message::Tick(_) => b"RPti",
+        Message::Over => b"RPov",
+        Message::Done => b"RPdo",
+        Message::Currents(_) => b"RPcu",
+        Message::Status(_) => b"RPst",
+        Message::WroteOutside(_) => b"RPwr",
+        Message::Unusable(_) => b"RPun",
+        Message::Ended(..) => b"RPen",
+    }
+}
+
+/// What stands in a head: kind, length, number of the request; `None` if it is none.
+pub fn head(bytes: &[u8; HEAD]) -> Option<([u8; 4], usize, u64)> {
+    let mut bytes = bytes.as_slice();
+    let kind: [u8; 4] = take(&mut bytes)?;
+    let length = u32::from_le_bytes(take(&mut bytes)?) as usize;
+    let number = u64::from_le_bytes(take(&mut bytes)?);
+    (kind.starts_with(b"RP") && length <= LONGEST).then_some((kind, length, number))
+}
+
+/// The message of this kind; `None` if it is none.
+pub fn decode(kind: [u8; 4], mut body: &[u8]) -> Option<Message> {
+    let bytes = &mut body;
+    let message = match &kind {
+        b"RPbe" => Message::Begin(Box::new(decode_begin(bytes)?)),
+        b"RPti" => Message::Tick(Sensed {
+            number: u32::from_le_bytes(take(bytes)?),
+            counts: [
+                i32::from_le_bytes(take(bytes)?),
+                i32::from_le_bytes(take(bytes)?),
+            ],
+            tip_force_n: Vector::from(floats(bytes)?),
+        }),
+        b"RPov" => Message::Over,
+        b"RPdo" => Message::Done,
+        b"RPcu" => Message::Currents(floats(bytes)?),
+        b"RPst" => Message::Status(i32::from_le_bytes(take(bytes)?)),
+        b"RPwr" => Message::WroteOutside(text(bytes)),
+        b"RPun" => Message::Unusable(text(bytes)),
+        b"RPen" => {
+            let how = u32::from_le_bytes(take(bytes)?);
+            let number = i32::from_le_bytes(take(bytes)?);
+            let end = match how {
+                0 => End::Code(number),
+                1 => End::Signal(number),
+                2 => End::Lost,
+                _ => return None,
+            };
+            Message::Ended(end, u32::from_le_bytes(take(bytes)?))
+        }
+        _ => return None,
+    };
+    body.is_empty().then_some(message)
+}
+
+fn encode_begin(begin: &Begin, out: &mut Vec<u8>) {
+    let Settings {
+        arms,
+        layout,
+        counts_per_turn,
+        zero_counts,
+        sample_s,
+        greatest_rate_rad_s,
+        greatest_force_n,
+    } = begin.settings;
+    let brakes = layout.brakes().len() as u32;
+    out.extend_from_slice(&brakes.to_le_bytes());
+    for count in counts_per_turn {
+        out.extend_from_slice(&count.to_le_bytes());
+    }
+    for count in zero_counts {
+        out.extend_from_slice(&count.to_le_bytes());
+    }
+    let Arms {
+        l_ae_m,
+        l_ed_m,
+        l_bc_m,
+        l_cd_m,
+        l_ab_m,
+    } = arms;
+    put(out, [l_ae_m, l_ed_m, l_bc_m, l_cd_m, l_ab_m]);
+    put(out, [sample_s, greatest_rate_rad_s, greatest_force_n]);
+    let (kind, points_m): (u32, &[[f64; 2]]) = match &begin.task {
+        Task::Chain(points_m) => (0, points_m),
+        Task::Arc { .. } => (1, &[]),
+        Task::Spline(points_m) => (2, points_m),
+    };
+    out.extend_from_slice(&kind.to_le_bytes());
+    out.extend_from_slice(&(points_m.len() as u32).to_le_bytes());
+    for point_m in points_m {
+        put(out, *point_m);
+    }
+    if let Task::Arc {
+        centre_m: [x, y],
+        radius_m,
+        from_rad,
+        to_rad,
+    } = begin.task
+    {
+        put(out, [x, y, radius_m, from_rad, to_rad]);
+    }
+}
+
+fn decode_begin(bytes: &mut &[u8]) -> Option<Begin> {
+    let layout = match u32::from_le_bytes(take(bytes)?) {
+        3 => Layout::ThreeBrake,
+        4 => Layout::FourBrake,
+        _ => return None,
+    };
+    let counts_per_turn = [
+        u32::from_le_bytes(take(bytes)?),
+        u32::from_le_bytes(take(bytes)?),
+    ];
+    let zero_counts = [
+        i32::from_le_bytes(take(bytes)?),
+        i32::from_le_bytes(take(bytes)?),
+    ];
+    let [l_ae_m, l_ed_m, l_bc_m, l_cd_m, l_ab_m] = floats(bytes)?;
+    let [sample_s, greatest_rate_rad_s, greatest_force_n] = floats(bytes)?;
+    let kind = u32::from_le_bytes(take(bytes)?);
+    let count = u32::from_le_bytes(take(bytes)?) as usize;
+    let mut points_m = Vec::with_capacity(count.min(LONGEST));
+    for _ in 0..count {
+        points_m.push(floats(bytes)?);
+    }
+    let task = match kind {
+        0 => Task::Chain(points_m),
+        1 => {
+            let [x, y, radius_m, from_rad, to_rad] = floats(bytes)?;
+            Task::Arc {
+                centre_m: [x, y],
+                radius_m,
+                from_rad,
+                to_rad,
+            }
+        }
+        2 => Task::Spline(points_m),
+        _ => return None,
+    };
+    let settings = Settings {
+        arms: Arms {
+            l_ae_m,
+            l_ed_m,
+            l_bc_m,
+            l_cd_m,
+            l_ab_m,
+        },
+        layout,
+        counts_per_turn,
+        zero_counts,
+        sample_s,
+        greatest_rate_rad_s,
+        greatest_force_n,
+    };
+    Some(Begin { settings, task })
+}
+
+fn put<const N: usize>(out: &mut Vec<u8>, numbers: [f64; N]) {
+    for number in numbers {
+        out.extend_from_slice(&number.to_le_bytes());
+    }
+}
+
+fn floats<const N: usize>(bytes: &mut &[u8]) -> Option<[f64; N]> {
+    let mut numbers = [0.0; N];
+    for number in &mut numbers {
+        *number = f64::from_le_bytes(take(bytes)?);
+    }
+    Some(numbers)
+}
+
+fn take<const N: usize>(bytes: &mut &[u8]) -> Option<[u8; N]> {
+    let (taken, rest) = bytes.split_first_chunk()?;
+    *bytes = rest;
+    Some(*taken)
+}
+
+/// A text of another process: nothing in it steers a terminal.
+fn text(bytes: &mut &[u8]) -> String {
+    let text = String::from_utf8_lossy(std::mem::take(bytes));
+    text.chars()
+        .map(|character| match character.is_control() {
+            true => ' ',
+            false => character,
+        })
+        .collect()
+}
