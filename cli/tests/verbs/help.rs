@@ -21,6 +21,8 @@ fn every_verb_shows_an_example_and_says_what_it_does() {
         &["blind", "make"],
         &["blind", "score"],
         &["blind", "trial"],
+        &["certify"],
+        &["certify", "merge"],
     ] {
         let mut command = Command::new(env!("CARGO_BIN_EXE_rigproof"));
         let answer = command.args(verb).arg("--help").output().unwrap();
