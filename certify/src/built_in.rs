@@ -125,6 +125,23 @@ impl BuiltIn {
         }
     }
 
+    /// A controller that has seen nothing.
+    ///
+    /// # Errors
+    /// [`Failure::Refused`]: a parameter, the path or a setting is outside its range.
+    pub fn controller(
+        &self,
+        settings: &Settings,
+        task: &Task,
+    ) -> Result<Box<dyn Controller>, Failure> {
+        let refused = |what: &str| Failure::Refused(format!("{what} is outside its range"));
+        let law = self
+            .law(settings, task)
+            .ok_or_else(|| refused("a parameter of the law or a point of the path"))?;
+        let tick = Tick::new(settings, law).ok_or_else(|| refused("a setting of the rig"))?;
+        Ok(Box::new(tick))
+    }
+
     fn law(&self, settings: &Settings, task: &Task) -> Option<AnyLaw<f64, Path>> {
         let path = Way::new(task)?.path;
         let boundary_m = self.boundary_m;
@@ -179,11 +196,6 @@ type Path = AnyPath<f64, MOST_PIECES>;
 
 impl Source for BuiltIn {
     fn begin(&self, settings: &Settings, task: &Task) -> Result<Box<dyn Controller + '_>, Failure> {
-        let refused = |what: &str| Failure::Refused(format!("{what} is outside its range"));
-        let law = self
-            .law(settings, task)
-            .ok_or_else(|| refused("a parameter of the law or a point of the path"))?;
-        let tick = Tick::new(settings, law).ok_or_else(|| refused("a setting of the rig"))?;
-        Ok(Box::new(tick))
+        self.controller(settings, task)
     }
 }

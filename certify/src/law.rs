@@ -215,7 +215,8 @@ impl Fared {
         if margin.0.is_nan() {
             self.worst = f64::MIN;
         } else if margin.0 < self.worst {
-            self.worst = margin.0.max(f64::MIN);
+            // A zero has no sign here.
+            self.worst = margin.0.max(f64::MIN) + 0.0;
         }
     }
 }
