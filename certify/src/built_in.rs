@@ -98,12 +98,14 @@ impl BuiltIn {
             boundary_m: Some(self.boundary_m),
             within_force: true,
             solid: self.obstacle,
+            reference: Some(*self),
             ..Declared::default()
         };
         let without_lock = |most: u8| Declared {
             most_brakes: Some(most),
             locks: Some(false),
             solid: self.obstacle,
+            reference: Some(*self),
             ..Declared::default()
         };
         match self.law {

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::built_in::BuiltIn;
+
 /// What a controller promises; what it does not promise is not looked at, and said to be not looked at.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -21,6 +23,8 @@ pub struct Declared {
     pub within_force: bool,
     /// On which side of the path an obstacle lies; on the other no brake acts.
     pub solid: Option<Solid>,
+    /// The law of the rig that it claims to be.
+    pub reference: Option<BuiltIn>,
 }
 
 /// A rule by which one brake is chosen.

@@ -247,6 +247,7 @@ fn declared(table: &Table<'_>) -> Result<Declared, TraceError> {
         choice,
         within_force: yes_or_no(table, "within_force")?.unwrap_or(false),
         solid: side(table)?,
+        reference: None,
     })
 }
 

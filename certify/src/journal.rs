@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions};
-use std::io::{Read, Seek, SeekFrom, Write};
+use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
@@ -55,18 +55,20 @@ impl Journal {
         std::fs::create_dir_all(folder).map_err(refused)?;
         let mut file = OpenOptions::new()
             .read(true)
-            .write(true)
+            .append(true)
             .create(true)
-            .truncate(false)
             .open(&path)
             .map_err(refused)?;
+        file.try_lock().map_err(|_| {
+            let advice = "wait for it, or give another folder with --out";
+            Error::unusable(&path, format!("another process writes here; {advice}"))
+        })?;
         let mut bytes = Vec::new();
         file.read_to_end(&mut bytes).map_err(refused)?;
         let whole = bytes.iter().rposition(|byte| *byte == b'\n');
         let whole = whole.map_or(0, |last| last + 1);
         bytes.truncate(whole);
         file.set_len(whole as u64).map_err(refused)?;
-        file.seek(SeekFrom::End(0)).map_err(refused)?;
         let chunks = if bytes.is_empty() {
             let mut line = serde_json::to_vec(header)?;
             line.push(b'\n');

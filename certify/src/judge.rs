@@ -1,6 +1,7 @@
 //! This file holds every sample of a controller to the laws, by what was sensed and by what it commanded.
 
 mod behaviour;
+mod reference;
 mod seen;
 
 use rigproof_impl::plant::Plant;
@@ -14,10 +15,12 @@ use rigproof_spec::laws::{
 use rigproof_spec::layout::Layout;
 use rigproof_spec::tables::GREATEST_CURRENT_A;
 
+use crate::controller::Task;
 use crate::declared::Declared;
 use crate::law::{Fared, LAWS, Law};
 use crate::way::Way;
 use behaviour::Behaviour;
+use reference::{EVERY, Reference};
 use seen::Seen;
 
 /// Samples of a fault over which the last command may still hold (decision 0124).
@@ -29,6 +32,7 @@ pub const ENERGY_SLACK_J: f64 = 1e-3;
 pub struct Judge {
     layout: Layout,
     behaviour: Behaviour,
+    reference: Option<Reference>,
     seen: Seen,
     /// How every law fared, in the order of [`Law::ALL`].
     pub fared: [Fared; LAWS],
@@ -41,9 +45,17 @@ pub struct Judge {
 }
 
 impl Judge {
-    /// A judge of a controller that promises so much, on a rig, at a path; the rig's energy at the start, J.
-    pub fn new(settings: &Settings, declared: &Declared, way: Way, start_j: f64) -> Option<Judge> {
+    /// A judge of a controller that promises so much, on a rig, at a task; the rig's energy at the start, J.
+    pub fn new(
+        settings: &Settings,
+        declared: &Declared,
+        task: &Task,
+        start_j: f64,
+    ) -> Option<Judge> {
+        let (layout, way) = (settings.layout, Way::new(task)?);
+        let reference = declared.reference.as_ref();
         Some(Judge {
+            reference: reference.and_then(|law| Reference::new(law, layout, task)),
             layout: settings.layout,
             behaviour: Behaviour::new(settings.layout, declared, way),
             seen: Seen::new(settings)?,
@@ -97,7 +109,13 @@ impl Judge {
             return;
         }
         (self.faulty, self.held_a) = (0, currents_a);
-        if let Some(situation) = self.seen.update(sensed) {
+        if let Some((situation, told)) = self.seen.update(sensed) {
+            if tick % EVERY == 0
+                && let Some(reference) = &mut self.reference
+                && let Some(margin) = reference.margin(&told, currents_a)
+            {
+                self.add(Law::Reference, tick, margin);
+            }
             let fared = &mut self.fared;
             self.behaviour.judge(&situation, &command, |law, margin| {
                 #[expect(

@@ -3,7 +3,8 @@
 use rigproof_spec::laws::Margin;
 use serde::{Deserialize, Serialize};
 
-use crate::declared::Declared;
+use crate::built_in::Kind;
+use crate::declared::{Choice, Declared};
 
 /// A law.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -24,10 +25,11 @@ pub enum Law {
     TipForce,
     Influence,
     QuarterTurn,
+    Reference,
 }
 
 /// How many laws there are.
-pub const LAWS: usize = 14;
+pub const LAWS: usize = 15;
 
 impl Law {
     /// Every law, those first that every controller can be held to.
@@ -46,6 +48,7 @@ impl Law {
         Law::TipForce,
         Law::Influence,
         Law::QuarterTurn,
+        Law::Reference,
     ];
 
     /// Its name in files.
@@ -65,6 +68,7 @@ impl Law {
             Law::TipForce => "tip_force",
             Law::Influence => "influence",
             Law::QuarterTurn => "quarter_turn",
+            Law::Reference => "reference",
         }
     }
 
@@ -95,6 +99,9 @@ impl Law {
             Law::QuarterTurn => {
                 "the brake that acts leads between the path's direction and the way to it"
             }
+            Law::Reference => {
+                "the currents are those of the reference's controller, ties aside, on every 16th sample"
+            }
         }
     }
 
@@ -107,7 +114,8 @@ impl Law {
             | Law::Safe
             | Law::Repeats
             | Law::Gap
-            | Law::FreeSide => "A",
+            | Law::FreeSide
+            | Law::Reference => "A",
             Law::Dissipation => "W",
             Law::Passivity => "J",
             Law::BrakeCount => "brakes",
@@ -143,14 +151,21 @@ impl Law {
                 "a greatest force at the tip is not declared",
             ),
             Law::Influence => without(
-                declared.choice == Some(crate::declared::Choice::Influence)
-                    && declared.boundary_m.is_some(),
+                declared.choice == Some(Choice::Influence) && declared.boundary_m.is_some(),
                 "choice by influence (§6.3) is not declared",
             ),
             Law::QuarterTurn => without(
-                declared.choice == Some(crate::declared::Choice::QuarterTurn)
-                    && declared.boundary_m.is_some(),
+                declared.choice == Some(Choice::QuarterTurn) && declared.boundary_m.is_some(),
                 "choice by the quarter turn (§6.2) is not declared",
+            ),
+            Law::Reference => without(
+                declared.reference.is_some_and(|law| {
+                    matches!(
+                        law.law,
+                        Kind::Uncontrolled | Kind::Sdof { .. } | Kind::Proportional { .. }
+                    )
+                }),
+                "it does not claim to be a law of table 6.1; other laws of the rig are set beside the reference in the workspace's tests",
             ),
             _ => None,
         }

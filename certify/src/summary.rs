@@ -159,10 +159,6 @@ pub fn not_looked_at(plan: &Plan) -> Vec<NotLookedAt> {
             "amplifiers",
             "what an amplifier does when no command comes: it needs a watchdog of its own (decision 0074)",
         ),
-        (
-            "the reference",
-            "the controller was not set beside the reference sample by sample; the tests of the workspace do that for the rig's own laws",
-        ),
     ];
     let named = |(what, why): (&str, &str)| NotLookedAt {
         what: what.to_owned(),

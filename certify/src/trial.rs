@@ -129,7 +129,12 @@ impl<'a> Trial<'a> {
             way,
             hand: Pushing::new(&scenario.hand, &scenario.task)?,
             sensors: Sensors::new(scenario),
-            judge: Judge::new(&settings, declared, way, plant.kinetic_energy_j())?,
+            judge: Judge::new(
+                &settings,
+                declared,
+                &scenario.task,
+                plant.kinetic_energy_j(),
+            )?,
             plant,
             track: Track {
                 tips_m: Vec::with_capacity(capacity),

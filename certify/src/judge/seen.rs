@@ -9,6 +9,8 @@ use rigproof_impl::tick::{Sensed, Settings};
 use rigproof_impl::vector::Vector;
 use rigproof_impl::velocity::Velocity;
 
+use super::reference::Told;
+
 /// What was sensed so far.
 pub struct Seen {
     shape: Shape<f64>,
@@ -41,7 +43,7 @@ impl Seen {
     }
 
     /// What is known now; `None` until a whole window of good samples has come, and in a pose without a Jacobian.
-    pub fn update(&mut self, sensed: &Sensed<f64>) -> Option<Situation<f64>> {
+    pub fn update(&mut self, sensed: &Sensed<f64>) -> Option<(Situation<f64>, Told)> {
         let [encoder_a, encoder_b] = &self.encoders;
         let [count_a, count_b] = sensed.counts;
         let (of_a, of_b) = (encoder_a.travel(count_a), encoder_b.travel(count_b));
@@ -59,13 +61,22 @@ impl Seen {
             let (sine, cosine) = angle_rad.sine_cosine();
             Vector::new(cosine, sine)
         };
-        let arms = [encoder_a.angle_rad(of_a), encoder_b.angle_rad(of_b)].map(direction);
+        let theta_rad = [encoder_a.angle_rad(of_a), encoder_b.angle_rad(of_b)];
+        let arms = theta_rad.map(direction);
         let linkage = linkage(&self.shape, arms[0], arms[1]);
-        linkage.is_sound(&self.shape).then(|| Situation {
-            linkage,
-            rows: linkage.rows(),
-            tip_velocity_m_s: linkage.tip_velocity(rates_rad_s),
-            tip_force_n: sensed.tip_force_n,
+        linkage.is_sound(&self.shape).then(|| {
+            let situation = Situation {
+                linkage,
+                rows: linkage.rows(),
+                tip_velocity_m_s: linkage.tip_velocity(rates_rad_s),
+                tip_force_n: sensed.tip_force_n,
+            };
+            let told = Told {
+                theta_rad,
+                rates_rad_s: rates_rad_s.into(),
+                force_n: sensed.tip_force_n.into(),
+            };
+            (situation, told)
         })
     }
 }
