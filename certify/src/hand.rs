@@ -107,7 +107,7 @@ pub enum Pushing {
     /// An operator on the path, and one on the way back.
     Operator(Box<[Operator<Way>; 2]>),
     /// An adversary.
-    Adversary(Adversary),
+    Adversary(Box<Adversary>),
     /// A constant push, N.
     Constant([f64; 2]),
 }
@@ -128,14 +128,14 @@ impl Pushing {
                     Operator::new(back, abilities, !seed).ok()?,
                 ]))
             }
-            Hand::Adversary { strength, seed } => Pushing::Adversary(Adversary {
+            Hand::Adversary { strength, seed } => Pushing::Adversary(Box::new(Adversary {
                 way,
                 greatest_n: GREATEST_FORCE_N * strength,
                 draw: Draw::new(seed, 0),
                 mode: Mode::Across,
                 left: 0,
                 is_turning: false,
-            }),
+            })),
             Hand::Constant(force_n) => Pushing::Constant(force_n),
         })
     }

@@ -40,6 +40,8 @@ pub struct Judge {
     held_a: [f64; 4],
     /// Samples since the fault began.
     faulty: u32,
+    /// Whether it has let go on a fault and not acted since: when it comes back is its own affair.
+    has_let_go: bool,
     work_j: f64,
     start_j: f64,
 }
@@ -62,6 +64,7 @@ impl Judge {
             fared: [Fared::default(); LAWS],
             held_a: [0.0; 4],
             faulty: 0,
+            has_let_go: false,
             work_j: 0.0,
             start_j,
         })
@@ -106,11 +109,14 @@ impl Judge {
             };
             self.add(Law::Safe, tick, margin);
             self.seen.forget();
+            self.has_let_go = true;
             return;
         }
+        self.has_let_go &= currents_a == [0.0; 4];
         (self.faulty, self.held_a) = (0, currents_a);
         if let Some((situation, told)) = self.seen.update(sensed) {
-            if tick % EVERY == 0
+            if tick.is_multiple_of(EVERY)
+                && !self.has_let_go
                 && let Some(reference) = &mut self.reference
                 && let Some(margin) = reference.margin(&told, currents_a)
             {

@@ -42,7 +42,7 @@ impl Way {
             )?),
             Task::Spline(points) => AnyPath::Spline(Spline::through(points)?),
         };
-        let end_m = Vector::from(end_m(task)?);
+        let [_, end_m] = ends_m(task)?.map(Vector::from);
         let nearest = path.nearest(end_m);
         nearest.is_defined().then_some(Way {
             path,
@@ -58,19 +58,21 @@ impl Way {
     }
 }
 
-/// Where a task ends, m.
-fn end_m(task: &Task) -> Option<[f64; 2]> {
+/// Where a task begins and where it ends, m.
+pub fn ends_m(task: &Task) -> Option<[[f64; 2]; 2]> {
     match task {
-        Task::Chain(points) | Task::Spline(points) => points.last().copied(),
+        Task::Chain(points) | Task::Spline(points) => {
+            Some([points.first().copied()?, points.last().copied()?])
+        }
         Task::Arc {
             centre_m: [x, y],
             radius_m,
+            from_rad,
             to_rad,
-            ..
-        } => {
-            let (sine, cosine) = libm::sincos(*to_rad);
-            Some([x + radius_m * cosine, y + radius_m * sine])
-        }
+        } => Some([*from_rad, *to_rad].map(|angle_rad| {
+            let (sine, cosine) = libm::sincos(angle_rad);
+            [x + radius_m * cosine, y + radius_m * sine]
+        })),
     }
 }
 

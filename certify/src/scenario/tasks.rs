@@ -11,7 +11,7 @@ use rigproof_spec::layout::Layout;
 use super::Draw;
 use crate::controller::Task;
 use crate::trial::LEAST_SINE;
-use crate::way::Way;
+use crate::way::{Way, ends_m};
 
 /// The box in which the points of paths lie, m: around the two lines of decision 0047.
 const FROM_M: [f64; 2] = [-0.13, 0.28];
@@ -84,7 +84,7 @@ fn arc(draw: &mut Draw) -> Task {
 /// Base angles, rad, of a start on or beside the path's beginning; `None` where the path or the start leaves the workspace.
 pub fn start(draw: &mut Draw, layout: Layout, task: &Task) -> Option<[f64; 2]> {
     let way = Way::new(task)?;
-    let first = first(task)?;
+    let [first, _] = ends_m(task)?;
     let off = if draw.one_in(3) {
         Vector::zero()
     } else {
@@ -110,21 +110,6 @@ pub fn start(draw: &mut Draw, layout: Layout, task: &Task) -> Option<[f64; 2]> {
     let start = Vector::from(first) + off;
     way.path.nearest(start).is_defined().then_some(())?;
     base_rad(layout, [start.x, start.y])
-}
-
-fn first(task: &Task) -> Option<[f64; 2]> {
-    match task {
-        Task::Chain(points) | Task::Spline(points) => points.first().copied(),
-        Task::Arc {
-            centre_m: [x, y],
-            radius_m,
-            from_rad,
-            ..
-        } => {
-            let (sine, cosine) = libm::sincos(*from_rad);
-            Some([x + radius_m * cosine, y + radius_m * sine])
-        }
-    }
 }
 
 /// θA and θB, rad, of a tip, away from every singularity.

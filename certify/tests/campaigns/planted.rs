@@ -27,14 +27,14 @@ use crate::plain::{self, Bug};
 const MOST: u64 = 400;
 
 /// What stands around a sound controller.
-struct Bent<'a, S, B, A> {
-    inner: Box<dyn Controller + 'a>,
+struct Bent<S, B, A> {
+    inner: Box<dyn Controller>,
     state: S,
     before: B,
     after: A,
 }
 
-impl<S, B, A> Controller for Bent<'_, S, B, A>
+impl<S, B, A> Controller for Bent<S, B, A>
 where
     B: FnMut(&mut S, &Sensed<f64>) -> Sensed<f64>,
     A: FnMut(&mut S, &Sensed<f64>, [f64; 4]) -> Result<[f64; 4], Failure>,
@@ -46,26 +46,34 @@ where
     }
 }
 
-fn begun(law: BuiltIn, settings: &Settings, task: &Task) -> Result<Box<dyn Controller>, Failure> {
-    law.controller(settings, task)
+type Answer = Result<[f64; 4], Failure>;
+
+/// A sound law whose samples and answers are changed.
+fn bent<S: Clone + Sync + 'static>(
+    law: BuiltIn,
+    state: S,
+    before: impl Fn(&mut S, &Sensed<f64>) -> Sensed<f64> + Copy + Sync + 'static,
+    after: impl Fn(&mut S, &Sensed<f64>, [f64; 4]) -> Answer + Copy + Sync + 'static,
+) -> Box<dyn Source> {
+    Box::new(
+        move |settings: &Settings, task: &Task| -> Result<Box<dyn Controller>, Failure> {
+            Ok(Box::new(Bent {
+                inner: law.controller(settings, task)?,
+                state: state.clone(),
+                before,
+                after,
+            }))
+        },
+    )
 }
 
 /// A sound law whose answers are changed.
 fn after<S: Clone + Sync + 'static>(
     law: BuiltIn,
     state: S,
-    change: impl Fn(&mut S, &Sensed<f64>, [f64; 4]) -> Result<[f64; 4], Failure> + Copy + Sync + 'static,
+    change: impl Fn(&mut S, &Sensed<f64>, [f64; 4]) -> Answer + Copy + Sync + 'static,
 ) -> Box<dyn Source> {
-    Box::new(
-        move |settings: &Settings, task: &Task| -> Result<Box<dyn Controller>, Failure> {
-            Ok(Box::new(Bent {
-                inner: begun(law, settings, task)?,
-                state: state.clone(),
-                before: |_: &mut S, sensed: &Sensed<f64>| *sensed,
-                after: change,
-            }))
-        },
-    )
+    bent(law, state, |_, sensed| *sensed, change)
 }
 
 /// A sound law whose samples are changed.
@@ -74,16 +82,7 @@ fn before<S: Clone + Sync + 'static>(
     state: S,
     change: impl Fn(&mut S, &Sensed<f64>) -> Sensed<f64> + Copy + Sync + 'static,
 ) -> Box<dyn Source> {
-    Box::new(
-        move |settings: &Settings, task: &Task| -> Result<Box<dyn Controller>, Failure> {
-            Ok(Box::new(Bent {
-                inner: begun(law, settings, task)?,
-                state: state.clone(),
-                before: change,
-                after: |_: &mut S, _: &Sensed<f64>, currents_a: [f64; 4]| Ok(currents_a),
-            }))
-        },
-    )
+    bent(law, state, change, |_, _, currents_a| Ok(currents_a))
 }
 
 /// A sound law that is told other settings.
@@ -91,7 +90,7 @@ fn told(law: BuiltIn, change: impl Fn(&mut Settings) + Sync + 'static) -> Box<dy
     Box::new(move |settings: &Settings, task: &Task| {
         let mut settings = *settings;
         change(&mut settings);
-        begun(law, &settings, task)
+        law.controller(&settings, task)
     })
 }
 
@@ -326,7 +325,7 @@ fn nan_through_the_origin() -> Planted {
             _ => 1.0,
         };
         Ok(Box::new(Bent {
-            inner: begun(low(), settings, task)?,
+            inner: low().controller(settings, task)?,
             state: offset_m,
             before: |_: &mut f64, sensed: &Sensed<f64>| *sensed,
             after: |offset_m: &mut f64, _: &Sensed<f64>, a: [f64; 4]| {
@@ -391,7 +390,7 @@ fn every_planted_bug_is_refused_by_its_law_and_shrunk() {
         );
         // What hangs on the number of calls, or comes once in many samples, need not come again.
         let is_rare = name.contains("call count") || name.contains("glitch") || name == "gives up";
-        if !is_rare && !shrunk.is_some_and(|ticks| ticks <= 500) {
+        if !is_rare && shrunk.is_none_or(|ticks| ticks > 500) {
             missed.push(name);
         }
     }
