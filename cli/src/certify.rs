@@ -33,9 +33,9 @@ pub struct Args {
     /// Length of a trial, s
     #[arg(long, value_name = "S", default_value_t = 10.0, value_parser = parse_seconds)]
     seconds: f64,
-    /// Seed of all scenarios
-    #[arg(long, value_name = "K", default_value_t = 1)]
-    seed: u64,
+    /// Seed of all scenarios; 1 where none is given. Of --check: which scenarios are run again; the clock's where none is given
+    #[arg(long, value_name = "K")]
+    seed: Option<u64>,
     /// Trials that run at once; 0 takes every processor. The result does not depend on it
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = threads::parse)]
     jobs: usize,

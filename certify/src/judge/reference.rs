@@ -1,8 +1,11 @@
 //! This file sets a command beside what the reference decides on the same sample, and says which differences are ties.
 
+use std::cell::Cell;
+use std::rc::Rc;
+
 use nalgebra::Vector2;
 use rigproof_model::ModelError;
-use rigproof_model::control::path::{Arc, Line, Path, Polyline, Spline};
+use rigproof_model::control::path::{Arc, Line, Nearest, Path, Polyline, Spline};
 use rigproof_model::control::{
     Actuation, Controller, Obstacle, Proportional, Sdof, Sensed, Side, Uncontrolled,
 };
@@ -26,9 +29,14 @@ const AMONG_A: f64 = 1e-7;
 /// Nudges: shares of push and rates, rad of the base angles; far below what a sensor tells apart.
 const NUDGES: [f64; 3] = [1e-14, 1e-12, 1e-10];
 
+/// How near to the path a tip may count as on it, m: what two computations of a distance differ by.
+const ON_PATH_M: f64 = 1e-11;
+
 /// The reference's controller on the reference's path.
 pub struct Reference {
     controller: Box<dyn Controller>,
+    /// Whether what is all but on the path counts as on it.
+    is_snapped: Rc<Cell<bool>>,
     arms: Arms,
     inertia: Inertia,
 }
@@ -47,8 +55,10 @@ pub struct Told {
 impl Reference {
     /// The reference of a law of table 6.1; `None` for other laws, whose ties have exceptions of their own (decisions 0071, 0117).
     pub fn new(law: &BuiltIn, layout: Layout, task: &Task) -> Option<Reference> {
+        let is_snapped = Rc::new(Cell::new(false));
         Some(Reference {
-            controller: controller(law, layout, task).ok()??,
+            controller: controller(law, layout, task, &is_snapped).ok()??,
+            is_snapped,
             arms: arms(layout),
             inertia: inertia(layout),
         })
@@ -72,21 +82,29 @@ impl Reference {
 
     /// How a command lies to the reference's; `None` where that knows no pose.
     ///
-    /// A tie is a sample in which the reference itself takes the command when what it is told is nudged within rounding.
+    /// A tie is a sample in which the reference itself takes the command when what it is told is nudged within rounding, or when a tip that
+    /// is all but on the path counts as on it, which no nudge meets.
     pub fn margin(&mut self, told: &Told, currents_a: [f64; 4]) -> Option<Margin> {
         let apart_a = apart(self.currents_a(told)?, currents_a);
         if apart_a <= EQUAL_A {
             return Some(Margin(EQUAL_A - apart_a));
         }
-        for size in NUDGES {
-            for signs in 0..64_u8 {
+        let is_tie = [false, true].into_iter().any(|is_snapped| {
+            self.is_snapped.set(is_snapped);
+            self.is_near(told, currents_a)
+        });
+        self.is_snapped.set(false);
+        Some(Margin(if is_tie { 0.0 } else { -apart_a }))
+    }
+
+    /// Whether the reference takes a command when what it is told is nudged.
+    fn is_near(&mut self, told: &Told, currents_a: [f64; 4]) -> bool {
+        NUDGES.into_iter().any(|size| {
+            (0..64).any(|signs| {
                 let nudged = self.currents_a(&nudged(told, size, signs));
-                if nudged.is_some_and(|nudged| apart(nudged, currents_a) <= AMONG_A) {
-                    return Some(Margin(0.0));
-                }
-            }
-        }
-        Some(Margin(-apart_a))
+                nudged.is_some_and(|nudged| apart(nudged, currents_a) <= AMONG_A)
+            })
+        })
     }
 }
 
@@ -94,8 +112,15 @@ fn controller(
     law: &BuiltIn,
     layout: Layout,
     task: &Task,
+    is_snapped: &Rc<Cell<bool>>,
 ) -> Result<Option<Box<dyn Controller>>, ModelError> {
-    let (actuation, path) = (Actuation::thesis(layout), || path(task));
+    let actuation = Actuation::thesis(layout);
+    let path = || -> Result<Snapping, ModelError> {
+        Ok(Snapping {
+            path: path(task)?,
+            is_snapped: Rc::clone(is_snapped),
+        })
+    };
     let inner: Box<dyn Controller> = match law.law {
         Kind::Uncontrolled => Box::new(Uncontrolled),
         Kind::Sdof { gap_m } => Box::new(Sdof::new(actuation, path()?, law.boundary_m, gap_m)?),
@@ -112,6 +137,24 @@ fn controller(
         Some(Solid::Left) => Box::new(Obstacle::new(path()?, Side::Left, inner)),
         Some(Solid::Right) => Box::new(Obstacle::new(path()?, Side::Right, inner)),
     }))
+}
+
+/// A path on which a tip may count as standing that is all but on it.
+#[derive(Debug)]
+struct Snapping {
+    path: Box<dyn Path>,
+    is_snapped: Rc<Cell<bool>>,
+}
+
+impl Path for Snapping {
+    fn nearest(&self, point_m: [f64; 2]) -> Nearest {
+        let nearest = self.path.nearest(point_m);
+        let is_on = self.is_snapped.get() && nearest.distance_m() <= ON_PATH_M;
+        Nearest {
+            offset_m: if is_on { 0.0 } else { nearest.offset_m },
+            ..nearest
+        }
+    }
 }
 
 /// The path in the reference's own code.
@@ -165,4 +208,51 @@ fn apart(one_a: [f64; 4], other_a: [f64; 4]) -> f64 {
                 apart
             }
         })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rigproof_spec::methods::Method;
+
+    #[test]
+    fn a_tip_on_the_path_is_a_tie_and_a_wrong_command_is_none() {
+        let task = Task::Chain(vec![[0.0, 0.29], [0.0, 0.45]]);
+        let law = BuiltIn::of(Method::Sdof);
+        let mut reference = Reference::new(&law, Layout::FourBrake, &task).unwrap();
+        let mut holds = |theta_rad: [f64; 2], currents_a: [f64; 4]| {
+            let (rates_rad_s, force_n) = ([0.31, -0.23], [1.7, 2.9]);
+            let told = Told {
+                theta_rad,
+                rates_rad_s,
+                force_n,
+            };
+            let own_a = reference.currents_a(&told).unwrap();
+            let is_own = reference.margin(&told, own_a).unwrap().holds();
+            (is_own, reference.margin(&told, currents_a).unwrap().holds())
+        };
+        // The linkage is its own mirror image: the tip is on the path, where no brake acts.
+        let mirrored = [2.17, core::f64::consts::PI - 2.17];
+        assert_eq!(holds(mirrored, [0.0; 4]), (true, true));
+        assert_eq!(holds(mirrored, [0.0, 0.31, 0.0, 0.0]), (true, false));
+        let beside = [2.11, 0.93];
+        assert_eq!(holds(beside, [0.0; 4]), (true, false));
+        assert_eq!(holds(beside, [f64::NAN; 4]), (true, false));
+    }
+
+    #[test]
+    fn only_laws_of_table_6_1_have_a_reference_here() {
+        let task = Task::Spline(vec![[0.01, 0.31], [0.07, 0.37], [-0.03, 0.43]]);
+        for method in Method::ALL {
+            let law = BuiltIn::of(method);
+            assert!(Reference::new(&law, Layout::ThreeBrake, &task).is_some());
+        }
+        let law = BuiltIn {
+            law: Kind::VelocityRatio {
+                gain_nm_s_per_rad: 1.7,
+            },
+            ..BuiltIn::of(Method::Sdof)
+        };
+        assert!(Reference::new(&law, Layout::ThreeBrake, &task).is_none());
+    }
 }

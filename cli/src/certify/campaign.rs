@@ -59,7 +59,7 @@ fn plan(args: &Args, description: &Description) -> Result<Plan, Failure> {
         controller: Subject::built_in(controller),
         baseline: description.baseline.map(Subject::built_in),
         rigs: description.rigs.clone(),
-        seed: args.seed,
+        seed: args.seed.unwrap_or(1),
         scenarios: args.scenarios,
         ticks: libm::round(args.seconds / SAMPLE_STEP_S) as u32,
         limits: description.limits,

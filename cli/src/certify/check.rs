@@ -16,8 +16,10 @@ pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
     let certificate = Certificate::parse(&read_text(file)?, file)?;
     let mut wrong = changed_findings(&certificate, file);
     let sources = sources(&certificate.plan)?;
+    // Whoever wrote the certificate must not know what is run again.
+    let seed = args.seed.unwrap_or_else(clock);
     let count = args.sample.div_ceil(CHUNK) as usize;
-    let (drawn, differ) = certificate.again(&sources, count, args.seed)?;
+    let (drawn, differ) = certificate.again(&sources, count, seed)?;
     wrong.extend(differ.iter().map(|chunk| {
         let first = chunk * CHUNK;
         format!("scenarios {first} to {} come out otherwise", first + CHUNK)
@@ -26,7 +28,7 @@ pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
     let again = (drawn.len() as u64 * CHUNK).min(certificate.plan.scenarios);
     if args.json {
         let result = json!({
-            "holds": wrong.is_empty(), "wrong": wrong, "run_again": again, "same_build": same_tool,
+            "holds": wrong.is_empty(), "wrong": wrong, "run_again": again, "seed": seed, "same_build": same_tool,
             "may_go_on_the_rig": certificate.may_go_on_the_rig,
         });
         print(&result.to_string())?;
@@ -39,7 +41,7 @@ pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
         }];
         lines.extend(wrong.iter().map(|line| format!("  {line}")));
         lines.push(format!(
-            "{again} of {} scenarios were run again.",
+            "{again} of {} scenarios were run again, drawn by seed {seed}.",
             certificate.plan.scenarios
         ));
         if !same_tool {
@@ -54,6 +56,12 @@ pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
     Ok(Outcome {
         checks_hold: wrong.is_empty(),
     })
+}
+
+/// A seed that nobody knew before.
+fn clock() -> u64 {
+    let since = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH);
+    since.map_or(1, |since| since.subsec_nanos().into())
 }
 
 /// The findings beside a certificate that are not those it names.
