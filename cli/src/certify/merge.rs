@@ -27,6 +27,7 @@ const AFTER_HELP: &str = "\
 The certificate is that of the same campaign run in one piece, bit for bit. Parts are spread by what is at hand:
   Slurm:         sbatch --array=1-8 --wrap 'rigproof certify certify.toml --shard $SLURM_ARRAY_TASK_ID/8 --out part-$SLURM_ARRAY_TASK_ID'
   GNU parallel:  parallel rigproof certify certify.toml --shard {}/8 --out part-{} ::: 1 2 3 4 5 6 7 8
+  Kubernetes:    an indexed Job of 8 that runs rigproof certify certify.toml --shard $((JOB_COMPLETION_INDEX + 1))/8 --out part-$JOB_COMPLETION_INDEX
 
 Example:
   rigproof certify merge part-1 part-2 --out certified";
