@@ -2,6 +2,7 @@
 
 use rigproof_impl::law::Law;
 use rigproof_impl::tick::{Sensed, Settings, Tick};
+use serde::{Deserialize, Serialize};
 
 /// A controller at work in one trial.
 pub trait Controller {
@@ -22,7 +23,8 @@ pub trait Source: Sync {
 }
 
 /// What the operator is to follow or to stay out of, in the plane of the rig.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Task {
     /// A chain of straight lines through these points, m; two points are a line.
     Chain(Vec<[f64; 2]>),
@@ -65,6 +67,15 @@ pub enum Failure {
     /// It said itself that it failed.
     #[error("the controller answered with status {0}")]
     Status(i32),
+}
+
+impl<F> Source for F
+where
+    F: Fn(&Settings, &Task) -> Result<Box<dyn Controller>, Failure> + Sync,
+{
+    fn begin(&self, settings: &Settings, path: &Task) -> Result<Box<dyn Controller + '_>, Failure> {
+        self(settings, path)
+    }
 }
 
 impl<L: Law<f64>> Controller for Tick<f64, L> {

@@ -6,5 +6,28 @@
     clippy::indexing_slicing
 )]
 
+pub mod built_in;
+pub mod campaign;
+pub mod certificate;
 pub mod controller;
+pub mod declared;
+pub mod description;
+pub mod digest;
+pub mod error;
+pub mod finding;
 pub mod foreign;
+pub mod hand;
+pub mod journal;
+pub mod judge;
+pub mod law;
+pub mod metrics;
+pub mod plan;
+pub mod proved;
+pub mod record;
+pub mod scenario;
+pub mod shrink;
+pub mod summary;
+pub mod trial;
+pub mod way;
+
+pub use error::Error;

@@ -3,6 +3,7 @@
 //! A verb is a module with `Args` and `run`, a line in [`Verb`] and a line in [`run`].
 
 mod blind;
+mod certify;
 mod cite;
 mod controller;
 mod convert;
@@ -50,6 +51,8 @@ enum Verb {
     Identify(identify::Args),
     /// Test the diagnosis with recordings whose cause is hidden
     Blind(blind::Args),
+    /// Say whether a changed controller may go on the rig
+    Certify(certify::Args),
     /// Draw the workspace of a linkage, compare it with others, and rank arm lengths
     Design(design::Args),
     /// Run again what the thesis ran, and set its numbers beside ours
@@ -84,6 +87,7 @@ fn run(verb: &Verb) -> Result<Outcome, Failure> {
         Verb::Demo(args) => demo::run(args),
         Verb::Identify(args) => identify::run(args),
         Verb::Blind(args) => blind::run(args),
+        Verb::Certify(args) => certify::run(args),
         Verb::Design(args) => design::run(args),
         Verb::Reproduce(args) => reproduce::run(args),
         Verb::Golden(args) => golden::run(args),

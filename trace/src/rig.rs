@@ -10,7 +10,7 @@ pub mod linkage;
 mod messages;
 mod protocol;
 mod read;
-mod table;
+pub mod table;
 mod text;
 mod write;
 

@@ -21,6 +21,8 @@ fn every_verb_shows_an_example_and_says_what_it_does() {
         &["blind", "make"],
         &["blind", "score"],
         &["blind", "trial"],
+        &["certify"],
+        &["certify", "merge"],
         &["controller"],
         &["controller", "try"],
     ] {

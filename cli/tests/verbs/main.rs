@@ -2,6 +2,7 @@
 
 mod bad_diagnosis;
 mod blind;
+mod certify;
 mod cite;
 mod controller;
 mod demo;

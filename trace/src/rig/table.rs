@@ -12,9 +12,11 @@ use crate::suggest::advice;
 
 /// The text of a TOML file.
 #[derive(Clone, Copy)]
-pub(super) struct Source<'a> {
-    pub(super) text: &'a str,
-    pub(super) file: &'a Path,
+pub struct Source<'a> {
+    /// The text.
+    pub text: &'a str,
+    /// The file that messages name.
+    pub file: &'a Path,
 }
 
 impl<'a> Source<'a> {
@@ -22,7 +24,7 @@ impl<'a> Source<'a> {
     ///
     /// # Errors
     /// It is none; the message gives line and column.
-    pub(super) fn document(&self) -> Result<Spanned<DeTable<'a>>, TraceError> {
+    pub fn document(&self) -> Result<Spanned<DeTable<'a>>, TraceError> {
         DeTable::parse(self.text).map_err(|error| {
             let at = error.span().map_or(0, |span| span.start);
             let message = error.message().lines().collect::<Vec<_>>().join("; ");
@@ -31,7 +33,7 @@ impl<'a> Source<'a> {
     }
 
     /// An error at a byte position of the text.
-    pub(super) fn error(&self, at: usize, problem: impl Into<String>) -> TraceError {
+    pub fn error(&self, at: usize, problem: impl Into<String>) -> TraceError {
         let before = self.text.get(..at).unwrap_or(self.text);
         let line_start = before.rfind('\n').map_or(0, |end| end + 1);
         let in_line = before.get(line_start..).unwrap_or_default();
@@ -46,7 +48,7 @@ impl<'a> Source<'a> {
 }
 
 /// One table of the file.
-pub(super) struct Table<'a> {
+pub struct Table<'a> {
     source: Source<'a>,
     /// How a message calls the table.
     title: String,
@@ -55,7 +57,8 @@ pub(super) struct Table<'a> {
 }
 
 impl<'a> Table<'a> {
-    pub(super) fn root(source: Source<'a>, document: &'a Spanned<DeTable<'a>>) -> Table<'a> {
+    /// The whole file.
+    pub fn root(source: Source<'a>, document: &'a Spanned<DeTable<'a>>) -> Table<'a> {
         Table {
             source,
             title: "the file".into(),
@@ -65,12 +68,12 @@ impl<'a> Table<'a> {
     }
 
     /// An error at the table as a whole.
-    pub(super) fn error(&self, problem: impl Into<String>) -> TraceError {
+    pub fn error(&self, problem: impl Into<String>) -> TraceError {
         self.source.error(self.span.start, problem)
     }
 
     /// An error at the value of a key.
-    pub(super) fn error_at(&self, key: &str, problem: impl Into<String>) -> TraceError {
+    pub fn error_at(&self, key: &str, problem: impl Into<String>) -> TraceError {
         let at = self
             .get(key)
             .map_or(self.span.start, |value| value.span().start);
@@ -78,7 +81,10 @@ impl<'a> Table<'a> {
     }
 
     /// Refuses every key that is not listed.
-    pub(super) fn only(&self, known: &[&str]) -> Result<(), TraceError> {
+    ///
+    /// # Errors
+    /// There is another; the message gives line and column, and the keys that are known.
+    pub fn only(&self, known: &[&str]) -> Result<(), TraceError> {
         for key in self.entries.keys() {
             let name: &str = key.get_ref();
             if !known.contains(&name) {
@@ -90,19 +96,29 @@ impl<'a> Table<'a> {
         Ok(())
     }
 
-    pub(super) fn keys(&self) -> impl Iterator<Item = &'a str> {
+    /// Its keys.
+    pub fn keys(&self) -> impl Iterator<Item = &'a str> {
         self.entries.keys().map(|key| -> &str { key.get_ref() })
     }
 
-    pub(super) fn has(&self, key: &str) -> bool {
+    /// Whether a key is there.
+    pub fn has(&self, key: &str) -> bool {
         self.get(key).is_some()
     }
 
-    pub(super) fn text(&self, key: &str) -> Result<Option<&'a str>, TraceError> {
+    /// The text of a key, if it is there.
+    ///
+    /// # Errors
+    /// It is something else.
+    pub fn text(&self, key: &str) -> Result<Option<&'a str>, TraceError> {
         self.typed(key, "text in quotes", DeValue::as_str)
     }
 
-    pub(super) fn number(&self, key: &str) -> Result<Option<f64>, TraceError> {
+    /// The number of a key, if it is there.
+    ///
+    /// # Errors
+    /// It is something else, or not finite.
+    pub fn number(&self, key: &str) -> Result<Option<f64>, TraceError> {
         let number = self.typed(key, "a number", |value| {
             let integer = || value.as_integer().filter(|n| n.radix() == 10);
             let float = value.as_float().map(|n| n.as_str());
@@ -119,8 +135,11 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// A number above zero.
-    pub(super) fn positive(&self, key: &str) -> Result<Option<f64>, TraceError> {
+    /// A number above zero, if it is there.
+    ///
+    /// # Errors
+    /// It is something else.
+    pub fn positive(&self, key: &str) -> Result<Option<f64>, TraceError> {
         match self.number(key)? {
             Some(number) if number <= 0.0 => {
                 Err(self.error_at(key, format!("`{key}` is {number}; it must be above 0")))
@@ -129,13 +148,20 @@ impl<'a> Table<'a> {
         }
     }
 
-    pub(super) fn table(&self, key: &str) -> Result<Option<Table<'a>>, TraceError> {
+    /// The table of a key, if it is there.
+    ///
+    /// # Errors
+    /// It is something else.
+    pub fn table(&self, key: &str) -> Result<Option<Table<'a>>, TraceError> {
         let entries = self.typed(key, "a table", DeValue::as_table)?;
         Ok(entries.map(|entries| self.child(key, entries)))
     }
 
     /// The tables of an array, `[[key]]`.
-    pub(super) fn tables(&self, key: &str) -> Result<Vec<Table<'a>>, TraceError> {
+    ///
+    /// # Errors
+    /// The key holds something else.
+    pub fn tables(&self, key: &str) -> Result<Vec<Table<'a>>, TraceError> {
         let expected = format!("a list of tables, `[[{key}]]`");
         let array = self.typed(key, &expected, DeValue::as_array)?;
         let items = array.into_iter().flat_map(|array| array.iter());
@@ -155,7 +181,10 @@ impl<'a> Table<'a> {
     }
 
     /// A value that must be there.
-    pub(super) fn need<T>(&self, key: &str, value: Option<T>) -> Result<T, TraceError> {
+    ///
+    /// # Errors
+    /// It is not.
+    pub fn need<T>(&self, key: &str, value: Option<T>) -> Result<T, TraceError> {
         value.ok_or_else(|| self.error(format!("`{key}` is missing in {}; add it", self.title)))
     }
 

@@ -193,7 +193,7 @@ fn the_damper_brakes_the_faster_joint_and_lets_go_at_a_fault() {
     }
     assert_eq!(source.between_trials(), []);
     drop(source);
-    assert_eq!(running(&named(&library)), []);
+    assert_eq!(running(&named(&library)), [0_u32; 0]);
 }
 
 #[test]

@@ -20,12 +20,12 @@ fn in_tick_limited(name: &str, code: &str, limits: Limits) -> Option<Failure> {
     assert_eq!(trial(&source, 2), Ok(SOUND_A));
     let processes = wait_for(&name, 2);
     let failure = trial(&source, 3).unwrap_err();
-    assert_eq!(running(&name), []);
+    assert_eq!(running(&name), [0_u32; 0]);
     assert!(processes.iter().all(|process| !is_there(*process)));
     assert_eq!(trial(&source, 2), Ok(SOUND_A), "after {failure}");
     wait_for(&name, 2);
     drop(source);
-    assert_eq!(running(&name), []);
+    assert_eq!(running(&name), [0_u32; 0]);
     Some(failure)
 }
 
@@ -39,7 +39,7 @@ fn before_ticks(name: &str, faults: &[(&str, &str)]) -> Option<Failure> {
     let source = foreign(&library, limits);
     let failure = begin(&source).err().unwrap();
     assert_eq!(begin(&source).err().as_ref(), Some(&failure));
-    assert_eq!(running(&named(&library)), []);
+    assert_eq!(running(&named(&library)), [0_u32; 0]);
     Some(failure)
 }
 
@@ -329,5 +329,5 @@ fn what_is_no_library_cannot_be_used() {
             &["no shared library that can be opened", "no_library.so"],
         );
     }
-    assert_eq!(running(&named(&file)), []);
+    assert_eq!(running(&named(&file)), [0_u32; 0]);
 }

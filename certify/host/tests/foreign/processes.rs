@@ -35,7 +35,7 @@ fn leaving(name: &str, how: &str, after: &str) -> Option<()> {
         text.contains("SIGABRT") && text.contains("a process that it had started was ended"),
         "{text}"
     );
-    assert_eq!(running(&name), []);
+    assert_eq!(running(&name), [0_u32; 0]);
     Some(())
 }
 
@@ -63,7 +63,7 @@ fn a_child_that_holds_the_connection_does_not_hide_the_end() {
     let source = foreign(&library, limits());
     let failure = trial(&source, 3).unwrap_err();
     assert!(failure.to_string().contains("SIGABRT"), "{failure}");
-    assert_eq!(running(&named(&library)), []);
+    assert_eq!(running(&named(&library)), [0_u32; 0]);
 }
 
 #[test]
@@ -81,7 +81,7 @@ fn another_program_that_is_started_is_ended() {
     wait_for(&time_s, 1);
     drop(controller);
     drop(source);
-    assert_eq!(running(&time_s), []);
+    assert_eq!(running(&time_s), [0_u32; 0]);
 }
 
 #[test]
@@ -97,7 +97,7 @@ fn a_controller_in_a_group_of_its_own_is_ended() {
     };
     let source = foreign(&library, limits());
     assert_eq!(trial(&source, 3), Err(Failure::Hung { limit_ms: 700 }));
-    assert_eq!(running(&named(&library)), []);
+    assert_eq!(running(&named(&library)), [0_u32; 0]);
 }
 
 #[test]
@@ -139,7 +139,7 @@ fn nothing_is_left_of_a_trial_that_is_let_go() {
     wait_for(&named(&library), 6);
     drop(controllers);
     drop(source);
-    assert_eq!(running(&named(&library)), []);
+    assert_eq!(running(&named(&library)), [0_u32; 0]);
 }
 
 /// Kills a program that runs a campaign, where no destructor runs.

@@ -1,0 +1,117 @@
+//! This file runs many scenarios side by side; what comes out depends on the plan alone.
+
+use std::path::{Path, PathBuf};
+
+use rayon::prelude::*;
+
+use crate::error::Error;
+use crate::journal::{self, Chunks, Header, Journal, Shard};
+use crate::plan::{Plan, Sources};
+use crate::record::Record;
+
+/// Scenarios of a chunk: what is lost at most, on every thread, when a campaign is killed.
+pub const CHUNK: u64 = 8;
+
+/// The scenarios of a chunk.
+pub fn indices(plan: &Plan, chunk: u64) -> std::ops::Range<u64> {
+    let from = chunk.saturating_mul(CHUNK).min(plan.scenarios);
+    from..from.saturating_add(CHUNK).min(plan.scenarios)
+}
+
+/// The chunks of a part of a campaign.
+pub fn chunks(plan: &Plan, [part, parts]: Shard) -> impl Iterator<Item = u64> {
+    let all = 0..plan.scenarios.div_ceil(CHUNK);
+    all.filter(move |chunk| chunk % parts.max(1) == part)
+}
+
+/// Runs what is not in the folder's journal yet, and tells after every chunk how many scenarios were done; gives all chunks.
+///
+/// # Errors
+/// The journal cannot be written, or belongs to another campaign.
+pub fn run(
+    plan: &Plan,
+    sources: &Sources<'_>,
+    shard: Shard,
+    folder: &Path,
+    done: &(impl Fn(u64) + Sync),
+) -> Result<Chunks, Error> {
+    let header = Header {
+        plan: plan.clone(),
+        shard,
+    };
+    let (journal, mut chunks_done) = Journal::open(folder, &header)?;
+    done(
+        chunks_done
+            .values()
+            .map(|records| records.len() as u64)
+            .sum(),
+    );
+    let missing: Vec<u64> = chunks(plan, shard)
+        .filter(|chunk| !chunks_done.contains_key(chunk))
+        .collect();
+    let fresh: Result<Vec<(u64, Vec<Record>)>, Error> = missing
+        .into_par_iter()
+        .with_max_len(1)
+        .map(|chunk| {
+            let records = one(plan, sources, chunk)?;
+            journal.add(chunk, &records)?;
+            done(records.len() as u64);
+            Ok((chunk, records))
+        })
+        .collect();
+    chunks_done.extend(fresh?);
+    Ok(chunks_done)
+}
+
+/// The records of a chunk.
+///
+/// # Errors
+/// [`Error::Scenario`].
+pub fn one(plan: &Plan, sources: &Sources<'_>, chunk: u64) -> Result<Vec<Record>, Error> {
+    indices(plan, chunk)
+        .map(|index| Record::of(plan, sources, index))
+        .collect()
+}
+
+/// The plan and all chunks of the shards in these folders.
+///
+/// # Errors
+/// They are not the shards of one campaign, all of them, whole.
+pub fn merge(folders: &[PathBuf]) -> Result<(Plan, Chunks), Error> {
+    let mut merged: Option<(Plan, Chunks)> = None;
+    for folder in folders {
+        let (header, chunks) = journal::read(folder)?;
+        let (plan, all) = merged.get_or_insert_with(|| (header.plan.clone(), Chunks::new()));
+        if *plan != header.plan {
+            let folder = folder.display();
+            return Err(Error::Shards(format!(
+                "{folder}: the plan differs from that of the first folder; give the shards of one campaign"
+            )));
+        }
+        all.extend(chunks);
+    }
+    let none = || Error::Shards("no folder was given; give those of every shard".to_owned());
+    let (plan, chunks) = merged.ok_or_else(none)?;
+    whole(&plan, &chunks)?;
+    Ok((plan, chunks))
+}
+
+/// Refuses chunks of which one is missing or not whole.
+fn whole(plan: &Plan, chunks: &Chunks) -> Result<(), Error> {
+    for chunk in self::chunks(plan, [0, 1]) {
+        let expected = indices(plan, chunk);
+        let are = chunks.get(&chunk).is_some_and(|records| {
+            records
+                .iter()
+                .map(|record| record.index)
+                .eq(expected.clone())
+        });
+        if !are {
+            return Err(Error::Shards(format!(
+                "the scenarios {} to {} are missing; run their shard to its end and give its folder",
+                expected.start, expected.end
+            )));
+        }
+    }
+    Ok(())
+}

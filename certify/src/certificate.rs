@@ -1,0 +1,270 @@
+//! This file is the certificate: what was run, how it fared, what was proved, tested and not looked at; a changed byte is refused.
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use crate::campaign;
+use crate::digest;
+use crate::error::Error;
+use crate::finding::Named;
+use crate::journal::Chunks;
+use crate::plan::{FORM, Plan, Sources};
+use crate::proved::{Proved, proved};
+use crate::record::Record;
+use crate::scenario::Draw;
+use crate::summary::{
+    Endings, LawSummary, MetricSummary, NotLookedAt, endings, laws, metrics, not_looked_at,
+};
+
+/// A certificate.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Certificate {
+    /// [`FORM`].
+    pub form: u32,
+    /// What people call the change.
+    pub name: String,
+    /// Whether it may go on the rig, as far as this campaign can say.
+    pub may_go_on_the_rig: bool,
+    /// Why not, a sentence each.
+    pub reasons: Vec<String>,
+    /// What ran it.
+    pub tool: Tool,
+    /// What was run.
+    pub plan: Plan,
+    /// The hashes of what it depends on.
+    pub sha256: Hashes,
+    /// Trials, by how they ended.
+    pub endings: Endings,
+    /// Samples of all trials.
+    pub samples: u64,
+    /// Tested: how every law fared.
+    pub laws: Vec<LawSummary>,
+    /// Tested: the metrics.
+    pub metrics: Vec<MetricSummary>,
+    /// Proved.
+    pub proved: Proved,
+    /// Not looked at.
+    pub not_looked_at: Vec<NotLookedAt>,
+    /// What broke a law, in files beside this one.
+    pub findings: Vec<Named>,
+    /// The first 16 digits of the SHA-256 of the records of every chunk of scenarios, in their order.
+    pub chunks: Vec<String>,
+    /// The SHA-256 of this file with nothing between these quotes.
+    pub digest: String,
+}
+
+/// The program that ran a campaign.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Tool {
+    /// Its version.
+    pub version: String,
+    /// The SHA-256 of its file.
+    pub sha256: String,
+}
+
+/// What a result depends on.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Hashes {
+    /// The controller: kind and parameters, or its code, and what it declares.
+    pub controller: String,
+    /// The baseline.
+    pub baseline: Option<String>,
+    /// The rigs: arms, brakes and inertias of the layouts.
+    pub rig: String,
+    /// The plan: everything above, seed, number and length of the trials, limits.
+    pub plan: String,
+    /// The records of all scenarios.
+    pub records: String,
+}
+
+impl Hashes {
+    fn of(plan: &Plan, chunks: &[String]) -> Result<Hashes, Error> {
+        let rigs = plan.rigs.iter();
+        // Debug of a number is the shortest text that reads back as it.
+        let rigs = rigs.map(|rig| {
+            let parameters = rigproof_impl::plant::Parameters::of(rig.layout());
+            format!("{parameters:?}")
+        });
+        let baseline = plan.baseline.as_ref().map(digest::of_value);
+        Ok(Hashes {
+            controller: digest::of_value(&plan.controller)?,
+            baseline: baseline.transpose()?,
+            rig: digest::of_bytes(rigs.collect::<Vec<_>>().join("\n").as_bytes()),
+            plan: plan.digest()?,
+            records: digest::of_value(&chunks)?,
+        })
+    }
+}
+
+/// The records of all chunks, in the order of the scenarios.
+pub fn records(chunks: &Chunks) -> Vec<&Record> {
+    chunks.values().flatten().collect()
+}
+
+/// The first digits of the SHA-256 of a chunk's records.
+fn chunk_digest(records: &[Record]) -> Result<String, Error> {
+    Ok(digest::of_value(&records)?.chars().take(16).collect())
+}
+
+impl Certificate {
+    /// The certificate of a campaign that is whole.
+    ///
+    /// # Errors
+    /// It cannot be written as JSON.
+    pub fn new(
+        plan: &Plan,
+        chunks: &Chunks,
+        findings: Vec<Named>,
+        tool: Tool,
+    ) -> Result<Certificate, Error> {
+        let records = records(chunks);
+        let (laws, metrics) = (laws(plan, &records), metrics(plan, &records));
+        let reasons = reasons(&laws, &metrics);
+        let digests: Result<Vec<String>, Error> =
+            chunks.values().map(|c| chunk_digest(c)).collect();
+        let digests = digests?;
+        let mut certificate = Certificate {
+            form: FORM,
+            name: plan.name.clone(),
+            may_go_on_the_rig: reasons.is_empty(),
+            reasons,
+            tool,
+            sha256: Hashes::of(plan, &digests)?,
+            plan: plan.clone(),
+            endings: endings(&records),
+            samples: records.iter().map(|record| u64::from(record.ticks)).sum(),
+            laws,
+            metrics,
+            proved: proved(&plan.controller)?,
+            not_looked_at: not_looked_at(plan),
+            findings,
+            chunks: digests,
+            digest: String::new(),
+        };
+        certificate.digest = certificate.own_digest()?;
+        Ok(certificate)
+    }
+
+    fn own_digest(&self) -> Result<String, Error> {
+        let blank = Certificate {
+            digest: String::new(),
+            ..self.clone()
+        };
+        Ok(digest::of_bytes(blank.to_json()?.as_bytes()))
+    }
+
+    /// As a file.
+    ///
+    /// # Errors
+    /// It cannot be written as JSON.
+    pub fn to_json(&self) -> Result<String, Error> {
+        Ok(serde_json::to_string_pretty(self)? + "\n")
+    }
+
+    /// A certificate from its file, every byte of it as it was written and every hash that follows from it recomputed.
+    ///
+    /// # Errors
+    /// Something was changed.
+    pub fn parse(text: &str, file: &Path) -> Result<Certificate, Error> {
+        let refused = |problem: String| {
+            let advice = "it was changed after it was written; run the campaign again";
+            Error::unusable(file, format!("{problem}: {advice}"))
+        };
+        let read: Certificate = serde_json::from_str(text)
+            .map_err(|error| refused(format!("it is no certificate ({error})")))?;
+        if read.form != FORM {
+            let form = read.form;
+            return Err(refused(format!("its form is {form}, not {FORM}")));
+        }
+        if read.to_json()? != text {
+            return Err(refused(
+                "it is not in the form this program writes".to_owned(),
+            ));
+        }
+        let own = read.own_digest()?;
+        if own != read.digest {
+            return Err(refused(format!(
+                "its SHA-256 is {own}, not {}",
+                read.digest
+            )));
+        }
+        let hashes = Hashes::of(&read.plan, &read.chunks)?;
+        if hashes != read.sha256 {
+            return Err(refused(
+                "the hashes of controller, rig, plan or records do not follow from it".to_owned(),
+            ));
+        }
+        if reasons(&read.laws, &read.metrics) != read.reasons
+            || read.may_go_on_the_rig != read.reasons.is_empty()
+        {
+            return Err(refused(
+                "its verdict does not follow from its figures".to_owned(),
+            ));
+        }
+        if read.proved != proved(&read.plan.controller)? {
+            return Err(refused(
+                "what it calls proved is not what this program's ledger proves".to_owned(),
+            ));
+        }
+        Ok(read)
+    }
+
+    /// Runs some chunks of scenarios again, drawn from a seed; gives those whose records differ.
+    ///
+    /// # Errors
+    /// [`Error::Scenario`].
+    pub fn again(
+        &self,
+        sources: &Sources<'_>,
+        count: usize,
+        seed: u64,
+    ) -> Result<(Vec<u64>, Vec<u64>), Error> {
+        let mut draw = Draw::new(seed, 1);
+        let all = u32::try_from(self.chunks.len()).unwrap_or(u32::MAX);
+        let mut drawn: Vec<u64> = (0..count).map(|_| u64::from(draw.below(all))).collect();
+        drawn.sort_unstable();
+        drawn.dedup();
+        let mut differ = Vec::new();
+        for chunk in &drawn {
+            let records = campaign::one(&self.plan, sources, *chunk)?;
+            if self.chunks.get(*chunk as usize) != Some(&chunk_digest(&records)?) {
+                differ.push(*chunk);
+            }
+        }
+        Ok((drawn, differ))
+    }
+}
+
+/// Why a controller must not go on the rig.
+fn reasons(laws: &[LawSummary], metrics: &[MetricSummary]) -> Vec<String> {
+    let mut reasons = Vec::new();
+    for law in laws {
+        let name = law.law.name();
+        if let Some(first) = law.first_broken {
+            let count = law.broken_in;
+            reasons.push(format!(
+                "the law {name} is broken in {count} scenarios, first in scenario {first}: {}",
+                law.words
+            ));
+        } else if law.samples == 0 {
+            reasons.push(format!(
+                "the law {name} was held against no sample: run more or longer scenarios, or declare less"
+            ));
+        }
+    }
+    for metric in metrics.iter().filter(|metric| !metric.holds) {
+        let key = metric.metric.key();
+        let limit =
+            |limit: Option<f64>| limit.map_or("none".to_owned(), |limit| format!("{limit}"));
+        reasons.push(format!(
+            "{key} is beyond what certify.toml allows (95 of 100 trials at most {}, mean worse by at most {}), or was not measured",
+            limit(metric.limit),
+            limit(metric.regression)
+        ));
+    }
+    reasons
+}

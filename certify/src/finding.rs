@@ -1,0 +1,202 @@
+//! This file is a finding: a law, a scenario that breaks it, and the recording of that.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use rigproof_spec::methods::SAMPLE_STEP_S;
+use rigproof_trace::mcap::{Extras, to_bytes};
+use rigproof_trace::{Channel, Trace};
+use serde::{Deserialize, Serialize};
+
+use crate::controller::Source;
+use crate::digest;
+use crate::error::Error;
+use crate::law::Law;
+use crate::plan::{FORM, Plan, Subject};
+use crate::scenario::Scenario;
+use crate::shrink::shrink;
+use crate::trial::{Ran, run};
+
+/// A broken law with a scenario that anybody can run again.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Finding {
+    /// [`FORM`].
+    pub form: u32,
+    /// The law.
+    pub law: Law,
+    /// What it says.
+    pub words: String,
+    /// The scenario of the campaign in which it was seen first.
+    pub scenario_index: u64,
+    /// The sample that breaks it, after shrinking.
+    pub tick: u32,
+    /// The least margin.
+    pub margin: f64,
+    /// Trials that shrinking took.
+    pub trials: u32,
+    /// The controller.
+    pub controller: Subject,
+    /// The scenario, as short and plain as it was made.
+    pub scenario: Scenario,
+}
+
+/// A finding as the certificate names it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Named {
+    /// The law.
+    pub law: Law,
+    /// The scenario of the campaign.
+    pub scenario: u64,
+    /// Rig time until the law is broken, after shrinking, s.
+    pub time_s: f64,
+    /// The file, beside the certificate.
+    pub file: String,
+    /// Its SHA-256.
+    pub sha256: String,
+}
+
+impl Finding {
+    /// The shrunk finding of a law in a scenario of a plan; `None` where the law is not broken there.
+    pub fn of(plan: &Plan, source: &dyn Source, law: Law, index: u64) -> Option<Finding> {
+        let declared = &plan.controller.declared;
+        let shrunk = shrink(&plan.scenario(index), law, source, declared)?;
+        Some(Finding {
+            form: FORM,
+            law,
+            words: law.words().to_owned(),
+            scenario_index: index,
+            tick: shrunk.tick,
+            margin: shrunk.margin,
+            trials: shrunk.trials,
+            controller: plan.controller.clone(),
+            scenario: shrunk.scenario,
+        })
+    }
+
+    /// The file's name, without its ending.
+    pub fn stem(&self) -> String {
+        format!("finding-{}", self.law.name())
+    }
+
+    /// As a file.
+    ///
+    /// # Errors
+    /// It cannot be written as JSON.
+    pub fn to_json(&self) -> Result<String, Error> {
+        Ok(serde_json::to_string_pretty(self)? + "\n")
+    }
+
+    /// A finding from its file.
+    ///
+    /// # Errors
+    /// It is not as it was written.
+    pub fn parse(text: &str, file: &Path) -> Result<Finding, Error> {
+        let finding: Finding = serde_json::from_str(text).map_err(|error| {
+            let advice = "hand over the file as `rigproof certify` wrote it";
+            Error::unusable(file, format!("it is no finding: {error}; {advice}"))
+        })?;
+        if finding.form == FORM {
+            Ok(finding)
+        } else {
+            let form = finding.form;
+            Err(Error::unusable(
+                file,
+                format!(
+                    "it has form {form}, this program reads form {FORM}; take the program that wrote it"
+                ),
+            ))
+        }
+    }
+
+    /// How the certificate names it.
+    ///
+    /// # Errors
+    /// It cannot be written as JSON.
+    pub fn named(&self) -> Result<Named, Error> {
+        Ok(Named {
+            law: self.law,
+            scenario: self.scenario_index,
+            time_s: f64::from(self.tick + 1) * SAMPLE_STEP_S,
+            file: self.stem() + ".json",
+            sha256: digest::of_bytes(self.to_json()?.as_bytes()),
+        })
+    }
+
+    /// Runs it again.
+    ///
+    /// # Errors
+    /// [`Error::Scenario`].
+    pub fn replayed(&self, source: &dyn Source) -> Result<Ran, Error> {
+        let ran = run(&self.scenario, source, &self.controller.declared, true);
+        ran.ok_or(Error::Scenario(self.scenario_index))
+    }
+
+    /// Its recording as an MCAP file, with the finding attached.
+    ///
+    /// # Errors
+    /// It cannot be run or written.
+    pub fn to_mcap(&self, source: &dyn Source) -> Result<Vec<u8>, Error> {
+        let ran = self.replayed(source)?;
+        let attached = (
+            self.stem() + ".json",
+            "application/json".to_owned(),
+            self.to_json()?.into_bytes(),
+        );
+        let extras = Extras {
+            attachments: vec![attached],
+            texts: BTreeMap::from([("law".to_owned(), self.words.clone())]),
+        };
+        to_bytes(&trace(&ran), &extras)
+            .map_err(|problem| Error::unusable(Path::new(&self.stem()), problem))
+    }
+}
+
+/// A trial as a recording: what the plant did, what was told, what was commanded. What is infinite is left out as missing.
+fn trace(ran: &Ran) -> Trace {
+    let finite = |value: f64| if value.is_finite() { value } else { f64::NAN };
+    let mut channels = Vec::new();
+    let mut add = |name: &str, unit: &str, samples: Vec<f64>| {
+        channels.push(Channel {
+            name: name.to_owned(),
+            unit: unit.to_owned(),
+            samples: samples.into_iter().map(finite).collect(),
+        });
+    };
+    let of = |value: fn(&crate::trial::State) -> f64| ran.states.iter().map(value).collect();
+    add("theta_a", "rad", of(|state| state.theta_rad[0]));
+    add("theta_b", "rad", of(|state| state.theta_rad[1]));
+    add("tip_x", "m", of(|state| state.tip_m[0]));
+    add("tip_y", "m", of(|state| state.tip_m[1]));
+    add("force_x", "N", of(|state| state.force_n[0]));
+    add("force_y", "N", of(|state| state.force_n[1]));
+    for (joint, name) in ["current_a", "current_e", "current_b", "current_c"]
+        .into_iter()
+        .enumerate()
+    {
+        let currents = ran.told.iter().filter_map(|(_, a)| a.get(joint).copied());
+        add(name, "A", currents.collect());
+    }
+    let told = |value: fn(&rigproof_impl::tick::Sensed<f64>) -> f64| {
+        ran.told.iter().map(|(sensed, _)| value(sensed)).collect()
+    };
+    add("told_number", "", told(|sensed| f64::from(sensed.number)));
+    add(
+        "told_count_a",
+        "",
+        told(|sensed| f64::from(sensed.counts[0])),
+    );
+    add(
+        "told_count_b",
+        "",
+        told(|sensed| f64::from(sensed.counts[1])),
+    );
+    add("told_force_x", "N", told(|sensed| sensed.tip_force_n.x));
+    add("told_force_y", "N", told(|sensed| sensed.tip_force_n.y));
+    let time = (0..ran.told.len()).map(|tick| tick as f64 * SAMPLE_STEP_S);
+    Trace {
+        time_s: time.collect(),
+        channels,
+    }
+}

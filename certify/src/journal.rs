@@ -1,0 +1,140 @@
+//! This file keeps what was done of a campaign, a line a chunk, so that a campaign that was killed goes on where it was.
+
+use std::collections::BTreeMap;
+use std::fs::{File, OpenOptions};
+use std::io::{Read, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+use crate::plan::Plan;
+use crate::record::Record;
+
+/// The journal's name in its folder.
+pub const FILE: &str = "journal.jsonl";
+
+/// A part of a campaign: `[i, n]` is the i-th of n, counted from 0.
+pub type Shard = [u64; 2];
+
+/// The first line of a journal.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Header {
+    /// What is run.
+    pub plan: Plan,
+    /// Which part of it.
+    pub shard: Shard,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Line {
+    chunk: u64,
+    records: Vec<Record>,
+}
+
+/// Chunks of records by their number.
+pub type Chunks = BTreeMap<u64, Vec<Record>>;
+
+/// A journal that is written to.
+pub struct Journal {
+    path: PathBuf,
+    file: Mutex<File>,
+}
+
+impl Journal {
+    /// Opens the journal of a folder, and gives what was done before; a last line that was cut off is taken away.
+    ///
+    /// # Errors
+    /// The system refuses, or the journal there is of another campaign.
+    pub fn open(folder: &Path, header: &Header) -> Result<(Journal, Chunks), Error> {
+        let path = folder.join(FILE);
+        let refused = |error: std::io::Error| Error::refused(&path, &error);
+        std::fs::create_dir_all(folder).map_err(refused)?;
+        let mut file = OpenOptions::new()
+            .read(true)
+            .append(true)
+            .create(true)
+            .open(&path)
+            .map_err(refused)?;
+        file.try_lock().map_err(|_| {
+            let advice = "wait for it, or give another folder with --out";
+            Error::unusable(&path, format!("another process writes here; {advice}"))
+        })?;
+        let mut bytes = Vec::new();
+        file.read_to_end(&mut bytes).map_err(refused)?;
+        let whole = bytes.iter().rposition(|byte| *byte == b'\n');
+        let whole = whole.map_or(0, |last| last + 1);
+        bytes.truncate(whole);
+        file.set_len(whole as u64).map_err(refused)?;
+        let chunks = if bytes.is_empty() {
+            let mut line = serde_json::to_vec(header)?;
+            line.push(b'\n');
+            file.write_all(&line).map_err(refused)?;
+            Chunks::new()
+        } else {
+            let (there, chunks) = parse(&path, &bytes)?;
+            if there != *header {
+                return Err(Error::unusable(
+                    &path,
+                    "another campaign was begun here: its plan or its shard differs; give another folder with --out",
+                ));
+            }
+            chunks
+        };
+        let file = Mutex::new(file);
+        Ok((Journal { path, file }, chunks))
+    }
+
+    /// Writes down a chunk.
+    ///
+    /// # Errors
+    /// The system refuses.
+    pub fn add(&self, chunk: u64, records: &[Record]) -> Result<(), Error> {
+        let records = records.to_vec();
+        let mut line = serde_json::to_vec(&Line { chunk, records })?;
+        line.push(b'\n');
+        // A thread that panicked here has ended the campaign already.
+        let mut file = self
+            .file
+            .lock()
+            .unwrap_or_else(|broken| broken.into_inner());
+        file.write_all(&line)
+            .map_err(|error| Error::refused(&self.path, &error))
+    }
+}
+
+/// Reads the journal of a folder.
+///
+/// # Errors
+/// There is none, or it is not as it was written.
+pub fn read(folder: &Path) -> Result<(Header, Chunks), Error> {
+    let path = folder.join(FILE);
+    let bytes = std::fs::read(&path).map_err(|error| Error::refused(&path, &error))?;
+    parse(&path, &bytes)
+}
+
+fn parse(path: &Path, bytes: &[u8]) -> Result<(Header, Chunks), Error> {
+    let mut lines = bytes.split_inclusive(|byte| *byte == b'\n');
+    let lines = lines.by_ref().filter(|line| line.ends_with(b"\n"));
+    let mut lines = (1..).zip(lines);
+    let wrong = |number: usize, error: serde_json::Error| {
+        let advice = "begin the campaign anew in another folder";
+        Error::unusable(
+            path,
+            format!("line {number} is not as it was written: {error}; {advice}"),
+        )
+    };
+    let (_, first) = lines
+        .next()
+        .ok_or_else(|| Error::unusable(path, "the journal is empty; run the campaign first"))?;
+    let header = serde_json::from_slice(first).map_err(|error| wrong(1, error))?;
+    let mut chunks = Chunks::new();
+    for (number, line) in lines {
+        let line: Line = serde_json::from_slice(line).map_err(|error| wrong(number, error))?;
+        chunks.insert(line.chunk, line.records);
+    }
+    Ok((header, chunks))
+}

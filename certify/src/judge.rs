@@ -1,0 +1,166 @@
+//! This file holds every sample of a controller to the laws, by what was sensed and by what it commanded.
+
+mod behaviour;
+mod reference;
+mod seen;
+
+use rigproof_impl::plant::Plant;
+use rigproof_impl::tick::{Sensed, Settings};
+use rigproof_impl::vector::Vector;
+use rigproof_spec::command::{Command, Reason};
+use rigproof_spec::joint::Joint;
+use rigproof_spec::laws::{
+    Margin, braked_joints, current_limit, dissipation, power_balance, undefined_input,
+};
+use rigproof_spec::layout::Layout;
+use rigproof_spec::tables::GREATEST_CURRENT_A;
+
+use crate::controller::Task;
+use crate::declared::Declared;
+use crate::law::{Fared, LAWS, Law};
+use crate::way::Way;
+use behaviour::Behaviour;
+use reference::{EVERY, Reference};
+use seen::Seen;
+
+/// Samples of a fault over which the last command may still hold (decision 0124).
+pub const MOST_HELD: u32 = 2;
+/// Energy that the plant's step of 1 ms may make or lose beside what the brakes take, J (decision 0124).
+pub const ENERGY_SLACK_J: f64 = 1e-3;
+
+/// What judges one trial.
+pub struct Judge {
+    layout: Layout,
+    behaviour: Behaviour,
+    reference: Option<Reference>,
+    seen: Seen,
+    /// How every law fared, in the order of [`Law::ALL`].
+    pub fared: [Fared; LAWS],
+    /// The last command before a fault, A.
+    held_a: [f64; 4],
+    /// Samples since the fault began.
+    faulty: u32,
+    /// Whether it has let go on a fault and not acted since: when it comes back is its own affair.
+    has_let_go: bool,
+    work_j: f64,
+    start_j: f64,
+}
+
+impl Judge {
+    /// A judge of a controller that promises so much, on a rig, at a task; the rig's energy at the start, J.
+    pub fn new(
+        settings: &Settings,
+        declared: &Declared,
+        task: &Task,
+        start_j: f64,
+    ) -> Option<Judge> {
+        let (layout, way) = (settings.layout, Way::new(task)?);
+        let reference = declared.reference.as_ref();
+        Some(Judge {
+            reference: reference.and_then(|law| Reference::new(law, layout, task)),
+            layout: settings.layout,
+            behaviour: Behaviour::new(settings.layout, declared, way),
+            seen: Seen::new(settings)?,
+            fared: [Fared::default(); LAWS],
+            held_a: [0.0; 4],
+            faulty: 0,
+            has_let_go: false,
+            work_j: 0.0,
+            start_j,
+        })
+    }
+
+    /// How a law fared.
+    fn of(&mut self, law: Law) -> &mut Fared {
+        #[expect(
+            clippy::indexing_slicing,
+            reason = "a law's number is below their count"
+        )]
+        &mut self.fared[law as usize]
+    }
+
+    /// Counts a sample of a law.
+    pub fn add(&mut self, law: Law, tick: u32, margin: Margin) {
+        self.of(law).add(tick, margin);
+    }
+
+    /// Judges the currents, A, of a sample that is faulty or not.
+    pub fn command(
+        &mut self,
+        tick: u32,
+        sensed: &Sensed<f64>,
+        is_faulty: bool,
+        currents_a: [f64; 4],
+    ) {
+        let command = named(self.layout, currents_a);
+        let limit = |margin: Margin, current_a: f64| margin.and(current_limit(current_a));
+        let within = currents_a.into_iter().fold(Margin(f64::MAX), limit);
+        self.add(Law::CurrentLimit, tick, within);
+        let layout = self.layout;
+        self.add(Law::BrakedJoints, tick, braked_joints(layout, &command));
+        if is_faulty {
+            self.faulty += 1;
+            let is_held = currents_a.map(f64::to_bits) == self.held_a.map(f64::to_bits);
+            let margin = if is_held && self.faulty <= MOST_HELD {
+                Margin(0.0)
+            } else {
+                // Whatever such a sample says counts as undefined.
+                undefined_input(&[f64::NAN], &command)
+            };
+            self.add(Law::Safe, tick, margin);
+            self.seen.forget();
+            self.has_let_go = true;
+            return;
+        }
+        self.has_let_go &= currents_a == [0.0; 4];
+        (self.faulty, self.held_a) = (0, currents_a);
+        if let Some((situation, told)) = self.seen.update(sensed) {
+            if tick.is_multiple_of(EVERY)
+                && !self.has_let_go
+                && let Some(reference) = &mut self.reference
+                && let Some(margin) = reference.margin(&told, currents_a)
+            {
+                self.add(Law::Reference, tick, margin);
+            }
+            let fared = &mut self.fared;
+            self.behaviour.judge(&situation, &command, |law, margin| {
+                #[expect(
+                    clippy::indexing_slicing,
+                    reason = "a law's number is below their count"
+                )]
+                fared[law as usize].add(tick, margin);
+            });
+        }
+    }
+
+    /// Judges a step of the plant under a force, N, from where the tip was, m.
+    pub fn step(&mut self, tick: u32, plant: &Plant, force_n: [f64; 2], from_m: Vector<f64>) {
+        let brakes = plant.brake_torques_nm().into_iter();
+        let each = brakes.zip(plant.joint_rates_rad_s());
+        let taken = each.fold(Margin(f64::MAX), |margin, (torque_nm, rate_rad_s)| {
+            margin.and(dissipation(torque_nm, rate_rad_s))
+        });
+        self.add(Law::Dissipation, tick, taken);
+        self.work_j += Vector::from(force_n).dot(plant.tip_m() - from_m);
+        let stored_j = plant.kinetic_energy_j() - self.start_j;
+        // What is missing was braked away; what is too much came from nowhere.
+        let braked_j = (self.work_j - stored_j).max(0.0);
+        let margin = power_balance(self.work_j, stored_j, braked_j, ENERGY_SLACK_J);
+        self.add(Law::Passivity, tick, margin);
+    }
+}
+
+/// Currents with a reason that can be seen in them: a lock where every brake has its greatest current.
+fn named(layout: Layout, currents_a: [f64; 4]) -> Command {
+    let brakes = layout.brakes();
+    let each = Joint::ALL.into_iter().zip(currents_a);
+    let full = each
+        .filter(|(joint, _)| brakes.contains(joint))
+        .all(|(_, current_a)| current_a >= GREATEST_CURRENT_A);
+    let reason = if full {
+        Reason::LockedPushedAway
+    } else {
+        Reason::NothingToDo
+    };
+    Command { currents_a, reason }
+}

@@ -1,0 +1,119 @@
+//! This file is the plan of a campaign: everything that its result depends on.
+
+use serde::{Deserialize, Serialize};
+
+use crate::built_in::BuiltIn;
+use crate::controller::Source;
+use crate::declared::Declared;
+use crate::digest;
+use crate::error::Error;
+use crate::metrics::METRICS;
+use crate::scenario::{Rig, Scenario};
+
+/// The form of plans, journals and certificates; another form is another number.
+pub const FORM: u32 = 1;
+
+/// What a campaign runs.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Plan {
+    /// [`FORM`].
+    pub form: u32,
+    /// What people call the change.
+    pub name: String,
+    /// What is to be certified.
+    pub controller: Subject,
+    /// What is on the rig now.
+    pub baseline: Option<Subject>,
+    /// The layouts.
+    pub rigs: Vec<Rig>,
+    /// The seed of every scenario.
+    pub seed: u64,
+    /// How many scenarios.
+    pub scenarios: u64,
+    /// Samples of a trial.
+    pub ticks: u32,
+    /// What 95 of 100 trials must not exceed, in the order of the metrics.
+    pub limits: [Option<f64>; METRICS],
+    /// By how much the mean may be worse than the baseline's.
+    pub regressions: [Option<f64>; METRICS],
+}
+
+/// A controller and what it says of itself.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Subject {
+    /// Which.
+    pub what: What,
+    /// What it promises.
+    pub declared: Declared,
+}
+
+/// Which controller.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum What {
+    /// A law of the rig.
+    BuiltIn(BuiltIn),
+    /// One that the caller brings.
+    Given {
+        /// Its name: a file, or a word.
+        name: String,
+        /// The SHA-256 of its code.
+        sha256: String,
+    },
+}
+
+impl Subject {
+    /// A law of the rig, which promises what its kind says.
+    pub fn built_in(law: BuiltIn) -> Subject {
+        Subject {
+            declared: law.declared(),
+            what: What::BuiltIn(law),
+        }
+    }
+
+    /// What makes it, if it is a law of the rig.
+    pub fn source(&self) -> Option<&dyn Source> {
+        match &self.what {
+            What::BuiltIn(law) => Some(law),
+            What::Given { .. } => None,
+        }
+    }
+}
+
+/// What makes the controllers of a plan.
+#[derive(Clone, Copy)]
+pub struct Sources<'a> {
+    /// What is to be certified.
+    pub controller: &'a dyn Source,
+    /// What is on the rig now.
+    pub baseline: Option<&'a dyn Source>,
+}
+
+impl Plan {
+    /// The scenario of an index.
+    pub fn scenario(&self, index: u64) -> Scenario {
+        Scenario::drawn(self.seed, index, &self.rigs, self.ticks)
+    }
+
+    /// The SHA-256 of the plan.
+    ///
+    /// # Errors
+    /// It cannot be written as JSON.
+    pub fn digest(&self) -> Result<String, Error> {
+        digest::of_value(self)
+    }
+
+    /// What makes its controllers, if they are laws of the rig.
+    pub fn sources(&self) -> Option<Sources<'_>> {
+        let baseline = match &self.baseline {
+            Some(subject) => Some(subject.source()?),
+            None => None,
+        };
+        Some(Sources {
+            controller: self.controller.source()?,
+            baseline,
+        })
+    }
+}

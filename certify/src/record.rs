@@ -1,0 +1,63 @@
+//! This file is what is kept of a trial: enough for every figure of the certificate.
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+use crate::law::{Fared, LAWS};
+use crate::metrics::Measured;
+use crate::plan::{Plan, Sources};
+use crate::trial::{Ending, run};
+
+/// One trial after it was run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Record {
+    /// The scenario's number.
+    pub index: u64,
+    /// Samples.
+    pub ticks: u32,
+    /// How it ended.
+    pub ending: Ending,
+    /// How the laws fared.
+    pub fared: [Fared; LAWS],
+    /// The metrics.
+    pub measured: Measured,
+    /// How the controller broke, if it did.
+    pub failure: Option<String>,
+    /// The metrics of the baseline, in the same scenario.
+    pub baseline: Option<Measured>,
+}
+
+impl Record {
+    /// Runs the scenario of an index.
+    ///
+    /// # Errors
+    /// [`Error::Scenario`].
+    pub fn of(plan: &Plan, sources: &Sources<'_>, index: u64) -> Result<Record, Error> {
+        let scenario = plan.scenario(index);
+        let none = || Error::Scenario(index);
+        let ran = run(
+            &scenario,
+            sources.controller,
+            &plan.controller.declared,
+            false,
+        );
+        let ran = ran.ok_or_else(none)?;
+        let baseline = match (&plan.baseline, sources.baseline) {
+            (Some(subject), Some(source)) => {
+                let ran = run(&scenario, source, &subject.declared, false);
+                Some(ran.ok_or_else(none)?.measured)
+            }
+            _ => None,
+        };
+        Ok(Record {
+            index,
+            ticks: ran.ticks,
+            ending: ran.ending,
+            fared: ran.fared,
+            measured: ran.measured,
+            failure: ran.failure.map(|failure| failure.to_string()),
+            baseline,
+        })
+    }
+}

@@ -1,0 +1,254 @@
+//! This file turns the records of a campaign into figures: how every law fared, and the metrics beside the baseline's.
+
+mod paired;
+
+use serde::{Deserialize, Serialize};
+
+use crate::law::Law;
+use crate::metrics::{METRICS, Metric};
+use crate::plan::Plan;
+use crate::record::Record;
+use crate::trial::Ending;
+
+pub use paired::{Change, Word};
+
+/// How one law fared in a campaign.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LawSummary {
+    /// The law.
+    pub law: Law,
+    /// What it says.
+    pub words: String,
+    /// Samples that were held to it.
+    pub samples: u64,
+    /// Scenarios in which it was broken.
+    pub broken_in: u64,
+    /// The first of them.
+    pub first_broken: Option<u64>,
+    /// The least margin; none without samples, or where it was no number.
+    pub worst_margin: Option<f64>,
+    /// Its unit.
+    pub unit: String,
+    /// The scenario of the least margin.
+    pub worst_scenario: Option<u64>,
+}
+
+/// A law that was not looked at.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct NotLookedAt {
+    /// What.
+    pub what: String,
+    /// Why.
+    pub why: String,
+}
+
+/// One metric over a campaign.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MetricSummary {
+    /// The metric.
+    pub metric: Metric,
+    /// What it is.
+    pub words: String,
+    /// Its unit.
+    pub unit: String,
+    /// The controller's.
+    pub controller: Option<Quantiles>,
+    /// The baseline's.
+    pub baseline: Option<Quantiles>,
+    /// The change, paired over the scenarios.
+    pub change: Option<Change>,
+    /// What 95 of 100 trials must not exceed.
+    pub limit: Option<f64>,
+    /// By how much the mean may be worse than the baseline's.
+    pub regression: Option<f64>,
+    /// Whether both hold.
+    pub holds: bool,
+}
+
+/// What of a hundred trials lies below.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Quantiles {
+    /// Trials in which there is something to measure.
+    pub trials: u64,
+    /// Mean.
+    pub mean: f64,
+    /// 5 of 100.
+    pub q05: f64,
+    /// Median.
+    pub q50: f64,
+    /// 95 of 100.
+    pub q95: f64,
+    /// The greatest.
+    pub greatest: f64,
+}
+
+/// How trials ended.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Endings {
+    /// Their time was over.
+    pub time: u64,
+    /// The hand took the linkage to its stops.
+    pub left_workspace: u64,
+    /// The controller did not answer any more.
+    pub no_answer: u64,
+}
+
+/// How the laws fared that can be judged.
+pub fn laws(plan: &Plan, records: &[&Record]) -> Vec<LawSummary> {
+    let looked_at = Law::ALL
+        .into_iter()
+        .filter(|law| law.not_looked_at(&plan.controller.declared).is_none());
+    looked_at.map(|law| of_law(law, records)).collect()
+}
+
+fn of_law(law: Law, records: &[&Record]) -> LawSummary {
+    let mut summary = LawSummary {
+        law,
+        words: law.words().to_owned(),
+        samples: 0,
+        broken_in: 0,
+        first_broken: None,
+        worst_margin: None,
+        unit: law.unit().to_owned(),
+        worst_scenario: None,
+    };
+    let mut worst = f64::MAX;
+    for record in records {
+        let Some(fared) = record.fared.get(law as usize) else {
+            continue;
+        };
+        summary.samples += fared.samples;
+        if fared.broken > 0 {
+            summary.broken_in += 1;
+            summary.first_broken.get_or_insert(record.index);
+        }
+        if fared.samples > 0 && fared.worst < worst {
+            worst = fared.worst;
+            summary.worst_scenario = Some(record.index);
+        }
+    }
+    summary.worst_margin = (worst < f64::MAX && worst > f64::MIN).then_some(worst);
+    summary
+}
+
+/// The laws that cannot be judged, and what no campaign of this kind sees.
+pub fn not_looked_at(plan: &Plan) -> Vec<NotLookedAt> {
+    let laws = Law::ALL.into_iter().filter_map(|law| {
+        law.not_looked_at(&plan.controller.declared)
+            .map(|why| (law.name(), why))
+    });
+    let always = [
+        (
+            "rest of the plant",
+            "joint stops, flexible arms, friction in joints without a brake, and whatever else the simulated plant leaves out",
+        ),
+        (
+            "other hands",
+            "hands stronger than 20 N, and people: the operators are simulated",
+        ),
+        (
+            "timing",
+            "jitter of the sample time, and how long a sample takes on the rig's computer",
+        ),
+        (
+            "amplifiers",
+            "what an amplifier does when no command comes: it needs a watchdog of its own (decision 0074)",
+        ),
+    ];
+    let named = |(what, why): (&str, &str)| NotLookedAt {
+        what: what.to_owned(),
+        why: why.to_owned(),
+    };
+    laws.chain(always).map(named).collect()
+}
+
+/// The metrics, beside the baseline's where there is one.
+pub fn metrics(plan: &Plan, records: &[&Record]) -> Vec<MetricSummary> {
+    (0..METRICS)
+        .zip(Metric::ALL)
+        .map(|(index, metric)| of_metric(plan, records, index, metric))
+        .collect()
+}
+
+fn of_metric(plan: &Plan, records: &[&Record], index: usize, metric: Metric) -> MetricSummary {
+    let of = |measured: &[Option<f64>; METRICS]| measured.get(index).copied().flatten();
+    let own: Vec<f64> = records.iter().filter_map(|r| of(&r.measured)).collect();
+    let theirs = records.iter().filter_map(|r| of(r.baseline.as_ref()?));
+    let pairs: Vec<[f64; 2]> = records
+        .iter()
+        .filter_map(|r| Some([of(r.baseline.as_ref()?)?, of(&r.measured)?]))
+        .collect();
+    let controller = quantiles(own);
+    let change = paired::change(&pairs, plan.seed ^ (index as u64 + 1));
+    let limit = plan.limits.get(index).copied().flatten();
+    let regression = plan.regressions.get(index).copied().flatten();
+    // What was not measured cannot be within a limit.
+    let within = limit.is_none_or(|limit| controller.is_some_and(|own| own.q95 <= limit));
+    let no_worse = regression.is_none_or(|most| {
+        change.as_ref().is_some_and(|change| {
+            let [_, high] = change.interval;
+            high <= most
+        })
+    });
+    MetricSummary {
+        metric,
+        words: metric.words().to_owned(),
+        unit: metric.unit().to_owned(),
+        controller,
+        baseline: quantiles(theirs.collect()),
+        change,
+        limit,
+        regression,
+        holds: within && no_worse,
+    }
+}
+
+fn quantiles(mut values: Vec<f64>) -> Option<Quantiles> {
+    // The mean in the order of the scenarios, which no thread changes.
+    let mean = values.iter().sum::<f64>() / values.len() as f64;
+    values.sort_by(f64::total_cmp);
+    let at = |share: f64| {
+        let last = values.len().checked_sub(1)?;
+        values
+            .get(libm::round(share * last as f64) as usize)
+            .copied()
+    };
+    Some(Quantiles {
+        trials: values.len() as u64,
+        mean,
+        q05: at(0.05)?,
+        q50: at(0.5)?,
+        q95: at(0.95)?,
+        greatest: at(1.0)?,
+    })
+}
+
+/// How the trials ended.
+pub fn endings(records: &[&Record]) -> Endings {
+    let count = |ending: Ending| records.iter().filter(|r| r.ending == ending).count() as u64;
+    Endings {
+        time: count(Ending::Time),
+        left_workspace: count(Ending::LeftWorkspace),
+        no_answer: count(Ending::NoAnswer),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantiles_are_those_of_the_sorted_values() {
+        let values: Vec<f64> = (0..=100).rev().map(f64::from).collect();
+        let quantiles = quantiles(values).unwrap();
+        assert_eq!((quantiles.q05, quantiles.q50), (5.0, 50.0));
+        assert_eq!((quantiles.q95, quantiles.greatest), (95.0, 100.0));
+        assert_eq!((quantiles.mean, quantiles.trials), (50.0, 101));
+        assert_eq!(super::quantiles(Vec::new()), None);
+    }
+}

@@ -1,0 +1,80 @@
+//! This file says what a certificate is worth: a changed byte is refused, and what was run can be run again.
+
+use std::path::Path;
+
+use rigproof_certify::certificate::Certificate;
+use rigproof_certify::digest;
+use rigproof_certify::finding::Finding;
+use rigproof_certify::law::Law;
+use rigproof_certify::plan::Plan;
+
+use crate::runs::{certificate, plan, run};
+
+fn text() -> (Plan, String) {
+    let (plan, folder) = (plan(), tempfile::tempdir().unwrap());
+    let text = certificate(&plan, &run(&plan, [0, 1], folder.path(), 2));
+    (plan, text)
+}
+
+fn parse(text: &str) -> Result<Certificate, String> {
+    Certificate::parse(text, Path::new("certificate.json")).map_err(|error| error.to_string())
+}
+
+#[test]
+fn a_changed_byte_anywhere_is_refused() {
+    let (_, text) = text();
+    assert!(parse(&text).is_ok());
+    let bytes = text.as_bytes();
+    let mut tried = 0;
+    for place in (0..bytes.len()).step_by(13) {
+        for flip in [1, 2, 16] {
+            let mut changed = bytes.to_vec();
+            changed[place] ^= flip;
+            let Ok(changed) = String::from_utf8(changed) else {
+                continue;
+            };
+            tried += 1;
+            assert!(parse(&changed).is_err(), "byte {place}, {flip}");
+        }
+    }
+    assert!(tried > 1000);
+    assert!(parse(text.trim_end()).is_err());
+    assert!(parse(&(text + " ")).is_err());
+}
+
+#[test]
+fn a_certificate_that_was_forged_with_its_digest_falls_when_it_is_run_again() {
+    let (plan, text) = text();
+    let honest = parse(&text).unwrap();
+    let sources = plan.sources().unwrap();
+    let (drawn, differ) = honest.again(&sources, 3, 71).unwrap();
+    assert!(!drawn.is_empty() && differ.is_empty());
+    let mut forged = honest.clone();
+    forged
+        .chunks
+        .iter_mut()
+        .for_each(|chunk| *chunk = "0123456789abcdef".to_owned());
+    forged.sha256.records = digest::of_value(&forged.chunks).unwrap();
+    forged.digest = String::new();
+    forged.digest = digest::of_bytes(forged.to_json().unwrap().as_bytes());
+    let forged = parse(&forged.to_json().unwrap()).unwrap();
+    let (drawn, differ) = forged.again(&sources, 3, 71).unwrap();
+    assert_eq!(drawn, differ);
+}
+
+#[test]
+fn a_finding_breaks_its_law_again_from_its_file() {
+    let mut plan = plan();
+    plan.controller.declared.gap_m = Some(0.02);
+    let sources = plan.sources().unwrap();
+    let found = (0..plan.scenarios)
+        .find_map(|index| Finding::of(&plan, sources.controller, Law::Gap, index));
+    let found = found.unwrap();
+    let read = Finding::parse(&found.to_json().unwrap(), Path::new("finding-gap.json")).unwrap();
+    assert_eq!(read, found);
+    let ran = read.replayed(sources.controller).unwrap();
+    let (_, fared) = ran.broken().find(|(law, _)| *law == Law::Gap).unwrap();
+    assert_eq!((fared.first, fared.worst), (Some(found.tick), found.margin));
+    assert!(found.tick < 60, "{} ms", found.tick);
+    assert!(found.to_mcap(sources.controller).unwrap().len() > 1000);
+}

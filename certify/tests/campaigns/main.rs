@@ -1,0 +1,7 @@
+//! This file joins the tests of campaigns: what passes, what is refused, and what a certificate is worth.
+
+mod certificates;
+mod five;
+mod plain;
+mod planted;
+mod runs;

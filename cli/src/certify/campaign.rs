@@ -1,0 +1,127 @@
+//! This file runs a campaign and writes its certificate.
+
+use std::path::Path;
+
+use rigproof_certify::campaign;
+use rigproof_certify::certificate::{Certificate, Tool};
+use rigproof_certify::description::Description;
+use rigproof_certify::digest;
+use rigproof_certify::finding::Finding;
+use rigproof_certify::journal::Chunks;
+use rigproof_certify::law::Law;
+use rigproof_certify::plan::{FORM, Plan, Sources, Subject};
+use rigproof_spec::methods::SAMPLE_STEP_S;
+use rigproof_trace::store::{read_text, write_aside};
+
+use super::{Args, sources, words};
+use crate::outcome::{Failure, Outcome, print};
+use crate::progress;
+use crate::threads;
+
+/// The certificate's file.
+pub const CERTIFICATE: &str = "certificate.json";
+
+/// Runs what is not done yet; the certificate is written when the campaign is whole.
+pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
+    let plan = plan(args, &Description::parse(&read_text(file)?, file)?)?;
+    let sources = sources(&plan)?;
+    let threads = threads::pool(args.jobs)?;
+    let total: u64 = campaign::chunks(&plan, args.shard)
+        .map(|chunk| campaign::indices(&plan, chunk).count() as u64)
+        .sum();
+    let bar = progress::bar(total as usize, "scenarios");
+    let chunks = threads.install(|| {
+        campaign::run(&plan, &sources, args.shard, &args.out, &|done| {
+            bar.inc(done)
+        })
+    })?;
+    drop(bar);
+    let [part, parts] = args.shard;
+    if parts > 1 {
+        return print(&format!(
+            "Part {} of {parts} is done: {total} scenarios. When all parts are, join their folders with `rigproof certify merge`.",
+            part + 1
+        ));
+    }
+    finish(&plan, &sources, &chunks, &args.out, args.json)
+}
+
+fn plan(args: &Args, description: &Description) -> Result<Plan, Failure> {
+    let controller = description.controller.ok_or_else(|| {
+        Failure::Input(
+            "nothing is to be certified: add a table [controller] with `kind` or `named`"
+                .to_owned(),
+        )
+    })?;
+    Ok(Plan {
+        form: FORM,
+        name: description.name.clone(),
+        controller: Subject::built_in(controller),
+        baseline: description.baseline.map(Subject::built_in),
+        rigs: description.rigs.clone(),
+        seed: args.seed.unwrap_or(1),
+        scenarios: args.scenarios,
+        ticks: libm::round(args.seconds / SAMPLE_STEP_S) as u32,
+        limits: description.limits,
+        regressions: description.regressions,
+    })
+}
+
+/// Shrinks what broke a law, and writes certificate and findings.
+pub fn finish(
+    plan: &Plan,
+    sources: &Sources<'_>,
+    chunks: &Chunks,
+    folder: &Path,
+    as_json: bool,
+) -> Result<Outcome, Failure> {
+    let spinner = progress::spinner("shrinking what was found");
+    let mut named = Vec::new();
+    for law in Law::ALL {
+        let broken = |fared: &[rigproof_certify::law::Fared]| {
+            fared
+                .get(law as usize)
+                .is_some_and(|fared| fared.broken > 0)
+        };
+        let first = chunks
+            .values()
+            .flatten()
+            .find(|record| broken(&record.fared));
+        let Some(first) = first else { continue };
+        let found = Finding::of(plan, sources.controller, law, first.index);
+        // A law that is broken once and not again has no scenario that shows it; the verdict stands all the same.
+        let Some(found) = found else { continue };
+        let files = [
+            (found.stem() + ".json", found.to_json()?.into_bytes()),
+            (found.stem() + ".mcap", found.to_mcap(sources.controller)?),
+        ];
+        for (name, bytes) in files {
+            write_aside(&folder.join(name), &bytes)?;
+        }
+        named.push(found.named()?);
+    }
+    drop(spinner);
+    let certificate = Certificate::new(plan, chunks, named, tool()?)?;
+    let text = certificate.to_json()?;
+    write_aside(&folder.join(CERTIFICATE), text.as_bytes())?;
+    if as_json {
+        print(text.trim_end())?;
+    } else {
+        print(&words::certificate(&certificate, folder))?;
+    }
+    Ok(Outcome {
+        checks_hold: certificate.may_go_on_the_rig,
+    })
+}
+
+/// This program, by the hash of its file.
+pub fn tool() -> Result<Tool, Failure> {
+    let unreadable = |error: std::io::Error| {
+        Failure::Input(format!("the program's own file cannot be read: {error}"))
+    };
+    let own = std::env::current_exe().map_err(unreadable)?;
+    Ok(Tool {
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        sha256: digest::of_bytes(&std::fs::read(own).map_err(unreadable)?),
+    })
+}

@@ -1,0 +1,55 @@
+//! This file runs a finding again.
+
+use std::path::Path;
+
+use rigproof_certify::finding::Finding;
+use rigproof_spec::methods::SAMPLE_STEP_S;
+use rigproof_trace::store::read_text;
+use serde_json::json;
+
+use super::Args;
+use crate::outcome::{Failure, Outcome, print};
+use crate::text::number::significant;
+
+/// Runs it, and says what broke.
+pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
+    let finding = Finding::parse(&read_text(file)?, file)?;
+    let source = finding.controller.source().ok_or_else(|| {
+        Failure::Usage(
+            "the finding is about a controller that is not one of the rig's laws".to_owned(),
+        )
+    })?;
+    let ran = finding.replayed(source)?;
+    let again = ran.broken().find(|(law, _)| *law == finding.law);
+    let law = finding.law;
+    if args.json {
+        let result = json!({
+            "law": law, "words": law.words(), "broken_again": again.is_some(),
+            "tick": again.and_then(|(_, fared)| fared.first),
+            "margin": again.map(|(_, fared)| fared.worst), "unit": law.unit(),
+        });
+        print(&result.to_string())?;
+    } else {
+        print(&match again {
+            Some((_, fared)) => {
+                let tick = fared.first.unwrap_or_default();
+                let told = ran.told.get(tick as usize);
+                let currents = told.map_or_else(String::new, |(_, currents_a)| {
+                    format!("; currents A, E, B, C: {currents_a:?} A")
+                });
+                format!(
+                    "The law {} is broken again: {}.\nAt {} s, sample {tick}, margin {} {}{currents}.",
+                    law.name(),
+                    law.words(),
+                    significant(f64::from(tick) * SAMPLE_STEP_S, 4),
+                    significant(fared.worst, 3),
+                    law.unit(),
+                )
+            }
+            None => format!("The law {} holds this time.", law.name()),
+        })?;
+    }
+    Ok(Outcome {
+        checks_hold: again.is_none(),
+    })
+}

@@ -1,0 +1,105 @@
+//! This file says a certificate in plain words.
+
+use std::path::Path;
+
+use rigproof_certify::certificate::Certificate;
+use rigproof_certify::summary::{MetricSummary, Word};
+
+use super::campaign::CERTIFICATE;
+use crate::shell;
+use crate::text::number::significant;
+use crate::text::{join, section};
+
+/// What a person reads after a campaign.
+pub fn certificate(certificate: &Certificate, folder: &Path) -> String {
+    let verdict = match certificate.may_go_on_the_rig {
+        true => format!(
+            "May go on the rig: no law was broken in {} scenarios, {} samples.",
+            certificate.plan.scenarios, certificate.samples
+        ),
+        false => "Must NOT go on the rig:".to_owned(),
+    };
+    let mut first = vec![verdict];
+    first.extend(
+        certificate
+            .reasons
+            .iter()
+            .map(|reason| format!("  {reason}")),
+    );
+    let findings = certificate.findings.iter().map(|found| {
+        let file = folder.join(&found.file);
+        let replay = shell::line(&["rigproof", "certify"], &[("--replay", &file)]);
+        format!(
+            "  {}: scenario {}, shrunk to {} s: {replay}",
+            found.law.name(),
+            found.scenario,
+            significant(found.time_s, 3)
+        )
+    });
+    let laws = certificate.laws.iter().map(|law| {
+        let worst = law
+            .worst_margin
+            .map_or("–".to_owned(), |worst| significant(worst, 3));
+        let broken = match law.broken_in {
+            0 => "holds".to_owned(),
+            count => format!("BROKEN in {count}"),
+        };
+        format!(
+            "  {:<14} {broken:<14} {:>12} samples, worst margin {worst} {}",
+            law.law.name(),
+            law.samples,
+            law.unit
+        )
+    });
+    let not = certificate
+        .not_looked_at
+        .iter()
+        .map(|not| format!("  {}: {}", not.what, not.why));
+    let file = folder.join(CERTIFICATE);
+    let proved = format!(
+        "  {} claims. {}",
+        certificate.proved.claims.len(),
+        certificate.proved.words
+    );
+    join([
+        first,
+        section("Findings", findings),
+        section("Laws, on every sample", laws),
+        section("Metrics", certificate.metrics.iter().map(metric)),
+        section("Proved", [proved]),
+        section("Not looked at", not),
+        vec![format!("Written: {}", file.display())],
+    ])
+}
+
+fn metric(metric: &MetricSummary) -> String {
+    let quantiles = metric.controller.map_or("not measured".to_owned(), |own| {
+        format!(
+            "median {}, 95 % below {} {}",
+            significant(own.q50, 3),
+            significant(own.q95, 3),
+            metric.unit
+        )
+    });
+    let change = metric.change.map_or_else(String::new, |change| {
+        let word = match change.word {
+            Word::Better => "better than the baseline",
+            Word::Worse => "worse than the baseline",
+            Word::NoDifference => "no difference from the baseline",
+        };
+        let [low, high] = change.interval;
+        format!(
+            "; {word}: {} [{} to {}] {}",
+            significant(change.mean, 3),
+            significant(low, 3),
+            significant(high, 3),
+            metric.unit
+        )
+    });
+    let holds = if metric.holds {
+        ""
+    } else {
+        "  BEYOND ITS LIMIT"
+    };
+    format!("  {:<16} {quantiles}{change}{holds}", metric.metric.key())
+}

@@ -1,0 +1,153 @@
+//! This file holds the verb that says whether a controller may go on the rig.
+
+use std::process::{Command, Stdio};
+use std::time::Duration;
+
+use crate::desk::{Desk, assert_shape_of};
+use serde_json::Value;
+
+const SOUND: &str =
+    "[controller]\nnamed = \"sdof_with_gap\"\n[baseline]\nnamed = \"proportional_low\"\n";
+const SCHEMA: &str = include_str!("../../../docs/certificate.schema.json");
+
+#[test]
+fn a_sound_controller_may_go_and_its_certificate_is_checked() {
+    let desk = Desk::new();
+    desk.put("certify.toml", SOUND);
+    let line = "certify certify.toml --scenarios 24 --seconds 1 --out done";
+    let text = desk.prints(line, 0);
+    assert!(
+        text.starts_with("May go on the rig: no law was broken in 24 scenarios"),
+        "{text}"
+    );
+    for words in [
+        "Not looked at",
+        "influence:",
+        "Proved",
+        "the baseline:",
+        "certificate.json",
+    ] {
+        assert!(text.contains(words), "{words}: {text}");
+    }
+    let certificate: Value = serde_json::from_str(&desk.read("done/certificate.json")).unwrap();
+    assert_shape_of(&certificate, SCHEMA);
+    assert_eq!(desk.json(&format!("{line} --json"), 0), certificate);
+    let checked = desk.json(
+        "certify --check done/certificate.json --sample 16 --json",
+        0,
+    );
+    assert_eq!(checked["same_build"], true);
+    assert_eq!(checked["wrong"].as_array().unwrap().len(), 0);
+    let changed = desk
+        .read("done/certificate.json")
+        .replace("\"seed\": 1,", "\"seed\": 2,");
+    desk.put("changed.json", &changed);
+    let answer = desk.rigproof("certify --check changed.json");
+    assert_eq!(answer.status.code(), Some(3));
+    assert!(
+        String::from_utf8(answer.stderr)
+            .unwrap()
+            .contains("it was changed after it was written")
+    );
+}
+
+#[test]
+fn limits_that_are_broken_are_said_and_end_with_one() {
+    let desk = Desk::new();
+    desk.put(
+        "certify.toml",
+        &format!("{SOUND}[limits]\nswitching_per_s = 0.5\n"),
+    );
+    let text = desk.prints(
+        "certify certify.toml --scenarios 16 --seconds 1 --out no",
+        1,
+    );
+    assert!(
+        text.starts_with("Must NOT go on the rig:\n  switching_per_s is beyond"),
+        "{text}"
+    );
+    desk.prints("certify --check no/certificate.json", 0);
+}
+
+#[test]
+fn parts_merge_to_the_certificate_of_the_whole() {
+    let desk = Desk::new();
+    desk.put("certify.toml", SOUND);
+    let line = "certify certify.toml --scenarios 40 --seconds 0.3 --seed 7";
+    desk.prints(&format!("{line} --out whole --jobs 1"), 0);
+    for part in 1..=3 {
+        let text = desk.prints(&format!("{line} --shard {part}/3 --out part-{part}"), 0);
+        assert!(
+            text.contains(&format!("Part {part} of 3 is done")),
+            "{text}"
+        );
+    }
+    desk.prints("certify merge part-3 part-1 part-2 --out merged", 0);
+    assert!(desk.read("merged/certificate.json") == desk.read("whole/certificate.json"));
+    let answer = desk.rigproof("certify merge part-3 part-1 --out less");
+    assert_eq!(answer.status.code(), Some(3));
+}
+
+#[test]
+fn a_campaign_that_is_killed_goes_on_to_the_same_certificate() {
+    let desk = Desk::new();
+    desk.put("certify.toml", SOUND);
+    let line = "certify certify.toml --scenarios 160 --seconds 2 --jobs 2";
+    desk.prints(&format!("{line} --out whole"), 0);
+    let words: Vec<String> = format!("{line} --out killed")
+        .split_whitespace()
+        .map(str::to_owned)
+        .collect();
+    let journal = desk.path("killed/journal.jsonl");
+    let mut killed = 0;
+    for _ in 0..3 {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_rigproof"))
+            .args(&words)
+            .current_dir(desk.path(""))
+            .stdout(Stdio::null())
+            .spawn()
+            .unwrap();
+        let size = || std::fs::metadata(&journal).map_or(0, |data| data.len());
+        let before = size();
+        // Killed as soon as something was done.
+        while size() <= before.max(1000) && child.try_wait().unwrap().is_none() {
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        killed += usize::from(child.try_wait().unwrap().is_none());
+        child.kill().unwrap();
+        child.wait().unwrap();
+    }
+    assert!(killed > 0);
+    assert!(!desk.path("killed/certificate.json").exists() || killed < 3);
+    desk.prints(&format!("{line} --out killed"), 0);
+    assert!(desk.read("killed/certificate.json") == desk.read("whole/certificate.json"));
+}
+
+#[test]
+fn wrong_descriptions_are_refused_with_their_place() {
+    let desk = Desk::new();
+    for (text, words) in [
+        (
+            "[controller]\nnamed = \"sdof\"\ngap = 3\n",
+            "certify.toml, line 3, column 1: `gap` is no key of `controller`",
+        ),
+        (
+            "[controller]\nkind = \"proportional\"\ngain_n_s_per_m = -3\n",
+            "give a number from 0 to 1000000",
+        ),
+        ("name = \"x\"\n", "add a table [controller]"),
+    ] {
+        desk.put("certify.toml", text);
+        let answer = desk.rigproof("certify certify.toml");
+        let message = String::from_utf8(answer.stderr).unwrap();
+        assert_eq!(answer.status.code(), Some(3), "{message}");
+        assert!(message.contains(words), "{message}");
+    }
+    for line in [
+        "certify",
+        "certify certify.toml --shard 3/2",
+        "certify certify.toml --seconds 0",
+    ] {
+        assert_eq!(desk.rigproof(line).status.code(), Some(2), "{line}");
+    }
+}
