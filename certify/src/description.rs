@@ -196,15 +196,6 @@ fn side(table: &Table<'_>) -> Result<Option<Solid>, TraceError> {
     }
 }
 
-fn yes_or_no(table: &Table<'_>, key: &str) -> Result<Option<bool>, TraceError> {
-    match table.text(key)? {
-        None => Ok(None),
-        Some("yes") => Ok(Some(true)),
-        Some("no") => Ok(Some(false)),
-        Some(other) => Err(unknown(table, key, other, &["yes", "no"])),
-    }
-}
-
 fn declared(table: &Table<'_>) -> Result<Declared, TraceError> {
     table.only(&[
         "most_brakes",
@@ -241,11 +232,11 @@ fn declared(table: &Table<'_>) -> Result<Declared, TraceError> {
     };
     Ok(Declared {
         most_brakes,
-        locks: yes_or_no(table, "locks")?,
+        locks: table.flag("locks")?,
         gap_m: optional("gap_m", [0.0, BOUNDARY_RANGE_M[1]])?,
         boundary_m: optional("boundary_m", BOUNDARY_RANGE_M)?,
         choice,
-        within_force: yes_or_no(table, "within_force")?.unwrap_or(false),
+        within_force: table.flag("within_force")?.unwrap_or(false),
         solid: side(table)?,
         reference: None,
     })
@@ -326,7 +317,7 @@ mod tests {
             ("layout = \"five\"\n", "line 1", "three_brake"),
             ("[declares]\nmost_brakes = 1.5\n", "line 2", "whole number"),
             (
-                "[controller]\nnamed = \"sdof\"\n[declares]\nlocks = \"yes\"\n",
+                "[controller]\nnamed = \"sdof\"\n[declares]\nlocks = true\n",
                 "line 3",
                 "kind says it",
             ),

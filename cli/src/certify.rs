@@ -2,6 +2,7 @@
 
 mod campaign;
 mod check;
+mod compiled;
 mod merge;
 mod replay;
 mod words;
@@ -10,7 +11,6 @@ use std::path::PathBuf;
 
 use clap::Subcommand;
 use rigproof_certify::journal::Shard;
-use rigproof_certify::plan::{Plan, Sources};
 
 use crate::outcome::{Failure, Outcome};
 use crate::threads;
@@ -51,6 +51,8 @@ pub struct Args {
     /// Run a finding again instead
     #[arg(long, value_name = "FINDING.JSON")]
     replay: Option<PathBuf>,
+    #[command(flatten)]
+    compiled: compiled::Compiled,
     /// Print the result as JSON
     #[arg(long)]
     json: bool,
@@ -69,6 +71,7 @@ Example:
   rigproof certify certify.toml --scenarios 1000 --out certified
   rigproof certify --replay certified/finding-gap.json
   rigproof certify --check certified/certificate.json
+  rigproof certify declared.toml --controller mine.so --scenarios 200
 
 certify.toml:
   [controller]
@@ -96,15 +99,6 @@ impl From<rigproof_certify::Error> for Failure {
     fn from(error: rigproof_certify::Error) -> Failure {
         Failure::Input(error.to_string())
     }
-}
-
-/// What makes the controllers of a plan.
-fn sources(plan: &Plan) -> Result<Sources<'_>, Failure> {
-    plan.sources().ok_or_else(|| {
-        Failure::Usage(
-            "the controller is not one of the rig's laws: name one with `kind` or `named` in [controller]".to_owned(),
-        )
-    })
 }
 
 fn parse_seconds(text: &str) -> Result<f64, String> {

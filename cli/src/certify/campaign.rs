@@ -13,9 +13,11 @@ use rigproof_certify::plan::{FORM, Plan, Sources, Subject};
 use rigproof_spec::methods::SAMPLE_STEP_S;
 use rigproof_trace::store::{read_text, write_aside};
 
-use super::{Args, sources, words};
+use super::compiled::{Opened, sources};
+use super::{Args, words};
 use crate::outcome::{Failure, Outcome, print};
 use crate::progress;
+use crate::text::section;
 use crate::threads;
 
 /// The certificate's file.
@@ -23,8 +25,10 @@ pub const CERTIFICATE: &str = "certificate.json";
 
 /// Runs what is not done yet; the certificate is written when the campaign is whole.
 pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
-    let plan = plan(args, &Description::parse(&read_text(file)?, file)?)?;
-    let sources = sources(&plan)?;
+    let description = Description::parse(&read_text(file)?, file)?;
+    let compiled = args.compiled.opened()?;
+    let plan = plan(args, &description, compiled.as_ref())?;
+    let sources = sources(&plan, compiled.as_ref())?;
     let threads = threads::pool(args.jobs)?;
     let total: u64 = campaign::chunks(&plan, args.shard)
         .map(|chunk| campaign::indices(&plan, chunk).count() as u64)
@@ -43,20 +47,52 @@ pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
             part + 1
         ));
     }
-    finish(&plan, &sources, &chunks, &args.out, args.json)
+    let mut outcome = finish(
+        &plan,
+        &sources,
+        &chunks,
+        &args.out,
+        (args.compiled.library(), args.json),
+    )?;
+    let between = compiled.map_or_else(Vec::new, |compiled| compiled.ended());
+    if !between.is_empty() {
+        outcome.checks_hold = false;
+        if !args.json {
+            let lines = section(
+                "Between trials",
+                between.iter().map(|line| format!("  {line}")),
+            );
+            print(&lines.join("\n"))?;
+        }
+    }
+    Ok(outcome)
 }
 
-fn plan(args: &Args, description: &Description) -> Result<Plan, Failure> {
-    let controller = description.controller.ok_or_else(|| {
-        Failure::Input(
-            "nothing is to be certified: add a table [controller] with `kind` or `named`"
-                .to_owned(),
-        )
-    })?;
+fn plan(
+    args: &Args,
+    description: &Description,
+    compiled: Option<&Opened>,
+) -> Result<Plan, Failure> {
+    let controller = match (description.controller, compiled) {
+        (Some(law), None) => Subject::built_in(law),
+        (None, Some(own)) => own.subject(description.declares),
+        (Some(_), Some(_)) => {
+            return Err(Failure::Input(
+                "two controllers are named: take the table [controller] away, or --controller; a law of the rig may stand in [baseline]"
+                    .to_owned(),
+            ));
+        }
+        (None, None) => {
+            return Err(Failure::Input(
+                "nothing is to be certified: add a table [controller] with `kind` or `named`, or --controller"
+                    .to_owned(),
+            ));
+        }
+    };
     Ok(Plan {
         form: FORM,
         name: description.name.clone(),
-        controller: Subject::built_in(controller),
+        controller,
         baseline: description.baseline.map(Subject::built_in),
         rigs: description.rigs.clone(),
         seed: args.seed.unwrap_or(1),
@@ -73,7 +109,7 @@ pub fn finish(
     sources: &Sources<'_>,
     chunks: &Chunks,
     folder: &Path,
-    as_json: bool,
+    (library, as_json): (Option<&Path>, bool),
 ) -> Result<Outcome, Failure> {
     let spinner = progress::spinner("shrinking what was found");
     let mut named = Vec::new();
@@ -107,7 +143,7 @@ pub fn finish(
     if as_json {
         print(text.trim_end())?;
     } else {
-        print(&words::certificate(&certificate, folder))?;
+        print(&words::certificate(&certificate, folder, library))?;
     }
     Ok(Outcome {
         checks_hold: certificate.may_go_on_the_rig,

@@ -8,14 +8,16 @@ use rigproof_certify::digest;
 use rigproof_trace::store::read_text;
 use serde_json::json;
 
-use super::{Args, campaign, sources};
+use super::compiled::sources;
+use super::{Args, campaign};
 use crate::outcome::{Failure, Outcome, print};
 
 /// Checks, and says what was checked.
 pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
     let certificate = Certificate::parse(&read_text(file)?, file)?;
     let mut wrong = changed_findings(&certificate, file);
-    let sources = sources(&certificate.plan)?;
+    let compiled = args.compiled.opened()?;
+    let sources = sources(&certificate.plan, compiled.as_ref())?;
     // Whoever wrote the certificate must not know what is run again.
     let seed = args.seed.unwrap_or_else(clock);
     let count = args.sample.div_ceil(CHUNK) as usize;

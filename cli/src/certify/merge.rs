@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use rigproof_certify::campaign;
 use rigproof_trace::TraceError;
 
-use super::{campaign as parts, sources};
+use super::campaign as parts;
+use super::compiled::{Compiled, sources};
 use crate::outcome::{Failure, Outcome};
 
 /// What is to be joined.
@@ -18,6 +19,8 @@ pub struct Args {
     /// The folder for the certificate
     #[arg(long, value_name = "FOLDER")]
     out: PathBuf,
+    #[command(flatten)]
+    compiled: Compiled,
     /// Print the certificate
     #[arg(long)]
     json: bool,
@@ -42,5 +45,13 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
             source: error,
         })
     })?;
-    parts::finish(&plan, &sources(&plan)?, &chunks, &args.out, args.json)
+    let compiled = args.compiled.opened()?;
+    let sources = sources(&plan, compiled.as_ref())?;
+    parts::finish(
+        &plan,
+        &sources,
+        &chunks,
+        &args.out,
+        (args.compiled.library(), args.json),
+    )
 }

@@ -8,17 +8,15 @@ use rigproof_trace::store::read_text;
 use serde_json::json;
 
 use super::Args;
+use super::compiled::subject;
 use crate::outcome::{Failure, Outcome, print};
 use crate::text::number::significant;
 
 /// Runs it, and says what broke.
 pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
     let finding = Finding::parse(&read_text(file)?, file)?;
-    let source = finding.controller.source().ok_or_else(|| {
-        Failure::Usage(
-            "the finding is about a controller that is not one of the rig's laws".to_owned(),
-        )
-    })?;
+    let compiled = args.compiled.opened()?;
+    let source = subject(&finding.controller, compiled.as_ref())?;
     let ran = finding.replayed(source)?;
     let again = ran.broken().find(|(law, _)| *law == finding.law);
     let law = finding.law;

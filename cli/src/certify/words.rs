@@ -10,8 +10,8 @@ use crate::shell;
 use crate::text::number::significant;
 use crate::text::{join, section};
 
-/// What a person reads after a campaign.
-pub fn certificate(certificate: &Certificate, folder: &Path) -> String {
+/// What a person reads after a campaign; `library` is the compiled controller's, if it is one.
+pub fn certificate(certificate: &Certificate, folder: &Path, library: Option<&Path>) -> String {
     let verdict = match certificate.may_go_on_the_rig {
         true => format!(
             "May go on the rig: no law was broken in {} scenarios, {} samples.",
@@ -28,7 +28,9 @@ pub fn certificate(certificate: &Certificate, folder: &Path) -> String {
     );
     let findings = certificate.findings.iter().map(|found| {
         let file = folder.join(&found.file);
-        let replay = shell::line(&["rigproof", "certify"], &[("--replay", &file)]);
+        let mut words = vec![("--replay", file.as_path())];
+        words.extend(library.map(|library| ("--controller", library)));
+        let replay = shell::line(&["rigproof", "certify"], &words);
         format!(
             "  {}: scenario {}, shrunk to {} s: {replay}",
             found.law.name(),

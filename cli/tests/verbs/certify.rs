@@ -151,3 +151,40 @@ fn wrong_descriptions_are_refused_with_their_place() {
         assert_eq!(desk.rigproof(line).status.code(), Some(2), "{line}");
     }
 }
+
+/// The example of a compiled controller brakes whatever its sensors say.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_compiled_controller_that_brakes_on_a_fault_is_refused_and_shown_again() {
+    let desk = Desk::new();
+    let damper = std::path::Path::new(crate::controller::ROOM).join("examples/damper.c");
+    if crate::controller::compiled(&damper, &desk.path("damper.so")).is_none() {
+        return;
+    }
+    desk.put("damper.toml", "[declares]\nmost_brakes = 4\n");
+    let given = "--controller damper.so";
+    let line = format!("certify damper.toml {given} --scenarios 16 --seconds 1 --out out");
+    let text = desk.prints(&line, 1);
+    assert!(
+        text.starts_with("Must NOT go on the rig:\n  the law safe is broken"),
+        "{text}"
+    );
+    let replay = "certify --replay out/finding-safe.json";
+    assert!(
+        text.contains(&format!("rigproof {replay} {given}")),
+        "{text}"
+    );
+    let again = desk.prints(&format!("{replay} {given}"), 1);
+    assert!(again.starts_with("The law safe is broken again"), "{again}");
+    let checked = desk.prints(&format!("certify --check out/certificate.json {given}"), 0);
+    assert!(checked.starts_with("The certificate holds"), "{checked}");
+    assert_eq!(desk.rigproof(replay).status.code(), Some(2));
+    // Another library is another controller.
+    let mut bytes = std::fs::read(desk.path("damper.so")).unwrap();
+    bytes.push(0);
+    std::fs::write(desk.path("other.so"), bytes).unwrap();
+    let other = desk.rigproof(&format!("{replay} --controller other.so"));
+    assert_eq!(other.status.code(), Some(3));
+    let message = String::from_utf8(other.stderr).unwrap();
+    assert!(message.contains("is another controller"), "{message}");
+}

@@ -6,10 +6,10 @@ use std::process::Command;
 
 use super::desk::Desk;
 
-const ROOM: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../certify/c");
+pub const ROOM: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../certify/c");
 
 /// A library of a source; nothing without a C compiler.
-fn compiled(source: &Path, library: &Path) -> Option<()> {
+pub fn compiled(source: &Path, library: &Path) -> Option<()> {
     let compiled = Command::new("cc")
         .args(["-O1", "-shared", "-fPIC"])
         .arg(format!("-I{ROOM}/include"))

@@ -114,6 +114,14 @@ impl<'a> Table<'a> {
         self.typed(key, "text in quotes", DeValue::as_str)
     }
 
+    /// Whether a key holds, if it is there.
+    ///
+    /// # Errors
+    /// It is something else than `true` or `false`.
+    pub fn flag(&self, key: &str) -> Result<Option<bool>, TraceError> {
+        self.typed(key, "true or false", DeValue::as_bool)
+    }
+
     /// The number of a key, if it is there.
     ///
     /// # Errors

@@ -1,0 +1,120 @@
+//! This file says which controllers a plan is run with: laws of the rig, or a compiled one that the command line names.
+
+use std::path::{Path, PathBuf};
+
+use rigproof_certify::controller::Source;
+use rigproof_certify::declared::Declared;
+use rigproof_certify::digest;
+use rigproof_certify::foreign::{Between, Foreign};
+use rigproof_certify::plan::{Plan, Sources, Subject, What};
+
+use crate::controller::{Given, host};
+use crate::outcome::Failure;
+
+/// A compiled controller, if one is named.
+#[derive(clap::Args)]
+pub struct Compiled {
+    /// A compiled controller behind rigproof_controller.h, in place of a table [controller]; what it promises stands in [declares]
+    #[arg(long = "controller", value_name = "LIBRARY")]
+    library: Option<PathBuf>,
+    #[command(flatten)]
+    given: Given,
+}
+
+/// A compiled controller at hand.
+pub struct Opened {
+    source: Foreign,
+    name: String,
+    sha256: String,
+}
+
+impl Compiled {
+    /// The shared library's file.
+    pub fn library(&self) -> Option<&Path> {
+        self.library.as_deref()
+    }
+
+    /// Opens it once, to see that it can be run.
+    ///
+    /// # Errors
+    /// It cannot be read or run.
+    pub fn opened(&self) -> Result<Option<Opened>, Failure> {
+        let Some(file) = &self.library else {
+            return Ok(None);
+        };
+        let unusable = |why: String| Failure::unusable(file, why);
+        let bytes = std::fs::read(file).map_err(|error| unusable(error.to_string()))?;
+        let source = Foreign::new(file, host()?, self.given.limits());
+        let source = source.map_err(|failure| unusable(failure.to_string()))?;
+        source
+            .check()
+            .map_err(|failure| unusable(failure.to_string()))?;
+        let name = file.file_name().unwrap_or(file.as_os_str());
+        Ok(Some(Opened {
+            source,
+            name: name.to_string_lossy().into_owned(),
+            sha256: digest::of_bytes(&bytes),
+        }))
+    }
+}
+
+impl Opened {
+    /// As the subject of a plan, with what is declared of it.
+    pub fn subject(&self, declared: Declared) -> Subject {
+        Subject {
+            what: What::Given {
+                name: self.name.clone(),
+                sha256: self.sha256.clone(),
+            },
+            declared,
+        }
+    }
+
+    /// What went wrong where no trial could say it, a line each; ends its processes.
+    pub fn ended(&self) -> Vec<String> {
+        self.source.end();
+        let between = self.source.between_trials();
+        let line = |own: &Between| match own.times {
+            1 => own.what.clone(),
+            times => format!("{} ({times} times)", own.what),
+        };
+        between.iter().map(line).collect()
+    }
+}
+
+/// What makes the controllers of a plan.
+///
+/// # Errors
+/// The plan is about a compiled controller, and it or another one is at hand.
+pub fn sources<'a>(plan: &'a Plan, compiled: Option<&'a Opened>) -> Result<Sources<'a>, Failure> {
+    let baseline = plan.baseline.as_ref().and_then(Subject::source);
+    let controller = subject(&plan.controller, compiled)?;
+    Ok(Sources {
+        controller,
+        baseline,
+    })
+}
+
+/// What makes a controller.
+///
+/// # Errors
+/// As [`sources`].
+pub fn subject<'a>(
+    subject: &'a Subject,
+    compiled: Option<&'a Opened>,
+) -> Result<&'a dyn Source, Failure> {
+    let (name, sha256) = match &subject.what {
+        What::BuiltIn(law) => return Ok(law),
+        What::Given { name, sha256 } => (name, sha256),
+    };
+    match compiled {
+        Some(own) if own.sha256 == *sha256 => Ok(&own.source),
+        Some(own) => Err(Failure::Input(format!(
+            "{} is another controller: its SHA-256 is {}, that of {name} was {sha256}",
+            own.name, own.sha256
+        ))),
+        None => Err(Failure::Usage(format!(
+            "this is about the compiled controller {name}: name it with --controller"
+        ))),
+    }
+}
