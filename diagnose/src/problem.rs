@@ -433,7 +433,12 @@ impl<'a> Problem<'a> {
     /// A term of the nominal model: its columns where unknown, else its value as a fixed column.
     pub fn nominal_term(&self, effect: &NominalEffect) -> Option<Term> {
         let linear = entry(effect.cause.mechanism)?.linear;
-        let shape = effect.parameters.get(linear..).unwrap_or_default();
+        let shape = match effect.cause.mechanism {
+            // The slope is taken over the whole of what is known.
+            Mechanism::EncoderScale | Mechanism::EncoderOffset => effect.parameters.get(..1),
+            _ => effect.parameters.get(linear..),
+        };
+        let shape = shape.unwrap_or_default();
         let mut term =
             self.term(effect.cause, shape, effect.onset_s)
                 .or_else(|| match self.plant {

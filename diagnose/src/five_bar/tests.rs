@@ -136,3 +136,42 @@ fn one_component_of_the_force_with_the_wrong_sign_is_a_fault_and_friction_left_o
         assert_eq!(verdict(&recording), expected, "{layout:?}");
     }
 }
+
+#[test]
+fn a_turned_force_sensor_is_turned_and_has_no_other_gain() {
+    let mut recording = recording(Layout::FourBrake, SECONDS, 15, &nothing);
+    let (sine, cosine) = libm::sincos(0.137);
+    let [x, y] = &mut recording.force;
+    for (x, y) in x.samples.iter_mut().zip(&mut y.samples) {
+        (*x, *y) = (cosine * *x - sine * *y, sine * *x + cosine * *y);
+    }
+    let rig = rig(Layout::FourBrake);
+    let report = diagnose(&rig, &recording, None, &Options::default()).report;
+    assert_eq!(
+        named(&report),
+        [("force_rotation", None)],
+        "{}",
+        report.summary
+    );
+    let found = report.effects[0].parameters["angle"].value;
+    assert!((found / 0.137 - 1.0).abs() < 0.02, "{found} rad");
+}
+
+#[test]
+fn an_encoder_with_its_zero_off_is_named_so_and_not_as_a_scale() {
+    let mut recording = recording(Layout::FourBrake, SECONDS, 16, &nothing);
+    let [theta_a, _] = &mut recording.theta;
+    for angle in &mut theta_a.samples {
+        *angle -= 0.037;
+    }
+    let rig = rig(Layout::FourBrake);
+    let report = diagnose(&rig, &recording, None, &Options::default()).report;
+    assert_eq!(
+        named(&report),
+        [("encoder_offset", Some("A"))],
+        "{}",
+        report.summary
+    );
+    let found = report.effects[0].parameters["angle"].value;
+    assert!((found / -0.037 - 1.0).abs() < 0.02, "{found} rad");
+}
