@@ -12,8 +12,10 @@ use crate::diagnose::ended::{blank, faulty, not_excited};
 use crate::diagnose::words::summary;
 use crate::diagnose::write::{floor, verdict};
 use crate::diagnose::{Curves, Description, Diagnosis, FEWEST_WINDOWS, Options};
-use crate::evidence::{coefficients_by_term, inclusion, not_seen, rivals, standard_errors};
-use crate::problem::{NominalEffect, Problem, Term, add};
+use crate::evidence::{
+    coefficients_by_term, inclusion, inconstant, not_seen, rivals, standard_errors,
+};
+use crate::problem::{Cause, NominalEffect, Problem, Term, add};
 use crate::report::{
     BeforeAfter, EffectReport, FITTED_PART, FitReport, HELD_OUT_PART, Horizon, Report, StageReport,
 };
@@ -74,17 +76,33 @@ pub fn diagnose(
         term.free.truncate(linear);
         terms.push(term);
     }
-    let selection = select(&mut problem, terms, options.gates);
+    let mut selection = select(&mut problem, terms, options.gates);
+    let withdrawn = withdraw_inconstant(&problem, &mut selection);
     Stand {
         rig,
         problem: &problem,
         selection: &selection,
+        withdrawn: &withdrawn,
         train: &train,
         test: &test,
         test_from_s,
         options,
     }
     .report(held_out.is_some())
+}
+
+/// Takes out the names whose number is not constant where more than noise is left, and what then explains too little.
+fn withdraw_inconstant(problem: &Problem, selection: &mut Selection) -> Vec<Cause> {
+    let mut withdrawn = Vec::new();
+    loop {
+        let causes = inconstant(problem, selection);
+        if causes.is_empty() {
+            return withdrawn;
+        }
+        selection.withdraw(problem, &causes);
+        selection.weigh_again(problem);
+        withdrawn.extend(causes);
+    }
 }
 
 /// A nominal effect that has no meaning on this layout or at this joint.
@@ -130,6 +148,7 @@ pub(super) struct Stand<'a> {
     pub(super) rig: &'a FiveBar,
     pub(super) problem: &'a Problem<'a>,
     pub(super) selection: &'a Selection,
+    pub(super) withdrawn: &'a [Cause],
     pub(super) train: &'a FiveBarRun,
     pub(super) test: &'a FiveBarRun,
     /// Where the held-out part of `test` begins, s after its first sample.
@@ -177,6 +196,7 @@ impl Stand<'_> {
                 .map(|r| r.iter().map(|cause| cause.name()).collect())
                 .collect(),
             too_small_to_name: selection.too_small.iter().map(|c| c.name()).collect(),
+            withdrawn: self.withdrawn.iter().map(|c| c.name()).collect(),
             not_seen: not_seen(problem, selection, self.options.gates, Motion::Rotary),
             fit,
             next_experiment,
