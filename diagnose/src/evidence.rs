@@ -17,7 +17,7 @@ use rigproof_spec::effect::{Mechanism, Motion};
 use rigproof_spec::joint::Joint;
 use std::collections::BTreeMap;
 
-pub use constancy::inconstant;
+pub use constancy::{inconstant, is_told_by_itself};
 
 /// Share of an effect's gain that a rival must reach to be ambiguous with it.
 const RIVAL_SHARE: f64 = 0.9;

@@ -58,7 +58,7 @@ pub fn inconstant(problem: &Problem, selection: &Selection) -> Vec<Cause> {
 
 /// Whether a mechanism's number acts without a memory. A memory of another family (Maxwell slip for a bristle) differs at every
 /// reversal, which says nothing about its level.
-fn is_told_by_itself(mechanism: Mechanism) -> bool {
+pub fn is_told_by_itself(mechanism: Mechanism) -> bool {
     let Some(entry) = entry(mechanism) else {
         return false;
     };

@@ -13,7 +13,8 @@ use crate::diagnose::words::summary;
 use crate::diagnose::write::{floor, verdict};
 use crate::diagnose::{Curves, Description, Diagnosis, FEWEST_WINDOWS, Options};
 use crate::evidence::{
-    coefficients_by_term, inclusion, inconstant, not_seen, rivals, standard_errors,
+    coefficients_by_term, inclusion, inconstant, is_told_by_itself, not_seen, rivals,
+    standard_errors,
 };
 use crate::problem::{Cause, NominalEffect, Problem, Term, add};
 use crate::report::{
@@ -91,11 +92,19 @@ pub fn diagnose(
     .report(held_out.is_some())
 }
 
-/// Takes out the names whose number is not constant where more than noise is left, and what then explains too little.
+/// Takes out the names whose number is not constant where more than noise is left, and what then explains too little. Where
+/// something with a memory would explain as much, that may be what changes the number: the name stays beside it, as ambiguous.
 fn withdraw_inconstant(problem: &Problem, selection: &mut Selection) -> Vec<Cause> {
     let mut withdrawn = Vec::new();
     loop {
-        let causes = inconstant(problem, selection);
+        let mut causes = inconstant(problem, selection);
+        if !causes.is_empty() {
+            let rivals = rivals(problem, selection);
+            let pairs = selection.found.iter().zip(&rivals);
+            let told = pairs.filter(|(_, own)| own.iter().all(|c| is_told_by_itself(c.mechanism)));
+            let told: Vec<Cause> = told.map(|(found, _)| found.term.cause).collect();
+            causes.retain(|cause| told.contains(cause));
+        }
         if causes.is_empty() {
             return withdrawn;
         }
