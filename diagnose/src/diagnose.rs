@@ -14,7 +14,7 @@ use crate::problem::{Cause, Problem, Term, is_of_brake};
 use crate::report::Report;
 use crate::run::Run;
 use crate::scatter::{Trials, left_over};
-use crate::select::{FLOOR_RATIO, Gates, Selection, refs, select, usable_rms};
+use crate::select::{FLOOR_RATIO, Gates, Selection, floor_limit, refs, select, usable_rms};
 use crate::unknown::surrogates;
 use crate::weak::{Windows, choose_width};
 pub use description::{Description, Measured};
@@ -214,7 +214,7 @@ fn withdraw_surrogates(
     rig: &Rig,
 ) -> Vec<Cause> {
     let ratio = usable_rms(problem, &selection.after.residual) / problem.floor;
-    if ratio <= FLOOR_RATIO {
+    if ratio <= floor_limit(problem) {
         return Vec::new();
     }
     let found: Vec<Mechanism> = selection

@@ -1,5 +1,7 @@
 //! This file says how sure a selection is: intervals, rivals, what would have been seen, what cannot be told.
 
+mod constancy;
+
 use crate::candidates::{causes, modelled_effort, realise, variants};
 use crate::problem::{Cause, Problem, Term};
 use crate::regression::{
@@ -14,6 +16,8 @@ use rigproof_model::effects::entry;
 use rigproof_spec::effect::{Mechanism, Motion};
 use rigproof_spec::joint::Joint;
 use std::collections::BTreeMap;
+
+pub use constancy::{inconstant, is_told_by_itself};
 
 /// Share of an effect's gain that a rival must reach to be ambiguous with it.
 const RIVAL_SHARE: f64 = 0.9;

@@ -430,10 +430,14 @@ impl<'a> Problem<'a> {
         })
     }
 
-    /// A term of the nominal model: its columns where unknown, else its value as a fixed column.
+    /// A term of the nominal model: its columns where unknown, else its value as a fixed column. An encoder's slope is over its value.
     pub fn nominal_term(&self, effect: &NominalEffect) -> Option<Term> {
         let linear = entry(effect.cause.mechanism)?.linear;
-        let shape = effect.parameters.get(linear..).unwrap_or_default();
+        let first = match effect.cause.mechanism {
+            Mechanism::EncoderScale | Mechanism::EncoderOffset => 0,
+            _ => linear,
+        };
+        let shape = effect.parameters.get(first..).unwrap_or_default();
         let mut term =
             self.term(effect.cause, shape, effect.onset_s)
                 .or_else(|| match self.plant {

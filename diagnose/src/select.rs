@@ -161,6 +161,14 @@ impl Selection {
         let blocks = Blocks::new(problem);
         self.after = fit(problem, &refs(&self.nominal, &self.found), &blocks);
     }
+
+    /// Takes out what explains too little beside what is unexplained by now.
+    pub fn weigh_again(&mut self, problem: &Problem) {
+        let blocks = Blocks::new(problem);
+        let taken_out = prune(problem, &self.nominal, &mut self.found, &blocks);
+        self.too_small.extend(taken_out);
+        self.after = fit(problem, &refs(&self.nominal, &self.found), &blocks);
+    }
 }
 
 /// The nominal terms and the found ones, in the order of the fit's columns.

@@ -17,6 +17,8 @@ pub fn resistance(laws: &[Box<dyn Law>], motion: &[Instant], step_s: f64) -> Vec
 }
 
 /// The resistance of one law along an imposed motion.
+///
+/// A memory that a change of sense begins anew stands still where the sense cannot be told: a smoothed angle rings at rest.
 pub fn column(law: &dyn Law, motion: &[Instant], step_s: f64) -> Vec<f64> {
     let given = |now: &Instant, memory| law.smooth(now, memory) + law.dry(now) * now.sense;
     if !law.remembers() {
@@ -27,7 +29,8 @@ pub fn column(law: &dyn Law, motion: &[Instant], step_s: f64) -> Vec<f64> {
     motion
         .iter()
         .map(|now| {
-            if let Some(before) = before {
+            let told = now.sense.abs() >= 1.0 || !law.begins_anew();
+            if let Some(before) = before.filter(|_| told) {
                 let travel = now.position - before.position;
                 memory = law.memory_after(memory, travel, travel / step_s);
             }
@@ -57,6 +60,34 @@ mod tests {
                 assert_eq!(law.remembers(), moves, "{:?}", entry.mechanism);
             }
         }
+    }
+
+    #[test]
+    fn ringing_at_rest_is_no_reversal_and_half_a_sense_no_half_memory() {
+        let law = law(Mechanism::ReversalOvershoot, &[0.37, 0.083]).unwrap();
+        // Half a second onwards at 0.13 rad/s; the same with a rest in which the smoothed angle rings; on, the sense half told.
+        let mut motion = Vec::new();
+        let mut position = 0.0;
+        for k in 0..700 {
+            let (speed, sense) = match k {
+                0..300 => (0.13, 1.0),
+                300..500 => (0.011 * libm::cos(0.31 * f64::from(k)), 0.0),
+                500..600 => (0.13, 1.0),
+                _ => (0.001, 0.5),
+            };
+            position += 1e-3 * speed;
+            motion.push(Instant {
+                time_s: 1e-3 * f64::from(k),
+                position,
+                speed,
+                sense,
+            });
+        }
+        let share = column(law.as_ref(), &motion, 1e-3);
+        let after = |travel: f64| 0.37 * libm::exp(-travel / 0.083);
+        assert!((share[299] - after(299.0 * 1.3e-4)).abs() < 1e-9);
+        assert!((share[599] - after(399.0 * 1.3e-4)).abs() < 1e-9);
+        assert!((share[650] - 0.5 * after(399.0 * 1.3e-4)).abs() < 1e-9);
     }
 
     #[test]

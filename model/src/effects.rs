@@ -62,6 +62,11 @@ pub trait Law: Send + Sync {
         false
     }
 
+    /// Whether a change of sense begins the memory anew: where the sense cannot be told, nothing is known to have changed.
+    fn begins_anew(&self) -> bool {
+        false
+    }
+
     /// The time derivative of the memory, 0 for a law without any.
     fn memory_rate(&self, _now: &Instant, _memory: f64) -> f64 {
         0.0

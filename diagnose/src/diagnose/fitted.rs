@@ -7,7 +7,7 @@ use crate::from_rig;
 use crate::problem::Inertia;
 use crate::report::{BeforeAfter, FitReport, HELD_OUT_PART, Horizon};
 use crate::run::{PlantKind, Run};
-use crate::select::{FLOOR_RATIO, refs};
+use crate::select::{floor_limit, refs};
 use crate::simulate::{Effect, Plant, Protocol};
 use rigproof_spec::effect::{Mechanism, Quantity};
 
@@ -67,7 +67,8 @@ impl Stand<'_> {
             self.train,
             protocol,
             // Where the windows leave only noise there is nothing that a drift could stand for.
-            !self.selection.found.is_empty() && self.floor().ratio_after > FLOOR_RATIO,
+            !self.selection.found.is_empty()
+                && self.floor().ratio_after > floor_limit(self.problem),
         );
         let nominal = show(
             &self.plant(false),

@@ -24,10 +24,8 @@ pub fn change(
     };
     let start = run.motion(joint).first()?.position;
     match mechanism {
-        Mechanism::Lag => {
-            let lagged = first_order_lag(current, run.step_s, value);
-            again(Brake::new(joint, start), &lagged)
-        }
+        // What lags is the effort, as the equation of the library has it: the whole brake, its own response included.
+        Mechanism::Lag => Some(less(&first_order_lag(own, run.step_s, value), own)),
         Mechanism::DeadTime => {
             let late = shifted(current, -value / run.step_s);
             again(Brake::new(joint, start), &late)

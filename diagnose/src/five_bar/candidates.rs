@@ -41,6 +41,9 @@ const OF_THE_WHOLE: [Mechanism; 7] = [
 /// Travels within which friction comes to the level of its speed, rad.
 const DELAYS_RAD: [f64; 4] = [0.001, 0.01, 0.05, 0.2];
 
+/// The angle by which a force sensor may be mounted askew, rad: a quarter of a right angle.
+const MOST_TURNED_RAD: f64 = 0.39;
+
 /// The causes that have a meaning on this layout.
 pub fn causes(run: &FiveBarRun) -> Vec<Cause> {
     let braked = run.parameters.layout.brakes();
@@ -143,6 +146,12 @@ pub fn shapes(
         Mechanism::ChannelSkew => {
             let sizes = geometric(0.25 * run.step_s, 0.04f64.max(4.0 * run.step_s), 10);
             one(sizes.iter().flat_map(|&s| [s, -s]).collect())
+        }
+        Mechanism::EncoderOffset => one(vec![0.01, -0.01, 0.06, -0.06]),
+        Mechanism::EncoderScale => one(vec![0.005, -0.005, 0.04, -0.04]),
+        Mechanism::ForceRotation => {
+            let angles = geometric(0.003, MOST_TURNED_RAD, 8);
+            one(angles.iter().flat_map(|&a| [a, -a]).collect())
         }
         _ => vec![vec![]],
     }

@@ -38,14 +38,9 @@ fn free_of_one(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<
         (Mechanism::GainError, Some(joint)) => {
             Some(vec![seen(&run.at_joint(joint, &run.brake_torque(joint)))])
         }
-        (Mechanism::EncoderOffset, Some(joint)) => {
-            Some(vec![encoder(run, Mechanism::EncoderOffset, joint)?])
+        (Mechanism::EncoderOffset | Mechanism::EncoderScale, Some(joint)) => {
+            encoder(run, cause.mechanism, joint, shape)
         }
-        // An encoder counts from where it was homed: the second column is its zero.
-        (Mechanism::EncoderScale, Some(joint)) => Some(vec![
-            encoder(run, Mechanism::EncoderScale, joint)?,
-            encoder(run, Mechanism::EncoderOffset, joint)?,
-        ]),
         (Mechanism::CurrentHysteresis | Mechanism::ThermalFade, Some(joint)) => {
             let change = brakes::unit(run, cause.mechanism, joint, shape)?;
             Some(vec![along_motion(run, joint, &change)])
@@ -70,10 +65,6 @@ fn free_of_one(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<
                 .map(|unit| seen(&run.at_tip(core::iter::repeat(unit))))
                 .into(),
         ),
-        (Mechanism::ForceRotation, None) => {
-            let turned = run.forces().map(|[x, y]| [-y, x]);
-            Some(vec![seen(&run.at_tip(turned))])
-        }
         (Mechanism::Gravity, None) => Some([0, 1].map(|axis| seen(&weight(run, axis))).into()),
         (Mechanism::Payload, None) => Some(vec![inertial(
             run,
@@ -88,31 +79,53 @@ fn free_of_one(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<
     }
 }
 
-/// Relative step of an encoder's scale, and step of its zero, rad, for their slopes.
+/// Least step of an encoder's zero, rad, and of its scale, over which their columns are taken.
 const ENCODER_STEP: f64 = 1e-3;
 
-/// How the balance of efforts changes with the scale or the zero of an encoder.
-fn encoder(run: &FiveBarRun, mechanism: Mechanism, joint: Joint) -> Option<Vec<f64>> {
-    let moved = |angle: &Vec<f64>| -> Vec<f64> {
-        let moved = angle.iter().map(|theta| match mechanism {
-            Mechanism::EncoderScale => theta * (1.0 + ENCODER_STEP),
-            _ => theta + ENCODER_STEP,
-        });
-        moved.collect()
+/// What the zero of an encoder, or its scale and its zero, add to the balance of efforts for 1 rad and for the whole scale.
+///
+/// The linkage bends them: a few hundredths of a radian are no small step. `shape` is the step over which the slope is taken, best
+/// the size that it has; then the column times its coefficient is the whole change. An encoder counts from where it was homed: the
+/// second column of a scale is its zero.
+fn encoder(
+    run: &FiveBarRun,
+    mechanism: Mechanism,
+    joint: Joint,
+    shape: &[f64],
+) -> Option<Vec<Vec<f64>>> {
+    let step = shape.first().copied().unwrap_or(0.0);
+    let step = step.abs().max(ENCODER_STEP).copysign(step);
+    let with = |run: &FiveBarRun, moved: &dyn Fn(f64) -> f64| {
+        let mut theta = run.theta.clone();
+        let [a, b] = &mut theta;
+        let own = match joint {
+            Joint::A => a,
+            Joint::B => b,
+            Joint::E | Joint::C => return None,
+        };
+        own.iter_mut().for_each(|theta| *theta = moved(*theta));
+        with_angles(run.clone(), theta).ok()
     };
-    let [a, b] = &run.theta;
-    let theta = match joint {
-        Joint::A => [moved(a), b.clone()],
-        Joint::B => [a.clone(), moved(b)],
-        Joint::E | Joint::C => return None,
-    };
-    let other = with_angles(run.clone(), theta).ok()?;
     let balance = |run: &FiveBarRun| less(&driving(run), &known(run));
-    let change = less(&balance(&other), &balance(run));
-    Some(change.into_iter().map(|x| x / ENCODER_STEP).collect())
+    let slope = |from: &FiveBarRun, to: &FiveBarRun, step: f64| -> Vec<f64> {
+        let change = less(&balance(from), &balance(to));
+        change.into_iter().map(|x| x / step).collect()
+    };
+    match mechanism {
+        Mechanism::EncoderScale => {
+            let scaled = with(run, &|theta| theta / (1.0 + step))?;
+            let moved = with(&scaled, &|theta| theta - ENCODER_STEP)?;
+            let zero = slope(&scaled, &moved, ENCODER_STEP);
+            Some(vec![slope(run, &scaled, step), zero])
+        }
+        _ => {
+            let moved = with(run, &|theta| theta - step)?;
+            Some(vec![slope(run, &moved, step)])
+        }
+    }
 }
 
-/// A column with coefficient 1: a change of the brakes or of the clock.
+/// A column with coefficient 1: a change of the brakes, of the clock or of the sensor's direction.
 pub fn fixed(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<f64>> {
     let own = over_parts(run, |part| Some(vec![fixed_of_one(part, cause, shape)?]))?;
     own.into_iter().next()
@@ -134,6 +147,14 @@ fn fixed_of_one(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<f64
                 .each_ref()
                 .map(|force| less(force, &shifted(force, delay)));
             Some(seen(&run.at_tip(x.into_iter().zip(y).map(|(x, y)| [x, y]))))
+        }
+        // The whole turn: its first order alone leaves 1 − cos of the force, which is a gain.
+        (Mechanism::ForceRotation, None) => {
+            let (sine, cosine) = libm::sincos(value);
+            let too_much = run
+                .forces()
+                .map(|[x, y]| [x - cosine * x - sine * y, y - cosine * y + sine * x]);
+            Some(seen(&run.at_tip(too_much)))
         }
         _ => None,
     }

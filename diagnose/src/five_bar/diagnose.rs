@@ -13,8 +13,11 @@ use crate::diagnose::ended::{blank, faulty, not_excited};
 use crate::diagnose::words::summary;
 use crate::diagnose::write::{floor, verdict};
 use crate::diagnose::{Curves, Description, Diagnosis, FEWEST_WINDOWS, Options};
-use crate::evidence::{coefficients_by_term, inclusion, not_seen, rivals, standard_errors};
-use crate::problem::{NominalEffect, Problem, Term, add};
+use crate::evidence::{
+    coefficients_by_term, inclusion, inconstant, is_told_by_itself, not_seen, rivals,
+    standard_errors,
+};
+use crate::problem::{Cause, NominalEffect, Problem, Term, add};
 use crate::report::{
     BeforeAfter, EffectReport, FITTED_PART, FitReport, HELD_OUT_PART, Horizon, Report, StageReport,
 };
@@ -90,11 +93,13 @@ pub fn diagnose(
         term.free.truncate(linear);
         terms.push(term);
     }
-    let selection = select(&mut problem, terms, options.gates);
+    let mut selection = select(&mut problem, terms, options.gates);
+    let withdrawn = withdraw_inconstant(&problem, &mut selection);
     Stand {
         rig,
         problem: &problem,
         selection: &selection,
+        withdrawn: &withdrawn,
         train: &train,
         test: &test,
         test_from_s,
@@ -108,6 +113,28 @@ fn which(place: usize, of: usize) -> String {
     match of {
         1 => "recording".to_owned(),
         _ => format!("recording {} of {of}", place + 1),
+    }
+}
+
+/// Takes out the names whose number is not constant where more than noise is left, and what then explains too little. Where
+/// something with a memory would explain as much, that may be what changes the number: the name stays beside it, as ambiguous.
+fn withdraw_inconstant(problem: &Problem, selection: &mut Selection) -> Vec<Cause> {
+    let mut withdrawn = Vec::new();
+    loop {
+        let mut causes = inconstant(problem, selection);
+        if !causes.is_empty() {
+            let rivals = rivals(problem, selection);
+            let pairs = selection.found.iter().zip(&rivals);
+            let told = pairs.filter(|(_, own)| own.iter().all(|c| is_told_by_itself(c.mechanism)));
+            let told: Vec<Cause> = told.map(|(found, _)| found.term.cause).collect();
+            causes.retain(|cause| told.contains(cause));
+        }
+        if causes.is_empty() {
+            return withdrawn;
+        }
+        selection.withdraw(problem, &causes);
+        selection.weigh_again(problem);
+        withdrawn.extend(causes);
     }
 }
 
@@ -154,6 +181,7 @@ pub(super) struct Stand<'a> {
     pub(super) rig: &'a FiveBar,
     pub(super) problem: &'a Problem<'a>,
     pub(super) selection: &'a Selection,
+    pub(super) withdrawn: &'a [Cause],
     pub(super) train: &'a FiveBarRun,
     pub(super) test: &'a FiveBarRun,
     /// Where the held-out part of `test` begins, s after its first sample.
@@ -201,6 +229,7 @@ impl Stand<'_> {
                 .map(|r| r.iter().map(|cause| cause.name()).collect())
                 .collect(),
             too_small_to_name: selection.too_small.iter().map(|c| c.name()).collect(),
+            withdrawn: self.withdrawn.iter().map(|c| c.name()).collect(),
             not_seen: not_seen(problem, selection, self.options.gates, Motion::Rotary),
             fit,
             next_experiment,

@@ -258,3 +258,29 @@ fn assert_meets(layout: Layout, effect: &JointEffect) {
         "{effect:?}: {unexplained} of {size} N·m over {counted} samples"
     );
 }
+
+#[test]
+fn what_a_sensor_does_is_the_whole_of_it_and_not_its_slope() {
+    let (run, _) = exact(Layout::FourBrake, &[]);
+    let balance = |run: &FiveBarRun| less(&driving(run), &known(run));
+    let own = balance(&run);
+    let assert_is = |cause: Cause, told: &[f64], slope: &[f64], shown: &FiveBarRun| {
+        // The diagnosis sees what is shown; what its cause adds leaves the balance of what is there.
+        let there = less(&balance(shown), told);
+        let [off, by_slope, size] = [&there, &less(&balance(shown), slope), &balance(shown)]
+            .map(|values| rms(&less(values, &own)));
+        assert!(off < 1e-9 * size, "{}: {off} of {size} N·m", cause.name());
+        assert!(by_slope > 0.01 * size, "{}: {by_slope}", cause.name());
+    };
+    let times = |column: &[f64], by: f64| -> Vec<f64> { column.iter().map(|x| by * x).collect() };
+    let turned = Cause::of(Mechanism::ForceRotation);
+    let mut shown = run.clone();
+    let (sine, cosine) = libm::sincos(0.137);
+    let [x, y] = &mut shown.force;
+    for (x, y) in x.iter_mut().zip(y) {
+        (*x, *y) = (cosine * *x - sine * *y, sine * *x + cosine * *y);
+    }
+    let told = fixed(&shown, turned, &[0.137]).unwrap();
+    let slope = times(&fixed(&shown, turned, &[1e-6]).unwrap(), 0.137e6);
+    assert_is(turned, &told, &slope, &shown);
+}

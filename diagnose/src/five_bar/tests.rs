@@ -226,3 +226,67 @@ fn what_several_short_recordings_share_is_named_and_shown_on_the_last() {
     assert!(held_out.before > 10.0 * held_out.after, "{held_out:?}");
     assert!(report.protocol[0].starts_with("2 recordings one after another"));
 }
+
+#[test]
+fn a_turned_force_sensor_is_turned_and_has_no_other_gain() {
+    let mut recording = recording(Layout::FourBrake, SECONDS, 15, &nothing);
+    let (sine, cosine) = libm::sincos(0.137);
+    let [x, y] = &mut recording.force;
+    for (x, y) in x.samples.iter_mut().zip(&mut y.samples) {
+        (*x, *y) = (cosine * *x - sine * *y, sine * *x + cosine * *y);
+    }
+    let rig = rig(Layout::FourBrake);
+    let report = diagnose(&rig, &[&recording], None, &Options::default()).report;
+    assert_eq!(
+        named(&report),
+        [("force_rotation", None)],
+        "{}",
+        report.summary
+    );
+    let found = report.effects[0].parameters["angle"].value;
+    assert!((found / 0.137 - 1.0).abs() < 0.02, "{found} rad");
+}
+
+#[test]
+fn an_encoder_with_its_zero_off_is_named_so_and_not_as_a_scale() {
+    let mut recording = recording(Layout::FourBrake, SECONDS, 16, &nothing);
+    let [theta_a, _] = &mut recording.theta;
+    for angle in &mut theta_a.samples {
+        *angle -= 0.037;
+    }
+    let rig = rig(Layout::FourBrake);
+    let report = diagnose(&rig, &[&recording], None, &Options::default()).report;
+    assert_eq!(
+        named(&report),
+        [("encoder_offset", Some("A"))],
+        "{}",
+        report.summary
+    );
+    let found = report.effects[0].parameters["angle"].value;
+    assert!((found / -0.037 - 1.0).abs() < 0.02, "{found} rad");
+}
+
+#[test]
+fn a_delay_that_swings_is_no_delay_of_the_library() {
+    let mut recording = recording(Layout::FourBrake, SECONDS, 17, &nothing);
+    for force in &mut recording.force {
+        let now = force.samples.clone();
+        for (k, sample) in force.samples.iter_mut().enumerate() {
+            // Late by 8 ms, give or take 5 ms within 2.1 s; straight between samples.
+            let late = 8.0 + 5.0 * libm::sin(2.99e-3 * k as f64);
+            let at = (k as f64 - late).max(0.0);
+            let (before, share) = (at as usize, at.fract());
+            *sample = (1.0 - share) * now[before] + share * now[(before + 1).min(now.len() - 1)];
+        }
+    }
+    let rig = rig(Layout::FourBrake);
+    let report = diagnose(&rig, &[&recording], None, &Options::default()).report;
+    assert_eq!(named(&report), [], "{}", report.summary);
+    assert_eq!(report.verdict, Verdict::NoneOfLibrary);
+    assert!(
+        report.withdrawn.contains(&"channel_skew".to_owned()),
+        "{:?}, {:?}",
+        report.withdrawn,
+        report.too_small_to_name
+    );
+}

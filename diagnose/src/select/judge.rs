@@ -4,7 +4,7 @@ use super::refine::refined;
 use super::weigh::{
     contribution, drives, effort_beside, excitation, loss_with, own_coefficients, usable_rms,
 };
-use super::{FLOOR_RATIO, Found, Gates, TIE_Z};
+use super::{Found, Gates, TIE_Z, floor_limit};
 use crate::candidates::is_at_edge;
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, Fit, fit, nested_block_losses, paired};
@@ -99,7 +99,7 @@ fn judge(
             + term.shape.len()
             + usize::from(term.onset_s.is_some()),
         found: Found {
-            at_floor: usable_rms(problem, &fitted.residual) <= FLOOR_RATIO * problem.floor,
+            at_floor: usable_rms(problem, &fitted.residual) <= floor_limit(problem) * problem.floor,
             term,
             z,
             share,

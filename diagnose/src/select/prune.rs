@@ -2,7 +2,7 @@
 
 use super::refine::refine;
 use super::weigh::{coefficients_of, drives, excitation, usable_rms};
-use super::{FLOOR_RATIO, Found, Gates, TIE_Z, refs};
+use super::{Found, Gates, TIE_Z, floor_limit, refs};
 use crate::problem::{Cause, Problem, Term};
 use crate::regression::{Blocks, fit, paired};
 
@@ -52,7 +52,7 @@ pub(super) fn prune(
     let mut taken_out = Vec::new();
     loop {
         let current = fit(problem, &refs(nominal, found), blocks);
-        let ratio = usable_rms(problem, &current.residual) / (FLOOR_RATIO * problem.floor);
+        let ratio = usable_rms(problem, &current.residual) / (floor_limit(problem) * problem.floor);
         let unexplained = current.left_out() * (1.0 - 1.0 / (ratio * ratio)).max(0.0);
         let weakest = (0..found.len())
             .map(|index| {
@@ -68,5 +68,53 @@ pub(super) fn prune(
             }
             _ => return taken_out,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    use crate::problem::{Inertia, Rows};
+    use crate::recorded::{Noise, exact_bench};
+    use crate::weak::Windows;
+    use rigproof_spec::effect::Mechanism;
+
+    #[test]
+    fn in_few_windows_noise_that_happens_to_be_loud_takes_no_name_out() {
+        let run = exact_bench(&[(Mechanism::Viscous, &[2.3])], 11_000);
+        let mut problem = Problem::new(&run, Windows::new(&run, 0.043), Inertia::None);
+        let every = problem.windows.usable.len() / 24;
+        for (row, usable) in problem.windows.usable.iter_mut().enumerate() {
+            *usable = row % every == 0;
+        }
+        let mut noise = Noise::new(37);
+        let loud: Vec<f64> = (problem.windows.usable.iter())
+            .map(|_| 1.41 * problem.floor * noise.draw())
+            .collect();
+        let term = problem
+            .term(Cause::of(Mechanism::Viscous), &[], None)
+            .unwrap();
+        let size = usable_rms(&problem, &term.free[0].raw);
+        let pairs = loud.iter().zip(&term.free[0].raw);
+        let raw: Vec<f64> = pairs
+            .map(|(e, x)| e + 0.4 * problem.floor / size * x)
+            .collect();
+        problem.target = Rows {
+            signal: Vec::new(),
+            white: problem.whitener.whiten(&raw),
+            raw,
+        };
+        let blocks = Blocks::new(&problem);
+        let mut found = vec![Found {
+            term,
+            z: 3.7,
+            share: 0.07,
+            at_floor: false,
+        }];
+        let left = fit(&problem, &refs(&[], &found), &blocks).residual;
+        let ratio = usable_rms(&problem, &left) / problem.floor;
+        assert!(ratio > 1.35 && ratio < floor_limit(&problem), "{ratio}");
+        assert_eq!(prune(&problem, &[], &mut found, &blocks), []);
     }
 }

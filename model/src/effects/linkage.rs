@@ -90,7 +90,7 @@ pub(super) const FORCE_BIAS: Entry = entry(
 
 pub(super) const FORCE_ROTATION: Entry = entry(
     Mechanism::ForceRotation,
-    1,
+    0,
     "a pull along an arm that the sensor shows along that arm",
     "recorded force = the force turned by the angle",
 );

@@ -27,7 +27,8 @@ struct Overshoot {
 
 impl Law for Overshoot {
     fn smooth(&self, now: &Instant, memory: f64) -> f64 {
-        let since = (memory * now.sense).max(0.0);
+        // Half a sense is one that the recording cannot tell, not half of what is remembered.
+        let since = (memory * now.sense.signum()).max(0.0);
         self.fraction * (1.0 - since) * now.sense
     }
 
@@ -37,6 +38,10 @@ impl Law for Overshoot {
     }
 
     fn remembers(&self) -> bool {
+        true
+    }
+
+    fn begins_anew(&self) -> bool {
         true
     }
 

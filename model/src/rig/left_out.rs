@@ -15,6 +15,9 @@ use crate::motion::two_coordinate::TwoCoordinate;
 /// The least yield of a joint with dry friction, N·m: what holds has to be able to let go.
 const LEAST_NM: f64 = 1e-9;
 
+/// What a lag remembers before its brake had a torque, N·m: a yield torque is never below zero.
+const NO_TORQUE_YET_NM: f64 = -1.0;
+
 /// One effect as the rig computes it; `place` is the joint's in the order A, E, B, C.
 pub enum Term {
     /// A resistance law of a joint; it may remember.
@@ -39,7 +42,7 @@ pub enum Term {
     Late { place: usize, delay_s: f64 },
     /// A brake's current is limited.
     Limit { place: usize, most_a: f64 },
-    /// A brake's current follows by a first-order lag; remembers it, A.
+    /// A brake's torque follows its own by a first-order lag; remembers it, N·m.
     Lag { place: usize, time_constant_s: f64 },
     /// Another backlash; remembers whether it has begun.
     Backlash { joint: Joint, width_rad: f64 },
@@ -65,6 +68,8 @@ pub struct LeftOut {
     memory: Vec<f64>,
     /// What the brakes were commanded, A, and since when, s: as far back as the longest delay reaches.
     commands: Vec<(f64, [f64; 4])>,
+    /// What is left of the step that is being made, s; 0 between two steps.
+    ahead_s: f64,
 }
 
 impl PartialEq for LeftOut {
@@ -108,11 +113,16 @@ pub struct Done {
 
 impl LeftOut {
     pub fn new(given: Vec<JointEffect>, terms: Arc<[Timed]>) -> LeftOut {
+        let memory = terms.iter().map(|timed| match timed.term {
+            Term::Lag { .. } => NO_TORQUE_YET_NM,
+            _ => 0.0,
+        });
         LeftOut {
             given: Arc::from(given),
-            memory: vec![0.0; terms.len()],
+            memory: memory.collect(),
             terms,
             commands: Vec::new(),
+            ahead_s: 0.0,
         }
     }
 
@@ -143,6 +153,7 @@ impl LeftOut {
 
     /// What the brakes get in a step when they are commanded these currents, A.
     pub fn currents(&mut self, commanded_a: [f64; 4], time_s: f64, step_s: f64) -> [f64; 4] {
+        self.ahead_s = step_s;
         let first = self.commands.is_empty();
         if self
             .commands
@@ -154,7 +165,7 @@ impl LeftOut {
         let terms = Arc::clone(&self.terms);
         let mut longest_s = 0.0f64;
         let mut given_a = commanded_a;
-        // A delay acts before a limit, both before a lag and that before the magnet, in whichever order they are given.
+        // A delay acts before a limit and that before the magnet, in whichever order they are given.
         for timed in terms.iter() {
             if let Term::Late { place, delay_s } = timed.term {
                 longest_s = longest_s.max(delay_s);
@@ -168,21 +179,6 @@ impl LeftOut {
                 && time_s >= timed.onset_s
             {
                 given_a[place] = given_a[place].min(most_a);
-            }
-        }
-        for (timed, memory) in terms.iter().zip(&mut self.memory) {
-            if let Term::Lag {
-                place,
-                time_constant_s,
-            } = timed.term
-            {
-                if first {
-                    *memory = given_a[place];
-                }
-                *memory -= (given_a[place] - *memory) * libm::expm1(-step_s / time_constant_s);
-                if time_s >= timed.onset_s {
-                    given_a[place] = *memory;
-                }
             }
         }
         for (timed, memory) in terms.iter().zip(&mut self.memory) {
@@ -227,6 +223,7 @@ impl LeftOut {
         let mut drive = Vector2::zeros();
         let mut more_nm = [0.0; 4];
         let mut shares = [1.0; 4];
+        let mut own_nm = now.own_nm;
         for (timed, &memory) in self.terms.iter().zip(&self.memory) {
             if now.time_s < timed.onset_s {
                 continue;
@@ -245,6 +242,14 @@ impl LeftOut {
                     more_nm[i] += dry * of;
                 }
                 Term::Gain { place, fraction } => shares[*place] += fraction,
+                Term::Lag {
+                    place,
+                    time_constant_s,
+                } if memory >= 0.0 => {
+                    // Held over a step as it is in the middle of it, so that its mean is right.
+                    let share = -libm::expm1(-0.5 * self.ahead_s / time_constant_s);
+                    own_nm[*place] = memory + share * (now.own_nm[*place] - memory);
+                }
                 Term::Fade {
                     place, per_joule, ..
                 } => shares[*place] -= per_joule * memory,
@@ -261,13 +266,14 @@ impl LeftOut {
         }
         let yields_nm = [0, 1, 2, 3].map(|i| match now.contacts[i] {
             Contact::Absent => 0.0,
-            _ => (now.own_nm[i] * shares[i] + more_nm[i]).max(LEAST_NM),
+            _ => (own_nm[i] * shares[i] + more_nm[i]).max(LEAST_NM),
         });
         Done { drive, yields_nm }
     }
 
     /// Advances what is remembered by a stretch in which the joints turned by `travels_rad` and the brakes alone yielded `own_nm`.
     pub fn follow(&mut self, travels_rad: [f64; 4], own_nm: [f64; 4], step_s: f64) {
+        self.ahead_s = (self.ahead_s - step_s).max(0.0);
         for (timed, memory) in self.terms.iter().zip(&mut self.memory) {
             match &timed.term {
                 Term::Law { place, law } | Term::Share { place, law } => {
@@ -279,6 +285,16 @@ impl LeftOut {
                 } => {
                     *memory *= libm::exp(-step_s / cooling_s);
                     *memory += own_nm[*place] * travels_rad[*place].abs();
+                }
+                Term::Lag {
+                    place,
+                    time_constant_s,
+                } => {
+                    let target_nm = own_nm[*place];
+                    if *memory < 0.0 {
+                        *memory = target_nm;
+                    }
+                    *memory -= (target_nm - *memory) * libm::expm1(-step_s / time_constant_s);
                 }
                 _ => {}
             }
@@ -299,5 +315,44 @@ impl Situation<'_> {
                 Contact::Absent => 1.0f64.copysign(speed),
             },
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::effects::first_order_lag;
+    use crate::rig::{JointEffect, Rig};
+    use rigproof_spec::effect::Mechanism;
+    use rigproof_spec::joint::Joint;
+    use rigproof_spec::layout::Layout;
+
+    #[test]
+    fn a_lag_is_one_of_the_effort_its_brakes_own_response_included() {
+        let lag = JointEffect {
+            mechanism: Mechanism::Lag,
+            joint: Some(Joint::E),
+            parameters: vec![0.037],
+            onset_s: None,
+        };
+        let led = |effects: &[JointEffect]| -> Vec<f64> {
+            let rig = Rig::new(Layout::FourBrake, [0.037, 0.411]).unwrap();
+            let mut rig = rig.with_effects(effects).unwrap();
+            let [a, b] = rig.base_angles_rad();
+            let steps = (0..900).map(|k| {
+                let time_s = 1e-3 * f64::from(k);
+                let to = [a + 0.31 * time_s, b - 0.23 * time_s];
+                let current = if k / 200 % 2 == 0 { 0.43 } else { 0.07 };
+                rig.lead(to, [0.31, -0.23], [0.11, current, 0.13, 0.17], 1e-3)
+                    .unwrap();
+                rig.yield_torques_nm()[1]
+            });
+            steps.collect()
+        };
+        let (own, late) = (led(&[]), led(&[lag]));
+        let expected = first_order_lag(&own, 1e-3, 0.037);
+        let off = late.iter().zip(&expected).map(|(l, e)| (l - e).abs());
+        assert!(off.fold(0.0, f64::max) < 1e-9);
+        let moved = late.iter().zip(&own).map(|(l, o)| (l - o).abs());
+        assert!(moved.fold(0.0, f64::max) > 0.1);
     }
 }
