@@ -97,6 +97,11 @@ impl Description {
                 "a law of the rig declares nothing: its kind says it; take `declares` away, or `controller`",
             ));
         }
+        if let (Some(worse), None) = (root.table("regressions")?, root.table("baseline")?) {
+            return Err(worse.error(
+                "nothing stands beside the controller: add a table [baseline], or take [regressions] away",
+            ));
+        }
         let metrics = |key: &str| match root.table(key)? {
             Some(table) => limits(&table),
             None => Ok([None; METRICS]),
@@ -230,11 +235,19 @@ fn declared(table: &Table<'_>) -> Result<Declared, TraceError> {
         }
         most => most.map(|most| most as u8),
     };
+    let boundary_m = optional("boundary_m", BOUNDARY_RANGE_M)?;
+    let locks = table.flag("locks")?;
+    for (key, needs_it) in [("locks", locks == Some(true)), ("choice", choice.is_some())] {
+        if needs_it && boundary_m.is_none() {
+            let problem = format!("`{key}` is judged by the velocity field: add `boundary_m`");
+            return Err(table.error_at(key, problem));
+        }
+    }
     Ok(Declared {
         most_brakes,
-        locks: table.flag("locks")?,
+        locks,
         gap_m: optional("gap_m", [0.0, BOUNDARY_RANGE_M[1]])?,
-        boundary_m: optional("boundary_m", BOUNDARY_RANGE_M)?,
+        boundary_m,
         choice,
         within_force: table.flag("within_force")?.unwrap_or(false),
         solid: side(table)?,
@@ -242,13 +255,16 @@ fn declared(table: &Table<'_>) -> Result<Declared, TraceError> {
     })
 }
 
+/// More than any metric of a rig comes to.
+const GREATEST_LIMIT: f64 = 1e12;
+
 fn limits(table: &Table<'_>) -> Result<[Option<f64>; METRICS], TraceError> {
     let keys = Metric::ALL.map(Metric::key);
     table.only(&keys)?;
     let mut limits = [None; METRICS];
     for (limit, key) in limits.iter_mut().zip(keys) {
         *limit = match table.has(key) {
-            true => Some(ranged(table, key, [0.0, f64::MAX])?),
+            true => Some(ranged(table, key, [0.0, GREATEST_LIMIT])?),
             false => None,
         };
     }

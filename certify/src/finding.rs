@@ -17,6 +17,9 @@ use crate::scenario::Scenario;
 use crate::shrink::shrink;
 use crate::trial::{Ran, run};
 
+/// Most samples of a scenario: an hour.
+const MOST_TICKS: u32 = 3_600_000;
+
 /// A broken law with a scenario that anybody can run again.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -97,6 +100,11 @@ impl Finding {
             let advice = "hand over the file as `rigproof certify` wrote it";
             Error::unusable(file, format!("it is no finding: {error}; {advice}"))
         })?;
+        if finding.scenario.ticks > MOST_TICKS {
+            let ticks = finding.scenario.ticks;
+            let problem = format!("its scenario has {ticks} samples; give at most {MOST_TICKS}");
+            return Err(Error::unusable(file, problem));
+        }
         if finding.form == FORM {
             Ok(finding)
         } else {

@@ -98,6 +98,9 @@ impl Judge {
         self.add(Law::CurrentLimit, tick, within);
         let layout = self.layout;
         self.add(Law::BrakedJoints, tick, braked_joints(layout, &command));
+        if let Some(margin) = self.behaviour.count(&command) {
+            self.add(Law::BrakeCount, tick, margin);
+        }
         if is_faulty {
             self.faulty += 1;
             let is_held = currents_a.map(f64::to_bits) == self.held_a.map(f64::to_bits);

@@ -2,6 +2,7 @@
 
 mod paired;
 
+use rigproof_spec::methods::SAMPLE_STEP_S;
 use serde::{Deserialize, Serialize};
 
 use crate::law::Law;
@@ -179,16 +180,31 @@ fn of_metric(plan: &Plan, records: &[&Record], index: usize, metric: Metric) -> 
     let of = |measured: &[Option<f64>; METRICS]| measured.get(index).copied().flatten();
     let own: Vec<f64> = records.iter().filter_map(|r| of(&r.measured)).collect();
     let theirs = records.iter().filter_map(|r| of(r.baseline.as_ref()?));
+    // A trial that does not finish takes its whole time at least.
+    let whole_s = (metric == Metric::Finish).then_some(f64::from(plan.ticks) * SAMPLE_STEP_S);
     let pairs: Vec<[f64; 2]> = records
         .iter()
-        .filter_map(|r| Some([of(r.baseline.as_ref()?)?, of(&r.measured)?]))
+        .filter_map(|r| {
+            let (theirs, own) = (of(r.baseline.as_ref()?), of(&r.measured));
+            match (theirs, own) {
+                (None, None) => None,
+                _ => Some([theirs.or(whole_s)?, own.or(whole_s)?]),
+            }
+        })
         .collect();
-    let controller = quantiles(own);
+    let controller = quantiles(own.clone());
     let change = paired::change(&pairs, plan.seed ^ (index as u64 + 1));
     let limit = plan.limits.get(index).copied().flatten();
     let regression = plan.regressions.get(index).copied().flatten();
-    // What was not measured cannot be within a limit.
-    let within = limit.is_none_or(|limit| controller.is_some_and(|own| own.q95 <= limit));
+    // What was not measured cannot be within a limit, nor can a trial that did not finish.
+    let within = limit.is_none_or(|limit| {
+        let of = match metric {
+            Metric::Finish => records.len(),
+            _ => own.len(),
+        };
+        let inside = own.iter().filter(|value| **value <= limit).count();
+        of > 0 && inside * 100 >= of * 95
+    });
     let no_worse = regression.is_none_or(|most| {
         change.as_ref().is_some_and(|change| {
             let [_, high] = change.interval;
@@ -215,7 +231,7 @@ fn quantiles(mut values: Vec<f64>) -> Option<Quantiles> {
     let at = |share: f64| {
         let last = values.len().checked_sub(1)?;
         values
-            .get(libm::round(share * last as f64) as usize)
+            .get(libm::ceil(share * last as f64) as usize)
             .copied()
     };
     Some(Quantiles {

@@ -110,6 +110,7 @@ struct Trial<'a> {
     judge: Judge,
     track: Track,
     has_turned: bool,
+    has_left_end: bool,
     ending: Ending,
     failure: Option<Failure>,
     told: Vec<(Sensed<f64>, [f64; 4])>,
@@ -142,6 +143,7 @@ impl<'a> Trial<'a> {
                 ..Track::default()
             },
             has_turned: false,
+            has_left_end: false,
             ending: Ending::Time,
             failure: None,
             told: Vec::with_capacity(capacity),
@@ -229,10 +231,13 @@ impl<'a> Trial<'a> {
         self.track.switches += u64::from(acts(given_a) != acts(last_a));
         self.track.tips_m.push(tip_m.into());
         self.track.forces_n.push(force_n);
-        if self.way.has_ended(tip_m) {
+        // A start beside the end has ended nothing.
+        let is_at_end = self.way.has_ended(tip_m);
+        if is_at_end && self.has_left_end {
             self.has_turned = true;
             self.track.finish_s = Some(f64::from(tick) * SAMPLE_STEP_S);
         }
+        self.has_left_end |= !is_at_end;
     }
 
     fn fail(&mut self, tick: u32, failure: Failure) {

@@ -61,6 +61,10 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     drop(Folder::begin(&out)?);
     let rig = Description::read(&args.source.rig)?;
     let given = Given::read(args, &rig)?;
+    if args.calibrate.is_some() && given.recordings.len() > 1 {
+        let problem = "--calibrate simulates a single recording: give one, not a folder of several";
+        return Err(Failure::Usage(problem.to_owned()));
+    }
     let options = Options {
         hold_out_share: args.hold_out_share,
         ..Options::default()
@@ -120,10 +124,19 @@ impl Given {
         let identities = pairs().map(|(file, how)| (file, how.dialect()));
         let identities = identities.chain([(&source.rig, None)]);
         let identities = identities.map(|(file, dialect)| input::identity(file, dialect));
+        let identities = identities.collect::<Result<Vec<InputFile>, _>>()?;
+        let (fitted, others) = identities.split_at(recordings.len());
+        let shown = others.first().filter(|_| held_out.is_some());
+        if let (Some(shown), Some(file)) = (shown, &args.hold_out)
+            && fitted.iter().any(|own| own.sha256 == shown.sha256)
+        {
+            let problem = "it is one of the recordings that are fitted: hold out another one";
+            return Err(Failure::unusable(file, problem.to_owned()));
+        }
         Ok(Given {
             recordings,
             held_out,
-            identities: identities.collect::<Result<_, _>>()?,
+            identities,
             read_as: pairs().flat_map(|(file, how)| how.lines(file)).collect(),
             shown_on: files.pop().unwrap_or_default(),
         })
@@ -143,8 +156,6 @@ fn calibrate(
         return;
     }
     let [recording] = given.recordings.as_slice() else {
-        let why = "no self-calibration: it is made for a single recording";
-        report.protocol.push(why.to_owned());
         return;
     };
     let found = (&diagnosis.calibration, &*report);

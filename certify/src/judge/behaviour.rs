@@ -61,10 +61,7 @@ impl Behaviour {
     /// Judges a command by what was sensed.
     #[inline]
     pub fn judge(&self, now: &Situation<f64>, command: &Command, mut add: impl FnMut(Law, Margin)) {
-        let is_lock = command.reason.is_lock() && self.declared.locks != Some(false);
-        if let Some(most) = self.declared.most_brakes {
-            add(Law::BrakeCount, self.count(command, is_lock, most));
-        }
+        let is_lock = self.is_lock(command);
         let nearest = self.way.path.nearest(now.linkage.tip_m);
         if let Some(gap_m) = self.declared.gap_m.filter(|_| self.looks_at(Law::Gap)) {
             let distance_m = nearest.distance_m() + PLACE_SLACK_M;
@@ -78,12 +75,12 @@ impl Behaviour {
             let margin = free_side(depth_m + PLACE_SLACK_M, command);
             add(Law::FreeSide, margin);
         }
-        let acting = one_of(command);
+        let (acting, others) = acting(command);
         if !is_lock && acting.is_none() {
             return;
         }
         let Some(boundary_m) = self.declared.boundary_m else {
-            return self.tip_force(now, acting, &mut add);
+            return self.tip_force(now, command, &mut add);
         };
         let desired = desired(&nearest, now.tip_force_n, boundary_m);
         if is_lock {
@@ -92,14 +89,22 @@ impl Behaviour {
             }
             return;
         }
-        self.tip_force(now, acting, &mut add);
+        self.tip_force(now, command, &mut add);
         match (acting, self.declared.choice) {
-            (Some((joint, _)), Some(Choice::Influence)) => {
+            // Neither rule chooses several.
+            (_, Some(choice)) if others => add(
+                match choice {
+                    Choice::Influence => Law::Influence,
+                    Choice::QuarterTurn => Law::QuarterTurn,
+                },
+                Margin(-1.0),
+            ),
+            (Some(joint), Some(Choice::Influence)) => {
                 if let Some(margin) = influence(self.layout, joint, now, &desired) {
                     add(Law::Influence, margin);
                 }
             }
-            (Some((joint, _)), Some(Choice::QuarterTurn)) => {
+            (Some(joint), Some(Choice::QuarterTurn)) => {
                 if let Some(margin) = quarter_turn(joint, now, &desired) {
                     add(Law::QuarterTurn, margin);
                 }
@@ -108,34 +113,50 @@ impl Behaviour {
         }
     }
 
-    fn count(&self, command: &Command, is_lock: bool, most: u8) -> Margin {
+    /// Whether a command is a lock: only what is held to the lock condition counts as one.
+    fn is_lock(&self, command: &Command) -> bool {
+        command.reason.is_lock() && self.looks_at(Law::Lock)
+    }
+
+    /// How many brakes have current, if it is declared how many may.
+    pub fn count(&self, command: &Command) -> Option<Margin> {
         let unlocked = Command {
             reason: rigproof_spec::command::Reason::NothingToDo,
             ..*command
         };
-        brake_count(if is_lock { command } else { &unlocked }, most)
+        let of = match self.is_lock(command) {
+            true => command,
+            false => &unlocked,
+        };
+        Some(brake_count(of, self.declared.most_brakes?))
     }
 
     fn tip_force(
         &self,
         now: &Situation<f64>,
-        acting: Option<(Joint, f64)>,
+        command: &Command,
         add: &mut impl FnMut(Law, Margin),
     ) {
-        if let Some((joint, current_a)) = acting.filter(|_| self.looks_at(Law::TipForce)) {
-            add(Law::TipForce, force(self.layout, joint, current_a, now));
+        if !self.looks_at(Law::TipForce) {
+            return;
+        }
+        let each = Joint::ALL.into_iter().zip(command.currents_a);
+        let each = each.filter(|(_, current_a)| *current_a != 0.0);
+        let margins = each.map(|(joint, current_a)| force(self.layout, joint, current_a, now));
+        if let Some(margin) = margins.reduce(Margin::and) {
+            add(Law::TipForce, margin);
         }
     }
 }
 
-/// The one brake that has current, and its current, A; none where none or several have.
-fn one_of(command: &Command) -> Option<(Joint, f64)> {
-    let mut acting = Joint::ALL
-        .into_iter()
-        .zip(command.currents_a)
-        .filter(|(_, current_a)| *current_a != 0.0);
-    let first = acting.next()?;
-    acting.next().is_none().then_some(first)
+/// A brake that has current, and whether others have too.
+fn acting(command: &Command) -> (Option<Joint>, bool) {
+    let pairs = Joint::ALL.into_iter().zip(command.currents_a);
+    let mut acting = pairs.filter(|(_, current_a)| *current_a != 0.0);
+    (
+        acting.next().map(|(joint, _)| joint),
+        acting.next().is_some(),
+    )
 }
 
 /// The velocity field (§6.1.1).
@@ -160,11 +181,17 @@ fn desired(nearest: &Nearest<f64>, force_n: Vector<f64>, boundary_m: f64) -> Des
 
 /// Whether a lock was called for, or nearly so.
 fn locked(desired: &Desired, now: &Situation<f64>, command: &Command) -> Margin {
+    // On the path nothing is pushed away from it.
     let force_n = desired
         .towards
-        .map_or(0.0, |towards| towards.dot(now.tip_force_n));
+        .map_or(f64::MAX, |towards| towards.dot(now.tip_force_n));
     let speed_m_s = desired.direction.dot(now.tip_velocity_m_s);
-    lock(force_n, speed_m_s - SPEED_SLACK_M_S, command)
+    // A tip of which no count was seen stands for every estimator.
+    let slack_m_s = match now.tip_velocity_m_s == Vector::zero() {
+        true => 0.0,
+        false => SPEED_SLACK_M_S,
+    };
+    lock(force_n, speed_m_s - slack_m_s, command)
 }
 
 /// Whether the torque that a brake is asked for is within the greatest force at the tip (6.3).

@@ -7,7 +7,7 @@ use rigproof_certify::certificate::{Certificate, Tool};
 use rigproof_certify::description::Description;
 use rigproof_certify::digest;
 use rigproof_certify::finding::Finding;
-use rigproof_certify::journal::Chunks;
+use rigproof_certify::journal::{Chunks, FILE};
 use rigproof_certify::law::Law;
 use rigproof_certify::plan::{FORM, Plan, Sources, Subject};
 use rigproof_spec::methods::SAMPLE_STEP_S;
@@ -40,6 +40,13 @@ pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
         })
     })?;
     drop(bar);
+    let between = match &compiled {
+        Some(compiled) => compiled.ended()?,
+        None => Vec::new(),
+    };
+    if !between.is_empty() {
+        return between_trials(&between, &args.out);
+    }
     let [part, parts] = args.shard;
     if parts > 1 {
         return print(&format!(
@@ -47,25 +54,27 @@ pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
             part + 1
         ));
     }
-    let mut outcome = finish(
+    finish(
         &plan,
         &sources,
         &chunks,
         &args.out,
         (args.compiled.library(), args.json),
-    )?;
-    let between = compiled.map_or_else(Vec::new, |compiled| compiled.ended());
-    if !between.is_empty() {
-        outcome.checks_hold = false;
-        if !args.json {
-            let lines = section(
-                "Between trials",
-                between.iter().map(|line| format!("  {line}")),
-            );
-            print(&lines.join("\n"))?;
-        }
-    }
-    Ok(outcome)
+    )
+}
+
+/// What no law sees must not be certified by going on from the journal either.
+fn between_trials(what: &[String], folder: &Path) -> Result<Outcome, Failure> {
+    let journal = folder.join(FILE);
+    std::fs::remove_file(&journal)
+        .map_err(|error| Failure::unusable(&journal, error.to_string()))?;
+    let lines = section(
+        "Must NOT go on the rig: it failed between trials, where no law looks",
+        what.iter().map(|line| format!("  {line}")),
+    );
+    let end = "No certificate is written, and the journal is taken away: nothing goes on from it.";
+    print(&format!("{}\n{end}", lines.join("\n")))?;
+    Ok(Outcome { checks_hold: false })
 }
 
 fn plan(

@@ -24,6 +24,7 @@ pub struct Compiled {
 /// A compiled controller at hand.
 pub struct Opened {
     source: Foreign,
+    file: PathBuf,
     name: String,
     sha256: String,
 }
@@ -52,6 +53,7 @@ impl Compiled {
         let name = file.file_name().unwrap_or(file.as_os_str());
         Ok(Some(Opened {
             source,
+            file: file.clone(),
             name: name.to_string_lossy().into_owned(),
             sha256: digest::of_bytes(&bytes),
         }))
@@ -71,14 +73,22 @@ impl Opened {
     }
 
     /// What went wrong where no trial could say it, a line each; ends its processes.
-    pub fn ended(&self) -> Vec<String> {
+    ///
+    /// # Errors
+    /// The library is not the one any more that was looked at first: its processes may have opened either.
+    pub fn ended(&self) -> Result<Vec<String>, Failure> {
         self.source.end();
+        let now = std::fs::read(&self.file).map(|bytes| digest::of_bytes(&bytes));
+        if now.ok().as_ref() != Some(&self.sha256) {
+            let problem = "it was changed while the campaign ran: begin anew in another folder";
+            return Err(Failure::unusable(&self.file, problem.to_owned()));
+        }
         let between = self.source.between_trials();
         let line = |own: &Between| match own.times {
             1 => own.what.clone(),
             times => format!("{} ({times} times)", own.what),
         };
-        between.iter().map(line).collect()
+        Ok(between.iter().map(line).collect())
     }
 }
 

@@ -57,7 +57,7 @@ fn a_recording_that_does_not_suit_is_refused() {
                 "line 22, column 1 `t_s`: the time stamp 3.5 s",
             ),
             ("none.csv --rig rig.toml", "there is no such file"),
-            ("folder --rig rig.toml", "it is a folder"),
+            ("folder --rig rig.toml", "no recording is in this folder"),
             ("run.csv --rig none.toml", "there is no such file"),
             ("run.csv --rig folder", "it is a folder"),
             ("run.csv --rig text.toml", "text.toml, line 1"),
