@@ -1,5 +1,6 @@
 //! This file joins the tests of campaigns: what passes, what is refused, and what a certificate is worth.
 
+mod bent;
 mod certificates;
 mod five;
 mod plain;

@@ -20,79 +20,12 @@ use rigproof_impl::vector::Vector;
 use rigproof_spec::layout::Layout;
 use rigproof_spec::methods::Method;
 
+use crate::bent::{Bent, after, before, told};
 use crate::five::BOTH;
 use crate::plain::{self, Bug};
 
 /// Most scenarios of 2 s within which a bug has to be found.
 const MOST: u64 = 400;
-
-/// What stands around a sound controller.
-struct Bent<S, B, A> {
-    inner: Box<dyn Controller>,
-    state: S,
-    before: B,
-    after: A,
-}
-
-impl<S, B, A> Controller for Bent<S, B, A>
-where
-    B: FnMut(&mut S, &Sensed<f64>) -> Sensed<f64>,
-    A: FnMut(&mut S, &Sensed<f64>, [f64; 4]) -> Result<[f64; 4], Failure>,
-{
-    fn tick(&mut self, sensed: &Sensed<f64>) -> Result<[f64; 4], Failure> {
-        let bent = (self.before)(&mut self.state, sensed);
-        let currents_a = self.inner.tick(&bent)?;
-        (self.after)(&mut self.state, sensed, currents_a)
-    }
-}
-
-type Answer = Result<[f64; 4], Failure>;
-
-/// A sound law whose samples and answers are changed.
-fn bent<S: Clone + Sync + 'static>(
-    law: BuiltIn,
-    state: S,
-    before: impl Fn(&mut S, &Sensed<f64>) -> Sensed<f64> + Copy + Sync + 'static,
-    after: impl Fn(&mut S, &Sensed<f64>, [f64; 4]) -> Answer + Copy + Sync + 'static,
-) -> Box<dyn Source> {
-    Box::new(
-        move |settings: &Settings, task: &Task| -> Result<Box<dyn Controller>, Failure> {
-            Ok(Box::new(Bent {
-                inner: law.controller(settings, task)?,
-                state: state.clone(),
-                before,
-                after,
-            }))
-        },
-    )
-}
-
-/// A sound law whose answers are changed.
-fn after<S: Clone + Sync + 'static>(
-    law: BuiltIn,
-    state: S,
-    change: impl Fn(&mut S, &Sensed<f64>, [f64; 4]) -> Answer + Copy + Sync + 'static,
-) -> Box<dyn Source> {
-    bent(law, state, |_, sensed| *sensed, change)
-}
-
-/// A sound law whose samples are changed.
-fn before<S: Clone + Sync + 'static>(
-    law: BuiltIn,
-    state: S,
-    change: impl Fn(&mut S, &Sensed<f64>) -> Sensed<f64> + Copy + Sync + 'static,
-) -> Box<dyn Source> {
-    bent(law, state, change, |_, _, currents_a| Ok(currents_a))
-}
-
-/// A sound law that is told other settings.
-fn told(law: BuiltIn, change: impl Fn(&mut Settings) + Sync + 'static) -> Box<dyn Source> {
-    Box::new(move |settings: &Settings, task: &Task| {
-        let mut settings = *settings;
-        change(&mut settings);
-        law.controller(&settings, task)
-    })
-}
 
 fn low() -> BuiltIn {
     BuiltIn {
@@ -256,6 +189,30 @@ fn of_the_answers() -> Vec<Planted> {
             of,
             give(low(), |[a, e, b, c]| [a, e, b.max(0.5 * e), c]),
             &[Law::BrakeCount],
+        ),
+        (
+            "a lock that was not declared",
+            Declared {
+                most_brakes: Some(1),
+                ..Declared::default()
+            },
+            give(low(), |[a, e, b, _]| {
+                let full_a = a.max(e).max(b).ceil();
+                [full_a, full_a, full_a, 0.0]
+            }),
+            &[Law::BrakeCount],
+        ),
+        (
+            "two brakes that are too strong",
+            Declared {
+                within_force: true,
+                ..Declared::default()
+            },
+            give(low(), |[a, e, b, c]| {
+                let strong_a = a.max(e).max(b).max(c).ceil();
+                [strong_a, strong_a, 0.0, 0.0]
+            }),
+            &[Law::TipForce],
         ),
     ]
 }

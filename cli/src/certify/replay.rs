@@ -32,11 +32,13 @@ pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
             Some((_, fared)) => {
                 let tick = fared.first.unwrap_or_default();
                 let told = ran.told.get(tick as usize);
+                let broke = ran.failure.as_ref();
+                let broke = broke.map_or_else(String::new, |failure| format!("\n{failure}."));
                 let currents = told.map_or_else(String::new, |(_, currents_a)| {
                     format!("; currents A, E, B, C: {currents_a:?} A")
                 });
                 format!(
-                    "The law {} is broken again: {}.\nAt {} s, sample {tick}, margin {} {}{currents}.",
+                    "The law {} is broken again: {}.\nAt {} s, sample {tick}, margin {} {}{currents}.{broke}",
                     law.name(),
                     law.words(),
                     significant(f64::from(tick) * SAMPLE_STEP_S, 4),
