@@ -57,7 +57,6 @@ fn a_recording_that_does_not_suit_is_refused() {
                 "line 22, column 1 `t_s`: the time stamp 3.5 s",
             ),
             ("none.csv --rig rig.toml", "there is no such file"),
-            ("folder --rig rig.toml", "no recording is in this folder"),
             ("run.csv --rig none.toml", "there is no such file"),
             ("run.csv --rig folder", "it is a folder"),
             ("run.csv --rig text.toml", "text.toml, line 1"),
@@ -73,6 +72,9 @@ fn a_recording_that_does_not_suit_is_refused() {
             refused(&desk, &format!("{verb} {rest}"), expected);
         }
     }
+    let folder = "folder --rig rig.toml";
+    refused(&desk, &format!("simulate {folder}"), "it is a folder");
+    refused(&desk, &format!("diagnose {folder}"), "no recording is in");
     refused(
         &desk,
         "diagnose run.csv --rig rig.toml --hold-out other.csv",

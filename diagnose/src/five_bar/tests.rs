@@ -130,7 +130,7 @@ fn one_component_of_the_force_with_the_wrong_sign_is_a_fault_and_friction_left_o
         (Layout::FourBrake, 1, "force_y"),
         (Layout::ThreeBrake, 1, "force_y"),
     ] {
-        let mut recording = recording(layout, SECONDS, 13, &drag);
+        let mut recording = recording(layout, 0.5 * SECONDS, 13, &drag);
         let verdict = |recording: &FiveBarRecording| {
             let report = diagnose(&rig(layout), &[recording], None, &Options::default()).report;
             (report.verdict, report.fault.map(|fault| fault.channel))
