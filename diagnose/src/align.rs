@@ -1,13 +1,14 @@
 //! This file is stage 0: a recording is put on regular samples, its faults are named, its noise is measured.
 
+mod clock;
 mod reversals;
 
 use crate::filter::{LowPass, gradient};
 use crate::run::{PlantKind, Run, rms};
-use core::cmp::Ordering;
 use rigproof_model::effects::Instant;
 use rustfft::{FftPlannerScalar, num_complex::Complex64};
 
+pub(crate) use clock::{check_clock, median_step};
 pub(crate) use reversals::forget_sense_near_reversals;
 
 /// What stage 0 takes: the plant's roles in SI units, NaN where nothing was recorded.
@@ -119,46 +120,6 @@ pub fn align(signals: &Signals) -> Result<Run, Fault> {
     };
     check_sign(&run)?;
     Ok(run)
-}
-
-pub(crate) fn median_step(time_s: &[f64]) -> f64 {
-    let mut steps: Vec<f64> = time_s
-        .windows(2)
-        .map(|w| w.iter().rev().copied().reduce(|b, a| b - a).unwrap_or(0.0))
-        .collect();
-    steps.sort_by(f64::total_cmp);
-    steps.get(steps.len() / 2).copied().unwrap_or(1.0)
-}
-
-pub(crate) fn check_clock(time_s: &[f64], step_s: f64) -> Result<(), Fault> {
-    let longest = LONGEST_GAP_S.max(8.0 * step_s);
-    for pair in time_s.windows(2) {
-        if let [before, after] = pair
-            && after.partial_cmp(before) != Some(Ordering::Greater)
-        {
-            return Err(Fault {
-                channel: "time",
-                from_s: *before,
-                to_s: *after,
-                reason: "the clock stands or runs backward; cut the recording there".to_owned(),
-            });
-        }
-        if let [before, after] = pair
-            && after - before > longest
-        {
-            return Err(Fault {
-                channel: "time",
-                from_s: *before,
-                to_s: *after,
-                reason: format!(
-                    "{:.3} s without a sample, where {:.4} s is the usual step; cut the recording there",
-                    after - before,
-                    step_s
-                ),
-            });
-        }
-    }
-    Ok(())
 }
 
 pub(crate) fn check_missing(

@@ -189,7 +189,10 @@ fn scattered(problem: &Problem, run: &Run, selection: &Selection) -> Option<Tria
     scatter.map(|_| trials)
 }
 
-/// A gain error of more than the whole gain is a channel with the wrong sign.
+/// A gain that is wrong by more than this factor is no physics: a unit is.
+const ANOTHER_UNIT: f64 = 5.0;
+
+/// A gain error of more than the whole gain is a channel with the wrong sign; a gain of another size is no physics.
 fn reversed_drive(problem: &Problem, selection: &Selection) -> Option<Fault> {
     let (_, coefficients) = coefficients_by_term(problem, selection);
     let terms = refs(&selection.nominal, &selection.found);
@@ -198,11 +201,21 @@ fn reversed_drive(problem: &Problem, selection: &Selection) -> Option<Fault> {
         .zip(&coefficients)
         .find(|(term, _)| term.cause.mechanism == Mechanism::GainError)
         .and_then(|(term, own)| parameters(term, own).first().copied())?;
-    (fraction < -1.0).then(|| Fault {
+    let gain = 1.0 + fraction;
+    let reason = if gain < 0.0 {
+        "the plant answers against its drive: the command, the force or the position has the wrong sign (set `sign = -1`), or the two channels are swapped".to_owned()
+    } else if !(1.0 / ANOTHER_UNIT..ANOTHER_UNIT).contains(&gain) {
+        format!(
+            "the plant answers as if its drive were {gain:.3} times what is described: the unit of the position or of the command is another one (degrees for radians make 57.3 or 0.0175, thousandths 1000 or 0.001), or the two channels are swapped; correct the description"
+        )
+    } else {
+        return None;
+    };
+    Some(Fault {
         channel: "drive",
         from_s: problem.plant.start_s(),
         to_s: problem.plant.start_s() + problem.plant.duration_s(),
-        reason: "the plant answers against its drive: the command, the force or the position has the wrong sign (set `sign = -1`)".to_owned(),
+        reason,
     })
 }
 

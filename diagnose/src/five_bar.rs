@@ -10,6 +10,7 @@ pub mod free_run;
 pub mod from_rig;
 mod joined;
 mod locate;
+mod mapping;
 #[cfg(test)]
 mod mechanisms;
 pub mod noise;
@@ -18,6 +19,5 @@ mod protocol;
 mod recorded;
 pub(crate) mod replica;
 pub mod run;
-mod sign;
 #[cfg(test)]
 mod tests;

@@ -5,8 +5,8 @@ use super::free_run::{Model, horizons};
 use super::from_rig::{aligned, nominal};
 use super::joined::joined;
 use super::locate::locate;
+use super::mapping;
 use super::run::FiveBarRun;
-use super::sign;
 use crate::align::Fault;
 use crate::candidates::realise;
 use crate::diagnose::ended::{blank, faulty, not_excited};
@@ -79,7 +79,7 @@ pub fn diagnose(
     }
     // A description with effects of its own was balanced before; without them its recording may be far from balance.
     if rig.effects.is_empty()
-        && let Err(fault) = sign::check(&train, &problem)
+        && let Err(fault) = mapping::check(&train, &problem)
     {
         return faulty(description(), "recording", fault);
     }

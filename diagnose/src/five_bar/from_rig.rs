@@ -84,21 +84,36 @@ pub fn aligned(rig: &FiveBar, recording: &FiveBarRecording) -> Result<FiveBarRun
         speed_floor: 0.0,
         parts: Vec::new(),
     };
-    let (mut run, untold) = moved_by(run, theta).map_err(|found| unassembled(step_s, found))?;
+    let (mut run, untold) = match moved_by(run.clone(), theta.clone()) {
+        Ok(moved) => moved,
+        Err(found) => return Err(unassembled(run, theta, found)),
+    };
     check_sign(&run)?;
     run.yield_errors = Joint::ALL.map(|joint| yield_errors(&run, joint, &untold));
     Ok(run)
 }
 
-/// The fault of angles at which the linkage cannot stand.
-fn unassembled(step_s: f64, (sample, error): (usize, ModelError)) -> Fault {
+/// The fault of angles at which the linkage cannot stand, and what they may be instead.
+fn unassembled(
+    run: FiveBarRun,
+    theta: [Vec<f64>; 2],
+    (sample, error): (usize, ModelError),
+) -> Fault {
+    let at_s = sample as f64 * run.step_s;
+    let turned_round = theta.iter().flatten().any(|angle| angle.abs() > TAU);
+    let [theta_a, theta_b] = theta;
+    let cure = if turned_round {
+        "the angles go beyond a whole turn: if they are degrees, say so in the description (`unit = \"deg\"`)"
+    } else if moved_by(run, [theta_b, theta_a]).is_ok() {
+        "with theta_a and theta_b swapped it can: give each its own column in the description"
+    } else {
+        "an encoder has lost counts, or its zero or sign is wrong"
+    };
     Fault {
         channel: "theta_a",
-        from_s: sample as f64 * step_s,
-        to_s: sample as f64 * step_s,
-        reason: format!(
-            "the linkage cannot stand at the recorded angles: {error}; an encoder has lost counts, or its zero or sign is wrong"
-        ),
+        from_s: at_s,
+        to_s: at_s,
+        reason: format!("the linkage cannot stand at the recorded angles: {error}; {cure}"),
     }
 }
 
@@ -168,7 +183,7 @@ fn check_sign(run: &FiveBarRun) -> Result<(), Fault> {
             channel: if by_x < by_y { "force_x" } else { "force_y" },
             from_s: 0.0,
             to_s: run.duration_s(),
-            reason: "the rig drives the hand: energy comes out of it, most of it by this component; a force or an angle has the wrong sign (set `sign = -1`)".to_owned(),
+            reason: "the rig drives the hand: energy comes out of it, most of it by this component; a force or an angle has the wrong sign (set `sign = -1`), or force_x and force_y are swapped".to_owned(),
         });
     }
     Ok(())
@@ -349,7 +364,7 @@ fn joint_motion(
 }
 
 /// The yield torque of a joint's nominal brake along the motion, N·m; none without a brake.
-fn nominal_yields(run: &FiveBarRun, joint: Joint) -> Option<Vec<f64>> {
+pub fn nominal_yields(run: &FiveBarRun, joint: Joint) -> Option<Vec<f64>> {
     let motion = run.motion(joint);
     let current = run.currents.get(place(joint))?.as_ref()?;
     let start = motion.first()?.position;

@@ -4,9 +4,11 @@ use super::columns::{driving, free};
 use super::diagnose::diagnose;
 use super::from_rig::aligned;
 use super::joined::joined;
+use super::mapping;
 use super::recorded::{DRAG, LeftOut, nothing, recording, rig};
 use super::replica::replica;
 use super::run::FiveBarRun;
+use crate::align::Fault;
 use crate::problem::{Cause, Problem, less};
 use crate::report::{Report, Verdict};
 use crate::run::rms;
@@ -19,10 +21,11 @@ use rigproof_spec::layout::Layout;
 use rigproof_trace::rig::Signal;
 use rigproof_trace::rig::five_bar::FiveBarRecording;
 
-const SECONDS: f64 = 16.0;
+/// Long enough for a name, s.
+const SECONDS: f64 = 9.0;
 
-fn diagnosed(layout: Layout, seed: u64, left_out: LeftOut) -> Diagnosis {
-    let recording = recording(layout, SECONDS, seed, left_out);
+fn diagnosed(layout: Layout, seconds: f64, seed: u64, left_out: LeftOut) -> Diagnosis {
+    let recording = recording(layout, seconds, seed, left_out);
     diagnose(&rig(layout), &[&recording], None, &Options::default())
 }
 
@@ -34,7 +37,7 @@ fn named(report: &Report) -> Vec<(&'static str, Option<&'static str>)> {
 #[test]
 fn a_recording_of_the_model_itself_is_consistent() {
     for (layout, seed) in [(Layout::FourBrake, 3), (Layout::ThreeBrake, 5)] {
-        let report = diagnosed(layout, seed, &nothing).report;
+        let report = diagnosed(layout, SECONDS, seed, &nothing).report;
         let floor = report.floor.as_ref().unwrap();
         assert_eq!(
             report.verdict,
@@ -66,7 +69,8 @@ fn drag_at_one_joint_is_named_there_with_its_coefficient() {
             torques[place] = -DRAG * rates[place];
             torques
         };
-        let report = diagnosed(layout, seed, &drag).report;
+        // Long enough for free runs of a second on the held-out part to be worth comparing.
+        let report = diagnosed(layout, 16.0, seed, &drag).report;
         assert_eq!(
             named(&report),
             [("viscous", Some(letter))],
@@ -122,28 +126,44 @@ fn where_one_joint_is_held_or_turns_back_the_other_equation_still_balances() {
     }
 }
 
+/// The fault that is seen before anything is looked for, after a mistake in the recording.
+fn fault(
+    layout: Layout,
+    recording: &FiveBarRecording,
+    mistake: impl Fn(&mut FiveBarRecording),
+) -> Option<Fault> {
+    let mut recording = recording.clone();
+    mistake(&mut recording);
+    let run = match aligned(&rig(layout), &recording) {
+        Ok(run) => run,
+        Err(fault) => return Some(fault),
+    };
+    let windows = Windows::over(run.len(), 2, (run.step_s, run.start_s), 0.080);
+    mapping::check(&run, &Problem::of_five_bar(&run, windows)).err()
+}
+
 #[test]
-fn one_component_of_the_force_with_the_wrong_sign_is_a_fault_and_friction_left_out_is_none() {
+fn a_channel_taken_for_another_or_with_the_wrong_sign_is_a_fault_and_friction_left_out_is_none() {
     let drag = |_: &_, rates: [f64; 4], _: f64| rates.map(|rate| -5.0 * DRAG * rate);
-    for (layout, axis, channel) in [
-        (Layout::FourBrake, 0, "force_x"),
-        (Layout::FourBrake, 1, "force_y"),
-        (Layout::ThreeBrake, 1, "force_y"),
-    ] {
-        let mut recording = recording(layout, 0.5 * SECONDS, 13, &drag);
-        let verdict = |recording: &FiveBarRecording| {
-            let report = diagnose(&rig(layout), &[recording], None, &Options::default()).report;
-            (report.verdict, report.fault.map(|fault| fault.channel))
-        };
-        // Once for each layout.
-        if channel == "force_y" {
-            assert_ne!(verdict(&recording).0, Verdict::DataFault);
+    for layout in [Layout::FourBrake, Layout::ThreeBrake] {
+        let dragged = recording(layout, 0.5 * SECONDS, 13, &drag);
+        assert_eq!(fault(layout, &dragged, |_| ()), None, "{layout:?}");
+        for (axis, channel) in ["force_x", "force_y"].into_iter().enumerate() {
+            let turned = |recording: &mut FiveBarRecording| {
+                for force in &mut recording.force[axis].samples {
+                    *force = -*force;
+                }
+            };
+            assert_eq!(fault(layout, &dragged, turned).unwrap().channel, channel);
         }
-        for force in &mut recording.force[axis].samples {
-            *force = -*force;
-        }
-        let expected = (Verdict::DataFault, Some(channel));
-        assert_eq!(verdict(&recording), expected, "{layout:?}");
+        let swapped = fault(layout, &dragged, |recording| recording.force.reverse());
+        let reason = swapped.unwrap().reason;
+        assert!(reason.contains("swapped"), "{layout:?}: {reason}");
+        // What B got is recorded as A's, what A got as E's, what E got as B's.
+        let exact = recording(layout, 0.5 * SECONDS, 13, &nothing);
+        let turned = |recording: &mut FiveBarRecording| recording.currents[..3].rotate_right(1);
+        let reason = fault(layout, &exact, turned).unwrap().reason;
+        assert!(reason.contains("those of B, A, E"), "{layout:?}: {reason}");
     }
 }
 

@@ -224,6 +224,13 @@ fn no_time(columns: &[Column], time: Option<&TimeColumn>) -> String {
         return "the first line holds numbers, not the names of the columns; put a header over it"
             .into();
     }
+    if let [only] = columns
+        && only.name.contains([',', ';', '\t'])
+    {
+        return format!(
+            "all of the head is one column, {listed}: the separator is another one; leave --separator away, and it is found"
+        );
+    }
     match time {
         Some(column) => format!(
             "there is no time column `{}`; the columns are {listed}",

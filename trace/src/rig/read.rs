@@ -78,7 +78,15 @@ pub(super) fn choice<T: Copy, const N: usize>(
     choices: [T; N],
     name: fn(T) -> &'static str,
 ) -> Result<T, TraceError> {
-    let word = table.need(key, table.text(key)?)?;
+    let Some(word) = table.text(key)? else {
+        let names = choices.map(|choice| format!("`{key} = \"{}\"`", name(choice)));
+        let problem = format!(
+            "`{key}` is missing in {}; add it: {}",
+            table.title(),
+            names.join(" or ")
+        );
+        return Err(table.error(problem));
+    };
     let chosen = choices.into_iter().find(|choice| name(*choice) == word);
     chosen.ok_or_else(|| {
         let names = choices.map(name);

@@ -96,6 +96,11 @@ impl<'a> Table<'a> {
         Ok(())
     }
 
+    /// What the table is called in a message.
+    pub fn title(&self) -> &str {
+        &self.title
+    }
+
     /// Its keys.
     pub fn keys(&self) -> impl Iterator<Item = &'a str> {
         self.entries.keys().map(|key| -> &str { key.get_ref() })

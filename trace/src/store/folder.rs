@@ -56,6 +56,24 @@ impl Folder {
         let list = files_in(self.aside.path()).map_err(refused())?;
         let list: Vec<String> = list.into_iter().map(|name| name + "\n").collect();
         self.write(MARKER, list.concat().as_bytes())?;
+        self.place()
+    }
+
+    /// Puts a new folder in its place for somebody to work in: this program will not take it for its own again.
+    ///
+    /// # Errors
+    /// Anything stands there already, or the system refuses; then nothing has changed.
+    pub fn hand_over(self) -> Result<(), TraceError> {
+        if self.target.exists() {
+            let problem =
+                "it is there already, and what is in it may be somebody's work; name a new folder";
+            return Err(TraceError::recording(&self.target, problem.to_owned()));
+        }
+        self.place()
+    }
+
+    fn place(self) -> Result<(), TraceError> {
+        let refused = || TraceError::io("write", &self.target);
         check_replaceable(&self.target)?;
         let parent = parent(&self.target);
         // The earlier folder waits beside the new one, to come back if the rename fails.

@@ -1,0 +1,159 @@
+//! This file finds channels that the description takes for something else: a component of the force with the wrong sign, the
+//! two components swapped, the currents of brakes in another order.
+
+use super::columns::{driving, known};
+use super::from_rig::nominal_yields;
+use super::run::{FiveBarRun, place};
+use crate::align::Fault;
+use crate::problem::{Problem, less};
+use crate::select::usable_rms;
+use rigproof_spec::joint::Joint;
+
+/// What another reading must leave of the unexplained effort to be believed. With the right sign turning a component adds twice its effort.
+const LEFT: f64 = 0.5;
+/// Share of the effort that must stay unexplained before brakes are asked whether they got each other's current.
+const ODD: f64 = 0.2;
+
+/// # Errors
+/// The model balances the recording far better when channels are read in another way.
+pub fn check(run: &FiveBarRun, problem: &Problem) -> Result<(), Fault> {
+    force(run, problem)?;
+    currents(run, problem)
+}
+
+fn left(problem: &Problem, driving: &[f64], known: &[f64]) -> f64 {
+    usable_rms(problem, &problem.windows.average(&less(driving, known)))
+}
+
+fn fault(channel: &'static str, run: &FiveBarRun, reason: String) -> Result<(), Fault> {
+    Err(Fault {
+        channel,
+        from_s: 0.0,
+        to_s: run.duration_s(),
+        reason,
+    })
+}
+
+/// A way to read the components of the force.
+struct Reading {
+    channel: &'static str,
+    how: &'static str,
+    cure: &'static str,
+    run: FiveBarRun,
+}
+
+/// The force as it may have been recorded instead.
+fn readings(run: &FiveBarRun) -> [Reading; 3] {
+    let turned = |axis: usize, channel| {
+        let mut run = run.clone();
+        for force in run.force.iter_mut().skip(axis).take(1).flatten() {
+            *force = -*force;
+        }
+        Reading {
+            channel,
+            how: "with the other sign",
+            cure: "the channel has the wrong sign (set `sign = -1`)",
+            run,
+        }
+    };
+    let mut swapped = run.clone();
+    swapped.force.reverse();
+    let swapped = Reading {
+        channel: "force_x",
+        how: "with force_x and force_y swapped",
+        cure: "give each its own column in the description",
+        run: swapped,
+    };
+    [turned(0, "force_x"), turned(1, "force_y"), swapped]
+}
+
+fn force(run: &FiveBarRun, problem: &Problem) -> Result<(), Fault> {
+    let left = |run: &FiveBarRun| left(problem, &driving(run), &problem.known);
+    let own = left(run);
+    let readings = readings(run).map(|reading| (left(&reading.run), reading));
+    let best = readings.into_iter().min_by(|(a, _), (b, _)| a.total_cmp(b));
+    match best {
+        Some((other, reading)) if other < LEFT * own => {
+            let Reading {
+                channel, how, cure, ..
+            } = reading;
+            let reason = format!(
+                "{how} {other:.3e} N·m stay unexplained, as described {own:.3e} N·m: {cure}"
+            );
+            fault(channel, run, reason)
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The currents in another order, where much stays unexplained.
+fn currents(run: &FiveBarRun, problem: &Problem) -> Result<(), Fault> {
+    let driving = driving(run);
+    let own = left(problem, &driving, &problem.known);
+    let size = usable_rms(problem, &problem.windows.average(&driving));
+    if own < ODD * size {
+        return Ok(());
+    }
+    let brakes = run.parameters.layout.brakes();
+    let best = orders(brakes)
+        .into_iter()
+        .map(|order| {
+            (
+                left(problem, &driving, &known(&with_order(run, brakes, &order))),
+                order,
+            )
+        })
+        .min_by(|(a, _), (b, _)| a.total_cmp(b));
+    match best {
+        Some((other, order)) if other < LEFT * own => {
+            let letters = |joints: &[Joint]| {
+                joints
+                    .iter()
+                    .map(|j| j.letter())
+                    .collect::<Vec<_>>()
+                    .join(", ")
+            };
+            let reason = format!(
+                "taken for those of {} the currents leave {own:.3e} N·m unexplained, taken for those of {} {other:.3e} N·m: correct the columns of the currents in the description",
+                letters(brakes),
+                letters(&order)
+            );
+            fault("current", run, reason)
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The run with the current described as that of `brakes[i]` given to `order[i]`.
+fn with_order(run: &FiveBarRun, brakes: &[Joint], order: &[Joint]) -> FiveBarRun {
+    let mut other = run.clone();
+    for (from, to) in brakes.iter().zip(order) {
+        let current = run.currents.get(place(*from)).cloned().flatten();
+        if let Some(slot) = other.currents.get_mut(place(*to)) {
+            *slot = current;
+        }
+    }
+    for joint in brakes {
+        let yields = nominal_yields(&other, *joint);
+        if let (Some(slot), Some(yields)) = (other.yields.get_mut(place(*joint)), yields) {
+            *slot = yields;
+        }
+    }
+    other
+}
+
+/// Every order of the joints but their own.
+fn orders(joints: &[Joint]) -> Vec<Vec<Joint>> {
+    let mut all = vec![Vec::new()];
+    for _ in joints {
+        all = all
+            .iter()
+            .flat_map(|begun: &Vec<Joint>| {
+                let rest = joints.iter().filter(|joint| !begun.contains(joint));
+                rest.map(|joint| [begun.as_slice(), &[*joint]].concat())
+            })
+            .collect();
+    }
+    all.retain(|order| order != joints);
+    all
+}
