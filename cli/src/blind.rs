@@ -46,7 +46,7 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     }
 }
 
-fn parse_plant(name: &str) -> Result<Plant, String> {
+pub fn parse_plant(name: &str) -> Result<Plant, String> {
     Plant::from_name(name).map_err(|error| error.to_string())
 }
 

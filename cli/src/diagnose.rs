@@ -130,7 +130,7 @@ impl Given {
         if let (Some(shown), Some(file)) = (shown, &args.hold_out)
             && fitted.iter().any(|own| own.sha256 == shown.sha256)
         {
-            let problem = "it is one of the recordings that are fitted: hold out another one";
+            let problem = "it is one of the recordings that are fitted: hold out another one, or leave --hold-out away, and the end of the recording is held out";
             return Err(Failure::unusable(file, problem.to_owned()));
         }
         Ok(Given {

@@ -5,6 +5,7 @@
 mod blind;
 mod certify;
 mod cite;
+mod completions;
 mod controller;
 mod convert;
 mod demo;
@@ -15,6 +16,8 @@ mod golden;
 mod identify;
 mod input;
 mod inspect;
+mod man;
+mod new;
 mod outcome;
 mod picture;
 mod progress;
@@ -47,6 +50,8 @@ enum Verb {
     Simulate(simulate::Args),
     /// Show the whole of it on a recording that is made for it: hide, diagnose, open the seal
     Demo(demo::Args),
+    /// Lay out a folder to begin with: a rig description, a recording, three commands
+    New(new::Args),
     /// Turn bench recordings into the numbers of a rig
     Identify(identify::Args),
     /// Test the diagnosis with recordings whose cause is hidden
@@ -67,6 +72,10 @@ enum Verb {
     Convert(convert::Args),
     /// Try a compiled controller in a process of its own
     Controller(controller::Args),
+    /// Print what a shell needs to complete the words of a command line
+    Completions(completions::Args),
+    /// Write the manual pages
+    Man(man::Args),
 }
 
 const AFTER_HELP: &str = "\
@@ -78,6 +87,7 @@ Exit codes:
 
 Examples:
   rigproof demo
+  rigproof new my-lab
   rigproof diagnose run.csv --rig rig.toml";
 
 fn run(verb: &Verb) -> Result<Outcome, Failure> {
@@ -85,6 +95,7 @@ fn run(verb: &Verb) -> Result<Outcome, Failure> {
         Verb::Diagnose(args) => diagnose::run(args),
         Verb::Simulate(args) => simulate::run(args),
         Verb::Demo(args) => demo::run(args),
+        Verb::New(args) => new::run(args),
         Verb::Identify(args) => identify::run(args),
         Verb::Blind(args) => blind::run(args),
         Verb::Certify(args) => certify::run(args),
@@ -95,6 +106,8 @@ fn run(verb: &Verb) -> Result<Outcome, Failure> {
         Verb::Inspect(args) => inspect::run(args),
         Verb::Convert(args) => convert::run(args),
         Verb::Controller(args) => controller::run(args),
+        Verb::Completions(args) => completions::run(args),
+        Verb::Man(args) => man::run(args),
     }
 }
 

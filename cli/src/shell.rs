@@ -13,7 +13,7 @@ pub fn line(command: &[&str], options: &[(&str, &Path)]) -> String {
 }
 
 /// A word that a POSIX shell takes as it is.
-fn quoted(word: &str) -> String {
+pub fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_alphanumeric() || "_-./+,:@%".contains(c);
     if !word.is_empty() && word.chars().all(plain) {
         word.to_owned()

@@ -1,7 +1,7 @@
 //! This file is a folder to work in, with the program at hand.
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use serde_json::Value;
@@ -42,9 +42,14 @@ impl Desk {
 
     /// Runs the program with the words of a command line.
     pub fn rigproof(&self, line: &str) -> Output {
+        self.rigproof_in(self.folder.path(), line)
+    }
+
+    /// The same in a folder of its own.
+    pub fn rigproof_in(&self, folder: &Path, line: &str) -> Output {
         let mut command = Command::new(env!("CARGO_BIN_EXE_rigproof"));
         let command = command.args(line.split_whitespace());
-        command.current_dir(self.folder.path()).output().unwrap()
+        command.current_dir(folder).output().unwrap()
     }
 
     /// Runs it and gives what it prints; nothing may stand on the error stream of a pipe.

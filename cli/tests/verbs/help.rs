@@ -25,6 +25,9 @@ fn every_verb_shows_an_example_and_says_what_it_does() {
         &["certify", "merge"],
         &["controller"],
         &["controller", "try"],
+        &["new"],
+        &["completions"],
+        &["man"],
     ] {
         let mut command = Command::new(env!("CARGO_BIN_EXE_rigproof"));
         let answer = command.args(verb).arg("--help").output().unwrap();

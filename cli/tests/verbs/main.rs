@@ -14,4 +14,6 @@ mod golden;
 mod help;
 mod identify;
 mod inspect;
+mod mistakes;
+mod new;
 mod reproduce;
