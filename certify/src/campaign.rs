@@ -8,6 +8,7 @@ use crate::error::Error;
 use crate::journal::{self, Chunks, Header, Journal, Shard};
 use crate::plan::{Plan, Sources};
 use crate::record::Record;
+use crate::tool::Tool;
 
 /// Scenarios of a chunk: what is lost at most, on every thread, when a campaign is killed.
 pub const CHUNK: u64 = 8;
@@ -29,24 +30,20 @@ pub fn chunks(plan: &Plan, [part, parts]: Shard) -> impl Iterator<Item = u64> {
 /// # Errors
 /// The journal cannot be written, or belongs to another campaign.
 pub fn run(
-    plan: &Plan,
+    header: &Header,
     sources: &Sources<'_>,
-    shard: Shard,
     folder: &Path,
     done: &(impl Fn(u64) + Sync),
 ) -> Result<Chunks, Error> {
-    let header = Header {
-        plan: plan.clone(),
-        shard,
-    };
-    let (journal, mut chunks_done) = Journal::open(folder, &header)?;
+    let (journal, mut chunks_done) = Journal::open(folder, header)?;
+    let plan = &header.plan;
     done(
         chunks_done
             .values()
             .map(|records| records.len() as u64)
             .sum(),
     );
-    let missing: Vec<u64> = chunks(plan, shard)
+    let missing: Vec<u64> = chunks(plan, header.shard)
         .filter(|chunk| !chunks_done.contains_key(chunk))
         .collect();
     let fresh: Result<Vec<(u64, Vec<Record>)>, Error> = missing
@@ -73,11 +70,11 @@ pub fn one(plan: &Plan, sources: &Sources<'_>, chunk: u64) -> Result<Vec<Record>
         .collect()
 }
 
-/// The plan and all chunks of the shards in these folders.
+/// The plan and all chunks of the shards in these folders, which this program ran.
 ///
 /// # Errors
-/// They are not the shards of one campaign, all of them, whole.
-pub fn merge(folders: &[PathBuf]) -> Result<(Plan, Chunks), Error> {
+/// They are not the shards of one campaign, all of them, whole, or another build of the program ran one of them.
+pub fn merge(folders: &[PathBuf], tool: &Tool) -> Result<(Plan, Chunks), Error> {
     let mut merged: Option<(Plan, Chunks)> = None;
     for folder in folders {
         let (header, chunks) = journal::read(folder)?;
@@ -86,6 +83,12 @@ pub fn merge(folders: &[PathBuf]) -> Result<(Plan, Chunks), Error> {
             let folder = folder.display();
             return Err(Error::Shards(format!(
                 "{folder}: the plan differs from that of the first folder; give the shards of one campaign"
+            )));
+        }
+        if header.tool != *tool {
+            let folder = folder.display();
+            return Err(Error::Shards(format!(
+                "{folder}: another build of this program ran it; join the shards with the build that ran all of them, or run this one again"
             )));
         }
         all.extend(chunks);

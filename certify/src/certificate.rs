@@ -10,12 +10,13 @@ use crate::error::Error;
 use crate::finding::Named;
 use crate::journal::Chunks;
 use crate::plan::{FORM, Plan, Sources};
-use crate::proved::{Proved, proved};
+use crate::proved::{Ledger, Proved, proved};
 use crate::record::Record;
 use crate::scenario::Draw;
 use crate::summary::{
-    Endings, LawSummary, MetricSummary, NotLookedAt, endings, laws, metrics, not_looked_at,
+    Ended, LawSummary, MetricSummary, NotLookedAt, ended, laws, metrics, not_looked_at,
 };
+use crate::tool::Tool;
 
 /// A certificate.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -35,8 +36,8 @@ pub struct Certificate {
     pub plan: Plan,
     /// The hashes of what it depends on.
     pub sha256: Hashes,
-    /// Trials, by how they ended.
-    pub endings: Endings,
+    /// Tested: how the trials ended.
+    pub ended: Ended,
     /// Samples of all trials.
     pub samples: u64,
     /// Tested: how every law fared.
@@ -53,16 +54,6 @@ pub struct Certificate {
     pub chunks: Vec<String>,
     /// The SHA-256 of this file with nothing between these quotes.
     pub digest: String,
-}
-
-/// The program that ran a campaign.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Tool {
-    /// Its version.
-    pub version: String,
-    /// The SHA-256 of its file.
-    pub sha256: String,
 }
 
 /// What a result depends on.
@@ -135,7 +126,7 @@ impl Certificate {
             tool,
             sha256: Hashes::of(plan, &digests)?,
             plan: plan.clone(),
-            endings: endings(&records),
+            ended: ended(plan, &records),
             samples: records.iter().map(|record| u64::from(record.ticks)).sum(),
             laws,
             metrics,
@@ -205,15 +196,23 @@ impl Certificate {
                 "its verdict does not follow from its figures".to_owned(),
             ));
         }
-        if read.proved != proved(&read.plan.controller)? {
+        if read.ledger()? == Ledger::Changed {
             return Err(refused(
-                "what it calls proved is not what this program's ledger proves".to_owned(),
+                "what it calls proved is not what the ledger proves that it names".to_owned(),
             ));
         }
         Ok(read)
     }
 
-    /// Runs some chunks of scenarios again, drawn from a seed; gives those whose records differ.
+    /// How what it calls proved lies to this program's ledger.
+    ///
+    /// # Errors
+    /// The ledger is not as it was written.
+    pub fn ledger(&self) -> Result<Ledger, Error> {
+        Ok(self.proved.beside(&proved(&self.plan.controller)?))
+    }
+
+    /// Runs some chunks of scenarios again, none twice, drawn from a seed; gives them, and those whose records differ.
     ///
     /// # Errors
     /// [`Error::Scenario`].
@@ -223,19 +222,19 @@ impl Certificate {
         count: usize,
         seed: u64,
     ) -> Result<(Vec<u64>, Vec<u64>), Error> {
-        let mut draw = Draw::new(seed, 1);
-        let all = u32::try_from(self.chunks.len()).unwrap_or(u32::MAX);
-        let mut drawn: Vec<u64> = (0..count).map(|_| u64::from(draw.below(all))).collect();
+        let mut drawn = Draw::new(seed, 1).some_of(self.chunks.len(), count);
         drawn.sort_unstable();
-        drawn.dedup();
         let mut differ = Vec::new();
         for chunk in &drawn {
-            let records = campaign::one(&self.plan, sources, *chunk)?;
-            if self.chunks.get(*chunk as usize) != Some(&chunk_digest(&records)?) {
-                differ.push(*chunk);
+            let records = campaign::one(&self.plan, sources, *chunk as u64)?;
+            if self.chunks.get(*chunk) != Some(&chunk_digest(&records)?) {
+                differ.push(*chunk as u64);
             }
         }
-        Ok((drawn, differ))
+        Ok((
+            drawn.into_iter().map(|chunk| chunk as u64).collect(),
+            differ,
+        ))
     }
 }
 

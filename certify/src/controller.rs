@@ -11,6 +11,14 @@ pub trait Controller {
     /// # Errors
     /// [`Failure`]: the controller did not answer. It is not asked again in this trial.
     fn tick(&mut self, sensed: &Sensed<f64>) -> Result<[f64; 4], Failure>;
+
+    /// The trial is over; after a tick that failed it is not called.
+    ///
+    /// # Errors
+    /// [`Failure`]: it broke in what it does at the end, or left something running: it did not answer this trial.
+    fn end(&mut self) -> Result<(), Failure> {
+        Ok(())
+    }
 }
 
 /// What makes controllers: one for every trial, on any thread.
@@ -20,6 +28,18 @@ pub trait Source: Sync {
     /// # Errors
     /// [`Failure`]: it could not be begun.
     fn begin(&self, settings: &Settings, path: &Task) -> Result<Box<dyn Controller + '_>, Failure>;
+
+    /// The same again, after the trial that ended last on this thread: where controllers outlive a trial, with the one that it had.
+    ///
+    /// # Errors
+    /// [`Failure`]: it could not be begun again.
+    fn begin_again(
+        &self,
+        settings: &Settings,
+        path: &Task,
+    ) -> Result<Box<dyn Controller + '_>, Failure> {
+        self.begin(settings, path)
+    }
 }
 
 /// What the operator is to follow or to stay out of, in the plane of the rig.
@@ -64,6 +84,9 @@ pub enum Failure {
     /// Its process answered what is no answer.
     #[error("the controller's process answered what is no answer: {0}")]
     Garbage(String),
+    /// Its trial is over, and not all that it had started is.
+    #[error("the controller left {0} of its processes running after the trial")]
+    LeftRunning(u32),
     /// It said itself that it failed.
     #[error("the controller answered with status {0}")]
     Status(i32),

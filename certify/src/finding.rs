@@ -36,6 +36,8 @@ pub struct Finding {
     pub tick: u32,
     /// The least margin.
     pub margin: f64,
+    /// How the controller broke, if it did, after shrinking.
+    pub failure: Option<String>,
     /// Trials that shrinking took.
     pub trials: u32,
     /// The controller.
@@ -54,6 +56,8 @@ pub struct Named {
     pub scenario: u64,
     /// Rig time until the law is broken, after shrinking, s.
     pub time_s: f64,
+    /// How the controller broke, if it did.
+    pub failure: Option<String>,
     /// The file, beside the certificate.
     pub file: String,
     /// Its SHA-256.
@@ -72,6 +76,7 @@ impl Finding {
             scenario_index: index,
             tick: shrunk.tick,
             margin: shrunk.margin,
+            failure: shrunk.failure,
             trials: shrunk.trials,
             controller: plan.controller.clone(),
             scenario: shrunk.scenario,
@@ -80,7 +85,12 @@ impl Finding {
 
     /// The file's name, without its ending.
     pub fn stem(&self) -> String {
-        format!("finding-{}", self.law.name())
+        Finding::stem_of(self.law)
+    }
+
+    /// The name of the file of a law's finding, without its ending.
+    pub fn stem_of(law: Law) -> String {
+        format!("finding-{}", law.name())
     }
 
     /// As a file.
@@ -127,6 +137,7 @@ impl Finding {
             law: self.law,
             scenario: self.scenario_index,
             time_s: f64::from(self.tick + 1) * SAMPLE_STEP_S,
+            failure: self.failure.clone(),
             file: self.stem() + ".json",
             sha256: digest::of_bytes(self.to_json()?.as_bytes()),
         })

@@ -13,9 +13,15 @@ mod phase;
 mod prints;
 pub mod protocol;
 
+#[cfg(target_os = "linux")]
+use std::collections::HashMap;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
+#[cfg(target_os = "linux")]
+use std::thread::ThreadId;
+
+use serde::{Deserialize, Serialize};
 
 use crate::controller::Failure;
 
@@ -38,7 +44,8 @@ pub struct Host {
 }
 
 /// How much a compiled controller is given.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Limits {
     /// Time for each of opening the library, `init` and `shutdown`, ms; at least 1.
     pub start_ms: u64,
@@ -77,7 +84,7 @@ impl Limits {
 
 /// A compiled controller behind `rigproof_controller.h`.
 ///
-/// It keeps the processes that are at rest: as many as there are trials at once. All of them, and whatever they started, end with it.
+/// It keeps the processes that are at rest, one for every thread that ran a trial. All of them, and whatever they started, end with it.
 #[derive(Debug)]
 #[cfg_attr(
     not(target_os = "linux"),
@@ -88,12 +95,12 @@ pub struct Foreign {
     host: Host,
     limits: Limits,
     #[cfg(target_os = "linux")]
-    idle: Mutex<Vec<child::Child>>,
+    idle: Mutex<HashMap<ThreadId, child::Child>>,
     between: Mutex<Vec<Between>>,
 }
 
-/// What went wrong where no trial could say it: in `shutdown`, in an `init` that works in a new process but did not after another trial, or that the
-/// controller left processes running.
+/// What went wrong where no trial can say it, since the threads decide which trials share a process: an `init` that works in a new process and after its
+/// own trial, but did not after another trial, or processes that were started after the last trial was over.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Between {
     /// What, in words.
@@ -119,7 +126,7 @@ impl Foreign {
             host,
             limits,
             #[cfg(target_os = "linux")]
-            idle: Mutex::new(Vec::new()),
+            idle: Mutex::new(HashMap::new()),
             between: Mutex::new(Vec::new()),
         })
     }

@@ -8,9 +8,11 @@ use std::sync::Mutex;
 
 use serde::{Deserialize, Serialize};
 
+use crate::digest;
 use crate::error::Error;
 use crate::plan::Plan;
 use crate::record::Record;
+use crate::tool::Tool;
 
 /// The journal's name in its folder.
 pub const FILE: &str = "journal.jsonl";
@@ -26,6 +28,8 @@ pub struct Header {
     pub plan: Plan,
     /// Which part of it.
     pub shard: Shard,
+    /// What runs it.
+    pub tool: Tool,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -33,6 +37,13 @@ pub struct Header {
 struct Line {
     chunk: u64,
     records: Vec<Record>,
+    /// [`seal`].
+    sha256: String,
+}
+
+/// The SHA-256 of a line: of the first line's, the chunk's number and its records, so that a line that was changed, or that stood in another journal, shows.
+fn seal(header: &str, chunk: u64, records: &[Record]) -> Result<String, Error> {
+    digest::of_value(&(header, chunk, records))
 }
 
 /// Chunks of records by their number.
@@ -41,6 +52,8 @@ pub type Chunks = BTreeMap<u64, Vec<Record>>;
 /// A journal that is written to.
 pub struct Journal {
     path: PathBuf,
+    /// The SHA-256 of its first line.
+    header: String,
     file: Mutex<File>,
 }
 
@@ -76,16 +89,20 @@ impl Journal {
             Chunks::new()
         } else {
             let (there, chunks) = parse(&path, &bytes)?;
-            if there != *header {
-                return Err(Error::unusable(
-                    &path,
-                    "another campaign was begun here: its plan or its shard differs; give another folder with --out",
-                ));
+            if let Some(differs) = differs(&there, header) {
+                let problem = format!(
+                    "another campaign was begun here: {differs}; give another folder with --out"
+                );
+                return Err(Error::unusable(&path, problem));
             }
             chunks
         };
-        let file = Mutex::new(file);
-        Ok((Journal { path, file }, chunks))
+        let journal = Journal {
+            path,
+            header: digest::of_value(header)?,
+            file: Mutex::new(file),
+        };
+        Ok((journal, chunks))
     }
 
     /// Writes down a chunk.
@@ -93,8 +110,12 @@ impl Journal {
     /// # Errors
     /// The system refuses.
     pub fn add(&self, chunk: u64, records: &[Record]) -> Result<(), Error> {
-        let records = records.to_vec();
-        let mut line = serde_json::to_vec(&Line { chunk, records })?;
+        let line = Line {
+            chunk,
+            records: records.to_vec(),
+            sha256: seal(&self.header, chunk, records)?,
+        };
+        let mut line = serde_json::to_vec(&line)?;
         line.push(b'\n');
         // A thread that panicked here has ended the campaign already.
         let mut file = self
@@ -103,6 +124,19 @@ impl Journal {
             .unwrap_or_else(|broken| broken.into_inner());
         file.write_all(&line)
             .map_err(|error| Error::refused(&self.path, &error))
+    }
+}
+
+/// In what one campaign differs from another.
+fn differs(there: &Header, here: &Header) -> Option<&'static str> {
+    if there.plan != here.plan {
+        Some("its plan differs")
+    } else if there.shard != here.shard {
+        Some("its shard differs")
+    } else if there.tool != here.tool {
+        Some("another build of this program ran it")
+    } else {
+        None
     }
 }
 
@@ -120,20 +154,28 @@ fn parse(path: &Path, bytes: &[u8]) -> Result<(Header, Chunks), Error> {
     let mut lines = bytes.split_inclusive(|byte| *byte == b'\n');
     let lines = lines.by_ref().filter(|line| line.ends_with(b"\n"));
     let mut lines = (1..).zip(lines);
-    let wrong = |number: usize, error: serde_json::Error| {
+    let refused = |number: usize, why: &str| {
         let advice = "begin the campaign anew in another folder";
         Error::unusable(
             path,
-            format!("line {number} is not as it was written: {error}; {advice}"),
+            format!("line {number} is not as it was written: {why}; {advice}"),
         )
     };
+    let wrong = |number: usize, error: serde_json::Error| refused(number, &error.to_string());
     let (_, first) = lines
         .next()
         .ok_or_else(|| Error::unusable(path, "the journal is empty; run the campaign first"))?;
-    let header = serde_json::from_slice(first).map_err(|error| wrong(1, error))?;
+    let header: Header = serde_json::from_slice(first).map_err(|error| wrong(1, error))?;
+    let of_header = digest::of_value(&header)?;
     let mut chunks = Chunks::new();
     for (number, line) in lines {
         let line: Line = serde_json::from_slice(line).map_err(|error| wrong(number, error))?;
+        if seal(&of_header, line.chunk, &line.records)? != line.sha256 {
+            return Err(refused(
+                number,
+                "its SHA-256 is another, or the first line's",
+            ));
+        }
         chunks.insert(line.chunk, line.records);
     }
     Ok((header, chunks))

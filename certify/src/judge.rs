@@ -43,16 +43,17 @@ pub struct Judge {
     /// Whether it has let go on a fault and not acted since: when it comes back is its own affair.
     has_let_go: bool,
     work_j: f64,
-    start_j: f64,
+    start_j: Option<f64>,
 }
 
 impl Judge {
-    /// A judge of a controller that promises so much, on a rig, at a task; the rig's energy at the start, J.
+    /// A judge of a controller that promises so much, on a rig, at a task; the rig's energy at the start, J, or `None` where the plant has
+    /// springs or drives of its own, so that its energy is not told by its motion.
     pub fn new(
         settings: &Settings,
         declared: &Declared,
         task: &Task,
-        start_j: f64,
+        start_j: Option<f64>,
     ) -> Option<Judge> {
         let (layout, way) = (settings.layout, Way::new(task)?);
         let reference = declared.reference.as_ref();
@@ -144,8 +145,9 @@ impl Judge {
             margin.and(dissipation(torque_nm, rate_rad_s))
         });
         self.add(Law::Dissipation, tick, taken);
+        let Some(start_j) = self.start_j else { return };
         self.work_j += Vector::from(force_n).dot(plant.tip_m() - from_m);
-        let stored_j = plant.kinetic_energy_j() - self.start_j;
+        let stored_j = plant.kinetic_energy_j() - start_j;
         // What is missing was braked away; what is too much came from nowhere.
         let braked_j = (self.work_j - stored_j).max(0.0);
         let margin = power_balance(self.work_j, stored_j, braked_j, ENERGY_SLACK_J);

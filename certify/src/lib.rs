@@ -7,6 +7,7 @@
 )]
 
 pub mod built_in;
+pub mod calibration;
 pub mod campaign;
 pub mod certificate;
 pub mod controller;
@@ -20,6 +21,7 @@ pub mod hand;
 pub mod journal;
 pub mod judge;
 pub mod law;
+pub mod left_out;
 pub mod metrics;
 pub mod plan;
 pub mod proved;
@@ -27,6 +29,7 @@ pub mod record;
 pub mod scenario;
 pub mod shrink;
 pub mod summary;
+pub mod tool;
 pub mod trial;
 pub mod way;
 

@@ -3,15 +3,18 @@
 use serde::{Deserialize, Serialize};
 
 use crate::built_in::BuiltIn;
+use crate::calibration::Calibration;
 use crate::controller::Source;
 use crate::declared::Declared;
 use crate::digest;
 use crate::error::Error;
+use crate::foreign::Limits;
+use crate::law::Law;
 use crate::metrics::METRICS;
 use crate::scenario::{Rig, Scenario};
 
 /// The form of plans, journals and certificates; another form is another number.
-pub const FORM: u32 = 1;
+pub const FORM: u32 = 2;
 
 /// What a campaign runs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -33,6 +36,8 @@ pub struct Plan {
     pub scenarios: u64,
     /// Samples of a trial.
     pub ticks: u32,
+    /// What the plant has beyond the thesis's.
+    pub calibration: Option<Calibration>,
     /// What 95 of 100 trials must not exceed, in the order of the metrics.
     pub limits: [Option<f64>; METRICS],
     /// By how much the mean may be worse than the baseline's.
@@ -61,6 +66,8 @@ pub enum What {
         name: String,
         /// The SHA-256 of its code.
         sha256: String,
+        /// What its process is given; `None` where it has none.
+        process: Option<Limits>,
     },
 }
 
@@ -94,7 +101,25 @@ pub struct Sources<'a> {
 impl Plan {
     /// The scenario of an index.
     pub fn scenario(&self, index: u64) -> Scenario {
-        Scenario::drawn(self.seed, index, &self.rigs, self.ticks)
+        let calibration = self.calibration.as_ref();
+        Scenario {
+            left_out: calibration.map_or_else(Vec::new, |found| found.drawn(self.seed, index)),
+            ..Scenario::drawn(self.seed, index, &self.rigs, self.ticks)
+        }
+    }
+
+    /// Why a law cannot be judged; `None` where it can.
+    pub fn not_looked_at(&self, law: Law) -> Option<&'static str> {
+        let is_passive = self
+            .calibration
+            .as_ref()
+            .is_none_or(Calibration::is_passive);
+        match law {
+            Law::Passivity if !is_passive => Some(
+                "the calibration names what stores energy or gives it, which the rig's motion does not tell",
+            ),
+            law => law.not_looked_at(&self.controller.declared),
+        }
     }
 
     /// The SHA-256 of the plan.

@@ -33,7 +33,7 @@ pub struct Claim {
 }
 
 #[derive(Deserialize)]
-struct Ledger {
+struct Written {
     code: String,
     claims: Vec<Entry>,
 }
@@ -64,7 +64,7 @@ pub fn proved(subject: &Subject) -> Result<Proved, Error> {
             claims: Vec::new(),
         });
     }
-    let ledger: Ledger = serde_json::from_str(LEDGER)?;
+    let ledger: Written = serde_json::from_str(LEDGER)?;
     let claims = ledger.claims.into_iter().filter_map(|entry| {
         let by: Vec<String> = entry
             .verdicts
@@ -88,6 +88,44 @@ pub fn proved(subject: &Subject) -> Result<Proved, Error> {
     })
 }
 
+impl Proved {
+    /// How what a certificate calls proved lies to what this program's ledger proves.
+    pub fn beside(&self, own: &Proved) -> Ledger {
+        if self == own {
+            return Ledger::Same;
+        }
+        if self.code == own.code {
+            // The same code, and other words about it.
+            return Ledger::Changed;
+        }
+        let known = |claim: &&Claim| {
+            let same = |own: &Claim| own.claim == claim.claim && own.statement == claim.statement;
+            own.claims.iter().any(same)
+        };
+        let known = self.claims.iter().filter(known).count();
+        Ledger::Other {
+            known,
+            claims: self.claims.len(),
+        }
+    }
+}
+
+/// What is to be said of the proofs that a certificate names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ledger {
+    /// They are those of this program's ledger.
+    Same,
+    /// They are about the code of this program's ledger and say something else.
+    Changed,
+    /// They are of a ledger about other code: an older or a newer one.
+    Other {
+        /// Claims of which this program's ledger proves the same statement.
+        known: usize,
+        /// All claims.
+        claims: usize,
+    },
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -108,5 +146,32 @@ mod tests {
                 .flat_map(|claim| &claim.by)
                 .all(|by| !by.starts_with("random"))
         );
+    }
+    #[test]
+    fn another_ledger_is_told_from_a_changed_one() {
+        let own = proved(&Subject::built_in(BuiltIn::of(Method::Sdof))).unwrap();
+        assert_eq!(own.beside(&own), Ledger::Same);
+        let mut fewer = own.clone();
+        fewer.claims.pop();
+        assert_eq!(fewer.beside(&own), Ledger::Changed);
+        let mut older = own.clone();
+        older.code = Some("0f".repeat(32));
+        let claims = own.claims.len();
+        assert_eq!(
+            older.beside(&own),
+            Ledger::Other {
+                known: claims,
+                claims
+            }
+        );
+        older.claims[3].statement.push_str(" always");
+        let known = claims - 1;
+        assert_eq!(older.beside(&own), Ledger::Other { known, claims });
+        let nothing = Proved {
+            words: own.words.clone(),
+            code: None,
+            claims: Vec::new(),
+        };
+        assert_eq!(nothing.beside(&nothing), Ledger::Same);
     }
 }

@@ -24,8 +24,18 @@ pub struct Record {
     pub measured: Measured,
     /// How the controller broke, if it did.
     pub failure: Option<String>,
-    /// The metrics of the baseline, in the same scenario.
-    pub baseline: Option<Measured>,
+    /// The baseline, in the same scenario.
+    pub baseline: Option<Beside>,
+}
+
+/// What is kept of the baseline.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Beside {
+    /// How its trial ended.
+    pub ending: Ending,
+    /// Its metrics.
+    pub measured: Measured,
 }
 
 impl Record {
@@ -46,7 +56,11 @@ impl Record {
         let baseline = match (&plan.baseline, sources.baseline) {
             (Some(subject), Some(source)) => {
                 let ran = run(&scenario, source, &subject.declared, false);
-                Some(ran.ok_or_else(none)?.measured)
+                let ran = ran.ok_or_else(none)?;
+                Some(Beside {
+                    ending: ran.ending,
+                    measured: ran.measured,
+                })
             }
             _ => None,
         };

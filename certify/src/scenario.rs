@@ -4,13 +4,14 @@ mod draw;
 mod faults;
 mod tasks;
 
-use rigproof_impl::plant::Parameters;
+use rigproof_impl::plant::{Parameters, Plant};
 use rigproof_impl::tick::Settings;
 use rigproof_spec::layout::Layout;
 use serde::{Deserialize, Serialize};
 
 use crate::controller::Task;
 use crate::hand::Hand;
+use crate::left_out::{self, LeftOut};
 
 pub use draw::Draw;
 pub use faults::{Fault, FaultKind};
@@ -51,6 +52,8 @@ pub struct Scenario {
     pub hand: Hand,
     /// In what the plant differs from the tables.
     pub plant: PlantChange,
+    /// What the plant has beyond the thesis's, from a calibration.
+    pub left_out: Vec<LeftOut>,
     /// What the encoders read at angle zero.
     pub zero_counts: [i32; 2],
     /// The number of the first sample.
@@ -86,7 +89,24 @@ impl Scenario {
         }
     }
 
-    /// What the plant is made of.
+    /// The plant at its start; `None` where it is none.
+    pub fn begun(&self) -> Option<Plant> {
+        let mut parameters = self.parameters();
+        left_out::change(&mut parameters, &self.left_out)?;
+        Plant::new(
+            &parameters,
+            self.theta_rad,
+            self.rates_rad_s,
+            &left_out::asked(&self.left_out),
+        )
+    }
+
+    /// Whether nothing in the plant stores energy but its masses, and nothing gives any.
+    pub fn is_passive(&self) -> bool {
+        self.left_out.iter().all(LeftOut::is_passive)
+    }
+
+    /// What the plant is made of, but for what a calibration left out.
     pub fn parameters(&self) -> Parameters {
         let mut parameters = Parameters::of(self.rig.layout());
         let change = &self.plant;
@@ -98,16 +118,7 @@ impl Scenario {
         for (brake, ((torque, time_constant), backlash)) in parameters.brakes.iter_mut().zip(shares)
         {
             let Some(table) = brake else { continue };
-            let gain = &mut table.torque_gain;
-            for k in [
-                &mut gain.k_1,
-                &mut gain.k_2,
-                &mut gain.k_3,
-                &mut gain.k_4,
-                &mut gain.k_5,
-            ] {
-                *k *= 1.0 + torque;
-            }
+            left_out::scale_torque(table, 1.0 + torque);
             for fit in [&mut table.rising, &mut table.falling] {
                 for a in [
                     &mut fit.a_avg_s,
@@ -174,6 +185,7 @@ impl Scenario {
             rates_rad_s: [0.0; 2],
             hand: Hand::drawn(draw),
             plant,
+            left_out: Vec::new(),
             zero_counts: [zero(draw), zero(draw)],
             first_number: if draw.one_in(8) {
                 // The counter passes its greatest number within the trial.
@@ -232,12 +244,7 @@ mod tests {
     fn a_changed_plant_is_one_that_can_be() {
         for index in 0..100 {
             let scenario = Scenario::drawn(3, index, &BOTH, 1000);
-            let plant = rigproof_impl::plant::Plant::new(
-                &scenario.parameters(),
-                scenario.theta_rad,
-                [0.0; 2],
-                &[],
-            );
+            let plant = scenario.begun();
             assert!(plant.is_some(), "{index}");
         }
     }

@@ -22,6 +22,8 @@ pub struct Shrunk {
     pub tick: u32,
     /// The least margin.
     pub margin: f64,
+    /// How the controller broke, if it did.
+    pub failure: Option<String>,
     /// Trials that it took.
     pub trials: u32,
 }
@@ -40,6 +42,7 @@ pub fn shrink(
         best: scenario.clone(),
         tick: 0,
         margin: 0.0,
+        failure: None,
         trials: 0,
     };
     let first = shrinking.breaks(scenario, true)?;
@@ -54,6 +57,7 @@ pub fn shrink(
         scenario: shrinking.best,
         tick: shrinking.tick,
         margin: shrinking.margin,
+        failure: shrinking.failure,
         trials: shrinking.trials,
     })
 }
@@ -65,6 +69,7 @@ struct Shrinking<'a> {
     best: Scenario,
     tick: u32,
     margin: f64,
+    failure: Option<String>,
     trials: u32,
 }
 
@@ -81,6 +86,7 @@ impl Shrinking<'_> {
             ..scenario.clone()
         };
         (self.tick, self.margin) = (tick, fared.worst);
+        self.failure = ran.failure.as_ref().map(ToString::to_string);
         Some(ran)
     }
 
@@ -93,9 +99,8 @@ impl Shrinking<'_> {
             let Some(state) = ran.states.get(from as usize) else {
                 continue;
             };
-            let Some(last) = ran.states.get(broken_at as usize) else {
-                continue;
-            };
+            // What breaks after the last sample has that sample's push.
+            let last = ran.states.get(broken_at as usize).unwrap_or(state);
             let told = ran.told.get(from as usize);
             let begun = Scenario {
                 theta_rad: state.theta_rad,
@@ -154,7 +159,7 @@ type Simpler = fn(&mut Scenario);
 
 /// Simplifications that change something.
 fn simpler(scenario: &Scenario) -> Vec<Simpler> {
-    let all: [Simpler; 9] = [
+    let all: [Simpler; 10] = [
         |s| s.faults.clear(),
         |s| {
             s.faults.pop();
@@ -165,6 +170,7 @@ fn simpler(scenario: &Scenario) -> Vec<Simpler> {
             }
         },
         |s| s.plant = PlantChange::default(),
+        |s| s.left_out.clear(),
         |s| s.zero_counts = [0; 2],
         |s| s.first_number = 0,
         |s| s.rates_rad_s = [0.0; 2],

@@ -1,5 +1,6 @@
 //! This file turns the records of a campaign into figures: how every law fared, and the metrics beside the baseline's.
 
+mod ended;
 mod paired;
 
 use rigproof_spec::methods::SAMPLE_STEP_S;
@@ -9,8 +10,8 @@ use crate::law::Law;
 use crate::metrics::{METRICS, Metric};
 use crate::plan::Plan;
 use crate::record::Record;
-use crate::trial::Ending;
 
+pub use ended::{Ended, Endings, ended};
 pub use paired::{Change, Word};
 
 /// How one law fared in a campaign.
@@ -87,23 +88,11 @@ pub struct Quantiles {
     pub greatest: f64,
 }
 
-/// How trials ended.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Endings {
-    /// Their time was over.
-    pub time: u64,
-    /// The hand took the linkage to its stops.
-    pub left_workspace: u64,
-    /// The controller did not answer any more.
-    pub no_answer: u64,
-}
-
 /// How the laws fared that can be judged.
 pub fn laws(plan: &Plan, records: &[&Record]) -> Vec<LawSummary> {
     let looked_at = Law::ALL
         .into_iter()
-        .filter(|law| law.not_looked_at(&plan.controller.declared).is_none());
+        .filter(|law| plan.not_looked_at(*law).is_none());
     looked_at.map(|law| of_law(law, records)).collect()
 }
 
@@ -139,10 +128,9 @@ fn of_law(law: Law, records: &[&Record]) -> LawSummary {
 
 /// The laws that cannot be judged, and what no campaign of this kind sees.
 pub fn not_looked_at(plan: &Plan) -> Vec<NotLookedAt> {
-    let laws = Law::ALL.into_iter().filter_map(|law| {
-        law.not_looked_at(&plan.controller.declared)
-            .map(|why| (law.name(), why))
-    });
+    let laws = Law::ALL
+        .into_iter()
+        .filter_map(|law| plan.not_looked_at(law).map(|why| (law.name(), why)));
     let always = [
         (
             "rest of the plant",
@@ -179,13 +167,15 @@ pub fn metrics(plan: &Plan, records: &[&Record]) -> Vec<MetricSummary> {
 fn of_metric(plan: &Plan, records: &[&Record], index: usize, metric: Metric) -> MetricSummary {
     let of = |measured: &[Option<f64>; METRICS]| measured.get(index).copied().flatten();
     let own: Vec<f64> = records.iter().filter_map(|r| of(&r.measured)).collect();
-    let theirs = records.iter().filter_map(|r| of(r.baseline.as_ref()?));
+    let theirs = records
+        .iter()
+        .filter_map(|r| of(&r.baseline.as_ref()?.measured));
     // A trial that does not finish takes its whole time at least.
     let whole_s = (metric == Metric::Finish).then_some(f64::from(plan.ticks) * SAMPLE_STEP_S);
     let pairs: Vec<[f64; 2]> = records
         .iter()
         .filter_map(|r| {
-            let (theirs, own) = (of(r.baseline.as_ref()?), of(&r.measured));
+            let (theirs, own) = (of(&r.baseline.as_ref()?.measured), of(&r.measured));
             match (theirs, own) {
                 (None, None) => None,
                 _ => Some([theirs.or(whole_s)?, own.or(whole_s)?]),
@@ -242,16 +232,6 @@ fn quantiles(mut values: Vec<f64>) -> Option<Quantiles> {
         q95: at(0.95)?,
         greatest: at(1.0)?,
     })
-}
-
-/// How the trials ended.
-pub fn endings(records: &[&Record]) -> Endings {
-    let count = |ending: Ending| records.iter().filter(|r| r.ending == ending).count() as u64;
-    Endings {
-        time: count(Ending::Time),
-        left_workspace: count(Ending::LeftWorkspace),
-        no_answer: count(Ending::NoAnswer),
-    }
 }
 
 #[cfg(test)]

@@ -121,8 +121,7 @@ struct Trial<'a> {
 impl<'a> Trial<'a> {
     fn new(scenario: &'a Scenario, declared: &Declared, with_states: bool) -> Option<Trial<'a>> {
         let way = Way::new(&scenario.task)?;
-        let (theta_rad, rates_rad_s) = (scenario.theta_rad, scenario.rates_rad_s);
-        let plant = Plant::new(&scenario.parameters(), theta_rad, rates_rad_s, &[])?;
+        let plant = scenario.begun()?;
         let settings = scenario.settings();
         let capacity = scenario.ticks as usize;
         Some(Trial {
@@ -134,7 +133,7 @@ impl<'a> Trial<'a> {
                 &settings,
                 declared,
                 &scenario.task,
-                plant.kinetic_energy_j(),
+                scenario.is_passive().then(|| plant.kinetic_energy_j()),
             )?,
             plant,
             track: Track {
@@ -156,8 +155,18 @@ impl<'a> Trial<'a> {
         let mut last_a = [0.0; 4];
         for tick in 0..self.scenario.ticks {
             if self.step(controller, tick, &mut last_a).is_none() {
-                return;
+                break;
             }
+        }
+        if self.failure.is_none() {
+            self.over(controller);
+        }
+    }
+
+    /// Ends a controller; what breaks then breaks its last sample.
+    fn over(&mut self, controller: &mut dyn Controller) {
+        if let Err(failure) = controller.end() {
+            self.fail(self.told.len() as u32, failure);
         }
     }
 
@@ -248,19 +257,22 @@ impl<'a> Trial<'a> {
 
     /// Tells a fresh controller the same samples again.
     fn repeat(&mut self, source: &dyn Source) {
-        let Ok(mut fresh) = source.begin(&self.scenario.settings(), &self.scenario.task) else {
-            return self.judge.add(Law::Repeats, 0, Margin(f64::NAN));
+        let begun = source.begin_again(&self.scenario.settings(), &self.scenario.task);
+        let mut fresh = match begun {
+            Ok(fresh) => fresh,
+            Err(failure) => return self.fail(self.told.len() as u32, failure),
         };
         for (tick, (sensed, currents_a)) in (0..).zip(&self.told) {
-            let margin = match fresh.tick(sensed) {
-                Ok(again_a) => same(*currents_a, again_a),
-                Err(_) => Margin(f64::NAN),
+            let Ok(again_a) = fresh.tick(sensed) else {
+                return self.judge.add(Law::Repeats, tick, Margin(f64::NAN));
             };
+            let margin = same(*currents_a, again_a);
             self.judge.add(Law::Repeats, tick, margin);
             if !margin.holds() {
-                return;
+                break;
             }
         }
+        self.over(fresh.as_mut());
     }
 }
 

@@ -42,6 +42,9 @@ pub struct Args {
     /// Run the I-th of N parts, counted from 1, and leave the rest to others; `merge` joins them
     #[arg(long, value_name = "I/N", value_parser = parse_shard, default_value = "1/1")]
     shard: Shard,
+    /// What `rigproof diagnose` found of this five-bar: the scenarios draw their plant within its intervals
+    #[arg(long, value_name = "CALIBRATION.TOML", conflicts_with_all = ["check", "replay"])]
+    calibration: Option<PathBuf>,
     /// Check a certificate instead: every byte, every hash, and a sample of its scenarios run again
     #[arg(long, value_name = "CERTIFICATE.JSON", conflicts_with = "replay")]
     check: Option<PathBuf>,

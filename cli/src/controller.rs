@@ -52,12 +52,12 @@ pub struct Given {
     /// Time for a tick, ms; a thousand samples, but at least 100 ms, if it is not given
     #[arg(long, value_name = "MS", value_parser = clap::value_parser!(u64).range(1..))]
     tick_ms: Option<u64>,
-    /// Time for opening the library, for init and for shutdown, ms each
-    #[arg(long, value_name = "MS", default_value_t = Limits::default().start_ms, value_parser = clap::value_parser!(u64).range(1..))]
-    start_ms: u64,
-    /// Memory, and the largest file, MB
-    #[arg(long, value_name = "MB", default_value_t = Limits::default().memory_bytes >> 20, value_parser = clap::value_parser!(u64).range(32..=1 << 20))]
-    memory_mb: u64,
+    /// Time for opening the library, for init and for shutdown, ms each; 5000 if it is not given
+    #[arg(long, value_name = "MS", value_parser = clap::value_parser!(u64).range(1..))]
+    start_ms: Option<u64>,
+    /// Memory, and the largest file, MB; 512 if it is not given
+    #[arg(long, value_name = "MB", value_parser = clap::value_parser!(u64).range(32..=1 << 20))]
+    memory_mb: Option<u64>,
     /// Start a new process for every trial
     #[arg(long)]
     one_trial_a_process: bool,
@@ -66,12 +66,21 @@ pub struct Given {
 impl Given {
     /// As the limits of a source.
     pub fn limits(&self) -> Limits {
+        let usual = Limits::default();
         Limits {
-            start_ms: self.start_ms,
+            start_ms: self.start_ms.unwrap_or(usual.start_ms),
             tick_ms: self.tick_ms,
-            memory_bytes: self.memory_mb << 20,
+            memory_bytes: self.memory_mb.map_or(usual.memory_bytes, |mb| mb << 20),
             one_trial_a_process: self.one_trial_a_process,
         }
+    }
+
+    /// Whether anything was given.
+    pub fn is_given(&self) -> bool {
+        self.tick_ms.is_some()
+            || self.start_ms.is_some()
+            || self.memory_mb.is_some()
+            || self.one_trial_a_process
     }
 }
 

@@ -3,15 +3,36 @@
 use std::time::{Duration, Instant};
 
 use rustix::io::Errno;
-use rustix::process::{Pid, Signal, WaitOptions, getpid, kill_process, wait};
+use rustix::process::{Pid, Signal, WaitOptions, getpid, getppid, kill_process, wait};
 
 /// Time after which processes that do not end are left, ms: they wait for a device.
 const MOST_MS: u64 = 10_000;
 
 /// The living descendants of this process.
 pub fn descendants() -> Vec<Pid> {
+    of(getpid())
+}
+
+/// Time for a process that was told to end, ms.
+const ENDING_MS: u64 = 100;
+
+/// How many processes beside this one its parent has: those that this one started, whose parents may have ended. One that is about to end is waited for.
+pub fn beside_this() -> u32 {
+    let begun = Instant::now();
+    loop {
+        let all = getppid().map(of).unwrap_or_default();
+        let others = all.iter().filter(|process| **process != getpid()).count();
+        if others == 0 || begun.elapsed() > Duration::from_millis(ENDING_MS) {
+            return others as u32;
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
+
+/// The living descendants of a process.
+fn of(process: Pid) -> Vec<Pid> {
     let parents = parents();
-    let mut found = vec![getpid()];
+    let mut found = vec![process];
     let mut looked_at = 0;
     while let Some(parent) = found.get(looked_at).copied() {
         let children = parents.iter().filter(|(_, of)| *of == parent);

@@ -56,6 +56,7 @@ pub fn try_out(source: &Foreign, layout: Layout, ticks: u32) -> Result<Tried, Fa
             *greatest_a = greatest_a.max(current_a);
         }
     }
+    controller.end()?;
     times_us.sort_by(f64::total_cmp);
     tried.within_us = [0.5, 0.9, 0.999].map(|part| {
         let place = (part * times_us.len() as f64) as usize;

@@ -11,6 +11,7 @@ use rigproof_certify::foreign::protocol::{LOST, Message};
 use rustix::stdio::{dup2_stdin, stdin};
 
 use crate::call::{Controller, Outcome};
+use crate::descendants::beside_this;
 use crate::library::Exports;
 use crate::limits::limit;
 use crate::watch::private;
@@ -70,7 +71,10 @@ fn answer(link: &mut Link, controller: &mut Controller) {
                 Outcome::Status(status) => Message::Status(status),
                 Outcome::WroteOutside(place) => Message::WroteOutside(place),
             },
-            Message::Over => done(controller.shutdown()),
+            Message::Over => match (done(controller.shutdown()), beside_this()) {
+                (Message::Done, left) if left > 0 => Message::Left(left),
+                (done, _) => done,
+            },
             // Nothing else is asked.
             _ => return,
         };

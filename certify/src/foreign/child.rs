@@ -98,6 +98,7 @@ impl Child {
                     self.last_prints()
                 )),
                 Message::Status(status) => Failure::Status(status),
+                Message::Left(count) => Failure::LeftRunning(count),
                 other => Failure::Garbage(format!("{other:?}, {phase}")),
             },
             Ok((number, _)) => Failure::Garbage(format!(

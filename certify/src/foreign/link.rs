@@ -172,6 +172,7 @@ mod tests {
             Message::Done,
             Message::Currents([0.31, -0.0, f64::INFINITY, 1e-9]),
             Message::Status(-71),
+            Message::Left(3),
             Message::WroteOutside("eight bytes".to_owned()),
             Message::Unusable("no".to_owned()),
             Message::Ended(End::Code(3), 2),

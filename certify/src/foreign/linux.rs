@@ -1,5 +1,7 @@
 //! This file makes trials out of processes: one is begun for each trial, or begun anew.
 
+use std::thread::current;
+
 use rigproof_impl::tick::{Sensed, Settings};
 
 use super::child::{Child, of_left};
@@ -14,23 +16,18 @@ impl Foreign {
     /// # Errors
     /// [`Failure`]: it cannot be opened, or not in time.
     pub fn check(&self) -> Result<(), Failure> {
-        let child = self.start()?;
-        self.rest(child);
-        Ok(())
+        self.start().map(drop)
     }
 
-    /// Ends every process that is at rest; what a controller had left running is then among [`Foreign::between_trials`]. Another trial may begin.
+    /// Ends every process that is at rest; what a controller started after its last trial is then among [`Foreign::between_trials`]. Another trial may
+    /// begin.
     pub fn end(&self) {
         let idle = std::mem::take(&mut *held(&self.idle));
-        for child in idle {
-            self.end_one(child);
-        }
-    }
-
-    fn end_one(&self, mut child: Child) {
-        let left = child.stop().left;
-        if left > 0 {
-            self.keep(format!("when its process was ended{}", of_left(left)));
+        for mut child in idle.into_values() {
+            let left = child.stop().left;
+            if left > 0 {
+                self.keep(format!("when its process was ended{}", of_left(left)));
+            }
         }
     }
 
@@ -38,53 +35,63 @@ impl Foreign {
         Child::start(&self.library, &self.host, &self.limits)
     }
 
-    fn rest(&self, child: Child) {
-        if self.limits.one_trial_a_process {
-            self.end_one(child);
-        } else {
-            held(&self.idle).push(child);
-        }
+    /// The process that the last trial on this thread had, if it is at rest.
+    fn rested(&self) -> Option<Child> {
+        held(&self.idle).remove(&current().id())
     }
 
-    /// A process that has begun the trial.
-    fn begun(&self, message: &Message) -> Result<Child, Failure> {
-        let begin = |mut child: Child| {
-            child.forget_ticks();
-            let begun = child.ask(Phase::Init, message, self.limits.start_ms);
-            begun.map(|_| child)
-        };
-        let idle = held(&self.idle).pop();
-        if let Some(child) = idle {
-            match begin(child) {
-                Ok(child) => return Ok(child),
-                // Which trial it had before is chance: a trial is judged by a new process.
-                Err(failure) => self.keep(format!("after another trial: {failure}")),
-            }
-        }
-        begin(self.start()?)
+    /// A trial in a process that begins it as it is told.
+    fn trial(&self, mut child: Child, begin: Begin) -> Result<Box<dyn Controller + '_>, Failure> {
+        let sample_s = begin.settings.sample_s;
+        child.forget_ticks();
+        let message = Message::Begin(Box::new(begin));
+        child.ask(Phase::Init, &message, self.limits.start_ms)?;
+        Ok(Box::new(Trial {
+            source: self,
+            child: Some(child),
+            limit_ms: self.limits.tick_ms(sample_s),
+        }))
     }
+}
+
+/// What a controller is told at the beginning.
+fn told(settings: &Settings, path: &Task) -> Result<Begin, Failure> {
+    if let Task::Chain(points_m) | Task::Spline(points_m) = path
+        && points_m.len() > MOST_POINTS
+    {
+        return Err(Failure::Refused(format!(
+            "the path has {} points, a compiled controller is told {MOST_POINTS} at most: give it a path of fewer",
+            points_m.len()
+        )));
+    }
+    Ok(Begin {
+        settings: *settings,
+        task: path.clone(),
+    })
 }
 
 impl Source for Foreign {
     fn begin(&self, settings: &Settings, path: &Task) -> Result<Box<dyn Controller + '_>, Failure> {
-        if let Task::Chain(points_m) | Task::Spline(points_m) = path
-            && points_m.len() > MOST_POINTS
-        {
-            return Err(Failure::Refused(format!(
-                "the path has {} points, a compiled controller is told {MOST_POINTS} at most: give it a path of fewer",
-                points_m.len()
-            )));
+        let begin = told(settings, path)?;
+        if let Some(child) = self.rested() {
+            match self.trial(child, begin.clone()) {
+                Ok(trial) => return Ok(trial),
+                // Which trial it had before is chance: a trial is judged by a new process.
+                Err(failure) => self.keep(format!("after another trial: {failure}")),
+            }
         }
-        let begin = Begin {
-            settings: *settings,
-            task: path.clone(),
-        };
-        let child = self.begun(&Message::Begin(Box::new(begin)))?;
-        Ok(Box::new(Trial {
-            source: self,
-            child: Some(child),
-            limit_ms: self.limits.tick_ms(settings.sample_s),
-        }))
+        self.trial(self.start()?, begin)
+    }
+
+    fn begin_again(
+        &self,
+        settings: &Settings,
+        path: &Task,
+    ) -> Result<Box<dyn Controller + '_>, Failure> {
+        match self.rested() {
+            Some(child) => self.trial(child, told(settings, path)?),
+            None => self.begin(settings, path),
+        }
     }
 }
 
@@ -110,17 +117,16 @@ impl Controller for Trial<'_> {
         self.child = None;
         Err(failure)
     }
-}
-
-impl Drop for Trial<'_> {
-    fn drop(&mut self) {
+    fn end(&mut self) -> Result<(), Failure> {
+        // One that failed has ended.
         let Some(mut child) = self.child.take() else {
-            return;
+            return Ok(());
         };
-        let limit_ms = self.source.limits.start_ms;
-        match child.ask(Phase::Shutdown, &Message::Over, limit_ms) {
-            Ok(_) => self.source.rest(child),
-            Err(failure) => self.source.keep(format!("in shutdown: {failure}")),
+        let limits = &self.source.limits;
+        child.ask(Phase::Shutdown, &Message::Over, limits.start_ms)?;
+        if !limits.one_trial_a_process {
+            held(&self.source.idle).insert(current().id(), child);
         }
+        Ok(())
     }
 }

@@ -26,6 +26,8 @@ pub enum Message {
     Status(i32),
     /// Answered: where it wrote though it must not.
     WroteOutside(String),
+    /// Answered: the trial is over, and so many processes that the controller had started are running.
+    Left(u32),
     /// Answered: why the library cannot be used.
     Unusable(String),
     /// Said by the watch: how the process ended, and how many others that it had started were ended with it.
@@ -64,6 +66,7 @@ pub fn encode(number: u64, message: &Message, out: &mut Vec<u8>) {
         Message::Over | Message::Done => {}
         Message::Currents(currents_a) => put(out, *currents_a),
         Message::Status(status) => out.extend_from_slice(&status.to_le_bytes()),
+        Message::Left(count) => out.extend_from_slice(&count.to_le_bytes()),
         Message::WroteOutside(text) | Message::Unusable(text) => {
             let most = LONGEST.min(text.len());
             out.extend(text.as_bytes().iter().take(most));
@@ -95,6 +98,7 @@ fn kind(message: &Message) -> [u8; 4] {
         Message::Done => b"RPdo",
         Message::Currents(_) => b"RPcu",
         Message::Status(_) => b"RPst",
+        Message::Left(_) => b"RPle",
         Message::WroteOutside(_) => b"RPwr",
         Message::Unusable(_) => b"RPun",
         Message::Ended(..) => b"RPen",
@@ -127,6 +131,7 @@ pub fn decode(kind: [u8; 4], mut body: &[u8]) -> Option<Message> {
         b"RPdo" => Message::Done,
         b"RPcu" => Message::Currents(floats(bytes)?),
         b"RPst" => Message::Status(i32::from_le_bytes(take(bytes)?)),
+        b"RPle" => Message::Left(u32::from_le_bytes(take(bytes)?)),
         b"RPwr" => Message::WroteOutside(text(bytes)),
         b"RPun" => Message::Unusable(text(bytes)),
         b"RPen" => {

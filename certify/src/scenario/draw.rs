@@ -44,6 +44,11 @@ impl Draw {
         all.get(self.below(count) as usize).copied()
     }
 
+    /// So many of the numbers below another, none twice; all of them where they are fewer.
+    pub fn some_of(&mut self, end: usize, count: usize) -> Vec<usize> {
+        rand::seq::index::sample(&mut self.0, end, count.min(end)).into_vec()
+    }
+
     /// A seed of its own for something else.
     pub fn seed(&mut self) -> u64 {
         self.0.random()
@@ -55,4 +60,21 @@ fn mixed(value: u64) -> u64 {
     z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
     z ^ (z >> 31)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn some_of_many_are_drawn_once_each() {
+        let mut all = Draw::new(3, 1).some_of(17, 40);
+        all.sort_unstable();
+        assert!(all.into_iter().eq(0..17));
+        let mut some = Draw::new(4, 1).some_of(1000, 300);
+        assert_ne!(some, Draw::new(5, 1).some_of(1000, 300));
+        some.sort_unstable();
+        some.dedup();
+        assert_eq!(some.len(), 300);
+    }
 }

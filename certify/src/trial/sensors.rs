@@ -2,12 +2,16 @@
 
 use rigproof_impl::plant::Plant;
 use rigproof_impl::tick::Sensed;
+use rigproof_impl::vector::Vector;
+use rigproof_spec::joint::Joint;
 
+use crate::left_out::LeftOut;
 use crate::scenario::{Fault, FaultKind, Scenario};
 
 /// Encoders on A and B, a force sensor, and the numbering of samples.
 pub struct Sensors<'a> {
     faults: core::iter::Peekable<core::slice::Iter<'a, Fault>>,
+    left_out: &'a [LeftOut],
     per_rad: [f64; 2],
     zero_counts: [i32; 2],
     number: u32,
@@ -20,6 +24,7 @@ impl<'a> Sensors<'a> {
         let settings = scenario.settings();
         Sensors {
             faults: scenario.faults.iter().peekable(),
+            left_out: &scenario.left_out,
             per_rad: settings
                 .counts_per_turn
                 .map(|counts| f64::from(counts) / core::f64::consts::TAU),
@@ -41,7 +46,8 @@ impl<'a> Sensors<'a> {
             self.number = self.number.wrapping_add(count);
         }
         let mut counts = [0; 2];
-        let angles = plant.base_angles_rad().into_iter().zip(self.per_rad);
+        let shown = self.shown(plant.base_angles_rad());
+        let angles = shown.into_iter().zip(self.per_rad);
         let zeros = self.zero_counts.into_iter();
         for (count, ((angle_rad, per_rad), zero)) in counts.iter_mut().zip(angles.zip(zeros)) {
             *count = (libm::floor(angle_rad * per_rad) as i32).wrapping_add(zero);
@@ -50,7 +56,9 @@ impl<'a> Sensors<'a> {
             let [a, b] = counts;
             counts = [a.wrapping_add(by_a), b.wrapping_add(by_b)];
         }
-        let force_n = fault.map_or(force_n.into(), |fault| fault.force_n(force_n.into()));
+        let shown_n = |force_n: Vector<f64>, one: &LeftOut| one.shown_n(force_n);
+        let force_n = self.left_out.iter().rev().fold(force_n.into(), shown_n);
+        let force_n = fault.map_or(force_n, |fault| fault.force_n(force_n));
         let sensed = Sensed {
             number: self.number,
             counts,
@@ -59,6 +67,15 @@ impl<'a> Sensors<'a> {
         self.number = self.number.wrapping_add(1);
         self.last = Some(sensed);
         (sensed, fault.is_some())
+    }
+
+    /// What the encoders show of angles, rad; what a calibration names first is what the recording shows last.
+    fn shown(&self, [a, b]: [f64; 2]) -> [f64; 2] {
+        let of = |joint: Joint, angle_rad: f64| {
+            let shown_rad = |angle_rad: f64, one: &LeftOut| one.shown_rad(joint, angle_rad);
+            self.left_out.iter().rev().fold(angle_rad, shown_rad)
+        };
+        [of(Joint::A, a), of(Joint::B, b)]
     }
 
     /// What is wrong in a tick.

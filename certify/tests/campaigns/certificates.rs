@@ -2,11 +2,17 @@
 
 use std::path::Path;
 
+use rigproof_certify::built_in::BuiltIn;
 use rigproof_certify::certificate::Certificate;
+use rigproof_certify::controller::{Controller, Failure, Source, Task};
 use rigproof_certify::digest;
 use rigproof_certify::finding::Finding;
 use rigproof_certify::law::Law;
-use rigproof_certify::plan::Plan;
+use rigproof_certify::plan::{Plan, Sources};
+use rigproof_certify::proved::Ledger;
+use rigproof_certify::record::Record;
+use rigproof_impl::tick::{Sensed, Settings};
+use rigproof_spec::methods::Method;
 
 use crate::runs::{certificate, plan, run};
 
@@ -60,6 +66,91 @@ fn a_certificate_that_was_forged_with_its_digest_falls_when_it_is_run_again() {
     let forged = parse(&forged.to_json().unwrap()).unwrap();
     let (drawn, differ) = forged.again(&sources, 3, 71).unwrap();
     assert_eq!(drawn, differ);
+    let (all, _) = honest.again(&sources, 99, 5).unwrap();
+    assert_eq!(all, (0..6).collect::<Vec<u64>>());
+}
+
+#[test]
+fn a_certificate_of_another_ledger_is_read_and_said_to_be_one() {
+    let (_, text) = text();
+    let mut older = parse(&text).unwrap();
+    assert_eq!(older.ledger().unwrap(), Ledger::Same);
+    let sealed = |mut certificate: Certificate| {
+        certificate.digest = String::new();
+        certificate.digest = digest::of_bytes(certificate.to_json().unwrap().as_bytes());
+        parse(&certificate.to_json().unwrap())
+    };
+    older.proved.claims.truncate(7);
+    let changed = sealed(older.clone()).unwrap_err();
+    assert!(changed.contains("calls proved"), "{changed}");
+    older.proved.code = Some("0f".repeat(32));
+    let read = sealed(older).unwrap();
+    let other = Ledger::Other {
+        known: 7,
+        claims: 7,
+    };
+    assert_eq!(read.ledger().unwrap(), other);
+}
+
+#[test]
+fn a_controller_that_breaks_at_the_end_or_when_it_is_begun_again_did_not_answer() {
+    for broken in [Broken::AtTheEnd, Broken::BegunAgain] {
+        let plan = plan();
+        let sources = Sources {
+            controller: &broken,
+            baseline: None,
+        };
+        let index = 3;
+        let record = Record::of(&plan, &sources, index).unwrap();
+        let fared = record.fared[Law::Answers as usize];
+        assert_eq!(fared.broken, 1);
+        assert_eq!(fared.first, Some(record.ticks));
+        assert_eq!(
+            record.failure.as_deref(),
+            Some("the controller answered with status 7")
+        );
+        let found = Finding::of(&plan, &broken, Law::Answers, index).unwrap();
+        assert_eq!(found.failure, record.failure);
+        assert_eq!(found.named().unwrap().failure, record.failure);
+        assert!(found.tick < 60, "{}", found.tick);
+    }
+}
+
+/// A sound controller that breaks where no sample is.
+enum Broken {
+    AtTheEnd,
+    BegunAgain,
+}
+
+struct Ending(Box<dyn Controller>, Result<(), Failure>);
+
+impl Controller for Ending {
+    fn tick(&mut self, sensed: &Sensed<f64>) -> Result<[f64; 4], Failure> {
+        self.0.tick(sensed)
+    }
+
+    fn end(&mut self) -> Result<(), Failure> {
+        self.1.clone()
+    }
+}
+
+impl Source for Broken {
+    fn begin(&self, settings: &Settings, task: &Task) -> Result<Box<dyn Controller + '_>, Failure> {
+        let end = match self {
+            Broken::AtTheEnd => Err(Failure::Status(7)),
+            Broken::BegunAgain => Ok(()),
+        };
+        let sound = BuiltIn::of(Method::ProportionalLow).controller(settings, task)?;
+        Ok(Box::new(Ending(sound, end)))
+    }
+
+    fn begin_again(
+        &self,
+        _settings: &Settings,
+        _task: &Task,
+    ) -> Result<Box<dyn Controller + '_>, Failure> {
+        Err(Failure::Status(7))
+    }
 }
 
 #[test]

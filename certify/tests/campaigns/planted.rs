@@ -373,6 +373,7 @@ fn beyond(source: &dyn Source) -> Vec<&'static str> {
     let given = What::Given {
         name: "planted".to_owned(),
         sha256: String::new(),
+        process: None,
     };
     let plan = Plan {
         form: FORM,
@@ -386,6 +387,7 @@ fn beyond(source: &dyn Source) -> Vec<&'static str> {
         seed: 9,
         scenarios: 48,
         ticks: 3000,
+        calibration: None,
         limits: [None; 5],
         regressions: [Some(0.002), Some(1.0), None, Some(40.0), Some(1.0)],
     };

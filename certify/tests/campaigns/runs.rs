@@ -4,11 +4,17 @@ use std::fs;
 use std::path::Path;
 
 use rigproof_certify::built_in::BuiltIn;
+use rigproof_certify::calibration::Calibration;
 use rigproof_certify::campaign::{self, merge};
-use rigproof_certify::certificate::{Certificate, Tool};
-use rigproof_certify::journal::{Chunks, FILE, Shard};
+use rigproof_certify::certificate::Certificate;
+use rigproof_certify::digest;
+use rigproof_certify::journal::{Chunks, FILE, Header, Shard};
+use rigproof_certify::law::Law;
 use rigproof_certify::plan::{FORM, Plan, Subject};
+use rigproof_certify::scenario::{Rig, Scenario};
+use rigproof_certify::tool::Tool;
 use rigproof_spec::methods::Method;
+use rigproof_trace::rig::five_bar::FiveBar;
 
 use crate::five::BOTH;
 
@@ -22,8 +28,24 @@ pub fn plan() -> Plan {
         seed: 23,
         scenarios: 44,
         ticks: 300,
+        calibration: None,
         limits: [None; 5],
         regressions: [None; 5],
+    }
+}
+
+pub fn tool() -> Tool {
+    Tool {
+        version: "0.1.0".to_owned(),
+        sha256: "00".repeat(32),
+    }
+}
+
+pub fn header(plan: &Plan, shard: Shard) -> Header {
+    Header {
+        plan: plan.clone(),
+        shard,
+        tool: tool(),
     }
 }
 
@@ -33,16 +55,13 @@ pub fn run(plan: &Plan, shard: Shard, folder: &Path, threads: usize) -> Chunks {
         .build()
         .unwrap();
     let sources = plan.sources().unwrap();
-    pool.install(|| campaign::run(plan, &sources, shard, folder, &|_| ()))
+    let header = header(plan, shard);
+    pool.install(|| campaign::run(&header, &sources, folder, &|_| ()))
         .unwrap()
 }
 
 pub fn certificate(plan: &Plan, chunks: &Chunks) -> String {
-    let tool = Tool {
-        version: "0.1.0".to_owned(),
-        sha256: "00".repeat(32),
-    };
-    Certificate::new(plan, chunks, Vec::new(), tool)
+    Certificate::new(plan, chunks, Vec::new(), tool())
         .unwrap()
         .to_json()
         .unwrap()
@@ -73,17 +92,23 @@ fn merged_parts_are_the_whole_bit_for_bit() {
     for (part, folder) in (0..).zip(&parts) {
         run(&plan, [part, 3], folder, 2);
     }
-    let (merged_plan, merged) = merge(&parts).unwrap();
+    let (merged_plan, merged) = merge(&parts, &tool()).unwrap();
     assert_eq!(
         certificate(&merged_plan, &merged),
         certificate(&plan, &whole)
     );
-    let missing = merge(&parts[..2]).unwrap_err().to_string();
+    let missing = merge(&parts[..2], &tool()).unwrap_err().to_string();
     assert!(missing.contains("are missing"), "{missing}");
     let other = folder.path().join("other");
     run(&Plan { seed: 24, ..plan }, [2, 3], &other, 2);
-    let mixed = merge(&[parts[0].clone(), parts[1].clone(), other]).unwrap_err();
+    let mixed = merge(&[parts[0].clone(), parts[1].clone(), other], &tool()).unwrap_err();
     assert!(mixed.to_string().contains("plan differs"), "{mixed}");
+    let newer = Tool {
+        sha256: "11".repeat(32),
+        ..tool()
+    };
+    let by_another = merge(&parts, &newer).unwrap_err().to_string();
+    assert!(by_another.contains("another build"), "{by_another}");
 }
 
 #[test]
@@ -125,10 +150,152 @@ fn a_folder_of_another_campaign_is_left_alone() {
     );
     let before = fs::read(folder.path().join(FILE)).unwrap();
     let sources = plan.sources().unwrap();
-    let refused = campaign::run(&plan, &sources, [0, 1], folder.path(), &|_| ()).unwrap_err();
-    assert!(
-        refused.to_string().contains("another campaign"),
-        "{refused}"
-    );
+    let whole = header(&plan, [0, 1]);
+    let of_first = Plan {
+        scenarios: 8,
+        ..plan.clone()
+    };
+    let mut newer = header(&of_first, [0, 1]);
+    newer.tool.sha256 = "11".repeat(32);
+    let second = header(&of_first, [1, 2]);
+    for (other, part) in [(whole, "plan"), (newer, "another build"), (second, "shard")] {
+        let refused = campaign::run(&other, &sources, folder.path(), &|_| ()).unwrap_err();
+        let refused = refused.to_string();
+        assert!(
+            refused.contains("another campaign") && refused.contains(part),
+            "{refused}"
+        );
+    }
     assert_eq!(fs::read(folder.path().join(FILE)).unwrap(), before);
+}
+
+#[test]
+fn a_changed_line_of_a_journal_is_refused() {
+    let (plan, folder) = (plan(), tempfile::tempdir().unwrap());
+    let plan = Plan {
+        scenarios: 16,
+        ..plan
+    };
+    run(&plan, [0, 1], folder.path(), 2);
+    let file = folder.path().join(FILE);
+    let written = fs::read_to_string(&file).unwrap();
+    let folders = [folder.path().to_path_buf()];
+    assert!(merge(&folders, &tool()).is_ok());
+    // A number of a record, the seal itself, and the first line, which the other lines rest on.
+    for (from, to, part) in [
+        (
+            "\"ticks\":300,\"ending\"",
+            "\"ticks\":299,\"ending\"",
+            "line ",
+        ),
+        ("\"sha256\":\"", "\"sha256\":\"0", "line "),
+        ("\"seed\":23", "\"seed\":24", "line 2"),
+    ] {
+        let (head, last) = written.split_at(if part == "line 2" {
+            0
+        } else {
+            written.find('\n').unwrap()
+        });
+        assert!(last.contains(from), "{from}");
+        fs::write(&file, format!("{head}{}", last.replacen(from, to, 1))).unwrap();
+        let merged = merge(&folders, &tool()).unwrap_err().to_string();
+        assert!(
+            merged.contains(part) && merged.contains("not as it was written"),
+            "{merged}"
+        );
+        let sources = plan.sources().unwrap();
+        let resumed = campaign::run(&header(&plan, [0, 1]), &sources, folder.path(), &|_| ());
+        assert!(resumed.is_err());
+    }
+}
+
+/// What a diagnosis found, read from its file.
+pub fn calibration(effects: &str) -> Calibration {
+    let channel = |name: &str, unit: &str| {
+        format!("{name} = {{ channel = \"{name}\", unit = \"{unit}\" }}\n")
+    };
+    let angles = channel("theta_a", "rad") + &channel("theta_b", "rad");
+    let forces = channel("force_x", "N") + &channel("force_y", "N");
+    let currents: String = ["current_a", "current_e", "current_b", "current_c"]
+        .map(|name| channel(name, "A"))
+        .concat();
+    let text = format!(
+        "name = \"a rig\"\nplant = \"rig\"\nlayout = \"four_brake\"\n[channels]\n{angles}{forces}{currents}{effects}"
+    );
+    let rig = FiveBar::parse(&text, Path::new("calibration.toml")).unwrap();
+    Calibration::of(
+        &rig,
+        "calibration.toml".to_owned(),
+        digest::of_bytes(text.as_bytes()),
+    )
+    .unwrap()
+}
+
+#[test]
+fn a_calibration_is_the_plant_and_its_scenarios_are_those_without_it() {
+    let effects = "[[effect]]\nmechanism = \"viscous\"\njoint = \"E\"\ncoefficient = { value = 0.37, unit = \"N·m·s/rad\", low95 = 0.21, high95 = 0.43 }\n\
+         [[effect]]\nmechanism = \"gain_error\"\njoint = \"B\"\nfraction = { value = -0.13, unit = \"1\", low95 = -0.17, high95 = -0.07 }\n\
+         [[effect]]\nmechanism = \"force_bias\"\nx = { value = 0.3, unit = \"N\" }\ny = { value = -0.2, unit = \"N\" }\n";
+    let of = |calibration| Plan {
+        rigs: vec![Rig::FourBrake],
+        scenarios: 16,
+        calibration,
+        ..plan()
+    };
+    let (with, without) = (of(Some(calibration(effects))), of(None));
+    let folder = tempfile::tempdir().unwrap();
+    let runs = |name: &str, plan: &Plan| run(plan, [0, 1], &folder.path().join(name), 2);
+    let (found, bare) = (runs("with", &with), runs("without", &without));
+    assert_ne!(found, bare);
+    for index in 0..16 {
+        let (own, bare) = (with.scenario(index), without.scenario(index));
+        assert_eq!(own.left_out.len(), 3);
+        assert_eq!(
+            Scenario {
+                left_out: Vec::new(),
+                ..own.clone()
+            },
+            bare
+        );
+        let text = serde_json::to_string(&own).unwrap();
+        assert_eq!(serde_json::from_str::<Scenario>(&text).unwrap(), own);
+    }
+    let text = certificate(&with, &found);
+    let read = Certificate::parse(&text, Path::new("certificate.json")).unwrap();
+    assert!(
+        read.laws.iter().all(|law| law.broken_in == 0),
+        "{:?}",
+        read.reasons
+    );
+    assert!(read.laws.iter().any(|law| law.law == Law::Passivity));
+    let (_, differ) = read.again(&with.sources().unwrap(), 2, 3).unwrap();
+    assert!(differ.is_empty());
+}
+
+#[test]
+fn what_stores_energy_leaves_passivity_out_and_says_so() {
+    let spring = "[[effect]]\nmechanism = \"spring\"\njoint = \"A\"\nstiffness = { value = 0.7, unit = \"N·m/rad\" }\n";
+    let plan = Plan {
+        rigs: vec![Rig::FourBrake],
+        scenarios: 16,
+        calibration: Some(calibration(spring)),
+        ..plan()
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let text = certificate(&plan, &run(&plan, [0, 1], folder.path(), 2));
+    let read = Certificate::parse(&text, Path::new("certificate.json")).unwrap();
+    assert!(
+        read.laws.iter().all(|law| law.broken_in == 0),
+        "{:?}",
+        read.reasons
+    );
+    assert!(read.laws.iter().all(|law| law.law != Law::Passivity));
+    assert!(
+        read.not_looked_at
+            .iter()
+            .any(|not| not.what == "passivity" && not.why.contains("stores energy"))
+    );
+    // Judged all the same, it would be broken: the spring gives back what it took, and begins bent.
+    let scenario = plan.scenario(5);
+    assert!(!scenario.is_passive() && !scenario.left_out.is_empty());
 }

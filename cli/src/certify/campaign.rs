@@ -2,15 +2,18 @@
 
 use std::path::Path;
 
+use rigproof_certify::calibration::Calibration;
 use rigproof_certify::campaign;
-use rigproof_certify::certificate::{Certificate, Tool};
+use rigproof_certify::certificate::Certificate;
 use rigproof_certify::description::Description;
 use rigproof_certify::digest;
 use rigproof_certify::finding::Finding;
-use rigproof_certify::journal::{Chunks, FILE};
+use rigproof_certify::journal::{Chunks, FILE, Header};
 use rigproof_certify::law::Law;
 use rigproof_certify::plan::{FORM, Plan, Sources, Subject};
+use rigproof_certify::tool::Tool;
 use rigproof_spec::methods::SAMPLE_STEP_S;
+use rigproof_trace::rig::five_bar::FiveBar;
 use rigproof_trace::store::{read_text, write_aside};
 
 use super::compiled::{Opened, sources};
@@ -27,18 +30,20 @@ pub const CERTIFICATE: &str = "certificate.json";
 pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
     let description = Description::parse(&read_text(file)?, file)?;
     let compiled = args.compiled.opened()?;
-    let plan = plan(args, &description, compiled.as_ref())?;
+    let plan = plan(args, file, &description, compiled.as_ref())?;
     let sources = sources(&plan, compiled.as_ref())?;
     let threads = threads::pool(args.jobs)?;
     let total: u64 = campaign::chunks(&plan, args.shard)
         .map(|chunk| campaign::indices(&plan, chunk).count() as u64)
         .sum();
     let bar = progress::bar(total as usize, "scenarios");
-    let chunks = threads.install(|| {
-        campaign::run(&plan, &sources, args.shard, &args.out, &|done| {
-            bar.inc(done)
-        })
-    })?;
+    let header = Header {
+        plan: plan.clone(),
+        shard: args.shard,
+        tool: tool()?,
+    };
+    let chunks =
+        threads.install(|| campaign::run(&header, &sources, &args.out, &|done| bar.inc(done)))?;
     drop(bar);
     let between = match &compiled {
         Some(compiled) => compiled.ended()?,
@@ -79,6 +84,7 @@ fn between_trials(what: &[String], folder: &Path) -> Result<Outcome, Failure> {
 
 fn plan(
     args: &Args,
+    file: &Path,
     description: &Description,
     compiled: Option<&Opened>,
 ) -> Result<Plan, Failure> {
@@ -98,18 +104,42 @@ fn plan(
             ));
         }
     };
+    let calibration = args.calibration.as_deref().map(calibration).transpose()?;
+    let mut rigs = description.rigs.clone();
+    if let Some(calibration) = &calibration {
+        rigs.retain(|rig| *rig == calibration.rig);
+    }
+    if rigs.is_empty() {
+        let problem = "its `layout` is not the calibration's: take `layout` away, or --calibration";
+        return Err(Failure::unusable(file, problem.to_owned()));
+    }
     Ok(Plan {
         form: FORM,
         name: description.name.clone(),
         controller,
         baseline: description.baseline.map(Subject::built_in),
-        rigs: description.rigs.clone(),
+        rigs,
         seed: args.seed.unwrap_or(1),
         scenarios: args.scenarios,
         ticks: libm::round(args.seconds / SAMPLE_STEP_S) as u32,
+        calibration,
         limits: description.limits,
         regressions: description.regressions,
     })
+}
+
+/// A calibration as the plant of scenarios.
+fn calibration(file: &Path) -> Result<Calibration, Failure> {
+    let text = read_text(file)?;
+    if !FiveBar::describes(&text, file)? {
+        let problem = "it is no calibration of a five-bar (`plant = \"rig\"`): hand over the calibration.toml that `rigproof diagnose` wrote for one";
+        return Err(Failure::unusable(file, problem.to_owned()));
+    }
+    let rig = FiveBar::parse(&text, file)?;
+    let name = file.file_name().unwrap_or(file.as_os_str());
+    let sha256 = digest::of_bytes(text.as_bytes());
+    Calibration::of(&rig, name.to_string_lossy().into_owned(), sha256)
+        .map_err(|problem| Failure::unusable(file, problem))
 }
 
 /// Shrinks what broke a law, and writes certificate and findings.
@@ -132,10 +162,12 @@ pub fn finish(
             .values()
             .flatten()
             .find(|record| broken(&record.fared));
-        let Some(first) = first else { continue };
-        let found = Finding::of(plan, sources.controller, law, first.index);
+        let found = first.and_then(|first| Finding::of(plan, sources.controller, law, first.index));
         // A law that is broken once and not again has no scenario that shows it; the verdict stands all the same.
-        let Some(found) = found else { continue };
+        let Some(found) = found else {
+            without_finding(folder, law)?;
+            continue;
+        };
         let files = [
             (found.stem() + ".json", found.to_json()?.into_bytes()),
             (found.stem() + ".mcap", found.to_mcap(sources.controller)?),
@@ -157,6 +189,19 @@ pub fn finish(
     Ok(Outcome {
         checks_hold: certificate.may_go_on_the_rig,
     })
+}
+
+/// Takes away what an earlier campaign found: it is no finding of this one.
+fn without_finding(folder: &Path, law: Law) -> Result<(), Failure> {
+    for ending in ["json", "mcap"] {
+        let old = folder.join(format!("{}.{ending}", Finding::stem_of(law)));
+        match std::fs::remove_file(&old) {
+            Ok(()) => {}
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => {}
+            Err(error) => return Err(Failure::unusable(&old, error.to_string())),
+        }
+    }
+    Ok(())
 }
 
 /// This program, by the hash of its file.

@@ -5,6 +5,7 @@ use std::path::Path;
 use rigproof_certify::campaign::CHUNK;
 use rigproof_certify::certificate::Certificate;
 use rigproof_certify::digest;
+use rigproof_certify::proved::Ledger;
 use rigproof_trace::store::read_text;
 use serde_json::json;
 
@@ -16,7 +17,7 @@ use crate::outcome::{Failure, Outcome, print};
 pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
     let certificate = Certificate::parse(&read_text(file)?, file)?;
     let mut wrong = changed_findings(&certificate, file);
-    let compiled = args.compiled.opened()?;
+    let compiled = args.compiled.opened_again(&certificate.plan.controller)?;
     let sources = sources(&certificate.plan, compiled.as_ref())?;
     // Whoever wrote the certificate must not know what is run again.
     let seed = args.seed.unwrap_or_else(clock);
@@ -26,11 +27,19 @@ pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
         let first = chunk * CHUNK;
         format!("scenarios {first} to {} come out otherwise", first + CHUNK)
     }));
+    if let Some(compiled) = &compiled {
+        let between = compiled.ended()?;
+        wrong.extend(
+            between
+                .iter()
+                .map(|what| format!("it failed between trials: {what}")),
+        );
+    }
     let same_tool = campaign::tool()?.sha256 == certificate.tool.sha256;
     let again = (drawn.len() as u64 * CHUNK).min(certificate.plan.scenarios);
     if args.json {
         let result = json!({
-            "holds": wrong.is_empty(), "wrong": wrong, "run_again": again, "seed": seed, "same_build": same_tool,
+            "ledger": ledger(&certificate)?, "holds": wrong.is_empty(), "wrong": wrong, "run_again": again, "seed": seed, "same_build": same_tool,
             "may_go_on_the_rig": certificate.may_go_on_the_rig,
         });
         print(&result.to_string())?;
@@ -49,6 +58,7 @@ pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
         if !same_tool {
             lines.push("It was made by another build of this program; the scenarios were run again with this one.".to_owned());
         }
+        lines.extend(ledger(&certificate)?);
         lines.push(match certificate.may_go_on_the_rig {
             true => "It says: may go on the rig.".to_owned(),
             false => "It says: must not go on the rig.".to_owned(),
@@ -57,6 +67,16 @@ pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
     }
     Ok(Outcome {
         checks_hold: wrong.is_empty(),
+    })
+}
+
+/// What is to be said of a ledger that is not this program's.
+fn ledger(certificate: &Certificate) -> Result<Option<String>, Failure> {
+    Ok(match certificate.ledger()? {
+        Ledger::Same | Ledger::Changed => None,
+        Ledger::Other { known, claims } => Some(format!(
+            "What it calls proved is of a ledger about other code than this program's: {known} of its {claims} claims are proved in this one's too, the others were not looked at."
+        )),
     })
 }
 

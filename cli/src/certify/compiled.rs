@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use rigproof_certify::controller::Source;
 use rigproof_certify::declared::Declared;
 use rigproof_certify::digest;
-use rigproof_certify::foreign::{Between, Foreign};
+use rigproof_certify::foreign::{Between, Foreign, Limits};
 use rigproof_certify::plan::{Plan, Sources, Subject, What};
 
 use crate::controller::{Given, host};
@@ -24,6 +24,7 @@ pub struct Compiled {
 /// A compiled controller at hand.
 pub struct Opened {
     source: Foreign,
+    limits: Limits,
     file: PathBuf,
     name: String,
     sha256: String,
@@ -40,12 +41,33 @@ impl Compiled {
     /// # Errors
     /// It cannot be read or run.
     pub fn opened(&self) -> Result<Option<Opened>, Failure> {
+        self.opened_with(self.given.limits())
+    }
+
+    /// As [`Compiled::opened`], for something that was run before: with the limits that it had then.
+    ///
+    /// # Errors
+    /// As [`Compiled::opened`], and where limits are given here too.
+    pub fn opened_again(&self, subject: &Subject) -> Result<Option<Opened>, Failure> {
+        if self.given.is_given() {
+            return Err(Failure::Usage(
+                "a controller is run again with the limits it had, which the file says: leave --tick-ms, --start-ms, --memory-mb and --one-trial-a-process away"
+                    .to_owned(),
+            ));
+        }
+        self.opened_with(match &subject.what {
+            What::Given { process, .. } => process.unwrap_or_default(),
+            What::BuiltIn(_) => Limits::default(),
+        })
+    }
+
+    fn opened_with(&self, limits: Limits) -> Result<Option<Opened>, Failure> {
         let Some(file) = &self.library else {
             return Ok(None);
         };
         let unusable = |why: String| Failure::unusable(file, why);
         let bytes = std::fs::read(file).map_err(|error| unusable(error.to_string()))?;
-        let source = Foreign::new(file, host()?, self.given.limits());
+        let source = Foreign::new(file, host()?, limits);
         let source = source.map_err(|failure| unusable(failure.to_string()))?;
         source
             .check()
@@ -53,6 +75,7 @@ impl Compiled {
         let name = file.file_name().unwrap_or(file.as_os_str());
         Ok(Some(Opened {
             source,
+            limits,
             file: file.clone(),
             name: name.to_string_lossy().into_owned(),
             sha256: digest::of_bytes(&bytes),
@@ -67,6 +90,7 @@ impl Opened {
             what: What::Given {
                 name: self.name.clone(),
                 sha256: self.sha256.clone(),
+                process: Some(self.limits),
             },
             declared,
         }
@@ -115,7 +139,7 @@ pub fn subject<'a>(
 ) -> Result<&'a dyn Source, Failure> {
     let (name, sha256) = match &subject.what {
         What::BuiltIn(law) => return Ok(law),
-        What::Given { name, sha256 } => (name, sha256),
+        What::Given { name, sha256, .. } => (name, sha256),
     };
     match compiled {
         Some(own) if own.sha256 == *sha256 => Ok(&own.source),

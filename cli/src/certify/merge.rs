@@ -37,7 +37,7 @@ Example:
 
 /// Joins and certifies.
 pub fn run(args: &Args) -> Result<Outcome, Failure> {
-    let (plan, chunks) = campaign::merge(&args.folders)?;
+    let (plan, chunks) = campaign::merge(&args.folders, &parts::tool()?)?;
     std::fs::create_dir_all(&args.out).map_err(|error| {
         Failure::from(TraceError::File {
             action: "write",
@@ -45,7 +45,7 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
             source: error,
         })
     })?;
-    let compiled = args.compiled.opened()?;
+    let compiled = args.compiled.opened_again(&plan.controller)?;
     let sources = sources(&plan, compiled.as_ref())?;
     parts::finish(
         &plan,

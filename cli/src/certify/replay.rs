@@ -15,7 +15,7 @@ use crate::text::number::significant;
 /// Runs it, and says what broke.
 pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
     let finding = Finding::parse(&read_text(file)?, file)?;
-    let compiled = args.compiled.opened()?;
+    let compiled = args.compiled.opened_again(&finding.controller)?;
     let source = subject(&finding.controller, compiled.as_ref())?;
     let ran = finding.replayed(source)?;
     let again = ran.broken().find(|(law, _)| *law == finding.law);
@@ -25,6 +25,7 @@ pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
             "law": law, "words": law.words(), "broken_again": again.is_some(),
             "tick": again.and_then(|(_, fared)| fared.first),
             "margin": again.map(|(_, fared)| fared.worst), "unit": law.unit(),
+            "failure": ran.failure.as_ref().map(ToString::to_string),
         });
         print(&result.to_string())?;
     } else {

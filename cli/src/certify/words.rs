@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use rigproof_certify::certificate::Certificate;
-use rigproof_certify::summary::{MetricSummary, Word};
+use rigproof_certify::summary::{Change, Ended, Endings, MetricSummary, Word};
 
 use super::campaign::CERTIFICATE;
 use crate::shell;
@@ -26,13 +26,22 @@ pub fn certificate(certificate: &Certificate, folder: &Path, library: Option<&Pa
             .iter()
             .map(|reason| format!("  {reason}")),
     );
+    first.extend(certificate.plan.calibration.iter().map(|found| {
+        let count = found.found.len();
+        format!(
+            "The plant is drawn from {}: {count} of its mechanisms, within their intervals.",
+            found.name
+        )
+    }));
     let findings = certificate.findings.iter().map(|found| {
         let file = folder.join(&found.file);
         let mut words = vec![("--replay", file.as_path())];
         words.extend(library.map(|library| ("--controller", library)));
         let replay = shell::line(&["rigproof", "certify"], &words);
+        let broke = found.failure.as_ref();
+        let broke = broke.map_or_else(String::new, |how| format!("\n    {how}"));
         format!(
-            "  {}: scenario {}, shrunk to {} s: {replay}",
+            "  {}: scenario {}, shrunk to {} s: {replay}{broke}",
             found.law.name(),
             found.scenario,
             significant(found.time_s, 3)
@@ -67,11 +76,56 @@ pub fn certificate(certificate: &Certificate, folder: &Path, library: Option<&Pa
         first,
         section("Findings", findings),
         section("Laws, on every sample", laws),
+        section("How the trials ended", ended(&certificate.ended)),
         section("Metrics", certificate.metrics.iter().map(metric)),
         section("Proved", [proved]),
         section("Not looked at", not),
         vec![format!("Written: {}", file.display())],
     ])
+}
+
+fn ended(ended: &Ended) -> Vec<String> {
+    let of = |whose: &str, endings: &Endings| {
+        let Endings {
+            finished,
+            time,
+            left_workspace,
+            no_answer,
+        } = endings;
+        format!(
+            "  {whose:<16} {finished} of {} came to the path's end; {left_workspace} ended at the stops, {no_answer} without an answer",
+            time + left_workspace + no_answer
+        )
+    };
+    let mut lines = vec![of("the controller", &ended.controller)];
+    lines.extend(ended.baseline.iter().map(|own| of("the baseline", own)));
+    let changes = [
+        ("unfinished", &ended.unfinished),
+        ("at the stops", &ended.stopped),
+    ];
+    lines.extend(changes.into_iter().filter_map(|(what, change)| {
+        let change = change.as_ref()?;
+        Some(format!("  {what:<16} share: {}", changed(change, "")))
+    }));
+    lines
+}
+
+/// A change from the baseline.
+fn changed(change: &Change, unit: &str) -> String {
+    let word = match change.word {
+        Word::Better => "better than the baseline",
+        Word::Worse => "worse than the baseline",
+        Word::NoDifference => "no difference from the baseline",
+    };
+    let [low, high] = change.interval;
+    format!(
+        "{word}: {} [{} to {}] {unit}",
+        significant(change.mean, 3),
+        significant(low, 3),
+        significant(high, 3),
+    )
+    .trim_end()
+    .to_owned()
 }
 
 fn metric(metric: &MetricSummary) -> String {
@@ -84,19 +138,7 @@ fn metric(metric: &MetricSummary) -> String {
         )
     });
     let change = metric.change.map_or_else(String::new, |change| {
-        let word = match change.word {
-            Word::Better => "better than the baseline",
-            Word::Worse => "worse than the baseline",
-            Word::NoDifference => "no difference from the baseline",
-        };
-        let [low, high] = change.interval;
-        format!(
-            "; {word}: {} [{} to {}] {}",
-            significant(change.mean, 3),
-            significant(low, 3),
-            significant(high, 3),
-            metric.unit
-        )
+        format!("; {}", changed(&change, &metric.unit))
     });
     let holds = if metric.holds {
         ""

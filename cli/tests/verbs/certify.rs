@@ -25,6 +25,7 @@ fn a_sound_controller_may_go_and_its_certificate_is_checked() {
         "influence:",
         "Proved",
         "the baseline:",
+        "came to the path's end",
         "certificate.json",
     ] {
         assert!(text.contains(words), "{words}: {text}");
@@ -179,6 +180,9 @@ fn a_compiled_controller_that_brakes_on_a_fault_is_refused_and_shown_again() {
     let checked = desk.prints(&format!("certify --check out/certificate.json {given}"), 0);
     assert!(checked.starts_with("The certificate holds"), "{checked}");
     assert_eq!(desk.rigproof(replay).status.code(), Some(2));
+    // What it was limited to is in the file.
+    let limited = desk.rigproof(&format!("{replay} {given} --tick-ms 7"));
+    assert_eq!(limited.status.code(), Some(2));
     // Another library is another controller.
     let mut bytes = std::fs::read(desk.path("damper.so")).unwrap();
     bytes.push(0);
@@ -187,4 +191,63 @@ fn a_compiled_controller_that_brakes_on_a_fault_is_refused_and_shown_again() {
     assert_eq!(other.status.code(), Some(3));
     let message = String::from_utf8(other.stderr).unwrap();
     assert!(message.contains("is another controller"), "{message}");
+}
+
+/// What breaks is named, also where no sample is, and an old finding does not stay beside a new certificate.
+#[cfg(target_os = "linux")]
+#[test]
+fn how_a_compiled_controller_broke_is_said_and_an_old_finding_goes() {
+    let desk = Desk::new();
+    let guarded = std::path::Path::new(crate::controller::ROOM).join("examples/guarded.c");
+    let source = std::fs::read_to_string(guarded).unwrap();
+    let at_the_end = "rigproof_controller_shutdown(void)\n{\n";
+    assert!(source.contains(at_the_end));
+    let breaks = source.replace(
+        at_the_end,
+        &format!("{at_the_end}    *(volatile int *)0 = 1;\n"),
+    );
+    desk.put("guarded.c", &source);
+    desk.put("breaks.c", &breaks);
+    for name in ["guarded", "breaks"] {
+        let built = (
+            desk.path(&format!("{name}.c")),
+            desk.path(&format!("{name}.so")),
+        );
+        if crate::controller::compiled(&built.0, &built.1).is_none() {
+            return;
+        }
+    }
+    desk.put(
+        "guarded.toml",
+        "[declares]\nmost_brakes = 1\nlocks = false\n",
+    );
+    let line = "certify guarded.toml --scenarios 8 --seconds 0.3";
+    let text = desk.prints(&format!("{line} --controller breaks.so --out breaks"), 1);
+    let how = "the controller's process ended: in shutdown: signal 11";
+    assert!(
+        text.contains("the law answers is broken in 8 scenarios") && text.contains(how),
+        "{text}"
+    );
+    let certificate: Value = serde_json::from_str(&desk.read("breaks/certificate.json")).unwrap();
+    assert_shape_of(&certificate, SCHEMA);
+    let failure = certificate["findings"][0]["failure"].as_str().unwrap();
+    assert!(failure.starts_with(how), "{failure}");
+    desk.prints(
+        "certify --check breaks/certificate.json --controller breaks.so",
+        0,
+    );
+    for part in 1..=2 {
+        let part = format!("--shard {part}/2 --out part-{part}");
+        desk.prints(&format!("{line} --controller guarded.so {part}"), 0);
+    }
+    let text = desk.prints(
+        "certify merge part-1 part-2 --controller guarded.so --out breaks",
+        0,
+    );
+    assert!(
+        text.starts_with("May go on the rig") && text.contains("How the trials ended"),
+        "{text}"
+    );
+    let names = desk.names("breaks");
+    assert_eq!(names, ["certificate.json", "journal.jsonl"]);
 }

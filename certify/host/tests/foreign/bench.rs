@@ -90,14 +90,14 @@ pub fn sensed(number: u32) -> Sensed<f64> {
     }
 }
 
-/// A trial of so many ticks: the first failure, or the currents of the last.
+/// A trial of so many ticks and its end: the first failure, or the currents of the last.
 pub fn trial(foreign: &Foreign, ticks: u32) -> Result<[f64; 4], Failure> {
     let mut controller = begin(foreign)?;
     let mut last_a = [f64::NAN; 4];
     for number in 0..ticks {
         last_a = controller.tick(&sensed(number))?;
     }
-    Ok(last_a)
+    controller.end().map(|()| last_a)
 }
 
 /// What stands on the command lines of a library's processes: its whole path, since the tests may run elsewhere too.

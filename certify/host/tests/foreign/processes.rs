@@ -16,14 +16,12 @@ fn leaving(name: &str, how: &str, after: &str) -> Option<()> {
     let name = named(&library);
     let source = foreign(&library, limits());
     // It answers, and stays when the trial is over.
-    assert_eq!(trial(&source, 2), Ok(SOUND_A));
+    let mut controller = begin(&source).unwrap();
     let processes = wait_for(&name, 3);
-    source.end();
+    assert_eq!(controller.tick(&sensed(0)), Ok(SOUND_A));
+    assert_eq!(controller.end(), Err(Failure::LeftRunning(1)));
     assert!(processes.iter().all(|process| !is_there(*process)));
-    let between = source.between_trials();
-    let said = "when its process was ended; a process that it had started was ended";
-    assert_eq!(between.len(), 1);
-    assert_eq!((between[0].what.as_str(), between[0].times), (said, 1));
+    assert_eq!(source.between_trials(), []);
     // It fails with the process there.
     let mut controller = begin(&source).unwrap();
     wait_for(&name, 3);

@@ -8,7 +8,7 @@ use rigproof_impl::tick::Settings;
 use rigproof_spec::layout::Layout;
 
 use crate::bench::{
-    SOUND_A, begin, faulty, foreign, limits, named, running, sensed, trial, wait_for,
+    SOUND_A, begin, faulty, foreign, limits, line, named, running, sensed, trial, wait_for,
 };
 
 #[test]
@@ -47,9 +47,10 @@ fn trials_at_once_have_processes_of_their_own() {
             });
         }
     });
-    // The threads that began them are gone, the processes are not.
-    assert_eq!(trial(&source, 2), Ok(SOUND_A));
-    assert!((2..=8).contains(&running(&named(&library)).len()));
+    // A process for every thread, and its watch.
+    assert_eq!(running(&named(&library)).len(), 8);
+    source.end();
+    assert_eq!(running(&named(&library)), [0_u32; 0]);
     assert_eq!(source.between_trials(), []);
 }
 
@@ -71,34 +72,39 @@ fn an_init_that_fails_after_another_trial_is_no_fault_of_the_trial() {
 }
 
 #[test]
-fn a_fault_in_shutdown_is_kept() {
-    for (name, code, part) in [
-        (
-            "shutdown_null",
-            "*(volatile int *)0 = 1",
-            "in shutdown: signal 11",
-        ),
-        (
-            "shutdown_hung",
-            "for (;;) { }",
-            "did not answer within 300 ms",
-        ),
-    ] {
-        let Some(library) = faulty(name, &[("IN_SHUTDOWN", code)]) else {
-            return;
-        };
-        let limits = Limits {
-            start_ms: 300,
-            ..limits()
-        };
-        let source = foreign(&library, limits);
-        assert_eq!(trial(&source, 2), Ok(SOUND_A));
-        assert_eq!(trial(&source, 2), Ok(SOUND_A));
-        let between = source.between_trials();
-        assert_eq!(between.len(), 1);
-        assert_eq!(between[0].times, 2);
-        assert!(between[0].what.contains(part), "{}", between[0].what);
+fn an_init_that_fails_after_its_own_trial_is_a_fault_of_the_trial() {
+    let Some(library) = faulty("own_init", &[("IN_INIT", "if (trials > 1) return 5")]) else {
+        return;
+    };
+    let source = foreign(&library, limits());
+    assert_eq!(trial(&source, 2), Ok(SOUND_A));
+    let again = source.begin_again(&Settings::thesis(Layout::FourBrake), &line());
+    let refused = Failure::Refused("init answered with status 5".to_owned());
+    assert_eq!(again.err(), Some(refused));
+    assert_eq!(source.between_trials(), []);
+}
+
+#[test]
+fn a_fault_in_shutdown_is_a_fault_of_the_trial() {
+    let Some(library) = faulty(
+        "shutdown_null",
+        &[("IN_SHUTDOWN", "*(volatile int *)0 = 1")],
+    ) else {
+        return;
+    };
+    let source = foreign(&library, limits());
+    for _ in 0..2 {
+        let failure = trial(&source, 2).unwrap_err().to_string();
+        assert!(failure.contains("in shutdown: signal 11"), "{failure}");
     }
+    let library = faulty("shutdown_hung", &[("IN_SHUTDOWN", "for (;;) { }")]).unwrap();
+    let limits = Limits {
+        start_ms: 300,
+        ..limits()
+    };
+    let source = foreign(&library, limits);
+    assert_eq!(trial(&source, 2), Err(Failure::Hung { limit_ms: 300 }));
+    assert_eq!(source.between_trials(), []);
 }
 
 #[test]

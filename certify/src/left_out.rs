@@ -1,0 +1,246 @@
+//! This file puts physics that the thesis leaves out into the fixed-step plant and its sensors.
+
+use rigproof_impl::plant::Parameters;
+use rigproof_impl::plant::effect::{Asked, Law};
+use rigproof_impl::vector::Vector;
+use rigproof_model::motion::added_mass;
+use rigproof_spec::effect::Mechanism;
+use rigproof_spec::inertia::{ArmInertia, Inertia};
+use rigproof_spec::joint::Joint;
+use rigproof_spec::tables::BrakeTable;
+use rigproof_spec::units::deg_from_rad;
+use serde::{Deserialize, Serialize};
+
+/// A mechanism of the library with its numbers, in the vocabulary's order and units, at a joint or of the whole rig.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Written", into = "Written")]
+pub struct LeftOut {
+    /// The mechanism.
+    pub mechanism: Mechanism,
+    /// The joint; `None` where it has none.
+    pub joint: Option<Joint>,
+    /// Its numbers.
+    pub parameters: Vec<f64>,
+}
+
+/// As it stands in files.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Written {
+    mechanism: String,
+    joint: Option<String>,
+    parameters: Vec<f64>,
+}
+
+impl From<LeftOut> for Written {
+    fn from(own: LeftOut) -> Written {
+        Written {
+            mechanism: own.mechanism.name().to_owned(),
+            joint: own.joint.map(|joint| joint.letter().to_owned()),
+            parameters: own.parameters,
+        }
+    }
+}
+
+impl TryFrom<Written> for LeftOut {
+    type Error = String;
+
+    fn try_from(written: Written) -> Result<LeftOut, String> {
+        let mechanism = Mechanism::from_name(&written.mechanism)
+            .ok_or_else(|| format!("`{}` is no mechanism", written.mechanism))?;
+        let joint = |letter: String| {
+            Joint::from_letter(&letter).ok_or_else(|| format!("`{letter}` is no joint"))
+        };
+        Ok(LeftOut {
+            mechanism,
+            joint: written.joint.map(joint).transpose()?,
+            parameters: written.parameters,
+        })
+    }
+}
+
+/// What the fixed-step plant and its sensors have.
+pub const KNOWN: [Mechanism; 22] = [
+    Mechanism::DryOffset,
+    Mechanism::BearingFriction,
+    Mechanism::Viscous,
+    Mechanism::DirectionAsymmetry,
+    Mechanism::Stribeck,
+    Mechanism::ReversalOvershoot,
+    Mechanism::Presliding,
+    Mechanism::Hysteresis,
+    Mechanism::Settling,
+    Mechanism::Ripple,
+    Mechanism::Spring,
+    Mechanism::NonlinearSpring,
+    Mechanism::ConstantBias,
+    Mechanism::BiasDrift,
+    Mechanism::GainError,
+    Mechanism::BacklashWidth,
+    Mechanism::Payload,
+    Mechanism::InertiaError,
+    Mechanism::EncoderScale,
+    Mechanism::EncoderOffset,
+    Mechanism::ForceGain,
+    Mechanism::ForceBias,
+];
+
+/// What a mechanism changes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// What resists at a joint.
+    Resistance,
+    /// The numbers of a brake.
+    Brake,
+    /// Masses.
+    Masses,
+    /// What an encoder says.
+    Encoder,
+    /// What the force sensor says.
+    Force,
+}
+
+impl Role {
+    /// Whether it acts at a joint.
+    pub const fn needs_joint(self) -> bool {
+        matches!(self, Role::Resistance | Role::Brake | Role::Encoder)
+    }
+}
+
+/// What a mechanism changes; `None` where neither the plant nor its sensors have it.
+pub fn role(mechanism: Mechanism) -> Option<Role> {
+    if !KNOWN.contains(&mechanism) {
+        return None;
+    }
+    Some(match mechanism {
+        Mechanism::GainError | Mechanism::BacklashWidth => Role::Brake,
+        Mechanism::Payload | Mechanism::InertiaError => Role::Masses,
+        Mechanism::EncoderScale | Mechanism::EncoderOffset => Role::Encoder,
+        Mechanism::ForceGain | Mechanism::ForceBias => Role::Force,
+        _ => Role::Resistance,
+    })
+}
+
+impl LeftOut {
+    fn number(&self, index: usize) -> f64 {
+        self.parameters.get(index).copied().unwrap_or(0.0)
+    }
+
+    /// Whether it neither stores energy nor gives any.
+    pub fn is_passive(&self) -> bool {
+        match (role(self.mechanism), self.mechanism) {
+            (Some(Role::Resistance), Mechanism::DryOffset | Mechanism::BearingFriction) => true,
+            (Some(Role::Resistance), Mechanism::Viscous) => self.number(0) >= 0.0,
+            // With a travel it remembers.
+            (Some(Role::Resistance), Mechanism::Stribeck) => self.parameters.len() == 3,
+            (Some(Role::Resistance), _) | (None, _) => false,
+            _ => true,
+        }
+    }
+
+    /// The angle that an encoder shows of a joint's, rad.
+    pub fn shown_rad(&self, joint: Joint, angle_rad: f64) -> f64 {
+        match self.mechanism {
+            Mechanism::EncoderScale if self.joint == Some(joint) => {
+                angle_rad * (1.0 + self.number(0))
+            }
+            Mechanism::EncoderOffset if self.joint == Some(joint) => angle_rad + self.number(0),
+            _ => angle_rad,
+        }
+    }
+
+    /// The force that the sensor shows of one, N.
+    pub fn shown_n(&self, force_n: Vector<f64>) -> Vector<f64> {
+        match self.mechanism {
+            Mechanism::ForceGain => force_n * (1.0 + self.number(0)),
+            Mechanism::ForceBias => force_n + Vector::new(self.number(0), self.number(1)),
+            _ => force_n,
+        }
+    }
+}
+
+/// The resistances, as the plant is asked for them. A bearing's is dry friction.
+pub fn asked(left_out: &[LeftOut]) -> Vec<Asked<'_>> {
+    let resistances = left_out
+        .iter()
+        .filter(|one| role(one.mechanism) == Some(Role::Resistance));
+    let each = resistances.filter_map(|one| {
+        Some(Asked {
+            joint: one.joint?,
+            mechanism: match one.mechanism {
+                Mechanism::BearingFriction => Mechanism::DryOffset,
+                other => other,
+            },
+            parameters: &one.parameters,
+        })
+    });
+    each.collect()
+}
+
+/// Puts brakes and masses into what a plant is made of; `None` where a brake is not there or a resistance is no law.
+pub fn change(parameters: &mut Parameters, left_out: &[LeftOut]) -> Option<()> {
+    for one in left_out {
+        match role(one.mechanism)? {
+            Role::Brake => {
+                let table = parameters.brakes.get_mut(one.joint? as usize)?.as_mut()?;
+                match one.mechanism {
+                    Mechanism::GainError => scale_torque(table, 1.0 + one.number(0)),
+                    _ => table.backlash_width_deg = deg_from_rad(one.number(0)),
+                }
+            }
+            Role::Masses => {
+                let more = match one.mechanism {
+                    Mechanism::Payload => added_mass::at_tip(one.number(0)),
+                    _ => added_mass::in_all(
+                        &parameters.inertia,
+                        [0, 1, 2, 3, 4].map(|index| one.number(index)),
+                    ),
+                };
+                parameters.inertia = sum(&parameters.inertia, &more);
+            }
+            Role::Resistance => {
+                // A lag or a gain of the current is no resistance.
+                let own = match one.mechanism {
+                    Mechanism::BearingFriction => Mechanism::DryOffset,
+                    other => other,
+                };
+                Law::new(own, &one.parameters)?;
+            }
+            Role::Encoder => {
+                matches!(one.joint, Some(Joint::A | Joint::B)).then_some(())?;
+            }
+            Role::Force => {}
+        }
+    }
+    Some(())
+}
+
+/// Makes a brake's torque greater by a factor, with and without current.
+pub fn scale_torque(table: &mut BrakeTable, factor: f64) {
+    let gain = &mut table.torque_gain;
+    for k in [
+        &mut gain.k_1,
+        &mut gain.k_2,
+        &mut gain.k_3,
+        &mut gain.k_4,
+        &mut gain.k_5,
+    ] {
+        *k *= factor;
+    }
+}
+
+/// Masses with what is added to them; centres of mass stay.
+fn sum(own: &Inertia, more: &Inertia) -> Inertia {
+    let arm = |own: &ArmInertia, more: &ArmInertia| ArmInertia {
+        mass_kg: own.mass_kg + more.mass_kg,
+        inertia_kg_m2: own.inertia_kg_m2 + more.inertia_kg_m2,
+        centre_m: own.centre_m,
+    };
+    Inertia {
+        ae: arm(&own.ae, &more.ae),
+        ed: arm(&own.ed, &more.ed),
+        bc: arm(&own.bc, &more.bc),
+        cd: arm(&own.cd, &more.cd),
+        payload_kg: own.payload_kg + more.payload_kg,
+    }
+}
