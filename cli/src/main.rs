@@ -16,6 +16,7 @@ mod identify;
 mod input;
 mod inspect;
 mod outcome;
+mod page;
 mod picture;
 mod progress;
 mod reading;

@@ -42,8 +42,13 @@ impl Desk {
 
     /// Runs the program with the words of a command line.
     pub fn rigproof(&self, line: &str) -> Output {
+        self.runs(&line.split_whitespace().collect::<Vec<_>>())
+    }
+
+    /// Runs the program with these words, which may hold spaces.
+    pub fn runs(&self, words: &[&str]) -> Output {
         let mut command = Command::new(env!("CARGO_BIN_EXE_rigproof"));
-        let command = command.args(line.split_whitespace());
+        let command = command.args(words);
         command.current_dir(self.folder.path()).output().unwrap()
     }
 
