@@ -10,7 +10,7 @@ use serde_json::json;
 
 use crate::blind::{FILES, contents, in_words};
 use crate::outcome::{Failure, Outcome, print};
-use crate::{folder, input, progress, text};
+use crate::{folder, input, page, progress, shell, text};
 
 /// What is to be shown.
 #[derive(clap::Args)]
@@ -64,7 +64,11 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
         folder.write(name, bytes)?;
     }
     let mut written: Vec<&str> = FILES.to_vec();
-    written.extend(folder::write(&folder, &rig.name, &mut diagnosis)?);
+    let beside = page::Beside {
+        next: Some(next(&args.out)),
+        ..page::Beside::default()
+    };
+    written.extend(folder::write(&folder, &rig.name, &mut diagnosis, beside)?);
     folder.finish()?;
 
     let report = serde_json::to_value(&diagnosis.report)
@@ -87,9 +91,27 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
                 in_words(&answer, &report, &score),
             ],
             text::section("Files", paths),
+            text::section(
+                "Look at it in a browser",
+                [format!("  {}", args.out.join(folder::PAGE).display())],
+            ),
         ]))?;
     }
     Ok(Outcome {
         checks_hold: score.exact && text::holds(&diagnosis.report),
     })
+}
+
+/// The command that shows what the calibration is worth.
+fn next(out: &Path) -> String {
+    let [recording, rig, _] = FILES;
+    let at = |name: &str| out.join(name);
+    shell::line(
+        &["rigproof", "simulate"],
+        &[
+            ("", &at(recording)),
+            ("--rig", &at(rig)),
+            ("--calibration", &at(folder::CALIBRATION)),
+        ],
+    )
 }

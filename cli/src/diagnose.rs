@@ -11,7 +11,7 @@ use rigproof_trace::store::Folder;
 
 use crate::input::{self, Cut, Source};
 use crate::outcome::{Failure, Outcome, print};
-use crate::{folder, progress, shell, text, threads};
+use crate::{folder, page, progress, shell, text, threads};
 
 /// What is to be diagnosed.
 #[derive(clap::Args)]
@@ -86,9 +86,15 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     diagnosis.report.inputs = given.identities;
     diagnosis.report.protocol.extend(given.read_as);
     let folder = Folder::begin(&out)?;
-    let files = folder::write(&folder, rig.name(), &mut diagnosis)?;
+    let next = next(&args.source.rig, &out, &given.shown_on, &diagnosis.report);
+    let shown = given.held_out.as_ref().or(given.recordings.last());
+    let beside = page::Beside {
+        replay: page::replay(&rig, &diagnosis, shown),
+        next: Some(next.clone()),
+    };
+    let files = folder::write(&folder, rig.name(), &mut diagnosis, beside)?;
     folder.finish()?;
-    say(args, (&out, &given.shown_on), &files, &diagnosis)?;
+    say(args, (&out, &next), &files, &diagnosis)?;
     Ok(Outcome {
         checks_hold: text::holds(&diagnosis.report),
     })
@@ -180,7 +186,7 @@ fn calibrate(
 
 fn say(
     args: &Args,
-    (out, shown_on): (&Path, &PathBuf),
+    (out, next): (&Path, &str),
     files: &[&str],
     diagnosis: &Diagnosis,
 ) -> Result<Outcome, Failure> {
@@ -193,13 +199,7 @@ fn say(
     print(&text::join([
         vec![text::report(&diagnosis.report)],
         text::section("Files", paths),
-        text::section(
-            "Next",
-            [format!(
-                "  {}",
-                next(&args.source.rig, out, shown_on, &diagnosis.report)
-            )],
-        ),
+        text::section("Next", [format!("  {next}")]),
     ]))
 }
 

@@ -5,10 +5,13 @@ use rigproof_trace::csv;
 use rigproof_trace::store::Folder;
 
 use crate::outcome::Failure;
+use crate::page::{self, Beside};
 use crate::picture;
 
 /// The report's file.
 pub const REPORT: &str = "report.json";
+/// The page that a person looks at.
+pub const PAGE: &str = "report.html";
 /// The calibrated model's file.
 pub const CALIBRATION: &str = "calibration.toml";
 /// The file of the experiment that tells rival explanations apart.
@@ -16,7 +19,7 @@ pub const EXPERIMENT: &str = "next-experiment.csv";
 
 /// Writes the files of a diagnosis, enters the calibration into the report, and gives their names.
 ///
-/// After a fault there is only the report: nothing was fitted and nothing can be drawn.
+/// After a fault there are only the report and its page: nothing was fitted and nothing can be drawn.
 ///
 /// # Errors
 /// The system refuses.
@@ -24,8 +27,9 @@ pub fn write(
     folder: &Folder,
     rig_name: &str,
     diagnosis: &mut Diagnosis,
+    beside: Beside,
 ) -> Result<Vec<&'static str>, Failure> {
-    let mut files = vec![REPORT];
+    let mut files = vec![PAGE, REPORT];
     if diagnosis.report.fit.is_some() {
         diagnosis.report.calibration_file = Some(CALIBRATION.to_owned());
         folder.write(CALIBRATION, diagnosis.calibration.to_toml().as_bytes())?;
@@ -50,6 +54,8 @@ pub fn write(
         folder.write(EXPERIMENT, &bytes)?;
         files.push(EXPERIMENT);
     }
+    let page = page::diagnosis(rig_name, diagnosis, beside);
+    folder.write(PAGE, page.as_bytes())?;
     folder.write(REPORT, (json(diagnosis)? + "\n").as_bytes())?;
     Ok(files)
 }

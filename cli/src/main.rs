@@ -19,6 +19,7 @@ mod inspect;
 mod man;
 mod new;
 mod outcome;
+mod page;
 mod picture;
 mod progress;
 mod reading;

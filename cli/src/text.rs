@@ -4,10 +4,10 @@ mod fit;
 pub mod found;
 mod limits;
 mod next;
-pub mod number;
 mod trust;
 
 use rigproof_diagnose::report::{Report, Verdict};
+pub use rigproof_report::number;
 
 /// The report in sections; one that has nothing to say is left out.
 pub fn report(report: &Report) -> String {

@@ -78,6 +78,8 @@ pub struct Curves {
     pub unit: String,
     /// Window times of the fitted part, s.
     pub window_time_s: Vec<f64>,
+    /// Which windows count in the naming: at rest and across a reversal they do not.
+    pub window_counts: Vec<bool>,
     /// Residual effort with the nominal model.
     pub residual_before: Vec<f64>,
     /// Residual effort with the named mechanisms.
@@ -86,6 +88,21 @@ pub struct Curves {
     pub floor: f64,
     /// Unit of the residual.
     pub residual_unit: String,
+    /// The same output on the part that was fitted.
+    pub fitted: FittedCurves,
+}
+
+/// Recorded output and both models on the part that was fitted; empty where it was not asked for.
+#[derive(Clone, Debug, Default)]
+pub struct FittedCurves {
+    /// Time stamps, s.
+    pub time_s: Vec<f64>,
+    /// Recorded output; not a number where it does not count.
+    pub recorded: Vec<f64>,
+    /// Output of the nominal model.
+    pub before: Vec<f64>,
+    /// Output with the named mechanisms.
+    pub after: Vec<f64>,
 }
 
 /// Fewest windows from which anything can be said.

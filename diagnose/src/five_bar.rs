@@ -17,6 +17,7 @@ pub mod noise;
 mod protocol;
 #[cfg(test)]
 mod recorded;
+pub mod replay;
 pub(crate) mod replica;
 pub mod run;
 #[cfg(test)]

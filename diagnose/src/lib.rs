@@ -35,5 +35,5 @@ mod weak;
 mod whiten;
 mod write_rig;
 
-pub use diagnose::{Curves, Description, Diagnosis, Measured, Options, diagnose};
+pub use diagnose::{Curves, Description, Diagnosis, FittedCurves, Measured, Options, diagnose};
 pub use select::Gates;

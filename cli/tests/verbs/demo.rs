@@ -35,6 +35,7 @@ fn the_hidden_causes_are_named_and_the_model_is_calibrated() {
             "before-after.svg",
             "calibration.toml",
             "recording.csv",
+            "report.html",
             "report.json",
             "residual.svg",
             "rig.toml",
@@ -78,6 +79,7 @@ fn the_commitment_is_printed_before_anything_is_named() {
         "Hidden (masked)",
         "Named (explained)",
         "rigproof-demo/before-after.svg",
+        "Look at it in a browser\n  rigproof-demo/report.html",
     ];
     assert!(places.windows(2).all(|pair| at(pair[0]) < at(pair[1])));
 }

@@ -47,9 +47,17 @@ impl Desk {
 
     /// The same in a folder of its own.
     pub fn rigproof_in(&self, folder: &Path, line: &str) -> Output {
+        self.run(folder, &line.split_whitespace().collect::<Vec<_>>())
+    }
+
+    /// Runs the program with these words, which may hold spaces.
+    pub fn runs(&self, words: &[&str]) -> Output {
+        self.run(self.folder.path(), words)
+    }
+
+    fn run(&self, folder: &Path, words: &[&str]) -> Output {
         let mut command = Command::new(env!("CARGO_BIN_EXE_rigproof"));
-        let command = command.args(line.split_whitespace());
-        command.current_dir(folder).output().unwrap()
+        command.args(words).current_dir(folder).output().unwrap()
     }
 
     /// Runs it and gives what it prints; nothing may stand on the error stream of a pipe.

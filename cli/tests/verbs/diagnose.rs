@@ -32,6 +32,7 @@ fn a_hidden_cause_is_named_and_shown_on_another_recording() {
             ".rigproof",
             "before-after.svg",
             "calibration.toml",
+            "report.html",
             "report.json",
             "residual.svg"
         ]
@@ -147,7 +148,10 @@ fn a_faulty_recording_ends_in_a_report_and_nothing_else() {
         text.contains("cut the fault away with --from-s and --to-s"),
         "{text}"
     );
-    assert_eq!(desk.names("found"), [".rigproof", "report.json"]);
+    assert_eq!(
+        desk.names("found"),
+        [".rigproof", "report.html", "report.json"]
+    );
     let report: serde_json::Value = serde_json::from_str(&desk.read("found/report.json")).unwrap();
     assert_shape(&report);
     let fault = &report["fault"];

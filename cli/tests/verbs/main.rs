@@ -2,6 +2,7 @@
 
 mod bad_diagnosis;
 mod blind;
+mod browser;
 mod certify;
 mod cite;
 mod controller;

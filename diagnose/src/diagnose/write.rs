@@ -2,7 +2,7 @@
 
 use super::ended::blank;
 use super::words::summary;
-use super::{Curves, Description, Diagnosis, Options};
+use super::{Curves, Description, Diagnosis, FittedCurves, Options};
 use crate::evidence::{inclusion, not_seen, null_directions, rivals, standard_errors};
 use crate::from_rig;
 use crate::locate::locate;
@@ -223,22 +223,33 @@ impl Stand<'_> {
 
     fn curves(&self, before: &Plant, after: &Plant, protocol: &Protocol) -> Curves {
         let run = self.test;
+        let times = |run: &Run| -> Vec<f64> {
+            let all = 0..run.len();
+            all.map(|k| run.start_s + k as f64 * run.step_s).collect()
+        };
+        let recorded = |run: &Run| match run.plant {
+            PlantKind::Axis => run.position.clone(),
+            PlantKind::Bench => run.effort.clone(),
+        };
+        let fitted = FittedCurves {
+            time_s: times(self.train),
+            recorded: recorded(self.train),
+            before: output(before, self.train, protocol),
+            after: output(after, self.train, protocol),
+        };
         Curves {
-            time_s: (0..run.len())
-                .map(|k| run.start_s + k as f64 * run.step_s)
-                .collect(),
+            fitted,
+            time_s: times(run),
             output: match run.plant {
                 PlantKind::Axis => "position",
                 PlantKind::Bench => "metered effort",
             },
-            recorded: match run.plant {
-                PlantKind::Axis => run.position.clone(),
-                PlantKind::Bench => run.effort.clone(),
-            },
+            recorded: recorded(run),
             before: output(before, run, protocol),
             after: output(after, run, protocol),
             unit: self.output_unit(),
             window_time_s: self.problem.windows.times_s(),
+            window_counts: self.problem.windows.usable.clone(),
             residual_before: self.selection.before.residual.clone(),
             residual_after: self.selection.after.residual.clone(),
             floor: self.problem.floor,

@@ -12,7 +12,7 @@ use crate::candidates::realise;
 use crate::diagnose::ended::{blank, faulty, not_excited};
 use crate::diagnose::words::summary;
 use crate::diagnose::write::{floor, verdict};
-use crate::diagnose::{Curves, Description, Diagnosis, FEWEST_WINDOWS, Options};
+use crate::diagnose::{Curves, Description, Diagnosis, FEWEST_WINDOWS, FittedCurves, Options};
 use crate::evidence::{
     coefficients_by_term, inclusion, inconstant, is_told_by_itself, not_seen, rivals,
     standard_errors,
@@ -209,8 +209,11 @@ impl Stand<'_> {
         let test = self.balanced(self.test, self.test_from_s);
         let errors = standard_errors(problem, selection);
         let calibration = self.calibrated(&errors);
-        let fit = (self.options.refit && self.test_from_s < self.test.duration_s())
-            .then(|| self.fit_report(&test, &calibration, other_recording));
+        let asked = self.options.refit && self.test_from_s < self.test.duration_s();
+        let train = asked.then(|| self.balanced(self.train, 0.0));
+        let fit = train
+            .as_ref()
+            .map(|train| self.fit_report((train, &test), &calibration, other_recording));
         let (next_experiment, experiment) = match self.options.next_experiment {
             true => experiment::next(self, &rivals).unzip(),
             false => (None, None),
@@ -236,7 +239,7 @@ impl Stand<'_> {
             floor: Some(floor.clone()),
             ..blank("rig", verdict, summary)
         };
-        let curves = self.curves(test, floor.unit);
+        let curves = self.curves(train, test, floor.unit);
         Diagnosis {
             report,
             calibration: Description::FiveBar(calibration),
@@ -333,12 +336,12 @@ impl Stand<'_> {
 
     fn fit_report(
         &self,
-        test: &Balanced,
+        (train, test): (&Balanced, &Balanced),
         calibration: &FiveBar,
         other_recording: bool,
     ) -> FitReport {
         let (horizon, free_runs) = self.free_runs(calibration);
-        let train = before_after(&self.balanced(self.train, 0.0));
+        let train = before_after(train);
         let held_out = before_after(test);
         let least = self.problem.floor;
         let where_from = if other_recording {
@@ -387,7 +390,7 @@ impl Stand<'_> {
     }
 
     /// The held-out balance and the residual of the output in which more was unexplained; not a number where a window does not count.
-    fn curves(&self, test: Balanced, unit: String) -> Curves {
+    fn curves(&self, train: Option<Balanced>, test: Balanced, unit: String) -> Curves {
         let counted = |values: &[f64], usable: &[bool]| -> Vec<f64> {
             let pairs = values.iter().zip(usable);
             pairs.map(|(v, u)| if *u { *v } else { f64::NAN }).collect()
@@ -406,18 +409,27 @@ impl Stand<'_> {
         let of = |values: &[f64]| -> Vec<f64> {
             values.iter().skip(output).step_by(2).copied().collect()
         };
+        let shown = |own: &Balanced| FittedCurves {
+            time_s: of(&own.times_s),
+            recorded: of(&counted(&own.recorded, &own.whole)),
+            before: of(&counted(&own.before, &own.whole)),
+            after: of(&counted(&own.after, &own.whole)),
+        };
+        let held_out = shown(&test);
         Curves {
-            time_s: of(&test.times_s),
+            fitted: train.as_ref().map(shown).unwrap_or_default(),
+            time_s: held_out.time_s,
             output: if output == 0 {
                 "effort on arm AE (θA)"
             } else {
                 "effort on arm BC (θB)"
             },
-            recorded: of(&counted(&test.recorded, &test.whole)),
-            before: of(&counted(&test.before, &test.whole)),
-            after: of(&counted(&test.after, &test.whole)),
+            recorded: held_out.recorded,
+            before: held_out.before,
+            after: held_out.after,
             unit: unit.clone(),
             window_time_s: of(&self.problem.windows.times_s()),
+            window_counts: usable.iter().skip(output).step_by(2).copied().collect(),
             residual_before: of(&before),
             residual_after: of(&after),
             floor: self.problem.floor,

@@ -1,0 +1,63 @@
+//! This file makes the page of a diagnosis from what the command line has at hand.
+
+use rigproof_diagnose::five_bar::replay::{Frame, RESTART_S, replayed};
+use rigproof_diagnose::{Description, Diagnosis, Measured};
+use rigproof_report::chart::rounded;
+use rigproof_report::diagnosis::{Diagnosed, page};
+use rigproof_report::replay::{Replay, Way};
+
+/// What a page shows beside the diagnosis.
+#[derive(Default)]
+pub struct Beside {
+    /// The linkage that moves, of a five-bar.
+    pub replay: Option<Replay>,
+    /// What to do now.
+    pub next: Option<String>,
+}
+
+/// The page as HTML.
+pub fn diagnosis(rig_name: &str, diagnosis: &Diagnosis, beside: Beside) -> String {
+    page(Diagnosed {
+        rig: rig_name,
+        report: &diagnosis.report,
+        curves: &diagnosis.curves,
+        replay: beside.replay,
+        next: beside.next.as_deref(),
+    })
+}
+
+/// The replay of a five-bar's recording; nothing on another plant, and where nothing was fitted.
+pub fn replay(
+    rig: &Description,
+    diagnosis: &Diagnosis,
+    shown: Option<&Measured>,
+) -> Option<Replay> {
+    diagnosis.report.fit.as_ref()?;
+    let (Description::FiveBar(before), Description::FiveBar(after), Measured::FiveBar(recording)) =
+        (rig, &diagnosis.calibration, shown?)
+    else {
+        return None;
+    };
+    let own = replayed(before, after, recording)?;
+    let way = |name: &str, role, frames: Vec<Frame>| Way {
+        name: name.to_owned(),
+        role,
+        frames: frames
+            .into_iter()
+            .map(|frame| Some(frame?.map(|x| rounded(x, 5))))
+            .collect(),
+    };
+    Some(Replay {
+        time_s: own.time_s.iter().map(|t| rounded(*t, 6)).collect(),
+        a: own.point_a_m,
+        b: own.point_b_m,
+        ways: vec![
+            way("recorded", "recorded", own.recorded),
+            way("old model", "old", own.before),
+            way("new model", "new", own.after),
+        ],
+        protocol: format!(
+            "Every {RESTART_S} s both models are let go from the recorded state and then know nothing but the recorded forces and currents: nothing holds them where the hand did. The old model has the numbers of the rig file, the new one those of the calibration."
+        ),
+    })
+}

@@ -1,0 +1,85 @@
+//! This file opens the pages that the program writes in a real browser and uses them.
+//!
+//! It needs a folder with the packages of `report/browser/package-lock.json`, named by `RIGPROOF_BROWSER`, and Chromium (`RIGPROOF_CHROMIUM`, else `/usr/bin/chromium`);
+//! `.ci/run` sets both up. Without the first it passes over itself with a printed line; with it everything is required.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::desk::Desk;
+
+/// The folder with the browser's client; nothing where the tests are not asked for.
+fn tools() -> Option<PathBuf> {
+    let folder = std::env::var_os("RIGPROOF_BROWSER").map(PathBuf::from);
+    if folder.is_none() {
+        println!("passed over: RIGPROOF_BROWSER names no folder with the browser's client");
+    }
+    folder
+}
+
+/// Runs `check.mjs` on pages; it looks for its packages beside itself.
+fn holds(tools: &Path, desk: &Desk, pages: &[&str]) {
+    let check = tools.join("check.mjs");
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("../report/browser/check.mjs");
+    std::fs::copy(&source, &check).unwrap();
+    let chromium =
+        std::env::var_os("RIGPROOF_CHROMIUM").unwrap_or_else(|| "/usr/bin/chromium".into());
+    let pages = pages.iter().map(|page| desk.path(page));
+    let answer = Command::new("node")
+        .arg(&check)
+        .arg(chromium)
+        .args(pages)
+        .output()
+        .unwrap();
+    let words = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    assert!(
+        answer.status.success(),
+        "{}{}",
+        words(&answer.stdout),
+        words(&answer.stderr)
+    );
+    println!("{}", words(&answer.stdout));
+}
+
+/// What would run if a name that comes out of a file were not escaped.
+const HOSTILE: &str =
+    "</script><img src=x onerror=window.hacked=1><script>window.hacked=1</script>";
+
+#[test]
+fn pages_hold_in_a_browser() {
+    let Some(tools) = tools() else { return };
+    let desk = Desk::new();
+    desk.prints("demo", 0);
+    desk.prints("blind make --plant rig --seed 9 --out case", 0);
+    desk.prints(
+        "diagnose case/recording.csv --rig case/rig.toml --out found",
+        0,
+    );
+    // The same recording with names that attack, and one that cannot be used.
+    let rig = desk.read("rigproof-demo/rig.toml");
+    let named = rig.replacen("blind axis 48", HOSTILE, 1);
+    assert_ne!(named, rig);
+    desk.put("hostile.toml", &named);
+    let recording = desk.read("rigproof-demo/recording.csv");
+    desk.put("<img src=x onerror=window.hacked=1>.csv", &recording);
+    let line = [
+        "diagnose",
+        "<img src=x onerror=window.hacked=1>.csv",
+        "--rig",
+        "hostile.toml",
+        "--out",
+        "hostile",
+    ];
+    assert_eq!(desk.runs(&line).status.code(), Some(0));
+    let short: Vec<&str> = recording.lines().take(40).collect();
+    desk.put("short.csv", &short.join("\n"));
+    assert_eq!(
+        desk.rigproof("diagnose short.csv --rig hostile.toml --out short")
+            .status
+            .code(),
+        Some(1)
+    );
+    let pages = ["rigproof-demo", "found", "hostile", "short"]
+        .map(|folder| format!("{folder}/report.html"));
+    holds(&tools, &desk, &pages.each_ref().map(String::as_str));
+}

@@ -1,0 +1,250 @@
+// Opens pages in a real browser and uses them as a person does: `node check.mjs CHROMIUM PAGE…`. Ends with 1 and a line for each thing that does not hold.
+import { mkdtemp, readFile, readdir, rm } from 'node:fs/promises';
+import { createRequire } from 'node:module';
+import { tmpdir } from 'node:os';
+import { basename, dirname, join, resolve } from 'node:path';
+import { pathToFileURL } from 'node:url';
+import puppeteer from 'puppeteer-core';
+
+const [executablePath, ...pages] = process.argv.slice(2);
+const axeSource = await readFile(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+const shots = process.env.RIGPROOF_SCREENSHOTS;
+const failures = [];
+let checks = 0;
+const holds = (page, what, condition) => {
+  checks += 1;
+  if (!condition) failures.push(`${page}: ${what}`);
+};
+
+async function check(file) {
+  const name = `${basename(dirname(resolve(file)))}-${basename(file, '.html')}`;
+  const page = await browser.newPage();
+  const requests = [];
+  page.on('console', (message) => holds(name, `console: ${message.text()}`, message.type() !== 'error' && (message.type() !== 'warn' || /willReadFrequently/.test(message.text()))));
+  page.on('pageerror', (error) => holds(name, `error: ${error.message}`, false));
+  page.on('request', (request) => requests.push(request.url()));
+  await page.setOfflineMode(true);
+  await page.setViewport({ width: 1280, height: 900 });
+  await page.emulateMediaFeatures([{ name: 'prefers-color-scheme', value: 'light' }]);
+  const url = pathToFileURL(resolve(file)).href;
+  await page.goto(url, { waitUntil: 'load' });
+  await settled(page);
+  holds(name, 'a headline', (await page.$eval('h1', (h1) => h1.textContent.trim().length)) > 20);
+  holds(name, 'a script of a file ran', (await page.evaluate(() => window.hacked)) === undefined);
+  await picture(page, `${name}-light`);
+  await charts(page, name);
+  await replay(page, name);
+  await saves(page, name);
+  await keyboard(page, name);
+  await accessible(page, `${name}, light`);
+  await dark(page, name);
+  await accessible(page, `${name}, dark`);
+  await phone(page, name);
+  await paper(page, name);
+  const away = requests.filter((request) => request !== url && !/^(data|blob):/.test(request));
+  holds(name, `requests leave the page: ${away.join(' ')}`, away.length === 0);
+  await page.close();
+}
+
+// Two frames: what was asked for is drawn.
+async function settled(page) {
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+}
+
+async function picture(page, name, fullPage = true) {
+  if (shots) await page.screenshot({ path: join(shots, `${name}.png`), fullPage });
+}
+
+// Pixels of a chart in the colours of its curves.
+const inked = (id) => {
+  const { plot, spec } = rigproof.charts[id];
+  const { canvas } = plot.ctx;
+  const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+  const colours = [...new Set(spec.series.map((own) => own.role))].map((role) => rigproof.colour(role).match(/[0-9a-f]{2}/gi).map((own) => parseInt(own, 16)));
+  let count = 0;
+  for (let k = 0; k < data.length; k += 4) {
+    count += data[k + 3] > 200 && colours.some((own) => own.every((part, j) => Math.abs(part - data[k + j]) < 30)) ? 1 : 0;
+  }
+  return count;
+};
+const scale = (id) => {
+  const { min, max } = rigproof.charts[id].plot.scales.x;
+  return [min, max];
+};
+
+async function charts(page, name) {
+  const ids = await page.evaluate(() => Object.keys(rigproof.charts));
+  const places = await page.$$eval('.plot', (plots) => plots.length);
+  holds(name, 'every chart has its place', ids.length === places);
+  for (const id of ids) {
+    const full = await page.evaluate(inked, id);
+    await page.evaluate((id) => { const { plot } = rigproof.charts[id]; plot.batch(() => plot.series.forEach((own, k) => k && plot.setSeries(k, { show: false }))); }, id);
+    await settled(page);
+    const blank = await page.evaluate(inked, id);
+    await page.evaluate((id) => { const { plot } = rigproof.charts[id]; plot.batch(() => plot.series.forEach((own, k) => k && plot.setSeries(k, { show: true }))); }, id);
+    await settled(page);
+    holds(name, `chart ${id} is empty: ${full} pixels, ${blank} without its curves`, full > blank + 150);
+  }
+  const linked = await page.evaluate(() => Object.values(rigproof.charts).filter((own) => own.spec.sync).map((own) => own.spec.id));
+  if (linked.length === 0) return;
+  const [first] = linked;
+  const whole = await page.evaluate(scale, first);
+  const over = await page.$(`#plot-${first} .u-over`);
+  await over.scrollIntoView();
+  const box = await over.boundingBox();
+  const [left, right, middle] = [box.x + 0.3 * box.width, box.x + 0.6 * box.width, box.y + box.height / 2];
+  await page.mouse.move(left, middle);
+  await page.mouse.down();
+  await page.mouse.move((left + right) / 2, middle, { steps: 4 });
+  await page.mouse.move(right, middle, { steps: 4 });
+  await page.mouse.up();
+  await settled(page);
+  const zoomed = await page.evaluate(scale, first);
+  const share = (zoomed[1] - zoomed[0]) / (whole[1] - whole[0]);
+  holds(name, `dragging zooms: ${share}`, share > 0.2 && share < 0.4);
+  for (const id of linked) holds(name, `${id} is zoomed with ${first}`, String(await page.evaluate(scale, id)) === String(zoomed));
+  await page.mouse.move(left, middle);
+  await settled(page);
+  const values = await page.$$eval(`#plot-${first} .u-value`, (cells) => cells.map((cell) => cell.textContent));
+  holds(name, `values under the cursor: ${values}`, values.length > 1 && /\d.* s$/.test(values[0]) && values.slice(1).some((value) => /\d/.test(value)));
+  await page.focus(`#plot-${first}`);
+  await page.keyboard.press('0');
+  await settled(page);
+  holds(name, 'the key 0 shows the whole', String(await page.evaluate(scale, first)) === String(whole));
+  await page.keyboard.press('+');
+  await settled(page);
+  const keyed = await page.evaluate(scale, first);
+  holds(name, 'the key + zooms in', Math.abs((keyed[1] - keyed[0]) / (whole[1] - whole[0]) - 0.5) < 1e-6);
+  await page.click(`[data-chart="${first}"][data-do="whole"]`);
+  await settled(page);
+}
+
+async function replay(page, name) {
+  if (!(await page.$('#replay-time'))) return;
+  const arms = () => page.$$eval('#replay-drawing .arms', (all) => all.map((own) => own.getAttribute('points')).join('|'));
+  const before = await arms();
+  await page.focus('#replay-time');
+  for (let k = 0; k < 12; k++) await page.keyboard.press('ArrowRight');
+  const after = await arms();
+  holds(name, 'the slider moves the linkage', before.split('|').every((points) => points.length > 20) && before !== after);
+  holds(name, 'the replay says how far apart', /mm/.test(await page.$eval('#replay-said', (own) => own.textContent)));
+  const at = () => page.$eval('#replay-time', (slider) => Number(slider.value));
+  const from = await at();
+  await page.click('#replay-play');
+  await new Promise((done) => setTimeout(done, 700));
+  await page.click('#replay-play');
+  const to = await at();
+  await new Promise((done) => setTimeout(done, 200));
+  holds(name, `the replay plays and pauses: ${from} to ${to}`, to > from && (await at()) === to);
+}
+
+// Every button that saves, saves a file of the kind that it says.
+async function saves(page, name) {
+  const session = await page.createCDPSession();
+  await session.send('Browser.setDownloadBehavior', { behavior: 'allow', downloadPath: saved });
+  const buttons = await page.$$('[data-do="svg"], [data-do="csv"], [data-save-drawing], [data-save-table], #replay-csv');
+  const figures = await page.$$eval('figure', (all) => all.filter((own) => !own.querySelector('.tools button')).length);
+  holds(name, `${figures} figures cannot be saved`, figures === 0);
+  for (const button of buttons) {
+    const label = await button.evaluate((own) => own.getAttribute('aria-label') ?? own.textContent);
+    const known = new Set(await readdir(saved));
+    await button.evaluate((own) => own.click());
+    let text = '';
+    for (let wait = 0; wait < 60 && text === ''; wait++) {
+      await new Promise((done) => setTimeout(done, 50));
+      const fresh = (await readdir(saved)).filter((entry) => !known.has(entry) && /\.(svg|csv)$/.test(entry));
+      if (fresh.length > 0) text = await readFile(join(saved, fresh[0]), 'utf8');
+    }
+    const fine = /SVG/.test(label) ? await page.evaluate(wellFormed, text) : text.split('\n').length > 2 && /\d/.test(text);
+    holds(name, `${label}: ${text.slice(0, 60)}`, fine);
+  }
+  await session.detach();
+}
+const wellFormed = (text) => {
+  const parsed = new DOMParser().parseFromString(text, 'image/svg+xml');
+  return !parsed.querySelector('parsererror') && parsed.querySelectorAll('path, polyline, circle').length > 2 && !text.includes('var(--');
+};
+
+async function keyboard(page, name) {
+  const wanted = await page.evaluate(() => {
+    const visible = (own) => own.offsetParent !== null && !own.disabled && !own.closest('details:not([open]) > :not(summary)');
+    const all = [...document.querySelectorAll('a[href], button, input, select, summary, .plot[tabindex]')].filter(visible);
+    all.forEach((own, k) => { own.dataset.reach = k; });
+    return all.length;
+  });
+  await page.evaluate(() => { document.activeElement?.blur(); scrollTo(0, 0); });
+  const reached = new Set();
+  let unseen = 0;
+  for (let k = 0; k < wanted + 40; k++) {
+    await page.keyboard.press('Tab');
+    const [place, outline] = await page.evaluate(() => [document.activeElement?.dataset?.reach, getComputedStyle(document.activeElement).outlineStyle]);
+    if (place === undefined || place === null) continue;
+    reached.add(place);
+    unseen += outline === 'none' ? 1 : 0;
+  }
+  holds(name, `the keyboard reaches ${reached.size} of ${wanted} controls`, reached.size === wanted);
+  holds(name, `${unseen} controls do not show that they have the focus`, unseen === 0);
+}
+
+async function accessible(page, name) {
+  await page.evaluate(axeSource);
+  const violations = await page.evaluate(async () => {
+    const result = await axe.run(document, { runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'best-practice'] });
+    return result.violations.map((own) => `${own.id}: ${own.nodes.slice(0, 3).map((node) => node.target.join(' ')).join(', ')}`);
+  });
+  for (const violation of violations) holds(name, `accessibility: ${violation}`, false);
+  checks += 1;
+}
+
+async function dark(page, name) {
+  const look = () => page.evaluate(() => [getComputedStyle(document.body).backgroundColor, ...Object.values(rigproof.charts).map((own) => own.plot.ctx.canvas.toDataURL().length)].join());
+  const light = await look();
+  await page.click('#theme');
+  await settled(page);
+  holds(name, 'dark differs from light', light !== (await look()));
+  await picture(page, `${name}-dark`);
+  await page.click('#theme');
+  await page.emulateMediaFeatures([{ name: 'prefers-color-scheme', value: 'dark' }]);
+  await page.reload({ waitUntil: 'load' });
+  await settled(page);
+  holds(name, 'the system\'s dark is taken over', (await page.evaluate(() => document.documentElement.dataset.theme)) === 'dark');
+}
+
+async function phone(page, name) {
+  await page.setViewport({ width: 375, height: 800, isMobile: true, hasTouch: true, deviceScaleFactor: 2 });
+  await page.emulateMediaFeatures([{ name: 'prefers-color-scheme', value: 'light' }]);
+  await page.reload({ waitUntil: 'load' });
+  await settled(page);
+  const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+  holds(name, `a phone scrolls sideways: ${wide} px of 375`, wide <= 375);
+  await picture(page, `${name}-phone`);
+}
+
+async function paper(page, name) {
+  await page.setViewport({ width: 1280, height: 900 });
+  await page.emulateMediaFeatures([{ name: 'prefers-color-scheme', value: 'dark' }]);
+  await page.reload({ waitUntil: 'load' });
+  await settled(page);
+  const pdf = await page.pdf({ format: 'A4', margin: { top: '12mm', bottom: '12mm', left: '12mm', right: '12mm' }, ...(shots ? { path: join(shots, `${name}.pdf`) } : {}) });
+  holds(name, `a print of ${pdf.length} bytes`, pdf.length > 20000);
+  await page.evaluate(() => dispatchEvent(new Event('beforeprint')));
+  await page.emulateMediaType('print');
+  await settled(page);
+  const back = await page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+  holds(name, `paper is ${back}`, back === 'rgb(255, 255, 255)');
+  const ink = await page.evaluate(() => getComputedStyle(document.querySelector('h1')).color.match(/\d+/g).reduce((sum, own) => sum + Number(own), 0));
+  holds(name, `ink on paper is dark: ${ink}`, ink < 200);
+  await page.emulateMediaType(null);
+}
+
+const browser = await puppeteer.launch({ executablePath, headless: true, args: ['--no-sandbox', '--disable-gpu', '--disable-dev-shm-usage'] });
+const saved = await mkdtemp(join(tmpdir(), 'rigproof-saved-'));
+try {
+  for (const file of pages) await check(file);
+} finally {
+  await browser.close();
+  await rm(saved, { recursive: true, force: true });
+}
+for (const failure of failures) console.error(failure);
+console.log(`${checks} checks on ${pages.length} pages, ${failures.length} do not hold`);
+process.exit(failures.length === 0 ? 0 : 1);

@@ -1,0 +1,110 @@
+//! This file is the page of a diagnosis: what is wrong, where, what it is, how sure that is, before and after, and what to do next.
+
+mod after;
+mod drawing;
+mod headline;
+mod next;
+mod sure;
+mod what;
+mod wherein;
+
+use maud::{Markup, html};
+use rigproof_diagnose::Curves;
+use rigproof_diagnose::report::Report;
+
+use crate::chart::Chart;
+use crate::document::{Document, Section};
+use crate::replay::Replay;
+
+/// A diagnosis as the page needs it.
+pub struct Diagnosed<'a> {
+    /// What people call the rig.
+    pub rig: &'a str,
+    /// What was found.
+    pub report: &'a Report,
+    /// Its curves.
+    pub curves: &'a Curves,
+    /// The linkage that moves, of a five-bar.
+    pub replay: Option<Replay>,
+    /// What to do now: a command, or words.
+    pub next: Option<&'a str>,
+}
+
+/// The page of a diagnosis as HTML.
+pub fn page(diagnosed: Diagnosed) -> String {
+    let (report, curves) = (diagnosed.report, diagnosed.curves);
+    let mut charts = Vec::new();
+    let mut sections = Vec::new();
+    let mut section = |id, heading: &str, body: Option<Markup>| {
+        if let Some(body) = body {
+            let heading = heading.to_owned();
+            sections.push(Section { id, heading, body });
+        }
+    };
+    section(
+        "where",
+        "Where it goes wrong",
+        wherein::body(report, curves, &mut charts),
+    );
+    section("what", "What it is", what::body(report));
+    section("sure", "How sure this is", sure::body(report));
+    let replay = diagnosed.replay;
+    section(
+        "before-and-after",
+        "Before and after",
+        after::body(report, curves, replay.as_ref(), &mut charts),
+    );
+    section(
+        "next",
+        "What would settle it",
+        next::body(report, diagnosed.next),
+    );
+    section("made", "How it was measured", made(report));
+    let headline = headline::headline(report, diagnosed.next);
+    Document {
+        title: format!("{} – {}", headline.sentence, diagnosed.rig),
+        kind: "Diagnosis",
+        about: diagnosed.rig.to_owned(),
+        headline,
+        sections,
+        charts,
+        replay,
+        footer: format!(
+            "Written by {}. This page is one file: it loads nothing and sends nothing.",
+            report.tool
+        ),
+    }
+    .to_html()
+}
+
+/// Adds a chart to the page and gives its place.
+fn place(charts: &mut Vec<Chart>, chart: Chart, caption: &Markup) -> Markup {
+    let figure = chart.figure(caption);
+    charts.push(chart);
+    figure
+}
+
+/// A residual of the windows that count; not a number elsewhere.
+fn counted(curves: &Curves, residual: &[f64]) -> Vec<f64> {
+    let pairs = residual.iter().zip(&curves.window_counts);
+    pairs
+        .map(|(r, counts)| if *counts { *r } else { f64::NAN })
+        .collect()
+}
+
+fn made(report: &Report) -> Option<Markup> {
+    Some(html! {
+        @if !report.inputs.is_empty() {
+            div.scroll { table.grid {
+                caption { "The files that were read." }
+                thead { tr { th scope="col" { "file" } th scope="col" { "SHA-256" } } }
+                tbody { @for input in &report.inputs { tr { th scope="row" { (input.path) } td.sha { (input.sha256) } } } }
+            } }
+        }
+        details {
+            summary { "The protocol, line by line" }
+            ul { @for line in &report.protocol { li { (line) } } }
+        }
+        p.soft { "The plant is: " (report.plant) ". The verdict in the report is " code { (report.verdict.name()) } ": " (report.summary) "." }
+    })
+}

@@ -1,0 +1,321 @@
+//! This file shows recording, old model and new model, and what is left over.
+
+use maud::{Markup, html};
+use rigproof_diagnose::Curves;
+use rigproof_diagnose::report::{FitReport, Report};
+
+use super::{counted, place};
+use crate::chart::{Axis, Chart, Curve, Kind, Span};
+use crate::number::{significant, with_unit};
+use crate::replay::Replay;
+use crate::statistics::{autocorrelation, histogram, normal};
+
+/// Half of the histogram, in units of the noise, and its bars.
+const REACH: f64 = 6.0;
+const BARS: usize = 60;
+/// Lags of the autocorrelation, windows.
+const LAGS: usize = 80;
+
+/// The plots and the replay; nothing where nothing was fitted.
+pub fn body(
+    report: &Report,
+    curves: &Curves,
+    replay: Option<&Replay>,
+    charts: &mut Vec<Chart>,
+) -> Option<Markup> {
+    if curves.time_s.is_empty() && curves.window_time_s.is_empty() {
+        return None;
+    }
+    let mut figures = Vec::new();
+    for (chart, caption) in outputs(curves).into_iter().chain(residuals(curves)) {
+        figures.push(place(charts, chart, &caption));
+    }
+    Some(html! {
+        @if let Some(fit) = &report.fit { (errors(fit)) }
+        @for figure in figures { (figure) }
+        @if let Some(replay) = replay { (replay.figure()) }
+    })
+}
+
+/// Time stamps, recorded output, before, after.
+type Part<'a> = (&'a [f64], &'a [f64], &'a [f64], &'a [f64]);
+
+fn outputs(curves: &Curves) -> Vec<(Chart, Markup)> {
+    let fitted = &curves.fitted;
+    let held: Part = (
+        &curves.time_s,
+        &curves.recorded,
+        &curves.before,
+        &curves.after,
+    );
+    let own: Part = (
+        &fitted.time_s,
+        &fitted.recorded,
+        &fitted.before,
+        &fitted.after,
+    );
+    let follows =
+        matches!((own.0.last(), held.0.first()), (Some(last), Some(first)) if last < first);
+    if follows {
+        // A point without values between the parts: no line goes from the one to the other.
+        let seam = own
+            .0
+            .last()
+            .zip(held.0.first())
+            .map_or(0.0, |(last, first)| 0.5 * (last + first));
+        let join = |a: &[f64], b: &[f64], between: f64| [a, &[between], b].concat();
+        let whole = [
+            join(own.0, held.0, seam),
+            join(own.1, held.1, f64::NAN),
+            join(own.2, held.2, f64::NAN),
+            join(own.3, held.3, f64::NAN),
+        ];
+        let [time, recorded, before, after] = &whole;
+        return pair(
+            (time, recorded, before, after),
+            curves,
+            ["output", "error"],
+            Some(seam),
+            "The blue part at the end was kept aside: no number was fitted to it.",
+        );
+    }
+    let mut both = pair(
+        held,
+        curves,
+        ["output", "error"],
+        None,
+        "All of it was kept aside: no number was fitted to it.",
+    );
+    if !own.0.is_empty() {
+        both.extend(pair(
+            own,
+            curves,
+            ["fitted-output", "fitted-error"],
+            None,
+            "This is the recording that was fitted.",
+        ));
+    }
+    both
+}
+
+/// The output and its error over time.
+fn pair(
+    (time, recorded, before, after): Part,
+    curves: &Curves,
+    [output, error]: [&'static str; 2],
+    held_from: Option<f64>,
+    remark: &str,
+) -> Vec<(Chart, Markup)> {
+    if time.is_empty() {
+        return Vec::new();
+    }
+    let axis = |label: &str| Axis {
+        label: label.to_owned(),
+        unit: curves.unit.clone(),
+    };
+    let finite = || recorded.iter().copied().filter(|v| v.is_finite());
+    let (low, high) = (
+        finite().fold(f64::INFINITY, f64::min),
+        finite().fold(f64::NEG_INFINITY, f64::max),
+    );
+    let room = (high - low).max(f64::MIN_POSITIVE);
+    let spans = |chart: &mut Chart| {
+        let last = time.last().copied().unwrap_or(0.0);
+        chart.spans.extend(held_from.map(|from| Span {
+            from,
+            to: last,
+            role: "held",
+        }));
+    };
+    let lines = vec![
+        Curve::line("recorded", "recorded", recorded),
+        Curve::line("old model", "old", before),
+        Curve::line("new model", "new", after),
+    ];
+    let mut shown = Chart::over_time(
+        output,
+        &capital(curves.output),
+        axis(curves.output),
+        time,
+        lines,
+    );
+    // A model that runs away must not flatten what was recorded.
+    shown.limits = Some([low - room, high + room]);
+    spans(&mut shown);
+    let off =
+        |model: &[f64]| -> Vec<f64> { model.iter().zip(recorded).map(|(m, r)| m - r).collect() };
+    let lines = vec![
+        Curve::line("old model", "old", &off(before)),
+        Curve::line("new model", "new", &off(after)),
+    ];
+    let mut errors = Chart::over_time(
+        error,
+        "Simulation less recording",
+        axis("error"),
+        time,
+        lines,
+    );
+    errors.limits = Some([-2.0 * room, 2.0 * room]);
+    errors.height = 220;
+    spans(&mut errors);
+    let caption = html! { "Recorded, and as the two models compute it. " (remark) };
+    vec![
+        (shown, caption),
+        (
+            errors,
+            html! { "The closer to zero, the better. " (remark) },
+        ),
+    ]
+}
+
+fn residuals(curves: &Curves) -> Vec<(Chart, Markup)> {
+    if curves.window_time_s.is_empty() {
+        return Vec::new();
+    }
+    let before = counted(curves, &curves.residual_before);
+    let after = counted(curves, &curves.residual_after);
+    let effort = Axis {
+        label: "left over".to_owned(),
+        unit: curves.residual_unit.clone(),
+    };
+    let lines = vec![
+        Curve::line("old model", "old", &before),
+        Curve::line("new model", "new", &after),
+    ];
+    let mut over_time = Chart::over_time(
+        "residual",
+        "Effort that no model accounts for",
+        effort,
+        &curves.window_time_s,
+        lines,
+    );
+    let band = 1.96 * curves.floor;
+    over_time.band = Some([-band, band]);
+    over_time.height = 240;
+    let green = html! { "On the fitted part, averaged over short windows; gaps where the rig rests or turns back. Green: where 95 % would lie if nothing but sensor noise were left." };
+    vec![
+        (over_time, green),
+        distribution(curves, &before, &after),
+        memory(curves, &before, &after),
+    ]
+}
+
+fn distribution(curves: &Curves, before: &[f64], after: &[f64]) -> (Chart, Markup) {
+    let scaled = |values: &[f64]| -> Vec<f64> { values.iter().map(|v| v / curves.floor).collect() };
+    let (t, before) = histogram(&scaled(before), REACH, BARS);
+    let (_, after) = histogram(&scaled(after), REACH, BARS);
+    let bell: Vec<f64> = t.iter().map(|x| normal(*x)).collect();
+    let bars = |name, role, values: &[f64]| Curve {
+        kind: Kind::Bars,
+        width: 1.0,
+        dashed: false,
+        ..Curve::line(name, role, values)
+    };
+    let series = vec![
+        bars("old model", "old", &before),
+        bars("new model", "new", &after),
+        Curve::line("noise alone", "noise", &bell),
+    ];
+    let x = Axis {
+        label: "left over ÷ noise".to_owned(),
+        unit: "1".to_owned(),
+    };
+    let caption = html! { "How often what is left over has which size. A perfect model follows the green bell; what lies beyond ±" (REACH) " is in the outermost bars." };
+    (
+        still("histogram", "Distribution", (x, "density"), t, series),
+        caption,
+    )
+}
+
+fn memory(curves: &Curves, before: &[f64], after: &[f64]) -> (Chart, Markup) {
+    let after = autocorrelation(after, LAGS);
+    let before = autocorrelation(before, after.len().max(2));
+    let apart = curves
+        .window_time_s
+        .first()
+        .zip(curves.window_time_s.get(1))
+        .map_or(0.0, |(a, b)| b - a);
+    let t: Vec<f64> = (0..before.len().max(after.len()))
+        .map(|k| k as f64 * apart)
+        .collect();
+    let filled = |mut values: Vec<f64>| {
+        values.resize(t.len(), f64::NAN);
+        values
+    };
+    let series = vec![
+        Curve::line("old model", "old", &filled(before)),
+        Curve::line("new model", "new", &filled(after)),
+    ];
+    let x = Axis {
+        label: "time apart".to_owned(),
+        unit: "s".to_owned(),
+    };
+    let caption = html! { "How far what is left over resembles itself a little later. Windows overlap, so near neighbours always resemble each other; after that a curve that stays near zero has no pattern left in it." };
+    (
+        still(
+            "autocorrelation",
+            "Memory of what is left over",
+            (x, "autocorrelation"),
+            t,
+            series,
+        ),
+        caption,
+    )
+}
+
+/// A chart that is not over the recording's time.
+fn still(
+    id: &'static str,
+    title: &str,
+    (x, y): (Axis, &str),
+    t: Vec<f64>,
+    series: Vec<Curve>,
+) -> Chart {
+    let y = Axis {
+        label: y.to_owned(),
+        unit: "1".to_owned(),
+    };
+    Chart {
+        x,
+        sync: None,
+        height: 240,
+        from_zero: id == "histogram",
+        ..Chart::over_time(id, title, y, &t, series)
+    }
+}
+
+fn errors(fit: &FitReport) -> Markup {
+    let parts = [("fitted", Some(fit.train)), ("kept aside", fit.held_out)];
+    html! {
+        div.scroll { table.grid {
+            caption { "Error of the simulation, root mean square; in brackets in per cent of how much the output varies." }
+            thead { tr { th scope="col" { "part" } th.number scope="col" { "old model" } th.number scope="col" { "new model" } } }
+            tbody { @for (name, errors) in parts { @if let Some(errors) = errors { tr {
+                th scope="row" { (name) }
+                td.number { (with_unit(errors.before, &fit.unit)) " (" (significant(errors.nrmse_before, 3)) " %)" }
+                td.number { (with_unit(errors.after, &fit.unit)) " (" (significant(errors.nrmse_after, 3)) " %)" }
+            } } } }
+        } }
+        @if !fit.horizon.is_empty() {
+            details {
+                summary { "Error some time after the simulation was let go" }
+                div.scroll { table.grid {
+                    caption { "Free runs from the recorded state." }
+                    thead { tr { th.number scope="col" { "after" } th scope="col" { "part" } th.number scope="col" { "old model" } th.number scope="col" { "new model" } th.number scope="col" { "tip, old" } th.number scope="col" { "tip, new" } } }
+                    tbody { @for own in &fit.horizon { tr {
+                        td.number { (with_unit(own.horizon_s, "s")) } td { (own.part) } td.number { (with_unit(own.before, &own.unit)) } td.number { (with_unit(own.after, &own.unit)) }
+                        td.number { (own.tip_before_mm.map_or_else(|| "–".to_owned(), |mm| with_unit(mm, "mm"))) } td.number { (own.tip_after_mm.map_or_else(|| "–".to_owned(), |mm| with_unit(mm, "mm"))) }
+                    } } }
+                } }
+            }
+        }
+        @if let Some(drift) = &fit.drift { p { (drift) } }
+    }
+}
+
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| {
+        first.to_uppercase().chain(letters).collect()
+    })
+}

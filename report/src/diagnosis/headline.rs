@@ -1,0 +1,185 @@
+//! This file says the verdict in one sentence that a mechanic understands, and what it means.
+
+use maud::{Markup, html};
+use rigproof_diagnose::report::{BeforeAfter, EffectReport, Report, Verdict};
+
+use crate::document::{Headline, Tone};
+use crate::number::{percent, significant, with_unit};
+use crate::words::{list, plain_at};
+
+/// The top of the page.
+pub fn headline(report: &Report, next: Option<&str>) -> Headline {
+    let (tone, badge) = mood(report);
+    let mut paragraphs = vec![meaning(report)];
+    paragraphs.extend(outcome(report));
+    paragraphs.extend(next.map(|next| html! { strong { "Next: " } code { (next) } }));
+    Headline {
+        tone,
+        badge: badge.to_owned(),
+        sentence: sentence(report),
+        paragraphs,
+        cards: cards(report),
+    }
+}
+
+const fn mood(report: &Report) -> (Tone, &'static str) {
+    match report.verdict {
+        Verdict::Consistent => (Tone::Good, "Model and rig agree"),
+        Verdict::Explained => (Tone::Found, "Cause found"),
+        Verdict::PartlyExplained => (Tone::Doubt, "Cause found in part"),
+        Verdict::Ambiguous => (Tone::Doubt, "Cause found, with a doubt"),
+        Verdict::NoneOfLibrary => (Tone::Doubt, "Cause not known"),
+        Verdict::NotExcited => (Tone::Bad, "No conclusion"),
+        Verdict::DataFault => (Tone::Bad, "Recording at fault"),
+    }
+}
+
+fn sentence(report: &Report) -> String {
+    let device = match report.plant {
+        "axis" => "axis",
+        "bench" => "bench",
+        _ => "linkage",
+    };
+    let effects = report.effects.iter();
+    let names: Vec<String> = effects.map(in_words).collect();
+    let named = list(&names);
+    match report.verdict {
+        Verdict::Consistent => format!(
+            "Nothing is missing: the model describes this {device} as well as its sensors can tell."
+        ),
+        Verdict::Explained => {
+            format!("The real {device} has something the model leaves out: {named}.")
+        }
+        Verdict::PartlyExplained => format!(
+            "The real {device} has something the model leaves out: {named} – and something more."
+        ),
+        Verdict::Ambiguous => format!(
+            "The real {device} has something the model leaves out: {named} – or something that looks the same in this recording."
+        ),
+        Verdict::NoneOfLibrary => format!(
+            "The real {device} does something that neither the model nor any effect in the library describes."
+        ),
+        Verdict::NotExcited => {
+            format!("The {device} moved too little in this recording to tell anything.")
+        }
+        Verdict::DataFault => match &report.fault {
+            Some(fault) => format!("The recording cannot be used: {}.", fault.reason),
+            None => "The recording cannot be used.".to_owned(),
+        },
+    }
+}
+
+/// A named mechanism in plain words; a wrong scale with how wrong it is.
+fn in_words(effect: &EffectReport) -> String {
+    let fraction = effect
+        .parameters
+        .get("fraction")
+        .filter(|_| effect.parameters.len() == 1);
+    let by = fraction.map_or_else(String::new, |fraction| {
+        format!(" ({:+.1} %)", 100.0 * fraction.value)
+    });
+    let words = plain_at(effect.mechanism, effect.joint);
+    words + &by.replace('-', "−")
+}
+
+fn meaning(report: &Report) -> Markup {
+    match report.verdict {
+        Verdict::Consistent => {
+            html! { "What simulation and recording still differ by is no more than the noise of the sensors. There is nothing to mend in the model." }
+        }
+        Verdict::Explained => {
+            html! { "Once that is added to the model, what simulation and recording still differ by is no more than the noise of the sensors." }
+        }
+        Verdict::PartlyExplained => {
+            html! { "With it the model is better, but more than sensor noise is left: something else is at work, and the numbers below may have taken part of it in." }
+        }
+        Verdict::Ambiguous => {
+            html! { "Another cause would explain this recording as well. Below it is said which, and what would tell them apart." }
+        }
+        Verdict::NoneOfLibrary => {
+            html! { "More than sensor noise is left, and no known effect has its shape. Below it is said where and when: look there on the rig." }
+        }
+        Verdict::NotExcited => {
+            html! { "Record again with more motion: several reversals at several speeds, over the whole range." }
+        }
+        Verdict::DataFault => match &report.fault {
+            Some(fault) => html! {
+                "Channel " strong { (fault.channel) } ", from " (with_unit(fault.from_s, "s")) " to " (with_unit(fault.to_s, "s"))
+                ". Nothing else was concluded: mend the recording or the rig file, or cut the fault away, and diagnose again."
+            },
+            None => html! { (report.summary) },
+        },
+    }
+}
+
+/// What the names are worth on data that were not used to find them.
+fn outcome(report: &Report) -> Option<Markup> {
+    let fit = report.fit.as_ref()?;
+    let held_out = fit.held_out.filter(|_| !report.effects.is_empty())?;
+    Some(if fit.improved {
+        html! {
+            "The check: on a part of the recording that was kept aside, the simulation was off by "
+            strong { (with_unit(held_out.before, &fit.unit)) } " before and is off by "
+            strong { (with_unit(held_out.after, &fit.unit)) } " now" (times(held_out)) "."
+        }
+    } else {
+        html! { "The check failed: on the part of the recording that was kept aside the simulation did not get better. Do not use this calibration." }
+    })
+}
+
+fn times(errors: BeforeAfter) -> String {
+    let factor = errors.before / errors.after;
+    if factor.is_finite() && factor >= 1.5 {
+        format!(", {} times less", significant(factor, 2))
+    } else {
+        String::new()
+    }
+}
+
+fn cards(report: &Report) -> Vec<[String; 3]> {
+    let mut cards = Vec::new();
+    let mut card =
+        |what: &str, figure: String, remark: String| cards.push([what.to_owned(), figure, remark]);
+    if let Some(fit) = &report.fit {
+        let (part, errors) = match fit.held_out {
+            Some(errors) => ("on data kept aside", errors),
+            None => ("on the fitted data", fit.train),
+        };
+        let arrow = format!(
+            "{} % → {} %",
+            significant(errors.nrmse_before, 3),
+            significant(errors.nrmse_after, 3)
+        );
+        card(
+            "Error of the simulation",
+            arrow,
+            format!("{part}, in per cent of how much the output varies"),
+        );
+    }
+    if let Some(floor) = &report.floor {
+        let arrow = format!(
+            "{} → {}",
+            significant(floor.ratio_before, 3),
+            significant(floor.ratio_after, 3)
+        );
+        card(
+            "Left over, in units of sensor noise",
+            arrow,
+            "about 1 means: nothing but noise".to_owned(),
+        );
+    }
+    let sure = report
+        .effects
+        .iter()
+        .map(|effect| effect.inclusion)
+        .reduce(f64::min);
+    if let Some(inclusion) = sure {
+        let remark = "of the resampled recordings name it again (the least sure of what is named)";
+        card(
+            "How often it comes back",
+            percent(inclusion),
+            remark.to_owned(),
+        );
+    }
+    cards
+}

@@ -1,0 +1,56 @@
+//! This file says what would settle what is open.
+
+use maud::{Markup, html};
+use rigproof_diagnose::report::{NextExperiment, Report, Verdict};
+
+use crate::number::{significant, with_unit};
+use crate::words::plain_cause;
+
+/// The next experiment, or what helps in its place.
+pub fn body(report: &Report, command: Option<&str>) -> Option<Markup> {
+    Some(html! {
+        p { (advice(report)) }
+        @if let Some(next) = &report.next_experiment { (experiment(next)) }
+        @if let Some(command) = command { p { "Now:" } pre tabindex="0" { code { (command) } } }
+    })
+}
+
+fn advice(report: &Report) -> &'static str {
+    match report.verdict {
+        Verdict::Consistent => {
+            "Nothing is open. What is too small for this recording to show stands under “How sure this is”; more motion or less noise would show less."
+        }
+        Verdict::Explained => {
+            "Nothing is open in this recording. A second recording with another motion is the best check: the new model has to describe it too."
+        }
+        Verdict::Ambiguous => "Record something in which the explanations that are left differ.",
+        Verdict::PartlyExplained | Verdict::NoneOfLibrary => {
+            "Go to the place and the kind of motion marked above, and repeat just that: slower, faster, warm, cold, with a part taken off. What changes it is the cause."
+        }
+        Verdict::NotExcited => {
+            "Record again with more motion: several reversals, slow and fast, over the whole range."
+        }
+        Verdict::DataFault => "Mend the channel that is named above; then diagnose again.",
+    }
+}
+
+fn experiment(next: &NextExperiment) -> Markup {
+    html! {
+        @match &next.what {
+            Some(what) => {
+                p { strong { "The next experiment: " } (what) "." }
+                p { (with_unit(next.duration_s, "s")) " long; the hand pushes with at most " (with_unit(next.greatest_force_n, "N")) ", the brakes take at most " (with_unit(next.greatest_current_a, "A")) ". Chosen from " (next.tried) " that were simulated."
+                    @if let Some(file) = &next.file { " Sample by sample it stands in " code { (file) } "." } }
+            }
+            None => p { "Of the " (next.tried) " experiments that were simulated none tells the explanations apart." },
+        }
+        @if !next.separations.is_empty() {
+            div.scroll { table.grid {
+                caption { "How far it sets the explanations apart, in standard deviations of the noise." }
+                thead { tr { th scope="col" { "one" } th scope="col" { "the other" } th.number scope="col" { "apart by" } th scope="col" { "told apart" } } }
+                tbody { @for pair in &next.separations { tr { th scope="row" { (plain_cause(&pair.one)) } td { (plain_cause(&pair.other)) } td.number { (significant(pair.sigmas, 2)) } td { (if pair.tellable { "yes" } else { "no" }) } } } }
+            } }
+        }
+        @if !next.not_compared.is_empty() { p.soft { "In no comparison: " (next.not_compared.join(", ")) "." } }
+    }
+}

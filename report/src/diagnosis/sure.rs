@@ -1,0 +1,84 @@
+//! This file says how far the names can be believed.
+
+use maud::{Markup, html};
+use rigproof_diagnose::report::{NamedRate, Rate, Report};
+
+use crate::number::{percent, significant, with_unit};
+use crate::words::{plain_at, plain_cause};
+
+/// Odds, resampling, floor, trials on simulated recordings, and what could have been overlooked; nothing where nothing was concluded.
+pub fn body(report: &Report) -> Option<Markup> {
+    let floor = report.floor.as_ref()?;
+    Some(html! {
+        p { "From the noise of the sensors it is computed what a perfect model would leave over: " strong { (with_unit(floor.predicted, &floor.unit)) }
+            ". The old model leaves " strong { (significant(floor.ratio_before, 3)) } " times as much, the new one " strong { (significant(floor.ratio_after, 3)) } " times." }
+        (effects(report))
+        (trials(report))
+        (directions(report))
+        (not_seen(report))
+    })
+}
+
+fn effects(report: &Report) -> Markup {
+    html! { @if !report.effects.is_empty() {
+        div.scroll { table.grid {
+            caption { "How firmly each name stands. z: by how many standard errors the model with it is better on blocks of time that were left out; names need at least a few. Comes back: share of resampled recordings in which it is named again." }
+            thead { tr { th scope="col" { "name" } th.number scope="col" { "z" } th.number scope="col" { "comes back" } th.number scope="col" { "explains" } } }
+            tbody { @for effect in &report.effects { tr {
+                th scope="row" { (plain_at(effect.mechanism, effect.joint)) }
+                td.number { (format!("{:.1}", effect.z)) } td.number { (percent(effect.inclusion)) } td.number { (percent(effect.share_explained)) }
+            } } }
+        } }
+    } }
+}
+
+fn trials(report: &Report) -> Markup {
+    let Some(own) = &report.self_calibration else {
+        return html! {};
+    };
+    let named = |all: &[NamedRate]| {
+        html! { @for own in all { li { (plain_cause(&own.name)) ": " (rate(own.rate))
+        @if 2 * own.rate.count < own.rate.of { strong { " – it stands in for something else: do not believe it" } } } } }
+    };
+    html! {
+        h3 { "Tried on simulated recordings like this one" }
+        p { "With nothing left out, something was named in " (rate(own.false_alarms)) "." }
+        @if let Some(exact) = own.exact { p { "With what was found left out, exactly that was named in " (rate(exact)) ". One by one:" } ul { (named(&own.found_again)) } }
+        @if !own.false_names.is_empty() { p { "Named without being there:" } ul { @for own in &own.false_names { li { (plain_cause(&own.name)) ": " (rate(own.rate)) } } } }
+        p.soft { (own.protocol) }
+    }
+}
+
+fn rate(rate: Rate) -> String {
+    format!(
+        "{} of {} (95 %: {} to {})",
+        rate.count,
+        rate.of,
+        percent(rate.low95),
+        percent(rate.high95)
+    )
+}
+
+fn directions(report: &Report) -> Markup {
+    html! { @if !report.null_directions.is_empty() {
+        h3 { "Numbers that this recording does not tell apart" }
+        ul { @for own in &report.null_directions { li { (plain_at(own.mechanism, None)) ": " (own.meaning) } } }
+    } }
+}
+
+fn not_seen(report: &Report) -> Markup {
+    html! { @if !report.not_seen.is_empty() {
+        details {
+            summary { "What was looked for and not seen, and how large it could still be" }
+            div.scroll { table.grid #not-seen {
+                caption { "An effect smaller than this could hide in this recording." }
+                thead { tr { th scope="col" { "effect" } th scope="col" { "joint" } th scope="col" { "number" } th.number scope="col" { "least visible" } th scope="col" { "unit" } } }
+                tbody { @for own in &report.not_seen { tr {
+                    th scope="row" { (plain_at(own.mechanism, None)) } td { (own.joint.unwrap_or("–")) } td { (own.parameter.replace('_', " ")) }
+                    td.number { (significant(own.minimum_detectable, 3)) } td { (if own.unit == "1" { "–" } else { &own.unit }) }
+                } } }
+            } }
+            div.tools { button type="button" data-save-table="not-seen" { "Save CSV" } }
+        }
+    } }
+}

@@ -1,0 +1,125 @@
+//! This file says what was left out: words, equation, numbers with units and intervals, rivals and how the names entered.
+
+use maud::{Markup, html};
+use rigproof_diagnose::report::{EffectReport, Number, Report};
+use std::collections::BTreeMap;
+
+use crate::number::{percent, significant, with_unit};
+use crate::words::{look_for, plain_at, plain_cause};
+
+/// The named mechanisms, what is left unknown, and the nominal model's numbers; nothing where nothing was concluded.
+pub fn body(report: &Report) -> Option<Markup> {
+    report.floor.as_ref()?;
+    let none: &[String] = &[];
+    let rivals = report
+        .ambiguous_with
+        .iter()
+        .map(Vec::as_slice)
+        .chain(std::iter::repeat(none));
+    Some(html! {
+        @if report.effects.is_empty() { p { "No effect is named." } }
+        @for (effect, rivals) in report.effects.iter().zip(rivals) { (one(effect, rivals)) }
+        (unknown(report))
+        (stages(report))
+        @if !report.nominal.is_empty() { h3 { "What the model already had, after the fit" } (numbers("Numbers of the nominal model.", &report.nominal)) }
+        (not_named(report))
+    })
+}
+
+fn one(effect: &EffectReport, rivals: &[String]) -> Markup {
+    html! {
+        div.effect {
+            h3 { (capital(&plain_at(effect.mechanism, effect.joint))) }
+            p.soft { "In the vocabulary: " code { (effect.mechanism) } @if let Some(joint) = effect.joint { " at " (joint) }
+                @if let Some(look) = look_for(effect.mechanism) { ". On the rig, look at: " (look) "." } }
+            div.equation role="math" { (effect.equation) }
+            (numbers("Its numbers.", &effect.parameters))
+            @if let Some(onset_s) = effect.onset_s { p { "It begins " strong { (with_unit(onset_s, "s")) } " after the first sample." } }
+            p { @if rivals.is_empty() { "Everything else in the library that was tried in its place explains less." }
+                @else { "Would explain this recording as well in its place: " @for (k, rival) in rivals.iter().enumerate() { @if k > 0 { "; " } (plain_cause(rival)) " (" code { (rival) } ")" } "." } }
+            p.soft { "What would refute it: " (effect.refuted_by) "." }
+        }
+    }
+}
+
+fn numbers(caption: &str, all: &BTreeMap<String, Number>) -> Markup {
+    html! { @if !all.is_empty() {
+        div.scroll { table.grid {
+            caption { (caption) }
+            thead { tr { th scope="col" { "name" } th.number scope="col" { "value" } th scope="col" { "unit" } th scope="col" { "95 % interval" } } }
+            tbody { @for (name, number) in all { tr {
+                th scope="row" { (name.replace('_', " ")) }
+                td.number { (significant(number.value, 4)) }
+                td { (if number.unit == "1" { "–".to_owned() } else { number.unit.replace("^2", "²").replace("^3", "³") }) }
+                td { @match (number.low95, number.high95) { (Some(low), Some(high)) => { (significant(low, 4)) " to " (significant(high, 4)) } _ => "not determined" } }
+            } } }
+        } }
+    } }
+}
+
+/// How the residual fell as the names entered: the rivals lost here.
+fn stages(report: &Report) -> Markup {
+    let Some(floor) = report.floor.as_ref().filter(|_| !report.stages.is_empty()) else {
+        return html! {};
+    };
+    html! {
+        h3 { "How it was named" }
+        div.scroll { table.grid {
+            caption { "What was left over as the names entered, one after another (root mean square, " (floor.unit) "). Each had to help on blocks of time that the fit had not seen." }
+            thead { tr { th scope="col" { "model" } th.number scope="col" { "left over" } th.number scope="col" { "÷ noise" } th scope="col" { "with" } } }
+            tbody {
+                (stage("the old model", floor.measured_before, floor.predicted, ""))
+                @for own in &report.stages { (stage(&format!("+ {}", plain_at(own.entered, own.joint)), own.residual, floor.predicted, &own.standing.join(", "))) }
+                (stage("what is named in the end", floor.measured_after, floor.predicted, ""))
+                (stage("sensor noise alone", floor.predicted, floor.predicted, ""))
+            }
+        } }
+    }
+}
+
+fn stage(name: &str, residual: f64, noise: f64, standing: &str) -> Markup {
+    html! { tr { th scope="row" { (name) } td.number { (significant(residual, 4)) } td.number { (significant(residual / noise, 3)) } td { (standing) } } }
+}
+
+fn unknown(report: &Report) -> Markup {
+    let Some(unknown) = &report.unknown else {
+        return html! {};
+    };
+    html! {
+        h3 { "What is left has a shape" }
+        p { "Ordered by " strong { (unknown.variable) } ", a curve takes away " (percent(unknown.share)) " of what is still unexplained"
+            @if unknown.memory { "; the way up differs from the way down: it has a memory" } ". " (capital(&unknown.suggestion)) "." }
+        details { summary { "The curve as numbers" }
+            div.scroll { table.grid #unknown-shape {
+                caption { "What is left against " (unknown.variable) "." }
+                thead { tr { th.number scope="col" { (unknown.variable) " (" (unknown.variable_unit) ")" } th.number scope="col" { "left over" } } }
+                tbody { @for (x, y) in &unknown.shape { tr { td.number { (significant(*x, 4)) } td.number { (significant(*y, 4)) } } } }
+            } }
+            div.tools { button type="button" data-save-table="unknown-shape" { "Save CSV" } }
+        }
+    }
+}
+
+fn not_named(report: &Report) -> Markup {
+    let lists = [
+        (
+            "Help a little, but less than what stays unexplained, and are therefore not named:",
+            &report.too_small_to_name,
+        ),
+        (
+            "Were named on the way and taken back, because they only stood in for something else:",
+            &report.withdrawn,
+        ),
+    ];
+    html! { @for (words, names) in lists { @if !names.is_empty() {
+        p { (words) " " @for (k, name) in names.iter().enumerate() { @if k > 0 { "; " } (plain_cause(name)) } "." }
+    } } }
+}
+
+/// With its first letter large.
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| {
+        first.to_uppercase().chain(letters).collect()
+    })
+}

@@ -1,0 +1,220 @@
+//! This file is the page around everything: head, policy, style, scripts, data.
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+use serde::Serialize;
+use sha2::{Digest, Sha256};
+
+use crate::chart::Chart;
+use crate::replay::Replay;
+
+const STYLE: [&str; 2] = [
+    include_str!("../vendor/uplot/uPlot.min.css"),
+    include_str!("../assets/page.css"),
+];
+
+/// The scripts in the order in which they run.
+const SCRIPTS: [&str; 6] = [
+    include_str!("../vendor/uplot/uPlot.iife.min.js"),
+    include_str!("../assets/theme.js"),
+    include_str!("../assets/save.js"),
+    include_str!("../assets/chart.js"),
+    include_str!("../assets/chart-svg.js"),
+    include_str!("../assets/replay.js"),
+];
+
+/// The mood of a headline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Tone {
+    /// Nothing is wrong.
+    Good,
+    /// Something was found.
+    Found,
+    /// Something is open.
+    Doubt,
+    /// Something is wrong.
+    Bad,
+}
+
+impl Tone {
+    const fn class(self) -> &'static str {
+        match self {
+            Tone::Good => "verdict tone-good",
+            Tone::Found => "verdict tone-found",
+            Tone::Doubt => "verdict tone-doubt",
+            Tone::Bad => "verdict tone-bad",
+        }
+    }
+}
+
+/// What stands at the top of a page.
+pub struct Headline {
+    /// Its mood.
+    pub tone: Tone,
+    /// A word or two above it.
+    pub badge: String,
+    /// The verdict in one sentence.
+    pub sentence: String,
+    /// What it means and what to do, a paragraph each.
+    pub paragraphs: Vec<Markup>,
+    /// Figures beside it: what, how much, and a remark.
+    pub cards: Vec<[String; 3]>,
+}
+
+/// A part of a page with a heading.
+pub struct Section {
+    /// Its anchor, of letters and hyphens.
+    pub id: &'static str,
+    /// Its heading.
+    pub heading: String,
+    /// Its content.
+    pub body: Markup,
+}
+
+/// Everything a page says and shows.
+pub struct Document {
+    /// Title of the browser's window.
+    pub title: String,
+    /// What kind of page it is.
+    pub kind: &'static str,
+    /// What it is about.
+    pub about: String,
+    /// What stands at the top.
+    pub headline: Headline,
+    /// What follows, in its order.
+    pub sections: Vec<Section>,
+    /// The charts whose places the sections hold.
+    pub charts: Vec<Chart>,
+    /// The linkage that moves, where there is one.
+    pub replay: Option<Replay>,
+    /// The line at the bottom.
+    pub footer: String,
+}
+
+#[derive(Serialize)]
+struct Data<'a> {
+    charts: &'a [Chart],
+    replay: Option<&'a Replay>,
+}
+
+impl Document {
+    /// The page as HTML.
+    pub fn to_html(&self) -> String {
+        let style = STYLE.concat();
+        let script = SCRIPTS.join("\n");
+        let page = html! {
+            (DOCTYPE)
+            html lang="en" {
+                head {
+                    meta charset="utf-8";
+                    meta http-equiv="Content-Security-Policy" content=(policy(&script));
+                    meta name="viewport" content="width=device-width, initial-scale=1";
+                    meta name="referrer" content="no-referrer";
+                    title { (self.title) }
+                    link rel="icon" href="data:,";
+                    style { (PreEscaped(style)) }
+                }
+                body {
+                    a.skip href="#content" { "Skip to the content" }
+                    header.top {
+                        div { span.brand { "rigproof" } " " span.what { (self.kind) " · " (self.about) } }
+                        button #theme type="button" aria-pressed="false" { "Dark" }
+                    }
+                    main #content {
+                        (self.headline.markup())
+                        nav aria-label="Sections" {
+                            ul { @for section in &self.sections { li { a href={ "#" (section.id) } { (section.heading) } } } }
+                        }
+                        @for section in &self.sections {
+                            section #(section.id) aria-labelledby={ (section.id) "-heading" } {
+                                h2 #{ (section.id) "-heading" } { (section.heading) }
+                                (section.body)
+                            }
+                        }
+                    }
+                    footer { (self.footer) }
+                    script #data type="application/json" { (PreEscaped(self.data())) }
+                    script { (PreEscaped(&script)) }
+                }
+            }
+        };
+        page.into_string()
+    }
+
+    /// The data as JSON that cannot end its element, whatever names stand in it.
+    fn data(&self) -> String {
+        let data = Data {
+            charts: &self.charts,
+            replay: self.replay.as_ref(),
+        };
+        let text = serde_json::to_string(&data).unwrap_or_else(|_| "{\"charts\":[]}".to_owned());
+        text.replace('<', "\\u003c")
+    }
+}
+
+impl Headline {
+    fn markup(&self) -> Markup {
+        html! {
+            div class=(self.tone.class()) {
+                span.badge { (self.badge) }
+                h1 { (self.sentence) }
+                @for paragraph in &self.paragraphs { p { (paragraph) } }
+            }
+            @if !self.cards.is_empty() {
+                dl.cards {
+                    @for [what, figure, remark] in &self.cards {
+                        div { dt { (what) } dd { (figure) small { (remark) } } }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Nothing is loaded, nothing is sent, and no script runs but the page's own.
+fn policy(script: &str) -> String {
+    let hash = STANDARD.encode(Sha256::digest(script.as_bytes()));
+    format!(
+        "default-src 'none'; style-src 'unsafe-inline'; script-src 'sha256-{hash}'; img-src data:; base-uri 'none'; form-action 'none'"
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_in_a_script_or_style_ends_its_element() {
+        for text in STYLE.iter().chain(&SCRIPTS) {
+            let text = text.to_lowercase();
+            assert!(
+                !text.contains("</script") && !text.contains("</style") && !text.contains("<!--")
+            );
+        }
+    }
+
+    #[test]
+    fn the_vendored_library_is_the_one_that_its_page_states() {
+        let stated = include_str!("../vendor/uplot/README.md");
+        let script = include_bytes!("../vendor/uplot/uPlot.iife.min.js");
+        let style = include_bytes!("../vendor/uplot/uPlot.min.css");
+        let licence = include_bytes!("../vendor/uplot/LICENSE");
+        let hashed = |bytes: &[u8]| -> String {
+            Sha256::digest(bytes)
+                .iter()
+                .map(|byte| format!("{byte:02x}"))
+                .collect()
+        };
+        for (name, bytes) in [
+            ("uPlot.iife.min.js", &script[..]),
+            ("uPlot.min.css", style),
+            ("LICENSE", licence),
+        ] {
+            let line = format!("| `{name}` | {} |", hashed(bytes));
+            assert!(stated.contains(&line), "{line}");
+        }
+        assert!(String::from_utf8_lossy(script).contains("(v1.6.32)"));
+        assert!(stated.starts_with("# uPlot 1.6.32"));
+    }
+}
