@@ -155,7 +155,7 @@ impl Pushing {
     }
 }
 
-/// Who does what hurts most, a while each: see [`Mode`].
+/// Who does what hurts most, a while each.
 pub struct Adversary {
     way: Way,
     greatest_n: f64,

@@ -105,7 +105,7 @@ fn joint_shapes(run: &Run, mechanism: Mechanism, periods: impl Fn() -> Vec<f64>)
     let one = |values: Vec<f64>| values.into_iter().map(|v| vec![v]).collect();
     match mechanism {
         Mechanism::Stribeck => stribeck_shapes(run.speed_floor, fastest),
-        Mechanism::Presliding => one(geometric(
+        Mechanism::Presliding | Mechanism::AsymmetricPresliding => one(geometric(
             (3.0 * run.position_noise).max(1e-4 * travel),
             0.2 * travel,
             12,

@@ -3,12 +3,16 @@
 mod constancy;
 
 use crate::candidates::{causes, modelled_effort, realise, variants};
-use crate::problem::{Cause, Problem, Term};
+use crate::five_bar::LEAST_SIGMAS;
+use crate::problem::{Cause, PlantRun, Problem, Term};
 use crate::regression::{
     Blocks, covariance, dot, fit, free_columns, nested_block_losses, norm, paired,
 };
 use crate::report::{NotSeen, NullDirection};
-use crate::select::{Found, Gates, Selection, TIE_Z, best_variant, gives_energy, refined, refs};
+use crate::select::{
+    Found, Gates, Selection, TIE_Z, as_two, best_variant, floor_limit, gives_energy, refined, refs,
+    usable_rms,
+};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
@@ -215,7 +219,8 @@ fn rivals_of(
     let all = vec![1.0; blocks.ranges.len()];
     let gain = bare.left_out() - selection.after.left_out();
     let own = selection.found.get(index);
-    causes(problem)
+    let telling = telling(problem, selection);
+    let single = causes(problem)
         .into_iter()
         .filter(|cause| !taken.contains(cause))
         .filter(|&cause| {
@@ -237,6 +242,7 @@ fn rivals_of(
                 let as_good = enough && z < TIE_Z
                     || (reached >= RIVAL_SHARE * gain && reached > 0.0 && z < 2.0 * TIE_Z);
                 as_good
+                    && more_elsewhere(&losses, &selection.after.block_loss) < telling
                     && best_variant(problem, &common, tried)
                         .is_none_or(|(best, _)| !gives_energy(problem, &common, &best, blocks))
             };
@@ -252,8 +258,30 @@ fn rivals_of(
                 tried.push(refined(problem, &common, start, blocks));
                 is_rival(&tried)
             }
-        })
-        .collect()
+        });
+    let mut rivals: Vec<Cause> = single.collect();
+    let more = as_two(problem, selection, index).into_iter();
+    let more: Vec<Cause> = more.filter(|cause| !rivals.contains(cause)).collect();
+    rivals.extend(more);
+    rivals
+}
+
+/// From how much more left-out loss on one explanation is another's rival no more, on a five-bar. Where what was named leaves nothing but noise,
+/// noise is the measure: the scatter of a short recording's few blocks would keep what leaves many deviations more.
+fn telling(problem: &Problem, selection: &Selection) -> f64 {
+    let left = usable_rms(problem, &selection.after.residual) / problem.floor;
+    match problem.plant {
+        PlantRun::FiveBar(_) if left <= floor_limit(problem) => {
+            (left.max(1.0) * LEAST_SIGMAS).powi(2)
+        }
+        _ => f64::INFINITY,
+    }
+}
+
+/// How much more one leaves than another, the block aside in which it is most: one moment alone, such as the start, tells nothing.
+fn more_elsewhere(losses: &[f64], own: &[f64]) -> f64 {
+    let more = losses.iter().zip(own).map(|(loss, own)| loss - own);
+    more.clone().sum::<f64>() - more.fold(0.0, f64::max)
 }
 
 fn without(found: &[Found], index: usize) -> Vec<Found> {

@@ -16,9 +16,12 @@ mod mechanisms;
 pub mod noise;
 mod protocol;
 #[cfg(test)]
-mod recorded;
+pub(crate) mod recorded;
 pub mod replay;
 pub(crate) mod replica;
 pub mod run;
 #[cfg(test)]
 mod tests;
+
+/// From how many standard deviations of the sensors' noise on two explanations count as told apart.
+pub(crate) const LEAST_SIGMAS: f64 = 10.0;

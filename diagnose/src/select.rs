@@ -1,19 +1,22 @@
 //! This file chooses mechanisms: forward, backward and swap steps judged on left-out blocks of time.
 
 mod judge;
+mod merge;
 mod prune;
 mod refine;
 mod step;
 mod weigh;
 
 use crate::candidates::{causes, variants};
-use crate::problem::{Cause, Problem, Term};
+use crate::problem::{Cause, PlantRun, Problem, Term};
 use crate::regression::{Blocks, Fit, fit};
+use merge::merge;
 use prune::{backward, prune};
 use refine::refine;
 use step::{forward, swap};
 
 pub(crate) use judge::best as best_variant;
+pub(crate) use merge::as_two;
 pub(crate) use refine::refined;
 pub(crate) use weigh::gives_energy;
 pub use weigh::usable_rms;
@@ -112,6 +115,10 @@ pub fn select(problem: &mut Problem, mut nominal: Vec<Term>, gates: Gates) -> Se
     let residual = fit(problem, &refs(&nominal, &found), &blocks).residual;
     rewhiten(problem, &residual, &mut nominal, &mut found);
     found = search(problem, &nominal, found, &blocks, gates, &mut stages);
+    // The other plants' rules were chosen without it.
+    if let PlantRun::FiveBar(_) = problem.plant {
+        merge(problem, &nominal, &mut found, &blocks);
+    }
     let too_small = prune(problem, &nominal, &mut found, &blocks);
     let before = fit(problem, &nominal.iter().collect::<Vec<_>>(), &blocks);
     let after = fit(problem, &refs(&nominal, &found), &blocks);

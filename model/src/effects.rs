@@ -4,6 +4,7 @@
 //! Every law gives a *resistance*: an effort counted positive against positive motion, so that an axis obeys
 //! `inertia·q̈ = gain·u − Σ resistance` and a bench meters `Σ resistance`.
 
+mod asymmetric_presliding;
 mod bias_drift;
 mod brake;
 mod constant_bias;
@@ -103,7 +104,7 @@ pub struct Entry {
     pub form: Form,
     /// How many of its leading parameters are linear coefficients; the others shape the law.
     pub linear: usize,
-    /// Whether its leading coefficient cannot be negative, because the mechanism would give energy.
+    /// Whether none of its coefficients can be negative, because the mechanism would give energy.
     pub passive: bool,
     /// What would refute it, in words for the report.
     pub refuted_by: &'static str,
@@ -119,6 +120,7 @@ pub const LIBRARY: &[Entry] = &[
     direction_asymmetry::ENTRY,
     stribeck::ENTRY,
     presliding::ENTRY,
+    asymmetric_presliding::ENTRY,
     hysteresis::ENTRY,
     ripple::ENTRY,
     spring::ENTRY,
@@ -175,6 +177,26 @@ mod tests {
     use super::*;
 
     #[test]
+    fn the_catalogue_holds_every_law_of_the_library_in_its_order() {
+        let page = include_str!("../../docs/mechanisms.md");
+        let rows: Vec<&str> = page.lines().filter(|l| l.starts_with("| `")).collect();
+        assert_eq!(rows.len(), LIBRARY.len());
+        for (row, entry) in rows.iter().zip(LIBRARY) {
+            let law = entry.equation.replace('|', "\\|");
+            let start = format!("| `{}` | {law} | ", entry.mechanism.name());
+            assert!(row.starts_with(&start), "{start}");
+            assert!(
+                row.ends_with(&format!(" | {} |", entry.refuted_by)),
+                "{row}"
+            );
+            for parameter in entry.mechanism.parameters() {
+                assert!(row.contains(&format!("`{}`", parameter.name)), "{row}");
+            }
+            assert_eq!(row.contains(" | yes | "), entry.passive, "{row}");
+        }
+    }
+
+    #[test]
     fn the_memory_after_a_travel_solves_its_rate() {
         let mut tried = 0;
         for entry in LIBRARY {
@@ -200,6 +222,6 @@ mod tests {
                 tried += usize::from(law.remembers());
             }
         }
-        assert_eq!(tried, 20);
+        assert_eq!(tried, 24);
     }
 }

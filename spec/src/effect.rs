@@ -25,6 +25,8 @@ pub enum Mechanism {
     BacklashWidth,
     /// Elastic motion before sliding (Dahl 1968).
     Presliding,
+    /// Elastic motion before sliding, with another limit in each direction.
+    AsymmetricPresliding,
     /// Memory of the current history.
     CurrentHysteresis,
     /// Memory of the displacement history (Bouc 1967, Wen 1976).
@@ -79,7 +81,7 @@ pub enum Mechanism {
 
 impl Mechanism {
     /// Every mechanism, in the order of the design document.
-    pub const ALL: [Mechanism; 33] = [
+    pub const ALL: [Mechanism; 34] = [
         Mechanism::DryOffset,
         Mechanism::GainError,
         Mechanism::Viscous,
@@ -88,6 +90,7 @@ impl Mechanism {
         Mechanism::ReversalOvershoot,
         Mechanism::BacklashWidth,
         Mechanism::Presliding,
+        Mechanism::AsymmetricPresliding,
         Mechanism::CurrentHysteresis,
         Mechanism::Hysteresis,
         Mechanism::Lag,
@@ -126,6 +129,7 @@ impl Mechanism {
             Mechanism::ReversalOvershoot => "reversal_overshoot",
             Mechanism::BacklashWidth => "backlash_width",
             Mechanism::Presliding => "presliding",
+            Mechanism::AsymmetricPresliding => "asymmetric_presliding",
             Mechanism::CurrentHysteresis => "current_hysteresis",
             Mechanism::Hysteresis => "hysteresis",
             Mechanism::Lag => "lag",
@@ -240,6 +244,15 @@ impl Mechanism {
                 const {
                     &[
                         Parameter::new("level", Effort),
+                        Parameter::new("travel", Travel),
+                    ]
+                }
+            }
+            Mechanism::AsymmetricPresliding => {
+                const {
+                    &[
+                        Parameter::new("forward", Effort),
+                        Parameter::new("backward", Effort),
                         Parameter::new("travel", Travel),
                     ]
                 }

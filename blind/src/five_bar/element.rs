@@ -43,6 +43,11 @@ impl Element {
             Law::Dry { level } => level,
             Law::Bearing { dry, .. } => dry,
             Law::Load { arm } => arm * at.load_n,
+            Law::Uneven {
+                level,
+                depth,
+                period,
+            } => level * (1.0 + depth * libm::sin(TAU * at.angle_rad / period)),
             _ => 0.0,
         }
     }
@@ -129,9 +134,12 @@ impl Element {
                 backward,
                 travel: last,
             } => {
-                let [deflection, ..] = &mut memory;
-                let limit = if travel > 0.0 { forward } else { -backward };
-                *deflection = limit + (*deflection - limit) * libm::exp(-travel.abs() / last);
+                let elements = ELEMENTS as f64;
+                for (k, deflection) in memory.iter_mut().enumerate() {
+                    let stiffness = 0.5 * (forward + backward) / last / (k + 1) as f64;
+                    let moved = *deflection + stiffness * travel;
+                    *deflection = moved.clamp(-backward / elements, forward / elements);
+                }
             }
             _ => {}
         }

@@ -34,7 +34,7 @@ const SCALABLE: [Recipe; 12] = [
     dry, viscous, stribeck, presliding, spring, ripple, load, gain, payload, gravity, force_gain,
     force_bias,
 ];
-const FOREIGN: [Recipe; 4] = [two_ripples, one_sided, varying_skew, compliance];
+const FOREIGN: [Recipe; 4] = [two_ripples, uneven, varying_skew, compliance];
 /// Sets of which each looks like less of the others, all at one joint.
 const MASKED: [&[Recipe]; 10] = [
     &[dry, gain],
@@ -52,7 +52,8 @@ const MASKED: [&[Recipe]; 10] = [
 /// Every recipe but that of a bearing.
 #[cfg(test)]
 pub fn every() -> Vec<Recipe> {
-    let groups: [&[Recipe]; 5] = [&JOINT, &BRAKE, &WHOLE, &SENSOR, &FOREIGN];
+    let both: [Recipe; 2] = [two_sided, one_sided];
+    let groups: [&[Recipe]; 6] = [&JOINT, &BRAKE, &WHOLE, &SENSOR, &FOREIGN, &both];
     groups.concat()
 }
 
@@ -176,7 +177,16 @@ fn stribeck(joint: Joint, draw: &mut Draw) -> Effect {
     )
 }
 
+/// With the same limit in both directions, or in three of ten draws with another in each.
 fn presliding(joint: Joint, draw: &mut Draw) -> Effect {
+    let same = two_sided(joint, draw);
+    match draw.chance(0.3) {
+        true => one_sided(joint, draw),
+        false => same,
+    }
+}
+
+fn two_sided(joint: Joint, draw: &mut Draw) -> Effect {
     at(
         joint,
         Law::MaxwellSlip {
@@ -367,6 +377,17 @@ fn one_sided(joint: Joint, draw: &mut Draw) -> Effect {
             forward,
             backward,
             travel: draw.log_uniform(0.03, 0.15),
+        },
+    )
+}
+
+fn uneven(joint: Joint, draw: &mut Draw) -> Effect {
+    at(
+        joint,
+        Law::Uneven {
+            level: draw.log_uniform(0.1, 0.4),
+            depth: draw.uniform(0.5, 1.0),
+            period: draw.log_uniform(0.2, 1.5),
         },
     )
 }

@@ -31,7 +31,10 @@ pub enum Law {
     Ripple { sine: f64, cosine: f64, period: f64 },
     /// Torque periodic with two periods.
     TwoRipples { level: f64, periods: Pair },
-    /// A bristle with different limits forward and backward.
+    /// Coulomb friction whose level swells and falls with the angle, as an eccentric seal's does (Armstrong-Hélouvry 1991):
+    /// level·(1 + depth·sin(2π·angle/period)).
+    Uneven { level: f64, depth: f64, period: f64 },
+    /// Six elasto-plastic elements side by side with different limits forward and backward.
     OneSided {
         forward: f64,
         backward: f64,
@@ -104,7 +107,8 @@ impl Effect {
             Law::Bias { .. } => Mechanism::ConstantBias.name(),
             Law::Ripple { .. } => Mechanism::Ripple.name(),
             Law::TwoRipples { .. } => "cogging_with_two_periods",
-            Law::OneSided { .. } => "one_sided_hysteresis",
+            Law::Uneven { .. } => "uneven_friction",
+            Law::OneSided { .. } => Mechanism::AsymmetricPresliding.name(),
             Law::Bearing { .. } => Mechanism::BearingFriction.name(),
             Law::Gain { .. } => Mechanism::GainError.name(),
             Law::Lag { .. } => Mechanism::Lag.name(),
@@ -169,6 +173,7 @@ impl Effect {
         match &mut effect.law {
             Law::Dry { level }
             | Law::MaxwellSlip { level, .. }
+            | Law::Uneven { level, .. }
             | Law::Bias { level }
             | Law::TwoRipples { level, .. } => {
                 *level *= factor;
@@ -250,6 +255,15 @@ impl Effect {
                 ("level", level, effort),
                 ("first_period", first, angle),
                 ("second_period", second, angle),
+            ],
+            Law::Uneven {
+                level,
+                depth,
+                period,
+            } => vec![
+                ("level", level, effort),
+                ("depth", depth, number),
+                ("period", period, angle),
             ],
             Law::OneSided {
                 forward,

@@ -15,6 +15,7 @@ use crate::plant::Plant;
 use crate::seal;
 use crate::size::FAINT_STRENGTH;
 use crate::stratum::Stratum;
+use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
 use rigproof_trace::rig::five_bar::{FiveBar, FiveBarChannels};
@@ -258,13 +259,23 @@ fn answers(secret: &Secret) -> Vec<HiddenEffect> {
             size: size.size,
             distinctness: size.distinctness,
             strength: size.strength,
-            equivalent: equivalent(&secret.setup, effect)
-                .iter()
-                .map(|name| vec![(*name).to_owned()])
-                .collect(),
+            equivalent: sets(&secret.setup, effect),
         }
     })
     .collect()
+}
+
+/// Sets of mechanisms that no recording of this experiment can tell from an effect: single ones, and for a bristle with unequal limits, once it
+/// has slid, the bristle with the mean of both and a constant of half their difference.
+fn sets(setup: &Setup, effect: &Effect) -> Vec<Vec<String>> {
+    let single = equivalent(setup, effect).iter();
+    let mut sets: Vec<Vec<String>> = single.map(|name| vec![(*name).to_owned()]).collect();
+    if let (Law::OneSided { .. }, Some(joint)) = (effect.law, effect.joint) {
+        let both = [Mechanism::Presliding, Mechanism::ConstantBias];
+        let named = both.map(|mechanism| format!("{} at {}", mechanism.name(), joint.letter()));
+        sets.push(named.into());
+    }
+    sets
 }
 
 /// Mechanisms that no recording of this experiment can tell from an effect.

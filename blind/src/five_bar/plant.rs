@@ -370,7 +370,7 @@ impl At {
         let set = |effect: &Effect| {
             matches!(
                 effect.law,
-                Law::Dry { .. } | Law::Bearing { .. } | Law::Load { .. }
+                Law::Dry { .. } | Law::Bearing { .. } | Law::Load { .. } | Law::Uneven { .. }
             )
         };
         self.brake.is_some()

@@ -205,7 +205,7 @@ fn the_bookkeeping_of_every_law_closes() {
             break;
         }
     }
-    assert_eq!(names.len(), 27, "{names:?}");
+    assert_eq!(names.len(), 28, "{names:?}");
 }
 
 #[test]

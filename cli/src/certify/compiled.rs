@@ -14,7 +14,7 @@ use crate::outcome::Failure;
 /// A compiled controller, if one is named.
 #[derive(clap::Args)]
 pub struct Compiled {
-    /// A compiled controller behind rigproof_controller.h, in place of a table [controller]; what it promises stands in [declares]
+    /// A compiled controller behind rigproof_controller.h, in place of the table `controller`; what it promises stands in the table `declares`
     #[arg(long = "controller", value_name = "LIBRARY")]
     library: Option<PathBuf>,
     #[command(flatten)]

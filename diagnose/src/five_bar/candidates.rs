@@ -123,7 +123,7 @@ pub fn shapes(
             .into_iter()
             .flat_map(|shape| DELAYS_RAD.map(|travel| [&shape[..], &[travel]].concat()))
             .collect(),
-        Mechanism::Presliding => {
+        Mechanism::Presliding | Mechanism::AsymmetricPresliding => {
             let travel = travel(run, cause).max(1e-12);
             one(geometric(
                 (3.0 * run.theta_noise).max(1e-4 * travel),

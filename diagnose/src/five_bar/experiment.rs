@@ -6,6 +6,7 @@ pub mod play;
 #[cfg(test)]
 mod tests;
 
+use super::LEAST_SIGMAS;
 use super::diagnose::Stand;
 use super::free_run::Model;
 use super::from_rig::aligned;
@@ -27,8 +28,6 @@ use rigproof_trace::Trace;
 const MOST_EXPLANATIONS: usize = 8;
 /// How many experiments are simulated for every explanation.
 const FINALISTS: usize = 2;
-/// From how many standard deviations of the sensors' noise on two explanations count as told apart.
-const LEAST_SIGMAS: f64 = 10.0;
 
 /// The experiment that tells the explanations apart best, and the plan; `None` where there is one explanation only.
 pub(super) fn next(

@@ -220,6 +220,10 @@ fn every_mechanism_does_along_a_motion_what_its_column_says() {
         (at(Stribeck, Joint::A, &[0.23, 0.37, 1.3]), None),
         (at(Stribeck, Joint::E, &[0.31, 0.53, 1.7, 0.029]), None),
         (at(Presliding, Joint::C, &[0.19, 0.013]), None),
+        (
+            at(AsymmetricPresliding, Joint::B, &[0.07, 0.29, 0.017]),
+            None,
+        ),
         (at(Hysteresis, Joint::E, &[3.1, 11.3, 4.7]), None),
         (at(ReversalOvershoot, Joint::B, &[0.37, 0.083]), None),
         (at(Settling, Joint::E, &[0.41, 0.53]), None),

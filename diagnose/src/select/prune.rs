@@ -3,8 +3,9 @@
 use super::refine::refine;
 use super::weigh::{coefficients_of, drives, excitation, usable_rms};
 use super::{Found, Gates, TIE_Z, floor_limit, refs};
-use crate::problem::{Cause, Problem, Term};
+use crate::problem::{Cause, PlantRun, Problem, Term};
 use crate::regression::{Blocks, fit, paired};
+use rigproof_spec::effect::Mechanism;
 
 /// Drops every found mechanism that the others, with their shapes adjusted, make unnecessary.
 pub(super) fn backward(
@@ -63,7 +64,7 @@ pub(super) fn prune(
             })
             .min_by(|a, b| a.0.total_cmp(&b.0));
         match weakest {
-            Some((own, index)) if own < problem.plant.own_to_unexplained() * unexplained => {
+            Some((own, index)) if own < least_to_unexplained(problem, found) * unexplained => {
                 taken_out.push(found.remove(index).term.cause);
             }
             _ => return taken_out,
@@ -71,14 +72,48 @@ pub(super) fn prune(
     }
 }
 
+/// Multiple of the unexplained energy that names must explain on a five-bar if each of them has one form only: what is left is then none of
+/// theirs. Compliance comes to 3 as a payload; where a name is right nothing is left.
+const EXACT_TO_UNEXPLAINED: f64 = 10.0;
+
+/// Multiple of the unexplained energy that each name must explain.
+///
+/// Friction with a peak, a memory or heat has laws of many families; one of another family leaves a part of the effect, and the name is right.
+/// A mass, a sensor's error, a gain or a constant has one form: what it leaves is something else, which it may only stand in for.
+fn least_to_unexplained(problem: &Problem, found: &[Found]) -> f64 {
+    let usual = problem.plant.own_to_unexplained();
+    let exact = |f: &Found| !HAS_FAMILIES.contains(&f.term.cause.mechanism);
+    match problem.plant {
+        PlantRun::FiveBar(_) if found.iter().all(exact) => EXACT_TO_UNEXPLAINED,
+        _ => usual,
+    }
+}
+
+/// What is described by laws of several families.
+const HAS_FAMILIES: [Mechanism; 9] = [
+    Mechanism::Stribeck,
+    Mechanism::Presliding,
+    Mechanism::AsymmetricPresliding,
+    Mechanism::Hysteresis,
+    Mechanism::CurrentHysteresis,
+    Mechanism::ThermalFade,
+    Mechanism::ReversalOvershoot,
+    Mechanism::Settling,
+    Mechanism::LoadDependent,
+];
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    use crate::five_bar::from_rig::aligned;
+    use crate::five_bar::recorded::{nothing, recording, rig};
     use crate::problem::{Inertia, Rows};
     use crate::recorded::{Noise, exact_bench};
     use crate::weak::Windows;
     use rigproof_spec::effect::Mechanism;
+    use rigproof_spec::joint::Joint;
+    use rigproof_spec::layout::Layout;
 
     #[test]
     fn in_few_windows_noise_that_happens_to_be_loud_takes_no_name_out() {
@@ -116,5 +151,53 @@ mod tests {
         let ratio = usable_rms(&problem, &left) / problem.floor;
         assert!(ratio > 1.35 && ratio < floor_limit(&problem), "{ratio}");
         assert_eq!(prune(&problem, &[], &mut found, &blocks), []);
+    }
+
+    /// What is taken out of one name when it explains five times what stays unexplained.
+    fn taken_out(problem: &mut Problem, cause: Cause, shape: &[f64]) -> Vec<Cause> {
+        let ripple = Cause {
+            mechanism: Mechanism::Ripple,
+            joint: Some(Joint::B),
+        };
+        let [term, other] = [(cause, shape), (ripple, &[0.053][..])]
+            .map(|(cause, shape)| problem.term(cause, shape, None).unwrap());
+        let [own, other] = [(6.0, &term), (3.0, &other)].map(|(deviations, term)| {
+            let rows = &term.free[0];
+            let size = rows.white.iter().map(|x| x * x).sum::<f64>() / rows.white.len() as f64;
+            let times = deviations / size.sqrt();
+            rows.raw.iter().map(|x| times * x).collect::<Vec<f64>>()
+        });
+        let raw: Vec<f64> = own
+            .iter()
+            .zip(other)
+            .map(|(own, other)| own + other)
+            .collect();
+        problem.target = Rows {
+            signal: Vec::new(),
+            white: problem.whitener.whiten(&raw),
+            raw,
+        };
+        let mut found = vec![Found {
+            term,
+            z: 3.7,
+            share: 0.7,
+            at_floor: false,
+        }];
+        prune(problem, &[], &mut found, &Blocks::new(problem))
+    }
+
+    #[test]
+    fn what_a_mass_leaves_is_something_else_and_what_a_bristle_leaves_may_be_its_own() {
+        let recording = recording(Layout::FourBrake, 6.0, 19, &nothing);
+        let run = aligned(&rig(Layout::FourBrake), &recording).unwrap();
+        let windows = Windows::over(run.len(), 2, (run.step_s, run.start_s), 0.080);
+        let mut problem = Problem::of_five_bar(&run, windows);
+        let mass = Cause::of(Mechanism::Payload);
+        assert_eq!(taken_out(&mut problem, mass, &[]), [mass]);
+        let bristle = Cause {
+            mechanism: Mechanism::Presliding,
+            joint: Some(Joint::E),
+        };
+        assert_eq!(taken_out(&mut problem, bristle, &[0.031]), []);
     }
 }

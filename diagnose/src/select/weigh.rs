@@ -73,7 +73,7 @@ pub fn usable_rms(problem: &Problem, values: &[f64]) -> f64 {
 /// Whether a passive mechanism came out with a sign that gives energy.
 pub(super) fn drives(term: &Term, own: &[f64]) -> bool {
     let passive = entry(term.cause.mechanism).is_some_and(|e| e.passive);
-    passive && own.first().is_some_and(|c| *c < 0.0)
+    passive && own.iter().any(|c| *c < 0.0)
 }
 
 /// Whether a passive mechanism would come out with a sign that gives energy beside these terms.
