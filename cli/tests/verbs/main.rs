@@ -16,3 +16,4 @@ mod help;
 mod identify;
 mod inspect;
 mod reproduce;
+mod serve;
