@@ -2,6 +2,7 @@
 
 mod claims;
 mod make;
+mod page;
 mod score;
 mod trial;
 

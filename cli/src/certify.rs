@@ -7,6 +7,8 @@ mod merge;
 mod replay;
 mod words;
 
+pub use campaign::CERTIFICATE;
+
 use std::path::PathBuf;
 
 use clap::Subcommand;

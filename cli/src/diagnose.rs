@@ -54,8 +54,48 @@ Examples:
 
 Of a folder of recordings of one five-bar all are diagnosed together but the last, on which the result is shown.";
 
+impl Args {
+    /// A recording and its rig, and where the result is to stand; everything else as it is without an option.
+    pub fn of(recording: &Path, rig: &Path, out: &Path) -> Args {
+        Args {
+            source: Source {
+                recording: recording.to_path_buf(),
+                rig: rig.to_path_buf(),
+                cut: Cut::default(),
+                reading: Default::default(),
+            },
+            hold_out: None,
+            hold_out_share: Options::default().hold_out_share,
+            out: Some(out.to_path_buf()),
+            calibrate: None,
+            jobs: 0,
+            json: false,
+        }
+    }
+}
+
 /// Diagnoses recordings, writes the folder and prints the report.
 pub fn run(args: &Args) -> Result<Outcome, Failure> {
+    let made = made(args)?;
+    say(args, (&made.out, &made.next), &made.files, &made.diagnosis)?;
+    Ok(Outcome {
+        checks_hold: text::holds(&made.diagnosis.report),
+    })
+}
+
+/// A diagnosis that is written.
+pub struct Made {
+    out: PathBuf,
+    files: Vec<&'static str>,
+    next: String,
+    diagnosis: Diagnosis,
+}
+
+/// Diagnoses recordings and writes the folder.
+///
+/// # Errors
+/// An input is not usable, or the folder cannot be written.
+pub fn made(args: &Args) -> Result<Made, Failure> {
     let out = out(args)?;
     // A wrong place is refused before the work, not after it.
     drop(Folder::begin(&out)?);
@@ -94,9 +134,11 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     };
     let files = folder::write(&folder, rig.name(), &mut diagnosis, beside)?;
     folder.finish()?;
-    say(args, (&out, &next), &files, &diagnosis)?;
-    Ok(Outcome {
-        checks_hold: text::holds(&diagnosis.report),
+    Ok(Made {
+        out,
+        files,
+        next,
+        diagnosis,
     })
 }
 

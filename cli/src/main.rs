@@ -24,6 +24,7 @@ mod picture;
 mod progress;
 mod reading;
 mod reproduce;
+mod serve;
 mod shell;
 mod simulate;
 mod text;
@@ -71,6 +72,8 @@ enum Verb {
     Inspect(inspect::Args),
     /// Turn a recording in HDF5, MATLAB, MCAP or CSV into a normalised CSV file, or into MCAP for viewers
     Convert(convert::Args),
+    /// Show a folder of runs in a browser on this machine, and diagnose recordings as they come
+    Serve(serve::Args),
     /// Try a compiled controller in a process of its own
     Controller(controller::Args),
     /// Print what a shell needs to complete the words of a command line
@@ -106,6 +109,7 @@ fn run(verb: &Verb) -> Result<Outcome, Failure> {
         Verb::Cite(args) => cite::run(args),
         Verb::Inspect(args) => inspect::run(args),
         Verb::Convert(args) => convert::run(args),
+        Verb::Serve(args) => serve::run(args),
         Verb::Controller(args) => controller::run(args),
         Verb::Completions(args) => completions::run(args),
         Verb::Man(args) => man::run(args),

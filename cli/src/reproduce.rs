@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 use rigproof_experiments::{Experiment, Finding, Outcome as Left, Verdict, all, find};
-use rigproof_trace::store::Folder;
+use rigproof_report::compared::{self, Again, Statement};
+use rigproof_trace::store::{Folder, write_aside};
 use serde_json::{Value, json};
 
 use crate::outcome::{Failure, Outcome, print};
@@ -21,6 +22,9 @@ pub struct Args {
     /// The folder to write: for each experiment its tables (CSV) and pictures (SVG)
     #[arg(long, value_name = "FOLDER", default_value = "rigproof-reproduced")]
     out: PathBuf,
+    /// Also write one page to look at in a browser: every statement and every picture
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
     /// Experiments that run at once; 0 takes every processor. The result does not depend on it
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = threads::parse)]
     jobs: usize,
@@ -41,7 +45,7 @@ Exit codes:
 Examples:
   rigproof reproduce
   rigproof reproduce 3.3 3.5 --out brake
-  rigproof reproduce all --json";
+  rigproof reproduce all --html thesis.html";
 
 /// One experiment and what it left behind.
 struct Done {
@@ -73,6 +77,9 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     })?;
     drop(bar);
     let files = write(&args.out, &done)?;
+    if let Some(file) = &args.html {
+        write_aside(file, page(&done).as_bytes())?;
+    }
     if args.json {
         print(&report(&done)?)?;
     } else {
@@ -143,6 +150,44 @@ fn write(out: &Path, done: &[Done]) -> Result<Vec<String>, Failure> {
     )?;
     folder.finish()?;
     Ok(files)
+}
+
+/// The page with every statement and picture.
+fn page(done: &[Done]) -> String {
+    let statement = |own: &Finding| Statement {
+        place: own.place.to_owned(),
+        statement: own.statement.clone(),
+        stated: own.stated.clone(),
+        ours: own.ours.clone(),
+        verdict: own.verdict.name(),
+        because: match own.account {
+            Some(account) => format!("{}, {account}", own.because),
+            None => own.because.clone(),
+        },
+    };
+    let again = done.iter().map(|Done { experiment, left }| Again {
+        id: experiment.id.to_owned(),
+        title: experiment.title.to_owned(),
+        what: experiment.what.to_owned(),
+        statements: left.findings.iter().map(statement).collect(),
+        pictures: left
+            .pictures
+            .iter()
+            .map(|drawn| (drawn.name.clone(), picture::figure(drawn)))
+            .collect(),
+    });
+    let findings = done.iter().flat_map(|done| &done.left.findings);
+    let unaccounted = findings.filter(|own| own.is_unaccounted()).count();
+    let words = [
+        Verdict::Agrees,
+        Verdict::Disagrees,
+        Verdict::CannotBeCompared,
+    ];
+    compared::page(
+        &again.collect::<Vec<_>>(),
+        words.map(Verdict::name),
+        unaccounted,
+    )
 }
 
 fn report(done: &[Done]) -> Result<String, Failure> {

@@ -99,7 +99,8 @@
     rigproof.charts[spec.id] = { plot, spec };
     const resize = () => plot.setSize({ width: width(place), height: spec.height });
     new ResizeObserver(() => { if (Math.abs(plot.width - width(place)) > 1) resize(); }).observe(place);
-    rigproof.redraw.push(() => { if (rigproof.printing || plot.width !== width(place)) resize(); plot.redraw(false, true); });
+    const markers = () => place.querySelectorAll('.u-marker').forEach((own, k) => { if (k > 0) own.style.borderColor = colour(spec.series[k - 1].role); });
+    rigproof.redraw.push(() => { markers(); if (rigproof.printing || plot.width !== width(place)) resize(); plot.redraw(false, true); });
     controls(spec, plot, place);
   };
 

@@ -126,6 +126,8 @@ async function replay(page, name) {
   await page.focus('#replay-time');
   for (let k = 0; k < 12; k++) await page.keyboard.press('ArrowRight');
   const after = await arms();
+  const seen = await page.$$eval('#replay-drawing .arms', (all) => all.map((own) => own.getBoundingClientRect()).every((box) => box.width > 60 && box.height > 60));
+  holds(name, 'the linkage is drawn', seen);
   holds(name, 'the slider moves the linkage', before.split('|').every((points) => points.length > 20) && before !== after);
   holds(name, 'the replay says how far apart', /mm/.test(await page.$eval('#replay-said', (own) => own.textContent)));
   const at = () => page.$eval('#replay-time', (slider) => Number(slider.value));
@@ -143,7 +145,7 @@ async function saves(page, name) {
   const session = await page.createCDPSession();
   await session.send('Browser.setDownloadBehavior', { behavior: 'allow', downloadPath: saved });
   const buttons = await page.$$('[data-do="svg"], [data-do="csv"], [data-save-drawing], [data-save-table], #replay-csv');
-  const figures = await page.$$eval('figure', (all) => all.filter((own) => !own.querySelector('.tools button')).length);
+  const figures = await page.$$eval('figure', (all) => all.filter((own) => !own.querySelector('.tools button, .tools a[download]')).length);
   holds(name, `${figures} figures cannot be saved`, figures === 0);
   for (const button of buttons) {
     const label = await button.evaluate((own) => own.getAttribute('aria-label') ?? own.textContent);

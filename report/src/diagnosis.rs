@@ -35,9 +35,9 @@ pub fn page(diagnosed: Diagnosed) -> String {
     let (report, curves) = (diagnosed.report, diagnosed.curves);
     let mut charts = Vec::new();
     let mut sections = Vec::new();
-    let mut section = |id, heading: &str, body: Option<Markup>| {
+    let mut section = |id: &str, heading: &str, body: Option<Markup>| {
         if let Some(body) = body {
-            let heading = heading.to_owned();
+            let (id, heading) = (String::from(id), heading.to_owned());
             sections.push(Section { id, heading, body });
         }
     };
@@ -69,6 +69,7 @@ pub fn page(diagnosed: Diagnosed) -> String {
         sections,
         charts,
         replay,
+        served: None,
         footer: format!(
             "Written by {}. This page is one file: it loads nothing and sends nothing.",
             report.tool

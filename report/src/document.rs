@@ -65,7 +65,7 @@ pub struct Headline {
 /// A part of a page with a heading.
 pub struct Section {
     /// Its anchor, of letters and hyphens.
-    pub id: &'static str,
+    pub id: String,
     /// Its heading.
     pub heading: String,
     /// Its content.
@@ -90,6 +90,15 @@ pub struct Document {
     pub replay: Option<Replay>,
     /// The line at the bottom.
     pub footer: String,
+    /// How it is served; nothing for a page that stands by itself.
+    pub served: Option<Served>,
+}
+
+/// How a page is served.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Served {
+    /// Seconds after which it is asked for again, where something is under way.
+    pub again_s: Option<u32>,
 }
 
 #[derive(Serialize)]
@@ -108,9 +117,10 @@ impl Document {
             html lang="en" {
                 head {
                     meta charset="utf-8";
-                    meta http-equiv="Content-Security-Policy" content=(policy(&script));
+                    meta http-equiv="Content-Security-Policy" content=(policy(&script, self.served.is_some()));
                     meta name="viewport" content="width=device-width, initial-scale=1";
                     meta name="referrer" content="no-referrer";
+                    @if let Some(again_s) = self.served.and_then(|served| served.again_s) { meta http-equiv="refresh" content=(again_s); }
                     title { (self.title) }
                     link rel="icon" href="data:,";
                     style { (PreEscaped(style)) }
@@ -173,10 +183,11 @@ impl Headline {
 }
 
 /// Nothing is loaded, nothing is sent, and no script runs but the page's own.
-fn policy(script: &str) -> String {
+fn policy(script: &str, is_served: bool) -> String {
+    let form = if is_served { "'self'" } else { "'none'" };
     let hash = STANDARD.encode(Sha256::digest(script.as_bytes()));
     format!(
-        "default-src 'none'; style-src 'unsafe-inline'; script-src 'sha256-{hash}'; img-src data:; base-uri 'none'; form-action 'none'"
+        "default-src 'none'; style-src 'unsafe-inline'; script-src 'sha256-{hash}'; img-src data:; base-uri 'none'; form-action {form}"
     )
 }
 

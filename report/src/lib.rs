@@ -13,10 +13,14 @@
     )
 )]
 
+pub mod certificate;
 pub mod chart;
+pub mod compared;
 pub mod diagnosis;
 pub mod document;
 pub mod number;
 pub mod replay;
 mod statistics;
+pub mod table;
+pub mod trial;
 pub mod words;

@@ -45,7 +45,7 @@ impl Replay {
                 figcaption { strong { "Replay." } " The linkage as recorded, and as the two models move it from the recorded forces. " (self.protocol) }
                 div.replay {
                     svg.drawing #replay-drawing viewBox={ (left) " " (top) " " (width) " " (height) } role="img" aria-label="The five-bar linkage as recorded and as simulated" {
-                        line x1=(self.a[0]) y1=(-self.a[1]) x2=(self.b[0]) y2=(-self.b[1]) stroke="var(--line)" stroke-width=(0.02 * width);
+                        line x1=(self.a[0]) y1=(-self.a[1]) x2=(self.b[0]) y2=(-self.b[1]) stroke="var(--line)" stroke-width=(0.02 * width) {}
                         @for way in &self.ways {
                             g data-linkage=(way.role) {
                                 polyline.trail fill="none" stroke={ "var(--" (way.role) ")" } stroke-width=(0.3 * stroke(way.role)) opacity="0.7" points="" {}
@@ -53,7 +53,7 @@ impl Replay {
                                 circle.tip r=(0.016 * width) fill={ "var(--" (way.role) ")" } {}
                             }
                         }
-                        @for (name, [x, y]) in [("A", self.a), ("B", self.b)] {
+                        @for (name, [x, y]) in self.bases() {
                             circle cx=(x) cy=(-y) r=(0.012 * width) fill="var(--ink)" {}
                             text x=(x) y=(-y + 0.06 * width) font-size=(0.045 * width) text-anchor="middle" { (name) }
                         }
@@ -76,6 +76,14 @@ impl Replay {
                 }
             }
         }
+    }
+
+    /// The base joints with their names; one point where they lie on one axis.
+    fn bases(&self) -> Vec<(&'static str, [f64; 2])> {
+        if self.a == self.b {
+            return vec![("A, B", self.a)];
+        }
+        vec![("A", self.a), ("B", self.b)]
     }
 
     /// What the drawing has to show, y downward: left, top, width, height.

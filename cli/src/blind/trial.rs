@@ -7,11 +7,12 @@ use indicatif::ProgressBar;
 use rayon::prelude::*;
 use rigproof_blind::{Answer, Case, Plant, Score, Table, make, open, score};
 use rigproof_diagnose::{Description, Options};
-use rigproof_trace::store::{Folder, read_text};
+use rigproof_trace::store::{Folder, read_text, write_aside};
 use serde_json::{Value, json};
 
 use super::claims::{CLAIMS, Measured};
 use super::make::{FILES, contents};
+use super::page;
 use super::truth;
 use crate::folder::REPORT;
 use crate::outcome::{Failure, Outcome, print};
@@ -38,6 +39,9 @@ pub struct Args {
     /// Write every miss as a recording that can be diagnosed again: FOLDER/SEED/ with the files of a case and the report
     #[arg(long, value_name = "FOLDER")]
     misses: Option<PathBuf>,
+    /// Also write one page to look at in a browser
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
     /// Say what became of every seed
     #[arg(long)]
     details: bool,
@@ -95,6 +99,10 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
         write_misses(folder, &tried)?;
     }
     let claims: Vec<Measured<'_>> = CLAIMS.iter().map(|claim| claim.measure(&tried)).collect();
+    if let Some(file) = &args.html {
+        let page = page::html(&table, assignment(args.plant), &claims, &tried);
+        write_aside(file, page.as_bytes())?;
+    }
     if args.json {
         let cases = tried.iter().map(Tried::json);
         let result = json!({
@@ -217,11 +225,8 @@ impl Tried {
         lists.flatten().filter_map(Value::as_str).collect()
     }
 
-    fn line(&self) -> String {
-        let list = |names: &[&str]| match names {
-            [] => "–".to_owned(),
-            names => names.join(", "),
-        };
+    /// Seed, plant, stratum, what was hidden, the verdict, what was named, and how that was scored.
+    pub fn cells(&self) -> Vec<String> {
         let hidden: Vec<String> = truth(&self.answer)
             .iter()
             .map(|line| line.trim().to_owned())
@@ -234,17 +239,25 @@ impl Tried {
         flags.extend((!self.score.inside).then_some("truth outside"));
         flags.extend((!self.score.false_names.is_empty()).then_some("false name"));
         flags.extend(self.score.flagged.then_some("flagged"));
-        format!(
-            "  {} {} {} | {} | {} | named {} | ambiguous {} | {}",
-            self.answer.seed,
-            self.answer.plant.name(),
-            self.answer.stratum.name(),
+        vec![
+            self.answer.seed.to_string(),
+            self.answer.plant.name().to_owned(),
+            self.answer.stratum.name().to_owned(),
             hidden.join("; "),
-            self.score.verdict,
+            self.score.verdict.clone(),
             list(&self.named()),
-            list(&self.ambiguous()),
             flags.join(", "),
-        )
+        ]
+    }
+
+    fn line(&self) -> String {
+        let ambiguous = list(&self.ambiguous());
+        match self.cells().as_slice() {
+            [seed, plant, stratum, hidden, verdict, named, flags] => format!(
+                "  {seed} {plant} {stratum} | {hidden} | {verdict} | named {named} | ambiguous {ambiguous} | {flags}"
+            ),
+            _ => String::new(),
+        }
     }
 
     fn json(&self) -> Value {
@@ -252,6 +265,13 @@ impl Tried {
             "seed": self.answer.seed, "plant": self.answer.plant, "answer": self.answer,
             "named": self.named(), "ambiguous": self.ambiguous(), "score": self.score,
         })
+    }
+}
+
+fn list(names: &[&str]) -> String {
+    match names {
+        [] => "–".to_owned(),
+        names => names.join(", "),
     }
 }
 

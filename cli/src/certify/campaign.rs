@@ -181,6 +181,8 @@ pub fn finish(
     let certificate = Certificate::new(plan, chunks, named, tool()?)?;
     let text = certificate.to_json()?;
     write_aside(&folder.join(CERTIFICATE), text.as_bytes())?;
+    let page = rigproof_report::certificate::page(&certificate);
+    write_aside(&folder.join("certificate.html"), page.as_bytes())?;
     if as_json {
         print(text.trim_end())?;
     } else {

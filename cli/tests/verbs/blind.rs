@@ -100,7 +100,9 @@ fn a_trial_does_not_depend_on_the_number_of_jobs() {
     let broken = claims.iter().any(|claim| claim["holds"] == false);
     assert_eq!(answer.status.code(), Some(i32::from(broken)));
 
-    let two = desk.rigproof(&format!("{line} --json --jobs 2"));
+    let two = desk.rigproof(&format!("{line} --json --jobs 2 --html trial.html"));
+    let page = desk.read("trial.html");
+    assert!(page.contains("recordings with concealed causes exactly the cause was named"));
     assert_eq!(two.stdout, answer.stdout);
     let text = desk.rigproof(&format!("{line} --jobs 2")).stdout;
     let text = String::from_utf8(text).unwrap();

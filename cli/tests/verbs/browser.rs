@@ -79,7 +79,21 @@ fn pages_hold_in_a_browser() {
             .code(),
         Some(1)
     );
-    let pages = ["rigproof-demo", "found", "hostile", "short"]
-        .map(|folder| format!("{folder}/report.html"));
-    holds(&tools, &desk, &pages.each_ref().map(String::as_str));
+    desk.rigproof("blind trial --seeds 4..8 --html trial.html");
+    desk.rigproof("reproduce 3.3 4.7 --html thesis.html");
+    desk.put(
+        "certify.toml",
+        "name = \"<b>soft</b>\"\n[controller]\nkind = \"proportional\"\ngain_n_s_per_m = 400\n[baseline]\nnamed = \"proportional_low\"\n",
+    );
+    desk.rigproof("certify certify.toml --scenarios 4 --seconds 0.3 --out certified");
+    let pages = [
+        "rigproof-demo/report.html",
+        "found/report.html",
+        "hostile/report.html",
+        "short/report.html",
+        "trial.html",
+        "thesis.html",
+        "certified/certificate.html",
+    ];
+    holds(&tools, &desk, &pages);
 }

@@ -17,6 +17,10 @@ fn a_sound_controller_may_go_and_its_certificate_is_checked() {
     let line = "certify certify.toml --scenarios 24 --seconds 1 --out done";
     let text = desk.prints(line, 0);
     assert!(
+        desk.read("done/certificate.html")
+            .contains("may go on the rig, as far as 24 simulated trials can say")
+    );
+    assert!(
         text.starts_with("May go on the rig: no law was broken in 24 scenarios"),
         "{text}"
     );

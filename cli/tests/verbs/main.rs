@@ -18,3 +18,4 @@ mod inspect;
 mod mistakes;
 mod new;
 mod reproduce;
+mod serve;

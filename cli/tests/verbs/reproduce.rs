@@ -5,7 +5,12 @@ use crate::desk::Desk;
 #[test]
 fn an_experiment_writes_its_tables_pictures_and_findings() {
     let desk = Desk::new();
-    let printed = desk.prints("reproduce 3.3", 0);
+    let printed = desk.prints("reproduce 3.3 --html thesis.html", 0);
+    let page = desk.read("thesis.html");
+    assert!(
+        page.contains("statements of the text come out here")
+            && page.contains("data:image/svg+xml;base64,")
+    );
     assert!(printed.starts_with("3.3  Torque response"), "{printed}");
     assert!(
         printed.contains("agrees") && printed.contains("Together"),

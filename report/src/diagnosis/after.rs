@@ -220,7 +220,7 @@ fn distribution(curves: &Curves, before: &[f64], after: &[f64]) -> (Chart, Marku
         label: "left over ÷ noise".to_owned(),
         unit: "1".to_owned(),
     };
-    let caption = html! { "How often what is left over has which size. A perfect model follows the green bell; what lies beyond ±" (REACH) " is in the outermost bars." };
+    let caption = html! { "How often what is left over has which size. The closer to the green bell, the less but noise is left (the noise of a five-bar varies with its pose, so its bell is a rough one); what lies beyond ±" (REACH) " is in the outermost bars." };
     (
         still("histogram", "Distribution", (x, "density"), t, series),
         caption,

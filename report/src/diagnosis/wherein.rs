@@ -97,7 +97,7 @@ fn unexplained(begins: &[f64], last: f64, ratios: &[f64]) -> Vec<Span> {
     let mut spans: Vec<Span> = Vec::new();
     let ends = begins.iter().skip(1).copied().chain([last]);
     for ((from, to), ratio) in begins.iter().copied().zip(ends).zip(ratios) {
-        if !(*ratio > UNEXPLAINED) {
+        if ratio.is_nan() || *ratio <= UNEXPLAINED {
             continue;
         }
         match spans.last_mut() {

@@ -1,0 +1,272 @@
+//! This file is the page of a certificate: may it go on the rig, why not, what was tested, what was proved and what nobody looked at.
+
+use maud::{Markup, html};
+use rigproof_certify::certificate::Certificate;
+use rigproof_certify::summary::{LawSummary, MetricSummary, Word};
+
+use crate::document::{Document, Headline, Section, Tone};
+use crate::number::significant;
+use crate::table::table;
+
+/// The page of a certificate as HTML.
+pub fn page(certificate: &Certificate) -> String {
+    let headline = headline(certificate);
+    let section = |id: &str, heading: &str, body: Markup| Section {
+        id: id.to_owned(),
+        heading: heading.to_owned(),
+        body,
+    };
+    let mut sections = Vec::new();
+    if !certificate.findings.is_empty() {
+        sections.push(section(
+            "findings",
+            "What broke a law",
+            findings(certificate),
+        ));
+    }
+    sections.push(section(
+        "laws",
+        "The laws, on every sample",
+        laws(&certificate.laws),
+    ));
+    sections.push(section(
+        "metrics",
+        "How it feels and how well it guides",
+        metrics(&certificate.metrics),
+    ));
+    sections.push(section("proved", "What was proved", proved(certificate)));
+    sections.push(section(
+        "not",
+        "What nobody looked at",
+        not_looked_at(certificate),
+    ));
+    sections.push(section(
+        "hashes",
+        "What this depends on",
+        hashes(certificate),
+    ));
+    Document {
+        title: format!("{} – {}", headline.sentence, certificate.name),
+        kind: "Certificate",
+        about: certificate.name.clone(),
+        headline,
+        sections,
+        charts: Vec::new(),
+        replay: None,
+        served: None,
+        footer: format!(
+            "Written by rigproof {} from certificate.json, which alone counts: check it with `rigproof certify --check`. This page is one file: it loads nothing and sends nothing.",
+            certificate.tool.version
+        ),
+    }
+    .to_html()
+}
+
+fn headline(certificate: &Certificate) -> Headline {
+    let (may, plan) = (certificate.may_go_on_the_rig, &certificate.plan);
+    let broken = certificate
+        .laws
+        .iter()
+        .filter(|law| law.broken_in > 0)
+        .count();
+    let sentence = match may {
+        true => format!(
+            "“{}” may go on the rig, as far as {} simulated trials can say.",
+            certificate.name, plan.scenarios
+        ),
+        false => format!("“{}” must not go on the rig.", certificate.name),
+    };
+    let paragraphs = match may {
+        true => vec![
+            html! { "No law was broken on any of " (certificate.samples) " samples, and every limit holds. That is a test on a simulated rig with simulated hands: what nobody looked at stands below." },
+        ],
+        false => certificate
+            .reasons
+            .iter()
+            .map(|reason| html! { (reason) "." })
+            .collect(),
+    };
+    let endings = certificate.endings;
+    Headline {
+        tone: if may { Tone::Good } else { Tone::Bad },
+        badge: if may {
+            "May go on the rig"
+        } else {
+            "Must not go on the rig"
+        }
+        .to_owned(),
+        sentence,
+        paragraphs,
+        cards: vec![
+            [
+                "Laws broken".to_owned(),
+                format!("{broken} of {}", certificate.laws.len()),
+                "looked at on every sample they are about".to_owned(),
+            ],
+            [
+                "Trials".to_owned(),
+                plan.scenarios.to_string(),
+                format!(
+                    "{} ran to their end, {} were taken to the stops, {} got no answer",
+                    endings.time, endings.left_workspace, endings.no_answer
+                ),
+            ],
+            [
+                "Samples".to_owned(),
+                certificate.samples.to_string(),
+                format!("seed {}", plan.seed),
+            ],
+        ],
+    }
+}
+
+fn findings(certificate: &Certificate) -> Markup {
+    let rows: Vec<Vec<String>> = certificate
+        .findings
+        .iter()
+        .map(|found| {
+            vec![
+                found.law.name().to_owned(),
+                found.scenario.to_string(),
+                significant(found.time_s, 3),
+                format!("rigproof certify --replay {}", found.file),
+            ]
+        })
+        .collect();
+    html! {
+        p { "Each was made as small as it goes and can be played again; the file of the same name that ends in .mcap is the recording." }
+        (table("findings-table", "What broke a law, shrunk.", &["law", "trial", "seconds until it breaks", "to see it"], &rows))
+    }
+}
+
+fn laws(laws: &[LawSummary]) -> Markup {
+    let row = |law: &LawSummary| {
+        let fared = match law.broken_in {
+            0 => "holds".to_owned(),
+            count => format!(
+                "✘ BROKEN in {count} trials, first in {}",
+                law.first_broken
+                    .map_or_else(|| "–".to_owned(), |first| first.to_string())
+            ),
+        };
+        let margin = law.worst_margin.map_or_else(
+            || "–".to_owned(),
+            |margin| format!("{} {}", significant(margin, 3), law.unit),
+        );
+        vec![
+            law.law.name().to_owned(),
+            law.words.clone(),
+            fared,
+            law.samples.to_string(),
+            margin,
+        ]
+    };
+    let rows: Vec<Vec<String>> = laws.iter().map(row).collect();
+    table(
+        "laws-table",
+        "A margin below zero breaks the law; the least one counts.",
+        &["law", "what it says", "fared", "samples", "least margin"],
+        &rows,
+    )
+}
+
+fn metrics(metrics: &[MetricSummary]) -> Markup {
+    let row = |metric: &MetricSummary| {
+        let own = |pick: fn(&rigproof_certify::summary::Quantiles) -> f64,
+                   of: &Option<rigproof_certify::summary::Quantiles>| {
+            of.as_ref().map_or_else(
+                || "–".to_owned(),
+                |quantiles| significant(pick(quantiles), 3),
+            )
+        };
+        let change = metric.change.as_ref().map_or_else(
+            || "–".to_owned(),
+            |change| {
+                let [low, high] = change.interval;
+                let word = match change.word {
+                    Word::Better => "better",
+                    Word::Worse => "worse",
+                    Word::NoDifference => "no difference",
+                };
+                format!(
+                    "{word}: {} [{} to {}]",
+                    significant(change.mean, 3),
+                    significant(low, 3),
+                    significant(high, 3)
+                )
+            },
+        );
+        vec![
+            format!("{} ({})", metric.words, metric.unit),
+            own(|q| q.q50, &metric.controller),
+            own(|q| q.q95, &metric.controller),
+            own(|q| q.q50, &metric.baseline),
+            change,
+            metric
+                .limit
+                .map_or_else(|| "–".to_owned(), |limit| significant(limit, 3)),
+            if metric.holds { "holds" } else { "✘ BEYOND" }.to_owned(),
+        ]
+    };
+    let rows: Vec<Vec<String>> = metrics.iter().map(row).collect();
+    let head = [
+        "metric",
+        "median",
+        "95 % below",
+        "baseline's median",
+        "against the baseline, paired",
+        "limit",
+        "fared",
+    ];
+    table(
+        "metrics-table",
+        "What was measured in every trial, beside what is on the rig now.",
+        &head,
+        &rows,
+    )
+}
+
+fn proved(certificate: &Certificate) -> Markup {
+    let proved = &certificate.proved;
+    let row = |claim: &rigproof_certify::proved::Claim| {
+        vec![
+            claim.claim.clone(),
+            claim.statement.clone(),
+            claim.by.join(", "),
+        ]
+    };
+    let rows: Vec<Vec<String>> = proved.claims.iter().map(row).collect();
+    html! {
+        p { (proved.words) }
+        @if !rows.is_empty() {
+            details { summary { (rows.len()) " claims that hold for every input" } (table("proved-table", "Proved, not tested.", &["claim", "what it says", "by"], &rows)) }
+        }
+    }
+}
+
+fn not_looked_at(certificate: &Certificate) -> Markup {
+    html! { ul { @for not in &certificate.not_looked_at { li { strong { (not.what) } ": " (not.why) } } } }
+}
+
+fn hashes(certificate: &Certificate) -> Markup {
+    let own = &certificate.sha256;
+    let mut rows = vec![
+        vec!["controller".to_owned(), own.controller.clone()],
+        vec!["rigs".to_owned(), own.rig.clone()],
+        vec!["plan".to_owned(), own.plan.clone()],
+        vec!["records of all trials".to_owned(), own.records.clone()],
+        vec!["program".to_owned(), certificate.tool.sha256.clone()],
+        vec!["this certificate".to_owned(), certificate.digest.clone()],
+    ];
+    rows.extend(
+        own.baseline
+            .iter()
+            .map(|baseline| vec!["baseline".to_owned(), baseline.clone()]),
+    );
+    table(
+        "hashes-table",
+        "SHA-256 of everything it depends on.",
+        &["of", "SHA-256"],
+        &rows,
+    )
+}
