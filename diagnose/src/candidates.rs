@@ -21,8 +21,8 @@ pub fn causes(problem: &Problem) -> Vec<Cause> {
         .iter()
         .filter(|entry| match entry.mechanism {
             Mechanism::CurrentHysteresis | Mechanism::ReversalOvershoot => has_brake,
-            // Only the five-bar is asked for it: the rules of the other plants were chosen without it.
-            Mechanism::Settling => false,
+            // Only the five-bar is asked for them: the rules of the other plants were chosen without.
+            Mechanism::Settling | Mechanism::AsymmetricPresliding => false,
             _ => matches!(entry.form, Form::Resistance(_) | Form::Drive),
         })
         .map(|entry| Cause::of(entry.mechanism))

@@ -7,6 +7,7 @@ use rigproof_spec::effect::Mechanism;
 fn halfway_a_memory_is_where_half_the_time_leads() {
     for (mechanism, parameters) in [
         (Mechanism::Presliding, [0.31, 0.017].as_slice()),
+        (Mechanism::AsymmetricPresliding, &[0.31, 0.12, 0.017]),
         (Mechanism::ReversalOvershoot, &[0.23, 0.019]),
         (Mechanism::Settling, &[0.29, 0.7]),
         (Mechanism::Hysteresis, &[0.41, 13.0, 5.3]),

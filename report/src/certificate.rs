@@ -86,7 +86,7 @@ fn headline(certificate: &Certificate) -> Headline {
             .map(|reason| html! { (reason) "." })
             .collect(),
     };
-    let endings = certificate.endings;
+    let endings = &certificate.ended.controller;
     Headline {
         tone: if may { Tone::Good } else { Tone::Bad },
         badge: if may {
@@ -107,8 +107,8 @@ fn headline(certificate: &Certificate) -> Headline {
                 "Trials".to_owned(),
                 plan.scenarios.to_string(),
                 format!(
-                    "{} ran to their end, {} were taken to the stops, {} got no answer",
-                    endings.time, endings.left_workspace, endings.no_answer
+                    "{} reached their goal, {} ran out of time, {} were taken to the stops, {} got no answer",
+                    endings.finished, endings.time, endings.left_workspace, endings.no_answer
                 ),
             ],
             [

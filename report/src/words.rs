@@ -3,15 +3,20 @@
 use rigproof_spec::effect::Mechanism;
 
 /// A mechanism in plain words: what it is, to stand after "the model leaves out", and what one would look for on the rig.
-pub const fn plain(mechanism: Mechanism) -> [&'static str; 2] {
-    match mechanism {
+pub fn plain(mechanism: Mechanism) -> [&'static str; 2] {
+    friction(mechanism)
+        .or_else(|| drive(mechanism))
+        .or_else(|| body(mechanism))
+        .or_else(|| sensor(mechanism))
+        .unwrap_or(["an effect of the library", "its entry in the library"])
+}
+
+/// Friction and what resembles it.
+const fn friction(mechanism: Mechanism) -> Option<[&'static str; 2]> {
+    Some(match mechanism {
         Mechanism::DryOffset => [
             "dry friction (a drag of the same size at every speed)",
             "seals, bearings, a brake that does not let go fully",
-        ],
-        Mechanism::GainError => [
-            "a drive or brake that is stronger or weaker than its table says",
-            "the amplifier's scale, the brake's age, its gap and its fluid",
         ],
         Mechanism::Viscous => [
             "drag that grows with speed",
@@ -25,6 +30,49 @@ pub const fn plain(mechanism: Mechanism) -> [&'static str; 2] {
             "extra friction at low speed that lets go as the motion gets faster",
             "lubrication that only builds up with speed; it makes slow motion jerk",
         ],
+        Mechanism::Presliding => [
+            "springy give before sliding begins",
+            "friction surfaces that bend before they slip: seals, belts, brakes that hold",
+        ],
+        Mechanism::AsymmetricPresliding => [
+            "springy give before sliding begins, and sliding friction that differs between the two directions",
+            "friction surfaces that bend before they slip, and what loads them to one side",
+        ],
+        Mechanism::Hysteresis => [
+            "a force that depends on the way it came (hysteresis)",
+            "rubber, belts, wire rope, fluid that has to yield",
+        ],
+        Mechanism::LoadDependent => [
+            "friction that grows with the load",
+            "bearings under side load",
+        ],
+        Mechanism::BearingFriction => [
+            "friction in a joint without a brake",
+            "its bearing: preload, dirt, a seal",
+        ],
+        Mechanism::VelocityPower => [
+            "drag that grows with a power of the speed",
+            "air or fluid that is pushed through a gap",
+        ],
+        Mechanism::Settling => [
+            "a brake that changes after it has rested",
+            "particles that settle in the fluid: run it in and repeat",
+        ],
+        Mechanism::Ripple => [
+            "a force that comes and goes with the position",
+            "cogging, a bent shaft, teeth, a coupling out of line",
+        ],
+        _ => return None,
+    })
+}
+
+/// What a drive or a brake does with its command.
+const fn drive(mechanism: Mechanism) -> Option<[&'static str; 2]> {
+    Some(match mechanism {
+        Mechanism::GainError => [
+            "a drive or brake that is stronger or weaker than its table says",
+            "the amplifier's scale, the brake's age, its gap and its fluid",
+        ],
         Mechanism::ReversalOvershoot => [
             "a brake that grips harder just after each reversal",
             "the brake's fluid, which has to yield anew",
@@ -33,17 +81,9 @@ pub const fn plain(mechanism: Mechanism) -> [&'static str; 2] {
             "play at reversals that is wider or narrower than the model's",
             "couplings, keys and gears beside the brake",
         ],
-        Mechanism::Presliding => [
-            "springy give before sliding begins",
-            "friction surfaces that bend before they slip: seals, belts, brakes that hold",
-        ],
         Mechanism::CurrentHysteresis => [
             "a brake that remembers its earlier current",
             "steel that stays magnetised after the current was higher",
-        ],
-        Mechanism::Hysteresis => [
-            "a force that depends on the way it came (hysteresis)",
-            "rubber, belts, wire rope, fluid that has to yield",
         ],
         Mechanism::Lag => [
             "a drive or brake that answers slowly",
@@ -57,22 +97,17 @@ pub const fn plain(mechanism: Mechanism) -> [&'static str; 2] {
             "a command that is cut off at a limit",
             "the amplifier's limit or its supply",
         ],
-        Mechanism::LoadDependent => [
-            "friction that grows with the load",
-            "bearings under side load",
-        ],
         Mechanism::ThermalFade => [
             "a brake that weakens as it warms up",
             "its temperature: let it cool and repeat",
         ],
-        Mechanism::Settling => [
-            "a brake that changes after it has rested",
-            "particles that settle in the fluid: run it in and repeat",
-        ],
-        Mechanism::Ripple => [
-            "a force that comes and goes with the position",
-            "cogging, a bent shaft, teeth, a coupling out of line",
-        ],
+        _ => return None,
+    })
+}
+
+/// Masses, springs and weight.
+const fn body(mechanism: Mechanism) -> Option<[&'static str; 2]> {
+    Some(match mechanism {
         Mechanism::Gravity => [
             "weight, because the mechanism is not level",
             "a spirit level on the base",
@@ -81,13 +116,9 @@ pub const fn plain(mechanism: Mechanism) -> [&'static str; 2] {
             "a spring that pulls it back",
             "cables, hoses, a belt that is stretched",
         ],
-        Mechanism::ConstantBias => [
-            "a steady pull to one side",
-            "a sensor's zero, a cable that pulls, a tilt",
-        ],
-        Mechanism::BiasDrift => [
-            "a pull to one side that grows with time",
-            "a sensor's zero that drifts with temperature",
+        Mechanism::NonlinearSpring => [
+            "a spring that gets stiffer with the deflection",
+            "stops, rubber, cables drawn taut",
         ],
         Mechanism::InertiaError => [
             "moving parts that are heavier or lighter than the model's",
@@ -97,13 +128,24 @@ pub const fn plain(mechanism: Mechanism) -> [&'static str; 2] {
             "extra weight at the tip",
             "a handle or a sensor that the model does not know",
         ],
-        Mechanism::BearingFriction => [
-            "friction in a joint without a brake",
-            "its bearing: preload, dirt, a seal",
-        ],
         Mechanism::Compliance => [
             "parts that bend",
             "arms, couplings, the clamping of the base",
+        ],
+        Mechanism::ConstantBias => [
+            "a steady pull to one side",
+            "a sensor's zero, a cable that pulls, a tilt",
+        ],
+        _ => return None,
+    })
+}
+
+/// What the sensors and the logger do.
+const fn sensor(mechanism: Mechanism) -> Option<[&'static str; 2]> {
+    Some(match mechanism {
+        Mechanism::BiasDrift => [
+            "a pull to one side that grows with time",
+            "a sensor's zero that drifts with temperature",
         ],
         Mechanism::ChannelSkew => [
             "two recorded signals that are shifted in time",
@@ -129,16 +171,8 @@ pub const fn plain(mechanism: Mechanism) -> [&'static str; 2] {
             "a force sensor that is mounted turned",
             "its axes against those of the rig",
         ],
-        Mechanism::NonlinearSpring => [
-            "a spring that gets stiffer with the deflection",
-            "stops, rubber, cables drawn taut",
-        ],
-        Mechanism::VelocityPower => [
-            "drag that grows with a power of the speed",
-            "air or fluid that is pushed through a gap",
-        ],
-        _ => ["an effect of the library", "its entry in the library"],
-    }
+        _ => return None,
+    })
 }
 
 /// A cause as a report names it (`viscous`, or `viscous at E`) in plain words.

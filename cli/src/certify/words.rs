@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use rigproof_certify::certificate::Certificate;
-use rigproof_certify::summary::{Change, Ended, Endings, MetricSummary, Word};
+use rigproof_certify::summary::{Change, Ended, Endings, LawSummary, MetricSummary, Word};
 
 use super::campaign::CERTIFICATE;
 use crate::shell;
@@ -47,21 +47,6 @@ pub fn certificate(certificate: &Certificate, folder: &Path, library: Option<&Pa
             significant(found.time_s, 3)
         )
     });
-    let laws = certificate.laws.iter().map(|law| {
-        let worst = law
-            .worst_margin
-            .map_or("–".to_owned(), |worst| significant(worst, 3));
-        let broken = match law.broken_in {
-            0 => "holds".to_owned(),
-            count => format!("BROKEN in {count}"),
-        };
-        format!(
-            "  {:<14} {broken:<14} {:>12} samples, worst margin {worst} {}",
-            law.law.name(),
-            law.samples,
-            law.unit
-        )
-    });
     let not = certificate
         .not_looked_at
         .iter()
@@ -75,13 +60,29 @@ pub fn certificate(certificate: &Certificate, folder: &Path, library: Option<&Pa
     join([
         first,
         section("Findings", findings),
-        section("Laws, on every sample", laws),
+        section("Laws, on every sample", certificate.laws.iter().map(law)),
         section("How the trials ended", ended(&certificate.ended)),
         section("Metrics", certificate.metrics.iter().map(metric)),
         section("Proved", [proved]),
         section("Not looked at", not),
         vec![format!("Written: {}", file.display())],
     ])
+}
+
+fn law(law: &LawSummary) -> String {
+    let worst = law
+        .worst_margin
+        .map_or("–".to_owned(), |worst| significant(worst, 3));
+    let broken = match law.broken_in {
+        0 => "holds".to_owned(),
+        count => format!("BROKEN in {count}"),
+    };
+    format!(
+        "  {:<14} {broken:<14} {:>12} samples, worst margin {worst} {}",
+        law.law.name(),
+        law.samples,
+        law.unit
+    )
 }
 
 fn ended(ended: &Ended) -> Vec<String> {

@@ -64,6 +64,12 @@ pub enum Law {
     },
     /// level·w, travel·dw/dt = q̇ − |q̇|·w (Dahl 1968).
     Presliding { level: f64, travel: f64 },
+    /// z, travel·dz/dt = |q̇|·(forward − z) forward, −|q̇|·(backward + z) backward.
+    AsymmetricPresliding {
+        forward: f64,
+        backward: f64,
+        travel: f64,
+    },
     /// alpha·z, dz/dt = q̇ − `beta_gamma`·|q̇|·z − `beta_delta`·q̇·|z| (Bouc 1967, Wen 1976).
     Hysteresis {
         alpha: f64,
@@ -116,6 +122,13 @@ impl Law {
             (Mechanism::Presliding, &[level, travel]) if travel > 0.0 => {
                 Law::Presliding { level, travel }
             }
+            (Mechanism::AsymmetricPresliding, &[forward, backward, travel]) if travel > 0.0 => {
+                Law::AsymmetricPresliding {
+                    forward,
+                    backward,
+                    travel,
+                }
+            }
             (Mechanism::Hysteresis, &[alpha, beta_gamma, beta_delta]) => Law::Hysteresis {
                 alpha,
                 beta_gamma,
@@ -151,6 +164,7 @@ impl Law {
                 viscous * now.speed.abs() + dry
             }
             Law::Presliding { level, .. } => level * memory,
+            Law::AsymmetricPresliding { .. } => memory,
             Law::DelayedStribeck { peak, .. } => peak * memory,
             Law::Hysteresis { alpha, .. } => alpha * memory,
             Law::Ripple {
@@ -199,6 +213,14 @@ impl Law {
         let (gain, decay) = match *self {
             Law::Presliding { travel, .. } | Law::ReversalOvershoot { travel, .. } => {
                 (speed / travel, speed.abs() / travel)
+            }
+            Law::AsymmetricPresliding {
+                forward,
+                backward,
+                travel,
+            } => {
+                let limit = if speed > 0.0 { forward } else { -backward };
+                (limit * speed.abs() / travel, speed.abs() / travel)
             }
             Law::DelayedStribeck {
                 speed: slow,

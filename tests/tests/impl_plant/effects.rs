@@ -130,6 +130,7 @@ fn every_effect_changes_the_motion_on_every_joint_and_a_null_one_does_not() {
             (Mechanism::DirectionAsymmetry, &[0.11, 0.05]),
             (Mechanism::Stribeck, &[0.23, 0.19, 1.7]),
             (Mechanism::Presliding, &[0.17, 0.011]),
+            (Mechanism::AsymmetricPresliding, &[0.07, 0.23, 0.011]),
             (Mechanism::Hysteresis, &[7.0, 13.0, 5.0]),
             (Mechanism::Ripple, &[0.11, 0.07, 0.29]),
             (Mechanism::Spring, &[0.37]),
