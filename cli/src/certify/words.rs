@@ -3,6 +3,8 @@
 use std::path::Path;
 
 use rigproof_certify::certificate::Certificate;
+use rigproof_certify::finding::Named;
+use rigproof_certify::search::NamedWorst;
 use rigproof_certify::summary::{Change, Ended, Endings, MetricSummary, Word};
 
 use super::campaign::CERTIFICATE;
@@ -33,20 +35,8 @@ pub fn certificate(certificate: &Certificate, folder: &Path, library: Option<&Pa
             found.name
         )
     }));
-    let findings = certificate.findings.iter().map(|found| {
-        let file = folder.join(&found.file);
-        let mut words = vec![("--replay", file.as_path())];
-        words.extend(library.map(|library| ("--controller", library)));
-        let replay = shell::line(&["rigproof", "certify"], &words);
-        let broke = found.failure.as_ref();
-        let broke = broke.map_or_else(String::new, |how| format!("\n    {how}"));
-        format!(
-            "  {}: scenario {}, shrunk to {} s: {replay}{broke}",
-            found.law.name(),
-            found.scenario,
-            significant(found.time_s, 3)
-        )
-    });
+    let findings = certificate.findings.iter();
+    let findings = findings.map(|found| finding(found, folder, library));
     let laws = certificate.laws.iter().map(|law| {
         let worst = law
             .worst_margin
@@ -78,10 +68,44 @@ pub fn certificate(certificate: &Certificate, folder: &Path, library: Option<&Pa
         section("Laws, on every sample", laws),
         section("How the trials ended", ended(&certificate.ended)),
         section("Metrics", certificate.metrics.iter().map(metric)),
+        section(
+            "Worse cases that a search found; it proves nothing",
+            certificate.worst.iter().map(|worst| worse(worst, folder)),
+        ),
         section("Proved", [proved]),
         section("Not looked at", not),
         vec![format!("Written: {}", file.display())],
     ])
+}
+
+/// A finding, how it is run again, and how the controller broke.
+fn finding(found: &Named, folder: &Path, library: Option<&Path>) -> String {
+    let file = folder.join(&found.file);
+    let mut words = vec![("--replay", file.as_path())];
+    words.extend(library.map(|library| ("--controller", library)));
+    let replay = shell::line(&["rigproof", "certify"], &words);
+    let broke = found.failure.as_ref();
+    let broke = broke.map_or_else(String::new, |how| format!("\n    {how}"));
+    format!(
+        "  {}: scenario {}, shrunk to {} s: {replay}{broke}",
+        found.law.name(),
+        found.scenario,
+        significant(found.time_s, 3)
+    )
+}
+
+fn worse(worst: &NamedWorst, folder: &Path) -> String {
+    let broken = if worst.is_broken { "  BROKEN" } else { "" };
+    let file = folder.join(&worst.file);
+    format!(
+        "  {:<16} drawn {}, found {} {} in {} trials{broken}: {}",
+        worst.target.name(),
+        significant(worst.drawn, 3),
+        significant(worst.found, 3),
+        worst.unit,
+        worst.trials,
+        shell::line(&["rigproof", "certify"], &[("--replay", file.as_path())])
+    )
 }
 
 fn ended(ended: &Ended) -> Vec<String> {
