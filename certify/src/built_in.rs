@@ -5,7 +5,6 @@ use rigproof_impl::law::{
     AnyLaw, Impedance, Obstacle, Optimal, PathLaw, Proportional, Sdof, Side, Uncontrolled,
     VelocityRatio, Virtual, Weights,
 };
-use rigproof_impl::path::AnyPath;
 use rigproof_impl::tick::{Settings, Tick};
 use rigproof_impl::tip_mass::Bodies;
 use rigproof_model::control::GainUnit;
@@ -16,7 +15,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::controller::{Controller, Failure, Source, Task};
 use crate::declared::{Choice, Declared, Solid};
-use crate::way::{MOST_PIECES, Way};
+use crate::way::{Remembered, Way};
 
 /// A law of the rig with its parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -146,6 +145,7 @@ impl BuiltIn {
 
     fn law(&self, settings: &Settings, task: &Task) -> Option<AnyLaw<f64, Path>> {
         let path = Way::new(task)?.path;
+        let boundary = path.clone();
         let boundary_m = self.boundary_m;
         let actuation = Actuation::thesis(settings.layout);
         let inner = match self.law {
@@ -188,13 +188,13 @@ impl BuiltIn {
         };
         Some(match self.obstacle {
             None => AnyLaw::Path(inner),
-            Some(Solid::Left) => AnyLaw::Obstacle(Obstacle::new(path, Side::Left, inner)),
-            Some(Solid::Right) => AnyLaw::Obstacle(Obstacle::new(path, Side::Right, inner)),
+            Some(Solid::Left) => AnyLaw::Obstacle(Obstacle::new(boundary, Side::Left, inner)),
+            Some(Solid::Right) => AnyLaw::Obstacle(Obstacle::new(boundary, Side::Right, inner)),
         })
     }
 }
 
-type Path = AnyPath<f64, MOST_PIECES>;
+type Path = Remembered;
 
 impl Source for BuiltIn {
     fn begin(&self, settings: &Settings, task: &Task) -> Result<Box<dyn Controller + '_>, Failure> {

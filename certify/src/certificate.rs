@@ -13,6 +13,7 @@ use crate::plan::{FORM, Plan, Sources};
 use crate::proved::{Ledger, Proved, proved};
 use crate::record::Record;
 use crate::scenario::Draw;
+use crate::search::NamedWorst;
 use crate::summary::{
     Ended, LawSummary, MetricSummary, NotLookedAt, ended, laws, metrics, not_looked_at,
 };
@@ -44,6 +45,8 @@ pub struct Certificate {
     pub laws: Vec<LawSummary>,
     /// Tested: the metrics.
     pub metrics: Vec<MetricSummary>,
+    /// Searched: the worst cases that were found.
+    pub worst: Vec<NamedWorst>,
     /// Proved.
     pub proved: Proved,
     /// Not looked at.
@@ -110,11 +113,12 @@ impl Certificate {
         plan: &Plan,
         chunks: &Chunks,
         findings: Vec<Named>,
+        worst: Vec<NamedWorst>,
         tool: Tool,
     ) -> Result<Certificate, Error> {
         let records = records(chunks);
         let (laws, metrics) = (laws(plan, &records), metrics(plan, &records));
-        let reasons = reasons(&laws, &metrics);
+        let reasons = reasons(&laws, &metrics, &worst);
         let digests: Result<Vec<String>, Error> =
             chunks.values().map(|c| chunk_digest(c)).collect();
         let digests = digests?;
@@ -130,6 +134,7 @@ impl Certificate {
             samples: records.iter().map(|record| u64::from(record.ticks)).sum(),
             laws,
             metrics,
+            worst,
             proved: proved(&plan.controller)?,
             not_looked_at: not_looked_at(plan),
             findings,
@@ -189,7 +194,7 @@ impl Certificate {
                 "the hashes of controller, rig, plan or records do not follow from it".to_owned(),
             ));
         }
-        if reasons(&read.laws, &read.metrics) != read.reasons
+        if reasons(&read.laws, &read.metrics, &read.worst) != read.reasons
             || read.may_go_on_the_rig != read.reasons.is_empty()
         {
             return Err(refused(
@@ -239,7 +244,7 @@ impl Certificate {
 }
 
 /// Why a controller must not go on the rig.
-fn reasons(laws: &[LawSummary], metrics: &[MetricSummary]) -> Vec<String> {
+fn reasons(laws: &[LawSummary], metrics: &[MetricSummary], worst: &[NamedWorst]) -> Vec<String> {
     let mut reasons = Vec::new();
     for law in laws {
         let name = law.law.name();
@@ -254,6 +259,12 @@ fn reasons(laws: &[LawSummary], metrics: &[MetricSummary]) -> Vec<String> {
                 "the law {name} was held against no sample: run more or longer scenarios, or declare less"
             ));
         }
+    }
+    for worst in worst.iter().filter(|worst| worst.is_broken) {
+        let (name, file) = (worst.target.name(), &worst.file);
+        reasons.push(format!(
+            "the search found a scenario that breaks the law {name}, in {file}"
+        ));
     }
     for metric in metrics.iter().filter(|metric| !metric.holds) {
         let key = metric.metric.key();

@@ -18,7 +18,7 @@ use crate::shrink::shrink;
 use crate::trial::{Ran, run};
 
 /// Most samples of a scenario: an hour.
-const MOST_TICKS: u32 = 3_600_000;
+pub(crate) const MOST_TICKS: u32 = 3_600_000;
 
 /// A broken law with a scenario that anybody can run again.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

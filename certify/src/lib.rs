@@ -27,6 +27,7 @@ pub mod plan;
 pub mod proved;
 pub mod record;
 pub mod scenario;
+pub mod search;
 pub mod shrink;
 pub mod summary;
 pub mod tool;

@@ -38,6 +38,8 @@ pub struct Plan {
     pub ticks: u32,
     /// What the plant has beyond the thesis's.
     pub calibration: Option<Calibration>,
+    /// Trials of the search for a worse case, for every law and metric; 0 for none.
+    pub search: u32,
     /// What 95 of 100 trials must not exceed, in the order of the metrics.
     pub limits: [Option<f64>; METRICS],
     /// By how much the mean may be worse than the baseline's.

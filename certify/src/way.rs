@@ -1,19 +1,23 @@
 //! This file turns a task into a path: to be followed by a hand, kept to by a law, and measured against.
 
+mod remembered;
+
 use rigproof_impl::path::{AnyPath, Arc, Line, Path as _, Polyline, Spline};
 use rigproof_impl::vector::Vector;
 use rigproof_model::control::path::{Nearest, Path};
 
 use crate::controller::Task;
 
+pub use remembered::Remembered;
+
 /// Most pieces of a chain or a spline.
 pub const MOST_PIECES: usize = 8;
 
 /// The path of a task in the rig's own code.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Way {
     /// The path.
-    pub path: AnyPath<f64, MOST_PIECES>,
+    pub path: Remembered,
     end_m: Vector<f64>,
     end_tangent: Vector<f64>,
 }
@@ -43,6 +47,7 @@ impl Way {
             Task::Spline(points) => AnyPath::Spline(Spline::through(points)?),
         };
         let [_, end_m] = ends_m(task)?.map(Vector::from);
+        let path = Remembered::new(path, task);
         let nearest = path.nearest(end_m);
         nearest.is_defined().then_some(Way {
             path,

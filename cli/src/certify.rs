@@ -5,6 +5,7 @@ mod check;
 mod compiled;
 mod merge;
 mod replay;
+mod sign;
 mod words;
 
 pub use campaign::CERTIFICATE;
@@ -47,13 +48,22 @@ pub struct Args {
     /// What `rigproof diagnose` found of this five-bar: the scenarios draw their plant within its intervals
     #[arg(long, value_name = "CALIBRATION.TOML", conflicts_with_all = ["check", "replay"])]
     calibration: Option<PathBuf>,
+    /// Trials of a search for a worse case, for every law and metric, after the scenarios; it finds, and proves nothing
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=1_000_000), conflicts_with_all = ["check", "replay"])]
+    search: u32,
+    /// Sign the certificate with this secret key, in PEM: certificate.json.sig beside it
+    #[arg(long, value_name = "KEYFILE", conflicts_with_all = ["check", "replay"])]
+    sign: Option<PathBuf>,
+    /// Of --check: the certificate has to be signed by the owner of this key, in PEM
+    #[arg(long, value_name = "FILE", requires = "check")]
+    public_key: Option<PathBuf>,
     /// Check a certificate instead: every byte, every hash, and a sample of its scenarios run again
     #[arg(long, value_name = "CERTIFICATE.JSON", conflicts_with = "replay")]
     check: Option<PathBuf>,
     /// Scenarios that are run again by --check
     #[arg(long, value_name = "N", default_value_t = 64, requires = "check")]
     sample: u64,
-    /// Run a finding again instead
+    /// Run a finding or a worst case again instead
     #[arg(long, value_name = "FINDING.JSON")]
     replay: Option<PathBuf>,
     #[command(flatten)]
@@ -67,6 +77,10 @@ pub struct Args {
 enum Verb {
     /// Join the parts of a campaign into one certificate
     Merge(merge::Args),
+    /// Make a key to sign certificates with
+    Key(sign::Key),
+    /// Sign a certificate
+    Sign(sign::Sign),
 }
 
 const AFTER_HELP: &str = "\
@@ -77,6 +91,8 @@ Example:
   rigproof certify --replay certified/finding-gap.json
   rigproof certify --check certified/certificate.json
   rigproof certify declared.toml --controller mine.so --scenarios 200
+  rigproof certify certify.toml --search 200 --sign lab.pem
+  rigproof certify --check certified/certificate.json --public-key lab.pem.pub
 
 certify.toml:
   [controller]
@@ -91,6 +107,8 @@ certify.toml:
 pub fn run(args: &Args) -> Result<Outcome, Failure> {
     match (&args.verb, &args.check, &args.replay, &args.description) {
         (Some(Verb::Merge(args)), ..) => merge::run(args),
+        (Some(Verb::Key(args)), ..) => sign::make_key(args),
+        (Some(Verb::Sign(args)), ..) => sign::sign(args),
         (_, Some(file), ..) => check::run(args, file),
         (_, _, Some(file), _) => replay::run(args, file),
         (.., Some(file)) => campaign::run(args, file),

@@ -6,3 +6,4 @@ mod five;
 mod plain;
 mod planted;
 mod runs;
+mod searched;

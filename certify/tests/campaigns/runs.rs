@@ -29,6 +29,7 @@ pub fn plan() -> Plan {
         scenarios: 44,
         ticks: 300,
         calibration: None,
+        search: 0,
         limits: [None; 5],
         regressions: [None; 5],
     }
@@ -61,7 +62,7 @@ pub fn run(plan: &Plan, shard: Shard, folder: &Path, threads: usize) -> Chunks {
 }
 
 pub fn certificate(plan: &Plan, chunks: &Chunks) -> String {
-    Certificate::new(plan, chunks, Vec::new(), tool())
+    Certificate::new(plan, chunks, Vec::new(), Vec::new(), tool())
         .unwrap()
         .to_json()
         .unwrap()

@@ -2,22 +2,25 @@
 
 use std::path::Path;
 
+use ed25519_compact::KeyPair;
 use rigproof_certify::calibration::Calibration;
 use rigproof_certify::campaign;
-use rigproof_certify::certificate::Certificate;
+use rigproof_certify::certificate::{Certificate, records};
 use rigproof_certify::description::Description;
 use rigproof_certify::digest;
 use rigproof_certify::finding::Finding;
 use rigproof_certify::journal::{Chunks, FILE, Header};
 use rigproof_certify::law::Law;
+use rigproof_certify::metrics::Metric;
 use rigproof_certify::plan::{FORM, Plan, Sources, Subject};
+use rigproof_certify::search::{NamedWorst, Target, Worst, search};
 use rigproof_certify::tool::Tool;
 use rigproof_spec::methods::SAMPLE_STEP_S;
 use rigproof_trace::rig::five_bar::FiveBar;
 use rigproof_trace::store::{read_text, write_aside};
 
 use super::compiled::{Opened, sources};
-use super::{Args, words};
+use super::{Args, sign, words};
 use crate::outcome::{Failure, Outcome, print};
 use crate::progress;
 use crate::text::section;
@@ -29,6 +32,7 @@ pub const CERTIFICATE: &str = "certificate.json";
 /// Runs what is not done yet; the certificate is written when the campaign is whole.
 pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
     let description = Description::parse(&read_text(file)?, file)?;
+    let keys = args.sign.as_deref().map(sign::secret).transpose()?;
     let compiled = args.compiled.opened()?;
     let plan = plan(args, file, &description, compiled.as_ref())?;
     let sources = sources(&plan, compiled.as_ref())?;
@@ -59,13 +63,13 @@ pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
             part + 1
         ));
     }
-    finish(
-        &plan,
-        &sources,
-        &chunks,
-        &args.out,
-        (args.compiled.library(), args.json),
-    )
+    let written = Written {
+        folder: &args.out,
+        library: args.compiled.library(),
+        keys,
+        as_json: args.json,
+    };
+    threads.install(|| finish(&plan, &sources, &chunks, &written))
 }
 
 /// What no law sees must not be certified by going on from the journal either.
@@ -123,6 +127,7 @@ fn plan(
         scenarios: args.scenarios,
         ticks: libm::round(args.seconds / SAMPLE_STEP_S) as u32,
         calibration,
+        search: args.search,
         limits: description.limits,
         regressions: description.regressions,
     })
@@ -142,14 +147,26 @@ fn calibration(file: &Path) -> Result<Calibration, Failure> {
         .map_err(|problem| Failure::unusable(file, problem))
 }
 
-/// Shrinks what broke a law, and writes certificate and findings.
+/// What is written, and how it is said.
+pub struct Written<'a> {
+    /// The folder.
+    pub folder: &'a Path,
+    /// The compiled controller's library, if it is one.
+    pub library: Option<&'a Path>,
+    /// The key that the certificate is signed with.
+    pub keys: Option<KeyPair>,
+    /// Whether the certificate is printed as JSON.
+    pub as_json: bool,
+}
+
+/// Shrinks what broke a law, searches for worse, and writes certificate, findings and worst cases.
 pub fn finish(
     plan: &Plan,
     sources: &Sources<'_>,
     chunks: &Chunks,
-    folder: &Path,
-    (library, as_json): (Option<&Path>, bool),
+    written: &Written<'_>,
 ) -> Result<Outcome, Failure> {
+    let folder = written.folder;
     let spinner = progress::spinner("shrinking what was found");
     let mut named = Vec::new();
     for law in Law::ALL {
@@ -165,7 +182,9 @@ pub fn finish(
         let found = first.and_then(|first| Finding::of(plan, sources.controller, law, first.index));
         // A law that is broken once and not again has no scenario that shows it; the verdict stands all the same.
         let Some(found) = found else {
-            without_finding(folder, law)?;
+            for ending in ["json", "mcap"] {
+                take_away(&folder.join(format!("{}.{ending}", Finding::stem_of(law))))?;
+            }
             continue;
         };
         let files = [
@@ -178,32 +197,58 @@ pub fn finish(
         named.push(found.named()?);
     }
     drop(spinner);
-    let certificate = Certificate::new(plan, chunks, named, tool()?)?;
-    let text = certificate.to_json()?;
-    write_aside(&folder.join(CERTIFICATE), text.as_bytes())?;
+    let worst = searched(plan, sources, chunks, folder)?;
+    let certificate = Certificate::new(plan, chunks, named, worst, tool()?)?;
+    let (file, text) = (folder.join(CERTIFICATE), certificate.to_json()?);
+    take_away(&sign::file_of(&file))?;
+    write_aside(&file, text.as_bytes())?;
     let page = rigproof_report::certificate::page(&certificate);
     write_aside(&folder.join("certificate.html"), page.as_bytes())?;
-    if as_json {
+    if let Some(keys) = &written.keys {
+        sign::write(keys, &file, text.as_bytes())?;
+    }
+    if written.as_json {
         print(text.trim_end())?;
     } else {
-        print(&words::certificate(&certificate, folder, library))?;
+        print(&words::certificate(&certificate, folder, written.library))?;
     }
     Ok(Outcome {
         checks_hold: certificate.may_go_on_the_rig,
     })
 }
 
-/// Takes away what an earlier campaign found: it is no finding of this one.
-fn without_finding(folder: &Path, law: Law) -> Result<(), Failure> {
-    for ending in ["json", "mcap"] {
-        let old = folder.join(format!("{}.{ending}", Finding::stem_of(law)));
-        match std::fs::remove_file(&old) {
-            Ok(()) => {}
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => {}
-            Err(error) => return Err(Failure::unusable(&old, error.to_string())),
+/// Searches for a worse case of every law and metric, and writes what was found.
+fn searched(
+    plan: &Plan,
+    sources: &Sources<'_>,
+    chunks: &Chunks,
+    folder: &Path,
+) -> Result<Vec<NamedWorst>, Failure> {
+    let spinner = progress::spinner("searching for worse");
+    let found = search(plan, sources.controller, &records(chunks))?;
+    drop(spinner);
+    let targets = Law::ALL
+        .map(Target::Law)
+        .into_iter()
+        .chain(Metric::ALL.map(Target::Metric));
+    for target in targets {
+        let file = folder.join(Worst::file_of(target));
+        match found.iter().find(|worst| worst.target == target) {
+            Some(worst) => write_aside(&file, worst.to_json()?.as_bytes())?,
+            None => take_away(&file)?,
         }
     }
-    Ok(())
+    Ok(found.iter().map(Worst::named).collect::<Result<_, _>>()?)
+}
+
+/// Takes away what an earlier campaign left: it is none of this one's.
+fn take_away(file: &Path) -> Result<(), Failure> {
+    match std::fs::remove_file(file) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+            Err(Failure::unusable(file, error.to_string()))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// This program, by the hash of its file.

@@ -1,28 +1,37 @@
 //! This file checks a certificate: every byte, every hash, and a sample of its scenarios run again.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use rigproof_certify::campaign::CHUNK;
 use rigproof_certify::certificate::Certificate;
 use rigproof_certify::digest;
+use rigproof_certify::plan::Sources;
 use rigproof_certify::proved::Ledger;
+use rigproof_certify::search::Worst;
 use rigproof_trace::store::read_text;
 use serde_json::json;
 
 use super::compiled::sources;
+use super::sign::{self, Looked};
 use super::{Args, campaign};
 use crate::outcome::{Failure, Outcome, print};
 
 /// Checks, and says what was checked.
 pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
-    let certificate = Certificate::parse(&read_text(file)?, file)?;
-    let mut wrong = changed_findings(&certificate, file);
+    let text = read_text(file)?;
+    let signature = sign::looked_at(file, text.as_bytes(), args.public_key.as_deref())?;
+    let certificate = Certificate::parse(&text, file)?;
+    let mut wrong = changed_files(&certificate, file);
+    if signature == Looked::DoesNotHold {
+        wrong.extend(signature.words().map(str::to_owned));
+    }
     let compiled = args.compiled.opened_again(&certificate.plan.controller)?;
     let sources = sources(&certificate.plan, compiled.as_ref())?;
     // Whoever wrote the certificate must not know what is run again.
     let seed = args.seed.unwrap_or_else(clock);
     let count = args.sample.div_ceil(CHUNK) as usize;
     let (drawn, differ) = certificate.again(&sources, count, seed)?;
+    wrong.extend(otherwise(&certificate, file, &sources)?);
     wrong.extend(differ.iter().map(|chunk| {
         let first = chunk * CHUNK;
         format!("scenarios {first} to {} come out otherwise", first + CHUNK)
@@ -39,7 +48,7 @@ pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
     let again = (drawn.len() as u64 * CHUNK).min(certificate.plan.scenarios);
     if args.json {
         let result = json!({
-            "ledger": ledger(&certificate)?, "holds": wrong.is_empty(), "wrong": wrong, "run_again": again, "seed": seed, "same_build": same_tool,
+            "signature": signature.key(), "ledger": ledger(&certificate)?, "holds": wrong.is_empty(), "wrong": wrong, "run_again": again, "seed": seed, "same_build": same_tool,
             "may_go_on_the_rig": certificate.may_go_on_the_rig,
         });
         print(&result.to_string())?;
@@ -59,6 +68,9 @@ pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
             lines.push("It was made by another build of this program; the scenarios were run again with this one.".to_owned());
         }
         lines.extend(ledger(&certificate)?);
+        if signature != Looked::DoesNotHold {
+            lines.extend(signature.words().map(str::to_owned));
+        }
         lines.push(match certificate.may_go_on_the_rig {
             true => "It says: may go on the rig.".to_owned(),
             false => "It says: must not go on the rig.".to_owned(),
@@ -86,15 +98,41 @@ fn clock() -> u64 {
     since.map_or(1, |since| since.subsec_nanos().into())
 }
 
-/// The findings beside a certificate that are not those it names.
-fn changed_findings(certificate: &Certificate, file: &Path) -> Vec<String> {
-    let beside = |name: &str| file.parent().unwrap_or(Path::new("")).join(name);
+/// The files beside a certificate that are not those it names.
+fn changed_files(certificate: &Certificate, file: &Path) -> Vec<String> {
     let findings = certificate.findings.iter();
-    let changed = findings.filter(|named| {
-        let bytes = std::fs::read(beside(&named.file));
-        !bytes.is_ok_and(|bytes| digest::of_bytes(&bytes) == named.sha256)
+    let findings = findings.map(|named| (&named.file, &named.sha256));
+    let worst = certificate.worst.iter();
+    let all = findings.chain(worst.map(|named| (&named.file, &named.sha256)));
+    let changed = all.filter(|(name, sha256)| {
+        let bytes = std::fs::read(beside(file, name));
+        !bytes.is_ok_and(|bytes| digest::of_bytes(&bytes) == **sha256)
     });
     changed
-        .map(|named| format!("{} is missing or was changed", named.file))
+        .map(|(name, _)| format!("{name} is missing or was changed"))
         .collect()
+}
+
+fn beside(certificate: &Path, name: &str) -> PathBuf {
+    certificate.parent().unwrap_or(Path::new("")).join(name)
+}
+
+/// The worst cases that do not come to what the certificate says when they are run again; those that were changed are said elsewhere.
+fn otherwise(
+    certificate: &Certificate,
+    file: &Path,
+    sources: &Sources<'_>,
+) -> Result<Vec<String>, Failure> {
+    let mut wrong = Vec::new();
+    for named in &certificate.worst {
+        let file = beside(file, &named.file);
+        let Ok(text) = read_text(&file) else { continue };
+        let Ok(worst) = Worst::parse(&text, &file) else {
+            continue;
+        };
+        if worst.replayed(sources.controller)? != Some(named.found) {
+            wrong.push(format!("{} comes out otherwise", named.file));
+        }
+    }
+    Ok(wrong)
 }

@@ -7,6 +7,7 @@ use rigproof_trace::TraceError;
 
 use super::campaign as parts;
 use super::compiled::{Compiled, sources};
+use super::sign;
 use crate::outcome::{Failure, Outcome};
 
 /// What is to be joined.
@@ -19,6 +20,9 @@ pub struct Args {
     /// The folder for the certificate
     #[arg(long, value_name = "FOLDER")]
     out: PathBuf,
+    /// Sign the certificate with this secret key, in PEM
+    #[arg(long, value_name = "KEYFILE")]
+    sign: Option<PathBuf>,
     #[command(flatten)]
     compiled: Compiled,
     /// Print the certificate
@@ -37,6 +41,7 @@ Example:
 
 /// Joins and certifies.
 pub fn run(args: &Args) -> Result<Outcome, Failure> {
+    let keys = args.sign.as_deref().map(sign::secret).transpose()?;
     let (plan, chunks) = campaign::merge(&args.folders, &parts::tool()?)?;
     std::fs::create_dir_all(&args.out).map_err(|error| {
         Failure::from(TraceError::File {
@@ -47,11 +52,11 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     })?;
     let compiled = args.compiled.opened_again(&plan.controller)?;
     let sources = sources(&plan, compiled.as_ref())?;
-    parts::finish(
-        &plan,
-        &sources,
-        &chunks,
-        &args.out,
-        (args.compiled.library(), args.json),
-    )
+    let written = parts::Written {
+        folder: &args.out,
+        library: args.compiled.library(),
+        keys,
+        as_json: args.json,
+    };
+    parts::finish(&plan, &sources, &chunks, &written)
 }

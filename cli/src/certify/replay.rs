@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use rigproof_certify::finding::Finding;
+use rigproof_certify::search::Worst;
 use rigproof_spec::methods::SAMPLE_STEP_S;
 use rigproof_trace::store::read_text;
 use serde_json::json;
@@ -14,7 +15,12 @@ use crate::text::number::significant;
 
 /// Runs it, and says what broke.
 pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
-    let finding = Finding::parse(&read_text(file)?, file)?;
+    let text = read_text(file)?;
+    // A worst case has a target where a finding has a law.
+    if let Ok(worst) = Worst::parse(&text, file) {
+        return worst_case(args, &worst);
+    }
+    let finding = Finding::parse(&text, file)?;
     let compiled = args.compiled.opened_again(&finding.controller)?;
     let source = subject(&finding.controller, compiled.as_ref())?;
     let ran = finding.replayed(source)?;
@@ -52,5 +58,31 @@ pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
     }
     Ok(Outcome {
         checks_hold: again.is_none(),
+    })
+}
+
+/// Runs a worst case again, and says what it comes to.
+fn worst_case(args: &Args, worst: &Worst) -> Result<Outcome, Failure> {
+    let compiled = args.compiled.opened_again(&worst.controller)?;
+    let source = subject(&worst.controller, compiled.as_ref())?;
+    let again = worst.replayed(source)?;
+    let is_same = again == Some(worst.found);
+    let (name, unit) = (worst.target.name(), worst.target.unit());
+    if args.json {
+        let result = json!({
+            "target": name, "unit": unit, "found": worst.found, "again": again, "same": is_same, "is_broken": worst.is_broken,
+        });
+        print(&result.to_string())?;
+    } else {
+        let again = again.map_or("nothing".to_owned(), |again| significant(again, 6));
+        let end = match (is_same, worst.is_broken) {
+            (false, _) => "it does NOT come out as it was found",
+            (true, true) => "to the bit what was found; the law is broken",
+            (true, false) => "to the bit what was found",
+        };
+        print(&format!("{name} is {again} {unit}: {end}."))?;
+    }
+    Ok(Outcome {
+        checks_hold: is_same && !worst.is_broken,
     })
 }

@@ -3,7 +3,9 @@
 use std::path::Path;
 
 use rigproof_certify::certificate::Certificate;
-use rigproof_certify::summary::{Change, Ended, Endings, LawSummary, MetricSummary, Word};
+use rigproof_certify::finding::Named;
+use rigproof_certify::search::NamedWorst;
+use rigproof_certify::summary::{Change, Ended, Endings, MetricSummary, Word};
 
 use super::campaign::CERTIFICATE;
 use crate::shell;
@@ -33,18 +35,21 @@ pub fn certificate(certificate: &Certificate, folder: &Path, library: Option<&Pa
             found.name
         )
     }));
-    let findings = certificate.findings.iter().map(|found| {
-        let file = folder.join(&found.file);
-        let mut words = vec![("--replay", file.as_path())];
-        words.extend(library.map(|library| ("--controller", library)));
-        let replay = shell::line(&["rigproof", "certify"], &words);
-        let broke = found.failure.as_ref();
-        let broke = broke.map_or_else(String::new, |how| format!("\n    {how}"));
+    let findings = certificate.findings.iter();
+    let findings = findings.map(|found| finding(found, folder, library));
+    let laws = certificate.laws.iter().map(|law| {
+        let worst = law
+            .worst_margin
+            .map_or("–".to_owned(), |worst| significant(worst, 3));
+        let broken = match law.broken_in {
+            0 => "holds".to_owned(),
+            count => format!("BROKEN in {count}"),
+        };
         format!(
-            "  {}: scenario {}, shrunk to {} s: {replay}{broke}",
-            found.law.name(),
-            found.scenario,
-            significant(found.time_s, 3)
+            "  {:<14} {broken:<14} {:>12} samples, worst margin {worst} {}",
+            law.law.name(),
+            law.samples,
+            law.unit
         )
     });
     let not = certificate
@@ -60,28 +65,46 @@ pub fn certificate(certificate: &Certificate, folder: &Path, library: Option<&Pa
     join([
         first,
         section("Findings", findings),
-        section("Laws, on every sample", certificate.laws.iter().map(law)),
+        section("Laws, on every sample", laws),
         section("How the trials ended", ended(&certificate.ended)),
         section("Metrics", certificate.metrics.iter().map(metric)),
+        section(
+            "Worse cases that a search found; it proves nothing",
+            certificate.worst.iter().map(|worst| worse(worst, folder)),
+        ),
         section("Proved", [proved]),
         section("Not looked at", not),
         vec![format!("Written: {}", file.display())],
     ])
 }
 
-fn law(law: &LawSummary) -> String {
-    let worst = law
-        .worst_margin
-        .map_or("–".to_owned(), |worst| significant(worst, 3));
-    let broken = match law.broken_in {
-        0 => "holds".to_owned(),
-        count => format!("BROKEN in {count}"),
-    };
+/// A finding, how it is run again, and how the controller broke.
+fn finding(found: &Named, folder: &Path, library: Option<&Path>) -> String {
+    let file = folder.join(&found.file);
+    let mut words = vec![("--replay", file.as_path())];
+    words.extend(library.map(|library| ("--controller", library)));
+    let replay = shell::line(&["rigproof", "certify"], &words);
+    let broke = found.failure.as_ref();
+    let broke = broke.map_or_else(String::new, |how| format!("\n    {how}"));
     format!(
-        "  {:<14} {broken:<14} {:>12} samples, worst margin {worst} {}",
-        law.law.name(),
-        law.samples,
-        law.unit
+        "  {}: scenario {}, shrunk to {} s: {replay}{broke}",
+        found.law.name(),
+        found.scenario,
+        significant(found.time_s, 3)
+    )
+}
+
+fn worse(worst: &NamedWorst, folder: &Path) -> String {
+    let broken = if worst.is_broken { "  BROKEN" } else { "" };
+    let file = folder.join(&worst.file);
+    format!(
+        "  {:<16} drawn {}, found {} {} in {} trials{broken}: {}",
+        worst.target.name(),
+        significant(worst.drawn, 3),
+        significant(worst.found, 3),
+        worst.unit,
+        worst.trials,
+        shell::line(&["rigproof", "certify"], &[("--replay", file.as_path())])
     )
 }
 

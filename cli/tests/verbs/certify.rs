@@ -255,3 +255,132 @@ fn how_a_compiled_controller_broke_is_said_and_an_old_finding_goes() {
     let names = desk.names("breaks");
     assert_eq!(names, ["certificate.json", "journal.jsonl"]);
 }
+
+/// A campaign of a few short trials, searched and signed with `lab.pem`, and how it is checked.
+const SEARCHED: &str =
+    "certify certify.toml --scenarios 24 --seconds 0.5 --search 12 --sign lab.pem --out out";
+const CHECK: &str = "certify --check out/certificate.json --sample 8";
+
+fn searched_and_signed() -> (Desk, String) {
+    let desk = Desk::new();
+    desk.put(
+        "certify.toml",
+        "[controller]\nnamed = \"proportional_low\"\n",
+    );
+    desk.prints("certify key lab.pem", 0);
+    let text = desk.prints(SEARCHED, 0);
+    (desk, text)
+}
+
+#[test]
+fn a_certificate_is_searched_and_its_worst_cases_are_run_again() {
+    let (desk, text) = searched_and_signed();
+    let said = "Worse cases that a search found; it proves nothing";
+    assert!(text.contains(said), "{text}");
+    let certificate: Value = serde_json::from_str(&desk.read("out/certificate.json")).unwrap();
+    assert_shape_of(&certificate, SCHEMA);
+    let file = certificate["worst"][0]["file"].as_str().unwrap().to_owned();
+    let again = desk.prints(&format!("certify --replay out/{file}"), 0);
+    assert!(again.contains("to the bit what was found"), "{again}");
+    desk.prints(CHECK, 0);
+    let worst = desk.read(&format!("out/{file}"));
+    let changed = worst.replacen("\"trials\"", " \"trials\"", 1);
+    desk.put(&format!("out/{file}"), &changed);
+    desk.prints(CHECK, 1);
+}
+
+#[test]
+fn a_certificate_is_signed_and_checked_with_its_key() {
+    let (desk, _) = searched_and_signed();
+    desk.prints("certify key other.pem", 0);
+    assert_eq!(desk.rigproof("certify key lab.pem").status.code(), Some(3));
+    let checked = desk.prints(&format!("{CHECK} --public-key lab.pem.pub"), 0);
+    let said = "It is signed by the owner of this key";
+    assert!(checked.contains(said), "{checked}");
+    assert!(
+        desk.prints(CHECK, 0)
+            .contains("not looked at: give --public-key")
+    );
+    let by_another = desk.prints(&format!("{CHECK} --public-key other.pem.pub"), 1);
+    let said = "The certificate does NOT hold:\n  The signature is not";
+    assert!(by_another.starts_with(said), "{by_another}");
+    // Other programs verify it too.
+    let openssl = Command::new("openssl")
+        .args(["pkeyutl", "-verify", "-pubin", "-inkey", "lab.pem.pub"])
+        .args(["-rawin", "-in", "out/certificate.json"])
+        .args(["-sigfile", "out/certificate.json.sig"])
+        .current_dir(desk.path(""))
+        .output();
+    match openssl {
+        Ok(answer) => assert!(answer.status.success(), "{answer:?}"),
+        Err(_) => println!("no openssl: the signature was not verified by another program"),
+    }
+    let mut signature = std::fs::read(desk.path("out/certificate.json.sig")).unwrap();
+    signature[17] ^= 1;
+    std::fs::write(desk.path("out/certificate.json.sig"), signature).unwrap();
+    desk.prints(&format!("{CHECK} --public-key lab.pem.pub"), 1);
+    desk.prints("certify sign out/certificate.json --key other.pem", 0);
+    desk.prints(&format!("{CHECK} --public-key other.pem.pub"), 0);
+    let no_key = desk.rigproof("certify certify.toml --sign certify.toml --out none");
+    assert_eq!(no_key.status.code(), Some(3));
+    // A certificate that is not signed has no signature beside it.
+    desk.prints(&SEARCHED.replace(" --sign lab.pem", ""), 0);
+    assert!(!desk.path("out/certificate.json.sig").exists());
+    let unsigned = desk.rigproof(&format!("{CHECK} --public-key lab.pem.pub"));
+    assert_eq!(unsigned.status.code(), Some(3));
+}
+
+#[test]
+fn a_calibration_is_the_plant_or_is_refused_by_what_it_names() {
+    let desk = Desk::new();
+    desk.put(
+        "certify.toml",
+        "[controller]\nnamed = \"proportional_low\"\n",
+    );
+    let channel = |name: &str, unit: &str| {
+        format!("{name} = {{ channel = \"{name}\", unit = \"{unit}\" }}\n")
+    };
+    let mut text =
+        "name = \"a rig\"\nplant = \"rig\"\nlayout = \"three_brake\"\n[channels]\n".to_owned();
+    for (name, unit) in [
+        ("theta_a", "rad"),
+        ("theta_b", "rad"),
+        ("force_x", "N"),
+        ("force_y", "N"),
+    ] {
+        text += &channel(name, unit);
+    }
+    for name in ["current_a", "current_e", "current_b"] {
+        text += &channel(name, "A");
+    }
+    let with = |effect: &str| format!("{text}[[effect]]\njoint = \"E\"\n{effect}");
+    desk.put("found.toml", &with("mechanism = \"dry_offset\"\nlevel = { value = 0.05, unit = \"N·m\", low95 = 0.04, high95 = 0.07 }\n"));
+    desk.put(
+        "late.toml",
+        &with("mechanism = \"dead_time\"\ndelay = { value = 3, unit = \"ms\" }\n"),
+    );
+    let line = "certify certify.toml --scenarios 24 --seconds 1 --out out --calibration";
+    let printed = desk.prints(&format!("{line} found.toml"), 0);
+    assert!(
+        printed.contains("The plant is drawn from found.toml: 1 of its mechanisms"),
+        "{printed}"
+    );
+    let certificate: Value = serde_json::from_str(&desk.read("out/certificate.json")).unwrap();
+    assert_shape_of(&certificate, SCHEMA);
+    assert_eq!(
+        certificate["plan"]["rigs"],
+        serde_json::json!(["three_brake"])
+    );
+    desk.prints("certify --check out/certificate.json --sample 8", 0);
+    for (file, part) in [
+        ("late.toml", "has no `dead_time` at joint E"),
+        ("certify.toml", "no calibration of a five-bar"),
+    ] {
+        let answer = desk.rigproof(&format!("{line} {file}"));
+        let message = String::from_utf8(answer.stderr).unwrap();
+        assert!(
+            answer.status.code() == Some(3) && message.contains(part),
+            "{message}"
+        );
+    }
+}

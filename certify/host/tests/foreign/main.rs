@@ -4,6 +4,7 @@
 mod bench;
 mod examples;
 mod faults;
+mod planted;
 mod processes;
 mod trials;
 

@@ -1,0 +1,339 @@
+//! This file searches for worse cases than were drawn: an optimiser without slopes moves a scenario's continuous numbers. It finds, and proves nothing.
+
+mod moved;
+
+use std::cell::RefCell;
+use std::path::Path;
+
+use cobyla::{Func, RhoBeg, StopTols, minimize};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use crate::controller::Source;
+use crate::digest;
+use crate::error::Error;
+use crate::law::{Fared, Law};
+use crate::metrics::{Measured, Metric};
+use crate::plan::{FORM, Plan, Subject};
+use crate::record::Record;
+use crate::scenario::Scenario;
+use crate::trial::{Ran, run};
+
+/// From how many of the drawn scenarios, the worst ones, a search for a target begins.
+pub const STARTS: usize = 2;
+/// How far the numbers are moved at first, as a share of half their range.
+const FIRST: f64 = 0.5;
+/// Moves below this share end a search.
+const LEAST: f64 = 1e-4;
+
+/// What is made as bad as can be found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Target {
+    /// The least margin of a law.
+    Law(Law),
+    /// A metric.
+    Metric(Metric),
+}
+
+/// The worst case that was found for a target, with a scenario that anybody can run again.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Worst {
+    /// [`FORM`].
+    pub form: u32,
+    /// What.
+    pub target: Target,
+    /// The drawn scenario in which the search began.
+    pub begun_in: u64,
+    /// The worst that was drawn: a least margin, or a greatest metric.
+    pub drawn: f64,
+    /// The worst that was found.
+    pub found: f64,
+    /// Whether the target is a law and this breaks it.
+    pub is_broken: bool,
+    /// Trials that the search took, from all its starts.
+    pub trials: u32,
+    /// The controller.
+    pub controller: Subject,
+    /// The scenario.
+    pub scenario: Scenario,
+}
+
+/// A worst case as the certificate names it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct NamedWorst {
+    /// What.
+    pub target: Target,
+    /// Its unit.
+    pub unit: String,
+    /// The worst that was drawn.
+    pub drawn: f64,
+    /// The worst that was found.
+    pub found: f64,
+    /// Whether the target is a law and this breaks it.
+    pub is_broken: bool,
+    /// Trials that the search took.
+    pub trials: u32,
+    /// The file, beside the certificate.
+    pub file: String,
+    /// Its SHA-256.
+    pub sha256: String,
+}
+
+impl Target {
+    /// Its name in files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Target::Law(law) => law.name(),
+            Target::Metric(metric) => metric.key(),
+        }
+    }
+
+    /// Its unit.
+    pub const fn unit(self) -> &'static str {
+        match self {
+            Target::Law(law) => law.unit(),
+            Target::Metric(metric) => metric.unit(),
+        }
+    }
+
+    /// How good a trial was; more is better. `None` where there was nothing to judge or to measure.
+    fn good(self, fared: &[Fared], measured: &Measured) -> Option<f64> {
+        let good = match self {
+            Target::Law(law) => fared.get(law as usize).filter(|own| own.samples > 0)?.worst,
+            Target::Metric(metric) => -measured.get(metric as usize).copied().flatten()?,
+        };
+        good.is_finite().then_some(good)
+    }
+
+    /// What is good as it is written: a margin, or a metric.
+    fn written(self, good: f64) -> f64 {
+        match self {
+            Target::Law(_) => good,
+            Target::Metric(_) => -good,
+        }
+    }
+}
+
+/// Searches for a worse case of every law and metric whose value the drawn scenarios change; the result depends on the plan alone.
+///
+/// # Errors
+/// [`Error::Scenario`].
+pub fn search(plan: &Plan, source: &dyn Source, records: &[&Record]) -> Result<Vec<Worst>, Error> {
+    if plan.search == 0 {
+        return Ok(Vec::new());
+    }
+    let laws = Law::ALL
+        .into_iter()
+        .filter(|law| plan.not_looked_at(*law).is_none())
+        .map(Target::Law);
+    let targets = laws.chain(Metric::ALL.map(Target::Metric));
+    let begun: Vec<Begun> = targets
+        .filter_map(|target| begun(target, records))
+        .collect();
+    let jobs: Vec<(&Begun, u64)> = begun
+        .iter()
+        .flat_map(|begun| begun.indices.iter().map(move |index| (begun, *index)))
+        .collect();
+    let each = plan.search.div_ceil(STARTS as u32);
+    let ended: Vec<Moved> = jobs
+        .into_par_iter()
+        .with_max_len(1)
+        .map(|(begun, index)| moved(plan, source, begun, index, each))
+        .collect();
+    let mut ended = ended.into_iter();
+    let mut all = Vec::new();
+    for begun in &begun {
+        let own: Vec<Moved> = ended.by_ref().take(begun.indices.len()).collect();
+        let trials = own.iter().map(|moved| moved.trials).sum();
+        let worst = own
+            .into_iter()
+            .reduce(|one, other| if other.good < one.good { other } else { one });
+        let Some(worst) = worst else { continue };
+        all.push(Worst {
+            form: FORM,
+            target: begun.target,
+            begun_in: worst.index,
+            drawn: begun.target.written(begun.least),
+            found: begun.target.written(worst.good),
+            is_broken: worst.is_broken,
+            trials,
+            controller: plan.controller.clone(),
+            scenario: worst.scenario,
+        });
+    }
+    Ok(all)
+}
+
+/// Where a search for a target begins.
+struct Begun {
+    target: Target,
+    /// The scenarios, the worst first.
+    indices: Vec<u64>,
+    /// How good the worst and the best scenario were.
+    least: f64,
+    most: f64,
+}
+
+/// Nothing where the drawn scenarios show no slope, or where the law is broken already.
+fn begun(target: Target, records: &[&Record]) -> Option<Begun> {
+    let mut all: Vec<(f64, u64)> = records
+        .iter()
+        .filter_map(|record| Some((target.good(&record.fared, &record.measured)?, record.index)))
+        .collect();
+    all.sort_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)));
+    let (least, _) = *all.first()?;
+    let (most, _) = *all.last()?;
+    let is_broken = matches!(target, Target::Law(law) if records.iter().any(|record| {
+        record.fared.get(law as usize).is_some_and(|fared| fared.broken > 0)
+    }));
+    if least == most || is_broken {
+        return None;
+    }
+    Some(Begun {
+        target,
+        indices: all
+            .into_iter()
+            .take(STARTS)
+            .map(|(_, index)| index)
+            .collect(),
+        least,
+        most,
+    })
+}
+
+/// What came of one start.
+struct Moved {
+    index: u64,
+    good: f64,
+    is_broken: bool,
+    trials: u32,
+    scenario: Scenario,
+}
+
+/// Moves the numbers of one scenario.
+fn moved(plan: &Plan, source: &dyn Source, begun: &Begun, index: u64, trials: u32) -> Moved {
+    let start = plan.scenario(index);
+    let space = moved::Space::around(&start, plan.calibration.as_ref());
+    let best = RefCell::new(Moved {
+        index,
+        good: f64::MAX,
+        is_broken: false,
+        trials: 0,
+        scenario: start.clone(),
+    });
+    let target = begun.target;
+    let judged = |point: &[f64], (): &mut ()| {
+        let scenario = space.at(&start, point);
+        let ran = run(&scenario, source, &plan.controller.declared, false);
+        let mut best = best.borrow_mut();
+        best.trials += 1;
+        // What is no scenario, or shows nothing of the target, is as good as the best that was drawn.
+        let Some((ran, good)) = ran.and_then(|ran| {
+            let good = target.good(&ran.fared, &ran.measured)?;
+            Some((ran, good))
+        }) else {
+            return begun.most;
+        };
+        if good < best.good {
+            best.good = good;
+            best.is_broken = is_broken(target, &ran);
+            best.scenario = scenario;
+        }
+        good
+    };
+    let none: [&dyn Func<()>; 0] = [];
+    let tolerances = StopTols {
+        xtol_abs: vec![LEAST; space.len()],
+        ..StopTols::default()
+    };
+    // How it ended is no matter: the best trial counts.
+    let _ = minimize(
+        judged,
+        &vec![0.0; space.len()],
+        &vec![(-1.0, 1.0); space.len()],
+        &none,
+        (),
+        trials as usize,
+        RhoBeg::All(FIRST),
+        Some(tolerances),
+    );
+    best.into_inner()
+}
+
+fn is_broken(target: Target, ran: &Ran) -> bool {
+    let Target::Law(law) = target else {
+        return false;
+    };
+    ran.fared
+        .get(law as usize)
+        .is_some_and(|fared| fared.broken > 0)
+}
+
+impl Worst {
+    /// The file's name.
+    pub fn file(&self) -> String {
+        Worst::file_of(self.target)
+    }
+
+    /// The file's name of a target.
+    pub fn file_of(target: Target) -> String {
+        format!("worst-{}.json", target.name())
+    }
+
+    /// As a file.
+    ///
+    /// # Errors
+    /// It cannot be written as JSON.
+    pub fn to_json(&self) -> Result<String, Error> {
+        Ok(serde_json::to_string_pretty(self)? + "\n")
+    }
+
+    /// A worst case from its file.
+    ///
+    /// # Errors
+    /// It is not as it was written.
+    pub fn parse(text: &str, file: &Path) -> Result<Worst, Error> {
+        let advice = "hand over the file as `rigproof certify` wrote it";
+        let worst: Worst = serde_json::from_str(text).map_err(|error| {
+            Error::unusable(file, format!("it is no worst case: {error}; {advice}"))
+        })?;
+        if worst.form != FORM || worst.scenario.ticks > crate::finding::MOST_TICKS {
+            return Err(Error::unusable(
+                file,
+                format!("it is of another form than {FORM}, or too long; {advice}"),
+            ));
+        }
+        Ok(worst)
+    }
+
+    /// How the certificate names it.
+    ///
+    /// # Errors
+    /// It cannot be written as JSON.
+    pub fn named(&self) -> Result<NamedWorst, Error> {
+        Ok(NamedWorst {
+            target: self.target,
+            unit: self.target.unit().to_owned(),
+            drawn: self.drawn,
+            found: self.found,
+            is_broken: self.is_broken,
+            trials: self.trials,
+            file: self.file(),
+            sha256: digest::of_bytes(self.to_json()?.as_bytes()),
+        })
+    }
+
+    /// What it comes to when it is run again; `None` where nothing is judged or measured any more.
+    ///
+    /// # Errors
+    /// [`Error::Scenario`].
+    pub fn replayed(&self, source: &dyn Source) -> Result<Option<f64>, Error> {
+        let ran = run(&self.scenario, source, &self.controller.declared, false);
+        let ran = ran.ok_or(Error::Scenario(self.begun_in))?;
+        let good = self.target.good(&ran.fared, &ran.measured);
+        Ok(good.map(|good| self.target.written(good)))
+    }
+}

@@ -1,0 +1,144 @@
+//! This file says what a search for worse cases is: never better than what was drawn, the same on any threads, and run again to the bit.
+
+use std::path::Path;
+
+use rigproof_certify::built_in::BuiltIn;
+use rigproof_certify::certificate::records;
+use rigproof_certify::controller::Source;
+use rigproof_certify::declared::Declared;
+use rigproof_certify::law::Law;
+use rigproof_certify::metrics::Metric;
+use rigproof_certify::plan::{Plan, Sources};
+use rigproof_certify::record::Record;
+use rigproof_certify::search::{Target, Worst, search};
+use rigproof_spec::methods::Method;
+
+use crate::bent::after;
+use crate::runs::{plan, run};
+
+fn searched(plan: &Plan, source: &dyn Source, records: &[&Record], threads: usize) -> Vec<Worst> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+    pool.build()
+        .unwrap()
+        .install(|| search(plan, source, records))
+        .unwrap()
+}
+
+#[test]
+fn a_search_finds_worse_the_same_on_any_threads_and_again() {
+    let plan = Plan {
+        search: 40,
+        baseline: None,
+        ..plan()
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let chunks = run(&plan, [0, 1], folder.path(), 2);
+    let records = records(&chunks);
+    let source = plan.sources().unwrap().controller;
+    let found = searched(&plan, source, &records, 2);
+    assert_eq!(searched(&plan, source, &records, 1), found);
+    let mut worse = 0;
+    for worst in &found {
+        let is_worse = match worst.target {
+            Target::Law(_) => worst.found < worst.drawn,
+            Target::Metric(_) => worst.found > worst.drawn,
+        };
+        assert!(is_worse || worst.found == worst.drawn, "{worst:?}");
+        println!(
+            "{}: {} to {} in {}",
+            worst.target.name(),
+            worst.drawn,
+            worst.found,
+            worst.trials
+        );
+        worse += usize::from(is_worse);
+        assert!(!worst.is_broken && worst.trials <= 42);
+        let read = Worst::parse(&worst.to_json().unwrap(), Path::new("worst.json")).unwrap();
+        assert_eq!(&read, worst);
+        assert_eq!(read.replayed(source).unwrap(), Some(worst.found));
+    }
+    assert!(worse >= 3, "{worse} of {}", found.len());
+    assert!(
+        found
+            .iter()
+            .any(|worst| worst.target == Target::Metric(Metric::TipForce))
+    );
+    let unsought = Plan {
+        search: 0,
+        ..plan.clone()
+    };
+    assert!(search(&unsought, source, &records).unwrap().is_empty());
+}
+
+/// A controller that brakes A and E by the hand's force; forces that cannot be are left out.
+fn by_force(a_per_n: f64) -> Box<dyn Source> {
+    after(
+        BuiltIn::of(Method::Uncontrolled),
+        (),
+        move |(), sensed, _| {
+            let force_n = sensed.tip_force_n.norm();
+            let current_a = if force_n < 30.0 {
+                f64::min(a_per_n * force_n, 1.0)
+            } else {
+                0.0
+            };
+            Ok([current_a, current_a, 0.0, 0.0])
+        },
+    )
+}
+
+#[test]
+fn a_search_breaks_a_law_that_no_drawn_scenario_breaks() {
+    let mut plan = Plan {
+        search: 70,
+        baseline: None,
+        scenarios: 8,
+        ..plan()
+    };
+    plan.controller.declared = Declared {
+        within_force: true,
+        ..Declared::default()
+    };
+    let drawn = |source: &dyn Source| -> Vec<Record> {
+        let sources = Sources {
+            controller: source,
+            baseline: None,
+        };
+        let all = 0..plan.scenarios;
+        all.map(|index| Record::of(&plan, &sources, index).unwrap())
+            .collect()
+    };
+    let holds = |a_per_n: f64| {
+        let records = drawn(by_force(a_per_n).as_ref());
+        records
+            .iter()
+            .all(|own| own.fared[Law::TipForce as usize].broken == 0)
+    };
+    // The most that no drawn scenario breaks the law with, all but a thousandth.
+    let (mut least, mut most) = (0.0, 0.5);
+    assert!(holds(least) && !holds(most));
+    for _ in 0..12 {
+        let middle = 0.5 * (least + most);
+        if holds(middle) {
+            least = middle;
+        } else {
+            most = middle;
+        }
+    }
+    let source = by_force(0.999 * least);
+    let records = drawn(source.as_ref());
+    let found = searched(
+        &plan,
+        source.as_ref(),
+        &records.iter().collect::<Vec<_>>(),
+        2,
+    );
+    let found = found
+        .iter()
+        .find(|worst| worst.target == Target::Law(Law::TipForce))
+        .unwrap();
+    assert!(
+        found.is_broken && found.found < 0.0 && found.drawn > 0.0,
+        "{found:?}"
+    );
+}
