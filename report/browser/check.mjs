@@ -133,7 +133,8 @@ async function replay(page, name) {
   const at = () => page.$eval('#replay-time', (slider) => Number(slider.value));
   const from = await at();
   await page.click('#replay-play');
-  await new Promise((done) => setTimeout(done, 700));
+  // A busy machine draws late.
+  await page.waitForFunction((from) => Number(document.getElementById('replay-time').value) > from, { timeout: 20000, polling: 100 }, from).catch(() => {});
   await page.click('#replay-play');
   const to = await at();
   await new Promise((done) => setTimeout(done, 200));
@@ -144,15 +145,18 @@ async function replay(page, name) {
 async function saves(page, name) {
   const session = await page.createCDPSession();
   await session.send('Browser.setDownloadBehavior', { behavior: 'allow', downloadPath: saved });
+  await page.evaluate(() => document.querySelectorAll('details').forEach((own) => { own.open = true; }));
   const buttons = await page.$$('[data-do="svg"], [data-do="csv"], [data-save-drawing], [data-save-table], #replay-csv');
   const figures = await page.$$eval('figure', (all) => all.filter((own) => !own.querySelector('.tools button, .tools a[download]')).length);
   holds(name, `${figures} figures cannot be saved`, figures === 0);
   for (const button of buttons) {
     const label = await button.evaluate((own) => own.getAttribute('aria-label') ?? own.textContent);
     const known = new Set(await readdir(saved));
-    await button.evaluate((own) => own.click());
+    // A press, as a person's: a browser stops at ten downloads that nobody asked for.
+    await button.focus();
+    await page.keyboard.press('Enter');
     let text = '';
-    for (let wait = 0; wait < 60 && text === ''; wait++) {
+    for (let wait = 0; wait < 200 && text === ''; wait++) {
       await new Promise((done) => setTimeout(done, 50));
       const fresh = (await readdir(saved)).filter((entry) => !known.has(entry) && /\.(svg|csv)$/.test(entry));
       if (fresh.length > 0) text = await readFile(join(saved, fresh[0]), 'utf8');

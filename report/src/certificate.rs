@@ -142,6 +142,7 @@ fn findings(certificate: &Certificate) -> Markup {
 fn laws(laws: &[LawSummary]) -> Markup {
     let row = |law: &LawSummary| {
         let fared = match law.broken_in {
+            0 if law.samples == 0 => "✘ held against no sample".to_owned(),
             0 => "holds".to_owned(),
             count => format!(
                 "✘ BROKEN in {count} trials, first in {}",
