@@ -260,8 +260,9 @@ fn reasons(laws: &[LawSummary], metrics: &[MetricSummary], worst: &[NamedWorst])
             ));
         }
     }
-    for worst in worst.iter().filter(|worst| worst.is_broken) {
-        let (name, file) = (worst.target.name(), &worst.file);
+    for worst in worst {
+        let Some(law) = worst.breaks else { continue };
+        let (name, file) = (law.name(), &worst.file);
         reasons.push(format!(
             "the search found a scenario that breaks the law {name}, in {file}"
         ));

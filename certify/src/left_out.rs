@@ -60,7 +60,7 @@ impl TryFrom<Written> for LeftOut {
 }
 
 /// What the fixed-step plant and its sensors have.
-pub const KNOWN: [Mechanism; 22] = [
+pub const KNOWN: [Mechanism; 23] = [
     Mechanism::DryOffset,
     Mechanism::BearingFriction,
     Mechanism::Viscous,
@@ -68,6 +68,7 @@ pub const KNOWN: [Mechanism; 22] = [
     Mechanism::Stribeck,
     Mechanism::ReversalOvershoot,
     Mechanism::Presliding,
+    Mechanism::AsymmetricPresliding,
     Mechanism::Hysteresis,
     Mechanism::Settling,
     Mechanism::Ripple,

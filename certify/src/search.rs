@@ -50,8 +50,8 @@ pub struct Worst {
     pub drawn: f64,
     /// The worst that was found.
     pub found: f64,
-    /// Whether the target is a law and this breaks it.
-    pub is_broken: bool,
+    /// A law that this breaks, the target or another one: a breach is worse than any number.
+    pub breaks: Option<Law>,
     /// Trials that the search took, from all its starts.
     pub trials: u32,
     /// The controller.
@@ -72,8 +72,8 @@ pub struct NamedWorst {
     pub drawn: f64,
     /// The worst that was found.
     pub found: f64,
-    /// Whether the target is a law and this breaks it.
-    pub is_broken: bool,
+    /// A law that this breaks.
+    pub breaks: Option<Law>,
     /// Trials that the search took.
     pub trials: u32,
     /// The file, beside the certificate.
@@ -148,9 +148,13 @@ pub fn search(plan: &Plan, source: &dyn Source, records: &[&Record]) -> Result<V
     for begun in &begun {
         let own: Vec<Moved> = ended.by_ref().take(begun.indices.len()).collect();
         let trials = own.iter().map(|moved| moved.trials).sum();
-        let worst = own
-            .into_iter()
-            .reduce(|one, other| if other.good < one.good { other } else { one });
+        let worst = own.into_iter().reduce(|one, other| {
+            if other.is_worse_than(&one) {
+                other
+            } else {
+                one
+            }
+        });
         let Some(worst) = worst else { continue };
         all.push(Worst {
             form: FORM,
@@ -158,7 +162,7 @@ pub fn search(plan: &Plan, source: &dyn Source, records: &[&Record]) -> Result<V
             begun_in: worst.index,
             drawn: begun.target.written(begun.least),
             found: begun.target.written(worst.good),
-            is_broken: worst.is_broken,
+            breaks: worst.breaks,
             trials,
             controller: plan.controller.clone(),
             scenario: worst.scenario,
@@ -208,9 +212,19 @@ fn begun(target: Target, records: &[&Record]) -> Option<Begun> {
 struct Moved {
     index: u64,
     good: f64,
-    is_broken: bool,
+    breaks: Option<Law>,
     trials: u32,
     scenario: Scenario,
+}
+
+impl Moved {
+    fn is_worse_than(&self, other: &Moved) -> bool {
+        match (self.breaks, other.breaks) {
+            (Some(_), None) => true,
+            (None, Some(_)) => false,
+            _ => self.good < other.good,
+        }
+    }
 }
 
 /// Moves the numbers of one scenario.
@@ -219,8 +233,8 @@ fn moved(plan: &Plan, source: &dyn Source, begun: &Begun, index: u64, trials: u3
     let space = moved::Space::around(&start, plan.calibration.as_ref());
     let best = RefCell::new(Moved {
         index,
-        good: f64::MAX,
-        is_broken: false,
+        good: begun.most,
+        breaks: None,
         trials: 0,
         scenario: start.clone(),
     });
@@ -231,16 +245,18 @@ fn moved(plan: &Plan, source: &dyn Source, begun: &Begun, index: u64, trials: u3
         let mut best = best.borrow_mut();
         best.trials += 1;
         // What is no scenario, or shows nothing of the target, is as good as the best that was drawn.
-        let Some((ran, good)) = ran.and_then(|ran| {
-            let good = target.good(&ran.fared, &ran.measured)?;
-            Some((ran, good))
-        }) else {
-            return begun.most;
+        let Some(ran) = ran else { return begun.most };
+        let shown = target.good(&ran.fared, &ran.measured);
+        let own = Moved {
+            index,
+            good: shown.unwrap_or(begun.most),
+            breaks: broken(plan, &ran),
+            trials: best.trials,
+            scenario,
         };
-        if good < best.good {
-            best.good = good;
-            best.is_broken = is_broken(target, &ran);
-            best.scenario = scenario;
+        let good = own.good;
+        if own.is_worse_than(&best) {
+            *best = own;
         }
         good
     };
@@ -263,13 +279,26 @@ fn moved(plan: &Plan, source: &dyn Source, begun: &Begun, index: u64, trials: u3
     best.into_inner()
 }
 
-fn is_broken(target: Target, ran: &Ran) -> bool {
-    let Target::Law(law) = target else {
-        return false;
-    };
-    ran.fared
-        .get(law as usize)
-        .is_some_and(|fared| fared.broken > 0)
+/// The first of the laws that are looked at that a trial breaks, whatever was searched for.
+fn broken(plan: &Plan, ran: &Ran) -> Option<Law> {
+    let mut looked_at = Law::ALL
+        .into_iter()
+        .filter(|law| plan.not_looked_at(*law).is_none());
+    looked_at.find(|law| is_broken(*law, ran))
+}
+
+fn is_broken(law: Law, ran: &Ran) -> bool {
+    let fared = ran.fared.get(law as usize);
+    fared.is_some_and(|fared| fared.broken > 0)
+}
+
+/// What a worst case comes to when it is run again.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Again {
+    /// The target's margin or metric, where it shows.
+    pub value: Option<f64>,
+    /// Whether that, and the law that it broke, are what was found.
+    pub is_same: bool,
 }
 
 impl Worst {
@@ -319,7 +348,7 @@ impl Worst {
             unit: self.target.unit().to_owned(),
             drawn: self.drawn,
             found: self.found,
-            is_broken: self.is_broken,
+            breaks: self.breaks,
             trials: self.trials,
             file: self.file(),
             sha256: digest::of_bytes(self.to_json()?.as_bytes()),
@@ -330,10 +359,15 @@ impl Worst {
     ///
     /// # Errors
     /// [`Error::Scenario`].
-    pub fn replayed(&self, source: &dyn Source) -> Result<Option<f64>, Error> {
+    pub fn replayed(&self, source: &dyn Source) -> Result<Again, Error> {
         let ran = run(&self.scenario, source, &self.controller.declared, false);
         let ran = ran.ok_or(Error::Scenario(self.begun_in))?;
-        let good = self.target.good(&ran.fared, &ran.measured);
-        Ok(good.map(|good| self.target.written(good)))
+        let value = self.target.good(&ran.fared, &ran.measured);
+        let value = value.map(|good| self.target.written(good));
+        let breaks = self.breaks.is_none_or(|law| is_broken(law, &ran));
+        // A breach may show nothing of what was searched for.
+        let is_same =
+            breaks && (value == Some(self.found) || value.is_none() && self.breaks.is_some());
+        Ok(Again { value, is_same })
     }
 }

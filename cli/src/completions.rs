@@ -15,10 +15,12 @@ pub struct Args {
 }
 
 const AFTER_HELP: &str = "\
-Examples, for a shell that is started afterwards:
-  rigproof completions bash > ~/.local/share/bash-completion/completions/rigproof
-  rigproof completions zsh > ~/.zfunc/_rigproof
-  rigproof completions fish > ~/.config/fish/completions/rigproof.fish";
+Put what is printed where the shell looks: for bash ~/.local/share/bash-completion/completions/rigproof, for zsh _rigproof in a
+folder of fpath, for fish ~/.config/fish/completions/rigproof.fish; a shell that is started afterwards completes.
+
+Examples:
+  rigproof completions bash
+  rigproof completions zsh";
 
 /// Prints the script.
 pub fn run(args: &Args) -> Result<Outcome, Failure> {

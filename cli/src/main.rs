@@ -59,7 +59,7 @@ enum Verb {
     /// Test the diagnosis with recordings whose cause is hidden
     Blind(blind::Args),
     /// Say whether a changed controller may go on the rig
-    Certify(certify::Args),
+    Certify(Box<certify::Args>),
     /// Draw the workspace of a linkage, compare it with others, and rank arm lengths
     Design(design::Args),
     /// Run again what the thesis ran, and set its numbers beside ours

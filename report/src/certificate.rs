@@ -2,6 +2,7 @@
 
 use maud::{Markup, html};
 use rigproof_certify::certificate::Certificate;
+use rigproof_certify::search::NamedWorst;
 use rigproof_certify::summary::{LawSummary, MetricSummary, Word};
 
 use crate::document::{Document, Headline, Section, Tone};
@@ -24,11 +25,14 @@ pub fn page(certificate: &Certificate) -> String {
             findings(certificate),
         ));
     }
-    sections.push(section(
-        "laws",
-        "The laws, on every sample",
-        laws(&certificate.laws),
-    ));
+    sections.push(section("laws", "The laws", laws(&certificate.laws)));
+    if !certificate.worst.is_empty() {
+        sections.push(section(
+            "worst",
+            "What a search made worse",
+            worst(certificate),
+        ));
+    }
     sections.push(section(
         "metrics",
         "How it feels and how well it guides",
@@ -76,7 +80,7 @@ fn headline(certificate: &Certificate) -> Headline {
         ),
         false => format!("“{}” must not go on the rig.", certificate.name),
     };
-    let paragraphs = match may {
+    let mut paragraphs = match may {
         true => vec![
             html! { "No law was broken on any of " (certificate.samples) " samples, and every limit holds. That is a test on a simulated rig with simulated hands: what nobody looked at stands below." },
         ],
@@ -86,6 +90,9 @@ fn headline(certificate: &Certificate) -> Headline {
             .map(|reason| html! { (reason) "." })
             .collect(),
     };
+    paragraphs.extend(plan.calibration.iter().map(|found| {
+        html! { "The plant is drawn from the calibration " (found.name) ": " (found.found.len()) " of its mechanisms, within their intervals." }
+    }));
     let endings = &certificate.ended.controller;
     Headline {
         tone: if may { Tone::Good } else { Tone::Bad },
@@ -101,7 +108,7 @@ fn headline(certificate: &Certificate) -> Headline {
             [
                 "Laws broken".to_owned(),
                 format!("{broken} of {}", certificate.laws.len()),
-                "looked at on every sample they are about".to_owned(),
+                "looked at on every sample they are about, the reference on every 16th".to_owned(),
             ],
             [
                 "Trials".to_owned(),
@@ -240,8 +247,27 @@ fn proved(certificate: &Certificate) -> Markup {
     html! {
         p { (proved.words) }
         @if !rows.is_empty() {
-            details { summary { (rows.len()) " claims that hold for every input" } (table("proved-table", "Proved, not tested.", &["claim", "what it says", "by"], &rows)) }
+            details { summary { (rows.len()) " claims, each within what it assumes" } (table("proved-table", "Proved, not tested.", &["claim", "what it says", "by"], &rows)) }
         }
+    }
+}
+
+fn worst(certificate: &Certificate) -> Markup {
+    let row = |worst: &NamedWorst| {
+        let breaks = worst.breaks.map_or("", |law| law.name());
+        vec![
+            worst.target.name().to_owned(),
+            significant(worst.drawn, 3),
+            significant(worst.found, 3),
+            worst.unit.clone(),
+            breaks.to_owned(),
+            worst.file.clone(),
+        ]
+    };
+    let rows: Vec<Vec<String>> = certificate.worst.iter().map(row).collect();
+    html! {
+        p { "An optimiser went on from the worst drawn trials of each law and metric. It finds, and proves nothing." }
+        (table("worst-table", "The worst that was drawn and the worst that was found.", &["of", "drawn", "found", "unit", "breaks", "file"], &rows))
     }
 }
 

@@ -52,10 +52,10 @@ fn a_search_finds_worse_the_same_on_any_threads_and_again() {
             worst.trials
         );
         worse += usize::from(is_worse);
-        assert!(!worst.is_broken && worst.trials <= 42);
+        assert!(worst.breaks.is_none() && worst.trials <= 42);
         let read = Worst::parse(&worst.to_json().unwrap(), Path::new("worst.json")).unwrap();
         assert_eq!(&read, worst);
-        assert_eq!(read.replayed(source).unwrap(), Some(worst.found));
+        assert!(read.replayed(source).unwrap().is_same);
     }
     assert!(worse >= 3, "{worse} of {}", found.len());
     assert!(
@@ -68,6 +68,17 @@ fn a_search_finds_worse_the_same_on_any_threads_and_again() {
         ..plan.clone()
     };
     assert!(search(&unsought, source, &records).unwrap().is_empty());
+}
+
+/// Every scenario of a plan as it is drawn.
+fn drawn(plan: &Plan, source: &dyn Source) -> Vec<Record> {
+    let sources = Sources {
+        controller: source,
+        baseline: None,
+    };
+    (0..plan.scenarios)
+        .map(|index| Record::of(plan, &sources, index).unwrap())
+        .collect()
 }
 
 /// A controller that brakes A and E by the hand's force; forces that cannot be are left out.
@@ -99,17 +110,8 @@ fn a_search_breaks_a_law_that_no_drawn_scenario_breaks() {
         within_force: true,
         ..Declared::default()
     };
-    let drawn = |source: &dyn Source| -> Vec<Record> {
-        let sources = Sources {
-            controller: source,
-            baseline: None,
-        };
-        let all = 0..plan.scenarios;
-        all.map(|index| Record::of(&plan, &sources, index).unwrap())
-            .collect()
-    };
     let holds = |a_per_n: f64| {
-        let records = drawn(by_force(a_per_n).as_ref());
+        let records = drawn(&plan, by_force(a_per_n).as_ref());
         records
             .iter()
             .all(|own| own.fared[Law::TipForce as usize].broken == 0)
@@ -126,7 +128,7 @@ fn a_search_breaks_a_law_that_no_drawn_scenario_breaks() {
         }
     }
     let source = by_force(0.999 * least);
-    let records = drawn(source.as_ref());
+    let records = drawn(&plan, source.as_ref());
     let found = searched(
         &plan,
         source.as_ref(),
@@ -138,7 +140,56 @@ fn a_search_breaks_a_law_that_no_drawn_scenario_breaks() {
         .find(|worst| worst.target == Target::Law(Law::TipForce))
         .unwrap();
     assert!(
-        found.is_broken && found.found < 0.0 && found.drawn > 0.0,
+        found.breaks.is_some() && found.found < 0.0 && found.drawn > 0.0,
         "{found:?}"
     );
+}
+
+/// A controller that asks for 5 A beyond a force, and for nothing below; forces that cannot be are left out.
+fn trapped(beyond_n: f64) -> Box<dyn Source> {
+    after(
+        BuiltIn::of(Method::Uncontrolled),
+        (),
+        move |(), sensed, _| {
+            let force_n = sensed.tip_force_n.norm();
+            let is_beyond = force_n > beyond_n && force_n < 30.0;
+            Ok([if is_beyond { 5.0 } else { 0.0 }; 4])
+        },
+    )
+}
+
+/// The law shows no slope, so nothing searches for it: a search for greater forces falls into the trap all the same.
+#[test]
+fn a_breach_that_a_search_meets_on_its_way_is_kept() {
+    let mut plan = Plan {
+        search: 40,
+        baseline: None,
+        scenarios: 8,
+        ..plan()
+    };
+    plan.controller.declared = Declared::default();
+    let limit = Law::CurrentLimit as usize;
+    let is_kept = |beyond_n: f64| {
+        let records = drawn(&plan, trapped(beyond_n).as_ref());
+        records.iter().all(|own| own.fared[limit].broken == 0)
+    };
+    let (mut least, mut most) = (0.0, 30.0);
+    assert!(!is_kept(least) && is_kept(most));
+    for _ in 0..10 {
+        let middle = 0.5 * (least + most);
+        if is_kept(middle) {
+            most = middle;
+        } else {
+            least = middle;
+        }
+    }
+    let source = trapped(most);
+    let records = drawn(&plan, source.as_ref());
+    let records: Vec<&Record> = records.iter().collect();
+    let found = searched(&plan, source.as_ref(), &records, 2);
+    let broken: Vec<Option<Law>> = found.iter().map(|worst| worst.breaks).collect();
+    assert!(broken.contains(&Some(Law::CurrentLimit)), "{broken:?}");
+    for worst in found.iter().filter(|worst| worst.breaks.is_some()) {
+        assert!(worst.replayed(source.as_ref()).unwrap().is_same);
+    }
 }

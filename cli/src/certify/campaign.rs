@@ -32,6 +32,11 @@ pub const CERTIFICATE: &str = "certificate.json";
 /// Runs what is not done yet; the certificate is written when the campaign is whole.
 pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
     let description = Description::parse(&read_text(file)?, file)?;
+    let [_, parts] = args.shard;
+    if parts > 1 && args.sign.is_some() {
+        let problem = "a part has no certificate to sign: give --sign to `rigproof certify merge`";
+        return Err(Failure::Usage(problem.to_owned()));
+    }
     let keys = args.sign.as_deref().map(sign::secret).transpose()?;
     let compiled = args.compiled.opened()?;
     let plan = plan(args, file, &description, compiled.as_ref())?;
@@ -66,6 +71,7 @@ pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
     let written = Written {
         folder: &args.out,
         library: args.compiled.library(),
+        compiled: compiled.as_ref(),
         keys,
         as_json: args.json,
     };
@@ -75,8 +81,7 @@ pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
 /// What no law sees must not be certified by going on from the journal either.
 fn between_trials(what: &[String], folder: &Path) -> Result<Outcome, Failure> {
     let journal = folder.join(FILE);
-    std::fs::remove_file(&journal)
-        .map_err(|error| Failure::unusable(&journal, error.to_string()))?;
+    take_away(&journal)?;
     let lines = section(
         "Must NOT go on the rig: it failed between trials, where no law looks",
         what.iter().map(|line| format!("  {line}")),
@@ -153,6 +158,8 @@ pub struct Written<'a> {
     pub folder: &'a Path,
     /// The compiled controller's library, if it is one.
     pub library: Option<&'a Path>,
+    /// The compiled controller itself.
+    pub compiled: Option<&'a Opened>,
     /// The key that the certificate is signed with.
     pub keys: Option<KeyPair>,
     /// Whether the certificate is printed as JSON.
@@ -198,6 +205,11 @@ pub fn finish(
     }
     drop(spinner);
     let worst = searched(plan, sources, chunks, folder)?;
+    // Shrinking and searching run the controller too.
+    let between = written.compiled.map(Opened::ended).transpose()?;
+    if let Some(between) = between.filter(|between| !between.is_empty()) {
+        return between_trials(&between, folder);
+    }
     let certificate = Certificate::new(plan, chunks, named, worst, tool()?)?;
     let (file, text) = (folder.join(CERTIFICATE), certificate.to_json()?);
     take_away(&sign::file_of(&file))?;

@@ -55,6 +55,7 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     let written = parts::Written {
         folder: &args.out,
         library: args.compiled.library(),
+        compiled: compiled.as_ref(),
         keys,
         as_json: args.json,
     };

@@ -5,7 +5,7 @@ use std::path::Path;
 use rigproof_certify::certificate::Certificate;
 use rigproof_certify::finding::Named;
 use rigproof_certify::search::NamedWorst;
-use rigproof_certify::summary::{Change, Ended, Endings, MetricSummary, Word};
+use rigproof_certify::summary::{Change, Ended, Endings, LawSummary, MetricSummary, Word};
 
 use super::campaign::CERTIFICATE;
 use crate::shell;
@@ -37,21 +37,7 @@ pub fn certificate(certificate: &Certificate, folder: &Path, library: Option<&Pa
     }));
     let findings = certificate.findings.iter();
     let findings = findings.map(|found| finding(found, folder, library));
-    let laws = certificate.laws.iter().map(|law| {
-        let worst = law
-            .worst_margin
-            .map_or("–".to_owned(), |worst| significant(worst, 3));
-        let broken = match law.broken_in {
-            0 => "holds".to_owned(),
-            count => format!("BROKEN in {count}"),
-        };
-        format!(
-            "  {:<14} {broken:<14} {:>12} samples, worst margin {worst} {}",
-            law.law.name(),
-            law.samples,
-            law.unit
-        )
-    });
+    let laws = certificate.laws.iter().map(law);
     let not = certificate
         .not_looked_at
         .iter()
@@ -65,12 +51,18 @@ pub fn certificate(certificate: &Certificate, folder: &Path, library: Option<&Pa
     join([
         first,
         section("Findings", findings),
-        section("Laws, on every sample", laws),
+        section(
+            "Laws, on every sample they are about (the reference: every 16th)",
+            laws,
+        ),
         section("How the trials ended", ended(&certificate.ended)),
         section("Metrics", certificate.metrics.iter().map(metric)),
         section(
             "Worse cases that a search found; it proves nothing",
-            certificate.worst.iter().map(|worst| worse(worst, folder)),
+            certificate
+                .worst
+                .iter()
+                .map(|worst| worse(worst, folder, library)),
         ),
         section("Proved", [proved]),
         section("Not looked at", not),
@@ -94,9 +86,12 @@ fn finding(found: &Named, folder: &Path, library: Option<&Path>) -> String {
     )
 }
 
-fn worse(worst: &NamedWorst, folder: &Path) -> String {
-    let broken = if worst.is_broken { "  BROKEN" } else { "" };
+fn worse(worst: &NamedWorst, folder: &Path, library: Option<&Path>) -> String {
+    let broken = worst.breaks;
+    let broken = broken.map_or_else(String::new, |law| format!("  BREAKS {}", law.name()));
     let file = folder.join(&worst.file);
+    let mut words = vec![("--replay", file.as_path())];
+    words.extend(library.map(|library| ("--controller", library)));
     format!(
         "  {:<16} drawn {}, found {} {} in {} trials{broken}: {}",
         worst.target.name(),
@@ -104,7 +99,24 @@ fn worse(worst: &NamedWorst, folder: &Path) -> String {
         significant(worst.found, 3),
         worst.unit,
         worst.trials,
-        shell::line(&["rigproof", "certify"], &[("--replay", file.as_path())])
+        shell::line(&["rigproof", "certify"], &words)
+    )
+}
+
+fn law(law: &LawSummary) -> String {
+    let worst = law
+        .worst_margin
+        .map_or("–".to_owned(), |worst| significant(worst, 3));
+    let broken = match law.broken_in {
+        _ if law.samples == 0 => "NOT HELD".to_owned(),
+        0 => "holds".to_owned(),
+        count => format!("BROKEN in {count}"),
+    };
+    format!(
+        "  {:<14} {broken:<14} {:>12} samples, worst margin {worst} {}",
+        law.law.name(),
+        law.samples,
+        law.unit
     )
 }
 

@@ -9,7 +9,9 @@ use super::answer::Site;
 use super::listing::Run;
 
 /// Seconds after which the list looks again while something is under way.
-const AGAIN_S: u32 = 2;
+const BUSY_S: u32 = 2;
+/// Seconds after which it looks whether a recording came.
+const IDLE_S: u32 = 20;
 
 fn section(id: &str, heading: &str, body: Markup) -> Section {
     Section {
@@ -44,6 +46,8 @@ fn document(
 pub fn list(runs: &[Run], site: &Site) -> String {
     let state = site.watch.state();
     let folder = site.folder.display().to_string();
+    let is_busy = state.now.is_some() || state.waiting > 0;
+    let again_s = if is_busy { BUSY_S } else { IDLE_S };
     let waiting = match (&state.now, site.is_watching) {
         (Some(now), _) => format!(
             "Diagnosing {now} for {} s; {} more wait.",
@@ -91,7 +95,7 @@ pub fn list(runs: &[Run], site: &Site) -> String {
         folder,
         headline,
         sections,
-        site.is_watching.then_some(AGAIN_S),
+        site.is_watching.then_some(again_s),
     )
 }
 

@@ -127,9 +127,16 @@ fn stamp(file: &Path) -> Option<Stamp> {
     Some((metadata.len(), metadata.modified().ok()?))
 }
 
-/// Where the diagnosis of a recording stands: beside it.
+/// Where the diagnosis of a recording stands: beside it; with its ending in the name where two recordings differ in nothing else.
 fn place(file: &Path) -> PathBuf {
-    let mut name = file.file_stem().unwrap_or_default().to_os_string();
+    let stem = file.file_stem();
+    let folder = file.parent().unwrap_or(Path::new(""));
+    let alike = recordings(folder)
+        .iter()
+        .filter(|own| own.file_stem() == stem)
+        .count();
+    let name = if alike > 1 { file.file_name() } else { stem };
+    let mut name = name.unwrap_or_default().to_os_string();
     name.push("-diagnosis");
     file.with_file_name(name)
 }

@@ -253,7 +253,10 @@ fn how_a_compiled_controller_broke_is_said_and_an_old_finding_goes() {
         "{text}"
     );
     let names = desk.names("breaks");
-    assert_eq!(names, ["certificate.json", "journal.jsonl"]);
+    assert_eq!(
+        names,
+        ["certificate.html", "certificate.json", "journal.jsonl"]
+    );
 }
 
 /// A campaign of a few short trials, searched and signed with `lab.pem`, and how it is checked.

@@ -57,7 +57,7 @@ fn check_pace(time_s: &[f64], step_s: f64) -> Result<(), Fault> {
         from_s: time_s.first().copied().unwrap_or(0.0),
         to_s: time_s.last().copied().unwrap_or(0.0),
         reason: format!(
-            "the samples are {step_s} s apart, at most {LONGEST_STEP_S} s can be diagnosed: if the time stamps are milliseconds, say so in the description (`time = {{ channel = \"…\", unit = \"ms\" }}`)"
+            "the samples are {step_s:.4} s apart, at most {LONGEST_STEP_S} s can be diagnosed: if the time stamps are milliseconds, say so in the description (`time = {{ channel = \"…\", unit = \"ms\" }}`)"
         ),
     })
 }
