@@ -72,8 +72,9 @@ pub fn usable_rms(problem: &Problem, values: &[f64]) -> f64 {
 
 /// Whether a passive mechanism came out with a sign that gives energy.
 pub(super) fn drives(term: &Term, own: &[f64]) -> bool {
-    let passive = entry(term.cause.mechanism).is_some_and(|e| e.passive);
-    passive && own.iter().any(|c| *c < 0.0)
+    // Beyond the law's own numbers stands what goes with them, such as the rest angle of a spring: that has either sign.
+    let passive = entry(term.cause.mechanism).filter(|entry| entry.passive);
+    passive.is_some_and(|entry| own.iter().take(entry.linear).any(|c| *c < 0.0))
 }
 
 /// Whether a passive mechanism would come out with a sign that gives energy beside these terms.
