@@ -104,7 +104,7 @@ fn encoder(
             Joint::E | Joint::C => return None,
         };
         own.iter_mut().for_each(|theta| *theta = moved(*theta));
-        with_angles(run.clone(), theta).ok()
+        with_angles(run, theta).ok()
     };
     let balance = |run: &FiveBarRun| less(&driving(run), &known(run));
     let slope = |from: &FiveBarRun, to: &FiveBarRun, step: f64| -> Vec<f64> {

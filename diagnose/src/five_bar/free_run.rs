@@ -95,7 +95,7 @@ pub(super) fn truly(model: &Model, run: &FiveBarRun) -> Result<FiveBarRun, Model
         return Ok(own);
     }
     let theta = core::mem::take(&mut own.theta);
-    with_angles(own, theta).map_err(|(_, error)| error)
+    with_angles(&own, theta).map_err(|(_, error)| error)
 }
 
 /// The angle behind one that an encoder shows, rad.
