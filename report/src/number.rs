@@ -1,6 +1,6 @@
 //! This file writes numbers the way a report prints them.
 
-use rigproof_diagnose::report::Number;
+use rigproof_diagnose::report::{Number, Rate};
 
 /// A number with as many significant digits, in powers of ten only where it is very large or small.
 pub fn significant(value: f64, digits: usize) -> String {
@@ -23,6 +23,17 @@ pub fn significant(value: f64, digits: usize) -> String {
 /// A share as per cent.
 pub fn percent(share: f64) -> String {
     format!("{:.0} %", 100.0 * share)
+}
+
+/// How often of how many, with its interval.
+pub fn rate(rate: Rate) -> String {
+    format!(
+        "{} of {} (95 %: {} to {})",
+        rate.count,
+        rate.of,
+        percent(rate.low95),
+        percent(rate.high95)
+    )
 }
 
 /// A number with its unit and interval.
