@@ -1,6 +1,10 @@
 //! This file is the page of a certificate: may it go on the rig, why not, what was tested, what was proved and what nobody looked at.
 
+mod change;
+mod run;
+
 use maud::{Markup, html};
+use rigproof_certify::calibration::Calibration;
 use rigproof_certify::certificate::Certificate;
 use rigproof_certify::search::NamedWorst;
 use rigproof_certify::summary::{LawSummary, MetricSummary, Word};
@@ -9,9 +13,20 @@ use crate::document::{Document, Headline, Section, Tone};
 use crate::number::significant;
 use crate::table::table;
 
+pub use run::Run;
+
+/// What a page shows beside the certificate.
+pub struct Beside<'a> {
+    /// The worst case, run again.
+    pub run: Option<&'a Run>,
+    /// The command that runs a file of the certificate's folder again.
+    pub replay: &'a dyn Fn(&str) -> String,
+}
+
 /// The page of a certificate as HTML.
-pub fn page(certificate: &Certificate) -> String {
+pub fn page(certificate: &Certificate, beside: &Beside<'_>) -> String {
     let headline = headline(certificate);
+    let mut charts = Vec::new();
     let section = |id: &str, heading: &str, body: Markup| Section {
         id: id.to_owned(),
         heading: heading.to_owned(),
@@ -22,7 +37,7 @@ pub fn page(certificate: &Certificate) -> String {
         sections.push(section(
             "findings",
             "What broke a law",
-            findings(certificate),
+            findings(certificate, beside.replay),
         ));
     }
     sections.push(section("laws", "The laws", laws(&certificate.laws)));
@@ -30,13 +45,20 @@ pub fn page(certificate: &Certificate) -> String {
         sections.push(section(
             "worst",
             "What a search made worse",
-            worst(certificate),
+            worst(certificate, beside.replay),
+        ));
+    }
+    if let Some(run) = beside.run {
+        sections.push(section(
+            "run",
+            "The worst case, run again",
+            run.body(&mut charts),
         ));
     }
     sections.push(section(
         "metrics",
         "How it feels and how well it guides",
-        metrics(&certificate.metrics),
+        html! { (change::figure(&certificate.metrics)) (metrics(&certificate.metrics)) },
     ));
     sections.push(section("proved", "What was proved", proved(certificate)));
     sections.push(section(
@@ -55,7 +77,7 @@ pub fn page(certificate: &Certificate) -> String {
         about: certificate.name.clone(),
         headline,
         sections,
-        charts: Vec::new(),
+        charts,
         replay: None,
         served: None,
         footer: format!(
@@ -90,9 +112,8 @@ fn headline(certificate: &Certificate) -> Headline {
             .map(|reason| html! { (reason) "." })
             .collect(),
     };
-    paragraphs.extend(plan.calibration.iter().map(|found| {
-        html! { "The plant is drawn from the calibration " (found.name) ": " (found.found.len()) " of its mechanisms, within their intervals." }
-    }));
+    let calibration = plan.calibration.iter();
+    paragraphs.extend(calibration.map(|found| html! { (drawn_from(found)) }));
     let endings = &certificate.ended.controller;
     Headline {
         tone: if may { Tone::Good } else { Tone::Bad },
@@ -127,7 +148,16 @@ fn headline(certificate: &Certificate) -> Headline {
     }
 }
 
-fn findings(certificate: &Certificate) -> Markup {
+/// From what the plant of the scenarios is drawn, in a sentence.
+pub fn drawn_from(found: &Calibration) -> String {
+    let count = found.found.len();
+    format!(
+        "The plant is drawn from {}: {count} of its mechanisms, within their intervals.",
+        found.name
+    )
+}
+
+fn findings(certificate: &Certificate, replay: &dyn Fn(&str) -> String) -> Markup {
     let rows: Vec<Vec<String>> = certificate
         .findings
         .iter()
@@ -136,7 +166,7 @@ fn findings(certificate: &Certificate) -> Markup {
                 found.law.name().to_owned(),
                 found.scenario.to_string(),
                 significant(found.time_s, 3),
-                format!("rigproof certify --replay {}", found.file),
+                replay(&found.file),
             ]
         })
         .collect();
@@ -252,7 +282,7 @@ fn proved(certificate: &Certificate) -> Markup {
     }
 }
 
-fn worst(certificate: &Certificate) -> Markup {
+fn worst(certificate: &Certificate, replay: &dyn Fn(&str) -> String) -> Markup {
     let row = |worst: &NamedWorst| {
         let breaks = worst.breaks.map_or("", |law| law.name());
         vec![
@@ -261,13 +291,13 @@ fn worst(certificate: &Certificate) -> Markup {
             significant(worst.found, 3),
             worst.unit.clone(),
             breaks.to_owned(),
-            worst.file.clone(),
+            replay(&worst.file),
         ]
     };
     let rows: Vec<Vec<String>> = certificate.worst.iter().map(row).collect();
     html! {
         p { "An optimiser went on from the worst drawn trials of each law and metric. It finds, and proves nothing." }
-        (table("worst-table", "The worst that was drawn and the worst that was found.", &["of", "drawn", "found", "unit", "breaks", "file"], &rows))
+        (table("worst-table", "The worst that was drawn and the worst that was found.", &["of", "drawn", "found", "unit", "breaks", "to see it"], &rows))
     }
 }
 
