@@ -39,10 +39,14 @@
     return new XMLSerializer().serializeToString(copy);
   };
 
+  // What a picture holds, which stands in the page once.
+  const bytes = (source) => Uint8Array.from(atob(source.slice(source.indexOf(',') + 1)), (letter) => letter.charCodeAt(0));
+
   // Asked of the page and not of each button: a list that is renewed brings buttons of its own.
   document.addEventListener('click', (event) => {
-    const { saveDrawing, saveTable } = event.target.closest('button')?.dataset ?? {};
+    const { saveDrawing, savePicture, saveTable } = event.target.closest('button')?.dataset ?? {};
     if (saveDrawing) rigproof.saveSvg(saveDrawing, rigproof.standalone(document.getElementById(saveDrawing)));
+    if (savePicture) save(`${savePicture}.svg`, 'image/svg+xml', bytes(document.getElementById(savePicture).src));
     if (!saveTable) return;
     const rows = [...document.getElementById(saveTable).querySelectorAll('tr')];
     rigproof.saveCsv(saveTable, rows.map((row) => [...row.children].map((cell) => cell.textContent.trim())));

@@ -191,8 +191,8 @@ async function saves(page, name) {
   const session = await page.createCDPSession();
   await session.send('Browser.setDownloadBehavior', { behavior: 'allow', downloadPath: saved });
   await page.evaluate(() => document.querySelectorAll('details').forEach((own) => { own.open = true; }));
-  const buttons = await page.$$('[data-do="svg"], [data-do="csv"], [data-save-drawing], [data-save-table], #replay-csv');
-  const figures = await page.$$eval('figure', (all) => all.filter((own) => !own.querySelector('.tools button, .tools a[download]')).length);
+  const buttons = await page.$$('[data-do="svg"], [data-do="csv"], [data-save-drawing], [data-save-picture], [data-save-table], #replay-csv');
+  const figures = await page.$$eval('figure', (all) => all.filter((own) => !own.querySelector('.tools button')).length);
   holds(name, `${figures} figures cannot be saved`, figures === 0);
   for (const [place, button] of buttons.entries()) {
     const label = await button.evaluate((own) => own.getAttribute('aria-label') ?? own.textContent);

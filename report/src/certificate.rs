@@ -10,8 +10,9 @@ use rigproof_certify::search::NamedWorst;
 use rigproof_certify::summary::{LawSummary, MetricSummary, Word};
 
 use crate::document::{Document, Headline, Section, Tone};
-use crate::number::significant;
+use crate::number::{grouped, significant};
 use crate::table::table;
+use crate::words::capital;
 
 pub use run::Run;
 
@@ -40,6 +41,19 @@ pub fn page(certificate: &Certificate, beside: &Beside<'_>) -> String {
             findings(certificate, beside.replay),
         ));
     }
+    // What broke a law is shown at once; where nothing did, the laws come first.
+    let run = beside.run.map(|run| {
+        let heading = match certificate.findings.is_empty() {
+            true => "The worst of the trials, run again",
+            false => "What broke a law first, run again",
+        };
+        section("run", heading, run.body(&mut charts))
+    });
+    let (first, last) = match certificate.findings.is_empty() {
+        true => (None, run),
+        false => (run, None),
+    };
+    sections.extend(first);
     sections.push(section("laws", "The laws", laws(&certificate.laws)));
     if !certificate.worst.is_empty() {
         sections.push(section(
@@ -48,18 +62,12 @@ pub fn page(certificate: &Certificate, beside: &Beside<'_>) -> String {
             worst(certificate, beside.replay),
         ));
     }
-    if let Some(run) = beside.run {
-        sections.push(section(
-            "run",
-            "The worst case, run again",
-            run.body(&mut charts),
-        ));
-    }
     sections.push(section(
         "metrics",
         "How it feels and how well it guides",
         html! { (change::figure(&certificate.metrics)) (metrics(&certificate.metrics)) },
     ));
+    sections.extend(last);
     sections.push(section("proved", "What was proved", proved(certificate)));
     sections.push(section(
         "not",
@@ -104,12 +112,12 @@ fn headline(certificate: &Certificate) -> Headline {
     };
     let mut paragraphs = match may {
         true => vec![
-            html! { "No law was broken on any of " (certificate.samples) " samples, and every limit holds. That is a test on a simulated rig with simulated hands: what nobody looked at stands below." },
+            html! { "No law was broken on any of " (grouped(certificate.samples)) " samples, and every limit holds. That is a test on a simulated rig with simulated hands: what nobody looked at stands below." },
         ],
         false => certificate
             .reasons
             .iter()
-            .map(|reason| html! { (reason) "." })
+            .map(|reason| html! { (capital(reason)) "." })
             .collect(),
     };
     let calibration = plan.calibration.iter();
@@ -133,15 +141,15 @@ fn headline(certificate: &Certificate) -> Headline {
             ],
             [
                 "Trials".to_owned(),
-                plan.scenarios.to_string(),
+                grouped(plan.scenarios),
                 format!(
-                    "{} reached their goal, {} ran out of time, {} were taken to the stops, {} got no answer",
-                    endings.finished, endings.time, endings.left_workspace, endings.no_answer
+                    "{} came to the path's end; {} ended at the stops, {} without an answer",
+                    endings.finished, endings.left_workspace, endings.no_answer
                 ),
             ],
             [
                 "Samples".to_owned(),
-                certificate.samples.to_string(),
+                grouped(certificate.samples),
                 format!("seed {}", plan.seed),
             ],
         ],

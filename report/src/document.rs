@@ -30,6 +30,9 @@ const LIVE: &str = include_str!("../assets/live.js");
 /// Seconds after which a list of runs is asked for again where no script runs.
 const AGAIN_S: u32 = 20;
 
+/// Most sections whose names are all shown at the top.
+const SECTIONS: usize = 12;
+
 /// The mood of a headline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tone {
@@ -144,9 +147,7 @@ impl Document {
                     }
                     main #content {
                         (self.headline.markup())
-                        nav aria-label="Sections" {
-                            ul { @for section in &self.sections { li { a href={ "#" (section.id) } { (section.heading) } } } }
-                        }
+                        nav aria-label="Sections" { (self.contents()) }
                         @for section in &self.sections {
                             section #(section.id) aria-labelledby={ (section.id) "-heading" } {
                                 h2 #{ (section.id) "-heading" } { (section.heading) }
@@ -161,6 +162,15 @@ impl Document {
             }
         };
         page.into_string()
+    }
+
+    /// The way to every section; of many it is folded up.
+    fn contents(&self) -> Markup {
+        let links = html! { ul { @for section in &self.sections { li { a href={ "#" (section.id) } { (section.heading) } } } } };
+        match self.sections.len() {
+            0..=SECTIONS => links,
+            many => html! { details { summary { (many) " sections" } (links) } },
+        }
     }
 
     /// The data as JSON that cannot end its element, whatever names stand in it.

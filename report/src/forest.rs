@@ -55,24 +55,23 @@ impl Forest {
         let x = |value: f64| {
             SIDE + (WIDTH - 2.0 * SIDE) * ((value - low) / (high - low)).clamp(0.0, 1.0)
         };
+        let ticks = ticks(low, high);
         let mut top = 4.0;
         let rows: Vec<Markup> = self
             .rows
             .iter()
             .map(|(name, marks)| {
-                let drawn = row(top, name, marks, [low, high], &x);
+                let drawn = row(top, name, marks, [low, high], &ticks, &x);
                 top += NAME + MARK * marks.len() as f64 + BELOW;
                 drawn
             })
             .collect();
-        let ticks = ticks(low, high);
         html! {
             figure {
                 figcaption { strong { (self.title) "." } " " (caption) }
                 (self.key())
                 svg.drawing.forest #(self.id) viewBox={ "0 0 " (WIDTH) " " (top + SCALE + 18.0) } role="img" aria-label={ (self.title) ": the numbers stand in the table below" } {
                     @for tick in &ticks {
-                        path d={ "M" (pixel(x(*tick))) " 0V" (pixel(top)) } stroke=(if *tick == 0.0 { "var(--ink)" } else { "var(--line)" }) stroke-width="1" {}
                         text x=(pixel(x(*tick))) y=(pixel(top + 18.0)) font-size="14" text-anchor="middle" { (rounded(*tick, 6).to_string().replace('-', "−")) }
                     }
                     text x=(WIDTH / 2.0) y=(pixel(top + SCALE + 10.0)) font-size="14" text-anchor="middle" { (self.scale) }
@@ -135,9 +134,20 @@ impl Forest {
     }
 }
 
-/// A row: its name, and its marks below each other.
-fn row(top: f64, name: &str, marks: &[Mark], ends: [f64; 2], x: &dyn Fn(f64) -> f64) -> Markup {
+/// A row: its name, and its marks below each other. The lines of the scale leave room for the name.
+fn row(
+    top: f64,
+    name: &str,
+    marks: &[Mark],
+    ends: [f64; 2],
+    ticks: &[f64],
+    x: &dyn Fn(f64) -> f64,
+) -> Markup {
+    let height = MARK * marks.len() as f64 + 0.5 * BELOW;
     html! {
+        @for tick in ticks {
+            path d={ "M" (pixel(x(*tick))) " " (pixel(top + NAME)) "v" (pixel(height)) } stroke=(if *tick == 0.0 { "var(--ink)" } else { "var(--line)" }) stroke-width="1" {}
+        }
         text x="4" y=(pixel(top + 15.0)) font-size="15" { (name) }
         @for (k, mark) in marks.iter().enumerate() {
             @let y = top + NAME + MARK * (k as f64 + 0.5);

@@ -5,7 +5,10 @@ use std::time::SystemTime;
 use maud::{Markup, html};
 use percent_encoding::{NON_ALPHANUMERIC, utf8_percent_encode};
 use rigproof_report::document::{Document, Headline, Section, Served, Tone};
+use rigproof_report::number::significant;
 use rigproof_report::table::table;
+use rigproof_report::words::{self, plain_at};
+use serde_json::Value;
 
 use super::answer::Site;
 use super::listing::Run;
@@ -110,11 +113,34 @@ fn all(runs: &[Run]) -> Markup {
                     td { (written(run)) }
                     @if run.is_certificate() {
                         td { (if run.text("/may_go_on_the_rig") == "yes" { "may go on the rig" } else { "must not go on the rig" }) } td { (run.text("/name")) }
-                    } @else { td { (run.text("/verdict").replace('_', " ")) } td { (run.text("/summary")) } }
+                    } @else { td { (run.text("/verdict").replace('_', " ")) } td.words { (found(run)) } }
                 } } }
             } }
         }
     }
+}
+
+/// What a diagnosis found, as a mechanic says it, and how much that helped.
+fn found(run: &Run) -> String {
+    let effects = run.result.get("effects").and_then(Value::as_array);
+    let name = |effect: &Value| {
+        let joint = effect.get("joint").and_then(Value::as_str);
+        Some(plain_at(effect.get("mechanism")?.as_str()?, joint))
+    };
+    let names: Vec<String> = effects.into_iter().flatten().filter_map(name).collect();
+    if names.is_empty() {
+        return run.text("/summary");
+    }
+    let error = |which: &str| {
+        let error = run.result.pointer(&format!("/fit/held_out/nrmse_{which}"));
+        error.and_then(Value::as_f64)
+    };
+    let errors = error("before").zip(error("after"));
+    let errors = errors.map_or_else(String::new, |(before, after)| {
+        let (before, after) = (significant(before, 3), significant(after, 3));
+        format!("; error on data kept aside: {before} % → {after} %")
+    });
+    words::list(&names) + &errors
 }
 
 /// When a run was written: for whom no script runs, how long ago; a script makes local time of it.
@@ -193,8 +219,8 @@ pub fn compared(one: &Run, other: &Run) -> String {
         .collect();
     let headline = Headline {
         tone: Tone::Found,
-        badge: "Two runs side by side".to_owned(),
-        sentence: format!("{} and {}", one.name, other.name),
+        badge: "Two runs".to_owned(),
+        sentence: format!("{} and {}, side by side", one.name, other.name),
         paragraphs: vec![
             html! { @if differ.is_empty() { "They say the same." } @else { "They differ in: " (differ.join("; ")) "." } },
             html! { a href="/" { "All runs" } " · " a href=(address(one, Run::page(one.is_certificate()))) { (one.name) } " · " a href=(address(other, Run::page(other.is_certificate()))) { (other.name) } },
@@ -238,7 +264,7 @@ fn effects(run: &Run) -> Vec<(String, String)> {
         {
             let value = number
                 .get("value")
-                .and_then(serde_json::Value::as_f64)
+                .and_then(Value::as_f64)
                 .unwrap_or(f64::NAN);
             let unit = number
                 .get("unit")
@@ -255,10 +281,7 @@ fn effects(run: &Run) -> Vec<(String, String)> {
             .get("law")
             .and_then(|law| law.as_str())
             .unwrap_or_default();
-        let broken = law
-            .get("broken_in")
-            .and_then(serde_json::Value::as_u64)
-            .unwrap_or(0);
+        let broken = law.get("broken_in").and_then(Value::as_u64).unwrap_or(0);
         all.push((format!("law {name}: broken in"), broken.to_string()));
     }
     all

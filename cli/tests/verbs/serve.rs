@@ -100,7 +100,10 @@ fn desk() -> Desk {
     {
         std::os::unix::fs::symlink(desk.path("outside"), desk.path("runs/link")).unwrap();
         fs::create_dir_all(desk.path("runs/three")).unwrap();
-        desk.put("runs/three/report.json", "{\"verdict\":\"consistent\"}");
+        desk.put(
+            "runs/three/report.json",
+            "{\"verdict\":\"consistent\",\"summary\":\"<i>nothing</i>\"}",
+        );
         std::os::unix::fs::symlink(desk.path("secret.txt"), desk.path("runs/three/report.html"))
             .unwrap();
     }
@@ -116,7 +119,8 @@ fn runs_are_listed_shown_and_compared_and_nothing_else_is_there() {
     assert!(
         list.contains("explained")
             && list.contains("two &lt;b&gt;")
-            && list.contains("&lt;i&gt;words")
+            && list.contains("&lt;i&gt;nothing")
+            && list.contains("at joint E")
     );
     assert!(!list.contains("secret"), "a link is no run");
     assert!(served.get("/run/one/report.html").contains("page of one"));

@@ -52,8 +52,9 @@ impl Run {
             let mut chart = Chart::over_time(id, title, Axis { label, unit }, &time_s, curves);
             chart.height = 220;
             chart.sync = Some("run");
-            chart.spans.extend(self.broken_at_s.map(|from| Span {
-                from,
+            chart.spans.extend(self.broken_at_s.map(|at| Span {
+                // A sample earlier: the breach may be the last one.
+                from: (at - self.step_s).max(0.0),
                 to: last,
                 role: "mark",
             }));
