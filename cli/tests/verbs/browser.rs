@@ -107,7 +107,7 @@ fn served(tools: &Path, desk: &Desk) {
     for (from, to) in [
         ("rigproof-demo", "demo"),
         ("found", "found"),
-        ("hostile", "<b>hostile</b>"),
+        ("hostile", "<b>hostile"),
         ("certified", "certified"),
     ] {
         std::fs::rename(desk.path(from), desk.path(&format!("runs/{to}"))).unwrap();
@@ -115,7 +115,7 @@ fn served(tools: &Path, desk: &Desk) {
     let served = Served::begin(desk, &["runs", "--rig", "runs/demo/rig.toml"]);
     let pages = [
         "",
-        "compare?one=demo&other=%3Cb%3Ehostile%3C%2Fb%3E",
+        "compare?one=demo&other=%3Cb%3Ehostile",
         "compare?one=found&other=certified",
     ];
     let pages = pages.map(|page| format!("http://{}/{page}", served.address));
