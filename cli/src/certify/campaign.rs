@@ -20,7 +20,7 @@ use rigproof_trace::rig::five_bar::FiveBar;
 use rigproof_trace::store::{read_text, write_aside};
 
 use super::compiled::{Opened, sources};
-use super::{Args, sign, words};
+use super::{Args, page, sign, words};
 use crate::outcome::{Failure, Outcome, print};
 use crate::progress;
 use crate::text::section;
@@ -175,7 +175,7 @@ pub fn finish(
 ) -> Result<Outcome, Failure> {
     let folder = written.folder;
     let spinner = progress::spinner("shrinking what was found");
-    let mut named = Vec::new();
+    let (mut named, mut first_found) = (Vec::new(), None);
     for law in Law::ALL {
         let broken = |fared: &[rigproof_certify::law::Fared]| {
             fared
@@ -202,9 +202,11 @@ pub fn finish(
             write_aside(&folder.join(name), &bytes)?;
         }
         named.push(found.named()?);
+        first_found.get_or_insert(found);
     }
     drop(spinner);
     let worst = searched(plan, sources, chunks, folder)?;
+    let run = page::worst(plan, sources, chunks, first_found.as_ref())?;
     // Shrinking and searching run the controller too.
     let between = written.compiled.map(Opened::ended).transpose()?;
     if let Some(between) = between.filter(|between| !between.is_empty()) {
@@ -214,7 +216,7 @@ pub fn finish(
     let (file, text) = (folder.join(CERTIFICATE), certificate.to_json()?);
     take_away(&sign::file_of(&file))?;
     write_aside(&file, text.as_bytes())?;
-    let page = rigproof_report::certificate::page(&certificate);
+    let page = page::html(&certificate, run.as_ref(), folder, written.library);
     write_aside(&folder.join("certificate.html"), page.as_bytes())?;
     if let Some(keys) = &written.keys {
         sign::write(keys, &file, text.as_bytes())?;
