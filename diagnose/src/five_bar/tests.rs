@@ -109,7 +109,7 @@ fn where_one_joint_is_held_or_turns_back_the_other_equation_still_balances() {
         let [own, other] = [0, 1].map(|output| {
             let mut whole = problem.windows.clone();
             whole.combined.fill(None);
-            let raw = whole.average(&less(&driving(&run), &problem.known));
+            let raw = whole.average(&less(&driving(&run, run.forces()), &problem.known));
             rms(&single
                 .iter()
                 .map(|&row| raw[row + output])
