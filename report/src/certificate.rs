@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 use rigproof_certify::certificate::Certificate;
 use rigproof_certify::search::NamedWorst;
-use rigproof_certify::summary::{LawSummary, MetricSummary, Word};
+use rigproof_certify::summary::{LawSummary, MetricSummary, TieSummary, Word};
 
 use crate::document::{Document, Headline, Section, Tone};
 use crate::number::significant;
@@ -26,6 +26,9 @@ pub fn page(certificate: &Certificate) -> String {
         ));
     }
     sections.push(section("laws", "The laws", laws(&certificate.laws)));
+    if !certificate.ties.is_empty() {
+        sections.push(section("ties", "Ties", ties(&certificate.ties)));
+    }
     if !certificate.worst.is_empty() {
         sections.push(section(
             "worst",
@@ -90,9 +93,8 @@ fn headline(certificate: &Certificate) -> Headline {
             .map(|reason| html! { (reason) "." })
             .collect(),
     };
-    paragraphs.extend(plan.calibration.iter().map(|found| {
-        html! { "The plant is drawn from the calibration " (found.name) ": " (found.found.len()) " of its mechanisms, within their intervals." }
-    }));
+    let calibration = plan.calibration.iter();
+    paragraphs.extend(calibration.map(|found| html! { (found.words()) }));
     let endings = &certificate.ended.controller;
     Headline {
         tone: if may { Tone::Good } else { Tone::Bad },
@@ -108,7 +110,7 @@ fn headline(certificate: &Certificate) -> Headline {
             [
                 "Laws broken".to_owned(),
                 format!("{broken} of {}", certificate.laws.len()),
-                "looked at on every sample they are about, the reference on every 16th".to_owned(),
+                beside(certificate),
             ],
             [
                 "Trials".to_owned(),
@@ -127,6 +129,17 @@ fn headline(certificate: &Certificate) -> Headline {
     }
 }
 
+/// On which samples the laws were looked at.
+fn beside(certificate: &Certificate) -> String {
+    let all = "looked at on every sample they are about".to_owned();
+    match certificate.plan.controller.declared.reference {
+        Some(claim) if claim.every > 1 => {
+            format!("{all}; beside the reference one of {}", claim.every)
+        }
+        _ => all,
+    }
+}
+
 fn findings(certificate: &Certificate) -> Markup {
     let rows: Vec<Vec<String>> = certificate
         .findings
@@ -134,7 +147,14 @@ fn findings(certificate: &Certificate) -> Markup {
         .map(|found| {
             vec![
                 found.law.name().to_owned(),
-                found.scenario.to_string(),
+                match found.searched {
+                    Some(target) => format!(
+                        "from {} on, searching for a worse {}",
+                        found.scenario,
+                        target.name()
+                    ),
+                    None => found.scenario.to_string(),
+                },
                 significant(found.time_s, 3),
                 format!("rigproof certify --replay {}", found.file),
             ]
@@ -178,6 +198,25 @@ fn laws(laws: &[LawSummary]) -> Markup {
     )
 }
 
+fn ties(ties: &[TieSummary]) -> Markup {
+    let row = |tie: &TieSummary| {
+        vec![
+            tie.tie.name().to_owned(),
+            tie.words.clone(),
+            tie.samples.to_string(),
+            tie.trials.to_string(),
+            tie.most.to_string(),
+        ]
+    };
+    let rows: Vec<Vec<String>> = ties.iter().map(row).collect();
+    table(
+        "ties-table",
+        "Samples in which the reference may decide otherwise, each checked to be one.",
+        &["kind", "what turns", "samples", "trials", "trials at most"],
+        &rows,
+    )
+}
+
 fn metrics(metrics: &[MetricSummary]) -> Markup {
     let row = |metric: &MetricSummary| {
         let own = |pick: fn(&rigproof_certify::summary::Quantiles) -> f64,
@@ -213,7 +252,7 @@ fn metrics(metrics: &[MetricSummary]) -> Markup {
             metric
                 .limit
                 .map_or_else(|| "–".to_owned(), |limit| significant(limit, 3)),
-            if metric.holds { "holds" } else { "✘ BEYOND" }.to_owned(),
+            fared(metric),
         ]
     };
     let rows: Vec<Vec<String>> = metrics.iter().map(row).collect();
@@ -232,6 +271,15 @@ fn metrics(metrics: &[MetricSummary]) -> Markup {
         &head,
         &rows,
     )
+}
+
+/// Whether a metric's limits hold, and which does not by how much.
+fn fared(metric: &MetricSummary) -> String {
+    let beyond: Vec<&str> = metric.beyond.iter().map(|own| own.words.as_str()).collect();
+    match beyond.as_slice() {
+        [] => "holds".to_owned(),
+        beyond => format!("✘ BEYOND: {}", beyond.join("; ")),
+    }
 }
 
 fn proved(certificate: &Certificate) -> Markup {
@@ -254,20 +302,18 @@ fn proved(certificate: &Certificate) -> Markup {
 
 fn worst(certificate: &Certificate) -> Markup {
     let row = |worst: &NamedWorst| {
-        let breaks = worst.breaks.map_or("", |law| law.name());
         vec![
             worst.target.name().to_owned(),
             significant(worst.drawn, 3),
             significant(worst.found, 3),
             worst.unit.clone(),
-            breaks.to_owned(),
             worst.file.clone(),
         ]
     };
     let rows: Vec<Vec<String>> = certificate.worst.iter().map(row).collect();
     html! {
         p { "An optimiser went on from the worst drawn trials of each law and metric. It finds, and proves nothing." }
-        (table("worst-table", "The worst that was drawn and the worst that was found.", &["of", "drawn", "found", "unit", "breaks", "file"], &rows))
+        (table("worst-table", "The worst that was drawn and the worst that was found.", &["of", "drawn", "found", "unit", "file"], &rows))
     }
 }
 
