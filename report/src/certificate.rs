@@ -4,10 +4,9 @@ mod change;
 mod run;
 
 use maud::{Markup, html};
-use rigproof_certify::calibration::Calibration;
 use rigproof_certify::certificate::Certificate;
 use rigproof_certify::search::NamedWorst;
-use rigproof_certify::summary::{LawSummary, MetricSummary, Word};
+use rigproof_certify::summary::{LawSummary, MetricSummary, TieSummary, Word};
 
 use crate::document::{Document, Headline, Section, Tone};
 use crate::number::{grouped, significant};
@@ -55,6 +54,9 @@ pub fn page(certificate: &Certificate, beside: &Beside<'_>) -> String {
     };
     sections.extend(first);
     sections.push(section("laws", "The laws", laws(&certificate.laws)));
+    if !certificate.ties.is_empty() {
+        sections.push(section("ties", "Ties", ties(&certificate.ties)));
+    }
     if !certificate.worst.is_empty() {
         sections.push(section(
             "worst",
@@ -121,7 +123,7 @@ fn headline(certificate: &Certificate) -> Headline {
             .collect(),
     };
     let calibration = plan.calibration.iter();
-    paragraphs.extend(calibration.map(|found| html! { (drawn_from(found)) }));
+    paragraphs.extend(calibration.map(|found| html! { (found.words()) }));
     let endings = &certificate.ended.controller;
     Headline {
         tone: if may { Tone::Good } else { Tone::Bad },
@@ -137,7 +139,7 @@ fn headline(certificate: &Certificate) -> Headline {
             [
                 "Laws broken".to_owned(),
                 format!("{broken} of {}", certificate.laws.len()),
-                "looked at on every sample they are about, the reference on every 16th".to_owned(),
+                looked_at(certificate),
             ],
             [
                 "Trials".to_owned(),
@@ -156,13 +158,15 @@ fn headline(certificate: &Certificate) -> Headline {
     }
 }
 
-/// From what the plant of the scenarios is drawn, in a sentence.
-pub fn drawn_from(found: &Calibration) -> String {
-    let count = found.found.len();
-    format!(
-        "The plant is drawn from {}: {count} of its mechanisms, within their intervals.",
-        found.name
-    )
+/// On which samples the laws were looked at.
+fn looked_at(certificate: &Certificate) -> String {
+    let all = "looked at on every sample they are about".to_owned();
+    match certificate.plan.controller.declared.reference {
+        Some(claim) if claim.every > 1 => {
+            format!("{all}; beside the reference one of {}", claim.every)
+        }
+        _ => all,
+    }
 }
 
 fn findings(certificate: &Certificate, replay: &dyn Fn(&str) -> String) -> Markup {
@@ -172,7 +176,14 @@ fn findings(certificate: &Certificate, replay: &dyn Fn(&str) -> String) -> Marku
         .map(|found| {
             vec![
                 found.law.name().to_owned(),
-                found.scenario.to_string(),
+                match found.searched {
+                    Some(target) => format!(
+                        "from {} on, searching for a worse {}",
+                        found.scenario,
+                        target.name()
+                    ),
+                    None => found.scenario.to_string(),
+                },
                 significant(found.time_s, 3),
                 replay(&found.file),
             ]
@@ -216,6 +227,25 @@ fn laws(laws: &[LawSummary]) -> Markup {
     )
 }
 
+fn ties(ties: &[TieSummary]) -> Markup {
+    let row = |tie: &TieSummary| {
+        vec![
+            tie.tie.name().to_owned(),
+            tie.words.clone(),
+            tie.samples.to_string(),
+            tie.trials.to_string(),
+            tie.most.to_string(),
+        ]
+    };
+    let rows: Vec<Vec<String>> = ties.iter().map(row).collect();
+    table(
+        "ties-table",
+        "Samples in which the reference may decide otherwise, each checked to be one.",
+        &["kind", "what turns", "samples", "trials", "trials at most"],
+        &rows,
+    )
+}
+
 fn metrics(metrics: &[MetricSummary]) -> Markup {
     let row = |metric: &MetricSummary| {
         let own = |pick: fn(&rigproof_certify::summary::Quantiles) -> f64,
@@ -251,7 +281,7 @@ fn metrics(metrics: &[MetricSummary]) -> Markup {
             metric
                 .limit
                 .map_or_else(|| "–".to_owned(), |limit| significant(limit, 3)),
-            if metric.holds { "holds" } else { "✘ BEYOND" }.to_owned(),
+            fared(metric),
         ]
     };
     let rows: Vec<Vec<String>> = metrics.iter().map(row).collect();
@@ -270,6 +300,15 @@ fn metrics(metrics: &[MetricSummary]) -> Markup {
         &head,
         &rows,
     )
+}
+
+/// Whether a metric's limits hold, and which does not by how much.
+fn fared(metric: &MetricSummary) -> String {
+    let beyond: Vec<&str> = metric.beyond.iter().map(|own| own.words.as_str()).collect();
+    match beyond.as_slice() {
+        [] => "holds".to_owned(),
+        beyond => format!("✘ BEYOND: {}", beyond.join("; ")),
+    }
 }
 
 fn proved(certificate: &Certificate) -> Markup {
@@ -292,20 +331,18 @@ fn proved(certificate: &Certificate) -> Markup {
 
 fn worst(certificate: &Certificate, replay: &dyn Fn(&str) -> String) -> Markup {
     let row = |worst: &NamedWorst| {
-        let breaks = worst.breaks.map_or("", |law| law.name());
         vec![
             worst.target.name().to_owned(),
             significant(worst.drawn, 3),
             significant(worst.found, 3),
             worst.unit.clone(),
-            breaks.to_owned(),
             replay(&worst.file),
         ]
     };
     let rows: Vec<Vec<String>> = certificate.worst.iter().map(row).collect();
     html! {
         p { "An optimiser went on from the worst drawn trials of each law and metric. It finds, and proves nothing." }
-        (table("worst-table", "The worst that was drawn and the worst that was found.", &["of", "drawn", "found", "unit", "breaks", "to see it"], &rows))
+        (table("worst-table", "The worst that was drawn and the worst that was found.", &["of", "drawn", "found", "unit", "to see it"], &rows))
     }
 }
 
