@@ -1,17 +1,32 @@
 //! This file is the page of a certificate: may it go on the rig, why not, what was tested, what was proved and what nobody looked at.
 
+mod change;
+mod run;
+
 use maud::{Markup, html};
 use rigproof_certify::certificate::Certificate;
 use rigproof_certify::search::NamedWorst;
 use rigproof_certify::summary::{LawSummary, MetricSummary, TieSummary, Word};
 
 use crate::document::{Document, Headline, Section, Tone};
-use crate::number::significant;
+use crate::number::{grouped, significant};
 use crate::table::table;
+use crate::words::capital;
+
+pub use run::Run;
+
+/// What a page shows beside the certificate.
+pub struct Beside<'a> {
+    /// The worst case, run again.
+    pub run: Option<&'a Run>,
+    /// The command that runs a file of the certificate's folder again.
+    pub replay: &'a dyn Fn(&str) -> String,
+}
 
 /// The page of a certificate as HTML.
-pub fn page(certificate: &Certificate) -> String {
+pub fn page(certificate: &Certificate, beside: &Beside<'_>) -> String {
     let headline = headline(certificate);
+    let mut charts = Vec::new();
     let section = |id: &str, heading: &str, body: Markup| Section {
         id: id.to_owned(),
         heading: heading.to_owned(),
@@ -22,9 +37,22 @@ pub fn page(certificate: &Certificate) -> String {
         sections.push(section(
             "findings",
             "What broke a law",
-            findings(certificate),
+            findings(certificate, beside.replay),
         ));
     }
+    // What broke a law is shown at once; where nothing did, the laws come first.
+    let run = beside.run.map(|run| {
+        let heading = match certificate.findings.is_empty() {
+            true => "The worst of the trials, run again",
+            false => "What broke a law first, run again",
+        };
+        section("run", heading, run.body(&mut charts))
+    });
+    let (first, last) = match certificate.findings.is_empty() {
+        true => (None, run),
+        false => (run, None),
+    };
+    sections.extend(first);
     sections.push(section("laws", "The laws", laws(&certificate.laws)));
     if !certificate.ties.is_empty() {
         sections.push(section("ties", "Ties", ties(&certificate.ties)));
@@ -33,14 +61,15 @@ pub fn page(certificate: &Certificate) -> String {
         sections.push(section(
             "worst",
             "What a search made worse",
-            worst(certificate),
+            worst(certificate, beside.replay),
         ));
     }
     sections.push(section(
         "metrics",
         "How it feels and how well it guides",
-        metrics(&certificate.metrics),
+        html! { (change::figure(&certificate.metrics)) (metrics(&certificate.metrics)) },
     ));
+    sections.extend(last);
     sections.push(section("proved", "What was proved", proved(certificate)));
     sections.push(section(
         "not",
@@ -58,7 +87,7 @@ pub fn page(certificate: &Certificate) -> String {
         about: certificate.name.clone(),
         headline,
         sections,
-        charts: Vec::new(),
+        charts,
         replay: None,
         served: None,
         footer: format!(
@@ -85,12 +114,12 @@ fn headline(certificate: &Certificate) -> Headline {
     };
     let mut paragraphs = match may {
         true => vec![
-            html! { "No law was broken on any of " (certificate.samples) " samples, and every limit holds. That is a test on a simulated rig with simulated hands: what nobody looked at stands below." },
+            html! { "No law was broken on any of " (grouped(certificate.samples)) " samples, and every limit holds. That is a test on a simulated rig with simulated hands: what nobody looked at stands below." },
         ],
         false => certificate
             .reasons
             .iter()
-            .map(|reason| html! { (reason) "." })
+            .map(|reason| html! { (capital(reason)) "." })
             .collect(),
     };
     let calibration = plan.calibration.iter();
@@ -110,19 +139,19 @@ fn headline(certificate: &Certificate) -> Headline {
             [
                 "Laws broken".to_owned(),
                 format!("{broken} of {}", certificate.laws.len()),
-                beside(certificate),
+                looked_at(certificate),
             ],
             [
                 "Trials".to_owned(),
-                plan.scenarios.to_string(),
+                grouped(plan.scenarios),
                 format!(
-                    "{} reached their goal, {} ran out of time, {} were taken to the stops, {} got no answer",
-                    endings.finished, endings.time, endings.left_workspace, endings.no_answer
+                    "{} came to the path's end; {} ended at the stops, {} without an answer",
+                    endings.finished, endings.left_workspace, endings.no_answer
                 ),
             ],
             [
                 "Samples".to_owned(),
-                certificate.samples.to_string(),
+                grouped(certificate.samples),
                 format!("seed {}", plan.seed),
             ],
         ],
@@ -130,7 +159,7 @@ fn headline(certificate: &Certificate) -> Headline {
 }
 
 /// On which samples the laws were looked at.
-fn beside(certificate: &Certificate) -> String {
+fn looked_at(certificate: &Certificate) -> String {
     let all = "looked at on every sample they are about".to_owned();
     match certificate.plan.controller.declared.reference {
         Some(claim) if claim.every > 1 => {
@@ -140,7 +169,7 @@ fn beside(certificate: &Certificate) -> String {
     }
 }
 
-fn findings(certificate: &Certificate) -> Markup {
+fn findings(certificate: &Certificate, replay: &dyn Fn(&str) -> String) -> Markup {
     let rows: Vec<Vec<String>> = certificate
         .findings
         .iter()
@@ -156,7 +185,7 @@ fn findings(certificate: &Certificate) -> Markup {
                     None => found.scenario.to_string(),
                 },
                 significant(found.time_s, 3),
-                format!("rigproof certify --replay {}", found.file),
+                replay(&found.file),
             ]
         })
         .collect();
@@ -300,20 +329,20 @@ fn proved(certificate: &Certificate) -> Markup {
     }
 }
 
-fn worst(certificate: &Certificate) -> Markup {
+fn worst(certificate: &Certificate, replay: &dyn Fn(&str) -> String) -> Markup {
     let row = |worst: &NamedWorst| {
         vec![
             worst.target.name().to_owned(),
             significant(worst.drawn, 3),
             significant(worst.found, 3),
             worst.unit.clone(),
-            worst.file.clone(),
+            replay(&worst.file),
         ]
     };
     let rows: Vec<Vec<String>> = certificate.worst.iter().map(row).collect();
     html! {
         p { "An optimiser went on from the worst drawn trials of each law and metric. It finds, and proves nothing." }
-        (table("worst-table", "The worst that was drawn and the worst that was found.", &["of", "drawn", "found", "unit", "file"], &rows))
+        (table("worst-table", "The worst that was drawn and the worst that was found.", &["of", "drawn", "found", "unit", "to see it"], &rows))
     }
 }
 

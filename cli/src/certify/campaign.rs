@@ -8,7 +8,7 @@ use rigproof_certify::campaign;
 use rigproof_certify::certificate::{Certificate, records};
 use rigproof_certify::description::Description;
 use rigproof_certify::digest;
-use rigproof_certify::finding::{Finding, Named};
+use rigproof_certify::finding::Finding;
 use rigproof_certify::journal::{Chunks, FILE, Header};
 use rigproof_certify::law::Law;
 use rigproof_certify::plan::{FORM, Plan, Sources, Subject};
@@ -19,7 +19,7 @@ use rigproof_trace::rig::five_bar::FiveBar;
 use rigproof_trace::store::{read_text, write_aside};
 
 use super::compiled::{Opened, sources};
-use super::{Args, sign, words};
+use super::{Args, page, sign, words};
 use crate::outcome::{Failure, Outcome, print};
 use crate::progress;
 use crate::text::section;
@@ -176,9 +176,12 @@ pub fn finish(
 ) -> Result<Outcome, Failure> {
     let folder = written.folder;
     let searched = searched(plan, sources, chunks, folder)?;
-    let named = findings(plan, sources, chunks, &searched.met, folder)?;
+    let found = findings(plan, sources, chunks, &searched.met, folder)?;
+    let named = found.iter().map(Finding::named);
+    let named = named.collect::<Result<_, _>>()?;
     let worst = searched.worst.iter().map(Worst::named);
     let worst = worst.collect::<Result<_, _>>()?;
+    let run = page::worst(plan, sources, chunks, found.first())?;
     // Shrinking and searching run the controller too.
     if let Some(between) = between(written.compiled)? {
         return between_trials(&between, folder);
@@ -187,7 +190,7 @@ pub fn finish(
     let (file, text) = (folder.join(CERTIFICATE), certificate.to_json()?);
     take_away(&sign::file_of(&file))?;
     write_aside(&file, text.as_bytes())?;
-    let page = rigproof_report::certificate::page(&certificate);
+    let page = page::html(&certificate, run.as_ref(), folder, written.library);
     write_aside(&folder.join("certificate.html"), page.as_bytes())?;
     if let Some(keys) = &written.keys {
         sign::write(keys, &file, text.as_bytes())?;
@@ -229,7 +232,7 @@ fn findings(
     chunks: &Chunks,
     met: &[Met],
     folder: &Path,
-) -> Result<Vec<Named>, Failure> {
+) -> Result<Vec<Finding>, Failure> {
     let spinner = progress::spinner("shrinking what was found");
     let found = Finding::all(plan, sources.controller, &records(chunks), met);
     for law in Law::ALL {
@@ -247,8 +250,7 @@ fn findings(
         }
     }
     drop(spinner);
-    let named = found.iter().map(Finding::named);
-    Ok(named.collect::<Result<_, _>>()?)
+    Ok(found)
 }
 
 /// Takes away what an earlier campaign left: it is none of this one's.
