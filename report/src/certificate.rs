@@ -212,8 +212,8 @@ fn laws(laws: &[LawSummary]) -> Markup {
         );
         vec![
             law.law.name().to_owned(),
-            law.words.clone(),
             fared,
+            law.words.clone(),
             law.samples.to_string(),
             margin,
         ]
@@ -222,7 +222,7 @@ fn laws(laws: &[LawSummary]) -> Markup {
     table(
         "laws-table",
         "A margin below zero breaks the law; the least one counts.",
-        &["law", "what it says", "fared", "samples", "least margin"],
+        &["law", "fared", "what it says", "samples", "least margin"],
         &rows,
     )
 }
