@@ -81,11 +81,7 @@ pub fn page(experiments: &[Again], verdicts: [&'static str; 3], unaccounted: usi
         sentence,
     };
     let [_, against, _] = verdicts;
-    let apart = Section {
-        id: "disagree".to_owned(),
-        heading: "Where they disagree".to_owned(),
-        body: apart(experiments, against),
-    };
+    let apart = (disagree > 0).then(|| apart(experiments, against));
     let sections = experiments.iter().map(|own| Section {
         id: format!("experiment-{}", own.id.replace('.', "-")),
         heading: format!("{} {}", own.id, own.title),
@@ -96,11 +92,7 @@ pub fn page(experiments: &[Again], verdicts: [&'static str; 3], unaccounted: usi
         kind: "Reproduction",
         about: format!("{} experiments", experiments.len()),
         headline,
-        sections: (disagree > 0)
-            .then_some(apart)
-            .into_iter()
-            .chain(sections)
-            .collect(),
+        sections: apart.into_iter().chain(sections).collect(),
         charts: Vec::new(),
         replay: None,
         served: None,
@@ -113,7 +105,7 @@ pub fn page(experiments: &[Again], verdicts: [&'static str; 3], unaccounted: usi
 }
 
 /// The statements that come out otherwise, all together.
-fn apart(experiments: &[Again], verdict: &str) -> Markup {
+fn apart(experiments: &[Again], verdict: &str) -> Section {
     let row = |own: &Statement| {
         vec![
             own.place.clone(),
@@ -130,7 +122,11 @@ fn apart(experiments: &[Again], verdict: &str) -> Markup {
         .collect();
     let caption = "What does not come out, and which erratum or gap accounts for it.";
     let head = ["place", "statement", "text", "here", "because"];
-    table("disagree-table", caption, &head, &rows)
+    Section {
+        id: "disagree".to_owned(),
+        heading: "Where they disagree".to_owned(),
+        body: table("disagree-table", caption, &head, &rows),
+    }
 }
 
 fn experiment(own: &Again) -> Markup {

@@ -43,40 +43,81 @@ impl Run {
     }
 
     fn charts(&self) -> Vec<(Chart, Markup)> {
-        let time_s: Vec<f64> = (0..self.tip_m.len())
-            .map(|tick| tick as f64 * self.step_s)
-            .collect();
-        let last = time_s.last().copied().unwrap_or_default();
-        let chart = |id, title: &str, label: &str, unit: &str, curves| {
-            let (label, unit) = (label.to_owned(), unit.to_owned());
-            let mut chart = Chart::over_time(id, title, Axis { label, unit }, &time_s, curves);
-            chart.height = 220;
-            chart.sync = Some("run");
-            chart.spans.extend(self.broken_at_s.map(|at| Span {
-                // A sample earlier: the breach may be the last one.
-                from: (at - self.step_s).max(0.0),
-                to: last,
-                role: "mark",
-            }));
-            chart
-        };
         let marked = match self.broken_at_s {
             Some(_) => " Yellow: from where the law is broken.",
             None => "",
         };
         let offset: Vec<f64> = self.offset_m.iter().map(|m| 1e3 * m).collect();
+        let offset = vec![line("distance", "new", &offset, false)];
+        vec![
+            (
+                self.chart(
+                    "offset",
+                    "Distance of the tip from the path",
+                    ["distance", "mm"],
+                    offset,
+                ),
+                html! { "Above zero: to the left of the path." (marked) },
+            ),
+            (
+                self.chart(
+                    "force",
+                    "Force of the hand at the tip",
+                    ["force", "N"],
+                    self.forces(),
+                ),
+                html! { "What the simulated hand pushes with." (marked) },
+            ),
+            (
+                self.chart(
+                    "currents",
+                    "Currents that the controller asks for",
+                    ["current", "A"],
+                    self.currents(),
+                ),
+                html! { "One curve a brake; more current brakes harder." (marked) },
+            ),
+        ]
+    }
+
+    fn chart(
+        &self,
+        id: &'static str,
+        title: &str,
+        [label, unit]: [&str; 2],
+        curves: Vec<Curve>,
+    ) -> Chart {
+        let ticks = 0..self.tip_m.len();
+        let time_s: Vec<f64> = ticks.map(|tick| tick as f64 * self.step_s).collect();
+        let last = time_s.last().copied().unwrap_or_default();
+        let (label, unit) = (label.to_owned(), unit.to_owned());
+        let mut chart = Chart::over_time(id, title, Axis { label, unit }, &time_s, curves);
+        chart.height = 220;
+        chart.sync = Some("run");
+        chart.spans.extend(self.broken_at_s.map(|at| Span {
+            // A sample earlier: the breach may be the last one.
+            from: (at - self.step_s).max(0.0),
+            to: last,
+            role: "mark",
+        }));
+        chart
+    }
+
+    fn forces(&self) -> Vec<Curve> {
         let force = |axis: usize| -> Vec<f64> {
             let component = |force: &[f64; 2]| force.get(axis).copied().unwrap_or(f64::NAN);
             self.force_n.iter().map(component).collect()
         };
+        vec![
+            line("across (x)", "new", &force(0), false),
+            line("away from the base (y)", "old", &force(1), true),
+        ]
+    }
+
+    fn currents(&self) -> Vec<Curve> {
         let current = |joint: usize| -> Vec<f64> {
             let one = |currents: &[f64; 4]| currents.get(joint).copied().unwrap_or(f64::NAN);
             self.currents_a.iter().map(one).collect()
-        };
-        let line = |name: &str, role, values: &[f64], dashed| Curve {
-            dashed,
-            width: 1.8,
-            ..Curve::line(name, role, values)
         };
         let joints = [
             ("A", "recorded", false),
@@ -84,48 +125,10 @@ impl Run {
             ("B", "new", false),
             ("C", "noise", true),
         ];
-        let currents = joints.into_iter().enumerate();
-        let currents =
-            currents.map(|(k, (name, role, dashed))| line(name, role, &current(k), dashed));
-        let forces = vec![
-            line("across (x)", "new", &force(0), false),
-            line("away from the base (y)", "old", &force(1), true),
-        ];
-        let currents = chart(
-            "currents",
-            "Currents that the controller asks for",
-            "current",
-            "A",
-            currents.collect(),
-        );
-        let force = chart(
-            "force",
-            "Force of the hand at the tip",
-            "force",
-            "N",
-            forces,
-        );
-        let offset = chart(
-            "offset",
-            "Distance of the tip from the path",
-            "distance",
-            "mm",
-            vec![line("distance", "new", &offset, false)],
-        );
-        vec![
-            (
-                offset,
-                html! { "Above zero: to the left of the path." (marked) },
-            ),
-            (
-                force,
-                html! { "What the simulated hand pushes with." (marked) },
-            ),
-            (
-                currents,
-                html! { "One curve a brake; more current brakes harder." (marked) },
-            ),
-        ]
+        let joints = joints.into_iter().enumerate();
+        joints
+            .map(|(k, (name, role, dashed))| line(name, role, &current(k), dashed))
+            .collect()
     }
 
     fn drawing(&self) -> Markup {
@@ -185,6 +188,15 @@ impl Run {
                 details { summary { "The points of the tip" } (table("tip", "The tip over time.", &["time (s)", "x (mm)", "y (mm)"], &rows)) }
             }
         }
+    }
+}
+
+/// A curve that is told apart by its dashes too.
+fn line(name: &str, role: &'static str, values: &[f64], dashed: bool) -> Curve {
+    Curve {
+        dashed,
+        width: 1.8,
+        ..Curve::line(name, role, values)
     }
 }
 
@@ -262,7 +274,8 @@ mod tests {
         let ratio = (one[0] - other[0]) / (one[1] - other[1]);
         assert!((ratio - 0.16 / 0.12).abs() < 0.01, "{ratio}");
         for [x, y] in [one, other, third] {
-            assert!(x >= ROOM && x <= WIDTH - ROOM && y >= ROOM && y <= place.height - ROOM);
+            assert!((ROOM..=WIDTH - ROOM).contains(&x));
+            assert!((ROOM..=place.height - ROOM).contains(&y));
         }
         assert!(Place::around(std::iter::empty()).is_none());
         assert!(Place::around([[0.1, 0.3]].into_iter()).is_some());
