@@ -25,7 +25,7 @@ fn bits(trace: &rigproof_trace::Trace) -> Vec<(String, String, Vec<u64>)> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(40))]
+    #![proptest_config(ProptestConfig::with_cases(16))]
 
     #[test]
     fn a_seed_makes_the_same_case_twice_and_another_seed_another(plant in plant(), seed: u64) {

@@ -5,16 +5,20 @@ use rigproof_impl::law::{
     AnyLaw, Impedance, Obstacle, Optimal, PathLaw, Proportional, Sdof, Side, Uncontrolled,
     VelocityRatio, Virtual, Weights,
 };
+use rigproof_impl::number::Real;
+use rigproof_impl::path::Path;
 use rigproof_impl::tick::{Settings, Tick};
 use rigproof_impl::tip_mass::Bodies;
 use rigproof_model::control::GainUnit;
+use rigproof_spec::geometry::Arms;
 use rigproof_spec::inertia::inertia;
+use rigproof_spec::layout::Layout;
 use rigproof_spec::methods::{BLEND_BOUNDARY_M, Method, Setting};
 use rigproof_spec::units::M_PER_CM;
 use serde::{Deserialize, Serialize};
 
 use crate::controller::{Controller, Failure, Source, Task};
-use crate::declared::{Choice, Declared, Solid};
+use crate::declared::{Choice, Claim, Declared, EVERY, Solid};
 use crate::way::{Remembered, Way};
 
 /// A law of the rig with its parameters.
@@ -91,20 +95,24 @@ impl BuiltIn {
 
     /// What this controller promises, as far as its kind says.
     pub fn declared(&self) -> Declared {
+        let claim = Claim {
+            law: *self,
+            every: EVERY,
+        };
         let selective = Declared {
             most_brakes: Some(1),
             locks: Some(true),
             boundary_m: Some(self.boundary_m),
             within_force: true,
             solid: self.obstacle,
-            reference: Some(*self),
+            reference: Some(claim),
             ..Declared::default()
         };
         let without_lock = |most: u8| Declared {
             most_brakes: Some(most),
             locks: Some(false),
             solid: self.obstacle,
-            reference: Some(*self),
+            reference: Some(claim),
             ..Declared::default()
         };
         match self.law {
@@ -143,11 +151,22 @@ impl BuiltIn {
         Ok(Box::new(tick))
     }
 
-    fn law(&self, settings: &Settings, task: &Task) -> Option<AnyLaw<f64, Path>> {
+    fn law(&self, settings: &Settings, task: &Task) -> Option<AnyLaw<f64, Remembered>> {
+        let actuation = Actuation::thesis(settings.layout);
         let path = Way::new(task)?.path;
+        self.on(actuation, path, &settings.arms, settings.layout)
+    }
+
+    /// The rig's law on a path, by brakes, with the bodies of these arms and this layout; `None` for parameters that it does not take.
+    pub fn on<R: Real, P: Path<R> + Clone>(
+        &self,
+        actuation: Actuation<R>,
+        path: P,
+        arms: &Arms,
+        layout: Layout,
+    ) -> Option<AnyLaw<R, P>> {
         let boundary = path.clone();
         let boundary_m = self.boundary_m;
-        let actuation = Actuation::thesis(settings.layout);
         let inner = match self.law {
             Kind::Uncontrolled => PathLaw::Uncontrolled(Uncontrolled),
             Kind::Sdof { gap_m } => PathLaw::Sdof(Sdof::new(actuation, path, boundary_m, gap_m)?),
@@ -170,7 +189,7 @@ impl BuiltIn {
                     energy: weight_energy,
                     horizon_s,
                 };
-                let bodies = Bodies::new(&settings.arms, &inertia(settings.layout));
+                let bodies = Bodies::new(arms, &inertia(layout));
                 PathLaw::Optimal(Optimal::new(actuation, path, boundary_m, weights, bodies)?)
             }
             Kind::Impedance {
@@ -193,8 +212,6 @@ impl BuiltIn {
         })
     }
 }
-
-type Path = Remembered;
 
 impl Source for BuiltIn {
     fn begin(&self, settings: &Settings, task: &Task) -> Result<Box<dyn Controller + '_>, Failure> {

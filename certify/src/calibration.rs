@@ -40,6 +40,14 @@ const TRIED_RAD: [f64; 2] = [2.17, 0.83];
 const OF_CALIBRATION: u64 = 0xca11_b7a7_1011;
 
 impl Calibration {
+    /// That scenarios draw their plant from it, as a sentence.
+    pub fn words(&self) -> String {
+        let (name, count) = (&self.name, self.found.len());
+        format!(
+            "The plant is drawn from the calibration {name}: {count} of its mechanisms, within their intervals."
+        )
+    }
+
     /// The calibration of a five-bar's description, its file's name and hash.
     ///
     /// # Errors

@@ -15,7 +15,8 @@ use crate::record::Record;
 use crate::scenario::Draw;
 use crate::search::NamedWorst;
 use crate::summary::{
-    Ended, LawSummary, MetricSummary, NotLookedAt, ended, laws, metrics, not_looked_at,
+    Ended, LawSummary, MetricSummary, NotLookedAt, TieSummary, ended, laws, metrics, not_looked_at,
+    ties,
 };
 use crate::tool::Tool;
 
@@ -43,6 +44,8 @@ pub struct Certificate {
     pub samples: u64,
     /// Tested: how every law fared.
     pub laws: Vec<LawSummary>,
+    /// Tested: the samples in which the reference may decide otherwise, by why.
+    pub ties: Vec<TieSummary>,
     /// Tested: the metrics.
     pub metrics: Vec<MetricSummary>,
     /// Searched: the worst cases that were found.
@@ -118,7 +121,8 @@ impl Certificate {
     ) -> Result<Certificate, Error> {
         let records = records(chunks);
         let (laws, metrics) = (laws(plan, &records), metrics(plan, &records));
-        let reasons = reasons(&laws, &metrics, &worst);
+        let ties = ties(&records);
+        let reasons = reasons(&laws, &ties, &findings, &metrics);
         let digests: Result<Vec<String>, Error> =
             chunks.values().map(|c| chunk_digest(c)).collect();
         let digests = digests?;
@@ -133,6 +137,7 @@ impl Certificate {
             ended: ended(plan, &records),
             samples: records.iter().map(|record| u64::from(record.ticks)).sum(),
             laws,
+            ties,
             metrics,
             worst,
             proved: proved(&plan.controller)?,
@@ -194,7 +199,7 @@ impl Certificate {
                 "the hashes of controller, rig, plan or records do not follow from it".to_owned(),
             ));
         }
-        if reasons(&read.laws, &read.metrics, &read.worst) != read.reasons
+        if reasons(&read.laws, &read.ties, &read.findings, &read.metrics) != read.reasons
             || read.may_go_on_the_rig != read.reasons.is_empty()
         {
             return Err(refused(
@@ -244,7 +249,12 @@ impl Certificate {
 }
 
 /// Why a controller must not go on the rig.
-fn reasons(laws: &[LawSummary], metrics: &[MetricSummary], worst: &[NamedWorst]) -> Vec<String> {
+fn reasons(
+    laws: &[LawSummary],
+    ties: &[TieSummary],
+    findings: &[Named],
+    metrics: &[MetricSummary],
+) -> Vec<String> {
     let mut reasons = Vec::new();
     for law in laws {
         let name = law.law.name();
@@ -260,22 +270,24 @@ fn reasons(laws: &[LawSummary], metrics: &[MetricSummary], worst: &[NamedWorst])
             ));
         }
     }
-    for worst in worst {
-        let Some(law) = worst.breaks else { continue };
-        let (name, file) = (law.name(), &worst.file);
+    for tie in ties.iter().filter(|tie| tie.trials > tie.most) {
+        let (name, trials, most) = (tie.tie.name(), tie.trials, tie.most);
         reasons.push(format!(
-            "the search found a scenario that breaks the law {name}, in {file}"
+            "beside the reference {trials} trials have ties of the kind {name}, where at most {most} may: {}",
+            tie.words
         ));
     }
-    for metric in metrics.iter().filter(|metric| !metric.holds) {
-        let key = metric.metric.key();
-        let limit =
-            |limit: Option<f64>| limit.map_or("none".to_owned(), |limit| format!("{limit}"));
+    for found in findings {
+        let Some(target) = found.searched else {
+            continue;
+        };
+        let (name, target, file) = (found.law.name(), target.name(), &found.file);
+        let words = found.law.words();
         reasons.push(format!(
-            "{key} is beyond what certify.toml allows (95 of 100 trials at most {}, mean worse by at most {}), or was not measured",
-            limit(metric.limit),
-            limit(metric.regression)
+            "the law {name} is broken in a scenario that the search for a worse {target} met, {file}: {words}"
         ));
     }
+    let beyond = metrics.iter().flat_map(|metric| &metric.beyond);
+    reasons.extend(beyond.map(|beyond| beyond.words.clone()));
     reasons
 }

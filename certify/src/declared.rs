@@ -24,8 +24,21 @@ pub struct Declared {
     /// On which side of the path an obstacle lies; on the other no brake acts.
     pub solid: Option<Solid>,
     /// The law of the rig that it claims to be.
-    pub reference: Option<BuiltIn>,
+    pub reference: Option<Claim>,
 }
+
+/// A law of the rig that a controller claims to be, so that the reference can be set beside it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Claim {
+    /// The law.
+    pub law: BuiltIn,
+    /// Of so many samples one is set beside the reference; 1 takes them all.
+    pub every: u32,
+}
+
+/// Of so many samples one is set beside the reference, unless a description says otherwise (decision 0147).
+pub const EVERY: u32 = 16;
 
 /// A rule by which one brake is chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

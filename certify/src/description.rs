@@ -12,7 +12,7 @@ use rigproof_trace::rig::table::{Source, Table};
 use rigproof_trace::suggest::advice;
 
 use crate::built_in::{BuiltIn, Kind};
-use crate::declared::{Choice, Declared, Solid};
+use crate::declared::{Choice, Declared, EVERY, Solid};
 use crate::metrics::{METRICS, Metric};
 use crate::scenario::Rig;
 
@@ -25,6 +25,8 @@ pub struct Description {
     pub controller: Option<BuiltIn>,
     /// What a controller that the caller brings says of itself.
     pub declares: Declared,
+    /// Of so many samples one is set beside the reference; 1 takes them all.
+    pub reference_every: u32,
     /// What is on the rig now.
     pub baseline: Option<BuiltIn>,
     /// The layouts.
@@ -78,6 +80,7 @@ impl Description {
             "controller",
             "baseline",
             "declares",
+            "reference_every",
             "limits",
             "regressions",
         ])?;
@@ -110,6 +113,7 @@ impl Description {
             name: root.text("name")?.unwrap_or("controller").to_owned(),
             controller,
             declares: declares.map_or(Ok(Declared::default()), |table| declared(&table))?,
+            reference_every: reference_every(&root)?,
             baseline: law("baseline")?,
             rigs,
             limits: metrics("limits")?,
@@ -199,6 +203,19 @@ fn side(table: &Table<'_>) -> Result<Option<Solid>, TraceError> {
         Some("right") => Ok(Some(Solid::Right)),
         Some(other) => Err(unknown(table, "obstacle", other, &["left", "right"])),
     }
+}
+
+fn reference_every(root: &Table<'_>) -> Result<u32, TraceError> {
+    if !root.has("reference_every") {
+        return Ok(EVERY);
+    }
+    let every = ranged(root, "reference_every", [1.0, 1e6])?;
+    if every.fract() != 0.0 {
+        let problem =
+            format!("`reference_every` is {every}; give a whole number from 1 to 1000000");
+        return Err(root.error_at("reference_every", problem));
+    }
+    Ok(every as u32)
 }
 
 fn declared(table: &Table<'_>) -> Result<Declared, TraceError> {

@@ -13,8 +13,10 @@ use crate::digest;
 use crate::error::Error;
 use crate::law::Law;
 use crate::plan::{FORM, Plan, Subject};
+use crate::record::Record;
 use crate::scenario::Scenario;
-use crate::shrink::shrink;
+use crate::search::{Met, Target};
+use crate::shrink::{Shrunk, shrink};
 use crate::trial::{Ran, run};
 
 /// Most samples of a scenario: an hour.
@@ -30,8 +32,10 @@ pub struct Finding {
     pub law: Law,
     /// What it says.
     pub words: String,
-    /// The scenario of the campaign in which it was seen first.
+    /// The scenario of the campaign in which it was seen first, or in which the search began that met it.
     pub scenario_index: u64,
+    /// What was searched for when it was met; `None` where the scenario was drawn.
+    pub searched: Option<Target>,
     /// The sample that breaks it, after shrinking.
     pub tick: u32,
     /// The least margin.
@@ -52,8 +56,10 @@ pub struct Finding {
 pub struct Named {
     /// The law.
     pub law: Law,
-    /// The scenario of the campaign.
+    /// The scenario of the campaign, or that in which the search began.
     pub scenario: u64,
+    /// What was searched for when it was met; `None` where it was drawn.
+    pub searched: Option<Target>,
     /// Rig time until the law is broken, after shrinking, s.
     pub time_s: f64,
     /// How the controller broke, if it did.
@@ -65,22 +71,84 @@ pub struct Named {
 }
 
 impl Finding {
+    /// The shrunk findings of a campaign, one of every law that is broken: in the first scenario that was drawn and breaks it, or else in the one that
+    /// a search met. A law that is broken once and not again in the scenario that was drawn has none: the verdict stands all the same.
+    pub fn all(plan: &Plan, source: &dyn Source, records: &[&Record], met: &[Met]) -> Vec<Finding> {
+        let of = |law: Law| {
+            let mut drawn = records.iter();
+            let drawn = drawn.find(|record| {
+                let fared = record.fared.get(law as usize);
+                fared.is_some_and(|fared| fared.broken > 0)
+            });
+            match drawn {
+                Some(record) => Finding::of(plan, source, law, record.index),
+                None => {
+                    let met = met.iter().find(|met| met.law == law)?;
+                    Some(Finding::met(plan, source, met))
+                }
+            }
+        };
+        Law::ALL.into_iter().filter_map(of).collect()
+    }
+
     /// The shrunk finding of a law in a scenario of a plan; `None` where the law is not broken there.
     pub fn of(plan: &Plan, source: &dyn Source, law: Law, index: u64) -> Option<Finding> {
         let declared = &plan.controller.declared;
         let shrunk = shrink(&plan.scenario(index), law, source, declared)?;
-        Some(Finding {
+        Some(Finding::new(plan, law, index, None, shrunk))
+    }
+
+    /// The shrunk finding of what a search met; as it was met where it is not broken again, so that it is not lost.
+    pub fn met(plan: &Plan, source: &dyn Source, met: &Met) -> Finding {
+        let shrunk = shrink(&met.scenario, met.law, source, &plan.controller.declared);
+        let shrunk = shrunk.unwrap_or_else(|| Shrunk {
+            scenario: met.scenario.clone(),
+            tick: met.tick,
+            margin: met.margin,
+            failure: met.failure.clone(),
+            trials: 1,
+        });
+        Finding::new(plan, met.law, met.begun_in, Some(met.target), shrunk)
+    }
+
+    fn new(
+        plan: &Plan,
+        law: Law,
+        scenario_index: u64,
+        searched: Option<Target>,
+        shrunk: Shrunk,
+    ) -> Finding {
+        Finding {
             form: FORM,
             law,
             words: law.words().to_owned(),
-            scenario_index: index,
+            scenario_index,
+            searched,
             tick: shrunk.tick,
             margin: shrunk.margin,
             failure: shrunk.failure,
             trials: shrunk.trials,
             controller: plan.controller.clone(),
             scenario: shrunk.scenario,
-        })
+        }
+    }
+
+    /// Whether it is what a certificate names.
+    ///
+    /// # Errors
+    /// It cannot be written as JSON.
+    pub fn is(&self, named: &Named) -> Result<bool, Error> {
+        Ok(self.named()? == *named)
+    }
+
+    /// Whether its law is broken again by as much, at the same sample.
+    ///
+    /// # Errors
+    /// [`Error::Scenario`].
+    pub fn comes_again(&self, source: &dyn Source) -> Result<bool, Error> {
+        let ran = self.replayed(source)?;
+        let own = ran.fared.get(self.law as usize);
+        Ok(own.is_some_and(|own| own.first == Some(self.tick) && own.worst == self.margin))
     }
 
     /// The file's name, without its ending.
@@ -136,6 +204,7 @@ impl Finding {
         Ok(Named {
             law: self.law,
             scenario: self.scenario_index,
+            searched: self.searched,
             time_s: f64::from(self.tick + 1) * SAMPLE_STEP_S,
             failure: self.failure.clone(),
             file: self.stem() + ".json",

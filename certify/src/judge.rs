@@ -17,10 +17,11 @@ use rigproof_spec::tables::GREATEST_CURRENT_A;
 
 use crate::controller::Task;
 use crate::declared::Declared;
+use crate::differential::tie::Ties;
 use crate::law::{Fared, LAWS, Law};
 use crate::way::Way;
 use behaviour::Behaviour;
-use reference::{EVERY, Reference};
+use reference::Reference;
 use seen::Seen;
 
 /// Samples of a fault over which the last command may still hold (decision 0124).
@@ -58,7 +59,7 @@ impl Judge {
         let (layout, way) = (settings.layout, Way::new(task)?);
         let reference = declared.reference.as_ref();
         Some(Judge {
-            reference: reference.and_then(|law| Reference::new(law, layout, task)),
+            reference: reference.and_then(|claim| Reference::new(claim, layout, task)),
             layout: settings.layout,
             behaviour: Behaviour::new(settings.layout, declared, way),
             seen: Seen::new(settings)?,
@@ -69,6 +70,12 @@ impl Judge {
             work_j: 0.0,
             start_j,
         })
+    }
+
+    /// The samples that were ties beside the reference.
+    pub fn ties(&self) -> Ties {
+        let own = self.reference.as_ref().map(|reference| reference.ties);
+        own.unwrap_or_default()
     }
 
     /// How a law fared.
@@ -119,10 +126,9 @@ impl Judge {
         self.has_let_go &= currents_a == [0.0; 4];
         (self.faulty, self.held_a) = (0, currents_a);
         if let Some((situation, told)) = self.seen.update(sensed) {
-            if tick.is_multiple_of(EVERY)
-                && !self.has_let_go
+            if !self.has_let_go
                 && let Some(reference) = &mut self.reference
-                && let Some(margin) = reference.margin(&told, currents_a)
+                && let Some(margin) = reference.margin(tick, &told, currents_a)
             {
                 self.add(Law::Reference, tick, margin);
             }

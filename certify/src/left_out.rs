@@ -5,7 +5,6 @@ use rigproof_impl::plant::effect::{Asked, Law};
 use rigproof_impl::vector::Vector;
 use rigproof_model::motion::added_mass;
 use rigproof_spec::effect::Mechanism;
-use rigproof_spec::inertia::{ArmInertia, Inertia};
 use rigproof_spec::joint::Joint;
 use rigproof_spec::tables::BrakeTable;
 use rigproof_spec::units::deg_from_rad;
@@ -197,7 +196,7 @@ pub fn change(parameters: &mut Parameters, left_out: &[LeftOut]) -> Option<()> {
                         [0, 1, 2, 3, 4].map(|index| one.number(index)),
                     ),
                 };
-                parameters.inertia = sum(&parameters.inertia, &more);
+                parameters.inertia = added_mass::sum(&parameters.inertia, &more);
             }
             Role::Resistance => {
                 // A lag or a gain of the current is no resistance.
@@ -227,21 +226,5 @@ pub fn scale_torque(table: &mut BrakeTable, factor: f64) {
         &mut gain.k_5,
     ] {
         *k *= factor;
-    }
-}
-
-/// Masses with what is added to them; centres of mass stay.
-fn sum(own: &Inertia, more: &Inertia) -> Inertia {
-    let arm = |own: &ArmInertia, more: &ArmInertia| ArmInertia {
-        mass_kg: own.mass_kg + more.mass_kg,
-        inertia_kg_m2: own.inertia_kg_m2 + more.inertia_kg_m2,
-        centre_m: own.centre_m,
-    };
-    Inertia {
-        ae: arm(&own.ae, &more.ae),
-        ed: arm(&own.ed, &more.ed),
-        bc: arm(&own.bc, &more.bc),
-        cd: arm(&own.cd, &more.cd),
-        payload_kg: own.payload_kg + more.payload_kg,
     }
 }

@@ -13,6 +13,7 @@ pub mod certificate;
 pub mod controller;
 pub mod declared;
 pub mod description;
+pub mod differential;
 pub mod digest;
 pub mod error;
 pub mod finding;

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::built_in::BuiltIn;
 use crate::calibration::Calibration;
 use crate::controller::Source;
-use crate::declared::Declared;
+use crate::declared::{Claim, Declared};
 use crate::digest;
 use crate::error::Error;
 use crate::foreign::Limits;
@@ -14,7 +14,7 @@ use crate::metrics::METRICS;
 use crate::scenario::{Rig, Scenario};
 
 /// The form of plans, journals and certificates; another form is another number.
-pub const FORM: u32 = 2;
+pub const FORM: u32 = 3;
 
 /// What a campaign runs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -80,6 +80,13 @@ impl Subject {
             declared: law.declared(),
             what: What::BuiltIn(law),
         }
+    }
+
+    /// A law of the rig of which one of so many samples is set beside the reference.
+    pub fn beside(law: BuiltIn, every: u32) -> Subject {
+        let mut own = Subject::built_in(law);
+        own.declared.reference = Some(Claim { law, every });
+        own
     }
 
     /// What makes it, if it is a law of the rig.

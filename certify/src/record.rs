@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::declared::Declared;
+use crate::differential::tie::Ties;
 use crate::error::Error;
 use crate::law::{Fared, LAWS};
 use crate::metrics::Measured;
@@ -20,6 +22,8 @@ pub struct Record {
     pub ending: Ending,
     /// How the laws fared.
     pub fared: [Fared; LAWS],
+    /// The samples that were ties beside the reference.
+    pub ties: Ties,
     /// The metrics.
     pub measured: Measured,
     /// How the controller broke, if it did.
@@ -54,8 +58,9 @@ impl Record {
         );
         let ran = ran.ok_or_else(none)?;
         let baseline = match (&plan.baseline, sources.baseline) {
-            (Some(subject), Some(source)) => {
-                let ran = run(&scenario, source, &subject.declared, false);
+            (Some(_), Some(source)) => {
+                // It is measured, not judged.
+                let ran = run(&scenario, source, &Declared::default(), false);
                 let ran = ran.ok_or_else(none)?;
                 Some(Beside {
                     ending: ran.ending,
@@ -69,6 +74,7 @@ impl Record {
             ticks: ran.ticks,
             ending: ran.ending,
             fared: ran.fared,
+            ties: ran.ties,
             measured: ran.measured,
             failure: ran.failure.map(|failure| failure.to_string()),
             baseline,

@@ -1,4 +1,5 @@
 //! This file searches for worse cases than were drawn: an optimiser without slopes moves a scenario's continuous numbers. It finds, and proves nothing.
+//! A law that it meets broken is a finding.
 
 mod moved;
 
@@ -50,14 +51,40 @@ pub struct Worst {
     pub drawn: f64,
     /// The worst that was found.
     pub found: f64,
-    /// A law that this breaks, the target or another one: a breach is worse than any number.
-    pub breaks: Option<Law>,
     /// Trials that the search took, from all its starts.
     pub trials: u32,
     /// The controller.
     pub controller: Subject,
     /// The scenario.
     pub scenario: Scenario,
+}
+
+/// A law that a search met broken, whatever it searched for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Met {
+    /// The law.
+    pub law: Law,
+    /// What was searched for.
+    pub target: Target,
+    /// The drawn scenario in which the search began.
+    pub begun_in: u64,
+    /// The scenario that breaks the law.
+    pub scenario: Scenario,
+    /// The first sample that broke it.
+    pub tick: u32,
+    /// The least margin.
+    pub margin: f64,
+    /// How the controller broke, if it did.
+    pub failure: Option<String>,
+}
+
+/// What a search found.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Searched {
+    /// The worst case of every target.
+    pub worst: Vec<Worst>,
+    /// Of every law that was met broken, the first.
+    pub met: Vec<Met>,
 }
 
 /// A worst case as the certificate names it.
@@ -72,8 +99,6 @@ pub struct NamedWorst {
     pub drawn: f64,
     /// The worst that was found.
     pub found: f64,
-    /// A law that this breaks.
-    pub breaks: Option<Law>,
     /// Trials that the search took.
     pub trials: u32,
     /// The file, beside the certificate.
@@ -83,6 +108,12 @@ pub struct NamedWorst {
 }
 
 impl Target {
+    /// Every law and every metric.
+    pub fn all() -> impl Iterator<Item = Target> {
+        let laws = Law::ALL.into_iter().map(Target::Law);
+        laws.chain(Metric::ALL.into_iter().map(Target::Metric))
+    }
+
     /// Its name in files.
     pub const fn name(self) -> &'static str {
         match self {
@@ -121,16 +152,16 @@ impl Target {
 ///
 /// # Errors
 /// [`Error::Scenario`].
-pub fn search(plan: &Plan, source: &dyn Source, records: &[&Record]) -> Result<Vec<Worst>, Error> {
+pub fn search(plan: &Plan, source: &dyn Source, records: &[&Record]) -> Result<Searched, Error> {
     if plan.search == 0 {
-        return Ok(Vec::new());
+        return Ok(Searched::default());
     }
-    let laws = Law::ALL
-        .into_iter()
-        .filter(|law| plan.not_looked_at(*law).is_none())
-        .map(Target::Law);
-    let targets = laws.chain(Metric::ALL.map(Target::Metric));
-    let begun: Vec<Begun> = targets
+    let is_looked_at = |target: &Target| match target {
+        Target::Law(law) => plan.not_looked_at(*law).is_none(),
+        Target::Metric(_) => true,
+    };
+    let begun: Vec<Begun> = Target::all()
+        .filter(is_looked_at)
         .filter_map(|target| begun(target, records))
         .collect();
     let jobs: Vec<(&Begun, u64)> = begun
@@ -144,25 +175,25 @@ pub fn search(plan: &Plan, source: &dyn Source, records: &[&Record]) -> Result<V
         .map(|(begun, index)| moved(plan, source, begun, index, each))
         .collect();
     let mut ended = ended.into_iter();
-    let mut all = Vec::new();
+    let mut all = Searched::default();
     for begun in &begun {
-        let own: Vec<Moved> = ended.by_ref().take(begun.indices.len()).collect();
+        let mut own: Vec<Moved> = ended.by_ref().take(begun.indices.len()).collect();
         let trials = own.iter().map(|moved| moved.trials).sum();
-        let worst = own.into_iter().reduce(|one, other| {
-            if other.is_worse_than(&one) {
-                other
-            } else {
-                one
+        for met in own.iter_mut().flat_map(|moved| moved.met.drain(..)) {
+            if all.met.iter().all(|known| known.law != met.law) {
+                all.met.push(met);
             }
-        });
+        }
+        let worst = own
+            .into_iter()
+            .reduce(|one, other| if other.good < one.good { other } else { one });
         let Some(worst) = worst else { continue };
-        all.push(Worst {
+        all.worst.push(Worst {
             form: FORM,
             target: begun.target,
             begun_in: worst.index,
             drawn: begun.target.written(begun.least),
             found: begun.target.written(worst.good),
-            breaks: worst.breaks,
             trials,
             controller: plan.controller.clone(),
             scenario: worst.scenario,
@@ -212,19 +243,10 @@ fn begun(target: Target, records: &[&Record]) -> Option<Begun> {
 struct Moved {
     index: u64,
     good: f64,
-    breaks: Option<Law>,
     trials: u32,
     scenario: Scenario,
-}
-
-impl Moved {
-    fn is_worse_than(&self, other: &Moved) -> bool {
-        match (self.breaks, other.breaks) {
-            (Some(_), None) => true,
-            (None, Some(_)) => false,
-            _ => self.good < other.good,
-        }
-    }
+    /// The laws that it met broken, each once.
+    met: Vec<Met>,
 }
 
 /// Moves the numbers of one scenario.
@@ -234,9 +256,9 @@ fn moved(plan: &Plan, source: &dyn Source, begun: &Begun, index: u64, trials: u3
     let best = RefCell::new(Moved {
         index,
         good: begun.most,
-        breaks: None,
         trials: 0,
         scenario: start.clone(),
+        met: Vec::new(),
     });
     let target = begun.target;
     let judged = |point: &[f64], (): &mut ()| {
@@ -246,17 +268,23 @@ fn moved(plan: &Plan, source: &dyn Source, begun: &Begun, index: u64, trials: u3
         best.trials += 1;
         // What is no scenario, or shows nothing of the target, is as good as the best that was drawn.
         let Some(ran) = ran else { return begun.most };
-        let shown = target.good(&ran.fared, &ran.measured);
-        let own = Moved {
-            index,
-            good: shown.unwrap_or(begun.most),
-            breaks: broken(plan, &ran),
-            trials: best.trials,
-            scenario,
-        };
-        let good = own.good;
-        if own.is_worse_than(&best) {
-            *best = own;
+        for (law, fared) in broken(plan, &ran) {
+            if best.met.iter().all(|known| known.law != law) {
+                best.met.push(Met {
+                    law,
+                    target,
+                    begun_in: index,
+                    scenario: scenario.clone(),
+                    tick: fared.first.unwrap_or_default(),
+                    margin: fared.worst,
+                    failure: ran.failure.as_ref().map(ToString::to_string),
+                });
+            }
+        }
+        let good = target.good(&ran.fared, &ran.measured);
+        let good = good.unwrap_or(begun.most);
+        if good < best.good {
+            (best.good, best.scenario) = (good, scenario);
         }
         good
     };
@@ -279,17 +307,10 @@ fn moved(plan: &Plan, source: &dyn Source, begun: &Begun, index: u64, trials: u3
     best.into_inner()
 }
 
-/// The first of the laws that are looked at that a trial breaks, whatever was searched for.
-fn broken(plan: &Plan, ran: &Ran) -> Option<Law> {
-    let mut looked_at = Law::ALL
-        .into_iter()
-        .filter(|law| plan.not_looked_at(*law).is_none());
-    looked_at.find(|law| is_broken(*law, ran))
-}
-
-fn is_broken(law: Law, ran: &Ran) -> bool {
-    let fared = ran.fared.get(law as usize);
-    fared.is_some_and(|fared| fared.broken > 0)
+/// The laws that are looked at that a trial breaks, whatever was searched for.
+fn broken(plan: &Plan, ran: &Ran) -> impl Iterator<Item = (Law, Fared)> {
+    ran.broken()
+        .filter(|(law, _)| plan.not_looked_at(*law).is_none())
 }
 
 /// What a worst case comes to when it is run again.
@@ -297,7 +318,7 @@ fn is_broken(law: Law, ran: &Ran) -> bool {
 pub struct Again {
     /// The target's margin or metric, where it shows.
     pub value: Option<f64>,
-    /// Whether that, and the law that it broke, are what was found.
+    /// Whether that is what was found.
     pub is_same: bool,
 }
 
@@ -348,7 +369,6 @@ impl Worst {
             unit: self.target.unit().to_owned(),
             drawn: self.drawn,
             found: self.found,
-            breaks: self.breaks,
             trials: self.trials,
             file: self.file(),
             sha256: digest::of_bytes(self.to_json()?.as_bytes()),
@@ -364,10 +384,9 @@ impl Worst {
         let ran = ran.ok_or(Error::Scenario(self.begun_in))?;
         let value = self.target.good(&ran.fared, &ran.measured);
         let value = value.map(|good| self.target.written(good));
-        let breaks = self.breaks.is_none_or(|law| is_broken(law, &ran));
-        // A breach may show nothing of what was searched for.
-        let is_same =
-            breaks && (value == Some(self.found) || value.is_none() && self.breaks.is_some());
-        Ok(Again { value, is_same })
+        Ok(Again {
+            value,
+            is_same: value == Some(self.found),
+        })
     }
 }

@@ -1,7 +1,9 @@
 //! This file turns the records of a campaign into figures: how every law fared, and the metrics beside the baseline's.
 
+mod beyond;
 mod ended;
 mod paired;
+mod ties;
 
 use rigproof_spec::methods::SAMPLE_STEP_S;
 use serde::{Deserialize, Serialize};
@@ -11,8 +13,10 @@ use crate::metrics::{METRICS, Metric};
 use crate::plan::Plan;
 use crate::record::Record;
 
+pub use beyond::{Beyond, Bound};
 pub use ended::{Ended, Endings, ended};
 pub use paired::{Change, Word};
+pub use ties::{TieSummary, ties};
 
 /// How one law fared in a campaign.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -66,8 +70,8 @@ pub struct MetricSummary {
     pub limit: Option<f64>,
     /// By how much the mean may be worse than the baseline's.
     pub regression: Option<f64>,
-    /// Whether both hold.
-    pub holds: bool,
+    /// Which of them do not hold, and by how much.
+    pub beyond: Vec<Beyond>,
 }
 
 /// What of a hundred trials lies below.
@@ -187,20 +191,12 @@ fn of_metric(plan: &Plan, records: &[&Record], index: usize, metric: Metric) -> 
     let limit = plan.limits.get(index).copied().flatten();
     let regression = plan.regressions.get(index).copied().flatten();
     // What was not measured cannot be within a limit, nor can a trial that did not finish.
-    let within = limit.is_none_or(|limit| {
-        let of = match metric {
-            Metric::Finish => records.len(),
-            _ => own.len(),
-        };
-        let inside = own.iter().filter(|value| **value <= limit).count();
-        of > 0 && inside * 100 >= of * 95
-    });
-    let no_worse = regression.is_none_or(|most| {
-        change.as_ref().is_some_and(|change| {
-            let [_, high] = change.interval;
-            high <= most
-        })
-    });
+    let trials = match metric {
+        Metric::Finish => records.len(),
+        _ => own.len(),
+    };
+    let of_trials = limit.and_then(|most| beyond::of_trials(metric, &own, trials, most));
+    let of_mean = regression.and_then(|most| beyond::of_mean(metric, change.as_ref(), most));
     MetricSummary {
         metric,
         words: metric.words().to_owned(),
@@ -210,7 +206,7 @@ fn of_metric(plan: &Plan, records: &[&Record], index: usize, metric: Metric) -> 
         change,
         limit,
         regression,
-        holds: within && no_worse,
+        beyond: of_trials.into_iter().chain(of_mean).collect(),
     }
 }
 

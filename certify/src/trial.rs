@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::controller::{Controller, Failure, Source};
 use crate::declared::Declared;
+use crate::differential::tie::Ties;
 use crate::hand::Pushing;
 use crate::judge::Judge;
 use crate::law::{Fared, LAWS, Law};
@@ -41,6 +42,8 @@ pub struct Ran {
     pub ending: Ending,
     /// How every law fared, in the order of [`Law::ALL`].
     pub fared: [Fared; LAWS],
+    /// The samples that were ties beside the reference.
+    pub ties: Ties,
     /// The metrics.
     pub measured: Measured,
     /// How the controller broke, if it did.
@@ -94,6 +97,7 @@ pub fn run(
         ticks: trial.told.len() as u32,
         ending: trial.ending,
         fared: trial.judge.fared,
+        ties: trial.judge.ties(),
         measured: trial.track.measured(&way),
         failure: trial.failure,
         told: trial.told,

@@ -4,6 +4,7 @@ mod campaign;
 mod check;
 mod compiled;
 mod merge;
+mod page;
 mod replay;
 mod sign;
 mod words;

@@ -78,7 +78,7 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     drop(bar);
     let files = write(&args.out, &done)?;
     if let Some(file) = &args.html {
-        write_aside(file, page(&done).as_bytes())?;
+        write_aside(file, page(&args.out, &done).as_bytes())?;
     }
     if args.json {
         print(&report(&done)?)?;
@@ -152,8 +152,8 @@ fn write(out: &Path, done: &[Done]) -> Result<Vec<String>, Failure> {
     Ok(files)
 }
 
-/// The page with every statement and picture.
-fn page(done: &[Done]) -> String {
+/// The page with every statement and picture; `out` is the folder with the numbers.
+fn page(out: &Path, done: &[Done]) -> String {
     let statement = |own: &Finding| Statement {
         place: own.place.to_owned(),
         statement: own.statement.clone(),
@@ -174,6 +174,12 @@ fn page(done: &[Done]) -> String {
             .pictures
             .iter()
             .map(|drawn| (drawn.name.clone(), picture::figure(drawn)))
+            .collect(),
+        files: left
+            .tables
+            .iter()
+            .map(|table| out.join(experiment.id).join(&table.name))
+            .map(|file| format!("{}.csv", file.display()))
             .collect(),
     });
     let findings = done.iter().flat_map(|done| &done.left.findings);

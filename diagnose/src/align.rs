@@ -415,11 +415,22 @@ pub(crate) fn forget_sense_at_rest(
         let around = position
             .get(k.saturating_sub(reach)..(k + reach + 1).min(position.len()))
             .unwrap_or_default();
+        if moves_through(around, still) {
+            continue;
+        }
         let low = around.iter().copied().fold(f64::INFINITY, f64::min);
         let high = around.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         if high - low <= still {
             now.sense = 0.0;
         }
+    }
+}
+
+/// Whether already the ends of a stretch are further apart than a joint at rest comes: most stretches need no closer look.
+fn moves_through(around: &[f64], still: f64) -> bool {
+    match (around.first(), around.last()) {
+        (Some(first), Some(last)) => (last - first).abs() > still,
+        _ => false,
     }
 }
 

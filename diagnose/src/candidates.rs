@@ -101,10 +101,9 @@ fn shapes(problem: &Problem, cause: Cause, residual: &[f64]) -> Vec<Vec<f64>> {
 
 fn joint_shapes(run: &Run, mechanism: Mechanism, periods: impl Fn() -> Vec<f64>) -> Vec<Vec<f64>> {
     let travel = run.travel().max(1e-12);
-    let fastest = fastest(&run.motion);
     let one = |values: Vec<f64>| values.into_iter().map(|v| vec![v]).collect();
     match mechanism {
-        Mechanism::Stribeck => stribeck_shapes(run.speed_floor, fastest),
+        Mechanism::Stribeck => stribeck_shapes(run.speed_floor, fastest(&run.motion)),
         Mechanism::Presliding | Mechanism::AsymmetricPresliding => one(geometric(
             (3.0 * run.position_noise).max(1e-4 * travel),
             0.2 * travel,

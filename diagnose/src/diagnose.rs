@@ -146,7 +146,7 @@ pub fn diagnose(
     }
     let terms = nominal(rig, &problem);
     let mut selection = select(&mut problem, terms, options.gates);
-    if let Some(fault) = reversed_drive(&problem, &selection) {
+    if let Some(fault) = another_drive(&problem, &selection) {
         return faulty(Description::Joint(rig.clone()), "recording", fault);
     }
     let mut withdrawn = withdraw_surrogates(&problem, &train, &mut selection, rig);
@@ -210,7 +210,7 @@ fn scattered(problem: &Problem, run: &Run, selection: &Selection) -> Option<Tria
 const ANOTHER_UNIT: f64 = 5.0;
 
 /// A gain error of more than the whole gain is a channel with the wrong sign; a gain of another size is no physics.
-fn reversed_drive(problem: &Problem, selection: &Selection) -> Option<Fault> {
+fn another_drive(problem: &Problem, selection: &Selection) -> Option<Fault> {
     let (_, coefficients) = coefficients_by_term(problem, selection);
     let terms = refs(&selection.nominal, &selection.found);
     let fraction = terms

@@ -258,7 +258,7 @@ impl<'a> Problem<'a> {
         let floor = five_bar::noise::floor(run, &windows);
         let whitener = five_bar::noise::whitener(run, &windows, 0.0);
         let known = five_bar::columns::known(run);
-        let target = less(&five_bar::columns::driving(run), &known);
+        let target = less(&five_bar::columns::driving(run, run.forces()), &known);
         let mut problem = Problem::with(
             PlantRun::FiveBar(run),
             windows,

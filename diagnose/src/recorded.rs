@@ -3,8 +3,9 @@
 
 use crate::align::Signals;
 use crate::run::{PlantKind, Run};
+use crate::sensor::normal;
 use rand_pcg::Pcg64Mcg;
-use rand_pcg::rand_core::{Rng, SeedableRng};
+use rand_pcg::rand_core::SeedableRng;
 use rigproof_model::axis::Axis;
 use rigproof_model::bench::resistance;
 use rigproof_model::effects::{Instant, law};
@@ -35,9 +36,7 @@ impl Noise {
     }
 
     pub fn draw(&mut self) -> f64 {
-        let uniform =
-            |random: &mut Pcg64Mcg| (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
-        (0..12).map(|_| uniform(&mut self.0)).sum::<f64>() - 6.0
+        normal(&mut self.0)
     }
 }
 

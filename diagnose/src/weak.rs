@@ -1,6 +1,7 @@
 //! This file is the weak form: the equations of motion multiplied by compact test functions and summed, so
 //! that positions enter and accelerations do not.
 
+use crate::regression::dot;
 use crate::run::{PlantKind, Run, rms};
 use rigproof_model::effects::Instant;
 
@@ -117,8 +118,8 @@ impl Windows {
         rows.map(|(row, (&centre, combined))| {
             let first = row % self.outputs * stretch + centre - half;
             let Some(shares) = combined.and_then(|which| self.combinations.get(which)) else {
-                let window = signal.get(first..).unwrap_or_default();
-                return weights.iter().zip(window).map(|(w, x)| w * x).sum();
+                let window = signal.get(first..first + weights.len());
+                return dot(weights, window.unwrap_or_default());
             };
             (0..self.outputs)
                 .map(|output| {

@@ -39,15 +39,16 @@
     return new XMLSerializer().serializeToString(copy);
   };
 
-  for (const button of document.querySelectorAll('button[data-save-drawing]')) {
-    const name = button.dataset.saveDrawing;
-    button.addEventListener('click', () => rigproof.saveSvg(name, rigproof.standalone(document.getElementById(name))));
-  }
-  for (const button of document.querySelectorAll('button[data-save-table]')) {
-    const name = button.dataset.saveTable;
-    button.addEventListener('click', () => {
-      const rows = [...document.getElementById(name).querySelectorAll('tr')];
-      rigproof.saveCsv(name, rows.map((row) => [...row.children].map((cell) => cell.textContent.trim())));
-    });
-  }
+  // What a picture holds, which stands in the page once.
+  const bytes = (source) => Uint8Array.from(atob(source.slice(source.indexOf(',') + 1)), (letter) => letter.charCodeAt(0));
+
+  // Asked of the page and not of each button: a list that is renewed brings buttons of its own.
+  document.addEventListener('click', (event) => {
+    const { saveDrawing, savePicture, saveTable } = event.target.closest('button')?.dataset ?? {};
+    if (saveDrawing) rigproof.saveSvg(saveDrawing, rigproof.standalone(document.getElementById(saveDrawing)));
+    if (savePicture) save(`${savePicture}.svg`, 'image/svg+xml', bytes(document.getElementById(savePicture).src));
+    if (!saveTable) return;
+    const rows = [...document.getElementById(saveTable).querySelectorAll('tr')];
+    rigproof.saveCsv(saveTable, rows.map((row) => [...row.children].map((cell) => cell.textContent.trim())));
+  });
 })();

@@ -1,5 +1,6 @@
-// Opens pages in a real browser and uses them as a person does: `node check.mjs CHROMIUM PAGE…`. Ends with 1 and a line for each thing that does not hold.
-import { mkdtemp, readFile, readdir, rm } from 'node:fs/promises';
+// Opens pages in a real browser and uses them as a person does: `node check.mjs CHROMIUM PAGE…`, a page being a file, or an address of `rigproof serve`. Ends with 1 and a
+// line for each thing that does not hold. RIGPROOF_DROP names a recording, and where it is laid while a list of runs is looked at.
+import { copyFile, mkdtemp, readFile, readdir, rm } from 'node:fs/promises';
 import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
 import { basename, dirname, join, resolve } from 'node:path';
@@ -16,17 +17,24 @@ const holds = (page, what, condition) => {
   if (!condition) failures.push(`${page}: ${what}`);
 };
 
+const isServed = (page) => page.startsWith('http://');
+const named = (page) => {
+  if (!isServed(page)) return `${basename(dirname(resolve(page)))}-${basename(page, '.html')}`;
+  const { pathname, search } = new URL(page);
+  return `served${decodeURIComponent(pathname + search).replace(/\W+/g, '-')}`;
+};
+
 async function check(file) {
-  const name = `${basename(dirname(resolve(file)))}-${basename(file, '.html')}`;
+  const name = named(file);
   const page = await browser.newPage();
   const requests = [];
   page.on('console', (message) => holds(name, `console: ${message.text()}`, message.type() !== 'error' && (message.type() !== 'warn' || /willReadFrequently/.test(message.text()))));
   page.on('pageerror', (error) => holds(name, `error: ${error.message}`, false));
   page.on('request', (request) => requests.push(request.url()));
-  await page.setOfflineMode(true);
+  if (!isServed(file)) await page.setOfflineMode(true);
   await page.setViewport({ width: 1280, height: 900 });
   await page.emulateMediaFeatures([{ name: 'prefers-color-scheme', value: 'light' }]);
-  const url = pathToFileURL(resolve(file)).href;
+  const url = isServed(file) ? file : pathToFileURL(resolve(file)).href;
   await page.goto(url, { waitUntil: 'load' });
   await settled(page);
   holds(name, 'a headline', (await page.$eval('h1', (h1) => h1.textContent.trim().length)) > 20);
@@ -41,8 +49,43 @@ async function check(file) {
   await accessible(page, `${name}, dark`);
   await phone(page, name);
   await paper(page, name);
-  const away = requests.filter((request) => request !== url && !/^(data|blob):/.test(request));
+  const away = requests.filter((request) => request !== url && !/^(data|blob):/.test(request) && !(isServed(file) && request === new URL('/state.json', url).href));
   holds(name, `requests leave the page: ${away.join(' ')}`, away.length === 0);
+  await page.close();
+}
+
+// A list of runs while a recording comes: it shows its diagnosis without being loaded anew, and what somebody chose stays chosen.
+async function fresh(url, from, to) {
+  const name = 'served list';
+  const page = await browser.newPage();
+  page.on('pageerror', (error) => holds(name, `error: ${error.message}`, false));
+  await page.goto(url, { waitUntil: 'load' });
+  let loads = 0;
+  page.on('framenavigated', () => { loads += 1; });
+  const options = await page.$$eval('#one option', (all) => all.map((own) => own.value));
+  const wanted = [options[2], options[2]];
+  for (const [k, id] of ['#one', '#other'].entries()) await page.select(id, wanted[k]);
+  await page.focus('#other');
+  await copyFile(from, to);
+  const run = `${basename(to, '.csv')}-diagnosis`;
+  const listed = (run) => [...document.querySelectorAll('#runs tbody th a')].some((own) => own.textContent === run);
+  const came = await page.waitForFunction(listed, { timeout: 120000, polling: 200 }, run).then(() => true, () => false);
+  holds(name, 'a recording that came is listed', came);
+  holds(name, `the list was loaded ${loads} times anew`, loads === 0);
+  const [chosen, focus, news, choices] = await page.evaluate(() => [
+    [...document.querySelectorAll('select')].map((own) => own.value), document.activeElement.id,
+    document.getElementById('news').textContent, [...document.querySelectorAll('#one option')].map((own) => own.value)]);
+  holds(name, `chosen: ${chosen} in place of ${wanted}`, String(chosen) === String(wanted));
+  holds(name, `the focus went to ${focus}`, focus === 'other');
+  holds(name, `news: ${news}`, news.includes(run));
+  holds(name, 'the new run can be chosen', choices.includes(run));
+  await page.select('#one', run);
+  await page.focus('form button');
+  await Promise.all([page.waitForNavigation({ waitUntil: 'load' }), page.keyboard.press('Enter')]);
+  const title = await page.$eval('h1', (own) => own.textContent);
+  holds(name, `compared: ${title}`, title.includes(run) && title.includes(wanted[1]));
+  await Promise.all([page.waitForNavigation({ waitUntil: 'load' }), page.click('.verdict p:last-child a:nth-of-type(2)')]);
+  holds(name, 'from the comparison to the run', (await page.$$('.plot canvas')).length > 2);
   await page.close();
 }
 
@@ -148,8 +191,8 @@ async function saves(page, name) {
   const session = await page.createCDPSession();
   await session.send('Browser.setDownloadBehavior', { behavior: 'allow', downloadPath: saved });
   await page.evaluate(() => document.querySelectorAll('details').forEach((own) => { own.open = true; }));
-  const buttons = await page.$$('[data-do="svg"], [data-do="csv"], [data-save-drawing], [data-save-table], #replay-csv');
-  const figures = await page.$$eval('figure', (all) => all.filter((own) => !own.querySelector('.tools button, .tools a[download]')).length);
+  const buttons = await page.$$('[data-do="svg"], [data-do="csv"], [data-save-drawing], [data-save-picture], [data-save-table], #replay-csv');
+  const figures = await page.$$eval('figure', (all) => all.filter((own) => !own.querySelector('.tools button')).length);
   holds(name, `${figures} figures cannot be saved`, figures === 0);
   for (const [place, button] of buttons.entries()) {
     const label = await button.evaluate((own) => own.getAttribute('aria-label') ?? own.textContent);
@@ -265,6 +308,8 @@ const browser = await puppeteer.launch({ executablePath, headless: true, args: [
 const saved = await mkdtemp(join(tmpdir(), 'rigproof-saved-'));
 try {
   for (const file of pages) await check(file);
+  const drop = process.env.RIGPROOF_DROP?.split('\n');
+  if (drop) await fresh(pages.find(isServed), ...drop);
 } finally {
   await browser.close();
   await rm(saved, { recursive: true, force: true });

@@ -1,17 +1,32 @@
 //! This file is the page of a certificate: may it go on the rig, why not, what was tested, what was proved and what nobody looked at.
 
+mod change;
+mod run;
+
 use maud::{Markup, html};
 use rigproof_certify::certificate::Certificate;
 use rigproof_certify::search::NamedWorst;
-use rigproof_certify::summary::{LawSummary, MetricSummary, Word};
+use rigproof_certify::summary::{LawSummary, MetricSummary, TieSummary, Word};
 
 use crate::document::{Document, Headline, Section, Tone};
-use crate::number::significant;
+use crate::number::{grouped, significant};
 use crate::table::table;
+use crate::words::capital;
+
+pub use run::Run;
+
+/// What a page shows beside the certificate.
+pub struct Beside<'a> {
+    /// The worst case, run again.
+    pub run: Option<&'a Run>,
+    /// The command that runs a file of the certificate's folder again.
+    pub replay: &'a dyn Fn(&str) -> String,
+}
 
 /// The page of a certificate as HTML.
-pub fn page(certificate: &Certificate) -> String {
+pub fn page(certificate: &Certificate, beside: &Beside<'_>) -> String {
     let headline = headline(certificate);
+    let mut charts = Vec::new();
     let section = |id: &str, heading: &str, body: Markup| Section {
         id: id.to_owned(),
         heading: heading.to_owned(),
@@ -22,22 +37,39 @@ pub fn page(certificate: &Certificate) -> String {
         sections.push(section(
             "findings",
             "What broke a law",
-            findings(certificate),
+            findings(certificate, beside.replay),
         ));
     }
+    // What broke a law is shown at once; where nothing did, the laws come first.
+    let run = beside.run.map(|run| {
+        let heading = match certificate.findings.is_empty() {
+            true => "The worst of the trials, run again",
+            false => "What broke a law first, run again",
+        };
+        section("run", heading, run.body(&mut charts))
+    });
+    let (first, last) = match certificate.findings.is_empty() {
+        true => (None, run),
+        false => (run, None),
+    };
+    sections.extend(first);
     sections.push(section("laws", "The laws", laws(&certificate.laws)));
+    if !certificate.ties.is_empty() {
+        sections.push(section("ties", "Ties", ties(&certificate.ties)));
+    }
     if !certificate.worst.is_empty() {
         sections.push(section(
             "worst",
             "What a search made worse",
-            worst(certificate),
+            worst(certificate, beside.replay),
         ));
     }
     sections.push(section(
         "metrics",
         "How it feels and how well it guides",
-        metrics(&certificate.metrics),
+        html! { (change::figure(&certificate.metrics)) (metrics(&certificate.metrics)) },
     ));
+    sections.extend(last);
     sections.push(section("proved", "What was proved", proved(certificate)));
     sections.push(section(
         "not",
@@ -55,7 +87,7 @@ pub fn page(certificate: &Certificate) -> String {
         about: certificate.name.clone(),
         headline,
         sections,
-        charts: Vec::new(),
+        charts,
         replay: None,
         served: None,
         footer: format!(
@@ -82,17 +114,16 @@ fn headline(certificate: &Certificate) -> Headline {
     };
     let mut paragraphs = match may {
         true => vec![
-            html! { "No law was broken on any of " (certificate.samples) " samples, and every limit holds. That is a test on a simulated rig with simulated hands: what nobody looked at stands below." },
+            html! { "No law was broken on any of " (grouped(certificate.samples)) " samples, and every limit holds. That is a test on a simulated rig with simulated hands: what nobody looked at stands below." },
         ],
         false => certificate
             .reasons
             .iter()
-            .map(|reason| html! { (reason) "." })
+            .map(|reason| html! { (capital(reason)) "." })
             .collect(),
     };
-    paragraphs.extend(plan.calibration.iter().map(|found| {
-        html! { "The plant is drawn from the calibration " (found.name) ": " (found.found.len()) " of its mechanisms, within their intervals." }
-    }));
+    let calibration = plan.calibration.iter();
+    paragraphs.extend(calibration.map(|found| html! { (found.words()) }));
     let endings = &certificate.ended.controller;
     Headline {
         tone: if may { Tone::Good } else { Tone::Bad },
@@ -108,35 +139,53 @@ fn headline(certificate: &Certificate) -> Headline {
             [
                 "Laws broken".to_owned(),
                 format!("{broken} of {}", certificate.laws.len()),
-                "looked at on every sample they are about, the reference on every 16th".to_owned(),
+                looked_at(certificate),
             ],
             [
                 "Trials".to_owned(),
-                plan.scenarios.to_string(),
+                grouped(plan.scenarios),
                 format!(
-                    "{} reached their goal, {} ran out of time, {} were taken to the stops, {} got no answer",
-                    endings.finished, endings.time, endings.left_workspace, endings.no_answer
+                    "{} came to the path's end; {} ended at the stops, {} without an answer",
+                    endings.finished, endings.left_workspace, endings.no_answer
                 ),
             ],
             [
                 "Samples".to_owned(),
-                certificate.samples.to_string(),
+                grouped(certificate.samples),
                 format!("seed {}", plan.seed),
             ],
         ],
     }
 }
 
-fn findings(certificate: &Certificate) -> Markup {
+/// On which samples the laws were looked at.
+fn looked_at(certificate: &Certificate) -> String {
+    let all = "looked at on every sample they are about".to_owned();
+    match certificate.plan.controller.declared.reference {
+        Some(claim) if claim.every > 1 => {
+            format!("{all}; beside the reference one of {}", claim.every)
+        }
+        _ => all,
+    }
+}
+
+fn findings(certificate: &Certificate, replay: &dyn Fn(&str) -> String) -> Markup {
     let rows: Vec<Vec<String>> = certificate
         .findings
         .iter()
         .map(|found| {
             vec![
                 found.law.name().to_owned(),
-                found.scenario.to_string(),
+                match found.searched {
+                    Some(target) => format!(
+                        "from {} on, searching for a worse {}",
+                        found.scenario,
+                        target.name()
+                    ),
+                    None => found.scenario.to_string(),
+                },
                 significant(found.time_s, 3),
-                format!("rigproof certify --replay {}", found.file),
+                replay(&found.file),
             ]
         })
         .collect();
@@ -163,8 +212,8 @@ fn laws(laws: &[LawSummary]) -> Markup {
         );
         vec![
             law.law.name().to_owned(),
-            law.words.clone(),
             fared,
+            law.words.clone(),
             law.samples.to_string(),
             margin,
         ]
@@ -173,7 +222,26 @@ fn laws(laws: &[LawSummary]) -> Markup {
     table(
         "laws-table",
         "A margin below zero breaks the law; the least one counts.",
-        &["law", "what it says", "fared", "samples", "least margin"],
+        &["law", "fared", "what it says", "samples", "least margin"],
+        &rows,
+    )
+}
+
+fn ties(ties: &[TieSummary]) -> Markup {
+    let row = |tie: &TieSummary| {
+        vec![
+            tie.tie.name().to_owned(),
+            tie.words.clone(),
+            tie.samples.to_string(),
+            tie.trials.to_string(),
+            tie.most.to_string(),
+        ]
+    };
+    let rows: Vec<Vec<String>> = ties.iter().map(row).collect();
+    table(
+        "ties-table",
+        "Samples in which the reference may decide otherwise, each checked to be one.",
+        &["kind", "what turns", "samples", "trials", "trials at most"],
         &rows,
     )
 }
@@ -213,7 +281,7 @@ fn metrics(metrics: &[MetricSummary]) -> Markup {
             metric
                 .limit
                 .map_or_else(|| "–".to_owned(), |limit| significant(limit, 3)),
-            if metric.holds { "holds" } else { "✘ BEYOND" }.to_owned(),
+            fared(metric),
         ]
     };
     let rows: Vec<Vec<String>> = metrics.iter().map(row).collect();
@@ -234,6 +302,15 @@ fn metrics(metrics: &[MetricSummary]) -> Markup {
     )
 }
 
+/// Whether a metric's limits hold, and which does not by how much.
+fn fared(metric: &MetricSummary) -> String {
+    let beyond: Vec<&str> = metric.beyond.iter().map(|own| own.words.as_str()).collect();
+    match beyond.as_slice() {
+        [] => "holds".to_owned(),
+        beyond => format!("✘ BEYOND: {}", beyond.join("; ")),
+    }
+}
+
 fn proved(certificate: &Certificate) -> Markup {
     let proved = &certificate.proved;
     let row = |claim: &rigproof_certify::proved::Claim| {
@@ -252,22 +329,20 @@ fn proved(certificate: &Certificate) -> Markup {
     }
 }
 
-fn worst(certificate: &Certificate) -> Markup {
+fn worst(certificate: &Certificate, replay: &dyn Fn(&str) -> String) -> Markup {
     let row = |worst: &NamedWorst| {
-        let breaks = worst.breaks.map_or("", |law| law.name());
         vec![
             worst.target.name().to_owned(),
             significant(worst.drawn, 3),
             significant(worst.found, 3),
             worst.unit.clone(),
-            breaks.to_owned(),
-            worst.file.clone(),
+            replay(&worst.file),
         ]
     };
     let rows: Vec<Vec<String>> = certificate.worst.iter().map(row).collect();
     html! {
         p { "An optimiser went on from the worst drawn trials of each law and metric. It finds, and proves nothing." }
-        (table("worst-table", "The worst that was drawn and the worst that was found.", &["of", "drawn", "found", "unit", "breaks", "file"], &rows))
+        (table("worst-table", "The worst that was drawn and the worst that was found.", &["of", "drawn", "found", "unit", "to see it"], &rows))
     }
 }
 

@@ -35,6 +35,8 @@ pub struct Again {
     pub statements: Vec<Statement>,
     /// Its pictures: a name, and SVG.
     pub pictures: Vec<(String, String)>,
+    /// The files with the numbers of its pictures.
+    pub files: Vec<String>,
 }
 
 /// The page as HTML; `verdicts` are the words for agreement, disagreement and what cannot be compared, `unaccounted` the disagreements without an account.
@@ -43,8 +45,9 @@ pub fn page(experiments: &[Again], verdicts: [&'static str; 3], unaccounted: usi
     let [agree, disagree, lost] =
         verdicts.map(|verdict| statements().filter(|own| own.verdict == verdict).count());
     let sentence = format!(
-        "{agree} of {} statements of the text come out here as well, {disagree} do not.",
-        agree + disagree
+        "{agree} of {} statements of the text come out here as well, {disagree} {} not.",
+        agree + disagree,
+        if disagree == 1 { "does" } else { "do" }
     );
     let headline = Headline {
         tone: if unaccounted == 0 {
@@ -55,6 +58,7 @@ pub fn page(experiments: &[Again], verdicts: [&'static str; 3], unaccounted: usi
         badge: "The thesis, run again".to_owned(),
         paragraphs: vec![match unaccounted {
             0 => html! { "For each that does not, an erratum or a gap of the text accounts." },
+            1 => html! { "One of those that do not has no account yet." },
             some => html! { (some) " of those that do not have no account yet." },
         }],
         cards: vec![
@@ -76,6 +80,12 @@ pub fn page(experiments: &[Again], verdicts: [&'static str; 3], unaccounted: usi
         ],
         sentence,
     };
+    let [_, against, _] = verdicts;
+    let apart = Section {
+        id: "disagree".to_owned(),
+        heading: "Where they disagree".to_owned(),
+        body: apart(experiments, against),
+    };
     let sections = experiments.iter().map(|own| Section {
         id: format!("experiment-{}", own.id.replace('.', "-")),
         heading: format!("{} {}", own.id, own.title),
@@ -86,7 +96,11 @@ pub fn page(experiments: &[Again], verdicts: [&'static str; 3], unaccounted: usi
         kind: "Reproduction",
         about: format!("{} experiments", experiments.len()),
         headline,
-        sections: sections.collect(),
+        sections: (disagree > 0)
+            .then_some(apart)
+            .into_iter()
+            .chain(sections)
+            .collect(),
         charts: Vec::new(),
         replay: None,
         served: None,
@@ -96,6 +110,27 @@ pub fn page(experiments: &[Again], verdicts: [&'static str; 3], unaccounted: usi
         ),
     }
     .to_html()
+}
+
+/// The statements that come out otherwise, all together.
+fn apart(experiments: &[Again], verdict: &str) -> Markup {
+    let row = |own: &Statement| {
+        vec![
+            own.place.clone(),
+            own.statement.clone(),
+            own.stated.clone(),
+            own.ours.clone(),
+            own.because.clone(),
+        ]
+    };
+    let statements = experiments.iter().flat_map(|own| &own.statements);
+    let rows: Vec<Vec<String>> = statements
+        .filter(|own| own.verdict == verdict)
+        .map(row)
+        .collect();
+    let caption = "What does not come out, and which erratum or gap accounts for it.";
+    let head = ["place", "statement", "text", "here", "because"];
+    table("disagree-table", caption, &head, &rows)
 }
 
 fn experiment(own: &Again) -> Markup {
@@ -119,10 +154,12 @@ fn experiment(own: &Again) -> Markup {
         @if !rows.is_empty() { (table(&id, &caption, &["place", "statement", "text", "here", "verdict", "because"], &rows)) }
         @for (name, svg) in &own.pictures {
             @let source = format!("data:image/svg+xml;base64,{}", STANDARD.encode(svg));
+            @let id = format!("{}-{name}", own.id);
             figure {
-                img src=(source) alt={ "Picture " (name) " of experiment " (own.id) } loading="lazy";
-                div.tools { a.button href=(source) download={ (own.id) "-" (name) ".svg" } { "Save SVG" } }
+                img #(id) src=(source) alt={ "Picture " (name) " of experiment " (own.id) };
+                div.tools { button type="button" data-save-picture=(id) aria-label={ "Save SVG: " (name) " of experiment " (own.id) } { "Save SVG" } }
             }
         }
+        @if !own.files.is_empty() { p.soft { "Its numbers: " @for (k, file) in own.files.iter().enumerate() { @if k > 0 { ", " } code { (file) } } "." } }
     }
 }

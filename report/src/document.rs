@@ -24,6 +24,15 @@ const SCRIPTS: [&str; 6] = [
     include_str!("../assets/replay.js"),
 ];
 
+/// What keeps a list of runs fresh; no other page holds it.
+const LIVE: &str = include_str!("../assets/live.js");
+
+/// Seconds after which a list of runs is asked for again where no script runs.
+const AGAIN_S: u32 = 20;
+
+/// Most sections whose names are all shown at the top.
+const SECTIONS: usize = 12;
+
 /// The mood of a headline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tone {
@@ -96,9 +105,11 @@ pub struct Document {
 
 /// How a page is served.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Served {
-    /// Seconds after which it is asked for again, where something is under way.
-    pub again_s: Option<u32>,
+pub enum Served {
+    /// As it is.
+    Still,
+    /// It asks whether something changed, and shows that. It holds an element `now` with the attribute `data-revision`, and one `news`.
+    Live,
 }
 
 #[derive(Serialize)]
@@ -111,16 +122,19 @@ impl Document {
     /// The page as HTML.
     pub fn to_html(&self) -> String {
         let style = STYLE.concat();
-        let script = SCRIPTS.join("\n");
+        let is_live = self.served == Some(Served::Live);
+        let live = is_live.then_some(LIVE);
+        let script: Vec<&str> = SCRIPTS.into_iter().chain(live).collect();
+        let script = script.join("\n");
         let page = html! {
             (DOCTYPE)
             html lang="en" {
                 head {
                     meta charset="utf-8";
-                    meta http-equiv="Content-Security-Policy" content=(policy(&script, self.served.is_some()));
+                    meta http-equiv="Content-Security-Policy" content=(policy(&script, self.served));
                     meta name="viewport" content="width=device-width, initial-scale=1";
                     meta name="referrer" content="no-referrer";
-                    @if let Some(again_s) = self.served.and_then(|served| served.again_s) { meta http-equiv="refresh" content=(again_s); }
+                    @if is_live { noscript { meta http-equiv="refresh" content=(AGAIN_S); } }
                     title { (self.title) }
                     link rel="icon" href="data:,";
                     style { (PreEscaped(style)) }
@@ -133,9 +147,7 @@ impl Document {
                     }
                     main #content {
                         (self.headline.markup())
-                        nav aria-label="Sections" {
-                            ul { @for section in &self.sections { li { a href={ "#" (section.id) } { (section.heading) } } } }
-                        }
+                        nav aria-label="Sections" { (self.contents()) }
                         @for section in &self.sections {
                             section #(section.id) aria-labelledby={ (section.id) "-heading" } {
                                 h2 #{ (section.id) "-heading" } { (section.heading) }
@@ -150,6 +162,15 @@ impl Document {
             }
         };
         page.into_string()
+    }
+
+    /// The way to every section; of many it is folded up.
+    fn contents(&self) -> Markup {
+        let links = html! { ul { @for section in &self.sections { li { a href={ "#" (section.id) } { (section.heading) } } } } };
+        match self.sections.len() {
+            0..=SECTIONS => links,
+            many => html! { details { summary { (many) " sections" } (links) } },
+        }
     }
 
     /// The data as JSON that cannot end its element, whatever names stand in it.
@@ -182,12 +203,16 @@ impl Headline {
     }
 }
 
-/// Nothing is loaded, nothing is sent, and no script runs but the page's own.
-fn policy(script: &str, is_served: bool) -> String {
-    let form = if is_served { "'self'" } else { "'none'" };
+/// Nothing is loaded, nothing is sent, and no script runs but the page's own; a page that is served may ask its own server.
+fn policy(script: &str, served: Option<Served>) -> String {
+    let form = if served.is_some() { "'self'" } else { "'none'" };
+    let asks = match served {
+        Some(Served::Live) => "connect-src 'self'; ",
+        _ => "",
+    };
     let hash = STANDARD.encode(Sha256::digest(script.as_bytes()));
     format!(
-        "default-src 'none'; style-src 'unsafe-inline'; script-src 'sha256-{hash}'; img-src data:; base-uri 'none'; form-action {form}"
+        "default-src 'none'; {asks}style-src 'unsafe-inline'; script-src 'sha256-{hash}'; img-src data:; base-uri 'none'; form-action {form}"
     )
 }
 
@@ -197,12 +222,43 @@ mod tests {
 
     #[test]
     fn nothing_in_a_script_or_style_ends_its_element() {
-        for text in STYLE.iter().chain(&SCRIPTS) {
+        for text in STYLE.iter().chain(&SCRIPTS).chain(&[LIVE]) {
             let text = text.to_lowercase();
             assert!(
                 !text.contains("</script") && !text.contains("</style") && !text.contains("<!--")
             );
         }
+    }
+
+    #[test]
+    fn only_a_list_of_runs_may_ask_and_only_its_own_server() {
+        let page = |served| {
+            Document {
+                title: "t".to_owned(),
+                kind: "k",
+                about: "a".to_owned(),
+                headline: Headline {
+                    tone: Tone::Good,
+                    badge: "b".to_owned(),
+                    sentence: "s".to_owned(),
+                    paragraphs: Vec::new(),
+                    cards: Vec::new(),
+                },
+                sections: Vec::new(),
+                charts: Vec::new(),
+                replay: None,
+                footer: "f".to_owned(),
+                served,
+            }
+            .to_html()
+        };
+        for served in [None, Some(Served::Still)] {
+            let html = page(served);
+            assert!(!html.contains("connect-src") && !html.contains("fetch("));
+            assert!(!html.contains("http-equiv=\"refresh\""));
+        }
+        let live = page(Some(Served::Live));
+        assert!(live.contains("connect-src 'self'; ") && live.contains("fetch('/state.json')"));
     }
 
     #[test]

@@ -18,6 +18,7 @@ pub mod chart;
 pub mod compared;
 pub mod diagnosis;
 pub mod document;
+mod forest;
 pub mod number;
 pub mod replay;
 mod statistics;

@@ -1,6 +1,6 @@
 //! This file writes numbers the way a report prints them.
 
-use rigproof_diagnose::report::Number;
+use rigproof_diagnose::report::{Number, Rate};
 
 /// A number with as many significant digits, in powers of ten only where it is very large or small.
 pub fn significant(value: f64, digits: usize) -> String {
@@ -20,9 +20,29 @@ pub fn significant(value: f64, digits: usize) -> String {
     }
 }
 
+/// A count with a gap between its thousands.
+pub fn grouped(count: u64) -> String {
+    let digits = count.to_string();
+    let mut groups: Vec<&[u8]> = digits.as_bytes().rchunks(3).collect();
+    groups.reverse();
+    let groups: Vec<_> = groups.into_iter().map(String::from_utf8_lossy).collect();
+    groups.join("\u{202f}")
+}
+
 /// A share as per cent.
 pub fn percent(share: f64) -> String {
     format!("{:.0} %", 100.0 * share)
+}
+
+/// How often of how many, with its interval.
+pub fn rate(rate: Rate) -> String {
+    format!(
+        "{} of {} (95 %: {} to {})",
+        rate.count,
+        rate.of,
+        percent(rate.low95),
+        percent(rate.high95)
+    )
 }
 
 /// A number with its unit and interval.
@@ -66,5 +86,9 @@ mod tests {
         }
         assert_eq!(with_unit(1.5, "1"), "1.500");
         assert_eq!(percent(0.374), "37 %");
+        assert_eq!(
+            [7, 921, 1004, 8_512_034].map(grouped),
+            ["7", "921", "1\u{202f}004", "8\u{202f}512\u{202f}034"]
+        );
     }
 }

@@ -12,6 +12,13 @@ pub fn table(id: &str, caption: &str, head: &[&str], rows: &[Vec<String>]) -> Ma
                     .all(|row| row.get(column).is_none_or(|cell| starts_as_number(cell)))
         })
         .collect();
+    // Of a hash every letter may begin a line; a sentence keeps some width on a phone.
+    let worded = |cell: &str| match cell {
+        cell if cell.len() == 64 && cell.bytes().all(|byte| byte.is_ascii_hexdigit()) => {
+            Some("sha")
+        }
+        cell => (cell.chars().count() > 30).then_some("words"),
+    };
     let class = |column: usize| {
         is_number
             .get(column)
@@ -26,7 +33,7 @@ pub fn table(id: &str, caption: &str, head: &[&str], rows: &[Vec<String>]) -> Ma
                 thead { tr { @for (column, name) in head.iter().enumerate() { th scope="col" class=[class(column)] { (name) } } } }
                 tbody { @for row in rows { tr {
                     @for (column, cell) in row.iter().enumerate() {
-                        @if column == 0 { th scope="row" { (cell) } } @else { td class=[class(column)] { (cell) } }
+                        @if column == 0 { th scope="row" { (cell) } } @else { td class=[class(column).or(worded(cell))] { (cell) } }
                     }
                 } } }
             }
@@ -54,5 +61,15 @@ mod tests {
         let html = table("t", "What", &["name", "number", "word"], &rows).into_string();
         assert!(html.contains("&lt;a&gt;") && !html.contains("<a>"));
         assert_eq!(html.matches("class=\"number\"").count(), 3);
+        let (hash, sentence) = ("0123abcd".repeat(8), "more than a few words that need room");
+        let rows = [
+            vec!["n".to_owned(), hash],
+            vec!["m".to_owned(), sentence.to_owned()],
+        ];
+        let html = table("t", "What", &["name", "word"], &rows).into_string();
+        assert!(
+            html.contains("<td class=\"sha\">0123") && html.contains("<td class=\"words\">more"),
+            "{html}"
+        );
     }
 }

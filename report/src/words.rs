@@ -204,6 +204,14 @@ pub fn look_for(name: &str) -> Option<&'static str> {
     Some(look)
 }
 
+/// With a capital at its beginning.
+pub fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| {
+        first.to_uppercase().chain(letters).collect()
+    })
+}
+
 /// Words with commas and an "and".
 pub fn list(words: &[String]) -> String {
     match words {

@@ -1,12 +1,9 @@
 //! This file holds the rig's control laws to the reference's, tick by tick, and to the laws of `spec`.
 
 mod agree;
-mod both;
 mod idle;
 mod joined;
-mod level;
 mod paths;
-mod permitted;
 mod properties;
 mod sample;
 mod single;

@@ -2,6 +2,7 @@
 
 mod citations;
 mod ledger;
+mod packages;
 mod rooms;
 mod rust;
 mod words;

@@ -1,10 +1,8 @@
 //! This file calls a controller and looks, after every call, whether it wrote where it must not.
 
-use rigproof_certify::controller::Task;
 use rigproof_certify::foreign::MOST_POINTS;
-use rigproof_certify::foreign::protocol::Begin;
-use rigproof_impl::tick::{Sensed, Settings};
-use rigproof_spec::geometry::Arms;
+use rigproof_certify::foreign::protocol::{ARC, Begin, CHAIN, SPLINE};
+use rigproof_impl::tick::Sensed;
 use rigproof_spec::tables::GREATEST_CURRENT_A;
 
 use crate::library::Exports;
@@ -14,6 +12,12 @@ use crate::{
 };
 
 const _: () = assert!(MOST_POINTS == RIGPROOF_CONTROLLER_MOST_POINTS);
+// What is told within this project is what the header calls it.
+const _: () = assert!(
+    CHAIN == RigproofControllerTask::Chain as u32
+        && ARC == RigproofControllerTask::Arc as u32
+        && SPLINE == RigproofControllerTask::Spline as u32
+);
 
 /// Words of a canary on each side.
 const WORDS: usize = 64;
@@ -207,63 +211,29 @@ fn changed_settings(
 
 /// The settings of C of a trial.
 fn of(begin: &Begin) -> RigproofControllerSettings {
-    let Settings {
-        arms,
-        layout,
-        counts_per_turn,
-        zero_counts,
-        sample_s,
-        greatest_rate_rad_s,
-        greatest_force_n,
-    } = begin.settings;
-    let Arms {
-        l_ae_m,
-        l_ed_m,
-        l_bc_m,
-        l_cd_m,
-        l_ab_m,
-    } = arms;
+    let told = &begin.settings;
+    let points_m = begin.points_m();
     let mut settings = RigproofControllerSettings {
-        brakes: layout.brakes().len() as u32,
-        arms_m: [l_ae_m, l_ed_m, l_bc_m, l_cd_m, l_ab_m],
-        counts_per_turn,
-        zero_counts,
-        sample_s,
-        greatest_rate_rad_s,
-        greatest_force_n,
+        brakes: begin.brakes(),
+        task: begin.task_number(),
+        arms_m: begin.arms_m(),
+        counts_per_turn: told.counts_per_turn,
+        zero_counts: told.zero_counts,
+        sample_s: told.sample_s,
+        greatest_rate_rad_s: told.greatest_rate_rad_s,
+        greatest_force_n: told.greatest_force_n,
+        // No more come: the campaign refuses a longer path.
+        points: points_m.len().min(MOST_POINTS) as u32,
         ..of_nothing()
     };
-    match &begin.task {
-        Task::Chain(points_m) => {
-            settings.task = RigproofControllerTask::Chain as u32;
-            put_points(&mut settings, points_m);
-        }
-        Task::Spline(points_m) => {
-            settings.task = RigproofControllerTask::Spline as u32;
-            put_points(&mut settings, points_m);
-        }
-        Task::Arc {
-            centre_m,
-            radius_m,
-            from_rad,
-            to_rad,
-        } => {
-            settings.task = RigproofControllerTask::Arc as u32;
-            settings.centre_m = *centre_m;
-            settings.radius_m = *radius_m;
-            settings.from_rad = *from_rad;
-            settings.to_rad = *to_rad;
-        }
-    }
-    settings
-}
-
-fn put_points(settings: &mut RigproofControllerSettings, points_m: &[[f64; 2]]) {
-    // No more come: the campaign refuses a longer path.
-    settings.points = points_m.len().min(MOST_POINTS) as u32;
     for (place, point_m) in settings.points_m.iter_mut().zip(points_m) {
         *place = *point_m;
     }
+    if let Some([x, y, radius_m, from_rad, to_rad]) = begin.arc() {
+        settings.centre_m = [x, y];
+        (settings.radius_m, settings.from_rad, settings.to_rad) = (radius_m, from_rad, to_rad);
+    }
+    settings
 }
 
 fn of_nothing() -> RigproofControllerSettings {

@@ -43,6 +43,62 @@ pub struct Begin {
     pub task: Task,
 }
 
+/// The number of a chain in messages and in the header.
+pub const CHAIN: u32 = 0;
+/// The number of an arc.
+pub const ARC: u32 = 1;
+/// The number of a spline.
+pub const SPLINE: u32 = 2;
+
+impl Begin {
+    /// Lengths of AE, ED, BC, CD and AB, m: the order in which all who are told them are told.
+    pub fn arms_m(&self) -> [f64; 5] {
+        let Arms {
+            l_ae_m,
+            l_ed_m,
+            l_bc_m,
+            l_cd_m,
+            l_ab_m,
+        } = self.settings.arms;
+        [l_ae_m, l_ed_m, l_bc_m, l_cd_m, l_ab_m]
+    }
+
+    /// How many brakes the layout has.
+    pub fn brakes(&self) -> u32 {
+        self.settings.layout.brakes().len() as u32
+    }
+
+    /// The number of the kind of path.
+    pub const fn task_number(&self) -> u32 {
+        match self.task {
+            Task::Chain(_) => CHAIN,
+            Task::Arc { .. } => ARC,
+            Task::Spline(_) => SPLINE,
+        }
+    }
+
+    /// The points of a chain or a spline, m; none of an arc.
+    pub fn points_m(&self) -> &[[f64; 2]] {
+        match &self.task {
+            Task::Chain(points_m) | Task::Spline(points_m) => points_m,
+            Task::Arc { .. } => &[],
+        }
+    }
+
+    /// Centre, x and y, and radius, m, first and last angle, rad, of an arc.
+    pub const fn arc(&self) -> Option<[f64; 5]> {
+        match self.task {
+            Task::Arc {
+                centre_m: [x, y],
+                radius_m,
+                from_rad,
+                to_rad,
+            } => Some([x, y, radius_m, from_rad, to_rad]),
+            _ => None,
+        }
+    }
+}
+
 /// Size of what stands before every message: its kind, its length in bytes, and the number of the request, which the answer repeats.
 pub const HEAD: usize = 16;
 /// Longest message, bytes.
@@ -151,50 +207,31 @@ pub fn decode(kind: [u8; 4], mut body: &[u8]) -> Option<Message> {
 }
 
 fn encode_begin(begin: &Begin, out: &mut Vec<u8>) {
-    let Settings {
-        arms,
-        layout,
-        counts_per_turn,
-        zero_counts,
-        sample_s,
-        greatest_rate_rad_s,
-        greatest_force_n,
-    } = begin.settings;
-    let brakes = layout.brakes().len() as u32;
-    out.extend_from_slice(&brakes.to_le_bytes());
-    for count in counts_per_turn {
+    let settings = &begin.settings;
+    out.extend_from_slice(&begin.brakes().to_le_bytes());
+    for count in settings.counts_per_turn {
         out.extend_from_slice(&count.to_le_bytes());
     }
-    for count in zero_counts {
+    for count in settings.zero_counts {
         out.extend_from_slice(&count.to_le_bytes());
     }
-    let Arms {
-        l_ae_m,
-        l_ed_m,
-        l_bc_m,
-        l_cd_m,
-        l_ab_m,
-    } = arms;
-    put(out, [l_ae_m, l_ed_m, l_bc_m, l_cd_m, l_ab_m]);
-    put(out, [sample_s, greatest_rate_rad_s, greatest_force_n]);
-    let (kind, points_m): (u32, &[[f64; 2]]) = match &begin.task {
-        Task::Chain(points_m) => (0, points_m),
-        Task::Arc { .. } => (1, &[]),
-        Task::Spline(points_m) => (2, points_m),
-    };
-    out.extend_from_slice(&kind.to_le_bytes());
+    put(out, begin.arms_m());
+    put(
+        out,
+        [
+            settings.sample_s,
+            settings.greatest_rate_rad_s,
+            settings.greatest_force_n,
+        ],
+    );
+    let points_m = begin.points_m();
+    out.extend_from_slice(&begin.task_number().to_le_bytes());
     out.extend_from_slice(&(points_m.len() as u32).to_le_bytes());
     for point_m in points_m {
         put(out, *point_m);
     }
-    if let Task::Arc {
-        centre_m: [x, y],
-        radius_m,
-        from_rad,
-        to_rad,
-    } = begin.task
-    {
-        put(out, [x, y, radius_m, from_rad, to_rad]);
+    if let Some(arc) = begin.arc() {
+        put(out, arc);
     }
 }
 
@@ -221,8 +258,8 @@ fn decode_begin(bytes: &mut &[u8]) -> Option<Begin> {
         points_m.push(floats(bytes)?);
     }
     let task = match kind {
-        0 => Task::Chain(points_m),
-        1 => {
+        CHAIN => Task::Chain(points_m),
+        ARC => {
             let [x, y, radius_m, from_rad, to_rad] = floats(bytes)?;
             Task::Arc {
                 centre_m: [x, y],
@@ -231,7 +268,7 @@ fn decode_begin(bytes: &mut &[u8]) -> Option<Begin> {
                 to_rad,
             }
         }
-        2 => Task::Spline(points_m),
+        SPLINE => Task::Spline(points_m),
         _ => return None,
     };
     let settings = Settings {

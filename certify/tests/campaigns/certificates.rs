@@ -5,8 +5,10 @@ use std::path::Path;
 use rigproof_certify::built_in::BuiltIn;
 use rigproof_certify::certificate::Certificate;
 use rigproof_certify::controller::{Controller, Failure, Source, Task};
+use rigproof_certify::differential::tie::Tie;
 use rigproof_certify::digest;
 use rigproof_certify::finding::Finding;
+use rigproof_certify::journal::Chunks;
 use rigproof_certify::law::Law;
 use rigproof_certify::plan::{Plan, Sources};
 use rigproof_certify::proved::Ledger;
@@ -168,4 +170,33 @@ fn a_finding_breaks_its_law_again_from_its_file() {
     assert_eq!((fared.first, fared.worst), (Some(found.tick), found.margin));
     assert!(found.tick < 60, "{} ms", found.tick);
     assert!(found.to_mcap(sources.controller).unwrap().len() > 1000);
+}
+
+#[test]
+fn more_trials_with_ties_than_there_may_be_are_a_reason_against() {
+    let plan = plan();
+    let folder = tempfile::tempdir().unwrap();
+    let mut chunks = run(&plan, [0, 1], folder.path(), 2);
+    let of = |chunks: &Chunks| parse(&certificate(&plan, chunks)).unwrap();
+    let of_ties = |read: &Certificate| {
+        let reasons = read.reasons.iter();
+        let reasons = reasons.filter(|reason| reason.contains("ties of the kind"));
+        reasons.cloned().collect::<Vec<_>>()
+    };
+    assert!(of_ties(&of(&chunks)).is_empty());
+    let records = chunks.values_mut().flatten();
+    records.for_each(|record| record.ties.add(Tie::Velocity));
+    let refused = of(&chunks);
+    let reason =
+        "beside the reference 44 trials have ties of the kind velocity, where at most 10 may";
+    let reasons = of_ties(&refused);
+    assert!(!refused.may_go_on_the_rig && reasons.len() == 1 && reasons[0].starts_with(reason));
+    let mut ties = refused.ties.iter();
+    let own = ties.find(|own| own.tie == Tie::Velocity).unwrap();
+    assert_eq!((own.trials, own.most), (44, 10));
+    for (tie, most) in [(Tie::Foot, 400), (Tie::Amplified, 100), (Tie::Level, 40)] {
+        assert_eq!(tie.budget().most(2000), most);
+    }
+    let names = Tie::ALL.map(|tie| serde_json::to_value(tie).unwrap());
+    assert_eq!(names, Tie::ALL.map(Tie::name));
 }

@@ -465,7 +465,7 @@ fn beyond(source: &dyn Source) -> Vec<&'static str> {
     }
     metrics
         .into_iter()
-        .filter(|metric| !metric.holds)
+        .filter(|metric| !metric.beyond.is_empty())
         .map(|metric| metric.metric.key())
         .collect()
 }

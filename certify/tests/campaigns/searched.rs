@@ -3,20 +3,21 @@
 use std::path::Path;
 
 use rigproof_certify::built_in::BuiltIn;
-use rigproof_certify::certificate::records;
+use rigproof_certify::certificate::{Certificate, records};
 use rigproof_certify::controller::Source;
 use rigproof_certify::declared::Declared;
+use rigproof_certify::finding::Finding;
 use rigproof_certify::law::Law;
 use rigproof_certify::metrics::Metric;
 use rigproof_certify::plan::{Plan, Sources};
 use rigproof_certify::record::Record;
-use rigproof_certify::search::{Target, Worst, search};
+use rigproof_certify::search::{Searched, Target, Worst, search};
 use rigproof_spec::methods::Method;
 
 use crate::bent::after;
-use crate::runs::{plan, run};
+use crate::runs::{plan, run, tool};
 
-fn searched(plan: &Plan, source: &dyn Source, records: &[&Record], threads: usize) -> Vec<Worst> {
+fn searched(plan: &Plan, source: &dyn Source, records: &[&Record], threads: usize) -> Searched {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
     pool.build()
         .unwrap()
@@ -37,6 +38,8 @@ fn a_search_finds_worse_the_same_on_any_threads_and_again() {
     let source = plan.sources().unwrap().controller;
     let found = searched(&plan, source, &records, 2);
     assert_eq!(searched(&plan, source, &records, 1), found);
+    assert!(found.met.is_empty(), "{:?}", found.met);
+    let found = found.worst;
     let mut worse = 0;
     for worst in &found {
         let is_worse = match worst.target {
@@ -52,7 +55,7 @@ fn a_search_finds_worse_the_same_on_any_threads_and_again() {
             worst.trials
         );
         worse += usize::from(is_worse);
-        assert!(worst.breaks.is_none() && worst.trials <= 42);
+        assert!(worst.trials <= 42);
         let read = Worst::parse(&worst.to_json().unwrap(), Path::new("worst.json")).unwrap();
         assert_eq!(&read, worst);
         assert!(read.replayed(source).unwrap().is_same);
@@ -67,7 +70,10 @@ fn a_search_finds_worse_the_same_on_any_threads_and_again() {
         search: 0,
         ..plan.clone()
     };
-    assert!(search(&unsought, source, &records).unwrap().is_empty());
+    assert_eq!(
+        search(&unsought, source, &records).unwrap(),
+        Searched::default()
+    );
 }
 
 /// Every scenario of a plan as it is drawn.
@@ -135,14 +141,11 @@ fn a_search_breaks_a_law_that_no_drawn_scenario_breaks() {
         &records.iter().collect::<Vec<_>>(),
         2,
     );
-    let found = found
-        .iter()
-        .find(|worst| worst.target == Target::Law(Law::TipForce))
-        .unwrap();
-    assert!(
-        found.breaks.is_some() && found.found < 0.0 && found.drawn > 0.0,
-        "{found:?}"
-    );
+    let mut worst = found.worst.iter();
+    let worst = worst.find(|worst| worst.target == Target::Law(Law::TipForce));
+    let worst = worst.unwrap();
+    assert!(worst.found < 0.0 && worst.drawn > 0.0, "{worst:?}");
+    assert!(found.met.iter().any(|met| met.law == Law::TipForce));
 }
 
 /// A controller that asks for 5 A beyond a force, and for nothing below; forces that cannot be are left out.
@@ -186,10 +189,37 @@ fn a_breach_that_a_search_meets_on_its_way_is_kept() {
     let source = trapped(most);
     let records = drawn(&plan, source.as_ref());
     let records: Vec<&Record> = records.iter().collect();
-    let found = searched(&plan, source.as_ref(), &records, 2);
-    let broken: Vec<Option<Law>> = found.iter().map(|worst| worst.breaks).collect();
-    assert!(broken.contains(&Some(Law::CurrentLimit)), "{broken:?}");
-    for worst in found.iter().filter(|worst| worst.breaks.is_some()) {
-        assert!(worst.replayed(source.as_ref()).unwrap().is_same);
-    }
+    let met = searched(&plan, source.as_ref(), &records, 2).met;
+    let own = met.iter().find(|met| met.law == Law::CurrentLimit).unwrap();
+    assert!(matches!(own.target, Target::Metric(_)), "{:?}", own.target);
+    // It is a finding like one that was drawn: shrunk, run again from its file, recorded, and a reason against.
+    let findings = Finding::all(&plan, source.as_ref(), &records, &met);
+    let found = findings.iter().find(|found| found.law == Law::CurrentLimit);
+    let found = found.unwrap();
+    assert_eq!(found.searched, Some(own.target));
+    assert!(
+        found.scenario.ticks < own.scenario.ticks && found.tick < 100,
+        "{found:?}"
+    );
+    let read = Finding::parse(&found.to_json().unwrap(), Path::new("finding.json")).unwrap();
+    assert!(read == *found && read.is(&found.named().unwrap()).unwrap());
+    assert!(read.comes_again(source.as_ref()).unwrap());
+    assert!(!read.comes_again(trapped(30.0).as_ref()).unwrap());
+    assert!(found.to_mcap(source.as_ref()).unwrap().len() > 1000);
+    let chunks = records.iter().map(|record| (*record).clone()).collect();
+    let named = vec![found.named().unwrap()];
+    let certificate = Certificate::new(&plan, &[(0, chunks)].into(), named, Vec::new(), tool());
+    let certificate = certificate.unwrap();
+    let reason = "the law current_limit is broken in a scenario that the search for a worse";
+    assert!(
+        !certificate.may_go_on_the_rig
+            && certificate
+                .reasons
+                .iter()
+                .any(|own| own.starts_with(reason)),
+        "{:?}",
+        certificate.reasons
+    );
+    let text = certificate.to_json().unwrap();
+    assert!(Certificate::parse(&text, Path::new("certificate.json")).is_ok());
 }

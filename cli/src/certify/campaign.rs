@@ -11,16 +11,15 @@ use rigproof_certify::digest;
 use rigproof_certify::finding::Finding;
 use rigproof_certify::journal::{Chunks, FILE, Header};
 use rigproof_certify::law::Law;
-use rigproof_certify::metrics::Metric;
 use rigproof_certify::plan::{FORM, Plan, Sources, Subject};
-use rigproof_certify::search::{NamedWorst, Target, Worst, search};
+use rigproof_certify::search::{Met, Searched, Target, Worst, search};
 use rigproof_certify::tool::Tool;
 use rigproof_spec::methods::SAMPLE_STEP_S;
 use rigproof_trace::rig::five_bar::FiveBar;
 use rigproof_trace::store::{read_text, write_aside};
 
 use super::compiled::{Opened, sources};
-use super::{Args, sign, words};
+use super::{Args, page, sign, words};
 use crate::outcome::{Failure, Outcome, print};
 use crate::progress;
 use crate::text::section;
@@ -54,15 +53,11 @@ pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
     let chunks =
         threads.install(|| campaign::run(&header, &sources, &args.out, &|done| bar.inc(done)))?;
     drop(bar);
-    let between = match &compiled {
-        Some(compiled) => compiled.ended()?,
-        None => Vec::new(),
-    };
-    if !between.is_empty() {
-        return between_trials(&between, &args.out);
-    }
     let [part, parts] = args.shard;
     if parts > 1 {
+        if let Some(between) = between(compiled.as_ref())? {
+            return between_trials(&between, &args.out);
+        }
         return print(&format!(
             "Part {} of {parts} is done: {total} scenarios. When all parts are, join their folders with `rigproof certify merge`.",
             part + 1
@@ -76,6 +71,12 @@ pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
         as_json: args.json,
     };
     threads.install(|| finish(&plan, &sources, &chunks, &written))
+}
+
+/// What went wrong between trials, if anything did, all that ran the controller being done.
+fn between(compiled: Option<&Opened>) -> Result<Option<Vec<String>>, Failure> {
+    let between = compiled.map(Opened::ended).transpose()?;
+    Ok(between.filter(|between| !between.is_empty()))
 }
 
 /// What no law sees must not be certified by going on from the journal either.
@@ -98,7 +99,7 @@ fn plan(
     compiled: Option<&Opened>,
 ) -> Result<Plan, Failure> {
     let controller = match (description.controller, compiled) {
-        (Some(law), None) => Subject::built_in(law),
+        (Some(law), None) => Subject::beside(law, description.reference_every),
         (None, Some(own)) => own.subject(description.declares),
         (Some(_), Some(_)) => {
             return Err(Failure::Input(
@@ -174,47 +175,22 @@ pub fn finish(
     written: &Written<'_>,
 ) -> Result<Outcome, Failure> {
     let folder = written.folder;
-    let spinner = progress::spinner("shrinking what was found");
-    let mut named = Vec::new();
-    for law in Law::ALL {
-        let broken = |fared: &[rigproof_certify::law::Fared]| {
-            fared
-                .get(law as usize)
-                .is_some_and(|fared| fared.broken > 0)
-        };
-        let first = chunks
-            .values()
-            .flatten()
-            .find(|record| broken(&record.fared));
-        let found = first.and_then(|first| Finding::of(plan, sources.controller, law, first.index));
-        // A law that is broken once and not again has no scenario that shows it; the verdict stands all the same.
-        let Some(found) = found else {
-            for ending in ["json", "mcap"] {
-                take_away(&folder.join(format!("{}.{ending}", Finding::stem_of(law))))?;
-            }
-            continue;
-        };
-        let files = [
-            (found.stem() + ".json", found.to_json()?.into_bytes()),
-            (found.stem() + ".mcap", found.to_mcap(sources.controller)?),
-        ];
-        for (name, bytes) in files {
-            write_aside(&folder.join(name), &bytes)?;
-        }
-        named.push(found.named()?);
-    }
-    drop(spinner);
-    let worst = searched(plan, sources, chunks, folder)?;
+    let searched = searched(plan, sources, chunks, folder)?;
+    let found = findings(plan, sources, chunks, &searched.met, folder)?;
+    let named = found.iter().map(Finding::named);
+    let named = named.collect::<Result<_, _>>()?;
+    let worst = searched.worst.iter().map(Worst::named);
+    let worst = worst.collect::<Result<_, _>>()?;
+    let run = page::worst(plan, sources, chunks, found.first())?;
     // Shrinking and searching run the controller too.
-    let between = written.compiled.map(Opened::ended).transpose()?;
-    if let Some(between) = between.filter(|between| !between.is_empty()) {
+    if let Some(between) = between(written.compiled)? {
         return between_trials(&between, folder);
     }
     let certificate = Certificate::new(plan, chunks, named, worst, tool()?)?;
     let (file, text) = (folder.join(CERTIFICATE), certificate.to_json()?);
     take_away(&sign::file_of(&file))?;
     write_aside(&file, text.as_bytes())?;
-    let page = rigproof_report::certificate::page(&certificate);
+    let page = page::html(&certificate, run.as_ref(), folder, written.library);
     write_aside(&folder.join("certificate.html"), page.as_bytes())?;
     if let Some(keys) = &written.keys {
         sign::write(keys, &file, text.as_bytes())?;
@@ -235,22 +211,46 @@ fn searched(
     sources: &Sources<'_>,
     chunks: &Chunks,
     folder: &Path,
-) -> Result<Vec<NamedWorst>, Failure> {
+) -> Result<Searched, Failure> {
     let spinner = progress::spinner("searching for worse");
     let found = search(plan, sources.controller, &records(chunks))?;
     drop(spinner);
-    let targets = Law::ALL
-        .map(Target::Law)
-        .into_iter()
-        .chain(Metric::ALL.map(Target::Metric));
-    for target in targets {
+    for target in Target::all() {
         let file = folder.join(Worst::file_of(target));
-        match found.iter().find(|worst| worst.target == target) {
+        match found.worst.iter().find(|worst| worst.target == target) {
             Some(worst) => write_aside(&file, worst.to_json()?.as_bytes())?,
             None => take_away(&file)?,
         }
     }
-    Ok(found.iter().map(Worst::named).collect::<Result<_, _>>()?)
+    Ok(found)
+}
+
+/// Shrinks what broke a law, drawn or met by the search, and writes it with its recording.
+fn findings(
+    plan: &Plan,
+    sources: &Sources<'_>,
+    chunks: &Chunks,
+    met: &[Met],
+    folder: &Path,
+) -> Result<Vec<Finding>, Failure> {
+    let spinner = progress::spinner("shrinking what was found");
+    let found = Finding::all(plan, sources.controller, &records(chunks), met);
+    for law in Law::ALL {
+        let stem = Finding::stem_of(law);
+        let [json, mcap] = ["json", "mcap"].map(|ending| folder.join(format!("{stem}.{ending}")));
+        match found.iter().find(|found| found.law == law) {
+            Some(own) => {
+                write_aside(&json, own.to_json()?.as_bytes())?;
+                write_aside(&mcap, &own.to_mcap(sources.controller)?)?;
+            }
+            None => {
+                take_away(&json)?;
+                take_away(&mcap)?;
+            }
+        }
+    }
+    drop(spinner);
+    Ok(found)
 }
 
 /// Takes away what an earlier campaign left: it is none of this one's.

@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 use rigproof_certify::campaign::CHUNK;
 use rigproof_certify::certificate::Certificate;
 use rigproof_certify::digest;
+use rigproof_certify::finding::Finding;
+use rigproof_certify::law::Law;
 use rigproof_certify::plan::Sources;
 use rigproof_certify::proved::Ledger;
 use rigproof_certify::search::Worst;
@@ -32,6 +34,7 @@ pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
     let count = args.sample.div_ceil(CHUNK) as usize;
     let (drawn, differ) = certificate.again(&sources, count, seed)?;
     wrong.extend(otherwise(&certificate, file, &sources)?);
+    wrong.extend(not_again(&certificate, file, &sources)?);
     wrong.extend(differ.iter().map(|chunk| {
         let first = chunk * CHUNK;
         format!("scenarios {first} to {} come out otherwise", first + CHUNK)
@@ -131,11 +134,41 @@ fn otherwise(
         let is_named = |worst: &Worst| {
             worst.target == named.target
                 && worst.found == named.found
-                && worst.breaks == named.breaks
                 && worst.controller == certificate.plan.controller
         };
         let holds = match Worst::parse(&text, &file) {
             Ok(worst) if is_named(&worst) => worst.replayed(sources.controller)?.is_same,
+            _ => false,
+        };
+        if !holds {
+            wrong.push(format!("{} comes out otherwise", named.file));
+        }
+    }
+    Ok(wrong)
+}
+
+/// The findings whose law is not broken again as it was. Those of a controller that does not answer the same samples alike need not come again.
+fn not_again(
+    certificate: &Certificate,
+    file: &Path,
+    sources: &Sources<'_>,
+) -> Result<Vec<String>, Failure> {
+    let mut laws = certificate.laws.iter();
+    let mut findings = certificate.findings.iter();
+    if laws.any(|law| law.law == Law::Repeats && law.broken_in > 0)
+        || findings.any(|named| named.law == Law::Repeats)
+    {
+        return Ok(Vec::new());
+    }
+    let mut wrong = Vec::new();
+    for named in &certificate.findings {
+        let file = beside(file, &named.file);
+        // What is missing is said elsewhere.
+        let Ok(text) = read_text(&file) else { continue };
+        let holds = match Finding::parse(&text, &file) {
+            Ok(found) if found.is(named)? && found.controller == certificate.plan.controller => {
+                found.comes_again(sources.controller)?
+            }
             _ => false,
         };
         if !holds {

@@ -2,10 +2,13 @@
 
 use std::path::Path;
 
+use rigproof_certify::calibration::Calibration;
 use rigproof_certify::certificate::Certificate;
 use rigproof_certify::finding::Named;
 use rigproof_certify::search::NamedWorst;
-use rigproof_certify::summary::{Change, Ended, Endings, LawSummary, MetricSummary, Word};
+use rigproof_certify::summary::{
+    Change, Ended, Endings, LawSummary, MetricSummary, TieSummary, Word,
+};
 
 use super::campaign::CERTIFICATE;
 use crate::shell;
@@ -28,13 +31,8 @@ pub fn certificate(certificate: &Certificate, folder: &Path, library: Option<&Pa
             .iter()
             .map(|reason| format!("  {reason}")),
     );
-    first.extend(certificate.plan.calibration.iter().map(|found| {
-        let count = found.found.len();
-        format!(
-            "The plant is drawn from {}: {count} of its mechanisms, within their intervals.",
-            found.name
-        )
-    }));
+    let calibration = certificate.plan.calibration.iter();
+    first.extend(calibration.map(Calibration::words));
     let findings = certificate.findings.iter();
     let findings = findings.map(|found| finding(found, folder, library));
     let laws = certificate.laws.iter().map(law);
@@ -51,9 +49,10 @@ pub fn certificate(certificate: &Certificate, folder: &Path, library: Option<&Pa
     join([
         first,
         section("Findings", findings),
+        section(&of_laws(certificate), laws),
         section(
-            "Laws, on every sample they are about (the reference: every 16th)",
-            laws,
+            "Ties: samples in which the reference may decide otherwise",
+            certificate.ties.iter().map(tie),
         ),
         section("How the trials ended", ended(&certificate.ended)),
         section("Metrics", certificate.metrics.iter().map(metric)),
@@ -87,19 +86,40 @@ fn finding(found: &Named, folder: &Path, library: Option<&Path>) -> String {
 }
 
 fn worse(worst: &NamedWorst, folder: &Path, library: Option<&Path>) -> String {
-    let broken = worst.breaks;
-    let broken = broken.map_or_else(String::new, |law| format!("  BREAKS {}", law.name()));
     let file = folder.join(&worst.file);
     let mut words = vec![("--replay", file.as_path())];
     words.extend(library.map(|library| ("--controller", library)));
     format!(
-        "  {:<16} drawn {}, found {} {} in {} trials{broken}: {}",
+        "  {:<16} drawn {}, found {} {} in {} trials: {}",
         worst.target.name(),
         significant(worst.drawn, 3),
         significant(worst.found, 3),
         worst.unit,
         worst.trials,
         shell::line(&["rigproof", "certify"], &words)
+    )
+}
+
+/// On which samples the laws were looked at.
+fn of_laws(certificate: &Certificate) -> String {
+    let claim = certificate.plan.controller.declared.reference;
+    let beside = claim.map_or(0, |claim| claim.every);
+    match beside {
+        0 | 1 => "Laws, on every sample they are about".to_owned(),
+        every => format!(
+            "Laws, on every sample they are about; beside the reference one sample of {every}"
+        ),
+    }
+}
+
+fn tie(tie: &TieSummary) -> String {
+    format!(
+        "  {:<14} in {} trials of at most {}, {} samples: {}",
+        tie.tie.name(),
+        tie.trials,
+        tie.most,
+        tie.samples,
+        tie.words
     )
 }
 
@@ -176,10 +196,10 @@ fn metric(metric: &MetricSummary) -> String {
     let change = metric.change.map_or_else(String::new, |change| {
         format!("; {}", changed(&change, &metric.unit))
     });
-    let holds = if metric.holds {
-        ""
-    } else {
-        "  BEYOND ITS LIMIT"
-    };
-    format!("  {:<16} {quantiles}{change}{holds}", metric.metric.key())
+    let beyond: String = metric
+        .beyond
+        .iter()
+        .map(|beyond| format!("\n    BEYOND ITS LIMIT: {}", beyond.words))
+        .collect();
+    format!("  {:<16} {quantiles}{change}{beyond}", metric.metric.key())
 }

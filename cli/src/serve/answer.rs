@@ -5,9 +5,10 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use percent_encoding::percent_decode_str;
+use serde_json::{Value, json};
 use tiny_http::{Header, Method, Request, Response};
 
-use super::listing::{Run, SHOWN, regular, runs};
+use super::listing::{Run, SHOWN, regular, revision, runs};
 use super::pages;
 use super::watch::Watch;
 
@@ -110,11 +111,30 @@ fn shown(site: &Site, url: &str) -> Answer {
     let parts = parts.unwrap_or_default();
     let parts: Vec<&str> = parts.iter().map(String::as_str).collect();
     match parts.as_slice() {
-        [""] => html(pages::list(&runs(&site.folder), site)),
+        // What the list was made from is asked first: what changes meanwhile is then seen once more, and not missed.
+        [""] => {
+            let revision = state(site).1;
+            html(pages::list(&runs(&site.folder), site, &revision))
+        }
+        ["state.json"] => (
+            200,
+            "application/json",
+            state(site).0.to_string().into_bytes(),
+        ),
         ["compare"] => compare(site, query),
         ["run", name, file] => file_of(site, name, file),
         _ => words(404, "There is no such page."),
     }
+}
+
+/// What is under way, and what a list would be made from now.
+fn state(site: &Site) -> (Value, String) {
+    let state = site.watch.state();
+    let revision = revision(&site.folder, &state.failed);
+    let is_busy = state.now.is_some() || state.waiting > 0;
+    let now = pages::now(&state, site.is_watching);
+    let value = json!({ "revision": revision, "now": now, "is_busy": is_busy });
+    (value, revision)
 }
 
 fn compare(site: &Site, query: &str) -> Answer {

@@ -1,6 +1,8 @@
 //! This file lists the runs of a folder: what `diagnose` and `certify` wrote there.
 
+use std::collections::BTreeMap;
 use std::fs;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
@@ -72,6 +74,24 @@ pub fn runs(folder: &Path) -> Vec<Run> {
     let mut runs: Vec<Run> = entries.filter_map(|entry| run(&entry)).collect();
     runs.sort_by(|a, b| b.written.cmp(&a.written).then_with(|| a.name.cmp(&b.name)));
     runs
+}
+
+/// What the list of a folder is made from, in a word that changes with it. No result is read: a page asks every few seconds.
+pub fn revision(folder: &Path, failed: &BTreeMap<String, String>) -> String {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let stamp = |entry: &fs::DirEntry| {
+        let is_folder = entry.file_type().ok()?.is_dir();
+        let path = entry.path();
+        let result = [REPORT, CERTIFICATE].map(|file| regular(&path.join(file)));
+        let result = result.into_iter().flatten().next()?;
+        let stamp = (entry.file_name(), result.len(), result.modified().ok()?);
+        is_folder.then_some(stamp)
+    };
+    let mut stamps: Vec<_> = entries.filter_map(|entry| stamp(&entry)).collect();
+    stamps.sort();
+    let mut hasher = DefaultHasher::new();
+    (stamps, failed).hash(&mut hasher);
+    format!("{:016x}", hasher.finish())
 }
 
 fn run(entry: &fs::DirEntry) -> Option<Run> {

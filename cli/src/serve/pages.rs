@@ -1,17 +1,18 @@
-//! This file is the list of runs and the comparison of two.
+//! This file is the list of runs, what is under way, and the comparison of two.
+
+use std::time::SystemTime;
 
 use maud::{Markup, html};
 use percent_encoding::{NON_ALPHANUMERIC, utf8_percent_encode};
 use rigproof_report::document::{Document, Headline, Section, Served, Tone};
+use rigproof_report::number::significant;
 use rigproof_report::table::table;
+use rigproof_report::words::{self, plain_at};
+use serde_json::Value;
 
 use super::answer::Site;
 use super::listing::Run;
-
-/// Seconds after which the list looks again while something is under way.
-const BUSY_S: u32 = 2;
-/// Seconds after which it looks whether a recording came.
-const IDLE_S: u32 = 20;
+use super::watch::State;
 
 fn section(id: &str, heading: &str, body: Markup) -> Section {
     Section {
@@ -26,7 +27,7 @@ fn document(
     about: String,
     headline: Headline,
     sections: Vec<Section>,
-    again_s: Option<u32>,
+    served: Served,
 ) -> String {
     Document {
         title: title.to_owned(),
@@ -37,18 +38,14 @@ fn document(
         charts: Vec::new(),
         replay: None,
         footer: "Served on this machine alone.".to_owned(),
-        served: Some(Served { again_s }),
+        served: Some(served),
     }
     .to_html()
 }
 
-/// The list of runs.
-pub fn list(runs: &[Run], site: &Site) -> String {
-    let state = site.watch.state();
-    let folder = site.folder.display().to_string();
-    let is_busy = state.now.is_some() || state.waiting > 0;
-    let again_s = if is_busy { BUSY_S } else { IDLE_S };
-    let waiting = match (&state.now, site.is_watching) {
+/// What is under way, in words.
+pub fn now(state: &State, is_watching: bool) -> String {
+    match (&state.now, is_watching) {
         (Some(now), _) => format!(
             "Diagnosing {now} for {} s; {} more wait.",
             state.since_s, state.waiting
@@ -57,7 +54,13 @@ pub fn list(runs: &[Run], site: &Site) -> String {
             "Watching for recordings: each is diagnosed as soon as it is whole.".to_owned()
         }
         (None, false) => "Recordings that come are not diagnosed: no --rig was given.".to_owned(),
-    };
+    }
+}
+
+/// The list of runs; `revision` says what it was made from.
+pub fn list(runs: &[Run], site: &Site, revision: &str) -> String {
+    let state = site.watch.state();
+    let folder = site.folder.display().to_string();
     let headline = Headline {
         tone: if state.now.is_some() {
             Tone::Doubt
@@ -65,8 +68,14 @@ pub fn list(runs: &[Run], site: &Site) -> String {
             Tone::Found
         },
         badge: folder.clone(),
-        sentence: format!("{} runs in this folder.", runs.len()),
-        paragraphs: vec![html! { (waiting) }, html! { a href="/" { "Look again" } }],
+        sentence: match runs.len() {
+            1 => "One run in this folder.".to_owned(),
+            count => format!("{count} runs in this folder."),
+        },
+        paragraphs: vec![
+            html! { span #now data-revision=(revision) { (now(&state, site.is_watching)) } },
+            html! { span #news role="status" {} noscript { a href="/" { "Look again" } } },
+        ],
         cards: Vec::new(),
     };
     let mut sections = vec![section("runs", "Runs, the latest first", all(runs))];
@@ -74,29 +83,16 @@ pub fn list(runs: &[Run], site: &Site) -> String {
         sections.push(section("compare", "Compare two", chooser(runs)));
     }
     if !state.failed.is_empty() {
-        let rows: Vec<Vec<String>> = state
-            .failed
-            .iter()
+        let failed = state.failed.iter();
+        let rows: Vec<Vec<String>> = failed
             .map(|(file, why)| vec![file.clone(), why.clone()])
             .collect();
-        sections.push(section(
-            "failed",
-            "Not diagnosed",
-            table(
-                "failed-table",
-                "Recordings that could not be diagnosed, and why.",
-                &["recording", "why"],
-                &rows,
-            ),
-        ));
+        let caption = "Recordings that could not be diagnosed, and why.";
+        let head = ["recording", "why"];
+        let body = table("failed-table", caption, &head, &rows);
+        sections.push(section("failed", "Not diagnosed", body));
     }
-    document(
-        "Runs",
-        folder,
-        headline,
-        sections,
-        site.is_watching.then_some(again_s),
-    )
+    document("Runs", folder, headline, sections, Served::Live)
 }
 
 fn address(run: &Run, file: &str) -> String {
@@ -108,19 +104,60 @@ fn address(run: &Run, file: &str) -> String {
 
 fn all(runs: &[Run]) -> Markup {
     html! {
-        @if runs.is_empty() { p { "None yet." } } @else {
+        @if runs.is_empty() { p { "None yet: they are the folders that " code { "rigproof diagnose" } " and " code { "rigproof certify" } " write here." } } @else {
             div.scroll tabindex="0" role="region" aria-label="Runs" { table.grid {
                 caption { "Diagnoses and certificates." }
-                thead { tr { th scope="col" { "run" } th scope="col" { "result" } th scope="col" { "in words" } } }
+                thead { tr { th scope="col" { "run" } th scope="col" { "written" } th scope="col" { "result" } th scope="col" { "in words" } } }
                 tbody { @for run in runs { tr {
                     th scope="row" { a href=(address(run, Run::page(run.is_certificate()))) { (run.name) } }
+                    td { (written(run)) }
                     @if run.is_certificate() {
                         td { (if run.text("/may_go_on_the_rig") == "yes" { "may go on the rig" } else { "must not go on the rig" }) } td { (run.text("/name")) }
-                    } @else { td { (run.text("/verdict").replace('_', " ")) } td { (run.text("/summary")) } }
+                    } @else { td { (run.text("/verdict").replace('_', " ")) } td.words { (found(run)) } }
                 } } }
             } }
         }
     }
+}
+
+/// What a diagnosis found, as a mechanic says it, and how much that helped.
+fn found(run: &Run) -> String {
+    let effects = run.result.get("effects").and_then(Value::as_array);
+    let name = |effect: &Value| {
+        let joint = effect.get("joint").and_then(Value::as_str);
+        Some(plain_at(effect.get("mechanism")?.as_str()?, joint))
+    };
+    let names: Vec<String> = effects.into_iter().flatten().filter_map(name).collect();
+    if names.is_empty() {
+        return run.text("/summary");
+    }
+    let error = |which: &str| {
+        let error = run.result.pointer(&format!("/fit/held_out/nrmse_{which}"));
+        error.and_then(Value::as_f64)
+    };
+    let errors = error("before").zip(error("after"));
+    let errors = errors.map_or_else(String::new, |(before, after)| {
+        let (before, after) = (significant(before, 3), significant(after, 3));
+        format!("; error on data kept aside: {before} % → {after} %")
+    });
+    words::list(&names) + &errors
+}
+
+/// When a run was written: for whom no script runs, how long ago; a script makes local time of it.
+fn written(run: &Run) -> Markup {
+    let since = |from: SystemTime| from.elapsed().unwrap_or_default().as_secs();
+    let ms = run
+        .written
+        .duration_since(SystemTime::UNIX_EPOCH)
+        .unwrap_or_default()
+        .as_millis();
+    let ago = match since(run.written) {
+        seconds @ 0..120 => format!("{seconds} s ago"),
+        seconds @ 120..7200 => format!("{} min ago", seconds / 60),
+        seconds @ 7200..172_800 => format!("{} h ago", seconds / 3600),
+        seconds => format!("{} days ago", seconds / 86_400),
+    };
+    html! { time data-ms=(ms) { (ago) } }
 }
 
 fn chooser(runs: &[Run]) -> Markup {
@@ -182,21 +219,22 @@ pub fn compared(one: &Run, other: &Run) -> String {
         .collect();
     let headline = Headline {
         tone: Tone::Found,
-        badge: "Two runs side by side".to_owned(),
-        sentence: format!("{} and {}", one.name, other.name),
+        badge: "Two runs".to_owned(),
+        sentence: format!("{} and {}, side by side", one.name, other.name),
         paragraphs: vec![
             html! { @if differ.is_empty() { "They say the same." } @else { "They differ in: " (differ.join("; ")) "." } },
             html! { a href="/" { "All runs" } " · " a href=(address(one, Run::page(one.is_certificate()))) { (one.name) } " · " a href=(address(other, Run::page(other.is_certificate()))) { (other.name) } },
         ],
         cards: Vec::new(),
     };
-    let head = ["", one.name.as_str(), other.name.as_str()];
+    let head = ["what", one.name.as_str(), other.name.as_str()];
     let body = section(
         "side-by-side",
         "Side by side",
         table("side-by-side-table", "What the two runs say.", &head, &rows),
     );
-    document("Two runs", String::new(), headline, vec![body], None)
+    let about = format!("{} and {}", one.name, other.name);
+    document("Two runs", about, headline, vec![body], Served::Still)
 }
 
 /// The named numbers of a diagnosis, and the laws that a certificate found broken.
@@ -226,7 +264,7 @@ fn effects(run: &Run) -> Vec<(String, String)> {
         {
             let value = number
                 .get("value")
-                .and_then(serde_json::Value::as_f64)
+                .and_then(Value::as_f64)
                 .unwrap_or(f64::NAN);
             let unit = number
                 .get("unit")
@@ -243,10 +281,7 @@ fn effects(run: &Run) -> Vec<(String, String)> {
             .get("law")
             .and_then(|law| law.as_str())
             .unwrap_or_default();
-        let broken = law
-            .get("broken_in")
-            .and_then(serde_json::Value::as_u64)
-            .unwrap_or(0);
+        let broken = law.get("broken_in").and_then(Value::as_u64).unwrap_or(0);
         all.push((format!("law {name}: broken in"), broken.to_string()));
     }
     all

@@ -1,8 +1,8 @@
 //! This file says how far a diagnosis can be believed, by simulated recordings whose causes are known.
 
-use rigproof_diagnose::report::{NamedRate, Rate, Report};
+use rigproof_diagnose::report::{NamedRate, Report};
 
-use super::number::percent;
+use super::number::rate;
 use super::section;
 
 /// What the diagnosis said of simulated recordings.
@@ -33,14 +33,4 @@ pub fn simulated(report: &Report) -> Vec<String> {
     lines.extend(wrong.map(|own| format!("  without being there: {}", each(own))));
     lines.push(format!("  simulated: {}", own.protocol));
     section("How far to believe it", lines)
-}
-
-fn rate(rate: Rate) -> String {
-    format!(
-        "{} of {} (95 %: {} to {})",
-        rate.count,
-        rate.of,
-        percent(rate.low95),
-        percent(rate.high95)
-    )
 }

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::desk::Desk;
+use crate::serve::Served;
 
 /// The folder with the browser's client; nothing where the tests are not asked for.
 fn tools() -> Option<PathBuf> {
@@ -17,20 +18,20 @@ fn tools() -> Option<PathBuf> {
     folder
 }
 
-/// Runs `check.mjs` on pages; it looks for its packages beside itself.
-fn holds(tools: &Path, desk: &Desk, pages: &[&str]) {
+/// Runs `check.mjs` on pages; it looks for its packages beside itself. `drop` is a recording, and where it is to come while a list of runs is looked at.
+fn holds(tools: &Path, pages: &[String], drop: Option<[PathBuf; 2]>) {
     let check = tools.join("check.mjs");
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("../report/browser/check.mjs");
     std::fs::copy(&source, &check).unwrap();
     let chromium =
         std::env::var_os("RIGPROOF_CHROMIUM").unwrap_or_else(|| "/usr/bin/chromium".into());
-    let pages = pages.iter().map(|page| desk.path(page));
-    let answer = Command::new("node")
-        .arg(&check)
-        .arg(chromium)
-        .args(pages)
-        .output()
-        .unwrap();
+    let mut command = Command::new("node");
+    command.arg(&check).arg(chromium).args(pages);
+    if let Some([from, to]) = drop {
+        let drop = format!("{}\n{}", from.display(), to.display());
+        command.env("RIGPROOF_DROP", drop);
+    }
+    let answer = command.output().unwrap();
     let words = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
     assert!(
         answer.status.success(),
@@ -95,5 +96,29 @@ fn pages_hold_in_a_browser() {
         "thesis.html",
         "certified/certificate.html",
     ];
-    holds(&tools, &desk, &pages);
+    let pages = pages.map(|page| desk.path(page).display().to_string());
+    holds(&tools, &pages, None);
+    served(&tools, &desk);
+}
+
+/// What `serve` shows of the same runs, while a recording comes.
+fn served(tools: &Path, desk: &Desk) {
+    std::fs::create_dir(desk.path("runs")).unwrap();
+    for (from, to) in [
+        ("rigproof-demo", "demo"),
+        ("found", "found"),
+        ("hostile", "<b>hostile"),
+        ("certified", "certified"),
+    ] {
+        std::fs::rename(desk.path(from), desk.path(&format!("runs/{to}"))).unwrap();
+    }
+    let served = Served::begin(desk, &["runs", "--rig", "runs/demo/rig.toml"]);
+    let pages = [
+        "",
+        "compare?one=demo&other=%3Cb%3Ehostile",
+        "compare?one=found&other=certified",
+    ];
+    let pages = pages.map(|page| format!("http://{}/{page}", served.address));
+    let drop = ["runs/demo/recording.csv", "runs/today.csv"].map(|file| desk.path(file));
+    holds(tools, &pages, Some(drop));
 }

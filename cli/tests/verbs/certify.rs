@@ -68,9 +68,12 @@ fn limits_that_are_broken_are_said_and_end_with_one() {
         1,
     );
     assert!(
-        text.starts_with("Must NOT go on the rig:\n  switching_per_s is beyond"),
+        text.starts_with("Must NOT go on the rig:\n  switching_per_s: 95 of 100 trials come to "),
         "{text}"
     );
+    let allowed = "1/s, where certify.toml allows 0.5 1/s";
+    assert_eq!(text.matches(allowed).count(), 2, "{text}");
+    assert!(desk.read("no/certificate.html").contains(allowed));
     desk.prints("certify --check no/certificate.json", 0);
 }
 
@@ -202,8 +205,10 @@ fn a_compiled_controller_that_brakes_on_a_fault_is_refused_and_shown_again() {
 #[test]
 fn how_a_compiled_controller_broke_is_said_and_an_old_finding_goes() {
     let desk = Desk::new();
-    let guarded = std::path::Path::new(crate::controller::ROOM).join("examples/guarded.c");
-    let source = std::fs::read_to_string(guarded).unwrap();
+    let examples = std::path::Path::new(crate::controller::ROOM).join("examples");
+    let text = |name: &str| std::fs::read_to_string(examples.join(name)).unwrap();
+    let source = text("guarded.c");
+    desk.put("damping.h", &text("damping.h"));
     let at_the_end = "rigproof_controller_shutdown(void)\n{\n";
     assert!(source.contains(at_the_end));
     let breaks = source.replace(
@@ -365,7 +370,7 @@ fn a_calibration_is_the_plant_or_is_refused_by_what_it_names() {
     let line = "certify certify.toml --scenarios 24 --seconds 1 --out out --calibration";
     let printed = desk.prints(&format!("{line} found.toml"), 0);
     assert!(
-        printed.contains("The plant is drawn from found.toml: 1 of its mechanisms"),
+        printed.contains("The plant is drawn from the calibration found.toml: 1 of its mechanisms"),
         "{printed}"
     );
     let certificate: Value = serde_json::from_str(&desk.read("out/certificate.json")).unwrap();

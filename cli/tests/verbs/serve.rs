@@ -10,9 +10,9 @@ use std::time::{Duration, Instant};
 use crate::desk::Desk;
 
 /// A server that ends with the test.
-struct Served {
+pub struct Served {
     child: Child,
-    address: SocketAddr,
+    pub address: SocketAddr,
 }
 
 impl Drop for Served {
@@ -23,12 +23,12 @@ impl Drop for Served {
 }
 
 impl Served {
-    fn begin(desk: &Desk, words: &[&str]) -> Served {
+    pub fn begin(desk: &Desk, words: &[&str]) -> Served {
         let mut command = Command::new(env!("CARGO_BIN_EXE_rigproof"));
         let command = command
             .arg("serve")
             .args(words)
-            .args(["--port", "0", "--for-s", "120"]);
+            .args(["--port", "0", "--for-s", "600"]);
         let command = command.current_dir(desk.path(".")).stdout(Stdio::piped());
         let mut child = command.spawn().unwrap();
         let mut line = String::new();
@@ -61,7 +61,7 @@ impl Served {
         String::from_utf8_lossy(&answer).into_owned()
     }
 
-    fn get(&self, path: &str) -> String {
+    pub fn get(&self, path: &str) -> String {
         self.raw(&format!(
             "GET {path} HTTP/1.1\r\nHost: {}\r\nConnection: close\r\n\r\n",
             self.address
@@ -100,7 +100,10 @@ fn desk() -> Desk {
     {
         std::os::unix::fs::symlink(desk.path("outside"), desk.path("runs/link")).unwrap();
         fs::create_dir_all(desk.path("runs/three")).unwrap();
-        desk.put("runs/three/report.json", "{\"verdict\":\"consistent\"}");
+        desk.put(
+            "runs/three/report.json",
+            "{\"verdict\":\"consistent\",\"summary\":\"<i>nothing</i>\"}",
+        );
         std::os::unix::fs::symlink(desk.path("secret.txt"), desk.path("runs/three/report.html"))
             .unwrap();
     }
@@ -116,7 +119,8 @@ fn runs_are_listed_shown_and_compared_and_nothing_else_is_there() {
     assert!(
         list.contains("explained")
             && list.contains("two &lt;b&gt;")
-            && list.contains("&lt;i&gt;words")
+            && list.contains("&lt;i&gt;nothing")
+            && list.contains("at joint E")
     );
     assert!(!list.contains("secret"), "a link is no run");
     assert!(served.get("/run/one/report.html").contains("page of one"));
@@ -156,6 +160,38 @@ fn runs_are_listed_shown_and_compared_and_nothing_else_is_there() {
     }
 }
 
+/// What `/state.json` says.
+fn state(served: &Served) -> serde_json::Value {
+    let answer = served.get("/state.json");
+    assert_eq!(status(&answer), "200", "{answer}");
+    serde_json::from_str(answer.split_once("\r\n\r\n").unwrap().1).unwrap()
+}
+
+#[test]
+fn the_state_changes_with_the_runs_and_with_nothing_else() {
+    let desk = desk();
+    let served = Served::begin(&desk, &["runs"]);
+    let first = state(&served);
+    let revision = first["revision"].as_str().unwrap();
+    assert!(
+        served
+            .get("/")
+            .contains(&format!("data-revision=\"{revision}\""))
+    );
+    assert_eq!(first["is_busy"], false);
+    assert!(first["now"].as_str().unwrap().contains("--rig"), "{first}");
+    desk.put("runs/one/notes.txt", "more notes");
+    desk.put("outside/report.json", "{\"verdict\":\"another\"}");
+    assert_eq!(state(&served), first);
+    fs::create_dir_all(desk.path("runs/four")).unwrap();
+    assert_eq!(state(&served), first, "a folder without a result is no run");
+    desk.put("runs/four/report.json", "{\"verdict\":\"consistent\"}");
+    let second = state(&served);
+    assert_ne!(second["revision"], first["revision"]);
+    desk.put("runs/one/report.json", "{\"verdict\":\"data_fault\"}");
+    assert_ne!(state(&served)["revision"], second["revision"]);
+}
+
 #[test]
 fn strangers_are_not_answered_and_nothing_can_be_sent() {
     let desk = desk();
@@ -167,10 +203,12 @@ fn strangers_are_not_answered_and_nothing_can_be_sent() {
         "127.0.0.1".to_owned(),
         format!("127.0.0.1.evil.example:{port}"),
     ] {
-        let answer = served.raw(&format!(
-            "GET / HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n"
-        ));
-        assert_eq!(status(&answer), "403", "{host}");
+        for page in ["/", "/state.json"] {
+            let answer = served.raw(&format!(
+                "GET {page} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n"
+            ));
+            assert_eq!(status(&answer), "403", "{host}{page}");
+        }
     }
     let nobody = served.raw("GET / HTTP/1.0\r\n\r\n");
     assert_eq!(status(&nobody), "403", "{nobody}");

@@ -13,9 +13,9 @@ use rigproof_spec::effect::Mechanism;
 use rigproof_spec::inertia::Inertia;
 use rigproof_spec::joint::Joint;
 
-/// What drives θA and θB, as the second difference of the angles sees it.
-pub fn driving(run: &FiveBarRun) -> Vec<f64> {
-    seen(&run.driving_effort())
+/// What a force on the tip, N, sample by sample, does to θA and θB, as the second difference of the angles sees it.
+pub fn driving(run: &FiveBarRun, force: impl Iterator<Item = [f64; 2]>) -> Vec<f64> {
+    seen(&run.at_tip(force))
 }
 
 /// What the nominal model knows of the resistance: inertia and brakes.
@@ -59,10 +59,10 @@ fn free_of_one(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<
             Some(vec![along_motion(run, joint, &loads)])
         }
         (mechanism, Some(joint)) => at_joint(run, mechanism, joint, shape),
-        (Mechanism::ForceGain, None) => Some(vec![driving(run)]),
+        (Mechanism::ForceGain, None) => Some(vec![driving(run, run.forces())]),
         (Mechanism::ForceBias, None) => Some(
             [[1.0, 0.0], [0.0, 1.0]]
-                .map(|unit| seen(&run.at_tip(core::iter::repeat(unit))))
+                .map(|unit| driving(run, core::iter::repeat(unit)))
                 .into(),
         ),
         (Mechanism::Gravity, None) => Some([0, 1].map(|axis| seen(&weight(run, axis))).into()),
@@ -104,9 +104,9 @@ fn encoder(
             Joint::E | Joint::C => return None,
         };
         own.iter_mut().for_each(|theta| *theta = moved(*theta));
-        with_angles(run.clone(), theta).ok()
+        with_angles(run, theta).ok()
     };
-    let balance = |run: &FiveBarRun| less(&driving(run), &known(run));
+    let balance = |run: &FiveBarRun| less(&driving(run, run.forces()), &known(run));
     let slope = |from: &FiveBarRun, to: &FiveBarRun, step: f64| -> Vec<f64> {
         let change = less(&balance(from), &balance(to));
         change.into_iter().map(|x| x / step).collect()
@@ -146,7 +146,7 @@ fn fixed_of_one(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<f64
                 .force
                 .each_ref()
                 .map(|force| less(force, &shifted(force, delay)));
-            Some(seen(&run.at_tip(x.into_iter().zip(y).map(|(x, y)| [x, y]))))
+            Some(driving(run, x.into_iter().zip(y).map(|(x, y)| [x, y])))
         }
         // The whole turn: its first order alone leaves 1 − cos of the force, which is a gain.
         (Mechanism::ForceRotation, None) => {
@@ -154,7 +154,7 @@ fn fixed_of_one(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<f64
             let too_much = run
                 .forces()
                 .map(|[x, y]| [x - cosine * x - sine * y, y - cosine * y + sine * x]);
-            Some(seen(&run.at_tip(too_much)))
+            Some(driving(run, too_much))
         }
         _ => None,
     }

@@ -265,7 +265,7 @@ impl Stand<'_> {
                 .map(|(u, c)| *u && c.is_none())
                 .collect(),
             usable,
-            recorded: average(&super::columns::driving(run)),
+            recorded: average(&super::columns::driving(run, run.forces())),
             before: average(&modelled(&problem, &bare)),
             after: average(&modelled(&problem, self.selection)),
         }

@@ -95,7 +95,7 @@ pub(super) fn truly(model: &Model, run: &FiveBarRun) -> Result<FiveBarRun, Model
         return Ok(own);
     }
     let theta = core::mem::take(&mut own.theta);
-    with_angles(own, theta).map_err(|(_, error)| error)
+    with_angles(&own, theta).map_err(|(_, error)| error)
 }
 
 /// The angle behind one that an encoder shows, rad.
@@ -157,6 +157,11 @@ struct Reached {
 
 /// The rig let go at a sample, `count` samples long; shorter where the force drives the linkage out of its assembly.
 ///
+/// Into how many steps of the rig a sample interval, s, is divided.
+pub(super) fn parts_of(step_s: f64) -> f64 {
+    (step_s / LONGEST_STEP_S * (1.0 - 1e-9)).ceil().max(1.0)
+}
+
 /// # Errors
 /// Those of [`Rig::step`] but where the linkage comes apart.
 fn let_go(
@@ -165,7 +170,7 @@ fn let_go(
     first: usize,
     count: usize,
 ) -> Result<Vec<Reached>, ModelError> {
-    let parts = (run.step_s / LONGEST_STEP_S * (1.0 - 1e-9)).ceil().max(1.0);
+    let parts = parts_of(run.step_s);
     let mut reached = Vec::with_capacity(count);
     for k in first..first + count {
         let (begin, end) = (force_at(run, k), force_at(run, k + 1));

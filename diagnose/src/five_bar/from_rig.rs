@@ -84,7 +84,7 @@ pub fn aligned(rig: &FiveBar, recording: &FiveBarRecording) -> Result<FiveBarRun
         speed_floor: 0.0,
         parts: Vec::new(),
     };
-    let (mut run, untold) = match moved_by(run.clone(), theta.clone()) {
+    let (mut run, untold) = match moved_by(&run, theta.clone()) {
         Ok(moved) => moved,
         Err(found) => return Err(unassembled(run, theta, found)),
     };
@@ -104,7 +104,7 @@ fn unassembled(
     let [theta_a, theta_b] = theta;
     let cure = if turned_round {
         "the angles go beyond a whole turn: if they are degrees, say so in the description (`unit = \"deg\"`)"
-    } else if moved_by(run, [theta_b, theta_a]).is_ok() {
+    } else if moved_by(&run, [theta_b, theta_a]).is_ok() {
         "with theta_a and theta_b swapped it can: give each its own column in the description"
     } else {
         "an encoder has lost counts, or its zero or sign is wrong"
@@ -122,7 +122,7 @@ fn unassembled(
 /// # Errors
 /// The linkage cannot be assembled at some sample: its number, and why.
 pub fn with_angles(
-    run: FiveBarRun,
+    run: &FiveBarRun,
     theta: [Vec<f64>; 2],
 ) -> Result<FiveBarRun, (usize, ModelError)> {
     moved_by(run, theta).map(|(run, _)| run)
@@ -133,7 +133,7 @@ type Untold = [Vec<f64>; 2];
 
 /// The run with other angles, and what cannot be told of them.
 fn moved_by(
-    run: FiveBarRun,
+    run: &FiveBarRun,
     theta: [Vec<f64>; 2],
 ) -> Result<(FiveBarRun, Untold), (usize, ModelError)> {
     let smoothed = theta
@@ -141,13 +141,13 @@ fn moved_by(
         .map(|theta| smoothed_motion(theta, run.step_s, run.cutoff_hz, run.theta_noise));
     let floors = smoothed.each_ref().map(|(_, floor)| *floor);
     let base = smoothed.map(|(motion, _)| motion);
-    let (poses, forms) = forms(&run.parameters, &base)?.into_iter().unzip();
+    let (poses, forms) = forms(&run.parameters, &base)?;
     let mut run = FiveBarRun {
         theta,
         poses,
         forms,
         speed_floor: floors.into_iter().fold(0.0, f64::max),
-        ..run
+        ..run.without_motion()
     };
     let untold = untold_speeds(&run, &base);
     run.joints = Joint::ALL.map(|joint| joint_motion(&run, &base, joint, &untold));

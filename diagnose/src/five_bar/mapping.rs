@@ -17,8 +17,10 @@ const ODD: f64 = 0.2;
 /// # Errors
 /// The model balances the recording far better when channels are read in another way.
 pub fn check(run: &FiveBarRun, problem: &Problem) -> Result<(), Fault> {
-    force(run, problem)?;
-    currents(run, problem)
+    let driving = driving(run, run.forces());
+    let own = left(problem, &driving, &problem.known);
+    force(run, problem, own)?;
+    currents(run, problem, own, &driving)
 }
 
 fn left(problem: &Problem, driving: &[f64], known: &[f64]) -> f64 {
@@ -39,40 +41,40 @@ struct Reading {
     channel: &'static str,
     how: &'static str,
     cure: &'static str,
-    run: FiveBarRun,
+    of: fn([f64; 2]) -> [f64; 2],
 }
 
+const WRONG_SIGN: &str = "the channel has the wrong sign (set `sign = -1`)";
+
 /// The force as it may have been recorded instead.
-fn readings(run: &FiveBarRun) -> [Reading; 3] {
-    let turned = |axis: usize, channel| {
-        let mut run = run.clone();
-        for force in run.force.iter_mut().skip(axis).take(1).flatten() {
-            *force = -*force;
-        }
-        Reading {
-            channel,
-            how: "with the other sign",
-            cure: "the channel has the wrong sign (set `sign = -1`)",
-            run,
-        }
-    };
-    let mut swapped = run.clone();
-    swapped.force.reverse();
-    let swapped = Reading {
+const READINGS: [Reading; 3] = [
+    Reading {
+        channel: "force_x",
+        how: "with the other sign",
+        cure: WRONG_SIGN,
+        of: |[x, y]| [-x, y],
+    },
+    Reading {
+        channel: "force_y",
+        how: "with the other sign",
+        cure: WRONG_SIGN,
+        of: |[x, y]| [x, -y],
+    },
+    Reading {
         channel: "force_x",
         how: "with force_x and force_y swapped",
         cure: "give each its own column in the description",
-        run: swapped,
-    };
-    [turned(0, "force_x"), turned(1, "force_y"), swapped]
-}
+        of: |[x, y]| [y, x],
+    },
+];
 
-fn force(run: &FiveBarRun, problem: &Problem) -> Result<(), Fault> {
-    let left = |run: &FiveBarRun| left(problem, &driving(run), &problem.known);
-    let own = left(run);
-    let readings = readings(run).map(|reading| (left(&reading.run), reading));
-    let best = readings.into_iter().min_by(|(a, _), (b, _)| a.total_cmp(b));
-    match best {
+/// `own` is what stays unexplained as described.
+fn force(run: &FiveBarRun, problem: &Problem, own: f64) -> Result<(), Fault> {
+    let readings = READINGS.iter().map(|reading| {
+        let driving = driving(run, run.forces().map(reading.of));
+        (left(problem, &driving, &problem.known), reading)
+    });
+    match readings.min_by(|(a, _), (b, _)| a.total_cmp(b)) {
         Some((other, reading)) if other < LEFT * own => {
             let Reading {
                 channel, how, cure, ..
@@ -87,10 +89,8 @@ fn force(run: &FiveBarRun, problem: &Problem) -> Result<(), Fault> {
 }
 
 /// The currents in another order, where much stays unexplained.
-fn currents(run: &FiveBarRun, problem: &Problem) -> Result<(), Fault> {
-    let driving = driving(run);
-    let own = left(problem, &driving, &problem.known);
-    let size = usable_rms(problem, &problem.windows.average(&driving));
+fn currents(run: &FiveBarRun, problem: &Problem, own: f64, driving: &[f64]) -> Result<(), Fault> {
+    let size = usable_rms(problem, &problem.windows.average(driving));
     if own < ODD * size {
         return Ok(());
     }
@@ -99,7 +99,7 @@ fn currents(run: &FiveBarRun, problem: &Problem) -> Result<(), Fault> {
         .into_iter()
         .map(|order| {
             (
-                left(problem, &driving, &known(&with_order(run, brakes, &order))),
+                left(problem, driving, &known(&with_order(run, brakes, &order))),
                 order,
             )
         })

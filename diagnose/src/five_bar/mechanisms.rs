@@ -181,7 +181,7 @@ fn column(run: &FiveBarRun, effect: &JointEffect) -> Vec<f64> {
 /// and how many samples there are.
 fn apart(layout: Layout, effect: &JointEffect) -> (f64, f64, usize) {
     let (run, counts) = exact(layout, std::slice::from_ref(effect));
-    let residual = less(&driving(&run), &known(&run));
+    let residual = less(&driving(&run, run.forces()), &known(&run));
     let column = column(&run, effect);
     let twice = || counts.iter().chain(&counts);
     let kept = |values: &[f64]| -> Vec<f64> {
@@ -266,7 +266,7 @@ fn assert_meets(layout: Layout, effect: &JointEffect) {
 #[test]
 fn what_a_sensor_does_is_the_whole_of_it_and_not_its_slope() {
     let (run, _) = exact(Layout::FourBrake, &[]);
-    let balance = |run: &FiveBarRun| less(&driving(run), &known(run));
+    let balance = |run: &FiveBarRun| less(&driving(run, run.forces()), &known(run));
     let own = balance(&run);
     let assert_is = |cause: Cause, told: &[f64], slope: &[f64], shown: &FiveBarRun| {
         // The diagnosis sees what is shown; what its cause adds leaves the balance of what is there.

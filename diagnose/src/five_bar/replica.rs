@@ -1,19 +1,14 @@
 //! This file plays a recording of the five-bar again on the reference rig: a hand leads the tip along the recorded path with the recorded force,
 //! so that the same is excited whatever the rig has.
 
-use super::experiment::play::{Played, shown};
-use super::free_run::{Model, currents_at, force_at, truly};
+use super::experiment::play::{DAMPING_NS_M, Played, STIFFNESS_N_M, shown};
+use super::free_run::{Model, currents_at, force_at, parts_of, truly};
 use super::from_rig::aligned;
 use super::run::FiveBarRun;
 use rigproof_model::error::ModelError;
-use rigproof_model::rig::{LONGEST_STEP_S, Rig};
+use rigproof_model::rig::Rig;
 use rigproof_trace::rig::Signal;
 use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording};
-
-/// The stiffness with which the hand keeps to the recorded path, N/m.
-const STIFFNESS_N_M: f64 = 420.0;
-/// The damping with which it keeps to the recorded velocity, N·s/m.
-const DAMPING_NS_M: f64 = 11.0;
 
 /// A recording before noise and counts, and the noise of angles, rad, and force, N, where it states none.
 pub(crate) struct Replica {
@@ -105,7 +100,7 @@ fn followed(model: &Model, run: &FiveBarRun) -> Result<Played, ModelError> {
         ([a.position, b.position], [a.speed, b.speed])
     });
     let mut rig = Rig::moving(run.parameters, theta, rates)?.with_effects(&model.rig)?;
-    let parts = (run.step_s / LONGEST_STEP_S * (1.0 - 1e-9)).ceil().max(1.0);
+    let parts = parts_of(run.step_s);
     let mut played = Played::default();
     for k in 0..run.len() {
         let now = led.force_n(k, 0.0, rig.tip_m(), rig.tip_velocity_m_s());

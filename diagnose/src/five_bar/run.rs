@@ -124,6 +124,24 @@ impl FiveBarRun {
         pairs.map(|(now, y)| now.sense * y).collect()
     }
 
+    /// What was recorded beside the angles; what follows from them is empty.
+    pub fn without_motion(&self) -> FiveBarRun {
+        FiveBarRun {
+            parameters: self.parameters,
+            theta: Default::default(),
+            joints: Default::default(),
+            poses: Vec::new(),
+            forms: Vec::new(),
+            force: self.force.clone(),
+            currents: self.currents.clone(),
+            yields: Default::default(),
+            yield_errors: Default::default(),
+            recorded: self.recorded.clone(),
+            parts: Vec::new(),
+            ..*self
+        }
+    }
+
     /// The samples `from..to`, times kept.
     pub fn slice(&self, from: usize, to: usize) -> FiveBarRun {
         let part = |values: &Vec<f64>| values.get(from..to).unwrap_or_default().to_vec();
@@ -167,18 +185,18 @@ pub fn stacked(pairs: impl Iterator<Item = [f64; 2]>) -> Vec<f64> {
 pub fn forms(
     parameters: &Parameters,
     base: &[Vec<Instant>; 2],
-) -> Result<Vec<(Pose, TwoCoordinate)>, (usize, ModelError)> {
+) -> Result<(Vec<Pose>, Vec<TwoCoordinate>), (usize, ModelError)> {
     let [a, b] = base;
-    let pairs = a.iter().zip(b).enumerate();
-    pairs
-        .map(|(k, (a, b))| {
-            let pose =
-                forward::pose(&parameters.arms, a.position, b.position).map_err(|e| (k, e))?;
-            let rates = [a.speed, b.speed];
-            let form = two_coordinate(&parameters.arms, &parameters.inertia, &pose, rates);
-            Ok((pose, form))
-        })
-        .collect()
+    let mut poses = Vec::with_capacity(a.len());
+    let mut forms = Vec::with_capacity(a.len());
+    for (k, (a, b)) in a.iter().zip(b).enumerate() {
+        let pose = forward::pose(&parameters.arms, a.position, b.position).map_err(|e| (k, e))?;
+        let rates = [a.speed, b.speed];
+        let form = two_coordinate(&parameters.arms, &parameters.inertia, &pose, rates);
+        poses.push(pose);
+        forms.push(form);
+    }
+    Ok((poses, forms))
 }
 
 /// The yield torque of a brake along a joint's motion, the current of each sample held to the next.

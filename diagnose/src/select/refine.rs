@@ -130,5 +130,11 @@ fn moved(
             return None;
         }
     }
-    realise(problem, term.cause, &shape, onset_s, effort)
+    // What takes the whole linkage to be moved anew is worth keeping: other rounds of the search ask for the same shapes.
+    match (term.cause.mechanism, onset_s) {
+        (Mechanism::EncoderScale | Mechanism::EncoderOffset, None) => {
+            problem.kept_term(term.cause, &shape)
+        }
+        _ => realise(problem, term.cause, &shape, onset_s, effort),
+    }
 }

@@ -42,3 +42,19 @@ pub fn in_all(nominal: &Inertia, [ae, bc, ed, cd, tip_kg]: [f64; 5]) -> Inertia 
         payload_kg: tip_kg,
     }
 }
+
+/// Masses, kg, and moments of inertia, kg·m², with what is added to them; centres of mass stay.
+pub fn sum(own: &Inertia, more: &Inertia) -> Inertia {
+    let arm = |own: &ArmInertia, more: &ArmInertia| ArmInertia {
+        mass_kg: own.mass_kg + more.mass_kg,
+        inertia_kg_m2: own.inertia_kg_m2 + more.inertia_kg_m2,
+        centre_m: own.centre_m,
+    };
+    Inertia {
+        ae: arm(&own.ae, &more.ae),
+        ed: arm(&own.ed, &more.ed),
+        bc: arm(&own.bc, &more.bc),
+        cd: arm(&own.cd, &more.cd),
+        payload_kg: own.payload_kg + more.payload_kg,
+    }
+}

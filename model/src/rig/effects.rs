@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use rigproof_spec::effect::Mechanism;
-use rigproof_spec::inertia::{ArmInertia, Inertia};
 use rigproof_spec::joint::Joint;
 
 use super::left_out::{LeftOut, Term, Timed};
@@ -58,7 +57,7 @@ impl Rig {
         for effect in effects {
             let term = term(&rig, effect)?;
             if let Term::Masses(more) = &term {
-                heaviest = sum(&heaviest, more);
+                heaviest = added_mass::sum(&heaviest, more);
                 check_inertia(&heaviest)?;
             }
             if let (Some(place), true) = (effect.joint, has_dry(effect.mechanism)) {
@@ -255,7 +254,7 @@ impl Rig {
             match effects.term(k) {
                 Some(Term::Masses(more)) => {
                     let before_j = self.kinetic_energy_j();
-                    self.parameters.inertia = sum(&self.parameters.inertia, more);
+                    self.parameters.inertia = added_mass::sum(&self.parameters.inertia, more);
                     let Parameters { arms, inertia, .. } = &self.parameters;
                     self.form = two_coordinate(arms, inertia, &self.pose, self.rates_rad_s);
                     self.dissipated_j += before_j - self.kinetic_energy_j();
@@ -276,21 +275,5 @@ impl Rig {
             effects.has_begun(k);
         }
         self.effects = Some(effects);
-    }
-}
-
-/// Masses with what is added to them; centres of mass stay.
-fn sum(own: &Inertia, more: &Inertia) -> Inertia {
-    let arm = |own: &ArmInertia, more: &ArmInertia| ArmInertia {
-        mass_kg: own.mass_kg + more.mass_kg,
-        inertia_kg_m2: own.inertia_kg_m2 + more.inertia_kg_m2,
-        centre_m: own.centre_m,
-    };
-    Inertia {
-        ae: arm(&own.ae, &more.ae),
-        ed: arm(&own.ed, &more.ed),
-        bc: arm(&own.bc, &more.bc),
-        cd: arm(&own.cd, &more.cd),
-        payload_kg: own.payload_kg + more.payload_kg,
     }
 }

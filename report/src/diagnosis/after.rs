@@ -9,6 +9,7 @@ use crate::chart::{Axis, Chart, Curve, Kind, Span};
 use crate::number::{significant, with_unit};
 use crate::replay::Replay;
 use crate::statistics::{autocorrelation, histogram, normal};
+use crate::words::capital;
 
 /// Half of the histogram, in units of the noise, and its bars.
 const REACH: f64 = 6.0;
@@ -311,11 +312,4 @@ fn errors(fit: &FitReport) -> Markup {
         }
         @if let Some(drift) = &fit.drift { p { (drift) } }
     }
-}
-
-fn capital(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| {
-        first.to_uppercase().chain(letters).collect()
-    })
 }

@@ -88,11 +88,11 @@ fn bench(is_marked: bool) -> Markup {
             path d="M70 200H490" stroke="var(--line)" stroke-width="10" {}
             rect x="70" y="120" width="96" height="76" rx="8" fill="var(--card)" stroke="var(--ink)" stroke-width="3" {}
             text x="118" y="164" font-size="16" text-anchor="middle" { "motion" }
-            path d="M166 158H222M286 158H340" stroke="var(--recorded)" stroke-width="8" {}
+            path d="M166 158H222M286 158H336" stroke="var(--recorded)" stroke-width="8" {}
             circle cx="254" cy="158" r="32" fill="var(--card)" stroke="var(--ink)" stroke-width="3" {}
             text x="254" y="163" font-size="14" text-anchor="middle" { "sensor" }
-            rect x="340" y="110" width="140" height="86" rx="8" fill="var(--card)" stroke=(if is_marked { "var(--old)" } else { "var(--ink)" }) stroke-width=(if is_marked { "6" } else { "3" }) {}
-            text x="410" y="158" font-size="16" text-anchor="middle" { "brake or damper" }
+            rect x="336" y="110" width="152" height="86" rx="8" fill="var(--card)" stroke=(if is_marked { "var(--old)" } else { "var(--ink)" }) stroke-width=(if is_marked { "6" } else { "3" }) {}
+            text x="412" y="158" font-size="15" text-anchor="middle" { "brake or damper" }
         }
     }
 }

@@ -1,9 +1,9 @@
 //! This file says how far the names can be believed.
 
 use maud::{Markup, html};
-use rigproof_diagnose::report::{NamedRate, Rate, Report};
+use rigproof_diagnose::report::{NamedRate, Report};
 
-use crate::number::{percent, significant, with_unit};
+use crate::number::{percent, rate, significant, with_unit};
 use crate::words::{plain_at, plain_cause};
 
 /// Odds, resampling, floor, trials on simulated recordings, and what could have been overlooked; nothing where nothing was concluded.
@@ -47,16 +47,6 @@ fn trials(report: &Report) -> Markup {
         @if !own.false_names.is_empty() { p { "Named without being there:" } ul { @for own in &own.false_names { li { (plain_cause(&own.name)) ": " (rate(own.rate)) } } } }
         p.soft { (own.protocol) }
     }
-}
-
-fn rate(rate: Rate) -> String {
-    format!(
-        "{} of {} (95 %: {} to {})",
-        rate.count,
-        rate.of,
-        percent(rate.low95),
-        percent(rate.high95)
-    )
 }
 
 fn directions(report: &Report) -> Markup {

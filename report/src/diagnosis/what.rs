@@ -5,7 +5,7 @@ use rigproof_diagnose::report::{EffectReport, LimitOf, Number, Report};
 use std::collections::BTreeMap;
 
 use crate::number::{percent, significant, with_unit};
-use crate::words::{look_for, plain_at, plain_cause};
+use crate::words::{capital, look_for, plain_at, plain_cause};
 
 /// The named mechanisms, what is left unknown, and the nominal model's numbers; nothing where nothing was concluded.
 pub fn body(report: &Report) -> Option<Markup> {
@@ -126,12 +126,4 @@ fn not_named(report: &Report) -> Markup {
     html! { @for (words, names) in lists { @if !names.is_empty() {
         p { (words) " " @for (k, name) in names.iter().enumerate() { @if k > 0 { "; " } (plain_cause(name)) } "." }
     } } }
-}
-
-/// With its first letter large.
-fn capital(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| {
-        first.to_uppercase().chain(letters).collect()
-    })
 }

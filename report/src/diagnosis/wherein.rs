@@ -27,11 +27,18 @@ pub fn body(report: &Report, curves: &Curves, charts: &mut Vec<Chart>) -> Option
     })
 }
 
+/// Below this excess no kind of motion stands out.
+const EVEN: f64 = 0.2;
+
 /// The regime with the greatest excess in a sentence.
 fn worst(report: &Report) -> String {
     let Some(first) = report.located.first() else {
         return "Nothing could be told apart by place.".to_owned();
     };
+    if excess(first) < EVEN {
+        return "The old model fails about alike in every kind of motion: none stands out."
+            .to_owned();
+    }
     let joint = first
         .joint
         .map_or_else(String::new, |joint| format!(" at joint {joint}"));

@@ -3,14 +3,18 @@
 //! `RIGPROOF_CAMPAIGN` is the number of ticks; without it a slice runs.
 
 use rayon::prelude::*;
+use rigproof_certify::built_in::Kind;
+use rigproof_certify::differential::both::{View, reference_command, rig_law, situation};
+use rigproof_certify::differential::nudger::Nudger;
+use rigproof_certify::differential::permitted::{Permitted, permitted};
+use rigproof_certify::differential::tick::Tick;
+use rigproof_certify::differential::tie::Tie;
 use rigproof_impl::law::Law as _;
 use rigproof_spec::command::{Command, Reason};
 use rigproof_spec::joint::Joint;
 
 use crate::budget::assert_within_budget;
-use crate::impl_laws::both::{View, reference_command, rig_law, situation};
-use crate::impl_laws::permitted::{Permitted, Tie, permitted};
-use crate::impl_laws::sample::{LawKind, Sampler, Tick};
+use crate::impl_laws::sample::Sampler;
 use crate::impl_laws::tally::{Answers, quantiles};
 
 /// Ticks of one seed.
@@ -29,8 +33,8 @@ pub fn ticks() -> u64 {
 }
 
 /// Answers one tick, or says that both refuse its settings.
-fn add(answers: &mut Answers, tick: &Tick, nudger: &mut Sampler, place: &str) {
-    let refused = crate::impl_laws::both::reference(tick, View::EXACT).err();
+fn add(answers: &mut Answers, tick: &Tick, nudger: &mut Nudger, place: &str) {
+    let refused = rigproof_certify::differential::both::reference(tick, View::EXACT).err();
     match (rig_law::<f64>(tick), refused) {
         (Some(mut law), None) => {
             let rig = Command::from(law.command(&situation(tick)));
@@ -52,7 +56,7 @@ fn campaign(first_seed: u64, ticks: u64, draw: fn(&mut Sampler) -> Tick) -> Answ
     let answers = seeds
         .into_par_iter()
         .map(|seed| {
-            let (mut sampler, mut nudger) = (Sampler::new(seed), Sampler::new(!seed));
+            let (mut sampler, mut nudger) = (Sampler::new(seed), Nudger::new(!seed));
             let mut answers = Answers::default();
             for number in 0..CHUNK {
                 let place = format!("seed {seed}, tick {number}");
@@ -65,7 +69,6 @@ fn campaign(first_seed: u64, ticks: u64, draw: fn(&mut Sampler) -> Tick) -> Answ
             one
         });
     println!("rounding: {}", quantiles(&answers.rounding_a));
-    println!("amplified: {}", quantiles(&answers.amplified_a));
     println!("{count} ticks: {}", answers.counts());
     answers
 }
@@ -86,7 +89,7 @@ fn adverse_ticks_are_answered_as_by_the_reference() {
 
 #[test]
 fn a_planted_wrong_answer_is_reported() {
-    let (mut sampler, mut nudger) = (Sampler::new(17), Sampler::new(19));
+    let (mut sampler, mut nudger) = (Sampler::new(17), Nudger::new(19));
     let mut planted = 0;
     while planted < 300 {
         let tick = sampler.plain();
@@ -132,7 +135,9 @@ fn a_brake_whose_joint_stands_is_not_actuated() {
     let (mut stood, mut actuated) = (0, 0);
     while stood < 4000 {
         let mut tick = sampler.plain();
-        tick.law = LawKind::Proportional(5.3e3);
+        tick.law = Kind::Proportional {
+            gain_n_s_per_m: 5.3e3,
+        };
         for (place, row) in situation::<f64>(&tick).rows.into_iter().enumerate() {
             // Beside a right angle to the row: less than a joint's least share of the tip's motion, and more.
             let nudge = sampler.nudge();
@@ -161,7 +166,7 @@ fn a_brake_whose_joint_stands_is_not_actuated() {
 #[test]
 fn two_currents_are_permitted_only_where_they_give_one_torque() {
     // Brake E at 0.1985 A gives 4.32·0.1985 + 0.21 = 1.067 52 N·m, and at 0.201 491 A the quadratic piece gives the same.
-    let (mut sampler, mut nudger) = (Sampler::new(37), Sampler::new(41));
+    let (mut sampler, mut nudger) = (Sampler::new(37), Nudger::new(41));
     let tick = sampler.plain();
     let at = |current_a: f64| Command {
         currents_a: [0.0, current_a, 0.0, 0.0],

@@ -1,308 +1,139 @@
-//! This file says what impedance control may answer where the wanted force lies along one brake's push.
-//!
-//! That brake makes the force alone, and rounding decides whether a pair of it and an idle brake makes it too, which brake is the idle one,
-//! or whether no pair does. What such a pair asks for exists on that line alone, where a nudge hardly ever comes.
+//! This file says that beside a brake that makes a wanted force alone any idle one may be named, and nothing else passes.
 
 use nalgebra::Vector2;
-use rigproof_model::brake::current_gain;
-use rigproof_model::control::path::Nearest;
-use rigproof_model::control::torque_translation::{Share, translate};
+use rigproof_certify::built_in::Kind;
+use rigproof_certify::differential::both::{
+    View, reference_command, reference_nearest, reference_rows,
+};
+use rigproof_certify::differential::idle::answers;
+use rigproof_certify::differential::nudger::Nudger;
+use rigproof_certify::differential::permitted::permitted;
+use rigproof_certify::differential::tick::{PathKind, Tick};
 use rigproof_spec::command::{Command, Reason};
 use rigproof_spec::joint::Joint;
-use rigproof_spec::methods::{STANDING, STANDING_TIP_M_S};
-use rigproof_spec::tables::brake_table;
 
-use crate::impl_laws::both::reference_rows;
-use crate::impl_laws::permitted::LAST_DIGITS;
-use crate::impl_laws::sample::{LawKind, Tick};
+use crate::impl_laws::sample::Sampler;
 
-/// Sine of the angle between force and push, and share of one torque in another, that count as none.
-const NONE: f64 = 1e-12;
-/// A force that is small beside every brake's, so that the shares of a pair are not scaled down, N.
-const SMALL_N: f64 = 1e-6;
-
-/// A brake and its row of the Jacobian, 1/m.
-type Row = (Joint, Vector2<f64>);
-
-/// What impedance control may answer where a brake makes a wanted force alone; nothing elsewhere. A joint that all but stands may turn
-/// either way; `nearest` is how the tip lies to the path, of several points as near as told.
-pub fn answers(tick: &Tick, nearest: &Nearest) -> Vec<Command> {
-    let length_m_s = Vector2::from(tick.velocity_m_s).norm();
-    let rows = reference_rows(tick).unwrap_or_default();
-    let units = rows.iter().map(|row| row.normalize());
-    let moves = units.flat_map(|unit| [unit, -unit]);
-    let moves = moves.map(|unit| unit * (LAST_DIGITS * length_m_s));
-    let all = core::iter::once(Vector2::zeros()).chain(moves);
-    all.flat_map(|moved_m_s| {
-        let mut tick = tick.clone();
-        tick.velocity_m_s = (Vector2::from(tick.velocity_m_s) + moved_m_s).into();
-        answers_as_told(&tick, nearest)
-    })
-    .collect()
-}
-
-fn answers_as_told(tick: &Tick, nearest: &Nearest) -> Vec<Command> {
-    let (Some(wanted_n), Some(rows)) = (wanted_n(tick, nearest), reference_rows(tick)) else {
-        return Vec::new();
+/// A tick whose path lies so that the force across it is along a brake's push; turned by so much, rad.
+fn along_a_push(sampler: &mut Sampler, turn_rad: f64) -> Option<(Tick, Joint)> {
+    let mut tick = sampler.plain();
+    let rows = reference_rows(&tick)?;
+    let place = ((sampler.nudge() + 1.0) * 1.5) as usize;
+    let across = rows[place].normalize();
+    let (sine, cosine) = libm::sincos(turn_rad);
+    let along = Vector2::new(across.y, -across.x) * cosine + across * sine;
+    tick.path = PathKind::Line([[0.0137, 0.0719], [0.0137 + along.x, 0.0719 + along.y]]);
+    tick.law = Kind::Impedance {
+        stiffness_n_per_m: 317.0,
+        damping_across_n_s_per_m: 0.0,
+        damping_along_n_s_per_m: 0.0,
     };
-    let braked = |(joint, _): &Row| tick.layout.brakes().contains(joint);
-    let rows: Vec<Row> = Joint::ALL.into_iter().zip(rows).filter(braked).collect();
-    let mut answers = Vec::new();
-    let mut otherwise = Command::none(Reason::NoneHelps);
-    for force_n in wanted_n {
-        let clear = clear_pair(&rows, tick, force_n);
-        let least_nm = clear.map_or(f64::INFINITY, |(sum_nm, _)| sum_nm);
-        let alone = rows.iter().filter(|(_, row)| {
-            is_alone(row, tick, force_n) && SMALL_N / row.norm() <= least_nm * (1.0 + NONE)
-        });
-        for (joint, row) in alone {
-            answers.extend(beside_an_idle_one(&rows, tick, (*joint, *row), force_n));
-        }
-        if let Some((_, joints)) = clear
-            && let Some(shares) = pair(&rows, tick, joints, force_n)
-        {
-            otherwise = command(shares);
-            break;
-        }
-    }
-    if !answers.is_empty() {
-        answers.push(otherwise);
-    }
-    answers
+    tick.obstacle = None;
+    let joint = Joint::ALL[place];
+    tick.layout
+        .brakes()
+        .contains(&joint)
+        .then_some((tick, joint))
 }
 
-/// The commands to a brake that makes a force alone, each beside another idle one that does not stand and is not parallel.
-fn beside_an_idle_one(
-    rows: &[Row],
-    tick: &Tick,
-    (joint, row): Row,
-    force_n: Vector2<f64>,
-) -> Vec<Command> {
-    let torque_nm = force_n.norm() / row.norm();
-    let all = rows.iter().filter_map(|(other, _)| {
-        // Exactly along the push, so that the other brake has exactly nothing to do.
-        let shares = pair(rows, tick, [joint, *other], push(&row, tick))?;
-        Some(command(shares.map(|share| Share {
-            torque_nm: if share.joint == joint { torque_nm } else { 0.0 },
-            ..share
-        })))
-    });
-    all.collect()
+fn verdict(tick: &Tick, rig: Command, nudger: &mut Nudger) -> Result<(), String> {
+    let reference = reference_command(tick, View::EXACT);
+    permitted(tick, reference, rig, nudger).map(|_| ())
 }
 
-/// The forces that are tried, N, as decision 0044 has them; `None` for another law, or where nothing is wanted.
-fn wanted_n(tick: &Tick, nearest: &Nearest) -> Option<Vec<Vector2<f64>>> {
-    let LawKind::Impedance([stiffness, across, along]) = tick.law else {
-        return None;
-    };
-    let velocity_m_s = velocity_m_s(tick);
-    let tangent = nearest.tangent;
-    let left = Vector2::new(-tangent.y, tangent.x);
-    let across_n = stiffness * nearest.offset_m + across * left.dot(&velocity_m_s);
-    let across_n = left * -across_n;
-    let along_n = tangent * (-along * tangent.dot(&velocity_m_s));
-    let all = [across_n + along_n, across_n, along_n];
-    Some(
-        all.into_iter()
-            .filter(|force_n| force_n.norm() > 0.0)
-            .collect(),
-    )
-}
-
-/// The velocity of the tip, m/s; none of one that stands.
-fn velocity_m_s(tick: &Tick) -> Vector2<f64> {
-    let velocity_m_s = Vector2::from(tick.velocity_m_s);
-    if velocity_m_s.norm() < STANDING_TIP_M_S {
-        Vector2::zeros()
-    } else {
-        velocity_m_s
-    }
-}
-
-/// The force of 1 N·m of a brake against its joint's motion, N; none of a joint at rest.
-fn push(row: &Vector2<f64>, tick: &Tick) -> Vector2<f64> {
-    let velocity_m_s = velocity_m_s(tick);
-    let rate_rad_s = row.dot(&velocity_m_s);
-    if rate_rad_s.abs() <= STANDING * row.norm() * velocity_m_s.norm() {
-        Vector2::zeros()
-    } else {
-        row * -rate_rad_s.signum()
-    }
-}
-
-/// Whether a brake's push is along a force.
-fn is_alone(row: &Vector2<f64>, tick: &Tick, force_n: Vector2<f64>) -> bool {
-    let push_n = push(row, tick);
-    let product = push_n.norm() * force_n.norm();
-    push_n.dot(&force_n) > 0.0 && push_n.perp(&force_n).abs() <= NONE * product
-}
-
-/// The shares of two brakes that make a force together, as the reference has them.
-fn pair(
-    rows: &[Row],
-    tick: &Tick,
-    joints: [Joint; 2],
-    force_n: Vector2<f64>,
-) -> Option<[Share; 2]> {
-    let two: Vec<Row> = rows
+/// The commands of pairs whose currents are one brake's, whatever they are called.
+fn called_otherwise(tick: &Tick, currents_a: [f64; 4]) -> Vec<Command> {
+    let brakes = tick.layout.brakes();
+    let twos = brakes
         .iter()
-        .filter(|(joint, _)| joints.contains(joint))
-        .copied()
-        .collect();
-    translate(&two, velocity_m_s(tick), force_n)
+        .flat_map(|one| brakes.iter().map(move |other| (*one, *other)));
+    let pairs = twos.filter(|(one, other)| one != other);
+    pairs
+        .map(|(one, other)| Command {
+            currents_a,
+            reason: Reason::ChosenPair(one, other),
+        })
+        .collect()
 }
 
-/// The pair of which neither brake is idle with the least sum of torques, that sum, N·m, for a small force.
-fn clear_pair(rows: &[Row], tick: &Tick, force_n: Vector2<f64>) -> Option<(f64, [Joint; 2])> {
-    let small_n = force_n * (SMALL_N / force_n.norm());
-    let joints = rows.iter().map(|(joint, _)| *joint);
-    let twos = joints
-        .clone()
-        .flat_map(|one| joints.clone().map(move |other| [one, other]));
-    let pairs = twos.filter_map(|joints| {
-        let [one_nm, other_nm] = pair(rows, tick, joints, small_n)?.map(|share| share.torque_nm);
-        let is_clear = one_nm.min(other_nm) > NONE * one_nm.max(other_nm);
-        is_clear.then_some((one_nm + other_nm, joints))
-    });
-    pairs.min_by(|(one_nm, _), (other_nm, _)| one_nm.total_cmp(other_nm))
-}
-
-/// The command for two torques, N·m.
-fn command(shares: [Share; 2]) -> Command {
-    let [first, second] = shares.map(|share| share.joint);
-    let mut command = Command::none(Reason::ChosenPair(first, second));
-    for (joint, current_a) in Joint::ALL.into_iter().zip(&mut command.currents_a) {
-        for share in shares.iter().filter(|share| share.joint == joint) {
-            *current_a = current_gain(&brake_table(joint), share.torque_nm);
-        }
-    }
-    command
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::impl_laws::both::{View, reference_command, reference_nearest};
-    use crate::impl_laws::permitted::permitted;
-    use crate::impl_laws::sample::{PathKind, Sampler};
-
-    /// A tick whose path lies so that the force across it is along a brake's push; turned by so much, rad.
-    fn along_a_push(sampler: &mut Sampler, turn_rad: f64) -> Option<(Tick, Joint)> {
-        let mut tick = sampler.plain();
-        let rows = reference_rows(&tick)?;
-        let place = ((sampler.nudge() + 1.0) * 1.5) as usize;
-        let across = rows[place].normalize();
-        let (sine, cosine) = libm::sincos(turn_rad);
-        let along = Vector2::new(across.y, -across.x) * cosine + across * sine;
-        tick.path = PathKind::Line([[0.0137, 0.0719], [0.0137 + along.x, 0.0719 + along.y]]);
-        tick.law = LawKind::Impedance([317.0, 0.0, 0.0]);
-        tick.obstacle_left = None;
-        let joint = Joint::ALL[place];
-        tick.layout
-            .brakes()
-            .contains(&joint)
-            .then_some((tick, joint))
-    }
-
-    fn verdict(tick: &Tick, rig: Command, nudger: &mut Sampler) -> Result<(), String> {
-        let reference = reference_command(tick, View::EXACT);
-        permitted(tick, reference, rig, nudger).map(|_| ())
-    }
-
-    /// The commands of pairs whose currents are one brake's, whatever they are called.
-    fn called_otherwise(tick: &Tick, currents_a: [f64; 4]) -> Vec<Command> {
-        let brakes = tick.layout.brakes();
-        let twos = brakes
-            .iter()
-            .flat_map(|one| brakes.iter().map(move |other| (*one, *other)));
-        let pairs = twos.filter(|(one, other)| one != other);
-        pairs
-            .map(|(one, other)| Command {
-                currents_a,
-                reason: Reason::ChosenPair(one, other),
-            })
-            .collect()
-    }
-
-    #[test]
-    fn beside_a_brake_that_makes_the_force_alone_any_idle_one_may_be_named_and_no_other_command_given()
-     {
-        let (mut sampler, mut nudger) = (Sampler::new(43), Sampler::new(47));
-        let mut met = 0;
-        while met < 100 {
-            let Some((tick, joint)) = along_a_push(&mut sampler, 0.0) else {
-                continue;
+#[test]
+fn beside_a_brake_that_makes_the_force_alone_any_idle_one_may_be_named_and_no_other_command_given()
+{
+    let (mut sampler, mut nudger) = (Sampler::new(43), Nudger::new(47));
+    let mut met = 0;
+    while met < 100 {
+        let Some((tick, joint)) = along_a_push(&mut sampler, 0.0) else {
+            continue;
+        };
+        let answers = answers(&tick, &reference_nearest(&tick).unwrap());
+        let Some(right) = answers.iter().find(|command| {
+            command.currents_a.iter().filter(|a| **a > 0.01).count() == 1
+                && command.currents_a[joint as usize] > 0.01
+        }) else {
+            continue;
+        };
+        met += 1;
+        let mut weaker = *right;
+        weaker.currents_a = weaker
+            .currents_a
+            .map(|a| if a > 0.0 { a - 3.1e-6 } else { a });
+        let mut elsewhere = *right;
+        elsewhere.currents_a.rotate_right(1);
+        let mut wrong = vec![weaker, elsewhere];
+        for other in called_otherwise(&tick, right.currents_a) {
+            let Reason::ChosenPair(one, second) = other.reason else {
+                unreachable!()
             };
-            let answers = answers(&tick, &reference_nearest(&tick).unwrap());
-            let Some(right) = answers.iter().find(|command| {
-                command.currents_a.iter().filter(|a| **a > 0.01).count() == 1
-                    && command.currents_a[joint as usize] > 0.01
-            }) else {
+            if one == joint || second == joint {
                 continue;
-            };
-            met += 1;
-            let mut weaker = *right;
-            weaker.currents_a = weaker
-                .currents_a
-                .map(|a| if a > 0.0 { a - 3.1e-6 } else { a });
-            let mut elsewhere = *right;
-            elsewhere.currents_a.rotate_right(1);
-            let mut wrong = vec![weaker, elsewhere];
-            for other in called_otherwise(&tick, right.currents_a) {
-                let Reason::ChosenPair(one, second) = other.reason else {
-                    unreachable!()
-                };
-                if one == joint || second == joint {
-                    continue;
-                }
-                wrong.push(other);
             }
-            let mut back = tick.clone();
-            back.velocity_m_s = tick.velocity_m_s.map(|component| -component);
+            wrong.push(other);
+        }
+        let mut back = tick.clone();
+        back.velocity_m_s = tick.velocity_m_s.map(|component| -component);
+        assert!(
+            verdict(&back, *right, &mut nudger).is_err(),
+            "{right:?} in {back:?}"
+        );
+        for answer in &answers {
+            assert_eq!(verdict(&tick, *answer, &mut nudger), Ok(()), "{answer:?}");
+        }
+        for wrong in wrong {
             assert!(
-                verdict(&back, *right, &mut nudger).is_err(),
-                "{right:?} in {back:?}"
+                verdict(&tick, wrong, &mut nudger).is_err(),
+                "{wrong:?} in {tick:?}"
             );
-            for answer in &answers {
-                assert_eq!(verdict(&tick, *answer, &mut nudger), Ok(()), "{answer:?}");
-            }
-            for wrong in wrong {
-                assert!(
-                    verdict(&tick, wrong, &mut nudger).is_err(),
-                    "{wrong:?} in {tick:?}"
-                );
-            }
         }
     }
+}
 
-    #[test]
-    fn where_the_force_is_off_the_push_by_a_billionth_the_idle_brake_is_known() {
-        let (mut sampler, mut nudger) = (Sampler::new(53), Sampler::new(59));
-        let mut met = 0;
-        while met < 100 {
-            let turn_rad = 1.3e-9 * sampler.nudge().signum();
-            let Some((tick, _)) = along_a_push(&mut sampler, turn_rad) else {
-                continue;
-            };
-            let nearest = reference_nearest(&tick).unwrap();
-            assert_eq!(answers(&tick, &nearest), []);
-            let Some(reference) = reference_command(&tick, View::EXACT) else {
-                continue;
-            };
-            let acting = reference.currents_a.iter().filter(|a| **a > 0.01).count();
-            if acting != 1 || !matches!(reference.reason, Reason::ChosenPair(..)) {
-                continue;
-            }
-            met += 1;
-            let mut wrong = called_otherwise(&tick, reference.currents_a);
-            wrong.retain(|wrong| wrong.reason != reference.reason);
-            wrong.push(Command::none(Reason::NoneHelps));
-            for wrong in wrong {
-                assert!(
-                    verdict(&tick, wrong, &mut nudger).is_err(),
-                    "{wrong:?} in {tick:?}"
-                );
-            }
+#[test]
+fn where_the_force_is_off_the_push_by_a_billionth_the_idle_brake_is_known() {
+    let (mut sampler, mut nudger) = (Sampler::new(53), Nudger::new(59));
+    let mut met = 0;
+    while met < 100 {
+        let turn_rad = 1.3e-9 * sampler.nudge().signum();
+        let Some((tick, _)) = along_a_push(&mut sampler, turn_rad) else {
+            continue;
+        };
+        let nearest = reference_nearest(&tick).unwrap();
+        assert_eq!(answers(&tick, &nearest), []);
+        let Some(reference) = reference_command(&tick, View::EXACT) else {
+            continue;
+        };
+        let acting = reference.currents_a.iter().filter(|a| **a > 0.01).count();
+        if acting != 1 || !matches!(reference.reason, Reason::ChosenPair(..)) {
+            continue;
+        }
+        met += 1;
+        let mut wrong = called_otherwise(&tick, reference.currents_a);
+        wrong.retain(|wrong| wrong.reason != reference.reason);
+        wrong.push(Command::none(Reason::NoneHelps));
+        for wrong in wrong {
+            assert!(
+                verdict(&tick, wrong, &mut nudger).is_err(),
+                "{wrong:?} in {tick:?}"
+            );
         }
     }
 }

@@ -6,25 +6,26 @@
 use std::collections::BTreeMap;
 
 use rayon::prelude::*;
+use rigproof_certify::built_in::Kind as Law;
+use rigproof_certify::differential::both::{Seen, View, reference_path, rig_law, sense};
+use rigproof_certify::differential::nudger::Nudger;
+use rigproof_certify::differential::tick::{PathKind, Tick};
 use rigproof_impl::plant::{Outcome, Parameters as PlantParameters, Plant};
 use rigproof_impl::tick::{Sensed, Settings, Tick as RigTick};
 use rigproof_model::brake::{Backlash, BrakeState};
 use rigproof_model::encoder::Encoder;
 use rigproof_model::linkage::singularity::{Pair, measure};
-use rigproof_model::motion::two_coordinate::two_coordinate;
 use rigproof_model::operator::{Abilities, Hand as _, Operator};
 use rigproof_model::rig::{Moment, Parameters, Rig};
 use rigproof_model::velocity::AdaptiveWindow;
 use rigproof_spec::command::{Command, Reason};
 use rigproof_spec::geometry::arms;
-use rigproof_spec::inertia::inertia;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
 use rigproof_spec::methods::SAMPLE_STEP_S;
 
 use crate::budget::assert_within_budget;
-use crate::impl_laws::both::{Seen, View, reference_path, rig_law};
-use crate::impl_laws::sample::{LawKind, PathKind, Sampler, Tick};
+use crate::impl_laws::sample::Sampler;
 use crate::impl_laws::tally::{Answers, quantiles};
 
 /// Runs of the slice that every test run takes.
@@ -211,14 +212,14 @@ impl Run {
     }
 }
 
-fn place(law: LawKind) -> u64 {
+fn place(law: Law) -> u64 {
     match law {
-        LawKind::Uncontrolled => 0,
-        LawKind::Sdof(_) => 1,
-        LawKind::Proportional(_) => 2,
-        LawKind::Ratio(_) => 3,
-        LawKind::Optimal(_) => 4,
-        LawKind::Impedance(_) => 5,
+        Law::Uncontrolled => 0,
+        Law::Sdof { .. } => 1,
+        Law::Proportional { .. } => 2,
+        Law::VelocityRatio { .. } => 3,
+        Law::Optimal { .. } => 4,
+        Law::Impedance { .. } => 5,
     }
 }
 
@@ -245,7 +246,7 @@ fn move_to(path: &mut PathKind, [x, y]: [f64; 2]) {
 }
 
 fn tally(seed: u64) -> Tally {
-    let (mut sampler, mut nudger) = (Sampler::new(seed), Sampler::new(!seed));
+    let (mut sampler, mut nudger) = (Sampler::new(seed), Nudger::new(!seed));
     let mut tally = Tally::default();
     let mut run = Run::new(seed, &mut sampler);
     let settings = Settings {
@@ -288,15 +289,6 @@ fn tally(seed: u64) -> Tally {
         }
     }
     tally
-}
-
-/// What the reference makes of a sample: pose, the tip's velocity by its Jacobian, push.
-fn sense(tick: &mut Tick, base_rad: [f64; 2], rates_rad_s: [f64; 2], force_n: [f64; 2]) {
-    (tick.base_rad, tick.force_n) = (base_rad, force_n);
-    if let Some(sensed) = crate::impl_laws::both::sensed(tick) {
-        let form = two_coordinate(&tick.arms, &inertia(tick.layout), &sensed.pose, rates_rad_s);
-        tick.velocity_m_s = form.tip_velocity_m_s(rates_rad_s);
-    }
 }
 
 #[test]

@@ -1,11 +1,12 @@
 //! This file says that every point lies to the rig's path as it lies to the reference's: as far, on the same side, beside the same direction.
 
 use nalgebra::Vector2;
+use rigproof_certify::differential::both::{reference_path, rig_path};
+use rigproof_certify::differential::tick::PathKind;
 use rigproof_impl::path::Path as _;
 
 use crate::budget::assert_within_budget;
-use crate::impl_laws::both::{reference_path, rig_path};
-use crate::impl_laws::sample::{PathKind, Sampler};
+use crate::impl_laws::sample::Sampler;
 
 /// Paths that are drawn; each is asked about as many points as [`POINTS`].
 const PATHS: usize = 20_000;

@@ -4,6 +4,10 @@ use std::collections::BTreeSet;
 use std::sync::Mutex;
 
 use proptest::prelude::*;
+use rigproof_certify::built_in::Kind;
+use rigproof_certify::declared::Solid;
+use rigproof_certify::differential::both::{rig_law, rig_path, situation};
+use rigproof_certify::differential::tick::Tick;
 use rigproof_impl::law::{Field, Law as _};
 use rigproof_impl::number::Real;
 use rigproof_impl::path::Path as _;
@@ -13,8 +17,7 @@ use rigproof_spec::laws::{
 };
 use rigproof_tests::cases;
 
-use crate::impl_laws::both::{rig_law, rig_path, situation};
-use crate::impl_laws::sample::{LawKind, Sampler, Tick};
+use crate::impl_laws::sample::Sampler;
 
 /// The laws that a command breaks.
 fn broken<R: Real>(tick: &Tick, command: &Command) -> Vec<&'static str> {
@@ -23,9 +26,9 @@ fn broken<R: Real>(tick: &Tick, command: &Command) -> Vec<&'static str> {
     let nearest = path.nearest(now.linkage.tip_m);
     let offset_m = nearest.offset_m.to_f64();
     let most = match tick.law {
-        LawKind::Uncontrolled => 0,
-        LawKind::Sdof(_) | LawKind::Proportional(_) | LawKind::Optimal(_) => 1,
-        LawKind::Ratio(_) | LawKind::Impedance(_) => 2,
+        Kind::Uncontrolled => 0,
+        Kind::Sdof { .. } | Kind::Proportional { .. } | Kind::Optimal { .. } => 1,
+        Kind::VelocityRatio { .. } | Kind::Impedance { .. } => 2,
     };
     let field = Field::<R>::new(tick.boundary_m).expect("checked");
     let desired = field.desired(&nearest, now.tip_force_n);
@@ -62,12 +65,15 @@ fn broken<R: Real>(tick: &Tick, command: &Command) -> Vec<&'static str> {
             .currents_a
             .map(|current_a| ("current_limit", current_limit(current_a))),
     );
-    if let LawKind::Sdof(gap_m) = tick.law {
+    if let Kind::Sdof { gap_m } = tick.law {
         let gap_m = R::of(gap_m).to_f64();
         checks.push(("gap", gap(offset_m.abs(), gap_m, command)));
     }
-    if let Some(left) = tick.obstacle_left {
-        let depth_m = if left { offset_m } else { -offset_m };
+    if let Some(solid) = tick.obstacle {
+        let depth_m = match solid {
+            Solid::Left => offset_m,
+            Solid::Right => -offset_m,
+        };
         checks.push(("free_side", free_side(depth_m, command)));
     }
     checks
@@ -81,22 +87,24 @@ fn broken<R: Real>(tick: &Tick, command: &Command) -> Vec<&'static str> {
 fn answers(tick: &Tick, reason: Reason) -> bool {
     use Reason as R;
     let own = match tick.law {
-        LawKind::Uncontrolled => matches!(reason, R::Uncontrolled),
-        LawKind::Sdof(_) => matches!(
+        Kind::Uncontrolled => matches!(reason, R::Uncontrolled),
+        Kind::Sdof { .. } => matches!(
             reason,
             R::Chosen(_) | R::LockedPushedAway | R::InsideGap | R::NoneHelps
         ),
-        LawKind::Proportional(_) => matches!(
+        Kind::Proportional { .. } => matches!(
             reason,
             R::Chosen(_) | R::LockedPushedAway | R::LockedMovingBack | R::NoneHelps
         ),
-        LawKind::Ratio(_) => matches!(reason, R::Chosen(_) | R::ChosenPair(..) | R::NothingToDo),
-        LawKind::Optimal(_) => matches!(reason, R::Chosen(_) | R::NothingToDo | R::NoneHelps),
-        LawKind::Impedance(_) => {
+        Kind::VelocityRatio { .. } => {
+            matches!(reason, R::Chosen(_) | R::ChosenPair(..) | R::NothingToDo)
+        }
+        Kind::Optimal { .. } => matches!(reason, R::Chosen(_) | R::NothingToDo | R::NoneHelps),
+        Kind::Impedance { .. } => {
             matches!(reason, R::ChosenPair(..) | R::NothingToDo | R::NoneHelps)
         }
     };
-    let wrapped = tick.obstacle_left.is_some() && reason == R::FreeSide;
+    let wrapped = tick.obstacle.is_some() && reason == R::FreeSide;
     own || wrapped || matches!(reason, R::SingularPose | R::UndefinedInput)
 }
 

@@ -4,47 +4,14 @@ use core::f64::consts::PI;
 
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
+use rigproof_certify::built_in::Kind;
+use rigproof_certify::declared::Solid;
+use rigproof_certify::differential::both::{reference_distance_m, reference_rows, reference_tip};
+use rigproof_certify::differential::tick::{PathKind, Tick};
 use rigproof_model::linkage::forward;
 use rigproof_spec::geometry::{Arms, arms};
 use rigproof_spec::layout::Layout;
 use rigproof_spec::methods::greatest_desired_force_n;
-
-/// Everything that both implementations are told in one tick.
-#[derive(Clone, Debug)]
-pub struct Tick {
-    pub layout: Layout,
-    pub arms: Arms,
-    pub limit_n: f64,
-    /// θA and θB, rad.
-    pub base_rad: [f64; 2],
-    pub velocity_m_s: [f64; 2],
-    pub force_n: [f64; 2],
-    pub path: PathKind,
-    pub boundary_m: f64,
-    pub law: LawKind,
-    /// Whether an obstacle lies on the left (true) or the right of the path, if at all.
-    pub obstacle_left: Option<bool>,
-}
-
-/// A path of one of four kinds, m and rad.
-#[derive(Clone, Debug)]
-pub enum PathKind {
-    Line([[f64; 2]; 2]),
-    Arc([f64; 2], [f64; 3]),
-    Polyline(Vec<[f64; 2]>, bool),
-    Spline(Vec<[f64; 2]>),
-}
-
-/// A law with its settings: gap; gain; gain; weights and horizon; stiffness and dampings.
-#[derive(Clone, Copy, Debug)]
-pub enum LawKind {
-    Uncontrolled,
-    Sdof(f64),
-    Proportional(f64),
-    Ratio(f64),
-    Optimal([f64; 3]),
-    Impedance([f64; 3]),
-}
 
 /// Draws ticks from a seed.
 pub struct Sampler(Pcg64Mcg);
@@ -107,8 +74,12 @@ impl Sampler {
             path: self.path(),
             boundary_m,
             law: self.law(boundary_m),
-            obstacle_left: if self.one_in(8) {
-                Some(self.one_in(2))
+            obstacle: if self.one_in(8) {
+                Some(if self.one_in(2) {
+                    Solid::Left
+                } else {
+                    Solid::Right
+                })
             } else {
                 None
             },
@@ -161,28 +132,41 @@ impl Sampler {
         (0..count).map(|_| self.point()).collect()
     }
 
-    fn law(&mut self, boundary_m: f64) -> LawKind {
+    fn law(&mut self, boundary_m: f64) -> Kind {
         match self.0.random_range(0..32_u32) {
-            0 => LawKind::Uncontrolled,
-            1..11 => LawKind::Sdof(if self.one_in(2) {
-                0.0
-            } else {
-                self.between(0.0, boundary_m)
-            }),
-            11..21 => LawKind::Proportional(self.magnitude(0.3, 5.9)),
-            21..26 => LawKind::Ratio(self.magnitude(-1.3, 3.1)),
-            26..31 => LawKind::Impedance([1.1, 0.3, 0.1].map(|low| {
-                if self.one_in(4) {
+            0 => Kind::Uncontrolled,
+            1..11 => Kind::Sdof {
+                gap_m: if self.one_in(2) {
                     0.0
                 } else {
-                    self.magnitude(low, low + 2.3)
+                    self.between(0.0, boundary_m)
+                },
+            },
+            11..21 => Kind::Proportional {
+                gain_n_s_per_m: self.magnitude(0.3, 5.9),
+            },
+            21..26 => Kind::VelocityRatio {
+                gain_nm_s_per_rad: self.magnitude(-1.3, 3.1),
+            },
+            26..31 => {
+                let [stiffness, across, along] = [1.1, 0.3, 0.1].map(|low| {
+                    if self.one_in(4) {
+                        0.0
+                    } else {
+                        self.magnitude(low, low + 2.3)
+                    }
+                });
+                Kind::Impedance {
+                    stiffness_n_per_m: stiffness,
+                    damping_across_n_s_per_m: across,
+                    damping_along_n_s_per_m: along,
                 }
-            })),
-            _ => LawKind::Optimal([
-                self.magnitude(-1.1, 1.1),
-                self.magnitude(-2.3, 0.7),
-                self.magnitude(-3.3, -0.9),
-            ]),
+            }
+            _ => Kind::Optimal {
+                weight_angle: self.magnitude(-1.1, 1.1),
+                weight_energy: self.magnitude(-2.3, 0.7),
+                horizon_s: self.magnitude(-3.3, -0.9),
+            },
         }
     }
 
@@ -248,7 +232,7 @@ impl Sampler {
 
     /// The tip moves so that one joint stands: along the arm on which the tip then turns.
     fn at_rest(&mut self, tick: &mut Tick) {
-        let Some(rows) = super::both::reference_rows(tick) else {
+        let Some(rows) = reference_rows(tick) else {
             return;
         };
         let row = self.pick(&rows);
@@ -258,7 +242,7 @@ impl Sampler {
 
     /// The path goes through the tip, or has a corner there, or the gap or the boundary ends there.
     fn on_path(&mut self, tick: &mut Tick) {
-        let Some(tip_m) = super::both::reference_tip(tick) else {
+        let Some(tip_m) = reference_tip(tick) else {
             return;
         };
         match &mut tick.path {
@@ -305,12 +289,14 @@ impl Sampler {
 
     /// Gap and boundary exactly as far as the tip is from the path.
     fn at_reach(&mut self, tick: &mut Tick) {
-        let Some(distance_m) = super::both::reference_distance_m(tick) else {
+        let Some(distance_m) = reference_distance_m(tick) else {
             return;
         };
         tick.boundary_m = distance_m.clamp(1.3e-7, 0.61);
         tick.law = match tick.law {
-            LawKind::Sdof(_) => LawKind::Sdof(tick.boundary_m),
+            Kind::Sdof { .. } => Kind::Sdof {
+                gap_m: tick.boundary_m,
+            },
             law => law,
         };
     }

@@ -4,6 +4,13 @@ use std::collections::BTreeMap;
 
 use nalgebra::Vector2;
 use rayon::prelude::*;
+use rigproof_certify::differential::answer::apart_a;
+use rigproof_certify::differential::both::{
+    View, reference_command, reference_path, rig_law, rig_path, sensed, situation,
+};
+use rigproof_certify::differential::level::cost_the_same;
+use rigproof_certify::differential::nudger::Nudger;
+use rigproof_certify::differential::tick::Tick;
 use rigproof_impl::law::Law as _;
 use rigproof_impl::number::Real;
 use rigproof_impl::path::Path as _;
@@ -14,12 +21,7 @@ use rigproof_spec::command::{Command, Reason};
 
 use crate::budget::assert_within_budget;
 use crate::impl_laws::agree::ticks;
-use crate::impl_laws::both::{
-    View, reference_command, reference_path, rig_law, rig_path, sensed, situation,
-};
-use crate::impl_laws::level::cost_the_same;
-use crate::impl_laws::permitted::apart_a;
-use crate::impl_laws::sample::{Sampler, Tick};
+use crate::impl_laws::sample::Sampler;
 use crate::impl_laws::tally::quantiles;
 
 /// Ticks that may decide otherwise, or take another foot or level, as a share of all; each has a [`Cause`] that was checked. Of five million 55.
@@ -57,7 +59,7 @@ fn command<R: Real>(tick: &Tick) -> Command {
 }
 
 /// The tick with everything that is measured moved by a share of itself, the angles by rad.
-fn nudged(tick: &Tick, size: f64, nudger: &mut Sampler) -> Tick {
+fn nudged(tick: &Tick, size: f64, nudger: &mut Nudger) -> Tick {
     let mut tick = tick.clone();
     let mut moved = |[x, y]: [f64; 2]| {
         let length = libm::hypot(x, y);
@@ -95,9 +97,9 @@ struct Tally {
 }
 
 impl Tally {
-    fn add(&mut self, tick: &Tick, nudger: &mut Sampler, place: &str) {
+    fn add(&mut self, tick: &Tick, nudger: &mut Nudger, place: &str) {
         let (double, single) = (command::<f64>(tick), command::<f32>(tick));
-        let apart_a = apart_a(&double, &single);
+        let apart_a = apart_a(double.currents_a, single.currents_a);
         let same = double.reason == single.reason;
         if same && apart_a <= ROUNDING_A {
             return self.rounding_a.push(apart_a);
@@ -122,12 +124,12 @@ impl Tally {
 }
 
 /// The first cause that is found.
-fn cause(tick: &Tick, double: &Command, single: &Command, nudger: &mut Sampler) -> Option<Cause> {
-    let apart_a = apart_a(double, single);
+fn cause(tick: &Tick, double: &Command, single: &Command, nudger: &mut Nudger) -> Option<Cause> {
+    let apart_a = apart_a(double.currents_a, single.currents_a);
     let same = double.reason == single.reason;
     let takes = |other: Command| {
-        let reached = self::apart_a(&other, single) <= 0.1 * apart_a;
-        let moved = self::apart_a(double, &other) >= apart_a;
+        let reached = self::apart_a(other.currents_a, single.currents_a) <= 0.1 * apart_a;
+        let moved = self::apart_a(double.currents_a, other.currents_a) >= apart_a;
         other.reason == single.reason && (!same || reached || moved)
     };
     let mut nudges = NUDGES.into_iter().flat_map(|size| [size; TRIES]);
@@ -141,7 +143,8 @@ fn cause(tick: &Tick, double: &Command, single: &Command, nudger: &mut Sampler) 
     if let Some(seen) = as_seen(tick) {
         let given = |tick: &Tick| reference_command(tick, View::Given(seen));
         let reached = |other: Command| {
-            other.reason == single.reason && self::apart_a(&other, single) <= EQUAL_A
+            other.reason == single.reason
+                && self::apart_a(other.currents_a, single.currents_a) <= EQUAL_A
         };
         let near = [0.0; TRIES].map(|_| nudged(tick, LEAST_NUDGE, nudger));
         if core::iter::once(tick)
@@ -152,7 +155,7 @@ fn cause(tick: &Tick, double: &Command, single: &Command, nudger: &mut Sampler) 
             return Some(Cause::Foot);
         }
     }
-    cost_the_same(tick, double, single, SINGLE).then_some(Cause::Level)
+    cost_the_same(tick, double, *single, SINGLE).then_some(Cause::Level)
 }
 
 /// The nearest point of the path as single precision sees it, if it is one of the path, and as near as any, to a float.
@@ -198,7 +201,7 @@ fn single_precision_decides_as_double_precision_but_for_ties_of_its_own() {
     let ticks = ticks() / 2;
     let seeds = 2_003_000..2_003_000 + ticks.div_ceil(CHUNK);
     let all = seeds.into_par_iter().map(|seed| {
-        let mut nudger = Sampler::new(!seed);
+        let mut nudger = Nudger::new(!seed);
         let mut tally = Tally::default();
         for (number, tick) in (0..CHUNK).zip(compared(seed)) {
             let place = format!("seed {seed}, tick {number}");

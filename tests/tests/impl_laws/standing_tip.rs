@@ -1,12 +1,15 @@
 //! This file says that a tip which is slower than a picometre a second stands, for reference and rig, whatever its squares come to.
 
+use rigproof_certify::built_in::Kind;
+use rigproof_certify::differential::both::{View, reference_command, rig_law, situation};
+use rigproof_certify::differential::nudger::Nudger;
+use rigproof_certify::differential::permitted::permitted;
+use rigproof_certify::differential::tick::Tick;
 use rigproof_impl::law::Law as _;
 use rigproof_impl::number::Real;
 use rigproof_spec::command::{Command, Reason};
 
-use crate::impl_laws::both::{View, reference_command, rig_law, situation};
-use crate::impl_laws::permitted::permitted;
-use crate::impl_laws::sample::{LawKind, Sampler, Tick};
+use crate::impl_laws::sample::Sampler;
 
 /// Speeds below a picometre a second, m/s: squares that are normal numbers, that lose digits and that vanish, in one precision or both.
 const SLOW_M_S: [f64; 5] = [0.97e-12, 3.1e-21, 2.3e-155, 2.3e-162, 7e-322];
@@ -18,11 +21,11 @@ fn rig<R: Real>(tick: &Tick) -> Command {
 
 #[test]
 fn a_tip_slower_than_a_picometre_a_second_stands() {
-    let (mut sampler, mut nudger) = (Sampler::new(43), Sampler::new(47));
+    let (mut sampler, mut nudger) = (Sampler::new(43), Nudger::new(47));
     let (mut stood, mut acted) = (0, 0);
     while stood < 20_000 {
         let mut tick = sampler.plain();
-        let by_velocity = !matches!(tick.law, LawKind::Uncontrolled | LawKind::Sdof(_));
+        let by_velocity = !matches!(tick.law, Kind::Uncontrolled | Kind::Sdof { .. });
         if !by_velocity || reference_command(&tick, View::EXACT).is_none() {
             continue;
         }
@@ -70,7 +73,7 @@ fn the_tick_that_was_decided_by_squares_that_vanish_is_answered_as_by_the_refere
     };
     let tick = (0..433).map(|_| sampler.adverse()).last().unwrap();
     assert!(
-        slow(&tick) && matches!(tick.law, LawKind::Impedance(_)),
+        slow(&tick) && matches!(tick.law, Kind::Impedance { .. }),
         "{tick:?}"
     );
     let reference = reference_command(&tick, View::EXACT).unwrap();

@@ -2,11 +2,12 @@
 
 use std::collections::BTreeMap;
 
+use rigproof_certify::differential::both::{View, reference_command};
+use rigproof_certify::differential::nudger::Nudger;
+use rigproof_certify::differential::permitted::{Permitted, permitted};
+use rigproof_certify::differential::tick::Tick;
+use rigproof_certify::differential::tie::Ties;
 use rigproof_spec::command::Command;
-
-use crate::impl_laws::both::{View, reference_command};
-use crate::impl_laws::permitted::{Permitted, Tie, permitted};
-use crate::impl_laws::sample::{Sampler, Tick};
 
 /// What became of many answers.
 #[derive(Default)]
@@ -17,15 +18,14 @@ pub struct Answers {
     pub rounding_a: Vec<f64>,
     /// The greatest of them, A, and where.
     furthest: (f64, String),
-    pub amplified_a: Vec<f64>,
-    pub ties: BTreeMap<Tie, u64>,
+    pub ties: Ties,
     pub reasons: BTreeMap<String, u64>,
     pub wrong: Vec<String>,
 }
 
 impl Answers {
     /// Holds the rig's answer to the reference's; what is wrong is told with its place.
-    pub fn add(&mut self, tick: &Tick, rig: Command, nudger: &mut Sampler, place: &str) {
+    pub fn add(&mut self, tick: &Tick, rig: Command, nudger: &mut Nudger, place: &str) {
         *self.reasons.entry(format!("{:?}", rig.reason)).or_default() += 1;
         match permitted(tick, reference_command(tick, View::EXACT), rig, nudger) {
             Ok(Permitted::Same) => self.same += 1,
@@ -35,8 +35,7 @@ impl Answers {
                     self.furthest = (current_a, place.to_owned());
                 }
             }
-            Ok(Permitted::Amplified(current_a)) => self.amplified_a.push(current_a),
-            Ok(Permitted::Tie(tie)) => *self.ties.entry(tie).or_default() += 1,
+            Ok(Permitted::Tie(tie)) => self.ties.add(tie),
             Err(wrong) => self.wrong.push(format!("{place}: {wrong}")),
         }
     }
@@ -48,10 +47,7 @@ impl Answers {
         if other.furthest.0 > self.furthest.0 {
             self.furthest = other.furthest;
         }
-        self.amplified_a.extend(other.amplified_a);
-        for (tie, count) in other.ties {
-            *self.ties.entry(tie).or_default() += count;
-        }
+        self.ties.join(&other.ties);
         for (reason, count) in other.reasons {
             *self.reasons.entry(reason).or_default() += count;
         }
@@ -61,14 +57,13 @@ impl Answers {
     /// The counts in a line.
     pub fn counts(&self) -> String {
         format!(
-            "{} refused by both, {} the same, {} within rounding ({:e} A at {}), {} amplified, ties {:?}, reasons {:?}",
+            "{} refused by both, {} the same, {} within rounding ({:e} A at {}), ties {:?}, reasons {:?}",
             self.refused,
             self.same,
             self.rounding_a.len(),
             self.furthest.0,
             self.furthest.1,
-            self.amplified_a.len(),
-            self.ties,
+            self.ties.met().collect::<Vec<_>>(),
             self.reasons
         )
     }

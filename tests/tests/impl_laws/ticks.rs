@@ -3,19 +3,19 @@
 //! `RIGPROOF_CAMPAIGN` is the number of ticks; without it a slice runs.
 
 use rayon::prelude::*;
+use rigproof_certify::differential::both::{rig_law, sense};
+use rigproof_certify::differential::nudger::Nudger;
+use rigproof_certify::differential::tick::Tick;
 use rigproof_impl::guard::RECOVERY_SAMPLES;
 use rigproof_impl::tick::{Sensed, Settings, Tick as RigTick};
 use rigproof_impl::vector::Vector;
 use rigproof_model::encoder::Encoder;
-use rigproof_model::motion::two_coordinate::two_coordinate;
 use rigproof_model::velocity::AdaptiveWindow;
 use rigproof_spec::command::Command;
-use rigproof_spec::inertia::inertia;
 use rigproof_spec::methods::SAMPLE_STEP_S;
 
 use crate::budget::assert_within_budget;
-use crate::impl_laws::both::rig_law;
-use crate::impl_laws::sample::{Sampler, Tick};
+use crate::impl_laws::sample::Sampler;
 use crate::impl_laws::tally::Answers;
 
 /// Ticks of the slice that every test run takes.
@@ -59,17 +59,14 @@ fn from_counts(sampler: &mut Sampler) -> (Tick, Vec<Sensed<f64>>, Settings, [f64
             }
         })
         .collect();
-    tick.base_rad = [0, 1].map(|joint| travels[joint] as f64 * encoders[joint].resolution_rad());
-    // The tip's velocity by the reference's Jacobian.
-    if let Some(sensed) = crate::impl_laws::both::sensed(&tick) {
-        let form = two_coordinate(&tick.arms, &inertia(tick.layout), &sensed.pose, rates_rad_s);
-        tick.velocity_m_s = form.tip_velocity_m_s(rates_rad_s);
-    }
+    let base_rad = [0, 1].map(|joint| travels[joint] as f64 * encoders[joint].resolution_rad());
+    let force_n = tick.force_n;
+    sense(&mut tick, base_rad, rates_rad_s, force_n);
     (tick, samples, settings, rates_rad_s)
 }
 
 fn tally(seed: u64) -> Tally {
-    let (mut sampler, mut nudger) = (Sampler::new(seed), Sampler::new(!seed));
+    let (mut sampler, mut nudger) = (Sampler::new(seed), Nudger::new(!seed));
     let mut tally = Tally::default();
     for number in 0..CHUNK {
         let place = format!("seed {seed}, tick {number}");

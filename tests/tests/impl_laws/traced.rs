@@ -2,6 +2,13 @@
 //! to rounding (decision 0117).
 
 use nalgebra::Vector2;
+use rigproof_certify::built_in::Kind;
+use rigproof_certify::differential::both::{View, reference_command, rig_law, situation};
+use rigproof_certify::differential::level::cost_the_same;
+use rigproof_certify::differential::nudger::Nudger;
+use rigproof_certify::differential::permitted::{Permitted, permitted};
+use rigproof_certify::differential::tick::{PathKind, Tick};
+use rigproof_certify::differential::tie::Tie;
 use rigproof_impl::law::Law as _;
 use rigproof_impl::number::Real;
 use rigproof_spec::command::{Command, Reason};
@@ -9,10 +16,7 @@ use rigproof_spec::geometry::Arms;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
 
-use crate::impl_laws::both::{View, reference_command, rig_law, situation};
-use crate::impl_laws::level::cost_the_same;
-use crate::impl_laws::permitted::{Permitted, Tie, permitted};
-use crate::impl_laws::sample::{LawKind, PathKind, Sampler, Tick};
+use crate::impl_laws::sample::Sampler;
 
 fn rig<R: Real>(tick: &Tick) -> Command {
     let mut law = rig_law::<R>(tick).expect("plain settings");
@@ -25,7 +29,7 @@ fn on_folded_arms_two_brakes_cost_the_same_to_the_last_digit_of_the_energies() {
     let tick = (0..862).map(|_| sampler.adverse()).last().unwrap();
     let speed_m_s = Vector2::from(tick.velocity_m_s).norm();
     assert!(speed_m_s > 1011.0, "{tick:?}");
-    let mut nudger = Sampler::new(53);
+    let mut nudger = Nudger::new(53);
     let [a, e, b] =
         [Joint::A, Joint::E, Joint::B].map(|joint| Command::none(Reason::Chosen(joint)));
     let reference = reference_command(&tick, View::EXACT).unwrap();
@@ -41,8 +45,10 @@ fn on_folded_arms_two_brakes_cost_the_same_to_the_last_digit_of_the_energies() {
         assert!(verdict.is_err(), "{wrong:?} passes as {verdict:?}");
     }
     let mut other = tick.clone();
-    other.law = LawKind::Proportional(570.3);
-    assert!(!cost_the_same(&other, &a, &b, 1.0));
+    other.law = Kind::Proportional {
+        gain_n_s_per_m: 570.3,
+    };
+    assert!(!cost_the_same(&other, &a, b, 1.0));
 }
 
 #[test]
@@ -70,8 +76,12 @@ fn in_single_precision_a_brake_that_stops_its_joint_at_once_costs_as_much_as_non
         force_n: [41.807731250805055, 31.543322655578365],
         path: PathKind::Polyline(corners_m, true),
         boundary_m: 0.2357499095470055,
-        law: LawKind::Optimal([6.512215268816821, 0.7045518037578258, 0.0005166695389253538]),
-        obstacle_left: None,
+        law: Kind::Optimal {
+            weight_angle: 6.512215268816821,
+            weight_energy: 0.7045518037578258,
+            horizon_s: 0.0005166695389253538,
+        },
+        obstacle: None,
     };
     let (a, none) = (
         Command::none(Reason::Chosen(Joint::A)),
@@ -79,11 +89,11 @@ fn in_single_precision_a_brake_that_stops_its_joint_at_once_costs_as_much_as_non
     );
     assert_eq!((rig::<f64>(&tick), rig::<f32>(&tick)), (a, none));
     let single = f64::from(f32::EPSILON);
-    assert!(cost_the_same(&tick, &a, &none, single));
+    assert!(cost_the_same(&tick, &a, none, single));
     // Double precision can tell; and the push stops the joints of the others, so that they are not tried.
-    assert!(!cost_the_same(&tick, &a, &none, f64::EPSILON));
+    assert!(!cost_the_same(&tick, &a, none, f64::EPSILON));
     for joint in [Joint::E, Joint::B] {
         let other = Command::none(Reason::Chosen(joint));
-        assert!(!cost_the_same(&tick, &a, &other, single), "{joint:?}");
+        assert!(!cost_the_same(&tick, &a, other, single), "{joint:?}");
     }
 }

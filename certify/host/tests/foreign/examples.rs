@@ -19,7 +19,7 @@ use crate::bench::{ROOM, compiled, compiler, foreign, limits, line, named, runni
 type AnyOf = AnyPath<f64, MOST_POINTS>;
 
 /// The newest file beside this test, or in a folder beside it, whose name begins and ends so.
-fn built(folder: &str, begins: &str, ends: &str) -> Option<PathBuf> {
+pub fn built(folder: &str, begins: &str, ends: &str) -> Option<PathBuf> {
     let test = std::env::current_exe().unwrap();
     let files = test.parent().unwrap().join(folder).read_dir().ok()?;
     let files = files.map(|entry| entry.unwrap().path());

@@ -5,6 +5,7 @@ mod bench;
 mod examples;
 mod faults;
 mod planted;
+mod planted_law;
 mod processes;
 mod trials;
 

@@ -1,13 +1,13 @@
 //! This file plays an experiment on the reference rig: what encoders, force sensor and amplifiers would record of it.
 
-use super::super::free_run::Model;
+use super::super::free_run::{Model, parts_of};
 use super::plan::Plan;
 use crate::problem::shifted;
 use crate::sensor::normal;
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::SeedableRng;
 use rigproof_model::error::ModelError;
-use rigproof_model::rig::{JointEffect, LONGEST_STEP_S, Rig};
+use rigproof_model::rig::{JointEffect, Rig};
 use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
@@ -17,9 +17,9 @@ use rigproof_trace::rig::Signal;
 use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording};
 
 /// The stiffness with which a hand leads the tip, N/m.
-const STIFFNESS_N_M: f64 = 420.0;
+pub(crate) const STIFFNESS_N_M: f64 = 420.0;
 /// The damping of a hand, N·s/m.
-const DAMPING_NS_M: f64 = 11.0;
+pub(crate) const DAMPING_NS_M: f64 = 11.0;
 
 /// What is recorded of an experiment, before counts and noise.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -67,9 +67,7 @@ pub fn with_effects(model: &Model, layout: Layout, tip_m: [f64; 2]) -> Result<Ri
 pub fn play(model: &Model, layout: Layout, plan: &Plan) -> Result<Played, ModelError> {
     let start = plan.hand_m.first().copied().unwrap_or_default();
     let mut rig = with_effects(model, layout, start)?;
-    let parts = (plan.step_s / LONGEST_STEP_S * (1.0 - 1e-9))
-        .ceil()
-        .max(1.0);
+    let parts = parts_of(plan.step_s);
     let step_s = plan.step_s / parts;
     let mut played = Played::default();
     let next = plan.hand_m.iter().skip(1).chain(plan.hand_m.last());

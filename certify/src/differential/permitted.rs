@@ -14,12 +14,16 @@ use rigproof_spec::geometry::Arms;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::settings::RATIO_GAIN_RANGE_NM_S_PER_RAD;
 
-use crate::impl_laws::both::{
+use super::answer::{Answer, apart_a};
+use super::both::{
     View, reference_command, reference_nearest, reference_path, rig_path, situation,
 };
-use crate::impl_laws::idle;
-use crate::impl_laws::level::cost_the_same;
-use crate::impl_laws::sample::{LawKind, Sampler, Tick};
+use super::idle;
+use super::level::cost_the_same;
+use super::nudger::Nudger;
+use super::tick::Tick;
+use super::tie::Tie;
+use crate::built_in::Kind;
 
 /// Sizes of the nudges, relative to what is nudged; of an angle, rad, of the distance from the path, m.
 const NUDGES: [f64; 3] = [1e-15, 3e-14, 1e-12];
@@ -33,7 +37,7 @@ const TRIES: u32 = 100;
 const ROUNDING_A: f64 = 1e-12;
 /// Currents that may at all count as equal, A. What is neither amplified nor beyond this goes to the budget of `tests/budgets.toml`, which is
 /// nearer to [`ROUNDING_A`].
-const EQUAL_A: f64 = 1e-8;
+pub const EQUAL_A: f64 = 1e-8;
 /// How far beyond the currents of nudged ticks a current may lie, A.
 const AMONG_A: f64 = 1e-7;
 /// How far two torques may be apart that are one before the current gain, N·m.
@@ -48,157 +52,169 @@ pub enum Permitted {
     Same,
     /// The same decision; the currents differ by this much, A.
     Rounding(f64),
-    /// The same decision where nudging the tick by [`LAST_DIGITS`] moves the reference's currents half as much: near a singularity, or where a
-    /// great gain multiplies the rounding of a great velocity.
-    Amplified(f64),
-    /// Another decision, or another of two currents, where the decision turns.
+    /// Another decision, or other currents, where a decision turns or rounding is amplified.
     Tie(Tie),
 }
 
-/// Where a decision turns.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Tie {
-    /// Two points of the path are as near, or one to rounding; the reference agrees when it is given the one that the rig's code sees.
-    Foot,
-    /// The path: on it, at the end of the gap, at a corner, exactly across the push.
-    Path,
-    /// The push: exactly across the path, or towards it by nothing.
-    Push,
-    /// The velocity: across the desired direction, along it, or across a joint's row.
-    Velocity,
-    /// The pose: two brakes are as good, or a local path ends its quarter turn; or it is singular by a last digit.
-    Pose,
-    /// Several of these at once.
-    Together,
-    /// Exception: a torque in the step of (3.3) at 0.2 A, which two currents give.
-    CurrentStep,
-    /// Exception: velocity ratio control finds both ratios equal, the reference all but equal.
-    Even,
-    /// Exception: optimal control takes another brake or level, whose cost is the same to the last digits of what costs are made of.
-    Level,
-    /// Exception: one brake makes the force of impedance control alone; the two name different idle ones beside it, or one of them no pair.
-    IdleBrake,
-    /// Exception: an input beyond what the rig's code takes, which lets go.
-    Gate,
-}
-
-/// What is between two commands for one tick, or what is wrong.
+/// What is between the reference's command and an answer to the same sample, or what is wrong.
+///
+/// # Errors
+/// Both and the sample, in words: no tie was found.
 pub fn permitted(
     tick: &Tick,
     reference: Option<Command>,
-    rig: Command,
-    nudger: &mut Sampler,
+    answer: impl Into<Answer>,
+    nudger: &mut Nudger,
 ) -> Result<Permitted, String> {
-    let now = situation::<f64>(tick);
+    let answer = answer.into();
     let Some(reference) = reference else {
-        return without_pose(tick, rig, nudger);
+        return without_pose(tick, &answer, nudger);
     };
-    if reference == rig {
+    if answer.may_be(&reference) {
         return Ok(Permitted::Same);
     }
-    let apart_a = apart_a(&reference, &rig);
-    if reference.reason == rig.reason {
-        if apart_a <= ROUNDING_A {
-            return Ok(Permitted::Rounding(apart_a));
-        }
-        if is_step(&reference, &rig) {
-            return Ok(Permitted::Tie(Tie::CurrentStep));
-        }
-        if nudged(tick, &KINDS, LAST_DIGITS, nudger).any(|other| {
-            other.reason == rig.reason && apart_a <= BOTH_ROUND * self::apart_a(&reference, &other)
-        }) {
-            return Ok(Permitted::Amplified(apart_a));
-        }
-        if apart_a <= EQUAL_A {
-            return Ok(Permitted::Rounding(apart_a));
-        }
+    if answer.may_mean(reference.reason)
+        && let Some(permitted) = same_decision(tick, &reference, &answer, nudger)
+    {
+        return Ok(permitted);
     }
-    if is_beyond(&now) && rig == Command::none(Reason::UndefinedInput) {
+    let is_beyond = is_beyond(&situation::<f64>(tick));
+    if is_beyond && answer.is_silent(&[Reason::UndefinedInput]) {
         return Ok(Permitted::Tie(Tie::Gate));
     }
+    match other_decision(tick, &reference, &answer, nudger) {
+        Some(tie) => Ok(Permitted::Tie(tie)),
+        None => Err(format!(
+            "{reference:?}\nbut the rig {answer:?}\nin {tick:?}"
+        )),
+    }
+}
+
+/// What is between two answers of one decision.
+fn same_decision(
+    tick: &Tick,
+    reference: &Command,
+    answer: &Answer,
+    nudger: &mut Nudger,
+) -> Option<Permitted> {
+    let apart_a = answer.apart_a(reference);
+    if apart_a <= ROUNDING_A {
+        return Some(Permitted::Rounding(apart_a));
+    }
+    if is_step(reference, answer) {
+        return Some(Permitted::Tie(Tie::CurrentStep));
+    }
+    let is_amplified = nudged(tick, &KINDS, LAST_DIGITS, nudger).any(|other| {
+        let moved_a = self::apart_a(reference.currents_a, other.currents_a);
+        other.reason == reference.reason && apart_a <= BOTH_ROUND * moved_a
+    });
+    if is_amplified {
+        return Some(Permitted::Tie(Tie::Amplified));
+    }
+    (apart_a <= EQUAL_A).then_some(Permitted::Rounding(apart_a))
+}
+
+/// The tie between two decisions.
+fn other_decision(
+    tick: &Tick,
+    reference: &Command,
+    answer: &Answer,
+    nudger: &mut Nudger,
+) -> Option<Tie> {
     let seen = as_seen(tick);
     let seen_view = seen.map(View::Given);
     if let Some(view) = seen_view
         && let Some(other) = reference_command(tick, view)
-        && other.reason == rig.reason
-        && self::apart_a(&other, &rig) <= AMONG_A
+        && answer.may_mean(other.reason)
+        && answer.apart_a(&other) <= AMONG_A
     {
-        return Ok(Permitted::Tie(Tie::Foot));
+        return Some(Tie::Foot);
     }
     let may_be_idle = matches!(reference.reason, Reason::ChosenPair(..) | Reason::NoneHelps);
     if may_be_idle
         && [reference_nearest(tick), seen]
             .into_iter()
             .flatten()
-            .any(|nearest| is_beside_an_idle_brake(tick, &nearest, &rig))
+            .any(|nearest| is_beside_an_idle_brake(tick, &nearest, answer))
     {
-        return Ok(Permitted::Tie(Tie::IdleBrake));
+        return Some(Tie::IdleBrake);
     }
-    if let Some(tie) = tie(tick, &rig, nudger) {
-        return Ok(Permitted::Tie(tie));
+    if let Some(tie) = tie(tick, answer, nudger) {
+        return Some(tie);
     }
-    if cost_the_same(tick, &reference, &rig, f64::EPSILON) {
-        return Ok(Permitted::Tie(Tie::Level));
+    if cost_the_same(tick, reference, *answer, f64::EPSILON) {
+        return Some(Tie::Level);
     }
-    if rig == Command::none(Reason::NothingToDo)
+    let is_even = answer.is_silent(&[Reason::NothingToDo])
         && [Some(View::EXACT), seen_view]
             .into_iter()
             .flatten()
-            .any(|view| is_even(tick, view))
-    {
-        return Ok(Permitted::Tie(Tie::Even));
-    }
-    Err(format!("{reference:?}\nbut the rig {rig:?}\nin {tick:?}"))
+            .any(|view| is_even(tick, view));
+    is_even.then_some(Tie::Even)
 }
 
 /// Where the reference knows no pose every brake is left alone, for one of the reasons that say so.
-fn without_pose(tick: &Tick, rig: Command, nudger: &mut Sampler) -> Result<Permitted, String> {
+fn without_pose(tick: &Tick, answer: &Answer, nudger: &mut Nudger) -> Result<Permitted, String> {
     let silent = [
         Reason::SingularPose,
         Reason::UndefinedInput,
         Reason::Uncontrolled,
         Reason::FreeSide,
     ];
-    if silent.contains(&rig.reason) && rig == Command::none(rig.reason) {
+    if answer.is_silent(&silent) {
         return Ok(Permitted::Same);
     }
-    match tie(tick, &rig, nudger) {
+    match tie(tick, answer, nudger) {
         Some(tie) => Ok(Permitted::Tie(tie)),
-        None => Err(format!("no pose, but the rig {rig:?}\nin {tick:?}")),
+        None => Err(format!("no pose, but the rig {answer:?}\nin {tick:?}")),
     }
 }
 
-/// The first kind of nudge, of the smallest size, with which the reference decides as the rig's code; the rig's currents lie among
-/// those that it then asks for.
-fn tie(tick: &Tick, rig: &Command, nudger: &mut Sampler) -> Option<Tie> {
+/// The first kind of nudge, of the smallest size, with which the reference decides as was answered; the currents of the answer lie among
+/// those that it then asks for with that decision.
+fn tie(tick: &Tick, answer: &Answer, nudger: &mut Nudger) -> Option<Tie> {
     let each = KINDS.map(|kind| (kind.0, vec![kind]));
     let kinds = each.into_iter().chain([(Tie::Together, KINDS.to_vec())]);
     let kinds: Vec<_> = kinds.collect();
     NUDGES.into_iter().find_map(|size| {
         kinds.iter().find_map(|(tie, kinds)| {
-            let mut ranges_a = [(f64::INFINITY, f64::NEG_INFINITY); 4];
+            let mut decisions: Vec<(Reason, Ranges)> = Vec::new();
             let mut others = nudged(tick, kinds, size, nudger);
             let reached = others.any(|other| {
-                if other.reason != rig.reason {
-                    return false;
-                }
-                for ((least, greatest), current_a) in ranges_a.iter_mut().zip(other.currents_a) {
-                    *least = least.min(current_a - AMONG_A);
-                    *greatest = greatest.max(current_a + AMONG_A);
-                }
-                let mut currents_a = ranges_a.into_iter().zip(rig.currents_a);
-                currents_a
-                    .all(|((least, greatest), current_a)| (least..=greatest).contains(&current_a))
+                answer.may_mean(other.reason) && among(&mut decisions, &other, answer)
             });
             reached.then_some(*tie)
         })
     })
 }
 
-/// A kind of nudge: its name, and what it does.
-type Kind = (Tie, fn(&mut Tick, &mut View, f64, &mut Sampler));
+/// Between which currents, A, one decision was seen to ask.
+type Ranges = [(f64, f64); 4];
 
-const KINDS: [Kind; 4] = [
+/// Adds a command to what its decision was seen to ask for; says whether the currents of the answer lie among that.
+fn among(decisions: &mut Vec<(Reason, Ranges)>, other: &Command, answer: &Answer) -> bool {
+    let known = decisions
+        .iter()
+        .position(|(reason, _)| *reason == other.reason);
+    let place = known.unwrap_or_else(|| {
+        decisions.push((other.reason, [(f64::INFINITY, f64::NEG_INFINITY); 4]));
+        decisions.len() - 1
+    });
+    let Some((_, ranges_a)) = decisions.get_mut(place) else {
+        return false;
+    };
+    for ((least, greatest), current_a) in ranges_a.iter_mut().zip(other.currents_a) {
+        *least = least.min(current_a - AMONG_A);
+        *greatest = greatest.max(current_a + AMONG_A);
+    }
+    let mut currents_a = ranges_a.iter().zip(answer.currents_a);
+    currents_a.all(|((least, greatest), current_a)| (*least..=*greatest).contains(&current_a))
+}
+
+/// A kind of nudge: its name, and what it does.
+type Nudge = (Tie, fn(&mut Tick, &mut View, f64, &mut Nudger));
+
+const KINDS: [Nudge; 4] = [
     (Tie::Path, |tick, view, size, nudger| {
         let nudged = View::Nudged {
             offset_m: size * nudger.nudge(),
@@ -235,7 +251,7 @@ const KINDS: [Kind; 4] = [
 ];
 
 /// A vector moved by a share of its length.
-fn moved([x, y]: [f64; 2], size: f64, nudger: &mut Sampler) -> [f64; 2] {
+fn moved([x, y]: [f64; 2], size: f64, nudger: &mut Nudger) -> [f64; 2] {
     let length = libm::hypot(x, y);
     [x, y].map(|component| component + size * length * nudger.nudge())
 }
@@ -243,9 +259,9 @@ fn moved([x, y]: [f64; 2], size: f64, nudger: &mut Sampler) -> [f64; 2] {
 /// What the reference asks for when the tick is nudged; silent where that leaves no pose.
 fn nudged<'a>(
     tick: &'a Tick,
-    kinds: &'a [Kind],
+    kinds: &'a [Nudge],
     size: f64,
-    nudger: &'a mut Sampler,
+    nudger: &'a mut Nudger,
 ) -> impl Iterator<Item = Command> + 'a {
     (0..TRIES).map(move |_| {
         let (mut tick, mut view) = (tick.clone(), View::EXACT);
@@ -256,23 +272,8 @@ fn nudged<'a>(
     })
 }
 
-/// The greatest difference of two commands' currents, A; infinite where one is undefined.
-pub fn apart_a(one: &Command, other: &Command) -> f64 {
-    let pairs = one.currents_a.iter().zip(other.currents_a);
-    pairs
-        .map(|(a, b)| (a - b).abs())
-        .map(|apart_a| {
-            if apart_a.is_nan() {
-                f64::INFINITY
-            } else {
-                apart_a
-            }
-        })
-        .fold(0.0, f64::max)
-}
-
 /// Whether the currents that differ give the same torques, from both sides of 0.2 A.
-fn is_step(one: &Command, other: &Command) -> bool {
+fn is_step(one: &Command, other: &Answer) -> bool {
     let pairs = one.currents_a.into_iter().zip(other.currents_a);
     let mut joints = Joint::ALL.into_iter().zip(pairs);
     let all = joints.all(|(joint, (a, b))| {
@@ -280,23 +281,25 @@ fn is_step(one: &Command, other: &Command) -> bool {
         let same_torque = (torques_nm[0] - torques_nm[1]).abs() <= EQUAL_NM;
         (a - b).abs() <= EQUAL_A || ((a < 0.2) != (b < 0.2) && same_torque)
     });
-    all && apart_a(one, other) > EQUAL_A
+    all && other.apart_a(one) > EQUAL_A
 }
 
-/// Whether a brake makes a wanted force alone, and the rig's command is one of those that this leaves.
-fn is_beside_an_idle_brake(tick: &Tick, nearest: &Nearest, rig: &Command) -> bool {
-    idle::answers(tick, nearest).iter().any(|answer| {
-        answer.reason == rig.reason && (apart_a(answer, rig) <= AMONG_A || is_step(answer, rig))
+/// Whether a brake makes a wanted force alone, and the answer is one of those that this leaves.
+fn is_beside_an_idle_brake(tick: &Tick, nearest: &Nearest, answer: &Answer) -> bool {
+    idle::answers(tick, nearest).iter().any(|command| {
+        answer.may_mean(command.reason)
+            && (answer.apart_a(command) <= AMONG_A || is_step(command, answer))
     })
 }
 
 /// Whether no link is faster than its share by a speed for which even the greatest gain asks for a current.
 fn is_even(tick: &Tick, view: View) -> bool {
-    let LawKind::Ratio(_) = tick.law else {
+    let Kind::VelocityRatio { .. } = tick.law else {
         return false;
     };
+    let [_, gain_nm_s_per_rad] = RATIO_GAIN_RANGE_NM_S_PER_RAD;
     let mut strongest = tick.clone();
-    strongest.law = LawKind::Ratio(RATIO_GAIN_RANGE_NM_S_PER_RAD[1]);
+    strongest.law = Kind::VelocityRatio { gain_nm_s_per_rad };
     reference_command(&strongest, view).is_some_and(|command| command.currents_a == [0.0; 4])
 }
 

@@ -5,13 +5,13 @@ use rigproof_model::brake::current_gain;
 use rigproof_model::control::desired_velocity::desired_velocity;
 use rigproof_model::control::force_angle::opposing_force;
 use rigproof_model::control::tip_mass;
-use rigproof_model::rig::Parameters;
 use rigproof_spec::command::{Command, Reason};
-use rigproof_spec::inertia::inertia;
 use rigproof_spec::tables::brake_table;
 
-use crate::impl_laws::both::{reference_nearest, reference_rows, sensed};
-use crate::impl_laws::sample::{LawKind, Tick};
+use super::answer::Answer;
+use super::both::{parameters, reference_nearest, reference_rows, sensed};
+use super::tick::Tick;
+use crate::built_in::Kind;
 
 /// How far a command's current may be from that of the level that it means, A for each unit of rounding.
 const MEANT_A: f64 = 100.0;
@@ -19,11 +19,17 @@ const MEANT_A: f64 = 100.0;
 /// A cost, and the sum of the magnitudes of which rounding takes its share.
 type Cost = [f64; 2];
 
-/// Whether the two commands are those of optimal control for forces that cost the same to `rounding`, relative, of what their costs are made
-/// of.
-pub fn cost_the_same(tick: &Tick, one: &Command, other: &Command, rounding: f64) -> bool {
-    let costs = [one, other].map(|command| least_cost(tick, command, rounding));
-    matches!(costs, [Some([one, parts]), Some([other, more])] if (one - other).abs() <= rounding * (parts + more))
+/// Whether a command and an answer are those of optimal control for forces that cost the same to `rounding`, relative, of what their costs
+/// are made of.
+pub fn cost_the_same(tick: &Tick, one: &Command, other: impl Into<Answer>, rounding: f64) -> bool {
+    let Some([one, parts]) = least_cost(tick, one, rounding) else {
+        return false;
+    };
+    let mut others = other.into().of_one_brake();
+    others.any(|other| {
+        let cost = least_cost(tick, &other, rounding);
+        cost.is_some_and(|[other, more]| (one - other).abs() <= rounding * (parts + more))
+    })
 }
 
 /// What optimal control weighs in a tick.
@@ -58,21 +64,21 @@ impl Weighing {
 
 /// What a command costs: the least of the forces that it may mean.
 fn least_cost(tick: &Tick, command: &Command, rounding: f64) -> Option<Cost> {
-    let LawKind::Optimal([angle, energy, horizon_s]) = tick.law else {
+    let Kind::Optimal {
+        weight_angle,
+        weight_energy,
+        horizon_s,
+    } = tick.law
+    else {
         return None;
     };
     let sensed = sensed(tick)?;
-    let parameters = Parameters {
-        layout: tick.layout,
-        arms: tick.arms,
-        inertia: inertia(tick.layout),
-    };
-    let mass = tip_mass(&parameters, &sensed.pose)?;
+    let mass = tip_mass(&parameters(tick), &sensed.pose)?;
     let mobility = mass.try_inverse()?;
     let before = Vector2::from(tick.velocity_m_s);
     let push = Vector2::from(tick.force_n);
     let weighing = Weighing {
-        weights: [angle, energy],
+        weights: [weight_angle, weight_energy],
         mass,
         before,
         pushed: before + mobility * push * horizon_s,
@@ -80,7 +86,10 @@ fn least_cost(tick: &Tick, command: &Command, rounding: f64) -> Option<Cost> {
     };
     let mut others_a = command.currents_a;
     let chosen = match command.reason {
-        Reason::Chosen(joint) => Some((joint, std::mem::take(&mut others_a[joint as usize]))),
+        Reason::Chosen(joint) => {
+            let own_a = others_a.get_mut(joint as usize)?;
+            Some((joint, std::mem::take(own_a)))
+        }
         Reason::NoneHelps => None,
         _ => return None,
     };
