@@ -52,7 +52,7 @@ Examples:
   rigproof diagnose recording.csv --rig rig.toml --calibrate 40
   rigproof diagnose recordings/ --rig rig.toml
 
-Of a folder of recordings of one five-bar all are diagnosed together but the last, on which the result is shown.";
+Of a folder of recordings of one five-bar all are diagnosed together, and the result is shown on the end of the second of two, on the last of more.";
 
 impl Args {
     /// A recording and its rig, and where the result is to stand; everything else as it is without an option.

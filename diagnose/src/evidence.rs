@@ -1,18 +1,13 @@
 //! This file says how sure a selection is: intervals, rivals, what would have been seen, what cannot be told.
 
 mod constancy;
+mod rivals;
 
 use crate::candidates::{causes, modelled_effort, realise, variants};
-use crate::five_bar::LEAST_SIGMAS;
-use crate::problem::{Cause, PlantRun, Problem, Term};
-use crate::regression::{
-    Blocks, covariance, dot, fit, free_columns, nested_block_losses, norm, paired,
-};
+use crate::problem::{Cause, Problem, Term};
+use crate::regression::{Blocks, covariance, dot, fit, free_columns, norm};
 use crate::report::{NotSeen, NullDirection};
-use crate::select::{
-    Found, Gates, Selection, TIE_Z, as_two, best_variant, floor_limit, gives_energy, refined, refs,
-    usable_rms,
-};
+use crate::select::{Found, Gates, Selection, refs};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
@@ -22,11 +17,8 @@ use rigproof_spec::joint::Joint;
 use std::collections::BTreeMap;
 
 pub use constancy::{inconstant, is_told_by_itself};
+pub use rivals::{Rivals, rivals};
 
-/// Share of an effect's gain that a rival must reach to be ambiguous with it.
-const RIVAL_SHARE: f64 = 0.9;
-/// Share of an effect's gain from which on the grid of a rival's shapes is refined.
-const NEAR_RIVAL: f64 = 0.7;
 /// Bootstrap replicates of the inclusion frequency.
 const REPLICATES: usize = 500;
 
@@ -193,95 +185,6 @@ fn shape_sensitivities(
             })
         })
         .collect()
-}
-
-/// For each found mechanism, those that explain as much in its place.
-pub fn rivals(problem: &Problem, selection: &Selection) -> Vec<Vec<Cause>> {
-    let blocks = Blocks::new(problem);
-    (0..selection.found.len())
-        .map(|index| rivals_of(problem, selection, index, &blocks))
-        .collect()
-}
-
-fn rivals_of(
-    problem: &Problem,
-    selection: &Selection,
-    index: usize,
-    blocks: &Blocks,
-) -> Vec<Cause> {
-    let others = without(&selection.found, index);
-    let common = refs(&selection.nominal, &others);
-    let bare = fit(problem, &common, blocks);
-    let taken: Vec<Cause> = refs(&selection.nominal, &selection.found)
-        .iter()
-        .map(|t| t.cause)
-        .collect();
-    let all = vec![1.0; blocks.ranges.len()];
-    let gain = bare.left_out() - selection.after.left_out();
-    let own = selection.found.get(index);
-    let telling = telling(problem, selection);
-    let single = causes(problem)
-        .into_iter()
-        .filter(|cause| !taken.contains(cause))
-        .filter(|&cause| {
-            let mut tried = variants(problem, cause, &common, &bare);
-            if let Some(onset_s) = own.and_then(|f| f.term.onset_s) {
-                let effort = modelled_effort(problem, &common, &bare);
-                tried.extend(
-                    tried
-                        .clone()
-                        .iter()
-                        .filter_map(|t| realise(problem, cause, &t.shape, Some(onset_s), &effort)),
-                );
-            }
-            let is_rival = |tried: &[Term]| {
-                let losses = nested_block_losses(problem, &common, tried, blocks);
-                let (_, z) = paired(&losses, &selection.after.block_loss, &all);
-                let reached = bare.left_out() - losses.iter().sum::<f64>();
-                let enough = reached >= problem.plant.least_rival_share() * gain;
-                let as_good = enough && z < TIE_Z
-                    || (reached >= RIVAL_SHARE * gain && reached > 0.0 && z < 2.0 * TIE_Z);
-                as_good
-                    && more_elsewhere(&losses, &selection.after.block_loss) < telling
-                    && best_variant(problem, &common, tried)
-                        .is_none_or(|(best, _)| !gives_energy(problem, &common, &best, blocks))
-            };
-            if is_rival(&tried) {
-                return true;
-            }
-            // A shape between two of the grid may do what neither of them does.
-            let Some((start, loss)) = best_variant(problem, &common, &tried) else {
-                return false;
-            };
-            let near = bare.loss - loss >= NEAR_RIVAL * (bare.loss - selection.after.loss);
-            near && !start.shape.is_empty() && {
-                tried.push(refined(problem, &common, start, blocks));
-                is_rival(&tried)
-            }
-        });
-    let mut rivals: Vec<Cause> = single.collect();
-    let more = as_two(problem, selection, index).into_iter();
-    let more: Vec<Cause> = more.filter(|cause| !rivals.contains(cause)).collect();
-    rivals.extend(more);
-    rivals
-}
-
-/// From how much more left-out loss on one explanation is another's rival no more, on a five-bar. Where what was named leaves nothing but noise,
-/// noise is the measure: the scatter of a short recording's few blocks would keep what leaves many deviations more.
-fn telling(problem: &Problem, selection: &Selection) -> f64 {
-    let left = usable_rms(problem, &selection.after.residual) / problem.floor;
-    match problem.plant {
-        PlantRun::FiveBar(_) if left <= floor_limit(problem) => {
-            (left.max(1.0) * LEAST_SIGMAS).powi(2)
-        }
-        _ => f64::INFINITY,
-    }
-}
-
-/// How much more one leaves than another, the block aside in which it is most: one moment alone, such as the start, tells nothing.
-fn more_elsewhere(losses: &[f64], own: &[f64]) -> f64 {
-    let more = losses.iter().zip(own).map(|(loss, own)| loss - own);
-    more.clone().sum::<f64>() - more.fold(0.0, f64::max)
 }
 
 fn without(found: &[Found], index: usize) -> Vec<Found> {

@@ -8,6 +8,7 @@ pub mod diagnose;
 pub mod experiment;
 pub mod free_run;
 pub mod from_rig;
+mod held_out;
 mod joined;
 mod locate;
 mod mapping;

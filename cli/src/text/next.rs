@@ -21,6 +21,7 @@ pub fn experiment(report: &Report) -> Vec<String> {
                 "; sample by sample in {file}, which `simulate` plays"
             )),
         ));
+        lines.push("  then diagnose a folder that holds this recording and the new one: what stays has to explain both".to_owned());
     }
     lines.extend(next.separations.iter().map(|pair| {
         let (one, other) = (&pair.one, &pair.other);

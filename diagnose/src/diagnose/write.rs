@@ -136,7 +136,8 @@ impl Stand<'_> {
     /// For each effect, what explains as much in its place: measured rivals, and the twin that no recording of this
     /// plant can tell: a constant that changes no sign with the motion is a bias or a direction asymmetry.
     fn rivals(&self) -> Vec<Vec<Cause>> {
-        let mut all = rivals(self.problem, self.selection);
+        let all = rivals(self.problem, self.selection).into_iter();
+        let mut all: Vec<Vec<Cause>> = all.map(|own| own.instead).collect();
         for (rivals, found) in all.iter_mut().zip(&self.selection.found) {
             let twin = match found.term.cause.mechanism {
                 Mechanism::ConstantBias => Cause::of(Mechanism::DirectionAsymmetry),
@@ -216,6 +217,7 @@ impl Stand<'_> {
                     share_explained: found.share,
                     equation: entry.equation,
                     refuted_by: entry.refuted_by,
+                    limit_of: Vec::new(),
                 })
             })
             .collect()

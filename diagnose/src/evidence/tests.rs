@@ -58,14 +58,3 @@ fn of_bouc_wen_only_the_two_products_are_determined() {
     // A column of its own leaves no direction.
     assert!(smallest_direction(&names, &[column(), gamma, delta]).is_none());
 }
-
-#[test]
-fn one_moment_alone_tells_no_two_explanations_apart() {
-    let own = [0.7, 1.1, 0.9, 1.3];
-    let at_the_start = [700.7, 1.0, 1.4, 1.2];
-    let all_along = [70.7, 71.1, 50.9, 61.3];
-    assert!((more_elsewhere(&at_the_start, &own) - 0.3).abs() < 1e-9);
-    assert!((more_elsewhere(&all_along, &own) - 180.0).abs() < 1e-9);
-    // Where another explains more than what was named there is nothing to set aside.
-    assert!((more_elsewhere(&[0.6, 1.0, 0.8, 1.2], &own) + 0.4).abs() < 1e-9);
-}

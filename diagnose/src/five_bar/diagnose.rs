@@ -2,8 +2,8 @@
 
 use super::experiment;
 use super::free_run::{Model, horizons};
-use super::from_rig::{aligned, nominal};
-use super::joined::joined;
+use super::from_rig::nominal;
+use super::held_out::Parts;
 use super::locate::locate;
 use super::mapping;
 use super::run::FiveBarRun;
@@ -14,7 +14,7 @@ use crate::diagnose::words::summary;
 use crate::diagnose::write::{floor, verdict};
 use crate::diagnose::{Curves, Description, Diagnosis, FEWEST_WINDOWS, FittedCurves, Options};
 use crate::evidence::{
-    coefficients_by_term, inclusion, inconstant, is_told_by_itself, not_seen, rivals,
+    Rivals, coefficients_by_term, inclusion, inconstant, is_told_by_itself, not_seen, rivals,
     standard_errors,
 };
 use crate::problem::{Cause, NominalEffect, Problem, Term, add};
@@ -35,8 +35,8 @@ const WIDTHS_S: [f64; 3] = [0.040, 0.080, 0.160];
 /// A width is quiet enough when the floor is below this, N·m: contributions of 0.01 N·m are to be seen in a few windows.
 const QUIET_NM: f64 = 0.0075;
 
-/// Diagnoses recordings of a five-bar together; `held_out` is another recording of the same rig. Without it the last of several is held
-/// out, or the end of a single one.
+/// Diagnoses recordings of a five-bar together; `held_out` is another recording of the same rig. Without it the last of many shows the
+/// result, or the end of the last.
 pub fn diagnose(
     rig: &FiveBar,
     recordings: &[&FiveBarRecording],
@@ -44,42 +44,19 @@ pub fn diagnose(
     options: &Options,
 ) -> Diagnosis {
     let description = || Description::FiveBar(rig.clone());
-    let mut runs = Vec::with_capacity(recordings.len());
-    for (place, recording) in recordings.iter().enumerate() {
-        match aligned(rig, recording) {
-            Ok(run) => runs.push(run),
-            Err(fault) => return faulty(description(), &which(place, recordings.len()), fault),
-        }
-    }
-    let last = runs.len();
-    let other = match held_out.map(|recording| aligned(rig, recording)) {
-        Some(Ok(run)) => Some(run),
-        Some(Err(fault)) => return faulty(description(), "held-out recording", fault),
-        None if last > 1 => runs.pop(),
-        None => None,
+    let parts = match Parts::of(rig, recordings, held_out, options) {
+        Ok(parts) => parts,
+        Err((which, fault)) => return faulty(description(), &which, fault),
     };
-    let whole = match joined(runs) {
-        Ok(run) => run,
-        Err((place, fault)) => return faulty(description(), &which(place, last), fault),
-    };
-    // What is held out of the same recording keeps its past: brakes, heat and memories begin at the recording's first sample.
-    let (train, test, test_from_s) = match other {
-        Some(test) => (whole, test, 0.0),
-        None => {
-            let cut = ((1.0 - options.hold_out_share) * whole.len() as f64).round() as usize;
-            (whole.slice(0, cut), whole, cut as f64)
-        }
-    };
-    let other_recording = test_from_s == 0.0;
-    let test_from_s = test_from_s * test.step_s;
-    let mut problem = problem(&train);
+    let Parts { train, test, .. } = &parts;
+    let mut problem = problem(train);
     let usable = problem.windows.usable.iter().filter(|u| **u).count() / problem.windows.outputs;
     if usable < FEWEST_WINDOWS {
-        return not_excited(description(), usable, travel(&train), train.theta_noise);
+        return not_excited(description(), usable, travel(train), train.theta_noise);
     }
     // A description with effects of its own was balanced before; without them its recording may be far from balance.
     if rig.effects.is_empty()
-        && let Err(fault) = mapping::check(&train, &problem)
+        && let Err(fault) = mapping::check(train, &problem)
     {
         return faulty(description(), "recording", fault);
     }
@@ -100,20 +77,12 @@ pub fn diagnose(
         problem: &problem,
         selection: &selection,
         withdrawn: &withdrawn,
-        train: &train,
-        test: &test,
-        test_from_s,
+        train,
+        test,
+        test_from_s: parts.test_from_s,
         options,
     }
-    .report(other_recording)
-}
-
-/// What a recording is called.
-fn which(place: usize, of: usize) -> String {
-    match of {
-        1 => "recording".to_owned(),
-        _ => format!("recording {} of {of}", place + 1),
-    }
+    .report(parts.other_recording)
 }
 
 /// Takes out the names whose number is not constant where more than noise is left, and what then explains too little. Where
@@ -125,7 +94,8 @@ fn withdraw_inconstant(problem: &Problem, selection: &mut Selection) -> Vec<Caus
         if !causes.is_empty() {
             let rivals = rivals(problem, selection);
             let pairs = selection.found.iter().zip(&rivals);
-            let told = pairs.filter(|(_, own)| own.iter().all(|c| is_told_by_itself(c.mechanism)));
+            let told =
+                pairs.filter(|(_, own)| own.instead.iter().all(|c| is_told_by_itself(c.mechanism)));
             let told: Vec<Cause> = told.map(|(found, _)| found.term.cause).collect();
             causes.retain(|cause| told.contains(cause));
         }
@@ -203,7 +173,8 @@ struct Balanced {
 impl Stand<'_> {
     fn report(&self, other_recording: bool) -> Diagnosis {
         let (problem, selection) = (self.problem, self.selection);
-        let rivals = rivals(problem, selection);
+        let all = rivals(problem, selection);
+        let rivals: Vec<Vec<Cause>> = all.iter().map(|own| own.instead.clone()).collect();
         let floor = floor(problem, selection, Motion::Rotary);
         let verdict = verdict(selection, &floor, floor_limit(problem), &rivals);
         let test = self.balanced(self.test, self.test_from_s);
@@ -226,7 +197,7 @@ impl Stand<'_> {
             protocol,
             located: locate(problem, self.train, before, after),
             stages: self.stages(),
-            effects: self.effects(&calibration),
+            effects: self.effects(&calibration, &all),
             ambiguous_with: rivals
                 .iter()
                 .map(|r| r.iter().map(|cause| cause.name()).collect())
@@ -366,7 +337,7 @@ impl Stand<'_> {
         }
     }
 
-    fn effects(&self, calibration: &FiveBar) -> Vec<EffectReport> {
+    fn effects(&self, calibration: &FiveBar, limits: &[Rivals]) -> Vec<EffectReport> {
         let offset = self.selection.nominal.len();
         let found = self.selection.found.iter().enumerate();
         found
@@ -384,6 +355,7 @@ impl Stand<'_> {
                     share_explained: found.share,
                     equation: entry.equation,
                     refuted_by: entry.refuted_by,
+                    limit_of: limits.get(index).map_or_else(Vec::new, Rivals::limits),
                 })
             })
             .collect()

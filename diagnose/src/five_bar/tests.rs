@@ -305,3 +305,25 @@ fn a_delay_that_swings_is_no_delay_of_the_library() {
         report.too_small_to_name
     );
 }
+
+/// A spring at A of the four-brake layout, N·m/rad, and where it rests, rad.
+const SPRING: [f64; 2] = [0.47, 1.63];
+
+#[test]
+fn a_spring_rests_where_it_likes_and_may_push_at_angle_0() {
+    let spring = |pose: &Pose, _: [f64; 4], _: f64| {
+        let [stiffness, rest] = SPRING;
+        [-stiffness * (pose.theta_a_rad - rest), 0.0, 0.0, 0.0]
+    };
+    let recording = recording(Layout::FourBrake, 3.0, 23, &spring);
+    let short = Options {
+        refit: false,
+        ..options()
+    };
+    let rig = rig(Layout::FourBrake);
+    let report = diagnose(&rig, &[&recording], None, &short).report;
+    let expected = [("spring", Some("A"))];
+    assert_eq!(named(&report), expected, "{}", report.summary);
+    let found = report.effects[0].parameters["stiffness"].value;
+    assert!((found / SPRING[0] - 1.0).abs() < 0.05, "{found} N·m/rad");
+}

@@ -39,7 +39,7 @@ fn experiment(next: &NextExperiment) -> Markup {
         @match &next.what {
             Some(what) => {
                 p { strong { "The next experiment: " } (what) "." }
-                p { (with_unit(next.duration_s, "s")) " long; the hand pushes with at most " (with_unit(next.greatest_force_n, "N")) ", the brakes take at most " (with_unit(next.greatest_current_a, "A")) ". Chosen from " (next.tried) " that were simulated."
+                p { (with_unit(next.duration_s, "s")) " long; the hand pushes with at most " (with_unit(next.greatest_force_n, "N")) ", the brakes take at most " (with_unit(next.greatest_current_a, "A")) ". Chosen from " (next.tried) " that were simulated. Then diagnose a folder that holds this recording and the new one: what stays has to explain both."
                     @if let Some(file) = &next.file { " Sample by sample it stands in " code { (file) } "." } }
             }
             None => p { "Of the " (next.tried) " experiments that were simulated none tells the explanations apart." },

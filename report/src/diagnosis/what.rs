@@ -1,7 +1,7 @@
 //! This file says what was left out: words, equation, numbers with units and intervals, rivals and how the names entered.
 
 use maud::{Markup, html};
-use rigproof_diagnose::report::{EffectReport, Number, Report};
+use rigproof_diagnose::report::{EffectReport, LimitOf, Number, Report};
 use std::collections::BTreeMap;
 
 use crate::number::{percent, significant, with_unit};
@@ -37,8 +37,20 @@ fn one(effect: &EffectReport, rivals: &[String]) -> Markup {
             @if let Some(onset_s) = effect.onset_s { p { "It begins " strong { (with_unit(onset_s, "s")) } " after the first sample." } }
             p { @if rivals.is_empty() { "Everything else in the library that was tried in its place explains less." }
                 @else { "Would explain this recording as well in its place: " @for (k, rival) in rivals.iter().enumerate() { @if k > 0 { "; " } (plain_cause(rival)) " (" code { (rival) } ")" } "." } }
+            @for richer in &effect.limit_of { p.soft { (capital(&plain_cause(&richer.name))) " (" code { (richer.name) } ") " (limit(richer)) " would look like " (plain_cause(&richer.limit)) ", which is the simpler law." } }
             p.soft { "What would refute it: " (effect.refuted_by) "." }
         }
+    }
+}
+
+/// Where a richer law comes to the same.
+fn limit(richer: &LimitOf) -> String {
+    let parameter = richer.parameter.replace('_', " ");
+    let value = |value| with_unit(value, &richer.unit);
+    match (richer.at_most, richer.at_least) {
+        (Some(most), _) => format!("with a {parameter} of {} or less", value(most)),
+        (_, Some(least)) => format!("with a {parameter} of {} or more", value(least)),
+        (None, None) => format!("with a {parameter} that is not told from 0"),
     }
 }
 

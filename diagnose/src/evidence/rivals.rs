@@ -1,0 +1,375 @@
+//! This file says what could stand in the place of what was found: rivals that explain as much, and richer laws of which it is the limit.
+
+use super::without;
+use crate::candidates::{causes, modelled_effort, realise, variants};
+use crate::five_bar::LEAST_SIGMAS;
+use crate::problem::{Cause, PlantRun, Problem, Term};
+use crate::regression::{Blocks, Fit, fit, nested_block_losses, paired};
+use crate::report::LimitOf;
+use crate::select::{
+    Selection, TIE_Z, as_two, best_variant, floor_limit, gives_energy, refined, refs, usable_rms,
+};
+use rigproof_model::effects::entry;
+use rigproof_spec::effect::{Mechanism, Motion, Parameter};
+
+/// Share of an effect's gain that a rival must reach to be ambiguous with it.
+const RIVAL_SHARE: f64 = 0.9;
+/// Share of an effect's gain from which on the grid of a rival's shapes is refined.
+const NEAR_RIVAL: f64 = 0.7;
+
+/// What could stand in the place of one found mechanism.
+#[derive(Clone, Debug, Default)]
+pub struct Rivals {
+    /// What explains as much.
+    pub instead: Vec<Cause>,
+    /// Richer laws that come to the same here.
+    pub limit_of: Vec<Richer>,
+}
+
+/// A richer law of which a found mechanism or a rival of it is the limit, and how far from the limit the recording does not tell the two apart.
+#[derive(Clone, Debug)]
+pub struct Richer {
+    /// The richer law.
+    pub cause: Cause,
+    /// Its limit: what was found, or another rival of it.
+    pub limit: Cause,
+    /// The parameter that goes to its limit.
+    pub parameter: Parameter,
+    /// The end of its range that the limit is at.
+    pub end: End,
+    /// The value farthest from the limit, of those tried, that looks the same; `None` for a linear parameter, which is not told from 0.
+    pub bound: Option<f64>,
+}
+
+impl Rivals {
+    /// The richer laws as a report has them.
+    pub fn limits(&self) -> Vec<LimitOf> {
+        let all = self.limit_of.iter();
+        all.map(|richer| LimitOf {
+            name: richer.cause.name(),
+            limit: richer.limit.name(),
+            parameter: richer.parameter.name,
+            at_most: richer.bound.filter(|_| richer.end == End::Nothing),
+            at_least: richer.bound.filter(|_| richer.end == End::Everything),
+            unit: richer
+                .parameter
+                .quantity
+                .dimension(Motion::Rotary)
+                .to_string(),
+        })
+        .collect()
+    }
+}
+
+/// Where the limit of a parameter is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// At 0.
+    Nothing,
+    /// Beyond every value.
+    Everything,
+}
+
+/// A richer law, its limit, the parameter by its place in the vocabulary and where the limit is.
+const LIMITS: [(Mechanism, Mechanism, usize, End); 6] = [
+    (Mechanism::Presliding, Mechanism::DryOffset, 1, End::Nothing),
+    (
+        Mechanism::Settling,
+        Mechanism::DryOffset,
+        1,
+        End::Everything,
+    ),
+    (
+        Mechanism::ReversalOvershoot,
+        Mechanism::GainError,
+        1,
+        End::Everything,
+    ),
+    (Mechanism::Spring, Mechanism::ConstantBias, 0, End::Nothing),
+    (
+        Mechanism::DirectionAsymmetry,
+        Mechanism::ConstantBias,
+        0,
+        End::Nothing,
+    ),
+    (
+        Mechanism::EncoderScale,
+        Mechanism::EncoderOffset,
+        0,
+        End::Nothing,
+    ),
+];
+
+/// For each found mechanism, what could stand in its place.
+pub fn rivals(problem: &Problem, selection: &Selection) -> Vec<Rivals> {
+    let blocks = Blocks::new(problem);
+    (0..selection.found.len())
+        .map(|index| rivals_of(problem, selection, index, &blocks))
+        .collect()
+}
+
+fn rivals_of(problem: &Problem, selection: &Selection, index: usize, blocks: &Blocks) -> Rivals {
+    let others = without(&selection.found, index);
+    let common = refs(&selection.nominal, &others);
+    let bare = fit(problem, &common, blocks);
+    let taken: Vec<Cause> = refs(&selection.nominal, &selection.found)
+        .iter()
+        .map(|t| t.cause)
+        .collect();
+    let place = Place {
+        problem,
+        selection,
+        index,
+        blocks,
+        gain: bare.left_out() - selection.after.left_out(),
+        telling: telling(problem, selection),
+        bare,
+        common,
+    };
+    let open = causes(problem).into_iter();
+    let open = open.filter(|cause| !taken.contains(cause));
+    let all: Vec<Rival> = open.filter_map(|cause| place.rival(cause)).collect();
+    let mut rivals = Rivals::default();
+    for rival in &all {
+        match place.richer(rival, &all) {
+            Some(richer) => rivals.limit_of.push(richer),
+            None => rivals.instead.push(rival.cause),
+        }
+    }
+    for cause in as_two(problem, selection, index) {
+        if !rivals.instead.contains(&cause) {
+            rivals.instead.push(cause);
+        }
+    }
+    rivals
+}
+
+/// Something that explains as much as what was found.
+struct Rival {
+    cause: Cause,
+    /// The variants that were tried.
+    tried: Vec<Term>,
+    /// The left-out loss of each block.
+    losses: Vec<f64>,
+}
+
+/// The place of one found mechanism among the others.
+struct Place<'a> {
+    problem: &'a Problem<'a>,
+    selection: &'a Selection,
+    index: usize,
+    blocks: &'a Blocks,
+    common: Vec<&'a Term>,
+    /// The fit without it.
+    bare: Fit,
+    /// What it takes away of the left-out loss.
+    gain: f64,
+    /// See [`telling`].
+    telling: f64,
+}
+
+impl Place<'_> {
+    /// A cause with its variants, if it explains as much as what was found.
+    fn rival(&self, cause: Cause) -> Option<Rival> {
+        let Place {
+            problem,
+            common,
+            bare,
+            ..
+        } = self;
+        let mut tried = variants(problem, cause, common, bare);
+        let own = self.selection.found.get(self.index);
+        if let Some(onset_s) = own.and_then(|f| f.term.onset_s) {
+            let effort = modelled_effort(problem, common, bare);
+            let late = tried.iter();
+            let late: Vec<Term> = late
+                .filter_map(|t| realise(problem, cause, &t.shape, Some(onset_s), &effort))
+                .collect();
+            tried.extend(late);
+        }
+        if let Some(losses) = self.as_good(&tried) {
+            return Some(Rival {
+                cause,
+                tried,
+                losses,
+            });
+        }
+        // A shape between two of the grid may do what neither of them does.
+        let (start, loss) = best_variant(problem, common, &tried)?;
+        let near = bare.loss - loss >= NEAR_RIVAL * (bare.loss - self.selection.after.loss);
+        if !near || start.shape.is_empty() {
+            return None;
+        }
+        tried.push(refined(problem, common, start, self.blocks));
+        let losses = self.as_good(&tried)?;
+        Some(Rival {
+            cause,
+            tried,
+            losses,
+        })
+    }
+
+    /// The left-out losses of some variants that explain as much as what was found.
+    fn as_good(&self, tried: &[Term]) -> Option<Vec<f64>> {
+        let Place {
+            problem, common, ..
+        } = self;
+        let losses = nested_block_losses(problem, common, tried, self.blocks);
+        let own = &self.selection.after.block_loss;
+        let (_, z) = paired(&losses, own, &vec![1.0; losses.len()]);
+        let reached = self.bare.left_out() - losses.iter().sum::<f64>();
+        let enough = reached >= problem.plant.least_rival_share() * self.gain;
+        let as_good = enough && z < TIE_Z
+            || (reached >= RIVAL_SHARE * self.gain && reached > 0.0 && z < 2.0 * TIE_Z);
+        let is_rival = as_good
+            && more_elsewhere(&losses, own) < self.telling
+            && best_variant(problem, common, tried)
+                .is_none_or(|(best, _)| !gives_energy(problem, common, &best, self.blocks));
+        is_rival.then_some(losses)
+    }
+
+    /// How a rival is a richer law of which what was found, or another rival, is the limit, where the recording does not tell the two apart: it
+    /// leaves no less.
+    fn richer(&self, rival: &Rival, all: &[Rival]) -> Option<Richer> {
+        let found = self.selection.found.get(self.index)?.term.cause;
+        let own = [(found, &self.selection.after.block_loss)];
+        let others = all.iter().map(|other| (other.cause, &other.losses));
+        own.into_iter()
+            .chain(others)
+            .find_map(|(limit, losses)| self.beyond(rival, limit, losses))
+    }
+
+    fn beyond(&self, rival: &Rival, limit: Cause, losses: &[f64]) -> Option<Richer> {
+        let cause = rival.cause;
+        let (.., place, end) = LIMITS.iter().copied().find(|(richer, simpler, ..)| {
+            (*richer, *simpler, cause.joint) == (cause.mechanism, limit.mechanism, limit.joint)
+        })?;
+        if self.telling.is_infinite() || more_elsewhere(losses, &rival.losses) >= self.telling {
+            return None;
+        }
+        let shape = place.checked_sub(entry(cause.mechanism)?.linear);
+        let alike = rival.tried.iter().filter(|term| {
+            let mut terms = self.common.clone();
+            terms.push(term);
+            let with = fit(self.problem, &terms, self.blocks).block_loss;
+            more_elsewhere(&with, losses) < self.telling
+        });
+        let values = alike.filter_map(|term| term.shape.get(shape?).copied());
+        Some(Richer {
+            cause,
+            limit,
+            parameter: *cause.mechanism.parameters().get(place)?,
+            end,
+            bound: match end {
+                End::Nothing => values.reduce(f64::max),
+                End::Everything => values.reduce(f64::min),
+            },
+        })
+    }
+}
+
+/// From how much more left-out loss on one explanation is another's rival no more, on a five-bar. Where what was named leaves nothing but noise,
+/// noise is the measure: the scatter of a short recording's few blocks would keep what leaves many deviations more.
+fn telling(problem: &Problem, selection: &Selection) -> f64 {
+    let left = usable_rms(problem, &selection.after.residual) / problem.floor;
+    match problem.plant {
+        PlantRun::FiveBar(_) if left <= floor_limit(problem) => {
+            (left.max(1.0) * LEAST_SIGMAS).powi(2)
+        }
+        _ => f64::INFINITY,
+    }
+}
+
+/// How much more one leaves than another, the block aside in which it is most: one moment alone, such as the start, tells nothing.
+fn more_elsewhere(losses: &[f64], own: &[f64]) -> f64 {
+    let more = losses.iter().zip(own).map(|(loss, own)| loss - own);
+    more.clone().sum::<f64>() - more.fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    use crate::five_bar::from_rig::aligned;
+    use crate::five_bar::recorded::{nothing, recording, rig};
+    use crate::problem::Rows;
+    use crate::recorded::Noise;
+    use crate::select::Found;
+    use crate::weak::Windows;
+    use rigproof_spec::joint::Joint;
+    use rigproof_spec::layout::Layout;
+
+    /// What a bristle at E is beside dry friction that was found there, when a bristle of this travel is what is left out.
+    fn beside_dry_friction(travel_rad: f64) -> Option<Richer> {
+        let recording = recording(Layout::FourBrake, 3.0, 19, &nothing);
+        let run = aligned(&rig(Layout::FourBrake), &recording).unwrap();
+        let windows = Windows::over(run.len(), 2, (run.step_s, run.start_s), 0.080);
+        let mut problem = Problem::of_five_bar(&run, windows);
+        let [dry, bristle] = [Mechanism::DryOffset, Mechanism::Presliding].map(|mechanism| Cause {
+            mechanism,
+            joint: Some(Joint::E),
+        });
+        let mut noise = Noise::new(29);
+        let hidden = problem.term(bristle, &[travel_rad], None).unwrap();
+        let raw = hidden.free[0].raw.iter();
+        let raw: Vec<f64> = raw
+            .map(|x| 0.21 * x + 0.9 * problem.floor * noise.draw())
+            .collect();
+        problem.target = Rows {
+            signal: Vec::new(),
+            white: problem.whitener.whiten(&raw),
+            raw,
+        };
+        let blocks = Blocks::new(&problem);
+        let term = problem.term(dry, &[], None).unwrap();
+        let [before, after] = [vec![], vec![&term]].map(|terms| fit(&problem, &terms, &blocks));
+        let found = Found {
+            term: term.clone(),
+            z: 3.7,
+            share: 0.7,
+            at_floor: true,
+        };
+        let selection = Selection {
+            nominal: Vec::new(),
+            found: vec![found],
+            too_small: Vec::new(),
+            stages: Vec::new(),
+            before: before.clone(),
+            after,
+        };
+        let place = Place {
+            problem: &problem,
+            selection: &selection,
+            index: 0,
+            blocks: &blocks,
+            gain: before.left_out() - selection.after.left_out(),
+            telling: telling(&problem, &selection),
+            bare: before,
+            common: Vec::new(),
+        };
+        place.richer(&place.rival(bristle).unwrap(), &[])
+    }
+
+    #[test]
+    fn a_bristle_that_hardly_bends_is_dry_friction_and_one_that_bends_is_none() {
+        let richer = beside_dry_friction(1e-5).unwrap();
+        assert_eq!(
+            (richer.parameter.name, richer.end),
+            ("travel", End::Nothing)
+        );
+        let bound = richer.bound.unwrap();
+        assert!((1e-5..0.02).contains(&bound), "{bound} rad");
+        assert!(beside_dry_friction(0.05).is_none());
+    }
+
+    #[test]
+    fn one_moment_alone_tells_no_two_explanations_apart() {
+        let own = [0.7, 1.1, 0.9, 1.3];
+        let at_the_start = [700.7, 1.0, 1.4, 1.2];
+        let all_along = [70.7, 71.1, 50.9, 61.3];
+        assert!((more_elsewhere(&at_the_start, &own) - 0.3).abs() < 1e-9);
+        assert!((more_elsewhere(&all_along, &own) - 180.0).abs() < 1e-9);
+        // Where another explains more than what was named there is nothing to set aside.
+        assert!((more_elsewhere(&[0.6, 1.0, 0.8, 1.2], &own) + 0.4).abs() < 1e-9);
+    }
+}
