@@ -8,6 +8,7 @@ use rigproof_certify::certificate::Certificate;
 use rigproof_certify::search::NamedWorst;
 use rigproof_certify::summary::{LawSummary, MetricSummary, TieSummary, Word};
 
+use crate::chart::Chart;
 use crate::document::{Document, Headline, Section, Tone};
 use crate::number::{grouped, significant};
 use crate::table::table;
@@ -27,6 +28,30 @@ pub struct Beside<'a> {
 pub fn page(certificate: &Certificate, beside: &Beside<'_>) -> String {
     let headline = headline(certificate);
     let mut charts = Vec::new();
+    let sections = sections(certificate, beside, &mut charts);
+    Document {
+        title: format!("{} – {}", headline.sentence, certificate.name),
+        kind: "Certificate",
+        about: certificate.name.clone(),
+        headline,
+        sections,
+        charts,
+        replay: None,
+        served: None,
+        footer: format!(
+            "Written by rigproof {} from certificate.json, which alone counts: check it with `rigproof certify --check`. This page is one file: it loads nothing and sends nothing.",
+            certificate.tool.version
+        ),
+    }
+    .to_html()
+}
+
+/// What broke a law is shown at once; where nothing did, the laws come first.
+fn sections(
+    certificate: &Certificate,
+    beside: &Beside<'_>,
+    charts: &mut Vec<Chart>,
+) -> Vec<Section> {
     let section = |id: &str, heading: &str, body: Markup| Section {
         id: id.to_owned(),
         heading: heading.to_owned(),
@@ -40,13 +65,12 @@ pub fn page(certificate: &Certificate, beside: &Beside<'_>) -> String {
             findings(certificate, beside.replay),
         ));
     }
-    // What broke a law is shown at once; where nothing did, the laws come first.
     let run = beside.run.map(|run| {
         let heading = match certificate.findings.is_empty() {
             true => "The worst of the trials, run again",
             false => "What broke a law first, run again",
         };
-        section("run", heading, run.body(&mut charts))
+        section("run", heading, run.body(charts))
     });
     let (first, last) = match certificate.findings.is_empty() {
         true => (None, run),
@@ -81,21 +105,7 @@ pub fn page(certificate: &Certificate, beside: &Beside<'_>) -> String {
         "What this depends on",
         hashes(certificate),
     ));
-    Document {
-        title: format!("{} – {}", headline.sentence, certificate.name),
-        kind: "Certificate",
-        about: certificate.name.clone(),
-        headline,
-        sections,
-        charts,
-        replay: None,
-        served: None,
-        footer: format!(
-            "Written by rigproof {} from certificate.json, which alone counts: check it with `rigproof certify --check`. This page is one file: it loads nothing and sends nothing.",
-            certificate.tool.version
-        ),
-    }
-    .to_html()
+    sections
 }
 
 fn headline(certificate: &Certificate) -> Headline {

@@ -139,10 +139,10 @@ fn what_the_thesis_left_out_is_found_in_its_own_experiments() {
     let mut cases = vec![
         of([true, true, true, false]),
         of([false, false, false, true]),
-        of([false, true, false, false]),
     ];
     if asked().is_some() {
         cases.extend([
+            of([false, true, false, false]),
             of([true; 4]),
             of([false; 4]),
             of([true, false, false, false]),
