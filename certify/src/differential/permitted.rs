@@ -1,7 +1,7 @@
 //! This file says where the rig's code may answer otherwise than the reference, and checks that it does so nowhere else.
 //!
 //! A tie is a tick whose decision turns within rounding: the reference itself takes the rig's decision when one of its inputs is nudged by
-//! at most [`NUDGES`] of itself. Nothing else is called a tie but the exceptions that [`Tie`] names, each with its own check.
+//! at most `NUDGES` of itself. Nothing else is called a tie but the exceptions that [`Tie`] names, each with its own check.
 
 use nalgebra::Vector2;
 use rigproof_impl::law::Situation;
@@ -36,7 +36,7 @@ const TRIES: u32 = 100;
 /// Currents that differ by no more than this differ by rounding, A. What differs by more has to be amplified.
 const ROUNDING_A: f64 = 1e-12;
 /// Currents that may at all count as equal, A. What is neither amplified nor beyond this goes to the budget of `tests/budgets.toml`, which is
-/// nearer to [`ROUNDING_A`].
+/// nearer to `ROUNDING_A`.
 pub const EQUAL_A: f64 = 1e-8;
 /// How far beyond the currents of nudged ticks a current may lie, A.
 const AMONG_A: f64 = 1e-7;
