@@ -1,7 +1,7 @@
 //! Whether the diagnosis, told the reference model, finds nothing in what the optimised implementation does in every golden case, and names
 //! what is changed in it.
 //!
-//! By default a run of every kind is diagnosed; `RIGPROOF_CASES=all` diagnoses every run of every case, `RIGPROOF_CASES=path_four_brake-7` those
+//! By default runs of every kind on the implementation are diagnosed; `RIGPROOF_CASES=all` diagnoses every run of every case and the reference's, `RIGPROOF_CASES=path_four_brake-7` those
 //! whose name holds the word. With `RIGPROOF_KEEP=folder` the recordings and their rig descriptions stay there, so that
 //! `rigproof diagnose` can be asked again.
 
@@ -94,7 +94,7 @@ fn nothing_is_found_in_any_golden_case() {
     let consistent = |(_, report): &&(Recording, Report)| report.verdict == Verdict::Consistent;
     let consistent = reports.iter().filter(consistent).count();
     println!("{consistent} of {} consistent", reports.len());
-    assert!(asked().is_some() || consistent > 20, "{consistent}");
+    assert!(asked().is_some() || consistent >= 15, "{consistent}");
 }
 
 #[test]
