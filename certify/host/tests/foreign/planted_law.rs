@@ -50,7 +50,7 @@ use Place::{Answered, Begin, Memory, Told};
 
 const GAP: &str = "settings.law = RIGPROOF_TICK_LAW_SDOF; settings.gap_m = 0.005;";
 
-const PLANTED: [Planted; 8] = [
+const PLANTED: [Planted; 11] = [
     (
         "swapped brakes",
         Method::ProportionalLow,
@@ -122,6 +122,34 @@ const PLANTED: [Planted; 8] = [
             ),
         ],
         Law::BrakeCount,
+    ),
+    (
+        "sense of one encoder",
+        Method::ProportionalLow,
+        &[
+            (Memory, "static int32_t zero;"),
+            (Begin, "zero = told->zero_counts[1];"),
+            (Told, "sensed.counts[1] = 2 * zero - sensed.counts[1];"),
+        ],
+        Law::Influence,
+    ),
+    (
+        "missing normalisation",
+        Method::ProportionalLow,
+        &[(
+            Begin,
+            "const double (*to)[2] = told->points_m; double x = to[1][0] - to[0][0], y = to[1][1] - to[0][1]; settings.gain_n_s_per_m *= x * x + y * y;",
+        )],
+        Law::Reference,
+    ),
+    (
+        "chatter",
+        Method::ProportionalLow,
+        &[(
+            Answered,
+            "if (told->number % 3 == 0) memset(commanded->currents_a, 0, sizeof commanded->currents_a);",
+        )],
+        Law::Reference,
     ),
     (
         "out-of-range current",
