@@ -22,7 +22,7 @@ mod spring;
 mod stribeck;
 mod viscous;
 
-pub use lag::first_order_lag;
+pub use lag::{first_order_lag, first_order_lag_straight, lagged};
 
 use rigproof_spec::effect::Mechanism;
 

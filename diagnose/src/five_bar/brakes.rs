@@ -3,7 +3,7 @@
 use super::run::{FiveBarRun, place, yields};
 use crate::problem::{USUAL_SHARE, less, shifted, through_play};
 use rigproof_model::brake::Brake;
-use rigproof_model::effects::first_order_lag;
+use rigproof_model::effects::first_order_lag_straight;
 use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::tables::brake_table;
@@ -25,7 +25,7 @@ pub fn change(
     let start = run.motion(joint).first()?.position;
     match mechanism {
         // What lags is the effort, as the equation of the library has it: the whole brake, its own response included.
-        Mechanism::Lag => Some(less(&first_order_lag(own, run.step_s, value), own)),
+        Mechanism::Lag => Some(less(&first_order_lag_straight(own, run.step_s, value), own)),
         Mechanism::DeadTime => {
             let late = shifted(current, -value / run.step_s);
             again(Brake::new(joint, start), &late)

@@ -1,11 +1,11 @@
 //! This file is what is done to a signal before it becomes a column: delayed, shifted, weighted, differenced.
 
-use rigproof_model::effects::first_order_lag;
+use rigproof_model::effects::first_order_lag_straight;
 
 /// A brake's signed torque with its magnitude delayed by a first-order lag and its sign kept.
 pub fn lagged_yield(predicted: &[f64], step_s: f64, time_constant_s: f64) -> Vec<f64> {
     let magnitude: Vec<f64> = predicted.iter().map(|p| p.abs()).collect();
-    let lagged = first_order_lag(&magnitude, step_s, time_constant_s);
+    let lagged = first_order_lag_straight(&magnitude, step_s, time_constant_s);
     let signed = lagged.iter().zip(predicted);
     signed
         .map(|(l, p)| if *p == 0.0 { 0.0 } else { l * p.signum() })

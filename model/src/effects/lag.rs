@@ -50,9 +50,51 @@ pub fn first_order_lag(signal: &[f64], step_s: f64, time_constant_s: f64) -> Vec
         .collect()
 }
 
+/// First-order lag of a signal that runs straight between its samples, such as a torque, by the exact discrete update; held between
+/// samples instead it would come half a sample early.
+///
+/// `signal` in any unit at `step_s` (s, > 0); `time_constant_s` ≥ 0. Starts in equilibrium with the first sample.
+pub fn first_order_lag_straight(signal: &[f64], step_s: f64, time_constant_s: f64) -> Vec<f64> {
+    let mut before = signal.first().copied().unwrap_or(0.0);
+    let mut state = before;
+    signal
+        .iter()
+        .map(|&now| {
+            state = lagged(state, [before, now], step_s, time_constant_s);
+            before = now;
+            state
+        })
+        .collect()
+}
+
+/// What lags by `time_constant_s`, s, after a step of `step_s` in which what it follows ran straight from one value to the other.
+pub fn lagged(state: f64, [before, now]: [f64; 2], step_s: f64, time_constant_s: f64) -> f64 {
+    if time_constant_s <= 0.0 {
+        return now;
+    }
+    let ratio = step_s / time_constant_s;
+    let kept = libm::exp(-ratio);
+    let mean = -libm::expm1(-ratio) / ratio;
+    kept * state + (mean - kept) * before + (1.0 - mean) * now
+}
+
 #[cfg(test)]
 mod tests {
-    use super::first_order_lag;
+    use super::{first_order_lag, first_order_lag_straight};
+
+    #[test]
+    fn a_ramp_is_followed_one_time_constant_late() {
+        let (step_s, time_constant_s) = (1e-3, 0.0123);
+        let ramp: Vec<f64> = (0..400).map(|k| 3.1 * f64::from(k) * step_s).collect();
+        let lagged = first_order_lag_straight(&ramp, step_s, time_constant_s);
+        for (k, lagged) in lagged.iter().enumerate() {
+            let t = k as f64 * step_s;
+            // 3.1·(t − T + T·exp(−t/T)), the answer to a ramp from rest.
+            let late = time_constant_s * -libm::expm1(-t / time_constant_s);
+            assert!((lagged - 3.1 * (t - late)).abs() < 1e-12, "{k}");
+        }
+        assert_eq!(first_order_lag_straight(&ramp, step_s, 0.0), ramp);
+    }
 
     #[test]
     fn a_step_reaches_one_minus_one_over_e_after_one_time_constant() {

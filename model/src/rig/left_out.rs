@@ -9,7 +9,7 @@ use rigproof_spec::joint::Joint;
 
 use super::contact::Contact;
 use super::effects::JointEffect;
-use crate::effects::{Instant, Law};
+use crate::effects::{Instant, Law, lagged};
 use crate::motion::two_coordinate::TwoCoordinate;
 
 /// The least yield of a joint with dry friction, N·m: what holds has to be able to let go.
@@ -66,6 +66,8 @@ pub struct LeftOut {
     given: Arc<[JointEffect]>,
     terms: Arc<[Timed]>,
     memory: Vec<f64>,
+    /// What the brakes alone yielded when the memories were last advanced, N·m.
+    own_before_nm: [f64; 4],
     /// What the brakes were commanded, A, and since when, s: as far back as the longest delay reaches.
     commands: Vec<(f64, [f64; 4])>,
     /// What is left of the step that is being made, s; 0 between two steps.
@@ -74,7 +76,10 @@ pub struct LeftOut {
 
 impl PartialEq for LeftOut {
     fn eq(&self, other: &LeftOut) -> bool {
-        self.given == other.given && self.memory == other.memory && self.commands == other.commands
+        self.given == other.given
+            && self.memory == other.memory
+            && self.own_before_nm == other.own_before_nm
+            && self.commands == other.commands
     }
 }
 
@@ -120,6 +125,7 @@ impl LeftOut {
         LeftOut {
             given: Arc::from(given),
             memory: memory.collect(),
+            own_before_nm: [NO_TORQUE_YET_NM; 4],
             terms,
             commands: Vec::new(),
             ahead_s: 0.0,
@@ -290,15 +296,20 @@ impl LeftOut {
                     place,
                     time_constant_s,
                 } => {
-                    let target_nm = own_nm[*place];
-                    if *memory < 0.0 {
-                        *memory = target_nm;
-                    }
-                    *memory -= (target_nm - *memory) * libm::expm1(-step_s / time_constant_s);
+                    let now_nm = own_nm[*place];
+                    *memory = match *memory {
+                        // Nothing is remembered yet.
+                        memory if memory < 0.0 => now_nm,
+                        memory => {
+                            let ends_nm = [self.own_before_nm[*place], now_nm];
+                            lagged(memory, ends_nm, step_s, *time_constant_s)
+                        }
+                    };
                 }
                 _ => {}
             }
         }
+        self.own_before_nm = own_nm;
     }
 }
 
@@ -320,7 +331,7 @@ impl Situation<'_> {
 
 #[cfg(test)]
 mod tests {
-    use crate::effects::first_order_lag;
+    use crate::effects::first_order_lag_straight;
     use crate::rig::{JointEffect, Rig};
     use rigproof_spec::effect::Mechanism;
     use rigproof_spec::joint::Joint;
@@ -349,7 +360,7 @@ mod tests {
             steps.collect()
         };
         let (own, late) = (led(&[]), led(&[lag]));
-        let expected = first_order_lag(&own, 1e-3, 0.037);
+        let expected = first_order_lag_straight(&own, 1e-3, 0.037);
         let off = late.iter().zip(&expected).map(|(l, e)| (l - e).abs());
         assert!(off.fold(0.0, f64::max) < 1e-9);
         let moved = late.iter().zip(&own).map(|(l, o)| (l - o).abs());
