@@ -36,6 +36,9 @@ const MOST_ROUNDS: usize = 30;
 
 const HALVINGS: usize = 6;
 
+/// A period is known to a small share of it before, and its neighbours are other periods: its stride beside that of others.
+const PERIOD_STRIDE: f64 = 0.004 / 0.3;
+
 /// Halvings that place an onset to about a sample.
 const ONSET_HALVINGS: usize = 11;
 
@@ -47,11 +50,7 @@ pub(crate) fn refined(problem: &Problem, common: &[&Term], start: Term, blocks: 
         .unwrap_or_else(|| modelled_effort(problem, common, &fitted));
     let bounds = shape_bounds(problem, start.cause);
     let mut best = (score(&start), start);
-    let mut stride = if best.1.cause.mechanism == Mechanism::Ripple {
-        0.004
-    } else {
-        0.3
-    };
+    let mut stride = 0.3;
     let mut halvings = 0;
     for _ in 0..MOST_ROUNDS {
         let before = best.0;
@@ -115,8 +114,12 @@ fn moved(
     effort: &[f64],
 ) -> Option<Term> {
     let mut shape = term.shape.clone();
+    let own = match term.cause.mechanism {
+        Mechanism::Ripple => PERIOD_STRIDE * stride,
+        _ => stride,
+    };
     for ((value, along), (low, high)) in shape.iter_mut().zip(direction).zip(bounds) {
-        *value *= 1.0 + stride * along;
+        *value *= 1.0 + own * along;
         if *value < *low || *value > *high {
             return None;
         }

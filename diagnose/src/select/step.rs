@@ -3,7 +3,7 @@
 use super::judge::{SIMPLER_SHARE, Trial, simplest, trials};
 use super::{Found, Gates, TIE_Z, refs};
 use crate::candidates::{causes, modelled_effort, realise, variants};
-use crate::problem::{Cause, Problem, Term};
+use crate::problem::{Cause, PlantRun, Problem, Term};
 use crate::regression::{Blocks, fit, paired};
 use rigproof_spec::effect::Mechanism;
 
@@ -38,11 +38,17 @@ pub(super) fn forward(
         .collect();
     let (early, bests) = trials(problem, &common, &current, lists, blocks, gates);
     let effort = modelled_effort(problem, &common, &current);
-    let onsets = bests
-        .iter()
-        .map(|t| with_onsets(problem, t, &effort))
+    let onsets = |terms: &[Term]| -> Vec<Vec<Term>> {
+        let each = terms.iter();
+        each.map(|t| with_onsets(problem, t, &effort)).collect()
+    };
+    let (mut late, _) = trials(problem, &common, &current, onsets(&bests), blocks, gates);
+    let passed: Vec<Cause> = late.iter().map(|t| t.found.term.cause).collect();
+    let failed = bests.iter().filter(|t| !passed.contains(&t.cause));
+    let unequal: Vec<Term> = failed
+        .filter_map(|t| with_unequal_limits(problem, t, &effort))
         .collect();
-    let (late, _) = trials(problem, &common, &current, onsets, blocks, gates);
+    late.extend(trials(problem, &common, &current, onsets(&unequal), blocks, gates).0);
     let (elementary, others): (Vec<Trial>, Vec<Trial>) = early
         .into_iter()
         .partition(|t| ELEMENTARY.contains(&t.found.term.cause.mechanism));
@@ -114,6 +120,22 @@ pub(super) fn open(problem: &Problem, nominal: &[Term], found: &[Found]) -> Vec<
         .into_iter()
         .filter(|cause| !taken.contains(cause))
         .collect()
+}
+
+/// For a bristle of a five-bar the one whose limits differ. From the start it is found as a bristle beside a constant; of two that begin later
+/// neither may pass alone.
+fn with_unequal_limits(problem: &Problem, term: &Term, effort: &[f64]) -> Option<Term> {
+    let PlantRun::FiveBar(_) = problem.plant else {
+        return None;
+    };
+    if term.cause.mechanism != Mechanism::Presliding {
+        return None;
+    }
+    let cause = Cause {
+        mechanism: Mechanism::AsymmetricPresliding,
+        ..term.cause
+    };
+    realise(problem, cause, &term.shape, None, effort)
 }
 
 /// A term that begins at twelfths of the recording, ends left out.
