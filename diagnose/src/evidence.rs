@@ -1,11 +1,12 @@
 //! This file says how sure a selection is: intervals, rivals, what would have been seen, what cannot be told.
 
 mod constancy;
+mod intervals;
 mod rivals;
 
 use crate::candidates::{causes, modelled_effort, realise, variants};
 use crate::problem::{Cause, Problem, Term};
-use crate::regression::{Blocks, covariance, dot, fit, free_columns, norm};
+use crate::regression::{Blocks, dot, fit, free_columns, norm};
 use crate::report::{NotSeen, NullDirection};
 use crate::select::{Found, Gates, Selection, refs};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
@@ -17,85 +18,11 @@ use rigproof_spec::joint::Joint;
 use std::collections::BTreeMap;
 
 pub use constancy::{inconstant, is_told_by_itself};
+pub use intervals::{Intervals, intervals};
 pub use rivals::{Rivals, rivals};
 
 /// Bootstrap replicates of the inclusion frequency.
 const REPLICATES: usize = 500;
-
-/// Standard errors of every parameter of every term, and of the inertia first when it is estimated.
-#[derive(Clone, Debug)]
-pub struct Errors {
-    /// Of the inertia.
-    pub inertia: Option<f64>,
-    /// Of each term's parameters in the vocabulary's order; NaN where the recording does not determine one.
-    pub terms: Vec<Vec<f64>>,
-}
-
-/// Generalised least-squares standard errors, shape parameters included through their sensitivities.
-pub fn standard_errors(problem: &Problem, selection: &Selection) -> Errors {
-    let terms = refs(&selection.nominal, &selection.found);
-    let columns = sensitivities(problem, &terms, selection);
-    let white: Vec<&[f64]> = columns.iter().map(|c| c.values.as_slice()).collect();
-    let residual = problem.whitener.whiten(&selection.after.residual);
-    let blocks = Blocks::new(problem);
-    let spread: Vec<f64> = match sandwich(&white, &residual, &blocks) {
-        Some(covariance) => covariance
-            .diagonal()
-            .iter()
-            .map(|v| v.max(0.0).sqrt())
-            .collect(),
-        None => vec![f64::NAN; white.len()],
-    };
-    let mut errors = Errors {
-        inertia: None,
-        terms: terms
-            .iter()
-            .map(|t| vec![f64::NAN; parameter_count(t)])
-            .collect(),
-    };
-    for (column, deviation) in columns.iter().zip(spread) {
-        match column.place {
-            None => errors.inertia = Some(deviation),
-            Some((term, parameter)) => {
-                if let Some(slot) = errors
-                    .terms
-                    .get_mut(term)
-                    .and_then(|t| t.get_mut(parameter))
-                {
-                    *slot = deviation;
-                }
-            }
-        }
-    }
-    errors
-}
-
-/// Covariance of the coefficients that trusts neither whiteness nor equal size of the residuals: scores summed
-/// over contiguous blocks, and never less than white residuals of variance 1 would give.
-#[expect(
-    clippy::indexing_slicing,
-    reason = "indices below the matrix's own size"
-)]
-fn sandwich(columns: &[&[f64]], residual: &[f64], blocks: &Blocks) -> Option<DMatrix<f64>> {
-    let bread = covariance(columns)?;
-    let mut filling = DMatrix::zeros(columns.len(), columns.len());
-    for &(first, end) in &blocks.ranges {
-        let part = |values: &[f64]| values.get(first..end).unwrap_or_default().to_vec();
-        let rest = part(residual);
-        let score =
-            DVector::from_iterator(columns.len(), columns.iter().map(|c| dot(&part(c), &rest)));
-        filling += &score * score.transpose();
-    }
-    let count = blocks.ranges.len() as f64;
-    let robust = &bread * filling * &bread * (count / (count - 1.0));
-    Some(DMatrix::from_fn(columns.len(), columns.len(), |i, j| {
-        if i == j {
-            robust[(i, j)].max(bread[(i, j)])
-        } else {
-            robust[(i, j)]
-        }
-    }))
-}
 
 fn parameter_count(term: &Term) -> usize {
     entry(term.cause.mechanism).map_or(0, |e| e.linear) + term.shape.len()

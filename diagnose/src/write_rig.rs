@@ -1,6 +1,6 @@
 //! This file writes what was found as a rig description: the calibration that a simulation can read.
 
-use crate::evidence::Errors;
+use crate::evidence::Intervals;
 use crate::report::Number;
 use crate::simulate::Plant;
 use rigproof_spec::effect::Motion;
@@ -8,12 +8,12 @@ use rigproof_trace::rig::{Rig, RigEffect, Status, Value};
 use std::collections::BTreeMap;
 
 /// The rig with the plant's numbers and their intervals; found effects follow the nominal ones.
-pub fn calibrated(rig: &Rig, plant: &Plant, errors: &Errors, refitted: bool) -> Rig {
+pub fn calibrated(rig: &Rig, plant: &Plant, intervals: &Intervals, refitted: bool) -> Rig {
     let mut out = rig.clone();
     if let Some(parameters) = &mut out.parameters
         && parameters.inertia.status != Status::Known
     {
-        parameters.inertia = with_interval(plant.inertia, errors.inertia);
+        parameters.inertia = with_interval(plant.inertia, intervals.inertia);
     }
     out.effects = plant
         .effects
@@ -21,11 +21,11 @@ pub fn calibrated(rig: &Rig, plant: &Plant, errors: &Errors, refitted: bool) -> 
         .enumerate()
         .map(|(index, effect)| {
             let given = rig.effects.get(index);
-            let spread = errors.terms.get(index);
+            let halves = intervals.terms.get(index);
             let values = effect.parameters.iter().enumerate().map(|(k, &value)| {
                 match given.and_then(|g| g.values.get(k)) {
                     Some(known) if known.status == Status::Known => *known,
-                    _ => with_interval(value, spread.and_then(|s| s.get(k)).copied()),
+                    _ => with_interval(value, halves.and_then(|h| h.get(k)).copied()),
                 }
             });
             RigEffect {
@@ -44,11 +44,12 @@ pub fn calibrated(rig: &Rig, plant: &Plant, errors: &Errors, refitted: bool) -> 
     out
 }
 
-pub(crate) fn with_interval(value: f64, deviation: Option<f64>) -> Value {
+/// A value with a 95 % interval of this half width, where it is a number.
+pub(crate) fn with_interval(value: f64, half: Option<f64>) -> Value {
     let mut out = Value::unknown(value);
-    if let Some(deviation) = deviation.filter(|d| d.is_finite()) {
-        out.low95 = Some(value - 1.96 * deviation);
-        out.high95 = Some(value + 1.96 * deviation);
+    if let Some(half) = half.filter(|h| h.is_finite()) {
+        out.low95 = Some(value - half);
+        out.high95 = Some(value + half);
     }
     out
 }
@@ -99,8 +100,8 @@ mod tests {
     #[test]
     fn an_interval_is_written_where_the_recording_gives_one() {
         let value = with_interval(3.7, Some(0.19));
-        assert!((value.low95.unwrap() - 3.3276).abs() < 1e-12);
-        assert!((value.high95.unwrap() - 4.0724).abs() < 1e-12);
+        assert!((value.low95.unwrap() - 3.51).abs() < 1e-12);
+        assert!((value.high95.unwrap() - 3.89).abs() < 1e-12);
         assert_eq!(with_interval(3.7, Some(f64::NAN)).low95, None);
         assert_eq!(with_interval(3.7, None).high95, None);
     }

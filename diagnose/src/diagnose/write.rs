@@ -3,7 +3,7 @@
 use super::ended::blank;
 use super::words::summary;
 use super::{Curves, Description, Diagnosis, FittedCurves, Options};
-use crate::evidence::{inclusion, not_seen, null_directions, rivals, standard_errors};
+use crate::evidence::{inclusion, intervals, not_seen, null_directions, rivals};
 use crate::from_rig;
 use crate::locate::locate;
 use crate::problem::{Cause, Problem};
@@ -84,10 +84,10 @@ impl Stand<'_> {
             Some(f) => (f.nominal.plant.clone(), f.found.plant.clone()),
             None => (self.plant(false), self.plant(true)),
         };
-        let errors = standard_errors(self.problem, self.selection);
+        let intervals = intervals(self.problem, self.selection);
         // A bench with a brake keeps the numbers of its windows.
         let refitted = fitted.is_some() && self.train.brake().is_none();
-        let calibration = calibrated(self.rig, &plants.1, &errors, refitted);
+        let calibration = calibrated(self.rig, &plants.1, &intervals, refitted);
         let summary = summary(verdict, self.selection, fit.as_ref());
         let report = Report {
             protocol: self.protocol_lines(&protocol, other_recording),

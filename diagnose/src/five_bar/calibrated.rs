@@ -1,7 +1,7 @@
 //! This file gives a five-bar's description the numbers of a selection.
 
 use super::diagnose::Stand;
-use crate::evidence::{Errors, coefficients_by_term, parameters};
+use crate::evidence::{Intervals, coefficients_by_term, parameters};
 use crate::problem::Term;
 use crate::select::refs;
 use crate::write_rig::with_interval;
@@ -11,7 +11,7 @@ use rigproof_trace::rig::{RigEffect, Value};
 
 impl Stand<'_> {
     /// The rig with the numbers of all terms; found effects follow the nominal ones.
-    pub(super) fn calibrated(&self, errors: &Errors) -> FiveBar {
+    pub(super) fn calibrated(&self, intervals: &Intervals) -> FiveBar {
         let mut rig = self.rig.clone();
         let (_, coefficients) = coefficients_by_term(self.problem, self.selection);
         let terms = refs(&self.selection.nominal, &self.selection.found);
@@ -24,11 +24,11 @@ impl Stand<'_> {
                 if let (Some(given), Some(_)) = (known.get(index), &term.known) {
                     return given.clone();
                 }
-                let spread = errors.terms.get(index);
+                let halves = intervals.terms.get(index);
                 let count = term.cause.mechanism.parameters().len();
                 let values = parameters(term, own).into_iter().take(count).enumerate();
                 let values = values
-                    .map(|(k, value)| with_interval(value, spread.and_then(|s| s.get(k)).copied()));
+                    .map(|(k, value)| with_interval(value, halves.and_then(|h| h.get(k)).copied()));
                 joint_effect(term, term.cause.mechanism, values.collect())
             })
             .collect();

@@ -14,8 +14,8 @@ use crate::diagnose::words::summary;
 use crate::diagnose::write::{floor, verdict};
 use crate::diagnose::{Curves, Description, Diagnosis, FEWEST_WINDOWS, FittedCurves, Options};
 use crate::evidence::{
-    Rivals, coefficients_by_term, inclusion, inconstant, is_told_by_itself, not_seen, rivals,
-    standard_errors,
+    Rivals, coefficients_by_term, inclusion, inconstant, intervals, is_told_by_itself, not_seen,
+    rivals,
 };
 use crate::problem::{Cause, NominalEffect, Problem, Term, add};
 use crate::report::{
@@ -168,6 +168,8 @@ struct Balanced {
     recorded: Vec<f64>,
     before: Vec<f64>,
     after: Vec<f64>,
+    /// What sensor noise alone leaves in the usable rows, N·m.
+    floor: f64,
 }
 
 impl Stand<'_> {
@@ -178,8 +180,8 @@ impl Stand<'_> {
         let floor = floor(problem, selection, Motion::Rotary);
         let verdict = verdict(selection, &floor, floor_limit(problem), &rivals);
         let test = self.balanced(self.test, self.test_from_s);
-        let errors = standard_errors(problem, selection);
-        let calibration = self.calibrated(&errors);
+        let intervals = intervals(problem, selection);
+        let calibration = self.calibrated(&intervals);
         let asked = self.options.refit && self.test_from_s < self.test.duration_s();
         let train = asked.then(|| self.balanced(self.train, 0.0));
         let fit = train
@@ -268,18 +270,19 @@ impl Stand<'_> {
             recorded: average(&super::columns::driving(run, run.forces())),
             before: average(&modelled(&problem, &bare)),
             after: average(&modelled(&problem, self.selection)),
+            floor: problem.floor,
         }
     }
 
     /// Errors of free runs with the nominal effects of the calibration and with all of them, and how they were made.
     fn free_runs(&self, calibration: &FiveBar) -> (Vec<Horizon>, String) {
         let bare = self.bare();
-        let errors = standard_errors(self.problem, &bare);
+        let intervals = intervals(self.problem, &bare);
         let nominal = Stand {
             selection: &bare,
             ..*self
         };
-        let before = Model::of(&nominal.calibrated(&errors));
+        let before = Model::of(&nominal.calibrated(&intervals));
         let after = Model::of(calibration);
         let first = (self.test_from_s / self.test.step_s).round() as usize;
         // Of several recordings the first: a run does not go across a seam.
@@ -312,9 +315,9 @@ impl Stand<'_> {
         other_recording: bool,
     ) -> FitReport {
         let (horizon, free_runs) = self.free_runs(calibration);
+        let least = test.floor;
         let train = before_after(train);
         let held_out = before_after(test);
-        let least = self.problem.floor;
         let where_from = if other_recording {
             "another recording"
         } else {

@@ -11,7 +11,7 @@ use super::diagnose::Stand;
 use super::free_run::Model;
 use super::from_rig::aligned;
 use crate::candidates::{realise, variants};
-use crate::evidence::Errors;
+use crate::evidence::Intervals;
 use crate::problem::{Cause, Problem};
 use crate::regression::{Blocks, fit};
 use crate::report::{NextExperiment, Separation};
@@ -163,7 +163,7 @@ fn explanation(stand: &Stand<'_>, selection: &Selection, index: usize) -> Option
     let own = selection.found.get(index)?;
     let others = selection.found.iter().enumerate();
     let others = others.filter(|(k, _)| *k != index).map(|(_, f)| &f.term);
-    let nothing = Errors {
+    let nothing = Intervals {
         inertia: None,
         terms: Vec::new(),
     };
