@@ -17,7 +17,7 @@ mod setup;
 mod size;
 mod stick;
 
-pub use make::make;
+pub use make::{again, make};
 
 use linkage::angles_of_tip;
 use plant::FiveBar;

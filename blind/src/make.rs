@@ -39,6 +39,14 @@ pub(crate) struct Secret {
     pub run: Run,
 }
 
+/// Another recording of the five-bar of a seed, with the same effects hidden: another hand and other currents, from the same start.
+///
+/// # Errors
+/// [`Error::NoCase`] when no draw of the seed meets the stratum's rule of size, or moves enough.
+pub fn again(seed: u64) -> Result<Trace, Error> {
+    five_bar::again(seed, Stratum::of_seed(Plant::Rig, seed))
+}
+
 /// Makes the case of a seed; `None` lets the seed draw the stratum.
 ///
 /// # Errors

@@ -41,6 +41,10 @@ pub struct Score {
     pub onset_error_s: Option<f64>,
     /// Errors of the parameters that truth and report both have.
     pub parameters: Vec<ParameterError>,
+    /// Share of the achievable improvement on the held-out part, (before − after)/(before − noise), as the report measured it: where an effect
+    /// that can be named is hidden and a part was held out.
+    #[serde(default)]
+    pub recovered_share: Option<f64>,
 }
 
 /// How far one parameter is from the truth.
@@ -105,6 +109,7 @@ pub fn score(answer: &Answer, report: &Value) -> Result<Score, Error> {
         offered: offered.len(),
         onset_error_s: onset_error_s(answer, &found),
         parameters: parameter_errors(answer, &found),
+        recovered_share: recovered_share(answer, report),
         hidden: truth.iter().map(|name| (*name).to_owned()).collect(),
         named: named.iter().map(|name| (*name).to_owned()).collect(),
     })
@@ -171,6 +176,14 @@ fn onset_error_s(answer: &Answer, found: &[Found<'_>]) -> Option<f64> {
         let named = found.iter().find(|f| f.mechanism == truth.mechanism)?;
         Some((named.onset_s? - truth.onset_s?).abs())
     })
+}
+
+fn recovered_share(answer: &Answer, report: &Value) -> Option<f64> {
+    let nameless = [Stratum::TooSmall, Stratum::NotInLibrary, Stratum::DataFault];
+    if answer.effects.is_empty() || nameless.contains(&answer.stratum) {
+        return None;
+    }
+    report.get("fit")?.get("recovered_share")?.as_f64()
 }
 
 fn parameter_errors(answer: &Answer, found: &[Found<'_>]) -> Vec<ParameterError> {
@@ -342,6 +355,23 @@ mod tests {
         let lucky = with(json!([]));
         assert!(!lucky.exact && lucky.inside && lucky.false_names.is_empty());
         assert!(with(json!(["dry_offset at A"])).exact);
+    }
+
+    #[test]
+    fn what_was_recovered_is_asked_where_something_can_be_named() {
+        let report =
+            json!({"verdict": "explained", "effects": [], "fit": {"recovered_share": 0.9}});
+        let of = |stratum, effects| {
+            score(&answer(stratum, effects), &report)
+                .unwrap()
+                .recovered_share
+        };
+        assert_eq!(of(Stratum::Single, vec![effect("viscous", &[])]), Some(0.9));
+        assert_eq!(of(Stratum::TooSmall, vec![effect("viscous", &[])]), None);
+        assert_eq!(of(Stratum::Nothing, vec![]), None);
+        let without = json!({"verdict": "explained", "effects": [], "fit": null});
+        let single = answer(Stratum::Single, vec![effect("viscous", &[])]);
+        assert_eq!(score(&single, &without).unwrap().recovered_share, None);
     }
 
     #[test]

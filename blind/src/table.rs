@@ -45,12 +45,16 @@ pub struct Row {
     pub flagged: Share,
     /// Mean number of mechanisms named or offered.
     pub mean_offered: f64,
+    /// Median number of mechanisms named or offered.
+    pub median_offered: f64,
     /// Median distance of the onset, s, where it is comparable.
     pub median_onset_error_s: Option<f64>,
     /// Median relative error of the comparable parameters.
     pub median_parameter_error: Option<f64>,
     /// Comparable parameters whose 95 % interval holds the truth.
     pub covered: Option<Share>,
+    /// Median share of the achievable improvement on the held-out part, where one was held out.
+    pub median_recovered_share: Option<f64>,
 }
 
 impl Table {
@@ -174,6 +178,8 @@ impl Row {
             any_false_name: share(|score| !score.false_names.is_empty()),
             flagged: share(|score| score.flagged),
             mean_offered: scores.iter().map(|s| s.offered as f64).sum::<f64>() / n as f64,
+            median_offered: median(scores.iter().map(|s| s.offered as f64)).unwrap_or_default(),
+            median_recovered_share: median(scores.iter().filter_map(|s| s.recovered_share)),
             median_onset_error_s: median(scores.iter().filter_map(|s| s.onset_error_s)),
             median_parameter_error: median(
                 scores
@@ -292,6 +298,7 @@ mod tests {
             offered: 1 + name.len(),
             onset_error_s: None,
             parameters: Vec::new(),
+            recovered_share: Some(if exact { 0.9 } else { 0.1 }),
         };
         let mut table = Table::default();
         table.add(Plant::Axis, 7, score(true, &[]));
@@ -301,6 +308,8 @@ mod tests {
         assert_eq!((rows[0].n, rows[0].exact.count), (2, 1));
         assert_eq!(rows[1].any_false_name.count, 1);
         assert_eq!(rows[1].mean_offered, 1.5);
+        assert_eq!(rows[1].median_offered, 1.5);
+        assert_eq!(rows[1].median_recovered_share, Some(0.5));
         let text = table.to_string();
         assert!(text.contains("axis: 2 cases, seeds 7 to 9"), "{text}");
         assert_eq!(

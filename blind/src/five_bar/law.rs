@@ -217,7 +217,8 @@ impl Effect {
         effect
     }
 
-    /// The parameters with their units; the vocabulary's names where it has some.
+    /// The parameters with their units; the vocabulary's names where it has the same number. A law of another family has numbers of its own: the travel at
+    /// which the last of some elements yields is no bristle's, the share of a Preisach operator none of a play's.
     pub fn parameters(&self) -> Vec<(&'static str, f64, Dimension)> {
         let effort = Quantity::Effort.dimension(Motion::Rotary);
         let of = |quantity: Quantity| quantity.dimension(Motion::Rotary);
@@ -233,7 +234,7 @@ impl Effect {
                 ("exponent", 2.0, number),
             ],
             Law::MaxwellSlip { level, travel } => {
-                vec![("level", level, effort), ("travel", travel, angle)]
+                vec![("level", level, effort), (LAST_YIELD, travel, angle)]
             }
             Law::Load { arm } => vec![("arm", arm, Dimension::LENGTH)],
             Law::Spring { stiffness } => {
@@ -272,7 +273,7 @@ impl Effect {
             } => vec![
                 ("forward", forward, effort),
                 ("backward", backward, effort),
-                ("travel", travel, angle),
+                (LAST_YIELD, travel, angle),
             ],
             Law::Bearing { dry, viscous } => vec![
                 ("dry", dry, effort),
@@ -293,7 +294,7 @@ impl Effect {
             | Law::ForceGain { fraction } => vec![("fraction", fraction, number)],
             Law::Lag { time_constant } => vec![("time_constant", time_constant, time)],
             Law::Backlash { width } => vec![("width", width, angle)],
-            Law::Preisach { share } => vec![("share", share, number)],
+            Law::Preisach { share } => vec![("preisach_share", share, number)],
             Law::Thermal { loss } => vec![("loss_per_kelvin", loss, number)],
             Law::Overshoot { fraction, travel } => {
                 vec![("fraction", fraction, number), ("travel", travel, angle)]
@@ -321,3 +322,6 @@ impl Effect {
 
 /// kg.
 const MASS: Dimension = Dimension([0, 1, 0, 0, 0]);
+
+/// The travel at which the last element of a Maxwell-slip law yields.
+const LAST_YIELD: &str = "last_yield";

@@ -21,6 +21,7 @@ use rigproof_spec::layout::Layout;
 use rigproof_trace::rig::five_bar::{FiveBar, FiveBarChannels};
 use rigproof_trace::rig::{ChannelMap, Drive, Protocol};
 use rigproof_trace::{Channel, Trace};
+use std::f64::consts::TAU;
 
 /// A case before sensors and seals.
 pub struct Secret {
@@ -29,6 +30,9 @@ pub struct Secret {
     pub samples: Vec<Sample>,
     pub sizes: Sizes,
 }
+
+/// Draws that are tried.
+const ATTEMPTS: usize = 24;
 
 /// Least share of a recording in which something slides.
 const LEAST_SLIDING: f64 = 0.5;
@@ -67,9 +71,22 @@ pub fn make(seed: u64, stratum: Stratum) -> Result<Case, Error> {
     })
 }
 
+/// Another recording of a seed's rig, with the same hidden effects on the same clock: another hand, other currents.
+pub fn again(seed: u64, stratum: Stratum) -> Result<Trace, Error> {
+    let first = secret(seed, stratum)?;
+    let mut draw = Draw::new(Plant::Rig, seed, "again");
+    for _ in 0..ATTEMPTS {
+        let setup = first.setup.again(stratum, &mut draw);
+        let other = Secret::new(setup, first.hidden.clone());
+        if let Some(other) = other.filter(|other| other.sizes.sliding >= LEAST_SLIDING) {
+            return Ok(record(&other, &mut draw));
+        }
+    }
+    Err(no_case(seed, stratum))
+}
+
 /// Draws until the rule of size is met.
 pub fn secret(seed: u64, stratum: Stratum) -> Result<Secret, Error> {
-    const ATTEMPTS: usize = 24;
     let mut draw = Draw::new(Plant::Rig, seed, stratum.name());
     for _ in 0..ATTEMPTS {
         let Some(setup) = Setup::draw(stratum, &mut draw) else {
@@ -90,12 +107,16 @@ pub fn secret(seed: u64, stratum: Stratum) -> Result<Secret, Error> {
             return Ok(tried);
         }
     }
-    Err(Error::NoCase {
+    Err(no_case(seed, stratum))
+}
+
+fn no_case(seed: u64, stratum: Stratum) -> Error {
+    Error::NoCase {
         seed,
         plant: Plant::Rig.name(),
         stratum: stratum.name(),
         attempts: ATTEMPTS,
-    })
+    }
 }
 
 impl Secret {
@@ -241,10 +262,37 @@ fn describe(seed: u64, setup: &Setup) -> FiveBar {
     }
 }
 
+/// The effect with its numbers as the vocabulary counts them: a ripple from the zero of the joint's angle instead of from the start, the angle of a
+/// sensor as that by which it turns the force.
+pub fn in_the_vocabulary(setup: &Setup, effect: &Effect) -> Effect {
+    let law = match (effect.law, effect.joint) {
+        (
+            Law::Ripple {
+                sine,
+                cosine,
+                period,
+            },
+            Some(joint),
+        ) => {
+            let (s, c) = libm::sincos(TAU * setup.start_angle_rad(joint) / period);
+            Law::Ripple {
+                sine: sine * c + cosine * s,
+                cosine: cosine * c - sine * s,
+                period,
+            }
+        }
+        (Law::ForceRotation { angle }, _) => Law::ForceRotation { angle: -angle },
+        (law, _) => law,
+    };
+    Effect { law, ..*effect }
+}
+
 fn answers(secret: &Secret) -> Vec<HiddenEffect> {
     let each = secret.hidden.iter().zip(&secret.sizes.sizes);
     each.map(|(effect, size)| {
-        let parameters = effect.parameters().into_iter();
+        let parameters = in_the_vocabulary(&secret.setup, effect)
+            .parameters()
+            .into_iter();
         HiddenEffect {
             mechanism: effect.name().to_owned(),
             joint: effect.joint.map(|joint| joint.letter().to_owned()),

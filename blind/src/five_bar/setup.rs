@@ -2,11 +2,13 @@
 
 use super::drive::{Drive, constant, controller, programme};
 use super::hand::Hand;
-use super::linkage::{Pair, angles_of_tip};
+use super::linkage::{Pair, Pose, angles_of_tip};
 use crate::draw::{Draw, rounded};
 use crate::stratum::Stratum;
 use rigproof_spec::geometry::arms;
+use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
+use std::f64::consts::TAU;
 
 /// Samples a second.
 pub const RATE_HZ: f64 = 1000.0;
@@ -35,32 +37,12 @@ impl Setup {
             false => Layout::FourBrake,
         };
         let duration_s = draw.uniform(16.0, 30.0).floor();
-        let (height_m, radius_m) = match layout {
-            Layout::ThreeBrake => (0.38, 0.1),
-            Layout::FourBrake => (0.42, 0.085),
-        };
+        let (height_m, _) = reach_m(layout);
         let centre_m = [
             draw.uniform(-0.015, 0.015),
             height_m + draw.uniform(-0.015, 0.015),
         ];
-        let person = draw.chance(0.4);
-        let hand = match person {
-            true => Hand::person(draw, centre_m, radius_m, duration_s),
-            false => Hand::experimenter(draw, centre_m, radius_m, duration_s),
-        };
-        let greatest_a = if person {
-            draw.uniform(0.25, 0.45)
-        } else {
-            draw.uniform(0.4, 0.9)
-        };
-        let in_loop = draw.chance(0.25) || stratum == Stratum::InLoop;
-        let drive = if stratum == Stratum::Unidentifiable {
-            constant(draw, layout, duration_s, greatest_a)
-        } else if in_loop {
-            controller(draw, layout, centre_m, radius_m, greatest_a)
-        } else {
-            programme(draw, layout, duration_s, greatest_a)
-        };
+        let (hand, drive) = experiment(stratum, layout, centre_m, duration_s, draw);
         let noise_n = draw.log_uniform(0.02, 0.1);
         let louder = if stratum == Stratum::Noisy { 5.0 } else { 1.0 };
         Some(Setup {
@@ -75,6 +57,17 @@ impl Setup {
         })
     }
 
+    /// The same laboratory with another hand and other currents, from the same start.
+    pub fn again(&self, stratum: Stratum, draw: &mut Draw) -> Setup {
+        let centre_m = self.hand.goal.centre_m();
+        let (hand, drive) = experiment(stratum, self.layout, centre_m, self.duration_s, draw);
+        Setup {
+            hand,
+            drive,
+            ..self.clone()
+        }
+    }
+
     /// Whether no current ever changes.
     pub fn is_constant(&self) -> bool {
         match &self.drive {
@@ -83,8 +76,61 @@ impl Setup {
         }
     }
 
+    /// The angle of a joint at the start, rad: that of E, as the thesis has it, between π and 2π.
+    pub fn start_angle_rad(&self, joint: Joint) -> f64 {
+        let place = Joint::ALL.into_iter().position(|own| own == joint);
+        let angles =
+            Pose::at(&arms(self.layout), self.start).map(|pose| pose.joint_angles_rad(self.start));
+        let angle_rad = angles
+            .zip(place)
+            .and_then(|(angles, place)| angles.get(place).copied())
+            .unwrap_or_default();
+        match joint {
+            Joint::E => angle_rad.rem_euclid(TAU),
+            _ => angle_rad,
+        }
+    }
+
     /// The angle of one count, rad.
     pub fn quantum_rad(&self) -> f64 {
-        std::f64::consts::TAU / self.counts_per_turn
+        TAU / self.counts_per_turn
     }
+}
+
+/// Height of the middle of the workspace, and how far about it a hand reaches, m.
+const fn reach_m(layout: Layout) -> (f64, f64) {
+    match layout {
+        Layout::ThreeBrake => (0.38, 0.1),
+        Layout::FourBrake => (0.42, 0.085),
+    }
+}
+
+/// A hand and what commands the brakes.
+fn experiment(
+    stratum: Stratum,
+    layout: Layout,
+    centre_m: Pair,
+    duration_s: f64,
+    draw: &mut Draw,
+) -> (Hand, Drive) {
+    let (_, radius_m) = reach_m(layout);
+    let person = draw.chance(0.4);
+    let hand = match person {
+        true => Hand::person(draw, centre_m, radius_m, duration_s),
+        false => Hand::experimenter(draw, centre_m, radius_m, duration_s),
+    };
+    let greatest_a = if person {
+        draw.uniform(0.25, 0.45)
+    } else {
+        draw.uniform(0.4, 0.9)
+    };
+    let in_loop = draw.chance(0.25) || stratum == Stratum::InLoop;
+    let drive = if stratum == Stratum::Unidentifiable {
+        constant(draw, layout, duration_s, greatest_a)
+    } else if in_loop {
+        controller(draw, layout, centre_m, radius_m, greatest_a)
+    } else {
+        programme(draw, layout, duration_s, greatest_a)
+    };
+    (hand, drive)
 }

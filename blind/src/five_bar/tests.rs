@@ -3,7 +3,7 @@
 use super::hide;
 use super::law::{Effect, Law};
 use super::linkage::{Pair, dot};
-use super::make::{Secret, secret};
+use super::make::{Secret, in_the_vocabulary, secret};
 use super::mass::Form;
 use super::setup::Setup;
 use super::*;
@@ -234,6 +234,62 @@ fn laws_are_named_as_the_vocabulary_has_them() {
             }
         }
     }
+}
+
+#[test]
+fn a_ripple_is_told_from_the_zero_of_its_joint_and_a_turned_sensor_by_what_it_shows() {
+    let told = |setup: &Setup, hidden: &Effect| -> Vec<f64> {
+        let parameters = in_the_vocabulary(setup, hidden).parameters().into_iter();
+        parameters.map(|(_, value, _)| value).collect()
+    };
+    let setup = Setup::draw(Stratum::Single, &mut Draw::new(Plant::Rig, 3, "zero")).unwrap();
+    for joint in Joint::ALL {
+        let start_rad = setup.start_angle_rad(joint);
+        let (sine, cosine, period) = (0.13, -0.07, 0.191);
+        let hidden = effect(
+            Law::Ripple {
+                sine,
+                cosine,
+                period,
+            },
+            joint,
+        );
+        let [own_sine, own_cosine, _] = told(&setup, &hidden)[..] else {
+            panic!("a ripple has three numbers");
+        };
+        for travel in [0.0, 0.031, -0.17] {
+            let (s, c) = libm::sincos(std::f64::consts::TAU * travel / period);
+            let phase = std::f64::consts::TAU * (start_rad + travel) / period;
+            let (own_s, own_c) = libm::sincos(phase);
+            let difference = sine * s + cosine * c - own_sine * own_s - own_cosine * own_c;
+            assert!(difference.abs() < 1e-12, "{joint:?} {difference}");
+        }
+    }
+    // Table 4.2: the angle of E lies beyond half a turn.
+    let pi = std::f64::consts::PI;
+    assert!((pi..2.0 * pi).contains(&setup.start_angle_rad(Joint::E)));
+    let turned = Law::ForceRotation { angle: 0.11 };
+    assert_eq!(told(&setup, &effect(turned, Joint::A)), [-0.11]);
+}
+
+#[test]
+fn a_second_recording_of_a_rig_is_another_motion_from_the_same_start() {
+    let seed = 1006;
+    let first = make(seed, Stratum::of_seed(Plant::Rig, seed))
+        .unwrap()
+        .trace;
+    let second = crate::make::again(seed).unwrap();
+    assert_eq!(second, crate::make::again(seed).unwrap());
+    assert_eq!(first.time_s, second.time_s);
+    let of = |trace: &rigproof_trace::Trace| trace.channel("theta_a").unwrap().samples.clone();
+    let (first, second) = (of(&first), of(&second));
+    assert_eq!(first[0], second[0]);
+    let range = |x: &[f64]| {
+        x.iter().copied().fold(f64::NEG_INFINITY, f64::max)
+            - x.iter().copied().fold(f64::INFINITY, f64::min)
+    };
+    let apart: Vec<f64> = first.iter().zip(&second).map(|(a, b)| a - b).collect();
+    assert!(range(&apart) > 0.3 * range(&first), "{}", range(&apart));
 }
 
 /// On the 3-brake layout friction at C and at E is one and the same: the recordings agree bit for bit in all but rounding.
