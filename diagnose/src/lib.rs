@@ -86,6 +86,7 @@ mod select;
 pub mod self_calibration;
 mod sensor;
 pub mod simulate;
+mod student;
 mod unknown;
 mod weak;
 mod whiten;

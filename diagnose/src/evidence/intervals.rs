@@ -8,8 +8,8 @@ use super::{parameter_count, sensitivities};
 use crate::problem::Problem;
 use crate::regression::{Blocks, covariance, dot};
 use crate::select::{Selection, refs};
+use crate::student::half_width;
 use nalgebra::{DMatrix, DVector};
-use statrs::distribution::{ContinuousCDF, StudentsT};
 
 /// Half widths of the 95 % intervals of every parameter of every term, and of the inertia where it is estimated.
 #[derive(Clone, Debug)]
@@ -85,7 +85,8 @@ pub(super) fn half_widths(
             .collect();
         let jackknife = ((count - 1.0) / count * own.iter().sum::<f64>()).sqrt();
         let white = bread.get((k, k)).map_or(f64::NAN, |v| v.max(0.0).sqrt());
-        (student(freedom(columns.get(k), blocks)) * jackknife).max(NORMAL * white)
+        let scatter = half_width(jackknife, freedom(columns.get(k), blocks));
+        scatter.unwrap_or_default().max(NORMAL * white)
     });
     Some(halves.collect())
 }
@@ -99,11 +100,6 @@ fn freedom(column: Option<&&[f64]>, blocks: &Blocks) -> f64 {
     });
     let (sum, squares) = energies.fold((0.0, 0.0), |(s, q), e| (s + e, q + e * e));
     (sum * sum / squares.max(1e-300) - 1.0).max(LEAST_FREEDOM)
-}
-
-/// Student's t below which 97.5 % lie.
-fn student(freedom: f64) -> f64 {
-    StudentsT::new(0.0, 1.0, freedom).map_or(f64::NAN, |t| t.inverse_cdf(0.975))
 }
 
 fn gram(columns: &[&[f64]], first: usize, end: usize) -> DMatrix<f64> {

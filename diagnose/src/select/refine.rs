@@ -36,8 +36,11 @@ const MOST_ROUNDS: usize = 30;
 
 const HALVINGS: usize = 6;
 
+/// The first stride, as a share of a shape parameter.
+const STRIDE: f64 = 0.3;
+
 /// A period is known to a small share of it before, and its neighbours are other periods: its stride beside that of others.
-const PERIOD_STRIDE: f64 = 0.004 / 0.3;
+const PERIOD_STRIDE: f64 = 0.004 / STRIDE;
 
 /// Halvings that place an onset to about a sample.
 const ONSET_HALVINGS: usize = 11;
@@ -50,7 +53,7 @@ pub(crate) fn refined(problem: &Problem, common: &[&Term], start: Term, blocks: 
         .unwrap_or_else(|| modelled_effort(problem, common, &fitted));
     let bounds = shape_bounds(problem, start.cause);
     let mut best = (score(&start), start);
-    let mut stride = 0.3;
+    let mut stride = STRIDE;
     let mut halvings = 0;
     for _ in 0..MOST_ROUNDS {
         let before = best.0;
