@@ -55,6 +55,10 @@ pub fn realise(
     onset_s: Option<f64>,
     effort: &[f64],
 ) -> Option<Term> {
+    // What takes the whole linkage to be moved anew is worth keeping: other rounds of the search ask for the same shapes.
+    if cause.moves_linkage() && onset_s.is_none() {
+        return problem.kept_term(cause, shape);
+    }
     problem
         .term(cause, shape, onset_s)
         .or_else(|| problem.drive_term(cause, shape, onset_s, effort))
@@ -137,14 +141,18 @@ pub fn shape_bounds(problem: &Problem, cause: Cause) -> Vec<(f64, f64)> {
     }
     let tried = shapes(problem, cause, &[]);
     let count = tried.first().map_or(0, Vec::len);
-    (0..count)
+    let mut bounds: Vec<(f64, f64)> = (0..count)
         .map(|k| {
             let values = tried.iter().filter_map(|shape| shape.get(k).copied());
             values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
                 (low.min(v), high.max(v))
             })
         })
-        .collect()
+        .collect();
+    if let (PlantRun::FiveBar(run), Some(first)) = (problem.plant, bounds.first_mut()) {
+        *first = five_bar::candidates::reach(run, cause).unwrap_or(*first);
+    }
+    bounds
 }
 
 /// Whether a term's first shape parameter has run into the upper end of its range: a law that wants to be slower,

@@ -79,6 +79,10 @@ fn shape_sensitivities(
     let Some(term) = terms.get(index) else {
         return Vec::new();
     };
+    // The shape of what moves the linkage is where its columns are taken, no number of its own.
+    if term.cause.moves_linkage() {
+        return Vec::new();
+    }
     let linear = entry(term.cause.mechanism).map_or(0, |e| e.linear);
     let effort = modelled_effort(problem, terms, &selection.after);
     let at = |shape: &[f64]| -> Option<Vec<f64>> {

@@ -5,6 +5,7 @@ mod calibrated;
 pub mod candidates;
 pub mod columns;
 pub mod diagnose;
+pub(crate) mod encoder;
 pub mod experiment;
 pub mod free_run;
 pub mod from_rig;
@@ -21,8 +22,10 @@ pub(crate) mod recorded;
 pub mod replay;
 pub(crate) mod replica;
 pub mod run;
+mod sensors;
 #[cfg(test)]
 mod tests;
+mod undone;
 
 /// From how many standard deviations of the sensors' noise on two explanations count as told apart.
 pub(crate) const LEAST_SIGMAS: f64 = 10.0;

@@ -1,6 +1,7 @@
 //! This file is the regression problem of one recording: what the nominal model leaves over, window by window,
 //! and the columns that a cause could explain it with.
 
+mod cause;
 mod joint;
 mod signals;
 mod within;
@@ -14,10 +15,10 @@ use crate::whiten::{ORDER, Whitener};
 use core::cell::RefCell;
 use rigproof_model::effects::entry;
 use rigproof_spec::effect::Mechanism;
-use rigproof_spec::joint::Joint;
 use signals::second_difference;
 use std::sync::Arc;
 
+pub use cause::Cause;
 pub use joint::{is_of_brake, of_brake, unit_parameters};
 pub use signals::{USUAL_SHARE, lagged_yield, numerov, shifted, through_play};
 
@@ -30,33 +31,6 @@ pub struct Rows {
     pub raw: Vec<f64>,
     /// After whitening.
     pub white: Vec<f64>,
-}
-
-/// Something that can be left out: a mechanism, and on a linkage the joint at which it acts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Cause {
-    /// The mechanism.
-    pub mechanism: Mechanism,
-    /// The joint; `None` on a plant of one joint and for what belongs to the whole linkage.
-    pub joint: Option<Joint>,
-}
-
-impl Cause {
-    /// A mechanism without a joint.
-    pub const fn of(mechanism: Mechanism) -> Cause {
-        Cause {
-            mechanism,
-            joint: None,
-        }
-    }
-
-    /// The name in reports: `viscous`, `viscous at E`.
-    pub fn name(self) -> String {
-        match self.joint {
-            Some(joint) => format!("{} at {}", self.mechanism.name(), joint.letter()),
-            None => self.mechanism.name().to_owned(),
-        }
-    }
 }
 
 /// A cause with its shape fixed: what it adds to the regression.
@@ -337,6 +311,15 @@ impl<'a> Problem<'a> {
     pub fn term(&self, cause: Cause, shape: &[f64], onset_s: Option<f64>) -> Option<Term> {
         let free = match (self.kept(cause, shape), onset_s) {
             (Some(kept), None) => return Some(kept),
+            _ if cause.moves_linkage() => {
+                let signals = self.free_signals(cause, shape)?;
+                let first = onset_s.map_or(0, |onset_s| self.plant.sample_at(onset_s));
+                let (windows, recorded) = (&self.windows, &self.target.signal);
+                five_bar::encoder::rows(windows, recorded, &signals, shape, first)
+                    .into_iter()
+                    .map(|raw| Arc::new(self.rows_of(raw)))
+                    .collect()
+            }
             (Some(kept), onset_s) if self.plant.keeps_signals() => kept
                 .free
                 .iter()
@@ -370,6 +353,15 @@ impl<'a> Problem<'a> {
         }?);
         *self.recent.borrow_mut() = Some((cause, shape.to_vec(), signals.clone()));
         Some(signals)
+    }
+
+    /// The shape of a term that moves the linkage whose columns are taken over the whole change that its coefficients say.
+    pub fn shape_over(&self, term: &Term, coefficients: &[f64]) -> Option<Vec<f64>> {
+        let PlantRun::FiveBar(run) = self.plant else {
+            return None;
+        };
+        let encoder = five_bar::encoder::Encoder::of(run, term.cause, &term.shape)?;
+        encoder.over(coefficients)
     }
 
     /// The term of a cause that acts from the start, kept for the next time: for shapes that are tried in every
@@ -462,11 +454,7 @@ impl<'a> Problem<'a> {
 
     fn rows(&self, mut signal: Vec<f64>, onset_s: Option<f64>) -> Rows {
         if let Some(onset_s) = onset_s {
-            let first = self.plant.sample_at(onset_s);
-            let stretch = (signal.len() / self.windows.outputs).max(1);
-            for output in signal.chunks_mut(stretch) {
-                output.iter_mut().take(first).for_each(|x| *x = 0.0);
-            }
+            signal = self.windows.since(&signal, self.plant.sample_at(onset_s));
         }
         let mut rows = rows(&self.windows, signal);
         self.take_out_trials(&mut rows.raw);

@@ -2,9 +2,11 @@
 
 mod judge;
 mod merge;
+mod onset;
 mod prune;
 mod refine;
 mod step;
+mod together;
 mod weigh;
 
 use crate::candidates::{causes, variants};
@@ -118,6 +120,7 @@ pub fn select(problem: &mut Problem, mut nominal: Vec<Term>, gates: Gates) -> Se
     // The other plants' rules were chosen without it.
     if let PlantRun::FiveBar(_) = problem.plant {
         merge(problem, &nominal, &mut found, &blocks);
+        onset::centre(problem, &nominal, &mut found);
     }
     let too_small = prune(problem, &nominal, &mut found, &blocks);
     let before = fit(problem, &nominal.iter().collect::<Vec<_>>(), &blocks);
@@ -196,19 +199,22 @@ fn search(
 ) -> Vec<Found> {
     settle(problem, nominal, &mut found, blocks, gates);
     while found.len() < MOST_FOUND && stages.len() < MOST_STAGES {
-        let Some(next) = forward(problem, nominal, &found, blocks, gates) else {
+        let next = forward(problem, nominal, &found, blocks, gates);
+        let Some(entered) = next.first().map(|f| f.term.cause) else {
             break;
         };
-        let entered = next.term.cause;
-        found.push(next);
-        refine(problem, nominal, &mut found, blocks);
-        let residual = fit(problem, &refs(nominal, &found), blocks).residual;
-        stages.push(Stage {
-            entered,
-            standing: found.iter().map(|f| f.term.cause).collect(),
-            shapes: shapes(&found),
-            residual: usable_rms(problem, &residual),
-        });
+        for own in next {
+            let entered = own.term.cause;
+            found.push(own);
+            refine(problem, nominal, &mut found, blocks);
+            let residual = fit(problem, &refs(nominal, &found), blocks).residual;
+            stages.push(Stage {
+                entered,
+                standing: found.iter().map(|f| f.term.cause).collect(),
+                shapes: shapes(&found),
+                residual: usable_rms(problem, &residual),
+            });
+        }
         let standing: Vec<Cause> = found.iter().map(|f| f.term.cause).collect();
         settle(problem, nominal, &mut found, blocks, gates);
         note_swaps(problem, nominal, &found, &standing, blocks, stages);

@@ -87,7 +87,21 @@ impl Windows {
 
     /// `Σ φ·signal`, one value a row. A signal holds a stretch of samples for each output, one stretch after another.
     pub fn average(&self, signal: &[f64]) -> Vec<f64> {
-        self.apply(&self.bump, signal)
+        self.apply(&self.bump, signal, &self.combinations)
+    }
+
+    /// The same where the equations combine in another way.
+    pub fn average_with(&self, signal: &[f64], combinations: &[Vec<f64>]) -> Vec<f64> {
+        self.apply(&self.bump, signal, combinations)
+    }
+
+    /// A signal that is zero before the sample `first` of each output.
+    pub fn since(&self, signal: &[f64], first: usize) -> Vec<f64> {
+        let mut late = signal.to_vec();
+        for output in late.chunks_mut((signal.len() / self.outputs).max(1)) {
+            output.iter_mut().take(first).for_each(|x| *x = 0.0);
+        }
+        late
     }
 
     /// Gives up the windows in which a predicted effort changes so fast that a sample's error in its timing would be
@@ -111,13 +125,13 @@ impl Windows {
         self.keep(|centre, bump| untold(&run.motion, centre, bump) <= most);
     }
 
-    fn apply(&self, weights: &[f64], signal: &[f64]) -> Vec<f64> {
+    fn apply(&self, weights: &[f64], signal: &[f64], combinations: &[Vec<f64>]) -> Vec<f64> {
         let half = weights.len() / 2;
         let stretch = signal.len() / self.outputs;
         let rows = self.centres.iter().zip(&self.combined).enumerate();
         rows.map(|(row, (&centre, combined))| {
             let first = row % self.outputs * stretch + centre - half;
-            let Some(shares) = combined.and_then(|which| self.combinations.get(which)) else {
+            let Some(shares) = combined.and_then(|which| combinations.get(which)) else {
                 let window = signal.get(first..first + weights.len());
                 return dot(weights, window.unwrap_or_default());
             };
@@ -309,7 +323,7 @@ mod tests {
             .collect();
         let windows = Windows::new(&run, 0.077);
         let rows: Vec<f64> = windows
-            .apply(&windows.curvature, &position)
+            .apply(&windows.curvature, &position, &[])
             .iter()
             .zip(windows.average(&effort))
             .map(|(a, e)| INERTIA * a + e)

@@ -2,12 +2,13 @@
 //!
 //! Residuals are neither white nor of one size where a law of another family stands in for the true one, and blocks are few: the jackknife over blocks is
 //! on the safe side there (MacKinnon, Nielsen and Webb 2023), with Student's t of as many blocks as a number really lives in
-//! (after Carter, Schnepel and Steigerwald 2017).
+//! (after Carter, Schnepel and Steigerwald 2017). Where more than noise is left the law is not the true one, and what is left may look like the effect everywhere
+//! alike, which no block shows: there they are wider by what is left over the noise (Birge 1932).
 
 use super::{parameter_count, sensitivities};
 use crate::problem::Problem;
 use crate::regression::{Blocks, covariance, dot};
-use crate::select::{Selection, refs};
+use crate::select::{Selection, refs, usable_rms};
 use crate::student::half_width;
 use nalgebra::{DMatrix, DVector};
 
@@ -34,6 +35,7 @@ pub fn intervals(problem: &Problem, selection: &Selection) -> Intervals {
     let residual = problem.whitener.whiten(&selection.after.residual);
     let halves = half_widths(&white, &residual, &Blocks::new(problem))
         .unwrap_or_else(|| vec![f64::NAN; white.len()]);
+    let birge = (usable_rms(problem, &selection.after.residual) / problem.floor).max(1.0);
     let mut intervals = Intervals {
         inertia: None,
         terms: terms
@@ -42,6 +44,7 @@ pub fn intervals(problem: &Problem, selection: &Selection) -> Intervals {
             .collect(),
     };
     for (column, half) in columns.iter().zip(halves) {
+        let half = birge * half;
         match column.place {
             None => intervals.inertia = Some(half),
             Some((term, parameter)) => {

@@ -290,36 +290,24 @@ fn more_elsewhere(losses: &[f64], own: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
-    use crate::five_bar::from_rig::aligned;
-    use crate::five_bar::recorded::{nothing, recording, rig};
-    use crate::problem::Rows;
-    use crate::recorded::Noise;
+    use crate::five_bar;
+    use crate::five_bar::recorded::{noise_rows, short_run, target};
+    use crate::problem::add;
     use crate::select::Found;
-    use crate::weak::Windows;
     use rigproof_spec::joint::Joint;
-    use rigproof_spec::layout::Layout;
 
     /// What a bristle at E is beside dry friction that was found there, when a bristle of this travel is what is left out.
     fn beside_dry_friction(travel_rad: f64) -> Option<Richer> {
-        let recording = recording(Layout::FourBrake, 3.0, 19, &nothing);
-        let run = aligned(&rig(Layout::FourBrake), &recording).unwrap();
-        let windows = Windows::over(run.len(), 2, (run.step_s, run.start_s), 0.080);
-        let mut problem = Problem::of_five_bar(&run, windows);
+        let run = short_run();
+        let mut problem = five_bar::recorded::problem(&run);
         let [dry, bristle] = [Mechanism::DryOffset, Mechanism::Presliding].map(|mechanism| Cause {
             mechanism,
             joint: Some(Joint::E),
         });
-        let mut noise = Noise::new(29);
         let hidden = problem.term(bristle, &[travel_rad], None).unwrap();
-        let raw = hidden.free[0].raw.iter();
-        let raw: Vec<f64> = raw
-            .map(|x| 0.21 * x + 0.9 * problem.floor * noise.draw())
-            .collect();
-        problem.target = Rows {
-            signal: Vec::new(),
-            white: problem.whitener.whiten(&raw),
-            raw,
-        };
+        let mut raw = noise_rows(&problem, 29);
+        add(&mut raw, &hidden.free[0].raw, 0.21);
+        problem.target = target(&problem, raw);
         let blocks = Blocks::new(&problem);
         let term = problem.term(dry, &[], None).unwrap();
         let [before, after] = [vec![], vec![&term]].map(|terms| fit(&problem, &terms, &blocks));

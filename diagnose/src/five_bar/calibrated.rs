@@ -1,6 +1,8 @@
 //! This file gives a five-bar's description the numbers of a selection.
 
 use super::diagnose::Stand;
+use super::encoder::Encoder;
+use super::undone::undone_first;
 use crate::evidence::{Intervals, coefficients_by_term, parameters};
 use crate::problem::Term;
 use crate::select::refs;
@@ -15,8 +17,9 @@ impl Stand<'_> {
         let mut rig = self.rig.clone();
         let (_, coefficients) = coefficients_by_term(self.problem, self.selection);
         let terms = refs(&self.selection.nominal, &self.selection.found);
-        let known = rig.effects.clone();
-        rig.effects = terms
+        let (undone, known) = undone_first(self.rig);
+        rig.effects = undone;
+        let fitted = terms
             .iter()
             .zip(&coefficients)
             .enumerate()
@@ -30,12 +33,16 @@ impl Stand<'_> {
                 let values = values
                     .map(|(k, value)| with_interval(value, halves.and_then(|h| h.get(k)).copied()));
                 joint_effect(term, term.cause.mechanism, values.collect())
-            })
-            .collect();
+            });
+        rig.effects.extend(fitted);
         let second = terms.iter().zip(&coefficients);
         rig.effects.extend(second.filter_map(|(term, own)| {
             let mechanism = second_of(term.cause.mechanism)?;
-            let level = with_interval(*own.get(1)?, None);
+            let mut level = *own.get(1)?;
+            if let Some(encoder) = Encoder::of(self.train, term.cause, &term.shape) {
+                level = encoder.zero_at_zero_rad([*own.first()?, level]);
+            }
+            let level = with_interval(level, None);
             Some(joint_effect(term, mechanism, vec![level]))
         }));
         rig.provenance

@@ -44,6 +44,12 @@ const DELAYS_RAD: [f64; 4] = [0.001, 0.01, 0.05, 0.2];
 /// The angle by which a force sensor may be mounted askew, rad: a quarter of a right angle.
 const MOST_TURNED_RAD: f64 = 0.39;
 
+/// An encoder's scale may be off by this share, its zero by this angle in rad: what more it was is seen before anything is recorded.
+const MOST_OF_AN_ENCODER: f64 = 0.1;
+
+/// Share of the fastest speed up to which a peak near standstill is one: at the fastest a sixteenth of it is left.
+const WIDEST_PEAK: f64 = 0.6;
+
 /// The causes that have a meaning on this layout.
 pub fn causes(run: &FiveBarRun) -> Vec<Cause> {
     let braked = run.parameters.layout.brakes();
@@ -76,6 +82,23 @@ pub fn travel(run: &FiveBarRun, cause: Cause) -> f64 {
     let positions = motion.iter().map(|now| now.position);
     let low = positions.clone().fold(f64::INFINITY, f64::min);
     positions.fold(f64::NEG_INFINITY, f64::max) - low
+}
+
+/// How far the first number of a cause's shape may go where that is beyond what is tried first.
+pub fn reach(run: &FiveBarRun, cause: Cause) -> Option<(f64, f64)> {
+    match cause.mechanism {
+        Mechanism::EncoderScale | Mechanism::EncoderOffset => {
+            Some((-MOST_OF_AN_ENCODER, MOST_OF_AN_ENCODER))
+        }
+        Mechanism::Stribeck => {
+            let fastest = fastest(cause.joint.map_or(&[][..], |joint| run.motion(joint)));
+            let slowest = stribeck_shapes(run.speed_floor, fastest)
+                .into_iter()
+                .next()?;
+            Some((slowest.first().copied()?, WIDEST_PEAK * fastest))
+        }
+        _ => None,
+    }
 }
 
 /// The angle of a cause's joint at each usable window, and the residual as a torque there.

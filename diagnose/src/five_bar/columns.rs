@@ -1,7 +1,7 @@
 //! This file is the columns of the five-bar: what each cause would add to the efforts of θA and θB.
 
 use super::brakes;
-use super::from_rig::with_angles;
+use super::encoder::Encoder;
 use super::joined::over_parts;
 use super::run::{FiveBarRun, inertial, place, stacked};
 use crate::problem::{Cause, less, numerov, shifted};
@@ -30,6 +30,9 @@ pub fn known(run: &FiveBarRun) -> Vec<f64> {
 
 /// One signal for each linear parameter of a cause; `None` where it has another form or no meaning here.
 pub fn free(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<f64>>> {
+    if let Some(encoder) = Encoder::of(run, cause, shape) {
+        return over_parts(run, |part| encoder.signals(part));
+    }
     over_parts(run, |part| free_of_one(part, cause, shape))
 }
 
@@ -37,9 +40,6 @@ fn free_of_one(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<
     match (cause.mechanism, cause.joint) {
         (Mechanism::GainError, Some(joint)) => {
             Some(vec![seen(&run.at_joint(joint, &run.brake_torque(joint)))])
-        }
-        (Mechanism::EncoderOffset | Mechanism::EncoderScale, Some(joint)) => {
-            encoder(run, cause.mechanism, joint, shape)
         }
         (Mechanism::CurrentHysteresis | Mechanism::ThermalFade, Some(joint)) => {
             let change = brakes::unit(run, cause.mechanism, joint, shape)?;
@@ -76,52 +76,6 @@ fn free_of_one(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<
                 .into(),
         ),
         _ => None,
-    }
-}
-
-/// Least step of an encoder's zero, rad, and of its scale, over which their columns are taken.
-const ENCODER_STEP: f64 = 1e-3;
-
-/// What the zero of an encoder, or its scale and its zero, add to the balance of efforts for 1 rad and for the whole scale.
-///
-/// The linkage bends them: a few hundredths of a radian are no small step. `shape` is the step over which the slope is taken, best
-/// the size that it has; then the column times its coefficient is the whole change. An encoder counts from where it was homed: the
-/// second column of a scale is its zero.
-fn encoder(
-    run: &FiveBarRun,
-    mechanism: Mechanism,
-    joint: Joint,
-    shape: &[f64],
-) -> Option<Vec<Vec<f64>>> {
-    let step = shape.first().copied().unwrap_or(0.0);
-    let step = step.abs().max(ENCODER_STEP).copysign(step);
-    let with = |run: &FiveBarRun, moved: &dyn Fn(f64) -> f64| {
-        let mut theta = run.theta.clone();
-        let [a, b] = &mut theta;
-        let own = match joint {
-            Joint::A => a,
-            Joint::B => b,
-            Joint::E | Joint::C => return None,
-        };
-        own.iter_mut().for_each(|theta| *theta = moved(*theta));
-        with_angles(run, theta).ok()
-    };
-    let balance = |run: &FiveBarRun| less(&driving(run, run.forces()), &known(run));
-    let slope = |from: &FiveBarRun, to: &FiveBarRun, step: f64| -> Vec<f64> {
-        let change = less(&balance(from), &balance(to));
-        change.into_iter().map(|x| x / step).collect()
-    };
-    match mechanism {
-        Mechanism::EncoderScale => {
-            let scaled = with(run, &|theta| theta / (1.0 + step))?;
-            let moved = with(&scaled, &|theta| theta - ENCODER_STEP)?;
-            let zero = slope(&scaled, &moved, ENCODER_STEP);
-            Some(vec![slope(run, &scaled, step), zero])
-        }
-        _ => {
-            let moved = with(run, &|theta| theta - step)?;
-            Some(vec![slope(run, &moved, step)])
-        }
     }
 }
 

@@ -2,11 +2,11 @@
 
 use super::experiment;
 use super::free_run::{Model, horizons};
-use super::from_rig::nominal;
 use super::held_out::Parts;
 use super::locate::locate;
 use super::mapping;
 use super::run::FiveBarRun;
+use super::undone::{left, undone_first};
 use crate::align::Fault;
 use crate::candidates::realise;
 use crate::diagnose::ended::{blank, faulty, not_excited};
@@ -61,7 +61,7 @@ pub fn diagnose(
         return faulty(description(), "recording", fault);
     }
     let mut terms: Vec<Term> = Vec::new();
-    for effect in nominal(rig) {
+    for effect in left(rig) {
         let Some(mut term) = problem.nominal_term(&effect) else {
             return faulty(description(), "description", meaningless(&effect));
         };
@@ -268,8 +268,8 @@ impl Stand<'_> {
                 .collect(),
             usable,
             recorded: average(&super::columns::driving(run, run.forces())),
-            before: average(&modelled(&problem, &bare)),
-            after: average(&modelled(&problem, self.selection)),
+            before: modelled(&problem, &bare).split_off(first),
+            after: modelled(&problem, self.selection).split_off(first),
             floor: problem.floor,
         }
     }
@@ -282,8 +282,15 @@ impl Stand<'_> {
             selection: &bare,
             ..*self
         };
-        let before = Model::of(&nominal.calibrated(&intervals));
-        let after = Model::of(calibration);
+        // The runs have the angles that the linkage had.
+        let (undone, _) = undone_first(self.rig);
+        let model = |calibration: &FiveBar| {
+            let mut own = calibration.clone();
+            own.effects.drain(..undone.len());
+            Model::of(&own)
+        };
+        let before = model(&nominal.calibrated(&intervals));
+        let after = model(calibration);
         let first = (self.test_from_s / self.test.step_s).round() as usize;
         // Of several recordings the first: a run does not go across a seam.
         let fitted = self.train.parts.first().unwrap_or(self.train);
@@ -341,7 +348,7 @@ impl Stand<'_> {
     }
 
     fn effects(&self, calibration: &FiveBar, limits: &[Rivals]) -> Vec<EffectReport> {
-        let offset = self.selection.nominal.len();
+        let offset = undone_first(self.rig).0.len() + self.selection.nominal.len();
         let found = self.selection.found.iter().enumerate();
         found
             .filter_map(|(index, found)| {
@@ -413,21 +420,21 @@ impl Stand<'_> {
     }
 }
 
-/// What a selection's numbers give on a problem of another recording, sample by sample.
+/// What a selection's numbers give on a problem of another recording, row by row.
 fn modelled(problem: &Problem, selection: &Selection) -> Vec<f64> {
     let (_, coefficients) = coefficients_by_term(problem, selection);
-    let mut sum = problem.known.clone();
+    let mut sum = problem.windows.average(&problem.known);
     let terms = refs(&selection.nominal, &selection.found);
     for (term, own) in terms.iter().zip(&coefficients) {
-        let Some(moved) = realise(problem, term.cause, &term.shape, term.onset_s, &sum) else {
+        let Some(moved) = realise(problem, term.cause, &term.shape, term.onset_s, &[]) else {
             continue;
         };
         let given = term.known.as_ref().unwrap_or(own);
         for (c, rows) in given.iter().zip(&moved.free) {
-            add(&mut sum, &rows.signal, *c);
+            add(&mut sum, &rows.raw, *c);
         }
         if let Some(rows) = &moved.fixed {
-            add(&mut sum, &rows.signal, 1.0);
+            add(&mut sum, &rows.raw, 1.0);
         }
     }
     sum

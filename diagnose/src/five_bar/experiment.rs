@@ -9,7 +9,7 @@ mod tests;
 use super::LEAST_SIGMAS;
 use super::diagnose::Stand;
 use super::free_run::Model;
-use super::from_rig::aligned;
+use super::undone::described;
 use crate::candidates::{realise, variants};
 use crate::evidence::Intervals;
 use crate::problem::{Cause, Problem};
@@ -226,7 +226,7 @@ fn losses(
     let fitted = &stand.problem.windows;
     let width_s = (fitted.bump.len() - 1) as f64 * fitted.step_s;
     let played = play(&truth.model, layout, plan).ok()?;
-    let run = aligned(stand.rig, &played.recording(layout, sensors)).ok()?;
+    let run = described(stand.rig, &played.recording(layout, sensors)).ok()?;
     let windows = Windows::over(run.len(), 2, (run.step_s, run.start_s), width_s);
     let problem = Problem::of_five_bar(&run, windows);
     let blocks = Blocks::new(&problem);

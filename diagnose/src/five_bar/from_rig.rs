@@ -1,10 +1,11 @@
 //! This file turns a five-bar's description and its recording into an aligned run.
 
 use super::run::{FiveBarRun, forms, place, yields};
+use super::sensors::{angle_noise, noise_of_force, quantum_of};
 use crate::align::{
     Fault, Signals, band_hz, check_clipped, check_clock, check_frozen, check_missing, cutoff_hz,
     forget_sense_at_rest, forget_sense_at_reversals, median_step, regular_count, resample,
-    smallest_step, smoothed_motion,
+    smoothed_motion,
 };
 use crate::problem::{Cause, NominalEffect};
 use crate::run::PlantKind;
@@ -84,11 +85,23 @@ pub fn aligned(rig: &FiveBar, recording: &FiveBarRecording) -> Result<FiveBarRun
         speed_floor: 0.0,
         parts: Vec::new(),
     };
-    let (mut run, untold) = match moved_by(&run, theta.clone()) {
-        Ok(moved) => moved,
+    let run = match realigned(&run, theta.clone()) {
+        Ok(run) => run,
         Err(found) => return Err(unassembled(run, theta, found)),
     };
     check_sign(&run)?;
+    Ok(run)
+}
+
+/// A run with other angles, and what its brakes may be mistaken by with them.
+///
+/// # Errors
+/// The linkage cannot be assembled at some sample: its number, and why.
+pub fn realigned(
+    run: &FiveBarRun,
+    theta: [Vec<f64>; 2],
+) -> Result<FiveBarRun, (usize, ModelError)> {
+    let (mut run, untold) = moved_by(run, theta)?;
     run.yield_errors = Joint::ALL.map(|joint| yield_errors(&run, joint, &untold));
     Ok(run)
 }
@@ -187,36 +200,6 @@ fn check_sign(run: &FiveBarRun) -> Result<(), Fault> {
         });
     }
     Ok(())
-}
-
-fn quantum_of(angle: &Signal) -> f64 {
-    angle
-        .quantum
-        .unwrap_or_else(|| smallest_step(&angle.samples))
-}
-
-fn angle_noise(angle: &Signal) -> f64 {
-    (quantum_of(angle) / 12f64.sqrt()).hypot(angle.noise.unwrap_or(0.0))
-}
-
-/// The noise of a force as stated, else from its second differences, which a smooth force hardly has.
-fn noise_of_force(force: &Signal) -> f64 {
-    if let Some(noise) = force.noise {
-        return noise.hypot(force.quantum.unwrap_or(0.0) / 12f64.sqrt());
-    }
-    let mut bends: Vec<f64> = force
-        .samples
-        .windows(3)
-        .filter_map(|w| match w {
-            [a, b, c] => Some((a - 2.0 * b + c).abs()),
-            _ => None,
-        })
-        .filter(|bend| bend.is_finite())
-        .collect();
-    bends.sort_by(f64::total_cmp);
-    let median = bends.get(bends.len() / 2).copied().unwrap_or(0.0);
-    // White noise: the median of a magnitude is 0.6745 of the standard deviation, that of a second difference √6 of a sample's.
-    (median / (0.6745 * 6f64.sqrt())).max(smallest_step(&force.samples) / 12f64.sqrt())
 }
 
 /// Currents outside of what the brakes were measured at.

@@ -1,8 +1,8 @@
 //! This file parts recordings of a five-bar into what is fitted and what shows the result.
 
-use super::from_rig::aligned;
 use super::joined::joined;
 use super::run::FiveBarRun;
+use super::undone::described;
 use crate::Options;
 use crate::align::Fault;
 use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording};
@@ -37,12 +37,12 @@ impl Parts {
         let count = recordings.len();
         let mut runs = Vec::with_capacity(count);
         for (place, recording) in recordings.iter().enumerate() {
-            runs.push(aligned(rig, recording).map_err(|fault| (which(place, count), fault))?);
+            runs.push(described(rig, recording).map_err(|fault| (which(place, count), fault))?);
         }
         let other = match held_out {
             Some(recording) => {
                 let named = |fault| ("held-out recording".to_owned(), fault);
-                Some(aligned(rig, recording).map_err(named)?)
+                Some(described(rig, recording).map_err(named)?)
             }
             None if count >= MANY => runs.pop(),
             None => None,

@@ -27,7 +27,7 @@ pub fn keep_told(run: &FiveBarRun, windows: &mut Windows) {
     });
     let errors = run.yield_errors.iter().cloned();
     let joints: Vec<[Vec<f64>; 2]> = untold.zip(errors).map(|pair| pair.into()).collect();
-    windows.combinations = Joint::ALL.map(|joint| without(run, joint)).into();
+    windows.combinations = combinations(run);
     let Windows {
         bump,
         outputs,
@@ -53,6 +53,11 @@ pub fn keep_told(run: &FiveBarRun, windows: &mut Windows) {
         }
         combined.fill(first);
     }
+}
+
+/// For every joint the combination of both equations in which no torque there acts.
+pub fn combinations(run: &FiveBarRun) -> Vec<Vec<f64>> {
+    Joint::ALL.map(|joint| without(run, joint)).into()
 }
 
 /// The combination of both equations in which no torque at a joint acts, of length one, sample by sample.

@@ -1,7 +1,11 @@
 //! This file makes the recordings of the five-bar that unit tests are about: the reference model led by a hand, with encoders,
 //! sensor noise, and something left out that acts on the tip.
 
+use super::from_rig::aligned;
+use super::run::FiveBarRun;
+use crate::problem::{Problem, Rows};
 use crate::recorded::Noise;
+use crate::weak::Windows;
 use rigproof_model::linkage::jacobian::jacobian;
 use rigproof_model::linkage::{Pose, inverse};
 use rigproof_model::rig::Rig;
@@ -125,6 +129,34 @@ pub fn recording(layout: Layout, seconds: f64, seed: u64, left_out: LeftOut) -> 
             .collect(),
     };
     rig(layout).apply(&trace, Path::new("test")).unwrap()
+}
+
+/// A short run with four brakes in which nothing is left out.
+pub fn short_run() -> FiveBarRun {
+    let recording = recording(Layout::FourBrake, 3.0, 19, &nothing);
+    aligned(&rig(Layout::FourBrake), &recording).unwrap()
+}
+
+/// Its problem, in windows of 80 ms.
+pub fn problem(run: &FiveBarRun) -> Problem<'_> {
+    let windows = Windows::over(run.len(), 2, (run.step_s, run.start_s), 0.080);
+    Problem::of_five_bar(run, windows)
+}
+
+/// A target that is given row by row.
+pub fn target(problem: &Problem, raw: Vec<f64>) -> Rows {
+    Rows {
+        signal: Vec::new(),
+        white: problem.whitener.whiten(&raw),
+        raw,
+    }
+}
+
+/// Rows of noise, 0.9 times what sensors give.
+pub fn noise_rows(problem: &Problem, seed: u64) -> Vec<f64> {
+    let mut noise = Noise::new(seed);
+    let rows = problem.windows.usable.iter();
+    rows.map(|_| 0.9 * problem.floor * noise.draw()).collect()
 }
 
 /// The drag that the thesis measured and left out (§3.3.2), N·m·s/rad.

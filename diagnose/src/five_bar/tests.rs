@@ -9,6 +9,7 @@ use super::recorded::{DRAG, LeftOut, nothing, recording, rig};
 use super::replica::replica;
 use super::run::FiveBarRun;
 use crate::align::Fault;
+use crate::diagnose::Description;
 use crate::problem::{Cause, Problem, less};
 use crate::report::{Report, Verdict};
 use crate::run::rms;
@@ -278,6 +279,36 @@ fn an_encoder_with_its_zero_off_is_named_so_and_not_as_a_scale() {
     );
     let found = report.effects[0].parameters["angle"].value;
     assert!((found / -0.037 - 1.0).abs() < 0.02, "{found} rad");
+}
+
+#[test]
+fn a_scale_far_off_is_named_with_its_number_and_its_calibration_leaves_nothing() {
+    let mut recording = recording(Layout::FourBrake, SECONDS, 18, &nothing);
+    let [_, theta_b] = &mut recording.theta;
+    let start = theta_b.samples[0];
+    for angle in &mut theta_b.samples {
+        *angle = start + (1.0 - 0.061) * (*angle - start);
+    }
+    let rig = rig(Layout::FourBrake);
+    let found = diagnose(&rig, &[&recording], None, &options());
+    let report = &found.report;
+    let expected = [("encoder_scale", Some("B"))];
+    assert_eq!(named(report), expected, "{}", report.summary);
+    let fraction = report.effects[0].parameters["fraction"].value;
+    assert!((fraction / -0.061 - 1.0).abs() < 0.003, "{fraction}");
+    let held_out = report.fit.as_ref().unwrap().held_out.unwrap();
+    assert!(held_out.before > 5.0 * held_out.after, "{held_out:?}");
+    let Description::FiveBar(calibrated) = &found.calibration else {
+        panic!("the calibration is of another plant");
+    };
+    let again = diagnose(calibrated, &[&recording], None, &options());
+    let report = &again.report;
+    let floor = report.floor.as_ref().unwrap();
+    assert_eq!(report.verdict, Verdict::Consistent, "{floor:?}");
+    let Description::FiveBar(kept) = &again.calibration else {
+        panic!("the calibration is of another plant");
+    };
+    assert_eq!(kept.effects, calibrated.effects);
 }
 
 #[test]

@@ -1,12 +1,11 @@
 //! This file judges candidates: each against the gates, and against one another.
 
 use super::refine::refined;
-use super::weigh::{
-    contribution, drives, effort_beside, excitation, loss_with, own_coefficients, usable_rms,
-};
-use super::{Found, Gates, TIE_Z, floor_limit};
+use super::together::is_noise;
+use super::weigh::{contribution, drives, effort_beside, excitation, loss_with, own_coefficients};
+use super::{Found, Gates, TIE_Z};
 use crate::candidates::is_at_edge;
-use crate::problem::{Problem, Term};
+use crate::problem::{PlantRun, Problem, Term};
 use crate::regression::{Blocks, Fit, fit, nested_block_losses, paired};
 use rigproof_model::effects::entry;
 
@@ -69,7 +68,7 @@ fn linearised(problem: &Problem, common: &[&Term], list: Vec<Term>, blocks: &Blo
 }
 
 /// A mechanism with its variants against the gates.
-fn judge(
+pub(super) fn judge(
     problem: &Problem,
     common: &[&Term],
     current: &Fit,
@@ -86,11 +85,17 @@ fn judge(
     let expected = excitation(&term, own, blocks);
     let (gain, z) = paired(&current.block_loss, &losses, &expected);
     let share = 1.0 - losses.iter().sum::<f64>() / current.left_out().max(1e-300);
-    let least = gates.relevance * problem.effort_size;
+    let at_floor = is_noise(problem, &fitted);
     let passes = gain > 0.0
         && z >= gates.z
         && share >= gates.share
-        && contribution(problem, &term, own) >= least
+        && is_relevant(
+            problem,
+            current,
+            contribution(problem, &term, own),
+            at_floor,
+            gates,
+        )
         && !drives(&term, own)
         && !is_at_edge(problem, &term);
     let linear = entry(term.cause.mechanism)?.linear;
@@ -99,13 +104,28 @@ fn judge(
             + term.shape.len()
             + usize::from(term.onset_s.is_some()),
         found: Found {
-            at_floor: usable_rms(problem, &fitted.residual) <= floor_limit(problem) * problem.floor,
+            at_floor,
             term,
             z,
             share,
         },
         losses,
     })
+}
+
+/// Whether a contribution is large enough to be asked for. On a five-bar one that takes away all that is more than noise is, however small.
+fn is_relevant(
+    problem: &Problem,
+    current: &Fit,
+    contribution: f64,
+    at_floor: bool,
+    gates: Gates,
+) -> bool {
+    let decides = match problem.plant {
+        PlantRun::FiveBar(_) => at_floor && !is_noise(problem, current),
+        PlantRun::Joint(_) => false,
+    };
+    decides || contribution >= gates.relevance * problem.effort_size
 }
 
 /// The variant with the least loss over all blocks, and that loss.

@@ -106,14 +106,13 @@ const HAS_FAMILIES: [Mechanism; 9] = [
 mod tests {
     use super::*;
 
-    use crate::five_bar::from_rig::aligned;
-    use crate::five_bar::recorded::{nothing, recording, rig};
-    use crate::problem::{Inertia, Rows};
+    use crate::five_bar;
+    use crate::five_bar::recorded::{short_run, target};
+    use crate::problem::Inertia;
     use crate::recorded::{Noise, exact_bench};
     use crate::weak::Windows;
     use rigproof_spec::effect::Mechanism;
     use rigproof_spec::joint::Joint;
-    use rigproof_spec::layout::Layout;
 
     #[test]
     fn in_few_windows_noise_that_happens_to_be_loud_takes_no_name_out() {
@@ -135,11 +134,7 @@ mod tests {
         let raw: Vec<f64> = pairs
             .map(|(e, x)| e + 0.4 * problem.floor / size * x)
             .collect();
-        problem.target = Rows {
-            signal: Vec::new(),
-            white: problem.whitener.whiten(&raw),
-            raw,
-        };
+        problem.target = target(&problem, raw);
         let blocks = Blocks::new(&problem);
         let mut found = vec![Found {
             term,
@@ -172,11 +167,7 @@ mod tests {
             .zip(other)
             .map(|(own, other)| own + other)
             .collect();
-        problem.target = Rows {
-            signal: Vec::new(),
-            white: problem.whitener.whiten(&raw),
-            raw,
-        };
+        problem.target = target(problem, raw);
         let mut found = vec![Found {
             term,
             z: 3.7,
@@ -188,10 +179,8 @@ mod tests {
 
     #[test]
     fn what_a_mass_leaves_is_something_else_and_what_a_bristle_leaves_may_be_its_own() {
-        let recording = recording(Layout::FourBrake, 6.0, 19, &nothing);
-        let run = aligned(&rig(Layout::FourBrake), &recording).unwrap();
-        let windows = Windows::over(run.len(), 2, (run.step_s, run.start_s), 0.080);
-        let mut problem = Problem::of_five_bar(&run, windows);
+        let run = short_run();
+        let mut problem = five_bar::recorded::problem(&run);
         let mass = Cause::of(Mechanism::Payload);
         assert_eq!(taken_out(&mut problem, mass, &[]), [mass]);
         let bristle = Cause {

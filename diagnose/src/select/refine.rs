@@ -1,7 +1,7 @@
 //! This file refines the shape and the onset of a mechanism by a pattern search inside their bounds.
 
 use super::Found;
-use super::weigh::{effort_beside, loss_with};
+use super::weigh::{effort_beside, loss_with, own_coefficients};
 use crate::candidates::{modelled_effort, realise, shape_bounds};
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, fit};
@@ -79,7 +79,31 @@ pub(crate) fn refined(problem: &Problem, common: &[&Term], start: Term, blocks: 
             break;
         }
     }
-    best.1
+    taken_again(problem, common, best, blocks)
+}
+
+/// Rounds in which the columns of what moves the linkage are taken again, over the change that their coefficients say.
+const TAKEN_AGAIN: usize = 3;
+
+/// Loss beside the one before up to which columns that were taken again are kept: they are the truer ones even where they fit no better.
+const NO_WORSE: f64 = 1.1;
+
+fn taken_again(problem: &Problem, common: &[&Term], start: (f64, Term), blocks: &Blocks) -> Term {
+    let (loss, mut term) = start;
+    for _ in 0..TAKEN_AGAIN {
+        let mut terms = common.to_vec();
+        terms.push(&term);
+        let fitted = fit(problem, &terms, blocks);
+        let again = problem
+            .shape_over(&term, own_coefficients(&term, &fitted))
+            .and_then(|shape| realise(problem, term.cause, &shape, term.onset_s, &[]))
+            .filter(|again| loss_with(problem, common, again) <= NO_WORSE * loss);
+        match again {
+            Some(again) => term = again,
+            None => break,
+        }
+    }
+    term
 }
 
 /// Every direction of the pattern: each parameter alone both ways, and pairs of shape parameters together.
@@ -104,7 +128,7 @@ fn directions(shape: usize, onset: bool) -> Vec<Vec<f64>> {
 }
 
 /// Share of the recording at each end in which no onset is placed: one that begins there is no onset.
-const ONSET_MARGIN: f64 = 0.08;
+pub(super) const ONSET_MARGIN: f64 = 0.08;
 
 /// The term with its shape scaled by `1 + stride` along a direction, and its onset moved by the last component.
 /// `None` outside the bounds.
@@ -136,11 +160,5 @@ fn moved(
             return None;
         }
     }
-    // What takes the whole linkage to be moved anew is worth keeping: other rounds of the search ask for the same shapes.
-    match (term.cause.mechanism, onset_s) {
-        (Mechanism::EncoderScale | Mechanism::EncoderOffset, None) => {
-            problem.kept_term(term.cause, &shape)
-        }
-        _ => realise(problem, term.cause, &shape, onset_s, effort),
-    }
+    realise(problem, term.cause, &shape, onset_s, effort)
 }

@@ -1,10 +1,11 @@
 //! This file takes one step of the search: a mechanism more, or one in the place of another.
 
 use super::judge::{SIMPLER_SHARE, Trial, simplest, trials};
+use super::together::{beside, is_noise, of_one_family, pair};
 use super::{Found, Gates, TIE_Z, refs};
 use crate::candidates::{causes, modelled_effort, realise, variants};
 use crate::problem::{Cause, PlantRun, Problem, Term};
-use crate::regression::{Blocks, fit, paired};
+use crate::regression::{Blocks, Fit, fit, paired};
 use rigproof_spec::effect::Mechanism;
 
 /// Memoryless mechanisms of one parameter: they are named first, and the others must still be needed beside or
@@ -22,21 +23,23 @@ const ELEMENTARY_SHARE: f64 = 0.5;
 const EARLY_SHARE: f64 = 0.8;
 
 /// The next mechanism: an elementary one, any other, or one that begins during the recording, in this order as
-/// long as it explains enough of what the best of them does.
+/// long as it explains enough of what the best of them does. Two where no one alone leaves nothing but noise and they do; none where nothing passes.
 pub(super) fn forward(
     problem: &Problem,
     nominal: &[Term],
     found: &[Found],
     blocks: &Blocks,
     gates: Gates,
-) -> Option<Found> {
+) -> Vec<Found> {
     let common = refs(nominal, found);
     let current = fit(problem, &common, blocks);
+    let gates = beyond_noise(problem, &current, found, gates);
     let lists: Vec<Vec<Term>> = open(problem, nominal, found)
         .into_iter()
         .map(|m| variants(problem, m, &common, &current))
         .collect();
-    let (early, bests) = trials(problem, &common, &current, lists, blocks, gates);
+    let (mut early, bests) = trials(problem, &common, &current, lists, blocks, gates);
+    early.extend(beside(problem, nominal, found, &current, blocks, gates));
     let effort = modelled_effort(problem, &common, &current);
     let onsets = |terms: &[Term]| -> Vec<Vec<Term>> {
         let each = terms.iter();
@@ -49,6 +52,11 @@ pub(super) fn forward(
         .filter_map(|t| with_unequal_limits(problem, t, &effort))
         .collect();
     late.extend(trials(problem, &common, &current, onsets(&unequal), blocks, gates).0);
+    if is_noise(problem, &current) {
+        for trials in [&mut early, &mut late] {
+            trials.retain(|own| !of_one_family(problem, own.found.term.cause, found));
+        }
+    }
     let (elementary, others): (Vec<Trial>, Vec<Trial>) = early
         .into_iter()
         .partition(|t| ELEMENTARY.contains(&t.found.term.cause.mechanism));
@@ -65,11 +73,28 @@ pub(super) fn forward(
         .iter()
         .flat_map(|(found, _)| found)
         .any(|f| f.at_floor);
+    if !floor_reached && let Some(both) = pair(problem, &common, blocks, gates) {
+        return both.into();
+    }
     let mut enough = ranked
         .into_iter()
         .filter_map(|(found, least)| found.filter(|f| f.share >= least * most))
         .filter(|f| f.at_floor || !floor_reached);
-    enough.next()
+    enough.next().into_iter().collect()
+}
+
+/// z that one more mechanism needs beside others which leave nothing but noise: what the form of a law lacks is there too.
+const MORE_Z: f64 = 4.0;
+
+/// The gates, higher where nothing but noise is left of what was found.
+fn beyond_noise(problem: &Problem, current: &Fit, found: &[Found], gates: Gates) -> Gates {
+    match problem.plant {
+        PlantRun::FiveBar(_) if !found.is_empty() && is_noise(problem, current) => Gates {
+            z: gates.z.max(MORE_Z),
+            ..gates
+        },
+        _ => gates,
+    }
 }
 
 /// Replaces a found mechanism where another one explains clearly more in its place.

@@ -1,0 +1,58 @@
+//! This file undoes what a description says of its encoders before anything is fitted: the linkage bends a wrong angle too much for a sum of columns.
+
+use super::free_run::{Model, truly};
+use super::from_rig::{aligned, nominal, realigned};
+use super::run::FiveBarRun;
+use crate::align::Fault;
+use crate::problem::NominalEffect;
+use rigproof_model::error::ModelError;
+use rigproof_spec::effect::Mechanism;
+use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording, JointEffect};
+
+/// The effects of a description that are undone, and those that are left for the nominal model.
+pub fn undone_first(rig: &FiveBar) -> (Vec<JointEffect>, Vec<JointEffect>) {
+    let effects = rig.effects.iter().cloned();
+    effects.partition(|own| is_of_encoder(own.effect.mechanism) && own.effect.onset.is_none())
+}
+
+const fn is_of_encoder(mechanism: Mechanism) -> bool {
+    matches!(
+        mechanism,
+        Mechanism::EncoderScale | Mechanism::EncoderOffset
+    )
+}
+
+/// What the nominal model has beyond the thesis's when the encoders are undone.
+pub fn left(rig: &FiveBar) -> Vec<NominalEffect> {
+    nominal(&with(rig, undone_first(rig).1))
+}
+
+fn with(rig: &FiveBar, effects: Vec<JointEffect>) -> FiveBar {
+    FiveBar {
+        effects,
+        ..rig.clone()
+    }
+}
+
+/// A recording aligned, with the angles that the linkage had.
+///
+/// # Errors
+/// The fault that makes any conclusion meaningless.
+pub fn described(rig: &FiveBar, recording: &FiveBarRecording) -> Result<FiveBarRun, Fault> {
+    let run = aligned(rig, recording)?;
+    let (undone, _) = undone_first(rig);
+    if undone.is_empty() {
+        return Ok(run);
+    }
+    let impossible = |error: ModelError| Fault {
+        channel: "theta_a",
+        from_s: 0.0,
+        to_s: run.duration_s(),
+        reason: format!(
+            "the linkage cannot stand at the angles that the description's encoder effects leave: {error}; correct or take out these effects"
+        ),
+    };
+    let encoders = Model::of(&with(rig, undone));
+    let theta = truly(&encoders, &run).map_err(impossible)?.theta;
+    realigned(&run, theta).map_err(|(_, error)| impossible(error))
+}

@@ -1,0 +1,224 @@
+//! This file looks for what one mechanism at a time does not show: two that mask each other at one joint.
+
+use super::judge::{Trial, judge};
+use super::refine::refined;
+use super::weigh::usable_rms;
+use super::{Found, Gates, floor_limit, refs};
+use crate::candidates::realise;
+use crate::problem::{Cause, PlantRun, Problem, Term};
+use crate::regression::{Blocks, Fit, fit};
+use rigproof_spec::effect::Mechanism;
+use rigproof_spec::joint::Joint;
+
+/// Laws of friction whose shape bends towards whatever plainer friction stands beside them unseen.
+const BENDING: [Mechanism; 3] = [
+    Mechanism::Stribeck,
+    Mechanism::Presliding,
+    Mechanism::AsymmetricPresliding,
+];
+
+/// What may have bent one of them.
+const PLAIN: [Mechanism; 3] = [
+    Mechanism::DryOffset,
+    Mechanism::Viscous,
+    Mechanism::ConstantBias,
+];
+
+/// What can mask one another from the start, one number each.
+const MASKING: [Mechanism; 4] = [
+    Mechanism::DryOffset,
+    Mechanism::Viscous,
+    Mechanism::ConstantBias,
+    Mechanism::GainError,
+];
+
+/// Whether a bending law would stand beside another one at its joint: where that leaves nothing but noise, the second only mends the
+/// form of the first, which true friction need not have.
+pub(super) fn of_one_family(problem: &Problem, cause: Cause, found: &[Found]) -> bool {
+    let is_five_bar = matches!(problem.plant, PlantRun::FiveBar(_));
+    let bends = |cause: Cause| BENDING.contains(&cause.mechanism);
+    let same = |own: &Found| bends(own.term.cause) && own.term.cause.joint == cause.joint;
+    is_five_bar && bends(cause) && found.iter().any(same)
+}
+
+/// Plain friction at the joint of a found law, judged with the law's shape free to go back to what it is without it.
+pub(super) fn beside(
+    problem: &Problem,
+    nominal: &[Term],
+    found: &[Found],
+    current: &Fit,
+    blocks: &Blocks,
+    gates: Gates,
+) -> Vec<Trial> {
+    let PlantRun::FiveBar(_) = problem.plant else {
+        return Vec::new();
+    };
+    let mut passed = Vec::new();
+    for (index, bent) in found.iter().enumerate() {
+        let is_bent = BENDING.contains(&bent.term.cause.mechanism) && bent.term.onset_s.is_none();
+        let Some(joint) = bent.term.cause.joint.filter(|_| is_bent) else {
+            continue;
+        };
+        for term in terms_at(problem, &refs(nominal, found), joint, &PLAIN) {
+            let mut others = refs(nominal, found);
+            others.remove(nominal.len() + index);
+            let mut with = others.clone();
+            with.push(&term);
+            let straight = refined(problem, &with, bent.term.clone(), blocks);
+            others.push(&straight);
+            let list = [term.clone()];
+            passed.extend(judge(problem, &others, current, &list, term, blocks, gates));
+        }
+    }
+    passed
+}
+
+/// The two of one joint that leave nothing but noise together, where no one does alone.
+pub(super) fn pair(
+    problem: &Problem,
+    common: &[&Term],
+    blocks: &Blocks,
+    gates: Gates,
+) -> Option<[Found; 2]> {
+    let PlantRun::FiveBar(run) = problem.plant else {
+        return None;
+    };
+    let mut pairs = Vec::new();
+    for joint in run.parameters.layout.brakes() {
+        let terms = terms_at(problem, common, *joint, &MASKING);
+        for (k, first) in terms.iter().enumerate() {
+            for second in terms.iter().skip(k + 1) {
+                let both = [common, &[first, second]].concat();
+                let fitted = fit(problem, &both, blocks);
+                if is_noise(problem, &fitted) {
+                    pairs.push((fitted.loss, first.clone(), second.clone()));
+                }
+            }
+        }
+    }
+    pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let passes = |term: &Term, beside: &Term| {
+        let with = [common, &[beside]].concat();
+        let current = fit(problem, &with, blocks);
+        let list = [term.clone()];
+        judge(problem, &with, &current, &list, term.clone(), blocks, gates).map(|t| t.found)
+    };
+    pairs
+        .into_iter()
+        .find_map(|(_, first, second)| Some([passes(&first, &second)?, passes(&second, &first)?]))
+}
+
+/// Whether a fit leaves nothing but sensor noise.
+pub(super) fn is_noise(problem: &Problem, fitted: &Fit) -> bool {
+    usable_rms(problem, &fitted.residual) <= floor_limit(problem) * problem.floor
+}
+
+/// Mechanisms without a shape at a joint that are not among the terms.
+fn terms_at(
+    problem: &Problem,
+    taken: &[&Term],
+    joint: Joint,
+    mechanisms: &[Mechanism],
+) -> Vec<Term> {
+    let causes = mechanisms.iter().map(|&mechanism| Cause {
+        mechanism,
+        joint: Some(joint),
+    });
+    causes
+        .filter(|cause| taken.iter().all(|term| term.cause != *cause))
+        .filter_map(|cause| {
+            problem
+                .kept_term(cause, &[])
+                .or_else(|| realise(problem, cause, &[], None, &[]))
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    use crate::five_bar;
+    use crate::five_bar::recorded::{noise_rows, short_run, target};
+    use crate::problem::add;
+
+    const fn at_b(mechanism: Mechanism) -> Cause {
+        Cause {
+            mechanism,
+            joint: Some(Joint::B),
+        }
+    }
+
+    /// Hides terms of one column in noise, each times a number.
+    fn hide(problem: &mut Problem, hidden: &[(f64, &Term)]) {
+        let mut raw = noise_rows(problem, 31);
+        for (times, term) in hidden {
+            add(&mut raw, &term.free[0].raw, *times);
+        }
+        problem.target = target(problem, raw);
+    }
+
+    #[test]
+    fn two_that_mask_each_other_are_found_together_and_one_alone_is_no_pair() {
+        let run = short_run();
+        let mut problem = five_bar::recorded::problem(&run);
+        let [dry, gain] = [Mechanism::DryOffset, Mechanism::GainError]
+            .map(|mechanism| problem.term(at_b(mechanism), &[], None).unwrap());
+        hide(&mut problem, &[(0.17, &dry), (-0.31, &gain)]);
+        let blocks = Blocks::new(&problem);
+        let both = pair(&problem, &[], &blocks, Gates::default()).unwrap();
+        let mut names = both.map(|own| own.term.cause.name());
+        names.sort();
+        assert_eq!(names, ["dry_offset at B", "gain_error at B"]);
+        hide(&mut problem, &[(0.17, &dry)]);
+        assert!(pair(&problem, &[], &blocks, Gates::default()).is_none());
+    }
+
+    #[test]
+    fn drag_that_bent_a_peak_is_found_beside_it_and_none_where_there_is_none() {
+        let run = short_run();
+        let mut problem = five_bar::recorded::problem(&run);
+        let cause = at_b(Mechanism::Stribeck);
+        let peak = problem.term(cause, &[0.17, 2.0, 0.002], None).unwrap();
+        let drag = problem.term(at_b(Mechanism::Viscous), &[], None).unwrap();
+        let bent = Found {
+            term: problem.term(cause, &[0.23, 1.4, 0.002], None).unwrap(),
+            z: 3.7,
+            share: 0.7,
+            at_floor: false,
+        };
+        let mut found_with = |times: f64| -> Vec<String> {
+            hide(&mut problem, &[(0.41, &peak), (times, &drag)]);
+            let blocks = Blocks::new(&problem);
+            let found = [bent.clone()];
+            let current = fit(&problem, &refs(&[], &found), &blocks);
+            let passed = beside(&problem, &[], &found, &current, &blocks, Gates::default());
+            passed.iter().map(|t| t.found.term.cause.name()).collect()
+        };
+        let named = found_with(0.11);
+        assert!(named.contains(&"viscous at B".to_owned()), "{named:?}");
+        assert!(!found_with(0.0).contains(&"viscous at B".to_owned()));
+    }
+
+    #[test]
+    fn a_second_friction_that_bends_is_of_the_family_of_the_first_at_its_own_joint_only() {
+        let run = short_run();
+        let problem = five_bar::recorded::problem(&run);
+        let found = [Found {
+            term: problem
+                .term(at_b(Mechanism::Stribeck), &[0.17, 2.0, 0.002], None)
+                .unwrap(),
+            z: 3.7,
+            share: 0.7,
+            at_floor: true,
+        }];
+        let bristle = at_b(Mechanism::Presliding);
+        let elsewhere = Cause {
+            joint: Some(Joint::E),
+            ..bristle
+        };
+        assert!(of_one_family(&problem, bristle, &found));
+        assert!(!of_one_family(&problem, elsewhere, &found));
+        assert!(!of_one_family(&problem, at_b(Mechanism::Viscous), &found));
+    }
+}
