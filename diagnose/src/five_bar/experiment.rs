@@ -226,7 +226,7 @@ fn losses(
     let fitted = &stand.problem.windows;
     let width_s = (fitted.bump.len() - 1) as f64 * fitted.step_s;
     let played = play(&truth.model, layout, plan).ok()?;
-    let run = described(stand.rig, &played.recording(layout, sensors)).ok()?;
+    let run = described(stand.rig, &played.recording(layout, sensors), 0.0).ok()?;
     let windows = Windows::over(run.len(), 2, (run.step_s, run.start_s), width_s);
     let problem = Problem::of_five_bar(&run, windows);
     let blocks = Blocks::new(&problem);

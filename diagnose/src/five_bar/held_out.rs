@@ -37,12 +37,17 @@ impl Parts {
         let count = recordings.len();
         let mut runs = Vec::with_capacity(count);
         for (place, recording) in recordings.iter().enumerate() {
-            runs.push(described(rig, recording).map_err(|fault| (which(place, count), fault))?);
+            let lengths_s = runs
+                .iter()
+                .map(|run: &FiveBarRun| run.len() as f64 * run.step_s);
+            let before_s = lengths_s.sum();
+            let run = described(rig, recording, before_s);
+            runs.push(run.map_err(|fault| (which(place, count), fault))?);
         }
         let other = match held_out {
             Some(recording) => {
                 let named = |fault| ("held-out recording".to_owned(), fault);
-                Some(described(rig, recording).map_err(named)?)
+                Some(described(rig, recording, 0.0).map_err(named)?)
             }
             None if count >= MANY => runs.pop(),
             None => None,

@@ -298,17 +298,37 @@ fn a_scale_far_off_is_named_with_its_number_and_its_calibration_leaves_nothing()
     assert!((fraction / -0.061 - 1.0).abs() < 0.003, "{fraction}");
     let held_out = report.fit.as_ref().unwrap().held_out.unwrap();
     assert!(held_out.before > 5.0 * held_out.after, "{held_out:?}");
-    let Description::FiveBar(calibrated) = &found.calibration else {
-        panic!("the calibration is of another plant");
+    assert_calibrated(&found, &recording);
+}
+
+#[test]
+fn an_encoder_that_slips_is_named_with_when_and_its_calibration_leaves_nothing() {
+    let mut recording = recording(Layout::FourBrake, SECONDS, 21, &nothing);
+    let [theta_a, _] = &mut recording.theta;
+    for angle in theta_a.samples.iter_mut().skip(3700) {
+        *angle += 0.043;
+    }
+    let rig = rig(Layout::FourBrake);
+    let found = diagnose(&rig, &[&recording], None, &options());
+    let report = &found.report;
+    let expected = [("encoder_offset", Some("A"))];
+    assert_eq!(named(report), expected, "{}", report.summary);
+    let onset_s = report.effects[0].onset_s.unwrap();
+    assert!((onset_s - 3.7).abs() < 0.3, "{onset_s} s");
+    assert_calibrated(&found, &recording);
+}
+
+/// With what was found in its description a recording is explained, and what stands there stays.
+fn assert_calibrated(found: &Diagnosis, recording: &FiveBarRecording) {
+    let own = |diagnosis: &Diagnosis| match &diagnosis.calibration {
+        Description::FiveBar(rig) => rig.clone(),
+        Description::Joint(_) => panic!("the calibration is of another plant"),
     };
-    let again = diagnose(calibrated, &[&recording], None, &options());
-    let report = &again.report;
-    let floor = report.floor.as_ref().unwrap();
-    assert_eq!(report.verdict, Verdict::Consistent, "{floor:?}");
-    let Description::FiveBar(kept) = &again.calibration else {
-        panic!("the calibration is of another plant");
-    };
-    assert_eq!(kept.effects, calibrated.effects);
+    let calibrated = own(found);
+    let again = diagnose(&calibrated, &[recording], None, &options());
+    let floor = again.report.floor.as_ref().unwrap();
+    assert_eq!(again.report.verdict, Verdict::Consistent, "{floor:?}");
+    assert_eq!(own(&again).effects, calibrated.effects);
 }
 
 #[test]

@@ -12,7 +12,7 @@ use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording, JointEffect};
 /// The effects of a description that are undone, and those that are left for the nominal model.
 pub fn undone_first(rig: &FiveBar) -> (Vec<JointEffect>, Vec<JointEffect>) {
     let effects = rig.effects.iter().cloned();
-    effects.partition(|own| is_of_encoder(own.effect.mechanism) && own.effect.onset.is_none())
+    effects.partition(|own| is_of_encoder(own.effect.mechanism))
 }
 
 const fn is_of_encoder(mechanism: Mechanism) -> bool {
@@ -34,13 +34,23 @@ fn with(rig: &FiveBar, effects: Vec<JointEffect>) -> FiveBar {
     }
 }
 
-/// A recording aligned, with the angles that the linkage had.
+/// A recording aligned, with the angles that the linkage had; `before_s` of other recordings come before it on the clock of onsets.
 ///
 /// # Errors
 /// The fault that makes any conclusion meaningless.
-pub fn described(rig: &FiveBar, recording: &FiveBarRecording) -> Result<FiveBarRun, Fault> {
+pub fn described(
+    rig: &FiveBar,
+    recording: &FiveBarRecording,
+    before_s: f64,
+) -> Result<FiveBarRun, Fault> {
     let run = aligned(rig, recording)?;
-    let (undone, _) = undone_first(rig);
+    let (mut undone, _) = undone_first(rig);
+    for onset in undone
+        .iter_mut()
+        .filter_map(|own| own.effect.onset.as_mut())
+    {
+        onset.value -= before_s;
+    }
     if undone.is_empty() {
         return Ok(run);
     }
