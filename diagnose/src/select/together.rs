@@ -4,7 +4,6 @@ use super::judge::{Trial, judge};
 use super::refine::refined;
 use super::weigh::usable_rms;
 use super::{Found, Gates, floor_limit, refs};
-use crate::candidates::realise;
 use crate::problem::{Cause, PlantRun, Problem, Term};
 use crate::regression::{Blocks, Fit, fit};
 use rigproof_spec::effect::Mechanism;
@@ -73,7 +72,7 @@ pub(super) fn beside(
     passed
 }
 
-/// The two of one joint that leave nothing but noise together, where no one does alone.
+/// The two of one joint that leave nothing but noise together, where more is left without them.
 pub(super) fn pair(
     problem: &Problem,
     common: &[&Term],
@@ -83,6 +82,9 @@ pub(super) fn pair(
     let PlantRun::FiveBar(run) = problem.plant else {
         return None;
     };
+    if is_noise(problem, &fit(problem, common, blocks)) {
+        return None;
+    }
     let mut pairs = Vec::new();
     for joint in run.parameters.layout.brakes() {
         let terms = terms_at(problem, common, *joint, &MASKING);
@@ -126,11 +128,7 @@ fn terms_at(
     });
     causes
         .filter(|cause| taken.iter().all(|term| term.cause != *cause))
-        .filter_map(|cause| {
-            problem
-                .kept_term(cause, &[])
-                .or_else(|| realise(problem, cause, &[], None, &[]))
-        })
+        .filter_map(|cause| problem.kept_term(cause, &[]))
         .collect()
 }
 
@@ -170,8 +168,10 @@ mod tests {
         let mut names = both.map(|own| own.term.cause.name());
         names.sort();
         assert_eq!(names, ["dry_offset at B", "gain_error at B"]);
-        hide(&mut problem, &[(0.17, &dry)]);
-        assert!(pair(&problem, &[], &blocks, Gates::default()).is_none());
+        for nearly_nothing in [(0.17, &dry), (0.0, &dry)] {
+            hide(&mut problem, &[nearly_nothing]);
+            assert!(pair(&problem, &[], &blocks, Gates::default()).is_none());
+        }
     }
 
     #[test]
