@@ -140,7 +140,7 @@ pub fn shape_bounds(problem: &Problem, cause: Cause) -> Vec<(f64, f64)> {
         return vec![(travel / MOST_CYCLES, travel)];
     }
     let tried = shapes(problem, cause, &[]);
-    let count = tried.first().map_or(0, Vec::len);
+    let count = tried.iter().map(Vec::len).max().unwrap_or(0);
     let mut bounds: Vec<(f64, f64)> = (0..count)
         .map(|k| {
             let values = tried.iter().filter_map(|shape| shape.get(k).copied());

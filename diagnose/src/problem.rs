@@ -272,7 +272,7 @@ impl<'a> Problem<'a> {
     /// `rms` is the root mean square of the residuals over the usable windows.
     pub fn rewhiten(&mut self, rms: f64) {
         let excess = (rms * rms - self.floor * self.floor).max(0.0);
-        self.whitener = match self.plant {
+        let whitener = match self.plant {
             PlantRun::Joint(run) => {
                 let inertia = self.inertia.start();
                 let covariance = self
@@ -282,6 +282,12 @@ impl<'a> Problem<'a> {
             }
             PlantRun::FiveBar(run) => five_bar::noise::whitener(run, &self.windows, excess),
         };
+        self.whiten_with(whitener);
+    }
+
+    /// Takes a noise model and whitens with it.
+    pub fn whiten_with(&mut self, whitener: Whitener) {
+        self.whitener = whitener;
         self.whiten_own();
         let mut kept = self.kept.take();
         for term in &mut kept {

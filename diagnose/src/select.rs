@@ -5,6 +5,7 @@ mod merge;
 mod onset;
 mod prune;
 mod refine;
+mod sole;
 mod step;
 mod together;
 mod weigh;
@@ -15,7 +16,9 @@ use crate::regression::{Blocks, Fit, fit};
 use merge::merge;
 use prune::{backward, prune};
 use refine::refine;
+use sole::sole;
 use step::{forward, swap};
+use together::is_noise;
 
 pub(crate) use judge::best as best_variant;
 pub(crate) use merge::as_two;
@@ -107,8 +110,50 @@ pub fn floor_limit(problem: &Problem) -> f64 {
     FLOOR_RATIO.max(1.0 + 3.0 / (2.0 * freedom).sqrt())
 }
 
-/// Runs the whole search; the noise model is refined twice on the way.
-pub fn select(problem: &mut Problem, mut nominal: Vec<Term>, gates: Gates) -> Selection {
+/// Runs the whole search, and where it named nothing for what is more than noise looks for the one mechanism that shows in few places.
+pub fn select(problem: &mut Problem, nominal: Vec<Term>, gates: Gates) -> Selection {
+    let first = searched(problem, nominal, gates);
+    let is_five_bar = matches!(problem.plant, PlantRun::FiveBar(_));
+    if !is_five_bar || !first.found.is_empty() || is_noise(problem, &first.after) {
+        return first;
+    }
+    let whitener = problem.whitener.clone();
+    let mut nominal = first.nominal.clone();
+    // Windows are judged one by one: by what sensor noise alone would give.
+    problem.rewhiten(problem.floor);
+    nominal.iter_mut().for_each(|term| problem.refresh(term));
+    let blocks = Blocks::new(problem);
+    let Some(found) = sole(problem, &nominal, &blocks, gates) else {
+        problem.whiten_with(whitener);
+        return first;
+    };
+    let entered = found.term.cause;
+    let found = vec![found];
+    let after = fit(problem, &refs(&nominal, &found), &blocks);
+    let mut stages = first.stages;
+    stages.push(stage(problem, entered, &found, &after.residual));
+    Selection {
+        before: fit(problem, &refs(&nominal, &[]), &blocks),
+        nominal,
+        found,
+        too_small: Vec::new(),
+        stages,
+        after,
+    }
+}
+
+/// What stands once one of these has entered.
+fn stage(problem: &Problem, entered: Cause, found: &[Found], residual: &[f64]) -> Stage {
+    Stage {
+        entered,
+        standing: found.iter().map(|f| f.term.cause).collect(),
+        shapes: shapes(found),
+        residual: usable_rms(problem, residual),
+    }
+}
+
+/// One search; the noise model is refined twice on the way.
+fn searched(problem: &mut Problem, mut nominal: Vec<Term>, gates: Gates) -> Selection {
     let blocks = Blocks::new(problem);
     let rich = rich_residual(problem, &nominal, &blocks);
     rewhiten(problem, &rich, &mut nominal, &mut []);
@@ -208,12 +253,7 @@ fn search(
             found.push(own);
             refine(problem, nominal, &mut found, blocks);
             let residual = fit(problem, &refs(nominal, &found), blocks).residual;
-            stages.push(Stage {
-                entered,
-                standing: found.iter().map(|f| f.term.cause).collect(),
-                shapes: shapes(&found),
-                residual: usable_rms(problem, &residual),
-            });
+            stages.push(stage(problem, entered, &found, &residual));
         }
         let standing: Vec<Cause> = found.iter().map(|f| f.term.cause).collect();
         settle(problem, nominal, &mut found, blocks, gates);
@@ -247,12 +287,7 @@ fn note_swaps(
         .filter(|cause| !standing.contains(cause))
     {
         let residual = fit(problem, &refs(nominal, found), blocks).residual;
-        stages.push(Stage {
-            entered: new,
-            standing: found.iter().map(|f| f.term.cause).collect(),
-            shapes: shapes(found),
-            residual: usable_rms(problem, &residual),
-        });
+        stages.push(stage(problem, new, found, &residual));
     }
 }
 

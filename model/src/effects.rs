@@ -14,6 +14,7 @@ mod hysteresis;
 mod lag;
 mod linkage;
 mod nonlinear_spring;
+mod play;
 mod presliding;
 mod reversal_overshoot;
 mod ripple;
@@ -23,6 +24,7 @@ mod stribeck;
 mod viscous;
 
 pub use lag::{first_order_lag, first_order_lag_straight, lagged};
+pub use play::CurrentPlay;
 
 use rigproof_spec::effect::Mechanism;
 

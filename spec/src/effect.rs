@@ -263,6 +263,7 @@ impl Mechanism {
                     &[
                         Parameter::new("share", Number),
                         Parameter::new("half_width", Current),
+                        Parameter::optional("closing", Current),
                     ]
                 }
             }

@@ -3,7 +3,7 @@
 use super::run::{FiveBarRun, place, yields};
 use crate::problem::{USUAL_SHARE, less, shifted, through_play};
 use rigproof_model::brake::Brake;
-use rigproof_model::effects::first_order_lag_straight;
+use rigproof_model::effects::{CurrentPlay, first_order_lag_straight};
 use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::tables::brake_table;
@@ -56,7 +56,11 @@ pub fn unit(
     match mechanism {
         // The torque is not linear in the current: a share of the size that is expected stands for the slope.
         Mechanism::CurrentHysteresis => {
-            let held = through_play(current, value, USUAL_SHARE);
+            let play = CurrentPlay {
+                half_width_a: value,
+                closing_a: shape.get(1).copied().unwrap_or(0.0),
+            };
+            let held = through_play(current, play, USUAL_SHARE);
             let start = run.motion(joint).first()?.position;
             let changed = yields(
                 Brake::new(joint, start),

@@ -132,6 +132,17 @@ fn limits(run: &FiveBarRun, cause: Cause) -> Vec<f64> {
     geometric(0.3 * greatest, 0.97 * greatest, 8)
 }
 
+/// Half widths of a play, A, and the currents below which its sides come together, where they do.
+fn plays() -> Vec<Vec<f64>> {
+    let widths = geometric(0.01, 0.5, 7).into_iter();
+    let open = widths.clone().map(|width| vec![width]);
+    let closing = widths.flat_map(|width| CLOSING_A.map(|below| vec![width, below]));
+    closing.chain(open).collect()
+}
+
+/// Currents below which the sides of a play come together, A: a little, most of the range, and beyond all that flows.
+const CLOSING_A: [f64; 3] = [0.1, 0.4, 1.5];
+
 /// The shapes of a cause that are tried.
 pub fn shapes(
     problem: &Problem,
@@ -163,7 +174,7 @@ pub fn shapes(
         Mechanism::Lag => one(geometric(0.5 * run.step_s, 0.25, 12)),
         Mechanism::DeadTime => one(geometric(run.step_s, 0.08, 8)),
         Mechanism::Saturation => one(limits(run, cause)),
-        Mechanism::CurrentHysteresis => one(geometric(0.01, 0.5, 7)),
+        Mechanism::CurrentHysteresis => plays(),
         Mechanism::BacklashWidth => one(geometric(0.003, 0.12, 8)),
         Mechanism::ThermalFade => one(geometric(3.0, 300.0, 4)),
         Mechanism::ChannelSkew => {

@@ -235,6 +235,7 @@ fn every_mechanism_does_along_a_motion_what_its_column_says() {
         (at(DeadTime, Joint::A, &[0.0237]), None),
         (at(Saturation, Joint::B, &[0.213]), None),
         (at(CurrentHysteresis, Joint::C, &[0.3, 0.071]), None),
+        (at(CurrentHysteresis, Joint::C, &[0.3, 0.071, 0.31]), None),
         (at(ThermalFade, Joint::A, &[0.31, 7.3]), None),
         (at(BacklashWidth, Joint::A, &[0.031]), None),
         (at(LoadDependent, Joint::E, &[0.0071]), None),

@@ -4,7 +4,7 @@ use super::{Problem, USUAL_SHARE, lagged_yield, less, numerov, shifted, through_
 use crate::filter::gradient;
 use crate::run::{PlantKind, Run};
 use rigproof_model::bench::column;
-use rigproof_model::effects::{Form, entry, first_order_lag, law};
+use rigproof_model::effects::{CurrentPlay, Form, entry, first_order_lag, law};
 use rigproof_spec::effect::Mechanism;
 
 /// A free column, and one with coefficient 1.
@@ -42,7 +42,11 @@ pub fn of_brake(run: &Run, mechanism: Mechanism, shape: &[f64]) -> Option<Vec<f6
     let value = *shape.first()?;
     match mechanism {
         Mechanism::CurrentHysteresis => {
-            let held = through_play(current, value, USUAL_SHARE);
+            let play = CurrentPlay {
+                half_width_a: value,
+                closing_a: 0.0,
+            };
+            let held = through_play(current, play, USUAL_SHARE);
             let change = less(&run.braked(&held)?, &run.braked(current)?);
             Some(change.into_iter().map(|c| c / USUAL_SHARE).collect())
         }

@@ -1,6 +1,6 @@
 //! This file is what is done to a signal before it becomes a column: delayed, shifted, weighted, differenced.
 
-use rigproof_model::effects::first_order_lag_straight;
+use rigproof_model::effects::{CurrentPlay, first_order_lag_straight};
 
 /// A brake's signed torque with its magnitude delayed by a first-order lag and its sign kept.
 pub fn lagged_yield(predicted: &[f64], step_s: f64, time_constant_s: f64) -> Vec<f64> {
@@ -15,12 +15,12 @@ pub fn lagged_yield(predicted: &[f64], step_s: f64, time_constant_s: f64) -> Vec
 /// Share of a current that hysteresis is linearised with: the torque is not linear in the current.
 pub const USUAL_SHARE: f64 = 0.3;
 
-/// A current of which a share goes through a play of half width `half_width_a`, sample by sample, A.
-pub fn through_play(current_a: &[f64], half_width_a: f64, share: f64) -> Vec<f64> {
-    let mut play_a = current_a.first().copied().unwrap_or(0.0);
+/// A current of which a share goes through a play, sample by sample, A.
+pub fn through_play(current_a: &[f64], play: CurrentPlay, share: f64) -> Vec<f64> {
+    let mut at_a = 0.0;
     let held = current_a.iter().map(|i| {
-        play_a = play_a.clamp(i - half_width_a, i + half_width_a);
-        i + share * (play_a - i)
+        at_a = play.moved(at_a, *i);
+        i + share * (at_a - i)
     });
     held.collect()
 }

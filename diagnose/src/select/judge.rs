@@ -1,5 +1,6 @@
 //! This file judges candidates: each against the gates, and against one another.
 
+use super::prune::would_stay;
 use super::refine::refined;
 use super::together::is_noise;
 use super::weigh::{contribution, drives, effort_beside, excitation, loss_with, own_coefficients};
@@ -15,6 +16,8 @@ pub(super) struct Trial {
     pub(super) found: Found,
     /// Left-out loss of each block with it.
     pub(super) losses: Vec<f64>,
+    /// Whether it would stay if nothing else were found.
+    stays: bool,
     /// How many numbers it has.
     parameters: usize,
 }
@@ -86,6 +89,10 @@ pub(super) fn judge(
     let (gain, z) = paired(&current.block_loss, &losses, &expected);
     let share = 1.0 - losses.iter().sum::<f64>() / current.left_out().max(1e-300);
     let at_floor = is_noise(problem, &fitted);
+    let stays = match problem.plant {
+        PlantRun::FiveBar(_) => would_stay(problem, term.cause, current.left_out(), &fitted),
+        PlantRun::Joint(_) => true,
+    };
     let passes = gain > 0.0
         && z >= gates.z
         && share >= gates.share
@@ -109,6 +116,7 @@ pub(super) fn judge(
             z,
             share,
         },
+        stays,
         losses,
     })
 }
@@ -138,12 +146,13 @@ pub(crate) fn best(problem: &Problem, common: &[&Term], tried: &[Term]) -> Optio
 }
 
 /// The trial with the fewest parameters among those that tie with the best one, or that explain nearly as much
-/// where even the best one leaves more than noise.
+/// where even the best one leaves more than noise. One that would go again is no tie of one that would stay.
 pub(super) fn simplest(mut trials: Vec<Trial>, loss_without: f64) -> Option<Found> {
     let total = |trial: &Trial| trial.losses.iter().sum::<f64>();
     trials.sort_by(|a, b| total(a).total_cmp(&total(b)));
     let leader = trials.first()?.losses.clone();
     let at_floor = trials.first()?.found.at_floor;
+    let stays = trials.first()?.stays;
     let most = loss_without - leader.iter().sum::<f64>();
     let all = vec![1.0; leader.len()];
     trials
@@ -151,7 +160,8 @@ pub(super) fn simplest(mut trials: Vec<Trial>, loss_without: f64) -> Option<Foun
         .enumerate()
         .filter(|(rank, t)| {
             let nearly = !at_floor && loss_without - total(t) >= SIMPLER_SHARE * most;
-            *rank == 0 || nearly || paired(&t.losses, &leader, &all).1 < TIE_Z
+            let ties = nearly || paired(&t.losses, &leader, &all).1 < TIE_Z;
+            *rank == 0 || ties && (t.stays || !stays)
         })
         .min_by_key(|(rank, t)| (t.parameters, *rank))
         .map(|(_, t)| t.found)

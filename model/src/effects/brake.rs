@@ -30,7 +30,7 @@ pub(super) const CURRENT_HYSTERESIS: Entry = entry(
     Mechanism::CurrentHysteresis,
     1,
     "the same torque on the way up and on the way down of a slow current triangle",
-    "τ follows I + share·(p − I), p the play of half width `half_width` that the current moves",
+    "τ follows I + share·(p − I), p the play of half width `half_width` that the current moves; its sides meet at 0 from `closing` down",
 );
 
 pub(super) const DEAD_TIME: Entry = entry(

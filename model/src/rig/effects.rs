@@ -7,7 +7,7 @@ use rigproof_spec::joint::Joint;
 
 use super::left_out::{LeftOut, Term, Timed};
 use super::{Parameters, Rig};
-use crate::effects::{Law, law};
+use crate::effects::{CurrentPlay, Law, law};
 use crate::error::ModelError;
 use crate::motion::two_coordinate::two_coordinate;
 use crate::motion::{added_mass, check_inertia};
@@ -105,8 +105,8 @@ const ABOVE_ZERO: [&str; 7] = [
     "cooling",
 ];
 
-/// A backlash and a greatest current may be nothing.
-const NOT_BELOW_ZERO: [&str; 2] = ["width", "limit"];
+/// A backlash, a greatest current and the current below which a play closes may be nothing.
+const NOT_BELOW_ZERO: [&str; 3] = ["width", "limit", "closing"];
 
 fn term(rig: &Rig, effect: &JointEffect) -> Result<Term, ModelError> {
     let refused = |reason| ModelError::Effect {
@@ -177,7 +177,10 @@ fn of_brake(effect: &JointEffect, joint: Joint) -> Option<Term> {
         Mechanism::CurrentHysteresis => Term::Play {
             place,
             share: value(0),
-            half_width_a: value(1),
+            play: CurrentPlay {
+                half_width_a: value(1),
+                closing_a: value(2),
+            },
         },
         Mechanism::DeadTime => Term::Late {
             place,

@@ -9,7 +9,7 @@ use rigproof_spec::joint::Joint;
 
 use super::contact::Contact;
 use super::effects::JointEffect;
-use crate::effects::{Instant, Law, lagged};
+use crate::effects::{CurrentPlay, Instant, Law, lagged};
 use crate::motion::two_coordinate::TwoCoordinate;
 
 /// The least yield of a joint with dry friction, N·m: what holds has to be able to let go.
@@ -36,7 +36,7 @@ pub enum Term {
     Play {
         place: usize,
         share: f64,
-        half_width_a: f64,
+        play: CurrentPlay,
     },
     /// A brake's current comes late.
     Late { place: usize, delay_s: f64 },
@@ -188,15 +188,10 @@ impl LeftOut {
             }
         }
         for (timed, memory) in terms.iter().zip(&mut self.memory) {
-            if let Term::Play {
-                place,
-                share,
-                half_width_a,
-            } = timed.term
-            {
+            if let Term::Play { place, share, play } = timed.term {
                 let now_a = given_a[place];
-                let before_a = if first { now_a } else { *memory };
-                *memory = before_a.clamp(now_a - half_width_a, now_a + half_width_a);
+                let before_a = if first { 0.0 } else { *memory };
+                *memory = play.moved(before_a, now_a);
                 if time_s >= timed.onset_s {
                     given_a[place] += share * (*memory - now_a);
                 }

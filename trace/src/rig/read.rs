@@ -253,7 +253,7 @@ pub(super) fn read_effect(
         if matches!(parameter.quantity, Quantity::Travel | Quantity::Speed) {
             above_zero(table, parameter.name, &value, dimension)?;
         }
-        if parameter.name == "half_width" {
+        if matches!(parameter.name, "half_width" | "closing") {
             above_zero(table, parameter.name, &value, dimension)?;
         }
         values.push(value);

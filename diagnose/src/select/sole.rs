@@ -1,0 +1,119 @@
+//! This file looks for one mechanism that shows in too few places for blocks to judge it by one another.
+
+use super::judge::best;
+use super::refine::refined;
+use super::together::is_noise;
+use super::weigh::{drives, excitation, own_coefficients};
+use super::{Found, Gates, refs};
+use crate::candidates::{causes, is_at_edge, variants};
+use crate::problem::{Problem, Term};
+use crate::regression::{Blocks, Fit, dot, fit, paired};
+
+/// The one mechanism that takes away nearly all, where blocks showed none for what is more.
+///
+/// What a brake does within a few hundredths of a radian after one loud reversal lies whole in one block or two, and no block left out can be
+/// told from the others. Each window is judged by itself then, with the numbers of all of them.
+pub(super) fn sole(
+    problem: &Problem,
+    nominal: &[Term],
+    blocks: &Blocks,
+    gates: Gates,
+) -> Option<Found> {
+    let common = refs(nominal, &[]);
+    let current = fit(problem, &common, blocks);
+    let tried = causes(problem).into_iter().filter_map(|cause| {
+        let list = variants(problem, cause, &common, &current);
+        best(problem, &common, &list)
+    });
+    let mut tried: Vec<(Term, f64)> = tried.collect();
+    tried.sort_by(|a, b| a.1.total_cmp(&b.1));
+    tried.truncate(PROMISING);
+    let refined = tried
+        .into_iter()
+        .map(|(term, _)| refined(problem, &common, term, blocks));
+    let judged = refined.filter_map(|term| by_windows(problem, &common, &current, term, gates));
+    judged
+        .min_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, found)| found)
+}
+
+/// One mechanism window by window, with the loss that it leaves; `None` where it leaves too much.
+fn by_windows(
+    problem: &Problem,
+    common: &[&Term],
+    current: &Fit,
+    term: Term,
+    gates: Gates,
+) -> Option<(f64, Found)> {
+    let with = [common, &[&term]].concat();
+    let fitted = fit(problem, &with, &Blocks::new(problem));
+    let own = own_coefficients(&term, &fitted);
+    let at_floor = is_noise(problem, &fitted);
+    let share = 1.0 - fitted.loss / current.loss;
+    let least = if at_floor { MOST } else { NEARLY_ALL };
+    let windows = Blocks::of_windows(problem);
+    let expected = excitation(&term, own, &windows);
+    let [before, after] = [current, &fitted].map(|fit| losses(problem, fit, &windows));
+    let z = paired(&before, &after, &expected).1;
+    let stands =
+        share >= least && z >= gates.z && !drives(&term, own) && !is_at_edge(problem, &term);
+    let found = Found {
+        term,
+        z,
+        share,
+        at_floor,
+    };
+    stands.then_some((fitted.loss, found))
+}
+
+/// Share of the loss that one takes away which leaves nothing but noise: what is little above the floor is no loud event.
+const MOST: f64 = 0.85;
+
+/// The same for one that leaves more, as a law of another family does.
+const NEARLY_ALL: f64 = 0.95;
+
+/// Causes whose shape is refined, those that explain most.
+const PROMISING: usize = 4;
+
+/// The white loss of each window.
+fn losses(problem: &Problem, fitted: &Fit, windows: &Blocks) -> Vec<f64> {
+    let white = problem.whitener.whiten(&fitted.residual);
+    let each = windows.ranges.iter();
+    each.map(|&(first, end)| white.get(first..end).map_or(0.0, |part| dot(part, part)))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    use crate::five_bar;
+    use crate::five_bar::recorded::{noise_rows, short_run, target};
+    use crate::problem::{Cause, add};
+    use rigproof_spec::effect::Mechanism;
+    use rigproof_spec::joint::Joint;
+
+    #[test]
+    fn one_law_that_leaves_only_noise_is_found_and_none_of_two() {
+        let run = short_run();
+        let mut problem = five_bar::recorded::problem(&run);
+        let at = |mechanism, joint| Cause {
+            mechanism,
+            joint: Some(joint),
+        };
+        let play = at(Mechanism::CurrentHysteresis, Joint::B);
+        let play = problem.term(play, &[0.07, 0.3], None).unwrap();
+        let dry = at(Mechanism::DryOffset, Joint::A);
+        let dry = problem.term(dry, &[], None).unwrap();
+        let mut found_with = |times: f64| {
+            let mut raw = noise_rows(&problem, 41);
+            add(&mut raw, &play.free[0].raw, 0.7);
+            add(&mut raw, &dry.free[0].raw, times);
+            problem.target = target(&problem, raw);
+            sole(&problem, &[], &Blocks::new(&problem), Gates::default())
+        };
+        let found = found_with(0.0).unwrap();
+        assert_eq!(found.term.cause.name(), "current_hysteresis at B");
+        assert!(found_with(0.13).is_none());
+    }
+}
