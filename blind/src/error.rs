@@ -38,6 +38,9 @@ pub enum Error {
         /// How many draws were tried.
         attempts: usize,
     },
+    /// The experiment cannot be read or done.
+    #[error("experiment: {0}; give the next-experiment.csv that the diagnosis wrote")]
+    Experiment(String),
     /// The sealed answer is not in the form this room writes.
     #[error(
         "sealed answer, line {line}, column {column}: {reason}; hand over the file exactly as it was written"

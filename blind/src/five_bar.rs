@@ -17,7 +17,7 @@ mod setup;
 mod size;
 mod stick;
 
-pub use make::{again, make};
+pub use make::{again, make, under};
 
 use linkage::angles_of_tip;
 use plant::FiveBar;

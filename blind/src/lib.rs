@@ -43,7 +43,7 @@ pub use answer::{Answer, HiddenEffect, TrueParameter};
 pub use brake::{BrakeStep, brake_yield_nm};
 pub use error::Error;
 pub use five_bar::{RigState, RigStep, five_bar_motion};
-pub use make::{Case, again, make};
+pub use make::{Case, again, make, under};
 pub use plant::Plant;
 pub use score::{ParameterError, Score, score};
 pub use seal::{commitment, open};

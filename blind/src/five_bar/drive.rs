@@ -14,6 +14,12 @@ pub enum Drive {
     Programme([Vec<Piece>; 4]),
     /// A controller in the loop.
     Loop(Controller),
+    /// Given currents of A, E, B and C, each held for a step; none before a time, s.
+    Given {
+        from_s: f64,
+        step_s: f64,
+        currents_a: [Vec<f64>; 4],
+    },
 }
 
 /// One piece of a programme, A over s from its start.
@@ -243,6 +249,21 @@ impl Drive {
                 [a, e, b, c].map(|pieces| current_a(pieces, time_s))
             }
             Drive::Loop(controller) => controller.currents_a(arms, shown, sample_s),
+            Drive::Given {
+                from_s,
+                step_s,
+                currents_a,
+            } => {
+                let at = (time_s - *from_s) / *step_s + 1e-6;
+                currents_a.each_ref().map(|given| match at < 0.0 {
+                    true => 0.0,
+                    false => given
+                        .get(at as usize)
+                        .or(given.last())
+                        .copied()
+                        .unwrap_or(0.0),
+                })
+            }
         }
     }
 }

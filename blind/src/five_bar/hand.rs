@@ -33,6 +33,13 @@ pub enum Goal {
     Excitation { centre_m: Pair, axes: [Path; 2] },
     /// Reaches from place to place, each with the least jerk (Flash and Hogan 1985), and a rest between.
     Reaches { centre_m: Pair, reaches: Vec<Reach> },
+    /// A reach from the centre to the beginning of a given path, and the path.
+    Led {
+        centre_m: Pair,
+        reach_s: f64,
+        step_s: f64,
+        path_m: Vec<Pair>,
+    },
 }
 
 /// One reach: it starts, takes its time, and goes to a place relative to the centre.
@@ -84,6 +91,28 @@ impl Hand {
         }
     }
 
+    /// An experimenter who reaches for the beginning of a path and leads the handle along it.
+    pub fn led(
+        draw: &mut Draw,
+        centre_m: Pair,
+        reach_s: f64,
+        step_s: f64,
+        path_m: Vec<Pair>,
+    ) -> Hand {
+        Hand {
+            goal: Goal::Led {
+                centre_m,
+                reach_s,
+                step_s,
+                path_m,
+            },
+            stiffness: draw.log_uniform(900.0, 2000.0),
+            damping: draw.uniform(40.0, 90.0),
+            greatest_n: draw.uniform(45.0, 70.0),
+            tremor: tremor(draw, 0.15),
+        }
+    }
+
     /// An experimenter who pushes the handle along slow triangles, sines, ramps of speed and multisines.
     pub fn experimenter(draw: &mut Draw, centre_m: Pair, radius_m: f64, duration_s: f64) -> Hand {
         let mut axis = |share: f64| {
@@ -105,7 +134,9 @@ impl Goal {
     /// The centre of the motion, where it begins, m.
     pub const fn centre_m(&self) -> Pair {
         match self {
-            Goal::Excitation { centre_m, .. } | Goal::Reaches { centre_m, .. } => *centre_m,
+            Goal::Excitation { centre_m, .. }
+            | Goal::Reaches { centre_m, .. }
+            | Goal::Led { centre_m, .. } => *centre_m,
         }
     }
 
@@ -126,15 +157,39 @@ impl Goal {
                     return (*centre_m, [0.0; 2]);
                 };
                 let from_m = last.next().map_or([0.0; 2], |reach| reach.to_m);
-                let way = plus(now.to_m, -1.0, from_m);
-                let x = ((time_s - now.start_s) / now.length_s).min(1.0);
-                let part = x * x * x * (10.0 + x * (-15.0 + 6.0 * x));
-                let rate = 30.0 * x * x * (1.0 - x) * (1.0 - x) / now.length_s;
-                let place = plus(from_m, part, way);
-                (plus(*centre_m, 1.0, place), way.map(|x| x * rate))
+                let (place, velocity) =
+                    reached([from_m, now.to_m], time_s - now.start_s, now.length_s);
+                (plus(*centre_m, 1.0, place), velocity)
+            }
+            Goal::Led {
+                centre_m,
+                reach_s,
+                step_s,
+                path_m,
+            } => {
+                let point = |k: usize| path_m.get(k).or(path_m.last()).copied();
+                let within = (time_s - reach_s) / step_s;
+                if within < 0.0 {
+                    let first_m = point(0).unwrap_or(*centre_m);
+                    return reached([*centre_m, first_m], time_s, *reach_s);
+                }
+                let from_m = point(within as usize).unwrap_or(*centre_m);
+                let to_m = point(within as usize + 1).unwrap_or(*centre_m);
+                let way = plus(to_m, -1.0, from_m);
+                let place = plus(from_m, within.fract(), way);
+                (place, way.map(|x| x / step_s))
             }
         }
     }
+}
+
+/// Place, m, and velocity, m/s, within a reach of least jerk between two places; it stays where it ends.
+fn reached([from_m, to_m]: [Pair; 2], time_s: f64, length_s: f64) -> (Pair, Pair) {
+    let way = plus(to_m, -1.0, from_m);
+    let x = (time_s / length_s).min(1.0);
+    let part = x * x * x * (10.0 + x * (-15.0 + 6.0 * x));
+    let rate = 30.0 * x * x * (1.0 - x) * (1.0 - x) / length_s;
+    (plus(from_m, part, way), way.map(|x| x * rate))
 }
 
 fn in_disc(draw: &mut Draw, radius_m: f64) -> Pair {
@@ -161,7 +216,12 @@ mod tests {
     #[test]
     fn a_goal_moves_as_fast_as_it_says() {
         let mut draw = Draw::new(Plant::Rig, 29, "hand");
+        let path = (0..310).map(|k| libm::sincos(0.1 * f64::from(k)));
+        let path = path
+            .map(|(s, c)| [0.01 + 0.07 * s, 0.38 + 0.05 * c])
+            .collect();
         for hand in [
+            Hand::led(&mut draw, [0.01, 0.38], 1.5, 0.05, path),
             Hand::person(&mut draw, [0.01, 0.38], 0.09, 17.0),
             Hand::experimenter(&mut draw, [0.01, 0.38], 0.09, 17.0),
         ] {

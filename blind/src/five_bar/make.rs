@@ -4,7 +4,7 @@ use super::hide;
 use super::law::{Effect, Law};
 use super::linkage::Pair;
 use super::run::{Sample, quantised, run, shown_theta};
-use super::setup::{RATE_HZ, Setup};
+use super::setup::{Asked, RATE_HZ, Setup};
 use super::size::{Sizes, sizes};
 use crate::answer::{Answer, HiddenEffect, TrueParameter};
 use crate::draw::Draw;
@@ -83,6 +83,56 @@ pub fn again(seed: u64, stratum: Stratum) -> Result<Trace, Error> {
         }
     }
     Err(no_case(seed, stratum))
+}
+
+/// The recording of an experiment on a seed's rig: the same hidden effects, what began in the first recording now from the start.
+pub fn under(seed: u64, stratum: Stratum, experiment: &Trace) -> Result<Trace, Error> {
+    let first = secret(seed, stratum)?;
+    let mut draw = Draw::new(Plant::Rig, seed, "experiment");
+    let asked = asked(experiment, first.setup.layout)?;
+    let setup = first.setup.under(asked, &mut draw);
+    let begun = |effect: Effect| Effect {
+        onset_s: None,
+        ..effect
+    };
+    let hidden = first.hidden.into_iter().map(begun).collect();
+    let other = Secret::new(setup, hidden).ok_or(Error::Experiment(
+        "it leads the arms out of their ranges (table 4.2)".to_owned(),
+    ))?;
+    Ok(record(&other, &mut draw))
+}
+
+/// What an experiment's file asks for: `hand_x` and `hand_y`, m, and the currents of the brakes, A.
+fn asked(experiment: &Trace, layout: Layout) -> Result<Asked, Error> {
+    let column = |name: &str| {
+        let channel = experiment.channel(name);
+        channel.map(|channel| channel.samples.clone())
+    };
+    let needed = |name: &str| {
+        column(name).ok_or_else(|| Error::Experiment(format!("there is no column `{name}`")))
+    };
+    let [x, y] = [needed("hand_x")?, needed("hand_y")?];
+    let (Some(first_s), Some(last_s)) = (experiment.time_s.first(), experiment.time_s.last())
+    else {
+        return Err(Error::Experiment("it is empty".to_owned()));
+    };
+    let step_s = (last_s - first_s) / x.len().saturating_sub(1).max(1) as f64;
+    if step_s <= 0.0 || x.iter().chain(&y).any(|x| !x.is_finite()) {
+        return Err(Error::Experiment(
+            "it needs two samples or more, a clock that grows and a hand in each sample".to_owned(),
+        ));
+    }
+    let current = |joint: Joint| {
+        let braked = layout.brakes().contains(&joint);
+        column(current_name(joint))
+            .filter(|_| braked)
+            .unwrap_or_default()
+    };
+    Ok(Asked {
+        step_s,
+        path_m: x.into_iter().zip(y).map(|(x, y)| [x, y]).collect(),
+        currents_a: Joint::ALL.map(current),
+    })
 }
 
 /// Draws until the rule of size is met.

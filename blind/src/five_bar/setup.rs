@@ -29,6 +29,19 @@ pub struct Setup {
     pub force_noise_n: f64,
 }
 
+/// How long the hand takes to where an experiment begins, s.
+const REACH_S: f64 = 1.5;
+
+/// An experiment that somebody asks for.
+#[derive(Clone, Debug)]
+pub struct Asked {
+    pub step_s: f64,
+    /// Where the hand is led, m.
+    pub path_m: Vec<Pair>,
+    /// Currents of A, E, B and C.
+    pub currents_a: [Vec<f64>; 4],
+}
+
 impl Setup {
     /// The laboratory of a seed and a stratum; `None` where the tip cannot be.
     pub fn draw(stratum: Stratum, draw: &mut Draw) -> Option<Setup> {
@@ -68,11 +81,31 @@ impl Setup {
         }
     }
 
+    /// The same laboratory with an experiment that somebody asks for, after a reach to where it begins.
+    pub fn under(&self, asked: Asked, draw: &mut Draw) -> Setup {
+        let Asked {
+            step_s,
+            path_m,
+            currents_a,
+        } = asked;
+        let centre_m = self.hand.goal.centre_m();
+        Setup {
+            duration_s: REACH_S + path_m.len() as f64 * step_s,
+            hand: Hand::led(draw, centre_m, REACH_S, step_s, path_m),
+            drive: Drive::Given {
+                from_s: REACH_S,
+                step_s,
+                currents_a,
+            },
+            ..self.clone()
+        }
+    }
+
     /// Whether no current ever changes.
     pub fn is_constant(&self) -> bool {
         match &self.drive {
             Drive::Programme(pieces) => pieces.iter().all(|pieces| pieces.len() < 2),
-            Drive::Loop(_) => false,
+            Drive::Loop(_) | Drive::Given { .. } => false,
         }
     }
 

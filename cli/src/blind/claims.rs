@@ -61,7 +61,7 @@ const NAMEABLE: [Stratum; 7] = [
 const ONSET_S: f64 = 0.3;
 
 /// What is claimed of the five-bar.
-pub const OF_THE_RIG: [Claim; 11] = [
+pub const OF_THE_RIG: [Claim; 12] = [
     Claim {
         words: "a false name where nothing is hidden",
         counts: false_name,
@@ -120,6 +120,17 @@ pub const OF_THE_RIG: [Claim; 11] = [
             )
         },
         bound: Bound::Between(0.90, 0.99),
+    },
+    Claim {
+        words: "ambiguity gone, and the truth named, after the experiment that was asked for",
+        counts: |tried| {
+            let then = tried.then.as_ref();
+            then.map_or((0, 0), |then| {
+                let told = then.inside && then.offered <= then.hidden.len();
+                (usize::from(told), 1)
+            })
+        },
+        bound: Bound::AtLeast(0.9),
     },
     Claim {
         words: "0.95 of the achievable improvement of the held-out part",
@@ -248,6 +259,7 @@ mod tests {
                 parameters: Vec::new(),
                 recovered_share: None,
             },
+            then: None,
         }
     }
 
@@ -279,7 +291,7 @@ mod tests {
 
     #[test]
     fn intervals_are_counted_one_by_one_and_may_not_be_too_wide() {
-        let [.., covered, _] = OF_THE_RIG;
+        let [.., covered, _, _] = OF_THE_RIG;
         let parameter = |covered| ParameterError {
             mechanism: "viscous".to_owned(),
             name: "coefficient".to_owned(),

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use rigproof_blind::{Case, Plant, Stratum, make};
+use rigproof_blind::{Case, Plant, Stratum, make, under};
 use rigproof_trace::csv;
 use rigproof_trace::store::Folder;
 use serde_json::json;
@@ -24,6 +24,9 @@ pub struct Args {
     /// The kind of case; drawn from the seed if it is not given
     #[arg(long, value_parser = parse_stratum)]
     stratum: Option<Stratum>,
+    /// An experiment that `diagnose` asks for, its next-experiment.csv, to be done on the rig of the seed: recording.csv is its recording; only with --plant rig
+    #[arg(long, value_name = "FILE")]
+    experiment: Option<PathBuf>,
     /// The folder to write
     #[arg(long, value_name = "FOLDER")]
     out: PathBuf,
@@ -55,8 +58,16 @@ pub fn contents(case: &Case) -> Result<[Vec<u8>; 3], Failure> {
 
 /// Makes a case, prints its commitment and writes the folder.
 pub fn run(args: &Args) -> Result<Outcome, Failure> {
+    if args.experiment.is_some() && args.plant != Plant::Rig {
+        let problem = "--experiment does an experiment on the five-bar: add --plant rig";
+        return Err(Failure::Usage(problem.to_owned()));
+    }
+    let asked = args.experiment.as_deref().map(csv::read).transpose()?;
     let folder = Folder::begin(&args.out)?;
-    let case = make(args.plant, args.seed, args.stratum)?;
+    let mut case = make(args.plant, args.seed, args.stratum)?;
+    if let Some(experiment) = &asked {
+        case.trace = under(args.seed, args.stratum, experiment)?;
+    }
     if !args.json {
         print(&format!(
             "SHA-256 of the sealed answer: {}",

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use indicatif::ProgressBar;
 use rayon::prelude::*;
-use rigproof_blind::{Answer, Case, Plant, Score, Table, again, make, open, score};
-use rigproof_diagnose::{Description, Options};
+use rigproof_blind::{Answer, Case, Plant, Score, Table, again, make, open, score, under};
+use rigproof_diagnose::{Description, Diagnosis, Options};
 use rigproof_trace::Trace;
 use rigproof_trace::store::{Folder, read_text, write_aside};
 use serde_json::{Value, json};
@@ -40,6 +40,9 @@ pub struct Args {
     /// Make a second recording of each rig, and say how much of the achievable improvement is reached on it; only with --plant rig
     #[arg(long, conflicts_with = "reports")]
     held_out: bool,
+    /// Where a diagnosis stays ambiguous and asks for an experiment, do it on the same rig and diagnose both recordings together; only with --plant rig
+    #[arg(long, conflicts_with_all = ["reports", "held_out"])]
+    experiments: bool,
     /// Write every miss as a recording that can be diagnosed again: FOLDER/SEED/ with the files of a case and the report
     #[arg(long, value_name = "FOLDER")]
     misses: Option<PathBuf>,
@@ -77,12 +80,18 @@ pub struct Tried {
     pub report: Value,
     /// How well.
     pub score: Score,
+    /// How well once the experiment was done that the diagnosis asked for.
+    pub then: Option<Score>,
 }
 
 /// Tries the seeds and prints table and claims.
 pub fn run(args: &Args) -> Result<Outcome, Failure> {
     if args.held_out && !matches!(args.plant, Which::Rig) {
         let problem = "--held-out makes second recordings of the five-bar: add --plant rig";
+        return Err(Failure::Usage(problem.to_owned()));
+    }
+    if args.experiments && !matches!(args.plant, Which::Rig) {
+        let problem = "--experiments does experiments on the five-bar: add --plant rig";
         return Err(Failure::Usage(problem.to_owned()));
     }
     let threads = threads::pool(args.jobs)?;
@@ -179,6 +188,7 @@ const fn assignment(which: Which) -> &'static str {
 /// Makes, diagnoses and scores one case.
 fn one(args: &Args, plant: Plant, seed: u64, bar: &ProgressBar) -> Result<Tried, Failure> {
     let case = make(plant, seed, None)?;
+    let mut experiment = None;
     let report = match &args.reports {
         Some(folder) => {
             let path = folder.join(seed.to_string()).join(REPORT);
@@ -187,40 +197,79 @@ fn one(args: &Args, plant: Plant, seed: u64, bar: &ProgressBar) -> Result<Tried,
         }
         None => {
             let held_out = args.held_out.then(|| again(seed)).transpose()?;
-            diagnosed(seed, &case, held_out.as_ref())?
+            let options = Options {
+                refit: args.held_out,
+                next_experiment: args.experiments,
+                ..whole()
+            };
+            let (report, next) = diagnosed(seed, &case, &[], held_out.as_ref(), &options)?;
+            experiment = next;
+            report
         }
     };
     let answer = open(&case.sealed)?;
+    let done = experiment.filter(|_| args.experiments);
+    let then = done
+        .map(|experiment| after(seed, &case, &answer, &experiment))
+        .transpose()?;
     let score = score(&answer, &report)?;
     bar.inc(1);
     Ok(Tried {
         answer,
         report,
         score,
+        then,
     })
 }
 
-/// The report of a case; a recording that cannot be read counts as a data fault.
-fn diagnosed(seed: u64, case: &Case, held_out: Option<&Trace>) -> Result<Value, Failure> {
-    let rig = Description::parse(&case.rig_toml, Path::new("rig.toml"))?;
-    let options = Options {
-        refit: held_out.is_some(),
+/// How well both recordings together are diagnosed, once the experiment was done that the first one asks for.
+fn after(seed: u64, case: &Case, answer: &Answer, experiment: &Trace) -> Result<Score, Failure> {
+    let second = under(seed, None, experiment)?;
+    let (report, _) = diagnosed(seed, case, &[second], None, &whole())?;
+    Ok(score(answer, &report)?)
+}
+
+/// A recording is diagnosed as a whole, by the balance of efforts alone.
+fn whole() -> Options {
+    Options {
+        refit: false,
         next_experiment: false,
         hold_out_share: 0.0,
         ..Options::default()
-    };
+    }
+}
+
+/// The report of a case, with more recordings of its rig if there are any, and the experiment that it asks for; a recording that cannot be read
+/// counts as a data fault.
+fn diagnosed(
+    seed: u64,
+    case: &Case,
+    more: &[Trace],
+    held_out: Option<&Trace>,
+    options: &Options,
+) -> Result<(Value, Option<Trace>), Failure> {
+    let rig = Description::parse(&case.rig_toml, Path::new("rig.toml"))?;
     let applied = |trace: &Trace| rig.apply(trace, Path::new("recording.csv"));
     let held_out = held_out.map(applied).transpose()?;
-    let diagnosis = match applied(&case.trace) {
-        Ok(recording) => rig.diagnose(&[recording], held_out.as_ref(), &options),
+    let recordings = core::iter::once(&case.trace).chain(more).map(applied);
+    let recordings = match recordings.collect::<Result<Vec<_>, _>>() {
+        Ok(recordings) => recordings,
         Err(error) => {
-            return Ok(
-                json!({ "verdict": "data_fault", "effects": [], "summary": error.to_string() }),
-            );
+            let report =
+                json!({ "verdict": "data_fault", "effects": [], "summary": error.to_string() });
+            return Ok((report, None));
         }
     };
-    serde_json::to_value(diagnosis.map(|diagnosis| diagnosis.report))
-        .map_err(|error| Failure::Input(format!("the report of seed {seed}: {error}")))
+    let diagnosis = rig.diagnose(&recordings, held_out.as_ref(), options);
+    let (report, experiment) = match diagnosis {
+        Some(Diagnosis {
+            report, experiment, ..
+        }) => (Some(report), experiment),
+        None => (None, None),
+    };
+    let report = serde_json::to_value(report)
+        .map_err(|error| Failure::Input(format!("the report of seed {seed}: {error}")))?;
+    Ok((report, experiment))
 }
 
 /// Writes the cases that were missed, with their reports.
@@ -294,7 +343,7 @@ impl Tried {
     fn json(&self) -> Value {
         json!({
             "seed": self.answer.seed, "plant": self.answer.plant, "answer": self.answer,
-            "named": self.named(), "ambiguous": self.ambiguous(), "score": self.score,
+            "named": self.named(), "ambiguous": self.ambiguous(), "score": self.score, "after_experiment": self.then,
         })
     }
 }

@@ -173,9 +173,43 @@ fn what_was_found_is_shown_on_a_second_recording_of_the_rig() {
     let how = trial["plant"].as_str().unwrap();
     assert!(how.contains("a second one of the same rig"), "{how}");
     let claims = trial["claims"].as_array().unwrap();
-    assert_eq!(claims.len(), 11);
+    assert_eq!(claims.len(), 12);
     let said = desk.rigproof("blind trial --plant axis --seeds 4..5 --held-out");
     assert_eq!(said.status.code(), Some(2));
     let message = String::from_utf8(said.stderr).unwrap();
     assert!(message.contains("add --plant rig"), "{message}");
+}
+
+#[test]
+fn an_experiment_is_done_on_the_concealed_rig_by_hand_and_by_the_trial() {
+    let desk = Desk::new();
+    let count = 2000;
+    let rows = (0..count).map(|k| {
+        let time_s = 1e-3 * f64::from(k);
+        let x = 0.02 + 0.04 * libm::sin(2.0 * time_s);
+        let current = if time_s < 1.0 { 0.0 } else { 0.3 };
+        format!("{time_s},{x},0.4,{current}\n")
+    });
+    let rows: String = rows.collect();
+    let head = "time (s),hand_x (m),hand_y (m),current_a (A)\n";
+    desk.put("asked.csv", &format!("{head}{rows}"));
+    let line = "blind make --plant rig --seed 1006 --experiment asked.csv --out case";
+    desk.prints(line, 0);
+    let recording = rigproof_trace::csv::read(&desk.path("case/recording.csv")).unwrap();
+    // Half as long again: the hand reaches for where the experiment begins.
+    assert_eq!(recording.len(), 3500);
+    let current = &recording.channel("current_a").unwrap().samples;
+    assert_eq!((current[2400], current[2600]), (0.0, 0.3));
+    let axis = desk.rigproof("blind make --plant axis --seed 4 --experiment asked.csv --out axis");
+    assert_eq!(axis.status.code(), Some(2));
+    let trial = desk.rigproof("blind trial --plant axis --seeds 4..5 --experiments");
+    assert_eq!(trial.status.code(), Some(2));
+    let rows = (0..20).map(|k| format!("{},0.02\n", 0.1 * f64::from(k)));
+    let rows: String = rows.collect();
+    desk.put("asked.csv", &format!("time (s),hand_x (m)\n{rows}"));
+    let bad = desk.rigproof("blind make --plant rig --seed 1006 --experiment asked.csv --out bad");
+    assert_eq!(bad.status.code(), Some(3));
+    let message = String::from_utf8(bad.stderr).unwrap();
+    assert!(message.contains("no column `hand_y`"), "{message}");
+    assert!(!desk.path("bad").join("recording.csv").exists());
 }
