@@ -31,17 +31,6 @@ impl Blocks {
             .collect();
         Blocks { ranges }
     }
-
-    /// Every window by itself.
-    pub fn of_windows(problem: &Problem) -> Blocks {
-        let outputs = problem.windows.outputs;
-        let windows = problem.windows.centres.len() / outputs;
-        Blocks {
-            ranges: (0..windows)
-                .map(|k| (outputs * k, outputs * (k + 1)))
-                .collect(),
-        }
-    }
 }
 
 /// A fitted set of terms.

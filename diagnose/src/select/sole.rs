@@ -51,7 +51,7 @@ fn by_windows(
     let at_floor = is_noise(problem, &fitted);
     let share = 1.0 - fitted.loss / current.loss;
     let least = if at_floor { MOST } else { NEARLY_ALL };
-    let windows = Blocks::of_windows(problem);
+    let windows = windows(problem);
     let expected = excitation(&term, own, &windows);
     let [before, after] = [current, &fitted].map(|fit| losses(problem, fit, &windows));
     let z = paired(&before, &after, &expected).1;
@@ -74,6 +74,16 @@ const NEARLY_ALL: f64 = 0.95;
 
 /// Causes whose shape is refined, those that explain most.
 const PROMISING: usize = 4;
+
+/// Every window as a block by itself.
+fn windows(problem: &Problem) -> Blocks {
+    let outputs = problem.windows.outputs;
+    let count = problem.windows.centres.len() / outputs;
+    let ranges = (0..count).map(|k| (outputs * k, outputs * (k + 1)));
+    Blocks {
+        ranges: ranges.collect(),
+    }
+}
 
 /// The white loss of each window.
 fn losses(problem: &Problem, fitted: &Fit, windows: &Blocks) -> Vec<f64> {
