@@ -28,11 +28,10 @@ pub struct Element {
 impl Element {
     /// The law before the recording begins.
     pub fn new(effect: Effect) -> Element {
-        let memory = match effect.law {
-            Law::ReversalOvershoot { .. } => f64::INFINITY,
-            _ => 0.0,
-        };
-        Element { effect, memory }
+        Element {
+            effect,
+            memory: 0.0,
+        }
     }
 
     /// The set-valued part: the greatest resistance at rest and the resistance in motion, opposing
@@ -60,6 +59,8 @@ impl Element {
             Law::LoadFriction { fraction } => fraction * at.effort.abs(),
             Law::ThermalFade { level, travel } => level / (1.0 + self.memory / travel),
             Law::Settling { level, .. } => level * self.memory,
+            // Before any motion nothing has turned.
+            Law::ReversalOvershoot { .. } if self.memory == 0.0 => 0.0,
             Law::ReversalOvershoot { level, travel } => {
                 level * libm::exp(-self.memory.abs() / travel)
             }
@@ -136,6 +137,9 @@ impl Element {
                 } else {
                     memory * libm::exp(-travel.abs() / wear_travel)
                 }
+            }
+            Law::ReversalOvershoot { .. } if memory == 0.0 && travel != 0.0 => {
+                f64::INFINITY.copysign(travel)
             }
             Law::ReversalOvershoot { .. } if travel * memory < 0.0 => travel,
             Law::ReversalOvershoot { .. } => memory + travel,

@@ -20,22 +20,39 @@ pub fn resistance(laws: &[Box<dyn Law>], motion: &[Instant], step_s: f64) -> Vec
 ///
 /// A memory that a change of sense begins anew stands still where the sense cannot be told: a smoothed angle rings at rest.
 pub fn column(law: &dyn Law, motion: &[Instant], step_s: f64) -> Vec<f64> {
-    let given = |now: &Instant, memory| law.smooth(now, memory) + law.dry(now) * now.sense;
-    if !law.remembers() {
-        return motion.iter().map(|now| given(now, 0.0)).collect();
-    }
-    let mut memory = 0.0;
-    let mut before: Option<&Instant> = None;
-    motion
-        .iter()
-        .map(|now| {
-            let told = now.sense.abs() >= 1.0 || !law.begins_anew();
-            if let Some(before) = before.filter(|_| told) {
-                let travel = now.position - before.position;
+    let first = motion.first().into_iter();
+    let travel = first.chain(motion).zip(motion).map(|(before, now)| {
+        let told = now.sense.abs() >= 1.0 || !law.begins_anew();
+        told.then_some(now.position - before.position)
+    });
+    remembered(law, motion, travel, step_s)
+}
+
+/// The resistance of one law along an imposed motion whose every travel is known better than its speed: the memory goes by it.
+pub fn column_by_travel(
+    law: &dyn Law,
+    motion: &[Instant],
+    travel: &[f64],
+    step_s: f64,
+) -> Vec<f64> {
+    remembered(law, motion, travel.iter().copied().map(Some), step_s)
+}
+
+/// The resistance of one law along a motion; its memory stands still where there is no travel.
+fn remembered(
+    law: &dyn Law,
+    motion: &[Instant],
+    travel: impl Iterator<Item = Option<f64>>,
+    step_s: f64,
+) -> Vec<f64> {
+    let mut memory = law.starts_with();
+    let pairs = motion.iter().zip(travel);
+    pairs
+        .map(|(now, travel)| {
+            if let Some(travel) = travel.filter(|_| law.remembers()) {
                 memory = law.memory_after(memory, travel, travel / step_s);
             }
-            before = Some(now);
-            given(now, memory)
+            law.smooth(now, memory) + law.dry(now) * now.sense
         })
         .collect()
 }
@@ -65,14 +82,15 @@ mod tests {
     #[test]
     fn ringing_at_rest_is_no_reversal_and_half_a_sense_no_half_memory() {
         let law = law(Mechanism::ReversalOvershoot, &[0.37, 0.083]).unwrap();
-        // Half a second onwards at 0.13 rad/s; the same with a rest in which the smoothed angle rings; on, the sense half told.
+        // Back and then onwards at 0.13 rad/s; a rest in which the smoothed angle rings; on, the sense half told.
         let mut motion = Vec::new();
         let mut position = 0.0;
-        for k in 0..700 {
+        for k in 0..900 {
             let (speed, sense) = match k {
-                0..300 => (0.13, 1.0),
-                300..500 => (0.011 * libm::cos(0.31 * f64::from(k)), 0.0),
-                500..600 => (0.13, 1.0),
+                0..200 => (-0.13, -1.0),
+                200..500 => (0.13, 1.0),
+                500..700 => (0.011 * libm::cos(0.31 * f64::from(k)), 0.0),
+                700..800 => (0.13, 1.0),
                 _ => (0.001, 0.5),
             };
             position += 1e-3 * speed;
@@ -85,9 +103,11 @@ mod tests {
         }
         let share = column(law.as_ref(), &motion, 1e-3);
         let after = |travel: f64| 0.37 * libm::exp(-travel / 0.083);
-        assert!((share[299] - after(299.0 * 1.3e-4)).abs() < 1e-9);
-        assert!((share[599] - after(399.0 * 1.3e-4)).abs() < 1e-9);
-        assert!((share[650] - 0.5 * after(399.0 * 1.3e-4)).abs() < 1e-9);
+        // The first motion is no reversal.
+        assert!(share[..200].iter().all(|share| share.abs() < 1e-12));
+        assert!((share[499] - after(300.0 * 1.3e-4)).abs() < 1e-9);
+        assert!((share[799] - after(400.0 * 1.3e-4)).abs() < 1e-9);
+        assert!((share[850] - 0.5 * after(400.0 * 1.3e-4)).abs() < 1e-9);
     }
 
     #[test]

@@ -65,6 +65,11 @@ pub trait Law: Send + Sync {
         false
     }
 
+    /// The memory before any motion.
+    fn starts_with(&self) -> f64 {
+        0.0
+    }
+
     /// Whether a change of sense begins the memory anew: where the sense cannot be told, nothing is known to have changed.
     fn begins_anew(&self) -> bool {
         false

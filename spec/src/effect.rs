@@ -5,6 +5,10 @@ use crate::units::Dimension;
 /// Rate of a joint below which its sense is rounding and no reversal, rad/s: a count of the encoder takes most of a day.
 pub const LEAST_TURNING_RAD_S: f64 = 1e-9;
 
+/// What an overshoot remembers of a joint that has not moved yet: more than the whole of its travel in either sense, so that its
+/// first motion is no reversal.
+pub const NOT_MOVED: f64 = 2.0;
+
 /// A physical mechanism that a model may contain or may have left out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]

@@ -14,6 +14,8 @@ const HOUSING_J_PER_K: f64 = 400.0;
 const FLUID_TO_HOUSING_W_PER_K: f64 = 0.5;
 /// Conductance from housing to air, W/K.
 const HOUSING_TO_AIR_W_PER_K: f64 = 0.5;
+/// Travel of a step that is rounding, rad: the angle of a held C or E is worked out from two others.
+const ROUNDING_RAD: f64 = 1e-13;
 /// The yield does not fall below this share of the cold one.
 const LEAST_SHARE: f64 = 0.3;
 
@@ -28,8 +30,8 @@ pub struct Braked {
     lagged_nm: f64,
     fluid_k: f64,
     housing_k: f64,
-    /// Travel since the last reversal, signed, rad.
-    travel_rad: f64,
+    /// Travel since the last reversal, signed, rad: infinite before the first one, none before it moved at all.
+    travel_rad: Option<f64>,
     angle_rad: f64,
     time_s: f64,
 }
@@ -56,8 +58,7 @@ impl Braked {
             preisach: Preisach::new(),
             fluid_k: 0.0,
             housing_k: 0.0,
-            // No reversal yet.
-            travel_rad: f64::INFINITY,
+            travel_rad: None,
             angle_rad,
             time_s: 0.0,
         }
@@ -67,13 +68,8 @@ impl Braked {
     pub fn step(&mut self, time_s: f64, step: &BrakeStep) {
         self.nominal.step(time_s, step);
         self.time_s = time_s;
-        let travel = step.position_rad - self.angle_rad;
+        self.travel(step.position_rad - self.angle_rad);
         self.angle_rad = step.position_rad;
-        if travel * self.travel_rad < 0.0 {
-            self.travel_rad = travel;
-        } else {
-            self.travel_rad += travel;
-        }
         let power_w = self.yield_nm() * step.speed_rad_s.abs();
         let current_a = self.magnetic_current_a(time_s, step.current_a);
         let target_nm = match &mut self.upstream {
@@ -103,6 +99,18 @@ impl Braked {
             self.housing_k += step.step_s * (between_w - HOUSING_TO_AIR_W_PER_K * self.housing_k)
                 / HOUSING_J_PER_K;
         }
+    }
+
+    /// Travels on, or back from a reversal.
+    fn travel(&mut self, travel_rad: f64) {
+        if travel_rad.abs() < ROUNDING_RAD {
+            return;
+        }
+        self.travel_rad = Some(match self.travel_rad {
+            None => f64::INFINITY.copysign(travel_rad),
+            Some(since) if travel_rad * since < 0.0 => travel_rad,
+            Some(since) => since + travel_rad,
+        });
     }
 
     /// The current that the fluid sees, A.
@@ -155,9 +163,9 @@ impl Braked {
                 _ if !effect.acts(self.time_s) => 0.0,
                 Law::Gain { fraction } => fraction,
                 Law::Thermal { loss } => (-loss * self.fluid_k).max(LEAST_SHARE - 1.0),
-                Law::Overshoot { fraction, travel } => {
-                    fraction * libm::exp(-self.travel_rad.abs() / travel)
-                }
+                Law::Overshoot { fraction, travel } => self
+                    .travel_rad
+                    .map_or(0.0, |since| fraction * libm::exp(-since.abs() / travel)),
                 _ => continue,
             };
             tell(*number, more * yield_nm);
@@ -217,6 +225,39 @@ mod tests {
                 difference.abs() > 1e-4 || matches!(law, Law::Overshoot { .. }),
                 "{law:?}"
             );
+        }
+    }
+
+    #[test]
+    fn an_overshoot_needs_a_reversal_and_rounding_is_none() {
+        let law = Law::Overshoot {
+            fraction: 0.21,
+            travel: 0.3,
+        };
+        for sense in [1.0, -1.0] {
+            let effect = Effect {
+                law,
+                joint: Some(Joint::C),
+                onset_s: None,
+            };
+            let mut braked = Braked::new(Joint::C, vec![(0, effect)], 0.4);
+            let mut go = |position_rad: f64| {
+                let step = BrakeStep {
+                    step_s: 1e-4,
+                    current_a: 0.7,
+                    position_rad,
+                    speed_rad_s: 0.0,
+                };
+                braked.step(0.0, &step);
+                braked.added_nm()[0].1 / braked.nominal_yield_nm()
+            };
+            assert_eq!(go(0.4 + sense), 0.0);
+            let turned = go(0.4 + 0.85 * sense);
+            assert!((turned - 0.21 * libm::exp(-0.5)).abs() < 1e-9);
+            // Held: two others' angles put it here and there by rounding.
+            assert!((go(0.4 + 0.85 * sense + 2.3e-15) - turned).abs() < 1e-9);
+            assert!((go(0.4 + 0.85 * sense - 2.3e-15) - turned).abs() < 1e-9);
+            assert!((go(0.4 + 0.7 * sense) - 0.21 * libm::exp(-1.0)).abs() < 1e-9);
         }
     }
 

@@ -6,11 +6,13 @@
 //! alike, which no block shows: there they are wider by what is left over the noise (Birge 1932).
 
 use super::{parameter_count, sensitivities};
-use crate::problem::Problem;
+use crate::problem::{Cause, PlantRun, Problem, Term};
 use crate::regression::{Blocks, covariance, dot};
+use crate::run::rms;
 use crate::select::{Selection, refs, usable_rms};
 use crate::student::half_width;
 use nalgebra::{DMatrix, DVector};
+use rigproof_spec::effect::Mechanism;
 
 /// Half widths of the 95 % intervals of every parameter of every term, and of the inertia where it is estimated.
 #[derive(Clone, Debug)]
@@ -48,6 +50,8 @@ pub fn intervals(problem: &Problem, selection: &Selection) -> Intervals {
         match column.place {
             None => intervals.inertia = Some(half),
             Some((term, parameter)) => {
+                let untold = terms.get(term).map_or(0.0, |t| between_samples(problem, t));
+                let half = half.hypot(NORMAL * untold);
                 let own = intervals.terms.get_mut(term);
                 if let Some(slot) = own.and_then(|t| t.get_mut(parameter)) {
                     *slot = half;
@@ -56,6 +60,26 @@ pub fn intervals(problem: &Problem, selection: &Selection) -> Intervals {
         }
     }
     intervals
+}
+
+/// The standard deviation of what lies between two samples, in the unit of the term's parameters: a play ends somewhere on the way from one
+/// sample to the next. 0 for any other mechanism.
+fn between_samples(problem: &Problem, term: &Term) -> f64 {
+    let Cause {
+        mechanism: Mechanism::BacklashWidth,
+        joint,
+    } = term.cause
+    else {
+        return 0.0;
+    };
+    let (motion, step_s) = match (problem.plant, joint) {
+        (PlantRun::FiveBar(run), Some(joint)) => (run.motion(joint), run.step_s),
+        (PlantRun::Joint(run), _) => (run.motion.as_slice(), run.step_s),
+        (PlantRun::FiveBar(_), None) => return 0.0,
+    };
+    let moving = motion.iter().filter(|now| now.sense.abs() >= 1.0);
+    let speeds: Vec<f64> = moving.map(|now| now.speed).collect();
+    rms(&speeds) * step_s / 12f64.sqrt()
 }
 
 /// Half widths of the coefficients' intervals, never less than white residuals of variance 1 would give; `None` where the columns are

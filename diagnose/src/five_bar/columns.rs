@@ -5,8 +5,8 @@ use super::encoder::Encoder;
 use super::joined::over_parts;
 use super::run::{FiveBarRun, inertial, place, stacked};
 use crate::problem::{Cause, less, numerov, shifted};
-use rigproof_model::bench::column;
-use rigproof_model::effects::{Form, entry, law};
+use rigproof_model::bench::{column, column_by_travel};
+use rigproof_model::effects::{Form, Law, entry, law};
 use rigproof_model::motion::added_mass;
 use rigproof_model::motion::two_coordinate::{TwoCoordinate, two_coordinate};
 use rigproof_spec::effect::Mechanism;
@@ -137,13 +137,23 @@ fn at_joint(
     crate::problem::unit_parameters(entry.linear, shape)
         .map(|parameters| {
             let law = law(mechanism, &parameters)?;
-            let mut resistance = column(law.as_ref(), run.motion(joint), run.step_s);
+            let mut resistance = along(law.as_ref(), run, joint);
             for (share, torque) in resistance.iter_mut().zip(of.into_iter().flatten()) {
                 *share *= torque;
             }
             Some(seen(&run.at_joint(joint, &resistance)))
         })
         .collect()
+}
+
+/// The resistance of a law along a joint's motion. What a reversal begins anew goes by the recorded angle: a joint that turns back
+/// slowly, for a few counts, turns back.
+fn along(law: &dyn Law, run: &FiveBarRun, joint: Joint) -> Vec<f64> {
+    let motion = run.motion(joint);
+    if law.begins_anew() {
+        return column_by_travel(law, motion, &run.known_travel(joint), run.step_s);
+    }
+    column(law, motion, run.step_s)
 }
 
 /// The weight's resistance for a unit of gravity along x (0) or y (1), N·m.

@@ -124,6 +124,29 @@ impl FiveBarRun {
         pairs.map(|(now, y)| now.sense * y).collect()
     }
 
+    /// The travel of a joint from sample to sample as far as its recorded angle tells it, rad: through a play as wide as what a joint
+    /// at rest seems to move.
+    pub fn known_travel(&self, joint: Joint) -> Vec<f64> {
+        let rows: Vec<[f64; 2]> = self.joint_rows(joint).collect();
+        let greatest = rows.iter().map(|[a, b]| a.abs() + b.abs());
+        let still = self.still_rad * greatest.fold(1.0, f64::max);
+        let smoothed = self.motion(Joint::A).iter().zip(self.motion(Joint::B));
+        let [theta_a, theta_b] = &self.theta;
+        let recorded = theta_a.iter().zip(theta_b).zip(smoothed);
+        let positions = recorded.zip(rows.iter().zip(self.motion(joint)));
+        let mut known: Option<f64> = None;
+        positions
+            .map(|(((theta_a, theta_b), (a, b)), ([by_a, by_b], now))| {
+                let off = by_a * (theta_a - a.position) + by_b * (theta_b - b.position);
+                let position = now.position + off;
+                let before = known.unwrap_or(position);
+                let after = before.clamp(position - 0.5 * still, position + 0.5 * still);
+                known = Some(after);
+                after - before
+            })
+            .collect()
+    }
+
     /// What was recorded beside the angles; what follows from them is empty.
     pub fn without_motion(&self) -> FiveBarRun {
         FiveBarRun {

@@ -121,6 +121,33 @@ fn where_one_joint_is_held_or_turns_back_the_other_equation_still_balances() {
     }
 }
 
+#[test]
+fn a_joint_turns_back_where_its_angle_does_and_not_where_it_wavers_by_counts() {
+    let layout = Layout::FourBrake;
+    let recording = recording(layout, 2.0, 7, &nothing);
+    let mut run = aligned(&rig(layout), &recording).unwrap();
+    let still = run.still_rad;
+    let senses = |run: &FiveBarRun| {
+        let mut senses: Vec<f64> = run.known_travel(Joint::A);
+        senses.retain(|travel| *travel != 0.0);
+        senses.dedup_by(|now, before| *now * *before > 0.0);
+        senses.len()
+    };
+    // On by 0.4 rad/s, back for 0.2 s at a thousandth of that, on again.
+    let at = |by_rad: f64| (by_rad / (0.1 * still)).round() * 0.1 * still;
+    let path = |k: usize, back: f64| {
+        let (on, slow) = (4e-4 * k as f64, k.clamp(700, 900) as f64 - 700.0);
+        at(on.min(0.28) - back * slow + (on - 0.36).max(0.0))
+    };
+    let count = run.len();
+    run.theta[0] = (0..count).map(|k| path(k, 0.02 * still)).collect();
+    assert_eq!(senses(&run), 3);
+    let whole: f64 = run.known_travel(Joint::A).iter().sum();
+    assert!((whole - (run.theta[0][count - 1] - run.theta[0][0])).abs() < 1.1 * still);
+    run.theta[0] = (0..count).map(|k| path(k, 0.002 * still)).collect();
+    assert_eq!(senses(&run), 1);
+}
+
 /// The fault that is seen before anything is looked for, after a mistake in the recording.
 fn fault(
     layout: Layout,

@@ -76,8 +76,7 @@ pub(super) fn prune(
 /// theirs. Compliance comes to 3 as a payload; where a name is right nothing is left.
 const EXACT_TO_UNEXPLAINED: f64 = 20.0;
 
-/// Multiple that a name with families must explain on a five-bar if it is the only one. A settling comes to 3.9 for dry friction that is
-/// uneven over the angle.
+/// Multiple that a name with families must explain on a five-bar if it is the only one.
 const LONE_TO_UNEXPLAINED: f64 = 6.0;
 
 /// Left-out loss that sensor noise does not account for.
@@ -92,10 +91,19 @@ pub(super) fn would_stay(problem: &Problem, cause: Cause, without: f64, with: &F
         >= least_to_unexplained(problem, &[cause]) * unexplained(problem, with)
 }
 
+/// Whether one mechanism alone explains enough of what stays, row by row: a block left out tells nothing of what shows in one block.
+pub(super) fn outweighs(problem: &Problem, cause: Cause, without: &Fit, with: &Fit) -> bool {
+    let [before, after] = [without, with].map(|fit| usable_rms(problem, &fit.residual));
+    let noise = floor_limit(problem) * problem.floor;
+    let unexplained = (after * after - noise * noise).max(0.0);
+    before * before - after * after >= least_to_unexplained(problem, &[cause]) * unexplained
+}
+
 /// Multiple of the unexplained energy that each name must explain.
 ///
 /// Friction with a peak, a memory or heat has laws of many families; one of another family leaves a part of the effect, and the name is right.
-/// A mass, a sensor's error, a gain or a constant has one form: what it leaves is something else, which it may only stand in for.
+/// A mass, a sensor's error, a gain or a constant has one form: what it leaves is something else, which it may only stand in for. So does a
+/// settling, whose decay follows whatever dies away.
 fn least_to_unexplained(problem: &Problem, named: &[Cause]) -> f64 {
     let exact = |cause: &Cause| !HAS_FAMILIES.contains(&cause.mechanism);
     match problem.plant {
@@ -106,7 +114,7 @@ fn least_to_unexplained(problem: &Problem, named: &[Cause]) -> f64 {
 }
 
 /// What is described by laws of several families.
-const HAS_FAMILIES: [Mechanism; 9] = [
+const HAS_FAMILIES: [Mechanism; 8] = [
     Mechanism::Stribeck,
     Mechanism::Presliding,
     Mechanism::AsymmetricPresliding,
@@ -114,7 +122,6 @@ const HAS_FAMILIES: [Mechanism; 9] = [
     Mechanism::CurrentHysteresis,
     Mechanism::ThermalFade,
     Mechanism::ReversalOvershoot,
-    Mechanism::Settling,
     Mechanism::LoadDependent,
 ];
 

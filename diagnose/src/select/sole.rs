@@ -1,6 +1,7 @@
 //! This file looks for one mechanism that shows in too few places for blocks to judge it by one another.
 
 use super::judge::best;
+use super::prune::outweighs;
 use super::refine::refined;
 use super::together::is_noise;
 use super::weigh::{drives, excitation, own_coefficients};
@@ -55,8 +56,11 @@ fn by_windows(
     let expected = excitation(&term, own, &windows);
     let [before, after] = [current, &fitted].map(|fit| losses(problem, fit, &windows));
     let z = paired(&before, &after, &expected).1;
-    let stands =
-        share >= least && z >= gates.z && !drives(&term, own) && !is_at_edge(problem, &term);
+    let stands = share >= least
+        && outweighs(problem, term.cause, current, &fitted)
+        && z >= gates.z
+        && !drives(&term, own)
+        && !is_at_edge(problem, &term);
     let found = Found {
         term,
         z,

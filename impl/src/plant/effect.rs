@@ -1,6 +1,6 @@
 //! This file is physics that the thesis leaves out: the resistance laws of the effect library on a joint of the rig.
 
-use rigproof_spec::effect::{LEAST_TURNING_RAD_S, Mechanism};
+use rigproof_spec::effect::{LEAST_TURNING_RAD_S, Mechanism, NOT_MOVED};
 use rigproof_spec::joint::Joint;
 
 use super::decay::decayed;
@@ -153,6 +153,14 @@ impl Law {
         Some(law)
     }
 
+    /// The memory before any motion.
+    pub const fn starts_with(&self) -> f64 {
+        match self {
+            Law::ReversalOvershoot { .. } => NOT_MOVED,
+            _ => 0.0,
+        }
+    }
+
     /// The part of the resistance that follows from the instant and the memory, N·m.
     pub fn smooth(&self, now: &Instant, memory: f64) -> f64 {
         match *self {
@@ -178,6 +186,7 @@ impl Law {
             Law::Spring { stiffness } => stiffness * now.position,
             Law::NonlinearSpring { cubic } => cubic * now.position * now.position * now.position,
             Law::BiasDrift { rate } => rate * now.time_s,
+            Law::ReversalOvershoot { .. } if memory == NOT_MOVED => 0.0,
             Law::ReversalOvershoot { fraction, .. } => -0.5 * fraction * now.brake_nm * memory,
             Law::Settling { level, .. } => level * (1.0 - memory) * now.sense,
         }
@@ -187,6 +196,7 @@ impl Law {
     pub fn dry(&self, now: &Instant, memory: f64) -> f64 {
         match *self {
             Law::DryOffset { level } => level,
+            Law::ReversalOvershoot { .. } if memory == NOT_MOVED => 0.0,
             Law::ReversalOvershoot { fraction, .. } => {
                 fraction * now.brake_nm * (1.0 - 0.5 * memory.abs())
             }
@@ -202,6 +212,12 @@ impl Law {
     /// The memory after a time, s, at a constant rate, rad/s, and halfway: exact while the memory keeps its sign.
     pub fn remember(&self, memory: f64, speed: f64, time_s: f64) -> [f64; 2] {
         let memory = match *self {
+            Law::ReversalOvershoot { .. } if memory == NOT_MOVED => {
+                if speed.abs() <= LEAST_TURNING_RAD_S {
+                    return [memory, memory];
+                }
+                speed.signum()
+            }
             // Every change of sense begins anew.
             Law::ReversalOvershoot { .. }
                 if memory * speed < 0.0 && speed.abs() > LEAST_TURNING_RAD_S =>

@@ -169,7 +169,7 @@ impl Plant {
             *free = Some(Effect {
                 joint,
                 law,
-                memory: 0.0,
+                memory: law.starts_with(),
             });
         } else {
             let index = joint as usize;

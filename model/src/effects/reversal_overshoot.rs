@@ -2,7 +2,7 @@
 //! the travel since.
 
 use super::{Entry, Form, Instant, Law, parameter, relaxed};
-use rigproof_spec::effect::{LEAST_TURNING_RAD_S, Mechanism};
+use rigproof_spec::effect::{LEAST_TURNING_RAD_S, Mechanism, NOT_MOVED};
 
 pub(super) const ENTRY: Entry = Entry {
     mechanism: Mechanism::ReversalOvershoot,
@@ -15,11 +15,11 @@ pub(super) const ENTRY: Entry = Entry {
     linear: 1,
     passive: true,
     refuted_by: "the same resistance just after a reversal and long after it",
-    equation: "τ·fraction·exp(−x/travel), x travelled since the sense changed",
+    equation: "τ·fraction·exp(−x/travel), x travelled since the sense changed, without an end before it first does",
 };
 
 /// The memory is the share of its travel that a joint has gone since it turned, with the sense in which it goes: every change of
-/// sense begins anew.
+/// sense begins anew, the first motion does not: it is no reversal.
 struct Overshoot {
     fraction: f64,
     travel: f64,
@@ -28,17 +28,24 @@ struct Overshoot {
 impl Law for Overshoot {
     fn smooth(&self, now: &Instant, memory: f64) -> f64 {
         // Half a sense is one that the recording cannot tell, not half of what is remembered.
-        let since = (memory * now.sense.signum()).max(0.0);
+        let since = (memory * now.sense.signum()).clamp(0.0, 1.0);
         self.fraction * (1.0 - since) * now.sense
     }
 
     fn parts(&self, _now: &Instant, memory: f64) -> (f64, f64) {
+        if memory == NOT_MOVED {
+            return (0.0, 0.0);
+        }
         let half = 0.5 * self.fraction;
         (-half * memory, self.fraction - half * memory.abs())
     }
 
     fn remembers(&self) -> bool {
         true
+    }
+
+    fn starts_with(&self) -> f64 {
+        NOT_MOVED
     }
 
     fn begins_anew(&self) -> bool {
@@ -50,6 +57,10 @@ impl Law for Overshoot {
     }
 
     fn memory_after(&self, memory: f64, travel: f64, speed: f64) -> f64 {
+        if memory == NOT_MOVED {
+            let moves = speed.abs() > LEAST_TURNING_RAD_S;
+            return if moves { speed.signum() } else { memory };
+        }
         let turned = memory * speed < 0.0 && speed.abs() > LEAST_TURNING_RAD_S;
         let memory = if turned { 0.0 } else { memory };
         relaxed(memory, travel.signum(), travel, self.travel)

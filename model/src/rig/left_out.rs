@@ -118,8 +118,9 @@ pub struct Done {
 
 impl LeftOut {
     pub fn new(given: Vec<JointEffect>, terms: Arc<[Timed]>) -> LeftOut {
-        let memory = terms.iter().map(|timed| match timed.term {
+        let memory = terms.iter().map(|timed| match &timed.term {
             Term::Lag { .. } => NO_TORQUE_YET_NM,
+            Term::Law { law, .. } | Term::Share { law, .. } => law.starts_with(),
             _ => 0.0,
         });
         LeftOut {
