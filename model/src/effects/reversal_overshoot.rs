@@ -27,8 +27,11 @@ struct Overshoot {
 
 impl Law for Overshoot {
     fn smooth(&self, now: &Instant, memory: f64) -> f64 {
+        if memory == NOT_MOVED {
+            return 0.0;
+        }
         // Half a sense is one that the recording cannot tell, not half of what is remembered.
-        let since = (memory * now.sense.signum()).clamp(0.0, 1.0);
+        let since = (memory * now.sense.signum()).max(0.0);
         self.fraction * (1.0 - since) * now.sense
     }
 
