@@ -363,11 +363,16 @@ fn answers(secret: &Secret) -> Vec<HiddenEffect> {
     .collect()
 }
 
-/// Sets of mechanisms that no recording of this experiment can tell from an effect: single ones, and for a bristle with unequal limits, once it
-/// has slid, the bristle with the mean of both and a constant of half their difference.
+/// Sets of mechanisms that no recording of this experiment can tell from an effect: single ones; what a joint does whose twin turns alike; and for
+/// a bristle with unequal limits, once it has slid, the bristle with the mean of both and a constant of half their difference.
 fn sets(setup: &Setup, effect: &Effect) -> Vec<Vec<String>> {
     let single = equivalent(setup, effect).iter();
     let mut sets: Vec<Vec<String>> = single.map(|name| vec![(*name).to_owned()]).collect();
+    // Arm CD is parallel to AE and ED to BC: what the joint E itself does the joint C could do.
+    if setup.layout == Layout::ThreeBrake && effect.joint == Some(Joint::E) && !effect.is_of_brake()
+    {
+        sets.push(vec![format!("{} at C", effect.name())]);
+    }
     if let (Law::OneSided { .. }, Some(joint)) = (effect.law, effect.joint) {
         let both = [Mechanism::Presliding, Mechanism::ConstantBias];
         let named = both.map(|mechanism| format!("{} at {}", mechanism.name(), joint.letter()));
@@ -378,7 +383,7 @@ fn sets(setup: &Setup, effect: &Effect) -> Vec<Vec<String>> {
 
 /// Mechanisms that no recording of this experiment can tell from an effect.
 ///
-/// - On three brakes arm CD is parallel to AE and ED to BC: the joints E and C turn alike, friction at one is friction at the other.
+/// - On three brakes the joints E and C turn alike: friction at one is bearing friction at the other.
 /// - Brake A has no backlash: at a constant current a gain error is dry friction.
 /// - A payload is inside what the entries of the mass matrix can be.
 fn equivalent(setup: &Setup, effect: &Effect) -> &'static [&'static str] {
@@ -386,13 +391,41 @@ fn equivalent(setup: &Setup, effect: &Effect) -> &'static [&'static str] {
     match (effect.law, effect.joint) {
         (Law::Bearing { viscous: 0.0, .. }, _) if three => &["dry_offset at E", "dry_offset at C"],
         (Law::Bearing { .. }, _) if three => &["viscous at E", "viscous at C"],
-        (Law::Dry { .. }, Some(Joint::E)) if three => &["bearing_friction at C", "dry_offset at C"],
-        (Law::Viscous { .. }, Some(Joint::E)) if three => {
-            &["bearing_friction at C", "viscous at C"]
+        (Law::Dry { .. } | Law::Viscous { .. }, Some(Joint::E)) if three => {
+            &["bearing_friction at C"]
         }
         (Law::Gain { .. }, Some(Joint::A)) if setup.is_constant() => &["dry_offset at A"],
         (Law::Dry { .. }, Some(Joint::A)) if setup.is_constant() => &["gain_error at A"],
         (Law::Payload { .. }, _) => &["inertia_error"],
         _ => &[],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn on_three_brakes_what_is_no_brakes_at_e_could_be_at_c() {
+        let drawn = Setup::draw(Stratum::Single, &mut Draw::new(Plant::Rig, 3, "twins")).unwrap();
+        let twins = |layout, law| {
+            let effect = Effect {
+                law,
+                joint: Some(Joint::E),
+                onset_s: None,
+            };
+            let setup = Setup {
+                layout,
+                ..drawn.clone()
+            };
+            sets(&setup, &effect).concat()
+        };
+        let spring = Law::Spring { stiffness: 0.7 };
+        assert_eq!(twins(Layout::ThreeBrake, spring), ["spring at C"]);
+        assert!(twins(Layout::FourBrake, spring).is_empty());
+        let gain = Law::Gain { fraction: 0.13 };
+        assert!(twins(Layout::ThreeBrake, gain).is_empty());
+        let dry = twins(Layout::ThreeBrake, Law::Dry { level: 0.2 });
+        assert_eq!(dry, ["bearing_friction at C", "dry_offset at C"]);
     }
 }
