@@ -50,11 +50,12 @@ impl Resisting {
                 Mechanism::DryOffset if draw.one_in(2) => parameters[0] *= -7.0,
                 _ => {}
             }
+            let reference = law(entry.mechanism, &parameters).unwrap();
             effects.push(Resisting {
                 joint,
                 mechanism: entry.mechanism,
                 parameters,
-                memory: 0.0,
+                memory: reference.starts_with(),
             });
         }
         effects
