@@ -201,8 +201,9 @@ mod tests {
         let [with, without] =
             [&found[..], &[]].map(|found| fit(problem, &refs(&[], found), &blocks));
         let stays = would_stay(problem, cause, without.left_out(), &with);
+        let by_rows = outweighs(problem, cause, &without, &with);
         let taken_out = prune(problem, &[], &mut found, &blocks);
-        assert_eq!(taken_out.is_empty(), stays);
+        assert_eq!([stays, by_rows], [taken_out.is_empty(); 2]);
         taken_out
     }
 
@@ -212,10 +213,12 @@ mod tests {
         let mut problem = five_bar::recorded::problem(&run);
         let mass = Cause::of(Mechanism::Payload);
         assert_eq!(taken_out(&mut problem, mass, &[]), [mass]);
-        let bristle = Cause {
-            mechanism: Mechanism::Presliding,
-            joint: Some(Joint::E),
-        };
+        let [bristle, settling] =
+            [Mechanism::Presliding, Mechanism::Settling].map(|mechanism| Cause {
+                mechanism,
+                joint: Some(Joint::E),
+            });
         assert_eq!(taken_out(&mut problem, bristle, &[0.031]), []);
+        assert_eq!(taken_out(&mut problem, settling, &[0.31]), [settling]);
     }
 }
