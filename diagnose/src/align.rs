@@ -3,6 +3,7 @@
 mod clock;
 mod reversals;
 
+use crate::doubt::Smoothing;
 use crate::filter::{LowPass, gradient};
 use crate::run::{PlantKind, Run, rms};
 use rigproof_model::effects::Instant;
@@ -83,12 +84,15 @@ pub fn align(signals: &Signals) -> Result<Run, Fault> {
         .effort_noise
         .unwrap_or_else(|| smallest_step(&effort) / 12f64.sqrt());
     let band_hz = band_hz(&effort, step_s);
-    let (mut motion, speed_floor) = smoothed_motion(
-        &position,
+    let cutoff_hz = cutoff_hz(step_s, band_hz);
+    let (mut motion, speed_floor) = smoothed_motion(&position, step_s, cutoff_hz, position_noise);
+    let smoothing = Smoothing {
         step_s,
-        cutoff_hz(step_s, band_hz),
-        position_noise,
-    );
+        cutoff_hz,
+        noise: position_noise,
+        speed_floor,
+    };
+    let untold_speed = smoothing.untold_speeds(&position, &motion, &vec![1.0; motion.len()]);
     forget_sense_at_rest(
         &mut motion,
         &position,
@@ -117,6 +121,7 @@ pub fn align(signals: &Signals) -> Result<Run, Fault> {
             .map(|(a, b)| a && b)
             .collect(),
         speed_floor,
+        untold_speed,
     };
     check_sign(&run)?;
     Ok(run)

@@ -16,7 +16,7 @@ use crate::run::Run;
 use crate::scatter::{Trials, left_over};
 use crate::select::{FLOOR_RATIO, Gates, Selection, floor_limit, refs, select, usable_rms};
 use crate::unknown::surrogates;
-use crate::weak::{Windows, choose_width};
+use crate::weak::{FEWEST_WINDOWS, Windows, choose_width};
 pub use description::{Description, Measured};
 use ended::{faulty, not_excited};
 use rigproof_spec::effect::Mechanism;
@@ -104,9 +104,6 @@ pub struct FittedCurves {
     /// Output with the named mechanisms.
     pub after: Vec<f64>,
 }
-
-/// Fewest windows from which anything can be said.
-pub(crate) const FEWEST_WINDOWS: usize = 40;
 
 /// Diagnoses a recording of a rig; `held_out` is another recording of the same rig.
 pub fn diagnose(

@@ -23,6 +23,7 @@ pub mod replay;
 pub(crate) mod replica;
 pub mod run;
 mod sensors;
+mod stops;
 #[cfg(test)]
 mod tests;
 mod undone;

@@ -65,6 +65,7 @@
 pub mod align;
 mod candidates;
 mod diagnose;
+mod doubt;
 mod evidence;
 mod filter;
 pub mod five_bar;

@@ -195,8 +195,8 @@ impl<'a> Problem<'a> {
         if run.plant == PlantKind::Axis {
             windows.avoid_rests(run, floor);
         }
-        if let Some((predicted, _)) = run.brake() {
-            windows.avoid_steps(predicted, floor);
+        if let (Some((predicted, _)), Some(doubt)) = (run.brake(), run.brake_doubt()) {
+            windows.keep_foreseen(predicted, &doubt, floor);
         }
         let acceleration = second_difference(&run.position, run.step_s);
         let mut known = run

@@ -113,6 +113,7 @@ fn run(plant: PlantKind, motion: Vec<Instant>, effort: Vec<f64>, held: bool) -> 
         held,
         position: motion.iter().map(|now| now.position).collect(),
         recorded: vec![true; motion.len()],
+        untold_speed: vec![1e-4; motion.len()],
         motion,
         effort,
         predicted: None,

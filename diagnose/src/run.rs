@@ -1,5 +1,6 @@
 //! This file is an aligned recording: regular samples, smoothed motion, known efforts, noise levels.
 
+use crate::doubt::{greatest_change, jumps_late, turning};
 use rigproof_model::brake::Brake;
 use rigproof_model::effects::Instant;
 use rigproof_spec::tables::BrakeTable;
@@ -44,6 +45,8 @@ pub struct Run {
     pub recorded: Vec<bool>,
     /// Speed below which the sense of motion cannot be told, m/s or rad/s.
     pub speed_floor: f64,
+    /// By how much the speed may be mistaken, m/s or rad/s.
+    pub untold_speed: Vec<f64>,
 }
 
 impl Run {
@@ -59,14 +62,40 @@ impl Run {
 
     /// The torque of the thesis's brake along the recorded motion under a current, A; `None` on a plant without one. N·m.
     pub fn braked(&self, current: &[f64]) -> Option<Vec<f64>> {
-        let mut brake = Brake::of(self.table?, self.motion.first()?.position);
-        let pairs = self.motion.iter().zip(current);
-        let torques = pairs.map(|(now, &current)| {
-            let torque = brake.step(current, now.position, now.speed, self.step_s);
-            // Where the sense cannot be told the torque is spread over it, as for the dry laws.
-            torque.abs() * now.sense
-        });
-        Some(torques.collect())
+        self.braked_along(&self.motion, current)
+    }
+
+    /// By how much the brake's torque may be mistaken, N·m: because nothing is known of the time between two samples (when the shaft turns
+    /// back, when a backlash begins and ends and, where the current is not held, when it jumps), and because its time constant jumps at speeds that noise may cross.
+    pub fn brake_doubt(&self) -> Option<Vec<f64>> {
+        let current = self.current.as_deref()?;
+        let own = self.braked(current)?;
+        let late = self.motion.iter().take(1).chain(&self.motion);
+        let mut motions: Vec<Vec<Instant>> = vec![late.copied().take(self.len()).collect()];
+        motions.extend([1.0, -1.0].map(|sign| turning(&self.motion, &self.untold_speed, sign)));
+        let along = |motion: &Vec<Instant>| self.braked_along(motion, current);
+        let mut others: Vec<Vec<f64>> = motions.iter().filter_map(along).collect();
+        if !self.held {
+            others.extend(self.braked(&jumps_late(current)));
+        }
+        Some(greatest_change(&own, &others))
+    }
+
+    fn braked_along(&self, motion: &[Instant], current: &[f64]) -> Option<Vec<f64>> {
+        let mut brake = Brake::of(self.table?, motion.first()?.position);
+        let mut yields = vec![brake.yield_torque()];
+        let currents = current.iter().zip(current.iter().skip(1));
+        for ((before, current), now) in currents.zip(motion.iter().skip(1)) {
+            let acting = match self.held {
+                true => *before,
+                false => 0.5 * (before + current),
+            };
+            brake.step(acting, now.position, now.speed, self.step_s);
+            yields.push(brake.yield_torque());
+        }
+        // Where the sense cannot be told the torque is spread over it, as for the dry laws.
+        let torques = motion.iter().zip(yields);
+        Some(torques.map(|(now, torque)| torque * now.sense).collect())
     }
 
     /// Whether there are no samples.
@@ -97,6 +126,7 @@ impl Run {
             effort_noise: self.effort_noise,
             recorded: self.recorded.get(from..to).unwrap_or_default().to_vec(),
             speed_floor: self.speed_floor,
+            untold_speed: part(&self.untold_speed),
         }
     }
 

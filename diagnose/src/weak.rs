@@ -12,8 +12,12 @@ pub const MOST_AMBIGUOUS: f64 = 0.002;
 /// What a friction as large as the whole effort may do there, in floors.
 const MOST_UNTOLD: f64 = 0.5;
 
+/// Fewest windows from which anything can be said.
+pub const FEWEST_WINDOWS: usize = 40;
 /// Averaged change of a predicted effort from sample to sample, in floors, up to which a window is used.
 const MOST_STEP: f64 = 0.5;
+/// What a predicted effort may be mistaken by on average, in floors, in a window that is used.
+const MOST_DOUBT: f64 = 0.5;
 
 /// The test function and the windows it is applied to.
 #[derive(Clone, Debug)]
@@ -104,18 +108,23 @@ impl Windows {
         late
     }
 
-    /// Gives up the windows in which a predicted effort changes so fast that a sample's error in its timing would be
-    /// more than `floor` (current steps, entry into a backlash).
-    pub fn avoid_steps(&mut self, predicted: &[f64], floor: f64) {
+    /// Keeps the windows in which a predicted effort hardly changes from sample to sample, because what may be left out of a brake is
+    /// linearised there. Where these are too few, those in which it may not be mistaken by more than `floor` tells.
+    pub fn keep_foreseen(&mut self, predicted: &[f64], doubt: &[f64], floor: f64) {
         let steps: Vec<f64> = predicted
             .windows(2)
             .map(|w| (w.last().unwrap_or(&0.0) - w.first().unwrap_or(&0.0)).abs())
             .chain([0.0])
             .collect();
-        let moved = self.average(&steps);
-        for (usable, moved) in self.usable.iter_mut().zip(moved) {
-            *usable &= moved <= MOST_STEP * floor;
-        }
+        let below = |signal: &[f64], most: f64| -> Vec<bool> {
+            let pairs = self.usable.iter().zip(self.average(signal));
+            pairs.map(|(usable, x)| *usable && x <= most).collect()
+        };
+        let calm = below(&steps, MOST_STEP * floor);
+        self.usable = match calm.iter().filter(|u| **u).count() < FEWEST_WINDOWS {
+            true => below(doubt, MOST_DOUBT * floor),
+            false => calm,
+        };
     }
 
     /// Gives up the windows of an axis in which a friction as large as the effort could be more than half the floor

@@ -3,6 +3,7 @@
 use super::{Curves, Description, Diagnosis};
 use crate::align::Fault;
 use crate::report::{FaultReport, Report, SCHEMA, Verdict};
+use crate::weak::FEWEST_WINDOWS;
 
 /// The answer where a channel is at fault; `which` says in which recording.
 pub(crate) fn faulty(description: Description, which: &str, fault: Fault) -> Diagnosis {
@@ -34,7 +35,7 @@ pub(crate) fn not_excited(
         description,
         Verdict::NotExcited,
         format!(
-            "the recording moves too little: {usable} usable windows, travel {travel:.3e} against a position noise of {noise:.3e}"
+            "too little can be told: {usable} windows are usable (at least {FEWEST_WINDOWS} are needed), the rest hold a reversal, a rest, a brake that changes or a gap; travel {travel:.3e}, position noise {noise:.3e}"
         ),
     )
 }

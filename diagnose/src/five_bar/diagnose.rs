@@ -12,7 +12,7 @@ use crate::candidates::realise;
 use crate::diagnose::ended::{blank, faulty, not_excited};
 use crate::diagnose::words::summary;
 use crate::diagnose::write::{floor, verdict};
-use crate::diagnose::{Curves, Description, Diagnosis, FEWEST_WINDOWS, FittedCurves, Options};
+use crate::diagnose::{Curves, Description, Diagnosis, FittedCurves, Options};
 use crate::evidence::{
     Rivals, coefficients_by_term, inclusion, inconstant, intervals, is_told_by_itself, not_seen,
     rivals,
@@ -23,7 +23,7 @@ use crate::report::{
 };
 use crate::run::rms;
 use crate::select::{Selection, floor_limit, refs, select};
-use crate::weak::Windows;
+use crate::weak::{FEWEST_WINDOWS, Windows};
 use crate::write_rig::numbers;
 use rigproof_model::effects::entry;
 use rigproof_spec::effect::Motion;

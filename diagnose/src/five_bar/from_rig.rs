@@ -2,11 +2,13 @@
 
 use super::run::{FiveBarRun, forms, place, yields};
 use super::sensors::{angle_noise, noise_of_force, quantum_of};
+use super::stops::{forget_sense_at_stops, switched};
 use crate::align::{
     Fault, Signals, band_hz, check_clipped, check_clock, check_frozen, check_missing, cutoff_hz,
     forget_sense_at_rest, forget_sense_at_reversals, median_step, regular_count, resample,
     smoothed_motion,
 };
+use crate::doubt::{Smoothing, a_sample_late, greatest_change, turning};
 use crate::problem::{Cause, NominalEffect};
 use crate::run::PlantKind;
 use core::f64::consts::TAU;
@@ -162,8 +164,9 @@ fn moved_by(
         speed_floor: floors.into_iter().fold(0.0, f64::max),
         ..run.without_motion()
     };
-    let untold = untold_speeds(&run, &base);
-    run.joints = Joint::ALL.map(|joint| joint_motion(&run, &base, joint, &untold));
+    let switched = switched(&run);
+    let untold = untold_speeds(&run, &base, &switched);
+    run.joints = Joint::ALL.map(|joint| joint_motion(&run, &base, joint, (&untold, &switched)));
     run.yields = Joint::ALL.map(|joint| {
         let none = || vec![0.0; run.motion(joint).len()];
         nominal_yields(&run, joint).unwrap_or_else(none)
@@ -275,29 +278,22 @@ fn check_pair(
     check_clipped(&signals)
 }
 
-/// Half the stretch of time over which the bend of the smoothed angles counts, s.
-const BEND_S: f64 = 0.02;
-
-/// The speeds of θA and θB below which their sense cannot be told, sample by sample, rad/s: what noise does, and what the
-/// low-pass does where it bends the recorded angle, because the acceleration jumps there.
-fn untold_speeds(run: &FiveBarRun, base: &[Vec<Instant>; 2]) -> Untold {
-    let reach = (BEND_S / run.step_s).round().max(1.0) as usize;
-    let of = |(theta, motion): (&Vec<f64>, &Vec<Instant>)| -> Vec<f64> {
-        let pairs = theta.iter().zip(motion);
-        let bend: Vec<f64> = pairs.map(|(raw, now)| (raw - now.position).abs()).collect();
-        (0..bend.len())
-            .map(|k| {
-                let around = bend.get(k.saturating_sub(reach)..(k + reach + 1).min(bend.len()));
-                let greatest = around.into_iter().flatten().copied().fold(0.0, f64::max);
-                // White noise bends by up to four times its size, which the floor already counts.
-                let excess = (greatest - 4.0 * run.theta_noise).max(0.0);
-                run.speed_floor + TAU * run.cutoff_hz * excess
-            })
-            .collect()
+/// The speeds of θA and θB below which their sense cannot be told, sample by sample, rad/s. While brakes are switched a joint may swing
+/// at twice the low-pass's end and more.
+fn untold_speeds(run: &FiveBarRun, base: &[Vec<Instant>; 2], switched: &[bool]) -> Untold {
+    let smoothing = Smoothing {
+        step_s: run.step_s,
+        cutoff_hz: run.cutoff_hz,
+        noise: run.theta_noise,
+        speed_floor: run.speed_floor,
     };
+    let octaves = switched
+        .iter()
+        .map(|&switched| if switched { 2.0 } else { 1.0 });
+    let octaves: Vec<f64> = octaves.collect();
     let [theta_a, theta_b] = &run.theta;
     let [a, b] = base;
-    [of((theta_a, a)), of((theta_b, b))]
+    [(theta_a, a), (theta_b, b)].map(|(theta, own)| smoothing.untold_speeds(theta, own, &octaves))
 }
 
 /// Share of the rates of θA and θB by which the rate of E or C is in doubt: an encoder's zero a few hundredths of a radian
@@ -309,18 +305,16 @@ fn joint_motion(
     run: &FiveBarRun,
     base: &[Vec<Instant>; 2],
     joint: Joint,
-    untold: &Untold,
+    (untold, switched): (&Untold, &[bool]),
 ) -> Vec<Instant> {
     let [a, b] = base;
     let [untold_a, untold_b] = untold;
     let pairs = a.iter().zip(b).zip(&run.poses).zip(run.joint_rows(joint));
     let pairs = pairs.zip(untold_a.iter().zip(untold_b));
-    let mut greatest = 0.0f64;
     let mut motion: Vec<Instant> = pairs
         .map(|((((a, b), pose), [by_a, by_b]), (untold_a, untold_b))| {
             let floor = by_a.abs() * (untold_a + KINEMATIC_DOUBT * a.speed.abs())
                 + by_b.abs() * (untold_b + KINEMATIC_DOUBT * b.speed.abs());
-            greatest = greatest.max(by_a.abs() + by_b.abs());
             let speed = by_a * a.speed + by_b * b.speed;
             Instant {
                 time_s: a.time_s,
@@ -336,12 +330,12 @@ fn joint_motion(
         })
         .collect();
     let position: Vec<f64> = motion.iter().map(|now| now.position).collect();
-    forget_sense_at_rest(
-        &mut motion,
-        &position,
-        run.step_s,
-        run.still_rad * greatest.max(1.0),
-    );
+    let still = run.still_rad_at(joint);
+    let recorded = run
+        .recorded_angle(joint, [a, b], &motion)
+        .collect::<Vec<f64>>();
+    forget_sense_at_rest(&mut motion, &position, run.step_s, still);
+    forget_sense_at_stops(&mut motion, &recorded, (run.step_s, still), switched);
     forget_sense_at_reversals(&mut motion);
     motion
 }
@@ -372,23 +366,15 @@ fn errors_of_brake(run: &FiveBarRun, joint: Joint, untold: &Untold) -> Option<Ve
     let current = run.currents.get(place(joint))?.as_ref()?;
     let start = motion.first()?.position;
     let along = |brake, motion: &[Instant]| yields(brake, motion, current, run.step_s);
-    let mut errors = vec![0.0f64; own.len()];
-    let mut doubt = |changed: Vec<f64>| {
-        let pairs = errors.iter_mut().zip(own.iter().zip(&changed));
-        pairs.for_each(|(error, (own, changed))| *error = error.max((own - changed).abs()));
-    };
     let untold = untold_of_joint(run, joint, untold);
-    for sign in [1.0, -1.0] {
-        doubt(along(
-            Brake::new(joint, start),
-            &turning(motion, &untold, sign),
-        ));
-    }
+    let turned = [1.0, -1.0].map(|sign| turning(motion, &untold, sign));
+    let nominal = || Brake::new(joint, start);
+    let mut others: Vec<Vec<f64>> = turned.map(|motion| along(nominal(), &motion)).into();
     let table = brake_table(joint);
     if table.backlash_width_deg == 0.0 {
-        return Some(errors);
+        return Some(greatest_change(own, &others));
     }
-    doubt(along(Brake::new(joint, start), &a_sample_late(motion)));
+    others.push(along(nominal(), &a_sample_late(motion)));
     let angle_deg = turning_point_error(run, joint, &untold) / RAD_PER_DEG;
     let half = 0.5 * table.backlash_width_deg * RAD_PER_DEG;
     for (by_deg, start) in [
@@ -403,21 +389,9 @@ fn errors_of_brake(run: &FiveBarRun, joint: Joint, untold: &Untold) -> Option<Ve
         };
         let entry_deg = (ENTRY_TRAVEL_DEG + by_deg).max(0.0);
         let brake = Brake::of(changed, start).with_backlash_entry(start, entry_deg);
-        doubt(along(brake, motion));
+        others.push(along(brake, motion));
     }
-    Some(errors)
-}
-
-/// A motion whose angle is a sample late: within a sample nobody knows where a backlash ends.
-fn a_sample_late(motion: &[Instant]) -> Vec<Instant> {
-    let first = motion.iter().take(1);
-    let pairs = motion.iter().zip(first.chain(motion));
-    pairs
-        .map(|(now, before)| Instant {
-            position: before.position,
-            ..*now
-        })
-        .collect()
+    Some(greatest_change(own, &others))
 }
 
 /// The speed of a joint below which its sense cannot be told, sample by sample, rad/s.
@@ -442,19 +416,6 @@ fn turning_point_error(run: &FiveBarRun, joint: Joint, untold: &[f64]) -> f64 {
         (by_a.abs() + by_b.abs()) * run.still_rad + rounded
     });
     errors.fold(0.0, f64::max)
-}
-
-/// A motion, faster or slower by what cannot be told of its speed.
-fn turning(motion: &[Instant], untold: &[f64], sign: f64) -> Vec<Instant> {
-    let pairs = motion.iter().zip(untold);
-    pairs
-        .map(|(now, untold)| Instant {
-            speed: (now.speed.abs() + sign * untold)
-                .max(0.0)
-                .copysign(now.speed),
-            ..*now
-        })
-        .collect()
 }
 
 /// The physics that the nominal model has beyond the thesis's.

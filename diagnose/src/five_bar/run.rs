@@ -127,24 +127,38 @@ impl FiveBarRun {
     /// The travel of a joint from sample to sample as far as its recorded angle tells it, rad: through a play as wide as what a joint
     /// at rest seems to move.
     pub fn known_travel(&self, joint: Joint) -> Vec<f64> {
-        let rows: Vec<[f64; 2]> = self.joint_rows(joint).collect();
-        let greatest = rows.iter().map(|[a, b]| a.abs() + b.abs());
-        let still = self.still_rad * greatest.fold(1.0, f64::max);
-        let smoothed = self.motion(Joint::A).iter().zip(self.motion(Joint::B));
-        let [theta_a, theta_b] = &self.theta;
-        let recorded = theta_a.iter().zip(theta_b).zip(smoothed);
-        let positions = recorded.zip(rows.iter().zip(self.motion(joint)));
+        let half = 0.5 * self.still_rad_at(joint);
+        let base = [Joint::A, Joint::B].map(|base| self.motion(base));
         let mut known: Option<f64> = None;
+        let positions = self.recorded_angle(joint, base, self.motion(joint));
         positions
-            .map(|(((theta_a, theta_b), (a, b)), ([by_a, by_b], now))| {
-                let off = by_a * (theta_a - a.position) + by_b * (theta_b - b.position);
-                let position = now.position + off;
+            .map(|position| {
                 let before = known.unwrap_or(position);
-                let after = before.clamp(position - 0.5 * still, position + 0.5 * still);
+                let after = before.clamp(position - half, position + half);
                 known = Some(after);
                 after - before
             })
             .collect()
+    }
+
+    /// Travel within which a joint may rest, rad.
+    pub fn still_rad_at(&self, joint: Joint) -> f64 {
+        let sizes = self.joint_rows(joint).map(|[a, b]| a.abs() + b.abs());
+        self.still_rad * sizes.fold(1.0, f64::max)
+    }
+
+    /// The angle of a joint that the recorded θA and θB imply, rad, given the smoothed motion of A and B and its own.
+    pub fn recorded_angle(
+        &self,
+        joint: Joint,
+        [a, b]: [&[Instant]; 2],
+        own: &[Instant],
+    ) -> impl Iterator<Item = f64> {
+        let [theta_a, theta_b] = &self.theta;
+        let off_a = theta_a.iter().zip(a).map(|(theta, a)| theta - a.position);
+        let off_b = theta_b.iter().zip(b).map(|(theta, b)| theta - b.position);
+        let rows = self.joint_rows(joint).zip(off_a.zip(off_b)).zip(own);
+        rows.map(|(([by_a, by_b], (a, b)), own)| own.position + by_a * a + by_b * b)
     }
 
     /// What was recorded beside the angles; what follows from them is empty.

@@ -11,19 +11,17 @@ use crate::diagnosed::script::Script;
 /// Standard deviation of the torquemeter, N·m.
 const TORQUE_NOISE_NM: f64 = 0.0057;
 
-/// The recordings of the cases: of the implementation, and of the reference.
-pub fn recordings(all: bool) -> Vec<Recording> {
+/// Every run of the cases: of the implementation, and of the reference.
+pub fn recordings() -> Vec<Recording> {
     let mut recordings = Vec::new();
     for joint in Joint::ALL {
         for kind in ["step", "sinusoid", "current"] {
             let case = format!("brake_{kind}_{}", joint.letter().to_lowercase());
             let script = Script::of(&case);
-            for run in script.runs().filter(|run| all || *run == 2) {
+            for run in script.runs() {
                 let own = on_plant(&script, run, &brake_table(joint));
                 let reference = on_model(&script, run, joint);
-                // What the diagnosis says of the reference's own brakes is asked for with the rest.
-                let both = [("impl", own), ("reference", reference)];
-                for (who, torques) in both.into_iter().take(if all { 2 } else { 1 }) {
+                for (who, torques) in [("impl", own), ("reference", reference)] {
                     let name = format!("{case}-{run}-{who}");
                     recordings.push(recorded(&name, joint, &script, run, &torques));
                 }

@@ -33,29 +33,42 @@ pub struct Run {
     pub currents_a: Vec<[f64; 4]>,
 }
 
-/// The recordings of the cases: of the implementation, and of the reference under the same forces and currents.
-pub fn recordings(all: bool) -> Vec<Recording> {
-    let mut recordings = Vec::new();
-    for case in [
-        "path_three_brake",
-        "path_four_brake",
-        "release_three_brake",
-        "release_four_brake",
-    ] {
+const CASES: [&str; 4] = [
+    "path_three_brake",
+    "path_four_brake",
+    "release_three_brake",
+    "release_four_brake",
+];
+
+/// Every run of every case on the implementation, case by case.
+pub fn cases() -> impl Iterator<Item = (&'static str, Vec<Recording>)> {
+    CASES.into_iter().map(|case| {
         let script = Script::of(case);
-        let layout = script.layout();
-        for run in script.runs().filter(|run| all || [1, 4].contains(run)) {
-            let own = on_plant(&script, run, &Parameters::of(layout));
-            let name = |who: &str| format!("{case}-{run}-{who}");
-            recordings.push(recorded(&name("impl"), layout, &own));
-            // What the diagnosis says of the reference's own motion is asked for with the rest.
-            if all {
-                let reference = on_rig(&script, run, &own);
-                recordings.push(recorded(&name("reference"), layout, &reference));
-            }
+        let runs = script.runs().map(|run| on_implementation(&script, run).0);
+        (case, runs.collect())
+    })
+}
+
+/// Every run of every case by itself: on the implementation, and on the reference under the same forces and currents.
+pub fn recordings() -> Vec<Recording> {
+    let mut recordings = Vec::new();
+    for case in CASES {
+        let script = Script::of(case);
+        for run in script.runs() {
+            let (own, seen) = on_implementation(&script, run);
+            let reference = on_rig(&script, run, &seen);
+            let name = format!("{case}-{run}-reference");
+            recordings.extend([own, recorded(&name, script.layout(), &reference)]);
         }
     }
     recordings
+}
+
+fn on_implementation(script: &Script, run: usize) -> (Recording, Run) {
+    let layout = script.layout();
+    let seen = on_plant(script, run, &Parameters::of(layout));
+    let name = format!("{}-{run}-impl", script.case);
+    (recorded(&name, layout, &seen), seen)
 }
 
 fn start_m(script: &Script, run: usize) -> [f64; 2] {

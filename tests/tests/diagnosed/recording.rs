@@ -10,7 +10,7 @@ use rigproof_diagnose::Options;
 use rigproof_diagnose::report::Report;
 use rigproof_spec::joint::Joint;
 use rigproof_trace::rig::Rig;
-use rigproof_trace::rig::five_bar::FiveBar;
+use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording};
 use rigproof_trace::{Channel, Trace, csv};
 
 /// From one sample of a bench to the next, s.
@@ -22,6 +22,7 @@ const COUNTS: f64 = 102_400.0;
 #[derive(Default)]
 pub struct Turned {
     pub angles_rad: Vec<f64>,
+    /// That acted until the sample.
     pub currents_a: Vec<f64>,
     pub torques_nm: Vec<f64>,
 }
@@ -73,12 +74,18 @@ impl Recording {
             "name = \"{name}\"\nplant = \"bench\"\nmotion = \"rotary\"\n[channels]\n\
              position = {{ channel = \"angle\", unit = \"rad\", quantum = {count_rad:e} }}\n\
              torque = {{ channel = \"torque\", unit = \"N·m\", noise = {noise_nm} }}\n\
-             current = {{ channel = \"current\", unit = \"A\" }}\n[brake]\njoint = \"{}\"\n",
+             current = {{ channel = \"current\", unit = \"A\" }}\n[brake]\njoint = \"{}\"\n[protocol]\ndrive = \"held\"\n",
             joint.letter()
         );
+        // What is recorded is commanded, and acts from the sample on.
+        let mut commanded_a = turned.currents_a;
+        commanded_a.rotate_left(1);
+        if let [.., before, last] = &mut commanded_a[..] {
+            *last = *before;
+        }
         let columns = vec![
             ("angle", "rad", counted(turned.angles_rad, count_rad)),
-            ("current", "A", turned.currents_a),
+            ("current", "A", commanded_a),
             ("torque", "N·m", noise.on(turned.torques_nm, noise_nm)),
         ];
         Recording::new(name, rig, STEP_S, columns)
@@ -87,38 +94,53 @@ impl Recording {
     /// The report on the recording as it stands in its file.
     pub fn diagnosed(&self) -> Report {
         let desk = tempfile::tempdir().unwrap();
-        let folder = std::env::var("RIGPROOF_KEEP").map_or(desk.path().into(), PathBuf::from);
+        let [recording, rig] = self.written(desk.path());
+        let text = fs::read_to_string(&rig).unwrap();
+        if FiveBar::describes(&text, &rig).unwrap() {
+            return five_bar_reported(&rig, &[recording]);
+        }
+        let rig = Rig::read(&rig).unwrap();
+        let recording = rig.read_recording(&recording).unwrap();
+        rigproof_diagnose::diagnose(&rig, &recording, None, &options()).report
+    }
+
+    /// The files of the recording and of its rig description, in a folder unless another is asked for.
+    fn written(&self, desk: &Path) -> [PathBuf; 2] {
+        let folder = std::env::var("RIGPROOF_KEEP").map_or(desk.into(), PathBuf::from);
         fs::create_dir_all(&folder).unwrap();
         let [recording, rig] =
             ["csv", "toml"].map(|kind| folder.join(format!("{}.{kind}", self.name)));
         csv::write(&recording, &self.trace).unwrap();
         fs::write(&rig, &self.rig).unwrap();
-        reported(&recording, &rig)
+        [recording, rig]
     }
 }
 
-fn reported(recording: &Path, rig: &Path) -> Report {
-    // The golden runs are short: most of each is needed.
-    let options = Options {
+/// One report on several recordings of a five-bar.
+pub fn diagnosed_together(recordings: &[Recording]) -> Report {
+    let desk = tempfile::tempdir().unwrap();
+    let files = recordings.iter().map(|own| own.written(desk.path()));
+    let (recordings, rigs): (Vec<PathBuf>, Vec<PathBuf>) = files.map(<(_, _)>::from).unzip();
+    five_bar_reported(&rigs[0], &recordings)
+}
+
+fn five_bar_reported(rig: &Path, recordings: &[PathBuf]) -> Report {
+    let rig = FiveBar::read(rig).unwrap();
+    let recordings = recordings
+        .iter()
+        .map(|own| rig.read_recording(own).unwrap());
+    let recordings: Vec<FiveBarRecording> = recordings.collect();
+    let all: Vec<&FiveBarRecording> = recordings.iter().collect();
+    rigproof_diagnose::five_bar::diagnose::diagnose(&rig, &all, None, &options()).report
+}
+
+/// The golden runs are short: most of each is needed.
+fn options() -> Options {
+    Options {
         hold_out_share: 0.05,
         next_experiment: false,
         ..Options::default()
-    };
-    let text = fs::read_to_string(rig).unwrap();
-    if FiveBar::describes(&text, rig).unwrap() {
-        let rig = FiveBar::read(rig).unwrap();
-        let recording = rig.read_recording(recording).unwrap();
-        return rigproof_diagnose::five_bar::diagnose::diagnose(
-            &rig,
-            &[&recording],
-            None,
-            &options,
-        )
-        .report;
     }
-    let rig = Rig::read(rig).unwrap();
-    let recording = rig.read_recording(recording).unwrap();
-    rigproof_diagnose::diagnose(&rig, &recording, None, &options).report
 }
 
 /// What a sensor adds: close to Gaussian.

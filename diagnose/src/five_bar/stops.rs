@@ -1,0 +1,112 @@
+//! This file takes the sense from a joint that may stop and go: slow, while brakes are switched.
+
+use super::run::FiveBarRun;
+use rigproof_model::effects::Instant;
+
+/// Half the stretch of time over which a slow joint must have moved for its sense to be known while brakes are switched, s.
+const STOP_S: f64 = 0.003;
+/// How long before and after a current has changed its brake counts as switched, s.
+const SWITCHED_S: f64 = 0.025;
+/// Change of a current within that time that may stop a joint or let it go, A.
+const SWITCHED_A: f64 = 0.02;
+
+/// Whether a brake's current changes around each sample.
+pub fn switched(run: &FiveBarRun) -> Vec<bool> {
+    let reach = samples(SWITCHED_S, run.step_s);
+    let mut switched = vec![false; run.len()];
+    for current in run.currents.iter().flatten() {
+        for (k, switched) in switched.iter_mut().enumerate() {
+            *switched |= range(around(current, k, reach).iter().copied()) > SWITCHED_A;
+        }
+    }
+    switched
+}
+
+/// Takes the sense away where brakes are switched and the recorded angle stays within `still` for a few milliseconds: a joint may stop
+/// and go faster than its smoothed angle tells.
+pub fn forget_sense_at_stops(
+    motion: &mut [Instant],
+    recorded: &[f64],
+    (step_s, still): (f64, f64),
+    switched: &[bool],
+) {
+    let reach = samples(STOP_S, step_s);
+    for (k, (now, switched)) in motion.iter_mut().zip(switched).enumerate() {
+        if *switched && range(around(recorded, k, reach).iter().copied()) <= still {
+            now.sense = 0.0;
+        }
+    }
+}
+
+fn samples(time_s: f64, step_s: f64) -> usize {
+    (time_s / step_s).round().max(1.0) as usize
+}
+
+/// The samples within `reach` of one.
+fn around(values: &[f64], k: usize, reach: usize) -> &[f64] {
+    let end = (k + reach + 1).min(values.len());
+    values.get(k.saturating_sub(reach)..end).unwrap_or_default()
+}
+
+/// The greatest of some values less the least.
+fn range(values: impl Iterator<Item = f64> + Clone) -> f64 {
+    let low = values.clone().fold(f64::INFINITY, f64::min);
+    values.fold(f64::NEG_INFINITY, f64::max) - low
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::five_bar::recorded::short_run;
+
+    const COUNT: f64 = 6.3e-6;
+
+    #[test]
+    fn a_stop_between_two_motions_is_seen_where_brakes_are_switched() {
+        // A count a millisecond, then 9 ms at one place, then on.
+        let recorded: Vec<f64> = (0..60)
+            .map(|k: i32| COUNT * f64::from(k.min(30) + (k - 39).max(0)))
+            .collect();
+        let known = |switched: bool| -> Vec<usize> {
+            let mut motion: Vec<Instant> = recorded
+                .iter()
+                .map(|position| Instant {
+                    time_s: 0.0,
+                    position: *position,
+                    speed: 1e-3,
+                    sense: 1.0,
+                })
+                .collect();
+            let switched = vec![switched; motion.len()];
+            forget_sense_at_stops(&mut motion, &recorded, (1e-3, 2.0 * COUNT), &switched);
+            let forgotten = motion
+                .iter()
+                .enumerate()
+                .filter(|(_, now)| now.sense == 0.0);
+            forgotten.map(|(k, _)| k).collect()
+        };
+        let ends = [0, 59];
+        let inside: Vec<usize> = known(true);
+        let inside: Vec<usize> = inside.into_iter().filter(|k| !ends.contains(k)).collect();
+        assert_eq!(inside, (31..=38).collect::<Vec<_>>());
+        assert!(known(false).is_empty());
+    }
+
+    #[test]
+    fn a_brake_is_switched_around_a_change_of_its_current() {
+        let mut run = short_run();
+        for current in run.currents.iter_mut().flatten() {
+            current.fill(0.31);
+        }
+        assert!(!switched(&run).contains(&true));
+        let step = 1000;
+        if let Some(current) = &mut run.currents[1] {
+            current[step..].fill(0.34);
+        }
+        let reach = (SWITCHED_S / run.step_s).round() as usize;
+        let seen = switched(&run);
+        let first = seen.iter().position(|s| *s);
+        let last = seen.iter().rposition(|s| *s);
+        assert_eq!((first, last), (Some(step - reach), Some(step + reach - 1)));
+    }
+}
