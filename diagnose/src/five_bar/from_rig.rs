@@ -64,6 +64,7 @@ pub fn aligned(rig: &FiveBar, recording: &FiveBarRecording) -> Result<FiveBarRun
     let quantum = greater(quantum_of, [theta_a, theta_b]);
     let theta_noise = greater(angle_noise, [theta_a, theta_b]);
     let force_noise = greater(noise_of_force, [force_x, force_y]);
+    let switched = switched(&currents, step_s, count);
     let run = FiveBarRun {
         parameters: Parameters::of(rig.layout),
         step_s,
@@ -84,6 +85,7 @@ pub fn aligned(rig: &FiveBar, recording: &FiveBarRecording) -> Result<FiveBarRun
         still_rad: (2.0 * quantum).max(6.0 * theta_noise),
         force_noise,
         recorded,
+        switched,
         speed_floor: 0.0,
         parts: Vec::new(),
     };
@@ -164,9 +166,8 @@ fn moved_by(
         speed_floor: floors.into_iter().fold(0.0, f64::max),
         ..run.without_motion()
     };
-    let switched = switched(&run);
-    let untold = untold_speeds(&run, &base, &switched);
-    run.joints = Joint::ALL.map(|joint| joint_motion(&run, &base, joint, (&untold, &switched)));
+    let untold = untold_speeds(&run, &base);
+    run.joints = Joint::ALL.map(|joint| joint_motion(&run, &base, joint, &untold));
     run.yields = Joint::ALL.map(|joint| {
         let none = || vec![0.0; run.motion(joint).len()];
         nominal_yields(&run, joint).unwrap_or_else(none)
@@ -280,14 +281,15 @@ fn check_pair(
 
 /// The speeds of θA and θB below which their sense cannot be told, sample by sample, rad/s. While brakes are switched a joint may swing
 /// at twice the low-pass's end and more.
-fn untold_speeds(run: &FiveBarRun, base: &[Vec<Instant>; 2], switched: &[bool]) -> Untold {
+fn untold_speeds(run: &FiveBarRun, base: &[Vec<Instant>; 2]) -> Untold {
     let smoothing = Smoothing {
         step_s: run.step_s,
         cutoff_hz: run.cutoff_hz,
         noise: run.theta_noise,
         speed_floor: run.speed_floor,
     };
-    let octaves = switched
+    let octaves = run
+        .switched
         .iter()
         .map(|&switched| if switched { 2.0 } else { 1.0 });
     let octaves: Vec<f64> = octaves.collect();
@@ -305,7 +307,7 @@ fn joint_motion(
     run: &FiveBarRun,
     base: &[Vec<Instant>; 2],
     joint: Joint,
-    (untold, switched): (&Untold, &[bool]),
+    untold: &Untold,
 ) -> Vec<Instant> {
     let [a, b] = base;
     let [untold_a, untold_b] = untold;
@@ -335,7 +337,7 @@ fn joint_motion(
         .recorded_angle(joint, [a, b], &motion)
         .collect::<Vec<f64>>();
     forget_sense_at_rest(&mut motion, &position, run.step_s, still);
-    forget_sense_at_stops(&mut motion, &recorded, (run.step_s, still), switched);
+    forget_sense_at_stops(&mut motion, &recorded, (run.step_s, still), &run.switched);
     forget_sense_at_reversals(&mut motion);
     motion
 }

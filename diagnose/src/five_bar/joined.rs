@@ -68,6 +68,7 @@ fn append(whole: &mut FiveBarRun, run: &FiveBarRun) {
         *last = false;
     }
     whole.recorded.extend_from_slice(&run.recorded);
+    whole.switched.extend_from_slice(&run.switched);
     whole.theta_noise = whole.theta_noise.max(run.theta_noise);
     whole.still_rad = whole.still_rad.max(run.still_rad);
     whole.cutoff_hz = whole.cutoff_hz.max(run.cutoff_hz);

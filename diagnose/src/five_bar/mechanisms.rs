@@ -49,6 +49,7 @@ fn blank(layout: Layout) -> FiveBarRun {
         cutoff_hz: 1e3,
         force_noise: 1e-9,
         recorded: vec![true; COUNT],
+        switched: vec![false; COUNT],
         speed_floor: 0.0,
         parts: Vec::new(),
     }

@@ -44,6 +44,8 @@ pub struct FiveBarRun {
     pub force_noise: f64,
     /// Samples that were recorded, not filled in.
     pub recorded: Vec<bool>,
+    /// Whether a brake's current changes around each sample.
+    pub switched: Vec<bool>,
     /// Speed of θA or θB below which its sense cannot be told, rad/s.
     pub speed_floor: f64,
     /// The recordings that stand in it one after another; empty for one recording.
@@ -174,6 +176,7 @@ impl FiveBarRun {
             yields: Default::default(),
             yield_errors: Default::default(),
             recorded: self.recorded.clone(),
+            switched: self.switched.clone(),
             parts: Vec::new(),
             ..*self
         }
@@ -202,6 +205,7 @@ impl FiveBarRun {
             cutoff_hz: self.cutoff_hz,
             force_noise: self.force_noise,
             recorded: self.recorded.get(from..to).unwrap_or_default().to_vec(),
+            switched: self.switched.get(from..to).unwrap_or_default().to_vec(),
             speed_floor: self.speed_floor,
             parts: Vec::new(),
         }

@@ -1,6 +1,5 @@
 //! This file takes the sense from a joint that may stop and go: slow, while brakes are switched.
 
-use super::run::FiveBarRun;
 use rigproof_model::effects::Instant;
 
 /// Half the stretch of time over which a slow joint must have moved for its sense to be known while brakes are switched, s.
@@ -11,10 +10,10 @@ const SWITCHED_S: f64 = 0.025;
 const SWITCHED_A: f64 = 0.02;
 
 /// Whether a brake's current changes around each sample.
-pub fn switched(run: &FiveBarRun) -> Vec<bool> {
-    let reach = samples(SWITCHED_S, run.step_s);
-    let mut switched = vec![false; run.len()];
-    for current in run.currents.iter().flatten() {
+pub fn switched(currents: &[Option<Vec<f64>>; 4], step_s: f64, count: usize) -> Vec<bool> {
+    let reach = samples(SWITCHED_S, step_s);
+    let mut switched = vec![false; count];
+    for current in currents.iter().flatten() {
         for (k, switched) in switched.iter_mut().enumerate() {
             *switched |= range(around(current, k, reach).iter().copied()) > SWITCHED_A;
         }
@@ -57,7 +56,6 @@ fn range(values: impl Iterator<Item = f64> + Clone) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::five_bar::recorded::short_run;
 
     const COUNT: f64 = 6.3e-6;
 
@@ -94,17 +92,13 @@ mod tests {
 
     #[test]
     fn a_brake_is_switched_around_a_change_of_its_current() {
-        let mut run = short_run();
-        for current in run.currents.iter_mut().flatten() {
-            current.fill(0.31);
-        }
-        assert!(!switched(&run).contains(&true));
-        let step = 1000;
-        if let Some(current) = &mut run.currents[1] {
-            current[step..].fill(0.34);
-        }
-        let reach = (SWITCHED_S / run.step_s).round() as usize;
-        let seen = switched(&run);
+        let (count, step, step_s) = (400, 170, 1e-3);
+        let mut currents = [0.0, 0.31, 0.4, 0.7].map(|current| Some(vec![current; count]));
+        currents[0] = None;
+        assert!(!switched(&currents, step_s, count).contains(&true));
+        currents[1].as_mut().unwrap()[step..].fill(0.34);
+        let reach = (SWITCHED_S / step_s).round() as usize;
+        let seen = switched(&currents, step_s, count);
         let first = seen.iter().position(|s| *s);
         let last = seen.iter().rposition(|s| *s);
         assert_eq!((first, last), (Some(step - reach), Some(step + reach - 1)));
