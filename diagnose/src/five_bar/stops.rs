@@ -76,7 +76,7 @@ mod tests {
                 })
                 .collect();
             let switched = vec![switched; motion.len()];
-            forget_sense_at_stops(&mut motion, &recorded, (1e-3, 2.0 * COUNT), &switched);
+            forget_sense_at_stops(&mut motion, &recorded, (1e-3, 2.5 * COUNT), &switched);
             let forgotten = motion
                 .iter()
                 .enumerate()
