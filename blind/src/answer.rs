@@ -2,7 +2,7 @@
 
 use crate::law::{Effect, Law};
 use crate::plant::Plant;
-use crate::size::Size;
+use crate::size::{CLEAR_SIZE, Size};
 use crate::stratum::Stratum;
 use rigproof_spec::effect::Motion;
 use serde::{Deserialize, Serialize};
@@ -42,6 +42,9 @@ pub struct HiddenEffect {
     pub distinctness: f64,
     /// Signal-to-noise ratio of a matched filter over the whole recording.
     pub strength: f64,
+    /// On a five-bar the lesser of its strengths in the 0.3 s before its onset, had it begun by then, and in the 0.3 s after it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub onset_strength: Option<f64>,
     /// Sets of mechanisms that describe any recording of this kind equally well, from physics; a joint stands behind ` at `.
     pub equivalent: Vec<Vec<String>>,
 }
@@ -58,6 +61,12 @@ pub struct TrueParameter {
 }
 
 impl HiddenEffect {
+    /// Whether the recording tells the onset as well as it tells an effect that is called clearly detectable.
+    pub fn tells_onset(&self) -> bool {
+        self.onset_strength
+            .is_some_and(|strength| strength >= CLEAR_SIZE)
+    }
+
     /// Mechanism and joint, such as `viscous at E`; the mechanism alone where there is no joint.
     pub fn key(&self) -> String {
         key(&self.mechanism, self.joint.as_deref())
@@ -87,6 +96,7 @@ impl HiddenEffect {
             size: size.size,
             distinctness: size.distinctness,
             strength: size.strength,
+            onset_strength: size.onset_strength,
             equivalent: equivalent(&effect.law, plant, dry_in_plant)
                 .iter()
                 .map(|set| set.iter().map(|name| (*name).to_owned()).collect())

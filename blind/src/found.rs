@@ -10,9 +10,18 @@ pub struct Found<'a> {
     /// The mechanism, on a five-bar with its joint, such as `viscous at E`.
     pub name: String,
     pub mechanism: &'a str,
-    pub onset_s: Option<f64>,
+    pub onset: Option<Onset>,
     pub parameters: Option<&'a Map<String, Value>>,
     pub alternatives: Vec<String>,
+}
+
+/// When an effect is said to begin.
+#[derive(Clone, Copy)]
+pub struct Onset {
+    /// The time, s.
+    pub value_s: f64,
+    /// Its 95 % interval, s, where there is one.
+    pub interval_s: Option<[f64; 2]>,
 }
 
 /// The effects of a report.
@@ -45,7 +54,7 @@ pub fn found_effects(plant: Plant, report: &Value) -> Result<Vec<Found<'_>>, Err
             Ok(Found {
                 name: name(plant, mechanism, effect),
                 mechanism,
-                onset_s: effect.get("onset_s").and_then(Value::as_f64),
+                onset: onset(effect),
                 parameters: effect.get("parameters").and_then(Value::as_object),
                 alternatives,
             })
@@ -61,9 +70,18 @@ fn name(plant: Plant, mechanism: &str, effect: &Value) -> String {
     }
 }
 
+fn onset(effect: &Value) -> Option<Onset> {
+    let number = |key| effect.get(key).and_then(Value::as_f64);
+    let ends = number("onset_low95_s").zip(number("onset_high95_s"));
+    Some(Onset {
+        value_s: number("onset_s")?,
+        interval_s: ends.map(|(low_s, high_s)| [low_s, high_s]),
+    })
+}
+
 fn collect_names(plant: Plant, value: &Value, into: &mut Vec<String>) {
     match value {
-        Value::String(text) => into.push(text.clone()),
+        Value::String(text) => into.extend(text.split(" with ").map(str::to_owned)),
         Value::Array(items) => items
             .iter()
             .for_each(|item| collect_names(plant, item, into)),

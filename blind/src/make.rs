@@ -47,11 +47,12 @@ pub fn again(seed: u64) -> Result<Trace, Error> {
     five_bar::again(seed, Stratum::of_seed(Plant::Rig, seed))
 }
 
-/// The recording of an experiment, as a diagnosis asks for it, on the five-bar of a seed; `None` lets the seed draw the stratum.
+/// An experiment, as a diagnosis asks for it, on the five-bar of a seed: its recording, and the answer with what that tells; `None` lets the seed draw
+/// the stratum.
 ///
 /// # Errors
 /// Those of [`make`]; [`Error::Experiment`] when it cannot be read or cannot be done.
-pub fn under(seed: u64, stratum: Option<Stratum>, experiment: &Trace) -> Result<Trace, Error> {
+pub fn under(seed: u64, stratum: Option<Stratum>, experiment: &Trace) -> Result<Case, Error> {
     let stratum = stratum.unwrap_or_else(|| Stratum::of_seed(Plant::Rig, seed));
     five_bar::under(seed, stratum, experiment)
 }

@@ -2,7 +2,7 @@
 
 use crate::answer::{Answer, HiddenEffect};
 use crate::error::Error;
-use crate::found::{Found, found_effects};
+use crate::found::{Found, Onset, found_effects};
 use crate::stratum::Stratum;
 use rigproof_spec::units::Unit;
 use serde::{Deserialize, Serialize};
@@ -37,8 +37,17 @@ pub struct Score {
     pub flagged: bool,
     /// Mechanisms named or offered as ambiguous: a diagnosis that offers everything is inside of everything.
     pub offered: usize,
+    /// Of these, what is neither hidden nor, by physics, the same as what is hidden.
+    #[serde(default)]
+    pub open: usize,
     /// Distance between the true onset and the named one, s, where both are there.
     pub onset_error_s: Option<f64>,
+    /// Whether the recording tells the onset of what is hidden to 0.3 s; absent where nothing begins late.
+    #[serde(default)]
+    pub onset_told: Option<bool>,
+    /// Whether the report's 95 % interval of the onset holds it; absent where it gives none.
+    #[serde(default)]
+    pub onset_covered: Option<bool>,
     /// Errors of the parameters that truth and report both have.
     pub parameters: Vec<ParameterError>,
     /// Share of the achievable improvement on the held-out part, (before − after)/(before − noise), as the report measured it: where an effect
@@ -94,6 +103,8 @@ pub fn score(answer: &Answer, report: &Value) -> Result<Score, Error> {
         names.iter().map(|name| mechanism_of(name)).collect()
     };
     let too_small = answer.stratum == Stratum::TooSmall;
+    let late = answer.effects.iter().find(|e| e.onset_s.is_some());
+    let onset = late.and_then(|truth| onset(truth, &found));
     Ok(Score {
         stratum: answer.stratum,
         verdict: verdict.to_owned(),
@@ -107,7 +118,17 @@ pub fn score(answer: &Answer, report: &Value) -> Result<Score, Error> {
             .collect(),
         flagged,
         offered: offered.len(),
-        onset_error_s: onset_error_s(answer, &found),
+        open: offered
+            .iter()
+            .filter(|name| !is_hidden(answer, name))
+            .count(),
+        onset_error_s: onset.map(|(truth_s, named)| (named.value_s - truth_s).abs()),
+        onset_told: late.map(HiddenEffect::tells_onset),
+        onset_covered: onset.and_then(|(truth_s, named)| {
+            named
+                .interval_s
+                .map(|[low_s, high_s]| (low_s..=high_s).contains(&truth_s))
+        }),
         parameters: parameter_errors(answer, &found),
         recovered_share: recovered_share(answer, report),
         hidden: truth.iter().map(|name| (*name).to_owned()).collect(),
@@ -160,21 +181,24 @@ fn is_twin(answer: &Answer, named: &BTreeSet<&str>) -> bool {
 
 fn is_defensible(found: &Found<'_>, answer: &Answer, truth: &BTreeSet<&str>) -> bool {
     truth.contains(found.name.as_str())
-        || answer
-            .effects
-            .iter()
-            .flat_map(|effect| effect.equivalent.iter().flatten())
-            .any(|name| *name == found.name)
+        || is_hidden(answer, &found.name)
         || found
             .alternatives
             .iter()
             .any(|name| truth.contains(name.as_str()))
 }
 
-fn onset_error_s(answer: &Answer, found: &[Found<'_>]) -> Option<f64> {
-    answer.effects.iter().find_map(|truth| {
-        let named = found.iter().find(|f| f.mechanism == truth.mechanism)?;
-        Some((named.onset_s? - truth.onset_s?).abs())
+/// The true onset, s, and the one that is named for the same mechanism.
+fn onset(truth: &HiddenEffect, found: &[Found<'_>]) -> Option<(f64, Onset)> {
+    let named = found.iter().find(|f| f.mechanism == truth.mechanism)?;
+    truth.onset_s.zip(named.onset)
+}
+
+/// Whether a name is a hidden effect's, or in a set that is the same by physics.
+fn is_hidden(answer: &Answer, name: &str) -> bool {
+    answer.effects.iter().any(|effect| {
+        let mut twins = effect.equivalent.iter().flatten();
+        effect.key() == name || twins.any(|twin| twin == name)
     })
 }
 
@@ -255,6 +279,7 @@ mod tests {
             size: 7.0,
             distinctness: 3.0,
             strength: 90.0,
+            onset_strength: None,
             equivalent: equivalent
                 .iter()
                 .map(|set| set.iter().map(|n| (*n).to_owned()).collect())
@@ -277,11 +302,15 @@ mod tests {
     fn the_true_name_is_exact_and_its_parameter_is_compared_in_si() {
         let answer = answer(Stratum::LateOnset, vec![effect("dry_offset", &[])]);
         let report = json!({"verdict": "explained", "effects": [{
-            "mechanism": "dry_offset", "onset_s": 8.0,
+            "mechanism": "dry_offset", "onset_s": 8.0, "onset_low95_s": 7.9, "onset_high95_s": 8.1,
             "parameters": {"level": {"value": 21.0, "unit": "mN·m", "low95": 19.0, "high95": 23.0}}}]});
         let score = score(&answer, &report).unwrap();
         assert!(score.exact && score.inside && score.false_names.is_empty());
         assert_eq!(score.onset_error_s, Some(0.25));
+        assert_eq!(
+            (score.onset_covered, score.onset_told),
+            (Some(false), Some(false))
+        );
         assert!((score.parameters[0].relative - 0.05).abs() < 1e-12);
         assert_eq!(score.parameters[0].covered, Some(true));
     }
@@ -298,7 +327,9 @@ mod tests {
         };
         let good = score(&answer, &report(json!([["presliding"]]))).unwrap();
         assert!(!good.exact && good.inside && good.false_names.is_empty());
-        assert_eq!(good.offered, 2);
+        assert_eq!((good.offered, good.open), (2, 1));
+        let both = score(&answer, &report(json!([["presliding with constant_bias"]])));
+        assert_eq!(both.unwrap().offered, 3);
         let twin = score(&answer, &report(json!([["hysteresis"]]))).unwrap();
         assert!(twin.inside);
         assert_eq!(twin.false_names, ["stribeck"]);

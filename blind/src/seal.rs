@@ -129,6 +129,7 @@ mod tests {
                 size: 5.5,
                 distinctness: 2.2,
                 strength: 77.0,
+                onset_strength: None,
                 equivalent: vec![vec!["constant_bias".to_owned()]],
             }],
             fault: None,

@@ -29,6 +29,8 @@ pub struct Size {
     pub distinctness: f64,
     /// Signal-to-noise ratio of a matched filter over the whole recording: size times the root of the blocks.
     pub strength: f64,
+    /// The lesser of its strengths just before its onset, had it begun by then, and just after it; `None` where it is not asked.
+    pub onset_strength: Option<f64>,
 }
 
 impl Size {
@@ -98,6 +100,7 @@ pub fn sizes(setup: &Setup, run: &Run, known: &[Law], hidden: &[Law]) -> Vec<Siz
                 size,
                 distinctness: rms(&imitations),
                 strength: size * active.sqrt(),
+                onset_strength: None,
             }
         })
         .collect()

@@ -296,7 +296,10 @@ mod tests {
             false_names: name.iter().map(|n| (*n).to_owned()).collect(),
             flagged: false,
             offered: 1 + name.len(),
+            open: 0,
             onset_error_s: None,
+            onset_told: None,
+            onset_covered: None,
             parameters: Vec::new(),
             recovered_share: Some(if exact { 0.9 } else { 0.1 }),
         };

@@ -32,7 +32,7 @@ pub struct Report {
     pub stages: Vec<StageReport>,
     /// The mechanisms that are named.
     pub effects: Vec<EffectReport>,
-    /// For each effect, what explains as much in its place: a mechanism, or as `viscous at E` where there are several joints.
+    /// For each effect, what explains as much in its place: a mechanism, or as `viscous at E` where there are several joints; two that do so together as `presliding at E with constant_bias at E`.
     pub ambiguous_with: Vec<Vec<String>>,
     /// Mechanisms that help, but by less than what stays unexplained: not named.
     pub too_small_to_name: Vec<String>,
@@ -266,8 +266,12 @@ pub struct EffectReport {
     pub joint: Option<&'static str>,
     /// Its parameters.
     pub parameters: BTreeMap<String, Number>,
-    /// When it begins, s.
+    /// When it begins, s after the first sample.
     pub onset_s: Option<f64>,
+    /// 95 % interval of the onset, s.
+    pub onset_low95_s: Option<f64>,
+    /// Upper end.
+    pub onset_high95_s: Option<f64>,
     /// Paired z over left-out blocks against the model without it.
     pub z: f64,
     /// Share of block-bootstrap replicates in which it still passes.

@@ -22,6 +22,7 @@ use together::is_noise;
 
 pub(crate) use judge::best as best_variant;
 pub(crate) use merge::as_two;
+pub(crate) use onset::{change_with_onset, onset_interval};
 pub(crate) use refine::refined;
 pub(crate) use weigh::gives_energy;
 pub use weigh::usable_rms;

@@ -31,7 +31,7 @@ pub fn calibrated(rig: &Rig, plant: &Plant, intervals: &Intervals, refitted: boo
             RigEffect {
                 mechanism: effect.mechanism,
                 values: values.collect(),
-                onset: effect.onset_s.map(Value::known),
+                onset: onset(effect.onset_s, intervals, index),
             }
         })
         .collect();
@@ -52,6 +52,19 @@ pub(crate) fn with_interval(value: f64, half: Option<f64>) -> Value {
         out.high95 = Some(value + half);
     }
     out
+}
+
+/// The onset of a term, which no fit touches, with its interval.
+pub(crate) fn onset(onset_s: Option<f64>, intervals: &Intervals, index: usize) -> Option<Value> {
+    let [low95, high95] = match intervals.onsets.get(index) {
+        Some(Some(ends)) => ends.map(Some),
+        _ => [None; 2],
+    };
+    onset_s.map(|onset_s| Value {
+        low95,
+        high95,
+        ..Value::known(onset_s)
+    })
 }
 
 /// An effect's parameters as the report prints them.

@@ -175,12 +175,14 @@ const fn sensor(mechanism: Mechanism) -> Option<[&'static str; 2]> {
     })
 }
 
-/// A cause as a report names it (`viscous`, or `viscous at E`) in plain words.
+/// A cause as a report names it (`viscous`, `viscous at E`, or two of them with ` with ` between) in plain words.
 pub fn plain_cause(cause: &str) -> String {
-    match cause.split_once(" at ") {
+    let plain = |one: &str| match one.split_once(" at ") {
         Some((name, joint)) => plain_at(name, Some(joint)),
-        None => plain_at(cause, None),
-    }
+        None => plain_at(one, None),
+    };
+    let all: Vec<String> = cause.split(" with ").map(plain).collect();
+    all.join(" with ")
 }
 
 /// A mechanism's name and its joint in plain words; a name that is not in the vocabulary stands as it is.
@@ -239,6 +241,10 @@ mod tests {
             "drag that grows with speed, at joint E"
         );
         assert_eq!(plain_cause("unheard_of"), "unheard_of");
+        assert_eq!(
+            plain_cause("viscous at E with unheard_of"),
+            "drag that grows with speed, at joint E with unheard_of"
+        );
         assert_eq!(
             list(&["a".to_owned(), "b".to_owned(), "c".to_owned()]),
             "a; b, and c"

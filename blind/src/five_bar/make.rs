@@ -53,11 +53,21 @@ pub fn make(seed: u64, stratum: Stratum) -> Result<Case, Error> {
         );
         fault::spoil(position, effort, &mut trace, &mut draw).to_owned()
     });
+    case(seed, stratum, &secret, trace, fault)
+}
+
+fn case(
+    seed: u64,
+    stratum: Stratum,
+    secret: &Secret,
+    trace: Trace,
+    fault: Option<String>,
+) -> Result<Case, Error> {
     let answer = Answer {
         seed,
-        plant,
+        plant: Plant::Rig,
         stratum,
-        effects: answers(&secret),
+        effects: answers(secret),
         fault,
         block_noise: secret.sizes.block_noise,
     };
@@ -85,8 +95,8 @@ pub fn again(seed: u64, stratum: Stratum) -> Result<Trace, Error> {
     Err(no_case(seed, stratum))
 }
 
-/// The recording of an experiment on a seed's rig: the same hidden effects, what began in the first recording now from the start.
-pub fn under(seed: u64, stratum: Stratum, experiment: &Trace) -> Result<Trace, Error> {
+/// An experiment on a seed's rig as a case of its own: the same hidden effects, what began in the first recording now from the start.
+pub fn under(seed: u64, stratum: Stratum, experiment: &Trace) -> Result<Case, Error> {
     let first = secret(seed, stratum)?;
     let mut draw = Draw::new(Plant::Rig, seed, "experiment");
     let asked = asked(experiment, first.setup.layout)?;
@@ -99,7 +109,8 @@ pub fn under(seed: u64, stratum: Stratum, experiment: &Trace) -> Result<Trace, E
     let other = Secret::new(setup, hidden).ok_or(Error::Experiment(
         "it leads the arms out of their ranges (table 4.2)".to_owned(),
     ))?;
-    Ok(record(&other, &mut draw))
+    let trace = record(&other, &mut draw);
+    case(seed, stratum, &other, trace, None)
 }
 
 /// What an experiment's file asks for: `hand_x` and `hand_y`, m, and the currents of the brakes, A.
@@ -357,6 +368,7 @@ fn answers(secret: &Secret) -> Vec<HiddenEffect> {
             size: size.size,
             distinctness: size.distinctness,
             strength: size.strength,
+            onset_strength: size.onset_strength,
             equivalent: sets(&secret.setup, effect),
         }
     })

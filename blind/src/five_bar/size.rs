@@ -40,7 +40,8 @@ pub fn sizes(setup: &Setup, hidden: &[Effect], samples: &[Sample]) -> Sizes {
     let blocks: Vec<Block> = seen
         .chunks_exact(length)
         .zip(samples.chunks_exact(length))
-        .filter_map(|(seen, samples)| Block::new(setup, seen, samples))
+        .enumerate()
+        .filter_map(|(place, (seen, samples))| Block::new(setup, place, seen, samples))
         .collect();
     let column =
         |force: &Force| -> Vec<f64> { blocks.iter().flat_map(|block| block.mean(force)).collect() };
@@ -67,6 +68,7 @@ pub fn sizes(setup: &Setup, hidden: &[Effect], samples: &[Sample]) -> Sizes {
             size,
             distinctness: (remainder(force, &columns) / active).sqrt(),
             strength: size * active.sqrt(),
+            onset_strength: onset_strength(effect, size, &blocks, force),
         }
     });
     let count = blocks.len().max(1) as f64;
@@ -82,8 +84,27 @@ pub fn sizes(setup: &Setup, hidden: &[Effect], samples: &[Sample]) -> Sizes {
     }
 }
 
+/// The time on either side of an onset in which it has to show, s.
+const ONSET_S: f64 = 0.3;
+
+/// The lesser of an effect's strengths just before and just after its onset. Before it, where its joint slides, it is taken to be of its own size.
+fn onset_strength(effect: &Effect, size: f64, blocks: &[Block], force: &[f64]) -> Option<f64> {
+    let onset_s = effect.onset_s?;
+    let pairs = || blocks.iter().zip(force.chunks_exact(2));
+    let within = |from_s: f64, block: &Block| (from_s..from_s + ONSET_S).contains(&block.middle_s);
+    let before = pairs().filter(|(block, _)| within(onset_s - ONSET_S, block));
+    let would_act = before
+        .filter(|(block, _)| block.slides(effect.joint))
+        .count();
+    let after = pairs().filter(|(block, _)| within(onset_s, block));
+    let after: f64 = after.flat_map(|(_, force)| force).map(|x| x * x).sum();
+    Some((size * (2.0 * would_act as f64).sqrt()).min(after.sqrt()))
+}
+
 /// 80 ms in which something slides for at least half of the time.
 struct Block<'a> {
+    /// The middle of it, s.
+    middle_s: f64,
     seen: Vec<(&'a Seen, &'a Sample)>,
     /// Cholesky factor of the covariance of an average, N·m: l11, l21, l22.
     factor: [f64; 3],
@@ -91,7 +112,12 @@ struct Block<'a> {
 }
 
 impl<'a> Block<'a> {
-    fn new(setup: &Setup, seen: &'a [Option<Seen>], samples: &'a [Sample]) -> Option<Block<'a>> {
+    fn new(
+        setup: &Setup,
+        place: usize,
+        seen: &'a [Option<Seen>],
+        samples: &'a [Sample],
+    ) -> Option<Block<'a>> {
         let all = seen.len();
         let seen: Vec<(&Seen, &Sample)> = seen
             .iter()
@@ -106,10 +132,20 @@ impl<'a> Block<'a> {
         let l11 = s11.sqrt();
         let l21 = s12 / l11;
         Some(Block {
+            middle_s: (place as f64 + 0.5) * BLOCK_S,
             seen,
             factor: [l11, l21, (s22 - l21 * l21).sqrt()],
             noise: (0.5 * (s11 + s22)).sqrt(),
         })
+    }
+
+    /// Whether a joint slides for half of it; without a joint whether anything does.
+    fn slides(&self, joint: Option<Joint>) -> bool {
+        let place = joint.and_then(|joint| Joint::ALL.into_iter().position(|own| own == joint));
+        let slides = |seen: &Seen| {
+            place.is_none_or(|place| seen.joint_rates.get(place).is_some_and(|rate| *rate != 0.0))
+        };
+        2 * self.seen.iter().filter(|(seen, _)| slides(seen)).count() >= self.seen.len()
     }
 
     /// The whitened average of what stuck joints do not take.
@@ -197,5 +233,22 @@ fn is_own(setup: &Setup, effect: &Effect, imitation: &Imitation) -> bool {
             here && matches!(imitation.name, "gain_error" | "dry_offset")
         }
         _ => here && effect.name() == imitation.name,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::make::secret;
+    use crate::stratum::Stratum;
+
+    #[test]
+    fn an_onset_tells_where_its_joint_moves_and_not_where_it_rests() {
+        let strength = |seed| {
+            let secret = secret(seed, Stratum::LateOnset).unwrap();
+            secret.sizes.sizes[0].onset_strength.unwrap()
+        };
+        // Friction at E that begins at 12.18 s, when the arms are held from 12.10 to 12.65 s; a bristle at A that begins in motion.
+        assert_eq!(strength(8517), 0.0);
+        assert!(strength(8493) > 100.0);
     }
 }

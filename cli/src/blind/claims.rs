@@ -61,7 +61,7 @@ const NAMEABLE: [Stratum; 7] = [
 const ONSET_S: f64 = 0.3;
 
 /// What is claimed of the five-bar.
-pub const OF_THE_RIG: [Claim; 12] = [
+pub const OF_THE_RIG: [Claim; 14] = [
     Claim {
         words: "a false name where nothing is hidden",
         counts: false_name,
@@ -104,11 +104,24 @@ pub const OF_THE_RIG: [Claim; 12] = [
     },
     Claim {
         words: "a named onset within 0.3 s",
+        counts: |tried| onset_near(tried.score.onset_error_s),
+        bound: Bound::AtLeast(0.95),
+    },
+    Claim {
+        words: "the same, where the recording tells it to that",
         counts: |tried| {
-            let error = tried.score.onset_error_s;
-            error.map_or((0, 0), |error| (usize::from(error <= ONSET_S), 1))
+            let told = tried.score.onset_told == Some(true);
+            onset_near(tried.score.onset_error_s.filter(|_| told))
         },
         bound: Bound::AtLeast(0.95),
+    },
+    Claim {
+        words: "95 % intervals that hold the true onset",
+        counts: |tried| {
+            let covered = tried.score.onset_covered;
+            covered.map_or((0, 0), |covered| (usize::from(covered), 1))
+        },
+        bound: Bound::AtLeast(0.9),
     },
     Claim {
         words: "95 % intervals that hold the true number",
@@ -125,10 +138,7 @@ pub const OF_THE_RIG: [Claim; 12] = [
         words: "ambiguity gone, and the truth named, after the experiment that was asked for",
         counts: |tried| {
             let then = tried.then.as_ref();
-            then.map_or((0, 0), |then| {
-                let told = then.inside && then.offered <= then.hidden.len();
-                (usize::from(told), 1)
-            })
+            then.map_or((0, 0), |then| (usize::from(then.is_told()), 1))
         },
         bound: Bound::AtLeast(0.9),
     },
@@ -144,6 +154,10 @@ pub const OF_THE_RIG: [Claim; 12] = [
 
 fn false_name(tried: &Tried) -> (usize, usize) {
     tried.of(&[Stratum::Nothing], !tried.score.false_names.is_empty())
+}
+
+fn onset_near(error_s: Option<f64>) -> (usize, usize) {
+    error_s.map_or((0, 0), |error_s| (usize::from(error_s <= ONSET_S), 1))
 }
 
 fn flagged_and_not_named(tried: &Tried) -> (usize, usize) {
@@ -255,7 +269,10 @@ mod tests {
                 false_names: false_name.then(|| "lag".to_owned()).into_iter().collect(),
                 flagged: false,
                 offered: 0,
+                open: 0,
                 onset_error_s: None,
+                onset_told: None,
+                onset_covered: None,
                 parameters: Vec::new(),
                 recovered_share: None,
             },

@@ -64,10 +64,10 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     }
     let asked = args.experiment.as_deref().map(csv::read).transpose()?;
     let folder = Folder::begin(&args.out)?;
-    let mut case = make(args.plant, args.seed, args.stratum)?;
-    if let Some(experiment) = &asked {
-        case.trace = under(args.seed, args.stratum, experiment)?;
-    }
+    let case = match &asked {
+        Some(experiment) => under(args.seed, args.stratum, experiment)?,
+        None => make(args.plant, args.seed, args.stratum)?,
+    };
     if !args.json {
         print(&format!(
             "SHA-256 of the sealed answer: {}",

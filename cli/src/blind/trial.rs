@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use rigproof_blind::{Answer, Case, Plant, Score, Table, again, make, open, score, under};
 use rigproof_diagnose::{Description, Diagnosis, Options};
 use rigproof_trace::Trace;
+use rigproof_trace::csv;
 use rigproof_trace::store::{Folder, read_text, write_aside};
 use serde_json::{Value, json};
 
@@ -15,7 +16,7 @@ use super::claims::{Claim, Measured, OF_A_JOINT, OF_THE_RIG};
 use super::make::{FILES, contents};
 use super::page;
 use super::truth;
-use crate::folder::REPORT;
+use crate::folder::{EXPERIMENT, REPORT};
 use crate::outcome::{Failure, Outcome, print};
 use crate::progress;
 use crate::text::{join, section};
@@ -80,8 +81,38 @@ pub struct Tried {
     pub report: Value,
     /// How well.
     pub score: Score,
-    /// How well once the experiment was done that the diagnosis asked for.
-    pub then: Option<Score>,
+    /// What became of it once the experiment was done that the diagnosis asked for.
+    pub then: Option<Then>,
+}
+
+/// An experiment that a diagnosis asked for, done on the concealed rig.
+pub struct Then {
+    /// What was asked for.
+    pub experiment: Trace,
+    /// What was recorded.
+    pub recording: Trace,
+    /// What was found in both recordings.
+    pub report: Value,
+    /// How well.
+    pub score: Score,
+}
+
+impl Then {
+    /// Whether the truth is named or offered, and nothing else but what physics makes the same.
+    pub fn is_told(&self) -> bool {
+        self.score.inside && self.score.open == 0
+    }
+
+    /// Its files, by name.
+    fn files(&self) -> Result<Vec<(&'static str, Vec<u8>)>, Failure> {
+        let csv = |trace| csv::to_bytes(trace).map_err(Failure::Input);
+        let [recording, ..] = FILES;
+        Ok(vec![
+            (EXPERIMENT, csv(&self.experiment)?),
+            (recording, csv(&self.recording)?),
+            (REPORT, self.report.to_string().into_bytes()),
+        ])
+    }
 }
 
 /// Tries the seeds and prints table and claims.
@@ -210,7 +241,7 @@ fn one(args: &Args, plant: Plant, seed: u64, bar: &ProgressBar) -> Result<Tried,
     let answer = open(&case.sealed)?;
     let done = experiment.filter(|_| args.experiments);
     let then = done
-        .map(|experiment| after(seed, &case, &answer, &experiment))
+        .map(|experiment| after(seed, &case, experiment))
         .transpose()?;
     let score = score(&answer, &report)?;
     bar.inc(1);
@@ -222,11 +253,18 @@ fn one(args: &Args, plant: Plant, seed: u64, bar: &ProgressBar) -> Result<Tried,
     })
 }
 
-/// How well both recordings together are diagnosed, once the experiment was done that the first one asks for.
-fn after(seed: u64, case: &Case, answer: &Answer, experiment: &Trace) -> Result<Score, Failure> {
-    let second = under(seed, None, experiment)?;
-    let (report, _) = diagnosed(seed, case, &[second], None, &whole())?;
-    Ok(score(answer, &report)?)
+/// How both recordings together are diagnosed, once the experiment was done that the first one asks for.
+fn after(seed: u64, case: &Case, experiment: Trace) -> Result<Then, Failure> {
+    let done = under(seed, None, &experiment)?;
+    let second = core::slice::from_ref(&done.trace);
+    let (report, _) = diagnosed(seed, case, second, None, &whole())?;
+    // What the experiment does not tell either is no ambiguity of the diagnosis.
+    Ok(Then {
+        score: score(&open(&done.sealed)?, &report)?,
+        experiment,
+        recording: done.trace,
+        report,
+    })
 }
 
 /// A recording is diagnosed as a whole, by the balance of efforts alone.
@@ -272,10 +310,10 @@ fn diagnosed(
     Ok((report, experiment))
 }
 
-/// Writes the cases that were missed, with their reports.
+/// Writes the cases that were missed, with their reports, and those that an experiment left open, with that.
 fn write_misses(folder: &Path, tried: &[Tried]) -> Result<(), Failure> {
     let folder = Folder::begin(folder)?;
-    for case in tried.iter().filter(|tried| tried.score.is_miss()) {
+    for case in tried.iter().filter(|tried| tried.is_miss()) {
         let (plant, seed) = (case.answer.plant, case.answer.seed);
         let made = make(plant, seed, None)?;
         for (name, bytes) in FILES.into_iter().zip(contents(&made)?) {
@@ -285,11 +323,22 @@ fn write_misses(folder: &Path, tried: &[Tried]) -> Result<(), Failure> {
             &format!("{seed}/{REPORT}"),
             case.report.to_string().as_bytes(),
         )?;
+        let then = case
+            .then
+            .as_ref()
+            .map_or_else(|| Ok(Vec::new()), Then::files)?;
+        for (name, bytes) in then {
+            folder.write(&format!("{seed}/experiment/{name}"), &bytes)?;
+        }
     }
     Ok(folder.finish()?)
 }
 
 impl Tried {
+    fn is_miss(&self) -> bool {
+        self.score.is_miss() || self.then.as_ref().is_some_and(|then| !then.is_told())
+    }
+
     /// The mechanisms that the report names.
     pub fn named(&self) -> Vec<&str> {
         let effects = self.report.get("effects").and_then(Value::as_array);
@@ -343,7 +392,7 @@ impl Tried {
     fn json(&self) -> Value {
         json!({
             "seed": self.answer.seed, "plant": self.answer.plant, "answer": self.answer,
-            "named": self.named(), "ambiguous": self.ambiguous(), "score": self.score, "after_experiment": self.then,
+            "named": self.named(), "ambiguous": self.ambiguous(), "score": self.score, "after_experiment": self.then.as_ref().map(|then| &then.score),
         })
     }
 }

@@ -1,6 +1,6 @@
 //! This file says where a recording disagrees, how the cause was named, and what it is.
 
-use rigproof_diagnose::report::{EffectReport, LimitOf, Located, Report};
+use rigproof_diagnose::report::{EffectReport, LimitOf, Located, Number, Report};
 
 use super::number::{percent, significant, with_interval, with_unit};
 use super::section;
@@ -108,12 +108,7 @@ fn one(effect: &EffectReport, rivals: &[String]) -> Vec<String> {
     let parameters = effect.parameters.iter();
     lines
         .extend(parameters.map(|(name, number)| format!("    {name} = {}", with_interval(number))));
-    if let Some(onset_s) = effect.onset_s {
-        lines.push(format!(
-            "    begins {} after the first sample",
-            with_unit(onset_s, "s")
-        ));
-    }
+    lines.extend(onset(effect));
     lines.push(format!(
         "    z = {:.1} over left-out blocks; stays in {} of the resampled recordings; takes away {} of the loss",
         effect.z,
@@ -126,6 +121,16 @@ fn one(effect: &EffectReport, rivals: &[String]) -> Vec<String> {
     lines.extend(effect.limit_of.iter().map(limit));
     lines.push(format!("    would be refuted by: {}", effect.refuted_by));
     lines
+}
+
+fn onset(effect: &EffectReport) -> Option<String> {
+    let onset = Number {
+        value: effect.onset_s?,
+        unit: "s".to_owned(),
+        low95: effect.onset_low95_s,
+        high95: effect.onset_high95_s,
+    };
+    Some(format!("    begins at {}", with_interval(&onset)))
 }
 
 /// A richer law that comes to the same.

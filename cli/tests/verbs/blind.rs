@@ -173,7 +173,7 @@ fn what_was_found_is_shown_on_a_second_recording_of_the_rig() {
     let how = trial["plant"].as_str().unwrap();
     assert!(how.contains("a second one of the same rig"), "{how}");
     let claims = trial["claims"].as_array().unwrap();
-    assert_eq!(claims.len(), 12);
+    assert_eq!(claims.len(), 14);
     let said = desk.rigproof("blind trial --plant axis --seeds 4..5 --held-out");
     assert_eq!(said.status.code(), Some(2));
     let message = String::from_utf8(said.stderr).unwrap();

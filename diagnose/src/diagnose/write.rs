@@ -3,7 +3,7 @@
 use super::ended::blank;
 use super::words::summary;
 use super::{Curves, Description, Diagnosis, FittedCurves, Options};
-use crate::evidence::{inclusion, intervals, not_seen, null_directions, rivals};
+use crate::evidence::{Rivals, inclusion, intervals, not_seen, null_directions, rivals};
 use crate::from_rig;
 use crate::locate::locate;
 use crate::problem::{Cause, Problem};
@@ -38,7 +38,7 @@ pub(crate) fn verdict(
     selection: &Selection,
     floor: &Floor,
     limit: f64,
-    rivals: &[Vec<Cause>],
+    rivals: &[Vec<String>],
 ) -> Verdict {
     let explained = floor.ratio_after <= limit;
     match (selection.found.is_empty(), explained) {
@@ -69,7 +69,7 @@ impl Stand<'_> {
     pub(super) fn report(&self, other_recording: bool) -> Diagnosis {
         let protocol = from_rig::protocol(self.rig);
         let fitted = self.fit(&protocol);
-        let rivals = self.rivals();
+        let rivals: Vec<Vec<String>> = self.rivals().iter().map(Rivals::names).collect();
         let floor = self.floor();
         let verdict = verdict(self.selection, &floor, floor_limit(self.problem), &rivals);
         let unknown = if floor.ratio_after > floor_limit(self.problem) {
@@ -100,10 +100,7 @@ impl Stand<'_> {
             ),
             stages: self.stages(),
             effects: self.effects(&calibration),
-            ambiguous_with: rivals
-                .iter()
-                .map(|r| r.iter().map(|cause| cause.name()).collect())
-                .collect(),
+            ambiguous_with: rivals,
             too_small_to_name: self
                 .selection
                 .too_small
@@ -135,9 +132,8 @@ impl Stand<'_> {
 
     /// For each effect, what explains as much in its place: measured rivals, and the twin that no recording of this
     /// plant can tell: a constant that changes no sign with the motion is a bias or a direction asymmetry.
-    fn rivals(&self) -> Vec<Vec<Cause>> {
-        let all = rivals(self.problem, self.selection).into_iter();
-        let mut all: Vec<Vec<Cause>> = all.map(|own| own.instead).collect();
+    fn rivals(&self) -> Vec<Rivals> {
+        let mut all = rivals(self.problem, self.selection);
         for (rivals, found) in all.iter_mut().zip(&self.selection.found) {
             let twin = match found.term.cause.mechanism {
                 Mechanism::ConstantBias => Cause::of(Mechanism::DirectionAsymmetry),
@@ -147,8 +143,8 @@ impl Stand<'_> {
             let taken = refs(&self.selection.nominal, &self.selection.found)
                 .iter()
                 .any(|t| t.cause == twin);
-            if !taken && !rivals.contains(&twin) {
-                rivals.push(twin);
+            if !taken && !rivals.instead.contains(&twin) {
+                rivals.instead.push(twin);
             }
         }
         all
@@ -212,6 +208,8 @@ impl Stand<'_> {
                     joint: None,
                     parameters: numbers(fitted, self.rig.motion),
                     onset_s: found.term.onset_s,
+                    onset_low95_s: fitted.onset.and_then(|onset| onset.low95),
+                    onset_high95_s: fitted.onset.and_then(|onset| onset.high95),
                     z: found.z,
                     inclusion: inclusion(self.problem, self.selection, index, self.options.gates),
                     share_explained: found.share,

@@ -5,22 +5,24 @@
 //! (after Carter, Schnepel and Steigerwald 2017). Where more than noise is left the law is not the true one, and what is left may look like the effect everywhere
 //! alike, which no block shows: there they are wider by what is left over the noise (Birge 1932).
 
-use super::{parameter_count, sensitivities};
+use super::{Sensitivity, coefficients_by_term, parameter_count, sensitivities};
 use crate::problem::{Cause, PlantRun, Problem, Term};
 use crate::regression::{Blocks, covariance, dot};
 use crate::run::rms;
-use crate::select::{Selection, refs, usable_rms};
+use crate::select::{Selection, change_with_onset, onset_interval, refs, usable_rms};
 use crate::student::half_width;
 use nalgebra::{DMatrix, DVector};
 use rigproof_spec::effect::Mechanism;
 
 /// Half widths of the 95 % intervals of every parameter of every term, and of the inertia where it is estimated.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Intervals {
     /// Of the inertia.
     pub inertia: Option<f64>,
     /// Of each term's parameters in the vocabulary's order; NaN where the recording does not determine one.
     pub terms: Vec<Vec<f64>>,
+    /// The 95 % interval of each term's onset, s; `None` where it has none.
+    pub onsets: Vec<Option<[f64; 2]>>,
 }
 
 /// 97.5 % of the normal distribution lie below.
@@ -44,6 +46,7 @@ pub fn intervals(problem: &Problem, selection: &Selection) -> Intervals {
             .iter()
             .map(|t| vec![f64::NAN; parameter_count(t)])
             .collect(),
+        onsets: onsets(problem, selection, &columns),
     };
     for (column, half) in columns.iter().zip(halves) {
         let half = birge * half;
@@ -60,6 +63,45 @@ pub fn intervals(problem: &Problem, selection: &Selection) -> Intervals {
         }
     }
     intervals
+}
+
+/// Of the nominal terms none has an onset.
+fn onsets(
+    problem: &Problem,
+    selection: &Selection,
+    columns: &[Sensitivity],
+) -> Vec<Option<[f64; 2]>> {
+    let first = selection.nominal.len();
+    let found = (0..selection.found.len()).map(|index| {
+        let imitated = imitated(problem, selection, first + index, columns).unwrap_or(1.0);
+        onset_interval(problem, selection, index, imitated)
+    });
+    vec![None; first].into_iter().chain(found).collect()
+}
+
+/// How many times the variance of a term's onset grows with its shape unknown; `None` where it has none.
+fn imitated(
+    problem: &Problem,
+    selection: &Selection,
+    term: usize,
+    columns: &[Sensitivity],
+) -> Option<f64> {
+    let terms = refs(&selection.nominal, &selection.found);
+    let (_, coefficients) = coefficients_by_term(problem, selection);
+    let own = terms.get(term)?;
+    let onset = change_with_onset(problem, own, coefficients.get(term)?)?;
+    let is_shape = |column: &&Sensitivity| {
+        let place = column.place;
+        place.is_some_and(|(of, parameter)| of == term && parameter >= own.free.len())
+    };
+    let variance = |others: Vec<&Sensitivity>| {
+        let others = others.into_iter().map(|column| column.values.as_slice());
+        let columns: Vec<&[f64]> = [onset.as_slice()].into_iter().chain(others).collect();
+        covariance(&columns)?.get((0, 0)).copied()
+    };
+    let known = variance(columns.iter().filter(|column| !is_shape(column)).collect())?;
+    let unknown = variance(columns.iter().collect())?;
+    Some((unknown / known).max(1.0))
 }
 
 /// The standard deviation of what lies between two samples, in the unit of the term's parameters: a play ends somewhere on the way from one

@@ -22,6 +22,8 @@ const NEAR_RIVAL: f64 = 0.7;
 pub struct Rivals {
     /// What explains as much.
     pub instead: Vec<Cause>,
+    /// Two that are the same law together: see [`as_two`].
+    pub together: Option<[Cause; 2]>,
     /// Richer laws that come to the same here.
     pub limit_of: Vec<Richer>,
 }
@@ -42,6 +44,16 @@ pub struct Richer {
 }
 
 impl Rivals {
+    /// What could stand in its place, as a report has it: `presliding at E with constant_bias at E` takes both.
+    pub fn names(&self) -> Vec<String> {
+        let alone = self.instead.iter().map(|cause| cause.name());
+        let together = self
+            .together
+            .iter()
+            .map(|pair| pair.map(|cause| cause.name()).join(" with "));
+        alone.chain(together).collect()
+    }
+
     /// The richer laws as a report has them.
     pub fn limits(&self) -> Vec<LimitOf> {
         let all = self.limit_of.iter();
@@ -123,22 +135,21 @@ fn rivals_of(problem: &Problem, selection: &Selection, index: usize, blocks: &Bl
         blocks,
         gain: bare.left_out() - selection.after.left_out(),
         telling: telling(problem, selection),
+        apart: apart(problem, selection),
         bare,
         common,
     };
     let open = causes(problem).into_iter();
     let open = open.filter(|cause| !taken.contains(cause));
     let all: Vec<Rival> = open.filter_map(|cause| place.rival(cause)).collect();
-    let mut rivals = Rivals::default();
+    let mut rivals = Rivals {
+        together: as_two(problem, selection, index),
+        ..Rivals::default()
+    };
     for rival in &all {
         match place.richer(rival, &all) {
             Some(richer) => rivals.limit_of.push(richer),
             None => rivals.instead.push(rival.cause),
-        }
-    }
-    for cause in as_two(problem, selection, index) {
-        if !rivals.instead.contains(&cause) {
-            rivals.instead.push(cause);
         }
     }
     rivals
@@ -166,6 +177,8 @@ struct Place<'a> {
     gain: f64,
     /// See [`telling`].
     telling: f64,
+    /// From how much more left-out loss on a law is no limit of a richer one.
+    apart: f64,
 }
 
 impl Place<'_> {
@@ -244,7 +257,7 @@ impl Place<'_> {
         let (.., place, end) = LIMITS.iter().copied().find(|(richer, simpler, ..)| {
             (*richer, *simpler, cause.joint) == (cause.mechanism, limit.mechanism, limit.joint)
         })?;
-        if self.telling.is_infinite() || more_elsewhere(losses, &rival.losses) >= self.telling {
+        if self.apart.is_infinite() || more_elsewhere(losses, &rival.losses) >= self.apart {
             return None;
         }
         let shape = place.checked_sub(entry(cause.mechanism)?.linear);
@@ -252,7 +265,7 @@ impl Place<'_> {
             let mut terms = self.common.clone();
             terms.push(term);
             let with = fit(self.problem, &terms, self.blocks).block_loss;
-            more_elsewhere(&with, losses) < self.telling
+            more_elsewhere(&with, losses) < self.apart
         });
         let values = alike.filter_map(|term| term.shape.get(shape?).copied());
         Some(Richer {
@@ -272,11 +285,18 @@ impl Place<'_> {
 /// noise is the measure: the scatter of a short recording's few blocks would keep what leaves many deviations more.
 fn telling(problem: &Problem, selection: &Selection) -> f64 {
     let left = usable_rms(problem, &selection.after.residual) / problem.floor;
+    match left <= floor_limit(problem) {
+        true => apart(problem, selection),
+        false => f64::INFINITY,
+    }
+}
+
+/// Standard deviations of what is left, squared; without bound on a joint alone.
+fn apart(problem: &Problem, selection: &Selection) -> f64 {
+    let left = usable_rms(problem, &selection.after.residual) / problem.floor;
     match problem.plant {
-        PlantRun::FiveBar(_) if left <= floor_limit(problem) => {
-            (left.max(1.0) * LEAST_SIGMAS).powi(2)
-        }
-        _ => f64::INFINITY,
+        PlantRun::FiveBar(_) => (left.max(1.0) * LEAST_SIGMAS).powi(2),
+        PlantRun::Joint(_) => f64::INFINITY,
     }
 }
 
@@ -296,8 +316,8 @@ mod tests {
     use crate::select::Found;
     use rigproof_spec::joint::Joint;
 
-    /// What a bristle at E is beside dry friction that was found there, when a bristle of this travel is what is left out.
-    fn beside_dry_friction(travel_rad: f64) -> Option<Richer> {
+    /// What a bristle at E is beside dry friction that was found there, when a bristle of this travel is what is left out, and drag that was not found.
+    fn beside_dry_friction(travel_rad: f64, drag_nms: f64) -> Option<Richer> {
         let run = short_run();
         let mut problem = five_bar::recorded::problem(&run);
         let [dry, bristle] = [Mechanism::DryOffset, Mechanism::Presliding].map(|mechanism| Cause {
@@ -307,6 +327,12 @@ mod tests {
         let hidden = problem.term(bristle, &[travel_rad], None).unwrap();
         let mut raw = noise_rows(&problem, 29);
         add(&mut raw, &hidden.free[0].raw, 0.21);
+        let drag = Cause {
+            mechanism: Mechanism::Viscous,
+            joint: Some(Joint::B),
+        };
+        let drag = problem.term(drag, &[], None).unwrap();
+        add(&mut raw, &drag.free[0].raw, drag_nms);
         problem.target = target(&problem, raw);
         let blocks = Blocks::new(&problem);
         let term = problem.term(dry, &[], None).unwrap();
@@ -332,6 +358,7 @@ mod tests {
             blocks: &blocks,
             gain: before.left_out() - selection.after.left_out(),
             telling: telling(&problem, &selection),
+            apart: apart(&problem, &selection),
             bare: before,
             common: Vec::new(),
         };
@@ -340,14 +367,17 @@ mod tests {
 
     #[test]
     fn a_bristle_that_hardly_bends_is_dry_friction_and_one_that_bends_is_none() {
-        let richer = beside_dry_friction(1e-5).unwrap();
+        let richer = beside_dry_friction(1e-5, 0.0).unwrap();
         assert_eq!(
             (richer.parameter.name, richer.end),
             ("travel", End::Nothing)
         );
         let bound = richer.bound.unwrap();
         assert!((1e-5..0.02).contains(&bound), "{bound} rad");
-        assert!(beside_dry_friction(0.05).is_none());
+        assert!(beside_dry_friction(0.05, 0.0).is_none());
+        // Beside something else that stays, as well.
+        assert!(beside_dry_friction(1e-5, 0.06).is_some());
+        assert!(beside_dry_friction(0.05, 0.06).is_none());
     }
 
     #[test]

@@ -6,7 +6,7 @@ use super::undone::undone_first;
 use crate::evidence::{Intervals, coefficients_by_term, parameters};
 use crate::problem::Term;
 use crate::select::refs;
-use crate::write_rig::with_interval;
+use crate::write_rig::{onset, with_interval};
 use rigproof_spec::effect::Mechanism;
 use rigproof_trace::rig::five_bar::{FiveBar, JointEffect};
 use rigproof_trace::rig::{RigEffect, Value};
@@ -32,7 +32,12 @@ impl Stand<'_> {
                 let values = parameters(term, own).into_iter().take(count).enumerate();
                 let values = values
                     .map(|(k, value)| with_interval(value, halves.and_then(|h| h.get(k)).copied()));
-                joint_effect(term, term.cause.mechanism, values.collect())
+                joint_effect(
+                    term,
+                    term.cause.mechanism,
+                    values.collect(),
+                    onset(term.onset_s, intervals, index),
+                )
             });
         rig.effects.extend(fitted);
         let second = terms.iter().zip(&coefficients);
@@ -43,7 +48,12 @@ impl Stand<'_> {
                 level = encoder.zero_at_zero_rad([*own.first()?, level]);
             }
             let level = with_interval(level, None);
-            Some(joint_effect(term, mechanism, vec![level]))
+            Some(joint_effect(
+                term,
+                mechanism,
+                vec![level],
+                term.onset_s.map(Value::known),
+            ))
         }));
         rig.provenance
             .insert("fit".to_owned(), "weighted windows".to_owned());
@@ -61,13 +71,18 @@ const fn second_of(mechanism: Mechanism) -> Option<Mechanism> {
     }
 }
 
-fn joint_effect(term: &Term, mechanism: Mechanism, values: Vec<Value>) -> JointEffect {
+fn joint_effect(
+    term: &Term,
+    mechanism: Mechanism,
+    values: Vec<Value>,
+    onset: Option<Value>,
+) -> JointEffect {
     JointEffect {
         joint: term.cause.joint,
         effect: RigEffect {
             mechanism,
             values,
-            onset: term.onset_s.map(Value::known),
+            onset,
         },
     }
 }

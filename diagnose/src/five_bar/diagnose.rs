@@ -176,7 +176,7 @@ impl Stand<'_> {
     fn report(&self, other_recording: bool) -> Diagnosis {
         let (problem, selection) = (self.problem, self.selection);
         let all = rivals(problem, selection);
-        let rivals: Vec<Vec<Cause>> = all.iter().map(|own| own.instead.clone()).collect();
+        let rivals: Vec<Vec<String>> = all.iter().map(Rivals::names).collect();
         let floor = floor(problem, selection, Motion::Rotary);
         let verdict = verdict(selection, &floor, floor_limit(problem), &rivals);
         let test = self.balanced(self.test, self.test_from_s);
@@ -188,7 +188,7 @@ impl Stand<'_> {
             .as_ref()
             .map(|train| self.fit_report((train, &test), &calibration, other_recording));
         let (next_experiment, experiment) = match self.options.next_experiment {
-            true => experiment::next(self, &rivals).unzip(),
+            true => experiment::next(self, &all).unzip(),
             false => (None, None),
         };
         let mut protocol = self.protocol(other_recording);
@@ -200,10 +200,7 @@ impl Stand<'_> {
             located: locate(problem, self.train, before, after),
             stages: self.stages(),
             effects: self.effects(&calibration, &all),
-            ambiguous_with: rivals
-                .iter()
-                .map(|r| r.iter().map(|cause| cause.name()).collect())
-                .collect(),
+            ambiguous_with: rivals,
             too_small_to_name: selection.too_small.iter().map(|c| c.name()).collect(),
             withdrawn: self.withdrawn.iter().map(|c| c.name()).collect(),
             not_seen: not_seen(problem, selection, self.options.gates, Motion::Rotary),
@@ -360,6 +357,8 @@ impl Stand<'_> {
                     joint: cause.joint.map(Joint::letter),
                     parameters: numbers(&fitted.effect, Motion::Rotary),
                     onset_s: found.term.onset_s,
+                    onset_low95_s: fitted.effect.onset.and_then(|onset| onset.low95),
+                    onset_high95_s: fitted.effect.onset.and_then(|onset| onset.high95),
                     z: found.z,
                     inclusion: inclusion(self.problem, self.selection, index, self.options.gates),
                     share_explained: found.share,

@@ -11,7 +11,7 @@ use super::diagnose::Stand;
 use super::free_run::Model;
 use super::undone::described;
 use crate::candidates::{realise, variants};
-use crate::evidence::Intervals;
+use crate::evidence::{Intervals, Rivals};
 use crate::problem::{Cause, Problem};
 use crate::regression::{Blocks, fit};
 use crate::report::{NextExperiment, Separation};
@@ -32,7 +32,7 @@ const FINALISTS: usize = 2;
 /// The experiment that tells the explanations apart best, and the plan; `None` where there is one explanation only.
 pub(super) fn next(
     stand: &Stand<'_>,
-    rivals: &[Vec<Cause>],
+    rivals: &[Rivals],
 ) -> Option<(NextExperiment, Option<Trace>)> {
     let run = stand.train;
     let layout = run.parameters.layout;
@@ -146,8 +146,9 @@ fn pairs(count: usize) -> Vec<[usize; 2]> {
 
 /// What was named, and each rival of one effect in its place, with the numbers that fit the recording best. Where several effects have
 /// rivals it is the first of them: what was named first explains most.
-fn explanations(stand: &Stand<'_>, rivals: &[Vec<Cause>]) -> Vec<Explanation> {
-    let contested = rivals.iter().enumerate().find(|(_, r)| !r.is_empty());
+fn explanations(stand: &Stand<'_>, rivals: &[Rivals]) -> Vec<Explanation> {
+    let instead = rivals.iter().map(|own| &own.instead);
+    let contested = instead.enumerate().find(|(_, own)| !own.is_empty());
     let Some((index, rivals)) = contested else {
         return Vec::new();
     };
@@ -163,10 +164,7 @@ fn explanation(stand: &Stand<'_>, selection: &Selection, index: usize) -> Option
     let own = selection.found.get(index)?;
     let others = selection.found.iter().enumerate();
     let others = others.filter(|(k, _)| *k != index).map(|(_, f)| &f.term);
-    let nothing = Intervals {
-        inertia: None,
-        terms: Vec::new(),
-    };
+    let nothing = Intervals::default();
     let with = Stand {
         selection,
         ..*stand

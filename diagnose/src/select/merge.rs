@@ -103,31 +103,30 @@ fn is_better(one: &Fit, other: &Fit) -> bool {
     paired(&other.block_loss, &one.block_loss, &all).1 >= TIE_Z
 }
 
-/// What a found bristle with unequal limits may be instead: two causes that explain as much. Empty for anything else.
-pub(crate) fn as_two(problem: &Problem, selection: &Selection, index: usize) -> Vec<Cause> {
-    let two = || {
-        let own = &selection.found.get(index)?.term;
-        if own.cause.mechanism != Mechanism::AsymmetricPresliding {
-            return None;
-        }
-        let blocks = Blocks::new(problem);
-        let mut others = selection.found.clone();
-        others.remove(index);
-        let causes = BOTH.map(|mechanism| Cause {
-            mechanism,
-            ..own.cause
-        });
-        let shapes = [&own.shape[..], &[]];
-        let terms: Vec<Term> = causes
-            .into_iter()
-            .zip(shapes)
-            .filter_map(|(cause, shape)| realise(problem, cause, shape, own.onset_s, &[]))
-            .collect();
-        let common = refs(&selection.nominal, &others);
-        let with = beside_others(problem, &common, &terms.iter().collect::<Vec<_>>(), &blocks);
-        (!is_better(&selection.after, &with)).then(|| causes.to_vec())
-    };
-    two().unwrap_or_default()
+/// What a found bristle with unequal limits may be instead: two causes that explain as much together. `None` for anything else.
+///
+/// Once it has slid they are one law: no experiment tells them apart.
+pub(crate) fn as_two(problem: &Problem, selection: &Selection, index: usize) -> Option<[Cause; 2]> {
+    let own = &selection.found.get(index)?.term;
+    if own.cause.mechanism != Mechanism::AsymmetricPresliding {
+        return None;
+    }
+    let blocks = Blocks::new(problem);
+    let mut others = selection.found.clone();
+    others.remove(index);
+    let causes = BOTH.map(|mechanism| Cause {
+        mechanism,
+        ..own.cause
+    });
+    let shapes = [&own.shape[..], &[]];
+    let terms: Vec<Term> = causes
+        .into_iter()
+        .zip(shapes)
+        .filter_map(|(cause, shape)| realise(problem, cause, shape, own.onset_s, &[]))
+        .collect();
+    let common = refs(&selection.nominal, &others);
+    let with = beside_others(problem, &common, &terms.iter().collect::<Vec<_>>(), &blocks);
+    (!is_better(&selection.after, &with)).then_some(causes)
 }
 
 #[cfg(test)]

@@ -1,19 +1,28 @@
-//! This file puts an onset into the middle of the times that explain the recording alike: where a joint rests or turns back nobody sees when something begins.
+//! This file says between which times an onset may lie, and puts it into the middle of them: where a joint rests or turns back nobody sees when something begins.
 
-use super::Found;
 use super::refine::ONSET_MARGIN;
-use super::weigh::loss_with;
+use super::weigh::{acting, loss_with, own_coefficients};
+use super::{Found, Selection, refs};
 use crate::candidates::realise;
-use crate::problem::{Problem, Term};
+use crate::five_bar::run::FiveBarRun;
+use crate::problem::{PlantRun, Problem, Term, less};
+use crate::regression::{Blocks, dot, fit};
+use crate::run::Run;
 
 /// What an onset may leave more and explain the recording alike: 95 % of χ² with one degree of freedom.
 const ALIKE: f64 = 3.84;
+
+/// How far from an onset what is left tells how well one there can be known, s.
+const NEAR_S: f64 = 0.1;
 
 /// The first step away from an onset, s.
 const FIRST_STEP_S: f64 = 0.005;
 
 /// Halvings between a time that explains the recording alike and one that does not.
 const HALVINGS: usize = 6;
+
+/// Times between the ends at which the best onset is looked for.
+const LOOKED_AT: usize = 16;
 
 /// Puts every onset into the middle of the times around it that are alike.
 pub(super) fn centre(problem: &Problem, nominal: &[Term], found: &mut [Found]) {
@@ -29,18 +38,124 @@ pub(super) fn centre(problem: &Problem, nominal: &[Term], found: &mut [Found]) {
     }
 }
 
+/// The 95 % interval of a found mechanism's onset, s. Where other numbers imitate a later onset, what is alike is so many times more (`imitated`, from 1 on). `None` where it begins with the
+/// recording.
+pub(crate) fn onset_interval(
+    problem: &Problem,
+    selection: &Selection,
+    index: usize,
+    imitated: f64,
+) -> Option<[f64; 2]> {
+    let mut others = selection.found.clone();
+    if index >= others.len() {
+        return None;
+    }
+    let own = others.remove(index).term;
+    interval(problem, &refs(&selection.nominal, &others), &own, imitated)
+}
+
+fn interval(problem: &Problem, common: &[&Term], own: &Term, imitated: f64) -> Option<[f64; 2]> {
+    let more = imitated * alike(problem, common, own);
+    let [low_s, high_s] = valley(problem, common, own, more)?.span_s;
+    // What begins does so between two samples.
+    let (PlantRun::Joint(Run { step_s, .. }) | PlantRun::FiveBar(FiveBarRun { step_s, .. })) =
+        problem.plant;
+    Some([
+        low_s.min(own.onset_s?) - step_s,
+        high_s.max(own.onset_s?) + step_s,
+    ])
+}
+
+/// How an effect changes with its onset, white, for one s.
+pub(crate) fn change_with_onset(
+    problem: &Problem,
+    term: &Term,
+    coefficients: &[f64],
+) -> Option<Vec<f64>> {
+    let at = |by_s| at(problem, term, term.onset_s? + by_s).map(|t| acting(&t, coefficients));
+    Some(less(&at(FIRST_STEP_S)?, &at(-FIRST_STEP_S)?))
+}
+
 fn centred(problem: &Problem, common: &[&Term], term: &Term) -> Option<Term> {
+    let Valley {
+        span_s: [low_s, high_s],
+        best,
+        limit,
+    } = valley(problem, common, term, alike(problem, common, term))?;
+    let centred = at(problem, term, 0.5 * (low_s + high_s))?;
+    let is_alike = loss_with(problem, common, &centred) <= limit;
+    Some(if is_alike { centred } else { best })
+}
+
+/// Where an onset may lie.
+struct Valley {
+    /// The first and the last time that leaves no more than the limit, s.
+    span_s: [f64; 2],
+    /// The term with the onset that leaves least.
+    best: Term,
+    /// What that leaves, and what is alike.
+    limit: f64,
+}
+
+/// The times around an onset that leave no more by so much than the best of those that leave no more than it by so much.
+fn valley(problem: &Problem, common: &[&Term], own: &Term, more: f64) -> Option<Valley> {
+    let loss = |term: &Term| loss_with(problem, common, term);
+    let [low_s, high_s] = span(problem, common, own, loss(own) + more)?;
+    let share = |k: usize| (k as f64 + 0.5) / LOOKED_AT as f64;
+    let times_s = (0..LOOKED_AT).map(|k| low_s + share(k) * (high_s - low_s));
+    let terms = times_s.filter_map(|time_s| at(problem, own, time_s));
+    let tried: Vec<(f64, Term)> = terms
+        .chain([own.clone()])
+        .map(|term| (loss(&term), term))
+        .collect();
+    let (least, best) = tried.iter().min_by(|a, b| a.0.total_cmp(&b.0))?.clone();
+    let limit = least + more;
+    let near = tried.iter().filter(|(loss, _)| *loss <= limit);
+    let spans = near.filter_map(|(_, term)| span(problem, common, term, limit));
+    let span_s = spans.reduce(|all, one| [all[0].min(one[0]), all[1].max(one[1])])?;
+    Some(Valley {
+        span_s,
+        best,
+        limit,
+    })
+}
+
+/// What an onset may leave more and explain the recording alike, the more so the more is left than noise where the effect acts, or where it would begin: a law
+/// of another family fits one stretch better than another.
+fn alike(problem: &Problem, common: &[&Term], term: &Term) -> f64 {
+    let terms = [common, &[term]].concat();
+    let with = fit(problem, &terms, &Blocks::new(problem));
+    let residual = problem.whitener.whiten(&with.residual);
+    let own = acting(term, own_coefficients(term, &with));
+    let left = |weights: &[f64]| {
+        let energies = weights.iter().zip(&residual).map(|(w, r)| (w * r).powi(2));
+        energies.sum::<f64>() / dot(weights, weights).max(1e-300)
+    };
+    let onsets_s = [-NEAR_S, NEAR_S].map(|by_s| term.onset_s.map(|onset_s| onset_s + by_s));
+    let others = onsets_s.into_iter().flatten();
+    let others = others.filter_map(|onset_s| at(problem, term, onset_s));
+    let near =
+        others.map(|other| left(&less(&acting(&other, own_coefficients(term, &with)), &own)));
+    ALIKE * near.chain([left(&own)]).fold(1.0, f64::max)
+}
+
+fn at(problem: &Problem, term: &Term, onset_s: f64) -> Option<Term> {
+    realise(problem, term.cause, &term.shape, Some(onset_s), &[])
+}
+
+/// How far around a term's onset another one leaves no more than a limit, s.
+fn span(problem: &Problem, common: &[&Term], term: &Term, limit: f64) -> Option<[f64; 2]> {
     let onset_s = term.onset_s?;
-    let limit = loss_with(problem, common, term) + ALIKE;
-    let at = |onset_s| realise(problem, term.cause, &term.shape, Some(onset_s), &[]);
-    let alike = |term: &Term| loss_with(problem, common, term) <= limit;
     let margin_s = ONSET_MARGIN * problem.plant.duration_s();
     let first_s = problem.plant.start_s() + margin_s;
     let last_s = problem.plant.start_s() + problem.plant.duration_s() - margin_s;
-    let is_alike =
-        |time_s: f64| (first_s..last_s).contains(&time_s) && at(time_s).is_some_and(|t| alike(&t));
-    let [down, up] = [-1.0, 1.0].map(|sign| reach(|by| is_alike(onset_s + sign * by)));
-    at(onset_s + 0.5 * (up - down)).filter(alike)
+    let is_alike = |time_s: f64| {
+        let other = || at(problem, term, time_s);
+        (first_s..last_s).contains(&time_s)
+            && other().is_some_and(|other| loss_with(problem, common, &other) <= limit)
+    };
+    let ends = [-1.0, 1.0].map(|sign| onset_s + sign * reach(|by| is_alike(onset_s + sign * by)));
+    Some(ends)
 }
 
 /// How far one may go while it is alike, s.
@@ -91,6 +206,37 @@ mod tests {
         let centred = centred(&problem, &[], &early).unwrap();
         let onset_s = centred.onset_s.unwrap();
         assert!((onset_s - 1.5).abs() < 0.06, "{onset_s} s");
+        let [low_s, high_s] = interval(&problem, &[], &centred, 1.0).unwrap();
+        assert!(low_s < 1.27 && high_s > 1.7, "{low_s} to {high_s} s");
+    }
+
+    #[test]
+    fn intervals_hold_the_true_onset_and_tell_more_of_a_greater_effect() {
+        let run = short_run();
+        let mut problem = five_bar::recorded::problem(&run);
+        let cause = Cause {
+            mechanism: Mechanism::Viscous,
+            joint: Some(Joint::B),
+        };
+        let mut tried = |drag_nms: f64| {
+            let (mut held, mut width_s) = (0, 0.0);
+            for seed in 0..40_u32 {
+                let onset_s = 0.9 + 0.0137 * f64::from(seed);
+                let at = |onset_s| problem.term(cause, &[], Some(onset_s)).unwrap();
+                let mut raw = noise_rows(&problem, 100 + u64::from(seed));
+                add(&mut raw, &at(onset_s).free[0].raw, drag_nms);
+                let named = at(onset_s + 0.011);
+                problem.target = target(&problem, raw);
+                let named = centred(&problem, &[], &named).unwrap();
+                let [low_s, high_s] = interval(&problem, &[], &named, 1.0).unwrap();
+                held += u32::from((low_s..=high_s).contains(&onset_s));
+                width_s += (high_s - low_s) / 40.0;
+            }
+            (held, width_s)
+        };
+        let [(small, wide_s), (great, narrow_s)] = [0.02, 0.11].map(&mut tried);
+        assert!(small >= 36 && great >= 36, "{small} and {great} of 40");
+        assert!(narrow_s < 0.5 * wide_s, "{narrow_s} and {wide_s} s");
     }
 
     #[test]

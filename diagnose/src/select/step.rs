@@ -1,7 +1,7 @@
 //! This file takes one step of the search: a mechanism more, or one in the place of another.
 
 use super::judge::{SIMPLER_SHARE, Trial, simplest, trials};
-use super::together::{beside, is_noise, of_one_family, pair};
+use super::together::{beside, is_noise, masking, of_one_family};
 use super::{Found, Gates, TIE_Z, refs};
 use crate::candidates::{causes, modelled_effort, realise, variants};
 use crate::problem::{Cause, PlantRun, Problem, Term};
@@ -23,7 +23,7 @@ const ELEMENTARY_SHARE: f64 = 0.5;
 const EARLY_SHARE: f64 = 0.8;
 
 /// The next mechanism: an elementary one, any other, or one that begins during the recording, in this order as
-/// long as it explains enough of what the best of them does. Two where no one alone leaves nothing but noise and they do; none where nothing passes.
+/// long as it explains enough of what the best of them does. Two or three where no one alone leaves nothing but noise and they do; none where nothing passes.
 pub(super) fn forward(
     problem: &Problem,
     nominal: &[Term],
@@ -46,9 +46,10 @@ pub(super) fn forward(
         each.map(|t| with_onsets(problem, t, &effort)).collect()
     };
     let (mut late, _) = trials(problem, &common, &current, onsets(&bests), blocks, gates);
-    let passed: Vec<Cause> = late.iter().map(|t| t.found.term.cause).collect();
-    let failed = bests.iter().filter(|t| !passed.contains(&t.cause));
-    let unequal: Vec<Term> = failed
+    let enough = late.iter().filter(|t| t.found.at_floor);
+    let enough: Vec<Cause> = enough.map(|t| t.found.term.cause).collect();
+    let wanting = bests.iter().filter(|t| !enough.contains(&t.cause));
+    let unequal: Vec<Term> = wanting
         .filter_map(|t| with_unequal_limits(problem, t, &effort))
         .collect();
     late.extend(trials(problem, &common, &current, onsets(&unequal), blocks, gates).0);
@@ -73,8 +74,8 @@ pub(super) fn forward(
         .iter()
         .flat_map(|(found, _)| found)
         .any(|f| f.at_floor);
-    if !floor_reached && let Some(both) = pair(problem, &common, blocks, gates) {
-        return both.into();
+    if !floor_reached && let Some(all) = masking(problem, &common, blocks, gates) {
+        return all;
     }
     let mut enough = ranked
         .into_iter()
@@ -148,7 +149,7 @@ pub(super) fn open(problem: &Problem, nominal: &[Term], found: &[Found]) -> Vec<
 }
 
 /// For a bristle of a five-bar the one whose limits differ. From the start it is found as a bristle beside a constant; of two that begin later
-/// neither may pass alone.
+/// neither may pass alone, or the one that does leaves what a wrong name then takes.
 fn with_unequal_limits(problem: &Problem, term: &Term, effort: &[f64]) -> Option<Term> {
     let PlantRun::FiveBar(_) = problem.plant else {
         return None;

@@ -1,4 +1,4 @@
-//! This file looks for what one mechanism at a time does not show: two that mask each other at one joint.
+//! This file looks for what one mechanism at a time does not show: two or three that mask each other at one joint.
 
 use super::judge::{Trial, judge};
 use super::refine::refined;
@@ -23,7 +23,7 @@ const PLAIN: [Mechanism; 3] = [
     Mechanism::ConstantBias,
 ];
 
-/// What can mask one another from the start, one number each.
+/// What can mask one another, one number each.
 const MASKING: [Mechanism; 4] = [
     Mechanism::DryOffset,
     Mechanism::Viscous,
@@ -72,42 +72,75 @@ pub(super) fn beside(
     passed
 }
 
-/// The two of one joint that leave nothing but noise together, where more is left without them.
-pub(super) fn pair(
+/// The fewest of one joint, two or three, that leave nothing but noise together, where more is left without them.
+pub(super) fn masking(
     problem: &Problem,
     common: &[&Term],
     blocks: &Blocks,
     gates: Gates,
-) -> Option<[Found; 2]> {
+) -> Option<Vec<Found>> {
     let PlantRun::FiveBar(run) = problem.plant else {
         return None;
     };
     if is_noise(problem, &fit(problem, common, blocks)) {
         return None;
     }
-    let mut pairs = Vec::new();
-    for joint in run.parameters.layout.brakes() {
-        let terms = terms_at(problem, common, *joint, &MASKING);
-        for (k, first) in terms.iter().enumerate() {
-            for second in terms.iter().skip(k + 1) {
-                let both = [common, &[first, second]].concat();
-                let fitted = fit(problem, &both, blocks);
-                if is_noise(problem, &fitted) {
-                    pairs.push((fitted.loss, first.clone(), second.clone()));
-                }
-            }
+    let joints = run.parameters.layout.brakes().iter();
+    let at_joints: Vec<Vec<Term>> = joints
+        .map(|joint| terms_at(problem, common, *joint, &MASKING))
+        .collect();
+    [2, 3].into_iter().find_map(|count| {
+        let sets = at_joints.iter().flat_map(|terms| sets_of(terms, count));
+        let mut enough: Vec<(f64, Vec<&Term>)> = sets
+            .filter_map(|set| {
+                let fitted = fit(problem, &[common, &set].concat(), blocks);
+                is_noise(problem, &fitted).then_some((fitted.loss, set))
+            })
+            .collect();
+        enough.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut enough = enough.into_iter();
+        enough.find_map(|(_, set)| all_pass(problem, common, &set, blocks, gates))
+    })
+}
+
+/// Every choice of so many terms, in their order.
+fn sets_of(terms: &[Term], count: usize) -> Vec<Vec<&Term>> {
+    match (count, terms) {
+        (0, _) => vec![Vec::new()],
+        (_, []) => Vec::new(),
+        (_, [first, others @ ..]) => {
+            let with = sets_of(others, count - 1).into_iter();
+            let with = with.map(|set| [&[first], &set[..]].concat());
+            with.chain(sets_of(others, count)).collect()
         }
     }
-    pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let passes = |term: &Term, beside: &Term| {
-        let with = [common, &[beside]].concat();
+}
+
+/// The terms as they are found, if each of them passes beside the others.
+fn all_pass(
+    problem: &Problem,
+    common: &[&Term],
+    set: &[&Term],
+    blocks: &Blocks,
+    gates: Gates,
+) -> Option<Vec<Found>> {
+    let passes = |own: &&Term| {
+        let others = set.iter().filter(|other| other.cause != own.cause);
+        let with: Vec<&Term> = common.iter().chain(others).copied().collect();
         let current = fit(problem, &with, blocks);
-        let list = [term.clone()];
-        judge(problem, &with, &current, &list, term.clone(), blocks, gates).map(|t| t.found)
+        let list = [(*own).clone()];
+        judge(
+            problem,
+            &with,
+            &current,
+            &list,
+            (*own).clone(),
+            blocks,
+            gates,
+        )
+        .map(|t| t.found)
     };
-    pairs
-        .into_iter()
-        .find_map(|(_, first, second)| Some([passes(&first, &second)?, passes(&second, &first)?]))
+    set.iter().map(passes).collect()
 }
 
 /// Whether a fit leaves nothing but sensor noise.
@@ -157,21 +190,31 @@ mod tests {
     }
 
     #[test]
-    fn two_that_mask_each_other_are_found_together_and_one_alone_is_no_pair() {
+    fn those_that_mask_each_other_are_found_together_and_one_alone_is_none_of_them() {
         let run = short_run();
         let mut problem = five_bar::recorded::problem(&run);
         let [dry, gain] = [Mechanism::DryOffset, Mechanism::GainError]
             .map(|mechanism| problem.term(at_b(mechanism), &[], None).unwrap());
         hide(&mut problem, &[(0.17, &dry), (-0.31, &gain)]);
         let blocks = Blocks::new(&problem);
-        let both = pair(&problem, &[], &blocks, Gates::default()).unwrap();
-        let mut names = both.map(|own| own.term.cause.name());
-        names.sort();
-        assert_eq!(names, ["dry_offset at B", "gain_error at B"]);
+        let named = |found: Vec<Found>| -> Vec<String> {
+            let mut names: Vec<String> = found.iter().map(|own| own.term.cause.name()).collect();
+            names.sort();
+            names
+        };
+        let both = masking(&problem, &[], &blocks, Gates::default()).unwrap();
+        assert_eq!(named(both), ["dry_offset at B", "gain_error at B"]);
         for nearly_nothing in [(0.17, &dry), (0.0, &dry)] {
             hide(&mut problem, &[nearly_nothing]);
-            assert!(pair(&problem, &[], &blocks, Gates::default()).is_none());
+            assert!(masking(&problem, &[], &blocks, Gates::default()).is_none());
         }
+        let drag = problem.term(at_b(Mechanism::Viscous), &[], None).unwrap();
+        hide(&mut problem, &[(0.17, &dry), (-0.31, &gain), (0.11, &drag)]);
+        let three = masking(&problem, &[], &blocks, Gates::default()).unwrap();
+        assert_eq!(
+            named(three),
+            ["dry_offset at B", "gain_error at B", "viscous at B"]
+        );
     }
 
     #[test]

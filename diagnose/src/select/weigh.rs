@@ -41,8 +41,8 @@ pub(super) fn contribution(problem: &Problem, term: &Term, coefficients: &[f64])
     usable_rms(problem, &sum)
 }
 
-/// White energy that a term contributes in each block: the gain that can be expected there.
-pub(super) fn excitation(term: &Term, coefficients: &[f64], blocks: &Blocks) -> Vec<f64> {
+/// What a term contributes, white, row by row.
+pub(super) fn acting(term: &Term, coefficients: &[f64]) -> Vec<f64> {
     let length = term
         .free
         .first()
@@ -53,6 +53,12 @@ pub(super) fn excitation(term: &Term, coefficients: &[f64], blocks: &Blocks) -> 
     for (c, rows) in columns.chain(term.fixed.iter().map(|rows| (1.0, rows))) {
         add(&mut sum, &rows.white, c);
     }
+    sum
+}
+
+/// White energy that a term contributes in each block: the gain that can be expected there.
+pub(super) fn excitation(term: &Term, coefficients: &[f64], blocks: &Blocks) -> Vec<f64> {
+    let sum = acting(term, coefficients);
     let blocks = blocks.ranges.iter();
     blocks
         .map(|&(first, end)| sum.get(first..end).map_or(0.0, |part| dot(part, part)))

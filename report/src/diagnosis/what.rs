@@ -34,7 +34,8 @@ fn one(effect: &EffectReport, rivals: &[String]) -> Markup {
                 @if let Some(look) = look_for(effect.mechanism) { ". On the rig, look at: " (look) "." } }
             div.equation role="math" { (effect.equation) }
             (numbers("Its numbers.", &effect.parameters))
-            @if let Some(onset_s) = effect.onset_s { p { "It begins " strong { (with_unit(onset_s, "s")) } " after the first sample." } }
+            @if let Some(onset_s) = effect.onset_s { p { "It begins " strong { (with_unit(onset_s, "s")) } " after the first sample"
+                @if let (Some(low), Some(high)) = (effect.onset_low95_s, effect.onset_high95_s) { ", in 95 % of cases between " (with_unit(low, "s")) " and " (with_unit(high, "s")) } "." } }
             p { @if rivals.is_empty() { "Everything else in the library that was tried in its place explains less." }
                 @else { "Would explain this recording as well in its place: " @for (k, rival) in rivals.iter().enumerate() { @if k > 0 { "; " } (plain_cause(rival)) " (" code { (rival) } ")" } "." } }
             @for richer in &effect.limit_of { p.soft { (capital(&plain_cause(&richer.name))) " (" code { (richer.name) } ") " (limit(richer)) " would look like " (plain_cause(&richer.limit)) ", which is the simpler law." } }
