@@ -376,8 +376,8 @@ mod tests {
         assert!((1e-5..0.02).contains(&bound), "{bound} rad");
         assert!(beside_dry_friction(0.05, 0.0).is_none());
         // Beside something else that stays, as well.
-        assert!(beside_dry_friction(1e-5, 0.06).is_some());
-        assert!(beside_dry_friction(0.05, 0.06).is_none());
+        assert!(beside_dry_friction(1e-5, 0.03).is_some());
+        assert!(beside_dry_friction(0.05, 0.03).is_none());
     }
 
     #[test]

@@ -208,12 +208,13 @@ mod tests {
             hide(&mut problem, &[nearly_nothing]);
             assert!(masking(&problem, &[], &blocks, Gates::default()).is_none());
         }
-        let drag = problem.term(at_b(Mechanism::Viscous), &[], None).unwrap();
-        hide(&mut problem, &[(0.17, &dry), (-0.31, &gain), (0.11, &drag)]);
+        let [drag, bias] = [Mechanism::Viscous, Mechanism::ConstantBias]
+            .map(|mechanism| problem.term(at_b(mechanism), &[], None).unwrap());
+        hide(&mut problem, &[(0.17, &dry), (0.11, &drag), (-0.13, &bias)]);
         let three = masking(&problem, &[], &blocks, Gates::default()).unwrap();
         assert_eq!(
             named(three),
-            ["dry_offset at B", "gain_error at B", "viscous at B"]
+            ["constant_bias at B", "dry_offset at B", "viscous at B"]
         );
     }
 
