@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use indicatif::ProgressBar;
 use rayon::prelude::*;
-use rigproof_blind::{Answer, Case, Plant, Score, Table, again, make, open, score, under};
+use rigproof_blind::{Answer, Case, Error, Plant, Score, Table, again, make, open, score, under};
 use rigproof_diagnose::{Description, Diagnosis, Options};
 use rigproof_trace::Trace;
 use rigproof_trace::csv;
@@ -89,9 +89,9 @@ pub struct Tried {
 pub struct Then {
     /// What was asked for.
     pub experiment: Trace,
-    /// What was recorded.
-    pub recording: Trace,
-    /// What was found in both recordings.
+    /// What was recorded; none where the rig cannot do it.
+    pub recording: Option<Trace>,
+    /// What was found in both recordings, or in the first one alone.
     pub report: Value,
     /// How well.
     pub score: Score,
@@ -100,18 +100,21 @@ pub struct Then {
 impl Then {
     /// Whether the truth is named or offered, and nothing else but what physics makes the same.
     pub fn is_told(&self) -> bool {
-        self.score.inside && self.score.open == 0
+        self.recording.is_some() && self.score.inside && self.score.open == 0
     }
 
     /// Its files, by name.
     fn files(&self) -> Result<Vec<(&'static str, Vec<u8>)>, Failure> {
         let csv = |trace| csv::to_bytes(trace).map_err(Failure::Input);
         let [recording, ..] = FILES;
-        Ok(vec![
+        let mut files = vec![
             (EXPERIMENT, csv(&self.experiment)?),
-            (recording, csv(&self.recording)?),
             (REPORT, self.report.to_string().into_bytes()),
-        ])
+        ];
+        if let Some(recorded) = &self.recording {
+            files.push((recording, csv(recorded)?));
+        }
+        Ok(files)
     }
 }
 
@@ -239,11 +242,11 @@ fn one(args: &Args, plant: Plant, seed: u64, bar: &ProgressBar) -> Result<Tried,
         }
     };
     let answer = open(&case.sealed)?;
-    let done = experiment.filter(|_| args.experiments);
-    let then = done
-        .map(|experiment| after(seed, &case, experiment))
-        .transpose()?;
     let score = score(&answer, &report)?;
+    let asked = experiment.filter(|_| args.experiments);
+    let then = asked
+        .map(|experiment| after(seed, &case, (&report, &score), experiment))
+        .transpose()?;
     bar.inc(1);
     Ok(Tried {
         answer,
@@ -253,16 +256,31 @@ fn one(args: &Args, plant: Plant, seed: u64, bar: &ProgressBar) -> Result<Tried,
     })
 }
 
-/// How both recordings together are diagnosed, once the experiment was done that the first one asks for.
-fn after(seed: u64, case: &Case, experiment: Trace) -> Result<Then, Failure> {
-    let done = under(seed, None, &experiment)?;
+/// How both recordings together are diagnosed, once the experiment was done that the first one asks for. What the rig cannot do leaves the first report as it is.
+fn after(
+    seed: u64,
+    case: &Case,
+    (report, first): (&Value, &Score),
+    experiment: Trace,
+) -> Result<Then, Failure> {
+    let done = match under(seed, None, &experiment) {
+        Err(Error::Experiment(_)) => {
+            return Ok(Then {
+                experiment,
+                recording: None,
+                report: report.clone(),
+                score: first.clone(),
+            });
+        }
+        done => done?,
+    };
     let second = core::slice::from_ref(&done.trace);
     let (report, _) = diagnosed(seed, case, second, None, &whole())?;
     // What the experiment does not tell either is no ambiguity of the diagnosis.
     Ok(Then {
         score: score(&open(&done.sealed)?, &report)?,
         experiment,
-        recording: done.trace,
+        recording: Some(done.trace),
         report,
     })
 }
@@ -413,4 +431,29 @@ fn parse_seeds(text: &str) -> Result<Range<u64>, String> {
         return Err(advice().to_owned());
     }
     Ok(seeds)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_experiment_beyond_the_rig_s_reach_leaves_open_what_was_open() {
+        let rows = (0..300).map(|k| format!("{},2.5,2.5\n", 1e-3 * f64::from(k)));
+        let rows: String = rows.collect();
+        let text = format!("time (s),hand_x (m),hand_y (m)\n{rows}");
+        let far = csv::parse(text.as_bytes(), Path::new("asked.csv"), None).unwrap();
+        let case = make(Plant::Rig, 1006, None).unwrap();
+        let answer = open(&case.sealed).unwrap();
+        let effect = &answer.effects[0];
+        let report = json!({
+            "verdict": "explained",
+            "effects": [{ "mechanism": effect.mechanism, "joint": effect.joint }],
+        });
+        let first = score(&answer, &report).unwrap();
+        assert!(first.inside && first.open == 0);
+        let then = after(1006, &case, (&report, &first), far).unwrap();
+        assert!(then.recording.is_none() && !then.is_told());
+        assert_eq!(then.files().unwrap().len(), 2);
+    }
 }
