@@ -66,7 +66,7 @@ fn interval(problem: &Problem, common: &[&Term], own: &Term, imitated: f64) -> O
     ])
 }
 
-/// How an effect changes with its onset, white, for one s.
+/// How an effect changes as its onset moves by twice [`FIRST_STEP_S`], white.
 pub(crate) fn change_with_onset(
     problem: &Problem,
     term: &Term,
