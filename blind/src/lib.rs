@@ -45,7 +45,7 @@ pub use error::Error;
 pub use five_bar::{RigState, RigStep, five_bar_motion};
 pub use make::{Case, again, make, under};
 pub use plant::Plant;
-pub use score::{ParameterError, Score, score};
+pub use score::{ONSET_S, ParameterError, Score, score};
 pub use seal::{commitment, open};
 pub use stratum::Stratum;
 pub use table::{Row, Share, Table};

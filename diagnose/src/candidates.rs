@@ -160,7 +160,11 @@ pub fn shape_bounds(problem: &Problem, cause: Cause) -> Vec<(f64, f64)> {
 pub fn is_at_edge(problem: &Problem, term: &Term) -> bool {
     let bounded = matches!(
         term.cause.mechanism,
-        Mechanism::Lag | Mechanism::ChannelSkew | Mechanism::Stribeck | Mechanism::Presliding
+        Mechanism::Lag
+            | Mechanism::ChannelSkew
+            | Mechanism::Stribeck
+            | Mechanism::Presliding
+            | Mechanism::AsymmetricPresliding
     );
     let bounds = shape_bounds(problem, term.cause);
     match (term.shape.first(), bounds.first()) {

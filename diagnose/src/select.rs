@@ -111,20 +111,21 @@ pub fn floor_limit(problem: &Problem) -> f64 {
     FLOOR_RATIO.max(1.0 + 3.0 / (2.0 * freedom).sqrt())
 }
 
-/// Runs the whole search, and where it named nothing for what is more than noise looks for the one mechanism that shows in few places.
+/// Runs the whole search, and where it leaves more than noise looks for the one mechanism that shows in few places.
 pub fn select(problem: &mut Problem, nominal: Vec<Term>, gates: Gates) -> Selection {
     let first = searched(problem, nominal, gates);
     let is_five_bar = matches!(problem.plant, PlantRun::FiveBar(_));
-    if !is_five_bar || !first.found.is_empty() || is_noise(problem, &first.after) {
+    if !is_five_bar || is_noise(problem, &first.after) {
         return first;
     }
+    let named = !first.found.is_empty();
     let whitener = problem.whitener.clone();
     let mut nominal = first.nominal.clone();
     // Windows are judged one by one: by what sensor noise alone would give.
     problem.rewhiten(problem.floor);
     nominal.iter_mut().for_each(|term| problem.refresh(term));
     let blocks = Blocks::new(problem);
-    let Some(found) = sole(problem, &nominal, &blocks, gates) else {
+    let Some(found) = sole(problem, &nominal, gates, named) else {
         problem.whiten_with(whitener);
         return first;
     };

@@ -8,6 +8,7 @@ use super::mass::Form;
 use super::residual::{Seen, seen};
 use super::run::Sample;
 use super::setup::{RATE_HZ, Setup};
+use crate::score::ONSET_S;
 use crate::size::{BLOCK_S, Size, remainder};
 use rigproof_spec::geometry::arms;
 use rigproof_spec::inertia::inertia;
@@ -83,9 +84,6 @@ pub fn sizes(setup: &Setup, hidden: &[Effect], samples: &[Sample]) -> Sizes {
         sliding: blocks.len() as f64 * length as f64 / samples.len().max(1) as f64,
     }
 }
-
-/// The time on either side of an onset in which it has to show, s.
-const ONSET_S: f64 = 0.3;
 
 /// The lesser of an effect's strengths just before and just after its onset. Before it, where its joint slides, it is taken to be of its own size.
 fn onset_strength(effect: &Effect, size: f64, blocks: &[Block], force: &[f64]) -> Option<f64> {

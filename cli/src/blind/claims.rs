@@ -1,6 +1,6 @@
 //! This file is what the program claims of its diagnosis, and whether a trial bears it out.
 
-use rigproof_blind::{Share, Stratum};
+use rigproof_blind::{ONSET_S, Share, Stratum};
 use serde_json::{Value, json};
 
 use super::trial::Tried;
@@ -56,9 +56,6 @@ const NAMEABLE: [Stratum; 7] = [
     Stratum::Unidentifiable,
     Stratum::WrongInertia,
 ];
-
-/// The greatest error of an onset, s.
-const ONSET_S: f64 = 0.3;
 
 /// What is claimed of the five-bar.
 pub const OF_THE_RIG: [Claim; 14] = [

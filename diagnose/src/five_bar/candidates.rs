@@ -50,6 +50,9 @@ const MOST_OF_AN_ENCODER: f64 = 0.1;
 /// Share of the fastest speed up to which a peak near standstill is one: at the fastest a sixteenth of it is left.
 const WIDEST_PEAK: f64 = 0.6;
 
+/// Share of the travel over which a bristle may bend: over the whole of it all but a twentieth of its level is reached.
+const SOFTEST_BRISTLE: f64 = 0.33;
+
 /// The causes that have a meaning on this layout.
 pub fn causes(run: &FiveBarRun) -> Vec<Cause> {
     let braked = run.parameters.layout.brakes();
@@ -97,8 +100,17 @@ pub fn reach(run: &FiveBarRun, cause: Cause) -> Option<(f64, f64)> {
                 .next()?;
             Some((slowest.first().copied()?, WIDEST_PEAK * fastest))
         }
+        Mechanism::Presliding | Mechanism::AsymmetricPresliding => {
+            let travel = travel(run, cause).max(1e-12);
+            Some((least_bending(run, travel), SOFTEST_BRISTLE * travel))
+        }
         _ => None,
     }
+}
+
+/// The least angle over which a bristle is seen to bend, rad.
+fn least_bending(run: &FiveBarRun, travel: f64) -> f64 {
+    (3.0 * run.theta_noise).max(1e-4 * travel)
 }
 
 /// The angle of a cause's joint at each usable window, and the residual as a torque there.
@@ -159,11 +171,7 @@ pub fn shapes(
             .collect(),
         Mechanism::Presliding | Mechanism::AsymmetricPresliding => {
             let travel = travel(run, cause).max(1e-12);
-            one(geometric(
-                (3.0 * run.theta_noise).max(1e-4 * travel),
-                0.2 * travel,
-                10,
-            ))
+            one(geometric(least_bending(run, travel), 0.2 * travel, 10))
         }
         Mechanism::Ripple => one(periods(
             &points(problem, run, cause, residual),

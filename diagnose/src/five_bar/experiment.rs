@@ -3,6 +3,7 @@
 mod explanation;
 pub mod plan;
 pub mod play;
+mod room;
 #[cfg(test)]
 mod tests;
 
@@ -23,6 +24,7 @@ use play::{Sensors, play, with_effects};
 use rigproof_spec::joint::Joint;
 use rigproof_spec::methods::greatest_desired_force_n;
 use rigproof_trace::Trace;
+use room::has_room;
 
 /// The most explanations that are held against one another.
 const MOST_EXPLANATIONS: usize = 8;
@@ -209,7 +211,7 @@ fn replaced(
 }
 
 /// What each explanation leaves of an experiment's recording, with other numbers where they fit better, if one of them is true. `None` where the
-/// rig cannot do the experiment.
+/// rig cannot do the experiment, or comes near its stops.
 fn losses(
     stand: &Stand<'_>,
     truth: &Explanation,
@@ -224,6 +226,9 @@ fn losses(
     let fitted = &stand.problem.windows;
     let width_s = (fitted.bump.len() - 1) as f64 * fitted.step_s;
     let played = play(&truth.model, layout, plan).ok()?;
+    if !has_room(&played, layout) {
+        return None;
+    }
     let run = described(stand.rig, &played.recording(layout, sensors), 0.0).ok()?;
     let windows = Windows::over(run.len(), 2, (run.step_s, run.start_s), width_s);
     let problem = Problem::of_five_bar(&run, windows);

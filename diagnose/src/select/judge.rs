@@ -145,6 +145,14 @@ pub(crate) fn best(problem: &Problem, common: &[&Term], tried: &[Term]) -> Optio
         .map(|(term, loss)| (term.clone(), loss))
 }
 
+/// Where any leaves nothing but noise, only those that do: they are not passed over for one that leaves more, whatever the blocks make of their
+/// onsets.
+pub(super) fn those_that_leave_noise(trials: &mut Vec<Trial>) {
+    if trials.iter().any(|own| own.found.at_floor) {
+        trials.retain(|own| own.found.at_floor);
+    }
+}
+
 /// The trial with the fewest parameters among those that tie with the best one, or that explain nearly as much
 /// where even the best one leaves more than noise. One that would go again is no tie of one that would stay.
 pub(super) fn simplest(mut trials: Vec<Trial>, loss_without: f64) -> Option<Found> {
@@ -169,3 +177,40 @@ pub(super) fn simplest(mut trials: Vec<Trial>, loss_without: f64) -> Option<Foun
 
 /// A simpler mechanism is taken when it explains at least this share of what the best one does.
 pub(super) const SIMPLER_SHARE: f64 = 0.9;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    use crate::five_bar;
+    use crate::five_bar::recorded::short_run;
+    use crate::problem::Cause;
+    use rigproof_spec::effect::Mechanism;
+
+    #[test]
+    fn one_that_leaves_only_noise_is_not_passed_over_for_a_lesser_loss() {
+        let run = short_run();
+        let problem = five_bar::recorded::problem(&run);
+        let trial = |mechanism, loss: f64, at_floor| Trial {
+            found: Found {
+                term: problem.term(Cause::of(mechanism), &[], None).unwrap(),
+                z: 5.0,
+                share: 0.9,
+                at_floor,
+            },
+            losses: vec![loss; 8],
+            stays: true,
+            parameters: 2,
+        };
+        let named = |at_floor| {
+            let mut trials = vec![
+                trial(Mechanism::ForceBias, 1.0, false),
+                trial(Mechanism::Gravity, 1.3, at_floor),
+            ];
+            those_that_leave_noise(&mut trials);
+            simplest(trials, 1000.0).map(|found| found.term.cause.mechanism)
+        };
+        assert_eq!(named(true), Some(Mechanism::Gravity));
+        assert_eq!(named(false), Some(Mechanism::ForceBias));
+    }
+}

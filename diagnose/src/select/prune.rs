@@ -1,6 +1,7 @@
 //! This file takes mechanisms out again: those that others make unnecessary, those that explain too little.
 
 use super::refine::refine;
+use super::together::is_noise;
 use super::weigh::{coefficients_of, drives, excitation, usable_rms};
 use super::{Found, Gates, TIE_Z, floor_limit, refs};
 use crate::problem::{Cause, PlantRun, Problem, Term};
@@ -29,7 +30,11 @@ pub(super) fn backward(
             &excitation(&removed.term, &own, blocks),
         );
         let share = 1.0 - current.left_out() / without.left_out().max(1e-300);
-        if z < TIE_Z || share < gates.share || drives(&removed.term, &own) {
+        // One that decides whether anything is left shows in few blocks where z is small.
+        let decides = matches!(problem.plant, PlantRun::FiveBar(_))
+            && is_noise(problem, &current)
+            && !is_noise(problem, &without);
+        if z < TIE_Z && !decides || share < gates.share || drives(&removed.term, &own) {
             *found = fewer;
         } else {
             if let Some(kept) = found.get_mut(index) {
@@ -130,8 +135,8 @@ mod tests {
     use super::*;
 
     use crate::five_bar;
-    use crate::five_bar::recorded::{short_run, target};
-    use crate::problem::Inertia;
+    use crate::five_bar::recorded::{noise_rows, short_run, target};
+    use crate::problem::{Inertia, add};
     use crate::recorded::{Noise, exact_bench};
     use crate::weak::Windows;
     use rigproof_spec::effect::Mechanism;
@@ -169,6 +174,35 @@ mod tests {
         let ratio = usable_rms(&problem, &left) / problem.floor;
         assert!(ratio > 1.35 && ratio < floor_limit(&problem), "{ratio}");
         assert_eq!(prune(&problem, &[], &mut found, &blocks), []);
+    }
+
+    #[test]
+    fn what_decides_whether_anything_is_left_stays_though_few_blocks_tell_it() {
+        let run = short_run();
+        let mut problem = five_bar::recorded::problem(&run);
+        let cause = Cause {
+            mechanism: Mechanism::DryOffset,
+            joint: Some(Joint::A),
+        };
+        let onset_s = run.start_s + 0.7 * run.duration_s();
+        let term = problem.term(cause, &[], Some(onset_s)).unwrap();
+        let mut kept = |level: f64| {
+            let mut raw = noise_rows(&problem, 53);
+            add(&mut raw, &term.free[0].raw, level);
+            problem.target = target(&problem, raw);
+            let mut found = vec![Found {
+                term: term.clone(),
+                z: 3.1,
+                share: 0.5,
+                at_floor: true,
+            }];
+            let blocks = Blocks::new(&problem);
+            backward(&problem, &[], &mut found, &blocks, Gates::default());
+            found.first().map(|own| own.z)
+        };
+        let z = kept(0.4).unwrap();
+        assert!(z < TIE_Z, "{z}");
+        assert_eq!(kept(0.001), None);
     }
 
     /// What is taken out of one name when it explains some fifteen times what stays unexplained.

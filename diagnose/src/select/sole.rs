@@ -3,36 +3,60 @@
 use super::judge::best;
 use super::prune::outweighs;
 use super::refine::refined;
+use super::step::with_onsets;
 use super::together::is_noise;
 use super::weigh::{drives, excitation, own_coefficients};
 use super::{Found, Gates, refs};
-use crate::candidates::{causes, is_at_edge, variants};
+use crate::candidates::{causes, is_at_edge, modelled_effort, variants};
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, Fit, dot, fit, paired};
 
-/// The one mechanism that takes away nearly all, where blocks showed none for what is more.
+/// The one mechanism that takes away nearly all, where blocks showed none for what is more, or several that leave more than it; then it may
+/// begin during the recording too, and leaves nothing but noise.
 ///
 /// What a brake does within a few hundredths of a radian after one loud reversal lies whole in one block or two, and no block left out can be
-/// told from the others. Each window is judged by itself then, with the numbers of all of them.
+/// told from the others; nor can an onset that one block tells. Each window is judged by itself then, with the numbers of all of them.
 pub(super) fn sole(
     problem: &Problem,
     nominal: &[Term],
-    blocks: &Blocks,
     gates: Gates,
+    named: bool,
 ) -> Option<Found> {
     let common = refs(nominal, &[]);
-    let current = fit(problem, &common, blocks);
-    let tried = causes(problem).into_iter().filter_map(|cause| {
-        let list = variants(problem, cause, &common, &current);
-        best(problem, &common, &list)
-    });
-    let mut tried: Vec<(Term, f64)> = tried.collect();
+    let current = fit(problem, &common, &Blocks::new(problem));
+    let of_all = |lists: Vec<Vec<Term>>| -> Vec<(Term, f64)> {
+        let bests = lists.iter().filter_map(|list| best(problem, &common, list));
+        bests.collect()
+    };
+    let lists = causes(problem).into_iter();
+    let lists = lists.map(|cause| variants(problem, cause, &common, &current));
+    let early = of_all(lists.collect());
+    let judged = |tried: Vec<(Term, f64)>| promising(problem, &common, &current, tried, gates);
+    let is_enough = |found: &Found| found.at_floor || !named;
+    judged(early.clone()).filter(is_enough).or_else(|| {
+        let effort = modelled_effort(problem, &common, &current);
+        let lists = early
+            .iter()
+            .map(|(term, _)| with_onsets(problem, term, &effort));
+        judged(of_all(lists.collect())).filter(|found| found.at_floor)
+    })
+}
+
+/// Of the few that explain most the one that leaves least.
+fn promising(
+    problem: &Problem,
+    common: &[&Term],
+    current: &Fit,
+    mut tried: Vec<(Term, f64)>,
+    gates: Gates,
+) -> Option<Found> {
+    let blocks = Blocks::new(problem);
     tried.sort_by(|a, b| a.1.total_cmp(&b.1));
     tried.truncate(PROMISING);
     let refined = tried
         .into_iter()
-        .map(|(term, _)| refined(problem, &common, term, blocks));
-    let judged = refined.filter_map(|term| by_windows(problem, &common, &current, term, gates));
+        .map(|(term, _)| refined(problem, common, term, &blocks));
+    let judged = refined.filter_map(|term| by_windows(problem, common, current, term, gates));
     judged
         .min_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, found)| found)
@@ -124,10 +148,35 @@ mod tests {
             add(&mut raw, &play.free[0].raw, 0.7);
             add(&mut raw, &dry.free[0].raw, times);
             problem.target = target(&problem, raw);
-            sole(&problem, &[], &Blocks::new(&problem), Gates::default())
+            sole(&problem, &[], Gates::default(), false)
         };
         let found = found_with(0.0).unwrap();
         assert_eq!(found.term.cause.name(), "current_hysteresis at B");
+        assert!(found_with(0.13).is_none());
+    }
+
+    #[test]
+    fn one_law_that_begins_late_is_found_where_it_leaves_only_noise() {
+        let run = short_run();
+        let mut problem = five_bar::recorded::problem(&run);
+        let at_b = |mechanism| Cause {
+            mechanism,
+            joint: Some(Joint::B),
+        };
+        let drag = at_b(Mechanism::Viscous);
+        let drag = problem.term(drag, &[], Some(1.37)).unwrap();
+        let dry = problem.term(at_b(Mechanism::DryOffset), &[], None).unwrap();
+        let mut found_with = |times: f64| {
+            let mut raw = noise_rows(&problem, 43);
+            add(&mut raw, &drag.free[0].raw, 0.31);
+            add(&mut raw, &dry.free[0].raw, times);
+            problem.target = target(&problem, raw);
+            sole(&problem, &[], Gates::default(), true)
+        };
+        let found = found_with(0.0).unwrap();
+        assert_eq!(found.term.cause.name(), "viscous at B");
+        let onset_s = found.term.onset_s.unwrap();
+        assert!((onset_s - 1.37).abs() < 0.03, "{onset_s} s");
         assert!(found_with(0.13).is_none());
     }
 }

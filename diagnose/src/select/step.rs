@@ -1,6 +1,6 @@
 //! This file takes one step of the search: a mechanism more, or one in the place of another.
 
-use super::judge::{SIMPLER_SHARE, Trial, simplest, trials};
+use super::judge::{SIMPLER_SHARE, Trial, simplest, those_that_leave_noise, trials};
 use super::together::{beside, is_noise, masking, of_one_family};
 use super::{Found, Gates, TIE_Z, refs};
 use crate::candidates::{causes, modelled_effort, realise, variants};
@@ -57,6 +57,9 @@ pub(super) fn forward(
         for trials in [&mut early, &mut late] {
             trials.retain(|own| !of_one_family(problem, own.found.term.cause, found));
         }
+    } else if let PlantRun::FiveBar(_) = problem.plant {
+        those_that_leave_noise(&mut early);
+        those_that_leave_noise(&mut late);
     }
     let (elementary, others): (Vec<Trial>, Vec<Trial>) = early
         .into_iter()
@@ -165,7 +168,7 @@ fn with_unequal_limits(problem: &Problem, term: &Term, effort: &[f64]) -> Option
 }
 
 /// A term that begins at twelfths of the recording, ends left out.
-fn with_onsets(problem: &Problem, term: &Term, effort: &[f64]) -> Vec<Term> {
+pub(super) fn with_onsets(problem: &Problem, term: &Term, effort: &[f64]) -> Vec<Term> {
     (2..=10)
         .map(|k| problem.plant.start_s() + problem.plant.duration_s() * k as f64 / 12.0)
         .filter_map(|t| {

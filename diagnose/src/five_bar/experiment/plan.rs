@@ -114,8 +114,8 @@ impl Hand {
                 0.041 * sine(3.07, 2.1) + 0.024 * sine(6.71, 0.7),
             ],
             Hand::Ramp => {
-                // From an eighth of a turn a second to one and a quarter.
-                let turns = (0.125 + 0.5 * 1.125 * time_s / DURATION_S) * time_s;
+                // From an eighth of a turn a second to a half: the force that a hand may give carries the arms round no faster.
+                let turns = (0.125 + 0.5 * 0.375 * time_s / DURATION_S) * time_s;
                 [
                     0.071 * libm::sin(TAU * turns),
                     0.049 * libm::sin(2.0 * TAU * turns + 0.4),

@@ -3,8 +3,9 @@
 use super::super::diagnose::diagnose;
 use super::super::free_run::Model;
 use super::super::recorded::rig;
-use super::plan::{Plan, STRONGEST_A, plans};
+use super::plan::{MIDDLE_M, Plan, STRONGEST_A, plans};
 use super::play::{Sensors, play};
+use super::room::has_room;
 use crate::report::{EffectReport, Report};
 use crate::{Diagnosis, Options};
 use core::f64::consts::TAU;
@@ -182,10 +183,19 @@ fn every_experiment_stays_inside_joint_limits_currents_and_force() {
             }
             let currents = plan.currents_a.iter().flatten();
             assert!(currents.clone().all(|a| (0.0..=STRONGEST_A).contains(a)));
+            let played = play(&Model::of(&rig(layout)), layout, plan).unwrap();
+            assert!(has_room(&played, layout), "{}", plan.words);
             let read = Plan::of(&plan.trace(layout), layout).unwrap();
             assert_eq!(read.hand_m, plan.hand_m);
             assert_eq!(read.currents_a, plan.currents_a);
         }
+        // The same path three times as wide leads into the stops.
+        let mut wild = plans[0].clone();
+        for tip in &mut wild.hand_m {
+            *tip = [0, 1].map(|axis| MIDDLE_M[axis] + 3.0 * (tip[axis] - MIDDLE_M[axis]));
+        }
+        let played = play(&Model::of(&rig(layout)), layout, &wild);
+        assert!(!played.is_ok_and(|played| has_room(&played, layout)));
         // Brakes at their strongest hold the tip, and the hand does not push harder.
         let mut held = plans[0].clone();
         held.hand_m.truncate(900);
