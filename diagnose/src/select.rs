@@ -1,5 +1,6 @@
 //! This file chooses mechanisms: forward, backward and swap steps judged on left-out blocks of time.
 
+mod form;
 mod judge;
 mod merge;
 mod onset;
@@ -13,6 +14,7 @@ mod weigh;
 use crate::candidates::{causes, variants};
 use crate::problem::{Cause, PlantRun, Problem, Term};
 use crate::regression::{Blocks, Fit, fit};
+use form::take_out_forms;
 use merge::merge;
 use prune::{backward, prune};
 use refine::refine;
@@ -24,6 +26,7 @@ pub(crate) use judge::best as best_variant;
 pub(crate) use merge::as_two;
 pub(crate) use onset::{change_with_onset, onset_interval};
 pub(crate) use refine::refined;
+pub(crate) use together::bends;
 pub(crate) use weigh::gives_energy;
 pub use weigh::usable_rms;
 
@@ -166,6 +169,7 @@ fn searched(problem: &mut Problem, mut nominal: Vec<Term>, gates: Gates) -> Sele
     found = search(problem, &nominal, found, &blocks, gates, &mut stages);
     // The other plants' rules were chosen without it.
     if let PlantRun::FiveBar(_) = problem.plant {
+        take_out_forms(problem, &nominal, &mut found, &blocks);
         merge(problem, &nominal, &mut found, &blocks);
         onset::centre(problem, &nominal, &mut found);
     }

@@ -7,7 +7,7 @@
 use super::sensitivities;
 use crate::problem::{Cause, PlantRun, Problem};
 use crate::regression::dot;
-use crate::select::{Selection, floor_limit, refs, usable_rms};
+use crate::select::{Selection, bends, floor_limit, refs, usable_rms};
 use nalgebra::{DMatrix, DVector};
 use rigproof_model::effects::{Form, entry};
 use rigproof_spec::effect::Mechanism;
@@ -46,6 +46,7 @@ pub fn inconstant(problem: &Problem, selection: &Selection) -> Vec<Cause> {
     let found = selection.found.iter().enumerate();
     found
         .filter(|(_, found)| is_told_by_itself(found.term.cause.mechanism))
+        .filter(|(_, found)| !is_beside_a_form(selection, found.term.cause))
         .filter(|(index, _)| {
             let leading = columns
                 .iter()
@@ -54,6 +55,13 @@ pub fn inconstant(problem: &Problem, selection: &Selection) -> Vec<Cause> {
         })
         .map(|(_, found)| found.term.cause)
         .collect()
+}
+
+/// Whether plain friction stands beside a law that bends at its joint: what the form of that law lacks is along it, and differs with the motion.
+fn is_beside_a_form(selection: &Selection, cause: Cause) -> bool {
+    let is_plain = [Mechanism::DryOffset, Mechanism::Viscous].contains(&cause.mechanism);
+    let mut found = selection.found.iter().map(|found| found.term.cause);
+    is_plain && found.any(|other| bends(other.mechanism) && other.joint == cause.joint)
 }
 
 /// Whether a mechanism's number acts without a memory. A memory of another family (Maxwell slip for a bristle) differs at every

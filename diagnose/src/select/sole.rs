@@ -31,14 +31,19 @@ pub(super) fn sole(
     let lists = causes(problem).into_iter();
     let lists = lists.map(|cause| variants(problem, cause, &common, &current));
     let early = of_all(lists.collect());
-    let judged = |tried: Vec<(Term, f64)>| promising(problem, &common, &current, tried, gates);
+    let most_left = |share: f64| (1.0 - share) * current.loss;
+    let judged = |mut tried: Vec<(Term, f64)>, share: f64| {
+        tried.retain(|(_, loss)| *loss <= most_left(share));
+        promising(problem, &common, &current, tried, gates)
+    };
     let is_enough = |found: &Found| found.at_floor || !named;
-    judged(early.clone()).filter(is_enough).or_else(|| {
+    let share = if named { NEAR_ENOUGH } else { 0.0 };
+    judged(early.clone(), share).filter(is_enough).or_else(|| {
         let effort = modelled_effort(problem, &common, &current);
         let lists = early
             .iter()
             .map(|(term, _)| with_onsets(problem, term, &effort));
-        judged(of_all(lists.collect())).filter(|found| found.at_floor)
+        judged(of_all(lists.collect()), NEAR_ENOUGH).filter(|found| found.at_floor)
     })
 }
 
@@ -99,6 +104,9 @@ const MOST: f64 = 0.85;
 
 /// The same for one that leaves more, as a law of another family does.
 const NEARLY_ALL: f64 = 0.95;
+
+/// Share that one takes away before its shape and its onset are refined, if it is to leave nothing but noise.
+const NEAR_ENOUGH: f64 = 0.5;
 
 /// Causes whose shape is refined, those that explain most.
 const PROMISING: usize = 4;

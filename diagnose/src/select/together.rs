@@ -35,9 +35,13 @@ const MASKING: [Mechanism; 4] = [
 /// form of the first, which true friction need not have.
 pub(super) fn of_one_family(problem: &Problem, cause: Cause, found: &[Found]) -> bool {
     let is_five_bar = matches!(problem.plant, PlantRun::FiveBar(_));
-    let bends = |cause: Cause| BENDING.contains(&cause.mechanism);
-    let same = |own: &Found| bends(own.term.cause) && own.term.cause.joint == cause.joint;
-    is_five_bar && bends(cause) && found.iter().any(same)
+    let same = |own: &Found| bends(own.term.cause.mechanism) && own.term.cause.joint == cause.joint;
+    is_five_bar && bends(cause.mechanism) && found.iter().any(same)
+}
+
+/// Whether a mechanism is such a law.
+pub(crate) fn bends(mechanism: Mechanism) -> bool {
+    BENDING.contains(&mechanism)
 }
 
 /// Plain friction at the joint of a found law, judged with the law's shape free to go back to what it is without it.
