@@ -22,6 +22,7 @@ pub fn report(report: &Report) -> String {
         fit::before_after(report),
         limits::left_over(report),
         next::experiment(report),
+        limits::held(report),
         limits::not_seen(report),
         trust::simulated(report),
         section("How it was measured", report.protocol.iter().map(indented)),

@@ -9,6 +9,7 @@ pub(crate) mod encoder;
 pub mod experiment;
 pub mod free_run;
 pub mod from_rig;
+mod held;
 mod held_out;
 mod joined;
 mod locate;

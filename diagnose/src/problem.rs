@@ -226,9 +226,14 @@ impl<'a> Problem<'a> {
         problem
     }
 
-    /// Sets up the problem of a five-bar.
+    /// Sets up the problem of a five-bar in the rows in which what its brakes do is known.
     pub fn of_five_bar(run: &'a FiveBarRun, mut windows: Windows) -> Problem<'a> {
         five_bar::noise::keep_told(run, &mut windows);
+        Problem::over_windows(run, windows)
+    }
+
+    /// Sets up the problem of a five-bar in the usable rows of some windows.
+    pub fn over_windows(run: &'a FiveBarRun, windows: Windows) -> Problem<'a> {
         let floor = five_bar::noise::floor(run, &windows);
         let whitener = five_bar::noise::whitener(run, &windows, 0.0);
         let known = five_bar::columns::known(run);

@@ -44,6 +44,8 @@ pub struct Report {
     pub inverse_model: Option<InverseReport>,
     /// For each mechanism that is not named, what would have been seen.
     pub not_seen: Vec<NotSeen>,
+    /// What the joints of a five-bar at rest tell; nothing on other plants and where nothing was concluded.
+    pub held: Option<HeldReport>,
     /// Combinations of parameters that this recording cannot tell.
     pub null_directions: Vec<NullDirection>,
     /// The shape of what is left, when it is more than noise.
@@ -316,6 +318,40 @@ pub struct NotSeen {
     pub minimum_detectable: f64,
     /// Unit of that size.
     pub unit: String,
+}
+
+/// What brakes at rest tell: each holds at least what it was pushed with.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct HeldReport {
+    /// The brakes that were at rest alone, in the order A, E, B, C.
+    pub joints: Vec<HeldJoint>,
+    /// For how long every brake was at rest, s: what each of them holds then cannot be told, and nothing is attributed.
+    pub all_held_s: f64,
+    /// Unit of all torques.
+    pub unit: String,
+}
+
+/// A brake that was at rest while all others moved.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct HeldJoint {
+    /// The joint.
+    pub joint: &'static str,
+    /// For how long, s.
+    pub held_s: f64,
+    /// The middle of the window in which it was pushed hardest against what the nominal model lets it hold, s.
+    pub at_s: f64,
+    /// The torque on it there.
+    pub pushed: f64,
+    /// Standard deviation of that torque.
+    pub pushed_deviation: f64,
+    /// The most that the nominal model lets it hold there.
+    pub holds_before: f64,
+    /// The most that it holds there with the named mechanisms.
+    pub holds_after: f64,
+    /// What is missing at least in the nominal model, five standard deviations aside; 0 where nothing has to be.
+    pub missing_before: f64,
+    /// The same with the named mechanisms.
+    pub missing_after: f64,
 }
 
 /// A combination of parameters along which nothing changes.

@@ -1,6 +1,6 @@
 //! This file says what a diagnosis does not explain and what it could not have seen.
 
-use rigproof_diagnose::report::{Report, Unknown};
+use rigproof_diagnose::report::{HeldJoint, Report, Unknown};
 
 use super::found::at;
 use super::number::{percent, significant, with_unit};
@@ -66,6 +66,51 @@ fn shape(unknown: &Unknown) -> Vec<String> {
     ]
 }
 
+/// What brakes at rest were pushed with, beside what the models let them hold.
+pub fn held(report: &Report) -> Vec<String> {
+    let Some(held) = &report.held else {
+        return Vec::new();
+    };
+    let joints = held.joints.iter().map(|own| pushed(own, &held.unit));
+    let all = (held.all_held_s > 0.0).then(|| {
+        format!(
+            "  all brakes at rest for {}: what each of them holds then cannot be told, nothing is attributed",
+            with_unit(held.all_held_s, "s")
+        )
+    });
+    section("Pushed and did not move (not fitted)", joints.chain(all))
+}
+
+fn pushed(own: &HeldJoint, unit: &str) -> String {
+    let torque = |size: f64| with_unit(size, unit);
+    let holds = match own.holds_after == own.holds_before {
+        true => format!("holds {}", torque(own.holds_before)),
+        false => format!(
+            "nominal holds {}, with what is named {}",
+            torque(own.holds_before),
+            torque(own.holds_after)
+        ),
+    };
+    let verdict = match (own.missing_before > 0.0, own.missing_after > 0.0) {
+        (_, true) => format!(
+            "at least {} of what holds it is not named",
+            torque(own.missing_after)
+        ),
+        (true, false) => format!(
+            "the nominal model lacks at least {}",
+            torque(own.missing_before)
+        ),
+        (false, false) => "agrees".to_owned(),
+    };
+    format!(
+        "  {}, alone at rest for {}: pushed with {} at {}; {holds}: {verdict}",
+        own.joint,
+        with_unit(own.held_s, "s"),
+        torque(own.pushed),
+        with_unit(own.at_s, "s"),
+    )
+}
+
 /// From which size on each mechanism would have been named.
 pub fn not_seen(report: &Report) -> Vec<String> {
     let lines = report.not_seen.iter().map(|bound| {
@@ -79,4 +124,41 @@ pub fn not_seen(report: &Report) -> Vec<String> {
         "Not named, and from which size on each would have been",
         lines,
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_missing_is_said_of_the_names_first() {
+        let said = |holds_after: f64, missing: [f64; 2]| {
+            let own = HeldJoint {
+                joint: "E",
+                held_s: 0.34,
+                at_s: 2.7,
+                pushed: 0.61,
+                pushed_deviation: 0.004,
+                holds_before: 0.21,
+                holds_after,
+                missing_before: missing[0],
+                missing_after: missing[1],
+            };
+            pushed(&own, "N·m")
+        };
+        let line = said(0.21, [0.0, 0.0]);
+        assert!(line.ends_with("holds 0.2100 N·m: agrees"), "{line}");
+        let line = said(0.67, [0.38, 0.0]);
+        assert!(
+            line.ends_with(
+                "with what is named 0.6700 N·m: the nominal model lacks at least 0.3800 N·m"
+            ),
+            "{line}"
+        );
+        let line = said(0.33, [0.38, 0.26]);
+        assert!(
+            line.ends_with("at least 0.2600 N·m of what holds it is not named"),
+            "{line}"
+        );
+    }
 }

@@ -2,6 +2,7 @@
 
 use super::experiment;
 use super::free_run::{Model, horizons};
+use super::held::held;
 use super::held_out::Parts;
 use super::locate::locate;
 use super::mapping;
@@ -204,6 +205,7 @@ impl Stand<'_> {
             too_small_to_name: selection.too_small.iter().map(|c| c.name()).collect(),
             withdrawn: self.withdrawn.iter().map(|c| c.name()).collect(),
             not_seen: not_seen(problem, selection, self.options.gates, Motion::Rotary),
+            held: Some(held(problem, self.train, selection)),
             fit,
             next_experiment,
             floor: Some(floor.clone()),
@@ -420,7 +422,7 @@ impl Stand<'_> {
 }
 
 /// What a selection's numbers give on a problem of another recording, row by row.
-fn modelled(problem: &Problem, selection: &Selection) -> Vec<f64> {
+pub(super) fn modelled(problem: &Problem, selection: &Selection) -> Vec<f64> {
     let (_, coefficients) = coefficients_by_term(problem, selection);
     let mut sum = problem.windows.average(&problem.known);
     let terms = refs(&selection.nominal, &selection.found);

@@ -89,6 +89,16 @@ pub fn whitener(run: &FiveBarRun, windows: &Windows, excess: f64) -> Whitener {
     })
 }
 
+/// The covariance of both rows of a window, given the first of them, (N·m)²; `excess` as in [`whitener`].
+pub fn pair_covariances<'a>(
+    run: &'a FiveBarRun,
+    windows: &'a Windows,
+    excess: f64,
+) -> impl Fn(usize) -> Matrix2<f64> + 'a {
+    let noise = Noise::new(run, windows, excess);
+    move |row| Matrix2::from_fn(|i, j| noise.covariance(row + i, row + j))
+}
+
 struct Noise<'a> {
     run: &'a FiveBarRun,
     windows: &'a Windows,

@@ -1,7 +1,7 @@
 //! This file says how far the names can be believed.
 
 use maud::{Markup, html};
-use rigproof_diagnose::report::{NamedRate, Report};
+use rigproof_diagnose::report::{HeldJoint, NamedRate, Report};
 
 use crate::number::{percent, rate, significant, with_unit};
 use crate::words::{plain_at, plain_cause};
@@ -15,6 +15,7 @@ pub fn body(report: &Report) -> Option<Markup> {
         (effects(report))
         (trials(report))
         (directions(report))
+        (held(report))
         (not_seen(report))
     })
 }
@@ -54,6 +55,36 @@ fn directions(report: &Report) -> Markup {
         h3 { "Numbers that this recording does not tell apart" }
         ul { @for own in &report.null_directions { li { (plain_at(own.mechanism, None)) ": " (own.meaning) } } }
     } }
+}
+
+fn held(report: &Report) -> Markup {
+    let Some(held) = &report.held else {
+        return html! {};
+    };
+    let torque = |size: f64| with_unit(size, &held.unit);
+    let verdict = |own: &HeldJoint| match (own.missing_before > 0.0, own.missing_after > 0.0) {
+        (_, true) => format!("at least {} missing", torque(own.missing_after)),
+        (true, false) => format!(
+            "the old model lacks at least {}",
+            torque(own.missing_before)
+        ),
+        (false, false) => "agrees".to_owned(),
+    };
+    html! {
+        @if !held.joints.is_empty() {
+            h3 { "Pushed and did not move" }
+            div.scroll { table.grid {
+                caption { "Where one brake alone was at rest, it held what it was pushed with. Nothing of this was fitted, so it is evidence of its own. Each row is the moment of the hardest push against what the old model lets the brake hold." }
+                thead { tr { th scope="col" { "joint" } th.number scope="col" { "at rest" } th.number scope="col" { "pushed with" } th.number scope="col" { "old model holds" } th.number scope="col" { "new model holds" } th scope="col" { "all moments together" } } }
+                tbody { @for own in &held.joints { tr {
+                    th scope="row" { (own.joint) }
+                    td.number { (with_unit(own.held_s, "s")) } td.number { (torque(own.pushed)) } td.number { (torque(own.holds_before)) } td.number { (torque(own.holds_after)) }
+                    td { (verdict(own)) }
+                } } }
+            } }
+        }
+        @if held.all_held_s > 0.0 { p { "For " (with_unit(held.all_held_s, "s")) " all brakes were at rest. What each of them held then cannot be told; nothing is attributed to any." } }
+    }
 }
 
 fn not_seen(report: &Report) -> Markup {
