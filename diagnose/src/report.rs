@@ -44,7 +44,7 @@ pub struct Report {
     pub inverse_model: Option<InverseReport>,
     /// For each mechanism that is not named, what would have been seen.
     pub not_seen: Vec<NotSeen>,
-    /// What the joints of a five-bar at rest tell; nothing on other plants and where nothing was concluded.
+    /// What the joints of a five-bar at rest tell; nothing on other plants, where an encoder was named, and where nothing was concluded.
     pub held: Option<HeldReport>,
     /// Combinations of parameters that this recording cannot tell.
     pub null_directions: Vec<NullDirection>,
@@ -323,35 +323,35 @@ pub struct NotSeen {
 /// What brakes at rest tell: each holds at least what it was pushed with.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct HeldReport {
-    /// The brakes that were at rest alone, in the order A, E, B, C.
+    /// The brakes that were at rest alone, in the order A, E, B, C; those are left out whose named law depends on what the brake did before.
     pub joints: Vec<HeldJoint>,
-    /// For how long every brake was at rest, s: what each of them holds then cannot be told, and nothing is attributed.
-    pub all_held_s: f64,
+    /// For how long, by whole windows, every brake was at rest, s: what each of them holds then cannot be told, and nothing is attributed.
+    pub all_seen_s: f64,
     /// Unit of all torques.
     pub unit: String,
 }
 
-/// A brake that was at rest while all others moved.
+/// A brake that was at rest while all others moved, in the window that says most.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct HeldJoint {
     /// The joint.
     pub joint: &'static str,
-    /// For how long, s.
-    pub held_s: f64,
-    /// The middle of the window in which it was pushed hardest against what the nominal model lets it hold, s.
+    /// For how long, by whole windows, s.
+    pub seen_s: f64,
+    /// The middle of the window, s.
     pub at_s: f64,
-    /// The torque on it there.
+    /// The torque on the joint there, everything else being as named.
     pub pushed: f64,
     /// Standard deviation of that torque.
     pub pushed_deviation: f64,
-    /// The most that the nominal model lets it hold there.
-    pub holds_before: f64,
-    /// The most that it holds there with the named mechanisms.
-    pub holds_after: f64,
-    /// What is missing at least in the nominal model, five standard deviations aside; 0 where nothing has to be.
-    pub missing_before: f64,
-    /// The same with the named mechanisms.
-    pub missing_after: f64,
+    /// The most that the nominal model lets the joint hold there.
+    pub holds_nominal: f64,
+    /// The most that it holds there with what is named at it.
+    pub holds: f64,
+    /// What the names have to hold at least, five standard deviations aside; 0 where the nominal model holds it.
+    pub named_at_least: f64,
+    /// What is missing at least, five standard deviations aside; 0 where nothing has to be.
+    pub missing: f64,
 }
 
 /// A combination of parameters along which nothing changes.

@@ -167,13 +167,14 @@ fn searched(problem: &mut Problem, mut nominal: Vec<Term>, gates: Gates) -> Sele
     let residual = fit(problem, &refs(&nominal, &found), &blocks).residual;
     rewhiten(problem, &residual, &mut nominal, &mut found);
     found = search(problem, &nominal, found, &blocks, gates, &mut stages);
+    let mut too_small = Vec::new();
     // The other plants' rules were chosen without it.
     if let PlantRun::FiveBar(_) = problem.plant {
-        take_out_forms(problem, &nominal, &mut found, &blocks);
+        too_small = take_out_forms(problem, &nominal, &mut found, &blocks);
         merge(problem, &nominal, &mut found, &blocks);
         onset::centre(problem, &nominal, &mut found);
     }
-    let too_small = prune(problem, &nominal, &mut found, &blocks);
+    too_small.extend(prune(problem, &nominal, &mut found, &blocks));
     let before = fit(problem, &nominal.iter().collect::<Vec<_>>(), &blocks);
     let after = fit(problem, &refs(&nominal, &found), &blocks);
     Selection {

@@ -1,6 +1,9 @@
 //! This file says physics in the words of somebody who mends machines.
 
+use rigproof_diagnose::report::HeldJoint;
 use rigproof_spec::effect::Mechanism;
+
+use crate::number::with_unit;
 
 /// A mechanism in plain words: what it is, to stand after "the model leaves out", and what one would look for on the rig.
 pub fn plain(mechanism: Mechanism) -> [&'static str; 2] {
@@ -220,6 +223,22 @@ pub fn list(words: &[String]) -> String {
         [] => String::new(),
         [one] => one.clone(),
         [first @ .., last] => format!("{}, and {last}", first.join("; ")),
+    }
+}
+
+/// Whether a brake at rest held no more than it can, in words.
+pub fn at_rest(own: &HeldJoint, unit: &str) -> String {
+    let torque = |size: f64| with_unit(size, unit);
+    match (own.missing > 0.0, own.named_at_least > 0.0) {
+        (true, _) => format!(
+            "at least {} of what holds it is not named",
+            torque(own.missing)
+        ),
+        (false, true) => format!(
+            "agrees, and of this what is named has to hold at least {}",
+            torque(own.named_at_least)
+        ),
+        (false, false) => "agrees".to_owned(),
     }
 }
 

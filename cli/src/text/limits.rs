@@ -1,6 +1,7 @@
 //! This file says what a diagnosis does not explain and what it could not have seen.
 
 use rigproof_diagnose::report::{HeldJoint, Report, Unknown};
+use rigproof_report::words::at_rest;
 
 use super::found::at;
 use super::number::{percent, significant, with_unit};
@@ -66,16 +67,16 @@ fn shape(unknown: &Unknown) -> Vec<String> {
     ]
 }
 
-/// What brakes at rest were pushed with, beside what the models let them hold.
+/// What brakes at rest were pushed with, beside what they can hold.
 pub fn held(report: &Report) -> Vec<String> {
     let Some(held) = &report.held else {
         return Vec::new();
     };
     let joints = held.joints.iter().map(|own| pushed(own, &held.unit));
-    let all = (held.all_held_s > 0.0).then(|| {
+    let all = (held.all_seen_s > 0.0).then(|| {
         format!(
             "  all brakes at rest for {}: what each of them holds then cannot be told, nothing is attributed",
-            with_unit(held.all_held_s, "s")
+            with_unit(held.all_seen_s, "s")
         )
     });
     section("Pushed and did not move (not fitted)", joints.chain(all))
@@ -83,31 +84,22 @@ pub fn held(report: &Report) -> Vec<String> {
 
 fn pushed(own: &HeldJoint, unit: &str) -> String {
     let torque = |size: f64| with_unit(size, unit);
-    let holds = match own.holds_after == own.holds_before {
-        true => format!("holds {}", torque(own.holds_before)),
+    let holds = match own.holds == own.holds_nominal {
+        true => format!("holds up to {}", torque(own.holds)),
         false => format!(
-            "nominal holds {}, with what is named {}",
-            torque(own.holds_before),
-            torque(own.holds_after)
+            "holds up to {}, {} with what is named",
+            torque(own.holds_nominal),
+            torque(own.holds)
         ),
-    };
-    let verdict = match (own.missing_before > 0.0, own.missing_after > 0.0) {
-        (_, true) => format!(
-            "at least {} of what holds it is not named",
-            torque(own.missing_after)
-        ),
-        (true, false) => format!(
-            "the nominal model lacks at least {}",
-            torque(own.missing_before)
-        ),
-        (false, false) => "agrees".to_owned(),
     };
     format!(
-        "  {}, alone at rest for {}: pushed with {} at {}; {holds}: {verdict}",
+        "  {}, seen alone at rest for {}: pushed with {} ± {} at {}; {holds}: {}",
         own.joint,
-        with_unit(own.held_s, "s"),
-        torque(own.pushed),
+        with_unit(own.seen_s, "s"),
+        significant(own.pushed, 4),
+        with_unit(own.pushed_deviation, unit),
         with_unit(own.at_s, "s"),
+        at_rest(own, unit),
     )
 }
 
@@ -132,30 +124,33 @@ mod tests {
 
     #[test]
     fn what_is_missing_is_said_of_the_names_first() {
-        let said = |holds_after: f64, missing: [f64; 2]| {
+        let said = |holds: f64, named_at_least: f64, missing: f64| {
             let own = HeldJoint {
                 joint: "E",
-                held_s: 0.34,
+                seen_s: 0.34,
                 at_s: 2.7,
                 pushed: 0.61,
                 pushed_deviation: 0.004,
-                holds_before: 0.21,
-                holds_after,
-                missing_before: missing[0],
-                missing_after: missing[1],
+                holds_nominal: 0.21,
+                holds,
+                named_at_least,
+                missing,
             };
             pushed(&own, "N·m")
         };
-        let line = said(0.21, [0.0, 0.0]);
-        assert!(line.ends_with("holds 0.2100 N·m: agrees"), "{line}");
-        let line = said(0.67, [0.38, 0.0]);
+        let line = said(0.21, 0.0, 0.0);
         assert!(
             line.ends_with(
-                "with what is named 0.6700 N·m: the nominal model lacks at least 0.3800 N·m"
+                "pushed with 0.6100 ± 0.004000 N·m at 2.700 s; holds up to 0.2100 N·m: agrees"
             ),
             "{line}"
         );
-        let line = said(0.33, [0.38, 0.26]);
+        let line = said(0.67, 0.38, 0.0);
+        assert!(
+            line.ends_with("0.6700 N·m with what is named: agrees, and of this what is named has to hold at least 0.3800 N·m"),
+            "{line}"
+        );
+        let line = said(0.33, 0.38, 0.26);
         assert!(
             line.ends_with("at least 0.2600 N·m of what holds it is not named"),
             "{line}"

@@ -205,7 +205,7 @@ impl Stand<'_> {
             too_small_to_name: selection.too_small.iter().map(|c| c.name()).collect(),
             withdrawn: self.withdrawn.iter().map(|c| c.name()).collect(),
             not_seen: not_seen(problem, selection, self.options.gates, Motion::Rotary),
-            held: Some(held(problem, self.train, selection)),
+            held: held(problem, self.train, selection),
             fit,
             next_experiment,
             floor: Some(floor.clone()),
@@ -267,8 +267,8 @@ impl Stand<'_> {
                 .collect(),
             usable,
             recorded: average(&super::columns::driving(run, run.forces())),
-            before: modelled(&problem, &bare).split_off(first),
-            after: modelled(&problem, self.selection).split_off(first),
+            before: modelled(&problem, &bare, |_| true).split_off(first),
+            after: modelled(&problem, self.selection, |_| true).split_off(first),
             floor: problem.floor,
         }
     }
@@ -421,12 +421,20 @@ impl Stand<'_> {
     }
 }
 
-/// What a selection's numbers give on a problem of another recording, row by row.
-pub(super) fn modelled(problem: &Problem, selection: &Selection) -> Vec<f64> {
+/// What a selection's numbers give on a problem of other rows, of the terms that act.
+pub(super) fn modelled(
+    problem: &Problem,
+    selection: &Selection,
+    acts: impl Fn(&Term) -> bool,
+) -> Vec<f64> {
     let (_, coefficients) = coefficients_by_term(problem, selection);
     let mut sum = problem.windows.average(&problem.known);
     let terms = refs(&selection.nominal, &selection.found);
-    for (term, own) in terms.iter().zip(&coefficients) {
+    for (term, own) in terms
+        .iter()
+        .zip(&coefficients)
+        .filter(|(term, _)| acts(term))
+    {
         let Some(moved) = realise(problem, term.cause, &term.shape, term.onset_s, &[]) else {
             continue;
         };

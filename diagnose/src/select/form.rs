@@ -3,7 +3,7 @@
 use super::refine::refine;
 use super::together::bends;
 use super::{Found, refs};
-use crate::problem::{Problem, Term};
+use crate::problem::{Cause, Problem, Term};
 use crate::regression::{Blocks, fit};
 use rigproof_spec::effect::Mechanism;
 
@@ -17,11 +17,13 @@ pub(super) fn take_out_forms(
     nominal: &[Term],
     found: &mut Vec<Found>,
     blocks: &Blocks,
-) {
+) -> Vec<Cause> {
+    let mut taken_out = Vec::new();
     while let Some(index) = weakest_form(problem, nominal, found, blocks) {
-        found.remove(index);
+        taken_out.push(found.remove(index).term.cause);
         refine(problem, nominal, found, blocks);
     }
+    taken_out
 }
 
 fn weakest_form(
@@ -64,7 +66,7 @@ mod tests {
 
     use crate::five_bar;
     use crate::five_bar::recorded::{noise_rows, short_run, target};
-    use crate::problem::{Cause, add};
+    use crate::problem::add;
     use crate::select::usable_rms;
     use rigproof_spec::joint::Joint;
 
@@ -93,7 +95,8 @@ mod tests {
                 at_floor: true,
             };
             let mut both = vec![found(&peak), found(bristle)];
-            take_out_forms(&problem, &[], &mut both, &Blocks::new(&problem));
+            let taken_out = take_out_forms(&problem, &[], &mut both, &Blocks::new(&problem));
+            assert_eq!(taken_out.len() + both.len(), 2);
             both.len()
         };
         assert_eq!(

@@ -58,7 +58,7 @@ pub(super) fn beside(
     };
     let mut passed = Vec::new();
     for (index, bent) in found.iter().enumerate() {
-        let is_bent = BENDING.contains(&bent.term.cause.mechanism) && bent.term.onset_s.is_none();
+        let is_bent = bends(bent.term.cause.mechanism) && bent.term.onset_s.is_none();
         let Some(joint) = bent.term.cause.joint.filter(|_| is_bent) else {
             continue;
         };

@@ -1,10 +1,10 @@
 //! This file says how far the names can be believed.
 
 use maud::{Markup, html};
-use rigproof_diagnose::report::{HeldJoint, NamedRate, Report};
+use rigproof_diagnose::report::{NamedRate, Report};
 
 use crate::number::{percent, rate, significant, with_unit};
-use crate::words::{plain_at, plain_cause};
+use crate::words::{at_rest, plain_at, plain_cause};
 
 /// Odds, resampling, floor, trials on simulated recordings, and what could have been overlooked; nothing where nothing was concluded.
 pub fn body(report: &Report) -> Option<Markup> {
@@ -62,28 +62,20 @@ fn held(report: &Report) -> Markup {
         return html! {};
     };
     let torque = |size: f64| with_unit(size, &held.unit);
-    let verdict = |own: &HeldJoint| match (own.missing_before > 0.0, own.missing_after > 0.0) {
-        (_, true) => format!("at least {} missing", torque(own.missing_after)),
-        (true, false) => format!(
-            "the old model lacks at least {}",
-            torque(own.missing_before)
-        ),
-        (false, false) => "agrees".to_owned(),
-    };
     html! {
         @if !held.joints.is_empty() {
             h3 { "Pushed and did not move" }
             div.scroll { table.grid {
-                caption { "Where one brake alone was at rest, it held what it was pushed with. Nothing of this was fitted, so it is evidence of its own. Each row is the moment of the hardest push against what the old model lets the brake hold." }
-                thead { tr { th scope="col" { "joint" } th.number scope="col" { "at rest" } th.number scope="col" { "pushed with" } th.number scope="col" { "old model holds" } th.number scope="col" { "new model holds" } th scope="col" { "all moments together" } } }
+                caption { "Where one brake alone was at rest, it held what it was pushed with. The equation that tells this was not fitted, so it is evidence of its own. Each row is the moment that says most; up to five standard deviations of the push are noise." }
+                thead { tr { th scope="col" { "joint" } th.number scope="col" { "seen at rest" } th.number scope="col" { "pushed with" } th.number scope="col" { "old model holds up to" } th.number scope="col" { "new model holds up to" } th scope="col" { "verdict" } } }
                 tbody { @for own in &held.joints { tr {
                     th scope="row" { (own.joint) }
-                    td.number { (with_unit(own.held_s, "s")) } td.number { (torque(own.pushed)) } td.number { (torque(own.holds_before)) } td.number { (torque(own.holds_after)) }
-                    td { (verdict(own)) }
+                    td.number { (with_unit(own.seen_s, "s")) } td.number { (significant(own.pushed, 4)) " ± " (torque(own.pushed_deviation)) } td.number { (torque(own.holds_nominal)) } td.number { (torque(own.holds)) }
+                    td { (at_rest(own, &held.unit)) }
                 } } }
             } }
         }
-        @if held.all_held_s > 0.0 { p { "For " (with_unit(held.all_held_s, "s")) " all brakes were at rest. What each of them held then cannot be told; nothing is attributed to any." } }
+        @if held.all_seen_s > 0.0 { p { "For " (with_unit(held.all_seen_s, "s")) " all brakes were at rest. What each of them held then cannot be told; nothing is attributed to any." } }
     }
 }
 
