@@ -2,8 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use rayon::ThreadPool;
-use rayon::prelude::*;
 use rigproof_diagnose::report::{InputFile, Report, Verdict};
 use rigproof_diagnose::self_calibration::SelfTest;
 use rigproof_diagnose::{Description, Diagnosis, Measured, Options};
@@ -120,8 +118,7 @@ pub fn made(args: &Args) -> Result<Made, Failure> {
         ));
     };
     if let Some(runs) = args.calibrate {
-        let threads = threads::pool(args.jobs)?;
-        calibrate(&rig, &given, &mut diagnosis, &options, (runs, threads));
+        calibrate(&rig, &given, &mut diagnosis, &options, (runs, args.jobs))?;
     }
     diagnosis.report.inputs = given.identities;
     diagnosis.report.protocol.extend(given.read_as);
@@ -197,33 +194,31 @@ fn calibrate(
     given: &Given,
     diagnosis: &mut Diagnosis,
     options: &Options,
-    (runs, threads): (usize, ThreadPool),
-) {
+    (runs, jobs): (usize, usize),
+) -> Result<(), Failure> {
     let report = &mut diagnosis.report;
     if report.floor.is_none() {
-        return;
+        return Ok(());
     }
     let [recording] = given.recordings.as_slice() else {
-        return;
+        return Ok(());
     };
     let found = (&diagnosis.calibration, &*report);
     let whole = given.held_out.is_some();
     match SelfTest::new(rig, recording, found, (whole, runs), options) {
         Ok(test) => {
             let bar = progress::bar(test.len(), "simulated recordings");
-            let named = threads.install(|| {
-                let all = (0..test.len()).into_par_iter();
-                all.map(|k| {
-                    let named = test.named(k);
-                    bar.inc(1);
-                    named
-                })
-                .collect::<Vec<_>>()
-            });
+            let all: Vec<usize> = (0..test.len()).collect();
+            let named = threads::apart(jobs, &all, |k| {
+                let named = test.named(*k);
+                bar.inc(1);
+                Ok(named)
+            })?;
             report.self_calibration = Some(test.account(&named));
         }
         Err(why) => report.protocol.push(format!("no self-calibration: {why}")),
     }
+    Ok(())
 }
 
 fn say(

@@ -2,6 +2,7 @@
 
 use crate::outcome::Failure;
 use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The most threads that a verb starts: more than any processor has, fewer than a system refuses.
 const MOST: usize = 1024;
@@ -25,9 +26,77 @@ pub fn pool(jobs: usize) -> Result<ThreadPool, Failure> {
     pool.map_err(|error| Failure::Input(format!("cannot start {jobs} jobs: {error}; give fewer")))
 }
 
+/// Does something with every item, so many at once, and gives the results in the order of the items: 0 takes every processor. Each item has
+/// one thread alone, in which its own parallel parts stay: a thread that waits within one item never takes up another, whose memory it would
+/// hold beside the first.
+///
+/// # Errors
+/// Those of an item, after which no other one is begun; the system does not give the threads.
+pub fn apart<T: Sync, R: Send>(
+    jobs: usize,
+    items: &[T],
+    one: impl Fn(&T) -> Result<R, Failure> + Sync,
+) -> Result<Vec<R>, Failure> {
+    let jobs = match jobs {
+        0 => rayon::current_num_threads(),
+        jobs => jobs,
+    };
+    let alone = (0..jobs.min(items.len())).map(|_| pool(1));
+    let alone = alone.collect::<Result<Vec<ThreadPool>, Failure>>()?;
+    let next = AtomicUsize::new(0);
+    let work = || -> Vec<(usize, Result<R, Failure>)> {
+        let mut done = Vec::new();
+        loop {
+            let place = next.fetch_add(1, Ordering::Relaxed);
+            let Some(item) = items.get(place) else {
+                return done;
+            };
+            let result = one(item);
+            if result.is_err() {
+                next.store(items.len(), Ordering::Relaxed);
+            }
+            done.push((place, result));
+        }
+    };
+    let mut done = Vec::new();
+    std::thread::scope(|scope| {
+        let started = alone.iter().map(|pool| scope.spawn(|| pool.install(work)));
+        let started: Vec<_> = started.collect();
+        for thread in started {
+            match thread.join() {
+                Ok(own) => done.extend(own),
+                Err(panic) => std::panic::resume_unwind(panic),
+            }
+        }
+    });
+    done.sort_by_key(|(place, _)| *place);
+    done.into_iter().map(|(_, result)| result).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn every_item_is_done_once_in_its_place_by_one_thread() {
+        for jobs in [0, 1, 3, 40] {
+            let done = apart(jobs, &[3, 1, 4, 1, 5, 9, 2], |x| {
+                Ok((x * x, rayon::current_num_threads()))
+            });
+            let expected = [9, 1, 16, 1, 25, 81, 4].map(|square| (square, 1));
+            assert_eq!(done.unwrap(), expected);
+        }
+        assert!(apart(2, &[] as &[u8], |x| Ok(*x)).unwrap().is_empty());
+    }
+
+    #[test]
+    fn an_item_that_fails_is_the_result() {
+        let failed = apart(2, &[3, 7, 5], |x| match x {
+            7 => Err(Failure::Input("seven".to_owned())),
+            x => Ok(*x),
+        });
+        assert!(matches!(failed, Err(Failure::Input(why)) if why == "seven"));
+    }
 
     #[test]
     fn more_threads_than_any_processor_has_are_refused() {

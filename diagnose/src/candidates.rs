@@ -5,6 +5,7 @@ use crate::problem::{Cause, PlantRun, Problem, Term, add};
 use crate::regression::Fit;
 use crate::run::Run;
 use core::f64::consts::TAU;
+use rayon::prelude::*;
 use rigproof_model::effects::{Form, Instant, LIBRARY};
 use rigproof_spec::effect::Mechanism;
 
@@ -44,6 +45,19 @@ pub fn variants(problem: &Problem, cause: Cause, terms: &[&Term], fitted: &Fit) 
                 .kept_term(cause, shape)
                 .or_else(|| realise(problem, cause, shape, None, &effort))
         })
+        .collect()
+}
+
+/// The variants of several causes, a list a cause.
+pub fn all_variants(
+    problem: &Problem,
+    causes: Vec<Cause>,
+    terms: &[&Term],
+    fitted: &Fit,
+) -> Vec<Vec<Term>> {
+    let lists = causes.into_par_iter();
+    lists
+        .map(|cause| variants(problem, cause, terms, fitted))
         .collect()
 }
 

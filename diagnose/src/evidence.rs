@@ -12,6 +12,7 @@ use crate::select::{Found, Gates, Selection, refs};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
+use rayon::prelude::*;
 use rigproof_model::effects::entry;
 use rigproof_spec::effect::{Mechanism, Motion};
 use rigproof_spec::joint::Joint;
@@ -168,7 +169,7 @@ pub fn not_seen(
         .collect();
     let basis = orthonormal(&basis);
     causes(problem)
-        .into_iter()
+        .into_par_iter()
         .filter(|cause| !taken.contains(cause))
         .filter_map(|cause| {
             let tried = variants(problem, cause, &terms, &selection.after);

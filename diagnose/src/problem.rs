@@ -12,11 +12,12 @@ use crate::run::{PlantKind, Run, rms};
 use crate::scatter::Trials;
 use crate::weak::Windows;
 use crate::whiten::{ORDER, Whitener};
-use core::cell::RefCell;
+use rayon::prelude::*;
 use rigproof_model::effects::entry;
 use rigproof_spec::effect::Mechanism;
 use signals::second_difference;
-use std::sync::Arc;
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, PoisonError, RwLock};
 
 pub use cause::Cause;
 pub use joint::{is_of_brake, of_brake, unit_parameters};
@@ -178,9 +179,9 @@ pub struct Problem<'a> {
     /// Trials of a brake whose gains are taken out of every row.
     trials: Option<Trials>,
     /// Terms from the start of the recording that are asked for again and again.
-    kept: RefCell<Vec<Term>>,
-    /// The signals that were asked for last: several onsets are tried of the same ones.
-    recent: RefCell<Option<Recent>>,
+    kept: RwLock<Vec<Term>>,
+    /// The signals that each thread asked for last: several onsets are tried of the same ones.
+    recent: Mutex<HashMap<Option<usize>, Recent>>,
 }
 
 /// A cause, a shape, and what they give.
@@ -267,8 +268,8 @@ impl<'a> Problem<'a> {
             effort_size: rms(&windows.average(&plant.effort())),
             windows,
             trials: None,
-            kept: RefCell::default(),
-            recent: RefCell::default(),
+            kept: RwLock::default(),
+            recent: Mutex::default(),
         }
     }
 
@@ -294,11 +295,10 @@ impl<'a> Problem<'a> {
     pub fn whiten_with(&mut self, whitener: Whitener) {
         self.whitener = whitener;
         self.whiten_own();
-        let mut kept = self.kept.take();
-        for term in &mut kept {
-            self.refresh(term);
-        }
-        self.kept = RefCell::new(kept);
+        let kept = self.kept.get_mut().unwrap_or_else(PoisonError::into_inner);
+        let mut kept = core::mem::take(kept);
+        kept.par_iter_mut().for_each(|term| self.refresh(term));
+        self.kept = RwLock::new(kept);
     }
 
     /// A column given row by row.
@@ -353,16 +353,17 @@ impl<'a> Problem<'a> {
     }
 
     fn free_signals(&self, cause: Cause, shape: &[f64]) -> Option<Arc<Vec<Vec<f64>>>> {
-        if let Some((own, known, signals)) = &*self.recent.borrow()
-            && (*own, &known[..]) == (cause, shape)
-        {
+        let recent = || self.recent.lock().unwrap_or_else(PoisonError::into_inner);
+        let thread = rayon::current_thread_index();
+        let same = |(own, known, _): &&Recent| (*own, &known[..]) == (cause, shape);
+        if let Some((.., signals)) = recent().get(&thread).filter(same) {
             return Some(signals.clone());
         }
         let signals = Arc::new(match self.plant {
             PlantRun::Joint(run) => joint::resistances(run, cause.mechanism, shape),
             PlantRun::FiveBar(run) => five_bar::columns::free(run, cause, shape),
         }?);
-        *self.recent.borrow_mut() = Some((cause, shape.to_vec(), signals.clone()));
+        recent().insert(thread, (cause, shape.to_vec(), signals.clone()));
         Some(signals)
     }
 
@@ -384,7 +385,8 @@ impl<'a> Problem<'a> {
                 PlantRun::FiveBar(_) => self.drive_term(cause, shape, None, &[]),
             })?;
             self.lighten(&mut term);
-            self.kept.borrow_mut().push(term.clone());
+            let mut kept = self.kept.write().unwrap_or_else(PoisonError::into_inner);
+            kept.push(term.clone());
             Some(term)
         })
     }
@@ -399,7 +401,7 @@ impl<'a> Problem<'a> {
     }
 
     fn kept(&self, cause: Cause, shape: &[f64]) -> Option<Term> {
-        let kept = self.kept.borrow();
+        let kept = self.kept.read().unwrap_or_else(PoisonError::into_inner);
         let same = |t: &&Term| t.cause == cause && t.shape == shape;
         kept.iter().find(same).cloned()
     }

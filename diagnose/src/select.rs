@@ -11,7 +11,7 @@ mod step;
 mod together;
 mod weigh;
 
-use crate::candidates::{causes, variants};
+use crate::candidates::{all_variants, causes};
 use crate::problem::{Cause, PlantRun, Problem, Term};
 use crate::regression::{Blocks, Fit, fit};
 use form::take_out_forms;
@@ -202,8 +202,7 @@ fn rich_residual(problem: &Problem, nominal: &[Term], blocks: &Blocks) -> Vec<f6
     let mut terms: Vec<Term> = nominal.to_vec();
     let common: Vec<&Term> = nominal.iter().collect();
     let plain = fit(problem, &common, blocks);
-    for cause in causes(problem) {
-        let tried = variants(problem, cause, &common, &plain);
+    for tried in all_variants(problem, causes(problem), &common, &plain) {
         let step = (tried.len() / 3).max(1);
         terms.extend(
             tried

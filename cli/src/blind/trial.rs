@@ -4,7 +4,6 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use indicatif::ProgressBar;
-use rayon::prelude::*;
 use rigproof_blind::{Answer, Case, Error, Plant, Score, Table, again, make, open, score, under};
 use rigproof_diagnose::{Description, Diagnosis, Options};
 use rigproof_trace::Trace;
@@ -128,18 +127,14 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
         let problem = "--experiments does experiments on the five-bar: add --plant rig";
         return Err(Failure::Usage(problem.to_owned()));
     }
-    let threads = threads::pool(args.jobs)?;
     let cases: Vec<(Plant, u64)> = args
         .seeds
         .clone()
         .map(|s| (plant(args.plant, s), s))
         .collect();
     let bar = progress::bar(cases.len(), "recordings");
-    let tried = threads.install(|| {
-        let cases = cases.par_iter().with_max_len(1);
-        cases
-            .map(|&(plant, seed)| one(args, plant, seed, &bar))
-            .collect::<Result<Vec<Tried>, Failure>>()
+    let tried = threads::apart(args.jobs, &cases, |&(plant, seed)| {
+        one(args, plant, seed, &bar)
     })?;
     drop(bar);
     let mut table = Table::default();

@@ -9,6 +9,7 @@ use crate::report::LimitOf;
 use crate::select::{
     Selection, TIE_Z, as_two, best_variant, floor_limit, gives_energy, refined, refs, usable_rms,
 };
+use rayon::prelude::*;
 use rigproof_model::effects::entry;
 use rigproof_spec::effect::{Mechanism, Motion, Parameter};
 
@@ -139,7 +140,7 @@ fn rivals_of(problem: &Problem, selection: &Selection, index: usize, blocks: &Bl
         bare,
         common,
     };
-    let open = causes(problem).into_iter();
+    let open = causes(problem).into_par_iter();
     let open = open.filter(|cause| !taken.contains(cause));
     let all: Vec<Rival> = open.filter_map(|cause| place.rival(cause)).collect();
     let mut rivals = Rivals {

@@ -21,6 +21,7 @@ use crate::weak::Windows;
 use explanation::Explanation;
 use plan::{DURATION_S, MIDDLE_M, Plan, plans};
 use play::{Sensors, play, with_effects};
+use rayon::prelude::*;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::methods::greatest_desired_force_n;
 use rigproof_trace::Trace;
@@ -82,12 +83,12 @@ fn best<'p>(
         let others = 1..losses.len();
         others.map(|other| beyond(&losses, 0, other)).collect()
     };
-    let screened: Vec<Vec<f64>> = plans.iter().map(screen).collect();
+    let screened: Vec<Vec<f64>> = plans.par_iter().map(screen).collect();
     let mut finalists: Vec<(&Plan, f64)> = plans.iter().zip(least(&screened)).collect();
     finalists.sort_by(|(_, one), (_, other)| other.total_cmp(one));
     finalists.truncate(FINALISTS);
     let apart: Vec<Vec<f64>> = finalists
-        .iter()
+        .par_iter()
         .map(|(plan, _)| separations(stand, explanations, plan).unwrap_or_default())
         .collect();
     let ranked = finalists.iter().zip(&apart).zip(least(&apart));
@@ -247,7 +248,7 @@ fn beyond(losses: &[f64], truth: usize, other: usize) -> f64 {
 /// leaves of the other's recording.
 fn separations(stand: &Stand<'_>, explanations: &[Explanation], plan: &Plan) -> Option<Vec<f64>> {
     let all = explanations
-        .iter()
+        .par_iter()
         .map(|truth| losses(stand, truth, explanations, plan));
     let all: Vec<Vec<f64>> = all.collect::<Option<_>>()?;
     let way = |truth: usize, other: usize| {

@@ -4,10 +4,10 @@ use super::run::{FiveBarRun, stacked};
 use crate::run::rms;
 use crate::weak::{Windows, is_recorded, overlap};
 use crate::whiten::Whitener;
-use core::cell::OnceCell;
 use nalgebra::{Matrix2, Vector2};
 use rigproof_model::effects::Instant;
 use rigproof_spec::joint::Joint;
+use std::sync::OnceLock;
 
 /// What the brakes may do where the sense of motion cannot be told, in floors.
 const MOST_UNTOLD: f64 = 0.5;
@@ -105,7 +105,7 @@ struct Noise<'a> {
     /// The weights of both equations in each row.
     shares: Vec<Vector2<f64>>,
     /// Overlaps of two windows by their distance in hops: of the curvatures and of the bumps.
-    overlaps: Vec<OnceCell<[f64; 2]>>,
+    overlaps: Vec<OnceLock<[f64; 2]>>,
     excess: f64,
 }
 
@@ -118,7 +118,7 @@ impl<'a> Noise<'a> {
             shares: (0..windows.centres.len())
                 .map(|row| Vector2::from_iterator(windows.shares(row)))
                 .collect(),
-            overlaps: vec![OnceCell::new(); windows.curvature.len() / windows.hop + 2],
+            overlaps: vec![OnceLock::new(); windows.curvature.len() / windows.hop + 2],
             excess: excess / white,
         }
     }

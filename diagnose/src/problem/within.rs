@@ -2,6 +2,7 @@
 
 use super::Problem;
 use crate::scatter::Trials;
+use std::sync::PoisonError;
 
 impl Problem<'_> {
     /// The same problem within trials.
@@ -10,7 +11,10 @@ impl Problem<'_> {
         let mut raw = core::mem::take(&mut self.target.raw);
         self.take_out_trials(&mut raw);
         self.target.raw = raw;
-        self.kept.take();
+        self.kept
+            .get_mut()
+            .unwrap_or_else(PoisonError::into_inner)
+            .clear();
         self.whiten_own();
         self
     }

@@ -8,6 +8,7 @@ use super::{Found, Gates, TIE_Z};
 use crate::candidates::is_at_edge;
 use crate::problem::{PlantRun, Problem, Term};
 use crate::regression::{Blocks, Fit, fit, nested_block_losses, paired};
+use rayon::prelude::*;
 use rigproof_model::effects::entry;
 
 /// A candidate that passed the gates.
@@ -35,7 +36,7 @@ pub(super) fn trials(
     gates: Gates,
 ) -> (Vec<Trial>, Vec<Term>) {
     let candidates: Vec<(Vec<Term>, Term, f64)> = lists
-        .into_iter()
+        .into_par_iter()
         .map(|list| linearised(problem, common, list, blocks))
         .filter_map(|list| {
             let (term, loss) = best(problem, common, &list)?;
@@ -45,7 +46,7 @@ pub(super) fn trials(
     let least = candidates.iter().map(|c| c.2).fold(current.loss, f64::min);
     let bests = candidates.iter().map(|c| c.1.clone()).collect();
     let trials = candidates
-        .into_iter()
+        .into_par_iter()
         .filter(|(_, _, loss)| current.loss - loss >= PROMISING * (current.loss - least))
         .filter_map(|(mut list, mut term, _)| {
             if list.len() > 1 {

@@ -7,9 +7,10 @@ use super::step::with_onsets;
 use super::together::is_noise;
 use super::weigh::{drives, excitation, own_coefficients};
 use super::{Found, Gates, refs};
-use crate::candidates::{causes, is_at_edge, modelled_effort, variants};
+use crate::candidates::{all_variants, causes, is_at_edge, modelled_effort};
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, Fit, dot, fit, paired};
+use rayon::prelude::*;
 
 /// The one mechanism that takes away nearly all, where blocks showed none for what is more, or several that leave more than it; then it may
 /// begin during the recording too, and leaves nothing but noise.
@@ -25,12 +26,12 @@ pub(super) fn sole(
     let common = refs(nominal, &[]);
     let current = fit(problem, &common, &Blocks::new(problem));
     let of_all = |lists: Vec<Vec<Term>>| -> Vec<(Term, f64)> {
-        let bests = lists.iter().filter_map(|list| best(problem, &common, list));
-        bests.collect()
+        let bests = lists.par_iter();
+        bests
+            .filter_map(|list| best(problem, &common, list))
+            .collect()
     };
-    let lists = causes(problem).into_iter();
-    let lists = lists.map(|cause| variants(problem, cause, &common, &current));
-    let early = of_all(lists.collect());
+    let early = of_all(all_variants(problem, causes(problem), &common, &current));
     let most_left = |share: f64| (1.0 - share) * current.loss;
     let judged = |mut tried: Vec<(Term, f64)>, share: f64| {
         tried.retain(|(_, loss)| *loss <= most_left(share));
@@ -41,7 +42,7 @@ pub(super) fn sole(
     judged(early.clone(), share).filter(is_enough).or_else(|| {
         let effort = modelled_effort(problem, &common, &current);
         let lists = early
-            .iter()
+            .par_iter()
             .map(|(term, _)| with_onsets(problem, term, &effort));
         judged(of_all(lists.collect()), NEAR_ENOUGH).filter(|found| found.at_floor)
     })
@@ -59,10 +60,12 @@ fn promising(
     tried.sort_by(|a, b| a.1.total_cmp(&b.1));
     tried.truncate(PROMISING);
     let refined = tried
-        .into_iter()
+        .into_par_iter()
         .map(|(term, _)| refined(problem, common, term, &blocks));
     let judged = refined.filter_map(|term| by_windows(problem, common, current, term, gates));
+    let judged: Vec<(f64, Found)> = judged.collect();
     judged
+        .into_iter()
         .min_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, found)| found)
 }

@@ -3,9 +3,10 @@
 use super::judge::{SIMPLER_SHARE, Trial, simplest, those_that_leave_noise, trials};
 use super::together::{beside, is_noise, masking, of_one_family};
 use super::{Found, Gates, TIE_Z, refs};
-use crate::candidates::{causes, modelled_effort, realise, variants};
+use crate::candidates::{all_variants, causes, modelled_effort, realise};
 use crate::problem::{Cause, PlantRun, Problem, Term};
 use crate::regression::{Blocks, Fit, fit, paired};
+use rayon::prelude::*;
 use rigproof_spec::effect::Mechanism;
 
 /// Memoryless mechanisms of one parameter: they are named first, and the others must still be needed beside or
@@ -34,15 +35,12 @@ pub(super) fn forward(
     let common = refs(nominal, found);
     let current = fit(problem, &common, blocks);
     let gates = beyond_noise(problem, &current, found, gates);
-    let lists: Vec<Vec<Term>> = open(problem, nominal, found)
-        .into_iter()
-        .map(|m| variants(problem, m, &common, &current))
-        .collect();
+    let lists = all_variants(problem, open(problem, nominal, found), &common, &current);
     let (mut early, bests) = trials(problem, &common, &current, lists, blocks, gates);
     early.extend(beside(problem, nominal, found, &current, blocks, gates));
     let effort = modelled_effort(problem, &common, &current);
     let onsets = |terms: &[Term]| -> Vec<Vec<Term>> {
-        let each = terms.iter();
+        let each = terms.par_iter();
         each.map(|t| with_onsets(problem, t, &effort)).collect()
     };
     let (mut late, _) = trials(problem, &common, &current, onsets(&bests), blocks, gates);
@@ -119,10 +117,7 @@ pub(super) fn swap(
         let common = refs(nominal, &others);
         let without = fit(problem, &common, blocks);
         let current = fit(problem, &refs(nominal, found), blocks);
-        let lists = open(problem, nominal, found)
-            .into_iter()
-            .map(|m| variants(problem, m, &common, &without))
-            .collect();
+        let lists = all_variants(problem, open(problem, nominal, found), &common, &without);
         let (passed, _) = trials(problem, &common, &without, lists, blocks, gates);
         let better: Vec<Trial> = passed
             .into_iter()
