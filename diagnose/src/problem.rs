@@ -2,6 +2,7 @@
 //! and the columns that a cause could explain it with.
 
 mod cause;
+mod inertia;
 mod joint;
 mod signals;
 mod within;
@@ -20,6 +21,7 @@ use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError, RwLock};
 
 pub use cause::Cause;
+pub use inertia::Inertia;
 pub use joint::{is_of_brake, of_brake, unit_parameters};
 pub use signals::{USUAL_SHARE, lagged_yield, numerov, shifted, through_play};
 
@@ -62,27 +64,6 @@ pub struct NominalEffect {
     pub unknown: bool,
     /// When it begins, s.
     pub onset_s: Option<f64>,
-}
-
-/// The inertia of an axis.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Inertia {
-    /// A bench: none.
-    None,
-    /// Known, kg or kg·m².
-    Known(f64),
-    /// To be estimated, with a start value.
-    Unknown(f64),
-}
-
-impl Inertia {
-    /// The value that is known or started from, kg or kg·m²; 0 on a bench.
-    pub fn start(self) -> f64 {
-        match self {
-            Inertia::None => 0.0,
-            Inertia::Known(value) | Inertia::Unknown(value) => value,
-        }
-    }
 }
 
 /// The recording that a problem is about.
