@@ -2,7 +2,7 @@
 
 use super::Problem;
 use crate::scatter::Trials;
-use std::sync::PoisonError;
+use std::sync::RwLock;
 
 impl Problem<'_> {
     /// The same problem within trials.
@@ -11,10 +11,7 @@ impl Problem<'_> {
         let mut raw = core::mem::take(&mut self.target.raw);
         self.take_out_trials(&mut raw);
         self.target.raw = raw;
-        self.kept
-            .get_mut()
-            .unwrap_or_else(PoisonError::into_inner)
-            .clear();
+        self.kept = RwLock::default();
         self.whiten_own();
         self
     }
