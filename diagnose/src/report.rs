@@ -274,7 +274,7 @@ pub struct EffectReport {
     pub onset_low95_s: Option<f64>,
     /// Upper end.
     pub onset_high95_s: Option<f64>,
-    /// Paired z over left-out blocks against the model without it.
+    /// Paired z against the model without it, over left-out blocks; over windows where it shows in too few blocks.
     pub z: f64,
     /// Share of block-bootstrap replicates in which it still passes.
     pub inclusion: f64,

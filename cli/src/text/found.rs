@@ -110,7 +110,7 @@ fn one(effect: &EffectReport, rivals: &[String]) -> Vec<String> {
         .extend(parameters.map(|(name, number)| format!("    {name} = {}", with_interval(number))));
     lines.extend(onset(effect));
     lines.push(format!(
-        "    z = {:.1} over left-out blocks; stays in {} of the resampled recordings; takes away {} of the loss",
+        "    z = {:.1} against the model without it; stays in {} of the resampled recordings; takes away {} of the loss",
         effect.z,
         percent(effect.inclusion),
         percent(effect.share_explained),
