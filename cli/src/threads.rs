@@ -2,9 +2,11 @@
 
 use crate::outcome::Failure;
 use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::fmt::Display;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread::Builder;
 
-/// The most threads that a verb starts: more than any processor has, fewer than a system refuses.
+/// The most jobs at once: more than any processor has threads. A system that gives fewer says so.
 const MOST: usize = 1024;
 
 /// Reads a number of jobs; 0 takes every processor.
@@ -23,7 +25,22 @@ pub fn parse(text: &str) -> Result<usize, String> {
 /// The system does not give them.
 pub fn pool(jobs: usize) -> Result<ThreadPool, Failure> {
     let pool = ThreadPoolBuilder::new().num_threads(jobs).build();
-    pool.map_err(|error| Failure::Input(format!("cannot start {jobs} jobs: {error}; give fewer")))
+    pool.map_err(|error| refused(jobs, &error))
+}
+
+fn refused(jobs: usize, error: &dyn Display) -> Failure {
+    Failure::Input(format!("cannot start {jobs} jobs: {error}; give fewer"))
+}
+
+/// Begins no other item once one of them panics.
+struct Last<'a>(&'a AtomicUsize, usize);
+
+impl Drop for Last<'_> {
+    fn drop(&mut self) {
+        if std::thread::panicking() {
+            self.0.store(self.1, Ordering::Relaxed);
+        }
+    }
 }
 
 /// Does something with every item, so many at once, and gives the results in the order of the items: 0 takes every processor. Each item has
@@ -41,10 +58,14 @@ pub fn apart<T: Sync, R: Send>(
         0 => rayon::current_num_threads(),
         jobs => jobs,
     };
-    let alone = (0..jobs.min(items.len())).map(|_| pool(1));
+    let alone = (0..jobs.min(items.len())).map(|_| {
+        let pool = ThreadPoolBuilder::new().num_threads(1).build();
+        pool.map_err(|error| refused(jobs, &error))
+    });
     let alone = alone.collect::<Result<Vec<ThreadPool>, Failure>>()?;
     let next = AtomicUsize::new(0);
     let work = || -> Vec<(usize, Result<R, Failure>)> {
+        let _last = Last(&next, items.len());
         let mut done = Vec::new();
         loop {
             let place = next.fetch_add(1, Ordering::Relaxed);
@@ -59,16 +80,20 @@ pub fn apart<T: Sync, R: Send>(
         }
     };
     let mut done = Vec::new();
-    std::thread::scope(|scope| {
-        let started = alone.iter().map(|pool| scope.spawn(|| pool.install(work)));
+    std::thread::scope(|scope| -> Result<(), Failure> {
+        let started = alone.iter().map(|pool| {
+            let thread = Builder::new().spawn_scoped(scope, || pool.install(work));
+            thread.inspect_err(|_| next.store(items.len(), Ordering::Relaxed))
+        });
         let started: Vec<_> = started.collect();
         for thread in started {
-            match thread.join() {
+            match thread.map_err(|error| refused(jobs, &error))?.join() {
                 Ok(own) => done.extend(own),
                 Err(panic) => std::panic::resume_unwind(panic),
             }
         }
-    });
+        Ok(())
+    })?;
     done.sort_by_key(|(place, _)| *place);
     done.into_iter().map(|(_, result)| result).collect()
 }
@@ -96,6 +121,20 @@ mod tests {
             x => Ok(*x),
         });
         assert!(matches!(failed, Err(Failure::Input(why)) if why == "seven"));
+    }
+
+    #[test]
+    fn an_item_that_panics_is_the_last_one() {
+        let begun = AtomicUsize::new(0);
+        let caught = std::panic::catch_unwind(|| {
+            apart(1, &[3, 7, 5], |x| {
+                begun.fetch_add(1, Ordering::Relaxed);
+                assert_ne!(*x, 7);
+                Ok(())
+            })
+        });
+        assert!(caught.is_err());
+        assert_eq!(begun.into_inner(), 2);
     }
 
     #[test]
