@@ -13,6 +13,7 @@ use rigproof_trace::suggest::quoted;
 use rigproof_trace::{Trace, TraceError};
 use serde_json::{Value, json};
 
+use crate::keep;
 use crate::outcome::{Failure, Outcome, plain, print};
 use crate::reading::{self, Reading};
 
@@ -76,6 +77,9 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     if !to_mcap && !args.attach.is_empty() {
         let problem = "--attach is for MCAP files; give the output a name that ends in `.mcap`";
         return Err(Failure::Usage(problem.into()));
+    }
+    if let Some(output) = &args.output {
+        keep::check(output, [&args.input].into_iter().chain(&args.attach))?;
     }
     if mcap::is_mcap(&args.input)? {
         return messages::run(args, to_mcap);

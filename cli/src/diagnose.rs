@@ -9,7 +9,7 @@ use rigproof_trace::store::Folder;
 
 use crate::input::{self, Cut, Source};
 use crate::outcome::{Failure, Outcome, print};
-use crate::{folder, page, progress, shell, text, threads};
+use crate::{folder, keep, page, progress, shell, text, threads};
 
 /// What is to be diagnosed.
 #[derive(clap::Args)]
@@ -29,8 +29,8 @@ pub struct Args {
     /// Say how far the result can be believed: diagnose as many simulated recordings like this one whose causes are known
     #[arg(long, value_name = "RUNS", num_args = 0..=1, default_missing_value = "20", value_parser = parse_runs)]
     calibrate: Option<usize>,
-    /// Simulated recordings that are diagnosed at once; 0 takes every processor. The result does not depend on it
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = threads::parse, requires = "calibrate")]
+    /// What is worked on at once: explanations, and with --calibrate simulated recordings; 0 takes every processor. The result does not depend on it
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = threads::parse)]
     jobs: usize,
     /// Print the report as JSON
     #[arg(long)]
@@ -95,6 +95,8 @@ pub struct Made {
 /// An input is not usable, or the folder cannot be written.
 pub fn made(args: &Args) -> Result<Made, Failure> {
     let out = out(args)?;
+    let Source { recording, rig, .. } = &args.source;
+    keep::check(&out, [recording, rig].into_iter().chain(&args.hold_out))?;
     // A wrong place is refused before the work, not after it.
     drop(Folder::begin(&out)?);
     let rig = Description::read(&args.source.rig)?;
@@ -108,7 +110,8 @@ pub fn made(args: &Args) -> Result<Made, Failure> {
         ..Options::default()
     };
     let mark = progress::spinner("diagnosing");
-    let diagnosis = rig.diagnose(&given.recordings, given.held_out.as_ref(), &options);
+    let diagnosis = threads::pool(args.jobs)?
+        .install(|| rig.diagnose(&given.recordings, given.held_out.as_ref(), &options));
     drop(mark);
     let Some(mut diagnosis) = diagnosis else {
         let problem = "several recordings together are of a five-bar: diagnose those of an axis or a bench one by one";

@@ -16,6 +16,7 @@ mod golden;
 mod identify;
 mod input;
 mod inspect;
+mod keep;
 mod man;
 mod new;
 mod outcome;

@@ -18,8 +18,8 @@ use serde_json::json;
 
 use crate::input::{self, HowRead, Source};
 use crate::outcome::{Failure, Outcome, print};
-use crate::progress;
 use crate::text::number::{significant, with_unit};
+use crate::{keep, progress};
 
 /// What is to be simulated.
 #[derive(clap::Args)]
@@ -58,6 +58,10 @@ Examples:
 
 /// Simulates, compares, and writes both outputs.
 pub fn run(args: &Args) -> Result<Outcome, Failure> {
+    if let Some(out) = &args.out {
+        let Source { recording, rig, .. } = &args.source;
+        keep::check(out, [recording, rig].into_iter().chain(&args.calibration))?;
+    }
     let rig = match Description::read(&args.source.rig)? {
         Description::Joint(rig) => rig,
         Description::FiveBar(rig) => return five_bar::run(args, &rig),

@@ -13,7 +13,7 @@ use crate::input::HowRead;
 use crate::outcome::{Failure, Outcome, print};
 use crate::reading::Reading;
 use crate::text::{join, section};
-use crate::{input, progress, shell};
+use crate::{input, keep, progress, shell};
 
 /// What is to be identified.
 #[derive(clap::Args)]
@@ -51,6 +51,7 @@ Example:
 /// Identifies, writes the rig file and prints the table.
 pub fn run<'a>(args: &'a Args) -> Result<Outcome, Failure> {
     let out = out(args)?;
+    keep::check(&out, args.recordings.iter().chain([&args.rig]))?;
     once_each(&args.recordings)?;
     let rig = Rig::read(&args.rig)?;
     let mut read_as: Vec<(&PathBuf, HowRead)> = Vec::new();

@@ -87,6 +87,7 @@ fn a_folder_that_holds_somebody_elses_files_stays_as_it_is() {
     let desk = desk();
     std::fs::create_dir(desk.path("mine")).unwrap();
     desk.put("mine/notes.txt", "mine");
+    desk.put("notes.txt", "mine");
     for verb in [
         "diagnose run.csv --rig rig.toml --out mine",
         "demo --out mine",
@@ -96,7 +97,7 @@ fn a_folder_that_holds_somebody_elses_files_stays_as_it_is() {
     }
     refused(
         &desk,
-        "diagnose run.csv --rig rig.toml --out run.csv",
+        "diagnose run.csv --rig rig.toml --out notes.txt",
         "a file stands where",
     );
     refused(
@@ -105,6 +106,31 @@ fn a_folder_that_holds_somebody_elses_files_stays_as_it_is() {
         "no such file or folder",
     );
     assert_eq!(desk.names("mine"), ["notes.txt"]);
+}
+
+#[test]
+fn what_is_read_is_not_replaced() {
+    let desk = desk();
+    std::fs::create_dir(desk.path("mine")).unwrap();
+    let names = ["run.csv", "rig.toml", ".rigproof"];
+    for name in ["run.csv", "rig.toml"] {
+        desk.put(&format!("mine/{name}"), &desk.read(name));
+    }
+    desk.put("mine/.rigproof", &names.join("\n"));
+    for line in [
+        "diagnose mine/run.csv --rig rig.toml --out mine",
+        "diagnose run.csv --rig mine/rig.toml --out ./mine",
+        "diagnose run.csv --rig rig.toml --hold-out mine/run.csv --out mine",
+        "diagnose mine --rig rig.toml --out mine",
+        "simulate mine/run.csv --rig rig.toml --out mine/run.csv",
+        "simulate run.csv --rig mine/rig.toml --out mine/../mine/rig.toml",
+        "convert mine/run.csv mine/run.csv",
+    ] {
+        refused(&desk, line, "would replace");
+    }
+    let mut all = desk.names("mine");
+    all.sort();
+    assert_eq!(all, [".rigproof", "rig.toml", "run.csv"]);
 }
 
 #[test]
