@@ -88,6 +88,9 @@ fn say(args: &Args, played: &Played) -> Result<String, Failure> {
             significant(travel_b, 3)
         ),
     ];
-    lines.extend(path(&args.out).map(|file| format!("  file     {file}")));
+    lines.push(match path(&args.out) {
+        Some(file) => format!("  file     {file}"),
+        None => "  file     none; give --out to keep what the rig would record".to_owned(),
+    });
     Ok(lines.join("\n"))
 }

@@ -70,7 +70,12 @@ impl Stand<'_> {
     }
 }
 
-pub(crate) fn summary(verdict: Verdict, selection: &Selection, fit: Option<&FitReport>) -> String {
+pub(crate) fn summary(
+    verdict: Verdict,
+    selection: &Selection,
+    fit: Option<&FitReport>,
+    rivals: &[Vec<String>],
+) -> String {
     let names: Vec<String> = selection
         .found
         .iter()
@@ -89,6 +94,10 @@ pub(crate) fn summary(verdict: Verdict, selection: &Selection, fit: Option<&FitR
         }
         _ => String::new(),
     };
+    let or = match rivals.iter().any(|own| !own.is_empty()) {
+        true => ", or what is listed as ambiguous with it",
+        false => "",
+    };
     match verdict {
         Verdict::Consistent => {
             "the nominal model explains the recording down to its sensor noise".to_owned()
@@ -97,10 +106,10 @@ pub(crate) fn summary(verdict: Verdict, selection: &Selection, fit: Option<&FitR
             format!("the model left out {named}; with it nothing but sensor noise stays{shown}")
         }
         Verdict::PartlyExplained => {
-            format!("the model left out {named}; something beyond sensor noise stays{shown}")
+            format!("the model left out {named}{or}; something beyond sensor noise stays{shown}")
         }
         Verdict::Ambiguous => {
-            format!("the model left out {named}, or what is listed as ambiguous with it{shown}")
+            format!("the model left out {named}{or}{shown}")
         }
         Verdict::NoneOfLibrary => {
             "the model left out something that is not in the library; `located` says where"

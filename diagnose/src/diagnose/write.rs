@@ -88,7 +88,7 @@ impl Stand<'_> {
         // A bench with a brake keeps the numbers of its windows.
         let refitted = fitted.is_some() && self.train.brake().is_none();
         let calibration = calibrated(self.rig, &plants.1, &intervals, refitted);
-        let summary = summary(verdict, self.selection, fit.as_ref());
+        let summary = summary(verdict, self.selection, fit.as_ref(), &rivals);
         let report = Report {
             protocol: self.protocol_lines(&protocol, other_recording),
             floor: Some(floor),

@@ -18,7 +18,8 @@ const RIVAL_SHARE: f64 = 0.9;
 /// Share of an effect's gain from which on the grid of a rival's shapes is refined.
 const NEAR_RIVAL: f64 = 0.7;
 
-/// Times what the named laws leave that a rival may leave in one's place, where they leave more than noise.
+/// Times what the named laws leave that a rival may leave in one's place, the block aside in which it leaves most more, where they leave more
+/// than noise.
 const TIMES_LEFT: f64 = 2.0;
 
 /// What could stand in the place of one found mechanism.
@@ -287,12 +288,13 @@ impl Place<'_> {
 
 /// From how much more left-out loss on one explanation is another's rival no more, on a five-bar; without bound on a joint alone. Where what was
 /// named leaves nothing but noise, noise is the measure: the scatter of a short recording's few blocks would keep what leaves many deviations more.
-/// Where it leaves more, since a law seldom has the exact form of what is there, what it leaves is.
+/// Where it leaves more, since a law seldom has the exact form of what is there, what it leaves is, and no less than what tells two white
+/// explanations apart.
 fn telling(problem: &Problem, selection: &Selection) -> f64 {
     let left = usable_rms(problem, &selection.after.residual) / problem.floor;
     match problem.plant {
         PlantRun::FiveBar(_) if left > floor_limit(problem) => {
-            (TIMES_LEFT - 1.0) * selection.after.left_out()
+            ((TIMES_LEFT - 1.0) * selection.after.left_out()).max(LEAST_SIGMAS.powi(2))
         }
         _ => apart(problem, selection),
     }
@@ -407,7 +409,7 @@ mod tests {
     }
 
     #[test]
-    fn beside_what_leaves_more_than_noise_a_rival_leaves_no_more_than_twice_that() {
+    fn beside_what_leaves_more_than_noise_a_rival_leaves_no_more_than_twice_that_but_for_a_block() {
         let dry_is_rival = |drag_nms, told: bool| {
             in_place([bristle(&0.05), bristle(&0.05)], drag_nms, |place| {
                 let telling = match told {

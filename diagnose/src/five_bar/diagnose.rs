@@ -195,7 +195,7 @@ impl Stand<'_> {
         let mut protocol = self.protocol(other_recording);
         protocol.extend(fit.iter().map(|fit| fit.protocol.clone()));
         let (before, after) = (&selection.before.residual, &selection.after.residual);
-        let summary = summary(verdict, selection, fit.as_ref());
+        let summary = summary(verdict, selection, fit.as_ref(), &rivals);
         let report = Report {
             protocol,
             located: locate(problem, self.train, before, after),

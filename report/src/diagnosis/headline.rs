@@ -91,7 +91,12 @@ fn meaning(report: &Report) -> Markup {
             html! { "Once that is added to the model, what simulation and recording still differ by is no more than the noise of the sensors." }
         }
         Verdict::PartlyExplained => {
-            html! { "With it the model is better, but more than sensor noise is left: something else is at work, and the numbers below may have taken part of it in." }
+            html! {
+                "With it the model is better, but more than sensor noise is left: something else is at work, and the numbers below may have taken part of it in."
+                @if report.ambiguous_with.iter().any(|own| !own.is_empty()) {
+                    " Another cause would explain as much: below it is said which."
+                }
+            }
         }
         Verdict::Ambiguous => {
             html! { "Another cause would explain this recording as well. Below it is said which, and what would tell them apart." }
