@@ -1,6 +1,6 @@
 //! This file says which experiment would tell the explanations of a recording apart.
 
-use rigproof_diagnose::report::Report;
+use rigproof_diagnose::report::{Report, Verdict};
 
 use super::number::{significant, with_unit};
 use super::section;
@@ -37,6 +37,9 @@ pub fn experiment(report: &Report) -> Vec<String> {
             ),
         }
     }));
+    if report.verdict == Verdict::PartlyExplained {
+        lines.push("  more than noise is left here: where the law has another form the doubt may outlast it".to_owned());
+    }
     if !next.not_compared.is_empty() {
         let names = next.not_compared.join(", ");
         lines.push(format!("  in no comparison (not computed by the reference rig, or the least likely of many): {names}"));

@@ -1,4 +1,4 @@
-//! This file holds twelve mistakes of a first time: each ends in a message that says what to do.
+//! This file holds mistakes of a first time: each ends in a message that says what to do, and lost samples in a line of the protocol.
 
 use std::sync::OnceLock;
 
@@ -198,4 +198,20 @@ fn nothing_held_out() {
 fn a_typo_in_a_verb() {
     let desk = Desk::new();
     says(&desk, "diagonse run.csv", 2, &["'diagonse'", "'diagnose'"]);
+}
+
+#[test]
+fn lost_samples() {
+    for plant in ["axis", "rig"] {
+        let desk = desk(plant, plant, plant);
+        let row = std::cell::Cell::new(0);
+        rewrite(&desk, |cells| {
+            if [1234, 1235].contains(&row.replace(row.get() + 1)) {
+                cells[1].clear();
+            }
+        });
+        let answer = desk.rigproof(DIAGNOSE);
+        assert!(answer.status.code() < Some(2), "{answer:?}");
+        assert!(desk.read("found/report.json").contains("filled in: 2 of "));
+    }
 }

@@ -5,13 +5,14 @@ use crate::report::{FitReport, Verdict};
 use crate::run::PlantKind;
 use crate::select::Selection;
 use crate::simulate::{Interpolation, Protocol};
+use crate::weak::filled_in;
 use crate::whiten::ORDER;
 
 impl Stand<'_> {
     pub(super) fn protocol_lines(&self, protocol: &Protocol, other_recording: bool) -> Vec<String> {
         let windows = &self.problem.windows;
         let usable = windows.usable.iter().filter(|u| **u).count();
-        vec![
+        let mut lines = vec![
             format!(
                 "fitted part: {} samples at {:.1} Hz, {:.3} s; held-out part: {} samples{}",
                 self.train.len(),
@@ -42,7 +43,9 @@ impl Stand<'_> {
                 self.problem.plant.own_to_unexplained()
             ),
             self.fit_protocol(protocol, other_recording),
-        ]
+        ];
+        lines.extend(filled_in(&self.train.recorded));
+        lines
     }
 
     pub(super) fn fit_protocol(&self, protocol: &Protocol, other_recording: bool) -> String {

@@ -1,6 +1,7 @@
 //! This file says how a five-bar's diagnosis was made, line by line.
 
 use super::diagnose::Stand;
+use crate::weak::filled_in;
 
 impl Stand<'_> {
     /// How the naming was measured, line by line.
@@ -50,6 +51,7 @@ impl Stand<'_> {
                 self.problem.plant.own_to_unexplained()
             ),
         ]);
+        lines.extend(filled_in(&self.train.recorded));
         lines
     }
 
