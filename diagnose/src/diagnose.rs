@@ -14,7 +14,7 @@ use crate::problem::{Cause, Problem, Term, is_of_brake};
 use crate::report::Report;
 use crate::run::Run;
 use crate::scatter::{Trials, left_over};
-use crate::select::{FLOOR_RATIO, Gates, Selection, floor_limit, refs, select, usable_rms};
+use crate::select::{FLOOR_RATIO, Gates, Selection, is_noise, refs, select};
 use crate::unknown::surrogates;
 use crate::weak::{FEWEST_WINDOWS, Windows, choose_width};
 pub use description::{Description, Measured};
@@ -240,8 +240,7 @@ fn withdraw_surrogates(
     selection: &mut Selection,
     rig: &Rig,
 ) -> Vec<Cause> {
-    let ratio = usable_rms(problem, &selection.after.residual) / problem.floor;
-    if ratio <= floor_limit(problem) {
+    if is_noise(problem, &selection.after) {
         return Vec::new();
     }
     let found: Vec<Mechanism> = selection

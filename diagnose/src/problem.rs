@@ -276,8 +276,8 @@ impl<'a> Problem<'a> {
     pub fn whiten_with(&mut self, whitener: Whitener) {
         self.whitener = whitener;
         self.whiten_own();
-        let kept = self.kept.get_mut().unwrap_or_else(PoisonError::into_inner);
-        let mut kept = core::mem::take(kept);
+        let kept = core::mem::take(&mut self.kept).into_inner();
+        let mut kept = kept.unwrap_or_else(PoisonError::into_inner);
         kept.par_iter_mut().for_each(|term| self.refresh(term));
         self.kept = RwLock::new(kept);
     }

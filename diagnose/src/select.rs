@@ -20,7 +20,6 @@ use prune::{backward, prune};
 use refine::refine;
 use sole::sole;
 use step::{forward, swap};
-use together::is_noise;
 
 pub(crate) use judge::best as best_variant;
 pub(crate) use merge::as_two;
@@ -28,7 +27,7 @@ pub(crate) use onset::{change_with_onset, onset_interval};
 pub(crate) use refine::refined;
 pub(crate) use together::bends;
 pub(crate) use weigh::gives_energy;
-pub use weigh::usable_rms;
+pub use weigh::{is_noise, usable_rms};
 
 /// What a mechanism must show before it is named.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -273,13 +273,6 @@ pub fn is_recorded(recorded: &[bool], centre: usize, bump: &[f64]) -> bool {
     samples.all(|&r| r)
 }
 
-/// What was not recorded, in words; `None` where no more than single samples are missing, which lie between their neighbours.
-pub fn filled_in(recorded: &[bool]) -> Option<String> {
-    let missing = recorded.iter().filter(|&&r| !r).count();
-    let of = recorded.len();
-    (missing > 0).then(|| format!("filled in: {missing} of {of} samples of the fitted part, in gaps of two or more; no window that holds one is used"))
-}
-
 /// Share of a window's weight that lies where the sense of motion cannot be told.
 pub fn untold(motion: &[Instant], centre: usize, bump: &[f64]) -> f64 {
     let motion = motion.iter().skip(centre - bump.len() / 2);

@@ -5,7 +5,6 @@ use crate::report::{FitReport, Verdict};
 use crate::run::PlantKind;
 use crate::select::Selection;
 use crate::simulate::{Interpolation, Protocol};
-use crate::weak::filled_in;
 use crate::whiten::ORDER;
 
 impl Stand<'_> {
@@ -71,6 +70,13 @@ impl Stand<'_> {
             ),
         }
     }
+}
+
+/// What was not recorded, in words; `None` where no more than single samples are missing, which lie between their neighbours.
+pub(crate) fn filled_in(recorded: &[bool]) -> Option<String> {
+    let missing = recorded.iter().filter(|&&r| !r).count();
+    let of = recorded.len();
+    (missing > 0).then(|| format!("filled in: {missing} of {of} samples of the fitted part, in gaps of two or more; no window that holds one is used"))
 }
 
 pub(crate) fn summary(

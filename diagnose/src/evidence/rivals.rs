@@ -7,7 +7,7 @@ use crate::problem::{Cause, PlantRun, Problem, Term};
 use crate::regression::{Blocks, Fit, fit, nested_block_losses, paired};
 use crate::report::LimitOf;
 use crate::select::{
-    Selection, TIE_Z, as_two, best_variant, floor_limit, gives_energy, refined, refs, usable_rms,
+    Selection, TIE_Z, as_two, best_variant, gives_energy, is_noise, refined, refs, usable_rms,
 };
 use rayon::prelude::*;
 use rigproof_model::effects::entry;
@@ -291,9 +291,8 @@ impl Place<'_> {
 /// Where it leaves more, since a law seldom has the exact form of what is there, what it leaves is, and no less than what tells two white
 /// explanations apart.
 fn telling(problem: &Problem, selection: &Selection) -> f64 {
-    let left = usable_rms(problem, &selection.after.residual) / problem.floor;
     match problem.plant {
-        PlantRun::FiveBar(_) if left > floor_limit(problem) => {
+        PlantRun::FiveBar(_) if !is_noise(problem, &selection.after) => {
             ((TIMES_LEFT - 1.0) * selection.after.left_out()).max(LEAST_SIGMAS.powi(2))
         }
         _ => apart(problem, selection),

@@ -1,7 +1,7 @@
 //! This file says how a five-bar's diagnosis was made, line by line.
 
 use super::diagnose::Stand;
-use crate::weak::filled_in;
+use crate::diagnose::words::filled_in;
 
 impl Stand<'_> {
     /// How the naming was measured, line by line.

@@ -2,8 +2,9 @@
 
 use super::prune::would_stay;
 use super::refine::refined;
-use super::together::is_noise;
-use super::weigh::{contribution, drives, effort_beside, excitation, loss_with, own_coefficients};
+use super::weigh::{
+    contribution, drives, effort_beside, excitation, is_noise, loss_with, own_coefficients,
+};
 use super::{Found, Gates, TIE_Z};
 use crate::candidates::is_at_edge;
 use crate::problem::{PlantRun, Problem, Term};

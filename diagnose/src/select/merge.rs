@@ -2,8 +2,8 @@
 
 use super::judge::SIMPLER_SHARE;
 use super::refine::refined;
-use super::weigh::{drives, excitation, own_coefficients, usable_rms};
-use super::{Found, Selection, TIE_Z, floor_limit, refs};
+use super::weigh::{drives, excitation, is_noise, own_coefficients};
+use super::{Found, Selection, TIE_Z, refs};
 use crate::candidates::realise;
 use crate::five_bar::LEAST_SIGMAS;
 use crate::problem::{Cause, Problem, Term};
@@ -71,7 +71,7 @@ fn merged(
     let one = Found {
         z,
         share: 1.0 - with.left_out() / without.left_out().max(1e-300),
-        at_floor: is_at_floor(problem, &with),
+        at_floor: is_noise(problem, &with),
         term,
     };
     Some([others, vec![one]].concat())
@@ -85,16 +85,12 @@ fn beside_others(problem: &Problem, common: &[&Term], own: &[&Term], blocks: &Bl
 ///
 /// Before anything has moved the constant is there and the bristle is not: that is one moment, which no scatter of blocks would tell.
 fn does_as_much(problem: &Problem, plain: &Fit, two: &Fit, with: &Fit) -> bool {
-    if is_at_floor(problem, two) {
+    if is_noise(problem, two) {
         let more = with.left_out() - two.left_out();
         return more < LEAST_SIGMAS * LEAST_SIGMAS && !is_better(two, with);
     }
     let gain = |fitted: &Fit| plain.left_out() - fitted.left_out();
     gain(with) >= SIMPLER_SHARE * gain(two) || !is_better(two, with)
-}
-
-fn is_at_floor(problem: &Problem, fitted: &Fit) -> bool {
-    usable_rms(problem, &fitted.residual) <= floor_limit(problem) * problem.floor
 }
 
 /// Whether one fit explains clearly more than another on the blocks that were left out.

@@ -1,8 +1,7 @@
 //! This file takes mechanisms out again: those that others make unnecessary, those that explain too little.
 
 use super::refine::refine;
-use super::together::is_noise;
-use super::weigh::{coefficients_of, drives, excitation, usable_rms};
+use super::weigh::{coefficients_of, drives, excitation, is_noise, usable_rms};
 use super::{Found, Gates, TIE_Z, floor_limit, refs};
 use crate::problem::{Cause, PlantRun, Problem, Term};
 use crate::regression::{Blocks, Fit, fit, paired};

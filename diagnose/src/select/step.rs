@@ -1,7 +1,8 @@
 //! This file takes one step of the search: a mechanism more, or one in the place of another.
 
 use super::judge::{SIMPLER_SHARE, Trial, simplest, those_that_leave_noise, trials};
-use super::together::{beside, is_noise, masking, of_one_family};
+use super::together::{beside, masking, of_one_family};
+use super::weigh::is_noise;
 use super::{Found, Gates, TIE_Z, refs};
 use crate::candidates::{all_variants, causes, modelled_effort, realise};
 use crate::problem::{Cause, PlantRun, Problem, Term};

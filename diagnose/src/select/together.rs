@@ -2,8 +2,8 @@
 
 use super::judge::{Trial, judge};
 use super::refine::refined;
-use super::weigh::usable_rms;
-use super::{Found, Gates, floor_limit, refs};
+use super::weigh::is_noise;
+use super::{Found, Gates, refs};
 use crate::problem::{Cause, PlantRun, Problem, Term};
 use crate::regression::{Blocks, Fit, fit};
 use rigproof_spec::effect::Mechanism;
@@ -145,11 +145,6 @@ fn all_pass(
         .map(|t| t.found)
     };
     set.iter().map(passes).collect()
-}
-
-/// Whether a fit leaves nothing but sensor noise.
-pub(super) fn is_noise(problem: &Problem, fitted: &Fit) -> bool {
-    usable_rms(problem, &fitted.residual) <= floor_limit(problem) * problem.floor
 }
 
 /// Mechanisms without a shape at a joint that are not among the terms.

@@ -1,6 +1,6 @@
 //! This file weighs one mechanism in a fit: its coefficients, its contribution, its sign.
 
-use super::Found;
+use super::{Found, floor_limit};
 use crate::candidates::modelled_effort;
 use crate::problem::{Problem, Term, add};
 use crate::regression::{Blocks, Fit, dot, fit, loss_of};
@@ -74,6 +74,11 @@ pub fn usable_rms(problem: &Problem, values: &[f64]) -> f64 {
         .map(|(v, _)| *v)
         .collect();
     rms(&usable)
+}
+
+/// Whether a fit leaves nothing but sensor noise.
+pub fn is_noise(problem: &Problem, fitted: &Fit) -> bool {
+    usable_rms(problem, &fitted.residual) <= floor_limit(problem) * problem.floor
 }
 
 /// Whether a passive mechanism came out with a sign that gives energy.
