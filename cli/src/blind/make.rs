@@ -8,6 +8,7 @@ use rigproof_trace::store::Folder;
 use serde_json::json;
 
 use super::{parse_plant, parse_stratum};
+use crate::keep;
 use crate::outcome::{Failure, Outcome, print};
 use crate::shell;
 
@@ -62,6 +63,7 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
         let problem = "--experiment does an experiment on the five-bar: add --plant rig";
         return Err(Failure::Usage(problem.to_owned()));
     }
+    keep::check(&args.out, &args.experiment)?;
     let asked = args.experiment.as_deref().map(csv::read).transpose()?;
     let folder = Folder::begin(&args.out)?;
     let case = match &asked {

@@ -22,6 +22,9 @@ pub fn experiment(report: &Report) -> Vec<String> {
             )),
         ));
         lines.push("  then diagnose a folder that holds this recording and the new one: what stays has to explain both".to_owned());
+        if report.verdict == Verdict::PartlyExplained {
+            lines.push("  more than noise is left by what is named: if its law has another form on the rig, the doubt may outlast the experiment".to_owned());
+        }
     }
     lines.extend(next.separations.iter().map(|pair| {
         let (one, other) = (&pair.one, &pair.other);
@@ -37,9 +40,6 @@ pub fn experiment(report: &Report) -> Vec<String> {
             ),
         }
     }));
-    if report.verdict == Verdict::PartlyExplained {
-        lines.push("  more than noise is left here: where the law has another form the doubt may outlast it".to_owned());
-    }
     if !next.not_compared.is_empty() {
         let names = next.not_compared.join(", ");
         lines.push(format!("  in no comparison (not computed by the reference rig, or the least likely of many): {names}"));

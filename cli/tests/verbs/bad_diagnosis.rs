@@ -112,11 +112,10 @@ fn a_folder_that_holds_somebody_elses_files_stays_as_it_is() {
 fn what_is_read_is_not_replaced() {
     let desk = desk();
     std::fs::create_dir(desk.path("mine")).unwrap();
-    let names = ["run.csv", "rig.toml", ".rigproof"];
     for name in ["run.csv", "rig.toml"] {
         desk.put(&format!("mine/{name}"), &desk.read(name));
     }
-    desk.put("mine/.rigproof", &names.join("\n"));
+    desk.put("mine/.rigproof", "run.csv\nrig.toml");
     for line in [
         "diagnose mine/run.csv --rig rig.toml --out mine",
         "diagnose run.csv --rig mine/rig.toml --out ./mine",
@@ -125,12 +124,15 @@ fn what_is_read_is_not_replaced() {
         "simulate mine/run.csv --rig rig.toml --out mine/run.csv",
         "simulate run.csv --rig mine/rig.toml --out mine/../mine/rig.toml",
         "convert mine/run.csv mine/run.csv",
+        "identify brake mine/run.csv --rig mine/rig.toml --out mine/rig.toml",
+        "blind make --plant rig --seed 3 --experiment mine/run.csv --out mine",
     ] {
         refused(&desk, line, "would replace");
     }
-    let mut all = desk.names("mine");
-    all.sort();
-    assert_eq!(all, [".rigproof", "rig.toml", "run.csv"]);
+    assert_eq!(desk.names("mine"), [".rigproof", "rig.toml", "run.csv"]);
+    for name in ["run.csv", "rig.toml"] {
+        assert_eq!(desk.read(&format!("mine/{name}")), desk.read(name));
+    }
 }
 
 #[test]

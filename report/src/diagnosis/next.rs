@@ -10,7 +10,7 @@ use crate::words::plain_cause;
 pub fn body(report: &Report, command: Option<&str>) -> Option<Markup> {
     Some(html! {
         p { (advice(report)) }
-        @if let Some(next) = &report.next_experiment { (experiment(next)) }
+        @if let Some(next) = &report.next_experiment { (experiment(next, report.verdict)) }
         @if let Some(command) = command { p { "Now:" } pre tabindex="0" { code { (command) } } }
     })
 }
@@ -34,13 +34,14 @@ fn advice(report: &Report) -> &'static str {
     }
 }
 
-fn experiment(next: &NextExperiment) -> Markup {
+fn experiment(next: &NextExperiment, verdict: Verdict) -> Markup {
     html! {
         @match &next.what {
             Some(what) => {
                 p { strong { "The next experiment: " } (what) "." }
                 p { (with_unit(next.duration_s, "s")) " long; the hand pushes with at most " (with_unit(next.greatest_force_n, "N")) ", the brakes take at most " (with_unit(next.greatest_current_a, "A")) ". Chosen from " (next.tried) " that were simulated. Then diagnose a folder that holds this recording and the new one: what stays has to explain both."
-                    @if let Some(file) = &next.file { " Sample by sample it stands in " code { (file) } "." } }
+                    @if let Some(file) = &next.file { " Sample by sample it stands in " code { (file) } "." }
+                    @if verdict == Verdict::PartlyExplained { " More than noise is left by what is named: if its law has another form on the rig, the doubt may outlast the experiment." } }
             }
             None => p { "Of the " (next.tried) " experiments that were simulated none tells the explanations apart." },
         }
