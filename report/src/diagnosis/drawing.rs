@@ -1,5 +1,7 @@
 //! This file draws the rig as a sketch and marks the joint that is to blame.
 
+use std::collections::BTreeSet;
+
 use maud::{Markup, html};
 use rigproof_diagnose::report::Report;
 
@@ -14,17 +16,14 @@ const TIP: (f64, f64) = (280.0, 50.0);
 
 /// The sketch of the plant.
 pub fn figure(report: &Report) -> Markup {
-    let named: Vec<&str> = report
-        .effects
-        .iter()
-        .filter_map(|effect| effect.joint)
-        .collect();
+    // Two may be named at one joint.
+    let named: BTreeSet<&str> = report.effects.iter().filter_map(|e| e.joint).collect();
     // Where nothing is named, the place that the old model explains worst.
     let worst = report.located.first().and_then(|place| place.joint);
     let marked = if named.is_empty() && report.effects.is_empty() {
         worst.into_iter().collect()
     } else {
-        named
+        Vec::from_iter(named)
     };
     let whole = marked.is_empty() && !report.effects.is_empty();
     let words = match (marked.as_slice(), whole) {
