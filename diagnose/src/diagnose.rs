@@ -9,6 +9,7 @@ pub(crate) mod write;
 
 use crate::align::{Fault, band_hz};
 use crate::evidence::{coefficients_by_term, parameters};
+use crate::explain::explain;
 use crate::from_rig;
 use crate::problem::{Cause, Problem, Term, is_of_brake};
 use crate::report::Report;
@@ -142,7 +143,21 @@ pub fn diagnose(
         return faulty(Description::Joint(rig.clone()), "description", fault);
     }
     let terms = nominal(rig, &problem);
-    let mut selection = select(&mut problem, terms, options.gates);
+    let (mut selection, explanations) = explain(&mut problem, terms);
+    if std::env::var("RP_SHOW").is_ok() {
+        for own in &explanations.living {
+            eprintln!(
+                "{:.3} leaves {:.2} {:?}",
+                own.weight,
+                own.leaves,
+                own.terms
+                    .iter()
+                    .map(|t| (t.cause.name(), t.shape.clone(), t.onset_s))
+                    .collect::<Vec<_>>()
+            );
+        }
+    }
+    selection.found.retain(|f| f.probability >= 0.5);
     if let Some(fault) = another_drive(&problem, &selection) {
         return faulty(Description::Joint(rig.clone()), "recording", fault);
     }

@@ -67,6 +67,7 @@ mod candidates;
 mod diagnose;
 mod doubt;
 mod evidence;
+mod explain;
 mod filter;
 pub mod five_bar;
 pub mod free_run;

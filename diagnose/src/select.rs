@@ -61,6 +61,8 @@ pub struct Found {
     pub share: f64,
     /// Whether nothing beyond sensor noise was left with it.
     pub at_floor: bool,
+    /// How probable it is beside other explanations.
+    pub probability: f64,
 }
 
 /// What stood after one mechanism was named.

@@ -363,6 +363,7 @@ mod tests {
             z: 3.7,
             share: 0.7,
             at_floor: true,
+            probability: 1.0,
         };
         let selection = Selection {
             nominal: Vec::new(),

@@ -304,6 +304,7 @@ mod tests {
                     z: 3.7,
                     share: 0.7,
                     at_floor: true,
+                    probability: 1.0,
                 })
             });
         let found: Vec<Found> = found.collect();
@@ -436,6 +437,7 @@ mod tests {
             z: 3.7,
             share: 0.7,
             at_floor: true,
+            probability: 1.0,
         }];
         let selection = Selection {
             nominal: Vec::new(),

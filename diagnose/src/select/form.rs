@@ -93,6 +93,7 @@ mod tests {
                 z: 5.0,
                 share: 0.5,
                 at_floor: true,
+                probability: 1.0,
             };
             let mut both = vec![found(&peak), found(bristle)];
             let taken_out = take_out_forms(&problem, &[], &mut both, &Blocks::new(&problem));

@@ -73,6 +73,7 @@ fn merged(
         share: 1.0 - with.left_out() / without.left_out().max(1e-300),
         at_floor: is_noise(problem, &with),
         term,
+        probability: 1.0,
     };
     Some([others, vec![one]].concat())
 }
@@ -143,6 +144,7 @@ mod tests {
             z: 3.7,
             share: 0.07,
             at_floor: true,
+            probability: 1.0,
         };
         let both = [
             (Mechanism::Presliding, &[0.041][..]),

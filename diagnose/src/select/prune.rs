@@ -168,6 +168,7 @@ mod tests {
             z: 3.7,
             share: 0.07,
             at_floor: false,
+            probability: 1.0,
         }];
         let left = fit(&problem, &refs(&[], &found), &blocks).residual;
         let ratio = usable_rms(&problem, &left) / problem.floor;
@@ -194,6 +195,7 @@ mod tests {
                 z: 3.1,
                 share: 0.5,
                 at_floor: true,
+                probability: 1.0,
             }];
             let blocks = Blocks::new(&problem);
             backward(&problem, &[], &mut found, &blocks, Gates::default());
@@ -229,6 +231,7 @@ mod tests {
             z: 3.7,
             share: 0.7,
             at_floor: false,
+            probability: 1.0,
         }];
         let blocks = Blocks::new(problem);
         let [with, without] =

@@ -97,6 +97,7 @@ fn by_windows(
         z,
         share,
         at_floor,
+        probability: 1.0,
     };
     stands.then_some((fitted.loss, found))
 }

@@ -229,6 +229,7 @@ mod tests {
             z: 3.7,
             share: 0.7,
             at_floor: false,
+            probability: 1.0,
         };
         let mut found_with = |times: f64| -> Vec<String> {
             hide(&mut problem, &[(0.41, &peak), (times, &drag)]);
@@ -254,6 +255,7 @@ mod tests {
             z: 3.7,
             share: 0.7,
             at_floor: true,
+            probability: 1.0,
         }];
         let bristle = at_b(Mechanism::Presliding);
         let elsewhere = Cause {

@@ -1,0 +1,164 @@
+//! This file explains a recording: sets of mechanisms judged together, on data that they were not fitted to, against a model of what every model leaves open.
+
+mod beam;
+mod fitted;
+mod refine;
+mod score;
+
+use crate::candidates::{all_variants, causes};
+use crate::problem::{Cause, Problem, Term};
+use crate::regression::{Blocks, fit, free_columns, reduced_target};
+use crate::select::{Found, Selection, Stage, refs, usable_rms};
+use fitted::{Fitted, Folds};
+use score::{Judge, prior};
+use std::sync::Arc;
+
+/// One explanation beside others.
+#[derive(Clone, Debug)]
+pub struct Explanation {
+    /// Its terms.
+    pub terms: Vec<Term>,
+    /// Its probability beside the others.
+    pub weight: f64,
+    /// Root mean square of what it leaves of left-out data, in standard deviations of the sensors' noise.
+    pub leaves: f64,
+}
+
+/// The explanations of a recording, the most probable first.
+#[derive(Clone, Debug)]
+pub struct Explanations {
+    /// Those with a noticeable weight.
+    pub living: Vec<Explanation>,
+}
+
+impl Explanations {
+    /// The probability of a cause: the weight of all explanations that hold it.
+    pub fn probability(&self, cause: Cause) -> f64 {
+        let holds = |own: &&Explanation| own.terms.iter().any(|term| term.cause == cause);
+        self.living.iter().filter(holds).map(|own| own.weight).sum()
+    }
+}
+
+/// Rounds: the noise is taken from the sensors first, and with what the best explanation of that round leaves in the second.
+const ROUNDS: usize = 2;
+
+/// Explains a recording on top of the terms of its nominal model.
+pub fn explain(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection, Explanations) {
+    let mut noise = problem.floor;
+    let mut weighed = Vec::new();
+    for round in 0..ROUNDS {
+        weighed = round_of(problem, &nominal, noise);
+        let Some(best) = weighed.first().filter(|_| round + 1 < ROUNDS) else {
+            continue;
+        };
+        let blocks = Blocks::new(problem);
+        let terms: Vec<&Term> = nominal.iter().chain(&best.terms).collect();
+        let left = usable_rms(problem, &fit(problem, &terms, &blocks).residual);
+        noise = left.max(problem.floor);
+        problem.rewhiten(left);
+        nominal.iter_mut().for_each(|term| problem.refresh(term));
+    }
+    let explanations = Explanations { living: weighed };
+    (selected(problem, nominal, &explanations), explanations)
+}
+
+fn round_of(problem: &Problem, nominal: &[Term], noise: f64) -> Vec<Explanation> {
+    let folds = Folds::of(problem);
+    let judge = Judge::of(problem, noise);
+    let common: Vec<&Term> = nominal.iter().collect();
+    let target = reduced_target(problem, &common).white;
+    let free = free_columns(problem, &common).into_iter();
+    let bare = Fitted::bare(
+        &folds,
+        target,
+        free.map(|rows| Arc::new(rows.clone())).collect(),
+    );
+    let tried = candidates(problem, nominal);
+    let all = beam::search(problem, &folds, &judge, &bare, &tried);
+    weigh(problem, &folds, &judge, &bare, all, noise)
+}
+
+/// The least weight of an explanation that is listed.
+const LISTED: f64 = 1e-4;
+
+fn weigh(
+    problem: &Problem,
+    folds: &Folds,
+    judge: &Judge,
+    bare: &Fitted,
+    all: Vec<Fitted>,
+    noise: f64,
+) -> Vec<Explanation> {
+    let all = all
+        .into_iter()
+        .filter(|own| judge.all_matter(folds, bare, own));
+    let mut scored: Vec<(f64, Fitted)> = all
+        .map(|own| (judge.evidence(folds, &own) + prior(&own.terms), own))
+        .collect();
+    scored.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let most = scored.first().map_or(0.0, |(score, _)| *score);
+    let sum: f64 = scored
+        .iter()
+        .map(|(score, _)| libm::exp(score - most))
+        .sum();
+    let listed = scored.into_iter().map(|(score, own)| Explanation {
+        weight: libm::exp(score - most) / sum,
+        leaves: (own.left() / folds.rows()).sqrt() * noise / problem.floor,
+        terms: own.terms,
+    });
+    listed.filter(|own| own.weight >= LISTED).collect()
+}
+
+/// Every mechanism in every shape that is tried.
+fn candidates(problem: &Problem, nominal: &[Term]) -> Vec<Term> {
+    let common: Vec<&Term> = nominal.iter().collect();
+    let plain = fit(problem, &common, &Blocks::new(problem));
+    let is_free = |cause: &Cause| {
+        let mut own = nominal.iter().filter(|term| term.cause == *cause);
+        own.all(|term| term.known.is_some())
+    };
+    let open = causes(problem).into_iter().filter(is_free).collect();
+    let lists = all_variants(problem, open, &common, &plain).into_iter();
+    lists.flatten().collect()
+}
+
+/// A term of a cause as the recording has it, whatever the other terms give.
+pub(crate) fn unfitted(
+    problem: &Problem,
+    cause: Cause,
+    shape: &[f64],
+    onset_s: Option<f64>,
+) -> Option<Term> {
+    let term = problem.term(cause, shape, onset_s);
+    term.or_else(|| problem.drive_term(cause, shape, onset_s, &[]))
+}
+
+/// The leading explanation as a selection.
+fn selected(problem: &Problem, nominal: Vec<Term>, explanations: &Explanations) -> Selection {
+    let blocks = Blocks::new(problem);
+    let before = fit(problem, &refs(&nominal, &[]), &blocks);
+    let terms = explanations
+        .living
+        .first()
+        .map_or(&[][..], |own| &own.terms);
+    let found: Vec<Found> = terms
+        .iter()
+        .map(|term| Found {
+            term: term.clone(),
+            z: 0.0,
+            share: 0.0,
+            at_floor: false,
+            probability: explanations.probability(term.cause),
+        })
+        .collect();
+    let after = fit(problem, &refs(&nominal, &found), &blocks);
+    let stages: Vec<Stage> = Vec::new();
+    Selection {
+        nominal,
+        found,
+        too_small: Vec::new(),
+        stages,
+        before,
+        after,
+    }
+}

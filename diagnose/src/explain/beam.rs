@@ -1,0 +1,89 @@
+//! This file searches among sets of terms: several explanations stay alive at once, and none is judged by the order in which its members came.
+
+use super::fitted::{Fitted, Folds};
+use super::refine::refined;
+use super::score::{Judge, gives_energy};
+use crate::problem::{Cause, Problem, Term};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+
+/// The most terms of one explanation.
+const MOST_TERMS: usize = 3;
+/// Explanations of each size that are gone on from.
+const BEAM: usize = 6;
+/// Explanations of each size that are kept to be weighed.
+const KEPT: usize = 40;
+
+/// A set of causes, told apart by name.
+type Names = Vec<String>;
+
+/// Every explanation that was worth weighing, the best of each set of causes, refined where it stood near the top.
+pub fn search(
+    problem: &Problem,
+    folds: &Folds,
+    judge: &Judge,
+    bare: &Fitted,
+    tried: &[Term],
+) -> Vec<Fitted> {
+    let mut kept: BTreeMap<Names, Fitted> = BTreeMap::from([(Names::new(), bare.clone())]);
+    let mut living = vec![bare.clone()];
+    for _ in 0..MOST_TERMS {
+        let ranked = children(folds, judge, &living, tried);
+        let (near, far) = ranked.split_at(ranked.len().min(2 * BEAM));
+        let near: Vec<Fitted> = near
+            .par_iter()
+            .map(|fitted| refined(problem, folds, judge, bare, fitted.clone()))
+            .collect();
+        let near = by_evidence(folds, judge, near);
+        for fitted in near.iter().chain(far.iter().take(KEPT)) {
+            kept.insert(names(&fitted.terms), fitted.clone());
+        }
+        living = near.into_iter().take(BEAM).collect();
+    }
+    kept.into_values().collect()
+}
+
+/// The best child of the living for each set of causes, the best first.
+fn children(folds: &Folds, judge: &Judge, living: &[Fitted], tried: &[Term]) -> Vec<Fitted> {
+    let mut best: BTreeMap<Names, (f64, Fitted)> = BTreeMap::new();
+    for parent in living {
+        let open = tried
+            .par_iter()
+            .filter(|term| may_join(&parent.terms, term));
+        let own: Vec<(f64, Fitted)> = open
+            .map(|term| parent.with(folds, term))
+            .filter(|fitted| !gives_energy(fitted))
+            .map(|fitted| (judge.evidence(folds, &fitted), fitted))
+            .collect();
+        for (evidence, fitted) in own {
+            let names = names(&fitted.terms);
+            if best.get(&names).is_none_or(|(other, _)| evidence > *other) {
+                best.insert(names, (evidence, fitted));
+            }
+        }
+    }
+    let mut all: Vec<(f64, Fitted)> = best.into_values().collect();
+    all.sort_by(|a, b| b.0.total_cmp(&a.0));
+    all.into_iter().map(|(_, fitted)| fitted).collect()
+}
+
+fn by_evidence(folds: &Folds, judge: &Judge, all: Vec<Fitted>) -> Vec<Fitted> {
+    let mut all: Vec<(f64, Fitted)> = all
+        .into_iter()
+        .map(|fitted| (judge.evidence(folds, &fitted), fitted))
+        .collect();
+    all.sort_by(|a, b| b.0.total_cmp(&a.0));
+    all.into_iter().map(|(_, fitted)| fitted).collect()
+}
+
+/// A cause stands once in an explanation.
+fn may_join(terms: &[Term], term: &Term) -> bool {
+    terms.iter().all(|own| own.cause != term.cause)
+}
+
+/// The causes of an explanation in one order.
+pub fn names(terms: &[Term]) -> Names {
+    let mut names: Names = terms.iter().map(|term| Cause::name(term.cause)).collect();
+    names.sort();
+    names
+}

@@ -1,0 +1,242 @@
+//! This file fits one explanation, a set of terms together, and says what it leaves on blocks of time that were not fitted.
+
+use crate::problem::{Problem, Rows, Term};
+use crate::regression::{Blocks, dot};
+use nalgebra::{DMatrix, DVector};
+use std::sync::Arc;
+
+/// The blocks of a problem, with the number of usable rows in each.
+pub struct Folds {
+    ranges: Vec<(usize, usize)>,
+    /// Usable rows of each block.
+    pub counts: Vec<f64>,
+}
+
+/// Fewest usable rows of a block that is counted.
+const FEWEST_ROWS: usize = 5;
+
+impl Folds {
+    /// The blocks in which enough rows are usable.
+    pub fn of(problem: &Problem) -> Folds {
+        let usable = &problem.windows.usable;
+        let count = |&(first, end): &(usize, usize)| {
+            let rows = usable.get(first..end).unwrap_or_default();
+            rows.iter().filter(|u| **u).count()
+        };
+        let blocks = Blocks::new(problem).ranges.into_iter();
+        let ranges: Vec<_> = blocks.filter(|r| count(r) > FEWEST_ROWS).collect();
+        Folds {
+            counts: ranges.iter().map(|r| count(r) as f64).collect(),
+            ranges,
+        }
+    }
+
+    /// All usable rows in the blocks.
+    pub fn rows(&self) -> f64 {
+        self.counts.iter().sum()
+    }
+
+    fn dots(&self, a: &[f64], b: &[f64]) -> Vec<f64> {
+        let ranges = self.ranges.iter();
+        ranges
+            .map(|&(first, end)| {
+                dot(
+                    a.get(first..end).unwrap_or_default(),
+                    b.get(first..end).unwrap_or_default(),
+                )
+            })
+            .collect()
+    }
+}
+
+/// Sums of products over one block.
+#[derive(Clone)]
+struct Part {
+    gram: DMatrix<f64>,
+    moment: DVector<f64>,
+    square: f64,
+}
+
+/// An explanation with its fit.
+#[derive(Clone)]
+pub struct Fitted {
+    /// The terms that the nominal model has not, in the order in which they came.
+    pub terms: Vec<Term>,
+    /// Columns that are always free: what the description does not know.
+    nuisance: usize,
+    columns: Vec<Arc<Rows>>,
+    target: Vec<f64>,
+    parts: Vec<Part>,
+    /// What it leaves of each block when fitted to the others.
+    pub losses: Vec<f64>,
+    /// Coefficient of each column, those that are always free first.
+    pub coefficients: Vec<f64>,
+}
+
+impl Fitted {
+    /// The fit of the columns that are always free alone, to a white target.
+    pub fn bare(folds: &Folds, target: Vec<f64>, free: Vec<Arc<Rows>>) -> Fitted {
+        let parts = folds.dots(&target, &target).into_iter();
+        let parts = parts.map(|square| Part {
+            gram: DMatrix::zeros(0, 0),
+            moment: DVector::zeros(0),
+            square,
+        });
+        let mut fitted = Fitted {
+            terms: Vec::new(),
+            nuisance: free.len(),
+            columns: Vec::new(),
+            target,
+            parts: parts.collect(),
+            losses: Vec::new(),
+            coefficients: Vec::new(),
+        };
+        for column in free {
+            fitted.take_in(folds, &column);
+        }
+        fitted.solve();
+        fitted
+    }
+
+    /// The fit with one more term.
+    pub fn with(&self, folds: &Folds, term: &Term) -> Fitted {
+        let mut fitted = self.clone();
+        if let Some(fixed) = &term.fixed {
+            fitted.take_away(folds, &fixed.white);
+        }
+        for column in &term.free {
+            fitted.take_in(folds, column);
+        }
+        fitted.terms.push(term.clone());
+        fitted.solve();
+        fitted
+    }
+
+    /// The fit of these terms on top of what is always free.
+    pub fn of(&self, folds: &Folds, terms: &[Term]) -> Fitted {
+        terms
+            .iter()
+            .fold(self.clone(), |fitted, term| fitted.with(folds, term))
+    }
+
+    /// The coefficients of each term.
+    pub fn by_term(&self) -> Vec<&[f64]> {
+        let mut rest = self.coefficients.get(self.nuisance..).unwrap_or_default();
+        let mut own = |term: &Term| {
+            let (first, others) = rest.split_at(term.free.len().min(rest.len()));
+            rest = others;
+            first
+        };
+        self.terms.iter().map(&mut own).collect()
+    }
+
+    /// The sum of what it leaves of the blocks.
+    pub fn left(&self) -> f64 {
+        self.losses.iter().sum()
+    }
+
+    /// The white residual, row by row.
+    pub fn residual(&self) -> Vec<f64> {
+        let mut residual = self.target.clone();
+        for (column, times) in self.columns.iter().zip(&self.coefficients) {
+            for (r, x) in residual.iter_mut().zip(&column.white) {
+                *r -= times * x;
+            }
+        }
+        residual
+    }
+
+    fn take_in(&mut self, folds: &Folds, column: &Arc<Rows>) {
+        let size = self.columns.len();
+        let with_target = folds.dots(&column.white, &self.target);
+        let with_itself = folds.dots(&column.white, &column.white);
+        let with_others: Vec<Vec<f64>> = self
+            .columns
+            .iter()
+            .map(|other| folds.dots(&column.white, &other.white))
+            .collect();
+        for (block, part) in self.parts.iter_mut().enumerate() {
+            let at = |values: &[f64]| values.get(block).copied().unwrap_or(0.0);
+            let mut gram = part.gram.clone().resize(size + 1, size + 1, 0.0);
+            for (k, products) in with_others.iter().enumerate() {
+                set(&mut gram, (k, size), at(products));
+                set(&mut gram, (size, k), at(products));
+            }
+            set(&mut gram, (size, size), at(&with_itself));
+            part.gram = gram;
+            part.moment = part.moment.clone().push(at(&with_target));
+        }
+        self.columns.push(column.clone());
+    }
+
+    fn take_away(&mut self, folds: &Folds, fixed: &[f64]) {
+        let with_target = folds.dots(fixed, &self.target);
+        let with_itself = folds.dots(fixed, fixed);
+        let with_columns: Vec<Vec<f64>> = self
+            .columns
+            .iter()
+            .map(|column| folds.dots(fixed, &column.white))
+            .collect();
+        for (block, part) in self.parts.iter_mut().enumerate() {
+            let at = |values: &[f64]| values.get(block).copied().unwrap_or(0.0);
+            part.square += at(&with_itself) - 2.0 * at(&with_target);
+            for (moment, products) in part.moment.iter_mut().zip(&with_columns) {
+                *moment -= at(products);
+            }
+        }
+        for (y, x) in self.target.iter_mut().zip(fixed) {
+            *y -= x;
+        }
+    }
+
+    fn solve(&mut self) {
+        let size = self.columns.len();
+        let mut sum = Part {
+            gram: DMatrix::zeros(size, size),
+            moment: DVector::zeros(size),
+            square: 0.0,
+        };
+        for part in &self.parts {
+            sum.gram += &part.gram;
+            sum.moment += &part.moment;
+        }
+        let scale = sum.gram.diagonal().map(|d| 1.0 / d.sqrt().max(1e-150));
+        let left = |part: &Part| {
+            let solution = solution(
+                &(&sum.gram - &part.gram),
+                &(&sum.moment - &part.moment),
+                &scale,
+            );
+            let quadratic = (&part.gram * &solution).dot(&solution);
+            (part.square - 2.0 * part.moment.dot(&solution) + quadratic).max(0.0)
+        };
+        self.losses = self.parts.iter().map(left).collect();
+        let all = solution(&sum.gram, &sum.moment, &scale);
+        self.coefficients = all.iter().copied().collect();
+    }
+}
+
+fn set(matrix: &mut DMatrix<f64>, at: (usize, usize), value: f64) {
+    if let Some(slot) = matrix.get_mut(at) {
+        *slot = value;
+    }
+}
+
+/// The least-squares solution with each column scaled to length 1 and a ridge far below anything that a recording determines.
+fn solution(gram: &DMatrix<f64>, moment: &DVector<f64>, scale: &DVector<f64>) -> DVector<f64> {
+    let size = moment.len();
+    let mut scaled = gram.component_mul(&(scale * scale.transpose()));
+    for k in 0..size {
+        let diagonal = scaled.get((k, k)).copied().unwrap_or(0.0);
+        set(&mut scaled, (k, k), diagonal + RIDGE);
+    }
+    match scaled.cholesky() {
+        Some(factor) => factor
+            .solve(&moment.component_mul(scale))
+            .component_mul(scale),
+        None => DVector::zeros(size),
+    }
+}
+
+/// Ridge on columns of length 1.
+const RIDGE: f64 = 1e-8;

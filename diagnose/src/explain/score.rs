@@ -1,0 +1,85 @@
+//! This file says how probable an explanation is beside others: by what it leaves of data that it was not fitted to, and by how plain it is.
+
+use super::fitted::{Fitted, Folds};
+use crate::problem::{Problem, Term};
+use rigproof_model::effects::entry;
+use rigproof_spec::effect::Mechanism;
+
+/// Share of the effort below which nothing matters to anybody: what a model and its discretisation leave open anyhow.
+pub const RELEVANT: f64 = 0.003;
+/// Rows that say as much as one that is independent of all others: what a model leaves is no white noise.
+pub const ROWS_A_SAMPLE: f64 = 8.0;
+/// What each number beyond the first costs, in natural logarithms of odds.
+pub const A_NUMBER: f64 = 1.0;
+
+/// Judges explanations of one problem.
+pub struct Judge {
+    /// The discrepancy that every explanation is granted, as a variance of a white row.
+    granted: f64,
+}
+
+impl Judge {
+    /// Grants a share of the effort; `noise` is the standard deviation of a row before whitening.
+    pub fn of(problem: &Problem, noise: f64) -> Judge {
+        let granted = RELEVANT * problem.effort_size / noise.max(1e-300);
+        Judge {
+            granted: granted * granted,
+        }
+    }
+
+    /// The logarithm of the predictive density of the blocks that were left out, up to a constant.
+    pub fn evidence(&self, folds: &Folds, fitted: &Fitted) -> f64 {
+        let blocks = folds.counts.iter().zip(&fitted.losses);
+        let each = blocks.map(|(rows, loss)| {
+            -0.5 * rows / ROWS_A_SAMPLE * libm::log(loss / rows + self.granted)
+        });
+        each.sum()
+    }
+
+    /// Whether each term takes away more than the granted discrepancy when the others stand.
+    pub fn all_matter(&self, folds: &Folds, bare: &Fitted, fitted: &Fitted) -> bool {
+        (0..fitted.terms.len()).all(|index| {
+            let mut others = fitted.terms.clone();
+            others.remove(index);
+            let more = bare.of(folds, &others).left() - fitted.left();
+            more >= self.granted * folds.rows()
+        })
+    }
+}
+
+/// The logarithm of the odds of a set of terms before any data.
+pub fn prior(terms: &[Term]) -> f64 {
+    terms.iter().map(odds).sum()
+}
+
+fn odds(term: &Term) -> f64 {
+    let linear = entry(term.cause.mechanism).map_or(1, |entry| entry.linear);
+    let numbers = linear.max(1) + term.shape.len() + usize::from(term.onset_s.is_some());
+    usual(term.cause.mechanism) - A_NUMBER * (numbers - 1) as f64
+}
+
+/// How common a mechanism is among those that models leave out.
+fn usual(mechanism: Mechanism) -> f64 {
+    match mechanism {
+        Mechanism::DryOffset | Mechanism::Viscous => -2.0,
+        Mechanism::ConstantBias | Mechanism::GainError | Mechanism::ChannelSkew => -2.5,
+        Mechanism::Lag | Mechanism::Stribeck | Mechanism::Presliding | Mechanism::Saturation => {
+            -3.0
+        }
+        Mechanism::Spring
+        | Mechanism::DirectionAsymmetry
+        | Mechanism::Ripple
+        | Mechanism::LoadDependent => -3.5,
+        Mechanism::BiasDrift | Mechanism::EncoderScale => -5.0,
+        _ => -4.0,
+    }
+}
+
+/// Whether a passive mechanism came out giving energy.
+pub fn gives_energy(fitted: &Fitted) -> bool {
+    let own = fitted.terms.iter().zip(fitted.by_term());
+    own.into_iter().any(|(term, own)| {
+        let passive = entry(term.cause.mechanism).filter(|entry| entry.passive);
+        passive.is_some_and(|entry| own.iter().take(entry.linear).any(|c| *c < 0.0))
+    })
+}
