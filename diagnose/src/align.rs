@@ -5,7 +5,8 @@ mod reversals;
 
 use crate::doubt::Smoothing;
 use crate::filter::{LowPass, gradient};
-use crate::run::{PlantKind, Run, rms};
+use crate::filter::rms;
+use crate::plants::joint::run::{JointRun, PlantKind};
 use rigproof_model::effects::Instant;
 use rustfft::{FftPlannerScalar, num_complex::Complex64};
 
@@ -60,7 +61,7 @@ const MOST_MISSING: f64 = 0.02;
 const LONGEST_FREEZE_S: f64 = 0.25;
 
 /// Aligns a recording, or says why nothing can be concluded from it.
-pub fn align(signals: &Signals) -> Result<Run, Fault> {
+pub fn align(signals: &Signals) -> Result<JointRun, Fault> {
     let step_s = median_step(&signals.time_s);
     check_clock(&signals.time_s, step_s)?;
     check_missing("position", &signals.time_s, &signals.position)?;
@@ -102,7 +103,7 @@ pub fn align(signals: &Signals) -> Result<Run, Fault> {
     if signals.plant == PlantKind::Axis {
         forget_sense_at_reversals(&mut motion);
     }
-    let run = Run {
+    let run = JointRun {
         plant: signals.plant,
         step_s,
         start_s: 0.0,
@@ -262,7 +263,7 @@ pub(crate) fn check_clipped(signals: &Signals) -> Result<(), Fault> {
 const MOST_CLIPPED: usize = 20;
 
 /// A resistance that gives energy on the whole has a channel with the wrong sign.
-fn check_sign(run: &Run) -> Result<(), Fault> {
+fn check_sign(run: &JointRun) -> Result<(), Fault> {
     if run.plant == PlantKind::Axis {
         return Ok(());
     }

@@ -1,9 +1,9 @@
 //! This file says which shapes of each mechanism are tried on a recording.
 
-use crate::five_bar;
+use crate::plants::five_bar;
 use crate::problem::{Cause, PlantRun, Problem, Term, add};
 use crate::regression::Fit;
-use crate::run::Run;
+use crate::plants::joint::run::JointRun;
 use core::f64::consts::TAU;
 use rayon::prelude::*;
 use rigproof_model::effects::{Form, Instant, LIBRARY};
@@ -117,7 +117,7 @@ fn shapes(problem: &Problem, cause: Cause, residual: &[f64]) -> Vec<Vec<f64>> {
     }
 }
 
-fn joint_shapes(run: &Run, mechanism: Mechanism, periods: impl Fn() -> Vec<f64>) -> Vec<Vec<f64>> {
+fn joint_shapes(run: &JointRun, mechanism: Mechanism, periods: impl Fn() -> Vec<f64>) -> Vec<Vec<f64>> {
     let travel = run.travel().max(1e-12);
     let one = |values: Vec<f64>| values.into_iter().map(|v| vec![v]).collect();
     match mechanism {
@@ -226,7 +226,7 @@ const SPACING: f64 = 0.35;
 const PEAKS: usize = 4;
 
 /// Position and residual of each usable window.
-fn points(problem: &Problem, run: &Run, residual: &[f64]) -> Vec<(f64, f64)> {
+fn points(problem: &Problem, run: &JointRun, residual: &[f64]) -> Vec<(f64, f64)> {
     problem
         .windows
         .centres
@@ -274,7 +274,7 @@ mod tests {
     use super::*;
 
     use crate::problem::Inertia;
-    use crate::recorded::exact_bench;
+    use crate::plants::joint::recorded::exact_bench;
     use crate::weak::Windows;
 
     #[test]

@@ -2,17 +2,16 @@
 
 mod description;
 pub(crate) mod ended;
-mod fitted;
-mod stages;
+pub(crate) mod stages;
 pub(crate) mod words;
 pub(crate) mod write;
 
 use crate::align::{Fault, band_hz};
 use crate::evidence::{coefficients_by_term, parameters};
-use crate::from_rig;
+use crate::plants::joint::from_rig;
 use crate::problem::{Cause, Problem, Term, is_of_brake};
 use crate::report::Report;
-use crate::run::Run;
+use crate::plants::joint::run::JointRun;
 use crate::scatter::{Trials, left_over};
 use crate::select::{FLOOR_RATIO, Gates, Selection, is_noise, refs, select};
 use crate::unknown::surrogates;
@@ -170,7 +169,7 @@ pub fn diagnose(
 }
 
 /// Something that only a brake does in the description of a plant without a brake and its current.
-fn without_brake(rig: &Rig, run: &Run) -> Option<Fault> {
+fn without_brake(rig: &Rig, run: &JointRun) -> Option<Fault> {
     let effects = from_rig::nominal(rig);
     let effect = effects
         .iter()
@@ -194,7 +193,7 @@ fn nominal(rig: &Rig, problem: &Problem) -> Vec<Term> {
 }
 
 /// The trials of a brake, where it is their gains that differ and hide what else may be left out.
-fn scattered(problem: &Problem, run: &Run, selection: &Selection) -> Option<Trials> {
+fn scattered(problem: &Problem, run: &JointRun, selection: &Selection) -> Option<Trials> {
     let trials = Trials::of(run, &problem.windows)?;
     let terms = refs(&selection.nominal, &selection.found);
     let residual = left_over(problem, run, &terms, &selection.after);
@@ -236,7 +235,7 @@ fn another_drive(problem: &Problem, selection: &Selection) -> Option<Fault> {
 /// Takes out the names that only stand in for another law, where more than noise is left.
 fn withdraw_surrogates(
     problem: &Problem,
-    run: &Run,
+    run: &JointRun,
     selection: &mut Selection,
     rig: &Rig,
 ) -> Vec<Cause> {
@@ -257,7 +256,7 @@ fn withdraw_surrogates(
     withdrawn
 }
 
-fn split(run: &Run, share: f64) -> (Run, Run) {
+fn split(run: &JointRun, share: f64) -> (JointRun, JointRun) {
     let cut = ((1.0 - share) * run.len() as f64).round() as usize;
     (run.slice(0, cut), run.slice(cut, run.len()))
 }
@@ -266,7 +265,7 @@ fn split(run: &Run, share: f64) -> (Run, Run) {
 mod tests {
     use super::*;
 
-    use crate::recorded::{EFFORT_NOISE, Laws, NOMINAL, QUANTUM, exact_axis, exact_bench, signals};
+    use crate::plants::joint::recorded::{EFFORT_NOISE, Laws, NOMINAL, QUANTUM, exact_axis, exact_bench, signals};
     use crate::report::Verdict;
     use rigproof_trace::{Channel, Trace};
     use std::path::Path;
@@ -294,7 +293,7 @@ mod tests {
         rig("axis", &rest)
     }
 
-    fn recording(rig: &Rig, exact: &Run) -> Recording {
+    fn recording(rig: &Rig, exact: &JointRun) -> Recording {
         let seen = signals(exact, 71);
         let channel = |name: &str, unit: &str, samples| Channel {
             name: name.to_owned(),

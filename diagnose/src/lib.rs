@@ -64,29 +64,22 @@
 
 pub mod align;
 mod candidates;
+mod cause;
 mod diagnose;
 mod doubt;
 mod evidence;
 mod filter;
-pub mod five_bar;
-pub mod free_run;
-pub mod from_rig;
 pub mod identify;
-pub mod inverse;
 mod locate;
+pub mod plants;
 mod problem;
-#[cfg(test)]
-mod recorded;
-mod refit;
 mod regression;
-mod replica;
 pub mod report;
-pub mod run;
 mod scatter;
 mod select;
 pub mod self_calibration;
 mod sensor;
-pub mod simulate;
+mod signals;
 mod student;
 mod unknown;
 mod weak;

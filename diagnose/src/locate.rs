@@ -3,7 +3,7 @@
 
 use crate::problem::Problem;
 use crate::report::Located;
-use crate::run::{PlantKind, Run};
+use crate::plants::joint::run::{JointRun, PlantKind};
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 
@@ -26,7 +26,7 @@ pub struct Cell {
 /// Regimes ranked by how much more than their share of time they hold of `before`'s energy.
 ///
 /// `before` and `after` are residuals, one value a window; every window in motion counts, the ambiguous ones too.
-pub fn locate(problem: &Problem, run: &Run, before: &[f64], after: &[f64]) -> Vec<Located> {
+pub fn locate(problem: &Problem, run: &JointRun, before: &[f64], after: &[f64]) -> Vec<Located> {
     let output = match run.plant {
         PlantKind::Axis => "effort balance",
         PlantKind::Bench => "metered effort",
@@ -95,7 +95,7 @@ pub fn ranked(
 }
 
 /// Windows whose centre is in motion: at rest a resistance is anything up to its level and says nothing.
-fn moving(problem: &Problem, run: &Run) -> Vec<bool> {
+fn moving(problem: &Problem, run: &JointRun) -> Vec<bool> {
     let centres = problem.windows.centres.iter();
     centres
         .map(|&centre| run.motion.get(centre).is_some_and(|now| now.sense != 0.0))
@@ -147,7 +147,7 @@ fn interval(values: &[f64], member: &[bool]) -> (f64, f64) {
     (at(0.025), at(0.975))
 }
 
-fn cells(problem: &Problem, run: &Run) -> Vec<Cell> {
+fn cells(problem: &Problem, run: &JointRun) -> Vec<Cell> {
     let since = since_reversal_s(problem, run);
     let mut speeds: Vec<f64> = run.motion.iter().map(|now| now.speed.abs()).collect();
     speeds.sort_by(f64::total_cmp);
@@ -207,7 +207,7 @@ fn cells(problem: &Problem, run: &Run) -> Vec<Cell> {
 }
 
 /// Time from each window's centre to the nearest change of sense, s.
-fn since_reversal_s(problem: &Problem, run: &Run) -> Vec<f64> {
+fn since_reversal_s(problem: &Problem, run: &JointRun) -> Vec<f64> {
     let mut sense = 0.0;
     let mut reversals: Vec<f64> = Vec::new();
     for now in &run.motion {
@@ -238,7 +238,7 @@ mod tests {
     use super::*;
 
     use crate::problem::Inertia;
-    use crate::recorded::exact_bench;
+    use crate::plants::joint::recorded::exact_bench;
     use crate::weak::Windows;
     use rigproof_spec::effect::Mechanism;
 

@@ -1,29 +1,27 @@
 //! This file is the regression problem of one recording: what the nominal model leaves over, window by window,
 //! and the columns that a cause could explain it with.
 
-mod cause;
-mod inertia;
-mod joint;
-mod signals;
 mod within;
 
-use crate::five_bar;
-use crate::five_bar::run::FiveBarRun;
-use crate::run::{PlantKind, Run, rms};
+use crate::plants::five_bar;
+use crate::plants::five_bar::run::FiveBarRun;
+use crate::filter::rms;
+use crate::plants::joint::run::{JointRun, PlantKind};
 use crate::scatter::Trials;
 use crate::weak::Windows;
 use crate::whiten::{ORDER, Whitener};
 use rayon::prelude::*;
 use rigproof_model::effects::entry;
 use rigproof_spec::effect::Mechanism;
-use signals::second_difference;
+use crate::plants::joint::columns as joint;
+use crate::signals::second_difference;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError, RwLock};
 
-pub use cause::Cause;
-pub use inertia::Inertia;
-pub use joint::{is_of_brake, of_brake, unit_parameters};
-pub use signals::{USUAL_SHARE, lagged_yield, numerov, shifted, through_play};
+pub use crate::cause::Cause;
+pub use crate::plants::joint::columns::{is_of_brake, of_brake, unit_parameters};
+pub use crate::plants::joint::inertia::Inertia;
+pub use crate::signals::{USUAL_SHARE, lagged_yield, numerov, shifted, through_play};
 
 /// One column of the regression over all windows.
 #[derive(Clone, Debug)]
@@ -70,7 +68,7 @@ pub struct NominalEffect {
 #[derive(Clone, Copy)]
 pub enum PlantRun<'a> {
     /// A plant of one joint.
-    Joint(&'a Run),
+    Joint(&'a JointRun),
     /// The five-bar.
     FiveBar(&'a FiveBarRun),
 }
@@ -170,7 +168,7 @@ type Recent = (Cause, Vec<f64>, Arc<Vec<Vec<f64>>>);
 
 impl<'a> Problem<'a> {
     /// Sets up the problem of a plant of one joint with a white noise model; `rewhiten` refines it.
-    pub fn new(run: &'a Run, windows: Windows, inertia: Inertia) -> Problem<'a> {
+    pub fn new(run: &'a JointRun, windows: Windows, inertia: Inertia) -> Problem<'a> {
         let start = inertia.start();
         let floor = windows.floor(run, start);
         let mut windows = windows;

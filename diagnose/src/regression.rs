@@ -358,7 +358,7 @@ mod tests {
     use super::*;
 
     use crate::problem::{Cause, Inertia, Problem, Term};
-    use crate::recorded::{Noise, exact_bench};
+    use crate::plants::joint::recorded::{Noise, exact_bench};
     use crate::weak::Windows;
     use rigproof_spec::effect::Mechanism;
 

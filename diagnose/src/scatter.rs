@@ -4,7 +4,8 @@ use crate::candidates::modelled_effort;
 use crate::problem::{Problem, Term, less};
 use crate::regression::Fit;
 use crate::report::Unknown;
-use crate::run::{Run, rms};
+use crate::filter::rms;
+use crate::plants::joint::run::JointRun;
 use crate::weak::Windows;
 
 /// Change of the current between two samples with which a trial begins, A.
@@ -41,7 +42,7 @@ pub struct Scatter {
 
 impl Trials {
     /// The trials of a run; `None` where there is no brake or not enough is seen of enough of them.
-    pub fn of(run: &Run, windows: &Windows) -> Option<Trials> {
+    pub fn of(run: &JointRun, windows: &Windows) -> Option<Trials> {
         let (predicted, current) = run.brake()?;
         let mut start_s = vec![run.start_s];
         let mut jumps = vec![0];
@@ -138,7 +139,7 @@ impl Scatter {
 }
 
 /// What a fit leaves over of the effort, row by row, with the gains of the trials still in it.
-pub fn left_over(problem: &Problem, run: &Run, terms: &[&Term], fitted: &Fit) -> Vec<f64> {
+pub fn left_over(problem: &Problem, run: &JointRun, terms: &[&Term], fitted: &Fit) -> Vec<f64> {
     let modelled = modelled_effort(problem, terms, fitted);
     problem.windows.average(&less(&run.effort, &modelled))
 }

@@ -3,7 +3,7 @@
 use crate::diagnose::{Description, Measured, Options};
 use crate::report::{NamedRate, Rate, Report, SelfCalibration};
 use crate::sensor::sensed;
-use crate::{five_bar, replica};
+use crate::plants::{five_bar, joint::replica};
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::SeedableRng;
 use statrs::distribution::{Beta, ContinuousCDF};

@@ -3,7 +3,7 @@
 use crate::problem::{Problem, Rows};
 use crate::regression::{Blocks, left_out_loss};
 use crate::report::Unknown;
-use crate::run::Run;
+use crate::plants::joint::run::JointRun;
 use rigproof_spec::effect::{Mechanism, Motion, Quantity};
 
 /// Knots of a curve.
@@ -15,7 +15,7 @@ const LEAST_SHARE: f64 = 0.02;
 
 /// Screens position, speed, time and effort for the curve that takes away most of the residual, or `None` when no
 /// curve over one of them helps.
-pub fn unknown(problem: &Problem, run: &Run, residual: &[f64], motion: Motion) -> Option<Unknown> {
+pub fn unknown(problem: &Problem, run: &JointRun, residual: &[f64], motion: Motion) -> Option<Unknown> {
     let screened = screen(problem, residual, variables(problem, run, motion));
     let best = screened
         .into_iter()
@@ -46,7 +46,7 @@ const SURROGATE_SHARE: f64 = 0.3;
 /// they are functions of, or that their level should not depend on, still takes a good part of the remaining loss away.
 pub fn surrogates(
     problem: &Problem,
-    run: &Run,
+    run: &JointRun,
     residual: &[f64],
     found: &[Mechanism],
     motion: Motion,
@@ -116,7 +116,7 @@ impl Variable {
     }
 }
 
-fn variables(problem: &Problem, run: &Run, motion: Motion) -> Vec<Variable> {
+fn variables(problem: &Problem, run: &JointRun, motion: Motion) -> Vec<Variable> {
     let at = |pick: &dyn Fn(&rigproof_model::effects::Instant) -> f64| -> Vec<f64> {
         let centres = problem.windows.centres.iter();
         centres
@@ -298,7 +298,7 @@ mod tests {
     use super::*;
 
     use crate::problem::Inertia;
-    use crate::recorded::exact_bench;
+    use crate::plants::joint::recorded::exact_bench;
     use crate::weak::Windows;
 
     #[test]

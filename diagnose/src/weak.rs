@@ -2,7 +2,8 @@
 //! that positions enter and accelerations do not.
 
 use crate::regression::dot;
-use crate::run::{PlantKind, Run, rms};
+use crate::filter::rms;
+use crate::plants::joint::run::{JointRun, PlantKind};
 use rigproof_model::effects::Instant;
 
 /// Order of the bump `(1 − x²)^4`: three continuous derivatives at its ends.
@@ -47,7 +48,7 @@ pub struct Windows {
 
 impl Windows {
     /// Windows of about `width_s` over a run, a quarter of a width apart.
-    pub fn new(run: &Run, width_s: f64) -> Windows {
+    pub fn new(run: &JointRun, width_s: f64) -> Windows {
         let mut windows = Windows::over(run.len(), 1, (run.step_s, run.start_s), width_s);
         windows.keep(|centre, bump| {
             is_recorded(&run.recorded, centre, bump)
@@ -129,7 +130,7 @@ impl Windows {
 
     /// Gives up the windows of an axis in which a friction as large as the effort could be more than half the floor
     /// where the sense of motion cannot be told: a rest that begins or ends there is not seen.
-    pub fn avoid_rests(&mut self, run: &Run, floor: f64) {
+    pub fn avoid_rests(&mut self, run: &JointRun, floor: f64) {
         let most = MOST_UNTOLD * floor / rms(&run.effort).max(1e-300);
         self.keep(|centre, bump| untold(&run.motion, centre, bump) <= most);
     }
@@ -185,7 +186,7 @@ impl Windows {
     /// variance) of effort that nothing explains, as white effort through the same function.
     ///
     /// `inertia` is 0 on a bench; `lags` values, one window hop apart.
-    pub fn noise_covariance(&self, run: &Run, inertia: f64, excess: f64, lags: usize) -> Vec<f64> {
+    pub fn noise_covariance(&self, run: &JointRun, inertia: f64, excess: f64, lags: usize) -> Vec<f64> {
         let from_position = (inertia * run.position_noise).powi(2);
         let from_effort = run.effort_noise.powi(2) + excess / overlap(&self.bump, 0).max(1e-300);
         (0..lags)
@@ -198,7 +199,7 @@ impl Windows {
     }
 
     /// Standard deviation that position noise and effort noise alone give one residual: the predicted floor.
-    pub fn floor(&self, run: &Run, inertia: f64) -> f64 {
+    pub fn floor(&self, run: &JointRun, inertia: f64) -> f64 {
         self.noise_covariance(run, inertia, 0.0, 1)
             .iter()
             .sum::<f64>()
@@ -222,7 +223,7 @@ const QUIET: f64 = 0.003;
 
 /// The narrowest window whose predicted floor is small against the effort, narrowed again where the effort
 /// itself is faster than that (at least eight samples, five on a bench).
-pub fn choose_width(run: &Run, inertia: f64, band_hz: f64) -> f64 {
+pub fn choose_width(run: &JointRun, inertia: f64, band_hz: f64) -> f64 {
     let scale = rms(&run.effort);
     let quiet = |width_s: &&f64| {
         let windows = Windows::new(run, **width_s);
@@ -287,7 +288,7 @@ pub fn untold(motion: &[Instant], centre: usize, bump: &[f64]) -> f64 {
 mod tests {
     use super::*;
     use crate::align::align;
-    use crate::recorded::{INERTIA, NOMINAL, Noise, exact_axis, exact_bench, signals};
+    use crate::plants::joint::recorded::{INERTIA, NOMINAL, Noise, exact_axis, exact_bench, signals};
     use crate::whiten::{ORDER, Whitener};
     use rigproof_spec::effect::Mechanism;
 

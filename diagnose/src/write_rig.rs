@@ -2,7 +2,7 @@
 
 use crate::evidence::Intervals;
 use crate::report::Number;
-use crate::simulate::Plant;
+use crate::plants::joint::simulate::Plant;
 use rigproof_spec::effect::Motion;
 use rigproof_trace::rig::{Rig, RigEffect, Status, Value};
 use std::collections::BTreeMap;

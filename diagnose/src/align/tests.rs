@@ -2,7 +2,7 @@
 
 use super::*;
 
-use crate::recorded::{NOMINAL, STEP_S, exact_axis, exact_bench, signals};
+use crate::plants::joint::recorded::{NOMINAL, STEP_S, exact_axis, exact_bench, signals};
 use rigproof_spec::effect::Mechanism;
 
 fn healthy_axis() -> Signals {

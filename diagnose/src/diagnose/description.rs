@@ -1,7 +1,7 @@
 //! This file is what is diagnosed, whichever plant it is: a rig's description and a recording of it.
 
 use super::{Diagnosis, Options, diagnose};
-use crate::five_bar;
+use crate::plants::five_bar;
 use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording};
 use rigproof_trace::rig::{Recording, Rig};
 use rigproof_trace::{Trace, TraceError, store};

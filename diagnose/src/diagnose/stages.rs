@@ -1,7 +1,7 @@
 //! This file says how the mechanisms were named, stage by stage, with the inverse model of each stage.
 
 use super::write::Stand;
-use crate::inverse::{CUTOFF_HZ, DECIMATION, FILTER_ORDER, inverse_model, protocol};
+use crate::plants::joint::inverse::{CUTOFF_HZ, DECIMATION, FILTER_ORDER, inverse_model, protocol};
 use crate::report::{InverseReport, StageReport};
 use crate::select::Stage;
 

@@ -2,9 +2,9 @@
 
 use super::write::Stand;
 use crate::report::{FitReport, Verdict};
-use crate::run::PlantKind;
+use crate::plants::joint::run::PlantKind;
 use crate::select::Selection;
-use crate::simulate::{Interpolation, Protocol};
+use crate::plants::joint::simulate::{Interpolation, Protocol};
 use crate::whiten::ORDER;
 
 impl Stand<'_> {

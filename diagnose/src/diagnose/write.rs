@@ -4,14 +4,14 @@ use super::ended::blank;
 use super::words::summary;
 use super::{Curves, Description, Diagnosis, FittedCurves, Options};
 use crate::evidence::{Rivals, inclusion, intervals, not_seen, null_directions, rivals};
-use crate::from_rig;
+use crate::plants::joint::from_rig;
 use crate::locate::locate;
 use crate::problem::{Cause, Problem};
 use crate::report::{EffectReport, Floor, Report, Unknown, Verdict};
-use crate::run::{PlantKind, Run};
+use crate::plants::joint::run::{JointRun, PlantKind};
 use crate::scatter::{Trials, left_over};
 use crate::select::{Selection, floor_limit, refs, usable_rms};
-use crate::simulate::{Plant, Protocol, output};
+use crate::plants::joint::simulate::{Plant, Protocol, output};
 use crate::unknown::unknown;
 use crate::write_rig::{calibrated, nominal_numbers, numbers};
 use rigproof_model::effects::entry;
@@ -56,8 +56,8 @@ pub(super) struct Stand<'a> {
     pub(super) problem: &'a Problem<'a>,
     pub(super) selection: &'a Selection,
     pub(super) withdrawn: &'a [Cause],
-    pub(super) train: &'a Run,
-    pub(super) test: &'a Run,
+    pub(super) train: &'a JointRun,
+    pub(super) test: &'a JointRun,
     pub(super) options: &'a Options,
     pub(super) width_s: f64,
     /// Trials of a brake whose gains differ; `problem` is told within them.
@@ -223,11 +223,11 @@ impl Stand<'_> {
 
     fn curves(&self, before: &Plant, after: &Plant, protocol: &Protocol) -> Curves {
         let run = self.test;
-        let times = |run: &Run| -> Vec<f64> {
+        let times = |run: &JointRun| -> Vec<f64> {
             let all = 0..run.len();
             all.map(|k| run.start_s + k as f64 * run.step_s).collect()
         };
-        let recorded = |run: &Run| match run.plant {
+        let recorded = |run: &JointRun| match run.plant {
             PlantKind::Axis => run.position.clone(),
             PlantKind::Bench => run.effort.clone(),
         };

@@ -8,7 +8,7 @@
 use super::{Sensitivity, coefficients_by_term, parameter_count, sensitivities};
 use crate::problem::{Cause, PlantRun, Problem, Term};
 use crate::regression::{Blocks, covariance, dot};
-use crate::run::rms;
+use crate::filter::rms;
 use crate::select::{Selection, change_with_onset, onset_interval, refs, usable_rms};
 use crate::student::half_width;
 use nalgebra::{DMatrix, DVector};

@@ -2,7 +2,7 @@
 
 use super::without;
 use crate::candidates::{causes, modelled_effort, realise, variants};
-use crate::five_bar::LEAST_SIGMAS;
+use crate::plants::five_bar::LEAST_SIGMAS;
 use crate::problem::{Cause, PlantRun, Problem, Term};
 use crate::regression::{Blocks, Fit, fit, nested_block_losses, paired};
 use crate::report::LimitOf;
@@ -318,8 +318,8 @@ fn more_elsewhere(losses: &[f64], own: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
-    use crate::five_bar;
-    use crate::five_bar::recorded::{noise_rows, short_run, target};
+    use crate::plants::five_bar;
+    use crate::plants::five_bar::recorded::{noise_rows, short_run, target};
     use crate::problem::add;
     use crate::select::Found;
     use rigproof_spec::joint::Joint;

@@ -2,9 +2,9 @@
 
 use super::*;
 
-use crate::recorded::{INERTIA, NOMINAL, exact_axis};
+use crate::plants::joint::recorded::{INERTIA, NOMINAL, exact_axis};
 use crate::regression::reduced_target;
-use crate::run::rms;
+use crate::filter::rms;
 
 /// The residual of the usable windows when the nominal model knows everything, over the effort.
 fn relative_residual(run: &Run) -> f64 {

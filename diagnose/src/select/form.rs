@@ -64,8 +64,8 @@ fn weakest_form(
 mod tests {
     use super::*;
 
-    use crate::five_bar;
-    use crate::five_bar::recorded::{noise_rows, short_run, target};
+    use crate::plants::five_bar;
+    use crate::plants::five_bar::recorded::{noise_rows, short_run, target};
     use crate::problem::add;
     use crate::select::usable_rms;
     use rigproof_spec::joint::Joint;

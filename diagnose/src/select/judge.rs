@@ -184,8 +184,8 @@ pub(super) const SIMPLER_SHARE: f64 = 0.9;
 mod tests {
     use super::*;
 
-    use crate::five_bar;
-    use crate::five_bar::recorded::short_run;
+    use crate::plants::five_bar;
+    use crate::plants::five_bar::recorded::short_run;
     use crate::problem::Cause;
     use rigproof_spec::effect::Mechanism;
 

@@ -5,7 +5,7 @@ use super::refine::refined;
 use super::weigh::{drives, excitation, is_noise, own_coefficients};
 use super::{Found, Selection, TIE_Z, refs};
 use crate::candidates::realise;
-use crate::five_bar::LEAST_SIGMAS;
+use crate::plants::five_bar::LEAST_SIGMAS;
 use crate::problem::{Cause, Problem, Term};
 use crate::regression::{Blocks, Fit, fit, paired};
 use rigproof_spec::effect::Mechanism;
@@ -130,7 +130,7 @@ mod tests {
     use super::*;
 
     use crate::problem::Inertia;
-    use crate::recorded::{Laws, exact_bench};
+    use crate::plants::joint::recorded::{Laws, exact_bench};
     use crate::weak::Windows;
 
     /// What becomes of a bristle and a constant that were named, and what each of them has for a number.

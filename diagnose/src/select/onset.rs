@@ -4,10 +4,10 @@ use super::refine::ONSET_MARGIN;
 use super::weigh::{acting, loss_with, own_coefficients};
 use super::{Found, Selection, refs};
 use crate::candidates::realise;
-use crate::five_bar::run::FiveBarRun;
+use crate::plants::five_bar::run::FiveBarRun;
 use crate::problem::{PlantRun, Problem, Term, less};
 use crate::regression::{Blocks, dot, fit};
-use crate::run::Run;
+use crate::plants::joint::run::JointRun;
 
 /// What an onset may leave more and explain the recording alike: 95 % of χ² with one degree of freedom.
 const ALIKE: f64 = 3.84;
@@ -58,7 +58,7 @@ fn interval(problem: &Problem, common: &[&Term], own: &Term, imitated: f64) -> O
     let more = imitated * alike(problem, common, own);
     let [low_s, high_s] = valley(problem, common, own, more)?.span_s;
     // What begins does so between two samples.
-    let (PlantRun::Joint(Run { step_s, .. }) | PlantRun::FiveBar(FiveBarRun { step_s, .. })) =
+    let (PlantRun::Joint(JointRun { step_s, .. }) | PlantRun::FiveBar(FiveBarRun { step_s, .. })) =
         problem.plant;
     Some([
         low_s.min(own.onset_s?) - step_s,
@@ -179,8 +179,8 @@ fn reach(is_alike: impl Fn(f64) -> bool) -> f64 {
 mod tests {
     use super::*;
 
-    use crate::five_bar;
-    use crate::five_bar::recorded::{noise_rows, short_run, target};
+    use crate::plants::five_bar;
+    use crate::plants::five_bar::recorded::{noise_rows, short_run, target};
     use crate::problem::{Cause, add};
     use rigproof_spec::effect::Mechanism;
     use rigproof_spec::joint::Joint;

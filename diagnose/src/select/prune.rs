@@ -133,10 +133,10 @@ const HAS_FAMILIES: [Mechanism; 8] = [
 mod tests {
     use super::*;
 
-    use crate::five_bar;
-    use crate::five_bar::recorded::{noise_rows, short_run, target};
+    use crate::plants::five_bar;
+    use crate::plants::five_bar::recorded::{noise_rows, short_run, target};
     use crate::problem::{Inertia, add};
-    use crate::recorded::{Noise, exact_bench};
+    use crate::plants::joint::recorded::{Noise, exact_bench};
     use crate::weak::Windows;
     use rigproof_spec::effect::Mechanism;
     use rigproof_spec::joint::Joint;

@@ -135,8 +135,8 @@ fn losses(problem: &Problem, fitted: &Fit, windows: &Blocks) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    use crate::five_bar;
-    use crate::five_bar::recorded::{noise_rows, short_run, target};
+    use crate::plants::five_bar;
+    use crate::plants::five_bar::recorded::{noise_rows, short_run, target};
     use crate::problem::{Cause, add};
     use rigproof_spec::effect::Mechanism;
     use rigproof_spec::joint::Joint;

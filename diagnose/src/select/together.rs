@@ -168,8 +168,8 @@ fn terms_at(
 mod tests {
     use super::*;
 
-    use crate::five_bar;
-    use crate::five_bar::recorded::{noise_rows, short_run, target};
+    use crate::plants::five_bar;
+    use crate::plants::five_bar::recorded::{noise_rows, short_run, target};
     use crate::problem::add;
 
     const fn at_b(mechanism: Mechanism) -> Cause {

@@ -4,7 +4,7 @@ use super::{Found, floor_limit};
 use crate::candidates::modelled_effort;
 use crate::problem::{Problem, Term, add};
 use crate::regression::{Blocks, Fit, dot, fit, loss_of};
-use crate::run::rms;
+use crate::filter::rms;
 use rigproof_model::effects::entry;
 
 /// The coefficients of the last term of a fit.

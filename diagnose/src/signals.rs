@@ -37,7 +37,7 @@ pub fn numerov(signal: &[f64]) -> Vec<f64> {
 }
 
 /// The discrete second derivative, 0 at both ends.
-pub(super) fn second_difference(position: &[f64], step_s: f64) -> Vec<f64> {
+pub fn second_difference(position: &[f64], step_s: f64) -> Vec<f64> {
     let mut out = vec![0.0; position.len()];
     for (value, window) in out.iter_mut().skip(1).zip(position.windows(3)) {
         if let [a, b, c] = window {

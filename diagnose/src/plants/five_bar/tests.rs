@@ -12,7 +12,7 @@ use crate::align::Fault;
 use crate::diagnose::Description;
 use crate::problem::{Cause, Problem, less};
 use crate::report::{Report, Verdict};
-use crate::run::rms;
+use crate::filter::rms;
 use crate::weak::Windows;
 use crate::{Diagnosis, Options};
 use rigproof_model::linkage::Pose;

@@ -10,7 +10,7 @@ use crate::align::{
 };
 use crate::doubt::{Smoothing, a_sample_late, greatest_change, turning};
 use crate::problem::{Cause, NominalEffect};
-use crate::run::PlantKind;
+use crate::plants::joint::run::PlantKind;
 use core::f64::consts::TAU;
 use rigproof_model::brake::{Brake, ENTRY_TRAVEL_DEG};
 use rigproof_model::effects::Instant;

@@ -3,7 +3,7 @@
 use super::columns::{driving, fixed, free, known};
 use super::run::{FiveBarRun, yields};
 use crate::problem::{Cause, add, less};
-use crate::run::rms;
+use crate::filter::rms;
 use rigproof_model::brake::Brake;
 use rigproof_model::effects::{Instant, entry};
 use rigproof_model::motion::two_coordinate::two_coordinate;

@@ -1,8 +1,8 @@
 //! This file runs a plant of one joint through a recording again: an axis freely under the recorded command, a bench along the recorded motion.
 
-use crate::from_rig::{aligned, plant, protocol};
-use crate::run::PlantKind;
-use crate::simulate::output;
+use crate::plants::joint::from_rig::{aligned, plant, protocol};
+use crate::plants::joint::run::PlantKind;
+use crate::plants::joint::simulate::output;
 use rigproof_trace::rig::{Recording, Rig, Signal};
 
 /// A recording before noise and counts, and the noise of position and effort where it states none, in its own units.

@@ -2,10 +2,10 @@
 
 use super::from_rig::{nominal, with_angles};
 use super::run::FiveBarRun;
-use crate::free_run::HORIZONS_S;
+use crate::plants::joint::free_run::HORIZONS_S;
 use crate::problem::{NominalEffect, shifted};
 use crate::report::Horizon;
-use crate::run::rms;
+use crate::filter::rms;
 use core::ops::Range;
 use rigproof_model::error::ModelError;
 use rigproof_model::rig::{JointEffect, LONGEST_STEP_S, Rig};

@@ -1,8 +1,8 @@
 //! This file is the columns of a plant of one joint: resistances along its motion, and changes of its drive.
 
-use super::{Problem, USUAL_SHARE, lagged_yield, less, numerov, shifted, through_play};
+use crate::problem::{Problem, USUAL_SHARE, lagged_yield, less, numerov, shifted, through_play};
 use crate::filter::gradient;
-use crate::run::{PlantKind, Run};
+use crate::plants::joint::run::{JointRun, PlantKind};
 use rigproof_model::bench::column;
 use rigproof_model::effects::{CurrentPlay, Form, entry, first_order_lag, law};
 use rigproof_spec::effect::Mechanism;
@@ -12,7 +12,7 @@ pub type DriveColumns = (Option<Vec<f64>>, Option<Vec<f64>>);
 
 /// One signal for each linear parameter of a resistance, as the position sees it: the law with that parameter 1 and the
 /// others 0. `None` for a mechanism that acts on the drive.
-pub fn resistances(run: &Run, mechanism: Mechanism, shape: &[f64]) -> Option<Vec<Vec<f64>>> {
+pub fn resistances(run: &JointRun, mechanism: Mechanism, shape: &[f64]) -> Option<Vec<Vec<f64>>> {
     if is_of_brake(mechanism) {
         return Some(vec![of_brake(run, mechanism, shape)?]);
     }
@@ -37,7 +37,7 @@ pub const fn is_of_brake(mechanism: Mechanism) -> bool {
 }
 
 /// What a brake's mechanism adds to the torque for a linear parameter of 1; `None` on a plant without a brake and its current.
-pub fn of_brake(run: &Run, mechanism: Mechanism, shape: &[f64]) -> Option<Vec<f64>> {
+pub fn of_brake(run: &JointRun, mechanism: Mechanism, shape: &[f64]) -> Option<Vec<f64>> {
     let (predicted, current) = run.brake()?;
     let value = *shape.first()?;
     match mechanism {
@@ -71,7 +71,7 @@ pub fn unit_parameters(linear: usize, shape: &[f64]) -> impl Iterator<Item = Vec
 
 /// A resistance as the discrete second difference of the position sees it: on an axis with Numerov's weights,
 /// exact to fourth order in the step for a signal that is smooth between samples.
-fn seen(run: &Run, signal: Vec<f64>) -> Vec<f64> {
+fn seen(run: &JointRun, signal: Vec<f64>) -> Vec<f64> {
     match run.plant {
         PlantKind::Axis => numerov(&signal),
         PlantKind::Bench => signal,
@@ -80,7 +80,7 @@ fn seen(run: &Run, signal: Vec<f64>) -> Vec<f64> {
 
 /// The effort as the discrete second difference of the position sees it: half of the last value and half of this
 /// one for a drive that holds, Numerov's weights for one that was sampled; the metered effort itself on a bench.
-pub fn acting_effort(run: &Run, effort: &[f64]) -> Vec<f64> {
+pub fn acting_effort(run: &JointRun, effort: &[f64]) -> Vec<f64> {
     match (run.plant, run.held) {
         (PlantKind::Bench, _) => effort.to_vec(),
         (PlantKind::Axis, true) => {
@@ -92,14 +92,14 @@ pub fn acting_effort(run: &Run, effort: &[f64]) -> Vec<f64> {
 }
 
 /// What a recorded drive has more than the one that acts, as the position sees it.
-fn missing_effort(run: &Run, acting: &[f64]) -> Vec<f64> {
+fn missing_effort(run: &JointRun, acting: &[f64]) -> Vec<f64> {
     acting_effort(run, &less(&run.effort, acting))
 }
 
 /// Columns of a mechanism that acts on the drive; `fitted` is what the other terms give.
 pub fn drive(
     problem: &Problem,
-    run: &Run,
+    run: &JointRun,
     mechanism: Mechanism,
     shape: &[f64],
     fitted: &[f64],

@@ -2,8 +2,8 @@
 
 use crate::align::{Fault, Signals, align, forget_sense_near_reversals};
 use crate::problem::{Cause, Inertia, NominalEffect};
-use crate::run::{PlantKind, Run};
-use crate::simulate::{Effect, Interpolation, Plant, Protocol};
+use crate::plants::joint::run::{JointRun, PlantKind};
+use crate::plants::joint::simulate::{Effect, Interpolation, Plant, Protocol};
 use rigproof_trace::rig::{Drive, Plant as RigPlant, Recording, Rig, Status};
 
 /// Travel within which a shaft that turns back may also stand, in deviations of its noise: two counts.
@@ -13,7 +13,7 @@ const STILL_NOISES: f64 = 7.0;
 ///
 /// # Errors
 /// The fault that makes any conclusion meaningless.
-pub fn aligned(rig: &Rig, recording: &Recording) -> Result<Run, Fault> {
+pub fn aligned(rig: &Rig, recording: &Recording) -> Result<JointRun, Fault> {
     let axis = recording.plant == RigPlant::Axis;
     let gain = rig.parameters.map_or(1.0, |p| p.command_gain.value);
     let drive = recording.drive.as_ref();

@@ -2,7 +2,7 @@
 //! of known size.
 
 use crate::align::Signals;
-use crate::run::{PlantKind, Run};
+use crate::plants::joint::run::{JointRun, PlantKind};
 use crate::sensor::normal;
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::SeedableRng;
@@ -48,7 +48,7 @@ pub fn drive(time_s: f64) -> f64 {
 }
 
 /// An axis without sensor noise, its motion exact; the drive holds between samples or is smooth.
-pub fn exact_axis(laws: Laws, count: usize, held: bool) -> Run {
+pub fn exact_axis(laws: Laws, count: usize, held: bool) -> JointRun {
     let axis = Axis {
         inertia: INERTIA,
         laws: laws.iter().map(|(m, p)| law(*m, p).unwrap()).collect(),
@@ -84,7 +84,7 @@ pub fn exact_axis(laws: Laws, count: usize, held: bool) -> Run {
 }
 
 /// A bench at imposed motion, without sensor noise, its motion exact.
-pub fn exact_bench(laws: Laws, count: usize) -> Run {
+pub fn exact_bench(laws: Laws, count: usize) -> JointRun {
     let fine_s = STEP_S / FINE as f64;
     let fine: Vec<Instant> = (0..count * FINE)
         .map(|k| {
@@ -105,8 +105,8 @@ pub fn exact_bench(laws: Laws, count: usize) -> Run {
     run(PlantKind::Bench, motion, effort, false)
 }
 
-fn run(plant: PlantKind, motion: Vec<Instant>, effort: Vec<f64>, held: bool) -> Run {
-    Run {
+fn run(plant: PlantKind, motion: Vec<Instant>, effort: Vec<f64>, held: bool) -> JointRun {
+    JointRun {
         plant,
         step_s: STEP_S,
         start_s: 0.0,
@@ -126,7 +126,7 @@ fn run(plant: PlantKind, motion: Vec<Instant>, effort: Vec<f64>, held: bool) -> 
 }
 
 /// What the sensors make of an exact run: a quantised position and a noisy effort.
-pub fn signals(run: &Run, seed: u64) -> Signals {
+pub fn signals(run: &JointRun, seed: u64) -> Signals {
     let mut noise = Noise::new(seed);
     Signals {
         plant: run.plant,

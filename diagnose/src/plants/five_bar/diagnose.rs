@@ -22,7 +22,7 @@ use crate::problem::{Cause, NominalEffect, Problem, Term, add};
 use crate::report::{
     BeforeAfter, EffectReport, FITTED_PART, FitReport, HELD_OUT_PART, Horizon, Report, StageReport,
 };
-use crate::run::rms;
+use crate::filter::rms;
 use crate::select::{Selection, floor_limit, refs, select};
 use crate::weak::{FEWEST_WINDOWS, Windows};
 use crate::write_rig::numbers;

@@ -1,7 +1,7 @@
 //! This file is the noise of the five-bar's residuals: what encoders and force sensor put into each row, and how rows share it.
 
 use super::run::{FiveBarRun, stacked};
-use crate::run::rms;
+use crate::filter::rms;
 use crate::weak::{Windows, is_recorded, overlap};
 use crate::whiten::Whitener;
 use nalgebra::{Matrix2, Vector2};

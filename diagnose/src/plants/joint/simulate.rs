@@ -1,7 +1,7 @@
 //! This file runs a calibrated plant from the recorded inputs, without looking at the recorded output again.
 
 use crate::problem::{is_of_brake, lagged_yield, of_brake, shifted};
-use crate::run::{PlantKind, Run};
+use crate::plants::joint::run::{JointRun, PlantKind};
 use rigproof_model::axis::Axis;
 use rigproof_model::bench::resistance;
 use rigproof_model::effects::{Instant, Law, first_order_lag, law};
@@ -67,7 +67,7 @@ impl Default for Protocol {
 /// The output of a run: position of an axis, or effort of a bench, one value a sample.
 ///
 /// The first `start_samples` of an axis repeat the recording, because the state is taken from them.
-pub fn output(plant: &Plant, run: &Run, protocol: &Protocol) -> Vec<f64> {
+pub fn output(plant: &Plant, run: &JointRun, protocol: &Protocol) -> Vec<f64> {
     match run.plant {
         PlantKind::Axis => free_run(plant, run, protocol),
         PlantKind::Bench => bench(plant, run),
@@ -141,7 +141,7 @@ fn with_onset(law: Box<dyn Law>, onset_s: Option<f64>) -> Box<dyn Law> {
 
 /// The effort after the changes of the drive: gain, time shift, lag. On an axis the recorded command is ahead of
 /// the effort; on a bench `effort` is what the laws give and the recorded one is behind.
-fn driven(plant: &Plant, effort: &[f64], run: &Run) -> Vec<f64> {
+fn driven(plant: &Plant, effort: &[f64], run: &JointRun) -> Vec<f64> {
     let step_s = run.step_s;
     let mut out = effort.to_vec();
     for effect in &plant.effects {
@@ -160,7 +160,7 @@ fn driven(plant: &Plant, effort: &[f64], run: &Run) -> Vec<f64> {
     out
 }
 
-fn bench(plant: &Plant, run: &Run) -> Vec<f64> {
+fn bench(plant: &Plant, run: &JointRun) -> Vec<f64> {
     let value = |mechanism: Mechanism| {
         let effect = plant.effects.iter().find(|e| e.mechanism == mechanism);
         effect.and_then(|e| e.parameters.first().copied())
@@ -208,7 +208,7 @@ fn bench(plant: &Plant, run: &Run) -> Vec<f64> {
     driven(&rest, &effort, run)
 }
 
-fn free_run(plant: &Plant, run: &Run, protocol: &Protocol) -> Vec<f64> {
+fn free_run(plant: &Plant, run: &JointRun, protocol: &Protocol) -> Vec<f64> {
     let axis = Axis {
         inertia: plant.inertia,
         laws: laws(plant),
@@ -297,7 +297,7 @@ fn band_limited(signal: &[f64], factor: usize) -> Vec<f64> {
 }
 
 /// Start sample, position and speed: the end of a parabola through the first `samples` positions.
-fn start(run: &Run, samples: usize) -> (usize, f64, f64) {
+fn start(run: &JointRun, samples: usize) -> (usize, f64, f64) {
     if samples < 3 {
         return (0, run.position.first().copied().unwrap_or(0.0), 0.0);
     }
@@ -330,7 +330,7 @@ fn parabola(points: &[(f64, f64)]) -> [f64; 3] {
 /// The position `count` samples after sample `first`, started from the recorded state there.
 pub fn predict(
     plant: &Plant,
-    run: &Run,
+    run: &JointRun,
     first: usize,
     count: usize,
     protocol: &Protocol,
@@ -374,7 +374,7 @@ fn local_interpolation(interpolation: Interpolation) -> Interpolation {
 mod tests {
     use super::*;
 
-    use crate::recorded::{INERTIA, NOMINAL, exact_axis};
+    use crate::plants::joint::recorded::{INERTIA, NOMINAL, exact_axis};
     use core::f64::consts::TAU;
 
     #[test]

@@ -4,7 +4,7 @@
 use super::from_rig::aligned;
 use super::run::FiveBarRun;
 use crate::problem::{Problem, Rows};
-use crate::recorded::Noise;
+use crate::plants::joint::recorded::Noise;
 use crate::weak::Windows;
 use rigproof_model::linkage::jacobian::jacobian;
 use rigproof_model::linkage::{Pose, inverse};

@@ -2,7 +2,7 @@
 //! 2019): filter, differentiate, decimate, least squares.
 
 use crate::filter::{LowPass, decimate, gradient};
-use crate::run::{PlantKind, Run};
+use crate::plants::joint::run::{JointRun, PlantKind};
 use nalgebra::{DMatrix, DVector};
 use rigproof_model::bench::column;
 use rigproof_model::effects::{Instant, entry, law};
@@ -31,7 +31,7 @@ pub struct InverseModel {
 /// Fits the inverse model of an axis with these memoryless mechanisms (given with their shapes).
 ///
 /// `None` on a bench, on a recording slower than 400 Hz, or with a mechanism that has a memory or acts on the drive.
-pub fn inverse_model(run: &Run, mechanisms: &[(Mechanism, Vec<f64>)]) -> Option<InverseModel> {
+pub fn inverse_model(run: &JointRun, mechanisms: &[(Mechanism, Vec<f64>)]) -> Option<InverseModel> {
     let rate_hz = 1.0 / run.step_s;
     if run.plant == PlantKind::Bench || rate_hz < 4.0 * CUTOFF_HZ {
         return None;
@@ -118,7 +118,7 @@ fn solve(
 mod tests {
     use super::*;
 
-    use crate::recorded::{INERTIA, NOMINAL, exact_axis};
+    use crate::plants::joint::recorded::{INERTIA, NOMINAL, exact_axis};
 
     #[test]
     fn the_inverse_model_of_an_exact_recording_has_its_numbers() {

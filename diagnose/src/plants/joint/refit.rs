@@ -1,7 +1,7 @@
 //! This file adjusts the plant's numbers so that its free run meets the recording (output error).
 
-use crate::run::{PlantKind, Run};
-use crate::simulate::{Plant, Protocol, output};
+use crate::plants::joint::run::{JointRun, PlantKind};
+use crate::plants::joint::simulate::{Plant, Protocol, output};
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
 use nalgebra::{DMatrix, DVector, Dyn, Owned};
 
@@ -24,7 +24,7 @@ pub struct Refit {
 }
 
 /// Adjusts the free numbers of a plant over a recording.
-pub fn refit(plant: &Plant, free: &[Free], run: &Run, protocol: &Protocol) -> Refit {
+pub fn refit(plant: &Plant, free: &[Free], run: &JointRun, protocol: &Protocol) -> Refit {
     let problem = OutputError {
         start: plant,
         free,
@@ -60,7 +60,7 @@ pub fn refit(plant: &Plant, free: &[Free], run: &Run, protocol: &Protocol) -> Re
 }
 
 /// Samples whose error counts: past those that gave the start state, and recorded ones only.
-fn counted(run: &Run, protocol: &Protocol) -> usize {
+fn counted(run: &JointRun, protocol: &Protocol) -> usize {
     if protocol.warm_up_periods > 0 || run.plant == PlantKind::Bench {
         0
     } else {
@@ -69,7 +69,7 @@ fn counted(run: &Run, protocol: &Protocol) -> usize {
 }
 
 /// Simulated less recorded output, one value a counted sample.
-pub fn errors(plant: &Plant, run: &Run, protocol: &Protocol) -> Vec<f64> {
+pub fn errors(plant: &Plant, run: &JointRun, protocol: &Protocol) -> Vec<f64> {
     let simulated = output(plant, run, protocol);
     let recorded = match run.plant {
         PlantKind::Axis => &run.position,
@@ -85,14 +85,14 @@ pub fn errors(plant: &Plant, run: &Run, protocol: &Protocol) -> Vec<f64> {
 }
 
 /// Root-mean-square error of the free run over the counted samples.
-pub fn error_rms(plant: &Plant, run: &Run, protocol: &Protocol) -> f64 {
-    crate::run::rms(&errors(plant, run, protocol))
+pub fn error_rms(plant: &Plant, run: &JointRun, protocol: &Protocol) -> f64 {
+    crate::filter::rms(&errors(plant, run, protocol))
 }
 
 struct OutputError<'a> {
     start: &'a Plant,
     free: &'a [Free],
-    run: &'a Run,
+    run: &'a JointRun,
     protocol: &'a Protocol,
     /// Departure from the start in units of each number's scale.
     x: DVector<f64>,
@@ -170,8 +170,8 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for OutputError<'_> {
 mod tests {
     use super::*;
 
-    use crate::recorded::{INERTIA, NOMINAL, exact_axis};
-    use crate::simulate::Effect;
+    use crate::plants::joint::recorded::{INERTIA, NOMINAL, exact_axis};
+    use crate::plants::joint::simulate::Effect;
     use rigproof_spec::effect::Mechanism;
 
     fn plant(inertia: f64, viscous: f64, dry: f64) -> Plant {

@@ -1,8 +1,9 @@
 //! This file shows the fit: output-error refit of old and new parameters, free runs before and after, horizons.
 
-use crate::refit::{Free, error_rms, refit};
-use crate::run::{PlantKind, Run, rms};
-use crate::simulate::{Effect, Plant, Protocol, predict};
+use crate::plants::joint::refit::{Free, error_rms, refit};
+use crate::filter::rms;
+use crate::plants::joint::run::{JointRun, PlantKind};
+use crate::plants::joint::simulate::{Effect, Plant, Protocol, predict};
 use rigproof_model::effects::entry;
 use rigproof_spec::effect::Mechanism;
 
@@ -88,7 +89,7 @@ pub fn show(
     plant: &Plant,
     inertia_free: bool,
     known: &[bool],
-    run: &Run,
+    run: &JointRun,
     protocol: &Protocol,
     drift: bool,
 ) -> Shown {
@@ -127,7 +128,7 @@ fn staged(
     plant: &Plant,
     inertia_free: bool,
     known: &[bool],
-    run: &Run,
+    run: &JointRun,
     protocol: &Protocol,
 ) -> Shown {
     let linear = free_numbers(plant, inertia_free, known, false);
@@ -155,7 +156,7 @@ const STARTS: usize = 60;
 
 /// Root-mean-square position error after a horizon, over starts spread along the recording; `None` on a bench or
 /// when the recording is too short.
-pub fn horizon_error(plant: &Plant, run: &Run, protocol: &Protocol, horizon_s: f64) -> Option<f64> {
+pub fn horizon_error(plant: &Plant, run: &JointRun, protocol: &Protocol, horizon_s: f64) -> Option<f64> {
     let count = (horizon_s / run.step_s).round() as usize;
     if run.plant == PlantKind::Bench || count == 0 || run.len() < 2 * count + STARTS {
         return None;
@@ -172,7 +173,7 @@ pub fn horizon_error(plant: &Plant, run: &Run, protocol: &Protocol, horizon_s: f
 }
 
 /// Error of the free run and the output's standard deviation.
-pub fn figure(plant: &Plant, run: &Run, protocol: &Protocol) -> (f64, f64) {
+pub fn figure(plant: &Plant, run: &JointRun, protocol: &Protocol) -> (f64, f64) {
     let output = match run.plant {
         PlantKind::Axis => &run.position,
         PlantKind::Bench => &run.effort,

@@ -275,8 +275,8 @@ fn level(run: &FiveBarRun, yields: &[f64], law: Mechanism, numbers: &[f64]) -> V
 mod tests {
     use super::*;
 
-    use crate::five_bar::from_rig::aligned;
-    use crate::five_bar::recorded::{self, nothing, recording, rig};
+    use crate::plants::five_bar::from_rig::aligned;
+    use crate::plants::five_bar::recorded::{self, nothing, recording, rig};
     use crate::regression::{Blocks, fit};
     use crate::select::Found;
     use rigproof_spec::layout::Layout;

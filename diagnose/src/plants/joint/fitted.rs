@@ -1,26 +1,26 @@
 //! This file fits the plants before and after, and shows their free runs.
 
-use super::write::Stand;
+use crate::diagnose::write::Stand;
 use crate::evidence::{coefficients_by_term, parameters};
-use crate::free_run::{HORIZONS_S, Shown, figure, horizon_error, show};
-use crate::from_rig;
+use crate::plants::joint::free_run::{HORIZONS_S, Shown, figure, horizon_error, show};
+use crate::plants::joint::from_rig;
 use crate::problem::Inertia;
 use crate::report::{BeforeAfter, FitReport, HELD_OUT_PART, Horizon};
-use crate::run::{PlantKind, Run};
+use crate::plants::joint::run::{JointRun, PlantKind};
 use crate::select::{floor_limit, refs};
-use crate::simulate::{Effect, Plant, Protocol};
+use crate::plants::joint::simulate::{Effect, Plant, Protocol};
 use rigproof_spec::effect::{Mechanism, Quantity};
 
 /// The plants before and after, and their free runs.
-pub(super) struct Fitted {
-    pub(super) nominal: Shown,
-    pub(super) found: Shown,
-    pub(super) by_windows: Plant,
+pub(crate) struct Fitted {
+    pub(crate) nominal: Shown,
+    pub(crate) found: Shown,
+    pub(crate) by_windows: Plant,
 }
 
 impl Stand<'_> {
     /// The plant of the windows' fit, with or without the mechanisms found.
-    pub(super) fn plant(&self, found: bool) -> Plant {
+    pub(crate) fn plant(&self, found: bool) -> Plant {
         let mut selection = self.selection.clone();
         if !found {
             selection.found.clear();
@@ -48,7 +48,7 @@ impl Stand<'_> {
         }
     }
 
-    pub(super) fn fit(&self, protocol: &Protocol) -> Option<Fitted> {
+    pub(crate) fn fit(&self, protocol: &Protocol) -> Option<Fitted> {
         if !self.options.refit {
             return None;
         }
@@ -85,13 +85,13 @@ impl Stand<'_> {
         })
     }
 
-    pub(super) fn fit_report(
+    pub(crate) fn fit_report(
         &self,
         fitted: &Fitted,
         protocol: &Protocol,
         other_recording: bool,
     ) -> FitReport {
-        let pair = |run: &Run| {
+        let pair = |run: &JointRun| {
             let (before, size) = figure(&fitted.nominal.plant, run, protocol);
             let (after, _) = figure(&fitted.found.plant, run, protocol);
             let percent = |x: f64| 100.0 * x / size.max(1e-300);

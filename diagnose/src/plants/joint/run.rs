@@ -16,7 +16,7 @@ pub enum PlantKind {
 
 /// An aligned recording in SI units, one value a sample in every vector.
 #[derive(Clone, Debug)]
-pub struct Run {
+pub struct JointRun {
     /// The plant.
     pub plant: PlantKind,
     /// Sample interval, s.
@@ -49,7 +49,7 @@ pub struct Run {
     pub untold_speed: Vec<f64>,
 }
 
-impl Run {
+impl JointRun {
     /// The number of samples.
     pub fn len(&self) -> usize {
         self.position.len()
@@ -109,9 +109,9 @@ impl Run {
     }
 
     /// The samples `from..to`, times kept.
-    pub fn slice(&self, from: usize, to: usize) -> Run {
+    pub fn slice(&self, from: usize, to: usize) -> JointRun {
         let part = |values: &Vec<f64>| values.get(from..to).unwrap_or_default().to_vec();
-        Run {
+        JointRun {
             plant: self.plant,
             step_s: self.step_s,
             start_s: self.start_s + from as f64 * self.step_s,
@@ -147,15 +147,9 @@ impl Run {
     }
 }
 
-/// Root mean square; 0 for an empty slice.
-pub fn rms(values: &[f64]) -> f64 {
-    let sum: f64 = values.iter().map(|x| x * x).sum();
-    (sum / values.len().max(1) as f64).sqrt()
-}
-
 #[cfg(test)]
 mod tests {
-    use crate::recorded::{NOMINAL, STEP_S, exact_axis};
+    use crate::plants::joint::recorded::{NOMINAL, STEP_S, exact_axis};
 
     #[test]
     fn a_slice_keeps_its_times() {

@@ -1,0 +1,4 @@
+//! This room is the plants: a folder each, which knows its recordings, its equations and its noise.
+
+pub mod five_bar;
+pub mod joint;

@@ -1,0 +1,14 @@
+//! This room is a plant of one joint: an axis that is driven, or a bench at which a brake or damper is turned.
+
+pub mod columns;
+mod fitted;
+pub mod free_run;
+pub mod from_rig;
+pub mod inertia;
+pub mod inverse;
+#[cfg(test)]
+pub(crate) mod recorded;
+pub mod refit;
+pub(crate) mod replica;
+pub mod run;
+pub mod simulate;
