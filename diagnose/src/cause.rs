@@ -1,37 +1,37 @@
 //! This file is what can be left out, and where.
 
 use rigproof_spec::effect::Mechanism;
-use rigproof_spec::joint::Joint;
 
-/// Something that can be left out: a mechanism, and on a linkage the joint at which it acts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// A joint of a plant, by its place in the plant's own order; the plant has its name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct JointId(pub usize);
+
+/// Where something acts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Place {
+    /// The plant as a whole, or its only joint.
+    Whole,
+    /// One joint of several.
+    Joint(JointId),
+}
+
+/// Something that can be left out: a mechanism, and the place where it acts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Cause {
     /// The mechanism.
     pub mechanism: Mechanism,
-    /// The joint; `None` on a plant of one joint and for what belongs to the whole linkage.
-    pub joint: Option<Joint>,
+    /// Where it acts.
+    pub at: Place,
 }
 
 impl Cause {
-    /// A mechanism without a joint.
+    /// A mechanism of the whole.
     pub const fn of(mechanism: Mechanism) -> Cause {
-        Cause {
-            mechanism,
-            joint: None,
-        }
+        Cause::at(mechanism, Place::Whole)
     }
 
-    /// Whether the whole linkage stands otherwise than recorded: the columns are rows of their own, not averages of a signal.
-    pub fn moves_linkage(self) -> bool {
-        let encoder = [Mechanism::EncoderScale, Mechanism::EncoderOffset];
-        self.joint.is_some() && encoder.contains(&self.mechanism)
-    }
-
-    /// The name in reports: `viscous`, `viscous at E`.
-    pub fn name(self) -> String {
-        match self.joint {
-            Some(joint) => format!("{} at {}", self.mechanism.name(), joint.letter()),
-            None => self.mechanism.name().to_owned(),
-        }
+    /// A mechanism at a place.
+    pub const fn at(mechanism: Mechanism, at: Place) -> Cause {
+        Cause { mechanism, at }
     }
 }

@@ -6,16 +6,19 @@ pub(crate) mod stages;
 pub(crate) mod words;
 pub(crate) mod write;
 
-use crate::align::{Fault, band_hz};
-use crate::evidence::{coefficients_by_term, parameters};
+use crate::align::Fault;
+use crate::cause::Cause;
+use crate::evidence::coefficients_by_term;
+use crate::plant::Run;
+use crate::plants::joint::columns::is_of_brake;
 use crate::plants::joint::from_rig;
-use crate::problem::{Cause, Problem, Term, is_of_brake};
-use crate::report::Report;
 use crate::plants::joint::run::JointRun;
+use crate::problem::{Problem, Term};
+use crate::report::Report;
 use crate::scatter::{Trials, left_over};
 use crate::select::{FLOOR_RATIO, Gates, Selection, is_noise, refs, select};
 use crate::unknown::surrogates;
-use crate::weak::{FEWEST_WINDOWS, Windows, choose_width};
+use crate::weak::FEWEST_WINDOWS;
 pub use description::{Description, Measured};
 use ended::{faulty, not_excited};
 use rigproof_spec::effect::Mechanism;
@@ -124,16 +127,10 @@ pub fn diagnose(
         },
         None => split(&aligned, options.hold_out_share),
     };
-    let inertia = from_rig::inertia(rig);
-    let width_s = choose_width(
-        &train,
-        inertia.start(),
-        band_hz(&train.effort, train.step_s),
-    );
-    let windows = Windows::new(&train, width_s);
-    let mut problem = Problem::new(&train, windows, inertia);
+    let mut problem = Problem::new(&train, train.windows());
     let usable = problem.windows.usable.iter().filter(|u| **u).count();
-    if usable < FEWEST_WINDOWS || train.travel() < 20.0 * train.position_noise {
+    if usable < FEWEST_WINDOWS || train.travel() < train.rules().least_travel * train.position_noise
+    {
         let (travel, noise) = (train.travel(), train.position_noise);
         return not_excited(Description::Joint(rig.clone()), usable, travel, noise);
     }
@@ -145,14 +142,14 @@ pub fn diagnose(
     if let Some(fault) = another_drive(&problem, &selection) {
         return faulty(Description::Joint(rig.clone()), "recording", fault);
     }
-    let mut withdrawn = withdraw_surrogates(&problem, &train, &mut selection, rig);
-    let trials = scattered(&problem, &train, &selection);
+    let mut withdrawn = withdraw_surrogates(&problem, &mut selection);
+    let trials = scattered(&problem, &selection);
     if let Some(trials) = trials.clone() {
         let windows = problem.windows.clone();
-        problem = Problem::new(&train, windows, inertia).within(trials);
+        problem = Problem::new(&train, windows).within(trials);
         let terms = nominal(rig, &problem);
         selection = select(&mut problem, terms, options.gates);
-        withdrawn = withdraw_surrogates(&problem, &train, &mut selection, rig);
+        withdrawn = withdraw_surrogates(&problem, &mut selection);
     }
     Stand {
         trials: trials.as_ref(),
@@ -163,7 +160,6 @@ pub fn diagnose(
         train: &train,
         test: &test,
         options,
-        width_s,
     }
     .report(held_out.is_some())
 }
@@ -180,7 +176,7 @@ fn without_brake(rig: &Rig, run: &JointRun) -> Option<Fault> {
         to_s: 0.0,
         reason: format!(
             "`{}` is something that a brake does; take it out, or describe the brake and its current",
-            effect.cause.name()
+            effect.cause.mechanism.name()
         ),
     })
 }
@@ -193,10 +189,10 @@ fn nominal(rig: &Rig, problem: &Problem) -> Vec<Term> {
 }
 
 /// The trials of a brake, where it is their gains that differ and hide what else may be left out.
-fn scattered(problem: &Problem, run: &JointRun, selection: &Selection) -> Option<Trials> {
-    let trials = Trials::of(run, &problem.windows)?;
+fn scattered(problem: &Problem, selection: &Selection) -> Option<Trials> {
+    let trials = Trials::of(problem.run, &problem.windows)?;
     let terms = refs(&selection.nominal, &selection.found);
-    let residual = left_over(problem, run, &terms, &selection.after);
+    let residual = left_over(problem, &terms, &selection.after);
     let least = FLOOR_RATIO * problem.floor;
     let scatter = trials.scatter(&residual, &problem.windows.usable, least);
     scatter.map(|_| trials)
@@ -213,8 +209,9 @@ fn another_drive(problem: &Problem, selection: &Selection) -> Option<Fault> {
         .iter()
         .zip(&coefficients)
         .find(|(term, _)| term.cause.mechanism == Mechanism::GainError)
-        .and_then(|(term, own)| parameters(term, own).first().copied())?;
-    let gain = 1.0 + fraction;
+        .and_then(|(_, own)| own.first().copied())?;
+    // The column is the known effort: y = e + c·e, so that the applied gain is 1/(1 + c) of the stated one.
+    let gain = 1.0 - fraction / (1.0 + fraction);
     let reason = if gain < 0.0 {
         "the plant answers against its drive: the command, the force or the position has the wrong sign (set `sign = -1`), or the two channels are swapped".to_owned()
     } else if !(1.0 / ANOTHER_UNIT..ANOTHER_UNIT).contains(&gain) {
@@ -224,21 +221,17 @@ fn another_drive(problem: &Problem, selection: &Selection) -> Option<Fault> {
     } else {
         return None;
     };
+    let clock = problem.run.clock();
     Some(Fault {
         channel: "drive",
-        from_s: problem.plant.start_s(),
-        to_s: problem.plant.start_s() + problem.plant.duration_s(),
+        from_s: clock.start_s,
+        to_s: clock.start_s + clock.duration_s(),
         reason,
     })
 }
 
 /// Takes out the names that only stand in for another law, where more than noise is left.
-fn withdraw_surrogates(
-    problem: &Problem,
-    run: &JointRun,
-    selection: &mut Selection,
-    rig: &Rig,
-) -> Vec<Cause> {
+fn withdraw_surrogates(problem: &Problem, selection: &mut Selection) -> Vec<Cause> {
     if is_noise(problem, &selection.after) {
         return Vec::new();
     }
@@ -248,7 +241,7 @@ fn withdraw_surrogates(
         .map(|f| f.term.cause.mechanism)
         .collect();
     let residual = &selection.after.residual;
-    let withdrawn: Vec<Cause> = surrogates(problem, run, residual, &found, rig.motion)
+    let withdrawn: Vec<Cause> = surrogates(problem, residual, &found)
         .into_iter()
         .map(Cause::of)
         .collect();
@@ -258,14 +251,16 @@ fn withdraw_surrogates(
 
 fn split(run: &JointRun, share: f64) -> (JointRun, JointRun) {
     let cut = ((1.0 - share) * run.len() as f64).round() as usize;
-    (run.slice(0, cut), run.slice(cut, run.len()))
+    (run.part(0, cut), run.part(cut, run.len()))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    use crate::plants::joint::recorded::{EFFORT_NOISE, Laws, NOMINAL, QUANTUM, exact_axis, exact_bench, signals};
+    use crate::plants::joint::recorded::{
+        EFFORT_NOISE, Laws, NOMINAL, QUANTUM, exact_axis, exact_bench, signals,
+    };
     use crate::report::Verdict;
     use rigproof_trace::{Channel, Trace};
     use std::path::Path;

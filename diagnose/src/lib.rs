@@ -64,13 +64,14 @@
 
 pub mod align;
 mod candidates;
-mod cause;
+pub mod cause;
 mod diagnose;
 mod doubt;
 mod evidence;
 mod filter;
 pub mod identify;
 mod locate;
+pub mod plant;
 pub mod plants;
 mod problem;
 mod regression;

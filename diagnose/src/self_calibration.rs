@@ -1,9 +1,9 @@
 //! This file says how far a diagnosis of one recording can be believed: it is made again on simulated recordings like it whose causes are known.
 
 use crate::diagnose::{Description, Measured, Options};
+use crate::plants::{five_bar, joint::replica};
 use crate::report::{NamedRate, Rate, Report, SelfCalibration};
 use crate::sensor::sensed;
-use crate::plants::{five_bar, joint::replica};
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::SeedableRng;
 use statrs::distribution::{Beta, ContinuousCDF};

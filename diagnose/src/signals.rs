@@ -60,3 +60,11 @@ pub fn shifted(signal: &[f64], delay: f64) -> Vec<f64> {
         })
         .collect()
 }
+
+/// The parameters of a law with each of its linear ones 1 in turn and the others 0.
+pub fn unit_parameters(linear: usize, shape: &[f64]) -> impl Iterator<Item = Vec<f64>> {
+    (0..linear).map(move |index| {
+        let unit = (0..linear).map(|k| if k == index { 1.0 } else { 0.0 });
+        unit.chain(shape.iter().copied()).collect()
+    })
+}

@@ -1,8 +1,8 @@
 //! This file writes what was found as a rig description: the calibration that a simulation can read.
 
 use crate::evidence::Intervals;
-use crate::report::Number;
 use crate::plants::joint::simulate::Plant;
+use crate::report::Number;
 use rigproof_spec::effect::Motion;
 use rigproof_trace::rig::{Rig, RigEffect, Status, Value};
 use std::collections::BTreeMap;
@@ -13,7 +13,7 @@ pub fn calibrated(rig: &Rig, plant: &Plant, intervals: &Intervals, refitted: boo
     if let Some(parameters) = &mut out.parameters
         && parameters.inertia.status != Status::Known
     {
-        parameters.inertia = with_interval(plant.inertia, intervals.inertia);
+        parameters.inertia = with_interval(plant.inertia, intervals.nuisances.first().copied());
     }
     out.effects = plant
         .effects

@@ -6,13 +6,17 @@ use crate::report::{InverseReport, StageReport};
 use crate::select::Stage;
 
 impl Stand<'_> {
-    pub(super) fn stages(&self) -> Vec<StageReport> {
+    pub(crate) fn stages(&self) -> Vec<StageReport> {
         let stages = self.selection.stages.iter();
         stages
             .map(|stage| StageReport {
                 entered: stage.entered.mechanism.name(),
                 joint: None,
-                standing: stage.standing.iter().map(|c| c.name()).collect(),
+                standing: stage
+                    .standing
+                    .iter()
+                    .map(|c| self.problem.name(*c))
+                    .collect(),
                 residual: stage.residual,
                 inverse_error_percent: self.inverse_error_percent(Some(stage)),
             })
@@ -20,7 +24,7 @@ impl Stand<'_> {
     }
 
     /// The inverse model with the nominal laws alone.
-    pub(super) fn inverse_model(&self) -> Option<InverseReport> {
+    pub(crate) fn inverse_model(&self) -> Option<InverseReport> {
         Some(InverseReport {
             protocol: protocol(),
             filter_order: FILTER_ORDER,

@@ -1,14 +1,15 @@
 //! This file says in words how a diagnosis was made and what it came to.
 
 use super::write::Stand;
-use crate::report::{FitReport, Verdict};
 use crate::plants::joint::run::PlantKind;
-use crate::select::Selection;
 use crate::plants::joint::simulate::{Interpolation, Protocol};
+use crate::problem::Problem;
+use crate::report::{FitReport, Verdict};
+use crate::select::Selection;
 use crate::whiten::ORDER;
 
 impl Stand<'_> {
-    pub(super) fn protocol_lines(&self, protocol: &Protocol, other_recording: bool) -> Vec<String> {
+    pub(crate) fn protocol_lines(&self, protocol: &Protocol, other_recording: bool) -> Vec<String> {
         let windows = &self.problem.windows;
         let usable = windows.usable.iter().filter(|u| **u).count();
         let mut lines = vec![
@@ -26,7 +27,7 @@ impl Stand<'_> {
             ),
             format!(
                 "windows: bump (1 - x²)⁴, {:.1} ms wide, {} samples apart, {usable} of {} usable (sense of motion known)",
-                1e3 * self.width_s,
+                1e3 * self.train.width_s(),
                 windows.hop,
                 windows.centres.len()
             ),
@@ -39,7 +40,7 @@ impl Stand<'_> {
                 self.options.gates.z,
                 100.0 * self.options.gates.share,
                 100.0 * self.options.gates.relevance,
-                self.problem.plant.own_to_unexplained()
+                self.problem.rules.own_to_unexplained
             ),
             self.fit_protocol(protocol, other_recording),
         ];
@@ -47,7 +48,7 @@ impl Stand<'_> {
         lines
     }
 
-    pub(super) fn fit_protocol(&self, protocol: &Protocol, other_recording: bool) -> String {
+    pub(crate) fn fit_protocol(&self, protocol: &Protocol, other_recording: bool) -> String {
         let held_out = if other_recording {
             "another recording"
         } else {
@@ -80,6 +81,7 @@ pub(crate) fn filled_in(recorded: &[bool]) -> Option<String> {
 }
 
 pub(crate) fn summary(
+    problem: &Problem,
     verdict: Verdict,
     selection: &Selection,
     fit: Option<&FitReport>,
@@ -88,7 +90,7 @@ pub(crate) fn summary(
     let names: Vec<String> = selection
         .found
         .iter()
-        .map(|f| f.term.cause.name())
+        .map(|f| problem.name(f.term.cause))
         .collect();
     let named = names.join(", ");
     let shown = match fit.and_then(|f| f.held_out.map(|h| (h, f))) {

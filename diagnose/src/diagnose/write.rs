@@ -3,23 +3,24 @@
 use super::ended::blank;
 use super::words::summary;
 use super::{Curves, Description, Diagnosis, FittedCurves, Options};
+use crate::cause::Cause;
 use crate::evidence::{Rivals, inclusion, intervals, not_seen, null_directions, rivals};
-use crate::plants::joint::from_rig;
 use crate::locate::locate;
-use crate::problem::{Cause, Problem};
-use crate::report::{EffectReport, Floor, Report, Unknown, Verdict};
+use crate::plants::joint::from_rig;
 use crate::plants::joint::run::{JointRun, PlantKind};
+use crate::plants::joint::simulate::{Plant, Protocol, output};
+use crate::problem::Problem;
+use crate::report::{EffectReport, Floor, Report, Unknown, Verdict};
 use crate::scatter::{Trials, left_over};
 use crate::select::{Selection, floor_limit, refs, usable_rms};
-use crate::plants::joint::simulate::{Plant, Protocol, output};
 use crate::unknown::unknown;
 use crate::write_rig::{calibrated, nominal_numbers, numbers};
 use rigproof_model::effects::entry;
-use rigproof_spec::effect::{Mechanism, Motion, Quantity};
+use rigproof_spec::effect::Quantity;
 use rigproof_trace::rig::Rig;
 
 /// The residual of the windows against what sensor noise predicts.
-pub(crate) fn floor(problem: &Problem, selection: &Selection, motion: Motion) -> Floor {
+pub(crate) fn floor(problem: &Problem, selection: &Selection) -> Floor {
     let predicted = problem.floor;
     let before = usable_rms(problem, &selection.before.residual);
     let after = usable_rms(problem, &selection.after.residual);
@@ -29,7 +30,9 @@ pub(crate) fn floor(problem: &Problem, selection: &Selection, motion: Motion) ->
         measured_after: after,
         ratio_before: before / predicted,
         ratio_after: after / predicted,
-        unit: Quantity::Effort.dimension(motion).to_string(),
+        unit: Quantity::Effort
+            .dimension(problem.run.motion_kind())
+            .to_string(),
     }
 }
 
@@ -51,25 +54,28 @@ pub(crate) fn verdict(
 }
 
 /// Everything the report is written from.
-pub(super) struct Stand<'a> {
-    pub(super) rig: &'a Rig,
-    pub(super) problem: &'a Problem<'a>,
-    pub(super) selection: &'a Selection,
-    pub(super) withdrawn: &'a [Cause],
-    pub(super) train: &'a JointRun,
-    pub(super) test: &'a JointRun,
-    pub(super) options: &'a Options,
-    pub(super) width_s: f64,
+pub(crate) struct Stand<'a> {
+    pub(crate) rig: &'a Rig,
+    pub(crate) problem: &'a Problem<'a>,
+    pub(crate) selection: &'a Selection,
+    pub(crate) withdrawn: &'a [Cause],
+    pub(crate) train: &'a JointRun,
+    pub(crate) test: &'a JointRun,
+    pub(crate) options: &'a Options,
     /// Trials of a brake whose gains differ; `problem` is told within them.
-    pub(super) trials: Option<&'a Trials>,
+    pub(crate) trials: Option<&'a Trials>,
 }
 
 impl Stand<'_> {
     /// The diagnosis; `other_recording` says whether the held-out part is a recording of its own.
-    pub(super) fn report(&self, other_recording: bool) -> Diagnosis {
+    pub(crate) fn report(&self, other_recording: bool) -> Diagnosis {
         let protocol = from_rig::protocol(self.rig);
         let fitted = self.fit(&protocol);
-        let rivals: Vec<Vec<String>> = self.rivals().iter().map(Rivals::names).collect();
+        let rivals: Vec<Vec<String>> = self
+            .rivals()
+            .iter()
+            .map(|own| own.names(self.problem))
+            .collect();
         let floor = self.floor();
         let verdict = verdict(self.selection, &floor, floor_limit(self.problem), &rivals);
         let unknown = if floor.ratio_after > floor_limit(self.problem) {
@@ -88,13 +94,12 @@ impl Stand<'_> {
         // A bench with a brake keeps the numbers of its windows.
         let refitted = fitted.is_some() && self.train.brake().is_none();
         let calibration = calibrated(self.rig, &plants.1, &intervals, refitted);
-        let summary = summary(verdict, self.selection, fit.as_ref(), &rivals);
+        let summary = summary(self.problem, verdict, self.selection, fit.as_ref(), &rivals);
         let report = Report {
             protocol: self.protocol_lines(&protocol, other_recording),
             floor: Some(floor),
             located: locate(
                 self.problem,
-                self.train,
                 &self.selection.before.residual,
                 &self.selection.after.residual,
             ),
@@ -105,17 +110,16 @@ impl Stand<'_> {
                 .selection
                 .too_small
                 .iter()
-                .map(|cause| cause.name())
+                .map(|cause| self.problem.name(*cause))
                 .collect(),
-            withdrawn: self.withdrawn.iter().map(|cause| cause.name()).collect(),
+            withdrawn: self
+                .withdrawn
+                .iter()
+                .map(|cause| self.problem.name(*cause))
+                .collect(),
             nominal: nominal_numbers(self.rig, &calibration),
             inverse_model: self.inverse_model(),
-            not_seen: not_seen(
-                self.problem,
-                self.selection,
-                self.options.gates,
-                self.rig.motion,
-            ),
+            not_seen: not_seen(self.problem, self.selection, self.options.gates),
             null_directions: null_directions(self.problem, self.selection),
             unknown,
             fit,
@@ -135,10 +139,8 @@ impl Stand<'_> {
     fn rivals(&self) -> Vec<Rivals> {
         let mut all = rivals(self.problem, self.selection);
         for (rivals, found) in all.iter_mut().zip(&self.selection.found) {
-            let twin = match found.term.cause.mechanism {
-                Mechanism::ConstantBias => Cause::of(Mechanism::DirectionAsymmetry),
-                Mechanism::DirectionAsymmetry => Cause::of(Mechanism::ConstantBias),
-                _ => continue,
+            let Some(twin) = self.problem.run.twin(found.term.cause) else {
+                continue;
             };
             let taken = refs(&self.selection.nominal, &self.selection.found)
                 .iter()
@@ -150,8 +152,8 @@ impl Stand<'_> {
         all
     }
 
-    pub(super) fn floor(&self) -> Floor {
-        let floor = floor(self.problem, self.selection, self.rig.motion);
+    pub(crate) fn floor(&self) -> Floor {
+        let floor = floor(self.problem, self.selection);
         if self.trials.is_none() {
             return floor;
         }
@@ -177,9 +179,9 @@ impl Stand<'_> {
             ..
         } = self.selection;
         if with_found {
-            left_over(self.problem, self.train, &refs(nominal, found), after)
+            left_over(self.problem, &refs(nominal, found), after)
         } else {
-            left_over(self.problem, self.train, &refs(nominal, &[]), before)
+            left_over(self.problem, &refs(nominal, &[]), before)
         }
     }
 
@@ -191,7 +193,7 @@ impl Stand<'_> {
             return Some(scatter.described());
         }
         let residual = &self.selection.after.residual;
-        unknown(self.problem, self.train, residual, self.rig.motion)
+        unknown(self.problem, residual)
     }
 
     fn effects(&self, calibration: &Rig) -> Vec<EffectReport> {
@@ -257,7 +259,7 @@ impl Stand<'_> {
         }
     }
 
-    pub(super) fn output_unit(&self) -> String {
+    pub(crate) fn output_unit(&self) -> String {
         let quantity = match self.train.plant {
             PlantKind::Axis => Quantity::Travel,
             PlantKind::Bench => Quantity::Effort,

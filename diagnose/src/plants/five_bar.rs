@@ -28,6 +28,3 @@ mod stops;
 #[cfg(test)]
 mod tests;
 mod undone;
-
-/// From how many standard deviations of the sensors' noise on two explanations count as told apart.
-pub(crate) const LEAST_SIGMAS: f64 = 10.0;

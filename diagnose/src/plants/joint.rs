@@ -1,5 +1,6 @@
 //! This room is a plant of one joint: an axis that is driven, or a bench at which a brake or damper is turned.
 
+pub mod align;
 pub mod columns;
 mod fitted;
 pub mod free_run;
@@ -9,6 +10,9 @@ pub mod inverse;
 #[cfg(test)]
 pub(crate) mod recorded;
 pub mod refit;
+mod regimes;
 pub(crate) mod replica;
 pub mod run;
+mod shapes;
 pub mod simulate;
+mod variables;

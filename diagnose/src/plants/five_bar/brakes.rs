@@ -1,7 +1,8 @@
 //! This file is what a brake may do with its current other than the nominal model says, as changes of its yield torque.
 
 use super::run::{FiveBarRun, place, yields};
-use crate::problem::{USUAL_SHARE, less, shifted, through_play};
+use crate::problem::less;
+use crate::signals::{USUAL_SHARE, shifted, through_play};
 use rigproof_model::brake::Brake;
 use rigproof_model::effects::{CurrentPlay, first_order_lag_straight};
 use rigproof_spec::effect::Mechanism;
@@ -19,10 +20,10 @@ pub fn change(
     let own = run.yields.get(place(joint))?;
     let current = run.currents.get(place(joint))?.as_ref()?;
     let again = |brake: Brake, current: &[f64]| {
-        let changed = yields(brake, run.motion(joint), current, run.step_s);
+        let changed = yields(brake, run.motion_of(joint), current, run.step_s);
         Some(less(&changed, own))
     };
-    let start = run.motion(joint).first()?.position;
+    let start = run.motion_of(joint).first()?.position;
     match mechanism {
         // What lags is the effort, as the equation of the library has it: the whole brake, its own response included.
         Mechanism::Lag => Some(less(&first_order_lag_straight(own, run.step_s, value), own)),
@@ -61,10 +62,10 @@ pub fn unit(
                 closing_a: shape.get(1).copied().unwrap_or(0.0),
             };
             let held = through_play(current, play, USUAL_SHARE);
-            let start = run.motion(joint).first()?.position;
+            let start = run.motion_of(joint).first()?.position;
             let changed = yields(
                 Brake::new(joint, start),
-                run.motion(joint),
+                run.motion_of(joint),
                 &held,
                 run.step_s,
             );
@@ -73,7 +74,7 @@ pub fn unit(
         }
         Mechanism::ThermalFade => {
             let mut heat_j = 0.0;
-            let pairs = own.iter().zip(run.motion(joint));
+            let pairs = own.iter().zip(run.motion_of(joint));
             let fade = pairs.map(|(torque, now)| {
                 let lost = torque * heat_j;
                 heat_j += run.step_s * (torque * now.speed.abs() - heat_j / value);

@@ -2,6 +2,7 @@
 
 use super::diagnose::Stand;
 use super::encoder::Encoder;
+use super::run::joint_at;
 use super::undone::undone_first;
 use crate::evidence::{Intervals, coefficients_by_term, parameters};
 use crate::problem::Term;
@@ -29,7 +30,10 @@ impl Stand<'_> {
                 }
                 let halves = intervals.terms.get(index);
                 let count = term.cause.mechanism.parameters().len();
-                let values = parameters(term, own).into_iter().take(count).enumerate();
+                let values = parameters(self.problem, term, own)
+                    .into_iter()
+                    .take(count)
+                    .enumerate();
                 let values = values
                     .map(|(k, value)| with_interval(value, halves.and_then(|h| h.get(k)).copied()));
                 joint_effect(
@@ -78,7 +82,7 @@ fn joint_effect(
     onset: Option<Value>,
 ) -> JointEffect {
     JointEffect {
-        joint: term.cause.joint,
+        joint: joint_at(term.cause.at),
         effect: RigEffect {
             mechanism,
             values,

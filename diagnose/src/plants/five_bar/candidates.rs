@@ -1,8 +1,10 @@
 //! This file says which causes are tried on a recording of the five-bar, where, and in which shapes.
 
-use super::run::{FiveBarRun, place};
+use super::run::{FiveBarRun, at, joint_at, place};
 use crate::candidates::{fastest, geometric, periods, stribeck_shapes};
-use crate::problem::{Cause, Problem};
+use crate::cause::Cause;
+use crate::plant::Run;
+use crate::weak::Windows;
 use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
 
@@ -56,10 +58,6 @@ const SOFTEST_BRISTLE: f64 = 0.33;
 /// The causes that have a meaning on this layout.
 pub fn causes(run: &FiveBarRun) -> Vec<Cause> {
     let braked = run.parameters.layout.brakes();
-    let at = |mechanism, joint| Cause {
-        mechanism,
-        joint: Some(joint),
-    };
     let brakes = AT_BRAKES
         .into_iter()
         .flat_map(|mechanism| braked.iter().map(move |joint| at(mechanism, *joint)));
@@ -79,14 +77,6 @@ pub fn causes(run: &FiveBarRun) -> Vec<Cause> {
         .collect()
 }
 
-/// The range of a joint's angle, rad.
-pub fn travel(run: &FiveBarRun, cause: Cause) -> f64 {
-    let motion = cause.joint.map_or(&[][..], |joint| run.motion(joint));
-    let positions = motion.iter().map(|now| now.position);
-    let low = positions.clone().fold(f64::INFINITY, f64::min);
-    positions.fold(f64::NEG_INFINITY, f64::max) - low
-}
-
 /// How far the first number of a cause's shape may go where that is beyond what is tried first.
 pub fn reach(run: &FiveBarRun, cause: Cause) -> Option<(f64, f64)> {
     match cause.mechanism {
@@ -94,14 +84,14 @@ pub fn reach(run: &FiveBarRun, cause: Cause) -> Option<(f64, f64)> {
             Some((-MOST_OF_AN_ENCODER, MOST_OF_AN_ENCODER))
         }
         Mechanism::Stribeck => {
-            let fastest = fastest(cause.joint.map_or(&[][..], |joint| run.motion(joint)));
+            let fastest = fastest(run.motion(cause.at));
             let slowest = stribeck_shapes(run.speed_floor, fastest)
                 .into_iter()
                 .next()?;
             Some((slowest.first().copied()?, WIDEST_PEAK * fastest))
         }
         Mechanism::Presliding | Mechanism::AsymmetricPresliding => {
-            let travel = travel(run, cause).max(1e-12);
+            let travel = run.travel(cause.at).max(1e-12);
             Some((least_bending(run, travel), SOFTEST_BRISTLE * travel))
         }
         _ => None,
@@ -114,11 +104,10 @@ fn least_bending(run: &FiveBarRun, travel: f64) -> f64 {
 }
 
 /// The angle of a cause's joint at each usable window, and the residual as a torque there.
-fn points(problem: &Problem, run: &FiveBarRun, cause: Cause, residual: &[f64]) -> Vec<(f64, f64)> {
-    let Some(joint) = cause.joint else {
+fn points(run: &FiveBarRun, cause: Cause, windows: &Windows, residual: &[f64]) -> Vec<(f64, f64)> {
+    let Some(joint) = joint_at(cause.at) else {
         return Vec::new();
     };
-    let windows = &problem.windows;
     let rows: Vec<[f64; 2]> = run.joint_rows(joint).collect();
     let pairs = windows.centres.chunks(2).zip(residual.chunks(2));
     let pairs = pairs.zip(windows.usable.chunks(2));
@@ -126,7 +115,7 @@ fn points(problem: &Problem, run: &FiveBarRun, cause: Cause, residual: &[f64]) -
         .filter(|(_, usable)| usable.iter().all(|u| *u))
         .filter_map(|((centres, residual), _)| {
             let centre = *centres.first()?;
-            let (row, now) = (rows.get(centre)?, run.motion(joint).get(centre)?);
+            let (row, now) = (rows.get(centre)?, run.motion_of(joint).get(centre)?);
             let along: f64 = row.iter().zip(residual).map(|(g, r)| g * r).sum();
             Some((now.position, along))
         })
@@ -135,7 +124,8 @@ fn points(problem: &Problem, run: &FiveBarRun, cause: Cause, residual: &[f64]) -
 
 /// Currents below the greatest one that a brake was given, A: where its amplifier may have stopped.
 fn limits(run: &FiveBarRun, cause: Cause) -> Vec<f64> {
-    let current = cause.joint.and_then(|joint| run.currents.get(place(joint)));
+    let joint = joint_at(cause.at);
+    let current = joint.and_then(|joint| run.currents.get(place(joint)));
     let given = current.into_iter().flatten().flatten().copied();
     let greatest = given.fold(0.0, f64::max);
     if greatest < 0.05 {
@@ -157,12 +147,12 @@ const CLOSING_A: [f64; 3] = [0.1, 0.4, 1.5];
 
 /// The shapes of a cause that are tried.
 pub fn shapes(
-    problem: &Problem,
     run: &FiveBarRun,
     cause: Cause,
+    windows: &Windows,
     residual: &[f64],
 ) -> Vec<Vec<f64>> {
-    let motion = cause.joint.map_or(&[][..], |joint| run.motion(joint));
+    let motion = run.motion(cause.at);
     let one = |values: Vec<f64>| values.into_iter().map(|v| vec![v]).collect();
     match cause.mechanism {
         Mechanism::Stribeck => stribeck_shapes(run.speed_floor, fastest(motion))
@@ -170,12 +160,12 @@ pub fn shapes(
             .flat_map(|shape| DELAYS_RAD.map(|travel| [&shape[..], &[travel]].concat()))
             .collect(),
         Mechanism::Presliding | Mechanism::AsymmetricPresliding => {
-            let travel = travel(run, cause).max(1e-12);
+            let travel = run.travel(cause.at).max(1e-12);
             one(geometric(least_bending(run, travel), 0.2 * travel, 10))
         }
         Mechanism::Ripple => one(periods(
-            &points(problem, run, cause, residual),
-            travel(run, cause),
+            &points(run, cause, windows, residual),
+            run.travel(cause.at),
         )),
         Mechanism::ReversalOvershoot => one(geometric(0.01, 1.5, 6)),
         Mechanism::Settling => one(geometric(0.3, 30.0, 5)),

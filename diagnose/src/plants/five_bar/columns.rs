@@ -3,8 +3,10 @@
 use super::brakes;
 use super::encoder::Encoder;
 use super::joined::over_parts;
-use super::run::{FiveBarRun, inertial, place, stacked};
-use crate::problem::{Cause, less, numerov, shifted};
+use super::run::{FiveBarRun, inertial, joint_at, place, stacked};
+use crate::cause::Cause;
+use crate::problem::less;
+use crate::signals::{numerov, shifted, unit_parameters};
 use rigproof_model::bench::{column, column_by_travel};
 use rigproof_model::effects::{Form, Law, entry, law};
 use rigproof_model::motion::added_mass;
@@ -37,7 +39,7 @@ pub fn free(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<f64
 }
 
 fn free_of_one(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<f64>>> {
-    match (cause.mechanism, cause.joint) {
+    match (cause.mechanism, joint_at(cause.at)) {
         (Mechanism::GainError, Some(joint)) => {
             Some(vec![seen(&run.at_joint(joint, &run.brake_torque(joint)))])
         }
@@ -87,7 +89,7 @@ pub fn fixed(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<f64>> 
 
 fn fixed_of_one(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<f64>> {
     let value = *shape.first()?;
-    match (cause.mechanism, cause.joint) {
+    match (cause.mechanism, joint_at(cause.at)) {
         // The yield of a brake changes, its sign does not (docs/decisions/0001).
         (mechanism, Some(joint)) => {
             let change = brakes::change(run, mechanism, joint, value)?;
@@ -116,7 +118,7 @@ fn fixed_of_one(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<f64
 
 /// A change of a brake's yield torque along its joint's motion.
 fn along_motion(run: &FiveBarRun, joint: Joint, change: &[f64]) -> Vec<f64> {
-    let pairs = run.motion(joint).iter().zip(change);
+    let pairs = run.motion_of(joint).iter().zip(change);
     let torque: Vec<f64> = pairs.map(|(now, c)| now.sense * c).collect();
     seen(&run.at_joint(joint, &torque))
 }
@@ -134,7 +136,7 @@ fn at_joint(
         Form::ShareOfBrake(_) => Some(run.yields.get(place(joint))?),
         Form::Drive | Form::Brake | Form::Linkage => return None,
     };
-    crate::problem::unit_parameters(entry.linear, shape)
+    unit_parameters(entry.linear, shape)
         .map(|parameters| {
             let law = law(mechanism, &parameters)?;
             let mut resistance = along(law.as_ref(), run, joint);
@@ -149,7 +151,7 @@ fn at_joint(
 /// The resistance of a law along a joint's motion. What a reversal begins anew goes by the recorded angle: a joint that turns back
 /// slowly, for a few counts, turns back.
 fn along(law: &dyn Law, run: &FiveBarRun, joint: Joint) -> Vec<f64> {
-    let motion = run.motion(joint);
+    let motion = run.motion_of(joint);
     if law.begins_anew() {
         return column_by_travel(law, motion, &run.known_travel(joint), run.step_s);
     }

@@ -4,12 +4,12 @@ use super::experiment;
 use super::free_run::{Model, horizons};
 use super::held::held;
 use super::held_out::Parts;
-use super::locate::locate;
 use super::mapping;
 use super::run::FiveBarRun;
 use super::undone::{left, undone_first};
 use crate::align::Fault;
 use crate::candidates::realise;
+use crate::cause::{Cause, Place};
 use crate::diagnose::ended::{blank, faulty, not_excited};
 use crate::diagnose::words::summary;
 use crate::diagnose::write::{floor, verdict};
@@ -18,23 +18,19 @@ use crate::evidence::{
     Rivals, coefficients_by_term, inclusion, inconstant, intervals, is_told_by_itself, not_seen,
     rivals,
 };
-use crate::problem::{Cause, NominalEffect, Problem, Term, add};
+use crate::filter::rms;
+use crate::locate::locate;
+use crate::plant::Run;
+use crate::problem::{NominalEffect, Problem, Term, add};
 use crate::report::{
     BeforeAfter, EffectReport, FITTED_PART, FitReport, HELD_OUT_PART, Horizon, Report, StageReport,
 };
-use crate::filter::rms;
 use crate::select::{Selection, floor_limit, refs, select};
-use crate::weak::{FEWEST_WINDOWS, Windows};
+use crate::weak::FEWEST_WINDOWS;
 use crate::write_rig::numbers;
 use rigproof_model::effects::entry;
 use rigproof_spec::effect::Motion;
-use rigproof_spec::joint::Joint;
 use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording};
-
-/// The widths of windows that are tried, s; the last is taken when no narrower one is quiet enough.
-const WIDTHS_S: [f64; 3] = [0.040, 0.080, 0.160];
-/// A width is quiet enough when the floor is below this, N·m: contributions of 0.01 N·m are to be seen in a few windows.
-const QUIET_NM: f64 = 0.0075;
 
 /// Diagnoses recordings of a five-bar together; `held_out` is another recording of the same rig. Without it the last of many shows the
 /// result, or the end of the last.
@@ -50,10 +46,15 @@ pub fn diagnose(
         Err((which, fault)) => return faulty(description(), &which, fault),
     };
     let Parts { train, test, .. } = &parts;
-    let mut problem = problem(train);
+    let mut problem = Problem::new(train, train.windows());
     let usable = problem.windows.usable.iter().filter(|u| **u).count() / problem.windows.outputs;
     if usable < FEWEST_WINDOWS {
-        return not_excited(description(), usable, travel(train), train.theta_noise);
+        return not_excited(
+            description(),
+            usable,
+            train.travel(Place::Whole),
+            train.theta_noise,
+        );
     }
     // A description with effects of its own was balanced before; without them its recording may be far from balance.
     if rig.effects.is_empty()
@@ -64,7 +65,7 @@ pub fn diagnose(
     let mut terms: Vec<Term> = Vec::new();
     for effect in left(rig) {
         let Some(mut term) = problem.nominal_term(&effect) else {
-            return faulty(description(), "description", meaningless(&effect));
+            return faulty(description(), "description", meaningless(&problem, &effect));
         };
         // A spring of the description has its rest angle in a constant bias of its own.
         let linear = entry(effect.cause.mechanism).map_or(0, |entry| entry.linear);
@@ -110,41 +111,16 @@ fn withdraw_inconstant(problem: &Problem, selection: &mut Selection) -> Vec<Caus
 }
 
 /// A nominal effect that has no meaning on this layout or at this joint.
-fn meaningless(effect: &NominalEffect) -> Fault {
+fn meaningless(problem: &Problem, effect: &NominalEffect) -> Fault {
     Fault {
         channel: "effect",
         from_s: 0.0,
         to_s: 0.0,
         reason: format!(
             "`{}` cannot stand in the nominal model of this five-bar; take it out, or give it a joint that has it",
-            effect.cause.name()
+            problem.name(effect.cause)
         ),
     }
-}
-
-/// The problem with the narrowest windows whose predicted floor is small against the driving effort.
-fn problem(run: &FiveBarRun) -> Problem<'_> {
-    let over = |width_s| {
-        let windows = Windows::over(run.len(), 2, (run.step_s, run.start_s), width_s);
-        Problem::of_five_bar(run, windows)
-    };
-    let quiet = |problem: &Problem| problem.floor <= QUIET_NM;
-    let [narrow, middle, wide] = WIDTHS_S;
-    let narrow = over(narrow);
-    if quiet(&narrow) {
-        return narrow;
-    }
-    let middle = over(middle);
-    if quiet(&middle) { middle } else { over(wide) }
-}
-
-/// The greatest range of θA and θB, rad.
-fn travel(run: &FiveBarRun) -> f64 {
-    let range = |theta: &Vec<f64>| {
-        let low = theta.iter().copied().fold(f64::INFINITY, f64::min);
-        theta.iter().copied().fold(f64::NEG_INFINITY, f64::max) - low
-    };
-    run.theta.iter().map(range).fold(0.0, f64::max)
 }
 
 /// Everything the report is written from.
@@ -177,8 +153,8 @@ impl Stand<'_> {
     fn report(&self, other_recording: bool) -> Diagnosis {
         let (problem, selection) = (self.problem, self.selection);
         let all = rivals(problem, selection);
-        let rivals: Vec<Vec<String>> = all.iter().map(Rivals::names).collect();
-        let floor = floor(problem, selection, Motion::Rotary);
+        let rivals: Vec<Vec<String>> = all.iter().map(|own| own.names(problem)).collect();
+        let floor = floor(problem, selection);
         let verdict = verdict(selection, &floor, floor_limit(problem), &rivals);
         let test = self.balanced(self.test, self.test_from_s);
         let intervals = intervals(problem, selection);
@@ -195,16 +171,20 @@ impl Stand<'_> {
         let mut protocol = self.protocol(other_recording);
         protocol.extend(fit.iter().map(|fit| fit.protocol.clone()));
         let (before, after) = (&selection.before.residual, &selection.after.residual);
-        let summary = summary(verdict, selection, fit.as_ref(), &rivals);
+        let summary = summary(problem, verdict, selection, fit.as_ref(), &rivals);
         let report = Report {
             protocol,
-            located: locate(problem, self.train, before, after),
+            located: locate(problem, before, after),
             stages: self.stages(),
             effects: self.effects(&calibration, &all),
             ambiguous_with: rivals,
-            too_small_to_name: selection.too_small.iter().map(|c| c.name()).collect(),
-            withdrawn: self.withdrawn.iter().map(|c| c.name()).collect(),
-            not_seen: not_seen(problem, selection, self.options.gates, Motion::Rotary),
+            too_small_to_name: selection
+                .too_small
+                .iter()
+                .map(|c| problem.name(*c))
+                .collect(),
+            withdrawn: self.withdrawn.iter().map(|c| problem.name(*c)).collect(),
+            not_seen: not_seen(problem, selection, self.options.gates),
             held: held(problem, self.train, selection),
             fit,
             next_experiment,
@@ -221,12 +201,13 @@ impl Stand<'_> {
     }
 
     fn stages(&self) -> Vec<StageReport> {
+        let problem = self.problem;
         let stages = self.selection.stages.iter();
         stages
             .map(|stage| StageReport {
                 entered: stage.entered.mechanism.name(),
-                joint: stage.entered.joint.map(Joint::letter),
-                standing: stage.standing.iter().map(|c| c.name()).collect(),
+                joint: problem.run.place_name(stage.entered.at),
+                standing: stage.standing.iter().map(|c| problem.name(*c)).collect(),
                 residual: stage.residual,
                 inverse_error_percent: None,
             })
@@ -246,11 +227,12 @@ impl Stand<'_> {
     fn balanced(&self, run: &FiveBarRun, from_s: f64) -> Balanced {
         let fitted = &self.problem.windows;
         let width_s = (fitted.bump.len() - 1) as f64 * fitted.step_s;
-        let mut windows = Windows::over(run.len(), 2, (run.step_s, run.start_s), width_s);
+        let mut windows = run.all_windows(width_s);
         windows.keep(|centre, bump| {
             (centre - bump.len() / 2) as f64 * run.step_s >= from_s - 0.5 * run.step_s
         });
-        let problem = Problem::of_five_bar(run, windows);
+        run.keep_told(&mut windows);
+        let problem = Problem::new(run, windows);
         let bare = self.bare();
         let centres = problem.windows.centres.iter();
         let before_it = centres.take_while(|&&centre| (centre as f64) * run.step_s < from_s);
@@ -356,7 +338,7 @@ impl Stand<'_> {
                 let fitted = calibration.effects.get(offset + index)?;
                 Some(EffectReport {
                     mechanism: cause.mechanism.name(),
-                    joint: cause.joint.map(Joint::letter),
+                    joint: self.problem.run.place_name(cause.at),
                     parameters: numbers(&fitted.effect, Motion::Rotary),
                     onset_s: found.term.onset_s,
                     onset_low95_s: fitted.effect.onset.and_then(|onset| onset.low95),
@@ -366,7 +348,9 @@ impl Stand<'_> {
                     share_explained: found.share,
                     equation: entry.equation,
                     refuted_by: entry.refuted_by,
-                    limit_of: limits.get(index).map_or_else(Vec::new, Rivals::limits),
+                    limit_of: limits
+                        .get(index)
+                        .map_or_else(Vec::new, |own| own.limits(self.problem)),
                 })
             })
             .collect()

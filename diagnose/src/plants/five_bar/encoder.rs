@@ -8,8 +8,9 @@
 use super::columns::{driving, known};
 use super::from_rig::with_angles;
 use super::noise::combinations;
-use super::run::FiveBarRun;
-use crate::problem::{Cause, less};
+use super::run::{FiveBarRun, joint_at};
+use crate::cause::Cause;
+use crate::problem::less;
 use crate::weak::Windows;
 use rigproof_model::linkage::inverse;
 use rigproof_spec::effect::Mechanism;
@@ -38,7 +39,7 @@ pub(crate) struct Encoder {
 impl Encoder {
     /// Of a cause; `None` where it is none of an encoder.
     pub(crate) fn of(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Encoder> {
-        let output = match cause.joint? {
+        let output = match joint_at(cause.at)? {
             Joint::A => 0,
             Joint::B => 1,
             Joint::E | Joint::C => return None,

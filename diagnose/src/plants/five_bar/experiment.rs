@@ -7,17 +7,18 @@ mod room;
 #[cfg(test)]
 mod tests;
 
-use super::LEAST_SIGMAS;
 use super::diagnose::Stand;
 use super::free_run::Model;
+use super::run::joint_at;
 use super::undone::described;
 use crate::candidates::{realise, variants};
+use crate::cause::Cause;
 use crate::evidence::{Intervals, Rivals};
-use crate::problem::{Cause, Problem};
+use crate::plant::Run;
+use crate::problem::Problem;
 use crate::regression::{Blocks, fit};
 use crate::report::{NextExperiment, Separation};
-use crate::select::{Found, Selection, best_variant, refined, refs};
-use crate::weak::Windows;
+use crate::select::{Found, LEAST_SIGMAS, Selection, best_variant, refined, refs};
 use explanation::Explanation;
 use plan::{DURATION_S, MIDDLE_M, Plan, plans};
 use play::{Sensors, play, with_effects};
@@ -61,7 +62,10 @@ pub(super) fn next(
         greatest_force_n: greatest_desired_force_n(layout),
         tried: plans.len(),
         separations,
-        not_compared: left_out.iter().map(|e| e.cause().name()).collect(),
+        not_compared: left_out
+            .iter()
+            .map(|e| stand.problem.name(e.cause()))
+            .collect(),
         file: None,
     };
     Some((report, chosen.map(|plan| plan.trace(layout))))
@@ -96,7 +100,7 @@ fn best<'p>(
     let name = |place: usize| {
         explanations
             .get(place)
-            .map_or_else(String::new, |e| e.cause().name())
+            .map_or_else(String::new, |e| stand.problem.name(e.cause()))
     };
     let pairs = pairs(explanations.len()).into_iter().zip(sigmas);
     let separations = pairs.map(|([one, other], sigmas)| Separation {
@@ -112,7 +116,7 @@ fn best<'p>(
 fn joints(explanations: &[Explanation]) -> Vec<Joint> {
     let own: Vec<Joint> = explanations
         .iter()
-        .filter_map(|e| e.cause().joint)
+        .filter_map(|e| joint_at(e.cause().at))
         .collect();
     let all = Joint::ALL.into_iter();
     all.filter(|joint| own.contains(joint)).collect()
@@ -231,8 +235,8 @@ fn losses(
         return None;
     }
     let run = described(stand.rig, &played.recording(layout, sensors), 0.0).ok()?;
-    let windows = Windows::over(run.len(), 2, (run.step_s, run.start_s), width_s);
-    let problem = Problem::of_five_bar(&run, windows);
+    let windows = run.windows_of(width_s);
+    let problem = Problem::new(&run, windows);
     let blocks = Blocks::new(&problem);
     let own = explanations.iter().map(|e| e.loss(&problem, &blocks));
     Some(own.collect())

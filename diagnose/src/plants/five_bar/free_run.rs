@@ -1,11 +1,13 @@
 //! This file lets the reference rig run freely from the recorded force and currents, again and again from the recorded state.
 
 use super::from_rig::{nominal, with_angles};
-use super::run::FiveBarRun;
-use crate::plants::joint::free_run::HORIZONS_S;
-use crate::problem::{NominalEffect, shifted};
-use crate::report::Horizon;
+use super::run::{FiveBarRun, joint_at};
 use crate::filter::rms;
+use crate::plant::Run;
+use crate::plants::joint::free_run::HORIZONS_S;
+use crate::problem::NominalEffect;
+use crate::report::Horizon;
+use crate::signals::shifted;
 use core::ops::Range;
 use rigproof_model::error::ModelError;
 use rigproof_model::rig::{JointEffect, LONGEST_STEP_S, Rig};
@@ -35,7 +37,7 @@ impl Model {
     fn with(effects: Vec<NominalEffect>) -> Model {
         let effects = effects.into_iter().map(|own| JointEffect {
             mechanism: own.cause.mechanism,
-            joint: own.cause.joint,
+            joint: joint_at(own.cause.at),
             parameters: own.parameters,
             onset_s: own.onset_s,
         });
@@ -60,7 +62,9 @@ const fn is_of_sensors(mechanism: Mechanism) -> bool {
 pub(super) fn truly(model: &Model, run: &FiveBarRun) -> Result<FiveBarRun, ModelError> {
     let mut own = run.clone();
     for effect in &model.sensors {
-        let first = effect.onset_s.map_or(0, |onset_s| run.sample_at(onset_s));
+        let first = effect
+            .onset_s
+            .map_or(0, |onset_s| run.clock().sample_at(onset_s));
         let value = |k: usize| effect.parameters.get(k).copied().unwrap_or(0.0);
         let [force_x, force_y] = &mut own.force;
         match effect.mechanism {

@@ -1,16 +1,16 @@
 //! This file turns a five-bar's description and its recording into an aligned run.
 
-use super::run::{FiveBarRun, forms, place, yields};
+use super::run::{FiveBarRun, forms, place, place_of, yields};
 use super::sensors::{angle_noise, noise_of_force, quantum_of};
 use super::stops::{forget_sense_at_stops, switched};
 use crate::align::{
-    Fault, Signals, band_hz, check_clipped, check_clock, check_frozen, check_missing, cutoff_hz,
+    Fault, band_hz, check_clipped, check_clock, check_frozen, check_missing, cutoff_hz,
     forget_sense_at_rest, forget_sense_at_reversals, median_step, regular_count, resample,
     smoothed_motion,
 };
+use crate::cause::Cause;
 use crate::doubt::{Smoothing, a_sample_late, greatest_change, turning};
-use crate::problem::{Cause, NominalEffect};
-use crate::plants::joint::run::PlantKind;
+use crate::problem::NominalEffect;
 use core::f64::consts::TAU;
 use rigproof_model::brake::{Brake, ENTRY_TRAVEL_DEG};
 use rigproof_model::effects::Instant;
@@ -169,7 +169,7 @@ fn moved_by(
     let untold = untold_speeds(&run, &base);
     run.joints = Joint::ALL.map(|joint| joint_motion(&run, &base, joint, &untold));
     run.yields = Joint::ALL.map(|joint| {
-        let none = || vec![0.0; run.motion(joint).len()];
+        let none = || vec![0.0; run.motion_of(joint).len()];
         nominal_yields(&run, joint).unwrap_or_else(none)
     });
     Ok((run, untold))
@@ -180,7 +180,7 @@ const MOST_TAKEN: f64 = 0.2;
 
 /// A linkage with brakes takes energy in: a force that takes it out on the whole has the wrong sign.
 fn check_sign(run: &FiveBarRun) -> Result<(), Fault> {
-    let rates = run.motion(Joint::A).iter().zip(run.motion(Joint::B));
+    let rates = run.motion_of(Joint::A).iter().zip(run.motion_of(Joint::B));
     let powers: Vec<[f64; 2]> = run
         .forms
         .iter()
@@ -262,21 +262,8 @@ fn check_pair(
     limit: Option<f64>,
     step_s: f64,
 ) -> Result<(), Fault> {
-    let signals = Signals {
-        plant: PlantKind::Axis,
-        time_s: time_s.to_vec(),
-        position: angle.to_vec(),
-        effort: force.to_vec(),
-        predicted: None,
-        current: None,
-        held: true,
-        position_quantum: None,
-        position_noise: None,
-        effort_noise: None,
-        effort_limit: limit,
-    };
-    check_frozen(&signals, step_s)?;
-    check_clipped(&signals)
+    check_frozen(time_s, angle, step_s)?;
+    check_clipped(time_s, force, limit)
 }
 
 /// The speeds of θA and θB below which their sense cannot be told, sample by sample, rad/s. While brakes are switched a joint may swing
@@ -344,7 +331,7 @@ fn joint_motion(
 
 /// The yield torque of a joint's nominal brake along the motion, N·m; none without a brake.
 pub fn nominal_yields(run: &FiveBarRun, joint: Joint) -> Option<Vec<f64>> {
-    let motion = run.motion(joint);
+    let motion = run.motion_of(joint);
     let current = run.currents.get(place(joint))?.as_ref()?;
     let start = motion.first()?.position;
     Some(yields(
@@ -359,12 +346,12 @@ pub fn nominal_yields(run: &FiveBarRun, joint: Joint) -> Option<Vec<f64>> {
 /// the backlash began and ended a sample later or where the angle's own error may put it, or if the shaft did not start in its
 /// middle, N·m.
 fn yield_errors(run: &FiveBarRun, joint: Joint, untold: &Untold) -> Vec<f64> {
-    let none = || vec![0.0; run.motion(joint).len()];
+    let none = || vec![0.0; run.motion_of(joint).len()];
     errors_of_brake(run, joint, untold).unwrap_or_else(none)
 }
 
 fn errors_of_brake(run: &FiveBarRun, joint: Joint, untold: &Untold) -> Option<Vec<f64>> {
-    let (motion, own) = (run.motion(joint), run.yields.get(place(joint))?);
+    let (motion, own) = (run.motion_of(joint), run.yields.get(place(joint))?);
     let current = run.currents.get(place(joint))?.as_ref()?;
     let start = motion.first()?.position;
     let along = |brake, motion: &[Instant]| yields(brake, motion, current, run.step_s);
@@ -407,7 +394,7 @@ fn untold_of_joint(run: &FiveBarRun, joint: Joint, [untold_a, untold_b]: &Untold
 fn turning_point_error(run: &FiveBarRun, joint: Joint, untold: &[f64]) -> f64 {
     let pairs = run
         .joint_rows(joint)
-        .zip(run.motion(joint).iter().zip(untold));
+        .zip(run.motion_of(joint).iter().zip(untold));
     let errors = pairs.map(|([by_a, by_b], (now, untold))| {
         let turns = now.sense.abs() < 1.0;
         let rounded = if turns {
@@ -425,10 +412,7 @@ pub fn nominal(rig: &FiveBar) -> Vec<NominalEffect> {
     rig.effects
         .iter()
         .map(|own| NominalEffect {
-            cause: Cause {
-                mechanism: own.effect.mechanism,
-                joint: own.joint,
-            },
+            cause: Cause::at(own.effect.mechanism, place_of(own.joint)),
             parameters: own.effect.values.iter().map(|v| v.value).collect(),
             unknown: own.effect.values.iter().any(|v| v.status != Status::Known),
             onset_s: own.effect.onset.map(|v| v.value),

@@ -6,9 +6,10 @@
 use super::columns::{driving, free};
 use super::diagnose::modelled;
 use super::noise::pair_covariances;
-use super::run::{FiveBarRun, place};
+use super::run::{FiveBarRun, at, place, place_of};
 use crate::evidence::coefficients_by_term;
-use crate::problem::{Cause, Problem, Term, add};
+use crate::plant::Run;
+use crate::problem::{Problem, Term, add};
 use crate::regression::dot;
 use crate::report::{HeldJoint, HeldReport};
 use crate::select::{Selection, refs, usable_rms};
@@ -50,7 +51,7 @@ const OF_THE_PAST: [Mechanism; 6] = [
 /// attributed. `None` where an encoder was named: the recorded angles are not those that the linkage had.
 pub fn held(problem: &Problem, run: &FiveBarRun, selection: &Selection) -> Option<HeldReport> {
     let terms = refs(&selection.nominal, &selection.found);
-    if terms.iter().any(|term| term.cause.moves_linkage()) {
+    if terms.iter().any(|term| run.moves(term.cause)) {
         return None;
     }
     let (alone, all) = at_rest(problem, run);
@@ -81,7 +82,7 @@ fn is_at(run: &FiveBarRun, term: &Term, joint: Joint) -> bool {
     let turns_alike = run.parameters.layout == Layout::ThreeBrake
         && joint == Joint::E
         && term.cause.mechanism == Mechanism::BearingFriction;
-    term.cause.joint == Some(joint) || turns_alike
+    term.cause.at == place_of(Some(joint)) || turns_alike
 }
 
 /// For every window the joint that alone is at rest in all of it, if the others are told; and in how many windows every brake is at rest.
@@ -118,7 +119,7 @@ fn at_rest(problem: &Problem, run: &FiveBarRun) -> (Vec<Option<Joint>>, usize) {
 
 /// Whether a joint is at rest at each sample: without a sense, and its recorded angle does not tell that it moves.
 fn resting(run: &FiveBarRun, joint: Joint) -> Vec<bool> {
-    let motion = run.motion(joint).iter().zip(run.known_travel(joint));
+    let motion = run.motion_of(joint).iter().zip(run.known_travel(joint));
     motion
         .map(|(now, travel)| now.sense == 0.0 && travel == 0.0)
         .collect()
@@ -146,7 +147,7 @@ fn reactions(
     for (usable, own) in windows.usable.chunks_mut(2).zip(alone) {
         usable.fill(*own == Some(joint));
     }
-    let problem = Problem::over_windows(run, windows);
+    let problem = Problem::new(run, windows);
     let windows = &problem.windows;
     let holds = |term: &Term| is_at(run, term, joint) && HOLDING.contains(&term.cause.mechanism);
     let mut lacking = windows.average(&driving(run, run.forces()));
@@ -158,10 +159,7 @@ fn reactions(
     let left = usable_rms(fitted, &selection.after.residual);
     let excess = (left * left - fitted.floor * fitted.floor).max(0.0);
     let covariance = pair_covariances(run, windows, excess);
-    let unit = Cause {
-        mechanism: Mechanism::ConstantBias,
-        joint: Some(joint),
-    };
+    let unit = at(Mechanism::ConstantBias, joint);
     let unit = free(run, unit, &[]).and_then(|signals| signals.into_iter().next());
     let along = windows.average(&unit.unwrap_or_default());
     let pair = |rows: &[f64], row: usize| {
@@ -242,7 +240,9 @@ fn holding(
     let terms = terms.into_iter().zip(&coefficients).take(count);
     for (term, own) in terms.filter(|(term, _)| is_at(run, term, joint)) {
         let numbers = term.known.as_ref().unwrap_or(own);
-        let onset = term.onset_s.map_or(0, |onset_s| run.sample_at(onset_s));
+        let onset = term
+            .onset_s
+            .map_or(0, |onset_s| run.clock().sample_at(onset_s));
         let more = level(run, &yields, term.cause.mechanism, numbers);
         let late = sum.iter_mut().zip(&more).skip(onset);
         late.for_each(|(sum, more)| *sum += more);
@@ -298,9 +298,8 @@ mod tests {
             .zip(core::iter::repeat(law))
             .filter_map(|(joint, law)| {
                 let (mechanism, shape) = law?;
-                let joint = Some(*joint);
                 Some(Found {
-                    term: problem.term(Cause { mechanism, joint }, shape, None)?,
+                    term: problem.term(at(mechanism, *joint), shape, None)?,
                     z: 3.7,
                     share: 0.7,
                     at_floor: true,
@@ -373,7 +372,7 @@ mod tests {
             .zip(combined.chunks(2));
         let alone = rows.map(|((centres, usable), combined)| {
             let first = centres[0] - bump.len() / 2;
-            let motion = &run.motion(Joint::E)[first..first + bump.len()];
+            let motion = &run.motion_of(Joint::E)[first..first + bump.len()];
             let slides = motion.iter().all(|now| now.sense == motion[0].sense);
             (usable[0] && combined[0].is_none() && slides).then_some(Joint::E)
         });
@@ -427,10 +426,7 @@ mod tests {
         assert!(plays.joints.is_empty());
         let problem = recorded::problem(&run);
         let blocks = Blocks::new(&problem);
-        let cause = Cause {
-            mechanism: Mechanism::EncoderOffset,
-            joint: Some(Joint::A),
-        };
+        let cause = at(Mechanism::EncoderOffset, Joint::A);
         let found = vec![Found {
             term: problem.term(cause, &[0.007], None).unwrap(),
             z: 3.7,

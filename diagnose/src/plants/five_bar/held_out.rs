@@ -62,7 +62,7 @@ impl Parts {
                 // What is held out of the same recording keeps its past: brakes, heat and memories begin at its first sample.
                 let cut = ((1.0 - options.hold_out_share) * last.len() as f64).round() as usize;
                 let before = runs.iter().map(FiveBarRun::len).sum::<usize>();
-                runs.push(last.slice(0, cut));
+                runs.push(last.part(0, cut));
                 // An onset is a time on the clock of all of them.
                 last.start_s += before as f64 * last.step_s;
                 let from_s = cut as f64 * last.step_s;

@@ -1,9 +1,9 @@
-//! This file says at which joint and in which regime of it the unexplained energy of a five-bar lies.
+//! This file is the regimes of a five-bar: of each joint, of each equation, of time.
 
-use super::run::{FiveBarRun, place};
-use crate::locate::{Cell, ranked};
-use crate::problem::Problem;
-use crate::report::Located;
+use super::run::{FiveBarRun, place, place_of};
+use crate::cause::Place;
+use crate::locate::{Cell, Regimes};
+use crate::weak::Windows;
 use rigproof_model::effects::Instant;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::units::RAD_S_PER_RPM;
@@ -11,58 +11,53 @@ use rigproof_spec::units::RAD_S_PER_RPM;
 /// Current above which a brake counts as on, A.
 const ON_A: f64 = 0.05;
 
-/// Regimes of each joint and thirds of the recording, ranked as on a plant of one joint.
-pub fn locate(problem: &Problem, run: &FiveBarRun, before: &[f64], after: &[f64]) -> Vec<Located> {
+/// Regimes of each joint and thirds of the recording.
+pub fn regimes(run: &FiveBarRun, windows: &Windows) -> Regimes {
     let mut cells: Vec<Cell> = Joint::ALL
         .into_iter()
-        .flat_map(|joint| joint_cells(problem, run, joint))
+        .flat_map(|joint| joint_cells(run, windows, joint))
         .collect();
     let third = run.duration_s() / 3.0;
     for (label, rule) in [
         ("first third of the recording", (f64::NEG_INFINITY, third)),
         ("last third of the recording", (2.0 * third, f64::INFINITY)),
     ] {
-        let times = problem.windows.times_s().into_iter();
+        let times = windows.times_s().into_iter();
         let inside = times.map(|t| (rule.0..rule.1).contains(&(t - run.start_s)));
         cells.push(Cell {
             label,
-            joint: None,
+            at: Place::Whole,
             member: inside.collect(),
         });
     }
     for (output, label) in [(0, "balance of arm AE (θA)"), (1, "balance of arm BC (θB)")] {
-        let rows = 0..problem.windows.centres.len();
+        let rows = 0..windows.centres.len();
         cells.push(Cell {
             label,
-            joint: None,
+            at: Place::Whole,
             member: rows
                 .map(|row| {
-                    row % problem.windows.outputs == output
-                        && problem.windows.combined.get(row) == Some(&None)
+                    row % windows.outputs == output && windows.combined.get(row) == Some(&None)
                 })
                 .collect(),
         });
     }
-    let usable = &problem.windows.usable;
-    ranked(
-        problem,
-        "efforts of θA and θB",
-        usable,
+    Regimes {
+        output: "efforts of θA and θB",
+        counted: windows.usable.clone(),
         cells,
-        before,
-        after,
-    )
+    }
 }
 
-fn joint_cells(problem: &Problem, run: &FiveBarRun, joint: Joint) -> Vec<Cell> {
-    let motion = run.motion(joint);
+fn joint_cells(run: &FiveBarRun, windows: &Windows, joint: Joint) -> Vec<Cell> {
+    let motion = run.motion_of(joint);
     let current = run.currents.get(place(joint)).and_then(Option::as_ref);
     let cell = |label, rule: &dyn Fn(usize, &Instant) -> bool| {
-        let centres = problem.windows.centres.iter();
+        let centres = windows.centres.iter();
         let inside = centres.map(|&k| motion.get(k).is_some_and(|now| rule(k, now)));
         Cell {
             label,
-            joint: Some(joint.letter()),
+            at: place_of(Some(joint)),
             member: inside.collect(),
         }
     };

@@ -1,9 +1,11 @@
 //! This file claims that what the diagnosis takes each mechanism for along a motion is what the reference rig does with it.
 
 use super::columns::{driving, fixed, free, known};
-use super::run::{FiveBarRun, yields};
-use crate::problem::{Cause, add, less};
+use super::run::{FiveBarRun, place_of, yields};
+use crate::cause::Cause;
 use crate::filter::rms;
+use crate::plant::Run;
+use crate::problem::{add, less};
 use rigproof_model::brake::Brake;
 use rigproof_model::effects::{Instant, entry};
 use rigproof_model::motion::two_coordinate::two_coordinate;
@@ -153,10 +155,7 @@ fn exact(layout: Layout, effects: &[JointEffect]) -> (FiveBarRun, Vec<bool>) {
 
 /// What the mechanism adds along the run by the diagnosis.
 fn column(run: &FiveBarRun, effect: &JointEffect) -> Vec<f64> {
-    let cause = Cause {
-        mechanism: effect.mechanism,
-        joint: effect.joint,
-    };
+    let cause = Cause::at(effect.mechanism, place_of(effect.joint));
     let linear = entry(effect.mechanism).unwrap().linear;
     let (own, shape) = effect.parameters.split_at(linear);
     let mut sum = vec![0.0; 2 * run.len()];
@@ -169,7 +168,7 @@ fn column(run: &FiveBarRun, effect: &JointEffect) -> Vec<f64> {
         None => sum = fixed(run, cause, shape).unwrap(),
     }
     if let Some(onset_s) = effect.onset_s {
-        let first = run.sample_at(onset_s);
+        let first = run.clock().sample_at(onset_s);
         let half = sum.len() / 2;
         for output in sum.chunks_mut(half) {
             output[..first].fill(0.0);
@@ -275,8 +274,16 @@ fn what_a_sensor_does_is_the_whole_of_it_and_not_its_slope() {
         let there = less(&balance(shown), told);
         let [off, by_slope, size] = [&there, &less(&balance(shown), slope), &balance(shown)]
             .map(|values| rms(&less(values, &own)));
-        assert!(off < 1e-9 * size, "{}: {off} of {size} N·m", cause.name());
-        assert!(by_slope > 0.01 * size, "{}: {by_slope}", cause.name());
+        assert!(
+            off < 1e-9 * size,
+            "{}: {off} of {size} N·m",
+            run.cause_name(cause)
+        );
+        assert!(
+            by_slope > 0.01 * size,
+            "{}: {by_slope}",
+            run.cause_name(cause)
+        );
     };
     let times = |column: &[f64], by: f64| -> Vec<f64> { column.iter().map(|x| by * x).collect() };
     let turned = Cause::of(Mechanism::ForceRotation);

@@ -48,7 +48,7 @@ impl Stand<'_> {
                 gates.z,
                 100.0 * gates.share,
                 100.0 * gates.relevance,
-                self.problem.plant.own_to_unexplained()
+                self.problem.rules.own_to_unexplained
             ),
         ]);
         lines.extend(filled_in(&self.train.recorded));

@@ -3,9 +3,9 @@
 
 use super::from_rig::aligned;
 use super::run::FiveBarRun;
-use crate::problem::{Problem, Rows};
+use crate::plant::Run;
 use crate::plants::joint::recorded::Noise;
-use crate::weak::Windows;
+use crate::problem::{Problem, Rows};
 use rigproof_model::linkage::jacobian::jacobian;
 use rigproof_model::linkage::{Pose, inverse};
 use rigproof_model::rig::Rig;
@@ -139,8 +139,7 @@ pub fn short_run() -> FiveBarRun {
 
 /// Its problem, in windows of 80 ms.
 pub fn problem(run: &FiveBarRun) -> Problem<'_> {
-    let windows = Windows::over(run.len(), 2, (run.step_s, run.start_s), 0.080);
-    Problem::of_five_bar(run, windows)
+    Problem::new(run, run.windows_of(0.080))
 }
 
 /// A target that is given row by row.

@@ -41,7 +41,7 @@ pub fn replayed(
 ) -> Option<Replayed> {
     let run = aligned(before, recording).ok()?;
     let longest = (LONGEST_S / run.step_s).round() as usize;
-    let run = run.slice(run.len().saturating_sub(longest), run.len());
+    let run = run.part(run.len().saturating_sub(longest), run.len());
     let one = |description| simulated(&Model::of(description), &run, RESTART_S).ok();
     let (old, new) = (one(before)?, one(after)?);
     let every = (1.0 / RATE_HZ / run.step_s).round().max(1.0) as usize;

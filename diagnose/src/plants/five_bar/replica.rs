@@ -5,6 +5,7 @@ use super::experiment::play::{DAMPING_NS_M, Played, STIFFNESS_N_M, shown};
 use super::free_run::{Model, currents_at, force_at, parts_of, truly};
 use super::from_rig::aligned;
 use super::run::FiveBarRun;
+use crate::plant::Run;
 use rigproof_model::error::ModelError;
 use rigproof_model::rig::Rig;
 use rigproof_trace::rig::Signal;
@@ -114,7 +115,9 @@ fn followed(model: &Model, run: &FiveBarRun) -> Result<Played, ModelError> {
         }
     }
     for effect in model.sensors.iter().rev() {
-        let first = effect.onset_s.map_or(0, |onset_s| run.sample_at(onset_s));
+        let first = effect
+            .onset_s
+            .map_or(0, |onset_s| run.clock().sample_at(onset_s));
         shown(effect, &mut played, run.step_s, first);
     }
     Ok(played)

@@ -1,5 +1,13 @@
 //! This file is an aligned recording of the five-bar: joint motions, forms of the equations of motion, nominal brakes.
 
+use super::encoder::{self, Encoder};
+use super::{candidates, columns, locate, noise};
+use crate::cause::{Cause, JointId, Place};
+use crate::locate::Regimes;
+use crate::plant::{Clock, Columns, Rules, Run};
+use crate::unknown::Variable;
+use crate::weak::Windows;
+use crate::whiten::Whitener;
 use nalgebra::{Matrix2, Vector2};
 use rigproof_model::brake::Brake;
 use rigproof_model::effects::Instant;
@@ -7,6 +15,7 @@ use rigproof_model::error::ModelError;
 use rigproof_model::linkage::{Pose, forward};
 use rigproof_model::motion::two_coordinate::{TwoCoordinate, two_coordinate};
 use rigproof_model::rig::Parameters;
+use rigproof_spec::effect::{Mechanism, Motion};
 use rigproof_spec::joint::Joint;
 
 /// An aligned recording of the five-bar in SI units, one value a sample in every vector.
@@ -62,6 +71,24 @@ pub const fn place(joint: Joint) -> usize {
     }
 }
 
+/// The place of a joint, or of the whole linkage.
+pub fn place_of(joint: Option<Joint>) -> Place {
+    joint.map_or(Place::Whole, |joint| Place::Joint(JointId(place(joint))))
+}
+
+/// The joint at a place; `None` for the whole.
+pub fn joint_at(at: Place) -> Option<Joint> {
+    match at {
+        Place::Joint(JointId(joint)) => Joint::ALL.get(joint).copied(),
+        Place::Whole => None,
+    }
+}
+
+/// A mechanism at a joint.
+pub fn at(mechanism: Mechanism, joint: Joint) -> Cause {
+    Cause::at(mechanism, place_of(Some(joint)))
+}
+
 impl FiveBarRun {
     /// The number of samples.
     pub fn len(&self) -> usize {
@@ -78,13 +105,8 @@ impl FiveBarRun {
         self.step_s * self.len().saturating_sub(1) as f64
     }
 
-    /// The first sample at or after a time, s.
-    pub fn sample_at(&self, time_s: f64) -> usize {
-        ((time_s - self.start_s) / self.step_s).ceil().max(0.0) as usize
-    }
-
     /// The smoothed motion of a joint.
-    pub fn motion(&self, joint: Joint) -> &[Instant] {
+    pub fn motion_of(&self, joint: Joint) -> &[Instant] {
         self.joints.get(place(joint)).map_or(&[], Vec::as_slice)
     }
 
@@ -122,7 +144,7 @@ impl FiveBarRun {
     /// The resistance of the nominal brake at a joint, along the motion, N·m.
     pub fn brake_torque(&self, joint: Joint) -> Vec<f64> {
         let yields = self.yields.get(place(joint)).into_iter().flatten();
-        let pairs = self.motion(joint).iter().zip(yields);
+        let pairs = self.motion_of(joint).iter().zip(yields);
         pairs.map(|(now, y)| now.sense * y).collect()
     }
 
@@ -130,9 +152,9 @@ impl FiveBarRun {
     /// at rest seems to move.
     pub fn known_travel(&self, joint: Joint) -> Vec<f64> {
         let half = 0.5 * self.still_rad_at(joint);
-        let base = [Joint::A, Joint::B].map(|base| self.motion(base));
+        let base = [Joint::A, Joint::B].map(|base| self.motion_of(base));
         let mut known: Option<f64> = None;
-        let positions = self.recorded_angle(joint, base, self.motion(joint));
+        let positions = self.recorded_angle(joint, base, self.motion_of(joint));
         positions
             .map(|position| {
                 let before = known.unwrap_or(position);
@@ -183,7 +205,7 @@ impl FiveBarRun {
     }
 
     /// The samples `from..to`, times kept.
-    pub fn slice(&self, from: usize, to: usize) -> FiveBarRun {
+    pub fn part(&self, from: usize, to: usize) -> FiveBarRun {
         let part = |values: &Vec<f64>| values.get(from..to).unwrap_or_default().to_vec();
         FiveBarRun {
             parameters: self.parameters,
@@ -273,4 +295,165 @@ pub fn inertial(run: &FiveBarRun, forms: &[TwoCoordinate]) -> Vec<f64> {
         let rest = form.bias - mass_rate * Vector2::new(a.speed, b.speed);
         ((momentum(k) - momentum(k - 1)) / step_s + rest).into()
     }))
+}
+
+/// The widths of windows that are tried, s; the last is taken when no narrower one is quiet enough.
+const WIDTHS_S: [f64; 3] = [0.040, 0.080, 0.160];
+/// A width is quiet enough when the floor is below this, N·m: contributions of 0.01 N·m are to be seen in a few windows.
+const QUIET_NM: f64 = 0.0075;
+
+impl Run for FiveBarRun {
+    fn clock(&self) -> Clock {
+        Clock {
+            step_s: self.step_s,
+            start_s: self.start_s,
+            samples: self.len(),
+        }
+    }
+
+    fn recorded(&self) -> &[bool] {
+        &self.recorded
+    }
+
+    fn motion_kind(&self) -> Motion {
+        Motion::Rotary
+    }
+
+    fn outputs(&self) -> usize {
+        2
+    }
+
+    fn rules(&self) -> &'static Rules {
+        &Rules::LINKAGE
+    }
+
+    fn slice(&self, from: usize, to: usize) -> Box<dyn Run> {
+        Box::new(self.part(from, to))
+    }
+
+    fn effort(&self) -> Vec<f64> {
+        self.driving_effort()
+    }
+
+    fn driving(&self) -> Vec<f64> {
+        columns::driving(self, self.forces())
+    }
+
+    fn known(&self) -> Vec<f64> {
+        columns::known(self)
+    }
+
+    /// The narrowest windows whose predicted floor is small against the driving effort.
+    fn windows(&self) -> Windows {
+        let [narrow, middle, wide] = WIDTHS_S;
+        let quiet = |width_s: f64| {
+            let windows = self.windows_of(width_s);
+            (self.floor(&windows) <= QUIET_NM).then_some(windows)
+        };
+        let windows = quiet(narrow).or_else(|| quiet(middle));
+        windows.unwrap_or_else(|| self.windows_of(wide))
+    }
+
+    /// The rows in which what its brakes do is known.
+    fn keep_told(&self, windows: &mut Windows) {
+        noise::keep_told(self, windows);
+    }
+
+    fn floor(&self, windows: &Windows) -> f64 {
+        noise::floor(self, windows)
+    }
+
+    fn whitener(&self, windows: &Windows, excess: f64) -> Whitener {
+        noise::whitener(self, windows, excess)
+    }
+
+    fn position_noise(&self) -> f64 {
+        self.theta_noise
+    }
+
+    fn joints(&self) -> usize {
+        Joint::ALL.len()
+    }
+
+    fn place_name(&self, at: Place) -> Option<&'static str> {
+        joint_at(at).map(Joint::letter)
+    }
+
+    fn motion(&self, at: Place) -> &[Instant] {
+        joint_at(at).map_or(&[], |joint| self.motion_of(joint))
+    }
+
+    /// The range of a joint's angle; the greater of those of θA and θB for the whole.
+    fn travel(&self, at: Place) -> f64 {
+        let range = |positions: &mut dyn Iterator<Item = f64>| {
+            let (low, high) = positions
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+                    (low.min(x), high.max(x))
+                });
+            high - low
+        };
+        match joint_at(at) {
+            Some(joint) => range(&mut self.motion_of(joint).iter().map(|now| now.position)),
+            None => {
+                let angles = self.theta.iter();
+                let ranges = angles.map(|theta| range(&mut theta.iter().copied()));
+                ranges.fold(0.0, f64::max)
+            }
+        }
+    }
+
+    fn causes(&self) -> Vec<Cause> {
+        candidates::causes(self)
+    }
+
+    fn shapes(&self, cause: Cause, windows: &Windows, residual: &[f64]) -> Vec<Vec<f64>> {
+        candidates::shapes(self, cause, windows, residual)
+    }
+
+    fn reach(&self, cause: Cause) -> Option<(f64, f64)> {
+        candidates::reach(self, cause)
+    }
+
+    fn columns(&self, cause: Cause, shape: &[f64], _: Option<&[f64]>) -> Option<Columns> {
+        if self.moves(cause) {
+            return columns::free(self, cause, shape).map(Columns::Moved);
+        }
+        let free = columns::free(self, cause, shape).map(Columns::Free);
+        free.or_else(|| columns::fixed(self, cause, shape).map(Columns::Fixed))
+    }
+
+    fn moves(&self, cause: Cause) -> bool {
+        let encoder = [Mechanism::EncoderScale, Mechanism::EncoderOffset];
+        cause.at != Place::Whole && encoder.contains(&cause.mechanism)
+    }
+
+    fn moved_rows(
+        &self,
+        windows: &Windows,
+        recorded: &[f64],
+        signals: &[Vec<f64>],
+        shape: &[f64],
+        first: usize,
+    ) -> Vec<Vec<f64>> {
+        encoder::rows(windows, recorded, signals, shape, first)
+    }
+
+    fn shape_over(&self, cause: Cause, shape: &[f64], coefficients: &[f64]) -> Option<Vec<f64>> {
+        Encoder::of(self, cause, shape)?.over(coefficients)
+    }
+
+    fn linear(&self, mechanism: Mechanism, coefficients: &[f64]) -> Vec<f64> {
+        match mechanism {
+            Mechanism::ForceGain => coefficients.iter().map(|c| c / (1.0 - c)).collect(),
+            _ => coefficients.to_vec(),
+        }
+    }
+
+    fn regimes(&self, windows: &Windows) -> Regimes {
+        locate::regimes(self, windows)
+    }
+
+    fn variables(&self, _: &Windows) -> Vec<Variable> {
+        Vec::new()
+    }
 }

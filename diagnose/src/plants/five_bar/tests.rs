@@ -7,12 +7,13 @@ use super::joined::joined;
 use super::mapping;
 use super::recorded::{DRAG, LeftOut, nothing, recording, rig};
 use super::replica::replica;
-use super::run::FiveBarRun;
+use super::run::{FiveBarRun, at};
 use crate::align::Fault;
 use crate::diagnose::Description;
-use crate::problem::{Cause, Problem, less};
-use crate::report::{Report, Verdict};
 use crate::filter::rms;
+use crate::plant::Run;
+use crate::problem::{Problem, less};
+use crate::report::{Report, Verdict};
 use crate::weak::Windows;
 use crate::{Diagnosis, Options};
 use rigproof_model::linkage::Pose;
@@ -92,8 +93,7 @@ fn where_one_joint_is_held_or_turns_back_the_other_equation_still_balances() {
     for (layout, seed) in [(Layout::FourBrake, 11), (Layout::ThreeBrake, 12)] {
         let recording = recording(layout, SECONDS, seed, &nothing);
         let run = aligned(&rig(layout), &recording).unwrap();
-        let windows = Windows::over(run.len(), 2, (run.step_s, run.start_s), 0.080);
-        let problem = Problem::of_five_bar(&run, windows);
+        let problem = Problem::new(&run, run.windows_of(0.080));
         let Windows {
             combined, usable, ..
         } = &problem.windows;
@@ -160,8 +160,7 @@ fn fault(
         Ok(run) => run,
         Err(fault) => return Some(fault),
     };
-    let windows = Windows::over(run.len(), 2, (run.step_s, run.start_s), 0.080);
-    mapping::check(&run, &Problem::of_five_bar(&run, windows)).err()
+    mapping::check(&run, &Problem::new(&run, run.windows_of(0.080))).err()
 }
 
 #[test]
@@ -226,17 +225,13 @@ fn several_recordings_are_one_problem_and_no_window_lies_across_a_seam() {
     let whole = joined(runs.clone()).unwrap();
     let seam = runs[0].len();
     assert_eq!(whole.len(), seam + runs[1].len());
-    let cause = Cause {
-        mechanism: Mechanism::Presliding,
-        joint: Some(Joint::E),
-    };
+    let cause = at(Mechanism::Presliding, Joint::E);
     let signal = |run: &FiveBarRun| free(run, cause, &[0.013]).unwrap().swap_remove(0);
     let (both, one, other) = (signal(&whole), signal(&runs[0]), signal(&runs[1]));
     let (one_a, one_b) = one.split_at(seam);
     let (other_a, other_b) = other.split_at(runs[1].len());
     assert_eq!(both, [one_a, other_a, one_b, other_b].concat());
-    let windows = Windows::over(whole.len(), 2, (whole.step_s, whole.start_s), 0.080);
-    let problem = Problem::of_five_bar(&whole, windows);
+    let problem = Problem::new(&whole, whole.windows_of(0.080));
     let half = problem.windows.bump.len() / 2;
     let across = |centre: usize| centre - half < seam && centre + half >= seam;
     let rows = problem.windows.centres.iter().zip(&problem.windows.usable);

@@ -1,14 +1,14 @@
 //! This file is the columns of a plant of one joint: resistances along its motion, and changes of its drive.
 
-use crate::problem::{Problem, USUAL_SHARE, lagged_yield, less, numerov, shifted, through_play};
+use super::inertia::Inertia;
+use super::run::{JointRun, PlantKind};
 use crate::filter::gradient;
-use crate::plants::joint::run::{JointRun, PlantKind};
+use crate::plant::{Columns, Run};
+use crate::problem::less;
+use crate::signals::{USUAL_SHARE, lagged_yield, numerov, shifted, through_play, unit_parameters};
 use rigproof_model::bench::column;
 use rigproof_model::effects::{CurrentPlay, Form, entry, first_order_lag, law};
 use rigproof_spec::effect::Mechanism;
-
-/// A free column, and one with coefficient 1.
-pub type DriveColumns = (Option<Vec<f64>>, Option<Vec<f64>>);
 
 /// One signal for each linear parameter of a resistance, as the position sees it: the law with that parameter 1 and the
 /// others 0. `None` for a mechanism that acts on the drive.
@@ -61,14 +61,6 @@ pub fn of_brake(run: &JointRun, mechanism: Mechanism, shape: &[f64]) -> Option<V
     }
 }
 
-/// The parameters of a law with each of its linear ones 1 in turn and the others 0.
-pub fn unit_parameters(linear: usize, shape: &[f64]) -> impl Iterator<Item = Vec<f64>> {
-    (0..linear).map(move |index| {
-        let unit = (0..linear).map(|k| if k == index { 1.0 } else { 0.0 });
-        unit.chain(shape.iter().copied()).collect()
-    })
-}
-
 /// A resistance as the discrete second difference of the position sees it: on an axis with Numerov's weights,
 /// exact to fourth order in the step for a signal that is smooth between samples.
 fn seen(run: &JointRun, signal: Vec<f64>) -> Vec<f64> {
@@ -98,48 +90,48 @@ fn missing_effort(run: &JointRun, acting: &[f64]) -> Vec<f64> {
 
 /// Columns of a mechanism that acts on the drive; `fitted` is what the other terms give.
 pub fn drive(
-    problem: &Problem,
     run: &JointRun,
     mechanism: Mechanism,
     shape: &[f64],
     fitted: &[f64],
-) -> Option<DriveColumns> {
+) -> Option<Columns> {
     let value = shape.first().copied().unwrap_or(0.0);
     let step_s = run.step_s;
-    let inertia_known = problem.inertia_column.is_none();
+    let inertia_known = !matches!(run.inertia, Inertia::Unknown(_));
+    let fixed = |signal| Some(Columns::Fixed(signal));
     match (mechanism, run.plant) {
         // With a known inertia the command itself can be delayed: it has less noise than an acceleration.
         (Mechanism::Lag, PlantKind::Axis) if inertia_known => {
             let acting = first_order_lag(&run.effort, step_s, value);
-            Some((None, Some(missing_effort(run, &acting))))
+            fixed(missing_effort(run, &acting))
         }
         (Mechanism::ChannelSkew, PlantKind::Axis) if inertia_known => {
             let acting = shifted(&run.effort, -value / step_s);
-            Some((None, Some(missing_effort(run, &acting))))
+            fixed(missing_effort(run, &acting))
         }
         // Else the command is ahead of the effort that moves the joint: gain·u = e + time_constant·de/dt.
         (Mechanism::Lag, PlantKind::Axis) => {
             let slope = gradient(fitted, step_s);
-            Some((None, Some(slope.into_iter().map(|s| value * s).collect())))
+            fixed(slope.into_iter().map(|s| value * s).collect())
         }
         (Mechanism::ChannelSkew, PlantKind::Axis) => {
-            Some((None, Some(less(&shifted(fitted, value / step_s), fitted))))
+            fixed(less(&shifted(fitted, value / step_s), fitted))
         }
         // The yield of a brake lags, its sign does not (docs/decisions/0001).
         (Mechanism::Lag, PlantKind::Bench) => match run.brake() {
             Some((predicted, _)) => {
                 let lagged = lagged_yield(predicted, step_s, value);
-                Some((None, Some(less(&lagged, predicted))))
+                fixed(less(&lagged, predicted))
             }
             _ => {
                 let lagged = first_order_lag(fitted, step_s, value);
-                Some((None, Some(less(&lagged, fitted))))
+                fixed(less(&lagged, fitted))
             }
         },
         (Mechanism::ChannelSkew, PlantKind::Bench) => {
-            Some((None, Some(less(&shifted(fitted, -value / step_s), fitted))))
+            fixed(less(&shifted(fitted, -value / step_s), fitted))
         }
-        (Mechanism::GainError, _) if inertia_known => Some((Some(problem.known.clone()), None)),
+        (Mechanism::GainError, _) if inertia_known => Some(Columns::Free(vec![run.known()])),
         _ => None,
     }
 }

@@ -1,15 +1,15 @@
 //! This file fits the plants before and after, and shows their free runs.
 
+use super::inertia::Inertia;
 use crate::diagnose::write::Stand;
 use crate::evidence::{coefficients_by_term, parameters};
 use crate::plants::joint::free_run::{HORIZONS_S, Shown, figure, horizon_error, show};
 use crate::plants::joint::from_rig;
-use crate::problem::Inertia;
-use crate::report::{BeforeAfter, FitReport, HELD_OUT_PART, Horizon};
 use crate::plants::joint::run::{JointRun, PlantKind};
-use crate::select::{floor_limit, refs};
 use crate::plants::joint::simulate::{Effect, Plant, Protocol};
-use rigproof_spec::effect::{Mechanism, Quantity};
+use crate::report::{BeforeAfter, FitReport, HELD_OUT_PART, Horizon};
+use crate::select::{floor_limit, refs};
+use rigproof_spec::effect::Quantity;
 
 /// The plants before and after, and their free runs.
 pub(crate) struct Fitted {
@@ -26,24 +26,24 @@ impl Stand<'_> {
             selection.found.clear();
             selection.after = selection.before.clone();
         }
-        let (inertia, coefficients) = coefficients_by_term(self.problem, &selection);
+        let (nuisances, coefficients) = coefficients_by_term(self.problem, &selection);
         let terms = refs(&selection.nominal, &selection.found);
         let effects = terms
             .iter()
             .zip(&coefficients)
             .map(|(term, own)| Effect {
                 mechanism: term.cause.mechanism,
-                parameters: match (self.train.plant, term.cause.mechanism) {
-                    // What is metered is the brake's torque itself; on an axis the gain stands on the other side.
-                    (PlantKind::Bench, Mechanism::GainError) => own.clone(),
-                    _ => parameters(term, own),
-                },
+                parameters: parameters(self.problem, term, own),
                 onset_s: term.onset_s,
             })
             .collect();
         let given = from_rig::plant(self.rig).inertia;
         Plant {
-            inertia: inertia.unwrap_or(given).max(1e-3 * given),
+            inertia: nuisances
+                .first()
+                .copied()
+                .unwrap_or(given)
+                .max(1e-3 * given),
             effects,
         }
     }
@@ -52,7 +52,7 @@ impl Stand<'_> {
         if !self.options.refit {
             return None;
         }
-        let inertia_free = matches!(self.problem.inertia, Inertia::Unknown(_));
+        let inertia_free = matches!(self.train.inertia, Inertia::Unknown(_));
         // The edges of a brake's torque are told to a sample and outweigh all else in a run: its numbers stay those of the windows.
         let stays = self.train.brake().is_some();
         let nominal = self.selection.nominal.iter();

@@ -1,7 +1,7 @@
 //! This file shows the fit: output-error refit of old and new parameters, free runs before and after, horizons.
 
-use crate::plants::joint::refit::{Free, error_rms, refit};
 use crate::filter::rms;
+use crate::plants::joint::refit::{Free, error_rms, refit};
 use crate::plants::joint::run::{JointRun, PlantKind};
 use crate::plants::joint::simulate::{Effect, Plant, Protocol, predict};
 use rigproof_model::effects::entry;
@@ -156,7 +156,12 @@ const STARTS: usize = 60;
 
 /// Root-mean-square position error after a horizon, over starts spread along the recording; `None` on a bench or
 /// when the recording is too short.
-pub fn horizon_error(plant: &Plant, run: &JointRun, protocol: &Protocol, horizon_s: f64) -> Option<f64> {
+pub fn horizon_error(
+    plant: &Plant,
+    run: &JointRun,
+    protocol: &Protocol,
+    horizon_s: f64,
+) -> Option<f64> {
     let count = (horizon_s / run.step_s).round() as usize;
     if run.plant == PlantKind::Bench || count == 0 || run.len() < 2 * count + STARTS {
         return None;

@@ -1,9 +1,12 @@
 //! This file turns a rig description and its recording into the plant's equations.
 
-use crate::align::{Fault, Signals, align, forget_sense_near_reversals};
-use crate::problem::{Cause, Inertia, NominalEffect};
+use super::align::{Signals, align};
+use super::inertia::Inertia;
+use crate::align::{Fault, forget_sense_near_reversals};
+use crate::cause::Cause;
 use crate::plants::joint::run::{JointRun, PlantKind};
 use crate::plants::joint::simulate::{Effect, Interpolation, Plant, Protocol};
+use crate::problem::NominalEffect;
 use rigproof_trace::rig::{Drive, Plant as RigPlant, Recording, Rig, Status};
 
 /// Travel within which a shaft that turns back may also stand, in deviations of its noise: two counts.
@@ -39,6 +42,7 @@ pub fn aligned(rig: &Rig, recording: &Recording) -> Result<JointRun, Fault> {
         } else {
             PlantKind::Bench
         },
+        kind: recording.motion,
         time_s: recording.time_s.clone(),
         position: recording.position.samples.clone(),
         effort: effort.map_or_else(Vec::new, |e| e.samples.iter().map(|x| x * scale).collect()),
@@ -50,6 +54,7 @@ pub fn aligned(rig: &Rig, recording: &Recording) -> Result<JointRun, Fault> {
         effort_noise: scaled(effort_noise),
         effort_limit: scaled(effort.and_then(|e| e.limit)),
     })?;
+    run.inertia = inertia(rig);
     if let (Some(brake), Some(current)) = (&rig.brake, &run.current) {
         run.table = Some(brake.table());
         // Before the sense is forgotten: a lag follows the yield torque through a reversal.

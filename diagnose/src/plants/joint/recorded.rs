@@ -1,7 +1,8 @@
 //! This file makes the recordings that unit tests are about: from the reference model, at a fine step, with noise
 //! of known size.
 
-use crate::align::Signals;
+use super::align::Signals;
+use super::inertia::Inertia;
 use crate::plants::joint::run::{JointRun, PlantKind};
 use crate::sensor::normal;
 use rand_pcg::Pcg64Mcg;
@@ -9,7 +10,7 @@ use rand_pcg::rand_core::SeedableRng;
 use rigproof_model::axis::Axis;
 use rigproof_model::bench::resistance;
 use rigproof_model::effects::{Instant, law};
-use rigproof_spec::effect::Mechanism;
+use rigproof_spec::effect::{Mechanism, Motion};
 
 /// Mechanisms with their parameters.
 pub type Laws<'a> = &'a [(Mechanism, &'a [f64])];
@@ -108,6 +109,11 @@ pub fn exact_bench(laws: Laws, count: usize) -> JointRun {
 fn run(plant: PlantKind, motion: Vec<Instant>, effort: Vec<f64>, held: bool) -> JointRun {
     JointRun {
         plant,
+        kind: Motion::Linear,
+        inertia: match plant {
+            PlantKind::Axis => Inertia::Known(INERTIA),
+            PlantKind::Bench => Inertia::None,
+        },
         step_s: STEP_S,
         start_s: 0.0,
         held,
@@ -130,6 +136,7 @@ pub fn signals(run: &JointRun, seed: u64) -> Signals {
     let mut noise = Noise::new(seed);
     Signals {
         plant: run.plant,
+        kind: run.kind,
         time_s: run.motion.iter().map(|now| now.time_s).collect(),
         position: run
             .position

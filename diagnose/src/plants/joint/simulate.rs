@@ -1,7 +1,9 @@
 //! This file runs a calibrated plant from the recorded inputs, without looking at the recorded output again.
 
-use crate::problem::{is_of_brake, lagged_yield, of_brake, shifted};
+use super::columns::{is_of_brake, of_brake};
+use crate::plant::Run;
 use crate::plants::joint::run::{JointRun, PlantKind};
+use crate::signals::{lagged_yield, shifted};
 use rigproof_model::axis::Axis;
 use rigproof_model::bench::resistance;
 use rigproof_model::effects::{Instant, Law, first_order_lag, law};
@@ -152,7 +154,7 @@ fn driven(plant: &Plant, effort: &[f64], run: &JointRun) -> Vec<f64> {
             Mechanism::Lag => first_order_lag(&out, step_s, value),
             _ => continue,
         };
-        let first = effect.onset_s.map_or(0, |t| run.sample_at(t));
+        let first = effect.onset_s.map_or(0, |t| run.clock().sample_at(t));
         for (o, c) in out.iter_mut().zip(changed).skip(first) {
             *o = c;
         }
@@ -171,7 +173,7 @@ fn bench(plant: &Plant, run: &JointRun) -> Vec<f64> {
             continue;
         };
         let signal = of_brake(run, effect.mechanism, shape).unwrap_or_default();
-        let first = effect.onset_s.map_or(0, |t| run.sample_at(t));
+        let first = effect.onset_s.map_or(0, |t| run.clock().sample_at(t));
         for (e, s) in effort.iter_mut().zip(signal).skip(first) {
             *e += coefficient * s;
         }
@@ -184,7 +186,7 @@ fn bench(plant: &Plant, run: &JointRun) -> Vec<f64> {
             let onset = plant.effects.iter().find(|e| e.mechanism == Mechanism::Lag);
             let first = onset
                 .and_then(|e| e.onset_s)
-                .map_or(0, |t| run.sample_at(t));
+                .map_or(0, |t| run.clock().sample_at(t));
             let lagged = lagged_yield(&predicted, run.step_s, time_constant_s);
             for (p, l) in predicted.iter_mut().zip(lagged).skip(first) {
                 *p = l;

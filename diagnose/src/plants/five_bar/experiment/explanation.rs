@@ -2,7 +2,8 @@
 
 use super::super::free_run::Model;
 use crate::candidates::{realise, variants};
-use crate::problem::{Cause, Problem, Term};
+use crate::cause::Cause;
+use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, fit};
 use crate::select::best_variant;
 

@@ -2,8 +2,8 @@
 
 use super::super::free_run::{Model, parts_of};
 use super::plan::Plan;
-use crate::problem::shifted;
 use crate::sensor::normal;
+use crate::signals::shifted;
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::SeedableRng;
 use rigproof_model::error::ModelError;
