@@ -240,11 +240,15 @@ const NULL_RATIO: f64 = 1e-9;
 /// of the two products that the equation holds.
 pub fn null_directions(problem: &Problem, selection: &Selection) -> Vec<NullDirection> {
     let terms = refs(&selection.nominal, &selection.found);
+    let is_told = |term: &&Term| term.cause.mechanism == Mechanism::Hysteresis;
+    if !terms.iter().any(is_told) {
+        return Vec::new();
+    }
     let columns = sensitivities(problem, &terms, selection);
     terms
         .iter()
         .enumerate()
-        .filter(|(_, t)| t.cause.mechanism == Mechanism::Hysteresis)
+        .filter(|(_, t)| is_told(t))
         .filter_map(|(index, term)| {
             let product = |parameter: usize| {
                 let column = columns

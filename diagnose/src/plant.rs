@@ -1,5 +1,6 @@
 //! This file is the interface of a plant: all that naming, judging and showing ask of a recording. Nothing behind it knows which plant it is.
 
+mod described;
 mod rules;
 
 use crate::cause::{Cause, JointId, Place};
@@ -11,6 +12,7 @@ use core::fmt::Debug;
 use rigproof_model::effects::Instant;
 use rigproof_spec::effect::{Mechanism, Motion};
 
+pub use described::{At, Plant, Replica, Shown};
 pub use rules::Rules;
 
 /// The clock of a recording: regular samples.
@@ -63,6 +65,12 @@ pub trait Run: Debug + Send + Sync {
     /// How many equations it has: each window gives as many rows.
     fn outputs(&self) -> usize {
         1
+    }
+
+    /// What an output is, in words.
+    fn output_name(&self, output: usize) -> &'static str {
+        let _ = output;
+        "effort"
     }
 
     /// The rules by which names are judged here.

@@ -2,3 +2,6 @@
 
 pub mod five_bar;
 pub mod joint;
+mod registry;
+
+pub use registry::{Description, Measured, Replica};

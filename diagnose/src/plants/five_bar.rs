@@ -4,19 +4,19 @@ pub mod brakes;
 mod calibrated;
 pub mod candidates;
 pub mod columns;
-pub mod diagnose;
 pub(crate) mod encoder;
 pub mod experiment;
 pub mod free_run;
+mod free_runs;
 pub mod from_rig;
 mod held;
-mod held_out;
 mod joined;
 mod locate;
 mod mapping;
 #[cfg(test)]
 mod mechanisms;
 pub mod noise;
+mod plant;
 mod protocol;
 #[cfg(test)]
 pub(crate) mod recorded;

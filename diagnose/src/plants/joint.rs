@@ -7,6 +7,9 @@ pub mod free_run;
 pub mod from_rig;
 pub mod inertia;
 pub mod inverse;
+mod joined;
+mod mistaken;
+mod plant;
 #[cfg(test)]
 pub(crate) mod recorded;
 pub mod refit;
@@ -15,4 +18,8 @@ pub(crate) mod replica;
 pub mod run;
 mod shapes;
 pub mod simulate;
+#[cfg(test)]
+mod tests;
 mod variables;
+mod words;
+pub(crate) mod write_rig;

@@ -1,24 +1,24 @@
 //! This file gives a five-bar's description the numbers of a selection.
 
-use super::diagnose::Stand;
 use super::encoder::Encoder;
 use super::run::joint_at;
 use super::undone::undone_first;
+use crate::diagnose::numbers::{onset, with_interval};
+use crate::diagnose::write::Stand;
 use crate::evidence::{Intervals, coefficients_by_term, parameters};
 use crate::problem::Term;
 use crate::select::refs;
-use crate::write_rig::{onset, with_interval};
 use rigproof_spec::effect::Mechanism;
 use rigproof_trace::rig::five_bar::{FiveBar, JointEffect};
 use rigproof_trace::rig::{RigEffect, Value};
 
-impl Stand<'_> {
+impl Stand<'_, FiveBar> {
     /// The rig with the numbers of all terms; found effects follow the nominal ones.
-    pub(super) fn calibrated(&self, intervals: &Intervals) -> FiveBar {
-        let mut rig = self.rig.clone();
+    pub(super) fn with_numbers(&self, intervals: &Intervals) -> FiveBar {
+        let mut rig = self.plant.clone();
         let (_, coefficients) = coefficients_by_term(self.problem, self.selection);
         let terms = refs(&self.selection.nominal, &self.selection.found);
-        let (undone, known) = undone_first(self.rig);
+        let (undone, known) = undone_first(self.plant);
         rig.effects = undone;
         let fitted = terms
             .iter()

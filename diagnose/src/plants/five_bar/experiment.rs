@@ -7,12 +7,12 @@ mod room;
 #[cfg(test)]
 mod tests;
 
-use super::diagnose::Stand;
 use super::free_run::Model;
 use super::run::joint_at;
 use super::undone::described;
 use crate::candidates::{realise, variants};
 use crate::cause::Cause;
+use crate::diagnose::write::Stand;
 use crate::evidence::{Intervals, Rivals};
 use crate::plant::Run;
 use crate::problem::Problem;
@@ -26,6 +26,7 @@ use rayon::prelude::*;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::methods::greatest_desired_force_n;
 use rigproof_trace::Trace;
+use rigproof_trace::rig::five_bar::FiveBar;
 use room::has_room;
 
 /// The most explanations that are held against one another.
@@ -35,7 +36,7 @@ const FINALISTS: usize = 2;
 
 /// The experiment that tells the explanations apart best, and the plan; `None` where there is one explanation only.
 pub(super) fn next(
-    stand: &Stand<'_>,
+    stand: &Stand<'_, FiveBar>,
     rivals: &[Rivals],
 ) -> Option<(NextExperiment, Option<Trace>)> {
     let run = stand.train;
@@ -73,7 +74,7 @@ pub(super) fn next(
 
 /// The best of the plans, and how far it sets each pair of explanations apart; `None` where there are no two.
 fn best<'p>(
-    stand: &Stand<'_>,
+    stand: &Stand<'_, FiveBar>,
     explanations: &[Explanation],
     plans: &'p [Plan],
 ) -> Option<(&'p Plan, Vec<Separation>)> {
@@ -153,7 +154,7 @@ fn pairs(count: usize) -> Vec<[usize; 2]> {
 
 /// What was named, and each rival of one effect in its place, with the numbers that fit the recording best. Where several effects have
 /// rivals it is the first of them: what was named first explains most.
-fn explanations(stand: &Stand<'_>, rivals: &[Rivals]) -> Vec<Explanation> {
+fn explanations(stand: &Stand<'_, FiveBar>, rivals: &[Rivals]) -> Vec<Explanation> {
     let instead = rivals.iter().map(|own| &own.instead);
     let contested = instead.enumerate().find(|(_, own)| !own.is_empty());
     let Some((index, rivals)) = contested else {
@@ -167,7 +168,7 @@ fn explanations(stand: &Stand<'_>, rivals: &[Rivals]) -> Vec<Explanation> {
         .collect()
 }
 
-fn explanation(stand: &Stand<'_>, selection: &Selection, index: usize) -> Option<Explanation> {
+fn explanation(stand: &Stand<'_, FiveBar>, selection: &Selection, index: usize) -> Option<Explanation> {
     let own = selection.found.get(index)?;
     let others = selection.found.iter().enumerate();
     let others = others.filter(|(k, _)| *k != index).map(|(_, f)| &f.term);
@@ -176,7 +177,7 @@ fn explanation(stand: &Stand<'_>, selection: &Selection, index: usize) -> Option
         selection,
         ..*stand
     };
-    let model = Model::of(&with.calibrated(&nothing));
+    let model = Model::of(&with.with_numbers(&nothing));
     let others = selection.nominal.iter().chain(others);
     Some(Explanation::new(&own.term, others, model))
 }
@@ -218,7 +219,7 @@ fn replaced(
 /// What each explanation leaves of an experiment's recording, with other numbers where they fit better, if one of them is true. `None` where the
 /// rig cannot do the experiment, or comes near its stops.
 fn losses(
-    stand: &Stand<'_>,
+    stand: &Stand<'_, FiveBar>,
     truth: &Explanation,
     explanations: &[Explanation],
     plan: &Plan,
@@ -234,7 +235,7 @@ fn losses(
     if !has_room(&played, layout) {
         return None;
     }
-    let run = described(stand.rig, &played.recording(layout, sensors), 0.0).ok()?;
+    let run = described(stand.plant, &played.recording(layout, sensors), 0.0).ok()?;
     let windows = run.windows_of(width_s);
     let problem = Problem::new(&run, windows);
     let blocks = Blocks::new(&problem);
@@ -250,7 +251,7 @@ fn beyond(losses: &[f64], truth: usize, other: usize) -> f64 {
 
 /// How far each pair of explanations lies apart on an experiment, in standard deviations of the noise: the lesser of what either
 /// leaves of the other's recording.
-fn separations(stand: &Stand<'_>, explanations: &[Explanation], plan: &Plan) -> Option<Vec<f64>> {
+fn separations(stand: &Stand<'_, FiveBar>, explanations: &[Explanation], plan: &Plan) -> Option<Vec<f64>> {
     let all = explanations
         .par_iter()
         .map(|truth| losses(stand, truth, explanations, plan));

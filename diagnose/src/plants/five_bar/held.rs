@@ -4,7 +4,7 @@
 //! hold at least as much (Coulomb 1785). The equation in which it occurs is not fitted, so this is evidence of its own for what was named.
 
 use super::columns::{driving, free};
-use super::diagnose::modelled;
+use crate::diagnose::balance::modelled;
 use super::noise::pair_covariances;
 use super::run::{FiveBarRun, at, place, place_of};
 use crate::evidence::coefficients_by_term;

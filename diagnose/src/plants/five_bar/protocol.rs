@@ -1,11 +1,12 @@
 //! This file says how a five-bar's diagnosis was made, line by line.
 
-use super::diagnose::Stand;
 use crate::diagnose::words::filled_in;
+use crate::diagnose::write::Stand;
+use rigproof_trace::rig::five_bar::FiveBar;
 
-impl Stand<'_> {
+impl Stand<'_, FiveBar> {
     /// How the naming was measured, line by line.
-    pub(super) fn protocol(&self, other_recording: bool) -> Vec<String> {
+    pub(super) fn protocol_lines(&self) -> Vec<String> {
         let windows = &self.problem.windows;
         let rows = || {
             windows
@@ -25,7 +26,7 @@ impl Stand<'_> {
                 1.0 / self.train.step_s,
                 self.train.duration_s(),
                 self.test.len() - (self.test_from_s / self.test.step_s).round() as usize,
-                if other_recording {
+                if self.other_recording {
                     " of another recording"
                 } else {
                     " at the end of the recording"

@@ -5,18 +5,11 @@ use super::experiment::play::{DAMPING_NS_M, Played, STIFFNESS_N_M, shown};
 use super::free_run::{Model, currents_at, force_at, parts_of, truly};
 use super::from_rig::aligned;
 use super::run::FiveBarRun;
-use crate::plant::Run;
+use crate::plant::{Replica, Run};
 use rigproof_model::error::ModelError;
 use rigproof_model::rig::Rig;
 use rigproof_trace::rig::Signal;
 use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording};
-
-/// A recording before noise and counts, and the noise of angles, rad, and force, N, where it states none.
-pub(crate) struct Replica {
-    pub recording: FiveBarRecording,
-    pub theta_noise: f64,
-    pub force_noise: f64,
-}
 
 /// What a rig with the numbers of `model` would have recorded; `nominal` describes the recording.
 ///
@@ -26,7 +19,7 @@ pub(crate) fn replica(
     nominal: &FiveBar,
     model: &FiveBar,
     recording: &FiveBarRecording,
-) -> Result<Replica, String> {
+) -> Result<Replica<FiveBarRecording>, String> {
     let run = aligned(nominal, recording).map_err(|fault| fault.reason)?;
     let played = followed(&Model::of(model), &run).map_err(|error| error.to_string())?;
     let with = |signal: &Signal, samples: Vec<f64>| Signal {
@@ -44,8 +37,8 @@ pub(crate) fn replica(
         }
     }
     Ok(Replica {
-        theta_noise: run.theta_noise,
-        force_noise: run.force_noise,
+        noise: [run.theta_noise, run.force_noise],
+        how: "the reference rig from the recorded first state, under the recorded currents and force, and led by a hand of 420 N/m and 11 N·s/m along the recorded path of its tip",
         recording: FiveBarRecording {
             time_s: played.time_s,
             theta: [with(shown_a, theta_a), with(shown_b, theta_b)],

@@ -323,6 +323,13 @@ impl Run for FiveBarRun {
         2
     }
 
+    fn output_name(&self, output: usize) -> &'static str {
+        match output {
+            0 => "effort on arm AE (θA)",
+            _ => "effort on arm BC (θB)",
+        }
+    }
+
     fn rules(&self) -> &'static Rules {
         &Rules::LINKAGE
     }

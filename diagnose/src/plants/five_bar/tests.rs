@@ -1,7 +1,6 @@
 //! This file claims that the diagnosis of the five-bar names what was left out, where it was left out, and nothing else.
 
 use super::columns::{driving, free};
-use super::diagnose::diagnose;
 use super::from_rig::aligned;
 use super::joined::joined;
 use super::mapping;
@@ -9,19 +8,18 @@ use super::recorded::{DRAG, LeftOut, nothing, recording, rig};
 use super::replica::replica;
 use super::run::{FiveBarRun, at};
 use crate::align::Fault;
-use crate::diagnose::Description;
 use crate::filter::rms;
 use crate::plant::Run;
 use crate::problem::{Problem, less};
 use crate::report::{Report, Verdict};
 use crate::weak::Windows;
-use crate::{Diagnosis, Options};
+use crate::{Diagnosis, Options, diagnose};
 use rigproof_model::linkage::Pose;
 use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
 use rigproof_trace::rig::Signal;
-use rigproof_trace::rig::five_bar::FiveBarRecording;
+use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording};
 
 /// Long enough for a name, s.
 const SECONDS: f64 = 9.0;
@@ -34,7 +32,7 @@ fn options() -> Options {
     }
 }
 
-fn diagnosed(layout: Layout, seconds: f64, seed: u64, left_out: LeftOut) -> Diagnosis {
+fn diagnosed(layout: Layout, seconds: f64, seed: u64, left_out: LeftOut) -> Diagnosis<FiveBar> {
     let recording = recording(layout, seconds, seed, left_out);
     diagnose(&rig(layout), &[&recording], None, &options())
 }
@@ -341,16 +339,12 @@ fn an_encoder_that_slips_is_named_with_when_and_its_calibration_leaves_nothing()
 }
 
 /// With what was found in its description a recording is explained, and what stands there stays.
-fn assert_calibrated(found: &Diagnosis, recording: &FiveBarRecording) {
-    let own = |diagnosis: &Diagnosis| match &diagnosis.calibration {
-        Description::FiveBar(rig) => rig.clone(),
-        Description::Joint(_) => panic!("the calibration is of another plant"),
-    };
-    let calibrated = own(found);
-    let again = diagnose(&calibrated, &[recording], None, &options());
+fn assert_calibrated(found: &Diagnosis<FiveBar>, recording: &FiveBarRecording) {
+    let calibrated = &found.calibration;
+    let again = diagnose(calibrated, &[recording], None, &options());
     let floor = again.report.floor.as_ref().unwrap();
     assert_eq!(again.report.verdict, Verdict::Consistent, "{floor:?}");
-    assert_eq!(own(&again).effects, calibrated.effects);
+    assert_eq!(again.calibration.effects, calibrated.effects);
 }
 
 #[test]

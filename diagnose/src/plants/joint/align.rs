@@ -105,6 +105,7 @@ pub fn align(signals: &Signals) -> Result<JointRun, Fault> {
             .collect(),
         speed_floor,
         untold_speed,
+        parts: Vec::new(),
     };
     check_sign(&run)?;
     Ok(run)

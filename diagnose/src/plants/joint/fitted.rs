@@ -6,21 +6,23 @@ use crate::evidence::{coefficients_by_term, parameters};
 use crate::plants::joint::free_run::{HORIZONS_S, Shown, figure, horizon_error, show};
 use crate::plants::joint::from_rig;
 use crate::plants::joint::run::{JointRun, PlantKind};
-use crate::plants::joint::simulate::{Effect, Plant, Protocol};
+use crate::plants::joint::simulate::{Effect, Model, Protocol, output};
+use crate::diagnose::{Curves, FittedCurves};
 use crate::report::{BeforeAfter, FitReport, HELD_OUT_PART, Horizon};
 use crate::select::{floor_limit, refs};
 use rigproof_spec::effect::Quantity;
+use rigproof_trace::rig::Rig;
 
 /// The plants before and after, and their free runs.
 pub(crate) struct Fitted {
     pub(crate) nominal: Shown,
     pub(crate) found: Shown,
-    pub(crate) by_windows: Plant,
+    pub(crate) by_windows: Model,
 }
 
-impl Stand<'_> {
+impl Stand<'_, Rig> {
     /// The plant of the windows' fit, with or without the mechanisms found.
-    pub(crate) fn plant(&self, found: bool) -> Plant {
+    pub(crate) fn model(&self, found: bool) -> Model {
         let mut selection = self.selection.clone();
         if !found {
             selection.found.clear();
@@ -37,8 +39,8 @@ impl Stand<'_> {
                 onset_s: term.onset_s,
             })
             .collect();
-        let given = from_rig::plant(self.rig).inertia;
-        Plant {
+        let given = from_rig::plant(self.plant).inertia;
+        Model {
             inertia: nuisances
                 .first()
                 .copied()
@@ -59,7 +61,7 @@ impl Stand<'_> {
         let known_nominal: Vec<bool> = nominal.map(|t| stays || t.known.is_some()).collect();
         let mut known_all = known_nominal.clone();
         known_all.extend(self.selection.found.iter().map(|_| stays));
-        let by_windows = self.plant(true);
+        let by_windows = self.model(true);
         let found = show(
             &by_windows,
             inertia_free,
@@ -71,7 +73,7 @@ impl Stand<'_> {
                 && self.floor().ratio_after > floor_limit(self.problem),
         );
         let nominal = show(
-            &self.plant(false),
+            &self.model(false),
             inertia_free,
             &known_nominal,
             self.train,
@@ -89,7 +91,6 @@ impl Stand<'_> {
         &self,
         fitted: &Fitted,
         protocol: &Protocol,
-        other_recording: bool,
     ) -> FitReport {
         let pair = |run: &JointRun| {
             let (before, size) = figure(&fitted.nominal.plant, run, protocol);
@@ -123,7 +124,7 @@ impl Stand<'_> {
             .collect();
         let (windows_only, _) = figure(&fitted.by_windows, self.test, protocol);
         FitReport {
-            protocol: self.fit_protocol(protocol, other_recording),
+            protocol: self.fit_protocol(protocol),
             unit: self.output_unit(),
             train,
             held_out: Some(held_out),
@@ -140,8 +141,52 @@ impl Stand<'_> {
             recovered_share: (held_out.before - held_out.after) / (held_out.before - floor).max(1e-300),
             improved: held_out.after < held_out.before,
             drift: fitted.found.drift.map(|rate| {
-                format!("the free run of the fitted part drifts by a constant effort that changes at {rate:.4e} {}; a warming drive, a slow load or wear would look the same", Quantity::EffortPerTime.dimension(self.rig.motion))
+                format!("the free run of the fitted part drifts by a constant effort that changes at {rate:.4e} {}; a warming drive, a slow load or wear would look the same", Quantity::EffortPerTime.dimension(self.plant.motion))
             }),
         }
+    }
+
+    pub(crate) fn free_run_curves(&self, before: &Model, after: &Model, protocol: &Protocol) -> Curves {
+        let run = self.test;
+        let times = |run: &JointRun| -> Vec<f64> {
+            let all = 0..run.len();
+            all.map(|k| run.start_s + k as f64 * run.step_s).collect()
+        };
+        let recorded = |run: &JointRun| match run.plant {
+            PlantKind::Axis => run.position.clone(),
+            PlantKind::Bench => run.effort.clone(),
+        };
+        let fitted = FittedCurves {
+            time_s: times(self.train),
+            recorded: recorded(self.train),
+            before: output(before, self.train, protocol),
+            after: output(after, self.train, protocol),
+        };
+        Curves {
+            fitted,
+            time_s: times(run),
+            output: match run.plant {
+                PlantKind::Axis => "position",
+                PlantKind::Bench => "metered effort",
+            },
+            recorded: recorded(run),
+            before: output(before, run, protocol),
+            after: output(after, run, protocol),
+            unit: self.output_unit(),
+            window_time_s: self.problem.windows.times_s(),
+            window_counts: self.problem.windows.usable.clone(),
+            residual_before: self.selection.before.residual.clone(),
+            residual_after: self.selection.after.residual.clone(),
+            floor: self.problem.floor,
+            residual_unit: Quantity::Effort.dimension(self.plant.motion).to_string(),
+        }
+    }
+
+    pub(crate) fn output_unit(&self) -> String {
+        let quantity = match self.train.plant {
+            PlantKind::Axis => Quantity::Travel,
+            PlantKind::Bench => Quantity::Effort,
+        };
+        quantity.dimension(self.plant.motion).to_string()
     }
 }

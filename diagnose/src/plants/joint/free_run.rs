@@ -3,7 +3,7 @@
 use crate::filter::rms;
 use crate::plants::joint::refit::{Free, error_rms, refit};
 use crate::plants::joint::run::{JointRun, PlantKind};
-use crate::plants::joint::simulate::{Effect, Plant, Protocol, predict};
+use crate::plants::joint::simulate::{Effect, Model, Protocol, predict};
 use rigproof_model::effects::entry;
 use rigproof_spec::effect::Mechanism;
 
@@ -13,7 +13,7 @@ const DRIFT_SHARE: f64 = 0.5;
 /// Which numbers of a plant the refit may move: those of effects that are not known, and the inertia if unknown.
 ///
 /// `known` says which effects stay; shape parameters move with `shapes` only.
-fn free_numbers(plant: &Plant, inertia_free: bool, known: &[bool], shapes: bool) -> Vec<Free> {
+fn free_numbers(plant: &Model, inertia_free: bool, known: &[bool], shapes: bool) -> Vec<Free> {
     let mut free = Vec::new();
     if inertia_free {
         free.push(Free {
@@ -45,7 +45,7 @@ fn free_numbers(plant: &Plant, inertia_free: bool, known: &[bool], shapes: bool)
 }
 
 /// The largest leading coefficient among the efforts of the plant: what "small" is measured against.
-fn leading_size(plant: &Plant) -> f64 {
+fn leading_size(plant: &Model) -> f64 {
     let efforts = plant.effects.iter().filter(|e| {
         matches!(
             e.mechanism,
@@ -76,7 +76,7 @@ fn size_of(effect: &Effect, parameter: usize, effort: f64) -> f64 {
 /// A refitted plant, and whether a slow drift had to be taken in.
 pub struct Shown {
     /// The plant.
-    pub plant: Plant,
+    pub plant: Model,
     /// Error of the free run on the fitted part.
     pub train: f64,
     /// The drift's rate, when it was taken in.
@@ -86,7 +86,7 @@ pub struct Shown {
 /// Refits a plant on a recording: first what enters linearly, then the shapes, then a slow drift if the free run
 /// of an axis shows one.
 pub fn show(
-    plant: &Plant,
+    plant: &Model,
     inertia_free: bool,
     known: &[bool],
     run: &JointRun,
@@ -125,7 +125,7 @@ pub fn show(
 }
 
 fn staged(
-    plant: &Plant,
+    plant: &Model,
     inertia_free: bool,
     known: &[bool],
     run: &JointRun,
@@ -157,7 +157,7 @@ const STARTS: usize = 60;
 /// Root-mean-square position error after a horizon, over starts spread along the recording; `None` on a bench or
 /// when the recording is too short.
 pub fn horizon_error(
-    plant: &Plant,
+    plant: &Model,
     run: &JointRun,
     protocol: &Protocol,
     horizon_s: f64,
@@ -178,7 +178,7 @@ pub fn horizon_error(
 }
 
 /// Error of the free run and the output's standard deviation.
-pub fn figure(plant: &Plant, run: &JointRun, protocol: &Protocol) -> (f64, f64) {
+pub fn figure(plant: &Model, run: &JointRun, protocol: &Protocol) -> (f64, f64) {
     let output = match run.plant {
         PlantKind::Axis => &run.position,
         PlantKind::Bench => &run.effort,

@@ -5,7 +5,7 @@ use super::inertia::Inertia;
 use crate::align::{Fault, forget_sense_near_reversals};
 use crate::cause::Cause;
 use crate::plants::joint::run::{JointRun, PlantKind};
-use crate::plants::joint::simulate::{Effect, Interpolation, Plant, Protocol};
+use crate::plants::joint::simulate::{Effect, Interpolation, Model, Protocol};
 use crate::problem::NominalEffect;
 use rigproof_trace::rig::{Drive, Plant as RigPlant, Recording, Rig, Status};
 
@@ -90,8 +90,8 @@ pub(crate) fn nominal(rig: &Rig) -> Vec<NominalEffect> {
 }
 
 /// The plant with every number as the rig states it.
-pub fn plant(rig: &Rig) -> Plant {
-    Plant {
+pub fn plant(rig: &Rig) -> Model {
+    Model {
         inertia: rig.parameters.map_or(0.0, |p| p.inertia.value),
         effects: nominal(rig)
             .into_iter()

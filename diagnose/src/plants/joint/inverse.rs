@@ -33,7 +33,7 @@ pub struct InverseModel {
 /// `None` on a bench, on a recording slower than 400 Hz, or with a mechanism that has a memory or acts on the drive.
 pub fn inverse_model(run: &JointRun, mechanisms: &[(Mechanism, Vec<f64>)]) -> Option<InverseModel> {
     let rate_hz = 1.0 / run.step_s;
-    if run.plant == PlantKind::Bench || rate_hz < 4.0 * CUTOFF_HZ {
+    if run.plant == PlantKind::Bench || !run.parts.is_empty() || rate_hz < 4.0 * CUTOFF_HZ {
         return None;
     }
     let position =

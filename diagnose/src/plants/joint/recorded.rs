@@ -128,6 +128,7 @@ fn run(plant: PlantKind, motion: Vec<Instant>, effort: Vec<f64>, held: bool) -> 
         position_noise: QUANTUM / 12f64.sqrt(),
         effort_noise: EFFORT_NOISE,
         speed_floor: 1e-4,
+        parts: Vec::new(),
     }
 }
 

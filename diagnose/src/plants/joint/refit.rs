@@ -1,7 +1,7 @@
 //! This file adjusts the plant's numbers so that its free run meets the recording (output error).
 
 use crate::plants::joint::run::{JointRun, PlantKind};
-use crate::plants::joint::simulate::{Plant, Protocol, output};
+use crate::plants::joint::simulate::{Model, Protocol, output};
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
 use nalgebra::{DMatrix, DVector, Dyn, Owned};
 
@@ -18,13 +18,13 @@ pub struct Free {
 #[derive(Clone, Debug)]
 pub struct Refit {
     /// The adjusted plant.
-    pub plant: Plant,
+    pub plant: Model,
     /// Root-mean-square error of its free run.
     pub error: f64,
 }
 
 /// Adjusts the free numbers of a plant over a recording.
-pub fn refit(plant: &Plant, free: &[Free], run: &JointRun, protocol: &Protocol) -> Refit {
+pub fn refit(plant: &Model, free: &[Free], run: &JointRun, protocol: &Protocol) -> Refit {
     let problem = OutputError {
         start: plant,
         free,
@@ -69,7 +69,7 @@ fn counted(run: &JointRun, protocol: &Protocol) -> usize {
 }
 
 /// Simulated less recorded output, one value a counted sample.
-pub fn errors(plant: &Plant, run: &JointRun, protocol: &Protocol) -> Vec<f64> {
+pub fn errors(plant: &Model, run: &JointRun, protocol: &Protocol) -> Vec<f64> {
     let simulated = output(plant, run, protocol);
     let recorded = match run.plant {
         PlantKind::Axis => &run.position,
@@ -85,12 +85,12 @@ pub fn errors(plant: &Plant, run: &JointRun, protocol: &Protocol) -> Vec<f64> {
 }
 
 /// Root-mean-square error of the free run over the counted samples.
-pub fn error_rms(plant: &Plant, run: &JointRun, protocol: &Protocol) -> f64 {
+pub fn error_rms(plant: &Model, run: &JointRun, protocol: &Protocol) -> f64 {
     crate::filter::rms(&errors(plant, run, protocol))
 }
 
 struct OutputError<'a> {
-    start: &'a Plant,
+    start: &'a Model,
     free: &'a [Free],
     run: &'a JointRun,
     protocol: &'a Protocol,
@@ -102,11 +102,11 @@ struct OutputError<'a> {
 const STEP: f64 = 1e-3;
 
 impl OutputError<'_> {
-    fn plant(&self) -> Plant {
+    fn plant(&self) -> Model {
         self.plant_at(&self.x)
     }
 
-    fn plant_at(&self, x: &DVector<f64>) -> Plant {
+    fn plant_at(&self, x: &DVector<f64>) -> Model {
         let mut plant = self.start.clone();
         for (free, departure) in self.free.iter().zip(x.iter()) {
             let number = match free.place {
@@ -174,13 +174,13 @@ mod tests {
     use crate::plants::joint::simulate::Effect;
     use rigproof_spec::effect::Mechanism;
 
-    fn plant(inertia: f64, viscous: f64, dry: f64) -> Plant {
+    fn plant(inertia: f64, viscous: f64, dry: f64) -> Model {
         let effect = |mechanism, value| Effect {
             mechanism,
             parameters: vec![value],
             onset_s: None,
         };
-        Plant {
+        Model {
             inertia,
             effects: vec![
                 effect(Mechanism::Viscous, viscous),

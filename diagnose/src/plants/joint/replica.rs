@@ -3,14 +3,8 @@
 use crate::plants::joint::from_rig::{aligned, plant, protocol};
 use crate::plants::joint::run::PlantKind;
 use crate::plants::joint::simulate::output;
+use crate::plant::Replica;
 use rigproof_trace::rig::{Recording, Rig, Signal};
-
-/// A recording before noise and counts, and the noise of position and effort where it states none, in its own units.
-pub(crate) struct Replica {
-    pub recording: Recording,
-    pub position_noise: f64,
-    pub effort_noise: f64,
-}
 
 /// What a plant with the numbers of `model` would have recorded; `nominal` describes the recording.
 ///
@@ -20,7 +14,7 @@ pub(crate) fn replica(
     nominal: &Rig,
     model: &Rig,
     recording: &Recording,
-) -> Result<Replica, String> {
+) -> Result<Replica<Recording>, String> {
     let run = aligned(nominal, recording).map_err(|fault| fault.reason)?;
     let out = output(&plant(model), &run, &protocol(model));
     let mut own = recording.clone();
@@ -44,9 +38,12 @@ pub(crate) fn replica(
         }
     }
     Ok(Replica {
+        how: match own.force {
+            Some(_) => "the calibrated plant along the recorded motion",
+            None => "a free run of the calibrated plant under the recorded command",
+        },
         recording: own,
-        position_noise: run.position_noise,
-        effort_noise,
+        noise: [run.position_noise, effort_noise],
     })
 }
 

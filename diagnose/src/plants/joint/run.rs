@@ -1,6 +1,7 @@
 //! This file is an aligned recording: regular samples, smoothed motion, known efforts, noise levels.
 
 use super::inertia::Inertia;
+use super::joined::over_parts;
 use super::{columns, regimes, shapes, variables};
 use crate::align::band_hz;
 use crate::cause::{Cause, Place};
@@ -64,6 +65,8 @@ pub struct JointRun {
     pub speed_floor: f64,
     /// By how much the speed may be mistaken, m/s or rad/s.
     pub untold_speed: Vec<f64>,
+    /// The recordings that stand in it one after another; empty for one recording.
+    pub parts: Vec<JointRun>,
 }
 
 impl JointRun {
@@ -146,6 +149,7 @@ impl JointRun {
             recorded: self.recorded.get(from..to).unwrap_or_default().to_vec(),
             speed_floor: self.speed_floor,
             untold_speed: part(&self.untold_speed),
+            parts: Vec::new(),
         }
     }
 
@@ -296,10 +300,10 @@ impl Run for JointRun {
     }
 
     fn columns(&self, cause: Cause, shape: &[f64], beside: Option<&[f64]>) -> Option<Columns> {
-        match beside {
-            None => columns::resistances(self, cause.mechanism, shape).map(Columns::Free),
-            Some(beside) => columns::drive(self, cause.mechanism, shape, beside),
-        }
+        over_parts(self, |run, part| match beside {
+            None => columns::resistances(run, cause.mechanism, shape).map(Columns::Free),
+            Some(beside) => columns::drive(run, cause.mechanism, shape, beside.get(part)?),
+        })
     }
 
     fn is_linearised(&self) -> bool {

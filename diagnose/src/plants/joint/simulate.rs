@@ -23,7 +23,7 @@ pub struct Effect {
 
 /// A plant with all its numbers.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Plant {
+pub struct Model {
     /// Mass or moment of inertia; unused on a bench.
     pub inertia: f64,
     /// Everything that acts.
@@ -69,14 +69,18 @@ impl Default for Protocol {
 /// The output of a run: position of an axis, or effort of a bench, one value a sample.
 ///
 /// The first `start_samples` of an axis repeat the recording, because the state is taken from them.
-pub fn output(plant: &Plant, run: &JointRun, protocol: &Protocol) -> Vec<f64> {
+pub fn output(plant: &Model, run: &JointRun, protocol: &Protocol) -> Vec<f64> {
+    if !run.parts.is_empty() {
+        let each = run.parts.iter().flat_map(|part| output(plant, part, protocol));
+        return each.collect();
+    }
     match run.plant {
         PlantKind::Axis => free_run(plant, run, protocol),
         PlantKind::Bench => bench(plant, run),
     }
 }
 
-fn laws(plant: &Plant) -> Vec<Box<dyn Law>> {
+fn laws(plant: &Model) -> Vec<Box<dyn Law>> {
     plant
         .effects
         .iter()
@@ -143,7 +147,7 @@ fn with_onset(law: Box<dyn Law>, onset_s: Option<f64>) -> Box<dyn Law> {
 
 /// The effort after the changes of the drive: gain, time shift, lag. On an axis the recorded command is ahead of
 /// the effort; on a bench `effort` is what the laws give and the recorded one is behind.
-fn driven(plant: &Plant, effort: &[f64], run: &JointRun) -> Vec<f64> {
+fn driven(plant: &Model, effort: &[f64], run: &JointRun) -> Vec<f64> {
     let step_s = run.step_s;
     let mut out = effort.to_vec();
     for effect in &plant.effects {
@@ -162,7 +166,7 @@ fn driven(plant: &Plant, effort: &[f64], run: &JointRun) -> Vec<f64> {
     out
 }
 
-fn bench(plant: &Plant, run: &JointRun) -> Vec<f64> {
+fn bench(plant: &Model, run: &JointRun) -> Vec<f64> {
     let value = |mechanism: Mechanism| {
         let effect = plant.effects.iter().find(|e| e.mechanism == mechanism);
         effect.and_then(|e| e.parameters.first().copied())
@@ -198,7 +202,7 @@ fn bench(plant: &Plant, run: &JointRun) -> Vec<f64> {
             *e += gain * p;
         }
     }
-    let rest = Plant {
+    let rest = Model {
         inertia: 0.0,
         effects: plant
             .effects
@@ -210,7 +214,7 @@ fn bench(plant: &Plant, run: &JointRun) -> Vec<f64> {
     driven(&rest, &effort, run)
 }
 
-fn free_run(plant: &Plant, run: &JointRun, protocol: &Protocol) -> Vec<f64> {
+fn free_run(plant: &Model, run: &JointRun, protocol: &Protocol) -> Vec<f64> {
     let axis = Axis {
         inertia: plant.inertia,
         laws: laws(plant),
@@ -241,7 +245,7 @@ fn free_run(plant: &Plant, run: &JointRun, protocol: &Protocol) -> Vec<f64> {
 }
 
 /// A bristle that has been sliding is bent by all it can bend.
-fn saturate_presliding(plant: &Plant, memory: &mut [f64], speed: f64) {
+fn saturate_presliding(plant: &Model, memory: &mut [f64], speed: f64) {
     let with_law = plant.effects.iter().filter(|e| own_law(e).is_some());
     for (effect, memory) in with_law.zip(memory) {
         if effect.mechanism == Mechanism::Presliding && speed != 0.0 {
@@ -331,7 +335,7 @@ fn parabola(points: &[(f64, f64)]) -> [f64; 3] {
 
 /// The position `count` samples after sample `first`, started from the recorded state there.
 pub fn predict(
-    plant: &Plant,
+    plant: &Model,
     run: &JointRun,
     first: usize,
     count: usize,
@@ -428,8 +432,8 @@ mod tests {
         }
     }
 
-    fn plant() -> Plant {
-        Plant {
+    fn plant() -> Model {
+        Model {
             inertia: INERTIA,
             effects: NOMINAL
                 .iter()

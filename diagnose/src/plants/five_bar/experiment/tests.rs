@@ -1,13 +1,12 @@
 //! This file claims that the experiment a diagnosis asks for tells twins apart, and that a rig can do it.
 
-use super::super::diagnose::diagnose;
 use super::super::free_run::Model;
 use super::super::recorded::rig;
 use super::plan::{MIDDLE_M, Plan, STRONGEST_A, plans};
 use super::play::{Sensors, play};
 use super::room::has_room;
 use crate::report::{EffectReport, Report};
-use crate::{Diagnosis, Options};
+use crate::{Diagnosis, Options, diagnose};
 use core::f64::consts::TAU;
 use rigproof_model::linkage::{inverse, limits};
 use rigproof_model::rig::JointEffect;
@@ -16,7 +15,7 @@ use rigproof_spec::geometry::{angle_ranges, arms};
 use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
 use rigproof_spec::methods::greatest_desired_force_n;
-use rigproof_trace::rig::five_bar::FiveBarRecording;
+use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording};
 
 const STEP_S: f64 = 1e-3;
 const COUNT_RAD: f64 = TAU / 100_000.0;
@@ -45,7 +44,7 @@ fn recorded(truth: &Model, layout: Layout, plan: &Plan, seed: u64) -> FiveBarRec
     played.sensed(&rig(layout), seed).recording(layout, sensors)
 }
 
-fn diagnosed(layout: Layout, recordings: &[&FiveBarRecording], next_experiment: bool) -> Diagnosis {
+fn diagnosed(layout: Layout, recordings: &[&FiveBarRecording], next_experiment: bool) -> Diagnosis<FiveBar> {
     let options = Options {
         refit: false,
         next_experiment,

@@ -1,18 +1,15 @@
-//! This file parts recordings of a five-bar into what is fitted and what shows the result.
+//! This file parts recordings of one rig into what is fitted and what shows the result.
 
-use super::joined::joined;
-use super::run::FiveBarRun;
-use super::undone::described;
 use crate::Options;
 use crate::align::Fault;
-use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording};
+use crate::plant::{Plant, Run};
 
 /// What is fitted, and what shows the result.
-pub struct Parts {
+pub struct Parts<P: Plant> {
     /// The fitted recordings, one after another.
-    pub train: FiveBarRun,
+    pub train: P::Run,
     /// The recording that shows the result.
-    pub test: FiveBarRun,
+    pub test: P::Run,
     /// Where its held-out part begins, s after its first sample.
     pub test_from_s: f64,
     /// Whether it is a recording of its own.
@@ -23,31 +20,29 @@ pub struct Parts {
 /// needed for the naming, and its end is enough to show the result.
 const MANY: usize = 3;
 
-impl Parts {
+impl<P: Plant> Parts<P> {
     /// Recordings of which another one shows the result, or the last of many, or the end of the last.
     ///
     /// # Errors
     /// What the recording is called that cannot be used, and why.
     pub fn of(
-        rig: &FiveBar,
-        recordings: &[&FiveBarRecording],
-        held_out: Option<&FiveBarRecording>,
+        plant: &P,
+        recordings: &[&P::Recording],
+        held_out: Option<&P::Recording>,
         options: &Options,
-    ) -> Result<Parts, (String, Fault)> {
+    ) -> Result<Parts<P>, (String, Fault)> {
         let count = recordings.len();
-        let mut runs = Vec::with_capacity(count);
+        let mut runs: Vec<P::Run> = Vec::with_capacity(count);
         for (place, recording) in recordings.iter().enumerate() {
-            let lengths_s = runs
-                .iter()
-                .map(|run: &FiveBarRun| run.len() as f64 * run.step_s);
-            let before_s = lengths_s.sum();
-            let run = described(rig, recording, before_s);
+            let clocks = runs.iter().map(Run::clock);
+            let before_s = clocks.map(|clock| clock.samples as f64 * clock.step_s);
+            let run = plant.aligned(recording, before_s.sum());
             runs.push(run.map_err(|fault| (which(place, count), fault))?);
         }
         let other = match held_out {
             Some(recording) => {
                 let named = |fault| ("held-out recording".to_owned(), fault);
-                Some(described(rig, recording, 0.0).map_err(named)?)
+                Some(plant.aligned(recording, 0.0).map_err(named)?)
             }
             None if count >= MANY => runs.pop(),
             None => None,
@@ -58,21 +53,19 @@ impl Parts {
                 runs.extend(last);
                 (test, 0.0)
             }
-            (None, Some(mut last)) => {
-                // What is held out of the same recording keeps its past: brakes, heat and memories begin at its first sample.
-                let cut = ((1.0 - options.hold_out_share) * last.len() as f64).round() as usize;
-                let before = runs.iter().map(FiveBarRun::len).sum::<usize>();
-                runs.push(last.part(0, cut));
-                // An onset is a time on the clock of all of them.
-                last.start_s += before as f64 * last.step_s;
-                let from_s = cut as f64 * last.step_s;
-                (last, from_s)
+            (None, Some(last)) => {
+                let samples = last.clock().samples;
+                let cut = ((1.0 - options.hold_out_share) * samples as f64).round() as usize;
+                let before = runs.iter().map(|run| run.clock().samples).sum();
+                let (fitted, test, from_s) = P::parted(last, cut, before);
+                runs.push(fitted);
+                (test, from_s)
             }
             (None, None) => return Err(("recording".to_owned(), nothing())),
         };
         let named = |(place, fault)| (which(place, count), fault);
         Ok(Parts {
-            train: joined(runs).map_err(named)?,
+            train: P::joined(runs).map_err(named)?,
             test,
             test_from_s,
             other_recording,
