@@ -1,6 +1,6 @@
 //! This file makes the page of a diagnosis from what the command line has at hand.
 
-use rigproof_diagnose::five_bar::replay::{Frame, RESTART_S, replayed};
+use rigproof_diagnose::plants::five_bar::replay::{Frame, RESTART_S, replayed};
 use rigproof_diagnose::{Description, Diagnosis, Measured};
 use rigproof_report::chart::rounded;
 use rigproof_report::diagnosis::{Diagnosed, page};

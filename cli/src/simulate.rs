@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 
 use rigproof_diagnose::Description;
 use rigproof_diagnose::align::Fault;
-use rigproof_diagnose::from_rig;
-use rigproof_diagnose::run::{PlantKind, Run};
-use rigproof_diagnose::simulate::{Protocol, output};
+use rigproof_diagnose::plants::joint::from_rig;
+use rigproof_diagnose::plants::joint::run::{JointRun, PlantKind};
+use rigproof_diagnose::plants::joint::simulate::{Protocol, output};
 use rigproof_spec::effect::Quantity;
 use rigproof_trace::compare::{Comparison, compare};
 use rigproof_trace::rig::{Rig, motion_name};
@@ -121,7 +121,7 @@ fn model(args: &Args, rig: &Rig) -> Result<Rig, Failure> {
 }
 
 /// The recorded output where it counts: not where it gave the start state, and not where a sample was filled in.
-fn counted(run: &Run, recorded: &[f64], protocol: &Protocol) -> Vec<f64> {
+fn counted(run: &JointRun, recorded: &[f64], protocol: &Protocol) -> Vec<f64> {
     let start = match run.plant {
         PlantKind::Axis if protocol.warm_up_periods == 0 => protocol.start_samples,
         _ => 0,

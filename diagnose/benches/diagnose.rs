@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
-use rigproof_diagnose::simulate::output;
+use rigproof_diagnose::plants::joint::simulate::output;
 use rigproof_diagnose::{Options, diagnose, from_rig};
 use rigproof_model::axis::Axis;
 use rigproof_model::effects::law;

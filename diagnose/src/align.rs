@@ -3,41 +3,13 @@
 mod clock;
 mod reversals;
 
-use crate::doubt::Smoothing;
+use crate::filter::rms;
 use crate::filter::{LowPass, gradient};
-use crate::run::{PlantKind, Run, rms};
 use rigproof_model::effects::Instant;
 use rustfft::{FftPlannerScalar, num_complex::Complex64};
 
 pub(crate) use clock::{check_clock, median_step};
 pub(crate) use reversals::forget_sense_near_reversals;
-
-/// What stage 0 takes: the plant's roles in SI units, NaN where nothing was recorded.
-#[derive(Clone, Debug)]
-pub struct Signals {
-    /// The plant.
-    pub plant: PlantKind,
-    /// Time stamps, s, increasing.
-    pub time_s: Vec<f64>,
-    /// Position, m or rad.
-    pub position: Vec<f64>,
-    /// Axis: command times its gain. Bench: metered effort. N or N·m.
-    pub effort: Vec<f64>,
-    /// Bench: effort that somebody's simulation predicts.
-    pub predicted: Option<Vec<f64>>,
-    /// Bench: the current, A.
-    pub current: Option<Vec<f64>>,
-    /// Whether the drive holds its value between samples.
-    pub held: bool,
-    /// Resolution of the position, if stated.
-    pub position_quantum: Option<f64>,
-    /// Noise of the position, if stated.
-    pub position_noise: Option<f64>,
-    /// Noise of the effort, if stated.
-    pub effort_noise: Option<f64>,
-    /// Magnitude at which the effort saturates, if stated.
-    pub effort_limit: Option<f64>,
-}
 
 /// Why no conclusion can be drawn from a recording.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,74 +30,6 @@ const LONGEST_GAP_S: f64 = 0.1;
 const MOST_MISSING: f64 = 0.02;
 /// Seconds for which a live channel may repeat one value to the bit.
 const LONGEST_FREEZE_S: f64 = 0.25;
-
-/// Aligns a recording, or says why nothing can be concluded from it.
-pub fn align(signals: &Signals) -> Result<Run, Fault> {
-    let step_s = median_step(&signals.time_s);
-    check_clock(&signals.time_s, step_s)?;
-    check_missing("position", &signals.time_s, &signals.position)?;
-    check_missing("effort", &signals.time_s, &signals.effort)?;
-    check_frozen(signals, step_s)?;
-    check_clipped(signals)?;
-    let count = regular_count(&signals.time_s, step_s);
-    let (position, recorded_p) = resample(&signals.time_s, &signals.position, step_s, count);
-    let (effort, recorded_e) = resample(&signals.time_s, &signals.effort, step_s, count);
-    let optional = |values: &Option<Vec<f64>>| {
-        let values = values.as_ref()?;
-        Some(resample(&signals.time_s, values, step_s, count).0)
-    };
-    let predicted = optional(&signals.predicted);
-    let current = optional(&signals.current);
-    let quantum = signals
-        .position_quantum
-        .unwrap_or_else(|| smallest_step(&signals.position));
-    let position_noise = (quantum / 12f64.sqrt()).hypot(signals.position_noise.unwrap_or(0.0));
-    let effort_noise = signals
-        .effort_noise
-        .unwrap_or_else(|| smallest_step(&effort) / 12f64.sqrt());
-    let band_hz = band_hz(&effort, step_s);
-    let cutoff_hz = cutoff_hz(step_s, band_hz);
-    let (mut motion, speed_floor) = smoothed_motion(&position, step_s, cutoff_hz, position_noise);
-    let smoothing = Smoothing {
-        step_s,
-        cutoff_hz,
-        noise: position_noise,
-        speed_floor,
-    };
-    let untold_speed = smoothing.untold_speeds(&position, &motion, &vec![1.0; motion.len()]);
-    forget_sense_at_rest(
-        &mut motion,
-        &position,
-        step_s,
-        (2.0 * quantum).max(6.0 * position_noise),
-    );
-    if signals.plant == PlantKind::Axis {
-        forget_sense_at_reversals(&mut motion);
-    }
-    let run = Run {
-        plant: signals.plant,
-        step_s,
-        start_s: 0.0,
-        held: signals.held,
-        position,
-        motion,
-        effort,
-        predicted,
-        current,
-        table: None,
-        position_noise,
-        effort_noise,
-        recorded: recorded_p
-            .into_iter()
-            .zip(recorded_e)
-            .map(|(a, b)| a && b)
-            .collect(),
-        speed_floor,
-        untold_speed,
-    };
-    check_sign(&run)?;
-    Ok(run)
-}
 
 pub(crate) fn check_missing(
     channel: &'static str,
@@ -160,28 +64,23 @@ pub(crate) fn check_missing(
     Ok(())
 }
 
-/// A channel that repeats one value to the bit while the other one shows that the plant is alive.
-pub(crate) fn check_frozen(signals: &Signals, step_s: f64) -> Result<(), Fault> {
-    let least = (LONGEST_FREEZE_S / step_s).ceil() as usize;
-    for (first, end) in constant_runs(&signals.position, least) {
-        if moved_behind(signals, first, end) {
-            return Err(frozen("position", signals, first, end));
-        }
-    }
-    // A metered effort has noise: on a bench a constant one is a dead channel, unless the motion rests too.
-    if signals.plant == PlantKind::Bench {
-        for (first, end) in constant_runs(&signals.effort, least) {
-            let moving = signals.position.get(first..end).unwrap_or_default();
-            if moving.windows(2).filter(|w| w.first() != w.last()).count() > least / 2 {
-                return Err(frozen("effort", signals, first, end));
-            }
+/// A position that repeats one value to the bit while its jumps show that the plant is alive.
+pub(crate) fn check_frozen(time_s: &[f64], position: &[f64], step_s: f64) -> Result<(), Fault> {
+    for (first, end) in constant_runs(position, longest_freeze(step_s)) {
+        if moved_behind(position, first, end) {
+            return Err(frozen("position", time_s, first, end));
         }
     }
     Ok(())
 }
 
-fn frozen(channel: &'static str, signals: &Signals, first: usize, end: usize) -> Fault {
-    let at = |k: usize| signals.time_s.get(k).copied().unwrap_or(0.0);
+/// Samples for which a live channel may repeat one value to the bit.
+pub(crate) fn longest_freeze(step_s: f64) -> usize {
+    (LONGEST_FREEZE_S / step_s).ceil() as usize
+}
+
+pub(crate) fn frozen(channel: &'static str, time_s: &[f64], first: usize, end: usize) -> Fault {
+    let at = |k: usize| time_s.get(k).copied().unwrap_or(0.0);
     Fault {
         channel,
         from_s: at(first),
@@ -191,7 +90,7 @@ fn frozen(channel: &'static str, signals: &Signals, first: usize, end: usize) ->
 }
 
 /// Runs of at least `least` samples of one value.
-fn constant_runs(values: &[f64], least: usize) -> Vec<(usize, usize)> {
+pub(crate) fn constant_runs(values: &[f64], least: usize) -> Vec<(usize, usize)> {
     let mut runs = Vec::new();
     let mut first = 0;
     for k in 1..=values.len() {
@@ -206,49 +105,46 @@ fn constant_runs(values: &[f64], least: usize) -> Vec<(usize, usize)> {
 }
 
 /// Whether a constant position must be a fault: it ends in a jump that no motion before or after explains.
-fn moved_behind(signals: &Signals, first: usize, end: usize) -> bool {
+fn moved_behind(position: &[f64], first: usize, end: usize) -> bool {
     let steps = |from: usize, to: usize| {
-        signals
-            .position
+        position
             .get(from..to)
             .unwrap_or_default()
             .windows(2)
             .map(|w| (w.last().unwrap_or(&0.0) - w.first().unwrap_or(&0.0)).abs())
             .fold(0.0, f64::max)
     };
-    let n = signals.position.len();
+    let n = position.len();
     if end + 1 >= n {
         return false;
     }
     let jump = steps(end - 1, end + 1);
     let usual = steps(first.saturating_sub(400), first).max(steps(end, (end + 400).min(n)));
-    jump > 6.0 * usual.max(2.0 * smallest_step(&signals.position))
+    jump > 6.0 * usual.max(2.0 * smallest_step(position))
 }
 
 /// An effort that rests on its own extreme for many samples, unless the rig says that it saturates there.
-pub(crate) fn check_clipped(signals: &Signals) -> Result<(), Fault> {
-    let live = || signals.effort.iter().copied().filter(|x| !x.is_nan());
+pub(crate) fn check_clipped(
+    time_s: &[f64],
+    effort: &[f64],
+    effort_limit: Option<f64>,
+) -> Result<(), Fault> {
+    let live = || effort.iter().copied().filter(|x| !x.is_nan());
     let high = live().fold(f64::NEG_INFINITY, f64::max);
     let low = live().fold(f64::INFINITY, f64::min);
     for extreme in [high, low] {
-        let stated = signals
-            .effort_limit
-            .is_some_and(|limit| extreme.abs() >= 0.999 * limit);
+        let stated = effort_limit.is_some_and(|limit| extreme.abs() >= 0.999 * limit);
         let count = live().filter(|&x| x == extreme).count();
         if !stated
             && count > MOST_CLIPPED
-            && count as f64 > 0.005 * signals.effort.len() as f64
+            && count as f64 > 0.005 * effort.len() as f64
             && high > low
         {
-            let from = signals
-                .effort
-                .iter()
-                .position(|&x| x == extreme)
-                .unwrap_or(0);
+            let from = effort.iter().position(|&x| x == extreme).unwrap_or(0);
             return Err(Fault {
                 channel: "effort",
-                from_s: signals.time_s.get(from).copied().unwrap_or(0.0),
-                to_s: signals.time_s.last().copied().unwrap_or(0.0),
+                from_s: time_s.get(from).copied().unwrap_or(0.0),
+                to_s: time_s.last().copied().unwrap_or(0.0),
                 reason: format!(
                     "{count} samples at exactly {extreme} (SI): the channel is clipped; if the drive itself saturates there, state it as `limit` in the rig"
                 ),
@@ -260,28 +156,6 @@ pub(crate) fn check_clipped(signals: &Signals) -> Result<(), Fault> {
 
 /// Samples at one extreme that may be chance.
 const MOST_CLIPPED: usize = 20;
-
-/// A resistance that gives energy on the whole has a channel with the wrong sign.
-fn check_sign(run: &Run) -> Result<(), Fault> {
-    if run.plant == PlantKind::Axis {
-        return Ok(());
-    }
-    let mean = run.effort.iter().sum::<f64>() / run.len().max(1) as f64;
-    let (mut power, mut size) = (0.0, 0.0);
-    for (now, effort) in run.motion.iter().zip(&run.effort) {
-        power += now.speed * (effort - mean);
-        size += (now.speed * (effort - mean)).abs();
-    }
-    if power < -0.2 * size {
-        return Err(Fault {
-            channel: "effort",
-            from_s: 0.0,
-            to_s: run.duration_s(),
-            reason: "the resistance drives the motion: energy comes out of the brake; one of the two channels has the wrong sign (set `sign = -1`)".to_owned(),
-        });
-    }
-    Ok(())
-}
 
 pub(crate) fn regular_count(time_s: &[f64], step_s: f64) -> usize {
     match (time_s.first(), time_s.last()) {
@@ -455,6 +329,3 @@ pub(crate) fn forget_sense_at_reversals(motion: &mut [Instant]) {
         }
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -1,38 +1,18 @@
 //! This file says which shapes of each mechanism are tried on a recording.
 
-use crate::five_bar;
-use crate::problem::{Cause, PlantRun, Problem, Term, add};
+use crate::cause::Cause;
+use crate::problem::{Problem, Term, add};
 use crate::regression::Fit;
-use crate::run::Run;
 use core::f64::consts::TAU;
 use rayon::prelude::*;
-use rigproof_model::effects::{Form, Instant, LIBRARY};
+use rigproof_model::effects::Instant;
 use rigproof_spec::effect::Mechanism;
 
-/// The causes that have a meaning on this plant, in the library's order.
+/// The causes that have a meaning on this plant: within trials a gain is taken out of every row.
 pub fn causes(problem: &Problem) -> Vec<Cause> {
-    if let PlantRun::FiveBar(run) = problem.plant {
-        return five_bar::candidates::causes(run);
-    }
-    let has_brake = match problem.plant {
-        PlantRun::Joint(run) => run.brake().is_some(),
-        PlantRun::FiveBar(_) => false,
-    };
-    LIBRARY
-        .iter()
-        .filter(|entry| match entry.mechanism {
-            Mechanism::CurrentHysteresis | Mechanism::ReversalOvershoot => has_brake,
-            // Only the five-bar is asked for them: the rules of the other plants were chosen without.
-            Mechanism::Settling | Mechanism::AsymmetricPresliding => false,
-            _ => matches!(entry.form, Form::Resistance(_) | Form::Drive),
-        })
-        .map(|entry| Cause::of(entry.mechanism))
-        .filter(|cause| {
-            // A gain can only be wrong against something that is known.
-            let is_known = problem.known.iter().any(|e| *e != 0.0);
-            cause.mechanism != Mechanism::GainError || is_known && !problem.is_within_trials()
-        })
-        .collect()
+    let mut causes = problem.run.causes();
+    causes.retain(|cause| cause.mechanism != Mechanism::GainError || !problem.is_within_trials());
+    causes
 }
 
 /// The variants of a cause that are tried beside the terms of `fitted`: one term a shape.
@@ -69,8 +49,8 @@ pub fn realise(
     onset_s: Option<f64>,
     effort: &[f64],
 ) -> Option<Term> {
-    // What takes the whole linkage to be moved anew is worth keeping: other rounds of the search ask for the same shapes.
-    if cause.moves_linkage() && onset_s.is_none() {
+    // What takes the whole plant to be moved anew is worth keeping: other rounds of the search ask for the same shapes.
+    if problem.run.moves(cause) && onset_s.is_none() {
         return problem.kept_term(cause, shape);
     }
     problem
@@ -81,12 +61,12 @@ pub fn realise(
 /// The effort that the known part and the fitted terms give together, sample by sample; a change of the drive
 /// among them is left out, because it acts on what the others give. Empty where no change of the drive needs it.
 pub fn modelled_effort(problem: &Problem, terms: &[&Term], fitted: &Fit) -> Vec<f64> {
-    if !problem.plant.is_linearised() {
+    if !problem.run.is_linearised() {
         return Vec::new();
     }
     let mut effort = problem.known.clone();
     let mut coefficients = fitted.coefficients.iter().copied();
-    if let Some(column) = &problem.inertia_column {
+    for column in &problem.nuisances {
         add(
             &mut effort,
             &column.signal,
@@ -108,48 +88,13 @@ pub fn modelled_effort(problem: &Problem, terms: &[&Term], fitted: &Fit) -> Vec<
 }
 
 fn shapes(problem: &Problem, cause: Cause, residual: &[f64]) -> Vec<Vec<f64>> {
-    match problem.plant {
-        PlantRun::Joint(run) => {
-            let periods = || periods(&points(problem, run, residual), run.travel());
-            joint_shapes(run, cause.mechanism, periods)
-        }
-        PlantRun::FiveBar(run) => five_bar::candidates::shapes(problem, run, cause, residual),
-    }
-}
-
-fn joint_shapes(run: &Run, mechanism: Mechanism, periods: impl Fn() -> Vec<f64>) -> Vec<Vec<f64>> {
-    let travel = run.travel().max(1e-12);
-    let one = |values: Vec<f64>| values.into_iter().map(|v| vec![v]).collect();
-    match mechanism {
-        Mechanism::Stribeck => stribeck_shapes(run.speed_floor, fastest(&run.motion)),
-        Mechanism::Presliding | Mechanism::AsymmetricPresliding => one(geometric(
-            (3.0 * run.position_noise).max(1e-4 * travel),
-            0.2 * travel,
-            12,
-        )),
-        Mechanism::Hysteresis => geometric(0.2 / travel, 40.0 / travel, 8)
-            .into_iter()
-            .flat_map(|gamma| [-1.4, -0.5, 0.5, 1.4].map(|ratio| vec![gamma, gamma * ratio]))
-            .collect(),
-        Mechanism::Ripple => one(periods()),
-        Mechanism::Lag => one(geometric(0.5 * run.step_s, 0.25, 14)),
-        Mechanism::ReversalOvershoot => one(geometric(0.01, 1.5, 6)),
-        Mechanism::CurrentHysteresis => one(geometric(0.01, 0.5, 7)),
-        Mechanism::ChannelSkew => {
-            let sizes = geometric(0.5 * run.step_s, 0.08f64.max(4.0 * run.step_s), 12);
-            one(sizes.iter().flat_map(|&s| [s, -s]).collect())
-        }
-        _ => vec![vec![]],
-    }
+    problem.run.shapes(cause, &problem.windows, residual)
 }
 
 /// The range that each shape parameter of a mechanism may take: that of the shapes tried, for a period all of them.
 pub fn shape_bounds(problem: &Problem, cause: Cause) -> Vec<(f64, f64)> {
     if cause.mechanism == Mechanism::Ripple {
-        let travel = match problem.plant {
-            PlantRun::Joint(run) => run.travel(),
-            PlantRun::FiveBar(run) => five_bar::candidates::travel(run, cause),
-        };
+        let travel = problem.run.travel(cause.at);
         let travel = travel.max(1e-12);
         return vec![(travel / MOST_CYCLES, travel)];
     }
@@ -163,8 +108,8 @@ pub fn shape_bounds(problem: &Problem, cause: Cause) -> Vec<(f64, f64)> {
             })
         })
         .collect();
-    if let (PlantRun::FiveBar(run), Some(first)) = (problem.plant, bounds.first_mut()) {
-        *first = five_bar::candidates::reach(run, cause).unwrap_or(*first);
+    if let Some(first) = bounds.first_mut() {
+        *first = problem.run.reach(cause).unwrap_or(*first);
     }
     bounds
 }
@@ -225,19 +170,6 @@ const SPACING: f64 = 0.35;
 /// Peaks of the residual's spectrum over position that are tried.
 const PEAKS: usize = 4;
 
-/// Position and residual of each usable window.
-fn points(problem: &Problem, run: &Run, residual: &[f64]) -> Vec<(f64, f64)> {
-    problem
-        .windows
-        .centres
-        .iter()
-        .zip(residual)
-        .zip(&problem.windows.usable)
-        .filter(|(_, usable)| **usable)
-        .filter_map(|((&centre, &r), _)| run.motion.get(centre).map(|now| (now.position, r)))
-        .collect()
-}
-
 /// The periods at the highest peaks of the spectrum of values over their positions.
 pub fn periods(points: &[(f64, f64)], travel: f64) -> Vec<f64> {
     let travel = travel.max(1e-12);
@@ -272,25 +204,6 @@ fn power(points: &[(f64, f64)], wave_number: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    use crate::problem::Inertia;
-    use crate::recorded::exact_bench;
-    use crate::weak::Windows;
-
-    #[test]
-    fn the_period_of_a_ripple_is_among_those_tried() {
-        let run = exact_bench(&[(Mechanism::Viscous, &[2.3])], 11_000);
-        let problem = Problem::new(&run, Windows::new(&run, 0.017), Inertia::None);
-        let period = run.travel() / 23.7;
-        let residual: Vec<f64> = problem
-            .windows
-            .centres
-            .iter()
-            .map(|c| 0.4 * libm::sin(TAU * run.motion[*c].position / period + 0.9))
-            .collect();
-        let best = periods(&points(&problem, &run, &residual), run.travel())[0];
-        assert!((best / period - 1.0).abs() < 0.02, "{best} {period}");
-    }
 
     #[test]
     fn a_geometric_grid_meets_both_ends_in_equal_ratios() {

@@ -5,7 +5,8 @@ mod intervals;
 mod rivals;
 
 use crate::candidates::{causes, modelled_effort, realise, variants};
-use crate::problem::{Cause, Problem, Term};
+use crate::cause::Cause;
+use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, dot, fit, free_columns, norm};
 use crate::report::{NotSeen, NullDirection};
 use crate::select::{Found, Gates, Selection, refs};
@@ -14,8 +15,7 @@ use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 use rayon::prelude::*;
 use rigproof_model::effects::entry;
-use rigproof_spec::effect::{Mechanism, Motion};
-use rigproof_spec::joint::Joint;
+use rigproof_spec::effect::Mechanism;
 use std::collections::BTreeMap;
 
 pub use constancy::{inconstant, is_told_by_itself};
@@ -29,9 +29,18 @@ fn parameter_count(term: &Term) -> usize {
     entry(term.cause.mechanism).map_or(0, |e| e.linear) + term.shape.len()
 }
 
-/// The whitened change of the modelled effort with one parameter.
+/// A number of a fit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Number {
+    /// One of the plant's own.
+    Nuisance(usize),
+    /// A parameter of a term, both by their places.
+    Of(usize, usize),
+}
+
+/// The whitened change of the modelled effort with one number.
 struct Sensitivity {
-    place: Option<(usize, usize)>,
+    number: Number,
     values: Vec<f64>,
 }
 
@@ -40,11 +49,11 @@ fn sensitivities(problem: &Problem, terms: &[&Term], selection: &Selection) -> V
     let mut columns = Vec::new();
     let mut redundant = fitted.redundant.iter();
     let mut coefficients = fitted.coefficients.iter().copied();
-    if let Some(column) = &problem.inertia_column {
+    for (index, column) in problem.nuisances.iter().enumerate() {
         coefficients.next();
         if redundant.next() == Some(&false) {
             columns.push(Sensitivity {
-                place: None,
+                number: Number::Nuisance(index),
                 values: column.white.clone(),
             });
         }
@@ -56,7 +65,7 @@ fn sensitivities(problem: &Problem, terms: &[&Term], selection: &Selection) -> V
                 own.push(coefficients.next().unwrap_or(0.0));
                 if redundant.next() == Some(&false) {
                     columns.push(Sensitivity {
-                        place: Some((index, parameter)),
+                        number: Number::Of(index, parameter),
                         values: rows.white.clone(),
                     });
                 }
@@ -80,8 +89,8 @@ fn shape_sensitivities(
     let Some(term) = terms.get(index) else {
         return Vec::new();
     };
-    // The shape of what moves the linkage is where its columns are taken, no number of its own.
-    if term.cause.moves_linkage() {
+    // The shape of what moves the plant is where its columns are taken, no number of its own.
+    if problem.run.moves(term.cause) {
         return Vec::new();
     }
     let linear = entry(term.cause.mechanism).map_or(0, |e| e.linear);
@@ -112,7 +121,7 @@ fn shape_sensitivities(
                 .map(|(a, b)| (a - b) / (2.0 * step))
                 .collect();
             Some(Sensitivity {
-                place: Some((index, linear + k)),
+                number: Number::Of(index, linear + k),
                 values,
             })
         })
@@ -155,12 +164,8 @@ pub fn inclusion(problem: &Problem, selection: &Selection, index: usize, gates: 
 const POWER_Z: f64 = 0.84;
 
 /// The least size of every mechanism that was not named.
-pub fn not_seen(
-    problem: &Problem,
-    selection: &Selection,
-    gates: Gates,
-    motion: Motion,
-) -> Vec<NotSeen> {
+pub fn not_seen(problem: &Problem, selection: &Selection, gates: Gates) -> Vec<NotSeen> {
+    let motion = problem.run.motion_kind();
     let terms = refs(&selection.nominal, &selection.found);
     let taken: Vec<Cause> = terms.iter().map(|t| t.cause).collect();
     let basis: Vec<&[f64]> = free_columns(problem, &terms)
@@ -178,7 +183,7 @@ pub fn not_seen(
             let parameter = cause.mechanism.parameters().first()?;
             minimum.is_finite().then(|| NotSeen {
                 mechanism: cause.mechanism.name(),
-                joint: cause.joint.map(Joint::letter),
+                joint: problem.run.place_name(cause.at),
                 parameter: parameter.name,
                 minimum_detectable: minimum,
                 unit: parameter.quantity.dimension(motion).to_string(),
@@ -235,16 +240,20 @@ const NULL_RATIO: f64 = 1e-9;
 /// of the two products that the equation holds.
 pub fn null_directions(problem: &Problem, selection: &Selection) -> Vec<NullDirection> {
     let terms = refs(&selection.nominal, &selection.found);
+    let is_told = |term: &&Term| term.cause.mechanism == Mechanism::Hysteresis;
+    if !terms.iter().any(is_told) {
+        return Vec::new();
+    }
     let columns = sensitivities(problem, &terms, selection);
     terms
         .iter()
         .enumerate()
-        .filter(|(_, t)| t.cause.mechanism == Mechanism::Hysteresis)
+        .filter(|(_, t)| is_told(t))
         .filter_map(|(index, term)| {
             let product = |parameter: usize| {
                 let column = columns
                     .iter()
-                    .find(|c| c.place == Some((index, parameter)))?;
+                    .find(|c| c.number == Number::Of(index, parameter))?;
                 let value = term.shape.get(parameter - 1)?;
                 Some(
                     column
@@ -293,29 +302,17 @@ fn smallest_direction(names: &[&str], columns: &[Vec<f64>]) -> Option<NullDirect
 }
 
 /// The parameters of a term in the vocabulary's order: linear ones from the fit, then the shape.
-pub fn parameters(term: &Term, coefficients: &[f64]) -> Vec<f64> {
-    let linear = term.known.clone().unwrap_or_else(|| coefficients.to_vec());
-    let linear = match term.cause.mechanism {
-        // The column is the known effort: y = e + c·e, so that the applied gain is 1/(1 + c) of the stated one.
-        Mechanism::GainError if term.cause.joint.is_none() => {
-            linear.iter().map(|c| -c / (1.0 + c)).collect()
-        }
-        Mechanism::ForceGain => linear.iter().map(|c| c / (1.0 - c)).collect(),
-        _ => linear,
-    };
-    linear
-        .into_iter()
-        .chain(term.shape.iter().copied())
-        .collect()
+pub fn parameters(problem: &Problem, term: &Term, coefficients: &[f64]) -> Vec<f64> {
+    let given = term.known.as_deref().unwrap_or(coefficients);
+    let mut parameters = problem.run.linear(term.cause.mechanism, given);
+    parameters.extend_from_slice(&term.shape);
+    parameters
 }
 
-/// The coefficients of each term of a selection, in order.
-pub fn coefficients_by_term(
-    problem: &Problem,
-    selection: &Selection,
-) -> (Option<f64>, Vec<Vec<f64>>) {
+/// The coefficients of the plant's own numbers, and those of each term of a selection, in order.
+pub fn coefficients_by_term(problem: &Problem, selection: &Selection) -> (Vec<f64>, Vec<Vec<f64>>) {
     let mut values = selection.after.coefficients.iter().copied();
-    let inertia = problem.inertia_column.as_ref().and_then(|_| values.next());
+    let nuisances = values.by_ref().take(problem.nuisances.len()).collect();
     let terms = refs(&selection.nominal, &selection.found);
     let by_term = terms
         .iter()
@@ -327,7 +324,7 @@ pub fn coefficients_by_term(
             }
         })
         .collect();
-    (inertia, by_term)
+    (nuisances, by_term)
 }
 
 #[cfg(test)]

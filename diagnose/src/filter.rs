@@ -129,6 +129,12 @@ pub fn gradient(signal: &[f64], step_s: f64) -> Vec<f64> {
         .collect()
 }
 
+/// Root mean square; 0 for an empty slice.
+pub fn rms(values: &[f64]) -> f64 {
+    let sum: f64 = values.iter().map(|x| x * x).sum();
+    (sum / values.len().max(1) as f64).sqrt()
+}
+
 /// Keeps every `factor`-th sample after the Chebyshev anti-alias filter of the published protocols
 /// (order 8, 0.05 dB, 0.8 of the new Nyquist rate, zero phase).
 pub fn decimate(signal: &[f64], factor: usize) -> Vec<f64> {

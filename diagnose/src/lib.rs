@@ -49,7 +49,7 @@
 //!     channels: vec![channel("x", "m", position), channel("f", "N", force)],
 //! };
 //! let recording = rig.apply(&trace, Path::new("run.csv"))?;
-//! let report = diagnose(&rig, &recording, None, &Options::default()).report;
+//! let report = diagnose(&rig, &[&recording], None, &Options::default()).report;
 //! assert_eq!(report.effects[0].mechanism, "viscous");
 //! let coefficient = report.effects[0].parameters["coefficient"].value;
 //! assert!((coefficient - 3.0).abs() < 0.03, "{coefficient} N·s/m");
@@ -64,35 +64,29 @@
 
 pub mod align;
 mod candidates;
+pub mod cause;
 mod diagnose;
 mod doubt;
 mod evidence;
 mod explain;
 mod filter;
-pub mod five_bar;
-pub mod free_run;
-pub mod from_rig;
 pub mod identify;
-pub mod inverse;
 mod locate;
+pub mod plant;
+pub mod plants;
 mod problem;
-#[cfg(test)]
-mod recorded;
-mod refit;
 mod regression;
-mod replica;
 pub mod report;
-pub mod run;
 mod scatter;
 mod select;
 pub mod self_calibration;
 mod sensor;
-pub mod simulate;
+mod signals;
 mod student;
 mod unknown;
 mod weak;
 mod whiten;
-mod write_rig;
 
-pub use diagnose::{Curves, Description, Diagnosis, FittedCurves, Measured, Options, diagnose};
+pub use diagnose::{Curves, Diagnosis, FittedCurves, Options, diagnose};
+pub use plants::{Description, Measured};
 pub use select::Gates;

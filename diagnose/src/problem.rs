@@ -1,29 +1,18 @@
 //! This file is the regression problem of one recording: what the nominal model leaves over, window by window,
 //! and the columns that a cause could explain it with.
 
-mod cause;
-mod inertia;
-mod joint;
-mod signals;
 mod within;
 
-use crate::five_bar;
-use crate::five_bar::run::FiveBarRun;
-use crate::run::{PlantKind, Run, rms};
+use crate::cause::Cause;
+use crate::filter::rms;
+use crate::plant::{Columns, Rules, Run};
 use crate::scatter::Trials;
 use crate::weak::Windows;
-use crate::whiten::{ORDER, Whitener};
+use crate::whiten::Whitener;
 use rayon::prelude::*;
 use rigproof_model::effects::entry;
-use rigproof_spec::effect::Mechanism;
-use signals::second_difference;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError, RwLock};
-
-pub use cause::Cause;
-pub use inertia::Inertia;
-pub use joint::{is_of_brake, of_brake, unit_parameters};
-pub use signals::{USUAL_SHARE, lagged_yield, numerov, shifted, through_play};
 
 /// One column of the regression over all windows.
 #[derive(Clone, Debug)]
@@ -66,81 +55,12 @@ pub struct NominalEffect {
     pub onset_s: Option<f64>,
 }
 
-/// The recording that a problem is about.
-#[derive(Clone, Copy)]
-pub enum PlantRun<'a> {
-    /// A plant of one joint.
-    Joint(&'a Run),
-    /// The five-bar.
-    FiveBar(&'a FiveBarRun),
-}
-
-impl PlantRun<'_> {
-    /// Time of the first sample, s.
-    pub fn start_s(self) -> f64 {
-        match self {
-            PlantRun::Joint(run) => run.start_s,
-            PlantRun::FiveBar(run) => run.start_s,
-        }
-    }
-
-    /// The length of the recording, s.
-    pub fn duration_s(self) -> f64 {
-        match self {
-            PlantRun::Joint(run) => run.duration_s(),
-            PlantRun::FiveBar(run) => run.duration_s(),
-        }
-    }
-
-    /// Whether a change of the drive depends on what the other terms give; it does not where brakes run again.
-    pub fn is_linearised(self) -> bool {
-        matches!(self, PlantRun::Joint(_))
-    }
-
-    /// Share of an effect's gain below which nothing counts as explaining as much, however the blocks scatter. An effect of the
-    /// five-bar often lives in few blocks; the rules of the other plants were chosen without such a share.
-    pub fn least_rival_share(self) -> f64 {
-        match self {
-            PlantRun::Joint(_) => f64::NEG_INFINITY,
-            PlantRun::FiveBar(_) => 0.5,
-        }
-    }
-
-    /// Multiple of the unexplained energy (beyond the floor) that a mechanism must explain by itself to be named. On the five-bar, one of two
-    /// cogging periods alone comes to 1.7, and laws of another family than the one that is there to 4 and more.
-    pub fn own_to_unexplained(self) -> f64 {
-        match self {
-            PlantRun::Joint(_) => 1.0,
-            PlantRun::FiveBar(_) => 2.5,
-        }
-    }
-
-    /// Whether terms that are kept hold their samples; the five-bar has too many of both.
-    fn keeps_signals(self) -> bool {
-        matches!(self, PlantRun::Joint(_))
-    }
-
-    /// The driving effort, sample by sample, one output after another.
-    fn effort(self) -> Vec<f64> {
-        match self {
-            PlantRun::Joint(run) => run.effort.clone(),
-            PlantRun::FiveBar(run) => run.driving_effort(),
-        }
-    }
-
-    /// The first sample at or after a time, s.
-    fn sample_at(self, time_s: f64) -> usize {
-        match self {
-            PlantRun::Joint(run) => run.sample_at(time_s),
-            PlantRun::FiveBar(run) => run.sample_at(time_s),
-        }
-    }
-}
-
 /// The regression problem of one recording.
 pub struct Problem<'a> {
     /// The recording.
-    pub plant: PlantRun<'a>,
+    pub run: &'a dyn Run,
+    /// The rules by which its names are judged.
+    pub rules: &'static Rules,
     /// The windows.
     pub windows: Windows,
     /// The noise model.
@@ -149,10 +69,8 @@ pub struct Problem<'a> {
     pub target: Rows,
     /// The effort that the nominal model knows, sample by sample: known inertia, predicted effort.
     pub known: Vec<f64>,
-    /// The averaged acceleration, when the inertia is to be estimated.
-    pub inertia_column: Option<Rows>,
-    /// The inertia.
-    pub inertia: Inertia,
+    /// The columns of the plant's own unknown numbers, such as an inertia that is to be estimated.
+    pub nuisances: Vec<Rows>,
     /// Predicted standard deviation of one residual from sensor noise alone.
     pub floor: f64,
     /// Root mean square of the averaged driving effort: what a contribution is compared with.
@@ -161,97 +79,40 @@ pub struct Problem<'a> {
     trials: Option<Trials>,
     /// Terms from the start of the recording that are asked for again and again.
     kept: RwLock<Vec<Term>>,
-    /// The signals that each thread asked for last: several onsets are tried of the same ones.
+    /// The columns that each thread asked for last: several onsets are tried of the same ones.
     recent: Mutex<HashMap<Option<usize>, Recent>>,
 }
 
 /// A cause, a shape, and what they give.
-type Recent = (Cause, Vec<f64>, Arc<Vec<Vec<f64>>>);
+type Recent = (Cause, Vec<f64>, Arc<Columns>);
 
 impl<'a> Problem<'a> {
-    /// Sets up the problem of a plant of one joint with a white noise model; `rewhiten` refines it.
-    pub fn new(run: &'a Run, windows: Windows, inertia: Inertia) -> Problem<'a> {
-        let start = inertia.start();
-        let floor = windows.floor(run, start);
-        let mut windows = windows;
-        if run.plant == PlantKind::Axis {
-            windows.avoid_rests(run, floor);
-        }
-        if let (Some((predicted, _)), Some(doubt)) = (run.brake(), run.brake_doubt()) {
-            windows.keep_foreseen(predicted, &doubt, floor);
-        }
-        let acceleration = second_difference(&run.position, run.step_s);
-        let mut known = run
-            .predicted
-            .clone()
-            .unwrap_or_else(|| vec![0.0; run.len()]);
-        if let Inertia::Known(value) = inertia {
-            add(&mut known, &acceleration, value);
-        }
-        let target = less(&joint::acting_effort(run, &run.effort), &known);
-        let covariance = windows.noise_covariance(run, start, 0.0, ORDER + 1);
-        let whitener = Whitener::new(&covariance, &windows.usable);
-        let inertia_column = match inertia {
-            Inertia::Unknown(_) => Some(rows(&windows, acceleration)),
-            _ => None,
-        };
-        let mut problem = Problem::with(
-            PlantRun::Joint(run),
-            windows,
-            whitener,
-            (target, known),
-            floor,
-        );
-        problem.inertia = inertia;
-        problem.inertia_column = inertia_column;
-        problem.whiten_own();
-        problem
-    }
-
-    /// Sets up the problem of a five-bar in the rows in which what its brakes do is known.
-    pub fn of_five_bar(run: &'a FiveBarRun, mut windows: Windows) -> Problem<'a> {
-        five_bar::noise::keep_told(run, &mut windows);
-        Problem::over_windows(run, windows)
-    }
-
-    /// Sets up the problem of a five-bar in the usable rows of some windows.
-    pub fn over_windows(run: &'a FiveBarRun, windows: Windows) -> Problem<'a> {
-        let floor = five_bar::noise::floor(run, &windows);
-        let whitener = five_bar::noise::whitener(run, &windows, 0.0);
-        let known = five_bar::columns::known(run);
-        let target = less(&five_bar::columns::driving(run, run.forces()), &known);
-        let mut problem = Problem::with(
-            PlantRun::FiveBar(run),
-            windows,
-            whitener,
-            (target, known),
-            floor,
-        );
-        problem.whiten_own();
-        problem
-    }
-
-    fn with(
-        plant: PlantRun<'a>,
-        windows: Windows,
-        whitener: Whitener,
-        (target, known): (Vec<f64>, Vec<f64>),
-        floor: f64,
-    ) -> Problem<'a> {
-        Problem {
-            plant,
-            whitener,
-            target: rows(&windows, target),
+    /// Sets up the problem in the usable rows of some windows, with white effort beyond the sensors' noise left aside; `rewhiten` refines that.
+    pub fn new(run: &'a dyn Run, windows: Windows) -> Problem<'a> {
+        let known = run.known();
+        let target = rows(&windows, less(&run.driving(), &known));
+        let nuisances = run.nuisances().into_iter();
+        let mut problem = Problem {
+            run,
+            rules: run.rules(),
+            whitener: run.whitener(&windows, 0.0),
+            target,
             known,
-            inertia_column: None,
-            inertia: Inertia::None,
-            floor,
-            effort_size: rms(&windows.average(&plant.effort())),
+            nuisances: nuisances.map(|signal| rows(&windows, signal)).collect(),
+            floor: run.floor(&windows),
+            effort_size: rms(&windows.average(&run.effort())),
             windows,
             trials: None,
             kept: RwLock::default(),
             recent: Mutex::default(),
-        }
+        };
+        problem.whiten_own();
+        problem
+    }
+
+    /// The name of a cause in reports.
+    pub fn name(&self, cause: Cause) -> String {
+        self.run.cause_name(cause)
     }
 
     /// Refines the noise model: what these residuals have beyond the floor counts as unexplained white effort.
@@ -259,16 +120,7 @@ impl<'a> Problem<'a> {
     /// `rms` is the root mean square of the residuals over the usable windows.
     pub fn rewhiten(&mut self, rms: f64) {
         let excess = (rms * rms - self.floor * self.floor).max(0.0);
-        let whitener = match self.plant {
-            PlantRun::Joint(run) => {
-                let inertia = self.inertia.start();
-                let covariance = self
-                    .windows
-                    .noise_covariance(run, inertia, excess, ORDER + 1);
-                Whitener::new(&covariance, &self.windows.usable)
-            }
-            PlantRun::FiveBar(run) => five_bar::noise::whitener(run, &self.windows, excess),
-        };
+        let whitener = self.run.whitener(&self.windows, excess);
         self.whiten_with(whitener);
     }
 
@@ -294,77 +146,83 @@ impl<'a> Problem<'a> {
 
     fn whiten_own(&mut self) {
         self.target.white = self.whitener.whiten(&self.target.raw);
-        if let Some(column) = &mut self.inertia_column {
+        for column in &mut self.nuisances {
             column.white = self.whitener.whiten(&column.raw);
         }
     }
 
-    /// The term of a cause whose leading parameters are linear; `None` for one that acts on the drive.
+    /// The term of a cause; `None` for one that acts on what the others give, or that has no meaning here.
     pub fn term(&self, cause: Cause, shape: &[f64], onset_s: Option<f64>) -> Option<Term> {
-        let free = match (self.kept(cause, shape), onset_s) {
+        let kept = match (self.kept(cause, shape), onset_s) {
             (Some(kept), None) => return Some(kept),
-            _ if cause.moves_linkage() => {
-                let signals = self.free_signals(cause, shape)?;
-                let first = onset_s.map_or(0, |onset_s| self.plant.sample_at(onset_s));
-                let (windows, recorded) = (&self.windows, &self.target.signal);
-                five_bar::encoder::rows(windows, recorded, &signals, shape, first)
-                    .into_iter()
-                    .map(|raw| Arc::new(self.rows_of(raw)))
-                    .collect()
-            }
-            (Some(kept), onset_s) if self.plant.keeps_signals() => kept
-                .free
-                .iter()
-                .map(|rows| Arc::new(self.rows(rows.signal.clone(), onset_s)))
-                .collect(),
-            (_, onset_s) => self
-                .free_signals(cause, shape)?
-                .iter()
-                .map(|signal| Arc::new(self.rows(signal.clone(), onset_s)))
-                .collect(),
+            (kept, _) => kept.filter(|_| self.run.is_linearised() && !self.run.moves(cause)),
         };
-        Some(Term {
+        if let Some(kept) = kept {
+            let late = |rows: &Arc<Rows>| Arc::new(self.rows(rows.signal.clone(), onset_s));
+            return Some(Term {
+                onset_s,
+                free: kept.free.iter().map(late).collect(),
+                fixed: kept.fixed.as_ref().map(late),
+                ..kept
+            });
+        }
+        let columns = self.columns(cause, shape)?;
+        Some(self.term_of(cause, shape, onset_s, &columns))
+    }
+
+    fn term_of(
+        &self,
+        cause: Cause,
+        shape: &[f64],
+        onset_s: Option<f64>,
+        columns: &Columns,
+    ) -> Term {
+        let rows = |signal: &Vec<f64>| Arc::new(self.rows(signal.clone(), onset_s));
+        let (free, fixed) = match columns {
+            Columns::Free(signals) => (signals.iter().map(rows).collect(), None),
+            Columns::Fixed(signal) => (Vec::new(), Some(rows(signal))),
+            Columns::Moved(signals) => {
+                let first = onset_s.map_or(0, |onset_s| self.run.clock().sample_at(onset_s));
+                let (windows, recorded) = (&self.windows, &self.target.signal);
+                let moved = self
+                    .run
+                    .moved_rows(windows, recorded, signals, shape, first);
+                let moved = moved.into_iter();
+                (moved.map(|raw| Arc::new(self.rows_of(raw))).collect(), None)
+            }
+        };
+        Term {
             cause,
             shape: shape.to_vec(),
             onset_s,
             free,
-            fixed: None,
+            fixed,
             known: None,
-        })
+        }
     }
 
-    fn free_signals(&self, cause: Cause, shape: &[f64]) -> Option<Arc<Vec<Vec<f64>>>> {
+    fn columns(&self, cause: Cause, shape: &[f64]) -> Option<Arc<Columns>> {
         let recent = || self.recent.lock().unwrap_or_else(PoisonError::into_inner);
         let thread = rayon::current_thread_index();
         let same = |(own, known, _): &&Recent| (*own, &known[..]) == (cause, shape);
-        if let Some((.., signals)) = recent().get(&thread).filter(same) {
-            return Some(signals.clone());
+        if let Some((.., columns)) = recent().get(&thread).filter(same) {
+            return Some(columns.clone());
         }
-        let signals = Arc::new(match self.plant {
-            PlantRun::Joint(run) => joint::resistances(run, cause.mechanism, shape),
-            PlantRun::FiveBar(run) => five_bar::columns::free(run, cause, shape),
-        }?);
-        recent().insert(thread, (cause, shape.to_vec(), signals.clone()));
-        Some(signals)
+        let columns = Arc::new(self.run.columns(cause, shape, None)?);
+        recent().insert(thread, (cause, shape.to_vec(), columns.clone()));
+        Some(columns)
     }
 
-    /// The shape of a term that moves the linkage whose columns are taken over the whole change that its coefficients say.
+    /// The shape of a term that moves the plant whose columns are taken over the whole change that its coefficients say.
     pub fn shape_over(&self, term: &Term, coefficients: &[f64]) -> Option<Vec<f64>> {
-        let PlantRun::FiveBar(run) = self.plant else {
-            return None;
-        };
-        let encoder = five_bar::encoder::Encoder::of(run, term.cause, &term.shape)?;
-        encoder.over(coefficients)
+        self.run.shape_over(term.cause, &term.shape, coefficients)
     }
 
     /// The term of a cause that acts from the start, kept for the next time: for shapes that are tried in every
     /// step of the search. `None` for one that has to be linearised about the other terms.
     pub fn kept_term(&self, cause: Cause, shape: &[f64]) -> Option<Term> {
         self.kept(cause, shape).or_else(|| {
-            let mut term = self.term(cause, shape, None).or_else(|| match self.plant {
-                PlantRun::Joint(_) => None,
-                PlantRun::FiveBar(_) => self.drive_term(cause, shape, None, &[]),
-            })?;
+            let mut term = self.term(cause, shape, None)?;
             self.lighten(&mut term);
             let mut kept = self.kept.write().unwrap_or_else(PoisonError::into_inner);
             kept.push(term.clone());
@@ -372,9 +230,9 @@ impl<'a> Problem<'a> {
         })
     }
 
-    /// Lets go of a term's samples where there are too many terms to hold them.
+    /// Lets go of a term's samples where nothing is linearised about them: there may be too many to hold.
     pub fn lighten(&self, term: &mut Term) {
-        if !self.plant.keeps_signals() {
+        if !self.run.is_linearised() {
             for rows in term.free.iter_mut().chain(&mut term.fixed) {
                 Arc::make_mut(rows).signal = Vec::new();
             }
@@ -387,7 +245,7 @@ impl<'a> Problem<'a> {
         kept.iter().find(same).cloned()
     }
 
-    /// The term of a change of the drive, linearised about `fitted`: the effort, sample by sample, that the model
+    /// The term of a change of the drive, linearised about `beside`: the effort, sample by sample, that the model
     /// gives with the other terms. `None` where the cause has no meaning on this plant.
     ///
     /// The recorded effort stays the target and the model's side is changed, because a change of the target
@@ -397,41 +255,22 @@ impl<'a> Problem<'a> {
         cause: Cause,
         shape: &[f64],
         onset_s: Option<f64>,
-        fitted: &[f64],
+        beside: &[f64],
     ) -> Option<Term> {
-        let (free, fixed) = match self.plant {
-            PlantRun::Joint(run) => joint::drive(self, run, cause.mechanism, shape, fitted)?,
-            PlantRun::FiveBar(run) => (None, Some(five_bar::columns::fixed(run, cause, shape)?)),
-        };
-        Some(Term {
-            cause,
-            shape: shape.to_vec(),
-            onset_s,
-            free: free
-                .map(|signal| Arc::new(self.rows(signal, onset_s)))
-                .into_iter()
-                .collect(),
-            fixed: fixed.map(|signal| Arc::new(self.rows(signal, onset_s))),
-            known: None,
-        })
+        let columns = self.run.columns(cause, shape, Some(beside))?;
+        Some(self.term_of(cause, shape, onset_s, &columns))
     }
 
-    /// A term of the nominal model: its columns where unknown, else its value as a fixed column. An encoder's slope is over its value.
+    /// A term of the nominal model: its columns where unknown, else its value as a fixed column. What moves the plant has its slope over its value.
     pub fn nominal_term(&self, effect: &NominalEffect) -> Option<Term> {
         let linear = entry(effect.cause.mechanism)?.linear;
-        let first = match effect.cause.mechanism {
-            Mechanism::EncoderScale | Mechanism::EncoderOffset => 0,
-            _ => linear,
+        let first = if self.run.moves(effect.cause) {
+            0
+        } else {
+            linear
         };
         let shape = effect.parameters.get(first..).unwrap_or_default();
-        let mut term =
-            self.term(effect.cause, shape, effect.onset_s)
-                .or_else(|| match self.plant {
-                    PlantRun::Joint(_) => None,
-                    PlantRun::FiveBar(_) => {
-                        self.drive_term(effect.cause, shape, effect.onset_s, &[])
-                    }
-                })?;
+        let mut term = self.term(effect.cause, shape, effect.onset_s)?;
         if !effect.unknown {
             term.known = Some(effect.parameters.iter().take(linear).copied().collect());
         }
@@ -448,7 +287,9 @@ impl<'a> Problem<'a> {
 
     fn rows(&self, mut signal: Vec<f64>, onset_s: Option<f64>) -> Rows {
         if let Some(onset_s) = onset_s {
-            signal = self.windows.since(&signal, self.plant.sample_at(onset_s));
+            signal = self
+                .windows
+                .since(&signal, self.run.clock().sample_at(onset_s));
         }
         let mut rows = rows(&self.windows, signal);
         self.take_out_trials(&mut rows.raw);

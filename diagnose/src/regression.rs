@@ -23,7 +23,7 @@ impl Blocks {
     pub fn new(problem: &Problem) -> Blocks {
         let outputs = problem.windows.outputs;
         let windows = problem.windows.centres.len() / outputs;
-        let count = ((problem.plant.duration_s() / BLOCK_S) as usize).clamp(FEWEST, MOST);
+        let count = ((problem.run.clock().duration_s() / BLOCK_S) as usize).clamp(FEWEST, MOST);
         let purge = PURGE.min(windows / (4 * count));
         let ranges = (0..count)
             .map(|b| (b * windows / count, (b + 1) * windows / count - purge))
@@ -152,7 +152,7 @@ pub fn free_columns<'b>(problem: &'b Problem, terms: &[&'b Term]) -> Vec<&'b Row
         .iter()
         .filter(|t| t.known.is_none())
         .flat_map(|t| t.free.iter().map(Arc::as_ref));
-    problem.inertia_column.iter().chain(of_terms).collect()
+    problem.nuisances.iter().chain(of_terms).collect()
 }
 
 /// The target less the columns that enter with a given coefficient, window by window.
@@ -357,9 +357,10 @@ pub fn norm(a: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
-    use crate::problem::{Cause, Inertia, Problem, Term};
-    use crate::recorded::{Noise, exact_bench};
-    use crate::weak::Windows;
+    use crate::cause::Cause;
+    use crate::plant::Run;
+    use crate::plants::joint::recorded::{Noise, exact_bench};
+    use crate::problem::{Problem, Term};
     use rigproof_spec::effect::Mechanism;
 
     fn rows(white: Vec<f64>) -> Rows {
@@ -378,7 +379,7 @@ mod tests {
     #[test]
     fn no_sample_reaches_into_two_blocks() {
         let run = exact_bench(&[(Mechanism::Viscous, &[2.3])], 11_000);
-        let problem = Problem::new(&run, Windows::new(&run, 0.043), Inertia::None);
+        let problem = Problem::new(&run, run.windows_of(0.043));
         let blocks = Blocks::new(&problem);
         assert_eq!(blocks.ranges.len(), 9);
         let centres = &problem.windows.centres;
@@ -420,7 +421,7 @@ mod tests {
     #[test]
     fn the_best_variant_is_chosen_without_the_block_it_is_judged_on() {
         let run = exact_bench(&[(Mechanism::Viscous, &[2.3])], 11_000);
-        let mut problem = Problem::new(&run, Windows::new(&run, 0.043), Inertia::None);
+        let mut problem = Problem::new(&run, run.windows_of(0.043));
         let count = problem.windows.centres.len();
         let blocks = Blocks::new(&problem);
         let (one, other) = (noise(count, 11), noise(count, 12));

@@ -1,10 +1,11 @@
 //! This file tells apart what differs from trial to trial of a brake: the law is the same, but there is more or less of it each time.
 
 use crate::candidates::modelled_effort;
+use crate::filter::rms;
+use crate::plant::Run;
 use crate::problem::{Problem, Term, less};
 use crate::regression::Fit;
 use crate::report::Unknown;
-use crate::run::{Run, rms};
 use crate::weak::Windows;
 
 /// Change of the current between two samples with which a trial begins, A.
@@ -41,16 +42,17 @@ pub struct Scatter {
 
 impl Trials {
     /// The trials of a run; `None` where there is no brake or not enough is seen of enough of them.
-    pub fn of(run: &Run, windows: &Windows) -> Option<Trials> {
+    pub fn of(run: &dyn Run, windows: &Windows) -> Option<Trials> {
         let (predicted, current) = run.brake()?;
-        let mut start_s = vec![run.start_s];
+        let clock = run.clock();
+        let mut start_s = vec![clock.start_s];
         let mut jumps = vec![0];
         for (k, pair) in current.windows(2).enumerate() {
             if let [before, after] = pair
                 && (after - before).abs() > JUMP_A
             {
                 jumps.push(k + 1);
-                start_s.push(run.start_s + (k + 1) as f64 * run.step_s);
+                start_s.push(clock.start_s + (k + 1) as f64 * clock.step_s);
             }
         }
         let trial = |centre: &usize| jumps.partition_point(|jump| jump <= centre) - 1;
@@ -138,7 +140,9 @@ impl Scatter {
 }
 
 /// What a fit leaves over of the effort, row by row, with the gains of the trials still in it.
-pub fn left_over(problem: &Problem, run: &Run, terms: &[&Term], fitted: &Fit) -> Vec<f64> {
+pub fn left_over(problem: &Problem, terms: &[&Term], fitted: &Fit) -> Vec<f64> {
     let modelled = modelled_effort(problem, terms, fitted);
-    problem.windows.average(&less(&run.effort, &modelled))
+    problem
+        .windows
+        .average(&less(&problem.run.effort(), &modelled))
 }

@@ -12,7 +12,8 @@ mod together;
 mod weigh;
 
 use crate::candidates::{all_variants, causes};
-use crate::problem::{Cause, PlantRun, Problem, Term};
+use crate::cause::Cause;
+use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, Fit, fit};
 use form::take_out_forms;
 use merge::merge;
@@ -99,6 +100,8 @@ pub struct Selection {
 const MOST_FOUND: usize = 8;
 /// The most mechanisms that are taken in, those that go again included.
 const MOST_STAGES: usize = 14;
+/// From how many standard deviations of the sensors' noise on two explanations count as told apart.
+pub(crate) const LEAST_SIGMAS: f64 = 10.0;
 /// z below which two explanations are not told apart.
 pub const TIE_Z: f64 = 2.0;
 /// Residual over floor up to which nothing counts as unexplained.
@@ -118,8 +121,7 @@ pub fn floor_limit(problem: &Problem) -> f64 {
 /// Runs the whole search, and where it leaves more than noise looks for the one mechanism that shows in few places.
 pub fn select(problem: &mut Problem, nominal: Vec<Term>, gates: Gates) -> Selection {
     let first = searched(problem, nominal, gates);
-    let is_five_bar = matches!(problem.plant, PlantRun::FiveBar(_));
-    if !is_five_bar || is_noise(problem, &first.after) {
+    if !problem.rules.by_window || is_noise(problem, &first.after) {
         return first;
     }
     let named = !first.found.is_empty();
@@ -169,8 +171,7 @@ fn searched(problem: &mut Problem, mut nominal: Vec<Term>, gates: Gates) -> Sele
     rewhiten(problem, &residual, &mut nominal, &mut found);
     found = search(problem, &nominal, found, &blocks, gates, &mut stages);
     let mut too_small = Vec::new();
-    // The other plants' rules were chosen without it.
-    if let PlantRun::FiveBar(_) = problem.plant {
+    if problem.rules.by_family {
         too_small = take_out_forms(problem, &nominal, &mut found, &blocks);
         merge(problem, &nominal, &mut found, &blocks);
         onset::centre(problem, &nominal, &mut found);

@@ -1,9 +1,8 @@
 //! This file says how far a diagnosis of one recording can be believed: it is made again on simulated recordings like it whose causes are known.
 
-use crate::diagnose::{Description, Measured, Options};
+use crate::Options;
+use crate::plants::{Description, Measured, Replica};
 use crate::report::{NamedRate, Rate, Report, SelfCalibration};
-use crate::sensor::sensed;
-use crate::{five_bar, replica};
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::SeedableRng;
 use statrs::distribution::{Beta, ContinuousCDF};
@@ -15,16 +14,10 @@ pub struct SelfTest<'a> {
     options: Options,
     whole: bool,
     /// Nothing left out of the model, its numbers fitted.
-    nothing: Exact,
+    nothing: Replica,
     /// What was found left out, and its names; `None` where nothing was found.
-    found: Option<(Exact, BTreeSet<String>)>,
+    found: Option<(Replica, BTreeSet<String>)>,
     runs: usize,
-}
-
-#[expect(clippy::large_enum_variant, reason = "two are ever made")]
-enum Exact {
-    Joint(replica::Replica),
-    FiveBar(five_bar::replica::Replica),
 }
 
 /// The names that one simulated recording got; `None` where its diagnosis ended in a fault or too little motion.
@@ -43,10 +36,10 @@ impl<'a> SelfTest<'a> {
         options: &Options,
     ) -> Result<SelfTest<'a>, String> {
         let names: BTreeSet<String> = names(report);
-        let nothing = exact(rig, &without(calibration, rig), recording)?;
+        let nothing = rig.replica(&rig.without_found(calibration), recording)?;
         let found = match names.is_empty() {
             true => None,
-            false => Some((exact(rig, calibration, recording)?, names)),
+            false => Some((rig.replica(calibration, recording)?, names)),
         };
         Ok(SelfTest {
             rig,
@@ -78,7 +71,8 @@ impl<'a> SelfTest<'a> {
             Some((found, _)) if k >= self.runs => found,
             _ => &self.nothing,
         };
-        let recording = [exact.sensed(k as u64)];
+        let mut random = Pcg64Mcg::seed_from_u64(k as u64);
+        let recording = [exact.recording.sensed(exact.noise, &mut random)];
         let held_out = recording.first().filter(|_| self.whole);
         let diagnosis = self.rig.diagnose(&recording, held_out, &self.options)?;
         let report = diagnosis.report;
@@ -127,15 +121,7 @@ impl<'a> SelfTest<'a> {
     }
 
     fn protocol(&self, diagnosed: usize) -> String {
-        let how = match &self.nothing {
-            Exact::FiveBar(_) => {
-                "the reference rig from the recorded first state, under the recorded currents and force, and led by a hand of 420 N/m and 11 N·s/m along the recorded path of its tip"
-            }
-            Exact::Joint(own) if own.recording.force.is_some() => {
-                "the calibrated plant along the recorded motion"
-            }
-            Exact::Joint(_) => "a free run of the calibrated plant under the recorded command",
-        };
+        let how = self.nothing.how;
         let ended = self.len() - diagnosed;
         let without = match ended {
             0 => String::new(),
@@ -152,66 +138,6 @@ impl<'a> SelfTest<'a> {
             }
         )
     }
-}
-
-impl Exact {
-    /// A recording with fresh noise.
-    fn sensed(&self, seed: u64) -> Measured {
-        let mut random = Pcg64Mcg::seed_from_u64(seed);
-        match self {
-            Exact::Joint(own) => {
-                let mut out = own.recording.clone();
-                out.position = sensed(&out.position, own.position_noise, &mut random);
-                // The current of a bench is a command: it has no noise of its own.
-                let effort = out.force.as_mut().or(out.drive.as_mut());
-                if let Some(effort) = effort {
-                    *effort = sensed(effort, own.effort_noise, &mut random);
-                }
-                Measured::Joint(out)
-            }
-            Exact::FiveBar(own) => {
-                let mut out = own.recording.clone();
-                for signal in &mut out.theta {
-                    *signal = sensed(signal, own.theta_noise, &mut random);
-                }
-                for signal in &mut out.force {
-                    *signal = sensed(signal, own.force_noise, &mut random);
-                }
-                Measured::FiveBar(out)
-            }
-        }
-    }
-}
-
-fn exact(
-    nominal: &Description,
-    model: &Description,
-    recording: &Measured,
-) -> Result<Exact, String> {
-    match (nominal, model, recording) {
-        (Description::Joint(nominal), Description::Joint(model), Measured::Joint(own)) => {
-            replica::replica(nominal, model, own).map(Exact::Joint)
-        }
-        (Description::FiveBar(nominal), Description::FiveBar(model), Measured::FiveBar(own)) => {
-            five_bar::replica::replica(nominal, model, own).map(Exact::FiveBar)
-        }
-        _ => Err("the recording is one of another plant".to_owned()),
-    }
-}
-
-/// The calibration without what was found: found effects follow the nominal ones.
-fn without(calibration: &Description, nominal: &Description) -> Description {
-    let mut out = calibration.clone();
-    match (&mut out, nominal) {
-        (Description::Joint(out), Description::Joint(nominal)) => {
-            out.effects.truncate(nominal.effects.len());
-        }
-        (Description::FiveBar(out), Description::FiveBar(nominal)) => {
-            out.effects.truncate(nominal.effects.len());
-        }
-        _ => {}
-    }
-    out
 }
 
 fn names(report: &Report) -> BTreeSet<String> {

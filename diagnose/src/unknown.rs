@@ -1,10 +1,10 @@
 //! This file draws the shape of what no mechanism of the library explains.
 
+use crate::cause::Place;
 use crate::problem::{Problem, Rows};
 use crate::regression::{Blocks, left_out_loss};
 use crate::report::Unknown;
-use crate::run::Run;
-use rigproof_spec::effect::{Mechanism, Motion, Quantity};
+use rigproof_spec::effect::Mechanism;
 
 /// Knots of a curve.
 const KNOTS: usize = 20;
@@ -15,8 +15,8 @@ const LEAST_SHARE: f64 = 0.02;
 
 /// Screens position, speed, time and effort for the curve that takes away most of the residual, or `None` when no
 /// curve over one of them helps.
-pub fn unknown(problem: &Problem, run: &Run, residual: &[f64], motion: Motion) -> Option<Unknown> {
-    let screened = screen(problem, residual, variables(problem, run, motion));
+pub fn unknown(problem: &Problem, residual: &[f64]) -> Option<Unknown> {
+    let screened = screen(problem, residual, variables(problem));
     let best = screened
         .into_iter()
         .filter(|(_, share)| *share > LEAST_SHARE)
@@ -44,14 +44,8 @@ const SURROGATE_SHARE: f64 = 0.3;
 
 /// The found mechanisms that only stand in for another law: with them in place, a free curve over a variable that
 /// they are functions of, or that their level should not depend on, still takes a good part of the remaining loss away.
-pub fn surrogates(
-    problem: &Problem,
-    run: &Run,
-    residual: &[f64],
-    found: &[Mechanism],
-    motion: Motion,
-) -> Vec<Mechanism> {
-    let related = variables(problem, run, motion)
+pub fn surrogates(problem: &Problem, residual: &[f64], found: &[Mechanism]) -> Vec<Mechanism> {
+    let related = variables(problem)
         .into_iter()
         .filter(|v| found.iter().any(|m| v.concerns(*m)))
         .collect();
@@ -64,16 +58,26 @@ pub fn surrogates(
     found.iter().copied().filter(stands_in).collect()
 }
 
-/// What a free curve can be drawn over.
-struct Variable {
-    name: &'static str,
-    unit: String,
+/// What a free curve can be drawn over; every list has one value a row.
+pub struct Variable {
+    /// `position`, `speed`, `time`, `effort` or `load`.
+    pub name: &'static str,
+    /// Its unit.
+    pub unit: String,
     /// Whether the curve is the level of a friction: its effort is along the motion.
-    level: bool,
-    /// One value a window.
-    values: Vec<f64>,
-    /// The sense of motion of each window.
-    sense: Vec<f64>,
+    pub level: bool,
+    /// Where what the curve describes would act.
+    pub at: Place,
+    /// Its values.
+    pub values: Vec<f64>,
+    /// The sense of motion.
+    pub sense: Vec<f64>,
+    /// What a unit of effort at that place adds to the row.
+    pub share: Vec<f64>,
+}
+
+fn variables(problem: &Problem) -> Vec<Variable> {
+    problem.run.variables(&problem.windows)
 }
 
 impl Variable {
@@ -93,6 +97,12 @@ impl Variable {
         }
     }
 
+    /// What a curve of height 1 adds to each row.
+    fn effect(&self) -> impl Iterator<Item = f64> + Clone {
+        let pairs = self.sense.iter().zip(&self.share);
+        pairs.map(|(sense, share)| if self.level { sense * share } else { *share })
+    }
+
     fn knots(&self, blocks: &Blocks) -> Vec<f64> {
         let count = match self.name {
             "time" => (blocks.ranges.len() / BLOCKS_A_KNOT + 1).min(KNOTS),
@@ -104,47 +114,14 @@ impl Variable {
     /// Piecewise linear hats over equal shares of the windows, along the motion for a level.
     fn columns(&self, problem: &Problem, blocks: &Blocks) -> Vec<Rows> {
         let knots = self.knots(blocks);
-        let rows = self.values.iter().zip(&self.sense);
+        let rows = self.values.iter().zip(self.effect());
         (0..knots.len())
             .map(|k| {
-                let hat = |(v, sense): (&f64, &f64)| {
-                    hat(&knots, k, *v) * if self.level { *sense } else { 1.0 }
-                };
+                let hat = |(v, effect): (&f64, f64)| hat(&knots, k, *v) * effect;
                 problem.rows_of(rows.clone().map(hat).collect())
             })
             .collect()
     }
-}
-
-fn variables(problem: &Problem, run: &Run, motion: Motion) -> Vec<Variable> {
-    let at = |pick: &dyn Fn(&rigproof_model::effects::Instant) -> f64| -> Vec<f64> {
-        let centres = problem.windows.centres.iter();
-        centres
-            .filter_map(|&c| run.motion.get(c))
-            .map(pick)
-            .collect()
-    };
-    let sense = at(&|now| now.sense);
-    let effort = problem.windows.average(&run.effort);
-    let load = effort.iter().zip(&sense).map(|(e, s)| e * s).collect();
-    let variable = |name, quantity: Quantity, level, values| Variable {
-        name,
-        unit: quantity.dimension(motion).to_string(),
-        level,
-        values,
-        sense: sense.clone(),
-    };
-    let position = at(&|now| now.position);
-    let time = at(&|now| now.time_s);
-    vec![
-        variable("position", Quantity::Travel, false, position.clone()),
-        variable("speed", Quantity::Speed, false, at(&|now| now.speed)),
-        variable("time", Quantity::Time, false, time.clone()),
-        variable("effort", Quantity::Effort, false, effort),
-        variable("position", Quantity::Travel, true, position),
-        variable("time", Quantity::Time, true, time),
-        variable("load", Quantity::Effort, true, load),
-    ]
 }
 
 /// Left-out loss of the residual with a set of columns.
@@ -179,18 +156,7 @@ fn hat(knots: &[f64], k: usize, value: f64) -> f64 {
 
 fn describe(problem: &Problem, residual: &[f64], variable: &Variable, share: f64) -> Unknown {
     let knots = variable.knots(&Blocks::new(problem));
-    let along: Vec<f64> = match variable.level {
-        true => residual
-            .iter()
-            .zip(&variable.sense)
-            .map(|(r, s)| r * s)
-            .collect(),
-        false => residual.to_vec(),
-    };
-    let branch = |rising| {
-        let usable = &problem.windows.usable;
-        means(&knots, &variable.values, &along, usable, rising)
-    };
+    let branch = |rising| means(problem, &knots, variable, residual, rising);
     let all = branch(None);
     let gap: Vec<f64> = branch(Some(true))
         .iter()
@@ -213,26 +179,34 @@ fn describe(problem: &Problem, residual: &[f64], variable: &Variable, share: f64
 
 /// Mean residual near each knot, over all windows or those in which the variable rises or falls.
 fn means(
+    problem: &Problem,
     knots: &[f64],
-    values: &[f64],
+    variable: &Variable,
     residual: &[f64],
-    usable: &[bool],
     rising: Option<bool>,
 ) -> Vec<f64> {
+    let outputs = problem.windows.outputs;
+    let effect: Vec<f64> = variable.effect().collect();
     (0..knots.len())
         .map(|k| {
             let (mut sum, mut weight) = (0.0, 1e-12);
-            let steps = values
-                .windows(2)
-                .zip(residual.iter().skip(1))
-                .zip(usable.iter().skip(1));
-            for ((pair, r), _) in steps.filter(|(_, u)| **u) {
-                if let [before, now] = pair
-                    && rising.is_none_or(|up| up == (now > before))
-                {
+            let later = variable
+                .values
+                .iter()
+                .zip(variable.values.iter().skip(outputs));
+            let rows = residual
+                .iter()
+                .zip(&effect)
+                .zip(&variable.share)
+                .skip(outputs);
+            let usable = problem.windows.usable.iter().skip(outputs);
+            for (((before, now), ((r, effect), share)), _) in
+                later.zip(rows).zip(usable).filter(|(_, u)| **u)
+            {
+                if rising.is_none_or(|up| up == (now > before)) {
                     let w = hat(knots, k, *now);
-                    sum += w * r;
-                    weight += w;
+                    sum += w * (r * effect);
+                    weight += w * (share * share);
                 }
             }
             sum / weight
@@ -297,36 +271,32 @@ fn suggestion(variable: &Variable, memory: bool, parity: &str) -> &'static str {
 mod tests {
     use super::*;
 
-    use crate::problem::Inertia;
-    use crate::recorded::exact_bench;
-    use crate::weak::Windows;
+    use crate::plant::Run;
+    use crate::plants::joint::recorded::exact_bench;
 
     #[test]
     fn a_curve_over_the_position_is_found_and_drawn() {
         let run = exact_bench(&[(Mechanism::Viscous, &[2.3])], 11_000);
-        let problem = Problem::new(&run, Windows::new(&run, 0.043), Inertia::None);
+        let problem = Problem::new(&run, run.windows_of(0.043));
         let centres = &problem.windows.centres;
         let residual: Vec<f64> = centres
             .iter()
             .map(|c| 0.9 * (run.motion[*c].position / 0.5).powi(3))
             .collect();
-        let unknown = unknown(&problem, &run, &residual, Motion::Linear).unwrap();
+        let unknown = unknown(&problem, &residual).unwrap();
         assert_eq!(
             (unknown.variable, unknown.parity, unknown.memory),
             ("position", "odd", false)
         );
         assert!(unknown.share > 0.9, "{}", unknown.share);
         let found = [Mechanism::Viscous, Mechanism::Spring];
-        assert_eq!(
-            surrogates(&problem, &run, &residual, &found, Motion::Linear),
-            [Mechanism::Spring]
-        );
+        assert_eq!(surrogates(&problem, &residual, &found), [Mechanism::Spring]);
     }
 
     #[test]
     fn a_friction_whose_level_fades_is_no_dry_friction() {
         let run = exact_bench(&[(Mechanism::Viscous, &[2.3])], 11_000);
-        let problem = Problem::new(&run, Windows::new(&run, 0.043), Inertia::None);
+        let problem = Problem::new(&run, run.windows_of(0.043));
         let centres = &problem.windows.centres;
         // What a constant level leaves over of one that falls along the recording.
         let residual: Vec<f64> = centres
@@ -334,12 +304,12 @@ mod tests {
             .map(|c| &run.motion[*c])
             .map(|now| now.sense * 0.9 * (0.5 - now.time_s / run.duration_s()))
             .collect();
-        let unknown = unknown(&problem, &run, &residual, Motion::Linear).unwrap();
+        let unknown = unknown(&problem, &residual).unwrap();
         assert_eq!((unknown.variable, unknown.along_motion), ("time", true));
         assert!(unknown.shape.windows(2).all(|w| w[1].1 < w[0].1));
         let found = [Mechanism::DryOffset, Mechanism::Spring];
         assert_eq!(
-            surrogates(&problem, &run, &residual, &found, Motion::Linear),
+            surrogates(&problem, &residual, &found),
             [Mechanism::DryOffset]
         );
     }

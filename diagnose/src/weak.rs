@@ -2,15 +2,12 @@
 //! that positions enter and accelerations do not.
 
 use crate::regression::dot;
-use crate::run::{PlantKind, Run, rms};
 use rigproof_model::effects::Instant;
 
 /// Order of the bump `(1 − x²)^4`: three continuous derivatives at its ends.
 const BUMP_ORDER: i32 = 4;
 /// Share of a window's weight that may lie where the sense of motion cannot be told.
 pub const MOST_AMBIGUOUS: f64 = 0.002;
-/// What a friction as large as the whole effort may do there, in floors.
-const MOST_UNTOLD: f64 = 0.5;
 
 /// Fewest windows from which anything can be said.
 pub const FEWEST_WINDOWS: usize = 40;
@@ -46,17 +43,7 @@ pub struct Windows {
 }
 
 impl Windows {
-    /// Windows of about `width_s` over a run, a quarter of a width apart.
-    pub fn new(run: &Run, width_s: f64) -> Windows {
-        let mut windows = Windows::over(run.len(), 1, (run.step_s, run.start_s), width_s);
-        windows.keep(|centre, bump| {
-            is_recorded(&run.recorded, centre, bump)
-                && untold(&run.motion, centre, bump) <= MOST_AMBIGUOUS
-        });
-        windows
-    }
-
-    /// Windows of about `width_s` over `samples` samples of a plant with `outputs` equations, all of them usable; `clock` is
+    /// Windows of about `width_s`, a quarter of a width apart, over `samples` samples of a plant with `outputs` equations, all of them usable; `clock` is
     /// the sample interval and the time of the first sample, s.
     pub fn over(samples: usize, outputs: usize, clock: (f64, f64), width_s: f64) -> Windows {
         let (step_s, start_s) = clock;
@@ -127,13 +114,6 @@ impl Windows {
         };
     }
 
-    /// Gives up the windows of an axis in which a friction as large as the effort could be more than half the floor
-    /// where the sense of motion cannot be told: a rest that begins or ends there is not seen.
-    pub fn avoid_rests(&mut self, run: &Run, floor: f64) {
-        let most = MOST_UNTOLD * floor / rms(&run.effort).max(1e-300);
-        self.keep(|centre, bump| untold(&run.motion, centre, bump) <= most);
-    }
-
     fn apply(&self, weights: &[f64], signal: &[f64], combinations: &[Vec<f64>]) -> Vec<f64> {
         let half = weights.len() / 2;
         let stretch = signal.len() / self.outputs;
@@ -184,10 +164,16 @@ impl Windows {
     /// Autocovariance over windows of one residual: sensor noise through the test function, and `excess` (a
     /// variance) of effort that nothing explains, as white effort through the same function.
     ///
-    /// `inertia` is 0 on a bench; `lags` values, one window hop apart.
-    pub fn noise_covariance(&self, run: &Run, inertia: f64, excess: f64, lags: usize) -> Vec<f64> {
-        let from_position = (inertia * run.position_noise).powi(2);
-        let from_effort = run.effort_noise.powi(2) + excess / overlap(&self.bump, 0).max(1e-300);
+    /// `curved` is the standard deviation of what is differenced twice, an inertia times a position, `effort` that of a sample of the effort;
+    /// `lags` values, one window hop apart.
+    pub fn noise_covariance(
+        &self,
+        [curved, effort]: [f64; 2],
+        excess: f64,
+        lags: usize,
+    ) -> Vec<f64> {
+        let from_position = curved.powi(2);
+        let from_effort = effort.powi(2) + excess / overlap(&self.bump, 0).max(1e-300);
         (0..lags)
             .map(|lag| {
                 let shift = lag * self.hop;
@@ -195,14 +181,6 @@ impl Windows {
                     + from_effort * overlap(&self.bump, shift)
             })
             .collect()
-    }
-
-    /// Standard deviation that position noise and effort noise alone give one residual: the predicted floor.
-    pub fn floor(&self, run: &Run, inertia: f64) -> f64 {
-        self.noise_covariance(run, inertia, 0.0, 1)
-            .iter()
-            .sum::<f64>()
-            .sqrt()
     }
 }
 
@@ -213,30 +191,6 @@ pub fn overlap(weights: &[f64], shift: usize) -> f64 {
         .zip(weights.iter().skip(shift))
         .map(|(a, b)| a * b)
         .sum()
-}
-
-/// The widths that are tried, s; the last is taken when no narrower one is quiet enough.
-const WIDTHS_S: [f64; 3] = [0.040, 0.080, 0.160];
-/// A width is quiet enough when the floor is below this share of the effort.
-const QUIET: f64 = 0.003;
-
-/// The narrowest window whose predicted floor is small against the effort, narrowed again where the effort
-/// itself is faster than that (at least eight samples, five on a bench).
-pub fn choose_width(run: &Run, inertia: f64, band_hz: f64) -> f64 {
-    let scale = rms(&run.effort);
-    let quiet = |width_s: &&f64| {
-        let windows = Windows::new(run, **width_s);
-        windows.floor(run, inertia) <= QUIET * scale
-    };
-    let width_s = match run.plant {
-        PlantKind::Axis => WIDTHS_S.iter().find(quiet).copied().unwrap_or(WIDTHS_S[2]),
-        PlantKind::Bench => WIDTHS_S[0],
-    };
-    let least = match run.plant {
-        PlantKind::Axis => 8.0,
-        PlantKind::Bench => 5.0,
-    };
-    width_s.min(2.0 / band_hz).max(least * run.step_s)
 }
 
 /// `(1 − x²)^4` at `2·half + 1` points strictly inside (−1, 1), scaled to sum 1.
@@ -286,8 +240,11 @@ pub fn untold(motion: &[Instant], centre: usize, bump: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::align::align;
-    use crate::recorded::{INERTIA, NOMINAL, Noise, exact_axis, exact_bench, signals};
+    use crate::plant::Run;
+    use crate::plants::joint::align::align;
+    use crate::plants::joint::recorded::{
+        INERTIA, NOMINAL, Noise, exact_axis, exact_bench, signals,
+    };
     use crate::whiten::{ORDER, Whitener};
     use rigproof_spec::effect::Mechanism;
 
@@ -330,14 +287,15 @@ mod tests {
         let effort: Vec<f64> = (0..run.len())
             .map(|_| run.effort_noise * noise.draw())
             .collect();
-        let windows = Windows::new(&run, 0.077);
+        let windows = run.windows_of(0.077);
         let rows: Vec<f64> = windows
             .apply(&windows.curvature, &position, &[])
             .iter()
             .zip(windows.average(&effort))
             .map(|(a, e)| INERTIA * a + e)
             .collect();
-        let covariance = windows.noise_covariance(&run, INERTIA, 0.0, ORDER + 1);
+        let sensors = [INERTIA * run.position_noise, run.effort_noise];
+        let covariance = windows.noise_covariance(sensors, 0.0, ORDER + 1);
         for lag in 0..3 {
             let seen = correlation(&rows, lag);
             assert!(
@@ -373,7 +331,7 @@ mod tests {
         let rests = exact.motion.iter().filter(|now| now.sense == 0.0).count();
         assert!(rests > 50, "{rests} samples at rest");
         let run = align(&signals(&exact, 41)).unwrap();
-        let windows = Windows::new(&run, 0.077);
+        let windows = run.windows_of(0.077);
         let half = windows.bump.len() / 2;
         let mut touching = 0;
         for (&centre, &usable) in windows.centres.iter().zip(&windows.usable) {

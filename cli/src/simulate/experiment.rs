@@ -1,8 +1,8 @@
 //! This file plays an experiment on the reference rig and writes down what the rig would record.
 
-use rigproof_diagnose::five_bar::experiment::plan::{MIDDLE_M, Plan};
-use rigproof_diagnose::five_bar::experiment::play::{Played, play, with_effects};
-use rigproof_diagnose::five_bar::free_run::Model;
+use rigproof_diagnose::plants::five_bar::experiment::plan::{MIDDLE_M, Plan};
+use rigproof_diagnose::plants::five_bar::experiment::play::{Played, play, with_effects};
+use rigproof_diagnose::plants::five_bar::free_run::Model;
 use rigproof_trace::csv;
 use rigproof_trace::rig::five_bar::FiveBar;
 use serde_json::json;

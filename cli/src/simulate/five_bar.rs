@@ -1,8 +1,8 @@
 //! This file lets a five-bar's model run freely along a recording and says how far the two lie apart.
 
-use rigproof_diagnose::five_bar::free_run::{Model, Simulated, simulated};
-use rigproof_diagnose::five_bar::from_rig::aligned;
-use rigproof_diagnose::five_bar::run::FiveBarRun;
+use rigproof_diagnose::plants::five_bar::free_run::{Model, Simulated, simulated};
+use rigproof_diagnose::plants::five_bar::from_rig::aligned;
+use rigproof_diagnose::plants::five_bar::run::FiveBarRun;
 use rigproof_diagnose::{Description, Measured};
 use rigproof_trace::compare::{Comparison, compare};
 use rigproof_trace::rig::five_bar::{FiveBar, layout_name};

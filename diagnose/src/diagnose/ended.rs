@@ -1,14 +1,15 @@
 //! This file answers for recordings from which nothing can be concluded.
 
-use super::{Curves, Description, Diagnosis};
+use super::{Curves, Diagnosis};
 use crate::align::Fault;
+use crate::plant::Plant;
 use crate::report::{FaultReport, Report, SCHEMA, Verdict};
 use crate::weak::FEWEST_WINDOWS;
 
 /// The answer where a channel is at fault; `which` says in which recording.
-pub(crate) fn faulty(description: Description, which: &str, fault: Fault) -> Diagnosis {
+pub(crate) fn faulty<P: Plant>(plant: &P, which: &str, fault: Fault) -> Diagnosis<P> {
     let mut diagnosis = empty(
-        description,
+        plant,
         Verdict::DataFault,
         format!(
             "the {which} is at fault: {} from {:.3} to {:.3} s: {}",
@@ -25,14 +26,14 @@ pub(crate) fn faulty(description: Description, which: &str, fault: Fault) -> Dia
 }
 
 /// The answer where the motion is too small or too short.
-pub(crate) fn not_excited(
-    description: Description,
+pub(crate) fn not_excited<P: Plant>(
+    plant: &P,
     usable: usize,
     travel: f64,
     noise: f64,
-) -> Diagnosis {
+) -> Diagnosis<P> {
     empty(
-        description,
+        plant,
         Verdict::NotExcited,
         format!(
             "too little can be told: {usable} windows are usable (at least {FEWEST_WINDOWS} are needed), the rest hold a reversal, a rest, a brake that changes or a gap; travel {travel:.3e}, position noise {noise:.3e}"
@@ -40,10 +41,10 @@ pub(crate) fn not_excited(
     )
 }
 
-fn empty(description: Description, verdict: Verdict, summary: String) -> Diagnosis {
+fn empty<P: Plant>(plant: &P, verdict: Verdict, summary: String) -> Diagnosis<P> {
     Diagnosis {
-        report: blank(description.plant_name(), verdict, summary),
-        calibration: description,
+        report: blank(plant.plant_name(), verdict, summary),
+        calibration: plant.clone(),
         curves: Curves::default(),
         experiment: None,
     }

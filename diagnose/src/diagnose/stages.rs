@@ -1,52 +1,46 @@
 //! This file says how the mechanisms were named, stage by stage, with the inverse model of each stage.
 
 use super::write::Stand;
-use crate::inverse::{CUTOFF_HZ, DECIMATION, FILTER_ORDER, inverse_model, protocol};
+use crate::plant::Plant;
 use crate::report::{InverseReport, StageReport};
 use crate::select::Stage;
+use rigproof_spec::effect::Mechanism;
 
-impl Stand<'_> {
-    pub(super) fn stages(&self) -> Vec<StageReport> {
+/// A law with its shape, and when it begins, s.
+type Law = (Mechanism, Vec<f64>, Option<f64>);
+
+impl<P: Plant> Stand<'_, P> {
+    pub(crate) fn stages(&self) -> Vec<StageReport> {
+        let run = self.problem.run;
         let stages = self.selection.stages.iter();
         stages
             .map(|stage| StageReport {
                 entered: stage.entered.mechanism.name(),
-                joint: None,
-                standing: stage.standing.iter().map(|c| c.name()).collect(),
+                joint: run.place_name(stage.entered.at),
+                standing: stage.standing.iter().map(|c| run.cause_name(*c)).collect(),
                 residual: stage.residual,
-                inverse_error_percent: self.inverse_error_percent(Some(stage)),
+                inverse_error_percent: self
+                    .inverse_model(&standing(stage))
+                    .map(|model| model.nominal_error_percent),
             })
             .collect()
     }
 
-    /// The inverse model with the nominal laws alone.
-    pub(super) fn inverse_model(&self) -> Option<InverseReport> {
-        Some(InverseReport {
-            protocol: protocol(),
-            filter_order: FILTER_ORDER,
-            cutoff_hz: CUTOFF_HZ,
-            decimation: DECIMATION,
-            nominal_error_percent: self.inverse_error_percent(None)?,
-        })
-    }
-
-    fn inverse_error_percent(&self, stage: Option<&Stage>) -> Option<f64> {
+    /// The inverse model with the nominal laws and some more; `None` where one has an onset.
+    pub(crate) fn inverse_model(&self, more: &[Law]) -> Option<InverseReport> {
         let nominal = self.selection.nominal.iter();
-        let mut laws: Vec<_> = nominal
-            .map(|t| (t.cause.mechanism, t.shape.clone(), t.onset_s))
-            .collect();
-        if let Some(stage) = stage {
-            let shapes = stage.shapes.iter().cloned();
-            let standing = stage.standing.iter().copied().zip(shapes);
-            laws.extend(
-                standing.map(|(cause, (shape, onset_s))| (cause.mechanism, shape, onset_s)),
-            );
-        }
-        let from_start = |(mechanism, shape, onset_s)| match onset_s {
+        let nominal = nominal.map(|t| (t.cause.mechanism, t.shape.clone(), t.onset_s));
+        let from_start = |(mechanism, shape, onset_s): Law| match onset_s {
             None => Some((mechanism, shape)),
             Some(_) => None,
         };
-        let laws: Option<Vec<_>> = laws.into_iter().map(from_start).collect();
-        Some(inverse_model(self.train, &laws?)?.error_percent)
+        let laws = nominal.chain(more.iter().cloned()).map(from_start);
+        P::inverse_model(self.train, &laws.collect::<Option<Vec<_>>>()?)
     }
+}
+
+fn standing(stage: &Stage) -> Vec<Law> {
+    let laws = stage.standing.iter().zip(&stage.shapes);
+    laws.map(|(cause, (shape, onset_s))| (cause.mechanism, shape.clone(), *onset_s))
+        .collect()
 }

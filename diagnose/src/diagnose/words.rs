@@ -1,76 +1,8 @@
-//! This file says in words how a diagnosis was made and what it came to.
+//! This file says in words what a diagnosis came to.
 
-use super::write::Stand;
+use crate::problem::Problem;
 use crate::report::{FitReport, Verdict};
-use crate::run::PlantKind;
 use crate::select::Selection;
-use crate::simulate::{Interpolation, Protocol};
-use crate::whiten::ORDER;
-
-impl Stand<'_> {
-    pub(super) fn protocol_lines(&self, protocol: &Protocol, other_recording: bool) -> Vec<String> {
-        let windows = &self.problem.windows;
-        let usable = windows.usable.iter().filter(|u| **u).count();
-        let mut lines = vec![
-            format!(
-                "fitted part: {} samples at {:.1} Hz, {:.3} s; held-out part: {} samples{}",
-                self.train.len(),
-                1.0 / self.train.step_s,
-                self.train.duration_s(),
-                self.test.len(),
-                if other_recording {
-                    " of another recording"
-                } else {
-                    " at the end of the recording"
-                },
-            ),
-            format!(
-                "windows: bump (1 - x²)⁴, {:.1} ms wide, {} samples apart, {usable} of {} usable (sense of motion known)",
-                1e3 * self.width_s,
-                windows.hop,
-                windows.centres.len()
-            ),
-            format!(
-                "noise: position {:.3e}, effort {:.3e} (standard deviation of a sample, SI); whitened by an autoregression of order {ORDER} of the noise model",
-                self.train.position_noise, self.train.effort_noise
-            ),
-            format!(
-                "naming: z ≥ {} over left-out contiguous blocks, ≥ {} % of the loss, ≥ {} % of the effort, ≥ {} times what stays unexplained",
-                self.options.gates.z,
-                100.0 * self.options.gates.share,
-                100.0 * self.options.gates.relevance,
-                self.problem.plant.own_to_unexplained()
-            ),
-            self.fit_protocol(protocol, other_recording),
-        ];
-        lines.extend(filled_in(&self.train.recorded));
-        lines
-    }
-
-    pub(super) fn fit_protocol(&self, protocol: &Protocol, other_recording: bool) -> String {
-        let held_out = if other_recording {
-            "another recording"
-        } else {
-            "the end of the recording"
-        };
-        match self.train.plant {
-            PlantKind::Axis => format!(
-                "free run from the recorded drive only; state from a parabola through the first {} samples, error from there on; drive {} between samples; Runge-Kutta 4 with located stops, {} step(s) a sample; {} warm-up period(s); held out: {held_out}",
-                protocol.start_samples,
-                match protocol.interpolation {
-                    Interpolation::Hold => "held",
-                    Interpolation::Linear => "straight",
-                    Interpolation::Band => "band-limited and periodic",
-                },
-                protocol.substeps,
-                protocol.warm_up_periods,
-            ),
-            PlantKind::Bench => format!(
-                "effort along the recorded motion (zero-phase low-pass, central difference), memories empty at the start, no sample discarded; held out: {held_out}"
-            ),
-        }
-    }
-}
 
 /// What was not recorded, in words; `None` where no more than single samples are missing, which lie between their neighbours.
 pub(crate) fn filled_in(recorded: &[bool]) -> Option<String> {
@@ -80,6 +12,7 @@ pub(crate) fn filled_in(recorded: &[bool]) -> Option<String> {
 }
 
 pub(crate) fn summary(
+    problem: &Problem,
     verdict: Verdict,
     selection: &Selection,
     fit: Option<&FitReport>,
@@ -88,7 +21,7 @@ pub(crate) fn summary(
     let names: Vec<String> = selection
         .found
         .iter()
-        .map(|f| f.term.cause.name())
+        .map(|f| problem.name(f.term.cause))
         .collect();
     let named = names.join(", ");
     let shown = match fit.and_then(|f| f.held_out.map(|h| (h, f))) {

@@ -1,25 +1,24 @@
 //! This file writes the report of a recording from which something could be concluded.
 
 use super::ended::blank;
+use super::numbers::numbers;
 use super::words::summary;
-use super::{Curves, Description, Diagnosis, FittedCurves, Options};
+use super::{Diagnosis, Options};
+use crate::cause::Cause;
 use crate::evidence::{Rivals, inclusion, intervals, not_seen, null_directions, rivals};
-use crate::from_rig;
 use crate::locate::locate;
-use crate::problem::{Cause, Problem};
+use crate::plant::{Plant, Shown};
+use crate::problem::Problem;
 use crate::report::{EffectReport, Floor, Report, Unknown, Verdict};
-use crate::run::{PlantKind, Run};
 use crate::scatter::{Trials, left_over};
 use crate::select::{Selection, floor_limit, refs, usable_rms};
-use crate::simulate::{Plant, Protocol, output};
 use crate::unknown::unknown;
-use crate::write_rig::{calibrated, nominal_numbers, numbers};
 use rigproof_model::effects::entry;
-use rigproof_spec::effect::{Mechanism, Motion, Quantity};
-use rigproof_trace::rig::Rig;
+use rigproof_spec::effect::Quantity;
+use rigproof_trace::rig::RigEffect;
 
 /// The residual of the windows against what sensor noise predicts.
-pub(crate) fn floor(problem: &Problem, selection: &Selection, motion: Motion) -> Floor {
+pub(crate) fn floor(problem: &Problem, selection: &Selection) -> Floor {
     let predicted = problem.floor;
     let before = usable_rms(problem, &selection.before.residual);
     let after = usable_rms(problem, &selection.after.residual);
@@ -29,7 +28,9 @@ pub(crate) fn floor(problem: &Problem, selection: &Selection, motion: Motion) ->
         measured_after: after,
         ratio_before: before / predicted,
         ratio_after: after / predicted,
-        unit: Quantity::Effort.dimension(motion).to_string(),
+        unit: Quantity::Effort
+            .dimension(problem.run.motion_kind())
+            .to_string(),
     }
 }
 
@@ -51,94 +52,85 @@ pub(crate) fn verdict(
 }
 
 /// Everything the report is written from.
-pub(super) struct Stand<'a> {
-    pub(super) rig: &'a Rig,
-    pub(super) problem: &'a Problem<'a>,
-    pub(super) selection: &'a Selection,
-    pub(super) withdrawn: &'a [Cause],
-    pub(super) train: &'a Run,
-    pub(super) test: &'a Run,
-    pub(super) options: &'a Options,
-    pub(super) width_s: f64,
+pub struct Stand<'a, P: Plant> {
+    /// The description.
+    pub plant: &'a P,
+    /// The problem of what is fitted.
+    pub problem: &'a Problem<'a>,
+    /// What was named.
+    pub selection: &'a Selection,
+    /// What was named and taken out again.
+    pub withdrawn: &'a [Cause],
+    /// What is fitted.
+    pub train: &'a P::Run,
+    /// What shows the result.
+    pub test: &'a P::Run,
+    /// Where the held-out part of `test` begins, s after its first sample.
+    pub test_from_s: f64,
+    /// Whether it is a recording of its own.
+    pub other_recording: bool,
+    /// What was asked for.
+    pub options: &'a Options,
     /// Trials of a brake whose gains differ; `problem` is told within them.
-    pub(super) trials: Option<&'a Trials>,
+    pub trials: Option<&'a Trials>,
 }
 
-impl Stand<'_> {
-    /// The diagnosis; `other_recording` says whether the held-out part is a recording of its own.
-    pub(super) fn report(&self, other_recording: bool) -> Diagnosis {
-        let protocol = from_rig::protocol(self.rig);
-        let fitted = self.fit(&protocol);
-        let rivals: Vec<Vec<String>> = self.rivals().iter().map(Rivals::names).collect();
+impl<P: Plant> Stand<'_, P> {
+    /// The diagnosis.
+    pub(crate) fn report(&self) -> Diagnosis<P> {
+        let (problem, selection) = (self.problem, self.selection);
+        let all = self.rivals();
+        let rivals: Vec<Vec<String>> = all.iter().map(|own| own.names(problem)).collect();
         let floor = self.floor();
-        let verdict = verdict(self.selection, &floor, floor_limit(self.problem), &rivals);
-        let unknown = if floor.ratio_after > floor_limit(self.problem) {
-            self.unknown()
-        } else {
-            None
+        let verdict = verdict(selection, &floor, floor_limit(problem), &rivals);
+        let is_left = floor.ratio_after > floor_limit(problem);
+        let unknown = is_left.then(|| self.unknown()).flatten();
+        let Shown {
+            calibration,
+            fit,
+            curves,
+        } = P::shown(self, &intervals(problem, selection));
+        let (next_experiment, experiment) = match self.options.next_experiment {
+            true => P::next_experiment(self, &all).unzip(),
+            false => (None, None),
         };
-        let fit = fitted
-            .as_ref()
-            .map(|f| self.fit_report(f, &protocol, other_recording));
-        let plants = match &fitted {
-            Some(f) => (f.nominal.plant.clone(), f.found.plant.clone()),
-            None => (self.plant(false), self.plant(true)),
-        };
-        let intervals = intervals(self.problem, self.selection);
-        // A bench with a brake keeps the numbers of its windows.
-        let refitted = fitted.is_some() && self.train.brake().is_none();
-        let calibration = calibrated(self.rig, &plants.1, &intervals, refitted);
-        let summary = summary(verdict, self.selection, fit.as_ref(), &rivals);
+        let (before, after) = (&selection.before.residual, &selection.after.residual);
+        let summary = summary(problem, verdict, selection, fit.as_ref(), &rivals);
+        let names = |causes: &[Cause]| causes.iter().map(|c| problem.name(*c)).collect();
         let report = Report {
-            protocol: self.protocol_lines(&protocol, other_recording),
-            floor: Some(floor),
-            located: locate(
-                self.problem,
-                self.train,
-                &self.selection.before.residual,
-                &self.selection.after.residual,
-            ),
+            protocol: P::protocol(self, fit.as_ref()),
+            located: locate(problem, before, after),
             stages: self.stages(),
-            effects: self.effects(&calibration),
+            effects: self.effects(&calibration.found(self), &all),
             ambiguous_with: rivals,
-            too_small_to_name: self
-                .selection
-                .too_small
-                .iter()
-                .map(|cause| cause.name())
-                .collect(),
-            withdrawn: self.withdrawn.iter().map(|cause| cause.name()).collect(),
-            nominal: nominal_numbers(self.rig, &calibration),
-            inverse_model: self.inverse_model(),
-            not_seen: not_seen(
-                self.problem,
-                self.selection,
-                self.options.gates,
-                self.rig.motion,
-            ),
-            null_directions: null_directions(self.problem, self.selection),
+            too_small_to_name: names(&selection.too_small),
+            withdrawn: names(self.withdrawn),
+            nominal: self.plant.nominal_numbers(&calibration),
+            inverse_model: self.inverse_model(&[]),
+            not_seen: not_seen(problem, selection, self.options.gates),
+            held: P::held(self),
+            null_directions: null_directions(problem, selection),
             unknown,
             fit,
-            ..blank(self.rig.plant.name(), verdict, summary)
+            next_experiment,
+            floor: Some(floor),
+            ..blank(self.plant.plant_name(), verdict, summary)
         };
-        let curves = self.curves(&plants.0, &plants.1, &protocol);
         Diagnosis {
             report,
-            calibration: Description::Joint(calibration),
+            calibration,
             curves,
-            experiment: None,
+            experiment: experiment.flatten(),
         }
     }
 
     /// For each effect, what explains as much in its place: measured rivals, and the twin that no recording of this
-    /// plant can tell: a constant that changes no sign with the motion is a bias or a direction asymmetry.
+    /// plant can tell.
     fn rivals(&self) -> Vec<Rivals> {
         let mut all = rivals(self.problem, self.selection);
         for (rivals, found) in all.iter_mut().zip(&self.selection.found) {
-            let twin = match found.term.cause.mechanism {
-                Mechanism::ConstantBias => Cause::of(Mechanism::DirectionAsymmetry),
-                Mechanism::DirectionAsymmetry => Cause::of(Mechanism::ConstantBias),
-                _ => continue,
+            let Some(twin) = self.problem.run.twin(found.term.cause) else {
+                continue;
             };
             let taken = refs(&self.selection.nominal, &self.selection.found)
                 .iter()
@@ -150,8 +142,8 @@ impl Stand<'_> {
         all
     }
 
-    pub(super) fn floor(&self) -> Floor {
-        let floor = floor(self.problem, self.selection, self.rig.motion);
+    pub(crate) fn floor(&self) -> Floor {
+        let floor = floor(self.problem, self.selection);
         if self.trials.is_none() {
             return floor;
         }
@@ -177,9 +169,9 @@ impl Stand<'_> {
             ..
         } = self.selection;
         if with_found {
-            left_over(self.problem, self.train, &refs(nominal, found), after)
+            left_over(self.problem, &refs(nominal, found), after)
         } else {
-            left_over(self.problem, self.train, &refs(nominal, &[]), before)
+            left_over(self.problem, &refs(nominal, &[]), before)
         }
     }
 
@@ -191,77 +183,34 @@ impl Stand<'_> {
             return Some(scatter.described());
         }
         let residual = &self.selection.after.residual;
-        unknown(self.problem, self.train, residual, self.rig.motion)
+        unknown(self.problem, residual)
     }
 
-    fn effects(&self, calibration: &Rig) -> Vec<EffectReport> {
-        let offset = self.selection.nominal.len();
-        self.selection
-            .found
-            .iter()
-            .enumerate()
-            .filter_map(|(index, found)| {
-                let entry = entry(found.term.cause.mechanism)?;
-                let fitted = calibration.effects.get(offset + index)?;
+    /// The named effects; `fitted` has their numbers.
+    fn effects(&self, fitted: &[RigEffect], limits: &[Rivals]) -> Vec<EffectReport> {
+        let (problem, selection) = (self.problem, self.selection);
+        let motion = problem.run.motion_kind();
+        let found = selection.found.iter().zip(fitted).enumerate();
+        found
+            .filter_map(|(index, (found, fitted))| {
+                let cause = found.term.cause;
+                let entry = entry(cause.mechanism)?;
+                let richer = limits.get(index);
                 Some(EffectReport {
-                    mechanism: found.term.cause.mechanism.name(),
-                    joint: None,
-                    parameters: numbers(fitted, self.rig.motion),
+                    mechanism: cause.mechanism.name(),
+                    joint: problem.run.place_name(cause.at),
+                    parameters: numbers(fitted, motion),
                     onset_s: found.term.onset_s,
                     onset_low95_s: fitted.onset.and_then(|onset| onset.low95),
                     onset_high95_s: fitted.onset.and_then(|onset| onset.high95),
                     z: found.z,
-                    inclusion: inclusion(self.problem, self.selection, index, self.options.gates),
+                    inclusion: inclusion(problem, selection, index, self.options.gates),
                     share_explained: found.share,
                     equation: entry.equation,
                     refuted_by: entry.refuted_by,
-                    limit_of: Vec::new(),
+                    limit_of: richer.map_or_else(Vec::new, |own| own.limits(problem)),
                 })
             })
             .collect()
-    }
-
-    fn curves(&self, before: &Plant, after: &Plant, protocol: &Protocol) -> Curves {
-        let run = self.test;
-        let times = |run: &Run| -> Vec<f64> {
-            let all = 0..run.len();
-            all.map(|k| run.start_s + k as f64 * run.step_s).collect()
-        };
-        let recorded = |run: &Run| match run.plant {
-            PlantKind::Axis => run.position.clone(),
-            PlantKind::Bench => run.effort.clone(),
-        };
-        let fitted = FittedCurves {
-            time_s: times(self.train),
-            recorded: recorded(self.train),
-            before: output(before, self.train, protocol),
-            after: output(after, self.train, protocol),
-        };
-        Curves {
-            fitted,
-            time_s: times(run),
-            output: match run.plant {
-                PlantKind::Axis => "position",
-                PlantKind::Bench => "metered effort",
-            },
-            recorded: recorded(run),
-            before: output(before, run, protocol),
-            after: output(after, run, protocol),
-            unit: self.output_unit(),
-            window_time_s: self.problem.windows.times_s(),
-            window_counts: self.problem.windows.usable.clone(),
-            residual_before: self.selection.before.residual.clone(),
-            residual_after: self.selection.after.residual.clone(),
-            floor: self.problem.floor,
-            residual_unit: Quantity::Effort.dimension(self.rig.motion).to_string(),
-        }
-    }
-
-    pub(super) fn output_unit(&self) -> String {
-        let quantity = match self.train.plant {
-            PlantKind::Axis => Quantity::Travel,
-            PlantKind::Bench => Quantity::Effort,
-        };
-        quantity.dimension(self.rig.motion).to_string()
     }
 }

@@ -4,14 +4,14 @@
 //! recording to the next and much of what is unexplained goes away with that, what was named is not one thing with one number: a
 //! delay that swings, a constant torque that comes only with the motion.
 
-use super::sensitivities;
-use crate::problem::{Cause, PlantRun, Problem};
+use super::{Number, sensitivities};
+use crate::cause::Cause;
+use crate::problem::Problem;
 use crate::regression::dot;
 use crate::select::{Selection, bends, floor_limit, refs, usable_rms};
 use nalgebra::{DMatrix, DVector};
 use rigproof_model::effects::{Form, entry};
 use rigproof_spec::effect::Mechanism;
-use rigproof_spec::joint::Joint;
 
 /// Length of a part, s: some widths of a window, shorter than what swings.
 const PART_S: f64 = 0.25;
@@ -50,7 +50,7 @@ pub fn inconstant(problem: &Problem, selection: &Selection) -> Vec<Cause> {
         .filter(|(index, _)| {
             let leading = columns
                 .iter()
-                .find(|c| c.place.is_some_and(|(term, _)| term == offset + index));
+                .find(|c| matches!(c.number, Number::Of(term, _) if term == offset + index));
             leading.is_some_and(|column| gone(&column.values) > least)
         })
         .map(|(_, found)| found.term.cause)
@@ -61,7 +61,7 @@ pub fn inconstant(problem: &Problem, selection: &Selection) -> Vec<Cause> {
 fn is_beside_a_form(selection: &Selection, cause: Cause) -> bool {
     let is_plain = [Mechanism::DryOffset, Mechanism::Viscous].contains(&cause.mechanism);
     let mut found = selection.found.iter().map(|found| found.term.cause);
-    is_plain && found.any(|other| bends(other.mechanism) && other.joint == cause.joint)
+    is_plain && found.any(|other| bends(other.mechanism) && other.at == cause.at)
 }
 
 /// Whether a mechanism's number acts without a memory. A memory of another family (Maxwell slip for a bristle) differs at every
@@ -78,22 +78,17 @@ pub fn is_told_by_itself(mechanism: Mechanism) -> bool {
     }
 }
 
-/// White columns of dry friction, drag and a constant torque at every joint of a five-bar.
+/// White columns of dry friction, drag and a constant effort at every place that moves by itself.
 fn elementary(problem: &Problem) -> Vec<Vec<f64>> {
-    let PlantRun::FiveBar(_) = problem.plant else {
-        return Vec::new();
-    };
     let mechanisms = [
         Mechanism::DryOffset,
         Mechanism::Viscous,
         Mechanism::ConstantBias,
     ];
-    let causes = mechanisms.into_iter().flat_map(|mechanism| {
-        Joint::ALL.map(|joint| Cause {
-            mechanism,
-            joint: Some(joint),
-        })
-    });
+    let places = problem.run.moving_places();
+    let causes = mechanisms
+        .into_iter()
+        .flat_map(|mechanism| places.iter().map(move |at| Cause::at(mechanism, *at)));
     let terms = causes.filter_map(|cause| problem.term(cause, &[], None));
     terms
         .filter_map(|term| term.free.first().map(|rows| rows.white.clone()))

@@ -5,20 +5,20 @@
 //! (after Carter, Schnepel and Steigerwald 2017). Where more than noise is left the law is not the true one, and what is left may look like the effect everywhere
 //! alike, which no block shows: there they are wider by what is left over the noise (Birge 1932).
 
-use super::{Sensitivity, coefficients_by_term, parameter_count, sensitivities};
-use crate::problem::{Cause, PlantRun, Problem, Term};
+use super::{Number, Sensitivity, coefficients_by_term, parameter_count, sensitivities};
+use crate::filter::rms;
+use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, covariance, dot};
-use crate::run::rms;
 use crate::select::{Selection, change_with_onset, onset_interval, refs, usable_rms};
 use crate::student::half_width;
 use nalgebra::{DMatrix, DVector};
 use rigproof_spec::effect::Mechanism;
 
-/// Half widths of the 95 % intervals of every parameter of every term, and of the inertia where it is estimated.
+/// Half widths of the 95 % intervals of every parameter of every term, and of the plant's own numbers where they are estimated.
 #[derive(Clone, Debug, Default)]
 pub struct Intervals {
-    /// Of the inertia.
-    pub inertia: Option<f64>,
+    /// Of the plant's own numbers; NaN where the recording does not determine one.
+    pub nuisances: Vec<f64>,
     /// Of each term's parameters in the vocabulary's order; NaN where the recording does not determine one.
     pub terms: Vec<Vec<f64>>,
     /// The 95 % interval of each term's onset, s; `None` where it has none.
@@ -41,7 +41,7 @@ pub fn intervals(problem: &Problem, selection: &Selection) -> Intervals {
         .unwrap_or_else(|| vec![f64::NAN; white.len()]);
     let birge = (usable_rms(problem, &selection.after.residual) / problem.floor).max(1.0);
     let mut intervals = Intervals {
-        inertia: None,
+        nuisances: vec![f64::NAN; problem.nuisances.len()],
         terms: terms
             .iter()
             .map(|t| vec![f64::NAN; parameter_count(t)])
@@ -50,9 +50,13 @@ pub fn intervals(problem: &Problem, selection: &Selection) -> Intervals {
     };
     for (column, half) in columns.iter().zip(halves) {
         let half = birge * half;
-        match column.place {
-            None => intervals.inertia = Some(half),
-            Some((term, parameter)) => {
+        match column.number {
+            Number::Nuisance(index) => {
+                if let Some(slot) = intervals.nuisances.get_mut(index) {
+                    *slot = half;
+                }
+            }
+            Number::Of(term, parameter) => {
                 let untold = terms.get(term).map_or(0.0, |t| between_samples(problem, t));
                 let half = half.hypot(NORMAL * untold);
                 let own = intervals.terms.get_mut(term);
@@ -90,10 +94,7 @@ fn imitated(
     let (_, coefficients) = coefficients_by_term(problem, selection);
     let own = terms.get(term)?;
     let onset = change_with_onset(problem, own, coefficients.get(term)?)?;
-    let is_shape = |column: &&Sensitivity| {
-        let place = column.place;
-        place.is_some_and(|(of, parameter)| of == term && parameter >= own.free.len())
-    };
+    let is_shape = |column: &&Sensitivity| matches!(column.number, Number::Of(of, parameter) if of == term && parameter >= own.free.len());
     let variance = |others: Vec<&Sensitivity>| {
         let others = others.into_iter().map(|column| column.values.as_slice());
         let columns: Vec<&[f64]> = [onset.as_slice()].into_iter().chain(others).collect();
@@ -107,18 +108,13 @@ fn imitated(
 /// The standard deviation of what lies between two samples, in the unit of the term's parameters: a play ends somewhere on the way from one
 /// sample to the next. 0 for any other mechanism.
 fn between_samples(problem: &Problem, term: &Term) -> f64 {
-    let Cause {
-        mechanism: Mechanism::BacklashWidth,
-        joint,
-    } = term.cause
-    else {
+    if term.cause.mechanism != Mechanism::BacklashWidth {
         return 0.0;
-    };
-    let (motion, step_s) = match (problem.plant, joint) {
-        (PlantRun::FiveBar(run), Some(joint)) => (run.motion(joint), run.step_s),
-        (PlantRun::Joint(run), _) => (run.motion.as_slice(), run.step_s),
-        (PlantRun::FiveBar(_), None) => return 0.0,
-    };
+    }
+    let (motion, step_s) = (
+        problem.run.motion(term.cause.at),
+        problem.run.clock().step_s,
+    );
     let moving = motion.iter().filter(|now| now.sense.abs() >= 1.0);
     let speeds: Vec<f64> = moving.map(|now| now.speed).collect();
     rms(&speeds) * step_s / 12f64.sqrt()

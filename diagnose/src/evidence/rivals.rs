@@ -2,16 +2,17 @@
 
 use super::without;
 use crate::candidates::{causes, modelled_effort, realise, variants};
-use crate::five_bar::LEAST_SIGMAS;
-use crate::problem::{Cause, PlantRun, Problem, Term};
+use crate::cause::Cause;
+use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, Fit, fit, nested_block_losses, paired};
 use crate::report::LimitOf;
 use crate::select::{
-    Selection, TIE_Z, as_two, best_variant, gives_energy, is_noise, refined, refs, usable_rms,
+    LEAST_SIGMAS, Selection, TIE_Z, as_two, best_variant, gives_energy, is_noise, refined, refs,
+    usable_rms,
 };
 use rayon::prelude::*;
 use rigproof_model::effects::entry;
-use rigproof_spec::effect::{Mechanism, Motion, Parameter};
+use rigproof_spec::effect::{Mechanism, Parameter};
 
 /// Share of an effect's gain that a rival must reach to be ambiguous with it.
 const RIVAL_SHARE: f64 = 0.9;
@@ -50,29 +51,26 @@ pub struct Richer {
 
 impl Rivals {
     /// What could stand in its place, as a report has it: `presliding at E with constant_bias at E` takes both.
-    pub fn names(&self) -> Vec<String> {
-        let alone = self.instead.iter().map(|cause| cause.name());
+    pub fn names(&self, problem: &Problem) -> Vec<String> {
+        let alone = self.instead.iter().map(|cause| problem.name(*cause));
         let together = self
             .together
             .iter()
-            .map(|pair| pair.map(|cause| cause.name()).join(" with "));
+            .map(|pair| pair.map(|cause| problem.name(cause)).join(" with "));
         alone.chain(together).collect()
     }
 
     /// The richer laws as a report has them.
-    pub fn limits(&self) -> Vec<LimitOf> {
+    pub fn limits(&self, problem: &Problem) -> Vec<LimitOf> {
+        let motion = problem.run.motion_kind();
         let all = self.limit_of.iter();
         all.map(|richer| LimitOf {
-            name: richer.cause.name(),
-            limit: richer.limit.name(),
+            name: problem.name(richer.cause),
+            limit: problem.name(richer.limit),
             parameter: richer.parameter.name,
             at_most: richer.bound.filter(|_| richer.end == End::Nothing),
             at_least: richer.bound.filter(|_| richer.end == End::Everything),
-            unit: richer
-                .parameter
-                .quantity
-                .dimension(Motion::Rotary)
-                .to_string(),
+            unit: richer.parameter.quantity.dimension(motion).to_string(),
         })
         .collect()
     }
@@ -236,7 +234,7 @@ impl Place<'_> {
         let own = &self.selection.after.block_loss;
         let (_, z) = paired(&losses, own, &vec![1.0; losses.len()]);
         let reached = self.bare.left_out() - losses.iter().sum::<f64>();
-        let enough = reached >= problem.plant.least_rival_share() * self.gain;
+        let enough = reached >= problem.rules.least_rival_share * self.gain;
         let as_good = enough && z < TIE_Z
             || (reached >= RIVAL_SHARE * self.gain && reached > 0.0 && z < 2.0 * TIE_Z);
         let is_rival = as_good
@@ -260,7 +258,7 @@ impl Place<'_> {
     fn beyond(&self, rival: &Rival, limit: Cause, losses: &[f64]) -> Option<Richer> {
         let cause = rival.cause;
         let (.., place, end) = LIMITS.iter().copied().find(|(richer, simpler, ..)| {
-            (*richer, *simpler, cause.joint) == (cause.mechanism, limit.mechanism, limit.joint)
+            (*richer, *simpler, cause.at) == (cause.mechanism, limit.mechanism, limit.at)
         })?;
         if self.apart.is_infinite() || more_elsewhere(losses, &rival.losses) >= self.apart {
             return None;
@@ -286,25 +284,23 @@ impl Place<'_> {
     }
 }
 
-/// From how much more left-out loss on one explanation is another's rival no more, on a five-bar; without bound on a joint alone. Where what was
+/// From how much more left-out loss on one explanation is another's rival no more; without bound where rivals are not told apart by the floor. Where what was
 /// named leaves nothing but noise, noise is the measure: the scatter of a short recording's few blocks would keep what leaves many deviations more.
 /// Where it leaves more, since a law seldom has the exact form of what is there, what it leaves is, and no less than what tells two white
 /// explanations apart.
 fn telling(problem: &Problem, selection: &Selection) -> f64 {
-    match problem.plant {
-        PlantRun::FiveBar(_) if !is_noise(problem, &selection.after) => {
-            ((TIMES_LEFT - 1.0) * selection.after.left_out()).max(LEAST_SIGMAS.powi(2))
-        }
-        _ => apart(problem, selection),
+    if problem.rules.by_floor && !is_noise(problem, &selection.after) {
+        return ((TIMES_LEFT - 1.0) * selection.after.left_out()).max(LEAST_SIGMAS.powi(2));
     }
+    apart(problem, selection)
 }
 
-/// Standard deviations of what is left, squared; without bound on a joint alone.
+/// Standard deviations of what is left, squared; without bound where rivals are not told apart by the floor.
 fn apart(problem: &Problem, selection: &Selection) -> f64 {
     let left = usable_rms(problem, &selection.after.residual) / problem.floor;
-    match problem.plant {
-        PlantRun::FiveBar(_) => (left.max(1.0) * LEAST_SIGMAS).powi(2),
-        PlantRun::Joint(_) => f64::INFINITY,
+    match problem.rules.by_floor {
+        true => (left.max(1.0) * LEAST_SIGMAS).powi(2),
+        false => f64::INFINITY,
     }
 }
 
@@ -318,8 +314,8 @@ fn more_elsewhere(losses: &[f64], own: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
-    use crate::five_bar;
-    use crate::five_bar::recorded::{noise_rows, short_run, target};
+    use crate::plants::five_bar;
+    use crate::plants::five_bar::recorded::{noise_rows, short_run, target};
     use crate::problem::add;
     use crate::select::Found;
     use rigproof_spec::joint::Joint;
@@ -331,10 +327,7 @@ mod tests {
     }
 
     fn at_e(mechanism: Mechanism) -> Cause {
-        Cause {
-            mechanism,
-            joint: Some(Joint::E),
-        }
+        five_bar::run::at(mechanism, Joint::E)
     }
 
     /// The place of what was named at E, beside something hidden there of 0.21 N·m and drag that was not found.
@@ -349,10 +342,7 @@ mod tests {
             .map(|(mechanism, shape)| problem.term(at_e(mechanism), shape, None).unwrap());
         let mut raw = noise_rows(&problem, 29);
         add(&mut raw, &hidden.free[0].raw, 0.21);
-        let drag = Cause {
-            mechanism: Mechanism::Viscous,
-            joint: Some(Joint::B),
-        };
+        let drag = five_bar::run::at(Mechanism::Viscous, Joint::B);
         let drag = problem.term(drag, &[], None).unwrap();
         add(&mut raw, &drag.free[0].raw, drag_nms);
         problem.target = target(&problem, raw);

@@ -4,7 +4,7 @@ use super::intervals::half_widths;
 use super::*;
 use crate::regression::covariance;
 
-use crate::recorded::Noise;
+use crate::plants::joint::recorded::Noise;
 
 #[test]
 fn intervals_cover_the_truth_although_the_noise_is_uneven() {

@@ -2,15 +2,18 @@
 
 use super::*;
 
-use crate::recorded::{INERTIA, NOMINAL, exact_axis};
+use crate::filter::rms;
+use crate::plants::joint::recorded::{NOMINAL, exact_axis};
+use crate::plants::joint::run::JointRun;
 use crate::regression::reduced_target;
-use crate::run::rms;
+use crate::signals::{numerov, second_difference, shifted};
+use rigproof_spec::effect::Mechanism;
 
 /// The residual of the usable windows when the nominal model knows everything, over the effort.
-fn relative_residual(run: &Run) -> f64 {
+fn relative_residual(run: &JointRun) -> f64 {
     let mut laws = NOMINAL.to_vec();
     laws.push((Mechanism::DryOffset, &[1.73]));
-    let problem = Problem::new(run, Windows::new(run, 0.077), Inertia::Known(INERTIA));
+    let problem = Problem::new(run, run.windows_of(0.077));
     let terms: Vec<Term> = laws
         .iter()
         .filter_map(|(mechanism, parameters)| {

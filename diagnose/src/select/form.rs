@@ -3,7 +3,8 @@
 use super::refine::refine;
 use super::together::bends;
 use super::{Found, refs};
-use crate::problem::{Cause, Problem, Term};
+use crate::cause::Cause;
+use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, fit};
 use rigproof_spec::effect::Mechanism;
 
@@ -48,7 +49,7 @@ fn weakest_form(
         let has_form = others.any(|(place, (other, of_other))| {
             place != index
                 && bends(other.term.cause.mechanism)
-                && other.term.cause.joint == cause.joint
+                && other.term.cause.at == cause.at
                 && other.term.onset_s.is_none()
                 && *gain < OF_ITS_FORM * of_other
         });
@@ -64,8 +65,8 @@ fn weakest_form(
 mod tests {
     use super::*;
 
-    use crate::five_bar;
-    use crate::five_bar::recorded::{noise_rows, short_run, target};
+    use crate::plants::five_bar;
+    use crate::plants::five_bar::recorded::{noise_rows, short_run, target};
     use crate::problem::add;
     use crate::select::usable_rms;
     use rigproof_spec::joint::Joint;
@@ -75,8 +76,7 @@ mod tests {
         let run = short_run();
         let mut problem = five_bar::recorded::problem(&run);
         let at = |mechanism, joint, shape: &[f64]| {
-            let joint = Some(joint);
-            let cause = Cause { mechanism, joint };
+            let cause = five_bar::run::at(mechanism, joint);
             problem.term(cause, shape, None).unwrap()
         };
         let peak = at(Mechanism::Stribeck, Joint::B, &[0.17, 2.0, 0.004]);

@@ -7,7 +7,7 @@ use super::weigh::{
 };
 use super::{Found, Gates, TIE_Z};
 use crate::candidates::is_at_edge;
-use crate::problem::{PlantRun, Problem, Term};
+use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, Fit, fit, nested_block_losses, paired};
 use rayon::prelude::*;
 use rigproof_model::effects::entry;
@@ -91,10 +91,8 @@ pub(super) fn judge(
     let (gain, z) = paired(&current.block_loss, &losses, &expected);
     let share = 1.0 - losses.iter().sum::<f64>() / current.left_out().max(1e-300);
     let at_floor = is_noise(problem, &fitted);
-    let stays = match problem.plant {
-        PlantRun::FiveBar(_) => would_stay(problem, term.cause, current.left_out(), &fitted),
-        PlantRun::Joint(_) => true,
-    };
+    let stays =
+        !problem.rules.by_form || would_stay(problem, term.cause, current.left_out(), &fitted);
     let passes = gain > 0.0
         && z >= gates.z
         && share >= gates.share
@@ -124,7 +122,7 @@ pub(super) fn judge(
     })
 }
 
-/// Whether a contribution is large enough to be asked for. On a five-bar one that takes away all that is more than noise is, however small.
+/// Whether a contribution is large enough to be asked for. Also one that takes away all that is more than noise is, however small.
 fn is_relevant(
     problem: &Problem,
     current: &Fit,
@@ -132,10 +130,7 @@ fn is_relevant(
     at_floor: bool,
     gates: Gates,
 ) -> bool {
-    let decides = match problem.plant {
-        PlantRun::FiveBar(_) => at_floor && !is_noise(problem, current),
-        PlantRun::Joint(_) => false,
-    };
+    let decides = problem.rules.by_floor && at_floor && !is_noise(problem, current);
     decides || contribution >= gates.relevance * problem.effort_size
 }
 
@@ -185,9 +180,9 @@ pub(super) const SIMPLER_SHARE: f64 = 0.9;
 mod tests {
     use super::*;
 
-    use crate::five_bar;
-    use crate::five_bar::recorded::short_run;
-    use crate::problem::Cause;
+    use crate::cause::Cause;
+    use crate::plants::five_bar;
+    use crate::plants::five_bar::recorded::short_run;
     use rigproof_spec::effect::Mechanism;
 
     #[test]

@@ -3,10 +3,10 @@
 use super::judge::SIMPLER_SHARE;
 use super::refine::refined;
 use super::weigh::{drives, excitation, is_noise, own_coefficients};
-use super::{Found, Selection, TIE_Z, refs};
+use super::{Found, LEAST_SIGMAS, Selection, TIE_Z, refs};
 use crate::candidates::realise;
-use crate::five_bar::LEAST_SIGMAS;
-use crate::problem::{Cause, Problem, Term};
+use crate::cause::Cause;
+use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, Fit, fit, paired};
 use rigproof_spec::effect::Mechanism;
 
@@ -40,7 +40,7 @@ fn merged(
     let own = &found.get(bristle)?.term;
     let beside = |f: &Found| {
         CONSTANTS.contains(&f.term.cause.mechanism)
-            && f.term.cause.joint == own.cause.joint
+            && f.term.cause.at == own.cause.at
             && f.term.onset_s == own.onset_s
     };
     if own.cause.mechanism != Mechanism::Presliding || !found.iter().any(beside) {
@@ -130,14 +130,13 @@ pub(crate) fn as_two(problem: &Problem, selection: &Selection, index: usize) -> 
 mod tests {
     use super::*;
 
-    use crate::problem::Inertia;
-    use crate::recorded::{Laws, exact_bench};
-    use crate::weak::Windows;
+    use crate::plant::Run;
+    use crate::plants::joint::recorded::{Laws, exact_bench};
 
     /// What becomes of a bristle and a constant that were named, and what each of them has for a number.
     fn made_of(laws: Laws) -> Vec<(Mechanism, Vec<f64>)> {
         let run = exact_bench(laws, 6_000);
-        let problem = Problem::new(&run, Windows::new(&run, 0.017), Inertia::None);
+        let problem = Problem::new(&run, run.windows_of(0.017));
         let blocks = Blocks::new(&problem);
         let named = |(mechanism, shape): (Mechanism, &[f64])| Found {
             term: problem.term(Cause::of(mechanism), shape, None).unwrap(),

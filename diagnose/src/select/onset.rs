@@ -4,10 +4,8 @@ use super::refine::ONSET_MARGIN;
 use super::weigh::{acting, loss_with, own_coefficients};
 use super::{Found, Selection, refs};
 use crate::candidates::realise;
-use crate::five_bar::run::FiveBarRun;
-use crate::problem::{PlantRun, Problem, Term, less};
+use crate::problem::{Problem, Term, less};
 use crate::regression::{Blocks, dot, fit};
-use crate::run::Run;
 
 /// What an onset may leave more and explain the recording alike: 95 % of χ² with one degree of freedom.
 const ALIKE: f64 = 3.84;
@@ -58,8 +56,7 @@ fn interval(problem: &Problem, common: &[&Term], own: &Term, imitated: f64) -> O
     let more = imitated * alike(problem, common, own);
     let [low_s, high_s] = valley(problem, common, own, more)?.span_s;
     // What begins does so between two samples.
-    let (PlantRun::Joint(Run { step_s, .. }) | PlantRun::FiveBar(FiveBarRun { step_s, .. })) =
-        problem.plant;
+    let step_s = problem.run.clock().step_s;
     Some([
         low_s.min(own.onset_s?) - step_s,
         high_s.max(own.onset_s?) + step_s,
@@ -146,9 +143,10 @@ fn at(problem: &Problem, term: &Term, onset_s: f64) -> Option<Term> {
 /// How far around a term's onset another one leaves no more than a limit, s.
 fn span(problem: &Problem, common: &[&Term], term: &Term, limit: f64) -> Option<[f64; 2]> {
     let onset_s = term.onset_s?;
-    let margin_s = ONSET_MARGIN * problem.plant.duration_s();
-    let first_s = problem.plant.start_s() + margin_s;
-    let last_s = problem.plant.start_s() + problem.plant.duration_s() - margin_s;
+    let clock = problem.run.clock();
+    let margin_s = ONSET_MARGIN * clock.duration_s();
+    let first_s = clock.start_s + margin_s;
+    let last_s = clock.start_s + clock.duration_s() - margin_s;
     let is_alike = |time_s: f64| {
         let other = || at(problem, term, time_s);
         (first_s..last_s).contains(&time_s)
@@ -179,9 +177,9 @@ fn reach(is_alike: impl Fn(f64) -> bool) -> f64 {
 mod tests {
     use super::*;
 
-    use crate::five_bar;
-    use crate::five_bar::recorded::{noise_rows, short_run, target};
-    use crate::problem::{Cause, add};
+    use crate::plants::five_bar;
+    use crate::plants::five_bar::recorded::{noise_rows, short_run, target};
+    use crate::problem::add;
     use rigproof_spec::effect::Mechanism;
     use rigproof_spec::joint::Joint;
 
@@ -193,11 +191,8 @@ mod tests {
         for (usable, time_s) in problem.windows.usable.iter_mut().zip(times_s) {
             *usable &= !(1.1..1.9).contains(&time_s);
         }
-        problem.whitener = five_bar::noise::whitener(&run, &problem.windows, 0.0);
-        let cause = Cause {
-            mechanism: Mechanism::DryOffset,
-            joint: Some(Joint::A),
-        };
+        problem.whitener = problem.run.whitener(&problem.windows, 0.0);
+        let cause = five_bar::run::at(Mechanism::DryOffset, Joint::A);
         let at = |onset_s| problem.term(cause, &[], Some(onset_s)).unwrap();
         let mut raw = noise_rows(&problem, 37);
         add(&mut raw, &at(1.27).free[0].raw, 0.31);
@@ -214,10 +209,7 @@ mod tests {
     fn intervals_hold_the_true_onset_and_tell_more_of_a_greater_effect() {
         let run = short_run();
         let mut problem = five_bar::recorded::problem(&run);
-        let cause = Cause {
-            mechanism: Mechanism::Viscous,
-            joint: Some(Joint::B),
-        };
+        let cause = five_bar::run::at(Mechanism::Viscous, Joint::B);
         let mut tried = |drag_nms: f64| {
             let (mut held, mut width_s) = (0, 0.0);
             for seed in 0..40_u32 {

@@ -3,7 +3,8 @@
 use super::refine::refine;
 use super::weigh::{coefficients_of, drives, excitation, is_noise, usable_rms};
 use super::{Found, Gates, TIE_Z, floor_limit, refs};
-use crate::problem::{Cause, PlantRun, Problem, Term};
+use crate::cause::Cause;
+use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, Fit, fit, paired};
 use rigproof_spec::effect::Mechanism;
 
@@ -30,9 +31,8 @@ pub(super) fn backward(
         );
         let share = 1.0 - current.left_out() / without.left_out().max(1e-300);
         // One that decides whether anything is left shows in few blocks where z is small.
-        let decides = matches!(problem.plant, PlantRun::FiveBar(_))
-            && is_noise(problem, &current)
-            && !is_noise(problem, &without);
+        let decides =
+            problem.rules.by_floor && is_noise(problem, &current) && !is_noise(problem, &without);
         if z < TIE_Z && !decides || share < gates.share || drives(&removed.term, &own) {
             *found = fewer;
         } else {
@@ -110,10 +110,10 @@ pub(super) fn outweighs(problem: &Problem, cause: Cause, without: &Fit, with: &F
 /// settling, whose decay follows whatever dies away.
 fn least_to_unexplained(problem: &Problem, named: &[Cause]) -> f64 {
     let exact = |cause: &Cause| !HAS_FAMILIES.contains(&cause.mechanism);
-    match problem.plant {
-        PlantRun::FiveBar(_) if named.iter().all(exact) => EXACT_TO_UNEXPLAINED,
-        PlantRun::FiveBar(_) if named.len() == 1 => LONE_TO_UNEXPLAINED,
-        plant => plant.own_to_unexplained(),
+    match problem.rules.by_form {
+        true if named.iter().all(exact) => EXACT_TO_UNEXPLAINED,
+        true if named.len() == 1 => LONE_TO_UNEXPLAINED,
+        _ => problem.rules.own_to_unexplained,
     }
 }
 
@@ -133,18 +133,18 @@ const HAS_FAMILIES: [Mechanism; 8] = [
 mod tests {
     use super::*;
 
-    use crate::five_bar;
-    use crate::five_bar::recorded::{noise_rows, short_run, target};
-    use crate::problem::{Inertia, add};
-    use crate::recorded::{Noise, exact_bench};
-    use crate::weak::Windows;
+    use crate::plant::Run;
+    use crate::plants::five_bar;
+    use crate::plants::five_bar::recorded::{noise_rows, short_run, target};
+    use crate::plants::joint::recorded::{Noise, exact_bench};
+    use crate::problem::add;
     use rigproof_spec::effect::Mechanism;
     use rigproof_spec::joint::Joint;
 
     #[test]
     fn in_few_windows_noise_that_happens_to_be_loud_takes_no_name_out() {
         let run = exact_bench(&[(Mechanism::Viscous, &[2.3])], 11_000);
-        let mut problem = Problem::new(&run, Windows::new(&run, 0.043), Inertia::None);
+        let mut problem = Problem::new(&run, run.windows_of(0.043));
         let every = problem.windows.usable.len() / 24;
         for (row, usable) in problem.windows.usable.iter_mut().enumerate() {
             *usable = row % every == 0;
@@ -180,10 +180,7 @@ mod tests {
     fn what_decides_whether_anything_is_left_stays_though_few_blocks_tell_it() {
         let run = short_run();
         let mut problem = five_bar::recorded::problem(&run);
-        let cause = Cause {
-            mechanism: Mechanism::DryOffset,
-            joint: Some(Joint::A),
-        };
+        let cause = five_bar::run::at(Mechanism::DryOffset, Joint::A);
         let onset_s = run.start_s + 0.7 * run.duration_s();
         let term = problem.term(cause, &[], Some(onset_s)).unwrap();
         let mut kept = |level: f64| {
@@ -208,10 +205,7 @@ mod tests {
 
     /// What is taken out of one name when it explains some fifteen times what stays unexplained.
     fn taken_out(problem: &mut Problem, cause: Cause, shape: &[f64]) -> Vec<Cause> {
-        let ripple = Cause {
-            mechanism: Mechanism::Ripple,
-            joint: Some(Joint::B),
-        };
+        let ripple = five_bar::run::at(Mechanism::Ripple, Joint::B);
         let [term, other] = [(cause, shape), (ripple, &[0.053][..])]
             .map(|(cause, shape)| problem.term(cause, shape, None).unwrap());
         let [own, other] = [(11.0, &term), (3.0, &other)].map(|(deviations, term)| {
@@ -249,11 +243,8 @@ mod tests {
         let mut problem = five_bar::recorded::problem(&run);
         let mass = Cause::of(Mechanism::Payload);
         assert_eq!(taken_out(&mut problem, mass, &[]), [mass]);
-        let [bristle, settling] =
-            [Mechanism::Presliding, Mechanism::Settling].map(|mechanism| Cause {
-                mechanism,
-                joint: Some(Joint::E),
-            });
+        let [bristle, settling] = [Mechanism::Presliding, Mechanism::Settling]
+            .map(|mechanism| five_bar::run::at(mechanism, Joint::E));
         assert_eq!(taken_out(&mut problem, bristle, &[0.031]), []);
         assert_eq!(taken_out(&mut problem, settling, &[0.31]), [settling]);
     }

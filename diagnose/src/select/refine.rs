@@ -151,11 +151,11 @@ fn moved(
             return None;
         }
     }
-    let length_s = problem.plant.duration_s();
+    let length_s = problem.run.clock().duration_s();
     let mut onset_s = term.onset_s;
     if let (Some(onset), Some(along)) = (&mut onset_s, direction.get(term.shape.len())) {
         *onset += 0.15 * stride * along * length_s;
-        let share = (*onset - problem.plant.start_s()) / length_s;
+        let share = (*onset - problem.run.clock().start_s) / length_s;
         if !(ONSET_MARGIN..1.0 - ONSET_MARGIN).contains(&share) {
             return None;
         }

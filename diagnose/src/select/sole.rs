@@ -136,9 +136,10 @@ fn losses(problem: &Problem, fitted: &Fit, windows: &Blocks) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    use crate::five_bar;
-    use crate::five_bar::recorded::{noise_rows, short_run, target};
-    use crate::problem::{Cause, add};
+    use crate::plant::Run;
+    use crate::plants::five_bar;
+    use crate::plants::five_bar::recorded::{noise_rows, short_run, target};
+    use crate::problem::add;
     use rigproof_spec::effect::Mechanism;
     use rigproof_spec::joint::Joint;
 
@@ -146,10 +147,7 @@ mod tests {
     fn one_law_that_leaves_only_noise_is_found_and_none_of_two() {
         let run = short_run();
         let mut problem = five_bar::recorded::problem(&run);
-        let at = |mechanism, joint| Cause {
-            mechanism,
-            joint: Some(joint),
-        };
+        let at = |mechanism, joint| five_bar::run::at(mechanism, joint);
         let play = at(Mechanism::CurrentHysteresis, Joint::B);
         let play = problem.term(play, &[0.07, 0.3], None).unwrap();
         let dry = at(Mechanism::DryOffset, Joint::A);
@@ -162,7 +160,7 @@ mod tests {
             sole(&problem, &[], Gates::default(), false)
         };
         let found = found_with(0.0).unwrap();
-        assert_eq!(found.term.cause.name(), "current_hysteresis at B");
+        assert_eq!(run.cause_name(found.term.cause), "current_hysteresis at B");
         assert!(found_with(0.13).is_none());
     }
 
@@ -170,10 +168,7 @@ mod tests {
     fn one_law_that_begins_late_is_found_where_it_leaves_only_noise() {
         let run = short_run();
         let mut problem = five_bar::recorded::problem(&run);
-        let at_b = |mechanism| Cause {
-            mechanism,
-            joint: Some(Joint::B),
-        };
+        let at_b = |mechanism| five_bar::run::at(mechanism, Joint::B);
         let drag = at_b(Mechanism::Viscous);
         let drag = problem.term(drag, &[], Some(1.37)).unwrap();
         let dry = problem.term(at_b(Mechanism::DryOffset), &[], None).unwrap();
@@ -185,7 +180,7 @@ mod tests {
             sole(&problem, &[], Gates::default(), true)
         };
         let found = found_with(0.0).unwrap();
-        assert_eq!(found.term.cause.name(), "viscous at B");
+        assert_eq!(run.cause_name(found.term.cause), "viscous at B");
         let onset_s = found.term.onset_s.unwrap();
         assert!((onset_s - 1.37).abs() < 0.03, "{onset_s} s");
         assert!(found_with(0.13).is_none());

@@ -5,7 +5,8 @@ use super::together::{beside, masking, of_one_family};
 use super::weigh::is_noise;
 use super::{Found, Gates, TIE_Z, refs};
 use crate::candidates::{all_variants, causes, modelled_effort, realise};
-use crate::problem::{Cause, PlantRun, Problem, Term};
+use crate::cause::Cause;
+use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, Fit, fit, paired};
 use rayon::prelude::*;
 use rigproof_spec::effect::Mechanism;
@@ -56,7 +57,7 @@ pub(super) fn forward(
         for trials in [&mut early, &mut late] {
             trials.retain(|own| !of_one_family(problem, own.found.term.cause, found));
         }
-    } else if let PlantRun::FiveBar(_) = problem.plant {
+    } else if problem.rules.by_floor {
         those_that_leave_noise(&mut early);
         those_that_leave_noise(&mut late);
     }
@@ -91,12 +92,13 @@ const MORE_Z: f64 = 4.0;
 
 /// The gates, higher where nothing but noise is left of what was found.
 fn beyond_noise(problem: &Problem, current: &Fit, found: &[Found], gates: Gates) -> Gates {
-    match problem.plant {
-        PlantRun::FiveBar(_) if !found.is_empty() && is_noise(problem, current) => Gates {
+    let is_more = problem.rules.by_floor && !found.is_empty();
+    match is_more && is_noise(problem, current) {
+        true => Gates {
             z: gates.z.max(MORE_Z),
             ..gates
         },
-        _ => gates,
+        false => gates,
     }
 }
 
@@ -147,13 +149,10 @@ pub(super) fn open(problem: &Problem, nominal: &[Term], found: &[Found]) -> Vec<
         .collect()
 }
 
-/// For a bristle of a five-bar the one whose limits differ. From the start it is found as a bristle beside a constant; of two that begin later
+/// For a bristle the one whose limits differ. From the start it is found as a bristle beside a constant; of two that begin later
 /// neither may pass alone, or the one that does leaves what a wrong name then takes.
 fn with_unequal_limits(problem: &Problem, term: &Term, effort: &[f64]) -> Option<Term> {
-    let PlantRun::FiveBar(_) = problem.plant else {
-        return None;
-    };
-    if term.cause.mechanism != Mechanism::Presliding {
+    if !problem.rules.by_family || term.cause.mechanism != Mechanism::Presliding {
         return None;
     }
     let cause = Cause {
@@ -165,8 +164,9 @@ fn with_unequal_limits(problem: &Problem, term: &Term, effort: &[f64]) -> Option
 
 /// A term that begins at twelfths of the recording, ends left out.
 pub(super) fn with_onsets(problem: &Problem, term: &Term, effort: &[f64]) -> Vec<Term> {
+    let clock = problem.run.clock();
     (2..=10)
-        .map(|k| problem.plant.start_s() + problem.plant.duration_s() * k as f64 / 12.0)
+        .map(|k| clock.start_s + clock.duration_s() * k as f64 / 12.0)
         .filter_map(|t| {
             let mut late = realise(problem, term.cause, &term.shape, Some(t), effort)?;
             problem.lighten(&mut late);

@@ -4,10 +4,12 @@ use super::judge::{Trial, judge};
 use super::refine::refined;
 use super::weigh::is_noise;
 use super::{Found, Gates, refs};
-use crate::problem::{Cause, PlantRun, Problem, Term};
+use crate::candidates::causes;
+use crate::cause::Cause;
+use crate::cause::Place;
+use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, Fit, fit};
 use rigproof_spec::effect::Mechanism;
-use rigproof_spec::joint::Joint;
 
 /// Laws of friction whose shape bends towards whatever plainer friction stands beside them unseen.
 const BENDING: [Mechanism; 3] = [
@@ -34,9 +36,8 @@ const MASKING: [Mechanism; 4] = [
 /// Whether a bending law would stand beside another one at its joint: where that leaves nothing but noise, the second only mends the
 /// form of the first, which true friction need not have.
 pub(super) fn of_one_family(problem: &Problem, cause: Cause, found: &[Found]) -> bool {
-    let is_five_bar = matches!(problem.plant, PlantRun::FiveBar(_));
-    let same = |own: &Found| bends(own.term.cause.mechanism) && own.term.cause.joint == cause.joint;
-    is_five_bar && bends(cause.mechanism) && found.iter().any(same)
+    let same = |own: &Found| bends(own.term.cause.mechanism) && own.term.cause.at == cause.at;
+    problem.rules.by_family && bends(cause.mechanism) && found.iter().any(same)
 }
 
 /// Whether a mechanism is such a law.
@@ -53,16 +54,16 @@ pub(super) fn beside(
     blocks: &Blocks,
     gates: Gates,
 ) -> Vec<Trial> {
-    let PlantRun::FiveBar(_) = problem.plant else {
+    if !problem.rules.by_family {
         return Vec::new();
-    };
+    }
     let mut passed = Vec::new();
     for (index, bent) in found.iter().enumerate() {
         let is_bent = bends(bent.term.cause.mechanism) && bent.term.onset_s.is_none();
-        let Some(joint) = bent.term.cause.joint.filter(|_| is_bent) else {
+        if !is_bent {
             continue;
-        };
-        for term in terms_at(problem, &refs(nominal, found), joint, &PLAIN) {
+        }
+        for term in terms_at(problem, &refs(nominal, found), bent.term.cause.at, &PLAIN) {
             let mut others = refs(nominal, found);
             others.remove(nominal.len() + index);
             let mut with = others.clone();
@@ -83,15 +84,16 @@ pub(super) fn masking(
     blocks: &Blocks,
     gates: Gates,
 ) -> Option<Vec<Found>> {
-    let PlantRun::FiveBar(run) = problem.plant else {
-        return None;
-    };
-    if is_noise(problem, &fit(problem, common, blocks)) {
+    if !problem.rules.by_family || is_noise(problem, &fit(problem, common, blocks)) {
         return None;
     }
-    let joints = run.parameters.layout.brakes().iter();
-    let at_joints: Vec<Vec<Term>> = joints
-        .map(|joint| terms_at(problem, common, *joint, &MASKING))
+    // Where all of them have a meaning.
+    let causes = causes(problem);
+    let places = causes
+        .iter()
+        .filter(|c| c.mechanism == Mechanism::DryOffset);
+    let at_joints: Vec<Vec<Term>> = places
+        .map(|cause| terms_at(problem, common, cause.at, &MASKING))
         .collect();
     [2, 3].into_iter().find_map(|count| {
         let sets = at_joints.iter().flat_map(|terms| sets_of(terms, count));
@@ -148,16 +150,8 @@ fn all_pass(
 }
 
 /// Mechanisms without a shape at a joint that are not among the terms.
-fn terms_at(
-    problem: &Problem,
-    taken: &[&Term],
-    joint: Joint,
-    mechanisms: &[Mechanism],
-) -> Vec<Term> {
-    let causes = mechanisms.iter().map(|&mechanism| Cause {
-        mechanism,
-        joint: Some(joint),
-    });
+fn terms_at(problem: &Problem, taken: &[&Term], at: Place, mechanisms: &[Mechanism]) -> Vec<Term> {
+    let causes = mechanisms.iter().map(|&mechanism| Cause::at(mechanism, at));
     causes
         .filter(|cause| taken.iter().all(|term| term.cause != *cause))
         .filter_map(|cause| problem.kept_term(cause, &[]))
@@ -168,15 +162,14 @@ fn terms_at(
 mod tests {
     use super::*;
 
-    use crate::five_bar;
-    use crate::five_bar::recorded::{noise_rows, short_run, target};
+    use crate::plant::Run;
+    use crate::plants::five_bar;
+    use crate::plants::five_bar::recorded::{noise_rows, short_run, target};
     use crate::problem::add;
+    use rigproof_spec::joint::Joint;
 
-    const fn at_b(mechanism: Mechanism) -> Cause {
-        Cause {
-            mechanism,
-            joint: Some(Joint::B),
-        }
+    fn at_b(mechanism: Mechanism) -> Cause {
+        five_bar::run::at(mechanism, Joint::B)
     }
 
     /// Hides terms of one column in noise, each times a number.
@@ -197,7 +190,10 @@ mod tests {
         hide(&mut problem, &[(0.17, &dry), (-0.31, &gain)]);
         let blocks = Blocks::new(&problem);
         let named = |found: Vec<Found>| -> Vec<String> {
-            let mut names: Vec<String> = found.iter().map(|own| own.term.cause.name()).collect();
+            let mut names: Vec<String> = found
+                .iter()
+                .map(|own| run.cause_name(own.term.cause))
+                .collect();
             names.sort();
             names
         };
@@ -237,7 +233,10 @@ mod tests {
             let found = [bent.clone()];
             let current = fit(&problem, &refs(&[], &found), &blocks);
             let passed = beside(&problem, &[], &found, &current, &blocks, Gates::default());
-            passed.iter().map(|t| t.found.term.cause.name()).collect()
+            passed
+                .iter()
+                .map(|t| run.cause_name(t.found.term.cause))
+                .collect()
         };
         let named = found_with(0.11);
         assert!(named.contains(&"viscous at B".to_owned()), "{named:?}");
@@ -258,10 +257,7 @@ mod tests {
             probability: 1.0,
         }];
         let bristle = at_b(Mechanism::Presliding);
-        let elsewhere = Cause {
-            joint: Some(Joint::E),
-            ..bristle
-        };
+        let elsewhere = five_bar::run::at(Mechanism::Presliding, Joint::E);
         assert!(of_one_family(&problem, bristle, &found));
         assert!(!of_one_family(&problem, elsewhere, &found));
         assert!(!of_one_family(&problem, at_b(Mechanism::Viscous), &found));

@@ -2,9 +2,9 @@
 
 use super::{Found, floor_limit};
 use crate::candidates::modelled_effort;
+use crate::filter::rms;
 use crate::problem::{Problem, Term, add};
 use crate::regression::{Blocks, Fit, dot, fit, loss_of};
-use crate::run::rms;
 use rigproof_model::effects::entry;
 
 /// The coefficients of the last term of a fit.
@@ -113,7 +113,7 @@ pub(super) fn effort_beside(
     drive: &Term,
     blocks: &Blocks,
 ) -> Option<Vec<f64>> {
-    if !problem.plant.is_linearised() {
+    if !problem.run.is_linearised() {
         return None;
     }
     drive.fixed.as_ref()?;

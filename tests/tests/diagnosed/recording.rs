@@ -131,7 +131,7 @@ fn five_bar_reported(rig: &Path, recordings: &[PathBuf]) -> Report {
         .map(|own| rig.read_recording(own).unwrap());
     let recordings: Vec<FiveBarRecording> = recordings.collect();
     let all: Vec<&FiveBarRecording> = recordings.iter().collect();
-    rigproof_diagnose::five_bar::diagnose::diagnose(&rig, &all, None, &options()).report
+    rigproof_diagnose::plants::five_bar::diagnose::diagnose(&rig, &all, None, &options()).report
 }
 
 /// The golden runs are short: most of each is needed.

@@ -48,6 +48,37 @@ pub struct Signal {
     pub limit: Option<f64>,
 }
 
+impl Signal {
+    /// The signal at the samples that are kept.
+    pub fn only(&self, kept: &[bool]) -> Signal {
+        Signal {
+            samples: those(&self.samples, kept),
+            ..self.clone()
+        }
+    }
+}
+
+/// The values that are kept.
+pub(super) fn those(values: &[f64], kept: &[bool]) -> Vec<f64> {
+    let pairs = values.iter().zip(kept);
+    pairs.filter(|(_, kept)| **kept).map(|(x, _)| *x).collect()
+}
+
+impl Recording {
+    /// The recording at the samples that are kept.
+    pub fn only(&self, kept: &[bool]) -> Recording {
+        let signal = |signal: &Option<Signal>| signal.as_ref().map(|s| s.only(kept));
+        Recording {
+            time_s: those(&self.time_s, kept),
+            position: self.position.only(kept),
+            drive: signal(&self.drive),
+            force: signal(&self.force),
+            simulated: signal(&self.simulated),
+            ..*self
+        }
+    }
+}
+
 impl Rig {
     /// Reads a recording of this rig from a text file or an MCAP file, as its content says.
     ///

@@ -9,7 +9,7 @@ use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
 use rigproof_spec::units::Dimension;
 
-use super::apply::{Signal, printed, signal};
+use super::apply::{Signal, printed, signal, those};
 use super::read::{choice, read_channel, read_effect, read_provenance, read_time};
 use super::table::{Source, Table};
 use super::write::{channel, effect_lines, string, time_line};
@@ -73,6 +73,20 @@ pub struct FiveBarRecording {
     pub force: [Signal; 2],
     /// Commanded currents in the order A, E, B, C, A.
     pub currents: [Option<Signal>; 4],
+}
+
+impl FiveBarRecording {
+    /// The recording at the samples that are kept.
+    pub fn only(&self, kept: &[bool]) -> FiveBarRecording {
+        let pair = |pair: &[Signal; 2]| pair.each_ref().map(|s| s.only(kept));
+        let currents = self.currents.each_ref();
+        FiveBarRecording {
+            time_s: those(&self.time_s, kept),
+            theta: pair(&self.theta),
+            force: pair(&self.force),
+            currents: currents.map(|current| current.as_ref().map(|s| s.only(kept))),
+        }
+    }
 }
 
 const THETA: [&str; 2] = ["theta_a", "theta_b"];

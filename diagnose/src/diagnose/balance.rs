@@ -1,0 +1,215 @@
+//! This file shows a fit by the balance of efforts: what the models before and after leave of it on what was fitted and on what was not.
+
+use super::write::Stand;
+use super::{Curves, FittedCurves};
+use crate::candidates::realise;
+use crate::evidence::{Intervals, coefficients_by_term};
+use crate::filter::rms;
+use crate::plant::{Plant, Run, Shown};
+use crate::problem::{Problem, Term, add};
+use crate::report::{BeforeAfter, FitReport};
+use crate::select::{Selection, refs};
+use rigproof_spec::effect::Quantity;
+
+/// What a fit comes to by the balance of efforts.
+pub(crate) fn shown<P: Plant>(stand: &Stand<'_, P>, intervals: &Intervals) -> Shown<P> {
+    let test = stand.balanced(stand.test, stand.test_from_s);
+    let calibration = P::calibrated(stand, intervals);
+    let asked = stand.options.refit && stand.test_from_s < stand.test.clock().duration_s();
+    let train = asked.then(|| stand.balanced(stand.train, 0.0));
+    let fit = train
+        .as_ref()
+        .map(|train| stand.balance_report((train, &test), &calibration));
+    Shown {
+        calibration,
+        fit,
+        curves: stand.balance_curves(train, test),
+    }
+}
+
+/// The windows of a recording with the models before and after.
+struct Balanced {
+    times_s: Vec<f64>,
+    usable: Vec<bool>,
+    /// Which rows are one output's alone.
+    whole: Vec<bool>,
+    recorded: Vec<f64>,
+    before: Vec<f64>,
+    after: Vec<f64>,
+    /// What sensor noise alone leaves in the usable rows, N·m.
+    floor: f64,
+}
+
+impl<P: Plant> Stand<'_, P> {
+    /// The selection with nothing found.
+    pub(crate) fn bare(&self) -> Selection {
+        Selection {
+            found: Vec::new(),
+            after: self.selection.before.clone(),
+            ..self.selection.clone()
+        }
+    }
+
+    /// The models before and after on a recording from a time on, both with the numbers of the fitted part.
+    fn balanced(&self, run: &P::Run, from_s: f64) -> Balanced {
+        let fitted = &self.problem.windows;
+        let width_s = (fitted.bump.len() - 1) as f64 * fitted.step_s;
+        let step_s = run.clock().step_s;
+        let mut windows = run.all_windows(width_s);
+        windows.keep(|centre, bump| {
+            (centre - bump.len() / 2) as f64 * step_s >= from_s - 0.5 * step_s
+        });
+        run.keep_told(&mut windows);
+        let problem = Problem::new(run, windows);
+        let bare = self.bare();
+        let centres = problem.windows.centres.iter();
+        let before_it = centres.take_while(|&&centre| (centre as f64) * step_s < from_s);
+        let first = before_it.count();
+        let average = |signal: &[f64]| problem.windows.average(signal).split_off(first);
+        let usable = problem.windows.usable.clone().split_off(first);
+        let mut combined = problem.windows.combined.clone();
+        Balanced {
+            times_s: problem.windows.times_s().split_off(first),
+            whole: usable
+                .iter()
+                .zip(combined.split_off(first))
+                .map(|(u, c)| *u && c.is_none())
+                .collect(),
+            usable,
+            recorded: average(&run.driving()),
+            before: modelled(&problem, &bare, |_| true).split_off(first),
+            after: modelled(&problem, self.selection, |_| true).split_off(first),
+            floor: problem.floor,
+        }
+    }
+
+    fn balance_report(
+        &self,
+        (train, test): (&Balanced, &Balanced),
+        calibration: &P,
+    ) -> FitReport {
+        let (horizon, free_runs) = P::free_runs(self, calibration);
+        let least = test.floor;
+        let train = before_after(train);
+        let held_out = before_after(test);
+        let where_from = if self.other_recording {
+            "another recording"
+        } else {
+            "the end of the recording"
+        };
+        FitReport {
+            protocol: format!(
+                "before and after: balance of efforts over the usable windows along the recorded motion, numbers from the fitted part, no refit by free runs; held out: {where_from}; {free_runs}"
+            ),
+            unit: self.effort_unit(),
+            train,
+            held_out: Some(held_out),
+            held_out_without_refit: None,
+            held_out_from_rest: None,
+            horizon,
+            recovered_share: (held_out.before - held_out.after)
+                / (held_out.before - least).max(1e-300),
+            improved: held_out.after < held_out.before,
+            drift: None,
+        }
+    }
+
+    fn effort_unit(&self) -> String {
+        let motion = self.train.motion_kind();
+        Quantity::Effort.dimension(motion).to_string()
+    }
+
+    /// The held-out balance and the residual of the output in which more was unexplained; not a number where a window does not count.
+    fn balance_curves(&self, train: Option<Balanced>, test: Balanced) -> Curves {
+        let counted = |values: &[f64], usable: &[bool]| -> Vec<f64> {
+            let pairs = values.iter().zip(usable);
+            pairs.map(|(v, u)| if *u { *v } else { f64::NAN }).collect()
+        };
+        let windows = &self.problem.windows;
+        let outputs = windows.outputs;
+        // A row that combines both equations belongs to neither picture.
+        let own = windows.usable.iter().zip(&windows.combined);
+        let usable: Vec<bool> = own.map(|(u, combined)| *u && combined.is_none()).collect();
+        let before = counted(&self.selection.before.residual, &usable);
+        let after = counted(&self.selection.after.residual, &usable);
+        let energy = |output: usize| -> f64 {
+            let rows = before.iter().skip(output).step_by(outputs);
+            rows.filter(|r| r.is_finite()).map(|r| r * r).sum()
+        };
+        let loudest = (1..outputs).fold(0, |loudest, output| {
+            if energy(output) > energy(loudest) { output } else { loudest }
+        });
+        let output = loudest;
+        let of = |values: &[f64]| -> Vec<f64> {
+            values.iter().skip(output).step_by(outputs).copied().collect()
+        };
+        let shown = |own: &Balanced| FittedCurves {
+            time_s: of(&own.times_s),
+            recorded: of(&counted(&own.recorded, &own.whole)),
+            before: of(&counted(&own.before, &own.whole)),
+            after: of(&counted(&own.after, &own.whole)),
+        };
+        let held_out = shown(&test);
+        Curves {
+            fitted: train.as_ref().map(shown).unwrap_or_default(),
+            time_s: held_out.time_s,
+            output: self.train.output_name(output),
+            recorded: held_out.recorded,
+            before: held_out.before,
+            after: held_out.after,
+            unit: self.effort_unit(),
+            window_time_s: of(&self.problem.windows.times_s()),
+            window_counts: usable.iter().skip(output).step_by(outputs).copied().collect(),
+            residual_before: of(&before),
+            residual_after: of(&after),
+            floor: self.problem.floor,
+            residual_unit: self.effort_unit(),
+        }
+    }
+}
+
+/// What a selection's numbers give on a problem of other rows, of the terms that act.
+pub(crate) fn modelled(
+    problem: &Problem,
+    selection: &Selection,
+    acts: impl Fn(&Term) -> bool,
+) -> Vec<f64> {
+    let (_, coefficients) = coefficients_by_term(problem, selection);
+    let mut sum = problem.windows.average(&problem.known);
+    let terms = refs(&selection.nominal, &selection.found);
+    for (term, own) in terms
+        .iter()
+        .zip(&coefficients)
+        .filter(|(term, _)| acts(term))
+    {
+        let Some(moved) = realise(problem, term.cause, &term.shape, term.onset_s, &[]) else {
+            continue;
+        };
+        let given = term.known.as_ref().unwrap_or(own);
+        for (c, rows) in given.iter().zip(&moved.free) {
+            add(&mut sum, &rows.raw, *c);
+        }
+        if let Some(rows) = &moved.fixed {
+            add(&mut sum, &rows.raw, 1.0);
+        }
+    }
+    sum
+}
+
+fn before_after(balanced: &Balanced) -> BeforeAfter {
+    let kept = |values: &[f64]| -> Vec<f64> {
+        let pairs = values.iter().zip(&balanced.recorded).zip(&balanced.usable);
+        pairs
+            .filter(|(_, u)| **u)
+            .map(|((v, r), _)| r - v)
+            .collect()
+    };
+    let size = rms(&kept(&vec![0.0; balanced.recorded.len()])).max(1e-300);
+    let (before, after) = (rms(&kept(&balanced.before)), rms(&kept(&balanced.after)));
+    BeforeAfter {
+        before,
+        after,
+        nrmse_before: 100.0 * before / size,
+        nrmse_after: 100.0 * after / size,
+    }
+}

@@ -1,0 +1,66 @@
+//! This file is numbers as a calibration and a report have them: with their intervals.
+
+use crate::evidence::Intervals;
+use crate::report::Number;
+use rigproof_spec::effect::Motion;
+use rigproof_trace::rig::{RigEffect, Value};
+use std::collections::BTreeMap;
+
+/// A value with a 95 % interval of this half width, where it is a number.
+pub(crate) fn with_interval(value: f64, half: Option<f64>) -> Value {
+    let mut out = Value::unknown(value);
+    if let Some(half) = half.filter(|h| h.is_finite()) {
+        out.low95 = Some(value - half);
+        out.high95 = Some(value + half);
+    }
+    out
+}
+
+/// The onset of a term, which no fit touches, with its interval.
+pub(crate) fn onset(onset_s: Option<f64>, intervals: &Intervals, index: usize) -> Option<Value> {
+    let [low95, high95] = match intervals.onsets.get(index) {
+        Some(Some(ends)) => ends.map(Some),
+        _ => [None; 2],
+    };
+    onset_s.map(|onset_s| Value {
+        low95,
+        high95,
+        ..Value::known(onset_s)
+    })
+}
+
+/// An effect's parameters as the report prints them.
+pub fn numbers(effect: &RigEffect, motion: Motion) -> BTreeMap<String, Number> {
+    let parameters = effect.mechanism.parameters().iter().zip(&effect.values);
+    parameters
+        .map(|(parameter, value)| {
+            (
+                parameter.name.to_owned(),
+                number(value, parameter.quantity.dimension(motion).to_string()),
+            )
+        })
+        .collect()
+}
+
+pub(crate) fn number(value: &Value, unit: String) -> Number {
+    Number {
+        value: value.value,
+        unit,
+        low95: value.low95,
+        high95: value.high95,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_interval_is_written_where_the_recording_gives_one() {
+        let value = with_interval(3.7, Some(0.19));
+        assert!((value.low95.unwrap() - 3.51).abs() < 1e-12);
+        assert!((value.high95.unwrap() - 3.89).abs() < 1e-12);
+        assert_eq!(with_interval(3.7, Some(f64::NAN)).low95, None);
+        assert_eq!(with_interval(3.7, None).high95, None);
+    }
+}

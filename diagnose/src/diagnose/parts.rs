@@ -1,0 +1,91 @@
+//! This file parts recordings of one rig into what is fitted and what shows the result.
+
+use crate::Options;
+use crate::align::Fault;
+use crate::plant::{Plant, Run};
+
+/// What is fitted, and what shows the result.
+pub struct Parts<P: Plant> {
+    /// The fitted recordings, one after another.
+    pub train: P::Run,
+    /// The recording that shows the result.
+    pub test: P::Run,
+    /// Where its held-out part begins, s after its first sample.
+    pub test_from_s: f64,
+    /// Whether it is a recording of its own.
+    pub other_recording: bool,
+}
+
+/// From how many recordings on the last is held out whole. The second of two may be the experiment that the first one asked for: it is
+/// needed for the naming, and its end is enough to show the result.
+const MANY: usize = 3;
+
+impl<P: Plant> Parts<P> {
+    /// Recordings of which another one shows the result, or the last of many, or the end of the last.
+    ///
+    /// # Errors
+    /// What the recording is called that cannot be used, and why.
+    pub fn of(
+        plant: &P,
+        recordings: &[&P::Recording],
+        held_out: Option<&P::Recording>,
+        options: &Options,
+    ) -> Result<Parts<P>, (String, Fault)> {
+        let count = recordings.len();
+        let mut runs: Vec<P::Run> = Vec::with_capacity(count);
+        for (place, recording) in recordings.iter().enumerate() {
+            let clocks = runs.iter().map(Run::clock);
+            let before_s = clocks.map(|clock| clock.samples as f64 * clock.step_s);
+            let run = plant.aligned(recording, before_s.sum());
+            runs.push(run.map_err(|fault| (which(place, count), fault))?);
+        }
+        let other = match held_out {
+            Some(recording) => {
+                let named = |fault| ("held-out recording".to_owned(), fault);
+                Some(plant.aligned(recording, 0.0).map_err(named)?)
+            }
+            None if count >= MANY => runs.pop(),
+            None => None,
+        };
+        let other_recording = other.is_some();
+        let (test, test_from_s) = match (other, runs.pop()) {
+            (Some(test), last) => {
+                runs.extend(last);
+                (test, 0.0)
+            }
+            (None, Some(last)) => {
+                let samples = last.clock().samples;
+                let cut = ((1.0 - options.hold_out_share) * samples as f64).round() as usize;
+                let before = runs.iter().map(|run| run.clock().samples).sum();
+                let (fitted, test, from_s) = P::parted(last, cut, before);
+                runs.push(fitted);
+                (test, from_s)
+            }
+            (None, None) => return Err(("recording".to_owned(), nothing())),
+        };
+        let named = |(place, fault)| (which(place, count), fault);
+        Ok(Parts {
+            train: P::joined(runs).map_err(named)?,
+            test,
+            test_from_s,
+            other_recording,
+        })
+    }
+}
+
+/// What a recording is called.
+fn which(place: usize, of: usize) -> String {
+    match of {
+        1 => "recording".to_owned(),
+        _ => format!("recording {} of {of}", place + 1),
+    }
+}
+
+fn nothing() -> Fault {
+    Fault {
+        channel: "time",
+        from_s: 0.0,
+        to_s: 0.0,
+        reason: "there is no recording".to_owned(),
+    }
+}

@@ -1,0 +1,238 @@
+//! This file is the interface of a plant: all that naming, judging and showing ask of a recording. Nothing behind it knows which plant it is.
+
+mod described;
+mod rules;
+
+use crate::cause::{Cause, JointId, Place};
+use crate::locate::Regimes;
+use crate::unknown::Variable;
+use crate::weak::Windows;
+use crate::whiten::Whitener;
+use core::fmt::Debug;
+use rigproof_model::effects::Instant;
+use rigproof_spec::effect::{Mechanism, Motion};
+
+pub use described::{At, Plant, Replica, Shown};
+pub use rules::Rules;
+
+/// The clock of a recording: regular samples.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Clock {
+    /// Sample interval, s.
+    pub step_s: f64,
+    /// Time of the first sample, s.
+    pub start_s: f64,
+    /// How many samples there are.
+    pub samples: usize,
+}
+
+impl Clock {
+    /// The length of the recording, s.
+    pub fn duration_s(self) -> f64 {
+        self.step_s * self.samples.saturating_sub(1) as f64
+    }
+
+    /// The first sample at or after a time, s.
+    pub fn sample_at(self, time_s: f64) -> usize {
+        ((time_s - self.start_s) / self.step_s).ceil().max(0.0) as usize
+    }
+}
+
+/// What a cause adds to the balance of efforts. Every signal holds a stretch of samples for each output, one stretch after another.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Columns {
+    /// One signal for each linear parameter: its coefficient is the parameter.
+    Free(Vec<Vec<f64>>),
+    /// A signal that enters with coefficient 1: the cause has no linear parameter.
+    Fixed(Vec<f64>),
+    /// Signals of a plant that stands otherwise than recorded; [`Run::moved_rows`] makes rows of them, which are no averages of a signal.
+    Moved(Vec<Vec<f64>>),
+}
+
+/// A recording that is aligned, with the equations of its plant.
+///
+/// Signals are in SI units, one value a sample; a plant with several outputs has a stretch of samples for each, one stretch after another.
+pub trait Run: Debug + Send + Sync {
+    /// Its samples.
+    fn clock(&self) -> Clock;
+
+    /// Which samples were recorded, not filled in.
+    fn recorded(&self) -> &[bool];
+
+    /// Whether it slides or turns: what the units of its numbers are.
+    fn motion_kind(&self) -> Motion;
+
+    /// How many equations it has: each window gives as many rows.
+    fn outputs(&self) -> usize {
+        1
+    }
+
+    /// What an output is, in words.
+    fn output_name(&self, output: usize) -> &'static str {
+        let _ = output;
+        "effort"
+    }
+
+    /// The rules by which names are judged here.
+    fn rules(&self) -> &'static Rules;
+
+    /// The samples `from..to`, times kept.
+    fn slice(&self, from: usize, to: usize) -> Box<dyn Run>;
+
+    // The balance of efforts: driving effort = known + what the nominal model leaves out.
+
+    /// The driving effort as recorded: what a contribution is compared with.
+    fn effort(&self) -> Vec<f64>;
+
+    /// The driving effort as the second difference of the positions sees it.
+    fn driving(&self) -> Vec<f64>;
+
+    /// What the nominal model knows of it: inertia, predicted efforts.
+    fn known(&self) -> Vec<f64>;
+
+    /// Signals of the plant's own unknown numbers, such as an inertia: they stand in every fit.
+    fn nuisances(&self) -> Vec<Vec<f64>> {
+        Vec::new()
+    }
+
+    // Windows and their noise.
+
+    /// The windows that suit it, those given up in which its sensors tell too little.
+    fn windows(&self) -> Windows;
+
+    /// Gives up the rows of windows in which the sensors tell too little.
+    fn keep_told(&self, windows: &mut Windows);
+
+    /// Windows of about a width, s, those given up in which its sensors tell too little.
+    fn windows_of(&self, width_s: f64) -> Windows {
+        let mut windows = self.all_windows(width_s);
+        self.keep_told(&mut windows);
+        windows
+    }
+
+    /// All windows of about a width, s.
+    fn all_windows(&self, width_s: f64) -> Windows {
+        let clock = self.clock();
+        let times = (clock.step_s, clock.start_s);
+        Windows::over(clock.samples, self.outputs(), times, width_s)
+    }
+
+    /// Root mean square over the usable rows of the standard deviation that sensor noise alone gives them.
+    fn floor(&self, windows: &Windows) -> f64;
+
+    /// The noise model of the usable rows; `excess` is a variance of white effort that nothing explains.
+    fn whitener(&self, windows: &Windows, excess: f64) -> Whitener;
+
+    /// Standard deviation of one sample of a position: what a travel is compared with.
+    fn position_noise(&self) -> f64;
+
+    // Places.
+
+    /// How many joints it has that have names of their own; none where the whole is one joint.
+    fn joints(&self) -> usize {
+        0
+    }
+
+    /// The name of a place in reports; `None` for the whole.
+    fn place_name(&self, at: Place) -> Option<&'static str> {
+        let _ = at;
+        None
+    }
+
+    /// The smoothed motion at a place: what the laws are evaluated on. Empty where nothing moves by itself.
+    fn motion(&self, at: Place) -> &[Instant];
+
+    /// The range of the motion at a place, m or rad.
+    fn travel(&self, at: Place) -> f64;
+
+    // Causes.
+
+    /// The causes that have a meaning on this plant.
+    fn causes(&self) -> Vec<Cause>;
+
+    /// The shapes of a cause that are tried; `residual` is what is left, row by row.
+    fn shapes(&self, cause: Cause, windows: &Windows, residual: &[f64]) -> Vec<Vec<f64>>;
+
+    /// How far the first number of a cause's shape may go where that is beyond what is tried first.
+    fn reach(&self, cause: Cause) -> Option<(f64, f64)> {
+        let _ = cause;
+        None
+    }
+
+    /// What a cause of this shape adds to the balance; `None` where it has no meaning here.
+    ///
+    /// `beside` is what all other terms give together, sample by sample. A cause that acts on that cannot be told without it: `None`.
+    fn columns(&self, cause: Cause, shape: &[f64], beside: Option<&[f64]>) -> Option<Columns>;
+
+    /// Whether some causes act on what the others give, so that they are linearised about it again and again.
+    fn is_linearised(&self) -> bool {
+        false
+    }
+
+    /// Whether a cause moves the whole plant: its columns are [`Columns::Moved`].
+    fn moves(&self, cause: Cause) -> bool {
+        let _ = cause;
+        false
+    }
+
+    /// The rows of [`Columns::Moved`], one list a linear parameter: `recorded` is the balance as recorded, `first` the sample at which it begins.
+    fn moved_rows(
+        &self,
+        windows: &Windows,
+        recorded: &[f64],
+        signals: &[Vec<f64>],
+        shape: &[f64],
+        first: usize,
+    ) -> Vec<Vec<f64>> {
+        let _ = (windows, recorded, signals, shape, first);
+        Vec::new()
+    }
+
+    /// The shape of a cause that moves the plant whose columns are taken over the whole change that these coefficients say.
+    fn shape_over(&self, cause: Cause, shape: &[f64], coefficients: &[f64]) -> Option<Vec<f64>> {
+        let _ = (cause, shape, coefficients);
+        None
+    }
+
+    /// The linear parameters in the vocabulary's meaning, from the coefficients of the columns.
+    fn linear(&self, mechanism: Mechanism, coefficients: &[f64]) -> Vec<f64> {
+        let _ = mechanism;
+        coefficients.to_vec()
+    }
+
+    /// The cause that no recording of this plant can tell from another.
+    fn twin(&self, cause: Cause) -> Option<Cause> {
+        let _ = cause;
+        None
+    }
+
+    /// What a bench with one brake has: the torque that its nominal model predicts, and its current, A.
+    fn brake(&self) -> Option<(&[f64], &[f64])> {
+        None
+    }
+
+    // What is left.
+
+    /// The regimes that unexplained energy is located in.
+    fn regimes(&self, windows: &Windows) -> Regimes;
+
+    /// What a free curve of what is left can be drawn over.
+    fn variables(&self, windows: &Windows) -> Vec<Variable>;
+
+    /// All places that have a motion of their own: every joint, or the whole where it is one.
+    fn moving_places(&self) -> Vec<Place> {
+        match self.joints() {
+            0 => vec![Place::Whole],
+            joints => (0..joints).map(|k| Place::Joint(JointId(k))).collect(),
+        }
+    }
+
+    /// The name of a cause in reports: `viscous`, `viscous at E`.
+    fn cause_name(&self, cause: Cause) -> String {
+        let mechanism = cause.mechanism.name();
+        match self.place_name(cause.at) {
+            Some(place) => format!("{mechanism} at {place}"),
+            None => mechanism.to_owned(),
+        }
+    }
+}

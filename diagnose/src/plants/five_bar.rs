@@ -1,0 +1,30 @@
+//! This room is the five-bar with three or four brakes in the diagnosis: its recording, its noise, its columns.
+
+pub mod brakes;
+mod calibrated;
+pub mod candidates;
+pub mod columns;
+pub(crate) mod encoder;
+pub mod experiment;
+pub mod free_run;
+mod free_runs;
+pub mod from_rig;
+mod held;
+mod joined;
+mod locate;
+mod mapping;
+#[cfg(test)]
+mod mechanisms;
+pub mod noise;
+mod plant;
+mod protocol;
+#[cfg(test)]
+pub(crate) mod recorded;
+pub mod replay;
+pub(crate) mod replica;
+pub mod run;
+mod sensors;
+mod stops;
+#[cfg(test)]
+mod tests;
+mod undone;

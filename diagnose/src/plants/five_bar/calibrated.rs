@@ -1,0 +1,92 @@
+//! This file gives a five-bar's description the numbers of a selection.
+
+use super::encoder::Encoder;
+use super::run::joint_at;
+use super::undone::undone_first;
+use crate::diagnose::numbers::{onset, with_interval};
+use crate::diagnose::write::Stand;
+use crate::evidence::{Intervals, coefficients_by_term, parameters};
+use crate::problem::Term;
+use crate::select::refs;
+use rigproof_spec::effect::Mechanism;
+use rigproof_trace::rig::five_bar::{FiveBar, JointEffect};
+use rigproof_trace::rig::{RigEffect, Value};
+
+impl Stand<'_, FiveBar> {
+    /// The rig with the numbers of all terms; found effects follow the nominal ones.
+    pub(super) fn with_numbers(&self, intervals: &Intervals) -> FiveBar {
+        let mut rig = self.plant.clone();
+        let (_, coefficients) = coefficients_by_term(self.problem, self.selection);
+        let terms = refs(&self.selection.nominal, &self.selection.found);
+        let (undone, known) = undone_first(self.plant);
+        rig.effects = undone;
+        let fitted = terms
+            .iter()
+            .zip(&coefficients)
+            .enumerate()
+            .map(|(index, (term, own))| {
+                if let (Some(given), Some(_)) = (known.get(index), &term.known) {
+                    return given.clone();
+                }
+                let halves = intervals.terms.get(index);
+                let count = term.cause.mechanism.parameters().len();
+                let values = parameters(self.problem, term, own)
+                    .into_iter()
+                    .take(count)
+                    .enumerate();
+                let values = values
+                    .map(|(k, value)| with_interval(value, halves.and_then(|h| h.get(k)).copied()));
+                joint_effect(
+                    term,
+                    term.cause.mechanism,
+                    values.collect(),
+                    onset(term.onset_s, intervals, index),
+                )
+            });
+        rig.effects.extend(fitted);
+        let second = terms.iter().zip(&coefficients);
+        rig.effects.extend(second.filter_map(|(term, own)| {
+            let mechanism = second_of(term.cause.mechanism)?;
+            let mut level = *own.get(1)?;
+            if let Some(encoder) = Encoder::of(self.train, term.cause, &term.shape) {
+                level = encoder.zero_at_zero_rad([*own.first()?, level]);
+            }
+            let level = with_interval(level, None);
+            Some(joint_effect(
+                term,
+                mechanism,
+                vec![level],
+                term.onset_s.map(Value::known),
+            ))
+        }));
+        rig.provenance
+            .insert("fit".to_owned(), "weighted windows".to_owned());
+        rig
+    }
+}
+
+/// What the second column of a mechanism is, which the vocabulary has as one of its own: a spring's torque at θ = 0, the zero of an encoder
+/// that counts from where it was homed.
+const fn second_of(mechanism: Mechanism) -> Option<Mechanism> {
+    match mechanism {
+        Mechanism::Spring => Some(Mechanism::ConstantBias),
+        Mechanism::EncoderScale => Some(Mechanism::EncoderOffset),
+        _ => None,
+    }
+}
+
+fn joint_effect(
+    term: &Term,
+    mechanism: Mechanism,
+    values: Vec<Value>,
+    onset: Option<Value>,
+) -> JointEffect {
+    JointEffect {
+        joint: joint_at(term.cause.at),
+        effect: RigEffect {
+            mechanism,
+            values,
+            onset,
+        },
+    }
+}

@@ -1,0 +1,195 @@
+//! This file is the columns of the five-bar: what each cause would add to the efforts of θA and θB.
+
+use super::brakes;
+use super::encoder::Encoder;
+use super::joined::over_parts;
+use super::run::{FiveBarRun, inertial, joint_at, place, stacked};
+use crate::cause::Cause;
+use crate::problem::less;
+use crate::signals::{numerov, shifted, unit_parameters};
+use rigproof_model::bench::{column, column_by_travel};
+use rigproof_model::effects::{Form, Law, entry, law};
+use rigproof_model::motion::added_mass;
+use rigproof_model::motion::two_coordinate::{TwoCoordinate, two_coordinate};
+use rigproof_spec::effect::Mechanism;
+use rigproof_spec::inertia::Inertia;
+use rigproof_spec::joint::Joint;
+
+/// What a force on the tip, N, sample by sample, does to θA and θB, as the second difference of the angles sees it.
+pub fn driving(run: &FiveBarRun, force: impl Iterator<Item = [f64; 2]>) -> Vec<f64> {
+    seen(&run.at_tip(force))
+}
+
+/// What the nominal model knows of the resistance: inertia and brakes.
+pub fn known(run: &FiveBarRun) -> Vec<f64> {
+    let mut sum = inertial(run, &run.forms);
+    for joint in run.parameters.layout.brakes() {
+        let torque = run.at_joint(*joint, &run.brake_torque(*joint));
+        crate::problem::add(&mut sum, &seen(&torque), 1.0);
+    }
+    sum
+}
+
+/// One signal for each linear parameter of a cause; `None` where it has another form or no meaning here.
+pub fn free(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<f64>>> {
+    if let Some(encoder) = Encoder::of(run, cause, shape) {
+        return over_parts(run, |part| encoder.signals(part));
+    }
+    over_parts(run, |part| free_of_one(part, cause, shape))
+}
+
+fn free_of_one(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<f64>>> {
+    match (cause.mechanism, joint_at(cause.at)) {
+        (Mechanism::GainError, Some(joint)) => {
+            Some(vec![seen(&run.at_joint(joint, &run.brake_torque(joint)))])
+        }
+        (Mechanism::CurrentHysteresis | Mechanism::ThermalFade, Some(joint)) => {
+            let change = brakes::unit(run, cause.mechanism, joint, shape)?;
+            Some(vec![along_motion(run, joint, &change)])
+        }
+        // A spring at a joint has its rest angle where it likes: the second column is its torque at θ = 0.
+        (Mechanism::Spring, Some(joint)) => {
+            let mut columns = at_joint(run, Mechanism::Spring, joint, shape)?;
+            columns.extend(at_joint(run, Mechanism::ConstantBias, joint, shape)?);
+            Some(columns)
+        }
+        (Mechanism::BearingFriction, Some(joint)) => {
+            at_joint(run, Mechanism::DryOffset, joint, shape)
+        }
+        (Mechanism::LoadDependent, Some(joint)) => {
+            let loads: Vec<f64> = run.forces().map(|[x, y]| x.hypot(y)).collect();
+            Some(vec![along_motion(run, joint, &loads)])
+        }
+        (mechanism, Some(joint)) => at_joint(run, mechanism, joint, shape),
+        (Mechanism::ForceGain, None) => Some(vec![driving(run, run.forces())]),
+        (Mechanism::ForceBias, None) => Some(
+            [[1.0, 0.0], [0.0, 1.0]]
+                .map(|unit| driving(run, core::iter::repeat(unit)))
+                .into(),
+        ),
+        (Mechanism::Gravity, None) => Some([0, 1].map(|axis| seen(&weight(run, axis))).into()),
+        (Mechanism::Payload, None) => Some(vec![inertial(
+            run,
+            &forms_of(run, &added_mass::at_tip(1.0)),
+        )]),
+        (Mechanism::InertiaError, None) => Some(
+            unit_inertias(&run.parameters.inertia)
+                .map(|unit| inertial(run, &forms_of(run, &unit)))
+                .into(),
+        ),
+        _ => None,
+    }
+}
+
+/// A column with coefficient 1: a change of the brakes, of the clock or of the sensor's direction.
+pub fn fixed(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<f64>> {
+    let own = over_parts(run, |part| Some(vec![fixed_of_one(part, cause, shape)?]))?;
+    own.into_iter().next()
+}
+
+fn fixed_of_one(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<f64>> {
+    let value = *shape.first()?;
+    match (cause.mechanism, joint_at(cause.at)) {
+        // The yield of a brake changes, its sign does not (docs/decisions/0001).
+        (mechanism, Some(joint)) => {
+            let change = brakes::change(run, mechanism, joint, value)?;
+            Some(along_motion(run, joint, &change))
+        }
+        // The recorded force is the one of a while ago: what acts is ahead of it.
+        (Mechanism::ChannelSkew, None) => {
+            let delay = value / run.step_s;
+            let [x, y] = run
+                .force
+                .each_ref()
+                .map(|force| less(force, &shifted(force, delay)));
+            Some(driving(run, x.into_iter().zip(y).map(|(x, y)| [x, y])))
+        }
+        // The whole turn: its first order alone leaves 1 − cos of the force, which is a gain.
+        (Mechanism::ForceRotation, None) => {
+            let (sine, cosine) = libm::sincos(value);
+            let too_much = run
+                .forces()
+                .map(|[x, y]| [x - cosine * x - sine * y, y - cosine * y + sine * x]);
+            Some(driving(run, too_much))
+        }
+        _ => None,
+    }
+}
+
+/// A change of a brake's yield torque along its joint's motion.
+fn along_motion(run: &FiveBarRun, joint: Joint, change: &[f64]) -> Vec<f64> {
+    let pairs = run.motion_of(joint).iter().zip(change);
+    let torque: Vec<f64> = pairs.map(|(now, c)| now.sense * c).collect();
+    seen(&run.at_joint(joint, &torque))
+}
+
+/// The signals of a joint's own law.
+fn at_joint(
+    run: &FiveBarRun,
+    mechanism: Mechanism,
+    joint: Joint,
+    shape: &[f64],
+) -> Option<Vec<Vec<f64>>> {
+    let entry = entry(mechanism)?;
+    let of: Option<&Vec<f64>> = match entry.form {
+        Form::Resistance(_) => None,
+        Form::ShareOfBrake(_) => Some(run.yields.get(place(joint))?),
+        Form::Drive | Form::Brake | Form::Linkage => return None,
+    };
+    unit_parameters(entry.linear, shape)
+        .map(|parameters| {
+            let law = law(mechanism, &parameters)?;
+            let mut resistance = along(law.as_ref(), run, joint);
+            for (share, torque) in resistance.iter_mut().zip(of.into_iter().flatten()) {
+                *share *= torque;
+            }
+            Some(seen(&run.at_joint(joint, &resistance)))
+        })
+        .collect()
+}
+
+/// The resistance of a law along a joint's motion. What a reversal begins anew goes by the recorded angle: a joint that turns back
+/// slowly, for a few counts, turns back.
+fn along(law: &dyn Law, run: &FiveBarRun, joint: Joint) -> Vec<f64> {
+    let motion = run.motion_of(joint);
+    if law.begins_anew() {
+        return column_by_travel(law, motion, &run.known_travel(joint), run.step_s);
+    }
+    column(law, motion, run.step_s)
+}
+
+/// The weight's resistance for a unit of gravity along x (0) or y (1), N·m.
+fn weight(run: &FiveBarRun, axis: usize) -> Vec<f64> {
+    let gravity = if axis == 0 { [1.0, 0.0] } else { [0.0, 1.0] };
+    let [joint_a, _, joint_b, _] = &run.joints;
+    let motion = run.forms.iter().zip(joint_a.iter().zip(joint_b));
+    stacked(motion.map(|(form, (a, b))| {
+        let inertia = &run.parameters.inertia;
+        (-form.weight(inertia, [a.position, b.position], gravity)).into()
+    }))
+}
+
+fn forms_of(run: &FiveBarRun, inertia: &Inertia) -> Vec<TwoCoordinate> {
+    let arms = &run.parameters.arms;
+    let [joint_a, _, joint_b, _] = &run.joints;
+    let motion = joint_a.iter().zip(joint_b).zip(&run.poses);
+    motion
+        .map(|((a, b), pose)| two_coordinate(arms, inertia, pose, [a.speed, b.speed]))
+        .collect()
+}
+
+/// One unit of each parameter of an inertia error: AE, BC, ED, CD, tip.
+fn unit_inertias(nominal: &Inertia) -> [Inertia; 5] {
+    [0, 1, 2, 3, 4].map(|own| {
+        let unit = [0, 1, 2, 3, 4].map(|k| f64::from(u8::from(k == own)));
+        added_mass::in_all(nominal, unit)
+    })
+}
+
+/// An effort as the second difference of the angles sees it: Numerov's weights on both outputs.
+fn seen(signal: &[f64]) -> Vec<f64> {
+    let (a, b) = signal.split_at(signal.len() / 2);
+    let mut out = numerov(a);
+    out.extend(numerov(b));
+    out
+}

@@ -1,0 +1,73 @@
+//! This file is one of several explanations of a recording, and how badly it fits another one.
+
+use super::super::free_run::Model;
+use crate::candidates::{realise, variants};
+use crate::cause::Cause;
+use crate::problem::{Problem, Term};
+use crate::regression::{Blocks, fit};
+use crate::select::best_variant;
+
+/// A cause with its shape, as an explanation has it.
+#[derive(Clone, Debug)]
+struct Part {
+    cause: Cause,
+    shape: Vec<f64>,
+    known: Option<Vec<f64>>,
+}
+
+impl Part {
+    fn of(term: &Term) -> Part {
+        Part {
+            cause: term.cause,
+            shape: term.shape.clone(),
+            known: term.known.clone(),
+        }
+    }
+
+    /// The term on another recording; an onset belongs to the recording it was found on.
+    fn on(&self, problem: &Problem) -> Option<Term> {
+        let term = realise(problem, self.cause, &self.shape, None, &[])?;
+        Some(Term {
+            known: self.known.clone(),
+            ..term
+        })
+    }
+}
+
+/// An explanation of a recording.
+#[derive(Clone, Debug)]
+pub struct Explanation {
+    /// What the rivals disagree about.
+    own: Part,
+    /// What stands beside it.
+    others: Vec<Part>,
+    /// The rig with its numbers.
+    pub model: Model,
+}
+
+impl Explanation {
+    /// An explanation by its own term, those beside it, and the rig with all their numbers.
+    pub fn new<'a>(own: &Term, others: impl Iterator<Item = &'a Term>, model: Model) -> Self {
+        Explanation {
+            own: Part::of(own),
+            others: others.map(Part::of).collect(),
+            model,
+        }
+    }
+
+    /// What the rivals disagree about.
+    pub fn cause(&self) -> Cause {
+        self.own.cause
+    }
+
+    /// The loss that stays on another recording when the explanation may have other numbers there, and its own cause any shape
+    /// that is tried.
+    pub fn loss(&self, problem: &Problem, blocks: &Blocks) -> f64 {
+        let others: Vec<Term> = self.others.iter().filter_map(|p| p.on(problem)).collect();
+        let common: Vec<&Term> = others.iter().collect();
+        let bare = fit(problem, &common, blocks);
+        let mut tried = variants(problem, self.own.cause, &common, &bare);
+        tried.extend(self.own.on(problem));
+        best_variant(problem, &common, &tried).map_or(bare.loss, |(_, loss)| loss)
+    }
+}

@@ -1,0 +1,361 @@
+//! This file lets the reference rig run freely from the recorded force and currents, again and again from the recorded state.
+
+use super::from_rig::{nominal, with_angles};
+use super::run::{FiveBarRun, joint_at};
+use crate::filter::rms;
+use crate::plant::Run;
+use crate::plants::joint::free_run::HORIZONS_S;
+use crate::problem::NominalEffect;
+use crate::report::Horizon;
+use crate::signals::shifted;
+use core::ops::Range;
+use rigproof_model::error::ModelError;
+use rigproof_model::rig::{JointEffect, LONGEST_STEP_S, Rig};
+use rigproof_spec::effect::Mechanism;
+use rigproof_spec::joint::Joint;
+use rigproof_spec::tables::GREATEST_CURRENT_A;
+use rigproof_trace::rig::five_bar::FiveBar;
+
+/// Free runs of a part of a recording from which the errors at the horizons are taken.
+const SHOTS: usize = 24;
+/// A horizon is asked for where it is at most this share of the part.
+const MOST_OF_PART: f64 = 0.5;
+
+/// A five-bar with all its numbers: what acts on the rig, and what its sensors do.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Model {
+    pub(super) rig: Vec<JointEffect>,
+    pub(super) sensors: Vec<JointEffect>,
+}
+
+impl Model {
+    /// The model of a description.
+    pub fn of(description: &FiveBar) -> Model {
+        Model::with(nominal(description))
+    }
+
+    fn with(effects: Vec<NominalEffect>) -> Model {
+        let effects = effects.into_iter().map(|own| JointEffect {
+            mechanism: own.cause.mechanism,
+            joint: joint_at(own.cause.at),
+            parameters: own.parameters,
+            onset_s: own.onset_s,
+        });
+        let (sensors, rig) = effects.partition(|own| is_of_sensors(own.mechanism));
+        Model { rig, sensors }
+    }
+}
+
+const fn is_of_sensors(mechanism: Mechanism) -> bool {
+    matches!(
+        mechanism,
+        Mechanism::ForceGain
+            | Mechanism::ForceBias
+            | Mechanism::ForceRotation
+            | Mechanism::ChannelSkew
+            | Mechanism::EncoderScale
+            | Mechanism::EncoderOffset
+    )
+}
+
+/// The recording with what its sensors did to force and angles taken back.
+pub(super) fn truly(model: &Model, run: &FiveBarRun) -> Result<FiveBarRun, ModelError> {
+    let mut own = run.clone();
+    for effect in &model.sensors {
+        let first = effect
+            .onset_s
+            .map_or(0, |onset_s| run.clock().sample_at(onset_s));
+        let value = |k: usize| effect.parameters.get(k).copied().unwrap_or(0.0);
+        let [force_x, force_y] = &mut own.force;
+        match effect.mechanism {
+            Mechanism::ChannelSkew => {
+                for force in [force_x, force_y] {
+                    let earlier = shifted(force, value(0) / run.step_s);
+                    let pairs = force.iter_mut().zip(earlier).skip(first);
+                    pairs.for_each(|(f, e)| *f = e);
+                }
+            }
+            Mechanism::EncoderScale | Mechanism::EncoderOffset => {
+                let [a, b] = &mut own.theta;
+                let angle = if effect.joint == Some(Joint::A) { a } else { b };
+                let shown = angle.iter_mut().skip(first);
+                shown.for_each(|theta| *theta = unshown(effect, *theta));
+            }
+            mechanism => {
+                for (x, y) in force_x.iter_mut().zip(force_y).skip(first) {
+                    (*x, *y) = match mechanism {
+                        Mechanism::ForceGain => (*x / (1.0 + value(0)), *y / (1.0 + value(0))),
+                        Mechanism::ForceBias => (*x - value(0), *y - value(1)),
+                        _ => {
+                            let (sine, cosine) = libm::sincos(value(0));
+                            (cosine * *x + sine * *y, cosine * *y - sine * *x)
+                        }
+                    };
+                }
+            }
+        }
+    }
+    if own.theta == run.theta {
+        return Ok(own);
+    }
+    let theta = core::mem::take(&mut own.theta);
+    with_angles(&own, theta).map_err(|(_, error)| error)
+}
+
+/// The angle behind one that an encoder shows, rad.
+fn unshown(effect: &JointEffect, shown: f64) -> f64 {
+    let value = effect.parameters.first().copied().unwrap_or(0.0);
+    match effect.mechanism {
+        Mechanism::EncoderScale => shown / (1.0 + value),
+        _ => shown - value,
+    }
+}
+
+/// Currents that a brake can be given, A.
+pub(super) fn currents_at(run: &FiveBarRun, k: usize) -> [f64; 4] {
+    run.currents.each_ref().map(|current| {
+        let own = current.as_ref().and_then(|current| current.get(k));
+        own.map_or(0.0, |a| a.clamp(0.0, GREATEST_CURRENT_A))
+    })
+}
+
+pub(super) fn force_at(run: &FiveBarRun, k: usize) -> [f64; 2] {
+    let last = run.len().saturating_sub(1);
+    run.force
+        .each_ref()
+        .map(|force| force.get(k.min(last)).copied().unwrap_or(0.0))
+}
+
+/// The rig at the samples of `starts`, in rising order: led there along the smoothed motion from the first sample.
+fn led(model: &Model, run: &FiveBarRun, starts: &[usize]) -> Result<Vec<Rig>, ModelError> {
+    let [joint_a, _, joint_b, _] = &run.joints;
+    let mut at = joint_a
+        .iter()
+        .zip(joint_b)
+        .map(|(a, b)| ([a.position, b.position], [a.speed, b.speed]));
+    let (theta, rates) = at.next().unwrap_or_default();
+    let rig = Rig::moving(run.parameters, theta, rates)?;
+    let mut rig = rig.with_effects(&model.rig)?;
+    let mut there = Vec::with_capacity(starts.len());
+    let mut starts = starts.iter().peekable();
+    for (k, (theta, rates)) in (0..).zip(core::iter::once((theta, rates)).chain(at)) {
+        if k > 0 {
+            rig.lead(theta, rates, currents_at(run, k - 1), run.step_s)?;
+        }
+        while starts.next_if(|start| **start == k).is_some() {
+            there.push(rig.clone());
+        }
+        if starts.peek().is_none() {
+            break;
+        }
+    }
+    Ok(there)
+}
+
+/// Where the rig was after a sample.
+#[derive(Clone, Copy, Debug)]
+struct Reached {
+    theta_rad: [f64; 2],
+    tip_m: [f64; 2],
+}
+
+/// The rig let go at a sample, `count` samples long; shorter where the force drives the linkage out of its assembly.
+///
+/// Into how many steps of the rig a sample interval, s, is divided.
+pub(super) fn parts_of(step_s: f64) -> f64 {
+    (step_s / LONGEST_STEP_S * (1.0 - 1e-9)).ceil().max(1.0)
+}
+
+/// # Errors
+/// Those of [`Rig::step`] but where the linkage comes apart.
+fn let_go(
+    mut rig: Rig,
+    run: &FiveBarRun,
+    first: usize,
+    count: usize,
+) -> Result<Vec<Reached>, ModelError> {
+    let parts = parts_of(run.step_s);
+    let mut reached = Vec::with_capacity(count);
+    for k in first..first + count {
+        let (begin, end) = (force_at(run, k), force_at(run, k + 1));
+        let currents_a = currents_at(run, k);
+        for part in 0..parts as usize {
+            let share = (part as f64 + 0.5) / parts;
+            let [b_x, b_y] = begin;
+            let [e_x, e_y] = end;
+            let force_n = [b_x + share * (e_x - b_x), b_y + share * (e_y - b_y)];
+            match rig.step(force_n, currents_a, run.step_s / parts) {
+                Ok(()) => {}
+                Err(ModelError::Singular { .. } | ModelError::CannotClose { .. }) => {
+                    return Ok(reached);
+                }
+                Err(error) => return Err(error),
+            }
+        }
+        reached.push(Reached {
+            theta_rad: rig.base_angles_rad(),
+            tip_m: rig.tip_m(),
+        });
+    }
+    Ok(reached)
+}
+
+/// Free runs of a whole recording, one after another, each from the recorded state.
+#[derive(Clone, Debug)]
+pub struct Simulated {
+    /// θA and θB, rad; the smoothed recording where a run begins, not a number where one broke off.
+    pub theta_rad: [Vec<f64>; 2],
+    /// How far the tip is from the recorded one, m.
+    pub tip_off_m: Vec<f64>,
+    /// Recorded θA and θB with what their encoders did taken back, rad.
+    pub recorded_rad: [Vec<f64>; 2],
+    /// How many runs there were.
+    pub runs: usize,
+    /// How many of them drove the linkage out of its assembly.
+    pub broken_off: usize,
+}
+
+/// Lets a model run freely along a recording, `restart_s` at a time.
+///
+/// # Errors
+/// The rig cannot be given the model's effects.
+pub fn simulated(model: &Model, run: &FiveBarRun, restart_s: f64) -> Result<Simulated, ModelError> {
+    let run = truly(model, run)?;
+    let piece = ((restart_s / run.step_s).round() as usize).max(1);
+    let starts: Vec<usize> = (0..run.len()).step_by(piece).collect();
+    let mut out = Simulated {
+        theta_rad: [const { Vec::new() }; 2],
+        tip_off_m: Vec::new(),
+        recorded_rad: run.theta.clone(),
+        runs: starts.len(),
+        broken_off: 0,
+    };
+    for (rig, first) in led(model, &run, &starts)?.into_iter().zip(starts) {
+        let count = piece.min(run.len() - first) - 1;
+        let start = Reached {
+            theta_rad: rig.base_angles_rad(),
+            tip_m: rig.tip_m(),
+        };
+        let reached = let_go(rig, &run, first, count)?;
+        out.broken_off += usize::from(reached.len() < count);
+        let lost = count - reached.len();
+        let nowhere = Reached {
+            theta_rad: [f64::NAN; 2],
+            tip_m: [f64::NAN; 2],
+        };
+        let all = core::iter::once(start).chain(reached);
+        let all = all.chain(core::iter::repeat_n(nowhere, lost));
+        for (k, at) in (first..).zip(all) {
+            for (own, theta) in out.theta_rad.iter_mut().zip(at.theta_rad) {
+                own.push(theta);
+            }
+            out.tip_off_m.push(tip_off_m(&run, k, at.tip_m));
+        }
+    }
+    Ok(out)
+}
+
+/// How far a tip is from the recorded one, m.
+fn tip_off_m(run: &FiveBarRun, k: usize, [x, y]: [f64; 2]) -> f64 {
+    let recorded = run.poses.get(k).map_or([f64::NAN; 2], |pose| pose.tip_m);
+    let [r_x, r_y] = recorded;
+    libm::hypot(x - r_x, y - r_y)
+}
+
+/// Errors at the horizons: of each shot, θA, θB and the tip; empty where a shot broke off or a sample was not recorded.
+struct Errors {
+    at: Vec<Vec<Option<[f64; 3]>>>,
+    broken_off: usize,
+}
+
+fn errors(
+    model: &Model,
+    run: &FiveBarRun,
+    starts: &[usize],
+    counts: &[usize],
+) -> Result<Errors, ModelError> {
+    let run = truly(model, run)?;
+    let longest = counts.iter().copied().max().unwrap_or(0);
+    let mut broken_off = 0;
+    let shots = led(model, &run, starts)?.into_iter().zip(starts);
+    let at = shots
+        .map(|(rig, &first)| {
+            let reached = let_go(rig, &run, first, longest)?;
+            broken_off += usize::from(reached.len() < longest);
+            let error = |count: &usize| {
+                let (at, k) = (reached.get(count - 1)?, first + count);
+                let [a, b] = &run.theta;
+                let [theta_a, theta_b] = at.theta_rad;
+                let off = [theta_a - a.get(k)?, theta_b - b.get(k)?];
+                let counts = *run.recorded.get(k)? && *run.recorded.get(first)?;
+                counts.then(|| [off[0], off[1], tip_off_m(&run, k, at.tip_m)])
+            };
+            Ok(counts.iter().map(error).collect())
+        })
+        .collect::<Result<_, ModelError>>()?;
+    Ok(Errors { at, broken_off })
+}
+
+/// Root mean squares over shots: of the angles, rad, and of the tip, mm.
+fn size(shots: &[[f64; 3]]) -> (f64, f64) {
+    let angles: Vec<f64> = shots.iter().flat_map(|[a, b, _]| [*a, *b]).collect();
+    let tips: Vec<f64> = shots.iter().map(|[_, _, tip_m]| 1e3 * tip_m).collect();
+    (rms(&angles), rms(&tips))
+}
+
+/// The errors at the horizons with two models on a part of a recording, and how the runs went, in words.
+///
+/// # Errors
+/// The rig cannot be given a model's effects.
+pub fn horizons(
+    before: &Model,
+    after: &Model,
+    run: &FiveBarRun,
+    part: Range<usize>,
+    name: &'static str,
+) -> Result<(Vec<Horizon>, String), ModelError> {
+    let count = |horizon_s: f64| (horizon_s / run.step_s).round() as usize;
+    let fits = |horizon_s: &f64| {
+        let count = count(*horizon_s);
+        count > 0 && count as f64 <= MOST_OF_PART * part.len() as f64
+    };
+    let kept: Vec<f64> = HORIZONS_S.into_iter().filter(fits).collect();
+    let counts: Vec<usize> = kept.iter().map(|h| count(*h)).collect();
+    let room = part
+        .len()
+        .saturating_sub(counts.last().map_or(0, |c| c + 1));
+    let starts: Vec<usize> = (0..SHOTS)
+        .map(|k| part.start + (2 * k + 1) * room / (2 * SHOTS))
+        .collect();
+    let (old, new) = (
+        errors(before, run, &starts, &counts)?,
+        errors(after, run, &starts, &counts)?,
+    );
+    let horizons = kept.iter().enumerate().filter_map(|(index, &horizon_s)| {
+        // A shot counts where it came that far with both models.
+        let shots = old.at.iter().zip(&new.at);
+        let shots = shots.filter_map(|(old, new)| Some(((*old.get(index)?)?, (*new.get(index)?)?)));
+        let (of_old, of_new): (Vec<_>, Vec<_>) = shots.unzip();
+        if of_old.is_empty() {
+            return None;
+        }
+        let ((before, tip_before_mm), (after, tip_after_mm)) = (size(&of_old), size(&of_new));
+        Some(Horizon {
+            horizon_s,
+            part: name,
+            unit: "rad".to_owned(),
+            before,
+            after,
+            tip_before_mm: Some(tip_before_mm),
+            tip_after_mm: Some(tip_after_mm),
+        })
+    });
+    let horizons = horizons.collect();
+    let said = match (old.broken_off, new.broken_off) {
+        (0, 0) => format!("{SHOTS} on the {name}"),
+        (old, new) => format!(
+            "{SHOTS} on the {name}, of which {old} before and {new} after drove the linkage out of its assembly and count up to there in both"
+        ),
+    };
+    Ok((horizons, said))
+}

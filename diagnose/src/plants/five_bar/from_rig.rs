@@ -1,0 +1,421 @@
+//! This file turns a five-bar's description and its recording into an aligned run.
+
+use super::run::{FiveBarRun, forms, place, place_of, yields};
+use super::sensors::{angle_noise, noise_of_force, quantum_of};
+use super::stops::{forget_sense_at_stops, switched};
+use crate::align::{
+    Fault, band_hz, check_clipped, check_clock, check_frozen, check_missing, cutoff_hz,
+    forget_sense_at_rest, forget_sense_at_reversals, median_step, regular_count, resample,
+    smoothed_motion,
+};
+use crate::cause::Cause;
+use crate::doubt::{Smoothing, a_sample_late, greatest_change, turning};
+use crate::problem::NominalEffect;
+use core::f64::consts::TAU;
+use rigproof_model::brake::{Brake, ENTRY_TRAVEL_DEG};
+use rigproof_model::effects::Instant;
+use rigproof_model::error::ModelError;
+use rigproof_model::rig::Parameters;
+use rigproof_spec::joint::Joint;
+use rigproof_spec::tables::{BrakeTable, brake_table};
+use rigproof_spec::units::RAD_PER_DEG;
+use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording};
+use rigproof_trace::rig::{Signal, Status};
+
+/// Aligns a recording of a five-bar.
+///
+/// # Errors
+/// The fault that makes any conclusion meaningless.
+pub fn aligned(rig: &FiveBar, recording: &FiveBarRecording) -> Result<FiveBarRun, Fault> {
+    let time_s = &recording.time_s;
+    let step_s = median_step(time_s);
+    check_clock(time_s, step_s)?;
+    let count = regular_count(time_s, step_s);
+    let mut recorded = vec![true; count];
+    let mut regular = |channel: &'static str, samples: &[f64]| {
+        check_missing(channel, time_s, samples)?;
+        let (values, own) = resample(time_s, samples, step_s, count);
+        recorded
+            .iter_mut()
+            .zip(own)
+            .for_each(|(all, own)| *all &= own);
+        Ok::<_, Fault>(values)
+    };
+    let [theta_a, theta_b] = &recording.theta;
+    let [force_x, force_y] = &recording.force;
+    let theta = [
+        regular("theta_a", &theta_a.samples)?,
+        regular("theta_b", &theta_b.samples)?,
+    ];
+    let force = [
+        regular("force_x", &force_x.samples)?,
+        regular("force_y", &force_y.samples)?,
+    ];
+    let mut currents = [const { None }; 4];
+    for (slot, signal) in currents.iter_mut().zip(&recording.currents) {
+        if let Some(signal) = signal {
+            *slot = Some(regular("current", &signal.samples)?);
+        }
+    }
+    check_channels(recording, step_s)?;
+    check_currents(recording)?;
+    // One number stands for both channels: the greater.
+    let greater = |of: fn(&Signal) -> f64, [one, other]: [&Signal; 2]| of(one).max(of(other));
+    let quantum = greater(quantum_of, [theta_a, theta_b]);
+    let theta_noise = greater(angle_noise, [theta_a, theta_b]);
+    let force_noise = greater(noise_of_force, [force_x, force_y]);
+    let switched = switched(&currents, step_s, count);
+    let run = FiveBarRun {
+        parameters: Parameters::of(rig.layout),
+        step_s,
+        start_s: 0.0,
+        theta: [const { Vec::new() }; 2],
+        joints: [const { Vec::new() }; 4],
+        poses: Vec::new(),
+        forms: Vec::new(),
+        cutoff_hz: cutoff_hz(
+            step_s,
+            force.iter().map(|f| band_hz(f, step_s)).fold(0.0, f64::max),
+        ),
+        force,
+        currents,
+        yields: [const { Vec::new() }; 4],
+        yield_errors: [const { Vec::new() }; 4],
+        theta_noise,
+        still_rad: (2.0 * quantum).max(6.0 * theta_noise),
+        force_noise,
+        recorded,
+        switched,
+        speed_floor: 0.0,
+        parts: Vec::new(),
+    };
+    let run = match realigned(&run, theta.clone()) {
+        Ok(run) => run,
+        Err(found) => return Err(unassembled(run, theta, found)),
+    };
+    check_sign(&run)?;
+    Ok(run)
+}
+
+/// A run with other angles, and what its brakes may be mistaken by with them.
+///
+/// # Errors
+/// The linkage cannot be assembled at some sample: its number, and why.
+pub fn realigned(
+    run: &FiveBarRun,
+    theta: [Vec<f64>; 2],
+) -> Result<FiveBarRun, (usize, ModelError)> {
+    let (mut run, untold) = moved_by(run, theta)?;
+    run.yield_errors = Joint::ALL.map(|joint| yield_errors(&run, joint, &untold));
+    Ok(run)
+}
+
+/// The fault of angles at which the linkage cannot stand, and what they may be instead.
+fn unassembled(
+    run: FiveBarRun,
+    theta: [Vec<f64>; 2],
+    (sample, error): (usize, ModelError),
+) -> Fault {
+    let at_s = sample as f64 * run.step_s;
+    let turned_round = theta.iter().flatten().any(|angle| angle.abs() > TAU);
+    let [theta_a, theta_b] = theta;
+    let cure = if turned_round {
+        "the angles go beyond a whole turn: if they are degrees, say so in the description (`unit = \"deg\"`)"
+    } else if moved_by(&run, [theta_b, theta_a]).is_ok() {
+        "with theta_a and theta_b swapped it can: give each its own column in the description"
+    } else {
+        "an encoder has lost counts, or its zero or sign is wrong"
+    };
+    Fault {
+        channel: "theta_a",
+        from_s: at_s,
+        to_s: at_s,
+        reason: format!("the linkage cannot stand at the recorded angles: {error}; {cure}"),
+    }
+}
+
+/// A run with other angles: its motion, its forms and its brakes follow them.
+///
+/// # Errors
+/// The linkage cannot be assembled at some sample: its number, and why.
+pub fn with_angles(
+    run: &FiveBarRun,
+    theta: [Vec<f64>; 2],
+) -> Result<FiveBarRun, (usize, ModelError)> {
+    moved_by(run, theta).map(|(run, _)| run)
+}
+
+/// The speeds of θA and θB below which their sense cannot be told, sample by sample, rad/s.
+type Untold = [Vec<f64>; 2];
+
+/// The run with other angles, and what cannot be told of them.
+fn moved_by(
+    run: &FiveBarRun,
+    theta: [Vec<f64>; 2],
+) -> Result<(FiveBarRun, Untold), (usize, ModelError)> {
+    let smoothed = theta
+        .each_ref()
+        .map(|theta| smoothed_motion(theta, run.step_s, run.cutoff_hz, run.theta_noise));
+    let floors = smoothed.each_ref().map(|(_, floor)| *floor);
+    let base = smoothed.map(|(motion, _)| motion);
+    let (poses, forms) = forms(&run.parameters, &base)?;
+    let mut run = FiveBarRun {
+        theta,
+        poses,
+        forms,
+        speed_floor: floors.into_iter().fold(0.0, f64::max),
+        ..run.without_motion()
+    };
+    let untold = untold_speeds(&run, &base);
+    run.joints = Joint::ALL.map(|joint| joint_motion(&run, &base, joint, &untold));
+    run.yields = Joint::ALL.map(|joint| {
+        let none = || vec![0.0; run.motion_of(joint).len()];
+        nominal_yields(&run, joint).unwrap_or_else(none)
+    });
+    Ok((run, untold))
+}
+
+/// Share of the work to and fro by which the hand may take more out than it puts in: kinetic energy, and where the recording ends.
+const MOST_TAKEN: f64 = 0.2;
+
+/// A linkage with brakes takes energy in: a force that takes it out on the whole has the wrong sign.
+fn check_sign(run: &FiveBarRun) -> Result<(), Fault> {
+    let rates = run.motion_of(Joint::A).iter().zip(run.motion_of(Joint::B));
+    let powers: Vec<[f64; 2]> = run
+        .forms
+        .iter()
+        .zip(run.forces())
+        .zip(rates)
+        .map(|((form, [f_x, f_y]), (a, b))| {
+            let [v_x, v_y] = form.tip_velocity_m_s([a.speed, b.speed]);
+            [f_x * v_x, f_y * v_y]
+        })
+        .collect();
+    let [by_x, by_y] = powers
+        .iter()
+        .fold([0.0; 2], |[x, y], [p_x, p_y]| [x + p_x, y + p_y]);
+    let size: f64 = powers.iter().map(|[x, y]| (x + y).abs()).sum();
+    if by_x + by_y < -MOST_TAKEN * size {
+        return Err(Fault {
+            channel: if by_x < by_y { "force_x" } else { "force_y" },
+            from_s: 0.0,
+            to_s: run.duration_s(),
+            reason: "the rig drives the hand: energy comes out of it, most of it by this component; a force or an angle has the wrong sign (set `sign = -1`), or force_x and force_y are swapped".to_owned(),
+        });
+    }
+    Ok(())
+}
+
+/// Currents outside of what the brakes were measured at.
+const CURRENTS_A: core::ops::RangeInclusive<f64> = -0.01..=1.5;
+
+fn check_currents(recording: &FiveBarRecording) -> Result<(), Fault> {
+    for signal in recording.currents.iter().flatten() {
+        let outside = |x: &f64| !x.is_nan() && !CURRENTS_A.contains(x);
+        if let Some(k) = signal.samples.iter().position(outside) {
+            let at_s = recording.time_s.get(k).copied().unwrap_or(0.0);
+            let value = signal.samples.get(k).copied().unwrap_or(f64::NAN);
+            return Err(Fault {
+                channel: "current",
+                from_s: at_s,
+                to_s: at_s,
+                reason: format!(
+                    "`{}` is {value} A; a brake takes 0 to 1 A: check the unit (mA?) and the sign in the description",
+                    signal.channel
+                ),
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Frozen angles and clipped forces.
+fn check_channels(recording: &FiveBarRecording, step_s: f64) -> Result<(), Fault> {
+    let time_s = &recording.time_s;
+    let [theta_a, theta_b] = &recording.theta;
+    let [force_x, force_y] = &recording.force;
+    for (angle, force, names) in [
+        (theta_a, force_x, ["theta_a", "force_x"]),
+        (theta_b, force_y, ["theta_b", "force_y"]),
+    ] {
+        check_pair(time_s, &angle.samples, &force.samples, force.limit, step_s).map_err(
+            |fault| {
+                let [angle, force] = names;
+                Fault {
+                    channel: if fault.channel == "position" {
+                        angle
+                    } else {
+                        force
+                    },
+                    ..fault
+                }
+            },
+        )?;
+    }
+    Ok(())
+}
+
+fn check_pair(
+    time_s: &[f64],
+    angle: &[f64],
+    force: &[f64],
+    limit: Option<f64>,
+    step_s: f64,
+) -> Result<(), Fault> {
+    check_frozen(time_s, angle, step_s)?;
+    check_clipped(time_s, force, limit)
+}
+
+/// The speeds of θA and θB below which their sense cannot be told, sample by sample, rad/s. While brakes are switched a joint may swing
+/// at twice the low-pass's end and more.
+fn untold_speeds(run: &FiveBarRun, base: &[Vec<Instant>; 2]) -> Untold {
+    let smoothing = Smoothing {
+        step_s: run.step_s,
+        cutoff_hz: run.cutoff_hz,
+        noise: run.theta_noise,
+        speed_floor: run.speed_floor,
+    };
+    let octaves = run
+        .switched
+        .iter()
+        .map(|&switched| if switched { 2.0 } else { 1.0 });
+    let octaves: Vec<f64> = octaves.collect();
+    let [theta_a, theta_b] = &run.theta;
+    let [a, b] = base;
+    [(theta_a, a), (theta_b, b)].map(|(theta, own)| smoothing.untold_speeds(theta, own, &octaves))
+}
+
+/// Share of the rates of θA and θB by which the rate of E or C is in doubt: an encoder's zero a few hundredths of a radian
+/// off, or an arm's length a few per cent, makes a held joint seem to creep.
+const KINEMATIC_DOUBT: f64 = 0.05;
+
+/// The motion of a joint that the angles and rates of A and B imply.
+fn joint_motion(
+    run: &FiveBarRun,
+    base: &[Vec<Instant>; 2],
+    joint: Joint,
+    untold: &Untold,
+) -> Vec<Instant> {
+    let [a, b] = base;
+    let [untold_a, untold_b] = untold;
+    let pairs = a.iter().zip(b).zip(&run.poses).zip(run.joint_rows(joint));
+    let pairs = pairs.zip(untold_a.iter().zip(untold_b));
+    let mut motion: Vec<Instant> = pairs
+        .map(|((((a, b), pose), [by_a, by_b]), (untold_a, untold_b))| {
+            let floor = by_a.abs() * (untold_a + KINEMATIC_DOUBT * a.speed.abs())
+                + by_b.abs() * (untold_b + KINEMATIC_DOUBT * b.speed.abs());
+            let speed = by_a * a.speed + by_b * b.speed;
+            Instant {
+                time_s: a.time_s,
+                position: match joint {
+                    Joint::A => pose.theta_a_rad,
+                    Joint::E => pose.theta_e_rad,
+                    Joint::B => pose.theta_b_rad,
+                    Joint::C => pose.theta_c_rad,
+                },
+                speed,
+                sense: (speed / floor.max(1e-300)).clamp(-1.0, 1.0),
+            }
+        })
+        .collect();
+    let position: Vec<f64> = motion.iter().map(|now| now.position).collect();
+    let still = run.still_rad_at(joint);
+    let recorded = run
+        .recorded_angle(joint, [a, b], &motion)
+        .collect::<Vec<f64>>();
+    forget_sense_at_rest(&mut motion, &position, run.step_s, still);
+    forget_sense_at_stops(&mut motion, &recorded, (run.step_s, still), &run.switched);
+    forget_sense_at_reversals(&mut motion);
+    motion
+}
+
+/// The yield torque of a joint's nominal brake along the motion, N·m; none without a brake.
+pub fn nominal_yields(run: &FiveBarRun, joint: Joint) -> Option<Vec<f64>> {
+    let motion = run.motion_of(joint);
+    let current = run.currents.get(place(joint))?.as_ref()?;
+    let start = motion.first()?.position;
+    Some(yields(
+        Brake::new(joint, start),
+        motion,
+        current,
+        run.step_s,
+    ))
+}
+
+/// By how much the yield torque of a joint's brake would differ if the joint turned faster or slower by what cannot be told, if
+/// the backlash began and ended a sample later or where the angle's own error may put it, or if the shaft did not start in its
+/// middle, N·m.
+fn yield_errors(run: &FiveBarRun, joint: Joint, untold: &Untold) -> Vec<f64> {
+    let none = || vec![0.0; run.motion_of(joint).len()];
+    errors_of_brake(run, joint, untold).unwrap_or_else(none)
+}
+
+fn errors_of_brake(run: &FiveBarRun, joint: Joint, untold: &Untold) -> Option<Vec<f64>> {
+    let (motion, own) = (run.motion_of(joint), run.yields.get(place(joint))?);
+    let current = run.currents.get(place(joint))?.as_ref()?;
+    let start = motion.first()?.position;
+    let along = |brake, motion: &[Instant]| yields(brake, motion, current, run.step_s);
+    let untold = untold_of_joint(run, joint, untold);
+    let turned = [1.0, -1.0].map(|sign| turning(motion, &untold, sign));
+    let nominal = || Brake::new(joint, start);
+    let mut others: Vec<Vec<f64>> = turned.map(|motion| along(nominal(), &motion)).into();
+    let table = brake_table(joint);
+    if table.backlash_width_deg == 0.0 {
+        return Some(greatest_change(own, &others));
+    }
+    others.push(along(nominal(), &a_sample_late(motion)));
+    let angle_deg = turning_point_error(run, joint, &untold) / RAD_PER_DEG;
+    let half = 0.5 * table.backlash_width_deg * RAD_PER_DEG;
+    for (by_deg, start) in [
+        (angle_deg, start),
+        (-angle_deg, start),
+        (0.0, start - half),
+        (0.0, start + half),
+    ] {
+        let changed = BrakeTable {
+            backlash_width_deg: (table.backlash_width_deg + 2.0 * by_deg).max(0.0),
+            ..table
+        };
+        let entry_deg = (ENTRY_TRAVEL_DEG + by_deg).max(0.0);
+        let brake = Brake::of(changed, start).with_backlash_entry(start, entry_deg);
+        others.push(along(brake, motion));
+    }
+    Some(greatest_change(own, &others))
+}
+
+/// The speed of a joint below which its sense cannot be told, sample by sample, rad/s.
+fn untold_of_joint(run: &FiveBarRun, joint: Joint, [untold_a, untold_b]: &Untold) -> Vec<f64> {
+    let rows = run.joint_rows(joint).zip(untold_a.iter().zip(untold_b));
+    rows.map(|([by_a, by_b], (a, b))| by_a.abs() * a + by_b.abs() * b)
+        .collect()
+}
+
+/// How far the angle at which a joint turns back may be mistaken, rad: by counts, and by the low-pass that rounds it off.
+fn turning_point_error(run: &FiveBarRun, joint: Joint, untold: &[f64]) -> f64 {
+    let pairs = run
+        .joint_rows(joint)
+        .zip(run.motion_of(joint).iter().zip(untold));
+    let errors = pairs.map(|([by_a, by_b], (now, untold))| {
+        let turns = now.sense.abs() < 1.0;
+        let rounded = if turns {
+            untold / (TAU * run.cutoff_hz)
+        } else {
+            0.0
+        };
+        (by_a.abs() + by_b.abs()) * run.still_rad + rounded
+    });
+    errors.fold(0.0, f64::max)
+}
+
+/// The physics that the nominal model has beyond the thesis's.
+pub fn nominal(rig: &FiveBar) -> Vec<NominalEffect> {
+    rig.effects
+        .iter()
+        .map(|own| NominalEffect {
+            cause: Cause::at(own.effect.mechanism, place_of(own.joint)),
+            parameters: own.effect.values.iter().map(|v| v.value).collect(),
+            unknown: own.effect.values.iter().any(|v| v.status != Status::Known),
+            onset_s: own.effect.onset.map(|v| v.value),
+        })
+        .collect()
+}

@@ -1,0 +1,174 @@
+//! This file is the five-bar by its description.
+
+use super::experiment;
+use super::held::held;
+use super::joined::joined;
+use super::mapping;
+use super::replica::replica;
+use super::run::FiveBarRun;
+use super::undone::{described, left, undone_first};
+use crate::align::Fault;
+use crate::diagnose::write::Stand;
+use crate::evidence::{Intervals, Rivals};
+use crate::plant::{At, Plant, Replica};
+use crate::problem::{NominalEffect, Problem};
+use crate::report::{FitReport, HeldReport, Horizon, NextExperiment};
+use crate::select::Selection;
+use crate::sensor::sensed;
+use rand_pcg::Pcg64Mcg;
+use rigproof_trace::csv::{Dialect, Hints};
+use rigproof_trace::rig::RigEffect;
+use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording};
+use rigproof_trace::{Trace, TraceError};
+use std::path::Path;
+
+impl Plant for FiveBar {
+    type Recording = FiveBarRecording;
+    type Run = FiveBarRun;
+
+    fn describes(text: &str, origin: &Path) -> Result<bool, TraceError> {
+        FiveBar::describes(text, origin)
+    }
+
+    fn read(text: &str, origin: &Path) -> Result<FiveBar, TraceError> {
+        FiveBar::parse(text, origin)
+    }
+
+    fn plant_name(&self) -> &'static str {
+        "rig"
+    }
+
+    fn rig_name(&self) -> &str {
+        &self.name
+    }
+
+    fn written(&self) -> String {
+        self.to_toml()
+    }
+
+    fn measured(&self, trace: &Trace, origin: &Path) -> Result<FiveBarRecording, TraceError> {
+        self.apply(trace, origin)
+    }
+
+    fn read_csv(
+        &self,
+        file: &Path,
+        hints: &Hints,
+    ) -> Result<(FiveBarRecording, Dialect), TraceError> {
+        self.read_text(file, hints)
+    }
+
+    fn read_messages(&self, file: &Path) -> Result<(FiveBarRecording, Vec<String>), TraceError> {
+        self.read_mcap(file)
+    }
+
+    fn times_s(recording: &FiveBarRecording) -> &[f64] {
+        &recording.time_s
+    }
+
+    fn only(recording: &FiveBarRecording, kept: &[bool]) -> FiveBarRecording {
+        recording.only(kept)
+    }
+
+    fn aligned(&self, recording: &FiveBarRecording, before_s: f64) -> Result<FiveBarRun, Fault> {
+        described(self, recording, before_s)
+    }
+
+    fn joined(runs: Vec<FiveBarRun>) -> Result<FiveBarRun, (usize, Fault)> {
+        joined(runs)
+    }
+
+    /// What is held out of the same recording keeps its past: brakes, heat and memories begin at its first sample.
+    fn parted(mut run: FiveBarRun, cut: usize, before: usize) -> (FiveBarRun, FiveBarRun, f64) {
+        let fitted = run.part(0, cut);
+        // An onset is a time on the clock of all of them.
+        run.start_s += before as f64 * run.step_s;
+        let from_s = cut as f64 * run.step_s;
+        (fitted, run, from_s)
+    }
+
+    fn nominal(&self) -> Vec<NominalEffect> {
+        left(self)
+    }
+
+    /// A description with effects of its own was balanced before; without them its recording may be far from balance.
+    fn check(&self, run: &FiveBarRun, problem: &Problem) -> Result<(), (At, Fault)> {
+        if !self.effects.is_empty() {
+            return Ok(());
+        }
+        mapping::check(run, problem).map_err(|fault| ("recording", fault))
+    }
+
+    fn meaningless(&self, problem: &Problem, effect: &NominalEffect) -> Option<Fault> {
+        Some(Fault {
+            channel: "effect",
+            from_s: 0.0,
+            to_s: 0.0,
+            reason: format!(
+                "`{}` cannot stand in the nominal model of this five-bar; take it out, or give it a joint that has it",
+                problem.name(effect.cause)
+            ),
+        })
+    }
+
+    fn calibrated(stand: &Stand<'_, FiveBar>, intervals: &Intervals) -> FiveBar {
+        stand.with_numbers(intervals)
+    }
+
+    fn found(&self, stand: &Stand<'_, FiveBar>) -> Vec<RigEffect> {
+        let Selection { nominal, found, .. } = stand.selection;
+        let before = undone_first(stand.plant).0.len() + nominal.len();
+        let effects = self.effects.iter().skip(before).take(found.len());
+        effects.map(|own| own.effect.clone()).collect()
+    }
+
+    fn free_runs(stand: &Stand<'_, FiveBar>, calibration: &FiveBar) -> (Vec<Horizon>, String) {
+        stand.free_runs(calibration)
+    }
+
+    fn protocol(stand: &Stand<'_, FiveBar>, fit: Option<&FitReport>) -> Vec<String> {
+        let mut lines = stand.protocol_lines();
+        lines.extend(fit.map(|fit| fit.protocol.clone()));
+        lines
+    }
+
+    fn held(stand: &Stand<'_, FiveBar>) -> Option<HeldReport> {
+        held(stand.problem, stand.train, stand.selection)
+    }
+
+    fn next_experiment(
+        stand: &Stand<'_, FiveBar>,
+        rivals: &[Rivals],
+    ) -> Option<(NextExperiment, Option<Trace>)> {
+        experiment::next(stand, rivals)
+    }
+
+    fn replica(
+        &self,
+        model: &FiveBar,
+        recording: &FiveBarRecording,
+    ) -> Result<Replica<FiveBarRecording>, String> {
+        replica(self, model, recording)
+    }
+
+    fn sensed(
+        recording: &FiveBarRecording,
+        [angle, force]: [f64; 2],
+        random: &mut Pcg64Mcg,
+    ) -> FiveBarRecording {
+        let mut out = recording.clone();
+        for signal in &mut out.theta {
+            *signal = sensed(signal, angle, random);
+        }
+        for signal in &mut out.force {
+            *signal = sensed(signal, force, random);
+        }
+        out
+    }
+
+    fn without_found(&self, calibration: &FiveBar) -> FiveBar {
+        let mut out = calibration.clone();
+        out.effects.truncate(self.effects.len());
+        out
+    }
+}

@@ -1,0 +1,75 @@
+//! This file says how a five-bar's diagnosis was made, line by line.
+
+use crate::diagnose::words::filled_in;
+use crate::diagnose::write::Stand;
+use rigproof_trace::rig::five_bar::FiveBar;
+
+impl Stand<'_, FiveBar> {
+    /// How the naming was measured, line by line.
+    pub(super) fn protocol_lines(&self) -> Vec<String> {
+        let windows = &self.problem.windows;
+        let rows = || {
+            windows
+                .usable
+                .iter()
+                .zip(&windows.combined)
+                .filter(|(u, _)| **u)
+        };
+        let (single, all) = (rows().filter(|(_, c)| c.is_some()).count(), rows().count());
+        let whole = (all - single) / windows.outputs;
+        let gates = self.options.gates;
+        let mut lines: Vec<String> = self.together().into_iter().collect();
+        lines.extend([
+            format!(
+                "fitted part: {} samples at {:.1} Hz, {:.3} s; held-out part: {} samples{}",
+                self.train.len(),
+                1.0 / self.train.step_s,
+                self.train.duration_s(),
+                self.test.len() - (self.test_from_s / self.test.step_s).round() as usize,
+                if self.other_recording {
+                    " of another recording"
+                } else {
+                    " at the end of the recording"
+                },
+            ),
+            "equations: momentum form on θA and θB; arms and masses of tables 4.1 and 5.1, brakes of tables 3.1 to 3.3 along the recorded motion, currents held from sample to sample; brakes start without current in the middle of their backlash"
+                .to_owned(),
+            format!(
+                "windows: bump (1 - x²)⁴, {:.1} ms wide, {} samples apart; of {}, {whole} are usable whole (every braked joint moves and its sense is known) and {single} with the one equation that a joint which is held, or turns back, leaves",
+                1e3 * windows.bump.len() as f64 * windows.step_s,
+                windows.hop,
+                windows.centres.len() / windows.outputs,
+            ),
+            format!(
+                "noise: angles {:.3e} rad, force {:.3e} N (standard deviation of a sample); rows whitened together by the factor of their covariance",
+                self.train.theta_noise, self.train.force_noise
+            ),
+            format!(
+                "naming: z ≥ {} over left-out contiguous blocks, ≥ {} % of the loss, ≥ {} % of the driving effort, ≥ {} times what stays unexplained",
+                gates.z,
+                100.0 * gates.share,
+                100.0 * gates.relevance,
+                self.problem.rules.own_to_unexplained
+            ),
+        ]);
+        lines.extend(filled_in(&self.train.recorded));
+        lines
+    }
+
+    /// How several recordings stand together.
+    fn together(&self) -> Option<String> {
+        let parts = &self.train.parts;
+        let mut ends_s = 0.0;
+        let ends = parts.iter().map(|part| {
+            ends_s += part.len() as f64 * part.step_s;
+            format!("{ends_s:.3}")
+        });
+        let ends = ends.collect::<Vec<_>>().join(", ");
+        (!parts.is_empty()).then(|| {
+            format!(
+                "{} recordings one after another on one clock, which end at {ends} s; every memory begins anew with each",
+                parts.len()
+            )
+        })
+    }
+}

@@ -1,0 +1,71 @@
+//! This file gives the places of the linkage's joints over time, as recorded and as two models move them: what a replay shows.
+
+use super::free_run::{Model, Simulated, simulated};
+use super::from_rig::aligned;
+use super::run::FiveBarRun;
+use rigproof_model::linkage::{Pose, forward, point_a_m, point_b_m};
+use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording};
+
+/// How long the models run freely before they start from the recorded state again, s.
+pub const RESTART_S: f64 = 1.0;
+/// Frames a second.
+const RATE_HZ: f64 = 25.0;
+/// The longest replay, s: the reference rig takes its time.
+pub const LONGEST_S: f64 = 20.0;
+
+/// Points E, D (the tip) and C, x and y of each, m; nothing where there is no pose.
+pub type Frame = Option<[f64; 6]>;
+
+/// Frames of a recording and of two models beside it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Replayed {
+    /// Times of the frames, s.
+    pub time_s: Vec<f64>,
+    /// Base joint A, m.
+    pub point_a_m: [f64; 2],
+    /// Base joint B, m.
+    pub point_b_m: [f64; 2],
+    /// As recorded.
+    pub recorded: Vec<Frame>,
+    /// As the first model moves it.
+    pub before: Vec<Frame>,
+    /// As the second model moves it.
+    pub after: Vec<Frame>,
+}
+
+/// The end of a recording, [`LONGEST_S`] at most, beside free runs of two descriptions; nothing where it cannot be simulated.
+pub fn replayed(
+    before: &FiveBar,
+    after: &FiveBar,
+    recording: &FiveBarRecording,
+) -> Option<Replayed> {
+    let run = aligned(before, recording).ok()?;
+    let longest = (LONGEST_S / run.step_s).round() as usize;
+    let run = run.part(run.len().saturating_sub(longest), run.len());
+    let one = |description| simulated(&Model::of(description), &run, RESTART_S).ok();
+    let (old, new) = (one(before)?, one(after)?);
+    let every = (1.0 / RATE_HZ / run.step_s).round().max(1.0) as usize;
+    let frames = |of: &dyn Fn(usize) -> Frame| (0..run.len()).step_by(every).map(of).collect();
+    Some(Replayed {
+        time_s: (0..run.len())
+            .step_by(every)
+            .map(|k| run.start_s + k as f64 * run.step_s)
+            .collect(),
+        point_a_m: point_a_m(&run.parameters.arms),
+        point_b_m: point_b_m(&run.parameters.arms),
+        recorded: frames(&|k| run.poses.get(k).map(frame)),
+        before: frames(&|k| posed(&run, &old, k)),
+        after: frames(&|k| posed(&run, &new, k)),
+    })
+}
+
+fn posed(run: &FiveBarRun, simulated: &Simulated, k: usize) -> Frame {
+    let [a, b] = &simulated.theta_rad;
+    let pose = forward::pose(&run.parameters.arms, *a.get(k)?, *b.get(k)?);
+    pose.as_ref().ok().map(frame)
+}
+
+const fn frame(pose: &Pose) -> [f64; 6] {
+    let ([e_x, e_y], [d_x, d_y], [c_x, c_y]) = (pose.point_e_m, pose.tip_m, pose.point_c_m);
+    [e_x, e_y, d_x, d_y, c_x, c_y]
+}

@@ -1,0 +1,466 @@
+//! This file is an aligned recording of the five-bar: joint motions, forms of the equations of motion, nominal brakes.
+
+use super::encoder::{self, Encoder};
+use super::{candidates, columns, locate, noise};
+use crate::cause::{Cause, JointId, Place};
+use crate::locate::Regimes;
+use crate::plant::{Clock, Columns, Rules, Run};
+use crate::unknown::Variable;
+use crate::weak::Windows;
+use crate::whiten::Whitener;
+use nalgebra::{Matrix2, Vector2};
+use rigproof_model::brake::Brake;
+use rigproof_model::effects::Instant;
+use rigproof_model::error::ModelError;
+use rigproof_model::linkage::{Pose, forward};
+use rigproof_model::motion::two_coordinate::{TwoCoordinate, two_coordinate};
+use rigproof_model::rig::Parameters;
+use rigproof_spec::effect::{Mechanism, Motion};
+use rigproof_spec::joint::Joint;
+
+/// An aligned recording of the five-bar in SI units, one value a sample in every vector.
+#[derive(Clone, Debug)]
+pub struct FiveBarRun {
+    /// Layout, lengths and masses of the nominal model.
+    pub parameters: Parameters,
+    /// Sample interval, s.
+    pub step_s: f64,
+    /// Time of the first sample, s.
+    pub start_s: f64,
+    /// Recorded θA and θB, rad.
+    pub theta: [Vec<f64>; 2],
+    /// Smoothed motion of the joints A, E, B, C.
+    pub joints: [Vec<Instant>; 4],
+    /// The pose of every sample.
+    pub poses: Vec<Pose>,
+    /// The equations of motion along the smoothed motion.
+    pub forms: Vec<TwoCoordinate>,
+    /// Recorded force on the tip, x and y, N.
+    pub force: [Vec<f64>; 2],
+    /// Commanded currents of A, E, B, C, A; `None` without a brake.
+    pub currents: [Option<Vec<f64>>; 4],
+    /// Yield torques of the nominal brakes at A, E, B, C, N·m; 0 without a brake.
+    pub yields: [Vec<f64>; 4],
+    /// By how much the nominal yield torques may be mistaken, because where a backlash begins and ends is known to a few counts, N·m.
+    pub yield_errors: [Vec<f64>; 4],
+    /// Standard deviation of one angle sample, rad.
+    pub theta_noise: f64,
+    /// Travel within which a joint may rest, rad.
+    pub still_rad: f64,
+    /// Where the low-pass of the angles ends, Hz.
+    pub cutoff_hz: f64,
+    /// Standard deviation of one force sample, N.
+    pub force_noise: f64,
+    /// Samples that were recorded, not filled in.
+    pub recorded: Vec<bool>,
+    /// Whether a brake's current changes around each sample.
+    pub switched: Vec<bool>,
+    /// Speed of θA or θB below which its sense cannot be told, rad/s.
+    pub speed_floor: f64,
+    /// The recordings that stand in it one after another; empty for one recording.
+    pub parts: Vec<FiveBarRun>,
+}
+
+/// A joint's place in the order A, E, B, C.
+pub const fn place(joint: Joint) -> usize {
+    match joint {
+        Joint::A => 0,
+        Joint::E => 1,
+        Joint::B => 2,
+        Joint::C => 3,
+    }
+}
+
+/// The place of a joint, or of the whole linkage.
+pub fn place_of(joint: Option<Joint>) -> Place {
+    joint.map_or(Place::Whole, |joint| Place::Joint(JointId(place(joint))))
+}
+
+/// The joint at a place; `None` for the whole.
+pub fn joint_at(at: Place) -> Option<Joint> {
+    match at {
+        Place::Joint(JointId(joint)) => Joint::ALL.get(joint).copied(),
+        Place::Whole => None,
+    }
+}
+
+/// A mechanism at a joint.
+pub fn at(mechanism: Mechanism, joint: Joint) -> Cause {
+    Cause::at(mechanism, place_of(Some(joint)))
+}
+
+impl FiveBarRun {
+    /// The number of samples.
+    pub fn len(&self) -> usize {
+        self.recorded.len()
+    }
+
+    /// Whether there are no samples.
+    pub fn is_empty(&self) -> bool {
+        self.recorded.is_empty()
+    }
+
+    /// The length of the recording, s.
+    pub fn duration_s(&self) -> f64 {
+        self.step_s * self.len().saturating_sub(1) as f64
+    }
+
+    /// The smoothed motion of a joint.
+    pub fn motion_of(&self, joint: Joint) -> &[Instant] {
+        self.joints.get(place(joint)).map_or(&[], Vec::as_slice)
+    }
+
+    /// What a torque at each joint does to θA and θB, sample by sample: the joint's row of the form.
+    pub fn joint_rows(&self, joint: Joint) -> impl Iterator<Item = [f64; 2]> {
+        let row = place(joint);
+        self.forms
+            .iter()
+            .map(move |form| [0, 1].map(|k| form.joints.get((row, k)).copied().unwrap_or(0.0)))
+    }
+
+    /// A resistance at a joint as θA and θB feel it, θA's samples first.
+    pub fn at_joint(&self, joint: Joint, resistance: &[f64]) -> Vec<f64> {
+        let pairs = self.joint_rows(joint).zip(resistance);
+        stacked(pairs.map(|(row, r)| row.map(|g| g * r)))
+    }
+
+    /// A force on the tip as θA and θB feel it, θA's samples first.
+    pub fn at_tip(&self, force: impl Iterator<Item = [f64; 2]>) -> Vec<f64> {
+        let pairs = self.forms.iter().zip(force);
+        stacked(pairs.map(|(form, force)| (form.tip.transpose() * Vector2::from(force)).into()))
+    }
+
+    /// The recorded force on the tip.
+    pub fn forces(&self) -> impl Iterator<Item = [f64; 2]> {
+        let [x, y] = &self.force;
+        x.iter().zip(y).map(|(x, y)| [*x, *y])
+    }
+
+    /// The recorded force as θA and θB feel it, N·m.
+    pub fn driving_effort(&self) -> Vec<f64> {
+        self.at_tip(self.forces())
+    }
+
+    /// The resistance of the nominal brake at a joint, along the motion, N·m.
+    pub fn brake_torque(&self, joint: Joint) -> Vec<f64> {
+        let yields = self.yields.get(place(joint)).into_iter().flatten();
+        let pairs = self.motion_of(joint).iter().zip(yields);
+        pairs.map(|(now, y)| now.sense * y).collect()
+    }
+
+    /// The travel of a joint from sample to sample as far as its recorded angle tells it, rad: through a play as wide as what a joint
+    /// at rest seems to move.
+    pub fn known_travel(&self, joint: Joint) -> Vec<f64> {
+        let half = 0.5 * self.still_rad_at(joint);
+        let base = [Joint::A, Joint::B].map(|base| self.motion_of(base));
+        let mut known: Option<f64> = None;
+        let positions = self.recorded_angle(joint, base, self.motion_of(joint));
+        positions
+            .map(|position| {
+                let before = known.unwrap_or(position);
+                let after = before.clamp(position - half, position + half);
+                known = Some(after);
+                after - before
+            })
+            .collect()
+    }
+
+    /// Travel within which a joint may rest, rad.
+    pub fn still_rad_at(&self, joint: Joint) -> f64 {
+        let sizes = self.joint_rows(joint).map(|[a, b]| a.abs() + b.abs());
+        self.still_rad * sizes.fold(1.0, f64::max)
+    }
+
+    /// The angle of a joint that the recorded θA and θB imply, rad, given the smoothed motion of A and B and its own.
+    pub fn recorded_angle(
+        &self,
+        joint: Joint,
+        [a, b]: [&[Instant]; 2],
+        own: &[Instant],
+    ) -> impl Iterator<Item = f64> {
+        let [theta_a, theta_b] = &self.theta;
+        let off_a = theta_a.iter().zip(a).map(|(theta, a)| theta - a.position);
+        let off_b = theta_b.iter().zip(b).map(|(theta, b)| theta - b.position);
+        let rows = self.joint_rows(joint).zip(off_a.zip(off_b)).zip(own);
+        rows.map(|(([by_a, by_b], (a, b)), own)| own.position + by_a * a + by_b * b)
+    }
+
+    /// What was recorded beside the angles; what follows from them is empty.
+    pub fn without_motion(&self) -> FiveBarRun {
+        FiveBarRun {
+            parameters: self.parameters,
+            theta: Default::default(),
+            joints: Default::default(),
+            poses: Vec::new(),
+            forms: Vec::new(),
+            force: self.force.clone(),
+            currents: self.currents.clone(),
+            yields: Default::default(),
+            yield_errors: Default::default(),
+            recorded: self.recorded.clone(),
+            switched: self.switched.clone(),
+            parts: Vec::new(),
+            ..*self
+        }
+    }
+
+    /// The samples `from..to`, times kept.
+    pub fn part(&self, from: usize, to: usize) -> FiveBarRun {
+        let part = |values: &Vec<f64>| values.get(from..to).unwrap_or_default().to_vec();
+        FiveBarRun {
+            parameters: self.parameters,
+            step_s: self.step_s,
+            start_s: self.start_s + from as f64 * self.step_s,
+            theta: self.theta.each_ref().map(part),
+            joints: self
+                .joints
+                .each_ref()
+                .map(|joint| joint.get(from..to).unwrap_or_default().to_vec()),
+            poses: self.poses.get(from..to).unwrap_or_default().to_vec(),
+            forms: self.forms.get(from..to).unwrap_or_default().to_vec(),
+            force: self.force.each_ref().map(part),
+            currents: self.currents.each_ref().map(|c| c.as_ref().map(part)),
+            yields: self.yields.each_ref().map(part),
+            yield_errors: self.yield_errors.each_ref().map(part),
+            theta_noise: self.theta_noise,
+            still_rad: self.still_rad,
+            cutoff_hz: self.cutoff_hz,
+            force_noise: self.force_noise,
+            recorded: self.recorded.get(from..to).unwrap_or_default().to_vec(),
+            switched: self.switched.get(from..to).unwrap_or_default().to_vec(),
+            speed_floor: self.speed_floor,
+            parts: Vec::new(),
+        }
+    }
+}
+
+/// Pairs of values as one signal: the first of every pair, then the second.
+pub fn stacked(pairs: impl Iterator<Item = [f64; 2]>) -> Vec<f64> {
+    let (mut first, second): (Vec<f64>, Vec<f64>) = pairs.map(|[a, b]| (a, b)).unzip();
+    first.extend(second);
+    first
+}
+
+/// Poses and forms along a smoothed motion of θA and θB.
+///
+/// # Errors
+/// The linkage cannot be assembled at some sample: its number, and why.
+pub fn forms(
+    parameters: &Parameters,
+    base: &[Vec<Instant>; 2],
+) -> Result<(Vec<Pose>, Vec<TwoCoordinate>), (usize, ModelError)> {
+    let [a, b] = base;
+    let mut poses = Vec::with_capacity(a.len());
+    let mut forms = Vec::with_capacity(a.len());
+    for (k, (a, b)) in a.iter().zip(b).enumerate() {
+        let pose = forward::pose(&parameters.arms, a.position, b.position).map_err(|e| (k, e))?;
+        let rates = [a.speed, b.speed];
+        let form = two_coordinate(&parameters.arms, &parameters.inertia, &pose, rates);
+        poses.push(pose);
+        forms.push(form);
+    }
+    Ok((poses, forms))
+}
+
+/// The yield torque of a brake along a joint's motion, the current of each sample held to the next.
+pub fn yields(mut brake: Brake, motion: &[Instant], current: &[f64], step_s: f64) -> Vec<f64> {
+    let mut own = vec![brake.yield_torque()];
+    for (now, &current) in motion.iter().skip(1).zip(current) {
+        brake.step(current, now.position, now.speed, step_s);
+        own.push(brake.yield_torque());
+    }
+    own
+}
+
+/// What the inertia of some mass matrices takes, sample by sample, as the second difference of the angles sees it:
+/// d/dt(M·q̇) − ½·∂(q̇ᵀ·M·q̇)/∂q, θA's samples first.
+pub fn inertial(run: &FiveBarRun, forms: &[TwoCoordinate]) -> Vec<f64> {
+    let step_s = run.step_s;
+    let count = forms.len();
+    let [a, b] = &run.theta;
+    let at = |k: usize| {
+        let angle = |theta: &Vec<f64>| theta.get(k).copied().unwrap_or(0.0);
+        Vector2::new(angle(a), angle(b))
+    };
+    let mass = |k: usize| forms.get(k).map_or(Matrix2::zeros(), |form| form.mass);
+    let momentum = |k: usize| (mass(k) + mass(k + 1)) * (at(k + 1) - at(k)) * (0.5 / step_s);
+    let [joint_a, _, joint_b, _] = &run.joints;
+    let rates = joint_a.iter().zip(joint_b);
+    let pairs = forms.iter().zip(rates).enumerate();
+    stacked(pairs.map(|(k, (form, (a, b)))| {
+        if k == 0 || k + 1 >= count {
+            return [0.0; 2];
+        }
+        let mass_rate = (mass(k + 1) - mass(k - 1)) * (0.5 / step_s);
+        let rest = form.bias - mass_rate * Vector2::new(a.speed, b.speed);
+        ((momentum(k) - momentum(k - 1)) / step_s + rest).into()
+    }))
+}
+
+/// The widths of windows that are tried, s; the last is taken when no narrower one is quiet enough.
+const WIDTHS_S: [f64; 3] = [0.040, 0.080, 0.160];
+/// A width is quiet enough when the floor is below this, N·m: contributions of 0.01 N·m are to be seen in a few windows.
+const QUIET_NM: f64 = 0.0075;
+
+impl Run for FiveBarRun {
+    fn clock(&self) -> Clock {
+        Clock {
+            step_s: self.step_s,
+            start_s: self.start_s,
+            samples: self.len(),
+        }
+    }
+
+    fn recorded(&self) -> &[bool] {
+        &self.recorded
+    }
+
+    fn motion_kind(&self) -> Motion {
+        Motion::Rotary
+    }
+
+    fn outputs(&self) -> usize {
+        2
+    }
+
+    fn output_name(&self, output: usize) -> &'static str {
+        match output {
+            0 => "effort on arm AE (θA)",
+            _ => "effort on arm BC (θB)",
+        }
+    }
+
+    fn rules(&self) -> &'static Rules {
+        &Rules::LINKAGE
+    }
+
+    fn slice(&self, from: usize, to: usize) -> Box<dyn Run> {
+        Box::new(self.part(from, to))
+    }
+
+    fn effort(&self) -> Vec<f64> {
+        self.driving_effort()
+    }
+
+    fn driving(&self) -> Vec<f64> {
+        columns::driving(self, self.forces())
+    }
+
+    fn known(&self) -> Vec<f64> {
+        columns::known(self)
+    }
+
+    /// The narrowest windows whose predicted floor is small against the driving effort.
+    fn windows(&self) -> Windows {
+        let [narrow, middle, wide] = WIDTHS_S;
+        let quiet = |width_s: f64| {
+            let windows = self.windows_of(width_s);
+            (self.floor(&windows) <= QUIET_NM).then_some(windows)
+        };
+        let windows = quiet(narrow).or_else(|| quiet(middle));
+        windows.unwrap_or_else(|| self.windows_of(wide))
+    }
+
+    /// The rows in which what its brakes do is known.
+    fn keep_told(&self, windows: &mut Windows) {
+        noise::keep_told(self, windows);
+    }
+
+    fn floor(&self, windows: &Windows) -> f64 {
+        noise::floor(self, windows)
+    }
+
+    fn whitener(&self, windows: &Windows, excess: f64) -> Whitener {
+        noise::whitener(self, windows, excess)
+    }
+
+    fn position_noise(&self) -> f64 {
+        self.theta_noise
+    }
+
+    fn joints(&self) -> usize {
+        Joint::ALL.len()
+    }
+
+    fn place_name(&self, at: Place) -> Option<&'static str> {
+        joint_at(at).map(Joint::letter)
+    }
+
+    fn motion(&self, at: Place) -> &[Instant] {
+        joint_at(at).map_or(&[], |joint| self.motion_of(joint))
+    }
+
+    /// The range of a joint's angle; the greater of those of θA and θB for the whole.
+    fn travel(&self, at: Place) -> f64 {
+        let range = |positions: &mut dyn Iterator<Item = f64>| {
+            let (low, high) = positions
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+                    (low.min(x), high.max(x))
+                });
+            high - low
+        };
+        match joint_at(at) {
+            Some(joint) => range(&mut self.motion_of(joint).iter().map(|now| now.position)),
+            None => {
+                let angles = self.theta.iter();
+                let ranges = angles.map(|theta| range(&mut theta.iter().copied()));
+                ranges.fold(0.0, f64::max)
+            }
+        }
+    }
+
+    fn causes(&self) -> Vec<Cause> {
+        candidates::causes(self)
+    }
+
+    fn shapes(&self, cause: Cause, windows: &Windows, residual: &[f64]) -> Vec<Vec<f64>> {
+        candidates::shapes(self, cause, windows, residual)
+    }
+
+    fn reach(&self, cause: Cause) -> Option<(f64, f64)> {
+        candidates::reach(self, cause)
+    }
+
+    fn columns(&self, cause: Cause, shape: &[f64], _: Option<&[f64]>) -> Option<Columns> {
+        if self.moves(cause) {
+            return columns::free(self, cause, shape).map(Columns::Moved);
+        }
+        let free = columns::free(self, cause, shape).map(Columns::Free);
+        free.or_else(|| columns::fixed(self, cause, shape).map(Columns::Fixed))
+    }
+
+    fn moves(&self, cause: Cause) -> bool {
+        let encoder = [Mechanism::EncoderScale, Mechanism::EncoderOffset];
+        cause.at != Place::Whole && encoder.contains(&cause.mechanism)
+    }
+
+    fn moved_rows(
+        &self,
+        windows: &Windows,
+        recorded: &[f64],
+        signals: &[Vec<f64>],
+        shape: &[f64],
+        first: usize,
+    ) -> Vec<Vec<f64>> {
+        encoder::rows(windows, recorded, signals, shape, first)
+    }
+
+    fn shape_over(&self, cause: Cause, shape: &[f64], coefficients: &[f64]) -> Option<Vec<f64>> {
+        Encoder::of(self, cause, shape)?.over(coefficients)
+    }
+
+    fn linear(&self, mechanism: Mechanism, coefficients: &[f64]) -> Vec<f64> {
+        match mechanism {
+            Mechanism::ForceGain => coefficients.iter().map(|c| c / (1.0 - c)).collect(),
+            _ => coefficients.to_vec(),
+        }
+    }
+
+    fn regimes(&self, windows: &Windows) -> Regimes {
+        locate::regimes(self, windows)
+    }
+
+    fn variables(&self, _: &Windows) -> Vec<Variable> {
+        Vec::new()
+    }
+}

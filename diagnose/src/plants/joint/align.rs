@@ -1,0 +1,152 @@
+//! This file is stage 0 of a plant of one joint: its recording is put on regular samples, its faults are named, its noise is measured.
+
+use super::inertia::Inertia;
+use super::run::{JointRun, PlantKind};
+use crate::align::{
+    Fault, band_hz, check_clipped, check_clock, check_frozen, check_missing, constant_runs,
+    cutoff_hz, forget_sense_at_rest, forget_sense_at_reversals, frozen, longest_freeze,
+    median_step, regular_count, resample, smallest_step, smoothed_motion,
+};
+use crate::doubt::Smoothing;
+use rigproof_spec::effect::Motion;
+
+/// What stage 0 takes: the plant's roles in SI units, NaN where nothing was recorded.
+#[derive(Clone, Debug)]
+pub struct Signals {
+    /// The plant.
+    pub plant: PlantKind,
+    /// Whether it slides or turns.
+    pub kind: Motion,
+    /// Time stamps, s, increasing.
+    pub time_s: Vec<f64>,
+    /// Position, m or rad.
+    pub position: Vec<f64>,
+    /// Axis: command times its gain. Bench: metered effort. N or N·m.
+    pub effort: Vec<f64>,
+    /// Bench: effort that somebody's simulation predicts.
+    pub predicted: Option<Vec<f64>>,
+    /// Bench: the current, A.
+    pub current: Option<Vec<f64>>,
+    /// Whether the drive holds its value between samples.
+    pub held: bool,
+    /// Resolution of the position, if stated.
+    pub position_quantum: Option<f64>,
+    /// Noise of the position, if stated.
+    pub position_noise: Option<f64>,
+    /// Noise of the effort, if stated.
+    pub effort_noise: Option<f64>,
+    /// Magnitude at which the effort saturates, if stated.
+    pub effort_limit: Option<f64>,
+}
+
+/// Aligns a recording, or says why nothing can be concluded from it.
+pub fn align(signals: &Signals) -> Result<JointRun, Fault> {
+    let step_s = median_step(&signals.time_s);
+    check_clock(&signals.time_s, step_s)?;
+    check_missing("position", &signals.time_s, &signals.position)?;
+    check_missing("effort", &signals.time_s, &signals.effort)?;
+    check_frozen(&signals.time_s, &signals.position, step_s)?;
+    check_metered(signals, step_s)?;
+    check_clipped(&signals.time_s, &signals.effort, signals.effort_limit)?;
+    let count = regular_count(&signals.time_s, step_s);
+    let (position, recorded_p) = resample(&signals.time_s, &signals.position, step_s, count);
+    let (effort, recorded_e) = resample(&signals.time_s, &signals.effort, step_s, count);
+    let optional = |values: &Option<Vec<f64>>| {
+        let values = values.as_ref()?;
+        Some(resample(&signals.time_s, values, step_s, count).0)
+    };
+    let predicted = optional(&signals.predicted);
+    let current = optional(&signals.current);
+    let quantum = signals
+        .position_quantum
+        .unwrap_or_else(|| smallest_step(&signals.position));
+    let position_noise = (quantum / 12f64.sqrt()).hypot(signals.position_noise.unwrap_or(0.0));
+    let effort_noise = signals
+        .effort_noise
+        .unwrap_or_else(|| smallest_step(&effort) / 12f64.sqrt());
+    let band_hz = band_hz(&effort, step_s);
+    let cutoff_hz = cutoff_hz(step_s, band_hz);
+    let (mut motion, speed_floor) = smoothed_motion(&position, step_s, cutoff_hz, position_noise);
+    let smoothing = Smoothing {
+        step_s,
+        cutoff_hz,
+        noise: position_noise,
+        speed_floor,
+    };
+    let untold_speed = smoothing.untold_speeds(&position, &motion, &vec![1.0; motion.len()]);
+    forget_sense_at_rest(
+        &mut motion,
+        &position,
+        step_s,
+        (2.0 * quantum).max(6.0 * position_noise),
+    );
+    if signals.plant == PlantKind::Axis {
+        forget_sense_at_reversals(&mut motion);
+    }
+    let run = JointRun {
+        plant: signals.plant,
+        kind: signals.kind,
+        inertia: Inertia::None,
+        step_s,
+        start_s: 0.0,
+        held: signals.held,
+        position,
+        motion,
+        effort,
+        predicted,
+        current,
+        table: None,
+        position_noise,
+        effort_noise,
+        recorded: recorded_p
+            .into_iter()
+            .zip(recorded_e)
+            .map(|(a, b)| a && b)
+            .collect(),
+        speed_floor,
+        untold_speed,
+        parts: Vec::new(),
+    };
+    check_sign(&run)?;
+    Ok(run)
+}
+
+/// A metered effort has noise: on a bench a constant one is a dead channel, unless the motion rests too.
+fn check_metered(signals: &Signals, step_s: f64) -> Result<(), Fault> {
+    if signals.plant == PlantKind::Axis {
+        return Ok(());
+    }
+    let least = longest_freeze(step_s);
+    for (first, end) in constant_runs(&signals.effort, least) {
+        let moving = signals.position.get(first..end).unwrap_or_default();
+        if moving.windows(2).filter(|w| w.first() != w.last()).count() > least / 2 {
+            return Err(frozen("effort", &signals.time_s, first, end));
+        }
+    }
+    Ok(())
+}
+
+/// A resistance that gives energy on the whole has a channel with the wrong sign.
+fn check_sign(run: &JointRun) -> Result<(), Fault> {
+    if run.plant == PlantKind::Axis {
+        return Ok(());
+    }
+    let mean = run.effort.iter().sum::<f64>() / run.len().max(1) as f64;
+    let (mut power, mut size) = (0.0, 0.0);
+    for (now, effort) in run.motion.iter().zip(&run.effort) {
+        power += now.speed * (effort - mean);
+        size += (now.speed * (effort - mean)).abs();
+    }
+    if power < -0.2 * size {
+        return Err(Fault {
+            channel: "effort",
+            from_s: 0.0,
+            to_s: run.duration_s(),
+            reason: "the resistance drives the motion: energy comes out of the brake; one of the two channels has the wrong sign (set `sign = -1`)".to_owned(),
+        });
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,192 @@
+//! This file fits the plants before and after, and shows their free runs.
+
+use super::inertia::Inertia;
+use crate::diagnose::write::Stand;
+use crate::evidence::{coefficients_by_term, parameters};
+use crate::plants::joint::free_run::{HORIZONS_S, Shown, figure, horizon_error, show};
+use crate::plants::joint::from_rig;
+use crate::plants::joint::run::{JointRun, PlantKind};
+use crate::plants::joint::simulate::{Effect, Model, Protocol, output};
+use crate::diagnose::{Curves, FittedCurves};
+use crate::report::{BeforeAfter, FitReport, HELD_OUT_PART, Horizon};
+use crate::select::{floor_limit, refs};
+use rigproof_spec::effect::Quantity;
+use rigproof_trace::rig::Rig;
+
+/// The plants before and after, and their free runs.
+pub(crate) struct Fitted {
+    pub(crate) nominal: Shown,
+    pub(crate) found: Shown,
+    pub(crate) by_windows: Model,
+}
+
+impl Stand<'_, Rig> {
+    /// The plant of the windows' fit, with or without the mechanisms found.
+    pub(crate) fn model(&self, found: bool) -> Model {
+        let mut selection = self.selection.clone();
+        if !found {
+            selection.found.clear();
+            selection.after = selection.before.clone();
+        }
+        let (nuisances, coefficients) = coefficients_by_term(self.problem, &selection);
+        let terms = refs(&selection.nominal, &selection.found);
+        let effects = terms
+            .iter()
+            .zip(&coefficients)
+            .map(|(term, own)| Effect {
+                mechanism: term.cause.mechanism,
+                parameters: parameters(self.problem, term, own),
+                onset_s: term.onset_s,
+            })
+            .collect();
+        let given = from_rig::plant(self.plant).inertia;
+        Model {
+            inertia: nuisances
+                .first()
+                .copied()
+                .unwrap_or(given)
+                .max(1e-3 * given),
+            effects,
+        }
+    }
+
+    pub(crate) fn fit(&self, protocol: &Protocol) -> Option<Fitted> {
+        if !self.options.refit {
+            return None;
+        }
+        let inertia_free = matches!(self.train.inertia, Inertia::Unknown(_));
+        // The edges of a brake's torque are told to a sample and outweigh all else in a run: its numbers stay those of the windows.
+        let stays = self.train.brake().is_some();
+        let nominal = self.selection.nominal.iter();
+        let known_nominal: Vec<bool> = nominal.map(|t| stays || t.known.is_some()).collect();
+        let mut known_all = known_nominal.clone();
+        known_all.extend(self.selection.found.iter().map(|_| stays));
+        let by_windows = self.model(true);
+        let found = show(
+            &by_windows,
+            inertia_free,
+            &known_all,
+            self.train,
+            protocol,
+            // Where the windows leave only noise there is nothing that a drift could stand for.
+            !self.selection.found.is_empty()
+                && self.floor().ratio_after > floor_limit(self.problem),
+        );
+        let nominal = show(
+            &self.model(false),
+            inertia_free,
+            &known_nominal,
+            self.train,
+            protocol,
+            false,
+        );
+        Some(Fitted {
+            nominal,
+            found,
+            by_windows,
+        })
+    }
+
+    pub(crate) fn fit_report(
+        &self,
+        fitted: &Fitted,
+        protocol: &Protocol,
+    ) -> FitReport {
+        let pair = |run: &JointRun| {
+            let (before, size) = figure(&fitted.nominal.plant, run, protocol);
+            let (after, _) = figure(&fitted.found.plant, run, protocol);
+            let percent = |x: f64| 100.0 * x / size.max(1e-300);
+            BeforeAfter {
+                before,
+                after,
+                nrmse_before: percent(before),
+                nrmse_after: percent(after),
+            }
+        };
+        let (train, held_out) = (pair(self.train), pair(self.test));
+        let floor = match self.train.plant {
+            PlantKind::Axis => self.train.position_noise,
+            PlantKind::Bench => self.train.effort_noise,
+        };
+        let horizon = HORIZONS_S
+            .into_iter()
+            .filter_map(|horizon_s| {
+                Some(Horizon {
+                    horizon_s,
+                    part: HELD_OUT_PART,
+                    unit: self.output_unit(),
+                    tip_before_mm: None,
+                    tip_after_mm: None,
+                    before: horizon_error(&fitted.nominal.plant, self.test, protocol, horizon_s)?,
+                    after: horizon_error(&fitted.found.plant, self.test, protocol, horizon_s)?,
+                })
+            })
+            .collect();
+        let (windows_only, _) = figure(&fitted.by_windows, self.test, protocol);
+        FitReport {
+            protocol: self.fit_protocol(protocol),
+            unit: self.output_unit(),
+            train,
+            held_out: Some(held_out),
+            held_out_without_refit: Some(windows_only),
+            held_out_from_rest: (protocol.warm_up_periods > 0).then(|| {
+                let from_rest = Protocol {
+                    warm_up_periods: 0,
+                    start_samples: 0,
+                    ..*protocol
+                };
+                figure(&fitted.found.plant, self.test, &from_rest).0
+            }),
+            horizon,
+            recovered_share: (held_out.before - held_out.after) / (held_out.before - floor).max(1e-300),
+            improved: held_out.after < held_out.before,
+            drift: fitted.found.drift.map(|rate| {
+                format!("the free run of the fitted part drifts by a constant effort that changes at {rate:.4e} {}; a warming drive, a slow load or wear would look the same", Quantity::EffortPerTime.dimension(self.plant.motion))
+            }),
+        }
+    }
+
+    pub(crate) fn free_run_curves(&self, before: &Model, after: &Model, protocol: &Protocol) -> Curves {
+        let run = self.test;
+        let times = |run: &JointRun| -> Vec<f64> {
+            let all = 0..run.len();
+            all.map(|k| run.start_s + k as f64 * run.step_s).collect()
+        };
+        let recorded = |run: &JointRun| match run.plant {
+            PlantKind::Axis => run.position.clone(),
+            PlantKind::Bench => run.effort.clone(),
+        };
+        let fitted = FittedCurves {
+            time_s: times(self.train),
+            recorded: recorded(self.train),
+            before: output(before, self.train, protocol),
+            after: output(after, self.train, protocol),
+        };
+        Curves {
+            fitted,
+            time_s: times(run),
+            output: match run.plant {
+                PlantKind::Axis => "position",
+                PlantKind::Bench => "metered effort",
+            },
+            recorded: recorded(run),
+            before: output(before, run, protocol),
+            after: output(after, run, protocol),
+            unit: self.output_unit(),
+            window_time_s: self.problem.windows.times_s(),
+            window_counts: self.problem.windows.usable.clone(),
+            residual_before: self.selection.before.residual.clone(),
+            residual_after: self.selection.after.residual.clone(),
+            floor: self.problem.floor,
+            residual_unit: Quantity::Effort.dimension(self.plant.motion).to_string(),
+        }
+    }
+
+    pub(crate) fn output_unit(&self) -> String {
+        let quantity = match self.train.plant {
+            PlantKind::Axis => Quantity::Travel,
+            PlantKind::Bench => Quantity::Effort,
+        };
+        quantity.dimension(self.plant.motion).to_string()
+    }
+}

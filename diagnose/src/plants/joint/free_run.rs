@@ -1,0 +1,189 @@
+//! This file shows the fit: output-error refit of old and new parameters, free runs before and after, horizons.
+
+use crate::filter::rms;
+use crate::plants::joint::refit::{Free, error_rms, refit};
+use crate::plants::joint::run::{JointRun, PlantKind};
+use crate::plants::joint::simulate::{Effect, Model, Protocol, predict};
+use rigproof_model::effects::entry;
+use rigproof_spec::effect::Mechanism;
+
+/// Share of the free run's squared error that a slow drift must take away on the fitted part to be named.
+const DRIFT_SHARE: f64 = 0.5;
+
+/// Which numbers of a plant the refit may move: those of effects that are not known, and the inertia if unknown.
+///
+/// `known` says which effects stay; shape parameters move with `shapes` only.
+fn free_numbers(plant: &Model, inertia_free: bool, known: &[bool], shapes: bool) -> Vec<Free> {
+    let mut free = Vec::new();
+    if inertia_free {
+        free.push(Free {
+            place: None,
+            scale: 0.02 * plant.inertia,
+        });
+    }
+    for (index, (effect, known)) in plant.effects.iter().zip(known).enumerate() {
+        let linear = entry(effect.mechanism).map_or(0, |e| e.linear);
+        let size = leading_size(plant);
+        for (parameter, value) in effect.parameters.iter().enumerate() {
+            let is_shape = parameter >= linear;
+            if *known || (is_shape && !shapes) {
+                continue;
+            }
+            // A coefficient that happens to be near zero still needs a step that is felt.
+            let least = if is_shape {
+                0.0
+            } else {
+                1e-3 * size_of(effect, parameter, size)
+            };
+            free.push(Free {
+                place: Some((index, parameter)),
+                scale: (0.02 * value.abs()).max(least).max(1e-12),
+            });
+        }
+    }
+    free
+}
+
+/// The largest leading coefficient among the efforts of the plant: what "small" is measured against.
+fn leading_size(plant: &Model) -> f64 {
+    let efforts = plant.effects.iter().filter(|e| {
+        matches!(
+            e.mechanism,
+            Mechanism::DryOffset | Mechanism::ConstantBias | Mechanism::Presliding
+        )
+    });
+    efforts
+        .filter_map(|e| e.parameters.first())
+        .map(|p| p.abs())
+        .fold(0.0, f64::max)
+}
+
+fn size_of(effect: &Effect, parameter: usize, effort: f64) -> f64 {
+    match (effect.mechanism, parameter) {
+        (
+            Mechanism::DryOffset
+            | Mechanism::ConstantBias
+            | Mechanism::Presliding
+            | Mechanism::Ripple,
+            _,
+        ) => effort,
+        (Mechanism::DirectionAsymmetry, 1) => effort,
+        (Mechanism::BiasDrift, _) => 0.1 * effort,
+        _ => 0.0,
+    }
+}
+
+/// A refitted plant, and whether a slow drift had to be taken in.
+pub struct Shown {
+    /// The plant.
+    pub plant: Model,
+    /// Error of the free run on the fitted part.
+    pub train: f64,
+    /// The drift's rate, when it was taken in.
+    pub drift: Option<f64>,
+}
+
+/// Refits a plant on a recording: first what enters linearly, then the shapes, then a slow drift if the free run
+/// of an axis shows one.
+pub fn show(
+    plant: &Model,
+    inertia_free: bool,
+    known: &[bool],
+    run: &JointRun,
+    protocol: &Protocol,
+    drift: bool,
+) -> Shown {
+    let mut best = staged(plant, inertia_free, known, run, protocol);
+    let has_drift = plant
+        .effects
+        .iter()
+        .any(|e| e.mechanism == Mechanism::BiasDrift);
+    if !drift || has_drift || run.plant == PlantKind::Bench {
+        return best;
+    }
+    let mut with_drift = plant.clone();
+    with_drift.effects.push(Effect {
+        mechanism: Mechanism::BiasDrift,
+        parameters: vec![0.0],
+        onset_s: None,
+    });
+    let mut known = known.to_vec();
+    known.push(false);
+    let drifting = staged(&with_drift, inertia_free, &known, run, protocol);
+    if drifting.train * drifting.train < (1.0 - DRIFT_SHARE) * best.train * best.train {
+        let rate = drifting
+            .plant
+            .effects
+            .last()
+            .and_then(|e| e.parameters.first().copied());
+        best = Shown {
+            drift: rate,
+            ..drifting
+        };
+    }
+    best
+}
+
+fn staged(
+    plant: &Model,
+    inertia_free: bool,
+    known: &[bool],
+    run: &JointRun,
+    protocol: &Protocol,
+) -> Shown {
+    let linear = free_numbers(plant, inertia_free, known, false);
+    let first = refit(plant, &linear, run, protocol);
+    let all = free_numbers(&first.plant, inertia_free, known, true);
+    if all.len() == linear.len() {
+        return Shown {
+            plant: first.plant,
+            train: first.error,
+            drift: None,
+        };
+    }
+    let second = refit(&first.plant, &all, run, protocol);
+    Shown {
+        plant: second.plant,
+        train: second.error,
+        drift: None,
+    }
+}
+
+/// Horizons at which the error is shown, s.
+pub const HORIZONS_S: [f64; 4] = [0.01, 0.05, 0.2, 1.0];
+/// Starts of a horizon figure.
+const STARTS: usize = 60;
+
+/// Root-mean-square position error after a horizon, over starts spread along the recording; `None` on a bench or
+/// when the recording is too short.
+pub fn horizon_error(
+    plant: &Model,
+    run: &JointRun,
+    protocol: &Protocol,
+    horizon_s: f64,
+) -> Option<f64> {
+    let count = (horizon_s / run.step_s).round() as usize;
+    if run.plant == PlantKind::Bench || count == 0 || run.len() < 2 * count + STARTS {
+        return None;
+    }
+    let stride = (run.len() - count - 1) / STARTS;
+    let errors: Vec<f64> = (0..STARTS)
+        .filter_map(|k| {
+            let first = k * stride;
+            let reached = predict(plant, run, first, count, protocol)?;
+            Some(reached - run.motion.get(first + count)?.position)
+        })
+        .collect();
+    Some(rms(&errors))
+}
+
+/// Error of the free run and the output's standard deviation.
+pub fn figure(plant: &Model, run: &JointRun, protocol: &Protocol) -> (f64, f64) {
+    let output = match run.plant {
+        PlantKind::Axis => &run.position,
+        PlantKind::Bench => &run.effort,
+    };
+    let mean = output.iter().sum::<f64>() / output.len().max(1) as f64;
+    let centred: Vec<f64> = output.iter().map(|x| x - mean).collect();
+    (error_rms(plant, run, protocol), rms(&centred))
+}

@@ -1,0 +1,119 @@
+//! This file turns a rig description and its recording into the plant's equations.
+
+use super::align::{Signals, align};
+use super::inertia::Inertia;
+use crate::align::{Fault, forget_sense_near_reversals};
+use crate::cause::Cause;
+use crate::plants::joint::run::{JointRun, PlantKind};
+use crate::plants::joint::simulate::{Effect, Interpolation, Model, Protocol};
+use crate::problem::NominalEffect;
+use rigproof_trace::rig::{Drive, Plant as RigPlant, Recording, Rig, Status};
+
+/// Travel within which a shaft that turns back may also stand, in deviations of its noise: two counts.
+const STILL_NOISES: f64 = 7.0;
+
+/// Aligns a recording of a rig.
+///
+/// # Errors
+/// The fault that makes any conclusion meaningless.
+pub fn aligned(rig: &Rig, recording: &Recording) -> Result<JointRun, Fault> {
+    let axis = recording.plant == RigPlant::Axis;
+    let gain = rig.parameters.map_or(1.0, |p| p.command_gain.value);
+    let drive = recording.drive.as_ref();
+    let effort = if axis {
+        drive
+    } else {
+        recording.force.as_ref()
+    };
+    let scale = if axis { gain } else { 1.0 };
+    let scaled = |x: Option<f64>| x.map(|x| x * scale.abs());
+    let quantum_noise = |quantum: f64| quantum / 12f64.sqrt();
+    let effort_noise = effort.and_then(|e| match (e.noise, e.quantum) {
+        (None, None) => None,
+        (noise, quantum) => Some(
+            noise
+                .unwrap_or(0.0)
+                .hypot(quantum_noise(quantum.unwrap_or(0.0))),
+        ),
+    });
+    let mut run = align(&Signals {
+        plant: if axis {
+            PlantKind::Axis
+        } else {
+            PlantKind::Bench
+        },
+        kind: recording.motion,
+        time_s: recording.time_s.clone(),
+        position: recording.position.samples.clone(),
+        effort: effort.map_or_else(Vec::new, |e| e.samples.iter().map(|x| x * scale).collect()),
+        predicted: recording.simulated.as_ref().map(|s| s.samples.clone()),
+        current: drive.filter(|_| !axis).map(|d| d.samples.clone()),
+        held: rig.protocol.drive == Drive::Held,
+        position_quantum: recording.position.quantum,
+        position_noise: recording.position.noise,
+        effort_noise: scaled(effort_noise),
+        effort_limit: scaled(effort.and_then(|e| e.limit)),
+    })?;
+    run.inertia = inertia(rig);
+    if let (Some(brake), Some(current)) = (&rig.brake, &run.current) {
+        run.table = Some(brake.table());
+        // Before the sense is forgotten: a lag follows the yield torque through a reversal.
+        run.predicted = run.braked(current);
+        let still = STILL_NOISES * run.position_noise;
+        forget_sense_near_reversals(&mut run.motion, &run.position, still);
+    }
+    Ok(run)
+}
+
+/// The inertia as the rig states it.
+pub(crate) fn inertia(rig: &Rig) -> Inertia {
+    match (rig.plant, rig.parameters) {
+        (RigPlant::Axis, Some(parameters)) => match parameters.inertia.status {
+            Status::Known => Inertia::Known(parameters.inertia.value),
+            _ => Inertia::Unknown(parameters.inertia.value),
+        },
+        _ => Inertia::None,
+    }
+}
+
+/// The physics that the nominal model has.
+pub(crate) fn nominal(rig: &Rig) -> Vec<NominalEffect> {
+    rig.effects
+        .iter()
+        .map(|effect| NominalEffect {
+            cause: Cause::of(effect.mechanism),
+            parameters: effect.values.iter().map(|v| v.value).collect(),
+            unknown: effect.values.iter().any(|v| v.status != Status::Known),
+            onset_s: effect.onset.map(|v| v.value),
+        })
+        .collect()
+}
+
+/// The plant with every number as the rig states it.
+pub fn plant(rig: &Rig) -> Model {
+    Model {
+        inertia: rig.parameters.map_or(0.0, |p| p.inertia.value),
+        effects: nominal(rig)
+            .into_iter()
+            .map(|n| Effect {
+                mechanism: n.cause.mechanism,
+                parameters: n.parameters,
+                onset_s: n.onset_s,
+            })
+            .collect(),
+    }
+}
+
+/// The protocol of free runs that the rig states.
+pub fn protocol(rig: &Rig) -> Protocol {
+    Protocol {
+        interpolation: match rig.protocol.drive {
+            Drive::Held => Interpolation::Hold,
+            Drive::Straight => Interpolation::Linear,
+            Drive::Periodic => Interpolation::Band,
+        },
+        start_samples: rig.protocol.start_samples,
+        substeps: rig.protocol.substeps,
+        warm_up_periods: rig.protocol.warm_up_periods,
+    }
+}

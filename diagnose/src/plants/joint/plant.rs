@@ -1,0 +1,170 @@
+//! This file is a plant of one joint by its description.
+
+use super::inverse::{self, CUTOFF_HZ, DECIMATION, FILTER_ORDER};
+use super::joined::joined;
+use super::mistaken::{another_drive, without_brake};
+use super::run::JointRun;
+use super::write_rig::{calibrated, nominal_numbers};
+use super::{from_rig, replica};
+use crate::align::Fault;
+use crate::diagnose::write::Stand;
+use crate::evidence::Intervals;
+use crate::plant::{At, Plant, Replica, Shown};
+use crate::problem::{NominalEffect, Problem};
+use crate::report::{FitReport, InverseReport, Number};
+use crate::select::Selection;
+use crate::sensor::sensed;
+use rand_pcg::Pcg64Mcg;
+use rigproof_spec::effect::Mechanism;
+use rigproof_trace::csv::{Dialect, Hints};
+use rigproof_trace::rig::{Recording, Rig, RigEffect};
+use rigproof_trace::{Trace, TraceError};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+impl Plant for Rig {
+    type Recording = Recording;
+    type Run = JointRun;
+
+    /// What no other plant takes.
+    fn describes(_: &str, _: &Path) -> Result<bool, TraceError> {
+        Ok(true)
+    }
+
+    fn read(text: &str, origin: &Path) -> Result<Rig, TraceError> {
+        Rig::parse(text, origin)
+    }
+
+    fn plant_name(&self) -> &'static str {
+        self.plant.name()
+    }
+
+    fn rig_name(&self) -> &str {
+        &self.name
+    }
+
+    fn written(&self) -> String {
+        self.to_toml()
+    }
+
+    fn measured(&self, trace: &Trace, origin: &Path) -> Result<Recording, TraceError> {
+        self.apply(trace, origin)
+    }
+
+    fn read_csv(&self, file: &Path, hints: &Hints) -> Result<(Recording, Dialect), TraceError> {
+        self.read_text(file, hints)
+    }
+
+    fn read_messages(&self, file: &Path) -> Result<(Recording, Vec<String>), TraceError> {
+        self.read_mcap(file)
+    }
+
+    fn times_s(recording: &Recording) -> &[f64] {
+        &recording.time_s
+    }
+
+    fn only(recording: &Recording, kept: &[bool]) -> Recording {
+        recording.only(kept)
+    }
+
+    fn aligned(&self, recording: &Recording, _: f64) -> Result<JointRun, Fault> {
+        from_rig::aligned(self, recording)
+    }
+
+    fn joined(runs: Vec<JointRun>) -> Result<JointRun, (usize, Fault)> {
+        joined(runs)
+    }
+
+    /// A free run begins anew with the held-out part.
+    fn parted(run: JointRun, cut: usize, _: usize) -> (JointRun, JointRun, f64) {
+        (run.part(0, cut), run.part(cut, run.len()), 0.0)
+    }
+
+    fn nominal(&self) -> Vec<NominalEffect> {
+        from_rig::nominal(self)
+    }
+
+    fn check(&self, run: &JointRun, _: &Problem) -> Result<(), (At, Fault)> {
+        without_brake(self, run).map_or(Ok(()), |fault| Err(("description", fault)))
+    }
+
+    fn check_found(&self, problem: &Problem, selection: &Selection) -> Result<(), Fault> {
+        another_drive(problem, selection).map_or(Ok(()), Err)
+    }
+
+    /// A change of the drive in the description is passed over.
+    fn meaningless(&self, _: &Problem, _: &NominalEffect) -> Option<Fault> {
+        None
+    }
+
+    fn calibrated(stand: &Stand<'_, Rig>, intervals: &Intervals) -> Rig {
+        calibrated(stand.plant, &stand.model(true), intervals, false)
+    }
+
+    fn found(&self, stand: &Stand<'_, Rig>) -> Vec<RigEffect> {
+        let Selection { nominal, found, .. } = stand.selection;
+        let effects = self.effects.iter().skip(nominal.len());
+        effects.take(found.len()).cloned().collect()
+    }
+
+    /// By free runs of an axis under the recorded command, and along the recorded motion of a bench; the numbers are refitted by them.
+    fn shown(stand: &Stand<'_, Rig>, intervals: &Intervals) -> Shown<Rig> {
+        let protocol = from_rig::protocol(stand.plant);
+        let fitted = stand.fit(&protocol);
+        let (before, after) = match &fitted {
+            Some(f) => (f.nominal.plant.clone(), f.found.plant.clone()),
+            None => (stand.model(false), stand.model(true)),
+        };
+        // A bench with a brake keeps the numbers of its windows.
+        let refitted = fitted.is_some() && stand.train.brake().is_none();
+        let fit = fitted.as_ref();
+        Shown {
+            calibration: calibrated(stand.plant, &after, intervals, refitted),
+            fit: fit.map(|fitted| stand.fit_report(fitted, &protocol)),
+            curves: stand.free_run_curves(&before, &after, &protocol),
+        }
+    }
+
+    fn protocol(stand: &Stand<'_, Rig>, _: Option<&FitReport>) -> Vec<String> {
+        stand.protocol_lines(&from_rig::protocol(stand.plant))
+    }
+
+    fn nominal_numbers(&self, calibration: &Rig) -> BTreeMap<String, Number> {
+        nominal_numbers(self, calibration)
+    }
+
+    fn inverse_model(run: &JointRun, laws: &[(Mechanism, Vec<f64>)]) -> Option<InverseReport> {
+        let model = inverse::inverse_model(run, laws)?;
+        Some(InverseReport {
+            protocol: inverse::protocol(),
+            filter_order: FILTER_ORDER,
+            cutoff_hz: CUTOFF_HZ,
+            decimation: DECIMATION,
+            nominal_error_percent: model.error_percent,
+        })
+    }
+
+    fn replica(&self, model: &Rig, recording: &Recording) -> Result<Replica<Recording>, String> {
+        replica::replica(self, model, recording)
+    }
+
+    fn sensed(
+        recording: &Recording,
+        [position, effort]: [f64; 2],
+        random: &mut Pcg64Mcg,
+    ) -> Recording {
+        let mut out = recording.clone();
+        out.position = sensed(&out.position, position, random);
+        // The current of a bench is a command: it has no noise of its own.
+        if let Some(signal) = out.force.as_mut().or(out.drive.as_mut()) {
+            *signal = sensed(signal, effort, random);
+        }
+        out
+    }
+
+    fn without_found(&self, calibration: &Rig) -> Rig {
+        let mut out = calibration.clone();
+        out.effects.truncate(self.effects.len());
+        out
+    }
+}

@@ -1,0 +1,365 @@
+//! This file is an aligned recording: regular samples, smoothed motion, known efforts, noise levels.
+
+use super::inertia::Inertia;
+use super::joined::over_parts;
+use super::{columns, regimes, shapes, variables};
+use crate::align::band_hz;
+use crate::cause::{Cause, Place};
+use crate::doubt::{greatest_change, jumps_late, turning};
+use crate::filter::rms;
+use crate::locate::Regimes;
+use crate::plant::{Clock, Columns, Rules, Run};
+use crate::problem::add;
+use crate::signals::second_difference;
+use crate::unknown::Variable;
+use crate::weak::{MOST_AMBIGUOUS, Windows, is_recorded, untold};
+use crate::whiten::{ORDER, Whitener};
+use rigproof_model::brake::Brake;
+use rigproof_model::effects::Instant;
+use rigproof_spec::effect::{Mechanism, Motion};
+use rigproof_spec::tables::BrakeTable;
+
+/// Which plant's equations a recording obeys.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlantKind {
+    /// Driven joint: the residual is `gain·u − inertia·q̈ − resistance`.
+    Axis,
+    /// Imposed motion: the residual is the metered effort less the resistance.
+    Bench,
+}
+
+/// An aligned recording in SI units, one value a sample in every vector.
+#[derive(Clone, Debug)]
+pub struct JointRun {
+    /// The plant.
+    pub plant: PlantKind,
+    /// Whether it slides or turns.
+    pub kind: Motion,
+    /// The inertia, as far as it is known.
+    pub inertia: Inertia,
+    /// Sample interval, s.
+    pub step_s: f64,
+    /// Time of the first sample, s.
+    pub start_s: f64,
+    /// Whether the drive holds its value between samples, so that it acts half a sample late on average.
+    pub held: bool,
+    /// Recorded position, m or rad.
+    pub position: Vec<f64>,
+    /// Smoothed motion: what the laws are evaluated on.
+    pub motion: Vec<Instant>,
+    /// Axis: `gain·u`. Bench: the metered effort. N or N·m.
+    pub effort: Vec<f64>,
+    /// Bench: the effort that the nominal model already predicts (a brake, or somebody's simulation).
+    pub predicted: Option<Vec<f64>>,
+    /// Bench: the current, A.
+    pub current: Option<Vec<f64>>,
+    /// Bench: the brake whose torque is predicted.
+    pub table: Option<BrakeTable>,
+    /// Standard deviation of one position sample, m or rad.
+    pub position_noise: f64,
+    /// Standard deviation of one effort sample, N or N·m.
+    pub effort_noise: f64,
+    /// Samples that were recorded, not filled in.
+    pub recorded: Vec<bool>,
+    /// Speed below which the sense of motion cannot be told, m/s or rad/s.
+    pub speed_floor: f64,
+    /// By how much the speed may be mistaken, m/s or rad/s.
+    pub untold_speed: Vec<f64>,
+    /// The recordings that stand in it one after another; empty for one recording.
+    pub parts: Vec<JointRun>,
+}
+
+impl JointRun {
+    /// The number of samples.
+    pub fn len(&self) -> usize {
+        self.position.len()
+    }
+
+    /// What a bench with a brake and its current has: the predicted torque, N·m, and the current, A.
+    pub fn brake(&self) -> Option<(&[f64], &[f64])> {
+        Some((self.predicted.as_deref()?, self.current.as_deref()?))
+    }
+
+    /// The torque of the thesis's brake along the recorded motion under a current, A; `None` on a plant without one. N·m.
+    pub fn braked(&self, current: &[f64]) -> Option<Vec<f64>> {
+        self.braked_along(&self.motion, current)
+    }
+
+    /// By how much the brake's torque may be mistaken, N·m: because nothing is known of the time between two samples (when the shaft turns
+    /// back, when a backlash begins and ends and, where the current is not held, when it jumps), and because its time constant jumps at speeds that noise may cross.
+    pub fn brake_doubt(&self) -> Option<Vec<f64>> {
+        let current = self.current.as_deref()?;
+        let own = self.braked(current)?;
+        let late = self.motion.iter().take(1).chain(&self.motion);
+        let mut motions: Vec<Vec<Instant>> = vec![late.copied().take(self.len()).collect()];
+        motions.extend([1.0, -1.0].map(|sign| turning(&self.motion, &self.untold_speed, sign)));
+        let along = |motion: &Vec<Instant>| self.braked_along(motion, current);
+        let mut others: Vec<Vec<f64>> = motions.iter().filter_map(along).collect();
+        if !self.held {
+            others.extend(self.braked(&jumps_late(current)));
+        }
+        Some(greatest_change(&own, &others))
+    }
+
+    fn braked_along(&self, motion: &[Instant], current: &[f64]) -> Option<Vec<f64>> {
+        let mut brake = Brake::of(self.table?, motion.first()?.position);
+        let mut yields = vec![brake.yield_torque()];
+        let currents = current.iter().zip(current.iter().skip(1));
+        for ((before, current), now) in currents.zip(motion.iter().skip(1)) {
+            let acting = match self.held {
+                true => *before,
+                false => 0.5 * (before + current),
+            };
+            brake.step(acting, now.position, now.speed, self.step_s);
+            yields.push(brake.yield_torque());
+        }
+        // Where the sense cannot be told the torque is spread over it, as for the dry laws.
+        let torques = motion.iter().zip(yields);
+        Some(torques.map(|(now, torque)| torque * now.sense).collect())
+    }
+
+    /// Whether there are no samples.
+    pub fn is_empty(&self) -> bool {
+        self.position.is_empty()
+    }
+
+    /// The length of the recording, s.
+    pub fn duration_s(&self) -> f64 {
+        self.step_s * self.len().saturating_sub(1) as f64
+    }
+
+    /// The samples `from..to`, times kept.
+    pub fn part(&self, from: usize, to: usize) -> JointRun {
+        let part = |values: &Vec<f64>| values.get(from..to).unwrap_or_default().to_vec();
+        JointRun {
+            plant: self.plant,
+            kind: self.kind,
+            inertia: self.inertia,
+            step_s: self.step_s,
+            start_s: self.start_s + from as f64 * self.step_s,
+            held: self.held,
+            position: part(&self.position),
+            motion: self.motion.get(from..to).unwrap_or_default().to_vec(),
+            effort: part(&self.effort),
+            predicted: self.predicted.as_ref().map(part),
+            current: self.current.as_ref().map(part),
+            table: self.table,
+            position_noise: self.position_noise,
+            effort_noise: self.effort_noise,
+            recorded: self.recorded.get(from..to).unwrap_or_default().to_vec(),
+            speed_floor: self.speed_floor,
+            untold_speed: part(&self.untold_speed),
+            parts: Vec::new(),
+        }
+    }
+
+    /// The range of positions, m or rad.
+    pub fn travel(&self) -> f64 {
+        let low = self.position.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = self
+            .position
+            .iter()
+            .copied()
+            .fold(f64::NEG_INFINITY, f64::max);
+        (high - low).max(0.0)
+    }
+}
+
+impl JointRun {
+    /// What noise is made of: an inertia times the position's, and the effort's.
+    fn sensors(&self) -> [f64; 2] {
+        [
+            self.inertia.start() * self.position_noise,
+            self.effort_noise,
+        ]
+    }
+
+    /// The narrowest window whose predicted floor is small against the effort, narrowed again where the effort
+    /// itself is faster than that (at least eight samples, five on a bench), s.
+    pub fn width_s(&self) -> f64 {
+        let scale = rms(&self.effort);
+        let quiet = |width_s: &&f64| self.floor(&self.all_windows(**width_s)) <= QUIET * scale;
+        let (width_s, least) = match self.plant {
+            PlantKind::Axis => (
+                WIDTHS_S.iter().find(quiet).copied().unwrap_or(WIDTHS_S[2]),
+                8.0,
+            ),
+            PlantKind::Bench => (WIDTHS_S[0], 5.0),
+        };
+        let band_hz = band_hz(&self.effort, self.step_s);
+        width_s.min(2.0 / band_hz).max(least * self.step_s)
+    }
+}
+
+/// The widths that are tried, s; the last is taken when no narrower one is quiet enough.
+const WIDTHS_S: [f64; 3] = [0.040, 0.080, 0.160];
+/// A width is quiet enough when the floor is below this share of the effort.
+const QUIET: f64 = 0.003;
+/// What a friction as large as the whole effort may do where the sense of motion cannot be told, in floors.
+const MOST_UNTOLD: f64 = 0.5;
+
+impl Run for JointRun {
+    fn clock(&self) -> Clock {
+        Clock {
+            step_s: self.step_s,
+            start_s: self.start_s,
+            samples: self.len(),
+        }
+    }
+
+    fn recorded(&self) -> &[bool] {
+        &self.recorded
+    }
+
+    fn motion_kind(&self) -> Motion {
+        self.kind
+    }
+
+    fn rules(&self) -> &'static Rules {
+        &Rules::ONE_EQUATION
+    }
+
+    fn slice(&self, from: usize, to: usize) -> Box<dyn Run> {
+        Box::new(self.part(from, to))
+    }
+
+    fn effort(&self) -> Vec<f64> {
+        self.effort.clone()
+    }
+
+    fn driving(&self) -> Vec<f64> {
+        columns::acting_effort(self, &self.effort)
+    }
+
+    fn known(&self) -> Vec<f64> {
+        let none = || vec![0.0; self.len()];
+        let mut known = self.predicted.clone().unwrap_or_else(none);
+        if let Inertia::Known(value) = self.inertia {
+            let acceleration = second_difference(&self.position, self.step_s);
+            add(&mut known, &acceleration, value);
+        }
+        known
+    }
+
+    fn nuisances(&self) -> Vec<Vec<f64>> {
+        match self.inertia {
+            Inertia::Unknown(_) => vec![second_difference(&self.position, self.step_s)],
+            _ => Vec::new(),
+        }
+    }
+
+    fn windows(&self) -> Windows {
+        self.windows_of(self.width_s())
+    }
+
+    /// Windows in which the sense of motion is known throughout; on an axis such that no rest begins or ends unseen, with a brake such that its
+    /// torque is foreseen.
+    fn keep_told(&self, windows: &mut Windows) {
+        let most = |share: f64| {
+            move |centre: usize, bump: &[f64]| untold(&self.motion, centre, bump) <= share
+        };
+        windows.keep(|centre, bump| is_recorded(&self.recorded, centre, bump));
+        windows.keep(most(MOST_AMBIGUOUS));
+        let floor = self.floor(windows);
+        if self.plant == PlantKind::Axis {
+            windows.keep(most(MOST_UNTOLD * floor / rms(&self.effort).max(1e-300)));
+        }
+        if let (Some((predicted, _)), Some(doubt)) = (self.brake(), self.brake_doubt()) {
+            windows.keep_foreseen(predicted, &doubt, floor);
+        }
+    }
+
+    fn floor(&self, windows: &Windows) -> f64 {
+        let covariance = windows.noise_covariance(self.sensors(), 0.0, 1);
+        covariance.iter().sum::<f64>().sqrt()
+    }
+
+    fn whitener(&self, windows: &Windows, excess: f64) -> Whitener {
+        let covariance = windows.noise_covariance(self.sensors(), excess, ORDER + 1);
+        Whitener::new(&covariance, &windows.usable)
+    }
+
+    fn position_noise(&self) -> f64 {
+        self.position_noise
+    }
+
+    fn motion(&self, _: Place) -> &[Instant] {
+        &self.motion
+    }
+
+    fn travel(&self, _: Place) -> f64 {
+        JointRun::travel(self)
+    }
+
+    fn causes(&self) -> Vec<Cause> {
+        shapes::causes(self)
+    }
+
+    fn shapes(&self, cause: Cause, windows: &Windows, residual: &[f64]) -> Vec<Vec<f64>> {
+        shapes::shapes(self, cause.mechanism, windows, residual)
+    }
+
+    fn columns(&self, cause: Cause, shape: &[f64], beside: Option<&[f64]>) -> Option<Columns> {
+        over_parts(self, |run, part| match beside {
+            None => columns::resistances(run, cause.mechanism, shape).map(Columns::Free),
+            Some(beside) => columns::drive(run, cause.mechanism, shape, beside.get(part)?),
+        })
+    }
+
+    fn is_linearised(&self) -> bool {
+        true
+    }
+
+    fn linear(&self, mechanism: Mechanism, coefficients: &[f64]) -> Vec<f64> {
+        match (mechanism, self.plant) {
+            // The column is the known effort: y = e + c·e, so that the applied gain is 1/(1 + c) of the stated one. What a bench meters is the
+            // brake's torque itself.
+            (Mechanism::GainError, PlantKind::Axis) => {
+                coefficients.iter().map(|c| -c / (1.0 + c)).collect()
+            }
+            _ => coefficients.to_vec(),
+        }
+    }
+
+    /// A constant that changes no sign with the motion is a bias or a direction asymmetry.
+    fn twin(&self, cause: Cause) -> Option<Cause> {
+        match cause.mechanism {
+            Mechanism::ConstantBias => Some(Cause::of(Mechanism::DirectionAsymmetry)),
+            Mechanism::DirectionAsymmetry => Some(Cause::of(Mechanism::ConstantBias)),
+            _ => None,
+        }
+    }
+
+    fn brake(&self) -> Option<(&[f64], &[f64])> {
+        JointRun::brake(self)
+    }
+
+    fn regimes(&self, windows: &Windows) -> Regimes {
+        regimes::regimes(self, windows)
+    }
+
+    fn variables(&self, windows: &Windows) -> Vec<Variable> {
+        variables::variables(self, windows)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plants::joint::recorded::{NOMINAL, STEP_S, exact_axis};
+
+    #[test]
+    fn a_slice_keeps_its_times() {
+        let run = exact_axis(NOMINAL, 500, true);
+        let part = run.part(113, 401);
+        assert_eq!(part.len(), 288);
+        assert_eq!(part.motion[0].time_s, run.motion[113].time_s);
+        assert!((part.start_s - 113.0 * STEP_S).abs() < 1e-12);
+        assert_eq!(
+            part.clock()
+                .sample_at(run.motion[117].time_s - 0.3 * STEP_S),
+            4
+        );
+        assert_eq!(part.effort, run.effort[113..401]);
+    }
+}

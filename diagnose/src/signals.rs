@@ -1,0 +1,70 @@
+//! This file is what is done to a signal before it becomes a column: delayed, shifted, weighted, differenced.
+
+use rigproof_model::effects::{CurrentPlay, first_order_lag_straight};
+
+/// A brake's signed torque with its magnitude delayed by a first-order lag and its sign kept.
+pub fn lagged_yield(predicted: &[f64], step_s: f64, time_constant_s: f64) -> Vec<f64> {
+    let magnitude: Vec<f64> = predicted.iter().map(|p| p.abs()).collect();
+    let lagged = first_order_lag_straight(&magnitude, step_s, time_constant_s);
+    let signed = lagged.iter().zip(predicted);
+    signed
+        .map(|(l, p)| if *p == 0.0 { 0.0 } else { l * p.signum() })
+        .collect()
+}
+
+/// Share of a current that hysteresis is linearised with: the torque is not linear in the current.
+pub const USUAL_SHARE: f64 = 0.3;
+
+/// A current of which a share goes through a play, sample by sample, A.
+pub fn through_play(current_a: &[f64], play: CurrentPlay, share: f64) -> Vec<f64> {
+    let mut at_a = 0.0;
+    let held = current_a.iter().map(|i| {
+        at_a = play.moved(at_a, *i);
+        i + share * (at_a - i)
+    });
+    held.collect()
+}
+
+/// Numerov's weights 1/12, 10/12, 1/12; the end samples stay.
+pub fn numerov(signal: &[f64]) -> Vec<f64> {
+    let mut out = signal.to_vec();
+    for (value, window) in out.iter_mut().skip(1).zip(signal.windows(3)) {
+        if let [a, b, c] = window {
+            *value = (a + 10.0 * b + c) / 12.0;
+        }
+    }
+    out
+}
+
+/// The discrete second derivative, 0 at both ends.
+pub fn second_difference(position: &[f64], step_s: f64) -> Vec<f64> {
+    let mut out = vec![0.0; position.len()];
+    for (value, window) in out.iter_mut().skip(1).zip(position.windows(3)) {
+        if let [a, b, c] = window {
+            *value = (a - 2.0 * b + c) / (step_s * step_s);
+        }
+    }
+    out
+}
+
+/// `signal(t + delay)` in samples, linear between samples, held at the ends.
+pub fn shifted(signal: &[f64], delay: f64) -> Vec<f64> {
+    let last = signal.len().saturating_sub(1) as f64;
+    (0..signal.len())
+        .map(|k| {
+            let at = (k as f64 + delay).clamp(0.0, last);
+            let low = at.floor();
+            let a = signal.get(low as usize).copied().unwrap_or(0.0);
+            let b = signal.get(low as usize + 1).copied().unwrap_or(a);
+            a + (at - low) * (b - a)
+        })
+        .collect()
+}
+
+/// The parameters of a law with each of its linear ones 1 in turn and the others 0.
+pub fn unit_parameters(linear: usize, shape: &[f64]) -> impl Iterator<Item = Vec<f64>> {
+    (0..linear).map(move |index| {
+        let unit = (0..linear).map(|k| if k == index { 1.0 } else { 0.0 });
+        unit.chain(shape.iter().copied()).collect()
+    })
+}
