@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use rigproof_blind::{Plant, Stratum, make, open, score};
-use rigproof_diagnose::{Options, diagnose};
+use rigproof_diagnose::{Description, Options, diagnose};
 use rigproof_trace::rig::Rig;
 use rigproof_trace::store::Folder;
 use serde_json::json;
@@ -51,7 +51,8 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
         ))?;
     }
     let mark = progress::spinner("diagnosing");
-    let mut diagnosis = diagnose(&rig, &recording, None, &Options::default());
+    let diagnosis = diagnose(&rig, &[&recording], None, &Options::default());
+    let mut diagnosis = diagnosis.map(Description::Joint);
     drop(mark);
     let contents = contents(&case)?;
     let files = FILES.iter().zip(&contents);

@@ -50,7 +50,7 @@ Examples:
   rigproof diagnose recording.csv --rig rig.toml --calibrate 40
   rigproof diagnose recordings/ --rig rig.toml
 
-Of a folder of recordings of one five-bar all are diagnosed together, and the result is shown on the end of the second of two, on the last of more.";
+Of a folder of recordings of one rig all are diagnosed together, and the result is shown on the end of the second of two, on the last of more.";
 
 impl Args {
     /// A recording and its rig, and where the result is to stand; everything else as it is without an option.
@@ -114,7 +114,7 @@ pub fn made(args: &Args) -> Result<Made, Failure> {
         .install(|| rig.diagnose(&given.recordings, given.held_out.as_ref(), &options));
     drop(mark);
     let Some(mut diagnosis) = diagnosis else {
-        let problem = "several recordings together are of a five-bar: diagnose those of an axis or a bench one by one";
+        let problem = "it is a recording of another plant than the rig file describes";
         return Err(Failure::unusable(
             &args.source.recording,
             problem.to_owned(),

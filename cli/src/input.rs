@@ -8,8 +8,7 @@ use rigproof_diagnose::report::{InputFile, ReadAs};
 use rigproof_diagnose::{Description, Measured};
 use rigproof_trace::csv::{Dialect, LEAST_SAMPLES};
 use rigproof_trace::mcap;
-use rigproof_trace::rig::five_bar::FiveBarRecording;
-use rigproof_trace::rig::{Recording, Rig, Signal};
+use rigproof_trace::rig::{Recording, Rig};
 use rigproof_trace::{Place, TraceError};
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
@@ -164,18 +163,10 @@ pub fn recording(
 ) -> Result<(Recording, HowRead), Failure> {
     let (recording, how) = whole(rig, file, reading)?;
     let kept = cut.kept(file, &recording.time_s)?;
-    let cut = Recording {
-        time_s: part(&recording.time_s, &kept),
-        position: signal(&recording.position, &kept),
-        drive: recording.drive.as_ref().map(|s| signal(s, &kept)),
-        force: recording.force.as_ref().map(|s| signal(s, &kept)),
-        simulated: recording.simulated.as_ref().map(|s| signal(s, &kept)),
-        ..recording
-    };
-    Ok((cut, how))
+    Ok((recording.only(&kept), how))
 }
 
-/// Reads a recording of either kind of rig and cuts it, and says how it was read.
+/// Reads a recording of any plant and cuts it, and says how it was read.
 ///
 /// # Errors
 /// The file is not usable, or the cut leaves too little.
@@ -185,32 +176,15 @@ pub fn measured(
     cut: Cut,
     reading: &Reading,
 ) -> Result<(Measured, HowRead), Failure> {
-    let rig = match description {
-        Description::Joint(rig) => {
-            let (recording, how) = recording(rig, file, cut, reading)?;
-            return Ok((Measured::Joint(recording), how));
-        }
-        Description::FiveBar(rig) => rig,
-    };
     let (whole, how) = if mcap::is_mcap(file)? {
-        let (recording, lines) = rig.read_mcap(file)?;
+        let (recording, lines) = description.read_mcap(file)?;
         (recording, HowRead::of_messages(&lines))
     } else {
-        let (recording, dialect) = rig.read_text(file, &reading.hints())?;
+        let (recording, dialect) = description.read_text(file, &reading.hints())?;
         (recording, HowRead::Text(dialect))
     };
-    let kept = cut.kept(file, &whole.time_s)?;
-    let pair = |pair: &[Signal; 2]| pair.each_ref().map(|s| signal(s, &kept));
-    let cut = FiveBarRecording {
-        time_s: part(&whole.time_s, &kept),
-        theta: pair(&whole.theta),
-        force: pair(&whole.force),
-        currents: whole
-            .currents
-            .each_ref()
-            .map(|current| current.as_ref().map(|s| signal(s, &kept))),
-    };
-    Ok((Measured::FiveBar(cut), how))
+    let kept = cut.kept(file, whole.time_s())?;
+    Ok((whole.only(&kept), how))
 }
 
 /// A file's path as given, its SHA-256, and how it was read if it is a text recording.
@@ -258,18 +232,6 @@ pub fn identity_of(name: &str, bytes: &[u8]) -> InputFile {
 
 fn hexadecimal(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
-}
-
-fn signal(signal: &Signal, kept: &[bool]) -> Signal {
-    Signal {
-        samples: part(&signal.samples, kept),
-        ..signal.clone()
-    }
-}
-
-fn part(samples: &[f64], kept: &[bool]) -> Vec<f64> {
-    let pairs = samples.iter().zip(kept);
-    pairs.filter(|(_, kept)| **kept).map(|(x, _)| *x).collect()
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! This file makes the page of a diagnosis from what the command line has at hand.
 
-use rigproof_diagnose::plants::five_bar::replay::{Frame, RESTART_S, replayed};
+use rigproof_diagnose::plant::{Frame, RESTART_S};
 use rigproof_diagnose::{Description, Diagnosis, Measured};
 use rigproof_report::chart::rounded;
 use rigproof_report::diagnosis::{Diagnosed, page};
@@ -26,19 +26,14 @@ pub fn diagnosis(rig_name: &str, diagnosis: &Diagnosis, beside: Beside) -> Strin
     })
 }
 
-/// The replay of a five-bar's recording; nothing on another plant, and where nothing was fitted.
+/// The replay of a recording; nothing where the plant has none, and where nothing was fitted.
 pub fn replay(
     rig: &Description,
     diagnosis: &Diagnosis,
     shown: Option<&Measured>,
 ) -> Option<Replay> {
     diagnosis.report.fit.as_ref()?;
-    let (Description::FiveBar(before), Description::FiveBar(after), Measured::FiveBar(recording)) =
-        (rig, &diagnosis.calibration, shown?)
-    else {
-        return None;
-    };
-    let own = replayed(before, after, recording)?;
+    let own = rig.replay(&diagnosis.calibration, shown?)?;
     let way = |name: &str, role, frames: Vec<Frame>| Way {
         name: name.to_owned(),
         role,

@@ -5,8 +5,9 @@ use core::f64::consts::TAU;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
+use rigproof_diagnose::plants::joint::from_rig;
 use rigproof_diagnose::plants::joint::simulate::output;
-use rigproof_diagnose::{Options, diagnose, from_rig};
+use rigproof_diagnose::{Options, diagnose};
 use rigproof_model::axis::Axis;
 use rigproof_model::effects::law;
 use rigproof_spec::effect::Mechanism;
@@ -110,7 +111,8 @@ fn lengths(criterion: &mut Criterion) {
                 bencher.iter(|| match name {
                     "free_run" => black_box(output(&plant, &run, &protocol)),
                     _ => {
-                        let found = diagnose(&rig, &recording, None, &options(name == "diagnose"));
+                        let found =
+                            diagnose(&rig, &[&recording], None, &options(name == "diagnose"));
                         black_box(found).curves.after
                     }
                 });

@@ -3,7 +3,6 @@
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use rigproof_diagnose::Options;
-use rigproof_diagnose::plants::five_bar::diagnose::diagnose;
 use rigproof_diagnose::plants::five_bar::experiment::plan::Plan;
 use rigproof_diagnose::plants::five_bar::experiment::play::play;
 use rigproof_diagnose::plants::five_bar::free_run::Model;

@@ -1,8 +1,10 @@
 //! This file says which shapes of each mechanism are tried on a recording.
 
 use crate::cause::Cause;
+use crate::plant::Run;
 use crate::problem::{Problem, Term, add};
 use crate::regression::Fit;
+use crate::weak::Windows;
 use core::f64::consts::TAU;
 use rayon::prelude::*;
 use rigproof_model::effects::Instant;
@@ -89,6 +91,53 @@ pub fn modelled_effort(problem: &Problem, terms: &[&Term], fitted: &Fit) -> Vec<
 
 fn shapes(problem: &Problem, cause: Cause, residual: &[f64]) -> Vec<Vec<f64>> {
     problem.run.shapes(cause, &problem.windows, residual)
+}
+
+/// The shapes of a cause that are tried on most plants; `residual` is what is left, row by row.
+pub fn standard_shapes<R: Run + ?Sized>(
+    run: &R,
+    cause: Cause,
+    windows: &Windows,
+    residual: &[f64],
+) -> Vec<Vec<f64>> {
+    let (travel, step_s) = (run.travel(cause.at).max(1e-12), run.clock().step_s);
+    let one = |values: Vec<f64>| values.into_iter().map(|v| vec![v]).collect();
+    match cause.mechanism {
+        Mechanism::Stribeck => stribeck_shapes(run.speed_floor(), fastest(run.motion(cause.at))),
+        Mechanism::Presliding | Mechanism::AsymmetricPresliding => one(geometric(
+            (3.0 * run.position_noise()).max(1e-4 * travel),
+            0.2 * travel,
+            12,
+        )),
+        Mechanism::Hysteresis => geometric(0.2 / travel, 40.0 / travel, 8)
+            .into_iter()
+            .flat_map(|gamma| [-1.4, -0.5, 0.5, 1.4].map(|ratio| vec![gamma, gamma * ratio]))
+            .collect(),
+        Mechanism::Ripple => one(periods(
+            &points(run.motion(cause.at), windows, residual),
+            run.travel(cause.at),
+        )),
+        Mechanism::Lag => one(geometric(0.5 * step_s, 0.25, 14)),
+        Mechanism::ReversalOvershoot => one(geometric(0.01, 1.5, 6)),
+        Mechanism::CurrentHysteresis => one(geometric(0.01, 0.5, 7)),
+        Mechanism::ChannelSkew => {
+            let sizes = geometric(0.5 * step_s, 0.08f64.max(4.0 * step_s), 12);
+            one(sizes.iter().flat_map(|&s| [s, -s]).collect())
+        }
+        _ => vec![vec![]],
+    }
+}
+
+/// Position and residual of each usable window.
+fn points(motion: &[Instant], windows: &Windows, residual: &[f64]) -> Vec<(f64, f64)> {
+    windows
+        .centres
+        .iter()
+        .zip(residual)
+        .zip(&windows.usable)
+        .filter(|(_, usable)| **usable)
+        .filter_map(|((&centre, &r), _)| motion.get(centre).map(|now| (now.position, r)))
+        .collect()
 }
 
 /// The range that each shape parameter of a mechanism may take: that of the shapes tried, for a period all of them.
@@ -204,6 +253,22 @@ fn power(points: &[(f64, f64)], wave_number: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    use crate::plants::joint::recorded::exact_bench;
+
+    #[test]
+    fn the_period_of_a_ripple_is_among_those_tried() {
+        let run = exact_bench(&[(Mechanism::Viscous, &[2.3])], 11_000);
+        let windows = run.windows_of(0.017);
+        let period = run.travel() / 23.7;
+        let residual: Vec<f64> = windows
+            .centres
+            .iter()
+            .map(|c| 0.4 * libm::sin(TAU * run.motion[*c].position / period + 0.9))
+            .collect();
+        let best = periods(&points(&run.motion, &windows, &residual), run.travel())[0];
+        assert!((best / period - 1.0).abs() < 0.02, "{best} {period}");
+    }
 
     #[test]
     fn a_geometric_grid_meets_both_ends_in_equal_ratios() {

@@ -1,5 +1,7 @@
 //! This file says where the unexplained energy is: in which regimes of the motion.
 
+mod along;
+
 use crate::cause::Place;
 use crate::problem::Problem;
 use crate::report::Located;
@@ -19,6 +21,8 @@ pub struct Cell {
     /// One value a row.
     pub member: Vec<bool>,
 }
+
+pub use along::along;
 
 /// The regimes of a recording.
 pub struct Regimes {

@@ -1,19 +1,26 @@
 //! This file is the interface of a plant: all that naming, judging and showing ask of a recording. Nothing behind it knows which plant it is.
 
 mod described;
+mod replayed;
 mod rules;
 
+use crate::candidates::standard_shapes;
 use crate::cause::{Cause, JointId, Place};
-use crate::locate::Regimes;
-use crate::unknown::Variable;
-use crate::weak::Windows;
-use crate::whiten::Whitener;
+use crate::locate::{self, Regimes};
+use crate::signals::numerov;
+use crate::unknown::{Variable, variables};
+use crate::weak::{MOST_AMBIGUOUS, Windows, is_recorded, untold};
+use crate::whiten::{ORDER, Whitener};
 use core::fmt::Debug;
 use rigproof_model::effects::Instant;
 use rigproof_spec::effect::{Mechanism, Motion};
 
-pub use described::{At, Plant, Replica, Shown};
+pub use described::{At, Described, Plant, Replica, Shown};
+pub use replayed::{Frame, RESTART_S, Replayed};
 pub use rules::Rules;
+
+/// Width of windows where a plant has no wish of its own, s.
+const USUAL_WIDTH_S: f64 = 0.040;
 
 /// The clock of a recording: regular samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,7 +81,9 @@ pub trait Run: Debug + Send + Sync {
     }
 
     /// The rules by which names are judged here.
-    fn rules(&self) -> &'static Rules;
+    fn rules(&self) -> &'static Rules {
+        &Rules::ONE_EQUATION
+    }
 
     /// The samples `from..to`, times kept.
     fn slice(&self, from: usize, to: usize) -> Box<dyn Run>;
@@ -84,8 +93,10 @@ pub trait Run: Debug + Send + Sync {
     /// The driving effort as recorded: what a contribution is compared with.
     fn effort(&self) -> Vec<f64>;
 
-    /// The driving effort as the second difference of the positions sees it.
-    fn driving(&self) -> Vec<f64>;
+    /// The driving effort as the second difference of the positions sees it: with Numerov's weights where it is smooth between samples.
+    fn driving(&self) -> Vec<f64> {
+        numerov(&self.effort())
+    }
 
     /// What the nominal model knows of it: inertia, predicted efforts.
     fn known(&self) -> Vec<f64>;
@@ -98,10 +109,18 @@ pub trait Run: Debug + Send + Sync {
     // Windows and their noise.
 
     /// The windows that suit it, those given up in which its sensors tell too little.
-    fn windows(&self) -> Windows;
+    fn windows(&self) -> Windows {
+        self.windows_of(USUAL_WIDTH_S)
+    }
 
-    /// Gives up the rows of windows in which the sensors tell too little.
-    fn keep_told(&self, windows: &mut Windows);
+    /// Gives up the rows of windows in which the sensors tell too little: a sample is missing, or a sense of motion is not known.
+    fn keep_told(&self, windows: &mut Windows) {
+        windows.keep(|centre, bump| is_recorded(self.recorded(), centre, bump));
+        for place in self.moving_places() {
+            let motion = self.motion(place);
+            windows.keep(|centre, bump| untold(motion, centre, bump) <= MOST_AMBIGUOUS);
+        }
+    }
 
     /// Windows of about a width, s, those given up in which its sensors tell too little.
     fn windows_of(&self, width_s: f64) -> Windows {
@@ -117,11 +136,20 @@ pub trait Run: Debug + Send + Sync {
         Windows::over(clock.samples, self.outputs(), times, width_s)
     }
 
+    /// What noise is made of: the standard deviation of what is differenced twice, an inertia times a position, and that of an effort.
+    fn sensors(&self) -> [f64; 2];
+
     /// Root mean square over the usable rows of the standard deviation that sensor noise alone gives them.
-    fn floor(&self, windows: &Windows) -> f64;
+    fn floor(&self, windows: &Windows) -> f64 {
+        let covariance = windows.noise_covariance(self.sensors(), 0.0, 1);
+        covariance.iter().sum::<f64>().sqrt()
+    }
 
     /// The noise model of the usable rows; `excess` is a variance of white effort that nothing explains.
-    fn whitener(&self, windows: &Windows, excess: f64) -> Whitener;
+    fn whitener(&self, windows: &Windows, excess: f64) -> Whitener {
+        let covariance = windows.noise_covariance(self.sensors(), excess, ORDER + 1);
+        Whitener::new(&covariance, &windows.usable)
+    }
 
     /// Standard deviation of one sample of a position: what a travel is compared with.
     fn position_noise(&self) -> f64;
@@ -143,7 +171,16 @@ pub trait Run: Debug + Send + Sync {
     fn motion(&self, at: Place) -> &[Instant];
 
     /// The range of the motion at a place, m or rad.
-    fn travel(&self, at: Place) -> f64;
+    fn travel(&self, at: Place) -> f64 {
+        let positions = self.motion(at).iter().map(|now| now.position);
+        let low = positions.clone().fold(f64::INFINITY, f64::min);
+        (positions.fold(f64::NEG_INFINITY, f64::max) - low).max(0.0)
+    }
+
+    /// Speed below which a sense of motion cannot be told.
+    fn speed_floor(&self) -> f64 {
+        0.0
+    }
 
     // Causes.
 
@@ -151,7 +188,9 @@ pub trait Run: Debug + Send + Sync {
     fn causes(&self) -> Vec<Cause>;
 
     /// The shapes of a cause that are tried; `residual` is what is left, row by row.
-    fn shapes(&self, cause: Cause, windows: &Windows, residual: &[f64]) -> Vec<Vec<f64>>;
+    fn shapes(&self, cause: Cause, windows: &Windows, residual: &[f64]) -> Vec<Vec<f64>> {
+        standard_shapes(self, cause, windows, residual)
+    }
 
     /// How far the first number of a cause's shape may go where that is beyond what is tried first.
     fn reach(&self, cause: Cause) -> Option<(f64, f64)> {
@@ -214,10 +253,30 @@ pub trait Run: Debug + Send + Sync {
     // What is left.
 
     /// The regimes that unexplained energy is located in.
-    fn regimes(&self, windows: &Windows) -> Regimes;
+    fn regimes(&self, windows: &Windows) -> Regimes {
+        let motion = self.motion(Place::Whole);
+        let positions = motion.iter().map(|now| now.position);
+        let low = positions.fold(f64::INFINITY, f64::min);
+        locate::along(
+            "effort balance",
+            motion,
+            windows,
+            [low, self.travel(Place::Whole)],
+        )
+    }
+
+    /// What a unit of effort at a place adds to each row.
+    fn shares(&self, at: Place, windows: &Windows) -> Vec<f64> {
+        let _ = at;
+        vec![1.0; windows.centres.len()]
+    }
 
     /// What a free curve of what is left can be drawn over.
-    fn variables(&self, windows: &Windows) -> Vec<Variable>;
+    fn variables(&self, windows: &Windows) -> Vec<Variable> {
+        let places = self.moving_places().into_iter();
+        let each = places.map(|at| variables(self, windows, at, &self.shares(at, windows)));
+        each.flatten().collect()
+    }
 
     /// All places that have a motion of their own: every joint, or the whole where it is one.
     fn moving_places(&self) -> Vec<Place> {

@@ -1,10 +1,14 @@
 //! This file draws the shape of what no mechanism of the library explains.
 
+mod variables;
+
 use crate::cause::Place;
 use crate::problem::{Problem, Rows};
 use crate::regression::{Blocks, left_out_loss};
 use crate::report::Unknown;
 use rigproof_spec::effect::Mechanism;
+
+pub use variables::variables;
 
 /// Knots of a curve.
 const KNOTS: usize = 20;
@@ -16,7 +20,7 @@ const LEAST_SHARE: f64 = 0.02;
 /// Screens position, speed, time and effort for the curve that takes away most of the residual, or `None` when no
 /// curve over one of them helps.
 pub fn unknown(problem: &Problem, residual: &[f64]) -> Option<Unknown> {
-    let screened = screen(problem, residual, variables(problem));
+    let screened = screen(problem, residual, over(problem));
     let best = screened
         .into_iter()
         .filter(|(_, share)| *share > LEAST_SHARE)
@@ -45,7 +49,7 @@ const SURROGATE_SHARE: f64 = 0.3;
 /// The found mechanisms that only stand in for another law: with them in place, a free curve over a variable that
 /// they are functions of, or that their level should not depend on, still takes a good part of the remaining loss away.
 pub fn surrogates(problem: &Problem, residual: &[f64], found: &[Mechanism]) -> Vec<Mechanism> {
-    let related = variables(problem)
+    let related = over(problem)
         .into_iter()
         .filter(|v| found.iter().any(|m| v.concerns(*m)))
         .collect();
@@ -76,7 +80,7 @@ pub struct Variable {
     pub share: Vec<f64>,
 }
 
-fn variables(problem: &Problem) -> Vec<Variable> {
+fn over(problem: &Problem) -> Vec<Variable> {
     problem.run.variables(&problem.windows)
 }
 

@@ -1,8 +1,9 @@
 //! This file holds the diagnosis against recordings that nobody here made; where they are absent it says so and
 //! passes over itself.
 
+use rigproof_diagnose::plants::joint::{from_rig, inverse::inverse_model};
 use rigproof_diagnose::report::{Report, Verdict};
-use rigproof_diagnose::{Options, diagnose, from_rig, inverse::inverse_model};
+use rigproof_diagnose::{Options, diagnose};
 use rigproof_spec::effect::Mechanism;
 use rigproof_trace::arrays::{Arrays, Selection, TimeSource};
 use rigproof_trace::rig::{Recording, Rig};
@@ -49,7 +50,7 @@ fn emps_names_dry_friction_and_bias_then_the_asymmetry() {
         rig.read_recording(&train).unwrap(),
         rig.read_recording(&test).unwrap(),
     );
-    let report = diagnose(&rig, &train, Some(&test), &Options::default()).report;
+    let report = diagnose(&rig, &[&train], Some(&test), &Options::default()).report;
     let entered: Vec<&str> = report.stages.iter().take(3).map(|s| s.entered).collect();
     assert_eq!(
         entered,
@@ -142,7 +143,7 @@ fn the_mr_damper_shows_presliding_at_its_reversals() {
             hold_out_share: 0.5,
             ..Options::default()
         };
-        let report = diagnose(&rig, &recording, None, &options).report;
+        let report = diagnose(&rig, &[&recording], None, &options).report;
         let names = named(&report);
         assert!(names.contains(&"presliding"), "{name}: {names:?}");
         assert!(
@@ -233,7 +234,7 @@ simulated = { channel = "simulated", unit = "N" }
     )
     .unwrap();
     let recording = rig.apply(&trace, &path).unwrap();
-    let report = diagnose(&rig, &recording, None, &Options::default()).report;
+    let report = diagnose(&rig, &[&recording], None, &Options::default()).report;
     assert_eq!(report.stages[0].entered, "channel_skew");
     let delay_s = report.effects[0].parameters["delay"].value;
     // The two start at different phases of a 1.2 s period: 1.16 s apart, or 0.04 s the other way.
@@ -269,7 +270,13 @@ fn the_bouc_wen_oscillator_shows_hysteresis_and_what_cannot_be_known_of_it() {
             .for_each(|c| c.samples.truncate(8192));
         rig.apply(&trace, path).unwrap()
     };
-    let report = diagnose(&rig, &read(&train), Some(&read(&test)), &Options::default()).report;
+    let report = diagnose(
+        &rig,
+        &[&read(&train)],
+        Some(&read(&test)),
+        &Options::default(),
+    )
+    .report;
     assert_eq!(named(&report), ["hysteresis"]);
     assert_eq!(report.verdict, Verdict::Explained);
     let direction = &report.null_directions[0].direction;

@@ -155,7 +155,7 @@ fn a_wrong_command_line_has_an_exit_code_of_its_own() {
 }
 
 #[test]
-fn a_folder_without_recordings_or_with_several_of_an_axis_is_refused() {
+fn a_folder_without_recordings_or_with_several_rates_is_refused() {
     let desk = desk();
     std::fs::create_dir(desk.path("runs")).unwrap();
     desk.put("runs/notes.md", "on Tuesday");

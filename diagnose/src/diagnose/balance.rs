@@ -83,11 +83,7 @@ impl<P: Plant> Stand<'_, P> {
         }
     }
 
-    fn balance_report(
-        &self,
-        (train, test): (&Balanced, &Balanced),
-        calibration: &P,
-    ) -> FitReport {
+    fn balance_report(&self, (train, test): (&Balanced, &Balanced), calibration: &P) -> FitReport {
         let (horizon, free_runs) = P::free_runs(self, calibration);
         let least = test.floor;
         let train = before_after(train);
@@ -137,11 +133,20 @@ impl<P: Plant> Stand<'_, P> {
             rows.filter(|r| r.is_finite()).map(|r| r * r).sum()
         };
         let loudest = (1..outputs).fold(0, |loudest, output| {
-            if energy(output) > energy(loudest) { output } else { loudest }
+            if energy(output) > energy(loudest) {
+                output
+            } else {
+                loudest
+            }
         });
         let output = loudest;
         let of = |values: &[f64]| -> Vec<f64> {
-            values.iter().skip(output).step_by(outputs).copied().collect()
+            values
+                .iter()
+                .skip(output)
+                .step_by(outputs)
+                .copied()
+                .collect()
         };
         let shown = |own: &Balanced| FittedCurves {
             time_s: of(&own.times_s),
@@ -159,7 +164,12 @@ impl<P: Plant> Stand<'_, P> {
             after: held_out.after,
             unit: self.effort_unit(),
             window_time_s: of(&self.problem.windows.times_s()),
-            window_counts: usable.iter().skip(output).step_by(outputs).copied().collect(),
+            window_counts: usable
+                .iter()
+                .skip(output)
+                .step_by(outputs)
+                .copied()
+                .collect(),
             residual_before: of(&before),
             residual_after: of(&after),
             floor: self.problem.floor,

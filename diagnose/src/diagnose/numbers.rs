@@ -1,7 +1,9 @@
 //! This file is numbers as a calibration and a report have them: with their intervals.
 
-use crate::evidence::Intervals;
+use crate::evidence::{Intervals, coefficients_by_term, parameters};
+use crate::problem::Problem;
 use crate::report::Number;
+use crate::select::{Selection, refs};
 use rigproof_spec::effect::Motion;
 use rigproof_trace::rig::{RigEffect, Value};
 use std::collections::BTreeMap;
@@ -27,6 +29,32 @@ pub(crate) fn onset(onset_s: Option<f64>, intervals: &Intervals, index: usize) -
         high95,
         ..Value::known(onset_s)
     })
+}
+
+/// The effects of a selection with the numbers of the windows, nominal ones first.
+pub(crate) fn fitted(
+    problem: &Problem,
+    selection: &Selection,
+    intervals: &Intervals,
+) -> Vec<RigEffect> {
+    let (_, coefficients) = coefficients_by_term(problem, selection);
+    let terms = refs(&selection.nominal, &selection.found);
+    let terms = terms.iter().zip(&coefficients).enumerate();
+    terms
+        .map(|(index, (term, own))| {
+            let mechanism = term.cause.mechanism;
+            let halves = intervals.terms.get(index);
+            let values = parameters(problem, term, own).into_iter().enumerate();
+            let values = values.take(mechanism.parameters().len());
+            RigEffect {
+                mechanism,
+                values: values
+                    .map(|(k, value)| with_interval(value, halves.and_then(|h| h.get(k)).copied()))
+                    .collect(),
+                onset: onset(term.onset_s, intervals, index),
+            }
+        })
+        .collect()
 }
 
 /// An effect's parameters as the report prints them.

@@ -85,11 +85,12 @@ impl<P: Plant> Stand<'_, P> {
         let verdict = verdict(selection, &floor, floor_limit(problem), &rivals);
         let is_left = floor.ratio_after > floor_limit(problem);
         let unknown = is_left.then(|| self.unknown()).flatten();
+        let intervals = intervals(problem, selection);
         let Shown {
             calibration,
             fit,
             curves,
-        } = P::shown(self, &intervals(problem, selection));
+        } = P::shown(self, &intervals);
         let (next_experiment, experiment) = match self.options.next_experiment {
             true => P::next_experiment(self, &all).unzip(),
             false => (None, None),
@@ -101,7 +102,7 @@ impl<P: Plant> Stand<'_, P> {
             protocol: P::protocol(self, fit.as_ref()),
             located: locate(problem, before, after),
             stages: self.stages(),
-            effects: self.effects(&calibration.found(self), &all),
+            effects: self.effects(&calibration.found(self, &intervals), &all),
             ambiguous_with: rivals,
             too_small_to_name: names(&selection.too_small),
             withdrawn: names(self.withdrawn),

@@ -1,7 +1,8 @@
 //! This file is a plant by its description: what it needs recorded, how that becomes a run, and what only this plant can show.
 
-use super::Run;
+use super::{Replayed, Run};
 use crate::align::Fault;
+use crate::diagnose::numbers::fitted;
 use crate::diagnose::write::Stand;
 use crate::diagnose::{Curves, balance};
 use crate::evidence::{Intervals, Rivals};
@@ -31,63 +32,15 @@ pub struct Replica<R> {
     pub how: &'static str,
 }
 
-/// A plant by its description.
+/// A plant by its description: how its recordings become runs, and what only it can show.
 pub trait Plant: Clone + Debug + Send + Sync + Sized {
     /// A recording in SI units.
     type Recording: Clone + Debug + Send + Sync;
     /// An aligned recording.
     type Run: Run;
 
-    // Reading and writing.
-
-    /// Whether a text describes such a plant; `origin` is the file that messages name.
-    ///
-    /// # Errors
-    /// It is no description of any plant.
-    fn describes(text: &str, origin: &Path) -> Result<bool, TraceError>;
-
-    /// Reads a description; `origin` is the file that messages name.
-    ///
-    /// # Errors
-    /// The text does not describe such a plant.
-    fn read(text: &str, origin: &Path) -> Result<Self, TraceError>;
-
     /// The plant's name in reports.
     fn plant_name(&self) -> &'static str;
-
-    /// What people call it.
-    fn rig_name(&self) -> &str;
-
-    /// As TOML.
-    fn written(&self) -> String;
-
-    /// Turns a recording into SI quantities; `origin` is the file that messages name.
-    ///
-    /// # Errors
-    /// A channel is missing, or its unit does not convert.
-    fn measured(&self, trace: &Trace, origin: &Path) -> Result<Self::Recording, TraceError>;
-
-    /// Reads a text recording whose dialect is partly known, and says in which it was.
-    ///
-    /// # Errors
-    /// The file cannot be read, or as [`Plant::measured`].
-    fn read_csv(
-        &self,
-        file: &Path,
-        hints: &Hints,
-    ) -> Result<(Self::Recording, Dialect), TraceError>;
-
-    /// Reads an MCAP recording, and says how it was read.
-    ///
-    /// # Errors
-    /// The file cannot be read, or as [`Plant::measured`].
-    fn read_messages(&self, file: &Path) -> Result<(Self::Recording, Vec<String>), TraceError>;
-
-    /// The time stamps of a recording, s.
-    fn times_s(recording: &Self::Recording) -> &[f64];
-
-    /// A recording of which only some samples count.
-    fn only(recording: &Self::Recording, kept: &[bool]) -> Self::Recording;
 
     // Becoming a run.
 
@@ -101,11 +54,36 @@ pub trait Plant: Clone + Debug + Send + Sync + Sized {
     ///
     /// # Errors
     /// The place of the one that does not fit the others, and why.
-    fn joined(runs: Vec<Self::Run>) -> Result<Self::Run, (usize, Fault)>;
+    fn joined(runs: Vec<Self::Run>) -> Result<Self::Run, (usize, Fault)> {
+        let mut runs = runs.into_iter();
+        match (runs.next(), runs.next()) {
+            (Some(only), None) => Ok(only),
+            (none, _) => Err((
+                usize::from(none.is_some()),
+                Fault {
+                    channel: "time",
+                    from_s: 0.0,
+                    to_s: 0.0,
+                    reason: "recordings of this plant are diagnosed one by one".to_owned(),
+                },
+            )),
+        }
+    }
+
+    /// The samples `from..to` of a run.
+    fn part(run: &Self::Run, from: usize, to: usize) -> Self::Run;
 
     /// What is fitted of a run that is cut at a sample, what shows the result, and where in it the held-out part begins, s.
     /// `before` samples of other recordings come before it.
-    fn parted(run: Self::Run, cut: usize, before: usize) -> (Self::Run, Self::Run, f64);
+    fn parted(run: Self::Run, cut: usize, before: usize) -> (Self::Run, Self::Run, f64) {
+        let _ = before;
+        let samples = run.clock().samples;
+        (
+            Self::part(&run, 0, cut),
+            Self::part(&run, cut, samples),
+            0.0,
+        )
+    }
 
     /// What the nominal model has beside what the run knows.
     fn nominal(&self) -> Vec<NominalEffect>;
@@ -144,10 +122,17 @@ pub trait Plant: Clone + Debug + Send + Sync + Sized {
     // Showing.
 
     /// The description with the numbers of a selection; found effects follow the nominal ones.
-    fn calibrated(stand: &Stand<'_, Self>, intervals: &Intervals) -> Self;
+    fn calibrated(stand: &Stand<'_, Self>, intervals: &Intervals) -> Self {
+        let _ = intervals;
+        stand.plant.clone()
+    }
 
-    /// Of a calibration, the effects that a selection found.
-    fn found(&self, stand: &Stand<'_, Self>) -> Vec<RigEffect>;
+    /// The effects that a selection found, with the numbers of this calibration.
+    fn found(&self, stand: &Stand<'_, Self>, intervals: &Intervals) -> Vec<RigEffect> {
+        let Selection { nominal, found, .. } = stand.selection;
+        let effects = fitted(stand.problem, stand.selection, intervals).into_iter();
+        effects.skip(nominal.len()).take(found.len()).collect()
+    }
 
     /// What the fit comes to, on what was fitted and what was not: of the balance of efforts, unless the plant has better.
     fn shown(stand: &Stand<'_, Self>, intervals: &Intervals) -> Shown<Self> {
@@ -157,7 +142,10 @@ pub trait Plant: Clone + Debug + Send + Sync + Sized {
     /// Errors of free runs with the nominal effects of a calibration and with all of them, and how they were made, in words.
     fn free_runs(stand: &Stand<'_, Self>, calibration: &Self) -> (Vec<Horizon>, String) {
         let _ = (stand, calibration);
-        (Vec::new(), "no free runs: nothing simulates this plant".to_owned())
+        (
+            Vec::new(),
+            "no free runs: nothing simulates this plant".to_owned(),
+        )
     }
 
     /// How the naming was measured, line by line.
@@ -192,8 +180,65 @@ pub trait Plant: Clone + Debug + Send + Sync + Sized {
         let _ = (stand, rivals);
         None
     }
+}
 
-    // Simulating whole recordings.
+/// What a fit comes to.
+pub struct Shown<P> {
+    /// The description with the numbers.
+    pub calibration: P,
+    /// Before and after; `None` where it was not asked for.
+    pub fit: Option<FitReport>,
+    /// Curves for the pictures.
+    pub curves: Curves,
+}
+
+/// A plant whose description and recordings are files: what the registry and the program need.
+pub trait Described: Plant + PartialEq {
+    /// Whether a text describes such a plant; `origin` is the file that messages name.
+    ///
+    /// # Errors
+    /// It is no description of any plant.
+    fn describes(text: &str, origin: &Path) -> Result<bool, TraceError>;
+
+    /// Reads a description; `origin` is the file that messages name.
+    ///
+    /// # Errors
+    /// The text does not describe such a plant.
+    fn read(text: &str, origin: &Path) -> Result<Self, TraceError>;
+
+    /// What people call it.
+    fn rig_name(&self) -> &str;
+
+    /// As TOML.
+    fn written(&self) -> String;
+
+    /// Turns a recording into SI quantities; `origin` is the file that messages name.
+    ///
+    /// # Errors
+    /// A channel is missing, or its unit does not convert.
+    fn measured(&self, trace: &Trace, origin: &Path) -> Result<Self::Recording, TraceError>;
+
+    /// Reads a text recording whose dialect is partly known, and says in which it was.
+    ///
+    /// # Errors
+    /// The file cannot be read, or as [`Plant::measured`].
+    fn read_csv(
+        &self,
+        file: &Path,
+        hints: &Hints,
+    ) -> Result<(Self::Recording, Dialect), TraceError>;
+
+    /// Reads an MCAP recording, and says how it was read.
+    ///
+    /// # Errors
+    /// The file cannot be read, or as [`Plant::measured`].
+    fn read_messages(&self, file: &Path) -> Result<(Self::Recording, Vec<String>), TraceError>;
+
+    /// The time stamps of a recording, s.
+    fn times_s(recording: &Self::Recording) -> &[f64];
+
+    /// A recording of which only some samples count.
+    fn only(recording: &Self::Recording, kept: &[bool]) -> Self::Recording;
 
     /// What a plant with the numbers of `model` would have recorded; this one describes the recording.
     ///
@@ -215,16 +260,12 @@ pub trait Plant: Clone + Debug + Send + Sync + Sized {
         random: &mut Pcg64Mcg,
     ) -> Self::Recording;
 
+    /// The end of a recording beside free runs of this description and another one.
+    fn replay(&self, after: &Self, recording: &Self::Recording) -> Option<Replayed> {
+        let _ = (after, recording);
+        None
+    }
+
     /// A calibration without what was found: this one is nominal.
     fn without_found(&self, calibration: &Self) -> Self;
-}
-
-/// What a fit comes to.
-pub struct Shown<P> {
-    /// The description with the numbers.
-    pub calibration: P,
-    /// Before and after; `None` where it was not asked for.
-    pub fit: Option<FitReport>,
-    /// Curves for the pictures.
-    pub curves: Curves,
 }

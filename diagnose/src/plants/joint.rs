@@ -13,13 +13,11 @@ mod plant;
 #[cfg(test)]
 pub(crate) mod recorded;
 pub mod refit;
-mod regimes;
 pub(crate) mod replica;
 pub mod run;
 mod shapes;
 pub mod simulate;
 #[cfg(test)]
 mod tests;
-mod variables;
 mod words;
 pub(crate) mod write_rig;

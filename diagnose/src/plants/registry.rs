@@ -1,7 +1,7 @@
 //! This file is the registry of plants, a line each, and what is diagnosed whichever plant it is: a rig's description and a recording of it.
 
 use crate::diagnose::{Diagnosis, Options, diagnose};
-use crate::plant::Plant;
+use crate::plant::{Described, Plant, Replayed};
 use rand_pcg::Pcg64Mcg;
 use rigproof_trace::csv::{Dialect, Hints};
 use rigproof_trace::rig::Rig;
@@ -49,7 +49,7 @@ macro_rules! plants {
             /// It describes none of them.
             pub fn parse(text: &str, origin: &Path) -> Result<Description, TraceError> {
                 $(if <$plant>::describes(text, origin)? {
-                    return <$plant as Plant>::read(text, origin).map(Description::$name);
+                    return <$plant as Described>::read(text, origin).map(Description::$name);
                 })+
                 Rig::parse(text, origin).map(Description::Joint)
             }
@@ -126,6 +126,16 @@ macro_rules! plants {
                         })
                     })+
                     _ => Err("the recording is one of another plant".to_owned()),
+                }
+            }
+
+            /// The end of a recording beside free runs of this description and another one; `None` where the plant has no such picture.
+            pub fn replay(&self, after: &Description, recording: &Measured) -> Option<Replayed> {
+                match (self, after, recording) {
+                    $((Description::$name(own), Description::$name(after), Measured::$name(recording)) => {
+                        own.replay(after, recording)
+                    })+
+                    _ => None,
                 }
             }
 

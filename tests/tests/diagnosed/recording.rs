@@ -101,7 +101,7 @@ impl Recording {
         }
         let rig = Rig::read(&rig).unwrap();
         let recording = rig.read_recording(&recording).unwrap();
-        rigproof_diagnose::diagnose(&rig, &recording, None, &options()).report
+        rigproof_diagnose::diagnose(&rig, &[&recording], None, &options()).report
     }
 
     /// The files of the recording and of its rig description, in a folder unless another is asked for.
@@ -131,7 +131,7 @@ fn five_bar_reported(rig: &Path, recordings: &[PathBuf]) -> Report {
         .map(|own| rig.read_recording(own).unwrap());
     let recordings: Vec<FiveBarRecording> = recordings.collect();
     let all: Vec<&FiveBarRecording> = recordings.iter().collect();
-    rigproof_diagnose::plants::five_bar::diagnose::diagnose(&rig, &all, None, &options()).report
+    rigproof_diagnose::diagnose(&rig, &all, None, &options()).report
 }
 
 /// The golden runs are short: most of each is needed.

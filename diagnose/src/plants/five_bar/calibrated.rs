@@ -3,9 +3,9 @@
 use super::encoder::Encoder;
 use super::run::joint_at;
 use super::undone::undone_first;
-use crate::diagnose::numbers::{onset, with_interval};
+use crate::diagnose::numbers::{fitted, with_interval};
 use crate::diagnose::write::Stand;
-use crate::evidence::{Intervals, coefficients_by_term, parameters};
+use crate::evidence::{Intervals, coefficients_by_term};
 use crate::problem::Term;
 use crate::select::refs;
 use rigproof_spec::effect::Mechanism;
@@ -20,29 +20,16 @@ impl Stand<'_, FiveBar> {
         let terms = refs(&self.selection.nominal, &self.selection.found);
         let (undone, known) = undone_first(self.plant);
         rig.effects = undone;
-        let fitted = terms
-            .iter()
-            .zip(&coefficients)
-            .enumerate()
-            .map(|(index, (term, own))| {
-                if let (Some(given), Some(_)) = (known.get(index), &term.known) {
-                    return given.clone();
-                }
-                let halves = intervals.terms.get(index);
-                let count = term.cause.mechanism.parameters().len();
-                let values = parameters(self.problem, term, own)
-                    .into_iter()
-                    .take(count)
-                    .enumerate();
-                let values = values
-                    .map(|(k, value)| with_interval(value, halves.and_then(|h| h.get(k)).copied()));
-                joint_effect(
-                    term,
-                    term.cause.mechanism,
-                    values.collect(),
-                    onset(term.onset_s, intervals, index),
-                )
-            });
+        let all = fitted(self.problem, self.selection, intervals).into_iter();
+        let fitted = all.zip(&terms).enumerate().map(|(index, (effect, term))| {
+            match (known.get(index), &term.known) {
+                (Some(given), Some(_)) => given.clone(),
+                _ => JointEffect {
+                    joint: joint_at(term.cause.at),
+                    effect,
+                },
+            }
+        });
         rig.effects.extend(fitted);
         let second = terms.iter().zip(&coefficients);
         rig.effects.extend(second.filter_map(|(term, own)| {

@@ -168,7 +168,11 @@ fn explanations(stand: &Stand<'_, FiveBar>, rivals: &[Rivals]) -> Vec<Explanatio
         .collect()
 }
 
-fn explanation(stand: &Stand<'_, FiveBar>, selection: &Selection, index: usize) -> Option<Explanation> {
+fn explanation(
+    stand: &Stand<'_, FiveBar>,
+    selection: &Selection,
+    index: usize,
+) -> Option<Explanation> {
     let own = selection.found.get(index)?;
     let others = selection.found.iter().enumerate();
     let others = others.filter(|(k, _)| *k != index).map(|(_, f)| &f.term);
@@ -251,7 +255,11 @@ fn beyond(losses: &[f64], truth: usize, other: usize) -> f64 {
 
 /// How far each pair of explanations lies apart on an experiment, in standard deviations of the noise: the lesser of what either
 /// leaves of the other's recording.
-fn separations(stand: &Stand<'_, FiveBar>, explanations: &[Explanation], plan: &Plan) -> Option<Vec<f64>> {
+fn separations(
+    stand: &Stand<'_, FiveBar>,
+    explanations: &[Explanation],
+    plan: &Plan,
+) -> Option<Vec<f64>> {
     let all = explanations
         .par_iter()
         .map(|truth| losses(stand, truth, explanations, plan));

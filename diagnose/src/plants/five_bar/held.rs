@@ -4,9 +4,9 @@
 //! hold at least as much (Coulomb 1785). The equation in which it occurs is not fitted, so this is evidence of its own for what was named.
 
 use super::columns::{driving, free};
-use crate::diagnose::balance::modelled;
 use super::noise::pair_covariances;
 use super::run::{FiveBarRun, at, place, place_of};
+use crate::diagnose::balance::modelled;
 use crate::evidence::coefficients_by_term;
 use crate::plant::Run;
 use crate::problem::{Problem, Term, add};

@@ -4,13 +4,14 @@ use super::experiment;
 use super::held::held;
 use super::joined::joined;
 use super::mapping;
+use super::replay::replayed;
 use super::replica::replica;
 use super::run::FiveBarRun;
 use super::undone::{described, left, undone_first};
 use crate::align::Fault;
 use crate::diagnose::write::Stand;
 use crate::evidence::{Intervals, Rivals};
-use crate::plant::{At, Plant, Replica};
+use crate::plant::{At, Described, Plant, Replayed, Replica};
 use crate::problem::{NominalEffect, Problem};
 use crate::report::{FitReport, HeldReport, Horizon, NextExperiment};
 use crate::select::Selection;
@@ -26,48 +27,8 @@ impl Plant for FiveBar {
     type Recording = FiveBarRecording;
     type Run = FiveBarRun;
 
-    fn describes(text: &str, origin: &Path) -> Result<bool, TraceError> {
-        FiveBar::describes(text, origin)
-    }
-
-    fn read(text: &str, origin: &Path) -> Result<FiveBar, TraceError> {
-        FiveBar::parse(text, origin)
-    }
-
     fn plant_name(&self) -> &'static str {
         "rig"
-    }
-
-    fn rig_name(&self) -> &str {
-        &self.name
-    }
-
-    fn written(&self) -> String {
-        self.to_toml()
-    }
-
-    fn measured(&self, trace: &Trace, origin: &Path) -> Result<FiveBarRecording, TraceError> {
-        self.apply(trace, origin)
-    }
-
-    fn read_csv(
-        &self,
-        file: &Path,
-        hints: &Hints,
-    ) -> Result<(FiveBarRecording, Dialect), TraceError> {
-        self.read_text(file, hints)
-    }
-
-    fn read_messages(&self, file: &Path) -> Result<(FiveBarRecording, Vec<String>), TraceError> {
-        self.read_mcap(file)
-    }
-
-    fn times_s(recording: &FiveBarRecording) -> &[f64] {
-        &recording.time_s
-    }
-
-    fn only(recording: &FiveBarRecording, kept: &[bool]) -> FiveBarRecording {
-        recording.only(kept)
     }
 
     fn aligned(&self, recording: &FiveBarRecording, before_s: f64) -> Result<FiveBarRun, Fault> {
@@ -76,6 +37,10 @@ impl Plant for FiveBar {
 
     fn joined(runs: Vec<FiveBarRun>) -> Result<FiveBarRun, (usize, Fault)> {
         joined(runs)
+    }
+
+    fn part(run: &FiveBarRun, from: usize, to: usize) -> FiveBarRun {
+        run.part(from, to)
     }
 
     /// What is held out of the same recording keeps its past: brakes, heat and memories begin at its first sample.
@@ -115,7 +80,7 @@ impl Plant for FiveBar {
         stand.with_numbers(intervals)
     }
 
-    fn found(&self, stand: &Stand<'_, FiveBar>) -> Vec<RigEffect> {
+    fn found(&self, stand: &Stand<'_, FiveBar>, _: &Intervals) -> Vec<RigEffect> {
         let Selection { nominal, found, .. } = stand.selection;
         let before = undone_first(stand.plant).0.len() + nominal.len();
         let effects = self.effects.iter().skip(before).take(found.len());
@@ -142,6 +107,48 @@ impl Plant for FiveBar {
     ) -> Option<(NextExperiment, Option<Trace>)> {
         experiment::next(stand, rivals)
     }
+}
+
+impl Described for FiveBar {
+    fn describes(text: &str, origin: &Path) -> Result<bool, TraceError> {
+        FiveBar::describes(text, origin)
+    }
+
+    fn read(text: &str, origin: &Path) -> Result<FiveBar, TraceError> {
+        FiveBar::parse(text, origin)
+    }
+
+    fn rig_name(&self) -> &str {
+        &self.name
+    }
+
+    fn written(&self) -> String {
+        self.to_toml()
+    }
+
+    fn measured(&self, trace: &Trace, origin: &Path) -> Result<FiveBarRecording, TraceError> {
+        self.apply(trace, origin)
+    }
+
+    fn read_csv(
+        &self,
+        file: &Path,
+        hints: &Hints,
+    ) -> Result<(FiveBarRecording, Dialect), TraceError> {
+        self.read_text(file, hints)
+    }
+
+    fn read_messages(&self, file: &Path) -> Result<(FiveBarRecording, Vec<String>), TraceError> {
+        self.read_mcap(file)
+    }
+
+    fn times_s(recording: &FiveBarRecording) -> &[f64] {
+        &recording.time_s
+    }
+
+    fn only(recording: &FiveBarRecording, kept: &[bool]) -> FiveBarRecording {
+        recording.only(kept)
+    }
 
     fn replica(
         &self,
@@ -164,6 +171,10 @@ impl Plant for FiveBar {
             *signal = sensed(signal, force, random);
         }
         out
+    }
+
+    fn replay(&self, after: &FiveBar, recording: &FiveBarRecording) -> Option<Replayed> {
+        replayed(self, after, recording)
     }
 
     fn without_found(&self, calibration: &FiveBar) -> FiveBar {

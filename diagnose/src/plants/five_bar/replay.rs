@@ -3,35 +3,14 @@
 use super::free_run::{Model, Simulated, simulated};
 use super::from_rig::aligned;
 use super::run::FiveBarRun;
+use crate::plant::{Frame, RESTART_S, Replayed};
 use rigproof_model::linkage::{Pose, forward, point_a_m, point_b_m};
 use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording};
 
-/// How long the models run freely before they start from the recorded state again, s.
-pub const RESTART_S: f64 = 1.0;
 /// Frames a second.
 const RATE_HZ: f64 = 25.0;
 /// The longest replay, s: the reference rig takes its time.
 pub const LONGEST_S: f64 = 20.0;
-
-/// Points E, D (the tip) and C, x and y of each, m; nothing where there is no pose.
-pub type Frame = Option<[f64; 6]>;
-
-/// Frames of a recording and of two models beside it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Replayed {
-    /// Times of the frames, s.
-    pub time_s: Vec<f64>,
-    /// Base joint A, m.
-    pub point_a_m: [f64; 2],
-    /// Base joint B, m.
-    pub point_b_m: [f64; 2],
-    /// As recorded.
-    pub recorded: Vec<Frame>,
-    /// As the first model moves it.
-    pub before: Vec<Frame>,
-    /// As the second model moves it.
-    pub after: Vec<Frame>,
-}
 
 /// The end of a recording, [`LONGEST_S`] at most, beside free runs of two descriptions; nothing where it cannot be simulated.
 pub fn replayed(

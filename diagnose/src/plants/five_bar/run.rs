@@ -366,6 +366,12 @@ impl Run for FiveBarRun {
         noise::keep_told(self, windows);
     }
 
+    /// Of θA's or θB's own equation; the noise of every row is told by the poses.
+    fn sensors(&self) -> [f64; 2] {
+        let inertia = self.forms.first().map_or(0.0, |form| form.mass.m11);
+        [inertia * self.theta_noise, self.force_noise]
+    }
+
     fn floor(&self, windows: &Windows) -> f64 {
         noise::floor(self, windows)
     }

@@ -2,12 +2,12 @@
 
 use super::inertia::Inertia;
 use crate::diagnose::write::Stand;
+use crate::diagnose::{Curves, FittedCurves};
 use crate::evidence::{coefficients_by_term, parameters};
 use crate::plants::joint::free_run::{HORIZONS_S, Shown, figure, horizon_error, show};
 use crate::plants::joint::from_rig;
 use crate::plants::joint::run::{JointRun, PlantKind};
 use crate::plants::joint::simulate::{Effect, Model, Protocol, output};
-use crate::diagnose::{Curves, FittedCurves};
 use crate::report::{BeforeAfter, FitReport, HELD_OUT_PART, Horizon};
 use crate::select::{floor_limit, refs};
 use rigproof_spec::effect::Quantity;
@@ -87,11 +87,7 @@ impl Stand<'_, Rig> {
         })
     }
 
-    pub(crate) fn fit_report(
-        &self,
-        fitted: &Fitted,
-        protocol: &Protocol,
-    ) -> FitReport {
+    pub(crate) fn fit_report(&self, fitted: &Fitted, protocol: &Protocol) -> FitReport {
         let pair = |run: &JointRun| {
             let (before, size) = figure(&fitted.nominal.plant, run, protocol);
             let (after, _) = figure(&fitted.found.plant, run, protocol);
@@ -146,7 +142,12 @@ impl Stand<'_, Rig> {
         }
     }
 
-    pub(crate) fn free_run_curves(&self, before: &Model, after: &Model, protocol: &Protocol) -> Curves {
+    pub(crate) fn free_run_curves(
+        &self,
+        before: &Model,
+        after: &Model,
+        protocol: &Protocol,
+    ) -> Curves {
         let run = self.test;
         let times = |run: &JointRun| -> Vec<f64> {
             let all = 0..run.len();

@@ -9,7 +9,7 @@ use super::{from_rig, replica};
 use crate::align::Fault;
 use crate::diagnose::write::Stand;
 use crate::evidence::Intervals;
-use crate::plant::{At, Plant, Replica, Shown};
+use crate::plant::{At, Described, Plant, Replica, Shown};
 use crate::problem::{NominalEffect, Problem};
 use crate::report::{FitReport, InverseReport, Number};
 use crate::select::Selection;
@@ -26,45 +26,8 @@ impl Plant for Rig {
     type Recording = Recording;
     type Run = JointRun;
 
-    /// What no other plant takes.
-    fn describes(_: &str, _: &Path) -> Result<bool, TraceError> {
-        Ok(true)
-    }
-
-    fn read(text: &str, origin: &Path) -> Result<Rig, TraceError> {
-        Rig::parse(text, origin)
-    }
-
     fn plant_name(&self) -> &'static str {
         self.plant.name()
-    }
-
-    fn rig_name(&self) -> &str {
-        &self.name
-    }
-
-    fn written(&self) -> String {
-        self.to_toml()
-    }
-
-    fn measured(&self, trace: &Trace, origin: &Path) -> Result<Recording, TraceError> {
-        self.apply(trace, origin)
-    }
-
-    fn read_csv(&self, file: &Path, hints: &Hints) -> Result<(Recording, Dialect), TraceError> {
-        self.read_text(file, hints)
-    }
-
-    fn read_messages(&self, file: &Path) -> Result<(Recording, Vec<String>), TraceError> {
-        self.read_mcap(file)
-    }
-
-    fn times_s(recording: &Recording) -> &[f64] {
-        &recording.time_s
-    }
-
-    fn only(recording: &Recording, kept: &[bool]) -> Recording {
-        recording.only(kept)
     }
 
     fn aligned(&self, recording: &Recording, _: f64) -> Result<JointRun, Fault> {
@@ -75,9 +38,8 @@ impl Plant for Rig {
         joined(runs)
     }
 
-    /// A free run begins anew with the held-out part.
-    fn parted(run: JointRun, cut: usize, _: usize) -> (JointRun, JointRun, f64) {
-        (run.part(0, cut), run.part(cut, run.len()), 0.0)
+    fn part(run: &JointRun, from: usize, to: usize) -> JointRun {
+        run.part(from, to)
     }
 
     fn nominal(&self) -> Vec<NominalEffect> {
@@ -101,7 +63,7 @@ impl Plant for Rig {
         calibrated(stand.plant, &stand.model(true), intervals, false)
     }
 
-    fn found(&self, stand: &Stand<'_, Rig>) -> Vec<RigEffect> {
+    fn found(&self, stand: &Stand<'_, Rig>, _: &Intervals) -> Vec<RigEffect> {
         let Selection { nominal, found, .. } = stand.selection;
         let effects = self.effects.iter().skip(nominal.len());
         effects.take(found.len()).cloned().collect()
@@ -142,6 +104,45 @@ impl Plant for Rig {
             decimation: DECIMATION,
             nominal_error_percent: model.error_percent,
         })
+    }
+}
+
+impl Described for Rig {
+    /// What no other plant takes.
+    fn describes(_: &str, _: &Path) -> Result<bool, TraceError> {
+        Ok(true)
+    }
+
+    fn read(text: &str, origin: &Path) -> Result<Rig, TraceError> {
+        Rig::parse(text, origin)
+    }
+
+    fn rig_name(&self) -> &str {
+        &self.name
+    }
+
+    fn written(&self) -> String {
+        self.to_toml()
+    }
+
+    fn measured(&self, trace: &Trace, origin: &Path) -> Result<Recording, TraceError> {
+        self.apply(trace, origin)
+    }
+
+    fn read_csv(&self, file: &Path, hints: &Hints) -> Result<(Recording, Dialect), TraceError> {
+        self.read_text(file, hints)
+    }
+
+    fn read_messages(&self, file: &Path) -> Result<(Recording, Vec<String>), TraceError> {
+        self.read_mcap(file)
+    }
+
+    fn times_s(recording: &Recording) -> &[f64] {
+        &recording.time_s
+    }
+
+    fn only(recording: &Recording, kept: &[bool]) -> Recording {
+        recording.only(kept)
     }
 
     fn replica(&self, model: &Rig, recording: &Recording) -> Result<Replica<Recording>, String> {

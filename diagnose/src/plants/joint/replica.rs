@@ -1,9 +1,9 @@
 //! This file runs a plant of one joint through a recording again: an axis freely under the recorded command, a bench along the recorded motion.
 
+use crate::plant::Replica;
 use crate::plants::joint::from_rig::{aligned, plant, protocol};
 use crate::plants::joint::run::PlantKind;
 use crate::plants::joint::simulate::output;
-use crate::plant::Replica;
 use rigproof_trace::rig::{Recording, Rig, Signal};
 
 /// What a plant with the numbers of `model` would have recorded; `nominal` describes the recording.

@@ -2,18 +2,16 @@
 
 use super::inertia::Inertia;
 use super::joined::over_parts;
-use super::{columns, regimes, shapes, variables};
+use super::{columns, shapes};
 use crate::align::band_hz;
 use crate::cause::{Cause, Place};
 use crate::doubt::{greatest_change, jumps_late, turning};
 use crate::filter::rms;
-use crate::locate::Regimes;
-use crate::plant::{Clock, Columns, Rules, Run};
+use crate::locate::{self, Regimes};
+use crate::plant::{Clock, Columns, Run};
 use crate::problem::add;
 use crate::signals::second_difference;
-use crate::unknown::Variable;
 use crate::weak::{MOST_AMBIGUOUS, Windows, is_recorded, untold};
-use crate::whiten::{ORDER, Whitener};
 use rigproof_model::brake::Brake;
 use rigproof_model::effects::Instant;
 use rigproof_spec::effect::{Mechanism, Motion};
@@ -166,14 +164,6 @@ impl JointRun {
 }
 
 impl JointRun {
-    /// What noise is made of: an inertia times the position's, and the effort's.
-    fn sensors(&self) -> [f64; 2] {
-        [
-            self.inertia.start() * self.position_noise,
-            self.effort_noise,
-        ]
-    }
-
     /// The narrowest window whose predicted floor is small against the effort, narrowed again where the effort
     /// itself is faster than that (at least eight samples, five on a bench), s.
     pub fn width_s(&self) -> f64 {
@@ -213,10 +203,6 @@ impl Run for JointRun {
 
     fn motion_kind(&self) -> Motion {
         self.kind
-    }
-
-    fn rules(&self) -> &'static Rules {
-        &Rules::ONE_EQUATION
     }
 
     fn slice(&self, from: usize, to: usize) -> Box<dyn Run> {
@@ -269,14 +255,11 @@ impl Run for JointRun {
         }
     }
 
-    fn floor(&self, windows: &Windows) -> f64 {
-        let covariance = windows.noise_covariance(self.sensors(), 0.0, 1);
-        covariance.iter().sum::<f64>().sqrt()
-    }
-
-    fn whitener(&self, windows: &Windows, excess: f64) -> Whitener {
-        let covariance = windows.noise_covariance(self.sensors(), excess, ORDER + 1);
-        Whitener::new(&covariance, &windows.usable)
+    fn sensors(&self) -> [f64; 2] {
+        [
+            self.inertia.start() * self.position_noise,
+            self.effort_noise,
+        ]
     }
 
     fn position_noise(&self) -> f64 {
@@ -295,8 +278,8 @@ impl Run for JointRun {
         shapes::causes(self)
     }
 
-    fn shapes(&self, cause: Cause, windows: &Windows, residual: &[f64]) -> Vec<Vec<f64>> {
-        shapes::shapes(self, cause.mechanism, windows, residual)
+    fn speed_floor(&self) -> f64 {
+        self.speed_floor
     }
 
     fn columns(&self, cause: Cause, shape: &[f64], beside: Option<&[f64]>) -> Option<Columns> {
@@ -335,11 +318,12 @@ impl Run for JointRun {
     }
 
     fn regimes(&self, windows: &Windows) -> Regimes {
-        regimes::regimes(self, windows)
-    }
-
-    fn variables(&self, windows: &Windows) -> Vec<Variable> {
-        variables::variables(self, windows)
+        let output = match self.plant {
+            PlantKind::Axis => "effort balance",
+            PlantKind::Bench => "metered effort",
+        };
+        let low = self.position.iter().copied().fold(f64::INFINITY, f64::min);
+        locate::along(output, &self.motion, windows, [low, self.travel()])
     }
 }
 

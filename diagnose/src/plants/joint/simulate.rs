@@ -71,7 +71,10 @@ impl Default for Protocol {
 /// The first `start_samples` of an axis repeat the recording, because the state is taken from them.
 pub fn output(plant: &Model, run: &JointRun, protocol: &Protocol) -> Vec<f64> {
     if !run.parts.is_empty() {
-        let each = run.parts.iter().flat_map(|part| output(plant, part, protocol));
+        let each = run
+            .parts
+            .iter()
+            .flat_map(|part| output(plant, part, protocol));
         return each.collect();
     }
     match run.plant {

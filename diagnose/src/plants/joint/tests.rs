@@ -1,13 +1,11 @@
 //! This file claims that the diagnosis of an axis and of a bench names what was left out and nothing else.
 
+use super::recorded::{EFFORT_NOISE, Laws, NOMINAL, QUANTUM, exact_axis, exact_bench, signals};
 use super::run::JointRun;
+use crate::report::Verdict;
 use crate::{Diagnosis, Options, diagnose};
 use rigproof_spec::effect::Mechanism;
 use rigproof_trace::rig::{Recording, Rig};
-use super::recorded::{
-    EFFORT_NOISE, Laws, NOMINAL, QUANTUM, exact_axis, exact_bench, signals,
-};
-use crate::report::Verdict;
 use rigproof_trace::{Channel, Trace};
 use std::path::Path;
 
@@ -133,7 +131,12 @@ fn a_rest_is_not_excited_and_a_reversed_drive_is_a_fault() {
     let rig = rig_with_gain_known();
     let mut reversed = exact_axis(NOMINAL, 15_300, true);
     reversed.effort.iter_mut().for_each(|x| *x = -*x);
-    let answer = diagnose(&rig, &[&recording(&rig, &reversed)], None, &Options::default());
+    let answer = diagnose(
+        &rig,
+        &[&recording(&rig, &reversed)],
+        None,
+        &Options::default(),
+    );
     assert_eq!(
         answer.report.verdict,
         Verdict::DataFault,

@@ -1,8 +1,8 @@
 //! This file writes what was found as a rig description: the calibration that a simulation can read.
 
-use crate::evidence::Intervals;
 use super::simulate::Model;
 use crate::diagnose::numbers::{number, numbers, onset, with_interval};
+use crate::evidence::Intervals;
 use crate::report::Number;
 use rigproof_trace::rig::{Rig, RigEffect, Status};
 use std::collections::BTreeMap;

@@ -44,7 +44,11 @@ fn recorded(truth: &Model, layout: Layout, plan: &Plan, seed: u64) -> FiveBarRec
     played.sensed(&rig(layout), seed).recording(layout, sensors)
 }
 
-fn diagnosed(layout: Layout, recordings: &[&FiveBarRecording], next_experiment: bool) -> Diagnosis<FiveBar> {
+fn diagnosed(
+    layout: Layout,
+    recordings: &[&FiveBarRecording],
+    next_experiment: bool,
+) -> Diagnosis<FiveBar> {
     let options = Options {
         refit: false,
         next_experiment,

@@ -1,43 +1,52 @@
-//! This file is what a curve of what is left can be drawn over on a plant of one joint.
+//! This file is what a curve of what is left can be drawn over: what moves at a place.
 
-use super::run::JointRun;
+use super::Variable;
 use crate::cause::Place;
-use crate::unknown::Variable;
+use crate::plant::Run;
 use crate::weak::Windows;
 use rigproof_model::effects::Instant;
 use rigproof_spec::effect::Quantity;
 
-/// Position, speed, time and effort of every window, and the level of a friction over them.
-pub fn variables(run: &JointRun, windows: &Windows) -> Vec<Variable> {
-    let motion = run.kind;
+/// Position, speed and time at a place in every window, and the level of a friction over them; effort and load where there is one output.
+/// `share` is what a unit of effort there adds to each row.
+pub fn variables<R: Run + ?Sized>(
+    run: &R,
+    windows: &Windows,
+    place: Place,
+    share: &[f64],
+) -> Vec<Variable> {
+    let motion = run.motion_kind();
     let at = |pick: &dyn Fn(&Instant) -> f64| -> Vec<f64> {
         let centres = windows.centres.iter();
         centres
-            .filter_map(|&c| run.motion.get(c))
+            .filter_map(|&c| run.motion(place).get(c))
             .map(pick)
             .collect()
     };
     let sense = at(&|now| now.sense);
-    let effort = windows.average(&run.effort);
-    let load = effort.iter().zip(&sense).map(|(e, s)| e * s).collect();
     let variable = |name, quantity: Quantity, level, values| Variable {
         name,
         unit: quantity.dimension(motion).to_string(),
         level,
-        at: Place::Whole,
+        at: place,
         values,
-        share: vec![1.0; sense.len()],
+        share: share.to_vec(),
         sense: sense.clone(),
     };
     let position = at(&|now| now.position);
     let time = at(&|now| now.time_s);
-    vec![
+    let mut all = vec![
         variable("position", Quantity::Travel, false, position.clone()),
         variable("speed", Quantity::Speed, false, at(&|now| now.speed)),
         variable("time", Quantity::Time, false, time.clone()),
-        variable("effort", Quantity::Effort, false, effort),
         variable("position", Quantity::Travel, true, position),
         variable("time", Quantity::Time, true, time),
-        variable("load", Quantity::Effort, true, load),
-    ]
+    ];
+    if run.outputs() == 1 {
+        let effort = windows.average(&run.effort());
+        let load = effort.iter().zip(&sense).map(|(e, s)| e * s).collect();
+        all.insert(3, variable("effort", Quantity::Effort, false, effort));
+        all.push(variable("load", Quantity::Effort, true, load));
+    }
+    all
 }

@@ -1,36 +1,38 @@
-//! This file is the regimes of a plant of one joint: sense and size of speed, time since a reversal, position, time.
+//! This file is the regimes of one motion: sense and size of speed, time since a reversal, position, time.
 
-use super::run::{JointRun, PlantKind};
+use super::{Cell, Regimes};
 use crate::cause::Place;
-use crate::locate::{Cell, Regimes};
 use crate::weak::Windows;
+use rigproof_model::effects::Instant;
 
 /// Time since a reversal below which a window belongs to it, s.
 const REVERSAL_S: f64 = 0.1;
 
-/// Regimes of the motion; every window in motion counts, the ambiguous ones too.
-pub fn regimes(run: &JointRun, windows: &Windows) -> Regimes {
+/// Regimes of a motion; every window in motion counts, the ambiguous ones too. `low` is the lowest position and `travel` the range of them.
+pub fn along(
+    output: &'static str,
+    motion: &[Instant],
+    windows: &Windows,
+    [low, travel]: [f64; 2],
+) -> Regimes {
     Regimes {
-        output: match run.plant {
-            PlantKind::Axis => "effort balance",
-            PlantKind::Bench => "metered effort",
-        },
-        counted: moving(run, windows),
-        cells: cells(run, windows),
+        output,
+        counted: moving(motion, windows),
+        cells: cells(motion, windows, [low, travel.max(1e-300)]),
     }
 }
 
 /// Windows whose centre is in motion: at rest a resistance is anything up to its level and says nothing.
-fn moving(run: &JointRun, windows: &Windows) -> Vec<bool> {
+fn moving(motion: &[Instant], windows: &Windows) -> Vec<bool> {
     let centres = windows.centres.iter();
     centres
-        .map(|&centre| run.motion.get(centre).is_some_and(|now| now.sense != 0.0))
+        .map(|&centre| motion.get(centre).is_some_and(|now| now.sense != 0.0))
         .collect()
 }
 
-fn cells(run: &JointRun, windows: &Windows) -> Vec<Cell> {
-    let since = since_reversal_s(run, windows);
-    let mut speeds: Vec<f64> = run.motion.iter().map(|now| now.speed.abs()).collect();
+fn cells(motion: &[Instant], windows: &Windows, [low, travel]: [f64; 2]) -> Vec<Cell> {
+    let since = since_reversal_s(motion, windows);
+    let mut speeds: Vec<f64> = motion.iter().map(|now| now.speed.abs()).collect();
     speeds.sort_by(f64::total_cmp);
     let quantile = |q: f64| {
         speeds
@@ -39,10 +41,9 @@ fn cells(run: &JointRun, windows: &Windows) -> Vec<Cell> {
             .unwrap_or(0.0)
     };
     let top = quantile(0.99);
-    let low = run.position.iter().copied().fold(f64::INFINITY, f64::min);
-    let travel = run.travel().max(1e-300);
-    let last_s = run.duration_s().max(1e-9);
-    let cell = |label, rule: &dyn Fn(usize, &rigproof_model::effects::Instant) -> bool| Cell {
+    let last_s = windows.step_s * motion.len().saturating_sub(1) as f64;
+    let last_s = last_s.max(1e-9);
+    let cell = |label, rule: &dyn Fn(usize, &Instant) -> bool| Cell {
         label,
         at: Place::Whole,
         member: windows
@@ -50,7 +51,7 @@ fn cells(run: &JointRun, windows: &Windows) -> Vec<Cell> {
             .iter()
             .enumerate()
             .map(|(row, &centre)| {
-                run.motion
+                motion
                     .get(centre)
                     .is_some_and(|now| now.sense != 0.0 && rule(row, now))
             })
@@ -87,10 +88,10 @@ fn cells(run: &JointRun, windows: &Windows) -> Vec<Cell> {
 }
 
 /// Time from each window's centre to the nearest change of sense, s.
-fn since_reversal_s(run: &JointRun, windows: &Windows) -> Vec<f64> {
+fn since_reversal_s(motion: &[Instant], windows: &Windows) -> Vec<f64> {
     let mut sense = 0.0;
     let mut reversals: Vec<f64> = Vec::new();
-    for now in &run.motion {
+    for now in motion {
         if now.sense.abs() >= 1.0 {
             if sense * now.sense < 0.0 {
                 reversals.push(now.time_s);
@@ -127,7 +128,7 @@ mod tests {
     fn energy_near_reversals_is_located_there() {
         let run = exact_bench(&[(Mechanism::Viscous, &[2.3])], 11_000);
         let problem = Problem::new(&run, run.windows_of(0.043));
-        let since = since_reversal_s(&run, &problem.windows);
+        let since = since_reversal_s(&run.motion, &problem.windows);
         let before: Vec<f64> = since
             .iter()
             .map(|s| 0.9 * libm::exp(-s / 0.04) + 0.01)
