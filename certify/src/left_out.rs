@@ -3,6 +3,8 @@
 use rigproof_impl::plant::Parameters;
 use rigproof_impl::plant::effect::{Asked, Law};
 use rigproof_impl::vector::Vector;
+use rigproof_model::effects::facts::{AtRest, Family};
+use rigproof_model::effects::{Drive, Form, OfBrake, OfLinkage, OfSensor, entry, form, law};
 use rigproof_model::motion::added_mass;
 use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
@@ -59,31 +61,10 @@ impl TryFrom<Written> for LeftOut {
 }
 
 /// What the fixed-step plant and its sensors have.
-pub const KNOWN: [Mechanism; 23] = [
-    Mechanism::DryOffset,
-    Mechanism::BearingFriction,
-    Mechanism::Viscous,
-    Mechanism::DirectionAsymmetry,
-    Mechanism::Stribeck,
-    Mechanism::ReversalOvershoot,
-    Mechanism::Presliding,
-    Mechanism::AsymmetricPresliding,
-    Mechanism::Hysteresis,
-    Mechanism::Settling,
-    Mechanism::Ripple,
-    Mechanism::Spring,
-    Mechanism::NonlinearSpring,
-    Mechanism::ConstantBias,
-    Mechanism::BiasDrift,
-    Mechanism::GainError,
-    Mechanism::BacklashWidth,
-    Mechanism::Payload,
-    Mechanism::InertiaError,
-    Mechanism::EncoderScale,
-    Mechanism::EncoderOffset,
-    Mechanism::ForceGain,
-    Mechanism::ForceBias,
-];
+pub fn known() -> impl Iterator<Item = Mechanism> {
+    let all = Mechanism::ALL.into_iter();
+    all.filter(|mechanism| role(*mechanism).is_some())
+}
 
 /// What a mechanism changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -109,16 +90,25 @@ impl Role {
 
 /// What a mechanism changes; `None` where neither the plant nor its sensors have it.
 pub fn role(mechanism: Mechanism) -> Option<Role> {
-    if !KNOWN.contains(&mechanism) {
-        return None;
+    match form(mechanism)? {
+        Form::Resistance(_) | Form::ShareOfBrake(_) => {
+            let numbers = vec![1.0; mechanism.needed()];
+            Law::new(mechanism, &numbers).map(|_| Role::Resistance)
+        }
+        Form::Drive(Drive::Gain) | Form::Brake(OfBrake::BacklashWidth) => Some(Role::Brake),
+        Form::Linkage(OfLinkage::Payload | OfLinkage::Inertias) => Some(Role::Masses),
+        Form::Sensor(OfSensor::EncoderScale | OfSensor::EncoderOffset) => Some(Role::Encoder),
+        Form::Sensor(OfSensor::ForceGain | OfSensor::ForceBias) => Some(Role::Force),
+        Form::Drive(Drive::Lag | Drive::Skew)
+        | Form::Brake(
+            OfBrake::CurrentHysteresis
+            | OfBrake::DeadTime
+            | OfBrake::Saturation
+            | OfBrake::ThermalFade,
+        )
+        | Form::Linkage(OfLinkage::Load | OfLinkage::Weight)
+        | Form::Sensor(OfSensor::ForceRotation) => None,
     }
-    Some(match mechanism {
-        Mechanism::GainError | Mechanism::BacklashWidth => Role::Brake,
-        Mechanism::Payload | Mechanism::InertiaError => Role::Masses,
-        Mechanism::EncoderScale | Mechanism::EncoderOffset => Role::Encoder,
-        Mechanism::ForceGain | Mechanism::ForceBias => Role::Force,
-        _ => Role::Resistance,
-    })
 }
 
 impl LeftOut {
@@ -128,14 +118,22 @@ impl LeftOut {
 
     /// Whether it neither stores energy nor gives any.
     pub fn is_passive(&self) -> bool {
-        match (role(self.mechanism), self.mechanism) {
-            (Some(Role::Resistance), Mechanism::DryOffset | Mechanism::BearingFriction) => true,
-            (Some(Role::Resistance), Mechanism::Viscous) => self.number(0) >= 0.0,
-            // With a travel it remembers.
-            (Some(Role::Resistance), Mechanism::Stribeck) => self.parameters.len() == 3,
-            (Some(Role::Resistance), _) | (None, _) => false,
-            _ => true,
+        match role(self.mechanism) {
+            None => false,
+            Some(Role::Resistance) => self.is_passive_resistance().unwrap_or(false),
+            Some(Role::Brake | Role::Masses | Role::Encoder | Role::Force) => true,
         }
+    }
+
+    /// Of a resistance: friction of the motion of the moment, without a memory.
+    fn is_passive_resistance(&self) -> Option<bool> {
+        let own = entry(self.mechanism)?;
+        let is_of_moment = own.passive
+            && own.facts.family == Family::FrictionOfMotion
+            && !law(self.mechanism, &self.parameters)?.remembers();
+        // A dry level only lowers that of the brake beside it, which never falls below 0.
+        let is_dry = matches!(own.facts.at_rest, AtRest::Dry(_));
+        Some(is_of_moment && (is_dry || self.number(0) >= 0.0))
     }
 
     /// The angle that an encoder shows of a joint's, rad.
@@ -159,7 +157,7 @@ impl LeftOut {
     }
 }
 
-/// The resistances, as the plant is asked for them. A bearing's is dry friction.
+/// The resistances, as the plant is asked for them.
 pub fn asked(left_out: &[LeftOut]) -> Vec<Asked<'_>> {
     let resistances = left_out
         .iter()
@@ -167,10 +165,7 @@ pub fn asked(left_out: &[LeftOut]) -> Vec<Asked<'_>> {
     let each = resistances.filter_map(|one| {
         Some(Asked {
             joint: one.joint?,
-            mechanism: match one.mechanism {
-                Mechanism::BearingFriction => Mechanism::DryOffset,
-                other => other,
-            },
+            mechanism: one.mechanism,
             parameters: &one.parameters,
         })
     });
@@ -200,11 +195,7 @@ pub fn change(parameters: &mut Parameters, left_out: &[LeftOut]) -> Option<()> {
             }
             Role::Resistance => {
                 // A lag or a gain of the current is no resistance.
-                let own = match one.mechanism {
-                    Mechanism::BearingFriction => Mechanism::DryOffset,
-                    other => other,
-                };
-                Law::new(own, &one.parameters)?;
+                Law::new(one.mechanism, &one.parameters)?;
             }
             Role::Encoder => {
                 matches!(one.joint, Some(Joint::A | Joint::B)).then_some(())?;

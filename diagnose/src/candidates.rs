@@ -6,7 +6,8 @@ use crate::regression::Fit;
 use crate::run::Run;
 use core::f64::consts::TAU;
 use rayon::prelude::*;
-use rigproof_model::effects::{Form, Instant, LIBRARY};
+use rigproof_model::effects::facts::{Alone, Shapes};
+use rigproof_model::effects::{Instant, LIBRARY, facts};
 use rigproof_spec::effect::Mechanism;
 
 /// The causes that have a meaning on this plant, in the library's order.
@@ -18,20 +19,17 @@ pub fn causes(problem: &Problem) -> Vec<Cause> {
         PlantRun::Joint(run) => run.brake().is_some(),
         PlantRun::FiveBar(_) => false,
     };
+    // A gain can only be wrong against something that is known.
+    let is_known = problem.known.iter().any(|e| *e != 0.0) && !problem.is_within_trials();
     LIBRARY
         .iter()
-        .filter(|entry| match entry.mechanism {
-            Mechanism::CurrentHysteresis | Mechanism::ReversalOvershoot => has_brake,
-            // Only the five-bar is asked for them: the rules of the other plants were chosen without.
-            Mechanism::Settling | Mechanism::AsymmetricPresliding => false,
-            _ => matches!(entry.form, Form::Resistance(_) | Form::Drive),
+        .filter(|entry| match entry.facts.asked.alone {
+            Alone::Never => false,
+            Alone::Always => true,
+            Alone::WithKnown => is_known,
+            Alone::WithBrake => has_brake,
         })
         .map(|entry| Cause::of(entry.mechanism))
-        .filter(|cause| {
-            // A gain can only be wrong against something that is known.
-            let is_known = problem.known.iter().any(|e| *e != 0.0);
-            cause.mechanism != Mechanism::GainError || is_known && !problem.is_within_trials()
-        })
         .collect()
 }
 
@@ -120,32 +118,53 @@ fn shapes(problem: &Problem, cause: Cause, residual: &[f64]) -> Vec<Vec<f64>> {
 fn joint_shapes(run: &Run, mechanism: Mechanism, periods: impl Fn() -> Vec<f64>) -> Vec<Vec<f64>> {
     let travel = run.travel().max(1e-12);
     let one = |values: Vec<f64>| values.into_iter().map(|v| vec![v]).collect();
-    match mechanism {
-        Mechanism::Stribeck => stribeck_shapes(run.speed_floor, fastest(&run.motion)),
-        Mechanism::Presliding | Mechanism::AsymmetricPresliding => one(geometric(
+    match facts(mechanism).map_or(Shapes::None, |facts| facts.shapes) {
+        Shapes::Peak => stribeck_shapes(run.speed_floor, fastest(&run.motion)),
+        Shapes::Bristle => one(geometric(
             (3.0 * run.position_noise).max(1e-4 * travel),
             0.2 * travel,
             12,
         )),
-        Mechanism::Hysteresis => geometric(0.2 / travel, 40.0 / travel, 8)
+        Shapes::Memory => geometric(0.2 / travel, 40.0 / travel, 8)
             .into_iter()
             .flat_map(|gamma| [-1.4, -0.5, 0.5, 1.4].map(|ratio| vec![gamma, gamma * ratio]))
             .collect(),
-        Mechanism::Ripple => one(periods()),
-        Mechanism::Lag => one(geometric(0.5 * run.step_s, 0.25, 14)),
-        Mechanism::ReversalOvershoot => one(geometric(0.01, 1.5, 6)),
-        Mechanism::CurrentHysteresis => one(geometric(0.01, 0.5, 7)),
-        Mechanism::ChannelSkew => {
-            let sizes = geometric(0.5 * run.step_s, 0.08f64.max(4.0 * run.step_s), 12);
-            one(sizes.iter().flat_map(|&s| [s, -s]).collect())
-        }
-        _ => vec![vec![]],
+        Shapes::Period => one(periods()),
+        Shapes::Lag => one(geometric(0.5 * run.step_s, 0.25, 14)),
+        Shapes::Shift => one(both_signs(geometric(
+            0.5 * run.step_s,
+            0.08f64.max(4.0 * run.step_s),
+            12,
+        ))),
+        Shapes::CurrentPlay { low, high, count } => one(geometric(low, high, count)),
+        // Neither has a meaning on a plant of one joint.
+        Shapes::Delay | Shapes::CurrentLimit => vec![vec![]],
+        own @ (Shapes::None
+        | Shapes::Values(_)
+        | Shapes::Geometric { .. }
+        | Shapes::BothSigns { .. }) => in_numbers(own),
     }
+}
+
+/// The shapes that need no recording; one empty shape where a mechanism has none.
+pub fn in_numbers(shapes: Shapes) -> Vec<Vec<f64>> {
+    let values = match shapes {
+        Shapes::Values(values) => values.to_vec(),
+        Shapes::Geometric { low, high, count } => geometric(low, high, count),
+        Shapes::BothSigns { low, high, count } => both_signs(geometric(low, high, count)),
+        _ => return vec![vec![]],
+    };
+    values.into_iter().map(|value| vec![value]).collect()
+}
+
+/// Each number with both signs.
+pub fn both_signs(sizes: Vec<f64>) -> Vec<f64> {
+    sizes.into_iter().flat_map(|size| [size, -size]).collect()
 }
 
 /// The range that each shape parameter of a mechanism may take: that of the shapes tried, for a period all of them.
 pub fn shape_bounds(problem: &Problem, cause: Cause) -> Vec<(f64, f64)> {
-    if cause.mechanism == Mechanism::Ripple {
+    if facts(cause.mechanism).is_some_and(|facts| facts.shapes == Shapes::Period) {
         let travel = match problem.plant {
             PlantRun::Joint(run) => run.travel(),
             PlantRun::FiveBar(run) => five_bar::candidates::travel(run, cause),
@@ -172,14 +191,8 @@ pub fn shape_bounds(problem: &Problem, cause: Cause) -> Vec<(f64, f64)> {
 /// Whether a term's first shape parameter has run into the upper end of its range: a law that wants to be slower,
 /// wider or faster than it can mean is standing in for another one.
 pub fn is_at_edge(problem: &Problem, term: &Term) -> bool {
-    let bounded = matches!(
-        term.cause.mechanism,
-        Mechanism::Lag
-            | Mechanism::ChannelSkew
-            | Mechanism::Stribeck
-            | Mechanism::Presliding
-            | Mechanism::AsymmetricPresliding
-    );
+    let shapes = facts(term.cause.mechanism).map(|facts| facts.shapes);
+    let bounded = shapes.is_some_and(Shapes::has_edge);
     let bounds = shape_bounds(problem, term.cause);
     match (term.shape.first(), bounds.first()) {
         (Some(value), Some((_, high))) => bounded && *value > EDGE * high,

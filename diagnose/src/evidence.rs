@@ -13,7 +13,7 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 use rayon::prelude::*;
-use rigproof_model::effects::entry;
+use rigproof_model::effects::{Drive, Form, OfSensor, entry, form};
 use rigproof_spec::effect::{Mechanism, Motion};
 use rigproof_spec::joint::Joint;
 use std::collections::BTreeMap;
@@ -295,12 +295,12 @@ fn smallest_direction(names: &[&str], columns: &[Vec<f64>]) -> Option<NullDirect
 /// The parameters of a term in the vocabulary's order: linear ones from the fit, then the shape.
 pub fn parameters(term: &Term, coefficients: &[f64]) -> Vec<f64> {
     let linear = term.known.clone().unwrap_or_else(|| coefficients.to_vec());
-    let linear = match term.cause.mechanism {
+    let linear: Vec<f64> = match form(term.cause.mechanism) {
         // The column is the known effort: y = e + c·e, so that the applied gain is 1/(1 + c) of the stated one.
-        Mechanism::GainError if term.cause.joint.is_none() => {
+        Some(Form::Drive(Drive::Gain)) if term.cause.joint.is_none() => {
             linear.iter().map(|c| -c / (1.0 + c)).collect()
         }
-        Mechanism::ForceGain => linear.iter().map(|c| c / (1.0 - c)).collect(),
+        Some(Form::Sensor(OfSensor::ForceGain)) => linear.iter().map(|c| c / (1.0 - c)).collect(),
         _ => linear,
     };
     linear

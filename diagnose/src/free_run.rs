@@ -3,7 +3,7 @@
 use crate::refit::{Free, error_rms, refit};
 use crate::run::{PlantKind, Run, rms};
 use crate::simulate::{Effect, Plant, Protocol, predict};
-use rigproof_model::effects::entry;
+use rigproof_model::effects::{entry, facts};
 use rigproof_spec::effect::Mechanism;
 
 /// Share of the free run's squared error that a slow drift must take away on the fitted part to be named.
@@ -45,12 +45,8 @@ fn free_numbers(plant: &Plant, inertia_free: bool, known: &[bool], shapes: bool)
 
 /// The largest leading coefficient among the efforts of the plant: what "small" is measured against.
 fn leading_size(plant: &Plant) -> f64 {
-    let efforts = plant.effects.iter().filter(|e| {
-        matches!(
-            e.mechanism,
-            Mechanism::DryOffset | Mechanism::ConstantBias | Mechanism::Presliding
-        )
-    });
+    let leads = |mechanism| facts(mechanism).is_some_and(|facts| facts.refit.leads);
+    let efforts = plant.effects.iter().filter(|e| leads(e.mechanism));
     efforts
         .filter_map(|e| e.parameters.first())
         .map(|p| p.abs())
@@ -58,18 +54,8 @@ fn leading_size(plant: &Plant) -> f64 {
 }
 
 fn size_of(effect: &Effect, parameter: usize, effort: f64) -> f64 {
-    match (effect.mechanism, parameter) {
-        (
-            Mechanism::DryOffset
-            | Mechanism::ConstantBias
-            | Mechanism::Presliding
-            | Mechanism::Ripple,
-            _,
-        ) => effort,
-        (Mechanism::DirectionAsymmetry, 1) => effort,
-        (Mechanism::BiasDrift, _) => 0.1 * effort,
-        _ => 0.0,
-    }
+    let sizes = facts(effect.mechanism).map_or(&[][..], |facts| facts.refit.sizes);
+    sizes.get(parameter).map_or(0.0, |size| size * effort)
 }
 
 /// A refitted plant, and whether a slow drift had to be taken in.

@@ -418,10 +418,12 @@ impl<'a> Problem<'a> {
 
     /// A term of the nominal model: its columns where unknown, else its value as a fixed column. An encoder's slope is over its value.
     pub fn nominal_term(&self, effect: &NominalEffect) -> Option<Term> {
-        let linear = entry(effect.cause.mechanism)?.linear;
-        let first = match effect.cause.mechanism {
-            Mechanism::EncoderScale | Mechanism::EncoderOffset => 0,
-            _ => linear,
+        let entry = entry(effect.cause.mechanism)?;
+        let linear = entry.linear;
+        let first = if entry.form.is_of_encoder() {
+            0
+        } else {
+            linear
         };
         let shape = effect.parameters.get(first..).unwrap_or_default();
         let mut term =

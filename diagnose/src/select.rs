@@ -25,7 +25,7 @@ pub(crate) use judge::best as best_variant;
 pub(crate) use merge::as_two;
 pub(crate) use onset::{change_with_onset, onset_interval};
 pub(crate) use refine::refined;
-pub(crate) use together::bends;
+pub(crate) use together::{bends, elementary, is_elementary_friction};
 pub(crate) use weigh::gives_energy;
 pub use weigh::{is_noise, usable_rms};
 

@@ -4,7 +4,7 @@ use crate::problem::{is_of_brake, lagged_yield, of_brake, shifted};
 use crate::run::{PlantKind, Run};
 use rigproof_model::axis::Axis;
 use rigproof_model::bench::resistance;
-use rigproof_model::effects::{Instant, Law, first_order_lag, law};
+use rigproof_model::effects::{Drive, Form, Instant, Law, first_order_lag, form, law};
 use rigproof_spec::effect::Mechanism;
 use rustfft::{FftPlannerScalar, num_complex::Complex64};
 
@@ -146,11 +146,13 @@ fn driven(plant: &Plant, effort: &[f64], run: &Run) -> Vec<f64> {
     let mut out = effort.to_vec();
     for effect in &plant.effects {
         let value = effect.parameters.first().copied().unwrap_or(0.0);
-        let changed = match effect.mechanism {
-            Mechanism::GainError => out.iter().map(|e| e * (1.0 + value)).collect(),
-            Mechanism::ChannelSkew => shifted(&out, -value / step_s),
-            Mechanism::Lag => first_order_lag(&out, step_s, value),
-            _ => continue,
+        let Some(Form::Drive(change)) = form(effect.mechanism) else {
+            continue;
+        };
+        let changed = match change {
+            Drive::Gain => out.iter().map(|e| e * (1.0 + value)).collect(),
+            Drive::Skew => shifted(&out, -value / step_s),
+            Drive::Lag => first_order_lag(&out, step_s, value),
         };
         let first = effect.onset_s.map_or(0, |t| run.sample_at(t));
         for (o, c) in out.iter_mut().zip(changed).skip(first) {

@@ -4,6 +4,8 @@ use crate::problem::{Problem, Rows};
 use crate::regression::{Blocks, left_out_loss};
 use crate::report::Unknown;
 use crate::run::Run;
+use rigproof_model::effects::facts;
+use rigproof_model::effects::facts::Shows;
 use rigproof_spec::effect::{Mechanism, Motion, Quantity};
 
 /// Knots of a curve.
@@ -79,17 +81,13 @@ struct Variable {
 impl Variable {
     /// Whether a mechanism is a function of this variable, or has a level that should not depend on it.
     fn concerns(&self, mechanism: Mechanism) -> bool {
-        match mechanism {
-            Mechanism::DryOffset | Mechanism::Viscous | Mechanism::Stribeck => {
-                self.level || self.name == "speed"
-            }
-            Mechanism::DirectionAsymmetry => self.name == "speed",
-            Mechanism::Spring | Mechanism::NonlinearSpring | Mechanism::Ripple => {
-                self.name == "position" && !self.level
-            }
-            Mechanism::BiasDrift => self.name == "time" && !self.level,
-            Mechanism::GainError => matches!(self.name, "effort" | "load"),
-            _ => false,
+        match facts(mechanism).map_or(Shows::Nowhere, |facts| facts.shows) {
+            Shows::SpeedAndLevels => self.level || self.name == "speed",
+            Shows::Speed => self.name == "speed",
+            Shows::Position => self.name == "position" && !self.level,
+            Shows::Time => self.name == "time" && !self.level,
+            Shows::Effort => matches!(self.name, "effort" | "load"),
+            Shows::Nowhere => false,
         }
     }
 

@@ -14,7 +14,7 @@ use crate::select::{Selection, floor_limit, refs, usable_rms};
 use crate::simulate::{Plant, Protocol, output};
 use crate::unknown::unknown;
 use crate::write_rig::{calibrated, nominal_numbers, numbers};
-use rigproof_model::effects::entry;
+use rigproof_model::effects::{entry, facts};
 use rigproof_spec::effect::{Mechanism, Motion, Quantity};
 use rigproof_trace::rig::Rig;
 
@@ -135,11 +135,10 @@ impl Stand<'_> {
     fn rivals(&self) -> Vec<Rivals> {
         let mut all = rivals(self.problem, self.selection);
         for (rivals, found) in all.iter_mut().zip(&self.selection.found) {
-            let twin = match found.term.cause.mechanism {
-                Mechanism::ConstantBias => Cause::of(Mechanism::DirectionAsymmetry),
-                Mechanism::DirectionAsymmetry => Cause::of(Mechanism::ConstantBias),
-                _ => continue,
+            let Some(twin) = facts(found.term.cause.mechanism).and_then(|facts| facts.twin) else {
+                continue;
             };
+            let twin = Cause::of(twin);
             let taken = refs(&self.selection.nominal, &self.selection.found)
                 .iter()
                 .any(|t| t.cause == twin);

@@ -7,9 +7,12 @@
 use super::sensitivities;
 use crate::problem::{Cause, PlantRun, Problem};
 use crate::regression::dot;
-use crate::select::{Selection, bends, floor_limit, refs, usable_rms};
+use crate::select::{
+    Selection, bends, elementary as elementary_mechanisms, floor_limit, is_elementary_friction,
+    refs, usable_rms,
+};
 use nalgebra::{DMatrix, DVector};
-use rigproof_model::effects::{Form, entry};
+use rigproof_model::effects::{Drive, Form, entry};
 use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
 
@@ -59,9 +62,9 @@ pub fn inconstant(problem: &Problem, selection: &Selection) -> Vec<Cause> {
 
 /// Whether plain friction stands beside a law that bends at its joint: what the form of that law lacks is along it, and differs with the motion.
 fn is_beside_a_form(selection: &Selection, cause: Cause) -> bool {
-    let is_plain = [Mechanism::DryOffset, Mechanism::Viscous].contains(&cause.mechanism);
     let mut found = selection.found.iter().map(|found| found.term.cause);
-    is_plain && found.any(|other| bends(other.mechanism) && other.joint == cause.joint)
+    is_elementary_friction(cause.mechanism)
+        && found.any(|other| bends(other.mechanism) && other.joint == cause.joint)
 }
 
 /// Whether a mechanism's number acts without a memory. A memory of another family (Maxwell slip for a bristle) differs at every
@@ -72,9 +75,8 @@ pub fn is_told_by_itself(mechanism: Mechanism) -> bool {
     };
     match entry.form {
         Form::Resistance(law) | Form::ShareOfBrake(law) => !law(&[1.0; 4]).remembers(),
-        Form::Drive => mechanism != Mechanism::Lag,
-        Form::Linkage => true,
-        Form::Brake => false,
+        Form::Drive(Drive::Gain | Drive::Skew) | Form::Linkage(_) | Form::Sensor(_) => true,
+        Form::Drive(Drive::Lag) | Form::Brake(_) => false,
     }
 }
 
@@ -83,12 +85,7 @@ fn elementary(problem: &Problem) -> Vec<Vec<f64>> {
     let PlantRun::FiveBar(_) = problem.plant else {
         return Vec::new();
     };
-    let mechanisms = [
-        Mechanism::DryOffset,
-        Mechanism::Viscous,
-        Mechanism::ConstantBias,
-    ];
-    let causes = mechanisms.into_iter().flat_map(|mechanism| {
+    let causes = elementary_mechanisms().flat_map(|mechanism| {
         Joint::ALL.map(|joint| Cause {
             mechanism,
             joint: Some(joint),

@@ -11,7 +11,8 @@ use crate::select::{
 };
 use rayon::prelude::*;
 use rigproof_model::effects::entry;
-use rigproof_spec::effect::{Mechanism, Motion, Parameter};
+use rigproof_model::effects::facts::End;
+use rigproof_spec::effect::{Motion, Parameter};
 
 /// Share of an effect's gain that a rival must reach to be ambiguous with it.
 const RIVAL_SHARE: f64 = 0.9;
@@ -77,45 +78,6 @@ impl Rivals {
         .collect()
     }
 }
-
-/// Where the limit of a parameter is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum End {
-    /// At 0.
-    Nothing,
-    /// Beyond every value.
-    Everything,
-}
-
-/// A richer law, its limit, the parameter by its place in the vocabulary and where the limit is.
-const LIMITS: [(Mechanism, Mechanism, usize, End); 6] = [
-    (Mechanism::Presliding, Mechanism::DryOffset, 1, End::Nothing),
-    (
-        Mechanism::Settling,
-        Mechanism::DryOffset,
-        1,
-        End::Everything,
-    ),
-    (
-        Mechanism::ReversalOvershoot,
-        Mechanism::GainError,
-        1,
-        End::Everything,
-    ),
-    (Mechanism::Spring, Mechanism::ConstantBias, 0, End::Nothing),
-    (
-        Mechanism::DirectionAsymmetry,
-        Mechanism::ConstantBias,
-        0,
-        End::Nothing,
-    ),
-    (
-        Mechanism::EncoderScale,
-        Mechanism::EncoderOffset,
-        0,
-        End::Nothing,
-    ),
-];
 
 /// For each found mechanism, what could stand in its place.
 pub fn rivals(problem: &Problem, selection: &Selection) -> Vec<Rivals> {
@@ -259,13 +221,14 @@ impl Place<'_> {
 
     fn beyond(&self, rival: &Rival, limit: Cause, losses: &[f64]) -> Option<Richer> {
         let cause = rival.cause;
-        let (.., place, end) = LIMITS.iter().copied().find(|(richer, simpler, ..)| {
-            (*richer, *simpler, cause.joint) == (cause.mechanism, limit.mechanism, limit.joint)
-        })?;
+        let richer = entry(cause.mechanism)?;
+        let own = richer.facts.limit;
+        let own = own.filter(|own| (own.of, cause.joint) == (limit.mechanism, limit.joint))?;
+        let (place, end) = (own.parameter, own.end);
         if self.apart.is_infinite() || more_elsewhere(losses, &rival.losses) >= self.apart {
             return None;
         }
-        let shape = place.checked_sub(entry(cause.mechanism)?.linear);
+        let shape = place.checked_sub(richer.linear);
         let alike = rival.tried.iter().filter(|term| {
             let mut terms = self.common.clone();
             terms.push(term);
@@ -322,6 +285,7 @@ mod tests {
     use crate::five_bar::recorded::{noise_rows, short_run, target};
     use crate::problem::add;
     use crate::select::Found;
+    use rigproof_spec::effect::Mechanism;
     use rigproof_spec::joint::Joint;
 
     const DRY: (Mechanism, &[f64]) = (Mechanism::DryOffset, &[]);

@@ -1,48 +1,14 @@
 //! This file says which causes are tried on a recording of the five-bar, where, and in which shapes.
 
 use super::run::{FiveBarRun, place};
-use crate::candidates::{fastest, geometric, periods, stribeck_shapes};
+use crate::candidates::{both_signs, fastest, geometric, in_numbers, periods, stribeck_shapes};
 use crate::problem::{Cause, Problem};
-use rigproof_spec::effect::Mechanism;
+use rigproof_model::effects::facts::{Shapes, Where};
+use rigproof_model::effects::{LIBRARY, entry, facts};
 use rigproof_spec::joint::Joint;
-
-/// What can be left out at a joint with a brake.
-const AT_BRAKES: [Mechanism; 17] = [
-    Mechanism::DryOffset,
-    Mechanism::ConstantBias,
-    Mechanism::Viscous,
-    Mechanism::GainError,
-    Mechanism::DirectionAsymmetry,
-    Mechanism::Stribeck,
-    Mechanism::Presliding,
-    Mechanism::ReversalOvershoot,
-    Mechanism::Settling,
-    Mechanism::Lag,
-    Mechanism::DeadTime,
-    Mechanism::Saturation,
-    Mechanism::CurrentHysteresis,
-    Mechanism::ThermalFade,
-    Mechanism::LoadDependent,
-    Mechanism::BacklashWidth,
-    Mechanism::Ripple,
-];
-
-/// What can be left out of the linkage as a whole, and of its sensors.
-const OF_THE_WHOLE: [Mechanism; 7] = [
-    Mechanism::Gravity,
-    Mechanism::Payload,
-    Mechanism::InertiaError,
-    Mechanism::ForceGain,
-    Mechanism::ForceBias,
-    Mechanism::ForceRotation,
-    Mechanism::ChannelSkew,
-];
 
 /// Travels within which friction comes to the level of its speed, rad.
 const DELAYS_RAD: [f64; 4] = [0.001, 0.01, 0.05, 0.2];
-
-/// The angle by which a force sensor may be mounted askew, rad: a quarter of a right angle.
-const MOST_TURNED_RAD: f64 = 0.39;
 
 /// An encoder's scale may be off by this share, its zero by this angle in rad: what more it was is seen before anything is recorded.
 const MOST_OF_AN_ENCODER: f64 = 0.1;
@@ -56,27 +22,39 @@ const SOFTEST_BRISTLE: f64 = 0.33;
 /// The causes that have a meaning on this layout.
 pub fn causes(run: &FiveBarRun) -> Vec<Cause> {
     let braked = run.parameters.layout.brakes();
-    let at = |mechanism, joint| Cause {
-        mechanism,
-        joint: Some(joint),
+    let places = [
+        Where::Brakes,
+        Where::Bearings,
+        Where::Joints,
+        Where::Encoders,
+        Where::Whole,
+    ];
+    let at = |place| -> Vec<Option<Joint>> {
+        match place {
+            Where::Nowhere => Vec::new(),
+            Where::Brakes => braked.iter().copied().map(Some).collect(),
+            Where::Bearings => {
+                let all = Joint::ALL.into_iter();
+                all.filter(|joint| !braked.contains(joint))
+                    .map(Some)
+                    .collect()
+            }
+            Where::Joints => Joint::ALL.map(Some).to_vec(),
+            Where::Encoders => [Joint::A, Joint::B].map(Some).to_vec(),
+            Where::Whole => vec![None],
+        }
     };
-    let brakes = AT_BRAKES
-        .into_iter()
-        .flat_map(|mechanism| braked.iter().map(move |joint| at(mechanism, *joint)));
-    let bearings = Joint::ALL
-        .into_iter()
-        .filter(|joint| !braked.contains(joint))
-        .map(|joint| at(Mechanism::BearingFriction, joint));
-    let springs = Joint::ALL.map(|joint| at(Mechanism::Spring, joint));
-    let encoders = [Mechanism::EncoderScale, Mechanism::EncoderOffset]
-        .into_iter()
-        .flat_map(|mechanism| [Joint::A, Joint::B].map(|joint| at(mechanism, joint)));
-    brakes
-        .chain(bearings)
-        .chain(springs)
-        .chain(encoders)
-        .chain(OF_THE_WHOLE.map(Cause::of))
-        .collect()
+    let of = |place| {
+        let entries = LIBRARY.iter();
+        let own = entries.filter(move |entry| entry.facts.asked.five_bar == place);
+        own.flat_map(move |entry| {
+            let mechanism = entry.mechanism;
+            at(place)
+                .into_iter()
+                .map(move |joint| Cause { mechanism, joint })
+        })
+    };
+    places.into_iter().flat_map(of).collect()
 }
 
 /// The range of a joint's angle, rad.
@@ -89,18 +67,19 @@ pub fn travel(run: &FiveBarRun, cause: Cause) -> f64 {
 
 /// How far the first number of a cause's shape may go where that is beyond what is tried first.
 pub fn reach(run: &FiveBarRun, cause: Cause) -> Option<(f64, f64)> {
-    match cause.mechanism {
-        Mechanism::EncoderScale | Mechanism::EncoderOffset => {
-            Some((-MOST_OF_AN_ENCODER, MOST_OF_AN_ENCODER))
-        }
-        Mechanism::Stribeck => {
+    let entry = entry(cause.mechanism)?;
+    if entry.form.is_of_encoder() {
+        return Some((-MOST_OF_AN_ENCODER, MOST_OF_AN_ENCODER));
+    }
+    match entry.facts.shapes {
+        Shapes::Peak => {
             let fastest = fastest(cause.joint.map_or(&[][..], |joint| run.motion(joint)));
             let slowest = stribeck_shapes(run.speed_floor, fastest)
                 .into_iter()
                 .next()?;
             Some((slowest.first().copied()?, WIDEST_PEAK * fastest))
         }
-        Mechanism::Presliding | Mechanism::AsymmetricPresliding => {
+        Shapes::Bristle => {
             let travel = travel(run, cause).max(1e-12);
             Some((least_bending(run, travel), SOFTEST_BRISTLE * travel))
         }
@@ -145,10 +124,11 @@ fn limits(run: &FiveBarRun, cause: Cause) -> Vec<f64> {
 }
 
 /// Half widths of a play, A, and the currents below which its sides come together, where they do.
-fn plays() -> Vec<Vec<f64>> {
-    let widths = geometric(0.01, 0.5, 7).into_iter();
-    let open = widths.clone().map(|width| vec![width]);
-    let closing = widths.flat_map(|width| CLOSING_A.map(|below| vec![width, below]));
+fn plays(widths: Vec<f64>) -> Vec<Vec<f64>> {
+    let open = widths.iter().map(|width| vec![*width]);
+    let closing = widths
+        .iter()
+        .flat_map(|width| CLOSING_A.map(|below| vec![*width, below]));
     closing.chain(open).collect()
 }
 
@@ -164,37 +144,33 @@ pub fn shapes(
 ) -> Vec<Vec<f64>> {
     let motion = cause.joint.map_or(&[][..], |joint| run.motion(joint));
     let one = |values: Vec<f64>| values.into_iter().map(|v| vec![v]).collect();
-    match cause.mechanism {
-        Mechanism::Stribeck => stribeck_shapes(run.speed_floor, fastest(motion))
+    match facts(cause.mechanism).map_or(Shapes::None, |facts| facts.shapes) {
+        Shapes::Peak => stribeck_shapes(run.speed_floor, fastest(motion))
             .into_iter()
             .flat_map(|shape| DELAYS_RAD.map(|travel| [&shape[..], &[travel]].concat()))
             .collect(),
-        Mechanism::Presliding | Mechanism::AsymmetricPresliding => {
+        Shapes::Bristle => {
             let travel = travel(run, cause).max(1e-12);
             one(geometric(least_bending(run, travel), 0.2 * travel, 10))
         }
-        Mechanism::Ripple => one(periods(
+        Shapes::Period => one(periods(
             &points(problem, run, cause, residual),
             travel(run, cause),
         )),
-        Mechanism::ReversalOvershoot => one(geometric(0.01, 1.5, 6)),
-        Mechanism::Settling => one(geometric(0.3, 30.0, 5)),
-        Mechanism::Lag => one(geometric(0.5 * run.step_s, 0.25, 12)),
-        Mechanism::DeadTime => one(geometric(run.step_s, 0.08, 8)),
-        Mechanism::Saturation => one(limits(run, cause)),
-        Mechanism::CurrentHysteresis => plays(),
-        Mechanism::BacklashWidth => one(geometric(0.003, 0.12, 8)),
-        Mechanism::ThermalFade => one(geometric(3.0, 300.0, 4)),
-        Mechanism::ChannelSkew => {
-            let sizes = geometric(0.25 * run.step_s, 0.04f64.max(4.0 * run.step_s), 10);
-            one(sizes.iter().flat_map(|&s| [s, -s]).collect())
-        }
-        Mechanism::EncoderOffset => one(vec![0.01, -0.01, 0.06, -0.06]),
-        Mechanism::EncoderScale => one(vec![0.005, -0.005, 0.04, -0.04]),
-        Mechanism::ForceRotation => {
-            let angles = geometric(0.003, MOST_TURNED_RAD, 8);
-            one(angles.iter().flat_map(|&a| [a, -a]).collect())
-        }
-        _ => vec![vec![]],
+        Shapes::Lag => one(geometric(0.5 * run.step_s, 0.25, 12)),
+        Shapes::Delay => one(geometric(run.step_s, 0.08, 8)),
+        Shapes::CurrentLimit => one(limits(run, cause)),
+        Shapes::CurrentPlay { low, high, count } => plays(geometric(low, high, count)),
+        Shapes::Shift => one(both_signs(geometric(
+            0.25 * run.step_s,
+            0.04f64.max(4.0 * run.step_s),
+            10,
+        ))),
+        // The rig is not asked for a memory of this kind.
+        Shapes::Memory => vec![vec![]],
+        own @ (Shapes::None
+        | Shapes::Values(_)
+        | Shapes::Geometric { .. }
+        | Shapes::BothSigns { .. }) => in_numbers(own),
     }
 }

@@ -1,5 +1,6 @@
 //! This file is what can be left out, and where.
 
+use rigproof_model::effects::{Form, form};
 use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
 
@@ -23,8 +24,7 @@ impl Cause {
 
     /// Whether the whole linkage stands otherwise than recorded: the columns are rows of their own, not averages of a signal.
     pub fn moves_linkage(self) -> bool {
-        let encoder = [Mechanism::EncoderScale, Mechanism::EncoderOffset];
-        self.joint.is_some() && encoder.contains(&self.mechanism)
+        self.joint.is_some() && form(self.mechanism).is_some_and(Form::is_of_encoder)
     }
 
     /// The name in reports: `viscous`, `viscous at E`.

@@ -4,7 +4,9 @@ use super::{Problem, USUAL_SHARE, lagged_yield, less, numerov, shifted, through_
 use crate::filter::gradient;
 use crate::run::{PlantKind, Run};
 use rigproof_model::bench::column;
-use rigproof_model::effects::{CurrentPlay, Form, entry, first_order_lag, law};
+use rigproof_model::effects::{
+    CurrentPlay, Drive, Form, OfBrake, entry, first_order_lag, form, law,
+};
 use rigproof_spec::effect::Mechanism;
 
 /// A free column, and one with coefficient 1.
@@ -13,11 +15,11 @@ pub type DriveColumns = (Option<Vec<f64>>, Option<Vec<f64>>);
 /// One signal for each linear parameter of a resistance, as the position sees it: the law with that parameter 1 and the
 /// others 0. `None` for a mechanism that acts on the drive.
 pub fn resistances(run: &Run, mechanism: Mechanism, shape: &[f64]) -> Option<Vec<Vec<f64>>> {
+    let entry = entry(mechanism)?;
     if is_of_brake(mechanism) {
         return Some(vec![of_brake(run, mechanism, shape)?]);
     }
-    let entry = entry(mechanism)?;
-    if let Form::Drive = entry.form {
+    if let Form::Drive(_) = entry.form {
         return None;
     }
     unit_parameters(entry.linear, shape)
@@ -29,10 +31,10 @@ pub fn resistances(run: &Run, mechanism: Mechanism, shape: &[f64]) -> Option<Vec
 }
 
 /// Whether a mechanism is something that a brake does with its current or its torque.
-pub const fn is_of_brake(mechanism: Mechanism) -> bool {
+pub fn is_of_brake(mechanism: Mechanism) -> bool {
     matches!(
-        mechanism,
-        Mechanism::CurrentHysteresis | Mechanism::ReversalOvershoot
+        form(mechanism),
+        Some(Form::ShareOfBrake(_) | Form::Brake(OfBrake::CurrentHysteresis))
     )
 }
 
@@ -40,8 +42,8 @@ pub const fn is_of_brake(mechanism: Mechanism) -> bool {
 pub fn of_brake(run: &Run, mechanism: Mechanism, shape: &[f64]) -> Option<Vec<f64>> {
     let (predicted, current) = run.brake()?;
     let value = *shape.first()?;
-    match mechanism {
-        Mechanism::CurrentHysteresis => {
+    match form(mechanism)? {
+        Form::Brake(OfBrake::CurrentHysteresis) => {
             let play = CurrentPlay {
                 half_width_a: value,
                 closing_a: 0.0,
@@ -51,13 +53,20 @@ pub fn of_brake(run: &Run, mechanism: Mechanism, shape: &[f64]) -> Option<Vec<f6
             Some(change.into_iter().map(|c| c / USUAL_SHARE).collect())
         }
         // The law says which share of the brake's torque.
-        Mechanism::ReversalOvershoot => {
-            let law = law(mechanism, &[1.0, value])?;
+        Form::ShareOfBrake(law) => {
+            let law = law(&[1.0, value]);
             let share = column(law.as_ref(), &run.motion, run.step_s);
             let pairs = share.iter().zip(predicted);
             Some(pairs.map(|(share, torque)| share * torque.abs()).collect())
         }
-        _ => None,
+        // Its backlash is taken as known on a bench, and so is when and how much of the current it gets.
+        Form::Brake(
+            OfBrake::BacklashWidth | OfBrake::DeadTime | OfBrake::Saturation | OfBrake::ThermalFade,
+        )
+        | Form::Resistance(_)
+        | Form::Drive(_)
+        | Form::Linkage(_)
+        | Form::Sensor(_) => None,
     }
 }
 
@@ -107,26 +116,29 @@ pub fn drive(
     let value = shape.first().copied().unwrap_or(0.0);
     let step_s = run.step_s;
     let inertia_known = problem.inertia_column.is_none();
-    match (mechanism, run.plant) {
+    let Form::Drive(change) = form(mechanism)? else {
+        return None;
+    };
+    match (change, run.plant) {
         // With a known inertia the command itself can be delayed: it has less noise than an acceleration.
-        (Mechanism::Lag, PlantKind::Axis) if inertia_known => {
+        (Drive::Lag, PlantKind::Axis) if inertia_known => {
             let acting = first_order_lag(&run.effort, step_s, value);
             Some((None, Some(missing_effort(run, &acting))))
         }
-        (Mechanism::ChannelSkew, PlantKind::Axis) if inertia_known => {
+        (Drive::Skew, PlantKind::Axis) if inertia_known => {
             let acting = shifted(&run.effort, -value / step_s);
             Some((None, Some(missing_effort(run, &acting))))
         }
         // Else the command is ahead of the effort that moves the joint: gain·u = e + time_constant·de/dt.
-        (Mechanism::Lag, PlantKind::Axis) => {
+        (Drive::Lag, PlantKind::Axis) => {
             let slope = gradient(fitted, step_s);
             Some((None, Some(slope.into_iter().map(|s| value * s).collect())))
         }
-        (Mechanism::ChannelSkew, PlantKind::Axis) => {
+        (Drive::Skew, PlantKind::Axis) => {
             Some((None, Some(less(&shifted(fitted, value / step_s), fitted))))
         }
         // The yield of a brake lags, its sign does not (docs/decisions/0001).
-        (Mechanism::Lag, PlantKind::Bench) => match run.brake() {
+        (Drive::Lag, PlantKind::Bench) => match run.brake() {
             Some((predicted, _)) => {
                 let lagged = lagged_yield(predicted, step_s, value);
                 Some((None, Some(less(&lagged, predicted))))
@@ -136,10 +148,9 @@ pub fn drive(
                 Some((None, Some(less(&lagged, fitted))))
             }
         },
-        (Mechanism::ChannelSkew, PlantKind::Bench) => {
+        (Drive::Skew, PlantKind::Bench) => {
             Some((None, Some(less(&shifted(fitted, -value / step_s), fitted))))
         }
-        (Mechanism::GainError, _) if inertia_known => Some((Some(problem.known.clone()), None)),
-        _ => None,
+        (Drive::Gain, _) => inertia_known.then(|| (Some(problem.known.clone()), None)),
     }
 }

@@ -5,7 +5,7 @@ use super::weigh::{coefficients_of, drives, excitation, is_noise, usable_rms};
 use super::{Found, Gates, TIE_Z, floor_limit, refs};
 use crate::problem::{Cause, PlantRun, Problem, Term};
 use crate::regression::{Blocks, Fit, fit, paired};
-use rigproof_spec::effect::Mechanism;
+use rigproof_model::effects::facts;
 
 /// Drops every found mechanism that the others, with their shapes adjusted, make unnecessary.
 pub(super) fn backward(
@@ -109,25 +109,13 @@ pub(super) fn outweighs(problem: &Problem, cause: Cause, without: &Fit, with: &F
 /// A mass, a sensor's error, a gain or a constant has one form: what it leaves is something else, which it may only stand in for. So does a
 /// settling, whose decay follows whatever dies away.
 fn least_to_unexplained(problem: &Problem, named: &[Cause]) -> f64 {
-    let exact = |cause: &Cause| !HAS_FAMILIES.contains(&cause.mechanism);
+    let exact = |cause: &Cause| facts(cause.mechanism).is_none_or(|own| !own.has_forms);
     match problem.plant {
         PlantRun::FiveBar(_) if named.iter().all(exact) => EXACT_TO_UNEXPLAINED,
         PlantRun::FiveBar(_) if named.len() == 1 => LONE_TO_UNEXPLAINED,
         plant => plant.own_to_unexplained(),
     }
 }
-
-/// What is described by laws of several families.
-const HAS_FAMILIES: [Mechanism; 8] = [
-    Mechanism::Stribeck,
-    Mechanism::Presliding,
-    Mechanism::AsymmetricPresliding,
-    Mechanism::Hysteresis,
-    Mechanism::CurrentHysteresis,
-    Mechanism::ThermalFade,
-    Mechanism::ReversalOvershoot,
-    Mechanism::LoadDependent,
-];
 
 #[cfg(test)]
 mod tests {
@@ -138,6 +126,7 @@ mod tests {
     use crate::problem::{Inertia, add};
     use crate::recorded::{Noise, exact_bench};
     use crate::weak::Windows;
+    use rigproof_spec::effect::Mechanism;
     use rigproof_spec::effect::Mechanism;
     use rigproof_spec::joint::Joint;
 

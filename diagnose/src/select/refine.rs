@@ -5,7 +5,8 @@ use super::weigh::{effort_beside, loss_with, own_coefficients};
 use crate::candidates::{modelled_effort, realise, shape_bounds};
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, fit};
-use rigproof_spec::effect::Mechanism;
+use rigproof_model::effects::facts;
+use rigproof_model::effects::facts::Shapes;
 
 /// Improves the shape (and onset) of each found term by halving steps on the loss over all blocks.
 pub(super) fn refine(problem: &Problem, nominal: &[Term], found: &mut [Found], blocks: &Blocks) {
@@ -141,8 +142,8 @@ fn moved(
     effort: &[f64],
 ) -> Option<Term> {
     let mut shape = term.shape.clone();
-    let own = match term.cause.mechanism {
-        Mechanism::Ripple => PERIOD_STRIDE * stride,
+    let own = match facts(term.cause.mechanism).map(|facts| facts.shapes) {
+        Some(Shapes::Period) => PERIOD_STRIDE * stride,
         _ => stride,
     };
     for ((value, along), (low, high)) in shape.iter_mut().zip(direction).zip(bounds) {

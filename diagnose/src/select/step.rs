@@ -1,22 +1,14 @@
 //! This file takes one step of the search: a mechanism more, or one in the place of another.
 
 use super::judge::{SIMPLER_SHARE, Trial, simplest, those_that_leave_noise, trials};
-use super::together::{beside, masking, of_one_family};
+use super::merge::takes_both;
+use super::together::{beside, is_elementary, masking, of_one_family};
 use super::weigh::is_noise;
 use super::{Found, Gates, TIE_Z, refs};
 use crate::candidates::{all_variants, causes, modelled_effort, realise};
 use crate::problem::{Cause, PlantRun, Problem, Term};
 use crate::regression::{Blocks, Fit, fit, paired};
 use rayon::prelude::*;
-use rigproof_spec::effect::Mechanism;
-
-/// Memoryless mechanisms of one parameter: they are named first, and the others must still be needed beside or
-/// instead of them.
-const ELEMENTARY: [Mechanism; 3] = [
-    Mechanism::DryOffset,
-    Mechanism::ConstantBias,
-    Mechanism::Viscous,
-];
 
 /// Share of the best gain that an elementary mechanism must reach to be named first.
 const ELEMENTARY_SHARE: f64 = 0.5;
@@ -62,7 +54,7 @@ pub(super) fn forward(
     }
     let (elementary, others): (Vec<Trial>, Vec<Trial>) = early
         .into_iter()
-        .partition(|t| ELEMENTARY.contains(&t.found.term.cause.mechanism));
+        .partition(|t| is_elementary(t.found.term.cause.mechanism));
     let without = current.left_out();
     let ranked = [
         (simplest(elementary, without), ELEMENTARY_SHARE),
@@ -153,11 +145,9 @@ fn with_unequal_limits(problem: &Problem, term: &Term, effort: &[f64]) -> Option
     let PlantRun::FiveBar(_) = problem.plant else {
         return None;
     };
-    if term.cause.mechanism != Mechanism::Presliding {
-        return None;
-    }
+    let (mechanism, _) = takes_both(term.cause.mechanism)?;
     let cause = Cause {
-        mechanism: Mechanism::AsymmetricPresliding,
+        mechanism,
         ..term.cause
     };
     realise(problem, cause, &term.shape, None, effort)

@@ -6,30 +6,10 @@ use super::weigh::is_noise;
 use super::{Found, Gates, refs};
 use crate::problem::{Cause, PlantRun, Problem, Term};
 use crate::regression::{Blocks, Fit, fit};
+use rigproof_model::effects::facts::{Beside, Family};
+use rigproof_model::effects::{LIBRARY, facts};
 use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
-
-/// Laws of friction whose shape bends towards whatever plainer friction stands beside them unseen.
-const BENDING: [Mechanism; 3] = [
-    Mechanism::Stribeck,
-    Mechanism::Presliding,
-    Mechanism::AsymmetricPresliding,
-];
-
-/// What may have bent one of them.
-const PLAIN: [Mechanism; 3] = [
-    Mechanism::DryOffset,
-    Mechanism::Viscous,
-    Mechanism::ConstantBias,
-];
-
-/// What can mask one another, one number each.
-const MASKING: [Mechanism; 4] = [
-    Mechanism::DryOffset,
-    Mechanism::Viscous,
-    Mechanism::ConstantBias,
-    Mechanism::GainError,
-];
 
 /// Whether a bending law would stand beside another one at its joint: where that leaves nothing but noise, the second only mends the
 /// form of the first, which true friction need not have.
@@ -39,9 +19,40 @@ pub(super) fn of_one_family(problem: &Problem, cause: Cause, found: &[Found]) ->
     is_five_bar && bends(cause.mechanism) && found.iter().any(same)
 }
 
+/// What a mechanism does to names beside it at its joint.
+fn beside_of(mechanism: Mechanism) -> Beside {
+    facts(mechanism).map_or(Beside::Nothing, |facts| facts.beside)
+}
+
+/// Elementary mechanisms, in the order of the library: one number without memory.
+pub(crate) fn elementary() -> impl Iterator<Item = Mechanism> {
+    let entries = LIBRARY.iter();
+    entries
+        .filter(|entry| entry.facts.beside == Beside::Elementary)
+        .map(|entry| entry.mechanism)
+}
+
+/// Whether a mechanism is elementary: it is named first, and the others must still be needed beside or instead of it.
+pub(super) fn is_elementary(mechanism: Mechanism) -> bool {
+    beside_of(mechanism) == Beside::Elementary
+}
+
+/// Whether a mechanism is elementary friction: what the form of a law that bends lacks is along it.
+pub(crate) fn is_elementary_friction(mechanism: Mechanism) -> bool {
+    let own = facts(mechanism);
+    own.is_some_and(|own| {
+        own.beside == Beside::Elementary && own.family == Family::FrictionOfMotion
+    })
+}
+
+/// Whether a mechanism is a law that only mends the form of one that bends, or bends itself.
+pub(super) fn mends(mechanism: Mechanism) -> bool {
+    matches!(beside_of(mechanism), Beside::Bends | Beside::Mends)
+}
+
 /// Whether a mechanism is such a law.
 pub(crate) fn bends(mechanism: Mechanism) -> bool {
-    BENDING.contains(&mechanism)
+    beside_of(mechanism) == Beside::Bends
 }
 
 /// Plain friction at the joint of a found law, judged with the law's shape free to go back to what it is without it.
@@ -62,7 +73,7 @@ pub(super) fn beside(
         let Some(joint) = bent.term.cause.joint.filter(|_| is_bent) else {
             continue;
         };
-        for term in terms_at(problem, &refs(nominal, found), joint, &PLAIN) {
+        for term in terms_at(problem, &refs(nominal, found), joint, elementary()) {
             let mut others = refs(nominal, found);
             others.remove(nominal.len() + index);
             let mut with = others.clone();
@@ -91,7 +102,7 @@ pub(super) fn masking(
     }
     let joints = run.parameters.layout.brakes().iter();
     let at_joints: Vec<Vec<Term>> = joints
-        .map(|joint| terms_at(problem, common, *joint, &MASKING))
+        .map(|joint| terms_at(problem, common, *joint, maskers()))
         .collect();
     [2, 3].into_iter().find_map(|count| {
         let sets = at_joints.iter().flat_map(|terms| sets_of(terms, count));
@@ -105,6 +116,15 @@ pub(super) fn masking(
         let mut enough = enough.into_iter();
         enough.find_map(|(_, set)| all_pass(problem, common, &set, blocks, gates))
     })
+}
+
+/// What can mask one another, one number each.
+fn maskers() -> impl Iterator<Item = Mechanism> {
+    let masks = |beside| matches!(beside, Beside::Elementary | Beside::Masks);
+    let entries = LIBRARY.iter();
+    entries
+        .filter(move |entry| masks(entry.facts.beside))
+        .map(|entry| entry.mechanism)
 }
 
 /// Every choice of so many terms, in their order.
@@ -152,9 +172,9 @@ fn terms_at(
     problem: &Problem,
     taken: &[&Term],
     joint: Joint,
-    mechanisms: &[Mechanism],
+    mechanisms: impl Iterator<Item = Mechanism>,
 ) -> Vec<Term> {
-    let causes = mechanisms.iter().map(|&mechanism| Cause {
+    let causes = mechanisms.map(|mechanism| Cause {
         mechanism,
         joint: Some(joint),
     });
