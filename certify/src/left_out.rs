@@ -138,20 +138,24 @@ impl LeftOut {
 
     /// The angle that an encoder shows of a joint's, rad.
     pub fn shown_rad(&self, joint: Joint, angle_rad: f64) -> f64 {
-        match self.mechanism {
-            Mechanism::EncoderScale if self.joint == Some(joint) => {
+        match form(self.mechanism) {
+            Some(Form::Sensor(OfSensor::EncoderScale)) if self.joint == Some(joint) => {
                 angle_rad * (1.0 + self.number(0))
             }
-            Mechanism::EncoderOffset if self.joint == Some(joint) => angle_rad + self.number(0),
+            Some(Form::Sensor(OfSensor::EncoderOffset)) if self.joint == Some(joint) => {
+                angle_rad + self.number(0)
+            }
             _ => angle_rad,
         }
     }
 
     /// The force that the sensor shows of one, N.
     pub fn shown_n(&self, force_n: Vector<f64>) -> Vector<f64> {
-        match self.mechanism {
-            Mechanism::ForceGain => force_n * (1.0 + self.number(0)),
-            Mechanism::ForceBias => force_n + Vector::new(self.number(0), self.number(1)),
+        match form(self.mechanism) {
+            Some(Form::Sensor(OfSensor::ForceGain)) => force_n * (1.0 + self.number(0)),
+            Some(Form::Sensor(OfSensor::ForceBias)) => {
+                force_n + Vector::new(self.number(0), self.number(1))
+            }
             _ => force_n,
         }
     }
@@ -178,14 +182,14 @@ pub fn change(parameters: &mut Parameters, left_out: &[LeftOut]) -> Option<()> {
         match role(one.mechanism)? {
             Role::Brake => {
                 let table = parameters.brakes.get_mut(one.joint? as usize)?.as_mut()?;
-                match one.mechanism {
-                    Mechanism::GainError => scale_torque(table, 1.0 + one.number(0)),
+                match form(one.mechanism)? {
+                    Form::Drive(_) => scale_torque(table, 1.0 + one.number(0)),
                     _ => table.backlash_width_deg = deg_from_rad(one.number(0)),
                 }
             }
             Role::Masses => {
-                let more = match one.mechanism {
-                    Mechanism::Payload => added_mass::at_tip(one.number(0)),
+                let more = match form(one.mechanism)? {
+                    Form::Linkage(OfLinkage::Payload) => added_mass::at_tip(one.number(0)),
                     _ => added_mass::in_all(
                         &parameters.inertia,
                         [0, 1, 2, 3, 4].map(|index| one.number(index)),

@@ -5,6 +5,10 @@ mod reversals;
 
 use crate::doubt::Smoothing;
 use crate::filter::{LowPass, gradient};
+use crate::rules::{
+    AT_LIMIT, BAND_SHARE, JUMP_AROUND, JUMP_TIMES, LONGEST_FREEZE_S, LONGEST_GAP_S, MOST_CLIPPED,
+    MOST_CLIPPED_SHARE, MOST_GIVEN, MOST_MISSING, REST_S, SENSE_SIGMAS, STILL_QUANTA, STILL_SIGMAS,
+};
 use crate::run::{PlantKind, Run, rms};
 use rigproof_model::effects::Instant;
 use rustfft::{FftPlannerScalar, num_complex::Complex64};
@@ -52,13 +56,6 @@ pub struct Fault {
     pub reason: String,
 }
 
-/// A gap longer than this ends the diagnosis, s.
-const LONGEST_GAP_S: f64 = 0.1;
-/// Share of samples that may be missing.
-const MOST_MISSING: f64 = 0.02;
-/// Seconds for which a live channel may repeat one value to the bit.
-const LONGEST_FREEZE_S: f64 = 0.25;
-
 /// Aligns a recording, or says why nothing can be concluded from it.
 pub fn align(signals: &Signals) -> Result<Run, Fault> {
     let step_s = median_step(&signals.time_s);
@@ -97,7 +94,7 @@ pub fn align(signals: &Signals) -> Result<Run, Fault> {
         &mut motion,
         &position,
         step_s,
-        (2.0 * quantum).max(6.0 * position_noise),
+        (STILL_QUANTA * quantum).max(STILL_SIGMAS * position_noise),
     );
     if signals.plant == PlantKind::Axis {
         forget_sense_at_reversals(&mut motion);
@@ -221,8 +218,9 @@ fn moved_behind(signals: &Signals, first: usize, end: usize) -> bool {
         return false;
     }
     let jump = steps(end - 1, end + 1);
-    let usual = steps(first.saturating_sub(400), first).max(steps(end, (end + 400).min(n)));
-    jump > 6.0 * usual.max(2.0 * smallest_step(&signals.position))
+    let usual =
+        steps(first.saturating_sub(JUMP_AROUND), first).max(steps(end, (end + JUMP_AROUND).min(n)));
+    jump > JUMP_TIMES * usual.max(2.0 * smallest_step(&signals.position))
 }
 
 /// An effort that rests on its own extreme for many samples, unless the rig says that it saturates there.
@@ -233,11 +231,11 @@ pub(crate) fn check_clipped(signals: &Signals) -> Result<(), Fault> {
     for extreme in [high, low] {
         let stated = signals
             .effort_limit
-            .is_some_and(|limit| extreme.abs() >= 0.999 * limit);
+            .is_some_and(|limit| extreme.abs() >= AT_LIMIT * limit);
         let count = live().filter(|&x| x == extreme).count();
         if !stated
             && count > MOST_CLIPPED
-            && count as f64 > 0.005 * signals.effort.len() as f64
+            && count as f64 > MOST_CLIPPED_SHARE * signals.effort.len() as f64
             && high > low
         {
             let from = signals
@@ -258,9 +256,6 @@ pub(crate) fn check_clipped(signals: &Signals) -> Result<(), Fault> {
     Ok(())
 }
 
-/// Samples at one extreme that may be chance.
-const MOST_CLIPPED: usize = 20;
-
 /// A resistance that gives energy on the whole has a channel with the wrong sign.
 fn check_sign(run: &Run) -> Result<(), Fault> {
     if run.plant == PlantKind::Axis {
@@ -272,7 +267,7 @@ fn check_sign(run: &Run) -> Result<(), Fault> {
         power += now.speed * (effort - mean);
         size += (now.speed * (effort - mean)).abs();
     }
-    if power < -0.2 * size {
+    if power < -MOST_GIVEN * size {
         return Err(Fault {
             channel: "effort",
             from_s: 0.0,
@@ -364,7 +359,7 @@ pub fn band_hz(effort: &[f64], step_s: f64) -> f64 {
         .iter()
         .position(|p| {
             sum += p;
-            sum >= 0.95 * total
+            sum >= BAND_SHARE * total
         })
         .unwrap_or(1);
     (index.max(1)) as f64 / (step_s * effort.len() as f64)
@@ -390,7 +385,7 @@ pub(crate) fn smoothed_motion(
     // White noise through the filter and the difference: ∫(2πf)² up to the cut-off.
     let noise_speed =
         noise * core::f64::consts::TAU * cutoff_hz * (2.0 * cutoff_hz / rate_hz / 3.0).sqrt();
-    let floor = (4.0 * noise_speed).max(1e-4 * rms(&speed));
+    let floor = (SENSE_SIGMAS * noise_speed).max(1e-4 * rms(&speed));
     let motion = smooth
         .iter()
         .zip(&speed)
@@ -404,9 +399,6 @@ pub(crate) fn smoothed_motion(
         .collect();
     (motion, floor)
 }
-
-/// Half the stretch of time over which a joint must have moved for its sense to be known, s.
-const REST_S: f64 = 0.025;
 
 /// Takes the sense away wherever the recorded position stays within `still` for a while: smoothing rings there.
 pub(crate) fn forget_sense_at_rest(

@@ -3,6 +3,12 @@
 use crate::five_bar;
 use crate::problem::{Cause, PlantRun, Problem, Term, add};
 use crate::regression::Fit;
+use crate::rules::{
+    BENDS_JOINT, EDGE, FASTEST_PEAK, FEWEST_CYCLES, LAGS_JOINT, LEAST_BEND, LEAST_BEND_SIGMAS,
+    LEAST_LAG_STEPS, LEAST_SHIFT_STEPS_JOINT, MEMORY_COUNT, MEMORY_RATES, MEMORY_RATIOS, MOST_BEND,
+    MOST_CYCLES, MOST_LAG_S, MOST_SHIFT_S_JOINT, MOST_SHIFT_STEPS, PEAK_EXPONENTS, PEAK_SPEEDS,
+    PEAKS, PEAKS_APART, SHIFTS_JOINT, SLOWEST_PEAK, SLOWEST_PEAK_FLOORS, SPACING,
+};
 use crate::run::Run;
 use core::f64::consts::TAU;
 use rayon::prelude::*;
@@ -121,20 +127,27 @@ fn joint_shapes(run: &Run, mechanism: Mechanism, periods: impl Fn() -> Vec<f64>)
     match facts(mechanism).map_or(Shapes::None, |facts| facts.shapes) {
         Shapes::Peak => stribeck_shapes(run.speed_floor, fastest(&run.motion)),
         Shapes::Bristle => one(geometric(
-            (3.0 * run.position_noise).max(1e-4 * travel),
-            0.2 * travel,
-            12,
+            (LEAST_BEND_SIGMAS * run.position_noise).max(LEAST_BEND * travel),
+            MOST_BEND * travel,
+            BENDS_JOINT,
         )),
-        Shapes::Memory => geometric(0.2 / travel, 40.0 / travel, 8)
-            .into_iter()
-            .flat_map(|gamma| [-1.4, -0.5, 0.5, 1.4].map(|ratio| vec![gamma, gamma * ratio]))
-            .collect(),
+        Shapes::Memory => {
+            let [slowest, fastest] = MEMORY_RATES;
+            geometric(slowest / travel, fastest / travel, MEMORY_COUNT)
+                .into_iter()
+                .flat_map(|gamma| MEMORY_RATIOS.map(|ratio| vec![gamma, gamma * ratio]))
+                .collect()
+        }
         Shapes::Period => one(periods()),
-        Shapes::Lag => one(geometric(0.5 * run.step_s, 0.25, 14)),
+        Shapes::Lag => one(geometric(
+            LEAST_LAG_STEPS * run.step_s,
+            MOST_LAG_S,
+            LAGS_JOINT,
+        )),
         Shapes::Shift => one(both_signs(geometric(
-            0.5 * run.step_s,
-            0.08f64.max(4.0 * run.step_s),
-            12,
+            LEAST_SHIFT_STEPS_JOINT * run.step_s,
+            MOST_SHIFT_S_JOINT.max(MOST_SHIFT_STEPS * run.step_s),
+            SHIFTS_JOINT,
         ))),
         Shapes::CurrentPlay { low, high, count } => one(geometric(low, high, count)),
         // Neither has a meaning on a plant of one joint.
@@ -200,9 +213,6 @@ pub fn is_at_edge(problem: &Problem, term: &Term) -> bool {
     }
 }
 
-/// Share of the upper end of a range from which a shape counts as being at its edge.
-const EDGE: f64 = 0.98;
-
 /// The speed that all but one in a hundred samples stay below.
 pub fn fastest(motion: &[Instant]) -> f64 {
     let mut speeds: Vec<f64> = motion.iter().map(|now| now.speed.abs()).collect();
@@ -216,10 +226,10 @@ pub fn fastest(motion: &[Instant]) -> f64 {
 
 /// Speeds and exponents of a peak near standstill.
 pub fn stribeck_shapes(speed_floor: f64, fastest: f64) -> Vec<Vec<f64>> {
-    let slowest = (2.0 * speed_floor).max(0.005 * fastest);
-    geometric(slowest, 0.3 * fastest, 8)
+    let slowest = (SLOWEST_PEAK_FLOORS * speed_floor).max(SLOWEST_PEAK * fastest);
+    geometric(slowest, FASTEST_PEAK * fastest, PEAK_SPEEDS)
         .into_iter()
-        .flat_map(|speed| [1.0, 2.0].map(|exponent| vec![speed, exponent]))
+        .flat_map(|speed| PEAK_EXPONENTS.map(|exponent| vec![speed, exponent]))
         .collect()
 }
 
@@ -230,13 +240,6 @@ pub fn geometric(low: f64, high: f64, count: usize) -> Vec<f64> {
         .map(|k| low * libm::exp(ratio * k as f64))
         .collect()
 }
-
-/// Spatial frequencies looked at, in cycles over the travel, and their spacing.
-const MOST_CYCLES: f64 = 200.0;
-const FEWEST_CYCLES: f64 = 2.0;
-const SPACING: f64 = 0.35;
-/// Peaks of the residual's spectrum over position that are tried.
-const PEAKS: usize = 4;
 
 /// Position and residual of each usable window.
 fn points(problem: &Problem, run: &Run, residual: &[f64]) -> Vec<(f64, f64)> {
@@ -262,7 +265,10 @@ pub fn periods(points: &[(f64, f64)], travel: f64) -> Vec<f64> {
     peaks.sort_by(|a, b| b.0.total_cmp(&a.0));
     let mut chosen: Vec<f64> = Vec::new();
     for (_, cycles) in peaks {
-        if chosen.iter().all(|c: &f64| (c - cycles).abs() > 2.0) {
+        if chosen
+            .iter()
+            .all(|c: &f64| (c - cycles).abs() > PEAKS_APART)
+        {
             chosen.push(cycles);
         }
         if chosen.len() == PEAKS {

@@ -12,6 +12,7 @@ use crate::evidence::{coefficients_by_term, parameters};
 use crate::from_rig;
 use crate::problem::{Cause, Problem, Term, is_of_brake};
 use crate::report::Report;
+use crate::rules::{ANOTHER_UNIT, HOLD_OUT_SHARE, LEAST_TRAVEL_SIGMAS};
 use crate::run::Run;
 use crate::scatter::{Trials, left_over};
 use crate::select::{FLOOR_RATIO, Gates, Selection, is_noise, refs, select};
@@ -41,7 +42,7 @@ impl Default for Options {
     fn default() -> Options {
         Options {
             gates: Gates::default(),
-            hold_out_share: 0.25,
+            hold_out_share: HOLD_OUT_SHARE,
             refit: true,
             next_experiment: true,
         }
@@ -134,7 +135,7 @@ pub fn diagnose(
     let windows = Windows::new(&train, width_s);
     let mut problem = Problem::new(&train, windows, inertia);
     let usable = problem.windows.usable.iter().filter(|u| **u).count();
-    if usable < FEWEST_WINDOWS || train.travel() < 20.0 * train.position_noise {
+    if usable < FEWEST_WINDOWS || train.travel() < LEAST_TRAVEL_SIGMAS * train.position_noise {
         let (travel, noise) = (train.travel(), train.position_noise);
         return not_excited(Description::Joint(rig.clone()), usable, travel, noise);
     }
@@ -202,9 +203,6 @@ fn scattered(problem: &Problem, run: &Run, selection: &Selection) -> Option<Tria
     let scatter = trials.scatter(&residual, &problem.windows.usable, least);
     scatter.map(|_| trials)
 }
-
-/// A gain that is wrong by more than this factor is no physics: a unit is.
-const ANOTHER_UNIT: f64 = 5.0;
 
 /// A gain error of more than the whole gain is a channel with the wrong sign; a gain of another size is no physics.
 fn another_drive(problem: &Problem, selection: &Selection) -> Option<Fault> {

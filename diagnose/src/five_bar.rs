@@ -29,5 +29,4 @@ mod stops;
 mod tests;
 mod undone;
 
-/// From how many standard deviations of the sensors' noise on two explanations count as told apart.
-pub(crate) const LEAST_SIGMAS: f64 = 10.0;
+pub(crate) use crate::rules::LEAST_SIGMAS;

@@ -1,13 +1,12 @@
 //! This file shows the fit: output-error refit of old and new parameters, free runs before and after, horizons.
 
 use crate::refit::{Free, error_rms, refit};
+pub use crate::rules::HORIZONS_S;
+use crate::rules::{DRIFT_SHARE, HORIZON_STARTS};
 use crate::run::{PlantKind, Run, rms};
 use crate::simulate::{Effect, Plant, Protocol, predict};
 use rigproof_model::effects::{entry, facts};
 use rigproof_spec::effect::Mechanism;
-
-/// Share of the free run's squared error that a slow drift must take away on the fitted part to be named.
-const DRIFT_SHARE: f64 = 0.5;
 
 /// Which numbers of a plant the refit may move: those of effects that are not known, and the inertia if unknown.
 ///
@@ -134,20 +133,15 @@ fn staged(
     }
 }
 
-/// Horizons at which the error is shown, s.
-pub const HORIZONS_S: [f64; 4] = [0.01, 0.05, 0.2, 1.0];
-/// Starts of a horizon figure.
-const STARTS: usize = 60;
-
 /// Root-mean-square position error after a horizon, over starts spread along the recording; `None` on a bench or
 /// when the recording is too short.
 pub fn horizon_error(plant: &Plant, run: &Run, protocol: &Protocol, horizon_s: f64) -> Option<f64> {
     let count = (horizon_s / run.step_s).round() as usize;
-    if run.plant == PlantKind::Bench || count == 0 || run.len() < 2 * count + STARTS {
+    if run.plant == PlantKind::Bench || count == 0 || run.len() < 2 * count + HORIZON_STARTS {
         return None;
     }
-    let stride = (run.len() - count - 1) / STARTS;
-    let errors: Vec<f64> = (0..STARTS)
+    let stride = (run.len() - count - 1) / HORIZON_STARTS;
+    let errors: Vec<f64> = (0..HORIZON_STARTS)
         .filter_map(|k| {
             let first = k * stride;
             let reached = predict(plant, run, first, count, protocol)?;

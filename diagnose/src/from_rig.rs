@@ -2,12 +2,10 @@
 
 use crate::align::{Fault, Signals, align, forget_sense_near_reversals};
 use crate::problem::{Cause, Inertia, NominalEffect};
+use crate::rules::STILL_NOISES;
 use crate::run::{PlantKind, Run};
 use crate::simulate::{Effect, Interpolation, Plant, Protocol};
 use rigproof_trace::rig::{Drive, Plant as RigPlant, Recording, Rig, Status};
-
-/// Travel within which a shaft that turns back may also stand, in deviations of its noise: two counts.
-const STILL_NOISES: f64 = 7.0;
 
 /// Aligns a recording of a rig.
 ///

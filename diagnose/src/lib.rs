@@ -81,6 +81,7 @@ mod refit;
 mod regression;
 mod replica;
 pub mod report;
+pub mod rules;
 pub mod run;
 mod scatter;
 mod select;

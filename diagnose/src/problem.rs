@@ -9,13 +9,16 @@ mod within;
 
 use crate::five_bar;
 use crate::five_bar::run::FiveBarRun;
+use crate::rules::{
+    LEAST_RIVAL_SHARE_FIVE_BAR, LEAST_RIVAL_SHARE_JOINT, OWN_TO_UNEXPLAINED_FIVE_BAR,
+    OWN_TO_UNEXPLAINED_JOINT,
+};
 use crate::run::{PlantKind, Run, rms};
 use crate::scatter::Trials;
 use crate::weak::Windows;
-use crate::whiten::{ORDER, Whitener};
+use crate::whiten::{NOISE_ORDER, Whitener};
 use rayon::prelude::*;
 use rigproof_model::effects::entry;
-use rigproof_spec::effect::Mechanism;
 use signals::second_difference;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError, RwLock};
@@ -101,8 +104,8 @@ impl PlantRun<'_> {
     /// five-bar often lives in few blocks; the rules of the other plants were chosen without such a share.
     pub fn least_rival_share(self) -> f64 {
         match self {
-            PlantRun::Joint(_) => f64::NEG_INFINITY,
-            PlantRun::FiveBar(_) => 0.5,
+            PlantRun::Joint(_) => LEAST_RIVAL_SHARE_JOINT,
+            PlantRun::FiveBar(_) => LEAST_RIVAL_SHARE_FIVE_BAR,
         }
     }
 
@@ -110,8 +113,8 @@ impl PlantRun<'_> {
     /// cogging periods alone comes to 1.7, and laws of another family than the one that is there to 4 and more.
     pub fn own_to_unexplained(self) -> f64 {
         match self {
-            PlantRun::Joint(_) => 1.0,
-            PlantRun::FiveBar(_) => 2.5,
+            PlantRun::Joint(_) => OWN_TO_UNEXPLAINED_JOINT,
+            PlantRun::FiveBar(_) => OWN_TO_UNEXPLAINED_FIVE_BAR,
         }
     }
 
@@ -189,7 +192,7 @@ impl<'a> Problem<'a> {
             add(&mut known, &acceleration, value);
         }
         let target = less(&joint::acting_effort(run, &run.effort), &known);
-        let covariance = windows.noise_covariance(run, start, 0.0, ORDER + 1);
+        let covariance = windows.noise_covariance(run, start, 0.0, NOISE_ORDER + 1);
         let whitener = Whitener::new(&covariance, &windows.usable);
         let inertia_column = match inertia {
             Inertia::Unknown(_) => Some(rows(&windows, acceleration)),
@@ -262,9 +265,9 @@ impl<'a> Problem<'a> {
         let whitener = match self.plant {
             PlantRun::Joint(run) => {
                 let inertia = self.inertia.start();
-                let covariance = self
-                    .windows
-                    .noise_covariance(run, inertia, excess, ORDER + 1);
+                let covariance =
+                    self.windows
+                        .noise_covariance(run, inertia, excess, NOISE_ORDER + 1);
                 Whitener::new(&covariance, &self.windows.usable)
             }
             PlantRun::FiveBar(run) => five_bar::noise::whitener(run, &self.windows, excess),

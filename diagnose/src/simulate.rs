@@ -146,7 +146,7 @@ fn driven(plant: &Plant, effort: &[f64], run: &Run) -> Vec<f64> {
     let mut out = effort.to_vec();
     for effect in &plant.effects {
         let value = effect.parameters.first().copied().unwrap_or(0.0);
-        let Some(Form::Drive(change)) = form(effect.mechanism) else {
+        let Some(change) = drive_of(effect) else {
             continue;
         };
         let changed = match change {
@@ -162,11 +162,24 @@ fn driven(plant: &Plant, effort: &[f64], run: &Run) -> Vec<f64> {
     out
 }
 
+/// The change of the drive that an effect is.
+fn drive_of(effect: &Effect) -> Option<Drive> {
+    match form(effect.mechanism)? {
+        Form::Drive(change) => Some(change),
+        Form::Resistance(_)
+        | Form::ShareOfBrake(_)
+        | Form::Brake(_)
+        | Form::Linkage(_)
+        | Form::Sensor(_) => None,
+    }
+}
+
 fn bench(plant: &Plant, run: &Run) -> Vec<f64> {
-    let value = |mechanism: Mechanism| {
-        let effect = plant.effects.iter().find(|e| e.mechanism == mechanism);
-        effect.and_then(|e| e.parameters.first().copied())
+    let change = |own: Drive| {
+        let mut effects = plant.effects.iter();
+        effects.find(|e| drive_of(e) == Some(own))
     };
+    let value = |own: Drive| change(own).and_then(|e| e.parameters.first().copied());
     let mut effort = resistance(&laws(plant), &run.motion, run.step_s);
     for effect in plant.effects.iter().filter(|e| is_of_brake(e.mechanism)) {
         let [coefficient, shape @ ..] = effect.parameters.as_slice() else {
@@ -178,13 +191,12 @@ fn bench(plant: &Plant, run: &Run) -> Vec<f64> {
             *e += coefficient * s;
         }
     }
-    let mut on_sum = vec![Mechanism::ChannelSkew, Mechanism::Lag];
+    let mut on_sum = vec![Drive::Skew, Drive::Lag];
     if let Some(predicted) = &run.predicted {
         let mut predicted = predicted.clone();
         // The yield of a brake lags; anything else lags as a whole, below.
-        if let (Some(time_constant_s), Some(_)) = (value(Mechanism::Lag), &run.current) {
-            let onset = plant.effects.iter().find(|e| e.mechanism == Mechanism::Lag);
-            let first = onset
+        if let (Some(time_constant_s), Some(_)) = (value(Drive::Lag), &run.current) {
+            let first = change(Drive::Lag)
                 .and_then(|e| e.onset_s)
                 .map_or(0, |t| run.sample_at(t));
             let lagged = lagged_yield(&predicted, run.step_s, time_constant_s);
@@ -193,7 +205,7 @@ fn bench(plant: &Plant, run: &Run) -> Vec<f64> {
             }
             on_sum.pop();
         }
-        let gain = 1.0 + value(Mechanism::GainError).unwrap_or(0.0);
+        let gain = 1.0 + value(Drive::Gain).unwrap_or(0.0);
         for (e, p) in effort.iter_mut().zip(predicted) {
             *e += gain * p;
         }
@@ -203,7 +215,7 @@ fn bench(plant: &Plant, run: &Run) -> Vec<f64> {
         effects: plant
             .effects
             .iter()
-            .filter(|e| on_sum.contains(&e.mechanism))
+            .filter(|e| drive_of(e).is_some_and(|own| on_sum.contains(&own)))
             .cloned()
             .collect(),
     };

@@ -2,22 +2,13 @@
 //! that positions enter and accelerations do not.
 
 use crate::regression::dot;
+use crate::rules::{
+    BUMP_ORDER, LEAST_STEPS_AXIS, LEAST_STEPS_BENCH, MOST_DOUBT, MOST_STEP, MOST_UNTOLD,
+    PERIODS_A_WIDTH, QUIET, WIDTHS_S,
+};
+pub use crate::rules::{FEWEST_WINDOWS, MOST_AMBIGUOUS};
 use crate::run::{PlantKind, Run, rms};
 use rigproof_model::effects::Instant;
-
-/// Order of the bump `(1 − x²)^4`: three continuous derivatives at its ends.
-const BUMP_ORDER: i32 = 4;
-/// Share of a window's weight that may lie where the sense of motion cannot be told.
-pub const MOST_AMBIGUOUS: f64 = 0.002;
-/// What a friction as large as the whole effort may do there, in floors.
-const MOST_UNTOLD: f64 = 0.5;
-
-/// Fewest windows from which anything can be said.
-pub const FEWEST_WINDOWS: usize = 40;
-/// Averaged change of a predicted effort from sample to sample, in floors, up to which a window is used.
-const MOST_STEP: f64 = 0.5;
-/// What a predicted effort may be mistaken by on average, in floors, in a window that is used.
-const MOST_DOUBT: f64 = 0.5;
 
 /// The test function and the windows it is applied to.
 #[derive(Clone, Debug)]
@@ -215,11 +206,6 @@ pub fn overlap(weights: &[f64], shift: usize) -> f64 {
         .sum()
 }
 
-/// The widths that are tried, s; the last is taken when no narrower one is quiet enough.
-const WIDTHS_S: [f64; 3] = [0.040, 0.080, 0.160];
-/// A width is quiet enough when the floor is below this share of the effort.
-const QUIET: f64 = 0.003;
-
 /// The narrowest window whose predicted floor is small against the effort, narrowed again where the effort
 /// itself is faster than that (at least eight samples, five on a bench).
 pub fn choose_width(run: &Run, inertia: f64, band_hz: f64) -> f64 {
@@ -233,10 +219,12 @@ pub fn choose_width(run: &Run, inertia: f64, band_hz: f64) -> f64 {
         PlantKind::Bench => WIDTHS_S[0],
     };
     let least = match run.plant {
-        PlantKind::Axis => 8.0,
-        PlantKind::Bench => 5.0,
+        PlantKind::Axis => LEAST_STEPS_AXIS,
+        PlantKind::Bench => LEAST_STEPS_BENCH,
     };
-    width_s.min(2.0 / band_hz).max(least * run.step_s)
+    width_s
+        .min(PERIODS_A_WIDTH / band_hz)
+        .max(least * run.step_s)
 }
 
 /// `(1 − x²)^4` at `2·half + 1` points strictly inside (−1, 1), scaled to sum 1.
@@ -288,7 +276,7 @@ mod tests {
     use super::*;
     use crate::align::align;
     use crate::recorded::{INERTIA, NOMINAL, Noise, exact_axis, exact_bench, signals};
-    use crate::whiten::{ORDER, Whitener};
+    use crate::whiten::{NOISE_ORDER, Whitener};
     use rigproof_spec::effect::Mechanism;
 
     #[test]
@@ -337,7 +325,7 @@ mod tests {
             .zip(windows.average(&effort))
             .map(|(a, e)| INERTIA * a + e)
             .collect();
-        let covariance = windows.noise_covariance(&run, INERTIA, 0.0, ORDER + 1);
+        let covariance = windows.noise_covariance(&run, INERTIA, 0.0, NOISE_ORDER + 1);
         for lag in 0..3 {
             let seen = correlation(&rows, lag);
             assert!(

@@ -1,10 +1,8 @@
 //! This file checks the clock of a recording.
 
 use super::{Fault, LONGEST_GAP_S};
+use crate::rules::{LONGEST_GAP_STEPS, LONGEST_STEP_S};
 use core::cmp::Ordering;
-
-/// A sample interval longer than this leaves fewer than four samples to the widest window of the weak form, s.
-const LONGEST_STEP_S: f64 = 0.04;
 
 pub(crate) fn median_step(time_s: &[f64]) -> f64 {
     let mut steps: Vec<f64> = time_s
@@ -17,7 +15,7 @@ pub(crate) fn median_step(time_s: &[f64]) -> f64 {
 
 pub(crate) fn check_clock(time_s: &[f64], step_s: f64) -> Result<(), Fault> {
     check_pace(time_s, step_s)?;
-    let longest = LONGEST_GAP_S.max(8.0 * step_s);
+    let longest = LONGEST_GAP_S.max(LONGEST_GAP_STEPS * step_s);
     for pair in time_s.windows(2) {
         if let [before, after] = pair
             && after.partial_cmp(before) != Some(Ordering::Greater)

@@ -5,7 +5,7 @@ use crate::report::{FitReport, Verdict};
 use crate::run::PlantKind;
 use crate::select::Selection;
 use crate::simulate::{Interpolation, Protocol};
-use crate::whiten::ORDER;
+use crate::whiten::NOISE_ORDER;
 
 impl Stand<'_> {
     pub(super) fn protocol_lines(&self, protocol: &Protocol, other_recording: bool) -> Vec<String> {
@@ -31,7 +31,7 @@ impl Stand<'_> {
                 windows.centres.len()
             ),
             format!(
-                "noise: position {:.3e}, effort {:.3e} (standard deviation of a sample, SI); whitened by an autoregression of order {ORDER} of the noise model",
+                "noise: position {:.3e}, effort {:.3e} (standard deviation of a sample, SI); whitened by an autoregression of order {NOISE_ORDER} of the noise model",
                 self.train.position_noise, self.train.effort_noise
             ),
             format!(

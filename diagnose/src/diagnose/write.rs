@@ -15,7 +15,7 @@ use crate::simulate::{Plant, Protocol, output};
 use crate::unknown::unknown;
 use crate::write_rig::{calibrated, nominal_numbers, numbers};
 use rigproof_model::effects::{entry, facts};
-use rigproof_spec::effect::{Mechanism, Motion, Quantity};
+use rigproof_spec::effect::{Motion, Quantity};
 use rigproof_trace::rig::Rig;
 
 /// The residual of the windows against what sensor noise predicts.

@@ -7,6 +7,7 @@
 use super::sensitivities;
 use crate::problem::{Cause, PlantRun, Problem};
 use crate::regression::dot;
+use crate::rules::{INCONSTANT_OWN_SHARE, INCONSTANT_SHARE, PART_S, ROWS_A_NUMBER};
 use crate::select::{
     Selection, bends, elementary as elementary_mechanisms, floor_limit, is_elementary_friction,
     refs, usable_rms,
@@ -15,19 +16,6 @@ use nalgebra::{DMatrix, DVector};
 use rigproof_model::effects::{Drive, Form, entry};
 use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
-
-/// Length of a part, s: some widths of a window, shorter than what swings.
-const PART_S: f64 = 0.25;
-
-/// Share of the unexplained energy that must go when a number may differ from part to part for it not to be constant. On seeds 3000
-/// to 3100 a number that is constant came to 0.28 at most beside a law of another family, one that is not to 0.47 and more.
-const LEAST_SHARE: f64 = 0.4;
-
-/// What is left is along the name itself if no elementary torque at a joint, that differs from part to part, takes much more of it.
-const OWN_SHARE: f64 = 0.9;
-
-/// Rows that a part must have for each number.
-const ROWS_A_NUMBER: usize = 3;
 
 /// The found mechanisms whose leading number is not constant along the recording; none where nothing but noise is left.
 pub fn inconstant(problem: &Problem, selection: &Selection) -> Vec<Cause> {
@@ -44,7 +32,7 @@ pub fn inconstant(problem: &Problem, selection: &Selection) -> Vec<Cause> {
         .iter()
         .map(|column| gone(column))
         .fold(0.0, f64::max);
-    let least = (LEAST_SHARE * unexplained).max(OWN_SHARE * elementary);
+    let least = (INCONSTANT_SHARE * unexplained).max(INCONSTANT_OWN_SHARE * elementary);
     let offset = selection.nominal.len();
     let found = selection.found.iter().enumerate();
     found

@@ -6,6 +6,7 @@ use crate::five_bar::LEAST_SIGMAS;
 use crate::problem::{Cause, PlantRun, Problem, Term};
 use crate::regression::{Blocks, Fit, fit, nested_block_losses, paired};
 use crate::report::LimitOf;
+use crate::rules::{NEAR_RIVAL, RIVAL_SHARE, RIVAL_TIE_Z, TIMES_LEFT};
 use crate::select::{
     Selection, TIE_Z, as_two, best_variant, gives_energy, is_noise, refined, refs, usable_rms,
 };
@@ -13,15 +14,6 @@ use rayon::prelude::*;
 use rigproof_model::effects::entry;
 use rigproof_model::effects::facts::End;
 use rigproof_spec::effect::{Motion, Parameter};
-
-/// Share of an effect's gain that a rival must reach to be ambiguous with it.
-const RIVAL_SHARE: f64 = 0.9;
-/// Share of an effect's gain from which on the grid of a rival's shapes is refined.
-const NEAR_RIVAL: f64 = 0.7;
-
-/// Times what the named laws leave that a rival may leave in one's place, the block aside in which it leaves most more, where they leave more
-/// than noise.
-const TIMES_LEFT: f64 = 2.0;
 
 /// What could stand in the place of one found mechanism.
 #[derive(Clone, Debug, Default)]
@@ -200,7 +192,7 @@ impl Place<'_> {
         let reached = self.bare.left_out() - losses.iter().sum::<f64>();
         let enough = reached >= problem.plant.least_rival_share() * self.gain;
         let as_good = enough && z < TIE_Z
-            || (reached >= RIVAL_SHARE * self.gain && reached > 0.0 && z < 2.0 * TIE_Z);
+            || (reached >= RIVAL_SHARE * self.gain && reached > 0.0 && z < RIVAL_TIE_Z);
         let is_rival = as_good
             && more_elsewhere(&losses, own) < self.telling
             && best_variant(problem, common, tried)

@@ -3,21 +3,15 @@
 use super::run::{FiveBarRun, place};
 use crate::candidates::{both_signs, fastest, geometric, in_numbers, periods, stribeck_shapes};
 use crate::problem::{Cause, Problem};
+use crate::rules::{
+    BENDS_FIVE_BAR, CLOSING_A, DELAYS, DELAYS_RAD, LAGS_FIVE_BAR, LEAST_BEND, LEAST_BEND_SIGMAS,
+    LEAST_LAG_STEPS, LEAST_LIMITED_A, LEAST_SHIFT_STEPS_FIVE_BAR, LIMIT_SHARES, LIMITS, MOST_BEND,
+    MOST_DELAY_S, MOST_LAG_S, MOST_OF_AN_ENCODER, MOST_SHIFT_S_FIVE_BAR, MOST_SHIFT_STEPS,
+    SHIFTS_FIVE_BAR, SOFTEST_BRISTLE, WIDEST_PEAK,
+};
 use rigproof_model::effects::facts::{Shapes, Where};
 use rigproof_model::effects::{LIBRARY, entry, facts};
 use rigproof_spec::joint::Joint;
-
-/// Travels within which friction comes to the level of its speed, rad.
-const DELAYS_RAD: [f64; 4] = [0.001, 0.01, 0.05, 0.2];
-
-/// An encoder's scale may be off by this share, its zero by this angle in rad: what more it was is seen before anything is recorded.
-const MOST_OF_AN_ENCODER: f64 = 0.1;
-
-/// Share of the fastest speed up to which a peak near standstill is one: at the fastest a sixteenth of it is left.
-const WIDEST_PEAK: f64 = 0.6;
-
-/// Share of the travel over which a bristle may bend: over the whole of it all but a twentieth of its level is reached.
-const SOFTEST_BRISTLE: f64 = 0.33;
 
 /// The causes that have a meaning on this layout.
 pub fn causes(run: &FiveBarRun) -> Vec<Cause> {
@@ -89,7 +83,7 @@ pub fn reach(run: &FiveBarRun, cause: Cause) -> Option<(f64, f64)> {
 
 /// The least angle over which a bristle is seen to bend, rad.
 fn least_bending(run: &FiveBarRun, travel: f64) -> f64 {
-    (3.0 * run.theta_noise).max(1e-4 * travel)
+    (LEAST_BEND_SIGMAS * run.theta_noise).max(LEAST_BEND * travel)
 }
 
 /// The angle of a cause's joint at each usable window, and the residual as a torque there.
@@ -117,10 +111,11 @@ fn limits(run: &FiveBarRun, cause: Cause) -> Vec<f64> {
     let current = cause.joint.and_then(|joint| run.currents.get(place(joint)));
     let given = current.into_iter().flatten().flatten().copied();
     let greatest = given.fold(0.0, f64::max);
-    if greatest < 0.05 {
+    let [lowest, highest] = LIMIT_SHARES;
+    if greatest < LEAST_LIMITED_A {
         return Vec::new();
     }
-    geometric(0.3 * greatest, 0.97 * greatest, 8)
+    geometric(lowest * greatest, highest * greatest, LIMITS)
 }
 
 /// Half widths of a play, A, and the currents below which its sides come together, where they do.
@@ -131,9 +126,6 @@ fn plays(widths: Vec<f64>) -> Vec<Vec<f64>> {
         .flat_map(|width| CLOSING_A.map(|below| vec![*width, below]));
     closing.chain(open).collect()
 }
-
-/// Currents below which the sides of a play come together, A: a little, most of the range, and beyond all that flows.
-const CLOSING_A: [f64; 3] = [0.1, 0.4, 1.5];
 
 /// The shapes of a cause that are tried.
 pub fn shapes(
@@ -151,20 +143,28 @@ pub fn shapes(
             .collect(),
         Shapes::Bristle => {
             let travel = travel(run, cause).max(1e-12);
-            one(geometric(least_bending(run, travel), 0.2 * travel, 10))
+            one(geometric(
+                least_bending(run, travel),
+                MOST_BEND * travel,
+                BENDS_FIVE_BAR,
+            ))
         }
         Shapes::Period => one(periods(
             &points(problem, run, cause, residual),
             travel(run, cause),
         )),
-        Shapes::Lag => one(geometric(0.5 * run.step_s, 0.25, 12)),
-        Shapes::Delay => one(geometric(run.step_s, 0.08, 8)),
+        Shapes::Lag => one(geometric(
+            LEAST_LAG_STEPS * run.step_s,
+            MOST_LAG_S,
+            LAGS_FIVE_BAR,
+        )),
+        Shapes::Delay => one(geometric(run.step_s, MOST_DELAY_S, DELAYS)),
         Shapes::CurrentLimit => one(limits(run, cause)),
         Shapes::CurrentPlay { low, high, count } => plays(geometric(low, high, count)),
         Shapes::Shift => one(both_signs(geometric(
-            0.25 * run.step_s,
-            0.04f64.max(4.0 * run.step_s),
-            10,
+            LEAST_SHIFT_STEPS_FIVE_BAR * run.step_s,
+            MOST_SHIFT_S_FIVE_BAR.max(MOST_SHIFT_STEPS * run.step_s),
+            SHIFTS_FIVE_BAR,
         ))),
         // The rig is not asked for a memory of this kind.
         Shapes::Memory => vec![vec![]],

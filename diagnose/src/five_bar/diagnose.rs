@@ -22,6 +22,7 @@ use crate::problem::{Cause, NominalEffect, Problem, Term, add};
 use crate::report::{
     BeforeAfter, EffectReport, FITTED_PART, FitReport, HELD_OUT_PART, Horizon, Report, StageReport,
 };
+use crate::rules::{QUIET_NM, WIDTHS_S};
 use crate::run::rms;
 use crate::select::{Selection, floor_limit, refs, select};
 use crate::weak::{FEWEST_WINDOWS, Windows};
@@ -30,11 +31,6 @@ use rigproof_model::effects::entry;
 use rigproof_spec::effect::Motion;
 use rigproof_spec::joint::Joint;
 use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording};
-
-/// The widths of windows that are tried, s; the last is taken when no narrower one is quiet enough.
-const WIDTHS_S: [f64; 3] = [0.040, 0.080, 0.160];
-/// A width is quiet enough when the floor is below this, N·m: contributions of 0.01 N·m are to be seen in a few windows.
-const QUIET_NM: f64 = 0.0075;
 
 /// Diagnoses recordings of a five-bar together; `held_out` is another recording of the same rig. Without it the last of many shows the
 /// result, or the end of the last.

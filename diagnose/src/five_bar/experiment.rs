@@ -16,6 +16,7 @@ use crate::evidence::{Intervals, Rivals};
 use crate::problem::{Cause, Problem};
 use crate::regression::{Blocks, fit};
 use crate::report::{NextExperiment, Separation};
+use crate::rules::{FINALISTS, MOST_EXPLANATIONS};
 use crate::select::{Found, Selection, best_variant, refined, refs};
 use crate::weak::Windows;
 use explanation::Explanation;
@@ -26,11 +27,6 @@ use rigproof_spec::joint::Joint;
 use rigproof_spec::methods::greatest_desired_force_n;
 use rigproof_trace::Trace;
 use room::has_room;
-
-/// The most explanations that are held against one another.
-const MOST_EXPLANATIONS: usize = 8;
-/// How many experiments are simulated for every explanation.
-const FINALISTS: usize = 2;
 
 /// The experiment that tells the explanations apart best, and the plan; `None` where there is one explanation only.
 pub(super) fn next(

@@ -5,6 +5,7 @@ use super::run::FiveBarRun;
 use crate::free_run::HORIZONS_S;
 use crate::problem::{NominalEffect, shifted};
 use crate::report::Horizon;
+use crate::rules::{MOST_OF_PART, SHOTS};
 use crate::run::rms;
 use core::ops::Range;
 use rigproof_model::effects::facts::Family;
@@ -15,11 +16,6 @@ use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::tables::GREATEST_CURRENT_A;
 use rigproof_trace::rig::five_bar::FiveBar;
-
-/// Free runs of a part of a recording from which the errors at the horizons are taken.
-const SHOTS: usize = 24;
-/// A horizon is asked for where it is at most this share of the part.
-const MOST_OF_PART: f64 = 0.5;
 
 /// A five-bar with all its numbers: what acts on the rig, and what its sensors do.
 #[derive(Clone, Debug, PartialEq)]

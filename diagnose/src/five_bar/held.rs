@@ -11,6 +11,7 @@ use crate::evidence::coefficients_by_term;
 use crate::problem::{Cause, Problem, Term, add};
 use crate::regression::dot;
 use crate::report::{HeldJoint, HeldReport};
+use crate::rules::BEYOND_SIGMAS;
 use crate::select::{Selection, refs, usable_rms};
 use crate::weak::{Windows, is_recorded};
 use nalgebra::Vector2;
@@ -19,10 +20,6 @@ use rigproof_model::effects::{Form, facts, form};
 use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
-
-/// Standard deviations of its noise by which a reaction must be beyond what holds the joint before something is said to be missing: several
-/// thousand windows are looked at.
-const BEYOND_SIGMAS: f64 = 5.0;
 
 /// What the windows say in which one brake alone is at rest. Where every brake is, three or four share what two equations tell: nothing is
 /// attributed. `None` where an encoder was named: the recorded angles are not those that the linkage had.

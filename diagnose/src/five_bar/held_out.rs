@@ -5,6 +5,7 @@ use super::run::FiveBarRun;
 use super::undone::described;
 use crate::Options;
 use crate::align::Fault;
+use crate::rules::MANY_RECORDINGS;
 use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording};
 
 /// What is fitted, and what shows the result.
@@ -18,10 +19,6 @@ pub struct Parts {
     /// Whether it is a recording of its own.
     pub other_recording: bool,
 }
-
-/// From how many recordings on the last is held out whole. The second of two may be the experiment that the first one asked for: it is
-/// needed for the naming, and its end is enough to show the result.
-const MANY: usize = 3;
 
 impl Parts {
     /// Recordings of which another one shows the result, or the last of many, or the end of the last.
@@ -49,7 +46,7 @@ impl Parts {
                 let named = |fault| ("held-out recording".to_owned(), fault);
                 Some(described(rig, recording, 0.0).map_err(named)?)
             }
-            None if count >= MANY => runs.pop(),
+            None if count >= MANY_RECORDINGS => runs.pop(),
             None => None,
         };
         let other_recording = other.is_some();

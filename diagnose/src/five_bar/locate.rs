@@ -4,12 +4,10 @@ use super::run::{FiveBarRun, place};
 use crate::locate::{Cell, ranked};
 use crate::problem::Problem;
 use crate::report::Located;
+use crate::rules::ON_A;
 use rigproof_model::effects::Instant;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::units::RAD_S_PER_RPM;
-
-/// Current above which a brake counts as on, A.
-const ON_A: f64 = 0.05;
 
 /// Regimes of each joint and thirds of the recording, ranked as on a plant of one joint.
 pub fn locate(problem: &Problem, run: &FiveBarRun, before: &[f64], after: &[f64]) -> Vec<Located> {

@@ -5,9 +5,7 @@ use super::together::{bends, mends};
 use super::{Found, refs};
 use crate::problem::{Cause, Problem, Term};
 use crate::regression::{Blocks, fit};
-
-/// Share of what a law at a joint explains up to which a second one there is its form: friction of another family is not met exactly.
-const OF_ITS_FORM: f64 = 0.1;
+use crate::rules::OF_ITS_FORM;
 
 /// Drops, weakest first, every law with a memory of its motion that explains a tenth of what one that bends explains at its joint, both from the
 /// start. Where a true friction is no bristle, no peak and no settling, two of them are nearer to it than one.

@@ -5,6 +5,7 @@ use super::weigh::{coefficients_of, drives, excitation, is_noise, usable_rms};
 use super::{Found, Gates, TIE_Z, floor_limit, refs};
 use crate::problem::{Cause, PlantRun, Problem, Term};
 use crate::regression::{Blocks, Fit, fit, paired};
+use crate::rules::{EXACT_TO_UNEXPLAINED, LONE_TO_UNEXPLAINED};
 use rigproof_model::effects::facts;
 
 /// Drops every found mechanism that the others, with their shapes adjusted, make unnecessary.
@@ -75,13 +76,6 @@ pub(super) fn prune(
         }
     }
 }
-
-/// Multiple of the unexplained energy that names must explain on a five-bar if each of them has one form only: what is left is then none of
-/// theirs. Compliance comes to 3 as a payload; where a name is right nothing is left.
-const EXACT_TO_UNEXPLAINED: f64 = 20.0;
-
-/// Multiple that a name with families must explain on a five-bar if it is the only one.
-const LONE_TO_UNEXPLAINED: f64 = 6.0;
 
 /// Left-out loss that sensor noise does not account for.
 pub(super) fn unexplained(problem: &Problem, current: &Fit) -> f64 {

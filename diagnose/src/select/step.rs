@@ -8,13 +8,8 @@ use super::{Found, Gates, TIE_Z, refs};
 use crate::candidates::{all_variants, causes, modelled_effort, realise};
 use crate::problem::{Cause, PlantRun, Problem, Term};
 use crate::regression::{Blocks, Fit, fit, paired};
+use crate::rules::{EARLY_SHARE, ELEMENTARY_SHARE, MORE_Z, ONSET_GRID};
 use rayon::prelude::*;
-
-/// Share of the best gain that an elementary mechanism must reach to be named first.
-const ELEMENTARY_SHARE: f64 = 0.5;
-
-/// Share of the best gain that a mechanism from the start must reach to be preferred to one that begins later.
-const EARLY_SHARE: f64 = 0.8;
 
 /// The next mechanism: an elementary one, any other, or one that begins during the recording, in this order as
 /// long as it explains enough of what the best of them does. Two or three where no one alone leaves nothing but noise and they do; none where nothing passes.
@@ -77,9 +72,6 @@ pub(super) fn forward(
         .filter(|f| f.at_floor || !floor_reached);
     enough.next().into_iter().collect()
 }
-
-/// z that one more mechanism needs beside others which leave nothing but noise: what the form of a law lacks is there too.
-const MORE_Z: f64 = 4.0;
 
 /// The gates, higher where nothing but noise is left of what was found.
 fn beyond_noise(problem: &Problem, current: &Fit, found: &[Found], gates: Gates) -> Gates {
@@ -155,8 +147,10 @@ fn with_unequal_limits(problem: &Problem, term: &Term, effort: &[f64]) -> Option
 
 /// A term that begins at twelfths of the recording, ends left out.
 pub(super) fn with_onsets(problem: &Problem, term: &Term, effort: &[f64]) -> Vec<Term> {
-    (2..=10)
-        .map(|k| problem.plant.start_s() + problem.plant.duration_s() * k as f64 / 12.0)
+    (2..=ONSET_GRID - 2)
+        .map(|k| {
+            problem.plant.start_s() + problem.plant.duration_s() * k as f64 / ONSET_GRID as f64
+        })
         .filter_map(|t| {
             let mut late = realise(problem, term.cause, &term.shape, Some(t), effort)?;
             problem.lighten(&mut late);

@@ -4,6 +4,7 @@ use super::{Found, floor_limit};
 use crate::candidates::modelled_effort;
 use crate::problem::{Problem, Term, add};
 use crate::regression::{Blocks, Fit, dot, fit, loss_of};
+use crate::rules::RELINEARISE;
 use crate::run::rms;
 use rigproof_model::effects::entry;
 
@@ -102,9 +103,6 @@ pub(super) fn loss_with(problem: &Problem, common: &[&Term], term: &Term) -> f64
     terms.push(term);
     loss_of(problem, &terms)
 }
-
-/// Rounds in which a change of the drive is linearised again about the fit it gave.
-const RELINEARISE: usize = 3;
 
 /// What the other terms give when a change of the drive stands beside them: the point to linearise about.
 pub(super) fn effort_beside(

@@ -299,3 +299,55 @@ impl Entry {
         self.mechanism == mechanism || self.facts.limit.is_some_and(|limit| limit.of == mechanism)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::LIBRARY;
+    use super::*;
+
+    /// A mechanism's row on the page.
+    fn row(entry: &Entry) -> String {
+        let facts = entry.facts;
+        let forms = match facts.has_forms {
+            true => "several",
+            false => "one",
+        };
+        let limit = facts.limit.map_or(String::new(), |limit| {
+            let end = match limit.end {
+                End::Nothing => "0",
+                End::Everything => "beyond every value",
+            };
+            let parameter = entry.mechanism.parameters()[limit.parameter].name;
+            format!("`{}` where `{parameter}` goes to {end}", limit.of.name())
+        });
+        let alone = match facts.asked.alone {
+            Alone::Never => "no",
+            Alone::Always => "yes",
+            Alone::WithKnown => "with a known drive or brake",
+            Alone::WithBrake => "with a brake's current",
+        };
+        let five_bar = match facts.asked.five_bar {
+            Where::Nowhere => "no",
+            Where::Brakes => "at brakes",
+            Where::Bearings => "at joints without a brake",
+            Where::Joints => "at every joint",
+            Where::Encoders => "at encoders",
+            Where::Whole => "as a whole",
+        };
+        format!(
+            "| `{}` | {} | {forms} | {limit} | {alone} | {five_bar} | {} |",
+            entry.mechanism.name(),
+            facts.family.name(),
+            entry.mechanism.also().join(", ")
+        )
+    }
+
+    #[test]
+    fn the_page_prints_what_is_known_of_every_mechanism() {
+        let page = include_str!("../../../docs/mechanisms.md");
+        let (_, own) = page.split_once("## What else is known").unwrap();
+        let printed: Vec<&str> = own.lines().filter(|l| l.starts_with("| `")).collect();
+        let expected: Vec<String> = LIBRARY.iter().map(row).collect();
+        assert_eq!(printed, expected);
+    }
+}

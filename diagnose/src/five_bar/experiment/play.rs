@@ -3,6 +3,7 @@
 use super::super::free_run::{Model, parts_of};
 use super::plan::Plan;
 use crate::problem::shifted;
+pub(crate) use crate::rules::{DAMPING_NS_M, STIFFNESS_N_M};
 use crate::sensor::normal;
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::SeedableRng;
@@ -15,11 +16,6 @@ use rigproof_spec::methods::greatest_desired_force_n;
 use rigproof_spec::units::{Dimension, Unit};
 use rigproof_trace::rig::Signal;
 use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording};
-
-/// The stiffness with which a hand leads the tip, N/m.
-pub(crate) const STIFFNESS_N_M: f64 = 420.0;
-/// The damping of a hand, N·s/m.
-pub(crate) const DAMPING_NS_M: f64 = 11.0;
 
 /// What is recorded of an experiment, before counts and noise.
 #[derive(Clone, Debug, Default, PartialEq)]
