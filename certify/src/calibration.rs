@@ -5,7 +5,7 @@ use rigproof_spec::effect::Mechanism;
 use rigproof_trace::rig::five_bar::{FiveBar, JointEffect};
 use serde::{Deserialize, Serialize};
 
-use crate::left_out::{KNOWN, LeftOut, Role, asked, change, role};
+use crate::left_out::{LeftOut, Role, asked, change, known, role};
 use crate::scenario::{Draw, Rig};
 
 /// A calibration that scenarios draw their plant from.
@@ -118,7 +118,7 @@ fn found(rig: Rig, effect: &JointEffect) -> Result<Found, String> {
         format!(" at joint {}", joint.letter())
     });
     if role(mechanism).is_none() {
-        let known = KNOWN.map(Mechanism::name).join(", ");
+        let known = known().map(Mechanism::name).collect::<Vec<_>>().join(", ");
         return Err(format!(
             "the fixed-step plant of a campaign has no `{}`{at}; it has {known}: take it out, and know that it is not looked at",
             mechanism.name()

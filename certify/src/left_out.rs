@@ -3,6 +3,8 @@
 use rigproof_impl::plant::Parameters;
 use rigproof_impl::plant::effect::{Asked, Law};
 use rigproof_impl::vector::Vector;
+use rigproof_model::effects::facts::{AtRest, Family};
+use rigproof_model::effects::{Drive, Form, OfBrake, OfLinkage, OfSensor, entry, form, law};
 use rigproof_model::motion::added_mass;
 use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
@@ -59,31 +61,10 @@ impl TryFrom<Written> for LeftOut {
 }
 
 /// What the fixed-step plant and its sensors have.
-pub const KNOWN: [Mechanism; 23] = [
-    Mechanism::DryOffset,
-    Mechanism::BearingFriction,
-    Mechanism::Viscous,
-    Mechanism::DirectionAsymmetry,
-    Mechanism::Stribeck,
-    Mechanism::ReversalOvershoot,
-    Mechanism::Presliding,
-    Mechanism::AsymmetricPresliding,
-    Mechanism::Hysteresis,
-    Mechanism::Settling,
-    Mechanism::Ripple,
-    Mechanism::Spring,
-    Mechanism::NonlinearSpring,
-    Mechanism::ConstantBias,
-    Mechanism::BiasDrift,
-    Mechanism::GainError,
-    Mechanism::BacklashWidth,
-    Mechanism::Payload,
-    Mechanism::InertiaError,
-    Mechanism::EncoderScale,
-    Mechanism::EncoderOffset,
-    Mechanism::ForceGain,
-    Mechanism::ForceBias,
-];
+pub fn known() -> impl Iterator<Item = Mechanism> {
+    let all = Mechanism::ALL.into_iter();
+    all.filter(|mechanism| role(*mechanism).is_some())
+}
 
 /// What a mechanism changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -109,16 +90,25 @@ impl Role {
 
 /// What a mechanism changes; `None` where neither the plant nor its sensors have it.
 pub fn role(mechanism: Mechanism) -> Option<Role> {
-    if !KNOWN.contains(&mechanism) {
-        return None;
+    match form(mechanism)? {
+        Form::Resistance(_) | Form::ShareOfBrake(_) => {
+            let numbers = vec![1.0; mechanism.needed()];
+            Law::new(mechanism, &numbers).map(|_| Role::Resistance)
+        }
+        Form::Drive(Drive::Gain) | Form::Brake(OfBrake::BacklashWidth) => Some(Role::Brake),
+        Form::Linkage(OfLinkage::Payload | OfLinkage::Inertias) => Some(Role::Masses),
+        Form::Sensor(OfSensor::EncoderScale | OfSensor::EncoderOffset) => Some(Role::Encoder),
+        Form::Sensor(OfSensor::ForceGain | OfSensor::ForceBias) => Some(Role::Force),
+        Form::Drive(Drive::Lag | Drive::Skew)
+        | Form::Brake(
+            OfBrake::CurrentHysteresis
+            | OfBrake::DeadTime
+            | OfBrake::Saturation
+            | OfBrake::ThermalFade,
+        )
+        | Form::Linkage(OfLinkage::Load | OfLinkage::Weight)
+        | Form::Sensor(OfSensor::ForceRotation) => None,
     }
-    Some(match mechanism {
-        Mechanism::GainError | Mechanism::BacklashWidth => Role::Brake,
-        Mechanism::Payload | Mechanism::InertiaError => Role::Masses,
-        Mechanism::EncoderScale | Mechanism::EncoderOffset => Role::Encoder,
-        Mechanism::ForceGain | Mechanism::ForceBias => Role::Force,
-        _ => Role::Resistance,
-    })
 }
 
 impl LeftOut {
@@ -128,38 +118,50 @@ impl LeftOut {
 
     /// Whether it neither stores energy nor gives any.
     pub fn is_passive(&self) -> bool {
-        match (role(self.mechanism), self.mechanism) {
-            (Some(Role::Resistance), Mechanism::DryOffset | Mechanism::BearingFriction) => true,
-            (Some(Role::Resistance), Mechanism::Viscous) => self.number(0) >= 0.0,
-            // With a travel it remembers.
-            (Some(Role::Resistance), Mechanism::Stribeck) => self.parameters.len() == 3,
-            (Some(Role::Resistance), _) | (None, _) => false,
-            _ => true,
+        match role(self.mechanism) {
+            None => false,
+            Some(Role::Resistance) => self.is_passive_resistance().unwrap_or(false),
+            Some(Role::Brake | Role::Masses | Role::Encoder | Role::Force) => true,
         }
+    }
+
+    /// Of a resistance: friction of the motion of the moment, without a memory.
+    fn is_passive_resistance(&self) -> Option<bool> {
+        let own = entry(self.mechanism)?;
+        let is_of_moment = own.passive
+            && own.facts.family == Family::FrictionOfMotion
+            && !law(self.mechanism, &self.parameters)?.remembers();
+        // A dry level only lowers that of the brake beside it, which never falls below 0.
+        let is_dry = matches!(own.facts.at_rest, AtRest::Dry(_));
+        Some(is_of_moment && (is_dry || self.number(0) >= 0.0))
     }
 
     /// The angle that an encoder shows of a joint's, rad.
     pub fn shown_rad(&self, joint: Joint, angle_rad: f64) -> f64 {
-        match self.mechanism {
-            Mechanism::EncoderScale if self.joint == Some(joint) => {
+        match form(self.mechanism) {
+            Some(Form::Sensor(OfSensor::EncoderScale)) if self.joint == Some(joint) => {
                 angle_rad * (1.0 + self.number(0))
             }
-            Mechanism::EncoderOffset if self.joint == Some(joint) => angle_rad + self.number(0),
+            Some(Form::Sensor(OfSensor::EncoderOffset)) if self.joint == Some(joint) => {
+                angle_rad + self.number(0)
+            }
             _ => angle_rad,
         }
     }
 
     /// The force that the sensor shows of one, N.
     pub fn shown_n(&self, force_n: Vector<f64>) -> Vector<f64> {
-        match self.mechanism {
-            Mechanism::ForceGain => force_n * (1.0 + self.number(0)),
-            Mechanism::ForceBias => force_n + Vector::new(self.number(0), self.number(1)),
+        match form(self.mechanism) {
+            Some(Form::Sensor(OfSensor::ForceGain)) => force_n * (1.0 + self.number(0)),
+            Some(Form::Sensor(OfSensor::ForceBias)) => {
+                force_n + Vector::new(self.number(0), self.number(1))
+            }
             _ => force_n,
         }
     }
 }
 
-/// The resistances, as the plant is asked for them. A bearing's is dry friction.
+/// The resistances, as the plant is asked for them.
 pub fn asked(left_out: &[LeftOut]) -> Vec<Asked<'_>> {
     let resistances = left_out
         .iter()
@@ -167,10 +169,7 @@ pub fn asked(left_out: &[LeftOut]) -> Vec<Asked<'_>> {
     let each = resistances.filter_map(|one| {
         Some(Asked {
             joint: one.joint?,
-            mechanism: match one.mechanism {
-                Mechanism::BearingFriction => Mechanism::DryOffset,
-                other => other,
-            },
+            mechanism: one.mechanism,
             parameters: &one.parameters,
         })
     });
@@ -183,14 +182,14 @@ pub fn change(parameters: &mut Parameters, left_out: &[LeftOut]) -> Option<()> {
         match role(one.mechanism)? {
             Role::Brake => {
                 let table = parameters.brakes.get_mut(one.joint? as usize)?.as_mut()?;
-                match one.mechanism {
-                    Mechanism::GainError => scale_torque(table, 1.0 + one.number(0)),
+                match form(one.mechanism)? {
+                    Form::Drive(_) => scale_torque(table, 1.0 + one.number(0)),
                     _ => table.backlash_width_deg = deg_from_rad(one.number(0)),
                 }
             }
             Role::Masses => {
-                let more = match one.mechanism {
-                    Mechanism::Payload => added_mass::at_tip(one.number(0)),
+                let more = match form(one.mechanism)? {
+                    Form::Linkage(OfLinkage::Payload) => added_mass::at_tip(one.number(0)),
                     _ => added_mass::in_all(
                         &parameters.inertia,
                         [0, 1, 2, 3, 4].map(|index| one.number(index)),
@@ -200,11 +199,7 @@ pub fn change(parameters: &mut Parameters, left_out: &[LeftOut]) -> Option<()> {
             }
             Role::Resistance => {
                 // A lag or a gain of the current is no resistance.
-                let own = match one.mechanism {
-                    Mechanism::BearingFriction => Mechanism::DryOffset,
-                    other => other,
-                };
-                Law::new(own, &one.parameters)?;
+                Law::new(one.mechanism, &one.parameters)?;
             }
             Role::Encoder => {
                 matches!(one.joint, Some(Joint::A | Joint::B)).then_some(())?;

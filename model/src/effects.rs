@@ -7,9 +7,11 @@
 mod asymmetric_presliding;
 mod bias_drift;
 mod brake;
+mod compliance;
 mod constant_bias;
 mod direction_asymmetry;
 mod dry_offset;
+pub mod facts;
 mod hysteresis;
 mod lag;
 mod linkage;
@@ -26,6 +28,7 @@ mod viscous;
 pub use lag::{first_order_lag, first_order_lag_straight, lagged};
 pub use play::CurrentPlay;
 
+use facts::{Facts, Words};
 use rigproof_spec::effect::Mechanism;
 
 /// What a law may look at: one instant of the motion. Travel in m or rad.
@@ -94,12 +97,83 @@ pub enum Form {
     Resistance(fn(&[f64]) -> Box<dyn Law>),
     /// A share of a brake's torque, positive along the motion: the law says how great a share.
     ShareOfBrake(fn(&[f64]) -> Box<dyn Law>),
-    /// A change of the driving effort (lag, gain error, time shift), applied by the plant itself.
-    Drive,
+    /// A change of the driving effort, applied by the plant itself.
+    Drive(Drive),
     /// Something that a brake does with its current: it needs the brake.
-    Brake,
-    /// Something that only a linkage has: its masses, its weight, the sensor at its tip.
-    Linkage,
+    Brake(OfBrake),
+    /// Something that only a linkage has.
+    Linkage(OfLinkage),
+    /// What a sensor shows other than what is there.
+    Sensor(OfSensor),
+}
+
+/// A change of the driving effort.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Drive {
+    /// A first-order lag.
+    Lag,
+    /// A wrong gain.
+    Gain,
+    /// A time shift.
+    Skew,
+}
+
+/// What a brake does with its current.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OfBrake {
+    /// Another backlash.
+    BacklashWidth,
+    /// A memory of the current.
+    CurrentHysteresis,
+    /// A delay of the current.
+    DeadTime,
+    /// A greatest current.
+    Saturation,
+    /// A torque that falls with heat.
+    ThermalFade,
+}
+
+/// What a linkage has as a whole, or by the force on its tip.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OfLinkage {
+    /// Friction by the force on the tip.
+    Load,
+    /// Weight.
+    Weight,
+    /// Other moments of inertia.
+    Inertias,
+    /// A mass at the tip.
+    Payload,
+}
+
+/// What a sensor shows other than what is there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OfSensor {
+    /// A wrong scale of an angle.
+    EncoderScale,
+    /// A wrong zero of an angle.
+    EncoderOffset,
+    /// A wrong scale of the force.
+    ForceGain,
+    /// A wrong zero of the force.
+    ForceBias,
+    /// A force sensor that is mounted turned.
+    ForceRotation,
+}
+
+impl Form {
+    /// Whether what a brake holds depends on what its current did before.
+    pub const fn goes_by_past_current(self) -> bool {
+        matches!(self, Form::Drive(Drive::Lag) | Form::Brake(_))
+    }
+
+    /// Whether an encoder is off: every angle of a linkage is then another one.
+    pub const fn is_of_encoder(self) -> bool {
+        matches!(
+            self,
+            Form::Sensor(OfSensor::EncoderScale | OfSensor::EncoderOffset)
+        )
+    }
 }
 
 /// One mechanism as the diagnosis and the plants use it.
@@ -117,6 +191,8 @@ pub struct Entry {
     pub refuted_by: &'static str,
     /// The equation as the report prints it.
     pub equation: &'static str,
+    /// What else is known of it.
+    pub facts: Facts,
 }
 
 /// The library. Order is the order in which ties are reported.
@@ -143,7 +219,7 @@ pub const LIBRARY: &[Entry] = &[
     brake::DEAD_TIME,
     brake::SATURATION,
     brake::THERMAL_FADE,
-    linkage::BEARING_FRICTION,
+    dry_offset::BEARING,
     linkage::LOAD_DEPENDENT,
     linkage::GRAVITY,
     linkage::INERTIA_ERROR,
@@ -165,8 +241,23 @@ pub fn entry(mechanism: Mechanism) -> Option<&'static Entry> {
 pub fn law(mechanism: Mechanism, parameters: &[f64]) -> Option<Box<dyn Law>> {
     match entry(mechanism)?.form {
         Form::Resistance(build) | Form::ShareOfBrake(build) => Some(build(parameters)),
-        Form::Drive | Form::Brake | Form::Linkage => None,
+        Form::Drive(_) | Form::Brake(_) | Form::Linkage(_) | Form::Sensor(_) => None,
     }
+}
+
+/// How a mechanism enters the equations, or `None` while the library has no law for it.
+pub fn form(mechanism: Mechanism) -> Option<Form> {
+    entry(mechanism).map(|entry| entry.form)
+}
+
+/// What is known of a mechanism, or `None` while the library has no law for it.
+pub fn facts(mechanism: Mechanism) -> Option<&'static Facts> {
+    entry(mechanism).map(|entry| &entry.facts)
+}
+
+/// A mechanism in plain words, also where the library has no law for it.
+pub fn words(mechanism: Mechanism) -> Words {
+    facts(mechanism).map_or(compliance::WORDS, |facts| facts.words)
 }
 
 /// A memory that relaxes towards `target` within `length` of travel.
@@ -186,7 +277,8 @@ mod tests {
     #[test]
     fn the_catalogue_holds_every_law_of_the_library_in_its_order() {
         let page = include_str!("../../docs/mechanisms.md");
-        let rows: Vec<&str> = page.lines().filter(|l| l.starts_with("| `")).collect();
+        let (laws, _) = page.split_once("## What else is known").unwrap();
+        let rows: Vec<&str> = laws.lines().filter(|l| l.starts_with("| `")).collect();
         assert_eq!(rows.len(), LIBRARY.len());
         for (row, entry) in rows.iter().zip(LIBRARY) {
             let law = entry.equation.replace('|', "\\|");
@@ -200,6 +292,62 @@ mod tests {
                 assert!(row.contains(&format!("`{}`", parameter.name)), "{row}");
             }
             assert_eq!(row.contains(" | yes | "), entry.passive, "{row}");
+        }
+    }
+
+    #[test]
+    fn every_mechanism_but_compliance_has_a_law_and_words_of_its_own() {
+        let without = Mechanism::ALL
+            .into_iter()
+            .filter(|own| entry(*own).is_none());
+        let without: Vec<Mechanism> = without.collect();
+        assert!(
+            without
+                .iter()
+                .all(|own| *own == Mechanism::Compliance && own.parameters().is_empty()),
+            "{without:?}"
+        );
+        let mut said: Vec<&str> = Vec::new();
+        for mechanism in Mechanism::ALL {
+            let Words { what, look_for } = words(mechanism);
+            said.extend([what, look_for]);
+        }
+        let count = said.len();
+        said.sort_unstable();
+        said.dedup();
+        assert_eq!(said.len(), count);
+    }
+
+    #[test]
+    fn what_the_facts_point_to_is_there() {
+        for entry in LIBRARY {
+            let Facts {
+                limit,
+                zero,
+                twin,
+                both,
+                refit,
+                shapes,
+                ..
+            } = entry.facts;
+            let name = entry.mechanism.name();
+            let parameters = entry.mechanism.parameters();
+            assert!(entry.linear <= entry.mechanism.needed(), "{name}");
+            assert!(refit.sizes.len() <= parameters.len(), "{name}");
+            if let Some(limit) = limit {
+                assert!(limit.parameter < parameters.len(), "{name}");
+                assert!(limit.of != entry.mechanism, "{name}");
+            }
+            if let Some(twin) = twin {
+                let back = facts(twin).and_then(|facts| facts.twin);
+                assert_eq!(back, Some(entry.mechanism));
+            }
+            for other in zero.into_iter().chain(both.into_iter().flatten()) {
+                assert!(self::entry(other).is_some(), "{name}");
+            }
+            // What has no shape has no number but its coefficients; an encoder's is the step at which its column is taken.
+            let is_shaped = parameters.len() > entry.linear || entry.form.is_of_encoder();
+            assert_eq!(shapes != facts::Shapes::None, is_shaped, "{name}");
         }
     }
 

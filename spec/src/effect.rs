@@ -9,159 +9,140 @@ pub const LEAST_TURNING_RAD_S: f64 = 1e-9;
 /// first motion is no reversal.
 pub const NOT_MOVED: f64 = 2.0;
 
-/// A physical mechanism that a model may contain or may have left out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[non_exhaustive]
-pub enum Mechanism {
+/// Declares the vocabulary: a block a mechanism, with its meaning, its variant, its name in files, other words for it
+/// that somebody may try, and its parameters in their order.
+macro_rules! vocabulary {
+    ($($(#[doc = $doc:literal])+ $variant:ident = $name:literal $(| $also:literal)* [$($parameter:expr),* $(,)?],)+) => {
+        /// A physical mechanism that a model may contain or may have left out.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum Mechanism {
+            $($(#[doc = $doc])+ $variant,)+
+        }
+
+        impl Mechanism {
+            /// Every mechanism, in the order of the vocabulary.
+            pub const ALL: [Mechanism; [$($name),+].len()] = [$(Mechanism::$variant),+];
+
+            /// The name used in every file and report.
+            pub const fn name(self) -> &'static str {
+                match self {
+                    $(Mechanism::$variant => $name,)+
+                }
+            }
+
+            /// Other words for it that somebody may try, in small letters.
+            pub const fn also(self) -> &'static [&'static str] {
+                match self {
+                    $(Mechanism::$variant => const { &[$($also),*] },)+
+                }
+            }
+
+            /// The parameters of the mechanism, empty while no room computes it.
+            pub const fn parameters(self) -> &'static [Parameter] {
+                use Quantity::*;
+                match self {
+                    $(Mechanism::$variant => const { &[$($parameter),*] },)+
+                }
+            }
+        }
+    };
+}
+
+vocabulary! {
     /// Rate-independent (Coulomb) friction.
-    DryOffset,
+    DryOffset = "dry_offset" | "coulomb" | "dry friction" | "coulomb friction" [needed("level", Effort)],
     /// Wrong torque constant of a drive or a brake.
-    GainError,
+    GainError = "gain_error" | "gain" | "torque constant" [needed("fraction", Number)],
     /// Friction proportional to speed.
-    Viscous,
+    Viscous = "viscous" | "damping" | "viscous friction" [needed("coefficient", EffortPerSpeed)],
     /// Different friction in the two directions of motion.
-    DirectionAsymmetry,
+    DirectionAsymmetry = "direction_asymmetry" | "asymmetry" | "asymmetric friction" [needed("viscous", EffortPerSpeed), needed("dry", Effort)],
     /// Friction that falls with rising speed near standstill.
-    Stribeck,
+    Stribeck = "stribeck" | "stiction" | "breakaway" [
+        needed("peak", Effort),
+        needed("speed", Speed).above_zero(),
+        needed("exponent", Number),
+        optional("travel", Travel).above_zero(),
+    ],
     /// Higher torque of a brake just after a reversal.
-    ReversalOvershoot,
+    ReversalOvershoot = "reversal_overshoot" | "overshoot" [needed("fraction", Number), needed("travel", Travel).above_zero()],
     /// Wrong width of the backlash window.
-    BacklashWidth,
+    BacklashWidth = "backlash_width" | "backlash" | "play" [needed("width", Travel).not_below_zero()],
     /// Elastic motion before sliding (Dahl 1968).
-    Presliding,
+    Presliding = "presliding" | "dahl" | "lugre" | "bristle" [needed("level", Effort), needed("travel", Travel).above_zero()],
     /// Elastic motion before sliding, with another limit in each direction.
-    AsymmetricPresliding,
+    AsymmetricPresliding = "asymmetric_presliding" | "asymmetric dahl" [
+        needed("forward", Effort),
+        needed("backward", Effort),
+        needed("travel", Travel).above_zero(),
+    ],
     /// Memory of the current history.
-    CurrentHysteresis,
+    CurrentHysteresis = "current_hysteresis" | "remanence" | "magnetic hysteresis" [
+        needed("share", Number),
+        needed("half_width", Current).above_zero(),
+        optional("closing", Current).not_below_zero(),
+    ],
     /// Memory of the displacement history (Bouc 1967, Wen 1976).
-    Hysteresis,
+    Hysteresis = "hysteresis" | "bouc-wen" | "bouc_wen" [
+        needed("alpha", EffortPerTravel),
+        needed("beta_gamma", PerTravel),
+        needed("beta_delta", PerTravel),
+    ],
     /// First-order delay of the commanded effort.
-    Lag,
+    Lag = "lag" | "time constant" [needed("time_constant", Time).above_zero()],
     /// Pure delay of the commanded effort.
-    DeadTime,
+    DeadTime = "dead_time" | "latency" [needed("delay", Time).above_zero()],
     /// Limited effort.
-    Saturation,
+    Saturation = "saturation" | "clipping" [needed("limit", Current).not_below_zero()],
     /// Friction proportional to the transmitted load.
-    LoadDependent,
+    LoadDependent = "load_dependent" | "load friction" [needed("arm", Length)],
     /// Torque lost to heating.
-    ThermalFade,
+    ThermalFade = "thermal_fade" | "fade" | "heat" [needed("per_joule", PerEnergy), needed("cooling", Time).above_zero()],
     /// Torque changed by rest (particle settling).
-    Settling,
+    Settling = "settling" | "sedimentation" [needed("level", Effort), needed("travel", Travel).above_zero()],
     /// Force periodic in position.
-    Ripple,
+    Ripple = "ripple" | "cogging" [needed("sine", Effort), needed("cosine", Effort), needed("period", Travel).above_zero()],
     /// Weight of a tilted mechanism.
-    Gravity,
+    Gravity = "gravity" | "tilt" | "weight" [needed("x", Acceleration), needed("y", Acceleration)],
     /// Linear spring.
-    Spring,
+    Spring = "spring" | "stiffness" [needed("stiffness", EffortPerTravel)],
     /// Constant force.
-    ConstantBias,
+    ConstantBias = "constant_bias" | "bias" | "offset" [needed("level", Effort)],
     /// Constant force that drifts with the time since the start.
-    BiasDrift,
+    BiasDrift = "bias_drift" | "drift" [needed("rate", EffortPerTime)],
     /// Wrong inertia.
-    InertiaError,
+    InertiaError = "inertia_error" | "inertia" [
+        needed("arm_ae", MomentOfInertia),
+        needed("arm_bc", MomentOfInertia),
+        needed("arm_ed", MomentOfInertia),
+        needed("arm_cd", MomentOfInertia),
+        needed("tip", Mass),
+    ],
     /// Extra mass at the tip.
-    Payload,
+    Payload = "payload" | "tip mass" [needed("mass", Mass)],
     /// Friction at a joint without a brake.
-    BearingFriction,
+    BearingFriction = "bearing_friction" | "bearing" [needed("level", Effort)],
     /// Structural flexibility.
-    Compliance,
+    Compliance = "compliance" | "flexibility" | "elasticity" [],
     /// Time shift between two channels.
-    ChannelSkew,
+    ChannelSkew = "channel_skew" | "skew" [needed("delay", Time)],
     /// Wrong scale of a position channel.
-    EncoderScale,
+    EncoderScale = "encoder_scale" | "encoder gain" [needed("fraction", Number)],
     /// Wrong zero of a position channel.
-    EncoderOffset,
+    EncoderOffset = "encoder_offset" | "homing" [needed("angle", Angle)],
     /// Wrong scale of a force channel.
-    ForceGain,
+    ForceGain = "force_gain" | "force scale" [needed("fraction", Number)],
     /// Wrong zero of a force channel.
-    ForceBias,
+    ForceBias = "force_bias" | "tare" | "force offset" [needed("x", Force), needed("y", Force)],
     /// Rotated force sensor.
-    ForceRotation,
+    ForceRotation = "force_rotation" | "force angle" [needed("angle", Angle)],
     /// Cubic spring.
-    NonlinearSpring,
+    NonlinearSpring = "nonlinear_spring" | "duffing" | "cubic spring" [needed("cubic", EffortPerCubicTravel)],
     /// Friction proportional to a power of speed.
-    VelocityPower,
+    VelocityPower = "velocity_power" | "quadratic drag" | "turbulent drag" [],
 }
 
 impl Mechanism {
-    /// Every mechanism, in the order of the design document.
-    pub const ALL: [Mechanism; 34] = [
-        Mechanism::DryOffset,
-        Mechanism::GainError,
-        Mechanism::Viscous,
-        Mechanism::DirectionAsymmetry,
-        Mechanism::Stribeck,
-        Mechanism::ReversalOvershoot,
-        Mechanism::BacklashWidth,
-        Mechanism::Presliding,
-        Mechanism::AsymmetricPresliding,
-        Mechanism::CurrentHysteresis,
-        Mechanism::Hysteresis,
-        Mechanism::Lag,
-        Mechanism::DeadTime,
-        Mechanism::Saturation,
-        Mechanism::LoadDependent,
-        Mechanism::ThermalFade,
-        Mechanism::Settling,
-        Mechanism::Ripple,
-        Mechanism::Gravity,
-        Mechanism::Spring,
-        Mechanism::ConstantBias,
-        Mechanism::BiasDrift,
-        Mechanism::InertiaError,
-        Mechanism::Payload,
-        Mechanism::BearingFriction,
-        Mechanism::Compliance,
-        Mechanism::ChannelSkew,
-        Mechanism::EncoderScale,
-        Mechanism::EncoderOffset,
-        Mechanism::ForceGain,
-        Mechanism::ForceBias,
-        Mechanism::ForceRotation,
-        Mechanism::NonlinearSpring,
-        Mechanism::VelocityPower,
-    ];
-
-    /// The name used in every file and report.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Mechanism::DryOffset => "dry_offset",
-            Mechanism::GainError => "gain_error",
-            Mechanism::Viscous => "viscous",
-            Mechanism::DirectionAsymmetry => "direction_asymmetry",
-            Mechanism::Stribeck => "stribeck",
-            Mechanism::ReversalOvershoot => "reversal_overshoot",
-            Mechanism::BacklashWidth => "backlash_width",
-            Mechanism::Presliding => "presliding",
-            Mechanism::AsymmetricPresliding => "asymmetric_presliding",
-            Mechanism::CurrentHysteresis => "current_hysteresis",
-            Mechanism::Hysteresis => "hysteresis",
-            Mechanism::Lag => "lag",
-            Mechanism::DeadTime => "dead_time",
-            Mechanism::Saturation => "saturation",
-            Mechanism::LoadDependent => "load_dependent",
-            Mechanism::ThermalFade => "thermal_fade",
-            Mechanism::Settling => "settling",
-            Mechanism::Ripple => "ripple",
-            Mechanism::Gravity => "gravity",
-            Mechanism::Spring => "spring",
-            Mechanism::ConstantBias => "constant_bias",
-            Mechanism::BiasDrift => "bias_drift",
-            Mechanism::InertiaError => "inertia_error",
-            Mechanism::Payload => "payload",
-            Mechanism::BearingFriction => "bearing_friction",
-            Mechanism::Compliance => "compliance",
-            Mechanism::ChannelSkew => "channel_skew",
-            Mechanism::EncoderScale => "encoder_scale",
-            Mechanism::EncoderOffset => "encoder_offset",
-            Mechanism::ForceGain => "force_gain",
-            Mechanism::ForceBias => "force_bias",
-            Mechanism::ForceRotation => "force_rotation",
-            Mechanism::NonlinearSpring => "nonlinear_spring",
-            Mechanism::VelocityPower => "velocity_power",
-        }
-    }
-
     /// The mechanism of a name, or `None`.
     pub fn from_name(name: &str) -> Option<Mechanism> {
         Mechanism::ALL
@@ -169,157 +150,20 @@ impl Mechanism {
             .find(|mechanism| mechanism.name() == name)
     }
 
-    /// The parameters of the mechanism, empty while no room computes it.
-    pub const fn parameters(self) -> &'static [Parameter] {
-        use Quantity::*;
-        match self {
-            Mechanism::DryOffset => const { &[Parameter::new("level", Effort)] },
-            Mechanism::GainError => const { &[Parameter::new("fraction", Number)] },
-            Mechanism::Viscous => const { &[Parameter::new("coefficient", EffortPerSpeed)] },
-            Mechanism::DirectionAsymmetry => {
-                const {
-                    &[
-                        Parameter::new("viscous", EffortPerSpeed),
-                        Parameter::new("dry", Effort),
-                    ]
-                }
-            }
-            Mechanism::Stribeck => {
-                const {
-                    &[
-                        Parameter::new("peak", Effort),
-                        Parameter::new("speed", Speed),
-                        Parameter::new("exponent", Number),
-                        Parameter::optional("travel", Travel),
-                    ]
-                }
-            }
-            Mechanism::Presliding => {
-                const {
-                    &[
-                        Parameter::new("level", Effort),
-                        Parameter::new("travel", Travel),
-                    ]
-                }
-            }
-            Mechanism::Hysteresis => {
-                const {
-                    &[
-                        Parameter::new("alpha", EffortPerTravel),
-                        Parameter::new("beta_gamma", PerTravel),
-                        Parameter::new("beta_delta", PerTravel),
-                    ]
-                }
-            }
-            Mechanism::Lag => const { &[Parameter::new("time_constant", Time)] },
-            Mechanism::Ripple => {
-                const {
-                    &[
-                        Parameter::new("sine", Effort),
-                        Parameter::new("cosine", Effort),
-                        Parameter::new("period", Travel),
-                    ]
-                }
-            }
-            Mechanism::Spring => const { &[Parameter::new("stiffness", EffortPerTravel)] },
-            Mechanism::ConstantBias => const { &[Parameter::new("level", Effort)] },
-            Mechanism::BiasDrift => const { &[Parameter::new("rate", EffortPerTime)] },
-            Mechanism::NonlinearSpring => {
-                const { &[Parameter::new("cubic", EffortPerCubicTravel)] }
-            }
-            Mechanism::ChannelSkew => const { &[Parameter::new("delay", Time)] },
-            _ => self.parameters_at_brake(),
-        }
+    /// The mechanism that somebody may mean by a word that is not its name.
+    pub fn meant_by(word: &str) -> Option<Mechanism> {
+        let meant = |own: &Mechanism| {
+            own.also()
+                .iter()
+                .any(|also| also.eq_ignore_ascii_case(word))
+        };
+        Mechanism::ALL.into_iter().find(meant)
     }
 
-    /// Of what a brake does besides, and of what the others do not have.
-    const fn parameters_at_brake(self) -> &'static [Parameter] {
-        use Quantity::*;
-        match self {
-            Mechanism::ReversalOvershoot => {
-                const {
-                    &[
-                        Parameter::new("fraction", Number),
-                        Parameter::new("travel", Travel),
-                    ]
-                }
-            }
-            Mechanism::Settling => {
-                const {
-                    &[
-                        Parameter::new("level", Effort),
-                        Parameter::new("travel", Travel),
-                    ]
-                }
-            }
-            Mechanism::AsymmetricPresliding => {
-                const {
-                    &[
-                        Parameter::new("forward", Effort),
-                        Parameter::new("backward", Effort),
-                        Parameter::new("travel", Travel),
-                    ]
-                }
-            }
-            Mechanism::BacklashWidth => const { &[Parameter::new("width", Travel)] },
-            Mechanism::CurrentHysteresis => {
-                const {
-                    &[
-                        Parameter::new("share", Number),
-                        Parameter::new("half_width", Current),
-                        Parameter::optional("closing", Current),
-                    ]
-                }
-            }
-            Mechanism::DeadTime => const { &[Parameter::new("delay", Time)] },
-            Mechanism::Saturation => const { &[Parameter::new("limit", Current)] },
-            Mechanism::LoadDependent => const { &[Parameter::new("arm", Length)] },
-            Mechanism::ThermalFade => {
-                const {
-                    &[
-                        Parameter::new("per_joule", PerEnergy),
-                        Parameter::new("cooling", Time),
-                    ]
-                }
-            }
-            _ => self.parameters_of_linkage(),
-        }
-    }
-
-    /// Of a linkage as a whole and of its sensors.
-    const fn parameters_of_linkage(self) -> &'static [Parameter] {
-        use Quantity::*;
-        match self {
-            Mechanism::BearingFriction => const { &[Parameter::new("level", Effort)] },
-            Mechanism::Gravity => {
-                const {
-                    &[
-                        Parameter::new("x", Acceleration),
-                        Parameter::new("y", Acceleration),
-                    ]
-                }
-            }
-            Mechanism::InertiaError => {
-                const {
-                    &[
-                        Parameter::new("arm_ae", MomentOfInertia),
-                        Parameter::new("arm_bc", MomentOfInertia),
-                        Parameter::new("arm_ed", MomentOfInertia),
-                        Parameter::new("arm_cd", MomentOfInertia),
-                        Parameter::new("tip", Mass),
-                    ]
-                }
-            }
-            Mechanism::Payload => const { &[Parameter::new("mass", Mass)] },
-            Mechanism::EncoderScale => const { &[Parameter::new("fraction", Number)] },
-            Mechanism::EncoderOffset => const { &[Parameter::new("angle", Angle)] },
-            Mechanism::ForceGain => const { &[Parameter::new("fraction", Number)] },
-            Mechanism::ForceBias => {
-                const { &[Parameter::new("x", Force), Parameter::new("y", Force)] }
-            }
-            Mechanism::ForceRotation => const { &[Parameter::new("angle", Angle)] },
-            _ => &[],
-        }
+    /// How many of the parameters may not be left out.
+    pub fn needed(self) -> usize {
+        let all = self.parameters().iter();
+        all.filter(|parameter| !parameter.is_optional).count()
     }
 }
 
@@ -332,21 +176,49 @@ pub struct Parameter {
     pub quantity: Quantity,
     /// Whether it may be left out; none stands before one that may not.
     pub is_optional: bool,
+    /// Which numbers have a meaning.
+    pub range: Range,
+}
+
+/// Which numbers a parameter may be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Range {
+    /// Every finite one.
+    Any,
+    /// 0 or more: a width, a limit.
+    NotBelowZero,
+    /// More than 0: a law divides by it, or it is a time.
+    AboveZero,
+}
+
+const fn needed(name: &'static str, quantity: Quantity) -> Parameter {
+    Parameter {
+        name,
+        quantity,
+        is_optional: false,
+        range: Range::Any,
+    }
+}
+
+const fn optional(name: &'static str, quantity: Quantity) -> Parameter {
+    Parameter {
+        is_optional: true,
+        ..needed(name, quantity)
+    }
 }
 
 impl Parameter {
-    const fn new(name: &'static str, quantity: Quantity) -> Parameter {
+    const fn above_zero(self) -> Parameter {
         Parameter {
-            name,
-            quantity,
-            is_optional: false,
+            range: Range::AboveZero,
+            ..self
         }
     }
 
-    const fn optional(name: &'static str, quantity: Quantity) -> Parameter {
+    const fn not_below_zero(self) -> Parameter {
         Parameter {
-            is_optional: true,
-            ..Parameter::new(name, quantity)
+            range: Range::NotBelowZero,
+            ..self
         }
     }
 }
@@ -444,12 +316,30 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_are_unique_and_read_back() {
-        for (i, mechanism) in Mechanism::ALL.into_iter().enumerate() {
+    fn names_and_other_words_are_unique_and_read_back() {
+        assert_eq!(Mechanism::meant_by("Coulomb"), Some(Mechanism::DryOffset));
+        for mechanism in Mechanism::ALL {
             assert_eq!(Mechanism::from_name(mechanism.name()), Some(mechanism));
-            for other in Mechanism::ALL.into_iter().skip(i + 1) {
-                assert_ne!(mechanism.name(), other.name());
+            assert_eq!(Mechanism::meant_by(mechanism.name()), None);
+            for other in Mechanism::ALL {
+                let is_other = other != mechanism;
+                assert!(!is_other || other.name() != mechanism.name());
+                for word in mechanism.also() {
+                    assert!(*word != other.name());
+                    assert!(!is_other || !other.also().contains(word), "{word}");
+                }
             }
+            for word in mechanism.also() {
+                assert_eq!(Mechanism::meant_by(word), Some(mechanism));
+            }
+        }
+    }
+
+    #[test]
+    fn no_optional_parameter_stands_before_one_that_is_needed() {
+        for mechanism in Mechanism::ALL {
+            let optional = mechanism.parameters().iter().skip(mechanism.needed());
+            assert!(optional.clone().all(|own| own.is_optional), "{mechanism:?}");
         }
     }
 }

@@ -4,6 +4,7 @@ mod citations;
 mod ledger;
 mod packages;
 mod rooms;
+mod rules;
 mod rust;
 mod words;
 mod workspace;

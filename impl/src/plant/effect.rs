@@ -98,7 +98,9 @@ impl Law {
             return None;
         }
         let law = match (mechanism, parameters) {
-            (Mechanism::DryOffset, &[level]) => Law::DryOffset { level },
+            (Mechanism::DryOffset | Mechanism::BearingFriction, &[level]) => {
+                Law::DryOffset { level }
+            }
             (Mechanism::ConstantBias, &[level]) => Law::ConstantBias { level },
             (Mechanism::Viscous, &[coefficient]) => Law::Viscous { coefficient },
             (Mechanism::DirectionAsymmetry, &[viscous, dry]) => {

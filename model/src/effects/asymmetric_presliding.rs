@@ -4,6 +4,7 @@
 //! Once it has slid, it is a bristle with the mean of both limits and a constant of half their difference beside it; a recording tells them
 //! apart where it begins relaxed, because the constant is there at once. It takes energy in every closed cycle as long as no limit is negative.
 
+use super::facts::{Alone, Asked, AtRest, Beside, Facts, Family, Shapes, Where, Words};
 use super::{Entry, Form, Instant, Law, parameter, relaxed};
 use rigproof_spec::effect::Mechanism;
 
@@ -21,6 +22,24 @@ pub(super) const ENTRY: Entry = Entry {
     passive: true,
     refuted_by: "the same friction in both directions, or a constant force before anything has moved",
     equation: "z, travel·dz/dt = |q̇|·(forward − z) forward, −|q̇|·(backward + z) backward",
+    facts: Facts {
+        has_forms: true,
+        shapes: Shapes::Bristle,
+        beside: Beside::Bends,
+        at_rest: AtRest::Level(|numbers| numbers.iter().copied().fold(0.0, f64::max)),
+        both: Some([Mechanism::Presliding, Mechanism::ConstantBias]),
+        ..Facts::of(
+            Family::MemoryOfMotion,
+            Asked {
+                alone: Alone::Never,
+                five_bar: Where::Nowhere,
+            },
+            Words {
+                what: "springy give before sliding begins, and sliding friction that differs between the two directions",
+                look_for: "friction surfaces that bend before they slip, and what loads them to one side",
+            },
+        )
+    },
 };
 
 struct OneSided {

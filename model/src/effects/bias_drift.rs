@@ -1,5 +1,6 @@
 //! This file is a constant effort that drifts in proportion to the time since the start (a warming amplifier).
 
+use super::facts::{Alone, Asked, Facts, Family, Refit, Shows, Where, Words};
 use super::{Entry, Form, Instant, Law, parameter};
 use rigproof_spec::effect::Mechanism;
 
@@ -14,6 +15,24 @@ pub(super) const ENTRY: Entry = Entry {
     passive: false,
     refuted_by: "an offset that is the same at the start and at the end of the recording",
     equation: "rate·t",
+    facts: Facts {
+        shows: Shows::Time,
+        refit: Refit {
+            leads: false,
+            sizes: &[0.1],
+        },
+        ..Facts::of(
+            Family::Constant,
+            Asked {
+                alone: Alone::Always,
+                five_bar: Where::Nowhere,
+            },
+            Words {
+                what: "a pull to one side that grows with time",
+                look_for: "a sensor's zero that drifts with temperature",
+            },
+        )
+    },
 };
 
 struct Drift {

@@ -1,55 +1,134 @@
 //! This file is what a brake may do with its current other than the model says: backlash, memory, delay, limit, heat.
 
-use super::{Entry, Form};
+use super::facts::{Alone, Asked, Facts, Family, Shapes, Where, Words};
+use super::{Entry, Form, OfBrake};
 use rigproof_spec::effect::Mechanism;
 
-const fn entry(
-    mechanism: Mechanism,
-    linear: usize,
-    refuted_by: &'static str,
-    equation: &'static str,
-) -> Entry {
-    Entry {
-        mechanism,
-        form: Form::Brake,
-        linear,
-        passive: false,
-        refuted_by,
-        equation,
-    }
-}
+pub(super) const BACKLASH_WIDTH: Entry = Entry {
+    mechanism: Mechanism::BacklashWidth,
+    form: Form::Brake(OfBrake::BacklashWidth),
+    linear: 0,
+    passive: false,
+    refuted_by: "a full torque after a reversal at the angle of §3.4.3",
+    equation: "the off-state torque within `width` after a reversal, instead of the width of table 3.1",
+    facts: Facts {
+        shapes: Shapes::Geometric {
+            low: 0.003,
+            high: 0.12,
+            count: 8,
+        },
+        ..Facts::of(
+            Family::Brake,
+            Asked {
+                alone: Alone::Never,
+                five_bar: Where::Brakes,
+            },
+            Words {
+                what: "play at reversals that is wider or narrower than the model's",
+                look_for: "couplings, keys and gears beside the brake",
+            },
+        )
+    },
+};
 
-pub(super) const BACKLASH_WIDTH: Entry = entry(
-    Mechanism::BacklashWidth,
-    0,
-    "a full torque after a reversal at the angle of §3.4.3",
-    "the off-state torque within `width` after a reversal, instead of the width of table 3.1",
-);
+pub(super) const CURRENT_HYSTERESIS: Entry = Entry {
+    mechanism: Mechanism::CurrentHysteresis,
+    form: Form::Brake(OfBrake::CurrentHysteresis),
+    linear: 1,
+    passive: false,
+    refuted_by: "the same torque on the way up and on the way down of a slow current triangle",
+    equation: "τ follows I + share·(p − I), p the play of half width `half_width` that the current moves; its sides meet at 0 from `closing` down",
+    facts: Facts {
+        has_forms: true,
+        shapes: Shapes::CurrentPlay {
+            low: 0.01,
+            high: 0.5,
+            count: 7,
+        },
+        ..Facts::of(
+            Family::Brake,
+            Asked {
+                alone: Alone::WithBrake,
+                five_bar: Where::Brakes,
+            },
+            Words {
+                what: "a brake that remembers its earlier current",
+                look_for: "steel that stays magnetised after the current was higher",
+            },
+        )
+    },
+};
 
-pub(super) const CURRENT_HYSTERESIS: Entry = entry(
-    Mechanism::CurrentHysteresis,
-    1,
-    "the same torque on the way up and on the way down of a slow current triangle",
-    "τ follows I + share·(p − I), p the play of half width `half_width` that the current moves; its sides meet at 0 from `closing` down",
-);
+pub(super) const DEAD_TIME: Entry = Entry {
+    mechanism: Mechanism::DeadTime,
+    form: Form::Brake(OfBrake::DeadTime),
+    linear: 0,
+    passive: false,
+    refuted_by: "a torque that begins to change at the sample of the command",
+    equation: "τ follows I(t − delay)",
+    facts: Facts {
+        shapes: Shapes::Delay,
+        ..Facts::of(
+            Family::Brake,
+            Asked {
+                alone: Alone::Never,
+                five_bar: Where::Brakes,
+            },
+            Words {
+                what: "a drive or brake that answers late",
+                look_for: "a bus, a buffer, a sample taken too late",
+            },
+        )
+    },
+};
 
-pub(super) const DEAD_TIME: Entry = entry(
-    Mechanism::DeadTime,
-    0,
-    "a torque that begins to change at the sample of the command",
-    "τ follows I(t − delay)",
-);
+pub(super) const SATURATION: Entry = Entry {
+    mechanism: Mechanism::Saturation,
+    form: Form::Brake(OfBrake::Saturation),
+    linear: 0,
+    passive: false,
+    refuted_by: "a torque that grows with the current beyond the limit",
+    equation: "τ follows min(I, limit)",
+    facts: Facts {
+        shapes: Shapes::CurrentLimit,
+        ..Facts::of(
+            Family::Brake,
+            Asked {
+                alone: Alone::Never,
+                five_bar: Where::Brakes,
+            },
+            Words {
+                what: "a command that is cut off at a limit",
+                look_for: "the amplifier's limit or its supply",
+            },
+        )
+    },
+};
 
-pub(super) const SATURATION: Entry = entry(
-    Mechanism::Saturation,
-    0,
-    "a torque that grows with the current beyond the limit",
-    "τ follows min(I, limit)",
-);
-
-pub(super) const THERMAL_FADE: Entry = entry(
-    Mechanism::ThermalFade,
-    1,
-    "the same torque before and after long dissipation",
-    "τ·(1 − per_joule·E), dE/dt = τ·|ω| − E/cooling",
-);
+pub(super) const THERMAL_FADE: Entry = Entry {
+    mechanism: Mechanism::ThermalFade,
+    form: Form::Brake(OfBrake::ThermalFade),
+    linear: 1,
+    passive: false,
+    refuted_by: "the same torque before and after long dissipation",
+    equation: "τ·(1 − per_joule·E), dE/dt = τ·|ω| − E/cooling",
+    facts: Facts {
+        has_forms: true,
+        shapes: Shapes::Geometric {
+            low: 3.0,
+            high: 300.0,
+            count: 4,
+        },
+        ..Facts::of(
+            Family::Brake,
+            Asked {
+                alone: Alone::Never,
+                five_bar: Where::Brakes,
+            },
+            Words {
+                what: "a brake that weakens as it warms up",
+                look_for: "its temperature: let it cool and repeat",
+            },
+        )
+    },
+};

@@ -1,5 +1,6 @@
 //! This file is a constant effort: an offset of the drive or of the force sensor.
 
+use super::facts::{Alone, Asked, Beside, Facts, Family, Refit, Where, Words};
 use super::{Entry, Form, Instant, Law, parameter};
 use rigproof_spec::effect::Mechanism;
 
@@ -14,6 +15,25 @@ pub(super) const ENTRY: Entry = Entry {
     passive: false,
     refuted_by: "an offset that differs between slow motion in the two directions by more than its sign",
     equation: "level",
+    facts: Facts {
+        beside: Beside::Elementary,
+        twin: Some(Mechanism::DirectionAsymmetry),
+        refit: Refit {
+            leads: true,
+            sizes: &[1.0],
+        },
+        ..Facts::of(
+            Family::Constant,
+            Asked {
+                alone: Alone::Always,
+                five_bar: Where::Brakes,
+            },
+            Words {
+                what: "a steady pull to one side",
+                look_for: "a sensor's zero, a cable that pulls, a tilt",
+            },
+        )
+    },
 };
 
 struct Bias {

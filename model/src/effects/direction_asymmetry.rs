@@ -1,5 +1,6 @@
 //! This file is friction that differs between the two directions of motion (a worn screw, a preloaded nut).
 
+use super::facts::{Alone, Asked, AtRest, End, Facts, Family, Limit, Refit, Shows, Where, Words};
 use super::{Entry, Form, Instant, Law, parameter};
 use rigproof_spec::effect::Mechanism;
 
@@ -15,6 +16,32 @@ pub(super) const ENTRY: Entry = Entry {
     passive: false,
     refuted_by: "equal resistance at equal speed in both directions",
     equation: "viscous·|q̇| + dry·[q̇ ≠ 0]",
+    facts: Facts {
+        // It shifts both breakaway levels.
+        at_rest: AtRest::Level(|numbers| parameter(numbers, 1).abs()),
+        shows: Shows::Speed,
+        limit: Some(Limit {
+            of: Mechanism::ConstantBias,
+            parameter: 0,
+            end: End::Nothing,
+        }),
+        twin: Some(Mechanism::ConstantBias),
+        refit: Refit {
+            leads: false,
+            sizes: &[0.0, 1.0],
+        },
+        ..Facts::of(
+            Family::FrictionOfMotion,
+            Asked {
+                alone: Alone::Always,
+                five_bar: Where::Brakes,
+            },
+            Words {
+                what: "friction that differs between the two directions",
+                look_for: "preload, a worn or tilted bearing, a seal that lies over",
+            },
+        )
+    },
 };
 
 /// Half the difference between the positive and the negative direction.

@@ -2,6 +2,7 @@
 //!
 //! Of `β`, `γ` and `δ` only the products `β·γ` and `β·δ` enter, so only they can be known.
 
+use super::facts::{Alone, Asked, Facts, Family, Shapes, Where, Words};
 use super::{Entry, Form, Instant, Law, parameter};
 use rigproof_spec::effect::Mechanism;
 
@@ -18,6 +19,21 @@ pub(super) const ENTRY: Entry = Entry {
     passive: true,
     refuted_by: "equal force on the way out and on the way back at every amplitude",
     equation: "alpha·z, dz/dt = q̇ − beta_gamma·|q̇|·z − beta_delta·q̇·|z|",
+    facts: Facts {
+        has_forms: true,
+        shapes: Shapes::Memory,
+        ..Facts::of(
+            Family::MemoryOfMotion,
+            Asked {
+                alone: Alone::Always,
+                five_bar: Where::Nowhere,
+            },
+            Words {
+                what: "a force that depends on the way it came (hysteresis)",
+                look_for: "rubber, belts, wire rope, fluid that has to yield",
+            },
+        )
+    },
 };
 
 struct BoucWen {

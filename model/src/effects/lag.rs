@@ -1,33 +1,80 @@
 //! This file is what can be wrong with the drive: a first-order lag, a wrong gain, a time shift.
 
-use super::{Entry, Form};
+use super::facts::{
+    Alone, Asked, AtRest, Beside, Facts, Family, Shapes, Shows, Where, Words, first,
+};
+use super::{Drive, Entry, Form};
 use rigproof_spec::effect::Mechanism;
 
 pub(super) const ENTRY: Entry = Entry {
     mechanism: Mechanism::Lag,
-    form: Form::Drive,
+    form: Form::Drive(Drive::Lag),
     linear: 0,
     passive: false,
     refuted_by: "an effort that follows a step of the command at once",
     equation: "time_constant·de/dt = gain·u − e",
+    facts: Facts {
+        shapes: Shapes::Lag,
+        ..Facts::of(
+            Family::Drive,
+            Asked {
+                alone: Alone::Always,
+                five_bar: Where::Brakes,
+            },
+            Words {
+                what: "a drive or brake that answers slowly",
+                look_for: "the coil's inductance, the amplifier, a filter",
+            },
+        )
+    },
 };
 
 pub(super) const GAIN_ENTRY: Entry = Entry {
     mechanism: Mechanism::GainError,
-    form: Form::Drive,
+    form: Form::Drive(Drive::Gain),
     linear: 1,
     passive: false,
     refuted_by: "the same effort error at small and at large command",
     equation: "e = (1 + fraction)·gain·u",
+    facts: Facts {
+        beside: Beside::Masks,
+        at_rest: AtRest::OfBrake(first),
+        shows: Shows::Effort,
+        ..Facts::of(
+            Family::Drive,
+            Asked {
+                alone: Alone::WithKnown,
+                five_bar: Where::Brakes,
+            },
+            Words {
+                what: "a drive or brake that is stronger or weaker than its table says",
+                look_for: "the amplifier's scale, the brake's age, its gap and its fluid",
+            },
+        )
+    },
 };
 
 pub(super) const SKEW_ENTRY: Entry = Entry {
     mechanism: Mechanism::ChannelSkew,
-    form: Form::Drive,
+    form: Form::Drive(Drive::Skew),
     linear: 0,
     passive: false,
     refuted_by: "an effort error that does not follow the slope of the effort",
     equation: "e(t) = gain·u(t − delay)",
+    facts: Facts {
+        shapes: Shapes::Shift,
+        ..Facts::of(
+            Family::Sensor,
+            Asked {
+                alone: Alone::Always,
+                five_bar: Where::Whole,
+            },
+            Words {
+                what: "two recorded signals that are shifted in time",
+                look_for: "how the logger stamps its channels",
+            },
+        )
+    },
 };
 
 /// First-order lag of a sampled signal held between samples, by the exact discrete update.

@@ -1,5 +1,6 @@
 //! This file is a cubic (Duffing) spring about the position zero.
 
+use super::facts::{Alone, Asked, Facts, Family, Shows, Where, Words};
 use super::{Entry, Form, Instant, Law, parameter};
 use rigproof_spec::effect::Mechanism;
 
@@ -14,6 +15,20 @@ pub(super) const ENTRY: Entry = Entry {
     passive: false,
     refuted_by: "a force that grows in proportion to position",
     equation: "cubic·q³",
+    facts: Facts {
+        shows: Shows::Position,
+        ..Facts::of(
+            Family::Position,
+            Asked {
+                alone: Alone::Always,
+                five_bar: Where::Nowhere,
+            },
+            Words {
+                what: "a spring that gets stiffer with the deflection",
+                look_for: "stops, rubber, cables drawn taut",
+            },
+        )
+    },
 };
 
 struct Cubic {

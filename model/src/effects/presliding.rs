@@ -1,5 +1,9 @@
 //! This file is elastic motion before sliding: Dahl's bristle (P. R. Dahl, 1968).
 
+use super::facts::{
+    Alone, Asked, AtRest, Beside, End, Facts, Family, Limit, Refit, Shapes, Where, Words,
+    first_if_positive,
+};
 use super::{Entry, Form, Instant, Law, parameter, relaxed};
 use rigproof_spec::effect::Mechanism;
 
@@ -15,6 +19,32 @@ pub(super) const ENTRY: Entry = Entry {
     passive: true,
     refuted_by: "a full change of force at a reversal without any travel",
     equation: "level·w, travel·dw/dt = q̇ − |q̇|·w",
+    facts: Facts {
+        has_forms: true,
+        shapes: Shapes::Bristle,
+        beside: Beside::Bends,
+        at_rest: AtRest::Level(first_if_positive),
+        limit: Some(Limit {
+            of: Mechanism::DryOffset,
+            parameter: 1,
+            end: End::Nothing,
+        }),
+        refit: Refit {
+            leads: true,
+            sizes: &[1.0, 1.0],
+        },
+        ..Facts::of(
+            Family::MemoryOfMotion,
+            Asked {
+                alone: Alone::Always,
+                five_bar: Where::Brakes,
+            },
+            Words {
+                what: "springy give before sliding begins",
+                look_for: "friction surfaces that bend before they slip: seals, belts, brakes that hold",
+            },
+        )
+    },
 };
 
 struct Dahl {

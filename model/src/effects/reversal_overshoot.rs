@@ -1,6 +1,9 @@
 //! This file is a brake's greater torque just after a reversal, as §3.5 of the thesis saw it: a share of its torque that decays with
 //! the travel since.
 
+use super::facts::{
+    Alone, Asked, AtRest, End, Facts, Family, Limit, Shapes, Where, Words, first_if_positive,
+};
 use super::{Entry, Form, Instant, Law, parameter, relaxed};
 use rigproof_spec::effect::{LEAST_TURNING_RAD_S, Mechanism, NOT_MOVED};
 
@@ -16,6 +19,31 @@ pub(super) const ENTRY: Entry = Entry {
     passive: true,
     refuted_by: "the same resistance just after a reversal and long after it",
     equation: "τ·fraction·exp(−x/travel), x travelled since the sense changed, without an end before it first does",
+    facts: Facts {
+        has_forms: true,
+        shapes: Shapes::Geometric {
+            low: 0.01,
+            high: 1.5,
+            count: 6,
+        },
+        at_rest: AtRest::OfBrake(first_if_positive),
+        limit: Some(Limit {
+            of: Mechanism::GainError,
+            parameter: 1,
+            end: End::Everything,
+        }),
+        ..Facts::of(
+            Family::MemoryOfMotion,
+            Asked {
+                alone: Alone::WithBrake,
+                five_bar: Where::Brakes,
+            },
+            Words {
+                what: "a brake that grips harder just after each reversal",
+                look_for: "the brake's fluid, which has to yield anew",
+            },
+        )
+    },
 };
 
 /// The memory is the share of its travel that a joint has gone since it turned, with the sense in which it goes: every change of

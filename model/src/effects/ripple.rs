@@ -1,5 +1,6 @@
 //! This file is an effort periodic in position (cogging, a bent shaft, a tooth mesh).
 
+use super::facts::{Alone, Asked, Facts, Family, Refit, Shapes, Shows, Where, Words};
 use super::{Entry, Form, Instant, Law, parameter};
 use core::f64::consts::TAU;
 use rigproof_spec::effect::Mechanism;
@@ -17,6 +18,25 @@ pub(super) const ENTRY: Entry = Entry {
     passive: false,
     refuted_by: "no line in the spectrum over position",
     equation: "sine·sin(2π·q/period) + cosine·cos(2π·q/period)",
+    facts: Facts {
+        shapes: Shapes::Period,
+        shows: Shows::Position,
+        refit: Refit {
+            leads: false,
+            sizes: &[1.0, 1.0, 1.0],
+        },
+        ..Facts::of(
+            Family::Position,
+            Asked {
+                alone: Alone::Always,
+                five_bar: Where::Brakes,
+            },
+            Words {
+                what: "a force that comes and goes with the position",
+                look_for: "cogging, a bent shaft, teeth, a coupling out of line",
+            },
+        )
+    },
 };
 
 struct Ripple {

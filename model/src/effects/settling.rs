@@ -1,5 +1,9 @@
 //! This file is a resistance that rest has built up and motion stirs away: settled particles (§3.4.1 names the scatter).
 
+use super::facts::{
+    Alone, Asked, AtRest, Beside, End, Facts, Family, Limit, Shapes, Where, Words,
+    first_if_positive,
+};
 use super::{Entry, Form, Instant, Law, parameter, relaxed};
 use rigproof_spec::effect::Mechanism;
 
@@ -15,6 +19,31 @@ pub(super) const ENTRY: Entry = Entry {
     passive: false,
     refuted_by: "the same resistance in the first turn after a rest as in the tenth",
     equation: "level·(1 − m)·sgn(q̇), travel·dm/dt = |q̇|·(1 − m)",
+    facts: Facts {
+        shapes: Shapes::Geometric {
+            low: 0.3,
+            high: 30.0,
+            count: 5,
+        },
+        beside: Beside::Mends,
+        at_rest: AtRest::Dry(first_if_positive),
+        limit: Some(Limit {
+            of: Mechanism::DryOffset,
+            parameter: 1,
+            end: End::Everything,
+        }),
+        ..Facts::of(
+            Family::MemoryOfMotion,
+            Asked {
+                alone: Alone::Never,
+                five_bar: Where::Brakes,
+            },
+            Words {
+                what: "a brake that changes after it has rested",
+                look_for: "particles that settle in the fluid: run it in and repeat",
+            },
+        )
+    },
 };
 
 /// The memory is the share that has been stirred since the first sample.

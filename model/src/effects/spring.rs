@@ -1,5 +1,6 @@
 //! This file is a linear spring about the position zero (a cable, a bellows).
 
+use super::facts::{Alone, Asked, End, Facts, Family, Limit, Shows, Where, Words};
 use super::{Entry, Form, Instant, Law, parameter};
 use rigproof_spec::effect::Mechanism;
 
@@ -14,6 +15,26 @@ pub(super) const ENTRY: Entry = Entry {
     passive: true,
     refuted_by: "no change of force with position in slow motion",
     equation: "stiffness·q",
+    facts: Facts {
+        shows: Shows::Position,
+        limit: Some(Limit {
+            of: Mechanism::ConstantBias,
+            parameter: 0,
+            end: End::Nothing,
+        }),
+        zero: Some(Mechanism::ConstantBias),
+        ..Facts::of(
+            Family::Position,
+            Asked {
+                alone: Alone::Always,
+                five_bar: Where::Joints,
+            },
+            Words {
+                what: "a spring that pulls it back",
+                look_for: "cables, hoses, a belt that is stretched",
+            },
+        )
+    },
 };
 
 struct Spring {

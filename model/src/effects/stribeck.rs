@@ -2,6 +2,9 @@
 //! is 1 after Tustin 1947, 2 after Bo and Pavelescu 1982; Armstrong-Hélouvry 1994). Friction follows the speed with a delay that
 //! is a travel rather than a time (Hess and Soom 1990; Canudas de Wit et al. 1995).
 
+use super::facts::{
+    Alone, Asked, AtRest, Beside, Facts, Family, Shapes, Shows, Where, Words, first_if_positive,
+};
 use super::{Entry, Form, Instant, Law, parameter, relaxed};
 use rigproof_spec::effect::Mechanism;
 
@@ -19,6 +22,24 @@ pub(super) const ENTRY: Entry = Entry {
     passive: true,
     refuted_by: "the same resistance while slowing down to rest as in fast motion",
     equation: "peak·exp(−|q̇/speed|^exponent)·sgn(q̇), reached within `travel` where there is one",
+    facts: Facts {
+        has_forms: true,
+        shapes: Shapes::Peak,
+        beside: Beside::Bends,
+        at_rest: AtRest::Dry(first_if_positive),
+        shows: Shows::SpeedAndLevels,
+        ..Facts::of(
+            Family::FrictionOfMotion,
+            Asked {
+                alone: Alone::Always,
+                five_bar: Where::Brakes,
+            },
+            Words {
+                what: "extra friction at low speed that lets go as the motion gets faster",
+                look_for: "lubrication that only builds up with speed; it makes slow motion jerk",
+            },
+        )
+    },
 };
 
 struct Stribeck {

@@ -1,5 +1,6 @@
 //! This file is viscous friction: resistance in proportion to speed (thesis §3.3.2 measured and neglected it).
 
+use super::facts::{Alone, Asked, Beside, Facts, Family, Shows, Where, Words};
 use super::{Entry, Form, Instant, Law, parameter};
 use rigproof_spec::effect::Mechanism;
 
@@ -14,6 +15,21 @@ pub(super) const ENTRY: Entry = Entry {
     passive: true,
     refuted_by: "a resistance that does not grow on a speed ramp",
     equation: "coefficient·q̇",
+    facts: Facts {
+        beside: Beside::Elementary,
+        shows: Shows::SpeedAndLevels,
+        ..Facts::of(
+            Family::FrictionOfMotion,
+            Asked {
+                alone: Alone::Always,
+                five_bar: Where::Brakes,
+            },
+            Words {
+                what: "drag that grows with speed",
+                look_for: "grease, fluid in a gap, eddy currents",
+            },
+        )
+    },
 };
 
 struct Viscous {

@@ -2,12 +2,13 @@
 
 use std::sync::Arc;
 
-use rigproof_spec::effect::Mechanism;
+use rigproof_spec::effect::{Mechanism, Range};
 use rigproof_spec::joint::Joint;
 
 use super::left_out::{LeftOut, Term, Timed};
 use super::{Parameters, Rig};
-use crate::effects::{CurrentPlay, Law, law};
+use crate::effects::facts::AtRest;
+use crate::effects::{CurrentPlay, Drive, Form, OfBrake, OfLinkage, facts, form};
 use crate::error::ModelError;
 use crate::motion::two_coordinate::two_coordinate;
 use crate::motion::{added_mass, check_inertia};
@@ -84,29 +85,9 @@ impl Rig {
 }
 
 /// Whether a mechanism makes a joint hold that has no brake.
-const fn has_dry(mechanism: Mechanism) -> bool {
-    matches!(
-        mechanism,
-        Mechanism::DryOffset
-            | Mechanism::BearingFriction
-            | Mechanism::Stribeck
-            | Mechanism::Settling
-    )
+fn has_dry(mechanism: Mechanism) -> bool {
+    facts(mechanism).is_some_and(|facts| matches!(facts.at_rest, AtRest::Dry(_)))
 }
-
-/// Parameters by which a law divides, or that are times: above zero.
-const ABOVE_ZERO: [&str; 7] = [
-    "travel",
-    "speed",
-    "period",
-    "time_constant",
-    "delay",
-    "half_width",
-    "cooling",
-];
-
-/// A backlash, a greatest current and the current below which a play closes may be nothing.
-const NOT_BELOW_ZERO: [&str; 3] = ["width", "limit", "closing"];
 
 fn term(rig: &Rig, effect: &JointEffect) -> Result<Term, ModelError> {
     let refused = |reason| ModelError::Effect {
@@ -128,31 +109,25 @@ fn term(rig: &Rig, effect: &JointEffect) -> Result<Term, ModelError> {
         None => Ok(term),
         Some(_) => Err(refused("it is of the whole linkage: give it no joint")),
     };
-    match effect.mechanism {
-        Mechanism::GainError
-        | Mechanism::ReversalOvershoot
-        | Mechanism::ThermalFade
-        | Mechanism::CurrentHysteresis
-        | Mechanism::DeadTime
-        | Mechanism::Saturation
-        | Mechanism::Lag
-        | Mechanism::BacklashWidth
-        | Mechanism::LoadDependent => {
+    let unknown = || refused("it is nothing that a rig does");
+    match form(effect.mechanism).ok_or_else(unknown)? {
+        Form::Drive(Drive::Gain | Drive::Lag)
+        | Form::ShareOfBrake(_)
+        | Form::Brake(_)
+        | Form::Linkage(OfLinkage::Load) => {
             of_brake(effect, braked()?).ok_or(refused("it is nothing that a brake does"))
         }
-        Mechanism::Gravity => whole(Term::Weight([value(0), value(1)])),
-        Mechanism::Payload => whole(Term::Masses(added_mass::at_tip(value(0)))),
-        Mechanism::InertiaError => whole(Term::Masses(added_mass::in_all(
+        Form::Linkage(OfLinkage::Weight) => whole(Term::Weight([value(0), value(1)])),
+        Form::Linkage(OfLinkage::Payload) => whole(Term::Masses(added_mass::at_tip(value(0)))),
+        Form::Linkage(OfLinkage::Inertias) => whole(Term::Masses(added_mass::in_all(
             &rig.parameters.inertia,
             [value(0), value(1), value(2), value(3), value(4)],
         ))),
-        _ => {
-            let law = resistance(effect).ok_or(refused("it is nothing that a rig does"))?;
-            Ok(Term::Law {
-                place: joint()? as usize,
-                law,
-            })
-        }
+        Form::Resistance(law) => Ok(Term::Law {
+            place: joint()? as usize,
+            law: law(&effect.parameters),
+        }),
+        Form::Drive(Drive::Skew) | Form::Sensor(_) => Err(unknown()),
     }
 }
 
@@ -160,21 +135,21 @@ fn term(rig: &Rig, effect: &JointEffect) -> Result<Term, ModelError> {
 fn of_brake(effect: &JointEffect, joint: Joint) -> Option<Term> {
     let place = joint as usize;
     let value = |k: usize| effect.parameters.get(k).copied().unwrap_or(0.0);
-    Some(match effect.mechanism {
-        Mechanism::GainError => Term::Gain {
+    Some(match form(effect.mechanism)? {
+        Form::Drive(Drive::Gain) => Term::Gain {
             place,
             fraction: value(0),
         },
-        Mechanism::ReversalOvershoot => Term::Share {
+        Form::ShareOfBrake(law) => Term::Share {
             place,
-            law: law(effect.mechanism, &effect.parameters)?,
+            law: law(&effect.parameters),
         },
-        Mechanism::ThermalFade => Term::Fade {
+        Form::Brake(OfBrake::ThermalFade) => Term::Fade {
             place,
             per_joule: value(0),
             cooling_s: value(1),
         },
-        Mechanism::CurrentHysteresis => Term::Play {
+        Form::Brake(OfBrake::CurrentHysteresis) => Term::Play {
             place,
             share: value(0),
             play: CurrentPlay {
@@ -182,44 +157,39 @@ fn of_brake(effect: &JointEffect, joint: Joint) -> Option<Term> {
                 closing_a: value(2),
             },
         },
-        Mechanism::DeadTime => Term::Late {
+        Form::Brake(OfBrake::DeadTime) => Term::Late {
             place,
             delay_s: value(0),
         },
-        Mechanism::Saturation => Term::Limit {
+        Form::Brake(OfBrake::Saturation) => Term::Limit {
             place,
             most_a: value(0),
         },
-        Mechanism::Lag => Term::Lag {
+        Form::Drive(Drive::Lag) => Term::Lag {
             place,
             time_constant_s: value(0),
         },
-        Mechanism::BacklashWidth => Term::Backlash {
+        Form::Brake(OfBrake::BacklashWidth) => Term::Backlash {
             joint,
             width_rad: value(0),
         },
-        Mechanism::LoadDependent => Term::Load {
+        Form::Linkage(OfLinkage::Load) => Term::Load {
             place,
             arm_m: value(0),
         },
-        _ => return None,
+        Form::Drive(Drive::Skew)
+        | Form::Resistance(_)
+        | Form::Sensor(_)
+        | Form::Linkage(OfLinkage::Weight | OfLinkage::Payload | OfLinkage::Inertias) => {
+            return None;
+        }
     })
-}
-
-/// The resistance law of an effect; that of a bearing is dry friction.
-fn resistance(effect: &JointEffect) -> Option<Box<dyn Law>> {
-    let mechanism = match effect.mechanism {
-        Mechanism::BearingFriction => Mechanism::DryOffset,
-        other => other,
-    };
-    law(mechanism, &effect.parameters)
 }
 
 fn check_numbers(effect: &JointEffect) -> Result<(), ModelError> {
     let joint = effect.joint.map_or("no joint", Joint::letter);
     let names = effect.mechanism.parameters();
-    let needed = names.iter().filter(|name| !name.is_optional).count();
-    if !(needed..=names.len()).contains(&effect.parameters.len()) {
+    if !(effect.mechanism.needed()..=names.len()).contains(&effect.parameters.len()) {
         return Err(ModelError::Effect {
             mechanism: effect.mechanism.name(),
             joint,
@@ -229,12 +199,12 @@ fn check_numbers(effect: &JointEffect) -> Result<(), ModelError> {
     for (name, value) in names.iter().zip(&effect.parameters) {
         let allowed = if !value.is_finite() {
             "a finite number"
-        } else if ABOVE_ZERO.contains(&name.name) && *value <= 0.0 {
-            "above 0"
-        } else if NOT_BELOW_ZERO.contains(&name.name) && *value < 0.0 {
-            "0 or more"
         } else {
-            continue;
+            match name.range {
+                Range::AboveZero if *value <= 0.0 => "above 0",
+                Range::NotBelowZero if *value < 0.0 => "0 or more",
+                Range::Any | Range::AboveZero | Range::NotBelowZero => continue,
+            }
         };
         return Err(ModelError::EffectValue {
             mechanism: effect.mechanism.name(),

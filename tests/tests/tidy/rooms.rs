@@ -21,7 +21,7 @@ const ROOMS: [(&str, &[&str]); 15] = [
     ("experiments", &["spec", "model", "trace"]),
     ("certify", &["spec", "model", "impl", "trace"]),
     ("certify/host", &["spec", "impl", "impl-c", "certify"]),
-    ("report", &["spec", "trace", "diagnose", "certify"]),
+    ("report", &["spec", "model", "trace", "diagnose", "certify"]),
     (
         "cli",
         &[

@@ -234,7 +234,11 @@ pub(super) fn read_effect(
         .ok_or_else(|| {
             let computed = Mechanism::ALL.iter().filter(|m| !m.parameters().is_empty());
             let names: Vec<&str> = computed.map(|mechanism| mechanism.name()).collect();
-            let advice = advice(word, "mechanisms that a model computes", &names);
+            let meant = Mechanism::meant_by(word).map(Mechanism::name);
+            let advice = match meant.filter(|name| names.contains(name)) {
+                Some(name) => format!("here it is called `{name}`"),
+                None => advice(word, "mechanisms that a model computes", &names),
+            };
             table.error_at("mechanism", format!("`{word}` cannot be used; {advice}"))
         })?;
     let parameters = mechanism.parameters();

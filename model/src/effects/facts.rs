@@ -1,0 +1,353 @@
+//! This file is what is known of a mechanism beside its law: one record a mechanism, which every other room looks up.
+
+use super::Entry;
+use rigproof_spec::effect::Mechanism;
+
+/// What is known of a mechanism.
+#[derive(Clone, Copy)]
+pub struct Facts {
+    /// What kind of thing it is.
+    pub family: Family,
+    /// Whether laws of several forms describe it, such as a peak, a memory or heat. A law of another form then leaves a part of the effect, and
+    /// the name is right. Without, what it leaves is something else, which it may only stand in for.
+    pub has_forms: bool,
+    /// It in plain words.
+    pub words: Words,
+    /// Which plants it is looked for on.
+    pub asked: Asked,
+    /// The shapes that are tried.
+    pub shapes: Shapes,
+    /// What it does to names beside it at the same joint.
+    pub beside: Beside,
+    /// What it holds its joint with at rest.
+    pub at_rest: AtRest,
+    /// Over which variable a curve of what is left would show it.
+    pub shows: Shows,
+    /// The mechanism that it comes to where one of its parameters goes to an end.
+    pub limit: Option<Limit>,
+    /// The mechanism that its own zero is: the second number that a fit gives it where that zero is not known.
+    pub zero: Option<Mechanism>,
+    /// Another one that no recording of a plant of one joint tells from it.
+    pub twin: Option<Mechanism>,
+    /// Two that it is together, once it has slid. The first gives the shape.
+    pub both: Option<[Mechanism; 2]>,
+    /// How great a change of its parameters is small.
+    pub refit: Refit,
+}
+
+impl Facts {
+    /// Facts of a mechanism without shape, of one form, that holds nothing and comes to no other.
+    pub(super) const fn of(family: Family, asked: Asked, words: Words) -> Facts {
+        Facts {
+            family,
+            has_forms: false,
+            words,
+            asked,
+            shapes: Shapes::None,
+            beside: Beside::Nothing,
+            at_rest: AtRest::Nothing,
+            shows: Shows::Nowhere,
+            limit: None,
+            zero: None,
+            twin: None,
+            both: None,
+            refit: Refit {
+                leads: false,
+                sizes: &[],
+            },
+        }
+    }
+}
+
+/// What kind of thing a mechanism is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Family {
+    /// Friction that the motion of the moment gives.
+    FrictionOfMotion,
+    /// A force that depends on the way the motion came.
+    MemoryOfMotion,
+    /// A force that the position gives.
+    Position,
+    /// A force that is there whatever moves.
+    Constant,
+    /// What a drive does with its command.
+    Drive,
+    /// What a brake does with its current.
+    Brake,
+    /// Masses.
+    Inertia,
+    /// What a sensor or its clock shows.
+    Sensor,
+}
+
+impl Family {
+    /// The name on a page.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Family::FrictionOfMotion => "friction of motion",
+            Family::MemoryOfMotion => "memory of motion",
+            Family::Position => "position",
+            Family::Constant => "constant",
+            Family::Drive => "drive",
+            Family::Brake => "brake",
+            Family::Inertia => "inertia",
+            Family::Sensor => "sensor",
+        }
+    }
+}
+
+/// A mechanism in the words of somebody who mends machines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Words {
+    /// What it is, to stand after "the model leaves out".
+    pub what: &'static str,
+    /// What one would look for on the rig.
+    pub look_for: &'static str,
+}
+
+/// Which plants a mechanism is looked for on. What is tried costs time in every diagnosis, and the rules of a plant are chosen with what it is
+/// asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Asked {
+    /// On a plant of one joint: an axis or a bench.
+    pub alone: Alone,
+    /// On the five-bar.
+    pub five_bar: Where,
+}
+
+/// When a plant of one joint is asked for a mechanism.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Alone {
+    /// Never.
+    Never,
+    /// Always.
+    Always,
+    /// Where a drive or brake with known numbers acts.
+    WithKnown,
+    /// Where a brake acts whose current is recorded.
+    WithBrake,
+}
+
+/// Where on the five-bar a mechanism is looked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Where {
+    /// Nowhere.
+    Nowhere,
+    /// At every joint with a brake.
+    Brakes,
+    /// At every joint without a brake.
+    Bearings,
+    /// At every joint.
+    Joints,
+    /// At both encoders.
+    Encoders,
+    /// Of the linkage as a whole.
+    Whole,
+}
+
+/// The shapes that are tried: numbers, or the kind of grid that a plant lays over its own motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shapes {
+    /// It has none.
+    None,
+    /// These numbers.
+    Values(&'static [f64]),
+    /// So many from low to high in equal ratios.
+    Geometric {
+        /// The least.
+        low: f64,
+        /// The greatest.
+        high: f64,
+        /// How many.
+        count: usize,
+    },
+    /// So many from low to high in equal ratios, each with both signs.
+    BothSigns {
+        /// The least.
+        low: f64,
+        /// The greatest.
+        high: f64,
+        /// How many.
+        count: usize,
+    },
+    /// Speeds of a peak near standstill, with its exponents.
+    Peak,
+    /// Travels over which a bristle bends.
+    Bristle,
+    /// Rates of a memory of the displacement.
+    Memory,
+    /// Periods over the travel, from the spectrum of what is left.
+    Period,
+    /// Time constants from half a sample on.
+    Lag,
+    /// Delays from a sample on.
+    Delay,
+    /// Shifts in time of both signs.
+    Shift,
+    /// Currents below the greatest that was given.
+    CurrentLimit,
+    /// Half widths of a play of the current, A: so many from low to high in equal ratios; a plant may add where its sides close.
+    CurrentPlay {
+        /// The least.
+        low: f64,
+        /// The greatest.
+        high: f64,
+        /// How many.
+        count: usize,
+    },
+}
+
+impl Shapes {
+    /// Whether one at the upper end of what is tried is slower, wider or faster than the law can mean, and stands in for another one.
+    pub const fn has_edge(self) -> bool {
+        matches!(
+            self,
+            Shapes::Peak | Shapes::Bristle | Shapes::Lag | Shapes::Shift
+        )
+    }
+}
+
+/// What a mechanism does to names beside it at the same joint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Beside {
+    /// Nothing that is known of.
+    Nothing,
+    /// It is elementary: one number without memory. Others mask it, it masks others, and it may bend a shape.
+    Elementary,
+    /// One number: it masks others and others mask it.
+    Masks,
+    /// Its shape bends towards elementary friction beside it that is not seen.
+    Bends,
+    /// It only mends the form of one that bends.
+    Mends,
+}
+
+/// The most that a mechanism holds its joint with at rest, from its numbers; where it goes from one level to another the higher one.
+#[derive(Clone, Copy)]
+pub enum AtRest {
+    /// It does not hold.
+    Nothing,
+    /// A dry level, N·m or N.
+    Dry(fn(&[f64]) -> f64),
+    /// A force that stands against a push, N·m or N.
+    Level(fn(&[f64]) -> f64),
+    /// A share of the brake's torque.
+    OfBrake(fn(&[f64]) -> f64),
+    /// A lever arm of the force on the tip, m.
+    OfLoad(fn(&[f64]) -> f64),
+}
+
+/// The first number.
+pub(super) fn first(numbers: &[f64]) -> f64 {
+    numbers.first().copied().unwrap_or(0.0)
+}
+
+/// The first number, nothing where it is negative.
+pub(super) fn first_if_positive(numbers: &[f64]) -> f64 {
+    first(numbers).max(0.0)
+}
+
+/// Over which variable a curve of what is left would show a mechanism.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shows {
+    /// None of them.
+    Nowhere,
+    /// The speed, and every level of friction, which should not depend on its variable.
+    SpeedAndLevels,
+    /// The speed.
+    Speed,
+    /// The position.
+    Position,
+    /// The time.
+    Time,
+    /// The effort or the load.
+    Effort,
+}
+
+/// The mechanism that a richer one comes to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limit {
+    /// The simpler one.
+    pub of: Mechanism,
+    /// The parameter that goes to an end, by its place in the vocabulary.
+    pub parameter: usize,
+    /// Which end.
+    pub end: End,
+}
+
+/// Where the limit of a parameter is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// At 0.
+    Nothing,
+    /// Beyond every value.
+    Everything,
+}
+
+/// How great a change of a mechanism's parameters is small, when a plant is fitted to its free run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Refit {
+    /// Whether its first number counts for the size of the efforts of the plant.
+    pub leads: bool,
+    /// The size of each parameter over that of the efforts; nothing for one that is measured by itself alone.
+    pub sizes: &'static [f64],
+}
+
+impl Entry {
+    /// Whether it is a mechanism or has it as its limit: both are that one in a recording that does not tell them apart.
+    pub fn is_or_has_limit(&self, mechanism: Mechanism) -> bool {
+        self.mechanism == mechanism || self.facts.limit.is_some_and(|limit| limit.of == mechanism)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::LIBRARY;
+    use super::*;
+
+    /// A mechanism's row on the page.
+    fn row(entry: &Entry) -> String {
+        let facts = entry.facts;
+        let forms = match facts.has_forms {
+            true => "several",
+            false => "one",
+        };
+        let limit = facts.limit.map_or(String::new(), |limit| {
+            let end = match limit.end {
+                End::Nothing => "0",
+                End::Everything => "beyond every value",
+            };
+            let parameter = entry.mechanism.parameters()[limit.parameter].name;
+            format!("`{}` where `{parameter}` goes to {end}", limit.of.name())
+        });
+        let alone = match facts.asked.alone {
+            Alone::Never => "no",
+            Alone::Always => "yes",
+            Alone::WithKnown => "with a known drive or brake",
+            Alone::WithBrake => "with a brake's current",
+        };
+        let five_bar = match facts.asked.five_bar {
+            Where::Nowhere => "no",
+            Where::Brakes => "at brakes",
+            Where::Bearings => "at joints without a brake",
+            Where::Joints => "at every joint",
+            Where::Encoders => "at encoders",
+            Where::Whole => "as a whole",
+        };
+        format!(
+            "| `{}` | {} | {forms} | {limit} | {alone} | {five_bar} | {} |",
+            entry.mechanism.name(),
+            facts.family.name(),
+            entry.mechanism.also().join(", ")
+        )
+    }
+
+    #[test]
+    fn the_page_prints_what_is_known_of_every_mechanism() {
+        let page = include_str!("../../../docs/mechanisms.md");
+        let (_, own) = page.split_once("## What else is known").unwrap();
+        let printed: Vec<&str> = own.lines().filter(|l| l.starts_with("| `")).collect();
+        let expected: Vec<String> = LIBRARY.iter().map(row).collect();
+        assert_eq!(printed, expected);
+    }
+}
