@@ -99,7 +99,8 @@ pub fn role(mechanism: Mechanism) -> Option<Role> {
         Form::Linkage(OfLinkage::Payload | OfLinkage::Inertias) => Some(Role::Masses),
         Form::Sensor(OfSensor::EncoderScale | OfSensor::EncoderOffset) => Some(Role::Encoder),
         Form::Sensor(OfSensor::ForceGain | OfSensor::ForceBias) => Some(Role::Force),
-        Form::Drive(Drive::Lag | Drive::Skew)
+        Form::Drive(Drive::Lag | Drive::Skew | Drive::Limit)
+        | Form::Joint(_)
         | Form::Brake(
             OfBrake::CurrentHysteresis
             | OfBrake::DeadTime
@@ -107,7 +108,7 @@ pub fn role(mechanism: Mechanism) -> Option<Role> {
             | OfBrake::ThermalFade,
         )
         | Form::Linkage(OfLinkage::Load | OfLinkage::Weight)
-        | Form::Sensor(OfSensor::ForceRotation) => None,
+        | Form::Sensor(OfSensor::ForceRotation | OfSensor::Eccentric) => None,
     }
 }
 

@@ -247,8 +247,26 @@ pub fn band_hz(effort: &[f64], step_s: f64) -> f64 {
 /// Where the low-pass of the motion ends, Hz: it keeps twice the effort's band.
 pub(crate) fn cutoff_hz(step_s: f64, band_hz: f64) -> f64 {
     let rate_hz = 1.0 / step_s;
-    (2.0 * band_hz).clamp(25.0f64.min(0.25 * rate_hz), 0.35 * rate_hz)
+    (2.0 * band_hz).clamp(LEAST_CUTOFF_HZ.min(0.25 * rate_hz), 0.35 * rate_hz)
 }
+
+/// The same, ended earlier where the noise of the position would be a noticeable speed: an effort that is fed back from the position is as fast as
+/// its noise.
+pub(crate) fn quiet_cutoff_hz(position: &[f64], step_s: f64, cutoff_hz: f64, noise: f64) -> f64 {
+    let rate_hz = 1.0 / step_s;
+    let least_hz = LEAST_CUTOFF_HZ.min(0.25 * rate_hz);
+    let smooth = LowPass::butterworth(4, 2.0 * least_hz / rate_hz).zero_phase(position);
+    let most = QUIET_SPEED * rms(&gradient(&smooth, step_s));
+    let at_one_hz = noise * core::f64::consts::TAU * (2.0 / rate_hz / 3.0).sqrt();
+    let quiet_hz = libm::pow(most / at_one_hz.max(1e-300), 2.0 / 3.0);
+    cutoff_hz.min(quiet_hz.max(least_hz))
+}
+
+/// Noise of the speed that is not noticed beside the speed's root mean square.
+const QUIET_SPEED: f64 = 0.005;
+
+/// The lowest end of the low-pass, Hz.
+const LEAST_CUTOFF_HZ: f64 = 25.0;
 
 /// Position and speed after a zero-phase low-pass, and the speed below which
 /// noise decides the sign.

@@ -104,11 +104,31 @@ pub fn standard_shapes<R: Run + ?Sized>(
     let one = |values: Vec<f64>| values.into_iter().map(|v| vec![v]).collect();
     match cause.mechanism {
         Mechanism::Stribeck => stribeck_shapes(run.speed_floor(), fastest(run.motion(cause.at))),
-        Mechanism::Presliding | Mechanism::AsymmetricPresliding => one(geometric(
-            (3.0 * run.position_noise()).max(1e-4 * travel),
-            0.2 * travel,
+        Mechanism::VelocityPower => one(vec![0.5, 2.0]),
+        Mechanism::LoadFriction => one(geometric(0.03, 0.5, 7)),
+        Mechanism::DriveSaturation => {
+            let greatest = run
+                .effort()
+                .iter()
+                .fold(0.0, |most: f64, e| most.max(e.abs()));
+            one(geometric(0.3 * greatest, 0.97 * greatest, 16))
+        }
+        Mechanism::Backlash => one(geometric(
+            (6.0 * run.position_noise()).max(1e-3 * travel),
+            0.1 * travel,
             12,
         )),
+        Mechanism::Compliance => geometric(30.0, (0.3 / step_s).clamp(40.0, 300.0), 12)
+            .into_iter()
+            .flat_map(|resonance| [0.03, 0.12].map(|damping| vec![resonance, damping]))
+            .collect(),
+        Mechanism::Presliding | Mechanism::AsymmetricPresliding | Mechanism::LugreBristle => {
+            one(geometric(
+                (3.0 * run.position_noise()).max(1e-4 * travel),
+                0.2 * travel,
+                12,
+            ))
+        }
         Mechanism::Hysteresis => geometric(0.2 / travel, 40.0 / travel, 8)
             .into_iter()
             .flat_map(|gamma| [-1.4, -0.5, 0.5, 1.4].map(|ratio| vec![gamma, gamma * ratio]))
@@ -117,7 +137,7 @@ pub fn standard_shapes<R: Run + ?Sized>(
             &points(run.motion(cause.at), windows, residual),
             run.travel(cause.at),
         )),
-        Mechanism::Lag => one(geometric(0.5 * step_s, 0.25, 14)),
+        Mechanism::Lag => one(geometric(0.5 * step_s, 0.1, 12)),
         Mechanism::ReversalOvershoot => one(geometric(0.01, 1.5, 6)),
         Mechanism::CurrentHysteresis => one(geometric(0.01, 0.5, 7)),
         Mechanism::ChannelSkew => {
@@ -200,7 +220,7 @@ pub fn stribeck_shapes(speed_floor: f64, fastest: f64) -> Vec<Vec<f64>> {
     let slowest = (2.0 * speed_floor).max(0.005 * fastest);
     geometric(slowest, 0.3 * fastest, 8)
         .into_iter()
-        .flat_map(|speed| [1.0, 2.0].map(|exponent| vec![speed, exponent]))
+        .flat_map(|speed| [0.7, 1.0, 2.0].map(|exponent| vec![speed, exponent]))
         .collect()
 }
 

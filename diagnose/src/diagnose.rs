@@ -11,6 +11,7 @@ pub(crate) mod write;
 use crate::align::Fault;
 use crate::cause::{Cause, Place};
 use crate::evidence::{inconstant, is_told_by_itself, rivals};
+use crate::explain::{Explanations, explain};
 use crate::plant::{At, Plant, Run};
 use crate::problem::{Problem, Term};
 use crate::report::Report;
@@ -142,7 +143,7 @@ pub fn diagnose<P: Plant>(
         Ok(terms) => terms,
         Err((at, fault)) => return faulty(plant, at, fault),
     };
-    let mut selection = select(&mut problem, terms, options.gates);
+    let (mut selection, explanations) = named(&mut problem, terms, options);
     if let Err(fault) = plant.check_found(&problem, &selection) {
         return faulty(plant, "recording", fault);
     }
@@ -152,7 +153,7 @@ pub fn diagnose<P: Plant>(
         let windows = problem.windows.clone();
         problem = Problem::new(train, windows).within(trials);
         let terms = nominal(plant, &problem).unwrap_or_default();
-        selection = select(&mut problem, terms, options.gates);
+        (selection, _) = named(&mut problem, terms, options);
         withdrawn = withdraw(&problem, &mut selection);
     }
     Stand {
@@ -168,6 +169,33 @@ pub fn diagnose<P: Plant>(
         trials: trials.as_ref(),
     }
     .report()
+}
+
+/// What is named on top of the nominal terms.
+fn named(
+    problem: &mut Problem,
+    terms: Vec<Term>,
+    options: &Options,
+) -> (Selection, Option<Explanations>) {
+    if problem.rules.by_family {
+        return (select(problem, terms, options.gates), None);
+    }
+    let (mut selection, explanations) = explain(problem, terms);
+    if std::env::var("RP_SHOW").is_ok() {
+        for own in &explanations.living {
+            eprintln!(
+                "{:.3} leaves {:.2} {:?}",
+                own.weight,
+                own.leaves,
+                own.terms
+                    .iter()
+                    .map(|t| (problem.run.cause_name(t.cause), t.shape.clone(), t.onset_s))
+                    .collect::<Vec<_>>()
+            );
+        }
+    }
+    selection.found.retain(|f| f.probability >= 0.5);
+    (selection, Some(explanations))
 }
 
 /// The physics of the nominal model as terms.
@@ -207,7 +235,7 @@ fn scattered(problem: &Problem, selection: &Selection) -> Option<Trials> {
 /// Takes out the names that the recording itself contradicts.
 fn withdraw(problem: &Problem, selection: &mut Selection) -> Vec<Cause> {
     let mut withdrawn = Vec::new();
-    if problem.rules.curves {
+    if problem.rules.curves && problem.rules.by_family {
         withdrawn.extend(withdraw_surrogates(problem, selection));
     }
     if problem.rules.constancy {

@@ -6,7 +6,8 @@ mod refine;
 mod score;
 
 use crate::candidates::{all_variants, causes};
-use crate::problem::{Cause, Problem, Term};
+use crate::cause::Cause;
+use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, fit, free_columns, reduced_target};
 use crate::select::{Found, Selection, Stage, refs, usable_rms};
 use fitted::{Fitted, Folds};
@@ -129,8 +130,7 @@ pub(crate) fn unfitted(
     shape: &[f64],
     onset_s: Option<f64>,
 ) -> Option<Term> {
-    let term = problem.term(cause, shape, onset_s);
-    term.or_else(|| problem.drive_term(cause, shape, onset_s, &[]))
+    problem.term(cause, shape, onset_s)
 }
 
 /// The leading explanation as a selection.

@@ -5,16 +5,19 @@
 //! `inertia·q̈ = gain·u − Σ resistance` and a bench meters `Σ resistance`.
 
 mod asymmetric_presliding;
+mod backlash;
 mod bias_drift;
 mod brake;
-mod compliance;
 mod constant_bias;
 mod direction_asymmetry;
+mod driven;
 mod dry_offset;
+mod eccentric_encoder;
 pub mod facts;
 mod hysteresis;
 mod lag;
 mod linkage;
+mod lugre_bristle;
 mod nonlinear_spring;
 mod play;
 mod presliding;
@@ -23,6 +26,7 @@ mod ripple;
 mod settling;
 mod spring;
 mod stribeck;
+mod velocity_power;
 mod viscous;
 
 pub use lag::{first_order_lag, first_order_lag_straight, lagged};
@@ -105,6 +109,21 @@ pub enum Form {
     Linkage(OfLinkage),
     /// What a sensor shows other than what is there.
     Sensor(OfSensor),
+    /// Something that a driven joint has as a whole.
+    Joint(OfJoint),
+}
+
+/// What a driven joint has as a whole.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OfJoint {
+    /// Friction by the effort that it transmits.
+    Load,
+    /// Friction that falls with time.
+    Fade,
+    /// Another inertia.
+    Inertia,
+    /// An inertia behind a spring.
+    Compliance,
 }
 
 /// A change of the driving effort.
@@ -116,6 +135,8 @@ pub enum Drive {
     Gain,
     /// A time shift.
     Skew,
+    /// A greatest effort.
+    Limit,
 }
 
 /// What a brake does with its current.
@@ -153,6 +174,8 @@ pub enum OfSensor {
     EncoderScale,
     /// A wrong zero of an angle.
     EncoderOffset,
+    /// A disc off its centre.
+    Eccentric,
     /// A wrong scale of the force.
     ForceGain,
     /// A wrong zero of the force.
@@ -200,9 +223,12 @@ pub const LIBRARY: &[Entry] = &[
     dry_offset::ENTRY,
     constant_bias::ENTRY,
     viscous::ENTRY,
+    velocity_power::ENTRY,
     direction_asymmetry::ENTRY,
     stribeck::ENTRY,
     presliding::ENTRY,
+    lugre_bristle::ENTRY,
+    backlash::ENTRY,
     asymmetric_presliding::ENTRY,
     hysteresis::ENTRY,
     ripple::ENTRY,
@@ -212,6 +238,7 @@ pub const LIBRARY: &[Entry] = &[
     lag::ENTRY,
     lag::GAIN_ENTRY,
     lag::SKEW_ENTRY,
+    lag::LIMIT_ENTRY,
     reversal_overshoot::ENTRY,
     settling::ENTRY,
     brake::BACKLASH_WIDTH,
@@ -221,11 +248,16 @@ pub const LIBRARY: &[Entry] = &[
     brake::THERMAL_FADE,
     dry_offset::BEARING,
     linkage::LOAD_DEPENDENT,
+    driven::LOAD_FRICTION,
+    driven::FRICTION_FADE,
+    driven::ADDED_INERTIA,
+    driven::COMPLIANCE,
     linkage::GRAVITY,
     linkage::INERTIA_ERROR,
     linkage::PAYLOAD,
     linkage::ENCODER_SCALE,
     linkage::ENCODER_OFFSET,
+    eccentric_encoder::ENTRY,
     linkage::FORCE_GAIN,
     linkage::FORCE_BIAS,
     linkage::FORCE_ROTATION,
@@ -241,7 +273,9 @@ pub fn entry(mechanism: Mechanism) -> Option<&'static Entry> {
 pub fn law(mechanism: Mechanism, parameters: &[f64]) -> Option<Box<dyn Law>> {
     match entry(mechanism)?.form {
         Form::Resistance(build) | Form::ShareOfBrake(build) => Some(build(parameters)),
-        Form::Drive(_) | Form::Brake(_) | Form::Linkage(_) | Form::Sensor(_) => None,
+        Form::Drive(_) | Form::Brake(_) | Form::Linkage(_) | Form::Sensor(_) | Form::Joint(_) => {
+            None
+        }
     }
 }
 
@@ -257,7 +291,7 @@ pub fn facts(mechanism: Mechanism) -> Option<&'static Facts> {
 
 /// A mechanism in plain words, also where the library has no law for it.
 pub fn words(mechanism: Mechanism) -> Words {
-    facts(mechanism).map_or(compliance::WORDS, |facts| facts.words)
+    facts(mechanism).map_or(driven::COMPLIANCE.facts.words, |facts| facts.words)
 }
 
 /// A memory that relaxes towards `target` within `length` of travel.

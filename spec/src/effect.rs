@@ -67,9 +67,9 @@ vocabulary! {
     /// Higher torque of a brake just after a reversal.
     ReversalOvershoot = "reversal_overshoot" | "overshoot" [needed("fraction", Number), needed("travel", Travel).above_zero()],
     /// Wrong width of the backlash window.
-    BacklashWidth = "backlash_width" | "backlash" | "play" [needed("width", Travel).not_below_zero()],
+    BacklashWidth = "backlash_width" [needed("width", Travel).not_below_zero()],
     /// Elastic motion before sliding (Dahl 1968).
-    Presliding = "presliding" | "dahl" | "lugre" | "bristle" [needed("level", Effort), needed("travel", Travel).above_zero()],
+    Presliding = "presliding" | "dahl" | "bristle" [needed("level", Effort), needed("travel", Travel).above_zero()],
     /// Elastic motion before sliding, with another limit in each direction.
     AsymmetricPresliding = "asymmetric_presliding" | "asymmetric dahl" [
         needed("forward", Effort),
@@ -123,7 +123,11 @@ vocabulary! {
     /// Friction at a joint without a brake.
     BearingFriction = "bearing_friction" | "bearing" [needed("level", Effort)],
     /// Structural flexibility.
-    Compliance = "compliance" | "flexibility" | "elasticity" [],
+    Compliance = "compliance" | "flexibility" | "elasticity" [
+        needed("share", Number),
+        needed("resonance", PerTime).above_zero(),
+        needed("damping", Number).above_zero(),
+    ],
     /// Time shift between two channels.
     ChannelSkew = "channel_skew" | "skew" [needed("delay", Time)],
     /// Wrong scale of a position channel.
@@ -139,7 +143,28 @@ vocabulary! {
     /// Cubic spring.
     NonlinearSpring = "nonlinear_spring" | "duffing" | "cubic spring" [needed("cubic", EffortPerCubicTravel)],
     /// Friction proportional to a power of speed.
-    VelocityPower = "velocity_power" | "quadratic drag" | "turbulent drag" [],
+    VelocityPower = "velocity_power" | "quadratic drag" | "turbulent drag" [
+        needed("coefficient", Effort),
+        needed("exponent", Number).above_zero(),
+    ],
+    /// Elastic motion before sliding with drag beside it (Canudas de Wit et al. 1995).
+    LugreBristle = "lugre_bristle" | "lugre" [
+        needed("level", Effort),
+        needed("viscous", EffortPerSpeed),
+        needed("travel", Travel).above_zero(),
+    ],
+    /// Friction that is missing while a gap is crossed after a reversal.
+    Backlash = "backlash" | "play" | "dead zone" [needed("missing", Effort), needed("gap", Travel).above_zero()],
+    /// Friction in proportion to the effort that a joint transmits.
+    LoadFriction = "load_friction" | "gear efficiency" [needed("share", Number).not_below_zero()],
+    /// Friction that falls with time.
+    FrictionFade = "friction_fade" | "warming up" [needed("rate", PerTime)],
+    /// Another inertia than the described one.
+    AddedInertia = "added_inertia" | "load inertia" [needed("inertia", Inertia)],
+    /// A greatest effort of the drive.
+    DriveSaturation = "drive_saturation" | "torque limit" [needed("limit", Effort).above_zero()],
+    /// An encoder whose disc turns off its centre.
+    EccentricEncoder = "eccentric_encoder" | "eccentricity" [needed("sine", Travel), needed("cosine", Travel)],
 }
 
 impl Mechanism {
@@ -252,6 +277,8 @@ pub enum Quantity {
     Current,
     /// One over joule.
     PerEnergy,
+    /// One over time.
+    PerTime,
     /// Metres per squared second, whatever the plant does.
     Acceleration,
     /// Metres, whatever the plant does.
@@ -297,6 +324,7 @@ impl Quantity {
             Quantity::Inertia => effort.per(speed.per(Dimension::TIME)),
             Quantity::Current => Dimension::CURRENT,
             Quantity::PerEnergy => Dimension::NUMBER.per(Dimension::FORCE.times(Dimension::LENGTH)),
+            Quantity::PerTime => Dimension::NUMBER.per(Dimension::TIME),
             Quantity::Acceleration => Dimension::LENGTH.per(Dimension::TIME.power(2)),
             Quantity::Mass => Dimension::FORCE
                 .per(Dimension::LENGTH)

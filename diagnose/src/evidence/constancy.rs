@@ -72,9 +72,9 @@ pub fn is_told_by_itself(mechanism: Mechanism) -> bool {
     };
     match entry.form {
         Form::Resistance(law) | Form::ShareOfBrake(law) => !law(&[1.0; 4]).remembers(),
-        Form::Drive => mechanism != Mechanism::Lag,
-        Form::Linkage => true,
-        Form::Brake => false,
+        Form::Drive(_) => mechanism != Mechanism::Lag,
+        Form::Linkage(_) | Form::Sensor(_) | Form::Joint(_) => true,
+        Form::Brake(_) => false,
     }
 }
 

@@ -3,7 +3,7 @@
 use super::fitted::{Fitted, Folds};
 use super::refine::refined;
 use super::score::{Judge, gives_energy};
-use crate::problem::{Cause, Problem, Term};
+use crate::problem::{Problem, Term};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -28,7 +28,7 @@ pub fn search(
     let mut kept: BTreeMap<Names, Fitted> = BTreeMap::from([(Names::new(), bare.clone())]);
     let mut living = vec![bare.clone()];
     for _ in 0..MOST_TERMS {
-        let ranked = children(folds, judge, &living, tried);
+        let ranked = children(problem, folds, judge, &living, tried);
         let (near, far) = ranked.split_at(ranked.len().min(2 * BEAM));
         let near: Vec<Fitted> = near
             .par_iter()
@@ -36,7 +36,7 @@ pub fn search(
             .collect();
         let near = by_evidence(folds, judge, near);
         for fitted in near.iter().chain(far.iter().take(KEPT)) {
-            kept.insert(names(&fitted.terms), fitted.clone());
+            kept.insert(names(problem, &fitted.terms), fitted.clone());
         }
         living = near.into_iter().take(BEAM).collect();
     }
@@ -44,7 +44,13 @@ pub fn search(
 }
 
 /// The best child of the living for each set of causes, the best first.
-fn children(folds: &Folds, judge: &Judge, living: &[Fitted], tried: &[Term]) -> Vec<Fitted> {
+fn children(
+    problem: &Problem,
+    folds: &Folds,
+    judge: &Judge,
+    living: &[Fitted],
+    tried: &[Term],
+) -> Vec<Fitted> {
     let mut best: BTreeMap<Names, (f64, Fitted)> = BTreeMap::new();
     for parent in living {
         let open = tried
@@ -56,7 +62,7 @@ fn children(folds: &Folds, judge: &Judge, living: &[Fitted], tried: &[Term]) -> 
             .map(|fitted| (judge.evidence(folds, &fitted), fitted))
             .collect();
         for (evidence, fitted) in own {
-            let names = names(&fitted.terms);
+            let names = names(problem, &fitted.terms);
             if best.get(&names).is_none_or(|(other, _)| evidence > *other) {
                 best.insert(names, (evidence, fitted));
             }
@@ -82,8 +88,11 @@ fn may_join(terms: &[Term], term: &Term) -> bool {
 }
 
 /// The causes of an explanation in one order.
-pub fn names(terms: &[Term]) -> Names {
-    let mut names: Names = terms.iter().map(|term| Cause::name(term.cause)).collect();
+pub fn names(problem: &Problem, terms: &[Term]) -> Names {
+    let mut names: Names = terms
+        .iter()
+        .map(|term| problem.run.cause_name(term.cause))
+        .collect();
     names.sort();
     names
 }

@@ -69,7 +69,10 @@ fn usual(mechanism: Mechanism) -> f64 {
         Mechanism::Spring
         | Mechanism::DirectionAsymmetry
         | Mechanism::Ripple
-        | Mechanism::LoadDependent => -3.5,
+        | Mechanism::LoadDependent
+        | Mechanism::LoadFriction
+        | Mechanism::VelocityPower
+        | Mechanism::Backlash => -3.5,
         Mechanism::BiasDrift | Mechanism::EncoderScale => -5.0,
         _ => -4.0,
     }

@@ -126,6 +126,12 @@ pub enum Alone {
     WithKnown,
     /// Where a brake acts whose current is recorded.
     WithBrake,
+    /// Where something drives: an axis, or a brake with its current.
+    WithDrive,
+    /// On an axis.
+    Driven,
+    /// On an axis whose inertia is known.
+    WithInertia,
 }
 
 /// Where on the five-bar a mechanism is looked for.
@@ -186,6 +192,12 @@ pub enum Shapes {
     Shift,
     /// Currents below the greatest that was given.
     CurrentLimit,
+    /// Efforts below the greatest that was given.
+    EffortLimit,
+    /// Widths of a gap, shares of the travel.
+    Gap,
+    /// Resonances and damping ratios.
+    Resonance,
     /// Half widths of a play of the current, A: so many from low to high in equal ratios; a plant may add where its sides close.
     CurrentPlay {
         /// The least.
@@ -325,6 +337,9 @@ mod tests {
             Alone::Always => "yes",
             Alone::WithKnown => "with a known drive or brake",
             Alone::WithBrake => "with a brake's current",
+            Alone::WithDrive => "with a drive or a brake's current",
+            Alone::Driven => "on an axis",
+            Alone::WithInertia => "on an axis of known inertia",
         };
         let five_bar = match facts.asked.five_bar {
             Where::Nowhere => "no",

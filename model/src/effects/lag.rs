@@ -18,7 +18,7 @@ pub(super) const ENTRY: Entry = Entry {
         ..Facts::of(
             Family::Drive,
             Asked {
-                alone: Alone::Always,
+                alone: Alone::WithDrive,
                 five_bar: Where::Brakes,
             },
             Words {
@@ -66,12 +66,35 @@ pub(super) const SKEW_ENTRY: Entry = Entry {
         ..Facts::of(
             Family::Sensor,
             Asked {
-                alone: Alone::Always,
+                alone: Alone::WithDrive,
                 five_bar: Where::Whole,
             },
             Words {
                 what: "two recorded signals that are shifted in time",
                 look_for: "how the logger stamps its channels",
+            },
+        )
+    },
+};
+
+pub(super) const LIMIT_ENTRY: Entry = Entry {
+    mechanism: Mechanism::DriveSaturation,
+    form: Form::Drive(Drive::Limit),
+    linear: 0,
+    passive: false,
+    refuted_by: "an effort that grows with the command beyond the limit",
+    equation: "e = gain·u cut at ±limit",
+    facts: Facts {
+        shapes: Shapes::EffortLimit,
+        ..Facts::of(
+            Family::Drive,
+            Asked {
+                alone: Alone::Driven,
+                five_bar: Where::Nowhere,
+            },
+            Words {
+                what: "a drive that gives no more than so much",
+                look_for: "the amplifier's current limit, its supply voltage, a torque limit in a controller",
             },
         )
     },

@@ -106,7 +106,7 @@ pub(super) const ENCODER_SCALE: Entry = Entry {
         ..Facts::of(
             Family::Sensor,
             Asked {
-                alone: Alone::Never,
+                alone: Alone::WithInertia,
                 five_bar: Where::Encoders,
             },
             Words {

@@ -127,7 +127,9 @@ fn term(rig: &Rig, effect: &JointEffect) -> Result<Term, ModelError> {
             place: joint()? as usize,
             law: law(&effect.parameters),
         }),
-        Form::Drive(Drive::Skew) | Form::Sensor(_) => Err(unknown()),
+        Form::Drive(Drive::Skew | Drive::Limit) | Form::Sensor(_) | Form::Joint(_) => {
+            Err(unknown())
+        }
     }
 }
 
@@ -177,9 +179,10 @@ fn of_brake(effect: &JointEffect, joint: Joint) -> Option<Term> {
             place,
             arm_m: value(0),
         },
-        Form::Drive(Drive::Skew)
+        Form::Drive(Drive::Skew | Drive::Limit)
         | Form::Resistance(_)
         | Form::Sensor(_)
+        | Form::Joint(_)
         | Form::Linkage(OfLinkage::Weight | OfLinkage::Payload | OfLinkage::Inertias) => {
             return None;
         }

@@ -134,7 +134,9 @@ fn at_joint(
     let of: Option<&Vec<f64>> = match entry.form {
         Form::Resistance(_) => None,
         Form::ShareOfBrake(_) => Some(run.yields.get(place(joint))?),
-        Form::Drive | Form::Brake | Form::Linkage => return None,
+        Form::Drive(_) | Form::Brake(_) | Form::Linkage(_) | Form::Sensor(_) | Form::Joint(_) => {
+            return None;
+        }
     };
     unit_parameters(entry.linear, shape)
         .map(|parameters| {

@@ -5,7 +5,7 @@ use super::run::{JointRun, PlantKind};
 use crate::align::{
     Fault, band_hz, check_clipped, check_clock, check_frozen, check_missing, constant_runs,
     cutoff_hz, forget_sense_at_rest, forget_sense_at_reversals, frozen, longest_freeze,
-    median_step, regular_count, resample, smallest_step, smoothed_motion,
+    median_step, quiet_cutoff_hz, regular_count, resample, smallest_step, smoothed_motion,
 };
 use crate::doubt::Smoothing;
 use rigproof_spec::effect::Motion;
@@ -65,7 +65,12 @@ pub fn align(signals: &Signals) -> Result<JointRun, Fault> {
         .effort_noise
         .unwrap_or_else(|| smallest_step(&effort) / 12f64.sqrt());
     let band_hz = band_hz(&effort, step_s);
-    let cutoff_hz = cutoff_hz(step_s, band_hz);
+    let cutoff_hz = quiet_cutoff_hz(
+        &position,
+        step_s,
+        cutoff_hz(step_s, band_hz),
+        position_noise,
+    );
     let (mut motion, speed_floor) = smoothed_motion(&position, step_s, cutoff_hz, position_noise);
     let smoothing = Smoothing {
         step_s,
@@ -87,6 +92,7 @@ pub fn align(signals: &Signals) -> Result<JointRun, Fault> {
         plant: signals.plant,
         kind: signals.kind,
         inertia: Inertia::None,
+        described: Vec::new(),
         step_s,
         start_s: 0.0,
         held: signals.held,

@@ -1,13 +1,16 @@
 //! This file is the columns of a plant of one joint: resistances along its motion, and changes of its drive.
 
-use super::inertia::Inertia;
 use super::run::{JointRun, PlantKind};
 use crate::filter::gradient;
 use crate::plant::{Columns, Run};
-use crate::problem::less;
-use crate::signals::{USUAL_SHARE, lagged_yield, numerov, shifted, through_play, unit_parameters};
+use crate::problem::{add, less};
+use crate::signals::{
+    USUAL_SHARE, lagged_yield, numerov, second_difference, shifted, through_play, unit_parameters,
+};
 use rigproof_model::bench::column;
-use rigproof_model::effects::{CurrentPlay, Form, entry, first_order_lag, law};
+use rigproof_model::effects::{
+    CurrentPlay, Drive, Form, OfJoint, OfSensor, entry, first_order_lag, law,
+};
 use rigproof_spec::effect::Mechanism;
 
 /// One signal for each linear parameter of a resistance, as the position sees it: the law with that parameter 1 and the
@@ -17,9 +20,6 @@ pub fn resistances(run: &JointRun, mechanism: Mechanism, shape: &[f64]) -> Optio
         return Some(vec![of_brake(run, mechanism, shape)?]);
     }
     let entry = entry(mechanism)?;
-    if let Form::Drive = entry.form {
-        return None;
-    }
     unit_parameters(entry.linear, shape)
         .map(|parameters| {
             let law = law(mechanism, &parameters)?;
@@ -88,50 +88,149 @@ fn missing_effort(run: &JointRun, acting: &[f64]) -> Vec<f64> {
     acting_effort(run, &less(&run.effort, acting))
 }
 
-/// Columns of a mechanism that acts on the drive; `fitted` is what the other terms give.
-pub fn drive(
-    run: &JointRun,
-    mechanism: Mechanism,
-    shape: &[f64],
-    fitted: &[f64],
-) -> Option<Columns> {
+/// The resistance of the description along the motion, with the numbers that it states; with `known_only` of those that it knows.
+fn described(run: &JointRun, known_only: bool) -> Vec<f64> {
+    let mut sum = vec![0.0; run.motion.len()];
+    for effect in &run.described {
+        let law = law(effect.cause.mechanism, &effect.parameters);
+        if let Some(law) = law.filter(|_| !(known_only && effect.unknown)) {
+            add(
+                &mut sum,
+                &column(law.as_ref(), &run.motion, run.step_s),
+                1.0,
+            );
+        }
+    }
+    sum
+}
+
+/// The part of the described resistance that goes with the speed, not with its sense alone.
+fn described_viscous(run: &JointRun) -> f64 {
+    let own = run.described.iter();
+    let own = own.filter(|e| e.cause.mechanism == Mechanism::Viscous && !e.unknown);
+    own.filter_map(|e| e.parameters.first()).sum()
+}
+
+/// The acceleration of the smoothed motion.
+fn acceleration(run: &JointRun) -> Vec<f64> {
+    let speeds: Vec<f64> = run.motion.iter().map(|now| now.speed).collect();
+    gradient(&speeds, run.step_s)
+}
+
+/// What everything known comes to if the drive is not as described.
+fn known_effort(run: &JointRun) -> Vec<f64> {
+    let mut known = run.known();
+    add(&mut known, &seen(run, described(run, true)), 1.0);
+    known
+}
+
+/// Columns of what a driven joint has as a whole, or its encoder shows.
+fn of_joint(run: &JointRun, form: Form, shape: &[f64]) -> Option<Columns> {
+    let free = |signal: Vec<f64>| Some(Columns::Free(vec![signal]));
+    let inertia = run.inertia.start();
+    match form {
+        Form::Joint(OfJoint::Load) => {
+            let share = *shape.first()?;
+            let mut effort = described(run, false);
+            add(&mut effort, &acceleration(run), inertia);
+            let loads = effort.iter().zip(&run.motion);
+            // The friction by load is part of the load: e = rest + share·|e|·sgn(q̇).
+            let signal = loads.map(|(rest, now)| {
+                let along = rest.signum() * now.sense;
+                share * rest.abs() / (1.0 - share * along) * now.sense
+            });
+            Some(Columns::Fixed(seen(run, signal.collect())))
+        }
+        Form::Joint(OfJoint::Fade) => {
+            let friction = described(run, false);
+            let faded = friction.iter().zip(&run.motion);
+            let signal = faded.map(|(friction, now)| -friction * (now.time_s - run.start_s));
+            free(seen(run, signal.collect()))
+        }
+        Form::Joint(OfJoint::Inertia) => free(second_difference(&run.position, run.step_s)),
+        Form::Joint(OfJoint::Compliance) => {
+            let [resonance, damping] = *shape else {
+                return None;
+            };
+            let apart = trailing(&acceleration(run), resonance, damping, run.step_s);
+            free(seen(run, apart.into_iter().map(|a| inertia * a).collect()))
+        }
+        Form::Sensor(OfSensor::EncoderScale) => {
+            let mut signal = run.known();
+            let drag = described_viscous(run);
+            let slow: Vec<f64> = run.motion.iter().map(|now| drag * now.speed).collect();
+            add(&mut signal, &seen(run, slow), 1.0);
+            free(signal)
+        }
+        Form::Sensor(OfSensor::Eccentric) => Some(Columns::Free(
+            [libm::sin as fn(f64) -> f64, libm::cos]
+                .map(|wave| shown_by(run, wave, inertia))
+                .into(),
+        )),
+        _ => None,
+    }
+}
+
+/// What a motion that is shown in the place of another one by so much takes in effort.
+fn shown_by(run: &JointRun, wave: fn(f64) -> f64, inertia: f64) -> Vec<f64> {
+    let more: Vec<f64> = run.motion.iter().map(|now| wave(now.position)).collect();
+    let mut signal = second_difference(&more, run.step_s);
+    signal.iter_mut().for_each(|x| *x *= inertia);
+    let own = run.described.iter();
+    let own = own.filter(|e| e.cause.mechanism == Mechanism::Viscous);
+    let drag: f64 = own.filter_map(|e| e.parameters.first()).sum();
+    add(&mut signal, &seen(run, gradient(&more, run.step_s)), drag);
+    signal
+}
+
+/// The acceleration of a resonator's mass that hangs on what moves with this acceleration, relative to it.
+fn trailing(acceleration: &[f64], resonance: f64, damping: f64, step_s: f64) -> Vec<f64> {
+    let h = step_s / SUBSTEPS as f64;
+    let (mut x, mut v) = (0.0, 0.0);
+    let each = acceleration.iter().map(|base| {
+        let pull =
+            |x: f64, v: f64| -base - 2.0 * damping * resonance * v - resonance * resonance * x;
+        let now = pull(x, v);
+        for _ in 0..SUBSTEPS {
+            v += h * pull(x, v);
+            x += h * v;
+        }
+        now
+    });
+    each.collect()
+}
+
+/// Steps of a resonator in one sample.
+const SUBSTEPS: usize = 8;
+
+/// Columns of a mechanism that does not act on what others give.
+pub fn columns(run: &JointRun, mechanism: Mechanism, shape: &[f64]) -> Option<Columns> {
+    match entry(mechanism)?.form {
+        Form::Drive(what) => drive(run, what, shape),
+        form @ (Form::Joint(_) | Form::Sensor(_)) => of_joint(run, form, shape),
+        _ => resistances(run, mechanism, shape).map(Columns::Free),
+    }
+}
+
+/// Columns of a change of the drive: what the recorded effort has more than the one that acts.
+fn drive(run: &JointRun, what: Drive, shape: &[f64]) -> Option<Columns> {
     let value = shape.first().copied().unwrap_or(0.0);
     let step_s = run.step_s;
-    let inertia_known = !matches!(run.inertia, Inertia::Unknown(_));
     let fixed = |signal| Some(Columns::Fixed(signal));
-    match (mechanism, run.plant) {
-        // With a known inertia the command itself can be delayed: it has less noise than an acceleration.
-        (Mechanism::Lag, PlantKind::Axis) if inertia_known => {
-            let acting = first_order_lag(&run.effort, step_s, value);
-            fixed(missing_effort(run, &acting))
-        }
-        (Mechanism::ChannelSkew, PlantKind::Axis) if inertia_known => {
-            let acting = shifted(&run.effort, -value / step_s);
-            fixed(missing_effort(run, &acting))
-        }
-        // Else the command is ahead of the effort that moves the joint: gain·u = e + time_constant·de/dt.
-        (Mechanism::Lag, PlantKind::Axis) => {
-            let slope = gradient(fitted, step_s);
-            fixed(slope.into_iter().map(|s| value * s).collect())
-        }
-        (Mechanism::ChannelSkew, PlantKind::Axis) => {
-            fixed(less(&shifted(fitted, value / step_s), fitted))
-        }
+    let changed = |effort: &[f64]| match what {
+        Drive::Lag => Some(first_order_lag(effort, step_s, value)),
+        Drive::Skew => Some(shifted(effort, -value / step_s)),
+        Drive::Limit => Some(effort.iter().map(|e| e.clamp(-value, value)).collect()),
+        Drive::Gain => None,
+    };
+    match (what, run.plant, run.brake()) {
+        (Drive::Gain, ..) => Some(Columns::Free(vec![known_effort(run)])),
+        (_, PlantKind::Axis, _) => fixed(missing_effort(run, &changed(&run.effort)?)),
         // The yield of a brake lags, its sign does not (docs/decisions/0001).
-        (Mechanism::Lag, PlantKind::Bench) => match run.brake() {
-            Some((predicted, _)) => {
-                let lagged = lagged_yield(predicted, step_s, value);
-                fixed(less(&lagged, predicted))
-            }
-            _ => {
-                let lagged = first_order_lag(fitted, step_s, value);
-                fixed(less(&lagged, fitted))
-            }
-        },
-        (Mechanism::ChannelSkew, PlantKind::Bench) => {
-            fixed(less(&shifted(fitted, -value / step_s), fitted))
+        (Drive::Lag, PlantKind::Bench, Some((predicted, _))) => {
+            fixed(less(&lagged_yield(predicted, step_s, value), predicted))
         }
-        (Mechanism::GainError, _) if inertia_known => Some(Columns::Free(vec![run.known()])),
-        _ => None,
+        (_, PlantKind::Bench, Some((predicted, _))) => fixed(less(&changed(predicted)?, predicted)),
+        (_, PlantKind::Bench, None) => None,
     }
 }

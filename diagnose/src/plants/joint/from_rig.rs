@@ -55,6 +55,7 @@ pub fn aligned(rig: &Rig, recording: &Recording) -> Result<JointRun, Fault> {
         effort_limit: scaled(effort.and_then(|e| e.limit)),
     })?;
     run.inertia = inertia(rig);
+    run.described = nominal(rig);
     if let (Some(brake), Some(current)) = (&rig.brake, &run.current) {
         run.table = Some(brake.table());
         // Before the sense is forgotten: a lag follows the yield torque through a reversal.

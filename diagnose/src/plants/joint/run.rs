@@ -9,7 +9,7 @@ use crate::doubt::{greatest_change, jumps_late, turning};
 use crate::filter::rms;
 use crate::locate::{self, Regimes};
 use crate::plant::{Clock, Columns, Run};
-use crate::problem::add;
+use crate::problem::{NominalEffect, add};
 use crate::signals::second_difference;
 use crate::weak::{MOST_AMBIGUOUS, Windows, is_recorded, untold};
 use rigproof_model::brake::Brake;
@@ -35,6 +35,8 @@ pub struct JointRun {
     pub kind: Motion,
     /// The inertia, as far as it is known.
     pub inertia: Inertia,
+    /// The physics of its description.
+    pub described: Vec<NominalEffect>,
     /// Sample interval, s.
     pub step_s: f64,
     /// Time of the first sample, s.
@@ -133,6 +135,7 @@ impl JointRun {
             plant: self.plant,
             kind: self.kind,
             inertia: self.inertia,
+            described: self.described.clone(),
             step_s: self.step_s,
             start_s: self.start_s + from as f64 * self.step_s,
             held: self.held,
@@ -164,20 +167,19 @@ impl JointRun {
 }
 
 impl JointRun {
-    /// The narrowest window whose predicted floor is small against the effort, narrowed again where the effort
-    /// itself is faster than that (at least eight samples, five on a bench), s.
+    /// The narrowest window whose predicted floor is small against the effort, or one as narrow as a fast effort
+    /// asks for if that is quiet too (at least eight samples, five on a bench), s.
     pub fn width_s(&self) -> f64 {
         let scale = rms(&self.effort);
-        let quiet = |width_s: &&f64| self.floor(&self.all_windows(**width_s)) <= QUIET * scale;
-        let (width_s, least) = match self.plant {
-            PlantKind::Axis => (
-                WIDTHS_S.iter().find(quiet).copied().unwrap_or(WIDTHS_S[2]),
-                8.0,
-            ),
-            PlantKind::Bench => (WIDTHS_S[0], 5.0),
-        };
-        let band_hz = band_hz(&self.effort, self.step_s);
-        width_s.min(2.0 / band_hz).max(least * self.step_s)
+        let quiet = |width_s: &f64| self.floor(&self.all_windows(*width_s)) <= QUIET * scale;
+        let fast_s = 2.0 / band_hz(&self.effort, self.step_s);
+        if self.plant == PlantKind::Bench {
+            return WIDTHS_S[0].min(fast_s).max(5.0 * self.step_s);
+        }
+        // An effort may be fast because it holds the noise of the position: a narrow window has to be quiet too.
+        let narrow_s = WIDTHS_S[0].min(fast_s).max(8.0 * self.step_s);
+        let widths_s = [narrow_s].into_iter().chain(WIDTHS_S);
+        widths_s.clone().find(quiet).unwrap_or(WIDTHS_S[2])
     }
 }
 
@@ -283,10 +285,8 @@ impl Run for JointRun {
     }
 
     fn columns(&self, cause: Cause, shape: &[f64], beside: Option<&[f64]>) -> Option<Columns> {
-        over_parts(self, |run, part| match beside {
-            None => columns::resistances(run, cause.mechanism, shape).map(Columns::Free),
-            Some(beside) => columns::drive(run, cause.mechanism, shape, beside.get(part)?),
-        })
+        let _ = beside;
+        over_parts(self, |run, _| columns::columns(run, cause.mechanism, shape))
     }
 
     fn is_linearised(&self) -> bool {
@@ -299,6 +299,10 @@ impl Run for JointRun {
             // brake's torque itself.
             (Mechanism::GainError, PlantKind::Axis) => {
                 coefficients.iter().map(|c| -c / (1.0 + c)).collect()
+            }
+            // The motion is less by what is shown more.
+            (Mechanism::EncoderScale | Mechanism::EccentricEncoder, _) => {
+                coefficients.iter().map(|c| -c).collect()
             }
             _ => coefficients.to_vec(),
         }

@@ -1,25 +1,29 @@
 //! This file says which causes are tried on a plant of one joint.
 
-use super::run::JointRun;
+use super::inertia::Inertia;
+use super::run::{JointRun, PlantKind};
 use crate::cause::Cause;
 use crate::plant::Run;
-use rigproof_model::effects::{Form, LIBRARY};
-use rigproof_spec::effect::Mechanism;
+use rigproof_model::effects::LIBRARY;
+use rigproof_model::effects::facts::Alone;
 
 /// The causes that have a meaning on a plant of one joint, in the library's order.
 pub fn causes(run: &JointRun) -> Vec<Cause> {
     let has_brake = run.brake().is_some();
+    let is_driven = run.plant == PlantKind::Axis;
     // A gain can only be wrong against something that is known.
-    let is_known = run.known().iter().any(|e| *e != 0.0);
-    LIBRARY
-        .iter()
-        .filter(|entry| match entry.mechanism {
-            Mechanism::CurrentHysteresis | Mechanism::ReversalOvershoot => has_brake,
-            // Only the five-bar is asked for them: the rules of the other plants were chosen without.
-            Mechanism::Settling | Mechanism::AsymmetricPresliding => false,
-            Mechanism::GainError => is_known,
-            _ => matches!(entry.form, Form::Resistance(_) | Form::Drive),
-        })
-        .map(|entry| Cause::of(entry.mechanism))
-        .collect()
+    let is_known =
+        run.known().iter().any(|e| *e != 0.0) || run.described.iter().any(|e| !e.unknown);
+    let asked = |alone: Alone| match alone {
+        Alone::Never => false,
+        Alone::Always => true,
+        Alone::WithKnown => is_known && (is_driven || has_brake),
+        Alone::WithBrake => has_brake,
+        Alone::WithDrive => has_brake || is_driven,
+        Alone::Driven => is_driven,
+        Alone::WithInertia => is_driven && matches!(run.inertia, Inertia::Known(_)),
+    };
+    let library = LIBRARY.iter();
+    let asked_for = library.filter(|entry| asked(entry.facts.asked.alone));
+    asked_for.map(|entry| Cause::of(entry.mechanism)).collect()
 }

@@ -1,0 +1,91 @@
+//! This file is what a driven joint has as a whole: friction by load or by time, another inertia, an inertia behind a spring.
+
+use super::facts::{Alone, Asked, Facts, Family, Shapes, Where, Words};
+use super::{Entry, Form, OfJoint};
+use rigproof_spec::effect::Mechanism;
+
+pub(super) const LOAD_FRICTION: Entry = Entry {
+    mechanism: Mechanism::LoadFriction,
+    form: Form::Joint(OfJoint::Load),
+    linear: 0,
+    passive: true,
+    refuted_by: "the same friction whether the joint drives hard or coasts",
+    equation: "share·|e|·sgn(q̇), e the effort at the joint",
+    facts: Facts {
+        shapes: Shapes::Values(&[0.03, 0.06, 0.1, 0.15, 0.22, 0.32]),
+        ..Facts::of(
+            Family::FrictionOfMotion,
+            Asked {
+                alone: Alone::Driven,
+                five_bar: Where::Nowhere,
+            },
+            Words {
+                what: "friction that grows with the effort that the joint transmits",
+                look_for: "a gear with sliding teeth, a screw, a harmonic drive",
+            },
+        )
+    },
+};
+
+pub(super) const FRICTION_FADE: Entry = Entry {
+    mechanism: Mechanism::FrictionFade,
+    form: Form::Joint(OfJoint::Fade),
+    linear: 1,
+    passive: false,
+    refuted_by: "the same friction at the start and at the end of the recording",
+    equation: "described friction × (1 − rate·t)",
+    facts: Facts::of(
+        Family::FrictionOfMotion,
+        Asked {
+            alone: Alone::Always,
+            five_bar: Where::Nowhere,
+        },
+        Words {
+            what: "friction that changes while the recording goes on",
+            look_for: "grease that warms up, running in",
+        },
+    ),
+};
+
+pub(super) const ADDED_INERTIA: Entry = Entry {
+    mechanism: Mechanism::AddedInertia,
+    form: Form::Joint(OfJoint::Inertia),
+    linear: 1,
+    passive: false,
+    refuted_by: "the described inertia on a swing or a scale",
+    equation: "inertia·q̈, added to the described one",
+    facts: Facts::of(
+        Family::Inertia,
+        Asked {
+            alone: Alone::WithInertia,
+            five_bar: Where::Nowhere,
+        },
+        Words {
+            what: "another inertia than the described one",
+            look_for: "a payload, a tool, the motor behind its gear",
+        },
+    ),
+};
+
+pub(super) const COMPLIANCE: Entry = Entry {
+    mechanism: Mechanism::Compliance,
+    form: Form::Joint(OfJoint::Compliance),
+    linear: 1,
+    passive: true,
+    refuted_by: "a load that moves as the joint does up to the highest frequency",
+    equation: "share of the inertia follows the joint as a resonator of this frequency and damping",
+    facts: Facts {
+        shapes: Shapes::Resonance,
+        ..Facts::of(
+            Family::Inertia,
+            Asked {
+                alone: Alone::Driven,
+                five_bar: Where::Nowhere,
+            },
+            Words {
+                what: "parts that bend",
+                look_for: "arms, couplings, the clamping of the base",
+            },
+        )
+    },
+};
