@@ -29,9 +29,11 @@ impl Judge {
 
     /// The logarithm of the predictive density of the blocks that were left out, up to a constant.
     pub fn evidence(&self, folds: &Folds, fitted: &Fitted) -> f64 {
+        let share = fitted.acting_share(folds).max(1e-300);
         let blocks = folds.counts.iter().zip(&fitted.losses);
         let each = blocks.map(|(rows, loss)| {
-            -0.5 * rows / ROWS_A_SAMPLE * libm::log(loss / rows + self.granted)
+            let left = loss / rows / share + self.granted;
+            -0.5 * rows / ROWS_A_SAMPLE * libm::log(left)
         });
         each.sum()
     }
@@ -60,23 +62,50 @@ fn odds(term: &Term) -> f64 {
 
 /// How common a mechanism is among those that models leave out.
 fn usual(mechanism: Mechanism) -> f64 {
-    match mechanism {
-        Mechanism::DryOffset | Mechanism::Viscous => -2.0,
-        Mechanism::ConstantBias | Mechanism::GainError | Mechanism::ChannelSkew => -2.5,
-        Mechanism::Lag | Mechanism::Stribeck | Mechanism::Presliding | Mechanism::Saturation => {
-            -3.0
-        }
-        Mechanism::Spring
-        | Mechanism::DirectionAsymmetry
-        | Mechanism::Ripple
-        | Mechanism::LoadDependent
-        | Mechanism::LoadFriction
-        | Mechanism::VelocityPower
-        | Mechanism::Backlash => -3.5,
-        Mechanism::BiasDrift | Mechanism::EncoderScale => -5.0,
-        _ => -4.0,
-    }
+    USUAL
+        .iter()
+        .find(|(_, these)| these.contains(&mechanism))
+        .map_or(UNUSUAL, |(odds, _)| *odds)
 }
+
+/// Logarithms of the odds that a model leaves a mechanism out.
+const USUAL: [(f64, &[Mechanism]); 5] = [
+    (-2.0, &[Mechanism::DryOffset, Mechanism::Viscous, Mechanism::LugreBristle]),
+    (
+        -2.5,
+        &[
+            Mechanism::ConstantBias,
+            Mechanism::GainError,
+            Mechanism::ChannelSkew,
+            Mechanism::AddedInertia,
+        ],
+    ),
+    (
+        -3.0,
+        &[
+            Mechanism::Lag,
+            Mechanism::Stribeck,
+            Mechanism::Presliding,
+            Mechanism::DriveSaturation,
+        ],
+    ),
+    (
+        -3.5,
+        &[
+            Mechanism::Spring,
+            Mechanism::DirectionAsymmetry,
+            Mechanism::Ripple,
+            Mechanism::LoadDependent,
+            Mechanism::LoadFriction,
+            Mechanism::VelocityPower,
+            Mechanism::Backlash,
+        ],
+    ),
+    (-5.0, &[Mechanism::BiasDrift, Mechanism::EncoderScale]),
+];
+
+/// The same of any other mechanism.
+const UNUSUAL: f64 = -4.0;
 
 /// Whether a passive mechanism came out giving energy.
 pub fn gives_energy(fitted: &Fitted) -> bool {
