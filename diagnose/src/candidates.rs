@@ -8,7 +8,7 @@ use crate::weak::Windows;
 use core::f64::consts::TAU;
 use rayon::prelude::*;
 use rigproof_model::effects::Instant;
-use rigproof_spec::effect::Mechanism;
+use rigproof_spec::effect::{Mechanism, Motion};
 
 /// The causes that have a meaning on this plant: within trials a gain is taken out of every row.
 pub fn causes(problem: &Problem) -> Vec<Cause> {
@@ -111,7 +111,7 @@ pub fn standard_shapes<R: Run + ?Sized>(
                 .effort()
                 .iter()
                 .fold(0.0, |most: f64, e| most.max(e.abs()));
-            one(geometric(0.3 * greatest, 0.97 * greatest, 16))
+            one(geometric(0.05 * greatest, 0.97 * greatest, 24))
         }
         Mechanism::Backlash => one(geometric(
             (6.0 * run.position_noise()).max(1e-3 * travel),
@@ -133,10 +133,14 @@ pub fn standard_shapes<R: Run + ?Sized>(
             .into_iter()
             .flat_map(|gamma| [-1.4, -0.5, 0.5, 1.4].map(|ratio| vec![gamma, gamma * ratio]))
             .collect(),
-        Mechanism::Ripple => one(periods(
-            &points(run.motion(cause.at), windows, residual),
-            run.travel(cause.at),
-        )),
+        Mechanism::Ripple => {
+            let points = points(run.motion(cause.at), windows, residual);
+            let mut all = periods(&points, run.travel(cause.at));
+            if run.motion_kind() == Motion::Rotary {
+                all.extend((1..=MOST_A_TURN).map(|order| TAU / f64::from(order)));
+            }
+            one(all)
+        }
         Mechanism::Lag => one(geometric(0.5 * step_s, 0.1, 12)),
         Mechanism::ReversalOvershoot => one(geometric(0.01, 1.5, 6)),
         Mechanism::CurrentHysteresis => one(geometric(0.01, 0.5, 7)),
@@ -165,7 +169,7 @@ pub fn shape_bounds(problem: &Problem, cause: Cause) -> Vec<(f64, f64)> {
     if cause.mechanism == Mechanism::Ripple {
         let travel = problem.run.travel(cause.at);
         let travel = travel.max(1e-12);
-        return vec![(travel / MOST_CYCLES, travel)];
+        return vec![(travel / MOST_CYCLES, travel.max(TAU))];
     }
     let tried = shapes(problem, cause, &[]);
     let count = tried.iter().map(Vec::len).max().unwrap_or(0);
@@ -236,6 +240,8 @@ pub fn geometric(low: f64, high: f64, count: usize) -> Vec<f64> {
 const MOST_CYCLES: f64 = 200.0;
 const FEWEST_CYCLES: f64 = 2.0;
 const SPACING: f64 = 0.35;
+/// Most periods in one turn that are tried whatever the spectrum says.
+const MOST_A_TURN: u32 = 36;
 /// Peaks of the residual's spectrum over position that are tried.
 const PEAKS: usize = 4;
 

@@ -139,9 +139,29 @@ fn weigh(
     noise: f64,
 ) -> Vec<Explanation> {
     if std::env::var("RP_ALL").is_ok() {
-        let mut list: Vec<(f64, String)> = all.iter().map(|own| (judge.evidence(folds, own), format!("{:.2} {:.2} {} {:?} {:?}", judge.evidence(folds, own), prior(&own.terms), judge.all_matter(folds, bare, own), own.terms.iter().map(|t| (problem.run.cause_name(t.cause), t.shape.clone())).collect::<Vec<_>>(), own.by_term()))).collect();
+        let mut list: Vec<(f64, String)> = all
+            .iter()
+            .map(|own| {
+                (
+                    judge.evidence(folds, own),
+                    format!(
+                        "{:.2} {:.2} {} {:?} {:?}",
+                        judge.evidence(folds, own),
+                        prior(&own.terms),
+                        judge.all_matter(folds, bare, own),
+                        own.terms
+                            .iter()
+                            .map(|t| (problem.run.cause_name(t.cause), t.shape.clone()))
+                            .collect::<Vec<_>>(),
+                        own.by_term()
+                    ),
+                )
+            })
+            .collect();
         list.sort_by(|a, b| b.0.total_cmp(&a.0));
-        for (_, line) in list.iter().take(4000) { eprintln!("{line}"); }
+        for (_, line) in list.iter().take(4000) {
+            eprintln!("{line}");
+        }
         eprintln!("--");
     }
     let all = all
@@ -197,19 +217,22 @@ fn selected(problem: &Problem, nominal: Vec<Term>, explanations: &Explanations) 
         fit(problem, &all, &blocks)
     };
     let (before, after) = (fitted(&[]), fitted(&terms.iter().collect::<Vec<_>>()));
-    let found: Vec<Found> = terms.iter().map(|term| {
-        let others = terms.iter().filter(|other| other.cause != term.cause);
-        let without = fitted(&others.collect::<Vec<_>>());
-        let even = vec![1.0; without.block_loss.len()];
-        let (gain, z) = paired(&without.block_loss, &after.block_loss, &even);
-        Found {
-            term: term.clone(),
-            z,
-            share: gain / without.left_out().max(1e-300),
-            at_floor: is_noise(problem, &after),
-            probability: explanations.probability(term.cause),
-        }
-    }).collect();
+    let found: Vec<Found> = terms
+        .iter()
+        .map(|term| {
+            let others = terms.iter().filter(|other| other.cause != term.cause);
+            let without = fitted(&others.collect::<Vec<_>>());
+            let even = vec![1.0; without.block_loss.len()];
+            let (gain, z) = paired(&without.block_loss, &after.block_loss, &even);
+            Found {
+                term: term.clone(),
+                z,
+                share: gain / without.left_out().max(1e-300),
+                at_floor: is_noise(problem, &after),
+                probability: explanations.probability(term.cause),
+            }
+        })
+        .collect();
     Selection {
         found,
         too_small: Vec::new(),

@@ -143,7 +143,11 @@ impl<P: Plant> Stand<'_, P> {
         let living = living.take(MOST_LISTED);
         living
             .map(|own| ExplanationReport {
-                names: own.terms.iter().map(|t| self.problem.name(t.cause)).collect(),
+                names: own
+                    .terms
+                    .iter()
+                    .map(|t| self.problem.name(t.cause))
+                    .collect(),
                 probability: own.weight,
                 leaves: own.leaves,
             })

@@ -8,9 +8,9 @@ use rigproof_spec::effect::Mechanism;
 /// Share of the effort below which nothing matters to anybody: what a model and its discretisation leave open anyhow.
 pub const RELEVANT: f64 = 0.003;
 /// Rows that say as much as one that is independent of all others: what a model leaves is no white noise.
-pub const ROWS_A_SAMPLE: f64 = 8.0;
+pub const ROWS_A_SAMPLE: f64 = 4.0;
 /// What each number beyond the first costs, in natural logarithms of odds.
-pub const A_NUMBER: f64 = 1.0;
+pub const A_NUMBER: f64 = 1.5;
 
 /// Judges explanations of one problem.
 pub struct Judge {
@@ -55,8 +55,9 @@ pub fn prior(terms: &[Term]) -> f64 {
 }
 
 fn odds(term: &Term) -> f64 {
-    let linear = entry(term.cause.mechanism).map_or(1, |entry| entry.linear);
-    let numbers = linear.max(1) + term.shape.len() + usize::from(term.onset_s.is_some());
+    let numbers = term.free.len().max(1) + term.shape.len() + usize::from(term.onset_s.is_some());
+    // The first number of a shape takes the place of a coefficient that is not there.
+    let numbers = numbers - usize::from(term.free.is_empty() && !term.shape.is_empty());
     usual(term.cause.mechanism) - A_NUMBER * (numbers - 1) as f64
 }
 
@@ -70,7 +71,7 @@ fn usual(mechanism: Mechanism) -> f64 {
 
 /// Logarithms of the odds that a model leaves a mechanism out.
 const USUAL: [(f64, &[Mechanism]); 5] = [
-    (-2.0, &[Mechanism::DryOffset, Mechanism::Viscous, Mechanism::LugreBristle]),
+    (-2.0, &[Mechanism::DryOffset, Mechanism::Viscous]),
     (
         -2.5,
         &[
@@ -78,30 +79,39 @@ const USUAL: [(f64, &[Mechanism]); 5] = [
             Mechanism::GainError,
             Mechanism::ChannelSkew,
             Mechanism::AddedInertia,
-        ],
-    ),
-    (
-        -3.0,
-        &[
-            Mechanism::Lag,
-            Mechanism::Stribeck,
             Mechanism::Presliding,
+            Mechanism::LugreBristle,
+            Mechanism::Stribeck,
+            Mechanism::Lag,
             Mechanism::DriveSaturation,
         ],
     ),
     (
         -3.5,
         &[
-            Mechanism::Spring,
-            Mechanism::DirectionAsymmetry,
             Mechanism::Ripple,
             Mechanism::LoadDependent,
             Mechanism::LoadFriction,
             Mechanism::VelocityPower,
             Mechanism::Backlash,
+            Mechanism::Spring,
+            Mechanism::FrictionFade,
+            Mechanism::EccentricEncoder,
+            Mechanism::Compliance,
         ],
     ),
-    (-5.0, &[Mechanism::BiasDrift, Mechanism::EncoderScale]),
+    (
+        -4.0,
+        &[Mechanism::DirectionAsymmetry, Mechanism::NonlinearSpring],
+    ),
+    (
+        -5.0,
+        &[
+            Mechanism::BiasDrift,
+            Mechanism::EncoderScale,
+            Mechanism::Hysteresis,
+        ],
+    ),
 ];
 
 /// The same of any other mechanism.
