@@ -5,6 +5,7 @@ mod ledger;
 mod packages;
 mod rooms;
 mod rust;
+mod unused;
 mod words;
 mod workspace;
 
