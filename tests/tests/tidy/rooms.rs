@@ -253,7 +253,7 @@ fn entries(manifest: &Table) -> Vec<(String, Value)> {
 }
 
 /// What stands under this heading, on whichever platform.
-fn entries_under(manifest: &Table, heading: &str) -> Vec<(String, Value)> {
+pub fn entries_under(manifest: &Table, heading: &str) -> Vec<(String, Value)> {
     let targets = manifest.get("target").and_then(Value::as_table);
     let targets = targets
         .into_iter()
@@ -263,12 +263,6 @@ fn entries_under(manifest: &Table, heading: &str) -> Vec<(String, Value)> {
         .chain([manifest])
         .filter_map(|table| table.get(heading).and_then(Value::as_table));
     named.flat_map(Table::clone).collect()
-}
-
-/// The names under this heading, as sources use them.
-pub fn dependencies_under(manifest: &Table, heading: &str) -> Vec<String> {
-    let entries = entries_under(manifest, heading).into_iter();
-    entries.map(|(name, _)| name).collect()
 }
 
 pub fn manifest(path: &str) -> Table {

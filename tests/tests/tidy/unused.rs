@@ -3,10 +3,10 @@
 use std::collections::BTreeSet;
 
 use proc_macro2::TokenTree;
-use toml::Table;
+use toml::{Table, Value};
 
 use crate::tidy::assert_tidy;
-use crate::tidy::rooms::{dependencies_under, manifest, members};
+use crate::tidy::rooms::{entries_under, manifest, members};
 use crate::tidy::rust::{inner, parse};
 use crate::tidy::workspace::{Text, sources};
 
@@ -83,30 +83,35 @@ fn of_package<'a>(sources: &'a [Text], package: &str, packages: &[String]) -> Ve
 
 /// What is named in a manifest and in no source that is built with it: heading and name.
 fn unused(package: &str, manifest: &Table, sources: &[&Text]) -> Vec<(&'static str, String)> {
-    let named_below = |folder: &str| -> BTreeSet<String> {
-        let prefix = format!("{package}/{folder}");
-        sources
+    let named: Vec<(&str, BTreeSet<String>)> = sources
+        .iter()
+        .map(|source| {
+            let below = source.path[package.len() + 1..].as_ref();
+            (below, crates(&parse(&source.path, &source.content)))
+        })
+        .collect();
+    let is_named = |name: &str, folder: &str| {
+        let name = name.replace('-', "_");
+        named
             .iter()
-            .filter(|source| source.path.starts_with(&prefix))
-            .flat_map(|source| crates(&parse(&source.path, &source.content)))
-            .collect()
+            .any(|(path, crates)| path.starts_with(folder) && crates.contains(&name))
     };
     // A package apart may name its one folder of programs otherwise.
-    let has_src = sources
-        .iter()
-        .any(|source| source.path.starts_with(&format!("{package}/src/")));
-    let in_program = named_below(if has_src { "src/" } else { "" });
-    let in_build = named_below("build.rs");
-    let anywhere = named_below("");
+    let has_src = named.iter().any(|(path, _)| path.starts_with("src/"));
+    let program = if has_src { "src/" } else { "" };
     let mut found = Vec::new();
-    for (heading, named) in [
-        ("dependencies", &in_program),
-        ("dev-dependencies", &anywhere),
-        ("build-dependencies", &in_build),
+    for (heading, folder) in [
+        ("dependencies", program),
+        ("dev-dependencies", ""),
+        ("build-dependencies", "build.rs"),
     ] {
-        let names = dependencies_under(manifest, heading).into_iter();
-        let names = names.filter(|name| !named.contains(&name.replace('-', "_")));
-        found.extend(names.map(|name| (heading, name)));
+        for (name, entry) in entries_under(manifest, heading) {
+            // One that a feature asks for may be an example's, which has no heading of its own.
+            let is_optional = entry.get("optional").and_then(Value::as_bool) == Some(true);
+            if !is_named(&name, if is_optional { "" } else { folder }) {
+                found.push((heading, name));
+            }
+        }
     }
     found
 }
@@ -145,7 +150,10 @@ fn an_unused_dependency_is_noticed() {
             "room/src/lib.rs",
             "use one::{Thing, other::two}; fn f() { g(&five_six::x::seven::y()) }",
         ),
-        text("room/tests/t.rs", "use three; use four as other;"),
+        text(
+            "room/tests/t.rs",
+            "use three; use four as other; fn f() { ten::x() }",
+        ),
         text("room/inner/src/lib.rs", "use two::x; #[test] fn t() {}"),
         text("room/build.rs", "fn main() { eight::x() }"),
     ];
@@ -155,11 +163,15 @@ fn an_unused_dependency_is_noticed() {
     let manifest: Table =
         "[dependencies]\none.workspace = true\ntwo.workspace = true\nthree.workspace = true\n\
         five-six.workspace = true\nseven.workspace = true\neight.workspace = true\n\
+        ten = { workspace = true, optional = true }\neleven = { workspace = true, optional = true }\n\
         [dev-dependencies]\nthree.workspace = true\nfour.workspace = true\nnine.workspace = true\n\
         [build-dependencies]\neight.workspace = true\none.workspace = true\n"
             .parse()
             .unwrap();
     let found = unused("room", &manifest, &own);
     let names: Vec<&str> = found.iter().map(|(_, name)| name.as_str()).collect();
-    assert_eq!(names, ["eight", "seven", "three", "two", "nine", "one"]);
+    assert_eq!(
+        names,
+        ["eight", "eleven", "seven", "three", "two", "nine", "one"]
+    );
 }
