@@ -6,6 +6,7 @@ mod packages;
 mod rooms;
 mod rules;
 mod rust;
+mod unused;
 mod words;
 mod workspace;
 

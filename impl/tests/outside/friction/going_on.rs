@@ -4,7 +4,7 @@ use rigproof_impl::plant::form::Mass;
 use rigproof_impl::plant::friction::{Contact, DryBrake, dry_motion};
 use rigproof_impl::vector::Vector;
 
-use crate::oracle::{Draw, Plane, assert_right, kind, reach};
+use super::oracle::{Draw, Plane, assert_right, kind, reach};
 
 /// A motion that the brakes were already in: rates, and what they did.
 fn going_on(draw: &mut Draw, brakes: &[DryBrake; 4]) -> (Plane, Contact) {

@@ -4,7 +4,7 @@
 //! The same claims are fuzzed with coverage (`trace/fuzz`); this slice runs everywhere. `RIGPROOF_CAMPAIGN` sets the
 //! number of damaged files for each reader.
 
-#[path = "../fuzz/claims.rs"]
+#[path = "../../fuzz/claims.rs"]
 mod claims;
 
 use std::fs;

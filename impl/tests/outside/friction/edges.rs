@@ -4,7 +4,7 @@ use rigproof_impl::plant::form::Mass;
 use rigproof_impl::plant::friction::{Contact, DryBrake, dry_motion, standing};
 use rigproof_impl::vector::Vector;
 
-use crate::oracle::{CLOSE, Draw, kind, reach};
+use super::oracle::{CLOSE, Draw, kind, reach};
 
 /// One brake on each coordinate, bounds that are met exactly by powers of two.
 fn crossed(bounds: [f64; 2]) -> [DryBrake; 4] {

@@ -1,7 +1,5 @@
 //! This file damages MCAP files in every place: nothing panics, nothing changes in silence, what is missing is said.
 
-mod chunked;
-
 use std::io::Cursor;
 use std::path::Path;
 
@@ -11,6 +9,8 @@ use rigproof_trace::mcap::{
     Between, Check, Extras, Selection, Summary, Wanted, read_bytes, read_from, summarise, to_bytes,
 };
 use rigproof_trace::{Channel, Trace};
+
+use super::chunked;
 
 fn run() -> Trace {
     let samples = (0..16).map(|k| 0.37 + 0.11 * f64::from(k));
