@@ -5,7 +5,6 @@ mod messages;
 use std::path::{Path, PathBuf};
 
 use clap::ArgGroup;
-use rigproof_spec::units::Unit;
 use rigproof_trace::arrays::{Arrays, PassedOver, Selection, TimeSource};
 use rigproof_trace::csv::{self, Dialect, TimeColumn};
 use rigproof_trace::mcap;
@@ -47,7 +46,7 @@ pub struct Args {
     #[arg(long, value_name = "NAME")]
     time_from: Option<String>,
     /// State the unit of a variable; the numbers stay as they are
-    #[arg(long = "unit", value_name = "NAME=UNIT", value_parser = parse_unit)]
+    #[arg(long = "unit", value_name = "NAME=UNIT", value_parser = reading::parse_unit)]
     units: Vec<(String, String)>,
     /// Put this file into the MCAP file, such as the rig description or the calibration
     #[arg(long, value_name = "FILE")]
@@ -271,15 +270,4 @@ fn report(
         trace.len(),
         channels.join(", ")
     ))
-}
-
-fn parse_unit(text: &str) -> Result<(String, String), String> {
-    // A name may hold the mark itself, as `/joint_states.position[name=elbow]` does; a unit does not.
-    let (name, unit) = text
-        .rsplit_once('=')
-        .ok_or("write NAME=UNIT, such as u=N")?;
-    match Unit::parse(unit) {
-        Some(_) => Ok((name.to_string(), unit.to_string())),
-        None => Err(format!("`{unit}` is no known unit")),
-    }
 }

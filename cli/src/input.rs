@@ -15,7 +15,7 @@ use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
 use crate::outcome::{self, Failure};
-use crate::reading::{self, Reading};
+use crate::reading::{self, RigReading};
 
 /// Which part of a recording counts.
 #[derive(Clone, Copy, Debug, Default, clap::Args)]
@@ -92,7 +92,7 @@ pub struct Source {
     #[command(flatten)]
     pub cut: Cut,
     #[command(flatten)]
-    pub reading: Reading,
+    pub reading: RigReading,
 }
 
 /// How a recording was read.
@@ -143,7 +143,13 @@ impl HowRead {
 ///
 /// # Errors
 /// The file is not usable.
-pub fn whole(rig: &Rig, file: &Path, reading: &Reading) -> Result<(Recording, HowRead), Failure> {
+pub fn whole(
+    rig: &Rig,
+    file: &Path,
+    reading: &RigReading,
+) -> Result<(Recording, HowRead), Failure> {
+    let rig = rig.with_column_units(reading.units());
+    let rig = rig.map_err(Failure::Usage)?;
     if mcap::is_mcap(file)? {
         let (recording, lines) = rig.read_mcap(file)?;
         return Ok((recording, HowRead::of_messages(&lines)));
@@ -160,7 +166,7 @@ pub fn recording(
     rig: &Rig,
     file: &Path,
     cut: Cut,
-    reading: &Reading,
+    reading: &RigReading,
 ) -> Result<(Recording, HowRead), Failure> {
     let (recording, how) = whole(rig, file, reading)?;
     let kept = cut.kept(file, &recording.time_s)?;
@@ -183,7 +189,7 @@ pub fn measured(
     description: &Description,
     file: &Path,
     cut: Cut,
-    reading: &Reading,
+    reading: &RigReading,
 ) -> Result<(Measured, HowRead), Failure> {
     let rig = match description {
         Description::Joint(rig) => {
@@ -192,6 +198,8 @@ pub fn measured(
         }
         Description::FiveBar(rig) => rig,
     };
+    let rig = rig.with_column_units(reading.units());
+    let rig = rig.map_err(Failure::Usage)?;
     let (whole, how) = if mcap::is_mcap(file)? {
         let (recording, lines) = rig.read_mcap(file)?;
         (recording, HowRead::of_messages(&lines))

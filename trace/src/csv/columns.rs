@@ -7,7 +7,7 @@ use rigproof_spec::units::{Dimension, Unit};
 use super::layout::{Layout, Name};
 use super::read::BadCell;
 use crate::error::{Place, TraceError};
-use crate::header::{name_and_unit, stem};
+use crate::header::{guessed_unit, name_and_unit, stem};
 use crate::series::{Channel, Trace};
 use crate::suggest::quoted;
 
@@ -42,6 +42,16 @@ struct Column {
     cell: usize,
 }
 
+impl Column {
+    /// The unit that the header states, or else the one that the name suggests.
+    fn likely_unit(&self) -> &str {
+        match self.unit.as_str() {
+            "" => guessed_unit(&self.name),
+            stated => stated,
+        }
+    }
+}
+
 impl Header {
     pub(super) fn new(
         layout: Layout,
@@ -61,7 +71,7 @@ impl Header {
         let unit = time
             .map(|column| column.unit.as_str())
             .filter(|unit| !unit.is_empty());
-        let unit = unit.unwrap_or(&column.unit);
+        let unit = unit.unwrap_or(column.likely_unit());
         let Some(time_to_s) = time_to_s(unit) else {
             return Err(TraceError::Header {
                 place: column_place(&place, column.cell, &column.name),
@@ -207,11 +217,11 @@ fn is_called_time(name: &str) -> bool {
 /// says what is what, the first in a unit of time.
 fn find_time(columns: &[Column], units_row: bool) -> Option<usize> {
     let called_time = |column: &Column| is_called_time(&column.name);
-    let in_time = |column: &Column| time_to_s(&column.unit).is_some();
+    let in_time = |column: &Column| time_to_s(column.likely_unit()).is_some();
     let both = |column: &Column| called_time(column) && in_time(column);
     let first = columns.iter().position(both);
     let first = first.or_else(|| columns.iter().position(called_time));
-    let stated = |column: &Column| !column.unit.is_empty() && in_time(column);
+    let stated = |column: &Column| !column.likely_unit().is_empty() && in_time(column);
     first.or_else(|| columns.iter().position(stated).filter(|_| units_row))
 }
 

@@ -280,7 +280,7 @@ impl Feed {
         for ((_, way), unit) in self.ways.iter().zip(&mut self.units) {
             let place = leaves.iter().position(|leaf| way.leads_to(leaf));
             if let Some(leaf) = place.and_then(|place| leaves.get(place)) {
-                unit.get_or_insert_with(|| decoder.unit(leaf));
+                unit.get_or_insert_with(|| decoder.stated_unit(leaf));
             }
             columns.push(place);
         }

@@ -120,19 +120,8 @@ pub(super) fn signal(
             map.unit
         ))
     })?;
-    let header_unit = match channel.unit.as_str() {
-        "" => Some(rig_unit),
-        printed => Unit::parse(printed),
-    };
-    let header_unit = header_unit
-        .filter(|unit| unit.dimension == rig_unit.dimension)
-        .ok_or_else(|| {
-            refused(format!(
-                "the column `{name}` is in `{}`, which does not convert to `{}`, its unit in the rig; correct the one that is wrong",
-                channel.unit, map.unit
-            ))
-        })?;
-    let to_rig_unit = header_unit.to_si / rig_unit.to_si;
+    let column_unit = column_unit(map, rig_unit, rig, channel).map_err(refused)?;
+    let to_rig_unit = column_unit.to_si / rig_unit.to_si;
     let to_si = map.sign * map.scale * rig_unit.to_si;
     let in_si = |magnitude: Option<f64>| magnitude.map(|x| x * to_si.abs());
     Ok(Signal {
@@ -147,6 +136,71 @@ pub(super) fn signal(
         noise: in_si(map.noise),
         limit: in_si(map.limit),
     })
+}
+
+/// The unit that a column is in: what the caller or the rig file says of the column, else the unit of the rig, if the header
+/// does not state another one. What a column's name suggests is a guess, and does not count.
+fn column_unit(
+    map: &ChannelMap,
+    rig_unit: Unit,
+    rig: &str,
+    channel: &Channel,
+) -> Result<Unit, String> {
+    let (name, unit, header) = (&map.channel, &map.unit, &channel.unit);
+    if let Some(said) = &map.column_unit {
+        let parsed = Unit::parse(said).filter(|own| own.dimension == rig_unit.dimension);
+        return parsed.ok_or_else(|| {
+            format!("`{said}`, the unit stated for `{name}`, does not convert to `{unit}`, its unit in the rig `{rig}`; give one of the same kind")
+        });
+    }
+    let counted = COUNTS.contains(&header.to_lowercase().as_str()) && map.scale != 1.0;
+    if header.is_empty() || header == unit || counted {
+        return Ok(rig_unit);
+    }
+    let answer = |unit: &str| {
+        format!(
+            "`--unit {name}={unit}`, or `column_unit = \"{unit}\"` beside that channel in the rig file"
+        )
+    };
+    let said =
+        format!("the header says that `{name}` is in `{header}`, the rig `{rig}` says `{unit}`");
+    match Unit::parse(header) {
+        Some(own) if own.dimension == rig_unit.dimension => {
+            if (own.to_si / rig_unit.to_si - 1.0).abs() < 1e-12 {
+                return Ok(rig_unit);
+            }
+            Err(format!(
+                "{said}; {}; which is right? For the header {}; for the rig file the same with `{unit}`",
+                span(&channel.samples),
+                answer(header)
+            ))
+        }
+        Some(_) => Err(format!(
+            "{said}, which does not convert; {}; if the rig is right, add {}; if the header is right, correct the rig file or its choice of channel",
+            span(&channel.samples),
+            answer(unit)
+        )),
+        None => Err(format!(
+            "{said}, and the header's is no known unit; if the rig is right, add {}",
+            answer(unit)
+        )),
+    }
+}
+
+/// What headers call the steps of a converter, which a scale turns into a unit.
+const COUNTS: [&str; 8] = [
+    "count", "counts", "cnt", "tick", "ticks", "raw", "lsb", "pulses",
+];
+
+/// Between which values the samples lie, in words.
+fn span(samples: &[f64]) -> String {
+    let seen = || samples.iter().copied().filter(|x| x.is_finite());
+    let least = seen().fold(f64::INFINITY, f64::min);
+    let greatest = seen().fold(f64::NEG_INFINITY, f64::max);
+    match least <= greatest {
+        true => format!("its samples lie between {least} and {greatest}"),
+        false => "it has no samples".to_owned(),
+    }
 }
 
 /// A signal in SI units as the channel has it in its file: what [`signal`] makes of it is the signal.
@@ -188,17 +242,20 @@ mod tests {
 
     fn apply(channels: &[(&str, &str)]) -> Result<Recording, String> {
         let rig = Rig::parse(RIG, Path::new("rig.toml")).unwrap();
+        rig.apply(&trace(channels), Path::new("run.csv"))
+            .map_err(|error| error.to_string())
+    }
+
+    fn trace(channels: &[(&str, &str)]) -> Trace {
         let channels = channels.iter().map(|(name, unit)| Channel {
             name: name.to_string(),
             unit: unit.to_string(),
             samples: vec![4.5, f64::NAN],
         });
-        let trace = Trace {
+        Trace {
             time_s: vec![0.1, 0.3],
             channels: channels.collect(),
-        };
-        rig.apply(&trace, Path::new("run.csv"))
-            .map_err(|error| error.to_string())
+        }
     }
 
     #[test]
@@ -235,9 +292,79 @@ mod tests {
     }
 
     #[test]
-    fn the_header_says_what_the_column_is_in() {
-        let recording = apply(&[("u", "V"), ("x", "cm")]).unwrap();
-        assert!((recording.position.samples[0] + 3.0 * (45.0 - 2.5) * 1e-3).abs() < 1e-15);
+    fn a_unit_that_only_a_name_suggests_gives_way_to_the_rig() {
+        let rig = |name: &str, unit: &str| {
+            let text = RIG.replace(
+                "\"x\", unit = \"mm\"",
+                &format!("\"{name}\", unit = \"{unit}\""),
+            );
+            Rig::parse(&text, Path::new("rig.toml")).unwrap()
+        };
+        for (name, unit) in [
+            ("theta_A", "mm"),
+            ("slide_V", "mm"),
+            ("x_m", "mm"),
+            ("x_s", "cm"),
+        ] {
+            let text = format!("t,{name},u\n")
+                + &(0..20)
+                    .map(|k| format!("{k},{k}.5,0.1\n"))
+                    .collect::<String>();
+            let trace = csv::parse(text.as_bytes(), Path::new("run.csv"), None).unwrap();
+            let recording = rig(name, unit).apply(&trace, Path::new("run.csv")).unwrap();
+            let si = Unit::parse(unit).unwrap().to_si;
+            let expected = -3.0 * si * (7.5 - 2.5);
+            assert!(
+                (recording.position.samples[7] - expected).abs() < 1e-15,
+                "{name}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_header_that_disagrees_is_a_question_and_the_answer_holds() {
+        let message = apply(&[("u", "V"), ("x", "cm")]).unwrap_err();
+        for part in [
+            "`x` is in `cm`",
+            "`slide` says `mm`",
+            "between 4.5 and 4.5",
+            "`--unit x=cm`",
+            "column_unit = \"cm\"",
+        ] {
+            assert!(message.contains(part), "{message} lacks {part}");
+        }
+        let with = |unit: &str| {
+            let text = RIG.replace(
+                "unit = \"mm\"",
+                &format!("unit = \"mm\", column_unit = \"{unit}\""),
+            );
+            let rig = Rig::parse(&text, Path::new("rig.toml"))?;
+            rig.apply(&trace(&[("u", "V"), ("x", "cm")]), Path::new("run.csv"))
+        };
+        for (unit, x_mm) in [("cm", 45.0), ("mm", 4.5), ("m", 4500.0)] {
+            let read = with(unit).unwrap().position.samples[0];
+            assert!(
+                (read + 3.0 * (x_mm - 2.5) * 1e-3).abs() < 1e-14,
+                "{unit} {read}"
+            );
+        }
+        assert!(
+            with("deg")
+                .unwrap_err()
+                .to_string()
+                .contains("does not convert to `mm`")
+        );
+        assert!(apply(&[("u", "volt"), ("x", "mm")]).is_err());
+    }
+
+    #[test]
+    fn counts_with_a_stated_scale_are_no_question() {
+        assert!(apply(&[("u", "V"), ("x", "counts")]).is_ok());
+        let message = apply(&[("u", "volts dc"), ("x", "mm")]).unwrap_err();
+        assert!(
+            message.contains("no known unit; if the rig is right, add `--unit u=V`"),
+            "{message}"
+        );
     }
 
     #[test]
@@ -245,11 +372,11 @@ mod tests {
         for (channels, expected) in [
             (
                 [("u", "V"), ("x", "deg")],
-                "`x` is in `deg`, which does not convert to `mm`",
+                "`x` is in `deg`, the rig `slide` says `mm`, which does not convert",
             ),
             (
                 [("u", "furlong"), ("x", "mm")],
-                "`u` is in `furlong`, which does not convert to `V`",
+                "`u` is in `furlong`, the rig `slide` says `V`, and the header's is no known unit",
             ),
             (
                 [("U", "V"), ("x", "mm")],

@@ -13,7 +13,7 @@ use super::apply::{Signal, printed, signal};
 use super::read::{choice, read_channel, read_effect, read_provenance, read_time};
 use super::table::{Source, Table};
 use super::write::{channel, effect_lines, string, time_line};
-use super::{ChannelMap, Protocol, RigEffect, text};
+use super::{ChannelMap, Protocol, RigEffect, state_units, text};
 use crate::csv::{self, Dialect, Hints, TimeColumn};
 use crate::error::TraceError;
 use crate::series::Trace;
@@ -171,6 +171,19 @@ impl FiveBar {
         let (trace, dialect) =
             csv::read_as(path, self.channels.time.as_ref(), &hints.or(self.text))?;
         Ok((self.apply(&trace, path)?, dialect))
+    }
+
+    /// The description with the units that some columns are said to be in, whatever their headers say.
+    ///
+    /// # Errors
+    /// Names a channel that the rig does not have, and those it has.
+    pub fn with_column_units(&self, units: &[(String, String)]) -> Result<FiveBar, String> {
+        let mut rig = self.clone();
+        let channels = &mut rig.channels;
+        let measured = channels.theta.iter_mut().chain(&mut channels.force);
+        let maps = measured.chain(channels.currents.iter_mut().flatten());
+        state_units(maps, &self.name, units)?;
+        Ok(rig)
     }
 
     /// Turns a recording into SI quantities; `origin` is the file that messages name.
