@@ -6,18 +6,19 @@ use std::path::{Path, PathBuf};
 
 use clap::ArgGroup;
 use rigproof_trace::arrays::{Arrays, PassedOver, Selection, TimeSource};
-use rigproof_trace::csv::{self, Dialect, TimeColumn};
+use rigproof_trace::csv::{self, Dialect, Known, TimeColumn};
+use rigproof_trace::foreign;
 use rigproof_trace::mcap;
 use rigproof_trace::suggest::quoted;
 use rigproof_trace::{Trace, TraceError};
 use serde_json::{Value, json};
 
-use crate::keep;
-use crate::outcome::{Failure, Outcome, plain, print};
+use crate::outcome::{self, Failure, Outcome, plain, print};
 use crate::reading::{self, Reading};
+use crate::{input, keep};
 
 /// What is to be converted.
-#[derive(clap::Args)]
+#[derive(Clone, clap::Args)]
 #[command(after_help = AFTER_HELP)]
 #[command(group = ArgGroup::new("time").args(["rate_hz", "rate_from", "time_from"]))]
 pub struct Args {
@@ -69,6 +70,10 @@ Examples:
 
 /// Converts a recording, or lists what it holds.
 pub fn run(args: &Args) -> Result<Outcome, Failure> {
+    let args = &Args {
+        input: input::file(&args.input)?,
+        ..args.clone()
+    };
     let to_mcap = args.output.as_ref().is_some_and(|output| {
         let extension = output.extension().unwrap_or_default();
         extension.eq_ignore_ascii_case("mcap")
@@ -113,6 +118,9 @@ fn write(
 /// The arrays of an HDF5 or MATLAB file, or `None` for text.
 fn open(input: &Path) -> Result<Option<Arrays>, Failure> {
     let arrays = Arrays::open(input)?;
+    if arrays.is_none() {
+        foreign::check(input)?;
+    }
     let extension = input
         .extension()
         .and_then(|e| e.to_str())
@@ -173,7 +181,14 @@ fn text_recording(args: &Args) -> Result<(Trace, Dialect), Failure> {
             unit,
         }
     });
-    let (mut trace, dialect) = csv::read_as(&args.input, time.as_ref(), &args.reading.hints())?;
+    let known = Known {
+        time: time.as_ref(),
+        hints: args.reading.hints(),
+        wanted: None,
+    };
+    let text = csv::read_text(&args.input, &known)?;
+    outcome::note(&args.input, &text.remarks);
+    let (mut trace, dialect) = (text.trace, text.dialect);
     let missing = |trace: &Trace, name: &str| {
         let names = quoted(trace.channels.iter().map(|channel| channel.name.as_str()));
         let problem =

@@ -53,6 +53,9 @@ impl Cut {
 /// # Errors
 /// The folder cannot be read or holds no recording.
 pub fn recordings(path: &Path) -> Result<Vec<PathBuf>, Failure> {
+    if let Some(file) = bag(path)? {
+        return Ok(vec![file]);
+    }
     if !path.is_dir() {
         return Ok(vec![path.to_path_buf()]);
     }
@@ -98,34 +101,37 @@ pub struct Source {
 /// How a recording was read.
 #[derive(Clone, Debug)]
 pub enum HowRead {
-    /// As text in this dialect.
-    Text(Dialect),
+    /// As text in this dialect; what was guessed, passed over or mended.
+    Text(Dialect, Vec<String>),
     /// As MCAP: check sums, what is missing, which times, what was resampled.
     Messages(Vec<String>),
 }
 
 impl HowRead {
     fn of_messages(lines: &[String]) -> HowRead {
-        HowRead::Messages(lines.iter().map(|line| outcome::plain(line)).collect())
+        HowRead::Messages(plain_lines(lines))
+    }
+
+    fn of_text(dialect: Dialect, remarks: &[String]) -> HowRead {
+        HowRead::Text(dialect, plain_lines(remarks))
     }
 
     /// For a person, a line each; `file` is what they name.
     pub fn lines(&self, file: &Path) -> Vec<String> {
-        match self {
-            HowRead::Text(dialect) => vec![reading::in_words(file, dialect)],
-            HowRead::Messages(lines) => {
-                let lines = lines.iter();
-                lines
-                    .map(|line| format!("{}: {line}", file.display()))
-                    .collect()
-            }
-        }
+        let (first, lines) = match self {
+            HowRead::Text(dialect, remarks) => (Some(reading::in_words(file, dialect)), remarks),
+            HowRead::Messages(lines) => (None, lines),
+        };
+        let lines = lines
+            .iter()
+            .map(|line| format!("{}: {line}", file.display()));
+        first.into_iter().chain(lines).collect()
     }
 
     /// The dialect, or the lines of an MCAP file.
     pub fn json(&self) -> Value {
         match self {
-            HowRead::Text(dialect) => reading::in_json(*dialect),
+            HowRead::Text(dialect, _) => reading::in_json(*dialect),
             HowRead::Messages(lines) => json!(lines),
         }
     }
@@ -133,9 +139,60 @@ impl HowRead {
     /// The dialect of a text.
     pub fn dialect(&self) -> Option<Dialect> {
         match self {
-            HowRead::Text(dialect) => Some(*dialect),
+            HowRead::Text(dialect, _) => Some(*dialect),
             HowRead::Messages(_) => None,
         }
+    }
+}
+
+/// Lines that cannot steer the terminal, whatever the file calls things.
+fn plain_lines(lines: &[String]) -> Vec<String> {
+    lines.iter().map(|line| outcome::plain(line)).collect()
+}
+
+/// The file that a path names: itself, or the recording in a folder that rosbag2 wrote.
+///
+/// # Errors
+/// It is a folder of rosbag2 that holds no MCAP file, or several.
+pub fn file(path: &Path) -> Result<PathBuf, Failure> {
+    Ok(bag(path)?.unwrap_or_else(|| path.to_path_buf()))
+}
+
+/// The MCAP file of a folder that rosbag2 wrote: `metadata.yaml` stands beside it.
+fn bag(path: &Path) -> Result<Option<PathBuf>, Failure> {
+    if !path.is_dir() || !path.join("metadata.yaml").is_file() {
+        return Ok(None);
+    }
+    let unusable = |why: String| Failure::unusable(path, why);
+    let entries = path
+        .read_dir()
+        .map_err(|error| unusable(error.to_string()))?;
+    let files = entries.filter_map(|entry| Some(entry.ok()?.path()));
+    let mut files: Vec<PathBuf> = files.collect();
+    files.sort();
+    let of = |extension: &str| {
+        let own = files
+            .iter()
+            .filter(|file| file.extension().is_some_and(|e| e == extension));
+        own.collect::<Vec<_>>()
+    };
+    let folder = path.display();
+    match (of("mcap").as_slice(), of("db3").first(), of("zstd").first()) {
+        ([only], ..) => Ok(Some((*only).clone())),
+        ([], Some(_), _) => Err(unusable(format!(
+            "this folder of rosbag2 holds `.db3` files; turn it into MCAP, which is read: `ros2 bag convert -i {folder} -o convert.yaml` with `output_bags: [{{uri: run, storage_id: mcap, all: true}}]` in convert.yaml, or for each file `mcap convert FILE.db3 FILE.mcap`"
+        ))),
+        ([], None, Some(packed)) => Err(unusable(format!(
+            "this folder of rosbag2 holds compressed files; unpack them first: `zstd -d {}`",
+            packed.display()
+        ))),
+        ([], None, None) => Err(unusable(
+            "this folder of rosbag2 holds no recording beside its metadata.yaml".to_owned(),
+        )),
+        (several, ..) => Err(unusable(format!(
+            "this folder of rosbag2 holds {} MCAP files; name one of them, or put them together: `mcap merge {folder}/*.mcap -o run.mcap`",
+            several.len()
+        ))),
     }
 }
 
@@ -150,12 +207,13 @@ pub fn whole(
 ) -> Result<(Recording, HowRead), Failure> {
     let rig = rig.with_column_units(reading.units());
     let rig = rig.map_err(Failure::Usage)?;
+    let file = &self::file(file)?;
     if mcap::is_mcap(file)? {
         let (recording, lines) = rig.read_mcap(file)?;
         return Ok((recording, HowRead::of_messages(&lines)));
     }
-    let (recording, dialect) = rig.read_text(file, &reading.hints())?;
-    Ok((recording, HowRead::Text(dialect)))
+    let (recording, dialect, remarks) = rig.read_text(file, &reading.hints())?;
+    Ok((recording, HowRead::of_text(dialect, &remarks)))
 }
 
 /// Reads a recording of a rig and cuts it, and says how it was read.
@@ -204,8 +262,8 @@ pub fn measured(
         let (recording, lines) = rig.read_mcap(file)?;
         (recording, HowRead::of_messages(&lines))
     } else {
-        let (recording, dialect) = rig.read_text(file, &reading.hints())?;
-        (recording, HowRead::Text(dialect))
+        let (recording, dialect, remarks) = rig.read_text(file, &reading.hints())?;
+        (recording, HowRead::of_text(dialect, &remarks))
     };
     let kept = cut.kept(file, &whole.time_s)?;
     let pair = |pair: &[Signal; 2]| pair.each_ref().map(|s| signal(s, &kept));
@@ -283,6 +341,31 @@ fn part(samples: &[f64], kept: &[bool]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_folder_of_rosbag2_is_the_recording_in_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let put = |name: &str| std::fs::write(folder.path().join(name), "x").unwrap();
+        put("run_0.mcap");
+        assert_eq!(file(folder.path()).unwrap(), folder.path());
+        put("metadata.yaml");
+        assert_eq!(
+            file(folder.path()).unwrap(),
+            folder.path().join("run_0.mcap")
+        );
+        assert_eq!(
+            recordings(folder.path()).unwrap(),
+            [folder.path().join("run_0.mcap")]
+        );
+        put("run_1.mcap");
+        let message = |path: &Path| format!("{:?}", file(path).unwrap_err());
+        assert!(message(folder.path()).contains("mcap merge"));
+        let other = tempfile::tempdir().unwrap();
+        for name in ["metadata.yaml", "run_0.db3"] {
+            std::fs::write(other.path().join(name), "x").unwrap();
+        }
+        assert!(message(other.path()).contains("ros2 bag convert"));
+    }
 
     #[test]
     fn the_hash_is_that_of_the_standard() {

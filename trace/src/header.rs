@@ -2,7 +2,7 @@
 
 use rigproof_spec::units::Unit;
 
-/// The name and the unit of a header cell: `name (unit)` or `name [unit]`.
+/// The name and the unit of a header cell: `name (unit)`, `name [unit]` or `name / unit`.
 ///
 /// A bracket that holds digits is an index (`x[1]`) and stays in the name. The unit is empty when the header does not
 /// say; what the name suggests is [`guessed_unit`].
@@ -10,7 +10,16 @@ pub fn name_and_unit(header: &str) -> (&str, &str) {
     let header = header.trim();
     bracketed(header, '(', ')')
         .or_else(|| bracketed(header, '[', ']').filter(|(_, unit)| !is_digits(unit)))
+        .or_else(|| divided(header))
         .unwrap_or((header, ""))
+}
+
+/// `name / unit`, as DIN 1313 writes it.
+fn divided(header: &str) -> Option<(&str, &str)> {
+    let (name, unit) = header.rsplit_once(" / ")?;
+    let (name, unit) = (name.trim_end(), unit.trim_start());
+    let is_unit = !name.is_empty() && !is_digits(unit) && Unit::parse(unit).is_some();
+    is_unit.then_some((name, unit))
 }
 
 /// The unit that a name ends in after an underscore (`m` of `qm_m`), or nothing. It is a guess: `theta_A` is rarely a current.
@@ -66,6 +75,9 @@ mod tests {
             ("qm_m", ("qm_m", "")),
             ("qm_m (mm)", ("qm_m", "mm")),
             ("dist_mm_raw", ("dist_mm_raw", "")),
+            ("t / s", ("t", "s")),
+            ("torque / N·m", ("torque", "N·m")),
+            ("left / right", ("left / right", "")),
             ("forc1[1]", ("forc1[1]", "")),
             ("forc1[1] (N)", ("forc1[1]", "N")),
             ("qm_m ()", ("qm_m", "")),

@@ -103,6 +103,15 @@ pub struct Channels {
     pub simulated: Option<ChannelMap>,
 }
 
+impl Channels {
+    /// Every channel that is named.
+    pub(crate) fn maps(&self) -> Vec<&ChannelMap> {
+        let optional = [&self.command, &self.force, &self.current, &self.simulated];
+        let optional = optional.into_iter().flatten();
+        std::iter::once(&self.position).chain(optional).collect()
+    }
+}
+
 /// How one channel becomes an SI quantity: sign × scale × (recorded − offset).
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChannelMap {

@@ -6,7 +6,7 @@ use rigproof_spec::effect::Motion;
 use rigproof_spec::units::{Dimension, Unit};
 
 use super::{ChannelMap, Plant, Rig};
-use crate::csv::{self, Dialect, Hints};
+use crate::csv::{self, Dialect, Hints, Known, Text, TimeColumn};
 use crate::error::TraceError;
 use crate::mcap;
 use crate::series::{Channel, Trace};
@@ -58,11 +58,12 @@ impl Rig {
             true => self.read_mcap(path).map(|(recording, _)| recording),
             false => self
                 .read_text(path, &Hints::default())
-                .map(|(recording, _)| recording),
+                .map(|(recording, ..)| recording),
         }
     }
 
-    /// Reads a text recording of this rig whose dialect is partly known, and says in which it was.
+    /// Reads a text recording of this rig whose dialect is partly known, and says in which it was, and what was guessed,
+    /// passed over or mended. Columns that the rig does not name are not looked at.
     ///
     /// # Errors
     /// As [`csv::read`] and [`Rig::apply`].
@@ -70,10 +71,15 @@ impl Rig {
         &self,
         path: &Path,
         hints: &Hints,
-    ) -> Result<(Recording, Dialect), TraceError> {
-        let (trace, dialect) =
-            csv::read_as(path, self.channels.time.as_ref(), &hints.or(self.text))?;
-        Ok((self.apply(&trace, path)?, dialect))
+    ) -> Result<(Recording, Dialect, Vec<String>), TraceError> {
+        let channels = &self.channels;
+        let (text, remarks) = read_text(
+            path,
+            channels.time.as_ref(),
+            hints.or(self.text),
+            &channels.maps(),
+        )?;
+        Ok((self.apply(&text.trace, path)?, text.dialect, remarks))
     }
 
     /// Turns a recording into SI quantities; `origin` is the file that messages name.
@@ -96,6 +102,38 @@ impl Rig {
             simulated: optional(&self.channels.simulated)?,
         })
     }
+}
+
+/// Reads the channels of a rig from a text, and says how: where a name suggests another unit than the rig states, too.
+pub(super) fn read_text(
+    path: &Path,
+    time: Option<&TimeColumn>,
+    hints: Hints,
+    maps: &[&ChannelMap],
+) -> Result<(Text, Vec<String>), TraceError> {
+    let wanted: Vec<&str> = maps.iter().map(|map| map.channel.as_str()).collect();
+    let known = Known {
+        time,
+        hints,
+        wanted: Some(&wanted),
+    };
+    let mut text = csv::read_text(path, &known)?;
+    let mut remarks = std::mem::take(&mut text.remarks);
+    let overruled = text.trace.channels.iter().filter_map(|channel| {
+        let map = maps.iter().find(|map| map.channel == channel.name)?;
+        let guess = Unit::parse(channel.likely_unit()).filter(|_| channel.unit.is_empty())?;
+        let said = Unit::parse(map.column_unit.as_deref().unwrap_or(&map.unit))?;
+        let unit = map.column_unit.as_ref().unwrap_or(&map.unit);
+        (guess != said).then(|| format!("`{}` in {unit}", channel.name))
+    });
+    let overruled: Vec<String> = overruled.collect();
+    if !overruled.is_empty() {
+        remarks.push(format!(
+            "units as the rig file states them, and not as the names end: {}",
+            overruled.join(", ")
+        ));
+    }
+    Ok((text, remarks))
 }
 
 /// One channel of a recording in SI units; `rig` is the name of the description.
