@@ -67,7 +67,7 @@ pub fn recordings(path: &Path) -> Result<Vec<PathBuf>, Failure> {
     for entry in entries {
         let file = entry.map_err(|error| unusable(error.to_string()))?.path();
         let extension = file.extension().and_then(|e| e.to_str());
-        if file.is_file() && extension.is_some_and(|e| RECORDINGS.contains(&e)) {
+        if file.is_file() && extension.is_some_and(is_recording) {
             found.push(file);
         }
     }
@@ -79,6 +79,12 @@ pub fn recordings(path: &Path) -> Result<Vec<PathBuf>, Failure> {
         ))),
         false => Ok(found),
     }
+}
+
+fn is_recording(extension: &str) -> bool {
+    RECORDINGS
+        .iter()
+        .any(|own| extension.eq_ignore_ascii_case(own))
 }
 
 /// What the name of a recording in a folder ends in.

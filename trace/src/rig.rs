@@ -8,6 +8,7 @@ mod brake;
 pub mod five_bar;
 pub mod linkage;
 mod messages;
+mod plausible;
 mod protocol;
 mod read;
 pub mod table;

@@ -126,6 +126,7 @@ impl Header {
         };
         let mut clock = Clock::counted(layout.time_base, layout.dialect.decimal);
         let mut roles = vec![Role::Skip; layout.names.len()];
+        let mut time_column = None;
         if let Some(index) = index {
             let column = columns.remove(index);
             clock = clock.of_column(&column.name, column.cell, layout.dialect.decimal);
@@ -136,6 +137,7 @@ impl Header {
             }
             // LabVIEW repeats the time stamps for each channel.
             columns.retain(|other| other.name != "X_Value" || column.name != "X_Value");
+            time_column = Some(column);
         }
         if !layout.has_header {
             remarks.push(format!(
@@ -145,7 +147,7 @@ impl Header {
         }
         let (channels, passed_over) = chosen(columns, wanted);
         remarks.extend(passed_over);
-        check_names(&channels, &place)?;
+        check_names(time_column.iter().chain(&channels), &place)?;
         for (channel, column) in channels.iter().enumerate() {
             if let Some(role) = roles.get_mut(column.cell) {
                 *role = Role::Channel(channel);
@@ -250,10 +252,15 @@ fn chosen(columns: Vec<Column>, wanted: Option<&[&str]>) -> (Vec<Column>, Vec<St
 }
 
 /// Each name is there once.
-fn check_names(columns: &[Column], place: &Place) -> Result<(), TraceError> {
+fn check_names<'a>(
+    columns: impl Iterator<Item = &'a Column>,
+    place: &Place,
+) -> Result<(), TraceError> {
+    let mut columns: Vec<&Column> = columns.collect();
+    columns.sort_by_key(|column| column.cell);
     for (index, column) in columns.iter().enumerate() {
-        let before = columns.iter().take(index);
-        if let Some(first) = before.rev().find(|first| first.name == column.name) {
+        let mut before = columns.iter().take(index);
+        if let Some(first) = before.find(|first| first.name == column.name) {
             return Err(TraceError::Header {
                 place: column_place(place, column.cell, &column.name),
                 problem: format!(

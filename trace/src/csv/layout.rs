@@ -201,10 +201,13 @@ fn head(
     let row = above?;
     let text = &probe.rows.get(row)?.1;
     let cells = split_to_width(text, table.separator, width)?;
+    let kinds = |cells: &[String]| -> Vec<Kind> {
+        cells.iter().map(|cell| table.decimal.kind(cell)).collect()
+    };
     let names = |cells: &[String]| {
-        cells
-            .iter()
-            .any(|cell| table.decimal.kind(cell) == Kind::Text)
+        let kinds = kinds(cells);
+        let holds = |kind: Kind| kinds.contains(&kind);
+        holds(Kind::Text) && !holds(Kind::Number) && !holds(Kind::Stamp)
     };
     let sure = has_time(&cells, time) || table.cells(row)?.len() == width && names(&cells);
     sure.then(|| Head::new(table.line(row).unwrap_or(0), cells))

@@ -214,9 +214,12 @@ impl<'a> Rows<'a> {
                 ));
                 break;
             }
-            row.map_err(|bad| self.refusal(bad, place.clone()))?;
-            self.shortest = self.shortest.min(last.len());
+            if let Err(bad @ Bad::Count(_)) = row {
+                return Err(self.refusal(bad, place));
+            }
             self.header.clock.take(time, &place)?;
+            row.map_err(|bad| self.refusal(bad, place))?;
+            self.shortest = self.shortest.min(last.len());
             for (column, value) in self.columns.iter_mut().zip(&values) {
                 column.push(*value);
             }

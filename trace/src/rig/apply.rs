@@ -5,7 +5,7 @@ use std::path::Path;
 use rigproof_spec::effect::Motion;
 use rigproof_spec::units::{Dimension, Unit};
 
-use super::{ChannelMap, Plant, Rig};
+use super::{ChannelMap, Plant, Rig, plausible};
 use crate::csv::{self, Dialect, Hints, Known, Text, TimeColumn};
 use crate::error::TraceError;
 use crate::mcap;
@@ -160,15 +160,19 @@ pub(super) fn signal(
     })?;
     let column_unit = column_unit(map, rig_unit, rig, channel).map_err(refused)?;
     let to_rig_unit = column_unit.to_si / rig_unit.to_si;
+    let in_rig_unit = channel.samples.iter().map(|x| x * to_rig_unit);
+    let in_rig_unit: Vec<f64> = in_rig_unit.collect();
+    if let Some(problem) = plausible::contradiction(map, &in_rig_unit) {
+        return Err(refused(problem));
+    }
     let to_si = map.sign * map.scale * rig_unit.to_si;
     let in_si = |magnitude: Option<f64>| magnitude.map(|x| x * to_si.abs());
     Ok(Signal {
         channel: name.to_string(),
         dimension: rig_unit.dimension,
-        samples: channel
-            .samples
+        samples: in_rig_unit
             .iter()
-            .map(|recorded| to_si * (recorded * to_rig_unit - map.offset))
+            .map(|recorded| to_si * (recorded - map.offset))
             .collect(),
         quantum: in_si(map.quantum),
         noise: in_si(map.noise),
