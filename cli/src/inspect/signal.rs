@@ -81,6 +81,12 @@ impl SignalView {
         }
     }
 
+    /// The greatest magnitude.
+    pub fn size(&self) -> Option<f64> {
+        let (least, greatest) = self.range?;
+        Some(least.abs().max(greatest.abs())).filter(|size| *size > 0.0)
+    }
+
     pub fn json(&self, ascii: bool) -> Value {
         json!({
             "name": self.name, "unit": self.unit, "unit_is_guessed": self.unit_is_guessed, "samples": self.count, "missing": self.missing,
