@@ -264,6 +264,7 @@ pub fn measured(
     };
     let rig = rig.with_column_units(reading.units());
     let rig = rig.map_err(Failure::Usage)?;
+    let file = &self::file(file)?;
     let (whole, how) = if mcap::is_mcap(file)? {
         let (recording, lines) = rig.read_mcap(file)?;
         (recording, HowRead::of_messages(&lines))

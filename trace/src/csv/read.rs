@@ -244,10 +244,8 @@ impl<'a> Rows<'a> {
             match self.header.roles.get(index) {
                 Some(Role::Time) => time = Some(cell),
                 Some(Role::Channel(channel)) => {
-                    let value = match is_missing(cell) {
-                        true => Some(f64::NAN),
-                        false => decimal.number(cell),
-                    };
+                    let number = decimal.number(cell);
+                    let value = number.or_else(|| is_missing(cell).then_some(f64::NAN));
                     match (value, values.get_mut(*channel)) {
                         (Some(value), Some(place)) => *place = value,
                         _ => {

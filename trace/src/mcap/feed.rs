@@ -367,4 +367,58 @@ mod tests {
         assert_eq!(feeds.feeds[0].columns, [[200.25; 4]]);
         assert_eq!(feeds.feeds[1].columns, [[150.25]]);
     }
+
+    #[test]
+    fn a_clock_that_does_not_tell_when_is_named_with_the_one_that_does() {
+        let fault = |log_ms: &dyn Fn(u64) -> u64| {
+            let mut feeds = Feeds::new(&Selection {
+                channels: vec![Wanted {
+                    address: "/a.y".into(),
+                    between: Between::Line,
+                }],
+                time: None,
+            });
+            feeds.topic(0, &Topic::new("/a", "json", None, BTreeMap::new()));
+            for k in 0..900 {
+                let data = format!(
+                    "{{\"header\": {{\"stamp\": {{\"sec\": 170, \"nanosec\": {}}}}}, \"y\": 2.5}}",
+                    k * 1_000_000
+                );
+                feeds.message(Message {
+                    topic: 0,
+                    log_time_ns: 1_000_000 * log_ms(k),
+                    publish_time_ns: 11,
+                    data: data.as_bytes(),
+                });
+            }
+            let place = feeds.places()[0].unwrap();
+            let stamps = feeds.take_times(place);
+            feeds.clock_fault(place, &stamps)
+        };
+        assert_eq!(fault(&|k| 5000 + k), None);
+        assert_eq!(fault(&|k| 5000 + k + k / 300), None);
+        for (pace, said) in [
+            (2, "in 2.000 times the time"),
+            (5, "in 5.000 times"),
+            (10, "in 10.000 times"),
+        ] {
+            let message = fault(&|k| 5000 + pace * k).unwrap();
+            assert!(
+                message.contains(said) && message.contains("`--time-from header.stamp`"),
+                "{message}"
+            );
+        }
+        let message = fault(&|k| {
+            if k == 899 {
+                5899
+            } else {
+                5000 + k - if k > 400 { 300 } else { 0 }
+            }
+        })
+        .unwrap();
+        assert!(
+            message.contains("went back by 0.299 s after 5.400000 s, and 300 messages follow"),
+            "{message}"
+        );
+    }
 }
