@@ -310,6 +310,10 @@ mod tests {
                 "{said}"
             );
         }
+    }
+
+    #[test]
+    fn a_text_is_none_of_them() {
         for text in [
             &b"t,x\n0.1,2.5\n"[..],
             b"[s],x\n",
