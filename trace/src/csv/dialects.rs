@@ -189,7 +189,7 @@ fn what_is_not_clear_is_refused_and_what_the_caller_says_holds() {
     };
     let message = refused(&format!("t;x\n{clear}"), &said);
     assert!(
-        message.contains("line 2, column 1 `t`: `0,234` is no finite number"),
+        message.contains("line 2, column 1 `t`: the time stamp `0,234` is no finite number"),
         "{message}"
     );
     let (trace, dialect) = read_text(&format!("a;b\nt;x\n{clear}"), &hints(1)).unwrap();
