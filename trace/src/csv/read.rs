@@ -205,8 +205,10 @@ impl<'a> Rows<'a> {
             if is_between || is_names {
                 continue;
             }
-            let place = lines.place();
-            let is_cut = lines.is_open() && (row.is_err() || last.len() < self.shortest);
+            let place = || lines.place();
+            let time_s = self.header.clock.read(time, &place);
+            let is_faulty = row.is_err() || time_s.is_err();
+            let is_cut = lines.is_open() && (is_faulty || last.len() < self.shortest);
             if is_cut && self.header.clock.time_s.len() >= LEAST_SAMPLES {
                 self.header.remarks.push(format!(
                     "line {} is cut off by the end of the file, and left out",
@@ -214,11 +216,9 @@ impl<'a> Rows<'a> {
                 ));
                 break;
             }
-            if let Err(bad @ Bad::Count(_)) = row {
-                return Err(self.refusal(bad, place));
-            }
-            self.header.clock.take(time, &place)?;
-            row.map_err(|bad| self.refusal(bad, place))?;
+            let time_s = time_s?;
+            row.map_err(|bad| self.refusal(bad, place()))?;
+            self.header.clock.push(time_s, &place)?;
             self.shortest = self.shortest.min(last.len());
             for (column, value) in self.columns.iter_mut().zip(&values) {
                 column.push(*value);
@@ -257,8 +257,8 @@ impl<'a> Rows<'a> {
             }
         }
         let row = match bad {
-            _ if found != self.header.roles.len() => Err(Bad::Count(found)),
             Some((index, cell)) => Err(Bad::Cell(index, cell.chars().take(40).collect())),
+            None if found != self.header.roles.len() => Err(Bad::Count(found)),
             None => Ok(()),
         };
         (row, time, last)

@@ -72,34 +72,50 @@ impl Clock {
         self.unit_is_stated = true;
     }
 
-    /// Takes the time of a line that holds a stamp in this cell, or counts the line.
-    pub(super) fn take(&mut self, cell: Option<&str>, line: &Place) -> Result<(), TraceError> {
-        let place = || column_place(line, self.cell, &self.name);
-        let time_s = match (self.base, cell) {
-            (Some(base), None) => base.start_s + base.step_s * self.time_s.len() as f64,
-            (_, None) => return Err(TraceError::TimeMissing { place: place() }),
-            (_, Some(cell)) if is_missing(cell) => {
-                return Err(TraceError::TimeMissing { place: place() });
+    /// The time of a line that holds a stamp in this cell, or that is counted; `None` where the stamp is missing.
+    pub(super) fn read(
+        &mut self,
+        cell: Option<&str>,
+        line: &dyn Fn() -> Place,
+    ) -> Result<Option<f64>, TraceError> {
+        let cell = match (self.base, cell) {
+            (Some(base), None) => {
+                return Ok(Some(base.start_s + base.step_s * self.time_s.len() as f64));
             }
-            (base, Some(cell)) => {
-                let stamp = self.stamp(cell);
-                let stamp = stamp.ok_or_else(|| TraceError::NoStamp {
-                    place: column_place(line, self.cell, &self.name),
-                    text: cell.chars().take(40).collect(),
-                })?;
-                base.map_or(stamp, |base| base.start_s + base.step_s * stamp)
-            }
+            (_, None) => return Ok(None),
+            (_, Some(cell)) if is_missing(cell) => return Ok(None),
+            (_, Some(cell)) => cell,
+        };
+        let Some(stamp) = self.stamp(cell) else {
+            return Err(TraceError::NoStamp {
+                place: column_place(&line(), self.cell, &self.name),
+                text: cell.chars().take(40).collect(),
+            });
+        };
+        let counted = |base: TimeBase| base.start_s + base.step_s * stamp;
+        Ok(Some(self.base.map_or(stamp, counted)))
+    }
+
+    /// Takes the time of a line.
+    pub(super) fn push(
+        &mut self,
+        time_s: Option<f64>,
+        line: &dyn Fn() -> Place,
+    ) -> Result<(), TraceError> {
+        let place = || column_place(&line(), self.cell, &self.name);
+        let Some(time_s) = time_s else {
+            return Err(TraceError::TimeMissing { place: place() });
         };
         match self.time_s.last() {
             Some(&previous_s) if time_s < previous_s => {
                 return Err(TraceError::TimeOrder {
-                    place: column_place(line, self.cell, &self.name),
+                    place: place(),
                     time_s,
                     previous_s,
                 });
             }
             Some(&previous_s) if time_s == previous_s && self.repeated.is_none() => {
-                self.repeated = Some(column_place(line, self.cell, &self.name));
+                self.repeated = Some(place());
             }
             _ => {}
         }
