@@ -1,7 +1,6 @@
 //! This file says what a channel looks like: range, quantum, noise, missing samples, and a line of text as its picture.
 
 use rigproof_trace::Channel;
-use rigproof_trace::header::guessed_unit;
 use rigproof_trace::mcap::ChannelSummary;
 use serde_json::{Value, json};
 
@@ -74,8 +73,7 @@ impl SignalView {
                 .or_else(|| quantum(&kept)),
             noise: noise::of_runs(channel.runs.iter().copied()),
             outline: channel.outline.iter().map(middle).collect(),
-            unit_is_guessed: !channel.unit.is_empty()
-                && guessed_unit(&channel.address) == channel.unit,
+            unit_is_guessed: channel.unit_is_guessed,
             name: channel.address,
             unit: channel.unit,
         }

@@ -183,8 +183,13 @@ fn head(
     let above = table.run.0.checked_sub(1);
     if let Some(row) = above {
         let cells = table.cells(row)?;
-        if has_time(cells, time) {
-            return Some(Head::new(table.line(row)?, cells.to_vec()));
+        if has_time(cells, time) || logger::is_labview(table) {
+            // Names may hold blanks.
+            let fits = cells.len() == width || table.separator != Separator::Blank;
+            let text = probe.rows.get(row).filter(|_| !fits);
+            let fitted = text.and_then(|(_, text)| split_to_width(text, table.separator, width));
+            let cells = fitted.unwrap_or_else(|| cells.to_vec());
+            return Some(Head::new(table.line(row)?, cells));
         }
         let names = row.checked_sub(1);
         if let Some(names) = names

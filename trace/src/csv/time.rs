@@ -209,5 +209,5 @@ fn resolution(cell: &str) -> f64 {
     let places = cell
         .find(['.', ','])
         .map_or(0, |mark| cell.len() - mark - 1);
-    (0..places).fold(1.0, |power, _| power / 10.0)
+    1.0 / (0..places).fold(1.0, |power, _| power * 10.0)
 }

@@ -417,7 +417,7 @@ mod tests {
         })
         .unwrap();
         assert!(
-            message.contains("went back by 0.299 s after 5.400000 s, and 300 messages follow"),
+            message.contains("went back by 0.299 s after 5.400000 s, and 299 messages follow"),
             "{message}"
         );
     }

@@ -85,15 +85,18 @@ pub(super) fn went_back(time_s: &[f64]) -> Option<SetBack> {
         .windows(2)
         .filter_map(|pair| Some(pair.get(1)? - pair.first()?));
     let usual_s = median(steps.filter(|step| *step > 0.0).collect());
-    let mut latest_s = f64::NEG_INFINITY;
+    let limit_s = GAP_STEPS * usual_s;
+    let (mut latest_s, mut is_stray) = (f64::NEG_INFINITY, false);
     let mut back: Option<SetBack> = None;
     for &t in time_s {
         if t >= latest_s {
             if back.is_some_and(|back| back.messages > LATE) {
                 return back;
             }
+            // One stamp far ahead of the others sets no clock.
+            is_stray = t - latest_s > limit_s && latest_s.is_finite();
             (latest_s, back) = (t, None);
-        } else if latest_s - t > GAP_STEPS * usual_s || back.is_some() {
+        } else if !is_stray && (latest_s - t > limit_s || back.is_some()) {
             let begun = back.unwrap_or(SetBack {
                 after_s: latest_s,
                 by_s: latest_s - t,
@@ -184,6 +187,9 @@ mod tests {
         late.swap(30, 32);
         late[500..506].rotate_right(1);
         assert_eq!(went_back(&late), None);
+        let mut stray: Vec<f64> = (0..1000).map(even).collect();
+        stray[300] += 0.4;
+        assert_eq!(went_back(&stray), None);
         assert_eq!(went_back(&[]), None);
     }
 
