@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::columns::{TimeColumn, has_time};
 use super::dialect::{Dialect, Encoding, Hints, Kind, Separator};
-use super::lines::Lines;
+use super::lines::{Lines, Splitter};
 use super::logger::{self, TimeBase};
 use super::table::{Table, split_to_width};
 use super::units_row::{is_units_row, symbol};
@@ -132,7 +132,15 @@ impl Probe {
         let above = above.filter(|(line, _)| *line < first && before.is_none_or(|b| *line > b));
         let mut found = above.take(PROBED_COMMENTS).filter_map(|(line, text)| {
             let cells = split_to_width(text, table.separator, table.width()?)?;
-            has_time(&cells, time).then(|| Head::new(*line, cells))
+            let is_split_alike = table.separator != Separator::Blank
+                && Splitter::new(table.separator).cells(text).count() == cells.len();
+            let all_names = || {
+                cells
+                    .iter()
+                    .all(|cell| table.decimal.kind(cell) == Kind::Text)
+            };
+            let sure = has_time(&cells, time) || is_split_alike && all_names();
+            sure.then(|| Head::new(*line, cells))
         });
         found.next()
     }

@@ -405,7 +405,7 @@ mod tests {
 
     #[test]
     fn runs_are_neighbours_and_spread_over_everything() {
-        let mut number = Number::new("/a.x", String::new());
+        let mut number = Number::new("/a.x", String::new(), false);
         for k in 0..70_001 {
             number.add(if k == 8193 {
                 f64::INFINITY
