@@ -133,7 +133,7 @@ fn stamps_that_are_rounded_or_shared_are_put_on_their_grid() {
             "rounded to 0.001 s",
         ),
         (
-            file(&|t| format!("{}", (t + 300.0) as f32), 1000.0),
+            file(&|t| format!("{}", f64::from((t + 300.0) as f32)), 1000.0),
             1000.0,
             "single precision",
         ),
