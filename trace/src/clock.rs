@@ -113,6 +113,30 @@ impl Grid {
         }
     }
 
+    /// The line through the first stamp of each burst: through all of them, few bursts would make it too flat.
+    fn by_bursts(time_s: &[f64]) -> Option<Grid> {
+        let pairs = time_s.windows(2).enumerate();
+        let edges = pairs.filter(|(_, pair)| pair.first() != pair.get(1));
+        let (places, stamps): (Vec<f64>, Vec<f64>) = edges
+            .filter_map(|(k, pair)| Some(((k + 1) as f64, *pair.get(1)?)))
+            .unzip();
+        (places.len() > 2).then_some(())?;
+        let line = Grid::through(&stamps, places);
+        let off = |(k, t): (usize, &f64)| t - line.start_s - line.step_s * k as f64;
+        let off: Vec<f64> = time_s.iter().enumerate().map(off).collect();
+        let least = off.iter().copied().fold(f64::INFINITY, f64::min);
+        let greatest = off.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let middle = least / 2.0 + greatest / 2.0;
+        let squares = off.iter().map(|off| (off - middle) * (off - middle));
+        Some(Grid {
+            start_s: line.start_s + middle,
+            step_s: line.step_s,
+            jitter_s: (squares.sum::<f64>() / time_s.len() as f64).sqrt(),
+            worst_s: greatest - middle,
+            places: (0..time_s.len()).map(|k| k as f64).collect(),
+        })
+    }
+
     /// The times of the places.
     fn times(&self) -> Vec<f64> {
         let time = |place: &f64| self.start_s + self.step_s * place;
@@ -145,7 +169,9 @@ pub fn settle(time_s: &[f64], resolution_s: f64) -> Settled {
             Settled::AsTheyAre
         };
     }
-    let in_turn = Grid::through(time_s, (0..time_s.len()).map(|k| k as f64).collect());
+    let in_turn = || Grid::through(time_s, (0..time_s.len()).map(|k| k as f64).collect());
+    let by_bursts = Grid::by_bursts(time_s).filter(|_| repeated > 0);
+    let in_turn = by_bursts.unwrap_or_else(in_turn);
     if repeated == 0 && in_turn.worst_s < ON_GRID * in_turn.step_s {
         return Settled::AsTheyAre;
     }
