@@ -181,6 +181,9 @@ pub fn settle(time_s: &[f64], resolution_s: f64) -> Settled {
         let nearest = t as f32;
         f64::from((nearest.next_up() - nearest).abs())
     };
+    let is_single = time_s
+        .iter()
+        .all(|t| (t - f64::from(*t as f32)).abs() <= 0.51 * resolution_s);
     for grid in candidates().filter(|grid| grid.worst_s >= ON_GRID * grid.step_s) {
         if resolution_s.is_finite() && grid.fits(time_s, |_| ROUNDED * resolution_s) {
             let remark = format!(
@@ -189,7 +192,7 @@ pub fn settle(time_s: &[f64], resolution_s: f64) -> Settled {
             );
             return Settled::Even(grid.times(), remark);
         }
-        if grid.fits(time_s, |t| ROUNDED * single(t)) {
+        if is_single && grid.fits(time_s, |t| ROUNDED * single(t)) {
             let remark = format!(
                 "time stamps have the digits of single precision only: all of them fit an even grid of {} and are put on it",
                 grid.rate()
