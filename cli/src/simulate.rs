@@ -195,7 +195,11 @@ fn measures(comparison: &Comparison, unit: &str) -> Vec<String> {
 
 fn read_as(how: &HowRead) -> Vec<String> {
     match how {
-        HowRead::Text(dialect) => vec![format!("  read as  {dialect}")],
+        HowRead::Text(dialect, remarks) => {
+            let first = format!("  read as  {dialect}");
+            let more = remarks.iter().map(|line| format!("           {line}"));
+            std::iter::once(first).chain(more).collect()
+        }
         HowRead::Messages(lines) => lines.iter().map(|line| format!("  {line}")).collect(),
     }
 }

@@ -2,17 +2,29 @@
 
 use super::{Fault, LONGEST_GAP_S};
 use core::cmp::Ordering;
+use rigproof_trace::clock::Grid;
 
 /// A sample interval longer than this leaves fewer than four samples to the widest window of the weak form, s.
 const LONGEST_STEP_S: f64 = 0.04;
+/// How far a stamp may lie off the steps counted from the first one, in steps, where the median is the step.
+const EVEN: f64 = 1e-3;
 
+/// The step between samples: the median where that fits all stamps, else the mean of the even grid through them, so that
+/// rounded stamps do not add up.
 pub(crate) fn median_step(time_s: &[f64]) -> f64 {
     let mut steps: Vec<f64> = time_s
         .windows(2)
         .map(|w| w.iter().rev().copied().reduce(|b, a| b - a).unwrap_or(0.0))
         .collect();
     steps.sort_by(f64::total_cmp);
-    steps.get(steps.len() / 2).copied().unwrap_or(1.0)
+    let median_s = steps.get(steps.len() / 2).copied().unwrap_or(1.0);
+    let start_s = time_s.first().copied().unwrap_or(0.0);
+    let mut stamps = time_s.iter().enumerate();
+    let off = |k: usize, t: f64| (t - start_s - k as f64 * median_s).abs();
+    if stamps.all(|(k, t)| off(k, *t) < EVEN * median_s) {
+        return median_s;
+    }
+    Grid::of(time_s).map_or(median_s, |grid| grid.step_s)
 }
 
 pub(crate) fn check_clock(time_s: &[f64], step_s: f64) -> Result<(), Fault> {

@@ -218,7 +218,13 @@ pub trait Described: Plant + PartialEq {
     /// A channel is missing, or its unit does not convert.
     fn measured(&self, trace: &Trace, origin: &Path) -> Result<Self::Recording, TraceError>;
 
-    /// Reads a text recording whose dialect is partly known, and says in which it was.
+    /// The description with the units that some columns are said to be in, whatever their headers say.
+    ///
+    /// # Errors
+    /// Names a channel that the rig does not have, and those it has.
+    fn in_units(&self, units: &[(String, String)]) -> Result<Self, String>;
+
+    /// Reads a text recording whose dialect is partly known, and says in which it was, and what was guessed, passed over or mended.
     ///
     /// # Errors
     /// The file cannot be read, or as [`Plant::measured`].
@@ -226,7 +232,7 @@ pub trait Described: Plant + PartialEq {
         &self,
         file: &Path,
         hints: &Hints,
-    ) -> Result<(Self::Recording, Dialect), TraceError>;
+    ) -> Result<(Self::Recording, Dialect, Vec<String>), TraceError>;
 
     /// Reads an MCAP recording, and says how it was read.
     ///

@@ -64,14 +64,25 @@ macro_rules! plants {
                 }
             }
 
-            /// Reads a text recording whose dialect is partly known, and says in which it was.
+            /// The description with the units that some columns are said to be in, whatever their headers say.
+            ///
+            /// # Errors
+            /// Names a channel that the rig does not have, and those it has.
+            pub fn with_column_units(&self, units: &[(String, String)]) -> Result<Description, String> {
+                match self {
+                    $(Description::$name(own) => own.in_units(units).map(Description::$name),)+
+                }
+            }
+
+            /// Reads a text recording whose dialect is partly known, and says in which it was, and what was guessed, passed over or mended.
             ///
             /// # Errors
             /// The file cannot be read, or as [`Description::apply`].
-            pub fn read_text(&self, file: &Path, hints: &Hints) -> Result<(Measured, Dialect), TraceError> {
+            pub fn read_text(&self, file: &Path, hints: &Hints) -> Result<(Measured, Dialect, Vec<String>), TraceError> {
                 match self {
                     $(Description::$name(own) => {
-                        own.read_csv(file, hints).map(|(recording, dialect)| (Measured::$name(recording), dialect))
+                        own.read_csv(file, hints)
+                            .map(|(recording, dialect, remarks)| (Measured::$name(recording), dialect, remarks))
                     })+
                 }
             }

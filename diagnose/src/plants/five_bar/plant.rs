@@ -130,11 +130,15 @@ impl Described for FiveBar {
         self.apply(trace, origin)
     }
 
+    fn in_units(&self, units: &[(String, String)]) -> Result<FiveBar, String> {
+        self.with_column_units(units)
+    }
+
     fn read_csv(
         &self,
         file: &Path,
         hints: &Hints,
-    ) -> Result<(FiveBarRecording, Dialect), TraceError> {
+    ) -> Result<(FiveBarRecording, Dialect, Vec<String>), TraceError> {
         self.read_text(file, hints)
     }
 

@@ -129,7 +129,15 @@ impl Described for Rig {
         self.apply(trace, origin)
     }
 
-    fn read_csv(&self, file: &Path, hints: &Hints) -> Result<(Recording, Dialect), TraceError> {
+    fn in_units(&self, units: &[(String, String)]) -> Result<Rig, String> {
+        self.with_column_units(units)
+    }
+
+    fn read_csv(
+        &self,
+        file: &Path,
+        hints: &Hints,
+    ) -> Result<(Recording, Dialect, Vec<String>), TraceError> {
         self.read_text(file, hints)
     }
 
