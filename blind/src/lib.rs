@@ -13,28 +13,24 @@
 )]
 
 mod answer;
-mod axis;
-mod bench;
 mod brake;
-#[cfg(test)]
-mod claims;
+mod braked;
 mod draw;
+mod effect;
 mod element;
 mod error;
 mod fault;
-mod five_bar;
+mod form;
+mod forms;
 mod found;
-mod hide;
-mod law;
+mod lab;
 mod make;
-mod nominal;
 mod path;
 mod plant;
-mod rig;
-mod run;
+mod plants;
+mod preisach;
 mod score;
 mod seal;
-mod setup;
 mod size;
 mod stratum;
 mod table;
@@ -42,9 +38,10 @@ mod table;
 pub use answer::{Answer, HiddenEffect, TrueParameter};
 pub use brake::{BrakeStep, brake_yield_nm};
 pub use error::Error;
-pub use five_bar::{RigState, RigStep, five_bar_motion};
-pub use make::{Case, again, make, under};
+pub use forms::Forms;
+pub use make::{Case, again, make, make_in, under};
 pub use plant::Plant;
+pub use plants::five_bar::{RigState, RigStep, five_bar_motion};
 pub use score::{ONSET_S, ParameterError, Score, score};
 pub use seal::{commitment, open};
 pub use stratum::Stratum;

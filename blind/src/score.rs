@@ -264,6 +264,7 @@ fn parameter_errors(answer: &Answer, found: &[Found<'_>]) -> Vec<ParameterError>
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::forms::Forms;
     use crate::answer::TrueParameter;
     use crate::plant::Plant;
     use serde_json::json;
@@ -286,6 +287,10 @@ mod tests {
                 .iter()
                 .map(|set| set.iter().map(|n| (*n).to_owned()).collect())
                 .collect(),
+            form: String::new(),
+            right: Vec::new(),
+            companions: Vec::new(),
+            scope: None,
         }
     }
 
@@ -297,6 +302,8 @@ mod tests {
             effects,
             fault: None,
             block_noise: 0.01,
+            residual_ratio: None,
+            forms: Forms::Usual,
         }
     }
 

@@ -1,5 +1,8 @@
 //! This file is what a plant did: the true signals at the recording's instants.
 
+use crate::effect::Effect;
+use crate::form::Form;
+
 /// The true signals, one value an instant. Travel is m or rad, effort N or N·m.
 #[derive(Clone, Debug, Default)]
 pub struct Run {
@@ -36,6 +39,12 @@ impl Run {
         self.moving.push(velocity != 0.0);
         self.shown_position.push(shown_position);
     }
+}
+
+/// The time by which a hidden skew delays a channel, s; 0 without one.
+pub fn skew_s(hidden: &[Effect]) -> f64 {
+    let skew = hidden.iter().find(|effect| effect.form == Form::Skew);
+    skew.map_or(0.0, Effect::first)
 }
 
 /// A signal's recent past on the fine grid, to show a channel late.

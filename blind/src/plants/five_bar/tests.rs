@@ -1,27 +1,16 @@
 //! This file claims what holds for the five-bar's plant: its energy, its friction, its convergence.
 
 use super::hide;
-use super::law::{Effect, Law};
 use super::linkage::{Pair, dot};
-use super::make::{Secret, in_the_vocabulary, secret};
-use super::mass::Form;
+use super::told::in_the_vocabulary;
+use super::mass::Dynamics;
 use super::setup::Setup;
 use super::*;
-use crate::draw::Draw;
-use crate::plant::Plant;
-use crate::stratum::Stratum;
-use rigproof_spec::effect::{Mechanism, Motion};
+use crate::form::Form;
+use crate::make::{make, secret};
 use rigproof_spec::inertia::inertia;
 use rigproof_spec::joint::Joint;
 use std::collections::BTreeSet;
-
-fn effect(law: Law, joint: Joint) -> Effect {
-    Effect {
-        law,
-        joint: Some(joint),
-        onset_s: None,
-    }
-}
 
 /// A soft hand about a circle, brakes on and off: everything sticks and slides.
 fn push(time_s: f64, tip_m: Pair, velocity: Pair) -> Pair {
@@ -55,7 +44,7 @@ fn start(layout: Layout, hidden: &[Effect]) -> FiveBar {
 }
 
 fn kinetic_j(rig: &FiveBar, layout: Layout) -> f64 {
-    let form = Form::new(&rig.arms, &inertia(layout), &rig.pose, rig.rates);
+    let form = Dynamics::new(&rig.arms, &inertia(layout), &rig.pose, rig.rates);
     0.5 * dot(rig.rates, form.times(rig.rates))
 }
 
@@ -63,7 +52,7 @@ fn kinetic_j(rig: &FiveBar, layout: Layout) -> f64 {
 #[test]
 fn energy_balances_and_no_joint_ever_gives_any() {
     for layout in [Layout::ThreeBrake, Layout::FourBrake] {
-        let hidden = [effect(Law::Viscous { coefficient: 0.057 }, Joint::E)];
+        let hidden = [Effect::new(Form::Viscous, [0.057]).joint(Joint::E)];
         let mut rig = start(layout, &hidden);
         let mut given_j = 0.0;
         let (mut stuck, mut slid) = ([0; 4], [0; 4]);
@@ -170,12 +159,18 @@ fn under_every_brake_and_a_push_below_their_yield_nothing_moves() {
 }
 
 /// Six seconds of a laboratory with one hidden effect.
-fn short(seed: u64, hide: impl Fn(&Setup, &mut Draw) -> Vec<Effect>) -> Option<Secret> {
+fn short(
+    seed: u64,
+    hide: impl Fn(&Setup, &mut Draw) -> Vec<Effect>,
+) -> Option<Secret<Setup, Vec<Sample>>> {
     let mut draw = Draw::new(Plant::Rig, seed, "short");
     let mut setup = Setup::draw(Stratum::Single, &mut draw)?;
     setup.duration_s = 6.0;
-    let hidden = hide(&setup, &mut draw);
-    Secret::new(setup, hidden)
+    Rig.tried(Drawn {
+        hidden: hide(&setup, &mut draw),
+        known: Vec::new(),
+        setup,
+    })
 }
 
 /// What the nominal equations lack along the motion is what the effects were written down to do: what is left of it is below half of
@@ -193,14 +188,14 @@ fn the_bookkeeping_of_every_law_closes() {
             let Some(secret) = short(seed, hide) else {
                 continue;
             };
-            let effect = secret.hidden[0];
+            let effect = secret.drawn.hidden[0];
             assert!(
                 secret.sizes.left < 0.5,
                 "{} {}",
                 effect.name(),
                 secret.sizes.left
             );
-            assert!(!effect.parameters().is_empty());
+            assert!(!effect.parameters(Motion::Rotary).is_empty());
             names.insert(effect.name());
             break;
         }
@@ -216,44 +211,17 @@ fn with_nothing_hidden_the_nominal_equations_lack_nothing() {
     }
 }
 
-/// The vocabulary's names, and its parameters where it has some.
-#[test]
-fn laws_are_named_as_the_vocabulary_has_them() {
-    let mut draw = Draw::new(Plant::Rig, 3, "names");
-    for recipe in hide::every() {
-        let effect = recipe(Joint::B, &mut draw);
-        let Some(mechanism) = Mechanism::from_name(effect.name()) else {
-            continue;
-        };
-        // A law of another family has parameters of its own; one with the vocabulary's name is the vocabulary's.
-        for (name, _, dimension) in effect.parameters() {
-            let theirs = mechanism.parameters().iter();
-            for theirs in theirs.filter(|p| p.name == name) {
-                let expected = theirs.quantity.dimension(Motion::Rotary);
-                assert_eq!(dimension, expected, "{} {name}", effect.name());
-            }
-        }
-    }
-}
-
 #[test]
 fn a_ripple_is_told_from_the_zero_of_its_joint_and_a_turned_sensor_by_what_it_shows() {
     let told = |setup: &Setup, hidden: &Effect| -> Vec<f64> {
-        let parameters = in_the_vocabulary(setup, hidden).parameters().into_iter();
+        let parameters = in_the_vocabulary(setup, hidden).parameters(Motion::Rotary).into_iter();
         parameters.map(|(_, value, _)| value).collect()
     };
     let setup = Setup::draw(Stratum::Single, &mut Draw::new(Plant::Rig, 3, "zero")).unwrap();
     for joint in Joint::ALL {
         let start_rad = setup.start_angle_rad(joint);
         let (sine, cosine, period) = (0.13, -0.07, 0.191);
-        let hidden = effect(
-            Law::Ripple {
-                sine,
-                cosine,
-                period,
-            },
-            joint,
-        );
+        let hidden = Effect::new(Form::Ripple, [sine, cosine, period]).joint(joint);
         let [own_sine, own_cosine, _] = told(&setup, &hidden)[..] else {
             panic!("a ripple has three numbers");
         };
@@ -268,14 +236,14 @@ fn a_ripple_is_told_from_the_zero_of_its_joint_and_a_turned_sensor_by_what_it_sh
     // Table 4.2: the angle of E lies beyond half a turn.
     let pi = std::f64::consts::PI;
     assert!((pi..2.0 * pi).contains(&setup.start_angle_rad(Joint::E)));
-    let turned = Law::ForceRotation { angle: 0.11 };
-    assert_eq!(told(&setup, &effect(turned, Joint::A)), [-0.11]);
+    let turned = Effect::new(Form::ForceRotation, [0.11]);
+    assert_eq!(told(&setup, &turned), [-0.11]);
 }
 
 #[test]
 fn a_second_recording_of_a_rig_is_another_motion_from_the_same_start() {
     let seed = 1006;
-    let first = make(seed, Stratum::of_seed(Plant::Rig, seed))
+    let first = make(Plant::Rig, seed, None)
         .unwrap()
         .trace;
     let second = crate::make::again(seed).unwrap();
@@ -296,13 +264,7 @@ fn a_second_recording_of_a_rig_is_another_motion_from_the_same_start() {
 #[test]
 fn on_three_brakes_a_bearing_at_c_is_a_bearing_at_e() {
     let run = |joint: Joint| {
-        let hidden = [effect(
-            Law::Bearing {
-                dry: 0.17,
-                viscous: 0.06,
-            },
-            joint,
-        )];
+        let hidden = [Effect::new(Form::Bearing, [0.17, 0.06]).joint(joint)];
         let mut rig = start(Layout::ThreeBrake, &hidden);
         for k in 0..20_000 {
             let time_s = f64::from(k) * 1e-4;
@@ -318,7 +280,7 @@ fn on_three_brakes_a_bearing_at_c_is_a_bearing_at_e() {
 fn strata_have_the_sizes_they_say() {
     for seed in 40..42 {
         for stratum in [Stratum::Single, Stratum::TooSmall, Stratum::Unidentifiable] {
-            let secret = secret(seed, stratum).unwrap();
+            let secret = secret(&Rig, seed, stratum).unwrap();
             for size in &secret.sizes.sizes {
                 assert!(size.fits(stratum), "{seed} {} {size:?}", stratum.name());
                 assert!(size.distinctness <= size.size && size.strength > 0.02);

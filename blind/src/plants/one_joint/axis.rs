@@ -5,16 +5,17 @@
 //! sliding is the implicit midpoint rule; a phase that would carry the velocity through zero is cut there. Friction
 //! therefore never drives, at any step.
 
+use super::run::{Delay, Run, skew_s};
+use super::setup::{Drive, Setup};
+use crate::effect::Effect;
 use crate::element::{Element, Instant, sliding_resistance, total_bound};
-use crate::law::{Effect, Law, skew_s};
-use crate::run::{Delay, Run};
-use crate::setup::{Drive, Setup};
+use crate::form::{Form, Stage};
 
 /// Runs the joint with the laws the nominal model knows and the hidden effects, `fine_steps` to a sample.
 pub fn run(
     setup: &Setup,
     drive: &Drive,
-    known: &[Law],
+    known: &[Effect],
     hidden: &[Effect],
     fine_steps: usize,
 ) -> Run {
@@ -42,11 +43,11 @@ pub fn run(
             });
             let at = joint.instant(time_s, amplifier.effort(time_s, command_v));
             let skewed = drive.gain * (late_command.value() - command_v);
-            let upstream = at.effort - drive.gain * command_v;
+            let upstream = at.load - drive.gain * command_v;
             for (effect, force) in hidden.iter().zip(&mut run.hidden) {
-                force.push(match effect.law {
-                    Law::Skew { .. } => skewed,
-                    law if law.is_upstream() => upstream,
+                force.push(match effect.stage() {
+                    Stage::Sensor => skewed,
+                    Stage::Drive => upstream,
                     _ => joint.resistance_of(effect, &at),
                 });
             }
@@ -91,10 +92,7 @@ impl Amplifier {
     fn new(gain: f64, hidden: &[Effect]) -> Amplifier {
         Amplifier {
             gain,
-            hidden: hidden
-                .iter()
-                .copied()
-                .find(|effect| effect.law.is_upstream()),
+            hidden: hidden.iter().copied().find(|e| e.stage() == Stage::Drive),
             lagged_v: 0.0,
         }
     }
@@ -103,31 +101,26 @@ impl Amplifier {
         let ideal = self.gain * command_v;
         match self.hidden.filter(|hidden| hidden.acts(time_s)) {
             None => ideal,
-            Some(hidden) => match hidden.law {
-                Law::Gain { fraction } => (1.0 + fraction) * ideal,
-                Law::Lag { .. } => self.gain * self.lagged_v,
-                Law::DeadZone { level } => ideal.signum() * (ideal.abs() - level).max(0.0),
-                Law::Saturation { level } => ideal.clamp(-level, level),
+            Some(hidden) => match hidden.form {
+                Form::Gain => (1.0 + hidden.first()) * ideal,
+                Form::Lag => self.gain * self.lagged_v,
+                Form::DeadZone => ideal.signum() * (ideal.abs() - hidden.first()).max(0.0),
+                Form::Saturation => ideal.clamp(-hidden.first(), hidden.first()),
                 _ => ideal,
             },
         }
     }
 
     fn advance(&mut self, time_s: f64, command_v: f64, step_s: f64) {
-        self.lagged_v = match self.hidden {
-            Some(Effect {
-                law: Law::Lag { time_constant },
-                ..
-            }) if self.hidden.is_some_and(|hidden| hidden.acts(time_s)) => {
-                command_v + (self.lagged_v - command_v) * libm::exp(-step_s / time_constant)
-            }
-            _ => command_v,
-        };
+        let lag = self.hidden.filter(|hidden| hidden.form == Form::Lag && hidden.acts(time_s));
+        self.lagged_v = lag.map_or(command_v, |lag| {
+            command_v + (self.lagged_v - command_v) * libm::exp(-step_s / lag.first())
+        });
     }
 }
 
 /// The mass and everything that resists it.
-struct Joint {
+pub struct Joint {
     inertia: f64,
     elements: Vec<Element>,
     position: f64,
@@ -139,15 +132,11 @@ struct Joint {
 const PHASES: usize = 4;
 
 impl Joint {
-    fn new(inertia: f64, known: &[Law], hidden: &[Effect]) -> Joint {
+    /// A joint at rest at zero, with the laws that are known and the hidden ones.
+    pub fn new(inertia: f64, known: &[Effect], hidden: &[Effect]) -> Joint {
         Joint {
             inertia,
-            elements: known
-                .iter()
-                .map(|law| Effect::always(*law))
-                .chain(hidden.iter().copied())
-                .map(Element::new)
-                .collect(),
+            elements: known.iter().chain(hidden).copied().map(Element::new).collect(),
             position: 0.0,
             velocity: 0.0,
             direction: 1.0,
@@ -160,7 +149,8 @@ impl Joint {
             position: self.position,
             velocity: self.velocity,
             direction: self.direction,
-            effort,
+            load: effort,
+            brake: 0.0,
         }
     }
 
@@ -168,11 +158,20 @@ impl Joint {
         self.elements
             .iter()
             .filter(|element| element.effect == *effect)
-            .map(|element| element.force(at, 0.0) + at.direction * element.bound(at))
+            .map(|element| element.force(at, 0.0, 0.0) + at.direction * element.bound(at))
             .sum()
     }
 
-    fn step(&mut self, time_s: f64, effort: f64, step_s: f64) {
+    pub const fn position(&self) -> f64 {
+        self.position
+    }
+
+    pub const fn velocity(&self) -> f64 {
+        self.velocity
+    }
+
+    /// Moves under an effort that holds over a step.
+    pub fn step(&mut self, time_s: f64, effort: f64, step_s: f64) {
         let mut left_s = step_s;
         for _ in 0..PHASES {
             let at = self.instant(time_s + step_s - left_s, effort);
@@ -205,8 +204,8 @@ impl Joint {
 
     /// The direction in which a joint at rest begins to slide, or `None` while friction holds it.
     fn breakaway(&self, at: &Instant) -> Option<f64> {
-        let force: f64 = self.elements.iter().map(|e| e.force(at, 0.0)).sum();
-        let net = at.effort - force;
+        let force: f64 = self.elements.iter().map(|e| e.force(at, 0.0, 0.0)).sum();
+        let net = at.load - force;
         let direction = net.signum();
         let bound = total_bound(&self.elements, &Instant { direction, ..*at });
         (net.abs() > bound).then_some(direction)
@@ -224,8 +223,8 @@ impl Joint {
                 ..*at
             };
             let travel = middle.position - at.position;
-            let resistance = sliding_resistance(&self.elements, &middle, travel);
-            velocity = self.velocity + step_s * (at.effort - resistance) / self.inertia;
+            let resistance = sliding_resistance(&self.elements, &middle, travel, 0.5 * step_s);
+            velocity = self.velocity + step_s * (at.load - resistance) / self.inertia;
         }
         velocity
     }
@@ -245,7 +244,7 @@ mod tests {
     /// A mass on dry friction loses its speed at a constant rate and then stays.
     #[test]
     fn a_thrown_mass_stops_after_the_distance_of_coulomb() {
-        let mut joint = Joint::new(0.7, &[Law::Dry { level: 1.3 }], &[]);
+        let mut joint = Joint::new(0.7, &[Effect::new(Form::Coulomb, [1.3])], &[]);
         joint.velocity = -2.1;
         joint.direction = -1.0;
         for k in 0..40_000 {
@@ -258,7 +257,7 @@ mod tests {
 
     #[test]
     fn a_push_below_the_bound_moves_nothing_and_one_above_does() {
-        let mut joint = Joint::new(0.7, &[Law::Dry { level: 1.3 }], &[]);
+        let mut joint = Joint::new(0.7, &[Effect::new(Form::Coulomb, [1.3])], &[]);
         for k in 0..1000 {
             joint.step(f64::from(k) * 1e-4, 1.299, 1e-4);
         }
@@ -271,7 +270,7 @@ mod tests {
 
     #[test]
     fn a_spring_without_friction_keeps_its_energy() {
-        let mut joint = Joint::new(0.013, &[Law::Spring { stiffness: 1.7 }], &[]);
+        let mut joint = Joint::new(0.013, &[Effect::new(Form::Spring, [1.7])], &[]);
         joint.position = 0.37;
         let energy_j = |joint: &Joint| {
             0.5 * 0.013 * joint.velocity * joint.velocity
@@ -287,17 +286,10 @@ mod tests {
     #[test]
     fn friction_never_gives_energy_back() {
         let laws = [
-            Law::Dry { level: 0.03 },
-            Law::Viscous { coefficient: 0.011 },
-            Law::Stribeck {
-                peak: 0.02,
-                speed: 0.05,
-                exponent: 2.0,
-            },
-            Law::Asymmetry {
-                dry: -0.017,
-                viscous: 0.004,
-            },
+            Effect::new(Form::Coulomb, [0.03]),
+            Effect::new(Form::Viscous, [0.011]),
+            Effect::new(Form::Stribeck, [0.02, 0.05, 2.0]),
+            Effect::new(Form::Asymmetric, [-0.017, 0.004]),
         ];
         let mut joint = Joint::new(0.004, &laws, &[]);
         let step_s = 5e-5;

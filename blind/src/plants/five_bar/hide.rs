@@ -1,8 +1,9 @@
 //! This file draws the physics that a five-bar recording hides.
 
-use super::law::{Effect, Law};
 use super::setup::Setup;
 use crate::draw::Draw;
+use crate::effect::Effect;
+use crate::form::Form;
 use crate::stratum::Stratum;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
@@ -65,7 +66,7 @@ pub fn draw(setup: &Setup, stratum: Stratum, draw: &mut Draw) -> Vec<Effect> {
         recipes.iter().map(|recipe| recipe(joint, draw)).collect()
     };
     match stratum {
-        Stratum::Nothing | Stratum::DataFault => Vec::new(),
+        Stratum::Nothing | Stratum::DataFault | Stratum::Two | Stratum::Three => Vec::new(),
         Stratum::Single | Stratum::Noisy | Stratum::InLoop => {
             // A third each at a joint and in a brake, the rest elsewhere.
             let group: &[Recipe] = match draw.below(9) {
@@ -93,7 +94,7 @@ pub fn draw(setup: &Setup, stratum: Stratum, draw: &mut Draw) -> Vec<Effect> {
         Stratum::Unidentifiable => vec![unidentifiable(setup, draw)],
         Stratum::WrongInertia => {
             let fraction = draw.sign() * draw.uniform(0.02, 0.05);
-            vec![whole(Law::Inertia { fraction })]
+            vec![Effect::new(Form::Inertia, [fraction])]
         }
     }
 }
@@ -103,40 +104,14 @@ pub fn draw(setup: &Setup, stratum: Stratum, draw: &mut Draw) -> Vec<Effect> {
 fn unidentifiable(setup: &Setup, draw: &mut Draw) -> Effect {
     if setup.layout == Layout::ThreeBrake && draw.chance(0.6) {
         let law = match draw.chance(0.5) {
-            true => Law::Bearing {
-                dry: draw.uniform(0.08, 0.4),
-                viscous: 0.0,
-            },
-            false => Law::Bearing {
-                dry: 0.0,
-                viscous: draw.uniform(0.05, 0.2),
-            },
+            true => Effect::new(Form::Bearing, [draw.uniform(0.08, 0.4), 0.0]),
+            false => Effect::new(Form::Bearing, [0.0, draw.uniform(0.05, 0.2)]),
         };
-        return Effect {
-            law,
-            joint: Some(Joint::C),
-            onset_s: None,
-        };
+        return law.joint(Joint::C);
     }
     match draw.chance(0.5) {
         true => gain(Joint::A, draw),
         false => dry(Joint::A, draw),
-    }
-}
-
-const fn at(joint: Joint, law: Law) -> Effect {
-    Effect {
-        law,
-        joint: Some(joint),
-        onset_s: None,
-    }
-}
-
-const fn whole(law: Law) -> Effect {
-    Effect {
-        law,
-        joint: None,
-        onset_s: None,
     }
 }
 
@@ -146,35 +121,18 @@ fn base(draw: &mut Draw) -> Joint {
 }
 
 fn dry(joint: Joint, draw: &mut Draw) -> Effect {
-    at(
-        joint,
-        Law::Dry {
-            level: draw.log_uniform(0.05, 0.4),
-        },
-    )
+    Effect::new(Form::Coulomb, [draw.log_uniform(0.05, 0.4)]).joint(joint)
 }
 
 /// About the 0.078 N·m·s/rad of §3.3.2.
 fn viscous(joint: Joint, draw: &mut Draw) -> Effect {
-    at(
-        joint,
-        Law::Viscous {
-            coefficient: draw.log_uniform(0.025, 0.16),
-        },
-    )
+    Effect::new(Form::Viscous, [draw.log_uniform(0.025, 0.16)]).joint(joint)
 }
 
 /// The bristle bends by 2 to 6 mrad before it slides.
 fn stribeck(joint: Joint, draw: &mut Draw) -> Effect {
     let peak = draw.log_uniform(0.15, 0.6);
-    at(
-        joint,
-        Law::LuGre {
-            peak,
-            speed: draw.log_uniform(0.06, 0.4),
-            stiffness: peak / draw.uniform(0.002, 0.006),
-        },
-    )
+    Effect::new(Form::Lugre, [peak, draw.log_uniform(0.06, 0.4), 2.0, peak / draw.uniform(0.002, 0.006)]).joint(joint)
 }
 
 /// With the same limit in both directions, or in three of ten draws with another in each.
@@ -187,63 +145,30 @@ fn presliding(joint: Joint, draw: &mut Draw) -> Effect {
 }
 
 fn two_sided(joint: Joint, draw: &mut Draw) -> Effect {
-    at(
-        joint,
-        Law::MaxwellSlip {
-            level: draw.log_uniform(0.1, 0.5),
-            travel: draw.log_uniform(0.03, 0.2),
-        },
-    )
+    Effect::new(Form::MaxwellSlip, [draw.log_uniform(0.1, 0.5), draw.log_uniform(0.03, 0.2)]).joint(joint)
 }
 
 fn spring(joint: Joint, draw: &mut Draw) -> Effect {
-    at(
-        joint,
-        Law::Spring {
-            stiffness: draw.log_uniform(0.2, 1.5),
-        },
-    )
+    Effect::new(Form::Spring, [draw.log_uniform(0.2, 1.5)]).joint(joint)
 }
 
 /// The teeth and poles of a brake: 12 to 60 a turn.
 fn ripple(joint: Joint, draw: &mut Draw) -> Effect {
     let amplitude = draw.log_uniform(0.05, 0.3);
     let (s, c) = libm::sincos(draw.uniform(0.0, TAU));
-    at(
-        joint,
-        Law::Ripple {
-            sine: amplitude * s,
-            cosine: amplitude * c,
-            period: TAU / draw.uniform(12.0, 60.0),
-        },
-    )
+    Effect::new(Form::Ripple, [amplitude * s, amplitude * c, TAU / draw.uniform(12.0, 60.0)]).joint(joint)
 }
 
 fn load(joint: Joint, draw: &mut Draw) -> Effect {
-    at(
-        joint,
-        Law::Load {
-            arm: draw.log_uniform(0.004, 0.03),
-        },
-    )
+    Effect::new(Form::LoadArm, [draw.log_uniform(0.004, 0.03)]).joint(joint)
 }
 
 fn gain(joint: Joint, draw: &mut Draw) -> Effect {
-    at(
-        joint,
-        Law::Gain {
-            fraction: draw.sign() * draw.log_uniform(0.05, 0.25),
-        },
-    )
+    Effect::new(Form::Gain, [draw.sign() * draw.log_uniform(0.05, 0.25)]).joint(joint)
 }
 
 fn lag(joint: Joint, draw: &mut Draw) -> Effect {
-    at(
-        joint,
-        Law::Lag {
-            time_constant: draw.log_uniform(0.012, 0.08),
-        },
-    )
+    Effect::new(Form::Lag, [draw.log_uniform(0.012, 0.08)]).joint(joint)
 }
 
 /// Narrower or wider than table 3.1; brake A has no backlash to become narrower.
@@ -254,113 +179,72 @@ fn backlash(joint: Joint, draw: &mut Draw) -> Effect {
         true => printed_deg * draw.uniform(0.1, 0.5),
         false => printed_deg + draw.uniform(0.8, 3.0),
     };
-    at(
-        joint,
-        Law::Backlash {
-            width: width_deg * RAD_PER_DEG,
-        },
-    )
+    Effect::new(Form::Backlash, [width_deg * RAD_PER_DEG]).joint(joint)
 }
 
 fn preisach(joint: Joint, draw: &mut Draw) -> Effect {
-    at(
-        joint,
-        Law::Preisach {
-            share: draw.uniform(0.12, 0.4),
-        },
-    )
+    Effect::new(Form::Preisach, [draw.uniform(0.12, 0.4)]).joint(joint)
 }
 
 fn thermal(joint: Joint, draw: &mut Draw) -> Effect {
-    at(
-        joint,
-        Law::Thermal {
-            loss: draw.log_uniform(0.02, 0.12),
-        },
-    )
+    Effect::new(Form::Thermal, [draw.log_uniform(0.02, 0.12)]).joint(joint)
 }
 
 fn overshoot(joint: Joint, draw: &mut Draw) -> Effect {
-    at(
-        joint,
-        Law::Overshoot {
-            fraction: draw.uniform(0.1, 0.4),
-            travel: draw.log_uniform(0.05, 0.25),
-        },
-    )
+    Effect::new(Form::YieldOvershoot, [draw.uniform(0.1, 0.4), draw.log_uniform(0.05, 0.25)]).joint(joint)
 }
 
 fn payload(_: Joint, draw: &mut Draw) -> Effect {
-    whole(Law::Payload {
-        mass: draw.log_uniform(0.15, 1.0),
-    })
+    Effect::new(Form::Payload, [draw.log_uniform(0.15, 1.0)])
 }
 
 fn inertia(_: Joint, draw: &mut Draw) -> Effect {
-    whole(Law::Inertia {
-        fraction: draw.sign() * draw.log_uniform(0.06, 0.2),
-    })
+    Effect::new(Form::Inertia, [draw.sign() * draw.log_uniform(0.06, 0.2)])
 }
 
 /// A base out of level by 0.5° to 4°.
 fn gravity(_: Joint, draw: &mut Draw) -> Effect {
     let (s, c) = libm::sincos(draw.uniform(0.0, TAU));
     let field = 9.81 * libm::sin(RAD_PER_DEG * draw.log_uniform(0.5, 4.0));
-    whole(Law::Gravity {
-        field: [field * c, field * s],
-    })
+    Effect::new(Form::Gravity, [field * c, field * s])
 }
 
 fn bias(_: Joint, draw: &mut Draw) -> Effect {
     let level = draw.sign() * draw.log_uniform(0.05, 0.3);
-    at(base(draw), Law::Bias { level })
+    Effect::new(Form::Bias, [level]).joint(base(draw))
 }
 
 fn skew(_: Joint, draw: &mut Draw) -> Effect {
-    whole(Law::Skew {
-        delay: draw.sign() * draw.log_uniform(0.003, 0.02),
-    })
+    Effect::new(Form::Skew, [draw.sign() * draw.log_uniform(0.003, 0.02)])
 }
 
 fn encoder_scale(_: Joint, draw: &mut Draw) -> Effect {
     let fraction = draw.sign() * draw.log_uniform(0.01, 0.06);
-    at(base(draw), Law::EncoderScale { fraction })
+    Effect::new(Form::EncoderScale, [fraction]).joint(base(draw))
 }
 
 fn encoder_offset(_: Joint, draw: &mut Draw) -> Effect {
     let angle = draw.sign() * draw.log_uniform(0.01, 0.06);
-    at(base(draw), Law::EncoderOffset { angle })
+    Effect::new(Form::EncoderOffset, [angle]).joint(base(draw))
 }
 
 fn force_gain(_: Joint, draw: &mut Draw) -> Effect {
-    whole(Law::ForceGain {
-        fraction: draw.sign() * draw.log_uniform(0.04, 0.2),
-    })
+    Effect::new(Form::ForceGain, [draw.sign() * draw.log_uniform(0.04, 0.2)])
 }
 
 fn force_bias(_: Joint, draw: &mut Draw) -> Effect {
     let (s, c) = libm::sincos(draw.uniform(0.0, TAU));
     let force = draw.log_uniform(0.3, 2.0);
-    whole(Law::ForceBias {
-        force: [force * c, force * s],
-    })
+    Effect::new(Form::ForceBias, [force * c, force * s])
 }
 
 fn force_rotation(_: Joint, draw: &mut Draw) -> Effect {
-    whole(Law::ForceRotation {
-        angle: draw.sign() * RAD_PER_DEG * draw.log_uniform(1.5, 10.0),
-    })
+    Effect::new(Form::ForceRotation, [draw.sign() * RAD_PER_DEG * draw.log_uniform(1.5, 10.0)])
 }
 
 fn two_ripples(joint: Joint, draw: &mut Draw) -> Effect {
     let first = TAU / draw.uniform(12.0, 25.0);
-    at(
-        joint,
-        Law::TwoRipples {
-            level: draw.log_uniform(0.1, 0.4),
-            periods: [first, first / draw.uniform(1.8, 2.9)],
-        },
-    )
+    Effect::new(Form::TwoRipples, [draw.log_uniform(0.1, 0.4), first, first / draw.uniform(1.8, 2.9)]).joint(joint)
 }
 
 fn one_sided(joint: Joint, draw: &mut Draw) -> Effect {
@@ -371,37 +255,17 @@ fn one_sided(joint: Joint, draw: &mut Draw) -> Effect {
     } else {
         [strong, weak]
     };
-    at(
-        joint,
-        Law::OneSided {
-            forward,
-            backward,
-            travel: draw.log_uniform(0.03, 0.15),
-        },
-    )
+    Effect::new(Form::OneSided, [forward, backward, draw.log_uniform(0.03, 0.15)]).joint(joint)
 }
 
 fn uneven(joint: Joint, draw: &mut Draw) -> Effect {
-    at(
-        joint,
-        Law::Uneven {
-            level: draw.log_uniform(0.1, 0.4),
-            depth: draw.uniform(0.5, 1.0),
-            period: draw.log_uniform(0.2, 1.5),
-        },
-    )
+    Effect::new(Form::Uneven, [draw.log_uniform(0.1, 0.4), draw.uniform(0.5, 1.0), draw.log_uniform(0.2, 1.5)]).joint(joint)
 }
 
 fn varying_skew(_: Joint, draw: &mut Draw) -> Effect {
-    whole(Law::VaryingSkew {
-        delay: draw.log_uniform(0.004, 0.02),
-        period: draw.uniform(0.7, 4.0),
-    })
+    Effect::new(Form::VaryingSkew, [draw.log_uniform(0.004, 0.02), draw.uniform(0.7, 4.0)])
 }
 
 fn compliance(_: Joint, draw: &mut Draw) -> Effect {
-    whole(Law::Compliance {
-        mass: draw.uniform(0.3, 1.0),
-        frequency_hz: draw.uniform(5.0, 14.0),
-    })
+    Effect::new(Form::Compliance, [draw.uniform(0.3, 1.0), draw.uniform(5.0, 14.0)])
 }

@@ -1,14 +1,14 @@
 //! This file writes the rig description that goes with a recording: channels, parameters and the nominal physics.
 
+use super::setup::{Kind, Setup};
 use crate::draw::{Draw, rounded};
-use crate::law::Law;
+use crate::effect::Effect;
 use crate::plant::Plant;
-use crate::setup::{Kind, Setup};
 use rigproof_spec::effect::{Motion, Quantity};
 use std::fmt::Write;
 
 /// The rig description as TOML. Nominal values of unknown parameters are off by a factor of 0.4 to 2.
-pub fn toml(plant: Plant, seed: u64, setup: &Setup, known: &[Law], draw: &mut Draw) -> String {
+pub fn toml(plant: Plant, seed: u64, setup: &Setup, known: &[Effect], draw: &mut Draw) -> String {
     let unit = |quantity: Quantity| quantity.dimension(setup.motion).to_string();
     let motion = match setup.motion {
         Motion::Rotary => "rotary",
@@ -53,13 +53,12 @@ pub fn toml(plant: Plant, seed: u64, setup: &Setup, known: &[Law], draw: &mut Dr
     }
     for law in known {
         text += &format!("\n[[effect]]\nmechanism = \"{}\"\n", law.name());
-        for (name, value, quantity) in law.parameters() {
+        for (name, value, unit) in law.parameters(setup.motion) {
             let stated = rounded(value * draw.uniform(0.4, 2.0));
             // Writing to a string cannot fail.
             let _ = writeln!(
                 text,
-                "{name} = {{ value = {stated}, unit = \"{}\", status = \"unknown\" }}",
-                unit(quantity)
+                "{name} = {{ value = {stated}, unit = \"{unit}\", status = \"unknown\" }}"
             );
         }
     }

@@ -1,31 +1,93 @@
 //! This file is the five-bar rig with three or four brakes: its plant, its operators, its recordings and what they hide.
 
-mod braked;
 mod drive;
-mod element;
+mod experiment;
 mod hand;
 mod hide;
-mod law;
 mod linkage;
-mod make;
 mod mass;
 mod plant;
-mod preisach;
+mod record;
 mod residual;
 mod run;
 mod setup;
 mod size;
 mod stick;
+mod told;
 
-pub use make::{again, make, under};
+pub use experiment::{again, under};
 
+use crate::draw::Draw;
+use crate::effect::Effect;
+use crate::lab::{Drawn, Lab, Secret};
+use crate::plant::Plant;
+use crate::size::Sizes;
+use crate::stratum::Stratum;
 use linkage::angles_of_tip;
 use plant::FiveBar;
+use rigproof_spec::effect::Motion;
 use rigproof_spec::geometry::arms;
 use rigproof_spec::layout::Layout;
+use rigproof_trace::Trace;
+use run::Sample;
+use setup::Setup;
 
-/// Fine steps to a sample of 1 ms: 20 kHz.
-pub(crate) const FINE_STEPS: usize = 20;
+pub(crate) use crate::make::FINE_STEPS;
+
+/// The five-bar as a plant.
+pub struct Rig;
+
+impl Lab for Rig {
+    type Setup = Setup;
+    type Run = Vec<Sample>;
+
+    fn plant(&self) -> Plant {
+        Plant::Rig
+    }
+
+    fn draw(&self, _: u64, stratum: Stratum, draw: &mut Draw) -> Option<Drawn<Setup>> {
+        let setup = Setup::draw(stratum, draw)?;
+        Some(Drawn {
+            hidden: hide::draw(&setup, stratum, draw),
+            known: Vec::new(),
+            setup,
+        })
+    }
+
+    fn run(&self, drawn: &Drawn<Setup>) -> Option<Vec<Sample>> {
+        run::run(&drawn.setup, &drawn.hidden)
+    }
+
+    fn sizes(&self, drawn: &Drawn<Setup>, run: &Vec<Sample>) -> Sizes {
+        size::sizes(&drawn.setup, &drawn.hidden, run)
+    }
+
+    fn record(&self, case: &Secret<Setup, Vec<Sample>>, draw: &mut Draw) -> Trace {
+        let Drawn { setup, hidden, .. } = &case.drawn;
+        record::record(setup, hidden, &case.run, draw)
+    }
+
+    fn describe(&self, seed: u64, drawn: &Drawn<Setup>) -> String {
+        record::describe(seed, &drawn.setup).to_toml()
+    }
+
+    fn channels(&self, draw: &mut Draw) -> [&'static str; 2] {
+        let position = draw.pick(&["theta_a", "theta_b"]);
+        [position, draw.pick(&["force_x", "force_y"])]
+    }
+
+    fn motion(&self, _: &Setup) -> Motion {
+        Motion::Rotary
+    }
+
+    fn told(&self, setup: &Setup, effect: &Effect) -> Effect {
+        told::in_the_vocabulary(setup, effect)
+    }
+
+    fn twins(&self, drawn: &Drawn<Setup>, effect: &Effect) -> Vec<Vec<String>> {
+        told::sets(&drawn.setup, effect)
+    }
+}
 
 /// What acts on the rig over a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,37 +1,35 @@
 //! This file claims what holds for every plant and every law of the room.
 
-use crate::draw::Draw;
+use super::size::block_noise;
+use super::*;
 use crate::element::{Element, Instant, sliding_resistance};
-use crate::law::{Effect, Law};
-use crate::make::{FINE_STEPS, Secret, make, secret, simulate};
-use crate::plant::Plant;
-use crate::run::Run;
-use crate::setup::Kind;
-use crate::size::{CLEAR_DISTINCTNESS, CLEAR_SIZE, FAINT_STRENGTH, block_noise};
-use crate::stratum::Stratum;
+use crate::form::Stage;
+use crate::make::{make, secret};
+use crate::size::{CLEAR_DISTINCTNESS, CLEAR_SIZE, FAINT_STRENGTH};
 use proptest::prelude::*;
-use rigproof_spec::effect::Mechanism;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
+type Hidden = Secret<Setup, Run>;
+
 /// One case a law and plant, so that a claim about laws speaks of all of them; made once for all claims.
-fn one_case_a_law(plant: Plant) -> &'static BTreeMap<&'static str, Secret> {
-    static AXIS: OnceLock<BTreeMap<&'static str, Secret>> = OnceLock::new();
-    static BENCH: OnceLock<BTreeMap<&'static str, Secret>> = OnceLock::new();
+fn one_case_a_law(plant: Plant) -> &'static BTreeMap<&'static str, Hidden> {
+    static AXIS: OnceLock<BTreeMap<&'static str, Hidden>> = OnceLock::new();
+    static BENCH: OnceLock<BTreeMap<&'static str, Hidden>> = OnceLock::new();
     match plant {
         Plant::Axis => AXIS.get_or_init(|| drawn_until_all(plant, 21)),
         _ => BENCH.get_or_init(|| drawn_until_all(plant, 19)),
     }
 }
 
-fn drawn_until_all(plant: Plant, laws: usize) -> BTreeMap<&'static str, Secret> {
+fn drawn_until_all(plant: Plant, laws: usize) -> BTreeMap<&'static str, Hidden> {
     let mut cases = BTreeMap::new();
     let mut seed = 0;
     while cases.len() < laws {
         assert!(seed < 200, "{:?} are all of 200 seeds", cases.keys());
         for stratum in [Stratum::Single, Stratum::NotInLibrary] {
-            let secret = secret(plant, seed, stratum).unwrap();
-            cases.entry(secret.hidden[0].law.name()).or_insert(secret);
+            let secret = secret(&OneJoint(plant), seed, stratum).unwrap();
+            cases.entry(secret.drawn.hidden[0].name()).or_insert(secret);
         }
         seed += 1;
     }
@@ -43,29 +41,6 @@ fn root_mean_square(values: impl Iterator<Item = f64>) -> f64 {
     (sum / count).sqrt()
 }
 
-#[test]
-fn the_laws_of_the_library_are_named_as_the_vocabulary_has_them() {
-    let mut names = BTreeSet::new();
-    for plant in [Plant::Axis, Plant::Bench] {
-        for (name, secret) in one_case_a_law(plant) {
-            names.insert(*name);
-            let law = secret.hidden[0].law;
-            assert!(!law.parameters().is_empty(), "{name}");
-            let Some(mechanism) = Mechanism::from_name(name) else {
-                continue;
-            };
-            // A law of another family has parameters of its own; one with the vocabulary's name is the vocabulary's.
-            for (parameter, _, quantity) in law.parameters() {
-                let theirs = mechanism.parameters().iter();
-                for theirs in theirs.filter(|p| p.name == parameter) {
-                    assert_eq!(quantity, theirs.quantity, "{name} {parameter}");
-                }
-            }
-        }
-    }
-    assert_eq!(names.len(), 23, "{names:?}");
-}
-
 /// Halving the fine step moves the position by less than 1e-4 of the travel (measured: 5e-5 at most) and the metered
 /// effort by less than a fifth of its noise (measured: 0.15 at most, at the edges of a backlash window), root mean square.
 #[test]
@@ -73,16 +48,16 @@ fn the_fine_step_is_fine_enough_for_every_law() {
     const { assert!(FINE_STEPS >= 10) };
     for plant in [Plant::Axis, Plant::Bench] {
         for (name, case) in one_case_a_law(plant) {
-            let finer = simulate(&case.setup, &case.known, &case.hidden, 2 * FINE_STEPS);
+            let finer = simulate(&case.drawn, 2 * FINE_STEPS);
             let (change, resolution, budget) = match plant {
                 Plant::Axis => (
                     difference(&case.run.shown_position, &finer.shown_position),
-                    case.setup.scale.travel,
+                    case.drawn.setup.scale.travel,
                     1e-4,
                 ),
                 _ => (
                     difference(&case.run.shown_effort, &finer.shown_effort),
-                    case.setup.noise,
+                    case.drawn.setup.noise,
                     0.2,
                 ),
             };
@@ -101,7 +76,7 @@ fn difference(a: &[f64], b: &[f64]) -> f64 {
 #[test]
 fn on_the_axis_the_hidden_force_is_what_the_nominal_equation_lacks() {
     for (name, case) in one_case_a_law(Plant::Axis) {
-        let Kind::Axis(drive) = &case.setup.kind else {
+        let Kind::Axis(drive) = &case.drawn.setup.kind else {
             panic!("an axis case has a drive");
         };
         if *name == "channel_skew" {
@@ -120,8 +95,8 @@ fn on_the_axis_the_hidden_force_is_what_the_nominal_equation_lacks() {
             }
             let acceleration = (run.velocity[k + 1] - run.velocity[k - 1]) / (2.0 * step_s);
             let v = run.velocity[k];
-            let nominal = drive.gain * run.shown_input[k] - known_resistance(&case.known, v);
-            let sign = if case.hidden[0].law.is_upstream() {
+            let nominal = drive.gain * run.shown_input[k] - known_resistance(&case.drawn.known, v);
+            let sign = if case.drawn.hidden[0].stage() == Stage::Drive {
                 -1.0
             } else {
                 1.0
@@ -144,14 +119,14 @@ fn on_the_axis_the_hidden_force_is_what_the_nominal_equation_lacks() {
 }
 
 /// Resistance of the laws a nominal model may know, written out once more.
-fn known_resistance(known: &[Law], velocity: f64) -> f64 {
+fn known_resistance(known: &[Effect], velocity: f64) -> f64 {
     known
         .iter()
-        .map(|law| match law {
-            Law::Viscous { coefficient } => coefficient * velocity,
-            Law::Dry { level } => level * velocity.signum(),
-            Law::Bias { level } => *level,
-            other => panic!("{} is never nominal", other.name()),
+        .map(|law| match law.form {
+            Form::Viscous => law.first() * velocity,
+            Form::Coulomb => law.first() * velocity.signum(),
+            Form::Bias => law.first(),
+            _ => panic!("{} is never nominal", law.name()),
         })
         .sum()
 }
@@ -159,16 +134,20 @@ fn known_resistance(known: &[Law], velocity: f64) -> f64 {
 #[test]
 fn on_the_bench_the_hidden_force_is_what_the_effect_adds() {
     for (name, case) in one_case_a_law(Plant::Bench) {
-        let without = simulate(&case.setup, &case.known, &[], FINE_STEPS);
+        let without = Drawn {
+            hidden: Vec::new(),
+            ..case.drawn.clone()
+        };
+        let without = simulate(&without, FINE_STEPS);
         let with = &case.run;
         let added = with.shown_effort.iter().zip(&without.shown_effort);
         let worst = added
             .zip(&with.hidden[0])
             .map(|((with, without), hidden)| (with - without - hidden).abs())
             .fold(0.0, f64::max);
-        let late_position = matches!(case.hidden[0].law, Law::Skew { delay } if delay < 0.0);
+        let late_position = case.drawn.hidden[0].form == Form::Skew && case.drawn.hidden[0].first() < 0.0;
         if !late_position {
-            assert!(worst < 1e-9 * case.setup.scale.effort, "{name}: {worst}");
+            assert!(worst < 1e-9 * case.drawn.setup.scale.effort, "{name}: {worst}");
         }
     }
 }
@@ -178,12 +157,12 @@ fn sizes_are_what_the_strata_say() {
     for plant in [Plant::Axis, Plant::Bench] {
         for seed in 1000..1008 {
             for stratum in [Stratum::Single, Stratum::Masked, Stratum::LateOnset] {
-                for size in secret(plant, seed, stratum).unwrap().sizes {
+                for size in secret(&OneJoint(plant), seed, stratum).unwrap().sizes.sizes {
                     assert!(size.size >= CLEAR_SIZE && size.distinctness >= CLEAR_DISTINCTNESS);
                 }
             }
-            let faint = secret(plant, seed, Stratum::TooSmall).unwrap();
-            let [size] = faint.sizes[..] else {
+            let faint = secret(&OneJoint(plant), seed, Stratum::TooSmall).unwrap();
+            let [size] = faint.sizes.sizes[..] else {
                 panic!("one effect is hidden");
             };
             assert!(
@@ -197,33 +176,33 @@ fn sizes_are_what_the_strata_say() {
 /// The unit of every size is the scatter that 80 ms of recorded noise really have.
 #[test]
 fn block_noise_is_the_scatter_of_80_ms_averages() {
-    let case = secret(Plant::Bench, 5, Stratum::Nothing).unwrap();
+    let case = secret(&OneJoint(Plant::Bench), 5, Stratum::Nothing).unwrap();
     let mut draw = Draw::new(Plant::Bench, 5, "scatter");
-    let count = (0.08 * case.setup.rate_hz) as usize;
+    let count = (0.08 * case.drawn.setup.rate_hz) as usize;
     let averages = (0..4000).map(|_| {
         (0..count)
-            .map(|_| draw.normal(case.setup.noise))
+            .map(|_| draw.normal(case.drawn.setup.noise))
             .sum::<f64>()
             / count as f64
     });
     let scatter = root_mean_square(averages);
-    assert!((scatter / block_noise(&case.setup) - 1.0).abs() < 0.04);
+    assert!((scatter / block_noise(&case.drawn.setup) - 1.0).abs() < 0.04);
 
-    let case = secret(Plant::Axis, 5, Stratum::Nothing).unwrap();
-    let Kind::Axis(drive) = &case.setup.kind else {
+    let case = secret(&OneJoint(Plant::Axis), 5, Stratum::Nothing).unwrap();
+    let Kind::Axis(drive) = &case.drawn.setup.kind else {
         panic!("an axis case has a drive");
     };
-    let count = (0.08 * case.setup.rate_hz) as usize;
+    let count = (0.08 * case.drawn.setup.rate_hz) as usize;
     let mut draw = Draw::new(Plant::Axis, 5, "scatter");
     let efforts = (0..4000).map(|_| {
-        let half = case.setup.quantum / 2.0;
+        let half = case.drawn.setup.quantum / 2.0;
         let positions: Vec<f64> = (0..count).map(|_| draw.uniform(-half, half)).collect();
-        let command: f64 = (0..count).map(|_| draw.normal(case.setup.noise)).sum();
-        drive.inertia * parabola_acceleration(&positions, 1.0 / case.setup.rate_hz)
+        let command: f64 = (0..count).map(|_| draw.normal(case.drawn.setup.noise)).sum();
+        drive.inertia * parabola_acceleration(&positions, 1.0 / case.drawn.setup.rate_hz)
             - drive.gain * command / count as f64
     });
     let scatter = root_mean_square(efforts);
-    let stated = block_noise(&case.setup);
+    let stated = block_noise(&case.drawn.setup);
     assert!((scatter / stated - 1.0).abs() < 0.08, "{scatter} {stated}");
 }
 
@@ -243,16 +222,16 @@ fn parabola_acceleration(values: &[f64], step_s: f64) -> f64 {
 #[test]
 fn a_case_with_nothing_hidden_balances_its_energy() {
     for seed in 0..12 {
-        let secret = secret(Plant::Axis, seed, Stratum::Nothing).unwrap();
+        let secret = secret(&OneJoint(Plant::Axis), seed, Stratum::Nothing).unwrap();
         let trace = make(Plant::Axis, seed, Some(Stratum::Nothing))
             .unwrap()
             .trace;
-        let Kind::Axis(drive) = &secret.setup.kind else {
+        let Kind::Axis(drive) = &secret.drawn.setup.kind else {
             panic!("an axis case has a drive");
         };
         let position = &trace.channel("position").unwrap().samples;
         let command = &trace.channel("command").unwrap().samples;
-        let step_s = 1.0 / secret.setup.rate_hz;
+        let step_s = 1.0 / secret.drawn.setup.rate_hz;
         let stride = (0.01 / step_s) as usize;
         let (mut put_in, mut turned_over, mut dissipated) = (0.0, 0.0, 0.0);
         for k in (0..position.len() - stride).step_by(stride) {
@@ -262,7 +241,7 @@ fn a_case_with_nothing_hidden_balances_its_energy() {
             put_in += drive.gain * mean_v * travel;
             turned_over += (drive.gain * mean_v * travel).abs();
             if travel != 0.0 {
-                dissipated += known_resistance(&secret.known, velocity) * travel;
+                dissipated += known_resistance(&secret.drawn.known, velocity) * travel;
             }
         }
         let end = *secret.run.velocity.last().unwrap();
@@ -277,8 +256,8 @@ fn a_case_with_nothing_hidden_balances_its_energy() {
 fn a_damper_with_nothing_hidden_leaves_only_noise() {
     let mut seen = 0;
     for seed in 0..16 {
-        let secret = secret(Plant::Bench, seed, Stratum::Nothing).unwrap();
-        if secret.setup.brake().is_some() {
+        let secret = secret(&OneJoint(Plant::Bench), seed, Stratum::Nothing).unwrap();
+        if secret.drawn.setup.brake().is_some() {
             continue;
         }
         seen += 1;
@@ -290,8 +269,8 @@ fn a_damper_with_nothing_hidden_leaves_only_noise() {
             .iter()
             .zip(&secret.run.velocity)
             .filter(|(_, v)| **v != 0.0)
-            .map(|(effort, v)| effort - known_resistance(&secret.known, *v));
-        let ratio = root_mean_square(rest) / secret.setup.noise;
+            .map(|(effort, v)| effort - known_resistance(&secret.drawn.known, *v));
+        let ratio = root_mean_square(rest) / secret.drawn.setup.noise;
         assert!((ratio - 1.0).abs() < 0.03, "seed {seed}: {ratio}");
     }
     assert!(seen >= 4);
@@ -301,25 +280,26 @@ fn a_damper_with_nothing_hidden_leaves_only_noise() {
 fn brakes_and_dry_friction_never_drive_the_bench() {
     for seed in 0..12 {
         for stratum in [Stratum::Nothing, Stratum::Single, Stratum::NotInLibrary] {
-            let case = secret(Plant::Bench, seed, stratum).unwrap();
+            let case = secret(&OneJoint(Plant::Bench), seed, stratum).unwrap();
             let passive = case
+                .drawn
                 .known
                 .iter()
-                .chain(case.hidden.iter().map(|e| &e.law))
+                .chain(&case.drawn.hidden)
                 .all(|law| {
                     matches!(
-                        law,
-                        Law::Dry { .. }
-                            | Law::Viscous { .. }
-                            | Law::Stribeck { .. }
-                            | Law::Asymmetry { .. }
-                            | Law::Lag { .. }
-                            | Law::Gain { .. }
-                            | Law::QuadraticDrag { .. }
-                            | Law::ThermalFade { .. }
-                            | Law::ReversalOvershoot { .. }
-                            | Law::CurrentHysteresis { .. }
-                            | Law::BacklashWidth { .. }
+                        law.form,
+                        Form::Coulomb
+                            | Form::Viscous
+                            | Form::Stribeck
+                            | Form::Asymmetric
+                            | Form::Lag
+                            | Form::Gain
+                            | Form::Square
+                            | Form::WorkFade
+                            | Form::Overshoot
+                            | Form::Play
+                            | Form::Backlash
                     )
                 });
             if passive {
@@ -347,15 +327,11 @@ proptest! {
         bristle: bool,
     ) {
         let law = if bristle {
-            Law::Dahl { level, travel }
+            Effect::new(Form::Dahl, [level, travel])
         } else {
-            Law::BoucWen {
-                alpha: level / travel,
-                beta_gamma: 1.0 / travel,
-                beta_delta: ratio / travel,
-            }
+            Effect::new(Form::BoucWen, [level / travel, 1.0 / travel, ratio / travel])
         };
-        let mut elements = [Element::new(Effect::always(law))];
+        let mut elements = [Element::new(law)];
         let steps = 20_000;
         let mut work_j = [0.0; 3];
         let mut position = 0.0;
@@ -368,9 +344,10 @@ proptest! {
                 position,
                 velocity: moved,
                 direction: moved.signum(),
-                effort: 0.0,
+                load: 0.0,
+                brake: 0.0,
             };
-            work_j[(k / steps) as usize] += sliding_resistance(&elements, &at, 0.5 * moved) * moved;
+            work_j[(k / steps) as usize] += sliding_resistance(&elements, &at, 0.5 * moved, 0.0) * moved;
             elements[0].advance(&at, moved, 0.0);
             position = next;
         }

@@ -1,10 +1,11 @@
 //! This file runs the five-bar through a recording and keeps what happened: the truth and what the sensors see.
 
 use super::FINE_STEPS;
-use super::law::{Effect, Law};
 use super::linkage::{Pair, plus};
 use super::plant::FiveBar;
 use super::setup::{RATE_HZ, Setup};
+use crate::effect::{At, Effect};
+use crate::form::Form;
 use rigproof_spec::geometry::angle_ranges;
 use std::f64::consts::TAU;
 
@@ -151,17 +152,19 @@ fn between(values: &[Pair], place: f64) -> Pair {
 fn shown_force(hidden: &[Effect], time_s: f64, at: impl Fn(f64) -> Pair) -> Pair {
     let acting = || hidden.iter().filter(|effect| effect.acts(time_s));
     let delay_s: f64 = acting()
-        .map(|effect| match effect.law {
-            Law::Skew { delay } => delay,
-            Law::VaryingSkew { delay, period } => delay * (1.0 - libm::cos(TAU * time_s / period)),
+        .map(|effect| match (effect.form, effect.values) {
+            (Form::Skew, [delay, ..]) => delay,
+            (Form::VaryingSkew, [delay, period, ..]) => {
+                delay * (1.0 - libm::cos(TAU * time_s / period))
+            }
             _ => 0.0,
         })
         .sum();
-    acting().fold(at(time_s - delay_s), |force, effect| match effect.law {
-        Law::ForceGain { fraction } => force.map(|x| x * (1.0 + fraction)),
-        Law::ForceBias { force: bias } => plus(force, 1.0, bias),
+    acting().fold(at(time_s - delay_s), |force, effect| match (effect.form, effect.values) {
+        (Form::ForceGain, [fraction, ..]) => force.map(|x| x * (1.0 + fraction)),
+        (Form::ForceBias, [x, y, ..]) => plus(force, 1.0, [x, y]),
         // A sensor that is turned to the left sees a force turned to the right.
-        Law::ForceRotation { angle } => {
+        (Form::ForceRotation, [angle, ..]) => {
             let (s, c) = libm::sincos(angle);
             let [x, y] = force;
             [c * x + s * y, c * y - s * x]
@@ -174,10 +177,10 @@ fn shown_force(hidden: &[Effect], time_s: f64, at: impl Fn(f64) -> Pair) -> Pair
 pub fn shown_theta(setup: &Setup, hidden: &[Effect], theta: Pair) -> Pair {
     use rigproof_spec::joint::Joint;
     let show = |joint: Joint, angle: f64, start: f64| {
-        let here = hidden.iter().filter(|effect| effect.joint == Some(joint));
-        here.fold(angle, |angle, effect| match effect.law {
-            Law::EncoderScale { fraction } => start + (1.0 + fraction) * (angle - start),
-            Law::EncoderOffset { angle: more } => angle + more,
+        let here = hidden.iter().filter(|effect| effect.at == At::Joint(joint));
+        here.fold(angle, |angle, effect| match effect.form {
+            Form::EncoderScale => start + (1.0 + effect.first()) * (angle - start),
+            Form::EncoderOffset => angle + effect.first(),
             _ => angle,
         })
     };
@@ -192,8 +195,8 @@ pub fn quantised(setup: &Setup, theta: Pair) -> Pair {
 
 impl Handle {
     fn of(hidden: &[Effect], at_m: Pair) -> Option<Handle> {
-        hidden.iter().find_map(|effect| match effect.law {
-            Law::Compliance { mass, frequency_hz } => {
+        hidden.iter().find_map(|effect| match (effect.form, effect.values) {
+            (Form::Compliance, [mass, frequency_hz, ..]) => {
                 let omega = TAU * frequency_hz;
                 Some(Handle {
                     mass,

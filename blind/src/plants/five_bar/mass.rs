@@ -6,7 +6,7 @@ use rigproof_spec::inertia::Inertia;
 
 /// The mass matrix and the velocity-dependent forces at one pose and rate: `M·q̈ + bias = Q`.
 #[derive(Clone, Copy, Debug)]
-pub struct Form {
+pub struct Dynamics {
     /// Entries 11, 12 and 22, kg·m².
     pub mass: [f64; 3],
     /// N·m.
@@ -45,10 +45,10 @@ fn bodies(arms: &Arms, inertia: &Inertia) -> [Body; 5] {
     ]
 }
 
-impl Form {
+impl Dynamics {
     /// The form at a pose with rates of θA and θB, rad/s.
     #[expect(clippy::indexing_slicing, reason = "bodies name arms by 0 to 3")]
-    pub fn new(arms: &Arms, inertia: &Inertia, pose: &Pose, rates: Pair) -> Form {
+    pub fn new(arms: &Arms, inertia: &Inertia, pose: &Pose, rates: Pair) -> Dynamics {
         let speeds = pose.turns.map(|turns| dot(turns, rates));
         let drifts = drifts(arms, pose, speeds);
         let mut mass = [0.0; 3];
@@ -76,7 +76,7 @@ impl Form {
                 h,
             );
         }
-        Form { mass, bias }
+        Dynamics { mass, bias }
     }
 
     /// `M·x`.
@@ -151,7 +151,7 @@ mod tests {
         let [theta_a, theta_b] = [2.03, 0.77];
         let pose = Pose::at(&arms, [theta_a, theta_b]).unwrap();
         let rates = [0.9, -1.3];
-        let form = Form::new(&arms, &inertia, &pose, rates);
+        let form = Dynamics::new(&arms, &inertia, &pose, rates);
         // By hand from table 5.1: I + m·l² of the arms that turn with θA, and of those with θB.
         let first =
             0.0661 + 3.70 * 0.166 * 0.166 + 2.74 * 0.305 * 0.305 + 0.0355 + 2.59 * 0.188 * 0.188;
@@ -180,7 +180,7 @@ mod tests {
         let rates = [1.3, 0.7];
         let mass = |theta: Pair| {
             let pose = Pose::at(&arms, theta).unwrap();
-            Form::new(&arms, &inertia, &pose, rates)
+            Dynamics::new(&arms, &inertia, &pose, rates)
         };
         let step = 1e-6;
         let along = |direction: Pair, x: Pair| {

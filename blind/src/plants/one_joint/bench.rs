@@ -3,14 +3,15 @@
 //! Each law is integrated in displacement where it is a law of displacement, on a fine grid between samples. Dry
 //! friction keeps its last sign while the velocity is exactly zero.
 
+use super::run::{Delay, Run, skew_s};
+use super::setup::Setup;
 use crate::brake::{Brake, BrakeStep};
+use crate::effect::Effect;
 use crate::element::{Element, Instant, sliding_resistance};
-use crate::law::{Effect, Law, skew_s};
-use crate::run::{Delay, Run};
-use crate::setup::Setup;
+use crate::form::Stage;
 
 /// Runs the bench with the laws the nominal model knows and the hidden effects, `fine_steps` to a sample.
-pub fn run(setup: &Setup, known: &[Law], hidden: &[Effect], fine_steps: usize) -> Run {
+pub fn run(setup: &Setup, known: &[Effect], hidden: &[Effect], fine_steps: usize) -> Run {
     let step_s = 1.0 / (setup.rate_hz * fine_steps as f64);
     let samples = (setup.duration_s * setup.rate_hz) as usize;
     let mut bench = Bench::new(setup, known, hidden);
@@ -36,9 +37,9 @@ pub fn run(setup: &Setup, known: &[Law], hidden: &[Effect], fine_steps: usize) -
                 run.shown_input.push(currents.at(time_s));
             }
             for (effect, force) in hidden.iter().zip(&mut run.hidden) {
-                force.push(match effect.law {
-                    Law::Skew { .. } => skewed.value() - effort,
-                    law if law.is_upstream() => bench.brake_excess(),
+                force.push(match effect.stage() {
+                    Stage::Sensor => skewed.value() - effort,
+                    Stage::Drive => bench.brake_excess(),
                     _ => bench.resistance_of(effect),
                 });
             }
@@ -55,13 +56,10 @@ struct Bench {
 }
 
 impl Bench {
-    fn new(setup: &Setup, known: &[Law], hidden: &[Effect]) -> Bench {
+    fn new(setup: &Setup, known: &[Effect], hidden: &[Effect]) -> Bench {
         let (position, velocity) = setup.path.at(0.0);
         let (_, first_velocity) = setup.path.at(1.0 / setup.rate_hz);
-        let upstream = hidden
-            .iter()
-            .copied()
-            .find(|effect| effect.law.is_upstream());
+        let upstream = hidden.iter().copied().find(|e| e.stage() == Stage::Drive);
         let brakes = setup.brake().map(|(joint, _)| {
             (
                 Brake::new(joint, upstream, position),
@@ -69,19 +67,15 @@ impl Bench {
             )
         });
         Bench {
-            elements: known
-                .iter()
-                .map(|law| Effect::always(*law))
-                .chain(hidden.iter().copied())
-                .map(Element::new)
-                .collect(),
+            elements: known.iter().chain(hidden).copied().map(Element::new).collect(),
             brakes,
             at: Instant {
                 time_s: 0.0,
                 position,
                 velocity,
                 direction: first_velocity.signum(),
-                effort: 0.0,
+                load: 0.0,
+            brake: 0.0,
             },
         }
     }
@@ -106,7 +100,8 @@ impl Bench {
             position,
             velocity,
             direction,
-            effort: 0.0,
+            load: 0.0,
+            brake: 0.0,
         };
         if let (Some((brake, nominal)), Some((_, currents))) = (&mut self.brakes, setup.brake()) {
             let step = BrakeStep {
@@ -127,7 +122,7 @@ impl Bench {
             .brakes
             .as_ref()
             .map_or(0.0, |(brake, _)| brake.yield_nm());
-        self.at.direction * brake + sliding_resistance(&self.elements, &self.at, 0.0)
+        self.at.direction * brake + sliding_resistance(&self.elements, &self.at, 0.0, 0.0)
     }
 
     fn brake_excess(&self) -> f64 {
@@ -141,7 +136,7 @@ impl Bench {
             .iter()
             .filter(|element| element.effect == *effect)
             .map(|element| {
-                element.force(&self.at, 0.0) + self.at.direction * element.bound(&self.at)
+                element.force(&self.at, 0.0, 0.0) + self.at.direction * element.bound(&self.at)
             })
             .sum()
     }

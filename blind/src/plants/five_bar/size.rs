@@ -2,27 +2,19 @@
 //!
 //! As on axis and bench (`crate::size`), with two equations of motion: averages over 80 ms, whitened by the covariance of an average.
 
-use super::law::{Effect, Law};
 use super::linkage::{Pair, plus};
-use super::mass::Form;
+use super::mass::Dynamics;
 use super::residual::{Seen, seen};
 use super::run::Sample;
 use super::setup::{RATE_HZ, Setup};
+use crate::effect::{At, Effect};
+use crate::form::Form;
 use crate::score::ONSET_S;
-use crate::size::{BLOCK_S, Size, remainder};
+use crate::size::{BLOCK_S, Size, Sizes, measured, remainder};
 use rigproof_spec::geometry::arms;
 use rigproof_spec::inertia::inertia;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
-
-/// The sizes of the hidden effects, the block noise, N·m, and the share of the blocks that slide.
-pub struct Sizes {
-    pub sizes: Vec<Size>,
-    pub block_noise: f64,
-    pub sliding: f64,
-    /// Root mean square of what the nominal equations lack and no hidden effect accounts for, in block noise: the plant's own error.
-    pub left: f64,
-}
 
 /// A generalised force at a sample, N·m.
 type Force = dyn Fn(&Seen, &Sample) -> Pair;
@@ -54,22 +46,17 @@ pub fn sizes(setup: &Setup, hidden: &[Effect], samples: &[Sample]) -> Sizes {
         .iter()
         .map(|imitation| column(&imitation.force))
         .collect();
-    let of = hidden.iter().zip(&forces).map(|(effect, force)| {
-        let others = forces.iter().filter(|other| !std::ptr::eq(*other, force));
+    let of = hidden.iter().zip(&forces).enumerate().map(|(own, (effect, force))| {
         let columns: Vec<&[f64]> = imitations
             .iter()
             .zip(&imitating)
             .filter(|(imitation, _)| !is_own(setup, effect, imitation))
             .map(|(_, column)| column.as_slice())
-            .chain(others.map(Vec::as_slice))
             .collect();
-        let active = force.iter().filter(|x| **x != 0.0).count().max(1) as f64;
-        let size = (remainder(force, &[]) / active).sqrt();
+        let size = measured(own, &forces, &[], &columns, 1.0);
         Size {
-            size,
-            distinctness: (remainder(force, &columns) / active).sqrt(),
-            strength: size * active.sqrt(),
-            onset_strength: onset_strength(effect, size, &blocks, force),
+            onset_strength: onset_strength(effect, size.size, &blocks, force),
+            ..size
         }
     });
     let count = blocks.len().max(1) as f64;
@@ -82,6 +69,7 @@ pub fn sizes(setup: &Setup, hidden: &[Effect], samples: &[Sample]) -> Sizes {
         sizes: of.collect(),
         block_noise: blocks.iter().map(|block| block.noise).sum::<f64>() / count,
         sliding: blocks.len() as f64 * length as f64 / samples.len().max(1) as f64,
+        ratio: None,
     }
 }
 
@@ -92,7 +80,7 @@ fn onset_strength(effect: &Effect, size: f64, blocks: &[Block], force: &[f64]) -
     let within = |from_s: f64, block: &Block| (from_s..from_s + ONSET_S).contains(&block.middle_s);
     let before = pairs().filter(|(block, _)| within(onset_s - ONSET_S, block));
     let would_act = before
-        .filter(|(block, _)| block.slides(effect.joint))
+        .filter(|(block, _)| block.slides(effect.at))
         .count();
     let after = pairs().filter(|(block, _)| within(onset_s, block));
     let after: f64 = after.flat_map(|(_, force)| force).map(|x| x * x).sum();
@@ -138,8 +126,8 @@ impl<'a> Block<'a> {
     }
 
     /// Whether a joint slides for half of it; without a joint whether anything does.
-    fn slides(&self, joint: Option<Joint>) -> bool {
-        let place = joint.and_then(|joint| Joint::ALL.into_iter().position(|own| own == joint));
+    fn slides(&self, at: At) -> bool {
+        let place = Joint::ALL.into_iter().position(|own| at == At::Joint(own));
         let slides = |seen: &Seen| {
             place.is_none_or(|place| seen.joint_rates.get(place).is_some_and(|rate| *rate != 0.0))
         };
@@ -165,7 +153,7 @@ fn covariance(setup: &Setup, seen: &Seen) -> [f64; 3] {
     let count = BLOCK_S * RATE_HZ;
     let angle = setup.quantum_rad() / 12_f64.sqrt();
     let acceleration = (720.0 / count).sqrt() * angle / (BLOCK_S * BLOCK_S);
-    let [m11, m12, m22] = Form::new(&arms, &inertia(setup.layout), &seen.pose, [0.0; 2]).mass;
+    let [m11, m12, m22] = Dynamics::new(&arms, &inertia(setup.layout), &seen.pose, [0.0; 2]).mass;
     let [xa, xb] = seen.pose.tip_force_along(&arms, [1.0, 0.0]);
     let [ya, yb] = seen.pose.tip_force_along(&arms, [0.0, 1.0]);
     let (a2, f2) = (
@@ -219,15 +207,15 @@ fn sign(rate: f64) -> f64 {
 
 /// Whether an imitation is the effect itself, or the same physics under another name.
 fn is_own(setup: &Setup, effect: &Effect, imitation: &Imitation) -> bool {
-    let joint = Some(imitation.joint);
-    let either = |joint: Option<Joint>| matches!(joint, Some(Joint::E | Joint::C));
+    let either = |at: At| at == At::Joint(Joint::E) || at == At::Joint(Joint::C);
+    let at = At::Joint(imitation.joint);
     // E and C of the 3-brake layout turn alike.
-    let twins = setup.layout == Layout::ThreeBrake && either(effect.joint) && either(joint);
-    let here = effect.joint == joint || twins;
-    match effect.law {
-        Law::Bearing { .. } => here,
+    let twins = setup.layout == Layout::ThreeBrake && either(effect.at) && either(at);
+    let here = effect.is_at(imitation.joint) || twins;
+    match effect.form {
+        Form::Bearing => here,
         // At one current for ever a gain is dry friction.
-        Law::Gain { .. } | Law::Dry { .. } if setup.is_constant() => {
+        Form::Gain | Form::Coulomb if setup.is_constant() => {
             here && matches!(imitation.name, "gain_error" | "dry_offset")
         }
         _ => here && effect.name() == imitation.name,
@@ -236,13 +224,14 @@ fn is_own(setup: &Setup, effect: &Effect, imitation: &Imitation) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::make::secret;
+    use super::super::Rig;
+    use crate::make::secret;
     use crate::stratum::Stratum;
 
     #[test]
     fn an_onset_tells_where_its_joint_moves_and_not_where_it_rests() {
         let strength = |seed| {
-            let secret = secret(seed, Stratum::LateOnset).unwrap();
+            let secret = secret(&Rig, seed, Stratum::LateOnset).unwrap();
             secret.sizes.sizes[0].onset_strength.unwrap()
         };
         // Friction at E that begins at 12.18 s, when the arms are held from 12.10 to 12.65 s; a bristle at A that begins in motion.

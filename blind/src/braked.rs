@@ -1,9 +1,9 @@
-//! This file is a brake of the five-bar with what is hidden in it, beside the brake that the nominal model knows.
+//! This file is a brake with what is hidden in it, beside the brake that the nominal model knows.
 
-use super::law::{Effect, Law};
-use super::preisach::Preisach;
 use crate::brake::{Brake, BrakeStep};
-use crate::law as plain;
+use crate::effect::Effect;
+use crate::form::Form;
+use crate::preisach::Preisach;
 use rigproof_spec::joint::Joint;
 
 /// Heat capacity of the fluid, J/K: some ten millilitres of oil and iron.
@@ -39,17 +39,10 @@ pub struct Braked {
 impl Braked {
     /// The brake of a joint, settled without current, with the effects that act in it and their numbers.
     pub fn new(joint: Joint, effects: Vec<(usize, Effect)>, angle_rad: f64) -> Braked {
-        let width = effects.iter().find_map(|(_, effect)| match effect.law {
-            Law::Backlash { width } => {
-                Some(plain::Effect::always(plain::Law::BacklashWidth { width }))
-            }
-            _ => None,
-        });
+        let hidden = || effects.iter().map(|(_, effect)| *effect);
+        let width = hidden().find(|effect| effect.form == Form::Backlash);
         let nominal = Brake::new(joint, None, angle_rad);
-        let is_upstream = |(_, effect): &(usize, Effect)| {
-            matches!(effect.law, Law::Backlash { .. } | Law::Preisach { .. })
-        };
-        let upstream = effects.iter().any(is_upstream);
+        let upstream = hidden().any(|effect| is_upstream(effect.form));
         Braked {
             lagged_nm: nominal.yield_nm(),
             nominal,
@@ -79,26 +72,23 @@ impl Braked {
             }
             None => self.nominal.yield_nm(),
         };
-        let lag_s = self
-            .effects
-            .iter()
-            .find_map(|(_, effect)| match effect.law {
-                Law::Lag { time_constant } if effect.acts(time_s) => Some(time_constant),
-                _ => None,
-            });
+        let lag_s = self.acting(Form::Lag, time_s);
         self.lagged_nm = lag_s.map_or(target_nm, |lag_s| {
             target_nm + (self.lagged_nm - target_nm) * libm::exp(-step.step_s / lag_s)
         });
-        if self
-            .effects
-            .iter()
-            .any(|(_, effect)| matches!(effect.law, Law::Thermal { .. }))
-        {
+        if self.effects.iter().any(|(_, effect)| effect.form == Form::Thermal) {
             let between_w = FLUID_TO_HOUSING_W_PER_K * (self.fluid_k - self.housing_k);
             self.fluid_k += step.step_s * (power_w - between_w) / FLUID_J_PER_K;
             self.housing_k += step.step_s * (between_w - HOUSING_TO_AIR_W_PER_K * self.housing_k)
                 / HOUSING_J_PER_K;
         }
+    }
+
+    /// The first number of the effect that has this form and acts.
+    fn acting(&self, form: Form, time_s: f64) -> Option<f64> {
+        let mut effects = self.effects.iter().map(|(_, effect)| effect);
+        let effect = effects.find(|effect| effect.form == form && effect.acts(time_s))?;
+        Some(effect.first())
     }
 
     /// Travels on, or back from a reversal.
@@ -115,14 +105,7 @@ impl Braked {
 
     /// The current that the fluid sees, A.
     fn magnetic_current_a(&mut self, time_s: f64, current_a: f64) -> f64 {
-        let share = self
-            .effects
-            .iter()
-            .find_map(|(_, effect)| match effect.law {
-                Law::Preisach { share } if effect.acts(time_s) => Some(share),
-                _ => None,
-            });
-        let Some(share) = share else {
+        let Some(share) = self.acting(Form::Preisach, time_s) else {
             return current_a;
         };
         self.preisach.take(current_a);
@@ -145,10 +128,7 @@ impl Braked {
         let mut added = Vec::new();
         let upstream_nm = self.lagged_nm - self.nominal.yield_nm();
         for (number, effect) in &self.effects {
-            if matches!(
-                effect.law,
-                Law::Lag { .. } | Law::Backlash { .. } | Law::Preisach { .. }
-            ) {
+            if effect.form == Form::Lag || is_upstream(effect.form) {
                 added.push((*number, upstream_nm));
             }
         }
@@ -159,13 +139,15 @@ impl Braked {
     fn raised(&self, mut tell: impl FnMut(usize, f64)) -> f64 {
         let mut yield_nm = self.lagged_nm;
         for (number, effect) in &self.effects {
-            let more = match effect.law {
+            let [a, b, ..] = effect.values;
+            let more = match effect.form {
                 _ if !effect.acts(self.time_s) => 0.0,
-                Law::Gain { fraction } => fraction,
-                Law::Thermal { loss } => (-loss * self.fluid_k).max(LEAST_SHARE - 1.0),
-                Law::Overshoot { fraction, travel } => self
-                    .travel_rad
-                    .map_or(0.0, |since| fraction * libm::exp(-since.abs() / travel)),
+                Form::Gain => a,
+                Form::Thermal => (-a * self.fluid_k).max(LEAST_SHARE - 1.0),
+                Form::YieldOvershoot => {
+                    let fades = |since: f64| a * libm::exp(-since.abs() / b);
+                    self.travel_rad.map_or(0.0, fades)
+                }
                 _ => continue,
             };
             tell(*number, more * yield_nm);
@@ -175,16 +157,16 @@ impl Braked {
     }
 }
 
+/// Whether a form acts ahead of the yield torque, on the window or the current.
+const fn is_upstream(form: Form) -> bool {
+    matches!(form, Form::Backlash | Form::Preisach)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn turned(law: Law, current_a: impl Fn(f64) -> f64, seconds: f64) -> (Braked, Vec<f64>) {
-        let effect = Effect {
-            law,
-            joint: Some(Joint::A),
-            onset_s: None,
-        };
+    fn turned(effect: Effect, current_a: impl Fn(f64) -> f64, seconds: f64) -> (Braked, Vec<f64>) {
         let mut braked = Braked::new(Joint::A, vec![(3, effect)], 0.4);
         let mut yields = Vec::new();
         let step_s = 1e-4;
@@ -205,16 +187,11 @@ mod tests {
     #[test]
     fn what_is_added_makes_up_the_difference() {
         for law in [
-            Law::Gain { fraction: -0.17 },
-            Law::Lag {
-                time_constant: 0.031,
-            },
-            Law::Preisach { share: 0.23 },
-            Law::Thermal { loss: 0.013 },
-            Law::Overshoot {
-                fraction: 0.21,
-                travel: 0.3,
-            },
+            Effect::new(Form::Gain, [-0.17]),
+            Effect::new(Form::Lag, [0.031]),
+            Effect::new(Form::Preisach, [0.23]),
+            Effect::new(Form::Thermal, [0.013]),
+            Effect::new(Form::YieldOvershoot, [0.21, 0.3]),
         ] {
             let current_a = |time_s: f64| if time_s < 1.0 { 0.83 } else { 0.41 };
             let (braked, _) = turned(law, current_a, 1.013);
@@ -222,7 +199,7 @@ mod tests {
             let difference = braked.yield_nm() - braked.nominal_yield_nm();
             assert!((added - difference).abs() < 1e-12, "{law:?}");
             assert!(
-                difference.abs() > 1e-4 || matches!(law, Law::Overshoot { .. }),
+                difference.abs() > 1e-4 || law.form == Form::YieldOvershoot,
                 "{law:?}"
             );
         }
@@ -230,17 +207,9 @@ mod tests {
 
     #[test]
     fn an_overshoot_needs_a_reversal_and_rounding_is_none() {
-        let law = Law::Overshoot {
-            fraction: 0.21,
-            travel: 0.3,
-        };
+        let law = Effect::new(Form::YieldOvershoot, [0.21, 0.3]);
         for sense in [1.0, -1.0] {
-            let effect = Effect {
-                law,
-                joint: Some(Joint::C),
-                onset_s: None,
-            };
-            let mut braked = Braked::new(Joint::C, vec![(0, effect)], 0.4);
+            let mut braked = Braked::new(Joint::C, vec![(0, law)], 0.4);
             let mut go = |position_rad: f64| {
                 let step = BrakeStep {
                     step_s: 1e-4,
@@ -264,14 +233,14 @@ mod tests {
     #[test]
     fn the_current_comes_back_on_another_branch() {
         let ramp = |time_s: f64| if time_s < 1.0 { time_s } else { 2.0 - time_s };
-        let (_, yields) = turned(Law::Preisach { share: 0.23 }, ramp, 1.9);
+        let (_, yields) = turned(Effect::new(Form::Preisach, [0.23]), ramp, 1.9);
         let (up, down) = (yields[4999], yields[14_999]);
         assert!(down > up + 0.5, "{up} {down}");
     }
 
     #[test]
     fn a_warm_brake_fades_and_comes_back_in_two_steps() {
-        let (mut braked, yields) = turned(Law::Thermal { loss: 0.011 }, |_| 0.7, 30.0);
+        let (mut braked, yields) = turned(Effect::new(Form::Thermal, [0.011]), |_| 0.7, 30.0);
         let (early, late) = (yields[2000], yields[299_999]);
         assert!(late < 0.95 * early, "{early} {late}");
         let warm = (braked.fluid_k, braked.housing_k);

@@ -1,15 +1,17 @@
 //! This file says which physics the nominal model already has.
 
+use super::setup::{Kind, Setup};
 use crate::draw::Draw;
-use crate::law::Law;
-use crate::setup::{Kind, Setup};
+use crate::effect::Effect;
+use crate::form::Form;
 
 /// Draws the laws of the nominal model, true in the plant; nothing hidden is among them.
-pub fn draw(setup: &Setup, hidden: &[Law], draw: &mut Draw) -> Vec<Law> {
+pub fn draw(setup: &Setup, hidden: &[Effect], draw: &mut Draw) -> Vec<Effect> {
     let hides = |name: &str| hidden.iter().any(|law| law.name() == name);
-    let asymmetry = hidden.iter().find_map(|law| match law {
-        Law::Asymmetry { dry, viscous } => Some((*dry != 0.0, *viscous != 0.0)),
-        _ => None,
+    let asymmetry = hidden.iter().find(|law| law.form == Form::Asymmetric);
+    let asymmetry = asymmetry.map(|law| {
+        let [dry, viscous, ..] = law.values;
+        (dry != 0.0, viscous != 0.0)
     });
     let (needs_dry, needs_viscous) = asymmetry.unwrap_or((false, false));
     let may_dry = !hides(setup.dry.name());

@@ -1,7 +1,8 @@
 //! This file draws the lab: the plant's size, its sensors and how it is moved.
 
 use crate::draw::{Draw, rounded};
-use crate::law::Law;
+use crate::effect::Effect;
+use crate::form::Form;
 use crate::path::Path;
 use crate::plant::Plant;
 use rigproof_spec::effect::Motion;
@@ -23,9 +24,9 @@ pub struct Setup {
     pub path: Path,
     pub kind: Kind,
     /// The dry friction and the damping that the plant has when the nominal model knows of them.
-    pub dry: Law,
-    pub viscous: Law,
-    pub bias: Law,
+    pub dry: Effect,
+    pub viscous: Effect,
+    pub bias: Effect,
 }
 
 /// Typical magnitudes.
@@ -218,20 +219,14 @@ fn currents(draw: &mut Draw, duration_s: f64) -> Currents {
     Currents { dwell_s, levels_a }
 }
 
-fn dry(draw: &mut Draw, scale: Scale) -> Law {
-    Law::Dry {
-        level: scale.effort * draw.uniform(0.1, 0.3),
-    }
+fn dry(draw: &mut Draw, scale: Scale) -> Effect {
+    Effect::new(Form::Coulomb, [scale.effort * draw.uniform(0.1, 0.3)])
 }
 
-fn viscous(draw: &mut Draw, scale: Scale) -> Law {
-    Law::Viscous {
-        coefficient: scale.effort / scale.speed * draw.uniform(0.1, 0.3),
-    }
+fn viscous(draw: &mut Draw, scale: Scale) -> Effect {
+    Effect::new(Form::Viscous, [scale.effort / scale.speed * draw.uniform(0.1, 0.3)])
 }
 
-fn bias(draw: &mut Draw, scale: Scale) -> Law {
-    Law::Bias {
-        level: scale.effort * draw.sign() * draw.uniform(0.05, 0.15),
-    }
+fn bias(draw: &mut Draw, scale: Scale) -> Effect {
+    Effect::new(Form::Bias, [scale.effort * draw.sign() * draw.uniform(0.05, 0.15)])
 }

@@ -1,10 +1,10 @@
 //! This file asks what the nominal model lacks along a recording: generalised forces that its equations leave over.
 
-use super::law::Effect;
 use super::linkage::{Pair, Pose, cross, dot, plus, turned};
-use super::mass::Form;
+use super::mass::Dynamics;
 use super::run::{Sample, shown_theta};
 use super::setup::Setup;
+use crate::effect::Effect;
 use rigproof_spec::geometry::arms;
 use rigproof_spec::inertia::inertia;
 
@@ -49,7 +49,7 @@ fn see(setup: &Setup, hidden: &[Effect], sample: &Sample) -> Option<Seen> {
             *rate = 0.0;
         }
     }
-    let form = Form::new(&arms, &inertia(setup.layout), &pose, rates);
+    let form = Dynamics::new(&arms, &inertia(setup.layout), &pose, rates);
     let pushed = pose.tip_force_along(&arms, sample.shown_force_n);
     let mut lacking_nm = plus(
         plus(pushed, -1.0, form.bias),

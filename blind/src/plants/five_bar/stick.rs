@@ -6,12 +6,12 @@
 //! few and each is a velocity; the one with the least value is the answer, without tolerance or iteration.
 
 use super::linkage::{Pair, cross, dot, plus, turned};
-use super::mass::Form;
+use super::mass::Dynamics;
 
 /// What is asked of one step.
 pub struct Contact<'a> {
     /// Mass matrix at the middle of the step.
-    pub form: &'a Form,
+    pub form: &'a Dynamics,
     /// Momentum at the end if there were no friction, N·m·s.
     pub momentum: Pair,
     /// Rows along which friction acts, at the middle of the step.
@@ -230,7 +230,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    const FORM: Form = Form {
+    const FORM: Dynamics = Dynamics {
         mass: [0.55, 0.11, 0.37],
         bias: [0.0; 2],
     };

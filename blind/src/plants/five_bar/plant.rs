@@ -3,13 +3,14 @@
 //! A step is the midpoint rule, its middle extrapolated; friction is settled on the rates at the end (Moreau 1988, Jean 1999), so
 //! that a joint that sticks stands, and one that slides is resisted.
 
-use super::braked::Braked;
-use super::element::{Element, Instant};
-use super::law::{Effect, Law};
 use super::linkage::{Pair, Pose, dot, plus};
-use super::mass::{Form, weight};
+use super::mass::{Dynamics, weight};
 use super::stick::{Contact, Motion};
 use crate::brake::BrakeStep;
+use crate::braked::Braked;
+use crate::effect::Effect;
+use crate::element::{Element, Instant};
+use crate::form::{Form, Stage};
 use rigproof_spec::geometry::{Arms, arms};
 use rigproof_spec::inertia::{ArmInertia, Inertia, inertia};
 use rigproof_spec::joint::Joint;
@@ -76,17 +77,17 @@ impl FiveBar {
         let mut angles = angles.into_iter();
         let joints = Joint::ALL.map(|joint| {
             let angle_rad = angles.next().unwrap_or_default();
-            let here = || numbered().filter(|(_, effect)| effect.joint == Some(joint));
-            let brake = layout.brakes().contains(&joint).then(|| {
-                let effects = here().filter(|(_, effect)| effect.is_of_brake());
-                Braked::new(joint, effects.collect(), angle_rad)
-            });
-            let elements =
-                here().filter(|(_, effect)| !effect.is_of_brake() && !effect.is_residual());
+            let here = |stage| {
+                numbered().filter(move |(_, effect)| effect.is_at(joint) && effect.stage() == stage)
+            };
+            let brake = layout
+                .brakes()
+                .contains(&joint)
+                .then(|| Braked::new(joint, here(Stage::Drive).collect(), angle_rad));
             At {
                 yield_rate: 0.0,
                 brake,
-                elements: elements
+                elements: here(Stage::Joint)
                     .map(|(k, effect)| (k, Element::new(effect)))
                     .collect(),
                 start_rad: angle_rad,
@@ -96,7 +97,7 @@ impl FiveBar {
         Some(FiveBar {
             arms,
             inertia: true_inertia(layout, hidden),
-            gravity: numbered().find(|(_, effect)| matches!(effect.law, Law::Gravity { .. })),
+            gravity: numbered().find(|(_, effect)| effect.form == Form::Gravity),
             joints,
             theta,
             rates: [0.0; 2],
@@ -151,7 +152,7 @@ impl FiveBar {
         for (row, start) in end.iter_mut().zip(self.pose.rows) {
             *row = plus(row.map(|x| 2.0 * x), -1.0, start);
         }
-        let form = Form::new(&self.arms, &self.inertia, &middle, rates);
+        let form = Dynamics::new(&self.arms, &self.inertia, &middle, rates);
         let velocity = middle.tip_velocity(&self.arms, rates);
         let force_n = force(middle_s, middle.tip_m, velocity);
         let mut pushed = middle.tip_force_along(&self.arms, force_n);
@@ -237,14 +238,9 @@ impl FiveBar {
             .zip(currents_a);
         for ((((joint, angle_rad), rate_rad_s), current_a), travel) in each.zip(&mut travels) {
             *travel = angle_rad - joint.angle_rad;
-            let at = Instant {
-                time_s,
-                angle_rad: joint.angle_rad - joint.start_rad,
-                rate_rad_s,
-                load_n,
-            };
+            let at = joint.instant(time_s, 0.0, rate_rad_s, load_n);
             for (_, element) in &mut joint.elements {
-                element.advance(&at, *travel);
+                element.advance(&at, *travel, step_s);
             }
             joint.angle_rad = angle_rad;
             if let Some(brake) = &mut joint.brake {
@@ -305,17 +301,11 @@ impl FiveBar {
                 continue;
             }
             let sign = rate_rad_s.signum();
-            let angle_rad = joint.angle_rad - joint.start_rad;
-            let at = Instant {
-                time_s,
-                angle_rad,
-                rate_rad_s,
-                load_n,
-            };
+            let at = joint.instant(time_s, 0.0, rate_rad_s, load_n);
             for (number, element) in &joint.elements {
                 let travel = MOMENT_S * rate_rad_s;
                 let torque_nm =
-                    element.torque_nm(&at, travel, MOMENT_S) + sign * element.bound_nm(&at);
+                    element.force(&at, travel, MOMENT_S) + sign * element.bound(&at);
                 add(*number, torque_nm, row);
             }
             for (number, more_nm) in joint.brake.iter().flat_map(Braked::added_nm) {
@@ -326,15 +316,9 @@ impl FiveBar {
 
     fn weight(&self, time_s: f64, pose: &Pose) -> Pair {
         match self.gravity {
-            Some((
-                _,
-                Effect {
-                    law: Law::Gravity { field },
-                    onset_s,
-                    ..
-                },
-            )) if onset_s.is_none_or(|onset_s| time_s >= onset_s) => {
-                weight(&self.arms, &self.inertia, pose, field)
+            Some((_, gravity)) if gravity.acts(time_s) => {
+                let [x, y, ..] = gravity.values;
+                weight(&self.arms, &self.inertia, pose, [x, y])
             }
             _ => [0.0; 2],
         }
@@ -345,39 +329,33 @@ impl At {
     fn instant(&self, time_s: f64, ahead_rad: f64, rate_rad_s: f64, load_n: f64) -> Instant {
         Instant {
             time_s,
-            angle_rad: self.angle_rad - self.start_rad + ahead_rad,
-            rate_rad_s,
-            load_n,
+            position: self.angle_rad - self.start_rad + ahead_rad,
+            velocity: rate_rad_s,
+            direction: rate_rad_s.signum(),
+            load: load_n,
+            brake: self.brake.as_ref().map_or(0.0, Braked::yield_nm),
         }
     }
 
     /// Single-valued and set-valued torque half a step ahead, N·m; the yield torque by extrapolation.
     fn resists(&self, at: &Instant, half_s: f64) -> (f64, f64) {
-        let travel = half_s * at.rate_rad_s;
+        let travel = half_s * at.velocity;
         let yield_nm = self.brake.as_ref().map_or(0.0, |brake| {
             (brake.yield_nm() + half_s * self.yield_rate).max(0.0)
         });
         let elements = self.elements.iter().map(|(_, element)| element);
-        elements.fold((0.0, yield_nm), |(torque, bound), element| {
+        let (torque, bound) = elements.fold((0.0, yield_nm), |(torque, bound), element| {
             (
-                torque + element.torque_nm(at, travel, half_s),
-                bound + element.bound_nm(at),
+                torque + element.force(at, travel, half_s),
+                bound + element.bound(at),
             )
-        })
+        });
+        (torque, bound.max(0.0))
     }
 
     fn is_frictional(&self) -> bool {
-        let set = |effect: &Effect| {
-            matches!(
-                effect.law,
-                Law::Dry { .. } | Law::Bearing { .. } | Law::Load { .. } | Law::Uneven { .. }
-            )
-        };
-        self.brake.is_some()
-            || self
-                .elements
-                .iter()
-                .any(|(_, element)| set(&element.effect))
+        let mut elements = self.elements.iter();
+        self.brake.is_some() || elements.any(|(_, element)| element.is_frictional())
     }
 }
 
@@ -385,12 +363,13 @@ impl At {
 fn true_inertia(layout: Layout, hidden: &[Effect]) -> Inertia {
     let mut inertia = inertia(layout);
     for effect in hidden {
-        match effect.law {
-            Law::Payload { mass } => inertia.payload_kg += mass,
-            Law::Inertia { fraction } => {
+        let amount = effect.first();
+        match effect.form {
+            Form::Payload => inertia.payload_kg += amount,
+            Form::Inertia => {
                 let scaled = |arm: ArmInertia| ArmInertia {
-                    mass_kg: (1.0 + fraction) * arm.mass_kg,
-                    inertia_kg_m2: (1.0 + fraction) * arm.inertia_kg_m2,
+                    mass_kg: (1.0 + amount) * arm.mass_kg,
+                    inertia_kg_m2: (1.0 + amount) * arm.inertia_kg_m2,
                     centre_m: arm.centre_m,
                 };
                 inertia.ae = scaled(inertia.ae);
