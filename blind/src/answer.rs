@@ -128,8 +128,15 @@ impl HiddenEffect {
     /// The same with its form and the names that are right.
     pub(crate) fn named(self, effect: &Effect) -> HiddenEffect {
         let Names { right, companions } = Names::of(effect);
-        let owned = |names: &[&str]| -> Vec<String> { names.iter().map(|name| (*name).to_owned()).collect() };
-        let twins = self.equivalent.iter().flatten().filter(|name| !name.contains(" at ")).cloned();
+        let owned = |names: &[&str]| -> Vec<String> {
+            names.iter().map(|name| (*name).to_owned()).collect()
+        };
+        let twins = self
+            .equivalent
+            .iter()
+            .flatten()
+            .filter(|name| !name.contains(" at "))
+            .cloned();
         let scope = match effect.at {
             At::Every => Some("every"),
             At::Sensor(0) => Some("x"),

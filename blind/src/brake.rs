@@ -114,7 +114,19 @@ impl Brake {
         } else {
             time_constant_s(&self.rising, Edge::Rising, current_a, step.speed_rad_s)
         };
-        self.torque_nm = relax(self.torque_nm, target_nm, step.step_s / time_constant_s);
+        let [rising, falling] = match self.hidden {
+            Some(hidden) if hidden.form == Form::TimeConstants && hidden.acts(time_s) => {
+                let [rising, falling, ..] = hidden.values;
+                [1.0 + rising, 1.0 + falling]
+            }
+            _ => [1.0; 2],
+        };
+        let slower = if excess_nm > 0.0 { falling } else { rising };
+        self.torque_nm = relax(
+            self.torque_nm,
+            target_nm,
+            step.step_s / (slower * time_constant_s),
+        );
         self.lagged_nm = match self.acting(Form::Lag, time_s) {
             Some(lag_s) => relax(self.lagged_nm, self.torque_nm, step.step_s / lag_s),
             None => self.torque_nm,
@@ -123,7 +135,9 @@ impl Brake {
 
     /// The number of the hidden effect, if it has this form and acts.
     fn acting(&self, form: Form, time_s: f64) -> Option<f64> {
-        let hidden = self.hidden.filter(|hidden| hidden.form == form && hidden.acts(time_s));
+        let hidden = self
+            .hidden
+            .filter(|hidden| hidden.form == form && hidden.acts(time_s));
         hidden.map(|hidden| hidden.first())
     }
 

@@ -19,6 +19,9 @@ const ROUNDING_RAD: f64 = 1e-13;
 /// The yield does not fall below this share of the cold one.
 const LEAST_SHARE: f64 = 0.3;
 
+/// What a yield is divided by at least, N·m.
+const LEAST_YIELD_NM: f64 = 1e-6;
+
 /// A brake, true and nominal, and its hidden effects.
 #[derive(Clone, Debug)]
 pub struct Braked {
@@ -27,7 +30,13 @@ pub struct Braked {
     upstream: Option<Brake>,
     effects: Vec<(usize, Effect)>,
     preisach: Preisach,
+    /// Three plays of the current, or the state of its Bouc–Wen law, A.
+    plays_a: [f64; 3],
     lagged_nm: f64,
+    /// Rate of the lagged torque, N·m/s.
+    lagging_nm_s: f64,
+    /// The torque of a second-order response, N·m.
+    twice_nm: f64,
     fluid_k: f64,
     housing_k: f64,
     /// Travel since the last reversal, signed, rad: infinite before the first one, none before it moved at all.
@@ -40,15 +49,19 @@ impl Braked {
     /// The brake of a joint, settled without current, with the effects that act in it and their numbers.
     pub fn new(joint: Joint, effects: Vec<(usize, Effect)>, angle_rad: f64) -> Braked {
         let hidden = || effects.iter().map(|(_, effect)| *effect);
-        let width = hidden().find(|effect| effect.form == Form::Backlash);
+        let own = |effect: &Effect| matches!(effect.form, Form::Backlash | Form::TimeConstants);
+        let width = hidden().find(own);
         let nominal = Brake::new(joint, None, angle_rad);
         let upstream = hidden().any(|effect| is_upstream(effect.form));
         Braked {
             lagged_nm: nominal.yield_nm(),
-            nominal,
             upstream: upstream.then(|| Brake::new(joint, width, angle_rad)),
             effects,
             preisach: Preisach::new(),
+            plays_a: [0.0; 3],
+            lagging_nm_s: 0.0,
+            twice_nm: nominal.yield_nm(),
+            nominal,
             fluid_k: 0.0,
             housing_k: 0.0,
             travel_rad: None,
@@ -76,7 +89,12 @@ impl Braked {
         self.lagged_nm = lag_s.map_or(target_nm, |lag_s| {
             target_nm + (self.lagged_nm - target_nm) * libm::exp(-step.step_s / lag_s)
         });
-        if self.effects.iter().any(|(_, effect)| effect.form == Form::Thermal) {
+        self.lag_twice(time_s, target_nm, step.step_s);
+        if self
+            .effects
+            .iter()
+            .any(|(_, effect)| effect.form == Form::Thermal)
+        {
             let between_w = FLUID_TO_HOUSING_W_PER_K * (self.fluid_k - self.housing_k);
             self.fluid_k += step.step_s * (power_w - between_w) / FLUID_J_PER_K;
             self.housing_k += step.step_s * (between_w - HOUSING_TO_AIR_W_PER_K * self.housing_k)
@@ -105,11 +123,54 @@ impl Braked {
 
     /// The current that the fluid sees, A.
     fn magnetic_current_a(&mut self, time_s: f64, current_a: f64) -> f64 {
-        let Some(share) = self.acting(Form::Preisach, time_s) else {
-            return current_a;
+        if let Some(share) = self.acting(Form::Preisach, time_s) {
+            self.preisach.take(current_a);
+            return current_a + share * (self.preisach.output() - current_a.clamp(0.0, 1.0));
+        }
+        let acts = |(_, effect): &&(usize, Effect)| effect.acts(time_s);
+        for (_, effect) in self.effects.iter().filter(acts) {
+            let [share, width_a, ..] = effect.values;
+            match effect.form {
+                // Prandtl–Ishlinskii: plays of a third, two thirds and the whole of the width.
+                Form::Plays => {
+                    let mut sum_a = 0.0;
+                    for (k, play_a) in self.plays_a.iter_mut().enumerate() {
+                        let half_a = 0.5 * width_a * (k + 1) as f64 / 3.0;
+                        *play_a = play_a.clamp(current_a - half_a, current_a + half_a);
+                        sum_a += *play_a;
+                    }
+                    return (current_a + share * (sum_a / 3.0 - current_a)).max(0.0);
+                }
+                // dz/dI = 1 − (z·sgn dI + |z|)/(2·width): half of what goes in comes out again.
+                Form::BoucWenCurrent => {
+                    let [z, last_a, _] = &mut self.plays_a;
+                    let more_a = current_a - *last_a;
+                    *last_a = current_a;
+                    let slope = 1.0 - (*z * more_a.signum() + z.abs()) / (2.0 * width_a);
+                    *z = (*z + more_a * slope).clamp(-width_a, width_a);
+                    return (current_a - share * *z).max(0.0);
+                }
+                _ => {}
+            }
+        }
+        current_a
+    }
+
+    /// A second-order response in place of the lagged torque.
+    fn lag_twice(&mut self, time_s: f64, target_nm: f64, step_s: f64) {
+        let twice = |(_, effect): &&(usize, Effect)| effect.form == Form::LagSecond;
+        let Some((_, effect)) = self.effects.iter().find(twice) else {
+            return;
         };
-        self.preisach.take(current_a);
-        current_a + share * (self.preisach.output() - current_a.clamp(0.0, 1.0))
+        let [time_constant_s, damping, ..] = effect.values;
+        if !effect.acts(time_s) {
+            self.twice_nm = target_nm;
+            return;
+        }
+        let pull = (target_nm - self.twice_nm) / (time_constant_s * time_constant_s);
+        self.lagging_nm_s += step_s * (pull - 2.0 * damping / time_constant_s * self.lagging_nm_s);
+        self.twice_nm += step_s * self.lagging_nm_s;
+        self.lagged_nm = self.twice_nm;
     }
 
     /// Yield torque, N·m, at least zero.
@@ -128,7 +189,7 @@ impl Braked {
         let mut added = Vec::new();
         let upstream_nm = self.lagged_nm - self.nominal.yield_nm();
         for (number, effect) in &self.effects {
-            if effect.form == Form::Lag || is_upstream(effect.form) {
+            if matches!(effect.form, Form::Lag | Form::LagSecond) || is_upstream(effect.form) {
                 added.push((*number, upstream_nm));
             }
         }
@@ -148,6 +209,17 @@ impl Braked {
                     let fades = |since: f64| a * libm::exp(-since.abs() / b);
                     self.travel_rad.map_or(0.0, fades)
                 }
+                Form::YieldOvershootLinear => {
+                    let fades = |since: f64| a * (1.0 - since.abs() / b).max(0.0);
+                    self.travel_rad.map_or(0.0, fades)
+                }
+                Form::YieldFade => -a * (self.time_s / b).min(1.0),
+                Form::OffState => a / yield_nm.max(LEAST_YIELD_NM),
+                Form::Saturation => (a / yield_nm.max(LEAST_YIELD_NM)).min(1.0) - 1.0,
+                Form::SoftSaturation => {
+                    let ratio = yield_nm.max(LEAST_YIELD_NM) / a;
+                    libm::tanh(ratio) / ratio - 1.0
+                }
                 _ => continue,
             };
             tell(*number, more * yield_nm);
@@ -159,7 +231,10 @@ impl Braked {
 
 /// Whether a form acts ahead of the yield torque, on the window or the current.
 const fn is_upstream(form: Form) -> bool {
-    matches!(form, Form::Backlash | Form::Preisach)
+    matches!(
+        form,
+        Form::Backlash | Form::Preisach | Form::Plays | Form::BoucWenCurrent | Form::TimeConstants
+    )
 }
 
 #[cfg(test)]
@@ -192,6 +267,14 @@ mod tests {
             Effect::new(Form::Preisach, [0.23]),
             Effect::new(Form::Thermal, [0.013]),
             Effect::new(Form::YieldOvershoot, [0.21, 0.3]),
+            Effect::new(Form::Plays, [0.4, 0.3]),
+            Effect::new(Form::BoucWenCurrent, [0.4, 0.2]),
+            Effect::new(Form::LagSecond, [0.021, 0.7]),
+            Effect::new(Form::TimeConstants, [0.8, 1.3]),
+            Effect::new(Form::OffState, [0.11]),
+            Effect::new(Form::Saturation, [1.1]),
+            Effect::new(Form::SoftSaturation, [4.3]),
+            Effect::new(Form::YieldFade, [0.3, 5.0]),
         ] {
             let current_a = |time_s: f64| if time_s < 1.0 { 0.83 } else { 0.41 };
             let (braked, _) = turned(law, current_a, 1.013);
@@ -236,6 +319,28 @@ mod tests {
         let (_, yields) = turned(Effect::new(Form::Preisach, [0.23]), ramp, 1.9);
         let (up, down) = (yields[4999], yields[14_999]);
         assert!(down > up + 0.5, "{up} {down}");
+    }
+
+    /// The three laws of the current's memory have loops of their own: up and down differ, and so do the laws.
+    #[test]
+    fn the_laws_of_the_current_differ() {
+        let ramp = |time_s: f64| 0.8 - 0.8 * (time_s - 1.0).abs();
+        let loops = [
+            Effect::new(Form::Preisach, [0.3]),
+            Effect::new(Form::Plays, [0.7, 0.3]),
+            Effect::new(Form::BoucWenCurrent, [0.7, 0.15]),
+        ]
+        .map(|effect| {
+            let (_, yields) = turned(effect, ramp, 1.95);
+            [4999, 9999, 14_999, 18_999].map(|k: usize| yields[k])
+        });
+        for (k, one) in loops.iter().enumerate() {
+            assert!(one[2] > one[0] + 0.2, "{one:?}");
+            for other in loops.iter().skip(k + 1) {
+                let apart = one.iter().zip(other).map(|(a, b)| (a - b).abs());
+                assert!(apart.fold(0.0, f64::max) > 0.1, "{loops:?}");
+            }
+        }
     }
 
     #[test]

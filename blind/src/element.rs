@@ -140,7 +140,9 @@ impl Element {
             Form::Travelled => self.first_after(at, travel),
             Form::Lugre => self.damped(at, travel, step_s, BRISTLE_DAMPING_S),
             Form::Bristle => self.damped(at, travel, step_s, c),
-            Form::MaxwellSlip | Form::OneSided => self.memory_after(at, travel, step_s).iter().sum(),
+            Form::MaxwellSlip | Form::OneSided => {
+                self.memory_after(at, travel, step_s).iter().sum()
+            }
             _ => return 0.0,
         };
         let _ = d;
@@ -301,8 +303,7 @@ mod tests {
                 position: angle_rad,
                 ..moving(travel / step_s)
             };
-            work_j[(k / steps) as usize] +=
-                element.force(&at, 0.5 * travel, 0.5 * step_s) * travel;
+            work_j[(k / steps) as usize] += element.force(&at, 0.5 * travel, 0.5 * step_s) * travel;
             element.advance(&at, travel, 0.0);
             angle_rad = next;
         }

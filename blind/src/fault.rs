@@ -103,22 +103,6 @@ fn jump(time_s: &mut [f64], draw: &mut Draw) {
     }
 }
 
-/// Bursts in which every channel repeats its last value: so many a second, of so many samples.
-pub fn repeat(trace: &mut Trace, [a_second, samples, ..]: [f64; 4], draw: &mut Draw) {
-    let rate_hz = trace.time_s.get(1).map_or(1.0, |step_s| 1.0 / step_s);
-    let mut next = 0.0;
-    while (next as usize) < trace.time_s.len() {
-        next += rate_hz / a_second * draw.uniform(0.3, 1.7);
-        for channel in &mut trace.channels {
-            let Some(last) = channel.samples.get(next as usize).copied() else {
-                continue;
-            };
-            let burst = channel.samples.iter_mut().skip(next as usize).take(samples as usize);
-            burst.for_each(|x| *x = last);
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

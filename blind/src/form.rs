@@ -251,14 +251,25 @@ mod tests {
         let mut own = 0;
         for form in Form::ALL {
             let facts = form.facts();
-            assert!(!facts.values.is_empty() && facts.values.len() <= 4, "{form:?}");
-            assert!(facts.values.iter().any(|value| value.strong) || *form == Form::RateLimit || *form == Form::TwoMass);
+            assert!(
+                !facts.values.is_empty() && facts.values.len() <= 4,
+                "{form:?}"
+            );
+            assert!(
+                facts.values.iter().any(|value| value.strong)
+                    || *form == Form::RateLimit
+                    || *form == Form::TwoMass
+            );
             let Some(mechanism) = Mechanism::from_name(facts.mechanism) else {
                 own += 1;
                 continue;
             };
             for theirs in mechanism.parameters() {
-                for value in facts.values.iter().filter(|value| value.name == theirs.name) {
+                for value in facts
+                    .values
+                    .iter()
+                    .filter(|value| value.name == theirs.name)
+                {
                     assert_eq!(value.quantity, theirs.quantity, "{form:?} {}", value.name);
                 }
             }

@@ -117,7 +117,7 @@ pub(crate) fn sealed<L: Lab>(
         effects: effects.collect(),
         fault,
         block_noise: sizes.block_noise,
-        residual_ratio: sizes.ratio,
+        residual_ratio: sizes.ratio.filter(|_| lab.forms() == Forms::Other),
     };
     let (sealed, commitment) = seal::seal(&answer)?;
     Ok(Case {

@@ -14,7 +14,7 @@ use crate::stratum::Stratum;
 pub fn make(forms: Forms, plant: Plant, seed: u64, stratum: Stratum) -> Result<Case, Error> {
     match (forms, plant) {
         (Forms::Other, Plant::Axis) => case(&driven_joint::DrivenJoint, seed, stratum),
-        (_, Plant::Rig) => case(&five_bar::Rig, seed, stratum),
-        (_, Plant::Axis | Plant::Bench) => case(&one_joint::OneJoint(plant), seed, stratum),
+        (_, Plant::Rig) => case(&five_bar::Rig(forms), seed, stratum),
+        (_, Plant::Axis | Plant::Bench) => case(&one_joint::OneJoint(plant, forms), seed, stratum),
     }
 }

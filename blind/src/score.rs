@@ -212,7 +212,8 @@ fn recovered_share(answer: &Answer, report: &Value) -> Option<f64> {
     report.get("fit")?.get("recovered_share")?.as_f64()
 }
 
-fn parameter_errors(answer: &Answer, found: &[Found<'_>]) -> Vec<ParameterError> {
+/// Errors of the numbers that truth and report both have.
+pub(crate) fn parameter_errors(answer: &Answer, found: &[Found<'_>]) -> Vec<ParameterError> {
     let mut errors = Vec::new();
     for truth in &answer.effects {
         let Some(parameters) = found
@@ -264,8 +265,8 @@ fn parameter_errors(answer: &Answer, found: &[Found<'_>]) -> Vec<ParameterError>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::forms::Forms;
     use crate::answer::TrueParameter;
+    use crate::forms::Forms;
     use crate::plant::Plant;
     use serde_json::json;
 

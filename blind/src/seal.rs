@@ -107,8 +107,8 @@ fn unhex(text: &str) -> Option<Vec<u8>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::forms::Forms;
     use crate::answer::{HiddenEffect, TrueParameter};
+    use crate::forms::Forms;
     use crate::plant::Plant;
     use crate::stratum::Stratum;
     use proptest::prelude::*;

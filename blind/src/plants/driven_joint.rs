@@ -10,7 +10,7 @@ mod setup;
 mod tests;
 
 use crate::draw::Draw;
-use crate::effect::{Effect, At};
+use crate::effect::Effect;
 use crate::form::Form;
 use crate::forms::Forms;
 use crate::lab::{Drawn, Lab, Secret};
@@ -42,7 +42,9 @@ impl Lab for DrivenJoint {
         let mut hidden = hide::draw(&setup, stratum, draw);
         if stratum == Stratum::LateOnset {
             let onset_s = setup.duration_s * draw.uniform(1.0 / 3.0, 2.0 / 3.0);
-            hidden.iter_mut().for_each(|effect| effect.onset_s = Some(onset_s));
+            hidden
+                .iter_mut()
+                .for_each(|effect| effect.onset_s = Some(onset_s));
         }
         Some(Drawn {
             known: setup.friction(),
@@ -69,22 +71,19 @@ impl Lab for DrivenJoint {
         let position = run.position.iter().map(|q| setup.counted(*q)).collect();
         let noise = setup.command_noise;
         let command = run.command.iter().map(|u| u + draw.normal(noise)).collect();
-        let mut trace = Trace {
-            time_s: (0..run.position.len()).map(|k| k as f64 / setup.rate_hz).collect(),
+        Trace {
+            time_s: (0..run.position.len())
+                .map(|k| k as f64 / setup.rate_hz)
+                .collect(),
             channels: vec![
                 channel("position", "rad", position),
                 channel("command", setup.command_unit(), command),
             ],
-        };
-        let repeated = case.drawn.hidden.iter().find(|effect| effect.form == Form::Repeated);
-        if let Some(effect) = repeated {
-            crate::fault::repeat(&mut trace, effect.values, draw);
         }
-        trace
     }
 
     fn describe(&self, seed: u64, drawn: &Drawn<Setup>) -> String {
-        rig::toml(seed, &drawn.setup, &drawn.hidden)
+        rig::toml(seed, &drawn.setup)
     }
 
     fn channels(&self, _: &mut Draw) -> [&'static str; 2] {
@@ -106,7 +105,6 @@ impl Lab for DrivenJoint {
             Form::Bias if drawn.setup.dry > 0.0 => &["direction_asymmetry"],
             _ => &[],
         };
-        debug_assert!(effect.at == At::Whole);
         names.iter().map(|name| vec![(*name).to_owned()]).collect()
     }
 }

@@ -6,6 +6,7 @@ mod hand;
 mod hide;
 mod linkage;
 mod mass;
+mod other;
 mod plant;
 mod record;
 mod residual;
@@ -19,6 +20,7 @@ pub use experiment::{again, under};
 
 use crate::draw::Draw;
 use crate::effect::Effect;
+use crate::forms::Forms;
 use crate::lab::{Drawn, Lab, Secret};
 use crate::plant::Plant;
 use crate::size::Sizes;
@@ -34,8 +36,8 @@ use setup::Setup;
 
 pub(crate) use crate::make::FINE_STEPS;
 
-/// The five-bar as a plant.
-pub struct Rig;
+/// The five-bar as a plant, with physics in a family of forms.
+pub struct Rig(pub Forms);
 
 impl Lab for Rig {
     type Setup = Setup;
@@ -45,10 +47,17 @@ impl Lab for Rig {
         Plant::Rig
     }
 
+    fn forms(&self) -> Forms {
+        self.0
+    }
+
     fn draw(&self, _: u64, stratum: Stratum, draw: &mut Draw) -> Option<Drawn<Setup>> {
         let setup = Setup::draw(stratum, draw)?;
         Some(Drawn {
-            hidden: hide::draw(&setup, stratum, draw),
+            hidden: match self.0 {
+                Forms::Usual => hide::draw(&setup, stratum, draw),
+                Forms::Other => other::draw(&setup, stratum, draw),
+            },
             known: Vec::new(),
             setup,
         })

@@ -4,6 +4,7 @@ mod axis;
 mod bench;
 mod hide;
 mod nominal;
+mod other;
 mod rig;
 mod run;
 mod setup;
@@ -14,20 +15,21 @@ mod tests;
 use crate::draw::Draw;
 use crate::effect::Effect;
 use crate::form::Form;
+use crate::forms::Forms;
 use crate::lab::{Drawn, Lab, Secret};
 use crate::make::FINE_STEPS;
 use crate::plant::Plant;
 use crate::size::Sizes;
 use crate::stratum::Stratum;
+pub use axis::Joint;
 use rigproof_spec::effect::{Motion, Quantity};
 use rigproof_trace::{Channel, Trace};
-pub use axis::Joint;
 pub use run::Delay;
 use run::Run;
 use setup::{Kind, Setup};
 
-/// An axis or a bench.
-pub struct OneJoint(pub Plant);
+/// An axis or a bench with physics in the usual forms, or a bench with others.
+pub struct OneJoint(pub Plant, pub Forms);
 
 impl Lab for OneJoint {
     type Setup = Setup;
@@ -37,13 +39,22 @@ impl Lab for OneJoint {
         self.0
     }
 
+    fn forms(&self) -> Forms {
+        self.1
+    }
+
     fn draw(&self, seed: u64, stratum: Stratum, draw: &mut Draw) -> Option<Drawn<Setup>> {
+        if self.1 == Forms::Other {
+            return Some(other::draw(seed, stratum, draw));
+        }
         let setup = Setup::draw(self.0, &mut Draw::new(self.0, seed, "setup"));
         let mut hidden = hide::draw(&setup, stratum, draw);
         let onset_s = (stratum == Stratum::LateOnset)
             .then(|| setup.duration_s * draw.uniform(1.0 / 3.0, 2.0 / 3.0));
         let known = nominal::draw(&setup, &hidden, draw);
-        hidden.iter_mut().for_each(|effect| effect.onset_s = onset_s);
+        hidden
+            .iter_mut()
+            .for_each(|effect| effect.onset_s = onset_s);
         Some(Drawn {
             setup,
             known,
@@ -65,7 +76,7 @@ impl Lab for OneJoint {
     }
 
     fn describe(&self, seed: u64, drawn: &Drawn<Setup>) -> String {
-        let mut values = Draw::new(self.0, seed, "nominal values");
+        let mut values = self.numbers(seed, "nominal values");
         rig::toml(self.0, seed, &drawn.setup, &drawn.known, &mut values)
     }
 

@@ -21,7 +21,9 @@ struct Link {
 impl Chain {
     /// A drive at rest.
     pub fn new(gain: f64, hidden: &[Effect]) -> Chain {
-        let stages = hidden.iter().filter(|effect| effect.stage() == Stage::Drive);
+        let stages = hidden
+            .iter()
+            .filter(|effect| effect.stage() == Stage::Drive);
         let link = |effect: &Effect| Link {
             effect: *effect,
             state: [0.0; 2],

@@ -13,7 +13,13 @@ pub const MECHANISMS: &[&[Form]] = &[
     &[Form::Viscous],
     &[Form::Inertia],
     &[Form::Stribeck, Form::Rational, Form::Travelled],
-    &[Form::DahlPower, Form::Bristle, Form::MaxwellSlip, Form::ElastoPlastic, Form::BoucWen],
+    &[
+        Form::DahlPower,
+        Form::Bristle,
+        Form::MaxwellSlip,
+        Form::ElastoPlastic,
+        Form::BoucWen,
+    ],
     &[Form::Root, Form::Square, Form::Power, Form::Tanh],
     &[Form::Asymmetric],
     &[Form::LoadShare, Form::LoadSided, Form::LoadSquare],
@@ -33,7 +39,12 @@ pub const MECHANISMS: &[&[Form]] = &[
 ];
 
 /// Physics outside the library.
-pub const FOREIGN: &[Form] = &[Form::Disturbance, Form::DeadZone, Form::Uneven, Form::Settling];
+pub const FOREIGN: &[Form] = &[
+    Form::Disturbance,
+    Form::DeadZone,
+    Form::Uneven,
+    Form::Settling,
+];
 
 /// Draws the hidden effects of a stratum: none, one, two or three of different mechanisms, at most one in the drive and one that moves masses.
 pub fn draw(setup: &Setup, stratum: Stratum, draw: &mut Draw) -> Vec<Effect> {
@@ -98,7 +109,12 @@ fn of_joint(setup: &Setup, form: Form, draw: &mut Draw) -> Effect {
         Form::Bristle => [level, yields, 1e-3, 0.0],
         Form::ElastoPlastic => [level, yields, draw.uniform(0.3, 0.8), 0.0],
         Form::MaxwellSlip => [level, 3.0 * yields, 0.0, 0.0],
-        Form::BoucWen => [level / yields, 1.0 / yields, draw.sign() * draw.uniform(0.2, 0.6) / yields, 0.0],
+        Form::BoucWen => [
+            level / yields,
+            1.0 / yields,
+            draw.sign() * draw.uniform(0.2, 0.6) / yields,
+            0.0,
+        ],
         // A stated number that is wrong may be too large as well.
         Form::Coulomb if draw.chance(0.3) && setup.dry > 0.0 => {
             [-setup.dry * draw.uniform(0.3, 0.8), 0.0, 0.0, 0.0]
@@ -114,30 +130,84 @@ fn of_joint(setup: &Setup, form: Form, draw: &mut Draw) -> Effect {
         Form::LoadShare => [draw.uniform(0.08, 0.35), 0.0, 0.0, 0.0],
         Form::LoadSided => {
             let (strong, weak) = (draw.uniform(0.12, 0.4), draw.uniform(0.0, 0.08));
-            if draw.chance(0.5) { [strong, weak, 0.0, 0.0] } else { [weak, strong, 0.0, 0.0] }
+            if draw.chance(0.5) {
+                [strong, weak, 0.0, 0.0]
+            } else {
+                [weak, strong, 0.0, 0.0]
+            }
         }
         Form::LoadSquare => [0.6 * level, effort, 0.0, 0.0],
         Form::Drift => [draw.sign() * level / setup.duration_s, 0.0, 0.0, 0.0],
-        Form::Creep => [draw.sign() * level, setup.duration_s * draw.uniform(0.15, 0.4), 0.0, 0.0],
-        Form::FadeLinear => [setup.dry * draw.uniform(0.25, 0.7), setup.duration_s, 0.0, 0.0],
-        Form::FadeExponential => {
-            [setup.dry * draw.uniform(0.25, 0.7), setup.duration_s * draw.uniform(0.15, 0.5), 0.0, 0.0]
-        }
-        Form::FadeByWay => [setup.dry * draw.uniform(0.25, 0.7), travel * draw.uniform(5.0, 20.0), 0.0, 0.0],
+        Form::Creep => [
+            draw.sign() * level,
+            setup.duration_s * draw.uniform(0.15, 0.4),
+            0.0,
+            0.0,
+        ],
+        Form::FadeLinear => [
+            setup.dry * draw.uniform(0.25, 0.7),
+            setup.duration_s,
+            0.0,
+            0.0,
+        ],
+        Form::FadeExponential => [
+            setup.dry * draw.uniform(0.25, 0.7),
+            setup.duration_s * draw.uniform(0.15, 0.5),
+            0.0,
+            0.0,
+        ],
+        Form::FadeByWay => [
+            setup.dry * draw.uniform(0.25, 0.7),
+            travel * draw.uniform(5.0, 20.0),
+            0.0,
+            0.0,
+        ],
         Form::Gap => [setup.dry * draw.uniform(0.6, 0.95), yields, 0.0, 0.0],
         Form::Ripple => {
             let (s, c) = libm::sincos(draw.uniform(0.0, TAU));
             [level * s, level * c, travel / draw.uniform(1.5, 8.0), 0.0]
         }
-        Form::TwoOrders => [level, travel / draw.uniform(1.5, 6.0), draw.uniform(0.3, 0.8), 0.0],
-        Form::Toothed => [level, travel / draw.uniform(1.5, 6.0), draw.uniform(1.0, 4.0), 0.0],
-        Form::Anchored => [level / travel, draw.sign() * travel * draw.uniform(0.3, 1.2), 0.0, 0.0],
-        Form::Hardening => [0.6 * level / travel, 2.0 * level / (travel * travel * travel), 0.0, 0.0],
+        Form::TwoOrders => [
+            level,
+            travel / draw.uniform(1.5, 6.0),
+            draw.uniform(0.3, 0.8),
+            0.0,
+        ],
+        Form::Toothed => [
+            level,
+            travel / draw.uniform(1.5, 6.0),
+            draw.uniform(1.0, 4.0),
+            0.0,
+        ],
+        Form::Anchored => [
+            level / travel,
+            draw.sign() * travel * draw.uniform(0.3, 1.2),
+            0.0,
+            0.0,
+        ],
+        Form::Hardening => [
+            0.6 * level / travel,
+            2.0 * level / (travel * travel * travel),
+            0.0,
+            0.0,
+        ],
         Form::Cubic => [2.0 * level / (travel * travel * travel), 0.0, 0.0, 0.0],
-        Form::Overshoot | Form::OvershootLinear => [level, travel * draw.uniform(0.08, 0.3), 0.0, 0.0],
+        Form::Overshoot | Form::OvershootLinear => {
+            [level, travel * draw.uniform(0.08, 0.3), 0.0, 0.0]
+        }
         Form::Disturbance => [level, draw.log_uniform(0.25, 3.0), 0.0, 0.0],
-        Form::Uneven => [level, draw.uniform(0.6, 1.0), travel / draw.uniform(0.8, 3.0), 0.0],
-        Form::Settling => [1.5 * level, draw.uniform(0.15, 0.5), travel * draw.uniform(0.1, 0.3), 0.0],
+        Form::Uneven => [
+            level,
+            draw.uniform(0.6, 1.0),
+            travel / draw.uniform(0.8, 3.0),
+            0.0,
+        ],
+        Form::Settling => [
+            1.5 * level,
+            draw.uniform(0.15, 0.5),
+            travel * draw.uniform(0.1, 0.3),
+            0.0,
+        ],
         Form::Bias => [draw.sign() * level, 0.0, 0.0, 0.0],
         _ => [level, 0.0, 0.0, 0.0],
     };
@@ -158,11 +228,20 @@ fn of_drive(setup: &Setup, form: Form, draw: &mut Draw) -> Effect {
     let effort = setup.effort;
     let values = match form {
         Form::Lag => [draw.log_uniform(0.003, 0.025), 0.0, 0.0, 0.0],
-        Form::LagSecond => [draw.log_uniform(0.003, 0.015), draw.uniform(0.5, 1.0), 0.0, 0.0],
+        Form::LagSecond => [
+            draw.log_uniform(0.003, 0.015),
+            draw.uniform(0.5, 1.0),
+            0.0,
+            0.0,
+        ],
         Form::RateLimit => [effort * draw.log_uniform(3.0, 15.0), 0.0, 0.0, 0.0],
         Form::DeadTime => {
             let samples = draw.log_uniform(1.0, 20.0) * setup.rate_hz / 1000.0;
-            let samples = if draw.chance(0.5) { samples.ceil() } else { samples };
+            let samples = if draw.chance(0.5) {
+                samples.ceil()
+            } else {
+                samples
+            };
             [samples / setup.rate_hz, 0.0, 0.0, 0.0]
         }
         Form::Gain => [draw.sign() * draw.uniform(0.06, 0.3), 0.0, 0.0, 0.0],
@@ -176,23 +255,50 @@ fn elsewhere(setup: &Setup, form: Form, draw: &mut Draw) -> Effect {
     let values = match form {
         Form::Inertia => {
             let more = draw.uniform(0.08, 0.6);
-            [if draw.chance(0.7) { more } else { -0.5 * more }, 0.0, 0.0, 0.0]
+            [
+                if draw.chance(0.7) { more } else { -0.5 * more },
+                0.0,
+                0.0,
+                0.0,
+            ]
         }
         Form::TwoMass => {
-            let gap = if draw.chance(0.4) { setup.travel * draw.uniform(0.005, 0.03) } else { 0.0 };
-            [draw.uniform(0.3, 0.7), draw.log_uniform(6.0, 25.0), gap, 0.0]
+            let gap = if draw.chance(0.4) {
+                setup.travel * draw.uniform(0.005, 0.03)
+            } else {
+                0.0
+            };
+            [
+                draw.uniform(0.3, 0.7),
+                draw.log_uniform(6.0, 25.0),
+                gap,
+                0.0,
+            ]
         }
-        Form::ImpactGap => {
-            [draw.uniform(0.3, 0.7), draw.uniform(60.0, 150.0), setup.travel * draw.log_uniform(0.01, 0.06), 0.0]
-        }
+        Form::ImpactGap => [
+            draw.uniform(0.3, 0.7),
+            draw.uniform(60.0, 150.0),
+            setup.travel * draw.log_uniform(0.01, 0.06),
+            0.0,
+        ],
         Form::Skew => [draw.log_uniform(0.003, 0.02), 0.0, 0.0, 0.0],
         Form::EncoderScale => [draw.sign() * draw.uniform(0.03, 0.2), 0.0, 0.0, 0.0],
-        Form::Eccentric => [draw.log_uniform(0.02, 0.12), draw.uniform(0.0, TAU), 0.0, 0.0],
+        Form::Eccentric => [
+            draw.log_uniform(0.02, 0.12),
+            draw.uniform(0.0, TAU),
+            0.0,
+            0.0,
+        ],
         Form::Interpolation => {
             let line = TAU / draw.pick(&[16.0, 32.0, 64.0]);
             [line * draw.uniform(0.01, 0.06), line, 0.0, 0.0]
         }
-        Form::Repeated => [draw.uniform(0.5, 2.0), draw.uniform(3.0, 12.0).floor(), 0.0, 0.0],
+        Form::Repeated => [
+            draw.uniform(0.5, 2.0),
+            draw.uniform(3.0, 12.0).floor(),
+            0.0,
+            0.0,
+        ],
         Form::Clock if draw.chance(0.5) => [draw.sign() * draw.uniform(0.02, 0.06), 0.0, 0.0, 0.0],
         Form::Clock => [0.0, draw.uniform(0.1, 0.4) / setup.rate_hz, 0.0, 0.0],
         _ => [0.0; 4],

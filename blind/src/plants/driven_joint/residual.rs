@@ -12,7 +12,8 @@ pub fn sizes(setup: &Setup, hidden: &[Effect], all: &Run) -> Sizes {
     let bump = Bump::new(setup);
     let alone = |effect: &Effect| match hidden {
         [_] => lacking(setup, &bump, all),
-        _ => run(setup, &[*effect], FINE_HZ).map_or_else(Lacking::default, |run| lacking(setup, &bump, &run)),
+        _ => run(setup, &[*effect], FINE_HZ)
+            .map_or_else(Lacking::default, |run| lacking(setup, &bump, &run)),
     };
     let noise = bump.noise;
     let each = hidden.iter().map(|effect| {
@@ -64,7 +65,8 @@ impl Bump {
             _ => 0.0,
         };
         // One more on either side, where the derivatives of the bump are not zero.
-        let all = |f: &dyn Fn(isize) -> f64| -> Vec<f64> { (-1..=length as isize).map(f).collect() };
+        let all =
+            |f: &dyn Fn(isize) -> f64| -> Vec<f64> { (-1..=length as isize).map(f).collect() };
         let rate = setup.rate_hz;
         let bend = all(&|k| (at(k + 1) - 2.0 * at(k) + at(k - 1)) * rate * rate);
         let held = all(&|k| 0.5 * (at(k) + at(k + 1)));
@@ -105,7 +107,10 @@ fn lacking(setup: &Setup, bump: &Bump, run: &Run) -> Lacking {
     let (mut bends, mut slopes, mut senses, mut ones, mut places) =
         (Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let length = bump.weight.len();
-    let windows = run.position.chunks_exact(length).zip(run.command.chunks_exact(length));
+    let windows = run
+        .position
+        .chunks_exact(length)
+        .zip(run.command.chunks_exact(length));
     for ((q, u), v) in windows.zip(run.velocity.chunks_exact(length)) {
         if v.iter().any(|v| *v == 0.0) {
             continue;
@@ -119,9 +124,9 @@ fn lacking(setup: &Setup, bump: &Bump, run: &Run) -> Lacking {
         let slope = sum(&bump.slope, &mut |k| of(q, k));
         let sense = sum(&bump.weight, &mut |k| of(v, k).signum());
         let effort = setup.gain * sum(&bump.held, &mut |k| of(u, k));
-        found.rest.push(
-            effort - setup.inertia * bend - setup.viscous * slope - setup.dry * sense,
-        );
+        found
+            .rest
+            .push(effort - setup.inertia * bend - setup.viscous * slope - setup.dry * sense);
         bends.push(bend);
         slopes.push(slope);
         senses.push(sense);

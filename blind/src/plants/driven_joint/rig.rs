@@ -2,12 +2,11 @@
 
 use super::setup::Setup;
 use crate::draw::{Draw, rounded};
-use crate::effect::Effect;
 use crate::plant::Plant;
 use std::fmt::Write;
 
 /// The description, TOML: a number that is not known is off by a factor of 0.4 to 2.
-pub fn toml(seed: u64, setup: &Setup, _: &[Effect]) -> String {
+pub fn toml(seed: u64, setup: &Setup) -> String {
     let mut draw = Draw::new(Plant::Axis, seed, "other nominal values");
     let mut number = |value: f64, unit: &str, known: bool| {
         let (value, status) = match known {
@@ -33,7 +32,13 @@ pub fn toml(seed: u64, setup: &Setup, _: &[Effect]) -> String {
     );
     let laws = [
         ("dry_offset", "level", setup.dry, "N·m", setup.stated.dry),
-        ("viscous", "coefficient", setup.viscous, "N·m·s/rad", setup.stated.viscous),
+        (
+            "viscous",
+            "coefficient",
+            setup.viscous,
+            "N·m·s/rad",
+            setup.stated.viscous,
+        ),
     ];
     for (mechanism, name, value, unit, known) in laws {
         if let Some(known) = known {

@@ -20,7 +20,7 @@ pub struct Run {
     pub position: Vec<f64>,
     pub command: Vec<f64>,
     pub velocity: Vec<f64>,
-    /// Work that the friction took over the recording, J; never falls.
+    /// The true angle.
     pub angle: Vec<f64>,
 }
 
@@ -38,12 +38,12 @@ pub fn run(setup: &Setup, hidden: &[Effect], fine_hz: f64) -> Option<Run> {
     let share = tail.as_ref().map_or(0.0, |tail| tail.inertia / inertia);
     let mut joint = Joint::new((1.0 - share) * inertia, &setup.friction(), hidden);
     let mut chain = Chain::new(setup.gain, hidden);
-    let mut sensor = Sensor::new(setup, hidden, step_s);
+    let mut sensor = Sensor::new(hidden, step_s);
     let mut servo = ServoState::default();
     let mut run = Run::default();
     for k in 0..(setup.duration_s * setup.rate_hz) as usize {
         let sample_s = k as f64 * clock.sample_s;
-        let shown = sensor.shown(joint.position(), clock.jitter(k));
+        let shown = sensor.shown(clock.jitter(k));
         let seen = setup.counted(shown);
         let command = servo.command(setup, sample_s, seen);
         if joint.position().abs() > 20.0 * setup.travel || !command.is_finite() {
@@ -61,8 +61,34 @@ pub fn run(setup: &Setup, hidden: &[Effect], fine_hz: f64) -> Option<Run> {
             sensor.push(joint.position());
         }
     }
+    if let Some(effect) = hidden.iter().find(|effect| effect.form == Form::Repeated) {
+        run.repeat(effect.values, setup.rate_hz);
+    }
     Some(run)
 }
+
+impl Run {
+    /// Bursts in which both channels repeat their last value: so many a second on average, of so many samples.
+    fn repeat(&mut self, [a_second, samples, ..]: [f64; 4], rate_hz: f64) {
+        let mut start = 0.0;
+        for burst in 0_u32.. {
+            start += rate_hz / a_second * (0.3 + 1.4 * (f64::from(burst) * GOLDEN).fract());
+            for channel in [&mut self.position, &mut self.command] {
+                let Some(last) = channel.get(start as usize).copied() else {
+                    return;
+                };
+                let repeated = channel
+                    .iter_mut()
+                    .skip(start as usize)
+                    .take(samples as usize);
+                repeated.for_each(|x| *x = last);
+            }
+        }
+    }
+}
+
+/// Evenly scattered numbers without a draw.
+const GOLDEN: f64 = 0.618_033_988_749_895;
 
 /// The recorder's clock against the true one.
 struct Clock {
@@ -82,7 +108,6 @@ impl Clock {
 
     /// How late a sample is taken, s: low-discrepancy numbers, so that the clock draws nothing.
     fn jitter(&self, sample: usize) -> f64 {
-        const GOLDEN: f64 = 0.618_033_988_749_895;
         2.0 * self.jitter_s * (sample as f64 * GOLDEN * 7.0).fract()
     }
 }
@@ -161,21 +186,21 @@ impl Tail {
 struct Sensor<'a> {
     hidden: Vec<&'a Effect>,
     late: Delay,
-    lead_s: f64,
     rate: f64,
     before: f64,
     step_s: f64,
 }
 
 impl<'a> Sensor<'a> {
-    fn new(setup: &Setup, hidden: &'a [Effect], step_s: f64) -> Sensor<'a> {
+    fn new(hidden: &'a [Effect], step_s: f64) -> Sensor<'a> {
         let skew = hidden.iter().find(|effect| effect.form == Form::Skew);
         let delay_s = skew.map_or(0.0, Effect::first);
-        debug_assert!(delay_s * setup.rate_hz < 1e3);
         Sensor {
-            hidden: hidden.iter().filter(|effect| effect.stage() == Stage::Sensor).collect(),
+            hidden: hidden
+                .iter()
+                .filter(|effect| effect.stage() == Stage::Sensor)
+                .collect(),
             late: Delay::new(delay_s, step_s),
-            lead_s: (-delay_s).max(0.0),
             rate: 0.0,
             before: 0.0,
             step_s,
@@ -190,12 +215,8 @@ impl<'a> Sensor<'a> {
     }
 
     /// What the encoder shows at a sample that is taken so late, s.
-    fn shown(&mut self, angle: f64, late_s: f64) -> f64 {
-        let delayed = match self.lead_s == 0.0 {
-            true => self.late.value(),
-            false => angle,
-        };
-        let taken = delayed + late_s * self.rate;
+    fn shown(&self, late_s: f64) -> f64 {
+        let taken = self.late.value() + late_s * self.rate;
         self.hidden.iter().fold(taken, |angle, effect| {
             let [a, b, ..] = effect.values;
             match effect.form {

@@ -93,7 +93,9 @@ impl Setup {
             dry: has(stated.dry, dry * effort),
             viscous: has(stated.viscous, viscous * effort / speed),
             gain,
-            counts: draw.pick(&[4096.0, 8192.0, 16384.0, 20000.0, 40000.0, 65536.0, 100_000.0]),
+            counts: draw.pick(&[
+                4096.0, 8192.0, 16384.0, 20000.0, 40000.0, 65536.0, 100_000.0,
+            ]),
             zero: draw.uniform(0.0, 1.0),
             command_noise: rounded(effort / gain * draw.log_uniform(0.001, 0.01)),
             servo,
@@ -106,7 +108,9 @@ impl Setup {
     pub fn friction(&self) -> Vec<Effect> {
         let laws = [(Form::Viscous, self.viscous), (Form::Coulomb, self.dry)];
         let there = laws.into_iter().filter(|(_, level)| *level > 0.0);
-        there.map(|(form, level)| Effect::new(form, [level])).collect()
+        there
+            .map(|(form, level)| Effect::new(form, [level]))
+            .collect()
     }
 
     /// An angle as the encoder has it, rad.
@@ -130,8 +134,14 @@ impl Setup {
 /// A servo no faster than its rate allows.
 fn servo(draw: &mut Draw, tracks: bool, rate_hz: f64, frequency_hz: f64, mass: f64) -> Servo {
     let (bandwidth_hz, damping) = match tracks {
-        true => (draw.uniform(2.5, 6.0).min(rate_hz / 60.0), draw.uniform(0.7, 1.1)),
-        false => (frequency_hz * draw.uniform(0.9, 1.3), draw.uniform(0.3, 0.6)),
+        true => (
+            draw.uniform(2.5, 6.0).min(rate_hz / 60.0),
+            draw.uniform(0.7, 1.1),
+        ),
+        false => (
+            frequency_hz * draw.uniform(0.9, 1.3),
+            draw.uniform(0.3, 0.6),
+        ),
     };
     let natural = TAU * bandwidth_hz;
     let omega = TAU * frequency_hz;

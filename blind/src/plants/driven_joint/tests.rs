@@ -38,15 +38,28 @@ fn with_nothing_hidden_the_noise_explains_the_residual() {
 /// Every form leaves something, and halving the fine step moves the joint by less than a thousandth of its travel.
 #[test]
 fn every_form_shows_and_the_step_is_fine_enough() {
-    for (k, form) in hide::MECHANISMS.iter().copied().flatten().chain(hide::FOREIGN).enumerate() {
+    for (k, form) in hide::MECHANISMS
+        .iter()
+        .copied()
+        .flatten()
+        .chain(hide::FOREIGN)
+        .enumerate()
+    {
         let setup = laboratory(k as u64);
         let mut draw = Draw::new(Plant::Axis, k as u64, "form");
         let hidden = vec![hide::effect(&setup, *form, &mut draw)];
         let coarse = run::run(&setup, &hidden, FINE_HZ).unwrap().angle;
         let fine = run::run(&setup, &hidden, 2.0 * FINE_HZ).unwrap().angle;
-        let apart = coarse.iter().zip(&fine).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
+        let apart = coarse
+            .iter()
+            .zip(&fine)
+            .map(|(a, b)| (a - b) * (a - b))
+            .sum::<f64>();
         let apart = (apart / coarse.len() as f64).sqrt() / setup.travel;
-        assert!(apart < 1e-3 + setup.quantum() / setup.travel, "{form:?}: {apart:e}");
+        assert!(
+            apart < 1e-3 + setup.quantum() / setup.travel,
+            "{form:?}: {apart:e}"
+        );
         if *form != Form::Repeated {
             let shows = ratio(&setup, hidden);
             assert!(shows > 1.01, "{form:?}: {shows}");
@@ -79,16 +92,50 @@ fn forms_of_a_mechanism_differ() {
         resists.collect()
     };
     let groups: [&[(Form, [f64; 3])]; 7] = [
-        &[(Form::Stribeck, [1.0, 0.3, 2.0]), (Form::Rational, [1.0, 0.3, 0.0]), (Form::Stribeck, [1.0, 0.3, 1.0]), (Form::Travelled, [1.0, 0.3, 0.02])],
-        &[(Form::Dahl, [1.0, 0.05, 0.0]), (Form::DahlPower, [1.0, 0.05, 2.0]), (Form::MaxwellSlip, [1.0, 0.15, 0.0]), (Form::ElastoPlastic, [1.0, 0.05, 0.7])],
-        &[(Form::Viscous, [1.0, 0.0, 0.0]), (Form::Root, [1.0, 1.0, 0.0]), (Form::Square, [1.0, 1.0, 0.0]), (Form::Power, [1.0, 1.0, 1.5]), (Form::Tanh, [1.0, 0.5, 0.0])],
-        &[(Form::LoadShare, [1.0, 0.0, 0.0]), (Form::LoadSided, [1.0, 0.1, 0.0]), (Form::LoadSquare, [1.0, 1.3, 0.0])],
-        &[(Form::FadeLinear, [1.0, 2.0, 0.0]), (Form::FadeExponential, [1.0, 1.0, 0.0]), (Form::FadeByWay, [1.0, 3.0, 0.0])],
-        &[(Form::Ripple, [1.0, 0.0, 0.1]), (Form::TwoOrders, [1.0, 0.1, 0.6]), (Form::Toothed, [1.0, 0.1, 3.0])],
-        &[(Form::Overshoot, [1.0, 0.1, 0.0]), (Form::OvershootLinear, [1.0, 0.1, 0.0])],
+        &[
+            (Form::Stribeck, [1.0, 0.3, 2.0]),
+            (Form::Rational, [1.0, 0.3, 0.0]),
+            (Form::Stribeck, [1.0, 0.3, 1.0]),
+            (Form::Travelled, [1.0, 0.3, 0.02]),
+        ],
+        &[
+            (Form::Dahl, [1.0, 0.05, 0.0]),
+            (Form::DahlPower, [1.0, 0.05, 2.0]),
+            (Form::MaxwellSlip, [1.0, 0.15, 0.0]),
+            (Form::ElastoPlastic, [1.0, 0.05, 0.7]),
+        ],
+        &[
+            (Form::Viscous, [1.0, 0.0, 0.0]),
+            (Form::Root, [1.0, 1.0, 0.0]),
+            (Form::Square, [1.0, 1.0, 0.0]),
+            (Form::Power, [1.0, 1.0, 1.5]),
+            (Form::Tanh, [1.0, 0.5, 0.0]),
+        ],
+        &[
+            (Form::LoadShare, [1.0, 0.0, 0.0]),
+            (Form::LoadSided, [1.0, 0.1, 0.0]),
+            (Form::LoadSquare, [1.0, 1.3, 0.0]),
+        ],
+        &[
+            (Form::FadeLinear, [1.0, 2.0, 0.0]),
+            (Form::FadeExponential, [1.0, 1.0, 0.0]),
+            (Form::FadeByWay, [1.0, 3.0, 0.0]),
+        ],
+        &[
+            (Form::Ripple, [1.0, 0.0, 0.1]),
+            (Form::TwoOrders, [1.0, 0.1, 0.6]),
+            (Form::Toothed, [1.0, 0.1, 3.0]),
+        ],
+        &[
+            (Form::Overshoot, [1.0, 0.1, 0.0]),
+            (Form::OvershootLinear, [1.0, 0.1, 0.0]),
+        ],
     ];
     for group in groups {
-        let runs: Vec<Vec<f64>> = group.iter().map(|(form, values)| path(*form, *values)).collect();
+        let runs: Vec<Vec<f64>> = group
+            .iter()
+            .map(|(form, values)| path(*form, *values))
+            .collect();
         for (k, one) in runs.iter().enumerate() {
             for other in runs.iter().skip(k + 1) {
                 let sum: f64 = one.iter().zip(other).map(|(a, b)| (a - b) * (a - b)).sum();
@@ -103,15 +150,30 @@ fn forms_of_a_mechanism_differ() {
 #[test]
 fn friction_in_any_form_takes_energy() {
     for form in [
-        Form::Stribeck, Form::Rational, Form::Travelled, Form::DahlPower, Form::Bristle, Form::ElastoPlastic, Form::MaxwellSlip,
-        Form::BoucWen, Form::Root, Form::Square, Form::Power, Form::Tanh, Form::LoadSided, Form::LoadSquare, Form::OvershootLinear,
+        Form::Stribeck,
+        Form::Rational,
+        Form::Travelled,
+        Form::DahlPower,
+        Form::Bristle,
+        Form::ElastoPlastic,
+        Form::MaxwellSlip,
+        Form::BoucWen,
+        Form::Root,
+        Form::Square,
+        Form::Power,
+        Form::Tanh,
+        Form::LoadSided,
+        Form::LoadSquare,
+        Form::OvershootLinear,
     ] {
         for seed in 0..4 {
             let setup = laboratory(seed);
             let effect = hide::effect(&setup, form, &mut Draw::new(Plant::Axis, seed, "passive"));
             let mut element = Element::new(effect);
             let (steps, mut work_j) = (20_000, [0.0; 3]);
-            let at = |k: i32| setup.travel * libm::sin(std::f64::consts::TAU * f64::from(k) / f64::from(steps));
+            let at = |k: i32| {
+                setup.travel * libm::sin(std::f64::consts::TAU * f64::from(k) / f64::from(steps))
+            };
             for k in 0..3 * steps {
                 let travel = at(k + 1) - at(k);
                 let instant = Instant {
@@ -123,7 +185,8 @@ fn friction_in_any_form_takes_energy() {
                     brake: 0.0,
                 };
                 let force = element.force(&instant, 0.5 * travel, 5e-5);
-                work_j[(k / steps) as usize] += (force + instant.direction * element.bound(&instant)) * travel;
+                work_j[(k / steps) as usize] +=
+                    (force + instant.direction * element.bound(&instant)) * travel;
                 element.advance(&instant, travel, 1e-4);
             }
             assert!(work_j[1] > 0.0 && work_j[2] > 0.0, "{form:?} {work_j:?}");
@@ -142,7 +205,12 @@ fn a_seed_in_other_forms_repeats_and_reads() {
         assert_eq!(recording.time_s.len(), case.trace.len());
         assert!(answer.residual_ratio.unwrap() >= 1.0);
         let foreign = answer.stratum == Stratum::NotInLibrary;
-        assert!(answer.effects.iter().all(|effect| effect.right.is_empty() == foreign));
+        assert!(
+            answer
+                .effects
+                .iter()
+                .all(|effect| effect.right.is_empty() == foreign)
+        );
         if seed % 7 == 0 {
             let again = make_in(Forms::Other, Plant::Axis, seed, None).unwrap();
             assert_eq!((again.trace, again.sealed), (case.trace, case.sealed));

@@ -6,6 +6,7 @@ use super::setup::Asked;
 use crate::draw::Draw;
 use crate::effect::Effect;
 use crate::error::Error;
+use crate::forms::Forms;
 use crate::lab::{Drawn, Lab};
 use crate::make::{ATTEMPTS, Case, no_case, sealed, secret};
 use crate::plant::Plant;
@@ -14,18 +15,21 @@ use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
 use rigproof_trace::Trace;
 
+/// The rig whose seeds have second recordings.
+const RIG: Rig = Rig(Forms::Usual);
+
 /// Another recording of a seed's rig, with the same hidden effects on the same clock: another hand, other currents.
 pub fn again(seed: u64, stratum: Stratum) -> Result<Trace, Error> {
-    let first = secret(&Rig, seed, stratum)?;
+    let first = secret(&RIG, seed, stratum)?;
     let mut draw = Draw::new(Plant::Rig, seed, "again");
     for _ in 0..ATTEMPTS {
         let setup = first.drawn.setup.again(stratum, &mut draw);
-        let other = Rig.tried(Drawn {
+        let other = RIG.tried(Drawn {
             setup,
             ..first.drawn.clone()
         });
         if let Some(other) = other.filter(|other| other.sizes.moves()) {
-            return Ok(Rig.record(&other, &mut draw));
+            return Ok(RIG.record(&other, &mut draw));
         }
     }
     Err(no_case(Plant::Rig, seed, stratum))
@@ -33,7 +37,7 @@ pub fn again(seed: u64, stratum: Stratum) -> Result<Trace, Error> {
 
 /// An experiment on a seed's rig as a case of its own: the same hidden effects, what began in the first recording now from the start.
 pub fn under(seed: u64, stratum: Stratum, experiment: &Trace) -> Result<Case, Error> {
-    let first = secret(&Rig, seed, stratum)?;
+    let first = secret(&RIG, seed, stratum)?;
     let mut draw = Draw::new(Plant::Rig, seed, "experiment");
     let Drawn { setup, hidden, .. } = first.drawn;
     let asked = asked(experiment, setup.layout)?;
@@ -47,11 +51,11 @@ pub fn under(seed: u64, stratum: Stratum, experiment: &Trace) -> Result<Case, Er
         known: Vec::new(),
         hidden: hidden.into_iter().map(begun).collect(),
     };
-    let other = Rig.tried(drawn).ok_or(Error::Experiment(
+    let other = RIG.tried(drawn).ok_or(Error::Experiment(
         "it leads the arms out of their ranges (table 4.2)".to_owned(),
     ))?;
-    let trace = Rig.record(&other, &mut draw);
-    sealed(&Rig, seed, stratum, &other, trace, None)
+    let trace = RIG.record(&other, &mut draw);
+    sealed(&RIG, seed, stratum, &other, trace, None)
 }
 
 /// What an experiment's file asks for: `hand_x` and `hand_y`, m, and the currents of the brakes, A.

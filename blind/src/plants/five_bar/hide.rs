@@ -132,7 +132,16 @@ fn viscous(joint: Joint, draw: &mut Draw) -> Effect {
 /// The bristle bends by 2 to 6 mrad before it slides.
 fn stribeck(joint: Joint, draw: &mut Draw) -> Effect {
     let peak = draw.log_uniform(0.15, 0.6);
-    Effect::new(Form::Lugre, [peak, draw.log_uniform(0.06, 0.4), 2.0, peak / draw.uniform(0.002, 0.006)]).joint(joint)
+    Effect::new(
+        Form::Lugre,
+        [
+            peak,
+            draw.log_uniform(0.06, 0.4),
+            2.0,
+            peak / draw.uniform(0.002, 0.006),
+        ],
+    )
+    .joint(joint)
 }
 
 /// With the same limit in both directions, or in three of ten draws with another in each.
@@ -145,7 +154,11 @@ fn presliding(joint: Joint, draw: &mut Draw) -> Effect {
 }
 
 fn two_sided(joint: Joint, draw: &mut Draw) -> Effect {
-    Effect::new(Form::MaxwellSlip, [draw.log_uniform(0.1, 0.5), draw.log_uniform(0.03, 0.2)]).joint(joint)
+    Effect::new(
+        Form::MaxwellSlip,
+        [draw.log_uniform(0.1, 0.5), draw.log_uniform(0.03, 0.2)],
+    )
+    .joint(joint)
 }
 
 fn spring(joint: Joint, draw: &mut Draw) -> Effect {
@@ -156,7 +169,11 @@ fn spring(joint: Joint, draw: &mut Draw) -> Effect {
 fn ripple(joint: Joint, draw: &mut Draw) -> Effect {
     let amplitude = draw.log_uniform(0.05, 0.3);
     let (s, c) = libm::sincos(draw.uniform(0.0, TAU));
-    Effect::new(Form::Ripple, [amplitude * s, amplitude * c, TAU / draw.uniform(12.0, 60.0)]).joint(joint)
+    Effect::new(
+        Form::Ripple,
+        [amplitude * s, amplitude * c, TAU / draw.uniform(12.0, 60.0)],
+    )
+    .joint(joint)
 }
 
 fn load(joint: Joint, draw: &mut Draw) -> Effect {
@@ -191,7 +208,11 @@ fn thermal(joint: Joint, draw: &mut Draw) -> Effect {
 }
 
 fn overshoot(joint: Joint, draw: &mut Draw) -> Effect {
-    Effect::new(Form::YieldOvershoot, [draw.uniform(0.1, 0.4), draw.log_uniform(0.05, 0.25)]).joint(joint)
+    Effect::new(
+        Form::YieldOvershoot,
+        [draw.uniform(0.1, 0.4), draw.log_uniform(0.05, 0.25)],
+    )
+    .joint(joint)
 }
 
 fn payload(_: Joint, draw: &mut Draw) -> Effect {
@@ -239,12 +260,23 @@ fn force_bias(_: Joint, draw: &mut Draw) -> Effect {
 }
 
 fn force_rotation(_: Joint, draw: &mut Draw) -> Effect {
-    Effect::new(Form::ForceRotation, [draw.sign() * RAD_PER_DEG * draw.log_uniform(1.5, 10.0)])
+    Effect::new(
+        Form::ForceRotation,
+        [draw.sign() * RAD_PER_DEG * draw.log_uniform(1.5, 10.0)],
+    )
 }
 
 fn two_ripples(joint: Joint, draw: &mut Draw) -> Effect {
     let first = TAU / draw.uniform(12.0, 25.0);
-    Effect::new(Form::TwoRipples, [draw.log_uniform(0.1, 0.4), first, first / draw.uniform(1.8, 2.9)]).joint(joint)
+    Effect::new(
+        Form::TwoRipples,
+        [
+            draw.log_uniform(0.1, 0.4),
+            first,
+            first / draw.uniform(1.8, 2.9),
+        ],
+    )
+    .joint(joint)
 }
 
 fn one_sided(joint: Joint, draw: &mut Draw) -> Effect {
@@ -255,17 +287,35 @@ fn one_sided(joint: Joint, draw: &mut Draw) -> Effect {
     } else {
         [strong, weak]
     };
-    Effect::new(Form::OneSided, [forward, backward, draw.log_uniform(0.03, 0.15)]).joint(joint)
+    Effect::new(
+        Form::OneSided,
+        [forward, backward, draw.log_uniform(0.03, 0.15)],
+    )
+    .joint(joint)
 }
 
 fn uneven(joint: Joint, draw: &mut Draw) -> Effect {
-    Effect::new(Form::Uneven, [draw.log_uniform(0.1, 0.4), draw.uniform(0.5, 1.0), draw.log_uniform(0.2, 1.5)]).joint(joint)
+    Effect::new(
+        Form::Uneven,
+        [
+            draw.log_uniform(0.1, 0.4),
+            draw.uniform(0.5, 1.0),
+            draw.log_uniform(0.2, 1.5),
+        ],
+    )
+    .joint(joint)
 }
 
 fn varying_skew(_: Joint, draw: &mut Draw) -> Effect {
-    Effect::new(Form::VaryingSkew, [draw.log_uniform(0.004, 0.02), draw.uniform(0.7, 4.0)])
+    Effect::new(
+        Form::VaryingSkew,
+        [draw.log_uniform(0.004, 0.02), draw.uniform(0.7, 4.0)],
+    )
 }
 
 fn compliance(_: Joint, draw: &mut Draw) -> Effect {
-    Effect::new(Form::Compliance, [draw.uniform(0.3, 1.0), draw.uniform(5.0, 14.0)])
+    Effect::new(
+        Form::Compliance,
+        [draw.uniform(0.3, 1.0), draw.uniform(5.0, 14.0)],
+    )
 }

@@ -24,8 +24,8 @@ const MOMENT_S: f64 = 1e-7;
 pub struct FiveBar {
     pub arms: Arms,
     inertia: Inertia,
-    /// Gravity in the plane, with its number.
-    gravity: Option<(usize, Effect)>,
+    /// Gravity in the plane and springs to places in it, with their numbers.
+    fields: Vec<(usize, Effect)>,
     joints: [At; 4],
     pub theta: Pair,
     pub rates: Pair,
@@ -70,7 +70,7 @@ const LEAST_CUT: f64 = 0.01;
 impl FiveBar {
     /// A rig at rest at θA and θB, rad; `None` where the arms do not meet.
     pub fn new(layout: Layout, theta: Pair, hidden: &[Effect]) -> Option<FiveBar> {
-        let arms = arms(layout);
+        let arms = true_arms(layout, hidden);
         let pose = Pose::at(&arms, theta)?;
         let numbered = || hidden.iter().copied().enumerate();
         let angles = pose.joint_angles_rad(theta);
@@ -97,7 +97,9 @@ impl FiveBar {
         Some(FiveBar {
             arms,
             inertia: true_inertia(layout, hidden),
-            gravity: numbered().find(|(_, effect)| effect.form == Form::Gravity),
+            fields: numbered()
+                .filter(|(_, effect)| effect.stage() == Stage::Field)
+                .collect(),
             joints,
             theta,
             rates: [0.0; 2],
@@ -156,7 +158,9 @@ impl FiveBar {
         let velocity = middle.tip_velocity(&self.arms, rates);
         let force_n = force(middle_s, middle.tip_m, velocity);
         let mut pushed = middle.tip_force_along(&self.arms, force_n);
-        pushed = plus(pushed, 1.0, self.weight(middle_s, &middle));
+        for (_, field) in &self.fields {
+            pushed = plus(pushed, 1.0, self.pull(field, middle_s, &middle));
+        }
         let [fx, fy] = force_n;
         let load_n = fx.hypot(fy);
         let mut torques = [0.0; 4];
@@ -292,8 +296,8 @@ impl FiveBar {
                 *force = plus(*force, torque_nm, row);
             }
         };
-        if let Some((number, _)) = self.gravity {
-            add(number, -1.0, self.weight(time_s, &self.pose));
+        for (number, field) in &self.fields {
+            add(*number, -1.0, self.pull(field, time_s, &self.pose));
         }
         let rates = self.joint_rates();
         for ((joint, rate_rad_s), row) in self.joints.iter().zip(rates).zip(self.pose.rows) {
@@ -304,8 +308,7 @@ impl FiveBar {
             let at = joint.instant(time_s, 0.0, rate_rad_s, load_n);
             for (number, element) in &joint.elements {
                 let travel = MOMENT_S * rate_rad_s;
-                let torque_nm =
-                    element.force(&at, travel, MOMENT_S) + sign * element.bound(&at);
+                let torque_nm = element.force(&at, travel, MOMENT_S) + sign * element.bound(&at);
                 add(*number, torque_nm, row);
             }
             for (number, more_nm) in joint.brake.iter().flat_map(Braked::added_nm) {
@@ -314,13 +317,18 @@ impl FiveBar {
         }
     }
 
-    fn weight(&self, time_s: f64, pose: &Pose) -> Pair {
-        match self.gravity {
-            Some((_, gravity)) if gravity.acts(time_s) => {
-                let [x, y, ..] = gravity.values;
-                weight(&self.arms, &self.inertia, pose, [x, y])
+    /// What a field does along θA and θB, N·m.
+    fn pull(&self, field: &Effect, time_s: f64, pose: &Pose) -> Pair {
+        let [a, b, c, rest_m] = field.values;
+        match field.form {
+            _ if !field.acts(time_s) => [0.0; 2],
+            Form::Gravity => weight(&self.arms, &self.inertia, pose, [a, b]),
+            _ => {
+                let away = plus(pose.tip_m, -1.0, [b, c]);
+                let length_m = dot(away, away).sqrt().max(1e-9);
+                let force_n = away.map(|x| -a * (length_m - rest_m) * x / length_m);
+                pose.tip_force_along(&self.arms, force_n)
             }
-            _ => [0.0; 2],
         }
     }
 }
@@ -357,6 +365,25 @@ impl At {
         let mut elements = self.elements.iter();
         self.brake.is_some() || elements.any(|(_, element)| element.is_frictional())
     }
+}
+
+/// Table 4.1 with the hidden lengths: of AE at A, of ED at E, of BC at B, of CD at C.
+fn true_arms(layout: Layout, hidden: &[Effect]) -> Arms {
+    let mut arms = arms(layout);
+    for effect in hidden
+        .iter()
+        .filter(|effect| effect.form == Form::LinkLength)
+    {
+        let [ae, ed, bc, cd] = Joint::ALL.map(|joint| match effect.is_at(joint) {
+            true => effect.first(),
+            false => 0.0,
+        });
+        arms.l_ae_m += ae;
+        arms.l_ed_m += ed;
+        arms.l_bc_m += bc;
+        arms.l_cd_m += cd;
+    }
+    arms
 }
 
 /// Table 5.1 with the hidden masses.

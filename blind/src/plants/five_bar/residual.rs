@@ -5,6 +5,7 @@ use super::mass::Dynamics;
 use super::run::{Sample, shown_theta};
 use super::setup::Setup;
 use crate::effect::Effect;
+use crate::form::Form;
 use rigproof_spec::geometry::arms;
 use rigproof_spec::inertia::inertia;
 
@@ -40,7 +41,10 @@ fn see(setup: &Setup, hidden: &[Effect], sample: &Sample) -> Option<Seen> {
         plus(moved, -1.0, shown_theta(setup, hidden, setup.start))
     };
     let theta = shown_theta(setup, hidden, sample.theta);
-    let (rates, acceleration) = (shown(sample.rates), shown(sample.acceleration));
+    let (mut rates, mut acceleration) = (shown(sample.rates), shown(sample.acceleration));
+    if hidden.iter().any(|effect| effect.form == Form::Eccentric) {
+        (rates, acceleration) = shown_motion(setup, hidden, sample);
+    }
     let pose = Pose::at(&arms, theta)?;
     let free = free_direction(&pose, sample.stuck)?;
     let mut joint_rates = pose.rows.map(|row| dot(row, rates));
@@ -83,6 +87,23 @@ fn see(setup: &Setup, hidden: &[Effect], sample: &Sample) -> Option<Seen> {
         hidden_nm,
         free: free.direction(),
     })
+}
+
+/// Rates and accelerations that an encoder shows whose error is no straight line: from what it shows a moment before and after.
+fn shown_motion(setup: &Setup, hidden: &[Effect], sample: &Sample) -> (Pair, Pair) {
+    const MOMENT_S: f64 = 1e-3;
+    let at = |moment_s: f64| {
+        let moved = plus(sample.theta, moment_s, sample.rates);
+        shown_theta(
+            setup,
+            hidden,
+            plus(moved, 0.5 * moment_s * moment_s, sample.acceleration),
+        )
+    };
+    let (before, now, after) = (at(-MOMENT_S), at(0.0), at(MOMENT_S));
+    let rates = plus(after, -1.0, before).map(|x| x / (2.0 * MOMENT_S));
+    let bend = plus(plus(after, 1.0, before), -2.0, now);
+    (rates, bend.map(|x| x / (MOMENT_S * MOMENT_S)))
 }
 
 /// How much of the plane is free of stuck joints.

@@ -160,16 +160,32 @@ fn shown_force(hidden: &[Effect], time_s: f64, at: impl Fn(f64) -> Pair) -> Pair
             _ => 0.0,
         })
         .sum();
-    acting().fold(at(time_s - delay_s), |force, effect| match (effect.form, effect.values) {
-        (Form::ForceGain, [fraction, ..]) => force.map(|x| x * (1.0 + fraction)),
-        (Form::ForceBias, [x, y, ..]) => plus(force, 1.0, [x, y]),
-        // A sensor that is turned to the left sees a force turned to the right.
-        (Form::ForceRotation, [angle, ..]) => {
-            let (s, c) = libm::sincos(angle);
-            let [x, y] = force;
-            [c * x + s * y, c * y - s * x]
+    acting().fold(at(time_s - delay_s), |force, effect| {
+        match (effect.form, effect.values) {
+            (Form::ForceGain, [fraction, ..]) => {
+                let [x, y] = force;
+                match effect.at {
+                    At::Sensor(0) => [x * (1.0 + fraction), y],
+                    At::Sensor(_) => [x, y * (1.0 + fraction)],
+                    _ => force.map(|x| x * (1.0 + fraction)),
+                }
+            }
+            (Form::Crosstalk, [share, ..]) => {
+                let [x, y] = force;
+                match effect.at {
+                    At::Sensor(0) => [x + share * y, y],
+                    _ => [x, y + share * x],
+                }
+            }
+            (Form::ForceBias, [x, y, ..]) => plus(force, 1.0, [x, y]),
+            // A sensor that is turned to the left sees a force turned to the right.
+            (Form::ForceRotation, [angle, ..]) => {
+                let (s, c) = libm::sincos(angle);
+                let [x, y] = force;
+                [c * x + s * y, c * y - s * x]
+            }
+            _ => force,
         }
-        _ => force,
     })
 }
 
@@ -181,6 +197,10 @@ pub fn shown_theta(setup: &Setup, hidden: &[Effect], theta: Pair) -> Pair {
         here.fold(angle, |angle, effect| match effect.form {
             Form::EncoderScale => start + (1.0 + effect.first()) * (angle - start),
             Form::EncoderOffset => angle + effect.first(),
+            Form::Eccentric => {
+                let [amplitude, phase, ..] = effect.values;
+                angle + amplitude * (libm::sin(angle + phase) - libm::sin(start + phase))
+            }
             _ => angle,
         })
     };
@@ -195,19 +215,21 @@ pub fn quantised(setup: &Setup, theta: Pair) -> Pair {
 
 impl Handle {
     fn of(hidden: &[Effect], at_m: Pair) -> Option<Handle> {
-        hidden.iter().find_map(|effect| match (effect.form, effect.values) {
-            (Form::Compliance, [mass, frequency_hz, ..]) => {
-                let omega = TAU * frequency_hz;
-                Some(Handle {
-                    mass,
-                    stiffness: mass * omega * omega,
-                    damping: 2.0 * HANDLE_DAMPING * mass * omega,
-                    at_m,
-                    velocity: [0.0; 2],
-                })
-            }
-            _ => None,
-        })
+        hidden
+            .iter()
+            .find_map(|effect| match (effect.form, effect.values) {
+                (Form::Compliance, [mass, frequency_hz, ..]) => {
+                    let omega = TAU * frequency_hz;
+                    Some(Handle {
+                        mass,
+                        stiffness: mass * omega * omega,
+                        damping: 2.0 * HANDLE_DAMPING * mass * omega,
+                        at_m,
+                        velocity: [0.0; 2],
+                    })
+                }
+                _ => None,
+            })
     }
 
     /// The spring's force on the tip, N.

@@ -46,19 +46,23 @@ pub fn sizes(setup: &Setup, hidden: &[Effect], samples: &[Sample]) -> Sizes {
         .iter()
         .map(|imitation| column(&imitation.force))
         .collect();
-    let of = hidden.iter().zip(&forces).enumerate().map(|(own, (effect, force))| {
-        let columns: Vec<&[f64]> = imitations
-            .iter()
-            .zip(&imitating)
-            .filter(|(imitation, _)| !is_own(setup, effect, imitation))
-            .map(|(_, column)| column.as_slice())
-            .collect();
-        let size = measured(own, &forces, &[], &columns, 1.0);
-        Size {
-            onset_strength: onset_strength(effect, size.size, &blocks, force),
-            ..size
-        }
-    });
+    let of = hidden
+        .iter()
+        .zip(&forces)
+        .enumerate()
+        .map(|(own, (effect, force))| {
+            let columns: Vec<&[f64]> = imitations
+                .iter()
+                .zip(&imitating)
+                .filter(|(imitation, _)| !is_own(setup, effect, imitation))
+                .map(|(_, column)| column.as_slice())
+                .collect();
+            let size = measured(own, &forces, &[], &columns, 1.0);
+            Size {
+                onset_strength: onset_strength(effect, size.size, &blocks, force),
+                ..size
+            }
+        });
     let count = blocks.len().max(1) as f64;
     let left = column(&|seen, _| {
         let rest = seen.hidden_nm.iter();
@@ -69,7 +73,9 @@ pub fn sizes(setup: &Setup, hidden: &[Effect], samples: &[Sample]) -> Sizes {
         sizes: of.collect(),
         block_noise: blocks.iter().map(|block| block.noise).sum::<f64>() / count,
         sliding: blocks.len() as f64 * length as f64 / samples.len().max(1) as f64,
-        ratio: None,
+        ratio: Some(
+            (1.0 + remainder(&column(&|seen, _| seen.lacking_nm), &[]) / (2.0 * count)).sqrt(),
+        ),
     }
 }
 
@@ -79,9 +85,7 @@ fn onset_strength(effect: &Effect, size: f64, blocks: &[Block], force: &[f64]) -
     let pairs = || blocks.iter().zip(force.chunks_exact(2));
     let within = |from_s: f64, block: &Block| (from_s..from_s + ONSET_S).contains(&block.middle_s);
     let before = pairs().filter(|(block, _)| within(onset_s - ONSET_S, block));
-    let would_act = before
-        .filter(|(block, _)| block.slides(effect.at))
-        .count();
+    let would_act = before.filter(|(block, _)| block.slides(effect.at)).count();
     let after = pairs().filter(|(block, _)| within(onset_s, block));
     let after: f64 = after.flat_map(|(_, force)| force).map(|x| x * x).sum();
     Some((size * (2.0 * would_act as f64).sqrt()).min(after.sqrt()))
@@ -225,13 +229,14 @@ fn is_own(setup: &Setup, effect: &Effect, imitation: &Imitation) -> bool {
 #[cfg(test)]
 mod tests {
     use super::super::Rig;
+    use crate::forms::Forms;
     use crate::make::secret;
     use crate::stratum::Stratum;
 
     #[test]
     fn an_onset_tells_where_its_joint_moves_and_not_where_it_rests() {
         let strength = |seed| {
-            let secret = secret(&Rig, seed, Stratum::LateOnset).unwrap();
+            let secret = secret(&Rig(Forms::Usual), seed, Stratum::LateOnset).unwrap();
             secret.sizes.sizes[0].onset_strength.unwrap()
         };
         // Friction at E that begins at 12.18 s, when the arms are held from 12.10 to 12.65 s; a bristle at A that begins in motion.

@@ -2,9 +2,9 @@
 
 use super::hide;
 use super::linkage::{Pair, dot};
-use super::told::in_the_vocabulary;
 use super::mass::Dynamics;
 use super::setup::Setup;
+use super::told::in_the_vocabulary;
 use super::*;
 use crate::form::Form;
 use crate::make::{make, secret};
@@ -166,7 +166,7 @@ fn short(
     let mut draw = Draw::new(Plant::Rig, seed, "short");
     let mut setup = Setup::draw(Stratum::Single, &mut draw)?;
     setup.duration_s = 6.0;
-    Rig.tried(Drawn {
+    Rig(Forms::Usual).tried(Drawn {
         hidden: hide(&setup, &mut draw),
         known: Vec::new(),
         setup,
@@ -214,7 +214,9 @@ fn with_nothing_hidden_the_nominal_equations_lack_nothing() {
 #[test]
 fn a_ripple_is_told_from_the_zero_of_its_joint_and_a_turned_sensor_by_what_it_shows() {
     let told = |setup: &Setup, hidden: &Effect| -> Vec<f64> {
-        let parameters = in_the_vocabulary(setup, hidden).parameters(Motion::Rotary).into_iter();
+        let parameters = in_the_vocabulary(setup, hidden)
+            .parameters(Motion::Rotary)
+            .into_iter();
         parameters.map(|(_, value, _)| value).collect()
     };
     let setup = Setup::draw(Stratum::Single, &mut Draw::new(Plant::Rig, 3, "zero")).unwrap();
@@ -243,9 +245,7 @@ fn a_ripple_is_told_from_the_zero_of_its_joint_and_a_turned_sensor_by_what_it_sh
 #[test]
 fn a_second_recording_of_a_rig_is_another_motion_from_the_same_start() {
     let seed = 1006;
-    let first = make(Plant::Rig, seed, None)
-        .unwrap()
-        .trace;
+    let first = make(Plant::Rig, seed, None).unwrap().trace;
     let second = crate::make::again(seed).unwrap();
     assert_eq!(second, crate::make::again(seed).unwrap());
     assert_eq!(first.time_s, second.time_s);
@@ -280,11 +280,29 @@ fn on_three_brakes_a_bearing_at_c_is_a_bearing_at_e() {
 fn strata_have_the_sizes_they_say() {
     for seed in 40..42 {
         for stratum in [Stratum::Single, Stratum::TooSmall, Stratum::Unidentifiable] {
-            let secret = secret(&Rig, seed, stratum).unwrap();
+            let secret = secret(&Rig(Forms::Usual), seed, stratum).unwrap();
             for size in &secret.sizes.sizes {
                 assert!(size.fits(stratum), "{seed} {} {size:?}", stratum.name());
                 assert!(size.distinctness <= size.size && size.strength > 0.02);
             }
         }
     }
+}
+
+/// The books of every other form close as those of the usual ones do, and every form leaves something.
+#[test]
+fn the_bookkeeping_of_every_other_form_closes() {
+    let mut closed = 0;
+    for (seed, effect) in other::every(&mut Draw::new(Plant::Rig, 5, "every"))
+        .into_iter()
+        .enumerate()
+    {
+        let Some(secret) = short(seed as u64, |_, _| vec![effect]) else {
+            continue;
+        };
+        assert!(secret.sizes.left < 0.5, "{effect:?} {}", secret.sizes.left);
+        assert!(secret.sizes.ratio.unwrap() > 1.001, "{effect:?}");
+        closed += 1;
+    }
+    assert!(closed > 45, "{closed}");
 }

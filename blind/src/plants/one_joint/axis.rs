@@ -112,7 +112,9 @@ impl Amplifier {
     }
 
     fn advance(&mut self, time_s: f64, command_v: f64, step_s: f64) {
-        let lag = self.hidden.filter(|hidden| hidden.form == Form::Lag && hidden.acts(time_s));
+        let lag = self
+            .hidden
+            .filter(|hidden| hidden.form == Form::Lag && hidden.acts(time_s));
         self.lagged_v = lag.map_or(command_v, |lag| {
             command_v + (self.lagged_v - command_v) * libm::exp(-step_s / lag.first())
         });
@@ -136,7 +138,12 @@ impl Joint {
     pub fn new(inertia: f64, known: &[Effect], hidden: &[Effect]) -> Joint {
         Joint {
             inertia,
-            elements: known.iter().chain(hidden).copied().map(Element::new).collect(),
+            elements: known
+                .iter()
+                .chain(hidden)
+                .copied()
+                .map(Element::new)
+                .collect(),
             position: 0.0,
             velocity: 0.0,
             direction: 1.0,

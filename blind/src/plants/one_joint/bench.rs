@@ -6,9 +6,12 @@
 use super::run::{Delay, Run, skew_s};
 use super::setup::Setup;
 use crate::brake::{Brake, BrakeStep};
+use crate::braked::Braked;
 use crate::effect::Effect;
 use crate::element::{Element, Instant, sliding_resistance};
 use crate::form::Stage;
+use crate::forms::Forms;
+use rigproof_spec::joint::Joint;
 
 /// Runs the bench with the laws the nominal model knows and the hidden effects, `fine_steps` to a sample.
 pub fn run(setup: &Setup, known: &[Effect], hidden: &[Effect], fine_steps: usize) -> Run {
@@ -50,8 +53,7 @@ pub fn run(setup: &Setup, known: &[Effect], hidden: &[Effect], fine_steps: usize
 
 struct Bench {
     elements: Vec<Element>,
-    /// The true brake and the one the nominal model knows.
-    brakes: Option<(Brake, Brake)>,
+    brake: Option<Turned>,
     at: Instant,
 }
 
@@ -59,23 +61,24 @@ impl Bench {
     fn new(setup: &Setup, known: &[Effect], hidden: &[Effect]) -> Bench {
         let (position, velocity) = setup.path.at(0.0);
         let (_, first_velocity) = setup.path.at(1.0 / setup.rate_hz);
-        let upstream = hidden.iter().copied().find(|e| e.stage() == Stage::Drive);
-        let brakes = setup.brake().map(|(joint, _)| {
-            (
-                Brake::new(joint, upstream, position),
-                Brake::new(joint, None, position),
-            )
-        });
+        let brake = setup
+            .brake()
+            .map(|(joint, _)| Turned::new(setup, joint, hidden, position));
         Bench {
-            elements: known.iter().chain(hidden).copied().map(Element::new).collect(),
-            brakes,
+            elements: known
+                .iter()
+                .chain(hidden)
+                .copied()
+                .map(Element::new)
+                .collect(),
+            brake,
             at: Instant {
                 time_s: 0.0,
                 position,
                 velocity,
                 direction: first_velocity.signum(),
                 load: 0.0,
-            brake: 0.0,
+                brake: 0.0,
             },
         }
     }
@@ -103,7 +106,7 @@ impl Bench {
             load: 0.0,
             brake: 0.0,
         };
-        if let (Some((brake, nominal)), Some((_, currents))) = (&mut self.brakes, setup.brake()) {
+        if let (Some(brake), Some((_, currents))) = (&mut self.brake, setup.brake()) {
             let step = BrakeStep {
                 step_s,
                 // The current of the step that ends here is the one commanded at its middle.
@@ -112,22 +115,20 @@ impl Bench {
                 speed_rad_s: velocity,
             };
             brake.step(time_s, &step);
-            nominal.step(time_s, &step);
+            self.at.brake = brake.yield_nm();
         }
     }
 
     /// Metered resistance, positive in the sense of positive velocity.
     fn effort(&self) -> f64 {
-        let brake = self
-            .brakes
-            .as_ref()
-            .map_or(0.0, |(brake, _)| brake.yield_nm());
+        let brake = self.brake.as_ref().map_or(0.0, Turned::yield_nm);
         self.at.direction * brake + sliding_resistance(&self.elements, &self.at, 0.0, 0.0)
     }
 
     fn brake_excess(&self) -> f64 {
-        self.brakes.as_ref().map_or(0.0, |(brake, nominal)| {
-            self.at.direction * (brake.yield_nm() - nominal.yield_nm())
+        let brake = self.brake.as_ref();
+        brake.map_or(0.0, |brake| {
+            self.at.direction * (brake.yield_nm() - brake.nominal_nm())
         })
     }
 
@@ -139,5 +140,58 @@ impl Bench {
                 element.force(&self.at, 0.0, 0.0) + self.at.direction * element.bound(&self.at)
             })
             .sum()
+    }
+}
+
+/// The brake that is turned, beside the one that the nominal model knows.
+enum Turned {
+    /// With at most one effect, which acts ahead of its first-order response.
+    Usual { own: Brake, nominal: Brake },
+    /// With effects in any form.
+    Other(Braked),
+}
+
+impl Turned {
+    fn new(setup: &Setup, joint: Joint, hidden: &[Effect], position_rad: f64) -> Turned {
+        let mut effects = hidden
+            .iter()
+            .copied()
+            .enumerate()
+            .filter(|(_, e)| e.stage() == Stage::Drive);
+        match setup.forms {
+            Forms::Usual => Turned::Usual {
+                own: Brake::new(
+                    joint,
+                    effects.next().map(|(_, effect)| effect),
+                    position_rad,
+                ),
+                nominal: Brake::new(joint, None, position_rad),
+            },
+            Forms::Other => Turned::Other(Braked::new(joint, effects.collect(), position_rad)),
+        }
+    }
+
+    fn step(&mut self, time_s: f64, step: &BrakeStep) {
+        match self {
+            Turned::Usual { own, nominal } => {
+                own.step(time_s, step);
+                nominal.step(time_s, step);
+            }
+            Turned::Other(brake) => brake.step(time_s, step),
+        }
+    }
+
+    fn yield_nm(&self) -> f64 {
+        match self {
+            Turned::Usual { own, .. } => own.yield_nm(),
+            Turned::Other(brake) => brake.yield_nm(),
+        }
+    }
+
+    fn nominal_nm(&self) -> f64 {
+        match self {
+            Turned::Usual { nominal, .. } => nominal.yield_nm(),
+            Turned::Other(brake) => brake.nominal_yield_nm(),
+        }
     }
 }

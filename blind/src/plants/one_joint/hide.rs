@@ -82,15 +82,24 @@ pub fn draw(setup: &Setup, stratum: Stratum, draw: &mut Draw) -> Vec<Effect> {
 }
 
 fn dry(setup: &Setup, draw: &mut Draw) -> Effect {
-    Effect::new(Form::Coulomb, [setup.scale.effort * draw.uniform(0.08, 0.4)])
+    Effect::new(
+        Form::Coulomb,
+        [setup.scale.effort * draw.uniform(0.08, 0.4)],
+    )
 }
 
 fn viscous(setup: &Setup, draw: &mut Draw) -> Effect {
-    Effect::new(Form::Viscous, [setup.scale.effort / setup.scale.speed * draw.uniform(0.08, 0.4)])
+    Effect::new(
+        Form::Viscous,
+        [setup.scale.effort / setup.scale.speed * draw.uniform(0.08, 0.4)],
+    )
 }
 
 fn bias(setup: &Setup, draw: &mut Draw) -> Effect {
-    Effect::new(Form::Bias, [setup.scale.effort * draw.sign() * draw.uniform(0.06, 0.25)])
+    Effect::new(
+        Form::Bias,
+        [setup.scale.effort * draw.sign() * draw.uniform(0.06, 0.25)],
+    )
 }
 
 /// Asymmetry of the dry friction, of the damping, or of both; a share of what the nominal plant has.
@@ -110,11 +119,24 @@ fn viscous_asymmetry(setup: &Setup, draw: &mut Draw) -> Effect {
 }
 
 fn stribeck(setup: &Setup, draw: &mut Draw) -> Effect {
-    Effect::new(Form::Stribeck, [setup.scale.effort * draw.uniform(0.1, 0.35), setup.scale.speed * draw.log_uniform(0.05, 0.3), draw.pick(&[1.0, 2.0, 2.0])])
+    Effect::new(
+        Form::Stribeck,
+        [
+            setup.scale.effort * draw.uniform(0.1, 0.35),
+            setup.scale.speed * draw.log_uniform(0.05, 0.3),
+            draw.pick(&[1.0, 2.0, 2.0]),
+        ],
+    )
 }
 
 fn dahl(setup: &Setup, draw: &mut Draw) -> Effect {
-    Effect::new(Form::Dahl, [setup.scale.effort * draw.uniform(0.1, 0.4), setup.scale.travel * draw.log_uniform(0.02, 0.2)])
+    Effect::new(
+        Form::Dahl,
+        [
+            setup.scale.effort * draw.uniform(0.1, 0.4),
+            setup.scale.travel * draw.log_uniform(0.02, 0.2),
+        ],
+    )
 }
 
 /// Admissible when beta_gamma exceeds |beta_delta| (Ikhouane and Rodellar 2007).
@@ -126,12 +148,18 @@ fn bouc_wen(setup: &Setup, draw: &mut Draw) -> Effect {
 }
 
 fn spring(setup: &Setup, draw: &mut Draw) -> Effect {
-    Effect::new(Form::Spring, [setup.scale.effort / setup.scale.travel * draw.uniform(0.12, 0.5)])
+    Effect::new(
+        Form::Spring,
+        [setup.scale.effort / setup.scale.travel * draw.uniform(0.12, 0.5)],
+    )
 }
 
 fn cubic(setup: &Setup, draw: &mut Draw) -> Effect {
     let travel = setup.scale.travel;
-    Effect::new(Form::Cubic, [setup.scale.effort / (travel * travel * travel) * draw.uniform(0.15, 0.6)])
+    Effect::new(
+        Form::Cubic,
+        [setup.scale.effort / (travel * travel * travel) * draw.uniform(0.15, 0.6)],
+    )
 }
 
 fn hard_spring(setup: &Setup, draw: &mut Draw) -> Effect {
@@ -146,7 +174,14 @@ fn softening(setup: &Setup, draw: &mut Draw) -> Effect {
 fn ripple(setup: &Setup, draw: &mut Draw) -> Effect {
     let amplitude = setup.scale.effort * draw.uniform(0.08, 0.3);
     let (s, c) = libm::sincos(draw.uniform(0.0, TAU));
-    Effect::new(Form::Ripple, [amplitude * s, amplitude * c, setup.scale.travel / draw.uniform(1.5, 6.0)])
+    Effect::new(
+        Form::Ripple,
+        [
+            amplitude * s,
+            amplitude * c,
+            setup.scale.travel / draw.uniform(1.5, 6.0),
+        ],
+    )
 }
 
 fn lag(setup: &Setup, draw: &mut Draw) -> Effect {
@@ -166,19 +201,43 @@ fn skew(_: &Setup, draw: &mut Draw) -> Effect {
 }
 
 fn quadratic_drag(setup: &Setup, draw: &mut Draw) -> Effect {
-    Effect::new(Form::Square, [setup.scale.effort * draw.uniform(0.1, 0.35), setup.scale.speed])
+    Effect::new(
+        Form::Square,
+        [
+            setup.scale.effort * draw.uniform(0.1, 0.35),
+            setup.scale.speed,
+        ],
+    )
 }
 
 fn thermal_fade(setup: &Setup, draw: &mut Draw) -> Effect {
-    Effect::new(Form::WorkFade, [setup.scale.effort * draw.uniform(0.25, 0.5), setup.scale.travel * draw.uniform(4.0, 12.0)])
+    Effect::new(
+        Form::WorkFade,
+        [
+            setup.scale.effort * draw.uniform(0.25, 0.5),
+            setup.scale.travel * draw.uniform(4.0, 12.0),
+        ],
+    )
 }
 
 fn reversal_overshoot(setup: &Setup, draw: &mut Draw) -> Effect {
-    Effect::new(Form::Overshoot, [setup.scale.effort * draw.uniform(0.2, 0.5), setup.scale.travel * draw.uniform(0.1, 0.35)])
+    Effect::new(
+        Form::Overshoot,
+        [
+            setup.scale.effort * draw.uniform(0.2, 0.5),
+            setup.scale.travel * draw.uniform(0.1, 0.35),
+        ],
+    )
 }
 
 fn disturbance(setup: &Setup, draw: &mut Draw) -> Effect {
-    Effect::new(Form::Disturbance, [setup.scale.effort * draw.uniform(0.1, 0.35), draw.log_uniform(0.25, 3.0)])
+    Effect::new(
+        Form::Disturbance,
+        [
+            setup.scale.effort * draw.uniform(0.1, 0.35),
+            draw.log_uniform(0.25, 3.0),
+        ],
+    )
 }
 
 fn load_friction(_: &Setup, draw: &mut Draw) -> Effect {
@@ -186,15 +245,28 @@ fn load_friction(_: &Setup, draw: &mut Draw) -> Effect {
 }
 
 fn settling(setup: &Setup, draw: &mut Draw) -> Effect {
-    Effect::new(Form::Settling, [setup.scale.effort * draw.uniform(0.3, 0.6), draw.uniform(0.15, 0.5), setup.scale.travel * draw.uniform(0.1, 0.3)])
+    Effect::new(
+        Form::Settling,
+        [
+            setup.scale.effort * draw.uniform(0.3, 0.6),
+            draw.uniform(0.15, 0.5),
+            setup.scale.travel * draw.uniform(0.1, 0.3),
+        ],
+    )
 }
 
 fn dead_zone(setup: &Setup, draw: &mut Draw) -> Effect {
-    Effect::new(Form::DeadZone, [setup.scale.effort * draw.uniform(0.1, 0.3)])
+    Effect::new(
+        Form::DeadZone,
+        [setup.scale.effort * draw.uniform(0.1, 0.3)],
+    )
 }
 
 fn saturation(setup: &Setup, draw: &mut Draw) -> Effect {
-    Effect::new(Form::Saturation, [setup.scale.effort * draw.uniform(0.5, 0.9)])
+    Effect::new(
+        Form::Saturation,
+        [setup.scale.effort * draw.uniform(0.5, 0.9)],
+    )
 }
 
 fn current_hysteresis(_: &Setup, draw: &mut Draw) -> Effect {
@@ -212,5 +284,8 @@ fn backlash_width(setup: &Setup, draw: &mut Draw) -> Effect {
     } else {
         printed_deg + draw.uniform(1.0, 4.0)
     };
-    Effect::new(Form::Backlash, [width_deg * rigproof_spec::units::RAD_PER_DEG])
+    Effect::new(
+        Form::Backlash,
+        [width_deg * rigproof_spec::units::RAD_PER_DEG],
+    )
 }

@@ -7,7 +7,8 @@ use crate::form::Form;
 
 /// Draws the laws of the nominal model, true in the plant; nothing hidden is among them.
 pub fn draw(setup: &Setup, hidden: &[Effect], draw: &mut Draw) -> Vec<Effect> {
-    let hides = |name: &str| hidden.iter().any(|law| law.name() == name);
+    // A number that is stated as known may be wrong: then its own law is hidden besides.
+    let hides = |name: &str| !setup.known && hidden.iter().any(|law| law.name() == name);
     let asymmetry = hidden.iter().find(|law| law.form == Form::Asymmetric);
     let asymmetry = asymmetry.map(|law| {
         let [dry, viscous, ..] = law.values;

@@ -7,7 +7,7 @@ use crate::plant::Plant;
 use rigproof_spec::effect::{Motion, Quantity};
 use std::fmt::Write;
 
-/// The rig description as TOML. Nominal values of unknown parameters are off by a factor of 0.4 to 2.
+/// The rig description as TOML. Values of unknown parameters are off by a factor of 0.4 to 2.
 pub fn toml(plant: Plant, seed: u64, setup: &Setup, known: &[Effect], draw: &mut Draw) -> String {
     let unit = |quantity: Quantity| quantity.dimension(setup.motion).to_string();
     let motion = match setup.motion {
@@ -54,11 +54,14 @@ pub fn toml(plant: Plant, seed: u64, setup: &Setup, known: &[Effect], draw: &mut
     for law in known {
         text += &format!("\n[[effect]]\nmechanism = \"{}\"\n", law.name());
         for (name, value, unit) in law.parameters(setup.motion) {
-            let stated = rounded(value * draw.uniform(0.4, 2.0));
+            let (stated, status) = match setup.known {
+                true => (value, "known"),
+                false => (rounded(value * draw.uniform(0.4, 2.0)), "unknown"),
+            };
             // Writing to a string cannot fail.
             let _ = writeln!(
                 text,
-                "{name} = {{ value = {stated}, unit = \"{unit}\", status = \"unknown\" }}"
+                "{name} = {{ value = {stated}, unit = \"{unit}\", status = \"{status}\" }}"
             );
         }
     }

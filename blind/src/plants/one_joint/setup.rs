@@ -3,6 +3,7 @@
 use crate::draw::{Draw, rounded};
 use crate::effect::Effect;
 use crate::form::Form;
+use crate::forms::Forms;
 use crate::path::Path;
 use crate::plant::Plant;
 use rigproof_spec::effect::Motion;
@@ -27,6 +28,10 @@ pub struct Setup {
     pub dry: Effect,
     pub viscous: Effect,
     pub bias: Effect,
+    /// The forms of what is hidden.
+    pub forms: Forms,
+    /// Whether the description says that it knows its numbers; it does so in other forms only.
+    pub known: bool,
 }
 
 /// Typical magnitudes.
@@ -163,6 +168,8 @@ fn axis(draw: &mut Draw, rate_hz: f64, duration_s: f64) -> Setup {
         dry: dry(draw, scale),
         viscous: viscous(draw, scale),
         bias: bias(draw, scale),
+        forms: Forms::Usual,
+        known: false,
     }
 }
 
@@ -204,6 +211,8 @@ fn bench(draw: &mut Draw, rate_hz: f64, duration_s: f64) -> Setup {
         dry: dry(draw, scale),
         viscous: viscous(draw, scale),
         bias: bias(draw, scale),
+        forms: Forms::Usual,
+        known: false,
     }
 }
 
@@ -224,9 +233,15 @@ fn dry(draw: &mut Draw, scale: Scale) -> Effect {
 }
 
 fn viscous(draw: &mut Draw, scale: Scale) -> Effect {
-    Effect::new(Form::Viscous, [scale.effort / scale.speed * draw.uniform(0.1, 0.3)])
+    Effect::new(
+        Form::Viscous,
+        [scale.effort / scale.speed * draw.uniform(0.1, 0.3)],
+    )
 }
 
 fn bias(draw: &mut Draw, scale: Scale) -> Effect {
-    Effect::new(Form::Bias, [scale.effort * draw.sign() * draw.uniform(0.05, 0.15)])
+    Effect::new(
+        Form::Bias,
+        [scale.effort * draw.sign() * draw.uniform(0.05, 0.15)],
+    )
 }

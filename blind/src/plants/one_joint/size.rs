@@ -4,8 +4,9 @@ use super::run::Run;
 use super::setup::{Kind, Setup};
 use crate::effect::Effect;
 use crate::form::Form;
+use crate::forms::Forms;
 use crate::lab::Drawn;
-use crate::size::{BLOCK_S, Sizes, measured};
+use crate::size::{BLOCK_S, Sizes, measured, remainder};
 
 /// Standard deviation of the equivalent effort noise in an 80 ms average, N or N·m.
 ///
@@ -39,7 +40,16 @@ pub fn sizes(drawn: &Drawn<Setup>, run: &Run) -> Sizes {
         let chosen = simple.iter().filter(|(name, _)| is(name));
         chosen.map(|(_, column)| column.as_slice()).collect()
     };
-    let nominal = columns(&|name| known.iter().any(|law| law.name() == name));
+    let is_open = |name: &str| !setup.known && known.iter().any(|law| law.name() == name);
+    let nominal = columns(&is_open);
+    let ratio = (setup.forms == Forms::Other).then(|| {
+        let count = forces.first().map_or(0, Vec::len);
+        let all: Vec<f64> = (0..count)
+            .map(|k| forces.iter().filter_map(|force| force.get(k)).sum())
+            .collect();
+        let power = remainder(&all, &nominal) / count.max(1) as f64;
+        (1.0 + power / (noise * noise)).sqrt()
+    });
     let each = hidden.iter().enumerate().map(|(own, effect)| {
         let imitations = columns(&|name| !is_own(effect, name));
         measured(own, &forces, &nominal, &imitations, noise)
@@ -50,7 +60,7 @@ pub fn sizes(drawn: &Drawn<Setup>, run: &Run) -> Sizes {
         block_noise: noise,
         sliding: moving as f64 / run.moving.len().max(1) as f64,
         left: 0.0,
-        ratio: None,
+        ratio,
     }
 }
 

@@ -28,7 +28,7 @@ fn drawn_until_all(plant: Plant, laws: usize) -> BTreeMap<&'static str, Hidden> 
     while cases.len() < laws {
         assert!(seed < 200, "{:?} are all of 200 seeds", cases.keys());
         for stratum in [Stratum::Single, Stratum::NotInLibrary] {
-            let secret = secret(&OneJoint(plant), seed, stratum).unwrap();
+            let secret = secret(&OneJoint(plant, Forms::Usual), seed, stratum).unwrap();
             cases.entry(secret.drawn.hidden[0].name()).or_insert(secret);
         }
         seed += 1;
@@ -145,9 +145,13 @@ fn on_the_bench_the_hidden_force_is_what_the_effect_adds() {
             .zip(&with.hidden[0])
             .map(|((with, without), hidden)| (with - without - hidden).abs())
             .fold(0.0, f64::max);
-        let late_position = case.drawn.hidden[0].form == Form::Skew && case.drawn.hidden[0].first() < 0.0;
+        let late_position =
+            case.drawn.hidden[0].form == Form::Skew && case.drawn.hidden[0].first() < 0.0;
         if !late_position {
-            assert!(worst < 1e-9 * case.drawn.setup.scale.effort, "{name}: {worst}");
+            assert!(
+                worst < 1e-9 * case.drawn.setup.scale.effort,
+                "{name}: {worst}"
+            );
         }
     }
 }
@@ -157,11 +161,15 @@ fn sizes_are_what_the_strata_say() {
     for plant in [Plant::Axis, Plant::Bench] {
         for seed in 1000..1008 {
             for stratum in [Stratum::Single, Stratum::Masked, Stratum::LateOnset] {
-                for size in secret(&OneJoint(plant), seed, stratum).unwrap().sizes.sizes {
+                for size in secret(&OneJoint(plant, Forms::Usual), seed, stratum)
+                    .unwrap()
+                    .sizes
+                    .sizes
+                {
                     assert!(size.size >= CLEAR_SIZE && size.distinctness >= CLEAR_DISTINCTNESS);
                 }
             }
-            let faint = secret(&OneJoint(plant), seed, Stratum::TooSmall).unwrap();
+            let faint = secret(&OneJoint(plant, Forms::Usual), seed, Stratum::TooSmall).unwrap();
             let [size] = faint.sizes.sizes[..] else {
                 panic!("one effect is hidden");
             };
@@ -176,7 +184,7 @@ fn sizes_are_what_the_strata_say() {
 /// The unit of every size is the scatter that 80 ms of recorded noise really have.
 #[test]
 fn block_noise_is_the_scatter_of_80_ms_averages() {
-    let case = secret(&OneJoint(Plant::Bench), 5, Stratum::Nothing).unwrap();
+    let case = secret(&OneJoint(Plant::Bench, Forms::Usual), 5, Stratum::Nothing).unwrap();
     let mut draw = Draw::new(Plant::Bench, 5, "scatter");
     let count = (0.08 * case.drawn.setup.rate_hz) as usize;
     let averages = (0..4000).map(|_| {
@@ -188,7 +196,7 @@ fn block_noise_is_the_scatter_of_80_ms_averages() {
     let scatter = root_mean_square(averages);
     assert!((scatter / block_noise(&case.drawn.setup) - 1.0).abs() < 0.04);
 
-    let case = secret(&OneJoint(Plant::Axis), 5, Stratum::Nothing).unwrap();
+    let case = secret(&OneJoint(Plant::Axis, Forms::Usual), 5, Stratum::Nothing).unwrap();
     let Kind::Axis(drive) = &case.drawn.setup.kind else {
         panic!("an axis case has a drive");
     };
@@ -197,7 +205,9 @@ fn block_noise_is_the_scatter_of_80_ms_averages() {
     let efforts = (0..4000).map(|_| {
         let half = case.drawn.setup.quantum / 2.0;
         let positions: Vec<f64> = (0..count).map(|_| draw.uniform(-half, half)).collect();
-        let command: f64 = (0..count).map(|_| draw.normal(case.drawn.setup.noise)).sum();
+        let command: f64 = (0..count)
+            .map(|_| draw.normal(case.drawn.setup.noise))
+            .sum();
         drive.inertia * parabola_acceleration(&positions, 1.0 / case.drawn.setup.rate_hz)
             - drive.gain * command / count as f64
     });
@@ -222,7 +232,7 @@ fn parabola_acceleration(values: &[f64], step_s: f64) -> f64 {
 #[test]
 fn a_case_with_nothing_hidden_balances_its_energy() {
     for seed in 0..12 {
-        let secret = secret(&OneJoint(Plant::Axis), seed, Stratum::Nothing).unwrap();
+        let secret = secret(&OneJoint(Plant::Axis, Forms::Usual), seed, Stratum::Nothing).unwrap();
         let trace = make(Plant::Axis, seed, Some(Stratum::Nothing))
             .unwrap()
             .trace;
@@ -256,7 +266,12 @@ fn a_case_with_nothing_hidden_balances_its_energy() {
 fn a_damper_with_nothing_hidden_leaves_only_noise() {
     let mut seen = 0;
     for seed in 0..16 {
-        let secret = secret(&OneJoint(Plant::Bench), seed, Stratum::Nothing).unwrap();
+        let secret = secret(
+            &OneJoint(Plant::Bench, Forms::Usual),
+            seed,
+            Stratum::Nothing,
+        )
+        .unwrap();
         if secret.drawn.setup.brake().is_some() {
             continue;
         }
@@ -280,7 +295,7 @@ fn a_damper_with_nothing_hidden_leaves_only_noise() {
 fn brakes_and_dry_friction_never_drive_the_bench() {
     for seed in 0..12 {
         for stratum in [Stratum::Nothing, Stratum::Single, Stratum::NotInLibrary] {
-            let case = secret(&OneJoint(Plant::Bench), seed, stratum).unwrap();
+            let case = secret(&OneJoint(Plant::Bench, Forms::Usual), seed, stratum).unwrap();
             let passive = case
                 .drawn
                 .known
@@ -353,5 +368,30 @@ proptest! {
         }
         // The first cycle loads the virgin bristle; the later ones are closed.
         prop_assert!(work_j[1] > 0.0 && work_j[2] > 0.0, "{work_j:?}");
+    }
+}
+
+/// In other forms the bench's books close, and every effect that is drawn is one that the answer names.
+#[test]
+fn a_bench_in_other_forms_keeps_its_books() {
+    let lab = OneJoint(Plant::Bench, Forms::Other);
+    for seed in 0..24 {
+        let case = secret(&lab, seed, Stratum::Single).unwrap();
+        let without = Drawn {
+            hidden: Vec::new(),
+            ..case.drawn.clone()
+        };
+        let without = simulate(&without, FINE_STEPS);
+        let effect = case.drawn.hidden[0];
+        let added = case.run.shown_effort.iter().zip(&without.shown_effort);
+        let worst = added
+            .zip(&case.run.hidden[0])
+            .map(|((with, without), hidden)| (with - without - hidden).abs())
+            .fold(0.0, f64::max);
+        assert!(
+            worst < 1e-9 * case.drawn.setup.scale.effort,
+            "{effect:?}: {worst}"
+        );
+        assert!(case.sizes.ratio.unwrap() >= 1.0);
     }
 }
