@@ -71,6 +71,8 @@ impl Element {
         let ([a, b, c, _], [memory, ..]) = (self.effect.values, self.memory);
         let bound = match self.effect.form {
             Form::Coulomb | Form::Bearing => a,
+            // As a share of a brake the difference is the shift of a set that is not among the elements.
+            Form::Asymmetric if self.effect.scales == Scales::Drive => 0.0,
             Form::Asymmetric => a * at.direction,
             Form::Stribeck => {
                 let ratio = at.velocity.abs() / b;
@@ -111,6 +113,7 @@ impl Element {
         let force = match self.effect.form {
             Form::Viscous => a * v,
             Form::Bearing => b * v,
+            Form::Asymmetric if self.effect.scales == Scales::Drive => a,
             Form::Asymmetric => b * v.abs(),
             Form::Bias => a,
             Form::Drift => a * at.time_s,

@@ -234,7 +234,7 @@ fn of_drive(setup: &Setup, form: Form, draw: &mut Draw) -> Effect {
             0.0,
             0.0,
         ],
-        Form::RateLimit => [effort * draw.log_uniform(3.0, 15.0), 0.0, 0.0, 0.0],
+        Form::RateLimit => [effort * draw.log_uniform(8.0, 30.0), 0.0, 0.0, 0.0],
         Form::DeadTime => {
             let samples = draw.log_uniform(1.0, 20.0) * setup.rate_hz / 1000.0;
             let samples = if draw.chance(0.5) {

@@ -27,13 +27,13 @@ pub fn sizes(setup: &Setup, hidden: &[Effect], all: &Run) -> Sizes {
         }
     });
     let together = lacking(setup, &bump, all);
-    let moving = all.velocity.iter().filter(|v| **v != 0.0).count();
+    let moving = all.sense.iter().flatten().count();
     let total = together.size(noise, false);
     Sizes {
         sizes: each.collect(),
         block_noise: noise,
-        sliding: moving as f64 / all.velocity.len().max(1) as f64,
-        // What an undisturbed machine leaves is tested to be less than a third of the noise.
+        sliding: moving as f64 / all.sense.len().max(1) as f64,
+        // What an undisturbed machine leaves is tested to be less than a quarter of the noise.
         left: 0.0,
         ratio: Some((1.0 + total * total).sqrt()),
     }
@@ -111,10 +111,10 @@ fn lacking(setup: &Setup, bump: &Bump, run: &Run) -> Lacking {
         .position
         .chunks_exact(length)
         .zip(run.command.chunks_exact(length));
-    for ((q, u), v) in windows.zip(run.velocity.chunks_exact(length)) {
-        if v.iter().any(|v| *v == 0.0) {
+    for ((q, u), senses_of) in windows.zip(run.sense.chunks_exact(length)) {
+        let Some(moves) = senses_of.iter().copied().collect::<Option<Vec<[f64; 2]>>>() else {
             continue;
-        }
+        };
         let sum = |weights: &[f64], of: &mut dyn FnMut(usize) -> f64| -> f64 {
             let each = weights.iter().enumerate();
             each.map(|(k, weight)| weight * of(k)).sum()
@@ -122,7 +122,13 @@ fn lacking(setup: &Setup, bump: &Bump, run: &Run) -> Lacking {
         let of = |values: &[f64], k: usize| values.get(k).copied().unwrap_or_default();
         let bend = sum(&bump.bend, &mut |k| of(q, k));
         let slope = sum(&bump.slope, &mut |k| of(q, k));
-        let sense = sum(&bump.weight, &mut |k| of(v, k).signum());
+        // A second difference weighs what acts by a ramp up to its sample and a ramp down behind it.
+        let ramps = |k: usize| {
+            let [_, falling] = moves.get(k).copied().unwrap_or_default();
+            let before = k.checked_sub(1).and_then(|k| moves.get(k));
+            falling + before.map_or(0.0, |[rising, _]| *rising)
+        };
+        let sense = sum(&bump.weight, &mut |k| ramps(k));
         let effort = setup.gain * sum(&bump.held, &mut |k| of(u, k));
         found
             .rest

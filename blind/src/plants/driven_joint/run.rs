@@ -19,7 +19,8 @@ const SPRING_DAMPING: f64 = 0.04;
 pub struct Run {
     pub position: Vec<f64>,
     pub command: Vec<f64>,
-    pub velocity: Vec<f64>,
+    /// Mean of the sense of motion from this sample to the next, weighted by a rising and by a falling ramp; `None` where the joint rests.
+    pub sense: Vec<Option<[f64; 2]>>,
     /// The true angle.
     pub angle: Vec<f64>,
 }
@@ -51,15 +52,23 @@ pub fn run(setup: &Setup, hidden: &[Effect], fine_hz: f64) -> Option<Run> {
         }
         run.position.push(shown);
         run.command.push(command);
-        run.velocity.push(joint.velocity());
         run.angle.push(joint.position());
+        let mut sense = Some([0.0; 2]);
         for step in 0..fine as usize {
             let time_s = sample_s + step as f64 * step_s;
             let effort = chain.step(time_s, command, step_s);
             let coupling = tail.as_mut().map_or(0.0, |tail| tail.step(&joint, step_s));
+            let before = joint.position();
             joint.step(time_s, effort - coupling, step_s);
             sensor.push(joint.position());
+            let travel = joint.position() - before;
+            let ramp = (step as f64 + 0.5) / fine;
+            sense = sense.filter(|_| travel != 0.0).map(|[rising, falling]| {
+                let part = travel.signum() / fine;
+                [rising + ramp * part, falling + (1.0 - ramp) * part]
+            });
         }
+        run.sense.push(sense);
     }
     if let Some(effect) = hidden.iter().find(|effect| effect.form == Form::Repeated) {
         run.repeat(effect.values, setup.rate_hz);

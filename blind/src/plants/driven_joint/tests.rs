@@ -26,18 +26,19 @@ fn ratio(setup: &Setup, hidden: Vec<Effect>) -> f64 {
     DrivenJoint.tried(drawn).unwrap().sizes.ratio.unwrap()
 }
 
-/// The nominal equation lacks less than a third of what the noise explains where nothing is hidden.
+/// The nominal equation lacks less than a quarter of what the noise explains where nothing is hidden.
 #[test]
 fn with_nothing_hidden_the_noise_explains_the_residual() {
     for seed in 0..10 {
         let ratio = ratio(&laboratory(seed), Vec::new());
-        assert!(ratio < 1.055, "seed {seed}: {ratio}");
+        assert!(ratio < 1.03, "seed {seed}: {ratio}");
     }
 }
 
 /// Every form leaves something, and halving the fine step moves the joint by less than a thousandth of its travel.
 #[test]
 fn every_form_shows_and_the_step_is_fine_enough() {
+    let mut lost = 0;
     for (k, form) in hide::MECHANISMS
         .iter()
         .copied()
@@ -48,7 +49,10 @@ fn every_form_shows_and_the_step_is_fine_enough() {
         let setup = laboratory(k as u64);
         let mut draw = Draw::new(Plant::Axis, k as u64, "form");
         let hidden = vec![hide::effect(&setup, *form, &mut draw)];
-        let coarse = run::run(&setup, &hidden, FINE_HZ).unwrap().angle;
+        let Some(Run { angle: coarse, .. }) = run::run(&setup, &hidden, FINE_HZ) else {
+            lost += 1;
+            continue;
+        };
         let fine = run::run(&setup, &hidden, 2.0 * FINE_HZ).unwrap().angle;
         let apart = coarse
             .iter()
@@ -60,11 +64,11 @@ fn every_form_shows_and_the_step_is_fine_enough() {
             apart < 1e-3 + setup.quantum() / setup.travel,
             "{form:?}: {apart:e}"
         );
-        if *form != Form::Repeated {
-            let shows = ratio(&setup, hidden);
-            assert!(shows > 1.01, "{form:?}: {shows}");
-        }
+        let shows = ratio(&setup, hidden);
+        assert!(shows > 1.01, "{form:?}: {shows}");
     }
+    // A servo may be too fast for what is hidden in its drive; such a draw is no case.
+    assert!(lost < 2, "{lost}");
 }
 
 /// Two forms of one mechanism with the same level resist differently along one motion: by a twentieth of the level or more.

@@ -171,7 +171,7 @@ fn in_brake(form: Form, draw: &mut Draw) -> Effect {
             0.0,
         ],
         Form::Gain => [draw.sign() * share, 0.0, 0.0, 0.0],
-        Form::Saturation | Form::SoftSaturation => [draw.uniform(1.0, 3.0), 0.0, 0.0, 0.0],
+        Form::Saturation | Form::SoftSaturation => [draw.uniform(0.5, 1.6), 0.0, 0.0, 0.0],
         Form::Plays => [draw.uniform(0.4, 1.0), draw.uniform(0.08, 0.25), 0.0, 0.0],
         Form::BoucWenCurrent => [draw.uniform(0.4, 0.9), draw.uniform(0.05, 0.2), 0.0, 0.0],
         Form::YieldFade => [draw.uniform(0.1, 0.3), 30.0, 0.0, 0.0],
