@@ -2,6 +2,7 @@
 
 mod claims;
 mod make;
+mod other;
 mod page;
 mod score;
 mod trial;
@@ -88,5 +89,9 @@ fn hidden(effect: &HiddenEffect) -> String {
         "" => String::new(),
         form => format!(" ({form})"),
     };
-    format!("  {}{scope}{form}: {}{onset}", effect.key(), numbers.join(", "))
+    format!(
+        "  {}{scope}{form}: {}{onset}",
+        effect.key(),
+        numbers.join(", ")
+    )
 }

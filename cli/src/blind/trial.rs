@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use indicatif::ProgressBar;
 use rigproof_blind::{
-    Answer, Case, Error, Forms, Judgement, Plant, Score, Table, Tally, again, judge, make_in, open,
-    score, under,
+    Answer, Case, Error, Forms, Judgement, Plant, Score, Table, again, judge, make_in, open, score,
+    under,
 };
 use rigproof_diagnose::{Description, Diagnosis, Options};
 use rigproof_trace::Trace;
@@ -16,7 +16,7 @@ use serde_json::{Value, json};
 
 use super::claims::{Claim, Measured, OF_A_JOINT, OF_THE_RIG};
 use super::make::{FILES, contents};
-use super::page;
+use super::{other, page};
 use super::{parse_forms, truth};
 use crate::folder::{EXPERIMENT, REPORT};
 use crate::outcome::{Failure, Outcome, print};
@@ -157,7 +157,7 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
         write_misses(folder, args.forms, &tried)?;
     }
     if args.forms == Forms::Other {
-        return other(args, &tried);
+        return other::show(&tried, &how(args), args.details, args.json);
     }
     let claims: Vec<Measured<'_>> = claimed(args.plant)
         .iter()
@@ -190,30 +190,6 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     Ok(Outcome {
         checks_hold: claims.iter().all(|claim| claim.holds() != Some(false)),
     })
-}
-
-/// Prints what became of physics in other forms.
-fn other(args: &Args, tried: &[Tried]) -> Result<Outcome, Failure> {
-    let mut tally = Tally::default();
-    for case in tried {
-        if let Some(judgement) = &case.judgement {
-            tally.add(case.answer.plant, case.answer.seed, judgement.clone());
-        }
-    }
-    if args.json {
-        let mut result = tally.to_json();
-        if let Some(result) = result.as_object_mut() {
-            result.insert("plant".to_owned(), json!(how(args)));
-            let cases = args.details.then(|| tried.iter().map(Tried::json).collect::<Vec<_>>());
-            result.insert("cases".to_owned(), json!(cases));
-        }
-        print(&result.to_string())?;
-    } else {
-        let details = tried.iter().filter(|_| args.details).map(Tried::line);
-        let table = tally.to_string().trim_end().to_owned();
-        print(&join([section("Seeds", details), vec![table, how(args)]]))?;
-    }
-    Ok(Outcome { checks_hold: true })
 }
 
 fn plant(which: Which, seed: u64) -> Plant {
@@ -443,7 +419,8 @@ impl Tried {
         flags
     }
 
-    fn line(&self) -> String {
+    /// The same in one line.
+    pub fn line(&self) -> String {
         let ambiguous = list(&self.ambiguous());
         match self.cells().as_slice() {
             [seed, plant, stratum, hidden, verdict, named, flags] => format!(
@@ -453,7 +430,8 @@ impl Tried {
         }
     }
 
-    fn json(&self) -> Value {
+    /// The case as JSON.
+    pub fn json(&self) -> Value {
         json!({
             "seed": self.answer.seed, "plant": self.answer.plant, "answer": self.answer,
             "named": self.named(), "ambiguous": self.ambiguous(), "score": self.score, "judgement": self.judgement, "after_experiment": self.then.as_ref().map(|then| &then.score),
