@@ -58,7 +58,7 @@ pub fn found_effects(plant: Plant, report: &Value) -> Result<Vec<Found<'_>>, Err
             Ok(Found {
                 name: name(plant, mechanism, effect),
                 mechanism,
-                joint: effect.get("joint").and_then(Value::as_str),
+                joint: joint(effect),
                 probability: effect
                     .get("probability")
                     .and_then(Value::as_f64)
@@ -74,9 +74,15 @@ pub fn found_effects(plant: Plant, report: &Value) -> Result<Vec<Found<'_>>, Err
 /// On axis and bench there is one joint, which no report has to name.
 fn name(plant: Plant, mechanism: &str, effect: &Value) -> String {
     match plant {
-        Plant::Rig => key(mechanism, effect.get("joint").and_then(Value::as_str)),
+        Plant::Rig => key(mechanism, joint(effect)),
         Plant::Axis | Plant::Bench => mechanism.to_owned(),
     }
+}
+
+/// The joint that an effect is said to be at: its `joint`, or its `at` where that is the letter of one.
+fn joint(effect: &Value) -> Option<&str> {
+    let text = |key| effect.get(key).and_then(Value::as_str);
+    text("joint").or_else(|| text("at").filter(|at| ["A", "E", "B", "C"].contains(at)))
 }
 
 fn onset(effect: &Value) -> Option<Onset> {

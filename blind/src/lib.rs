@@ -36,6 +36,7 @@ mod size;
 mod stratum;
 mod table;
 mod tally;
+mod typical;
 
 pub use answer::{Answer, HiddenEffect, TrueParameter};
 pub use brake::{BrakeStep, brake_yield_nm};

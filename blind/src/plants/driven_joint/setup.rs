@@ -4,6 +4,7 @@ use crate::draw::{Draw, rounded};
 use crate::effect::Effect;
 use crate::form::Form;
 use crate::path::Path;
+use crate::typical::Typical;
 use std::f64::consts::TAU;
 
 /// One laboratory; efforts are N·m at the joint.
@@ -101,6 +102,18 @@ impl Setup {
             servo,
             path: Path::draw(draw, travel, frequency_hz, duration_s, true),
             stated,
+        }
+    }
+
+    /// What is typical of the joint.
+    pub fn typical(&self) -> Typical {
+        Typical {
+            travel: self.travel,
+            speed: self.speed,
+            effort: self.effort,
+            duration_s: self.duration_s,
+            dry: self.dry,
+            viscous: self.viscous,
         }
     }
 

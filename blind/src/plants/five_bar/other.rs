@@ -5,6 +5,7 @@ use crate::draw::Draw;
 use crate::effect::{At, Effect};
 use crate::form::{Form, Stage};
 use crate::stratum::Stratum;
+use crate::typical::{Typical, in_brake, share};
 use rigproof_spec::joint::Joint;
 use rigproof_spec::units::RAD_PER_DEG;
 use std::f64::consts::TAU;
@@ -71,7 +72,7 @@ pub fn draw(setup: &Setup, stratum: Stratum, draw: &mut Draw) -> Vec<Effect> {
         Stratum::Two => 2,
         Stratum::Three => 3,
         Stratum::NotInLibrary => {
-            return vec![foreign(draw.pick(FOREIGN), draw).joint(joint)];
+            return vec![TYPICAL.force(draw.pick(FOREIGN), draw).joint(joint)];
         }
         _ => 0,
     };
@@ -85,8 +86,8 @@ pub fn draw(setup: &Setup, stratum: Stratum, draw: &mut Draw) -> Vec<Effect> {
         let late = stratum == Stratum::LateOnset;
         let drawn = match draw.below(if late { 2 } else { 4 }) {
             0 => pick(JOINT, draw, at_joint).at(place),
-            1 => pick(SHARE, draw, as_share).of_drive().at(place),
-            2 => pick(BRAKE, draw, in_brake).at(place),
+            1 => pick(SHARE, draw, share).at(place),
+            2 => pick(BRAKE, draw, of_brake).at(place),
             _ => pick(WHOLE, draw, of_whole),
         };
         let same = |other: &Effect| {
@@ -113,73 +114,29 @@ fn pick(mechanisms: &[&[Form]], draw: &mut Draw, of: fn(Form, &mut Draw) -> Effe
     of(draw.pick(forms), draw)
 }
 
+/// A joint of the five-bar: it turns by some 0.4 rad, at some 1 rad/s, under some 1 N·m.
+const TYPICAL: Typical = Typical {
+    travel: 0.4,
+    speed: 1.0,
+    effort: 1.0,
+    duration_s: 25.0,
+    dry: 0.0,
+    viscous: 0.0,
+};
+/// The most that a brake gives in an experiment, N·m.
+const GREATEST_NM: f64 = 2.5;
+
 fn at_joint(form: Form, draw: &mut Draw) -> Effect {
-    let level = draw.log_uniform(0.06, 0.4);
-    let slow = draw.log_uniform(0.06, 0.4);
-    let yields = draw.log_uniform(0.01, 0.08);
-    let period = TAU / draw.uniform(12.0, 50.0);
-    let values = match form {
-        Form::Viscous => [0.3 * level, 0.0, 0.0, 0.0],
-        Form::Stribeck => [level, slow, 1.0, 0.0],
-        Form::Rational => [level, slow, 0.0, 0.0],
-        Form::Travelled => [level, slow, 0.2 * yields, 0.0],
-        Form::DahlPower => [level, yields, draw.pick(&[0.5, 1.5, 2.0]), 0.0],
-        Form::Bristle => [level, yields, 1e-3, 0.0],
-        Form::ElastoPlastic => [level, yields, draw.uniform(0.3, 0.8), 0.0],
-        Form::BoucWen => [
-            level / yields,
-            1.0 / yields,
-            0.5 * draw.sign() / yields,
-            0.0,
-        ],
-        Form::Root | Form::Square => [level, 1.0, 0.0, 0.0],
-        Form::Power => [level, 1.0, draw.pick(&[1.3, 1.6]), 0.0],
-        Form::Tanh => [level, 0.5, 0.0, 0.0],
-        Form::LoadArm => [draw.log_uniform(0.004, 0.03), 0.0, 0.0, 0.0],
-        Form::LoadSquare => [level, 12.0, 0.0, 0.0],
-        Form::TwoOrders => [level, period, draw.uniform(0.3, 0.8), 0.0],
-        Form::Toothed => [level, period, draw.uniform(1.0, 4.0), 0.0],
-        Form::Anchored => [2.0 * level, draw.sign() * draw.uniform(0.2, 0.8), 0.0, 0.0],
-        Form::Hardening => [level, 6.0 * level, 0.0, 0.0],
-        Form::OvershootLinear => [level, draw.log_uniform(0.05, 0.25), 0.0, 0.0],
-        _ => [level, 0.0, 0.0, 0.0],
-    };
-    Effect::new(form, values)
+    match form {
+        Form::LoadArm => Effect::new(form, [draw.log_uniform(0.004, 0.03)]),
+        // The load is the force on the tip, N.
+        Form::LoadSquare => Effect::new(form, [draw.log_uniform(0.06, 0.4), 12.0]),
+        _ => TYPICAL.force(form, draw),
+    }
 }
 
-fn as_share(form: Form, draw: &mut Draw) -> Effect {
-    let share = draw.log_uniform(0.08, 0.35);
-    let period = TAU / draw.uniform(12.0, 50.0);
-    let values = match form {
-        Form::Stribeck => [share, draw.log_uniform(0.06, 0.4), 1.0, 0.0],
-        Form::Rational => [share, draw.log_uniform(0.06, 0.4), 0.0, 0.0],
-        Form::MaxwellSlip => [share, draw.log_uniform(0.03, 0.2), 0.0, 0.0],
-        Form::TwoOrders => [share, period, draw.uniform(0.3, 0.8), 0.0],
-        Form::Toothed => [share, period, draw.uniform(1.0, 4.0), 0.0],
-        _ => [draw.sign() * share, 0.0, 0.0, 0.0],
-    };
-    Effect::new(form, values)
-}
-
-fn in_brake(form: Form, draw: &mut Draw) -> Effect {
-    let share = draw.log_uniform(0.06, 0.3);
-    let values = match form {
-        Form::LagSecond => [
-            draw.log_uniform(0.008, 0.04),
-            draw.uniform(0.5, 1.0),
-            0.0,
-            0.0,
-        ],
-        Form::Gain => [draw.sign() * share, 0.0, 0.0, 0.0],
-        Form::Saturation | Form::SoftSaturation => [draw.uniform(0.5, 1.6), 0.0, 0.0, 0.0],
-        Form::Plays => [draw.uniform(0.4, 1.0), draw.uniform(0.08, 0.25), 0.0, 0.0],
-        Form::BoucWenCurrent => [draw.uniform(0.4, 0.9), draw.uniform(0.05, 0.2), 0.0, 0.0],
-        Form::YieldFade => [draw.uniform(0.1, 0.3), 30.0, 0.0, 0.0],
-        Form::TimeConstants => [draw.uniform(0.5, 3.0), draw.uniform(0.0, 3.0), 0.0, 0.0],
-        Form::OffState => [draw.uniform(0.04, 0.25), 0.0, 0.0, 0.0],
-        _ => [share, draw.log_uniform(0.05, 0.25), 0.0, 0.0],
-    };
-    Effect::new(form, values)
+fn of_brake(form: Form, draw: &mut Draw) -> Effect {
+    in_brake(form, GREATEST_NM, TYPICAL.duration_s, draw)
 }
 
 fn of_whole(form: Form, draw: &mut Draw) -> Effect {
@@ -227,28 +184,14 @@ fn of_whole(form: Form, draw: &mut Draw) -> Effect {
     }
 }
 
-fn foreign(form: Form, draw: &mut Draw) -> Effect {
-    let level = draw.log_uniform(0.1, 0.4);
-    match form {
-        Form::TwoRipples => {
-            let first = TAU / draw.uniform(12.0, 25.0);
-            Effect::new(form, [level, first, first / draw.uniform(1.8, 2.9)])
-        }
-        _ => Effect::new(
-            form,
-            [level, draw.uniform(0.5, 1.0), draw.log_uniform(0.2, 1.5)],
-        ),
-    }
-}
-
 /// One effect of every form that is drawn here.
 #[cfg(test)]
 pub fn every(draw: &mut Draw) -> Vec<Effect> {
     let mut all = Vec::new();
     for (mechanisms, of) in [
         (JOINT, at_joint as fn(Form, &mut Draw) -> Effect),
-        (SHARE, |form, draw| as_share(form, draw).of_drive()),
-        (BRAKE, in_brake),
+        (SHARE, share),
+        (BRAKE, of_brake),
     ] {
         for form in mechanisms.iter().copied().flatten() {
             all.push(of(*form, draw).at(At::Every));
