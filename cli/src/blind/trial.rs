@@ -76,7 +76,8 @@ The naming is tried: each recording as a whole, without a held-out part of its o
 Exit code 1 says that a claim does not hold. --reports scores anybody's diagnosis of the recordings that `blind make` writes.
 
 Example:
-  rigproof blind trial --seeds 0..200 --jobs 8 --details";
+  rigproof blind trial --seeds 0..200 --jobs 8 --details
+  rigproof blind trial --seeds 0..100 --plant axis --forms other";
 
 /// One case, its diagnosis and its score.
 pub struct Tried {

@@ -195,7 +195,6 @@ pub fn every(draw: &mut Draw) -> Vec<Effect> {
     ] {
         for form in mechanisms.iter().copied().flatten() {
             all.push(of(*form, draw).at(At::Every));
-            all.push(of(*form, draw).joint(Joint::B));
         }
     }
     let whole = WHOLE.iter().copied().flatten();
