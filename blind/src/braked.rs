@@ -262,19 +262,19 @@ mod tests {
     #[test]
     fn what_is_added_makes_up_the_difference() {
         for law in [
-            Effect::new(Form::Gain, [-0.17]),
-            Effect::new(Form::Lag, [0.031]),
-            Effect::new(Form::Preisach, [0.23]),
-            Effect::new(Form::Thermal, [0.013]),
-            Effect::new(Form::YieldOvershoot, [0.21, 0.3]),
-            Effect::new(Form::Plays, [0.4, 0.3]),
-            Effect::new(Form::BoucWenCurrent, [0.4, 0.2]),
-            Effect::new(Form::LagSecond, [0.021, 0.7]),
-            Effect::new(Form::TimeConstants, [0.8, 1.3]),
-            Effect::new(Form::OffState, [0.11]),
-            Effect::new(Form::Saturation, [1.1]),
-            Effect::new(Form::SoftSaturation, [4.3]),
-            Effect::new(Form::YieldFade, [0.3, 5.0]),
+            Form::Gain.of([-0.17]),
+            Form::Lag.of([0.031]),
+            Form::Preisach.of([0.23]),
+            Form::Thermal.of([0.013]),
+            Form::YieldOvershoot.of([0.21, 0.3]),
+            Form::Plays.of([0.4, 0.3]),
+            Form::BoucWenCurrent.of([0.4, 0.2]),
+            Form::LagSecond.of([0.021, 0.7]),
+            Form::TimeConstants.of([0.8, 1.3]),
+            Form::OffState.of([0.11]),
+            Form::Saturation.of([1.1]),
+            Form::SoftSaturation.of([4.3]),
+            Form::YieldFade.of([0.3, 5.0]),
         ] {
             let current_a = |time_s: f64| if time_s < 1.0 { 0.83 } else { 0.41 };
             let (braked, _) = turned(law, current_a, 1.013);
@@ -290,7 +290,7 @@ mod tests {
 
     #[test]
     fn an_overshoot_needs_a_reversal_and_rounding_is_none() {
-        let law = Effect::new(Form::YieldOvershoot, [0.21, 0.3]);
+        let law = Form::YieldOvershoot.of([0.21, 0.3]);
         for sense in [1.0, -1.0] {
             let mut braked = Braked::new(Joint::C, vec![(0, law)], 0.4);
             let mut go = |position_rad: f64| {
@@ -316,7 +316,7 @@ mod tests {
     #[test]
     fn the_current_comes_back_on_another_branch() {
         let ramp = |time_s: f64| if time_s < 1.0 { time_s } else { 2.0 - time_s };
-        let (_, yields) = turned(Effect::new(Form::Preisach, [0.23]), ramp, 1.9);
+        let (_, yields) = turned(Form::Preisach.of([0.23]), ramp, 1.9);
         let (up, down) = (yields[4999], yields[14_999]);
         assert!(down > up + 0.5, "{up} {down}");
     }
@@ -326,9 +326,9 @@ mod tests {
     fn the_laws_of_the_current_differ() {
         let ramp = |time_s: f64| 0.8 - 0.8 * (time_s - 1.0).abs();
         let loops = [
-            Effect::new(Form::Preisach, [0.3]),
-            Effect::new(Form::Plays, [0.7, 0.3]),
-            Effect::new(Form::BoucWenCurrent, [0.7, 0.15]),
+            Form::Preisach.of([0.3]),
+            Form::Plays.of([0.7, 0.3]),
+            Form::BoucWenCurrent.of([0.7, 0.15]),
         ]
         .map(|effect| {
             let (_, yields) = turned(effect, ramp, 1.95);
@@ -345,7 +345,7 @@ mod tests {
 
     #[test]
     fn a_warm_brake_fades_and_comes_back_in_two_steps() {
-        let (mut braked, yields) = turned(Effect::new(Form::Thermal, [0.011]), |_| 0.7, 30.0);
+        let (mut braked, yields) = turned(Form::Thermal.of([0.011]), |_| 0.7, 30.0);
         let (early, late) = (yields[2000], yields[299_999]);
         assert!(late < 0.95 * early, "{early} {late}");
         let warm = (braked.fluid_k, braked.housing_k);

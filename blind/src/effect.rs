@@ -39,22 +39,24 @@ pub struct Effect {
     pub onset_s: Option<f64>,
 }
 
-impl Effect {
-    /// A law that always acts, on the whole.
-    pub fn new<const N: usize>(form: Form, numbers: [f64; N]) -> Effect {
+impl Form {
+    /// The form with its numbers, always and on the whole.
+    pub fn of<const N: usize>(self, numbers: [f64; N]) -> Effect {
         let mut values = [0.0; 4];
         for (value, number) in values.iter_mut().zip(numbers) {
             *value = number;
         }
         Effect {
-            form,
+            form: self,
             values,
             scales: Scales::Nothing,
             at: At::Whole,
             onset_s: None,
         }
     }
+}
 
+impl Effect {
     /// The same at another place.
     pub const fn at(self, at: At) -> Effect {
         Effect { at, ..self }

@@ -316,9 +316,9 @@ mod tests {
     #[test]
     fn closed_cycles_of_memory_cost_energy() {
         for law in [
-            Effect::new(Form::Lugre, [0.31, 0.23, 2.0, 170.0]),
-            Effect::new(Form::MaxwellSlip, [0.27, 0.041]),
-            Effect::new(Form::OneSided, [0.21, 0.47, 0.033]),
+            Form::Lugre.of([0.31, 0.23, 2.0, 170.0]),
+            Form::MaxwellSlip.of([0.27, 0.041]),
+            Form::OneSided.of([0.21, 0.47, 0.033]),
         ] {
             for amplitude_rad in [0.007, 0.31] {
                 let [_, second, third] = cycle_work(Element::new(law), amplitude_rad);
@@ -332,7 +332,7 @@ mod tests {
 
     #[test]
     fn the_maxwell_slip_joint_yields_its_level_after_its_travel() {
-        let mut joint = Element::new(Effect::new(Form::MaxwellSlip, [0.27, 0.041]));
+        let mut joint = Element::new(Form::MaxwellSlip.of([0.27, 0.041]));
         let at = moving(0.3);
         joint.advance(&at, 0.0409, 0.0);
         assert!(joint.force(&at, 0.0, 0.0) < 0.27);
@@ -348,7 +348,7 @@ mod tests {
     #[test]
     fn the_lugre_joint_peaks_at_rest_and_gives_nothing_at_speed() {
         let steady = |rate_rad_s: f64| {
-            let mut joint = Element::new(Effect::new(Form::Lugre, [0.31, 0.23, 2.0, 170.0]));
+            let mut joint = Element::new(Form::Lugre.of([0.31, 0.23, 2.0, 170.0]));
             let at = moving(rate_rad_s);
             joint.advance(&at, 0.7 * rate_rad_s.signum(), 0.0);
             joint.force(&at, 0.0, 0.0)

@@ -217,8 +217,8 @@ mod tests {
 
     #[test]
     fn a_name_is_right_incomplete_false_or_missing() {
-        let peak = Effect::new(Form::Rational, [0.2, 0.1]).joint(Joint::E);
-        let drag = Effect::new(Form::Root, [0.2, 1.0]).joint(Joint::B);
+        let peak = Form::Rational.of([0.2, 0.1]).joint(Joint::E);
+        let drag = Form::Root.of([0.2, 1.0]).joint(Joint::B);
         let two = answer(&[(peak, 7.0), (drag, 5.0)], Stratum::Two);
         let name = |mechanism: &str, joint: &str| json!({ "mechanism": mechanism, "joint": joint });
         let (right, other) = (name("stribeck", "E"), name("velocity_power", "B"));
@@ -244,9 +244,7 @@ mod tests {
 
     #[test]
     fn a_shared_effect_is_named_for_all_or_at_each() {
-        let shared = Effect::new(Form::Rational, [0.2, 0.1])
-            .of_drive()
-            .at(At::Every);
+        let shared = Form::Rational.of([0.2, 0.1]).of_drive().at(At::Every);
         let case = answer(&[(shared, 9.0)], Stratum::Single);
         let at = |joint: &str| json!({ "mechanism": "stribeck", "joint": joint });
         assert_eq!(
@@ -269,7 +267,7 @@ mod tests {
             Outcome::FalseName
         );
         let foreign = answer(
-            &[(Effect::new(Form::Disturbance, [0.1, 1.0]), 5.0)],
+            &[(Form::Disturbance.of([0.1, 1.0]), 5.0)],
             Stratum::NotInLibrary,
         );
         assert_eq!(outcome(&foreign, json!([])), Outcome::Silent);

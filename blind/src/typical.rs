@@ -26,33 +26,30 @@ impl Typical {
         match form {
             // A stated number that is wrong may be too large as well.
             Form::Coulomb if draw.chance(0.3) && self.dry > 0.0 => {
-                Effect::new(form, [-self.dry * draw.uniform(0.3, 0.8)])
+                form.of([-self.dry * draw.uniform(0.3, 0.8)])
             }
             Form::Viscous if draw.chance(0.3) && self.viscous > 0.0 => {
-                Effect::new(form, [-self.viscous * draw.uniform(0.3, 0.8)])
+                form.of([-self.viscous * draw.uniform(0.3, 0.8)])
             }
-            Form::Viscous => Effect::new(form, [level / speed]),
-            Form::Stribeck => Effect::new(form, [level, slow, 1.0]),
-            Form::Rational => Effect::new(form, [level, slow]),
-            Form::Root | Form::Square => Effect::new(form, [level, speed]),
-            Form::Tanh => Effect::new(form, [level, 0.5 * speed]),
-            Form::Power => Effect::new(form, [level, speed, draw.pick(&[1.3, 1.6])]),
+            Form::Viscous => form.of([level / speed]),
+            Form::Stribeck => form.of([level, slow, 1.0]),
+            Form::Rational => form.of([level, slow]),
+            Form::Root | Form::Square => form.of([level, speed]),
+            Form::Tanh => form.of([level, 0.5 * speed]),
+            Form::Power => form.of([level, speed, draw.pick(&[1.3, 1.6])]),
             Form::Asymmetric => self.asymmetric(draw),
-            Form::LoadShare => Effect::new(form, [draw.uniform(0.08, 0.35)]),
+            Form::LoadShare => form.of([draw.uniform(0.08, 0.35)]),
             Form::LoadSided => {
                 let (strong, weak) = (draw.uniform(0.12, 0.4), draw.uniform(0.0, 0.08));
                 let driving = draw.chance(0.5);
-                Effect::new(
-                    form,
-                    if driving {
-                        [strong, weak]
-                    } else {
-                        [weak, strong]
-                    },
-                )
+                form.of(if driving {
+                    [strong, weak]
+                } else {
+                    [weak, strong]
+                })
             }
-            Form::LoadSquare => Effect::new(form, [0.6 * level, effort]),
-            Form::Bias => Effect::new(form, [draw.sign() * level]),
+            Form::LoadSquare => form.of([0.6 * level, effort]),
+            Form::Bias => form.of([draw.sign() * level]),
             _ => self.with_memory(form, level, slow, draw),
         }
     }
@@ -66,33 +63,33 @@ impl Typical {
             1 if viscous != 0.0 => [0.0, viscous],
             _ => [dry, viscous],
         };
-        Effect::new(Form::Asymmetric, values)
+        Form::Asymmetric.of(values)
     }
 
     fn with_memory(&self, form: Form, level: f64, slow: f64, draw: &mut Draw) -> Effect {
         let travel = self.travel;
         let yields = travel * draw.log_uniform(0.02, 0.2);
         match form {
-            Form::Travelled => Effect::new(form, [level, slow, 0.2 * yields]),
-            Form::DahlPower => Effect::new(form, [level, yields, draw.pick(&[0.5, 1.5, 2.0])]),
-            Form::Bristle => Effect::new(form, [level, yields, 1e-3]),
-            Form::ElastoPlastic => Effect::new(form, [level, yields, draw.uniform(0.3, 0.8)]),
-            Form::MaxwellSlip => Effect::new(form, [level, 3.0 * yields]),
+            Form::Travelled => form.of([level, slow, 0.2 * yields]),
+            Form::DahlPower => form.of([level, yields, draw.pick(&[0.5, 1.5, 2.0])]),
+            Form::Bristle => form.of([level, yields, 1e-3]),
+            Form::ElastoPlastic => form.of([level, yields, draw.uniform(0.3, 0.8)]),
+            Form::MaxwellSlip => form.of([level, 3.0 * yields]),
             Form::BoucWen => {
                 let ratio = draw.sign() * draw.uniform(0.2, 0.6);
-                Effect::new(form, [level / yields, 1.0 / yields, ratio / yields])
+                form.of([level / yields, 1.0 / yields, ratio / yields])
             }
-            Form::Gap => Effect::new(form, [self.dry * draw.uniform(0.6, 0.95), yields]),
+            Form::Gap => form.of([self.dry * draw.uniform(0.6, 0.95), yields]),
             Form::Overshoot | Form::OvershootLinear => {
-                Effect::new(form, [level, travel * draw.uniform(0.08, 0.3)])
+                form.of([level, travel * draw.uniform(0.08, 0.3)])
             }
             Form::Settling => {
                 let worn = travel * draw.uniform(0.1, 0.3);
-                Effect::new(form, [1.5 * level, draw.uniform(0.15, 0.5), worn])
+                form.of([1.5 * level, draw.uniform(0.15, 0.5), worn])
             }
             Form::FadeByWay => {
                 let lost = self.dry * draw.uniform(0.25, 0.7);
-                Effect::new(form, [lost, travel * draw.uniform(5.0, 20.0)])
+                form.of([lost, travel * draw.uniform(5.0, 20.0)])
             }
             _ => self.over_time_or_place(form, level, draw),
         }
@@ -103,32 +100,32 @@ impl Typical {
         let period = travel / draw.uniform(1.5, 6.0);
         let stiff = level / (travel * travel * travel);
         match form {
-            Form::Drift => Effect::new(form, [draw.sign() * level / duration_s]),
+            Form::Drift => form.of([draw.sign() * level / duration_s]),
             Form::Creep => {
                 let creeps_s = duration_s * draw.uniform(0.15, 0.4);
-                Effect::new(form, [draw.sign() * level, creeps_s])
+                form.of([draw.sign() * level, creeps_s])
             }
-            Form::FadeLinear => Effect::new(form, [self.dry * draw.uniform(0.25, 0.7), duration_s]),
+            Form::FadeLinear => form.of([self.dry * draw.uniform(0.25, 0.7), duration_s]),
             Form::FadeExponential => {
                 let lost = self.dry * draw.uniform(0.25, 0.7);
-                Effect::new(form, [lost, duration_s * draw.uniform(0.15, 0.5)])
+                form.of([lost, duration_s * draw.uniform(0.15, 0.5)])
             }
-            Form::Disturbance => Effect::new(form, [level, draw.log_uniform(0.25, 3.0)]),
+            Form::Disturbance => form.of([level, draw.log_uniform(0.25, 3.0)]),
             Form::Ripple => {
                 let (s, c) = libm::sincos(draw.uniform(0.0, TAU));
-                Effect::new(form, [level * s, level * c, period])
+                form.of([level * s, level * c, period])
             }
-            Form::TwoOrders => Effect::new(form, [level, period, draw.uniform(0.3, 0.8)]),
-            Form::Toothed => Effect::new(form, [level, period, draw.uniform(1.0, 4.0)]),
-            Form::TwoRipples => Effect::new(form, [level, period, period / draw.uniform(1.8, 2.9)]),
-            Form::Uneven => Effect::new(form, [level, draw.uniform(0.6, 1.0), 2.0 * period]),
+            Form::TwoOrders => form.of([level, period, draw.uniform(0.3, 0.8)]),
+            Form::Toothed => form.of([level, period, draw.uniform(1.0, 4.0)]),
+            Form::TwoRipples => form.of([level, period, period / draw.uniform(1.8, 2.9)]),
+            Form::Uneven => form.of([level, draw.uniform(0.6, 1.0), 2.0 * period]),
             Form::Anchored => {
                 let anchor = draw.sign() * travel * draw.uniform(0.3, 1.2);
-                Effect::new(form, [level / travel, anchor])
+                form.of([level / travel, anchor])
             }
-            Form::Hardening => Effect::new(form, [0.6 * level / travel, 2.0 * stiff]),
-            Form::Cubic => Effect::new(form, [2.0 * stiff]),
-            _ => Effect::new(form, [level]),
+            Form::Hardening => form.of([0.6 * level / travel, 2.0 * stiff]),
+            Form::Cubic => form.of([2.0 * stiff]),
+            _ => form.of([level]),
         }
     }
 }
@@ -139,12 +136,12 @@ pub fn share(form: Form, draw: &mut Draw) -> Effect {
     let slow = draw.log_uniform(0.05, 0.4);
     let period = TAU / draw.uniform(8.0, 50.0);
     let effect = match form {
-        Form::Stribeck => Effect::new(form, [share, slow, 1.0]),
-        Form::Rational => Effect::new(form, [share, slow]),
-        Form::MaxwellSlip => Effect::new(form, [share, draw.log_uniform(0.03, 0.2)]),
-        Form::TwoOrders => Effect::new(form, [share, period, draw.uniform(0.3, 0.8)]),
-        Form::Toothed => Effect::new(form, [share, period, draw.uniform(1.0, 4.0)]),
-        _ => Effect::new(form, [draw.sign() * share]),
+        Form::Stribeck => form.of([share, slow, 1.0]),
+        Form::Rational => form.of([share, slow]),
+        Form::MaxwellSlip => form.of([share, draw.log_uniform(0.03, 0.2)]),
+        Form::TwoOrders => form.of([share, period, draw.uniform(0.3, 0.8)]),
+        Form::Toothed => form.of([share, period, draw.uniform(1.0, 4.0)]),
+        _ => form.of([draw.sign() * share]),
     };
     effect.of_drive()
 }
@@ -153,25 +150,18 @@ pub fn share(form: Form, draw: &mut Draw) -> Effect {
 pub fn in_brake(form: Form, greatest_nm: f64, duration_s: f64, draw: &mut Draw) -> Effect {
     let share = draw.log_uniform(0.06, 0.3);
     match form {
-        Form::Lag => Effect::new(form, [draw.log_uniform(0.012, 0.08)]),
-        Form::LagSecond => Effect::new(
-            form,
-            [draw.log_uniform(0.008, 0.04), draw.uniform(0.5, 1.0)],
-        ),
-        Form::Gain => Effect::new(form, [draw.sign() * share]),
-        Form::Saturation | Form::SoftSaturation => {
-            Effect::new(form, [greatest_nm * draw.uniform(0.3, 0.85)])
-        }
-        Form::Preisach => Effect::new(form, [draw.uniform(0.12, 0.4)]),
-        Form::Plays => Effect::new(form, [draw.uniform(0.4, 1.0), draw.uniform(0.08, 0.3)]),
-        Form::BoucWenCurrent => {
-            Effect::new(form, [draw.uniform(0.4, 0.9), draw.uniform(0.05, 0.2)])
-        }
-        Form::Thermal => Effect::new(form, [draw.log_uniform(0.02, 0.12)]),
-        Form::YieldFade => Effect::new(form, [draw.uniform(0.08, 0.3), duration_s]),
-        Form::TimeConstants => Effect::new(form, [draw.uniform(0.5, 3.0), draw.uniform(0.0, 3.0)]),
-        Form::OffState => Effect::new(form, [draw.uniform(0.04, 0.25)]),
-        Form::Backlash => Effect::new(form, [draw.uniform(0.045, 0.1)]),
-        _ => Effect::new(form, [share, draw.log_uniform(0.05, 0.25)]),
+        Form::Lag => form.of([draw.log_uniform(0.012, 0.08)]),
+        Form::LagSecond => form.of([draw.log_uniform(0.008, 0.04), draw.uniform(0.5, 1.0)]),
+        Form::Gain => form.of([draw.sign() * share]),
+        Form::Saturation | Form::SoftSaturation => form.of([greatest_nm * draw.uniform(0.3, 0.85)]),
+        Form::Preisach => form.of([draw.uniform(0.12, 0.4)]),
+        Form::Plays => form.of([draw.uniform(0.4, 1.0), draw.uniform(0.08, 0.3)]),
+        Form::BoucWenCurrent => form.of([draw.uniform(0.4, 0.9), draw.uniform(0.05, 0.2)]),
+        Form::Thermal => form.of([draw.log_uniform(0.02, 0.12)]),
+        Form::YieldFade => form.of([draw.uniform(0.08, 0.3), duration_s]),
+        Form::TimeConstants => form.of([draw.uniform(0.5, 3.0), draw.uniform(0.0, 3.0)]),
+        Form::OffState => form.of([draw.uniform(0.04, 0.25)]),
+        Form::Backlash => form.of([draw.uniform(0.045, 0.1)]),
+        _ => form.of([share, draw.log_uniform(0.05, 0.25)]),
     }
 }

@@ -119,7 +119,7 @@ fn of_drive(setup: &Setup, form: Form, draw: &mut Draw) -> Effect {
         Form::Saturation | Form::SoftSaturation => [effort * draw.uniform(0.6, 1.4), 0.0, 0.0, 0.0],
         _ => [effort * draw.uniform(0.08, 0.3), 0.0, 0.0, 0.0],
     };
-    Effect::new(form, values)
+    form.of(values)
 }
 
 fn elsewhere(setup: &Setup, form: Form, draw: &mut Draw) -> Effect {
@@ -174,5 +174,5 @@ fn elsewhere(setup: &Setup, form: Form, draw: &mut Draw) -> Effect {
         Form::Clock => [0.0, draw.uniform(0.1, 0.4) / setup.rate_hz, 0.0, 0.0],
         _ => [0.0; 4],
     };
-    Effect::new(form, values)
+    form.of(values)
 }

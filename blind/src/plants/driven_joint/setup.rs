@@ -121,9 +121,7 @@ impl Setup {
     pub fn friction(&self) -> Vec<Effect> {
         let laws = [(Form::Viscous, self.viscous), (Form::Coulomb, self.dry)];
         let there = laws.into_iter().filter(|(_, level)| *level > 0.0);
-        there
-            .map(|(form, level)| Effect::new(form, [level]))
-            .collect()
+        there.map(|(form, level)| form.of([level])).collect()
     }
 
     /// An angle as the encoder has it, rad.

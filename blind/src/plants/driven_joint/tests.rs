@@ -75,7 +75,7 @@ fn every_form_shows_and_the_step_is_fine_enough() {
 #[test]
 fn forms_of_a_mechanism_differ() {
     let path = |form: Form, values: [f64; 3]| -> Vec<f64> {
-        let mut element = Element::new(Effect::new(form, values));
+        let mut element = Element::new(form.of(values));
         let step_s = 1e-4;
         let at = |k: i32| 0.4 * libm::sin(5.0 * f64::from(k) * step_s);
         let resists = (0..25_000).map(|k| {

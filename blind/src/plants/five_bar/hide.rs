@@ -94,7 +94,7 @@ pub fn draw(setup: &Setup, stratum: Stratum, draw: &mut Draw) -> Vec<Effect> {
         Stratum::Unidentifiable => vec![unidentifiable(setup, draw)],
         Stratum::WrongInertia => {
             let fraction = draw.sign() * draw.uniform(0.02, 0.05);
-            vec![Effect::new(Form::Inertia, [fraction])]
+            vec![Form::Inertia.of([fraction])]
         }
     }
 }
@@ -104,8 +104,8 @@ pub fn draw(setup: &Setup, stratum: Stratum, draw: &mut Draw) -> Vec<Effect> {
 fn unidentifiable(setup: &Setup, draw: &mut Draw) -> Effect {
     if setup.layout == Layout::ThreeBrake && draw.chance(0.6) {
         let law = match draw.chance(0.5) {
-            true => Effect::new(Form::Bearing, [draw.uniform(0.08, 0.4), 0.0]),
-            false => Effect::new(Form::Bearing, [0.0, draw.uniform(0.05, 0.2)]),
+            true => Form::Bearing.of([draw.uniform(0.08, 0.4), 0.0]),
+            false => Form::Bearing.of([0.0, draw.uniform(0.05, 0.2)]),
         };
         return law.joint(Joint::C);
     }
@@ -121,27 +121,27 @@ fn base(draw: &mut Draw) -> Joint {
 }
 
 fn dry(joint: Joint, draw: &mut Draw) -> Effect {
-    Effect::new(Form::Coulomb, [draw.log_uniform(0.05, 0.4)]).joint(joint)
+    Form::Coulomb.of([draw.log_uniform(0.05, 0.4)]).joint(joint)
 }
 
 /// About the 0.078 N·m·s/rad of §3.3.2.
 fn viscous(joint: Joint, draw: &mut Draw) -> Effect {
-    Effect::new(Form::Viscous, [draw.log_uniform(0.025, 0.16)]).joint(joint)
+    Form::Viscous
+        .of([draw.log_uniform(0.025, 0.16)])
+        .joint(joint)
 }
 
 /// The bristle bends by 2 to 6 mrad before it slides.
 fn stribeck(joint: Joint, draw: &mut Draw) -> Effect {
     let peak = draw.log_uniform(0.15, 0.6);
-    Effect::new(
-        Form::Lugre,
-        [
+    Form::Lugre
+        .of([
             peak,
             draw.log_uniform(0.06, 0.4),
             2.0,
             peak / draw.uniform(0.002, 0.006),
-        ],
-    )
-    .joint(joint)
+        ])
+        .joint(joint)
 }
 
 /// With the same limit in both directions, or in three of ten draws with another in each.
@@ -154,38 +154,38 @@ fn presliding(joint: Joint, draw: &mut Draw) -> Effect {
 }
 
 fn two_sided(joint: Joint, draw: &mut Draw) -> Effect {
-    Effect::new(
-        Form::MaxwellSlip,
-        [draw.log_uniform(0.1, 0.5), draw.log_uniform(0.03, 0.2)],
-    )
-    .joint(joint)
+    Form::MaxwellSlip
+        .of([draw.log_uniform(0.1, 0.5), draw.log_uniform(0.03, 0.2)])
+        .joint(joint)
 }
 
 fn spring(joint: Joint, draw: &mut Draw) -> Effect {
-    Effect::new(Form::Spring, [draw.log_uniform(0.2, 1.5)]).joint(joint)
+    Form::Spring.of([draw.log_uniform(0.2, 1.5)]).joint(joint)
 }
 
 /// The teeth and poles of a brake: 12 to 60 a turn.
 fn ripple(joint: Joint, draw: &mut Draw) -> Effect {
     let amplitude = draw.log_uniform(0.05, 0.3);
     let (s, c) = libm::sincos(draw.uniform(0.0, TAU));
-    Effect::new(
-        Form::Ripple,
-        [amplitude * s, amplitude * c, TAU / draw.uniform(12.0, 60.0)],
-    )
-    .joint(joint)
+    Form::Ripple
+        .of([amplitude * s, amplitude * c, TAU / draw.uniform(12.0, 60.0)])
+        .joint(joint)
 }
 
 fn load(joint: Joint, draw: &mut Draw) -> Effect {
-    Effect::new(Form::LoadArm, [draw.log_uniform(0.004, 0.03)]).joint(joint)
+    Form::LoadArm
+        .of([draw.log_uniform(0.004, 0.03)])
+        .joint(joint)
 }
 
 fn gain(joint: Joint, draw: &mut Draw) -> Effect {
-    Effect::new(Form::Gain, [draw.sign() * draw.log_uniform(0.05, 0.25)]).joint(joint)
+    Form::Gain
+        .of([draw.sign() * draw.log_uniform(0.05, 0.25)])
+        .joint(joint)
 }
 
 fn lag(joint: Joint, draw: &mut Draw) -> Effect {
-    Effect::new(Form::Lag, [draw.log_uniform(0.012, 0.08)]).joint(joint)
+    Form::Lag.of([draw.log_uniform(0.012, 0.08)]).joint(joint)
 }
 
 /// Narrower or wider than table 3.1; brake A has no backlash to become narrower.
@@ -196,87 +196,82 @@ fn backlash(joint: Joint, draw: &mut Draw) -> Effect {
         true => printed_deg * draw.uniform(0.1, 0.5),
         false => printed_deg + draw.uniform(0.8, 3.0),
     };
-    Effect::new(Form::Backlash, [width_deg * RAD_PER_DEG]).joint(joint)
+    Form::Backlash.of([width_deg * RAD_PER_DEG]).joint(joint)
 }
 
 fn preisach(joint: Joint, draw: &mut Draw) -> Effect {
-    Effect::new(Form::Preisach, [draw.uniform(0.12, 0.4)]).joint(joint)
+    Form::Preisach.of([draw.uniform(0.12, 0.4)]).joint(joint)
 }
 
 fn thermal(joint: Joint, draw: &mut Draw) -> Effect {
-    Effect::new(Form::Thermal, [draw.log_uniform(0.02, 0.12)]).joint(joint)
+    Form::Thermal
+        .of([draw.log_uniform(0.02, 0.12)])
+        .joint(joint)
 }
 
 fn overshoot(joint: Joint, draw: &mut Draw) -> Effect {
-    Effect::new(
-        Form::YieldOvershoot,
-        [draw.uniform(0.1, 0.4), draw.log_uniform(0.05, 0.25)],
-    )
-    .joint(joint)
+    Form::YieldOvershoot
+        .of([draw.uniform(0.1, 0.4), draw.log_uniform(0.05, 0.25)])
+        .joint(joint)
 }
 
 fn payload(_: Joint, draw: &mut Draw) -> Effect {
-    Effect::new(Form::Payload, [draw.log_uniform(0.15, 1.0)])
+    Form::Payload.of([draw.log_uniform(0.15, 1.0)])
 }
 
 fn inertia(_: Joint, draw: &mut Draw) -> Effect {
-    Effect::new(Form::Inertia, [draw.sign() * draw.log_uniform(0.06, 0.2)])
+    Form::Inertia.of([draw.sign() * draw.log_uniform(0.06, 0.2)])
 }
 
 /// A base out of level by 0.5° to 4°.
 fn gravity(_: Joint, draw: &mut Draw) -> Effect {
     let (s, c) = libm::sincos(draw.uniform(0.0, TAU));
     let field = 9.81 * libm::sin(RAD_PER_DEG * draw.log_uniform(0.5, 4.0));
-    Effect::new(Form::Gravity, [field * c, field * s])
+    Form::Gravity.of([field * c, field * s])
 }
 
 fn bias(_: Joint, draw: &mut Draw) -> Effect {
     let level = draw.sign() * draw.log_uniform(0.05, 0.3);
-    Effect::new(Form::Bias, [level]).joint(base(draw))
+    Form::Bias.of([level]).joint(base(draw))
 }
 
 fn skew(_: Joint, draw: &mut Draw) -> Effect {
-    Effect::new(Form::Skew, [draw.sign() * draw.log_uniform(0.003, 0.02)])
+    Form::Skew.of([draw.sign() * draw.log_uniform(0.003, 0.02)])
 }
 
 fn encoder_scale(_: Joint, draw: &mut Draw) -> Effect {
     let fraction = draw.sign() * draw.log_uniform(0.01, 0.06);
-    Effect::new(Form::EncoderScale, [fraction]).joint(base(draw))
+    Form::EncoderScale.of([fraction]).joint(base(draw))
 }
 
 fn encoder_offset(_: Joint, draw: &mut Draw) -> Effect {
     let angle = draw.sign() * draw.log_uniform(0.01, 0.06);
-    Effect::new(Form::EncoderOffset, [angle]).joint(base(draw))
+    Form::EncoderOffset.of([angle]).joint(base(draw))
 }
 
 fn force_gain(_: Joint, draw: &mut Draw) -> Effect {
-    Effect::new(Form::ForceGain, [draw.sign() * draw.log_uniform(0.04, 0.2)])
+    Form::ForceGain.of([draw.sign() * draw.log_uniform(0.04, 0.2)])
 }
 
 fn force_bias(_: Joint, draw: &mut Draw) -> Effect {
     let (s, c) = libm::sincos(draw.uniform(0.0, TAU));
     let force = draw.log_uniform(0.3, 2.0);
-    Effect::new(Form::ForceBias, [force * c, force * s])
+    Form::ForceBias.of([force * c, force * s])
 }
 
 fn force_rotation(_: Joint, draw: &mut Draw) -> Effect {
-    Effect::new(
-        Form::ForceRotation,
-        [draw.sign() * RAD_PER_DEG * draw.log_uniform(1.5, 10.0)],
-    )
+    Form::ForceRotation.of([draw.sign() * RAD_PER_DEG * draw.log_uniform(1.5, 10.0)])
 }
 
 fn two_ripples(joint: Joint, draw: &mut Draw) -> Effect {
     let first = TAU / draw.uniform(12.0, 25.0);
-    Effect::new(
-        Form::TwoRipples,
-        [
+    Form::TwoRipples
+        .of([
             draw.log_uniform(0.1, 0.4),
             first,
             first / draw.uniform(1.8, 2.9),
-        ],
-    )
-    .joint(joint)
+        ])
+        .joint(joint)
 }
 
 fn one_sided(joint: Joint, draw: &mut Draw) -> Effect {
@@ -287,35 +282,25 @@ fn one_sided(joint: Joint, draw: &mut Draw) -> Effect {
     } else {
         [strong, weak]
     };
-    Effect::new(
-        Form::OneSided,
-        [forward, backward, draw.log_uniform(0.03, 0.15)],
-    )
-    .joint(joint)
+    Form::OneSided
+        .of([forward, backward, draw.log_uniform(0.03, 0.15)])
+        .joint(joint)
 }
 
 fn uneven(joint: Joint, draw: &mut Draw) -> Effect {
-    Effect::new(
-        Form::Uneven,
-        [
+    Form::Uneven
+        .of([
             draw.log_uniform(0.1, 0.4),
             draw.uniform(0.5, 1.0),
             draw.log_uniform(0.2, 1.5),
-        ],
-    )
-    .joint(joint)
+        ])
+        .joint(joint)
 }
 
 fn varying_skew(_: Joint, draw: &mut Draw) -> Effect {
-    Effect::new(
-        Form::VaryingSkew,
-        [draw.log_uniform(0.004, 0.02), draw.uniform(0.7, 4.0)],
-    )
+    Form::VaryingSkew.of([draw.log_uniform(0.004, 0.02), draw.uniform(0.7, 4.0)])
 }
 
 fn compliance(_: Joint, draw: &mut Draw) -> Effect {
-    Effect::new(
-        Form::Compliance,
-        [draw.uniform(0.3, 1.0), draw.uniform(5.0, 14.0)],
-    )
+    Form::Compliance.of([draw.uniform(0.3, 1.0), draw.uniform(5.0, 14.0)])
 }

@@ -128,9 +128,9 @@ const GREATEST_NM: f64 = 2.5;
 
 fn at_joint(form: Form, draw: &mut Draw) -> Effect {
     match form {
-        Form::LoadArm => Effect::new(form, [draw.log_uniform(0.004, 0.03)]),
+        Form::LoadArm => form.of([draw.log_uniform(0.004, 0.03)]),
         // The load is the force on the tip, N.
-        Form::LoadSquare => Effect::new(form, [draw.log_uniform(0.06, 0.4), 12.0]),
+        Form::LoadSquare => form.of([draw.log_uniform(0.06, 0.4), 12.0]),
         _ => TYPICAL.force(form, draw),
     }
 }
@@ -144,43 +144,44 @@ fn of_whole(form: Form, draw: &mut Draw) -> Effect {
     let base = draw.pick(&[Joint::A, Joint::B]);
     let axis = At::Sensor(draw.below(2));
     match form {
-        Form::Payload => Effect::new(form, [draw.log_uniform(0.15, 1.0)]),
+        Form::Payload => form.of([draw.log_uniform(0.15, 1.0)]),
         Form::Gravity => {
             let field = 9.81 * libm::sin(RAD_PER_DEG * draw.log_uniform(0.5, 4.0));
-            Effect::new(form, [field * c, field * s])
+            form.of([field * c, field * s])
         }
         Form::PlaneSpring => {
             let anchor_m = [0.25 * c, 0.4 + 0.25 * s];
-            Effect::new(
-                form,
-                [
-                    draw.log_uniform(8.0, 60.0),
-                    anchor_m[0],
-                    anchor_m[1],
-                    draw.uniform(0.05, 0.2),
-                ],
-            )
+            form.of([
+                draw.log_uniform(8.0, 60.0),
+                anchor_m[0],
+                anchor_m[1],
+                draw.uniform(0.05, 0.2),
+            ])
         }
         Form::LinkLength => {
             let joint = draw.pick(&Joint::ALL);
-            Effect::new(form, [draw.sign() * draw.log_uniform(0.002, 0.012)]).joint(joint)
+            form.of([draw.sign() * draw.log_uniform(0.002, 0.012)])
+                .joint(joint)
         }
-        Form::Drift => Effect::new(form, [draw.sign() * draw.log_uniform(0.004, 0.02)]).joint(base),
+        Form::Drift => form
+            .of([draw.sign() * draw.log_uniform(0.004, 0.02)])
+            .joint(base),
         Form::Creep => {
             let level = draw.sign() * draw.log_uniform(0.06, 0.3);
-            Effect::new(form, [level, draw.uniform(3.0, 10.0)]).joint(base)
+            form.of([level, draw.uniform(3.0, 10.0)]).joint(base)
         }
-        Form::Skew => Effect::new(form, [draw.sign() * draw.log_uniform(0.003, 0.02)]),
+        Form::Skew => form.of([draw.sign() * draw.log_uniform(0.003, 0.02)]),
         Form::Eccentric => {
             let phase = draw.uniform(0.0, TAU);
-            Effect::new(form, [draw.log_uniform(0.01, 0.06), phase]).joint(base)
+            form.of([draw.log_uniform(0.01, 0.06), phase]).joint(base)
         }
-        Form::ForceGain => Effect::new(form, [draw.sign() * draw.log_uniform(0.05, 0.25)]).at(axis),
-        Form::Crosstalk => Effect::new(form, [draw.sign() * draw.log_uniform(0.05, 0.25)]).at(axis),
-        _ => Effect::new(
-            form,
-            [draw.sign() * RAD_PER_DEG * draw.log_uniform(2.0, 10.0)],
-        ),
+        Form::ForceGain => form
+            .of([draw.sign() * draw.log_uniform(0.05, 0.25)])
+            .at(axis),
+        Form::Crosstalk => form
+            .of([draw.sign() * draw.log_uniform(0.05, 0.25)])
+            .at(axis),
+        _ => form.of([draw.sign() * RAD_PER_DEG * draw.log_uniform(2.0, 10.0)]),
     }
 }
 

@@ -52,7 +52,7 @@ fn kinetic_j(rig: &FiveBar, layout: Layout) -> f64 {
 #[test]
 fn energy_balances_and_no_joint_ever_gives_any() {
     for layout in [Layout::ThreeBrake, Layout::FourBrake] {
-        let hidden = [Effect::new(Form::Viscous, [0.057]).joint(Joint::E)];
+        let hidden = [Form::Viscous.of([0.057]).joint(Joint::E)];
         let mut rig = start(layout, &hidden);
         let mut given_j = 0.0;
         let (mut stuck, mut slid) = ([0; 4], [0; 4]);
@@ -223,7 +223,7 @@ fn a_ripple_is_told_from_the_zero_of_its_joint_and_a_turned_sensor_by_what_it_sh
     for joint in Joint::ALL {
         let start_rad = setup.start_angle_rad(joint);
         let (sine, cosine, period) = (0.13, -0.07, 0.191);
-        let hidden = Effect::new(Form::Ripple, [sine, cosine, period]).joint(joint);
+        let hidden = Form::Ripple.of([sine, cosine, period]).joint(joint);
         let [own_sine, own_cosine, _] = told(&setup, &hidden)[..] else {
             panic!("a ripple has three numbers");
         };
@@ -238,7 +238,7 @@ fn a_ripple_is_told_from_the_zero_of_its_joint_and_a_turned_sensor_by_what_it_sh
     // Table 4.2: the angle of E lies beyond half a turn.
     let pi = std::f64::consts::PI;
     assert!((pi..2.0 * pi).contains(&setup.start_angle_rad(Joint::E)));
-    let turned = Effect::new(Form::ForceRotation, [0.11]);
+    let turned = Form::ForceRotation.of([0.11]);
     assert_eq!(told(&setup, &turned), [-0.11]);
 }
 
@@ -264,7 +264,7 @@ fn a_second_recording_of_a_rig_is_another_motion_from_the_same_start() {
 #[test]
 fn on_three_brakes_a_bearing_at_c_is_a_bearing_at_e() {
     let run = |joint: Joint| {
-        let hidden = [Effect::new(Form::Bearing, [0.17, 0.06]).joint(joint)];
+        let hidden = [Form::Bearing.of([0.17, 0.06]).joint(joint)];
         let mut rig = start(Layout::ThreeBrake, &hidden);
         for k in 0..20_000 {
             let time_s = f64::from(k) * 1e-4;

@@ -79,12 +79,12 @@ mod tests {
             };
             sets(&setup, &effect).concat()
         };
-        let spring = Effect::new(Form::Spring, [0.7]);
+        let spring = Form::Spring.of([0.7]);
         assert_eq!(twins(Layout::ThreeBrake, spring), ["spring at C"]);
         assert!(twins(Layout::FourBrake, spring).is_empty());
-        let gain = Effect::new(Form::Gain, [0.13]);
+        let gain = Form::Gain.of([0.13]);
         assert!(twins(Layout::ThreeBrake, gain).is_empty());
-        let dry = twins(Layout::ThreeBrake, Effect::new(Form::Coulomb, [0.2]));
+        let dry = twins(Layout::ThreeBrake, Form::Coulomb.of([0.2]));
         assert_eq!(dry, ["bearing_friction at C", "dry_offset at C"]);
     }
 }

@@ -251,7 +251,7 @@ mod tests {
     /// A mass on dry friction loses its speed at a constant rate and then stays.
     #[test]
     fn a_thrown_mass_stops_after_the_distance_of_coulomb() {
-        let mut joint = Joint::new(0.7, &[Effect::new(Form::Coulomb, [1.3])], &[]);
+        let mut joint = Joint::new(0.7, &[Form::Coulomb.of([1.3])], &[]);
         joint.velocity = -2.1;
         joint.direction = -1.0;
         for k in 0..40_000 {
@@ -264,7 +264,7 @@ mod tests {
 
     #[test]
     fn a_push_below_the_bound_moves_nothing_and_one_above_does() {
-        let mut joint = Joint::new(0.7, &[Effect::new(Form::Coulomb, [1.3])], &[]);
+        let mut joint = Joint::new(0.7, &[Form::Coulomb.of([1.3])], &[]);
         for k in 0..1000 {
             joint.step(f64::from(k) * 1e-4, 1.299, 1e-4);
         }
@@ -277,7 +277,7 @@ mod tests {
 
     #[test]
     fn a_spring_without_friction_keeps_its_energy() {
-        let mut joint = Joint::new(0.013, &[Effect::new(Form::Spring, [1.7])], &[]);
+        let mut joint = Joint::new(0.013, &[Form::Spring.of([1.7])], &[]);
         joint.position = 0.37;
         let energy_j = |joint: &Joint| {
             0.5 * 0.013 * joint.velocity * joint.velocity
@@ -293,10 +293,10 @@ mod tests {
     #[test]
     fn friction_never_gives_energy_back() {
         let laws = [
-            Effect::new(Form::Coulomb, [0.03]),
-            Effect::new(Form::Viscous, [0.011]),
-            Effect::new(Form::Stribeck, [0.02, 0.05, 2.0]),
-            Effect::new(Form::Asymmetric, [-0.017, 0.004]),
+            Form::Coulomb.of([0.03]),
+            Form::Viscous.of([0.011]),
+            Form::Stribeck.of([0.02, 0.05, 2.0]),
+            Form::Asymmetric.of([-0.017, 0.004]),
         ];
         let mut joint = Joint::new(0.004, &laws, &[]);
         let step_s = 5e-5;

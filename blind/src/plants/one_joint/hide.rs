@@ -82,24 +82,15 @@ pub fn draw(setup: &Setup, stratum: Stratum, draw: &mut Draw) -> Vec<Effect> {
 }
 
 fn dry(setup: &Setup, draw: &mut Draw) -> Effect {
-    Effect::new(
-        Form::Coulomb,
-        [setup.scale.effort * draw.uniform(0.08, 0.4)],
-    )
+    Form::Coulomb.of([setup.scale.effort * draw.uniform(0.08, 0.4)])
 }
 
 fn viscous(setup: &Setup, draw: &mut Draw) -> Effect {
-    Effect::new(
-        Form::Viscous,
-        [setup.scale.effort / setup.scale.speed * draw.uniform(0.08, 0.4)],
-    )
+    Form::Viscous.of([setup.scale.effort / setup.scale.speed * draw.uniform(0.08, 0.4)])
 }
 
 fn bias(setup: &Setup, draw: &mut Draw) -> Effect {
-    Effect::new(
-        Form::Bias,
-        [setup.scale.effort * draw.sign() * draw.uniform(0.06, 0.25)],
-    )
+    Form::Bias.of([setup.scale.effort * draw.sign() * draw.uniform(0.06, 0.25)])
 }
 
 /// Asymmetry of the dry friction, of the damping, or of both; a share of what the nominal plant has.
@@ -110,33 +101,27 @@ fn asymmetry(setup: &Setup, draw: &mut Draw) -> Effect {
         false => of.first() * (draw.sign() * draw.uniform(0.3, 0.7)),
     };
     let dry = share(setup.dry, 1);
-    Effect::new(Form::Asymmetric, [dry, share(setup.viscous, 0)])
+    Form::Asymmetric.of([dry, share(setup.viscous, 0)])
 }
 
 fn viscous_asymmetry(setup: &Setup, draw: &mut Draw) -> Effect {
     let viscous = setup.viscous.first() * draw.sign() * draw.uniform(0.4, 0.8);
-    Effect::new(Form::Asymmetric, [0.0, viscous])
+    Form::Asymmetric.of([0.0, viscous])
 }
 
 fn stribeck(setup: &Setup, draw: &mut Draw) -> Effect {
-    Effect::new(
-        Form::Stribeck,
-        [
-            setup.scale.effort * draw.uniform(0.1, 0.35),
-            setup.scale.speed * draw.log_uniform(0.05, 0.3),
-            draw.pick(&[1.0, 2.0, 2.0]),
-        ],
-    )
+    Form::Stribeck.of([
+        setup.scale.effort * draw.uniform(0.1, 0.35),
+        setup.scale.speed * draw.log_uniform(0.05, 0.3),
+        draw.pick(&[1.0, 2.0, 2.0]),
+    ])
 }
 
 fn dahl(setup: &Setup, draw: &mut Draw) -> Effect {
-    Effect::new(
-        Form::Dahl,
-        [
-            setup.scale.effort * draw.uniform(0.1, 0.4),
-            setup.scale.travel * draw.log_uniform(0.02, 0.2),
-        ],
-    )
+    Form::Dahl.of([
+        setup.scale.effort * draw.uniform(0.1, 0.4),
+        setup.scale.travel * draw.log_uniform(0.02, 0.2),
+    ])
 }
 
 /// Admissible when beta_gamma exceeds |beta_delta| (Ikhouane and Rodellar 2007).
@@ -144,22 +129,16 @@ fn bouc_wen(setup: &Setup, draw: &mut Draw) -> Effect {
     let level = setup.scale.effort * draw.uniform(0.12, 0.4);
     let rate = 1.0 / (setup.scale.travel * draw.log_uniform(0.05, 0.3));
     let ratio = draw.sign() * draw.uniform(0.3, 0.8);
-    Effect::new(Form::BoucWen, [level * rate, rate, rate * ratio])
+    Form::BoucWen.of([level * rate, rate, rate * ratio])
 }
 
 fn spring(setup: &Setup, draw: &mut Draw) -> Effect {
-    Effect::new(
-        Form::Spring,
-        [setup.scale.effort / setup.scale.travel * draw.uniform(0.12, 0.5)],
-    )
+    Form::Spring.of([setup.scale.effort / setup.scale.travel * draw.uniform(0.12, 0.5)])
 }
 
 fn cubic(setup: &Setup, draw: &mut Draw) -> Effect {
     let travel = setup.scale.travel;
-    Effect::new(
-        Form::Cubic,
-        [setup.scale.effort / (travel * travel * travel) * draw.uniform(0.15, 0.6)],
-    )
+    Form::Cubic.of([setup.scale.effort / (travel * travel * travel) * draw.uniform(0.15, 0.6)])
 }
 
 fn hard_spring(setup: &Setup, draw: &mut Draw) -> Effect {
@@ -174,14 +153,11 @@ fn softening(setup: &Setup, draw: &mut Draw) -> Effect {
 fn ripple(setup: &Setup, draw: &mut Draw) -> Effect {
     let amplitude = setup.scale.effort * draw.uniform(0.08, 0.3);
     let (s, c) = libm::sincos(draw.uniform(0.0, TAU));
-    Effect::new(
-        Form::Ripple,
-        [
-            amplitude * s,
-            amplitude * c,
-            setup.scale.travel / draw.uniform(1.5, 6.0),
-        ],
-    )
+    Form::Ripple.of([
+        amplitude * s,
+        amplitude * c,
+        setup.scale.travel / draw.uniform(1.5, 6.0),
+    ])
 }
 
 fn lag(setup: &Setup, draw: &mut Draw) -> Effect {
@@ -189,88 +165,67 @@ fn lag(setup: &Setup, draw: &mut Draw) -> Effect {
         Kind::Axis(_) => (0.003, 0.012),
         Kind::Bench(_) => (0.015, 0.08),
     };
-    Effect::new(Form::Lag, [draw.log_uniform(low_s, high_s)])
+    Form::Lag.of([draw.log_uniform(low_s, high_s)])
 }
 
 fn gain(_: &Setup, draw: &mut Draw) -> Effect {
-    Effect::new(Form::Gain, [draw.sign() * draw.uniform(0.08, 0.3)])
+    Form::Gain.of([draw.sign() * draw.uniform(0.08, 0.3)])
 }
 
 fn skew(_: &Setup, draw: &mut Draw) -> Effect {
-    Effect::new(Form::Skew, [draw.sign() * draw.log_uniform(0.002, 0.015)])
+    Form::Skew.of([draw.sign() * draw.log_uniform(0.002, 0.015)])
 }
 
 fn quadratic_drag(setup: &Setup, draw: &mut Draw) -> Effect {
-    Effect::new(
-        Form::Square,
-        [
-            setup.scale.effort * draw.uniform(0.1, 0.35),
-            setup.scale.speed,
-        ],
-    )
+    Form::Square.of([
+        setup.scale.effort * draw.uniform(0.1, 0.35),
+        setup.scale.speed,
+    ])
 }
 
 fn thermal_fade(setup: &Setup, draw: &mut Draw) -> Effect {
-    Effect::new(
-        Form::WorkFade,
-        [
-            setup.scale.effort * draw.uniform(0.25, 0.5),
-            setup.scale.travel * draw.uniform(4.0, 12.0),
-        ],
-    )
+    Form::WorkFade.of([
+        setup.scale.effort * draw.uniform(0.25, 0.5),
+        setup.scale.travel * draw.uniform(4.0, 12.0),
+    ])
 }
 
 fn reversal_overshoot(setup: &Setup, draw: &mut Draw) -> Effect {
-    Effect::new(
-        Form::Overshoot,
-        [
-            setup.scale.effort * draw.uniform(0.2, 0.5),
-            setup.scale.travel * draw.uniform(0.1, 0.35),
-        ],
-    )
+    Form::Overshoot.of([
+        setup.scale.effort * draw.uniform(0.2, 0.5),
+        setup.scale.travel * draw.uniform(0.1, 0.35),
+    ])
 }
 
 fn disturbance(setup: &Setup, draw: &mut Draw) -> Effect {
-    Effect::new(
-        Form::Disturbance,
-        [
-            setup.scale.effort * draw.uniform(0.1, 0.35),
-            draw.log_uniform(0.25, 3.0),
-        ],
-    )
+    Form::Disturbance.of([
+        setup.scale.effort * draw.uniform(0.1, 0.35),
+        draw.log_uniform(0.25, 3.0),
+    ])
 }
 
 fn load_friction(_: &Setup, draw: &mut Draw) -> Effect {
-    Effect::new(Form::LoadShare, [draw.uniform(0.1, 0.35)])
+    Form::LoadShare.of([draw.uniform(0.1, 0.35)])
 }
 
 fn settling(setup: &Setup, draw: &mut Draw) -> Effect {
-    Effect::new(
-        Form::Settling,
-        [
-            setup.scale.effort * draw.uniform(0.3, 0.6),
-            draw.uniform(0.15, 0.5),
-            setup.scale.travel * draw.uniform(0.1, 0.3),
-        ],
-    )
+    Form::Settling.of([
+        setup.scale.effort * draw.uniform(0.3, 0.6),
+        draw.uniform(0.15, 0.5),
+        setup.scale.travel * draw.uniform(0.1, 0.3),
+    ])
 }
 
 fn dead_zone(setup: &Setup, draw: &mut Draw) -> Effect {
-    Effect::new(
-        Form::DeadZone,
-        [setup.scale.effort * draw.uniform(0.1, 0.3)],
-    )
+    Form::DeadZone.of([setup.scale.effort * draw.uniform(0.1, 0.3)])
 }
 
 fn saturation(setup: &Setup, draw: &mut Draw) -> Effect {
-    Effect::new(
-        Form::Saturation,
-        [setup.scale.effort * draw.uniform(0.5, 0.9)],
-    )
+    Form::Saturation.of([setup.scale.effort * draw.uniform(0.5, 0.9)])
 }
 
 fn current_hysteresis(_: &Setup, draw: &mut Draw) -> Effect {
-    Effect::new(Form::Play, [draw.uniform(0.06, 0.2)])
+    Form::Play.of([draw.uniform(0.06, 0.2)])
 }
 
 /// Narrower or wider than the table's window, of 1.5° to 1.8°; brake A has none.
@@ -284,8 +239,5 @@ fn backlash_width(setup: &Setup, draw: &mut Draw) -> Effect {
     } else {
         printed_deg + draw.uniform(1.0, 4.0)
     };
-    Effect::new(
-        Form::Backlash,
-        [width_deg * rigproof_spec::units::RAD_PER_DEG],
-    )
+    Form::Backlash.of([width_deg * rigproof_spec::units::RAD_PER_DEG])
 }

@@ -134,6 +134,6 @@ fn effect(setup: &Setup, form: Form, draw: &mut Draw) -> Effect {
     match form.facts().stage {
         Stage::Drive => in_brake(form, GREATEST_NM, setup.duration_s, draw),
         Stage::Joint => typical.force(form, draw),
-        _ => Effect::new(form, [draw.log_uniform(0.003, 0.02)]),
+        _ => form.of([draw.log_uniform(0.003, 0.02)]),
     }
 }

@@ -229,19 +229,13 @@ fn currents(draw: &mut Draw, duration_s: f64) -> Currents {
 }
 
 fn dry(draw: &mut Draw, scale: Scale) -> Effect {
-    Effect::new(Form::Coulomb, [scale.effort * draw.uniform(0.1, 0.3)])
+    Form::Coulomb.of([scale.effort * draw.uniform(0.1, 0.3)])
 }
 
 fn viscous(draw: &mut Draw, scale: Scale) -> Effect {
-    Effect::new(
-        Form::Viscous,
-        [scale.effort / scale.speed * draw.uniform(0.1, 0.3)],
-    )
+    Form::Viscous.of([scale.effort / scale.speed * draw.uniform(0.1, 0.3)])
 }
 
 fn bias(draw: &mut Draw, scale: Scale) -> Effect {
-    Effect::new(
-        Form::Bias,
-        [scale.effort * draw.sign() * draw.uniform(0.05, 0.15)],
-    )
+    Form::Bias.of([scale.effort * draw.sign() * draw.uniform(0.05, 0.15)])
 }

@@ -342,9 +342,9 @@ proptest! {
         bristle: bool,
     ) {
         let law = if bristle {
-            Effect::new(Form::Dahl, [level, travel])
+            Form::Dahl.of([level, travel])
         } else {
-            Effect::new(Form::BoucWen, [level / travel, 1.0 / travel, ratio / travel])
+            Form::BoucWen.of([level / travel, 1.0 / travel, ratio / travel])
         };
         let mut elements = [Element::new(law)];
         let steps = 20_000;
