@@ -71,30 +71,32 @@ fn every_form_shows_and_the_step_is_fine_enough() {
     assert!(lost < 2, "{lost}");
 }
 
+/// What a form resists with along a sine under a load that swings.
+fn resisted(form: Form, values: [f64; 3]) -> Vec<f64> {
+    let mut element = Element::new(form.of(values));
+    let step_s = 1e-4;
+    let at = |k: i32| 0.4 * libm::sin(5.0 * f64::from(k) * step_s);
+    let resists = (0..25_000).map(|k| {
+        let travel = at(k + 1) - at(k);
+        let instant = Instant {
+            time_s: f64::from(k) * step_s,
+            position: at(k),
+            velocity: travel / step_s,
+            direction: travel.signum(),
+            load: 1.3 * libm::cos(11.0 * f64::from(k) * step_s),
+            brake: 0.0,
+        };
+        let force = element.force(&instant, travel, step_s);
+        let resists = force + instant.direction * element.bound(&instant);
+        element.advance(&instant, travel, step_s);
+        resists
+    });
+    resists.collect()
+}
+
 /// Two forms of one mechanism with the same level resist differently along one motion: by a twentieth of the level or more.
 #[test]
 fn forms_of_a_mechanism_differ() {
-    let path = |form: Form, values: [f64; 3]| -> Vec<f64> {
-        let mut element = Element::new(form.of(values));
-        let step_s = 1e-4;
-        let at = |k: i32| 0.4 * libm::sin(5.0 * f64::from(k) * step_s);
-        let resists = (0..25_000).map(|k| {
-            let travel = at(k + 1) - at(k);
-            let instant = Instant {
-                time_s: f64::from(k) * step_s,
-                position: at(k),
-                velocity: travel / step_s,
-                direction: travel.signum(),
-                load: 1.3 * libm::cos(11.0 * f64::from(k) * step_s),
-                brake: 0.0,
-            };
-            let force = element.force(&instant, travel, step_s);
-            let resists = force + instant.direction * element.bound(&instant);
-            element.advance(&instant, travel, step_s);
-            resists
-        });
-        resists.collect()
-    };
     let groups: [&[(Form, [f64; 3])]; 7] = [
         &[
             (Form::Stribeck, [1.0, 0.3, 2.0]),
@@ -138,7 +140,7 @@ fn forms_of_a_mechanism_differ() {
     for group in groups {
         let runs: Vec<Vec<f64>> = group
             .iter()
-            .map(|(form, values)| path(*form, *values))
+            .map(|(form, values)| resisted(*form, *values))
             .collect();
         for (k, one) in runs.iter().enumerate() {
             for other in runs.iter().skip(k + 1) {
