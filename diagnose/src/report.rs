@@ -372,6 +372,9 @@ pub struct NullDirection {
 pub struct Unknown {
     /// The variable that orders it best.
     pub variable: &'static str,
+    /// The joint whose motion it is, where there are several.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub joint: Option<&'static str>,
     /// Unit of the variable.
     pub variable_unit: String,
     /// Whether the curve is a level along the motion, as a friction's is, instead of an effort.
