@@ -151,21 +151,6 @@ pub fn whole(rig: &Rig, file: &Path, reading: &Reading) -> Result<(Recording, Ho
     Ok((recording, HowRead::Text(dialect)))
 }
 
-/// Reads a recording of a rig and cuts it, and says how it was read.
-///
-/// # Errors
-/// The file is not usable, or the cut leaves too little.
-pub fn recording(
-    rig: &Rig,
-    file: &Path,
-    cut: Cut,
-    reading: &Reading,
-) -> Result<(Recording, HowRead), Failure> {
-    let (recording, how) = whole(rig, file, reading)?;
-    let kept = cut.kept(file, &recording.time_s)?;
-    Ok((recording.only(&kept), how))
-}
-
 /// Reads a recording of any plant and cuts it, and says how it was read.
 ///
 /// # Errors
