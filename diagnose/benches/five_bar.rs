@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a bench may stop at the first surprise")]
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use rigproof_diagnose::Options;
+use rigproof_diagnose::{Options, diagnose};
 use rigproof_diagnose::plants::five_bar::experiment::plan::Plan;
 use rigproof_diagnose::plants::five_bar::experiment::play::play;
 use rigproof_diagnose::plants::five_bar::free_run::Model;
