@@ -221,21 +221,6 @@ pub fn whole(
     Ok((recording, HowRead::of_text(dialect, &remarks)))
 }
 
-/// Reads a recording of a rig and cuts it, and says how it was read.
-///
-/// # Errors
-/// The file is not usable, or the cut leaves too little.
-pub fn recording(
-    rig: &Rig,
-    file: &Path,
-    cut: Cut,
-    reading: &RigReading,
-) -> Result<(Recording, HowRead), Failure> {
-    let (recording, how) = whole(rig, file, reading)?;
-    let kept = cut.kept(file, &recording.time_s)?;
-    Ok((recording.only(&kept), how))
-}
-
 /// Reads a recording of any plant and cuts it, and says how it was read.
 ///
 /// # Errors

@@ -124,6 +124,7 @@ impl Scatter {
     pub fn described(&self) -> Unknown {
         Unknown {
             variable: "trial",
+            joint: None,
             variable_unit: "s".to_owned(),
             along_motion: true,
             share: self.share,

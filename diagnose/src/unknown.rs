@@ -171,6 +171,7 @@ fn describe(problem: &Problem, residual: &[f64], variable: &Variable, share: f64
     let parity = parity(&all);
     Unknown {
         variable: variable.name,
+        joint: problem.run.place_name(variable.at),
         variable_unit: variable.unit.clone(),
         along_motion: variable.level,
         share,

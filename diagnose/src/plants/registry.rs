@@ -1,7 +1,7 @@
 //! This file is the registry of plants, a line each, and what is diagnosed whichever plant it is: a rig's description and a recording of it.
 
 use crate::diagnose::{Diagnosis, Options, diagnose};
-use crate::plant::{Described, Plant, Replayed};
+use crate::plant::{Described, Plant, Replayed, Simulated, Unsimulated};
 use rand_pcg::Pcg64Mcg;
 use rigproof_trace::csv::{Dialect, Hints};
 use rigproof_trace::rig::Rig;
@@ -137,6 +137,32 @@ macro_rules! plants {
                         })
                     })+
                     _ => Err("the recording is one of another plant".to_owned()),
+                }
+            }
+
+            /// A model beside a recording; where it runs freely it starts from the recorded state every `restart_s`.
+            ///
+            /// # Errors
+            /// The recording is at fault, or the model cannot be simulated.
+            pub fn simulated(
+                &self,
+                model: &Description,
+                recording: &Measured,
+                restart_s: f64,
+            ) -> Result<Simulated, Unsimulated> {
+                match (self, model, recording) {
+                    $((Description::$name(own), Description::$name(model), Measured::$name(recording)) => {
+                        own.simulated(model, recording, restart_s)
+                    })+
+                    _ => Err(Unsimulated::Model("the recording is one of another plant".to_owned())),
+                }
+            }
+
+            /// Why a calibration is none of this rig; `None` if it is one.
+            pub fn refuses(&self, calibration: &Description) -> Option<String> {
+                match (self, calibration) {
+                    $((Description::$name(own), Description::$name(calibration)) => own.refuses(Some(calibration)),)+
+                    $((Description::$name(own), _) => own.refuses(None),)+
                 }
             }
 

@@ -5,7 +5,6 @@ use super::{candidates, columns, locate, noise};
 use crate::cause::{Cause, JointId, Place};
 use crate::locate::Regimes;
 use crate::plant::{Clock, Columns, Rules, Run};
-use crate::unknown::Variable;
 use crate::weak::Windows;
 use crate::whiten::Whitener;
 use nalgebra::{Matrix2, Vector2};
@@ -334,8 +333,8 @@ impl Run for FiveBarRun {
         &Rules::LINKAGE
     }
 
-    fn slice(&self, from: usize, to: usize) -> Box<dyn Run> {
-        Box::new(self.part(from, to))
+    fn slice(&self, from: usize, to: usize) -> Option<Box<dyn Run>> {
+        Some(Box::new(self.part(from, to)))
     }
 
     fn effort(&self) -> Vec<f64> {
@@ -466,7 +465,18 @@ impl Run for FiveBarRun {
         locate::regimes(self, windows)
     }
 
-    fn variables(&self, _: &Windows) -> Vec<Variable> {
-        Vec::new()
+    /// The joint's row of the form at each window's centre, as the row combines both equations.
+    fn shares(&self, at: Place, windows: &Windows) -> Vec<f64> {
+        let Some(joint) = joint_at(at) else {
+            return vec![0.0; windows.centres.len()];
+        };
+        let all: Vec<[f64; 2]> = self.joint_rows(joint).collect();
+        let rows = windows.centres.iter().enumerate();
+        rows.map(|(row, &centre)| {
+            let own = all.get(centre).copied().unwrap_or_default();
+            let shares = windows.shares(row);
+            own.iter().zip(&shares).map(|(g, share)| g * share).sum()
+        })
+        .collect()
     }
 }

@@ -207,8 +207,8 @@ impl Run for JointRun {
         self.kind
     }
 
-    fn slice(&self, from: usize, to: usize) -> Box<dyn Run> {
-        Box::new(self.part(from, to))
+    fn slice(&self, from: usize, to: usize) -> Option<Box<dyn Run>> {
+        Some(Box::new(self.part(from, to)))
     }
 
     fn effort(&self) -> Vec<f64> {
