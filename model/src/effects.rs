@@ -23,6 +23,7 @@ mod ripple;
 mod settling;
 mod spring;
 mod stribeck;
+mod velocity_power;
 mod viscous;
 
 pub use lag::{first_order_lag, first_order_lag_straight, lagged};
@@ -202,6 +203,7 @@ pub const LIBRARY: &[Entry] = &[
     viscous::ENTRY,
     direction_asymmetry::ENTRY,
     stribeck::ENTRY,
+    velocity_power::ENTRY,
     presliding::ENTRY,
     asymmetric_presliding::ENTRY,
     hysteresis::ENTRY,

@@ -139,7 +139,10 @@ vocabulary! {
     /// Cubic spring.
     NonlinearSpring = "nonlinear_spring" | "duffing" | "cubic spring" [needed("cubic", EffortPerCubicTravel)],
     /// Friction proportional to a power of speed.
-    VelocityPower = "velocity_power" | "quadratic drag" | "turbulent drag" [],
+    VelocityPower = "velocity_power" | "quadratic drag" | "turbulent drag" [
+        needed("coefficient", Effort),
+        needed("exponent", Number).above_zero(),
+    ],
 }
 
 impl Mechanism {
