@@ -73,7 +73,7 @@ fn elementary(problem: &Problem) -> Vec<Vec<f64>> {
     let PlantRun::FiveBar(_) = problem.plant else {
         return Vec::new();
     };
-    let causes = elementary_mechanisms().flat_map(|mechanism| {
+    let causes = elementary_mechanisms().into_iter().flat_map(|mechanism| {
         Joint::ALL.map(|joint| Cause {
             mechanism,
             joint: Some(joint),

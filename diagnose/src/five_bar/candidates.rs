@@ -10,7 +10,7 @@ use crate::rules::{
     SHIFTS_FIVE_BAR, SOFTEST_BRISTLE, WIDEST_PEAK,
 };
 use rigproof_model::effects::facts::{Shapes, Where};
-use rigproof_model::effects::{LIBRARY, entry, facts};
+use rigproof_model::effects::{Entry, LIBRARY, entry, facts};
 use rigproof_spec::joint::Joint;
 
 /// The causes that have a meaning on this layout.
@@ -40,8 +40,11 @@ pub fn causes(run: &FiveBarRun) -> Vec<Cause> {
     };
     let of = |place| {
         let entries = LIBRARY.iter();
-        let own = entries.filter(move |entry| entry.facts.asked.five_bar == place);
-        own.flat_map(move |entry| {
+        let mut own: Vec<&Entry> = entries
+            .filter(|entry| entry.facts.asked.five_bar == place)
+            .collect();
+        own.sort_by_key(|entry| entry.facts.turn);
+        own.into_iter().flat_map(move |entry| {
             let mechanism = entry.mechanism;
             at(place)
                 .into_iter()

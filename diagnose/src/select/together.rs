@@ -6,8 +6,8 @@ use super::weigh::is_noise;
 use super::{Found, Gates, refs};
 use crate::problem::{Cause, PlantRun, Problem, Term};
 use crate::regression::{Blocks, Fit, fit};
-use rigproof_model::effects::facts::{Beside, Family};
-use rigproof_model::effects::{LIBRARY, facts};
+use rigproof_model::effects::facts::{Beside, Facts, Family};
+use rigproof_model::effects::{Entry, LIBRARY, facts};
 use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
 
@@ -24,12 +24,25 @@ fn beside_of(mechanism: Mechanism) -> Beside {
     facts(mechanism).map_or(Beside::Nothing, |facts| facts.beside)
 }
 
-/// Elementary mechanisms, in the order of the library: one number without memory.
-pub(crate) fn elementary() -> impl Iterator<Item = Mechanism> {
+/// Elementary mechanisms, friction first: one number without memory.
+pub(crate) fn elementary() -> Vec<Mechanism> {
+    those_beside(&[Beside::Elementary])
+}
+
+/// The mechanisms that do one of these to names beside them: elementary ones first, of these friction, else in the order of the library.
+fn those_beside(wanted: &[Beside]) -> Vec<Mechanism> {
     let entries = LIBRARY.iter();
-    entries
-        .filter(|entry| entry.facts.beside == Beside::Elementary)
-        .map(|entry| entry.mechanism)
+    let mut own: Vec<&Entry> = entries
+        .filter(|entry| wanted.contains(&entry.facts.beside))
+        .collect();
+    own.sort_by_key(|entry| {
+        let Facts { beside, family, .. } = entry.facts;
+        (
+            beside != Beside::Elementary,
+            family != Family::FrictionOfMotion,
+        )
+    });
+    own.into_iter().map(|entry| entry.mechanism).collect()
 }
 
 /// Whether a mechanism is elementary: it is named first, and the others must still be needed beside or instead of it.
@@ -73,7 +86,7 @@ pub(super) fn beside(
         let Some(joint) = bent.term.cause.joint.filter(|_| is_bent) else {
             continue;
         };
-        for term in terms_at(problem, &refs(nominal, found), joint, elementary()) {
+        for term in terms_at(problem, &refs(nominal, found), joint, &elementary()) {
             let mut others = refs(nominal, found);
             others.remove(nominal.len() + index);
             let mut with = others.clone();
@@ -101,8 +114,10 @@ pub(super) fn masking(
         return None;
     }
     let joints = run.parameters.layout.brakes().iter();
+    // What can mask one another, one number each.
+    let maskers = those_beside(&[Beside::Elementary, Beside::Masks]);
     let at_joints: Vec<Vec<Term>> = joints
-        .map(|joint| terms_at(problem, common, *joint, maskers()))
+        .map(|joint| terms_at(problem, common, *joint, &maskers))
         .collect();
     [2, 3].into_iter().find_map(|count| {
         let sets = at_joints.iter().flat_map(|terms| sets_of(terms, count));
@@ -116,15 +131,6 @@ pub(super) fn masking(
         let mut enough = enough.into_iter();
         enough.find_map(|(_, set)| all_pass(problem, common, &set, blocks, gates))
     })
-}
-
-/// What can mask one another, one number each.
-fn maskers() -> impl Iterator<Item = Mechanism> {
-    let masks = |beside| matches!(beside, Beside::Elementary | Beside::Masks);
-    let entries = LIBRARY.iter();
-    entries
-        .filter(move |entry| masks(entry.facts.beside))
-        .map(|entry| entry.mechanism)
 }
 
 /// Every choice of so many terms, in their order.
@@ -172,9 +178,9 @@ fn terms_at(
     problem: &Problem,
     taken: &[&Term],
     joint: Joint,
-    mechanisms: impl Iterator<Item = Mechanism>,
+    mechanisms: &[Mechanism],
 ) -> Vec<Term> {
-    let causes = mechanisms.map(|mechanism| Cause {
+    let causes = mechanisms.iter().map(|&mechanism| Cause {
         mechanism,
         joint: Some(joint),
     });
