@@ -1,6 +1,7 @@
 //! This file claims that the weak form holds on exact motion, and what is done to signals.
 
 use super::*;
+use rigproof_spec::effect::Mechanism;
 
 use crate::recorded::{INERTIA, NOMINAL, exact_axis};
 use crate::regression::reduced_target;

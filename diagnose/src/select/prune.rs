@@ -121,7 +121,6 @@ mod tests {
     use crate::recorded::{Noise, exact_bench};
     use crate::weak::Windows;
     use rigproof_spec::effect::Mechanism;
-    use rigproof_spec::effect::Mechanism;
     use rigproof_spec::joint::Joint;
 
     #[test]
