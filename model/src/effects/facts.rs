@@ -15,6 +15,9 @@ pub struct Facts {
     pub words: Words,
     /// Which plants it is looked for on.
     pub asked: Asked,
+    /// Its turn among those of one place of the five-bar: what is tried and offered earlier has a lower one, equal ones come in the order of
+    /// the library.
+    pub turn: u8,
     /// The shapes that are tried.
     pub shapes: Shapes,
     /// What it does to names beside it at the same joint.
@@ -43,6 +46,7 @@ impl Facts {
             has_forms: false,
             words,
             asked,
+            turn: 0,
             shapes: Shapes::None,
             beside: Beside::Nothing,
             at_rest: AtRest::Nothing,

@@ -14,6 +14,7 @@ pub(super) const ENTRY: Entry = Entry {
     refuted_by: "an effort that follows a step of the command at once",
     equation: "time_constant·de/dt = gain·u − e",
     facts: Facts {
+        turn: 4,
         shapes: Shapes::Lag,
         ..Facts::of(
             Family::Drive,
@@ -37,6 +38,7 @@ pub(super) const GAIN_ENTRY: Entry = Entry {
     refuted_by: "the same effort error at small and at large command",
     equation: "e = (1 + fraction)·gain·u",
     facts: Facts {
+        turn: 1,
         beside: Beside::Masks,
         at_rest: AtRest::OfBrake(first),
         shows: Shows::Effort,
@@ -62,6 +64,7 @@ pub(super) const SKEW_ENTRY: Entry = Entry {
     refuted_by: "an effort error that does not follow the slope of the effort",
     equation: "e(t) = gain·u(t − delay)",
     facts: Facts {
+        turn: 4,
         shapes: Shapes::Shift,
         ..Facts::of(
             Family::Sensor,

@@ -19,6 +19,7 @@ pub(super) const ENTRY: Entry = Entry {
     refuted_by: "no line in the spectrum over position",
     equation: "sine·sin(2π·q/period) + cosine·cos(2π·q/period)",
     facts: Facts {
+        turn: 9,
         shapes: Shapes::Period,
         shows: Shows::Position,
         refit: Refit {

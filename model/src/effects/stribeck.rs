@@ -23,6 +23,7 @@ pub(super) const ENTRY: Entry = Entry {
     refuted_by: "the same resistance while slowing down to rest as in fast motion",
     equation: "peak·exp(−|q̇/speed|^exponent)·sgn(q̇), reached within `travel` where there is one",
     facts: Facts {
+        turn: 2,
         has_forms: true,
         shapes: Shapes::Peak,
         beside: Beside::Bends,
