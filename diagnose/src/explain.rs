@@ -9,6 +9,7 @@ use crate::candidates::{all_variants, causes};
 use crate::cause::Cause;
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, fit, free_columns, reduced_target};
+use crate::rules::{LISTED, ROUNDS};
 use crate::select::{Found, Selection, Stage, refs, usable_rms};
 use fitted::{Fitted, Folds};
 use score::{Judge, prior};
@@ -39,9 +40,6 @@ impl Explanations {
         self.living.iter().filter(holds).map(|own| own.weight).sum()
     }
 }
-
-/// Rounds: the noise is taken from the sensors first, and with what the best explanation of that round leaves in the second.
-const ROUNDS: usize = 2;
 
 /// Explains a recording on top of the terms of its nominal model.
 pub fn explain(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection, Explanations) {
@@ -78,9 +76,6 @@ fn round_of(problem: &Problem, nominal: &[Term], noise: f64) -> Vec<Explanation>
     let all = beam::search(problem, &folds, &judge, &bare, &tried);
     weigh(problem, &folds, &judge, &bare, all, noise)
 }
-
-/// The least weight of an explanation that is listed.
-const LISTED: f64 = 1e-4;
 
 fn weigh(
     problem: &Problem,

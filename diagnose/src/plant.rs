@@ -8,10 +8,11 @@ mod simulated;
 use crate::candidates::standard_shapes;
 use crate::cause::{Cause, JointId, Place};
 use crate::locate::{self, Regimes};
+use crate::rules::{MOST_AMBIGUOUS, NOISE_ORDER, WIDTHS_S};
 use crate::signals::unit_parameters;
 use crate::unknown::{Variable, variables};
-use crate::weak::{MOST_AMBIGUOUS, Windows, is_recorded, untold};
-use crate::whiten::{ORDER, Whitener};
+use crate::weak::{Windows, is_recorded, untold};
+use crate::whiten::Whitener;
 use core::fmt::Debug;
 use rigproof_model::bench::column;
 use rigproof_model::effects::{Form, Instant, entry, law};
@@ -24,9 +25,6 @@ pub use described::{At, Described, Plant, Replica, Shown};
 pub use replayed::{Frame, RESTART_S, Replayed};
 pub use rules::Rules;
 pub use simulated::{Simulated, SimulatedOutput, Unsimulated};
-
-/// Width of windows where a plant has no wish of its own, s.
-const USUAL_WIDTH_S: f64 = 0.040;
 
 /// The clock of a recording: regular samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -132,7 +130,8 @@ pub trait Run: Debug + Send + Sync {
 
     /// The windows that suit it, those given up in which its sensors tell too little.
     fn windows(&self) -> Windows {
-        self.windows_of(USUAL_WIDTH_S)
+        let [narrowest_s, ..] = WIDTHS_S;
+        self.windows_of(narrowest_s)
     }
 
     /// Gives up the rows of windows in which the sensors tell too little: a sample is missing, or a sense of motion is not known.
@@ -169,7 +168,7 @@ pub trait Run: Debug + Send + Sync {
 
     /// The noise model of the usable rows; `excess` is a variance of white effort that nothing explains.
     fn whitener(&self, windows: &Windows, excess: f64) -> Whitener {
-        let covariance = windows.noise_covariance(self.sensors(), excess, ORDER + 1);
+        let covariance = windows.noise_covariance(self.sensors(), excess, NOISE_ORDER + 1);
         Whitener::new(&covariance, &windows.usable)
     }
 

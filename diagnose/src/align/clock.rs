@@ -1,13 +1,9 @@
 //! This file checks the clock of a recording.
 
 use super::{Fault, LONGEST_GAP_S};
+use crate::rules::{EVEN, LONGEST_GAP_STEPS, LONGEST_STEP_S};
 use core::cmp::Ordering;
 use rigproof_trace::clock::Grid;
-
-/// A sample interval longer than this leaves fewer than four samples to the widest window of the weak form, s.
-const LONGEST_STEP_S: f64 = 0.04;
-/// How far a stamp may lie off the steps counted from the first one, in steps, where the median is the step.
-const EVEN: f64 = 1e-3;
 
 /// The step between samples: the median where that fits all stamps, else the mean of the even grid through them, so that
 /// rounded stamps do not add up.
@@ -29,7 +25,7 @@ pub(crate) fn median_step(time_s: &[f64]) -> f64 {
 
 pub(crate) fn check_clock(time_s: &[f64], step_s: f64) -> Result<(), Fault> {
     check_pace(time_s, step_s)?;
-    let longest = LONGEST_GAP_S.max(8.0 * step_s);
+    let longest = LONGEST_GAP_S.max(LONGEST_GAP_STEPS * step_s);
     for pair in time_s.windows(2) {
         if let [before, after] = pair
             && after.partial_cmp(before) != Some(Ordering::Greater)

@@ -2,6 +2,7 @@
 
 use crate::problem::{Problem, Rows, Term};
 use crate::regression::{Blocks, dot};
+use crate::rules::FEWEST_ROWS;
 use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
 
@@ -11,9 +12,6 @@ pub struct Folds {
     /// Usable rows of each block.
     pub counts: Vec<f64>,
 }
-
-/// Fewest usable rows of a block that is counted.
-const FEWEST_ROWS: usize = 5;
 
 impl Folds {
     /// The blocks in which enough rows are usable.

@@ -2,15 +2,10 @@
 
 use super::fitted::{Fitted, Folds};
 use crate::problem::{Problem, Term};
-use rigproof_model::effects::entry;
+use crate::rules::{A_NUMBER, RELEVANT, ROWS_A_SAMPLE, USUAL_ODDS};
+use rigproof_model::effects::facts::Usual;
+use rigproof_model::effects::{entry, facts};
 use rigproof_spec::effect::Mechanism;
-
-/// Share of the effort below which nothing matters to anybody: what a model and its discretisation leave open anyhow.
-pub const RELEVANT: f64 = 0.003;
-/// Rows that say as much as one that is independent of all others: what a model leaves is no white noise.
-pub const ROWS_A_SAMPLE: f64 = 8.0;
-/// What each number beyond the first costs, in natural logarithms of odds.
-pub const A_NUMBER: f64 = 1.0;
 
 /// Judges explanations of one problem.
 pub struct Judge {
@@ -60,22 +55,8 @@ fn odds(term: &Term) -> f64 {
 
 /// How common a mechanism is among those that models leave out.
 fn usual(mechanism: Mechanism) -> f64 {
-    match mechanism {
-        Mechanism::DryOffset | Mechanism::Viscous => -2.0,
-        Mechanism::ConstantBias | Mechanism::GainError | Mechanism::ChannelSkew => -2.5,
-        Mechanism::Lag | Mechanism::Stribeck | Mechanism::Presliding | Mechanism::Saturation => {
-            -3.0
-        }
-        Mechanism::Spring
-        | Mechanism::DirectionAsymmetry
-        | Mechanism::Ripple
-        | Mechanism::LoadDependent
-        | Mechanism::LoadFriction
-        | Mechanism::VelocityPower
-        | Mechanism::Backlash => -3.5,
-        Mechanism::BiasDrift | Mechanism::EncoderScale => -5.0,
-        _ => -4.0,
-    }
+    let usual = facts(mechanism).map_or(Usual::Rare, |facts| facts.usual);
+    USUAL_ODDS.get(usual as usize).copied().unwrap_or(0.0)
 }
 
 /// Whether a passive mechanism came out giving energy.

@@ -1,6 +1,6 @@
 //! This file is what a brake may do with its current other than the model says: backlash, memory, delay, limit, heat.
 
-use super::facts::{Alone, Asked, Facts, Family, Shapes, Where, Words};
+use super::facts::{Alone, Asked, Facts, Family, Shapes, Usual, Where, Words};
 use super::{Entry, Form, OfBrake};
 use rigproof_spec::effect::Mechanism;
 
@@ -93,6 +93,7 @@ pub(super) const SATURATION: Entry = Entry {
     refuted_by: "a torque that grows with the current beyond the limit",
     equation: "τ follows min(I, limit)",
     facts: Facts {
+        usual: Usual::Common,
         turn: 5,
         shapes: Shapes::CurrentLimit,
         ..Facts::of(

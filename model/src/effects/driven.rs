@@ -1,6 +1,6 @@
 //! This file is what a driven joint has as a whole: friction by load or by time, another inertia, an inertia behind a spring.
 
-use super::facts::{Alone, Asked, Facts, Family, Shapes, Where, Words};
+use super::facts::{Alone, Asked, Facts, Family, Shapes, Usual, Where, Words};
 use super::{Entry, Form, OfJoint};
 use rigproof_spec::effect::Mechanism;
 
@@ -12,7 +12,12 @@ pub(super) const LOAD_FRICTION: Entry = Entry {
     refuted_by: "the same friction whether the joint drives hard or coasts",
     equation: "share·|e|·sgn(q̇), e the effort at the joint",
     facts: Facts {
-        shapes: Shapes::Values(&[0.03, 0.06, 0.1, 0.15, 0.22, 0.32]),
+        usual: Usual::Seldom,
+        shapes: Shapes::Geometric {
+            low: 0.03,
+            high: 0.5,
+            count: 7,
+        },
         ..Facts::of(
             Family::FrictionOfMotion,
             Asked {

@@ -1,6 +1,8 @@
 //! This file is what can be wrong with a linkage as a whole: its masses, its weight, the force sensor at its tip.
 
-use super::facts::{Alone, Asked, AtRest, End, Facts, Family, Limit, Shapes, Where, Words, first};
+use super::facts::{
+    Alone, Asked, AtRest, End, Facts, Family, Limit, Shapes, Usual, Where, Words, first,
+};
 use super::{Entry, Form, OfLinkage, OfSensor};
 use rigproof_spec::effect::Mechanism;
 
@@ -12,6 +14,7 @@ pub(super) const LOAD_DEPENDENT: Entry = Entry {
     refuted_by: "the same friction whether the hand pulls hard or hardly at all",
     equation: "arm·|F|·sgn(ω), F the force on the tip",
     facts: Facts {
+        usual: Usual::Seldom,
         turn: 7,
         has_forms: true,
         at_rest: AtRest::OfLoad(first),
@@ -103,6 +106,7 @@ pub(super) const ENCODER_SCALE: Entry = Entry {
     refuted_by: "a full turn that the encoder counts as a full turn",
     equation: "recorded angle = (1 + fraction)·angle",
     facts: Facts {
+        usual: Usual::Exceptional,
         shapes: Shapes::Values(&[0.005, -0.005, 0.04, -0.04]),
         limit: Some(Limit {
             of: Mechanism::EncoderOffset,

@@ -1,6 +1,6 @@
 //! This file is a linear spring about the position zero (a cable, a bellows).
 
-use super::facts::{Alone, Asked, End, Facts, Family, Limit, Shows, Where, Words};
+use super::facts::{Alone, Asked, End, Facts, Family, Limit, Shows, Usual, Where, Words};
 use super::{Entry, Form, Instant, Law, parameter};
 use rigproof_spec::effect::Mechanism;
 
@@ -16,6 +16,7 @@ pub(super) const ENTRY: Entry = Entry {
     refuted_by: "no change of force with position in slow motion",
     equation: "stiffness·q",
     facts: Facts {
+        usual: Usual::Seldom,
         shows: Shows::Position,
         limit: Some(Limit {
             of: Mechanism::ConstantBias,

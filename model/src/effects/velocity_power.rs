@@ -3,7 +3,7 @@
 //!
 //! At an exponent of 1 it is viscous friction, at 0 it would be dry friction: a recording over a narrow range of speeds does not tell them apart.
 
-use super::facts::{Alone, Asked, Facts, Family, Shapes, Shows, Where, Words};
+use super::facts::{Alone, Asked, Facts, Family, Shapes, Shows, Usual, Where, Words};
 use super::{Entry, Form, Instant, Law, parameter};
 use rigproof_spec::effect::Mechanism;
 
@@ -21,6 +21,7 @@ pub(super) const ENTRY: Entry = Entry {
     refuted_by: "a resistance that grows in proportion to speed, or not at all",
     equation: "coefficient·|q̇/(1 rad/s)|^exponent·sgn(q̇)",
     facts: Facts {
+        usual: Usual::Seldom,
         shapes: Shapes::Values(&[0.5, 2.0]),
         shows: Shows::SpeedAndLevels,
         ..Facts::of(

@@ -5,6 +5,7 @@ use super::{candidates, columns, locate, noise};
 use crate::cause::{Cause, JointId, Place};
 use crate::locate::Regimes;
 use crate::plant::{Clock, Columns, Rules, Run};
+use crate::rules::{QUIET_NM, WIDTHS_S};
 use crate::weak::Windows;
 use crate::whiten::Whitener;
 use nalgebra::{Matrix2, Vector2};
@@ -295,11 +296,6 @@ pub fn inertial(run: &FiveBarRun, forms: &[TwoCoordinate]) -> Vec<f64> {
         ((momentum(k) - momentum(k - 1)) / step_s + rest).into()
     }))
 }
-
-/// The widths of windows that are tried, s; the last is taken when no narrower one is quiet enough.
-const WIDTHS_S: [f64; 3] = [0.040, 0.080, 0.160];
-/// A width is quiet enough when the floor is below this, N·m: contributions of 0.01 N·m are to be seen in a few windows.
-const QUIET_NM: f64 = 0.0075;
 
 impl Run for FiveBarRun {
     fn clock(&self) -> Clock {

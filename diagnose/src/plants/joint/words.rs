@@ -4,7 +4,7 @@ use super::run::PlantKind;
 use super::simulate::{Interpolation, Protocol};
 use crate::diagnose::words::{filled_in, together};
 use crate::diagnose::write::Stand;
-use crate::whiten::ORDER;
+use crate::rules::NOISE_ORDER;
 use rigproof_trace::rig::Rig;
 
 impl Stand<'_, Rig> {
@@ -32,7 +32,7 @@ impl Stand<'_, Rig> {
                 windows.centres.len()
             ),
             format!(
-                "noise: position {:.3e}, effort {:.3e} (standard deviation of a sample, SI); whitened by an autoregression of order {ORDER} of the noise model",
+                "noise: position {:.3e}, effort {:.3e} (standard deviation of a sample, SI); whitened by an autoregression of order {NOISE_ORDER} of the noise model",
                 self.train.position_noise, self.train.effort_noise
             ),
             format!(
