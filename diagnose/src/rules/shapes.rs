@@ -97,7 +97,7 @@ rules! {
     SLOWEST_RESONANCE: f64 = 30.0, "rad/s", DRIVEN;
     /// Axis: the highest resonance, over the inverse of a sample interval.
     RESONANCE_STEPS: f64 = 0.3, "1/sample", DRIVEN;
-    /// Axis: between what the highest resonance is in any case.
+    /// Axis: least and greatest that the highest resonance may be.
     FASTEST_RESONANCE: [f64; 2] = [40.0, 300.0], "rad/s", DRIVEN;
     /// Axis: resonances that are tried.
     RESONANCES: usize = 12, "resonances", DRIVEN;

@@ -174,15 +174,10 @@ fn driven(plant: &Model, effort: &[f64], run: &JointRun) -> Vec<f64> {
 
 /// The change of the drive that an effect is.
 fn drive_of(effect: &Effect) -> Option<Drive> {
-    match form(effect.mechanism)? {
-        Form::Drive(change) => Some(change),
-        Form::Resistance(_)
-        | Form::ShareOfBrake(_)
-        | Form::Brake(_)
-        | Form::Linkage(_)
-        | Form::Sensor(_)
-        | Form::Joint(_) => None,
-    }
+    let Form::Drive(change) = form(effect.mechanism)? else {
+        return None;
+    };
+    Some(change)
 }
 
 fn bench(plant: &Model, run: &JointRun) -> Vec<f64> {
