@@ -72,11 +72,21 @@ fn main() -> Result<()> {
             "Planted {{ name: {name:?}, file: {file:?}, from: {from:?}, to: {to:?}, claims: {name}::{room}::proofs::claims::<C>().into_iter().collect() }},\n"
         );
     }
-    let all = format!(
-        "{modules}\n/// Every mutant with its claims.\npub fn planted<C: Checker>() -> Vec<Planted<C>> {{ vec![{entries}] }}\n"
-    );
-    fs::write(out.join("planted.rs"), all)?;
+    fs::write(out.join("planted.rs"), listed(&modules, &entries)?)?;
     Ok(())
+}
+
+/// The list of the mutants. As many copies of the claims are compiled only where they are examined: what checks and tests builds none.
+fn listed(modules: &str, entries: &str) -> Result<String> {
+    let is_optimised = std::env::var("PROFILE")? == "release";
+    let (modules, entries) = match is_optimised {
+        true => (modules, entries),
+        false => ("", ""),
+    };
+    Ok(format!(
+        "/// Whether this build has the mutants: an optimised one has.\npub const IS_PLANTED: bool = {is_optimised};\n{modules}\n\
+         /// Every mutant with its claims.\npub fn planted<C: Checker>() -> Vec<Planted<C>> {{ vec![{entries}] }}\n"
+    ))
 }
 
 /// Every source below a folder of `impl/src`.

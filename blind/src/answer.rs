@@ -1,6 +1,7 @@
 //! This file is the answer to a case: what was hidden, how large it is and what no recording could tell from it.
 
-use crate::law::{Effect, Law};
+use crate::effect::{At, Effect};
+use crate::forms::{Forms, Names};
 use crate::plant::Plant;
 use crate::size::{CLEAR_SIZE, Size};
 use crate::stratum::Stratum;
@@ -14,6 +15,9 @@ pub struct Answer {
     pub seed: u64,
     /// The plant.
     pub plant: Plant,
+    /// The family of forms of what is hidden.
+    #[serde(default, skip_serializing_if = "Forms::is_usual")]
+    pub forms: Forms,
     /// The kind of case.
     pub stratum: Stratum,
     /// What is hidden; empty when nothing is or when the data are at fault.
@@ -22,6 +26,9 @@ pub struct Answer {
     pub fault: Option<String>,
     /// Standard deviation of the equivalent effort noise in an 80 ms average, N or N·m: the unit of every size.
     pub block_noise: f64,
+    /// Root mean square of what the nominal model leaves, over what the noise of the sensors explains, from the plant's own knowledge.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub residual_ratio: Option<f64>,
 }
 
 /// One hidden effect.
@@ -47,6 +54,18 @@ pub struct HiddenEffect {
     pub onset_strength: Option<f64>,
     /// Sets of mechanisms that describe any recording of this kind equally well, from physics; a joint stands behind ` at `.
     pub equivalent: Vec<Vec<String>>,
+    /// In other forms: the form.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub form: String,
+    /// In other forms: the names any of which is right.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub right: Vec<String>,
+    /// In other forms: names that are not false beside a right one.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub companions: Vec<String>,
+    /// In other forms: `every` joint with a brake, or the axis of the sensor, `x` or `y`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scope: Option<String>,
 }
 
 /// One true parameter.
@@ -75,32 +94,61 @@ impl HiddenEffect {
     pub(crate) fn new(
         effect: &Effect,
         size: Size,
-        plant: Plant,
         motion: Motion,
-        dry_in_plant: bool,
+        equivalent: Vec<Vec<String>>,
     ) -> HiddenEffect {
+        let parameters = effect.parameters(motion).into_iter();
+        let joint = match effect.at {
+            At::Joint(joint) => Some(joint.letter().to_owned()),
+            At::Whole | At::Every | At::Sensor(_) => None,
+        };
         HiddenEffect {
-            mechanism: effect.law.name().to_owned(),
-            joint: None,
+            mechanism: effect.name().to_owned(),
+            joint,
             onset_s: effect.onset_s,
-            parameters: effect
-                .law
-                .parameters()
-                .into_iter()
-                .map(|(name, value, quantity)| TrueParameter {
+            parameters: parameters
+                .map(|(name, value, dimension)| TrueParameter {
                     name: name.to_owned(),
                     value,
-                    unit: quantity.dimension(motion).to_string(),
+                    unit: dimension.to_string(),
                 })
                 .collect(),
             size: size.size,
             distinctness: size.distinctness,
             strength: size.strength,
             onset_strength: size.onset_strength,
-            equivalent: equivalent(&effect.law, plant, dry_in_plant)
-                .iter()
-                .map(|set| set.iter().map(|name| (*name).to_owned()).collect())
-                .collect(),
+            equivalent,
+            form: String::new(),
+            right: Vec::new(),
+            companions: Vec::new(),
+            scope: None,
+        }
+    }
+
+    /// The same with its form and the names that are right.
+    pub(crate) fn named(self, effect: &Effect) -> HiddenEffect {
+        let Names { right, companions } = Names::of(effect);
+        let owned = |names: &[&str]| -> Vec<String> {
+            names.iter().map(|name| (*name).to_owned()).collect()
+        };
+        let twins = self
+            .equivalent
+            .iter()
+            .flatten()
+            .filter(|name| !name.contains(" at "))
+            .cloned();
+        let scope = match effect.at {
+            At::Every => Some("every"),
+            At::Sensor(0) => Some("x"),
+            At::Sensor(_) => Some("y"),
+            At::Whole | At::Joint(_) => None,
+        };
+        HiddenEffect {
+            form: format!("{:?}", effect.form),
+            right: owned(right).into_iter().chain(twins).collect(),
+            companions: owned(companions),
+            scope: scope.map(str::to_owned),
+            ..self
         }
     }
 }
@@ -111,20 +159,4 @@ pub(crate) fn key(mechanism: &str, joint: Option<&str>) -> String {
         || mechanism.to_owned(),
         |joint| format!("{mechanism} at {joint}"),
     )
-}
-
-/// Sets of mechanisms that no recording can tell from a law.
-///
-/// - A dry friction of F + D forward and F − D backward is the set [−F, F] shifted by D: a bias of D.
-/// - Dahl's bristle is the Bouc–Wen law of order one with beta_delta zero.
-/// - A drive gain k times too large with all friction and stiffness unknown is an inertia k times too small.
-fn equivalent(law: &Law, plant: Plant, dry_in_plant: bool) -> &'static [&'static [&'static str]] {
-    match law {
-        Law::Asymmetry { viscous: 0.0, .. } => &[&["constant_bias"]],
-        Law::Asymmetry { dry, .. } if *dry != 0.0 => &[&["constant_bias", "direction_asymmetry"]],
-        Law::Bias { .. } if dry_in_plant => &[&["direction_asymmetry"]],
-        Law::Dahl { .. } => &[&["hysteresis"]],
-        Law::Gain { .. } if plant == Plant::Axis => &[&["inertia_error"]],
-        _ => &[],
-    }
 }

@@ -2,7 +2,8 @@
 //!
 //! The yield is positive and its sign comes from the velocity (§5.3.4), so the brake never drives.
 
-use crate::law::{Effect, Law};
+use crate::effect::Effect;
+use crate::form::Form;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::tables::{
     Edge, GREATEST_CURRENT_A, GREATEST_TESTED_SPEED_RPM, LEAST_TESTED_CURRENT_A,
@@ -67,10 +68,7 @@ impl Brake {
     /// The brake of a joint, settled without current, its shaft in the middle of the backlash window.
     pub fn new(joint: Joint, hidden: Option<Effect>, position_rad: f64) -> Brake {
         let width_rad = match hidden {
-            Some(Effect {
-                law: Law::BacklashWidth { width },
-                ..
-            }) => width,
+            Some(hidden) if hidden.form == Form::Backlash => hidden.first(),
             _ => backlash_width_deg(joint) * RAD_PER_DEG,
         };
         let mut brake = Brake {
@@ -116,20 +114,31 @@ impl Brake {
         } else {
             time_constant_s(&self.rising, Edge::Rising, current_a, step.speed_rad_s)
         };
-        self.torque_nm = relax(self.torque_nm, target_nm, step.step_s / time_constant_s);
-        self.lagged_nm = match self.hidden {
-            Some(Effect {
-                law: Law::Lag { time_constant },
-                ..
-            }) if self.acts(time_s) => {
-                relax(self.lagged_nm, self.torque_nm, step.step_s / time_constant)
+        let [rising, falling] = match self.hidden {
+            Some(hidden) if hidden.form == Form::TimeConstants && hidden.acts(time_s) => {
+                let [rising, falling, ..] = hidden.values;
+                [1.0 + rising, 1.0 + falling]
             }
-            _ => self.torque_nm,
+            _ => [1.0; 2],
+        };
+        let slower = if excess_nm > 0.0 { falling } else { rising };
+        self.torque_nm = relax(
+            self.torque_nm,
+            target_nm,
+            step.step_s / (slower * time_constant_s),
+        );
+        self.lagged_nm = match self.acting(Form::Lag, time_s) {
+            Some(lag_s) => relax(self.lagged_nm, self.torque_nm, step.step_s / lag_s),
+            None => self.torque_nm,
         };
     }
 
-    fn acts(&self, time_s: f64) -> bool {
-        self.hidden.is_some_and(|hidden| hidden.acts(time_s))
+    /// The number of the hidden effect, if it has this form and acts.
+    fn acting(&self, form: Form, time_s: f64) -> Option<f64> {
+        let hidden = self
+            .hidden
+            .filter(|hidden| hidden.form == form && hidden.acts(time_s));
+        hidden.map(|hidden| hidden.first())
     }
 
     /// The backlash window is held while the shaft is inside and dragged by its edge otherwise (§3.4.3).
@@ -148,14 +157,10 @@ impl Brake {
     }
 
     fn magnetic_current_a(&mut self, current_a: f64) -> f64 {
-        let Some(Effect {
-            law: Law::CurrentHysteresis { width },
-            ..
-        }) = self.hidden
-        else {
+        let Some(hidden) = self.hidden.filter(|hidden| hidden.form == Form::Play) else {
             return current_a;
         };
-        let half = 0.5 * width;
+        let half = 0.5 * hidden.first();
         self.play_current_a = self
             .play_current_a
             .clamp(current_a - half, current_a + half)
@@ -164,13 +169,7 @@ impl Brake {
     }
 
     fn target_nm(&self, time_s: f64, current_a: f64) -> f64 {
-        let factor = match self.hidden {
-            Some(Effect {
-                law: Law::Gain { fraction },
-                ..
-            }) if self.acts(time_s) => 1.0 + fraction,
-            _ => 1.0,
-        };
+        let factor = 1.0 + self.acting(Form::Gain, time_s).unwrap_or(0.0);
         let current_a = if self.inside { 0.0 } else { current_a };
         factor * torque_gain_nm(&self.gain, current_a)
     }

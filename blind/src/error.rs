@@ -6,6 +6,9 @@ pub enum Error {
     /// The plant's name is not known.
     #[error("plant \"{0}\" is not known; name one of: axis, bench, rig")]
     UnknownPlant(String),
+    /// The family's name is not known.
+    #[error("forms \"{0}\" are not known; name one of: usual, other")]
+    UnknownForms(String),
     /// The stratum's name is not known.
     #[error("stratum \"{name}\" is not known; name one of: {known}")]
     UnknownStratum {

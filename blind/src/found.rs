@@ -10,6 +10,10 @@ pub struct Found<'a> {
     /// The mechanism, on a five-bar with its joint, such as `viscous at E`.
     pub name: String,
     pub mechanism: &'a str,
+    /// The joint that is named, if one is.
+    pub joint: Option<&'a str>,
+    /// How sure the report is; 1 where it does not say.
+    pub probability: f64,
     pub onset: Option<Onset>,
     pub parameters: Option<&'a Map<String, Value>>,
     pub alternatives: Vec<String>,
@@ -54,6 +58,11 @@ pub fn found_effects(plant: Plant, report: &Value) -> Result<Vec<Found<'_>>, Err
             Ok(Found {
                 name: name(plant, mechanism, effect),
                 mechanism,
+                joint: joint(effect),
+                probability: effect
+                    .get("probability")
+                    .and_then(Value::as_f64)
+                    .unwrap_or(1.0),
                 onset: onset(effect),
                 parameters: effect.get("parameters").and_then(Value::as_object),
                 alternatives,
@@ -65,9 +74,15 @@ pub fn found_effects(plant: Plant, report: &Value) -> Result<Vec<Found<'_>>, Err
 /// On axis and bench there is one joint, which no report has to name.
 fn name(plant: Plant, mechanism: &str, effect: &Value) -> String {
     match plant {
-        Plant::Rig => key(mechanism, effect.get("joint").and_then(Value::as_str)),
+        Plant::Rig => key(mechanism, joint(effect)),
         Plant::Axis | Plant::Bench => mechanism.to_owned(),
     }
+}
+
+/// The joint that an effect is said to be at: its `joint`, or its `at` where that is the letter of one.
+fn joint(effect: &Value) -> Option<&str> {
+    let text = |key| effect.get(key).and_then(Value::as_str);
+    text("joint").or_else(|| text("at").filter(|at| ["A", "E", "B", "C"].contains(at)))
 }
 
 fn onset(effect: &Value) -> Option<Onset> {

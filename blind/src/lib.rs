@@ -13,39 +13,41 @@
 )]
 
 mod answer;
-mod axis;
-mod bench;
 mod brake;
-#[cfg(test)]
-mod claims;
+mod braked;
 mod draw;
+mod effect;
 mod element;
 mod error;
 mod fault;
-mod five_bar;
+mod form;
+mod forms;
 mod found;
-mod hide;
-mod law;
+mod judge;
+mod lab;
 mod make;
-mod nominal;
 mod path;
 mod plant;
-mod rig;
-mod run;
+mod plants;
+mod preisach;
 mod score;
 mod seal;
-mod setup;
 mod size;
 mod stratum;
 mod table;
+mod tally;
+mod typical;
 
 pub use answer::{Answer, HiddenEffect, TrueParameter};
 pub use brake::{BrakeStep, brake_yield_nm};
 pub use error::Error;
-pub use five_bar::{RigState, RigStep, five_bar_motion};
-pub use make::{Case, again, make, under};
+pub use forms::Forms;
+pub use judge::{DETECTABLE_RATIO, Judgement, Outcome, judge};
+pub use make::{Case, again, make, make_in, under};
 pub use plant::Plant;
+pub use plants::five_bar::{RigState, RigStep, five_bar_motion};
 pub use score::{ONSET_S, ParameterError, Score, score};
 pub use seal::{commitment, open};
 pub use stratum::Stratum;
 pub use table::{Row, Share, Table};
+pub use tally::{Bin, Outcomes, Tally};

@@ -1,21 +1,22 @@
-//! This file makes a case: a recording, its rig description and the sealed answer, from a seed alone.
+//! This file makes a case on any plant: draws until the hidden effects have the size their stratum asks for, records, and seals the answer.
 
 use crate::answer::{Answer, HiddenEffect};
-use crate::draw::Draw;
+use crate::effect::Effect;
 use crate::error::Error;
-use crate::law::{Effect, Law};
+use crate::fault;
+use crate::forms::Forms;
+use crate::lab::{Drawn, Lab, Secret};
 use crate::plant::Plant;
-use crate::run::Run;
+use crate::plants::{self, five_bar};
 use crate::seal;
-use crate::setup::{Kind, Setup};
-use crate::size::{FAINT_STRENGTH, Size, block_noise, sizes};
+use crate::size::FAINT_STRENGTH;
 use crate::stratum::Stratum;
-use crate::{axis, bench, fault, five_bar, hide, nominal, rig};
-use rigproof_spec::effect::Quantity;
-use rigproof_trace::{Channel, Trace};
+use rigproof_trace::Trace;
 
 /// Fine steps to a sample.
 pub(crate) const FINE_STEPS: usize = 20;
+/// Draws that are tried.
+pub(crate) const ATTEMPTS: usize = 24;
 
 /// A recording with a hidden cause.
 #[derive(Clone, Debug)]
@@ -30,13 +31,33 @@ pub struct Case {
     pub commitment: String,
 }
 
-/// What a case is made of, before sensors and seals.
-pub(crate) struct Secret {
-    pub setup: Setup,
-    pub known: Vec<Law>,
-    pub hidden: Vec<Effect>,
-    pub sizes: Vec<Size>,
-    pub run: Run,
+/// Makes the case of a seed; `None` lets the seed draw the stratum.
+///
+/// # Errors
+/// [`Error::NoCase`] when no draw of the seed meets the stratum's rule of size; [`Error::OtherPlant`] when the plant has no such
+/// stratum.
+pub fn make(plant: Plant, seed: u64, stratum: Option<Stratum>) -> Result<Case, Error> {
+    make_in(Forms::Usual, plant, seed, stratum)
+}
+
+/// Makes the case of a seed with physics in a family of forms.
+///
+/// # Errors
+/// Those of [`make`].
+pub fn make_in(
+    forms: Forms,
+    plant: Plant,
+    seed: u64,
+    stratum: Option<Stratum>,
+) -> Result<Case, Error> {
+    let stratum = stratum.unwrap_or_else(|| Stratum::of_seed_in(forms, plant, seed));
+    if stratum.of_twenty_in(forms, plant) == 0 {
+        return Err(Error::OtherPlant {
+            stratum: stratum.name(),
+            plant: plant.name(),
+        });
+    }
+    plants::make(forms, plant, seed, stratum)
 }
 
 /// Another recording of the five-bar of a seed, with the same effects hidden: another hand and other currents, from the same start.
@@ -57,187 +78,108 @@ pub fn under(seed: u64, stratum: Option<Stratum>, experiment: &Trace) -> Result<
     five_bar::under(seed, stratum, experiment)
 }
 
-/// Makes the case of a seed; `None` lets the seed draw the stratum.
-///
-/// # Errors
-/// [`Error::NoCase`] when no draw of the seed meets the stratum's rule of size; [`Error::OtherPlant`] when the plant has no such
-/// stratum.
-pub fn make(plant: Plant, seed: u64, stratum: Option<Stratum>) -> Result<Case, Error> {
-    let stratum = stratum.unwrap_or_else(|| Stratum::of_seed(plant, seed));
-    if stratum.of_twenty(plant) == 0 {
-        return Err(Error::OtherPlant {
-            stratum: stratum.name(),
-            plant: plant.name(),
-        });
-    }
-    if plant == Plant::Rig {
-        return five_bar::make(seed, stratum);
-    }
-    let secret = secret(plant, seed, stratum)?;
-    let mut trace = record(&secret, &mut Draw::new(plant, seed, "sensors"));
+/// The case of a seed and a stratum.
+pub(crate) fn case<L: Lab>(lab: &L, seed: u64, stratum: Stratum) -> Result<Case, Error> {
+    let secret = secret(lab, seed, stratum)?;
+    let mut trace = lab.record(&secret, &mut lab.numbers(seed, "sensors"));
     let fault = (stratum == Stratum::DataFault).then(|| {
-        let effort = match plant {
-            Plant::Axis => "command",
-            _ => "torque",
-        };
-        let mut draw = Draw::new(plant, seed, "fault");
-        fault::spoil("position", effort, &mut trace, &mut draw)
+        let mut draw = lab.numbers(seed, "fault");
+        let [position, effort] = lab.channels(&mut draw);
+        fault::spoil(position, effort, &mut trace, &mut draw).to_owned()
     });
-    // A motor on a bench holds any bias; on an axis only dry friction can carry one off as an asymmetry.
-    let dry_in_plant = plant == Plant::Bench
-        || secret
-            .known
-            .iter()
-            .chain(secret.hidden.iter().map(|effect| &effect.law))
-            .any(|law| matches!(law, Law::Dry { .. }));
+    sealed(lab, seed, stratum, &secret, trace, fault)
+}
+
+/// A recording with its description and its sealed answer.
+pub(crate) fn sealed<L: Lab>(
+    lab: &L,
+    seed: u64,
+    stratum: Stratum,
+    secret: &Secret<L::Setup, L::Run>,
+    trace: Trace,
+    fault: Option<String>,
+) -> Result<Case, Error> {
+    let Secret { drawn, sizes, .. } = secret;
+    let effects = drawn.hidden.iter().zip(&sizes.sizes).map(|(effect, size)| {
+        let told = lab.told(&drawn.setup, effect);
+        let twins = lab.twins(drawn, effect);
+        let told = HiddenEffect::new(&told, *size, lab.motion(&drawn.setup), twins);
+        match lab.forms() {
+            Forms::Usual => told,
+            Forms::Other => told.named(effect),
+        }
+    });
     let answer = Answer {
         seed,
-        plant,
+        plant: lab.plant(),
+        forms: lab.forms(),
         stratum,
-        effects: secret
-            .hidden
-            .iter()
-            .zip(&secret.sizes)
-            .map(|(effect, size)| {
-                HiddenEffect::new(effect, *size, plant, secret.setup.motion, dry_in_plant)
-            })
-            .collect(),
-        fault: fault.map(str::to_owned),
-        block_noise: block_noise(&secret.setup),
+        effects: effects.collect(),
+        fault,
+        block_noise: sizes.block_noise,
+        residual_ratio: sizes.ratio.filter(|_| lab.forms() == Forms::Other),
     };
     let (sealed, commitment) = seal::seal(&answer)?;
-    let mut values = Draw::new(plant, seed, "nominal values");
     Ok(Case {
         trace,
-        rig_toml: rig::toml(plant, seed, &secret.setup, &secret.known, &mut values),
+        rig_toml: lab.describe(seed, drawn),
         sealed,
         commitment,
     })
 }
 
-/// Draws until the hidden effects have the size their stratum asks for.
-pub(crate) fn secret(plant: Plant, seed: u64, stratum: Stratum) -> Result<Secret, Error> {
-    const ATTEMPTS: usize = 24;
-    let setup = Setup::draw(plant, &mut Draw::new(plant, seed, "setup"));
-    let mut draw = Draw::new(plant, seed, stratum.name());
+/// Draws until the rule of size is met.
+pub(crate) fn secret<L: Lab>(
+    lab: &L,
+    seed: u64,
+    stratum: Stratum,
+) -> Result<Secret<L::Setup, L::Run>, Error> {
+    let mut draw = lab.numbers(seed, stratum.name());
     for _ in 0..ATTEMPTS {
-        let laws = hide::draw(&setup, stratum, &mut draw);
-        let onset_s = (stratum == Stratum::LateOnset)
-            .then(|| setup.duration_s * draw.uniform(1.0 / 3.0, 2.0 / 3.0));
-        let known = nominal::draw(&setup, &laws, &mut draw);
-        let hidden: Vec<Effect> = laws
-            .into_iter()
-            .map(|law| Effect { law, onset_s })
-            .collect();
-        let tried = Secret::new(&setup, known, hidden);
-        let tried = if stratum == Stratum::TooSmall {
-            let target = draw.uniform(0.2, 0.7);
-            shrink(tried, target)
-        } else {
-            tried
+        let drawn = lab.draw(seed, stratum, &mut draw);
+        let Some(mut tried) = drawn.and_then(|drawn| lab.tried(drawn)) else {
+            continue;
         };
-        if tried.fits(stratum) {
+        if stratum == Stratum::TooSmall {
+            match shrunk(lab, tried, draw.uniform(0.2, 0.7)) {
+                Some(smaller) => tried = smaller,
+                None => continue,
+            }
+        }
+        if tried.sizes.fit(lab.forms(), stratum) {
             return Ok(tried);
         }
     }
-    Err(Error::NoCase {
+    Err(no_case(lab.plant(), seed, stratum))
+}
+
+pub(crate) fn no_case(plant: Plant, seed: u64, stratum: Stratum) -> Error {
+    Error::NoCase {
         seed,
         plant: plant.name(),
         stratum: stratum.name(),
         attempts: ATTEMPTS,
-    })
-}
-
-impl Secret {
-    fn new(setup: &Setup, known: Vec<Law>, hidden: Vec<Effect>) -> Secret {
-        let run = simulate(setup, &known, &hidden, FINE_STEPS);
-        let laws: Vec<Law> = hidden.iter().map(|effect| effect.law).collect();
-        Secret {
-            sizes: sizes(setup, &run, &known, &laws),
-            setup: setup.clone(),
-            known,
-            hidden,
-            run,
-        }
-    }
-
-    fn fits(&self, stratum: Stratum) -> bool {
-        let moves = self.run.moving.iter().filter(|m| **m).count() * 2 > self.run.moving.len();
-        moves && self.sizes.iter().all(|size| size.fits(stratum))
     }
 }
 
-/// Scales the one hidden effect until its strength is near the target.
-fn shrink(mut secret: Secret, target: f64) -> Secret {
+/// The same case with its effect scaled until its strength is near the target.
+fn shrunk<L: Lab>(
+    lab: &L,
+    mut secret: Secret<L::Setup, L::Run>,
+    target: f64,
+) -> Option<Secret<L::Setup, L::Run>> {
     for _ in 0..3 {
-        let strength = secret.sizes.iter().fold(0.0_f64, |m, s| m.max(s.strength));
+        let strengths = secret.sizes.sizes.iter().map(|size| size.strength);
+        let strength = strengths.fold(0.0, f64::max);
         if strength <= FAINT_STRENGTH {
             break;
         }
-        let hidden = secret
-            .hidden
-            .iter()
-            .map(|effect| Effect {
-                law: effect.law.scaled(target / strength),
-                ..*effect
-            })
-            .collect();
-        secret = Secret::new(&secret.setup, secret.known, hidden);
+        let scaled = |effect: &Effect| effect.scaled(target / strength);
+        let hidden = secret.drawn.hidden.iter().map(scaled).collect();
+        secret = lab.tried(Drawn {
+            hidden,
+            ..secret.drawn
+        })?;
     }
-    secret
-}
-
-/// Runs the plant.
-pub(crate) fn simulate(setup: &Setup, known: &[Law], hidden: &[Effect], fine_steps: usize) -> Run {
-    match &setup.kind {
-        Kind::Axis(drive) => axis::run(setup, drive, known, hidden, fine_steps),
-        Kind::Bench(_) => bench::run(setup, known, hidden, fine_steps),
-    }
-}
-
-/// What the sensors make of the run.
-fn record(secret: &Secret, draw: &mut Draw) -> Trace {
-    let Secret { setup, run, .. } = secret;
-    let unit = |quantity: Quantity| quantity.dimension(setup.motion).to_string();
-    let zero = setup.quantum * draw.uniform(0.0, 1.0);
-    let mut noisy = |signal: &[f64]| -> Vec<f64> {
-        signal
-            .iter()
-            .map(|x| x + draw.normal(setup.noise))
-            .collect()
-    };
-    let mut channels = vec![Channel {
-        name: "position".to_owned(),
-        unit: unit(Quantity::Travel),
-        samples: run
-            .shown_position
-            .iter()
-            .map(|q| ((q + zero) / setup.quantum).floor() * setup.quantum)
-            .collect(),
-    }];
-    match &setup.kind {
-        Kind::Axis(_) => channels.push(Channel {
-            name: "command".to_owned(),
-            unit: "V".to_owned(),
-            samples: noisy(&run.shown_input),
-        }),
-        Kind::Bench(brake) => {
-            channels.push(Channel {
-                name: rig::effort_channel(setup.motion).to_owned(),
-                unit: unit(Quantity::Effort),
-                samples: noisy(&run.shown_effort),
-            });
-            if brake.is_some() {
-                channels.push(Channel {
-                    name: "current".to_owned(),
-                    unit: "A".to_owned(),
-                    samples: run.shown_input.clone(),
-                });
-            }
-        }
-    }
-    Trace {
-        time_s: run.time_s.clone(),
-        channels,
-    }
+    Some(secret)
 }

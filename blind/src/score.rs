@@ -212,7 +212,8 @@ fn recovered_share(answer: &Answer, report: &Value) -> Option<f64> {
     report.get("fit")?.get("recovered_share")?.as_f64()
 }
 
-fn parameter_errors(answer: &Answer, found: &[Found<'_>]) -> Vec<ParameterError> {
+/// Errors of the numbers that truth and report both have.
+pub(crate) fn parameter_errors(answer: &Answer, found: &[Found<'_>]) -> Vec<ParameterError> {
     let mut errors = Vec::new();
     for truth in &answer.effects {
         let Some(parameters) = found
@@ -265,6 +266,7 @@ fn parameter_errors(answer: &Answer, found: &[Found<'_>]) -> Vec<ParameterError>
 mod tests {
     use super::*;
     use crate::answer::TrueParameter;
+    use crate::forms::Forms;
     use crate::plant::Plant;
     use serde_json::json;
 
@@ -286,6 +288,10 @@ mod tests {
                 .iter()
                 .map(|set| set.iter().map(|n| (*n).to_owned()).collect())
                 .collect(),
+            form: String::new(),
+            right: Vec::new(),
+            companions: Vec::new(),
+            scope: None,
         }
     }
 
@@ -297,6 +303,8 @@ mod tests {
             effects,
             fault: None,
             block_noise: 0.01,
+            residual_ratio: None,
+            forms: Forms::Usual,
         }
     }
 

@@ -108,6 +108,7 @@ fn unhex(text: &str) -> Option<Vec<u8>> {
 mod tests {
     use super::*;
     use crate::answer::{HiddenEffect, TrueParameter};
+    use crate::forms::Forms;
     use crate::plant::Plant;
     use crate::stratum::Stratum;
     use proptest::prelude::*;
@@ -131,9 +132,15 @@ mod tests {
                 strength: 77.0,
                 onset_strength: None,
                 equivalent: vec![vec!["constant_bias".to_owned()]],
+                form: String::new(),
+                right: Vec::new(),
+                companions: Vec::new(),
+                scope: None,
             }],
             fault: None,
             block_noise: 0.001_7,
+            residual_ratio: None,
+            forms: Forms::Usual,
         }
     }
 

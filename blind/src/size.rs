@@ -5,9 +5,7 @@
 //! unknown laws can imitate is taken out by least squares; the rest's root mean square over the blocks where the
 //! effect acts, in that unit, is the effect's size.
 
-use crate::law::Law;
-use crate::run::Run;
-use crate::setup::{Kind, Setup};
+use crate::forms::Forms;
 use crate::stratum::Stratum;
 
 /// Length of an average, s.
@@ -37,7 +35,7 @@ impl Size {
     /// Whether an effect of this size belongs into a stratum.
     pub fn fits(&self, stratum: Stratum) -> bool {
         match stratum {
-            Stratum::Nothing | Stratum::DataFault => true,
+            Stratum::Nothing | Stratum::DataFault | Stratum::Two | Stratum::Three => true,
             Stratum::TooSmall => self.strength <= FAINT_STRENGTH,
             Stratum::NotInLibrary => self.distinctness >= CLEAR_SIZE,
             Stratum::Unidentifiable | Stratum::WrongInertia => self.size >= CLEAR_SIZE,
@@ -50,115 +48,59 @@ impl Size {
     }
 }
 
-/// Standard deviation of the equivalent effort noise in an 80 ms average, N or N·m.
-///
-/// Axis: the acceleration fitted to N = 80 ms·rate positions of standard deviation quantum/√12 has the standard
-/// deviation √(720/N)·σ/T² (parabola on an even grid), times the inertia; the command adds gain·σ/√N. Bench: σ/√N.
-pub fn block_noise(setup: &Setup) -> f64 {
-    let count = BLOCK_S * setup.rate_hz;
-    match &setup.kind {
-        Kind::Axis(drive) => {
-            let position = setup.quantum / 12_f64.sqrt();
-            let acceleration = (720.0 / count).sqrt() * position / (BLOCK_S * BLOCK_S);
-            let command = drive.gain * setup.noise / count.sqrt();
-            (drive.inertia * acceleration).hypot(command)
-        }
-        Kind::Bench(_) => setup.noise / count.sqrt(),
+/// How visible the effects of a case are.
+#[derive(Clone, Debug)]
+pub struct Sizes {
+    pub sizes: Vec<Size>,
+    /// Standard deviation of the equivalent effort noise in an 80 ms average, N or N·m.
+    pub block_noise: f64,
+    /// Share of the recording in which something slides.
+    pub sliding: f64,
+    /// Root mean square of what the nominal equations lack and no hidden effect accounts for, in block noise: the plant's own error.
+    pub left: f64,
+    /// Root mean square of what the nominal equations lack, over what the noise of the sensors explains; where it is known.
+    pub ratio: Option<f64>,
+}
+
+/// Least share of a recording in which something slides.
+const LEAST_SLIDING: f64 = 0.5;
+/// Greatest error of the plant's own, in block noise.
+const GREATEST_LEFT: f64 = 0.5;
+
+impl Sizes {
+    /// Whether a case with these sizes belongs into a stratum. In other forms an effect that nobody can see is a case like any other.
+    pub fn fit(&self, forms: Forms, stratum: Stratum) -> bool {
+        let fits = |size: &Size| forms == Forms::Other || size.fits(stratum);
+        self.moves() && self.left <= GREATEST_LEFT && self.sizes.iter().all(fits)
+    }
+
+    /// Whether the recording moves enough.
+    pub fn moves(&self) -> bool {
+        self.sliding >= LEAST_SLIDING
     }
 }
 
-/// The sizes of all hidden effects of a run.
-pub fn sizes(setup: &Setup, run: &Run, known: &[Law], hidden: &[Law]) -> Vec<Size> {
-    let noise = block_noise(setup);
-    let blocks = Blocks::new(run, setup.rate_hz);
-    let forces: Vec<Vec<f64>> = run.hidden.iter().map(|f| blocks.means(f)).collect();
-    let simple: Vec<(&str, Vec<f64>)> = blocks.simple_laws(run);
-    let nominal: Vec<&[f64]> = simple
-        .iter()
-        .filter(|(name, _)| known.iter().any(|law| law.name() == *name))
-        .map(|(_, column)| column.as_slice())
-        .collect();
-    hidden
-        .iter()
-        .zip(&forces)
-        .map(|(law, force)| {
-            let others = forces
-                .iter()
-                .filter(|other| !std::ptr::eq(*other, force))
-                .map(Vec::as_slice);
-            let imitations: Vec<&[f64]> = simple
-                .iter()
-                .filter(|(name, _)| !is_own(law, name))
-                .map(|(_, column)| column.as_slice())
-                .chain(nominal.iter().copied())
-                .chain(others)
-                .collect();
-            let active = force.iter().filter(|f| **f != 0.0).count().max(1) as f64;
-            let rms = |columns: &[&[f64]]| (remainder(force, columns) / active).sqrt() / noise;
-            let size = rms(&nominal);
-            Size {
-                size,
-                distinctness: rms(&imitations),
-                strength: size * active.sqrt(),
-                onset_strength: None,
-            }
-        })
-        .collect()
-}
-
-/// Whether a simple law is the effect itself, or physically the same as it.
-fn is_own(law: &Law, simple: &str) -> bool {
-    law.name() == simple || (matches!(law, Law::Asymmetry { .. }) && simple == "constant_bias")
-}
-
-/// The 80 ms averages of a run.
-struct Blocks {
-    length: usize,
-    moving: Vec<bool>,
-}
-
-impl Blocks {
-    fn new(run: &Run, rate_hz: f64) -> Blocks {
-        Blocks {
-            length: (BLOCK_S * rate_hz).round() as usize,
-            moving: run.moving.clone(),
-        }
-    }
-
-    /// Means over the sliding samples of each block that slides for at least half its time.
-    fn means(&self, signal: &[f64]) -> Vec<f64> {
-        signal
-            .chunks_exact(self.length)
-            .zip(self.moving.chunks_exact(self.length))
-            .filter_map(|(values, moving)| {
-                let sliding = moving.iter().filter(|m| **m).count();
-                let sum: f64 = values
-                    .iter()
-                    .zip(moving)
-                    .filter(|(_, moving)| **moving)
-                    .map(|(value, _)| value)
-                    .sum();
-                (2 * sliding >= self.length).then(|| sum / sliding as f64)
-            })
-            .collect()
-    }
-
-    fn simple_laws(&self, run: &Run) -> Vec<(&'static str, Vec<f64>)> {
-        let column = |of: fn(f64, f64) -> f64| {
-            let values: Vec<f64> = run
-                .position
-                .iter()
-                .zip(&run.velocity)
-                .map(|(q, v)| of(*q, *v))
-                .collect();
-            self.means(&values)
-        };
-        vec![
-            ("dry_offset", column(|_, v| v.signum())),
-            ("viscous", column(|_, v| v)),
-            ("constant_bias", column(|_, _| 1.0)),
-            ("spring", column(|q, _| q)),
-        ]
+/// The size of one of the effects' forces, in averages: beside what the nominal model leaves open, and beside what imitates it too.
+pub fn measured(
+    own: usize,
+    forces: &[Vec<f64>],
+    nominal: &[&[f64]],
+    imitations: &[&[f64]],
+    noise: f64,
+) -> Size {
+    let force = forces.get(own).map_or(&[][..], Vec::as_slice);
+    let others = forces.iter().enumerate().filter(|(other, _)| *other != own);
+    let mut all = imitations.to_vec();
+    all.extend(nominal);
+    all.extend(others.map(|(_, force)| force.as_slice()));
+    let active = force.iter().filter(|f| **f != 0.0).count().max(1) as f64;
+    let rms = |columns: &[&[f64]]| (remainder(force, columns) / active).sqrt() / noise;
+    let size = rms(nominal);
+    Size {
+        size,
+        distinctness: rms(&all),
+        strength: size * active.sqrt(),
+        onset_strength: None,
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::draw::Draw;
 use crate::error::Error;
+use crate::forms::Forms;
 use crate::plant::Plant;
 use serde::{Deserialize, Serialize};
 
@@ -31,11 +32,15 @@ pub enum Stratum {
     Unidentifiable,
     /// Masses and inertias up to 5 % away from the nominal ones.
     WrongInertia,
+    /// Two effects of unlike kinds, in other forms.
+    Two,
+    /// Three effects of unlike kinds, in other forms.
+    Three,
 }
 
 impl Stratum {
     /// Every stratum, in the order of the table.
-    pub const ALL: [Stratum; 11] = [
+    pub const ALL: [Stratum; 13] = [
         Stratum::Nothing,
         Stratum::Single,
         Stratum::Masked,
@@ -47,6 +52,8 @@ impl Stratum {
         Stratum::InLoop,
         Stratum::Unidentifiable,
         Stratum::WrongInertia,
+        Stratum::Two,
+        Stratum::Three,
     ];
 
     /// The name used in files and on the command line.
@@ -63,6 +70,8 @@ impl Stratum {
             Stratum::InLoop => "in_loop",
             Stratum::Unidentifiable => "unidentifiable",
             Stratum::WrongInertia => "wrong_inertia",
+            Stratum::Two => "two",
+            Stratum::Three => "three",
         }
     }
 
@@ -90,6 +99,7 @@ impl Stratum {
             Stratum::TooSmall | Stratum::NotInLibrary | Stratum::DataFault => [2, 1],
             Stratum::InLoop => [0, 2],
             Stratum::Noisy | Stratum::Unidentifiable | Stratum::WrongInertia => [0, 1],
+            Stratum::Two | Stratum::Three => [0, 0],
         };
         match plant {
             Plant::Rig => rig,
@@ -97,13 +107,34 @@ impl Stratum {
         }
     }
 
+    /// The same for a family of forms.
+    pub const fn of_twenty_in(self, forms: Forms, plant: Plant) -> usize {
+        match (forms, self) {
+            (Forms::Usual, _) => self.of_twenty(plant),
+            (Forms::Other, Stratum::Single) => 9,
+            (Forms::Other, Stratum::Nothing | Stratum::Two) => 3,
+            (Forms::Other, Stratum::Three | Stratum::NotInLibrary) => 2,
+            (Forms::Other, Stratum::LateOnset) => 1,
+            (Forms::Other, _) => 0,
+        }
+    }
+
     /// The stratum a seed draws: every block of 20 seeds is the same multiset in an order of its own.
     pub fn of_seed(plant: Plant, seed: u64) -> Stratum {
+        Stratum::of_seed_in(Forms::Usual, plant, seed)
+    }
+
+    /// The same for a family of forms.
+    pub fn of_seed_in(forms: Forms, plant: Plant, seed: u64) -> Stratum {
         let mut deck: Vec<Stratum> = Stratum::ALL
             .into_iter()
-            .flat_map(|stratum| std::iter::repeat_n(stratum, stratum.of_twenty(plant)))
+            .flat_map(|stratum| std::iter::repeat_n(stratum, stratum.of_twenty_in(forms, plant)))
             .collect();
-        let mut draw = Draw::new(plant, seed / 20, "stratum");
+        let purpose = match forms {
+            Forms::Usual => "stratum",
+            Forms::Other => "other stratum",
+        };
+        let mut draw = Draw::new(plant, seed / 20, purpose);
         let mut dealt = Stratum::Nothing;
         for _ in 0..=seed % 20 {
             dealt = deck.swap_remove(draw.below(deck.len()));

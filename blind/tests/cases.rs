@@ -1,7 +1,9 @@
 //! This file claims what a user of the room relies on: seeds, seals and rig descriptions.
 
 use proptest::prelude::*;
-use rigproof_blind::{Plant, Stratum, Table, make, open, score};
+use rigproof_blind::{
+    Forms, Outcome, Plant, Stratum, Table, Tally, judge, make, make_in, open, score,
+};
 use rigproof_spec::effect::Mechanism;
 use rigproof_trace::rig::Rig;
 use rigproof_trace::rig::five_bar::FiveBar;
@@ -145,7 +147,10 @@ fn a_block_of_five_bar_seeds_holds_every_stratum_and_repeats() {
         assert_eq!((score.exact, score.is_miss()), (right, !right));
         rows.add(Plant::Rig, seed, score);
     }
-    assert_eq!(strata.len(), Stratum::ALL.len());
+    let drawn = Stratum::ALL
+        .into_iter()
+        .filter(|stratum| stratum.of_twenty(Plant::Rig) > 0);
+    assert_eq!(strata.len(), drawn.count());
     assert!(rows.protocol().contains("rig: 20 cases, seeds 20 to 39"));
 }
 
@@ -153,4 +158,66 @@ fn a_block_of_five_bar_seeds_holds_every_stratum_and_repeats() {
 fn strata_of_the_five_bar_are_refused_elsewhere() {
     let refusal = make(Plant::Axis, 3, Some(Stratum::InLoop)).unwrap_err();
     assert!(refusal.to_string().contains("\"in_loop\""), "{refusal}");
+}
+
+/// In other forms a seed makes the same case twice, its description reads, a silent report is right where nothing is hidden and a report with the right
+/// names is right wherever there is a name.
+#[test]
+fn cases_in_other_forms_repeat_read_and_are_judged() {
+    let origin = Path::new("case.toml");
+    let mut tally = Tally::default();
+    for (plant, seeds) in [
+        (Plant::Axis, 0..20),
+        (Plant::Bench, 0..20),
+        (Plant::Rig, 0..4),
+    ] {
+        for seed in seeds {
+            let case = make_in(Forms::Other, plant, seed, None).unwrap();
+            let answer = open(&case.sealed).unwrap();
+            assert_eq!(
+                answer.stratum,
+                Stratum::of_seed_in(Forms::Other, plant, seed)
+            );
+            match plant {
+                Plant::Rig => assert!(FiveBar::parse(&case.rig_toml, origin).is_ok()),
+                _ => assert!(
+                    Rig::parse(&case.rig_toml, origin)
+                        .unwrap()
+                        .apply(&case.trace, origin)
+                        .is_ok()
+                ),
+            }
+            if seed % 10 == 3 {
+                let again = make_in(Forms::Other, plant, seed, None).unwrap();
+                assert_eq!(bits(&again.trace), bits(&case.trace));
+                assert_eq!((again.sealed, again.rig_toml), (case.sealed, case.rig_toml));
+            }
+            let silent = serde_json::json!({"verdict": "consistent", "effects": []});
+            let silent = judge(&answer, &silent).unwrap().outcome;
+            assert!(matches!(
+                silent,
+                Outcome::Right | Outcome::Silent | Outcome::Unseen
+            ));
+            assert_eq!(silent == Outcome::Right, answer.effects.is_empty());
+            let named = answer.effects.iter().filter_map(|effect| {
+                let right = effect.right.first()?;
+                Some(serde_json::json!({"mechanism": right, "joint": effect.joint, "probability": 0.9}))
+            });
+            let named: Vec<_> = named.collect();
+            let verdict = if named.is_empty() {
+                "none_of_library"
+            } else {
+                "explained"
+            };
+            let told = judge(
+                &answer,
+                &serde_json::json!({"verdict": verdict, "effects": named}),
+            )
+            .unwrap();
+            assert_eq!(told.outcome, Outcome::Right, "{told:?}");
+            tally.add(plant, seed, told);
+        }
+    }
+    assert!(tally.to_string().contains("bench: 20 cases, seeds 0 to 19"));
+    assert_eq!(tally.calibration().len(), 1);
 }

@@ -2,6 +2,7 @@
 
 mod claims;
 mod make;
+mod other;
 mod page;
 mod score;
 mod trial;
@@ -10,7 +11,7 @@ pub use make::{FILES, contents};
 pub use score::in_words;
 
 use clap::Subcommand;
-use rigproof_blind::{Answer, HiddenEffect, Plant, Stratum};
+use rigproof_blind::{Answer, Forms, HiddenEffect, Plant, Stratum};
 
 use crate::outcome::{Failure, Outcome};
 
@@ -51,6 +52,10 @@ pub fn parse_plant(name: &str) -> Result<Plant, String> {
     Plant::from_name(name).map_err(|error| error.to_string())
 }
 
+fn parse_forms(name: &str) -> Result<Forms, String> {
+    Forms::from_name(name).map_err(|error| error.to_string())
+}
+
 fn parse_stratum(name: &str) -> Result<Stratum, String> {
     Stratum::from_name(name).map_err(|error| error.to_string())
 }
@@ -78,5 +83,15 @@ fn hidden(effect: &HiddenEffect) -> String {
     let onset = effect.onset_s.map_or_else(String::new, |onset_s| {
         format!(", beginning at {} s", significant(onset_s, 4))
     });
-    format!("  {}: {}{onset}", effect.key(), numbers.join(", "))
+    let scope = effect.scope.as_ref();
+    let scope = scope.map_or_else(String::new, |scope| format!(" at {scope}"));
+    let form = match effect.form.as_str() {
+        "" => String::new(),
+        form => format!(" ({form})"),
+    };
+    format!(
+        "  {}{scope}{form}: {}{onset}",
+        effect.key(),
+        numbers.join(", ")
+    )
 }

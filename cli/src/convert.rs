@@ -5,20 +5,20 @@ mod messages;
 use std::path::{Path, PathBuf};
 
 use clap::ArgGroup;
-use rigproof_spec::units::Unit;
 use rigproof_trace::arrays::{Arrays, PassedOver, Selection, TimeSource};
-use rigproof_trace::csv::{self, Dialect, TimeColumn};
+use rigproof_trace::csv::{self, Dialect, Known, TimeColumn};
+use rigproof_trace::foreign;
 use rigproof_trace::mcap;
 use rigproof_trace::suggest::quoted;
 use rigproof_trace::{Trace, TraceError};
 use serde_json::{Value, json};
 
-use crate::keep;
-use crate::outcome::{Failure, Outcome, plain, print};
+use crate::outcome::{self, Failure, Outcome, plain, print};
 use crate::reading::{self, Reading};
+use crate::{input, keep};
 
 /// What is to be converted.
-#[derive(clap::Args)]
+#[derive(Clone, clap::Args)]
 #[command(after_help = AFTER_HELP)]
 #[command(group = ArgGroup::new("time").args(["rate_hz", "rate_from", "time_from"]))]
 pub struct Args {
@@ -47,7 +47,7 @@ pub struct Args {
     #[arg(long, value_name = "NAME")]
     time_from: Option<String>,
     /// State the unit of a variable; the numbers stay as they are
-    #[arg(long = "unit", value_name = "NAME=UNIT", value_parser = parse_unit)]
+    #[arg(long = "unit", value_name = "NAME=UNIT", value_parser = reading::parse_unit)]
     units: Vec<(String, String)>,
     /// Put this file into the MCAP file, such as the rig description or the calibration
     #[arg(long, value_name = "FILE")]
@@ -70,6 +70,10 @@ Examples:
 
 /// Converts a recording, or lists what it holds.
 pub fn run(args: &Args) -> Result<Outcome, Failure> {
+    let args = &Args {
+        input: input::file(&args.input)?,
+        ..args.clone()
+    };
     let to_mcap = args.output.as_ref().is_some_and(|output| {
         let extension = output.extension().unwrap_or_default();
         extension.eq_ignore_ascii_case("mcap")
@@ -114,6 +118,9 @@ fn write(
 /// The arrays of an HDF5 or MATLAB file, or `None` for text.
 fn open(input: &Path) -> Result<Option<Arrays>, Failure> {
     let arrays = Arrays::open(input)?;
+    if arrays.is_none() {
+        foreign::check(input)?;
+    }
     let extension = input
         .extension()
         .and_then(|e| e.to_str())
@@ -174,7 +181,14 @@ fn text_recording(args: &Args) -> Result<(Trace, Dialect), Failure> {
             unit,
         }
     });
-    let (mut trace, dialect) = csv::read_as(&args.input, time.as_ref(), &args.reading.hints())?;
+    let known = Known {
+        time: time.as_ref(),
+        hints: args.reading.hints(),
+        wanted: None,
+    };
+    let text = csv::read_text(&args.input, &known)?;
+    outcome::note(&args.input, &text.remarks);
+    let (mut trace, dialect) = (text.trace, text.dialect);
     let missing = |trace: &Trace, name: &str| {
         let names = quoted(trace.channels.iter().map(|channel| channel.name.as_str()));
         let problem =
@@ -271,15 +285,4 @@ fn report(
         trace.len(),
         channels.join(", ")
     ))
-}
-
-fn parse_unit(text: &str) -> Result<(String, String), String> {
-    // A name may hold the mark itself, as `/joint_states.position[name=elbow]` does; a unit does not.
-    let (name, unit) = text
-        .rsplit_once('=')
-        .ok_or("write NAME=UNIT, such as u=N")?;
-    match Unit::parse(unit) {
-        Some(_) => Ok((name.to_string(), unit.to_string())),
-        None => Err(format!("`{unit}` is no known unit")),
-    }
 }

@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
 use crate::outcome::{self, Failure};
-use crate::reading::{self, Reading};
+use crate::reading::{self, RigReading};
 
 /// Which part of a recording counts.
 #[derive(Clone, Copy, Debug, Default, clap::Args)]
@@ -52,6 +52,9 @@ impl Cut {
 /// # Errors
 /// The folder cannot be read or holds no recording.
 pub fn recordings(path: &Path) -> Result<Vec<PathBuf>, Failure> {
+    if let Some(file) = bag(path)? {
+        return Ok(vec![file]);
+    }
     if !path.is_dir() {
         return Ok(vec![path.to_path_buf()]);
     }
@@ -63,7 +66,7 @@ pub fn recordings(path: &Path) -> Result<Vec<PathBuf>, Failure> {
     for entry in entries {
         let file = entry.map_err(|error| unusable(error.to_string()))?.path();
         let extension = file.extension().and_then(|e| e.to_str());
-        if file.is_file() && extension.is_some_and(|e| RECORDINGS.contains(&e)) {
+        if file.is_file() && extension.is_some_and(is_recording) {
             found.push(file);
         }
     }
@@ -75,6 +78,12 @@ pub fn recordings(path: &Path) -> Result<Vec<PathBuf>, Failure> {
         ))),
         false => Ok(found),
     }
+}
+
+fn is_recording(extension: &str) -> bool {
+    RECORDINGS
+        .iter()
+        .any(|own| extension.eq_ignore_ascii_case(own))
 }
 
 /// What the name of a recording in a folder ends in.
@@ -91,40 +100,43 @@ pub struct Source {
     #[command(flatten)]
     pub cut: Cut,
     #[command(flatten)]
-    pub reading: Reading,
+    pub reading: RigReading,
 }
 
 /// How a recording was read.
 #[derive(Clone, Debug)]
 pub enum HowRead {
-    /// As text in this dialect.
-    Text(Dialect),
+    /// As text in this dialect; what was guessed, passed over or mended.
+    Text(Dialect, Vec<String>),
     /// As MCAP: check sums, what is missing, which times, what was resampled.
     Messages(Vec<String>),
 }
 
 impl HowRead {
     fn of_messages(lines: &[String]) -> HowRead {
-        HowRead::Messages(lines.iter().map(|line| outcome::plain(line)).collect())
+        HowRead::Messages(plain_lines(lines))
+    }
+
+    fn of_text(dialect: Dialect, remarks: &[String]) -> HowRead {
+        HowRead::Text(dialect, plain_lines(remarks))
     }
 
     /// For a person, a line each; `file` is what they name.
     pub fn lines(&self, file: &Path) -> Vec<String> {
-        match self {
-            HowRead::Text(dialect) => vec![reading::in_words(file, dialect)],
-            HowRead::Messages(lines) => {
-                let lines = lines.iter();
-                lines
-                    .map(|line| format!("{}: {line}", file.display()))
-                    .collect()
-            }
-        }
+        let (first, lines) = match self {
+            HowRead::Text(dialect, remarks) => (Some(reading::in_words(file, dialect)), remarks),
+            HowRead::Messages(lines) => (None, lines),
+        };
+        let lines = lines
+            .iter()
+            .map(|line| format!("{}: {line}", file.display()));
+        first.into_iter().chain(lines).collect()
     }
 
     /// The dialect, or the lines of an MCAP file.
     pub fn json(&self) -> Value {
         match self {
-            HowRead::Text(dialect) => reading::in_json(*dialect),
+            HowRead::Text(dialect, _) => reading::in_json(*dialect),
             HowRead::Messages(lines) => json!(lines),
         }
     }
@@ -132,9 +144,60 @@ impl HowRead {
     /// The dialect of a text.
     pub fn dialect(&self) -> Option<Dialect> {
         match self {
-            HowRead::Text(dialect) => Some(*dialect),
+            HowRead::Text(dialect, _) => Some(*dialect),
             HowRead::Messages(_) => None,
         }
+    }
+}
+
+/// Lines that cannot steer the terminal, whatever the file calls things.
+fn plain_lines(lines: &[String]) -> Vec<String> {
+    lines.iter().map(|line| outcome::plain(line)).collect()
+}
+
+/// The file that a path names: itself, or the recording in a folder that rosbag2 wrote.
+///
+/// # Errors
+/// It is a folder of rosbag2 that holds no MCAP file, or several.
+pub fn file(path: &Path) -> Result<PathBuf, Failure> {
+    Ok(bag(path)?.unwrap_or_else(|| path.to_path_buf()))
+}
+
+/// The MCAP file of a folder that rosbag2 wrote: `metadata.yaml` stands beside it.
+fn bag(path: &Path) -> Result<Option<PathBuf>, Failure> {
+    if !path.is_dir() || !path.join("metadata.yaml").is_file() {
+        return Ok(None);
+    }
+    let unusable = |why: String| Failure::unusable(path, why);
+    let entries = path
+        .read_dir()
+        .map_err(|error| unusable(error.to_string()))?;
+    let files = entries.filter_map(|entry| Some(entry.ok()?.path()));
+    let mut files: Vec<PathBuf> = files.collect();
+    files.sort();
+    let of = |extension: &str| {
+        let own = files
+            .iter()
+            .filter(|file| file.extension().is_some_and(|e| e == extension));
+        own.collect::<Vec<_>>()
+    };
+    let folder = path.display();
+    match (of("mcap").as_slice(), of("db3").first(), of("zstd").first()) {
+        ([only], ..) => Ok(Some((*only).clone())),
+        ([], Some(_), _) => Err(unusable(format!(
+            "this folder of rosbag2 holds `.db3` files; turn it into MCAP, which is read: `ros2 bag convert -i {folder} -o convert.yaml` with `output_bags: [{{uri: run, storage_id: mcap, all: true}}]` in convert.yaml, or for each file `mcap convert FILE.db3 FILE.mcap`"
+        ))),
+        ([], None, Some(packed)) => Err(unusable(format!(
+            "this folder of rosbag2 holds compressed files; unpack them first: `zstd -d {}`",
+            packed.display()
+        ))),
+        ([], None, None) => Err(unusable(
+            "this folder of rosbag2 holds no recording beside its metadata.yaml".to_owned(),
+        )),
+        (several, ..) => Err(unusable(format!(
+            "this folder of rosbag2 holds {} MCAP files; name one of them, or put them together: `mcap merge {folder}/*.mcap -o run.mcap`",
+            several.len()
+        ))),
     }
 }
 
@@ -142,28 +205,20 @@ impl HowRead {
 ///
 /// # Errors
 /// The file is not usable.
-pub fn whole(rig: &Rig, file: &Path, reading: &Reading) -> Result<(Recording, HowRead), Failure> {
+pub fn whole(
+    rig: &Rig,
+    file: &Path,
+    reading: &RigReading,
+) -> Result<(Recording, HowRead), Failure> {
+    let rig = rig.with_column_units(reading.units());
+    let rig = rig.map_err(Failure::Usage)?;
+    let file = &self::file(file)?;
     if mcap::is_mcap(file)? {
         let (recording, lines) = rig.read_mcap(file)?;
         return Ok((recording, HowRead::of_messages(&lines)));
     }
-    let (recording, dialect) = rig.read_text(file, &reading.hints())?;
-    Ok((recording, HowRead::Text(dialect)))
-}
-
-/// Reads a recording of a rig and cuts it, and says how it was read.
-///
-/// # Errors
-/// The file is not usable, or the cut leaves too little.
-pub fn recording(
-    rig: &Rig,
-    file: &Path,
-    cut: Cut,
-    reading: &Reading,
-) -> Result<(Recording, HowRead), Failure> {
-    let (recording, how) = whole(rig, file, reading)?;
-    let kept = cut.kept(file, &recording.time_s)?;
-    Ok((recording.only(&kept), how))
+    let (recording, dialect, remarks) = rig.read_text(file, &reading.hints())?;
+    Ok((recording, HowRead::of_text(dialect, &remarks)))
 }
 
 /// Reads a recording of any plant and cuts it, and says how it was read.
@@ -174,14 +229,17 @@ pub fn measured(
     description: &Description,
     file: &Path,
     cut: Cut,
-    reading: &Reading,
+    reading: &RigReading,
 ) -> Result<(Measured, HowRead), Failure> {
+    let description = description.with_column_units(reading.units());
+    let description = description.map_err(Failure::Usage)?;
+    let file = &self::file(file)?;
     let (whole, how) = if mcap::is_mcap(file)? {
         let (recording, lines) = description.read_mcap(file)?;
         (recording, HowRead::of_messages(&lines))
     } else {
-        let (recording, dialect) = description.read_text(file, &reading.hints())?;
-        (recording, HowRead::Text(dialect))
+        let (recording, dialect, remarks) = description.read_text(file, &reading.hints())?;
+        (recording, HowRead::of_text(dialect, &remarks))
     };
     let kept = cut.kept(file, whole.time_s())?;
     Ok((whole.only(&kept), how))
@@ -237,6 +295,31 @@ fn hexadecimal(bytes: &[u8]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_folder_of_rosbag2_is_the_recording_in_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let put = |name: &str| std::fs::write(folder.path().join(name), "x").unwrap();
+        put("run_0.mcap");
+        assert_eq!(file(folder.path()).unwrap(), folder.path());
+        put("metadata.yaml");
+        assert_eq!(
+            file(folder.path()).unwrap(),
+            folder.path().join("run_0.mcap")
+        );
+        assert_eq!(
+            recordings(folder.path()).unwrap(),
+            [folder.path().join("run_0.mcap")]
+        );
+        put("run_1.mcap");
+        let message = |path: &Path| format!("{:?}", file(path).unwrap_err());
+        assert!(message(folder.path()).contains("mcap merge"));
+        let other = tempfile::tempdir().unwrap();
+        for name in ["metadata.yaml", "run_0.db3"] {
+            std::fs::write(other.path().join(name), "x").unwrap();
+        }
+        assert!(message(other.path()).contains("ros2 bag convert"));
+    }
 
     #[test]
     fn the_hash_is_that_of_the_standard() {

@@ -10,10 +10,11 @@ mod sparkline;
 use std::path::{Path, PathBuf};
 
 use rigproof_trace::arrays::{Arrays, PassedOver};
-use rigproof_trace::csv::{self, Dialect, TimeColumn};
+use rigproof_trace::csv::{self, Dialect, Known, TimeColumn};
 use rigproof_trace::{Channel, mcap};
 use serde_json::{Value, json};
 
+use crate::input;
 use crate::outcome::{Failure, Outcome, plain, print};
 use crate::reading::{self, Reading};
 use crate::shell;
@@ -25,7 +26,7 @@ use signal::SignalView;
 const SHOWN: usize = 64;
 
 /// What is to be looked at.
-#[derive(clap::Args)]
+#[derive(Clone, clap::Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct Args {
     /// The recording: CSV in any dialect, MCAP, HDF5 or MATLAB (version 5 to 7.3), told apart by its content
@@ -67,6 +68,10 @@ Examples:
 
 /// Looks at a recording, and writes the beginning of a rig description if asked.
 pub fn run(args: &Args) -> Result<Outcome, Failure> {
+    let args = &Args {
+        recording: input::file(&args.recording)?,
+        ..args.clone()
+    };
     if mcap::is_mcap(&args.recording)? {
         return messages::run(args);
     }
@@ -80,7 +85,13 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
 fn text(args: &Args) -> Result<Outcome, Failure> {
     let time = args.time_column();
     let hints = args.reading.hints();
-    let (trace, dialect) = csv::read_as(&args.recording, time.as_ref(), &hints)?;
+    let known = Known {
+        time: time.as_ref(),
+        hints,
+        wanted: None,
+    };
+    let text = csv::read_text(&args.recording, &known)?;
+    let (trace, dialect, remarks) = (text.trace, text.dialect, text.remarks);
     let pace = Pace::of(&trace.time_s);
     let signals: Vec<SignalView> = trace.channels.into_iter().map(SignalView::of).collect();
     let signals: Vec<&SignalView> = signals.iter().collect();
@@ -92,6 +103,7 @@ fn text(args: &Args) -> Result<Outcome, Failure> {
         let mut result = pace.json();
         result["file"] = json!(args.recording.display().to_string());
         result["read_as"] = reading::in_json(dialect);
+        result["remarks"] = json!(remarks);
         result["channels"] = signals.iter().map(|s| s.json(args.ascii)).collect();
         result["rig"] = json!(
             args.write_rig
@@ -102,6 +114,7 @@ fn text(args: &Args) -> Result<Outcome, Failure> {
     }
     show([
         head(&args.recording, trace.time_s.len(), signals.len(), &dialect),
+        section("Reading", remarks.iter().map(|line| format!("  {line}"))),
         section("Time", pace.lines()),
         section("Channels", signal::lines(&signals, args.ascii, usize::MAX)),
         section("Next", [format!("  {}", next(args))]),

@@ -33,13 +33,16 @@ Example:
   rigproof new my-lab
   rigproof new my-lab --plant rig";
 
-/// The example of a plant: its seed, and what kind of case that seed makes.
+/// The example of each plant: its seed, and what kind of case that seed makes.
+const EXAMPLES: [(Plant, u64, Stratum); 3] = [
+    (Plant::Axis, 48, Stratum::Masked),
+    (Plant::Bench, 41, Stratum::Single),
+    (Plant::Rig, 9, Stratum::Single),
+];
+
 fn example(plant: Plant) -> (u64, Stratum) {
-    match plant {
-        Plant::Axis => (48, Stratum::Masked),
-        Plant::Bench => (41, Stratum::Single),
-        Plant::Rig => (9, Stratum::Single),
-    }
+    let own = EXAMPLES.iter().find(|(of, ..)| *of == plant);
+    own.map_or((0, Stratum::Single), |(_, seed, stratum)| (*seed, *stratum))
 }
 
 const RIG_HEAD: &str = "\

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use rigproof_diagnose::report::ReadAs;
+use rigproof_spec::units::Unit;
 use rigproof_trace::csv::{Decimal, Dialect, Hints, Separator};
 use serde_json::{Value, json};
 
@@ -28,6 +29,39 @@ impl Reading {
             decimal: self.decimal,
             header_lines: self.header_lines,
         }
+    }
+}
+
+/// How a recording of a rig is read.
+#[derive(Clone, Debug, Default, clap::Args)]
+pub struct RigReading {
+    #[command(flatten)]
+    text: Reading,
+    /// The unit that a column is in, whatever its header says
+    #[arg(long = "unit", value_name = "NAME=UNIT", value_parser = parse_unit)]
+    units: Vec<(String, String)>,
+}
+
+impl RigReading {
+    pub fn hints(&self) -> Hints {
+        self.text.hints()
+    }
+
+    /// What the command line says of the units of columns.
+    pub fn units(&self) -> &[(String, String)] {
+        &self.units
+    }
+}
+
+/// A name and its unit.
+pub fn parse_unit(text: &str) -> Result<(String, String), String> {
+    // A name may hold the mark itself, as `/joint_states.position[name=elbow]` does; a unit does not.
+    let (name, unit) = text
+        .rsplit_once('=')
+        .ok_or("write NAME=UNIT, such as u=N")?;
+    match Unit::parse(unit) {
+        Some(_) => Ok((name.to_string(), unit.to_string())),
+        None => Err(format!("`{unit}` is no known unit")),
     }
 }
 

@@ -1,20 +1,15 @@
 //! This file runs a rig's model along a recording and says how far the two lie apart.
 
 mod experiment;
-mod five_bar;
 
 use std::path::{Path, PathBuf};
 
 use rigproof_diagnose::Description;
 use rigproof_diagnose::align::Fault;
-use rigproof_diagnose::plants::joint::from_rig;
-use rigproof_diagnose::plants::joint::run::{JointRun, PlantKind};
-use rigproof_diagnose::plants::joint::simulate::{Protocol, output};
-use rigproof_spec::effect::Quantity;
+use rigproof_diagnose::plant::{Simulated, SimulatedOutput, Unsimulated};
 use rigproof_trace::compare::{Comparison, compare};
-use rigproof_trace::rig::{Rig, motion_name};
 use rigproof_trace::{Channel, Trace, csv};
-use serde_json::json;
+use serde_json::{Value, json};
 
 use crate::input::{self, HowRead, Source};
 use crate::outcome::{Failure, Outcome, print};
@@ -62,80 +57,69 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
         let Source { recording, rig, .. } = &args.source;
         keep::check(out, [recording, rig].into_iter().chain(&args.calibration))?;
     }
-    let rig = match Description::read(&args.source.rig)? {
-        Description::Joint(rig) => rig,
-        Description::FiveBar(rig) => return five_bar::run(args, &rig),
-    };
-    let source = &args.source;
-    let (recording, how) = input::recording(&rig, &source.recording, source.cut, &source.reading)?;
-    let model = model(args, &rig)?;
-    let run = from_rig::aligned(&model, &recording)
-        .map_err(|fault| Failure::Input(refusal(&args.source.recording, &fault)))?;
-    let protocol = from_rig::protocol(&model);
-    let mark = progress::spinner("simulating");
-    let simulated = output(&from_rig::plant(&model), &run, &protocol);
-    drop(mark);
-    let (name, recorded, quantity) = match run.plant {
-        PlantKind::Axis => ("position", &run.position, Quantity::Travel),
-        PlantKind::Bench => ("effort", &run.effort, Quantity::Effort),
-    };
-    let unit = quantity.dimension(model.motion).to_string();
-    let comparison = compare(&counted(&run, recorded, &protocol), &simulated)?;
-    if let Some(out) = &args.out {
-        let first_s = recording.time_s.first().copied().unwrap_or(0.0);
-        let channel = |source: &str, samples: &[f64]| Channel {
-            name: format!("{name}_{source}"),
-            unit: unit.clone(),
-            samples: samples.to_vec(),
-        };
-        let times = (0..run.len()).map(|k| first_s + run.start_s + k as f64 * run.step_s);
-        let trace = Trace {
-            time_s: times.collect(),
-            channels: vec![
-                channel("recorded", recorded),
-                channel("simulated", &simulated),
-            ],
-        };
-        csv::write(out, &trace)?;
+    let rig = Description::read(&args.source.rig)?;
+    if let Some(plan) = experiment::plan(args, &rig)? {
+        return experiment::run(args, &plan, &model(args, &rig)?);
     }
-    say(args, &unit, &comparison, &how)
+    let source = &args.source;
+    let (recording, how) = input::measured(&rig, &source.recording, source.cut, &source.reading)?;
+    let model = model(args, &rig)?;
+    let mark = progress::spinner("simulating");
+    let simulated = rig.simulated(&model, &recording, args.restart_s);
+    drop(mark);
+    let simulated = simulated.map_err(|why| match why {
+        Unsimulated::Recording(fault) => Failure::Input(refusal(&source.recording, &fault)),
+        Unsimulated::Model(why) => Failure::unusable(file(args), why),
+    })?;
+    let outputs = simulated.outputs.iter();
+    let off = outputs.map(|own| compare(&own.counted(), &own.simulated));
+    let off: Vec<Comparison> = off.collect::<Result<_, _>>()?;
+    if let Some(out) = &args.out {
+        let first_s = recording.time_s().first().copied().unwrap_or(0.0);
+        csv::write(out, &trace(&simulated, first_s))?;
+    }
+    say(args, &simulated, &off, &how)
 }
 
-/// The rig whose numbers count.
-fn model(args: &Args, rig: &Rig) -> Result<Rig, Failure> {
+/// The file whose numbers count.
+fn file(args: &Args) -> &Path {
+    args.calibration.as_ref().unwrap_or(&args.source.rig)
+}
+
+/// The description whose numbers count.
+fn model(args: &Args, rig: &Description) -> Result<Description, Failure> {
     let Some(file) = &args.calibration else {
         return Ok(rig.clone());
     };
-    let calibration = Rig::read(file)?;
-    if (calibration.plant, calibration.motion) != (rig.plant, rig.motion) {
-        let problem = format!(
-            "the calibration is of a {} {}, the rig is a {} {}; give the calibration of this rig",
-            motion_name(calibration.motion),
-            calibration.plant.name(),
-            motion_name(rig.motion),
-            rig.plant.name(),
-        );
-        return Err(Failure::unusable(file, problem));
+    let calibration = Description::read(file)?;
+    match rig.refuses(&calibration) {
+        Some(problem) => Err(Failure::unusable(file, problem)),
+        None => Ok(calibration),
     }
-    Ok(calibration)
 }
 
-/// The recorded output where it counts: not where it gave the start state, and not where a sample was filled in.
-fn counted(run: &JointRun, recorded: &[f64], protocol: &Protocol) -> Vec<f64> {
-    let start = match run.plant {
-        PlantKind::Axis if protocol.warm_up_periods == 0 => protocol.start_samples,
-        _ => 0,
+/// Both outputs over time, from the recording's first stamp on.
+fn trace(simulated: &Simulated, first_s: f64) -> Trace {
+    let channel = |name: String, unit: &str, samples: &[f64]| Channel {
+        name,
+        unit: unit.to_owned(),
+        samples: samples.to_vec(),
     };
-    let samples = recorded.iter().zip(&run.recorded).enumerate();
-    samples
-        .map(|(k, (&x, &was_recorded))| {
-            if was_recorded && k >= start {
-                x
-            } else {
-                f64::NAN
-            }
-        })
-        .collect()
+    let both = |own: &SimulatedOutput| match &own.recorded {
+        Some(recorded) => vec![
+            channel(format!("{}_recorded", own.name), &own.unit, recorded),
+            channel(format!("{}_simulated", own.name), &own.unit, &own.simulated),
+        ],
+        None => vec![channel(
+            format!("{}_off", own.name),
+            &own.unit,
+            &own.simulated,
+        )],
+    };
+    Trace {
+        time_s: simulated.time_s.iter().map(|t| first_s + t).collect(),
+        channels: simulated.outputs.iter().flat_map(both).collect(),
+    }
 }
 
 fn refusal(file: &Path, fault: &Fault) -> String {
@@ -149,32 +133,69 @@ fn refusal(file: &Path, fault: &Fault) -> String {
     )
 }
 
+/// How far an output is off, in JSON.
+fn in_json(off: &Comparison, unit: &str) -> Value {
+    json!({
+        "unit": unit,
+        "samples": off.pairs,
+        "rms": off.rms,
+        "maximum": off.maximum,
+        "nrmse_percent": off.nrmse_percent,
+    })
+}
+
 fn say(
     args: &Args,
-    unit: &str,
-    comparison: &Comparison,
+    simulated: &Simulated,
+    off: &[Comparison],
     how: &HowRead,
 ) -> Result<Outcome, Failure> {
+    let pairs = || simulated.outputs.iter().zip(off);
     if args.json {
-        let result = json!({
+        let mut result = json!({
             "recording": args.source.recording.display().to_string(),
             "read_as": how.json(),
             "rig": args.source.rig.display().to_string(),
             "calibration": path(&args.calibration),
-            "unit": unit,
-            "samples": comparison.pairs,
-            "rms": comparison.rms,
-            "maximum": comparison.maximum,
-            "nrmse_percent": comparison.nrmse_percent,
             "file": path(&args.out),
         });
+        let mut of = |name: &str, value: Value| result[name] = value;
+        match simulated.runs {
+            Some([runs, broken_off]) => {
+                of("restart_s", json!(args.restart_s));
+                of("runs", json!(runs));
+                of("broken_off", json!(broken_off));
+                let all = pairs().map(|(own, off)| (own.name.to_owned(), in_json(off, &own.unit)));
+                of("outputs", Value::Object(all.collect()));
+            }
+            None => {
+                let all = pairs().map(|(own, off)| in_json(off, &own.unit));
+                let all = all.filter_map(|own| own.as_object().cloned()).flatten();
+                all.for_each(|(name, value)| of(&name, value));
+            }
+        }
         return print(&result.to_string());
     }
-    let mut lines = vec![format!(
-        "simulated less recorded over {} samples",
-        comparison.pairs
-    )];
-    lines.extend(measures(comparison, unit));
+    let mut lines = Vec::new();
+    if let Some([runs, broken_off]) = simulated.runs {
+        lines.push(format!(
+            "simulated less recorded in {runs} free runs of {} s, each from the recorded state",
+            args.restart_s,
+        ));
+        if broken_off > 0 {
+            lines.push(format!(
+                "  {broken_off} of them drove the linkage out of its assembly and count up to there"
+            ));
+        }
+    }
+    for (own, off) in pairs() {
+        lines.push(match simulated.runs {
+            Some(_) => format!("{}, {} samples", own.name, off.pairs),
+            None => format!("simulated less recorded over {} samples", off.pairs),
+        });
+        let shown = if own.recorded.is_none() { 2 } else { 3 };
+        lines.extend(measures(off, &own.unit).into_iter().take(shown));
+    }
     lines.extend(read_as(how));
     lines.extend(path(&args.out).map(|file| format!("  file     {file}")));
     print(&lines.join("\n"))
@@ -195,7 +216,11 @@ fn measures(comparison: &Comparison, unit: &str) -> Vec<String> {
 
 fn read_as(how: &HowRead) -> Vec<String> {
     match how {
-        HowRead::Text(dialect) => vec![format!("  read as  {dialect}")],
+        HowRead::Text(dialect, remarks) => {
+            let first = format!("  read as  {dialect}");
+            let more = remarks.iter().map(|line| format!("           {line}"));
+            std::iter::once(first).chain(more).collect()
+        }
         HowRead::Messages(lines) => lines.iter().map(|line| format!("  {line}")).collect(),
     }
 }

@@ -2,10 +2,10 @@
 #![allow(clippy::unwrap_used, reason = "a bench may stop at the first surprise")]
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use rigproof_diagnose::Options;
 use rigproof_diagnose::plants::five_bar::experiment::plan::Plan;
 use rigproof_diagnose::plants::five_bar::experiment::play::play;
 use rigproof_diagnose::plants::five_bar::free_run::Model;
+use rigproof_diagnose::{Options, diagnose};
 use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording};
 use std::hint::black_box;
 use std::path::Path;

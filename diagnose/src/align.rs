@@ -5,6 +5,11 @@ mod reversals;
 
 use crate::filter::rms;
 use crate::filter::{LowPass, gradient};
+use crate::rules::{
+    AT_LIMIT, BAND_SHARE, JUMP_AROUND, JUMP_TIMES, LEAST_CUTOFF_HZ, LONGEST_FREEZE_S,
+    LONGEST_GAP_S, MOST_CLIPPED, MOST_CLIPPED_SHARE, MOST_MISSING, QUIET_SPEED, REST_S,
+    SENSE_SIGMAS,
+};
 use rigproof_model::effects::Instant;
 use rustfft::{FftPlannerScalar, num_complex::Complex64};
 
@@ -23,13 +28,6 @@ pub struct Fault {
     /// What is wrong, in words.
     pub reason: String,
 }
-
-/// A gap longer than this ends the diagnosis, s.
-const LONGEST_GAP_S: f64 = 0.1;
-/// Share of samples that may be missing.
-const MOST_MISSING: f64 = 0.02;
-/// Seconds for which a live channel may repeat one value to the bit.
-const LONGEST_FREEZE_S: f64 = 0.25;
 
 pub(crate) fn check_missing(
     channel: &'static str,
@@ -119,8 +117,9 @@ fn moved_behind(position: &[f64], first: usize, end: usize) -> bool {
         return false;
     }
     let jump = steps(end - 1, end + 1);
-    let usual = steps(first.saturating_sub(400), first).max(steps(end, (end + 400).min(n)));
-    jump > 6.0 * usual.max(2.0 * smallest_step(position))
+    let usual =
+        steps(first.saturating_sub(JUMP_AROUND), first).max(steps(end, (end + JUMP_AROUND).min(n)));
+    jump > JUMP_TIMES * usual.max(2.0 * smallest_step(position))
 }
 
 /// An effort that rests on its own extreme for many samples, unless the rig says that it saturates there.
@@ -133,11 +132,11 @@ pub(crate) fn check_clipped(
     let high = live().fold(f64::NEG_INFINITY, f64::max);
     let low = live().fold(f64::INFINITY, f64::min);
     for extreme in [high, low] {
-        let stated = effort_limit.is_some_and(|limit| extreme.abs() >= 0.999 * limit);
+        let stated = effort_limit.is_some_and(|limit| extreme.abs() >= AT_LIMIT * limit);
         let count = live().filter(|&x| x == extreme).count();
         if !stated
             && count > MOST_CLIPPED
-            && count as f64 > 0.005 * effort.len() as f64
+            && count as f64 > MOST_CLIPPED_SHARE * effort.len() as f64
             && high > low
         {
             let from = effort.iter().position(|&x| x == extreme).unwrap_or(0);
@@ -153,9 +152,6 @@ pub(crate) fn check_clipped(
     }
     Ok(())
 }
-
-/// Samples at one extreme that may be chance.
-const MOST_CLIPPED: usize = 20;
 
 pub(crate) fn regular_count(time_s: &[f64], step_s: f64) -> usize {
     match (time_s.first(), time_s.last()) {
@@ -238,7 +234,7 @@ pub fn band_hz(effort: &[f64], step_s: f64) -> f64 {
         .iter()
         .position(|p| {
             sum += p;
-            sum >= 0.95 * total
+            sum >= BAND_SHARE * total
         })
         .unwrap_or(1);
     (index.max(1)) as f64 / (step_s * effort.len() as f64)
@@ -262,12 +258,6 @@ pub(crate) fn quiet_cutoff_hz(position: &[f64], step_s: f64, cutoff_hz: f64, noi
     cutoff_hz.min(quiet_hz.max(least_hz))
 }
 
-/// Noise of the speed that is not noticed beside the speed's root mean square.
-const QUIET_SPEED: f64 = 0.005;
-
-/// The lowest end of the low-pass, Hz.
-const LEAST_CUTOFF_HZ: f64 = 25.0;
-
 /// Position and speed after a zero-phase low-pass, and the speed below which
 /// noise decides the sign.
 pub(crate) fn smoothed_motion(
@@ -282,7 +272,7 @@ pub(crate) fn smoothed_motion(
     // White noise through the filter and the difference: ∫(2πf)² up to the cut-off.
     let noise_speed =
         noise * core::f64::consts::TAU * cutoff_hz * (2.0 * cutoff_hz / rate_hz / 3.0).sqrt();
-    let floor = (4.0 * noise_speed).max(1e-4 * rms(&speed));
+    let floor = (SENSE_SIGMAS * noise_speed).max(1e-4 * rms(&speed));
     let motion = smooth
         .iter()
         .zip(&speed)
@@ -296,9 +286,6 @@ pub(crate) fn smoothed_motion(
         .collect();
     (motion, floor)
 }
-
-/// Half the stretch of time over which a joint must have moved for its sense to be known, s.
-const REST_S: f64 = 0.025;
 
 /// Takes the sense away wherever the recorded position stays within `still` for a while: smoothing rings there.
 pub(crate) fn forget_sense_at_rest(

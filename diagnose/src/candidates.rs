@@ -4,10 +4,19 @@ use crate::cause::Cause;
 use crate::plant::Run;
 use crate::problem::{Problem, Term, add};
 use crate::regression::Fit;
+use crate::rules::{MOST_A_TURN, 
+    BENDS_JOINT, EDGE, EFFORT_LIMITS, FASTEST_PEAK, FASTEST_RESONANCE, FEWEST_CYCLES, GAPS,
+    LAGS_JOINT, LEAST_BEND, LEAST_BEND_SIGMAS, LEAST_GAP, LEAST_GAP_SIGMAS, LEAST_LAG_STEPS,
+    LEAST_SHIFT_STEPS_JOINT, EFFORT_LIMIT_SHARES, MEMORY_COUNT, MEMORY_RATES, MEMORY_RATIOS, MOST_BEND,
+    MOST_CYCLES, MOST_GAP, MOST_LAG_S_JOINT, MOST_SHIFT_S_JOINT, MOST_SHIFT_STEPS,
+    PEAK_EXPONENTS_JOINT, PEAK_SPEEDS, PEAKS, PEAKS_APART, RESONANCE_DAMPINGS, RESONANCE_STEPS,
+    RESONANCES, SHIFTS_JOINT, SLOWEST_PEAK, SLOWEST_PEAK_FLOORS, SLOWEST_RESONANCE, SPACING,
+};
 use crate::weak::Windows;
 use core::f64::consts::TAU;
 use rayon::prelude::*;
-use rigproof_model::effects::Instant;
+use rigproof_model::effects::facts::Shapes;
+use rigproof_model::effects::{Instant, facts};
 use rigproof_spec::effect::{Mechanism, Motion};
 
 /// The causes that have a meaning on this plant: within trials a gain is taken out of every row.
@@ -102,38 +111,51 @@ pub fn standard_shapes<R: Run + ?Sized>(
 ) -> Vec<Vec<f64>> {
     let (travel, step_s) = (run.travel(cause.at).max(1e-12), run.clock().step_s);
     let one = |values: Vec<f64>| values.into_iter().map(|v| vec![v]).collect();
-    match cause.mechanism {
-        Mechanism::Stribeck => stribeck_shapes(run.speed_floor(), fastest(run.motion(cause.at))),
-        Mechanism::VelocityPower => one(vec![0.5, 2.0]),
-        Mechanism::LoadFriction => one(geometric(0.03, 0.5, 7)),
-        Mechanism::DriveSaturation => {
-            let greatest = run
-                .effort()
-                .iter()
-                .fold(0.0, |most: f64, e| most.max(e.abs()));
-            one(geometric(0.05 * greatest, 0.97 * greatest, 24))
-        }
-        Mechanism::Backlash => one(geometric(
-            (6.0 * run.position_noise()).max(1e-3 * travel),
-            0.1 * travel,
-            12,
+    match facts(cause.mechanism).map_or(Shapes::None, |facts| facts.shapes) {
+        Shapes::Peak => stribeck_shapes(
+            run.speed_floor(),
+            fastest(run.motion(cause.at)),
+            &PEAK_EXPONENTS_JOINT,
+        ),
+        Shapes::Bristle => one(geometric(
+            (LEAST_BEND_SIGMAS * run.position_noise()).max(LEAST_BEND * travel),
+            MOST_BEND * travel,
+            BENDS_JOINT,
         )),
-        Mechanism::Compliance => geometric(30.0, (0.3 / step_s).clamp(40.0, 300.0), 12)
+        Shapes::Memory => {
+            let [slowest, fastest] = MEMORY_RATES;
+            geometric(slowest / travel, fastest / travel, MEMORY_COUNT)
+                .into_iter()
+                .flat_map(|gamma| MEMORY_RATIOS.map(|ratio| vec![gamma, gamma * ratio]))
+                .collect()
+        }
+        Shapes::Gap => one(geometric(
+            (LEAST_GAP_SIGMAS * run.position_noise()).max(LEAST_GAP * travel),
+            MOST_GAP * travel,
+            GAPS,
+        )),
+        Shapes::Resonance => {
+            let [least, most] = FASTEST_RESONANCE;
+            geometric(
+                SLOWEST_RESONANCE,
+                (RESONANCE_STEPS / step_s).clamp(least, most),
+                RESONANCES,
+            )
             .into_iter()
-            .flat_map(|resonance| [0.03, 0.12].map(|damping| vec![resonance, damping]))
-            .collect(),
-        Mechanism::Presliding | Mechanism::AsymmetricPresliding | Mechanism::LugreBristle => {
+            .flat_map(|resonance| RESONANCE_DAMPINGS.map(|damping| vec![resonance, damping]))
+            .collect()
+        }
+        Shapes::EffortLimit => {
+            let efforts = run.effort();
+            let greatest = efforts.iter().fold(0.0, |most: f64, e| most.max(e.abs()));
+            let [lowest, highest] = EFFORT_LIMIT_SHARES;
             one(geometric(
-                (3.0 * run.position_noise()).max(1e-4 * travel),
-                0.2 * travel,
-                12,
+                lowest * greatest,
+                highest * greatest,
+                EFFORT_LIMITS,
             ))
         }
-        Mechanism::Hysteresis => geometric(0.2 / travel, 40.0 / travel, 8)
-            .into_iter()
-            .flat_map(|gamma| [-1.4, -0.5, 0.5, 1.4].map(|ratio| vec![gamma, gamma * ratio]))
-            .collect(),
-        Mechanism::Ripple => {
+        Shapes::Period => {
             let points = points(run.motion(cause.at), windows, residual);
             let mut all = periods(&points, run.travel(cause.at));
             if run.motion_kind() == Motion::Rotary {
@@ -141,14 +163,23 @@ pub fn standard_shapes<R: Run + ?Sized>(
             }
             one(all)
         }
-        Mechanism::Lag => one(geometric(0.5 * step_s, 0.1, 12)),
-        Mechanism::ReversalOvershoot => one(geometric(0.01, 1.5, 6)),
-        Mechanism::CurrentHysteresis => one(geometric(0.01, 0.5, 7)),
-        Mechanism::ChannelSkew => {
-            let sizes = geometric(0.5 * step_s, 0.08f64.max(4.0 * step_s), 12);
-            one(sizes.iter().flat_map(|&s| [s, -s]).collect())
-        }
-        _ => vec![vec![]],
+        Shapes::Lag => one(geometric(
+            LEAST_LAG_STEPS * step_s,
+            MOST_LAG_S_JOINT,
+            LAGS_JOINT,
+        )),
+        Shapes::Shift => one(both_signs(geometric(
+            LEAST_SHIFT_STEPS_JOINT * step_s,
+            MOST_SHIFT_S_JOINT.max(MOST_SHIFT_STEPS * step_s),
+            SHIFTS_JOINT,
+        ))),
+        Shapes::CurrentPlay { low, high, count } => one(geometric(low, high, count)),
+        // Neither has a meaning where a brake's current is not the plant's own.
+        Shapes::Delay | Shapes::CurrentLimit => vec![vec![]],
+        own @ (Shapes::None
+        | Shapes::Values(_)
+        | Shapes::Geometric { .. }
+        | Shapes::BothSigns { .. }) => in_numbers(own),
     }
 }
 
@@ -164,9 +195,25 @@ fn points(motion: &[Instant], windows: &Windows, residual: &[f64]) -> Vec<(f64, 
         .collect()
 }
 
+/// The shapes that need no recording; one empty shape where a mechanism has none.
+pub fn in_numbers(shapes: Shapes) -> Vec<Vec<f64>> {
+    let values = match shapes {
+        Shapes::Values(values) => values.to_vec(),
+        Shapes::Geometric { low, high, count } => geometric(low, high, count),
+        Shapes::BothSigns { low, high, count } => both_signs(geometric(low, high, count)),
+        _ => return vec![vec![]],
+    };
+    values.into_iter().map(|value| vec![value]).collect()
+}
+
+/// Each number with both signs.
+pub fn both_signs(sizes: Vec<f64>) -> Vec<f64> {
+    sizes.into_iter().flat_map(|size| [size, -size]).collect()
+}
+
 /// The range that each shape parameter of a mechanism may take: that of the shapes tried, for a period all of them.
 pub fn shape_bounds(problem: &Problem, cause: Cause) -> Vec<(f64, f64)> {
-    if cause.mechanism == Mechanism::Ripple {
+    if facts(cause.mechanism).is_some_and(|facts| facts.shapes == Shapes::Period) {
         let travel = problem.run.travel(cause.at);
         let travel = travel.max(1e-12);
         return vec![(travel / MOST_CYCLES, travel.max(TAU))];
@@ -190,23 +237,14 @@ pub fn shape_bounds(problem: &Problem, cause: Cause) -> Vec<(f64, f64)> {
 /// Whether a term's first shape parameter has run into the upper end of its range: a law that wants to be slower,
 /// wider or faster than it can mean is standing in for another one.
 pub fn is_at_edge(problem: &Problem, term: &Term) -> bool {
-    let bounded = matches!(
-        term.cause.mechanism,
-        Mechanism::Lag
-            | Mechanism::ChannelSkew
-            | Mechanism::Stribeck
-            | Mechanism::Presliding
-            | Mechanism::AsymmetricPresliding
-    );
+    let shapes = facts(term.cause.mechanism).map(|facts| facts.shapes);
+    let bounded = shapes.is_some_and(Shapes::has_edge);
     let bounds = shape_bounds(problem, term.cause);
     match (term.shape.first(), bounds.first()) {
         (Some(value), Some((_, high))) => bounded && *value > EDGE * high,
         _ => false,
     }
 }
-
-/// Share of the upper end of a range from which a shape counts as being at its edge.
-const EDGE: f64 = 0.98;
 
 /// The speed that all but one in a hundred samples stay below.
 pub fn fastest(motion: &[Instant]) -> f64 {
@@ -220,11 +258,11 @@ pub fn fastest(motion: &[Instant]) -> f64 {
 }
 
 /// Speeds and exponents of a peak near standstill.
-pub fn stribeck_shapes(speed_floor: f64, fastest: f64) -> Vec<Vec<f64>> {
-    let slowest = (2.0 * speed_floor).max(0.005 * fastest);
-    geometric(slowest, 0.3 * fastest, 8)
+pub fn stribeck_shapes(speed_floor: f64, fastest: f64, exponents: &[f64]) -> Vec<Vec<f64>> {
+    let slowest = (SLOWEST_PEAK_FLOORS * speed_floor).max(SLOWEST_PEAK * fastest);
+    geometric(slowest, FASTEST_PEAK * fastest, PEAK_SPEEDS)
         .into_iter()
-        .flat_map(|speed| [0.7, 1.0, 2.0].map(|exponent| vec![speed, exponent]))
+        .flat_map(|speed| exponents.iter().map(move |exponent| vec![speed, *exponent]))
         .collect()
 }
 
@@ -235,15 +273,6 @@ pub fn geometric(low: f64, high: f64, count: usize) -> Vec<f64> {
         .map(|k| low * libm::exp(ratio * k as f64))
         .collect()
 }
-
-/// Spatial frequencies looked at, in cycles over the travel, and their spacing.
-const MOST_CYCLES: f64 = 200.0;
-const FEWEST_CYCLES: f64 = 2.0;
-const SPACING: f64 = 0.35;
-/// Most periods in one turn that are tried whatever the spectrum says.
-const MOST_A_TURN: u32 = 36;
-/// Peaks of the residual's spectrum over position that are tried.
-const PEAKS: usize = 4;
 
 /// The periods at the highest peaks of the spectrum of values over their positions.
 pub fn periods(points: &[(f64, f64)], travel: f64) -> Vec<f64> {
@@ -256,7 +285,10 @@ pub fn periods(points: &[(f64, f64)], travel: f64) -> Vec<f64> {
     peaks.sort_by(|a, b| b.0.total_cmp(&a.0));
     let mut chosen: Vec<f64> = Vec::new();
     for (_, cycles) in peaks {
-        if chosen.iter().all(|c: &f64| (c - cycles).abs() > 2.0) {
+        if chosen
+            .iter()
+            .all(|c: &f64| (c - cycles).abs() > PEAKS_APART)
+        {
             chosen.push(cycles);
         }
         if chosen.len() == PEAKS {

@@ -15,10 +15,10 @@ use crate::explain::{Explanations, explain};
 use crate::plant::{At, Plant, Run};
 use crate::problem::{Problem, Term};
 use crate::report::Report;
+use crate::rules::{FEWEST_WINDOWS, HOLD_OUT_SHARE};
 use crate::scatter::{Trials, left_over};
 use crate::select::{FLOOR_RATIO, Gates, Selection, is_noise, refs, select};
 use crate::unknown::surrogates;
-use crate::weak::FEWEST_WINDOWS;
 use ended::{faulty, not_excited};
 use parts::Parts;
 use rigproof_model::effects::entry;
@@ -43,7 +43,7 @@ impl Default for Options {
     fn default() -> Options {
         Options {
             gates: Gates::default(),
-            hold_out_share: 0.25,
+            hold_out_share: HOLD_OUT_SHARE,
             refit: true,
             next_experiment: true,
         }

@@ -1,10 +1,8 @@
 //! This file is recordings as they may have been instead, for what a brake may be mistaken by.
 
+use crate::rules::{BEND_S, SENSE_SIGMAS};
 use core::f64::consts::TAU;
 use rigproof_model::effects::Instant;
-
-/// Half the stretch of time over which the bend of a smoothed position counts, s.
-const BEND_S: f64 = 0.02;
 
 /// How a position was smoothed.
 pub struct Smoothing {
@@ -31,7 +29,7 @@ impl Smoothing {
                 let around = bend.get(k.saturating_sub(reach)..(k + reach + 1).min(bend.len()));
                 let greatest = around.into_iter().flatten().copied().fold(0.0, f64::max);
                 // White noise bends by up to four times its size, which the floor already counts.
-                let excess = (greatest - 4.0 * self.noise).max(0.0);
+                let excess = (greatest - SENSE_SIGMAS * self.noise).max(0.0);
                 self.speed_floor + octaves * TAU * self.cutoff_hz * excess
             })
             .collect()

@@ -9,6 +9,7 @@ use crate::cause::Cause;
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, dot, fit, free_columns, norm};
 use crate::report::{NotSeen, NullDirection};
+use crate::rules::{INCLUSION_REPLICATES, POWER_Z, TELLABLE};
 use crate::select::{Found, Gates, Selection, refs};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use rand_pcg::Pcg64Mcg;
@@ -21,9 +22,6 @@ use std::collections::BTreeMap;
 pub use constancy::{inconstant, is_told_by_itself};
 pub use intervals::{Intervals, intervals};
 pub use rivals::{Rivals, rivals};
-
-/// Bootstrap replicates of the inclusion frequency.
-const REPLICATES: usize = 500;
 
 fn parameter_count(term: &Term) -> usize {
     entry(term.cause.mechanism).map_or(0, |e| e.linear) + term.shape.len()
@@ -145,7 +143,7 @@ pub fn inclusion(problem: &Problem, selection: &Selection, index: usize, gates: 
         .zip(selection.after.block_loss.iter().copied())
         .collect();
     let mut random = Pcg64Mcg::seed_from_u64(7);
-    let passed = (0..REPLICATES)
+    let passed = (0..INCLUSION_REPLICATES)
         .filter(|_| {
             let (mut before, mut after) = (0.0, 0.0);
             for _ in 0..pairs.len() {
@@ -157,11 +155,8 @@ pub fn inclusion(problem: &Problem, selection: &Selection, index: usize, gates: 
             after < (1.0 - gates.share) * before
         })
         .count();
-    passed as f64 / REPLICATES as f64
+    passed as f64 / INCLUSION_REPLICATES as f64
 }
-
-/// z a coefficient must have to be seen with 80 % power at the gates' z.
-const POWER_Z: f64 = 0.84;
 
 /// The least size of every mechanism that was not named.
 pub fn not_seen(problem: &Problem, selection: &Selection, gates: Gates) -> Vec<NotSeen> {
@@ -191,9 +186,6 @@ pub fn not_seen(problem: &Problem, selection: &Selection, gates: Gates) -> Vec<N
         })
         .collect()
 }
-
-/// Share of a column that must stand out of the named ones for a bound on it to mean anything.
-const TELLABLE: f64 = 0.02;
 
 /// The size of a term's leading parameter at which it passes the gates.
 fn least_size(term: &Term, basis: &[Vec<f64>], loss: f64, gates: Gates) -> Option<f64> {

@@ -9,6 +9,7 @@ use crate::candidates::{all_variants, causes};
 use crate::cause::Cause;
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, fit, free_columns, paired, reduced_target};
+use crate::rules::{LISTED, NAMED, OFFERED, ROUNDS, SUSPECTED};
 use crate::select::{Found, Selection, is_noise, usable_rms};
 use fitted::{Fitted, Folds};
 use score::{Judge, prior};
@@ -68,15 +69,6 @@ impl Explanation {
     }
 }
 
-/// The least weight of what is offered in the place of a name.
-const OFFERED: f64 = 0.03;
-
-/// The probability from which on something is named.
-pub const NAMED: f64 = 0.9;
-
-/// The probability from which on something is suspected.
-pub const SUSPECTED: f64 = 0.5;
-
 /// What is said of something with this probability.
 pub const fn status(probability: f64) -> &'static str {
     if probability >= NAMED {
@@ -87,9 +79,6 @@ pub const fn status(probability: f64) -> &'static str {
         "possible"
     }
 }
-
-/// Rounds: the noise is taken from the sensors first, and with what the best explanation of that round leaves in the second.
-const ROUNDS: usize = 2;
 
 /// Explains a recording on top of the terms of its nominal model.
 pub fn explain(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection, Explanations) {
@@ -126,9 +115,6 @@ fn round_of(problem: &Problem, nominal: &[Term], noise: f64) -> Vec<Explanation>
     let all = beam::search(problem, &folds, &judge, &bare, &tried);
     weigh(problem, &folds, &judge, &bare, all, noise)
 }
-
-/// The least weight of an explanation that is listed.
-const LISTED: f64 = 1e-4;
 
 fn weigh(
     problem: &Problem,

@@ -10,6 +10,7 @@ mod sampled;
 mod sets;
 mod step;
 
+use crate::rules::FAST_SHARE;
 use rigproof_model::brake::identify::{average, gain_fit, surface_fit};
 use rigproof_spec::tables::Edge;
 use rigproof_spec::units::rpm_from_rad_s;
@@ -108,7 +109,7 @@ fn surface(sets: &Sets, edge: Edge, missing: &mut Vec<String>) -> Option<Surface
     let measured = sets.time_constants(edge);
     let fast = measured
         .iter()
-        .filter(|(_, omega_rpm, _)| *omega_rpm >= 0.95 * edge.threshold_rpm());
+        .filter(|(_, omega_rpm, _)| *omega_rpm >= FAST_SHARE * edge.threshold_rpm());
     let fast: Vec<f64> = fast.map(|m| m.2).collect();
     let (name, threshold_rpm) = (edge.name(), edge.threshold_rpm());
     let Some(mean) = average(&fast) else {

@@ -77,6 +77,7 @@ pub mod plants;
 mod problem;
 mod regression;
 pub mod report;
+pub mod rules;
 mod scatter;
 mod select;
 pub mod self_calibration;

@@ -5,12 +5,9 @@ mod along;
 use crate::cause::Place;
 use crate::problem::Problem;
 use crate::report::Located;
+use crate::rules::{LOCATE_BLOCKS, LOCATE_REPLICATES};
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
-
-/// Bootstrap replicates of the shares, and blocks they draw from.
-const REPLICATES: usize = 200;
-const BLOCKS: usize = 20;
 
 /// Which rows belong to a regime.
 pub struct Cell {
@@ -100,7 +97,7 @@ fn share(values: &[f64], member: &[bool]) -> f64 {
 
 /// 95 % interval of a share, by resampling contiguous blocks of windows.
 fn interval(values: &[f64], member: &[bool]) -> (f64, f64) {
-    let size = values.len().div_ceil(BLOCKS).max(1);
+    let size = values.len().div_ceil(LOCATE_BLOCKS).max(1);
     let blocks: Vec<(f64, f64)> = values
         .chunks(size)
         .zip(member.chunks(size))
@@ -110,7 +107,7 @@ fn interval(values: &[f64], member: &[bool]) -> (f64, f64) {
         })
         .collect();
     let mut random = Pcg64Mcg::seed_from_u64(1);
-    let mut shares: Vec<f64> = (0..REPLICATES)
+    let mut shares: Vec<f64> = (0..LOCATE_REPLICATES)
         .map(|_| {
             let (mut part, mut total) = (0.0, 0.0);
             for _ in 0..blocks.len() {
@@ -125,7 +122,7 @@ fn interval(values: &[f64], member: &[bool]) -> (f64, f64) {
     shares.sort_by(f64::total_cmp);
     let at = |q: f64| {
         shares
-            .get((q * (REPLICATES - 1) as f64).round() as usize)
+            .get((q * (LOCATE_REPLICATES - 1) as f64).round() as usize)
             .copied()
             .unwrap_or(0.0)
     };

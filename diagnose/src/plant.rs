@@ -3,24 +3,28 @@
 mod described;
 mod replayed;
 mod rules;
+mod simulated;
 
 use crate::candidates::standard_shapes;
 use crate::cause::{Cause, JointId, Place};
 use crate::locate::{self, Regimes};
-use crate::signals::numerov;
+use crate::rules::{MOST_AMBIGUOUS, NOISE_ORDER, WIDTHS_S};
+use crate::signals::unit_parameters;
 use crate::unknown::{Variable, variables};
-use crate::weak::{MOST_AMBIGUOUS, Windows, is_recorded, untold};
-use crate::whiten::{ORDER, Whitener};
+use crate::weak::{Windows, is_recorded, untold};
+use crate::whiten::Whitener;
 use core::fmt::Debug;
-use rigproof_model::effects::Instant;
+use rigproof_model::bench::column;
+use rigproof_model::effects::{Form, Instant, entry, law};
 use rigproof_spec::effect::{Mechanism, Motion};
 
+pub use crate::align::Fault;
+pub use crate::problem::NominalEffect;
+pub use crate::signals::{numerov, second_difference};
 pub use described::{At, Described, Plant, Replica, Shown};
 pub use replayed::{Frame, RESTART_S, Replayed};
 pub use rules::Rules;
-
-/// Width of windows where a plant has no wish of its own, s.
-const USUAL_WIDTH_S: f64 = 0.040;
+pub use simulated::{Simulated, SimulatedOutput, Unsimulated};
 
 /// The clock of a recording: regular samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,13 +65,26 @@ pub enum Columns {
 /// Signals are in SI units, one value a sample; a plant with several outputs has a stretch of samples for each, one stretch after another.
 pub trait Run: Debug + Send + Sync {
     /// Its samples.
-    fn clock(&self) -> Clock;
+    fn clock(&self) -> Clock {
+        let motion = self.motion(Place::Whole);
+        let at = |now: Option<&Instant>| now.map_or(0.0, |now| now.time_s);
+        let (start_s, samples) = (at(motion.first()), motion.len());
+        Clock {
+            step_s: (at(motion.last()) - start_s) / samples.saturating_sub(1).max(1) as f64,
+            start_s,
+            samples,
+        }
+    }
 
-    /// Which samples were recorded, not filled in.
-    fn recorded(&self) -> &[bool];
+    /// Which samples were recorded, not filled in; empty where all were.
+    fn recorded(&self) -> &[bool] {
+        &[]
+    }
 
     /// Whether it slides or turns: what the units of its numbers are.
-    fn motion_kind(&self) -> Motion;
+    fn motion_kind(&self) -> Motion {
+        Motion::Rotary
+    }
 
     /// How many equations it has: each window gives as many rows.
     fn outputs(&self) -> usize {
@@ -85,8 +102,11 @@ pub trait Run: Debug + Send + Sync {
         &Rules::ONE_EQUATION
     }
 
-    /// The samples `from..to`, times kept.
-    fn slice(&self, from: usize, to: usize) -> Box<dyn Run>;
+    /// The samples `from..to`, times kept; `None` where it cannot be parted.
+    fn slice(&self, from: usize, to: usize) -> Option<Box<dyn Run>> {
+        let _ = (from, to);
+        None
+    }
 
     // The balance of efforts: driving effort = known + what the nominal model leaves out.
 
@@ -110,7 +130,8 @@ pub trait Run: Debug + Send + Sync {
 
     /// The windows that suit it, those given up in which its sensors tell too little.
     fn windows(&self) -> Windows {
-        self.windows_of(USUAL_WIDTH_S)
+        let [narrowest_s, ..] = WIDTHS_S;
+        self.windows_of(narrowest_s)
     }
 
     /// Gives up the rows of windows in which the sensors tell too little: a sample is missing, or a sense of motion is not known.
@@ -147,12 +168,14 @@ pub trait Run: Debug + Send + Sync {
 
     /// The noise model of the usable rows; `excess` is a variance of white effort that nothing explains.
     fn whitener(&self, windows: &Windows, excess: f64) -> Whitener {
-        let covariance = windows.noise_covariance(self.sensors(), excess, ORDER + 1);
+        let covariance = windows.noise_covariance(self.sensors(), excess, NOISE_ORDER + 1);
         Whitener::new(&covariance, &windows.usable)
     }
 
     /// Standard deviation of one sample of a position: what a travel is compared with.
-    fn position_noise(&self) -> f64;
+    fn position_noise(&self) -> f64 {
+        0.0
+    }
 
     // Places.
 
@@ -201,7 +224,19 @@ pub trait Run: Debug + Send + Sync {
     /// What a cause of this shape adds to the balance; `None` where it has no meaning here.
     ///
     /// `beside` is what all other terms give together, sample by sample. A cause that acts on that cannot be told without it: `None`.
-    fn columns(&self, cause: Cause, shape: &[f64], beside: Option<&[f64]>) -> Option<Columns>;
+    fn columns(&self, cause: Cause, shape: &[f64], beside: Option<&[f64]>) -> Option<Columns> {
+        let _ = beside;
+        self.resistances(cause, shape)
+    }
+
+    /// What a resistance adds along the motion at its place, with Numerov's weights.
+    fn resistances(&self, cause: Cause, shape: &[f64]) -> Option<Columns> {
+        let (motion, step_s) = (self.motion(cause.at), self.clock().step_s);
+        let own = resistances(motion, step_s, cause.mechanism, shape)?;
+        Some(Columns::Free(
+            own.iter().map(|signal| numerov(signal)).collect(),
+        ))
+    }
 
     /// Whether some causes act on what the others give, so that they are linearised about it again and again.
     fn is_linearised(&self) -> bool {
@@ -294,4 +329,24 @@ pub trait Run: Debug + Send + Sync {
             None => mechanism.to_owned(),
         }
     }
+}
+
+/// One signal for each linear parameter of a resistance along a motion: the law with that parameter 1 and the others 0. `None` for a mechanism
+/// that is no resistance.
+pub fn resistances(
+    motion: &[Instant],
+    step_s: f64,
+    mechanism: Mechanism,
+    shape: &[f64],
+) -> Option<Vec<Vec<f64>>> {
+    let entry = entry(mechanism)?;
+    if !matches!(entry.form, Form::Resistance(_) | Form::ShareOfBrake(_)) {
+        return None;
+    }
+    let each = unit_parameters(entry.linear, shape);
+    each.map(|parameters| {
+        let law = law(mechanism, &parameters)?;
+        Some(column(law.as_ref(), motion, step_s))
+    })
+    .collect()
 }

@@ -1,6 +1,7 @@
 //! This file is least squares on white windows, and its cross-validation over contiguous blocks of time.
 
 use crate::problem::{Problem, Rows, Term};
+use crate::rules::{BLOCK_S, FEWEST_BLOCKS, LEAST_WEIGHT, MOST_BLOCKS, OWN_OF_COLUMN, PURGE};
 use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
 
@@ -11,19 +12,13 @@ pub struct Blocks {
     pub ranges: Vec<(usize, usize)>,
 }
 
-/// Length of one block, s, and the bounds on their number.
-const BLOCK_S: f64 = 1.25;
-const FEWEST: usize = 8;
-const MOST: usize = 24;
-/// Windows between blocks that belong to neither: the reach of a window plus that of the noise model.
-const PURGE: usize = 8;
-
 impl Blocks {
     /// Equal blocks over all windows of a problem.
     pub fn new(problem: &Problem) -> Blocks {
         let outputs = problem.windows.outputs;
         let windows = problem.windows.centres.len() / outputs;
-        let count = ((problem.run.clock().duration_s() / BLOCK_S) as usize).clamp(FEWEST, MOST);
+        let count = ((problem.run.clock().duration_s() / BLOCK_S) as usize)
+            .clamp(FEWEST_BLOCKS, MOST_BLOCKS);
         let purge = PURGE.min(windows / (4 * count));
         let ranges = (0..count)
             .map(|b| (b * windows / count, (b + 1) * windows / count - purge))
@@ -54,9 +49,6 @@ impl Fit {
         self.block_loss.iter().sum()
     }
 }
-
-/// Share of a column's length that must stand out of the earlier columns for it to count as its own.
-const OWN_SHARE: f64 = 0.02;
 
 /// Normal equations of one range of windows.
 #[derive(Clone)]
@@ -197,7 +189,7 @@ fn redundancy(columns: &[&Rows]) -> Vec<bool> {
                 }
             }
             let own = norm(&rest);
-            let redundant = own.is_nan() || own <= OWN_SHARE * length || length == 0.0;
+            let redundant = own.is_nan() || own <= OWN_OF_COLUMN * length || length == 0.0;
             if !redundant {
                 rest.iter_mut().for_each(|x| *x /= own);
                 basis.push(rest);
@@ -330,9 +322,6 @@ pub fn paired(before: &[f64], after: &[f64], weight: &[f64]) -> (f64, f64) {
         .sum();
     (gain, gain / (scatter * n / (n - 1.0)).sqrt().max(1e-300))
 }
-
-/// Share of the mean weight below which a block says nothing.
-const LEAST_WEIGHT: f64 = 0.05;
 
 /// The inner product of two columns, in four running sums so that the processor can overlap them.
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {

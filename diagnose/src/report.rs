@@ -1,8 +1,11 @@
 //! This file is the report: what a diagnosis says, in the fields that `report.json` has.
 
-use rigproof_trace::csv::Dialect;
+mod read_as;
+
 use serde::Serialize;
 use std::collections::BTreeMap;
+
+pub use read_as::ReadAs;
 
 /// Version of the report's shape.
 pub const SCHEMA: &str = "rigproof-report/1";
@@ -111,33 +114,6 @@ pub struct InputFile {
     pub sha256: String,
     /// How a text recording was read; nothing for another file.
     pub read_as: Option<ReadAs>,
-}
-
-/// The dialect of a text recording.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct ReadAs {
-    /// `,`, `;`, `tab` or `blank`.
-    pub separator: &'static str,
-    /// `.` or `,`.
-    pub decimal: &'static str,
-    /// Lines before the line with the names.
-    pub header_lines: usize,
-    /// Whether a row of units stands below the names.
-    pub units_row: bool,
-    /// `UTF-8`, or `UTF-16` and its order of bytes.
-    pub encoding: &'static str,
-}
-
-impl From<Dialect> for ReadAs {
-    fn from(dialect: Dialect) -> ReadAs {
-        ReadAs {
-            separator: dialect.separator.name(),
-            decimal: dialect.decimal.name(),
-            header_lines: dialect.header_lines,
-            units_row: dialect.units_row,
-            encoding: dialect.encoding.name(),
-        }
-    }
 }
 
 /// The seven verdicts.
@@ -389,6 +365,9 @@ pub struct NullDirection {
 pub struct Unknown {
     /// The variable that orders it best.
     pub variable: &'static str,
+    /// The joint whose motion it is, where there are several.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub joint: Option<&'static str>,
     /// Unit of the variable.
     pub variable_unit: String,
     /// Whether the curve is a level along the motion, as a friction's is, instead of an effort.

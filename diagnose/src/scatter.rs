@@ -6,15 +6,8 @@ use crate::plant::Run;
 use crate::problem::{Problem, Term, less};
 use crate::regression::Fit;
 use crate::report::Unknown;
+use crate::rules::{FEWEST_TRIALS, TRIAL_JUMP_A, TRIALS_SHARE, WINDOWS_A_TRIAL};
 use crate::weak::Windows;
-
-/// Change of the current between two samples with which a trial begins, A.
-const JUMP_A: f64 = 0.05;
-/// Fewest trials that tell a spread, and fewest usable windows for each of them.
-const FEWEST_TRIALS: usize = 8;
-const WINDOWS_A_TRIAL: usize = 4;
-/// Share of what is left that a gain for every trial must take away.
-const LEAST_SHARE: f64 = 0.7;
 
 /// The trials of a brake on a bench; each begins where the current jumps.
 #[derive(Clone, Debug)]
@@ -49,7 +42,7 @@ impl Trials {
         let mut jumps = vec![0];
         for (k, pair) in current.windows(2).enumerate() {
             if let [before, after] = pair
-                && (after - before).abs() > JUMP_A
+                && (after - before).abs() > TRIAL_JUMP_A
             {
                 jumps.push(k + 1);
                 start_s.push(clock.start_s + (k + 1) as f64 * clock.step_s);
@@ -102,7 +95,7 @@ impl Trials {
         self.take_out(&mut within, usable);
         let (all, rest) = (size(residual), size(&within));
         let share = 1.0 - (rest / all).powi(2);
-        if all <= least || share < LEAST_SHARE {
+        if all <= least || share < TRIALS_SHARE {
             return None;
         }
         let gains = self.gains(residual, usable);
@@ -124,6 +117,7 @@ impl Scatter {
     pub fn described(&self) -> Unknown {
         Unknown {
             variable: "trial",
+            joint: None,
             variable_unit: "s".to_owned(),
             along_motion: true,
             share: self.share,

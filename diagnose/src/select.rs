@@ -15,6 +15,9 @@ use crate::candidates::{all_variants, causes};
 use crate::cause::Cause;
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, Fit, fit};
+use crate::rules::{
+    FLOOR_SIGMAS, GATE_RELEVANCE, GATE_SHARE, GATE_Z, MOST_FOUND, MOST_STAGES, WINDOWS_A_FREEDOM,
+};
 use form::take_out_forms;
 use merge::merge;
 use prune::{backward, prune};
@@ -22,11 +25,13 @@ use refine::refine;
 use sole::sole;
 use step::{forward, swap};
 
+pub(crate) use crate::rules::LEAST_SIGMAS;
+pub use crate::rules::{FLOOR_RATIO, TIE_Z};
 pub(crate) use judge::best as best_variant;
 pub(crate) use merge::as_two;
 pub(crate) use onset::{change_with_onset, onset_interval};
 pub(crate) use refine::refined;
-pub(crate) use together::bends;
+pub(crate) use together::{bends, elementary, is_elementary_friction};
 pub(crate) use weigh::gives_energy;
 pub use weigh::{is_noise, usable_rms};
 
@@ -44,9 +49,9 @@ pub struct Gates {
 impl Default for Gates {
     fn default() -> Gates {
         Gates {
-            z: 2.5,
-            share: 0.02,
-            relevance: 0.002,
+            z: GATE_Z,
+            share: GATE_SHARE,
+            relevance: GATE_RELEVANCE,
         }
     }
 }
@@ -96,26 +101,12 @@ pub struct Selection {
     pub after: Fit,
 }
 
-/// The most mechanisms that are named on one recording.
-const MOST_FOUND: usize = 8;
-/// The most mechanisms that are taken in, those that go again included.
-const MOST_STAGES: usize = 14;
-/// From how many standard deviations of the sensors' noise on two explanations count as told apart.
-pub(crate) const LEAST_SIGMAS: f64 = 10.0;
-/// z below which two explanations are not told apart.
-pub const TIE_Z: f64 = 2.0;
-/// Residual over floor up to which nothing counts as unexplained.
-pub const FLOOR_RATIO: f64 = 1.3;
-
-/// Usable windows that tell as much as one that shares no sample with the others: they overlap by three quarters.
-const WINDOWS_A_FREEDOM: f64 = 1.5;
-
 /// Residual over floor up to which nothing counts as unexplained on a recording: of few windows noise alone may be above
 /// [`FLOOR_RATIO`], so three standard deviations of what it comes to are allowed.
 pub fn floor_limit(problem: &Problem) -> f64 {
     let usable = problem.windows.usable.iter().filter(|u| **u).count();
     let freedom = (usable as f64 / WINDOWS_A_FREEDOM).max(1.0);
-    FLOOR_RATIO.max(1.0 + 3.0 / (2.0 * freedom).sqrt())
+    FLOOR_RATIO.max(1.0 + FLOOR_SIGMAS / (2.0 * freedom).sqrt())
 }
 
 /// Runs the whole search, and where it leaves more than noise looks for the one mechanism that shows in few places.

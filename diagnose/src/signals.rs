@@ -1,5 +1,6 @@
 //! This file is what is done to a signal before it becomes a column: delayed, shifted, weighted, differenced.
 
+pub use crate::rules::USUAL_SHARE;
 use rigproof_model::effects::{CurrentPlay, first_order_lag_straight};
 
 /// A brake's signed torque with its magnitude delayed by a first-order lag and its sign kept.
@@ -11,9 +12,6 @@ pub fn lagged_yield(predicted: &[f64], step_s: f64, time_constant_s: f64) -> Vec
         .map(|(l, p)| if *p == 0.0 { 0.0 } else { l * p.signum() })
         .collect()
 }
-
-/// Share of a current that hysteresis is linearised with: the torque is not linear in the current.
-pub const USUAL_SHARE: f64 = 0.3;
 
 /// A current of which a share goes through a play, sample by sample, A.
 pub fn through_play(current_a: &[f64], play: CurrentPlay, share: f64) -> Vec<f64> {

@@ -8,14 +8,10 @@ use crate::regression::{Blocks, left_out_loss};
 use crate::report::Unknown;
 use rigproof_spec::effect::Mechanism;
 
+use crate::rules::{BLOCKS_A_KNOT, CURVE_SHARE, KNOTS, PARITY_TIMES, SURROGATE_SHARE};
+use rigproof_model::effects::facts;
+use rigproof_model::effects::facts::Shows;
 pub use variables::variables;
-
-/// Knots of a curve.
-const KNOTS: usize = 20;
-/// Blocks between two knots of a curve over time: a block that is left out must leave something of each hat.
-const BLOCKS_A_KNOT: usize = 2;
-/// Share of the remaining loss that a curve must take away on left-out blocks to be drawn.
-const LEAST_SHARE: f64 = 0.02;
 
 /// Screens position, speed, time and effort for the curve that takes away most of the residual, or `None` when no
 /// curve over one of them helps.
@@ -23,7 +19,7 @@ pub fn unknown(problem: &Problem, residual: &[f64]) -> Option<Unknown> {
     let screened = screen(problem, residual, over(problem));
     let best = screened
         .into_iter()
-        .filter(|(_, share)| *share > LEAST_SHARE)
+        .filter(|(_, share)| *share > CURVE_SHARE)
         .max_by(|a, b| a.1.total_cmp(&b.1));
     best.map(|(variable, share)| describe(problem, residual, &variable, share))
 }
@@ -41,10 +37,6 @@ fn screen(problem: &Problem, residual: &[f64], variables: Vec<Variable>) -> Vec<
         })
         .collect()
 }
-
-/// Share of the remaining loss that a free curve must take away before the named laws that it concerns count as
-/// surrogates of another law.
-const SURROGATE_SHARE: f64 = 0.3;
 
 /// The found mechanisms that only stand in for another law: with them in place, a free curve over a variable that
 /// they are functions of, or that their level should not depend on, still takes a good part of the remaining loss away.
@@ -87,17 +79,13 @@ fn over(problem: &Problem) -> Vec<Variable> {
 impl Variable {
     /// Whether a mechanism is a function of this variable, or has a level that should not depend on it.
     fn concerns(&self, mechanism: Mechanism) -> bool {
-        match mechanism {
-            Mechanism::DryOffset | Mechanism::Viscous | Mechanism::Stribeck => {
-                self.level || self.name == "speed"
-            }
-            Mechanism::DirectionAsymmetry => self.name == "speed",
-            Mechanism::Spring | Mechanism::NonlinearSpring | Mechanism::Ripple => {
-                self.name == "position" && !self.level
-            }
-            Mechanism::BiasDrift => self.name == "time" && !self.level,
-            Mechanism::GainError => matches!(self.name, "effort" | "load"),
-            _ => false,
+        match facts(mechanism).map_or(Shows::Nowhere, |facts| facts.shows) {
+            Shows::SpeedAndLevels => self.level || self.name == "speed",
+            Shows::Speed => self.name == "speed",
+            Shows::Position => self.name == "position" && !self.level,
+            Shows::Time => self.name == "time" && !self.level,
+            Shows::Effort => matches!(self.name, "effort" | "load"),
+            Shows::Nowhere => false,
         }
     }
 
@@ -171,6 +159,7 @@ fn describe(problem: &Problem, residual: &[f64], variable: &Variable, share: f64
     let parity = parity(&all);
     Unknown {
         variable: variable.name,
+        joint: problem.run.place_name(variable.at),
         variable_unit: variable.unit.clone(),
         along_motion: variable.level,
         share,
@@ -233,8 +222,8 @@ fn parity(shape: &[f64]) -> &'static str {
         even += (a + b - 2.0 * mean) * (a + b - 2.0 * mean);
     }
     match odd.total_cmp(&even) {
-        _ if odd > 3.0 * even => "odd",
-        _ if even > 3.0 * odd => "even",
+        _ if odd > PARITY_TIMES * even => "odd",
+        _ if even > PARITY_TIMES * odd => "even",
         _ => "neither",
     }
 }

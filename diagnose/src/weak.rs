@@ -2,19 +2,8 @@
 //! that positions enter and accelerations do not.
 
 use crate::regression::dot;
+use crate::rules::{BUMP_ORDER, FEWEST_WINDOWS, MOST_DOUBT, MOST_STEP};
 use rigproof_model::effects::Instant;
-
-/// Order of the bump `(1 − x²)^4`: three continuous derivatives at its ends.
-const BUMP_ORDER: i32 = 4;
-/// Share of a window's weight that may lie where the sense of motion cannot be told.
-pub const MOST_AMBIGUOUS: f64 = 0.002;
-
-/// Fewest windows from which anything can be said.
-pub const FEWEST_WINDOWS: usize = 40;
-/// Averaged change of a predicted effort from sample to sample, in floors, up to which a window is used.
-const MOST_STEP: f64 = 0.5;
-/// What a predicted effort may be mistaken by on average, in floors, in a window that is used.
-const MOST_DOUBT: f64 = 0.5;
 
 /// The test function and the windows it is applied to.
 #[derive(Clone, Debug)]
@@ -245,7 +234,7 @@ mod tests {
     use crate::plants::joint::recorded::{
         INERTIA, NOMINAL, Noise, exact_axis, exact_bench, signals,
     };
-    use crate::whiten::{ORDER, Whitener};
+    use crate::whiten::{NOISE_ORDER, Whitener};
     use rigproof_spec::effect::Mechanism;
 
     #[test]
@@ -295,7 +284,7 @@ mod tests {
             .map(|(a, e)| INERTIA * a + e)
             .collect();
         let sensors = [INERTIA * run.position_noise, run.effort_noise];
-        let covariance = windows.noise_covariance(sensors, 0.0, ORDER + 1);
+        let covariance = windows.noise_covariance(sensors, 0.0, NOISE_ORDER + 1);
         for lag in 0..3 {
             let seen = correlation(&rows, lag);
             assert!(

@@ -1,13 +1,12 @@
 //! This file makes correlated residuals white: by an autoregressive model of stationary noise, applied within each
 //! unbroken stretch of windows, or by the Cholesky factor of a covariance with a band.
 
-/// Order of the autoregression, in windows: two window widths at a hop of a quarter.
-pub const ORDER: usize = 8;
+pub use crate::rules::NOISE_ORDER;
 
 /// What makes rows white.
 #[derive(Clone, Debug)]
 pub enum Whitener {
-    /// Prediction-error filters of order 0 to `ORDER`, so that the first windows of a stretch are whitened too.
+    /// Prediction-error filters of order 0 to `NOISE_ORDER`, so that the first windows of a stretch are whitened too.
     Stationary {
         /// For each order, the predictor's coefficients and the standard deviation of its error.
         filters: Vec<(Vec<f64>, f64)>,
@@ -32,7 +31,7 @@ pub struct FactorRow {
 impl Whitener {
     /// The noise model with this autocovariance (one value a lag, in windows) over the usable windows.
     pub fn new(covariance: &[f64], usable: &[bool]) -> Whitener {
-        let mut covariance: Vec<f64> = covariance.iter().take(ORDER + 1).copied().collect();
+        let mut covariance: Vec<f64> = covariance.iter().take(NOISE_ORDER + 1).copied().collect();
         if let Some(variance) = covariance.first_mut() {
             // A ridge at rounding level keeps the recursion well conditioned.
             *variance = *variance * (1.0 + 1e-6) + 1e-300;
@@ -194,7 +193,7 @@ mod tests {
             .windows(4)
             .map(|w| w.iter().zip(weights).map(|(x, c)| c * x).sum())
             .collect();
-        let covariance: Vec<f64> = (0..=ORDER)
+        let covariance: Vec<f64> = (0..=NOISE_ORDER)
             .map(|lag| {
                 weights
                     .iter()

@@ -1,4 +1,4 @@
-//! This file holds the planted mutants: the rig's own selection with one change each, under the same claims.
+//! This file holds the planted mutants: the rig's own selection with one change each, under the same claims; in an optimised build only.
 #![allow(clippy::all, dead_code, unused, missing_docs)]
 
 use rigproof_impl::claim::{Checker, Claim};

@@ -11,6 +11,7 @@ use crate::engine::random::{Sampler, sample};
 use crate::engine::smt::{self, Outcome, Walker, examine};
 use crate::ledger::{Entry, Ledger, Mutant, Verdict, Word};
 use crate::mutation::examine_mutants;
+use crate::planted::IS_PLANTED;
 use crate::replay::Replay;
 use crate::solver::{Solver, VERSION};
 use crate::width::Number;
@@ -52,8 +53,11 @@ struct Single {
 /// Runs every engine that is there; only on claims whose name contains `only`, and then on no mutant.
 ///
 /// # Errors
-/// What cannot be read.
+/// What cannot be read; a build without the mutants, where they are to be examined.
 pub fn prove(place: &Place, only: Option<&str>) -> Result<Ledger, String> {
+    if only.is_none() && !IS_PLANTED {
+        return Err("this build has no planted mutants: run `cargo run --release -p rigproof-proofs -- prove`, or ask for some claims with --only".to_owned());
+    }
     let solver = Solver::find(&place.python);
     let proved_by_kani = kani::is_set_up(&place.root).then(|| kani::proves(&place.root));
     let double = claims().into_iter().zip(claims());

@@ -3,9 +3,11 @@
 mod citations;
 mod ledger;
 mod packages;
+mod plants;
 mod rooms;
 mod rules;
 mod rust;
+mod unused;
 mod words;
 mod workspace;
 

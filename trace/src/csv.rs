@@ -4,14 +4,18 @@ mod columns;
 mod dialect;
 mod layout;
 mod lines;
+mod logger;
 mod read;
+mod stamp;
+mod table;
+mod time;
 mod units_row;
 mod write;
 
 pub use columns::TimeColumn;
 pub(crate) use columns::time_to_s;
 pub use dialect::{Decimal, Dialect, Encoding, Hints, Separator};
-pub use read::{LEAST_SAMPLES, parse, parse_as, read, read_as};
+pub use read::{Known, LEAST_SAMPLES, Text, parse, parse_as, parse_text, read, read_as, read_text};
 pub use write::{to_bytes, write};
 
 #[cfg(test)]

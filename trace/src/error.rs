@@ -64,7 +64,7 @@ pub enum TraceError {
         source: io::Error,
     },
     /// The file is no text.
-    #[error("{place}: {problem}; give a text file in UTF-8, or in UTF-16 with a byte-order mark")]
+    #[error("{place}: {problem}; give a text file, MCAP, HDF5 or MATLAB")]
     NotText {
         /// Where.
         place: Place,
@@ -111,7 +111,7 @@ pub enum TraceError {
     },
     /// A cell holds no finite number.
     #[error(
-        "{place}: `{text}` is no finite number; leave the cell empty where a sample is missing"
+        "{place}: `{text}` is no finite number; leave the cell empty, or write `nan`, where a sample is missing"
     )]
     NotANumber {
         /// Where.
@@ -125,9 +125,19 @@ pub enum TraceError {
         /// Where.
         place: Place,
     },
-    /// Time does not grow.
+    /// A time stamp is neither a number nor a date.
     #[error(
-        "{place}: the time stamp {time_s} s {motion} after {previous_s} s; time must grow from line to line: remove the line or sort the file"
+        "{place}: the time stamp `{text}` is no finite number and no date with a time of day (`2024-05-06 10:11:12.125`, `10:11:12.125`); correct it, or name another column as the time"
+    )]
+    NoStamp {
+        /// Where.
+        place: Place,
+        /// What the cell holds, shortened.
+        text: String,
+    },
+    /// Time goes backward.
+    #[error(
+        "{place}: the time stamp {time_s} s goes backward after {previous_s} s: the clock was set, a second recording begins here, or lines were exchanged; cut the file there, or sort its lines"
     )]
     TimeOrder {
         /// Where.
@@ -136,8 +146,24 @@ pub enum TraceError {
         time_s: f64,
         /// The one before it, s.
         previous_s: f64,
-        /// `is repeated` or `goes backward`.
-        motion: &'static str,
+    },
+    /// Time stamps are repeated, and not as rounding or transfers in bursts would do it.
+    #[error(
+        "{place}: the time stamp is repeated, and the lines that share a stamp come in no regular pattern, so when they were sampled is not told; record stamps with more digits, or name another column as the time"
+    )]
+    TimeRepeated {
+        /// The first place.
+        place: Place,
+    },
+    /// The file is of a kind that is not read here.
+    #[error("{}: this is {kind}; {way}", file.display())]
+    OtherKind {
+        /// The file.
+        file: PathBuf,
+        /// What it is.
+        kind: &'static str,
+        /// How to bring it in.
+        way: String,
     },
     /// A rig description is not usable.
     #[error("{place}: {problem}")]

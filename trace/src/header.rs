@@ -2,17 +2,29 @@
 
 use rigproof_spec::units::Unit;
 
-/// The name and the unit of a header cell: `name (unit)`, `name [unit]` or `name_unit`.
+/// The name and the unit of a header cell: `name (unit)`, `name [unit]` or `name / unit`.
 ///
-/// A unit after an underscore stays in the name (`qm_m` is the channel `qm_m`, in `m`) and counts only if it is
-/// one; a bracket that holds digits is an index (`x[1]`) and stays in the name too. The unit is empty when the
-/// header does not say.
+/// A bracket that holds digits is an index (`x[1]`) and stays in the name. The unit is empty when the header does not
+/// say; what the name suggests is [`guessed_unit`].
 pub fn name_and_unit(header: &str) -> (&str, &str) {
     let header = header.trim();
     bracketed(header, '(', ')')
         .or_else(|| bracketed(header, '[', ']').filter(|(_, unit)| !is_digits(unit)))
-        .or_else(|| suffixed(header))
+        .or_else(|| divided(header))
         .unwrap_or((header, ""))
+}
+
+/// `name / unit`, as DIN 1313 writes it.
+fn divided(header: &str) -> Option<(&str, &str)> {
+    let (name, unit) = header.rsplit_once(" / ")?;
+    let (name, unit) = (name.trim_end(), unit.trim_start());
+    let is_unit = !name.is_empty() && !is_digits(unit) && Unit::parse(unit).is_some();
+    is_unit.then_some((name, unit))
+}
+
+/// The unit that a name ends in after an underscore (`m` of `qm_m`), or nothing. It is a guess: `theta_A` is rarely a current.
+pub fn guessed_unit(name: &str) -> &str {
+    suffixed(name).map_or("", |(_, unit)| unit)
 }
 
 /// The header that reads back as this name and unit, or `None` when there is none.
@@ -60,16 +72,33 @@ mod tests {
         for (text, expected) in [
             ("torque (N·m)", ("torque", "N·m")),
             (" speed [deg/s] ", ("speed", "deg/s")),
-            ("qm_m", ("qm_m", "m")),
-            ("torque_Nm", ("torque_Nm", "Nm")),
+            ("qm_m", ("qm_m", "")),
+            ("qm_m (mm)", ("qm_m", "mm")),
             ("dist_mm_raw", ("dist_mm_raw", "")),
-            ("run_2", ("run_2", "")),
+            ("t / s", ("t", "s")),
+            ("torque / N·m", ("torque", "N·m")),
+            ("left / right", ("left / right", "")),
             ("forc1[1]", ("forc1[1]", "")),
             ("forc1[1] (N)", ("forc1[1]", "N")),
             ("qm_m ()", ("qm_m", "")),
             ("(N)", ("(N)", "")),
         ] {
             assert_eq!(name_and_unit(text), expected, "{text}");
+        }
+    }
+
+    #[test]
+    fn a_name_that_ends_in_a_unit_suggests_it() {
+        for (name, expected) in [
+            ("qm_m", "m"),
+            ("torque_Nm", "Nm"),
+            ("theta_A", "A"),
+            ("theta_E", ""),
+            ("dist_mm_raw", ""),
+            ("run_2", ""),
+            ("_m", ""),
+        ] {
+            assert_eq!(guessed_unit(name), expected, "{name}");
         }
     }
 
@@ -87,7 +116,8 @@ mod tests {
 
     #[test]
     fn a_name_that_cannot_be_read_back_has_no_header() {
-        assert_eq!(header("qm_m", "").as_deref(), Some("qm_m ()"));
+        assert_eq!(header("qm_m", "").as_deref(), Some("qm_m"));
+        assert_eq!(header("q (m)", "").as_deref(), Some("q (m) ()"));
         assert_eq!(header("forc", "N").as_deref(), Some("forc (N)"));
         for (name, unit) in [("", "N"), ("a\nb", "m"), (" a", ""), ("a", "m)(")] {
             assert_eq!(header(name, unit), None, "{name:?} {unit:?}");

@@ -43,9 +43,11 @@
 )]
 
 pub mod arrays;
+pub mod clock;
 pub mod compare;
 pub mod csv;
 pub mod error;
+pub mod foreign;
 pub mod header;
 pub mod mcap;
 pub mod rig;

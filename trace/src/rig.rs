@@ -8,6 +8,7 @@ mod brake;
 pub mod five_bar;
 pub mod linkage;
 mod messages;
+mod plausible;
 mod protocol;
 mod read;
 pub mod table;
@@ -23,6 +24,7 @@ use rigproof_spec::units::{Dimension, Unit};
 use crate::csv::{Hints, TimeColumn};
 use crate::error::TraceError;
 use crate::store;
+use crate::suggest::advice;
 
 pub use apply::{Recording, Signal};
 pub use brake::{Brake, Gain, Surface};
@@ -102,13 +104,25 @@ pub struct Channels {
     pub simulated: Option<ChannelMap>,
 }
 
+impl Channels {
+    /// Every channel that is named.
+    pub(crate) fn maps(&self) -> Vec<&ChannelMap> {
+        let optional = [&self.command, &self.force, &self.current, &self.simulated];
+        let optional = optional.into_iter().flatten();
+        std::iter::once(&self.position).chain(optional).collect()
+    }
+}
+
 /// How one channel becomes an SI quantity: sign × scale × (recorded − offset).
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChannelMap {
     /// The name in the recording.
     pub channel: String,
-    /// The unit as printed; it holds for the column unless its header names another one of the same kind.
+    /// The unit as printed, in which the numbers of this map are. The column is in it too, unless `column_unit` says otherwise;
+    /// a header that states another one is refused.
     pub unit: String,
+    /// The unit that the column is in, whatever its header says.
+    pub column_unit: Option<String>,
     /// What is subtracted, in `unit`.
     pub offset: f64,
     /// Factor after the offset is gone.
@@ -129,6 +143,7 @@ impl ChannelMap {
         ChannelMap {
             channel: channel.to_string(),
             unit: unit.to_string(),
+            column_unit: None,
             offset: 0.0,
             scale: 1.0,
             sign: 1.0,
@@ -243,6 +258,24 @@ impl Rig {
         Rig::parse(&store::read_text(path)?, path)
     }
 
+    /// The description with the units that some columns are said to be in, whatever their headers say.
+    ///
+    /// # Errors
+    /// Names a channel that the rig does not have, and those it has.
+    pub fn with_column_units(&self, units: &[(String, String)]) -> Result<Rig, String> {
+        let mut rig = self.clone();
+        let channels = &mut rig.channels;
+        let optional = [
+            &mut channels.command,
+            &mut channels.force,
+            &mut channels.current,
+            &mut channels.simulated,
+        ];
+        let maps = optional.into_iter().flatten();
+        state_units(maps.chain([&mut channels.position]), &self.name, units)?;
+        Ok(rig)
+    }
+
     /// Writes the description as a TOML file, whole or not at all.
     ///
     /// # Errors
@@ -261,4 +294,30 @@ impl Rig {
         let command = self.channels.command.as_ref()?;
         Some(self.effort().per(command.dimension()))
     }
+}
+
+/// States the units of columns.
+fn state_units<'a>(
+    maps: impl Iterator<Item = &'a mut ChannelMap>,
+    rig: &str,
+    units: &[(String, String)],
+) -> Result<(), String> {
+    let mut maps: Vec<&mut ChannelMap> = maps.collect();
+    for (name, unit) in units {
+        let mut of_name = maps
+            .iter_mut()
+            .filter(|map| map.channel == *name)
+            .peekable();
+        if of_name.peek().is_none() {
+            let names: Vec<&str> = maps.iter().map(|map| map.channel.as_str()).collect();
+            let advice = advice(name, "channels of the rig", &names);
+            return Err(format!(
+                "`{name}` of --unit is no channel of the rig `{rig}`; {advice}"
+            ));
+        }
+        for map in of_name {
+            map.column_unit = Some(unit.clone());
+        }
+    }
+    Ok(())
 }

@@ -1,14 +1,26 @@
 //! This file is the one time-series type of the workspace.
 
+use crate::header::guessed_unit;
+
 /// One named signal of a recording.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Channel {
     /// The name in the recording, without its unit.
     pub name: String,
-    /// The unit as printed; empty when the recording does not say.
+    /// The unit as printed; empty when the recording does not say. What the name suggests is [`Channel::likely_unit`].
     pub unit: String,
     /// One value for each time stamp; NaN where the recording has none.
     pub samples: Vec<f64>,
+}
+
+impl Channel {
+    /// The unit that the recording states, or else the one that the name ends in; empty where neither says anything.
+    pub fn likely_unit(&self) -> &str {
+        match self.unit.as_str() {
+            "" => guessed_unit(&self.name),
+            stated => stated,
+        }
+    }
 }
 
 /// A recording: time stamps and the channels sampled at them.

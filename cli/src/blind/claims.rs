@@ -253,6 +253,8 @@ mod tests {
                 effects: Vec::new(),
                 fault: None,
                 block_noise: 0.3,
+                residual_ratio: None,
+                forms: Default::default(),
             },
             report: json!({ "effects": [] }),
             score: Score {
@@ -273,6 +275,7 @@ mod tests {
                 parameters: Vec::new(),
                 recovered_share: None,
             },
+            judgement: None,
             then: None,
         }
     }

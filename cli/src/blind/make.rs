@@ -2,12 +2,12 @@
 
 use std::path::PathBuf;
 
-use rigproof_blind::{Case, Plant, Stratum, make, under};
+use rigproof_blind::{Case, Forms, Plant, Stratum, make_in, under};
 use rigproof_trace::csv;
 use rigproof_trace::store::Folder;
 use serde_json::json;
 
-use super::{parse_plant, parse_stratum};
+use super::{parse_forms, parse_plant, parse_stratum};
 use crate::keep;
 use crate::outcome::{Failure, Outcome, print};
 use crate::shell;
@@ -25,6 +25,9 @@ pub struct Args {
     /// The kind of case; drawn from the seed if it is not given
     #[arg(long, value_parser = parse_stratum)]
     stratum: Option<Stratum>,
+    /// The forms of what is hidden: usual (the textbook's) or other (the same physics in other forms, in a laboratory whose numbers are partly known)
+    #[arg(long, value_parser = parse_forms, default_value = "usual")]
+    forms: Forms,
     /// An experiment that `diagnose` asks for, its next-experiment.csv, to be done on the rig of the seed: recording.csv is its recording; only with --plant rig
     #[arg(long, value_name = "FILE")]
     experiment: Option<PathBuf>,
@@ -39,6 +42,7 @@ pub struct Args {
 const AFTER_HELP: &str = "\
 The strata: nothing, single, masked, late_onset, too_small, not_in_library, data_fault; on the rig also noisy,
 in_loop, unidentifiable, wrong_inertia.
+With --forms other: nothing, single, two, three, late_onset, not_in_library.
 The folder holds recording.csv, rig.toml and answer.sealed.
 
 Example:
@@ -63,12 +67,16 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
         let problem = "--experiment does an experiment on the five-bar: add --plant rig";
         return Err(Failure::Usage(problem.to_owned()));
     }
+    if args.experiment.is_some() && args.forms == Forms::Other {
+        let problem = "--experiment does an experiment on a rig with the usual forms: leave out --forms other";
+        return Err(Failure::Usage(problem.to_owned()));
+    }
     keep::check(&args.out, &args.experiment)?;
     let asked = args.experiment.as_deref().map(csv::read).transpose()?;
     let folder = Folder::begin(&args.out)?;
     let case = match &asked {
         Some(experiment) => under(args.seed, args.stratum, experiment)?,
-        None => make(args.plant, args.seed, args.stratum)?,
+        None => make_in(args.forms, args.plant, args.seed, args.stratum)?,
     };
     if !args.json {
         print(&format!(

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use rigproof_blind::{Answer, Score, open, score};
+use rigproof_blind::{Answer, Forms, Judgement, Score, judge, open, score};
 use rigproof_trace::store::read_text;
 use serde_json::{Value, json};
 
@@ -42,10 +42,41 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     })?;
     let score = score(&answer, &report)
         .map_err(|error| Failure::unusable(&args.report, error.to_string()))?;
+    let judgement = match answer.forms {
+        Forms::Usual => None,
+        Forms::Other => Some(
+            judge(&answer, &report)
+                .map_err(|error| Failure::unusable(&args.report, error.to_string()))?,
+        ),
+    };
     if args.json {
-        return print(&json!({ "answer": answer, "score": score }).to_string());
+        return print(
+            &match judgement {
+                None => json!({ "answer": answer, "score": score }),
+                Some(judgement) => json!({ "answer": answer, "judgement": judgement }),
+            }
+            .to_string(),
+        );
     }
-    print(&in_words(&answer, &report, &score))
+    print(&match judgement {
+        None => in_words(&answer, &report, &score),
+        Some(judgement) => judged_in_words(&answer, &report, &judgement),
+    })
+}
+
+/// The same for physics in other forms.
+fn judged_in_words(answer: &Answer, report: &Value, judgement: &Judgement) -> String {
+    let effects = answer.effects.iter();
+    let right = effects.map(|effect| format!("  {}: {}", effect.form, effect.right.join(" or ")));
+    join([
+        section(
+            &format!("Hidden ({}, other forms)", answer.stratum.name()),
+            truth(answer),
+        ),
+        section("Right names", right),
+        section("Named", named(report)),
+        section("Judgement", [format!("  {}", judgement.outcome.words())]),
+    ])
 }
 
 /// What was hidden beside what was named.

@@ -4,7 +4,10 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use indicatif::ProgressBar;
-use rigproof_blind::{Answer, Case, Error, Plant, Score, Table, again, make, open, score, under};
+use rigproof_blind::{
+    Answer, Case, Error, Forms, Judgement, Plant, Score, Table, again, judge, make_in, open, score,
+    under,
+};
 use rigproof_diagnose::{Description, Diagnosis, Options};
 use rigproof_trace::Trace;
 use rigproof_trace::csv;
@@ -13,8 +16,8 @@ use serde_json::{Value, json};
 
 use super::claims::{Claim, Measured, OF_A_JOINT, OF_THE_RIG};
 use super::make::{FILES, contents};
-use super::page;
-use super::truth;
+use super::{other, page};
+use super::{parse_forms, truth};
 use crate::folder::{EXPERIMENT, REPORT};
 use crate::outcome::{Failure, Outcome, print};
 use crate::progress;
@@ -31,6 +34,9 @@ pub struct Args {
     /// The plant; both: even seeds on the axis, odd seeds on the bench; rig: the five-bar
     #[arg(long, value_enum, default_value_t = Which::Both)]
     plant: Which,
+    /// The forms of what is hidden: usual, or other, which is judged by outcomes and probabilities
+    #[arg(long, value_parser = parse_forms, default_value = "usual")]
+    forms: Forms,
     /// Recordings that are diagnosed at once; 0 takes every processor. The result does not depend on it
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = threads::parse)]
     jobs: usize,
@@ -70,7 +76,8 @@ The naming is tried: each recording as a whole, without a held-out part of its o
 Exit code 1 says that a claim does not hold. --reports scores anybody's diagnosis of the recordings that `blind make` writes.
 
 Example:
-  rigproof blind trial --seeds 0..200 --jobs 8 --details";
+  rigproof blind trial --seeds 0..200 --jobs 8 --details
+  rigproof blind trial --seeds 0..100 --plant axis --forms other";
 
 /// One case, its diagnosis and its score.
 pub struct Tried {
@@ -80,6 +87,8 @@ pub struct Tried {
     pub report: Value,
     /// How well.
     pub score: Score,
+    /// How well, where physics is hidden in other forms.
+    pub judgement: Option<Judgement>,
     /// What became of it once the experiment was done that the diagnosis asked for.
     pub then: Option<Then>,
 }
@@ -127,6 +136,10 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
         let problem = "--experiments does experiments on the five-bar: add --plant rig";
         return Err(Failure::Usage(problem.to_owned()));
     }
+    if args.forms == Forms::Other && (args.held_out || args.experiments) {
+        let problem = "--held-out and --experiments need a second recording, which only the usual forms have: leave out --forms other";
+        return Err(Failure::Usage(problem.to_owned()));
+    }
     let cases: Vec<(Plant, u64)> = args
         .seeds
         .clone()
@@ -142,7 +155,10 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
         table.add(case.answer.plant, case.answer.seed, case.score.clone());
     }
     if let Some(folder) = &args.misses {
-        write_misses(folder, &tried)?;
+        write_misses(folder, args.forms, &tried)?;
+    }
+    if args.forms == Forms::Other {
+        return other::show(&tried, &how(args), args.details, args.json);
     }
     let claims: Vec<Measured<'_>> = claimed(args.plant)
         .iter()
@@ -216,7 +232,7 @@ const fn assignment(which: Which) -> &'static str {
 
 /// Makes, diagnoses and scores one case.
 fn one(args: &Args, plant: Plant, seed: u64, bar: &ProgressBar) -> Result<Tried, Failure> {
-    let case = make(plant, seed, None)?;
+    let case = make_in(args.forms, plant, seed, None)?;
     let mut experiment = None;
     let report = match &args.reports {
         Some(folder) => {
@@ -242,11 +258,16 @@ fn one(args: &Args, plant: Plant, seed: u64, bar: &ProgressBar) -> Result<Tried,
     let then = asked
         .map(|experiment| after(seed, &case, (&report, &score), experiment))
         .transpose()?;
+    let judgement = match args.forms {
+        Forms::Usual => None,
+        Forms::Other => Some(judge(&answer, &report)?),
+    };
     bar.inc(1);
     Ok(Tried {
         answer,
         report,
         score,
+        judgement,
         then,
     })
 }
@@ -324,11 +345,11 @@ fn diagnosed(
 }
 
 /// Writes the cases that were missed, with their reports, and those that an experiment left open, with that.
-fn write_misses(folder: &Path, tried: &[Tried]) -> Result<(), Failure> {
+fn write_misses(folder: &Path, forms: Forms, tried: &[Tried]) -> Result<(), Failure> {
     let folder = Folder::begin(folder)?;
     for case in tried.iter().filter(|tried| tried.is_miss()) {
         let (plant, seed) = (case.answer.plant, case.answer.seed);
-        let made = make(plant, seed, None)?;
+        let made = make_in(forms, plant, seed, None)?;
         for (name, bytes) in FILES.into_iter().zip(contents(&made)?) {
             folder.write(&format!("{seed}/{name}"), &bytes)?;
         }
@@ -373,14 +394,10 @@ impl Tried {
             .iter()
             .map(|line| line.trim().to_owned())
             .collect();
-        let mut flags = vec![if self.score.exact {
-            "exact"
-        } else {
-            "not exact"
-        }];
-        flags.extend((!self.score.inside).then_some("truth outside"));
-        flags.extend((!self.score.false_names.is_empty()).then_some("false name"));
-        flags.extend(self.score.flagged.then_some("flagged"));
+        let flags = match &self.judgement {
+            Some(judgement) => vec![judgement.outcome.words()],
+            None => self.flags(),
+        };
         vec![
             self.answer.seed.to_string(),
             self.answer.plant.name().to_owned(),
@@ -392,7 +409,19 @@ impl Tried {
         ]
     }
 
-    fn line(&self) -> String {
+    fn flags(&self) -> Vec<&'static str> {
+        let mut flags = vec![match self.score.exact {
+            true => "exact",
+            false => "not exact",
+        }];
+        flags.extend((!self.score.inside).then_some("truth outside"));
+        flags.extend((!self.score.false_names.is_empty()).then_some("false name"));
+        flags.extend(self.score.flagged.then_some("flagged"));
+        flags
+    }
+
+    /// The same in one line.
+    pub fn line(&self) -> String {
         let ambiguous = list(&self.ambiguous());
         match self.cells().as_slice() {
             [seed, plant, stratum, hidden, verdict, named, flags] => format!(
@@ -402,10 +431,11 @@ impl Tried {
         }
     }
 
-    fn json(&self) -> Value {
+    /// The case as JSON.
+    pub fn json(&self) -> Value {
         json!({
             "seed": self.answer.seed, "plant": self.answer.plant, "answer": self.answer,
-            "named": self.named(), "ambiguous": self.ambiguous(), "score": self.score, "after_experiment": self.then.as_ref().map(|then| &then.score),
+            "named": self.named(), "ambiguous": self.ambiguous(), "score": self.score, "judgement": self.judgement, "after_experiment": self.then.as_ref().map(|then| &then.score),
         })
     }
 }
@@ -438,7 +468,7 @@ mod tests {
         let rows: String = rows.collect();
         let text = format!("time (s),hand_x (m),hand_y (m)\n{rows}");
         let far = csv::parse(text.as_bytes(), Path::new("asked.csv"), None).unwrap();
-        let case = make(Plant::Rig, 1006, None).unwrap();
+        let case = rigproof_blind::make(Plant::Rig, 1006, None).unwrap();
         let answer = open(&case.sealed).unwrap();
         let effect = &answer.effects[0];
         let report = json!({

@@ -11,7 +11,7 @@ use rigproof_trace::store::write_aside;
 use super::words;
 use crate::input::HowRead;
 use crate::outcome::{Failure, Outcome, print};
-use crate::reading::Reading;
+use crate::reading::RigReading;
 use crate::text::{join, section};
 use crate::{input, keep, progress, shell};
 
@@ -32,7 +32,7 @@ pub struct Args {
     #[arg(long)]
     json: bool,
     #[command(flatten)]
-    reading: Reading,
+    reading: RigReading,
 }
 
 const AFTER_HELP: &str = "\

@@ -1,5 +1,6 @@
 //! This file says how time runs in a recording: rate, jitter, gaps.
 
+use rigproof_trace::clock::Grid;
 use serde_json::{Value, json};
 
 use crate::text::number::significant;
@@ -14,7 +15,7 @@ pub struct Pace {
     samples: usize,
     from_s: f64,
     to_s: f64,
-    /// The median step, s.
+    /// The mean step over the record where it is even, else the median, s.
     step_s: f64,
     /// Standard deviation of the steps that are no gaps, s.
     jitter_s: f64,
@@ -34,7 +35,9 @@ impl Pace {
             .collect();
         let mut sorted: Vec<f64> = steps.iter().map(|(from, to)| to - from).collect();
         sorted.sort_by(f64::total_cmp);
-        let step_s = sorted.get(sorted.len() / 2).copied().unwrap_or(f64::NAN);
+        let median_s = sorted.get(sorted.len() / 2).copied().unwrap_or(f64::NAN);
+        // Steps between rounded stamps are not those between samples.
+        let step_s = Grid::of(time_s).map_or(median_s, |grid| grid.step_s);
         let is_gap = |step: f64| step > GAP_STEPS * step_s;
         let regular: Vec<f64> = sorted.into_iter().filter(|step| !is_gap(*step)).collect();
         let count = regular.len().max(1) as f64;

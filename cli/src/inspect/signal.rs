@@ -18,8 +18,10 @@ const MOST_STEPS: f64 = 1e7;
 /// A channel as it is shown.
 pub struct SignalView {
     pub name: String,
-    /// As printed; empty when the recording does not say.
+    /// As printed, or as the name suggests; empty when neither says anything.
     pub unit: String,
+    /// Whether only the name suggests the unit.
+    pub unit_is_guessed: bool,
     /// Samples, missing ones among them.
     count: u64,
     /// Samples that are missing or not finite.
@@ -45,8 +47,9 @@ impl SignalView {
             range: values.first().copied().zip(values.last().copied()),
             quantum: quantum(&values),
             noise: noise::of(&channel.samples),
+            unit: channel.likely_unit().to_owned(),
+            unit_is_guessed: channel.unit != channel.likely_unit(),
             name: channel.name,
-            unit: channel.unit,
             outline: channel.samples,
         }
     }
@@ -70,14 +73,21 @@ impl SignalView {
                 .or_else(|| quantum(&kept)),
             noise: noise::of_runs(channel.runs.iter().copied()),
             outline: channel.outline.iter().map(middle).collect(),
+            unit_is_guessed: channel.unit_is_guessed,
             name: channel.address,
             unit: channel.unit,
         }
     }
 
+    /// The greatest magnitude.
+    pub fn size(&self) -> Option<f64> {
+        let (least, greatest) = self.range?;
+        Some(least.abs().max(greatest.abs())).filter(|size| *size > 0.0)
+    }
+
     pub fn json(&self, ascii: bool) -> Value {
         json!({
-            "name": self.name, "unit": self.unit, "samples": self.count, "missing": self.missing,
+            "name": self.name, "unit": self.unit, "unit_is_guessed": self.unit_is_guessed, "samples": self.count, "missing": self.missing,
             "minimum": self.range.map(|(least, _)| least),
             "maximum": self.range.map(|(_, greatest)| greatest),
             "quantum": self.quantum.map(|(step, _)| step),
@@ -88,10 +98,14 @@ impl SignalView {
     }
 
     fn cells(&self, ascii: bool) -> [String; 5] {
+        let guess = match self.unit_is_guessed {
+            true => format!("{} (a guess from the name)", self.unit),
+            false => self.unit.clone(),
+        };
         let unit = self.unit.as_str();
         let range = match (self.range, self.quantum) {
             (None, _) => "no sample".to_owned(),
-            (Some((value, _)), None) => with_unit(value, unit),
+            (Some((value, _)), None) => with_unit(value, &guess),
             (Some((least, greatest)), _) => {
                 // As many digits as tell the ends apart, and two more where four do not.
                 let differ =
@@ -102,7 +116,7 @@ impl SignalView {
                     None => 17,
                 };
                 let [least, greatest] = [least, greatest].map(|end| significant(end, digits));
-                format!("{least} to {greatest} {unit}")
+                format!("{least} to {greatest} {guess}")
                     .trim_end()
                     .to_owned()
             }

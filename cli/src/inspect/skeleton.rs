@@ -49,6 +49,133 @@ const CURRENT: Role = Role {
     names: &["current", "cur", "i"],
 };
 
+/// Words in a name that say that its channel is computed or wanted, and not measured.
+const DERIVED: [&str; 22] = [
+    "calc",
+    "calculated",
+    "comp",
+    "computed",
+    "est",
+    "estimated",
+    "model",
+    "sim",
+    "simulated",
+    "ideal",
+    "pred",
+    "predicted",
+    "ref",
+    "reference",
+    "target",
+    "goal",
+    "des",
+    "desired",
+    "set",
+    "setpoint",
+    "soll",
+    "planned",
+];
+/// Words in a name that say that its channel is what the plant is told.
+const TOLD: [&str; 10] = [
+    "cmd",
+    "command",
+    "commanded",
+    "u",
+    "set",
+    "setpoint",
+    "soll",
+    "des",
+    "desired",
+    "drive",
+];
+
+/// What the plant may be, and why.
+struct PlantGuess<'a> {
+    plant: Option<&'static str>,
+    why: String,
+    effort: Vec<&'a SignalView>,
+    command: Vec<&'a SignalView>,
+}
+
+/// A torque or force is measured unless its name says that it is told; then the plant is a driven joint, as it is where only
+/// volts or a current are there.
+fn plant<'a>(signals: &[&'a SignalView]) -> PlantGuess<'a> {
+    let effort = EFFORT.guess(signals);
+    let command = COMMAND.guess(signals);
+    let name = |found: &[&SignalView]| {
+        let names: Vec<&str> = found.iter().map(|s| s.name.as_str()).collect();
+        plain(&names.join(", "))
+    };
+    let told: Vec<&SignalView> = effort
+        .iter()
+        .copied()
+        .filter(|s| has_word(s, &TOLD))
+        .collect();
+    let measured = effort.len() > told.len();
+    let current = CURRENT.guess(signals);
+    let (plant, why, command) = match (
+        measured,
+        told.is_empty(),
+        command.is_empty(),
+        current.is_empty(),
+    ) {
+        (true, ..) => (
+            "bench",
+            format!(
+                "`{}` is taken for measured. Is it what a motor is told? Then plant = \"axis\", and it is the `command`",
+                name(&effort)
+            ),
+            Vec::new(),
+        ),
+        (false, false, ..) => (
+            "axis",
+            format!(
+                "the name of `{}` says that it is told. Is it measured? Then plant = \"bench\", and it is the `force` or `torque`",
+                name(&told)
+            ),
+            told,
+        ),
+        (_, _, false, _) => (
+            "axis",
+            format!(
+                "`{}` drives it, and no force or torque is measured",
+                name(&command)
+            ),
+            command,
+        ),
+        (_, _, _, false) => (
+            "axis",
+            format!(
+                "the current `{}` drives it, and no force or torque is measured",
+                name(&current)
+            ),
+            current,
+        ),
+        _ => {
+            let why =
+                "`axis`: a driven joint, command in; `bench`: a metered brake or damper".to_owned();
+            return PlantGuess {
+                plant: None,
+                why,
+                effort,
+                command,
+            };
+        }
+    };
+    PlantGuess {
+        plant: Some(plant),
+        why,
+        effort,
+        command,
+    }
+}
+
+/// Whether one of the words stands in a name.
+fn has_word(signal: &SignalView, words: &[&str]) -> bool {
+    let name = signal.name.to_lowercase();
+    let mut parts = name.split(|c: char| !c.is_alphanumeric());
+    parts.any(|part| words.contains(&part))
+}
+
 /// The description as TOML.
 pub fn toml(
     recording: &Path,
@@ -57,21 +184,21 @@ pub fn toml(
     signals: &[&SignalView],
 ) -> String {
     let position = POSITION.guess(signals);
-    let effort = EFFORT.guess(signals);
-    let command = COMMAND.guess(signals);
-    let plant = match (effort.is_empty(), command.is_empty()) {
-        (false, _) => Some("bench"),
-        (true, false) => Some("axis"),
-        (true, true) => None,
-    };
-    let rotary = rotary(position.iter().chain(&effort));
+    let PlantGuess {
+        plant,
+        why,
+        effort,
+        command,
+    } = plant(signals);
+    let rotary = rotary(position.iter().chain(&effort).chain(&command));
     let motion = rotary.map(|rotary| if rotary { "rotary" } else { "linear" });
+    let level = effort.iter().find_map(|signal| signal.size());
     let stem = recording.file_stem().unwrap_or_default().to_string_lossy();
     let mut lines = vec![
         "# Begun by `rigproof inspect` from a recording. A `guess` comes from a name or a unit: check it. Complete what".to_owned(),
         format!("# says {FILL_IN:?}: until then `rigproof diagnose` refuses this file and names the place."),
         format!("name = {}", string(&stem)),
-        entry("plant", plant, "`axis`: a driven joint, command in; `bench`: a metered brake or damper"),
+        entry("plant", plant, &why),
         entry("motion", motion, "`linear` or `rotary`"),
         "\n[channels]".to_owned(),
     ];
@@ -82,6 +209,9 @@ pub fn toml(
             lines.push(EFFORT.line(&effort, rotary));
             let current = CURRENT.guess(signals);
             lines.extend((!current.is_empty()).then(|| CURRENT.line(&current, rotary)));
+            if !current.is_empty() && rotary == Some(true) {
+                lines.push("# A brake's torque follows its current: `rigproof identify brake RECORDINGS --rig THIS_FILE` writes its table, `[brake]`.\n# Without one, all that the current does is left over, and no law of the library is it.".to_owned());
+            }
             [position, effort, current].concat()
         }
         _ => {
@@ -99,15 +229,31 @@ pub fn toml(
         lines.extend(parameters(&command, rotary));
     }
     lines.extend(hinted(hints));
-    let viscous = match rotary {
-        Some(true) => "N·m·s/rad",
-        _ => "N·s/m",
-    };
-    lines.push(format!(
-        "\n# The physics that your model has already, one [[effect]] each; without any, all of it is to be found.\n\
-         # [[effect]]\n# mechanism = \"viscous\"\n# coefficient = {{ value = 0.5, unit = {viscous:?}, status = \"unknown\" }}"
-    ));
+    lines.push(friction(plant, level, rotary));
     lines.join("\n") + "\n"
+}
+
+/// The friction that a bench begins with, so that its description diagnoses as it is; for another plant how to state one.
+fn friction(plant: Option<&str>, level: Option<f64>, rotary: Option<bool>) -> String {
+    let [effort, viscous] = match rotary {
+        Some(true) => ["N·m", "N·m·s/rad"],
+        _ => ["N", "N·s/m"],
+    };
+    match (plant, level) {
+        (Some("bench"), Some(level)) => {
+            let [dry, drag] = [0.3 * level, 0.03 * level].map(|x| significant(x, 2));
+            format!(
+                "\n# The physics that your model has already, one [[effect]] each: begun with dry and viscous friction, whose numbers are fitted.\n\
+                 # Take out what your model does not have, and put in what it has.\n\
+                 [[effect]]\nmechanism = \"dry_offset\"\nlevel = {{ value = {dry}, unit = {effort:?}, status = \"unknown\" }}\n\n\
+                 [[effect]]\nmechanism = \"viscous\"\ncoefficient = {{ value = {drag}, unit = {viscous:?}, status = \"unknown\" }}"
+            )
+        }
+        _ => format!(
+            "\n# The physics that your model has already, one [[effect]] each; without any, all of it is to be found.\n\
+             # [[effect]]\n# mechanism = \"viscous\"\n# coefficient = {{ value = 0.5, unit = {viscous:?}, status = \"unknown\" }}"
+        ),
+    }
 }
 
 /// Whether the plant turns, as the first unit that tells says.
@@ -124,6 +270,17 @@ fn parameters(command: &[&SignalView], rotary: Option<bool>) -> [String; 3] {
         Some(true) => ["kg·m^2/rad", "N·m"],
         _ => ["kg", "N"],
     };
+    let told = |signal: &&SignalView| {
+        let dimension = Unit::parse(&signal.unit).map(|unit| unit.dimension);
+        dimension.is_some_and(|d| EFFORT.dimensions.contains(&d))
+    };
+    if let Some(signal) = command.first().filter(|signal| told(signal)) {
+        return [
+            "\n# The plant's own numbers; `status = \"unknown\"` makes a value the start of a fit.\n[parameters]".to_owned(),
+            format!("inertia = {{ value = {FILL_IN:?}, unit = {mass:?} }}"),
+            format!("command_gain = {{ value = 1.0, unit = {} }}   # a command in {} acts as it is", string("1"), signal.unit),
+        ];
+    }
     let gain = match command {
         [signal] if !signal.unit.is_empty() => format!("{effort}/{}", signal.unit),
         _ => FILL_IN.to_owned(),
@@ -157,7 +314,11 @@ impl Role {
         let guesses = filters.into_iter();
         let mut guesses =
             guesses.map(|filter| signals.iter().copied().filter(filter).collect::<Vec<_>>());
-        guesses.find(|found| !found.is_empty()).unwrap_or_default()
+        let found = guesses.find(|found| !found.is_empty()).unwrap_or_default();
+        // What is measured comes before what is computed or wanted.
+        let measured = found.iter().copied().filter(|s| !has_word(s, &DERIVED));
+        let measured: Vec<&SignalView> = measured.collect();
+        if measured.is_empty() { found } else { measured }
     }
 
     fn line(&self, found: &[&SignalView], rotary: Option<bool>) -> String {
@@ -175,13 +336,27 @@ impl Role {
         };
         let unit = &signal.unit;
         let unit = Unit::parse(unit).map_or(FILL_IN, |_| unit);
-        let resolution = match (signal.quantum, signal.noise) {
-            (Some((step, true)), _) => format!(", quantum = {}", significant(step, 4)),
-            (_, Some(noise)) => format!(", noise = {}", significant(noise, 3)),
-            _ => String::new(),
+        // What samples scatter beyond the resolution is noise; what they scatter within it, the resolution says.
+        let grid = signal
+            .quantum
+            .filter(|(_, on_grid)| *on_grid)
+            .map(|(step, _)| step);
+        let noise = signal
+            .noise
+            .filter(|noise| grid.is_none_or(|step| *noise > step));
+        let quantum = grid.map_or(String::new(), |step| {
+            format!(", quantum = {}", significant(step, 4))
+        });
+        let noise = noise.map_or(String::new(), |noise| {
+            format!(", noise = {}", significant(noise, 3))
+        });
+        let resolution = quantum + &noise;
+        let guess = match signal.unit_is_guessed {
+            true => format!("guess; that it is in {} too, from its name", signal.unit),
+            false => "guess".to_owned(),
         };
         format!(
-            "{key} = {{ channel = {}, unit = {}{resolution} }}   # guess",
+            "{key} = {{ channel = {}, unit = {}{resolution} }}   # {guess}",
             string(&signal.name),
             string(unit)
         )
@@ -222,3 +397,6 @@ fn plain(name: &str) -> String {
         .map(|c| if c.is_control() { '\u{fffd}' } else { c })
         .collect()
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,5 +1,6 @@
 //! This file plays an experiment on the reference rig and writes down what the rig would record.
 
+use rigproof_diagnose::Description;
 use rigproof_diagnose::plants::five_bar::experiment::plan::{MIDDLE_M, Plan};
 use rigproof_diagnose::plants::five_bar::experiment::play::{Played, play, with_effects};
 use rigproof_diagnose::plants::five_bar::free_run::Model;
@@ -7,14 +8,16 @@ use rigproof_trace::csv;
 use rigproof_trace::rig::five_bar::FiveBar;
 use serde_json::json;
 
-use super::five_bar::file;
-use super::{Args, path};
+use super::{Args, file, path};
 use crate::outcome::{Failure, Outcome, print};
 use crate::progress;
 use crate::text::number::{significant, with_unit};
 
 /// The experiment in the file that was given; `None` where it is a recording.
-pub fn plan(args: &Args, rig: &FiveBar) -> Result<Option<Plan>, Failure> {
+pub fn plan(args: &Args, rig: &Description) -> Result<Option<(FiveBar, Plan)>, Failure> {
+    let Description::FiveBar(rig) = rig else {
+        return Ok(None);
+    };
     let source = &args.source.recording;
     // What cannot be read as an experiment is read as a recording, with all that was said about its dialect.
     let Ok(trace) = csv::read(source) else {
@@ -25,12 +28,22 @@ pub fn plan(args: &Args, rig: &FiveBar) -> Result<Option<Plan>, Failure> {
         return Ok(None);
     }
     let plan = Plan::of(&trace, rig.layout);
-    plan.map(Some)
+    plan.map(|plan| Some((rig.clone(), plan)))
         .map_err(|problem| Failure::unusable(source, problem))
 }
 
 /// Plays a plan with a model, and writes what is recorded of it.
-pub fn run(args: &Args, rig: &FiveBar, plan: &Plan, model: &FiveBar) -> Result<Outcome, Failure> {
+pub fn run(
+    args: &Args,
+    (rig, plan): &(FiveBar, Plan),
+    model: &Description,
+) -> Result<Outcome, Failure> {
+    let Description::FiveBar(model) = model else {
+        return Err(Failure::unusable(
+            file(args),
+            "it is of another plant".to_owned(),
+        ));
+    };
     let mark = progress::spinner("simulating");
     let own = Model::of(model);
     with_effects(&own, rig.layout, MIDDLE_M)

@@ -56,7 +56,10 @@ fn shape(unknown: &Unknown) -> Vec<String> {
             } else {
                 "curve"
             },
-            unknown.variable,
+            match unknown.joint {
+                Some(joint) => format!("{} of {joint}", unknown.variable),
+                None => unknown.variable.to_owned(),
+            },
             percent(unknown.share),
             match unknown.parity {
                 "neither" => "neither odd nor even",

@@ -1,20 +1,24 @@
 //! This file joins the tests of the verbs, which run the program as a person does.
 
 mod bad_diagnosis;
+mod bad_input;
 mod blind;
 mod browser;
 mod certify;
 mod cite;
 mod controller;
+mod convert;
 mod demo;
 mod design;
 mod desk;
 mod diagnose;
 mod experiment;
 mod golden;
+mod guide;
 mod help;
 mod identify;
 mod inspect;
+mod mcap;
 mod mistakes;
 mod new;
 mod reproduce;

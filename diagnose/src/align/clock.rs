@@ -1,23 +1,31 @@
 //! This file checks the clock of a recording.
 
 use super::{Fault, LONGEST_GAP_S};
+use crate::rules::{EVEN, LONGEST_GAP_STEPS, LONGEST_STEP_S};
 use core::cmp::Ordering;
+use rigproof_trace::clock::Grid;
 
-/// A sample interval longer than this leaves fewer than four samples to the widest window of the weak form, s.
-const LONGEST_STEP_S: f64 = 0.04;
-
+/// The step between samples: the median where that fits all stamps, else the mean of the even grid through them, so that
+/// rounded stamps do not add up.
 pub(crate) fn median_step(time_s: &[f64]) -> f64 {
     let mut steps: Vec<f64> = time_s
         .windows(2)
         .map(|w| w.iter().rev().copied().reduce(|b, a| b - a).unwrap_or(0.0))
         .collect();
     steps.sort_by(f64::total_cmp);
-    steps.get(steps.len() / 2).copied().unwrap_or(1.0)
+    let median_s = steps.get(steps.len() / 2).copied().unwrap_or(1.0);
+    let start_s = time_s.first().copied().unwrap_or(0.0);
+    let mut stamps = time_s.iter().enumerate();
+    let off = |k: usize, t: f64| (t - start_s - k as f64 * median_s).abs();
+    if stamps.all(|(k, t)| off(k, *t) < EVEN * median_s) {
+        return median_s;
+    }
+    Grid::of(time_s).map_or(median_s, |grid| grid.step_s)
 }
 
 pub(crate) fn check_clock(time_s: &[f64], step_s: f64) -> Result<(), Fault> {
     check_pace(time_s, step_s)?;
-    let longest = LONGEST_GAP_S.max(8.0 * step_s);
+    let longest = LONGEST_GAP_S.max(LONGEST_GAP_STEPS * step_s);
     for pair in time_s.windows(2) {
         if let [before, after] = pair
             && after.partial_cmp(before) != Some(Ordering::Greater)

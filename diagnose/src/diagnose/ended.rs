@@ -4,7 +4,7 @@ use super::{Curves, Diagnosis};
 use crate::align::Fault;
 use crate::plant::Plant;
 use crate::report::{FaultReport, Report, SCHEMA, Verdict};
-use crate::weak::FEWEST_WINDOWS;
+use crate::rules::FEWEST_WINDOWS;
 
 /// The answer where a channel is at fault; `which` says in which recording.
 pub(crate) fn faulty<P: Plant>(plant: &P, which: &str, fault: Fault) -> Diagnosis<P> {

@@ -3,6 +3,7 @@
 use crate::Options;
 use crate::align::Fault;
 use crate::plant::{Plant, Run};
+use crate::rules::MANY_RECORDINGS;
 
 /// What is fitted, and what shows the result.
 pub struct Parts<P: Plant> {
@@ -15,10 +16,6 @@ pub struct Parts<P: Plant> {
     /// Whether it is a recording of its own.
     pub other_recording: bool,
 }
-
-/// From how many recordings on the last is held out whole. The second of two may be the experiment that the first one asked for: it is
-/// needed for the naming, and its end is enough to show the result.
-const MANY: usize = 3;
 
 impl<P: Plant> Parts<P> {
     /// Recordings of which another one shows the result, or the last of many, or the end of the last.
@@ -44,7 +41,7 @@ impl<P: Plant> Parts<P> {
                 let named = |fault| ("held-out recording".to_owned(), fault);
                 Some(plant.aligned(recording, 0.0).map_err(named)?)
             }
-            None if count >= MANY => runs.pop(),
+            None if count >= MANY_RECORDINGS => runs.pop(),
             None => None,
         };
         let other_recording = other.is_some();

@@ -1,8 +1,26 @@
 //! This file says in words what a diagnosis came to.
 
+use crate::plant::Run;
 use crate::problem::Problem;
 use crate::report::{FitReport, Verdict};
 use crate::select::Selection;
+
+/// How several recordings stand together, in words; `None` for one.
+pub(crate) fn together<R: Run>(parts: &[R]) -> Option<String> {
+    let mut ends_s = 0.0;
+    let ends = parts.iter().map(|part| {
+        let clock = part.clock();
+        ends_s += clock.samples as f64 * clock.step_s;
+        format!("{ends_s:.3}")
+    });
+    let ends = ends.collect::<Vec<_>>().join(", ");
+    (!parts.is_empty()).then(|| {
+        format!(
+            "{} recordings one after another on one clock, which end at {ends} s; every memory begins anew with each",
+            parts.len()
+        )
+    })
+}
 
 /// What was not recorded, in words; `None` where no more than single samples are missing, which lie between their neighbours.
 pub(crate) fn filled_in(recorded: &[bool]) -> Option<String> {

@@ -6,11 +6,12 @@ use super::words::summary;
 use super::{Diagnosis, Options};
 use crate::cause::Cause;
 use crate::evidence::{Rivals, inclusion, intervals, not_seen, null_directions, rivals};
-use crate::explain::{Explanations, NAMED, status};
+use crate::explain::{Explanations, status};
 use crate::locate::locate;
 use crate::plant::{Plant, Shown};
 use crate::problem::Problem;
 use crate::report::{EffectReport, ExplanationReport, Floor, Report, Unknown, Verdict};
+use crate::rules::{MOST_LISTED, NAMED};
 use crate::scatter::{Trials, left_over};
 use crate::select::{Selection, floor_limit, refs, usable_rms};
 use crate::unknown::unknown;
@@ -34,9 +35,6 @@ pub(crate) fn floor(problem: &Problem, selection: &Selection) -> Floor {
             .to_string(),
     }
 }
-
-/// The most explanations that are listed.
-const MOST_LISTED: usize = 8;
 
 /// What a selection comes to.
 pub(crate) fn verdict(

@@ -8,23 +8,14 @@ use super::{Number, sensitivities};
 use crate::cause::Cause;
 use crate::problem::Problem;
 use crate::regression::dot;
-use crate::select::{Selection, bends, floor_limit, refs, usable_rms};
+use crate::rules::{INCONSTANT_OWN_SHARE, INCONSTANT_SHARE, PART_S, ROWS_A_NUMBER};
+use crate::select::{
+    Selection, bends, elementary as elementary_mechanisms, floor_limit, is_elementary_friction,
+    refs, usable_rms,
+};
 use nalgebra::{DMatrix, DVector};
-use rigproof_model::effects::{Form, entry};
+use rigproof_model::effects::{Drive, Form, entry};
 use rigproof_spec::effect::Mechanism;
-
-/// Length of a part, s: some widths of a window, shorter than what swings.
-const PART_S: f64 = 0.25;
-
-/// Share of the unexplained energy that must go when a number may differ from part to part for it not to be constant. On seeds 3000
-/// to 3100 a number that is constant came to 0.28 at most beside a law of another family, one that is not to 0.47 and more.
-const LEAST_SHARE: f64 = 0.4;
-
-/// What is left is along the name itself if no elementary torque at a joint, that differs from part to part, takes much more of it.
-const OWN_SHARE: f64 = 0.9;
-
-/// Rows that a part must have for each number.
-const ROWS_A_NUMBER: usize = 3;
 
 /// The found mechanisms whose leading number is not constant along the recording; none where nothing but noise is left.
 pub fn inconstant(problem: &Problem, selection: &Selection) -> Vec<Cause> {
@@ -41,7 +32,7 @@ pub fn inconstant(problem: &Problem, selection: &Selection) -> Vec<Cause> {
         .iter()
         .map(|column| gone(column))
         .fold(0.0, f64::max);
-    let least = (LEAST_SHARE * unexplained).max(OWN_SHARE * elementary);
+    let least = (INCONSTANT_SHARE * unexplained).max(INCONSTANT_OWN_SHARE * elementary);
     let offset = selection.nominal.len();
     let found = selection.found.iter().enumerate();
     found
@@ -59,9 +50,9 @@ pub fn inconstant(problem: &Problem, selection: &Selection) -> Vec<Cause> {
 
 /// Whether plain friction stands beside a law that bends at its joint: what the form of that law lacks is along it, and differs with the motion.
 fn is_beside_a_form(selection: &Selection, cause: Cause) -> bool {
-    let is_plain = [Mechanism::DryOffset, Mechanism::Viscous].contains(&cause.mechanism);
     let mut found = selection.found.iter().map(|found| found.term.cause);
-    is_plain && found.any(|other| bends(other.mechanism) && other.at == cause.at)
+    is_elementary_friction(cause.mechanism)
+        && found.any(|other| bends(other.mechanism) && other.at == cause.at)
 }
 
 /// Whether a mechanism's number acts without a memory. A memory of another family (Maxwell slip for a bristle) differs at every
@@ -72,21 +63,18 @@ pub fn is_told_by_itself(mechanism: Mechanism) -> bool {
     };
     match entry.form {
         Form::Resistance(law) | Form::ShareOfBrake(law) => !law(&[1.0; 4]).remembers(),
-        Form::Drive(_) => mechanism != Mechanism::Lag,
-        Form::Linkage(_) | Form::Sensor(_) | Form::Joint(_) => true,
-        Form::Brake(_) => false,
+        Form::Drive(Drive::Lag) | Form::Brake(_) => false,
+        Form::Drive(Drive::Gain | Drive::Skew | Drive::Limit)
+        | Form::Linkage(_)
+        | Form::Sensor(_)
+        | Form::Joint(_) => true,
     }
 }
 
 /// White columns of dry friction, drag and a constant effort at every place that moves by itself.
 fn elementary(problem: &Problem) -> Vec<Vec<f64>> {
-    let mechanisms = [
-        Mechanism::DryOffset,
-        Mechanism::Viscous,
-        Mechanism::ConstantBias,
-    ];
     let places = problem.run.moving_places();
-    let causes = mechanisms
+    let causes = elementary_mechanisms()
         .into_iter()
         .flat_map(|mechanism| places.iter().map(move |at| Cause::at(mechanism, *at)));
     let terms = causes.filter_map(|cause| problem.term(cause, &[], None));

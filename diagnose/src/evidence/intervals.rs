@@ -9,6 +9,7 @@ use super::{Number, Sensitivity, coefficients_by_term, parameter_count, sensitiv
 use crate::filter::rms;
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, covariance, dot};
+use crate::rules::LEAST_FREEDOM;
 use crate::select::{Selection, change_with_onset, onset_interval, refs, usable_rms};
 use crate::student::half_width;
 use nalgebra::{DMatrix, DVector};
@@ -27,9 +28,6 @@ pub struct Intervals {
 
 /// 97.5 % of the normal distribution lie below.
 const NORMAL: f64 = 1.959_963_984_540_054;
-
-/// Fewest degrees of freedom: a number that lives in one or two blocks is not believed to be without any scatter, nor to have none but theirs.
-const LEAST_FREEDOM: f64 = 3.0;
 
 /// The intervals of a selection, shape parameters included through their sensitivities.
 pub fn intervals(problem: &Problem, selection: &Selection) -> Intervals {

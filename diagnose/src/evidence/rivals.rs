@@ -6,22 +6,15 @@ use crate::cause::Cause;
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, Fit, fit, nested_block_losses, paired};
 use crate::report::LimitOf;
+use crate::rules::{NEAR_RIVAL, RIVAL_SHARE, RIVAL_TIE_Z, TIMES_LEFT};
 use crate::select::{
     LEAST_SIGMAS, Selection, TIE_Z, as_two, best_variant, gives_energy, is_noise, refined, refs,
     usable_rms,
 };
 use rayon::prelude::*;
 use rigproof_model::effects::entry;
-use rigproof_spec::effect::{Mechanism, Parameter};
-
-/// Share of an effect's gain that a rival must reach to be ambiguous with it.
-const RIVAL_SHARE: f64 = 0.9;
-/// Share of an effect's gain from which on the grid of a rival's shapes is refined.
-const NEAR_RIVAL: f64 = 0.7;
-
-/// Times what the named laws leave that a rival may leave in one's place, the block aside in which it leaves most more, where they leave more
-/// than noise.
-const TIMES_LEFT: f64 = 2.0;
+use rigproof_model::effects::facts::End;
+use rigproof_spec::effect::Parameter;
 
 /// What could stand in the place of one found mechanism.
 #[derive(Clone, Debug, Default)]
@@ -75,45 +68,6 @@ impl Rivals {
         .collect()
     }
 }
-
-/// Where the limit of a parameter is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum End {
-    /// At 0.
-    Nothing,
-    /// Beyond every value.
-    Everything,
-}
-
-/// A richer law, its limit, the parameter by its place in the vocabulary and where the limit is.
-const LIMITS: [(Mechanism, Mechanism, usize, End); 6] = [
-    (Mechanism::Presliding, Mechanism::DryOffset, 1, End::Nothing),
-    (
-        Mechanism::Settling,
-        Mechanism::DryOffset,
-        1,
-        End::Everything,
-    ),
-    (
-        Mechanism::ReversalOvershoot,
-        Mechanism::GainError,
-        1,
-        End::Everything,
-    ),
-    (Mechanism::Spring, Mechanism::ConstantBias, 0, End::Nothing),
-    (
-        Mechanism::DirectionAsymmetry,
-        Mechanism::ConstantBias,
-        0,
-        End::Nothing,
-    ),
-    (
-        Mechanism::EncoderScale,
-        Mechanism::EncoderOffset,
-        0,
-        End::Nothing,
-    ),
-];
 
 /// For each found mechanism, what could stand in its place.
 pub fn rivals(problem: &Problem, selection: &Selection) -> Vec<Rivals> {
@@ -236,7 +190,7 @@ impl Place<'_> {
         let reached = self.bare.left_out() - losses.iter().sum::<f64>();
         let enough = reached >= problem.rules.least_rival_share * self.gain;
         let as_good = enough && z < TIE_Z
-            || (reached >= RIVAL_SHARE * self.gain && reached > 0.0 && z < 2.0 * TIE_Z);
+            || (reached >= RIVAL_SHARE * self.gain && reached > 0.0 && z < RIVAL_TIE_Z);
         let is_rival = as_good
             && more_elsewhere(&losses, own) < self.telling
             && best_variant(problem, common, tried)
@@ -257,13 +211,14 @@ impl Place<'_> {
 
     fn beyond(&self, rival: &Rival, limit: Cause, losses: &[f64]) -> Option<Richer> {
         let cause = rival.cause;
-        let (.., place, end) = LIMITS.iter().copied().find(|(richer, simpler, ..)| {
-            (*richer, *simpler, cause.at) == (cause.mechanism, limit.mechanism, limit.at)
-        })?;
+        let richer = entry(cause.mechanism)?;
+        let own = richer.facts.limit;
+        let own = own.filter(|own| (own.of, cause.at) == (limit.mechanism, limit.at))?;
+        let (place, end) = (own.parameter, own.end);
         if self.apart.is_infinite() || more_elsewhere(losses, &rival.losses) >= self.apart {
             return None;
         }
-        let shape = place.checked_sub(entry(cause.mechanism)?.linear);
+        let shape = place.checked_sub(richer.linear);
         let alike = rival.tried.iter().filter(|term| {
             let mut terms = self.common.clone();
             terms.push(term);
@@ -318,6 +273,7 @@ mod tests {
     use crate::plants::five_bar::recorded::{noise_rows, short_run, target};
     use crate::problem::add;
     use crate::select::Found;
+    use rigproof_spec::effect::Mechanism;
     use rigproof_spec::joint::Joint;
 
     const DRY: (Mechanism, &[f64]) = (Mechanism::DryOffset, &[]);

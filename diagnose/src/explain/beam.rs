@@ -4,15 +4,9 @@ use super::fitted::{Fitted, Folds};
 use super::refine::refined;
 use super::score::{Judge, gives_energy};
 use crate::problem::{Problem, Term};
+use crate::rules::{EXCHANGES, BEAM, KEPT, MOST_TERMS};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-
-/// The most terms of one explanation.
-const MOST_TERMS: usize = 3;
-/// Explanations of each size that are gone on from.
-const BEAM: usize = 6;
-/// Explanations of each size that are kept to be weighed.
-const KEPT: usize = 40;
 
 /// A set of causes, told apart by name.
 type Names = Vec<String>;
@@ -60,9 +54,6 @@ pub fn search(
     }
     kept.into_values().collect()
 }
-
-/// Rounds in which each term of the leading explanations is exchanged for every other.
-const EXCHANGES: usize = 2;
 
 /// The leading explanations with one term exchanged or taken out, the best of each set of causes, those near the top refined.
 fn exchanged(

@@ -2,6 +2,7 @@
 
 use crate::problem::{Problem, Rows, Term, add};
 use crate::regression::{Blocks, dot};
+use crate::rules::FEWEST_ROWS;
 use nalgebra::{DMatrix, DVector};
 use rigproof_model::effects::{Form, form};
 use std::sync::Arc;
@@ -14,9 +15,6 @@ pub struct Folds {
     /// The driving effort, row by row.
     driving: Vec<f64>,
 }
-
-/// Fewest usable rows of a block that is counted.
-const FEWEST_ROWS: usize = 5;
 
 impl Folds {
     /// The blocks in which enough rows are usable.

@@ -5,12 +5,8 @@ use super::score::{Judge, gives_energy};
 use super::unfitted;
 use crate::candidates::shape_bounds;
 use crate::problem::{Problem, Term};
+use crate::rules::{MOST_MOVES, STRIDES};
 use rigproof_spec::effect::Mechanism;
-
-/// Strides of the search, as shares of a shape parameter.
-const STRIDES: [f64; 4] = [0.15, 0.06, 0.025, 0.01];
-/// Moves of one parameter by one stride.
-const MOST_MOVES: usize = 4;
 
 /// The explanation with the shapes that leave least.
 pub fn refined(

@@ -2,15 +2,10 @@
 
 use super::fitted::{Fitted, Folds};
 use crate::problem::{Problem, Term};
-use rigproof_model::effects::entry;
+use crate::rules::{A_NUMBER, RELEVANT, ROWS_A_SAMPLE, USUAL_ODDS};
+use rigproof_model::effects::facts::Usual;
+use rigproof_model::effects::{entry, facts};
 use rigproof_spec::effect::Mechanism;
-
-/// Share of the effort below which nothing matters to anybody: what a model and its discretisation leave open anyhow.
-pub const RELEVANT: f64 = 0.003;
-/// Rows that say as much as one that is independent of all others: what a model leaves is no white noise.
-pub const ROWS_A_SAMPLE: f64 = 4.0;
-/// What each number beyond the first costs, in natural logarithms of odds.
-pub const A_NUMBER: f64 = 1.5;
 
 /// Judges explanations of one problem.
 pub struct Judge {
@@ -63,59 +58,9 @@ fn odds(term: &Term) -> f64 {
 
 /// How common a mechanism is among those that models leave out.
 fn usual(mechanism: Mechanism) -> f64 {
-    USUAL
-        .iter()
-        .find(|(_, these)| these.contains(&mechanism))
-        .map_or(UNUSUAL, |(odds, _)| *odds)
+    let usual = facts(mechanism).map_or(Usual::Rare, |facts| facts.usual);
+    USUAL_ODDS.get(usual as usize).copied().unwrap_or(0.0)
 }
-
-/// Logarithms of the odds that a model leaves a mechanism out.
-const USUAL: [(f64, &[Mechanism]); 5] = [
-    (-2.0, &[Mechanism::DryOffset, Mechanism::Viscous]),
-    (
-        -2.5,
-        &[
-            Mechanism::ConstantBias,
-            Mechanism::GainError,
-            Mechanism::ChannelSkew,
-            Mechanism::AddedInertia,
-            Mechanism::Presliding,
-            Mechanism::LugreBristle,
-            Mechanism::Stribeck,
-            Mechanism::Lag,
-            Mechanism::DriveSaturation,
-        ],
-    ),
-    (
-        -3.5,
-        &[
-            Mechanism::Ripple,
-            Mechanism::LoadDependent,
-            Mechanism::LoadFriction,
-            Mechanism::VelocityPower,
-            Mechanism::Backlash,
-            Mechanism::Spring,
-            Mechanism::FrictionFade,
-            Mechanism::EccentricEncoder,
-            Mechanism::Compliance,
-        ],
-    ),
-    (
-        -4.0,
-        &[Mechanism::DirectionAsymmetry, Mechanism::NonlinearSpring],
-    ),
-    (
-        -5.0,
-        &[
-            Mechanism::BiasDrift,
-            Mechanism::EncoderScale,
-            Mechanism::Hysteresis,
-        ],
-    ),
-];
-
-/// The same of any other mechanism.
-const UNUSUAL: f64 = -4.0;
 
 /// Whether a passive mechanism came out giving energy.
 pub fn gives_energy(fitted: &Fitted) -> bool {

@@ -1,5 +1,6 @@
 //! This file measures the backlash of a brake: how far its shaft turns back before the torque returns (§3.3.3).
 
+use crate::rules::{BEGINNING, BEYOND_BREAK, FREE_SHARE, LEAST_DWELL, LEAST_TRAVEL_DEG, UNSEEN_S};
 use rigproof_model::brake::identify::{TRANSIENT, average, fit_step};
 use rigproof_spec::tables::GAIN_BREAK_A;
 use rigproof_spec::units::rad_from_deg;
@@ -9,17 +10,6 @@ use super::Identified;
 use super::interval::with_interval;
 use super::plateau::Plateau;
 use super::sampled::{Part, Sampled, deviation, mean, median};
-
-/// Travel before and after a reversal below which it is not read, degrees.
-const LEAST_TRAVEL_DEG: f64 = 3.0;
-/// Samples at off-state torque that make a backlash: fewer may be the torquemeter's own passage through zero.
-const LEAST_DWELL: usize = 3;
-/// Time that the torque needs to fall far enough to be seen, s: a backlash that is passed in less stays hidden.
-const UNSEEN_S: f64 = 0.02;
-/// The part of the returning torque that tells when it began: the speed, and with it the time constant, changes on.
-const BEGINNING: [f64; 2] = [0.97, 0.5];
-/// Share of the torque below which the brake counts as free.
-const FREE_SHARE: f64 = 0.25;
 
 /// One reversal at constant current.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,7 +28,7 @@ pub struct Reversal {
 
 /// Finds the reversals of a recording.
 pub fn find(sampled: &Sampled, plateaus: &[Plateau], recording: usize, found: &mut Identified) {
-    let least_a = 1.5 * GAIN_BREAK_A;
+    let least_a = BEYOND_BREAK * GAIN_BREAK_A;
     for plateau in plateaus.iter().filter(|p| p.current_a > least_a) {
         let turns = turns(sampled.part(plateau.samples.clone()).position_rad);
         let first = plateau.samples.start;

@@ -1,15 +1,9 @@
 //! This file finds the stretches of a recording over which the current stands still.
 
+use crate::rules::{LEAST_TOLERANCE_A, SHORTEST_S, TOLERANCE_SIGMAS};
 use core::ops::Range;
 
 use super::sampled::{Sampled, median};
-
-/// Greatest distance from the mean of a stretch at which a current still belongs to it, A, and in standard deviations
-/// of its noise.
-const LEAST_TOLERANCE_A: f64 = 0.02;
-const TOLERANCE: f64 = 6.0;
-/// The shortest stretch that counts, s.
-const SHORTEST_S: f64 = 0.1;
 
 /// A stretch of constant current.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,7 +17,7 @@ pub struct Plateau {
 /// The stretches of constant current, in their order.
 pub fn plateaus(sampled: &Sampled) -> Vec<Plateau> {
     let current = &sampled.current_a;
-    let tolerance_a = (TOLERANCE * noise_a(current)).max(LEAST_TOLERANCE_A);
+    let tolerance_a = (TOLERANCE_SIGMAS * noise_a(current)).max(LEAST_TOLERANCE_A);
     let mut found = Vec::new();
     let (mut first, mut sum) = (0, 0.0);
     let away = |k: usize, mean: f64| {

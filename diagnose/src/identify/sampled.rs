@@ -1,14 +1,10 @@
 //! This file is a recording of a brake as the identification reads it: complete samples only, torque as a resistance.
 
+use crate::rules::{LEAST_SAMPLES, MOST_DRIVING};
 use rigproof_spec::effect::Motion;
 use rigproof_trace::rig::{Plant, Recording};
 
 use super::IdentifyError;
-
-/// The fewest samples that are of use.
-const LEAST_SAMPLES: usize = 100;
-/// Share of the moving samples in which the torque may drive the shaft, by noise or by what turns behind the meter.
-const MOST_DRIVING: f64 = 0.4;
 
 /// One recording, all columns of equal length.
 pub struct Sampled {

@@ -1,14 +1,10 @@
 //! This file averages what belongs together: the steps of one current and one speed in one recording.
 
+use crate::rules::{SAME_CURRENT_A, SAME_SPEED};
 use rigproof_spec::tables::Edge;
 
 use super::sampled::{deviation, mean};
 use super::{Identified, speed_rpm};
-
-/// Currents closer than this are one level, A.
-const SAME_CURRENT_A: f64 = 0.03;
-/// Speeds whose ratio is closer to one than this are one level.
-const SAME_SPEED: f64 = 0.1;
 
 /// Settled torques and time constants by current, speed and recording.
 pub struct Sets {

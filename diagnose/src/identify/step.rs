@@ -1,24 +1,14 @@
 //! This file reads settled torques and time constants off the steps of a recording.
 
+use crate::rules::{
+    LEAST_STEP_A, LINE_SHARE, LONGEST_EDGE_S, SETTLED_SHARE, SETTLING, SPEED_SHARE,
+};
 use rigproof_model::brake::identify::{TRANSIENT, fit_step};
 use rigproof_spec::tables::{Edge, GAIN_BREAK_A};
 
 use super::Identified;
 use super::plateau::Plateau;
 use super::sampled::{Part, Sampled, deviation, mean};
-
-/// The torque of a plateau counts over its last part, when it has settled.
-const SETTLED_SHARE: f64 = 0.4;
-/// Time constants that must have passed before the torque counts as settled.
-const SETTLING: f64 = 4.0;
-/// Greatest distance of a position from the straight line of constant speed, as a share of the plateau's travel.
-const LINE_SHARE: f64 = 0.02;
-/// Greatest difference between the speeds before and after a step, as a share.
-const SPEED_SHARE: f64 = 0.05;
-/// The longest pause between two plateaus of a step, s.
-const LONGEST_EDGE_S: f64 = 0.02;
-/// The smallest step of current that is read, A.
-const LEAST_STEP_A: f64 = 0.1;
 
 /// A settled stretch at constant current and speed.
 #[derive(Clone, Copy, Debug, PartialEq)]

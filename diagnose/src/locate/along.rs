@@ -2,11 +2,9 @@
 
 use super::{Cell, Regimes};
 use crate::cause::Place;
+use crate::rules::REVERSAL_S;
 use crate::weak::Windows;
 use rigproof_model::effects::Instant;
-
-/// Time since a reversal below which a window belongs to it, s.
-const REVERSAL_S: f64 = 0.1;
 
 /// Regimes of a motion; every window in motion counts, the ambiguous ones too. `low` is the lowest position and `travel` the range of them.
 pub fn along(

@@ -1,6 +1,6 @@
 //! This file is a plant by its description: what it needs recorded, how that becomes a run, and what only this plant can show.
 
-use super::{Replayed, Run};
+use super::{Replayed, Run, Simulated, Unsimulated};
 use crate::align::Fault;
 use crate::diagnose::numbers::fitted;
 use crate::diagnose::write::Stand;
@@ -86,7 +86,9 @@ pub trait Plant: Clone + Debug + Send + Sync + Sized {
     }
 
     /// What the nominal model has beside what the run knows.
-    fn nominal(&self) -> Vec<NominalEffect>;
+    fn nominal(&self) -> Vec<NominalEffect> {
+        Vec::new()
+    }
 
     /// Checks what can be checked before anything is fitted.
     ///
@@ -218,7 +220,13 @@ pub trait Described: Plant + PartialEq {
     /// A channel is missing, or its unit does not convert.
     fn measured(&self, trace: &Trace, origin: &Path) -> Result<Self::Recording, TraceError>;
 
-    /// Reads a text recording whose dialect is partly known, and says in which it was.
+    /// The description with the units that some columns are said to be in, whatever their headers say.
+    ///
+    /// # Errors
+    /// Names a channel that the rig does not have, and those it has.
+    fn in_units(&self, units: &[(String, String)]) -> Result<Self, String>;
+
+    /// Reads a text recording whose dialect is partly known, and says in which it was, and what was guessed, passed over or mended.
     ///
     /// # Errors
     /// The file cannot be read, or as [`Plant::measured`].
@@ -226,7 +234,7 @@ pub trait Described: Plant + PartialEq {
         &self,
         file: &Path,
         hints: &Hints,
-    ) -> Result<(Self::Recording, Dialect), TraceError>;
+    ) -> Result<(Self::Recording, Dialect, Vec<String>), TraceError>;
 
     /// Reads an MCAP recording, and says how it was read.
     ///
@@ -259,6 +267,29 @@ pub trait Described: Plant + PartialEq {
         noise: [f64; 2],
         random: &mut Pcg64Mcg,
     ) -> Self::Recording;
+
+    /// A model beside a recording that this description describes; where it runs freely it starts from the recorded state every `restart_s`.
+    ///
+    /// # Errors
+    /// The recording is at fault, or the model cannot be simulated.
+    fn simulated(
+        &self,
+        model: &Self,
+        recording: &Self::Recording,
+        restart_s: f64,
+    ) -> Result<Simulated, Unsimulated> {
+        let _ = (model, recording, restart_s);
+        Err(Unsimulated::Model(
+            "nothing simulates this plant".to_owned(),
+        ))
+    }
+
+    /// Why a calibration is none of this rig; `None` if it is one. It may be of another plant altogether: `None`.
+    fn refuses(&self, calibration: Option<&Self>) -> Option<String> {
+        calibration.is_none().then(|| {
+            "the calibration is of another plant; give the calibration of this rig".to_owned()
+        })
+    }
 
     /// The end of a recording beside free runs of this description and another one.
     fn replay(&self, after: &Self, recording: &Self::Recording) -> Option<Replayed> {

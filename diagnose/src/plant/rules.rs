@@ -1,5 +1,10 @@
 //! This file is what differs between plants in how names are judged: each set was chosen on recordings of its own.
 
+use crate::rules::{
+    LEAST_RIVAL_SHARE_FIVE_BAR, LEAST_RIVAL_SHARE_JOINT, LEAST_TRAVEL_SIGMAS_FIVE_BAR,
+    LEAST_TRAVEL_SIGMAS_JOINT, OWN_TO_UNEXPLAINED_FIVE_BAR, OWN_TO_UNEXPLAINED_JOINT,
+};
+
 /// How names are judged.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rules {
@@ -26,9 +31,9 @@ pub struct Rules {
 impl Rules {
     /// Chosen on recordings of plants with one equation.
     pub const ONE_EQUATION: Rules = Rules {
-        least_rival_share: f64::NEG_INFINITY,
-        own_to_unexplained: 1.0,
-        least_travel: 20.0,
+        least_rival_share: LEAST_RIVAL_SHARE_JOINT,
+        own_to_unexplained: OWN_TO_UNEXPLAINED_JOINT,
+        least_travel: LEAST_TRAVEL_SIGMAS_JOINT,
         by_form: false,
         by_floor: false,
         by_family: false,
@@ -37,12 +42,11 @@ impl Rules {
         curves: true,
     };
 
-    /// Chosen on recordings of a linkage: an effect often lives in few blocks. One of two cogging periods alone comes to 1.7 times what is
-    /// unexplained, and laws of another family than the one that is there to 4 and more.
+    /// Chosen on recordings of a linkage: an effect often lives in few blocks.
     pub const LINKAGE: Rules = Rules {
-        least_rival_share: 0.5,
-        own_to_unexplained: 2.5,
-        least_travel: 0.0,
+        least_rival_share: LEAST_RIVAL_SHARE_FIVE_BAR,
+        own_to_unexplained: OWN_TO_UNEXPLAINED_FIVE_BAR,
+        least_travel: LEAST_TRAVEL_SIGMAS_FIVE_BAR,
         by_form: true,
         by_floor: true,
         by_family: true,

@@ -1,7 +1,7 @@
 //! This file is the registry of plants, a line each, and what is diagnosed whichever plant it is: a rig's description and a recording of it.
 
 use crate::diagnose::{Diagnosis, Options, diagnose};
-use crate::plant::{Described, Plant, Replayed};
+use crate::plant::{Described, Plant, Replayed, Simulated, Unsimulated};
 use rand_pcg::Pcg64Mcg;
 use rigproof_trace::csv::{Dialect, Hints};
 use rigproof_trace::rig::Rig;
@@ -64,14 +64,25 @@ macro_rules! plants {
                 }
             }
 
-            /// Reads a text recording whose dialect is partly known, and says in which it was.
+            /// The description with the units that some columns are said to be in, whatever their headers say.
+            ///
+            /// # Errors
+            /// Names a channel that the rig does not have, and those it has.
+            pub fn with_column_units(&self, units: &[(String, String)]) -> Result<Description, String> {
+                match self {
+                    $(Description::$name(own) => own.in_units(units).map(Description::$name),)+
+                }
+            }
+
+            /// Reads a text recording whose dialect is partly known, and says in which it was, and what was guessed, passed over or mended.
             ///
             /// # Errors
             /// The file cannot be read, or as [`Description::apply`].
-            pub fn read_text(&self, file: &Path, hints: &Hints) -> Result<(Measured, Dialect), TraceError> {
+            pub fn read_text(&self, file: &Path, hints: &Hints) -> Result<(Measured, Dialect, Vec<String>), TraceError> {
                 match self {
                     $(Description::$name(own) => {
-                        own.read_csv(file, hints).map(|(recording, dialect)| (Measured::$name(recording), dialect))
+                        own.read_csv(file, hints)
+                            .map(|(recording, dialect, remarks)| (Measured::$name(recording), dialect, remarks))
                     })+
                 }
             }
@@ -126,6 +137,32 @@ macro_rules! plants {
                         })
                     })+
                     _ => Err("the recording is one of another plant".to_owned()),
+                }
+            }
+
+            /// A model beside a recording; where it runs freely it starts from the recorded state every `restart_s`.
+            ///
+            /// # Errors
+            /// The recording is at fault, or the model cannot be simulated.
+            pub fn simulated(
+                &self,
+                model: &Description,
+                recording: &Measured,
+                restart_s: f64,
+            ) -> Result<Simulated, Unsimulated> {
+                match (self, model, recording) {
+                    $((Description::$name(own), Description::$name(model), Measured::$name(recording)) => {
+                        own.simulated(model, recording, restart_s)
+                    })+
+                    _ => Err(Unsimulated::Model("the recording is one of another plant".to_owned())),
+                }
+            }
+
+            /// Why a calibration is none of this rig; `None` if it is one.
+            pub fn refuses(&self, calibration: &Description) -> Option<String> {
+                match (self, calibration) {
+                    $((Description::$name(own), Description::$name(calibration)) => own.refuses(Some(calibration)),)+
+                    $((Description::$name(own), _) => own.refuses(None),)+
                 }
             }
 

@@ -1,6 +1,7 @@
 //! This file claims that the weak form holds on exact motion, and what is done to signals.
 
 use super::*;
+use rigproof_spec::effect::Mechanism;
 
 use crate::filter::rms;
 use crate::plants::joint::recorded::{NOMINAL, exact_axis};

@@ -1,15 +1,12 @@
 //! This file takes out laws of friction that only mend the form of another one at their joint.
 
 use super::refine::refine;
-use super::together::bends;
+use super::together::{bends, mends};
 use super::{Found, refs};
 use crate::cause::Cause;
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, fit};
-use rigproof_spec::effect::Mechanism;
-
-/// Share of what a law at a joint explains up to which a second one there is its form: friction of another family is not met exactly.
-const OF_ITS_FORM: f64 = 0.1;
+use crate::rules::OF_ITS_FORM;
 
 /// Drops, weakest first, every law with a memory of its motion that explains a tenth of what one that bends explains at its joint, both from the
 /// start. Where a true friction is no bristle, no peak and no settling, two of them are nearer to it than one.
@@ -44,7 +41,6 @@ fn weakest_form(
     let is_form = |index: usize| {
         let (own, gain) = (found.get(index)?, explained.get(index)?);
         let cause = own.term.cause;
-        let mends = bends(cause.mechanism) || cause.mechanism == Mechanism::Settling;
         let mut others = found.iter().zip(&explained).enumerate();
         let has_form = others.any(|(place, (other, of_other))| {
             place != index
@@ -53,7 +49,7 @@ fn weakest_form(
                 && other.term.onset_s.is_none()
                 && *gain < OF_ITS_FORM * of_other
         });
-        (mends && own.term.onset_s.is_none() && has_form).then_some((index, *gain))
+        (mends(cause.mechanism) && own.term.onset_s.is_none() && has_form).then_some((index, *gain))
     };
     let forms = (0..found.len()).filter_map(is_form);
     forms
@@ -69,6 +65,7 @@ mod tests {
     use crate::plants::five_bar::recorded::{noise_rows, short_run, target};
     use crate::problem::add;
     use crate::select::usable_rms;
+    use rigproof_spec::effect::Mechanism;
     use rigproof_spec::joint::Joint;
 
     #[test]

@@ -9,6 +9,8 @@ use super::{Found, Gates, TIE_Z};
 use crate::candidates::is_at_edge;
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, Fit, fit, nested_block_losses, paired};
+use crate::rules::PROMISING_SHARE;
+pub(super) use crate::rules::SIMPLER_SHARE;
 use rayon::prelude::*;
 use rigproof_model::effects::entry;
 
@@ -23,9 +25,6 @@ pub(super) struct Trial {
     /// How many numbers it has.
     parameters: usize,
 }
-
-/// Share of the best gain that a mechanism must reach on its grid to have its shape refined and be judged.
-const PROMISING: f64 = 0.3;
 
 /// Judges one mechanism a list of variants: those that pass the gates, and the best variant of every list.
 pub(super) fn trials(
@@ -48,7 +47,7 @@ pub(super) fn trials(
     let bests = candidates.iter().map(|c| c.1.clone()).collect();
     let trials = candidates
         .into_par_iter()
-        .filter(|(_, _, loss)| current.loss - loss >= PROMISING * (current.loss - least))
+        .filter(|(_, _, loss)| current.loss - loss >= PROMISING_SHARE * (current.loss - least))
         .filter_map(|(mut list, mut term, _)| {
             if list.len() > 1 {
                 term = refined(problem, common, term, blocks);
@@ -172,9 +171,6 @@ pub(super) fn simplest(mut trials: Vec<Trial>, loss_without: f64) -> Option<Foun
         .min_by_key(|(rank, t)| (t.parameters, *rank))
         .map(|(_, t)| t.found)
 }
-
-/// A simpler mechanism is taken when it explains at least this share of what the best one does.
-pub(super) const SIMPLER_SHARE: f64 = 0.9;
 
 #[cfg(test)]
 mod tests {

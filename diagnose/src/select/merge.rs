@@ -8,17 +8,16 @@ use crate::candidates::realise;
 use crate::cause::Cause;
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, Fit, fit, paired};
+use rigproof_model::effects::{LIBRARY, entry, facts};
 use rigproof_spec::effect::Mechanism;
 
-/// The two that one bristle with unequal limits is, once it has slid.
-const BOTH: [Mechanism; 2] = [Mechanism::Presliding, Mechanism::ConstantBias];
-
-/// What a constant at the joint of a bristle may be named: a spring has its rest angle where it likes, dry friction with a sense is a constant.
-const CONSTANTS: [Mechanism; 3] = [
-    Mechanism::ConstantBias,
-    Mechanism::Spring,
-    Mechanism::DirectionAsymmetry,
-];
+/// The law that takes the place of two at one joint, of which the first is this mechanism and gives it its shape.
+pub(super) fn takes_both(first: Mechanism) -> Option<(Mechanism, Mechanism)> {
+    LIBRARY.iter().find_map(|entry| {
+        let [own, beside] = entry.facts.both?;
+        (own == first).then_some((entry.mechanism, beside))
+    })
+}
 
 /// Replaces a bristle and a constant at one joint by the one bristle that does as much with no more numbers.
 pub(super) fn merge(problem: &Problem, nominal: &[Term], found: &mut Vec<Found>, blocks: &Blocks) {
@@ -38,12 +37,14 @@ fn merged(
     bristle: usize,
 ) -> Option<Vec<Found>> {
     let own = &found.get(bristle)?.term;
+    let (one, constant) = takes_both(own.cause.mechanism)?;
+    // A spring has its rest angle where it likes, dry friction with a sense is a constant.
     let beside = |f: &Found| {
-        CONSTANTS.contains(&f.term.cause.mechanism)
+        entry(f.term.cause.mechanism).is_some_and(|entry| entry.is_or_has_limit(constant))
             && f.term.cause.at == own.cause.at
             && f.term.onset_s == own.onset_s
     };
-    if own.cause.mechanism != Mechanism::Presliding || !found.iter().any(beside) {
+    if !found.iter().any(beside) {
         return None;
     }
     let all = found.iter().enumerate();
@@ -53,7 +54,7 @@ fn merged(
         .collect();
     let common = refs(nominal, &others);
     let cause = Cause {
-        mechanism: Mechanism::AsymmetricPresliding,
+        mechanism: one,
         ..own.cause
     };
     let begun = realise(problem, cause, &own.shape, own.onset_s, &[])?;
@@ -105,13 +106,11 @@ fn is_better(one: &Fit, other: &Fit) -> bool {
 /// Once it has slid they are one law: no experiment tells them apart.
 pub(crate) fn as_two(problem: &Problem, selection: &Selection, index: usize) -> Option<[Cause; 2]> {
     let own = &selection.found.get(index)?.term;
-    if own.cause.mechanism != Mechanism::AsymmetricPresliding {
-        return None;
-    }
+    let both = facts(own.cause.mechanism)?.both?;
     let blocks = Blocks::new(problem);
     let mut others = selection.found.clone();
     others.remove(index);
-    let causes = BOTH.map(|mechanism| Cause {
+    let causes = both.map(|mechanism| Cause {
         mechanism,
         ..own.cause
     });
@@ -183,6 +182,10 @@ mod tests {
         ];
         let made = made_of(laws);
         let names: Vec<Mechanism> = made.iter().map(|(mechanism, _)| *mechanism).collect();
-        assert_eq!(names, BOTH, "{made:?}");
+        assert_eq!(
+            names,
+            [Mechanism::Presliding, Mechanism::ConstantBias],
+            "{made:?}"
+        );
     }
 }

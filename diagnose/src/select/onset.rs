@@ -6,21 +6,7 @@ use super::{Found, Selection, refs};
 use crate::candidates::realise;
 use crate::problem::{Problem, Term, less};
 use crate::regression::{Blocks, dot, fit};
-
-/// What an onset may leave more and explain the recording alike: 95 % of χ² with one degree of freedom.
-const ALIKE: f64 = 3.84;
-
-/// How far from an onset what is left tells how well one there can be known, s.
-const NEAR_S: f64 = 0.1;
-
-/// The first step away from an onset, s.
-const FIRST_STEP_S: f64 = 0.005;
-
-/// Halvings between a time that explains the recording alike and one that does not.
-const HALVINGS: usize = 6;
-
-/// Times between the ends at which the best onset is looked for.
-const LOOKED_AT: usize = 16;
+use crate::rules::{ALIKE, FIRST_STEP_S, LOOKED_AT, NEAR_S, ONSET_INTERVAL_HALVINGS};
 
 /// Puts every onset into the middle of the times around it that are alike.
 pub(super) fn centre(problem: &Problem, nominal: &[Term], found: &mut [Found]) {
@@ -162,7 +148,7 @@ fn reach(is_alike: impl Fn(f64) -> bool) -> f64 {
     while is_alike(outside) {
         (inside, outside) = (outside, 2.0 * outside);
     }
-    for _ in 0..HALVINGS {
+    for _ in 0..ONSET_INTERVAL_HALVINGS {
         let middle = 0.5 * (inside + outside);
         if is_alike(middle) {
             inside = middle;

@@ -6,7 +6,8 @@ use super::{Found, Gates, TIE_Z, floor_limit, refs};
 use crate::cause::Cause;
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, Fit, fit, paired};
-use rigproof_spec::effect::Mechanism;
+use crate::rules::{EXACT_TO_UNEXPLAINED, LONE_TO_UNEXPLAINED};
+use rigproof_model::effects::facts;
 
 /// Drops every found mechanism that the others, with their shapes adjusted, make unnecessary.
 pub(super) fn backward(
@@ -76,13 +77,6 @@ pub(super) fn prune(
     }
 }
 
-/// Multiple of the unexplained energy that names must explain on a five-bar if each of them has one form only: what is left is then none of
-/// theirs. Compliance comes to 3 as a payload; where a name is right nothing is left.
-const EXACT_TO_UNEXPLAINED: f64 = 20.0;
-
-/// Multiple that a name with families must explain on a five-bar if it is the only one.
-const LONE_TO_UNEXPLAINED: f64 = 6.0;
-
 /// Left-out loss that sensor noise does not account for.
 pub(super) fn unexplained(problem: &Problem, current: &Fit) -> f64 {
     let ratio = usable_rms(problem, &current.residual) / (floor_limit(problem) * problem.floor);
@@ -109,25 +103,13 @@ pub(super) fn outweighs(problem: &Problem, cause: Cause, without: &Fit, with: &F
 /// A mass, a sensor's error, a gain or a constant has one form: what it leaves is something else, which it may only stand in for. So does a
 /// settling, whose decay follows whatever dies away.
 fn least_to_unexplained(problem: &Problem, named: &[Cause]) -> f64 {
-    let exact = |cause: &Cause| !HAS_FAMILIES.contains(&cause.mechanism);
+    let exact = |cause: &Cause| facts(cause.mechanism).is_none_or(|own| !own.has_forms);
     match problem.rules.by_form {
         true if named.iter().all(exact) => EXACT_TO_UNEXPLAINED,
         true if named.len() == 1 => LONE_TO_UNEXPLAINED,
         _ => problem.rules.own_to_unexplained,
     }
 }
-
-/// What is described by laws of several families.
-const HAS_FAMILIES: [Mechanism; 8] = [
-    Mechanism::Stribeck,
-    Mechanism::Presliding,
-    Mechanism::AsymmetricPresliding,
-    Mechanism::Hysteresis,
-    Mechanism::CurrentHysteresis,
-    Mechanism::ThermalFade,
-    Mechanism::ReversalOvershoot,
-    Mechanism::LoadDependent,
-];
 
 #[cfg(test)]
 mod tests {

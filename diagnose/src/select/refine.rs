@@ -5,7 +5,13 @@ use super::weigh::{effort_beside, loss_with, own_coefficients};
 use crate::candidates::{modelled_effort, realise, shape_bounds};
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, fit};
-use rigproof_spec::effect::Mechanism;
+pub(super) use crate::rules::ONSET_MARGIN;
+use crate::rules::{
+    LEAST_IMPROVEMENT, MOST_ROUNDS, NO_WORSE, ONSET_HALVINGS, ONSET_STRIDE, PERIOD_STRIDE, STRIDE,
+    STRIDE_HALVINGS, TAKEN_AGAIN,
+};
+use rigproof_model::effects::facts;
+use rigproof_model::effects::facts::Shapes;
 
 /// Improves the shape (and onset) of each found term by halving steps on the loss over all blocks.
 pub(super) fn refine(problem: &Problem, nominal: &[Term], found: &mut [Found], blocks: &Blocks) {
@@ -31,20 +37,6 @@ pub(super) fn refine(problem: &Problem, nominal: &[Term], found: &mut [Found], b
     }
 }
 
-/// Bounds on the rounds of a pattern search, and the halvings of its stride that end it.
-const MOST_ROUNDS: usize = 30;
-
-const HALVINGS: usize = 6;
-
-/// The first stride, as a share of a shape parameter.
-const STRIDE: f64 = 0.3;
-
-/// A period is known to a small share of it before, and its neighbours are other periods: its stride beside that of others.
-const PERIOD_STRIDE: f64 = 0.004 / STRIDE;
-
-/// Halvings that place an onset to about a sample.
-const ONSET_HALVINGS: usize = 11;
-
 /// Pattern search over the logarithms of the shape parameters and the onset.
 pub(crate) fn refined(problem: &Problem, common: &[&Term], start: Term, blocks: &Blocks) -> Term {
     let score = |term: &Term| loss_with(problem, common, term);
@@ -66,14 +58,14 @@ pub(crate) fn refined(problem: &Problem, common: &[&Term], start: Term, blocks: 
                 best = (loss, moved);
             }
         }
-        if best.0 > (1.0 - 1e-4) * before {
+        if best.0 > (1.0 - LEAST_IMPROVEMENT) * before {
             stride *= 0.5;
             halvings += 1;
         }
         let limit = if best.1.onset_s.is_some() {
             ONSET_HALVINGS
         } else {
-            HALVINGS
+            STRIDE_HALVINGS
         };
         if halvings == limit {
             break;
@@ -81,12 +73,6 @@ pub(crate) fn refined(problem: &Problem, common: &[&Term], start: Term, blocks: 
     }
     taken_again(problem, common, best, blocks)
 }
-
-/// Rounds in which the columns of what moves the linkage are taken again, over the change that their coefficients say.
-const TAKEN_AGAIN: usize = 3;
-
-/// Loss beside the one before up to which columns that were taken again are kept: they are the truer ones even where they fit no better.
-const NO_WORSE: f64 = 1.1;
 
 fn taken_again(problem: &Problem, common: &[&Term], start: (f64, Term), blocks: &Blocks) -> Term {
     let (loss, mut term) = start;
@@ -127,9 +113,6 @@ fn directions(shape: usize, onset: bool) -> Vec<Vec<f64>> {
     all
 }
 
-/// Share of the recording at each end in which no onset is placed: one that begins there is no onset.
-pub(super) const ONSET_MARGIN: f64 = 0.08;
-
 /// The term with its shape scaled by `1 + stride` along a direction, and its onset moved by the last component.
 /// `None` outside the bounds.
 fn moved(
@@ -141,8 +124,8 @@ fn moved(
     effort: &[f64],
 ) -> Option<Term> {
     let mut shape = term.shape.clone();
-    let own = match term.cause.mechanism {
-        Mechanism::Ripple => PERIOD_STRIDE * stride,
+    let own = match facts(term.cause.mechanism).map(|facts| facts.shapes) {
+        Some(Shapes::Period) => PERIOD_STRIDE * stride,
         _ => stride,
     };
     for ((value, along), (low, high)) in shape.iter_mut().zip(direction).zip(bounds) {
@@ -154,7 +137,7 @@ fn moved(
     let length_s = problem.run.clock().duration_s();
     let mut onset_s = term.onset_s;
     if let (Some(onset), Some(along)) = (&mut onset_s, direction.get(term.shape.len())) {
-        *onset += 0.15 * stride * along * length_s;
+        *onset += ONSET_STRIDE * stride * along * length_s;
         let share = (*onset - problem.run.clock().start_s) / length_s;
         if !(ONSET_MARGIN..1.0 - ONSET_MARGIN).contains(&share) {
             return None;

@@ -9,6 +9,7 @@ use super::{Found, Gates, refs};
 use crate::candidates::{all_variants, causes, is_at_edge, modelled_effort};
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, Fit, dot, fit, paired};
+use crate::rules::{SOLE_NEAR, SOLE_PROMISING, SOLE_SHARE, SOLE_SHARE_WITH_REST};
 use rayon::prelude::*;
 
 /// The one mechanism that takes away nearly all, where blocks showed none for what is more, or several that leave more than it; then it may
@@ -37,13 +38,13 @@ pub(super) fn sole(
         promising(problem, &common, &current, tried, gates)
     };
     let is_enough = |found: &Found| found.at_floor || !named;
-    let share = if named { NEAR_ENOUGH } else { 0.0 };
+    let share = if named { SOLE_NEAR } else { 0.0 };
     judged(early.clone(), share).filter(is_enough).or_else(|| {
         let effort = modelled_effort(problem, &common, &current);
         let lists = early
             .par_iter()
             .map(|(term, _)| with_onsets(problem, term, &effort));
-        judged(of_all(lists.collect()), NEAR_ENOUGH).filter(|found| found.at_floor)
+        judged(of_all(lists.collect()), SOLE_NEAR).filter(|found| found.at_floor)
     })
 }
 
@@ -57,7 +58,7 @@ fn promising(
 ) -> Option<Found> {
     let blocks = Blocks::new(problem);
     tried.sort_by(|a, b| a.1.total_cmp(&b.1));
-    tried.truncate(PROMISING);
+    tried.truncate(SOLE_PROMISING);
     let refined = tried
         .into_par_iter()
         .map(|(term, _)| refined(problem, common, term, &blocks));
@@ -82,7 +83,11 @@ fn by_windows(
     let own = own_coefficients(&term, &fitted);
     let at_floor = is_noise(problem, &fitted);
     let share = 1.0 - fitted.loss / current.loss;
-    let least = if at_floor { MOST } else { NEARLY_ALL };
+    let least = if at_floor {
+        SOLE_SHARE
+    } else {
+        SOLE_SHARE_WITH_REST
+    };
     let windows = windows(problem);
     let expected = excitation(&term, own, &windows);
     let [before, after] = [current, &fitted].map(|fit| losses(problem, fit, &windows));
@@ -101,18 +106,6 @@ fn by_windows(
     };
     stands.then_some((fitted.loss, found))
 }
-
-/// Share of the loss that one takes away which leaves nothing but noise: what is little above the floor is no loud event.
-const MOST: f64 = 0.85;
-
-/// The same for one that leaves more, as a law of another family does.
-const NEARLY_ALL: f64 = 0.95;
-
-/// Share that one takes away before its shape and its onset are refined, if it is to leave nothing but noise.
-const NEAR_ENOUGH: f64 = 0.5;
-
-/// Causes whose shape is refined, those that explain most.
-const PROMISING: usize = 4;
 
 /// Every window as a block by itself.
 fn windows(problem: &Problem) -> Blocks {

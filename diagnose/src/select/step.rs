@@ -1,29 +1,16 @@
 //! This file takes one step of the search: a mechanism more, or one in the place of another.
 
 use super::judge::{SIMPLER_SHARE, Trial, simplest, those_that_leave_noise, trials};
-use super::together::{beside, masking, of_one_family};
+use super::merge::takes_both;
+use super::together::{beside, is_elementary, masking, of_one_family};
 use super::weigh::is_noise;
 use super::{Found, Gates, TIE_Z, refs};
 use crate::candidates::{all_variants, causes, modelled_effort, realise};
 use crate::cause::Cause;
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, Fit, fit, paired};
+use crate::rules::{EARLY_SHARE, ELEMENTARY_SHARE, MORE_Z, ONSET_GRID};
 use rayon::prelude::*;
-use rigproof_spec::effect::Mechanism;
-
-/// Memoryless mechanisms of one parameter: they are named first, and the others must still be needed beside or
-/// instead of them.
-const ELEMENTARY: [Mechanism; 3] = [
-    Mechanism::DryOffset,
-    Mechanism::ConstantBias,
-    Mechanism::Viscous,
-];
-
-/// Share of the best gain that an elementary mechanism must reach to be named first.
-const ELEMENTARY_SHARE: f64 = 0.5;
-
-/// Share of the best gain that a mechanism from the start must reach to be preferred to one that begins later.
-const EARLY_SHARE: f64 = 0.8;
 
 /// The next mechanism: an elementary one, any other, or one that begins during the recording, in this order as
 /// long as it explains enough of what the best of them does. Two or three where no one alone leaves nothing but noise and they do; none where nothing passes.
@@ -63,7 +50,7 @@ pub(super) fn forward(
     }
     let (elementary, others): (Vec<Trial>, Vec<Trial>) = early
         .into_iter()
-        .partition(|t| ELEMENTARY.contains(&t.found.term.cause.mechanism));
+        .partition(|t| is_elementary(t.found.term.cause.mechanism));
     let without = current.left_out();
     let ranked = [
         (simplest(elementary, without), ELEMENTARY_SHARE),
@@ -86,9 +73,6 @@ pub(super) fn forward(
         .filter(|f| f.at_floor || !floor_reached);
     enough.next().into_iter().collect()
 }
-
-/// z that one more mechanism needs beside others which leave nothing but noise: what the form of a law lacks is there too.
-const MORE_Z: f64 = 4.0;
 
 /// The gates, higher where nothing but noise is left of what was found.
 fn beyond_noise(problem: &Problem, current: &Fit, found: &[Found], gates: Gates) -> Gates {
@@ -152,11 +136,12 @@ pub(super) fn open(problem: &Problem, nominal: &[Term], found: &[Found]) -> Vec<
 /// For a bristle the one whose limits differ. From the start it is found as a bristle beside a constant; of two that begin later
 /// neither may pass alone, or the one that does leaves what a wrong name then takes.
 fn with_unequal_limits(problem: &Problem, term: &Term, effort: &[f64]) -> Option<Term> {
-    if !problem.rules.by_family || term.cause.mechanism != Mechanism::Presliding {
+    if !problem.rules.by_family {
         return None;
     }
+    let (mechanism, _) = takes_both(term.cause.mechanism)?;
     let cause = Cause {
-        mechanism: Mechanism::AsymmetricPresliding,
+        mechanism,
         ..term.cause
     };
     realise(problem, cause, &term.shape, None, effort)
@@ -165,8 +150,8 @@ fn with_unequal_limits(problem: &Problem, term: &Term, effort: &[f64]) -> Option
 /// A term that begins at twelfths of the recording, ends left out.
 pub(super) fn with_onsets(problem: &Problem, term: &Term, effort: &[f64]) -> Vec<Term> {
     let clock = problem.run.clock();
-    (2..=10)
-        .map(|k| clock.start_s + clock.duration_s() * k as f64 / 12.0)
+    (2..=ONSET_GRID - 2)
+        .map(|k| clock.start_s + clock.duration_s() * k as f64 / ONSET_GRID as f64)
         .filter_map(|t| {
             let mut late = realise(problem, term.cause, &term.shape, Some(t), effort)?;
             problem.lighten(&mut late);

@@ -9,29 +9,9 @@ use crate::cause::Cause;
 use crate::cause::Place;
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, Fit, fit};
+use rigproof_model::effects::facts::{Beside, Facts, Family};
+use rigproof_model::effects::{Entry, LIBRARY, facts};
 use rigproof_spec::effect::Mechanism;
-
-/// Laws of friction whose shape bends towards whatever plainer friction stands beside them unseen.
-const BENDING: [Mechanism; 3] = [
-    Mechanism::Stribeck,
-    Mechanism::Presliding,
-    Mechanism::AsymmetricPresliding,
-];
-
-/// What may have bent one of them.
-const PLAIN: [Mechanism; 3] = [
-    Mechanism::DryOffset,
-    Mechanism::Viscous,
-    Mechanism::ConstantBias,
-];
-
-/// What can mask one another, one number each.
-const MASKING: [Mechanism; 4] = [
-    Mechanism::DryOffset,
-    Mechanism::Viscous,
-    Mechanism::ConstantBias,
-    Mechanism::GainError,
-];
 
 /// Whether a bending law would stand beside another one at its joint: where that leaves nothing but noise, the second only mends the
 /// form of the first, which true friction need not have.
@@ -40,9 +20,53 @@ pub(super) fn of_one_family(problem: &Problem, cause: Cause, found: &[Found]) ->
     problem.rules.by_family && bends(cause.mechanism) && found.iter().any(same)
 }
 
+/// What a mechanism does to names beside it at its joint.
+fn beside_of(mechanism: Mechanism) -> Beside {
+    facts(mechanism).map_or(Beside::Nothing, |facts| facts.beside)
+}
+
+/// Elementary mechanisms, friction first: one number without memory.
+pub(crate) fn elementary() -> Vec<Mechanism> {
+    those_beside(&[Beside::Elementary])
+}
+
+/// The mechanisms that do one of these to names beside them: elementary ones first, of these friction, else in the order of the library.
+fn those_beside(wanted: &[Beside]) -> Vec<Mechanism> {
+    let entries = LIBRARY.iter();
+    let mut own: Vec<&Entry> = entries
+        .filter(|entry| wanted.contains(&entry.facts.beside))
+        .collect();
+    own.sort_by_key(|entry| {
+        let Facts { beside, family, .. } = entry.facts;
+        (
+            beside != Beside::Elementary,
+            family != Family::FrictionOfMotion,
+        )
+    });
+    own.into_iter().map(|entry| entry.mechanism).collect()
+}
+
+/// Whether a mechanism is elementary: it is named first, and the others must still be needed beside or instead of it.
+pub(super) fn is_elementary(mechanism: Mechanism) -> bool {
+    beside_of(mechanism) == Beside::Elementary
+}
+
+/// Whether a mechanism is elementary friction: what the form of a law that bends lacks is along it.
+pub(crate) fn is_elementary_friction(mechanism: Mechanism) -> bool {
+    let own = facts(mechanism);
+    own.is_some_and(|own| {
+        own.beside == Beside::Elementary && own.family == Family::FrictionOfMotion
+    })
+}
+
+/// Whether a mechanism is a law that only mends the form of one that bends, or bends itself.
+pub(super) fn mends(mechanism: Mechanism) -> bool {
+    matches!(beside_of(mechanism), Beside::Bends | Beside::Mends)
+}
+
 /// Whether a mechanism is such a law.
 pub(crate) fn bends(mechanism: Mechanism) -> bool {
-    BENDING.contains(&mechanism)
+    beside_of(mechanism) == Beside::Bends
 }
 
 /// Plain friction at the joint of a found law, judged with the law's shape free to go back to what it is without it.
@@ -63,7 +87,12 @@ pub(super) fn beside(
         if !is_bent {
             continue;
         }
-        for term in terms_at(problem, &refs(nominal, found), bent.term.cause.at, &PLAIN) {
+        for term in terms_at(
+            problem,
+            &refs(nominal, found),
+            bent.term.cause.at,
+            &elementary(),
+        ) {
             let mut others = refs(nominal, found);
             others.remove(nominal.len() + index);
             let mut with = others.clone();
@@ -92,8 +121,10 @@ pub(super) fn masking(
     let places = causes
         .iter()
         .filter(|c| c.mechanism == Mechanism::DryOffset);
+    // What can mask one another, one number each.
+    let maskers = those_beside(&[Beside::Elementary, Beside::Masks]);
     let at_joints: Vec<Vec<Term>> = places
-        .map(|cause| terms_at(problem, common, cause.at, &MASKING))
+        .map(|cause| terms_at(problem, common, cause.at, &maskers))
         .collect();
     [2, 3].into_iter().find_map(|count| {
         let sets = at_joints.iter().flat_map(|terms| sets_of(terms, count));

@@ -5,6 +5,7 @@ use crate::candidates::modelled_effort;
 use crate::filter::rms;
 use crate::problem::{Problem, Term, add};
 use crate::regression::{Blocks, Fit, dot, fit, loss_of};
+use crate::rules::RELINEARISE;
 use rigproof_model::effects::entry;
 
 /// The coefficients of the last term of a fit.
@@ -102,9 +103,6 @@ pub(super) fn loss_with(problem: &Problem, common: &[&Term], term: &Term) -> f64
     terms.push(term);
     loss_of(problem, &terms)
 }
-
-/// Rounds in which a change of the drive is linearised again about the fit it gave.
-const RELINEARISE: usize = 3;
 
 /// What the other terms give when a change of the drive stands beside them: the point to linearise about.
 pub(super) fn effort_beside(

@@ -47,6 +47,8 @@ pub enum Law {
     ConstantBias { level: f64 },
     /// coefficient·q̇.
     Viscous { coefficient: f64 },
+    /// coefficient·|q̇|^exponent·sgn q̇.
+    VelocityPower { coefficient: f64, exponent: f64 },
     /// viscous·|q̇| + dry.
     DirectionAsymmetry { viscous: f64, dry: f64 },
     /// peak·exp(−|q̇/speed|^exponent)·sgn q̇.
@@ -103,6 +105,12 @@ impl Law {
             }
             (Mechanism::ConstantBias, &[level]) => Law::ConstantBias { level },
             (Mechanism::Viscous, &[coefficient]) => Law::Viscous { coefficient },
+            (Mechanism::VelocityPower, &[coefficient, exponent]) if exponent > 0.0 => {
+                Law::VelocityPower {
+                    coefficient,
+                    exponent,
+                }
+            }
             (Mechanism::DirectionAsymmetry, &[viscous, dry]) => {
                 Law::DirectionAsymmetry { viscous, dry }
             }
@@ -169,6 +177,10 @@ impl Law {
             Law::DryOffset { .. } | Law::Stribeck { .. } => 0.0,
             Law::ConstantBias { level } => level,
             Law::Viscous { coefficient } => coefficient * now.speed,
+            Law::VelocityPower {
+                coefficient,
+                exponent,
+            } => coefficient * libm::pow(now.speed.abs(), exponent) * now.speed.signum(),
             Law::DirectionAsymmetry { viscous, dry } => {
                 let dry = if now.sense == 0.0 { 0.0 } else { dry };
                 viscous * now.speed.abs() + dry

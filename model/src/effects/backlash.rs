@@ -1,6 +1,6 @@
 //! This file is a gap that is crossed after a reversal: while it is, the friction of what lies behind it is missing.
 
-use super::facts::{Alone, Asked, Facts, Family, Shapes, Where, Words};
+use super::facts::{Alone, Asked, Facts, Family, Shapes, Usual, Where, Words};
 use super::{Entry, Form, Instant, Law, parameter};
 use rigproof_spec::effect::Mechanism;
 
@@ -17,6 +17,7 @@ pub(super) const ENTRY: Entry = Entry {
     refuted_by: "full friction from the first instant after a reversal",
     equation: "−missing·sgn(q̇) while 0 < x < gap, x the travel across the gap",
     facts: Facts {
+        usual: Usual::Seldom,
         has_forms: true,
         shapes: Shapes::Gap,
         ..Facts::of(

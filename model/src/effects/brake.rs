@@ -1,6 +1,6 @@
 //! This file is what a brake may do with its current other than the model says: backlash, memory, delay, limit, heat.
 
-use super::facts::{Alone, Asked, Facts, Family, Shapes, Where, Words};
+use super::facts::{Alone, Asked, Facts, Family, Shapes, Usual, Where, Words};
 use super::{Entry, Form, OfBrake};
 use rigproof_spec::effect::Mechanism;
 
@@ -12,6 +12,7 @@ pub(super) const BACKLASH_WIDTH: Entry = Entry {
     refuted_by: "a full torque after a reversal at the angle of §3.4.3",
     equation: "the off-state torque within `width` after a reversal, instead of the width of table 3.1",
     facts: Facts {
+        turn: 8,
         shapes: Shapes::Geometric {
             low: 0.003,
             high: 0.12,
@@ -39,6 +40,7 @@ pub(super) const CURRENT_HYSTERESIS: Entry = Entry {
     refuted_by: "the same torque on the way up and on the way down of a slow current triangle",
     equation: "τ follows I + share·(p − I), p the play of half width `half_width` that the current moves; its sides meet at 0 from `closing` down",
     facts: Facts {
+        turn: 6,
         has_forms: true,
         shapes: Shapes::CurrentPlay {
             low: 0.01,
@@ -67,6 +69,7 @@ pub(super) const DEAD_TIME: Entry = Entry {
     refuted_by: "a torque that begins to change at the sample of the command",
     equation: "τ follows I(t − delay)",
     facts: Facts {
+        turn: 5,
         shapes: Shapes::Delay,
         ..Facts::of(
             Family::Brake,
@@ -90,6 +93,8 @@ pub(super) const SATURATION: Entry = Entry {
     refuted_by: "a torque that grows with the current beyond the limit",
     equation: "τ follows min(I, limit)",
     facts: Facts {
+        usual: Usual::Common,
+        turn: 5,
         shapes: Shapes::CurrentLimit,
         ..Facts::of(
             Family::Brake,
@@ -113,6 +118,7 @@ pub(super) const THERMAL_FADE: Entry = Entry {
     refuted_by: "the same torque before and after long dissipation",
     equation: "τ·(1 − per_joule·E), dE/dt = τ·|ω| − E/cooling",
     facts: Facts {
+        turn: 6,
         has_forms: true,
         shapes: Shapes::Geometric {
             low: 3.0,

@@ -1,6 +1,6 @@
 //! This file is a constant effort: an offset of the drive or of the force sensor.
 
-use super::facts::{Alone, Asked, Beside, Facts, Family, Refit, Where, Words};
+use super::facts::{Alone, Asked, Beside, Facts, Family, Refit, Usual, Where, Words};
 use super::{Entry, Form, Instant, Law, parameter};
 use rigproof_spec::effect::Mechanism;
 
@@ -16,6 +16,7 @@ pub(super) const ENTRY: Entry = Entry {
     refuted_by: "an offset that differs between slow motion in the two directions by more than its sign",
     equation: "level",
     facts: Facts {
+        usual: Usual::Frequent,
         beside: Beside::Elementary,
         twin: Some(Mechanism::DirectionAsymmetry),
         refit: Refit {

@@ -1,6 +1,8 @@
 //! This file is friction that differs between the two directions of motion (a worn screw, a preloaded nut).
 
-use super::facts::{Alone, Asked, AtRest, End, Facts, Family, Limit, Refit, Shows, Where, Words};
+use super::facts::{
+    Alone, Asked, AtRest, End, Facts, Family, Limit, Refit, Shows, Usual, Where, Words,
+};
 use super::{Entry, Form, Instant, Law, parameter};
 use rigproof_spec::effect::Mechanism;
 
@@ -17,6 +19,8 @@ pub(super) const ENTRY: Entry = Entry {
     refuted_by: "equal resistance at equal speed in both directions",
     equation: "viscous·|q̇| + dry·[q̇ ≠ 0]",
     facts: Facts {
+        usual: Usual::Rare,
+        turn: 2,
         // It shifts both breakaway levels.
         at_rest: AtRest::Level(|numbers| parameter(numbers, 1).abs()),
         shows: Shows::Speed,

@@ -1,6 +1,6 @@
 //! This file is what a driven joint has as a whole: friction by load or by time, another inertia, an inertia behind a spring.
 
-use super::facts::{Alone, Asked, Facts, Family, Shapes, Where, Words};
+use super::facts::{Alone, Asked, Facts, Family, Shapes, Usual, Where, Words};
 use super::{Entry, Form, OfJoint};
 use rigproof_spec::effect::Mechanism;
 
@@ -12,7 +12,12 @@ pub(super) const LOAD_FRICTION: Entry = Entry {
     refuted_by: "the same friction whether the joint drives hard or coasts",
     equation: "share·|e|·sgn(q̇), e the effort at the joint",
     facts: Facts {
-        shapes: Shapes::Values(&[0.03, 0.06, 0.1, 0.15, 0.22, 0.32]),
+        usual: Usual::Seldom,
+        shapes: Shapes::Geometric {
+            low: 0.03,
+            high: 0.5,
+            count: 7,
+        },
         ..Facts::of(
             Family::FrictionOfMotion,
             Asked {
@@ -34,7 +39,9 @@ pub(super) const FRICTION_FADE: Entry = Entry {
     passive: false,
     refuted_by: "the same friction at the start and at the end of the recording",
     equation: "described friction × (1 − rate·t)",
-    facts: Facts::of(
+    facts: Facts {
+        usual: Usual::Seldom,
+        ..Facts::of(
         Family::FrictionOfMotion,
         Asked {
             alone: Alone::Always,
@@ -44,7 +51,7 @@ pub(super) const FRICTION_FADE: Entry = Entry {
             what: "friction that changes while the recording goes on",
             look_for: "grease that warms up, running in",
         },
-    ),
+    )},
 };
 
 pub(super) const ADDED_INERTIA: Entry = Entry {
@@ -54,7 +61,9 @@ pub(super) const ADDED_INERTIA: Entry = Entry {
     passive: false,
     refuted_by: "the described inertia on a swing or a scale",
     equation: "inertia·q̈, added to the described one",
-    facts: Facts::of(
+    facts: Facts {
+        usual: Usual::Frequent,
+        ..Facts::of(
         Family::Inertia,
         Asked {
             alone: Alone::WithInertia,
@@ -64,7 +73,7 @@ pub(super) const ADDED_INERTIA: Entry = Entry {
             what: "another inertia than the described one",
             look_for: "a payload, a tool, the motor behind its gear",
         },
-    ),
+    )},
 };
 
 pub(super) const COMPLIANCE: Entry = Entry {
@@ -75,6 +84,7 @@ pub(super) const COMPLIANCE: Entry = Entry {
     refuted_by: "a load that moves as the joint does up to the highest frequency",
     equation: "share of the inertia follows the joint as a resonator of this frequency and damping",
     facts: Facts {
+        usual: Usual::Seldom,
         shapes: Shapes::Resonance,
         ..Facts::of(
             Family::Inertia,

@@ -1,7 +1,7 @@
 //! This file is dry (Coulomb) friction: a level that opposes motion whatever the speed.
 
 use super::facts::{
-    Alone, Asked, AtRest, Beside, Facts, Family, Refit, Shows, Where, Words, first,
+    Alone, Asked, AtRest, Beside, Facts, Family, Refit, Shows, Usual, Where, Words, first,
 };
 use super::{Entry, Form, Instant, Law, parameter};
 use rigproof_spec::effect::Mechanism;
@@ -18,6 +18,7 @@ pub(super) const ENTRY: Entry = Entry {
     refuted_by: "a resistance that stays the same when the motion reverses, or that vanishes with speed",
     equation: "level·sgn(q̇)",
     facts: Facts {
+        usual: Usual::Plain,
         beside: Beside::Elementary,
         at_rest: AtRest::Dry(first),
         shows: Shows::SpeedAndLevels,

@@ -15,6 +15,11 @@ pub struct Facts {
     pub words: Words,
     /// Which plants it is looked for on.
     pub asked: Asked,
+    /// Its turn among those of one place of the five-bar: what is tried and offered earlier has a lower one, equal ones come in the order of
+    /// the library.
+    pub turn: u8,
+    /// How common it is among what models leave out.
+    pub usual: Usual,
     /// The shapes that are tried.
     pub shapes: Shapes,
     /// What it does to names beside it at the same joint.
@@ -43,6 +48,8 @@ impl Facts {
             has_forms: false,
             words,
             asked,
+            turn: 0,
+            usual: Usual::Rare,
             shapes: Shapes::None,
             beside: Beside::Nothing,
             at_rest: AtRest::Nothing,
@@ -217,6 +224,23 @@ impl Shapes {
             Shapes::Peak | Shapes::Bristle | Shapes::Lag | Shapes::Shift
         )
     }
+}
+
+/// How common a mechanism is among what models leave out, from the plainest to the most seldom.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Usual {
+    /// Most models leave some of it out.
+    Plain,
+    /// Frequent.
+    Frequent,
+    /// Common.
+    Common,
+    /// Now and then.
+    Seldom,
+    /// Rare.
+    Rare,
+    /// Hardly ever.
+    Exceptional,
 }
 
 /// What a mechanism does to names beside it at the same joint.

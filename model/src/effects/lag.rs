@@ -1,7 +1,7 @@
 //! This file is what can be wrong with the drive: a first-order lag, a wrong gain, a time shift.
 
 use super::facts::{
-    Alone, Asked, AtRest, Beside, Facts, Family, Shapes, Shows, Where, Words, first,
+    Alone, Asked, AtRest, Beside, Facts, Family, Shapes, Shows, Usual, Where, Words, first,
 };
 use super::{Drive, Entry, Form};
 use rigproof_spec::effect::Mechanism;
@@ -14,6 +14,8 @@ pub(super) const ENTRY: Entry = Entry {
     refuted_by: "an effort that follows a step of the command at once",
     equation: "time_constant·de/dt = gain·u − e",
     facts: Facts {
+        usual: Usual::Frequent,
+        turn: 4,
         shapes: Shapes::Lag,
         ..Facts::of(
             Family::Drive,
@@ -37,6 +39,8 @@ pub(super) const GAIN_ENTRY: Entry = Entry {
     refuted_by: "the same effort error at small and at large command",
     equation: "e = (1 + fraction)·gain·u",
     facts: Facts {
+        usual: Usual::Frequent,
+        turn: 1,
         beside: Beside::Masks,
         at_rest: AtRest::OfBrake(first),
         shows: Shows::Effort,
@@ -62,6 +66,8 @@ pub(super) const SKEW_ENTRY: Entry = Entry {
     refuted_by: "an effort error that does not follow the slope of the effort",
     equation: "e(t) = gain·u(t − delay)",
     facts: Facts {
+        usual: Usual::Frequent,
+        turn: 4,
         shapes: Shapes::Shift,
         ..Facts::of(
             Family::Sensor,
@@ -85,6 +91,7 @@ pub(super) const LIMIT_ENTRY: Entry = Entry {
     refuted_by: "an effort that grows with the command beyond the limit",
     equation: "e = gain·u cut at ±limit",
     facts: Facts {
+        usual: Usual::Frequent,
         shapes: Shapes::EffortLimit,
         ..Facts::of(
             Family::Drive,

@@ -1,6 +1,8 @@
 //! This file is what can be wrong with a linkage as a whole: its masses, its weight, the force sensor at its tip.
 
-use super::facts::{Alone, Asked, AtRest, End, Facts, Family, Limit, Shapes, Where, Words, first};
+use super::facts::{
+    Alone, Asked, AtRest, End, Facts, Family, Limit, Shapes, Usual, Where, Words, first,
+};
 use super::{Entry, Form, OfLinkage, OfSensor};
 use rigproof_spec::effect::Mechanism;
 
@@ -12,6 +14,8 @@ pub(super) const LOAD_DEPENDENT: Entry = Entry {
     refuted_by: "the same friction whether the hand pulls hard or hardly at all",
     equation: "arm·|F|·sgn(ω), F the force on the tip",
     facts: Facts {
+        usual: Usual::Seldom,
+        turn: 7,
         has_forms: true,
         at_rest: AtRest::OfLoad(first),
         ..Facts::of(
@@ -55,17 +59,20 @@ pub(super) const INERTIA_ERROR: Entry = Entry {
     passive: false,
     refuted_by: "arms weighed and swung one by one; only their combinations are determined, so that a number of 0 is one that the others stand for",
     equation: "moments of inertia about each arm's first joint and a mass at the tip, added to the nominal ones",
-    facts: Facts::of(
-        Family::Inertia,
-        Asked {
-            alone: Alone::Never,
-            five_bar: Where::Whole,
-        },
-        Words {
-            what: "moving parts that are heavier or lighter than the model's",
-            look_for: "parts that were changed, their masses and lengths",
-        },
-    ),
+    facts: Facts {
+        turn: 2,
+        ..Facts::of(
+            Family::Inertia,
+            Asked {
+                alone: Alone::Never,
+                five_bar: Where::Whole,
+            },
+            Words {
+                what: "moving parts that are heavier or lighter than the model's",
+                look_for: "parts that were changed, their masses and lengths",
+            },
+        )
+    },
 };
 
 pub(super) const PAYLOAD: Entry = Entry {
@@ -75,17 +82,20 @@ pub(super) const PAYLOAD: Entry = Entry {
     passive: false,
     refuted_by: "a handle that weighs what the model says",
     equation: "mass at the tip, added to the nominal one",
-    facts: Facts::of(
-        Family::Inertia,
-        Asked {
-            alone: Alone::Never,
-            five_bar: Where::Whole,
-        },
-        Words {
-            what: "extra weight at the tip",
-            look_for: "a handle or a sensor that the model does not know",
-        },
-    ),
+    facts: Facts {
+        turn: 1,
+        ..Facts::of(
+            Family::Inertia,
+            Asked {
+                alone: Alone::Never,
+                five_bar: Where::Whole,
+            },
+            Words {
+                what: "extra weight at the tip",
+                look_for: "a handle or a sensor that the model does not know",
+            },
+        )
+    },
 };
 
 pub(super) const ENCODER_SCALE: Entry = Entry {
@@ -96,6 +106,7 @@ pub(super) const ENCODER_SCALE: Entry = Entry {
     refuted_by: "a full turn that the encoder counts as a full turn",
     equation: "recorded angle = (1 + fraction)·angle",
     facts: Facts {
+        usual: Usual::Exceptional,
         shapes: Shapes::Values(&[0.005, -0.005, 0.04, -0.04]),
         limit: Some(Limit {
             of: Mechanism::EncoderOffset,
@@ -147,17 +158,20 @@ pub(super) const FORCE_GAIN: Entry = Entry {
     passive: false,
     refuted_by: "a known weight on the force sensor",
     equation: "recorded force = (1 + fraction)·force",
-    facts: Facts::of(
-        Family::Sensor,
-        Asked {
-            alone: Alone::Never,
-            five_bar: Where::Whole,
-        },
-        Words {
-            what: "a force sensor that reads too much or too little",
-            look_for: "its calibration, its range setting",
-        },
-    ),
+    facts: Facts {
+        turn: 3,
+        ..Facts::of(
+            Family::Sensor,
+            Asked {
+                alone: Alone::Never,
+                five_bar: Where::Whole,
+            },
+            Words {
+                what: "a force sensor that reads too much or too little",
+                look_for: "its calibration, its range setting",
+            },
+        )
+    },
 };
 
 pub(super) const FORCE_BIAS: Entry = Entry {
@@ -167,17 +181,20 @@ pub(super) const FORCE_BIAS: Entry = Entry {
     passive: false,
     refuted_by: "a force sensor that shows nothing when nobody touches it",
     equation: "recorded force = force + (x, y)",
-    facts: Facts::of(
-        Family::Sensor,
-        Asked {
-            alone: Alone::Never,
-            five_bar: Where::Whole,
-        },
-        Words {
-            what: "a force sensor whose zero is off",
-            look_for: "tare it with nothing attached",
-        },
-    ),
+    facts: Facts {
+        turn: 3,
+        ..Facts::of(
+            Family::Sensor,
+            Asked {
+                alone: Alone::Never,
+                five_bar: Where::Whole,
+            },
+            Words {
+                what: "a force sensor whose zero is off",
+                look_for: "tare it with nothing attached",
+            },
+        )
+    },
 };
 
 pub(super) const FORCE_ROTATION: Entry = Entry {
@@ -188,6 +205,7 @@ pub(super) const FORCE_ROTATION: Entry = Entry {
     refuted_by: "a pull along an arm that the sensor shows along that arm",
     equation: "recorded force = the force turned by the angle",
     facts: Facts {
+        turn: 3,
         shapes: Shapes::BothSigns {
             low: 0.003,
             high: 0.39,

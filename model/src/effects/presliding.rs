@@ -1,7 +1,7 @@
 //! This file is elastic motion before sliding: Dahl's bristle (P. R. Dahl, 1968).
 
 use super::facts::{
-    Alone, Asked, AtRest, Beside, End, Facts, Family, Limit, Refit, Shapes, Where, Words,
+    Alone, Asked, AtRest, Beside, End, Facts, Family, Limit, Refit, Shapes, Usual, Where, Words,
     first_if_positive,
 };
 use super::{Entry, Form, Instant, Law, parameter, relaxed};
@@ -20,6 +20,8 @@ pub(super) const ENTRY: Entry = Entry {
     refuted_by: "a full change of force at a reversal without any travel",
     equation: "level·w, travel·dw/dt = q̇ − |q̇|·w",
     facts: Facts {
+        usual: Usual::Frequent,
+        turn: 2,
         has_forms: true,
         shapes: Shapes::Bristle,
         beside: Beside::Bends,

@@ -20,6 +20,7 @@ pub(super) const ENTRY: Entry = Entry {
     refuted_by: "the same resistance just after a reversal and long after it",
     equation: "τ·fraction·exp(−x/travel), x travelled since the sense changed, without an end before it first does",
     facts: Facts {
+        turn: 3,
         has_forms: true,
         shapes: Shapes::Geometric {
             low: 0.01,

@@ -1,6 +1,6 @@
 //! This file is an effort periodic in position (cogging, a bent shaft, a tooth mesh).
 
-use super::facts::{Alone, Asked, Facts, Family, Refit, Shapes, Shows, Where, Words};
+use super::facts::{Alone, Asked, Facts, Family, Refit, Shapes, Shows, Usual, Where, Words};
 use super::{Entry, Form, Instant, Law, parameter};
 use core::f64::consts::TAU;
 use rigproof_spec::effect::Mechanism;
@@ -19,6 +19,8 @@ pub(super) const ENTRY: Entry = Entry {
     refuted_by: "no line in the spectrum over position",
     equation: "sine·sin(2π·q/period) + cosine·cos(2π·q/period)",
     facts: Facts {
+        usual: Usual::Seldom,
+        turn: 9,
         shapes: Shapes::Period,
         shows: Shows::Position,
         refit: Refit {

@@ -20,6 +20,7 @@ pub(super) const ENTRY: Entry = Entry {
     refuted_by: "the same resistance in the first turn after a rest as in the tenth",
     equation: "level·(1 − m)·sgn(q̇), travel·dm/dt = |q̇|·(1 − m)",
     facts: Facts {
+        turn: 3,
         shapes: Shapes::Geometric {
             low: 0.3,
             high: 30.0,

@@ -3,7 +3,8 @@
 //! is a travel rather than a time (Hess and Soom 1990; Canudas de Wit et al. 1995).
 
 use super::facts::{
-    Alone, Asked, AtRest, Beside, Facts, Family, Shapes, Shows, Where, Words, first_if_positive,
+    Alone, Asked, AtRest, Beside, Facts, Family, Shapes, Shows, Usual, Where, Words,
+    first_if_positive,
 };
 use super::{Entry, Form, Instant, Law, parameter, relaxed};
 use rigproof_spec::effect::Mechanism;
@@ -23,6 +24,8 @@ pub(super) const ENTRY: Entry = Entry {
     refuted_by: "the same resistance while slowing down to rest as in fast motion",
     equation: "peak·exp(−|q̇/speed|^exponent)·sgn(q̇), reached within `travel` where there is one",
     facts: Facts {
+        usual: Usual::Frequent,
+        turn: 2,
         has_forms: true,
         shapes: Shapes::Peak,
         beside: Beside::Bends,

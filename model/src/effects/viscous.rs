@@ -1,6 +1,6 @@
 //! This file is viscous friction: resistance in proportion to speed (thesis §3.3.2 measured and neglected it).
 
-use super::facts::{Alone, Asked, Beside, Facts, Family, Shows, Where, Words};
+use super::facts::{Alone, Asked, Beside, Facts, Family, Shows, Usual, Where, Words};
 use super::{Entry, Form, Instant, Law, parameter};
 use rigproof_spec::effect::Mechanism;
 
@@ -16,6 +16,7 @@ pub(super) const ENTRY: Entry = Entry {
     refuted_by: "a resistance that does not grow on a speed ramp",
     equation: "coefficient·q̇",
     facts: Facts {
+        usual: Usual::Plain,
         beside: Beside::Elementary,
         shows: Shows::SpeedAndLevels,
         ..Facts::of(

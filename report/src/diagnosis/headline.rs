@@ -36,9 +36,8 @@ const fn mood(report: &Report) -> (Tone, &'static str) {
 
 fn sentence(report: &Report) -> String {
     let device = match report.plant {
-        "axis" => "axis",
-        "bench" => "bench",
-        _ => "linkage",
+        "rig" => "linkage",
+        other => other,
     };
     let effects = report.effects.iter();
     let names: Vec<String> = effects.map(in_words).collect();

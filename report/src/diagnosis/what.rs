@@ -100,7 +100,7 @@ fn unknown(report: &Report) -> Markup {
     };
     html! {
         h3 { "What is left has a shape" }
-        p { "Ordered by " strong { (unknown.variable) } ", a curve takes away " (percent(unknown.share)) " of what is still unexplained"
+        p { "Ordered by " strong { (unknown.variable) } @if let Some(joint) = unknown.joint { " of joint " (joint) } ", a curve takes away " (percent(unknown.share)) " of what is still unexplained"
             @if unknown.memory { "; the way up differs from the way down: it has a memory" } ". " (capital(&unknown.suggestion)) "." }
         details { summary { "The curve as numbers" }
             div.scroll { table.grid #unknown-shape {

@@ -47,6 +47,7 @@ impl Resisting {
             match entry.mechanism {
                 // So that rounding of a rate changes nothing.
                 Mechanism::Stribeck => parameters[2] += 1.0,
+                Mechanism::VelocityPower => parameters[1] += 1.0,
                 Mechanism::DryOffset if draw.one_in(2) => parameters[0] *= -7.0,
                 _ => {}
             }

@@ -157,9 +157,9 @@ impl Recording {
         (!shown.trim().is_empty()).then_some(cells)
     }
 
-    /// The number in a cell: an empty one is a missing sample.
+    /// The number in a cell: an empty one is a missing sample, and so is one that says it.
     fn value(&self, cell: &str) -> Option<f64> {
-        if cell.is_empty() {
+        if cell.is_empty() || cell == "NaN" {
             return Some(f64::NAN);
         }
         let (negative, digits) = match cell.strip_prefix('-') {
@@ -180,38 +180,65 @@ impl Recording {
     /// The samples, or the first thing that is wrong.
     fn samples(&self) -> Result<Vec<[f64; 3]>, Fault> {
         let mut samples: Vec<[f64; 3]> = Vec::new();
+        let mut repeated = Vec::new();
+        let mut shortest = usize::MAX;
         for index in 0..self.lines.len() {
             let Some(cells) = self.cells(index) else {
                 continue;
             };
             let line = index + 2 + usize::from(self.units_row);
-            let mut row = [f64::NAN; 3];
-            for (column, (cell, sample)) in cells.iter().zip(&mut row).enumerate() {
-                *sample = self.value(cell).ok_or_else(|| {
-                    let words = format!("`{cell}` is no finite number");
-                    (line, column + 1, words)
-                })?;
+            let read = self.row_of(&cells, line);
+            let is_last = index + 1 == self.lines.len();
+            let last = cells.last().map_or(0, String::len);
+            let is_cut = self.cut.is_some() && is_last && (read.is_err() || last < shortest);
+            if is_cut && samples.len() >= LEAST_SAMPLES {
+                break;
             }
-            if cells.len() != 3 {
-                let words = format!("the line has {} cells, the header has 3", cells.len());
-                return Err((line, 0, words));
-            }
+            shortest = shortest.min(last);
+            let row = read?;
             if row[0].is_nan() {
                 return Err((line, 1, "the time stamp is missing".to_owned()));
             }
             let previous = samples.last().map_or(f64::NEG_INFINITY, |before| before[0]);
-            if row[0] <= previous {
-                let motion = if row[0] < previous {
-                    "goes backward"
-                } else {
-                    "is repeated"
-                };
-                let words = format!("the time stamp {} s {motion} after {previous} s", row[0]);
+            if row[0] < previous {
+                let words = format!(
+                    "the time stamp {} s goes backward after {previous} s",
+                    row[0]
+                );
                 return Err((line, 1, words));
+            }
+            if row[0] == previous {
+                repeated.push(line);
             }
             samples.push(row);
         }
-        Ok(samples)
+        let few = samples.len() >= LEAST_SAMPLES && 50 * repeated.len() <= samples.len();
+        match repeated.first() {
+            Some(line) if !few => Err((*line, 1, "the time stamp is repeated".to_owned())),
+            _ => {
+                samples.dedup_by(|later, first| later[0] == first[0]);
+                Ok(samples)
+            }
+        }
+    }
+
+    /// The samples of a row, or what is wrong with its cells.
+    fn row_of(&self, cells: &[String], line: usize) -> Result<[f64; 3], Fault> {
+        let mut row = [f64::NAN; 3];
+        for (column, (cell, sample)) in cells.iter().zip(&mut row).enumerate() {
+            let what = if column == 0 { "the time stamp " } else { "" };
+            *sample = self.value(cell).ok_or_else(|| {
+                let words = format!("{what}`{cell}` is no finite number");
+                (line, column + 1, words)
+            })?;
+        }
+        match cells.len() {
+            3 => Ok(row),
+            count => {
+                let words = format!("the line has {count} cells, the header has 3");
+                Err((line, 0, words))
+            }
+        }
     }
 }
 

@@ -218,7 +218,7 @@ fn forbidden(room: &str, dependency: &str, advice: &str) -> String {
 }
 
 /// The folders of the workspace's packages.
-fn members() -> Vec<String> {
+pub fn members() -> Vec<String> {
     let manifest = manifest("Cargo.toml");
     let members = manifest["workspace"]["members"].as_array().unwrap();
     members
@@ -245,23 +245,27 @@ fn dependency_entries(room: &str) -> Vec<(String, Value)> {
 }
 
 fn entries(manifest: &Table) -> Vec<(String, Value)> {
+    let headings = ["dependencies", "dev-dependencies", "build-dependencies"];
+    headings
+        .into_iter()
+        .flat_map(|heading| entries_under(manifest, heading))
+        .collect()
+}
+
+/// What stands under this heading, on whichever platform.
+pub fn entries_under(manifest: &Table, heading: &str) -> Vec<(String, Value)> {
     let targets = manifest.get("target").and_then(Value::as_table);
     let targets = targets
         .into_iter()
         .flat_map(Table::values)
         .filter_map(Value::as_table);
-    let mut entries = Vec::new();
-    for table in targets.chain([manifest]) {
-        for heading in ["dependencies", "dev-dependencies", "build-dependencies"] {
-            if let Some(named) = table.get(heading).and_then(Value::as_table) {
-                entries.extend(named.clone());
-            }
-        }
-    }
-    entries
+    let named = targets
+        .chain([manifest])
+        .filter_map(|table| table.get(heading).and_then(Value::as_table));
+    named.flat_map(Table::clone).collect()
 }
 
-fn manifest(path: &str) -> Table {
+pub fn manifest(path: &str) -> Table {
     let text = fs::read_to_string(root().join(path)).unwrap();
     text.parse()
         .unwrap_or_else(|error| panic!("{path}: {error}"))

@@ -274,7 +274,7 @@ fn tokens(source: &Text) -> Vec<TokenTree> {
     parse(&source.path, &source.content)
 }
 
-fn parse(path: &str, content: &str) -> Vec<TokenTree> {
+pub fn parse(path: &str, content: &str) -> Vec<TokenTree> {
     match content.parse::<TokenStream>() {
         Ok(stream) => stream.into_iter().collect(),
         Err(error) => panic!("{path}:{}: {error}", error.span().start().line),
@@ -406,6 +406,6 @@ fn first_word(group: &Group) -> Option<Ident> {
     }
 }
 
-fn inner(group: &Group) -> Vec<TokenTree> {
+pub fn inner(group: &Group) -> Vec<TokenTree> {
     group.stream().into_iter().collect()
 }

@@ -1,18 +1,49 @@
-//! This file says what the columns of a text file are: names, units, and which one is the time.
+//! This file says what the columns of a text file are: names, units, which one is the time, and which are passed over.
 
 use std::path::Path;
 
 use rigproof_spec::units::{Dimension, Unit};
 
+use super::dialect::Kind;
 use super::layout::{Layout, Name};
-use super::read::BadCell;
+use super::time::Clock;
 use crate::error::{Place, TraceError};
-use crate::header::{name_and_unit, stem};
-use crate::series::{Channel, Trace};
-use crate::suggest::quoted;
+use crate::header::{guessed_unit, name_and_unit, stem};
+use crate::suggest::{nearest, quoted};
 
-/// Names of a time column, in lower case and without a unit; LabVIEW calls it the last.
-const TIME_NAMES: [&str; 6] = ["t", "time", "timestamp", "time_stamp", "elapsed", "x_value"];
+/// Names of a time column, in lower case, without a unit, blanks and marks, and the unit that they say. LabVIEW calls it
+/// `X_Value`, a pandas index or a plot tool `__time`, ROS `%time`.
+const TIME_NAMES: [(&str, &str); 27] = [
+    ("t", ""),
+    ("time", ""),
+    ("timestamp", ""),
+    ("elapsed", ""),
+    ("elapsedtime", ""),
+    ("timeelapsed", ""),
+    ("xvalue", ""),
+    ("datetime", ""),
+    ("rostime", ""),
+    ("zeit", ""),
+    ("zeitstempel", ""),
+    ("messzeit", ""),
+    ("temps", ""),
+    ("tiempo", ""),
+    ("tempo", ""),
+    ("sec", "s"),
+    ("secs", "s"),
+    ("seconds", "s"),
+    ("ms", "ms"),
+    ("msec", "ms"),
+    ("millis", "ms"),
+    ("milliseconds", "ms"),
+    ("micros", "us"),
+    ("usec", "us"),
+    ("microseconds", "us"),
+    ("nanos", "ns"),
+    ("nanoseconds", "ns"),
+];
+/// The most names in a remark.
+const NAMED: usize = 8;
 
 /// Which column holds the time, where the header alone does not say.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,158 +56,221 @@ pub struct TimeColumn {
 
 /// The columns of a recording.
 pub(super) struct Header {
-    columns: Vec<Column>,
-    /// For each cell of a line, whether it holds a sample.
-    kept: Vec<bool>,
-    /// The column of the time.
-    time: usize,
-    time_to_s: f64,
-    /// Start and step, s, of a time that counts samples.
-    sequence: Option<(f64, f64)>,
+    /// Those that are read, the time not among them.
+    pub(super) channels: Vec<Column>,
+    /// What is done with each cell of a line.
+    pub(super) roles: Vec<Role>,
+    pub(super) clock: Clock,
+    /// What is to be said of the reading.
+    pub(super) remarks: Vec<String>,
 }
 
-struct Column {
-    name: String,
-    unit: String,
+/// What is done with a cell of a line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Role {
+    /// It is not looked at.
+    Skip,
+    /// It is the time stamp.
+    Time,
+    /// It is a sample of this channel.
+    Channel(usize),
+}
+
+pub(super) struct Column {
+    pub(super) name: String,
+    pub(super) unit: String,
+    /// What stands in the header, unit and all.
+    text: String,
     /// The cell of a line, counted from 0.
-    cell: usize,
+    pub(super) cell: usize,
+    kind: Kind,
+    grows: bool,
+    counts: bool,
+}
+
+impl Column {
+    /// The unit that the header states, or else the one that the name suggests.
+    fn likely_unit(&self) -> &str {
+        match self.unit.as_str() {
+            "" => guessed_unit(&self.name),
+            stated => stated,
+        }
+    }
+
+    fn is_called(&self, name: &str) -> bool {
+        self.name == name || self.text == name
+    }
+
+    /// Whether it may hold time stamps.
+    fn may_be_time(&self) -> bool {
+        self.kind != Kind::Text
+    }
 }
 
 impl Header {
+    /// The columns of a layout; of the channels only those in `wanted` are read, or all that hold numbers.
     pub(super) fn new(
-        layout: Layout,
+        layout: &Layout,
         file: &Path,
         time: Option<&TimeColumn>,
+        wanted: Option<&[&str]>,
     ) -> Result<Header, TraceError> {
         let place = Place::line(file, layout.names_line);
-        let columns = columns(&layout.names, &place)?;
-        let index = match time {
-            Some(time) => columns.iter().position(|column| column.name == time.name),
-            None => find_time(&columns, layout.dialect.units_row),
+        let mut columns = columns(&layout.names);
+        let mut remarks = Vec::new();
+        let counted = layout.time_base.filter(|base| base.has_no_column());
+        let index = match (counted, time) {
+            (Some(_), _) => None,
+            (None, Some(time)) => Some(named_time(&columns, time, layout, &place)?),
+            (None, None) => Some(find_time(&columns, layout, &place, &mut remarks)?),
         };
-        let Some((index, column)) = index.and_then(|i| Some((i, columns.get(i)?))) else {
-            let problem = no_time(&columns, time);
-            return Err(TraceError::Header { place, problem });
-        };
-        let unit = time
-            .map(|column| column.unit.as_str())
-            .filter(|unit| !unit.is_empty());
-        let unit = unit.unwrap_or(&column.unit);
-        let Some(time_to_s) = time_to_s(unit) else {
-            return Err(TraceError::Header {
-                place: column_place(&place, column.cell, &column.name),
-                problem: format!("`{unit}` is no unit of time; use s, ms, us, ns, min or h"),
-            });
-        };
+        let mut clock = Clock::counted(layout.time_base, layout.dialect.decimal);
+        let mut roles = vec![Role::Skip; layout.names.len()];
+        let mut time_column = None;
+        if let Some(index) = index {
+            let column = columns.remove(index);
+            clock = clock.of_column(&column.name, column.cell, layout.dialect.decimal);
+            let stated = time.map_or("", |time| time.unit.as_str());
+            set_unit(&mut clock, &column, stated, &place, &mut remarks)?;
+            if let Some(role) = roles.get_mut(column.cell) {
+                *role = Role::Time;
+            }
+            // LabVIEW repeats the time stamps for each channel.
+            columns.retain(|other| other.name != "X_Value" || column.name != "X_Value");
+            time_column = Some(column);
+        }
+        if !layout.has_header {
+            remarks.push(format!(
+                "there is no header: the columns are called `column 1` to `column {}`",
+                layout.names.len()
+            ));
+        }
+        let (channels, passed_over) = chosen(columns, wanted);
+        remarks.extend(passed_over);
+        check_names(time_column.iter().chain(&channels), &place)?;
+        for (channel, column) in channels.iter().enumerate() {
+            if let Some(role) = roles.get_mut(column.cell) {
+                *role = Role::Channel(channel);
+            }
+        }
         Ok(Header {
-            kept: layout.names.iter().map(|name| name.kept).collect(),
-            time: index,
-            time_to_s,
-            sequence: layout.sequence.filter(|_| index == 0),
-            columns,
+            channels,
+            roles,
+            clock,
+            remarks,
         })
     }
 
-    /// An empty column for each that is kept.
-    pub(super) fn columns(&self) -> Vec<Vec<f64>> {
-        vec![Vec::new(); self.columns.len()]
-    }
-
-    /// For each cell of a line, whether it holds a sample.
-    pub(super) fn kept(&self) -> &[bool] {
-        &self.kept
-    }
-
-    pub(super) fn no_number(&self, place: Place, cell: BadCell) -> TraceError {
-        let column = self.columns.iter().find(|column| column.cell == cell.index);
-        let name = column.map_or("", |column| &column.name);
-        TraceError::NotANumber {
-            place: column_place(&place, cell.index, name),
-            text: cell.text,
-        }
-    }
-
-    /// Converts the time stamp read last to seconds and compares it with the one before.
-    pub(super) fn check_time(
-        &self,
-        columns: &mut [Vec<f64>],
-        place: Place,
-    ) -> Result<(), TraceError> {
-        let Some([before @ .., last]) = columns.get_mut(self.time).map(Vec::as_mut_slice) else {
-            return Ok(());
-        };
-        let place = || match self.columns.get(self.time) {
-            Some(column) => column_place(&place, column.cell, &column.name),
-            None => place.clone(),
-        };
-        *last = match self.sequence {
-            Some((start_s, step_s)) => start_s + step_s * *last,
-            None => *last * self.time_to_s,
-        };
-        let time_s = *last;
-        if time_s.is_nan() {
-            return Err(TraceError::TimeMissing { place: place() });
-        }
-        match before.last() {
-            Some(&previous_s) if time_s <= previous_s => Err(TraceError::TimeOrder {
-                place: place(),
-                time_s,
-                previous_s,
-                motion: if time_s < previous_s {
-                    "goes backward"
-                } else {
-                    "is repeated"
-                },
-            }),
-            _ => Ok(()),
-        }
-    }
-
-    pub(super) fn into_trace(self, columns: Vec<Vec<f64>>) -> Trace {
-        let mut trace = Trace::default();
-        for (index, (column, samples)) in self.columns.into_iter().zip(columns).enumerate() {
-            if index == self.time {
-                trace.time_s = samples;
-            } else {
-                trace.channels.push(Channel {
-                    name: column.name,
-                    unit: column.unit,
-                    samples,
-                });
-            }
-        }
-        trace
+    /// The place of a cell.
+    pub(super) fn place(&self, line: Place, cell: usize) -> Place {
+        let column = self.channels.iter().find(|column| column.cell == cell);
+        column_place(&line, cell, column.map_or("", |column| &column.name))
     }
 }
 
-/// The columns that hold samples, each with a name of its own.
-fn columns(names: &[Name], place: &Place) -> Result<Vec<Column>, TraceError> {
-    let mut columns: Vec<Column> = Vec::new();
-    for (cell, head) in names.iter().enumerate().filter(|(_, name)| name.kept) {
+/// Says in which unit the time is.
+fn set_unit(
+    clock: &mut Clock,
+    column: &Column,
+    stated: &str,
+    place: &Place,
+    remarks: &mut Vec<String>,
+) -> Result<(), TraceError> {
+    let (name, own) = (&column.name, column.likely_unit());
+    let said_by_name = || time_name(name).map_or("", |(_, unit)| unit);
+    let unit = match (stated, own) {
+        ("", "") => said_by_name(),
+        ("", own) => own,
+        (stated, _) => stated,
+    };
+    if unit.is_empty() {
+        return Ok(());
+    }
+    let Some(to_s) = time_to_s(unit) else {
+        return Err(TraceError::Header {
+            place: column_place(place, column.cell, name),
+            problem: format!("`{unit}` is no unit of time; use s, ms, us, ns, min or h"),
+        });
+    };
+    if !column.unit.is_empty() && time_to_s(&column.unit) != Some(to_s) {
+        remarks.push(format!(
+            "the header calls the unit of the time `{name}` `{}`; it is read in `{unit}`, as was said",
+            column.unit
+        ));
+    }
+    clock.state_unit(to_s);
+    Ok(())
+}
+
+/// The columns that may hold samples.
+fn columns(names: &[Name]) -> Vec<Column> {
+    let named = names.iter().enumerate().filter(|(_, name)| name.kept);
+    let columns = named.map(|(cell, head)| {
         let (name, unit) = name_and_unit(&head.text);
-        let problem = if name.is_empty() {
-            Some("the column has no name; give it one".to_string())
-        } else {
-            let first = columns.iter().find(|column| column.name == name);
-            first.map(|first| {
-                let first = first.cell + 1;
-                format!("the name stands over column {first} already; rename one")
-            })
-        };
-        if let Some(problem) = problem {
-            let place = column_place(place, cell, name);
-            return Err(TraceError::Header { place, problem });
-        }
         let unit = [head.unit.as_str(), unit]
             .into_iter()
             .find(|unit| !unit.is_empty());
-        columns.push(Column {
+        Column {
             name: name.to_string(),
             unit: unit.unwrap_or_default().to_string(),
+            text: head.text.clone(),
             cell,
-        });
+            kind: head.kind,
+            grows: head.grows,
+            counts: head.counts,
+        }
+    });
+    columns.collect()
+}
+
+/// The channels that are read, and what is to be said of the others.
+fn chosen(columns: Vec<Column>, wanted: Option<&[&str]>) -> (Vec<Column>, Vec<String>) {
+    let is_wanted = |column: &Column| match wanted {
+        Some(names) => names.iter().any(|name| column.is_called(name)),
+        None => !column.name.is_empty() && column.kind != Kind::Text && column.kind != Kind::Stamp,
+    };
+    let (mut chosen, others): (Vec<Column>, Vec<Column>) = columns.into_iter().partition(is_wanted);
+    for column in &mut chosen {
+        let text = wanted.and_then(|names| names.iter().find(|name| **name == column.text));
+        if let Some(text) = text {
+            column.name = (*text).to_string();
+        }
     }
-    Ok(columns)
+    let name = |column: &Column| match (column.name.as_str(), column.kind) {
+        ("", _) => format!("column {} (no name)", column.cell + 1),
+        (name, Kind::Text) => format!("`{name}` (text)"),
+        (name, Kind::Stamp) => format!("`{name}` (dates or times)"),
+        (name, _) => format!("`{name}`"),
+    };
+    let names: Vec<String> = others.iter().take(NAMED).map(name).collect();
+    let more = match others.len().saturating_sub(NAMED) {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    let remark = (!names.is_empty()).then(|| format!("passed over: {}{more}", names.join(", ")));
+    (chosen, remark.into_iter().collect())
+}
+
+/// Each name is there once.
+fn check_names<'a>(
+    columns: impl Iterator<Item = &'a Column>,
+    place: &Place,
+) -> Result<(), TraceError> {
+    let mut columns: Vec<&Column> = columns.collect();
+    columns.sort_by_key(|column| column.cell);
+    for (index, column) in columns.iter().enumerate() {
+        let mut before = columns.iter().take(index);
+        if let Some(first) = before.find(|first| first.name == column.name) {
+            return Err(TraceError::Header {
+                place: column_place(place, column.cell, &column.name),
+                problem: format!(
+                    "the name stands over column {} already; rename one",
+                    first.cell + 1
+                ),
+            });
+        }
+    }
+    Ok(())
 }
 
 /// Seconds in a unit of time; a time without a unit is in seconds.
@@ -191,58 +285,115 @@ pub(crate) fn time_to_s(unit: &str) -> Option<f64> {
 
 /// Whether one of the cells names the time and another one something else.
 pub(super) fn has_time(cells: &[String], time: Option<&TimeColumn>) -> bool {
-    let mut names = cells.iter().map(|cell| name_and_unit(cell).0);
     cells.len() > 1
-        && names.any(|name| match time {
-            Some(time) => time.name == name,
-            None => is_called_time(name),
+        && cells.iter().any(|cell| match time {
+            Some(time) => time.name == *cell || time.name == name_and_unit(cell).0,
+            None => time_name(name_and_unit(cell).0).is_some(),
         })
 }
 
-fn is_called_time(name: &str) -> bool {
-    TIME_NAMES.contains(&stem(name).as_str())
+/// The entry of [`TIME_NAMES`] for a name; letters and digits count.
+fn time_name(name: &str) -> Option<&'static (&'static str, &'static str)> {
+    let stem = stem(name);
+    let plain: String = stem.chars().filter(|c| c.is_alphanumeric()).collect();
+    TIME_NAMES.iter().find(|(name, _)| *name == plain)
 }
 
-/// The first column that is called like time, one with a unit of time before one with another; where a row of units
-/// says what is what, the first in a unit of time.
-fn find_time(columns: &[Column], units_row: bool) -> Option<usize> {
-    let called_time = |column: &Column| is_called_time(&column.name);
-    let in_time = |column: &Column| time_to_s(&column.unit).is_some();
-    let both = |column: &Column| called_time(column) && in_time(column);
-    let first = columns.iter().position(both);
-    let first = first.or_else(|| columns.iter().position(called_time));
-    let stated = |column: &Column| !column.unit.is_empty() && in_time(column);
-    first.or_else(|| columns.iter().position(stated).filter(|_| units_row))
-}
-
-fn no_time(columns: &[Column], time: Option<&TimeColumn>) -> String {
-    let listed = quoted(columns.iter().map(|column| column.name.as_str()));
-    if columns
+/// The column that the caller calls the time.
+fn named_time(
+    columns: &[Column],
+    time: &TimeColumn,
+    layout: &Layout,
+    place: &Place,
+) -> Result<usize, TraceError> {
+    let index = columns
         .iter()
-        .all(|column| column.name.parse::<f64>().is_ok())
-    {
+        .position(|column| column.is_called(&time.name));
+    index.ok_or_else(|| {
+        let names = || columns.iter().map(|column| column.name.as_str());
+        let near = nearest(&time.name, names());
+        let near = near.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
+        TraceError::Header {
+            place: place.clone(),
+            problem: only_column(columns, layout).unwrap_or_else(|| {
+                format!(
+                    "there is no time column `{}`{near}; the columns are {}",
+                    time.name,
+                    quoted(names())
+                )
+            }),
+        }
+    })
+}
+
+/// The column of the time: the first that is called so, one with a unit of time before one with another; else the first that
+/// is in a unit of time, or holds dates; else the first one without a name, or of a file without names, if it grows.
+fn find_time(
+    columns: &[Column],
+    layout: &Layout,
+    place: &Place,
+    remarks: &mut Vec<String>,
+) -> Result<usize, TraceError> {
+    let called_time = |column: &Column| time_name(&column.name).is_some() && column.may_be_time();
+    let in_time = |column: &Column| time_to_s(column.likely_unit()).is_some();
+    let both = |column: &Column| called_time(column) && in_time(column);
+    let stated = |column: &Column| !column.likely_unit().is_empty() && in_time(column);
+    let units_row = layout.dialect.units_row;
+    let guess = |column: &Column| stated(column) && (units_row || column.grows);
+    let dated = |column: &Column| column.kind == Kind::Stamp && column.grows;
+    let rules: [&dyn Fn(&Column) -> bool; 4] = [&both, &called_time, &guess, &dated];
+    let find = |rule: &&dyn Fn(&Column) -> bool| columns.iter().position(rule);
+    if let Some(index) = rules.iter().find_map(find) {
+        return Ok(index);
+    }
+    let may_be = |column: &&Column| {
+        let unnamed = column.name.is_empty() || !layout.has_header;
+        unnamed && column.grows && (!column.counts || !layout.has_header)
+    };
+    match columns.first().filter(may_be) {
+        Some(column) => {
+            let numbered = column.cell + 1;
+            remarks.push(format!(
+                "column {numbered} has no name; it grows from line to line, so it is taken for the time in s: a guess, which `--time-from` or a header overrules"
+            ));
+            Ok(0)
+        }
+        None => Err(TraceError::Header {
+            place: place.clone(),
+            problem: no_time(columns, layout),
+        }),
+    }
+}
+
+/// A head that is one column was split with the wrong separator.
+fn only_column(columns: &[Column], layout: &Layout) -> Option<String> {
+    let [only] = columns else {
+        return None;
+    };
+    let split_wrongly = layout.has_header && only.text.contains([',', ';', '\t']);
+    split_wrongly.then(|| {
+        format!(
+            "all of the head is one column, `{}`: the separator is another one; leave --separator away, and it is found",
+            only.text
+        )
+    })
+}
+
+fn no_time(columns: &[Column], layout: &Layout) -> String {
+    let numbers = |column: &Column| column.text.parse::<f64>().is_ok();
+    if columns.iter().all(numbers) || !layout.has_header {
         return "the first line holds numbers, not the names of the columns; put a header over it"
             .into();
     }
-    if let [only] = columns
-        && only.name.contains([',', ';', '\t'])
-    {
-        return format!(
-            "all of the head is one column, {listed}: the separator is another one; leave --separator away, and it is found"
-        );
-    }
-    match time {
-        Some(column) => format!(
-            "there is no time column `{}`; the columns are {listed}",
-            column.name
-        ),
-        None => format!(
+    only_column(columns, layout).unwrap_or_else(|| {
+        let listed = quoted(columns.iter().map(|column| column.name.as_str()));
+        format!(
             "there is no time column; call it `time (s)` or `t_s`, or name it: `--time-from NAME`, in a rig file `time = {{ channel = \"NAME\" }}`; the columns are {listed}"
-        ),
-    }
+        )
+    })
 }
 
-fn column_place(line: &Place, index: usize, name: &str) -> Place {
+pub(super) fn column_place(line: &Place, index: usize, name: &str) -> Place {
     Place {
         column: index + 1,
         name: name.to_string(),

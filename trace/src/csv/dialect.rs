@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use super::stamp::calendar;
+
 /// What stands between two cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Separator {
@@ -65,6 +67,19 @@ impl Decimal {
         }
     }
 
+    /// What is in a cell.
+    pub(super) fn kind(self, cell: &str) -> Kind {
+        if is_missing(cell) {
+            Kind::Missing
+        } else if self.number(cell).is_some() {
+            Kind::Number
+        } else if calendar(cell).is_some() {
+            Kind::Stamp
+        } else {
+            Kind::Text
+        }
+    }
+
     /// The finite number in a cell, or `None`.
     pub(super) fn number(self, cell: &str) -> Option<f64> {
         let finite = |text: &str| text.parse::<f64>().ok().filter(|x| x.is_finite());
@@ -82,11 +97,49 @@ impl Decimal {
     }
 }
 
+/// What a cell holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// Nothing, or a word that says so.
+    Missing,
+    /// A finite number.
+    Number,
+    /// A date with a time, or a time of day.
+    Stamp,
+    /// Anything else.
+    Text,
+}
+
+/// What stands where a sample is missing, in lower case.
+const MISSING: [&str; 14] = [
+    "",
+    "nan",
+    "-nan",
+    "+nan",
+    "na",
+    "n/a",
+    "#n/a",
+    "null",
+    "none",
+    "nil",
+    "-nan(ind)",
+    "1.#qnan",
+    "-1.#ind",
+    "--",
+];
+
+/// Whether a cell says that its sample is missing.
+pub(super) fn is_missing(cell: &str) -> bool {
+    cell.len() <= 9 && MISSING.iter().any(|word| cell.eq_ignore_ascii_case(word))
+}
+
 /// How characters are kept as bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Encoding {
     /// UTF-8, or plain ASCII.
     Utf8,
+    /// One byte a letter, as Western Europe wrote it before UTF-8 (Latin-1).
+    Latin1,
     /// UTF-16, the low byte first.
     Utf16Le,
     /// UTF-16, the high byte first.
@@ -98,6 +151,7 @@ impl Encoding {
     pub const fn name(self) -> &'static str {
         match self {
             Encoding::Utf8 => "UTF-8",
+            Encoding::Latin1 => "Latin-1",
             Encoding::Utf16Le => "UTF-16 (little-endian)",
             Encoding::Utf16Be => "UTF-16 (big-endian)",
         }

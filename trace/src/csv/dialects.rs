@@ -83,7 +83,7 @@ fn controldesk_exports_are_read() {
 #[test]
 fn tables_that_matlab_writes_are_read() {
     let (names, dialect) = read_back(&format!("Time,qm_m,Var3\r\n{}", table(",", false, "", "")));
-    assert_eq!(names, ["qm_m|m", "Var3|"]);
+    assert_eq!(names, ["qm_m|", "Var3|"]);
     assert_eq!(dialect, "separator ',', decimal '.', 0 header lines, UTF-8");
     let (names, _) = read_back(&format!("t x u\n{}", table("   ", false, " ", " ")));
     assert_eq!(names, ["x|", "u|"]);
@@ -189,7 +189,7 @@ fn what_is_not_clear_is_refused_and_what_the_caller_says_holds() {
     };
     let message = refused(&format!("t;x\n{clear}"), &said);
     assert!(
-        message.contains("line 2, column 1 `t`: `0,234` is no finite number"),
+        message.contains("line 2, column 1 `t`: the time stamp `0,234` is no finite number"),
         "{message}"
     );
     let (trace, dialect) = read_text(&format!("a;b\nt;x\n{clear}"), &hints(1)).unwrap();

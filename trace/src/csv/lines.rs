@@ -9,12 +9,21 @@ use crate::error::{Place, TraceError};
 /// The longest line that is read, bytes.
 const LONGEST_LINE: usize = 1 << 20;
 
+/// What comments begin with.
+const COMMENTS: [char; 2] = ['#', '%'];
+
 /// The lines of a file that hold something: no blank line, no comment.
 pub(super) struct Lines<'a, R> {
     source: BufReader<R>,
     file: &'a Path,
     number: usize,
     buffer: Vec<u8>,
+    /// The line read last, where its bytes are no UTF-8 and were taken for Latin letters.
+    latin: Option<String>,
+    /// Whether any line was read so.
+    has_latin: bool,
+    /// Whether the line read last ended with the file and not with a line feed.
+    is_open: bool,
 }
 
 impl<'a, R: Read> Lines<'a, R> {
@@ -24,7 +33,20 @@ impl<'a, R: Read> Lines<'a, R> {
             file,
             number: 0,
             buffer: Vec::new(),
+            latin: None,
+            has_latin: false,
+            is_open: false,
         }
+    }
+
+    /// Whether some line was no UTF-8, so that its bytes were taken for Latin letters.
+    pub(super) fn has_latin(&self) -> bool {
+        self.has_latin
+    }
+
+    /// Whether the file ends in the line read last, without a line feed.
+    pub(super) fn is_open(&self) -> bool {
+        self.is_open
     }
 
     /// The number of the line read last.
@@ -39,8 +61,32 @@ impl<'a, R: Read> Lines<'a, R> {
 
     /// The next line without its end, or `None` at the end of the file.
     pub(super) fn next_line(&mut self) -> Result<Option<&str>, TraceError> {
+        while let Some(line) = self.advance()? {
+            if !line.trim_start().starts_with(COMMENTS) {
+                return self.text().map(Some);
+            }
+        }
+        Ok(None)
+    }
+
+    /// The next line, and whether it is a comment, which is given without its mark.
+    pub(super) fn next_line_or_comment(&mut self) -> Result<Option<(&str, bool)>, TraceError> {
+        let Some(line) = self.advance()? else {
+            return Ok(None);
+        };
+        let shown = line.trim_start();
+        let is_comment = shown.starts_with(COMMENTS);
+        Ok(Some(match is_comment {
+            true => (shown.trim_start_matches(COMMENTS).trim(), true),
+            false => (line, false),
+        }))
+    }
+
+    /// Reads on to the next line that holds something.
+    fn advance(&mut self) -> Result<Option<&str>, TraceError> {
         loop {
             self.buffer.clear();
+            self.latin = None;
             let longest = u64::try_from(LONGEST_LINE + 1).unwrap_or(u64::MAX);
             let read = (&mut self.source)
                 .take(longest)
@@ -50,8 +96,12 @@ impl<'a, R: Read> Lines<'a, R> {
                 return Ok(None);
             }
             self.number += 1;
-            let shown = self.text()?.trim_start();
-            if !shown.is_empty() && !shown.starts_with('#') {
+            self.is_open = self.buffer.last() != Some(&b'\n');
+            if std::str::from_utf8(&self.buffer).is_err() {
+                self.latin = Some(self.buffer.iter().copied().map(char::from).collect());
+                self.has_latin = true;
+            }
+            if !self.text()?.trim().is_empty() {
                 break;
             }
         }
@@ -70,8 +120,10 @@ impl<'a, R: Read> Lines<'a, R> {
         if self.buffer.len() > LONGEST_LINE {
             return Err(refuse("the line is longer than 1 MiB"));
         }
-        let text = std::str::from_utf8(&self.buffer)
-            .map_err(|_| refuse("the line holds bytes that are no UTF-8"))?;
+        let text = match &self.latin {
+            Some(text) => text.as_str(),
+            None => std::str::from_utf8(&self.buffer).unwrap_or_default(),
+        };
         let text = text.trim_end_matches(['\n', '\r']);
         if text.contains('\r') {
             return Err(refuse(

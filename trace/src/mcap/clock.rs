@@ -136,3 +136,53 @@ pub(super) fn lag_s(message: Message<'_>, s: f64, ns: f64) -> f64 {
     let log_ns = (message.log_time_ns % 1_000_000_000) as f64;
     (log_s - s) + (log_ns - ns) * 1e-9
 }
+
+/// How fast the clock of writing runs beside the stamps in the messages.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Rate {
+    first: Option<(u64, i64)>,
+    last: (u64, i64),
+}
+
+impl Rate {
+    pub(super) fn add(&mut self, log_time_ns: u64, s: f64, ns: f64) {
+        if let Some(stamp_ns) = whole_ns(s, ns).filter(|ns| *ns > 0) {
+            self.first.get_or_insert((log_time_ns, stamp_ns));
+            self.last = (log_time_ns, stamp_ns);
+        }
+    }
+
+    /// Seconds of writing for each second of the stamps; `None` where too little time passed to tell.
+    pub(super) fn ratio(self) -> Option<f64> {
+        let (first_log, first_stamp) = self.first?;
+        let (last_log, last_stamp) = self.last;
+        let log_ns = last_log.checked_sub(first_log)? as f64;
+        let stamp_ns = last_stamp.checked_sub(first_stamp)? as f64;
+        (stamp_ns > LEAST_SPAN_NS).then(|| log_ns / stamp_ns)
+    }
+}
+
+/// A shorter time does not tell how fast a clock runs, ns.
+const LEAST_SPAN_NS: f64 = 2e8;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_clock_that_runs_at_half_the_speed_of_the_stamps_is_seen() {
+        for (pace, expected) in [(2.0, 0.5), (1.0, 1.0), (0.25, 4.0)] {
+            let mut rate = Rate::default();
+            for k in 0..900_u32 {
+                let stamp_ns = 1e6 * f64::from(k) * pace;
+                rate.add(5_000_000_000 + 1_000_000 * u64::from(k), 1.7e9, stamp_ns);
+            }
+            assert!((rate.ratio().unwrap() - expected).abs() < 1e-9);
+        }
+        let mut short = Rate::default();
+        short.add(5, 3.0, 7.0);
+        short.add(9_000, 3.0, 1e6);
+        assert_eq!(short.ratio(), None);
+        assert_eq!(Rate::default().ratio(), None);
+    }
+}

@@ -7,7 +7,7 @@ use super::json::{self, Property};
 use super::protobuf::ProtobufReader;
 use super::ros::{RosReader, Wire};
 use super::topics::{Topic, short};
-use crate::header::name_and_unit;
+use crate::header::{guessed_unit, name_and_unit};
 
 /// A reader for the messages of one channel.
 pub(super) struct Decoder {
@@ -67,6 +67,14 @@ impl Decoder {
         }
     }
 
+    /// The unit of a number as its schema states it; empty where it does not.
+    pub(super) fn stated_unit(&self, leaf: &Leaf) -> String {
+        let property = self.property(leaf);
+        property
+            .and_then(|property| property.unit.clone())
+            .unwrap_or_default()
+    }
+
     /// The unit of a number: what the schema says, or what the name of its field ends in; empty where neither does.
     pub(super) fn unit(&self, leaf: &Leaf) -> String {
         if let Some(unit) = self
@@ -79,10 +87,14 @@ impl Decoder {
             Step::Field(name) => Some(name.as_str()),
             Step::Index(_) => None,
         });
-        match name_and_unit(fields.next().unwrap_or_default()) {
-            // In lower case both nanometre and newton metre are written so.
-            (_, "nm") => String::new(),
-            (_, unit) => unit.to_string(),
+        let unit = match name_and_unit(fields.next().unwrap_or_default()) {
+            (name, "") => guessed_unit(name),
+            (_, stated) => stated,
+        };
+        // In lower case both nanometre and newton metre are written so.
+        match unit {
+            "nm" => String::new(),
+            unit => unit.to_string(),
         }
     }
 

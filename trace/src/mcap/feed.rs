@@ -4,12 +4,12 @@ use std::collections::HashMap;
 
 use super::account::{Message, Visitor};
 use super::address::{self, Way, within};
-use super::clock::{Clock, Origin, Slot};
+use super::clock::{Clock, Origin, Rate, Slot};
 use super::decoder::Decoder;
 use super::flat::{ELEMENTS, Flat, Leaf};
 use super::pace::median;
 use super::read::{Selection, Wanted};
-use super::resample::{Between, Ordered};
+use super::resample::{Between, Ordered, went_back};
 use super::run::Run;
 use super::shapes::Shapes;
 use super::summary::stamp;
@@ -18,6 +18,8 @@ use crate::csv::TimeColumn;
 
 /// Addresses of a topic that a message names.
 const NAMED: usize = 64;
+/// How far the time of writing may run from the stamps, as a share.
+const SAME_SPEED: f64 = 0.01;
 /// Messages whose own stamp is compared with the time of writing.
 const STAMPS: usize = 4096;
 
@@ -47,6 +49,7 @@ pub(super) struct Feed {
     ways: Vec<(usize, Way)>,
     units: Vec<Option<String>>,
     lags_s: Vec<f64>,
+    rate: Rate,
     damaged: usize,
 }
 
@@ -135,6 +138,28 @@ impl Feeds {
         self.addresses.get(topic).map_or(&[], Vec::as_slice)
     }
 
+    /// Why the times of a topic cannot be those of its samples, if so: the file was written slower or faster than its messages
+    /// are stamped, or the clock was set back.
+    pub(super) fn clock_fault(&self, place: WantedPlace, time_s: &[f64]) -> Option<String> {
+        let feed = self.feeds.get(place.feed)?;
+        let name = &feed.name;
+        let by_writing = matches!(feed.clock, Clock::Log | Clock::Publish);
+        let ratio = feed
+            .rate
+            .ratio()
+            .filter(|ratio| by_writing && (ratio - 1.0).abs() > SAME_SPEED);
+        if let Some(ratio) = ratio {
+            return Some(format!(
+                "the messages of `{name}` were written in {ratio:.3} times the time that their own stamps span, as a bag that was played at another speed and recorded again is; take the stamps: `time = {{ channel = \"header.stamp\" }}` in the rig file, or `--time-from header.stamp`"
+            ));
+        }
+        let back = went_back(time_s)?;
+        Some(format!(
+            "the clock of `{name}` went back by {:.3} s after {:.6} s, and {} messages follow before it gets there again; take another clock (`publish_time`, or a stamp in the messages: `time = {{ channel = \"header.stamp\" }}` in the rig file, `--time-from header.stamp`), or cut the file there",
+            back.by_s, back.after_s, back.messages
+        ))
+    }
+
     /// How the times of a feed came about.
     pub(super) fn time_lines(&self, place: WantedPlace, ordered: &Ordered) -> Vec<String> {
         let Some(feed) = self.feeds.get(place.feed) else {
@@ -201,6 +226,7 @@ impl Feeds {
             units: vec![None; ways.len()],
             ways,
             lags_s: Vec::new(),
+            rate: Rate::default(),
             damaged: 0,
         });
         Some(self.feeds.len() - 1)
@@ -266,6 +292,10 @@ impl Visitor for Feeds {
         for (column, slot) in feed.columns.iter_mut().zip(&slots.columns) {
             column.push(slot.map_or(f64::NAN, |place| numbers.at(place)));
         }
+        if let Some((s, ns)) = slots.stamp {
+            feed.rate
+                .add(message.log_time_ns, numbers.at(s), numbers.at(ns));
+        }
         if let (Some((s, ns)), true) = (slots.stamp, feed.lags_s.len() < STAMPS) {
             let lag_s = super::clock::lag_s(message, numbers.at(s), numbers.at(ns));
             feed.lags_s.push(lag_s);
@@ -280,7 +310,7 @@ impl Feed {
         for ((_, way), unit) in self.ways.iter().zip(&mut self.units) {
             let place = leaves.iter().position(|leaf| way.leads_to(leaf));
             if let Some(leaf) = place.and_then(|place| leaves.get(place)) {
-                unit.get_or_insert_with(|| decoder.unit(leaf));
+                unit.get_or_insert_with(|| decoder.stated_unit(leaf));
             }
             columns.push(place);
         }
@@ -336,5 +366,59 @@ mod tests {
         }
         assert_eq!(feeds.feeds[0].columns, [[200.25; 4]]);
         assert_eq!(feeds.feeds[1].columns, [[150.25]]);
+    }
+
+    #[test]
+    fn a_clock_that_does_not_tell_when_is_named_with_the_one_that_does() {
+        let fault = |log_ms: &dyn Fn(u64) -> u64| {
+            let mut feeds = Feeds::new(&Selection {
+                channels: vec![Wanted {
+                    address: "/a.y".into(),
+                    between: Between::Line,
+                }],
+                time: None,
+            });
+            feeds.topic(0, &Topic::new("/a", "json", None, BTreeMap::new()));
+            for k in 0..900 {
+                let data = format!(
+                    "{{\"header\": {{\"stamp\": {{\"sec\": 170, \"nanosec\": {}}}}}, \"y\": 2.5}}",
+                    k * 1_000_000
+                );
+                feeds.message(Message {
+                    topic: 0,
+                    log_time_ns: 1_000_000 * log_ms(k),
+                    publish_time_ns: 11,
+                    data: data.as_bytes(),
+                });
+            }
+            let place = feeds.places()[0].unwrap();
+            let stamps = feeds.take_times(place);
+            feeds.clock_fault(place, &stamps)
+        };
+        assert_eq!(fault(&|k| 5000 + k), None);
+        assert_eq!(fault(&|k| 5000 + k + k / 300), None);
+        for (pace, said) in [
+            (2, "in 2.000 times the time"),
+            (5, "in 5.000 times"),
+            (10, "in 10.000 times"),
+        ] {
+            let message = fault(&|k| 5000 + pace * k).unwrap();
+            assert!(
+                message.contains(said) && message.contains("`--time-from header.stamp`"),
+                "{message}"
+            );
+        }
+        let message = fault(&|k| {
+            if k == 899 {
+                5899
+            } else {
+                5000 + k - if k > 400 { 300 } else { 0 }
+            }
+        })
+        .unwrap();
+        assert!(
+            message.contains("went back by 0.299 s after 5.400000 s, and 299 messages follow"),
+            "{message}"
+        );
     }
 }

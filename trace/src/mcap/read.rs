@@ -78,7 +78,11 @@ pub fn read_from(
             return Err(refused(absent(&feeds, &wanted.address, &integrity)));
         };
         if !times.iter().any(|(feed, _)| *feed == place.feed) {
-            let own = order(feeds.take_times(place));
+            let stamps = feeds.take_times(place);
+            if let Some(fault) = feeds.clock_fault(place, &stamps) {
+                return Err(refused(fault));
+            }
+            let own = order(stamps);
             protocol.extend(feeds.time_lines(place, &own));
             times.push((place.feed, own));
         }

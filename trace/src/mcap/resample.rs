@@ -67,6 +67,50 @@ pub(super) fn order(time_s: Vec<f64>) -> Ordered {
     }
 }
 
+/// A clock that was set back.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct SetBack {
+    pub(super) after_s: f64,
+    pub(super) by_s: f64,
+    /// Messages until it gets there again.
+    pub(super) messages: usize,
+}
+
+/// More messages in a row than these do not just come late.
+const LATE: usize = 8;
+
+/// Where a clock was set back: many messages in a row are older than one before them. A few late ones are none.
+pub(super) fn went_back(time_s: &[f64]) -> Option<SetBack> {
+    let steps = time_s
+        .windows(2)
+        .filter_map(|pair| Some(pair.get(1)? - pair.first()?));
+    let usual_s = median(steps.filter(|step| *step > 0.0).collect());
+    let limit_s = GAP_STEPS * usual_s;
+    let (mut latest_s, mut is_stray) = (f64::NEG_INFINITY, false);
+    let mut back: Option<SetBack> = None;
+    for &t in time_s {
+        if t >= latest_s {
+            if back.is_some_and(|back| back.messages > LATE) {
+                return back;
+            }
+            // One stamp far ahead of the others sets no clock.
+            is_stray = t - latest_s > limit_s && latest_s.is_finite();
+            (latest_s, back) = (t, None);
+        } else if !is_stray && (latest_s - t > limit_s || back.is_some()) {
+            let begun = back.unwrap_or(SetBack {
+                after_s: latest_s,
+                by_s: latest_s - t,
+                messages: 0,
+            });
+            back = Some(SetBack {
+                messages: begun.messages + 1,
+                ..begun
+            });
+        }
+    }
+    back.filter(|back| back.messages > LATE)
+}
+
 /// The values at other times, NaN before the first sample, and, in straight lines, across a gap and after the last.
 ///
 /// A sample at the very time asked for is taken as it is. A gap is a step longer than [`GAP_STEPS`] times the median
@@ -128,6 +172,25 @@ mod tests {
         assert_eq!(gaps, 0);
         assert!(held[0].is_nan());
         assert_eq!(held[1..], [3.0, 3.0, 4.0, 4.0, 8.0, 9.5]);
+    }
+
+    #[test]
+    fn a_clock_that_was_set_back_is_told_from_late_messages() {
+        let even = |k: usize| 2.5 + 1e-3 * k as f64;
+        for (by_s, from) in [(0.5, 700), (0.05, 400), (30.0, 980)] {
+            let set_back = (0..1000).map(|k| even(k) - if k < from { 0.0 } else { by_s });
+            let back = went_back(&set_back.collect::<Vec<_>>()).unwrap();
+            assert!((back.by_s - by_s).abs() < 1.5e-3, "{back:?}");
+            assert!((back.after_s - even(from - 1)).abs() < 1e-9, "{back:?}");
+        }
+        let mut late: Vec<f64> = (0..1000).map(even).collect();
+        late.swap(30, 32);
+        late[500..506].rotate_right(1);
+        assert_eq!(went_back(&late), None);
+        let mut stray: Vec<f64> = (0..1000).map(even).collect();
+        stray[300] += 0.4;
+        assert_eq!(went_back(&stray), None);
+        assert_eq!(went_back(&[]), None);
     }
 
     #[test]

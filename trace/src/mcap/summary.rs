@@ -79,8 +79,10 @@ pub struct TopicSummary {
 pub struct ChannelSummary {
     /// Its address, as a rig description takes it.
     pub address: String,
-    /// Its unit; empty when the file does not say.
+    /// Its unit as its schema states it, or as its name suggests; empty when neither says anything.
     pub unit: String,
+    /// Whether only its name suggests the unit.
+    pub unit_is_guessed: bool,
     /// Finite values.
     pub count: u64,
     /// Values that are NaN or infinite.
@@ -207,7 +209,11 @@ impl Tally {
                 }
                 let place = numbers.len();
                 (place < NUMBERS).then(|| {
-                    numbers.push(Number::new(&address, decoder.unit(leaf)));
+                    numbers.push(Number::new(
+                        &address,
+                        decoder.unit(leaf),
+                        decoder.stated_unit(leaf).is_empty(),
+                    ));
                     by_address.insert(address, place);
                     place
                 })
@@ -278,6 +284,7 @@ pub(super) fn stamp(leaves: &[Leaf]) -> Option<(usize, usize)> {
 struct Number {
     address: String,
     unit: String,
+    unit_is_guessed: bool,
     count: u64,
     not_finite: u64,
     minimum: f64,
@@ -294,9 +301,10 @@ struct Number {
 }
 
 impl Number {
-    fn new(address: &str, unit: String) -> Number {
+    fn new(address: &str, unit: String, is_guessed: bool) -> Number {
         Number {
             address: address.to_string(),
+            unit_is_guessed: is_guessed && !unit.is_empty(),
             unit,
             count: 0,
             not_finite: 0,
@@ -379,6 +387,7 @@ impl Number {
         ChannelSummary {
             address: self.address,
             unit: self.unit,
+            unit_is_guessed: self.unit_is_guessed,
             count: self.count,
             not_finite: self.not_finite,
             minimum: self.minimum,
@@ -396,7 +405,7 @@ mod tests {
 
     #[test]
     fn runs_are_neighbours_and_spread_over_everything() {
-        let mut number = Number::new("/a.x", String::new());
+        let mut number = Number::new("/a.x", String::new(), false);
         for k in 0..70_001 {
             number.add(if k == 8193 {
                 f64::INFINITY

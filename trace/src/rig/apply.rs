@@ -5,8 +5,8 @@ use std::path::Path;
 use rigproof_spec::effect::Motion;
 use rigproof_spec::units::{Dimension, Unit};
 
-use super::{ChannelMap, Plant, Rig};
-use crate::csv::{self, Dialect, Hints};
+use super::{ChannelMap, Plant, Rig, plausible};
+use crate::csv::{self, Dialect, Hints, Known, Text, TimeColumn};
 use crate::error::TraceError;
 use crate::mcap;
 use crate::series::{Channel, Trace};
@@ -89,11 +89,12 @@ impl Rig {
             true => self.read_mcap(path).map(|(recording, _)| recording),
             false => self
                 .read_text(path, &Hints::default())
-                .map(|(recording, _)| recording),
+                .map(|(recording, ..)| recording),
         }
     }
 
-    /// Reads a text recording of this rig whose dialect is partly known, and says in which it was.
+    /// Reads a text recording of this rig whose dialect is partly known, and says in which it was, and what was guessed,
+    /// passed over or mended. Columns that the rig does not name are not looked at.
     ///
     /// # Errors
     /// As [`csv::read`] and [`Rig::apply`].
@@ -101,10 +102,15 @@ impl Rig {
         &self,
         path: &Path,
         hints: &Hints,
-    ) -> Result<(Recording, Dialect), TraceError> {
-        let (trace, dialect) =
-            csv::read_as(path, self.channels.time.as_ref(), &hints.or(self.text))?;
-        Ok((self.apply(&trace, path)?, dialect))
+    ) -> Result<(Recording, Dialect, Vec<String>), TraceError> {
+        let channels = &self.channels;
+        let (text, remarks) = read_text(
+            path,
+            channels.time.as_ref(),
+            hints.or(self.text),
+            &channels.maps(),
+        )?;
+        Ok((self.apply(&text.trace, path)?, text.dialect, remarks))
     }
 
     /// Turns a recording into SI quantities; `origin` is the file that messages name.
@@ -129,6 +135,38 @@ impl Rig {
     }
 }
 
+/// Reads the channels of a rig from a text, and says how: where a name suggests another unit than the rig states, too.
+pub(super) fn read_text(
+    path: &Path,
+    time: Option<&TimeColumn>,
+    hints: Hints,
+    maps: &[&ChannelMap],
+) -> Result<(Text, Vec<String>), TraceError> {
+    let wanted: Vec<&str> = maps.iter().map(|map| map.channel.as_str()).collect();
+    let known = Known {
+        time,
+        hints,
+        wanted: Some(&wanted),
+    };
+    let mut text = csv::read_text(path, &known)?;
+    let mut remarks = std::mem::take(&mut text.remarks);
+    let overruled = text.trace.channels.iter().filter_map(|channel| {
+        let map = maps.iter().find(|map| map.channel == channel.name)?;
+        let guess = Unit::parse(channel.likely_unit()).filter(|_| channel.unit.is_empty())?;
+        let said = Unit::parse(map.column_unit.as_deref().unwrap_or(&map.unit))?;
+        let unit = map.column_unit.as_ref().unwrap_or(&map.unit);
+        (guess != said).then(|| format!("`{}` in {unit}", channel.name))
+    });
+    let overruled: Vec<String> = overruled.collect();
+    if !overruled.is_empty() {
+        remarks.push(format!(
+            "units as the rig file states them, and not as the names end: {}",
+            overruled.join(", ")
+        ));
+    }
+    Ok((text, remarks))
+}
+
 /// One channel of a recording in SI units; `rig` is the name of the description.
 pub(super) fn signal(
     map: &ChannelMap,
@@ -151,33 +189,91 @@ pub(super) fn signal(
             map.unit
         ))
     })?;
-    let header_unit = match channel.unit.as_str() {
-        "" => Some(rig_unit),
-        printed => Unit::parse(printed),
-    };
-    let header_unit = header_unit
-        .filter(|unit| unit.dimension == rig_unit.dimension)
-        .ok_or_else(|| {
-            refused(format!(
-                "the column `{name}` is in `{}`, which does not convert to `{}`, its unit in the rig; correct the one that is wrong",
-                channel.unit, map.unit
-            ))
-        })?;
-    let to_rig_unit = header_unit.to_si / rig_unit.to_si;
+    let column_unit = column_unit(map, rig_unit, rig, channel).map_err(refused)?;
+    let to_rig_unit = column_unit.to_si / rig_unit.to_si;
+    let in_rig_unit = channel.samples.iter().map(|x| x * to_rig_unit);
+    let in_rig_unit: Vec<f64> = in_rig_unit.collect();
+    if let Some(problem) = plausible::contradiction(map, &in_rig_unit) {
+        return Err(refused(problem));
+    }
     let to_si = map.sign * map.scale * rig_unit.to_si;
     let in_si = |magnitude: Option<f64>| magnitude.map(|x| x * to_si.abs());
     Ok(Signal {
         channel: name.to_string(),
         dimension: rig_unit.dimension,
-        samples: channel
-            .samples
+        samples: in_rig_unit
             .iter()
-            .map(|recorded| to_si * (recorded * to_rig_unit - map.offset))
+            .map(|recorded| to_si * (recorded - map.offset))
             .collect(),
         quantum: in_si(map.quantum),
         noise: in_si(map.noise),
         limit: in_si(map.limit),
     })
+}
+
+/// The unit that a column is in: what the caller or the rig file says of the column, else the unit of the rig, if the header
+/// does not state another one. What a column's name suggests is a guess, and does not count.
+fn column_unit(
+    map: &ChannelMap,
+    rig_unit: Unit,
+    rig: &str,
+    channel: &Channel,
+) -> Result<Unit, String> {
+    let (name, unit, header) = (&map.channel, &map.unit, &channel.unit);
+    if let Some(said) = &map.column_unit {
+        let parsed = Unit::parse(said).filter(|own| own.dimension == rig_unit.dimension);
+        return parsed.ok_or_else(|| {
+            format!("`{said}`, the unit stated for `{name}`, does not convert to `{unit}`, its unit in the rig `{rig}`; give one of the same kind")
+        });
+    }
+    let counted = COUNTS.contains(&header.to_lowercase().as_str()) && map.scale != 1.0;
+    if header.is_empty() || header == unit || counted {
+        return Ok(rig_unit);
+    }
+    let answer = |unit: &str| {
+        format!(
+            "`--unit {name}={unit}`, or `column_unit = \"{unit}\"` beside that channel in the rig file"
+        )
+    };
+    let said =
+        format!("the header says that `{name}` is in `{header}`, the rig `{rig}` says `{unit}`");
+    match Unit::parse(header) {
+        Some(own) if own.dimension == rig_unit.dimension => {
+            if (own.to_si / rig_unit.to_si - 1.0).abs() < 1e-12 {
+                return Ok(rig_unit);
+            }
+            Err(format!(
+                "{said}; {}; which is right? For the header {}; for the rig file the same with `{unit}`",
+                span(&channel.samples),
+                answer(header)
+            ))
+        }
+        Some(_) => Err(format!(
+            "{said}, which does not convert; {}; if the rig is right, add {}; if the header is right, correct the rig file or its choice of channel",
+            span(&channel.samples),
+            answer(unit)
+        )),
+        None => Err(format!(
+            "{said}, and the header's is no known unit; if the rig is right, add {}",
+            answer(unit)
+        )),
+    }
+}
+
+/// What headers call the steps of a converter, which a scale turns into a unit.
+const COUNTS: [&str; 8] = [
+    "count", "counts", "cnt", "tick", "ticks", "raw", "lsb", "pulses",
+];
+
+/// Between which values the samples lie, in words.
+fn span(samples: &[f64]) -> String {
+    let seen = || samples.iter().copied().filter(|x| x.is_finite());
+    let least = seen().fold(f64::INFINITY, f64::min);
+    let greatest = seen().fold(f64::NEG_INFINITY, f64::max);
+    match least <= greatest {
+        true => format!("its samples lie between {least} and {greatest}"),
+        false => "it has no samples".to_owned(),
+    }
 }
 
 /// A signal in SI units as the channel has it in its file: what [`signal`] makes of it is the signal.
@@ -219,17 +315,20 @@ mod tests {
 
     fn apply(channels: &[(&str, &str)]) -> Result<Recording, String> {
         let rig = Rig::parse(RIG, Path::new("rig.toml")).unwrap();
+        rig.apply(&trace(channels), Path::new("run.csv"))
+            .map_err(|error| error.to_string())
+    }
+
+    fn trace(channels: &[(&str, &str)]) -> Trace {
         let channels = channels.iter().map(|(name, unit)| Channel {
             name: name.to_string(),
             unit: unit.to_string(),
             samples: vec![4.5, f64::NAN],
         });
-        let trace = Trace {
+        Trace {
             time_s: vec![0.1, 0.3],
             channels: channels.collect(),
-        };
-        rig.apply(&trace, Path::new("run.csv"))
-            .map_err(|error| error.to_string())
+        }
     }
 
     #[test]
@@ -266,9 +365,79 @@ mod tests {
     }
 
     #[test]
-    fn the_header_says_what_the_column_is_in() {
-        let recording = apply(&[("u", "V"), ("x", "cm")]).unwrap();
-        assert!((recording.position.samples[0] + 3.0 * (45.0 - 2.5) * 1e-3).abs() < 1e-15);
+    fn a_unit_that_only_a_name_suggests_gives_way_to_the_rig() {
+        let rig = |name: &str, unit: &str| {
+            let text = RIG.replace(
+                "\"x\", unit = \"mm\"",
+                &format!("\"{name}\", unit = \"{unit}\""),
+            );
+            Rig::parse(&text, Path::new("rig.toml")).unwrap()
+        };
+        for (name, unit) in [
+            ("theta_A", "mm"),
+            ("slide_V", "mm"),
+            ("x_m", "mm"),
+            ("x_s", "cm"),
+        ] {
+            let text = format!("t,{name},u\n")
+                + &(0..20)
+                    .map(|k| format!("{k},{k}.5,0.1\n"))
+                    .collect::<String>();
+            let trace = csv::parse(text.as_bytes(), Path::new("run.csv"), None).unwrap();
+            let recording = rig(name, unit).apply(&trace, Path::new("run.csv")).unwrap();
+            let si = Unit::parse(unit).unwrap().to_si;
+            let expected = -3.0 * si * (7.5 - 2.5);
+            assert!(
+                (recording.position.samples[7] - expected).abs() < 1e-15,
+                "{name}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_header_that_disagrees_is_a_question_and_the_answer_holds() {
+        let message = apply(&[("u", "V"), ("x", "cm")]).unwrap_err();
+        for part in [
+            "`x` is in `cm`",
+            "`slide` says `mm`",
+            "between 4.5 and 4.5",
+            "`--unit x=cm`",
+            "column_unit = \"cm\"",
+        ] {
+            assert!(message.contains(part), "{message} lacks {part}");
+        }
+        let with = |unit: &str| {
+            let text = RIG.replace(
+                "unit = \"mm\"",
+                &format!("unit = \"mm\", column_unit = \"{unit}\""),
+            );
+            let rig = Rig::parse(&text, Path::new("rig.toml"))?;
+            rig.apply(&trace(&[("u", "V"), ("x", "cm")]), Path::new("run.csv"))
+        };
+        for (unit, x_mm) in [("cm", 45.0), ("mm", 4.5), ("m", 4500.0)] {
+            let read = with(unit).unwrap().position.samples[0];
+            assert!(
+                (read + 3.0 * (x_mm - 2.5) * 1e-3).abs() < 1e-14,
+                "{unit} {read}"
+            );
+        }
+        assert!(
+            with("deg")
+                .unwrap_err()
+                .to_string()
+                .contains("does not convert to `mm`")
+        );
+        assert!(apply(&[("u", "volt"), ("x", "mm")]).is_err());
+    }
+
+    #[test]
+    fn counts_with_a_stated_scale_are_no_question() {
+        assert!(apply(&[("u", "V"), ("x", "counts")]).is_ok());
+        let message = apply(&[("u", "volts dc"), ("x", "mm")]).unwrap_err();
+        assert!(
+            message.contains("no known unit; if the rig is right, add `--unit u=V`"),
+            "{message}"
+        );
     }
 
     #[test]
@@ -276,11 +445,11 @@ mod tests {
         for (channels, expected) in [
             (
                 [("u", "V"), ("x", "deg")],
-                "`x` is in `deg`, which does not convert to `mm`",
+                "`x` is in `deg`, the rig `slide` says `mm`, which does not convert",
             ),
             (
                 [("u", "furlong"), ("x", "mm")],
-                "`u` is in `furlong`, which does not convert to `V`",
+                "`u` is in `furlong`, the rig `slide` says `V`, and the header's is no known unit",
             ),
             (
                 [("U", "V"), ("x", "mm")],

@@ -9,12 +9,12 @@ use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
 use rigproof_spec::units::Dimension;
 
-use super::apply::{Signal, printed, signal, those};
+use super::apply::{Signal, printed, read_text, signal, those};
 use super::read::{choice, read_channel, read_effect, read_provenance, read_time};
 use super::table::{Source, Table};
 use super::write::{channel, effect_lines, string, time_line};
-use super::{ChannelMap, Protocol, RigEffect, text};
-use crate::csv::{self, Dialect, Hints, TimeColumn};
+use super::{ChannelMap, Protocol, RigEffect, state_units, text};
+use crate::csv::{Dialect, Hints, TimeColumn};
 use crate::error::TraceError;
 use crate::series::Trace;
 use crate::store;
@@ -169,22 +169,39 @@ impl FiveBar {
     /// # Errors
     /// As [`csv::read`] and [`FiveBar::apply`].
     pub fn read_recording(&self, path: &Path) -> Result<FiveBarRecording, TraceError> {
-        let (recording, _) = self.read_text(path, &Hints::default())?;
+        let (recording, ..) = self.read_text(path, &Hints::default())?;
         Ok(recording)
     }
 
-    /// Reads a text recording of this rig whose dialect is partly known, and says in which it was.
+    /// Reads a text recording of this rig whose dialect is partly known, and says in which it was, and what was guessed,
+    /// passed over or mended. Columns that the rig does not name are not looked at.
     ///
     /// # Errors
-    /// As [`csv::read`] and [`FiveBar::apply`].
+    /// As [`csv::read`](crate::csv::read) and [`FiveBar::apply`].
     pub fn read_text(
         &self,
         path: &Path,
         hints: &Hints,
-    ) -> Result<(FiveBarRecording, Dialect), TraceError> {
-        let (trace, dialect) =
-            csv::read_as(path, self.channels.time.as_ref(), &hints.or(self.text))?;
-        Ok((self.apply(&trace, path)?, dialect))
+    ) -> Result<(FiveBarRecording, Dialect, Vec<String>), TraceError> {
+        let channels = &self.channels;
+        let measured = channels.theta.iter().chain(&channels.force);
+        let maps: Vec<&ChannelMap> = measured.chain(channels.currents.iter().flatten()).collect();
+        let time = channels.time.as_ref();
+        let (text, remarks) = read_text(path, time, hints.or(self.text), &maps)?;
+        Ok((self.apply(&text.trace, path)?, text.dialect, remarks))
+    }
+
+    /// The description with the units that some columns are said to be in, whatever their headers say.
+    ///
+    /// # Errors
+    /// Names a channel that the rig does not have, and those it has.
+    pub fn with_column_units(&self, units: &[(String, String)]) -> Result<FiveBar, String> {
+        let mut rig = self.clone();
+        let channels = &mut rig.channels;
+        let measured = channels.theta.iter_mut().chain(&mut channels.force);
+        let maps = measured.chain(channels.currents.iter_mut().flatten());
+        state_units(maps, &self.name, units)?;
+        Ok(rig)
     }
 
     /// Turns a recording into SI quantities; `origin` is the file that messages name.

@@ -171,9 +171,17 @@ pub(super) fn read_channel(
         return Ok(None);
     };
     table.only(&[
-        "channel", "unit", "offset", "scale", "sign", "quantum", "noise", "limit",
+        "channel",
+        "unit",
+        "column_unit",
+        "offset",
+        "scale",
+        "sign",
+        "quantum",
+        "noise",
+        "limit",
     ])?;
-    read_unit(&table, expected, false)?;
+    let unit = read_unit(&table, expected, false)?;
     let scale = table.number("scale")?.unwrap_or(1.0);
     if scale == 0.0 {
         return Err(table.error_at("scale", "`scale` is 0, which would erase the channel"));
@@ -185,6 +193,7 @@ pub(super) fn read_channel(
     Ok(Some(ChannelMap {
         channel: table.need("channel", table.text("channel")?)?.to_string(),
         unit: table.text("unit")?.unwrap_or_default().to_string(),
+        column_unit: read_column_unit(&table, unit)?,
         offset: table.number("offset")?.unwrap_or(0.0),
         scale,
         sign,
@@ -192,6 +201,24 @@ pub(super) fn read_channel(
         noise: table.positive("noise")?,
         limit: table.positive("limit")?,
     }))
+}
+
+/// The unit of a column where its header is not to be believed; it converts to the unit of the map.
+fn read_column_unit(table: &Table<'_>, unit: Unit) -> Result<Option<String>, TraceError> {
+    let Some(text) = table.text("column_unit")? else {
+        return Ok(None);
+    };
+    let same = Unit::parse(text).filter(|own| own.dimension == unit.dimension);
+    match same {
+        Some(_) => Ok(Some(text.to_string())),
+        None => Err(table.error_at(
+            "column_unit",
+            format!(
+                "`{text}` does not convert to `{}`; give the unit that the column is in, of the same kind as `unit`",
+                table.text("unit")?.unwrap_or_default()
+            ),
+        )),
+    }
 }
 
 fn read_parameters(

@@ -99,6 +99,9 @@ pub(super) fn channel(map: &ChannelMap) -> String {
         string(&map.channel),
         string(&map.unit)
     );
+    if let Some(unit) = &map.column_unit {
+        text += &format!(", column_unit = {}", string(unit));
+    }
     for (key, number, default) in [
         ("offset", map.offset, 0.0),
         ("scale", map.scale, 1.0),

@@ -4,7 +4,7 @@ use super::run::{FiveBarRun, place, yields};
 use crate::problem::less;
 use crate::signals::{USUAL_SHARE, shifted, through_play};
 use rigproof_model::brake::Brake;
-use rigproof_model::effects::{CurrentPlay, first_order_lag_straight};
+use rigproof_model::effects::{CurrentPlay, Drive, Form, OfBrake, first_order_lag_straight, form};
 use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::tables::brake_table;
@@ -24,39 +24,42 @@ pub fn change(
         Some(less(&changed, own))
     };
     let start = run.motion_of(joint).first()?.position;
-    match mechanism {
+    match form(mechanism)? {
         // What lags is the effort, as the equation of the library has it: the whole brake, its own response included.
-        Mechanism::Lag => Some(less(&first_order_lag_straight(own, run.step_s, value), own)),
-        Mechanism::DeadTime => {
+        Form::Drive(Drive::Lag) => {
+            Some(less(&first_order_lag_straight(own, run.step_s, value), own))
+        }
+        Form::Brake(OfBrake::DeadTime) => {
             let late = shifted(current, -value / run.step_s);
             again(Brake::new(joint, start), &late)
         }
-        Mechanism::Saturation => {
+        Form::Brake(OfBrake::Saturation) => {
             let limited: Vec<f64> = current.iter().map(|i| i.min(value)).collect();
             again(Brake::new(joint, start), &limited)
         }
-        Mechanism::BacklashWidth => {
+        Form::Brake(OfBrake::BacklashWidth) => {
             let mut table = brake_table(joint);
             table.backlash_width_deg = value / RAD_PER_DEG;
             again(Brake::of(table, start), current)
         }
-        _ => None,
+        Form::Brake(OfBrake::CurrentHysteresis | OfBrake::ThermalFade)
+        | Form::Drive(Drive::Gain | Drive::Skew | Drive::Limit)
+        | Form::Resistance(_)
+        | Form::ShareOfBrake(_)
+        | Form::Linkage(_)
+        | Form::Sensor(_)
+        | Form::Joint(_) => None,
     }
 }
 
 /// What a linear cause adds to a brake's yield torque for a coefficient of 1, sample by sample.
-pub fn unit(
-    run: &FiveBarRun,
-    mechanism: Mechanism,
-    joint: Joint,
-    shape: &[f64],
-) -> Option<Vec<f64>> {
+pub fn unit(run: &FiveBarRun, kind: OfBrake, joint: Joint, shape: &[f64]) -> Option<Vec<f64>> {
     let own = run.yields.get(place(joint))?;
     let current = run.currents.get(place(joint))?.as_ref()?;
     let value = *shape.first()?;
-    match mechanism {
+    match kind {
         // The torque is not linear in the current: a share of the size that is expected stands for the slope.
-        Mechanism::CurrentHysteresis => {
+        OfBrake::CurrentHysteresis => {
             let play = CurrentPlay {
                 half_width_a: value,
                 closing_a: shape.get(1).copied().unwrap_or(0.0),
@@ -72,7 +75,7 @@ pub fn unit(
             let change = less(&changed, own);
             Some(change.into_iter().map(|c| c / USUAL_SHARE).collect())
         }
-        Mechanism::ThermalFade => {
+        OfBrake::ThermalFade => {
             let mut heat_j = 0.0;
             let pairs = own.iter().zip(run.motion_of(joint));
             let fade = pairs.map(|(torque, now)| {
@@ -82,6 +85,6 @@ pub fn unit(
             });
             Some(fade.collect())
         }
-        _ => None,
+        OfBrake::BacklashWidth | OfBrake::DeadTime | OfBrake::Saturation => None,
     }
 }

@@ -8,6 +8,7 @@ use crate::diagnose::write::Stand;
 use crate::evidence::{Intervals, coefficients_by_term};
 use crate::problem::Term;
 use crate::select::refs;
+use rigproof_model::effects::facts;
 use rigproof_spec::effect::Mechanism;
 use rigproof_trace::rig::five_bar::{FiveBar, JointEffect};
 use rigproof_trace::rig::{RigEffect, Value};
@@ -33,7 +34,7 @@ impl Stand<'_, FiveBar> {
         rig.effects.extend(fitted);
         let second = terms.iter().zip(&coefficients);
         rig.effects.extend(second.filter_map(|(term, own)| {
-            let mechanism = second_of(term.cause.mechanism)?;
+            let mechanism = facts(term.cause.mechanism)?.zero?;
             let mut level = *own.get(1)?;
             if let Some(encoder) = Encoder::of(self.train, term.cause, &term.shape) {
                 level = encoder.zero_at_zero_rad([*own.first()?, level]);
@@ -49,16 +50,6 @@ impl Stand<'_, FiveBar> {
         rig.provenance
             .insert("fit".to_owned(), "weighted windows".to_owned());
         rig
-    }
-}
-
-/// What the second column of a mechanism is, which the vocabulary has as one of its own: a spring's torque at θ = 0, the zero of an encoder
-/// that counts from where it was homed.
-const fn second_of(mechanism: Mechanism) -> Option<Mechanism> {
-    match mechanism {
-        Mechanism::Spring => Some(Mechanism::ConstantBias),
-        Mechanism::EncoderScale => Some(Mechanism::EncoderOffset),
-        _ => None,
     }
 }
 

@@ -1,96 +1,72 @@
 //! This file says which causes are tried on a recording of the five-bar, where, and in which shapes.
 
 use super::run::{FiveBarRun, at, joint_at, place};
-use crate::candidates::{fastest, geometric, periods, stribeck_shapes};
+use crate::candidates::{both_signs, fastest, geometric, in_numbers, periods, stribeck_shapes};
 use crate::cause::Cause;
 use crate::plant::Run;
+use crate::rules::{
+    BENDS_FIVE_BAR, CLOSING_A, DELAYS, DELAYS_RAD, LAGS_FIVE_BAR, LEAST_BEND, LEAST_BEND_SIGMAS,
+    LEAST_LAG_STEPS, LEAST_LIMITED_A, LEAST_SHIFT_STEPS_FIVE_BAR, LIMIT_SHARES, LIMITS, MOST_BEND,
+    MOST_DELAY_S, MOST_LAG_S_FIVE_BAR, MOST_OF_AN_ENCODER, MOST_SHIFT_S_FIVE_BAR, MOST_SHIFT_STEPS,
+    PEAK_EXPONENTS_FIVE_BAR, SHIFTS_FIVE_BAR, SOFTEST_BRISTLE, WIDEST_PEAK,
+};
 use crate::weak::Windows;
-use rigproof_spec::effect::Mechanism;
+use rigproof_model::effects::facts::{Shapes, Where};
+use rigproof_model::effects::{Entry, LIBRARY, entry, facts};
 use rigproof_spec::joint::Joint;
-
-/// What can be left out at a joint with a brake.
-const AT_BRAKES: [Mechanism; 17] = [
-    Mechanism::DryOffset,
-    Mechanism::ConstantBias,
-    Mechanism::Viscous,
-    Mechanism::GainError,
-    Mechanism::DirectionAsymmetry,
-    Mechanism::Stribeck,
-    Mechanism::Presliding,
-    Mechanism::ReversalOvershoot,
-    Mechanism::Settling,
-    Mechanism::Lag,
-    Mechanism::DeadTime,
-    Mechanism::Saturation,
-    Mechanism::CurrentHysteresis,
-    Mechanism::ThermalFade,
-    Mechanism::LoadDependent,
-    Mechanism::BacklashWidth,
-    Mechanism::Ripple,
-];
-
-/// What can be left out of the linkage as a whole, and of its sensors.
-const OF_THE_WHOLE: [Mechanism; 7] = [
-    Mechanism::Gravity,
-    Mechanism::Payload,
-    Mechanism::InertiaError,
-    Mechanism::ForceGain,
-    Mechanism::ForceBias,
-    Mechanism::ForceRotation,
-    Mechanism::ChannelSkew,
-];
-
-/// Travels within which friction comes to the level of its speed, rad.
-const DELAYS_RAD: [f64; 4] = [0.001, 0.01, 0.05, 0.2];
-
-/// The angle by which a force sensor may be mounted askew, rad: a quarter of a right angle.
-const MOST_TURNED_RAD: f64 = 0.39;
-
-/// An encoder's scale may be off by this share, its zero by this angle in rad: what more it was is seen before anything is recorded.
-const MOST_OF_AN_ENCODER: f64 = 0.1;
-
-/// Share of the fastest speed up to which a peak near standstill is one: at the fastest a sixteenth of it is left.
-const WIDEST_PEAK: f64 = 0.6;
-
-/// Share of the travel over which a bristle may bend: over the whole of it all but a twentieth of its level is reached.
-const SOFTEST_BRISTLE: f64 = 0.33;
 
 /// The causes that have a meaning on this layout.
 pub fn causes(run: &FiveBarRun) -> Vec<Cause> {
     let braked = run.parameters.layout.brakes();
-    let brakes = AT_BRAKES
-        .into_iter()
-        .flat_map(|mechanism| braked.iter().map(move |joint| at(mechanism, *joint)));
-    let bearings = Joint::ALL
+    let places = [
+        Where::Brakes,
+        Where::Bearings,
+        Where::Joints,
+        Where::Encoders,
+        Where::Whole,
+    ];
+    let bearings: Vec<Joint> = Joint::ALL
         .into_iter()
         .filter(|joint| !braked.contains(joint))
-        .map(|joint| at(Mechanism::BearingFriction, joint));
-    let springs = Joint::ALL.map(|joint| at(Mechanism::Spring, joint));
-    let encoders = [Mechanism::EncoderScale, Mechanism::EncoderOffset]
-        .into_iter()
-        .flat_map(|mechanism| [Joint::A, Joint::B].map(|joint| at(mechanism, joint)));
-    brakes
-        .chain(bearings)
-        .chain(springs)
-        .chain(encoders)
-        .chain(OF_THE_WHOLE.map(Cause::of))
-        .collect()
+        .collect();
+    let asked = |place: Where, mechanism| -> Vec<Cause> {
+        let joints = match place {
+            Where::Nowhere => return Vec::new(),
+            Where::Whole => return vec![Cause::of(mechanism)],
+            Where::Brakes => braked,
+            Where::Bearings => &bearings,
+            Where::Joints => &Joint::ALL,
+            Where::Encoders => &[Joint::A, Joint::B],
+        };
+        joints.iter().map(|joint| at(mechanism, *joint)).collect()
+    };
+    let of = |place| {
+        let entries = LIBRARY.iter();
+        let mut own: Vec<&Entry> = entries
+            .filter(|entry| entry.facts.asked.five_bar == place)
+            .collect();
+        own.sort_by_key(|entry| entry.facts.turn);
+        own.into_iter()
+            .flat_map(move |entry| asked(place, entry.mechanism))
+    };
+    places.into_iter().flat_map(of).collect()
 }
 
 /// How far the first number of a cause's shape may go where that is beyond what is tried first.
 pub fn reach(run: &FiveBarRun, cause: Cause) -> Option<(f64, f64)> {
-    match cause.mechanism {
-        Mechanism::EncoderScale | Mechanism::EncoderOffset => {
-            Some((-MOST_OF_AN_ENCODER, MOST_OF_AN_ENCODER))
-        }
-        Mechanism::Stribeck => {
+    let entry = entry(cause.mechanism)?;
+    if entry.form.is_of_encoder() {
+        return Some((-MOST_OF_AN_ENCODER, MOST_OF_AN_ENCODER));
+    }
+    match entry.facts.shapes {
+        Shapes::Peak => {
             let fastest = fastest(run.motion(cause.at));
-            let slowest = stribeck_shapes(run.speed_floor, fastest)
+            let slowest = stribeck_shapes(run.speed_floor, fastest, &PEAK_EXPONENTS_FIVE_BAR)
                 .into_iter()
                 .next()?;
             Some((slowest.first().copied()?, WIDEST_PEAK * fastest))
         }
-        Mechanism::Presliding | Mechanism::AsymmetricPresliding => {
+        Shapes::Bristle => {
             let travel = run.travel(cause.at).max(1e-12);
             Some((least_bending(run, travel), SOFTEST_BRISTLE * travel))
         }
@@ -100,7 +76,7 @@ pub fn reach(run: &FiveBarRun, cause: Cause) -> Option<(f64, f64)> {
 
 /// The least angle over which a bristle is seen to bend, rad.
 fn least_bending(run: &FiveBarRun, travel: f64) -> f64 {
-    (3.0 * run.theta_noise).max(1e-4 * travel)
+    (LEAST_BEND_SIGMAS * run.theta_noise).max(LEAST_BEND * travel)
 }
 
 /// The angle of a cause's joint at each usable window, and the residual as a torque there.
@@ -128,22 +104,21 @@ fn limits(run: &FiveBarRun, cause: Cause) -> Vec<f64> {
     let current = joint.and_then(|joint| run.currents.get(place(joint)));
     let given = current.into_iter().flatten().flatten().copied();
     let greatest = given.fold(0.0, f64::max);
-    if greatest < 0.05 {
+    let [lowest, highest] = LIMIT_SHARES;
+    if greatest < LEAST_LIMITED_A {
         return Vec::new();
     }
-    geometric(0.3 * greatest, 0.97 * greatest, 8)
+    geometric(lowest * greatest, highest * greatest, LIMITS)
 }
 
 /// Half widths of a play, A, and the currents below which its sides come together, where they do.
-fn plays() -> Vec<Vec<f64>> {
-    let widths = geometric(0.01, 0.5, 7).into_iter();
-    let open = widths.clone().map(|width| vec![width]);
-    let closing = widths.flat_map(|width| CLOSING_A.map(|below| vec![width, below]));
+fn plays(widths: Vec<f64>) -> Vec<Vec<f64>> {
+    let open = widths.iter().map(|width| vec![*width]);
+    let closing = widths
+        .iter()
+        .flat_map(|width| CLOSING_A.map(|below| vec![*width, below]));
     closing.chain(open).collect()
 }
-
-/// Currents below which the sides of a play come together, A: a little, most of the range, and beyond all that flows.
-const CLOSING_A: [f64; 3] = [0.1, 0.4, 1.5];
 
 /// The shapes of a cause that are tried.
 pub fn shapes(
@@ -154,37 +129,41 @@ pub fn shapes(
 ) -> Vec<Vec<f64>> {
     let motion = run.motion(cause.at);
     let one = |values: Vec<f64>| values.into_iter().map(|v| vec![v]).collect();
-    match cause.mechanism {
-        Mechanism::Stribeck => stribeck_shapes(run.speed_floor, fastest(motion))
+    match facts(cause.mechanism).map_or(Shapes::None, |facts| facts.shapes) {
+        Shapes::Peak => stribeck_shapes(run.speed_floor, fastest(motion), &PEAK_EXPONENTS_FIVE_BAR)
             .into_iter()
             .flat_map(|shape| DELAYS_RAD.map(|travel| [&shape[..], &[travel]].concat()))
             .collect(),
-        Mechanism::Presliding | Mechanism::AsymmetricPresliding => {
+        Shapes::Bristle => {
             let travel = run.travel(cause.at).max(1e-12);
-            one(geometric(least_bending(run, travel), 0.2 * travel, 10))
+            one(geometric(
+                least_bending(run, travel),
+                MOST_BEND * travel,
+                BENDS_FIVE_BAR,
+            ))
         }
-        Mechanism::Ripple => one(periods(
+        Shapes::Period => one(periods(
             &points(run, cause, windows, residual),
             run.travel(cause.at),
         )),
-        Mechanism::ReversalOvershoot => one(geometric(0.01, 1.5, 6)),
-        Mechanism::Settling => one(geometric(0.3, 30.0, 5)),
-        Mechanism::Lag => one(geometric(0.5 * run.step_s, 0.25, 12)),
-        Mechanism::DeadTime => one(geometric(run.step_s, 0.08, 8)),
-        Mechanism::Saturation => one(limits(run, cause)),
-        Mechanism::CurrentHysteresis => plays(),
-        Mechanism::BacklashWidth => one(geometric(0.003, 0.12, 8)),
-        Mechanism::ThermalFade => one(geometric(3.0, 300.0, 4)),
-        Mechanism::ChannelSkew => {
-            let sizes = geometric(0.25 * run.step_s, 0.04f64.max(4.0 * run.step_s), 10);
-            one(sizes.iter().flat_map(|&s| [s, -s]).collect())
-        }
-        Mechanism::EncoderOffset => one(vec![0.01, -0.01, 0.06, -0.06]),
-        Mechanism::EncoderScale => one(vec![0.005, -0.005, 0.04, -0.04]),
-        Mechanism::ForceRotation => {
-            let angles = geometric(0.003, MOST_TURNED_RAD, 8);
-            one(angles.iter().flat_map(|&a| [a, -a]).collect())
-        }
-        _ => vec![vec![]],
+        Shapes::Lag => one(geometric(
+            LEAST_LAG_STEPS * run.step_s,
+            MOST_LAG_S_FIVE_BAR,
+            LAGS_FIVE_BAR,
+        )),
+        Shapes::Delay => one(geometric(run.step_s, MOST_DELAY_S, DELAYS)),
+        Shapes::CurrentLimit => one(limits(run, cause)),
+        Shapes::CurrentPlay { low, high, count } => plays(geometric(low, high, count)),
+        Shapes::Shift => one(both_signs(geometric(
+            LEAST_SHIFT_STEPS_FIVE_BAR * run.step_s,
+            MOST_SHIFT_S_FIVE_BAR.max(MOST_SHIFT_STEPS * run.step_s),
+            SHIFTS_FIVE_BAR,
+        ))),
+        // The rig is not asked for these.
+        Shapes::Memory | Shapes::EffortLimit | Shapes::Gap | Shapes::Resonance => vec![vec![]],
+        own @ (Shapes::None
+        | Shapes::Values(_)
+        | Shapes::Geometric { .. }
+        | Shapes::BothSigns { .. }) => in_numbers(own),
     }
 }

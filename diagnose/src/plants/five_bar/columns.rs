@@ -8,7 +8,7 @@ use crate::cause::Cause;
 use crate::problem::less;
 use crate::signals::{numerov, shifted, unit_parameters};
 use rigproof_model::bench::{column, column_by_travel};
-use rigproof_model::effects::{Form, Law, entry, law};
+use rigproof_model::effects::{Drive, Form, Law, OfLinkage, OfSensor, entry, facts, form, law};
 use rigproof_model::motion::added_mass;
 use rigproof_model::motion::two_coordinate::{TwoCoordinate, two_coordinate};
 use rigproof_spec::effect::Mechanism;
@@ -39,45 +39,61 @@ pub fn free(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<f64
 }
 
 fn free_of_one(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<f64>>> {
-    match (cause.mechanism, joint_at(cause.at)) {
-        (Mechanism::GainError, Some(joint)) => {
+    match (form(cause.mechanism)?, joint_at(cause.at)) {
+        (Form::Drive(Drive::Gain), Some(joint)) => {
             Some(vec![seen(&run.at_joint(joint, &run.brake_torque(joint)))])
         }
-        (Mechanism::CurrentHysteresis | Mechanism::ThermalFade, Some(joint)) => {
-            let change = brakes::unit(run, cause.mechanism, joint, shape)?;
+        (Form::Brake(kind), Some(joint)) => {
+            let change = brakes::unit(run, kind, joint, shape)?;
             Some(vec![along_motion(run, joint, &change)])
         }
         // A spring at a joint has its rest angle where it likes: the second column is its torque at θ = 0.
-        (Mechanism::Spring, Some(joint)) => {
-            let mut columns = at_joint(run, Mechanism::Spring, joint, shape)?;
-            columns.extend(at_joint(run, Mechanism::ConstantBias, joint, shape)?);
+        (Form::Resistance(_) | Form::ShareOfBrake(_), Some(joint)) => {
+            let mut columns = at_joint(run, cause.mechanism, joint, shape)?;
+            if let Some(zero) = facts(cause.mechanism)?.zero {
+                columns.extend(at_joint(run, zero, joint, shape)?);
+            }
             Some(columns)
         }
-        (Mechanism::BearingFriction, Some(joint)) => {
-            at_joint(run, Mechanism::DryOffset, joint, shape)
-        }
-        (Mechanism::LoadDependent, Some(joint)) => {
+        (Form::Linkage(OfLinkage::Load), Some(joint)) => {
             let loads: Vec<f64> = run.forces().map(|[x, y]| x.hypot(y)).collect();
             Some(vec![along_motion(run, joint, &loads)])
         }
-        (mechanism, Some(joint)) => at_joint(run, mechanism, joint, shape),
-        (Mechanism::ForceGain, None) => Some(vec![driving(run, run.forces())]),
-        (Mechanism::ForceBias, None) => Some(
+        (Form::Sensor(OfSensor::ForceGain), None) => Some(vec![driving(run, run.forces())]),
+        (Form::Sensor(OfSensor::ForceBias), None) => Some(
             [[1.0, 0.0], [0.0, 1.0]]
                 .map(|unit| driving(run, core::iter::repeat(unit)))
                 .into(),
         ),
-        (Mechanism::Gravity, None) => Some([0, 1].map(|axis| seen(&weight(run, axis))).into()),
-        (Mechanism::Payload, None) => Some(vec![inertial(
+        (Form::Linkage(OfLinkage::Weight), None) => {
+            Some([0, 1].map(|axis| seen(&weight(run, axis))).into())
+        }
+        (Form::Linkage(OfLinkage::Payload), None) => Some(vec![inertial(
             run,
             &forms_of(run, &added_mass::at_tip(1.0)),
         )]),
-        (Mechanism::InertiaError, None) => Some(
+        (Form::Linkage(OfLinkage::Inertias), None) => Some(
             unit_inertias(&run.parameters.inertia)
                 .map(|unit| inertial(run, &forms_of(run, &unit)))
                 .into(),
         ),
-        _ => None,
+        // These have a column of coefficient 1, or belong elsewhere.
+        (Form::Drive(_) | Form::Sensor(_) | Form::Linkage(_) | Form::Joint(_), Some(_))
+        | (
+            Form::Resistance(_)
+            | Form::ShareOfBrake(_)
+            | Form::Brake(_)
+            | Form::Drive(_)
+            | Form::Linkage(OfLinkage::Load)
+            | Form::Joint(_)
+            | Form::Sensor(
+                OfSensor::EncoderScale
+                | OfSensor::EncoderOffset
+                | OfSensor::Eccentric
+                | OfSensor::ForceRotation,
+            ),
+            None,
+        ) => None,
     }
 }
 
@@ -89,14 +105,14 @@ pub fn fixed(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<f64>> 
 
 fn fixed_of_one(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<f64>> {
     let value = *shape.first()?;
-    match (cause.mechanism, joint_at(cause.at)) {
+    match (form(cause.mechanism)?, joint_at(cause.at)) {
         // The yield of a brake changes, its sign does not (docs/decisions/0001).
-        (mechanism, Some(joint)) => {
-            let change = brakes::change(run, mechanism, joint, value)?;
+        (_, Some(joint)) => {
+            let change = brakes::change(run, cause.mechanism, joint, value)?;
             Some(along_motion(run, joint, &change))
         }
         // The recorded force is the one of a while ago: what acts is ahead of it.
-        (Mechanism::ChannelSkew, None) => {
+        (Form::Drive(Drive::Skew), None) => {
             let delay = value / run.step_s;
             let [x, y] = run
                 .force
@@ -105,14 +121,29 @@ fn fixed_of_one(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<f64
             Some(driving(run, x.into_iter().zip(y).map(|(x, y)| [x, y])))
         }
         // The whole turn: its first order alone leaves 1 − cos of the force, which is a gain.
-        (Mechanism::ForceRotation, None) => {
+        (Form::Sensor(OfSensor::ForceRotation), None) => {
             let (sine, cosine) = libm::sincos(value);
             let too_much = run
                 .forces()
                 .map(|[x, y]| [x - cosine * x - sine * y, y - cosine * y + sine * x]);
             Some(driving(run, too_much))
         }
-        _ => None,
+        (
+            Form::Drive(Drive::Lag | Drive::Gain | Drive::Limit)
+            | Form::Joint(_)
+            | Form::Resistance(_)
+            | Form::ShareOfBrake(_)
+            | Form::Brake(_)
+            | Form::Linkage(_)
+            | Form::Sensor(
+                OfSensor::EncoderScale
+                | OfSensor::EncoderOffset
+                | OfSensor::Eccentric
+                | OfSensor::ForceGain
+                | OfSensor::ForceBias,
+            ),
+            None,
+        ) => None,
     }
 }
 

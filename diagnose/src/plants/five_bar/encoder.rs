@@ -12,8 +12,8 @@ use super::run::{FiveBarRun, joint_at};
 use crate::cause::Cause;
 use crate::problem::less;
 use crate::weak::Windows;
+use rigproof_model::effects::{Form, OfSensor, form};
 use rigproof_model::linkage::inverse;
-use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
 
 /// Least step of an encoder's zero, rad, and of its scale, over which their columns are taken.
@@ -44,10 +44,21 @@ impl Encoder {
             Joint::B => 1,
             Joint::E | Joint::C => return None,
         };
-        let is_scale = match cause.mechanism {
-            Mechanism::EncoderScale => true,
-            Mechanism::EncoderOffset => false,
-            _ => return None,
+        let is_scale = match form(cause.mechanism)? {
+            Form::Sensor(OfSensor::EncoderScale) => true,
+            Form::Sensor(OfSensor::EncoderOffset) => false,
+            Form::Sensor(
+                OfSensor::Eccentric
+                | OfSensor::ForceGain
+                | OfSensor::ForceBias
+                | OfSensor::ForceRotation,
+            )
+            | Form::Resistance(_)
+            | Form::ShareOfBrake(_)
+            | Form::Drive(_)
+            | Form::Brake(_)
+            | Form::Linkage(_)
+            | Form::Joint(_) => return None,
         };
         Some(Encoder {
             output,

@@ -18,6 +18,7 @@ use crate::plant::Run;
 use crate::problem::Problem;
 use crate::regression::{Blocks, fit};
 use crate::report::{NextExperiment, Separation};
+use crate::rules::{FINALISTS, MOST_EXPLANATIONS};
 use crate::select::{Found, LEAST_SIGMAS, Selection, best_variant, refined, refs};
 use explanation::Explanation;
 use plan::{DURATION_S, MIDDLE_M, Plan, plans};
@@ -28,11 +29,6 @@ use rigproof_spec::methods::greatest_desired_force_n;
 use rigproof_trace::Trace;
 use rigproof_trace::rig::five_bar::FiveBar;
 use room::has_room;
-
-/// The most explanations that are held against one another.
-const MOST_EXPLANATIONS: usize = 8;
-/// How many experiments are simulated for every explanation.
-const FINALISTS: usize = 2;
 
 /// The experiment that tells the explanations apart best, and the plan; `None` where there is one explanation only.
 pub(super) fn next(

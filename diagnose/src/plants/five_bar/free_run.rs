@@ -7,19 +7,17 @@ use crate::plant::Run;
 use crate::plants::joint::free_run::HORIZONS_S;
 use crate::problem::NominalEffect;
 use crate::report::Horizon;
+use crate::rules::{MOST_OF_PART, SHOTS};
 use crate::signals::shifted;
 use core::ops::Range;
+use rigproof_model::effects::facts::Family;
+use rigproof_model::effects::{Drive, Form, OfSensor, facts, form};
 use rigproof_model::error::ModelError;
 use rigproof_model::rig::{JointEffect, LONGEST_STEP_S, Rig};
 use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::tables::GREATEST_CURRENT_A;
 use rigproof_trace::rig::five_bar::FiveBar;
-
-/// Free runs of a part of a recording from which the errors at the horizons are taken.
-const SHOTS: usize = 24;
-/// A horizon is asked for where it is at most this share of the part.
-const MOST_OF_PART: f64 = 0.5;
 
 /// A five-bar with all its numbers: what acts on the rig, and what its sensors do.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,16 +44,8 @@ impl Model {
     }
 }
 
-const fn is_of_sensors(mechanism: Mechanism) -> bool {
-    matches!(
-        mechanism,
-        Mechanism::ForceGain
-            | Mechanism::ForceBias
-            | Mechanism::ForceRotation
-            | Mechanism::ChannelSkew
-            | Mechanism::EncoderScale
-            | Mechanism::EncoderOffset
-    )
+fn is_of_sensors(mechanism: Mechanism) -> bool {
+    facts(mechanism).is_some_and(|facts| facts.family == Family::Sensor)
 }
 
 /// The recording with what its sensors did to force and angles taken back.
@@ -67,32 +57,40 @@ pub(super) fn truly(model: &Model, run: &FiveBarRun) -> Result<FiveBarRun, Model
             .map_or(0, |onset_s| run.clock().sample_at(onset_s));
         let value = |k: usize| effect.parameters.get(k).copied().unwrap_or(0.0);
         let [force_x, force_y] = &mut own.force;
-        match effect.mechanism {
-            Mechanism::ChannelSkew => {
+        match form(effect.mechanism) {
+            Some(Form::Drive(Drive::Skew)) => {
                 for force in [force_x, force_y] {
                     let earlier = shifted(force, value(0) / run.step_s);
                     let pairs = force.iter_mut().zip(earlier).skip(first);
                     pairs.for_each(|(f, e)| *f = e);
                 }
             }
-            Mechanism::EncoderScale | Mechanism::EncoderOffset => {
+            Some(Form::Sensor(of @ (OfSensor::EncoderScale | OfSensor::EncoderOffset))) => {
                 let [a, b] = &mut own.theta;
                 let angle = if effect.joint == Some(Joint::A) { a } else { b };
                 let shown = angle.iter_mut().skip(first);
-                shown.for_each(|theta| *theta = unshown(effect, *theta));
+                shown.for_each(|theta| {
+                    *theta = match of {
+                        OfSensor::EncoderScale => *theta / (1.0 + value(0)),
+                        _ => *theta - value(0),
+                    }
+                });
             }
-            mechanism => {
+            Some(Form::Sensor(of)) => {
                 for (x, y) in force_x.iter_mut().zip(force_y).skip(first) {
-                    (*x, *y) = match mechanism {
-                        Mechanism::ForceGain => (*x / (1.0 + value(0)), *y / (1.0 + value(0))),
-                        Mechanism::ForceBias => (*x - value(0), *y - value(1)),
-                        _ => {
-                            let (sine, cosine) = libm::sincos(value(0));
-                            (cosine * *x + sine * *y, cosine * *y - sine * *x)
-                        }
-                    };
+                    (*x, *y) = force_behind(of, [value(0), value(1)], [*x, *y]);
                 }
             }
+            // No sensor changes what these do.
+            Some(
+                Form::Drive(Drive::Lag | Drive::Gain | Drive::Limit)
+                | Form::Joint(_)
+                | Form::Resistance(_)
+                | Form::ShareOfBrake(_)
+                | Form::Brake(_)
+                | Form::Linkage(_),
+            )
+            | None => {}
         }
     }
     if own.theta == run.theta {
@@ -102,12 +100,16 @@ pub(super) fn truly(model: &Model, run: &FiveBarRun) -> Result<FiveBarRun, Model
     with_angles(&own, theta).map_err(|(_, error)| error)
 }
 
-/// The angle behind one that an encoder shows, rad.
-fn unshown(effect: &JointEffect, shown: f64) -> f64 {
-    let value = effect.parameters.first().copied().unwrap_or(0.0);
-    match effect.mechanism {
-        Mechanism::EncoderScale => shown / (1.0 + value),
-        _ => shown - value,
+/// The force behind one that a sensor shows.
+fn force_behind(of: OfSensor, [a, b]: [f64; 2], [x, y]: [f64; 2]) -> (f64, f64) {
+    match of {
+        OfSensor::ForceGain => (x / (1.0 + a), y / (1.0 + a)),
+        OfSensor::ForceBias => (x - a, y - b),
+        OfSensor::ForceRotation => {
+            let (sine, cosine) = libm::sincos(a);
+            (cosine * x + sine * y, cosine * y - sine * x)
+        }
+        OfSensor::EncoderScale | OfSensor::EncoderOffset | OfSensor::Eccentric => (x, y),
     }
 }
 

@@ -11,6 +11,7 @@ use crate::align::{
 use crate::cause::Cause;
 use crate::doubt::{Smoothing, a_sample_late, greatest_change, turning};
 use crate::problem::NominalEffect;
+use crate::rules::{CURRENTS_A, KINEMATIC_DOUBT, MOST_TAKEN, STILL_QUANTA, STILL_SIGMAS};
 use core::f64::consts::TAU;
 use rigproof_model::brake::{Brake, ENTRY_TRAVEL_DEG};
 use rigproof_model::effects::Instant;
@@ -82,7 +83,7 @@ pub fn aligned(rig: &FiveBar, recording: &FiveBarRecording) -> Result<FiveBarRun
         yields: [const { Vec::new() }; 4],
         yield_errors: [const { Vec::new() }; 4],
         theta_noise,
-        still_rad: (2.0 * quantum).max(6.0 * theta_noise),
+        still_rad: (STILL_QUANTA * quantum).max(STILL_SIGMAS * theta_noise),
         force_noise,
         recorded,
         switched,
@@ -175,9 +176,6 @@ fn moved_by(
     Ok((run, untold))
 }
 
-/// Share of the work to and fro by which the hand may take more out than it puts in: kinetic energy, and where the recording ends.
-const MOST_TAKEN: f64 = 0.2;
-
 /// A linkage with brakes takes energy in: a force that takes it out on the whole has the wrong sign.
 fn check_sign(run: &FiveBarRun) -> Result<(), Fault> {
     let rates = run.motion_of(Joint::A).iter().zip(run.motion_of(Joint::B));
@@ -205,9 +203,6 @@ fn check_sign(run: &FiveBarRun) -> Result<(), Fault> {
     }
     Ok(())
 }
-
-/// Currents outside of what the brakes were measured at.
-const CURRENTS_A: core::ops::RangeInclusive<f64> = -0.01..=1.5;
 
 fn check_currents(recording: &FiveBarRecording) -> Result<(), Fault> {
     for signal in recording.currents.iter().flatten() {
@@ -284,10 +279,6 @@ fn untold_speeds(run: &FiveBarRun, base: &[Vec<Instant>; 2]) -> Untold {
     let [a, b] = base;
     [(theta_a, a), (theta_b, b)].map(|(theta, own)| smoothing.untold_speeds(theta, own, &octaves))
 }
-
-/// Share of the rates of θA and θB by which the rate of E or C is in doubt: an encoder's zero a few hundredths of a radian
-/// off, or an arm's length a few per cent, makes a held joint seem to creep.
-const KINEMATIC_DOUBT: f64 = 0.05;
 
 /// The motion of a joint that the angles and rates of A and B imply.
 fn joint_motion(

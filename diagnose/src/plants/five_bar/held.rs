@@ -12,40 +12,15 @@ use crate::plant::Run;
 use crate::problem::{Problem, Term, add};
 use crate::regression::dot;
 use crate::report::{HeldJoint, HeldReport};
+use crate::rules::BEYOND_SIGMAS;
 use crate::select::{Selection, refs, usable_rms};
 use crate::weak::{Windows, is_recorded};
 use nalgebra::Vector2;
+use rigproof_model::effects::facts::AtRest;
+use rigproof_model::effects::{Form, facts, form};
 use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
-
-/// Standard deviations of its noise by which a reaction must be beyond what holds the joint before something is said to be missing: several
-/// thousand windows are looked at.
-const BEYOND_SIGMAS: f64 = 5.0;
-
-/// Laws that hold a joint at rest.
-const HOLDING: [Mechanism; 10] = [
-    Mechanism::DryOffset,
-    Mechanism::GainError,
-    Mechanism::DirectionAsymmetry,
-    Mechanism::Stribeck,
-    Mechanism::Presliding,
-    Mechanism::AsymmetricPresliding,
-    Mechanism::Settling,
-    Mechanism::LoadDependent,
-    Mechanism::ReversalOvershoot,
-    Mechanism::BearingFriction,
-];
-
-/// Laws by which what a brake holds depends on what it did before: nothing is said of a joint that has one.
-const OF_THE_PAST: [Mechanism; 6] = [
-    Mechanism::Lag,
-    Mechanism::DeadTime,
-    Mechanism::Saturation,
-    Mechanism::BacklashWidth,
-    Mechanism::CurrentHysteresis,
-    Mechanism::ThermalFade,
-];
 
 /// What the windows say in which one brake alone is at rest. Where every brake is, three or four share what two equations tell: nothing is
 /// attributed. `None` where an encoder was named: the recorded angles are not those that the linkage had.
@@ -58,8 +33,9 @@ pub fn held(problem: &Problem, run: &FiveBarRun, selection: &Selection) -> Optio
     let joints = run.parameters.layout.brakes().iter();
     let joints = joints.filter(|joint| {
         let own = terms.iter().filter(|term| is_at(run, term, **joint));
-        let mut own = own.map(|term| term.cause.mechanism);
-        alone.contains(&Some(**joint)) && !own.any(|law| OF_THE_PAST.contains(&law))
+        let mut own = own.filter_map(|term| form(term.cause.mechanism));
+        // Where what a brake holds depends on what it did before, nothing is said of its joint.
+        alone.contains(&Some(**joint)) && !own.any(Form::goes_by_past_current)
     });
     Some(HeldReport {
         joints: joints
@@ -149,7 +125,9 @@ fn reactions(
     }
     let problem = Problem::new(run, windows);
     let windows = &problem.windows;
-    let holds = |term: &Term| is_at(run, term, joint) && HOLDING.contains(&term.cause.mechanism);
+    let holds = |term: &Term| {
+        is_at(run, term, joint) && !matches!(at_rest_of(term.cause.mechanism), AtRest::Nothing)
+    };
     let mut lacking = windows.average(&driving(run, run.forces()));
     add(
         &mut lacking,
@@ -250,25 +228,23 @@ fn holding(
     sum.into_iter().map(|most| most.max(0.0)).collect()
 }
 
-/// The most that a law holds its joint with, sample by sample, N·m: where it goes from one level to another the higher one.
+/// The most that a law holds its joint with, sample by sample, N·m.
 fn level(run: &FiveBarRun, yields: &[f64], law: Mechanism, numbers: &[f64]) -> Vec<f64> {
-    let first = numbers.first().copied().unwrap_or(0.0);
     let times = |signal: &[f64], share: f64| signal.iter().map(|x| share * x).collect();
-    let most = match law {
-        Mechanism::DryOffset | Mechanism::BearingFriction => first,
-        Mechanism::Stribeck | Mechanism::Presliding | Mechanism::Settling => first.max(0.0),
-        Mechanism::AsymmetricPresliding => numbers.iter().copied().fold(0.0, f64::max),
-        // It shifts both breakaway levels.
-        Mechanism::DirectionAsymmetry => numbers.get(1).map_or(0.0, |dry| dry.abs()),
-        Mechanism::GainError => return times(yields, first),
-        Mechanism::ReversalOvershoot => return times(yields, first.max(0.0)),
-        Mechanism::LoadDependent => {
+    match at_rest_of(law) {
+        AtRest::Nothing => vec![0.0; run.len()],
+        AtRest::Dry(most) | AtRest::Level(most) => vec![most(numbers); run.len()],
+        AtRest::OfBrake(share) => times(yields, share(numbers)),
+        AtRest::OfLoad(arm) => {
             let loads: Vec<f64> = run.forces().map(|[x, y]| x.hypot(y)).collect();
-            return times(&loads, first);
+            times(&loads, arm(numbers))
         }
-        _ => 0.0,
-    };
-    vec![most; run.len()]
+    }
+}
+
+/// What a law holds its joint with at rest.
+fn at_rest_of(law: Mechanism) -> AtRest {
+    facts(law).map_or(AtRest::Nothing, |facts| facts.at_rest)
 }
 
 #[cfg(test)]

@@ -2,9 +2,7 @@
 
 use super::run::FiveBarRun;
 use crate::align::Fault;
-
-/// Share of a sample interval by which those of two recordings may differ.
-const SAME_STEP: f64 = 1e-6;
+use crate::rules::SAME_STEP;
 
 /// One run of several recordings in their order, its clock going on from each to the next. No window lies across a seam, and every memory
 /// begins anew with each recording.

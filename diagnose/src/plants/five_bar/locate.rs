@@ -3,13 +3,11 @@
 use super::run::{FiveBarRun, place, place_of};
 use crate::cause::Place;
 use crate::locate::{Cell, Regimes};
+use crate::rules::ON_A;
 use crate::weak::Windows;
 use rigproof_model::effects::Instant;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::units::RAD_S_PER_RPM;
-
-/// Current above which a brake counts as on, A.
-const ON_A: f64 = 0.05;
 
 /// Regimes of each joint and thirds of the recording.
 pub fn regimes(run: &FiveBarRun, windows: &Windows) -> Regimes {

@@ -6,13 +6,9 @@ use super::from_rig::nominal_yields;
 use super::run::{FiveBarRun, place};
 use crate::align::Fault;
 use crate::problem::{Problem, less};
+use crate::rules::{READING_LEFT, READING_ODD};
 use crate::select::usable_rms;
 use rigproof_spec::joint::Joint;
-
-/// What another reading must leave of the unexplained effort to be believed. With the right sign turning a component adds twice its effort.
-const LEFT: f64 = 0.5;
-/// Share of the effort that must stay unexplained before brakes are asked whether they got each other's current.
-const ODD: f64 = 0.2;
 
 /// # Errors
 /// The model balances the recording far better when channels are read in another way.
@@ -75,7 +71,7 @@ fn force(run: &FiveBarRun, problem: &Problem, own: f64) -> Result<(), Fault> {
         (left(problem, &driving, &problem.known), reading)
     });
     match readings.min_by(|(a, _), (b, _)| a.total_cmp(b)) {
-        Some((other, reading)) if other < LEFT * own => {
+        Some((other, reading)) if other < READING_LEFT * own => {
             let Reading {
                 channel, how, cure, ..
             } = reading;
@@ -91,7 +87,7 @@ fn force(run: &FiveBarRun, problem: &Problem, own: f64) -> Result<(), Fault> {
 /// The currents in another order, where much stays unexplained.
 fn currents(run: &FiveBarRun, problem: &Problem, own: f64, driving: &[f64]) -> Result<(), Fault> {
     let size = usable_rms(problem, &problem.windows.average(driving));
-    if own < ODD * size {
+    if own < READING_ODD * size {
         return Ok(());
     }
     let brakes = run.parameters.layout.brakes();
@@ -105,7 +101,7 @@ fn currents(run: &FiveBarRun, problem: &Problem, own: f64, driving: &[f64]) -> R
         })
         .min_by(|(a, _), (b, _)| a.total_cmp(b));
     match best {
-        Some((other, order)) if other < LEFT * own => {
+        Some((other, order)) if other < READING_LEFT * own => {
             let letters = |joints: &[Joint]| {
                 joints
                     .iter()

@@ -215,6 +215,8 @@ fn every_mechanism_does_along_a_motion_what_its_column_says() {
         (at(ConstantBias, Joint::C, &[-0.113]), None),
         (at(Viscous, Joint::A, &[0.077]), None),
         (at(Viscous, Joint::E, &[0.077]), Some(0.43)),
+        (at(VelocityPower, Joint::E, &[0.137, 0.5]), None),
+        (at(VelocityPower, Joint::A, &[0.31, 2.0]), Some(0.43)),
         (at(GainError, Joint::B, &[0.17]), None),
         (at(DirectionAsymmetry, Joint::E, &[0.031, 0.071]), None),
         (at(Stribeck, Joint::A, &[0.23, 0.37, 1.3]), None),

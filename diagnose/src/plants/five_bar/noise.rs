@@ -2,15 +2,13 @@
 
 use super::run::{FiveBarRun, stacked};
 use crate::filter::rms;
+use crate::rules::MOST_UNTOLD;
 use crate::weak::{Windows, is_recorded, overlap};
 use crate::whiten::Whitener;
 use nalgebra::{Matrix2, Vector2};
 use rigproof_model::effects::Instant;
 use rigproof_spec::joint::Joint;
 use std::sync::OnceLock;
-
-/// What the brakes may do where the sense of motion cannot be told, in floors.
-const MOST_UNTOLD: f64 = 0.5;
 
 /// Gives up the rows whose window holds a missing sample, or in which a joint's brake cannot be told: it could do more than
 /// half the floor where its joint's sense is not known (a reversal, a joint at rest or held: what a held brake transmits is no

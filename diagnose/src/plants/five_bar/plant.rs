@@ -1,6 +1,8 @@
 //! This file is the five-bar by its description.
 
 use super::experiment;
+use super::free_run::{Model, simulated};
+use super::from_rig::aligned;
 use super::held::held;
 use super::joined::joined;
 use super::mapping;
@@ -11,7 +13,9 @@ use super::undone::{described, left, undone_first};
 use crate::align::Fault;
 use crate::diagnose::write::Stand;
 use crate::evidence::{Intervals, Rivals};
-use crate::plant::{At, Described, Plant, Replayed, Replica};
+use crate::plant::{
+    At, Described, Plant, Replayed, Replica, Simulated, SimulatedOutput, Unsimulated,
+};
 use crate::problem::{NominalEffect, Problem};
 use crate::report::{FitReport, HeldReport, Horizon, NextExperiment};
 use crate::select::Selection;
@@ -19,7 +23,7 @@ use crate::sensor::sensed;
 use rand_pcg::Pcg64Mcg;
 use rigproof_trace::csv::{Dialect, Hints};
 use rigproof_trace::rig::RigEffect;
-use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording};
+use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording, layout_name};
 use rigproof_trace::{Trace, TraceError};
 use std::path::Path;
 
@@ -130,11 +134,15 @@ impl Described for FiveBar {
         self.apply(trace, origin)
     }
 
+    fn in_units(&self, units: &[(String, String)]) -> Result<FiveBar, String> {
+        self.with_column_units(units)
+    }
+
     fn read_csv(
         &self,
         file: &Path,
         hints: &Hints,
-    ) -> Result<(FiveBarRecording, Dialect), TraceError> {
+    ) -> Result<(FiveBarRecording, Dialect, Vec<String>), TraceError> {
         self.read_text(file, hints)
     }
 
@@ -175,6 +183,45 @@ impl Described for FiveBar {
 
     fn replay(&self, after: &FiveBar, recording: &FiveBarRecording) -> Option<Replayed> {
         replayed(self, after, recording)
+    }
+
+    fn simulated(
+        &self,
+        model: &FiveBar,
+        recording: &FiveBarRecording,
+        restart_s: f64,
+    ) -> Result<Simulated, Unsimulated> {
+        let run = aligned(self, recording).map_err(Unsimulated::Recording)?;
+        let own = simulated(&Model::of(model), &run, restart_s)
+            .map_err(|error| Unsimulated::Model(error.to_string()))?;
+        let output = |name, unit: &str, recorded, simulated| SimulatedOutput {
+            name,
+            unit: unit.to_owned(),
+            recorded,
+            simulated,
+            counts: run.recorded.clone(),
+        };
+        let ([a, b], [recorded_a, recorded_b]) = (own.theta_rad, own.recorded_rad);
+        let times = 0..run.len();
+        Ok(Simulated {
+            time_s: times.map(|k| run.start_s + k as f64 * run.step_s).collect(),
+            outputs: vec![
+                output("theta_a", "rad", Some(recorded_a), a),
+                output("theta_b", "rad", Some(recorded_b), b),
+                output("tip", "m", None, own.tip_off_m),
+            ],
+            runs: Some([own.runs, own.broken_off]),
+        })
+    }
+
+    fn refuses(&self, calibration: Option<&FiveBar>) -> Option<String> {
+        let is_own = calibration.is_some_and(|other| other.layout == self.layout);
+        (!is_own).then(|| {
+            format!(
+                "the rig is a five-bar, {}, the calibration is of another one; give the calibration of this rig",
+                layout_name(self.layout)
+            )
+        })
     }
 
     fn without_found(&self, calibration: &FiveBar) -> FiveBar {

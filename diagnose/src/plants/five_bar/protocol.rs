@@ -1,6 +1,6 @@
 //! This file says how a five-bar's diagnosis was made, line by line.
 
-use crate::diagnose::words::filled_in;
+use crate::diagnose::words::{filled_in, together};
 use crate::diagnose::write::Stand;
 use rigproof_trace::rig::five_bar::FiveBar;
 
@@ -18,7 +18,7 @@ impl Stand<'_, FiveBar> {
         let (single, all) = (rows().filter(|(_, c)| c.is_some()).count(), rows().count());
         let whole = (all - single) / windows.outputs;
         let gates = self.options.gates;
-        let mut lines: Vec<String> = self.together().into_iter().collect();
+        let mut lines: Vec<String> = together(&self.train.parts).into_iter().collect();
         lines.extend([
             format!(
                 "fitted part: {} samples at {:.1} Hz, {:.3} s; held-out part: {} samples{}",
@@ -54,22 +54,5 @@ impl Stand<'_, FiveBar> {
         ]);
         lines.extend(filled_in(&self.train.recorded));
         lines
-    }
-
-    /// How several recordings stand together.
-    fn together(&self) -> Option<String> {
-        let parts = &self.train.parts;
-        let mut ends_s = 0.0;
-        let ends = parts.iter().map(|part| {
-            ends_s += part.len() as f64 * part.step_s;
-            format!("{ends_s:.3}")
-        });
-        let ends = ends.collect::<Vec<_>>().join(", ");
-        (!parts.is_empty()).then(|| {
-            format!(
-                "{} recordings one after another on one clock, which end at {ends} s; every memory begins anew with each",
-                parts.len()
-            )
-        })
     }
 }

@@ -5,7 +5,7 @@ use super::{candidates, columns, locate, noise};
 use crate::cause::{Cause, JointId, Place};
 use crate::locate::Regimes;
 use crate::plant::{Clock, Columns, Rules, Run};
-use crate::unknown::Variable;
+use crate::rules::{QUIET_NM, WIDTHS_S};
 use crate::weak::Windows;
 use crate::whiten::Whitener;
 use nalgebra::{Matrix2, Vector2};
@@ -297,11 +297,6 @@ pub fn inertial(run: &FiveBarRun, forms: &[TwoCoordinate]) -> Vec<f64> {
     }))
 }
 
-/// The widths of windows that are tried, s; the last is taken when no narrower one is quiet enough.
-const WIDTHS_S: [f64; 3] = [0.040, 0.080, 0.160];
-/// A width is quiet enough when the floor is below this, N·m: contributions of 0.01 N·m are to be seen in a few windows.
-const QUIET_NM: f64 = 0.0075;
-
 impl Run for FiveBarRun {
     fn clock(&self) -> Clock {
         Clock {
@@ -334,8 +329,8 @@ impl Run for FiveBarRun {
         &Rules::LINKAGE
     }
 
-    fn slice(&self, from: usize, to: usize) -> Box<dyn Run> {
-        Box::new(self.part(from, to))
+    fn slice(&self, from: usize, to: usize) -> Option<Box<dyn Run>> {
+        Some(Box::new(self.part(from, to)))
     }
 
     fn effort(&self) -> Vec<f64> {
@@ -466,7 +461,18 @@ impl Run for FiveBarRun {
         locate::regimes(self, windows)
     }
 
-    fn variables(&self, _: &Windows) -> Vec<Variable> {
-        Vec::new()
+    /// The joint's row of the form at each window's centre, as the row combines both equations.
+    fn shares(&self, at: Place, windows: &Windows) -> Vec<f64> {
+        let Some(joint) = joint_at(at) else {
+            return vec![0.0; windows.centres.len()];
+        };
+        let all: Vec<[f64; 2]> = self.joint_rows(joint).collect();
+        let rows = windows.centres.iter().enumerate();
+        rows.map(|(row, &centre)| {
+            let own = all.get(centre).copied().unwrap_or_default();
+            let shares = windows.shares(row);
+            own.iter().zip(&shares).map(|(g, share)| g * share).sum()
+        })
+        .collect()
     }
 }

@@ -1,13 +1,7 @@
 //! This file takes the sense from a joint that may stop and go: slow, while brakes are switched.
 
+use crate::rules::{STOP_S, SWITCHED_A, SWITCHED_S};
 use rigproof_model::effects::Instant;
-
-/// Half the stretch of time over which a slow joint must have moved for its sense to be known while brakes are switched, s.
-const STOP_S: f64 = 0.003;
-/// How long before and after a current has changed its brake counts as switched, s.
-const SWITCHED_S: f64 = 0.025;
-/// Change of a current within that time that may stop a joint or let it go, A.
-const SWITCHED_A: f64 = 0.02;
 
 /// Whether a brake's current changes around each sample.
 pub fn switched(currents: &[Option<Vec<f64>>; 4], step_s: f64, count: usize) -> Vec<bool> {

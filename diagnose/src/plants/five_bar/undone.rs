@@ -5,6 +5,7 @@ use super::from_rig::{aligned, nominal, realigned};
 use super::run::FiveBarRun;
 use crate::align::Fault;
 use crate::problem::NominalEffect;
+use rigproof_model::effects::{Form, form};
 use rigproof_model::error::ModelError;
 use rigproof_spec::effect::Mechanism;
 use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording, JointEffect};
@@ -15,11 +16,8 @@ pub fn undone_first(rig: &FiveBar) -> (Vec<JointEffect>, Vec<JointEffect>) {
     effects.partition(|own| is_of_encoder(own.effect.mechanism))
 }
 
-const fn is_of_encoder(mechanism: Mechanism) -> bool {
-    matches!(
-        mechanism,
-        Mechanism::EncoderScale | Mechanism::EncoderOffset
-    )
+fn is_of_encoder(mechanism: Mechanism) -> bool {
+    form(mechanism).is_some_and(Form::is_of_encoder)
 }
 
 /// What the nominal model has beyond the thesis's when the encoders are undone.

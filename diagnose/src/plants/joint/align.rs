@@ -8,6 +8,7 @@ use crate::align::{
     median_step, quiet_cutoff_hz, regular_count, resample, smallest_step, smoothed_motion,
 };
 use crate::doubt::Smoothing;
+use crate::rules::{MOST_GIVEN, STILL_QUANTA, STILL_SIGMAS};
 use rigproof_spec::effect::Motion;
 
 /// What stage 0 takes: the plant's roles in SI units, NaN where nothing was recorded.
@@ -83,7 +84,7 @@ pub fn align(signals: &Signals) -> Result<JointRun, Fault> {
         &mut motion,
         &position,
         step_s,
-        (2.0 * quantum).max(6.0 * position_noise),
+        (STILL_QUANTA * quantum).max(STILL_SIGMAS * position_noise),
     );
     if signals.plant == PlantKind::Axis {
         forget_sense_at_reversals(&mut motion);
@@ -143,7 +144,7 @@ fn check_sign(run: &JointRun) -> Result<(), Fault> {
         power += now.speed * (effort - mean);
         size += (now.speed * (effort - mean)).abs();
     }
-    if power < -0.2 * size {
+    if power < -MOST_GIVEN * size {
         return Err(Fault {
             channel: "effort",
             from_s: 0.0,

@@ -2,10 +2,10 @@
 
 use super::run::{JointRun, PlantKind};
 use crate::filter::gradient;
-use crate::plant::{Columns, Run};
+use crate::plant::{self, Columns, Run};
 use crate::problem::{add, less};
 use crate::signals::{
-    USUAL_SHARE, lagged_yield, numerov, second_difference, shifted, through_play, unit_parameters,
+    USUAL_SHARE, lagged_yield, numerov, second_difference, shifted, through_play,
 };
 use rigproof_model::bench::column;
 use rigproof_model::effects::{
@@ -19,13 +19,8 @@ pub fn resistances(run: &JointRun, mechanism: Mechanism, shape: &[f64]) -> Optio
     if is_of_brake(mechanism) {
         return Some(vec![of_brake(run, mechanism, shape)?]);
     }
-    let entry = entry(mechanism)?;
-    unit_parameters(entry.linear, shape)
-        .map(|parameters| {
-            let law = law(mechanism, &parameters)?;
-            Some(seen(run, column(law.as_ref(), &run.motion, run.step_s)))
-        })
-        .collect()
+    let own = plant::resistances(&run.motion, run.step_s, mechanism, shape)?;
+    Some(own.into_iter().map(|signal| seen(run, signal)).collect())
 }
 
 /// Whether a mechanism is something that a brake does with its current or its torque.

@@ -4,11 +4,10 @@ use crate::filter::rms;
 use crate::plants::joint::refit::{Free, error_rms, refit};
 use crate::plants::joint::run::{JointRun, PlantKind};
 use crate::plants::joint::simulate::{Effect, Model, Protocol, predict};
-use rigproof_model::effects::entry;
+pub use crate::rules::HORIZONS_S;
+use crate::rules::{DRIFT_SHARE, HORIZON_STARTS};
+use rigproof_model::effects::{entry, facts};
 use rigproof_spec::effect::Mechanism;
-
-/// Share of the free run's squared error that a slow drift must take away on the fitted part to be named.
-const DRIFT_SHARE: f64 = 0.5;
 
 /// Which numbers of a plant the refit may move: those of effects that are not known, and the inertia if unknown.
 ///
@@ -46,12 +45,8 @@ fn free_numbers(plant: &Model, inertia_free: bool, known: &[bool], shapes: bool)
 
 /// The largest leading coefficient among the efforts of the plant: what "small" is measured against.
 fn leading_size(plant: &Model) -> f64 {
-    let efforts = plant.effects.iter().filter(|e| {
-        matches!(
-            e.mechanism,
-            Mechanism::DryOffset | Mechanism::ConstantBias | Mechanism::Presliding
-        )
-    });
+    let leads = |mechanism| facts(mechanism).is_some_and(|facts| facts.refit.leads);
+    let efforts = plant.effects.iter().filter(|e| leads(e.mechanism));
     efforts
         .filter_map(|e| e.parameters.first())
         .map(|p| p.abs())
@@ -59,18 +54,8 @@ fn leading_size(plant: &Model) -> f64 {
 }
 
 fn size_of(effect: &Effect, parameter: usize, effort: f64) -> f64 {
-    match (effect.mechanism, parameter) {
-        (
-            Mechanism::DryOffset
-            | Mechanism::ConstantBias
-            | Mechanism::Presliding
-            | Mechanism::Ripple,
-            _,
-        ) => effort,
-        (Mechanism::DirectionAsymmetry, 1) => effort,
-        (Mechanism::BiasDrift, _) => 0.1 * effort,
-        _ => 0.0,
-    }
+    let sizes = facts(effect.mechanism).map_or(&[][..], |facts| facts.refit.sizes);
+    sizes.get(parameter).map_or(0.0, |size| size * effort)
 }
 
 /// A refitted plant, and whether a slow drift had to be taken in.
@@ -149,11 +134,6 @@ fn staged(
     }
 }
 
-/// Horizons at which the error is shown, s.
-pub const HORIZONS_S: [f64; 4] = [0.01, 0.05, 0.2, 1.0];
-/// Starts of a horizon figure.
-const STARTS: usize = 60;
-
 /// Root-mean-square position error after a horizon, over starts spread along the recording; `None` on a bench or
 /// when the recording is too short.
 pub fn horizon_error(
@@ -163,11 +143,11 @@ pub fn horizon_error(
     horizon_s: f64,
 ) -> Option<f64> {
     let count = (horizon_s / run.step_s).round() as usize;
-    if run.plant == PlantKind::Bench || count == 0 || run.len() < 2 * count + STARTS {
+    if run.plant == PlantKind::Bench || count == 0 || run.len() < 2 * count + HORIZON_STARTS {
         return None;
     }
-    let stride = (run.len() - count - 1) / STARTS;
-    let errors: Vec<f64> = (0..STARTS)
+    let stride = (run.len() - count - 1) / HORIZON_STARTS;
+    let errors: Vec<f64> = (0..HORIZON_STARTS)
         .filter_map(|k| {
             let first = k * stride;
             let reached = predict(plant, run, first, count, protocol)?;

@@ -7,10 +7,8 @@ use crate::cause::Cause;
 use crate::plants::joint::run::{JointRun, PlantKind};
 use crate::plants::joint::simulate::{Effect, Interpolation, Model, Protocol};
 use crate::problem::NominalEffect;
+use crate::rules::STILL_NOISES;
 use rigproof_trace::rig::{Drive, Plant as RigPlant, Recording, Rig, Status};
-
-/// Travel within which a shaft that turns back may also stand, in deviations of its noise: two counts.
-const STILL_NOISES: f64 = 7.0;
 
 /// Aligns a recording of a rig.
 ///

@@ -3,10 +3,8 @@
 use super::run::JointRun;
 use crate::align::Fault;
 use crate::plant::Columns;
+use crate::rules::SAME_STEP;
 use core::ops::Range;
-
-/// Share of a sample interval by which those of two recordings may differ.
-const SAME_STEP: f64 = 1e-6;
 
 /// One run of several recordings in their order, its clock going on from each to the next. No window lies across a seam, and every memory
 /// begins anew with each recording.

@@ -6,6 +6,7 @@ use super::run::JointRun;
 use crate::align::Fault;
 use crate::evidence::coefficients_by_term;
 use crate::problem::Problem;
+use crate::rules::ANOTHER_UNIT;
 use crate::select::{Selection, refs};
 use rigproof_spec::effect::Mechanism;
 use rigproof_trace::rig::Rig;
@@ -26,9 +27,6 @@ pub fn without_brake(rig: &Rig, run: &JointRun) -> Option<Fault> {
         ),
     })
 }
-
-/// A gain that is wrong by more than this factor is no physics: a unit is.
-const ANOTHER_UNIT: f64 = 5.0;
 
 /// A gain error of more than the whole gain is a channel with the wrong sign; a gain of another size is no physics.
 pub fn another_drive(problem: &Problem, selection: &Selection) -> Option<Fault> {

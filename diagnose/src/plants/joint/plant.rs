@@ -3,21 +3,22 @@
 use super::inverse::{self, CUTOFF_HZ, DECIMATION, FILTER_ORDER};
 use super::joined::joined;
 use super::mistaken::{another_drive, without_brake};
-use super::run::JointRun;
+use super::run::{JointRun, PlantKind};
+use super::simulate::output;
 use super::write_rig::{calibrated, nominal_numbers};
 use super::{from_rig, replica};
 use crate::align::Fault;
 use crate::diagnose::write::Stand;
 use crate::evidence::Intervals;
-use crate::plant::{At, Described, Plant, Replica, Shown};
+use crate::plant::{At, Described, Plant, Replica, Shown, Simulated, SimulatedOutput, Unsimulated};
 use crate::problem::{NominalEffect, Problem};
 use crate::report::{FitReport, InverseReport, Number};
 use crate::select::Selection;
 use crate::sensor::sensed;
 use rand_pcg::Pcg64Mcg;
-use rigproof_spec::effect::Mechanism;
+use rigproof_spec::effect::{Mechanism, Quantity};
 use rigproof_trace::csv::{Dialect, Hints};
-use rigproof_trace::rig::{Recording, Rig, RigEffect};
+use rigproof_trace::rig::{Recording, Rig, RigEffect, motion_name};
 use rigproof_trace::{Trace, TraceError};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -129,7 +130,15 @@ impl Described for Rig {
         self.apply(trace, origin)
     }
 
-    fn read_csv(&self, file: &Path, hints: &Hints) -> Result<(Recording, Dialect), TraceError> {
+    fn in_units(&self, units: &[(String, String)]) -> Result<Rig, String> {
+        self.with_column_units(units)
+    }
+
+    fn read_csv(
+        &self,
+        file: &Path,
+        hints: &Hints,
+    ) -> Result<(Recording, Dialect, Vec<String>), TraceError> {
         self.read_text(file, hints)
     }
 
@@ -161,6 +170,54 @@ impl Described for Rig {
             *signal = sensed(signal, effort, random);
         }
         out
+    }
+
+    fn simulated(
+        &self,
+        model: &Rig,
+        recording: &Recording,
+        _: f64,
+    ) -> Result<Simulated, Unsimulated> {
+        let run = from_rig::aligned(model, recording).map_err(Unsimulated::Recording)?;
+        let protocol = from_rig::protocol(model);
+        let (name, recorded, quantity, start) = match run.plant {
+            // What gave the start state does not count.
+            PlantKind::Axis if protocol.warm_up_periods == 0 => (
+                "position",
+                &run.position,
+                Quantity::Travel,
+                protocol.start_samples,
+            ),
+            PlantKind::Axis => ("position", &run.position, Quantity::Travel, 0),
+            PlantKind::Bench => ("effort", &run.effort, Quantity::Effort, 0),
+        };
+        let was = run.recorded.iter().enumerate();
+        let output = SimulatedOutput {
+            name,
+            unit: quantity.dimension(model.motion).to_string(),
+            recorded: Some(recorded.clone()),
+            simulated: output(&from_rig::plant(model), &run, &protocol),
+            counts: was.map(|(k, was)| *was && k >= start).collect(),
+        };
+        let times = 0..run.len();
+        Ok(Simulated {
+            time_s: times.map(|k| run.start_s + k as f64 * run.step_s).collect(),
+            outputs: vec![output],
+            runs: None,
+        })
+    }
+
+    fn refuses(&self, calibration: Option<&Rig>) -> Option<String> {
+        let of = |rig: &Rig| format!("{} {}", motion_name(rig.motion), rig.plant.name());
+        let other = match calibration {
+            Some(other) if (other.plant, other.motion) == (self.plant, self.motion) => return None,
+            Some(other) => format!("a {}", of(other)),
+            None => "another plant".to_owned(),
+        };
+        Some(format!(
+            "the calibration is of {other}, the rig is a {}; give the calibration of this rig",
+            of(self)
+        ))
     }
 
     fn without_found(&self, calibration: &Rig) -> Rig {

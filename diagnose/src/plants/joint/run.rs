@@ -10,10 +10,14 @@ use crate::filter::rms;
 use crate::locate::{self, Regimes};
 use crate::plant::{Clock, Columns, Run};
 use crate::problem::{NominalEffect, add};
+use crate::rules::{
+    LEAST_STEPS_AXIS, LEAST_STEPS_BENCH, MOST_AMBIGUOUS, MOST_UNTOLD, PERIODS_A_WIDTH, QUIET,
+    WIDTHS_S,
+};
 use crate::signals::second_difference;
-use crate::weak::{MOST_AMBIGUOUS, Windows, is_recorded, untold};
+use crate::weak::{Windows, is_recorded, untold};
 use rigproof_model::brake::Brake;
-use rigproof_model::effects::Instant;
+use rigproof_model::effects::{Instant, facts};
 use rigproof_spec::effect::{Mechanism, Motion};
 use rigproof_spec::tables::BrakeTable;
 
@@ -172,23 +176,16 @@ impl JointRun {
     pub fn width_s(&self) -> f64 {
         let scale = rms(&self.effort);
         let quiet = |width_s: &f64| self.floor(&self.all_windows(*width_s)) <= QUIET * scale;
-        let fast_s = 2.0 / band_hz(&self.effort, self.step_s);
+        let fast_s = PERIODS_A_WIDTH / band_hz(&self.effort, self.step_s);
         if self.plant == PlantKind::Bench {
-            return WIDTHS_S[0].min(fast_s).max(5.0 * self.step_s);
+            return WIDTHS_S[0].min(fast_s).max(LEAST_STEPS_BENCH * self.step_s);
         }
         // An effort may be fast because it holds the noise of the position: a narrow window has to be quiet too.
-        let narrow_s = WIDTHS_S[0].min(fast_s).max(8.0 * self.step_s);
+        let narrow_s = WIDTHS_S[0].min(fast_s).max(LEAST_STEPS_AXIS * self.step_s);
         let widths_s = [narrow_s].into_iter().chain(WIDTHS_S);
         widths_s.clone().find(quiet).unwrap_or(WIDTHS_S[2])
     }
 }
-
-/// The widths that are tried, s; the last is taken when no narrower one is quiet enough.
-const WIDTHS_S: [f64; 3] = [0.040, 0.080, 0.160];
-/// A width is quiet enough when the floor is below this share of the effort.
-const QUIET: f64 = 0.003;
-/// What a friction as large as the whole effort may do where the sense of motion cannot be told, in floors.
-const MOST_UNTOLD: f64 = 0.5;
 
 impl Run for JointRun {
     fn clock(&self) -> Clock {
@@ -207,8 +204,8 @@ impl Run for JointRun {
         self.kind
     }
 
-    fn slice(&self, from: usize, to: usize) -> Box<dyn Run> {
-        Box::new(self.part(from, to))
+    fn slice(&self, from: usize, to: usize) -> Option<Box<dyn Run>> {
+        Some(Box::new(self.part(from, to)))
     }
 
     fn effort(&self) -> Vec<f64> {
@@ -314,11 +311,7 @@ impl Run for JointRun {
 
     /// A constant that changes no sign with the motion is a bias or a direction asymmetry.
     fn twin(&self, cause: Cause) -> Option<Cause> {
-        match cause.mechanism {
-            Mechanism::ConstantBias => Some(Cause::of(Mechanism::DirectionAsymmetry)),
-            Mechanism::DirectionAsymmetry => Some(Cause::of(Mechanism::ConstantBias)),
-            _ => None,
-        }
+        facts(cause.mechanism)?.twin.map(Cause::of)
     }
 
     fn brake(&self) -> Option<(&[f64], &[f64])> {

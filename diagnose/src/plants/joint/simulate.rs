@@ -6,7 +6,7 @@ use crate::plants::joint::run::{JointRun, PlantKind};
 use crate::signals::{lagged_yield, shifted};
 use rigproof_model::axis::Axis;
 use rigproof_model::bench::resistance;
-use rigproof_model::effects::{Instant, Law, first_order_lag, law};
+use rigproof_model::effects::{Drive, Form, Instant, Law, first_order_lag, form, law};
 use rigproof_spec::effect::Mechanism;
 use rustfft::{FftPlannerScalar, num_complex::Complex64};
 
@@ -155,11 +155,14 @@ fn driven(plant: &Model, effort: &[f64], run: &JointRun) -> Vec<f64> {
     let mut out = effort.to_vec();
     for effect in &plant.effects {
         let value = effect.parameters.first().copied().unwrap_or(0.0);
-        let changed = match effect.mechanism {
-            Mechanism::GainError => out.iter().map(|e| e * (1.0 + value)).collect(),
-            Mechanism::ChannelSkew => shifted(&out, -value / step_s),
-            Mechanism::Lag => first_order_lag(&out, step_s, value),
-            _ => continue,
+        let Some(change) = drive_of(effect) else {
+            continue;
+        };
+        let changed = match change {
+            Drive::Gain => out.iter().map(|e| e * (1.0 + value)).collect(),
+            Drive::Skew => shifted(&out, -value / step_s),
+            Drive::Lag => first_order_lag(&out, step_s, value),
+            Drive::Limit => out.iter().map(|e| e.min(value).max(-value)).collect(),
         };
         let first = effect.onset_s.map_or(0, |t| run.clock().sample_at(t));
         for (o, c) in out.iter_mut().zip(changed).skip(first) {
@@ -169,11 +172,20 @@ fn driven(plant: &Model, effort: &[f64], run: &JointRun) -> Vec<f64> {
     out
 }
 
-fn bench(plant: &Model, run: &JointRun) -> Vec<f64> {
-    let value = |mechanism: Mechanism| {
-        let effect = plant.effects.iter().find(|e| e.mechanism == mechanism);
-        effect.and_then(|e| e.parameters.first().copied())
+/// The change of the drive that an effect is.
+fn drive_of(effect: &Effect) -> Option<Drive> {
+    let Form::Drive(change) = form(effect.mechanism)? else {
+        return None;
     };
+    Some(change)
+}
+
+fn bench(plant: &Model, run: &JointRun) -> Vec<f64> {
+    let change = |own: Drive| {
+        let mut effects = plant.effects.iter();
+        effects.find(|e| drive_of(e) == Some(own))
+    };
+    let value = |own: Drive| change(own).and_then(|e| e.parameters.first().copied());
     let mut effort = resistance(&laws(plant), &run.motion, run.step_s);
     for effect in plant.effects.iter().filter(|e| is_of_brake(e.mechanism)) {
         let [coefficient, shape @ ..] = effect.parameters.as_slice() else {
@@ -185,13 +197,12 @@ fn bench(plant: &Model, run: &JointRun) -> Vec<f64> {
             *e += coefficient * s;
         }
     }
-    let mut on_sum = vec![Mechanism::ChannelSkew, Mechanism::Lag];
+    let mut on_sum = vec![Drive::Skew, Drive::Lag];
     if let Some(predicted) = &run.predicted {
         let mut predicted = predicted.clone();
         // The yield of a brake lags; anything else lags as a whole, below.
-        if let (Some(time_constant_s), Some(_)) = (value(Mechanism::Lag), &run.current) {
-            let onset = plant.effects.iter().find(|e| e.mechanism == Mechanism::Lag);
-            let first = onset
+        if let (Some(time_constant_s), Some(_)) = (value(Drive::Lag), &run.current) {
+            let first = change(Drive::Lag)
                 .and_then(|e| e.onset_s)
                 .map_or(0, |t| run.clock().sample_at(t));
             let lagged = lagged_yield(&predicted, run.step_s, time_constant_s);
@@ -200,7 +211,7 @@ fn bench(plant: &Model, run: &JointRun) -> Vec<f64> {
             }
             on_sum.pop();
         }
-        let gain = 1.0 + value(Mechanism::GainError).unwrap_or(0.0);
+        let gain = 1.0 + value(Drive::Gain).unwrap_or(0.0);
         for (e, p) in effort.iter_mut().zip(predicted) {
             *e += gain * p;
         }
@@ -210,7 +221,7 @@ fn bench(plant: &Model, run: &JointRun) -> Vec<f64> {
         effects: plant
             .effects
             .iter()
-            .filter(|e| on_sum.contains(&e.mechanism))
+            .filter(|e| drive_of(e).is_some_and(|own| on_sum.contains(&own)))
             .cloned()
             .collect(),
     };

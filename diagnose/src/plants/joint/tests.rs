@@ -156,3 +156,19 @@ fn rig_with_gain_known() -> Rig {
     );
     rig("axis", &rest)
 }
+
+#[test]
+fn recordings_of_an_axis_are_diagnosed_together() {
+    let rig = axis();
+    let laws = [NOMINAL, &[DRY]].concat();
+    let exact = exact_axis(&laws, 15_300, true);
+    let halves = [exact.part(0, 7_600), exact.part(7_600, 15_300)];
+    let [one, other] = halves.map(|half| recording(&rig, &half));
+    let found = diagnose(&rig, &[&one, &other], None, &Options::default());
+    assert_eq!(named(&found), ["dry_offset"], "{}", found.report.summary);
+    assert!(found.report.protocol[0].starts_with("2 recordings one after another"));
+    let level = found.report.effects[0].parameters["level"].value;
+    assert!((level / 1.73 - 1.0).abs() < 0.02, "{level} N");
+    let held_out = found.report.fit.unwrap().held_out.unwrap();
+    assert!(held_out.after < 0.1 * held_out.before, "{held_out:?}");
+}

@@ -2,16 +2,17 @@
 
 use super::run::PlantKind;
 use super::simulate::{Interpolation, Protocol};
-use crate::diagnose::words::filled_in;
+use crate::diagnose::words::{filled_in, together};
 use crate::diagnose::write::Stand;
-use crate::whiten::ORDER;
+use crate::rules::NOISE_ORDER;
 use rigproof_trace::rig::Rig;
 
 impl Stand<'_, Rig> {
     pub(crate) fn protocol_lines(&self, protocol: &Protocol) -> Vec<String> {
         let windows = &self.problem.windows;
         let usable = windows.usable.iter().filter(|u| **u).count();
-        let mut lines = vec![
+        let mut lines: Vec<String> = together(&self.train.parts).into_iter().collect();
+        lines.extend([
             format!(
                 "fitted part: {} samples at {:.1} Hz, {:.3} s; held-out part: {} samples{}",
                 self.train.len(),
@@ -31,7 +32,7 @@ impl Stand<'_, Rig> {
                 windows.centres.len()
             ),
             format!(
-                "noise: position {:.3e}, effort {:.3e} (standard deviation of a sample, SI); whitened by an autoregression of order {ORDER} of the noise model",
+                "noise: position {:.3e}, effort {:.3e} (standard deviation of a sample, SI); whitened by an autoregression of order {NOISE_ORDER} of the noise model",
                 self.train.position_noise, self.train.effort_noise
             ),
             format!(
@@ -42,7 +43,7 @@ impl Stand<'_, Rig> {
                 self.problem.rules.own_to_unexplained
             ),
             self.fit_protocol(protocol),
-        ];
+        ]);
         lines.extend(filled_in(&self.train.recorded));
         lines
     }

@@ -32,7 +32,8 @@ fn columns_in_any_order_with_gaps_and_other_units_of_time_are_read() {
     let trace = read_text(text.as_bytes()).unwrap();
     assert!((trace.time_s[3] - 0.09).abs() < 1e-15);
     assert!(trace.channel("force").unwrap().samples[4].is_nan());
-    assert_eq!(trace.channel("t_N").unwrap().unit, "N");
+    let named = trace.channel("t_N").unwrap();
+    assert_eq!((named.unit.as_str(), named.likely_unit()), ("", "N"));
 }
 
 #[test]
@@ -60,7 +61,10 @@ fn every_fault_of_a_file_has_its_place_and_its_remedy() {
         ("t,x\n".into(), "has 0 samples, at least 16"),
         (format!("t,x\n{}", rows(2)), "has 2 samples"),
         (format!("a,b\n{good}"), "line 1: there is no time column"),
-        (good.clone(), "the first line holds numbers"),
+        (
+            good.replace("0.5,", "99.5,"),
+            "the first line holds numbers",
+        ),
         (
             format!("time (m),x\n{good}"),
             "line 1, column 1 `time`: `m` is no unit of time",
@@ -68,14 +72,6 @@ fn every_fault_of_a_file_has_its_place_and_its_remedy() {
         (
             format!("t,t (ms)\n{good}"),
             "column 2 `t`: the name stands over column 1",
-        ),
-        (
-            format!("t,\n{good}"),
-            "line 1, column 2: the column has no name",
-        ),
-        (
-            insert("90,nan"),
-            "line 18, column 2 `x`: `nan` is no finite number",
         ),
         (insert("90,-inf"), "`-inf` is no finite number"),
         (insert("90,1e999"), "`1e999` is no finite number"),
@@ -92,7 +88,7 @@ fn every_fault_of_a_file_has_its_place_and_its_remedy() {
         ),
         (
             insert("15.5,1"),
-            "the time stamp 15.5 s is repeated after 15.5 s",
+            "line 18, column 1 `t`: the time stamp is repeated, and",
         ),
         (
             insert("3,1"),
@@ -112,11 +108,6 @@ fn every_fault_of_a_file_has_its_place_and_its_remedy() {
             "{message}"
         );
     }
-    let message = read_text(b"t,x\n1,\xff\n").unwrap_err();
-    assert!(
-        message.contains("line 2: the line holds bytes that are no UTF-8"),
-        "{message}"
-    );
 }
 
 #[test]

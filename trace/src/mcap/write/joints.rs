@@ -156,7 +156,7 @@ impl Joints {
 /// The channels in units of these kinds.
 fn sources(trace: &Trace, kinds: &[Dimension]) -> Vec<Source> {
     let source = |(channel, content): (usize, &Channel)| {
-        let unit = Unit::parse(&content.unit)?;
+        let unit = Unit::parse(content.likely_unit())?;
         let to_si = unit.to_si;
         kinds
             .contains(&unit.dimension)

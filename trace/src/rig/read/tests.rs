@@ -160,10 +160,11 @@ prop_compose! {
     fn any_channel(unit: &'static str)(
         channel in ".*", offset in number(), scale in number(), sign: bool,
         magnitudes in prop::array::uniform3(prop::option::of(1e-300..1e300_f64)),
+        stated: bool,
     ) -> ChannelMap {
         let [quantum, noise, limit] = magnitudes;
         let (scale, sign) = (if scale == 0.0 { 1.5 } else { scale }, if sign { 1.0 } else { -1.0 });
-        ChannelMap { channel, unit: unit.into(), offset, scale, sign, quantum, noise, limit }
+        ChannelMap { channel, unit: unit.into(), column_unit: stated.then(|| unit.into()), offset, scale, sign, quantum, noise, limit }
     }
 }
 
@@ -223,7 +224,7 @@ prop_compose! {
             plant: Plant::Axis,
             channels: Channels {
                 time: None,
-                position: ChannelMap { unit, ..position },
+                position: ChannelMap { column_unit: position.column_unit.as_ref().map(|_| unit.clone()), unit, ..position },
                 command: Some(command),
                 force: None,
                 current: None,

@@ -1,5 +1,7 @@
 //! This file says what a five-bar can be asked to do: where a hand leads its tip, and which currents its brakes get meanwhile.
 
+use crate::rules::JITTER;
+pub use crate::rules::{DURATION_S, MIDDLE_M, STRONGEST_A};
 use core::f64::consts::TAU;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
@@ -21,13 +23,6 @@ pub struct Plan {
 /// The columns in a file.
 const HAND: [&str; 2] = ["hand_x", "hand_y"];
 const CURRENTS: [&str; 4] = ["current_a", "current_e", "current_b", "current_c"];
-
-/// How long an experiment takes, s.
-pub const DURATION_S: f64 = 12.0;
-/// The greatest current that is asked for, A.
-pub const STRONGEST_A: f64 = 0.6;
-/// About where the hand moves, x and y, m: the middle of what both layouts reach.
-pub const MIDDLE_M: [f64; 2] = [0.02, 0.40];
 
 /// What the hand does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -287,9 +282,6 @@ impl Plan {
         })
     }
 }
-
-/// Share of a step by which a time stamp may be off.
-const JITTER: f64 = 0.01;
 
 fn regular_step(time_s: &[f64]) -> Result<f64, String> {
     let (Some(first), Some(last), true) = (time_s.first(), time_s.last(), time_s.len() > 1) else {

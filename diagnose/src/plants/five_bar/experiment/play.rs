@@ -2,24 +2,20 @@
 
 use super::super::free_run::{Model, parts_of};
 use super::plan::Plan;
+pub(crate) use crate::rules::{DAMPING_NS_M, STIFFNESS_N_M};
 use crate::sensor::normal;
 use crate::signals::shifted;
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::SeedableRng;
+use rigproof_model::effects::{Drive, Form, OfSensor, form};
 use rigproof_model::error::ModelError;
 use rigproof_model::rig::{JointEffect, Rig};
-use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
 use rigproof_spec::methods::greatest_desired_force_n;
 use rigproof_spec::units::{Dimension, Unit};
 use rigproof_trace::rig::Signal;
 use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording};
-
-/// The stiffness with which a hand leads the tip, N/m.
-pub(crate) const STIFFNESS_N_M: f64 = 420.0;
-/// The damping of a hand, N·s/m.
-pub(crate) const DAMPING_NS_M: f64 = 11.0;
 
 /// What is recorded of an experiment, before counts and noise.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -108,29 +104,46 @@ pub fn shown(effect: &JointEffect, played: &mut Played, step_s: f64, first: usiz
     let angle = if effect.joint == Some(Joint::A) { a } else { b };
     let angle = angle.iter_mut().skip(first);
     let [force_x, force_y] = &mut played.force_n;
-    match effect.mechanism {
-        Mechanism::EncoderScale => angle.for_each(|x| *x *= 1.0 + value(0)),
-        Mechanism::EncoderOffset => angle.for_each(|x| *x += value(0)),
-        Mechanism::ChannelSkew => {
+    match form(effect.mechanism) {
+        Some(Form::Sensor(OfSensor::EncoderScale)) => angle.for_each(|x| *x *= 1.0 + value(0)),
+        Some(Form::Sensor(OfSensor::EncoderOffset)) => angle.for_each(|x| *x += value(0)),
+        Some(Form::Drive(Drive::Skew)) => {
             for force in [force_x, force_y] {
                 let late = shifted(force, -value(0) / step_s);
                 let pairs = force.iter_mut().zip(late).skip(first);
                 pairs.for_each(|(f, l)| *f = l);
             }
         }
-        mechanism => {
+        Some(Form::Sensor(
+            own @ (OfSensor::ForceGain | OfSensor::ForceBias | OfSensor::ForceRotation),
+        )) => {
             for (x, y) in force_x.iter_mut().zip(force_y).skip(first) {
-                (*x, *y) = match mechanism {
-                    Mechanism::ForceGain => (*x * (1.0 + value(0)), *y * (1.0 + value(0))),
-                    Mechanism::ForceBias => (*x + value(0), *y + value(1)),
-                    Mechanism::ForceRotation => {
-                        let (sine, cosine) = libm::sincos(value(0));
-                        (cosine * *x - sine * *y, sine * *x + cosine * *y)
-                    }
-                    _ => (*x, *y),
-                };
+                (*x, *y) = force_shown(own, [value(0), value(1)], [*x, *y]);
             }
         }
+        Some(
+            Form::Drive(Drive::Lag | Drive::Gain | Drive::Limit)
+            | Form::Joint(_)
+            | Form::Sensor(OfSensor::Eccentric)
+            | Form::Resistance(_)
+            | Form::ShareOfBrake(_)
+            | Form::Brake(_)
+            | Form::Linkage(_),
+        )
+        | None => {}
+    }
+}
+
+/// The force that a sensor shows.
+fn force_shown(own: OfSensor, [a, b]: [f64; 2], [x, y]: [f64; 2]) -> (f64, f64) {
+    match own {
+        OfSensor::ForceGain => (x * (1.0 + a), y * (1.0 + a)),
+        OfSensor::ForceBias => (x + a, y + b),
+        OfSensor::ForceRotation => {
+            let (sine, cosine) = libm::sincos(a);
+            (cosine * x - sine * y, sine * x + cosine * y)
+        }
+        OfSensor::EncoderScale | OfSensor::EncoderOffset | OfSensor::Eccentric => (x, y),
     }
 }
 

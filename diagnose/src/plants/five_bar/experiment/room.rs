@@ -1,22 +1,17 @@
 //! This file says whether an experiment keeps the arms away from their stops.
 
 use super::play::Played;
+use crate::rules::{LEAST_ROOM_DEG, ROOM_EVERY};
 use rigproof_model::linkage::forward;
 use rigproof_spec::geometry::{Angle, angle_ranges, arms};
 use rigproof_spec::layout::Layout;
 use rigproof_spec::units::RAD_PER_DEG;
 
-/// How far from the ends of its range (table 4.2) an angle stays, degrees: another hand, or a rig that is not quite the model, goes further.
-const LEAST_ROOM_DEG: f64 = 8.0;
-
-/// Samples from one that is looked at to the next.
-const EVERY: usize = 10;
-
 /// Whether every angle stays well within its range.
 pub fn has_room(played: &Played, layout: Layout) -> bool {
     let (arms, ranges) = (arms(layout), angle_ranges(layout));
     let [a, b] = &played.theta_rad;
-    let mut angles = a.iter().zip(b).step_by(EVERY);
+    let mut angles = a.iter().zip(b).step_by(ROOM_EVERY);
     angles.all(|(a, b)| {
         forward::pose(&arms, *a, *b).is_ok_and(|pose| {
             Angle::ALL.into_iter().all(|angle| {
