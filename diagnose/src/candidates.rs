@@ -4,7 +4,7 @@ use crate::cause::Cause;
 use crate::plant::Run;
 use crate::problem::{Problem, Term, add};
 use crate::regression::Fit;
-use crate::rules::{MOST_A_TURN, 
+use crate::rules::{BRISTLE_EXPONENTS, MOST_A_TURN, 
     BENDS_JOINT, EDGE, EFFORT_LIMITS, FASTEST_PEAK, FASTEST_RESONANCE, FEWEST_CYCLES, GAPS,
     LAGS_JOINT, LEAST_BEND, LEAST_BEND_SIGMAS, LEAST_GAP, LEAST_GAP_SIGMAS, LEAST_LAG_STEPS,
     LEAST_SHIFT_STEPS_JOINT, EFFORT_LIMIT_SHARES, MEMORY_COUNT, MEMORY_RATES, MEMORY_RATIOS, MOST_BEND,
@@ -122,6 +122,14 @@ pub fn standard_shapes<R: Run + ?Sized>(
             MOST_BEND * travel,
             BENDS_JOINT,
         )),
+        Shapes::BristleCurve => geometric(
+            (LEAST_BEND_SIGMAS * run.position_noise()).max(LEAST_BEND * travel),
+            MOST_BEND * travel,
+            BENDS_JOINT,
+        )
+            .into_iter()
+            .flat_map(|travel| BRISTLE_EXPONENTS.map(|exponent| vec![travel, exponent]))
+            .collect(),
         Shapes::Memory => {
             let [slowest, fastest] = MEMORY_RATES;
             geometric(slowest / travel, fastest / travel, MEMORY_COUNT)
