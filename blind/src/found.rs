@@ -37,9 +37,12 @@ pub fn found_effects(plant: Plant, report: &Value) -> Result<Vec<Found<'_>>, Err
         .get("effects")
         .and_then(Value::as_array)
         .ok_or(Error::Report("array \"effects\""))?;
-    effects
-        .iter()
-        .enumerate()
+    // What is suspected or possible is offered, not named.
+    let named = effects.iter().enumerate().filter(|(_, effect)| {
+        let status = effect.get("status").and_then(Value::as_str);
+        status.is_none_or(|status| status == "named")
+    });
+    named
         .map(|(index, effect)| {
             let mut alternatives = Vec::new();
             let of_report = report

@@ -105,9 +105,13 @@ pub fn role(mechanism: Mechanism) -> Option<Role> {
             OfBrake::CurrentHysteresis
             | OfBrake::DeadTime
             | OfBrake::Saturation
-            | OfBrake::ThermalFade,
+            | OfBrake::ThermalFade
+            | OfBrake::TimeConstant
+            | OfBrake::CurrentGain,
         )
-        | Form::Linkage(OfLinkage::Load | OfLinkage::Weight)
+        | Form::Linkage(
+            OfLinkage::Load | OfLinkage::Weight | OfLinkage::PlaneSpring | OfLinkage::LinkLength,
+        )
         | Form::Sensor(OfSensor::ForceRotation | OfSensor::Eccentric) => None,
     }
 }

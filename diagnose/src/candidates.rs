@@ -183,7 +183,7 @@ pub fn standard_shapes<R: Run + ?Sized>(
         ))),
         Shapes::CurrentPlay { low, high, count } => one(geometric(low, high, count)),
         // Neither has a meaning where a brake's current is not the plant's own.
-        Shapes::Delay | Shapes::CurrentLimit => vec![vec![]],
+        Shapes::Delay | Shapes::CurrentLimit | Shapes::Anchor => vec![vec![]],
         own @ (Shapes::None
         | Shapes::Values(_)
         | Shapes::Geometric { .. }

@@ -13,6 +13,19 @@ pub enum Place {
     Whole,
     /// One joint of several.
     Joint(JointId),
+    /// Every joint of a kind, with one set of numbers.
+    Every,
+    /// One axis of a sensor.
+    Axis(usize),
+}
+
+/// What the law of a cause is multiplied by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Scales {
+    /// Nothing: its numbers are efforts.
+    Nothing,
+    /// The torque that the brake at its place gives: its numbers are shares.
+    Torque,
 }
 
 /// Something that can be left out: a mechanism, and the place where it acts.
@@ -22,6 +35,8 @@ pub struct Cause {
     pub mechanism: Mechanism,
     /// Where it acts.
     pub at: Place,
+    /// What it scales.
+    pub scales: Scales,
 }
 
 impl Cause {
@@ -32,6 +47,23 @@ impl Cause {
 
     /// A mechanism at a place.
     pub const fn at(mechanism: Mechanism, at: Place) -> Cause {
-        Cause { mechanism, at }
+        Cause {
+            mechanism,
+            at,
+            scales: Scales::Nothing,
+        }
+    }
+
+    /// The same as a share of the torque that the brake gives.
+    pub const fn of_torque(self) -> Cause {
+        Cause {
+            scales: Scales::Torque,
+            ..self
+        }
+    }
+
+    /// Whether it is composed: shared by joints, in proportion to a torque, or of one axis of a sensor.
+    pub const fn is_composed(self) -> bool {
+        matches!(self.at, Place::Every | Place::Axis(_)) || matches!(self.scales, Scales::Torque)
     }
 }

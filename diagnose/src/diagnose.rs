@@ -147,14 +147,17 @@ pub fn diagnose<P: Plant>(
     if let Err(fault) = plant.check_found(&problem, &selection) {
         return faulty(plant, "recording", fault);
     }
-    let mut withdrawn = withdraw(&problem, &mut selection);
+    let mut withdrawn = match explanations {
+        Some(_) => Vec::new(),
+        None => withdraw(&problem, &mut selection),
+    };
     let trials = scattered(&problem, &selection);
     if let Some(trials) = trials.clone() {
         let windows = problem.windows.clone();
         problem = Problem::new(train, windows).within(trials);
         let terms = nominal(plant, &problem).unwrap_or_default();
         (selection, explanations) = named(&mut problem, terms, options);
-        withdrawn = withdraw(&problem, &mut selection);
+        withdrawn = Vec::new();
     }
     Stand {
         plant,
@@ -178,9 +181,6 @@ fn named(
     terms: Vec<Term>,
     options: &Options,
 ) -> (Selection, Option<Explanations>) {
-    if problem.rules.by_family {
-        return (select(problem, terms, options.gates), None);
-    }
     let (selection, explanations) = explain(problem, terms);
     if std::env::var("RP_SHOW").is_ok() {
         for own in &explanations.living {

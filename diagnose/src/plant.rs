@@ -6,7 +6,7 @@ mod rules;
 mod simulated;
 
 use crate::candidates::standard_shapes;
-use crate::cause::{Cause, JointId, Place};
+use crate::cause::{Cause, JointId, Place, Scales};
 use crate::locate::{self, Regimes};
 use crate::rules::{MOST_AMBIGUOUS, NOISE_ORDER, WIDTHS_S};
 use crate::signals::unit_parameters;
@@ -321,12 +321,16 @@ pub trait Run: Debug + Send + Sync {
         }
     }
 
-    /// The name of a cause in reports: `viscous`, `viscous at E`.
+    /// The name of a cause in reports: `viscous`, `viscous at E`, `stribeck of the torque at every brake`.
     fn cause_name(&self, cause: Cause) -> String {
         let mechanism = cause.mechanism.name();
+        let of = match cause.scales {
+            Scales::Nothing => "",
+            Scales::Torque => " of the torque",
+        };
         match self.place_name(cause.at) {
-            Some(place) => format!("{mechanism} at {place}"),
-            None => mechanism.to_owned(),
+            Some(place) => format!("{mechanism}{of} at {place}"),
+            None => format!("{mechanism}{of}"),
         }
     }
 }

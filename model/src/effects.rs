@@ -153,6 +153,10 @@ pub enum OfBrake {
     Saturation,
     /// A torque that falls with heat.
     ThermalFade,
+    /// Other time constants.
+    TimeConstant,
+    /// Another current.
+    CurrentGain,
 }
 
 /// What a linkage has as a whole, or by the force on its tip.
@@ -166,6 +170,10 @@ pub enum OfLinkage {
     Inertias,
     /// A mass at the tip.
     Payload,
+    /// A spring from the tip to the plane.
+    PlaneSpring,
+    /// An arm of another length.
+    LinkLength,
 }
 
 /// What a sensor shows other than what is there.
@@ -248,6 +256,8 @@ pub const LIBRARY: &[Entry] = &[
     brake::DEAD_TIME,
     brake::SATURATION,
     brake::THERMAL_FADE,
+    brake::TIME_CONSTANT,
+    brake::CURRENT_GAIN,
     dry_offset::BEARING,
     linkage::LOAD_DEPENDENT,
     driven::LOAD_FRICTION,
@@ -257,6 +267,8 @@ pub const LIBRARY: &[Entry] = &[
     linkage::GRAVITY,
     linkage::INERTIA_ERROR,
     linkage::PAYLOAD,
+    linkage::PLANE_SPRING,
+    linkage::LINK_LENGTH,
     linkage::ENCODER_SCALE,
     linkage::ENCODER_OFFSET,
     eccentric_encoder::ENTRY,

@@ -89,7 +89,7 @@ vocabulary! {
         needed("beta_delta", PerTravel),
     ],
     /// First-order delay of the commanded effort.
-    Lag = "lag" | "time constant" [needed("time_constant", Time).above_zero()],
+    Lag = "lag" | "slow drive" [needed("time_constant", Time).above_zero()],
     /// Pure delay of the commanded effort.
     DeadTime = "dead_time" | "latency" [needed("delay", Time).above_zero()],
     /// Limited effort.
@@ -159,6 +159,19 @@ vocabulary! {
         needed("travel", Travel).above_zero(),
         needed("exponent", Number).above_zero(),
     ],
+    /// Wrong time constants of a brake.
+    TimeConstant = "time_constant" | "slow brake" [needed("scale", Number).above_zero()],
+    /// An amplifier that gives another current than the commanded one.
+    CurrentGain = "current_gain" | "amplifier gain" [needed("scale", Number).above_zero()],
+    /// A spring from the tip to an anchor in the plane.
+    PlaneSpring = "plane_spring" | "tether" [
+        needed("stiffness", EffortPerTravel),
+        needed("tension", Force),
+        needed("x", Length),
+        needed("y", Length),
+    ],
+    /// An arm of another length than described.
+    LinkLength = "link_length" | "arm length" [needed("more", Length)],
     /// Friction that is missing while a gap is crossed after a reversal.
     Backlash = "backlash" | "play" | "dead zone" [needed("missing", Effort), needed("gap", Travel).above_zero()],
     /// Friction in proportion to the effort that a joint transmits.

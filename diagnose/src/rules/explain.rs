@@ -4,7 +4,9 @@ use super::{DRIVEN, REASON};
 
 rules! {
     /// Share of the effort below which nothing matters to anybody: what a model and its discretisation leave open anyhow.
-    RELEVANT: f64 = 0.003, "share", DRIVEN;
+    RELEVANT: f64 = 0.001, "share", DRIVEN;
+    /// The same as a share of what sensor noise leaves: below it nothing can be told from what the noise model lacks.
+    RELEVANT_NOISE: f64 = 0.7, "share", DRIVEN;
     /// Rows that say as much as one that is independent of all others: what a model leaves is no white noise.
     ROWS_A_SAMPLE: f64 = 2.5, "rows", DRIVEN;
     /// What each number beyond the first costs an explanation, in natural logarithms of odds.

@@ -1,6 +1,6 @@
 //! This file is the rules by which a plant lays its grids of shapes over its own motion. Grids that need no recording stand with the mechanism.
 
-use super::{AXIS_BENCH, BOTH, DRIVEN, FIVE_BAR};
+use super::{AXIS_BENCH, BOTH, DRIVEN, FIVE_BAR, REASON};
 
 rules! {
     /// Share of the upper end of a range from which a shape counts as being at its edge.
@@ -89,6 +89,12 @@ rules! {
     MOST_A_TURN: u32 = 36, "periods", DRIVEN;
     /// Axis and bench: exponents of the curve on which a bristle bends.
     BRISTLE_EXPONENTS: [f64; 3] = [0.5, 1.5, 2.5], "1", DRIVEN;
+    /// Five-bar: a change of an arm's length that is small beside it.
+    SMALL_LENGTH_M: f64 = 0.0005, "m", REASON;
+    /// Five-bar: how far beyond where the tip moved a spring may be anchored, over its travel.
+    ANCHOR_REACH: f64 = 0.7, "share", REASON;
+    /// Five-bar: anchors that are tried along each axis.
+    ANCHORS: usize = 5, "anchors", REASON;
     /// Axis: limits of the drive's effort that are tried.
     EFFORT_LIMITS: usize = 24, "efforts", DRIVEN;
     /// Axis and bench: least width of a gap that is seen to be crossed, in deviations of the noise of the position.

@@ -138,3 +138,59 @@ pub(super) const THERMAL_FADE: Entry = Entry {
         )
     },
 };
+
+pub(super) const TIME_CONSTANT: Entry = Entry {
+    mechanism: Mechanism::TimeConstant,
+    form: Form::Brake(OfBrake::TimeConstant),
+    linear: 0,
+    passive: false,
+    refuted_by: "a torque that follows a step of the current as fast as its table says",
+    equation: "the brake's time constants × scale",
+    facts: Facts {
+        usual: Usual::Common,
+        shapes: Shapes::Geometric {
+            low: 0.4,
+            high: 2.5,
+            count: 9,
+        },
+        ..Facts::of(
+            Family::Brake,
+            Asked {
+                alone: Alone::Never,
+                five_bar: Where::Brakes,
+            },
+            Words {
+                what: "a brake that answers slower or faster than its table says",
+                look_for: "the age of the fluid, its temperature, residual magnetism",
+            },
+        )
+    },
+};
+
+pub(super) const CURRENT_GAIN: Entry = Entry {
+    mechanism: Mechanism::CurrentGain,
+    form: Form::Brake(OfBrake::CurrentGain),
+    linear: 0,
+    passive: false,
+    refuted_by: "the commanded current through the coil",
+    equation: "τ follows scale·I",
+    facts: Facts {
+        usual: Usual::Frequent,
+        shapes: Shapes::Geometric {
+            low: 0.6,
+            high: 1.6,
+            count: 9,
+        },
+        ..Facts::of(
+            Family::Brake,
+            Asked {
+                alone: Alone::Never,
+                five_bar: Where::Brakes,
+            },
+            Words {
+                what: "an amplifier that gives more or less current than it is told",
+                look_for: "the amplifier's scale and offset",
+            },
+        )
+    },
+};

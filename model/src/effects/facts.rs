@@ -206,6 +206,8 @@ pub enum Shapes {
     CurrentLimit,
     /// Efforts below the greatest that was given.
     EffortLimit,
+    /// Anchors in the plane, around where the tip moves.
+    Anchor,
     /// Widths of a gap, shares of the travel.
     Gap,
     /// Resonances and damping ratios.

@@ -1,8 +1,6 @@
 //! This file is what can be wrong with a linkage as a whole: its masses, its weight, the force sensor at its tip.
 
-use super::facts::{
-    Alone, Asked, AtRest, End, Facts, Family, Limit, Shapes, Usual, Where, Words, first,
-};
+use super::facts::{Alone, Asked, AtRest, End, Facts, Family, Limit, Shapes, Usual, Where, Words, first};
 use super::{Entry, Form, OfLinkage, OfSensor};
 use rigproof_spec::effect::Mechanism;
 
@@ -220,6 +218,53 @@ pub(super) const FORCE_ROTATION: Entry = Entry {
             Words {
                 what: "a force sensor that is mounted turned",
                 look_for: "its axes against those of the rig",
+            },
+        )
+    },
+};
+
+pub(super) const PLANE_SPRING: Entry = Entry {
+    mechanism: Mechanism::PlaneSpring,
+    form: Form::Linkage(OfLinkage::PlaneSpring),
+    linear: 2,
+    passive: false,
+    refuted_by: "a tip that stays where it is let go, wherever that is",
+    equation: "(stiffness·r − tension) along r, from the tip to the anchor (x, y)",
+    facts: Facts {
+        usual: Usual::Seldom,
+        shapes: Shapes::Anchor,
+        ..Facts::of(
+            Family::Position,
+            Asked {
+                alone: Alone::Never,
+                five_bar: Where::Whole,
+            },
+            Words {
+                what: "a spring between the tip and the frame",
+                look_for: "a cable, a hose, a counterbalance",
+            },
+        )
+    },
+};
+
+pub(super) const LINK_LENGTH: Entry = Entry {
+    mechanism: Mechanism::LinkLength,
+    form: Form::Linkage(OfLinkage::LinkLength),
+    linear: 1,
+    passive: false,
+    refuted_by: "arms measured between their axes",
+    equation: "an arm is longer by so much",
+    facts: Facts {
+        usual: Usual::Rare,
+        ..Facts::of(
+            Family::Inertia,
+            Asked {
+                alone: Alone::Never,
+                five_bar: Where::Joints,
+            },
+            Words {
+                what: "an arm of another length than described",
+                look_for: "its drawing, a replaced part",
             },
         )
     },

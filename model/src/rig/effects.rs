@@ -127,7 +127,10 @@ fn term(rig: &Rig, effect: &JointEffect) -> Result<Term, ModelError> {
             place: joint()? as usize,
             law: law(&effect.parameters),
         }),
-        Form::Drive(Drive::Skew | Drive::Limit) | Form::Sensor(_) | Form::Joint(_) => {
+        Form::Drive(Drive::Skew | Drive::Limit)
+        | Form::Sensor(_)
+        | Form::Joint(_)
+        | Form::Linkage(OfLinkage::PlaneSpring | OfLinkage::LinkLength) => {
             Err(unknown())
         }
     }
@@ -183,7 +186,12 @@ fn of_brake(effect: &JointEffect, joint: Joint) -> Option<Term> {
         | Form::Resistance(_)
         | Form::Sensor(_)
         | Form::Joint(_)
-        | Form::Linkage(OfLinkage::Weight | OfLinkage::Payload | OfLinkage::Inertias) => {
+        | Form::Linkage(OfLinkage::Weight
+            | OfLinkage::Payload
+            | OfLinkage::Inertias
+            | OfLinkage::PlaneSpring
+            | OfLinkage::LinkLength)
+        | Form::Brake(OfBrake::TimeConstant | OfBrake::CurrentGain) => {
             return None;
         }
     })

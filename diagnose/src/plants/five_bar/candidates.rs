@@ -2,10 +2,10 @@
 
 use super::run::{FiveBarRun, at, joint_at, place};
 use crate::candidates::{both_signs, fastest, geometric, in_numbers, periods, stribeck_shapes};
-use crate::cause::Cause;
+use crate::cause::{Cause, Place};
 use crate::plant::Run;
 use crate::rules::{
-    BENDS_FIVE_BAR, CLOSING_A, DELAYS, DELAYS_RAD, LAGS_FIVE_BAR, LEAST_BEND, LEAST_BEND_SIGMAS,
+    ANCHOR_REACH, ANCHORS,     BENDS_FIVE_BAR, CLOSING_A, DELAYS, DELAYS_RAD, LAGS_FIVE_BAR, LEAST_BEND, LEAST_BEND_SIGMAS,
     LEAST_LAG_STEPS, LEAST_LIMITED_A, LEAST_SHIFT_STEPS_FIVE_BAR, LIMIT_SHARES, LIMITS, MOST_BEND,
     MOST_DELAY_S, MOST_LAG_S_FIVE_BAR, MOST_OF_AN_ENCODER, MOST_SHIFT_S_FIVE_BAR, MOST_SHIFT_STEPS,
     PEAK_EXPONENTS_FIVE_BAR, SHIFTS_FIVE_BAR, SOFTEST_BRISTLE, WIDEST_PEAK,
@@ -13,6 +13,7 @@ use crate::rules::{
 use crate::weak::Windows;
 use rigproof_model::effects::facts::{Shapes, Where};
 use rigproof_model::effects::{Entry, LIBRARY, entry, facts};
+use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
 
 /// The causes that have a meaning on this layout.
@@ -49,11 +50,75 @@ pub fn causes(run: &FiveBarRun) -> Vec<Cause> {
         own.into_iter()
             .flat_map(move |entry| asked(place, entry.mechanism))
     };
-    places.into_iter().flat_map(of).collect()
+    let single: Vec<Cause> = places.into_iter().flat_map(of).collect();
+    single.iter().copied().chain(composed(&single)).collect()
+}
+
+/// Laws that are looked for as shares of the torque that a brake gives.
+const SHARES: [Mechanism; 3] = [
+    Mechanism::Stribeck,
+    Mechanism::DirectionAsymmetry,
+    Mechanism::Ripple,
+];
+
+/// What is shared by every brake, is a share of its torque, or is of one axis of a sensor.
+fn composed(single: &[Cause]) -> Vec<Cause> {
+    let mut all: Vec<Cause> = Vec::new();
+    let of_brakes = |cause: &&Cause| {
+        let asked = facts(cause.mechanism).map(|facts| facts.asked.five_bar);
+        asked == Some(Where::Brakes)
+    };
+    for cause in single.iter().filter(of_brakes) {
+        let shared = Cause::at(cause.mechanism, Place::Every);
+        if !all.contains(&shared) {
+            all.push(shared);
+        }
+    }
+    let shares = single.iter().filter(|own| SHARES.contains(&own.mechanism));
+    let shares: Vec<Cause> = shares.chain(all.iter().filter(|own| SHARES.contains(&own.mechanism))).map(|own| own.of_torque()).collect();
+    all.extend(shares);
+    if single.iter().any(|own| own.mechanism == Mechanism::ForceGain) {
+        all.extend([0, 1].map(|axis| Cause::at(Mechanism::ForceGain, Place::Axis(axis))));
+    }
+    all
+}
+
+/// The joint whose motion stands for a place: of every brake the one that travels most.
+fn standing_for(run: &FiveBarRun, at: Place) -> Place {
+    match at {
+        Place::Every => {
+            let brakes = run.parameters.layout.brakes().iter();
+            let places = brakes.map(|joint| super::run::place_of(Some(*joint)));
+            let most = places.max_by(|a, b| run.travel(*a).total_cmp(&run.travel(*b)));
+            most.unwrap_or(Place::Whole)
+        }
+        other => other,
+    }
+}
+
+/// Anchors around where the tip moved, m.
+fn anchors(run: &FiveBarRun) -> Vec<Vec<f64>> {
+    let along = |axis: usize| -> Vec<f64> {
+        let tips = run.poses.iter().filter_map(|pose| pose.tip_m.get(axis).copied());
+        let low = tips.clone().fold(f64::INFINITY, f64::min);
+        let high = tips.fold(f64::NEG_INFINITY, f64::max);
+        let (middle, half) = (0.5 * (low + high), (0.5 + ANCHOR_REACH) * (high - low));
+        let step = 2.0 / (ANCHORS - 1) as f64;
+        (0..ANCHORS)
+            .map(|k| middle + half * (step * k as f64 - 1.0))
+            .collect()
+    };
+    let ys = along(1);
+    let xs = along(0).into_iter();
+    xs.flat_map(|x| ys.iter().map(move |y| vec![x, *y])).collect()
 }
 
 /// How far the first number of a cause's shape may go where that is beyond what is tried first.
 pub fn reach(run: &FiveBarRun, cause: Cause) -> Option<(f64, f64)> {
+    let cause = Cause {
+        at: standing_for(run, cause.at),
+        ..cause
+    };
     let entry = entry(cause.mechanism)?;
     if entry.form.is_of_encoder() {
         return Some((-MOST_OF_AN_ENCODER, MOST_OF_AN_ENCODER));
@@ -127,6 +192,10 @@ pub fn shapes(
     windows: &Windows,
     residual: &[f64],
 ) -> Vec<Vec<f64>> {
+    let cause = Cause {
+        at: standing_for(run, cause.at),
+        ..cause
+    };
     let motion = run.motion(cause.at);
     let one = |values: Vec<f64>| values.into_iter().map(|v| vec![v]).collect();
     match facts(cause.mechanism).map_or(Shapes::None, |facts| facts.shapes) {
@@ -165,6 +234,7 @@ pub fn shapes(
         | Shapes::Gap
         | Shapes::Resonance
         | Shapes::BristleCurve => vec![vec![]],
+        Shapes::Anchor => anchors(run),
         own @ (Shapes::None
         | Shapes::Values(_)
         | Shapes::Geometric { .. }

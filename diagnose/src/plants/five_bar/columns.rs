@@ -3,9 +3,11 @@
 use super::brakes;
 use super::encoder::Encoder;
 use super::joined::over_parts;
-use super::run::{FiveBarRun, inertial, joint_at, place, stacked};
-use crate::cause::Cause;
-use crate::problem::less;
+use super::from_rig::with_angles;
+use super::run::{FiveBarRun, inertial, joint_at, place, place_of, stacked};
+use crate::cause::{Cause, Place, Scales};
+use crate::rules::SMALL_LENGTH_M;
+use crate::problem::{add, less};
 use crate::signals::{numerov, shifted, unit_parameters};
 use rigproof_model::bench::{column, column_by_travel};
 use rigproof_model::effects::{Drive, Form, Law, OfLinkage, OfSensor, entry, facts, form, law};
@@ -32,13 +34,43 @@ pub fn known(run: &FiveBarRun) -> Vec<f64> {
 
 /// One signal for each linear parameter of a cause; `None` where it has another form or no meaning here.
 pub fn free(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<f64>>> {
+    if cause.at == Place::Every {
+        let each = everywhere(run, cause).map(|own| free(run, own, shape));
+        let each: Vec<Vec<Vec<f64>>> = each.collect::<Option<_>>()?;
+        return each.into_iter().reduce(|sum, own| {
+            let pairs = sum.into_iter().zip(own);
+            pairs.map(|(sum, own)| both(sum, &own)).collect()
+        });
+    }
     if let Some(encoder) = Encoder::of(run, cause, shape) {
         return over_parts(run, |part| encoder.signals(part));
     }
     over_parts(run, |part| free_of_one(part, cause, shape))
 }
 
+/// A cause of every brake at each of them.
+fn everywhere(run: &FiveBarRun, cause: Cause) -> impl Iterator<Item = Cause> {
+    let joints = run.parameters.layout.brakes().iter();
+    joints.map(move |joint| Cause {
+        at: place_of(Some(*joint)),
+        ..cause
+    })
+}
+
+fn both(mut sum: Vec<f64>, own: &[f64]) -> Vec<f64> {
+    add(&mut sum, own, 1.0);
+    sum
+}
+
 fn free_of_one(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<f64>>> {
+    if let Place::Axis(axis) = cause.at {
+        let forces = run.forces();
+        let own = forces.map(|[x, y]| if axis == 0 { [x, 0.0] } else { [0.0, y] });
+        return match form(cause.mechanism)? {
+            Form::Sensor(OfSensor::ForceGain) => Some(vec![driving(run, own)]),
+            _ => None,
+        };
+    }
     match (form(cause.mechanism)?, joint_at(cause.at)) {
         (Form::Drive(Drive::Gain), Some(joint)) => {
             Some(vec![seen(&run.at_joint(joint, &run.brake_torque(joint)))])
@@ -49,12 +81,14 @@ fn free_of_one(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<
         }
         // A spring at a joint has its rest angle where it likes: the second column is its torque at θ = 0.
         (Form::Resistance(_) | Form::ShareOfBrake(_), Some(joint)) => {
-            let mut columns = at_joint(run, cause.mechanism, joint, shape)?;
+            let mut columns = at_joint(run, cause, joint, shape)?;
             if let Some(zero) = facts(cause.mechanism)?.zero {
-                columns.extend(at_joint(run, zero, joint, shape)?);
+                columns.extend(at_joint(run, Cause::of(zero), joint, shape)?);
             }
             Some(columns)
         }
+        (Form::Linkage(OfLinkage::LinkLength), Some(joint)) => Some(vec![longer(run, joint)?]),
+        (Form::Linkage(OfLinkage::PlaneSpring), None) => anchored(run, shape),
         (Form::Linkage(OfLinkage::Load), Some(joint)) => {
             let loads: Vec<f64> = run.forces().map(|[x, y]| x.hypot(y)).collect();
             Some(vec![along_motion(run, joint, &loads)])
@@ -84,7 +118,7 @@ fn free_of_one(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<
             | Form::ShareOfBrake(_)
             | Form::Brake(_)
             | Form::Drive(_)
-            | Form::Linkage(OfLinkage::Load)
+            | Form::Linkage(OfLinkage::Load | OfLinkage::LinkLength)
             | Form::Joint(_)
             | Form::Sensor(
                 OfSensor::EncoderScale
@@ -99,6 +133,11 @@ fn free_of_one(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<
 
 /// A column with coefficient 1: a change of the brakes, of the clock or of the sensor's direction.
 pub fn fixed(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<f64>> {
+    if cause.at == Place::Every {
+        let each = everywhere(run, cause).map(|own| fixed(run, own, shape));
+        let each: Vec<Vec<f64>> = each.collect::<Option<_>>()?;
+        return each.into_iter().reduce(|sum, own| both(sum, &own));
+    }
     let own = over_parts(run, |part| Some(vec![fixed_of_one(part, cause, shape)?]))?;
     own.into_iter().next()
 }
@@ -147,6 +186,39 @@ fn fixed_of_one(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<f64
     }
 }
 
+/// What a spring from the tip to an anchor takes: for a unit of stiffness, and for a unit of tension.
+fn anchored(run: &FiveBarRun, shape: &[f64]) -> Option<Vec<Vec<f64>>> {
+    let [x, y] = *shape else {
+        return None;
+    };
+    let away = || {
+        let tips = run.poses.iter().map(|pose| pose.tip_m);
+        tips.map(move |[tip_x, tip_y]| [tip_x - x, tip_y - y])
+    };
+    let unit = away().map(|[x, y]| {
+        let length = x.hypot(y).max(1e-9);
+        [-x / length, -y / length]
+    });
+    Some(vec![driving(run, away()), driving(run, unit)])
+}
+
+/// What an arm that is longer takes in effort for a unit of length: the balance is told from the recorded angles with it and without it.
+fn longer(run: &FiveBarRun, joint: Joint) -> Option<Vec<f64>> {
+    let mut changed = run.clone();
+    let arms = &mut changed.parameters.arms;
+    let length = match joint {
+        Joint::A => &mut arms.l_ae_m,
+        Joint::E => &mut arms.l_ed_m,
+        Joint::B => &mut arms.l_bc_m,
+        Joint::C => &mut arms.l_cd_m,
+    };
+    *length += SMALL_LENGTH_M;
+    let changed = with_angles(&changed, run.theta.clone()).ok()?;
+    let balance = |run: &FiveBarRun| less(&driving(run, run.forces()), &known(run));
+    let difference = less(&balance(run), &balance(&changed)).into_iter();
+    Some(difference.map(|x| x / SMALL_LENGTH_M).collect())
+}
+
 /// A change of a brake's yield torque along its joint's motion.
 fn along_motion(run: &FiveBarRun, joint: Joint, change: &[f64]) -> Vec<f64> {
     let pairs = run.motion_of(joint).iter().zip(change);
@@ -157,14 +229,16 @@ fn along_motion(run: &FiveBarRun, joint: Joint, change: &[f64]) -> Vec<f64> {
 /// The signals of a joint's own law.
 fn at_joint(
     run: &FiveBarRun,
-    mechanism: Mechanism,
+    cause: Cause,
     joint: Joint,
     shape: &[f64],
 ) -> Option<Vec<Vec<f64>>> {
+    let mechanism = cause.mechanism;
     let entry = entry(mechanism)?;
+    let is_share = cause.scales == Scales::Torque;
     let of: Option<&Vec<f64>> = match entry.form {
-        Form::Resistance(_) => None,
-        Form::ShareOfBrake(_) => Some(run.yields.get(place(joint))?),
+        Form::Resistance(_) if !is_share => None,
+        Form::Resistance(_) | Form::ShareOfBrake(_) => Some(run.yields.get(place(joint))?),
         Form::Drive(_) | Form::Brake(_) | Form::Linkage(_) | Form::Sensor(_) | Form::Joint(_) => {
             return None;
         }

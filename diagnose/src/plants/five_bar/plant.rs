@@ -9,8 +9,9 @@ use super::mapping;
 use super::replay::replayed;
 use super::replica::replica;
 use super::run::FiveBarRun;
-use super::undone::{described, left, undone_first};
+use super::undone::{described, left};
 use crate::align::Fault;
+use crate::diagnose::numbers::fitted;
 use crate::diagnose::write::Stand;
 use crate::evidence::{Intervals, Rivals};
 use crate::plant::{
@@ -18,7 +19,6 @@ use crate::plant::{
 };
 use crate::problem::{NominalEffect, Problem};
 use crate::report::{FitReport, HeldReport, Horizon, NextExperiment};
-use crate::select::Selection;
 use crate::sensor::sensed;
 use rand_pcg::Pcg64Mcg;
 use rigproof_trace::csv::{Dialect, Hints};
@@ -84,11 +84,10 @@ impl Plant for FiveBar {
         stand.with_numbers(intervals)
     }
 
-    fn found(&self, stand: &Stand<'_, FiveBar>, _: &Intervals) -> Vec<RigEffect> {
-        let Selection { nominal, found, .. } = stand.selection;
-        let before = undone_first(stand.plant).0.len() + nominal.len();
-        let effects = self.effects.iter().skip(before).take(found.len());
-        effects.map(|own| own.effect.clone()).collect()
+    fn found(&self, stand: &Stand<'_, FiveBar>, intervals: &Intervals) -> Vec<RigEffect> {
+        let all = fitted(stand.problem, stand.selection, intervals);
+        let nominal = stand.selection.nominal.len();
+        all.into_iter().skip(nominal).collect()
     }
 
     fn free_runs(stand: &Stand<'_, FiveBar>, calibration: &FiveBar) -> (Vec<Horizon>, String) {

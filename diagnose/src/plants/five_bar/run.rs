@@ -80,7 +80,7 @@ pub fn place_of(joint: Option<Joint>) -> Place {
 pub fn joint_at(at: Place) -> Option<Joint> {
     match at {
         Place::Joint(JointId(joint)) => Joint::ALL.get(joint).copied(),
-        Place::Whole => None,
+        Place::Whole | Place::Every | Place::Axis(_) => None,
     }
 }
 
@@ -384,7 +384,12 @@ impl Run for FiveBarRun {
     }
 
     fn place_name(&self, at: Place) -> Option<&'static str> {
-        joint_at(at).map(Joint::letter)
+        match at {
+            Place::Every => Some("every brake"),
+            Place::Axis(0) => Some("x"),
+            Place::Axis(_) => Some("y"),
+            Place::Whole | Place::Joint(_) => joint_at(at).map(Joint::letter),
+        }
     }
 
     fn motion(&self, at: Place) -> &[Instant] {
