@@ -134,27 +134,8 @@ pub fn standard_shapes<R: Run + ?Sized>(
             MOST_GAP * travel,
             GAPS,
         )),
-        Shapes::Resonance => {
-            let [least, most] = FASTEST_RESONANCE;
-            geometric(
-                SLOWEST_RESONANCE,
-                (RESONANCE_STEPS / step_s).clamp(least, most),
-                RESONANCES,
-            )
-            .into_iter()
-            .flat_map(|resonance| RESONANCE_DAMPINGS.map(|damping| vec![resonance, damping]))
-            .collect()
-        }
-        Shapes::EffortLimit => {
-            let efforts = run.effort();
-            let greatest = efforts.iter().fold(0.0, |most: f64, e| most.max(e.abs()));
-            let [lowest, highest] = LIMIT_SHARES;
-            one(geometric(
-                lowest * greatest,
-                highest * greatest,
-                EFFORT_LIMITS,
-            ))
-        }
+        Shapes::Resonance => resonances(step_s),
+        Shapes::EffortLimit => one(effort_limits(&run.effort())),
         Shapes::Period => one(periods(
             &points(run.motion(cause.at), windows, residual),
             run.travel(cause.at),
@@ -177,6 +158,23 @@ pub fn standard_shapes<R: Run + ?Sized>(
         | Shapes::Geometric { .. }
         | Shapes::BothSigns { .. }) => in_numbers(own),
     }
+}
+
+/// Resonances of what bends, with damping ratios.
+fn resonances(step_s: f64) -> Vec<Vec<f64>> {
+    let [least, most] = FASTEST_RESONANCE;
+    let fastest = (RESONANCE_STEPS / step_s).clamp(least, most);
+    geometric(SLOWEST_RESONANCE, fastest, RESONANCES)
+        .into_iter()
+        .flat_map(|resonance| RESONANCE_DAMPINGS.map(|damping| vec![resonance, damping]))
+        .collect()
+}
+
+/// Limits below the greatest effort that was asked for.
+fn effort_limits(effort: &[f64]) -> Vec<f64> {
+    let greatest = effort.iter().fold(0.0, |most: f64, e| most.max(e.abs()));
+    let [lowest, highest] = LIMIT_SHARES;
+    geometric(lowest * greatest, highest * greatest, EFFORT_LIMITS)
 }
 
 /// Position and residual of each usable window.
