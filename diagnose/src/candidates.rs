@@ -5,19 +5,20 @@ use crate::plant::Run;
 use crate::problem::{Problem, Term, add};
 use crate::regression::Fit;
 use crate::rules::{
-    BENDS_JOINT, EDGE, EFFORT_LIMITS, FASTEST_PEAK, FASTEST_RESONANCE, FEWEST_CYCLES, GAPS,
-    LAGS_JOINT, LEAST_BEND, LEAST_BEND_SIGMAS, LEAST_GAP, LEAST_GAP_SIGMAS, LEAST_LAG_STEPS,
-    LEAST_SHIFT_STEPS_JOINT, LIMIT_SHARES, MEMORY_COUNT, MEMORY_RATES, MEMORY_RATIOS, MOST_BEND,
-    MOST_CYCLES, MOST_GAP, MOST_LAG_S_JOINT, MOST_SHIFT_S_JOINT, MOST_SHIFT_STEPS,
-    PEAK_EXPONENTS_JOINT, PEAK_SPEEDS, PEAKS, PEAKS_APART, RESONANCE_DAMPINGS, RESONANCE_STEPS,
-    RESONANCES, SHIFTS_JOINT, SLOWEST_PEAK, SLOWEST_PEAK_FLOORS, SLOWEST_RESONANCE, SPACING,
+    BENDS_JOINT, EDGE, EFFORT_LIMIT_SHARES, EFFORT_LIMITS, FASTEST_PEAK, FASTEST_RESONANCE,
+    FEWEST_CYCLES, GAPS, LAGS_JOINT, LEAST_BEND, LEAST_BEND_SIGMAS, LEAST_GAP, LEAST_GAP_SIGMAS,
+    LEAST_LAG_STEPS, LEAST_SHIFT_STEPS_JOINT, MEMORY_COUNT, MEMORY_RATES, MEMORY_RATIOS,
+    MOST_A_TURN, MOST_BEND, MOST_CYCLES, MOST_GAP, MOST_LAG_S_JOINT, MOST_SHIFT_S_JOINT,
+    MOST_SHIFT_STEPS, PEAK_EXPONENTS_JOINT, PEAK_SPEEDS, PEAKS, PEAKS_APART, RESONANCE_DAMPINGS,
+    RESONANCE_STEPS, RESONANCES, SHIFTS_JOINT, SLOWEST_PEAK, SLOWEST_PEAK_FLOORS,
+    SLOWEST_RESONANCE, SPACING,
 };
 use crate::weak::Windows;
 use core::f64::consts::TAU;
 use rayon::prelude::*;
 use rigproof_model::effects::facts::Shapes;
 use rigproof_model::effects::{Instant, facts};
-use rigproof_spec::effect::Mechanism;
+use rigproof_spec::effect::{Mechanism, Motion};
 
 /// The causes that have a meaning on this plant: within trials a gain is taken out of every row.
 pub fn causes(problem: &Problem) -> Vec<Cause> {
@@ -136,10 +137,14 @@ pub fn standard_shapes<R: Run + ?Sized>(
         )),
         Shapes::Resonance => resonances(step_s),
         Shapes::EffortLimit => one(effort_limits(&run.effort())),
-        Shapes::Period => one(periods(
-            &points(run.motion(cause.at), windows, residual),
-            run.travel(cause.at),
-        )),
+        Shapes::Period => {
+            let points = points(run.motion(cause.at), windows, residual);
+            let mut all = periods(&points, run.travel(cause.at));
+            if run.motion_kind() == Motion::Rotary {
+                all.extend((1..=MOST_A_TURN).map(|order| TAU / f64::from(order)));
+            }
+            one(all)
+        }
         Shapes::Lag => one(geometric(
             LEAST_LAG_STEPS * step_s,
             MOST_LAG_S_JOINT,
@@ -173,7 +178,7 @@ fn resonances(step_s: f64) -> Vec<Vec<f64>> {
 /// Limits below the greatest effort that was asked for.
 fn effort_limits(effort: &[f64]) -> Vec<f64> {
     let greatest = effort.iter().fold(0.0, |most: f64, e| most.max(e.abs()));
-    let [lowest, highest] = LIMIT_SHARES;
+    let [lowest, highest] = EFFORT_LIMIT_SHARES;
     geometric(lowest * greatest, highest * greatest, EFFORT_LIMITS)
 }
 
@@ -210,7 +215,7 @@ pub fn shape_bounds(problem: &Problem, cause: Cause) -> Vec<(f64, f64)> {
     if facts(cause.mechanism).is_some_and(|facts| facts.shapes == Shapes::Period) {
         let travel = problem.run.travel(cause.at);
         let travel = travel.max(1e-12);
-        return vec![(travel / MOST_CYCLES, travel)];
+        return vec![(travel / MOST_CYCLES, travel.max(TAU))];
     }
     let tried = shapes(problem, cause, &[]);
     let count = tried.iter().map(Vec::len).max().unwrap_or(0);

@@ -143,7 +143,7 @@ pub fn diagnose<P: Plant>(
         Ok(terms) => terms,
         Err((at, fault)) => return faulty(plant, at, fault),
     };
-    let (mut selection, explanations) = named(&mut problem, terms, options);
+    let (mut selection, mut explanations) = named(&mut problem, terms, options);
     if let Err(fault) = plant.check_found(&problem, &selection) {
         return faulty(plant, "recording", fault);
     }
@@ -153,7 +153,7 @@ pub fn diagnose<P: Plant>(
         let windows = problem.windows.clone();
         problem = Problem::new(train, windows).within(trials);
         let terms = nominal(plant, &problem).unwrap_or_default();
-        (selection, _) = named(&mut problem, terms, options);
+        (selection, explanations) = named(&mut problem, terms, options);
         withdrawn = withdraw(&problem, &mut selection);
     }
     Stand {
@@ -167,6 +167,7 @@ pub fn diagnose<P: Plant>(
         other_recording: parts.other_recording,
         options,
         trials: trials.as_ref(),
+        explanations: explanations.as_ref(),
     }
     .report()
 }
@@ -180,7 +181,7 @@ fn named(
     if problem.rules.by_family {
         return (select(problem, terms, options.gates), None);
     }
-    let (mut selection, explanations) = explain(problem, terms);
+    let (selection, explanations) = explain(problem, terms);
     if std::env::var("RP_SHOW").is_ok() {
         for own in &explanations.living {
             eprintln!(
@@ -194,7 +195,6 @@ fn named(
             );
         }
     }
-    selection.found.retain(|f| f.probability >= 0.5);
     (selection, Some(explanations))
 }
 

@@ -8,9 +8,9 @@ mod score;
 use crate::candidates::{all_variants, causes};
 use crate::cause::Cause;
 use crate::problem::{Problem, Term};
-use crate::regression::{Blocks, fit, free_columns, reduced_target};
-use crate::rules::{LISTED, ROUNDS};
-use crate::select::{Found, Selection, Stage, refs, usable_rms};
+use crate::regression::{Blocks, fit, free_columns, paired, reduced_target};
+use crate::rules::{LISTED, NAMED, OFFERED, ROUNDS, SUSPECTED};
+use crate::select::{Found, Selection, is_noise, usable_rms};
 use fitted::{Fitted, Folds};
 use score::{Judge, prior};
 use std::sync::Arc;
@@ -36,8 +36,47 @@ pub struct Explanations {
 impl Explanations {
     /// The probability of a cause: the weight of all explanations that hold it.
     pub fn probability(&self, cause: Cause) -> f64 {
-        let holds = |own: &&Explanation| own.terms.iter().any(|term| term.cause == cause);
+        let holds = |own: &&Explanation| own.holds(cause);
         self.living.iter().filter(holds).map(|own| own.weight).sum()
+    }
+
+    /// What explains as much in the place of a cause of the leading explanation: the others of the explanations that lack it, as far as they
+    /// weigh together.
+    pub fn instead_of(&self, cause: Cause) -> Vec<Cause> {
+        let Some((leading, others)) = self.living.split_first() else {
+            return Vec::new();
+        };
+        let without = || others.iter().filter(|own| !own.holds(cause));
+        let mut instead: Vec<Cause> = Vec::new();
+        for term in without().flat_map(|own| &own.terms) {
+            if !leading.holds(term.cause) && !instead.contains(&term.cause) {
+                instead.push(term.cause);
+            }
+        }
+        let weight = |other: &Cause| -> f64 {
+            let holds = without().filter(|own| own.holds(*other));
+            holds.map(|own| own.weight).sum()
+        };
+        instead.retain(|other| weight(other) >= OFFERED);
+        instead.sort_by(|a, b| weight(b).total_cmp(&weight(a)));
+        instead
+    }
+}
+
+impl Explanation {
+    fn holds(&self, cause: Cause) -> bool {
+        self.terms.iter().any(|term| term.cause == cause)
+    }
+}
+
+/// What is said of something with this probability.
+pub const fn status(probability: f64) -> &'static str {
+    if probability >= NAMED {
+        "named"
+    } else if probability >= SUSPECTED {
+        "suspected"
+    } else {
+        "possible"
     }
 }
 
@@ -85,6 +124,32 @@ fn weigh(
     all: Vec<Fitted>,
     noise: f64,
 ) -> Vec<Explanation> {
+    if std::env::var("RP_ALL").is_ok() {
+        let mut list: Vec<(f64, String)> = all
+            .iter()
+            .map(|own| {
+                (
+                    judge.evidence(folds, own),
+                    format!(
+                        "{:.2} {:.2} {} {:?} {:?}",
+                        judge.evidence(folds, own),
+                        prior(&own.terms),
+                        judge.all_matter(folds, bare, own),
+                        own.terms
+                            .iter()
+                            .map(|t| (problem.run.cause_name(t.cause), t.shape.clone()))
+                            .collect::<Vec<_>>(),
+                        own.by_term()
+                    ),
+                )
+            })
+            .collect();
+        list.sort_by(|a, b| b.0.total_cmp(&a.0));
+        for (_, line) in list.iter().take(4000) {
+            eprintln!("{line}");
+        }
+        eprintln!("--");
+    }
     let all = all
         .into_iter()
         .filter(|own| judge.all_matter(folds, bare, own));
@@ -131,29 +196,35 @@ pub(crate) fn unfitted(
 /// The leading explanation as a selection.
 fn selected(problem: &Problem, nominal: Vec<Term>, explanations: &Explanations) -> Selection {
     let blocks = Blocks::new(problem);
-    let before = fit(problem, &refs(&nominal, &[]), &blocks);
-    let terms = explanations
-        .living
-        .first()
-        .map_or(&[][..], |own| &own.terms);
+    let leading = explanations.living.first();
+    let terms = leading.map_or(&[][..], |own| &own.terms);
+    let fitted = |terms: &[&Term]| {
+        let all: Vec<&Term> = nominal.iter().chain(terms.iter().copied()).collect();
+        fit(problem, &all, &blocks)
+    };
+    let (before, after) = (fitted(&[]), fitted(&terms.iter().collect::<Vec<_>>()));
     let found: Vec<Found> = terms
         .iter()
-        .map(|term| Found {
-            term: term.clone(),
-            z: 0.0,
-            share: 0.0,
-            at_floor: false,
-            probability: explanations.probability(term.cause),
+        .map(|term| {
+            let others = terms.iter().filter(|other| other.cause != term.cause);
+            let without = fitted(&others.collect::<Vec<_>>());
+            let even = vec![1.0; without.block_loss.len()];
+            let (gain, z) = paired(&without.block_loss, &after.block_loss, &even);
+            Found {
+                term: term.clone(),
+                z,
+                share: gain / without.left_out().max(1e-300),
+                at_floor: is_noise(problem, &after),
+                probability: explanations.probability(term.cause),
+            }
         })
         .collect();
-    let after = fit(problem, &refs(&nominal, &found), &blocks);
-    let stages: Vec<Stage> = Vec::new();
     Selection {
-        nominal,
         found,
         too_small: Vec::new(),
-        stages,
+        stages: Vec::new(),
         before,
         after,
+        nominal,
     }
 }

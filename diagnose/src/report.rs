@@ -45,6 +45,8 @@ pub struct Report {
     pub nominal: BTreeMap<String, Number>,
     /// The inverse model of an axis under the published filter protocol; its errors stand with the stages.
     pub inverse_model: Option<InverseReport>,
+    /// The explanations that were weighed, the most probable first; none where names were not weighed.
+    pub explanations: Vec<ExplanationReport>,
     /// For each mechanism that is not named, what would have been seen.
     pub not_seen: Vec<NotSeen>,
     /// What the joints of a five-bar at rest tell; nothing on other plants, where an encoder was named, and where nothing was concluded.
@@ -235,6 +237,17 @@ pub struct Number {
     pub high95: Option<f64>,
 }
 
+/// A set of mechanisms that explains the recording, beside others.
+#[derive(Clone, Debug, Serialize)]
+pub struct ExplanationReport {
+    /// Its mechanisms, as `viscous at E` where there are several joints; none for the nominal model alone.
+    pub names: Vec<String>,
+    /// How probable it is beside the others.
+    pub probability: f64,
+    /// What it leaves of data that was not fitted, in standard deviations of the sensors' noise.
+    pub leaves: f64,
+}
+
 /// A named mechanism.
 #[derive(Clone, Debug, Serialize)]
 pub struct EffectReport {
@@ -256,6 +269,10 @@ pub struct EffectReport {
     pub inclusion: f64,
     /// Share of the left-out loss that it removes from the model without it.
     pub share_explained: f64,
+    /// How probable it is beside everything that was tried; 1 where it was not weighed.
+    pub probability: f64,
+    /// `named` from 0.9 on, `suspected` from 0.5 on, else `possible`.
+    pub status: &'static str,
     /// Its equation.
     pub equation: &'static str,
     /// What would refute it.

@@ -105,7 +105,7 @@ vocabulary! {
     /// Weight of a tilted mechanism.
     Gravity = "gravity" | "tilt" | "weight" [needed("x", Acceleration), needed("y", Acceleration)],
     /// Linear spring.
-    Spring = "spring" | "stiffness" [needed("stiffness", EffortPerTravel)],
+    Spring = "spring" | "stiffness" [needed("stiffness", EffortPerTravel), optional("rest", Travel)],
     /// Constant force.
     ConstantBias = "constant_bias" | "bias" | "offset" [needed("level", Effort)],
     /// Constant force that drifts with the time since the start.

@@ -69,6 +69,7 @@ pub(crate) fn blank(plant: &'static str, verdict: Verdict, summary: String) -> R
         withdrawn: Vec::new(),
         nominal: Default::default(),
         inverse_model: None,
+        explanations: Vec::new(),
         not_seen: Vec::new(),
         held: None,
         null_directions: Vec::new(),

@@ -6,10 +6,12 @@ use super::words::summary;
 use super::{Diagnosis, Options};
 use crate::cause::Cause;
 use crate::evidence::{Rivals, inclusion, intervals, not_seen, null_directions, rivals};
+use crate::explain::{Explanations, status};
 use crate::locate::locate;
 use crate::plant::{Plant, Shown};
 use crate::problem::Problem;
-use crate::report::{EffectReport, Floor, Report, Unknown, Verdict};
+use crate::report::{EffectReport, ExplanationReport, Floor, Report, Unknown, Verdict};
+use crate::rules::{MOST_LISTED, NAMED};
 use crate::scatter::{Trials, left_over};
 use crate::select::{Selection, floor_limit, refs, usable_rms};
 use crate::unknown::unknown;
@@ -42,11 +44,16 @@ pub(crate) fn verdict(
     rivals: &[Vec<String>],
 ) -> Verdict {
     let explained = floor.ratio_after <= limit;
+    // Where names have probabilities these say whether something else may stand in their place.
+    let by_name = selection.found.iter().zip(rivals);
+    let is_open = by_name.into_iter().any(|(own, rivals)| {
+        own.probability < NAMED || own.probability >= 1.0 && !rivals.is_empty()
+    });
     match (selection.found.is_empty(), explained) {
         (true, true) => Verdict::Consistent,
         (true, false) => Verdict::NoneOfLibrary,
         (false, false) => Verdict::PartlyExplained,
-        (false, true) if rivals.iter().any(|r| !r.is_empty()) => Verdict::Ambiguous,
+        (false, true) if is_open => Verdict::Ambiguous,
         (false, true) => Verdict::Explained,
     }
 }
@@ -73,6 +80,8 @@ pub struct Stand<'a, P: Plant> {
     pub options: &'a Options,
     /// Trials of a brake whose gains differ; `problem` is told within them.
     pub trials: Option<&'a Trials>,
+    /// The explanations that were weighed, where they were.
+    pub explanations: Option<&'a Explanations>,
 }
 
 impl<P: Plant> Stand<'_, P> {
@@ -115,6 +124,7 @@ impl<P: Plant> Stand<'_, P> {
             fit,
             next_experiment,
             floor: Some(floor),
+            explanations: self.explained(),
             ..blank(self.plant.plant_name(), verdict, summary)
         };
         Diagnosis {
@@ -125,9 +135,36 @@ impl<P: Plant> Stand<'_, P> {
         }
     }
 
+    /// The explanations that were weighed, the most probable first.
+    fn explained(&self) -> Vec<ExplanationReport> {
+        let living = self.explanations.iter().flat_map(|all| &all.living);
+        let living = living.take(MOST_LISTED);
+        living
+            .map(|own| ExplanationReport {
+                names: own
+                    .terms
+                    .iter()
+                    .map(|t| self.problem.name(t.cause))
+                    .collect(),
+                probability: own.weight,
+                leaves: own.leaves,
+            })
+            .collect()
+    }
+
     /// For each effect, what explains as much in its place: measured rivals, and the twin that no recording of this
     /// plant can tell.
     fn rivals(&self) -> Vec<Rivals> {
+        if let Some(explanations) = self.explanations {
+            let found = self.selection.found.iter();
+            let instead = found.map(|own| explanations.instead_of(own.term.cause));
+            return instead
+                .map(|instead| Rivals {
+                    instead,
+                    ..Rivals::default()
+                })
+                .collect();
+        }
         let mut all = rivals(self.problem, self.selection);
         for (rivals, found) in all.iter_mut().zip(&self.selection.found) {
             let Some(twin) = self.problem.run.twin(found.term.cause) else {
@@ -207,6 +244,8 @@ impl<P: Plant> Stand<'_, P> {
                     z: found.z,
                     inclusion: inclusion(problem, selection, index, self.options.gates),
                     share_explained: found.share,
+                    probability: found.probability,
+                    status: status(found.probability),
                     equation: entry.equation,
                     refuted_by: entry.refuted_by,
                     limit_of: richer.map_or_else(Vec::new, |own| own.limits(problem)),

@@ -4,7 +4,7 @@ use super::fitted::{Fitted, Folds};
 use super::refine::refined;
 use super::score::{Judge, gives_energy};
 use crate::problem::{Problem, Term};
-use crate::rules::{BEAM, KEPT, MOST_TERMS};
+use crate::rules::{BEAM, EXCHANGES, KEPT, MOST_TERMS};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -34,7 +34,55 @@ pub fn search(
         }
         living = near.into_iter().take(BEAM).collect();
     }
+    for _ in 0..EXCHANGES {
+        let leading: Vec<Fitted> = kept.values().cloned().collect();
+        let leading: Vec<Fitted> = by_evidence(folds, judge, leading)
+            .into_iter()
+            .take(BEAM)
+            .collect();
+        let exchanged = exchanged(problem, folds, judge, bare, &leading, tried);
+        for fitted in exchanged {
+            let names = names(problem, &fitted.terms);
+            let evidence = judge.evidence(folds, &fitted);
+            if kept
+                .get(&names)
+                .is_none_or(|own| judge.evidence(folds, own) < evidence)
+            {
+                kept.insert(names, fitted);
+            }
+        }
+    }
     kept.into_values().collect()
+}
+
+/// The leading explanations with one term exchanged or taken out, the best of each set of causes, those near the top refined.
+fn exchanged(
+    problem: &Problem,
+    folds: &Folds,
+    judge: &Judge,
+    bare: &Fitted,
+    leading: &[Fitted],
+    tried: &[Term],
+) -> Vec<Fitted> {
+    let fewer = leading.iter().flat_map(|own| {
+        (0..own.terms.len()).map(|index| {
+            let mut terms = own.terms.clone();
+            terms.remove(index);
+            bare.of(folds, &terms)
+        })
+    });
+    let fewer: Vec<Fitted> = fewer.collect();
+    let mut all = children(problem, folds, judge, &fewer, tried);
+    all.truncate(KEPT);
+    let (near, far) = all.split_at(all.len().min(2 * BEAM));
+    let near = near.par_iter();
+    let near: Vec<Fitted> = near
+        .map(|own| refined(problem, folds, judge, bare, own.clone()))
+        .collect();
+    near.into_iter()
+        .chain(far.iter().cloned())
+        .chain(fewer)
+        .collect()
 }
 
 /// The best child of the living for each set of causes, the best first.

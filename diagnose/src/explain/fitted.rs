@@ -1,9 +1,10 @@
 //! This file fits one explanation, a set of terms together, and says what it leaves on blocks of time that were not fitted.
 
-use crate::problem::{Problem, Rows, Term};
+use crate::problem::{Problem, Rows, Term, add};
 use crate::regression::{Blocks, dot};
 use crate::rules::FEWEST_ROWS;
 use nalgebra::{DMatrix, DVector};
+use rigproof_model::effects::{Form, form};
 use std::sync::Arc;
 
 /// The blocks of a problem, with the number of usable rows in each.
@@ -11,6 +12,8 @@ pub struct Folds {
     ranges: Vec<(usize, usize)>,
     /// Usable rows of each block.
     pub counts: Vec<f64>,
+    /// The driving effort, row by row.
+    driving: Vec<f64>,
 }
 
 impl Folds {
@@ -26,6 +29,7 @@ impl Folds {
         Folds {
             counts: ranges.iter().map(|r| count(r) as f64).collect(),
             ranges,
+            driving: problem.windows.average(&problem.run.driving()),
         }
     }
 
@@ -64,6 +68,8 @@ pub struct Fitted {
     nuisance: usize,
     columns: Vec<Arc<Rows>>,
     target: Vec<f64>,
+    /// The driving effort that acts, row by row.
+    acting: Vec<f64>,
     parts: Vec<Part>,
     /// What it leaves of each block when fitted to the others.
     pub losses: Vec<f64>,
@@ -85,6 +91,7 @@ impl Fitted {
             nuisance: free.len(),
             columns: Vec::new(),
             target,
+            acting: folds.driving.clone(),
             parts: parts.collect(),
             losses: Vec::new(),
             coefficients: Vec::new(),
@@ -101,6 +108,9 @@ impl Fitted {
         let mut fitted = self.clone();
         if let Some(fixed) = &term.fixed {
             fitted.take_away(folds, &fixed.white);
+            if let Some(Form::Drive(_)) = form(term.cause.mechanism) {
+                add(&mut fitted.acting, &fixed.raw, -1.0);
+            }
         }
         for column in &term.free {
             fitted.take_in(folds, column);
@@ -133,15 +143,10 @@ impl Fitted {
         self.losses.iter().sum()
     }
 
-    /// The white residual, row by row.
-    pub fn residual(&self) -> Vec<f64> {
-        let mut residual = self.target.clone();
-        for (column, times) in self.columns.iter().zip(&self.coefficients) {
-            for (r, x) in residual.iter_mut().zip(&column.white) {
-                *r -= times * x;
-            }
-        }
-        residual
+    /// The energy of the effort that acts over that of the recorded one. A change of the drive that takes the effort away makes every residual
+    /// small: what is left is judged beside what acts.
+    pub fn acting_share(&self, folds: &Folds) -> f64 {
+        dot(&self.acting, &self.acting) / dot(&folds.driving, &folds.driving).max(1e-300)
     }
 
     fn take_in(&mut self, folds: &Folds, column: &Arc<Rows>) {

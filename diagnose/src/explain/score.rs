@@ -24,9 +24,11 @@ impl Judge {
 
     /// The logarithm of the predictive density of the blocks that were left out, up to a constant.
     pub fn evidence(&self, folds: &Folds, fitted: &Fitted) -> f64 {
+        let share = fitted.acting_share(folds).max(1e-300);
         let blocks = folds.counts.iter().zip(&fitted.losses);
         let each = blocks.map(|(rows, loss)| {
-            -0.5 * rows / ROWS_A_SAMPLE * libm::log(loss / rows + self.granted)
+            let left = loss / rows / share + self.granted;
+            -0.5 * rows / ROWS_A_SAMPLE * libm::log(left)
         });
         each.sum()
     }
@@ -48,8 +50,9 @@ pub fn prior(terms: &[Term]) -> f64 {
 }
 
 fn odds(term: &Term) -> f64 {
-    let linear = entry(term.cause.mechanism).map_or(1, |entry| entry.linear);
-    let numbers = linear.max(1) + term.shape.len() + usize::from(term.onset_s.is_some());
+    let numbers = term.free.len().max(1) + term.shape.len() + usize::from(term.onset_s.is_some());
+    // The first number of a shape takes the place of a coefficient that is not there.
+    let numbers = numbers - usize::from(term.free.is_empty() && !term.shape.is_empty());
     usual(term.cause.mechanism) - A_NUMBER * (numbers - 1) as f64
 }
 

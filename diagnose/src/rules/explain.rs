@@ -6,15 +6,25 @@ rules! {
     /// Share of the effort below which nothing matters to anybody: what a model and its discretisation leave open anyhow.
     RELEVANT: f64 = 0.003, "share", DRIVEN;
     /// Rows that say as much as one that is independent of all others: what a model leaves is no white noise.
-    ROWS_A_SAMPLE: f64 = 8.0, "rows", DRIVEN;
+    ROWS_A_SAMPLE: f64 = 2.5, "rows", DRIVEN;
     /// What each number beyond the first costs an explanation, in natural logarithms of odds.
-    A_NUMBER: f64 = 1.0, "ln odds", DRIVEN;
+    A_NUMBER: f64 = 2.4, "ln odds", DRIVEN;
     /// How common a mechanism is among those that models leave out, from the plainest to the most seldom, in natural logarithms of odds: which it is stands with the mechanism.
-    USUAL_ODDS: [f64; 6] = [-2.0, -2.5, -3.0, -3.5, -4.0, -5.0], "ln odds", DRIVEN;
+    USUAL_ODDS: [f64; 6] = [-3.2, -4.0, -4.8, -5.6, -6.4, -8.0], "ln odds", DRIVEN;
     /// Rounds: the noise is taken from the sensors first, and with what the best explanation of that round leaves in the second.
     ROUNDS: usize = 2, "rounds", DRIVEN;
     /// The least weight of an explanation that is listed.
     LISTED: f64 = 1e-4, "share", DRIVEN;
+    /// The probability from which on something is named.
+    NAMED: f64 = 0.9, "probability", REASON;
+    /// The probability from which on something is suspected.
+    SUSPECTED: f64 = 0.5, "probability", REASON;
+    /// The least weight of what is offered in the place of a name.
+    OFFERED: f64 = 0.03, "probability", REASON;
+    /// The most explanations that are listed.
+    MOST_LISTED: usize = 8, "explanations", REASON;
+    /// Rounds in which each term of the leading explanations is exchanged for every other.
+    EXCHANGES: usize = 2, "rounds", DRIVEN;
     /// The most terms of one explanation.
     MOST_TERMS: usize = 3, "terms", DRIVEN;
     /// Explanations of each size that are gone on from.

@@ -79,12 +79,16 @@ rules! {
     DELAYS: usize = 8, "times", FIVE_BAR;
     /// Five-bar: a brake that was never given more has no limit to find.
     LEAST_LIMITED_A: f64 = 0.05, "A", FIVE_BAR;
-    /// The lowest and the highest limit of a current (five-bar) or of a drive's effort (axis), over the greatest that was given.
+    /// Five-bar: the lowest and the highest limit of a current, over the greatest that was given.
     LIMIT_SHARES: [f64; 2] = [0.3, 0.97], "share", FIVE_BAR;
     /// Five-bar: limits that are tried.
     LIMITS: usize = 8, "currents", FIVE_BAR;
+    /// Axis: the lowest and the highest limit of a drive's effort, over the greatest that was asked for: a loop that winds up asks for many times what it gets.
+    EFFORT_LIMIT_SHARES: [f64; 2] = [0.05, 0.97], "share", DRIVEN;
+    /// Most periods in one turn that are tried whatever the spectrum says: what repeats with a turn has whole numbers.
+    MOST_A_TURN: u32 = 36, "periods", DRIVEN;
     /// Axis: limits of the drive's effort that are tried.
-    EFFORT_LIMITS: usize = 16, "efforts", DRIVEN;
+    EFFORT_LIMITS: usize = 24, "efforts", DRIVEN;
     /// Axis and bench: least width of a gap that is seen to be crossed, in deviations of the noise of the position.
     LEAST_GAP_SIGMAS: f64 = 6.0, "deviations", DRIVEN;
     /// The same as a share of the travel.

@@ -52,6 +52,11 @@ impl Law for Gap {
         true
     }
 
+    /// Where in the gap it begins is not known: in its middle it is mistaken least.
+    fn starts_with(&self) -> f64 {
+        0.5 * self.gap
+    }
+
     fn memory_rate(&self, now: &Instant, memory: f64) -> f64 {
         let goes_out =
             (memory >= self.gap && now.speed > 0.0) || (memory <= 0.0 && now.speed < 0.0);

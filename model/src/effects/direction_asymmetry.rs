@@ -19,7 +19,7 @@ pub(super) const ENTRY: Entry = Entry {
     refuted_by: "equal resistance at equal speed in both directions",
     equation: "viscous·|q̇| + dry·[q̇ ≠ 0]",
     facts: Facts {
-        usual: Usual::Seldom,
+        usual: Usual::Rare,
         turn: 2,
         // It shifts both breakaway levels.
         at_rest: AtRest::Level(|numbers| parameter(numbers, 1).abs()),

@@ -39,17 +39,20 @@ pub(super) const FRICTION_FADE: Entry = Entry {
     passive: false,
     refuted_by: "the same friction at the start and at the end of the recording",
     equation: "described friction × (1 − rate·t)",
-    facts: Facts::of(
-        Family::FrictionOfMotion,
-        Asked {
-            alone: Alone::Always,
-            five_bar: Where::Nowhere,
-        },
-        Words {
-            what: "friction that changes while the recording goes on",
-            look_for: "grease that warms up, running in",
-        },
-    ),
+    facts: Facts {
+        usual: Usual::Seldom,
+        ..Facts::of(
+            Family::FrictionOfMotion,
+            Asked {
+                alone: Alone::Always,
+                five_bar: Where::Nowhere,
+            },
+            Words {
+                what: "friction that changes while the recording goes on",
+                look_for: "grease that warms up, running in",
+            },
+        )
+    },
 };
 
 pub(super) const ADDED_INERTIA: Entry = Entry {
@@ -59,17 +62,20 @@ pub(super) const ADDED_INERTIA: Entry = Entry {
     passive: false,
     refuted_by: "the described inertia on a swing or a scale",
     equation: "inertia·q̈, added to the described one",
-    facts: Facts::of(
-        Family::Inertia,
-        Asked {
-            alone: Alone::WithInertia,
-            five_bar: Where::Nowhere,
-        },
-        Words {
-            what: "another inertia than the described one",
-            look_for: "a payload, a tool, the motor behind its gear",
-        },
-    ),
+    facts: Facts {
+        usual: Usual::Frequent,
+        ..Facts::of(
+            Family::Inertia,
+            Asked {
+                alone: Alone::WithInertia,
+                five_bar: Where::Nowhere,
+            },
+            Words {
+                what: "another inertia than the described one",
+                look_for: "a payload, a tool, the motor behind its gear",
+            },
+        )
+    },
 };
 
 pub(super) const COMPLIANCE: Entry = Entry {
@@ -80,6 +86,7 @@ pub(super) const COMPLIANCE: Entry = Entry {
     refuted_by: "a load that moves as the joint does up to the highest frequency",
     equation: "share of the inertia follows the joint as a resonator of this frequency and damping",
     facts: Facts {
+        usual: Usual::Seldom,
         shapes: Shapes::Resonance,
         ..Facts::of(
             Family::Inertia,

@@ -2,7 +2,7 @@
 //!
 //! Of `β`, `γ` and `δ` only the products `β·γ` and `β·δ` enter, so only they can be known.
 
-use super::facts::{Alone, Asked, Facts, Family, Shapes, Where, Words};
+use super::facts::{Alone, Asked, Facts, Family, Shapes, Usual, Where, Words};
 use super::{Entry, Form, Instant, Law, parameter};
 use rigproof_spec::effect::Mechanism;
 
@@ -20,6 +20,7 @@ pub(super) const ENTRY: Entry = Entry {
     refuted_by: "equal force on the way out and on the way back at every amplitude",
     equation: "alpha·z, dz/dt = q̇ − beta_gamma·|q̇|·z − beta_delta·q̇·|z|",
     facts: Facts {
+        usual: Usual::Exceptional,
         has_forms: true,
         shapes: Shapes::Memory,
         ..Facts::of(

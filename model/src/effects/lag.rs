@@ -14,7 +14,7 @@ pub(super) const ENTRY: Entry = Entry {
     refuted_by: "an effort that follows a step of the command at once",
     equation: "time_constant·de/dt = gain·u − e",
     facts: Facts {
-        usual: Usual::Common,
+        usual: Usual::Frequent,
         turn: 4,
         shapes: Shapes::Lag,
         ..Facts::of(
@@ -91,6 +91,7 @@ pub(super) const LIMIT_ENTRY: Entry = Entry {
     refuted_by: "an effort that grows with the command beyond the limit",
     equation: "e = gain·u cut at ±limit",
     facts: Facts {
+        usual: Usual::Frequent,
         shapes: Shapes::EffortLimit,
         ..Facts::of(
             Family::Drive,

@@ -1,6 +1,6 @@
 //! This file is a bristle with drag beside it, as in the model of Canudas de Wit, Olsson, Åström and Lischinsky (1995) without its peak.
 
-use super::facts::{Alone, Asked, Facts, Family, Shapes, Where, Words};
+use super::facts::{Alone, Asked, Facts, Family, Shapes, Usual, Where, Words};
 use super::{Entry, Form, Instant, Law, parameter, relaxed};
 use rigproof_spec::effect::Mechanism;
 
@@ -18,6 +18,7 @@ pub(super) const ENTRY: Entry = Entry {
     refuted_by: "a full change of force at a reversal without any travel, or the same force at every speed",
     equation: "level·w + viscous·q̇, travel·dw/dt = q̇ − |q̇|·w",
     facts: Facts {
+        usual: Usual::Frequent,
         has_forms: true,
         shapes: Shapes::Bristle,
         ..Facts::of(

@@ -1,4 +1,4 @@
-//! This file is a linear spring about the position zero (a cable, a bellows).
+//! This file is a linear spring about its position of rest (a cable, a bellows).
 
 use super::facts::{Alone, Asked, End, Facts, Family, Limit, Shows, Usual, Where, Words};
 use super::{Entry, Form, Instant, Law, parameter};
@@ -9,12 +9,13 @@ pub(super) const ENTRY: Entry = Entry {
     form: Form::Resistance(|p| {
         Box::new(Spring {
             stiffness: parameter(p, 0),
+            rest: parameter(p, 1),
         })
     }),
     linear: 1,
     passive: true,
     refuted_by: "no change of force with position in slow motion",
-    equation: "stiffness·q",
+    equation: "stiffness·(q − rest)",
     facts: Facts {
         usual: Usual::Seldom,
         shows: Shows::Position,
@@ -40,10 +41,11 @@ pub(super) const ENTRY: Entry = Entry {
 
 struct Spring {
     stiffness: f64,
+    rest: f64,
 }
 
 impl Law for Spring {
     fn smooth(&self, now: &Instant, _memory: f64) -> f64 {
-        self.stiffness * now.position
+        self.stiffness * (now.position - self.rest)
     }
 }

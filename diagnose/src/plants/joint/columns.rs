@@ -9,7 +9,7 @@ use crate::signals::{
 };
 use rigproof_model::bench::column;
 use rigproof_model::effects::{
-    CurrentPlay, Drive, Form, OfJoint, OfSensor, entry, first_order_lag, law,
+    CurrentPlay, Drive, Form, OfJoint, OfSensor, entry, facts, first_order_lag, law,
 };
 use rigproof_spec::effect::Mechanism;
 
@@ -203,7 +203,14 @@ pub fn columns(run: &JointRun, mechanism: Mechanism, shape: &[f64]) -> Option<Co
     match entry(mechanism)?.form {
         Form::Drive(what) => drive(run, what, shape),
         form @ (Form::Joint(_) | Form::Sensor(_)) => of_joint(run, form, shape),
-        _ => resistances(run, mechanism, shape).map(Columns::Free),
+        _ => {
+            let mut signals = resistances(run, mechanism, shape)?;
+            // Where its zero is not known a second number goes with it.
+            if let Some(zero) = facts(mechanism).and_then(|facts| facts.zero) {
+                signals.extend(resistances(run, zero, &[])?);
+            }
+            Some(Columns::Free(signals))
+        }
     }
 }
 

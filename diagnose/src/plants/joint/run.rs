@@ -297,6 +297,10 @@ impl Run for JointRun {
             (Mechanism::GainError, PlantKind::Axis) => {
                 coefficients.iter().map(|c| -c / (1.0 + c)).collect()
             }
+            (Mechanism::Spring, _) => match *coefficients {
+                [stiffness, level] => vec![stiffness, -level / stiffness],
+                _ => coefficients.to_vec(),
+            },
             // The motion is less by what is shown more.
             (Mechanism::EncoderScale | Mechanism::EccentricEncoder, _) => {
                 coefficients.iter().map(|c| -c).collect()

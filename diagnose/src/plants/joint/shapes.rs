@@ -6,6 +6,7 @@ use crate::cause::Cause;
 use crate::plant::Run;
 use rigproof_model::effects::LIBRARY;
 use rigproof_model::effects::facts::Alone;
+use rigproof_spec::effect::Mechanism;
 
 /// The causes that have a meaning on a plant of one joint, in the library's order.
 pub fn causes(run: &JointRun) -> Vec<Cause> {
@@ -24,6 +25,14 @@ pub fn causes(run: &JointRun) -> Vec<Cause> {
         Alone::WithInertia => is_driven && matches!(run.inertia, Inertia::Known(_)),
     };
     let library = LIBRARY.iter();
-    let asked_for = library.filter(|entry| asked(entry.facts.asked.alone));
+    // Drag that is free anyhow is no part of a bristle.
+    let is_drag_free = run
+        .described
+        .iter()
+        .any(|e| e.unknown && e.cause.mechanism == Mechanism::Viscous);
+    let asked_for = library.filter(|entry| {
+        let is_twin = entry.mechanism == Mechanism::LugreBristle && is_drag_free;
+        asked(entry.facts.asked.alone) && !is_twin
+    });
     asked_for.map(|entry| Cause::of(entry.mechanism)).collect()
 }
