@@ -66,6 +66,14 @@ pub enum Law {
     },
     /// level·w, travel·dw/dt = q̇ − |q̇|·w (Dahl 1968).
     Presliding { level: f64, travel: f64 },
+    /// level·w + viscous·q̇, w as above.
+    LugreBristle {
+        level: f64,
+        viscous: f64,
+        travel: f64,
+    },
+    /// −missing·sgn q̇ while a gap is crossed: 0 < x < gap, dx/dt = q̇ within its ends.
+    Backlash { missing: f64, gap: f64 },
     /// z, travel·dz/dt = |q̇|·(forward − z) forward, −|q̇|·(backward + z) backward.
     AsymmetricPresliding {
         forward: f64,
@@ -80,8 +88,8 @@ pub enum Law {
     },
     /// sine·sin(2π·q/period) + cosine·cos(2π·q/period).
     Ripple { sine: f64, cosine: f64, period: f64 },
-    /// stiffness·q.
-    Spring { stiffness: f64 },
+    /// stiffness·(q − rest).
+    Spring { stiffness: f64, rest: f64 },
     /// cubic·q³.
     NonlinearSpring { cubic: f64 },
     /// rate·t.
@@ -129,6 +137,26 @@ impl Law {
                     travel,
                 }
             }
+            (Mechanism::Ripple, &[sine, cosine, period]) if period > 0.0 => Law::Ripple {
+                sine,
+                cosine,
+                period,
+            },
+            (Mechanism::Spring, &[stiffness]) => Law::Spring {
+                stiffness,
+                rest: 0.0,
+            },
+            (Mechanism::Spring, &[stiffness, rest]) => Law::Spring { stiffness, rest },
+            (Mechanism::NonlinearSpring, &[cubic]) => Law::NonlinearSpring { cubic },
+            (Mechanism::BiasDrift, &[rate]) => Law::BiasDrift { rate },
+            _ => return Law::with_memory(mechanism, parameters),
+        };
+        Some(law)
+    }
+
+    /// The same of a law that remembers the motion.
+    fn with_memory(mechanism: Mechanism, parameters: &[f64]) -> Option<Law> {
+        let law = match (mechanism, parameters) {
             (Mechanism::Presliding, &[level, travel]) if travel > 0.0 => {
                 Law::Presliding { level, travel }
             }
@@ -144,14 +172,14 @@ impl Law {
                 beta_gamma,
                 beta_delta,
             },
-            (Mechanism::Ripple, &[sine, cosine, period]) if period > 0.0 => Law::Ripple {
-                sine,
-                cosine,
-                period,
-            },
-            (Mechanism::Spring, &[stiffness]) => Law::Spring { stiffness },
-            (Mechanism::NonlinearSpring, &[cubic]) => Law::NonlinearSpring { cubic },
-            (Mechanism::BiasDrift, &[rate]) => Law::BiasDrift { rate },
+            (Mechanism::LugreBristle, &[level, viscous, travel]) if travel > 0.0 => {
+                Law::LugreBristle {
+                    level,
+                    viscous,
+                    travel,
+                }
+            }
+            (Mechanism::Backlash, &[missing, gap]) if gap > 0.0 => Law::Backlash { missing, gap },
             (Mechanism::ReversalOvershoot, &[fraction, travel]) if travel > 0.0 => {
                 Law::ReversalOvershoot { fraction, travel }
             }
@@ -167,6 +195,7 @@ impl Law {
     pub const fn starts_with(&self) -> f64 {
         match self {
             Law::ReversalOvershoot { .. } => NOT_MOVED,
+            Law::Backlash { gap, .. } => 0.5 * *gap,
             _ => 0.0,
         }
     }
@@ -186,6 +215,9 @@ impl Law {
                 viscous * now.speed.abs() + dry
             }
             Law::Presliding { level, .. } => level * memory,
+            Law::LugreBristle { level, viscous, .. } => level * memory + viscous * now.speed,
+            Law::Backlash { missing, gap } if memory > 0.0 && memory < gap => -missing * now.sense,
+            Law::Backlash { .. } => 0.0,
             Law::AsymmetricPresliding { .. } => memory,
             Law::DelayedStribeck { peak, .. } => peak * memory,
             Law::Hysteresis { alpha, .. } => alpha * memory,
@@ -197,7 +229,7 @@ impl Law {
                 let (sin, cos) = libm::sincos(core::f64::consts::TAU * now.position / period);
                 sine * sin + cosine * cos
             }
-            Law::Spring { stiffness } => stiffness * now.position,
+            Law::Spring { stiffness, rest } => stiffness * (now.position - rest),
             Law::NonlinearSpring { cubic } => cubic * now.position * now.position * now.position,
             Law::BiasDrift { rate } => rate * now.time_s,
             Law::ReversalOvershoot { .. } if memory == NOT_MOVED => 0.0,
@@ -241,8 +273,12 @@ impl Law {
             _ => memory,
         };
         let (gain, decay) = match *self {
-            Law::Presliding { travel, .. } | Law::ReversalOvershoot { travel, .. } => {
-                (speed / travel, speed.abs() / travel)
+            Law::Presliding { travel, .. }
+            | Law::LugreBristle { travel, .. }
+            | Law::ReversalOvershoot { travel, .. } => (speed / travel, speed.abs() / travel),
+            Law::Backlash { gap, .. } => {
+                let after = |time_s: f64| (memory + speed * time_s).clamp(0.0, gap);
+                return [after(time_s), after(0.5 * time_s)];
             }
             Law::AsymmetricPresliding {
                 forward,
