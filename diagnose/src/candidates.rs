@@ -5,13 +5,13 @@ use crate::plant::Run;
 use crate::problem::{Problem, Term, add};
 use crate::regression::Fit;
 use crate::rules::{
-    BENDS_JOINT, EDGE, EFFORT_LIMIT_SHARES, EFFORT_LIMITS, FASTEST_PEAK, FASTEST_RESONANCE,
-    FEWEST_CYCLES, GAPS, LAGS_JOINT, LEAST_BEND, LEAST_BEND_SIGMAS, LEAST_GAP, LEAST_GAP_SIGMAS,
-    LEAST_LAG_STEPS, LEAST_SHIFT_STEPS_JOINT, MEMORY_COUNT, MEMORY_RATES, MEMORY_RATIOS,
-    MOST_A_TURN, MOST_BEND, MOST_CYCLES, MOST_GAP, MOST_LAG_S_JOINT, MOST_SHIFT_S_JOINT,
-    MOST_SHIFT_STEPS, PEAK_EXPONENTS_JOINT, PEAK_SPEEDS, PEAKS, PEAKS_APART, RESONANCE_DAMPINGS,
-    RESONANCE_STEPS, RESONANCES, SHIFTS_JOINT, SLOWEST_PEAK, SLOWEST_PEAK_FLOORS,
-    SLOWEST_RESONANCE, SPACING,
+    BENDS_JOINT, BRISTLE_EXPONENTS, EDGE, EFFORT_LIMIT_SHARES, EFFORT_LIMITS, FASTEST_PEAK,
+    FASTEST_RESONANCE, FEWEST_CYCLES, GAPS, LAGS_JOINT, LEAST_BEND, LEAST_BEND_SIGMAS, LEAST_GAP,
+    LEAST_GAP_SIGMAS, LEAST_LAG_STEPS, LEAST_SHIFT_STEPS_JOINT, MEMORY_COUNT, MEMORY_RATES,
+    MEMORY_RATIOS, MOST_A_TURN, MOST_BEND, MOST_CYCLES, MOST_GAP, MOST_LAG_S_JOINT,
+    MOST_SHIFT_S_JOINT, MOST_SHIFT_STEPS, PEAK_EXPONENTS_JOINT, PEAK_SPEEDS, PEAKS, PEAKS_APART,
+    RESONANCE_DAMPINGS, RESONANCE_STEPS, RESONANCES, SHIFTS_JOINT, SLOWEST_PEAK,
+    SLOWEST_PEAK_FLOORS, SLOWEST_RESONANCE, SPACING,
 };
 use crate::weak::Windows;
 use core::f64::consts::TAU;
@@ -118,11 +118,11 @@ pub fn standard_shapes<R: Run + ?Sized>(
             fastest(run.motion(cause.at)),
             &PEAK_EXPONENTS_JOINT,
         ),
-        Shapes::Bristle => one(geometric(
-            (LEAST_BEND_SIGMAS * run.position_noise()).max(LEAST_BEND * travel),
-            MOST_BEND * travel,
-            BENDS_JOINT,
-        )),
+        Shapes::Bristle => one(bends(run, travel)),
+        Shapes::BristleCurve => bends(run, travel)
+            .into_iter()
+            .flat_map(|travel| BRISTLE_EXPONENTS.map(|exponent| vec![travel, exponent]))
+            .collect(),
         Shapes::Memory => {
             let [slowest, fastest] = MEMORY_RATES;
             geometric(slowest / travel, fastest / travel, MEMORY_COUNT)
@@ -163,6 +163,12 @@ pub fn standard_shapes<R: Run + ?Sized>(
         | Shapes::Geometric { .. }
         | Shapes::BothSigns { .. }) => in_numbers(own),
     }
+}
+
+/// Travels over which a bristle bends, from the least that is seen on.
+fn bends<R: Run + ?Sized>(run: &R, travel: f64) -> Vec<f64> {
+    let least = (LEAST_BEND_SIGMAS * run.position_noise()).max(LEAST_BEND * travel);
+    geometric(least, MOST_BEND * travel, BENDS_JOINT)
 }
 
 /// Resonances of what bends, with damping ratios.

@@ -12,6 +12,8 @@ use crate::regression::{Blocks, fit, free_columns, paired, reduced_target};
 use crate::rules::{LISTED, NAMED, OFFERED, ROUNDS, SUSPECTED};
 use crate::select::{Found, Selection, is_noise, usable_rms};
 use fitted::{Fitted, Folds};
+use rigproof_model::effects::facts;
+use rigproof_spec::effect::Mechanism;
 use score::{Judge, prior};
 use std::sync::Arc;
 
@@ -64,9 +66,18 @@ impl Explanations {
 }
 
 impl Explanation {
+    /// Whether it holds a cause, in whatever form.
     fn holds(&self, cause: Cause) -> bool {
-        self.terms.iter().any(|term| term.cause == cause)
+        let same = |own: Cause| own.at == cause.at && kind(own.mechanism) == kind(cause.mechanism);
+        self.terms.iter().any(|term| same(term.cause))
     }
+}
+
+/// The mechanism of which one is a form.
+fn kind(mechanism: Mechanism) -> Mechanism {
+    facts(mechanism)
+        .and_then(|facts| facts.form_of)
+        .unwrap_or(mechanism)
 }
 
 /// What is said of something with this probability.

@@ -9,6 +9,7 @@ mod backlash;
 mod bias_drift;
 mod brake;
 mod constant_bias;
+mod dahl_bristle;
 mod direction_asymmetry;
 mod driven;
 mod dry_offset;
@@ -227,6 +228,7 @@ pub const LIBRARY: &[Entry] = &[
     direction_asymmetry::ENTRY,
     stribeck::ENTRY,
     presliding::ENTRY,
+    dahl_bristle::ENTRY,
     lugre_bristle::ENTRY,
     backlash::ENTRY,
     asymmetric_presliding::ENTRY,
@@ -418,6 +420,6 @@ mod tests {
                 tried += usize::from(law.remembers());
             }
         }
-        assert_eq!(tried, 32);
+        assert_eq!(tried, 36);
     }
 }

@@ -153,6 +153,12 @@ vocabulary! {
         needed("viscous", EffortPerSpeed),
         needed("travel", Travel).above_zero(),
     ],
+    /// Elastic motion before sliding on Dahl's own curve (Dahl 1968).
+    DahlBristle = "dahl_bristle" [
+        needed("level", Effort),
+        needed("travel", Travel).above_zero(),
+        needed("exponent", Number).above_zero(),
+    ],
     /// Friction that is missing while a gap is crossed after a reversal.
     Backlash = "backlash" | "play" | "dead zone" [needed("missing", Effort), needed("gap", Travel).above_zero()],
     /// Friction in proportion to the effort that a joint transmits.

@@ -1,6 +1,7 @@
 //! This file searches among sets of terms: several explanations stay alive at once, and none is judged by the order in which its members came.
 
 use super::fitted::{Fitted, Folds};
+use super::kind;
 use super::refine::refined;
 use super::score::{Judge, gives_energy};
 use crate::problem::{Problem, Term};
@@ -124,9 +125,12 @@ fn by_evidence(folds: &Folds, judge: &Judge, all: Vec<Fitted>) -> Vec<Fitted> {
     all.into_iter().map(|(_, fitted)| fitted).collect()
 }
 
-/// A cause stands once in an explanation.
+/// A cause stands once in an explanation, in one form.
 fn may_join(terms: &[Term], term: &Term) -> bool {
-    terms.iter().all(|own| own.cause != term.cause)
+    let same = |own: &Term| {
+        own.cause.at == term.cause.at && kind(own.cause.mechanism) == kind(term.cause.mechanism)
+    };
+    !terms.iter().any(same)
 }
 
 /// The causes of an explanation in one order.

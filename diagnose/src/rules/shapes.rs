@@ -87,6 +87,8 @@ rules! {
     EFFORT_LIMIT_SHARES: [f64; 2] = [0.05, 0.97], "share", DRIVEN;
     /// Most periods in one turn that are tried whatever the spectrum says: what repeats with a turn has whole numbers.
     MOST_A_TURN: u32 = 36, "periods", DRIVEN;
+    /// Axis and bench: exponents of the curve on which a bristle bends.
+    BRISTLE_EXPONENTS: [f64; 3] = [0.5, 1.5, 2.5], "1", DRIVEN;
     /// Axis: limits of the drive's effort that are tried.
     EFFORT_LIMITS: usize = 24, "efforts", DRIVEN;
     /// Axis and bench: least width of a gap that is seen to be crossed, in deviations of the noise of the position.

@@ -34,6 +34,8 @@ pub struct Facts {
     pub zero: Option<Mechanism>,
     /// Another one that no recording of a plant of one joint tells from it.
     pub twin: Option<Mechanism>,
+    /// The mechanism of which it is another form: what one is, the other is.
+    pub form_of: Option<Mechanism>,
     /// Two that it is together, once it has slid. The first gives the shape.
     pub both: Option<[Mechanism; 2]>,
     /// How great a change of its parameters is small.
@@ -57,6 +59,7 @@ impl Facts {
             limit: None,
             zero: None,
             twin: None,
+            form_of: None,
             both: None,
             refit: Refit {
                 leads: false,
@@ -187,6 +190,8 @@ pub enum Shapes {
     Peak,
     /// Travels over which a bristle bends.
     Bristle,
+    /// The same with exponents of the curve on which it bends.
+    BristleCurve,
     /// Rates of a memory of the displacement.
     Memory,
     /// Periods over the travel, from the spectrum of what is left.

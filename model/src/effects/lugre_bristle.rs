@@ -21,6 +21,7 @@ pub(super) const ENTRY: Entry = Entry {
         usual: Usual::Frequent,
         has_forms: true,
         shapes: Shapes::Bristle,
+        form_of: Some(Mechanism::Presliding),
         ..Facts::of(
             Family::MemoryOfMotion,
             Asked {

@@ -160,7 +160,11 @@ pub fn shapes(
             SHIFTS_FIVE_BAR,
         ))),
         // The rig is not asked for these.
-        Shapes::Memory | Shapes::EffortLimit | Shapes::Gap | Shapes::Resonance => vec![vec![]],
+        Shapes::Memory
+        | Shapes::EffortLimit
+        | Shapes::Gap
+        | Shapes::Resonance
+        | Shapes::BristleCurve => vec![vec![]],
         own @ (Shapes::None
         | Shapes::Values(_)
         | Shapes::Geometric { .. }
