@@ -4,13 +4,14 @@ use crate::cause::Cause;
 use crate::plant::Run;
 use crate::problem::{Problem, Term, add};
 use crate::regression::Fit;
-use crate::rules::{BRISTLE_EXPONENTS, MOST_A_TURN, 
-    BENDS_JOINT, EDGE, EFFORT_LIMITS, FASTEST_PEAK, FASTEST_RESONANCE, FEWEST_CYCLES, GAPS,
-    LAGS_JOINT, LEAST_BEND, LEAST_BEND_SIGMAS, LEAST_GAP, LEAST_GAP_SIGMAS, LEAST_LAG_STEPS,
-    LEAST_SHIFT_STEPS_JOINT, EFFORT_LIMIT_SHARES, MEMORY_COUNT, MEMORY_RATES, MEMORY_RATIOS, MOST_BEND,
-    MOST_CYCLES, MOST_GAP, MOST_LAG_S_JOINT, MOST_SHIFT_S_JOINT, MOST_SHIFT_STEPS,
-    PEAK_EXPONENTS_JOINT, PEAK_SPEEDS, PEAKS, PEAKS_APART, RESONANCE_DAMPINGS, RESONANCE_STEPS,
-    RESONANCES, SHIFTS_JOINT, SLOWEST_PEAK, SLOWEST_PEAK_FLOORS, SLOWEST_RESONANCE, SPACING,
+use crate::rules::{
+    BENDS_JOINT, BRISTLE_EXPONENTS, EDGE, EFFORT_LIMIT_SHARES, EFFORT_LIMITS, FASTEST_PEAK,
+    FASTEST_RESONANCE, FEWEST_CYCLES, GAPS, LAGS_JOINT, LEAST_BEND, LEAST_BEND_SIGMAS, LEAST_GAP,
+    LEAST_GAP_SIGMAS, LEAST_LAG_STEPS, LEAST_SHIFT_STEPS_JOINT, MEMORY_COUNT, MEMORY_RATES,
+    MEMORY_RATIOS, MOST_A_TURN, MOST_BEND, MOST_CYCLES, MOST_GAP, MOST_LAG_S_JOINT,
+    MOST_SHIFT_S_JOINT, MOST_SHIFT_STEPS, PEAK_EXPONENTS_JOINT, PEAK_SPEEDS, PEAKS, PEAKS_APART,
+    RESONANCE_DAMPINGS, RESONANCE_STEPS, RESONANCES, SHIFTS_JOINT, SLOWEST_PEAK,
+    SLOWEST_PEAK_FLOORS, SLOWEST_RESONANCE, SPACING,
 };
 use crate::weak::Windows;
 use core::f64::consts::TAU;
@@ -117,16 +118,8 @@ pub fn standard_shapes<R: Run + ?Sized>(
             fastest(run.motion(cause.at)),
             &PEAK_EXPONENTS_JOINT,
         ),
-        Shapes::Bristle => one(geometric(
-            (LEAST_BEND_SIGMAS * run.position_noise()).max(LEAST_BEND * travel),
-            MOST_BEND * travel,
-            BENDS_JOINT,
-        )),
-        Shapes::BristleCurve => geometric(
-            (LEAST_BEND_SIGMAS * run.position_noise()).max(LEAST_BEND * travel),
-            MOST_BEND * travel,
-            BENDS_JOINT,
-        )
+        Shapes::Bristle => one(bends(run, travel)),
+        Shapes::BristleCurve => bends(run, travel)
             .into_iter()
             .flat_map(|travel| BRISTLE_EXPONENTS.map(|exponent| vec![travel, exponent]))
             .collect(),
@@ -142,27 +135,8 @@ pub fn standard_shapes<R: Run + ?Sized>(
             MOST_GAP * travel,
             GAPS,
         )),
-        Shapes::Resonance => {
-            let [least, most] = FASTEST_RESONANCE;
-            geometric(
-                SLOWEST_RESONANCE,
-                (RESONANCE_STEPS / step_s).clamp(least, most),
-                RESONANCES,
-            )
-            .into_iter()
-            .flat_map(|resonance| RESONANCE_DAMPINGS.map(|damping| vec![resonance, damping]))
-            .collect()
-        }
-        Shapes::EffortLimit => {
-            let efforts = run.effort();
-            let greatest = efforts.iter().fold(0.0, |most: f64, e| most.max(e.abs()));
-            let [lowest, highest] = EFFORT_LIMIT_SHARES;
-            one(geometric(
-                lowest * greatest,
-                highest * greatest,
-                EFFORT_LIMITS,
-            ))
-        }
+        Shapes::Resonance => resonances(step_s),
+        Shapes::EffortLimit => one(effort_limits(&run.effort())),
         Shapes::Period => {
             let points = points(run.motion(cause.at), windows, residual);
             let mut all = periods(&points, run.travel(cause.at));
@@ -189,6 +163,29 @@ pub fn standard_shapes<R: Run + ?Sized>(
         | Shapes::Geometric { .. }
         | Shapes::BothSigns { .. }) => in_numbers(own),
     }
+}
+
+/// Travels over which a bristle bends, from the least that is seen on.
+fn bends<R: Run + ?Sized>(run: &R, travel: f64) -> Vec<f64> {
+    let least = (LEAST_BEND_SIGMAS * run.position_noise()).max(LEAST_BEND * travel);
+    geometric(least, MOST_BEND * travel, BENDS_JOINT)
+}
+
+/// Resonances of what bends, with damping ratios.
+fn resonances(step_s: f64) -> Vec<Vec<f64>> {
+    let [least, most] = FASTEST_RESONANCE;
+    let fastest = (RESONANCE_STEPS / step_s).clamp(least, most);
+    geometric(SLOWEST_RESONANCE, fastest, RESONANCES)
+        .into_iter()
+        .flat_map(|resonance| RESONANCE_DAMPINGS.map(|damping| vec![resonance, damping]))
+        .collect()
+}
+
+/// Limits below the greatest effort that was asked for.
+fn effort_limits(effort: &[f64]) -> Vec<f64> {
+    let greatest = effort.iter().fold(0.0, |most: f64, e| most.max(e.abs()));
+    let [lowest, highest] = EFFORT_LIMIT_SHARES;
+    geometric(lowest * greatest, highest * greatest, EFFORT_LIMITS)
 }
 
 /// Position and residual of each usable window.

@@ -12,9 +12,9 @@ use crate::regression::{Blocks, fit, free_columns, paired, reduced_target};
 use crate::rules::{LISTED, NAMED, OFFERED, ROUNDS, SUSPECTED};
 use crate::select::{Found, Selection, is_noise, usable_rms};
 use fitted::{Fitted, Folds};
-use score::{Judge, prior};
 use rigproof_model::effects::facts;
 use rigproof_spec::effect::Mechanism;
+use score::{Judge, prior};
 use std::sync::Arc;
 
 /// One explanation beside others.

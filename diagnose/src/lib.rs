@@ -15,7 +15,7 @@
 //!     motion = "linear"
 //!     [channels]
 //!     position = { channel = "x", unit = "m", quantum = 1e-7 }
-//!     command = { channel = "f", unit = "N", noise = 0.001 }
+//!     command = { channel = "f", unit = "N", noise = 1e-6 }
 //!     [parameters]
 //!     inertia = { value = 2.0, unit = "kg", status = "known" }
 //!     command_gain = { value = 1.0, unit = "N/N", status = "known" }

@@ -393,8 +393,8 @@ mod tests {
             for other in zero.into_iter().chain(both.into_iter().flatten()) {
                 assert!(self::entry(other).is_some(), "{name}");
             }
-            // What has no shape has no number but its coefficients; an encoder's is the step at which its column is taken.
-            let is_shaped = parameters.len() > entry.linear || entry.form.is_of_encoder();
+            // What has no shape needs no number but its coefficients; an encoder's is the step at which its column is taken.
+            let is_shaped = entry.mechanism.needed() > entry.linear || entry.form.is_of_encoder();
             assert_eq!(shapes != facts::Shapes::None, is_shaped, "{name}");
         }
     }
@@ -432,6 +432,6 @@ mod tests {
                 tried += usize::from(law.remembers());
             }
         }
-        assert_eq!(tried, 32);
+        assert_eq!(tried, 36);
     }
 }

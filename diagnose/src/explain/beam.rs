@@ -1,11 +1,11 @@
 //! This file searches among sets of terms: several explanations stay alive at once, and none is judged by the order in which its members came.
 
-use super::kind;
 use super::fitted::{Fitted, Folds};
+use super::kind;
 use super::refine::refined;
 use super::score::{Judge, gives_energy};
 use crate::problem::{Problem, Term};
-use crate::rules::{EXCHANGES, BEAM, KEPT, MOST_TERMS};
+use crate::rules::{BEAM, EXCHANGES, KEPT, MOST_TERMS};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 

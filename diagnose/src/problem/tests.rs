@@ -8,7 +8,6 @@ use crate::plants::joint::recorded::{NOMINAL, exact_axis};
 use crate::plants::joint::run::JointRun;
 use crate::regression::reduced_target;
 use crate::signals::{numerov, second_difference, shifted};
-use rigproof_spec::effect::Mechanism;
 
 /// The residual of the usable windows when the nominal model knows everything, over the effort.
 fn relative_residual(run: &JointRun) -> f64 {

@@ -79,7 +79,7 @@ rules! {
     DELAYS: usize = 8, "times", FIVE_BAR;
     /// Five-bar: a brake that was never given more has no limit to find.
     LEAST_LIMITED_A: f64 = 0.05, "A", FIVE_BAR;
-    /// The lowest and the highest limit of a current (five-bar) or of a drive's effort (axis), over the greatest that was given.
+    /// Five-bar: the lowest and the highest limit of a current, over the greatest that was given.
     LIMIT_SHARES: [f64; 2] = [0.3, 0.97], "share", FIVE_BAR;
     /// Five-bar: limits that are tried.
     LIMITS: usize = 8, "currents", FIVE_BAR;

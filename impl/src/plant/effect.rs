@@ -66,6 +66,20 @@ pub enum Law {
     },
     /// level·w, travel·dw/dt = q̇ − |q̇|·w (Dahl 1968).
     Presliding { level: f64, travel: f64 },
+    /// level·w + viscous·q̇, w as above.
+    LugreBristle {
+        level: f64,
+        viscous: f64,
+        travel: f64,
+    },
+    /// level·w, travel·dw/dt = q̇·(1 − w·sgn q̇)^exponent (Dahl 1968).
+    DahlBristle {
+        level: f64,
+        travel: f64,
+        exponent: f64,
+    },
+    /// −missing·sgn q̇ while a gap is crossed: 0 < x < gap, dx/dt = q̇ within its ends.
+    Backlash { missing: f64, gap: f64 },
     /// z, travel·dz/dt = |q̇|·(forward − z) forward, −|q̇|·(backward + z) backward.
     AsymmetricPresliding {
         forward: f64,
@@ -80,8 +94,8 @@ pub enum Law {
     },
     /// sine·sin(2π·q/period) + cosine·cos(2π·q/period).
     Ripple { sine: f64, cosine: f64, period: f64 },
-    /// stiffness·q.
-    Spring { stiffness: f64 },
+    /// stiffness·(q − rest).
+    Spring { stiffness: f64, rest: f64 },
     /// cubic·q³.
     NonlinearSpring { cubic: f64 },
     /// rate·t.
@@ -129,6 +143,26 @@ impl Law {
                     travel,
                 }
             }
+            (Mechanism::Ripple, &[sine, cosine, period]) if period > 0.0 => Law::Ripple {
+                sine,
+                cosine,
+                period,
+            },
+            (Mechanism::Spring, &[stiffness]) => Law::Spring {
+                stiffness,
+                rest: 0.0,
+            },
+            (Mechanism::Spring, &[stiffness, rest]) => Law::Spring { stiffness, rest },
+            (Mechanism::NonlinearSpring, &[cubic]) => Law::NonlinearSpring { cubic },
+            (Mechanism::BiasDrift, &[rate]) => Law::BiasDrift { rate },
+            _ => return Law::with_memory(mechanism, parameters),
+        };
+        Some(law)
+    }
+
+    /// The same of a law that remembers the motion.
+    fn with_memory(mechanism: Mechanism, parameters: &[f64]) -> Option<Law> {
+        let law = match (mechanism, parameters) {
             (Mechanism::Presliding, &[level, travel]) if travel > 0.0 => {
                 Law::Presliding { level, travel }
             }
@@ -144,14 +178,23 @@ impl Law {
                 beta_gamma,
                 beta_delta,
             },
-            (Mechanism::Ripple, &[sine, cosine, period]) if period > 0.0 => Law::Ripple {
-                sine,
-                cosine,
-                period,
-            },
-            (Mechanism::Spring, &[stiffness]) => Law::Spring { stiffness },
-            (Mechanism::NonlinearSpring, &[cubic]) => Law::NonlinearSpring { cubic },
-            (Mechanism::BiasDrift, &[rate]) => Law::BiasDrift { rate },
+            (Mechanism::LugreBristle, &[level, viscous, travel]) if travel > 0.0 => {
+                Law::LugreBristle {
+                    level,
+                    viscous,
+                    travel,
+                }
+            }
+            (Mechanism::DahlBristle, &[level, travel, exponent])
+                if travel > 0.0 && exponent > 0.0 =>
+            {
+                Law::DahlBristle {
+                    level,
+                    travel,
+                    exponent,
+                }
+            }
+            (Mechanism::Backlash, &[missing, gap]) if gap > 0.0 => Law::Backlash { missing, gap },
             (Mechanism::ReversalOvershoot, &[fraction, travel]) if travel > 0.0 => {
                 Law::ReversalOvershoot { fraction, travel }
             }
@@ -167,6 +210,7 @@ impl Law {
     pub const fn starts_with(&self) -> f64 {
         match self {
             Law::ReversalOvershoot { .. } => NOT_MOVED,
+            Law::Backlash { gap, .. } => 0.5 * *gap,
             _ => 0.0,
         }
     }
@@ -185,7 +229,10 @@ impl Law {
                 let dry = if now.sense == 0.0 { 0.0 } else { dry };
                 viscous * now.speed.abs() + dry
             }
-            Law::Presliding { level, .. } => level * memory,
+            Law::Presliding { level, .. } | Law::DahlBristle { level, .. } => level * memory,
+            Law::LugreBristle { level, viscous, .. } => level * memory + viscous * now.speed,
+            Law::Backlash { missing, gap } if memory > 0.0 && memory < gap => -missing * now.sense,
+            Law::Backlash { .. } => 0.0,
             Law::AsymmetricPresliding { .. } => memory,
             Law::DelayedStribeck { peak, .. } => peak * memory,
             Law::Hysteresis { alpha, .. } => alpha * memory,
@@ -197,7 +244,7 @@ impl Law {
                 let (sin, cos) = libm::sincos(core::f64::consts::TAU * now.position / period);
                 sine * sin + cosine * cos
             }
-            Law::Spring { stiffness } => stiffness * now.position,
+            Law::Spring { stiffness, rest } => stiffness * (now.position - rest),
             Law::NonlinearSpring { cubic } => cubic * now.position * now.position * now.position,
             Law::BiasDrift { rate } => rate * now.time_s,
             Law::ReversalOvershoot { .. } if memory == NOT_MOVED => 0.0,
@@ -223,26 +270,39 @@ impl Law {
         }
     }
 
+    /// The memory with which a motion of this rate goes on, rad/s: every change of sense begins an overshoot anew.
+    fn begun(&self, memory: f64, speed: f64) -> f64 {
+        let overshoots = matches!(self, Law::ReversalOvershoot { .. });
+        let turns = memory * speed < 0.0 && speed.abs() > LEAST_TURNING_RAD_S;
+        match (overshoots, memory == NOT_MOVED) {
+            (true, true) => speed.signum(),
+            (true, false) if turns => 0.0,
+            _ => memory,
+        }
+    }
+
     /// The memory after a time, s, at a constant rate, rad/s, and halfway: exact while the memory keeps its sign.
     pub fn remember(&self, memory: f64, speed: f64, time_s: f64) -> [f64; 2] {
-        let memory = match *self {
-            Law::ReversalOvershoot { .. } if memory == NOT_MOVED => {
-                if speed.abs() <= LEAST_TURNING_RAD_S {
-                    return [memory, memory];
-                }
-                speed.signum()
-            }
-            // Every change of sense begins anew.
-            Law::ReversalOvershoot { .. }
-                if memory * speed < 0.0 && speed.abs() > LEAST_TURNING_RAD_S =>
-            {
-                0.0
-            }
-            _ => memory,
-        };
+        if let Law::ReversalOvershoot { .. } = self
+            && memory == NOT_MOVED
+            && speed.abs() <= LEAST_TURNING_RAD_S
+        {
+            return [memory, memory];
+        }
+        let memory = self.begun(memory, speed);
         let (gain, decay) = match *self {
-            Law::Presliding { travel, .. } | Law::ReversalOvershoot { travel, .. } => {
-                (speed / travel, speed.abs() / travel)
+            Law::Presliding { travel, .. }
+            | Law::LugreBristle { travel, .. }
+            | Law::ReversalOvershoot { travel, .. } => (speed / travel, speed.abs() / travel),
+            Law::DahlBristle {
+                travel, exponent, ..
+            } => {
+                let after = |time_s: f64| bent(memory, speed * time_s / travel, exponent);
+                return [after(time_s), after(0.5 * time_s)];
+            }
+            Law::Backlash { gap, .. } => {
+                let after = |time_s: f64| (memory + speed * time_s).clamp(0.0, gap);
+                return [after(time_s), after(0.5 * time_s)];
             }
             Law::AsymmetricPresliding {
                 forward,
@@ -290,6 +350,26 @@ impl Law {
 /// Share of a Stribeck peak at a ratio of speeds.
 fn near_standstill(ratio: f64, exponent: f64) -> f64 {
     libm::exp(-libm::pow(ratio.abs(), exponent))
+}
+
+/// How far a bristle on Dahl's curve is bent after a motion, in its travels: what is left to bend goes by its own power.
+fn bent(memory: f64, travels: f64, exponent: f64) -> f64 {
+    let sense = travels.signum();
+    let left = 1.0 - memory * sense;
+    if travels == 0.0 || left <= 0.0 {
+        return memory;
+    }
+    let own = 1.0 - exponent;
+    // ln of the share that stays: that of an exponential where the exponent is one.
+    let grown = own * travels.abs() * libm::pow(left, -own);
+    let ln_share = if own.abs() < 1e-9 {
+        -travels.abs()
+    } else if grown >= 1.0 {
+        return sense;
+    } else {
+        libm::log1p(-grown) / own
+    };
+    memory - sense * left * libm::expm1(ln_share)
 }
 
 /// A law on a joint, with its memory.

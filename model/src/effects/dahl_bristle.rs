@@ -53,7 +53,10 @@ impl Curve {
         if left <= 0.0 {
             return 0.0;
         }
-        libm::pow((libm::pow(left, power) - power * travelled).max(0.0), 1.0 / power)
+        libm::pow(
+            (libm::pow(left, power) - power * travelled).max(0.0),
+            1.0 / power,
+        )
     }
 }
 
@@ -91,9 +94,9 @@ mod tests {
         let own = law(Mechanism::DahlBristle, &[0.7, 0.03, 1.0]).unwrap();
         let steps = [0.011, -0.004, -0.05, 0.02];
         let after = |law: &dyn Law| {
-            steps
-                .iter()
-                .fold(0.0, |memory, travel| law.memory_after(memory, *travel, *travel))
+            steps.iter().fold(0.0, |memory, travel| {
+                law.memory_after(memory, *travel, *travel)
+            })
         };
         assert!((after(plain.as_ref()) - after(own.as_ref())).abs() < 1e-12);
         let half = law(Mechanism::DahlBristle, &[0.7, 0.03, 0.5]).unwrap();

@@ -42,16 +42,17 @@ pub(super) const FRICTION_FADE: Entry = Entry {
     facts: Facts {
         usual: Usual::Seldom,
         ..Facts::of(
-        Family::FrictionOfMotion,
-        Asked {
-            alone: Alone::Always,
-            five_bar: Where::Nowhere,
-        },
-        Words {
-            what: "friction that changes while the recording goes on",
-            look_for: "grease that warms up, running in",
-        },
-    )},
+            Family::FrictionOfMotion,
+            Asked {
+                alone: Alone::Always,
+                five_bar: Where::Nowhere,
+            },
+            Words {
+                what: "friction that changes while the recording goes on",
+                look_for: "grease that warms up, running in",
+            },
+        )
+    },
 };
 
 pub(super) const ADDED_INERTIA: Entry = Entry {
@@ -64,16 +65,17 @@ pub(super) const ADDED_INERTIA: Entry = Entry {
     facts: Facts {
         usual: Usual::Frequent,
         ..Facts::of(
-        Family::Inertia,
-        Asked {
-            alone: Alone::WithInertia,
-            five_bar: Where::Nowhere,
-        },
-        Words {
-            what: "another inertia than the described one",
-            look_for: "a payload, a tool, the motor behind its gear",
-        },
-    )},
+            Family::Inertia,
+            Asked {
+                alone: Alone::WithInertia,
+                five_bar: Where::Nowhere,
+            },
+            Words {
+                what: "another inertia than the described one",
+                look_for: "a payload, a tool, the motor behind its gear",
+            },
+        )
+    },
 };
 
 pub(super) const COMPLIANCE: Entry = Entry {

@@ -1,6 +1,6 @@
 //! This file is an encoder whose disc turns off its centre: once a turn it shows too much, once too little.
 
-use super::facts::{Usual, Alone, Asked, Facts, Family, Where, Words};
+use super::facts::{Alone, Asked, Facts, Family, Usual, Where, Words};
 use super::{Entry, Form, OfSensor};
 use rigproof_spec::effect::Mechanism;
 
@@ -14,14 +14,15 @@ pub(super) const ENTRY: Entry = Entry {
     facts: Facts {
         usual: Usual::Seldom,
         ..Facts::of(
-        Family::Sensor,
-        Asked {
-            alone: Alone::Driven,
-            five_bar: Where::Nowhere,
-        },
-        Words {
-            what: "an encoder that shows too much in one half of a turn and too little in the other",
-            look_for: "the centring of its disc, a bent shaft",
-        },
-    )},
+            Family::Sensor,
+            Asked {
+                alone: Alone::Driven,
+                five_bar: Where::Nowhere,
+            },
+            Words {
+                what: "an encoder that shows too much in one half of a turn and too little in the other",
+                look_for: "the centring of its disc, a bent shaft",
+            },
+        )
+    },
 };

@@ -2,7 +2,7 @@
 //!
 //! Of `β`, `γ` and `δ` only the products `β·γ` and `β·δ` enter, so only they can be known.
 
-use super::facts::{Usual, Alone, Asked, Facts, Family, Shapes, Where, Words};
+use super::facts::{Alone, Asked, Facts, Family, Shapes, Usual, Where, Words};
 use super::{Entry, Form, Instant, Law, parameter};
 use rigproof_spec::effect::Mechanism;
 

@@ -1,6 +1,6 @@
 //! This file is a bristle with drag beside it, as in the model of Canudas de Wit, Olsson, Åström and Lischinsky (1995) without its peak.
 
-use super::facts::{Usual, Alone, Asked, Facts, Family, Shapes, Where, Words};
+use super::facts::{Alone, Asked, Facts, Family, Shapes, Usual, Where, Words};
 use super::{Entry, Form, Instant, Law, parameter, relaxed};
 use rigproof_spec::effect::Mechanism;
 

@@ -58,20 +58,13 @@ pub fn align(signals: &Signals) -> Result<JointRun, Fault> {
     };
     let predicted = optional(&signals.predicted);
     let current = optional(&signals.current);
-    let quantum = signals
-        .position_quantum
-        .unwrap_or_else(|| smallest_step(&signals.position));
-    let position_noise = (quantum / 12f64.sqrt()).hypot(signals.position_noise.unwrap_or(0.0));
+    let (quantum, position_noise) = resolution(signals);
     let effort_noise = signals
         .effort_noise
         .unwrap_or_else(|| smallest_step(&effort) / 12f64.sqrt());
     let band_hz = band_hz(&effort, step_s);
-    let cutoff_hz = quiet_cutoff_hz(
-        &position,
-        step_s,
-        cutoff_hz(step_s, band_hz),
-        position_noise,
-    );
+    let most_hz = cutoff_hz(step_s, band_hz);
+    let cutoff_hz = quiet_cutoff_hz(&position, step_s, most_hz, position_noise);
     let (mut motion, speed_floor) = smoothed_motion(&position, step_s, cutoff_hz, position_noise);
     let smoothing = Smoothing {
         step_s,
@@ -116,6 +109,15 @@ pub fn align(signals: &Signals) -> Result<JointRun, Fault> {
     };
     check_sign(&run)?;
     Ok(run)
+}
+
+/// The resolution of the position, and the noise that it makes with what is stated.
+fn resolution(signals: &Signals) -> (f64, f64) {
+    let quantum = signals
+        .position_quantum
+        .unwrap_or_else(|| smallest_step(&signals.position));
+    let stated = signals.position_noise.unwrap_or(0.0);
+    (quantum, (quantum / 12f64.sqrt()).hypot(stated))
 }
 
 /// A metered effort has noise: on a bench a constant one is a dead channel, unless the motion rests too.

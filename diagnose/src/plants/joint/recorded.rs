@@ -108,6 +108,7 @@ pub fn exact_bench(laws: Laws, count: usize) -> JointRun {
 
 fn run(plant: PlantKind, motion: Vec<Instant>, effort: Vec<f64>, held: bool) -> JointRun {
     JointRun {
+        described: Vec::new(),
         plant,
         kind: Motion::Linear,
         inertia: match plant {

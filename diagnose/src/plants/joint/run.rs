@@ -17,7 +17,7 @@ use crate::rules::{
 use crate::signals::second_difference;
 use crate::weak::{Windows, is_recorded, untold};
 use rigproof_model::brake::Brake;
-use rigproof_model::effects::{Instant, facts};
+use rigproof_model::effects::{Drive, Form, Instant, OfSensor, facts, form};
 use rigproof_spec::effect::{Mechanism, Motion};
 use rigproof_spec::tables::BrakeTable;
 
@@ -291,21 +291,20 @@ impl Run for JointRun {
     }
 
     fn linear(&self, mechanism: Mechanism, coefficients: &[f64]) -> Vec<f64> {
-        match (mechanism, self.plant) {
+        match (form(mechanism), self.plant) {
             // The column is the known effort: y = e + c·e, so that the applied gain is 1/(1 + c) of the stated one. What a bench meters is the
             // brake's torque itself.
-            (Mechanism::GainError, PlantKind::Axis) => {
+            (Some(Form::Drive(Drive::Gain)), PlantKind::Axis) => {
                 coefficients.iter().map(|c| -c / (1.0 + c)).collect()
             }
-            (Mechanism::Spring, _) => match *coefficients {
-                [stiffness, level] => vec![stiffness, -level / stiffness],
-                _ => coefficients.to_vec(),
-            },
             // The motion is less by what is shown more.
-            (Mechanism::EncoderScale | Mechanism::EccentricEncoder, _) => {
+            (Some(Form::Sensor(OfSensor::EncoderScale | OfSensor::Eccentric)), _) => {
                 coefficients.iter().map(|c| -c).collect()
             }
-            _ => coefficients.to_vec(),
+            _ => match (mechanism, coefficients) {
+                (Mechanism::Spring, &[stiffness, level]) => vec![stiffness, -level / stiffness],
+                _ => coefficients.to_vec(),
+            },
         }
     }
 
