@@ -157,7 +157,10 @@ pub fn diagnose<P: Plant>(
         problem = Problem::new(train, windows).within(trials);
         let terms = nominal(plant, &problem).unwrap_or_default();
         (selection, explanations) = named(&mut problem, terms, options);
-        withdrawn = Vec::new();
+        withdrawn = match explanations {
+            Some(_) => Vec::new(),
+            None => withdraw(&problem, &mut selection),
+        };
     }
     Stand {
         plant,
@@ -175,26 +178,26 @@ pub fn diagnose<P: Plant>(
     .report()
 }
 
-/// What is named on top of the nominal terms.
+/// What is named on top of the nominal terms. On a linkage one mechanism at a time at one joint is looked for first; sets of them, shared and
+/// proportional ones, where that leaves more than noise.
 fn named(
     problem: &mut Problem,
     terms: Vec<Term>,
     options: &Options,
 ) -> (Selection, Option<Explanations>) {
-    let (selection, explanations) = explain(problem, terms);
-    if std::env::var("RP_SHOW").is_ok() {
-        for own in &explanations.living {
-            eprintln!(
-                "{:.3} leaves {:.2} {:?}",
-                own.weight,
-                own.leaves,
-                own.terms
-                    .iter()
-                    .map(|t| (problem.run.cause_name(t.cause), t.shape.clone(), t.onset_s))
-                    .collect::<Vec<_>>()
-            );
+    if problem.rules.by_family {
+        let whitener = problem.whitener.clone();
+        let selection = select(problem, terms.clone(), options.gates);
+        if is_noise(problem, &selection.after) {
+            return (selection, None);
         }
+        problem.whiten_with(whitener);
+        let mut terms = terms;
+        terms.iter_mut().for_each(|term| problem.refresh(term));
+        let (selection, explanations) = explain(problem, terms);
+        return (selection, Some(explanations));
     }
+    let (selection, explanations) = explain(problem, terms);
     (selection, Some(explanations))
 }
 

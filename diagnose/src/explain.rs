@@ -135,32 +135,6 @@ fn weigh(
     all: Vec<Fitted>,
     noise: f64,
 ) -> Vec<Explanation> {
-    if std::env::var("RP_ALL").is_ok() {
-        let mut list: Vec<(f64, String)> = all
-            .iter()
-            .map(|own| {
-                (
-                    judge.evidence(folds, own),
-                    format!(
-                        "{:.2} {:.2} {} {:?} {:?}",
-                        judge.evidence(folds, own),
-                        prior(&own.terms),
-                        judge.all_matter(folds, bare, own),
-                        own.terms
-                            .iter()
-                            .map(|t| (problem.run.cause_name(t.cause), t.shape.clone()))
-                            .collect::<Vec<_>>(),
-                        own.by_term()
-                    ),
-                )
-            })
-            .collect();
-        list.sort_by(|a, b| b.0.total_cmp(&a.0));
-        for (_, line) in list.iter().take(4000) {
-            eprintln!("{line}");
-        }
-        eprintln!("--");
-    }
     let all = all
         .into_iter()
         .filter(|own| judge.all_matter(folds, bare, own));

@@ -101,7 +101,10 @@ impl<P: Plant> Stand<'_, P> {
             curves,
         } = P::shown(self, &intervals);
         // What is composed is not simulated yet.
-        let is_plain = !selection.found.iter().any(|own| own.term.cause.is_composed());
+        let is_plain = !selection
+            .found
+            .iter()
+            .any(|own| own.term.cause.is_composed());
         let (next_experiment, experiment) = match self.options.next_experiment && is_plain {
             true => P::next_experiment(self, &all).unzip(),
             false => (None, None),

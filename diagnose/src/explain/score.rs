@@ -2,7 +2,7 @@
 
 use super::fitted::{Fitted, Folds};
 use crate::problem::{Problem, Term};
-use crate::rules::{A_NUMBER, RELEVANT, RELEVANT_NOISE, ROWS_A_SAMPLE, USUAL_ODDS};
+use crate::rules::{A_NUMBER, RELEVANT_NOISE, ROWS_A_SAMPLE, USUAL_ODDS};
 use rigproof_model::effects::facts::Usual;
 use rigproof_model::effects::{entry, facts};
 use rigproof_spec::effect::Mechanism;
@@ -16,7 +16,7 @@ pub struct Judge {
 impl Judge {
     /// Grants a share of the effort; `noise` is the standard deviation of a row before whitening.
     pub fn of(problem: &Problem, noise: f64) -> Judge {
-        let granted = RELEVANT * problem.effort_size / noise.max(1e-300);
+        let granted = problem.rules.relevant * problem.effort_size / noise.max(1e-300);
         Judge {
             granted: granted * granted + RELEVANT_NOISE * RELEVANT_NOISE,
         }

@@ -3,6 +3,7 @@
 use crate::rules::{
     LEAST_RIVAL_SHARE_FIVE_BAR, LEAST_RIVAL_SHARE_JOINT, LEAST_TRAVEL_SIGMAS_FIVE_BAR,
     LEAST_TRAVEL_SIGMAS_JOINT, OWN_TO_UNEXPLAINED_FIVE_BAR, OWN_TO_UNEXPLAINED_JOINT,
+    RELEVANT_FIVE_BAR, RELEVANT_JOINT,
 };
 
 /// How names are judged.
@@ -12,6 +13,8 @@ pub struct Rules {
     pub least_rival_share: f64,
     /// Multiple of the unexplained energy (beyond the floor) that a mechanism must explain by itself to be named.
     pub own_to_unexplained: f64,
+    /// Share of the effort below which nothing matters.
+    pub relevant: f64,
     /// Multiple of the position's noise that the motion must travel for anything to be told.
     pub least_travel: f64,
     /// Whether a name must explain more where each has one form only, or where it stands alone.
@@ -32,6 +35,7 @@ impl Rules {
     /// Chosen on recordings of plants with one equation.
     pub const ONE_EQUATION: Rules = Rules {
         least_rival_share: LEAST_RIVAL_SHARE_JOINT,
+        relevant: RELEVANT_JOINT,
         own_to_unexplained: OWN_TO_UNEXPLAINED_JOINT,
         least_travel: LEAST_TRAVEL_SIGMAS_JOINT,
         by_form: false,
@@ -45,6 +49,7 @@ impl Rules {
     /// Chosen on recordings of a linkage: an effect often lives in few blocks.
     pub const LINKAGE: Rules = Rules {
         least_rival_share: LEAST_RIVAL_SHARE_FIVE_BAR,
+        relevant: RELEVANT_FIVE_BAR,
         own_to_unexplained: OWN_TO_UNEXPLAINED_FIVE_BAR,
         least_travel: LEAST_TRAVEL_SIGMAS_FIVE_BAR,
         by_form: true,

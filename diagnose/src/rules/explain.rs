@@ -1,10 +1,12 @@
 //! This file is the rules by which sets of mechanisms are weighed against one another as explanations of a recording.
 
-use super::{DRIVEN, REASON};
+use super::{DRIVEN, LINKAGE, REASON};
 
 rules! {
-    /// Share of the effort below which nothing matters to anybody: what a model and its discretisation leave open anyhow.
-    RELEVANT: f64 = 0.001, "share", DRIVEN;
+    /// Axis and bench: share of the effort below which nothing matters to anybody: what a model and its discretisation leave open anyhow.
+    RELEVANT_JOINT: f64 = 0.003, "share", DRIVEN;
+    /// Five-bar: the same. The hand's effort is many times what its brakes do at rest.
+    RELEVANT_FIVE_BAR: f64 = 0.001, "share", LINKAGE;
     /// The same as a share of what sensor noise leaves: below it nothing can be told from what the noise model lacks.
     RELEVANT_NOISE: f64 = 0.7, "share", DRIVEN;
     /// Rows that say as much as one that is independent of all others: what a model leaves is no white noise.

@@ -1,6 +1,8 @@
 //! This file is what can be wrong with a linkage as a whole: its masses, its weight, the force sensor at its tip.
 
-use super::facts::{Alone, Asked, AtRest, End, Facts, Family, Limit, Shapes, Usual, Where, Words, first};
+use super::facts::{
+    Alone, Asked, AtRest, End, Facts, Family, Limit, Shapes, Usual, Where, Words, first,
+};
 use super::{Entry, Form, OfLinkage, OfSensor};
 use rigproof_spec::effect::Mechanism;
 

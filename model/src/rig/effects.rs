@@ -130,9 +130,7 @@ fn term(rig: &Rig, effect: &JointEffect) -> Result<Term, ModelError> {
         Form::Drive(Drive::Skew | Drive::Limit)
         | Form::Sensor(_)
         | Form::Joint(_)
-        | Form::Linkage(OfLinkage::PlaneSpring | OfLinkage::LinkLength) => {
-            Err(unknown())
-        }
+        | Form::Linkage(OfLinkage::PlaneSpring | OfLinkage::LinkLength) => Err(unknown()),
     }
 }
 
@@ -186,11 +184,13 @@ fn of_brake(effect: &JointEffect, joint: Joint) -> Option<Term> {
         | Form::Resistance(_)
         | Form::Sensor(_)
         | Form::Joint(_)
-        | Form::Linkage(OfLinkage::Weight
+        | Form::Linkage(
+            OfLinkage::Weight
             | OfLinkage::Payload
             | OfLinkage::Inertias
             | OfLinkage::PlaneSpring
-            | OfLinkage::LinkLength)
+            | OfLinkage::LinkLength,
+        )
         | Form::Brake(OfBrake::TimeConstant | OfBrake::CurrentGain) => {
             return None;
         }

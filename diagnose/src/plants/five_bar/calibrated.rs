@@ -3,12 +3,12 @@
 use super::encoder::Encoder;
 use super::run::joint_at;
 use super::undone::undone_first;
+use crate::cause::{Place, Scales};
 use crate::diagnose::numbers::{fitted, with_interval};
 use crate::diagnose::write::Stand;
 use crate::evidence::{Intervals, coefficients_by_term};
 use crate::problem::Term;
 use crate::select::refs;
-use crate::cause::{Place, Scales};
 use rigproof_model::effects::{Form, OfBrake, OfLinkage, facts, form};
 use rigproof_spec::effect::Mechanism;
 use rigproof_trace::rig::five_bar::{FiveBar, JointEffect};
@@ -23,12 +23,15 @@ impl Stand<'_, FiveBar> {
         let (undone, known) = undone_first(self.plant);
         rig.effects = undone;
         let all = fitted(self.problem, self.selection, intervals).into_iter();
-        let fitted = all.zip(&terms).enumerate().flat_map(|(index, (effect, term))| {
-            match (known.get(index), &term.known) {
-                (Some(given), Some(_)) => vec![given.clone()],
-                _ => self.at_places(term, effect),
-            }
-        });
+        let fitted = all
+            .zip(&terms)
+            .enumerate()
+            .flat_map(
+                |(index, (effect, term))| match (known.get(index), &term.known) {
+                    (Some(given), Some(_)) => vec![given.clone()],
+                    _ => self.at_places(term, effect),
+                },
+            );
         rig.effects.extend(fitted);
         let second = terms.iter().zip(&coefficients);
         let second = second.filter(|(term, _)| !term.cause.is_composed());

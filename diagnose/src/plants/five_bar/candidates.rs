@@ -5,10 +5,11 @@ use crate::candidates::{both_signs, fastest, geometric, in_numbers, periods, str
 use crate::cause::{Cause, Place};
 use crate::plant::Run;
 use crate::rules::{
-    ANCHOR_REACH, ANCHORS,     BENDS_FIVE_BAR, CLOSING_A, DELAYS, DELAYS_RAD, LAGS_FIVE_BAR, LEAST_BEND, LEAST_BEND_SIGMAS,
-    LEAST_LAG_STEPS, LEAST_LIMITED_A, LEAST_SHIFT_STEPS_FIVE_BAR, LIMIT_SHARES, LIMITS, MOST_BEND,
-    MOST_DELAY_S, MOST_LAG_S_FIVE_BAR, MOST_OF_AN_ENCODER, MOST_SHIFT_S_FIVE_BAR, MOST_SHIFT_STEPS,
-    PEAK_EXPONENTS_FIVE_BAR, SHIFTS_FIVE_BAR, SOFTEST_BRISTLE, WIDEST_PEAK,
+    ANCHOR_REACH, ANCHORS, BENDS_FIVE_BAR, CLOSING_A, DELAYS, DELAYS_RAD, LAGS_FIVE_BAR,
+    LEAST_BEND, LEAST_BEND_SIGMAS, LEAST_LAG_STEPS, LEAST_LIMITED_A, LEAST_SHIFT_STEPS_FIVE_BAR,
+    LIMIT_SHARES, LIMITS, MOST_BEND, MOST_DELAY_S, MOST_LAG_S_FIVE_BAR, MOST_OF_AN_ENCODER,
+    MOST_SHIFT_S_FIVE_BAR, MOST_SHIFT_STEPS, PEAK_EXPONENTS_FIVE_BAR, SHIFTS_FIVE_BAR,
+    SOFTEST_BRISTLE, WIDEST_PEAK,
 };
 use crate::weak::Windows;
 use rigproof_model::effects::facts::{Shapes, Where};
@@ -75,9 +76,15 @@ fn composed(single: &[Cause]) -> Vec<Cause> {
         }
     }
     let shares = single.iter().filter(|own| SHARES.contains(&own.mechanism));
-    let shares: Vec<Cause> = shares.chain(all.iter().filter(|own| SHARES.contains(&own.mechanism))).map(|own| own.of_torque()).collect();
+    let shares: Vec<Cause> = shares
+        .chain(all.iter().filter(|own| SHARES.contains(&own.mechanism)))
+        .map(|own| own.of_torque())
+        .collect();
     all.extend(shares);
-    if single.iter().any(|own| own.mechanism == Mechanism::ForceGain) {
+    if single
+        .iter()
+        .any(|own| own.mechanism == Mechanism::ForceGain)
+    {
         all.extend([0, 1].map(|axis| Cause::at(Mechanism::ForceGain, Place::Axis(axis))));
     }
     all
@@ -99,7 +106,10 @@ fn standing_for(run: &FiveBarRun, at: Place) -> Place {
 /// Anchors around where the tip moved, m.
 fn anchors(run: &FiveBarRun) -> Vec<Vec<f64>> {
     let along = |axis: usize| -> Vec<f64> {
-        let tips = run.poses.iter().filter_map(|pose| pose.tip_m.get(axis).copied());
+        let tips = run
+            .poses
+            .iter()
+            .filter_map(|pose| pose.tip_m.get(axis).copied());
         let low = tips.clone().fold(f64::INFINITY, f64::min);
         let high = tips.fold(f64::NEG_INFINITY, f64::max);
         let (middle, half) = (0.5 * (low + high), (0.5 + ANCHOR_REACH) * (high - low));
@@ -110,7 +120,8 @@ fn anchors(run: &FiveBarRun) -> Vec<Vec<f64>> {
     };
     let ys = along(1);
     let xs = along(0).into_iter();
-    xs.flat_map(|x| ys.iter().map(move |y| vec![x, *y])).collect()
+    xs.flat_map(|x| ys.iter().map(move |y| vec![x, *y]))
+        .collect()
 }
 
 /// How far the first number of a cause's shape may go where that is beyond what is tried first.

@@ -2,18 +2,17 @@
 
 use super::brakes;
 use super::encoder::Encoder;
-use super::joined::over_parts;
 use super::from_rig::with_angles;
+use super::joined::over_parts;
 use super::run::{FiveBarRun, inertial, joint_at, place, place_of, stacked};
 use crate::cause::{Cause, Place, Scales};
-use crate::rules::SMALL_LENGTH_M;
 use crate::problem::{add, less};
+use crate::rules::SMALL_LENGTH_M;
 use crate::signals::{numerov, shifted, unit_parameters};
 use rigproof_model::bench::{column, column_by_travel};
 use rigproof_model::effects::{Drive, Form, Law, OfLinkage, OfSensor, entry, facts, form, law};
 use rigproof_model::motion::added_mass;
 use rigproof_model::motion::two_coordinate::{TwoCoordinate, two_coordinate};
-use rigproof_spec::effect::Mechanism;
 use rigproof_spec::inertia::Inertia;
 use rigproof_spec::joint::Joint;
 
@@ -227,12 +226,7 @@ fn along_motion(run: &FiveBarRun, joint: Joint, change: &[f64]) -> Vec<f64> {
 }
 
 /// The signals of a joint's own law.
-fn at_joint(
-    run: &FiveBarRun,
-    cause: Cause,
-    joint: Joint,
-    shape: &[f64],
-) -> Option<Vec<Vec<f64>>> {
+fn at_joint(run: &FiveBarRun, cause: Cause, joint: Joint, shape: &[f64]) -> Option<Vec<Vec<f64>>> {
     let mechanism = cause.mechanism;
     let entry = entry(mechanism)?;
     let is_share = cause.scales == Scales::Torque;
