@@ -1,6 +1,6 @@
 //! This file says which shapes of each mechanism are tried on a recording.
 
-use crate::cause::Cause;
+use crate::cause::{Cause, Place};
 use crate::plant::Run;
 use crate::problem::{Problem, Term, add};
 use crate::regression::Fit;
@@ -20,8 +20,19 @@ use rigproof_model::effects::facts::Shapes;
 use rigproof_model::effects::{Instant, facts};
 use rigproof_spec::effect::{Mechanism, Motion};
 
-/// The causes that have a meaning on this plant: within trials a gain is taken out of every row.
+/// The causes that are looked for one at a time: within trials a gain is taken out of every row.
 pub fn causes(problem: &Problem) -> Vec<Cause> {
+    let mut causes = all_causes(problem);
+    causes.retain(|cause| {
+        let in_sets = facts(cause.mechanism).is_some_and(|facts| facts.in_sets);
+        let is_encoder = cause.at == Place::Whole && cause.mechanism == Mechanism::EncoderScale;
+        !in_sets && !is_encoder && !cause.is_composed()
+    });
+    causes
+}
+
+/// Every cause that has a meaning on this plant.
+pub fn all_causes(problem: &Problem) -> Vec<Cause> {
     let mut causes = problem.run.causes();
     causes.retain(|cause| cause.mechanism != Mechanism::GainError || !problem.is_within_trials());
     causes

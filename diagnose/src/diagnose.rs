@@ -178,27 +178,38 @@ pub fn diagnose<P: Plant>(
     .report()
 }
 
-/// What is named on top of the nominal terms. On a linkage one mechanism at a time at one joint is looked for first; sets of them, shared and
-/// proportional ones, where that leaves more than noise.
+/// What is named on top of the nominal terms: sets of mechanisms, weighed together. On a linkage one mechanism at a time is looked for first, and
+/// sets where that leaves more than noise. Where explanations cannot be weighed one mechanism at a time is named.
 fn named(
     problem: &mut Problem,
-    terms: Vec<Term>,
+    mut terms: Vec<Term>,
     options: &Options,
 ) -> (Selection, Option<Explanations>) {
+    let whitener = problem.whitener.clone();
+    let mut first = None;
     if problem.rules.by_family {
-        let whitener = problem.whitener.clone();
         let selection = select(problem, terms.clone(), options.gates);
         if is_noise(problem, &selection.after) {
             return (selection, None);
         }
-        problem.whiten_with(whitener);
-        let mut terms = terms;
+        first = Some((selection, problem.whitener.clone()));
+        problem.whiten_with(whitener.clone());
         terms.iter_mut().for_each(|term| problem.refresh(term));
-        let (selection, explanations) = explain(problem, terms);
+    }
+    if let Some((selection, explanations)) = explain(problem, terms.clone()) {
         return (selection, Some(explanations));
     }
-    let (selection, explanations) = explain(problem, terms);
-    (selection, Some(explanations))
+    match first {
+        Some((selection, whitener)) => {
+            problem.whiten_with(whitener);
+            (selection, None)
+        }
+        None => {
+            problem.whiten_with(whitener);
+            terms.iter_mut().for_each(|term| problem.refresh(term));
+            (select(problem, terms, options.gates), None)
+        }
+    }
 }
 
 /// The physics of the nominal model as terms.

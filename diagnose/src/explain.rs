@@ -5,11 +5,11 @@ mod fitted;
 mod refine;
 mod score;
 
-use crate::candidates::{all_variants, causes};
+use crate::candidates::{all_causes, all_variants};
 use crate::cause::Cause;
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, fit, free_columns, paired, reduced_target};
-use crate::rules::{LISTED, NAMED, OFFERED, ROUNDS, SUSPECTED};
+use crate::rules::{EXCHANGES, LISTED, MOST_LEFT, NAMED, OFFERED, SUSPECTED};
 use crate::select::{Found, Selection, is_noise, usable_rms};
 use fitted::{Fitted, Folds};
 use rigproof_model::effects::facts;
@@ -91,27 +91,35 @@ pub const fn status(probability: f64) -> &'static str {
     }
 }
 
-/// Explains a recording on top of the terms of its nominal model.
-pub fn explain(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection, Explanations) {
-    let mut noise = problem.floor;
-    let mut weighed = Vec::new();
-    for round in 0..ROUNDS {
-        weighed = round_of(problem, &nominal, noise);
-        let Some(best) = weighed.first().filter(|_| round + 1 < ROUNDS) else {
-            continue;
-        };
-        let blocks = Blocks::new(problem);
-        let terms: Vec<&Term> = nominal.iter().chain(&best.terms).collect();
-        let left = usable_rms(problem, &fit(problem, &terms, &blocks).residual);
-        noise = left.max(problem.floor);
-        problem.rewhiten(left);
-        nominal.iter_mut().for_each(|term| problem.refresh(term));
+/// Explains a recording on top of the terms of its nominal model. `None` where what is left is so far above the sensors' noise that it is the
+/// model's own ignorance, of which nothing is known yet.
+pub fn explain(
+    problem: &mut Problem,
+    mut nominal: Vec<Term>,
+) -> Option<(Selection, Explanations)> {
+    let weighed = round_of(problem, &nominal, problem.floor, 0);
+    let blocks = Blocks::new(problem);
+    let best = weighed.first().map_or(&[][..], |own| &own.terms);
+    let terms: Vec<&Term> = nominal.iter().chain(best).collect();
+    let left = usable_rms(problem, &fit(problem, &terms, &blocks).residual);
+    if left > MOST_LEFT * problem.floor {
+        return None;
     }
-    let explanations = Explanations { living: weighed };
-    (selected(problem, nominal, &explanations), explanations)
+    // What the best explanation leaves is noise of the next round.
+    problem.rewhiten(left);
+    nominal.iter_mut().for_each(|term| problem.refresh(term));
+    let noise = left.max(problem.floor);
+    let living = round_of(problem, &nominal, noise, EXCHANGES);
+    let explanations = Explanations { living };
+    Some((selected(problem, nominal, &explanations), explanations))
 }
 
-fn round_of(problem: &Problem, nominal: &[Term], noise: f64) -> Vec<Explanation> {
+fn round_of(
+    problem: &Problem,
+    nominal: &[Term],
+    noise: f64,
+    exchanges: usize,
+) -> Vec<Explanation> {
     let folds = Folds::of(problem);
     let judge = Judge::of(problem, noise);
     let common: Vec<&Term> = nominal.iter().collect();
@@ -123,7 +131,7 @@ fn round_of(problem: &Problem, nominal: &[Term], noise: f64) -> Vec<Explanation>
         free.map(|rows| Arc::new(rows.clone())).collect(),
     );
     let tried = candidates(problem, nominal);
-    let all = beam::search(problem, &folds, &judge, &bare, &tried);
+    let all = beam::search(problem, &folds, &judge, &bare, &tried, exchanges);
     weigh(problem, &folds, &judge, &bare, all, noise)
 }
 
@@ -163,7 +171,7 @@ fn candidates(problem: &Problem, nominal: &[Term]) -> Vec<Term> {
         let mut own = nominal.iter().filter(|term| term.cause == *cause);
         own.all(|term| term.known.is_some())
     };
-    let open = causes(problem).into_iter().filter(is_free).collect();
+    let open = all_causes(problem).into_iter().filter(is_free).collect();
     let lists = all_variants(problem, open, &common, &plain).into_iter();
     lists.flatten().collect()
 }

@@ -5,7 +5,7 @@ use super::kind;
 use super::refine::refined;
 use super::score::{Judge, gives_energy};
 use crate::problem::{Problem, Term};
-use crate::rules::{BEAM, EXCHANGES, KEPT, MOST_TERMS};
+use crate::rules::{BEAM, KEPT, MOST_TERMS};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -19,12 +19,13 @@ pub fn search(
     judge: &Judge,
     bare: &Fitted,
     tried: &[Term],
+    exchanges: usize,
 ) -> Vec<Fitted> {
     let mut kept: BTreeMap<Names, Fitted> = BTreeMap::from([(Names::new(), bare.clone())]);
     let mut living = vec![bare.clone()];
     for _ in 0..MOST_TERMS {
         let ranked = children(problem, folds, judge, &living, tried);
-        let (near, far) = ranked.split_at(ranked.len().min(2 * BEAM));
+        let (near, far) = ranked.split_at(ranked.len().min(BEAM));
         let near: Vec<Fitted> = near
             .par_iter()
             .map(|fitted| refined(problem, folds, judge, bare, fitted.clone()))
@@ -35,7 +36,7 @@ pub fn search(
         }
         living = near.into_iter().take(BEAM).collect();
     }
-    for _ in 0..EXCHANGES {
+    for _ in 0..exchanges {
         let leading: Vec<Fitted> = kept.values().cloned().collect();
         let leading: Vec<Fitted> = by_evidence(folds, judge, leading)
             .into_iter()
@@ -75,7 +76,7 @@ fn exchanged(
     let fewer: Vec<Fitted> = fewer.collect();
     let mut all = children(problem, folds, judge, &fewer, tried);
     all.truncate(KEPT);
-    let (near, far) = all.split_at(all.len().min(2 * BEAM));
+    let (near, far) = all.split_at(all.len().min(BEAM));
     let near = near.par_iter();
     let near: Vec<Fitted> = near
         .map(|own| refined(problem, folds, judge, bare, own.clone()))

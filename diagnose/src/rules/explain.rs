@@ -1,6 +1,6 @@
 //! This file is the rules by which sets of mechanisms are weighed against one another as explanations of a recording.
 
-use super::{DRIVEN, LINKAGE, REASON};
+use super::{DRIVEN, LINKAGE, REAL, REASON};
 
 rules! {
     /// Axis and bench: share of the effort below which nothing matters to anybody: what a model and its discretisation leave open anyhow.
@@ -15,8 +15,8 @@ rules! {
     A_NUMBER: f64 = 2.4, "ln odds", DRIVEN;
     /// How common a mechanism is among those that models leave out, from the plainest to the most seldom, in natural logarithms of odds: which it is stands with the mechanism.
     USUAL_ODDS: [f64; 6] = [-3.2, -4.0, -4.8, -5.6, -6.4, -8.0], "ln odds", DRIVEN;
-    /// Rounds: the noise is taken from the sensors first, and with what the best explanation of that round leaves in the second.
-    ROUNDS: usize = 2, "rounds", DRIVEN;
+    /// What the best explanation may leave, in standard deviations of the sensors' noise, for explanations to be weighed: beyond it what is left is the model's own ignorance, whose size and correlation are not estimated yet, and one mechanism at a time is judged.
+    MOST_LEFT: f64 = 25.0, "deviations", REAL;
     /// The least weight of an explanation that is listed.
     LISTED: f64 = 1e-4, "share", DRIVEN;
     /// The probability from which on something is named.

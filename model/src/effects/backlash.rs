@@ -17,6 +17,7 @@ pub(super) const ENTRY: Entry = Entry {
     refuted_by: "full friction from the first instant after a reversal",
     equation: "−missing·sgn(q̇) while 0 < x < gap, x the travel across the gap",
     facts: Facts {
+        in_sets: true,
         usual: Usual::Seldom,
         has_forms: true,
         shapes: Shapes::Gap,

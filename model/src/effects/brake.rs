@@ -147,6 +147,7 @@ pub(super) const TIME_CONSTANT: Entry = Entry {
     refuted_by: "a torque that follows a step of the current as fast as its table says",
     equation: "the brake's time constants × scale",
     facts: Facts {
+        in_sets: true,
         usual: Usual::Common,
         shapes: Shapes::Geometric {
             low: 0.4,
@@ -175,6 +176,7 @@ pub(super) const CURRENT_GAIN: Entry = Entry {
     refuted_by: "the commanded current through the coil",
     equation: "τ follows scale·I",
     facts: Facts {
+        in_sets: true,
         usual: Usual::Frequent,
         shapes: Shapes::Geometric {
             low: 0.6,

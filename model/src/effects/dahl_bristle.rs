@@ -18,6 +18,7 @@ pub(super) const ENTRY: Entry = Entry {
     refuted_by: "a full change of force at a reversal without any travel",
     equation: "level·w, travel·dw/dt = q̇·(1 − w·sgn(q̇))^exponent",
     facts: Facts {
+        in_sets: true,
         usual: Usual::Frequent,
         has_forms: true,
         shapes: Shapes::BristleCurve,

@@ -12,6 +12,7 @@ pub(super) const LOAD_FRICTION: Entry = Entry {
     refuted_by: "the same friction whether the joint drives hard or coasts",
     equation: "share·|e|·sgn(q̇), e the effort at the joint",
     facts: Facts {
+        in_sets: true,
         usual: Usual::Seldom,
         shapes: Shapes::Geometric {
             low: 0.03,
@@ -40,6 +41,7 @@ pub(super) const FRICTION_FADE: Entry = Entry {
     refuted_by: "the same friction at the start and at the end of the recording",
     equation: "described friction × (1 − rate·t)",
     facts: Facts {
+        in_sets: true,
         usual: Usual::Seldom,
         ..Facts::of(
             Family::FrictionOfMotion,
@@ -63,6 +65,7 @@ pub(super) const ADDED_INERTIA: Entry = Entry {
     refuted_by: "the described inertia on a swing or a scale",
     equation: "inertia·q̈, added to the described one",
     facts: Facts {
+        in_sets: true,
         usual: Usual::Frequent,
         ..Facts::of(
             Family::Inertia,
@@ -86,6 +89,7 @@ pub(super) const COMPLIANCE: Entry = Entry {
     refuted_by: "a load that moves as the joint does up to the highest frequency",
     equation: "share of the inertia follows the joint as a resonator of this frequency and damping",
     facts: Facts {
+        in_sets: true,
         usual: Usual::Seldom,
         shapes: Shapes::Resonance,
         ..Facts::of(

@@ -12,6 +12,7 @@ pub(super) const ENTRY: Entry = Entry {
     refuted_by: "a turn whose halves the encoder counts alike",
     equation: "recorded angle = q + sine·sin(q) + cosine·cos(q)",
     facts: Facts {
+        in_sets: true,
         usual: Usual::Seldom,
         ..Facts::of(
             Family::Sensor,

@@ -36,6 +36,8 @@ pub struct Facts {
     pub twin: Option<Mechanism>,
     /// The mechanism of which it is another form: what one is, the other is.
     pub form_of: Option<Mechanism>,
+    /// Whether it is weighed in sets of mechanisms only, not looked for one at a time.
+    pub in_sets: bool,
     /// Two that it is together, once it has slid. The first gives the shape.
     pub both: Option<[Mechanism; 2]>,
     /// How great a change of its parameters is small.
@@ -60,6 +62,7 @@ impl Facts {
             zero: None,
             twin: None,
             form_of: None,
+            in_sets: false,
             both: None,
             refit: Refit {
                 leads: false,

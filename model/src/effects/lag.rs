@@ -91,6 +91,7 @@ pub(super) const LIMIT_ENTRY: Entry = Entry {
     refuted_by: "an effort that grows with the command beyond the limit",
     equation: "e = gain·u cut at ±limit",
     facts: Facts {
+        in_sets: true,
         usual: Usual::Frequent,
         shapes: Shapes::EffortLimit,
         ..Facts::of(

@@ -233,6 +233,7 @@ pub(super) const PLANE_SPRING: Entry = Entry {
     refuted_by: "a tip that stays where it is let go, wherever that is",
     equation: "(stiffness·r − tension) along r, from the tip to the anchor (x, y)",
     facts: Facts {
+        in_sets: true,
         usual: Usual::Seldom,
         shapes: Shapes::Anchor,
         ..Facts::of(
@@ -257,6 +258,7 @@ pub(super) const LINK_LENGTH: Entry = Entry {
     refuted_by: "arms measured between their axes",
     equation: "an arm is longer by so much",
     facts: Facts {
+        in_sets: true,
         usual: Usual::Rare,
         ..Facts::of(
             Family::Inertia,

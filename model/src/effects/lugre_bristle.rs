@@ -18,6 +18,7 @@ pub(super) const ENTRY: Entry = Entry {
     refuted_by: "a full change of force at a reversal without any travel, or the same force at every speed",
     equation: "level·w + viscous·q̇, travel·dw/dt = q̇ − |q̇|·w",
     facts: Facts {
+        in_sets: true,
         usual: Usual::Frequent,
         has_forms: true,
         shapes: Shapes::Bristle,

@@ -20,7 +20,7 @@ pub fn causes(run: &JointRun) -> Vec<Cause> {
         Alone::Always => true,
         Alone::WithKnown => is_known && (is_driven || has_brake),
         Alone::WithBrake => has_brake,
-        Alone::WithDrive => has_brake || is_driven,
+        Alone::WithDrive => is_driven || run.predicted.is_some(),
         Alone::Driven => is_driven,
         Alone::WithInertia => is_driven && matches!(run.inertia, Inertia::Known(_)),
     };
