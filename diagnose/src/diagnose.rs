@@ -19,6 +19,7 @@ use crate::rules::{FEWEST_WINDOWS, HOLD_OUT_SHARE};
 use crate::scatter::{Trials, left_over};
 use crate::select::{FLOOR_RATIO, Gates, Selection, is_noise, refs, select};
 use crate::unknown::surrogates;
+use crate::whiten::Whitener;
 use ended::{faulty, not_excited};
 use parts::Parts;
 use rigproof_model::effects::entry;
@@ -178,38 +179,54 @@ pub fn diagnose<P: Plant>(
     .report()
 }
 
-/// What is named on top of the nominal terms: sets of mechanisms, weighed together. On a linkage one mechanism at a time is looked for first, and
-/// sets where that leaves more than noise. Where explanations cannot be weighed one mechanism at a time is named.
+/// What is named on top of the nominal terms. Sets of mechanisms are weighed together, and one mechanism at a time is looked for, on a linkage first: what
+/// leaves only noise stands, else the sets where they can be weighed.
 fn named(
     problem: &mut Problem,
     mut terms: Vec<Term>,
     options: &Options,
 ) -> (Selection, Option<Explanations>) {
     let whitener = problem.whitener.clone();
-    let mut first = None;
-    if problem.rules.by_family {
+    let one_first = problem.rules.by_family;
+    let mut one = None;
+    if one_first {
         let selection = select(problem, terms.clone(), options.gates);
         if is_noise(problem, &selection.after) {
             return (selection, None);
         }
-        first = Some((selection, problem.whitener.clone()));
-        problem.whiten_with(whitener.clone());
-        terms.iter_mut().for_each(|term| problem.refresh(term));
+        one = Some((selection, problem.whitener.clone()));
+        begin_anew(problem, &whitener, &mut terms);
     }
-    if let Some((selection, explanations)) = explain(problem, terms.clone()) {
-        return (selection, Some(explanations));
+    let sets = explain(problem, terms.clone());
+    let of_sets = problem.whitener.clone();
+    let sets_suffice = |problem: &Problem| {
+        let mut left = sets.iter().map(|(own, _)| &own.after);
+        left.any(|after| is_noise(problem, after))
+    };
+    if !one_first && !sets_suffice(problem) {
+        begin_anew(problem, &whitener, &mut terms);
+        let selection = select(problem, terms.clone(), options.gates);
+        if sets.is_none() || is_noise(problem, &selection.after) {
+            return (selection, None);
+        }
     }
-    match first {
-        Some((selection, whitener)) => {
-            problem.whiten_with(whitener);
+    match (sets, one) {
+        (Some((selection, explanations)), _) => {
+            problem.whiten_with(of_sets);
+            (selection, Some(explanations))
+        }
+        (None, Some((selection, of_one))) => {
+            problem.whiten_with(of_one);
             (selection, None)
         }
-        None => {
-            problem.whiten_with(whitener);
-            terms.iter_mut().for_each(|term| problem.refresh(term));
-            (select(problem, terms, options.gates), None)
-        }
+        (None, None) => (select(problem, terms, options.gates), None),
     }
+}
+
+/// The problem and its nominal terms as they were with the sensors' noise alone.
+fn begin_anew(problem: &mut Problem, whitener: &Whitener, terms: &mut [Term]) {
+    problem.whiten_with(whitener.clone());
+    terms.iter_mut().for_each(|term| problem.refresh(term));
 }
 
 /// The physics of the nominal model as terms.

@@ -93,10 +93,7 @@ pub const fn status(probability: f64) -> &'static str {
 
 /// Explains a recording on top of the terms of its nominal model. `None` where what is left is so far above the sensors' noise that it is the
 /// model's own ignorance, of which nothing is known yet.
-pub fn explain(
-    problem: &mut Problem,
-    mut nominal: Vec<Term>,
-) -> Option<(Selection, Explanations)> {
+pub fn explain(problem: &mut Problem, mut nominal: Vec<Term>) -> Option<(Selection, Explanations)> {
     let weighed = round_of(problem, &nominal, problem.floor, 0);
     let blocks = Blocks::new(problem);
     let best = weighed.first().map_or(&[][..], |own| &own.terms);
@@ -114,12 +111,7 @@ pub fn explain(
     Some((selected(problem, nominal, &explanations), explanations))
 }
 
-fn round_of(
-    problem: &Problem,
-    nominal: &[Term],
-    noise: f64,
-    exchanges: usize,
-) -> Vec<Explanation> {
+fn round_of(problem: &Problem, nominal: &[Term], noise: f64, exchanges: usize) -> Vec<Explanation> {
     let folds = Folds::of(problem);
     let judge = Judge::of(problem, noise);
     let common: Vec<&Term> = nominal.iter().collect();
