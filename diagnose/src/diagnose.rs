@@ -148,20 +148,14 @@ pub fn diagnose<P: Plant>(
     if let Err(fault) = plant.check_found(&problem, &selection) {
         return faulty(plant, "recording", fault);
     }
-    let mut withdrawn = match explanations {
-        Some(_) => Vec::new(),
-        None => withdraw(&problem, &mut selection),
-    };
+    let mut withdrawn = withdraw(&problem, &mut selection, explanations.is_some());
     let trials = scattered(&problem, &selection);
     if let Some(trials) = trials.clone() {
         let windows = problem.windows.clone();
         problem = Problem::new(train, windows).within(trials);
         let terms = nominal(plant, &problem).unwrap_or_default();
         (selection, explanations) = named(&mut problem, terms, options);
-        withdrawn = match explanations {
-            Some(_) => Vec::new(),
-            None => withdraw(&problem, &mut selection),
-        };
+        withdrawn = withdraw(&problem, &mut selection, explanations.is_some());
     }
     Stand {
         plant,
@@ -264,9 +258,10 @@ fn scattered(problem: &Problem, selection: &Selection) -> Option<Trials> {
 }
 
 /// Takes out the names that the recording itself contradicts.
-fn withdraw(problem: &Problem, selection: &mut Selection) -> Vec<Cause> {
+fn withdraw(problem: &Problem, selection: &mut Selection, weighed: bool) -> Vec<Cause> {
     let mut withdrawn = Vec::new();
-    if problem.rules.curves && problem.rules.by_family {
+    // Curves compete with names where these are weighed; they do not veto them.
+    if problem.rules.curves && !weighed {
         withdrawn.extend(withdraw_surrogates(problem, selection));
     }
     if problem.rules.constancy {
@@ -306,7 +301,7 @@ fn withdraw_inconstant(problem: &Problem, selection: &mut Selection) -> Vec<Caus
             let told =
                 pairs.filter(|(_, own)| own.instead.iter().all(|c| is_told_by_itself(c.mechanism)));
             let told: Vec<Cause> = told.map(|(found, _)| found.term.cause).collect();
-            causes.retain(|cause| told.contains(cause));
+            causes.retain(|cause| told.contains(cause) && !cause.is_composed());
         }
         if causes.is_empty() {
             return withdrawn;

@@ -175,6 +175,10 @@ pub fn settle(time_s: &[f64], resolution_s: f64) -> Settled {
     if repeated == 0 && in_turn.worst_s < ON_GRID * in_turn.step_s {
         return Settled::AsTheyAre;
     }
+    // Stamps that were rounded from another interval do not come at one interval but for gaps.
+    if repeated == 0 && is_even_but_for_gaps(time_s) {
+        return Settled::AsTheyAre;
+    }
     let candidates = || core::iter::once(in_turn.clone()).chain(Grid::across_gaps(time_s));
     // A stamp in single precision has 24 bits.
     let single = |t: f64| {
@@ -205,6 +209,26 @@ pub fn settle(time_s: &[f64], resolution_s: f64) -> Settled {
         _ => settle_repeated(time_s, repeated, &in_turn),
     }
 }
+
+/// Whether nearly all intervals are the same one to rounding.
+fn is_even_but_for_gaps(time_s: &[f64]) -> bool {
+    let mut between: Vec<f64> = time_s
+        .windows(2)
+        .filter_map(|pair| Some(pair.get(1)? - pair.first()?))
+        .collect();
+    between.sort_by(f64::total_cmp);
+    let usual = between.get(between.len() / 2).copied().unwrap_or(0.0);
+    let same = between
+        .iter()
+        .filter(|d| (*d - usual).abs() <= SAME * usual);
+    same.count() as f64 >= NEARLY_ALL * between.len() as f64
+}
+
+/// Share of intervals that are nearly all.
+const NEARLY_ALL: f64 = 0.9;
+
+/// Share of an interval by which two of the same size may differ.
+const SAME: f64 = 1e-6;
 
 /// Of stamps some of which are repeated.
 fn settle_repeated(time_s: &[f64], repeated: usize, in_turn: &Grid) -> Settled {

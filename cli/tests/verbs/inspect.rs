@@ -27,7 +27,7 @@ fn noise(rig: &str) -> f64 {
 
 /// A begun description without the friction that it begins with.
 fn without_physics(rig: &str) -> String {
-    let end = rig.find("[[effect]]").unwrap();
+    let end = rig.find("# The physics that your model has").unwrap();
     rig[..end].to_owned()
 }
 

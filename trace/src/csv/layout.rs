@@ -53,6 +53,8 @@ struct Probe {
     rows: Vec<(usize, String)>,
     comments: Vec<(usize, String)>,
     has_latin: bool,
+    /// Whether the separator was stated: then a head is not split by another one.
+    is_stated: bool,
 }
 
 /// The line with the names.
@@ -78,7 +80,8 @@ impl Layout {
         hints: &Hints,
         time: Option<&TimeColumn>,
     ) -> Option<Layout> {
-        let probe = Probe::new(start, file);
+        let mut probe = Probe::new(start, file);
+        probe.is_stated = hints.separator.is_some();
         let encoding = match probe.has_latin {
             true => Encoding::Latin1,
             false => encoding,
@@ -121,6 +124,7 @@ impl Probe {
             rows,
             comments,
             has_latin: source.has_latin(),
+            is_stated: false,
         }
     }
 
@@ -212,6 +216,9 @@ fn head(
     }
     // A header that is separated otherwise than the rows, or names no time.
     let row = above?;
+    if probe.is_stated && table.cells(row)?.len() != width {
+        return None;
+    }
     let text = &probe.rows.get(row)?.1;
     let cells = split_to_width(text, table.separator, width)?;
     let kinds = |cells: &[String]| -> Vec<Kind> {

@@ -104,13 +104,12 @@ impl Rig {
         hints: &Hints,
     ) -> Result<(Recording, Dialect, Vec<String>), TraceError> {
         let channels = &self.channels;
-        let (text, remarks) = read_text(
-            path,
-            channels.time.as_ref(),
-            hints.or(self.text),
-            &channels.maps(),
-        )?;
-        Ok((self.apply(&text.trace, path)?, text.dialect, remarks))
+        let (time, hints) = (channels.time.as_ref(), hints.or(self.text));
+        let (text, remarks) = read_text(path, time, hints.clone(), &channels.maps())?;
+        let recording = self.apply(&text.trace, path);
+        let recording = recording
+            .map_err(|error| with_all_columns(path, time, hints, error, |t| self.apply(t, path)))?;
+        Ok((recording, text.dialect, remarks))
     }
 
     /// Turns a recording into SI quantities; `origin` is the file that messages name.
@@ -165,6 +164,23 @@ pub(super) fn read_text(
         ));
     }
     Ok((text, remarks))
+}
+
+/// What is wrong with a recording, told with the columns that were passed over: one of them may be the channel that is missing.
+pub(super) fn with_all_columns<T>(
+    path: &Path,
+    time: Option<&TimeColumn>,
+    hints: Hints,
+    error: TraceError,
+    apply: impl Fn(&Trace) -> Result<T, TraceError>,
+) -> TraceError {
+    let known = Known {
+        time,
+        hints,
+        wanted: None,
+    };
+    let all = csv::read_text(path, &known).ok();
+    all.and_then(|all| apply(&all.trace).err()).unwrap_or(error)
 }
 
 /// One channel of a recording in SI units; `rig` is the name of the description.
