@@ -10,7 +10,7 @@ use crate::cause::Cause;
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, fit, free_columns, paired, reduced_target};
 use crate::rules::{EXCHANGES, LISTED, MOST_LEFT, NAMED, OFFERED, SUSPECTED};
-use crate::select::{Found, Selection, is_noise, usable_rms};
+use crate::select::{Found, Selection, Stage, is_noise, usable_rms};
 use fitted::{Fitted, Folds};
 use rigproof_model::effects::facts;
 use rigproof_spec::effect::Mechanism;
@@ -204,10 +204,24 @@ fn selected(problem: &Problem, nominal: Vec<Term>, explanations: &Explanations) 
             }
         })
         .collect();
+    let stages = (1..=terms.len()).filter_map(|count| {
+        let standing = terms.get(..count)?;
+        let left = fitted(&standing.iter().collect::<Vec<_>>());
+        Some(Stage {
+            entered: standing.last()?.cause,
+            standing: standing.iter().map(|term| term.cause).collect(),
+            shapes: standing
+                .iter()
+                .map(|term| (term.shape.clone(), term.onset_s))
+                .collect(),
+            residual: usable_rms(problem, &left.residual),
+        })
+    });
+    let stages: Vec<Stage> = stages.collect();
     Selection {
         found,
         too_small: Vec::new(),
-        stages: Vec::new(),
+        stages,
         before,
         after,
         nominal,

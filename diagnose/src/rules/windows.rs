@@ -1,6 +1,6 @@
 //! This file is the rules by which the equation of motion is averaged over windows, and windows are put into blocks.
 
-use super::{AXIS_BENCH, BOTH, FIVE_BAR, REASON};
+use super::{AXIS_BENCH, BOTH, DRIVEN, FIVE_BAR, REASON};
 
 rules! {
     /// Order of the bump (1 − x²)⁴: three continuous derivatives at its ends.
@@ -9,6 +9,8 @@ rules! {
     WIDTHS_S: [f64; 3] = [0.040, 0.080, 0.160], "s", BOTH;
     /// Axis: a width is quiet enough when the floor is below this share of the effort.
     QUIET: f64 = 0.003, "share", AXIS_BENCH;
+    /// Axis: a fast effort narrows the window where the floor is below this share of the effort: one that is fed back from the position is as fast as its noise.
+    MOST_NOISE: f64 = 0.05, "share", DRIVEN;
     /// Five-bar: a width is quiet enough when the floor is below this: contributions of 0.01 N·m are to be seen in a few windows.
     QUIET_NM: f64 = 0.0075, "N·m", FIVE_BAR;
     /// Axis: the narrowest window.

@@ -36,6 +36,8 @@ pub struct Facts {
     pub twin: Option<Mechanism>,
     /// The mechanism of which it is another form: what one is, the other is.
     pub form_of: Option<Mechanism>,
+    /// Whether it is also looked for as a share of a brake's torque.
+    pub of_torque: bool,
     /// Whether it is weighed in sets of mechanisms only, not looked for one at a time.
     pub in_sets: bool,
     /// Two that it is together, once it has slid. The first gives the shape.
@@ -62,6 +64,7 @@ impl Facts {
             zero: None,
             twin: None,
             form_of: None,
+            of_torque: false,
             in_sets: false,
             both: None,
             refit: Refit {

@@ -19,6 +19,7 @@ pub(super) const ENTRY: Entry = Entry {
     refuted_by: "no line in the spectrum over position",
     equation: "sine·sin(2π·q/period) + cosine·cos(2π·q/period)",
     facts: Facts {
+        of_torque: true,
         usual: Usual::Seldom,
         turn: 9,
         shapes: Shapes::Period,

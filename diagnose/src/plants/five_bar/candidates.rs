@@ -13,8 +13,7 @@ use crate::rules::{
 };
 use crate::weak::Windows;
 use rigproof_model::effects::facts::{Shapes, Where};
-use rigproof_model::effects::{Entry, LIBRARY, entry, facts};
-use rigproof_spec::effect::Mechanism;
+use rigproof_model::effects::{Entry, Form, LIBRARY, OfSensor, entry, facts, form};
 use rigproof_spec::joint::Joint;
 
 /// The causes that have a meaning on this layout.
@@ -55,13 +54,6 @@ pub fn causes(run: &FiveBarRun) -> Vec<Cause> {
     single.iter().copied().chain(composed(&single)).collect()
 }
 
-/// Laws that are looked for as shares of the torque that a brake gives.
-const SHARES: [Mechanism; 3] = [
-    Mechanism::Stribeck,
-    Mechanism::DirectionAsymmetry,
-    Mechanism::Ripple,
-];
-
 /// What is shared by every brake, is a share of its torque, or is of one axis of a sensor.
 fn composed(single: &[Cause]) -> Vec<Cause> {
     let mut all: Vec<Cause> = Vec::new();
@@ -75,18 +67,16 @@ fn composed(single: &[Cause]) -> Vec<Cause> {
             all.push(shared);
         }
     }
-    let shares = single.iter().filter(|own| SHARES.contains(&own.mechanism));
-    let shares: Vec<Cause> = shares
-        .chain(all.iter().filter(|own| SHARES.contains(&own.mechanism)))
-        .map(|own| own.of_torque())
-        .collect();
+    let is_share = |own: &&Cause| facts(own.mechanism).is_some_and(|facts| facts.of_torque);
+    let shares = single.iter().chain(&all).filter(is_share);
+    let shares: Vec<Cause> = shares.map(|own| own.of_torque()).collect();
     all.extend(shares);
-    if single
+    let gains = single
         .iter()
-        .any(|own| own.mechanism == Mechanism::ForceGain)
-    {
-        all.extend([0, 1].map(|axis| Cause::at(Mechanism::ForceGain, Place::Axis(axis))));
-    }
+        .filter(|own| matches!(form(own.mechanism), Some(Form::Sensor(OfSensor::ForceGain))));
+    let gains =
+        gains.flat_map(|own| [0, 1].map(|axis| Cause::at(own.mechanism, Place::Axis(axis))));
+    all.extend(gains);
     all
 }
 

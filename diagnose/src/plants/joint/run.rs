@@ -11,8 +11,8 @@ use crate::locate::{self, Regimes};
 use crate::plant::{Clock, Columns, Run};
 use crate::problem::{NominalEffect, add};
 use crate::rules::{
-    LEAST_STEPS_AXIS, LEAST_STEPS_BENCH, MOST_AMBIGUOUS, MOST_UNTOLD, PERIODS_A_WIDTH, QUIET,
-    WIDTHS_S,
+    LEAST_STEPS_AXIS, LEAST_STEPS_BENCH, MOST_AMBIGUOUS, MOST_NOISE, MOST_UNTOLD, PERIODS_A_WIDTH,
+    QUIET, WIDTHS_S,
 };
 use crate::signals::second_difference;
 use crate::weak::{Windows, is_recorded, untold};
@@ -171,8 +171,8 @@ impl JointRun {
 }
 
 impl JointRun {
-    /// The narrowest window whose predicted floor is small against the effort, or one as narrow as a fast effort
-    /// asks for if that is quiet too (at least eight samples, five on a bench), s.
+    /// The narrowest window whose predicted floor is small against the effort, narrowed again where the effort itself is
+    /// faster than that and its noise leaves something to see (at least eight samples, five on a bench), s.
     pub fn width_s(&self) -> f64 {
         let scale = rms(&self.effort);
         let quiet = |width_s: &f64| self.floor(&self.all_windows(*width_s)) <= QUIET * scale;
@@ -180,10 +180,13 @@ impl JointRun {
         if self.plant == PlantKind::Bench {
             return WIDTHS_S[0].min(fast_s).max(LEAST_STEPS_BENCH * self.step_s);
         }
-        // An effort may be fast because it holds the noise of the position: a narrow window has to be quiet too.
-        let narrow_s = WIDTHS_S[0].min(fast_s).max(LEAST_STEPS_AXIS * self.step_s);
-        let widths_s = [narrow_s].into_iter().chain(WIDTHS_S);
-        widths_s.clone().find(quiet).unwrap_or(WIDTHS_S[2])
+        // An effort may be fast because it holds the noise of the position: a narrow window is taken where its noise leaves something to see.
+        let wide_s = WIDTHS_S.iter().copied().find(quiet).unwrap_or(WIDTHS_S[2]);
+        let narrow_s = wide_s.min(fast_s).max(LEAST_STEPS_AXIS * self.step_s);
+        match self.floor(&self.all_windows(narrow_s)) <= MOST_NOISE * scale {
+            true => narrow_s,
+            false => wide_s,
+        }
     }
 }
 

@@ -113,7 +113,6 @@ const FAULTS: &[(&str, &str, &str, &str)] = &[
     (AXIS, "sd = 30", "sd = 30, low95 = 1", "the 95 % interval needs"),
     (AXIS, "inertia =", "inertia = 4\ninert =", "`inert` is no key of `parameters`"),
     (AXIS, "\"viscous\"", "\"viscuos\"", "line 11, column 13: `viscuos` cannot be used; did you mean `viscous`?"),
-    (AXIS, "\"viscous\"", "\"compliance\"", "`compliance` cannot be used; the mechanisms that a model computes are"),
     (AXIS, "coefficient", "coeficient", "line 12, column 1: `coeficient` is no key of `[[effect]]`; did you mean `coefficient`?"),
     (AXIS, "coefficient", "# coefficient", "line 10, column 1: `coefficient` is missing in `[[effect]]`"),
     (AXIS, "\"ms\"", "\"mm\"", "`mm` does not convert to `s`"),
