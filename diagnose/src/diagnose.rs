@@ -200,7 +200,8 @@ fn named(
     if !one_first && !sets_suffice(problem) {
         begin_anew(problem, &whitener, &mut terms);
         let selection = select(problem, terms.clone(), options.gates);
-        if sets.is_none() || is_noise(problem, &selection.after) {
+        let names_nothing = sets.iter().all(|(own, _)| own.found.is_empty());
+        if names_nothing || is_noise(problem, &selection.after) {
             return (selection, None);
         }
     }

@@ -210,8 +210,8 @@ pub fn settle(time_s: &[f64], resolution_s: f64) -> Settled {
     }
 }
 
-/// Whether nearly all intervals are the same one to rounding.
-fn is_even_but_for_gaps(time_s: &[f64]) -> bool {
+/// Whether nearly all intervals between stamps are the same one to rounding: then it is the step, however long the gaps are.
+pub fn is_even_but_for_gaps(time_s: &[f64]) -> bool {
     let mut between: Vec<f64> = time_s
         .windows(2)
         .filter_map(|pair| Some(pair.get(1)? - pair.first()?))

@@ -1,6 +1,6 @@
 //! This file says how time runs in a recording: rate, jitter, gaps.
 
-use rigproof_trace::clock::Grid;
+use rigproof_trace::clock::{Grid, is_even_but_for_gaps};
 use serde_json::{Value, json};
 
 use crate::text::number::significant;
@@ -37,7 +37,10 @@ impl Pace {
         sorted.sort_by(f64::total_cmp);
         let median_s = sorted.get(sorted.len() / 2).copied().unwrap_or(f64::NAN);
         // Steps between rounded stamps are not those between samples.
-        let step_s = Grid::of(time_s).map_or(median_s, |grid| grid.step_s);
+        let step_s = match is_even_but_for_gaps(time_s) {
+            true => median_s,
+            false => Grid::of(time_s).map_or(median_s, |grid| grid.step_s),
+        };
         let is_gap = |step: f64| step > GAP_STEPS * step_s;
         let regular: Vec<f64> = sorted.into_iter().filter(|step| !is_gap(*step)).collect();
         let count = regular.len().max(1) as f64;

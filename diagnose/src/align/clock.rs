@@ -3,7 +3,7 @@
 use super::{Fault, LONGEST_GAP_S};
 use crate::rules::{EVEN, LONGEST_GAP_STEPS, LONGEST_STEP_S};
 use core::cmp::Ordering;
-use rigproof_trace::clock::Grid;
+use rigproof_trace::clock::{Grid, is_even_but_for_gaps};
 
 /// The step between samples: the median where that fits all stamps, else the mean of the even grid through them, so that
 /// rounded stamps do not add up.
@@ -20,7 +20,10 @@ pub(crate) fn median_step(time_s: &[f64]) -> f64 {
     if stamps.all(|(k, t)| off(k, *t) < EVEN * median_s) {
         return median_s;
     }
-    Grid::of(time_s).map_or(median_s, |grid| grid.step_s)
+    match is_even_but_for_gaps(time_s) {
+        true => median_s,
+        false => Grid::of(time_s).map_or(median_s, |grid| grid.step_s),
+    }
 }
 
 pub(crate) fn check_clock(time_s: &[f64], step_s: f64) -> Result<(), Fault> {
