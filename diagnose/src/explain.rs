@@ -5,13 +5,14 @@ mod fitted;
 mod refine;
 mod score;
 
-use crate::candidates::{all_causes, all_variants};
+use crate::candidates::all_causes;
 use crate::cause::Cause;
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, fit, free_columns, paired, reduced_target};
 use crate::rules::{EXCHANGES, LISTED, MOST_LEFT, NAMED, OFFERED, SUSPECTED};
 use crate::select::{Found, Selection, Stage, is_noise, usable_rms};
 use fitted::{Fitted, Folds};
+use rayon::prelude::*;
 use rigproof_model::effects::facts;
 use rigproof_spec::effect::Mechanism;
 use score::{Judge, prior};
@@ -164,8 +165,16 @@ fn candidates(problem: &Problem, nominal: &[Term]) -> Vec<Term> {
         own.all(|term| term.known.is_some())
     };
     let open = all_causes(problem).into_iter().filter(is_free).collect();
-    let lists = all_variants(problem, open, &common, &plain).into_iter();
-    lists.flatten().collect()
+    let of_cause = |cause: Cause| -> Vec<Term> {
+        let shapes = problem.run.shapes(cause, &problem.windows, &plain.residual);
+        let tried = shapes.iter().filter_map(|shape| {
+            let kept = problem.kept_term(cause, shape);
+            kept.or_else(|| unfitted(problem, cause, shape, None))
+        });
+        tried.collect()
+    };
+    let open: Vec<Cause> = open;
+    open.into_par_iter().flat_map_iter(of_cause).collect()
 }
 
 /// A term of a cause as the recording has it, whatever the other terms give.
@@ -175,7 +184,8 @@ pub(crate) fn unfitted(
     shape: &[f64],
     onset_s: Option<f64>,
 ) -> Option<Term> {
-    problem.term(cause, shape, onset_s)
+    let term = problem.term(cause, shape, onset_s);
+    term.or_else(|| problem.drive_term(cause, shape, onset_s, &[]))
 }
 
 /// The leading explanation as a selection.

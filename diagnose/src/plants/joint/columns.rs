@@ -1,5 +1,6 @@
 //! This file is the columns of a plant of one joint: resistances along its motion, and changes of its drive.
 
+use super::inertia::Inertia;
 use super::run::{JointRun, PlantKind};
 use crate::filter::gradient;
 use crate::plant::{self, Columns, Run};
@@ -198,10 +199,19 @@ fn trailing(acceleration: &[f64], resonance: f64, damping: f64, step_s: f64) -> 
 /// Steps of a resonator in one sample.
 const SUBSTEPS: usize = 8;
 
-/// Columns of a mechanism that does not act on what others give.
-pub fn columns(run: &JointRun, mechanism: Mechanism, shape: &[f64]) -> Option<Columns> {
+/// Columns of a mechanism. A change of the drive acts on what the others give, `beside`; where that is empty, on the recorded drive itself.
+pub fn columns(
+    run: &JointRun,
+    mechanism: Mechanism,
+    shape: &[f64],
+    beside: Option<&[f64]>,
+) -> Option<Columns> {
     match entry(mechanism)?.form {
-        Form::Drive(what) => drive(run, what, shape),
+        Form::Drive(what) => match beside? {
+            [] => drive(run, what, shape),
+            fitted => linearised(run, what, shape, fitted),
+        },
+        _ if beside.is_some() => None,
         form @ (Form::Joint(_) | Form::Sensor(_)) => of_joint(run, form, shape),
         _ => {
             let mut signals = resistances(run, mechanism, shape)?;
@@ -234,5 +244,31 @@ fn drive(run: &JointRun, what: Drive, shape: &[f64]) -> Option<Columns> {
         }
         (_, PlantKind::Bench, Some((predicted, _))) => fixed(less(&changed(predicted)?, predicted)),
         (_, PlantKind::Bench, None) => None,
+    }
+}
+
+/// Columns of a change of the drive, linearised about what the other terms give.
+fn linearised(run: &JointRun, what: Drive, shape: &[f64], fitted: &[f64]) -> Option<Columns> {
+    let value = shape.first().copied().unwrap_or(0.0);
+    let step_s = run.step_s;
+    let is_known = !matches!(run.inertia, Inertia::Unknown(_));
+    let fixed = |signal| Some(Columns::Fixed(signal));
+    match (what, run.plant) {
+        (Drive::Limit, _) => None,
+        (Drive::Gain, _) if is_known => Some(Columns::Free(vec![run.known()])),
+        (Drive::Gain, _) => None,
+        // With a known inertia the command itself can be delayed: it has less noise than an acceleration.
+        (_, PlantKind::Axis) if is_known => drive(run, what, shape),
+        // Else the command is ahead of the effort that moves the joint: gain·u = e + time_constant·de/dt.
+        (Drive::Lag, PlantKind::Axis) => {
+            let slope = gradient(fitted, step_s);
+            fixed(slope.into_iter().map(|s| value * s).collect())
+        }
+        (Drive::Skew, PlantKind::Axis) => fixed(less(&shifted(fitted, value / step_s), fitted)),
+        (Drive::Lag, PlantKind::Bench) if run.brake().is_some() => drive(run, what, shape),
+        (Drive::Lag, PlantKind::Bench) => {
+            fixed(less(&first_order_lag(fitted, step_s, value), fitted))
+        }
+        (Drive::Skew, PlantKind::Bench) => fixed(less(&shifted(fitted, -value / step_s), fitted)),
     }
 }

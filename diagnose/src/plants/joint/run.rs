@@ -285,8 +285,14 @@ impl Run for JointRun {
     }
 
     fn columns(&self, cause: Cause, shape: &[f64], beside: Option<&[f64]>) -> Option<Columns> {
-        let _ = beside;
-        over_parts(self, |run, _| columns::columns(run, cause.mechanism, shape))
+        over_parts(self, |run, part| {
+            let beside = match beside {
+                Some([]) => Some(&[][..]),
+                Some(beside) => Some(beside.get(part)?),
+                None => None,
+            };
+            columns::columns(run, cause.mechanism, shape, beside)
+        })
     }
 
     fn is_linearised(&self) -> bool {
