@@ -7,7 +7,7 @@ use crate::filter::rms;
 use crate::filter::{LowPass, gradient};
 use crate::rules::{
     AT_LIMIT, BAND_SHARE, JUMP_AROUND, JUMP_TIMES, LEAST_CUTOFF_HZ, LONGEST_FREEZE_S,
-    LONGEST_GAP_S, MOST_CLIPPED, MOST_CLIPPED_SHARE, MOST_MISSING, QUIET_SPEED, REST_S,
+    LONGEST_GAP_S, LOUD_SPEED, MOST_CLIPPED, MOST_CLIPPED_SHARE, MOST_MISSING, QUIET_SPEED, REST_S,
     SENSE_SIGMAS,
 };
 use rigproof_model::effects::Instant;
@@ -252,8 +252,18 @@ pub(crate) fn quiet_cutoff_hz(position: &[f64], step_s: f64, cutoff_hz: f64, noi
     let rate_hz = 1.0 / step_s;
     let least_hz = LEAST_CUTOFF_HZ.min(0.25 * rate_hz);
     let smooth = LowPass::butterworth(4, 2.0 * least_hz / rate_hz).zero_phase(position);
-    let most = QUIET_SPEED * rms(&gradient(&smooth, step_s));
+    let slow = rms(&gradient(&smooth, step_s));
     let at_one_hz = noise * core::f64::consts::TAU * (2.0 / rate_hz / 3.0).sqrt();
+    let all = LowPass::butterworth(4, 2.0 * cutoff_hz / rate_hz).zero_phase(position);
+    let (fast, loud) = (
+        rms(&gradient(&all, step_s)),
+        at_one_hz * libm::pow(cutoff_hz, 1.5),
+    );
+    let speed = (fast * fast - loud * loud).max(slow * slow).sqrt();
+    if loud <= LOUD_SPEED * speed {
+        return cutoff_hz;
+    }
+    let most = QUIET_SPEED * slow;
     let quiet_hz = libm::pow(most / at_one_hz.max(1e-300), 2.0 / 3.0);
     cutoff_hz.min(quiet_hz.max(least_hz))
 }

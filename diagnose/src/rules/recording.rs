@@ -49,6 +49,8 @@ rules! {
     EVEN: f64 = 1e-3, "steps", REASON;
     /// Axis and bench: noise of the speed that is not noticed beside its root mean square.
     QUIET_SPEED: f64 = 0.005, "share", DRIVEN;
+    /// Axis and bench: noise of the speed up to which the low-pass ends where the effort's band asks, as a share of the speed.
+    LOUD_SPEED: f64 = 0.05, "share", DRIVEN;
     /// Axis and bench: the lowest end of the low-pass.
     LEAST_CUTOFF_HZ: f64 = 25.0, "Hz", DRIVEN;
     /// Half the stretch of time over which a joint must have moved for its sense to be known.
