@@ -105,7 +105,7 @@ impl Rig {
     ) -> Result<(Recording, Dialect, Vec<String>), TraceError> {
         let channels = &self.channels;
         let (time, hints) = (channels.time.as_ref(), hints.or(self.text));
-        let (text, remarks) = read_text(path, time, hints.clone(), &channels.maps())?;
+        let (text, remarks) = read_text(path, time, hints, &channels.maps())?;
         let recording = self.apply(&text.trace, path);
         let recording = recording
             .map_err(|error| with_all_columns(path, time, hints, error, |t| self.apply(t, path)))?;

@@ -188,7 +188,7 @@ impl FiveBar {
         let maps: Vec<&ChannelMap> = measured.chain(channels.currents.iter().flatten()).collect();
         let time = channels.time.as_ref();
         let hints = hints.or(self.text);
-        let (text, remarks) = read_text(path, time, hints.clone(), &maps)?;
+        let (text, remarks) = read_text(path, time, hints, &maps)?;
         let recording = self.apply(&text.trace, path);
         let recording = recording
             .map_err(|error| with_all_columns(path, time, hints, error, |t| self.apply(t, path)))?;
