@@ -229,7 +229,7 @@ pub trait Described: Plant + PartialEq {
     /// Reads a text recording whose dialect is partly known, and says in which it was, and what was guessed, passed over or mended.
     ///
     /// # Errors
-    /// The file cannot be read, or as [`Plant::measured`].
+    /// The file cannot be read, or as [`Described::measured`].
     fn read_csv(
         &self,
         file: &Path,
@@ -239,7 +239,7 @@ pub trait Described: Plant + PartialEq {
     /// Reads an MCAP recording, and says how it was read.
     ///
     /// # Errors
-    /// The file cannot be read, or as [`Plant::measured`].
+    /// The file cannot be read, or as [`Described::measured`].
     fn read_messages(&self, file: &Path) -> Result<(Self::Recording, Vec<String>), TraceError>;
 
     /// The time stamps of a recording, s.
