@@ -83,7 +83,7 @@ impl Rig {
     /// Reads a recording of this rig from a text file or an MCAP file, as its content says.
     ///
     /// # Errors
-    /// As [`csv::read`], [`mcap::read()`] and [`Rig::apply`].
+    /// As [`csv::read_text`], [`mcap::read()`] and [`Rig::apply`].
     pub fn read_recording(&self, path: &Path) -> Result<Recording, TraceError> {
         match mcap::is_mcap(path)? {
             true => self.read_mcap(path).map(|(recording, _)| recording),
@@ -97,7 +97,7 @@ impl Rig {
     /// passed over or mended. Columns that the rig does not name are not looked at.
     ///
     /// # Errors
-    /// As [`csv::read`] and [`Rig::apply`].
+    /// As [`csv::read_text`] and [`Rig::apply`].
     pub fn read_text(
         &self,
         path: &Path,
