@@ -167,7 +167,7 @@ impl FiveBar {
     /// Reads a text recording of this rig.
     ///
     /// # Errors
-    /// As [`csv::read_text`] and [`FiveBar::apply`].
+    /// As [`crate::csv::read_text`] and [`FiveBar::apply`].
     pub fn read_recording(&self, path: &Path) -> Result<FiveBarRecording, TraceError> {
         let (recording, ..) = self.read_text(path, &Hints::default())?;
         Ok(recording)
@@ -177,7 +177,7 @@ impl FiveBar {
     /// passed over or mended. Columns that the rig does not name are not looked at.
     ///
     /// # Errors
-    /// As [`csv::read_text`](crate::csv::read) and [`FiveBar::apply`].
+    /// As [`crate::csv::read_text`](crate::csv::read) and [`FiveBar::apply`].
     pub fn read_text(
         &self,
         path: &Path,
