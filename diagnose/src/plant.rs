@@ -19,7 +19,7 @@ use rigproof_model::effects::{Form, Instant, entry, law};
 use rigproof_spec::effect::{Mechanism, Motion};
 
 pub use crate::align::Fault;
-pub use crate::problem::NominalEffect;
+pub use crate::effect::Effect;
 pub use crate::signals::{numerov, second_difference};
 pub use described::{At, Described, Plant, Replica, Shown};
 pub use replayed::{Frame, RESTART_S, Replayed};

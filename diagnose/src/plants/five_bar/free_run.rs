@@ -2,10 +2,10 @@
 
 use super::from_rig::{nominal, with_angles};
 use super::run::{FiveBarRun, joint_at};
+use crate::effect::Effect;
 use crate::filter::rms;
 use crate::plant::Run;
 use crate::plants::joint::free_run::HORIZONS_S;
-use crate::problem::NominalEffect;
 use crate::report::Horizon;
 use crate::rules::{MOST_OF_PART, SHOTS};
 use crate::signals::shifted;
@@ -32,7 +32,7 @@ impl Model {
         Model::with(nominal(description))
     }
 
-    fn with(effects: Vec<NominalEffect>) -> Model {
+    fn with(effects: Vec<Effect>) -> Model {
         let effects = effects.into_iter().map(|own| JointEffect {
             mechanism: own.cause.mechanism,
             joint: joint_at(own.cause.at),

@@ -4,7 +4,6 @@ use super::experiment;
 use super::free_run::{Model, simulated};
 use super::from_rig::aligned;
 use super::held::held;
-use super::joined::joined;
 use super::mapping;
 use super::replay::replayed;
 use super::replica::replica;
@@ -13,11 +12,13 @@ use super::undone::{described, left};
 use crate::align::Fault;
 use crate::diagnose::numbers::fitted;
 use crate::diagnose::write::Stand;
+use crate::effect::Effect;
 use crate::evidence::{Intervals, Rivals};
 use crate::plant::{
     At, Described, Plant, Replayed, Replica, Simulated, SimulatedOutput, Unsimulated,
 };
-use crate::problem::{NominalEffect, Problem};
+use crate::plants::joined::joined;
+use crate::problem::Problem;
 use crate::report::{FitReport, HeldReport, Horizon, NextExperiment};
 use crate::sensor::sensed;
 use rand_pcg::Pcg64Mcg;
@@ -56,7 +57,7 @@ impl Plant for FiveBar {
         (fitted, run, from_s)
     }
 
-    fn nominal(&self) -> Vec<NominalEffect> {
+    fn nominal(&self) -> Vec<Effect> {
         left(self)
     }
 
@@ -68,7 +69,7 @@ impl Plant for FiveBar {
         mapping::check(run, problem).map_err(|fault| ("recording", fault))
     }
 
-    fn meaningless(&self, problem: &Problem, effect: &NominalEffect) -> Option<Fault> {
+    fn meaningless(&self, problem: &Problem, effect: &Effect) -> Option<Fault> {
         Some(Fault {
             channel: "effect",
             from_s: 0.0,

@@ -100,11 +100,6 @@ impl FiveBarRun {
         self.recorded.is_empty()
     }
 
-    /// The length of the recording, s.
-    pub fn duration_s(&self) -> f64 {
-        self.step_s * self.len().saturating_sub(1) as f64
-    }
-
     /// The smoothed motion of a joint.
     pub fn motion_of(&self, joint: Joint) -> &[Instant] {
         self.joints.get(place(joint)).map_or(&[], Vec::as_slice)

@@ -3,11 +3,12 @@
 use super::inertia::Inertia;
 use crate::diagnose::write::Stand;
 use crate::diagnose::{Curves, FittedCurves};
+use crate::effect::Effect;
 use crate::evidence::{coefficients_by_term, parameters};
 use crate::plants::joint::free_run::{HORIZONS_S, Shown, figure, horizon_error, show};
 use crate::plants::joint::from_rig;
 use crate::plants::joint::run::{JointRun, PlantKind};
-use crate::plants::joint::simulate::{Effect, Model, Protocol, output};
+use crate::plants::joint::simulate::{Model, Protocol, output};
 use crate::report::{BeforeAfter, FitReport, HELD_OUT_PART, Horizon};
 use crate::select::{floor_limit, refs};
 use rigproof_spec::effect::Quantity;
@@ -34,8 +35,9 @@ impl Stand<'_, Rig> {
             .iter()
             .zip(&coefficients)
             .map(|(term, own)| Effect {
-                mechanism: term.cause.mechanism,
+                cause: term.cause,
                 parameters: parameters(self.problem, term, own),
+                unknown: term.known.is_none(),
                 onset_s: term.onset_s,
             })
             .collect();

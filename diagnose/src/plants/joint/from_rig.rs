@@ -4,9 +4,9 @@ use super::align::{Signals, align};
 use super::inertia::Inertia;
 use crate::align::{Fault, forget_sense_near_reversals};
 use crate::cause::Cause;
+use crate::effect::Effect;
 use crate::plants::joint::run::{JointRun, PlantKind};
-use crate::plants::joint::simulate::{Effect, Interpolation, Model, Protocol};
-use crate::problem::NominalEffect;
+use crate::plants::joint::simulate::{Interpolation, Model, Protocol};
 use crate::rules::STILL_NOISES;
 use rigproof_trace::rig::{Drive, Plant as RigPlant, Recording, Rig, Status};
 
@@ -76,10 +76,10 @@ pub(crate) fn inertia(rig: &Rig) -> Inertia {
 }
 
 /// The physics that the nominal model has.
-pub(crate) fn nominal(rig: &Rig) -> Vec<NominalEffect> {
+pub(crate) fn nominal(rig: &Rig) -> Vec<Effect> {
     rig.effects
         .iter()
-        .map(|effect| NominalEffect {
+        .map(|effect| Effect {
             cause: Cause::of(effect.mechanism),
             parameters: effect.values.iter().map(|v| v.value).collect(),
             unknown: effect.values.iter().any(|v| v.status != Status::Known),
@@ -92,14 +92,7 @@ pub(crate) fn nominal(rig: &Rig) -> Vec<NominalEffect> {
 pub fn plant(rig: &Rig) -> Model {
     Model {
         inertia: rig.parameters.map_or(0.0, |p| p.inertia.value),
-        effects: nominal(rig)
-            .into_iter()
-            .map(|n| Effect {
-                mechanism: n.cause.mechanism,
-                parameters: n.parameters,
-                onset_s: n.onset_s,
-            })
-            .collect(),
+        effects: nominal(rig),
     }
 }
 

@@ -1,7 +1,6 @@
 //! This file is a plant of one joint by its description.
 
 use super::inverse::{self, CUTOFF_HZ, DECIMATION, FILTER_ORDER};
-use super::joined::joined;
 use super::mistaken::{another_drive, without_brake};
 use super::run::{JointRun, PlantKind};
 use super::simulate::output;
@@ -9,9 +8,11 @@ use super::write_rig::{calibrated, nominal_numbers};
 use super::{from_rig, replica};
 use crate::align::Fault;
 use crate::diagnose::write::Stand;
+use crate::effect::Effect;
 use crate::evidence::Intervals;
 use crate::plant::{At, Described, Plant, Replica, Shown, Simulated, SimulatedOutput, Unsimulated};
-use crate::problem::{NominalEffect, Problem};
+use crate::plants::joined::joined;
+use crate::problem::Problem;
 use crate::report::{FitReport, InverseReport, Number};
 use crate::select::Selection;
 use crate::sensor::sensed;
@@ -43,7 +44,7 @@ impl Plant for Rig {
         run.part(from, to)
     }
 
-    fn nominal(&self) -> Vec<NominalEffect> {
+    fn nominal(&self) -> Vec<Effect> {
         from_rig::nominal(self)
     }
 
@@ -56,7 +57,7 @@ impl Plant for Rig {
     }
 
     /// A change of the drive in the description is passed over.
-    fn meaningless(&self, _: &Problem, _: &NominalEffect) -> Option<Fault> {
+    fn meaningless(&self, _: &Problem, _: &Effect) -> Option<Fault> {
         None
     }
 

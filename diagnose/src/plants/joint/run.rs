@@ -6,10 +6,11 @@ use super::{columns, shapes};
 use crate::align::band_hz;
 use crate::cause::{Cause, Place};
 use crate::doubt::{greatest_change, jumps_late, turning};
+use crate::effect::Effect;
 use crate::filter::rms;
 use crate::locate::{self, Regimes};
 use crate::plant::{Clock, Columns, Run};
-use crate::problem::{NominalEffect, add};
+use crate::problem::add;
 use crate::rules::{
     LEAST_STEPS_AXIS, LEAST_STEPS_BENCH, MOST_AMBIGUOUS, MOST_NOISE, MOST_UNTOLD, PERIODS_A_WIDTH,
     QUIET, WIDTHS_S,
@@ -40,7 +41,7 @@ pub struct JointRun {
     /// The inertia, as far as it is known.
     pub inertia: Inertia,
     /// The physics of its description.
-    pub described: Vec<NominalEffect>,
+    pub described: Vec<Effect>,
     /// Sample interval, s.
     pub step_s: f64,
     /// Time of the first sample, s.
@@ -125,11 +126,6 @@ impl JointRun {
     /// Whether there are no samples.
     pub fn is_empty(&self) -> bool {
         self.position.is_empty()
-    }
-
-    /// The length of the recording, s.
-    pub fn duration_s(&self) -> f64 {
-        self.step_s * self.len().saturating_sub(1) as f64
     }
 
     /// The samples `from..to`, times kept.

@@ -1,6 +1,7 @@
 //! This file runs a calibrated plant from the recorded inputs, without looking at the recorded output again.
 
 use super::columns::{is_of_brake, of_brake};
+use crate::effect::Effect;
 use crate::plant::Run;
 use crate::plants::joint::run::{JointRun, PlantKind};
 use crate::signals::{lagged_yield, shifted};
@@ -9,17 +10,6 @@ use rigproof_model::bench::resistance;
 use rigproof_model::effects::{Drive, Form, Instant, Law, first_order_lag, form, law};
 use rigproof_spec::effect::Mechanism;
 use rustfft::{FftPlannerScalar, num_complex::Complex64};
-
-/// A mechanism with numbers.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Effect {
-    /// The mechanism.
-    pub mechanism: Mechanism,
-    /// Its parameters in the vocabulary's order, SI.
-    pub parameters: Vec<f64>,
-    /// When it begins, s.
-    pub onset_s: Option<f64>,
-}
 
 /// A plant with all its numbers.
 #[derive(Clone, Debug, PartialEq)]
@@ -93,8 +83,8 @@ fn laws(plant: &Model) -> Vec<Box<dyn Law>> {
 
 /// The law of an effect that is a resistance of its own, not something that a brake does.
 fn own_law(effect: &Effect) -> Option<Box<dyn Law>> {
-    let is_own = !is_of_brake(effect.mechanism);
-    is_own.then(|| law(effect.mechanism, &effect.parameters))?
+    let is_own = !is_of_brake(effect.mechanism());
+    is_own.then(|| law(effect.mechanism(), &effect.parameters))?
 }
 
 /// A law that acts from a given time on.
@@ -154,7 +144,7 @@ fn driven(plant: &Model, effort: &[f64], run: &JointRun) -> Vec<f64> {
     let step_s = run.step_s;
     let mut out = effort.to_vec();
     for effect in &plant.effects {
-        let value = effect.parameters.first().copied().unwrap_or(0.0);
+        let value = effect.value(0);
         let Some(change) = drive_of(effect) else {
             continue;
         };
@@ -164,7 +154,7 @@ fn driven(plant: &Model, effort: &[f64], run: &JointRun) -> Vec<f64> {
             Drive::Lag => first_order_lag(&out, step_s, value),
             Drive::Limit => out.iter().map(|e| e.min(value).max(-value)).collect(),
         };
-        let first = effect.onset_s.map_or(0, |t| run.clock().sample_at(t));
+        let first = effect.first_sample(run.clock());
         for (o, c) in out.iter_mut().zip(changed).skip(first) {
             *o = c;
         }
@@ -174,7 +164,7 @@ fn driven(plant: &Model, effort: &[f64], run: &JointRun) -> Vec<f64> {
 
 /// The change of the drive that an effect is.
 fn drive_of(effect: &Effect) -> Option<Drive> {
-    let Form::Drive(change) = form(effect.mechanism)? else {
+    let Form::Drive(change) = form(effect.mechanism())? else {
         return None;
     };
     Some(change)
@@ -187,12 +177,12 @@ fn bench(plant: &Model, run: &JointRun) -> Vec<f64> {
     };
     let value = |own: Drive| change(own).and_then(|e| e.parameters.first().copied());
     let mut effort = resistance(&laws(plant), &run.motion, run.step_s);
-    for effect in plant.effects.iter().filter(|e| is_of_brake(e.mechanism)) {
+    for effect in plant.effects.iter().filter(|e| is_of_brake(e.mechanism())) {
         let [coefficient, shape @ ..] = effect.parameters.as_slice() else {
             continue;
         };
-        let signal = of_brake(run, effect.mechanism, shape).unwrap_or_default();
-        let first = effect.onset_s.map_or(0, |t| run.clock().sample_at(t));
+        let signal = of_brake(run, effect.mechanism(), shape).unwrap_or_default();
+        let first = effect.first_sample(run.clock());
         for (e, s) in effort.iter_mut().zip(signal).skip(first) {
             *e += coefficient * s;
         }
@@ -202,9 +192,7 @@ fn bench(plant: &Model, run: &JointRun) -> Vec<f64> {
         let mut predicted = predicted.clone();
         // The yield of a brake lags; anything else lags as a whole, below.
         if let (Some(time_constant_s), Some(_)) = (value(Drive::Lag), &run.current) {
-            let first = change(Drive::Lag)
-                .and_then(|e| e.onset_s)
-                .map_or(0, |t| run.clock().sample_at(t));
+            let first = change(Drive::Lag).map_or(0, |e| e.first_sample(run.clock()));
             let lagged = lagged_yield(&predicted, run.step_s, time_constant_s);
             for (p, l) in predicted.iter_mut().zip(lagged).skip(first) {
                 *p = l;
@@ -262,7 +250,7 @@ fn free_run(plant: &Model, run: &JointRun, protocol: &Protocol) -> Vec<f64> {
 fn saturate_presliding(plant: &Model, memory: &mut [f64], speed: f64) {
     let with_law = plant.effects.iter().filter(|e| own_law(e).is_some());
     for (effect, memory) in with_law.zip(memory) {
-        if effect.mechanism == Mechanism::Presliding && speed != 0.0 {
+        if effect.mechanism() == Mechanism::Presliding && speed != 0.0 {
             *memory = speed.signum();
         }
     }
@@ -451,11 +439,7 @@ mod tests {
             inertia: INERTIA,
             effects: NOMINAL
                 .iter()
-                .map(|(mechanism, parameters)| Effect {
-                    mechanism: *mechanism,
-                    parameters: parameters.to_vec(),
-                    onset_s: None,
-                })
+                .map(|(mechanism, parameters)| Effect::of(*mechanism, parameters))
                 .collect(),
         }
     }
@@ -485,9 +469,8 @@ mod tests {
         let mut late = plant();
         let onset_s = 401.5 * run.step_s;
         late.effects.push(Effect {
-            mechanism: Mechanism::ConstantBias,
-            parameters: vec![2.7],
             onset_s: Some(onset_s),
+            ..Effect::of(Mechanism::ConstantBias, &[2.7])
         });
         let protocol = Protocol::default();
         let (without, with) = (

@@ -29,7 +29,7 @@ pub fn calibrated(rig: &Rig, model: &Model, intervals: &Intervals, refitted: boo
                 }
             });
             RigEffect {
-                mechanism: effect.mechanism,
+                mechanism: effect.mechanism(),
                 values: values.collect(),
                 onset: onset(effect.onset_s, intervals, index),
             }
