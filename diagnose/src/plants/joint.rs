@@ -2,12 +2,15 @@
 
 pub mod align;
 pub mod columns;
+mod drive;
+mod encoder;
 mod fitted;
 pub mod free_run;
 pub mod from_rig;
 pub mod inertia;
 pub mod inverse;
 mod joined;
+mod laws;
 mod mistaken;
 mod plant;
 #[cfg(test)]
@@ -19,5 +22,6 @@ mod shapes;
 pub mod simulate;
 #[cfg(test)]
 mod tests;
+mod undone;
 mod words;
 pub(crate) mod write_rig;

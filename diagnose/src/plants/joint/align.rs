@@ -106,6 +106,7 @@ pub fn align(signals: &Signals) -> Result<JointRun, Fault> {
             .collect(),
         speed_floor,
         untold_speed,
+        metered_by: Vec::new(),
         parts: Vec::new(),
     };
     check_sign(&run)?;

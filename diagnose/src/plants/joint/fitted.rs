@@ -43,6 +43,7 @@ impl Stand<'_, Rig> {
             .collect();
         let given = from_rig::plant(self.plant).inertia;
         Model {
+            described: self.selection.nominal.len(),
             inertia: nuisances
                 .first()
                 .copied()

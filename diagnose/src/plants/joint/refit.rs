@@ -178,6 +178,7 @@ mod tests {
         let effect = |mechanism, value: f64| Effect::of(mechanism, &[value]);
         Model {
             inertia,
+            described: 2,
             effects: vec![
                 effect(Mechanism::Viscous, viscous),
                 effect(Mechanism::Spring, 41.7),

@@ -70,6 +70,8 @@ pub struct JointRun {
     pub speed_floor: f64,
     /// By how much the speed may be mistaken, m/s or rad/s.
     pub untold_speed: Vec<f64>,
+    /// Changes between the resistance and what a bench meters that its description states.
+    pub metered_by: Vec<Effect>,
     /// The recordings that stand in it one after another; empty for one recording.
     pub parts: Vec<JointRun>,
 }
@@ -150,6 +152,7 @@ impl JointRun {
             recorded: self.recorded.get(from..to).unwrap_or_default().to_vec(),
             speed_floor: self.speed_floor,
             untold_speed: part(&self.untold_speed),
+            metered_by: self.metered_by.clone(),
             parts: Vec::new(),
         }
     }
@@ -217,7 +220,9 @@ impl Run for JointRun {
 
     fn known(&self) -> Vec<f64> {
         let none = || vec![0.0; self.len()];
-        let mut known = self.predicted.clone().unwrap_or_else(none);
+        let predicted = self.predicted.as_ref();
+        let predicted = predicted.map(|own| columns::metered(self, own.clone()));
+        let mut known = predicted.unwrap_or_else(none);
         if let Inertia::Known(value) = self.inertia {
             let acceleration = second_difference(&self.position, self.step_s);
             add(&mut known, &acceleration, value);

@@ -1,23 +1,26 @@
 //! This file runs a calibrated plant from the recorded inputs, without looking at the recorded output again.
 
 use super::columns::{is_of_brake, of_brake};
+use super::drive::{drive_of, driven, fine_effort, local_interpolation};
+use super::encoder::{behind, shown};
+use super::laws::{bend_bristles, laws};
 use crate::effect::Effect;
-use crate::plant::Run;
+use crate::plant::{Clock, Run};
 use crate::plants::joint::run::{JointRun, PlantKind};
-use crate::signals::{lagged_yield, shifted};
-use rigproof_model::axis::Axis;
+use crate::signals::lagged_yield;
+use rigproof_model::axis::{Axis, State, Trailing, Transmission};
 use rigproof_model::bench::resistance;
-use rigproof_model::effects::{Drive, Form, Instant, Law, first_order_lag, form, law};
-use rigproof_spec::effect::Mechanism;
-use rustfft::{FftPlannerScalar, num_complex::Complex64};
+use rigproof_model::effects::{Drive, Form, OfJoint, form};
 
 /// A plant with all its numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Model {
     /// Mass or moment of inertia; unused on a bench.
     pub inertia: f64,
-    /// Everything that acts.
+    /// Everything that acts: first what the description has, in its order.
     pub effects: Vec<Effect>,
+    /// How many of the effects are the description's. What fades is the friction of those before it.
+    pub described: usize,
 }
 
 /// What the effort does between two samples.
@@ -73,103 +76,6 @@ pub fn output(plant: &Model, run: &JointRun, protocol: &Protocol) -> Vec<f64> {
     }
 }
 
-fn laws(plant: &Model) -> Vec<Box<dyn Law>> {
-    plant
-        .effects
-        .iter()
-        .filter_map(|e| own_law(e).map(|law| with_onset(law, e.onset_s)))
-        .collect()
-}
-
-/// The law of an effect that is a resistance of its own, not something that a brake does.
-fn own_law(effect: &Effect) -> Option<Box<dyn Law>> {
-    let is_own = !is_of_brake(effect.mechanism());
-    is_own.then(|| law(effect.mechanism(), &effect.parameters))?
-}
-
-/// A law that acts from a given time on.
-struct Late {
-    law: Box<dyn Law>,
-    onset_s: f64,
-}
-
-impl Law for Late {
-    fn smooth(&self, now: &Instant, memory: f64) -> f64 {
-        if now.time_s < self.onset_s {
-            0.0
-        } else {
-            self.law.smooth(now, memory)
-        }
-    }
-
-    fn dry(&self, now: &Instant) -> f64 {
-        if now.time_s < self.onset_s {
-            0.0
-        } else {
-            self.law.dry(now)
-        }
-    }
-
-    fn remembers(&self) -> bool {
-        self.law.remembers()
-    }
-
-    fn memory_rate(&self, now: &Instant, memory: f64) -> f64 {
-        self.law.memory_rate(now, memory)
-    }
-
-    fn parts(&self, now: &Instant, memory: f64) -> (f64, f64) {
-        if now.time_s < self.onset_s {
-            (0.0, 0.0)
-        } else {
-            self.law.parts(now, memory)
-        }
-    }
-
-    fn memory_after(&self, memory: f64, travel: f64, speed: f64) -> f64 {
-        self.law.memory_after(memory, travel, speed)
-    }
-}
-
-fn with_onset(law: Box<dyn Law>, onset_s: Option<f64>) -> Box<dyn Law> {
-    match onset_s {
-        Some(onset_s) => Box::new(Late { law, onset_s }),
-        None => law,
-    }
-}
-
-/// The effort after the changes of the drive: gain, time shift, lag. On an axis the recorded command is ahead of
-/// the effort; on a bench `effort` is what the laws give and the recorded one is behind.
-fn driven(plant: &Model, effort: &[f64], run: &JointRun) -> Vec<f64> {
-    let step_s = run.step_s;
-    let mut out = effort.to_vec();
-    for effect in &plant.effects {
-        let value = effect.value(0);
-        let Some(change) = drive_of(effect) else {
-            continue;
-        };
-        let changed = match change {
-            Drive::Gain => out.iter().map(|e| e * (1.0 + value)).collect(),
-            Drive::Skew => shifted(&out, -value / step_s),
-            Drive::Lag => first_order_lag(&out, step_s, value),
-            Drive::Limit => out.iter().map(|e| e.min(value).max(-value)).collect(),
-        };
-        let first = effect.first_sample(run.clock());
-        for (o, c) in out.iter_mut().zip(changed).skip(first) {
-            *o = c;
-        }
-    }
-    out
-}
-
-/// The change of the drive that an effect is.
-fn drive_of(effect: &Effect) -> Option<Drive> {
-    let Form::Drive(change) = form(effect.mechanism())? else {
-        return None;
-    };
-    Some(change)
-}
-
 fn bench(plant: &Model, run: &JointRun) -> Vec<f64> {
     let change = |own: Drive| {
         let mut effects = plant.effects.iter();
@@ -204,29 +110,90 @@ fn bench(plant: &Model, run: &JointRun) -> Vec<f64> {
             *e += gain * p;
         }
     }
-    let rest = Model {
-        inertia: 0.0,
-        effects: plant
-            .effects
-            .iter()
-            .filter(|e| drive_of(e).is_some_and(|own| on_sum.contains(&own)))
-            .cloned()
-            .collect(),
-    };
-    driven(&rest, &effort, run)
+    let rest = plant.effects.iter();
+    let rest = rest.filter(|e| drive_of(e).is_some_and(|own| on_sum.contains(&own)));
+    driven(rest.chain(&run.metered_by), &effort, run.clock(), 0)
 }
 
+/// A joint that runs freely: what is of the joint as a whole takes hold when its time comes.
+struct Free {
+    axis: Axis,
+    inertia: f64,
+    of_joint: Vec<(OfJoint, Effect)>,
+}
+
+impl Free {
+    fn of(plant: &Model) -> Free {
+        let of_joint = plant
+            .effects
+            .iter()
+            .filter_map(|effect| match form(effect.mechanism())? {
+                Form::Joint(own) => Some((own, effect.clone())),
+                _ => None,
+            });
+        Free {
+            axis: Axis {
+                inertia: plant.inertia,
+                laws: laws(plant),
+                transmission: Transmission::default(),
+            },
+            inertia: plant.inertia,
+            of_joint: of_joint.collect(),
+        }
+    }
+
+    /// The joint as it is from a time on.
+    fn take_hold(&mut self, time_s: f64) {
+        if self.of_joint.is_empty() {
+            return;
+        }
+        self.axis.inertia = self.inertia;
+        self.axis.transmission = Transmission::default();
+        let begun = |onset_s: f64| onset_s <= time_s;
+        for (of, effect) in &self.of_joint {
+            if !effect.onset_s.is_none_or(begun) {
+                continue;
+            }
+            match of {
+                OfJoint::Inertia => self.axis.inertia += effect.value(0),
+                OfJoint::Load => self.axis.transmission.friction_share += effect.value(0),
+                OfJoint::Compliance => {
+                    self.axis.transmission.trailing = Some(Trailing {
+                        share: effect.value(0).min(MOST_TRAILING),
+                        resonance_rad_s: effect.value(1),
+                        damping: effect.value(2),
+                    });
+                }
+                // Its laws do that.
+                OfJoint::Fade => {}
+            }
+        }
+        self.axis.inertia = self.axis.inertia.max(LEAST_INERTIA * self.inertia);
+    }
+
+    fn run(&mut self, state: &mut State, efforts: &[(f64, f64)], step_s: f64) {
+        for &(begin, end) in efforts {
+            self.axis.step(state, begin, end, step_s);
+        }
+    }
+}
+
+/// The greatest share of an inertia that can hang behind a spring: with all of it nothing is left to drive.
+const MOST_TRAILING: f64 = 0.99;
+/// The least part of an inertia that another one leaves of it.
+const LEAST_INERTIA: f64 = 1e-3;
+
 fn free_run(plant: &Model, run: &JointRun, protocol: &Protocol) -> Vec<f64> {
-    let axis = Axis {
-        inertia: plant.inertia,
-        laws: laws(plant),
-    };
-    let effort = driven(plant, &run.effort, run);
+    let clock = run.clock();
+    let effort = driven(&plant.effects, &run.effort, clock, 0);
     let fine = fine_effort(&effort, protocol);
-    let (first, position, speed) = start(run, protocol.start_samples);
-    let mut state = axis.state(run.start_s + first as f64 * run.step_s, position, speed);
-    saturate_presliding(plant, &mut state.memory, speed);
-    let mut out = run.position.get(..first).unwrap_or_default().to_vec();
+    let there = behind(&plant.effects, &run.position, clock);
+    let (first, position, speed) = start(&there, run.step_s, protocol.start_samples);
+    let mut free = Free::of(plant);
+    let begin_s = run.start_s + first as f64 * run.step_s;
+    let mut state = free.axis.state(begin_s, position, speed);
+    bend_bristles(plant, &mut state.memory, speed);
+    let mut out = there.get(..first).unwrap_or_default().to_vec();
     let step_s = run.step_s / protocol.substeps as f64;
     for period in 0..=protocol.warm_up_periods {
         let counts = period == protocol.warm_up_periods;
@@ -238,84 +205,24 @@ fn free_run(plant: &Model, run: &JointRun, protocol: &Protocol) -> Vec<f64> {
             if counts {
                 out.push(state.position);
             }
-            for &(begin, end) in pairs {
-                axis.step(&mut state, begin, end, step_s);
-            }
+            free.take_hold(state.time_s);
+            free.run(&mut state, pairs, step_s);
         }
     }
-    out
-}
-
-/// A bristle that has been sliding is bent by all it can bend.
-fn saturate_presliding(plant: &Model, memory: &mut [f64], speed: f64) {
-    let with_law = plant.effects.iter().filter(|e| own_law(e).is_some());
-    for (effect, memory) in with_law.zip(memory) {
-        if effect.mechanism() == Mechanism::Presliding && speed != 0.0 {
-            *memory = speed.signum();
-        }
-    }
-}
-
-/// Effort at the beginning and the end of every integration step.
-fn fine_effort(effort: &[f64], protocol: &Protocol) -> Vec<(f64, f64)> {
-    let n = protocol.substeps;
-    let next = |k: usize| effort.get(k + 1).or(effort.last()).copied().unwrap_or(0.0);
-    match protocol.interpolation {
-        Interpolation::Hold => effort
-            .iter()
-            .flat_map(|&e| core::iter::repeat_n((e, e), n))
-            .collect(),
-        Interpolation::Linear => effort
-            .iter()
-            .enumerate()
-            .flat_map(|(k, &e)| {
-                let slope = (next(k) - e) / n as f64;
-                (0..n).map(move |j| (e + slope * j as f64, e + slope * (j + 1) as f64))
-            })
-            .collect(),
-        Interpolation::Band => {
-            let fine = band_limited(effort, n);
-            let after = fine.iter().skip(1).chain(fine.first());
-            fine.iter().copied().zip(after.copied()).collect()
-        }
-    }
-}
-
-/// A periodic signal at `factor` times its rate, by its Fourier series.
-fn band_limited(signal: &[f64], factor: usize) -> Vec<f64> {
-    let n = signal.len();
-    // The scalar planner gives the same bits on every processor.
-    let mut planner = FftPlannerScalar::new();
-    let mut spectrum: Vec<Complex64> = signal.iter().map(|&x| Complex64::new(x, 0.0)).collect();
-    planner.plan_fft_forward(n).process(&mut spectrum);
-    let mut wide = vec![Complex64::default(); n * factor];
-    let half = n.div_ceil(2);
-    for (to, from) in wide.iter_mut().zip(spectrum.iter().take(half)) {
-        *to = *from;
-    }
-    for (to, from) in wide
-        .iter_mut()
-        .rev()
-        .zip(spectrum.iter().rev().take(n - half))
-    {
-        *to = *from;
-    }
-    planner.plan_fft_inverse(n * factor).process(&mut wide);
-    wide.into_iter().map(|c| c.re / n as f64).collect()
+    shown(&plant.effects, out, clock)
 }
 
 /// Start sample, position and speed: the end of a parabola through the first `samples` positions.
-fn start(run: &JointRun, samples: usize) -> (usize, f64, f64) {
+fn start(position: &[f64], step_s: f64, samples: usize) -> (usize, f64, f64) {
     if samples < 3 {
-        return (0, run.position.first().copied().unwrap_or(0.0), 0.0);
+        return (0, position.first().copied().unwrap_or(0.0), 0.0);
     }
     let last = samples - 1;
-    let points: Vec<(f64, f64)> = run
-        .position
+    let points: Vec<(f64, f64)> = position
         .iter()
         .take(samples)
         .enumerate()
-        .map(|(k, &x)| ((k as f64 - last as f64) * run.step_s, x))
+        .map(|(k, &x)| ((k as f64 - last as f64) * step_s, x))
         .collect();
     let [position, speed, _] = parabola(&points);
     (last, position, speed)
@@ -343,39 +250,44 @@ pub fn predict(
     count: usize,
     protocol: &Protocol,
 ) -> Option<f64> {
+    let clock = run.clock();
+    let efforts = run.effort.get(first..first + count)?;
+    let effort = driven(&plant.effects, efforts, clock, first);
     let begin = run.motion.get(first)?;
-    let axis = Axis {
-        inertia: plant.inertia,
-        laws: laws(plant),
+    let seen = [begin, run.motion.get(first + 1)?].map(|now| now.position);
+    let stretch = Clock {
+        start_s: begin.time_s,
+        samples: 2,
+        ..clock
     };
-    let effort = driven(plant, run.effort.get(first..first + count)?, run);
-    let mut state = axis.state(
-        begin.time_s,
-        begin.position,
-        if begin.sense.abs() < 1.0 {
-            0.0
-        } else {
-            begin.speed
-        },
-    );
-    saturate_presliding(plant, &mut state.memory, state.speed);
+    let there = behind(&plant.effects, &seen, stretch);
+    let &[position, next] = there.as_slice() else {
+        return None;
+    };
+    // An encoder that shows more travel shows more speed.
+    let shows = |seen: f64, is: f64| if is == 0.0 { 1.0 } else { seen / is };
+    let speed = match begin.sense.abs() < 1.0 {
+        true => 0.0,
+        false => begin.speed / shows(seen[1] - seen[0], next - position),
+    };
+    let mut free = Free::of(plant);
+    let mut state = free.axis.state(begin.time_s, position, speed);
+    bend_bristles(plant, &mut state.memory, speed);
     let step_s = run.step_s / protocol.substeps as f64;
     let local = Protocol {
         interpolation: local_interpolation(protocol.interpolation),
         ..*protocol
     };
-    for (from, to) in fine_effort(&effort, &local) {
-        axis.step(&mut state, from, to, step_s);
+    for pairs in fine_effort(&effort, &local).chunks(protocol.substeps) {
+        free.take_hold(state.time_s);
+        free.run(&mut state, pairs, step_s);
     }
-    Some(state.position)
-}
-
-/// Over a short stretch a band-limited effort goes straight between its samples.
-fn local_interpolation(interpolation: Interpolation) -> Interpolation {
-    match interpolation {
-        Interpolation::Band => Interpolation::Linear,
-        other => other,
-    }
+    let end = Clock {
+        start_s: state.time_s,
+        samples: 1,
+        ..clock
+    };
+    shown(&plant.effects, vec![state.position], end).pop()
 }
 
 #[cfg(test)]
@@ -383,26 +295,7 @@ mod tests {
     use super::*;
 
     use crate::plants::joint::recorded::{INERTIA, NOMINAL, exact_axis};
-    use core::f64::consts::TAU;
-
-    #[test]
-    fn band_limited_interpolation_is_exact_on_a_multisine() {
-        let value = |at: f64| {
-            1.3 * libm::sin(TAU * 3.0 * at + 0.4) - 0.7 * libm::cos(TAU * 11.0 * at) + 0.17
-        };
-        for count in [48, 49] {
-            let signal: Vec<f64> = (0..count).map(|k| value(k as f64 / count as f64)).collect();
-            let fine = band_limited(&signal, 7);
-            assert_eq!(fine.len(), 7 * count);
-            for (k, x) in fine.iter().enumerate() {
-                let exact = value(k as f64 / (7 * count) as f64);
-                assert!(
-                    (x - exact).abs() < 1e-12,
-                    "{count} samples, {k}: {x} {exact}"
-                );
-            }
-        }
-    }
+    use rigproof_spec::effect::Mechanism;
 
     #[test]
     fn the_start_state_of_a_parabola_is_its_end() {
@@ -411,32 +304,17 @@ mod tests {
         for (k, x) in run.position.iter_mut().enumerate() {
             *x = at(k as f64 * run.step_s);
         }
-        let (first, position, speed) = start(&run, 17);
+        let (first, position, speed) = start(&run.position, run.step_s, 17);
         let t = 16.0 * run.step_s;
         assert_eq!(first, 16);
         assert!((position - at(t)).abs() < 1e-12, "{position}");
         assert!((speed - (10.6 * t - 1.9)).abs() < 1e-9, "{speed}");
     }
 
-    #[test]
-    fn a_held_effort_and_a_straight_one_differ_inside_the_step() {
-        let protocol = |interpolation| Protocol {
-            interpolation,
-            substeps: 2,
-            ..Protocol::default()
-        };
-        let effort = [0.3, 1.1, -0.7];
-        let held = fine_effort(&effort, &protocol(Interpolation::Hold));
-        assert_eq!(held[2..4], [(1.1, 1.1), (1.1, 1.1)]);
-        let straight = fine_effort(&effort, &protocol(Interpolation::Linear));
-        for ((begin, end), expected) in straight[2..4].iter().zip([(1.1, 0.2), (0.2, -0.7)]) {
-            assert!((begin - expected.0).abs() + (end - expected.1).abs() < 1e-12);
-        }
-    }
-
     fn plant() -> Model {
         Model {
             inertia: INERTIA,
+            described: NOMINAL.len(),
             effects: NOMINAL
                 .iter()
                 .map(|(mechanism, parameters)| Effect::of(*mechanism, parameters))
