@@ -12,6 +12,8 @@ pub mod inverse;
 mod joined;
 mod laws;
 mod mistaken;
+#[cfg(test)]
+mod own_calibration;
 mod plant;
 #[cfg(test)]
 pub(crate) mod recorded;

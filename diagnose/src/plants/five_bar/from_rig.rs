@@ -8,7 +8,7 @@ use crate::align::{
     forget_sense_at_rest, forget_sense_at_reversals, median_step, regular_count, resample,
     smoothed_motion,
 };
-use crate::cause::Cause;
+use crate::cause::{Cause, Place, Scales};
 use crate::doubt::{Smoothing, a_sample_late, greatest_change, turning};
 use crate::effect::Effect;
 use crate::plant::Run;
@@ -404,7 +404,14 @@ pub fn nominal(rig: &FiveBar) -> Vec<Effect> {
     rig.effects
         .iter()
         .map(|own| Effect {
-            cause: Cause::at(own.effect.mechanism, place_of(own.joint)),
+            cause: Cause {
+                mechanism: own.effect.mechanism,
+                at: own.axis.map_or(place_of(own.joint), Place::Axis),
+                scales: match own.of_torque {
+                    true => Scales::Torque,
+                    false => Scales::Nothing,
+                },
+            },
             parameters: own.effect.values.iter().map(|v| v.value).collect(),
             unknown: own.effect.values.iter().any(|v| v.status != Status::Known),
             onset_s: own.effect.onset.map(|v| v.value),

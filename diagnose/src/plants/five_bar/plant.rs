@@ -63,6 +63,15 @@ impl Plant for FiveBar {
 
     /// A description with effects of its own was balanced before; without them its recording may be far from balance.
     fn check(&self, run: &FiveBarRun, problem: &Problem) -> Result<(), (At, Fault)> {
+        if let Some(reason) = Model::of(self).not_computed(self.layout) {
+            let fault = Fault {
+                channel: "effect",
+                from_s: 0.0,
+                to_s: 0.0,
+                reason,
+            };
+            return Err(("description", fault));
+        }
         if !self.effects.is_empty() {
             return Ok(());
         }

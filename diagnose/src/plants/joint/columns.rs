@@ -210,12 +210,14 @@ fn shown_by(run: &JointRun, wave: fn(f64) -> f64, inertia: f64) -> Vec<f64> {
 fn trailing(acceleration: &[f64], resonance: f64, damping: f64, step_s: f64) -> Vec<f64> {
     let h = step_s / SUBSTEPS as f64;
     let (mut x, mut v) = (0.0, 0.0);
-    let each = acceleration.iter().map(|base| {
-        let pull =
-            |x: f64, v: f64| -base - 2.0 * damping * resonance * v - resonance * resonance * x;
-        let now = pull(x, v);
-        for _ in 0..SUBSTEPS {
-            v += h * pull(x, v);
+    let next = acceleration.iter().skip(1).chain(acceleration.last());
+    let each = acceleration.iter().zip(next).map(|(base, next)| {
+        let pull = |x: f64, v: f64| -2.0 * damping * resonance * v - resonance * resonance * x;
+        let now = pull(x, v) - base;
+        for part in 0..SUBSTEPS {
+            // In the middle of a part, so that its mean is right.
+            let share = (part as f64 + 0.5) / SUBSTEPS as f64;
+            v += h * (pull(x, v) - base - share * (next - base));
             x += h * v;
         }
         now
