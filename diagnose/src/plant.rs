@@ -274,6 +274,12 @@ pub trait Run: Debug + Send + Sync {
         coefficients.to_vec()
     }
 
+    /// The coefficients of the columns, from linear parameters in the vocabulary's meaning: what [`Run::linear`] takes them back from.
+    fn coefficients(&self, mechanism: Mechanism, parameters: &[f64]) -> Vec<f64> {
+        let _ = mechanism;
+        parameters.to_vec()
+    }
+
     /// The cause that no recording of this plant can tell from another.
     fn twin(&self, cause: Cause) -> Option<Cause> {
         let _ = cause;

@@ -260,7 +260,8 @@ impl<'a> Problem<'a> {
         let shape = effect.parameters.get(first..).unwrap_or_default();
         let mut term = self.term(effect.cause, shape, effect.onset_s)?;
         if !effect.unknown {
-            term.known = Some(effect.parameters.iter().take(linear).copied().collect());
+            let given = effect.parameters.get(..linear)?;
+            term.known = Some(self.run.coefficients(effect.mechanism(), given));
         }
         Some(term)
     }

@@ -1,5 +1,6 @@
 //! This room is a plant of one joint: an axis that is driven, or a bench at which a brake or damper is turned.
 
+mod agreement;
 pub mod align;
 pub mod columns;
 mod drive;
@@ -11,6 +12,8 @@ pub mod inertia;
 pub mod inverse;
 mod joined;
 mod laws;
+#[cfg(test)]
+mod metamorphic;
 mod mistaken;
 #[cfg(test)]
 mod own_calibration;
@@ -22,6 +25,7 @@ pub(crate) mod replica;
 pub mod run;
 mod shapes;
 pub mod simulate;
+mod start;
 #[cfg(test)]
 mod tests;
 mod undone;

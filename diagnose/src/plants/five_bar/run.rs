@@ -457,6 +457,13 @@ impl Run for FiveBarRun {
         }
     }
 
+    fn coefficients(&self, mechanism: Mechanism, parameters: &[f64]) -> Vec<f64> {
+        match mechanism {
+            Mechanism::ForceGain => parameters.iter().map(|f| f / (1.0 + f)).collect(),
+            _ => parameters.to_vec(),
+        }
+    }
+
     fn regimes(&self, windows: &Windows) -> Regimes {
         locate::regimes(self, windows)
     }

@@ -7,6 +7,9 @@ use crate::signals::shifted;
 use rigproof_model::effects::{Drive, Form, first_order_lag, form};
 use rustfft::{FftPlannerScalar, num_complex::Complex64};
 
+/// Effort at the beginning and the end of every integration step.
+pub(super) type Efforts = [(f64, f64)];
+
 /// The change of the drive that an effect is.
 pub(super) fn drive_of(effect: &Effect) -> Option<Drive> {
     match form(effect.mechanism())? {

@@ -159,10 +159,11 @@ fn a_description_that_states_the_truth_is_obeyed() {
         let told = &found.report;
         (told.verdict != Verdict::Consistent).then(|| {
             format!(
-                "{} {plant:?} {seed}: {} [{}]",
+                "{} {plant:?} {seed}: {} [{}] {:?}",
                 effect.mechanism().name(),
                 told.summary,
-                names(&found)
+                names(&found),
+                told.floor
             )
         })
     });

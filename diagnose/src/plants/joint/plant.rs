@@ -84,11 +84,12 @@ impl Plant for Rig {
             None => (stand.model(false), stand.model(true)),
         };
         // A bench with a brake keeps the numbers of its windows.
-        let refitted = fitted.is_some() && stand.train.brake().is_none();
+        let is_refitted = fitted.as_ref().is_some_and(|fitted| fitted.is_refitted);
+        let refitted = is_refitted && stand.train.brake().is_none();
         let fit = fitted.as_ref();
         Shown {
             calibration: calibrated(stand.plant, &after, intervals, refitted),
-            fit: fit.map(|fitted| stand.fit_report(fitted, &protocol)),
+            fit: fit.map(|fitted| stand.fit_report(fitted, intervals, &protocol)),
             curves: stand.free_run_curves(&before, &after, &protocol),
         }
     }

@@ -4,6 +4,7 @@ use super::columns::{is_of_brake, of_brake};
 use super::drive::{drive_of, driven, fine_effort, local_interpolation};
 use super::encoder::{behind, shown};
 use super::laws::{bend_bristles, laws};
+use super::start::begun;
 use crate::effect::Effect;
 use crate::plant::{Clock, Run};
 use crate::plants::joint::run::{JointRun, PlantKind};
@@ -40,7 +41,7 @@ pub enum Interpolation {
 pub struct Protocol {
     /// What the effort does between samples.
     pub interpolation: Interpolation,
-    /// Samples from which the start state is estimated (a parabola); 0 starts from rest at the first position.
+    /// Samples from which the start state is estimated (a parabola, then a fit to the samples after it); 0 starts from rest at the first position.
     pub start_samples: usize,
     /// Integration steps a sample.
     pub substeps: usize,
@@ -116,8 +117,8 @@ fn bench(plant: &Model, run: &JointRun) -> Vec<f64> {
 }
 
 /// A joint that runs freely: what is of the joint as a whole takes hold when its time comes.
-struct Free {
-    axis: Axis,
+pub(super) struct Free {
+    pub(super) axis: Axis,
     inertia: f64,
     of_joint: Vec<(OfJoint, Effect)>,
 }
@@ -143,7 +144,7 @@ impl Free {
     }
 
     /// The joint as it is from a time on.
-    fn take_hold(&mut self, time_s: f64) {
+    pub(super) fn take_hold(&mut self, time_s: f64) {
         if self.of_joint.is_empty() {
             return;
         }
@@ -171,7 +172,7 @@ impl Free {
         self.axis.inertia = self.axis.inertia.max(LEAST_INERTIA * self.inertia);
     }
 
-    fn run(&mut self, state: &mut State, efforts: &[(f64, f64)], step_s: f64) {
+    pub(super) fn run(&mut self, state: &mut State, efforts: &[(f64, f64)], step_s: f64) {
         for &(begin, end) in efforts {
             self.axis.step(state, begin, end, step_s);
         }
@@ -188,11 +189,8 @@ fn free_run(plant: &Model, run: &JointRun, protocol: &Protocol) -> Vec<f64> {
     let effort = driven(&plant.effects, &run.effort, clock, 0);
     let fine = fine_effort(&effort, protocol);
     let there = behind(&plant.effects, &run.position, clock);
-    let (first, position, speed) = start(&there, run.step_s, protocol.start_samples);
     let mut free = Free::of(plant);
-    let begin_s = run.start_s + first as f64 * run.step_s;
-    let mut state = free.axis.state(begin_s, position, speed);
-    bend_bristles(plant, &mut state.memory, speed);
+    let (first, mut state) = begun((plant, &mut free), (run, &there), &fine, protocol);
     let mut out = there.get(..first).unwrap_or_default().to_vec();
     let step_s = run.step_s / protocol.substeps as f64;
     for period in 0..=protocol.warm_up_periods {
@@ -210,36 +208,6 @@ fn free_run(plant: &Model, run: &JointRun, protocol: &Protocol) -> Vec<f64> {
         }
     }
     shown(&plant.effects, out, clock)
-}
-
-/// Start sample, position and speed: the end of a parabola through the first `samples` positions.
-fn start(position: &[f64], step_s: f64, samples: usize) -> (usize, f64, f64) {
-    if samples < 3 {
-        return (0, position.first().copied().unwrap_or(0.0), 0.0);
-    }
-    let last = samples - 1;
-    let points: Vec<(f64, f64)> = position
-        .iter()
-        .take(samples)
-        .enumerate()
-        .map(|(k, &x)| ((k as f64 - last as f64) * step_s, x))
-        .collect();
-    let [position, speed, _] = parabola(&points);
-    (last, position, speed)
-}
-
-/// Least-squares coefficients of 1, t, t².
-fn parabola(points: &[(f64, f64)]) -> [f64; 3] {
-    let mut gram = nalgebra::Matrix3::zeros();
-    let mut right = nalgebra::Vector3::zeros();
-    let scale = points.first().map_or(1.0, |p| p.0.abs().max(1e-12));
-    for &(t, x) in points {
-        let row = nalgebra::Vector3::new(1.0, t / scale, t * t / (scale * scale));
-        gram += row * row.transpose();
-        right += row * x;
-    }
-    let c = gram.lu().solve(&right).unwrap_or_default();
-    [c.x, c.y / scale, c.z / (scale * scale)]
 }
 
 /// The position `count` samples after sample `first`, started from the recorded state there.
@@ -291,27 +259,13 @@ pub fn predict(
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
 
     use crate::plants::joint::recorded::{INERTIA, NOMINAL, exact_axis};
     use rigproof_spec::effect::Mechanism;
 
-    #[test]
-    fn the_start_state_of_a_parabola_is_its_end() {
-        let mut run = exact_axis(NOMINAL, 40, true);
-        let at = |t: f64| 0.37 - 1.9 * t + 5.3 * t * t;
-        for (k, x) in run.position.iter_mut().enumerate() {
-            *x = at(k as f64 * run.step_s);
-        }
-        let (first, position, speed) = start(&run.position, run.step_s, 17);
-        let t = 16.0 * run.step_s;
-        assert_eq!(first, 16);
-        assert!((position - at(t)).abs() < 1e-12, "{position}");
-        assert!((speed - (10.6 * t - 1.9)).abs() < 1e-9, "{speed}");
-    }
-
-    fn plant() -> Model {
+    pub fn plant() -> Model {
         Model {
             inertia: INERTIA,
             described: NOMINAL.len(),
