@@ -114,24 +114,11 @@ impl<P: Plant> Stand<'_, P> {
 
     /// Whether the held-out windows leave no more than the fitted ones do, both over what noise predicts.
     fn balance_agreement(&self, test: &Balanced) -> Agreement {
-        let error = before_after(test).after;
         let allowed = HELD_OUT_TIMES * test.floor * self.floor().ratio_after.max(1.0);
         let pairs = test.recorded.iter().zip(&test.after).zip(&test.usable);
-        let rows = pairs.zip(&test.times_s);
-        let counted = rows.filter(|((_, usable), _)| **usable);
-        let sizes: Vec<(f64, f64)> = counted
-            .map(|(((recorded, after), _), time_s)| ((recorded - after).abs(), *time_s))
-            .collect();
-        let greatest = sizes.iter().max_by(|(a, _), (b, _)| a.total_cmp(b));
-        let departs = sizes.iter().find(|(size, _)| *size > allowed);
-        let agrees = error <= allowed;
-        Agreement {
-            agrees,
-            error,
-            allowed,
-            departs_s: departs.filter(|_| !agrees).map(|(_, time_s)| *time_s),
-            greatest_s: greatest.map_or(0.0, |(_, time_s)| *time_s),
-        }
+        let counted = pairs.zip(&test.times_s).filter(|((_, usable), _)| **usable);
+        let errors = counted.map(|(((recorded, after), _), time_s)| (recorded - after, *time_s));
+        Agreement::of(&errors.collect::<Vec<_>>(), allowed)
     }
 
     fn effort_unit(&self) -> String {

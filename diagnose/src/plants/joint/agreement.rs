@@ -61,20 +61,10 @@ impl Stand<'_, Rig> {
         // What the windows leave over acts on a free run too.
         let discrepancy = self.floor().ratio_after.max(1.0);
         let allowed = AGREES_WITHIN * discrepancy * variance.sqrt();
-        let error = rms(&own);
         let first_s = test.start_s + test.len().saturating_sub(own.len()) as f64 * test.step_s;
-        let at_s = |k: usize| first_s + k as f64 * test.step_s;
-        let sizes = || own.iter().map(|e| e.abs()).enumerate();
-        let greatest = sizes().max_by(|(_, a), (_, b)| a.total_cmp(b));
-        let agrees = error <= allowed;
-        let departs = sizes().find(|(_, size)| *size > allowed);
-        Some(Agreement {
-            agrees,
-            error,
-            allowed,
-            departs_s: departs.filter(|_| !agrees).map(|(k, _)| at_s(k)),
-            greatest_s: greatest.map_or(first_s, |(k, _)| at_s(k)),
-        })
+        let own = own.iter().enumerate();
+        let timed = own.map(|(k, error)| (*error, first_s + k as f64 * test.step_s));
+        Some(Agreement::of(&timed.collect::<Vec<_>>(), allowed))
     }
 }
 
