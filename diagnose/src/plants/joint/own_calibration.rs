@@ -7,7 +7,7 @@ use super::recorded::{EFFORT_NOISE, INERTIA, NOMINAL, QUANTUM, exact_axis, exact
 use super::run::{JointRun, PlantKind};
 use super::simulate::{Model, Protocol, output};
 use crate::effect::Effect;
-use crate::plant::Run;
+use crate::plant::{Described, Run};
 use crate::report::Verdict;
 use crate::{Diagnosis, Options, diagnose};
 use rayon::prelude::*;
@@ -48,6 +48,15 @@ const LEFT_OUT: &[(Mechanism, &[f64], &[PlantKind])] = &[
     (Compliance, &[0.23, 61.0, 0.11], AXIS),
     (EncoderScale, &[0.07], AXIS),
     (EccentricEncoder, &[0.011, -0.007], AXIS),
+];
+
+/// What a bench without a prediction cannot name, but obeys where it is stated.
+const STATED: &[(Mechanism, &[f64], &[PlantKind])] = &[
+    (Lag, &[0.021], BENCH),
+    (ChannelSkew, &[0.017], BENCH),
+    (EncoderScale, &[0.07], BENCH),
+    (EncoderOffset, &[0.31], BOTH),
+    (Backlash, &[1.1, 0.011], AXIS),
 ];
 
 fn rig(plant: PlantKind) -> Rig {
@@ -130,8 +139,10 @@ fn seeds() -> u64 {
     stated.and_then(|n| n.parse().ok()).unwrap_or(1)
 }
 
-fn cases() -> Vec<(PlantKind, Effect, u64)> {
-    let each = LEFT_OUT.iter().flat_map(|(mechanism, values, plants)| {
+type Case = (PlantKind, Effect, u64);
+
+fn cases(of: &[(Mechanism, &[f64], &[PlantKind])]) -> Vec<Case> {
+    let each = of.iter().flat_map(|(mechanism, values, plants)| {
         let plants = plants.iter();
         plants.map(|plant| (*plant, Effect::of(*mechanism, values)))
     });
@@ -151,58 +162,127 @@ fn options() -> Options {
 
 #[test]
 fn a_description_that_states_the_truth_is_obeyed() {
-    let wrong = cases().into_par_iter().filter_map(|(plant, effect, seed)| {
-        let mut stated = rig(plant);
-        stated.effects.push(RigEffect {
-            mechanism: effect.mechanism(),
-            values: effect.parameters.iter().map(|v| Value::known(*v)).collect(),
-            onset: None,
+    let wrong = cases(&[LEFT_OUT, STATED].concat())
+        .into_par_iter()
+        .filter_map(|(plant, effect, seed)| {
+            let mut stated = rig(plant);
+            stated.effects.push(RigEffect {
+                mechanism: effect.mechanism(),
+                values: effect.parameters.iter().map(|v| Value::known(*v)).collect(),
+                onset: None,
+            });
+            let found = diagnose(
+                &stated,
+                &[&recording(plant, &effect, seed)],
+                None,
+                &options(),
+            );
+            let told = &found.report;
+            (told.verdict != Verdict::Consistent).then(|| {
+                format!(
+                    "{} {plant:?} {seed}: {} [{}] {:?}",
+                    effect.mechanism().name(),
+                    told.summary,
+                    names(&found),
+                    told.floor
+                )
+            })
         });
-        let found = diagnose(
-            &stated,
-            &[&recording(plant, &effect, seed)],
-            None,
-            &options(),
-        );
-        let told = &found.report;
-        (told.verdict != Verdict::Consistent).then(|| {
-            format!(
-                "{} {plant:?} {seed}: {} [{}] {:?}",
-                effect.mechanism().name(),
-                told.summary,
-                names(&found),
-                told.floor
-            )
-        })
-    });
     let wrong: Vec<String> = wrong.collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 #[test]
 fn with_its_own_calibration_nothing_is_named_again() {
-    let wrong = cases().into_par_iter().filter_map(|(plant, effect, seed)| {
-        let recording = recording(plant, &effect, seed);
-        let first = diagnose(&rig(plant), &[&recording], None, &options());
-        let toml = first.calibration.to_toml();
-        let read = Rig::parse(&toml, Path::new("calibration.toml"));
-        let calibration = match read {
-            Ok(calibration) => calibration,
-            Err(error) => return Some(format!("{}: {error}", effect.mechanism().name())),
-        };
-        let again = diagnose(&calibration, &[&recording], None, &options());
-        let is_quiet = again.report.effects.is_empty() && again.report.fault.is_none();
-        (!is_quiet).then(|| {
-            format!(
-                "{} {plant:?} {seed}: {} [{}], then {} [{}]",
-                effect.mechanism().name(),
-                first.report.summary,
-                names(&first),
-                again.report.summary,
-                names(&again)
-            )
-        })
-    });
+    let wrong = cases(LEFT_OUT)
+        .into_par_iter()
+        .filter_map(|(plant, effect, seed)| {
+            let recording = recording(plant, &effect, seed);
+            let first = diagnose(&rig(plant), &[&recording], None, &options());
+            let toml = first.calibration.to_toml();
+            let read = Rig::parse(&toml, Path::new("calibration.toml"));
+            let calibration = match read {
+                Ok(calibration) => calibration,
+                Err(error) => return Some(format!("{}: {error}", effect.mechanism().name())),
+            };
+            let again = diagnose(&calibration, &[&recording], None, &options());
+            let is_quiet = again.report.effects.is_empty() && again.report.fault.is_none();
+            (!is_quiet).then(|| {
+                format!(
+                    "{} {plant:?} {seed}: {} [{}], then {} [{}]",
+                    effect.mechanism().name(),
+                    first.report.summary,
+                    names(&first),
+                    again.report.summary,
+                    names(&again)
+                )
+            })
+        });
     let wrong: Vec<String> = wrong.collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn what_no_joint_computes_is_refused_by_name() {
+    let effect = |lines: &str| format!("[[effect]]\n{lines}");
+    let number = |value: f64, unit: &str| format!("{{ value = {value}, unit = \"{unit}\" }}");
+    let gravity = format!(
+        "mechanism = \"gravity\"\nx = {0}\ny = {0}\n",
+        number(9.81, "m/s²")
+    );
+    let load = |share| {
+        format!(
+            "mechanism = \"load_friction\"\nshare = {}\n",
+            number(share, "1")
+        )
+    };
+    let gain = format!(
+        "mechanism = \"gain_error\"\nfraction = {}\n",
+        number(0.1, "1")
+    );
+    let overshoot = format!(
+        "mechanism = \"reversal_overshoot\"\nfraction = {}\ntravel = {}\n",
+        number(0.1, "1"),
+        number(0.01, "m")
+    );
+    let exact = [PlantKind::Axis, PlantKind::Bench]
+        .map(|plant| recording(plant, &Effect::of(DryOffset, &[1.73]), 71));
+    let [axis, bench] = exact;
+    for (plant, recording, lines, name) in [
+        (PlantKind::Axis, &axis, &gravity, "gravity"),
+        (PlantKind::Axis, &axis, &load(1.2), "load_friction"),
+        (PlantKind::Axis, &axis, &overshoot, "reversal_overshoot"),
+        (PlantKind::Bench, &bench, &load(0.2), "load_friction"),
+        (PlantKind::Bench, &bench, &gain, "gain_error"),
+        (PlantKind::Bench, &bench, &overshoot, "reversal_overshoot"),
+    ] {
+        let text = rig(plant).to_toml();
+        let (head, protocol) = text.split_once("[protocol]").unwrap();
+        let text = format!("{head}{}[protocol]{protocol}", effect(lines));
+        let stated = Rig::parse(&text, Path::new("rig.toml")).unwrap();
+        let found = diagnose(&stated, &[recording], None, &options()).report;
+        assert_eq!(found.verdict, Verdict::DataFault, "{}", found.summary);
+        assert!(
+            found.summary.contains(&format!("`{name}`")),
+            "{}",
+            found.summary
+        );
+        assert!(stated.simulated(&stated, recording, 1.0).is_err(), "{name}");
+        assert!(rig(plant).replica(&stated, recording).is_err(), "{name}");
+    }
+}
+
+#[test]
+fn a_gain_that_is_not_known_is_not_taken_as_known() {
+    let recording = recording(PlantKind::Axis, &Effect::of(DryOffset, &[1.73]), 71);
+    let mut stated = rig(PlantKind::Axis);
+    let parameters = stated.parameters.as_mut().unwrap();
+    parameters.command_gain = Value::unknown(1.0);
+    let found = diagnose(&stated, &[&recording], None, &options()).report;
+    assert_eq!(found.verdict, Verdict::DataFault);
+    assert!(
+        found.summary.contains("`command_gain`"),
+        "{}",
+        found.summary
+    );
 }
