@@ -263,7 +263,7 @@ mod tests {
         let residual: Vec<f64> = centres
             .iter()
             .map(|c| &run.motion[*c])
-            .map(|now| now.sense * 0.9 * (0.5 - now.time_s / run.duration_s()))
+            .map(|now| now.sense * 0.9 * (0.5 - now.time_s / run.clock().duration_s()))
             .collect();
         let unknown = unknown(&problem, &residual).unwrap();
         assert_eq!((unknown.variable, unknown.along_motion), ("time", true));

@@ -59,4 +59,8 @@ rules! {
     LOCATE_BLOCKS: usize = 20, "blocks", REASON;
     /// Current above which a brake counts as on, in that table.
     ON_A: f64 = 0.05, "A", REASON;
+    /// Axis and bench: a held-out free run agrees with the windows where its error is within so many deviations of what noise, the windows and the intervals of the numbers predict.
+    AGREES_WITHIN: f64 = 3.0, "deviations", REASON;
+    /// Held-out windows agree with the fitted ones where they leave at most so many times the noise, times what the fitted ones leave over it: intervals of the numbers are in it.
+    HELD_OUT_TIMES: f64 = 2.0, "times", REASON;
 }
