@@ -156,14 +156,7 @@ pub fn search(plan: &Plan, source: &dyn Source, records: &[&Record]) -> Result<S
     if plan.search == 0 {
         return Ok(Searched::default());
     }
-    let is_looked_at = |target: &Target| match target {
-        Target::Law(law) => plan.not_looked_at(*law).is_none(),
-        Target::Metric(_) => true,
-    };
-    let begun: Vec<Begun> = Target::all()
-        .filter(is_looked_at)
-        .filter_map(|target| begun(target, records))
-        .collect();
+    let begun: Vec<Begun> = all_begun(plan, records).collect();
     let jobs: Vec<(&Begun, u64)> = begun
         .iter()
         .flat_map(|begun| begun.indices.iter().map(move |index| (begun, *index)))
@@ -200,6 +193,26 @@ pub fn search(plan: &Plan, source: &dyn Source, records: &[&Record]) -> Result<S
         });
     }
     Ok(all)
+}
+
+/// What is searched for, and the worst of it that was drawn.
+pub fn targets(plan: &Plan, records: &[&Record]) -> Vec<(Target, f64)> {
+    if plan.search == 0 {
+        return Vec::new();
+    }
+    all_begun(plan, records)
+        .map(|begun| (begun.target, begun.target.written(begun.least)))
+        .collect()
+}
+
+fn all_begun(plan: &Plan, records: &[&Record]) -> impl Iterator<Item = Begun> {
+    let is_looked_at = |target: &Target| match target {
+        Target::Law(law) => plan.not_looked_at(*law).is_none(),
+        Target::Metric(_) => true,
+    };
+    Target::all()
+        .filter(is_looked_at)
+        .filter_map(|target| begun(target, records))
 }
 
 /// Where a search for a target begins.

@@ -83,6 +83,7 @@ fn between(compiled: Option<&Opened>) -> Result<Option<Vec<String>>, Failure> {
 fn between_trials(what: &[String], folder: &Path) -> Result<Outcome, Failure> {
     let journal = folder.join(FILE);
     take_away(&journal)?;
+    campaign::withdraw(folder)?;
     let lines = section(
         "Must NOT go on the rig: it failed between trials, where no law looks",
         what.iter().map(|line| format!("  {line}")),
@@ -188,7 +189,7 @@ pub fn finish(
     }
     let certificate = Certificate::new(plan, chunks, named, worst, tool()?)?;
     let (file, text) = (folder.join(CERTIFICATE), certificate.to_json()?);
-    take_away(&sign::file_of(&file))?;
+    campaign::withdraw(folder)?;
     write_aside(&file, text.as_bytes())?;
     let page = page::html(&certificate, run.as_ref(), folder, written.library);
     write_aside(&folder.join("certificate.html"), page.as_bytes())?;
@@ -201,7 +202,7 @@ pub fn finish(
         print(&words::certificate(&certificate, folder, written.library))?;
     }
     Ok(Outcome {
-        checks_hold: certificate.may_go_on_the_rig,
+        checks_hold: certificate.may_go(),
     })
 }
 
