@@ -82,7 +82,7 @@ impl Certificate {
             sources.controller,
             &records(chunks),
             &searched.met,
-        );
+        )?;
         let found: Vec<Named> = found.iter().map(Finding::named).collect::<Result<_, _>>()?;
         let worst = searched.worst.iter().map(Worst::named);
         let worst: Vec<_> = worst.collect::<Result<_, _>>()?;

@@ -57,6 +57,8 @@ pub struct Worst {
     pub controller: Subject,
     /// The scenario.
     pub scenario: Scenario,
+    /// The SHA-256 of this file with nothing between these quotes.
+    pub digest: String,
 }
 
 /// A law that a search met broken, whatever it searched for.
@@ -181,7 +183,7 @@ pub fn search(plan: &Plan, source: &dyn Source, records: &[&Record]) -> Result<S
             .into_iter()
             .reduce(|one, other| if other.good < one.good { other } else { one });
         let Some(worst) = worst else { continue };
-        all.worst.push(Worst {
+        let worst = Worst {
             form: FORM,
             target: begun.target,
             begun_in: worst.index,
@@ -190,7 +192,9 @@ pub fn search(plan: &Plan, source: &dyn Source, records: &[&Record]) -> Result<S
             trials,
             controller: plan.controller.clone(),
             scenario: worst.scenario,
-        });
+            digest: String::new(),
+        };
+        all.worst.push(worst.sealed()?);
     }
     Ok(all)
 }
@@ -346,6 +350,20 @@ impl Worst {
         format!("worst-{}.json", target.name())
     }
 
+    /// With its own SHA-256 computed.
+    fn sealed(mut self) -> Result<Worst, Error> {
+        self.digest = self.own_digest()?;
+        Ok(self)
+    }
+
+    fn own_digest(&self) -> Result<String, Error> {
+        let blank = Worst {
+            digest: String::new(),
+            ..self.clone()
+        };
+        Ok(digest::of_bytes(blank.to_json()?.as_bytes()))
+    }
+
     /// As a file.
     ///
     /// # Errors
@@ -368,6 +386,11 @@ impl Worst {
                 file,
                 format!("it is of another form than {FORM}, or too long; {advice}"),
             ));
+        }
+        if worst.to_json()? != text || worst.own_digest()? != worst.digest {
+            let problem =
+                format!("its SHA-256 is not that of what it says: it was changed; {advice}");
+            return Err(Error::unusable(file, problem));
         }
         Ok(worst)
     }

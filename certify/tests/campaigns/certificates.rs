@@ -89,7 +89,9 @@ fn a_controller_that_breaks_at_the_end_or_when_it_is_begun_again_did_not_answer(
             record.failure.as_deref(),
             Some("the controller answered with status 7")
         );
-        let found = Finding::of(&plan, &broken, Law::Answers, index).unwrap();
+        let found = Finding::of(&plan, &broken, Law::Answers, index)
+            .unwrap()
+            .unwrap();
         assert_eq!(found.failure, record.failure);
         assert_eq!(found.named().unwrap().failure, record.failure);
         assert!(found.tick < 60, "{}", found.tick);
@@ -139,7 +141,7 @@ fn a_finding_breaks_its_law_again_from_its_file() {
     plan.controller.declared.gap_m = Some(0.02);
     let sources = plan.sources().unwrap();
     let found = (0..plan.scenarios)
-        .find_map(|index| Finding::of(&plan, sources.controller, Law::Gap, index));
+        .find_map(|index| Finding::of(&plan, sources.controller, Law::Gap, index).unwrap());
     let found = found.unwrap();
     let read = Finding::parse(&found.to_json().unwrap(), Path::new("finding-gap.json")).unwrap();
     assert_eq!(read, found);

@@ -43,7 +43,7 @@ fn small() -> Plan {
 fn honest(plan: &Plan, chunks: &Chunks) -> Certificate {
     let sources = plan.sources().unwrap();
     let searched = search(plan, sources.controller, &records(chunks)).unwrap();
-    let found = Finding::all(plan, sources.controller, &records(chunks), &searched.met);
+    let found = Finding::all(plan, sources.controller, &records(chunks), &searched.met).unwrap();
     let found = found.iter().map(|found| found.named().unwrap());
     let worst = searched.worst.iter().map(Worst::named);
     let worst = worst.map(Result::unwrap).collect();

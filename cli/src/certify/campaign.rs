@@ -235,7 +235,7 @@ fn findings(
     folder: &Path,
 ) -> Result<Vec<Finding>, Failure> {
     let spinner = progress::spinner("shrinking what was found");
-    let found = Finding::all(plan, sources.controller, &records(chunks), met);
+    let found = Finding::all(plan, sources.controller, &records(chunks), met)?;
     for law in Law::ALL {
         let stem = Finding::stem_of(law);
         let [json, mcap] = ["json", "mcap"].map(|ending| folder.join(format!("{stem}.{ending}")));
