@@ -58,7 +58,9 @@ fn page(height: f64, title: &str, subtitle: &str) -> Document {
 }
 
 fn text(x: f64, y: f64, content: &str) -> Text {
-    Text::new(steady(content)).set("x", pixel(x)).set("y", pixel(y))
+    Text::new(steady(content))
+        .set("x", pixel(x))
+        .set("y", pixel(y))
 }
 
 /// A row of coloured strokes with their names.
