@@ -70,6 +70,8 @@ pub enum What {
         sha256: String,
         /// What its process is given; `None` where it has none.
         process: Option<Limits>,
+        /// What of the protection from it the system did not give, a sentence each.
+        lacks: Vec<String>,
     },
 }
 

@@ -55,7 +55,7 @@ pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
     drop(bar);
     let [part, parts] = args.shard;
     if parts > 1 {
-        if let Some(between) = between(compiled.as_ref())? {
+        if let Some(between) = between(compiled.as_ref()) {
             return between_trials(&between, &args.out);
         }
         return print(&format!(
@@ -74,9 +74,9 @@ pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
 }
 
 /// What went wrong between trials, if anything did, all that ran the controller being done.
-fn between(compiled: Option<&Opened>) -> Result<Option<Vec<String>>, Failure> {
-    let between = compiled.map(Opened::ended).transpose()?;
-    Ok(between.filter(|between| !between.is_empty()))
+fn between(compiled: Option<&Opened>) -> Option<Vec<String>> {
+    let between = compiled.map(Opened::ended);
+    between.filter(|between| !between.is_empty())
 }
 
 /// What no law sees must not be certified by going on from the journal either.
@@ -184,7 +184,7 @@ pub fn finish(
     let worst = worst.collect::<Result<_, _>>()?;
     let run = page::worst(plan, sources, chunks, found.first())?;
     // Shrinking and searching run the controller too.
-    if let Some(between) = between(written.compiled)? {
+    if let Some(between) = between(written.compiled) {
         return between_trials(&between, folder);
     }
     let certificate = Certificate::new(plan, chunks, named, worst, tool()?)?;
