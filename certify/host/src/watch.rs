@@ -27,7 +27,7 @@ const FAILED: u8 = 1;
 /// Watches; the exit code. Standard input is the connection to the campaign, whose end ends all; standard output is handed on to the process that works, as what it
 /// is asked and answers over; standard error as where the controller prints.
 pub fn watch(library: &Path) -> u8 {
-    close_what_was_inherited(inherited(library));
+    close_what_was_inherited(inherited(library).map(|(number, _)| number));
     // Its memory is closed to the controller, where the system can do that.
     let _ = set_dumpable_behavior(DumpableBehavior::NotDumpable);
     let Ok(campaign) = private(stdin()) else {
@@ -51,13 +51,11 @@ pub fn watch(library: &Path) -> u8 {
     }
 }
 
-/// The descriptor that a library's path names, if it is one.
-pub fn inherited(library: &Path) -> Option<i32> {
-    let number = library.to_str()?.strip_prefix("/proc/self/fd/")?;
-    number
-        .parse()
-        .ok()
-        .filter(|number| *number >= ABOVE_STANDARD)
+/// What a library is told as: the descriptor that holds its bytes, with its name behind a colon, or the path of a file.
+pub fn inherited(library: &Path) -> Option<(i32, &str)> {
+    let (number, name) = library.to_str()?.split_once(':')?;
+    let number = number.parse().ok()?;
+    (number >= ABOVE_STANDARD).then_some((number, name))
 }
 
 /// Closes whatever the program was started with beside its standard descriptors and the library: it is nothing of the controller's.

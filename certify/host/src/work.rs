@@ -53,12 +53,16 @@ pub fn work(library: &Path, memory_bytes: u64) -> u8 {
 /// Opens the library, and closes the descriptor that it came in.
 fn opened(library: &Path) -> Result<Exports, String> {
     let before = linked();
-    let exports = Exports::of(library);
-    if let Some(number) = inherited(library) {
-        // SAFETY: it was handed down for this library alone, and nothing in this process holds it.
-        unsafe { rustix::io::close(number) };
-    }
-    let exports = exports?;
+    let exports = match inherited(library) {
+        None => Exports::of(library),
+        Some((number, name)) => {
+            let path = format!("/proc/self/fd/{number}");
+            let exports = Exports::of(Path::new(&path));
+            // SAFETY: it was handed down for this library alone, and nothing in this process holds it.
+            unsafe { rustix::io::close(number) };
+            exports.map_err(|why| why.replace(&path, name))
+        }
+    }?;
     let own = linked().into_iter().filter(|file| !before.contains(file));
     match own.into_iter().find(|file| !is_of_the_system(file)) {
         None => Ok(exports),

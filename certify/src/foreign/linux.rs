@@ -32,7 +32,7 @@ impl Foreign {
     }
 
     fn start(&self) -> Result<Child, Failure> {
-        Child::start(&self.library.path(), &self.host, &self.limits)
+        Child::start(&self.library.told(), &self.host, &self.limits)
     }
 
     /// The process that the last trial on this thread had, if it is at rest.

@@ -1,5 +1,6 @@
 //! This file keeps a library's bytes in a sealed file in memory: what was hashed is what every process opens, whatever becomes of the file.
 
+use std::ffi::OsString;
 use std::fs::File;
 use std::io::Write;
 use std::os::fd::{AsRawFd, OwnedFd};
@@ -18,6 +19,7 @@ const LARGEST: u64 = 256 << 20;
 pub struct Sealed {
     /// Open as long as this lives; inherited by the processes that open it, and closed there once they have.
     memory: OwnedFd,
+    name: PathBuf,
     /// The SHA-256 of its bytes.
     pub sha256: String,
 }
@@ -44,14 +46,17 @@ impl Sealed {
         let all = SealFlags::WRITE | SealFlags::GROW | SealFlags::SHRINK | SealFlags::SEAL;
         fcntl_add_seals(&memory, all)?;
         Ok(Sealed {
+            name: file.canonicalize()?,
             sha256: digest::of_bytes(&bytes),
             memory,
         })
     }
 
-    /// Where a process that inherits it finds it.
-    pub fn path(&self) -> PathBuf {
-        PathBuf::from(format!("/proc/self/fd/{}", self.memory.as_raw_fd()))
+    /// What a process that inherits it is told: the number of the descriptor, and after a colon the name of the file, for people.
+    pub fn told(&self) -> OsString {
+        let mut told = OsString::from(format!("{}:", self.memory.as_raw_fd()));
+        told.push(&self.name);
+        told
     }
 }
 
@@ -84,12 +89,14 @@ mod tests {
         std::fs::write(&file, "first").unwrap();
         let sealed = Sealed::of(&file).unwrap();
         std::fs::write(&file, "second").unwrap();
-        assert_eq!(std::fs::read(sealed.path()).unwrap(), b"first");
+        let path = format!("/proc/self/fd/{}", sealed.memory.as_raw_fd());
+        assert_eq!(std::fs::read(&path).unwrap(), b"first");
+        assert!(sealed.told().to_str().unwrap().ends_with("/a.so"));
         assert_eq!(sealed.sha256, digest::of_bytes(b"first"));
         assert!(
             File::options()
                 .write(true)
-                .open(sealed.path())
+                .open(&path)
                 .and_then(|mut own| own.write_all(b"x"))
                 .is_err()
         );

@@ -19,6 +19,7 @@ mod guide;
 mod help;
 mod identify;
 mod inspect;
+mod kills;
 mod mcap;
 mod mistakes;
 mod new;
