@@ -7,10 +7,13 @@ use std::os::fd::{AsRawFd, OwnedFd};
 use std::path::{Path, PathBuf};
 
 use rustix::fs::{MemfdFlags, SealFlags, fcntl_add_seals, memfd_create};
+use rustix::io::{FdFlags, fcntl_dupfd_cloexec, fcntl_setfd};
 use rustix::process::{DumpableBehavior, geteuid, set_dumpable_behavior};
 
 use crate::digest;
 
+/// The lowest number of the descriptor of such a file.
+const NUMBER: i32 = 200;
 /// The largest library, bytes.
 const LARGEST: u64 = 256 << 20;
 
@@ -38,11 +41,17 @@ impl Sealed {
         }
         let mut bytes = Vec::new();
         std::io::Read::read_to_end(&mut std::io::Read::take(opened, LARGEST), &mut bytes)?;
-        // It has to outlive the start of a program: not closed on exec.
-        let memory = memfd_create("rigproof-controller", MemfdFlags::ALLOW_SEALING)?;
+        let memory = memfd_create(
+            "rigproof-controller",
+            MemfdFlags::ALLOW_SEALING | MemfdFlags::CLOEXEC,
+        )?;
         let mut written = File::from(memory);
         written.write_all(&bytes)?;
         let memory = OwnedFd::from(written);
+        // Out of the way of those that a process opens itself.
+        let memory = fcntl_dupfd_cloexec(&memory, NUMBER)?;
+        // It has to outlive the start of a program.
+        fcntl_setfd(&memory, FdFlags::empty())?;
         let all = SealFlags::WRITE | SealFlags::GROW | SealFlags::SHRINK | SealFlags::SEAL;
         fcntl_add_seals(&memory, all)?;
         Ok(Sealed {

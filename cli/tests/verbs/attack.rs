@@ -137,3 +137,128 @@ fn a_folder_shows_no_verdict_but_that_of_its_last_campaign() {
         assert!(!desk.path(&format!("out/{file}")).exists(), "{file}");
     }
 }
+
+/// A finding or a worst case that is replayed alone carries its own sum: what was edited is not run as if it had been found.
+#[test]
+fn a_finding_or_a_worst_case_that_was_edited_is_refused_when_it_is_replayed() {
+    let desk = Desk::new();
+    desk.put(
+        "certify.toml",
+        "[controller]\nnamed = \"proportional_low\"\n",
+    );
+    desk.prints(
+        "certify certify.toml --scenarios 24 --seconds 0.5 --search 6 --out out",
+        0,
+    );
+    let names = desk.names("out");
+    let worst = names
+        .iter()
+        .find(|name| name.starts_with("worst-"))
+        .unwrap();
+    desk.prints(&format!("certify --replay out/{worst}"), 0);
+    let text = desk.read(&format!("out/{worst}"));
+    for (from, to) in [
+        ("\"found\": ", "\"found\": 1"),
+        ("\"trials\": ", "\"trials\":  "),
+    ] {
+        desk.put("edited.json", &text.replacen(from, to, 1));
+        let answer = desk.rigproof("certify --replay edited.json");
+        let message = String::from_utf8(answer.stderr).unwrap();
+        assert_eq!(answer.status.code(), Some(3), "{message}");
+    }
+}
+
+/// What a rig is called reaches neither the terminal nor a drawing as it stands there.
+#[test]
+fn an_escape_in_a_name_steers_no_terminal_and_breaks_no_drawing() {
+    let desk = Desk::new();
+    desk.prints(
+        "blind make --plant bench --seed 11 --stratum single --out case",
+        0,
+    );
+    let rig = desk.read("case/rig.toml");
+    let line = rig
+        .lines()
+        .find(|line| line.starts_with("name = "))
+        .unwrap();
+    desk.put(
+        "rig.toml",
+        &rig.replace(line, "name = \"a \\u001b[31mred\\u0007 \\ufffe rig\""),
+    );
+    let answer = desk.rigproof("diagnose case/recording.csv --rig rig.toml --out found");
+    assert!(
+        answer.status.code().is_some_and(|code| code < 2),
+        "{answer:?}"
+    );
+    for printed in [&answer.stdout, &answer.stderr] {
+        assert!(!printed.contains(&0x1b) && !printed.contains(&7));
+    }
+    for name in desk
+        .names("found")
+        .iter()
+        .filter(|name| name.ends_with(".svg") || name.ends_with(".html"))
+    {
+        let text = desk.read(&format!("found/{name}"));
+        let bad = text
+            .chars()
+            .find(|c| c.is_control() && !"\n\t\r".contains(*c) || *c == '\u{fffe}');
+        assert_eq!(bad, None, "{name}");
+    }
+}
+
+/// An edited file of an output folder is somebody's work.
+#[test]
+fn an_edited_rig_and_a_link_that_leads_nowhere_are_not_replaced() {
+    let desk = Desk::new();
+    let line = "blind make --plant axis --seed 3 --out case";
+    desk.prints(line, 0);
+    desk.prints(line, 0);
+    desk.put("case/rig.toml", "# mine\n");
+    let answer = desk.rigproof(line);
+    let message = String::from_utf8(answer.stderr).unwrap();
+    assert!(
+        answer.status.code() == Some(3) && message.contains("was changed"),
+        "{message}"
+    );
+    assert_eq!(desk.read("case/rig.toml"), "# mine\n");
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("gone.mcap", desk.path("link.mcap")).unwrap();
+        let answer = desk.rigproof("convert case/recording.csv link.mcap");
+        assert_eq!(answer.status.code(), Some(3), "{answer:?}");
+        assert!(
+            std::fs::symlink_metadata(desk.path("link.mcap"))
+                .unwrap()
+                .is_symlink()
+        );
+    }
+}
+
+/// A name of any length is shown cut, and seeds are a range that can be held.
+#[test]
+fn a_name_of_seventy_thousand_letters_and_all_seeds_there_are_break_nothing() {
+    let desk = Desk::new();
+    let rows = (0..60).map(|k| format!("{:.3},{}\n", 1e-3 * f64::from(k), k % 7));
+    let rows: String = rows.collect();
+    desk.put(
+        "long.csv",
+        &format!("time (s),{}\n{rows}", "x".repeat(70_000)),
+    );
+    let text = desk.prints("inspect long.csv", 0);
+    assert!(text.contains("xxx…") && text.len() < 5000, "{}", text.len());
+    desk.prints("inspect long.csv --write-rig rig.toml", 0);
+    assert!(desk.rigproof("convert long.csv long.mcap").status.success());
+    assert!(desk.rigproof("inspect long.mcap").status.success());
+    let asked = desk.rigproof("convert long.csv other.csv --columns missing");
+    assert!(
+        asked.status.code().is_some_and(|code| code > 1),
+        "{asked:?}"
+    );
+    assert!(asked.stderr.len() < 5000, "{}", asked.stderr.len());
+    let seeds = desk.rigproof("blind trial --seeds 0..18446744073709551615");
+    let message = String::from_utf8(seeds.stderr).unwrap();
+    assert!(
+        seeds.status.code() == Some(2) && message.contains("give at most"),
+        "{message}"
+    );
+}

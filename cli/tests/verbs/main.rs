@@ -9,6 +9,7 @@ mod certify;
 mod cite;
 mod controller;
 mod convert;
+mod crowd;
 mod demo;
 mod design;
 mod desk;

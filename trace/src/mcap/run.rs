@@ -83,11 +83,6 @@ impl Run {
         })
     }
 
-    /// The column of that name.
-    pub(super) fn column(&self, name: &str) -> Option<&Column> {
-        self.columns.iter().find(|column| column.name == name)
-    }
-
     /// The head of the channel.
     pub(super) fn metadata(&self) -> BTreeMap<String, String> {
         let columns = self
