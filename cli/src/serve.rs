@@ -2,6 +2,7 @@
 
 mod answer;
 mod connect;
+mod head;
 mod listing;
 mod pages;
 mod watch;

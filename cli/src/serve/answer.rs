@@ -8,6 +8,7 @@ use percent_encoding::percent_decode_str;
 use serde_json::{Value, json};
 
 use super::connect::Body;
+use super::head::Asked;
 use super::listing::{SHOWN, path_of, regular, revision, runs};
 use super::pages;
 use super::watch::Watch;
@@ -30,16 +31,6 @@ impl Site {
     fn one_at_a_time(&self) -> MutexGuard<'_, ()> {
         self.reading.lock().unwrap_or_else(PoisonError::into_inner)
     }
-}
-
-/// What somebody asks for.
-pub struct Asked {
-    /// The method.
-    pub method: String,
-    /// The address behind the host.
-    pub url: String,
-    /// The host as the client calls it.
-    pub host: Option<String>,
 }
 
 /// Status, type, body, and whether it is a file that somebody else may have written.

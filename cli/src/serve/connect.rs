@@ -8,7 +8,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::answer::{Asked, Site, answer};
+use super::answer::{Site, answer};
+use super::head::asked;
 
 /// Most connections that are open at once; one more ends the oldest.
 const MOST_OPEN: usize = 256;
@@ -16,8 +17,6 @@ const MOST_OPEN: usize = 256;
 const MOST_HELD: usize = 48 << 20;
 /// Longest head of a request, bytes.
 const LONGEST_HEAD: usize = 64 << 10;
-/// Most lines of a head.
-const MOST_HEADERS: usize = 64;
 /// Time for a whole head.
 const HEAD_WITHIN: Duration = Duration::from_secs(5);
 /// Time without a byte taken, after which a reader is given up, and time for a whole answer.
@@ -202,36 +201,6 @@ fn is_late(error: &io::Error) -> bool {
     kinds.contains(&error.kind())
 }
 
-/// What a head asks for.
-fn asked(bytes: &[u8]) -> Result<Asked, (u16, &'static str)> {
-    const NO_REQUEST: (u16, &str) = (400, "This is no request.");
-    let mut lines = [httparse::EMPTY_HEADER; MOST_HEADERS];
-    let mut request = httparse::Request::new(&mut lines);
-    match request.parse(bytes) {
-        Ok(httparse::Status::Complete(_)) => {}
-        Err(httparse::Error::TooManyHeaders) => {
-            return Err((431, "The request has too many headers."));
-        }
-        _ => return Err(NO_REQUEST),
-    }
-    let mut hosts = request.headers.iter();
-    let hosts = hosts
-        .by_ref()
-        .filter(|line| line.name.eq_ignore_ascii_case("host"));
-    let hosts: Vec<&[u8]> = hosts.map(|line| line.value).collect();
-    let host = match hosts.as_slice() {
-        [] => None,
-        [one] => std::str::from_utf8(one).ok().map(str::to_owned),
-        _ => return Err(NO_REQUEST),
-    };
-    let (method, url) = request.method.zip(request.path).ok_or(NO_REQUEST)?;
-    Ok(Asked {
-        method: method.to_owned(),
-        url: url.to_owned(),
-        host,
-    })
-}
-
 /// Sends bytes piece by piece: a reader that takes none for some time, or all too slowly, is given up.
 fn send(stream: &mut TcpStream, bytes: &[u8], until: Instant) -> io::Result<()> {
     for piece in bytes.chunks(1 << 16) {
@@ -268,30 +237,5 @@ fn drain(stream: &mut TcpStream) -> io::Result<()> {
             0 => return Ok(()),
             count => all += count,
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_head_is_one_request_of_one_host() {
-        let of =
-            |text: &str| asked(text.as_bytes()).map(|asked| (asked.method, asked.url, asked.host));
-        let own = of("GET /a?b HTTP/1.1\r\nhOsT: localhost:1\r\n\r\n").unwrap();
-        assert_eq!(own.0, "GET");
-        assert_eq!(
-            (own.1.as_str(), own.2.as_deref()),
-            ("/a?b", Some("localhost:1"))
-        );
-        let two = "GET / HTTP/1.1\r\nHost: localhost:1\r\nHost: evil\r\n\r\n";
-        assert_eq!(of(two).unwrap_err().0, 400);
-        assert_eq!(of("GET\r\n\r\n").unwrap_err().0, 400);
-        let many = "X: y\r\n".repeat(65);
-        assert_eq!(
-            of(&format!("GET / HTTP/1.1\r\n{many}\r\n")).unwrap_err().0,
-            431
-        );
     }
 }

@@ -3,7 +3,6 @@
 #define _GNU_SOURCE
 #include <errno.h>
 #include <fcntl.h>
-#include <linux/ptrace.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -76,7 +75,7 @@ int main(int argc, char **argv)
         }
         int signal = WSTOPSIG(status);
         if (signal == (SIGTRAP | 0x80)) {
-            struct ptrace_syscall_info info;
+            struct __ptrace_syscall_info info;
             long size = ptrace(PTRACE_GET_SYSCALL_INFO, thread, sizeof info, &info);
             if (size > 0 && info.op == PTRACE_SYSCALL_INFO_ENTRY && changes(info.entry.nr, (const unsigned long long *)info.entry.args) && ++seen == at) {
                 kill(child, SIGKILL);
