@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 
+use crate::certificate::VERDICT;
 use crate::error::Error;
 use crate::journal::{self, Chunks, Header, Journal, Shard};
 use crate::plan::{Plan, Sources};
@@ -37,6 +38,7 @@ pub fn run(
 ) -> Result<Chunks, Error> {
     let (journal, mut chunks_done) = Journal::open(folder, header)?;
     let plan = &header.plan;
+    withdraw(folder)?;
     done(
         chunks_done
             .values()
@@ -58,6 +60,23 @@ pub fn run(
         .collect();
     chunks_done.extend(fresh?);
     Ok(chunks_done)
+}
+
+/// Takes the verdict of an earlier campaign away: until this one has its own, its folder shows none.
+///
+/// # Errors
+/// The system refuses.
+pub fn withdraw(folder: &Path) -> Result<(), Error> {
+    for name in VERDICT {
+        let file = folder.join(name);
+        match std::fs::remove_file(&file) {
+            Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+                return Err(Error::refused(&file, &error));
+            }
+            _ => {}
+        }
+    }
+    Ok(())
 }
 
 /// The records of a chunk.
@@ -99,8 +118,14 @@ pub fn merge(folders: &[PathBuf], tool: &Tool) -> Result<(Plan, Chunks), Error> 
     Ok((plan, chunks))
 }
 
-/// Refuses chunks of which one is missing or not whole.
-fn whole(plan: &Plan, chunks: &Chunks) -> Result<(), Error> {
+/// Refuses chunks of which one is missing, not whole, or of no scenario of the plan.
+pub(crate) fn whole(plan: &Plan, chunks: &Chunks) -> Result<(), Error> {
+    let count = plan.scenarios.div_ceil(CHUNK);
+    if let Some((beyond, _)) = chunks.range(count..).next() {
+        return Err(Error::Shards(format!(
+            "there are records of the chunk {beyond}, and the plan has {count}; give the shards of one campaign"
+        )));
+    }
     for chunk in self::chunks(plan, [0, 1]) {
         let expected = indices(plan, chunk);
         let are = chunks.get(&chunk).is_some_and(|records| {

@@ -4,21 +4,27 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use crate::campaign;
 use crate::digest;
 use crate::error::Error;
 use crate::finding::Named;
 use crate::journal::Chunks;
-use crate::plan::{FORM, Plan, Sources};
+use crate::plan::{FORM, Plan};
 use crate::proved::{Ledger, Proved, proved};
 use crate::record::Record;
-use crate::scenario::Draw;
 use crate::search::NamedWorst;
+use crate::shape;
 use crate::summary::{
     Ended, LawSummary, MetricSummary, NotLookedAt, TieSummary, ended, laws, metrics, not_looked_at,
     ties,
 };
 use crate::tool::Tool;
+
+/// The files in which a campaign's folder shows its verdict: the certificate, its signature and its page.
+pub const VERDICT: [&str; 3] = [
+    "certificate.json",
+    "certificate.json.sig",
+    "certificate.html",
+];
 
 /// A certificate.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -28,7 +34,7 @@ pub struct Certificate {
     pub form: u32,
     /// What people call the change.
     pub name: String,
-    /// Whether it may go on the rig, as far as this campaign can say.
+    /// Whether it may go on the rig, as far as this campaign can say: written for whoever reads the file, and never read ([`Certificate::may_go`]).
     pub may_go_on_the_rig: bool,
     /// Why not, a sentence each.
     pub reasons: Vec<String>,
@@ -103,7 +109,7 @@ pub fn records(chunks: &Chunks) -> Vec<&Record> {
 }
 
 /// The first digits of the SHA-256 of a chunk's records.
-fn chunk_digest(records: &[Record]) -> Result<String, Error> {
+pub(crate) fn chunk_digest(records: &[Record]) -> Result<String, Error> {
     Ok(digest::of_value(&records)?.chars().take(16).collect())
 }
 
@@ -120,25 +126,22 @@ impl Certificate {
         tool: Tool,
     ) -> Result<Certificate, Error> {
         let records = records(chunks);
-        let (laws, metrics) = (laws(plan, &records), metrics(plan, &records));
-        let ties = ties(&records);
-        let reasons = reasons(&laws, &ties, &findings, &metrics);
         let digests: Result<Vec<String>, Error> =
             chunks.values().map(|c| chunk_digest(c)).collect();
         let digests = digests?;
-        let mut certificate = Certificate {
+        let certificate = Certificate {
             form: FORM,
             name: plan.name.clone(),
-            may_go_on_the_rig: reasons.is_empty(),
-            reasons,
+            may_go_on_the_rig: false,
+            reasons: Vec::new(),
             tool,
             sha256: Hashes::of(plan, &digests)?,
             plan: plan.clone(),
             ended: ended(plan, &records),
             samples: records.iter().map(|record| u64::from(record.ticks)).sum(),
-            laws,
-            ties,
-            metrics,
+            laws: laws(plan, &records),
+            ties: ties(&records),
+            metrics: metrics(plan, &records),
             worst,
             proved: proved(&plan.controller)?,
             not_looked_at: not_looked_at(plan),
@@ -146,8 +149,20 @@ impl Certificate {
             chunks: digests,
             digest: String::new(),
         };
-        certificate.digest = certificate.own_digest()?;
-        Ok(certificate)
+        certificate.sealed()
+    }
+
+    /// With everything computed anew that follows from its plan, its figures and the hashes of its records: verdict, hashes and digest. That anybody can do;
+    /// what it says is true only if its scenarios come to it when they are run again ([`crate::recheck`]).
+    ///
+    /// # Errors
+    /// It cannot be written as JSON.
+    pub fn sealed(mut self) -> Result<Certificate, Error> {
+        self.reasons = reasons(&self.laws, &self.ties, &self.findings, &self.metrics);
+        self.may_go_on_the_rig = self.reasons.is_empty();
+        self.sha256 = Hashes::of(&self.plan, &self.chunks)?;
+        self.digest = self.own_digest()?;
+        Ok(self)
     }
 
     fn own_digest(&self) -> Result<String, Error> {
@@ -193,6 +208,9 @@ impl Certificate {
                 read.digest
             )));
         }
+        if let Some(problem) = shape::problem(&read) {
+            return Err(refused(problem));
+        }
         let hashes = Hashes::of(&read.plan, &read.chunks)?;
         if hashes != read.sha256 {
             return Err(refused(
@@ -214,37 +232,17 @@ impl Certificate {
         Ok(read)
     }
 
+    /// Whether it may go on the rig, by its figures.
+    pub fn may_go(&self) -> bool {
+        reasons(&self.laws, &self.ties, &self.findings, &self.metrics).is_empty()
+    }
+
     /// How what it calls proved lies to this program's ledger.
     ///
     /// # Errors
     /// The ledger is not as it was written.
     pub fn ledger(&self) -> Result<Ledger, Error> {
         Ok(self.proved.beside(&proved(&self.plan.controller)?))
-    }
-
-    /// Runs some chunks of scenarios again, none twice, drawn from a seed; gives them, and those whose records differ.
-    ///
-    /// # Errors
-    /// [`Error::Scenario`].
-    pub fn again(
-        &self,
-        sources: &Sources<'_>,
-        count: usize,
-        seed: u64,
-    ) -> Result<(Vec<u64>, Vec<u64>), Error> {
-        let mut drawn = Draw::new(seed, 1).some_of(self.chunks.len(), count);
-        drawn.sort_unstable();
-        let mut differ = Vec::new();
-        for chunk in &drawn {
-            let records = campaign::one(&self.plan, sources, *chunk as u64)?;
-            if self.chunks.get(*chunk) != Some(&chunk_digest(&records)?) {
-                differ.push(*chunk as u64);
-            }
-        }
-        Ok((
-            drawn.into_iter().map(|chunk| chunk as u64).collect(),
-            differ,
-        ))
     }
 }
 

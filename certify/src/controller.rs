@@ -40,6 +40,19 @@ pub trait Source: Sync {
     ) -> Result<Box<dyn Controller + '_>, Failure> {
         self.begin(settings, path)
     }
+
+    /// The same once more in a process that has run no trial: with another number, at another time, elsewhere in memory. `None` where controllers have no
+    /// process of their own.
+    ///
+    /// # Errors
+    /// [`Failure`]: it could not be begun there.
+    fn begin_elsewhere(
+        &self,
+        _settings: &Settings,
+        _path: &Task,
+    ) -> Result<Option<Box<dyn Controller + '_>>, Failure> {
+        Ok(None)
+    }
 }
 
 /// What the operator is to follow or to stay out of, in the plane of the rig.

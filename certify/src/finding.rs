@@ -48,6 +48,8 @@ pub struct Finding {
     pub controller: Subject,
     /// The scenario, as short and plain as it was made.
     pub scenario: Scenario,
+    /// The SHA-256 of this file with nothing between these quotes.
+    pub digest: String,
 }
 
 /// A finding as the certificate names it.
@@ -73,7 +75,15 @@ pub struct Named {
 impl Finding {
     /// The shrunk findings of a campaign, one of every law that is broken: in the first scenario that was drawn and breaks it, or else in the one that
     /// a search met. A law that is broken once and not again in the scenario that was drawn has none: the verdict stands all the same.
-    pub fn all(plan: &Plan, source: &dyn Source, records: &[&Record], met: &[Met]) -> Vec<Finding> {
+    ///
+    /// # Errors
+    /// It cannot be written as JSON.
+    pub fn all(
+        plan: &Plan,
+        source: &dyn Source,
+        records: &[&Record],
+        met: &[Met],
+    ) -> Result<Vec<Finding>, Error> {
         let of = |law: Law| {
             let mut drawn = records.iter();
             let drawn = drawn.find(|record| {
@@ -83,23 +93,36 @@ impl Finding {
             match drawn {
                 Some(record) => Finding::of(plan, source, law, record.index),
                 None => {
-                    let met = met.iter().find(|met| met.law == law)?;
-                    Some(Finding::met(plan, source, met))
+                    let met = met.iter().find(|met| met.law == law);
+                    met.map(|met| Finding::met(plan, source, met)).transpose()
                 }
             }
         };
-        Law::ALL.into_iter().filter_map(of).collect()
+        let all = Law::ALL.into_iter().map(of);
+        all.filter_map(Result::transpose).collect()
     }
 
     /// The shrunk finding of a law in a scenario of a plan; `None` where the law is not broken there.
-    pub fn of(plan: &Plan, source: &dyn Source, law: Law, index: u64) -> Option<Finding> {
+    ///
+    /// # Errors
+    /// It cannot be written as JSON.
+    pub fn of(
+        plan: &Plan,
+        source: &dyn Source,
+        law: Law,
+        index: u64,
+    ) -> Result<Option<Finding>, Error> {
         let declared = &plan.controller.declared;
-        let shrunk = shrink(&plan.scenario(index), law, source, declared)?;
-        Some(Finding::new(plan, law, index, None, shrunk))
+        let shrunk = shrink(&plan.scenario(index), law, source, declared);
+        let found = shrunk.map(|shrunk| Finding::new(plan, law, index, None, shrunk));
+        found.transpose()
     }
 
     /// The shrunk finding of what a search met; as it was met where it is not broken again, so that it is not lost.
-    pub fn met(plan: &Plan, source: &dyn Source, met: &Met) -> Finding {
+    ///
+    /// # Errors
+    /// It cannot be written as JSON.
+    pub fn met(plan: &Plan, source: &dyn Source, met: &Met) -> Result<Finding, Error> {
         let shrunk = shrink(&met.scenario, met.law, source, &plan.controller.declared);
         let shrunk = shrunk.unwrap_or_else(|| Shrunk {
             scenario: met.scenario.clone(),
@@ -117,8 +140,8 @@ impl Finding {
         scenario_index: u64,
         searched: Option<Target>,
         shrunk: Shrunk,
-    ) -> Finding {
-        Finding {
+    ) -> Result<Finding, Error> {
+        let finding = Finding {
             form: FORM,
             law,
             words: law.words().to_owned(),
@@ -130,7 +153,9 @@ impl Finding {
             trials: shrunk.trials,
             controller: plan.controller.clone(),
             scenario: shrunk.scenario,
-        }
+            digest: String::new(),
+        };
+        finding.sealed()
     }
 
     /// Whether it is what a certificate names.
@@ -161,6 +186,20 @@ impl Finding {
         format!("finding-{}", law.name())
     }
 
+    /// With its own SHA-256 computed.
+    fn sealed(mut self) -> Result<Finding, Error> {
+        self.digest = self.own_digest()?;
+        Ok(self)
+    }
+
+    fn own_digest(&self) -> Result<String, Error> {
+        let blank = Finding {
+            digest: String::new(),
+            ..self.clone()
+        };
+        Ok(digest::of_bytes(blank.to_json()?.as_bytes()))
+    }
+
     /// As a file.
     ///
     /// # Errors
@@ -183,17 +222,19 @@ impl Finding {
             let problem = format!("its scenario has {ticks} samples; give at most {MOST_TICKS}");
             return Err(Error::unusable(file, problem));
         }
-        if finding.form == FORM {
-            Ok(finding)
-        } else {
+        if finding.form != FORM {
             let form = finding.form;
-            Err(Error::unusable(
-                file,
-                format!(
-                    "it has form {form}, this program reads form {FORM}; take the program that wrote it"
-                ),
-            ))
+            let problem = format!(
+                "it has form {form}, this program reads form {FORM}; take the program that wrote it"
+            );
+            return Err(Error::unusable(file, problem));
         }
+        if finding.to_json()? != text || finding.own_digest()? != finding.digest {
+            let advice = "it was changed after it was written; hand over the file as `rigproof certify` wrote it";
+            let problem = format!("its SHA-256 is not that of what it says: {advice}");
+            return Err(Error::unusable(file, problem));
+        }
+        Ok(finding)
     }
 
     /// How the certificate names it.

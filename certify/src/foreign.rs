@@ -12,6 +12,8 @@ mod phase;
 #[cfg(target_os = "linux")]
 mod prints;
 pub mod protocol;
+#[cfg(target_os = "linux")]
+mod sealed;
 
 #[cfg(target_os = "linux")]
 use std::collections::HashMap;
@@ -91,7 +93,10 @@ impl Limits {
     expect(dead_code, reason = "nothing is run there")
 )]
 pub struct Foreign {
-    library: PathBuf,
+    #[cfg(target_os = "linux")]
+    library: sealed::Sealed,
+    /// What of its protection the system does not give.
+    lacks: Vec<String>,
     host: Host,
     limits: Limits,
     #[cfg(target_os = "linux")]
@@ -113,22 +118,43 @@ pub struct Between {
 const MOST_BETWEEN: usize = 100;
 
 impl Foreign {
-    /// The controller in this shared library; nothing is started yet.
+    /// The controller in this shared library, whose bytes are read now and never again; nothing is started yet. From now on this process's memory is closed to
+    /// others of its user, where the system can do that.
     ///
     /// # Errors
-    /// [`Failure::Unusable`]: there is no such file.
+    /// [`Failure::Unusable`]: it cannot be read.
     pub fn new(library: &Path, host: Host, limits: Limits) -> Result<Foreign, Failure> {
-        let library = library.canonicalize().map_err(|error| {
+        let unreadable = |error: std::io::Error| {
             Failure::Unusable(format!("{} cannot be read: {error}", library.display()))
-        })?;
+        };
+        #[cfg(not(target_os = "linux"))]
+        std::fs::metadata(library).map_err(unreadable)?;
         Ok(Foreign {
-            library,
+            #[cfg(target_os = "linux")]
+            library: sealed::Sealed::of(library).map_err(unreadable)?,
+            #[cfg(target_os = "linux")]
+            lacks: sealed::closed_to_others(),
+            #[cfg(not(target_os = "linux"))]
+            lacks: Vec::new(),
             host,
             limits,
             #[cfg(target_os = "linux")]
             idle: Mutex::new(HashMap::new()),
             between: Mutex::new(Vec::new()),
         })
+    }
+
+    /// The SHA-256 of the library's bytes, those that every process opens.
+    pub fn sha256(&self) -> &str {
+        #[cfg(target_os = "linux")]
+        return &self.library.sha256;
+        #[cfg(not(target_os = "linux"))]
+        return "";
+    }
+
+    /// What of the protection from its controller this system does not give, a sentence each.
+    pub fn lacks(&self) -> &[String] {
+        &self.lacks
     }
 
     /// What went wrong between trials so far.

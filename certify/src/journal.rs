@@ -6,6 +6,7 @@ use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
+use rigproof_trace::store::write_aside;
 use serde::{Deserialize, Serialize};
 
 use crate::digest;
@@ -127,6 +128,33 @@ impl Journal {
     }
 }
 
+/// Writes a whole journal at once, as if its campaign had been run in one piece; nothing may be writing to the one that is there.
+///
+/// # Errors
+/// The system refuses.
+pub fn write(folder: &Path, header: &Header, chunks: &Chunks) -> Result<(), Error> {
+    let path = folder.join(FILE);
+    if let Ok(there) = File::open(&path) {
+        there.try_lock().map_err(|_| {
+            let advice = "wait for it, or give another folder with --out";
+            Error::unusable(&path, format!("another process writes here; {advice}"))
+        })?;
+    }
+    let mut text = serde_json::to_vec(header)?;
+    text.push(b'\n');
+    let of_header = digest::of_value(header)?;
+    for (chunk, records) in chunks {
+        let line = Line {
+            chunk: *chunk,
+            records: records.clone(),
+            sha256: seal(&of_header, *chunk, records)?,
+        };
+        serde_json::to_writer(&mut text, &line)?;
+        text.push(b'\n');
+    }
+    Ok(write_aside(&path, &text)?)
+}
+
 /// In what one campaign differs from another.
 fn differs(there: &Header, here: &Header) -> Option<&'static str> {
     if there.plan != here.plan {
@@ -176,7 +204,9 @@ fn parse(path: &Path, bytes: &[u8]) -> Result<(Header, Chunks), Error> {
                 "its SHA-256 is another, or the first line's",
             ));
         }
-        chunks.insert(line.chunk, line.records);
+        if chunks.insert(line.chunk, line.records).is_some() {
+            return Err(refused(number, "its chunk stands in an earlier line"));
+        }
     }
     Ok((header, chunks))
 }

@@ -14,7 +14,7 @@ use crate::metrics::METRICS;
 use crate::scenario::{Rig, Scenario};
 
 /// The form of plans, journals and certificates; another form is another number.
-pub const FORM: u32 = 3;
+pub const FORM: u32 = 4;
 
 /// What a campaign runs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -70,6 +70,8 @@ pub enum What {
         sha256: String,
         /// What its process is given; `None` where it has none.
         process: Option<Limits>,
+        /// What of the protection from it the system did not give, a sentence each.
+        lacks: Vec<String>,
     },
 }
 

@@ -57,6 +57,8 @@ pub struct Worst {
     pub controller: Subject,
     /// The scenario.
     pub scenario: Scenario,
+    /// The SHA-256 of this file with nothing between these quotes.
+    pub digest: String,
 }
 
 /// A law that a search met broken, whatever it searched for.
@@ -156,14 +158,7 @@ pub fn search(plan: &Plan, source: &dyn Source, records: &[&Record]) -> Result<S
     if plan.search == 0 {
         return Ok(Searched::default());
     }
-    let is_looked_at = |target: &Target| match target {
-        Target::Law(law) => plan.not_looked_at(*law).is_none(),
-        Target::Metric(_) => true,
-    };
-    let begun: Vec<Begun> = Target::all()
-        .filter(is_looked_at)
-        .filter_map(|target| begun(target, records))
-        .collect();
+    let begun: Vec<Begun> = all_begun(plan, records).collect();
     let jobs: Vec<(&Begun, u64)> = begun
         .iter()
         .flat_map(|begun| begun.indices.iter().map(move |index| (begun, *index)))
@@ -188,7 +183,7 @@ pub fn search(plan: &Plan, source: &dyn Source, records: &[&Record]) -> Result<S
             .into_iter()
             .reduce(|one, other| if other.good < one.good { other } else { one });
         let Some(worst) = worst else { continue };
-        all.worst.push(Worst {
+        let worst = Worst {
             form: FORM,
             target: begun.target,
             begun_in: worst.index,
@@ -197,9 +192,31 @@ pub fn search(plan: &Plan, source: &dyn Source, records: &[&Record]) -> Result<S
             trials,
             controller: plan.controller.clone(),
             scenario: worst.scenario,
-        });
+            digest: String::new(),
+        };
+        all.worst.push(worst.sealed()?);
     }
     Ok(all)
+}
+
+/// What is searched for, and the worst of it that was drawn.
+pub fn targets(plan: &Plan, records: &[&Record]) -> Vec<(Target, f64)> {
+    if plan.search == 0 {
+        return Vec::new();
+    }
+    all_begun(plan, records)
+        .map(|begun| (begun.target, begun.target.written(begun.least)))
+        .collect()
+}
+
+fn all_begun(plan: &Plan, records: &[&Record]) -> impl Iterator<Item = Begun> {
+    let is_looked_at = |target: &Target| match target {
+        Target::Law(law) => plan.not_looked_at(*law).is_none(),
+        Target::Metric(_) => true,
+    };
+    Target::all()
+        .filter(is_looked_at)
+        .filter_map(|target| begun(target, records))
 }
 
 /// Where a search for a target begins.
@@ -333,6 +350,20 @@ impl Worst {
         format!("worst-{}.json", target.name())
     }
 
+    /// With its own SHA-256 computed.
+    fn sealed(mut self) -> Result<Worst, Error> {
+        self.digest = self.own_digest()?;
+        Ok(self)
+    }
+
+    fn own_digest(&self) -> Result<String, Error> {
+        let blank = Worst {
+            digest: String::new(),
+            ..self.clone()
+        };
+        Ok(digest::of_bytes(blank.to_json()?.as_bytes()))
+    }
+
     /// As a file.
     ///
     /// # Errors
@@ -355,6 +386,11 @@ impl Worst {
                 file,
                 format!("it is of another form than {FORM}, or too long; {advice}"),
             ));
+        }
+        if worst.to_json()? != text || worst.own_digest()? != worst.digest {
+            let problem =
+                format!("its SHA-256 is not that of what it says: it was changed; {advice}");
+            return Err(Error::unusable(file, problem));
         }
         Ok(worst)
     }

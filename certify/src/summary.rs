@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::law::Law;
 use crate::metrics::{METRICS, Metric};
-use crate::plan::Plan;
+use crate::plan::{Plan, What};
 use crate::record::Record;
 
 pub use beyond::{Beyond, Bound};
@@ -130,6 +130,9 @@ fn of_law(law: Law, records: &[&Record]) -> LawSummary {
     summary
 }
 
+/// What no protection of a compiled controller's process gives.
+const ISOLATION: &str = "it was a process of the same user: it could read and change that user's files, end his processes, and load code that its hash does not name";
+
 /// The laws that cannot be judged, and what no campaign of this kind sees.
 pub fn not_looked_at(plan: &Plan) -> Vec<NotLookedAt> {
     let laws = Law::ALL
@@ -153,11 +156,25 @@ pub fn not_looked_at(plan: &Plan) -> Vec<NotLookedAt> {
             "what an amplifier does when no command comes: it needs a watchdog of its own (decision 0074)",
         ),
     ];
+    let of_process = |why: &str| ("isolation", format!("{why} (docs/threats.md)"));
+    let (given, lacks) = match &plan.controller.what {
+        What::Given {
+            process: Some(_),
+            lacks,
+            ..
+        } => (Some(of_process(ISOLATION)), lacks.as_slice()),
+        _ => (None, [].as_slice()),
+    };
+    let of_process = given
+        .into_iter()
+        .chain(lacks.iter().map(|why| of_process(why)));
+    let of_process: Vec<_> = of_process.collect();
+    let of_process = of_process.iter().map(|(what, why)| (*what, why.as_str()));
     let named = |(what, why): (&str, &str)| NotLookedAt {
         what: what.to_owned(),
         why: why.to_owned(),
     };
-    laws.chain(always).map(named).collect()
+    laws.chain(always).chain(of_process).map(named).collect()
 }
 
 /// The metrics, beside the baseline's where there is one.

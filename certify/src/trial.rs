@@ -259,13 +259,25 @@ impl<'a> Trial<'a> {
         self.failure = Some(failure);
     }
 
-    /// Tells a fresh controller the same samples again.
+    /// Tells a fresh controller the same samples again, and one in another process where controllers have their own.
     fn repeat(&mut self, source: &dyn Source) {
-        let begun = source.begin_again(&self.scenario.settings(), &self.scenario.task);
-        let mut fresh = match begun {
-            Ok(fresh) => fresh,
-            Err(failure) => return self.fail(self.told.len() as u32, failure),
-        };
+        let (settings, task) = (self.scenario.settings(), &self.scenario.task);
+        match source.begin_again(&settings, task) {
+            Ok(mut fresh) => self.tell(fresh.as_mut()),
+            Err(failure) => self.fail(self.told.len() as u32, failure),
+        }
+        if self.failure.is_some() {
+            return;
+        }
+        match source.begin_elsewhere(&settings, task) {
+            Ok(Some(mut fresh)) => self.tell(fresh.as_mut()),
+            Ok(None) => {}
+            Err(failure) => self.fail(self.told.len() as u32, failure),
+        }
+    }
+
+    /// Tells a controller what was told, and judges whether it answers the same.
+    fn tell(&mut self, fresh: &mut dyn Controller) {
         for (tick, (sensed, currents_a)) in (0..).zip(&self.told) {
             let Ok(again_a) = fresh.tick(sensed) else {
                 return self.judge.add(Law::Repeats, tick, Margin(f64::NAN));
@@ -276,7 +288,7 @@ impl<'a> Trial<'a> {
                 break;
             }
         }
-        self.over(fresh.as_mut());
+        self.over(fresh);
     }
 }
 

@@ -58,10 +58,10 @@ pub struct Args {
     /// Of --check: the certificate has to be signed by the owner of this key, in PEM
     #[arg(long, value_name = "FILE", requires = "check")]
     public_key: Option<PathBuf>,
-    /// Check a certificate instead: every byte, every hash, and a sample of its scenarios run again
+    /// Check a certificate instead: every byte, every hash, every figure that its records allow, and a sample of its scenarios run again
     #[arg(long, value_name = "CERTIFICATE.JSON", conflicts_with = "replay")]
     check: Option<PathBuf>,
-    /// Scenarios that are run again by --check
+    /// Scenarios that are run again by --check: with all of them it is a proof, and else a sample
     #[arg(long, value_name = "N", default_value_t = 64, requires = "check")]
     sample: u64,
     /// Run a finding or a worst case again instead

@@ -95,8 +95,21 @@ pub fn plain(text: &str) -> String {
     text.chars().map(shown).collect()
 }
 
+/// A text of several lines that cannot steer the terminal, nor end an XML file that it stands in.
+pub fn steady(text: &str) -> String {
+    let shown = |character: char| match character {
+        '\n' | '\t' => character,
+        '\u{fffe}' | '\u{ffff}' => '\u{fffd}',
+        _ if character.is_control() => '\u{fffd}',
+        _ => character,
+    };
+    text.chars().map(shown).collect()
+}
+
 /// Prints the result of a verb on standard output; a reader that went away is no error.
 pub fn print(text: &str) -> Result<Outcome, Failure> {
+    // What an input is called may stand in it.
+    let text = steady(text);
     let mut out = io::stdout().lock();
     match writeln!(out, "{text}").and_then(|()| out.flush()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {

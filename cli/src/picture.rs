@@ -11,6 +11,7 @@ mod residual;
 mod scale;
 mod shares;
 
+use crate::outcome::steady;
 use crate::text::found::at;
 use rigproof_diagnose::report::Report;
 use svg::Document;
@@ -46,7 +47,7 @@ fn page(height: f64, title: &str, subtitle: &str) -> Document {
         .set("font-size", 12)
         .set("fill", INK)
         .set("role", "img")
-        .add(Title::new(title))
+        .add(Title::new(steady(title)))
         .add(background)
         .add(
             text(LEFT, 28.0, title)
@@ -57,7 +58,9 @@ fn page(height: f64, title: &str, subtitle: &str) -> Document {
 }
 
 fn text(x: f64, y: f64, content: &str) -> Text {
-    Text::new(content).set("x", pixel(x)).set("y", pixel(y))
+    Text::new(steady(content))
+        .set("x", pixel(x))
+        .set("y", pixel(y))
 }
 
 /// A row of coloured strokes with their names.

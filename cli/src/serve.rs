@@ -1,21 +1,21 @@
 //! This file shows a folder of runs in a browser on this machine, and diagnoses new recordings as they come.
 
 mod answer;
+mod connect;
+mod head;
 mod listing;
 mod pages;
 mod watch;
 
-use std::net::{IpAddr, Ipv4Addr, SocketAddr};
+use std::net::{IpAddr, Ipv4Addr, SocketAddr, TcpListener};
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::Duration;
 
-use tiny_http::Server;
-
 use crate::outcome::{Failure, Outcome, print};
-use answer::{Site, answer};
+use answer::Site;
 use watch::{Watch, watched};
 
 /// What is to be shown.
@@ -41,11 +41,6 @@ Only this machine can see it: it listens on 127.0.0.1, answers to that name alon
 Example:
   rigproof serve runs --rig rig.toml";
 
-/// How often the folder is looked at, and how long a request is waited for.
-const PAUSE: Duration = Duration::from_millis(500);
-/// Requests that are answered at once; a slow reader holds one of them.
-const ANSWERING: usize = 8;
-
 /// Serves until it is ended.
 pub fn run(args: &Args) -> Result<Outcome, Failure> {
     if !args.folder.is_dir() {
@@ -62,36 +57,24 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
             "cannot listen on {address}: {error}; give another port with --port"
         ))
     };
-    let server = Server::http(address).map_err(|error| refused(error.to_string()))?;
-    let port = server
-        .server_addr()
-        .to_ip()
-        .map_or(args.port, |address| address.port());
+    let listener = TcpListener::bind(address).map_err(|error| refused(error.to_string()))?;
+    let port = listener.local_addr().map_or(args.port, |own| own.port());
     print(&format!("http://127.0.0.1:{port}/"))?;
     let ends = Arc::new(AtomicBool::new(false));
     let watch = Arc::new(Watch::default());
-    let site = Site {
+    let site = Arc::new(Site {
         folder: args.folder.clone(),
         port,
         is_watching: args.rig.is_some(),
         watch: Arc::clone(&watch),
-    };
+        reading: Mutex::new(()),
+    });
+    // It ends with the program.
+    thread::spawn(move || connect::listen(&listener, &site));
     thread::scope(|scope| {
         if let Some(rig) = &args.rig {
             let (watch, ends) = (Arc::clone(&watch), Arc::clone(&ends));
             scope.spawn(move || watched(&args.folder, rig, &watch, &ends));
-        }
-        for _ in 0..ANSWERING {
-            scope.spawn(|| {
-                while !ends.load(Ordering::Relaxed) {
-                    match server.recv_timeout(PAUSE) {
-                        Ok(Some(request)) => answer(&site, request),
-                        Ok(None) => {}
-                        // The listener is gone: nobody can ask any more.
-                        Err(_) => break,
-                    }
-                }
-            });
         }
         match args.for_s {
             Some(seconds) => thread::sleep(Duration::from_secs(seconds.into())),

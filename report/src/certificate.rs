@@ -109,7 +109,7 @@ fn sections(
 }
 
 fn headline(certificate: &Certificate) -> Headline {
-    let (may, plan) = (certificate.may_go_on_the_rig, &certificate.plan);
+    let (may, plan) = (certificate.may_go(), &certificate.plan);
     let broken = certificate
         .laws
         .iter()

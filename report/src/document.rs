@@ -161,7 +161,14 @@ impl Document {
                 }
             }
         };
-        page.into_string()
+        // What a rig or a channel is called may hold what steers a terminal that the file is shown on.
+        let shown = |letter: char| match letter {
+            '\n' | '\t' => letter,
+            '\u{fffe}' | '\u{ffff}' => '\u{fffd}',
+            _ if letter.is_control() => '\u{fffd}',
+            _ => letter,
+        };
+        page.into_string().chars().map(shown).collect()
     }
 
     /// The way to every section; of many it is folded up.

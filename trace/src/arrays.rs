@@ -9,8 +9,9 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
+use crate::budget;
 use crate::error::TraceError;
-use crate::suggest::advice;
+use crate::suggest::{advice, short};
 
 pub use assemble::{Selection, TimeSource};
 
@@ -72,9 +73,6 @@ impl PassedOver {
         )
     }
 }
-
-/// The most numbers that are read of one array: 1 GiB.
-const MOST_NUMBERS: usize = 1 << 27;
 
 /// One array of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -162,9 +160,17 @@ impl Arrays {
         &self.passed_over
     }
 
+    /// The array of exactly that name; they stand in the order of their names, each once.
+    fn named(&self, name: &str) -> Option<&Entry> {
+        let place = self
+            .entries
+            .binary_search_by(|entry| entry.name.as_str().cmp(name));
+        self.entries.get(place.ok()?)
+    }
+
     /// The array of that name; structures may be named as MATLAB does, `Y(2).Data` for `Y[1].Data`.
     fn entry(&self, name: &str) -> Option<&Entry> {
-        let named = |name: &str| self.entries.iter().find(|entry| entry.name == name);
+        let named = |name: &str| self.named(name);
         let own = named(name);
         if own.is_some() || matches!(self.content, Content::Hdf5(_)) {
             return own;
@@ -194,7 +200,7 @@ impl Arrays {
     pub fn column(&self, wanted: &str) -> Result<Vec<f64>, TraceError> {
         let refused = |problem: String| TraceError::recording(&self.path, problem);
         // A name may itself end in an index.
-        let whole = self.entries.iter().find(|own| own.name == wanted);
+        let whole = self.named(wanted);
         let (entry, index) = if let Some(entry) = whole {
             (entry, None)
         } else {
@@ -206,12 +212,15 @@ impl Arrays {
         };
         let name = entry.name.as_str();
         let count = entry.rows.checked_mul(entry.columns);
-        let Some(count) = count.filter(|count| *count <= MOST_NUMBERS) else {
-            return Err(refused(format!(
-                "`{name}` has {} × {} numbers, at most {MOST_NUMBERS} are read",
-                entry.rows, entry.columns
-            )));
-        };
+        let what = format!(
+            "`{}` of {} × {} numbers",
+            short(name),
+            entry.rows,
+            entry.columns
+        );
+        let bytes = count.map_or(u64::MAX, |count| (count as u64).saturating_mul(8));
+        budget::check(&self.path, &what, bytes)?;
+        let count = count.unwrap_or_default();
         let index = match (index, entry.columns) {
             (Some(index), columns) if index < columns => index,
             (None, 1) => 0,

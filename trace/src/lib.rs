@@ -43,6 +43,7 @@
 )]
 
 pub mod arrays;
+pub mod budget;
 pub mod clock;
 pub mod compare;
 pub mod csv;

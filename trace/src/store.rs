@@ -1,6 +1,7 @@
 //! This file writes every output of the program: whole, or not at all.
 
 mod folder;
+mod part;
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Read, Write};
@@ -9,6 +10,7 @@ use std::path::{Path, PathBuf};
 use crate::error::{Place, TraceError};
 
 pub use folder::Folder;
+pub use part::is_part;
 
 /// The largest text file that is taken in at once, bytes.
 const LARGEST_TEXT: u64 = 16 << 20;
@@ -43,14 +45,22 @@ pub fn write_aside_with(
                 "it is no ordinary file; name one",
             )));
         }
+        // A rename would take a link away that leads nowhere.
+        Err(_) if fs::symlink_metadata(path).is_ok_and(|own| own.is_symlink()) => {
+            let problem =
+                "a link stands there that leads nowhere; take it away, or name another place";
+            return Err(TraceError::recording(path, problem.to_owned()));
+        }
         Err(_) => path.to_path_buf(),
     };
     let parent = parent(&place);
-    let mut temporary = builder()
+    part::sweep(&parent);
+    let mut temporary = part::builder()
         .make_in(&parent, |aside| {
             OpenOptions::new().write(true).create_new(true).open(aside)
         })
         .map_err(refused())?;
+    part::hold(temporary.as_file());
     write(temporary.as_file_mut()).map_err(refused())?;
     temporary.as_file().sync_all().map_err(refused())?;
     temporary
@@ -81,13 +91,6 @@ pub fn read_text(path: &Path) -> Result<String, TraceError> {
         return Err(not_text("the file is larger than 16 MiB"));
     }
     String::from_utf8(bytes).map_err(|_| not_text("the file holds bytes that are no UTF-8"))
-}
-
-/// Names for what is not finished yet.
-fn builder() -> tempfile::Builder<'static, 'static> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".rigproof-").suffix(".part");
-    builder
 }
 
 /// The folder that holds a path.
@@ -144,6 +147,28 @@ mod tests {
                 .file_type()
                 .is_socket()
         );
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_that_leads_nowhere_is_not_replaced() {
+        let folder = tempfile::tempdir().unwrap();
+        let link = folder.path().join("out.csv");
+        std::os::unix::fs::symlink(folder.path().join("gone.csv"), &link).unwrap();
+        let message = write_aside(&link, b"new").unwrap_err().to_string();
+        assert!(
+            message.contains("a link stands there that leads nowhere"),
+            "{message}"
+        );
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+        // A link that leads to a link that leads nowhere, and one that leads to itself, are not either.
+        for (name, to) in [("second.csv", "out.csv"), ("self.csv", "self.csv")] {
+            let link = folder.path().join(name);
+            std::os::unix::fs::symlink(to, &link).unwrap();
+            assert!(write_aside(&link, b"new").is_err(), "{name}");
+            assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+        }
     }
 
     #[test]

@@ -27,7 +27,7 @@ impl Role {
 #[cfg(target_os = "linux")]
 pub fn run(role: Role, library: PathBuf, memory_bytes: u64) -> u8 {
     match role {
-        Role::Watch => crate::watch::watch(),
+        Role::Watch => crate::watch::watch(&library),
         Role::Work => crate::work::work(&library, memory_bytes),
     }
 }

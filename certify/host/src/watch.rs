@@ -5,6 +5,7 @@ use std::io::{self, Read};
 use std::os::fd::OwnedFd;
 use std::os::unix::net::UnixStream;
 use std::os::unix::process::{CommandExt, ExitStatusExt};
+use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -12,8 +13,8 @@ use rigproof_certify::foreign::link::Link;
 use rigproof_certify::foreign::protocol::{End, Message};
 use rustix::io::fcntl_dupfd_cloexec;
 use rustix::process::{
-    Pid, Signal, WaitId, WaitIdOptions, getpid, kill_process, kill_process_group,
-    set_child_subreaper, waitid,
+    DumpableBehavior, Pid, Signal, WaitId, WaitIdOptions, getpid, kill_process, kill_process_group,
+    set_child_subreaper, set_dumpable_behavior, waitid,
 };
 use rustix::stdio::{dup2_stderr, dup2_stdin, dup2_stdout, stdin, stdout};
 
@@ -25,8 +26,10 @@ const FAILED: u8 = 1;
 
 /// Watches; the exit code. Standard input is the connection to the campaign, whose end ends all; standard output is handed on to the process that works, as what it
 /// is asked and answers over; standard error as where the controller prints.
-pub fn watch() -> u8 {
-    close_what_was_inherited();
+pub fn watch(library: &Path) -> u8 {
+    close_what_was_inherited(inherited(library).map(|(number, _)| number));
+    // Its memory is closed to the controller, where the system can do that.
+    let _ = set_dumpable_behavior(DumpableBehavior::NotDumpable);
     let Ok(campaign) = private(stdin()) else {
         return FAILED;
     };
@@ -48,8 +51,15 @@ pub fn watch() -> u8 {
     }
 }
 
-/// Closes whatever the program was started with beside its standard descriptors: it is nothing of the controller's.
-fn close_what_was_inherited() {
+/// What a library is told as: the descriptor that holds its bytes, with its name behind a colon, or the path of a file.
+pub fn inherited(library: &Path) -> Option<(i32, &str)> {
+    let (number, name) = library.to_str()?.split_once(':')?;
+    let number = number.parse().ok()?;
+    (number >= ABOVE_STANDARD).then_some((number, name))
+}
+
+/// Closes whatever the program was started with beside its standard descriptors and the library: it is nothing of the controller's.
+fn close_what_was_inherited(library: Option<i32>) {
     const OPEN: &str = "/proc/self/fd";
     let Ok(entries) = std::fs::read_dir(OPEN) else {
         return;
@@ -57,7 +67,7 @@ fn close_what_was_inherited() {
     let listed: Vec<i32> = entries
         .flatten()
         .filter_map(|entry| entry.file_name().to_str()?.parse().ok())
-        .filter(|number| *number >= ABOVE_STANDARD)
+        .filter(|number| *number >= ABOVE_STANDARD && Some(*number) != library)
         .collect();
     // The list's own is closed by now.
     let is_open = |number: &i32| std::fs::symlink_metadata(format!("{OPEN}/{number}")).is_ok();

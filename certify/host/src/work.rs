@@ -2,6 +2,7 @@
 
 use std::ffi::{c_char, c_int, c_void};
 use std::io::{self, Write};
+use std::os::unix::fs::MetadataExt;
 use std::os::unix::net::UnixStream;
 use std::path::Path;
 
@@ -14,7 +15,7 @@ use crate::call::{Controller, Outcome};
 use crate::descendants::beside_this;
 use crate::library::Exports;
 use crate::limits::limit;
-use crate::watch::private;
+use crate::watch::{inherited, private};
 
 // Of the C library that this program is linked to.
 unsafe extern "C" {
@@ -32,7 +33,7 @@ pub fn work(library: &Path, memory_bytes: u64) -> u8 {
         return LOST as u8;
     };
     let first = match limit(memory_bytes) {
-        Ok(()) => Exports::of(library),
+        Ok(()) => opened(library),
         Err(error) => Err(format!("its process cannot be limited: {error}")),
     };
     let (exports, first) = match first {
@@ -47,6 +48,58 @@ pub fn work(library: &Path, memory_bytes: u64) -> u8 {
     // The controller may have closed its descriptor, which must not be closed again.
     std::mem::forget(link);
     LOST as u8
+}
+
+/// Opens the library, and closes the descriptor that it came in.
+fn opened(library: &Path) -> Result<Exports, String> {
+    let before = linked();
+    let exports = match inherited(library) {
+        None => Exports::of(library),
+        Some((number, name)) => {
+            let path = format!("/proc/self/fd/{number}");
+            let exports = Exports::of(Path::new(&path));
+            // SAFETY: it was handed down for this library alone, and nothing in this process holds it.
+            unsafe { rustix::io::close(number) };
+            exports.map_err(|why| why.replace(&path, name))
+        }
+    }?;
+    let own = linked().into_iter().filter(|file| !before.contains(file));
+    match own.into_iter().find(|file| !is_of_the_system(file)) {
+        None => Ok(exports),
+        Some(file) => Err(format!(
+            "it links to {file}, which its hash does not name: link that in statically, so that the controller is one file"
+        )),
+    }
+}
+
+/// The files that code of this process was loaded from.
+fn linked() -> Vec<String> {
+    let maps = std::fs::read_to_string("/proc/self/maps").unwrap_or_default();
+    let path = |line: &str| Some(line.get(line.find('/')?..)?.to_owned());
+    let mut files: Vec<String> = maps.lines().filter_map(path).collect();
+    files.dedup();
+    // The library itself is memory.
+    files.retain(|file| !file.starts_with("/memfd:"));
+    files
+}
+
+/// Whether a file is the system's: root's, in a folder of root's, so that nobody else changes it.
+fn is_of_the_system(file: &str) -> bool {
+    let is_roots = |path: &Path| {
+        std::fs::metadata(path).is_ok_and(|own| own.uid() == 0 && own.mode() & 0o022 == 0)
+    };
+    let folders = ["/lib", "/usr/lib", "/usr/local/lib"];
+    let Ok(file) = Path::new(file).canonicalize() else {
+        return false;
+    };
+    folders.iter().any(|folder| {
+        let folder = Path::new(folder).canonicalize();
+        folder.is_ok_and(|folder| file.starts_with(folder)) || {
+            // lib64, lib32 and their kin.
+            let text = file.to_string_lossy();
+            text.starts_with("/lib") || text.starts_with("/usr/lib")
+        }
+    }) && file.ancestors().all(is_roots)
 }
 
 /// The connection, out of the controller's way.

@@ -1,9 +1,9 @@
 //! This file runs one process of a controller: starts it, asks it, and ends it with all that it started.
 
+use std::ffi::OsStr;
 use std::os::fd::OwnedFd;
 use std::os::unix::net::UnixStream;
 use std::os::unix::process::CommandExt;
-use std::path::Path;
 use std::process::{Command, Stdio};
 
 use tempfile::TempDir;
@@ -54,7 +54,7 @@ impl Child {
     ///
     /// # Errors
     /// [`Failure`]: it cannot be started, or the library cannot be opened.
-    pub fn start(library: &Path, host: &Host, limits: &Limits) -> Result<Child, Failure> {
+    pub fn start(library: &OsStr, host: &Host, limits: &Limits) -> Result<Child, Failure> {
         let mut child = spawn(library, host, limits).map_err(|error| {
             Failure::Unusable(format!("its process cannot be started: {error}"))
         })?;
@@ -225,7 +225,7 @@ pub fn of_left(left: u32) -> String {
     }
 }
 
-fn spawn(library: &Path, host: &Host, limits: &Limits) -> std::io::Result<Child> {
+fn spawn(library: &OsStr, host: &Host, limits: &Limits) -> std::io::Result<Child> {
     let folder = TempDir::new()?;
     let (control, of_watch) = UnixStream::pair()?;
     let (link, of_process) = UnixStream::pair()?;

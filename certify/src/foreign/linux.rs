@@ -32,7 +32,7 @@ impl Foreign {
     }
 
     fn start(&self) -> Result<Child, Failure> {
-        Child::start(&self.library, &self.host, &self.limits)
+        Child::start(&self.library.told(), &self.host, &self.limits)
     }
 
     /// The process that the last trial on this thread had, if it is at rest.
@@ -41,7 +41,12 @@ impl Foreign {
     }
 
     /// A trial in a process that begins it as it is told.
-    fn trial(&self, mut child: Child, begin: Begin) -> Result<Box<dyn Controller + '_>, Failure> {
+    fn trial(
+        &self,
+        mut child: Child,
+        begin: Begin,
+        rests: bool,
+    ) -> Result<Box<dyn Controller + '_>, Failure> {
         let sample_s = begin.settings.sample_s;
         child.forget_ticks();
         let message = Message::Begin(Box::new(begin));
@@ -49,6 +54,7 @@ impl Foreign {
         Ok(Box::new(Trial {
             source: self,
             child: Some(child),
+            rests: rests && !self.limits.one_trial_a_process,
             limit_ms: self.limits.tick_ms(sample_s),
         }))
     }
@@ -74,13 +80,13 @@ impl Source for Foreign {
     fn begin(&self, settings: &Settings, path: &Task) -> Result<Box<dyn Controller + '_>, Failure> {
         let begin = told(settings, path)?;
         if let Some(child) = self.rested() {
-            match self.trial(child, begin.clone()) {
+            match self.trial(child, begin.clone(), true) {
                 Ok(trial) => return Ok(trial),
                 // Which trial it had before is chance: a trial is judged by a new process.
                 Err(failure) => self.keep(format!("after another trial: {failure}")),
             }
         }
-        self.trial(self.start()?, begin)
+        self.trial(self.start()?, begin, true)
     }
 
     fn begin_again(
@@ -89,9 +95,18 @@ impl Source for Foreign {
         path: &Task,
     ) -> Result<Box<dyn Controller + '_>, Failure> {
         match self.rested() {
-            Some(child) => self.trial(child, told(settings, path)?),
+            Some(child) => self.trial(child, told(settings, path)?, true),
             None => self.begin(settings, path),
         }
+    }
+
+    fn begin_elsewhere(
+        &self,
+        settings: &Settings,
+        path: &Task,
+    ) -> Result<Option<Box<dyn Controller + '_>>, Failure> {
+        let begin = told(settings, path)?;
+        self.trial(self.start()?, begin, false).map(Some)
     }
 }
 
@@ -100,6 +115,8 @@ struct Trial<'a> {
     source: &'a Foreign,
     /// None once it failed.
     child: Option<Child>,
+    /// Whether its process rests after it, for another trial.
+    rests: bool,
     limit_ms: u64,
 }
 
@@ -124,7 +141,7 @@ impl Controller for Trial<'_> {
         };
         let limits = &self.source.limits;
         child.ask(Phase::Shutdown, &Message::Over, limits.start_ms)?;
-        if !limits.one_trial_a_process {
+        if self.rests {
             held(&self.source.idle).insert(current().id(), child);
         }
         Ok(())

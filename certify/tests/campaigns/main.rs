@@ -3,6 +3,7 @@
 mod bent;
 mod certificates;
 mod five;
+mod forged;
 mod plain;
 mod planted;
 mod runs;

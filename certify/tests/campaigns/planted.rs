@@ -428,6 +428,7 @@ fn beyond(source: &dyn Source) -> Vec<&'static str> {
         name: "planted".to_owned(),
         sha256: String::new(),
         process: None,
+        lacks: Vec::new(),
     };
     let plan = Plan {
         form: FORM,

@@ -11,6 +11,7 @@ use rigproof_certify::digest;
 use rigproof_certify::journal::{Chunks, FILE, Header, Shard};
 use rigproof_certify::law::Law;
 use rigproof_certify::plan::{FORM, Plan, Subject};
+use rigproof_certify::recheck::{Means, recheck};
 use rigproof_certify::scenario::{Rig, Scenario};
 use rigproof_certify::tool::Tool;
 use rigproof_spec::methods::Method;
@@ -269,8 +270,13 @@ fn a_calibration_is_the_plant_and_its_scenarios_are_those_without_it() {
         read.reasons
     );
     assert!(read.laws.iter().any(|law| law.law == Law::Passivity));
-    let (_, differ) = read.again(&with.sources().unwrap(), 2, 3).unwrap();
-    assert!(differ.is_empty());
+    let means = Means {
+        sources: with.sources().unwrap(),
+        kept: None,
+        sample: 9,
+        seed: 3,
+    };
+    assert!(recheck(&read, &means).unwrap().wrong.is_empty());
 }
 
 #[test]

@@ -193,7 +193,7 @@ fn a_breach_that_a_search_meets_on_its_way_is_kept() {
     let own = met.iter().find(|met| met.law == Law::CurrentLimit).unwrap();
     assert!(matches!(own.target, Target::Metric(_)), "{:?}", own.target);
     // It is a finding like one that was drawn: shrunk, run again from its file, recorded, and a reason against.
-    let findings = Finding::all(&plan, source.as_ref(), &records, &met);
+    let findings = Finding::all(&plan, source.as_ref(), &records, &met).unwrap();
     let found = findings.iter().find(|found| found.law == Law::CurrentLimit);
     let found = found.unwrap();
     assert_eq!(found.searched, Some(own.target));

@@ -55,7 +55,7 @@ pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
     drop(bar);
     let [part, parts] = args.shard;
     if parts > 1 {
-        if let Some(between) = between(compiled.as_ref())? {
+        if let Some(between) = between(compiled.as_ref()) {
             return between_trials(&between, &args.out);
         }
         return print(&format!(
@@ -74,15 +74,16 @@ pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
 }
 
 /// What went wrong between trials, if anything did, all that ran the controller being done.
-fn between(compiled: Option<&Opened>) -> Result<Option<Vec<String>>, Failure> {
-    let between = compiled.map(Opened::ended).transpose()?;
-    Ok(between.filter(|between| !between.is_empty()))
+fn between(compiled: Option<&Opened>) -> Option<Vec<String>> {
+    let between = compiled.map(Opened::ended);
+    between.filter(|between| !between.is_empty())
 }
 
 /// What no law sees must not be certified by going on from the journal either.
 fn between_trials(what: &[String], folder: &Path) -> Result<Outcome, Failure> {
     let journal = folder.join(FILE);
     take_away(&journal)?;
+    campaign::withdraw(folder)?;
     let lines = section(
         "Must NOT go on the rig: it failed between trials, where no law looks",
         what.iter().map(|line| format!("  {line}")),
@@ -183,12 +184,12 @@ pub fn finish(
     let worst = worst.collect::<Result<_, _>>()?;
     let run = page::worst(plan, sources, chunks, found.first())?;
     // Shrinking and searching run the controller too.
-    if let Some(between) = between(written.compiled)? {
+    if let Some(between) = between(written.compiled) {
         return between_trials(&between, folder);
     }
     let certificate = Certificate::new(plan, chunks, named, worst, tool()?)?;
     let (file, text) = (folder.join(CERTIFICATE), certificate.to_json()?);
-    take_away(&sign::file_of(&file))?;
+    campaign::withdraw(folder)?;
     write_aside(&file, text.as_bytes())?;
     let page = page::html(&certificate, run.as_ref(), folder, written.library);
     write_aside(&folder.join("certificate.html"), page.as_bytes())?;
@@ -201,7 +202,7 @@ pub fn finish(
         print(&words::certificate(&certificate, folder, written.library))?;
     }
     Ok(Outcome {
-        checks_hold: certificate.may_go_on_the_rig,
+        checks_hold: certificate.may_go(),
     })
 }
 
@@ -234,7 +235,7 @@ fn findings(
     folder: &Path,
 ) -> Result<Vec<Finding>, Failure> {
     let spinner = progress::spinner("shrinking what was found");
-    let found = Finding::all(plan, sources.controller, &records(chunks), met);
+    let found = Finding::all(plan, sources.controller, &records(chunks), met)?;
     for law in Law::ALL {
         let stem = Finding::stem_of(law);
         let [json, mcap] = ["json", "mcap"].map(|ending| folder.join(format!("{stem}.{ending}")));

@@ -1,72 +1,49 @@
-//! This file checks a certificate: every byte, every hash, and a sample of its scenarios run again.
+//! This file checks a certificate: every byte, every hash, every figure that can be built anew, and a sample of its scenarios or all of them run again.
 
 use std::path::{Path, PathBuf};
 
-use rigproof_certify::campaign::CHUNK;
 use rigproof_certify::certificate::Certificate;
 use rigproof_certify::digest;
 use rigproof_certify::finding::Finding;
+use rigproof_certify::journal::{self, Chunks, FILE};
 use rigproof_certify::law::Law;
 use rigproof_certify::plan::Sources;
 use rigproof_certify::proved::Ledger;
+use rigproof_certify::recheck::{Checked, Means, recheck};
 use rigproof_certify::search::Worst;
 use rigproof_trace::store::read_text;
 use serde_json::json;
 
-use super::compiled::sources;
+use super::compiled::{Compiled, sources};
 use super::sign::{self, Looked};
 use super::{Args, campaign};
 use crate::outcome::{Failure, Outcome, print};
+use crate::text::number::significant;
+use crate::threads;
 
 /// Checks, and says what was checked.
 pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
+    let threads = threads::pool(args.jobs)?;
     let text = read_text(file)?;
     let signature = sign::looked_at(file, text.as_bytes(), args.public_key.as_deref())?;
-    let certificate = Certificate::parse(&text, file)?;
-    let mut wrong = changed_files(&certificate, file);
-    if signature == Looked::DoesNotHold {
-        wrong.extend(signature.words().map(str::to_owned));
-    }
-    let compiled = args.compiled.opened_again(&certificate.plan.controller)?;
-    let sources = sources(&certificate.plan, compiled.as_ref())?;
     // Whoever wrote the certificate must not know what is run again.
-    let seed = args.seed.unwrap_or_else(clock);
-    let count = args.sample.div_ceil(CHUNK) as usize;
-    let (drawn, differ) = certificate.again(&sources, count, seed)?;
-    wrong.extend(otherwise(&certificate, file, &sources)?);
-    wrong.extend(not_again(&certificate, file, &sources)?);
-    wrong.extend(differ.iter().map(|chunk| {
-        let first = chunk * CHUNK;
-        format!("scenarios {first} to {} come out otherwise", first + CHUNK)
-    }));
-    if let Some(compiled) = &compiled {
-        let between = compiled.ended()?;
-        wrong.extend(
-            between
-                .iter()
-                .map(|what| format!("it failed between trials: {what}")),
-        );
+    let seed = args.seed.map_or_else(unforeseen, Ok)?;
+    let compiled = &args.compiled;
+    let (certificate, mut checked) =
+        threads.install(|| looked_through(&text, file, compiled, args.sample, seed))?;
+    if signature == Looked::DoesNotHold {
+        checked.wrong.extend(signature.words().map(str::to_owned));
     }
     let same_tool = campaign::tool()?.sha256 == certificate.tool.sha256;
-    let again = (drawn.len() as u64 * CHUNK).min(certificate.plan.scenarios);
     if args.json {
         let result = json!({
-            "signature": signature.key(), "ledger": ledger(&certificate)?, "holds": wrong.is_empty(), "wrong": wrong, "run_again": again, "seed": seed, "same_build": same_tool,
-            "may_go_on_the_rig": certificate.may_go_on_the_rig,
+            "signature": signature.key(), "ledger": ledger(&certificate)?, "holds": checked.wrong.is_empty(), "wrong": checked.wrong,
+            "run_again": checked.again, "seed": seed, "same_build": same_tool, "is_proof": checked.is_proof, "is_rebuilt": checked.is_rebuilt,
+            "share": checked.share, "may_go_on_the_rig": checked.may_go(&certificate),
         });
         print(&result.to_string())?;
     } else {
-        let mut lines = vec![match wrong.is_empty() {
-            true => {
-                "The certificate holds: every byte and every hash is as it was written.".to_owned()
-            }
-            false => "The certificate does NOT hold:".to_owned(),
-        }];
-        lines.extend(wrong.iter().map(|line| format!("  {line}")));
-        lines.push(format!(
-            "{again} of {} scenarios were run again, drawn by seed {seed}.",
-            certificate.plan.scenarios
-        ));
+        let mut lines = said(&certificate, &checked, seed);
         if !same_tool {
             lines.push("It was made by another build of this program; the scenarios were run again with this one.".to_owned());
         }
@@ -74,15 +51,101 @@ pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
         if signature != Looked::DoesNotHold {
             lines.extend(signature.words().map(str::to_owned));
         }
-        lines.push(match certificate.may_go_on_the_rig {
-            true => "It says: may go on the rig.".to_owned(),
-            false => "It says: must not go on the rig.".to_owned(),
+        lines.push(match (checked.wrong.is_empty(), certificate.may_go()) {
+            (true, true) => "By its figures it may go on the rig.".to_owned(),
+            (true, false) => "By its figures it must not go on the rig.".to_owned(),
+            (false, _) => "Nothing follows from it: it must not go on the rig.".to_owned(),
         });
         print(&lines.join("\n"))?;
     }
     Ok(Outcome {
-        checks_hold: wrong.is_empty(),
+        checks_hold: checked.wrong.is_empty(),
     })
+}
+
+/// What a check came to, and whether it was a proof or a sample.
+fn said(certificate: &Certificate, checked: &Checked, seed: u64) -> Vec<String> {
+    let scenarios = certificate.plan.scenarios;
+    let mut lines = vec![match checked.wrong.is_empty() {
+        true => "The certificate holds: nothing that was looked at disagrees with it.".to_owned(),
+        false => "The certificate does NOT hold:".to_owned(),
+    }];
+    lines.extend(checked.wrong.iter().map(|line| format!("  {line}")));
+    let again = checked.again;
+    if checked.is_proof {
+        lines.push(format!("A proof of what its trials say: all {scenarios} scenarios were run again, and every figure, finding and worse case was built anew from them."));
+        return lines;
+    }
+    let share = significant(100.0 * checked.share, 3);
+    lines.push(format!("A sample, no proof: {again} of {scenarios} scenarios were run again, drawn by seed {seed}. Of records forged in one chunk of scenarios that sees {share} %; --sample {scenarios} runs all."));
+    lines.push(match checked.is_rebuilt {
+        true => "Every figure was built anew from the records that stand beside it; the search was not run again.".to_owned(),
+        false => "No records stand beside it: its figures were held to what the sample alone allows.".to_owned(),
+    });
+    lines
+}
+
+/// Looks through a certificate with the files beside it, and runs so many of its scenarios again.
+///
+/// # Errors
+/// It is no certificate any more, or cannot be run.
+pub fn looked_through(
+    text: &str,
+    file: &Path,
+    compiled: &Compiled,
+    sample: u64,
+    seed: u64,
+) -> Result<(Certificate, Checked), Failure> {
+    let certificate = Certificate::parse(text, file)?;
+    let tool = campaign::tool()?;
+    let (kept, mut wrong) = kept(&certificate, file)?;
+    wrong.extend(changed_files(&certificate, file));
+    let is_own = certificate.tool.sha256 == tool.sha256;
+    if is_own && (certificate.tool != tool || certificate.ledger()? != Ledger::Same) {
+        let problem = "it names this build of the program with another version or another ledger";
+        wrong.push(problem.to_owned());
+    }
+    let compiled = compiled.opened_again(&certificate.plan.controller)?;
+    let sources = sources(&certificate.plan, compiled.as_ref())?;
+    let means = Means {
+        sources,
+        kept: kept.as_ref(),
+        sample,
+        seed,
+    };
+    let mut checked = recheck(&certificate, &means)?;
+    wrong.extend(otherwise(&certificate, file, &sources)?);
+    wrong.extend(not_again(&certificate, file, &sources)?);
+    wrong.append(&mut checked.wrong);
+    if let Some(compiled) = &compiled {
+        let between = compiled.ended();
+        let between = between.iter();
+        wrong.extend(between.map(|what| format!("it failed between trials: {what}")));
+    }
+    checked.wrong = wrong;
+    Ok((certificate, checked))
+}
+
+/// The records beside a certificate, if there are any, and what is wrong with them.
+fn kept(certificate: &Certificate, file: &Path) -> Result<(Option<Chunks>, Vec<String>), Failure> {
+    let folder = file.parent().unwrap_or(Path::new(""));
+    if !folder.join(FILE).exists() {
+        return Ok((None, Vec::new()));
+    }
+    let (header, chunks) = match journal::read(folder) {
+        Ok(read) => read,
+        Err(error) => return Ok((None, vec![error.to_string()])),
+    };
+    let is_own = header.plan == certificate.plan
+        && header.shard == [0, 1]
+        && header.tool == certificate.tool;
+    match is_own {
+        true => Ok((Some(chunks), Vec::new())),
+        false => {
+            let problem = format!("{FILE} beside it is of another campaign");
+            Ok((None, vec![problem]))
+        }
+    }
 }
 
 /// What is to be said of a ledger that is not this program's.
@@ -96,9 +159,12 @@ fn ledger(certificate: &Certificate) -> Result<Option<String>, Failure> {
 }
 
 /// A seed that nobody knew before.
-fn clock() -> u64 {
-    let since = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH);
-    since.map_or(1, |since| since.subsec_nanos().into())
+///
+/// # Errors
+/// The system gives no random numbers.
+pub fn unforeseen() -> Result<u64, Failure> {
+    getrandom::u64()
+        .map_err(|error| Failure::Input(format!("the system gives no random numbers: {error}")))
 }
 
 /// The files beside a certificate that are not those it names.

@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 
 use rigproof_certify::controller::Source;
 use rigproof_certify::declared::Declared;
-use rigproof_certify::digest;
 use rigproof_certify::foreign::{Between, Foreign, Limits};
 use rigproof_certify::plan::{Plan, Sources, Subject, What};
 
@@ -25,9 +24,7 @@ pub struct Compiled {
 pub struct Opened {
     source: Foreign,
     limits: Limits,
-    file: PathBuf,
     name: String,
-    sha256: String,
 }
 
 impl Compiled {
@@ -66,7 +63,6 @@ impl Compiled {
             return Ok(None);
         };
         let unusable = |why: String| Failure::unusable(file, why);
-        let bytes = std::fs::read(file).map_err(|error| unusable(error.to_string()))?;
         let source = Foreign::new(file, host()?, limits);
         let source = source.map_err(|failure| unusable(failure.to_string()))?;
         source
@@ -76,9 +72,7 @@ impl Compiled {
         Ok(Some(Opened {
             source,
             limits,
-            file: file.clone(),
             name: name.to_string_lossy().into_owned(),
-            sha256: digest::of_bytes(&bytes),
         }))
     }
 }
@@ -89,30 +83,23 @@ impl Opened {
         Subject {
             what: What::Given {
                 name: self.name.clone(),
-                sha256: self.sha256.clone(),
+                sha256: self.source.sha256().to_owned(),
                 process: Some(self.limits),
+                lacks: self.source.lacks().to_vec(),
             },
             declared,
         }
     }
 
     /// What went wrong where no trial could say it, a line each; ends its processes.
-    ///
-    /// # Errors
-    /// The library is not the one any more that was looked at first: its processes may have opened either.
-    pub fn ended(&self) -> Result<Vec<String>, Failure> {
+    pub fn ended(&self) -> Vec<String> {
         self.source.end();
-        let now = std::fs::read(&self.file).map(|bytes| digest::of_bytes(&bytes));
-        if now.ok().as_ref() != Some(&self.sha256) {
-            let problem = "it was changed while the campaign ran: begin anew in another folder";
-            return Err(Failure::unusable(&self.file, problem.to_owned()));
-        }
         let between = self.source.between_trials();
         let line = |own: &Between| match own.times {
             1 => own.what.clone(),
             times => format!("{} ({times} times)", own.what),
         };
-        Ok(between.iter().map(line).collect())
+        between.iter().map(line).collect()
     }
 }
 
@@ -142,10 +129,11 @@ pub fn subject<'a>(
         What::Given { name, sha256, .. } => (name, sha256),
     };
     match compiled {
-        Some(own) if own.sha256 == *sha256 => Ok(&own.source),
+        Some(own) if own.source.sha256() == sha256 => Ok(&own.source),
         Some(own) => Err(Failure::Input(format!(
             "{} is another controller: its SHA-256 is {}, that of {name} was {sha256}",
-            own.name, own.sha256
+            own.name,
+            own.source.sha256()
         ))),
         None => Err(Failure::Usage(format!(
             "this is about the compiled controller {name}: name it with --controller"

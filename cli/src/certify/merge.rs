@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use rigproof_certify::campaign;
+use rigproof_certify::journal::{self, Header};
 use rigproof_trace::TraceError;
 
 use super::campaign as parts;
@@ -42,7 +43,8 @@ Example:
 /// Joins and certifies.
 pub fn run(args: &Args) -> Result<Outcome, Failure> {
     let keys = args.sign.as_deref().map(sign::secret).transpose()?;
-    let (plan, chunks) = campaign::merge(&args.folders, &parts::tool()?)?;
+    let tool = parts::tool()?;
+    let (plan, chunks) = campaign::merge(&args.folders, &tool)?;
     std::fs::create_dir_all(&args.out).map_err(|error| {
         Failure::from(TraceError::File {
             action: "write",
@@ -50,8 +52,13 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
             source: error,
         })
     })?;
-    let compiled = args.compiled.opened_again(&plan.controller)?;
-    let sources = sources(&plan, compiled.as_ref())?;
+    campaign::withdraw(&args.out)?;
+    let header = Header {
+        plan,
+        shard: [0, 1],
+        tool,
+    };
+    let compiled = args.compiled.opened_again(&header.plan.controller)?;
     let written = parts::Written {
         folder: &args.out,
         library: args.compiled.library(),
@@ -59,5 +66,8 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
         keys,
         as_json: args.json,
     };
-    parts::finish(&plan, &sources, &chunks, &written)
+    let sources = sources(&header.plan, compiled.as_ref())?;
+    // So that the certificate has its records beside it.
+    journal::write(&args.out, &header, &chunks)?;
+    parts::finish(&header.plan, &sources, &chunks, &written)
 }

@@ -5,9 +5,10 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use ed25519_compact::{KeyPair, PublicKey, Seed, Signature};
-use rigproof_certify::certificate::Certificate;
 use rigproof_trace::store::{read_text, write_aside};
 
+use super::check;
+use super::compiled::Compiled;
 use crate::outcome::{Failure, Outcome, print};
 
 /// What a secret key is made for.
@@ -35,9 +36,15 @@ pub struct Sign {
     /// The secret key, in PEM
     #[arg(long, value_name = "KEYFILE")]
     key: PathBuf,
+    /// Scenarios that are run again before
+    #[arg(long, value_name = "N", default_value_t = 64)]
+    sample: u64,
+    #[command(flatten)]
+    compiled: Compiled,
 }
 
 const AFTER_HELP_OF_SIGN: &str = "\
+What does not hold is not signed: it is checked first, as `rigproof certify --check` does.
 The signature is the 64 bytes of Ed25519 (RFC 8032) over the file, beside it as CERTIFICATE.JSON.sig. Other programs verify it too:
   openssl pkeyutl -verify -pubin -inkey lab.pem.pub -rawin -in certificate.json -sigfile certificate.json.sig
 
@@ -67,8 +74,14 @@ pub fn make_key(args: &Key) -> Result<Outcome, Failure> {
 pub fn sign(args: &Sign) -> Result<Outcome, Failure> {
     let keys = secret(&args.key)?;
     let text = read_text(&args.certificate)?;
-    // What is changed is not signed.
-    Certificate::parse(&text, &args.certificate)?;
+    let seed = check::unforeseen()?;
+    let file = &args.certificate;
+    let (_, checked) = check::looked_through(&text, file, &args.compiled, args.sample, seed)?;
+    if !checked.wrong.is_empty() {
+        let wrong = checked.wrong.join("; ");
+        let problem = format!("it does not hold and is not signed: {wrong}");
+        return Err(Failure::unusable(file, problem));
+    }
     let signature = write(&keys, &args.certificate, text.as_bytes())?;
     print(&format!("Signed: {}", signature.display()))
 }

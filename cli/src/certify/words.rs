@@ -17,7 +17,7 @@ use crate::text::{join, section};
 
 /// What a person reads after a campaign; `library` is the compiled controller's, if it is one.
 pub fn certificate(certificate: &Certificate, folder: &Path, library: Option<&Path>) -> String {
-    let verdict = match certificate.may_go_on_the_rig {
+    let verdict = match certificate.may_go() {
         true => format!(
             "May go on the rig: no law was broken in {} scenarios, {} samples.",
             certificate.plan.scenarios, certificate.samples

@@ -2,6 +2,7 @@
 
 use rigproof_trace::Channel;
 use rigproof_trace::mcap::ChannelSummary;
+use rigproof_trace::suggest::short;
 use serde_json::{Value, json};
 
 use super::noise;
@@ -134,7 +135,13 @@ impl SignalView {
             count => format!("{count} missing"),
         };
         let picture = sparkline::draw(&self.outline, self.range, ascii);
-        [self.name.clone(), picture, range, quantum, missing]
+        [
+            short(&self.name).into_owned(),
+            picture,
+            range,
+            quantum,
+            missing,
+        ]
     }
 }
 
@@ -146,15 +153,15 @@ pub fn lines(signals: &[&SignalView], ascii: bool, most_still: usize) -> Vec<Str
         signal.quantum.is_some() || still <= most_still
     });
     let rows: Vec<[String; 5]> = shown.map(|signal| signal.cells(ascii)).collect();
-    let width = |column: usize| {
-        let cells = rows.iter().filter_map(|row| row.get(column));
-        cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
-    };
+    let mut widths = [0; 5];
+    for row in &rows {
+        for (width, cell) in widths.iter_mut().zip(row) {
+            *width = cell.chars().count().max(*width);
+        }
+    }
     let line = |row: &[String; 5]| {
-        let cells = row.iter().enumerate().map(|(column, cell)| {
-            let width = width(column);
-            format!("  {cell:<width$}")
-        });
+        let cells = row.iter().zip(widths);
+        let cells = cells.map(|(cell, width)| format!("  {cell:<width$}"));
         cells.collect::<String>().trim_end().to_owned()
     };
     let left_out = still.saturating_sub(most_still);

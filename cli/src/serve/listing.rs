@@ -1,11 +1,15 @@
 //! This file lists the runs of a folder: what `diagnose` and `certify` wrote there.
 
 use std::collections::BTreeMap;
+use std::ffi::OsStr;
 use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
+use rigproof_certify::certificate::Certificate;
+use rigproof_trace::store;
 use serde_json::Value;
 
 use crate::certify::CERTIFICATE;
@@ -25,14 +29,30 @@ pub const SHOWN: [(&str, &str); 9] = [
 ];
 
 /// The longest report that is read for the list, bytes.
-const LONGEST: u64 = 64 << 20;
+pub const LONGEST: u64 = 16 << 20;
+
+/// What is kept of a result: what the list and the comparison show.
+const KEPT: [&str; 14] = [
+    "effects",
+    "fit",
+    "floor",
+    "inputs",
+    "laws",
+    "may_go_on_the_rig",
+    "name",
+    "plan",
+    "reasons",
+    "samples",
+    "sha256",
+    "summary",
+    "tool",
+    "verdict",
+];
 
 /// A run.
 pub struct Run {
     /// The folder's name.
     pub name: String,
-    /// The folder.
-    pub path: PathBuf,
     /// When its result was written.
     pub written: SystemTime,
     /// Its report or certificate.
@@ -84,8 +104,8 @@ pub fn revision(folder: &Path, failed: &BTreeMap<String, String>) -> String {
         let path = entry.path();
         let result = [REPORT, CERTIFICATE].map(|file| regular(&path.join(file)));
         let result = result.into_iter().flatten().next()?;
-        let stamp = (entry.file_name(), result.len(), result.modified().ok()?);
-        is_folder.then_some(stamp)
+        let stamp = (entry.file_name(), content_stamp(&result)?);
+        (is_folder && !is_part(&entry.file_name())).then_some(stamp)
     };
     let mut stamps: Vec<_> = entries.filter_map(|entry| stamp(&entry)).collect();
     stamps.sort();
@@ -94,22 +114,71 @@ pub fn revision(folder: &Path, failed: &BTreeMap<String, String>) -> String {
     format!("{:016x}", hasher.finish())
 }
 
+/// Whether a folder is one that the program has not finished, or not taken away.
+fn is_part(name: &OsStr) -> bool {
+    name.to_str().is_some_and(store::is_part)
+}
+
+/// What changes with every write of a file, whatever its owner sets its time to.
+pub fn content_stamp(metadata: &fs::Metadata) -> Option<Stamp> {
+    #[cfg(unix)]
+    let changed = {
+        use std::os::unix::fs::MetadataExt;
+        [
+            metadata.ctime(),
+            metadata.ctime_nsec(),
+            metadata.ino() as i64,
+        ]
+    };
+    #[cfg(not(unix))]
+    let changed = [0; 3];
+    Some((metadata.len(), metadata.modified().ok()?, changed))
+}
+
+/// Length, time, and on Unix when anything of it was changed and which file it is.
+pub type Stamp = (u64, SystemTime, [i64; 3]);
+
+/// The folder of a name among those that are there.
+pub fn path_of(folder: &Path, name: &str) -> Option<PathBuf> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut named = entries.filter(|entry| entry.file_name() == *name);
+    let entry = named.next()?;
+    let is_run = entry.file_type().ok()?.is_dir() && !is_part(&entry.file_name());
+    let path = entry.path();
+    let holds = |file: &str| regular(&path.join(file)).is_some();
+    (is_run && (holds(REPORT) || holds(CERTIFICATE))).then_some(path)
+}
+
 fn run(entry: &fs::DirEntry) -> Option<Run> {
     // The type of a link is that of the link.
-    if !entry.file_type().ok()?.is_dir() {
+    if !entry.file_type().ok()?.is_dir() || is_part(&entry.file_name()) {
         return None;
     }
     let name = entry.file_name().into_string().ok()?;
     let path = entry.path();
     let of = |file: &str| {
-        let metadata = regular(&path.join(file)).filter(|metadata| metadata.len() <= LONGEST)?;
-        let result = serde_json::from_slice(&fs::read(path.join(file)).ok()?).ok()?;
+        let path = path.join(file);
+        let metadata = regular(&path).filter(|metadata| metadata.len() <= LONGEST)?;
+        let mut text = String::new();
+        let opened = fs::File::open(&path).ok()?;
+        opened.take(LONGEST).read_to_string(&mut text).ok()?;
+        let mut result: Value = serde_json::from_str(&text).ok()?;
+        if let Value::Object(map) = &mut result {
+            map.retain(|key, _| KEPT.contains(&key.as_str()));
+        }
+        // What a certificate says of itself is not read: it has to follow from the rest of it.
+        if result.get("may_go_on_the_rig").is_some() {
+            let may = match Certificate::parse(&text, &path) {
+                Ok(own) => Value::Bool(own.may_go()),
+                Err(_) => Value::Null,
+            };
+            *result.get_mut("may_go_on_the_rig")? = may;
+        }
         Some((result, metadata.modified().ok()?))
     };
     let (result, written) = of(REPORT).or_else(|| of(CERTIFICATE))?;
     Some(Run {
         name,
-        path,
         written,
         result,
     })

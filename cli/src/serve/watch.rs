@@ -5,12 +5,14 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
-use std::time::{Duration, Instant, SystemTime};
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
 
 use crate::outcome::Failure;
 use crate::{diagnose, input};
 
-use super::listing::regular;
+use super::listing::{LONGEST, Stamp, content_stamp, regular};
 
 /// How often the folder is looked at. A recording is whole when nothing about it changed between two looks.
 const PAUSE: Duration = Duration::from_millis(700);
@@ -58,36 +60,58 @@ impl Watch {
     }
 }
 
-/// Length and time of a file: when neither changes, nobody writes.
-type Stamp = (u64, SystemTime);
+/// The SHA-256 of files, each read again only when anything of it was changed.
+#[derive(Default)]
+struct Contents(BTreeMap<PathBuf, (Stamp, String)>);
+
+impl Contents {
+    fn of(&mut self, file: &Path, stamp: Stamp) -> Option<String> {
+        if let Some((known, sha256)) = self.0.get(file)
+            && *known == stamp
+        {
+            return Some(sha256.clone());
+        }
+        let sha256 = input::identity(file, None).ok()?.sha256;
+        self.0.insert(file.to_path_buf(), (stamp, sha256.clone()));
+        Some(sha256)
+    }
+}
 
 /// Looks at a folder until the end; what has a diagnosis already is left alone.
 pub fn watched(folder: &Path, rig: &Path, watch: &Watch, ends: &AtomicBool) {
+    let mut contents = Contents::default();
     let mut seen: BTreeMap<PathBuf, Stamp> = BTreeMap::new();
-    let mut done: BTreeMap<PathBuf, Stamp> = BTreeMap::new();
+    let mut done: BTreeMap<PathBuf, [String; 2]> = BTreeMap::new();
     while !ends.load(Ordering::Relaxed) {
         let files: BTreeMap<PathBuf, Stamp> = recordings(folder)
             .into_iter()
             .filter_map(|file| Some((file.clone(), stamp(&file)?)))
             .collect();
-        let is_new = |file: &PathBuf, stamp: &Stamp| {
-            done.get(file) != Some(stamp) && !is_diagnosed(file, stamp)
+        let of_rig = stamp(rig).and_then(|stamp| contents.of(rig, stamp));
+        let of_rig = of_rig.unwrap_or_default();
+        // What is still being written is not read: it is not whole.
+        let mut is_new = |file: &PathBuf, stamp: &Stamp| {
+            if seen.get(file) != Some(stamp) {
+                return Some(None);
+            }
+            let own = [contents.of(file, *stamp)?, of_rig.clone()];
+            let is_new = done.get(file) != Some(&own) && !is_diagnosed(file, &own);
+            is_new.then_some(Some(own))
         };
-        let new: Vec<(PathBuf, Stamp)> = files
+        let new: Vec<(PathBuf, Option<[String; 2]>)> = files
             .iter()
-            .filter(|(file, stamp)| is_new(file, stamp))
-            .map(|(file, stamp)| (file.clone(), *stamp))
+            .filter_map(|(file, stamp)| Some((file.clone(), is_new(file, stamp)?)))
             .collect();
-        let whole = new
+        let mut whole = new
             .iter()
-            .find(|(file, stamp)| seen.get(file) == Some(stamp))
-            .cloned();
+            .filter_map(|(file, own)| Some((file.clone(), own.clone()?)));
+        let whole = whole.next();
         watch.inside().waiting = new.len().saturating_sub(usize::from(whole.is_some()));
         seen = files;
         match whole {
-            Some((file, stamp)) => {
+            Some((file, own)) => {
                 one(&file, rig, watch);
-                done.insert(file, stamp);
+                done.insert(file, own);
             }
             None => thread::sleep(PAUSE),
         }
@@ -123,8 +147,7 @@ fn recordings(folder: &Path) -> Vec<PathBuf> {
 }
 
 fn stamp(file: &Path) -> Option<Stamp> {
-    let metadata = regular(file)?;
-    Some((metadata.len(), metadata.modified().ok()?))
+    content_stamp(&regular(file)?)
 }
 
 /// Where the diagnosis of a recording stands: beside it; with its ending in the name where two recordings differ in nothing else.
@@ -141,10 +164,18 @@ fn place(file: &Path) -> PathBuf {
     file.with_file_name(name)
 }
 
-/// Whether a diagnosis stands there that is younger than the recording.
-fn is_diagnosed(file: &Path, (_, modified): &Stamp) -> bool {
+/// Whether a diagnosis stands there of these bytes, the recording's and the rig's, whatever the files are called and when they were written.
+fn is_diagnosed(file: &Path, of: &[String; 2]) -> bool {
     let report = place(file).join(crate::folder::REPORT);
-    regular(&report)
-        .and_then(|metadata| metadata.modified().ok())
-        .is_some_and(|written| written >= *modified)
+    let inputs = inputs(&report).unwrap_or_default();
+    of.iter().all(|sha256| inputs.contains(sha256))
+}
+
+/// The SHA-256 of what a report was made from.
+fn inputs(report: &Path) -> Option<Vec<String>> {
+    regular(report).filter(|metadata| metadata.len() <= LONGEST)?;
+    let result: Value = serde_json::from_slice(&std::fs::read(report).ok()?).ok()?;
+    let inputs = result.get("inputs")?.as_array()?.iter();
+    let sha256 = inputs.filter_map(|input| Some(input.get("sha256")?.as_str()?.to_owned()));
+    Some(sha256.collect())
 }

@@ -1,5 +1,6 @@
 //! This file joins the tests of the verbs, which run the program as a person does.
 
+mod attack;
 mod bad_diagnosis;
 mod bad_input;
 mod blind;
@@ -8,6 +9,7 @@ mod certify;
 mod cite;
 mod controller;
 mod convert;
+mod crowd;
 mod demo;
 mod design;
 mod desk;
@@ -18,6 +20,7 @@ mod guide;
 mod help;
 mod identify;
 mod inspect;
+mod kills;
 mod mcap;
 mod mistakes;
 mod new;

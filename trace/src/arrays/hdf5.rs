@@ -6,6 +6,7 @@ use std::path::Path;
 use hdf5_pure::{DType, Dataset, File, Group, Object};
 
 use super::{Entry, Other, PassedOver};
+use crate::budget;
 use crate::error::TraceError;
 
 /// Groups deeper than this are not looked into, so that a file that refers to itself ends.
@@ -47,9 +48,23 @@ pub(super) fn open(
 
 pub(super) fn values(datasets: &Datasets, path: &Path, name: &str) -> Result<Vec<f64>, TraceError> {
     match datasets.0.get(name) {
-        Some(dataset) => dataset.read_f64().map_err(damaged(path)),
+        Some(dataset) => {
+            check_chunk(dataset, path)?;
+            dataset.read_f64().map_err(damaged(path))
+        }
         None => Ok(Vec::new()),
     }
+}
+
+/// A small dataset may announce large chunks, each of which is unpacked whole.
+fn check_chunk(dataset: &Dataset, path: &Path) -> Result<(), TraceError> {
+    let shape = dataset.chunk_shape().map_err(damaged(path))?;
+    let width = dataset.element_size().map_err(damaged(path))?;
+    let bytes = shape
+        .unwrap_or_default()
+        .into_iter()
+        .fold(width, u64::saturating_mul);
+    budget::check(path, "a chunk of it", bytes)
 }
 
 impl Found {
@@ -63,18 +78,21 @@ impl Found {
         if self.seen > MOST_OBJECTS {
             return Ok(());
         }
-        for name in group.datasets()? {
-            let dataset = group.dataset(&name)?;
+        // One walk over the group: by its name, each would be looked for among all.
+        for (name, dataset) in group.iter_datasets()? {
             self.dataset(dataset, prefix, &name, deeper)?;
         }
         // What MATLAB keeps for itself is called `#refs#` and `#subsystem#`.
-        let groups = group.groups()?.into_iter();
-        let groups = groups.filter(|name| !(self.matlab && name.starts_with('#')));
-        let groups: Vec<String> = groups.collect();
-        for name in groups.into_iter().filter(|_| deeper > 0) {
+        if deeper == 0 {
+            return Ok(());
+        }
+        for (name, inside) in group.iter_groups()? {
+            if self.matlab && name.starts_with('#') {
+                continue;
+            }
             let end = if self.matlab { '.' } else { '/' };
             let inner = format!("{prefix}{name}{end}");
-            self.group(&group.group(&name)?, &inner, deeper - 1)?;
+            self.group(&inside, &inner, deeper - 1)?;
         }
         Ok(())
     }

@@ -2,6 +2,7 @@
 //!
 //! The layout is that of "MAT-File Format" by MathWorks, chapter 1, "Level 5 MAT-File Format".
 
+use std::collections::HashMap;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
@@ -10,10 +11,9 @@ use flate2::read::ZlibDecoder;
 
 use super::bytes::{Bytes, COMPRESSED, MATRIX, Numbers};
 use super::{Entry, Other, PassedOver};
+use crate::budget;
 use crate::error::TraceError;
 
-/// The largest file, and the most that its compressed parts may hold together, bytes.
-const LARGEST: u64 = 1 << 30;
 const HEADER: usize = 128;
 /// Structures deeper than this are not looked into.
 const DEEPEST: usize = 16;
@@ -28,7 +28,8 @@ const COMPLEX: u32 = 0x0800;
 /// The arrays of a file.
 #[derive(Debug, Default)]
 pub(super) struct MatFile {
-    arrays: Vec<(String, Numbers)>,
+    /// By name; of a name that stands there twice the first, which nobody can ask for.
+    arrays: HashMap<String, Numbers>,
 }
 
 /// What was found on the way.
@@ -43,11 +44,12 @@ struct Found {
 type Opened = (MatFile, Vec<Entry>, Vec<PassedOver>);
 
 pub(super) fn open(path: &Path) -> Result<Opened, TraceError> {
-    open_within(path, LARGEST)
+    open_within(path, budget::bytes())
 }
 
-/// Opens a file that takes no more than so many bytes, and no more again when it is inflated.
-pub(super) fn open_within(path: &Path, largest: u64) -> Result<Opened, TraceError> {
+/// Opens a file within a budget of memory, bytes: so much of it may the file take with its copies, and so much again what is inflated.
+pub(super) fn open_within(path: &Path, budget: u64) -> Result<Opened, TraceError> {
+    let largest = budget / budget::COPIES;
     let refused = |problem: &str| {
         let problem = format!("the MATLAB file cannot be read: {problem}");
         TraceError::recording(path, problem)
@@ -57,7 +59,8 @@ pub(super) fn open_within(path: &Path, largest: u64) -> Result<Opened, TraceErro
         .and_then(|file| file.take(largest.saturating_add(1)).read_to_end(&mut bytes))
         .map_err(TraceError::io("read", path))?;
     if bytes.len() as u64 > largest {
-        return Err(refused("it is larger than 1 GiB; save it with `-v7.3`"));
+        let beyond = budget::beyond("it", bytes.len() as u64, budget);
+        return Err(refused(&format!("{beyond}, or save it with `-v7.3`")));
     }
     let header = bytes
         .get(..HEADER)
@@ -72,6 +75,10 @@ pub(super) fn open_within(path: &Path, largest: u64) -> Result<Opened, TraceErro
     let mut left = largest;
     while !source.is_empty() {
         let read = element(&mut source, &mut left, &mut found);
+        if left == 0 {
+            let beyond = budget::beyond("what its compressed parts hold", largest, budget);
+            return Err(refused(&beyond));
+        }
         read.ok_or_else(|| refused("it is cut off or breaks the format of version 5"))?;
     }
     Ok((found.file, found.entries, found.passed_over))
@@ -86,9 +93,8 @@ fn element(source: &mut Bytes<'_>, left: &mut u64, found: &mut Found) -> Option<
             let mut inflated = Vec::new();
             let decoder = ZlibDecoder::new(bytes.rest());
             decoder.take(*left).read_to_end(&mut inflated).ok()?;
-            *left = left
-                .checked_sub(inflated.len() as u64)
-                .filter(|left| *left > 0)?;
+            *left = left.saturating_sub(inflated.len() as u64);
+            (*left > 0).then_some(())?;
             let mut inside = Bytes::new(&inflated, bytes.is_big());
             match inside.element()? {
                 (MATRIX, bytes) => matrix(bytes, "", found, DEEPEST),
@@ -139,7 +145,7 @@ fn matrix(mut bytes: Bytes<'_>, name: &str, found: &mut Found, deeper: usize) ->
                     rows,
                     columns,
                 });
-                found.file.arrays.push((name, numbers));
+                found.file.arrays.entry(name).or_insert(numbers);
                 Some(())
             }
             [_, _] => {
@@ -214,8 +220,6 @@ fn text(bytes: &[u8], else_name: &str) -> String {
 
 /// The numbers of an array, column after column; none when there is no such array.
 pub(super) fn values(file: &MatFile, name: &str) -> Vec<f64> {
-    let array = file.arrays.iter().find(|(own, _)| own == name);
-    array
-        .map(|(_, numbers)| numbers.values())
-        .unwrap_or_default()
+    let array = file.arrays.get(name);
+    array.map(Numbers::values).unwrap_or_default()
 }

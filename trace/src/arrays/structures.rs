@@ -257,7 +257,7 @@ fn an_array_that_announces_too_much_is_refused_before_it_is_read() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("bomb.mat");
     std::fs::write(&path, &file).unwrap();
-    let message = matlab::open_within(&path, 32 << 20)
+    let message = matlab::open_within(&path, 128 << 20)
         .unwrap_err()
         .to_string();
     assert!(

@@ -1,5 +1,6 @@
 //! This file says what the columns of a text file are: names, units, which one is the time, and which are passed over.
 
+use std::collections::HashMap;
 use std::path::Path;
 
 use rigproof_spec::units::{Dimension, Unit};
@@ -258,14 +259,14 @@ fn check_names<'a>(
 ) -> Result<(), TraceError> {
     let mut columns: Vec<&Column> = columns.collect();
     columns.sort_by_key(|column| column.cell);
-    for (index, column) in columns.iter().enumerate() {
-        let mut before = columns.iter().take(index);
-        if let Some(first) = before.find(|first| first.name == column.name) {
+    let mut seen = HashMap::new();
+    for column in &columns {
+        if let Some(first) = seen.insert(column.name.as_str(), column.cell) {
             return Err(TraceError::Header {
                 place: column_place(place, column.cell, &column.name),
                 problem: format!(
                     "the name stands over column {} already; rename one",
-                    first.cell + 1
+                    first + 1
                 ),
             });
         }

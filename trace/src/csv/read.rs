@@ -11,6 +11,7 @@ use super::columns::{Header, Role, TimeColumn};
 use super::dialect::{Decimal, Dialect, Encoding, Hints, is_missing};
 use super::layout::Layout;
 use super::lines::{Lines, Splitter};
+use crate::budget;
 use crate::clock::{self, Settled};
 use crate::error::{Place, TraceError};
 use crate::foreign;
@@ -191,6 +192,7 @@ impl<'a> Rows<'a> {
         let mut splitter = Splitter::new(dialect.separator);
         let mut values: Vec<f64> = Vec::new();
         let mut is_between = false;
+        let most = usize::try_from(budget::held() / 8).unwrap_or(usize::MAX);
         while let Some(line) = lines.next_line()? {
             let first = line.split('\t').next().map_or("", str::trim);
             // A LabVIEW measurement has a head before each of its parts.
@@ -222,6 +224,10 @@ impl<'a> Rows<'a> {
             self.shortest = self.shortest.min(last.len());
             for (column, value) in self.columns.iter_mut().zip(&values) {
                 column.push(*value);
+            }
+            let numbers = self.header.clock.time_s.len() * (self.columns.len() + 1);
+            if numbers > most {
+                budget::check(file, "what its columns hold", 8 * numbers as u64)?;
             }
         }
         self.finish(file)

@@ -58,6 +58,14 @@ impl Way {
         Way(parts)
     }
 
+    /// The field of the message that it begins with.
+    pub(super) fn first(&self) -> Option<&str> {
+        match self.0.first() {
+            Some(Part::Field(name)) => Some(name),
+            _ => None,
+        }
+    }
+
     /// Whether it leads to this number.
     pub(super) fn leads_to(&self, leaf: &Leaf) -> bool {
         self.0.len() == leaf.path.len()

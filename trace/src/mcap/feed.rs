@@ -94,19 +94,16 @@ impl Feeds {
 
     /// Where each wanted number was found first.
     pub(super) fn places(&self) -> Vec<Option<WantedPlace>> {
-        let place = |wanted: usize| {
-            self.feeds.iter().enumerate().find_map(|(feed, content)| {
-                let found =
-                    |column: &usize| content.units.get(*column).is_some_and(Option::is_some);
-                let columns = content.ways.iter().enumerate();
-                let column = columns
-                    .filter(|(_, (of, _))| *of == wanted)
-                    .map(|(column, _)| column)
-                    .find(found)?;
-                Some(WantedPlace { feed, column })
-            })
-        };
-        (0..self.wanted.len()).map(place).collect()
+        let mut places = vec![None; self.wanted.len()];
+        for (feed, content) in self.feeds.iter().enumerate() {
+            let ways = content.ways.iter().zip(&content.units).enumerate();
+            for (column, ((wanted, _), _)) in ways.filter(|(_, (_, unit))| unit.is_some()) {
+                if let Some(place) = places.get_mut(*wanted) {
+                    place.get_or_insert(WantedPlace { feed, column });
+                }
+            }
+        }
+        places
     }
 
     pub(super) fn unit(&self, place: WantedPlace) -> String {
@@ -207,10 +204,15 @@ impl Feeds {
                 between: Between::Line,
             }));
         }
+        let columns = run.iter().flat_map(|run| run.columns.iter().rev());
+        // Of two with one name the first.
+        let keys: HashMap<&str, &str> = columns
+            .map(|column| (column.name.as_str(), column.key.as_str()))
+            .collect();
         let mut ways = Vec::new();
         for (place, wanted) in self.wanted.iter().enumerate() {
             let inside = within(&wanted.address, &topic.name).and_then(Way::parse);
-            let named = || Some(Way::field(&run.as_ref()?.column(&wanted.address)?.key));
+            let named = || Some(Way::field(keys.get(wanted.address.as_str())?));
             ways.extend(inside.or_else(named).map(|way| (place, way)));
         }
         let own = run.as_ref().map(|run| run.time.as_str());
@@ -307,8 +309,15 @@ impl Feed {
     /// Finds out where the numbers stand in messages of one shape.
     fn slots(&mut self, leaves: &[Leaf], decoder: &Decoder) -> Slots {
         let mut columns = Vec::new();
+        // By their first field, so that not every way is held to every number.
+        let mut by_field: HashMap<Option<&str>, Vec<usize>> = HashMap::new();
+        for (place, leaf) in leaves.iter().enumerate() {
+            by_field.entry(leaf.field()).or_default().push(place);
+        }
         for ((_, way), unit) in self.ways.iter().zip(&mut self.units) {
-            let place = leaves.iter().position(|leaf| way.leads_to(leaf));
+            let own = by_field.get(&way.first()).into_iter().flatten().copied();
+            let leads = |place: &usize| leaves.get(*place).is_some_and(|leaf| way.leads_to(leaf));
+            let place = own.into_iter().find(leads);
             if let Some(leaf) = place.and_then(|place| leaves.get(place)) {
                 unit.get_or_insert_with(|| decoder.stated_unit(leaf));
             }

@@ -29,6 +29,16 @@ pub(super) struct Leaf {
     pub(super) labels: Vec<(usize, String, String)>,
 }
 
+impl Leaf {
+    /// The field of the message that it stands in.
+    pub(super) fn field(&self) -> Option<&str> {
+        match self.path.first() {
+            Some(Step::Field(name)) => Some(name),
+            _ => None,
+        }
+    }
+}
+
 /// The numbers of a message, and what their places depend on.
 pub(super) struct Flat {
     pub(super) numbers: Vec<f64>,

@@ -1,6 +1,6 @@
 //! This file is how a run of this program stands in an MCAP file: one JSON channel whose head names every column.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 use serde_json::{Map, Value, json};
 
@@ -39,13 +39,22 @@ impl Run {
     pub(super) fn for_trace(trace: &Trace) -> Run {
         let time = "time_s".to_string();
         let mut columns: Vec<Column> = Vec::new();
+        let mut taken = HashSet::from([time.clone()]);
+        // Where the numbers of a name go on that stands over many columns.
+        let mut next: HashMap<String, usize> = HashMap::new();
         for channel in &trace.channels {
             let base = key(&channel.name, &channel.unit);
-            let taken = |key: &str| key == time || columns.iter().any(|column| column.key == key);
-            let numbered = (2..).map(|number| format!("{base}_{number}"));
-            let key = std::iter::once(base.clone())
-                .chain(numbered)
-                .find(|key| !taken(key));
+            let from = next.entry(base.clone()).or_insert(1);
+            let numbered = (*from..).map(|number| match number {
+                1 => (base.clone(), number),
+                _ => (format!("{base}_{number}"), number),
+            });
+            let mut free = numbered.filter(|(key, _)| !taken.contains(key));
+            let key = free.next().map(|(key, number)| {
+                *from = number + 1;
+                key
+            });
+            taken.extend(key.clone());
             columns.push(Column {
                 key: key.unwrap_or(base),
                 name: channel.name.clone(),
@@ -72,11 +81,6 @@ impl Run {
             time,
             columns: columns?,
         })
-    }
-
-    /// The column of that name.
-    pub(super) fn column(&self, name: &str) -> Option<&Column> {
-        self.columns.iter().find(|column| column.name == name)
     }
 
     /// The head of the channel.

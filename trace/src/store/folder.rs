@@ -1,13 +1,15 @@
 //! This file writes an output folder beside its place and renames it when it is whole.
 
-use std::collections::BTreeSet;
-use std::fs;
-use std::io;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs::{self, File};
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
+use sha2::{Digest, Sha256};
 use tempfile::TempDir;
 
-use super::{builder, parent, read_text, sync_folder, write_aside};
+use super::part::{self, EARLIER, PLACE, builder};
+use super::{parent, read_text, sync_folder, write_aside};
 use crate::error::TraceError;
 
 /// The file that marks a folder as written by this program: it lists the files the program wrote there.
@@ -18,6 +20,8 @@ const MARKER: &str = ".rigproof";
 pub struct Folder {
     target: PathBuf,
     aside: TempDir,
+    /// Shows others that this process lives.
+    _held: Option<File>,
 }
 
 impl Folder {
@@ -27,11 +31,14 @@ impl Folder {
     /// Something stands there that is neither an empty folder nor one that holds only what this program wrote, or
     /// the system refuses.
     pub fn begin(target: &Path) -> Result<Folder, TraceError> {
+        // First: it may put back what stood there.
+        part::sweep(&parent(target));
         check_replaceable(target)?;
         let refused = || TraceError::io("write", target);
         let aside = builder().make_dir_in(&parent(target)).map_err(refused())?;
         Ok(Folder {
             target: target.to_path_buf(),
+            _held: held(aside.path()),
             aside,
         })
     }
@@ -54,9 +61,13 @@ impl Folder {
     pub fn finish(self) -> Result<(), TraceError> {
         let refused = || TraceError::io("write", &self.target);
         let list = files_in(self.aside.path()).map_err(refused())?;
-        let list: Vec<String> = list.into_iter().map(|name| name + "\n").collect();
-        self.write(MARKER, list.concat().as_bytes())?;
-        self.place()
+        let mut text = String::new();
+        for name in list {
+            let sha256 = sha256(&self.aside.path().join(&name)).map_err(refused())?;
+            text += &format!("{sha256}  {name}\n");
+        }
+        self.write(MARKER, text.as_bytes())?;
+        self.place(&exchanged)
     }
 
     /// Puts a new folder in its place for somebody to work in: this program will not take it for its own again.
@@ -69,28 +80,92 @@ impl Folder {
                 "it is there already, and what is in it may be somebody's work; name a new folder";
             return Err(TraceError::recording(&self.target, problem.to_owned()));
         }
-        self.place()
+        self.place(&exchanged)
     }
 
-    fn place(self) -> Result<(), TraceError> {
+    /// Puts the folder in its place, by an exchange in one step where the system knows one.
+    fn place(self, exchange: &dyn Fn(&Path, &Path) -> io::Result<bool>) -> Result<(), TraceError> {
         let refused = || TraceError::io("write", &self.target);
         check_replaceable(&self.target)?;
-        let parent = parent(&self.target);
-        // The earlier folder waits beside the new one, to come back if the rename fails.
-        let waiting = builder().make_dir_in(&parent).map_err(refused())?;
-        let earlier = waiting.path().join("earlier");
-        let had_earlier = self.target.exists();
-        if had_earlier {
-            fs::rename(&self.target, &earlier).map_err(refused())?;
-        }
-        if let Err(error) = fs::rename(self.aside.path(), &self.target) {
-            if had_earlier {
-                fs::rename(&earlier, &self.target).map_err(refused())?;
+        let (parent, aside) = (parent(&self.target), self.aside.path());
+        if !self.target.exists() {
+            fs::rename(aside, &self.target).map_err(refused())?;
+        } else if exchange(aside, &self.target).map_err(refused())? {
+            // Somebody may have put something there at the last moment: it is not taken away.
+            if let Err(problem) = check_replaceable(aside) {
+                exchange(aside, &self.target).map_err(refused())?;
+                return Err(problem);
             }
-            return Err(refused()(error));
+        } else {
+            self.replace(&parent)?;
         }
         sync_folder(&parent).map_err(refused())
     }
+
+    /// Puts the folder in its place by two renames. The earlier one waits beside it, with its name, to come back if this fails or is killed between them.
+    fn replace(&self, parent: &Path) -> Result<(), TraceError> {
+        let refused = || TraceError::io("write", &self.target);
+        let waiting = builder().make_dir_in(parent).map_err(refused())?;
+        let _held = held(waiting.path());
+        let earlier = waiting.path().join(EARLIER);
+        let name = self.target.file_name().unwrap_or_default();
+        write_aside(
+            &waiting.path().join(PLACE),
+            name.to_string_lossy().as_bytes(),
+        )?;
+        fs::rename(&self.target, &earlier).map_err(refused())?;
+        if let Err(error) = fs::rename(self.aside.path(), &self.target) {
+            fs::rename(&earlier, &self.target).map_err(refused())?;
+            return Err(refused()(error));
+        }
+        Ok(())
+    }
+}
+
+/// A folder that others see to be owned, as long as this is open.
+fn held(folder: &Path) -> Option<File> {
+    let held = cfg!(unix).then(|| File::open(folder).ok()).flatten();
+    held.as_ref().inspect(|held| part::hold(held));
+    held
+}
+
+/// Exchanges two folders in one step; `false` where the system or the drive knows none.
+fn exchanged(one: &Path, other: &Path) -> io::Result<bool> {
+    #[cfg(target_os = "linux")]
+    {
+        use rustix::fs::{CWD, RenameFlags, renameat_with};
+        use rustix::io::Errno;
+        match renameat_with(CWD, one, CWD, other, RenameFlags::EXCHANGE) {
+            Ok(()) => Ok(true),
+            Err(Errno::INVAL | Errno::NOSYS | Errno::NOTSUP) => Ok(false),
+            Err(error) => Err(error.into()),
+        }
+    }
+    #[cfg(not(target_os = "linux"))]
+    {
+        let _ = (one, other);
+        Ok(false)
+    }
+}
+
+/// The SHA-256 of a file, in hexadecimal; of an empty folder that of nothing.
+fn sha256(path: &Path) -> io::Result<String> {
+    let mut hash = Sha256::new();
+    if !path.is_dir() {
+        let (mut file, mut some) = (File::open(path)?, vec![0; 1 << 16]);
+        loop {
+            let count = file.read(&mut some)?;
+            match some.get(..count) {
+                Some(read) if count > 0 => hash.update(read),
+                _ => break,
+            }
+        }
+    }
+    Ok(hash
+        .finalize()
+        .iter()
+        .map(|byte| format!("{byte:02x}"))
+        .collect())
 }
 
 trait MakeFolder {
@@ -135,12 +210,28 @@ fn check_replaceable(target: &Path) -> Result<(), TraceError> {
     } else {
         String::new()
     };
-    let ours: BTreeSet<&str> = text.lines().chain([MARKER]).collect();
-    match present.iter().find(|name| !ours.contains(name.as_str())) {
-        Some(foreign) => refused(format!(
-            "the folder holds `{foreign}`, which this program did not write; name another folder or empty this one"
-        )),
-        None => Ok(()),
+    let ours: BTreeMap<&str, Option<&str>> = text.lines().map(listed).collect();
+    for name in present.iter().filter(|name| *name != MARKER) {
+        let Some(written) = ours.get(name.as_str()) else {
+            return refused(format!(
+                "the folder holds `{name}`, which this program did not write; name another folder or empty this one"
+            ));
+        };
+        let own = sha256(&target.join(name)).map_err(TraceError::io("read", target))?;
+        if written.is_some_and(|written| written != own) {
+            return refused(format!(
+                "`{name}` in the folder was changed after this program wrote it; name another folder, or take it away"
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// A line of the marker: the SHA-256, two spaces and the name, or, as earlier programs wrote it, the name alone.
+fn listed(line: &str) -> (&str, Option<&str>) {
+    match line.split_once("  ") {
+        Some((sha256, name)) if sha256.len() == 64 => (name, Some(sha256)),
+        _ => (line, None),
     }
 }
 
@@ -208,6 +299,61 @@ mod tests {
         fs::write(&file, "mine").unwrap();
         assert!(fill(&file, "b.csv").is_err());
         assert_eq!(fs::read_dir(home.path()).unwrap().count(), 2);
+    }
+
+    #[test]
+    fn a_file_that_was_edited_stays() {
+        let home = tempfile::tempdir().unwrap();
+        let target = home.path().join("out");
+        fill(&target, "rig.toml").unwrap();
+        fill(&target, "rig.toml").unwrap();
+        fs::write(target.join("rig.toml"), "1.6\n").unwrap();
+        let message = fill(&target, "rig.toml").unwrap_err().to_string();
+        assert!(
+            message.contains("`rig.toml` in the folder was changed"),
+            "{message}"
+        );
+        assert_eq!(
+            fs::read_to_string(target.join("rig.toml")).unwrap(),
+            "1.6\n"
+        );
+        // What was taken away is no work; a folder of an earlier program lists names alone.
+        fs::remove_file(target.join("rig.toml")).unwrap();
+        fill(&target, "b.csv").unwrap();
+        fs::write(target.join(MARKER), "b.csv\n").unwrap();
+        fill(&target, "c.csv").unwrap();
+        assert_eq!(fs::read_dir(home.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn a_folder_is_replaced_by_two_renames_where_none_can_be_exchanged() {
+        let home = tempfile::tempdir().unwrap();
+        let target = home.path().join("out");
+        fill(&target, "a.csv").unwrap();
+        let folder = Folder::begin(&target).unwrap();
+        folder.write("b.csv", b"2.5\n").unwrap();
+        folder.place(&|_, _| Ok(false)).unwrap();
+        assert!(target.join("b.csv").exists() && !target.join("a.csv").exists());
+        assert_eq!(fs::read_dir(home.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn what_somebody_puts_there_at_the_last_moment_stays() {
+        let home = tempfile::tempdir().unwrap();
+        let target = home.path().join("out");
+        fill(&target, "a.csv").unwrap();
+        let folder = Folder::begin(&target).unwrap();
+        let late = |one: &Path, other: &Path| {
+            // It comes between the look and the exchange; the second exchange undoes the first.
+            if !one.join("mine.txt").exists() {
+                fs::write(other.join("mine.txt"), "mine")?;
+            }
+            exchanged(one, other)
+        };
+        if let Ok(true) = exchanged(home.path(), home.path()) {
+            assert!(folder.place(&late).is_err());
+            assert!(target.join("mine.txt").exists() && target.join("a.csv").exists());
+        }
     }
 
     #[test]

@@ -4,6 +4,7 @@
 mod bench;
 mod examples;
 mod faults;
+mod hostile;
 mod planted;
 mod planted_law;
 mod processes;
