@@ -302,6 +302,7 @@ mod tests {
             stratum,
             effects,
             fault: None,
+            spoilt: None,
             block_noise: 0.01,
             residual_ratio: None,
             forms: Forms::Usual,

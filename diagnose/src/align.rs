@@ -2,6 +2,7 @@
 
 mod clock;
 mod reversals;
+mod units;
 
 use crate::filter::rms;
 use crate::filter::{LowPass, gradient};
@@ -15,6 +16,7 @@ use rustfft::{FftPlannerScalar, num_complex::Complex64};
 
 pub(crate) use clock::{check_clock, median_step};
 pub(crate) use reversals::forget_sense_near_reversals;
+pub(crate) use units::{Stated, check_units};
 
 /// Why no conclusion can be drawn from a recording.
 #[derive(Clone, Debug, PartialEq)]

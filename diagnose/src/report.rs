@@ -5,6 +5,7 @@ mod read_as;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
+pub use crate::continuity::Remark;
 pub use read_as::ReadAs;
 
 /// Version of the report's shape.
@@ -63,6 +64,8 @@ pub struct Report {
     pub self_calibration: Option<SelfCalibration>,
     /// The file that holds the calibrated model, beside the report.
     pub calibration_file: Option<String>,
+    /// What was mended in the recordings before anything was fitted, or is to be said of them.
+    pub remarks: Vec<Remark>,
     /// The fault that ended the diagnosis.
     pub fault: Option<FaultReport>,
 }

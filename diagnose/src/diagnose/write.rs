@@ -8,9 +8,9 @@ use crate::cause::Cause;
 use crate::evidence::{Rivals, inclusion, intervals, not_seen, null_directions, rivals};
 use crate::explain::{Explanations, status};
 use crate::locate::locate;
-use crate::plant::{Plant, Shown};
+use crate::plant::{Plant, Run, Shown};
 use crate::problem::Problem;
-use crate::report::{EffectReport, ExplanationReport, Floor, Report, Unknown, Verdict};
+use crate::report::{EffectReport, ExplanationReport, Floor, Remark, Report, Unknown, Verdict};
 use crate::rules::{MOST_LISTED, NAMED};
 use crate::scatter::{Trials, left_over};
 use crate::select::{Selection, floor_limit, refs, usable_rms};
@@ -130,6 +130,7 @@ impl<P: Plant> Stand<'_, P> {
             next_experiment,
             floor: Some(floor),
             explanations: self.explained(),
+            remarks: self.remarks(),
             ..blank(self.plant.plant_name(), verdict, summary)
         };
         Diagnosis {
@@ -138,6 +139,12 @@ impl<P: Plant> Stand<'_, P> {
             curves,
             experiment: experiment.flatten(),
         }
+    }
+
+    /// What was mended, of what shows the result too where that is another recording.
+    fn remarks(&self) -> Vec<Remark> {
+        let shown = self.other_recording.then(|| self.test.remarks());
+        [self.train.remarks(), shown.unwrap_or_default()].concat()
     }
 
     /// The explanations that were weighed, the most probable first.

@@ -66,6 +66,7 @@ fn append(whole: &mut FiveBarRun, run: &FiveBarRun) {
         *last = false;
     }
     whole.recorded.extend_from_slice(&run.recorded);
+    whole.remarks.extend_from_slice(&run.remarks);
     whole.switched.extend_from_slice(&run.switched);
     whole.theta_noise = whole.theta_noise.max(run.theta_noise);
     whole.still_rad = whole.still_rad.max(run.still_rad);

@@ -53,6 +53,7 @@ impl Stand<'_, FiveBar> {
             ),
         ]);
         lines.extend(filled_in(&self.train.recorded));
+        lines.extend(self.train.remarks.iter().map(|own| own.words.clone()));
         lines
     }
 }

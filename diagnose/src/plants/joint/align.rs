@@ -3,12 +3,13 @@
 use super::inertia::Inertia;
 use super::run::{JointRun, PlantKind};
 use crate::align::{
-    Fault, band_hz, check_clipped, check_clock, check_frozen, check_missing, constant_runs,
+    Fault, Stated, band_hz, check_clipped, check_clock, check_missing, check_units, constant_runs,
     cutoff_hz, forget_sense_at_rest, forget_sense_at_reversals, frozen, longest_freeze,
     median_step, quiet_cutoff_hz, regular_count, resample, smallest_step, smoothed_motion,
 };
+use crate::continuity::{Position, Remark, Stamps, mend, settle};
 use crate::doubt::Smoothing;
-use crate::rules::{MOST_GIVEN, STILL_QUANTA, STILL_SIGMAS};
+use crate::rules::{DIES_AWAY, MOST_GIVEN, MOST_TURNS, STILL_QUANTA, STILL_SIGMAS};
 use rigproof_spec::effect::Motion;
 
 /// What stage 0 takes: the plant's roles in SI units, NaN where nothing was recorded.
@@ -41,13 +42,18 @@ pub struct Signals {
 }
 
 /// Aligns a recording, or says why nothing can be concluded from it.
-pub fn align(signals: &Signals) -> Result<JointRun, Fault> {
+pub fn align(recorded: &Signals) -> Result<JointRun, Fault> {
+    let mut signals = recorded.clone();
     let step_s = median_step(&signals.time_s);
     check_clock(&signals.time_s, step_s)?;
     check_missing("position", &signals.time_s, &signals.position)?;
     check_missing("effort", &signals.time_s, &signals.effort)?;
-    check_frozen(&signals.time_s, &signals.position, step_s)?;
-    check_metered(signals, step_s)?;
+    let (quantum, position_noise) = resolution(&signals);
+    let (mended, jitter) = mended(&mut signals, (step_s, quantum))?;
+    let position_noise = position_noise.hypot(jitter);
+    check_units_of(recorded)?;
+    check_metered(&signals, step_s)?;
+    check_commanded(&signals)?;
     check_clipped(&signals.time_s, &signals.effort, signals.effort_limit)?;
     let count = regular_count(&signals.time_s, step_s);
     let (position, recorded_p) = resample(&signals.time_s, &signals.position, step_s, count);
@@ -58,7 +64,6 @@ pub fn align(signals: &Signals) -> Result<JointRun, Fault> {
     };
     let predicted = optional(&signals.predicted);
     let current = optional(&signals.current);
-    let (quantum, position_noise) = resolution(signals);
     let effort_noise = signals
         .effort_noise
         .unwrap_or_else(|| smallest_step(&effort) / 12f64.sqrt());
@@ -106,9 +111,44 @@ pub fn align(signals: &Signals) -> Result<JointRun, Fault> {
         speed_floor,
         untold_speed,
         parts: Vec::new(),
+        remarks: mended,
     };
     check_sign(&run)?;
     Ok(run)
+}
+
+/// Mends the position, and puts the samples on the grid of their stamps; gives what was mended and what jitter adds to the noise of a position.
+fn mended(
+    signals: &mut Signals,
+    (step_s, quantum): (f64, f64),
+) -> Result<(Vec<Remark>, f64), Fault> {
+    let mut position = [Position {
+        channel: "position",
+        samples: core::mem::take(&mut signals.position),
+        stated_quantum: signals.position_quantum,
+        quantum,
+        noise: signals.position_noise.unwrap_or(0.0),
+        is_angle: signals.kind == Motion::Rotary,
+    }];
+    let stamps = Stamps {
+        time_s: &signals.time_s,
+        step_s,
+    };
+    let others = [&mut signals.effort].into_iter();
+    let others = others
+        .chain(&mut signals.predicted)
+        .chain(&mut signals.current);
+    let mut mended = mend(stamps, &mut position, &mut others.collect::<Vec<_>>())?;
+    let settled = settle(stamps, &mut position);
+    let [position] = position;
+    signals.position = position.samples;
+    let mut noise = 0.0;
+    if let Some(settled) = settled {
+        mended.push(settled.said);
+        signals.time_s = settled.time_s;
+        noise = settled.noise;
+    }
+    Ok((mended, noise))
 }
 
 /// The resolution of the position, and the noise that it makes with what is stated.
@@ -118,6 +158,90 @@ fn resolution(signals: &Signals) -> (f64, f64) {
         .unwrap_or_else(|| smallest_step(&signals.position));
     let stated = signals.position_noise.unwrap_or(0.0);
     (quantum, (quantum / 12f64.sqrt()).hypot(stated))
+}
+
+/// Counts of the position and noise of the effort are those of the units that are stated.
+fn check_units_of(signals: &Signals) -> Result<(), Fault> {
+    let ends_s = [signals.time_s.first(), signals.time_s.last()];
+    let ends_s = ends_s.map(|end| end.copied().unwrap_or(0.0));
+    let position = Stated {
+        channel: "position",
+        samples: &signals.position,
+        quantum: signals.position_quantum,
+        noise: None,
+    };
+    let effort = Stated {
+        channel: "effort",
+        samples: &signals.effort,
+        quantum: None,
+        noise: signals.effort_noise,
+    };
+    check_units(&position, ends_s)?;
+    check_units(&effort, ends_s)
+}
+
+/// Under a constant command an axis comes to rest, or goes on one way: one that is driven to and fro has a dead command, or another column's.
+fn check_commanded(signals: &Signals) -> Result<(), Fault> {
+    let level = signals.effort.iter().find(|x| !x.is_nan());
+    let Some(level) = level.filter(|_| signals.plant == PlantKind::Axis) else {
+        return Ok(());
+    };
+    if signals.effort.iter().any(|x| !x.is_nan() && x != level) {
+        return Ok(());
+    }
+    let (halves, turns) = to_and_fro(&signals.position);
+    let [first, second] = halves;
+    let is_driven = turns >= MOST_TURNS && second >= DIES_AWAY * first;
+    if !is_driven && !(*level == 0.0 && starts_by_itself(&signals.position)) {
+        return Ok(());
+    }
+    let at = |end: Option<&f64>| end.copied().unwrap_or(0.0);
+    Err(Fault {
+        channel: "effort",
+        from_s: at(signals.time_s.first()),
+        to_s: at(signals.time_s.last()),
+        reason: format!(
+            "the command is {level} (SI) throughout while the position is driven (it turns back {turns} times): the channel is dead, or another column is the command"
+        ),
+    })
+}
+
+/// Whether a position moves slowly at first and faster later.
+fn starts_by_itself(position: &[f64]) -> bool {
+    let stretch = (position.len() / 20).max(2);
+    let ways = position.chunks(stretch).map(|own| {
+        let live = || own.iter().copied().filter(|x| !x.is_nan());
+        live().fold(f64::NEG_INFINITY, f64::max) - live().fold(f64::INFINITY, f64::min)
+    });
+    let ways: Vec<f64> = ways.collect();
+    let greatest = ways.iter().copied().fold(0.0, f64::max);
+    ways.first().is_some_and(|first| *first < 0.5 * greatest)
+}
+
+/// The travel from sample to sample in the first and the second half, and how often a position turns back by a tenth of its range.
+fn to_and_fro(position: &[f64]) -> ([f64; 2], usize) {
+    let live: Vec<f64> = position.iter().copied().filter(|x| !x.is_nan()).collect();
+    let (first, second) = live.split_at(live.len() / 2);
+    let way = |own: &[f64]| -> f64 {
+        let pairs = own
+            .windows(2)
+            .filter_map(|pair| Some(pair.last()? - pair.first()?));
+        pairs.map(f64::abs).sum()
+    };
+    let low = live.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = live.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let (mut turns, mut extreme, mut upward) = (0, low, true);
+    for x in &live {
+        extreme = if upward {
+            extreme.max(*x)
+        } else {
+            extreme.min(*x)
+        };
+        if (x - extreme).abs() > 0.1 * (high - low) {
+            (turns, upward, extreme) = (turns + 1, !upward, *x);
+        }
+    }
+    ([way(first), way(second)], turns)
 }
 
 /// A metered effort has noise: on a bench a constant one is a dead channel, unless the motion rests too.

@@ -48,6 +48,7 @@ fn append(whole: &mut JointRun, run: &JointRun) {
         *last = false;
     }
     whole.recorded.extend_from_slice(&run.recorded);
+    whole.remarks.extend_from_slice(&run.remarks);
     whole.position.extend_from_slice(&run.position);
     whole.motion.extend_from_slice(&run.motion);
     whole.effort.extend_from_slice(&run.effort);

@@ -2,12 +2,13 @@
 
 use super::inverse::{self, CUTOFF_HZ, DECIMATION, FILTER_ORDER};
 use super::joined::joined;
-use super::mistaken::{another_drive, without_brake};
+use super::mistaken::{another_drive, beyond_reason, impossible_numbers, without_brake};
 use super::run::{JointRun, PlantKind};
 use super::simulate::output;
 use super::write_rig::{calibrated, nominal_numbers};
 use super::{from_rig, replica};
 use crate::align::Fault;
+use crate::cause::Cause;
 use crate::diagnose::write::Stand;
 use crate::evidence::Intervals;
 use crate::plant::{At, Described, Plant, Replica, Shown, Simulated, SimulatedOutput, Unsimulated};
@@ -53,6 +54,19 @@ impl Plant for Rig {
 
     fn check_found(&self, problem: &Problem, selection: &Selection) -> Result<(), Fault> {
         another_drive(problem, selection).map_or(Ok(()), Err)
+    }
+
+    fn check_numbers(
+        &self,
+        run: &JointRun,
+        problem: &Problem,
+        selection: &Selection,
+    ) -> Result<(), Fault> {
+        impossible_numbers(run, problem, selection).map_or(Ok(()), Err)
+    }
+
+    fn beyond_reason(&self, problem: &Problem, selection: &Selection) -> Option<Cause> {
+        beyond_reason(problem, selection)
     }
 
     /// A change of the drive in the description is passed over.

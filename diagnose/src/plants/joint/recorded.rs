@@ -130,6 +130,7 @@ fn run(plant: PlantKind, motion: Vec<Instant>, effort: Vec<f64>, held: bool) -> 
         effort_noise: EFFORT_NOISE,
         speed_floor: 1e-4,
         parts: Vec::new(),
+        remarks: Vec::new(),
     }
 }
 

@@ -5,6 +5,7 @@ use super::joined::over_parts;
 use super::{columns, shapes};
 use crate::align::band_hz;
 use crate::cause::{Cause, Place};
+use crate::continuity::Remark;
 use crate::doubt::{greatest_change, jumps_late, turning};
 use crate::filter::rms;
 use crate::locate::{self, Regimes};
@@ -71,6 +72,8 @@ pub struct JointRun {
     pub untold_speed: Vec<f64>,
     /// The recordings that stand in it one after another; empty for one recording.
     pub parts: Vec<JointRun>,
+    /// What was mended in it.
+    pub remarks: Vec<Remark>,
 }
 
 impl JointRun {
@@ -155,6 +158,7 @@ impl JointRun {
             speed_floor: self.speed_floor,
             untold_speed: part(&self.untold_speed),
             parts: Vec::new(),
+            remarks: self.remarks.clone(),
         }
     }
 
@@ -201,6 +205,10 @@ impl Run for JointRun {
 
     fn recorded(&self) -> &[bool] {
         &self.recorded
+    }
+
+    fn remarks(&self) -> &[Remark] {
+        &self.remarks
     }
 
     fn motion_kind(&self) -> Motion {
