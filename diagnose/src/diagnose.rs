@@ -1,6 +1,7 @@
 //! This file runs the stages in order: align, locate, explain, doubt, show.
 
 pub(crate) mod balance;
+mod beside;
 pub(crate) mod ended;
 pub(crate) mod numbers;
 mod parts;

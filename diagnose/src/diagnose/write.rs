@@ -8,9 +8,9 @@ use crate::cause::Cause;
 use crate::evidence::{Rivals, inclusion, intervals, not_seen, null_directions, rivals};
 use crate::explain::{Explanations, status};
 use crate::locate::locate;
-use crate::plant::{Plant, Run, Shown};
+use crate::plant::{Plant, Shown};
 use crate::problem::Problem;
-use crate::report::{EffectReport, ExplanationReport, Floor, Remark, Report, Unknown, Verdict};
+use crate::report::{EffectReport, ExplanationReport, Floor, Report, Unknown, Verdict};
 use crate::rules::{MOST_LISTED, NAMED};
 use crate::scatter::{Trials, left_over};
 use crate::select::{Selection, floor_limit, refs, usable_rms};
@@ -110,10 +110,13 @@ impl<P: Plant> Stand<'_, P> {
             false => (None, None),
         };
         let (before, after) = (&selection.before.residual, &selection.after.residual);
+        let remarks = self.remarks(&floor, &intervals);
         let summary = summary(problem, verdict, selection, fit.as_ref(), &rivals);
         let names = |causes: &[Cause]| causes.iter().map(|c| problem.name(*c)).collect();
+        let mut protocol = P::protocol(self, fit.as_ref());
+        protocol.extend(remarks.iter().map(|own| own.words.clone()));
         let report = Report {
-            protocol: P::protocol(self, fit.as_ref()),
+            protocol,
             located: locate(problem, before, after),
             stages: self.stages(),
             effects: self.effects(&calibration.found(self, &intervals), &all),
@@ -130,7 +133,7 @@ impl<P: Plant> Stand<'_, P> {
             next_experiment,
             floor: Some(floor),
             explanations: self.explained(),
-            remarks: self.remarks(),
+            remarks,
             ..blank(self.plant.plant_name(), verdict, summary)
         };
         Diagnosis {
@@ -139,12 +142,6 @@ impl<P: Plant> Stand<'_, P> {
             curves,
             experiment: experiment.flatten(),
         }
-    }
-
-    /// What was mended, of what shows the result too where that is another recording.
-    fn remarks(&self) -> Vec<Remark> {
-        let shown = self.other_recording.then(|| self.test.remarks());
-        [self.train.remarks(), shown.unwrap_or_default()].concat()
     }
 
     /// The explanations that were weighed, the most probable first.

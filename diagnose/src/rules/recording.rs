@@ -49,6 +49,12 @@ rules! {
     MOST_CLIPPED: usize = 20, "samples", REASON;
     /// Share of the samples at one extreme that may be chance.
     MOST_CLIPPED_SHARE: f64 = 0.005, "share", REASON;
+    /// An effort that comes to its extreme by more than this share of its range within one sample jumps there; what is clipped runs into it.
+    JUMP_SHARE: f64 = 0.2, "share", REASON;
+    /// Share of the ways to the extreme that are jumps from which on the effort was commanded in steps.
+    STEPPED: f64 = 0.8, "share", REASON;
+    /// Equal samples in a row that are a level of a command in steps.
+    LEVEL_SAMPLES: usize = 5, "samples", REASON;
     /// Share of the stated limit from which on an extreme is that limit.
     AT_LIMIT: f64 = 0.999, "share", REASON;
     /// Share of the work to and fro by which a resistance may give more than it takes: a bench whose sign is right always takes.
@@ -83,6 +89,8 @@ rules! {
     MOST_TURNS: usize = 3, "reversals", REASON;
     /// The speed of a free motion dies away: in its second half it is below this share of that in the first.
     DIES_AWAY: f64 = 0.7, "share", REASON;
+    /// A free motion never travels farther in a twentieth of the recording than in all before, times this.
+    GROWS: f64 = 1.3, "times", REASON;
     /// A residual below this share of the predicted noise says that noise or resolution are stated too great.
     FAR_BELOW_FLOOR: f64 = 0.3, "share", REASON;
     /// A gain that is wrong by more than this factor is no physics: a unit is.

@@ -53,7 +53,6 @@ impl Stand<'_, FiveBar> {
             ),
         ]);
         lines.extend(filled_in(&self.train.recorded));
-        lines.extend(self.train.remarks.iter().map(|own| own.words.clone()));
         lines
     }
 }

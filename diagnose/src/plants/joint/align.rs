@@ -9,7 +9,7 @@ use crate::align::{
 };
 use crate::continuity::{Position, Remark, Stamps, mend, settle};
 use crate::doubt::Smoothing;
-use crate::rules::{DIES_AWAY, MOST_GIVEN, MOST_TURNS, STILL_QUANTA, STILL_SIGMAS};
+use crate::rules::{DIES_AWAY, GROWS, MOST_GIVEN, MOST_TURNS, STILL_QUANTA, STILL_SIGMAS};
 use rigproof_spec::effect::Motion;
 
 /// What stage 0 takes: the plant's roles in SI units, NaN where nothing was recorded.
@@ -206,7 +206,7 @@ fn check_commanded(signals: &Signals) -> Result<(), Fault> {
     })
 }
 
-/// Whether a position moves slowly at first and faster later.
+/// Whether a position moves faster in some stretch of time than in any before.
 fn starts_by_itself(position: &[f64]) -> bool {
     let stretch = (position.len() / 20).max(2);
     let ways = position.chunks(stretch).map(|own| {
@@ -214,8 +214,16 @@ fn starts_by_itself(position: &[f64]) -> bool {
         live().fold(f64::NEG_INFINITY, f64::max) - live().fold(f64::INFINITY, f64::min)
     });
     let ways: Vec<f64> = ways.collect();
-    let greatest = ways.iter().copied().fold(0.0, f64::max);
-    ways.first().is_some_and(|first| *first < 0.5 * greatest)
+    let mut greatest = f64::INFINITY;
+    ways.into_iter().any(|way| {
+        let grows = way > GROWS * greatest;
+        greatest = if greatest.is_finite() {
+            greatest.max(way)
+        } else {
+            way
+        };
+        grows
+    })
 }
 
 /// The travel from sample to sample in the first and the second half, and how often a position turns back by a tenth of its range.

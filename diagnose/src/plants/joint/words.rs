@@ -45,7 +45,6 @@ impl Stand<'_, Rig> {
             self.fit_protocol(protocol),
         ]);
         lines.extend(filled_in(&self.train.recorded));
-        lines.extend(self.train.remarks.iter().map(|own| own.words.clone()));
         lines
     }
 
