@@ -86,14 +86,15 @@ pub fn leave_out_dropouts(stamps: Stamps<'_>, own: &mut Position) -> Result<Opti
     let mut bad = Vec::new();
     let mut j = 0;
     while let Some((excess, limit)) = excesses.get(j) {
-        let expected = steps.expected(j).0;
         let returns = |count: &usize| {
             let back = sample(j + count + 1).zip(sample(j));
             let places = (j..=j + count)
                 .filter_map(|k| steps.places.get(k))
                 .sum::<f64>();
-            // Behind the dropout the position is where its speed brought it.
-            let off = back.map(|(after, before)| after - before - places * expected);
+            // Behind the dropout the position is where its speed before and after brought it.
+            let [before, after] = steps.beside(j, j + count + 1);
+            let way = places * 0.5 * (before + after);
+            let off = back.map(|(after, before)| after - before - way);
             off.is_some_and(|off| off.abs() <= 0.5 * limit.min(excess.abs()))
         };
         let count = (1..=LONGEST_DROPOUT).find(|count| excess.abs() > *limit && returns(count));

@@ -89,8 +89,8 @@ rules! {
     MOST_TURNS: usize = 3, "reversals", REASON;
     /// The speed of a free motion dies away: in its second half it is below this share of that in the first.
     DIES_AWAY: f64 = 0.7, "share", REASON;
-    /// A free motion never travels farther in a twentieth of the recording than in all before, times this.
-    GROWS: f64 = 1.3, "times", REASON;
+    /// A free motion dies away: it never travels farther in a twentieth of the recording than in one before, times this.
+    GROWS: f64 = 3.0, "times", REASON;
     /// A residual below this share of the predicted noise says that noise or resolution are stated too great.
     FAR_BELOW_FLOOR: f64 = 0.3, "share", REASON;
     /// A gain that is wrong by more than this factor is no physics: a unit is.

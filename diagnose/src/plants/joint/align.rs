@@ -206,7 +206,7 @@ fn check_commanded(signals: &Signals) -> Result<(), Fault> {
     })
 }
 
-/// Whether a position moves faster in some stretch of time than in any before.
+/// Whether a position comes to move faster than it did before, by more than a free motion ever does.
 fn starts_by_itself(position: &[f64]) -> bool {
     let stretch = (position.len() / 20).max(2);
     let ways = position.chunks(stretch).map(|own| {
@@ -214,15 +214,11 @@ fn starts_by_itself(position: &[f64]) -> bool {
         live().fold(f64::NEG_INFINITY, f64::max) - live().fold(f64::INFINITY, f64::min)
     });
     let ways: Vec<f64> = ways.collect();
-    let mut greatest = f64::INFINITY;
+    let greatest = ways.iter().copied().fold(0.0, f64::max);
+    let mut least = f64::INFINITY;
     ways.into_iter().any(|way| {
-        let grows = way > GROWS * greatest;
-        greatest = if greatest.is_finite() {
-            greatest.max(way)
-        } else {
-            way
-        };
-        grows
+        least = least.min(way);
+        way > GROWS * least && way > 0.2 * greatest
     })
 }
 

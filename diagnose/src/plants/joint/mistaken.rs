@@ -69,6 +69,30 @@ fn impossible_gain(problem: &Problem, selection: &Selection) -> Option<(usize, f
     (!is_possible).then_some((index, gain))
 }
 
+/// A found inertia beside which the stated one is another unit's: so little or so much acceleration takes no part of the effort.
+pub fn another_inertia(run: &JointRun, problem: &Problem, selection: &Selection) -> Option<Fault> {
+    let Inertia::Known(stated) = run.inertia else {
+        return None;
+    };
+    let (_, coefficients) = coefficients_by_term(problem, selection);
+    let own = coefficients.iter().skip(selection.nominal.len());
+    let added = selection.found.iter().zip(own).find_map(|(found, own)| {
+        let is_inertia = found.term.cause.mechanism == Mechanism::AddedInertia;
+        (is_inertia && found.term.onset_s.is_none()).then(|| own.first().copied())?
+    })?;
+    let times = 1.0 + added / stated;
+    if (1.0 / ANOTHER_UNIT..ANOTHER_INERTIA).contains(&times) || !explains(problem, selection) {
+        return None;
+    }
+    Some(throughout(
+        problem,
+        "inertia",
+        format!(
+            "the plant answers as if its inertia were {times:.3e} times the stated one: the unit of the position or of the command is another one (degrees for radians make 0.0175, thousandths 1000 or 0.001), the command is dead, or the stated inertia is another one's; correct the description"
+        ),
+    ))
+}
+
 /// A gain that no drive has and that is no fault of the description either: it stands in for something else.
 pub fn beyond_reason(problem: &Problem, selection: &Selection) -> Option<Cause> {
     let (index, _) = impossible_gain(problem, selection)?;

@@ -2,7 +2,9 @@
 
 use super::inverse::{self, CUTOFF_HZ, DECIMATION, FILTER_ORDER};
 use super::joined::joined;
-use super::mistaken::{another_drive, beyond_reason, impossible_numbers, without_brake};
+use super::mistaken::{
+    another_drive, another_inertia, beyond_reason, impossible_numbers, without_brake,
+};
 use super::run::{JointRun, PlantKind};
 use super::simulate::output;
 use super::write_rig::{calibrated, nominal_numbers};
@@ -62,7 +64,9 @@ impl Plant for Rig {
         problem: &Problem,
         selection: &Selection,
     ) -> Result<(), Fault> {
-        impossible_numbers(run, problem, selection).map_or(Ok(()), Err)
+        let fault = another_inertia(run, problem, selection);
+        let fault = fault.or_else(|| impossible_numbers(run, problem, selection));
+        fault.map_or(Ok(()), Err)
     }
 
     fn beyond_reason(&self, problem: &Problem, selection: &Selection) -> Option<Cause> {
