@@ -53,8 +53,15 @@ pub fn degrees(own: &mut Recording<'_>, _: &mut Draw) -> Option<Mark> {
 /// A wrong unit may be that of either side; where there are two channels of a kind both are named.
 fn every_effort(own: &Recording<'_>) -> Option<Mark> {
     let [position, effort] = own.names.roles;
-    let others = own.names.others.unwrap_or([position, effort]);
-    let roles = [position, effort, others[0], others[1], "drive", "inertia"];
+    let [other_position, other_effort] = own.names.others.unwrap_or([position, effort]);
+    let roles = [
+        position,
+        effort,
+        other_position,
+        other_effort,
+        "drive",
+        "inertia",
+    ];
     Some(mark(&roles, (0, own.count() - 1)))
 }
 

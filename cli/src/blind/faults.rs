@@ -19,6 +19,9 @@ const LEAST_RIGHT: f64 = 0.9;
 /// At most this share of clean recordings may be called faulty.
 const MOST_FALSE: f64 = 0.01;
 
+/// Remarks about a result, which are no faults of its recording.
+const OF_THE_RESULT: [&str; 3] = ["below_floor", "inertia_not_told", "negative_delay"];
+
 /// What became of a seed.
 struct Tried {
     plant: Plant,
@@ -166,10 +169,11 @@ fn one(plant: Plant, seed: u64) -> Result<Tried, Failure> {
     let reason = |report: &Value| {
         words(report.get("fault"), "reason").or_else(|| words(Some(report), "summary"))
     };
-    let first_mended = clean
-        .get("remarks")
-        .and_then(Value::as_array)
-        .and_then(|all| all.first());
+    let remarks = clean.get("remarks").and_then(Value::as_array);
+    let first_mended = remarks.into_iter().flatten().find(|own| {
+        let what = words(Some(own), "what");
+        what.is_some_and(|what| !OF_THE_RESULT.contains(&what.as_str()))
+    });
     let is_fault = verdict(&clean) == "data_fault";
     Ok(Tried {
         plant,

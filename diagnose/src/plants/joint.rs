@@ -1,6 +1,7 @@
 //! This room is a plant of one joint: an axis that is driven, or a bench at which a brake or damper is turned.
 
 pub mod align;
+mod checks;
 pub mod columns;
 mod fitted;
 pub mod free_run;
