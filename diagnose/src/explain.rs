@@ -11,7 +11,7 @@ use crate::candidates::{all_causes, is_at_an_end};
 use crate::cause::Cause;
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, fit, free_columns, paired, reduced_target};
-use crate::rules::{EXCHANGES, LATE, LISTED, NAMED, OFFERED, ROWS_A_SAMPLE, SUSPECTED};
+use crate::rules::{EXCHANGES, LISTED, NAMED, OFFERED, ROWS_A_SAMPLE, SUSPECTED};
 use crate::select::{Found, Selection, Stage, is_noise, usable_rms};
 use fitted::{Fitted, Folds};
 use rayon::prelude::*;
@@ -96,76 +96,92 @@ pub const fn status(probability: f64) -> &'static str {
 
 /// Explains a recording on top of the terms of its nominal model.
 pub fn explain(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection, Explanations) {
-    let (weighed, rows_a_sample) = round_of(problem, &nominal, problem.floor, ROWS_A_SAMPLE, 0);
-    let blocks = Blocks::new(problem);
-    let best = weighed.first().map_or(&[][..], |own| &own.terms);
+    let first = Round::of(problem, &nominal, problem.floor, ROWS_A_SAMPLE, false);
+    let rows_a_sample = first.rows_a_sample(problem);
+    let best = first.predicts_best().map_or(&[][..], |own| &own.terms);
     let terms: Vec<&Term> = nominal.iter().chain(best).collect();
-    let left = usable_rms(problem, &fit(problem, &terms, &blocks).residual);
-    // What the best explanation leaves is noise of the next round.
+    let residual = fit(problem, &terms, &Blocks::new(problem)).residual;
+    // What no explanation takes away is noise of the next round.
+    let left = usable_rms(problem, &residual);
     problem.rewhiten(left);
     nominal.iter_mut().for_each(|term| problem.refresh(term));
     let noise = left.max(problem.floor);
-    let (living, _) = round_of(problem, &nominal, noise, rows_a_sample, EXCHANGES);
+    let second = Round::of(problem, &nominal, noise, rows_a_sample, true);
+    let living = second.weighed(problem, noise);
     let explanations = Explanations { living };
     (selected(problem, nominal, &explanations), explanations)
 }
 
-fn round_of(
-    problem: &Problem,
-    nominal: &[Term],
-    noise: f64,
-    rows_a_sample: f64,
-    exchanges: usize,
-) -> (Vec<Explanation>, f64) {
-    let folds = Folds::of(problem);
-    let judge = Judge::of(problem, noise, rows_a_sample);
-    let common: Vec<&Term> = nominal.iter().collect();
-    let target = reduced_target(problem, &common).white;
-    let free = free_columns(problem, &common).into_iter();
-    let bare = Fitted::bare(
-        &folds,
-        target,
-        free.map(|rows| Arc::new(rows.clone())).collect(),
-    );
-    let tried = candidates(problem, nominal);
-    let mut all = beam::search(problem, &folds, &judge, &bare, &tried, exchanges);
-    if exchanges > 0 {
-        let leading = ranked(problem, &folds, &judge, all.clone());
-        let leading: Vec<Fitted> = leading.into_iter().map(|(_, own)| own).take(LATE).collect();
-        all.extend(late::late(problem, &folds, &judge, &bare, &leading));
-    }
-    let rows_a_sample = discrepancy::rows_a_sample(&folds, &all, &problem.windows.usable);
-    let judge = Judge::of(problem, noise, rows_a_sample);
-    (
-        weigh(problem, &folds, &judge, &bare, all, noise),
-        rows_a_sample,
-    )
+/// One search among sets of terms, and what it found.
+struct Round {
+    folds: Folds,
+    bare: Fitted,
+    all: Vec<Fitted>,
 }
 
-fn weigh(
-    problem: &Problem,
-    folds: &Folds,
-    judge: &Judge,
-    bare: &Fitted,
-    all: Vec<Fitted>,
-    noise: f64,
-) -> Vec<Explanation> {
-    let all = all
-        .into_iter()
-        .filter(|own| judge.all_matter(folds, bare, own))
-        .filter(|own| !own.terms.iter().any(|term| is_at_an_end(problem, term)));
-    let scored = ranked(problem, folds, judge, all.collect());
-    let most = scored.first().map_or(0.0, |(score, _)| *score);
-    let sum: f64 = scored
-        .iter()
-        .map(|(score, _)| libm::exp(score - most))
-        .sum();
-    let listed = scored.into_iter().map(|(score, own)| Explanation {
-        weight: libm::exp(score - most) / sum,
-        leaves: (own.left() / folds.rows()).sqrt() * noise / problem.floor,
-        terms: own.terms,
-    });
-    listed.filter(|own| own.weight >= LISTED).collect()
+impl Round {
+    /// `noise` is the standard deviation of a row before whitening; `thorough` exchanges terms and lets them begin late.
+    fn of(
+        problem: &Problem,
+        nominal: &[Term],
+        noise: f64,
+        rows_a_sample: f64,
+        thorough: bool,
+    ) -> Round {
+        let folds = Folds::of(problem);
+        let judge = Judge::of(problem, noise, rows_a_sample);
+        let common: Vec<&Term> = nominal.iter().collect();
+        let target = reduced_target(problem, &common).white;
+        let free = free_columns(problem, &common).into_iter();
+        let bare = Fitted::bare(
+            &folds,
+            target,
+            free.map(|rows| Arc::new(rows.clone())).collect(),
+        );
+        let tried = candidates(problem, nominal);
+        let exchanges = if thorough { EXCHANGES } else { 0 };
+        let mut all = beam::search(problem, &folds, &judge, &bare, &tried, exchanges);
+        if thorough {
+            let leading = ranked(problem, &folds, &judge, all.clone()).into_iter();
+            let leading: Vec<Fitted> = leading.map(|(_, own)| own).collect();
+            all.extend(late::late(problem, &folds, &judge, &bare, &leading));
+        }
+        Round { folds, bare, all }
+    }
+
+    fn predicts_best(&self) -> Option<&Fitted> {
+        self.all.iter().min_by(|a, b| a.left().total_cmp(&b.left()))
+    }
+
+    fn rows_a_sample(&self, problem: &Problem) -> f64 {
+        let residual = self.predicts_best().map(Fitted::residual);
+        discrepancy::rows_a_sample(
+            &self.folds,
+            &residual.unwrap_or_default(),
+            &problem.windows.usable,
+        )
+    }
+
+    fn weighed(self, problem: &Problem, noise: f64) -> Vec<Explanation> {
+        let judge = Judge::of(problem, noise, self.rows_a_sample(problem));
+        let Round { folds, bare, all } = self;
+        let all = all.into_iter().filter(|own| {
+            let mut terms = own.terms.iter();
+            judge.all_matter(&folds, &bare, own) && !terms.any(|term| is_at_an_end(problem, term))
+        });
+        let scored = ranked(problem, &folds, &judge, all.collect());
+        let most = scored.first().map_or(0.0, |(score, _)| *score);
+        let sum: f64 = scored
+            .iter()
+            .map(|(score, _)| libm::exp(score - most))
+            .sum();
+        let listed = scored.into_iter().map(|(score, own)| Explanation {
+            weight: libm::exp(score - most) / sum,
+            leaves: (own.left() / folds.rows()).sqrt() * noise / problem.floor,
+            terms: own.terms,
+        });
+        listed.filter(|own| own.weight >= LISTED).collect()
+    }
 }
 
 /// Explanations with the logarithm of their weight, the most probable first.

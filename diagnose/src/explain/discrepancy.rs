@@ -1,14 +1,12 @@
 //! This file says how far what no explanation takes away is from noise: over how many rows it stays alike.
 
-use super::fitted::{Fitted, Folds};
+use super::fitted::Folds;
 use crate::rules::{LEAST_CORRELATION, ROWS_A_SAMPLE};
 
 /// Rows that say as much as one that is independent of all others, by what the best of the explanations leaves. Blocks of time are independent of
 /// one another.
-pub fn rows_a_sample(folds: &Folds, all: &[Fitted], usable: &[bool]) -> f64 {
-    let least = all.iter().min_by(|a, b| a.left().total_cmp(&b.left()));
-    let correlation = least.map_or(1.0, |own| correlation(&own.residual(), usable));
-    (ROWS_A_SAMPLE * correlation)
+pub fn rows_a_sample(folds: &Folds, residual: &[f64], usable: &[bool]) -> f64 {
+    (ROWS_A_SAMPLE * correlation(residual, usable))
         .min(folds.mean_rows())
         .max(ROWS_A_SAMPLE)
 }

@@ -4,66 +4,80 @@ use super::fitted::{Fitted, Folds};
 use super::score::{Judge, gives_energy};
 use super::unfitted;
 use crate::problem::{Problem, Term};
-use crate::rules::{ONSET_GRID, ONSET_HALVINGS, ONSET_MARGIN};
+use crate::rules::{BEAM, LATE, ONSET_GRID, ONSET_HALVINGS, ONSET_MARGIN};
 use rayon::prelude::*;
 
-/// For each term of each explanation, the explanation with this term from its best onset on.
+/// An explanation with one term from an onset on, at a share of the recording.
+struct Begun {
+    evidence: f64,
+    share: f64,
+    fitted: Fitted,
+}
+
+/// The explanations with one term from an onset on: each of one term and the leading ones, on a grid of onsets first, those that predict best then between
+/// the points of the grid.
 pub fn late(
     problem: &Problem,
     folds: &Folds,
     judge: &Judge,
     bare: &Fitted,
-    leading: &[Fitted],
+    ranked: &[Fitted],
 ) -> Vec<Fitted> {
-    let places = leading.iter().flat_map(|own| {
-        let open = own.terms.iter().enumerate();
-        let open = open.filter(|(_, term)| term.onset_s.is_none());
-        open.map(move |(index, _)| (own, index))
+    let tried = |own: &Fitted, index: usize, share: f64| {
+        begun(problem, folds, judge, bare, &own.terms, index, share)
+    };
+    let open = ranked.iter().enumerate();
+    let open = open.filter(|(place, own)| own.terms.len() == 1 || *place < LATE);
+    let places: Vec<(&Fitted, usize)> = open
+        .flat_map(|(_, own)| (0..own.terms.len()).map(move |index| (own, index)))
+        .collect();
+    let on_grid = places.into_par_iter().filter_map(|(own, index)| {
+        let grid = (1..ONSET_GRID).map(|k| k as f64 / ONSET_GRID as f64);
+        let all = grid.filter_map(|share| tried(own, index, share));
+        let best = all.max_by(|a, b| a.evidence.total_cmp(&b.evidence))?;
+        Some((own, index, best))
     });
-    let places: Vec<(&Fitted, usize)> = places.collect();
-    let placed = places.into_par_iter();
-    placed
-        .filter_map(|(own, index)| from_best(problem, folds, judge, bare, own, index))
-        .collect()
+    let mut on_grid: Vec<(&Fitted, usize, Begun)> = on_grid.collect();
+    on_grid.sort_by(|a, b| b.2.evidence.total_cmp(&a.2.evidence));
+    on_grid.truncate(BEAM);
+    let placed = on_grid.into_par_iter().map(|(own, index, mut best)| {
+        let mut stride = 0.5 / ONSET_GRID as f64;
+        for _ in 0..ONSET_HALVINGS {
+            for share in [best.share - stride, best.share + stride] {
+                let moved = tried(own, index, share);
+                best = moved
+                    .filter(|moved| moved.evidence > best.evidence)
+                    .unwrap_or(best);
+            }
+            stride *= 0.5;
+        }
+        best.fitted
+    });
+    placed.collect()
 }
 
-/// The explanation with one term from the onset on that predicts best: on a grid first, then between its neighbours.
-fn from_best(
+fn begun(
     problem: &Problem,
     folds: &Folds,
     judge: &Judge,
     bare: &Fitted,
-    own: &Fitted,
+    terms: &[Term],
     index: usize,
-) -> Option<Fitted> {
-    let clock = problem.run.clock();
-    let tried = |share: f64| {
-        let inside = (ONSET_MARGIN..1.0 - ONSET_MARGIN).contains(&share);
-        let onset_s = clock.start_s + share * clock.duration_s();
-        let terms = begun(problem, &own.terms, index, onset_s).filter(|_| inside)?;
-        let fitted = bare.of(folds, &terms);
-        (!gives_energy(&fitted)).then(|| (judge.evidence(folds, &fitted), share, fitted))
-    };
-    let grid = (1..ONSET_GRID).filter_map(|k| tried(k as f64 / ONSET_GRID as f64));
-    let mut best = grid.max_by(|a, b| a.0.total_cmp(&b.0))?;
-    let mut stride = 0.5 / ONSET_GRID as f64;
-    for _ in 0..ONSET_HALVINGS {
-        let around = [-stride, stride];
-        let around = around.into_iter().filter_map(|by| tried(best.1 + by));
-        if let Some(better) = around
-            .filter(|own| own.0 > best.0)
-            .max_by(|a, b| a.0.total_cmp(&b.0))
-        {
-            best = better;
-        }
-        stride *= 0.5;
+    share: f64,
+) -> Option<Begun> {
+    if !(ONSET_MARGIN..1.0 - ONSET_MARGIN).contains(&share) {
+        return None;
     }
-    Some(best.2)
-}
-
-fn begun(problem: &Problem, terms: &[Term], index: usize, onset_s: f64) -> Option<Vec<Term>> {
+    let clock = problem.run.clock();
+    let onset_s = clock.start_s + share * clock.duration_s();
     let mut terms = terms.to_vec();
     let own = terms.get_mut(index)?;
     *own = unfitted(problem, own.cause, &own.shape, Some(onset_s))?;
-    Some(terms)
+    let fitted = bare.of(folds, &terms);
+    let evidence = judge.evidence(folds, &fitted);
+    (!gives_energy(&fitted)).then_some(Begun {
+        evidence,
+        share,
+        fitted,
+    })
 }

@@ -29,7 +29,7 @@ rules! {
     MOST_LISTED: usize = 8, "explanations", REASON;
     /// Rounds in which each term of the leading explanations is exchanged for every other.
     EXCHANGES: usize = 2, "rounds", DRIVEN;
-    /// Explanations of which each term is tried from an onset on.
+    /// Leading explanations of which each term is tried from an onset on, beside all those of one term.
     LATE: usize = 2, "explanations", REASON;
     /// The most terms of one explanation.
     MOST_TERMS: usize = 3, "terms", DRIVEN;

@@ -28,10 +28,11 @@ pub(super) fn begun(
         state
     };
     let mut best = [position, speed];
-    if first == 0 || protocol.warm_up_periods > 0 {
+    let last = (first + FITTED_TIMES * protocol.start_samples).min(there.len().saturating_sub(1));
+    let is_stated = first == 0 || protocol.warm_up_periods > 0;
+    if is_stated || last <= first {
         return (first, state_at(best, free));
     }
-    let last = (first + FITTED_TIMES * protocol.start_samples).min(there.len().saturating_sub(1));
     let step_s = run.step_s / protocol.substeps as f64;
     let errors = |at: [f64; 2], free: &mut Free| -> Vec<f64> {
         let mut state = state_at(at, free);
