@@ -70,6 +70,13 @@ fn agreed(large: &[(usize, f64, f64)], by: f64, limit: f64) -> Option<f64> {
         (other.abs() - by.abs()).abs() <= own.max(limit).max(NEAR * by.abs())
     };
     let mean = large.iter().map(|(_, by, _)| by.abs()).sum::<f64>() / large.len().max(1) as f64;
+    // A dropout jumps there and back.
+    let steps = large
+        .windows(2)
+        .filter_map(|pair| Some(pair.last()?.0 - pair.first()?.0));
+    if steps.min().is_some_and(|least| least <= LONGEST_DROPOUT) {
+        return None;
+    }
     (large.len() > 1 && large.iter().all(alike)).then_some(mean)
 }
 
