@@ -8,7 +8,7 @@ use rand_pcg::rand_core::{Rng, SeedableRng};
 use rigproof_diagnose::plants::joint::from_rig;
 use rigproof_diagnose::plants::joint::simulate::output;
 use rigproof_diagnose::{Options, diagnose};
-use rigproof_model::axis::Axis;
+use rigproof_model::axis::{Axis, Transmission};
 use rigproof_model::effects::law;
 use rigproof_spec::effect::Mechanism;
 use rigproof_trace::rig::{Recording, Rig};
@@ -58,6 +58,7 @@ fn recording(rig: &Rig, duration_s: f64) -> Recording {
             .iter()
             .map(|(m, values)| law(*m, values).unwrap())
             .collect(),
+        transmission: Transmission::default(),
     };
     let mut random = Pcg64Mcg::seed_from_u64(29);
     // Twelve uniform numbers less six: standard deviation 1, close to Gaussian.

@@ -152,7 +152,7 @@ pub fn standard_shapes<R: Run + ?Sized>(
             let points = points(run.motion(cause.at), windows, residual);
             let mut all = periods(&points, run.travel(cause.at));
             if run.motion_kind() == Motion::Rotary {
-                all.extend((1..=MOST_A_TURN).map(|order| TAU / f64::from(order)));
+                all.extend(of_a_turn(run.travel(cause.at)));
             }
             one(all)
         }
@@ -199,6 +199,12 @@ fn effort_limits(effort: &[f64]) -> Vec<f64> {
     geometric(lowest * greatest, highest * greatest, EFFORT_LIMITS)
 }
 
+/// The whole parts of a turn that a travel holds.
+pub fn of_a_turn(travel: f64) -> impl Iterator<Item = f64> {
+    let parts = (1..=MOST_A_TURN).map(|order| TAU / f64::from(order));
+    parts.filter(move |period| *period <= travel)
+}
+
 /// Position and residual of each usable window.
 fn points(motion: &[Instant], windows: &Windows, residual: &[f64]) -> Vec<(f64, f64)> {
     windows
@@ -232,7 +238,7 @@ pub fn shape_bounds(problem: &Problem, cause: Cause) -> Vec<(f64, f64)> {
     if facts(cause.mechanism).is_some_and(|facts| facts.shapes == Shapes::Period) {
         let travel = problem.run.travel(cause.at);
         let travel = travel.max(1e-12);
-        return vec![(travel / MOST_CYCLES, travel.max(TAU))];
+        return vec![(travel / MOST_CYCLES, travel)];
     }
     let tried = shapes(problem, cause, &[]);
     let count = tried.iter().map(Vec::len).max().unwrap_or(0);
@@ -260,6 +266,20 @@ pub fn is_at_edge(problem: &Problem, term: &Term) -> bool {
         (Some(value), Some((_, high))) => bounded && *value > EDGE * high,
         _ => false,
     }
+}
+
+/// Whether the first shape parameter has run into an end of the range that was looked through: the recording does not determine it, and the law stands
+/// in for another one.
+pub fn is_at_an_end(problem: &Problem, term: &Term) -> bool {
+    let bounds = shape_bounds(problem, term.cause);
+    let first = term.shape.first().zip(bounds.first());
+    first.is_some_and(|(value, bounds)| bounds.0 < bounds.1 && is_end(*value, *bounds))
+}
+
+/// Whether a number is at an end of a range.
+pub fn is_end(value: f64, (low, high): (f64, f64)) -> bool {
+    let near = (1.0 - EDGE) * value.abs();
+    value <= low + near || value >= high - near
 }
 
 /// The speed that all but one in a hundred samples stay below.

@@ -18,12 +18,10 @@ use crate::report::Report;
 use crate::rules::{FEWEST_WINDOWS, HOLD_OUT_SHARE};
 use crate::scatter::{Trials, left_over};
 use crate::select::{FLOOR_RATIO, Gates, Selection, is_noise, refs, select};
-use crate::unknown::surrogates;
 use crate::whiten::Whitener;
 use ended::{faulty, not_excited};
 use parts::Parts;
 use rigproof_model::effects::entry;
-use rigproof_spec::effect::Mechanism;
 use rigproof_trace::Trace;
 use write::Stand;
 
@@ -148,14 +146,14 @@ pub fn diagnose<P: Plant>(
     if let Err(fault) = plant.check_found(&problem, &selection) {
         return faulty(plant, "recording", fault);
     }
-    let mut withdrawn = withdraw(&problem, &mut selection, explanations.is_some());
+    let mut withdrawn = withdraw(&problem, &mut selection);
     let trials = scattered(&problem, &selection);
     if let Some(trials) = trials.clone() {
         let windows = problem.windows.clone();
         problem = Problem::new(train, windows).within(trials);
         let terms = nominal(plant, &problem).unwrap_or_default();
         (selection, explanations) = named(&mut problem, terms, options);
-        withdrawn = withdraw(&problem, &mut selection, explanations.is_some());
+        withdrawn = withdraw(&problem, &mut selection);
     }
     Stand {
         plant,
@@ -173,49 +171,23 @@ pub fn diagnose<P: Plant>(
     .report()
 }
 
-/// What is named on top of the nominal terms. Sets of mechanisms are weighed together, and one mechanism at a time is looked for, on a linkage first: what
-/// leaves only noise stands, else the sets where they can be weighed.
+/// What is named on top of the nominal terms: sets of mechanisms are weighed together. On a linkage one mechanism at a time is looked for first, and what
+/// leaves only noise stands.
 fn named(
     problem: &mut Problem,
     mut terms: Vec<Term>,
     options: &Options,
 ) -> (Selection, Option<Explanations>) {
-    let whitener = problem.whitener.clone();
-    let one_first = problem.rules.by_family;
-    let mut one = None;
-    if one_first {
+    if problem.rules.by_family {
+        let whitener = problem.whitener.clone();
         let selection = select(problem, terms.clone(), options.gates);
         if is_noise(problem, &selection.after) {
             return (selection, None);
         }
-        one = Some((selection, problem.whitener.clone()));
         begin_anew(problem, &whitener, &mut terms);
     }
-    let sets = explain(problem, terms.clone());
-    let of_sets = problem.whitener.clone();
-    let sets_suffice = |problem: &Problem| {
-        let mut left = sets.iter().map(|(own, _)| &own.after);
-        left.any(|after| is_noise(problem, after))
-    };
-    if !one_first && !sets_suffice(problem) {
-        begin_anew(problem, &whitener, &mut terms);
-        let selection = select(problem, terms.clone(), options.gates);
-        let names_nothing = sets.iter().all(|(own, _)| own.found.is_empty());
-        if names_nothing || is_noise(problem, &selection.after) {
-            return (selection, None);
-        }
-    }
-    match (sets, one) {
-        (Some((selection, explanations)), _) => {
-            problem.whiten_with(of_sets);
-            (selection, Some(explanations))
-        }
-        (None, Some((selection, of_one))) => {
-            problem.whiten_with(of_one);
-            (selection, None)
-        }
-        (None, None) => (select(problem, terms, options.gates), None),
-    }
+    let (selection, explanations) = explain(problem, terms);
+    (selection, Some(explanations))
 }
 
 /// The problem and its nominal terms as they were with the sensors' noise alone.
@@ -259,35 +231,12 @@ fn scattered(problem: &Problem, selection: &Selection) -> Option<Trials> {
 }
 
 /// Takes out the names that the recording itself contradicts.
-fn withdraw(problem: &Problem, selection: &mut Selection, weighed: bool) -> Vec<Cause> {
-    let mut withdrawn = Vec::new();
-    // Curves compete with names where these are weighed; they do not veto them.
-    if problem.rules.curves && !weighed {
-        withdrawn.extend(withdraw_surrogates(problem, selection));
-    }
+fn withdraw(problem: &Problem, selection: &mut Selection) -> Vec<Cause> {
     if problem.rules.constancy {
-        withdrawn.extend(withdraw_inconstant(problem, selection));
+        withdraw_inconstant(problem, selection)
+    } else {
+        Vec::new()
     }
-    withdrawn
-}
-
-/// Takes out the names that only stand in for another law, where more than noise is left.
-fn withdraw_surrogates(problem: &Problem, selection: &mut Selection) -> Vec<Cause> {
-    if is_noise(problem, &selection.after) {
-        return Vec::new();
-    }
-    let found: Vec<Mechanism> = selection
-        .found
-        .iter()
-        .map(|f| f.term.cause.mechanism)
-        .collect();
-    let residual = &selection.after.residual;
-    let withdrawn: Vec<Cause> = surrogates(problem, residual, &found)
-        .into_iter()
-        .map(Cause::of)
-        .collect();
-    selection.withdraw(problem, &withdrawn);
-    withdrawn
 }
 
 /// Takes out the names whose number is not constant where more than noise is left, and what then explains too little. Where

@@ -1,15 +1,17 @@
 //! This file explains a recording: sets of mechanisms judged together, on data that they were not fitted to, against a model of what every model leaves open.
 
 mod beam;
+mod discrepancy;
 mod fitted;
+mod late;
 mod refine;
 mod score;
 
-use crate::candidates::all_causes;
+use crate::candidates::{all_causes, is_at_an_end};
 use crate::cause::Cause;
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, fit, free_columns, paired, reduced_target};
-use crate::rules::{EXCHANGES, LISTED, MOST_LEFT, NAMED, OFFERED, SUSPECTED};
+use crate::rules::{EXCHANGES, LATE, LISTED, NAMED, OFFERED, ROWS_A_SAMPLE, SUSPECTED};
 use crate::select::{Found, Selection, Stage, is_noise, usable_rms};
 use fitted::{Fitted, Folds};
 use rayon::prelude::*;
@@ -92,29 +94,31 @@ pub const fn status(probability: f64) -> &'static str {
     }
 }
 
-/// Explains a recording on top of the terms of its nominal model. `None` where what is left is so far above the sensors' noise that it is the
-/// model's own ignorance, of which nothing is known yet.
-pub fn explain(problem: &mut Problem, mut nominal: Vec<Term>) -> Option<(Selection, Explanations)> {
-    let weighed = round_of(problem, &nominal, problem.floor, 0);
+/// Explains a recording on top of the terms of its nominal model.
+pub fn explain(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection, Explanations) {
+    let (weighed, rows_a_sample) = round_of(problem, &nominal, problem.floor, ROWS_A_SAMPLE, 0);
     let blocks = Blocks::new(problem);
     let best = weighed.first().map_or(&[][..], |own| &own.terms);
     let terms: Vec<&Term> = nominal.iter().chain(best).collect();
     let left = usable_rms(problem, &fit(problem, &terms, &blocks).residual);
-    if left > MOST_LEFT * problem.floor {
-        return None;
-    }
     // What the best explanation leaves is noise of the next round.
     problem.rewhiten(left);
     nominal.iter_mut().for_each(|term| problem.refresh(term));
     let noise = left.max(problem.floor);
-    let living = round_of(problem, &nominal, noise, EXCHANGES);
+    let (living, _) = round_of(problem, &nominal, noise, rows_a_sample, EXCHANGES);
     let explanations = Explanations { living };
-    Some((selected(problem, nominal, &explanations), explanations))
+    (selected(problem, nominal, &explanations), explanations)
 }
 
-fn round_of(problem: &Problem, nominal: &[Term], noise: f64, exchanges: usize) -> Vec<Explanation> {
+fn round_of(
+    problem: &Problem,
+    nominal: &[Term],
+    noise: f64,
+    rows_a_sample: f64,
+    exchanges: usize,
+) -> (Vec<Explanation>, f64) {
     let folds = Folds::of(problem);
-    let judge = Judge::of(problem, noise);
+    let judge = Judge::of(problem, noise, rows_a_sample);
     let common: Vec<&Term> = nominal.iter().collect();
     let target = reduced_target(problem, &common).white;
     let free = free_columns(problem, &common).into_iter();
@@ -124,8 +128,18 @@ fn round_of(problem: &Problem, nominal: &[Term], noise: f64, exchanges: usize) -
         free.map(|rows| Arc::new(rows.clone())).collect(),
     );
     let tried = candidates(problem, nominal);
-    let all = beam::search(problem, &folds, &judge, &bare, &tried, exchanges);
-    weigh(problem, &folds, &judge, &bare, all, noise)
+    let mut all = beam::search(problem, &folds, &judge, &bare, &tried, exchanges);
+    if exchanges > 0 {
+        let leading = ranked(problem, &folds, &judge, all.clone());
+        let leading: Vec<Fitted> = leading.into_iter().map(|(_, own)| own).take(LATE).collect();
+        all.extend(late::late(problem, &folds, &judge, &bare, &leading));
+    }
+    let rows_a_sample = discrepancy::rows_a_sample(&folds, &all, &problem.windows.usable);
+    let judge = Judge::of(problem, noise, rows_a_sample);
+    (
+        weigh(problem, &folds, &judge, &bare, all, noise),
+        rows_a_sample,
+    )
 }
 
 fn weigh(
@@ -138,11 +152,9 @@ fn weigh(
 ) -> Vec<Explanation> {
     let all = all
         .into_iter()
-        .filter(|own| judge.all_matter(folds, bare, own));
-    let mut scored: Vec<(f64, Fitted)> = all
-        .map(|own| (judge.evidence(folds, &own) + prior(&own.terms), own))
-        .collect();
-    scored.sort_by(|a, b| b.0.total_cmp(&a.0));
+        .filter(|own| judge.all_matter(folds, bare, own))
+        .filter(|own| !own.terms.iter().any(|term| is_at_an_end(problem, term)));
+    let scored = ranked(problem, folds, judge, all.collect());
     let most = scored.first().map_or(0.0, |(score, _)| *score);
     let sum: f64 = scored
         .iter()
@@ -154,6 +166,14 @@ fn weigh(
         terms: own.terms,
     });
     listed.filter(|own| own.weight >= LISTED).collect()
+}
+
+/// Explanations with the logarithm of their weight, the most probable first.
+fn ranked(problem: &Problem, folds: &Folds, judge: &Judge, all: Vec<Fitted>) -> Vec<(f64, Fitted)> {
+    let score = |own: &Fitted| judge.evidence(folds, own) + prior(problem, &own.terms);
+    let mut scored: Vec<(f64, Fitted)> = all.into_iter().map(|own| (score(&own), own)).collect();
+    scored.sort_by(|a, b| b.0.total_cmp(&a.0));
+    scored
 }
 
 /// Every mechanism in every shape that is tried.

@@ -67,6 +67,7 @@ mod candidates;
 pub mod cause;
 mod diagnose;
 mod doubt;
+mod effect;
 mod evidence;
 mod explain;
 mod filter;

@@ -19,7 +19,7 @@ use rigproof_model::effects::{Form, Instant, entry, law};
 use rigproof_spec::effect::{Mechanism, Motion};
 
 pub use crate::align::Fault;
-pub use crate::problem::NominalEffect;
+pub use crate::effect::Effect;
 pub use crate::signals::{numerov, second_difference};
 pub use described::{At, Described, Plant, Replica, Shown};
 pub use replayed::{Frame, RESTART_S, Replayed};
@@ -272,6 +272,12 @@ pub trait Run: Debug + Send + Sync {
     fn linear(&self, mechanism: Mechanism, coefficients: &[f64]) -> Vec<f64> {
         let _ = mechanism;
         coefficients.to_vec()
+    }
+
+    /// The coefficients of the columns, from linear parameters in the vocabulary's meaning: what [`Run::linear`] takes them back from.
+    fn coefficients(&self, mechanism: Mechanism, parameters: &[f64]) -> Vec<f64> {
+        let _ = mechanism;
+        parameters.to_vec()
     }
 
     /// The cause that no recording of this plant can tell from another.

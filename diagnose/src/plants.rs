@@ -1,6 +1,7 @@
 //! This room is the plants: a folder each, which knows its recordings, its equations and its noise.
 
 pub mod five_bar;
+mod joined;
 pub mod joint;
 mod registry;
 

@@ -4,6 +4,7 @@
 mod within;
 
 use crate::cause::Cause;
+use crate::effect::Effect;
 use crate::filter::rms;
 use crate::plant::{Columns, Rules, Run};
 use crate::scatter::Trials;
@@ -40,19 +41,6 @@ pub struct Term {
     pub fixed: Option<Arc<Rows>>,
     /// Given values of the linear parameters, where the nominal model states them as known.
     pub known: Option<Vec<f64>>,
-}
-
-/// What the nominal model says about one cause.
-#[derive(Clone, Debug)]
-pub struct NominalEffect {
-    /// The mechanism, and where it acts.
-    pub cause: Cause,
-    /// Its parameters in the vocabulary's order, SI.
-    pub parameters: Vec<f64>,
-    /// Whether its linear parameters are to be estimated.
-    pub unknown: bool,
-    /// When it begins, s.
-    pub onset_s: Option<f64>,
 }
 
 /// The regression problem of one recording.
@@ -262,7 +250,7 @@ impl<'a> Problem<'a> {
     }
 
     /// A term of the nominal model: its columns where unknown, else its value as a fixed column. What moves the plant has its slope over its value.
-    pub fn nominal_term(&self, effect: &NominalEffect) -> Option<Term> {
+    pub fn nominal_term(&self, effect: &Effect) -> Option<Term> {
         let linear = entry(effect.cause.mechanism)?.linear;
         let first = if self.run.moves(effect.cause) {
             0
@@ -272,7 +260,8 @@ impl<'a> Problem<'a> {
         let shape = effect.parameters.get(first..).unwrap_or_default();
         let mut term = self.term(effect.cause, shape, effect.onset_s)?;
         if !effect.unknown {
-            term.known = Some(effect.parameters.iter().take(linear).copied().collect());
+            let given = effect.parameters.get(..linear)?;
+            term.known = Some(self.run.coefficients(effect.mechanism(), given));
         }
         Some(term)
     }

@@ -1,10 +1,12 @@
 //! This file is the report: what a diagnosis says, in the fields that `report.json` has.
 
+mod agreement;
 mod read_as;
 
 use serde::Serialize;
 use std::collections::BTreeMap;
 
+pub use agreement::Agreement;
 pub use read_as::ReadAs;
 
 /// Version of the report's shape.
@@ -439,6 +441,8 @@ pub struct FitReport {
     pub recovered_share: f64,
     /// Whether the held-out part improved.
     pub improved: bool,
+    /// Whether the held-out part agrees with the windows.
+    pub agreement: Option<Agreement>,
     /// A slow drift that the free run needed and the windows could not see.
     pub drift: Option<String>,
 }

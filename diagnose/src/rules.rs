@@ -56,7 +56,6 @@ const FIVE_BAR: &str = "five-bar, blind seeds below 10 000 (decision 0110)";
 const BOTH: &str = "axis and bench, blind seeds 1000 to 1999 (decision 0011); kept for the five-bar, seeds below 10 000 (decision 0110)";
 const DRIVEN: &str = "axis, fourteen recordings of one joint by an independent simulation and sixty by another (development); reported on others";
 const LINKAGE: &str = "five-bar, sixteen recordings by an independent simulation (development)";
-const REAL: &str = "thirty simulated recordings (24 at most) and ten real ones (31 at least)";
 const REASON: &str = "by its reason; no recordings on record";
 const IDENTIFY: &str = "by its reason; looked at on simulated brakes (decision 0053)";
 

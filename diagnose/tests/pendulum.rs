@@ -3,7 +3,7 @@
 use rigproof_diagnose::cause::{Cause, Place};
 use rigproof_diagnose::plant::{Columns, Fault, Plant, Run, numerov, second_difference};
 use rigproof_diagnose::{Options, diagnose};
-use rigproof_model::axis::Axis;
+use rigproof_model::axis::{Axis, Transmission};
 use rigproof_model::effects::{Instant, Law, law};
 use rigproof_spec::effect::Mechanism::{self, *};
 
@@ -100,6 +100,7 @@ fn swung(dry_nm: f64) -> Swing {
             Box::new(Weight),
             law(Mechanism::DryOffset, &[dry_nm]).unwrap(),
         ],
+        transmission: Transmission::default(),
     };
     let torque = |t: f64| {
         0.61 * libm::sin(2.3 * t) + 0.43 * libm::sin(7.1 * t + 0.4) + 0.17 * libm::cos(12.7 * t)

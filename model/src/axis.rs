@@ -12,6 +12,36 @@ pub struct Axis {
     pub inertia: f64,
     /// The resistance laws that act together.
     pub laws: Vec<Box<dyn Law>>,
+    /// What the joint does with the effort that it transmits.
+    pub transmission: Transmission,
+}
+
+/// What a joint does with the effort that it transmits: friction by it, and parts of the inertia behind a spring.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Transmission {
+    /// Dry friction as a share of the driving effort.
+    pub friction_share: f64,
+    /// Parts that hang on the joint by a damped spring.
+    pub trailing: Option<Trailing>,
+}
+
+/// A part of the inertia that follows the joint as a resonator does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Trailing {
+    /// Its share of the inertia, below 1.
+    pub share: f64,
+    /// Its resonance with the joint held, rad/s.
+    pub resonance_rad_s: f64,
+    /// Its damping ratio.
+    pub damping: f64,
+}
+
+impl Trailing {
+    /// What spring and damper give it, m/s² or rad/s², at a displacement from the joint and its rate.
+    fn pull(&self, [displacement, rate]: [f64; 2]) -> f64 {
+        let resonance = self.resonance_rad_s;
+        -resonance * (2.0 * self.damping * rate + resonance * displacement)
+    }
 }
 
 /// The most laws that can act together.
@@ -28,21 +58,30 @@ pub struct State {
     pub speed: f64,
     /// The memory of each law, in the order of `Axis::laws`.
     pub memory: [f64; MOST_LAWS],
+    /// Displacement of the trailing parts from the joint, m or rad, and its rate.
+    pub trailing: [f64; 2],
 }
 
 /// Stops that one step may contain before the rest of the step is taken as stuck.
 const STOPS_A_STEP: usize = 4;
+/// Longest step in which trailing parts swing while the joint stands, rad of their oscillation.
+const RING_RAD: f64 = 0.05;
 /// Halvings used to locate a stop inside a step: to one part in 2^20 of the step.
 const STOP_HALVINGS: usize = 20;
 
 impl Axis {
-    /// The state at this position and speed with every law's memory empty.
+    /// The state at this position and speed with every law's memory as before any motion.
     pub fn state(&self, time_s: f64, position: f64, speed: f64) -> State {
+        let mut memory = [0.0; MOST_LAWS];
+        for (memory, law) in memory.iter_mut().zip(&self.laws) {
+            *memory = law.starts_with();
+        }
         State {
             time_s,
             position,
             speed,
-            memory: [0.0; MOST_LAWS],
+            memory,
+            trailing: [0.0; 2],
         }
     }
 
@@ -72,6 +111,31 @@ impl Axis {
             *state = next;
         }
         state.time_s += step_s - done_s;
+        self.ring(state, step_s - done_s);
+    }
+
+    /// Lets the trailing parts swing while the joint stands.
+    fn ring(&self, state: &mut State, left_s: f64) {
+        let Some(trailing) = self.transmission.trailing else {
+            return;
+        };
+        let steps = (left_s * trailing.resonance_rad_s / RING_RAD)
+            .ceil()
+            .max(1.0);
+        let step_s = left_s / steps;
+        let [displacement, rate] = &mut state.trailing;
+        for _ in 0..steps as usize {
+            *rate += step_s * trailing.pull([*displacement, *rate]);
+            *displacement += step_s * *rate;
+        }
+    }
+
+    /// What the trailing parts' spring and damper hold against the joint.
+    fn held_back(&self, state: &State) -> f64 {
+        let trailing = self.transmission.trailing;
+        trailing.map_or(0.0, |own| {
+            self.inertia * own.share * own.pull(state.trailing)
+        })
     }
 
     /// The sense in which the joint moves next: that of its speed, or at rest that of an effort which breaks it
@@ -83,8 +147,8 @@ impl Axis {
         for applied in [effort, effort_end] {
             for sense in [1.0, -1.0] {
                 let now = instant(state, sense);
-                let net = applied - self.smooth(&now, &state.memory);
-                if net * sense > self.dry(&now) {
+                let net = applied - self.smooth(&now, &state.memory) - self.held_back(state);
+                if net * sense > self.dry(&now, applied) {
                     return sense;
                 }
             }
@@ -136,17 +200,26 @@ impl Axis {
     /// The time derivative of the state, in the state's own fields.
     fn rate(&self, at: &State, sense: f64, effort: f64, memories: usize) -> State {
         let now = instant(at, sense);
-        let resistance = self.smooth(&now, &at.memory) + self.dry(&now) * sense;
+        let resistance = self.smooth(&now, &at.memory) + self.dry(&now, effort) * sense;
         let mut memory = [0.0; MOST_LAWS];
         let moving = memory.iter_mut().zip(&self.laws).zip(&at.memory);
         for ((rate, law), &memory) in moving.take(memories) {
             *rate = law.memory_rate(&now, memory);
         }
+        let net = effort - resistance - self.held_back(at);
+        let mut acceleration = net / self.inertia;
+        let mut trailing = [0.0; 2];
+        if let Some(own) = self.transmission.trailing {
+            acceleration /= 1.0 - own.share;
+            let [_, rate] = at.trailing;
+            trailing = [rate, own.pull(at.trailing) - acceleration];
+        }
         State {
             time_s: 1.0,
             position: at.speed,
-            speed: (effort - resistance) / self.inertia,
+            speed: acceleration,
             memory,
+            trailing,
         }
     }
 
@@ -155,13 +228,10 @@ impl Axis {
         each.map(|(law, &memory)| law.smooth(now, memory)).sum()
     }
 
-    /// The dry level in this sense; a negative sum (only possible with odd parameters) holds nothing.
-    fn dry(&self, now: &Instant) -> f64 {
-        self.laws
-            .iter()
-            .map(|law| law.dry(now))
-            .sum::<f64>()
-            .max(0.0)
+    /// The dry level in this sense under a driving effort; a negative sum (only possible with odd parameters) holds nothing.
+    fn dry(&self, now: &Instant, effort: f64) -> f64 {
+        let of_laws = self.laws.iter().map(|law| law.dry(now)).sum::<f64>();
+        (of_laws + self.transmission.friction_share * effort.abs()).max(0.0)
     }
 }
 
@@ -184,6 +254,9 @@ impl State {
         for (memory, rate) in moving.take(memories) {
             *memory += step_s * rate;
         }
+        for (own, rate) in self.trailing.iter_mut().zip(rate.trailing) {
+            *own += step_s * rate;
+        }
     }
 
     /// Becomes the state that lies `step_s` along `rate` from another.
@@ -194,6 +267,10 @@ impl State {
         let moving = self.memory.iter_mut().zip(&from.memory).zip(&rate.memory);
         for ((memory, from), rate) in moving.take(memories) {
             *memory = from + step_s * rate;
+        }
+        let trailing = from.trailing.iter().zip(rate.trailing);
+        for (own, (from, rate)) in self.trailing.iter_mut().zip(trailing) {
+            *own = from + step_s * rate;
         }
     }
 }
@@ -211,6 +288,7 @@ mod tests {
                 .iter()
                 .map(|(mechanism, values)| law(*mechanism, values).unwrap())
                 .collect(),
+            transmission: Transmission::default(),
         }
     }
 
@@ -246,6 +324,43 @@ mod tests {
             axis.step(&mut state, effort, effort, 1e-3);
             assert_eq!(state.speed != 0.0, moves, "effort {effort}");
         }
+    }
+
+    #[test]
+    fn friction_by_the_effort_lets_a_worm_drive_push_itself_only_so_far() {
+        let mut axis = axis(&[(Mechanism::Viscous, &[0.7])]);
+        axis.transmission.friction_share = 0.37;
+        let mut state = axis.state(0.0, 0.0, 0.0);
+        for _ in 0..40_000 {
+            axis.step(&mut state, 1.9, 1.9, 1e-3);
+        }
+        // In steady motion the drag takes what friction leaves of the drive.
+        assert!((state.speed - 1.9 * (1.0 - 0.37) / 0.7).abs() < 1e-6);
+        axis.step(&mut state, 0.0, 0.0, 1e-9);
+        let slowing = axis.rate(&state, 1.0, 0.0, 0).speed;
+        assert!((slowing + 0.7 * state.speed / 1.3).abs() < 1e-9);
+    }
+
+    #[test]
+    fn parts_behind_a_spring_move_momentum_and_never_make_it() {
+        let mut axis = axis(&[]);
+        let trailing = Trailing {
+            share: 0.31,
+            resonance_rad_s: 47.0,
+            damping: 0.08,
+        };
+        axis.transmission.trailing = Some(trailing);
+        let mut state = axis.state(0.0, 0.0, 0.0);
+        for _ in 0..3000 {
+            axis.step(&mut state, 0.9, 0.9, 1e-3);
+        }
+        let [_, rate] = state.trailing;
+        let momentum = 1.3 * state.speed + 1.3 * 0.31 * rate;
+        assert!((momentum - 0.9 * 3.0).abs() < 1e-9, "{momentum}");
+        // In the end everything accelerates together, the spring stretched by what its part weighs.
+        let acceleration = 0.9 / 1.3;
+        let stretched = -acceleration / (47.0 * 47.0);
+        assert!((state.trailing[0] - stretched).abs() < 1e-5 * stretched.abs());
     }
 
     #[test]

@@ -10,6 +10,7 @@ fn at(joint: Joint, mechanism: Mechanism, parameters: &[f64]) -> JointEffect {
     JointEffect {
         mechanism,
         joint: Some(joint),
+        of_torque: false,
         parameters: parameters.to_vec(),
         onset_s: None,
     }

@@ -34,6 +34,8 @@ pub fn before_after(report: &Report) -> Vec<String> {
             "  the held-out part did not improve: do not use this calibration".to_owned()
         });
     }
+    let disagrees = fit.agreement.as_ref().and_then(|own| own.said(unit));
+    lines.extend(disagrees.map(|said| format!("  {said}")));
     lines.extend(fit.drift.iter().map(|drift| format!("  {drift}")));
     section(
         "Before and after (nominal model fitted → with what is named)",

@@ -7,7 +7,8 @@ use crate::evidence::{Intervals, coefficients_by_term};
 use crate::filter::rms;
 use crate::plant::{Plant, Run, Shown};
 use crate::problem::{Problem, Term, add};
-use crate::report::{BeforeAfter, FitReport};
+use crate::report::{Agreement, BeforeAfter, FitReport};
+use crate::rules::HELD_OUT_TIMES;
 use crate::select::{Selection, refs};
 use rigproof_spec::effect::Quantity;
 
@@ -106,8 +107,18 @@ impl<P: Plant> Stand<'_, P> {
             recovered_share: (held_out.before - held_out.after)
                 / (held_out.before - least).max(1e-300),
             improved: held_out.after < held_out.before,
+            agreement: Some(self.balance_agreement(test)),
             drift: None,
         }
+    }
+
+    /// Whether the held-out windows leave no more than the fitted ones do, both over what noise predicts.
+    fn balance_agreement(&self, test: &Balanced) -> Agreement {
+        let allowed = HELD_OUT_TIMES * test.floor * self.floor().ratio_after.max(1.0);
+        let pairs = test.recorded.iter().zip(&test.after).zip(&test.usable);
+        let counted = pairs.zip(&test.times_s).filter(|((_, usable), _)| **usable);
+        let errors = counted.map(|(((recorded, after), _), time_s)| (recorded - after, *time_s));
+        Agreement::of(&errors.collect::<Vec<_>>(), allowed)
     }
 
     fn effort_unit(&self) -> String {

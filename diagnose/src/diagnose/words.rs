@@ -54,22 +54,26 @@ pub(crate) fn summary(
         }
         _ => String::new(),
     };
+    let disagrees = fit.and_then(|fit| fit.agreement.as_ref()?.said(&fit.unit));
+    let disagrees = disagrees.map_or(String::new(), |said| format!("; but {said}"));
     let or = match rivals.iter().any(|own| !own.is_empty()) {
         true => ", or what is listed as ambiguous with it",
         false => "",
     };
     match verdict {
         Verdict::Consistent => {
-            "the nominal model explains the recording down to its sensor noise".to_owned()
+            format!("the nominal model explains the recording down to its sensor noise{disagrees}")
         }
         Verdict::Explained => {
-            format!("the model left out {named}; with it nothing but sensor noise stays{shown}")
+            format!(
+                "the model left out {named}; with it nothing but sensor noise stays{shown}{disagrees}"
+            )
         }
         Verdict::PartlyExplained => {
             format!("the model left out {named}{or}; something beyond sensor noise stays{shown}")
         }
         Verdict::Ambiguous => {
-            format!("the model left out {named}{or}{shown}")
+            format!("the model left out {named}{or}{shown}{disagrees}")
         }
         Verdict::NoneOfLibrary => {
             "the model left out something that is not in the library; `located` says where"

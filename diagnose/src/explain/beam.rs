@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 /// A set of causes, told apart by name.
 type Names = Vec<String>;
 
-/// Every explanation that was worth weighing, the best of each set of causes, refined where it stood near the top.
+/// Every explanation that was worth weighing, the best of each set of causes, refined where it stood near the top, the one that predicts best first.
 pub fn search(
     problem: &Problem,
     folds: &Folds,
@@ -54,7 +54,7 @@ pub fn search(
             }
         }
     }
-    kept.into_values().collect()
+    by_evidence(folds, judge, kept.into_values().collect())
 }
 
 /// The leading explanations with one term exchanged or taken out, the best of each set of causes, those near the top refined.

@@ -38,6 +38,11 @@ impl Folds {
         self.counts.iter().sum()
     }
 
+    /// Usable rows of a block, on average.
+    pub fn mean_rows(&self) -> f64 {
+        self.rows() / self.counts.len().max(1) as f64
+    }
+
     fn dots(&self, a: &[f64], b: &[f64]) -> Vec<f64> {
         let ranges = self.ranges.iter();
         ranges
@@ -136,6 +141,15 @@ impl Fitted {
             first
         };
         self.terms.iter().map(&mut own).collect()
+    }
+
+    /// What it leaves of each row when fitted to all of them.
+    pub fn residual(&self) -> Vec<f64> {
+        let mut left = self.target.clone();
+        for (column, times) in self.columns.iter().zip(&self.coefficients) {
+            add(&mut left, &column.white, -times);
+        }
+        left
     }
 
     /// The sum of what it leaves of the blocks.

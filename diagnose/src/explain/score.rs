@@ -1,8 +1,9 @@
 //! This file says how probable an explanation is beside others: by what it leaves of data that it was not fitted to, and by how plain it is.
 
 use super::fitted::{Fitted, Folds};
+use crate::candidates::{is_end, shape_bounds};
 use crate::problem::{Problem, Term};
-use crate::rules::{A_NUMBER, RELEVANT_NOISE, ROWS_A_SAMPLE, USUAL_ODDS};
+use crate::rules::{A_NUMBER, RELEVANT_NOISE, USUAL_ODDS};
 use rigproof_model::effects::facts::Usual;
 use rigproof_model::effects::{entry, facts};
 use rigproof_spec::effect::Mechanism;
@@ -11,14 +12,17 @@ use rigproof_spec::effect::Mechanism;
 pub struct Judge {
     /// The discrepancy that every explanation is granted, as a variance of a white row.
     granted: f64,
+    /// Rows that say as much as one that is independent of all others.
+    rows_a_sample: f64,
 }
 
 impl Judge {
     /// Grants a share of the effort; `noise` is the standard deviation of a row before whitening.
-    pub fn of(problem: &Problem, noise: f64) -> Judge {
+    pub fn of(problem: &Problem, noise: f64, rows_a_sample: f64) -> Judge {
         let granted = problem.rules.relevant * problem.effort_size / noise.max(1e-300);
         Judge {
             granted: granted * granted + RELEVANT_NOISE * RELEVANT_NOISE,
+            rows_a_sample,
         }
     }
 
@@ -28,7 +32,7 @@ impl Judge {
         let blocks = folds.counts.iter().zip(&fitted.losses);
         let each = blocks.map(|(rows, loss)| {
             let left = loss / rows / share + self.granted;
-            -0.5 * rows / ROWS_A_SAMPLE * libm::log(left)
+            -0.5 * rows / self.rows_a_sample * libm::log(left)
         });
         each.sum()
     }
@@ -45,15 +49,28 @@ impl Judge {
 }
 
 /// The logarithm of the odds of a set of terms before any data.
-pub fn prior(terms: &[Term]) -> f64 {
-    terms.iter().map(odds).sum()
+pub fn prior(problem: &Problem, terms: &[Term]) -> f64 {
+    terms.iter().map(|term| odds(problem, term)).sum()
 }
 
-fn odds(term: &Term) -> f64 {
-    let numbers = term.free.len().max(1) + term.shape.len() + usize::from(term.onset_s.is_some());
+fn odds(problem: &Problem, term: &Term) -> f64 {
+    let numbers =
+        term.free.len().max(1) + searched(problem, term) + usize::from(term.onset_s.is_some());
     // The first number of a shape takes the place of a coefficient that is not there.
     let numbers = numbers - usize::from(term.free.is_empty() && !term.shape.is_empty());
-    usual(term.cause.mechanism) - A_NUMBER * (numbers - 1) as f64
+    usual(term.cause.mechanism) - A_NUMBER * numbers.saturating_sub(1) as f64
+}
+
+/// The parameters of a shape that were looked for: one whose range is a point is given, and one beyond the first that came to an end of its range is the
+/// plainer law's.
+fn searched(problem: &Problem, term: &Term) -> usize {
+    let bounds = shape_bounds(problem, term.cause);
+    let own = term.shape.iter().zip(&bounds).enumerate();
+    own.filter(|(k, (value, bounds))| match k {
+        0 => bounds.0 < bounds.1,
+        _ => !is_end(**value, **bounds),
+    })
+    .count()
 }
 
 /// How common a mechanism is among those that models leave out.

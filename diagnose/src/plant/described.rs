@@ -5,8 +5,9 @@ use crate::align::Fault;
 use crate::diagnose::numbers::fitted;
 use crate::diagnose::write::Stand;
 use crate::diagnose::{Curves, balance};
+use crate::effect::Effect;
 use crate::evidence::{Intervals, Rivals};
-use crate::problem::{NominalEffect, Problem};
+use crate::problem::Problem;
 use crate::report::{FitReport, HeldReport, Horizon, InverseReport, NextExperiment, Number};
 use crate::select::Selection;
 use core::fmt::Debug;
@@ -86,7 +87,7 @@ pub trait Plant: Clone + Debug + Send + Sync + Sized {
     }
 
     /// What the nominal model has beside what the run knows.
-    fn nominal(&self) -> Vec<NominalEffect> {
+    fn nominal(&self) -> Vec<Effect> {
         Vec::new()
     }
 
@@ -109,7 +110,7 @@ pub trait Plant: Clone + Debug + Send + Sync + Sized {
     }
 
     /// Why an effect of the description has no meaning here; `None` where it is passed over.
-    fn meaningless(&self, problem: &Problem, effect: &NominalEffect) -> Option<Fault> {
+    fn meaningless(&self, problem: &Problem, effect: &Effect) -> Option<Fault> {
         Some(Fault {
             channel: "effect",
             from_s: 0.0,

@@ -16,6 +16,8 @@ mod mapping;
 #[cfg(test)]
 mod mechanisms;
 pub mod noise;
+#[cfg(test)]
+mod own_calibration;
 mod plant;
 mod protocol;
 #[cfg(test)]

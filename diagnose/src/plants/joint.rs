@@ -1,14 +1,22 @@
 //! This room is a plant of one joint: an axis that is driven, or a bench at which a brake or damper is turned.
 
+mod agreement;
 pub mod align;
 pub mod columns;
+mod drive;
+mod encoder;
 mod fitted;
 pub mod free_run;
 pub mod from_rig;
 pub mod inertia;
 pub mod inverse;
 mod joined;
+mod laws;
+#[cfg(test)]
+mod metamorphic;
 mod mistaken;
+#[cfg(test)]
+mod own_calibration;
 mod plant;
 #[cfg(test)]
 pub(crate) mod recorded;
@@ -17,7 +25,9 @@ pub(crate) mod replica;
 pub mod run;
 mod shapes;
 pub mod simulate;
+mod start;
 #[cfg(test)]
 mod tests;
+mod undone;
 mod words;
 pub(crate) mod write_rig;

@@ -17,7 +17,7 @@ fn relative_residual(run: &JointRun) -> f64 {
     let terms: Vec<Term> = laws
         .iter()
         .filter_map(|(mechanism, parameters)| {
-            problem.nominal_term(&NominalEffect {
+            problem.nominal_term(&Effect {
                 cause: Cause::of(*mechanism),
                 parameters: parameters.to_vec(),
                 unknown: false,

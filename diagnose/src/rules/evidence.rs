@@ -33,8 +33,6 @@ rules! {
     ROWS_A_NUMBER: usize = 3, "rows", REASON;
     /// Standard deviations of its noise by which a reaction must be beyond what holds the joint before something is said to be missing: several thousand windows are looked at.
     BEYOND_SIGMAS: f64 = 5.0, "deviations", "five-bar, 28 recordings of seeds 7201 to 7261 (decision 0156)";
-    /// Share of the remaining loss that a free curve must take away before the named laws that it concerns count as surrogates of another law.
-    SURROGATE_SHARE: f64 = 0.3, "share", AXIS_BENCH;
     /// Share of the remaining loss that a curve must take away on left-out blocks to be drawn.
     CURVE_SHARE: f64 = 0.02, "share", AXIS_BENCH;
     /// Knots of a curve.
@@ -61,4 +59,8 @@ rules! {
     LOCATE_BLOCKS: usize = 20, "blocks", REASON;
     /// Current above which a brake counts as on, in that table.
     ON_A: f64 = 0.05, "A", REASON;
+    /// Axis and bench: a held-out free run agrees with the windows where its error is within so many deviations of what noise, the windows and the intervals of the numbers predict.
+    AGREES_WITHIN: f64 = 3.0, "deviations", REASON;
+    /// Held-out windows agree with the fitted ones where they leave at most so many times the noise, times what the fitted ones leave over it: intervals of the numbers are in it.
+    HELD_OUT_TIMES: f64 = 2.0, "times", REASON;
 }

@@ -1,6 +1,6 @@
 //! This file is the rules by which sets of mechanisms are weighed against one another as explanations of a recording.
 
-use super::{DRIVEN, LINKAGE, REAL, REASON};
+use super::{DRIVEN, LINKAGE, REASON};
 
 rules! {
     /// Axis and bench: share of the effort below which nothing matters to anybody: what a model and its discretisation leave open anyhow.
@@ -9,14 +9,14 @@ rules! {
     RELEVANT_FIVE_BAR: f64 = 0.001, "share", LINKAGE;
     /// The same as a share of what sensor noise leaves: below it nothing can be told from what the noise model lacks.
     RELEVANT_NOISE: f64 = 0.7, "share", DRIVEN;
-    /// Rows that say as much as one that is independent of all others: what a model leaves is no white noise.
+    /// The least autocorrelation of what is left that counts.
+    LEAST_CORRELATION: f64 = 0.05, "1", REASON;
+    /// Rows that say as much as one that is independent of all others, times the integrated autocorrelation of what the best explanation leaves: that is an estimate itself.
     ROWS_A_SAMPLE: f64 = 2.5, "rows", DRIVEN;
     /// What each number beyond the first costs an explanation, in natural logarithms of odds.
     A_NUMBER: f64 = 2.4, "ln odds", DRIVEN;
     /// How common a mechanism is among those that models leave out, from the plainest to the most seldom, in natural logarithms of odds: which it is stands with the mechanism.
     USUAL_ODDS: [f64; 6] = [-3.2, -4.0, -4.8, -5.6, -6.4, -8.0], "ln odds", DRIVEN;
-    /// What the best explanation may leave, in standard deviations of the sensors' noise, for explanations to be weighed: beyond it what is left is the model's own ignorance, whose size and correlation are not estimated yet, and one mechanism at a time is judged.
-    MOST_LEFT: f64 = 25.0, "deviations", REAL;
     /// The least weight of an explanation that is listed.
     LISTED: f64 = 1e-4, "share", DRIVEN;
     /// The probability from which on something is named.
@@ -29,6 +29,8 @@ rules! {
     MOST_LISTED: usize = 8, "explanations", REASON;
     /// Rounds in which each term of the leading explanations is exchanged for every other.
     EXCHANGES: usize = 2, "rounds", DRIVEN;
+    /// Explanations of which each term is tried from an onset on.
+    LATE: usize = 2, "explanations", REASON;
     /// The most terms of one explanation.
     MOST_TERMS: usize = 3, "terms", DRIVEN;
     /// Explanations of each size that are gone on from.

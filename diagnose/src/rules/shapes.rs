@@ -84,7 +84,7 @@ rules! {
     /// Five-bar: limits that are tried.
     LIMITS: usize = 8, "currents", FIVE_BAR;
     /// Axis: the lowest and the highest limit of a drive's effort, over the greatest that was asked for: a loop that winds up asks for many times what it gets.
-    EFFORT_LIMIT_SHARES: [f64; 2] = [0.05, 0.97], "share", DRIVEN;
+    EFFORT_LIMIT_SHARES: [f64; 2] = [0.02, 0.97], "share", DRIVEN;
     /// Most periods in one turn that are tried whatever the spectrum says: what repeats with a turn has whole numbers.
     MOST_A_TURN: u32 = 36, "periods", DRIVEN;
     /// Axis and bench: exponents of the curve on which a bristle bends.

@@ -163,7 +163,7 @@ mod tests {
         let run = short_run();
         let mut problem = five_bar::recorded::problem(&run);
         let cause = five_bar::run::at(Mechanism::DryOffset, Joint::A);
-        let onset_s = run.start_s + 0.7 * run.duration_s();
+        let onset_s = run.start_s + 0.7 * run.clock().duration_s();
         let term = problem.term(cause, &[], Some(onset_s)).unwrap();
         let mut kept = |level: f64| {
             let mut raw = noise_rows(&problem, 53);

@@ -3,7 +3,7 @@
 use rigproof_spec::joint::Joint;
 use rigproof_spec::tables::{BrakeTable, Edge, brake_table};
 
-use super::time_constant::{SpeedBand, time_constant_within};
+use super::time_constant::{SpeedBand, slowed, time_constant_within};
 use super::{Backlash, ENTRY_TRAVEL_DEG, fitted_torque_gain, table_time_constant};
 
 /// Excess of the yield torque over its target below which a fall counts as finished, N·m: half the last digit
@@ -89,6 +89,19 @@ impl Brake {
     pub fn with_backlash_entry(self, theta_rad: f64, entry_deg: f64) -> Brake {
         Brake {
             backlash: Backlash::of_width(self.table.backlash_width_deg, entry_deg, theta_rad),
+            ..self
+        }
+    }
+
+    /// The table that it goes by.
+    pub const fn table(&self) -> BrakeTable {
+        self.table
+    }
+
+    /// The same brake with every time constant times so much, in the state that it is in.
+    pub fn slowed(self, times: f64) -> Brake {
+        Brake {
+            table: slowed(self.table, times),
             ..self
         }
     }

@@ -142,6 +142,25 @@ fn low_speed(fit: &TimeConstantFit, current_a: f64, omega_rpm: f64) -> f64 {
         + fit.a_6
 }
 
+/// A brake's table with every time constant times so much.
+pub fn slowed(table: BrakeTable, times: f64) -> BrakeTable {
+    let scaled = |fit: TimeConstantFit| TimeConstantFit {
+        a_avg_s: times * fit.a_avg_s,
+        a_1: times * fit.a_1,
+        a_2: times * fit.a_2,
+        a_3: times * fit.a_3,
+        a_4: times * fit.a_4,
+        a_5: times * fit.a_5,
+        a_6: times * fit.a_6,
+        ..fit
+    };
+    BrakeTable {
+        rising: scaled(table.rising),
+        falling: scaled(table.falling),
+        ..table
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -106,7 +106,7 @@ pub(super) const ENCODER_SCALE: Entry = Entry {
     refuted_by: "a full turn that the encoder counts as a full turn",
     equation: "recorded angle = (1 + fraction)·angle",
     facts: Facts {
-        usual: Usual::Exceptional,
+        usual: Usual::Seldom,
         shapes: Shapes::Values(&[0.005, -0.005, 0.04, -0.04]),
         limit: Some(Limit {
             of: Mechanism::EncoderOffset,

@@ -23,7 +23,7 @@ pub(super) const ENTRY: Entry = Entry {
     facts: Facts {
         in_sets: true,
         usual: Usual::Seldom,
-        shapes: Shapes::Values(&[0.5, 2.0]),
+        shapes: Shapes::Values(&[0.25, 0.5, 2.0, 3.0]),
         shows: Shows::SpeedAndLevels,
         ..Facts::of(
             Family::FrictionOfMotion,

@@ -12,7 +12,7 @@ use crate::effects::{CurrentPlay, Drive, Form, OfBrake, OfLinkage, facts, form};
 use crate::error::ModelError;
 use crate::motion::two_coordinate::two_coordinate;
 use crate::motion::{added_mass, check_inertia};
-use rigproof_spec::tables::brake_table;
+use rigproof_spec::tables::BrakeTable;
 use rigproof_spec::units::deg_from_rad;
 
 /// Physics that a rig has beyond the thesis's: a mechanism of the library with its numbers, where it acts and from when on.
@@ -22,6 +22,8 @@ pub struct JointEffect {
     pub mechanism: Mechanism,
     /// The joint; `None` for what belongs to the whole linkage.
     pub joint: Option<Joint>,
+    /// Whether a resistance is a share of the torque of its joint's brake, not an effort.
+    pub of_torque: bool,
     /// Its parameters in the vocabulary's order, SI.
     pub parameters: Vec<f64>,
     /// When it begins, s of the rig's clock; `None` from the start.
@@ -110,6 +112,17 @@ fn term(rig: &Rig, effect: &JointEffect) -> Result<Term, ModelError> {
         Some(_) => Err(refused("it is of the whole linkage: give it no joint")),
     };
     let unknown = || refused("it is nothing that a rig does");
+    if effect.of_torque {
+        return match form(effect.mechanism).ok_or_else(unknown)? {
+            Form::Resistance(law) | Form::ShareOfBrake(law) => Ok(Term::Share {
+                place: braked()? as usize,
+                law: law(&effect.parameters),
+            }),
+            _ => Err(refused(
+                "it is no resistance that could be a share of a torque",
+            )),
+        };
+    }
     match form(effect.mechanism).ok_or_else(unknown)? {
         Form::Drive(Drive::Gain | Drive::Lag)
         | Form::ShareOfBrake(_)
@@ -123,6 +136,11 @@ fn term(rig: &Rig, effect: &JointEffect) -> Result<Term, ModelError> {
             &rig.parameters.inertia,
             [value(0), value(1), value(2), value(3), value(4)],
         ))),
+        Form::Linkage(OfLinkage::PlaneSpring) => whole(Term::Anchor {
+            stiffness_n_m: value(0),
+            tension_n: value(1),
+            anchor_m: [value(2), value(3)],
+        }),
         Form::Resistance(law) => Ok(Term::Law {
             place: joint()? as usize,
             law: law(&effect.parameters),
@@ -130,7 +148,7 @@ fn term(rig: &Rig, effect: &JointEffect) -> Result<Term, ModelError> {
         Form::Drive(Drive::Skew | Drive::Limit)
         | Form::Sensor(_)
         | Form::Joint(_)
-        | Form::Linkage(OfLinkage::PlaneSpring | OfLinkage::LinkLength) => Err(unknown()),
+        | Form::Linkage(OfLinkage::LinkLength) => Err(unknown()),
     }
 }
 
@@ -168,6 +186,14 @@ fn of_brake(effect: &JointEffect, joint: Joint) -> Option<Term> {
             place,
             most_a: value(0),
         },
+        Form::Brake(OfBrake::CurrentGain) => Term::Amplifier {
+            place,
+            times: value(0),
+        },
+        Form::Brake(OfBrake::TimeConstant) => Term::Slower {
+            place,
+            times: value(0),
+        },
         Form::Drive(Drive::Lag) => Term::Lag {
             place,
             time_constant_s: value(0),
@@ -190,8 +216,7 @@ fn of_brake(effect: &JointEffect, joint: Joint) -> Option<Term> {
             | OfLinkage::Inertias
             | OfLinkage::PlaneSpring
             | OfLinkage::LinkLength,
-        )
-        | Form::Brake(OfBrake::TimeConstant | OfBrake::CurrentGain) => {
+        ) => {
             return None;
         }
     })
@@ -244,14 +269,23 @@ impl Rig {
                     self.dissipated_j += before_j - self.kinetic_energy_j();
                 }
                 Some(Term::Backlash { joint, width_rad }) => {
-                    let mut table = brake_table(*joint);
-                    table.backlash_width_deg = deg_from_rad(*width_rad);
                     let angles = self.joint_angles_rad();
                     let places = self.brakes.iter_mut().zip(angles).zip(Joint::ALL);
                     for ((brake, angle), own) in places {
                         if own == *joint {
-                            *brake = brake.map(|brake| brake.with_table(table, angle));
+                            *brake = brake.map(|brake| {
+                                let table = BrakeTable {
+                                    backlash_width_deg: deg_from_rad(*width_rad),
+                                    ..brake.table()
+                                };
+                                brake.with_table(table, angle)
+                            });
                         }
+                    }
+                }
+                Some(Term::Slower { place, times }) => {
+                    if let Some(brake) = self.brakes.get_mut(*place) {
+                        *brake = brake.map(|brake| brake.slowed(*times));
                     }
                 }
                 _ => {}

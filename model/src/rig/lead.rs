@@ -112,6 +112,7 @@ impl Rig {
         Situation {
             time_s: self.time_s,
             form,
+            tip_m: pose.tip_m,
             inertia: &self.parameters.inertia,
             contacts: self.contacts.of(),
             angles_rad: joint_angles_rad(pose),

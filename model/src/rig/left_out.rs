@@ -15,6 +15,9 @@ use crate::motion::two_coordinate::TwoCoordinate;
 /// The least yield of a joint with dry friction, N·m: what holds has to be able to let go.
 const LEAST_NM: f64 = 1e-9;
 
+/// The least distance of a tip from an anchor, m: below it a tension has no direction.
+const LEAST_TETHER_M: f64 = 1e-9;
+
 /// What a lag remembers before its brake had a torque, N·m: a yield torque is never below zero.
 const NO_TORQUE_YET_NM: f64 = -1.0;
 
@@ -42,12 +45,22 @@ pub enum Term {
     Late { place: usize, delay_s: f64 },
     /// A brake's current is limited.
     Limit { place: usize, most_a: f64 },
+    /// A brake's current is another one.
+    Amplifier { place: usize, times: f64 },
+    /// A brake's time constants are others; remembers whether that has begun.
+    Slower { place: usize, times: f64 },
     /// A brake's torque follows its own by a first-order lag; remembers it, N·m.
     Lag { place: usize, time_constant_s: f64 },
     /// Another backlash; remembers whether it has begun.
     Backlash { joint: Joint, width_rad: f64 },
     /// A brake's torque, more by the force on the tip with an arm.
     Load { place: usize, arm_m: f64 },
+    /// A spring from the tip to a point of the plane.
+    Anchor {
+        stiffness_n_m: f64,
+        tension_n: f64,
+        anchor_m: [f64; 2],
+    },
     /// Weight in the plane, m/s².
     Weight([f64; 2]),
     /// More masses; remembers whether they have begun.
@@ -96,6 +109,7 @@ impl core::fmt::Debug for LeftOut {
 pub struct Situation<'a> {
     pub time_s: f64,
     pub form: &'a TwoCoordinate,
+    pub tip_m: [f64; 2],
     pub inertia: &'a Inertia,
     pub contacts: [Contact; 4],
     pub angles_rad: [f64; 4],
@@ -145,8 +159,10 @@ impl LeftOut {
     pub fn beginning(&self, time_s: f64) -> Vec<usize> {
         let pairs = self.terms.iter().zip(&self.memory).enumerate();
         let due = pairs.filter(|(_, (timed, memory))| {
-            matches!(timed.term, Term::Backlash { .. } | Term::Masses(_))
-                && time_s >= timed.onset_s
+            matches!(
+                timed.term,
+                Term::Backlash { .. } | Term::Slower { .. } | Term::Masses(_)
+            ) && time_s >= timed.onset_s
                 && **memory == 0.0
         });
         due.map(|(k, _)| k).collect()
@@ -172,13 +188,20 @@ impl LeftOut {
         let terms = Arc::clone(&self.terms);
         let mut longest_s = 0.0f64;
         let mut given_a = commanded_a;
-        // A delay acts before a limit and that before the magnet, in whichever order they are given.
+        // A delay acts before the amplifier, that before a limit and that before the magnet, in whichever order they are given.
         for timed in terms.iter() {
             if let Term::Late { place, delay_s } = timed.term {
                 longest_s = longest_s.max(delay_s);
                 if time_s >= timed.onset_s {
                     given_a[place] = self.commanded(place, time_s - delay_s, step_s);
                 }
+            }
+        }
+        for timed in terms.iter() {
+            if let Term::Amplifier { place, times } = timed.term
+                && time_s >= timed.onset_s
+            {
+                given_a[place] *= times;
             }
         }
         for timed in terms.iter() {
@@ -259,6 +282,18 @@ impl LeftOut {
                     let [x, y] = now.tip_force_n;
                     more_nm[*place] += arm_m * x.hypot(y);
                 }
+                Term::Anchor {
+                    stiffness_n_m,
+                    tension_n,
+                    anchor_m: [anchor_x, anchor_y],
+                } => {
+                    let [x, y] = now.tip_m;
+                    let away = [x - anchor_x, y - anchor_y];
+                    let length = libm::hypot(away[0], away[1]).max(LEAST_TETHER_M);
+                    let pull = tension_n / length - stiffness_n_m;
+                    drive +=
+                        now.form.tip.transpose() * Vector2::from(away.map(|along| pull * along));
+                }
                 Term::Weight(gravity) => {
                     let [theta_a, _, theta_b, _] = now.angles_rad;
                     drive += now.form.weight(now.inertia, [theta_a, theta_b], *gravity);
@@ -338,6 +373,7 @@ mod tests {
         let lag = JointEffect {
             mechanism: Mechanism::Lag,
             joint: Some(Joint::E),
+            of_torque: false,
             parameters: vec![0.037],
             onset_s: None,
         };

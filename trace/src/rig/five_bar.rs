@@ -58,6 +58,10 @@ pub struct FiveBarChannels {
 pub struct JointEffect {
     /// Where it acts; `None` where it has no joint.
     pub joint: Option<Joint>,
+    /// The axis of the force sensor that it is of alone, 0 for x, 1 for y.
+    pub axis: Option<usize>,
+    /// Whether its efforts are shares of the torque of the joint's brake.
+    pub of_torque: bool,
     /// The mechanism with its parameters.
     pub effect: RigEffect,
 }
@@ -98,6 +102,14 @@ pub const fn layout_name(layout: Layout) -> &'static str {
     match layout {
         Layout::ThreeBrake => "three_brake",
         Layout::FourBrake => "four_brake",
+    }
+}
+
+/// The name of an axis of the force sensor in files.
+const fn axis_name(axis: usize) -> &'static str {
+    match axis {
+        0 => "x",
+        _ => "y",
     }
 }
 
@@ -149,8 +161,20 @@ impl FiveBar {
                 true => Some(choice(table, "joint", Joint::ALL, Joint::letter)?),
                 false => None,
             };
-            let effect = read_effect(table, Motion::Rotary, &["joint"])?;
-            Ok(JointEffect { joint, effect })
+            let axis = match table.has("axis") {
+                true => Some(choice(table, "axis", [0, 1], axis_name)?),
+                false => None,
+            };
+            if table.has("of") {
+                choice(table, "of", ["torque"], |name| name)?;
+            }
+            let effect = read_effect(table, Motion::Rotary, &["joint", "axis", "of"])?;
+            Ok(JointEffect {
+                joint,
+                axis,
+                of_torque: table.has("of"),
+                effect,
+            })
         });
         Ok(FiveBar {
             name: root.need("name", root.text("name")?)?.to_string(),
@@ -267,10 +291,13 @@ impl FiveBar {
             lines.extend(map.iter().map(|map| format!("{role} = {}", channel(map))));
         }
         lines.extend(text::lines(&self.text));
-        for JointEffect { joint, effect } in &self.effects {
-            let mut effect = effect_lines(effect, Motion::Rotary).into_iter();
+        for own in &self.effects {
+            let JointEffect { joint, axis, .. } = own;
+            let mut effect = effect_lines(&own.effect, Motion::Rotary).into_iter();
             lines.extend(effect.by_ref().take(2));
             lines.extend(joint.map(|joint| format!("joint = {}", string(joint.letter()))));
+            lines.extend(axis.map(|axis| format!("axis = {}", string(axis_name(axis)))));
+            lines.extend(own.of_torque.then(|| "of = \"torque\"".to_owned()));
             lines.extend(effect);
         }
         lines.extend(self.protocol.lines());

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use rigproof_spec::effect::{Mechanism, Motion, Quantity};
+use rigproof_spec::effect::{Mechanism, Motion, Quantity, Range};
 use rigproof_spec::units::{Dimension, Unit};
 
 use super::table::{Source, Table};
@@ -281,11 +281,13 @@ pub(super) fn read_effect(
             break;
         }
         let value = table.need(parameter.name, value)?;
-        if matches!(parameter.quantity, Quantity::Travel | Quantity::Speed) {
-            above_zero(table, parameter.name, &value, dimension)?;
-        }
-        if matches!(parameter.name, "half_width" | "closing") {
-            above_zero(table, parameter.name, &value, dimension)?;
+        match parameter.range {
+            Range::AboveZero => above_zero(table, parameter.name, &value, dimension)?,
+            Range::NotBelowZero if value.value < 0.0 => {
+                let message = format!("`{}` is below 0: it is 0 or more", parameter.name);
+                return Err(table.error_at(parameter.name, message));
+            }
+            Range::NotBelowZero | Range::Any => {}
         }
         values.push(value);
     }

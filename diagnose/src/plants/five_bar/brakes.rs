@@ -3,11 +3,11 @@
 use super::run::{FiveBarRun, place, yields};
 use crate::problem::less;
 use crate::signals::{USUAL_SHARE, shifted, through_play};
-use rigproof_model::brake::Brake;
+use rigproof_model::brake::{Brake, slowed};
 use rigproof_model::effects::{CurrentPlay, Drive, Form, OfBrake, first_order_lag_straight, form};
 use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
-use rigproof_spec::tables::{BrakeTable, TimeConstantFit, brake_table};
+use rigproof_spec::tables::brake_table;
 use rigproof_spec::units::RAD_PER_DEG;
 
 /// What a cause with coefficient 1 adds to a brake's yield torque, sample by sample, N·m.
@@ -47,7 +47,7 @@ pub fn change(
             again(Brake::new(joint, start), &given)
         }
         Form::Brake(OfBrake::TimeConstant) => {
-            again(Brake::of(slower(brake_table(joint), value), start), current)
+            again(Brake::of(slowed(brake_table(joint), value), start), current)
         }
         Form::Brake(OfBrake::CurrentHysteresis | OfBrake::ThermalFade)
         | Form::Drive(Drive::Gain | Drive::Skew | Drive::Limit)
@@ -56,25 +56,6 @@ pub fn change(
         | Form::Linkage(_)
         | Form::Sensor(_)
         | Form::Joint(_) => None,
-    }
-}
-
-/// A brake's table with every time constant times so much.
-fn slower(table: BrakeTable, times: f64) -> BrakeTable {
-    let scaled = |fit: TimeConstantFit| TimeConstantFit {
-        a_avg_s: times * fit.a_avg_s,
-        a_1: times * fit.a_1,
-        a_2: times * fit.a_2,
-        a_3: times * fit.a_3,
-        a_4: times * fit.a_4,
-        a_5: times * fit.a_5,
-        a_6: times * fit.a_6,
-        ..fit
-    };
-    BrakeTable {
-        rising: scaled(table.rising),
-        falling: scaled(table.falling),
-        ..table
     }
 }
 

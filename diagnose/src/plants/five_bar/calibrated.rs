@@ -3,14 +3,12 @@
 use super::encoder::Encoder;
 use super::run::joint_at;
 use super::undone::undone_first;
-use crate::cause::{Place, Scales};
+use crate::cause::{Cause, Place, Scales};
 use crate::diagnose::numbers::{fitted, with_interval};
 use crate::diagnose::write::Stand;
 use crate::evidence::{Intervals, coefficients_by_term};
-use crate::problem::Term;
 use crate::select::refs;
-use rigproof_model::effects::{Form, OfBrake, OfLinkage, facts, form};
-use rigproof_spec::effect::Mechanism;
+use rigproof_model::effects::facts;
 use rigproof_trace::rig::five_bar::{FiveBar, JointEffect};
 use rigproof_trace::rig::{RigEffect, Value};
 
@@ -29,26 +27,27 @@ impl Stand<'_, FiveBar> {
             .flat_map(
                 |(index, (effect, term))| match (known.get(index), &term.known) {
                     (Some(given), Some(_)) => vec![given.clone()],
-                    _ => self.at_places(term, effect),
+                    _ => self.at_places(term.cause, effect),
                 },
             );
         rig.effects.extend(fitted);
         let second = terms.iter().zip(&coefficients);
-        let second = second.filter(|(term, _)| !term.cause.is_composed());
-        rig.effects.extend(second.filter_map(|(term, own)| {
+        let second = second.filter_map(|(term, own)| {
             let mechanism = facts(term.cause.mechanism)?.zero?;
             let mut level = *own.get(1)?;
             if let Some(encoder) = Encoder::of(self.train, term.cause, &term.shape) {
                 level = encoder.zero_at_zero_rad([*own.first()?, level]);
             }
-            let level = with_interval(level, None);
-            Some(joint_effect(
-                term,
+            let effect = RigEffect {
                 mechanism,
-                vec![level],
-                term.onset_s.map(Value::known),
-            ))
-        }));
+                values: vec![with_interval(level, None)],
+                onset: term.onset_s.map(Value::known),
+            };
+            // A share of a torque has its zero beside the torque.
+            let cause = Cause::at(mechanism, term.cause.at);
+            Some(self.at_places(cause, effect))
+        });
+        rig.effects.extend(second.flatten());
         rig.provenance
             .insert("fit".to_owned(), "weighted windows".to_owned());
         rig
@@ -56,44 +55,23 @@ impl Stand<'_, FiveBar> {
 }
 
 impl Stand<'_, FiveBar> {
-    /// An effect at the joints where it acts: a shared one at every brake. A share of a torque, one axis of a sensor and what the reference rig does
-    /// not compute have no place in a description: they are left out of it.
-    fn at_places(&self, term: &Term, effect: RigEffect) -> Vec<JointEffect> {
-        let unknown = matches!(
-            form(term.cause.mechanism),
-            Some(
-                Form::Brake(OfBrake::TimeConstant | OfBrake::CurrentGain)
-                    | Form::Linkage(OfLinkage::PlaneSpring | OfLinkage::LinkLength)
-            )
-        );
+    /// An effect at the joints where it acts: a shared one at every brake.
+    fn at_places(&self, cause: Cause, effect: RigEffect) -> Vec<JointEffect> {
         let at = |joint| JointEffect {
             joint,
+            axis: match cause.at {
+                Place::Axis(axis) => Some(axis),
+                _ => None,
+            },
+            of_torque: cause.scales == Scales::Torque,
             effect: effect.clone(),
         };
-        match (term.cause.at, term.cause.scales) {
-            _ if unknown => Vec::new(),
-            (_, Scales::Torque) | (Place::Axis(_), _) => Vec::new(),
-            (Place::Every, _) => {
+        match cause.at {
+            Place::Every => {
                 let brakes = self.plant.layout.brakes().iter();
                 brakes.map(|joint| at(Some(*joint))).collect()
             }
-            (place, _) => vec![at(joint_at(place))],
+            place => vec![at(joint_at(place))],
         }
-    }
-}
-
-fn joint_effect(
-    term: &Term,
-    mechanism: Mechanism,
-    values: Vec<Value>,
-    onset: Option<Value>,
-) -> JointEffect {
-    JointEffect {
-        joint: joint_at(term.cause.at),
-        effect: RigEffect {
-            mechanism,
-            values,
-            onset,
-        },
     }
 }

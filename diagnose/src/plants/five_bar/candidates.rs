@@ -1,7 +1,9 @@
 //! This file says which causes are tried on a recording of the five-bar, where, and in which shapes.
 
 use super::run::{FiveBarRun, at, joint_at, place};
-use crate::candidates::{both_signs, fastest, geometric, in_numbers, periods, stribeck_shapes};
+use crate::candidates::{
+    both_signs, fastest, geometric, in_numbers, of_a_turn, periods, stribeck_shapes,
+};
 use crate::cause::{Cause, Place};
 use crate::plant::Run;
 use crate::rules::{
@@ -212,10 +214,12 @@ pub fn shapes(
                 BENDS_FIVE_BAR,
             ))
         }
-        Shapes::Period => one(periods(
-            &points(run, cause, windows, residual),
-            run.travel(cause.at),
-        )),
+        Shapes::Period => {
+            let travel = run.travel(cause.at);
+            let mut all = periods(&points(run, cause, windows, residual), travel);
+            all.extend(of_a_turn(travel));
+            one(all)
+        }
         Shapes::Lag => one(geometric(
             LEAST_LAG_STEPS * run.step_s,
             MOST_LAG_S_FIVE_BAR,

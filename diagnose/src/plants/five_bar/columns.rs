@@ -2,6 +2,7 @@
 
 use super::brakes;
 use super::encoder::Encoder;
+use super::free_run::length_of;
 use super::from_rig::with_angles;
 use super::joined::over_parts;
 use super::run::{FiveBarRun, inertial, joint_at, place, place_of, stacked};
@@ -204,14 +205,7 @@ fn anchored(run: &FiveBarRun, shape: &[f64]) -> Option<Vec<Vec<f64>>> {
 /// What an arm that is longer takes in effort for a unit of length: the balance is told from the recorded angles with it and without it.
 fn longer(run: &FiveBarRun, joint: Joint) -> Option<Vec<f64>> {
     let mut changed = run.clone();
-    let arms = &mut changed.parameters.arms;
-    let length = match joint {
-        Joint::A => &mut arms.l_ae_m,
-        Joint::E => &mut arms.l_ed_m,
-        Joint::B => &mut arms.l_bc_m,
-        Joint::C => &mut arms.l_cd_m,
-    };
-    *length += SMALL_LENGTH_M;
+    *length_of(&mut changed.parameters.arms, joint) += SMALL_LENGTH_M;
     let changed = with_angles(&changed, run.theta.clone()).ok()?;
     let balance = |run: &FiveBarRun| less(&driving(run, run.forces()), &known(run));
     let difference = less(&balance(run), &balance(&changed)).into_iter();

@@ -2,20 +2,23 @@
 
 use super::from_rig::{nominal, with_angles};
 use super::run::{FiveBarRun, joint_at};
+use crate::cause::{Place, Scales};
+use crate::effect::Effect;
 use crate::filter::rms;
 use crate::plant::Run;
 use crate::plants::joint::free_run::HORIZONS_S;
-use crate::problem::NominalEffect;
 use crate::report::Horizon;
 use crate::rules::{MOST_OF_PART, SHOTS};
 use crate::signals::shifted;
 use core::ops::Range;
 use rigproof_model::effects::facts::Family;
-use rigproof_model::effects::{Drive, Form, OfSensor, facts, form};
+use rigproof_model::effects::{Drive, Form, OfLinkage, OfSensor, facts, form};
 use rigproof_model::error::ModelError;
-use rigproof_model::rig::{JointEffect, LONGEST_STEP_S, Rig};
+use rigproof_model::rig::{JointEffect, LONGEST_STEP_S, Parameters, Rig};
 use rigproof_spec::effect::Mechanism;
+use rigproof_spec::geometry::Arms;
 use rigproof_spec::joint::Joint;
+use rigproof_spec::layout::Layout;
 use rigproof_spec::tables::GREATEST_CURRENT_A;
 use rigproof_trace::rig::five_bar::FiveBar;
 
@@ -23,7 +26,8 @@ use rigproof_trace::rig::five_bar::FiveBar;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Model {
     pub(super) rig: Vec<JointEffect>,
-    pub(super) sensors: Vec<JointEffect>,
+    /// What the sensors do, and arms of another length: what makes other angles and forces of the recorded ones.
+    pub(super) sensors: Vec<Effect>,
 }
 
 impl Model {
@@ -32,32 +36,94 @@ impl Model {
         Model::with(nominal(description))
     }
 
-    fn with(effects: Vec<NominalEffect>) -> Model {
-        let effects = effects.into_iter().map(|own| JointEffect {
+    fn with(effects: Vec<Effect>) -> Model {
+        let (sensors, rig): (Vec<Effect>, Vec<Effect>) =
+            effects.into_iter().partition(is_of_readings);
+        let rig = rig.into_iter().map(|own| JointEffect {
             mechanism: own.cause.mechanism,
             joint: joint_at(own.cause.at),
+            of_torque: own.cause.scales == Scales::Torque,
             parameters: own.parameters,
             onset_s: own.onset_s,
         });
-        let (sensors, rig) = effects.partition(|own| is_of_sensors(own.mechanism));
-        Model { rig, sensors }
+        Model {
+            rig: rig.collect(),
+            sensors,
+        }
+    }
+
+    /// What a rig of these effects has besides them: arms of other lengths.
+    pub(super) fn parameters(&self, parameters: &Parameters) -> Parameters {
+        let mut own = *parameters;
+        for effect in &self.sensors {
+            if let (Some(Form::Linkage(OfLinkage::LinkLength)), Some(joint)) =
+                (form(effect.mechanism()), joint_at(effect.cause.at))
+            {
+                *length_of(&mut own.arms, joint) += effect.value(0);
+            }
+        }
+        own
+    }
+
+    /// Why the reference rig cannot have all of this; `None` where it can.
+    pub(super) fn not_computed(&self, layout: Layout) -> Option<String> {
+        let late =
+            |own: &&Effect| own.onset_s.is_some() && own.mechanism() == Mechanism::LinkLength;
+        if self.sensors.iter().any(|own| late(&own)) {
+            return Some(
+                "`link_length` has an onset, and no arm grows: take the onset out".to_owned(),
+            );
+        }
+        let shows = |own: &&Effect| {
+            matches!(
+                form(own.mechanism()),
+                Some(Form::Sensor(OfSensor::Eccentric))
+            )
+        };
+        if let Some(own) = self.sensors.iter().find(shows) {
+            let name = own.mechanism().name();
+            return Some(format!(
+                "`{name}` is nothing that this five-bar computes: take it out"
+            ));
+        }
+        let tip_m = [0.0, MIDDLE_M];
+        let rig = Rig::new(layout, tip_m).and_then(|rig| rig.with_effects(&self.rig));
+        rig.err().map(|error| error.to_string())
     }
 }
 
-fn is_of_sensors(mechanism: Mechanism) -> bool {
-    facts(mechanism).is_some_and(|facts| facts.family == Family::Sensor)
+/// The arm that begins at a joint.
+pub(super) const fn length_of(arms: &mut Arms, joint: Joint) -> &mut f64 {
+    match joint {
+        Joint::A => &mut arms.l_ae_m,
+        Joint::E => &mut arms.l_ed_m,
+        Joint::B => &mut arms.l_bc_m,
+        Joint::C => &mut arms.l_cd_m,
+    }
+}
+
+/// A height at which the tip of every layout can stand, m.
+const MIDDLE_M: f64 = 0.4;
+
+fn is_of_readings(effect: &Effect) -> bool {
+    let is_of_sensors =
+        facts(effect.mechanism()).is_some_and(|facts| facts.family == Family::Sensor);
+    is_of_sensors
+        || matches!(
+            form(effect.mechanism()),
+            Some(Form::Linkage(OfLinkage::LinkLength))
+        )
 }
 
 /// The recording with what its sensors did to force and angles taken back.
 pub(super) fn truly(model: &Model, run: &FiveBarRun) -> Result<FiveBarRun, ModelError> {
     let mut own = run.clone();
+    own.parameters = model.parameters(&run.parameters);
     for effect in &model.sensors {
-        let first = effect
-            .onset_s
-            .map_or(0, |onset_s| run.clock().sample_at(onset_s));
-        let value = |k: usize| effect.parameters.get(k).copied().unwrap_or(0.0);
+        let first = effect.first_sample(run.clock());
+        let value = |k: usize| effect.value(k);
         let [force_x, force_y] = &mut own.force;
-        match form(effect.mechanism) {
+        match form(effect.mechanism()) {
             Some(Form::Drive(Drive::Skew)) => {
                 for force in [force_x, force_y] {
                     let earlier = shifted(force, value(0) / run.step_s);
@@ -67,7 +133,10 @@ pub(super) fn truly(model: &Model, run: &FiveBarRun) -> Result<FiveBarRun, Model
             }
             Some(Form::Sensor(of @ (OfSensor::EncoderScale | OfSensor::EncoderOffset))) => {
                 let [a, b] = &mut own.theta;
-                let angle = if effect.joint == Some(Joint::A) { a } else { b };
+                let angle = match joint_at(effect.cause.at) {
+                    Some(Joint::A) => a,
+                    _ => b,
+                };
                 let shown = angle.iter_mut().skip(first);
                 shown.for_each(|theta| {
                     *theta = match of {
@@ -78,7 +147,8 @@ pub(super) fn truly(model: &Model, run: &FiveBarRun) -> Result<FiveBarRun, Model
             }
             Some(Form::Sensor(of)) => {
                 for (x, y) in force_x.iter_mut().zip(force_y).skip(first) {
-                    (*x, *y) = force_behind(of, [value(0), value(1)], [*x, *y]);
+                    let behind = force_behind(of, [value(0), value(1)], [*x, *y]);
+                    (*x, *y) = of_axis(effect.cause.at, behind, [*x, *y]);
                 }
             }
             // No sensor changes what these do.
@@ -93,11 +163,24 @@ pub(super) fn truly(model: &Model, run: &FiveBarRun) -> Result<FiveBarRun, Model
             | None => {}
         }
     }
-    if own.theta == run.theta {
+    if own.theta == run.theta && own.parameters == run.parameters {
         return Ok(own);
     }
     let theta = core::mem::take(&mut own.theta);
     with_angles(&own, theta).map_err(|(_, error)| error)
+}
+
+/// A force that is changed on one axis of the sensor alone, or on both.
+pub(super) const fn of_axis(
+    at: Place,
+    (changed_x, changed_y): (f64, f64),
+    [x, y]: [f64; 2],
+) -> (f64, f64) {
+    match at {
+        Place::Axis(0) => (changed_x, y),
+        Place::Axis(_) => (x, changed_y),
+        Place::Whole | Place::Every | Place::Joint(_) => (changed_x, changed_y),
+    }
 }
 
 /// The force behind one that a sensor shows.

@@ -8,9 +8,10 @@ use crate::align::{
     forget_sense_at_rest, forget_sense_at_reversals, median_step, regular_count, resample,
     smoothed_motion,
 };
-use crate::cause::Cause;
+use crate::cause::{Cause, Place, Scales};
 use crate::doubt::{Smoothing, a_sample_late, greatest_change, turning};
-use crate::problem::NominalEffect;
+use crate::effect::Effect;
+use crate::plant::Run;
 use crate::rules::{CURRENTS_A, KINEMATIC_DOUBT, MOST_TAKEN, STILL_QUANTA, STILL_SIGMAS};
 use core::f64::consts::TAU;
 use rigproof_model::brake::{Brake, ENTRY_TRAVEL_DEG};
@@ -197,7 +198,7 @@ fn check_sign(run: &FiveBarRun) -> Result<(), Fault> {
         return Err(Fault {
             channel: if by_x < by_y { "force_x" } else { "force_y" },
             from_s: 0.0,
-            to_s: run.duration_s(),
+            to_s: run.clock().duration_s(),
             reason: "the rig drives the hand: energy comes out of it, most of it by this component; a force or an angle has the wrong sign (set `sign = -1`), or force_x and force_y are swapped".to_owned(),
         });
     }
@@ -399,11 +400,18 @@ fn turning_point_error(run: &FiveBarRun, joint: Joint, untold: &[f64]) -> f64 {
 }
 
 /// The physics that the nominal model has beyond the thesis's.
-pub fn nominal(rig: &FiveBar) -> Vec<NominalEffect> {
+pub fn nominal(rig: &FiveBar) -> Vec<Effect> {
     rig.effects
         .iter()
-        .map(|own| NominalEffect {
-            cause: Cause::at(own.effect.mechanism, place_of(own.joint)),
+        .map(|own| Effect {
+            cause: Cause {
+                mechanism: own.effect.mechanism,
+                at: own.axis.map_or(place_of(own.joint), Place::Axis),
+                scales: match own.of_torque {
+                    true => Scales::Torque,
+                    false => Scales::Nothing,
+                },
+            },
             parameters: own.effect.values.iter().map(|v| v.value).collect(),
             unknown: own.effect.values.iter().any(|v| v.status != Status::Known),
             onset_s: own.effect.onset.map(|v| v.value),

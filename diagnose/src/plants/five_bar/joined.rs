@@ -1,77 +1,46 @@
-//! This file puts several recordings of one rig one after another, so that one set of numbers explains them all.
+//! This file is how recordings of one five-bar follow each other, and signals over all of them.
 
 use super::run::FiveBarRun;
-use crate::align::Fault;
-use crate::rules::SAME_STEP;
+use crate::plants::joined::Joins;
 
-/// One run of several recordings in their order, its clock going on from each to the next. No window lies across a seam, and every memory
-/// begins anew with each recording.
-///
-/// # Errors
-/// A recording of another sample interval than the first one's: its place, and what is wrong.
-pub fn joined(runs: Vec<FiveBarRun>) -> Result<FiveBarRun, (usize, Fault)> {
-    let mut own = runs.iter();
-    let Some(mut whole) = own.next().cloned() else {
-        return Err((0, fault("there is no recording".to_owned())));
-    };
-    if runs.len() == 1 {
-        return Ok(whole);
-    }
-    for (place, run) in own.enumerate() {
-        if (run.step_s / whole.step_s - 1.0).abs() > SAME_STEP {
-            let reason = format!(
-                "samples every {} s, the first recording every {} s; several recordings are diagnosed together at one rate",
-                run.step_s, whole.step_s
-            );
-            return Err((place + 1, fault(reason)));
+impl Joins for FiveBarRun {
+    fn append(&mut self, run: &FiveBarRun) {
+        let more = |own: &mut Vec<f64>, new: &Vec<f64>| own.extend_from_slice(new);
+        let all = |own: &mut [Vec<f64>], new: &[Vec<f64>]| {
+            own.iter_mut()
+                .zip(new)
+                .for_each(|(own, new)| more(own, new));
+        };
+        all(&mut self.theta, &run.theta);
+        all(&mut self.force, &run.force);
+        all(&mut self.yields, &run.yields);
+        all(&mut self.yield_errors, &run.yield_errors);
+        let joints = self.joints.iter_mut().zip(&run.joints);
+        joints.for_each(|(own, new)| own.extend_from_slice(new));
+        self.poses.extend_from_slice(&run.poses);
+        self.forms.extend_from_slice(&run.forms);
+        let currents = self.currents.iter_mut().zip(&run.currents);
+        currents.for_each(|(own, new)| {
+            if let (Some(own), Some(new)) = (own, new) {
+                more(own, new);
+            }
+        });
+        // A window that needs the sample before the seam lies across it.
+        if let Some(last) = self.recorded.last_mut() {
+            *last = false;
         }
-        append(&mut whole, run);
+        self.recorded.extend_from_slice(&run.recorded);
+        self.switched.extend_from_slice(&run.switched);
+        self.theta_noise = self.theta_noise.max(run.theta_noise);
+        self.still_rad = self.still_rad.max(run.still_rad);
+        self.cutoff_hz = self.cutoff_hz.max(run.cutoff_hz);
+        self.force_noise = self.force_noise.max(run.force_noise);
+        self.speed_floor = self.speed_floor.max(run.speed_floor);
     }
-    whole.parts = runs;
-    Ok(whole)
-}
 
-fn fault(reason: String) -> Fault {
-    Fault {
-        channel: "time",
-        from_s: 0.0,
-        to_s: 0.0,
-        reason,
+    fn keep_parts(&mut self, parts: Vec<FiveBarRun>) {
+        self.parts = parts;
     }
-}
-
-fn append(whole: &mut FiveBarRun, run: &FiveBarRun) {
-    let more = |own: &mut Vec<f64>, new: &Vec<f64>| own.extend_from_slice(new);
-    let all = |own: &mut [Vec<f64>], new: &[Vec<f64>]| {
-        own.iter_mut()
-            .zip(new)
-            .for_each(|(own, new)| more(own, new));
-    };
-    all(&mut whole.theta, &run.theta);
-    all(&mut whole.force, &run.force);
-    all(&mut whole.yields, &run.yields);
-    all(&mut whole.yield_errors, &run.yield_errors);
-    let joints = whole.joints.iter_mut().zip(&run.joints);
-    joints.for_each(|(own, new)| own.extend_from_slice(new));
-    whole.poses.extend_from_slice(&run.poses);
-    whole.forms.extend_from_slice(&run.forms);
-    let currents = whole.currents.iter_mut().zip(&run.currents);
-    currents.for_each(|(own, new)| {
-        if let (Some(own), Some(new)) = (own, new) {
-            more(own, new);
-        }
-    });
-    // A window that needs the sample before the seam lies across it.
-    if let Some(last) = whole.recorded.last_mut() {
-        *last = false;
-    }
-    whole.recorded.extend_from_slice(&run.recorded);
-    whole.switched.extend_from_slice(&run.switched);
-    whole.theta_noise = whole.theta_noise.max(run.theta_noise);
-    whole.still_rad = whole.still_rad.max(run.still_rad);
-    whole.cutoff_hz = whole.cutoff_hz.max(run.cutoff_hz);
-    whole.force_noise = whole.force_noise.max(run.force_noise);
-    whole.speed_floor = whole.speed_floor.max(run.speed_floor);
 }
 
 /// Signals of two outputs over a joined run, from what each of its recordings gives.

@@ -3,6 +3,7 @@
 use super::run::{FiveBarRun, place, place_of};
 use crate::cause::Place;
 use crate::locate::{Cell, Regimes};
+use crate::plant::Run;
 use crate::rules::ON_A;
 use crate::weak::Windows;
 use rigproof_model::effects::Instant;
@@ -15,7 +16,7 @@ pub fn regimes(run: &FiveBarRun, windows: &Windows) -> Regimes {
         .into_iter()
         .flat_map(|joint| joint_cells(run, windows, joint))
         .collect();
-    let third = run.duration_s() / 3.0;
+    let third = run.clock().duration_s() / 3.0;
     for (label, rule) in [
         ("first third of the recording", (f64::NEG_INFINITY, third)),
         ("last third of the recording", (2.0 * third, f64::INFINITY)),

@@ -5,6 +5,7 @@ use super::columns::{driving, known};
 use super::from_rig::nominal_yields;
 use super::run::{FiveBarRun, place};
 use crate::align::Fault;
+use crate::plant::Run;
 use crate::problem::{Problem, less};
 use crate::rules::{READING_LEFT, READING_ODD};
 use crate::select::usable_rms;
@@ -27,7 +28,7 @@ fn fault(channel: &'static str, run: &FiveBarRun, reason: String) -> Result<(), 
     Err(Fault {
         channel,
         from_s: 0.0,
-        to_s: run.duration_s(),
+        to_s: run.clock().duration_s(),
         reason,
     })
 }

@@ -156,6 +156,10 @@ fn exact(layout: Layout, effects: &[JointEffect]) -> (FiveBarRun, Vec<bool>) {
 /// What the mechanism adds along the run by the diagnosis.
 fn column(run: &FiveBarRun, effect: &JointEffect) -> Vec<f64> {
     let cause = Cause::at(effect.mechanism, place_of(effect.joint));
+    let cause = match effect.of_torque {
+        true => cause.of_torque(),
+        false => cause,
+    };
     let linear = entry(effect.mechanism).unwrap().linear;
     let (own, shape) = effect.parameters.split_at(linear);
     let mut sum = vec![0.0; 2 * run.len()];
@@ -202,12 +206,17 @@ fn every_mechanism_does_along_a_motion_what_its_column_says() {
     let at = |mechanism, joint: Joint, parameters: &[f64]| JointEffect {
         mechanism,
         joint: Some(joint),
+        of_torque: false,
         parameters: parameters.to_vec(),
         onset_s: None,
     };
     let whole = |mechanism, parameters: &[f64]| JointEffect {
         joint: None,
         ..at(mechanism, Joint::A, parameters)
+    };
+    let of_torque = |effect: JointEffect| JointEffect {
+        of_torque: true,
+        ..effect
     };
     for (effect, onset_s) in [
         (at(DryOffset, Joint::E, &[0.137]), None),
@@ -241,6 +250,13 @@ fn every_mechanism_does_along_a_motion_what_its_column_says() {
         (at(ThermalFade, Joint::A, &[0.31, 7.3]), None),
         (at(BacklashWidth, Joint::A, &[0.031]), None),
         (at(LoadDependent, Joint::E, &[0.0071]), None),
+        (at(TimeConstant, Joint::E, &[2.3]), None),
+        (at(CurrentGain, Joint::B, &[1.31]), None),
+        (at(CurrentGain, Joint::B, &[0.71]), Some(0.43)),
+        (of_torque(at(DryOffset, Joint::A, &[0.17])), None),
+        (of_torque(at(Stribeck, Joint::E, &[0.31, 0.53, 1.7])), None),
+        (of_torque(at(Presliding, Joint::C, &[0.23, 0.013])), None),
+        (whole(PlaneSpring, &[17.0, 1.3, 0.113, 0.271]), None),
         (whole(Gravity, &[0.071, -0.113]), None),
         (whole(Gravity, &[0.071, -0.113]), Some(0.43)),
         (whole(Payload, &[0.37]), None),

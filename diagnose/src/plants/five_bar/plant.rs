@@ -4,7 +4,6 @@ use super::experiment;
 use super::free_run::{Model, simulated};
 use super::from_rig::aligned;
 use super::held::held;
-use super::joined::joined;
 use super::mapping;
 use super::replay::replayed;
 use super::replica::replica;
@@ -13,11 +12,13 @@ use super::undone::{described, left};
 use crate::align::Fault;
 use crate::diagnose::numbers::fitted;
 use crate::diagnose::write::Stand;
+use crate::effect::Effect;
 use crate::evidence::{Intervals, Rivals};
 use crate::plant::{
     At, Described, Plant, Replayed, Replica, Simulated, SimulatedOutput, Unsimulated,
 };
-use crate::problem::{NominalEffect, Problem};
+use crate::plants::joined::joined;
+use crate::problem::Problem;
 use crate::report::{FitReport, HeldReport, Horizon, NextExperiment};
 use crate::sensor::sensed;
 use rand_pcg::Pcg64Mcg;
@@ -56,19 +57,28 @@ impl Plant for FiveBar {
         (fitted, run, from_s)
     }
 
-    fn nominal(&self) -> Vec<NominalEffect> {
+    fn nominal(&self) -> Vec<Effect> {
         left(self)
     }
 
     /// A description with effects of its own was balanced before; without them its recording may be far from balance.
     fn check(&self, run: &FiveBarRun, problem: &Problem) -> Result<(), (At, Fault)> {
+        if let Some(reason) = Model::of(self).not_computed(self.layout) {
+            let fault = Fault {
+                channel: "effect",
+                from_s: 0.0,
+                to_s: 0.0,
+                reason,
+            };
+            return Err(("description", fault));
+        }
         if !self.effects.is_empty() {
             return Ok(());
         }
         mapping::check(run, problem).map_err(|fault| ("recording", fault))
     }
 
-    fn meaningless(&self, problem: &Problem, effect: &NominalEffect) -> Option<Fault> {
+    fn meaningless(&self, problem: &Problem, effect: &Effect) -> Option<Fault> {
         Some(Fault {
             channel: "effect",
             from_s: 0.0,

@@ -2,6 +2,7 @@
 
 use crate::diagnose::words::{filled_in, together};
 use crate::diagnose::write::Stand;
+use crate::plant::Run;
 use rigproof_trace::rig::five_bar::FiveBar;
 
 impl Stand<'_, FiveBar> {
@@ -24,7 +25,7 @@ impl Stand<'_, FiveBar> {
                 "fitted part: {} samples at {:.1} Hz, {:.3} s; held-out part: {} samples{}",
                 self.train.len(),
                 1.0 / self.train.step_s,
-                self.train.duration_s(),
+                self.train.clock().duration_s(),
                 self.test.len() - (self.test_from_s / self.test.step_s).round() as usize,
                 if self.other_recording {
                     " of another recording"

@@ -108,9 +108,7 @@ fn followed(model: &Model, run: &FiveBarRun) -> Result<Played, ModelError> {
         }
     }
     for effect in model.sensors.iter().rev() {
-        let first = effect
-            .onset_s
-            .map_or(0, |onset_s| run.clock().sample_at(onset_s));
+        let first = effect.first_sample(run.clock());
         shown(effect, &mut played, run.step_s, first);
     }
     Ok(played)

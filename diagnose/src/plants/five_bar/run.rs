@@ -100,11 +100,6 @@ impl FiveBarRun {
         self.recorded.is_empty()
     }
 
-    /// The length of the recording, s.
-    pub fn duration_s(&self) -> f64 {
-        self.step_s * self.len().saturating_sub(1) as f64
-    }
-
     /// The smoothed motion of a joint.
     pub fn motion_of(&self, joint: Joint) -> &[Instant] {
         self.joints.get(place(joint)).map_or(&[], Vec::as_slice)
@@ -459,6 +454,13 @@ impl Run for FiveBarRun {
         match mechanism {
             Mechanism::ForceGain => coefficients.iter().map(|c| c / (1.0 - c)).collect(),
             _ => coefficients.to_vec(),
+        }
+    }
+
+    fn coefficients(&self, mechanism: Mechanism, parameters: &[f64]) -> Vec<f64> {
+        match mechanism {
+            Mechanism::ForceGain => parameters.iter().map(|f| f / (1.0 + f)).collect(),
+            _ => parameters.to_vec(),
         }
     }
 

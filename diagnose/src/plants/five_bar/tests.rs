@@ -2,7 +2,6 @@
 
 use super::columns::{driving, free};
 use super::from_rig::aligned;
-use super::joined::joined;
 use super::mapping;
 use super::recorded::{DRAG, LeftOut, nothing, recording, rig};
 use super::replica::replica;
@@ -10,6 +9,7 @@ use super::run::{FiveBarRun, at};
 use crate::align::Fault;
 use crate::filter::rms;
 use crate::plant::Run;
+use crate::plants::joined::joined;
 use crate::problem::{Problem, less};
 use crate::report::{Report, Verdict};
 use crate::weak::Windows;

@@ -4,7 +4,8 @@ use super::free_run::{Model, truly};
 use super::from_rig::{aligned, nominal, realigned};
 use super::run::FiveBarRun;
 use crate::align::Fault;
-use crate::problem::NominalEffect;
+use crate::effect::Effect;
+use crate::plant::Run;
 use rigproof_model::effects::{Form, form};
 use rigproof_model::error::ModelError;
 use rigproof_spec::effect::Mechanism;
@@ -21,7 +22,7 @@ fn is_of_encoder(mechanism: Mechanism) -> bool {
 }
 
 /// What the nominal model has beyond the thesis's when the encoders are undone.
-pub fn left(rig: &FiveBar) -> Vec<NominalEffect> {
+pub fn left(rig: &FiveBar) -> Vec<Effect> {
     nominal(&with(rig, undone_first(rig).1))
 }
 
@@ -55,7 +56,7 @@ pub fn described(
     let impossible = |error: ModelError| Fault {
         channel: "theta_a",
         from_s: 0.0,
-        to_s: run.duration_s(),
+        to_s: run.clock().duration_s(),
         reason: format!(
             "the linkage cannot stand at the angles that the description's encoder effects leave: {error}; correct or take out these effects"
         ),

@@ -8,6 +8,7 @@ use crate::align::{
     median_step, quiet_cutoff_hz, regular_count, resample, smallest_step, smoothed_motion,
 };
 use crate::doubt::Smoothing;
+use crate::plant::Run;
 use crate::rules::{MOST_GIVEN, STILL_QUANTA, STILL_SIGMAS};
 use rigproof_spec::effect::Motion;
 
@@ -105,6 +106,7 @@ pub fn align(signals: &Signals) -> Result<JointRun, Fault> {
             .collect(),
         speed_floor,
         untold_speed,
+        metered_by: Vec::new(),
         parts: Vec::new(),
     };
     check_sign(&run)?;
@@ -150,7 +152,7 @@ fn check_sign(run: &JointRun) -> Result<(), Fault> {
         return Err(Fault {
             channel: "effort",
             from_s: 0.0,
-            to_s: run.duration_s(),
+            to_s: run.clock().duration_s(),
             reason: "the resistance drives the motion: energy comes out of the brake; one of the two channels has the wrong sign (set `sign = -1`)".to_owned(),
         });
     }

@@ -1,7 +1,9 @@
 //! This file is the columns of a plant of one joint: resistances along its motion, and changes of its drive.
 
+use super::drive::driven;
 use super::inertia::Inertia;
 use super::run::{JointRun, PlantKind};
+use crate::effect::Effect;
 use crate::filter::gradient;
 use crate::plant::{self, Columns, Run};
 use crate::problem::{add, less};
@@ -18,7 +20,7 @@ use rigproof_spec::effect::Mechanism;
 /// others 0. `None` for a mechanism that acts on the drive.
 pub fn resistances(run: &JointRun, mechanism: Mechanism, shape: &[f64]) -> Option<Vec<Vec<f64>>> {
     if is_of_brake(mechanism) {
-        return Some(vec![of_brake(run, mechanism, shape)?]);
+        return Some(vec![seen(run, of_brake(run, mechanism, shape)?)]);
     }
     let own = plant::resistances(&run.motion, run.step_s, mechanism, shape)?;
     Some(own.into_iter().map(|signal| seen(run, signal)).collect())
@@ -62,7 +64,15 @@ pub fn of_brake(run: &JointRun, mechanism: Mechanism, shape: &[f64]) -> Option<V
 fn seen(run: &JointRun, signal: Vec<f64>) -> Vec<f64> {
     match run.plant {
         PlantKind::Axis => numerov(&signal),
-        PlantKind::Bench => signal,
+        PlantKind::Bench => metered(run, signal),
+    }
+}
+
+/// A resistance as a bench meters it.
+pub fn metered(run: &JointRun, signal: Vec<f64>) -> Vec<f64> {
+    match run.metered_by.is_empty() {
+        true => signal,
+        false => driven(&run.metered_by, &signal, run.clock(), 0),
     }
 }
 
@@ -86,18 +96,32 @@ fn missing_effort(run: &JointRun, acting: &[f64]) -> Vec<f64> {
 
 /// The resistance of the description along the motion, with the numbers that it states; with `known_only` of those that it knows.
 fn described(run: &JointRun, known_only: bool) -> Vec<f64> {
+    let effects = run.described.iter();
+    sum_of(run, effects.filter(|own| !(known_only && own.unknown)))
+}
+
+/// The resistance of effects along the motion, with the numbers that are stated.
+fn sum_of<'a>(run: &JointRun, effects: impl Iterator<Item = &'a Effect>) -> Vec<f64> {
     let mut sum = vec![0.0; run.motion.len()];
-    for effect in &run.described {
-        let law = law(effect.cause.mechanism, &effect.parameters);
-        if let Some(law) = law.filter(|_| !(known_only && effect.unknown)) {
-            add(
-                &mut sum,
-                &column(law.as_ref(), &run.motion, run.step_s),
-                1.0,
-            );
+    for effect in effects {
+        let Some(law) = law(effect.mechanism(), &effect.parameters) else {
+            continue;
+        };
+        let own = column(law.as_ref(), &run.motion, run.step_s);
+        let begins = effect.first_sample(run.clock());
+        for (sum, own) in sum.iter_mut().zip(own).skip(begins) {
+            *sum += own;
         }
     }
     sum
+}
+
+/// The described resistance that a fade is of: all of it, or what a description that states a fade has before it.
+fn faded_by_time(run: &JointRun) -> Vec<f64> {
+    let is_fade = |own: &Effect| own.mechanism() == Mechanism::FrictionFade;
+    let before = run.described.iter().position(is_fade);
+    let before = before.unwrap_or(run.described.len());
+    sum_of(run, run.described.iter().take(before))
 }
 
 /// The part of the described resistance that goes with the speed, not with its sense alone.
@@ -124,6 +148,9 @@ fn known_effort(run: &JointRun) -> Vec<f64> {
 fn of_joint(run: &JointRun, form: Form, shape: &[f64]) -> Option<Columns> {
     let free = |signal: Vec<f64>| Some(Columns::Free(vec![signal]));
     let inertia = run.inertia.start();
+    if run.plant == PlantKind::Bench && !matches!(form, Form::Joint(OfJoint::Fade)) {
+        return None;
+    }
     match form {
         Form::Joint(OfJoint::Load) => {
             let share = *shape.first()?;
@@ -138,9 +165,9 @@ fn of_joint(run: &JointRun, form: Form, shape: &[f64]) -> Option<Columns> {
             Some(Columns::Fixed(seen(run, signal.collect())))
         }
         Form::Joint(OfJoint::Fade) => {
-            let friction = described(run, false);
+            let friction = faded_by_time(run);
             let faded = friction.iter().zip(&run.motion);
-            let signal = faded.map(|(friction, now)| -friction * (now.time_s - run.start_s));
+            let signal = faded.map(|(friction, now)| -friction * now.time_s);
             free(seen(run, signal.collect()))
         }
         Form::Joint(OfJoint::Inertia) => free(second_difference(&run.position, run.step_s)),
@@ -183,12 +210,14 @@ fn shown_by(run: &JointRun, wave: fn(f64) -> f64, inertia: f64) -> Vec<f64> {
 fn trailing(acceleration: &[f64], resonance: f64, damping: f64, step_s: f64) -> Vec<f64> {
     let h = step_s / SUBSTEPS as f64;
     let (mut x, mut v) = (0.0, 0.0);
-    let each = acceleration.iter().map(|base| {
-        let pull =
-            |x: f64, v: f64| -base - 2.0 * damping * resonance * v - resonance * resonance * x;
-        let now = pull(x, v);
-        for _ in 0..SUBSTEPS {
-            v += h * pull(x, v);
+    let next = acceleration.iter().skip(1).chain(acceleration.last());
+    let each = acceleration.iter().zip(next).map(|(base, next)| {
+        let pull = |x: f64, v: f64| -2.0 * damping * resonance * v - resonance * resonance * x;
+        let now = pull(x, v) - base;
+        for part in 0..SUBSTEPS {
+            // In the middle of a part, so that its mean is right.
+            let share = (part as f64 + 0.5) / SUBSTEPS as f64;
+            v += h * (pull(x, v) - base - share * (next - base));
             x += h * v;
         }
         now

@@ -3,11 +3,13 @@
 use super::inertia::Inertia;
 use crate::diagnose::write::Stand;
 use crate::diagnose::{Curves, FittedCurves};
-use crate::evidence::{coefficients_by_term, parameters};
+use crate::effect::Effect;
+use crate::evidence::{Intervals, coefficients_by_term, parameters};
 use crate::plants::joint::free_run::{HORIZONS_S, Shown, figure, horizon_error, show};
 use crate::plants::joint::from_rig;
+use crate::plants::joint::refit::error_rms;
 use crate::plants::joint::run::{JointRun, PlantKind};
-use crate::plants::joint::simulate::{Effect, Model, Protocol, output};
+use crate::plants::joint::simulate::{Model, Protocol, output};
 use crate::report::{BeforeAfter, FitReport, HELD_OUT_PART, Horizon};
 use crate::select::{floor_limit, refs};
 use rigproof_spec::effect::Quantity;
@@ -18,6 +20,25 @@ pub(crate) struct Fitted {
     pub(crate) nominal: Shown,
     pub(crate) found: Shown,
     pub(crate) by_windows: Model,
+    /// Whether the refitted numbers predict what was left out better than those of the windows.
+    pub(crate) is_refitted: bool,
+}
+
+/// The numbers of a refit or those of the windows, whichever predict the part that neither saw better.
+fn better(refitted: Shown, windows: &Model, run: &JointRun, protocol: &Protocol) -> (Shown, bool) {
+    let error = |plant: &Model| error_rms(plant, run, protocol);
+    let (of_refit, of_windows) = (error(&refitted.plant), error(windows));
+    match of_windows < of_refit || !of_refit.is_finite() && of_windows.is_finite() {
+        true => {
+            let shown = Shown {
+                plant: windows.clone(),
+                drift: None,
+                ..refitted
+            };
+            (shown, false)
+        }
+        false => (refitted, true),
+    }
 }
 
 impl Stand<'_, Rig> {
@@ -34,13 +55,15 @@ impl Stand<'_, Rig> {
             .iter()
             .zip(&coefficients)
             .map(|(term, own)| Effect {
-                mechanism: term.cause.mechanism,
+                cause: term.cause,
                 parameters: parameters(self.problem, term, own),
+                unknown: term.known.is_none(),
                 onset_s: term.onset_s,
             })
             .collect();
         let given = from_rig::plant(self.plant).inertia;
         Model {
+            described: self.selection.nominal.len(),
             inertia: nuisances
                 .first()
                 .copied()
@@ -72,22 +95,31 @@ impl Stand<'_, Rig> {
             !self.selection.found.is_empty()
                 && self.floor().ratio_after > floor_limit(self.problem),
         );
+        let bare = self.model(false);
         let nominal = show(
-            &self.model(false),
+            &bare,
             inertia_free,
             &known_nominal,
             self.train,
             protocol,
             false,
         );
+        let (nominal, _) = better(nominal, &bare, self.test, protocol);
+        let (found, is_refitted) = better(found, &by_windows, self.test, protocol);
         Some(Fitted {
             nominal,
             found,
             by_windows,
+            is_refitted,
         })
     }
 
-    pub(crate) fn fit_report(&self, fitted: &Fitted, protocol: &Protocol) -> FitReport {
+    pub(crate) fn fit_report(
+        &self,
+        fitted: &Fitted,
+        intervals: &Intervals,
+        protocol: &Protocol,
+    ) -> FitReport {
         let pair = |run: &JointRun| {
             let (before, size) = figure(&fitted.nominal.plant, run, protocol);
             let (after, _) = figure(&fitted.found.plant, run, protocol);
@@ -136,6 +168,7 @@ impl Stand<'_, Rig> {
             horizon,
             recovered_share: (held_out.before - held_out.after) / (held_out.before - floor).max(1e-300),
             improved: held_out.after < held_out.before,
+            agreement: self.agreement(&fitted.found.plant, intervals, protocol),
             drift: fitted.found.drift.map(|rate| {
                 format!("the free run of the fitted part drifts by a constant effort that changes at {rate:.4e} {}; a warming drive, a slow load or wear would look the same", Quantity::EffortPerTime.dimension(self.plant.motion))
             }),

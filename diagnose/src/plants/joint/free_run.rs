@@ -1,9 +1,10 @@
 //! This file shows the fit: output-error refit of old and new parameters, free runs before and after, horizons.
 
+use crate::effect::Effect;
 use crate::filter::rms;
 use crate::plants::joint::refit::{Free, error_rms, refit};
 use crate::plants::joint::run::{JointRun, PlantKind};
-use crate::plants::joint::simulate::{Effect, Model, Protocol, predict};
+use crate::plants::joint::simulate::{Model, Protocol, predict};
 pub use crate::rules::HORIZONS_S;
 use crate::rules::{DRIFT_SHARE, HORIZON_STARTS};
 use rigproof_model::effects::{entry, facts};
@@ -21,7 +22,7 @@ fn free_numbers(plant: &Model, inertia_free: bool, known: &[bool], shapes: bool)
         });
     }
     for (index, (effect, known)) in plant.effects.iter().zip(known).enumerate() {
-        let linear = entry(effect.mechanism).map_or(0, |e| e.linear);
+        let linear = entry(effect.mechanism()).map_or(0, |e| e.linear);
         let size = leading_size(plant);
         for (parameter, value) in effect.parameters.iter().enumerate() {
             let is_shape = parameter >= linear;
@@ -46,7 +47,7 @@ fn free_numbers(plant: &Model, inertia_free: bool, known: &[bool], shapes: bool)
 /// The largest leading coefficient among the efforts of the plant: what "small" is measured against.
 fn leading_size(plant: &Model) -> f64 {
     let leads = |mechanism| facts(mechanism).is_some_and(|facts| facts.refit.leads);
-    let efforts = plant.effects.iter().filter(|e| leads(e.mechanism));
+    let efforts = plant.effects.iter().filter(|e| leads(e.mechanism()));
     efforts
         .filter_map(|e| e.parameters.first())
         .map(|p| p.abs())
@@ -54,7 +55,7 @@ fn leading_size(plant: &Model) -> f64 {
 }
 
 fn size_of(effect: &Effect, parameter: usize, effort: f64) -> f64 {
-    let sizes = facts(effect.mechanism).map_or(&[][..], |facts| facts.refit.sizes);
+    let sizes = facts(effect.mechanism()).map_or(&[][..], |facts| facts.refit.sizes);
     sizes.get(parameter).map_or(0.0, |size| size * effort)
 }
 
@@ -82,16 +83,14 @@ pub fn show(
     let has_drift = plant
         .effects
         .iter()
-        .any(|e| e.mechanism == Mechanism::BiasDrift);
+        .any(|e| e.mechanism() == Mechanism::BiasDrift);
     if !drift || has_drift || run.plant == PlantKind::Bench {
         return best;
     }
     let mut with_drift = plant.clone();
-    with_drift.effects.push(Effect {
-        mechanism: Mechanism::BiasDrift,
-        parameters: vec![0.0],
-        onset_s: None,
-    });
+    with_drift
+        .effects
+        .push(Effect::of(Mechanism::BiasDrift, &[0.0]));
     let mut known = known.to_vec();
     known.push(false);
     let drifting = staged(&with_drift, inertia_free, &known, run, protocol);

@@ -4,17 +4,27 @@ use super::align::{Signals, align};
 use super::inertia::Inertia;
 use crate::align::{Fault, forget_sense_near_reversals};
 use crate::cause::Cause;
+use crate::effect::Effect;
+use crate::plant::Clock;
 use crate::plants::joint::run::{JointRun, PlantKind};
-use crate::plants::joint::simulate::{Effect, Interpolation, Model, Protocol};
-use crate::problem::NominalEffect;
+use crate::plants::joint::simulate::{Interpolation, Model, Protocol};
 use crate::rules::STILL_NOISES;
 use rigproof_trace::rig::{Drive, Plant as RigPlant, Recording, Rig, Status};
 
-/// Aligns a recording of a rig.
+/// Aligns a recording of a rig as its sensors show it.
 ///
 /// # Errors
 /// The fault that makes any conclusion meaningless.
 pub fn aligned(rig: &Rig, recording: &Recording) -> Result<JointRun, Fault> {
+    bare(rig, recording, |position, _| position.to_vec())
+}
+
+/// Aligns a recording with other positions than the shown ones: `behind` gives them on its clock.
+pub(super) fn bare(
+    rig: &Rig,
+    recording: &Recording,
+    behind: impl Fn(&[f64], Clock) -> Vec<f64>,
+) -> Result<JointRun, Fault> {
     let axis = recording.plant == RigPlant::Axis;
     let gain = rig.parameters.map_or(1.0, |p| p.command_gain.value);
     let drive = recording.drive.as_ref();
@@ -42,7 +52,7 @@ pub fn aligned(rig: &Rig, recording: &Recording) -> Result<JointRun, Fault> {
         },
         kind: recording.motion,
         time_s: recording.time_s.clone(),
-        position: recording.position.samples.clone(),
+        position: behind(&recording.position.samples, stamps(&recording.time_s)),
         effort: effort.map_or_else(Vec::new, |e| e.samples.iter().map(|x| x * scale).collect()),
         predicted: recording.simulated.as_ref().map(|s| s.samples.clone()),
         current: drive.filter(|_| !axis).map(|d| d.samples.clone()),
@@ -64,6 +74,18 @@ pub fn aligned(rig: &Rig, recording: &Recording) -> Result<JointRun, Fault> {
     Ok(run)
 }
 
+/// The clock of stamps, the first of them at 0.
+fn stamps(time_s: &[f64]) -> Clock {
+    let ends = time_s.first().zip(time_s.last());
+    let samples = time_s.len();
+    let length_s = ends.map_or(0.0, |(first, last)| last - first);
+    Clock {
+        step_s: length_s / samples.saturating_sub(1).max(1) as f64,
+        start_s: 0.0,
+        samples,
+    }
+}
+
 /// The inertia as the rig states it.
 pub(crate) fn inertia(rig: &Rig) -> Inertia {
     match (rig.plant, rig.parameters) {
@@ -76,10 +98,10 @@ pub(crate) fn inertia(rig: &Rig) -> Inertia {
 }
 
 /// The physics that the nominal model has.
-pub(crate) fn nominal(rig: &Rig) -> Vec<NominalEffect> {
+pub(crate) fn nominal(rig: &Rig) -> Vec<Effect> {
     rig.effects
         .iter()
-        .map(|effect| NominalEffect {
+        .map(|effect| Effect {
             cause: Cause::of(effect.mechanism),
             parameters: effect.values.iter().map(|v| v.value).collect(),
             unknown: effect.values.iter().any(|v| v.status != Status::Known),
@@ -92,14 +114,8 @@ pub(crate) fn nominal(rig: &Rig) -> Vec<NominalEffect> {
 pub fn plant(rig: &Rig) -> Model {
     Model {
         inertia: rig.parameters.map_or(0.0, |p| p.inertia.value),
-        effects: nominal(rig)
-            .into_iter()
-            .map(|n| Effect {
-                mechanism: n.cause.mechanism,
-                parameters: n.parameters,
-                onset_s: n.onset_s,
-            })
-            .collect(),
+        described: rig.effects.len(),
+        effects: nominal(rig),
     }
 }
 

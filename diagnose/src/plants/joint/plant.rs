@@ -1,17 +1,18 @@
 //! This file is a plant of one joint by its description.
 
 use super::inverse::{self, CUTOFF_HZ, DECIMATION, FILTER_ORDER};
-use super::joined::joined;
 use super::mistaken::{another_drive, without_brake};
 use super::run::{JointRun, PlantKind};
 use super::simulate::output;
-use super::write_rig::{calibrated, nominal_numbers};
-use super::{from_rig, replica};
+use super::write_rig::{calibrated, found_in, nominal_numbers};
+use super::{from_rig, replica, undone};
 use crate::align::Fault;
 use crate::diagnose::write::Stand;
+use crate::effect::Effect;
 use crate::evidence::Intervals;
 use crate::plant::{At, Described, Plant, Replica, Shown, Simulated, SimulatedOutput, Unsimulated};
-use crate::problem::{NominalEffect, Problem};
+use crate::plants::joined::joined;
+use crate::problem::Problem;
 use crate::report::{FitReport, InverseReport, Number};
 use crate::select::Selection;
 use crate::sensor::sensed;
@@ -31,8 +32,8 @@ impl Plant for Rig {
         self.plant.name()
     }
 
-    fn aligned(&self, recording: &Recording, _: f64) -> Result<JointRun, Fault> {
-        from_rig::aligned(self, recording)
+    fn aligned(&self, recording: &Recording, before_s: f64) -> Result<JointRun, Fault> {
+        undone::aligned(self, recording, before_s)
     }
 
     fn joined(runs: Vec<JointRun>) -> Result<JointRun, (usize, Fault)> {
@@ -43,21 +44,27 @@ impl Plant for Rig {
         run.part(from, to)
     }
 
-    fn nominal(&self) -> Vec<NominalEffect> {
-        from_rig::nominal(self)
+    fn nominal(&self) -> Vec<Effect> {
+        undone::left(self)
     }
 
     fn check(&self, run: &JointRun, _: &Problem) -> Result<(), (At, Fault)> {
-        without_brake(self, run).map_or(Ok(()), |fault| Err(("description", fault)))
+        let not_so = undone::not_computed(self).or_else(|| undone::not_told(self));
+        let fault = not_so.map(undone::of_description);
+        let fault = fault.or_else(|| without_brake(self, run));
+        fault.map_or(Ok(()), |fault| Err(("description", fault)))
     }
 
     fn check_found(&self, problem: &Problem, selection: &Selection) -> Result<(), Fault> {
         another_drive(problem, selection).map_or(Ok(()), Err)
     }
 
-    /// A change of the drive in the description is passed over.
-    fn meaningless(&self, _: &Problem, _: &NominalEffect) -> Option<Fault> {
-        None
+    fn meaningless(&self, problem: &Problem, effect: &Effect) -> Option<Fault> {
+        Some(undone::of_description(format!(
+            "`{}` cannot stand in the nominal model of this {}; take it out",
+            problem.name(effect.cause),
+            self.plant.name()
+        )))
     }
 
     fn calibrated(stand: &Stand<'_, Rig>, intervals: &Intervals) -> Rig {
@@ -65,9 +72,7 @@ impl Plant for Rig {
     }
 
     fn found(&self, stand: &Stand<'_, Rig>, _: &Intervals) -> Vec<RigEffect> {
-        let Selection { nominal, found, .. } = stand.selection;
-        let effects = self.effects.iter().skip(nominal.len());
-        effects.take(found.len()).cloned().collect()
+        found_in(&self.effects, stand.plant.effects.len(), stand.selection)
     }
 
     /// By free runs of an axis under the recorded command, and along the recorded motion of a bench; the numbers are refitted by them.
@@ -79,11 +84,12 @@ impl Plant for Rig {
             None => (stand.model(false), stand.model(true)),
         };
         // A bench with a brake keeps the numbers of its windows.
-        let refitted = fitted.is_some() && stand.train.brake().is_none();
+        let is_refitted = fitted.as_ref().is_some_and(|fitted| fitted.is_refitted);
+        let refitted = is_refitted && stand.train.brake().is_none();
         let fit = fitted.as_ref();
         Shown {
             calibration: calibrated(stand.plant, &after, intervals, refitted),
-            fit: fit.map(|fitted| stand.fit_report(fitted, &protocol)),
+            fit: fit.map(|fitted| stand.fit_report(fitted, intervals, &protocol)),
             curves: stand.free_run_curves(&before, &after, &protocol),
         }
     }
@@ -178,6 +184,9 @@ impl Described for Rig {
         recording: &Recording,
         _: f64,
     ) -> Result<Simulated, Unsimulated> {
+        if let Some(reason) = undone::not_computed(model) {
+            return Err(Unsimulated::Model(reason));
+        }
         let run = from_rig::aligned(model, recording).map_err(Unsimulated::Recording)?;
         let protocol = from_rig::protocol(model);
         let (name, recorded, quantity, start) = match run.plant {

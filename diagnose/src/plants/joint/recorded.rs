@@ -7,7 +7,7 @@ use crate::plants::joint::run::{JointRun, PlantKind};
 use crate::sensor::normal;
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::SeedableRng;
-use rigproof_model::axis::Axis;
+use rigproof_model::axis::{Axis, Transmission};
 use rigproof_model::bench::resistance;
 use rigproof_model::effects::{Instant, law};
 use rigproof_spec::effect::{Mechanism, Motion};
@@ -53,6 +53,7 @@ pub fn exact_axis(laws: Laws, count: usize, held: bool) -> JointRun {
     let axis = Axis {
         inertia: INERTIA,
         laws: laws.iter().map(|(m, p)| law(*m, p).unwrap()).collect(),
+        transmission: Transmission::default(),
     };
     let mut state = axis.state(0.0, 0.013, 0.0);
     let (mut motion, mut effort) = (Vec::new(), Vec::new());
@@ -129,6 +130,7 @@ fn run(plant: PlantKind, motion: Vec<Instant>, effort: Vec<f64>, held: bool) -> 
         position_noise: QUANTUM / 12f64.sqrt(),
         effort_noise: EFFORT_NOISE,
         speed_floor: 1e-4,
+        metered_by: Vec::new(),
         parts: Vec::new(),
     }
 }

@@ -170,18 +170,15 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for OutputError<'_> {
 mod tests {
     use super::*;
 
+    use crate::effect::Effect;
     use crate::plants::joint::recorded::{INERTIA, NOMINAL, exact_axis};
-    use crate::plants::joint::simulate::Effect;
     use rigproof_spec::effect::Mechanism;
 
     fn plant(inertia: f64, viscous: f64, dry: f64) -> Model {
-        let effect = |mechanism, value| Effect {
-            mechanism,
-            parameters: vec![value],
-            onset_s: None,
-        };
+        let effect = |mechanism, value: f64| Effect::of(mechanism, &[value]);
         Model {
             inertia,
+            described: 2,
             effects: vec![
                 effect(Mechanism::Viscous, viscous),
                 effect(Mechanism::Spring, 41.7),

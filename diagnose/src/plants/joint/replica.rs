@@ -1,5 +1,6 @@
 //! This file runs a plant of one joint through a recording again: an axis freely under the recorded command, a bench along the recorded motion.
 
+use super::undone::not_computed;
 use crate::plant::Replica;
 use crate::plants::joint::from_rig::{aligned, plant, protocol};
 use crate::plants::joint::run::PlantKind;
@@ -15,6 +16,9 @@ pub(crate) fn replica(
     model: &Rig,
     recording: &Recording,
 ) -> Result<Replica<Recording>, String> {
+    if let Some(reason) = not_computed(model) {
+        return Err(reason);
+    }
     let run = aligned(nominal, recording).map_err(|fault| fault.reason)?;
     let out = output(&plant(model), &run, &protocol(model));
     let mut own = recording.clone();

@@ -6,10 +6,11 @@ use super::{columns, shapes};
 use crate::align::band_hz;
 use crate::cause::{Cause, Place};
 use crate::doubt::{greatest_change, jumps_late, turning};
+use crate::effect::Effect;
 use crate::filter::rms;
 use crate::locate::{self, Regimes};
 use crate::plant::{Clock, Columns, Run};
-use crate::problem::{NominalEffect, add};
+use crate::problem::add;
 use crate::rules::{
     LEAST_STEPS_AXIS, LEAST_STEPS_BENCH, MOST_AMBIGUOUS, MOST_NOISE, MOST_UNTOLD, PERIODS_A_WIDTH,
     QUIET, WIDTHS_S,
@@ -40,7 +41,7 @@ pub struct JointRun {
     /// The inertia, as far as it is known.
     pub inertia: Inertia,
     /// The physics of its description.
-    pub described: Vec<NominalEffect>,
+    pub described: Vec<Effect>,
     /// Sample interval, s.
     pub step_s: f64,
     /// Time of the first sample, s.
@@ -69,6 +70,8 @@ pub struct JointRun {
     pub speed_floor: f64,
     /// By how much the speed may be mistaken, m/s or rad/s.
     pub untold_speed: Vec<f64>,
+    /// Changes between the resistance and what a bench meters that its description states.
+    pub metered_by: Vec<Effect>,
     /// The recordings that stand in it one after another; empty for one recording.
     pub parts: Vec<JointRun>,
 }
@@ -127,11 +130,6 @@ impl JointRun {
         self.position.is_empty()
     }
 
-    /// The length of the recording, s.
-    pub fn duration_s(&self) -> f64 {
-        self.step_s * self.len().saturating_sub(1) as f64
-    }
-
     /// The samples `from..to`, times kept.
     pub fn part(&self, from: usize, to: usize) -> JointRun {
         let part = |values: &Vec<f64>| values.get(from..to).unwrap_or_default().to_vec();
@@ -154,6 +152,7 @@ impl JointRun {
             recorded: self.recorded.get(from..to).unwrap_or_default().to_vec(),
             speed_floor: self.speed_floor,
             untold_speed: part(&self.untold_speed),
+            metered_by: self.metered_by.clone(),
             parts: Vec::new(),
         }
     }
@@ -221,7 +220,9 @@ impl Run for JointRun {
 
     fn known(&self) -> Vec<f64> {
         let none = || vec![0.0; self.len()];
-        let mut known = self.predicted.clone().unwrap_or_else(none);
+        let predicted = self.predicted.as_ref();
+        let predicted = predicted.map(|own| columns::metered(self, own.clone()));
+        let mut known = predicted.unwrap_or_else(none);
         if let Inertia::Known(value) = self.inertia {
             let acceleration = second_difference(&self.position, self.step_s);
             add(&mut known, &acceleration, value);

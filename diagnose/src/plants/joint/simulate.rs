@@ -1,33 +1,27 @@
 //! This file runs a calibrated plant from the recorded inputs, without looking at the recorded output again.
 
 use super::columns::{is_of_brake, of_brake};
-use crate::plant::Run;
+use super::drive::{drive_of, driven, fine_effort, local_interpolation};
+use super::encoder::{behind, shown};
+use super::laws::{bend_bristles, laws};
+use super::start::begun;
+use crate::effect::Effect;
+use crate::plant::{Clock, Run};
 use crate::plants::joint::run::{JointRun, PlantKind};
-use crate::signals::{lagged_yield, shifted};
-use rigproof_model::axis::Axis;
+use crate::signals::lagged_yield;
+use rigproof_model::axis::{Axis, State, Trailing, Transmission};
 use rigproof_model::bench::resistance;
-use rigproof_model::effects::{Drive, Form, Instant, Law, first_order_lag, form, law};
-use rigproof_spec::effect::Mechanism;
-use rustfft::{FftPlannerScalar, num_complex::Complex64};
-
-/// A mechanism with numbers.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Effect {
-    /// The mechanism.
-    pub mechanism: Mechanism,
-    /// Its parameters in the vocabulary's order, SI.
-    pub parameters: Vec<f64>,
-    /// When it begins, s.
-    pub onset_s: Option<f64>,
-}
+use rigproof_model::effects::{Drive, Form, OfJoint, form};
 
 /// A plant with all its numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Model {
     /// Mass or moment of inertia; unused on a bench.
     pub inertia: f64,
-    /// Everything that acts.
+    /// Everything that acts: first what the description has, in its order.
     pub effects: Vec<Effect>,
+    /// How many of the effects are the description's. What fades is the friction of those before it.
+    pub described: usize,
 }
 
 /// What the effort does between two samples.
@@ -47,7 +41,7 @@ pub enum Interpolation {
 pub struct Protocol {
     /// What the effort does between samples.
     pub interpolation: Interpolation,
-    /// Samples from which the start state is estimated (a parabola); 0 starts from rest at the first position.
+    /// Samples from which the start state is estimated (a parabola, then a fit to the samples after it); 0 starts from rest at the first position.
     pub start_samples: usize,
     /// Integration steps a sample.
     pub substeps: usize,
@@ -83,103 +77,6 @@ pub fn output(plant: &Model, run: &JointRun, protocol: &Protocol) -> Vec<f64> {
     }
 }
 
-fn laws(plant: &Model) -> Vec<Box<dyn Law>> {
-    plant
-        .effects
-        .iter()
-        .filter_map(|e| own_law(e).map(|law| with_onset(law, e.onset_s)))
-        .collect()
-}
-
-/// The law of an effect that is a resistance of its own, not something that a brake does.
-fn own_law(effect: &Effect) -> Option<Box<dyn Law>> {
-    let is_own = !is_of_brake(effect.mechanism);
-    is_own.then(|| law(effect.mechanism, &effect.parameters))?
-}
-
-/// A law that acts from a given time on.
-struct Late {
-    law: Box<dyn Law>,
-    onset_s: f64,
-}
-
-impl Law for Late {
-    fn smooth(&self, now: &Instant, memory: f64) -> f64 {
-        if now.time_s < self.onset_s {
-            0.0
-        } else {
-            self.law.smooth(now, memory)
-        }
-    }
-
-    fn dry(&self, now: &Instant) -> f64 {
-        if now.time_s < self.onset_s {
-            0.0
-        } else {
-            self.law.dry(now)
-        }
-    }
-
-    fn remembers(&self) -> bool {
-        self.law.remembers()
-    }
-
-    fn memory_rate(&self, now: &Instant, memory: f64) -> f64 {
-        self.law.memory_rate(now, memory)
-    }
-
-    fn parts(&self, now: &Instant, memory: f64) -> (f64, f64) {
-        if now.time_s < self.onset_s {
-            (0.0, 0.0)
-        } else {
-            self.law.parts(now, memory)
-        }
-    }
-
-    fn memory_after(&self, memory: f64, travel: f64, speed: f64) -> f64 {
-        self.law.memory_after(memory, travel, speed)
-    }
-}
-
-fn with_onset(law: Box<dyn Law>, onset_s: Option<f64>) -> Box<dyn Law> {
-    match onset_s {
-        Some(onset_s) => Box::new(Late { law, onset_s }),
-        None => law,
-    }
-}
-
-/// The effort after the changes of the drive: gain, time shift, lag. On an axis the recorded command is ahead of
-/// the effort; on a bench `effort` is what the laws give and the recorded one is behind.
-fn driven(plant: &Model, effort: &[f64], run: &JointRun) -> Vec<f64> {
-    let step_s = run.step_s;
-    let mut out = effort.to_vec();
-    for effect in &plant.effects {
-        let value = effect.parameters.first().copied().unwrap_or(0.0);
-        let Some(change) = drive_of(effect) else {
-            continue;
-        };
-        let changed = match change {
-            Drive::Gain => out.iter().map(|e| e * (1.0 + value)).collect(),
-            Drive::Skew => shifted(&out, -value / step_s),
-            Drive::Lag => first_order_lag(&out, step_s, value),
-            Drive::Limit => out.iter().map(|e| e.min(value).max(-value)).collect(),
-        };
-        let first = effect.onset_s.map_or(0, |t| run.clock().sample_at(t));
-        for (o, c) in out.iter_mut().zip(changed).skip(first) {
-            *o = c;
-        }
-    }
-    out
-}
-
-/// The change of the drive that an effect is.
-fn drive_of(effect: &Effect) -> Option<Drive> {
-    let Form::Drive(change) = form(effect.mechanism)? else {
-        return None;
-    };
-    Some(change)
-}
-
 fn bench(plant: &Model, run: &JointRun) -> Vec<f64> {
     let change = |own: Drive| {
         let mut effects = plant.effects.iter();
@@ -187,12 +84,12 @@ fn bench(plant: &Model, run: &JointRun) -> Vec<f64> {
     };
     let value = |own: Drive| change(own).and_then(|e| e.parameters.first().copied());
     let mut effort = resistance(&laws(plant), &run.motion, run.step_s);
-    for effect in plant.effects.iter().filter(|e| is_of_brake(e.mechanism)) {
+    for effect in plant.effects.iter().filter(|e| is_of_brake(e.mechanism())) {
         let [coefficient, shape @ ..] = effect.parameters.as_slice() else {
             continue;
         };
-        let signal = of_brake(run, effect.mechanism, shape).unwrap_or_default();
-        let first = effect.onset_s.map_or(0, |t| run.clock().sample_at(t));
+        let signal = of_brake(run, effect.mechanism(), shape).unwrap_or_default();
+        let first = effect.first_sample(run.clock());
         for (e, s) in effort.iter_mut().zip(signal).skip(first) {
             *e += coefficient * s;
         }
@@ -202,9 +99,7 @@ fn bench(plant: &Model, run: &JointRun) -> Vec<f64> {
         let mut predicted = predicted.clone();
         // The yield of a brake lags; anything else lags as a whole, below.
         if let (Some(time_constant_s), Some(_)) = (value(Drive::Lag), &run.current) {
-            let first = change(Drive::Lag)
-                .and_then(|e| e.onset_s)
-                .map_or(0, |t| run.clock().sample_at(t));
+            let first = change(Drive::Lag).map_or(0, |e| e.first_sample(run.clock()));
             let lagged = lagged_yield(&predicted, run.step_s, time_constant_s);
             for (p, l) in predicted.iter_mut().zip(lagged).skip(first) {
                 *p = l;
@@ -216,29 +111,87 @@ fn bench(plant: &Model, run: &JointRun) -> Vec<f64> {
             *e += gain * p;
         }
     }
-    let rest = Model {
-        inertia: 0.0,
-        effects: plant
-            .effects
-            .iter()
-            .filter(|e| drive_of(e).is_some_and(|own| on_sum.contains(&own)))
-            .cloned()
-            .collect(),
-    };
-    driven(&rest, &effort, run)
+    let rest = plant.effects.iter();
+    let rest = rest.filter(|e| drive_of(e).is_some_and(|own| on_sum.contains(&own)));
+    driven(rest.chain(&run.metered_by), &effort, run.clock(), 0)
 }
 
+/// A joint that runs freely: what is of the joint as a whole takes hold when its time comes.
+pub(super) struct Free {
+    pub(super) axis: Axis,
+    inertia: f64,
+    of_joint: Vec<(OfJoint, Effect)>,
+}
+
+impl Free {
+    fn of(plant: &Model) -> Free {
+        let of_joint = plant
+            .effects
+            .iter()
+            .filter_map(|effect| match form(effect.mechanism())? {
+                Form::Joint(own) => Some((own, effect.clone())),
+                _ => None,
+            });
+        Free {
+            axis: Axis {
+                inertia: plant.inertia,
+                laws: laws(plant),
+                transmission: Transmission::default(),
+            },
+            inertia: plant.inertia,
+            of_joint: of_joint.collect(),
+        }
+    }
+
+    /// The joint as it is from a time on.
+    pub(super) fn take_hold(&mut self, time_s: f64) {
+        if self.of_joint.is_empty() {
+            return;
+        }
+        self.axis.inertia = self.inertia;
+        self.axis.transmission = Transmission::default();
+        let begun = |onset_s: f64| onset_s <= time_s;
+        for (of, effect) in &self.of_joint {
+            if !effect.onset_s.is_none_or(begun) {
+                continue;
+            }
+            match of {
+                OfJoint::Inertia => self.axis.inertia += effect.value(0),
+                OfJoint::Load => self.axis.transmission.friction_share += effect.value(0),
+                OfJoint::Compliance => {
+                    self.axis.transmission.trailing = Some(Trailing {
+                        share: effect.value(0).min(MOST_TRAILING),
+                        resonance_rad_s: effect.value(1),
+                        damping: effect.value(2),
+                    });
+                }
+                // Its laws do that.
+                OfJoint::Fade => {}
+            }
+        }
+        self.axis.inertia = self.axis.inertia.max(LEAST_INERTIA * self.inertia);
+    }
+
+    pub(super) fn run(&mut self, state: &mut State, efforts: &[(f64, f64)], step_s: f64) {
+        for &(begin, end) in efforts {
+            self.axis.step(state, begin, end, step_s);
+        }
+    }
+}
+
+/// The greatest share of an inertia that can hang behind a spring: with all of it nothing is left to drive.
+const MOST_TRAILING: f64 = 0.99;
+/// The least part of an inertia that another one leaves of it.
+const LEAST_INERTIA: f64 = 1e-3;
+
 fn free_run(plant: &Model, run: &JointRun, protocol: &Protocol) -> Vec<f64> {
-    let axis = Axis {
-        inertia: plant.inertia,
-        laws: laws(plant),
-    };
-    let effort = driven(plant, &run.effort, run);
+    let clock = run.clock();
+    let effort = driven(&plant.effects, &run.effort, clock, 0);
     let fine = fine_effort(&effort, protocol);
-    let (first, position, speed) = start(run, protocol.start_samples);
-    let mut state = axis.state(run.start_s + first as f64 * run.step_s, position, speed);
-    saturate_presliding(plant, &mut state.memory, speed);
-    let mut out = run.position.get(..first).unwrap_or_default().to_vec();
+    let there = behind(&plant.effects, &run.position, clock);
+    let mut free = Free::of(plant);
+    let (first, mut state) = begun((plant, &mut free), (run, &there), &fine, protocol);
+    let mut out = there.get(..first).unwrap_or_default().to_vec();
     let step_s = run.step_s / protocol.substeps as f64;
     for period in 0..=protocol.warm_up_periods {
         let counts = period == protocol.warm_up_periods;
@@ -250,101 +203,11 @@ fn free_run(plant: &Model, run: &JointRun, protocol: &Protocol) -> Vec<f64> {
             if counts {
                 out.push(state.position);
             }
-            for &(begin, end) in pairs {
-                axis.step(&mut state, begin, end, step_s);
-            }
+            free.take_hold(state.time_s);
+            free.run(&mut state, pairs, step_s);
         }
     }
-    out
-}
-
-/// A bristle that has been sliding is bent by all it can bend.
-fn saturate_presliding(plant: &Model, memory: &mut [f64], speed: f64) {
-    let with_law = plant.effects.iter().filter(|e| own_law(e).is_some());
-    for (effect, memory) in with_law.zip(memory) {
-        if effect.mechanism == Mechanism::Presliding && speed != 0.0 {
-            *memory = speed.signum();
-        }
-    }
-}
-
-/// Effort at the beginning and the end of every integration step.
-fn fine_effort(effort: &[f64], protocol: &Protocol) -> Vec<(f64, f64)> {
-    let n = protocol.substeps;
-    let next = |k: usize| effort.get(k + 1).or(effort.last()).copied().unwrap_or(0.0);
-    match protocol.interpolation {
-        Interpolation::Hold => effort
-            .iter()
-            .flat_map(|&e| core::iter::repeat_n((e, e), n))
-            .collect(),
-        Interpolation::Linear => effort
-            .iter()
-            .enumerate()
-            .flat_map(|(k, &e)| {
-                let slope = (next(k) - e) / n as f64;
-                (0..n).map(move |j| (e + slope * j as f64, e + slope * (j + 1) as f64))
-            })
-            .collect(),
-        Interpolation::Band => {
-            let fine = band_limited(effort, n);
-            let after = fine.iter().skip(1).chain(fine.first());
-            fine.iter().copied().zip(after.copied()).collect()
-        }
-    }
-}
-
-/// A periodic signal at `factor` times its rate, by its Fourier series.
-fn band_limited(signal: &[f64], factor: usize) -> Vec<f64> {
-    let n = signal.len();
-    // The scalar planner gives the same bits on every processor.
-    let mut planner = FftPlannerScalar::new();
-    let mut spectrum: Vec<Complex64> = signal.iter().map(|&x| Complex64::new(x, 0.0)).collect();
-    planner.plan_fft_forward(n).process(&mut spectrum);
-    let mut wide = vec![Complex64::default(); n * factor];
-    let half = n.div_ceil(2);
-    for (to, from) in wide.iter_mut().zip(spectrum.iter().take(half)) {
-        *to = *from;
-    }
-    for (to, from) in wide
-        .iter_mut()
-        .rev()
-        .zip(spectrum.iter().rev().take(n - half))
-    {
-        *to = *from;
-    }
-    planner.plan_fft_inverse(n * factor).process(&mut wide);
-    wide.into_iter().map(|c| c.re / n as f64).collect()
-}
-
-/// Start sample, position and speed: the end of a parabola through the first `samples` positions.
-fn start(run: &JointRun, samples: usize) -> (usize, f64, f64) {
-    if samples < 3 {
-        return (0, run.position.first().copied().unwrap_or(0.0), 0.0);
-    }
-    let last = samples - 1;
-    let points: Vec<(f64, f64)> = run
-        .position
-        .iter()
-        .take(samples)
-        .enumerate()
-        .map(|(k, &x)| ((k as f64 - last as f64) * run.step_s, x))
-        .collect();
-    let [position, speed, _] = parabola(&points);
-    (last, position, speed)
-}
-
-/// Least-squares coefficients of 1, t, t².
-fn parabola(points: &[(f64, f64)]) -> [f64; 3] {
-    let mut gram = nalgebra::Matrix3::zeros();
-    let mut right = nalgebra::Vector3::zeros();
-    let scale = points.first().map_or(1.0, |p| p.0.abs().max(1e-12));
-    for &(t, x) in points {
-        let row = nalgebra::Vector3::new(1.0, t / scale, t * t / (scale * scale));
-        gram += row * row.transpose();
-        right += row * x;
-    }
-    let c = gram.lu().solve(&right).unwrap_or_default();
-    [c.x, c.y / scale, c.z / (scale * scale)]
+    shown(&plant.effects, out, clock)
 }
 
 /// The position `count` samples after sample `first`, started from the recorded state there.
@@ -355,107 +218,60 @@ pub fn predict(
     count: usize,
     protocol: &Protocol,
 ) -> Option<f64> {
+    let clock = run.clock();
+    let efforts = run.effort.get(first..first + count)?;
+    let effort = driven(&plant.effects, efforts, clock, first);
     let begin = run.motion.get(first)?;
-    let axis = Axis {
-        inertia: plant.inertia,
-        laws: laws(plant),
+    let seen = [begin, run.motion.get(first + 1)?].map(|now| now.position);
+    let stretch = Clock {
+        start_s: begin.time_s,
+        samples: 2,
+        ..clock
     };
-    let effort = driven(plant, run.effort.get(first..first + count)?, run);
-    let mut state = axis.state(
-        begin.time_s,
-        begin.position,
-        if begin.sense.abs() < 1.0 {
-            0.0
-        } else {
-            begin.speed
-        },
-    );
-    saturate_presliding(plant, &mut state.memory, state.speed);
+    let there = behind(&plant.effects, &seen, stretch);
+    let &[position, next] = there.as_slice() else {
+        return None;
+    };
+    // An encoder that shows more travel shows more speed.
+    let shows = |seen: f64, is: f64| if is == 0.0 { 1.0 } else { seen / is };
+    let speed = match begin.sense.abs() < 1.0 {
+        true => 0.0,
+        false => begin.speed / shows(seen[1] - seen[0], next - position),
+    };
+    let mut free = Free::of(plant);
+    let mut state = free.axis.state(begin.time_s, position, speed);
+    bend_bristles(plant, &mut state.memory, speed);
     let step_s = run.step_s / protocol.substeps as f64;
     let local = Protocol {
         interpolation: local_interpolation(protocol.interpolation),
         ..*protocol
     };
-    for (from, to) in fine_effort(&effort, &local) {
-        axis.step(&mut state, from, to, step_s);
+    for pairs in fine_effort(&effort, &local).chunks(protocol.substeps) {
+        free.take_hold(state.time_s);
+        free.run(&mut state, pairs, step_s);
     }
-    Some(state.position)
-}
-
-/// Over a short stretch a band-limited effort goes straight between its samples.
-fn local_interpolation(interpolation: Interpolation) -> Interpolation {
-    match interpolation {
-        Interpolation::Band => Interpolation::Linear,
-        other => other,
-    }
+    let end = Clock {
+        start_s: state.time_s,
+        samples: 1,
+        ..clock
+    };
+    shown(&plant.effects, vec![state.position], end).pop()
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
 
     use crate::plants::joint::recorded::{INERTIA, NOMINAL, exact_axis};
-    use core::f64::consts::TAU;
+    use rigproof_spec::effect::Mechanism;
 
-    #[test]
-    fn band_limited_interpolation_is_exact_on_a_multisine() {
-        let value = |at: f64| {
-            1.3 * libm::sin(TAU * 3.0 * at + 0.4) - 0.7 * libm::cos(TAU * 11.0 * at) + 0.17
-        };
-        for count in [48, 49] {
-            let signal: Vec<f64> = (0..count).map(|k| value(k as f64 / count as f64)).collect();
-            let fine = band_limited(&signal, 7);
-            assert_eq!(fine.len(), 7 * count);
-            for (k, x) in fine.iter().enumerate() {
-                let exact = value(k as f64 / (7 * count) as f64);
-                assert!(
-                    (x - exact).abs() < 1e-12,
-                    "{count} samples, {k}: {x} {exact}"
-                );
-            }
-        }
-    }
-
-    #[test]
-    fn the_start_state_of_a_parabola_is_its_end() {
-        let mut run = exact_axis(NOMINAL, 40, true);
-        let at = |t: f64| 0.37 - 1.9 * t + 5.3 * t * t;
-        for (k, x) in run.position.iter_mut().enumerate() {
-            *x = at(k as f64 * run.step_s);
-        }
-        let (first, position, speed) = start(&run, 17);
-        let t = 16.0 * run.step_s;
-        assert_eq!(first, 16);
-        assert!((position - at(t)).abs() < 1e-12, "{position}");
-        assert!((speed - (10.6 * t - 1.9)).abs() < 1e-9, "{speed}");
-    }
-
-    #[test]
-    fn a_held_effort_and_a_straight_one_differ_inside_the_step() {
-        let protocol = |interpolation| Protocol {
-            interpolation,
-            substeps: 2,
-            ..Protocol::default()
-        };
-        let effort = [0.3, 1.1, -0.7];
-        let held = fine_effort(&effort, &protocol(Interpolation::Hold));
-        assert_eq!(held[2..4], [(1.1, 1.1), (1.1, 1.1)]);
-        let straight = fine_effort(&effort, &protocol(Interpolation::Linear));
-        for ((begin, end), expected) in straight[2..4].iter().zip([(1.1, 0.2), (0.2, -0.7)]) {
-            assert!((begin - expected.0).abs() + (end - expected.1).abs() < 1e-12);
-        }
-    }
-
-    fn plant() -> Model {
+    pub fn plant() -> Model {
         Model {
             inertia: INERTIA,
+            described: NOMINAL.len(),
             effects: NOMINAL
                 .iter()
-                .map(|(mechanism, parameters)| Effect {
-                    mechanism: *mechanism,
-                    parameters: parameters.to_vec(),
-                    onset_s: None,
-                })
+                .map(|(mechanism, parameters)| Effect::of(*mechanism, parameters))
                 .collect(),
         }
     }
@@ -485,9 +301,8 @@ mod tests {
         let mut late = plant();
         let onset_s = 401.5 * run.step_s;
         late.effects.push(Effect {
-            mechanism: Mechanism::ConstantBias,
-            parameters: vec![2.7],
             onset_s: Some(onset_s),
+            ..Effect::of(Mechanism::ConstantBias, &[2.7])
         });
         let protocol = Protocol::default();
         let (without, with) = (

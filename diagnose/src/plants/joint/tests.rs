@@ -172,3 +172,98 @@ fn recordings_of_an_axis_are_diagnosed_together() {
     let held_out = found.report.fit.unwrap().held_out.unwrap();
     assert!(held_out.after < 0.1 * held_out.before, "{held_out:?}");
 }
+
+/// What the held-out part of a plant says that is another one from a sample on.
+fn held_out_of(rig: &Rig, before: &JointRun, after: &JointRun, from: usize) -> Diagnosis<Rig> {
+    let mut run = before.clone();
+    for (own, other) in [
+        (&mut run.position, &after.position),
+        (&mut run.effort, &after.effort),
+    ] {
+        own[from..].copy_from_slice(&other[from..]);
+    }
+    diagnose(rig, &[&recording(rig, &run)], None, &Options::default())
+}
+
+#[test]
+fn a_held_out_part_that_goes_another_way_is_said_with_when() {
+    let axis = axis();
+    let exact = exact_axis(NOMINAL, 15_300, true);
+    // The last quarter begins at sample 11 475: what begins at 13 000 no window of the fitted part sees.
+    let (from, time_s) = (13_000, 13_000.0 * 1.1e-3);
+    let mut rezeroed = exact.clone();
+    rezeroed.position.iter_mut().for_each(|x| *x -= 0.031);
+    let mut cut_off = exact.clone();
+    cut_off.effort.fill(0.0);
+    let bench = rig("bench", VISCOUS);
+    let metered = exact_bench(&[(Mechanism::Viscous, &[7.3])], 15_300);
+    let mut amplified = metered.clone();
+    amplified.effort.iter_mut().for_each(|f| *f *= 1.13);
+    for (rig, before, after) in [
+        (&axis, &exact, &rezeroed),
+        (&axis, &exact, &cut_off),
+        (&bench, &metered, &amplified),
+    ] {
+        let found = held_out_of(rig, before, after, from).report;
+        if found.verdict == Verdict::DataFault {
+            continue;
+        }
+        assert_eq!(found.verdict, Verdict::Consistent, "{}", found.summary);
+        let agreement = found.fit.unwrap().agreement.unwrap();
+        assert!(!agreement.agrees, "{agreement:?}");
+        let departs_s = agreement.departs_s.unwrap();
+        assert!(
+            (time_s - 0.01..time_s + 0.5).contains(&departs_s),
+            "{departs_s}"
+        );
+        assert!(
+            found.summary.contains("does not agree"),
+            "{}",
+            found.summary
+        );
+    }
+    for report in both(&[])
+        .map(|own| own.report)
+        .iter()
+        .chain(&both(&[DRY]).map(|own| own.report))
+    {
+        let agreement = report.fit.as_ref().unwrap().agreement.as_ref().unwrap();
+        assert!(agreement.agrees, "{} {agreement:?}", report.plant);
+    }
+}
+
+#[test]
+fn the_numbers_that_are_written_predict_no_worse_than_those_of_the_windows() {
+    let axis = axis();
+    let exact = exact_axis(&[NOMINAL, &[DRY]].concat(), 15_300, true);
+    // A push by hand that no channel records, and counts that are lost once: a free run goes across both.
+    let mut pushed = exact.clone();
+    for (k, x) in pushed.position.iter_mut().enumerate() {
+        let since_s = (k as f64 - 5_000.0) * 1.1e-3;
+        *x += if since_s > 0.0 {
+            0.05 * since_s * libm::exp(-3.0 * since_s)
+        } else {
+            0.0
+        };
+    }
+    let mut lost = exact.clone();
+    lost.position
+        .iter_mut()
+        .skip(6_000)
+        .for_each(|x| *x -= 0.0071);
+    for run in [&exact, &pushed, &lost] {
+        let found = diagnose(&axis, &[&recording(&axis, run)], None, &Options::default());
+        let Some(fit) = found.report.fit else {
+            assert_eq!(found.report.verdict, Verdict::DataFault);
+            continue;
+        };
+        let (held_out, windows) = (fit.held_out.unwrap(), fit.held_out_without_refit.unwrap());
+        assert!(held_out.after <= windows, "{} {windows}", held_out.after);
+        let written = &found.calibration.provenance["fit"];
+        assert_eq!(
+            held_out.after < windows,
+            written.starts_with("output-error"),
+            "{written}"
+        );
+    }
+}

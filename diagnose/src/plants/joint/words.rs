@@ -4,6 +4,7 @@ use super::run::PlantKind;
 use super::simulate::{Interpolation, Protocol};
 use crate::diagnose::words::{filled_in, together};
 use crate::diagnose::write::Stand;
+use crate::plant::Run;
 use crate::rules::NOISE_ORDER;
 use rigproof_trace::rig::Rig;
 
@@ -17,7 +18,7 @@ impl Stand<'_, Rig> {
                 "fitted part: {} samples at {:.1} Hz, {:.3} s; held-out part: {} samples{}",
                 self.train.len(),
                 1.0 / self.train.step_s,
-                self.train.duration_s(),
+                self.train.clock().duration_s(),
                 self.test.len(),
                 if self.other_recording {
                     " of another recording"

@@ -1,9 +1,13 @@
 //! This file writes what was found as a rig description: the calibration that a simulation can read.
 
+use super::from_rig::nominal;
 use super::simulate::Model;
+use super::undone::is_undone;
 use crate::diagnose::numbers::{number, numbers, onset, with_interval};
 use crate::evidence::Intervals;
 use crate::report::Number;
+use crate::select::Selection;
+use rigproof_spec::effect::Mechanism;
 use rigproof_trace::rig::{Rig, RigEffect, Status};
 use std::collections::BTreeMap;
 
@@ -15,26 +19,40 @@ pub fn calibrated(rig: &Rig, model: &Model, intervals: &Intervals, refitted: boo
     {
         parameters.inertia = with_interval(model.inertia, intervals.nuisances.first().copied());
     }
-    out.effects = model
-        .effects
-        .iter()
-        .enumerate()
-        .map(|(index, effect)| {
-            let given = rig.effects.get(index);
-            let halves = intervals.terms.get(index);
-            let values = effect.parameters.iter().enumerate().map(|(k, &value)| {
-                match given.and_then(|g| g.values.get(k)) {
-                    Some(known) if known.status == Status::Known => *known,
-                    _ => with_interval(value, halves.and_then(|h| h.get(k)).copied()),
-                }
-            });
-            RigEffect {
-                mechanism: effect.mechanism,
-                values: values.collect(),
-                onset: onset(effect.onset_s, intervals, index),
+    let written = |index: usize, given: Option<&RigEffect>| {
+        let effect = model.effects.get(index)?;
+        let halves = intervals.terms.get(index);
+        let values = effect.parameters.iter().enumerate().map(|(k, &value)| {
+            match given.and_then(|g| g.values.get(k)) {
+                Some(known) if known.status == Status::Known => *known,
+                _ => with_interval(value, halves.and_then(|h| h.get(k)).copied()),
+            }
+        });
+        Some(RigEffect {
+            mechanism: effect.mechanism(),
+            values: values.collect(),
+            onset: onset(effect.onset_s, intervals, index),
+        })
+    };
+    // What was undone before the fit stays as it is; every other effect of the description has its own place in the model.
+    let mut fitted = 0..model.described;
+    let described = rig.effects.iter().zip(nominal(rig));
+    out.effects = described
+        .map(|(given, own)| match is_undone(&own) {
+            true => given.clone(),
+            false => {
+                let own = fitted.next().and_then(|index| written(index, Some(given)));
+                own.filter(|own| own.mechanism == given.mechanism)
+                    .unwrap_or_else(|| given.clone())
             }
         })
         .collect();
+    let mut found: Vec<RigEffect> = (model.described..model.effects.len())
+        .filter_map(|index| written(index, None))
+        .collect();
+    // What fades is what stands before it.
+    found.sort_by_key(|own| own.mechanism != Mechanism::FrictionFade);
+    out.effects.extend(found);
     let how = if refitted {
         "output-error refit of free runs; intervals from the weighted windows"
     } else {
@@ -42,6 +60,23 @@ pub fn calibrated(rig: &Rig, model: &Model, intervals: &Intervals, refitted: boo
     };
     out.provenance.insert("fit".to_owned(), how.to_owned());
     out
+}
+
+/// The effects of a calibration that were found, in the order of their names: by mechanism and onset, whatever else stands there.
+pub(super) fn found_in(
+    effects: &[RigEffect],
+    described: usize,
+    selection: &Selection,
+) -> Vec<RigEffect> {
+    let names = selection.found.iter();
+    let own = names.filter_map(|name| {
+        let onset_s = name.term.onset_s;
+        let is_own = |own: &&RigEffect| {
+            own.mechanism == name.term.cause.mechanism && own.onset.map(|o| o.value) == onset_s
+        };
+        effects.iter().skip(described).find(is_own).cloned()
+    });
+    own.collect()
 }
 
 /// The nominal model's own numbers after the fit, `mechanism.parameter` by name, the inertia as `inertia`.

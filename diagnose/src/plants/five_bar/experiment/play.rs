@@ -1,7 +1,9 @@
 //! This file plays an experiment on the reference rig: what encoders, force sensor and amplifiers would record of it.
 
-use super::super::free_run::{Model, parts_of};
+use super::super::free_run::{Model, of_axis, parts_of};
+use super::super::run::joint_at;
 use super::plan::Plan;
+use crate::effect::Effect;
 pub(crate) use crate::rules::{DAMPING_NS_M, STIFFNESS_N_M};
 use crate::sensor::normal;
 use crate::signals::shifted;
@@ -9,7 +11,8 @@ use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::SeedableRng;
 use rigproof_model::effects::{Drive, Form, OfSensor, form};
 use rigproof_model::error::ModelError;
-use rigproof_model::rig::{JointEffect, Rig};
+use rigproof_model::linkage::inverse;
+use rigproof_model::rig::{JointEffect, Parameters, Rig};
 use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
 use rigproof_spec::methods::greatest_desired_force_n;
@@ -53,7 +56,10 @@ pub fn with_effects(model: &Model, layout: Layout, tip_m: [f64; 2]) -> Result<Ri
         ..effect.clone()
     };
     let effects: Vec<JointEffect> = model.rig.iter().map(begun).collect();
-    Rig::new(layout, tip_m)?.with_effects(&effects)
+    let parameters = model.parameters(&Parameters::of(layout));
+    let pose = inverse::pose(&parameters.arms, tip_m)?;
+    let theta_rad = [pose.theta_a_rad, pose.theta_b_rad];
+    Rig::moving(parameters, theta_rad, [0.0; 2])?.with_effects(&effects)
 }
 
 /// Plays a plan on the rig of a model, which starts at rest.
@@ -98,13 +104,16 @@ fn push<const N: usize>(signals: &mut [Vec<f64>; N], values: [f64; N]) {
 }
 
 /// What a sensor makes of angles and forces from sample `first` on.
-pub fn shown(effect: &JointEffect, played: &mut Played, step_s: f64, first: usize) {
-    let value = |k: usize| effect.parameters.get(k).copied().unwrap_or(0.0);
+pub fn shown(effect: &Effect, played: &mut Played, step_s: f64, first: usize) {
+    let value = |k: usize| effect.value(k);
     let [a, b] = &mut played.theta_rad;
-    let angle = if effect.joint == Some(Joint::A) { a } else { b };
+    let angle = match joint_at(effect.cause.at) {
+        Some(Joint::A) => a,
+        _ => b,
+    };
     let angle = angle.iter_mut().skip(first);
     let [force_x, force_y] = &mut played.force_n;
-    match form(effect.mechanism) {
+    match form(effect.mechanism()) {
         Some(Form::Sensor(OfSensor::EncoderScale)) => angle.for_each(|x| *x *= 1.0 + value(0)),
         Some(Form::Sensor(OfSensor::EncoderOffset)) => angle.for_each(|x| *x += value(0)),
         Some(Form::Drive(Drive::Skew)) => {
@@ -118,7 +127,8 @@ pub fn shown(effect: &JointEffect, played: &mut Played, step_s: f64, first: usiz
             own @ (OfSensor::ForceGain | OfSensor::ForceBias | OfSensor::ForceRotation),
         )) => {
             for (x, y) in force_x.iter_mut().zip(force_y).skip(first) {
-                (*x, *y) = force_shown(own, [value(0), value(1)], [*x, *y]);
+                let shown = force_shown(own, [value(0), value(1)], [*x, *y]);
+                (*x, *y) = of_axis(effect.cause.at, shown, [*x, *y]);
             }
         }
         Some(

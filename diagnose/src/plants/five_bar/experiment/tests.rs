@@ -25,6 +25,7 @@ fn model(mechanism: Mechanism, joint: Option<Joint>, parameters: &[f64]) -> Mode
     let effect = JointEffect {
         mechanism,
         joint,
+        of_torque: false,
         parameters: parameters.to_vec(),
         onset_s: None,
     };

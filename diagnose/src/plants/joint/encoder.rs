@@ -1,0 +1,94 @@
+//! This file is what the encoder of a joint shows instead of the angle that is there, and the angle behind what it shows.
+
+use crate::effect::Effect;
+use crate::plant::Clock;
+use rigproof_model::effects::{Form, OfSensor, form};
+
+/// Rounds in which the angle behind an eccentric disc is found: each brings it closer by the eccentricity over a turn's radius.
+const ROUNDS: usize = 12;
+
+/// What an effect of the encoder does; `None` for any other.
+pub(super) fn of_encoder(effect: &Effect) -> Option<OfSensor> {
+    match form(effect.mechanism())? {
+        Form::Sensor(
+            own @ (OfSensor::EncoderScale | OfSensor::EncoderOffset | OfSensor::Eccentric),
+        ) => Some(own),
+        _ => None,
+    }
+}
+
+/// The positions that are there where these are shown.
+pub(super) fn behind(effects: &[Effect], shown: &[f64], clock: Clock) -> Vec<f64> {
+    let mut there = shown.to_vec();
+    // What the sensor did last is taken back first.
+    for effect in effects.iter().rev() {
+        let Some(of) = of_encoder(effect) else {
+            continue;
+        };
+        for position in there.iter_mut().skip(effect.first_sample(clock)) {
+            *position = match of {
+                OfSensor::EncoderScale => *position / (1.0 + effect.value(0)),
+                OfSensor::Eccentric => {
+                    let seen = *position;
+                    (0..ROUNDS).fold(seen, |there, _| seen - eccentric(effect, there))
+                }
+                _ => *position - effect.value(0),
+            }
+        }
+    }
+    there
+}
+
+/// What is shown where these positions are there.
+pub(super) fn shown(effects: &[Effect], mut there: Vec<f64>, clock: Clock) -> Vec<f64> {
+    for effect in effects {
+        let Some(of) = of_encoder(effect) else {
+            continue;
+        };
+        for position in there.iter_mut().skip(effect.first_sample(clock)) {
+            match of {
+                OfSensor::EncoderScale => *position *= 1.0 + effect.value(0),
+                OfSensor::Eccentric => *position += eccentric(effect, *position),
+                _ => *position += effect.value(0),
+            }
+        }
+    }
+    there
+}
+
+/// What a disc off its centre shows more at an angle.
+fn eccentric(effect: &Effect, angle: f64) -> f64 {
+    let (sine, cosine) = libm::sincos(angle);
+    effect.value(0) * sine + effect.value(1) * cosine
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rigproof_spec::effect::Mechanism;
+
+    #[test]
+    fn the_angle_behind_is_the_one_that_was_shown() {
+        let effects = [
+            Effect::of(Mechanism::EncoderScale, &[0.13]),
+            Effect::of(Mechanism::EccentricEncoder, &[0.071, -0.043]),
+            Effect {
+                onset_s: Some(0.0107),
+                ..Effect::of(Mechanism::EncoderOffset, &[0.37])
+            },
+        ];
+        let clock = Clock {
+            step_s: 1e-3,
+            start_s: 0.0,
+            samples: 23,
+        };
+        let there: Vec<f64> = (0..23).map(|k| 0.29 * f64::from(k) - 1.7).collect();
+        let seen = shown(&effects, there.clone(), clock);
+        let eccentric = 1.13 * there[7] + 0.071 * libm::sin(1.13 * there[7]);
+        let expected = eccentric - 0.043 * libm::cos(1.13 * there[7]);
+        assert!((seen[7] - expected).abs() < 1e-12);
+        for (again, own) in behind(&effects, &seen, clock).iter().zip(&there) {
+            assert!((again - own).abs() < 1e-12, "{again} {own}");
+        }
+    }
+}

@@ -1,0 +1,164 @@
+//! This file is the laws that act in a free run of a plant of one joint, from their onsets on.
+
+use super::columns::is_of_brake;
+use super::simulate::Model;
+use crate::effect::Effect;
+use rigproof_model::axis::MOST_LAWS;
+use rigproof_model::effects::{Form, Instant, Law, OfJoint, form, law};
+use rigproof_spec::effect::Mechanism;
+
+/// The laws of a plant: each effect that is a resistance of its own, and what fades of the described ones.
+pub(super) fn laws(plant: &Model) -> Vec<Box<dyn Law>> {
+    let own = resistances(plant).map(|(effect, law)| with_onset(law, effect.onset_s));
+    let mut all: Vec<Box<dyn Law>> = own.collect();
+    for (place, fade) in plant.effects.iter().enumerate() {
+        if !matches!(form(fade.mechanism()), Some(Form::Joint(OfJoint::Fade))) {
+            continue;
+        }
+        let described = plant.effects.iter().take(place.min(plant.described));
+        let faded = described.filter_map(|effect| {
+            let law = with_onset(own_law(effect)?, effect.onset_s);
+            let rate = fade.value(0);
+            Some(with_onset(Box::new(Faded { law, rate }), fade.onset_s))
+        });
+        all.extend(faded.collect::<Vec<_>>());
+    }
+    all
+}
+
+/// Why a plant's laws cannot act together; `None` where they can.
+pub(super) fn too_many(plant: &Model) -> Option<String> {
+    let count = laws(plant).len();
+    (count > MOST_LAWS).then(|| {
+        format!(
+            "{count} resistances act together, a free run has room for {MOST_LAWS}: take some out"
+        )
+    })
+}
+
+fn resistances(plant: &Model) -> impl Iterator<Item = (&Effect, Box<dyn Law>)> {
+    let effects = plant.effects.iter();
+    effects.filter_map(|effect| Some((effect, own_law(effect)?)))
+}
+
+/// The law of an effect that is a resistance of its own, not something that a brake does.
+pub(super) fn own_law(effect: &Effect) -> Option<Box<dyn Law>> {
+    let is_own = !is_of_brake(effect.mechanism());
+    is_own.then(|| law(effect.mechanism(), &effect.parameters))?
+}
+
+/// A bristle that has been sliding is bent by all it can bend.
+pub(super) fn bend_bristles(plant: &Model, memory: &mut [f64], speed: f64) {
+    for ((effect, law), memory) in resistances(plant).zip(memory) {
+        let is_bristle = matches!(
+            effect.mechanism(),
+            Mechanism::Presliding
+                | Mechanism::AsymmetricPresliding
+                | Mechanism::DahlBristle
+                | Mechanism::LugreBristle
+        );
+        if is_bristle && speed != 0.0 {
+            *memory = law.memory_after(*memory, FAR.copysign(speed), speed);
+        }
+    }
+}
+
+/// A travel after which every bristle is bent, m or rad.
+const FAR: f64 = 1e12;
+
+/// What a law loses with time.
+struct Faded {
+    law: Box<dyn Law>,
+    rate: f64,
+}
+
+impl Faded {
+    fn lost(&self, now: &Instant) -> f64 {
+        -self.rate * now.time_s
+    }
+}
+
+impl Law for Faded {
+    fn smooth(&self, now: &Instant, memory: f64) -> f64 {
+        self.lost(now) * self.law.smooth(now, memory)
+    }
+
+    fn dry(&self, now: &Instant) -> f64 {
+        self.lost(now) * self.law.dry(now)
+    }
+
+    fn remembers(&self) -> bool {
+        self.law.remembers()
+    }
+
+    fn starts_with(&self) -> f64 {
+        self.law.starts_with()
+    }
+
+    fn memory_rate(&self, now: &Instant, memory: f64) -> f64 {
+        self.law.memory_rate(now, memory)
+    }
+
+    fn memory_after(&self, memory: f64, travel: f64, speed: f64) -> f64 {
+        self.law.memory_after(memory, travel, speed)
+    }
+}
+
+/// A law that acts from a given time on.
+struct Late {
+    law: Box<dyn Law>,
+    onset_s: f64,
+}
+
+impl Law for Late {
+    fn smooth(&self, now: &Instant, memory: f64) -> f64 {
+        if now.time_s < self.onset_s {
+            0.0
+        } else {
+            self.law.smooth(now, memory)
+        }
+    }
+
+    fn dry(&self, now: &Instant) -> f64 {
+        if now.time_s < self.onset_s {
+            0.0
+        } else {
+            self.law.dry(now)
+        }
+    }
+
+    fn remembers(&self) -> bool {
+        self.law.remembers()
+    }
+
+    fn starts_with(&self) -> f64 {
+        self.law.starts_with()
+    }
+
+    fn begins_anew(&self) -> bool {
+        self.law.begins_anew()
+    }
+
+    fn memory_rate(&self, now: &Instant, memory: f64) -> f64 {
+        self.law.memory_rate(now, memory)
+    }
+
+    fn parts(&self, now: &Instant, memory: f64) -> (f64, f64) {
+        if now.time_s < self.onset_s {
+            (0.0, 0.0)
+        } else {
+            self.law.parts(now, memory)
+        }
+    }
+
+    fn memory_after(&self, memory: f64, travel: f64, speed: f64) -> f64 {
+        self.law.memory_after(memory, travel, speed)
+    }
+}
+
+fn with_onset(law: Box<dyn Law>, onset_s: Option<f64>) -> Box<dyn Law> {
+    match onset_s {
+        Some(onset_s) => Box::new(Late { law, onset_s }),
+        None => law,
+    }
+}

@@ -1,0 +1,204 @@
+//! This file claims that names and numbers are those of the plant, however its recording is written down.
+
+use super::recorded::{EFFORT_NOISE, NOMINAL, QUANTUM, exact_axis, signals};
+use crate::report::Report;
+use crate::{Options, diagnose};
+use rigproof_spec::effect::Mechanism;
+use rigproof_trace::rig::Rig;
+use std::path::Path;
+
+/// How a recording is written down.
+#[derive(Clone, Copy)]
+struct Written {
+    /// Unit of the position, and how many of it are a metre.
+    position: (&'static str, f64),
+    /// Unit of the command, and how many of it are a newton.
+    command: (&'static str, f64),
+    /// Sign of the position's column, and of the command's.
+    signs: [f64; 2],
+    /// Whole seconds at the first sample, and decimals of the stamps.
+    stamps: (u64, usize),
+    /// Whether the command comes before the position, and both before the time.
+    backwards: bool,
+    /// Every how many samples are there.
+    every: usize,
+}
+
+const PLAIN: Written = Written {
+    position: ("m", 1.0),
+    command: ("N", 1.0),
+    signs: [1.0; 2],
+    stamps: (0, 9),
+    backwards: false,
+    every: 1,
+};
+
+fn rig(written: &Written) -> Rig {
+    let ((position, per_m), (command, per_n)) = (written.position, written.command);
+    let [position_sign, command_sign] = written.signs;
+    let text = format!(
+        "name = \"slide\"\nplant = \"axis\"\nmotion = \"linear\"\n[channels]\n\
+         position = {{ channel = \"x\", unit = \"{position}\", quantum = {:e}, sign = {position_sign} }}\n\
+         command = {{ channel = \"f\", unit = \"{command}\", noise = {:e}, sign = {command_sign} }}\n\
+         [parameters]\ninertia = {{ value = 1.29, unit = \"kg\", status = \"unknown\" }}\n\
+         command_gain = {{ value = 1.0, unit = \"N/N\" }}\n\
+         [[effect]]\nmechanism = \"viscous\"\ncoefficient = {{ value = 6.1, unit = \"N·s/m\", status = \"unknown\" }}\n\
+         [[effect]]\nmechanism = \"spring\"\nstiffness = {{ value = 39.0, unit = \"N/m\", status = \"unknown\" }}\n\
+         [protocol]\ndrive = \"straight\"\n",
+        QUANTUM * per_m,
+        EFFORT_NOISE * per_n,
+    );
+    Rig::parse(&text, Path::new("rig.toml")).unwrap()
+}
+
+/// The report on a slide with dry friction, its recording written to a file and read again.
+fn told(written: &Written, name: &str) -> Report {
+    let laws = [NOMINAL, &[(Mechanism::DryOffset, &[1.73])]].concat();
+    let seen = signals(&exact_axis(&laws, 14_000, false), 53);
+    let [position_sign, command_sign] = written.signs;
+    let (start_s, decimals) = written.stamps;
+    let mut text = match written.backwards {
+        true => "f,x,t\n".to_owned(),
+        false => "t,x,f\n".to_owned(),
+    };
+    let samples = seen.time_s.iter().zip(&seen.position).zip(&seen.effort);
+    for ((time_s, x), f) in samples.step_by(written.every) {
+        let whole = start_s + *time_s as u64;
+        let rest = format!("{:.decimals$}", time_s - time_s.floor());
+        let stamp = match rest.strip_prefix("0") {
+            Some(rest) => format!("{whole}{rest}"),
+            None => format!("{}{}", whole + 1, &rest[1..]),
+        };
+        let x = position_sign * x * written.position.1;
+        let f = command_sign * f * written.command.1;
+        text += &match written.backwards {
+            true => format!("{f:e},{x:e},{stamp}\n"),
+            false => format!("{stamp},{x:e},{f:e}\n"),
+        };
+    }
+    let folder = std::env::temp_dir().join(format!("rigproof-written-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let file = folder.join(format!("{name}.csv"));
+    std::fs::write(&file, text).unwrap();
+    let rig = rig(written);
+    let recording = rig.read_recording(&file);
+    std::fs::remove_file(&file).unwrap();
+    let options = Options {
+        refit: false,
+        ..Options::default()
+    };
+    diagnose(&rig, &[&recording.unwrap()], None, &options).report
+}
+
+/// Names, and every number of them and of the nominal model.
+fn said(report: &Report) -> (Vec<&'static str>, Vec<(String, f64)>) {
+    let names = report.effects.iter().map(|own| own.mechanism).collect();
+    let of_effects = report.effects.iter().flat_map(|own| {
+        let numbers = own.parameters.iter();
+        numbers.map(|(name, number)| (name.clone(), number.value))
+    });
+    let nominal = report.nominal.iter();
+    let of_nominal = nominal.map(|(name, number)| (name.clone(), number.value));
+    (names, of_effects.chain(of_nominal).collect())
+}
+
+/// The same names, and numbers that differ by no more than a share.
+fn assert_same(plain: &Report, other: &Report, share: f64, how: &str) {
+    let ((names, numbers), (others, other_numbers)) = (said(plain), said(other));
+    assert_eq!(names, others, "{how}: {}", other.summary);
+    assert_eq!(plain.verdict, other.verdict, "{how}: {}", other.summary);
+    for ((name, number), (_, other)) in numbers.iter().zip(&other_numbers) {
+        let off = (other / number - 1.0).abs();
+        assert!(off <= share, "{how}: {name} is {other}, {number} before");
+    }
+}
+
+#[test]
+fn names_and_numbers_do_not_change_with_the_way_a_recording_is_written() {
+    let plain = told(&PLAIN, "plain");
+    assert_eq!(said(&plain).0, ["dry_offset"], "{}", plain.summary);
+    // What changes the last bits of a sample may change the last digits of a number.
+    for (how, share, written) in [
+        (
+            "units",
+            1e-6,
+            Written {
+                position: ("mm", 1e3),
+                command: ("kN", 1e-3),
+                ..PLAIN
+            },
+        ),
+        (
+            "order of columns",
+            0.0,
+            Written {
+                backwards: true,
+                ..PLAIN
+            },
+        ),
+        (
+            "both signs",
+            1e-9,
+            Written {
+                signs: [-1.0; 2],
+                ..PLAIN
+            },
+        ),
+        (
+            "one sign",
+            1e-9,
+            Written {
+                signs: [1.0, -1.0],
+                ..PLAIN
+            },
+        ),
+        (
+            "stamps since 1970",
+            1e-6,
+            Written {
+                stamps: (1_700_000_000, 9),
+                ..PLAIN
+            },
+        ),
+        (
+            "stamps since 1970 to the microsecond",
+            1e-6,
+            Written {
+                stamps: (1_700_000_000, 6),
+                ..PLAIN
+            },
+        ),
+        (
+            "stamps of four decimals",
+            1e-6,
+            Written {
+                stamps: (0, 4),
+                ..PLAIN
+            },
+        ),
+        (
+            "stamps of three decimals",
+            1e-4,
+            Written {
+                stamps: (0, 3),
+                ..PLAIN
+            },
+        ),
+    ] {
+        assert_same(&plain, &told(&written, &how.replace(' ', "_")), share, how);
+    }
+    // Half of the samples tell the same with less certainty.
+    let halved = told(&Written { every: 2, ..PLAIN }, "halved");
+    assert_same(&plain, &halved, 0.02, "every second sample");
+}
+
+#[test]
+fn names_and_numbers_do_not_change_with_the_number_of_threads() {
+    let with = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        pool.build()
+            .unwrap()
+            .install(|| told(&PLAIN, &format!("threads-{threads}")))
+    };
+    assert_same(&with(1), &with(3), 0.0, "three threads");
+}

@@ -1,0 +1,154 @@
+//! This file is what a description states of a drive and an encoder, undone before anything is fitted, and what it states that no plant of one joint computes.
+
+use super::columns::is_of_brake;
+use super::drive::{drive_of, driven};
+use super::encoder::{behind, of_encoder};
+use super::from_rig::{bare, nominal};
+use super::laws::too_many;
+use super::run::{JointRun, PlantKind};
+use super::simulate::Model;
+use crate::align::Fault;
+use crate::effect::Effect;
+use crate::plant::Run;
+use crate::signals::lagged_yield;
+use rigproof_model::effects::{Drive, Form, OfJoint, form};
+use rigproof_spec::effect::Mechanism;
+use rigproof_trace::rig::{Plant, Recording, Rig, Status};
+
+/// Whether an effect of a description is undone before anything is fitted.
+pub(super) fn is_undone(effect: &Effect) -> bool {
+    drive_of(effect).is_some() || of_encoder(effect).is_some()
+}
+
+/// What the nominal model has when drive and encoder are undone.
+pub(super) fn left(rig: &Rig) -> Vec<Effect> {
+    let mut effects = nominal(rig);
+    effects.retain(|effect| !is_undone(effect));
+    effects
+}
+
+/// A recording aligned, with the position that the joint had and the effort that it was given; `before_s` of other recordings come before
+/// it on the clock of onsets.
+///
+/// # Errors
+/// The fault that makes any conclusion meaningless.
+pub(super) fn aligned(rig: &Rig, recording: &Recording, before_s: f64) -> Result<JointRun, Fault> {
+    let mut undone = nominal(rig);
+    undone.retain(is_undone);
+    for onset_s in undone.iter_mut().filter_map(|own| own.onset_s.as_mut()) {
+        *onset_s -= before_s;
+    }
+    let mut run = bare(rig, recording, |position, clock| {
+        behind(&undone, position, clock)
+    })?;
+    run.described = left(rig);
+    let clock = run.clock();
+    if run.plant == PlantKind::Axis {
+        run.effort = driven(&undone, &run.effort, clock, 0);
+        return Ok(run);
+    }
+    for effect in &undone {
+        let of_predicted = match drive_of(effect) {
+            Some(Drive::Gain) => true,
+            // The yield of a brake lags; anything else lags as a whole.
+            Some(Drive::Lag) => run.current.is_some() && run.predicted.is_some(),
+            Some(Drive::Skew) => false,
+            Some(Drive::Limit) | None => continue,
+        };
+        let Some(predicted) = run.predicted.as_ref().filter(|_| of_predicted) else {
+            run.metered_by.push(effect.clone());
+            continue;
+        };
+        let changed = match drive_of(effect) {
+            Some(Drive::Lag) => lagged_yield(predicted, run.step_s, effect.value(0)),
+            _ => driven([effect], predicted, clock, 0),
+        };
+        let begins = effect.first_sample(clock);
+        let pairs = predicted.iter().zip(changed).enumerate();
+        let own = pairs.map(|(k, (own, changed))| if k < begins { *own } else { changed });
+        run.predicted = Some(own.collect());
+    }
+    Ok(run)
+}
+
+/// Why an effect of a description cannot be computed; `None` where all can.
+pub(super) fn not_computed(rig: &Rig) -> Option<String> {
+    let effects = nominal(rig);
+    let refused = effects.iter().find_map(|effect| {
+        let name = effect.mechanism().name();
+        Some(format!("`{name}` {}", reason(rig, effect)?))
+    });
+    refused.or_else(|| {
+        let described = effects.len();
+        too_many(&Model {
+            inertia: 1.0,
+            effects,
+            described,
+        })
+    })
+}
+
+fn reason(rig: &Rig, effect: &Effect) -> Option<String> {
+    let is_axis = rig.plant == Plant::Axis;
+    let has_current = rig.channels.current.is_some();
+    let has_brake = rig.brake.is_some() && has_current;
+    let has_prediction = rig.brake.is_some() || rig.channels.simulated.is_some();
+    let share = effect.value(0);
+    let no_meaning = || {
+        let plant = rig.plant.name();
+        Some(format!(
+            "is nothing that this {plant} computes: take it out of the description, or give the description of a plant that has it"
+        ))
+    };
+    match form(effect.mechanism()) {
+        _ if is_of_brake(effect.mechanism()) => match has_brake {
+            true => None,
+            false => Some("needs a bench with a brake and its current".to_owned()),
+        },
+        Some(Form::Resistance(_)) => None,
+        Some(Form::Drive(Drive::Lag | Drive::Skew)) => None,
+        Some(Form::Drive(_)) if is_axis => None,
+        Some(Form::Drive(Drive::Gain)) => match has_prediction {
+            true => None,
+            false => Some("needs a brake or a simulated effort whose gain it can be".to_owned()),
+        },
+        Some(Form::Joint(OfJoint::Fade)) => None,
+        Some(Form::Joint(OfJoint::Load)) if is_axis => (share >= 1.0)
+            .then(|| format!("has a share of {share}; below 1, or the joint never moves")),
+        Some(Form::Joint(OfJoint::Compliance)) if is_axis => {
+            (!(0.0..1.0).contains(&share)).then(|| {
+                format!("has a share of {share}; 0 to below 1 of the inertia hangs behind a spring")
+            })
+        }
+        Some(Form::Joint(OfJoint::Inertia)) if is_axis => None,
+        Some(Form::Sensor(_)) if of_encoder(effect).is_some() => None,
+        _ => no_meaning(),
+    }
+}
+
+/// Why a description does not say enough for a diagnosis; `None` where it does.
+pub(super) fn not_told(rig: &Rig) -> Option<String> {
+    let parameters = rig.parameters.as_ref()?;
+    if parameters.command_gain.status == Status::Unknown {
+        return Some(
+            "`command_gain` is `unknown`, and every effort is measured by it: state a rough one as known; where the inertia is known a wrong one is named `gain_error`"
+                .to_owned(),
+        );
+    }
+    let adds = |own: &Effect| own.mechanism() == Mechanism::AddedInertia;
+    let is_unknown = parameters.inertia.status != Status::Known;
+    (is_unknown && nominal(rig).iter().any(adds)).then(|| {
+        "`added_inertia` stands beside an inertia that is not known: only their sum can be told, state the inertia as known or take the other out"
+            .to_owned()
+    })
+}
+
+/// The fault of a description.
+pub(super) fn of_description(reason: String) -> Fault {
+    Fault {
+        channel: "effect",
+        from_s: 0.0,
+        to_s: 0.0,
+        reason,
+    }
+}
