@@ -1,6 +1,7 @@
 //! This file is the answer to a case: what was hidden, how large it is and what no recording could tell from it.
 
 use crate::effect::{At, Effect};
+use crate::fault::Spoilt;
 use crate::forms::{Forms, Names};
 use crate::plant::Plant;
 use crate::size::{CLEAR_SIZE, Size};
@@ -24,6 +25,9 @@ pub struct Answer {
     pub effects: Vec<HiddenEffect>,
     /// What is wrong with the data, e.g. `stuck_position`.
     pub fault: Option<String>,
+    /// Where it is, and which channels may be said to be at fault.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spoilt: Option<Spoilt>,
     /// Standard deviation of the equivalent effort noise in an 80 ms average, N or N·m: the unit of every size.
     pub block_noise: f64,
     /// Root mean square of what the nominal model leaves, over what the noise of the sensors explains, from the plant's own knowledge.

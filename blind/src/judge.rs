@@ -205,6 +205,7 @@ mod tests {
             stratum,
             effects: effects.collect(),
             fault: None,
+            spoilt: None,
             block_noise: 0.01,
             residual_ratio: None,
         }

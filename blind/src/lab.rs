@@ -2,6 +2,7 @@
 
 use crate::draw::Draw;
 use crate::effect::Effect;
+use crate::fault::Names;
 use crate::forms::Forms;
 use crate::plant::Plant;
 use crate::size::Sizes;
@@ -48,7 +49,7 @@ pub trait Lab {
     fn describe(&self, seed: u64, drawn: &Drawn<Self::Setup>) -> String;
 
     /// The channels of position and of effort in which a fault of the data may lie.
-    fn channels(&self, draw: &mut Draw) -> [&'static str; 2];
+    fn channels(&self, draw: &mut Draw) -> Names<'static>;
 
     /// Whether the machine turns or slides.
     fn motion(&self, setup: &Self::Setup) -> Motion;

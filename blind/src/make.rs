@@ -3,7 +3,7 @@
 use crate::answer::{Answer, HiddenEffect};
 use crate::effect::Effect;
 use crate::error::Error;
-use crate::fault;
+use crate::fault::{self, Spoilt};
 use crate::forms::Forms;
 use crate::lab::{Drawn, Lab, Secret};
 use crate::plant::Plant;
@@ -78,16 +78,31 @@ pub fn under(seed: u64, stratum: Option<Stratum>, experiment: &Trace) -> Result<
     five_bar::under(seed, stratum, experiment)
 }
 
+/// The recording of a seed's data fault as it was before it was spoilt: the same machine, the same noise.
+///
+/// # Errors
+/// Those of [`make`].
+pub fn unspoilt(plant: Plant, seed: u64) -> Result<Case, Error> {
+    plants::unspoilt(plant, seed)
+}
+
+/// The case of a data fault without the fault.
+pub(crate) fn clean<L: Lab>(lab: &L, seed: u64) -> Result<Case, Error> {
+    let secret = secret(lab, seed, Stratum::DataFault)?;
+    let trace = lab.record(&secret, &mut lab.numbers(seed, "sensors"));
+    sealed(lab, seed, Stratum::Nothing, &secret, trace, None)
+}
+
 /// The case of a seed and a stratum.
 pub(crate) fn case<L: Lab>(lab: &L, seed: u64, stratum: Stratum) -> Result<Case, Error> {
     let secret = secret(lab, seed, stratum)?;
     let mut trace = lab.record(&secret, &mut lab.numbers(seed, "sensors"));
-    let fault = (stratum == Stratum::DataFault).then(|| {
+    let spoilt = (stratum == Stratum::DataFault).then(|| {
         let mut draw = lab.numbers(seed, "fault");
-        let [position, effort] = lab.channels(&mut draw);
-        fault::spoil(position, effort, &mut trace, &mut draw).to_owned()
+        let names = lab.channels(&mut draw);
+        fault::spoil(names, &mut trace, &mut draw)
     });
-    sealed(lab, seed, stratum, &secret, trace, fault)
+    sealed(lab, seed, stratum, &secret, trace, spoilt)
 }
 
 /// A recording with its description and its sealed answer.
@@ -97,7 +112,7 @@ pub(crate) fn sealed<L: Lab>(
     stratum: Stratum,
     secret: &Secret<L::Setup, L::Run>,
     trace: Trace,
-    fault: Option<String>,
+    spoilt: Option<Spoilt>,
 ) -> Result<Case, Error> {
     let Secret { drawn, sizes, .. } = secret;
     let effects = drawn.hidden.iter().zip(&sizes.sizes).map(|(effect, size)| {
@@ -115,7 +130,8 @@ pub(crate) fn sealed<L: Lab>(
         forms: lab.forms(),
         stratum,
         effects: effects.collect(),
-        fault,
+        fault: spoilt.as_ref().map(|own| own.fault.clone()),
+        spoilt,
         block_noise: sizes.block_noise,
         residual_ratio: sizes.ratio.filter(|_| lab.forms() == Forms::Other),
     };

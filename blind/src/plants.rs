@@ -6,9 +6,17 @@ pub mod one_joint;
 
 use crate::error::Error;
 use crate::forms::Forms;
-use crate::make::{Case, case};
+use crate::make::{Case, case, clean};
 use crate::plant::Plant;
 use crate::stratum::Stratum;
+
+/// Makes the recording of a data fault without the fault.
+pub fn unspoilt(plant: Plant, seed: u64) -> Result<Case, Error> {
+    match plant {
+        Plant::Rig => clean(&five_bar::Rig(Forms::Usual), seed),
+        Plant::Axis | Plant::Bench => clean(&one_joint::OneJoint(plant, Forms::Usual), seed),
+    }
+}
 
 /// Makes a case on the plant of a name.
 pub fn make(forms: Forms, plant: Plant, seed: u64, stratum: Stratum) -> Result<Case, Error> {

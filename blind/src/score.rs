@@ -4,6 +4,7 @@ use crate::answer::{Answer, HiddenEffect};
 use crate::error::Error;
 use crate::found::{Found, Onset, found_effects};
 use crate::stratum::Stratum;
+use crate::told::told;
 use rigproof_spec::units::Unit;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -20,7 +21,7 @@ pub struct Score {
     /// The report's verdict.
     pub verdict: String,
     /// The named set is the true set, or one that physics makes identical to a single true effect; for an effect too small to see, naming nothing is right as well; for a data
-    /// fault nothing may be named and the verdict must be `data_fault`.
+    /// fault nothing may be named, and the verdict must be `data_fault` or the fault said with its place as mended.
     pub exact: bool,
     /// The mechanisms are the true ones, wherever they are said to be; what else `exact` asks is asked here as well.
     #[serde(default)]
@@ -94,7 +95,8 @@ pub fn score(answer: &Answer, report: &Value) -> Result<Score, Error> {
         "data_fault" => answer.stratum == Stratum::DataFault,
         "none_of_library" => answer.stratum != Stratum::DataFault,
         "partly_explained" => answer.stratum == Stratum::NotInLibrary && named.is_empty(),
-        _ => false,
+        // A fault that is said with its place and mended is no less told.
+        _ => answer.stratum == Stratum::DataFault && told(answer, report)?.is_right,
     };
     let right = |same: bool| match answer.stratum {
         Stratum::DataFault => flagged && named.is_empty(),
@@ -302,6 +304,7 @@ mod tests {
             stratum,
             effects,
             fault: None,
+            spoilt: None,
             block_noise: 0.01,
             residual_ratio: None,
             forms: Forms::Usual,

@@ -138,6 +138,7 @@ mod tests {
                 scope: None,
             }],
             fault: None,
+            spoilt: None,
             block_noise: 0.001_7,
             residual_ratio: None,
             forms: Forms::Usual,

@@ -1,6 +1,7 @@
 //! This file is the verb that tests the diagnosis with recordings whose cause is hidden.
 
 mod claims;
+mod faults;
 mod make;
 mod other;
 mod page;

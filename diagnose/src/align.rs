@@ -2,19 +2,21 @@
 
 mod clock;
 mod reversals;
+mod units;
 
 use crate::filter::rms;
 use crate::filter::{LowPass, gradient};
 use crate::rules::{
-    AT_LIMIT, BAND_SHARE, JUMP_AROUND, JUMP_TIMES, LEAST_CUTOFF_HZ, LONGEST_FREEZE_S,
-    LONGEST_GAP_S, LOUD_SPEED, MOST_CLIPPED, MOST_CLIPPED_SHARE, MOST_MISSING, QUIET_SPEED, REST_S,
-    SENSE_SIGMAS,
+    AT_LIMIT, BAND_SHARE, JUMP_AROUND, JUMP_SHARE, JUMP_TIMES, LEAST_CUTOFF_HZ, LEVEL_SAMPLES,
+    LONGEST_FREEZE_S, LONGEST_GAP_S, LOUD_SPEED, MOST_CLIPPED, MOST_CLIPPED_SHARE, MOST_MISSING,
+    QUIET_SPEED, REST_S, SENSE_SIGMAS, STEPPED,
 };
 use rigproof_model::effects::Instant;
 use rustfft::{FftPlannerScalar, num_complex::Complex64};
 
 pub(crate) use clock::{check_clock, median_step};
 pub(crate) use reversals::forget_sense_near_reversals;
+pub(crate) use units::{Stated, check_units};
 
 /// Why no conclusion can be drawn from a recording.
 #[derive(Clone, Debug, PartialEq)]
@@ -136,6 +138,7 @@ pub(crate) fn check_clipped(
         let count = live().filter(|&x| x == extreme).count();
         if !stated
             && count > MOST_CLIPPED
+            && !is_stepped(effort, extreme, high - low)
             && count as f64 > MOST_CLIPPED_SHARE * effort.len() as f64
             && high > low
         {
@@ -151,6 +154,34 @@ pub(crate) fn check_clipped(
         }
     }
     Ok(())
+}
+
+/// Whether an effort comes to its extreme by jumps, or dwells on other levels as well: it was commanded in steps.
+fn is_stepped(effort: &[f64], extreme: f64, range: f64) -> bool {
+    let pairs = || {
+        effort
+            .windows(2)
+            .filter_map(|pair| Some((*pair.first()?, *pair.last()?)))
+    };
+    let entered = || pairs().filter(|(before, now)| *now == extreme && *before != extreme);
+    let jumps = entered().filter(|(before, _)| (before - extreme).abs() > JUMP_SHARE * range);
+    if jumps.count() as f64 >= STEPPED * entered().count().max(1) as f64 {
+        return true;
+    }
+    let dwells: Vec<(usize, usize)> = constant_runs(effort, LEVEL_SAMPLES)
+        .into_iter()
+        .filter(|(first, _)| effort.get(*first).is_some_and(|x| x.abs() != extreme.abs()))
+        .collect();
+    let mut levels: Vec<f64> = dwells
+        .iter()
+        .filter_map(|(first, _)| effort.get(*first))
+        .copied()
+        .collect();
+    levels.sort_by(f64::total_cmp);
+    levels.dedup();
+    let dwelling: usize = dwells.iter().map(|(first, end)| end - first).sum();
+    let others = effort.iter().filter(|x| x.abs() != extreme.abs()).count();
+    levels.len() > 1 && 2 * dwelling > others
 }
 
 pub(crate) fn regular_count(time_s: &[f64], step_s: f64) -> usize {

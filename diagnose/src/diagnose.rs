@@ -1,6 +1,7 @@
 //! This file runs the stages in order: align, locate, explain, doubt, show.
 
 pub(crate) mod balance;
+mod beside;
 pub(crate) mod ended;
 pub(crate) mod numbers;
 mod parts;
@@ -143,10 +144,15 @@ pub fn diagnose<P: Plant>(
         Err((at, fault)) => return faulty(plant, at, fault),
     };
     let (mut selection, mut explanations) = named(&mut problem, terms, options);
-    if let Err(fault) = plant.check_found(&problem, &selection) {
+    let checked = plant.check_found(&problem, &selection);
+    let checked = checked.and_then(|()| plant.check_numbers(&parts.train, &problem, &selection));
+    if let Err(fault) = checked {
         return faulty(plant, "recording", fault);
     }
+    let beyond = plant.beyond_reason(&problem, &selection);
+    selection.withdraw(&problem, beyond.as_slice());
     let mut withdrawn = withdraw(&problem, &mut selection);
+    withdrawn.extend(beyond);
     let trials = scattered(&problem, &selection);
     if let Some(trials) = trials.clone() {
         let windows = problem.windows.clone();

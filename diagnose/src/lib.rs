@@ -65,6 +65,7 @@
 pub mod align;
 mod candidates;
 pub mod cause;
+mod continuity;
 mod diagnose;
 mod doubt;
 mod effect;

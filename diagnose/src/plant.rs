@@ -7,6 +7,7 @@ mod simulated;
 
 use crate::candidates::standard_shapes;
 use crate::cause::{Cause, JointId, Place, Scales};
+use crate::continuity::Remark;
 use crate::locate::{self, Regimes};
 use crate::rules::{MOST_AMBIGUOUS, NOISE_ORDER, WIDTHS_S};
 use crate::signals::unit_parameters;
@@ -78,6 +79,11 @@ pub trait Run: Debug + Send + Sync {
 
     /// Which samples were recorded, not filled in; empty where all were.
     fn recorded(&self) -> &[bool] {
+        &[]
+    }
+
+    /// What was mended in it, or is to be said of it.
+    fn remarks(&self) -> &[Remark] {
         &[]
     }
 

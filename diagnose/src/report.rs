@@ -6,6 +6,7 @@ mod read_as;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
+pub use crate::continuity::Remark;
 pub use agreement::Agreement;
 pub use read_as::ReadAs;
 
@@ -65,6 +66,8 @@ pub struct Report {
     pub self_calibration: Option<SelfCalibration>,
     /// The file that holds the calibrated model, beside the report.
     pub calibration_file: Option<String>,
+    /// What was mended in the recordings before anything was fitted, or is to be said of them.
+    pub remarks: Vec<Remark>,
     /// The fault that ended the diagnosis.
     pub fault: Option<FaultReport>,
 }

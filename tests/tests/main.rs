@@ -10,6 +10,7 @@ mod control_choice;
 mod control_laws;
 mod diagnosed;
 mod experiments;
+mod faults;
 mod force_limit;
 mod friction;
 mod golden;

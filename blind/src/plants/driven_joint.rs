@@ -11,6 +11,7 @@ mod tests;
 
 use crate::draw::Draw;
 use crate::effect::Effect;
+use crate::fault::Names;
 use crate::form::Form;
 use crate::forms::Forms;
 use crate::lab::{Drawn, Lab, Secret};
@@ -86,8 +87,13 @@ impl Lab for DrivenJoint {
         rig::toml(seed, &drawn.setup)
     }
 
-    fn channels(&self, _: &mut Draw) -> [&'static str; 2] {
-        ["position", "command"]
+    fn channels(&self, _: &mut Draw) -> Names<'static> {
+        Names {
+            position: "position",
+            effort: "command",
+            roles: ["position", "effort"],
+            others: None,
+        }
     }
 
     fn motion(&self, _: &Setup) -> Motion {

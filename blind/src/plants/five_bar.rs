@@ -20,6 +20,7 @@ pub use experiment::{again, under};
 
 use crate::draw::Draw;
 use crate::effect::Effect;
+use crate::fault::Names;
 use crate::forms::Forms;
 use crate::lab::{Drawn, Lab, Secret};
 use crate::plant::Plant;
@@ -80,9 +81,19 @@ impl Lab for Rig {
         record::describe(seed, &drawn.setup).to_toml()
     }
 
-    fn channels(&self, draw: &mut Draw) -> [&'static str; 2] {
-        let position = draw.pick(&["theta_a", "theta_b"]);
-        [position, draw.pick(&["force_x", "force_y"])]
+    fn channels(&self, draw: &mut Draw) -> Names<'static> {
+        let mut either = |[one, other]: [&'static str; 2]| match draw.chance(0.5) {
+            true => [one, other],
+            false => [other, one],
+        };
+        let [position, other_position] = either(["theta_a", "theta_b"]);
+        let [effort, other_effort] = either(["force_x", "force_y"]);
+        Names {
+            position,
+            effort,
+            roles: [position, effort],
+            others: Some([other_position, other_effort]),
+        }
     }
 
     fn motion(&self, _: &Setup) -> Motion {

@@ -14,6 +14,7 @@ mod tests;
 
 use crate::draw::Draw;
 use crate::effect::Effect;
+use crate::fault::Names;
 use crate::form::Form;
 use crate::forms::Forms;
 use crate::lab::{Drawn, Lab, Secret};
@@ -80,10 +81,15 @@ impl Lab for OneJoint {
         rig::toml(self.0, seed, &drawn.setup, &drawn.known, &mut values)
     }
 
-    fn channels(&self, _: &mut Draw) -> [&'static str; 2] {
-        match self.0 {
-            Plant::Axis => ["position", "command"],
-            _ => ["position", "torque"],
+    fn channels(&self, _: &mut Draw) -> Names<'static> {
+        Names {
+            position: "position",
+            effort: match self.0 {
+                Plant::Axis => "command",
+                _ => "torque",
+            },
+            roles: ["position", "effort"],
+            others: None,
         }
     }
 

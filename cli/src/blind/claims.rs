@@ -252,6 +252,7 @@ mod tests {
                 stratum,
                 effects: Vec::new(),
                 fault: None,
+                spoilt: None,
                 block_noise: 0.3,
                 residual_ratio: None,
                 forms: Default::default(),

@@ -16,7 +16,7 @@ use serde_json::{Value, json};
 
 use super::claims::{Claim, Measured, OF_A_JOINT, OF_THE_RIG};
 use super::make::{FILES, contents};
-use super::{other, page};
+use super::{faults, other, page};
 use super::{parse_forms, truth};
 use crate::folder::{EXPERIMENT, REPORT};
 use crate::outcome::{Failure, Outcome, print};
@@ -46,6 +46,9 @@ pub struct Args {
     /// Make a second recording of each rig, and say how much of the achievable improvement is reached on it; only with --plant rig
     #[arg(long, conflicts_with = "reports")]
     held_out: bool,
+    /// Spoil every recording: the stratum data_fault for each seed, beside the same recording without the fault
+    #[arg(long, conflicts_with_all = ["reports", "held_out", "experiments", "misses", "html"])]
+    faults: bool,
     /// Where a diagnosis stays ambiguous and asks for an experiment, do it on the same rig and diagnose both recordings together; only with --plant rig
     #[arg(long, conflicts_with_all = ["reports", "held_out"])]
     experiments: bool,
@@ -77,7 +80,8 @@ Exit code 1 says that a claim does not hold. --reports scores anybody's diagnosi
 
 Example:
   rigproof blind trial --seeds 0..200 --jobs 8 --details
-  rigproof blind trial --seeds 0..100 --plant axis --forms other";
+  rigproof blind trial --seeds 0..100 --plant axis --forms other
+  rigproof blind trial --seeds 20000..20100 --plant rig --faults";
 
 /// One case, its diagnosis and its score.
 pub struct Tried {
@@ -145,6 +149,9 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
         .clone()
         .map(|s| (plant(args.plant, s), s))
         .collect();
+    if args.faults {
+        return faults::run(&cases, args.jobs, args.details, args.json);
+    }
     let bar = progress::bar(cases.len(), "recordings");
     let tried = threads::apart(args.jobs, &cases, |&(plant, seed)| {
         one(args, plant, seed, &bar)
@@ -313,7 +320,7 @@ fn whole() -> Options {
 
 /// The report of a case, with more recordings of its rig if there are any, and the experiment that it asks for; a recording that cannot be read
 /// counts as a data fault.
-fn diagnosed(
+pub fn diagnosed(
     seed: u64,
     case: &Case,
     more: &[Trace],

@@ -78,6 +78,7 @@ pub(crate) fn blank(plant: &'static str, verdict: Verdict, summary: String) -> R
         next_experiment: None,
         self_calibration: None,
         calibration_file: None,
+        remarks: Vec::new(),
         fault: None,
     }
 }

@@ -110,10 +110,13 @@ impl<P: Plant> Stand<'_, P> {
             false => (None, None),
         };
         let (before, after) = (&selection.before.residual, &selection.after.residual);
+        let remarks = self.remarks(&floor, &intervals);
         let summary = summary(problem, verdict, selection, fit.as_ref(), &rivals);
         let names = |causes: &[Cause]| causes.iter().map(|c| problem.name(*c)).collect();
+        let mut protocol = P::protocol(self, fit.as_ref());
+        protocol.extend(remarks.iter().map(|own| own.words.clone()));
         let report = Report {
-            protocol: P::protocol(self, fit.as_ref()),
+            protocol,
             located: locate(problem, before, after),
             stages: self.stages(),
             effects: self.effects(&calibration.found(self, &intervals), &all),
@@ -130,6 +133,7 @@ impl<P: Plant> Stand<'_, P> {
             next_experiment,
             floor: Some(floor),
             explanations: self.explained(),
+            remarks,
             ..blank(self.plant.plant_name(), verdict, summary)
         };
         Diagnosis {

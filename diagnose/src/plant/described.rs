@@ -2,6 +2,7 @@
 
 use super::{Replayed, Run, Simulated, Unsimulated};
 use crate::align::Fault;
+use crate::cause::Cause;
 use crate::diagnose::numbers::fitted;
 use crate::diagnose::write::Stand;
 use crate::diagnose::{Curves, balance};
@@ -107,6 +108,26 @@ pub trait Plant: Clone + Debug + Send + Sync + Sized {
     fn check_found(&self, problem: &Problem, selection: &Selection) -> Result<(), Fault> {
         let _ = (problem, selection);
         Ok(())
+    }
+
+    /// Checks the plant's own numbers.
+    ///
+    /// # Errors
+    /// Why they are those of no plant.
+    fn check_numbers(
+        &self,
+        run: &Self::Run,
+        problem: &Problem,
+        selection: &Selection,
+    ) -> Result<(), Fault> {
+        let _ = (run, problem, selection);
+        Ok(())
+    }
+
+    /// A name whose number nothing has, and which is therefore none.
+    fn beyond_reason(&self, problem: &Problem, selection: &Selection) -> Option<Cause> {
+        let _ = (problem, selection);
+        None
     }
 
     /// Why an effect of the description has no meaning here; `None` where it is passed over.

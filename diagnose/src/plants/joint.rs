@@ -2,6 +2,7 @@
 
 mod agreement;
 pub mod align;
+mod checks;
 pub mod columns;
 mod drive;
 mod encoder;

@@ -15,10 +15,46 @@ rules! {
     JUMP_TIMES: f64 = 6.0, "times", REASON;
     /// How far before and after a constant position its usual steps are looked for.
     JUMP_AROUND: usize = 400, "samples", REASON;
+    /// A step of a position is a jump if it exceeds what its neighbours let expect by more than they differ, times this.
+    STEP_TIMES: f64 = 6.0, "times", REASON;
+    /// The same in counts: each end of a step is off by half a count, and so are its neighbours.
+    JUMP_QUANTA: f64 = 5.0, "counts", REASON;
+    /// The same in deviations of the noise of the position.
+    JUMP_SIGMAS: f64 = 10.0, "deviations", REASON;
+    /// The same as a share of the step: so much of a step a sample may be taken too late.
+    LATE_SAMPLE: f64 = 0.1, "share", "by its reason; EMPS, whose greatest is 0.01";
+    /// Steps over which the usual excess of a step is taken, with those before and after.
+    BLOCK_STEPS: usize = 200, "samples", REASON;
+    /// The share of steps that exceed less than the usual excess: more than that are not jumps.
+    USUAL_QUANTILE: f64 = 0.9, "share", REASON;
+    /// A position that wraps stays within its period: its range may exceed a jump by rounding only.
+    WRAP_RANGE: f64 = 1.01, "times", REASON;
+    /// Samples in a row that may be left out as a dropout.
+    LONGEST_DROPOUT: usize = 5, "samples", REASON;
+    /// By how much the step that catches up may differ from all that a repeated sample missed.
+    CATCH_UP: f64 = 0.35, "share", REASON;
+    /// Steps of more counts are no flicker: a sensor that moves so fast repeats no sample.
+    HELD_QUANTA: f64 = 3.0, "counts", REASON;
+    /// Fewer large steps do not say how often a sensor is refreshed.
+    FEWEST_REFRESHED: usize = 30, "steps", REASON;
+    /// Share of the large steps that follow a repeated sample from which on a sensor is refreshed more slowly than it is written.
+    REFRESHED: f64 = 0.5, "share", REASON;
+    /// Share of samples that a channel may repeat by chance if its repetitions are to tell anything.
+    MOST_REPEATED_BY_CHANCE: f64 = 0.01, "share", REASON;
+    /// Steps in a row that are the same to the last digit by no chance.
+    LEAST_STRAIGHT: usize = 8, "samples", REASON;
+    /// Share of a motion that may lie on straight lines if these are to be something that was filled in.
+    MOST_STRAIGHT: f64 = 0.3, "share", REASON;
     /// Samples at one extreme that may be chance.
     MOST_CLIPPED: usize = 20, "samples", REASON;
     /// Share of the samples at one extreme that may be chance.
     MOST_CLIPPED_SHARE: f64 = 0.005, "share", REASON;
+    /// An effort that comes to its extreme by more than this share of its range within one sample jumps there; what is clipped runs into it.
+    JUMP_SHARE: f64 = 0.2, "share", REASON;
+    /// Share of the ways to the extreme that are jumps from which on the effort was commanded in steps.
+    STEPPED: f64 = 0.8, "share", REASON;
+    /// Equal samples in a row that are a level of a command in steps.
+    LEVEL_SAMPLES: usize = 5, "samples", REASON;
     /// Share of the stated limit from which on an extreme is that limit.
     AT_LIMIT: f64 = 0.999, "share", REASON;
     /// Share of the work to and fro by which a resistance may give more than it takes: a bench whose sign is right always takes.
@@ -39,6 +75,24 @@ rules! {
     LEAST_TRAVEL_SIGMAS_JOINT: f64 = 20.0, "deviations", REASON;
     /// Five-bar: the same. There is none: its windows say whether enough has moved.
     LEAST_TRAVEL_SIGMAS_FIVE_BAR: f64 = 0.0, "deviations", REASON;
+    /// How close the smallest step must be to the stated one in another unit to be that.
+    NEAR_UNIT: f64 = 0.005, "share", REASON;
+    /// A scatter of so many times the stated noise is that of thousandths of the unit.
+    THOUSANDFOLD: core::ops::RangeInclusive<f64> = 500.0..=2000.0, "times", REASON;
+    /// What a gain that is a unit leaves of what the nominal model leaves: with the right unit the model is right.
+    UNIT_LEFT: f64 = 0.25, "share", REASON;
+    /// A nominal friction that is below zero by so many half widths of its 95 % interval drives the plant.
+    DRAG_HALVES: f64 = 3.0, "half widths", REASON;
+    /// An unknown inertia that comes out so many times as large, or as small, as the value to start from is another unit.
+    ANOTHER_INERTIA: f64 = 20.0, "times", REASON;
+    /// A plant under a constant command that turns back so often is driven by something else.
+    MOST_TURNS: usize = 3, "reversals", REASON;
+    /// The speed of a free motion dies away: in its second half it is below this share of that in the first.
+    DIES_AWAY: f64 = 0.7, "share", REASON;
+    /// A free motion dies away: it never travels farther in a twentieth of the recording than in one before, times this.
+    GROWS: f64 = 3.0, "times", REASON;
+    /// A residual below this share of the predicted noise says that noise or resolution are stated too great.
+    FAR_BELOW_FLOOR: f64 = 0.3, "share", REASON;
     /// A gain that is wrong by more than this factor is no physics: a unit is.
     ANOTHER_UNIT: f64 = 5.0, "times", REASON;
     /// What another reading of the channels must leave of the unexplained effort to be believed. With the right sign, turning a component adds twice its effort.

@@ -4,11 +4,12 @@ use super::run::{FiveBarRun, forms, place, place_of, yields};
 use super::sensors::{angle_noise, noise_of_force, quantum_of};
 use super::stops::{forget_sense_at_stops, switched};
 use crate::align::{
-    Fault, band_hz, check_clipped, check_clock, check_frozen, check_missing, cutoff_hz,
+    Fault, Stated, band_hz, check_clipped, check_clock, check_missing, check_units, cutoff_hz,
     forget_sense_at_rest, forget_sense_at_reversals, median_step, regular_count, resample,
     smoothed_motion,
 };
 use crate::cause::{Cause, Place, Scales};
+use crate::continuity::{Position, Remark, Stamps, mend, settle};
 use crate::doubt::{Smoothing, a_sample_late, greatest_change, turning};
 use crate::effect::Effect;
 use crate::plant::Run;
@@ -29,42 +30,38 @@ use rigproof_trace::rig::{Signal, Status};
 /// # Errors
 /// The fault that makes any conclusion meaningless.
 pub fn aligned(rig: &FiveBar, recording: &FiveBarRecording) -> Result<FiveBarRun, Fault> {
+    let step_s = median_step(&recording.time_s);
+    check_clock(&recording.time_s, step_s)?;
+    check_present(recording)?;
+    check_units_of(recording)?;
+    let (recording, mended, jitter) = &mended(recording, step_s)?;
     let time_s = &recording.time_s;
-    let step_s = median_step(time_s);
-    check_clock(time_s, step_s)?;
     let count = regular_count(time_s, step_s);
     let mut recorded = vec![true; count];
-    let mut regular = |channel: &'static str, samples: &[f64]| {
-        check_missing(channel, time_s, samples)?;
+    let mut regular = |samples: &[f64]| {
         let (values, own) = resample(time_s, samples, step_s, count);
         recorded
             .iter_mut()
             .zip(own)
             .for_each(|(all, own)| *all &= own);
-        Ok::<_, Fault>(values)
+        values
     };
     let [theta_a, theta_b] = &recording.theta;
     let [force_x, force_y] = &recording.force;
-    let theta = [
-        regular("theta_a", &theta_a.samples)?,
-        regular("theta_b", &theta_b.samples)?,
-    ];
-    let force = [
-        regular("force_x", &force_x.samples)?,
-        regular("force_y", &force_y.samples)?,
-    ];
+    let theta = [regular(&theta_a.samples), regular(&theta_b.samples)];
+    let force = [regular(&force_x.samples), regular(&force_y.samples)];
     let mut currents = [const { None }; 4];
     for (slot, signal) in currents.iter_mut().zip(&recording.currents) {
         if let Some(signal) = signal {
-            *slot = Some(regular("current", &signal.samples)?);
+            *slot = Some(regular(&signal.samples));
         }
     }
-    check_channels(recording, step_s)?;
+    check_clipped_forces(recording)?;
     check_currents(recording)?;
     // One number stands for both channels: the greater.
     let greater = |of: fn(&Signal) -> f64, [one, other]: [&Signal; 2]| of(one).max(of(other));
     let quantum = greater(quantum_of, [theta_a, theta_b]);
-    let theta_noise = greater(angle_noise, [theta_a, theta_b]);
+    let theta_noise = greater(angle_noise, [theta_a, theta_b]).hypot(*jitter);
     let force_noise = greater(noise_of_force, [force_x, force_y]);
     let switched = switched(&currents, step_s, count);
     let run = FiveBarRun {
@@ -90,6 +87,7 @@ pub fn aligned(rig: &FiveBar, recording: &FiveBarRecording) -> Result<FiveBarRun
         switched,
         speed_floor: 0.0,
         parts: Vec::new(),
+        remarks: mended.clone(),
     };
     let run = match realigned(&run, theta.clone()) {
         Ok(run) => run,
@@ -225,41 +223,91 @@ fn check_currents(recording: &FiveBarRecording) -> Result<(), Fault> {
     Ok(())
 }
 
-/// Frozen angles and clipped forces.
-fn check_channels(recording: &FiveBarRecording, step_s: f64) -> Result<(), Fault> {
-    let time_s = &recording.time_s;
-    let [theta_a, theta_b] = &recording.theta;
-    let [force_x, force_y] = &recording.force;
-    for (angle, force, names) in [
-        (theta_a, force_x, ["theta_a", "force_x"]),
-        (theta_b, force_y, ["theta_b", "force_y"]),
-    ] {
-        check_pair(time_s, &angle.samples, &force.samples, force.limit, step_s).map_err(
-            |fault| {
-                let [angle, force] = names;
-                Fault {
-                    channel: if fault.channel == "position" {
-                        angle
-                    } else {
-                        force
-                    },
-                    ..fault
-                }
-            },
-        )?;
+/// Counts of the angles and noise of the forces are those of the units that are stated.
+fn check_units_of(recording: &FiveBarRecording) -> Result<(), Fault> {
+    let ends_s = [recording.time_s.first(), recording.time_s.last()];
+    let ends_s = ends_s.map(|end| end.copied().unwrap_or(0.0));
+    let angles = ["theta_a", "theta_b"].into_iter().zip(&recording.theta);
+    let angles = angles.map(|(channel, own)| (channel, own, own.quantum, None));
+    let forces = ["force_x", "force_y"].into_iter().zip(&recording.force);
+    let forces = forces.map(|(channel, own)| (channel, own, None, own.noise));
+    for (channel, own, quantum, noise) in angles.chain(forces) {
+        let stated = Stated {
+            channel,
+            samples: &own.samples,
+            quantum,
+            noise,
+        };
+        check_units(&stated, ends_s)?;
     }
     Ok(())
 }
 
-fn check_pair(
-    time_s: &[f64],
-    angle: &[f64],
-    force: &[f64],
-    limit: Option<f64>,
+fn check_present(recording: &FiveBarRecording) -> Result<(), Fault> {
+    let [theta_a, theta_b] = &recording.theta;
+    let [force_x, force_y] = &recording.force;
+    let named = [
+        ("theta_a", theta_a),
+        ("theta_b", theta_b),
+        ("force_x", force_x),
+        ("force_y", force_y),
+    ];
+    let currents = recording.currents.iter().flatten();
+    let all = named
+        .into_iter()
+        .chain(currents.map(|own| ("current", own)));
+    for (channel, signal) in all {
+        check_missing(channel, &recording.time_s, &signal.samples)?;
+    }
+    Ok(())
+}
+
+/// The recording with its angles mended and its samples on the grid of their stamps; what was mended, and what jitter adds to the noise of an angle.
+fn mended(
+    recording: &FiveBarRecording,
     step_s: f64,
-) -> Result<(), Fault> {
-    check_frozen(time_s, angle, step_s)?;
-    check_clipped(time_s, force, limit)
+) -> Result<(FiveBarRecording, Vec<Remark>, f64), Fault> {
+    let mut own = recording.clone();
+    let stamps = Stamps {
+        time_s: &recording.time_s,
+        step_s,
+    };
+    let names = ["theta_a", "theta_b"].into_iter();
+    let mut angles: Vec<Position> = names
+        .zip(&recording.theta)
+        .map(|(channel, angle)| Position {
+            channel,
+            samples: angle.samples.clone(),
+            stated_quantum: angle.quantum,
+            quantum: quantum_of(angle),
+            noise: angle.noise.unwrap_or(0.0),
+            is_angle: true,
+        })
+        .collect();
+    let forces = own.force.iter_mut();
+    let others = forces.chain(own.currents.iter_mut().flatten());
+    let mut others: Vec<&mut Vec<f64>> = others.map(|signal| &mut signal.samples).collect();
+    let mut mended = mend(stamps, &mut angles, &mut others)?;
+    let settled = settle(stamps, &mut angles);
+    for (slot, angle) in own.theta.iter_mut().zip(angles) {
+        slot.samples = angle.samples;
+    }
+    let mut noise = 0.0;
+    if let Some(settled) = settled {
+        mended.push(settled.said);
+        own.time_s = settled.time_s;
+        noise = settled.noise;
+    }
+    Ok((own, mended, noise))
+}
+
+fn check_clipped_forces(recording: &FiveBarRecording) -> Result<(), Fault> {
+    let forces = ["force_x", "force_y"].into_iter().zip(&recording.force);
+    for (channel, force) in forces {
+        check_clipped(&recording.time_s, &force.samples, force.limit)
+            .map_err(|fault| Fault { channel, ..fault })?;
+    }
+    Ok(())
 }
 
 /// The speeds of θA and θB below which their sense cannot be told, sample by sample, rad/s. While brakes are switched a joint may swing

@@ -30,6 +30,7 @@ impl Joins for FiveBarRun {
             *last = false;
         }
         self.recorded.extend_from_slice(&run.recorded);
+        self.remarks.extend_from_slice(&run.remarks);
         self.switched.extend_from_slice(&run.switched);
         self.theta_noise = self.theta_noise.max(run.theta_noise);
         self.still_rad = self.still_rad.max(run.still_rad);

@@ -5,10 +5,12 @@ use super::columns::{driving, known};
 use super::from_rig::nominal_yields;
 use super::run::{FiveBarRun, place};
 use crate::align::Fault;
+use crate::evidence::{coefficients_by_term, parameters};
 use crate::plant::Run;
 use crate::problem::{Problem, less};
-use crate::rules::{READING_LEFT, READING_ODD};
-use crate::select::usable_rms;
+use crate::rules::{ANOTHER_UNIT, READING_LEFT, READING_ODD};
+use crate::select::{Selection, usable_rms};
+use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
 
 /// # Errors
@@ -18,6 +20,37 @@ pub fn check(run: &FiveBarRun, problem: &Problem) -> Result<(), Fault> {
     let own = left(problem, &driving, &problem.known);
     force(run, problem, own)?;
     currents(run, problem, own, &driving)
+}
+
+/// # Errors
+/// The force is found to be so many times as large, or as small, as no sensor's gain error is.
+pub fn check_found(problem: &Problem, selection: &Selection) -> Result<(), Fault> {
+    let (_, coefficients) = coefficients_by_term(problem, selection);
+    let found = coefficients.iter().skip(selection.nominal.len());
+    let gains = selection
+        .found
+        .iter()
+        .zip(found)
+        .filter_map(|(found, own)| {
+            let is_gain = found.term.cause.mechanism == Mechanism::ForceGain;
+            let numbers = parameters(problem, &found.term, own);
+            is_gain.then(|| numbers.first().copied().unwrap_or(0.0))
+        });
+    let mut impossible =
+        gains.filter(|gain| !(1.0 / ANOTHER_UNIT..ANOTHER_UNIT).contains(&(1.0 + gain)));
+    let Some(gain) = impossible.next() else {
+        return Ok(());
+    };
+    let clock = problem.run.clock();
+    Err(Fault {
+        channel: "force_x",
+        from_s: clock.start_s,
+        to_s: clock.start_s + clock.duration_s(),
+        reason: format!(
+            "the recorded force is {:.4} times what the brakes and the masses ask for: it is in another unit than described (mN for N make 1000), has the wrong sign, or is another channel; correct the description",
+            1.0 + gain
+        ),
+    })
 }
 
 fn left(problem: &Problem, driving: &[f64], known: &[f64]) -> f64 {

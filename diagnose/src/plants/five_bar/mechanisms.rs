@@ -54,6 +54,7 @@ fn blank(layout: Layout) -> FiveBarRun {
         switched: vec![false; COUNT],
         speed_floor: 0.0,
         parts: Vec::new(),
+        remarks: Vec::new(),
     }
 }
 

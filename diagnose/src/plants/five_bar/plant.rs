@@ -20,6 +20,7 @@ use crate::plant::{
 use crate::plants::joined::joined;
 use crate::problem::Problem;
 use crate::report::{FitReport, HeldReport, Horizon, NextExperiment};
+use crate::select::Selection;
 use crate::sensor::sensed;
 use rand_pcg::Pcg64Mcg;
 use rigproof_trace::csv::{Dialect, Hints};
@@ -76,6 +77,10 @@ impl Plant for FiveBar {
             return Ok(());
         }
         mapping::check(run, problem).map_err(|fault| ("recording", fault))
+    }
+
+    fn check_found(&self, problem: &Problem, selection: &Selection) -> Result<(), Fault> {
+        mapping::check_found(problem, selection)
     }
 
     fn meaningless(&self, problem: &Problem, effect: &Effect) -> Option<Fault> {

@@ -3,6 +3,7 @@
 use super::encoder::{self, Encoder};
 use super::{candidates, columns, locate, noise};
 use crate::cause::{Cause, JointId, Place};
+use crate::continuity::Remark;
 use crate::locate::Regimes;
 use crate::plant::{Clock, Columns, Rules, Run};
 use crate::rules::{QUIET_NM, WIDTHS_S};
@@ -59,6 +60,8 @@ pub struct FiveBarRun {
     pub speed_floor: f64,
     /// The recordings that stand in it one after another; empty for one recording.
     pub parts: Vec<FiveBarRun>,
+    /// What was mended in it.
+    pub remarks: Vec<Remark>,
 }
 
 /// A joint's place in the order A, E, B, C.
@@ -195,6 +198,7 @@ impl FiveBarRun {
             recorded: self.recorded.clone(),
             switched: self.switched.clone(),
             parts: Vec::new(),
+            remarks: self.remarks.clone(),
             ..*self
         }
     }
@@ -225,6 +229,7 @@ impl FiveBarRun {
             switched: self.switched.get(from..to).unwrap_or_default().to_vec(),
             speed_floor: self.speed_floor,
             parts: Vec::new(),
+            remarks: self.remarks.clone(),
         }
     }
 }
@@ -303,6 +308,10 @@ impl Run for FiveBarRun {
 
     fn recorded(&self) -> &[bool] {
         &self.recorded
+    }
+
+    fn remarks(&self) -> &[Remark] {
+        &self.remarks
     }
 
     fn motion_kind(&self) -> Motion {

@@ -1,12 +1,14 @@
 //! This file is stage 0 of a plant of one joint: its recording is put on regular samples, its faults are named, its noise is measured.
 
+use super::checks;
 use super::inertia::Inertia;
 use super::run::{JointRun, PlantKind};
 use crate::align::{
-    Fault, band_hz, check_clipped, check_clock, check_frozen, check_missing, constant_runs,
-    cutoff_hz, forget_sense_at_rest, forget_sense_at_reversals, frozen, longest_freeze,
-    median_step, quiet_cutoff_hz, regular_count, resample, smallest_step, smoothed_motion,
+    Fault, band_hz, check_clock, check_missing, cutoff_hz, forget_sense_at_rest,
+    forget_sense_at_reversals, median_step, quiet_cutoff_hz, regular_count, resample,
+    smallest_step, smoothed_motion,
 };
+use crate::continuity::{Position, Remark, Stamps, mend, settle};
 use crate::doubt::Smoothing;
 use crate::plant::Run;
 use crate::rules::{MOST_GIVEN, STILL_QUANTA, STILL_SIGMAS};
@@ -42,14 +44,16 @@ pub struct Signals {
 }
 
 /// Aligns a recording, or says why nothing can be concluded from it.
-pub fn align(signals: &Signals) -> Result<JointRun, Fault> {
+pub fn align(recorded: &Signals) -> Result<JointRun, Fault> {
+    let mut signals = recorded.clone();
     let step_s = median_step(&signals.time_s);
     check_clock(&signals.time_s, step_s)?;
     check_missing("position", &signals.time_s, &signals.position)?;
     check_missing("effort", &signals.time_s, &signals.effort)?;
-    check_frozen(&signals.time_s, &signals.position, step_s)?;
-    check_metered(signals, step_s)?;
-    check_clipped(&signals.time_s, &signals.effort, signals.effort_limit)?;
+    let (quantum, position_noise) = resolution(&signals);
+    let (mended, jitter) = mended(&mut signals, (step_s, quantum))?;
+    let position_noise = position_noise.hypot(jitter);
+    checks::check(recorded, &signals, step_s)?;
     let count = regular_count(&signals.time_s, step_s);
     let (position, recorded_p) = resample(&signals.time_s, &signals.position, step_s, count);
     let (effort, recorded_e) = resample(&signals.time_s, &signals.effort, step_s, count);
@@ -59,7 +63,6 @@ pub fn align(signals: &Signals) -> Result<JointRun, Fault> {
     };
     let predicted = optional(&signals.predicted);
     let current = optional(&signals.current);
-    let (quantum, position_noise) = resolution(signals);
     let effort_noise = signals
         .effort_noise
         .unwrap_or_else(|| smallest_step(&effort) / 12f64.sqrt());
@@ -74,15 +77,12 @@ pub fn align(signals: &Signals) -> Result<JointRun, Fault> {
         speed_floor,
     };
     let untold_speed = smoothing.untold_speeds(&position, &motion, &vec![1.0; motion.len()]);
-    forget_sense_at_rest(
-        &mut motion,
-        &position,
-        step_s,
-        (STILL_QUANTA * quantum).max(STILL_SIGMAS * position_noise),
-    );
+    let still = (STILL_QUANTA * quantum).max(STILL_SIGMAS * position_noise);
+    forget_sense_at_rest(&mut motion, &position, step_s, still);
     if signals.plant == PlantKind::Axis {
         forget_sense_at_reversals(&mut motion);
     }
+    let pairs = recorded_p.into_iter().zip(recorded_e);
     let run = JointRun {
         plant: signals.plant,
         kind: signals.kind,
@@ -99,18 +99,49 @@ pub fn align(signals: &Signals) -> Result<JointRun, Fault> {
         table: None,
         position_noise,
         effort_noise,
-        recorded: recorded_p
-            .into_iter()
-            .zip(recorded_e)
-            .map(|(a, b)| a && b)
-            .collect(),
+        recorded: pairs.map(|(a, b)| a && b).collect(),
         speed_floor,
         untold_speed,
         metered_by: Vec::new(),
         parts: Vec::new(),
+        remarks: mended,
     };
     check_sign(&run)?;
     Ok(run)
+}
+
+/// Mends the position, and puts the samples on the grid of their stamps; gives what was mended and what jitter adds to the noise of a position.
+fn mended(
+    signals: &mut Signals,
+    (step_s, quantum): (f64, f64),
+) -> Result<(Vec<Remark>, f64), Fault> {
+    let mut position = [Position {
+        channel: "position",
+        samples: core::mem::take(&mut signals.position),
+        stated_quantum: signals.position_quantum,
+        quantum,
+        noise: signals.position_noise.unwrap_or(0.0),
+        is_angle: signals.kind == Motion::Rotary,
+    }];
+    let stamps = Stamps {
+        time_s: &signals.time_s,
+        step_s,
+    };
+    let others = [&mut signals.effort].into_iter();
+    let others = others
+        .chain(&mut signals.predicted)
+        .chain(&mut signals.current);
+    let mut mended = mend(stamps, &mut position, &mut others.collect::<Vec<_>>())?;
+    let settled = settle(stamps, &mut position);
+    let [position] = position;
+    signals.position = position.samples;
+    let mut noise = 0.0;
+    if let Some(settled) = settled {
+        mended.push(settled.said);
+        signals.time_s = settled.time_s;
+        noise = settled.noise;
+    }
+    Ok((mended, noise))
 }
 
 /// The resolution of the position, and the noise that it makes with what is stated.
@@ -120,21 +151,6 @@ fn resolution(signals: &Signals) -> (f64, f64) {
         .unwrap_or_else(|| smallest_step(&signals.position));
     let stated = signals.position_noise.unwrap_or(0.0);
     (quantum, (quantum / 12f64.sqrt()).hypot(stated))
-}
-
-/// A metered effort has noise: on a bench a constant one is a dead channel, unless the motion rests too.
-fn check_metered(signals: &Signals, step_s: f64) -> Result<(), Fault> {
-    if signals.plant == PlantKind::Axis {
-        return Ok(());
-    }
-    let least = longest_freeze(step_s);
-    for (first, end) in constant_runs(&signals.effort, least) {
-        let moving = signals.position.get(first..end).unwrap_or_default();
-        if moving.windows(2).filter(|w| w.first() != w.last()).count() > least / 2 {
-            return Err(frozen("effort", &signals.time_s, first, end));
-        }
-    }
-    Ok(())
 }
 
 /// A resistance that gives energy on the whole has a channel with the wrong sign.

@@ -261,7 +261,7 @@ fn drive(run: &JointRun, what: Drive, shape: &[f64]) -> Option<Columns> {
     let changed = |effort: &[f64]| match what {
         Drive::Lag => Some(first_order_lag(effort, step_s, value)),
         Drive::Skew => Some(shifted(effort, -value / step_s)),
-        Drive::Limit => Some(effort.iter().map(|e| e.clamp(-value, value)).collect()),
+        Drive::Limit => Some(effort.iter().map(|e| e.max(-value).min(value)).collect()),
         Drive::Gain => None,
     };
     match (what, run.plant, run.brake()) {

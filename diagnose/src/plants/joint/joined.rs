@@ -12,6 +12,7 @@ impl Joins for JointRun {
             *last = false;
         }
         self.recorded.extend_from_slice(&run.recorded);
+        self.remarks.extend_from_slice(&run.remarks);
         self.position.extend_from_slice(&run.position);
         self.motion.extend_from_slice(&run.motion);
         self.effort.extend_from_slice(&run.effort);

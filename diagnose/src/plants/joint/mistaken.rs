@@ -2,12 +2,15 @@
 
 use super::columns::is_of_brake;
 use super::from_rig;
+use super::inertia::Inertia;
 use super::run::JointRun;
 use crate::align::Fault;
-use crate::evidence::coefficients_by_term;
+use crate::cause::Cause;
+use crate::evidence::{Intervals, coefficients_by_term, intervals};
 use crate::problem::Problem;
-use crate::rules::ANOTHER_UNIT;
-use crate::select::{Selection, refs};
+use crate::regression::Fit;
+use crate::rules::{ANOTHER_INERTIA, ANOTHER_UNIT, DRAG_HALVES, UNIT_LEFT};
+use crate::select::{Selection, is_noise, usable_rms};
 use rigproof_spec::effect::Mechanism;
 use rigproof_trace::rig::Rig;
 
@@ -28,31 +31,154 @@ pub fn without_brake(rig: &Rig, run: &JointRun) -> Option<Fault> {
     })
 }
 
-/// A gain error of more than the whole gain is a channel with the wrong sign; a gain of another size is no physics.
+/// A gain error of more than the whole gain is a channel with the wrong sign; a gain of another size is no physics. One that begins
+/// late is none of both, nor is one that leaves much: other physics is then missing.
 pub fn another_drive(problem: &Problem, selection: &Selection) -> Option<Fault> {
-    let (_, coefficients) = coefficients_by_term(problem, selection);
-    let terms = refs(&selection.nominal, &selection.found);
-    let fraction = terms
-        .iter()
-        .zip(&coefficients)
-        .find(|(term, _)| term.cause.mechanism == Mechanism::GainError)
-        .and_then(|(_, own)| own.first().copied())?;
-    // The column is the known effort: y = e + c·e, so that the applied gain is 1/(1 + c) of the stated one.
-    let gain = 1.0 - fraction / (1.0 + fraction);
+    let (index, gain) = impossible_gain(problem, selection)?;
+    let begins_late = selection
+        .found
+        .get(index)
+        .is_some_and(|own| own.term.onset_s.is_some());
+    if begins_late || !explains(problem, selection) {
+        return None;
+    }
     let reason = if gain < 0.0 {
         "the plant answers against its drive: the command, the force or the position has the wrong sign (set `sign = -1`), or the two channels are swapped".to_owned()
-    } else if !(1.0 / ANOTHER_UNIT..ANOTHER_UNIT).contains(&gain) {
+    } else {
         format!(
             "the plant answers as if its drive were {gain:.3} times what is described: the unit of the position or of the command is another one (degrees for radians make 57.3 or 0.0175, thousandths 1000 or 0.001), or the two channels are swapped; correct the description"
         )
-    } else {
+    };
+    Some(throughout(problem, "drive", reason))
+}
+
+/// The place of a found gain that no drive has, and the gain.
+fn impossible_gain(problem: &Problem, selection: &Selection) -> Option<(usize, f64)> {
+    let (_, coefficients) = coefficients_by_term(problem, selection);
+    let found = coefficients.iter().skip(selection.nominal.len());
+    let (index, (_, own)) = selection
+        .found
+        .iter()
+        .zip(found)
+        .enumerate()
+        .find(|(_, (found, _))| found.term.cause.mechanism == Mechanism::GainError)?;
+    // The column is the known effort: y = e + c·e, so that the applied gain is 1/(1 + c) of the stated one.
+    let fraction = *own.first()?;
+    let gain = 1.0 - fraction / (1.0 + fraction);
+    let is_possible = (1.0 / ANOTHER_UNIT..ANOTHER_UNIT).contains(&gain);
+    (!is_possible).then_some((index, gain))
+}
+
+/// A found inertia beside which the stated one is another unit's: so little or so much acceleration takes no part of the effort.
+pub fn another_inertia(run: &JointRun, problem: &Problem, selection: &Selection) -> Option<Fault> {
+    let Inertia::Known(stated) = run.inertia else {
         return None;
     };
+    let (_, coefficients) = coefficients_by_term(problem, selection);
+    let own = coefficients.iter().skip(selection.nominal.len());
+    let added = selection.found.iter().zip(own).find_map(|(found, own)| {
+        let is_inertia = found.term.cause.mechanism == Mechanism::AddedInertia;
+        (is_inertia && found.term.onset_s.is_none()).then(|| own.first().copied())?
+    })?;
+    let times = 1.0 + added / stated;
+    if (1.0 / ANOTHER_UNIT..ANOTHER_INERTIA).contains(&times) || !explains(problem, selection) {
+        return None;
+    }
+    Some(throughout(
+        problem,
+        "inertia",
+        format!(
+            "the plant answers as if its inertia were {times:.3e} times the stated one: the unit of the position or of the command is another one (degrees for radians make 0.0175, thousandths 1000 or 0.001), the command is dead, or the stated inertia is another one's; correct the description"
+        ),
+    ))
+}
+
+/// A gain that no drive has and that is no fault of the description either: it stands in for something else.
+pub fn beyond_reason(problem: &Problem, selection: &Selection) -> Option<Cause> {
+    let (index, _) = impossible_gain(problem, selection)?;
+    selection.found.get(index).map(|own| own.term.cause)
+}
+
+/// Whether what is found leaves little beside what the nominal model leaves.
+fn explains(problem: &Problem, selection: &Selection) -> bool {
+    let rms = |fit: &Fit| usable_rms(problem, &fit.residual);
+    is_noise(problem, &selection.after)
+        || rms(&selection.after) < UNIT_LEFT * rms(&selection.before)
+}
+
+fn throughout(problem: &Problem, channel: &'static str, reason: String) -> Fault {
     let clock = problem.run.clock();
-    Some(Fault {
-        channel: "drive",
+    Fault {
+        channel,
         from_s: clock.start_s,
         to_s: clock.start_s + clock.duration_s(),
         reason,
-    })
+    }
+}
+
+/// An unknown inertia, or an unknown friction, that no plant has: with a wrong sign or in another unit the plant's own numbers go wherever the channels send
+/// them.
+pub fn impossible_numbers(
+    run: &JointRun,
+    problem: &Problem,
+    selection: &Selection,
+) -> Option<Fault> {
+    let Inertia::Unknown(start) = run.inertia else {
+        return negative_drag(problem, selection, &intervals(problem, selection));
+    };
+    let (nuisances, _) = coefficients_by_term(problem, selection);
+    let inertia = *nuisances.first()?;
+    let intervals = intervals(problem, selection);
+    let half = intervals
+        .nuisances
+        .first()
+        .copied()
+        .filter(|half| half.is_finite())?;
+    let is_told = inertia.abs() > half;
+    let reason = if is_told && inertia < 0.0 {
+        Some(format!(
+            "the inertia comes out as {inertia:.3e} (SI), which is negative: the command or the position has the wrong sign (set `sign = -1`), or the two channels are swapped"
+        ))
+    } else if is_told && !(1.0 / ANOTHER_INERTIA..ANOTHER_INERTIA).contains(&(inertia / start)) {
+        Some(format!(
+            "the inertia comes out as {inertia:.3e} (SI), {:.3e} times the value to start from: the unit of the position or of the command is another one (degrees for radians make 0.0175, thousandths 1000 or 0.001), or another column is the position or the command; correct the description, or the inertia's `value` if it was a guess",
+            inertia / start
+        ))
+    } else if !is_told && !explains(problem, selection) {
+        Some(format!(
+            "the inertia comes out as {inertia:.1e} ± {half:.1e} (SI): the acceleration of the position has nothing to do with the command; another column is the position or the command, or the plant hardly accelerates (state its inertia as known)"
+        ))
+    } else {
+        None
+    };
+    match reason {
+        Some(reason) => Some(throughout(problem, "inertia", reason)),
+        None => negative_drag(problem, selection, &intervals),
+    }
+}
+
+/// A nominal friction that drives the motion.
+fn negative_drag(problem: &Problem, selection: &Selection, intervals: &Intervals) -> Option<Fault> {
+    let (_, coefficients) = coefficients_by_term(problem, selection);
+    let nominal = selection
+        .nominal
+        .iter()
+        .zip(&coefficients)
+        .zip(&intervals.terms);
+    let (term, value) = nominal.into_iter().find_map(|((term, own), halves)| {
+        let is_friction = matches!(
+            term.cause.mechanism,
+            Mechanism::Viscous | Mechanism::DryOffset
+        );
+        let (value, half) = (*own.first()?, *halves.first()?);
+        (is_friction && value + DRAG_HALVES * half < 0.0).then_some((term, value))
+    })?;
+    Some(throughout(
+        problem,
+        "drive",
+        format!(
+            "the nominal `{}` comes out as {value:.3e} (SI), which is negative: the friction would drive the plant; the command, the force or the position has the wrong sign (set `sign = -1`), or a channel is another one",
+            term.cause.mechanism.name()
+        ),
+    ))
 }

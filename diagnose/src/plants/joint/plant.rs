@@ -1,12 +1,15 @@
 //! This file is a plant of one joint by its description.
 
 use super::inverse::{self, CUTOFF_HZ, DECIMATION, FILTER_ORDER};
-use super::mistaken::{another_drive, without_brake};
+use super::mistaken::{
+    another_drive, another_inertia, beyond_reason, impossible_numbers, without_brake,
+};
 use super::run::{JointRun, PlantKind};
 use super::simulate::output;
 use super::write_rig::{calibrated, found_in, nominal_numbers};
 use super::{from_rig, replica, undone};
 use crate::align::Fault;
+use crate::cause::Cause;
 use crate::diagnose::write::Stand;
 use crate::effect::Effect;
 use crate::evidence::Intervals;
@@ -57,6 +60,21 @@ impl Plant for Rig {
 
     fn check_found(&self, problem: &Problem, selection: &Selection) -> Result<(), Fault> {
         another_drive(problem, selection).map_or(Ok(()), Err)
+    }
+
+    fn check_numbers(
+        &self,
+        run: &JointRun,
+        problem: &Problem,
+        selection: &Selection,
+    ) -> Result<(), Fault> {
+        let fault = another_inertia(run, problem, selection);
+        let fault = fault.or_else(|| impossible_numbers(run, problem, selection));
+        fault.map_or(Ok(()), Err)
+    }
+
+    fn beyond_reason(&self, problem: &Problem, selection: &Selection) -> Option<Cause> {
+        beyond_reason(problem, selection)
     }
 
     fn meaningless(&self, problem: &Problem, effect: &Effect) -> Option<Fault> {

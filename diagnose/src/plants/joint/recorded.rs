@@ -132,6 +132,7 @@ fn run(plant: PlantKind, motion: Vec<Instant>, effort: Vec<f64>, held: bool) -> 
         speed_floor: 1e-4,
         metered_by: Vec::new(),
         parts: Vec::new(),
+        remarks: Vec::new(),
     }
 }
 

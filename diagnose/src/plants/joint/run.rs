@@ -5,6 +5,7 @@ use super::joined::over_parts;
 use super::{columns, shapes};
 use crate::align::band_hz;
 use crate::cause::{Cause, Place};
+use crate::continuity::Remark;
 use crate::doubt::{greatest_change, jumps_late, turning};
 use crate::effect::Effect;
 use crate::filter::rms;
@@ -74,6 +75,8 @@ pub struct JointRun {
     pub metered_by: Vec<Effect>,
     /// The recordings that stand in it one after another; empty for one recording.
     pub parts: Vec<JointRun>,
+    /// What was mended in it.
+    pub remarks: Vec<Remark>,
 }
 
 impl JointRun {
@@ -154,6 +157,7 @@ impl JointRun {
             untold_speed: part(&self.untold_speed),
             metered_by: self.metered_by.clone(),
             parts: Vec::new(),
+            remarks: self.remarks.clone(),
         }
     }
 
@@ -200,6 +204,10 @@ impl Run for JointRun {
 
     fn recorded(&self) -> &[bool] {
         &self.recorded
+    }
+
+    fn remarks(&self) -> &[Remark] {
+        &self.remarks
     }
 
     fn motion_kind(&self) -> Motion {

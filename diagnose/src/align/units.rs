@@ -1,0 +1,64 @@
+//! This file finds units that a recording contradicts: its counts or its noise are those of another unit than the description says.
+
+use super::{Fault, smallest_step};
+use crate::continuity::roughness;
+use crate::rules::{NEAR_UNIT, THOUSANDFOLD};
+
+/// A channel with what is stated of it.
+pub(crate) struct Stated<'a> {
+    /// Its role.
+    pub channel: &'static str,
+    /// Its samples.
+    pub samples: &'a [f64],
+    /// Its resolution, where it is stated.
+    pub quantum: Option<f64>,
+    /// Its noise with its resolution, where it is stated.
+    pub noise: Option<f64>,
+}
+
+/// How many of one unit another one is, with their names.
+const UNITS: [(f64, &str); 4] = [
+    (
+        180.0 / core::f64::consts::PI,
+        "degrees, described as radians",
+    ),
+    (
+        core::f64::consts::PI / 180.0,
+        "radians, described as degrees",
+    ),
+    (1000.0, "thousandths (mm, mrad), described as whole units"),
+    (1e-3, "whole units, described as thousandths"),
+];
+
+/// # Errors
+/// The smallest step of the samples, or their scatter, is what is stated in another unit.
+pub(crate) fn check_units(stated: &Stated<'_>, ends_s: [f64; 2]) -> Result<(), Fault> {
+    let [from_s, to_s] = ends_s;
+    let fault = |reason| {
+        Err(Fault {
+            channel: stated.channel,
+            from_s,
+            to_s,
+            reason,
+        })
+    };
+    if let Some(quantum) = stated.quantum {
+        let times = smallest_step(stated.samples) / quantum;
+        let near = |(unit, _): &&(f64, &str)| (times / unit - 1.0).abs() < NEAR_UNIT;
+        if let Some((_, words)) = UNITS.iter().find(near) {
+            return fault(format!(
+                "its smallest step is {times:.4} times the stated quantum: the samples seem to be {words}; correct `unit`, or `quantum`"
+            ));
+        }
+    }
+    let Some(noise) = stated.noise.filter(|noise| *noise > 0.0) else {
+        return Ok(());
+    };
+    let times = roughness(stated.samples) / noise;
+    if THOUSANDFOLD.contains(&times) {
+        return fault(format!(
+            "its samples scatter {times:.0} times as much as the stated noise: they seem to be thousandths (mN, mN·m, mV), described as whole units; correct `unit`, or `noise`"
+        ));
+    }
+    Ok(())
+}

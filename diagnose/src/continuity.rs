@@ -1,0 +1,147 @@
+//! This file holds positions against continuity: what wraps is unwrapped, a few bad samples are left out and counted, what cannot be mended is a fault.
+
+mod clock;
+mod jumps;
+mod repeats;
+mod steps;
+mod straight;
+
+use crate::align::{Fault, check_frozen};
+use crate::rules::MOST_MISSING;
+
+pub use clock::{roughness, settle};
+
+/// What was wrong in a channel and is mended, or only said.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Remark {
+    /// The role of the channel.
+    pub channel: &'static str,
+    /// What was wrong: `wrapped`, `dropouts`, `repeated`, `held`, `filled_in`, `jitter`.
+    pub what: &'static str,
+    /// The first time, s.
+    pub from_s: f64,
+    /// The last time, s.
+    pub to_s: f64,
+    /// How many samples, or how often.
+    pub count: usize,
+    /// What was found and what was done, in words.
+    pub words: String,
+}
+
+/// A recorded position, as it is mended.
+#[derive(Clone, Debug)]
+pub struct Position {
+    /// Its role.
+    pub channel: &'static str,
+    /// Its samples, m or rad; not a number where none was recorded.
+    pub samples: Vec<f64>,
+    /// Its resolution, m or rad, where it is stated.
+    pub stated_quantum: Option<f64>,
+    /// Its resolution as it seems, m or rad.
+    pub quantum: f64,
+    /// Standard deviation of its noise beside the resolution, m or rad.
+    pub noise: f64,
+    /// Whether it is an angle, which a turn brings back.
+    pub is_angle: bool,
+}
+
+/// The stamps of a recording and its usual step, s.
+#[derive(Clone, Copy, Debug)]
+pub struct Stamps<'a> {
+    /// Time stamps, s, increasing.
+    pub time_s: &'a [f64],
+    /// The usual step, s.
+    pub step_s: f64,
+}
+
+impl Stamps<'_> {
+    pub(crate) fn at(&self, k: usize) -> f64 {
+        self.time_s.get(k).copied().unwrap_or(0.0)
+    }
+
+    /// How many steps lie between two samples.
+    fn places(&self, k: usize, next: usize) -> f64 {
+        ((self.at(next) - self.at(k)) / self.step_s)
+            .round()
+            .max(1.0)
+    }
+}
+
+/// Mends the positions of a recording; `others` are its other channels, which lose the samples that every channel repeats.
+///
+/// # Errors
+/// What cannot be mended: its channel, its time and the reason.
+pub fn mend(
+    stamps: Stamps<'_>,
+    positions: &mut [Position],
+    others: &mut [&mut Vec<f64>],
+) -> Result<Vec<Remark>, Fault> {
+    let mut mended = Vec::new();
+    for own in positions.iter_mut() {
+        repeats::check_refreshed(stamps, own)?;
+        mended.extend(jumps::unwrap(stamps, own));
+        let channel = own.channel;
+        check_frozen(stamps.time_s, &own.samples, stamps.step_s)
+            .map_err(|fault| Fault { channel, ..fault })?;
+    }
+    mended.extend(repeats::leave_out_rows(stamps, positions, others)?);
+    for own in positions.iter_mut() {
+        mended.extend(repeats::leave_out_held(stamps, own)?);
+        mended.extend(straight::leave_out(stamps, own)?);
+        mended.extend(jumps::leave_out_dropouts(stamps, own)?);
+        jumps::check(stamps, own)?;
+        bridge(own);
+    }
+    Ok(mended)
+}
+
+/// Single samples that are left out lie on the cubic through their neighbours.
+fn bridge(own: &mut Position) {
+    let p = &own.samples;
+    let at = |k: usize| p.get(k).copied().unwrap_or(f64::NAN);
+    let lone = (2..p.len().saturating_sub(2)).filter(|&k| at(k).is_nan());
+    let filled: Vec<(usize, f64)> = lone
+        .map(|k| {
+            (
+                k,
+                (4.0 * (at(k - 1) + at(k + 1)) - at(k - 2) - at(k + 2)) / 6.0,
+            )
+        })
+        .filter(|(_, x)| x.is_finite())
+        .collect();
+    for (k, x) in filled {
+        if let Some(slot) = own.samples.get_mut(k) {
+            *slot = x;
+        }
+    }
+}
+
+/// Samples that are left out, as long as they are few; else a fault. `of` is how many could have been seen.
+fn few(
+    stamps: Stamps<'_>,
+    (channel, what): (&'static str, &'static str),
+    bad: &[usize],
+    of: usize,
+    (found, cure): (String, &str),
+) -> Result<Option<Remark>, Fault> {
+    let (Some(first), Some(last)) = (bad.first(), bad.last()) else {
+        return Ok(None);
+    };
+    let (from_s, to_s) = (stamps.at(*first), stamps.at(*last));
+    if bad.len() as f64 > MOST_MISSING * of as f64 {
+        return Err(Fault {
+            channel,
+            from_s,
+            to_s,
+            reason: format!("{found}: {cure}"),
+        });
+    }
+    Ok(Some(Remark {
+        channel,
+        what,
+        from_s,
+        to_s,
+        count: bad.len(),
+        words: format!("{channel}, {from_s:.3} to {to_s:.3} s: {found}; they are left out"),
+    }))
+}

@@ -1,0 +1,116 @@
+//! This file settles jitter of the time stamps: whether the samples are even and their stamps are not, or both are uneven.
+
+use super::steps::median;
+use super::{Position, Remark, Stamps};
+use crate::filter::rms;
+use crate::rules::EVEN;
+use rigproof_trace::clock::Grid;
+
+/// Stamps that jitter, put on a grid.
+#[derive(Clone, Debug)]
+pub struct Settled {
+    /// The places of the samples on the grid, s.
+    pub time_s: Vec<f64>,
+    /// What was found.
+    pub said: Remark,
+    /// By how much jitter makes the noise of a position greater, m or rad.
+    pub noise: f64,
+}
+
+/// Puts positions on the grid of their stamps where these jitter; of two readings, that the samples themselves are even and that each was taken
+/// when its stamp says, the one that gives the smoother motion is taken.
+pub fn settle(stamps: Stamps<'_>, positions: &mut [Position]) -> Option<Settled> {
+    let grid = Grid::of(stamps.time_s)?;
+    if grid.worst_s < EVEN * grid.step_s {
+        return None;
+    }
+    let time_s: Vec<f64> = grid
+        .places
+        .iter()
+        .map(|k| grid.start_s + k * grid.step_s)
+        .collect();
+    let late: Vec<f64> = stamps
+        .time_s
+        .iter()
+        .zip(&time_s)
+        .map(|(t, own)| t - own)
+        .collect();
+    let (mut even, mut uneven) = (0.0, 0.0);
+    let moved: Vec<Vec<f64>> = positions
+        .iter()
+        .map(|own| moved_back(&own.samples, &grid, &late))
+        .collect();
+    for (own, moved) in positions.iter().zip(&moved) {
+        let scale = own.quantum.max(own.noise).max(1e-300);
+        even += roughness(&own.samples) / scale;
+        uneven += roughness(moved) / scale;
+    }
+    let are_even = even <= uneven;
+    let mut noise = 0.0_f64;
+    for (own, moved) in positions.iter_mut().zip(moved) {
+        if !are_even {
+            own.samples = moved;
+        }
+        let predicted = (own.quantum / 12f64.sqrt()).hypot(own.noise);
+        let rough = roughness(&own.samples);
+        let most = grid.jitter_s * rms(&speeds(&own.samples, &grid));
+        let excess = (rough * rough - predicted * predicted).max(0.0).sqrt();
+        noise = noise.max(excess.min(most));
+    }
+    let (from_s, to_s) = (stamps.at(0), stamps.at(late.len().saturating_sub(1)));
+    let how = match are_even {
+        true => "the samples themselves are even, so they are put on the grid",
+        false => "each sample was taken when its stamp says, so positions are carried to the grid",
+    };
+    let jittering = late
+        .iter()
+        .filter(|late| late.abs() >= EVEN * grid.step_s)
+        .count();
+    Some(Settled {
+        said: Remark {
+            channel: "time",
+            what: "jitter",
+            from_s,
+            to_s,
+            count: jittering,
+            words: format!(
+                "time stamps jitter by {:.2e} s (root mean square, {:.2e} s at most) around a grid of {:.3} Hz: {how}; what is left of it, {noise:.1e} of a position, is in the predicted noise",
+                grid.jitter_s,
+                grid.worst_s,
+                1.0 / grid.step_s
+            ),
+        },
+        time_s,
+        noise,
+    })
+}
+
+/// Speeds by central differences on the grid.
+fn speeds(samples: &[f64], grid: &Grid) -> Vec<f64> {
+    let at = |k: usize| samples.get(k).copied().unwrap_or(f64::NAN);
+    let place = |k: usize| grid.places.get(k).copied().unwrap_or(0.0);
+    let each = (0..samples.len()).map(|k| {
+        let (before, after) = (k.saturating_sub(1), (k + 1).min(samples.len() - 1));
+        let speed =
+            (at(after) - at(before)) / ((place(after) - place(before)).max(1.0) * grid.step_s);
+        if speed.is_nan() { 0.0 } else { speed }
+    });
+    each.collect()
+}
+
+/// Samples carried back from their stamps to their places on the grid.
+fn moved_back(samples: &[f64], grid: &Grid, late: &[f64]) -> Vec<f64> {
+    let speeds = speeds(samples, grid);
+    let each = samples.iter().zip(speeds).zip(late);
+    each.map(|((x, speed), late)| x - speed * late).collect()
+}
+
+/// What noise of a sample would bend a standing position as much: from the median third difference, which a smooth motion hardly has.
+pub fn roughness(samples: &[f64]) -> f64 {
+    let bends = samples.windows(4).filter_map(|w| match w {
+        [a, b, c, d] => Some((d - 3.0 * c + 3.0 * b - a).abs()),
+        _ => None,
+    });
+    let bends: Vec<f64> = bends.filter(|bend| bend.is_finite()).collect();
+    median(bends) / (0.6745 * 20f64.sqrt())
+}

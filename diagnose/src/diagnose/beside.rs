@@ -1,0 +1,56 @@
+//! This file is what is to be said beside a result: numbers that a careful reader would look at twice.
+
+use super::write::Stand;
+use crate::evidence::{Intervals, coefficients_by_term, parameters};
+use crate::plant::{Plant, Run};
+use crate::report::{Floor, Remark};
+use crate::rules::FAR_BELOW_FLOOR;
+use crate::select::refs;
+use rigproof_spec::effect::Mechanism;
+
+impl<P: Plant> Stand<'_, P> {
+    /// What was mended, of what shows the result too where that is another recording, and what in the result is odd.
+    pub(crate) fn remarks(&self, floor: &Floor, intervals: &Intervals) -> Vec<Remark> {
+        let shown = self.other_recording.then(|| self.test.remarks());
+        let mut remarks = [self.train.remarks(), shown.unwrap_or_default()].concat();
+        if floor.ratio_after < FAR_BELOW_FLOOR {
+            remarks.push(self.odd("below_floor", "effort", format!(
+                "what stays unexplained is {:.2} times what the stated noise and resolution predict: one of them is stated too great (`noise` and `quantum` in the rig file), and hides small effects",
+                floor.ratio_after
+            )));
+        }
+        let (nuisances, coefficients) = coefficients_by_term(self.problem, self.selection);
+        for (value, half) in nuisances.iter().zip(&intervals.nuisances) {
+            // Not a number says as well that nothing is told.
+            if half.is_nan() || value.abs() <= *half {
+                remarks.push(self.odd("inertia_not_told", "inertia", format!(
+                    "the inertia comes out as {value:.2e} (SI) with a 95 % interval that holds 0: this recording does not tell it; state it as known, or record faster motion"
+                )));
+            }
+        }
+        let terms = refs(&self.selection.nominal, &self.selection.found);
+        for (term, own) in terms.iter().zip(&coefficients) {
+            let numbers = parameters(self.problem, term, own);
+            if let (Mechanism::ChannelSkew, Some(delay_s)) = (term.cause.mechanism, numbers.first())
+                && *delay_s < 0.0
+            {
+                remarks.push(self.odd("negative_delay", "time", format!(
+                    "a delay of {delay_s:.2e} s is negative: the motion comes before what drives it; look at the time stamps of the two channels"
+                )));
+            }
+        }
+        remarks
+    }
+
+    fn odd(&self, what: &'static str, channel: &'static str, words: String) -> Remark {
+        let clock = self.train.clock();
+        Remark {
+            channel,
+            what,
+            from_s: clock.start_s,
+            to_s: clock.start_s + clock.duration_s(),
+            count: 1,
+            words,
+        }
+    }
+}

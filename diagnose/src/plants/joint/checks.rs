@@ -1,0 +1,122 @@
+//! This file finds channels of a plant of one joint that are dead, clipped or in another unit, before anything is fitted.
+
+use super::align::Signals;
+use super::run::PlantKind;
+use crate::align::{
+    Fault, Stated, check_clipped, check_units, constant_runs, frozen, longest_freeze,
+};
+use crate::rules::{DIES_AWAY, GROWS, MOST_TURNS};
+
+/// Checks the channels as recorded, and as mended.
+///
+/// # Errors
+/// The channel that is at fault, and why.
+pub fn check(recorded: &Signals, signals: &Signals, step_s: f64) -> Result<(), Fault> {
+    check_units_of(recorded)?;
+    check_metered(signals, step_s)?;
+    check_commanded(signals)?;
+    check_clipped(&signals.time_s, &signals.effort, signals.effort_limit)
+}
+
+/// Counts of the position and noise of the effort are those of the units that are stated.
+fn check_units_of(signals: &Signals) -> Result<(), Fault> {
+    let ends_s = [signals.time_s.first(), signals.time_s.last()];
+    let ends_s = ends_s.map(|end| end.copied().unwrap_or(0.0));
+    let position = Stated {
+        channel: "position",
+        samples: &signals.position,
+        quantum: signals.position_quantum,
+        noise: None,
+    };
+    let effort = Stated {
+        channel: "effort",
+        samples: &signals.effort,
+        quantum: None,
+        noise: signals.effort_noise,
+    };
+    check_units(&position, ends_s)?;
+    check_units(&effort, ends_s)
+}
+
+/// Under a constant command an axis comes to rest, or goes on one way: one that is driven to and fro has a dead command, or another column's.
+fn check_commanded(signals: &Signals) -> Result<(), Fault> {
+    let level = signals.effort.iter().find(|x| !x.is_nan());
+    let Some(level) = level.filter(|_| signals.plant == PlantKind::Axis) else {
+        return Ok(());
+    };
+    if signals.effort.iter().any(|x| !x.is_nan() && x != level) {
+        return Ok(());
+    }
+    let (halves, turns) = to_and_fro(&signals.position);
+    let [first, second] = halves;
+    let is_driven = turns >= MOST_TURNS && second >= DIES_AWAY * first;
+    if !is_driven && !(*level == 0.0 && starts_by_itself(&signals.position)) {
+        return Ok(());
+    }
+    let at = |end: Option<&f64>| end.copied().unwrap_or(0.0);
+    Err(Fault {
+        channel: "effort",
+        from_s: at(signals.time_s.first()),
+        to_s: at(signals.time_s.last()),
+        reason: format!(
+            "the command is {level} (SI) throughout while the position is driven (it turns back {turns} times): the channel is dead, or another column is the command"
+        ),
+    })
+}
+
+/// Whether a position comes to move faster than it did before, by more than a free motion ever does.
+fn starts_by_itself(position: &[f64]) -> bool {
+    let stretch = (position.len() / 20).max(2);
+    let ways = position.chunks(stretch).map(|own| {
+        let live = || own.iter().copied().filter(|x| !x.is_nan());
+        live().fold(f64::NEG_INFINITY, f64::max) - live().fold(f64::INFINITY, f64::min)
+    });
+    let ways: Vec<f64> = ways.collect();
+    let greatest = ways.iter().copied().fold(0.0, f64::max);
+    let mut least = f64::INFINITY;
+    ways.into_iter().any(|way| {
+        least = least.min(way);
+        way > GROWS * least && way > 0.2 * greatest
+    })
+}
+
+/// The travel from sample to sample in the first and the second half, and how often a position turns back by a tenth of its range.
+fn to_and_fro(position: &[f64]) -> ([f64; 2], usize) {
+    let live: Vec<f64> = position.iter().copied().filter(|x| !x.is_nan()).collect();
+    let (first, second) = live.split_at(live.len() / 2);
+    let way = |own: &[f64]| -> f64 {
+        let pairs = own
+            .windows(2)
+            .filter_map(|pair| Some(pair.last()? - pair.first()?));
+        pairs.map(f64::abs).sum()
+    };
+    let low = live.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = live.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let (mut turns, mut extreme, mut upward) = (0, low, true);
+    for x in &live {
+        extreme = if upward {
+            extreme.max(*x)
+        } else {
+            extreme.min(*x)
+        };
+        if (x - extreme).abs() > 0.1 * (high - low) {
+            (turns, upward, extreme) = (turns + 1, !upward, *x);
+        }
+    }
+    ([way(first), way(second)], turns)
+}
+
+/// A metered effort has noise: on a bench a constant one is a dead channel, unless the motion rests too.
+fn check_metered(signals: &Signals, step_s: f64) -> Result<(), Fault> {
+    if signals.plant == PlantKind::Axis {
+        return Ok(());
+    }
+    let least = longest_freeze(step_s);
+    for (first, end) in constant_runs(&signals.effort, least) {
+        let moving = signals.position.get(first..end).unwrap_or_default();
+        if moving.windows(2).filter(|w| w.first() != w.last()).count() > least / 2 {
+            return Err(frozen("effort", &signals.time_s, first, end));
+        }
+    }
+    Ok(())
+}
