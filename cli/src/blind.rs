@@ -6,6 +6,7 @@ mod make;
 mod other;
 mod page;
 mod score;
+mod seeds;
 mod trial;
 
 pub use make::{FILES, contents};

@@ -16,6 +16,7 @@ use serde_json::{Value, json};
 
 use super::claims::{Claim, Measured, OF_A_JOINT, OF_THE_RIG};
 use super::make::{FILES, contents};
+use super::seeds::parse_seeds;
 use super::{faults, other, page};
 use super::{parse_forms, truth};
 use crate::folder::{EXPERIMENT, REPORT};
@@ -454,48 +455,9 @@ fn list(names: &[&str]) -> String {
     }
 }
 
-/// Most seeds of one trial: years of processor time, whose results are held together.
-const MOST_SEEDS: u64 = 1_000_000;
-
-fn parse_seeds(text: &str) -> Result<Range<u64>, String> {
-    let advice = || "write FIRST..END with whole numbers, END greater than FIRST, such as 0..200";
-    let (first, end) = text.split_once("..").ok_or_else(advice)?;
-    let number = |text: &str| text.trim().parse::<u64>().map_err(|_| advice());
-    let seeds = number(first)?..number(end)?;
-    if seeds.is_empty() {
-        return Err(advice().to_owned());
-    }
-    let count = seeds.end - seeds.start;
-    if count > MOST_SEEDS {
-        return Err(format!(
-            "these are {count} seeds; give at most {MOST_SEEDS} at once"
-        ));
-    }
-    Ok(seeds)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn seeds_are_a_range_that_can_be_held() {
-        assert_eq!(parse_seeds("3..7"), Ok(3..7));
-        assert_eq!(
-            parse_seeds("18446744073709551000..18446744073709551615").map(|seeds| seeds.count()),
-            Ok(615)
-        );
-        for text in [
-            "0..18446744073709551615",
-            "1..18446744073709551615",
-            "0..1000001",
-            "7..3",
-            "3..3",
-            "0..18446744073709551616",
-        ] {
-            assert!(parse_seeds(text).is_err(), "{text}");
-        }
-    }
 
     #[test]
     fn an_experiment_beyond_the_rig_s_reach_leaves_open_what_was_open() {
