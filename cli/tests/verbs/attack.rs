@@ -44,8 +44,9 @@ fn a_refused_certificate_whose_reasons_were_emptied_is_refused_and_not_signed() 
     forge(&desk, |own| {
         for metric in &mut own.metrics {
             (metric.limit, metric.beyond) = (metric.limit, Vec::new());
-            let own = metric.controller.as_mut();
-            own.map(|own| (own.q05, own.q50, own.q95, own.greatest) = (0.0, 0.0, 0.0, 0.0));
+            if let Some(own) = metric.controller.as_mut() {
+                (own.q05, own.q50, own.q95, own.greatest) = (0.0, 0.0, 0.0, 0.0);
+            }
         }
     });
     for line in [proof, "certify --check out/certificate.json --sample 8"] {

@@ -84,7 +84,7 @@ fn the_wrong_column_name() {
 fn degrees_for_radians() {
     let axis = desk("axis", "axis", "axis");
     rewrite(&axis, |cells| scale(&mut cells[1], 1f64.to_degrees()));
-    let expected = ["57.", "degrees for radians", "correct the description"];
+    let expected = ["57.", "degrees, described as radians", "correct `unit`"];
     says(&axis, DIAGNOSE, 1, &expected);
     let rig = desk("rig", "rig", "rig");
     rewrite(&rig, |cells| {

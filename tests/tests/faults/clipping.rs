@@ -15,7 +15,7 @@ fn a_command_in_steps_is_not_clipped() {
     };
     let levels = |t: f64| [0.9, -0.6, 0.3, -1.1, 0.9, 0.0, -0.8][(t / 0.31) as usize % 7];
     let on_off = |t: f64| {
-        if (t / 0.23) as usize % 2 == 0 {
+        if ((t / 0.23) as usize).is_multiple_of(2) {
             1.4
         } else {
             0.0

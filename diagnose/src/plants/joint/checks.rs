@@ -50,7 +50,8 @@ fn check_commanded(signals: &Signals) -> Result<(), Fault> {
     let (halves, turns) = to_and_fro(&signals.position);
     let [first, second] = halves;
     let is_driven = turns >= MOST_TURNS && second >= DIES_AWAY * first;
-    if !is_driven && !(*level == 0.0 && starts_by_itself(&signals.position)) {
+    let moves_dead = *level == 0.0 && starts_by_itself(&signals.position);
+    if !is_driven && !moves_dead {
         return Ok(());
     }
     let at = |end: Option<&f64>| end.copied().unwrap_or(0.0);

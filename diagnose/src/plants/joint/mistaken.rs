@@ -88,7 +88,7 @@ pub fn another_inertia(run: &JointRun, problem: &Problem, selection: &Selection)
         problem,
         "inertia",
         format!(
-            "the plant answers as if its inertia were {times:.3e} times the stated one: the unit of the position or of the command is another one (degrees for radians make 0.0175, thousandths 1000 or 0.001), the command is dead, or the stated inertia is another one's; correct the description"
+            "the plant answers as if its inertia were {times:.3e} times the stated one: the unit of the position or of the command is another one (degrees for radians make 0.0175, thousandths 1000 or 0.001), the command is dead, the two channels are swapped, or the stated inertia is another one's; correct the description"
         ),
     ))
 }
