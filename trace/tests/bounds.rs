@@ -220,7 +220,7 @@ fn matlab(file: &Path, variables: usize, numbers: usize) {
     out.resize(124, b' ');
     out.extend_from_slice(b"\x00\x01IM");
     let real: Vec<u8> = (0..numbers)
-        .flat_map(|k| (0.37 * k as f64).sin().to_le_bytes())
+        .flat_map(|k| libm::sin(0.37 * k as f64).to_le_bytes())
         .collect();
     for k in 0..variables {
         let sizes = [(numbers as i32).to_le_bytes(), 1_i32.to_le_bytes()].concat();

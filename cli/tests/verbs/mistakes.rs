@@ -92,7 +92,7 @@ fn degrees_for_radians() {
             scale(angle, 1f64.to_degrees());
         }
     });
-    let expected = ["the linkage cannot stand", "degrees"];
+    let expected = ["57.", "degrees, described as radians"];
     says(&rig, DIAGNOSE, 1, &expected);
 }
 

@@ -90,7 +90,9 @@ rules! {
     /// The speed of a free motion dies away: in its second half it is below this share of that in the first.
     DIES_AWAY: f64 = 0.7, "share", REASON;
     /// A free motion dies away: it never travels farther in a twentieth of the recording than in one before, times this.
-    GROWS: f64 = 3.0, "times", REASON;
+    GROWS: f64 = 3.0, "times", "axis with faults, blind seed 20004 (decision 0193)";
+    /// A twentieth counts there from this share of the greatest way on.
+    LEAST_WAY: f64 = 0.2, "share", REASON;
     /// A residual below this share of the predicted noise says that noise or resolution are stated too great.
     FAR_BELOW_FLOOR: f64 = 0.3, "share", REASON;
     /// A gain that is wrong by more than this factor is no physics: a unit is.

@@ -5,7 +5,7 @@ use super::run::PlantKind;
 use crate::align::{
     Fault, Stated, check_clipped, check_units, constant_runs, frozen, longest_freeze,
 };
-use crate::rules::{DIES_AWAY, GROWS, MOST_TURNS};
+use crate::rules::{DIES_AWAY, GROWS, LEAST_WAY, MOST_TURNS};
 
 /// Checks the channels as recorded, and as mended.
 ///
@@ -77,7 +77,7 @@ fn starts_by_itself(position: &[f64]) -> bool {
     let mut least = f64::INFINITY;
     ways.into_iter().any(|way| {
         least = least.min(way);
-        way > GROWS * least && way > 0.2 * greatest
+        way > GROWS * least && way > LEAST_WAY * greatest
     })
 }
 
