@@ -43,6 +43,8 @@ pub struct Position {
     pub noise: f64,
     /// Whether it is an angle, which a turn brings back.
     pub is_angle: bool,
+    /// A single jump up to this is a slip that the diagnosis itself names, m or rad.
+    pub slip: f64,
 }
 
 /// The stamps of a recording and its usual step, s.

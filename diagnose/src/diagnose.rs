@@ -19,10 +19,12 @@ use crate::report::Report;
 use crate::rules::{FEWEST_WINDOWS, HOLD_OUT_SHARE};
 use crate::scatter::{Trials, left_over};
 use crate::select::{FLOOR_RATIO, Gates, Selection, is_noise, refs, select};
+use crate::unknown::surrogates;
 use crate::whiten::Whitener;
 use ended::{faulty, not_excited};
 use parts::Parts;
 use rigproof_model::effects::entry;
+use rigproof_spec::effect::Mechanism;
 use rigproof_trace::Trace;
 use write::Stand;
 
@@ -151,7 +153,7 @@ pub fn diagnose<P: Plant>(
     }
     let beyond = plant.beyond_reason(&problem, &selection);
     selection.withdraw(&problem, beyond.as_slice());
-    let mut withdrawn = withdraw(&problem, &mut selection);
+    let mut withdrawn = withdraw(&problem, &mut selection, explanations.is_some());
     withdrawn.extend(beyond);
     let trials = scattered(&problem, &selection);
     if let Some(trials) = trials.clone() {
@@ -159,7 +161,7 @@ pub fn diagnose<P: Plant>(
         problem = Problem::new(train, windows).within(trials);
         let terms = nominal(plant, &problem).unwrap_or_default();
         (selection, explanations) = named(&mut problem, terms, options);
-        withdrawn = withdraw(&problem, &mut selection);
+        withdrawn = withdraw(&problem, &mut selection, explanations.is_some());
     }
     Stand {
         plant,
@@ -177,23 +179,32 @@ pub fn diagnose<P: Plant>(
     .report()
 }
 
-/// What is named on top of the nominal terms: sets of mechanisms are weighed together. On a linkage one mechanism at a time is looked for first, and what
-/// leaves only noise stands.
+/// What is named on top of the nominal terms. Sets of mechanisms are weighed together. On a linkage one mechanism at a time is looked for first, and what
+/// leaves only noise stands; on one joint it is looked for where sets leave more, and stands where it leaves only noise or sets name nothing.
 fn named(
     problem: &mut Problem,
     mut terms: Vec<Term>,
     options: &Options,
 ) -> (Selection, Option<Explanations>) {
+    let whitener = problem.whitener.clone();
     if problem.rules.by_family {
-        let whitener = problem.whitener.clone();
         let selection = select(problem, terms.clone(), options.gates);
         if is_noise(problem, &selection.after) {
             return (selection, None);
         }
         begin_anew(problem, &whitener, &mut terms);
     }
-    let (selection, explanations) = explain(problem, terms);
-    (selection, Some(explanations))
+    let (of_sets, explanations) = explain(problem, terms.clone());
+    if !problem.rules.by_family && !is_noise(problem, &of_sets.after) {
+        let whitener_of_sets = problem.whitener.clone();
+        begin_anew(problem, &whitener, &mut terms);
+        let selection = select(problem, terms, options.gates);
+        if of_sets.found.is_empty() || is_noise(problem, &selection.after) {
+            return (selection, None);
+        }
+        problem.whiten_with(whitener_of_sets);
+    }
+    (of_sets, Some(explanations))
 }
 
 /// The problem and its nominal terms as they were with the sensors' noise alone.
@@ -237,12 +248,35 @@ fn scattered(problem: &Problem, selection: &Selection) -> Option<Trials> {
 }
 
 /// Takes out the names that the recording itself contradicts.
-fn withdraw(problem: &Problem, selection: &mut Selection) -> Vec<Cause> {
-    if problem.rules.constancy {
-        withdraw_inconstant(problem, selection)
-    } else {
-        Vec::new()
+fn withdraw(problem: &Problem, selection: &mut Selection, weighed: bool) -> Vec<Cause> {
+    let mut withdrawn = Vec::new();
+    // Curves compete with names where these are weighed; they do not veto them.
+    if problem.rules.curves && !weighed {
+        withdrawn.extend(withdraw_surrogates(problem, selection));
     }
+    if problem.rules.constancy {
+        withdrawn.extend(withdraw_inconstant(problem, selection));
+    }
+    withdrawn
+}
+
+/// Takes out the names that only stand in for another law, where more than noise is left.
+fn withdraw_surrogates(problem: &Problem, selection: &mut Selection) -> Vec<Cause> {
+    if is_noise(problem, &selection.after) {
+        return Vec::new();
+    }
+    let found: Vec<Mechanism> = selection
+        .found
+        .iter()
+        .map(|f| f.term.cause.mechanism)
+        .collect();
+    let residual = &selection.after.residual;
+    let withdrawn: Vec<Cause> = surrogates(problem, residual, &found)
+        .into_iter()
+        .map(Cause::of)
+        .collect();
+    selection.withdraw(problem, &withdrawn);
+    withdrawn
 }
 
 /// Takes out the names whose number is not constant where more than noise is left, and what then explains too little. Where

@@ -1,6 +1,7 @@
 //! This file is the report: what a diagnosis says, in the fields that `report.json` has.
 
 mod agreement;
+mod fault;
 mod read_as;
 
 use serde::Serialize;
@@ -8,6 +9,7 @@ use std::collections::BTreeMap;
 
 pub use crate::continuity::Remark;
 pub use agreement::Agreement;
+pub use fault::FaultReport;
 pub use read_as::ReadAs;
 
 /// Version of the report's shape.
@@ -486,16 +488,3 @@ pub struct Horizon {
 pub const HELD_OUT_PART: &str = "held-out part";
 /// What was fitted, in words.
 pub const FITTED_PART: &str = "fitted part";
-
-/// Why no conclusion can be drawn.
-#[derive(Clone, Debug, Serialize)]
-pub struct FaultReport {
-    /// The channel's role.
-    pub channel: &'static str,
-    /// Begin, s.
-    pub from_s: f64,
-    /// End, s.
-    pub to_s: f64,
-    /// The reason.
-    pub reason: String,
-}

@@ -3,13 +3,11 @@
 use super::steps::Steps;
 use super::{Position, Remark, Stamps, few};
 use crate::align::Fault;
-use crate::rules::{LONGEST_DROPOUT, WRAP_RANGE};
+use crate::rules::{LONGEST_DROPOUT, WRAP_NEAR, WRAP_RANGE};
 use core::f64::consts::TAU;
 
 /// Powers of two at which counters wrap.
 const BITS: core::ops::RangeInclusive<i32> = 8..=32;
-/// How far a jump may be off a known period, as a share of it.
-const NEAR: f64 = 0.002;
 
 /// Takes out the jumps of a counter that begins anew at the end of its range.
 pub fn unwrap(stamps: Stamps<'_>, own: &mut Position) -> Option<Remark> {
@@ -60,14 +58,14 @@ pub fn unwrap(stamps: Stamps<'_>, own: &mut Position) -> Option<Remark> {
 fn period(own: &Position, by: f64, limit: f64) -> Option<f64> {
     let turn = own.is_angle.then_some(TAU);
     let counts = BITS.map(|bits| libm::ldexp(own.stated_quantum.unwrap_or(own.quantum), bits));
-    let near = |period: &f64| (by.abs() - period).abs() <= limit.max(NEAR * period);
+    let near = |period: &f64| (by.abs() - period).abs() <= limit.max(WRAP_NEAR * period);
     turn.into_iter().chain(counts).find(near)
 }
 
 /// The mean size of all jumps, where there are several and all are of that size.
 fn agreed(large: &[(usize, f64, f64)], by: f64, limit: f64) -> Option<f64> {
     let alike = |(_, other, own): &(usize, f64, f64)| {
-        (other.abs() - by.abs()).abs() <= own.max(limit).max(NEAR * by.abs())
+        (other.abs() - by.abs()).abs() <= own.max(limit).max(WRAP_NEAR * by.abs())
     };
     let mean = large.iter().map(|(_, by, _)| by.abs()).sum::<f64>() / large.len().max(1) as f64;
     // A dropout jumps there and back.
@@ -145,6 +143,7 @@ pub fn check(stamps: Stamps<'_>, own: &Position) -> Result<(), Fault> {
         return Ok(());
     };
     let more = match jumps.count() {
+        0 if by.abs() <= own.slip => return Ok(()),
         0 => String::new(),
         more => format!(", and {more} more such jump(s) follow"),
     };

@@ -4,11 +4,9 @@ use super::steps::{Steps, median};
 use super::{Position, Remark, Stamps, few};
 use crate::align::Fault;
 use crate::rules::{
-    CATCH_UP, FEWEST_REFRESHED, HELD_QUANTA, LONGEST_FREEZE_S, MOST_REPEATED_BY_CHANCE, REFRESHED,
+    CATCH_UP, FEWEST_REFRESHED, HELD_QUANTA, LONGEST_FREEZE_S, MOST_REPEATED_BY_CHANCE,
+    MOVED_WITHIN, REFRESHED,
 };
-
-/// Samples before and after within which a position must have moved.
-const NEAR: usize = 10;
 
 /// # Errors
 /// A position that changes only every few samples, by large steps.
@@ -153,10 +151,10 @@ fn runs(count: usize, repeats: impl Fn(usize) -> bool, stamps: Stamps<'_>) -> Ve
 
 /// Whether a position moves around a run by more than its counts flicker.
 fn moves(own: &Position, first: usize, end: usize) -> bool {
-    let before = own.samples.get(first.saturating_sub(1 + NEAR));
+    let before = own.samples.get(first.saturating_sub(1 + MOVED_WITHIN));
     let after = own
         .samples
-        .get((end + NEAR).min(own.samples.len().saturating_sub(1)));
+        .get((end + MOVED_WITHIN).min(own.samples.len().saturating_sub(1)));
     let moved = before
         .zip(after)
         .map(|(before, after)| (after - before).abs());

@@ -2,11 +2,8 @@
 
 use super::{Position, Stamps};
 use crate::rules::{
-    BLOCK_STEPS, JUMP_QUANTA, JUMP_SIGMAS, LATE_SAMPLE, STEP_TIMES, USUAL_QUANTILE,
+    BLOCK_STEPS, JUMP_QUANTA, JUMP_SIGMAS, LATE_SAMPLE, STEP_TIMES, STEPS_AROUND, USUAL_QUANTILE,
 };
-
-/// Steps before and after one that say how large it should be.
-const AROUND: usize = 3;
 
 /// The steps between the recorded samples of a position.
 pub struct Steps {
@@ -40,8 +37,10 @@ impl Steps {
 
     /// What a step should be by those around it, and by how much these differ.
     pub fn expected(&self, j: usize) -> (f64, f64) {
-        let before = self.step.get(j.saturating_sub(AROUND)..j);
-        let after = self.step.get(j + 1..(j + 1 + AROUND).min(self.step.len()));
+        let before = self.step.get(j.saturating_sub(STEPS_AROUND)..j);
+        let after = self
+            .step
+            .get(j + 1..(j + 1 + STEPS_AROUND).min(self.step.len()));
         let around = [before.unwrap_or_default(), after.unwrap_or_default()].concat();
         let middle = median(around.clone());
         let apart = around.iter().map(|s| (s - middle).abs()).collect();
@@ -50,8 +49,10 @@ impl Steps {
 
     /// The mean of some steps before the sample at a place, and after another one.
     pub fn beside(&self, j: usize, next: usize) -> [f64; 2] {
-        let before = self.step.get(j.saturating_sub(AROUND)..j);
-        let after = self.step.get(next..(next + AROUND).min(self.step.len()));
+        let before = self.step.get(j.saturating_sub(STEPS_AROUND)..j);
+        let after = self
+            .step
+            .get(next..(next + STEPS_AROUND).min(self.step.len()));
         [before, after].map(|own| median(own.unwrap_or_default().to_vec()))
     }
 

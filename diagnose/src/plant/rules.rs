@@ -27,6 +27,8 @@ pub struct Rules {
     pub by_window: bool,
     /// Whether a name is withdrawn whose number is not constant along the recording.
     pub constancy: bool,
+    /// Whether a name is withdrawn where a free curve over its own variable takes much of what is left.
+    pub curves: bool,
 }
 
 impl Rules {
@@ -41,6 +43,7 @@ impl Rules {
         by_family: false,
         by_window: false,
         constancy: false,
+        curves: true,
     };
 
     /// Chosen on recordings of a linkage: an effect often lives in few blocks.
@@ -54,5 +57,6 @@ impl Rules {
         by_family: true,
         by_window: true,
         constancy: true,
+        curves: false,
     };
 }

@@ -3,9 +3,6 @@
 use crate::filter::rms;
 use serde::Serialize;
 
-/// Samples over which an error is taken when it is asked from when on it is too great.
-const STRETCH: usize = 20;
-
 /// The held-out error with the named mechanisms against the one that noise and the intervals of the numbers allow.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Agreement {
@@ -15,7 +12,7 @@ pub struct Agreement {
     pub error: f64,
     /// What the noise of the sensors, what the windows leave over, and the intervals of the numbers allow of it.
     pub allowed: f64,
-    /// From when on the error is greater than allowed, s; nothing where it never is.
+    /// From when on the error is another one than before, s; nothing where it agrees.
     pub departs_s: Option<f64>,
     /// When it is greatest, s.
     pub greatest_s: f64,
@@ -27,15 +24,7 @@ impl Agreement {
         let values: Vec<f64> = errors.iter().map(|(error, _)| *error).collect();
         let error = rms(&values);
         let agrees = error <= allowed;
-        // One sample may be off by chance, a stretch of them is not.
-        let mut stretches = errors.windows(STRETCH.min(errors.len().max(1)));
-        let departs = stretches.find(|stretch| {
-            let squares = stretch.iter().map(|(error, _)| error * error);
-            squares.sum::<f64>() > allowed * allowed * stretch.len() as f64
-        });
-        let departs_s = departs
-            .and_then(|stretch| stretch.last())
-            .map(|(_, time_s)| *time_s);
+        let departs_s = departure(errors, allowed);
         let greatest = errors
             .iter()
             .max_by(|(a, _), (b, _)| a.abs().total_cmp(&b.abs()));
@@ -60,4 +49,22 @@ impl Agreement {
             )
         })
     }
+}
+
+/// The time that divides the errors best into two stretches of one variance each (likelihood ratio of a change in variance), what is allowed counting as
+/// the least variance.
+fn departure(errors: &[(f64, f64)], allowed: f64) -> Option<f64> {
+    let whole: f64 = errors.iter().map(|(error, _)| error * error).sum();
+    let cost = |squares: f64, count: usize| {
+        let variance = (squares / count.max(1) as f64).max(allowed * allowed);
+        count as f64 * libm::log(variance.max(f64::MIN_POSITIVE))
+    };
+    let mut before = 0.0;
+    let divided = errors.iter().enumerate().map(|(k, (error, time_s))| {
+        let both = cost(before, k) + cost(whole - before, errors.len() - k);
+        before += error * error;
+        (both, *time_s)
+    });
+    let best = divided.min_by(|a, b| a.0.total_cmp(&b.0));
+    best.map(|(_, time_s)| time_s)
 }

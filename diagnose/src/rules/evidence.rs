@@ -33,6 +33,8 @@ rules! {
     ROWS_A_NUMBER: usize = 3, "rows", REASON;
     /// Standard deviations of its noise by which a reaction must be beyond what holds the joint before something is said to be missing: several thousand windows are looked at.
     BEYOND_SIGMAS: f64 = 5.0, "deviations", "five-bar, 28 recordings of seeds 7201 to 7261 (decision 0156)";
+    /// Share of the remaining loss that a free curve must take away before the named laws that it concerns count as surrogates of another law.
+    SURROGATE_SHARE: f64 = 0.3, "share", AXIS_BENCH;
     /// Share of the remaining loss that a curve must take away on left-out blocks to be drawn.
     CURVE_SHARE: f64 = 0.02, "share", AXIS_BENCH;
     /// Knots of a curve.

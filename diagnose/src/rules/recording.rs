@@ -29,6 +29,16 @@ rules! {
     USUAL_QUANTILE: f64 = 0.9, "share", REASON;
     /// A position that wraps stays within its period: its range may exceed a jump by rounding only.
     WRAP_RANGE: f64 = 1.01, "times", REASON;
+    /// How far a jump may be off a known period.
+    WRAP_NEAR: f64 = 0.002, "share", REASON;
+    /// Samples before and after a held one within which a position must have moved.
+    MOVED_WITHIN: usize = 10, "samples", REASON;
+    /// Steps before and after one that say how large it should be.
+    STEPS_AROUND: usize = 3, "steps", REASON;
+    /// What the start state is fitted on, over what the first parabola goes through.
+    FITTED_TIMES: usize = 5, "times", REASON;
+    /// The greatest share of an inertia that can hang behind a spring: with all of it nothing is left to drive.
+    MOST_TRAILING: f64 = 0.99, "share", REASON;
     /// Samples in a row that may be left out as a dropout.
     LONGEST_DROPOUT: usize = 5, "samples", REASON;
     /// By how much the step that catches up may differ from all that a repeated sample missed.

@@ -119,7 +119,13 @@ fn another_column_is_no_physics() {
             let report = diagnosed(&spoilt);
             let fits = [Verdict::Consistent, Verdict::Explained, Verdict::Ambiguous];
             assert!(!fits.contains(&report.verdict), "{}", report.summary);
-            assert!(report.effects.is_empty(), "{}", report.summary);
+            assert!(
+                report.effects.is_empty(),
+                "{} {:?} {:?}",
+                report.summary,
+                report.floor,
+                report.explanations
+            );
         }
     }
 }

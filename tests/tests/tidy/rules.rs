@@ -4,7 +4,7 @@ use crate::tidy::assert_tidy;
 use crate::tidy::workspace::{Text, numbered, sources};
 
 /// Numbers of `diagnose` that decide nothing, by file and name, with the reason.
-const NO_RULES: [(&str, &str, &str); 16] = [
+const NO_RULES: [(&str, &str, &str); 25] = [
     ("evidence.rs", "SHAPE_STEP", "a difference step"),
     ("evidence.rs", "NULL_RATIO", "rounding of an eigenvalue"),
     ("evidence/intervals.rs", "NORMAL", "a quantile"),
@@ -33,6 +33,19 @@ const NO_RULES: [(&str, &str, &str); 16] = [
     ("plant/replayed.rs", "RESTART_S", "a picture"),
     ("five_bar/replay.rs", "RATE_HZ", "a picture"),
     ("five_bar/replay.rs", "LONGEST_S", "a picture"),
+    ("continuity/jumps.rs", "BITS", "widths of counters"),
+    ("continuity/straight.rs", "ROUNDING", "rounding of a text"),
+    ("five_bar/free_run.rs", "MIDDLE_M", "a place to start from"),
+    ("joint/agreement.rs", "NORMAL", "a quantile"),
+    ("joint/encoder.rs", "ROUNDS", "steps of an iteration"),
+    ("joint/laws.rs", "FAR", "as good as infinite"),
+    ("joint/own_calibration.rs", "COUNT", "a test"),
+    (
+        "joint/simulate.rs",
+        "LEAST_INERTIA",
+        "keeps a division finite",
+    ),
+    ("joint/start.rs", "ROUNDS", "steps of an iteration"),
 ];
 
 /// Files of `diagnose` that are compiled for tests only.

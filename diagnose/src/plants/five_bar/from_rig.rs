@@ -13,7 +13,9 @@ use crate::continuity::{Position, Remark, Stamps, mend, settle};
 use crate::doubt::{Smoothing, a_sample_late, greatest_change, turning};
 use crate::effect::Effect;
 use crate::plant::Run;
-use crate::rules::{CURRENTS_A, KINEMATIC_DOUBT, MOST_TAKEN, STILL_QUANTA, STILL_SIGMAS};
+use crate::rules::{
+    CURRENTS_A, KINEMATIC_DOUBT, MOST_OF_AN_ENCODER, MOST_TAKEN, STILL_QUANTA, STILL_SIGMAS,
+};
 use core::f64::consts::TAU;
 use rigproof_model::brake::{Brake, ENTRY_TRAVEL_DEG};
 use rigproof_model::effects::Instant;
@@ -282,6 +284,7 @@ fn mended(
             quantum: quantum_of(angle),
             noise: angle.noise.unwrap_or(0.0),
             is_angle: true,
+            slip: MOST_OF_AN_ENCODER,
         })
         .collect();
     let forces = own.force.iter_mut();

@@ -122,6 +122,7 @@ fn mended(
         quantum,
         noise: signals.position_noise.unwrap_or(0.0),
         is_angle: signals.kind == Motion::Rotary,
+        slip: 0.0,
     }];
     let stamps = Stamps {
         time_s: &signals.time_s,

@@ -12,7 +12,7 @@ use crate::signals::{
 };
 use rigproof_model::bench::column;
 use rigproof_model::effects::{
-    CurrentPlay, Drive, Form, OfJoint, OfSensor, entry, facts, first_order_lag, law,
+    CurrentPlay, Drive, Form, OfJoint, OfSensor, entry, facts, first_order_lag, form, law,
 };
 use rigproof_spec::effect::Mechanism;
 
@@ -118,7 +118,7 @@ fn sum_of<'a>(run: &JointRun, effects: impl Iterator<Item = &'a Effect>) -> Vec<
 
 /// The described resistance that a fade is of: all of it, or what a description that states a fade has before it.
 fn faded_by_time(run: &JointRun) -> Vec<f64> {
-    let is_fade = |own: &Effect| own.mechanism() == Mechanism::FrictionFade;
+    let is_fade = |own: &Effect| matches!(form(own.mechanism()), Some(Form::Joint(OfJoint::Fade)));
     let before = run.described.iter().position(is_fade);
     let before = before.unwrap_or(run.described.len());
     sum_of(run, run.described.iter().take(before))

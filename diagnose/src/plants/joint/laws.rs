@@ -4,7 +4,7 @@ use super::columns::is_of_brake;
 use super::simulate::Model;
 use crate::effect::Effect;
 use rigproof_model::axis::MOST_LAWS;
-use rigproof_model::effects::{Form, Instant, Law, OfJoint, form, law};
+use rigproof_model::effects::{Form, Instant, Law, OfJoint, facts, form, law};
 use rigproof_spec::effect::Mechanism;
 
 /// The laws of a plant: each effect that is a resistance of its own, and what fades of the described ones.
@@ -50,17 +50,18 @@ pub(super) fn own_law(effect: &Effect) -> Option<Box<dyn Law>> {
 /// A bristle that has been sliding is bent by all it can bend.
 pub(super) fn bend_bristles(plant: &Model, memory: &mut [f64], speed: f64) {
     for ((effect, law), memory) in resistances(plant).zip(memory) {
-        let is_bristle = matches!(
-            effect.mechanism(),
-            Mechanism::Presliding
-                | Mechanism::AsymmetricPresliding
-                | Mechanism::DahlBristle
-                | Mechanism::LugreBristle
-        );
-        if is_bristle && speed != 0.0 {
+        if is_bristle(effect.mechanism()) && speed != 0.0 {
             *memory = law.memory_after(*memory, FAR.copysign(speed), speed);
         }
     }
+}
+
+/// Whether a mechanism is friction that bends, a form of it, or one that has it in it.
+fn is_bristle(mechanism: Mechanism) -> bool {
+    let facts = facts(mechanism);
+    let same_as = facts.and_then(|facts| facts.form_of).unwrap_or(mechanism);
+    let first = facts.and_then(|facts| facts.both).map(|[first, _]| first);
+    [Some(same_as), first].contains(&Some(Mechanism::Presliding))
 }
 
 /// A travel after which every bristle is bent, m or rad.

@@ -11,6 +11,7 @@ use crate::problem::Problem;
 use crate::regression::Fit;
 use crate::rules::{ANOTHER_INERTIA, ANOTHER_UNIT, DRAG_HALVES, UNIT_LEFT};
 use crate::select::{Selection, is_noise, usable_rms};
+use rigproof_model::effects::entry;
 use rigproof_spec::effect::Mechanism;
 use rigproof_trace::rig::Rig;
 
@@ -84,6 +85,15 @@ pub fn another_inertia(run: &JointRun, problem: &Problem, selection: &Selection)
     if (1.0 / ANOTHER_UNIT..ANOTHER_INERTIA).contains(&times) || !explains(problem, selection) {
         return None;
     }
+    if times < 0.0 {
+        return Some(throughout(
+            problem,
+            "drive",
+            format!(
+                "the plant answers as if its inertia were {times:.3} times the stated one: the command or the position has the wrong sign (set `sign = -1`), or the two channels are swapped"
+            ),
+        ));
+    }
     Some(throughout(
         problem,
         "inertia",
@@ -124,7 +134,8 @@ pub fn impossible_numbers(
     selection: &Selection,
 ) -> Option<Fault> {
     let Inertia::Unknown(start) = run.inertia else {
-        return negative_drag(problem, selection, &intervals(problem, selection));
+        let fault = explains_nothing(problem, selection);
+        return fault.or_else(|| negative_drag(problem, selection, &intervals(problem, selection)));
     };
     let (nuisances, _) = coefficients_by_term(problem, selection);
     let inertia = *nuisances.first()?;
@@ -157,6 +168,22 @@ pub fn impossible_numbers(
     }
 }
 
+/// A nominal model that leaves more of the effort than there is, whatever is found beside it.
+fn explains_nothing(problem: &Problem, selection: &Selection) -> Option<Fault> {
+    let left = usable_rms(problem, &selection.before.residual);
+    let leaves_noise = is_noise(problem, &selection.after);
+    (!leaves_noise && left > problem.effort_size).then(|| {
+        throughout(
+            problem,
+            "position",
+            format!(
+                "the nominal model explains nothing of the effort: it leaves {left:.3e} of {:.3e} (SI, root mean square); another column is the position or the command, one of them has another unit, or the stated inertia is another plant's",
+                problem.effort_size
+            ),
+        )
+    })
+}
+
 /// A nominal friction that drives the motion.
 fn negative_drag(problem: &Problem, selection: &Selection, intervals: &Intervals) -> Option<Fault> {
     let (_, coefficients) = coefficients_by_term(problem, selection);
@@ -166,10 +193,7 @@ fn negative_drag(problem: &Problem, selection: &Selection, intervals: &Intervals
         .zip(&coefficients)
         .zip(&intervals.terms);
     let (term, value) = nominal.into_iter().find_map(|((term, own), halves)| {
-        let is_friction = matches!(
-            term.cause.mechanism,
-            Mechanism::Viscous | Mechanism::DryOffset
-        );
+        let is_friction = entry(term.cause.mechanism).is_some_and(|entry| entry.passive);
         let (value, half) = (*own.first()?, *halves.first()?);
         (is_friction && value + DRAG_HALVES * half < 0.0).then_some((term, value))
     })?;

@@ -8,6 +8,7 @@ use super::start::begun;
 use crate::effect::Effect;
 use crate::plant::{Clock, Run};
 use crate::plants::joint::run::{JointRun, PlantKind};
+use crate::rules::MOST_TRAILING;
 use crate::signals::lagged_yield;
 use rigproof_model::axis::{Axis, State, Trailing, Transmission};
 use rigproof_model::bench::resistance;
@@ -179,8 +180,6 @@ impl Free {
     }
 }
 
-/// The greatest share of an inertia that can hang behind a spring: with all of it nothing is left to drive.
-const MOST_TRAILING: f64 = 0.99;
 /// The least part of an inertia that another one leaves of it.
 const LEAST_INERTIA: f64 = 1e-3;
 

@@ -5,10 +5,10 @@ use super::laws::bend_bristles;
 use super::simulate::{Free, Model, Protocol};
 use crate::filter::rms;
 use crate::plants::joint::run::JointRun;
+use crate::problem::less;
+use crate::rules::FITTED_TIMES;
 use rigproof_model::axis::State;
 
-/// How many times as long as the parabola is what the start state is fitted on.
-const FITTED_TIMES: usize = 5;
 /// Rounds of the fit: the model bends little over so short a stretch.
 const ROUNDS: usize = 3;
 
@@ -39,11 +39,7 @@ pub(super) fn begun(
         let samples = fine.chunks(protocol.substeps).zip(there).zip(&run.recorded);
         let mut errors = Vec::with_capacity(last - first);
         for ((pairs, there), recorded) in samples.skip(first).take(last - first) {
-            errors.push(if *recorded {
-                state.position - there
-            } else {
-                0.0
-            });
+            errors.push(f64::from(*recorded) * (state.position - there));
             free.take_hold(state.time_s);
             free.run(&mut state, pairs, step_s);
         }
@@ -60,12 +56,7 @@ pub(super) fn begun(
             if let (Some(own), Some(by)) = (moved.get_mut(which), small.get(which)) {
                 *own += by;
             }
-            let moved = errors(moved, free);
-            moved
-                .iter()
-                .zip(&least)
-                .map(|(m, l)| m - l)
-                .collect::<Vec<f64>>()
+            less(&errors(moved, free), &least)
         });
         let Some([by_position, by_speed]) = step(&slopes, &least) else {
             break;

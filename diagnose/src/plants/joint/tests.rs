@@ -214,7 +214,8 @@ fn a_held_out_part_that_goes_another_way_is_said_with_when() {
         let departs_s = agreement.departs_s.unwrap();
         assert!(
             (time_s - 0.01..time_s + 0.5).contains(&departs_s),
-            "{departs_s}"
+            "{departs_s} {agreement:?} {}",
+            found.summary
         );
         assert!(
             found.summary.contains("does not agree"),

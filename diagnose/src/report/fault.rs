@@ -1,0 +1,16 @@
+//! This file is what is wrong with a recording, as the report says it.
+
+use serde::Serialize;
+
+/// Why no conclusion can be drawn.
+#[derive(Clone, Debug, Serialize)]
+pub struct FaultReport {
+    /// The channel's role.
+    pub channel: &'static str,
+    /// Begin, s.
+    pub from_s: f64,
+    /// End, s.
+    pub to_s: f64,
+    /// The reason.
+    pub reason: String,
+}
