@@ -16,9 +16,9 @@ use crate::explain::{Explanations, explain};
 use crate::plant::{At, Plant, Run};
 use crate::problem::{Problem, Term};
 use crate::report::Report;
-use crate::rules::{FEWEST_WINDOWS, HOLD_OUT_SHARE};
+use crate::rules::{FEWEST_WINDOWS, HOLD_OUT_SHARE, MOST_LEFT};
 use crate::scatter::{Trials, left_over};
-use crate::select::{FLOOR_RATIO, Gates, Selection, is_noise, refs, select};
+use crate::select::{FLOOR_RATIO, Gates, Selection, is_noise, refs, select, usable_rms};
 use crate::unknown::surrogates;
 use crate::whiten::Whitener;
 use ended::{faulty, not_excited};
@@ -180,7 +180,8 @@ pub fn diagnose<P: Plant>(
 }
 
 /// What is named on top of the nominal terms. Sets of mechanisms are weighed together. On a linkage one mechanism at a time is looked for first, and what
-/// leaves only noise stands; on one joint it is looked for where sets leave more, and stands where it leaves only noise or sets name nothing.
+/// leaves only noise stands; on one joint it is looked for where sets leave more, and stands where it leaves only noise, where sets name nothing, and where they
+/// leave what is no noise by far.
 fn named(
     problem: &mut Problem,
     mut terms: Vec<Term>,
@@ -199,7 +200,9 @@ fn named(
         let whitener_of_sets = problem.whitener.clone();
         begin_anew(problem, &whitener, &mut terms);
         let selection = select(problem, terms, options.gates);
-        if of_sets.found.is_empty() || is_noise(problem, &selection.after) {
+        let beyond = usable_rms(problem, &of_sets.after.residual) > MOST_LEFT * problem.floor;
+        let stands = of_sets.found.is_empty() || beyond && !selection.found.is_empty();
+        if stands || is_noise(problem, &selection.after) {
             return (selection, None);
         }
         problem.whiten_with(whitener_of_sets);

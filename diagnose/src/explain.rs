@@ -12,10 +12,10 @@ use crate::cause::Cause;
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, fit, free_columns, paired, reduced_target};
 use crate::rules::{EXCHANGES, LISTED, NAMED, OFFERED, ROWS_A_SAMPLE, SUSPECTED};
-use crate::select::{Found, Selection, Stage, is_noise, usable_rms};
+use crate::select::{Found, Selection, Stage, is_noise, refined, usable_rms};
 use fitted::{Fitted, Folds};
 use rayon::prelude::*;
-use rigproof_model::effects::facts;
+use rigproof_model::effects::{Form, facts, form};
 use rigproof_spec::effect::Mechanism;
 use score::{Judge, prior};
 use std::sync::Arc;
@@ -224,11 +224,30 @@ pub(crate) fn unfitted(
     term.or_else(|| problem.drive_term(cause, shape, onset_s, &[]))
 }
 
+/// Terms with their shapes refined on all blocks; a change of the drive stays as it was weighed.
+fn polished(problem: &Problem, nominal: &[Term], terms: &[Term]) -> Vec<Term> {
+    let blocks = Blocks::new(problem);
+    let mut all = terms.to_vec();
+    for index in 0..all.len() {
+        let mut others = all.clone();
+        let own = others.remove(index);
+        let is_drive = matches!(form(own.cause.mechanism), Some(Form::Drive(_)));
+        if is_drive || own.shape.is_empty() && own.onset_s.is_none() {
+            continue;
+        }
+        let common: Vec<&Term> = nominal.iter().chain(&others).collect();
+        if let Some(slot) = all.get_mut(index) {
+            *slot = refined(problem, &common, own, &blocks);
+        }
+    }
+    all
+}
+
 /// The leading explanation as a selection.
 fn selected(problem: &Problem, nominal: Vec<Term>, explanations: &Explanations) -> Selection {
     let blocks = Blocks::new(problem);
     let leading = explanations.living.first();
-    let terms = leading.map_or(&[][..], |own| &own.terms);
+    let terms = leading.map_or(Vec::new(), |own| polished(problem, &nominal, &own.terms));
     let fitted = |terms: &[&Term]| {
         let all: Vec<&Term> = nominal.iter().chain(terms.iter().copied()).collect();
         fit(problem, &all, &blocks)
