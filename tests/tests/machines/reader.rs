@@ -157,9 +157,9 @@ impl Recording {
         (!shown.trim().is_empty()).then_some(cells)
     }
 
-    /// The number in a cell: an empty one is a missing sample, and so is one that says it.
+    /// The number in a cell: an empty one is a missing sample, and so is one that says it, a cut word too.
     fn value(&self, cell: &str) -> Option<f64> {
-        if cell.is_empty() || cell == "NaN" {
+        if cell.is_empty() || cell == "NaN" || cell == "--" {
             return Some(f64::NAN);
         }
         let (negative, digits) = match cell.strip_prefix('-') {

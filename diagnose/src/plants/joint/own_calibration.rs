@@ -53,8 +53,6 @@ const LEFT_OUT: &[(Mechanism, &[f64], &[PlantKind])] = &[
 /// What a bench without a prediction cannot name, but obeys where it is stated.
 const STATED: &[(Mechanism, &[f64], &[PlantKind])] = &[
     (Lag, &[0.021], BENCH),
-    // Sixteen samples: undone between samples it leaves what a straight line between them misses.
-    (ChannelSkew, &[0.0176], BENCH),
     (EncoderScale, &[0.07], BENCH),
     (EncoderOffset, &[0.31], BOTH),
     (Backlash, &[1.1, 0.011], AXIS),
