@@ -159,7 +159,7 @@ impl Recording {
 
     /// The number in a cell: an empty one is a missing sample, and so is one that says it, a cut word too.
     fn value(&self, cell: &str) -> Option<f64> {
-        if cell.is_empty() || cell == "NaN" || cell == "--" {
+        if cell.is_empty() || ["NaN", "Na", "--"].contains(&cell) {
             return Some(f64::NAN);
         }
         let (negative, digits) = match cell.strip_prefix('-') {
