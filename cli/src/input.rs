@@ -290,6 +290,15 @@ pub fn taken(
         Taken::File(file) => return measured(description, file, cut, reading),
         Taken::Channels(name, trace, said) => (name, trace, said),
     };
+    let mut description = description.clone();
+    // Units of channels in memory are said by whoever gives them: they count like those of the command line.
+    let stated = trace.channels.iter().filter(|own| !own.unit.is_empty());
+    for own in stated {
+        let unit = [(own.name.clone(), own.unit.clone())];
+        if let Ok(with) = description.with_column_units(&unit) {
+            description = with;
+        }
+    }
     let whole = description.apply(trace, name)?;
     let how = HowRead::of_messages(said);
     if cut.is_whole() {
