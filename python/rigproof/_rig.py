@@ -64,6 +64,7 @@ class Rig:
         motion: str = "rotary",
         name: str = "axis",
         status: str = "known",
+        drive: str | None = None,
         effects: list[dict[str, Any]] | None = None,
         **roles: dict[str, float],
     ) -> Rig:
@@ -71,10 +72,15 @@ class Rig:
 
         position, command: the names of the channels. inertia, command_gain: value and unit, such as (0.002, "kg·m²/rad") and (0.4, "N·m/A"). status: `known`,
         or `unknown` where both are only a start for the fit. effects: physics that the model has already, each a dict as a table `[[effect]]` of a rig file.
-        position_keys, command_keys: further keys of a channel, such as {"quantum": 1e-4, "sign": -1}.
+        drive: what the command does between two samples, `held` where a card holds it, as `[protocol]` of a rig file says. position_keys, command_keys: further keys of a channel, such as {"quantum": 1e-4, "sign": -1}.
         """
-        value = lambda number: {"value": number[0], "unit": number[1], "status": status}  # noqa: E731
-        of = lambda role, channel, unit: {"channel": channel, "unit": unit, **roles.get(f"{role}_keys", {})}  # noqa: E731
+
+        def value(number: Number) -> dict[str, Any]:
+            return {"value": number[0], "unit": number[1], "status": status}
+
+        def of(role: str, channel: str, unit: str) -> dict[str, Any]:
+            return {"channel": channel, "unit": unit, **roles.get(f"{role}_keys", {})}
+
         unknown = set(roles) - {"position_keys", "command_keys"}
         if unknown:
             raise TypeError(f"Rig.axis() got an unexpected keyword argument {sorted(unknown)[0]!r}")
@@ -86,6 +92,7 @@ class Rig:
                 "channels": {"position": of("position", position, position_unit), "command": of("command", command, command_unit)},
                 "parameters": {"inertia": value(inertia), "command_gain": value(command_gain)},
                 "effect": effects or [],
+                "protocol": {} if drive is None else {"drive": drive},
             }
         )
 

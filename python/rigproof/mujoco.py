@@ -49,8 +49,10 @@ def apply(calibration: Any, model: Any, joint: str | int = 0, actuator: str | in
         target[dof] += number["value"]
         done["set"].append(f"{'damping' if law == 'viscous' else 'frictionloss'} {target[dof]:.4g} {number['unit']}")
     inertia, gain = keys["parameters"]["inertia"], keys["parameters"]["command_gain"]
-    rest = _inertia(model, dof) - model.dof_armature[dof]
+    kept, model.dof_armature[dof] = model.dof_armature[dof], 0.0
+    rest = _inertia(model, dof)
     if inertia["value"] < rest:
+        model.dof_armature[dof] = kept
         done["not_held"].append(f"inertia {inertia['value']:.4g}: the bodies of the model alone have {rest:.4g}")
     else:
         model.dof_armature[dof] = inertia["value"] - rest
@@ -61,15 +63,14 @@ def apply(calibration: Any, model: Any, joint: str | int = 0, actuator: str | in
 
 
 def _inertia(model: Any, dof: int) -> float:
-    """The inertia that a joint moves in the position that the model begins in, armature included."""
+    """The inertia that a joint moves in the position that the model begins in."""
     import mujoco
 
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
-    unit = np.zeros((1, model.nv))
-    unit[0, dof] = 1.0
-    force = np.zeros(model.nv)
-    mujoco.mj_mulM(model, data, force, unit[0])
+    unit, force = np.zeros(model.nv), np.zeros(model.nv)
+    unit[dof] = 1.0
+    mujoco.mj_mulM(model, data, force, unit)
     return float(force[dof])
 
 
