@@ -57,6 +57,8 @@ def apply(calibration: Any, model: Any, joint: str | int = 0, actuator: str | in
     else:
         model.dof_armature[dof] = inertia["value"] - rest
         done["set"].append(f"armature {model.dof_armature[dof]:.4g} {inertia['unit']}")
+    # MuJoCo keeps the inertia of simple joints in numbers of its own, which follow the armature only when it is told to.
+    _inertia(model, dof)
     own.gainprm[0] = gain["value"] / own.gear[0]
     done["set"].append(f"gain of the actuator {own.gainprm[0]:.4g} {gain['unit']}")
     return done
@@ -67,6 +69,7 @@ def _inertia(model: Any, dof: int) -> float:
     import mujoco
 
     data = mujoco.MjData(model)
+    mujoco.mj_setConst(model, data)
     mujoco.mj_forward(model, data)
     unit, force = np.zeros(model.nv), np.zeros(model.nv)
     unit[dof] = 1.0
