@@ -8,7 +8,8 @@ use rigproof_diagnose::{Description, Diagnosis, Measured, Options};
 use rigproof_trace::store::Folder;
 
 use crate::input::{self, Cut, Source, Taken};
-use crate::outcome::{Failure, Outcome, print};
+use crate::outcome::{Failure, Outcome, print, print_steadied, steady};
+use crate::text::summary::{Style, summary};
 use crate::{folder, keep, page, progress, shell, text, threads};
 
 /// What is to be diagnosed.
@@ -35,6 +36,12 @@ pub struct Args {
     /// Print the report as JSON
     #[arg(long)]
     json: bool,
+    /// Print everything that the report says, not only its summary
+    #[arg(long, conflicts_with_all = ["json", "quiet"])]
+    verbose: bool,
+    /// Print nothing: the exit code and the folder tell the result
+    #[arg(long, conflicts_with = "json")]
+    quiet: bool,
 }
 
 const AFTER_HELP: &str = "\
@@ -68,6 +75,8 @@ impl Args {
             calibrate: None,
             jobs: 0,
             json: false,
+            verbose: false,
+            quiet: false,
         }
     }
 }
@@ -266,14 +275,22 @@ fn say(
     files: &[&str],
     diagnosis: &Diagnosis,
 ) -> Result<Outcome, Failure> {
+    if args.quiet {
+        return Ok(Outcome::DONE);
+    }
     if args.json {
         return print(&folder::json(diagnosis)?);
+    }
+    let report = &diagnosis.report;
+    if !args.verbose {
+        let text = steady(&summary(report, next, &out.join(folder::PAGE)));
+        return print_steadied(&Style::of_output().headed(&text, report.verdict));
     }
     let paths = files
         .iter()
         .map(|file| format!("  {}", out.join(file).display()));
     print(&text::join([
-        vec![text::report(&diagnosis.report)],
+        vec![text::report(report)],
         text::section("Files", paths),
         text::section("Next", [format!("  {next}")]),
     ]))

@@ -109,7 +109,11 @@ pub fn steady(text: &str) -> String {
 /// Prints the result of a verb on standard output; a reader that went away is no error.
 pub fn print(text: &str) -> Result<Outcome, Failure> {
     // What an input is called may stand in it.
-    let text = steady(text);
+    print_steadied(&steady(text))
+}
+
+/// Prints a text that holds marks for a terminal; what comes from an input must be [`steady`] already.
+pub fn print_steadied(text: &str) -> Result<Outcome, Failure> {
     let mut out = io::stdout().lock();
     match writeln!(out, "{text}").and_then(|()| out.flush()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {

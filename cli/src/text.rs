@@ -4,6 +4,7 @@ mod fit;
 pub mod found;
 mod limits;
 mod next;
+pub mod summary;
 mod trust;
 
 use rigproof_diagnose::report::{Report, Verdict};

@@ -23,7 +23,7 @@ fn bench() -> Desk {
 fn a_hidden_cause_is_named_and_shown_on_another_recording() {
     let desk = bench();
     let text = desk.prints(
-        "diagnose first.csv --rig case/rig.toml --hold-out rest.csv",
+        "diagnose first.csv --rig case/rig.toml --hold-out rest.csv --verbose",
         0,
     );
     assert_eq!(
@@ -143,7 +143,7 @@ fn a_faulty_recording_ends_in_a_report_and_nothing_else() {
         "diagnose case/recording.csv --rig case/rig.toml --out found",
         1,
     );
-    assert!(text.starts_with("data_fault: "), "{text}");
+    assert!(text.starts_with("The recording cannot be used: "), "{text}");
     assert!(
         text.contains("cut the fault away with --from-s and --to-s"),
         "{text}"
@@ -163,6 +163,29 @@ fn a_faulty_recording_ends_in_a_report_and_nothing_else() {
     let answer = desk.rigproof(&line);
     let report: serde_json::Value = serde_json::from_slice(&answer.stdout).unwrap();
     assert_ne!(report["verdict"], "data_fault");
+}
+
+#[test]
+fn a_diagnosis_is_printed_on_one_screen_and_quiet_prints_nothing() {
+    let desk = bench();
+    let line = "diagnose first.csv --rig case/rig.toml --hold-out rest.csv";
+    let text = desk.prints(line, 0);
+    assert!((5..=14).contains(&text.lines().count()), "{text}");
+    assert!(!text.contains('\u{1b}'), "colour in a pipe: {text}");
+    let report: serde_json::Value =
+        serde_json::from_str(&desk.read("first-diagnosis/report.json")).unwrap();
+    let name = report["effects"][0]["mechanism"].as_str().unwrap();
+    for words in [
+        name,
+        "Cause found",
+        " on held-out data",
+        "probability",
+        "report.html",
+    ] {
+        assert!(text.contains(words), "{words}: {text}");
+    }
+    assert!(desk.prints(&format!("{line} --verbose"), 0).lines().count() > 14);
+    assert_eq!(desk.prints(&format!("{line} --quiet"), 0), "");
 }
 
 #[test]

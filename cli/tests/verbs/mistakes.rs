@@ -57,7 +57,7 @@ fn says(desk: &Desk, line: &str, code: i32, expected: &[&str]) {
     }
 }
 
-const DIAGNOSE: &str = "diagnose run.csv --rig rig.toml --out found";
+const DIAGNOSE: &str = "diagnose run.csv --rig rig.toml --out found --verbose";
 
 #[test]
 fn the_wrong_folder() {

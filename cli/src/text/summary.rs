@@ -1,0 +1,259 @@
+//! This file says a diagnosis in at most 14 lines: what is wrong, where, how big, how sure, and what to do next.
+
+use std::io::IsTerminal;
+use std::path::Path;
+
+use rigproof_diagnose::report::{EffectReport, Number, Report, Verdict};
+use rigproof_report::number::percent;
+use rigproof_report::words::{list, plain_at, plain_cause};
+
+use super::found::{at, regime};
+
+/// The most lines of a summary.
+pub const MOST_LINES: usize = 14;
+/// The lines that a summary needs beside its names: verdict, place, error, doubt, next step, page.
+const FRAME: usize = 6;
+
+/// A verdict in bold and in a colour of its own, for a terminal only.
+pub struct Style {
+    coloured: bool,
+}
+
+impl Style {
+    /// Colour where standard output is a terminal and nobody set `NO_COLOR`.
+    pub fn of_output() -> Style {
+        let refused = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
+        let coloured = std::io::stdout().is_terminal() && !refused;
+        Style { coloured }
+    }
+
+    /// The first line of what is printed, marked. It must hold nothing of an input that is not steadied.
+    pub fn headed(&self, text: &str, verdict: Verdict) -> String {
+        let (first, rest) = text.split_once('\n').unwrap_or((text, ""));
+        if !self.coloured {
+            return text.to_owned();
+        }
+        let colour = match verdict {
+            Verdict::Consistent | Verdict::Explained => 32,
+            Verdict::DataFault | Verdict::NotExcited => 31,
+            _ => 33,
+        };
+        format!("\u{1b}[1;{colour}m{first}\u{1b}[0m\n{rest}")
+    }
+}
+
+/// The diagnosis in at most [`MOST_LINES`] lines.
+pub fn summary(report: &Report, next: &str, page: &Path) -> String {
+    let mut lines = vec![verdict(report)];
+    let place = report.located.first();
+    let shown = place.filter(|_| report.verdict != Verdict::Consistent);
+    lines.extend(shown.map(|place| {
+        let share = percent(place.share);
+        line(
+            "where",
+            &format!("{} ({share} of the unexplained energy)", regime(place)),
+        )
+    }));
+    lines.extend(names(report));
+    lines.extend(error(report));
+    lines.extend(doubt(report));
+    lines.push(line("next", next));
+    lines.push(line("page", &page.display().to_string()));
+    lines.join("\n")
+}
+
+/// One sentence on what is wrong.
+fn verdict(report: &Report) -> String {
+    let words: Vec<String> = report
+        .effects
+        .iter()
+        .map(|own| plain_at(own.mechanism, own.joint))
+        .collect();
+    let words = list(&words);
+    match report.verdict {
+        Verdict::Consistent => {
+            "The model agrees with the recording to within sensor noise.".to_owned()
+        }
+        Verdict::Explained => format!("Cause found: the model leaves out {words}."),
+        Verdict::PartlyExplained => {
+            format!("Cause found in part: the model leaves out {words}, and something more.")
+        }
+        Verdict::Ambiguous => format!(
+            "Cause found, with a doubt: the model leaves out {words}, or what looks the same here."
+        ),
+        Verdict::NoneOfLibrary => {
+            "Cause not known: more than sensor noise is left, and no known effect has its shape."
+                .to_owned()
+        }
+        Verdict::NotExcited => "No conclusion: the recording moves too little.".to_owned(),
+        Verdict::DataFault => report.fault.as_ref().map_or_else(
+            || "The recording cannot be used.".to_owned(),
+            |fault| {
+                format!(
+                    "The recording cannot be used: channel {}, {} s to {} s: {}.",
+                    fault.channel,
+                    rounded(fault.from_s),
+                    rounded(fault.to_s),
+                    fault.reason
+                )
+            },
+        ),
+    }
+}
+
+/// A line for each name; where they are too many for the page, the last line says how many are left out.
+fn names(report: &Report) -> Vec<String> {
+    let room = MOST_LINES - FRAME;
+    let effects = report.effects.as_slice();
+    let shown = if effects.len() > room {
+        room - 1
+    } else {
+        effects.len()
+    };
+    let mut lines: Vec<String> = effects.iter().take(shown).map(name).collect();
+    let more = effects.len() - shown;
+    if more > 0 {
+        lines.push(line("names", &format!("{more} more with --verbose")));
+    }
+    lines
+}
+
+/// A name, its numbers with their intervals, when it begins, and how probable it is.
+fn name(effect: &EffectReport) -> String {
+    let mut parts: Vec<String> = effect
+        .parameters
+        .iter()
+        .map(|(name, number)| format!("{} {}", name.replace('_', " "), with_interval(number)))
+        .collect();
+    if let Some(onset) = effect.onset_s {
+        parts.push(format!("from {} s on", rounded(onset)));
+    }
+    let named = at(effect.mechanism, effect.joint);
+    format!(
+        "  {named}: {}; {}",
+        parts.join(", "),
+        probability(effect.probability)
+    )
+}
+
+/// How probable, never more certain than two digits can say.
+fn probability(share: f64) -> String {
+    match share {
+        share if share > 0.99 => "probability above 99 %".to_owned(),
+        share if share < 0.01 => "probability below 1 %".to_owned(),
+        share => format!("probability {}", percent(share)),
+    }
+}
+
+/// The error of the simulation before and after, on data that nothing was fitted to where there are such.
+fn error(report: &Report) -> Option<String> {
+    let fit = report.fit.as_ref()?;
+    let (part, errors) = match fit.held_out {
+        Some(errors) => ("held-out data", errors),
+        None => ("fitted data", fit.train),
+    };
+    let outcome = match fit.improved || report.effects.is_empty() {
+        true => "",
+        false => "; it did not improve: do not use this calibration",
+    };
+    let text = format!(
+        "{} → {} {} on {part}{outcome}",
+        rounded(errors.before),
+        rounded(errors.after),
+        fit.unit
+    );
+    Some(line("error", &text))
+}
+
+/// What else would explain the recording, or what is still unexplained.
+fn doubt(report: &Report) -> Option<String> {
+    let mut rivals: Vec<String> = Vec::new();
+    for rival in report.ambiguous_with.iter().flatten() {
+        let words = format!("{} ({rival})", plain_cause(rival));
+        if !rivals.contains(&words) {
+            rivals.push(words);
+        }
+    }
+    let left = report.floor.as_ref().map(|floor| floor.ratio_after);
+    let said = match (rivals.as_slice(), report.verdict) {
+        ([], Verdict::PartlyExplained | Verdict::NoneOfLibrary) => {
+            format!("what stays is {} times the sensor noise", rounded(left?))
+        }
+        ([], _) => return None,
+        ([one], _) => format!("this recording cannot rule out {one}"),
+        ([one, rest @ ..], _) => format!(
+            "this recording cannot rule out {one}, nor {} more",
+            rest.len()
+        ),
+    };
+    Some(line("doubt", &said))
+}
+
+fn line(what: &str, text: &str) -> String {
+    format!("  {what:<6} {text}")
+}
+
+fn with_interval(number: &Number) -> String {
+    let unit = match number.unit.as_str() {
+        "" | "1" => String::new(),
+        unit => format!(" {unit}"),
+    };
+    let value = rounded(number.value);
+    match (number.low95, number.high95) {
+        (Some(low), Some(high)) => format!(
+            "{value}{unit} (95 %: {} to {})",
+            rounded(low),
+            rounded(high)
+        ),
+        _ => format!("{value}{unit}"),
+    }
+}
+
+/// Three significant digits; powers of ten only where decimals would be long.
+fn rounded(value: f64) -> String {
+    let size = value.abs();
+    if !value.is_finite() {
+        return "not a number".to_owned();
+    }
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let exponent = size.log10().floor();
+    if (-5.0..6.0).contains(&exponent) {
+        let decimals = (2.0 - exponent).max(0.0) as usize;
+        return format!("{value:.decimals$}");
+    }
+    let scaled = value / 10_f64.powf(exponent);
+    format!("{scaled:.2}·10^{exponent:.0}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_three_digits_and_no_negative_zero() {
+        assert_eq!(rounded(0.048_63), "0.0486");
+        assert_eq!(rounded(7.4039e-4), "0.000740");
+        assert_eq!(rounded(-0.0), "0");
+        assert_eq!(rounded(12_345.6), "12346");
+        assert_eq!(rounded(9.992e-16), "9.99·10^-16");
+        assert_eq!(rounded(f64::NAN), "not a number");
+    }
+
+    #[test]
+    fn nothing_is_more_certain_than_it_can_be() {
+        assert_eq!(probability(1.0), "probability above 99 %");
+        assert_eq!(probability(0.97), "probability 97 %");
+        assert_eq!(probability(0.0), "probability below 1 %");
+    }
+
+    #[test]
+    fn only_a_terminal_gets_colour() {
+        let text = "Cause found.\n  next   x";
+        let plain = Style { coloured: false };
+        assert_eq!(plain.headed(text, Verdict::Explained), text);
+        let marked = Style { coloured: true }.headed(text, Verdict::Explained);
+        assert_eq!(marked, "\u{1b}[1;32mCause found.\u{1b}[0m\n  next   x");
+    }
+}
