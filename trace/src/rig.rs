@@ -115,7 +115,13 @@ pub struct Channels {
 impl Channels {
     /// Every channel that is named.
     pub(crate) fn maps(&self) -> Vec<&ChannelMap> {
-        let optional = [&self.command, &self.enabled, &self.force, &self.current, &self.simulated];
+        let optional = [
+            &self.command,
+            &self.enabled,
+            &self.force,
+            &self.current,
+            &self.simulated,
+        ];
         let optional = optional.into_iter().flatten();
         std::iter::once(&self.position).chain(optional).collect()
     }

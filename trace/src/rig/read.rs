@@ -9,8 +9,7 @@ use rigproof_spec::units::{Dimension, Unit};
 use super::table::{Source, Table};
 use super::{
     Brake, ChannelMap, Channels, Parameters, Plant, Protocol, RecordingEntry, Rig, RigEffect,
-    Servo, Status, Value,
-    motion_name, text,
+    Servo, Status, Value, motion_name, text,
 };
 use crate::csv::TimeColumn;
 use crate::error::TraceError;

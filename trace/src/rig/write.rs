@@ -8,7 +8,9 @@ use rigproof_spec::units::Dimension;
 
 use crate::csv::TimeColumn;
 
-use super::{Brake, ChannelMap, RecordingEntry, Rig, RigEffect, Servo, Status, Value, motion_name, text};
+use super::{
+    Brake, ChannelMap, RecordingEntry, Rig, RigEffect, Servo, Status, Value, motion_name, text,
+};
 
 impl Rig {
     /// The description as TOML, every value in SI units.
