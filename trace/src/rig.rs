@@ -11,6 +11,7 @@ mod messages;
 mod plausible;
 mod protocol;
 mod read;
+mod servo;
 pub mod table;
 mod text;
 mod write;
@@ -29,6 +30,7 @@ use crate::suggest::advice;
 pub use apply::{Recording, Signal};
 pub use brake::{Brake, Gain, Surface};
 pub use protocol::{Drive, Protocol};
+pub use servo::{RecordingEntry, Servo};
 
 /// What stands in a description that was begun for somebody, wherever something is to be filled in.
 pub const FILL_IN: &str = "fill in";
@@ -52,6 +54,10 @@ pub struct Rig {
     pub parameters: Option<Parameters>,
     /// The brake that the nominal model holds; only on a turning `bench`.
     pub brake: Option<Brake>,
+    /// The position servo that drives an `axis`: its command is a goal.
+    pub servo: Option<Servo>,
+    /// What single recordings state of their own.
+    pub recordings: Vec<RecordingEntry>,
     /// The physics that the nominal model has.
     pub effects: Vec<RigEffect>,
     /// How free runs are made.
@@ -96,6 +102,8 @@ pub struct Channels {
     pub position: ChannelMap,
     /// Drive command of an `axis`, in any unit.
     pub command: Option<ChannelMap>,
+    /// Whether the servo of an `axis` is switched on: 1 or 0; on throughout where it is not recorded.
+    pub enabled: Option<ChannelMap>,
     /// Force or torque of a `bench`, N or N·m.
     pub force: Option<ChannelMap>,
     /// Current of a `bench`, A.
@@ -107,7 +115,13 @@ pub struct Channels {
 impl Channels {
     /// Every channel that is named.
     pub(crate) fn maps(&self) -> Vec<&ChannelMap> {
-        let optional = [&self.command, &self.force, &self.current, &self.simulated];
+        let optional = [
+            &self.command,
+            &self.enabled,
+            &self.force,
+            &self.current,
+            &self.simulated,
+        ];
         let optional = optional.into_iter().flatten();
         std::iter::once(&self.position).chain(optional).collect()
     }
@@ -267,6 +281,7 @@ impl Rig {
         let channels = &mut rig.channels;
         let optional = [
             &mut channels.command,
+            &mut channels.enabled,
             &mut channels.force,
             &mut channels.current,
             &mut channels.simulated,
@@ -292,7 +307,12 @@ impl Rig {
     /// The dimension of the command gain, when the rig has a command.
     pub fn command_gain_dimension(&self) -> Option<Dimension> {
         let command = self.channels.command.as_ref()?;
-        Some(self.effort().per(command.dimension()))
+        // A servo makes a voltage of its goal.
+        let dimension = match self.servo {
+            Some(_) => Dimension::VOLTAGE,
+            None => command.dimension(),
+        };
+        Some(self.effort().per(dimension))
     }
 }
 

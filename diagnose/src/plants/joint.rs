@@ -24,6 +24,7 @@ pub(crate) mod recorded;
 pub mod refit;
 pub(crate) mod replica;
 pub mod run;
+mod servo;
 mod shapes;
 pub mod simulate;
 mod start;

@@ -5,7 +5,7 @@ use std::path::Path;
 use rigproof_spec::effect::Motion;
 use rigproof_spec::units::{Dimension, Unit};
 
-use super::{ChannelMap, Plant, Rig, plausible};
+use super::{ChannelMap, Plant, Rig, Servo, plausible};
 use crate::csv::{self, Dialect, Hints, Known, Text, TimeColumn};
 use crate::error::TraceError;
 use crate::mcap;
@@ -25,6 +25,10 @@ pub struct Recording {
     pub position: Signal,
     /// What drives the plant: the command of an axis in its SI unit, the current of a bench in A.
     pub drive: Option<Signal>,
+    /// Whether the servo is switched on: 1 or 0.
+    pub enabled: Option<Signal>,
+    /// The servo that drives an axis, with the numbers of this recording: `drive` is then its goal.
+    pub servo: Option<Servo>,
     /// Force, N, or torque, N·m, of a bench.
     pub force: Option<Signal>,
     /// What somebody's own simulation gives for it.
@@ -72,6 +76,7 @@ impl Recording {
             time_s: those(&self.time_s, kept),
             position: self.position.only(kept),
             drive: signal(&self.drive),
+            enabled: signal(&self.enabled),
             force: signal(&self.force),
             simulated: signal(&self.simulated),
             ..*self
@@ -128,6 +133,8 @@ impl Rig {
                 Plant::Axis => optional(&self.channels.command)?,
                 Plant::Bench => optional(&self.channels.current)?,
             },
+            enabled: optional(&self.channels.enabled)?,
+            servo: self.servo.map(|servo| servo.of(&self.recordings, origin)),
             force: optional(&self.channels.force)?,
             simulated: optional(&self.channels.simulated)?,
         })

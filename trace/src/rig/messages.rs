@@ -27,7 +27,8 @@ impl Rig {
         let channels = &self.channels;
         let measured = [&channels.force, &channels.current, &channels.simulated];
         let measured = core::iter::once(&channels.position).chain(measured.into_iter().flatten());
-        selected(measured, channels.command.iter(), &channels.time)
+        let commands = channels.command.iter().chain(&channels.enabled);
+        selected(measured, commands, &channels.time)
     }
 }
 

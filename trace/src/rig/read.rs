@@ -8,8 +8,8 @@ use rigproof_spec::units::{Dimension, Unit};
 
 use super::table::{Source, Table};
 use super::{
-    Brake, ChannelMap, Channels, Parameters, Plant, Protocol, Rig, RigEffect, Status, Value,
-    motion_name, text,
+    Brake, ChannelMap, Channels, Parameters, Plant, Protocol, RecordingEntry, Rig, RigEffect,
+    Servo, Status, Value, motion_name, text,
 };
 use crate::csv::TimeColumn;
 use crate::error::TraceError;
@@ -34,6 +34,8 @@ impl Rig {
             "text",
             "parameters",
             "brake",
+            "servo",
+            "recording",
             "effect",
             "protocol",
             "provenance",
@@ -51,13 +53,19 @@ impl Rig {
             plant,
             motion,
         )?;
+        let servo = Servo::read(&root)?;
+        if servo.is_some() {
+            check_servo(&root, &channels, motion)?;
+        }
         Ok(Rig {
             name,
             plant,
             motion,
             source: root.text("source")?.map(str::to_string),
-            parameters: read_parameters(&root, motion, channels.command.as_ref())?,
+            parameters: read_parameters(&root, motion, &channels, servo.is_some())?,
             brake: Brake::read(&root, motion, channels.current.as_ref())?,
+            recordings: RecordingEntry::read_all(&root, servo.is_some())?,
+            servo,
             effects: root
                 .tables("effect")?
                 .iter()
@@ -68,6 +76,22 @@ impl Rig {
             provenance: read_provenance(&root)?,
             channels,
         })
+    }
+}
+
+/// A servo's goal is a position of an axis.
+fn check_servo(root: &Table<'_>, channels: &Channels, motion: Motion) -> Result<(), TraceError> {
+    let travel = Quantity::Travel.dimension(motion);
+    match &channels.command {
+        Some(goal) if goal.dimension() == travel => Ok(()),
+        Some(goal) => Err(root.error_at(
+            "servo",
+            format!(
+                "the command of a servo is a goal; `{}` is in `{}`, give a channel in `{travel}`",
+                goal.channel, goal.unit
+            ),
+        )),
+        None => Err(root.error_at("servo", "a bench has no servo; take `[servo]` out")),
     }
 }
 
@@ -99,7 +123,7 @@ pub(super) fn choice<T: Copy, const N: usize>(
 
 fn read_channels(table: &Table<'_>, plant: Plant, motion: Motion) -> Result<Channels, TraceError> {
     table.only(match plant {
-        Plant::Axis => &["time", "position", "command"],
+        Plant::Axis => &["time", "position", "command", "enabled"],
         Plant::Bench => &[
             "time",
             "position",
@@ -124,6 +148,7 @@ fn read_channels(table: &Table<'_>, plant: Plant, motion: Motion) -> Result<Chan
         time: read_time(table)?,
         position: table.need("position", position)?,
         command: read_channel(table, "command", None)?,
+        enabled: read_channel(table, "enabled", Some(Dimension::NUMBER))?,
         force: read_channel(table, force_key, Some(effort))?,
         current: read_channel(table, "current", Some(Dimension::CURRENT))?,
         simulated: read_channel(table, "simulated", Some(effort))?,
@@ -224,10 +249,11 @@ fn read_column_unit(table: &Table<'_>, unit: Unit) -> Result<Option<String>, Tra
 fn read_parameters(
     root: &Table<'_>,
     motion: Motion,
-    command: Option<&ChannelMap>,
+    channels: &Channels,
+    is_servo: bool,
 ) -> Result<Option<Parameters>, TraceError> {
     let table = root.table("parameters")?;
-    let Some(command) = command else {
+    let Some(command) = channels.command.as_ref() else {
         return match table {
             Some(table) => table.only(&[]).map(|()| None),
             None => Ok(None),
@@ -236,7 +262,10 @@ fn read_parameters(
     let table = root.need("parameters", table)?;
     table.only(&["inertia", "command_gain"])?;
     let mass = Quantity::Inertia.dimension(motion);
-    let gain = Quantity::Effort.dimension(motion).per(command.dimension());
+    let gain = Quantity::Effort.dimension(motion).per(match is_servo {
+        true => Dimension::VOLTAGE,
+        false => command.dimension(),
+    });
     let inertia = table.need("inertia", read_value(&table, "inertia", mass)?)?;
     let command_gain = table.need("command_gain", read_value(&table, "command_gain", gain)?)?;
     above_zero(&table, "inertia", &inertia, mass)?;

@@ -8,7 +8,9 @@ use rigproof_spec::units::Dimension;
 
 use crate::csv::TimeColumn;
 
-use super::{Brake, ChannelMap, Rig, RigEffect, Status, Value, motion_name, text};
+use super::{
+    Brake, ChannelMap, RecordingEntry, Rig, RigEffect, Servo, Status, Value, motion_name, text,
+};
 
 impl Rig {
     /// The description as TOML, every value in SI units.
@@ -35,6 +37,8 @@ impl Rig {
             ));
         }
         lines.extend(self.brake.iter().flat_map(Brake::lines));
+        lines.extend(self.servo.iter().flat_map(Servo::lines));
+        lines.extend(self.recordings.iter().flat_map(RecordingEntry::lines));
         for effect in &self.effects {
             lines.extend(effect_lines(effect, self.motion));
         }
@@ -53,6 +57,7 @@ impl Rig {
         let roles = [
             ("position", Some(&self.channels.position)),
             ("command", self.channels.command.as_ref()),
+            ("enabled", self.channels.enabled.as_ref()),
             (effort, self.channels.force.as_ref()),
             ("current", self.channels.current.as_ref()),
             ("simulated", self.channels.simulated.as_ref()),

@@ -103,6 +103,7 @@ pub fn align(recorded: &Signals) -> Result<JointRun, Fault> {
         speed_floor,
         untold_speed,
         metered_by: Vec::new(),
+        servo: None,
         parts: Vec::new(),
         remarks: mended,
     };

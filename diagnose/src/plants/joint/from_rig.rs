@@ -2,6 +2,7 @@
 
 use super::align::{Signals, align};
 use super::inertia::Inertia;
+use super::servo::Servoed;
 use crate::align::{Fault, forget_sense_near_reversals};
 use crate::cause::Cause;
 use crate::effect::Effect;
@@ -9,7 +10,7 @@ use crate::plant::Clock;
 use crate::plants::joint::run::{JointRun, PlantKind};
 use crate::plants::joint::simulate::{Interpolation, Model, Protocol};
 use crate::rules::STILL_NOISES;
-use rigproof_trace::rig::{Drive, Plant as RigPlant, Recording, Rig, Status};
+use rigproof_trace::rig::{Drive, Plant as RigPlant, Recording, Rig, Signal, Status};
 
 /// Aligns a recording of a rig as its sensors show it.
 ///
@@ -33,17 +34,37 @@ pub(super) fn bare(
     } else {
         recording.force.as_ref()
     };
-    let scale = if axis { gain } else { 1.0 };
+    // What a servo does with the noise of the position, its own input, is a noise of the effort.
+    let scale = match (&recording.servo, axis) {
+        (Some(servo), _) => gain * servo.gain,
+        (None, true) => gain,
+        (None, false) => 1.0,
+    };
+    let quantum = recording.position.quantum;
     let scaled = |x: Option<f64>| x.map(|x| x * scale.abs());
     let quantum_noise = |quantum: f64| quantum / 12f64.sqrt();
-    let effort_noise = effort.and_then(|e| match (e.noise, e.quantum) {
-        (None, None) => None,
-        (noise, quantum) => Some(
-            noise
-                .unwrap_or(0.0)
-                .hypot(quantum_noise(quantum.unwrap_or(0.0))),
+    let given = |e: &Signal| -> Vec<f64> {
+        let Some(servo) = recording.servo else {
+            return e.samples.iter().map(|x| x * scale).collect();
+        };
+        let pairs = e.samples.iter().zip(&recording.position.samples);
+        pairs
+            .map(|(goal, at)| gain * servo.voltage(goal - at))
+            .collect()
+    };
+    let effort_noise = match recording.servo {
+        Some(_) => Some(
+            quantum_noise(quantum.unwrap_or(0.0)).hypot(recording.position.noise.unwrap_or(0.0)),
         ),
-    });
+        None => effort.and_then(|e| match (e.noise, e.quantum) {
+            (None, None) => None,
+            (noise, quantum) => Some(
+                noise
+                    .unwrap_or(0.0)
+                    .hypot(quantum_noise(quantum.unwrap_or(0.0))),
+            ),
+        }),
+    };
     let mut run = align(&Signals {
         plant: if axis {
             PlantKind::Axis
@@ -53,15 +74,22 @@ pub(super) fn bare(
         kind: recording.motion,
         time_s: recording.time_s.clone(),
         position: behind(&recording.position.samples, stamps(&recording.time_s)),
-        effort: effort.map_or_else(Vec::new, |e| e.samples.iter().map(|x| x * scale).collect()),
+        effort: effort.map_or_else(Vec::new, given),
         predicted: recording.simulated.as_ref().map(|s| s.samples.clone()),
         current: drive.filter(|_| !axis).map(|d| d.samples.clone()),
         held: rig.protocol.drive == Drive::Held,
         position_quantum: recording.position.quantum,
         position_noise: recording.position.noise,
         effort_noise: scaled(effort_noise),
-        effort_limit: scaled(effort.and_then(|e| e.limit)),
+        effort_limit: match recording.servo {
+            Some(servo) => Some(gain.abs() * servo.supply_v),
+            None => scaled(effort.and_then(|e| e.limit)),
+        },
     })?;
+    run.servo = Servoed::of(recording, gain, &run);
+    if let Some(servo) = &run.servo {
+        run.effort = servo.along(&run);
+    }
     run.inertia = inertia(rig);
     run.described = nominal(rig);
     if let (Some(brake), Some(current)) = (&rig.brake, &run.current) {

@@ -131,6 +131,7 @@ fn run(plant: PlantKind, motion: Vec<Instant>, effort: Vec<f64>, held: bool) -> 
         effort_noise: EFFORT_NOISE,
         speed_floor: 1e-4,
         metered_by: Vec::new(),
+        servo: None,
         parts: Vec::new(),
         remarks: Vec::new(),
     }

@@ -30,7 +30,10 @@ pub(crate) fn replica(
             own.position.samples = out;
             let gain = nominal.parameters.map_or(1.0, |p| p.command_gain.value);
             effort_noise /= gain.abs();
-            set(&mut own.drive, run.effort.iter().map(|e| e / gain));
+            match &run.servo {
+                Some(servo) => set(&mut own.drive, servo.goal().iter().copied()),
+                None => set(&mut own.drive, run.effort.iter().map(|e| e / gain)),
+            }
         }
         PlantKind::Bench => {
             own.position.samples = run.motion.iter().map(|now| now.position).collect();

@@ -2,6 +2,7 @@
 
 use super::inertia::Inertia;
 use super::joined::over_parts;
+use super::servo::Servoed;
 use super::{columns, shapes};
 use crate::align::band_hz;
 use crate::cause::{Cause, Place};
@@ -73,6 +74,8 @@ pub struct JointRun {
     pub untold_speed: Vec<f64>,
     /// Changes between the resistance and what a bench meters that its description states.
     pub metered_by: Vec<Effect>,
+    /// Axis: the position servo that drives it.
+    pub servo: Option<Servoed>,
     /// The recordings that stand in it one after another; empty for one recording.
     pub parts: Vec<JointRun>,
     /// What was mended in it.
@@ -156,6 +159,7 @@ impl JointRun {
             speed_floor: self.speed_floor,
             untold_speed: part(&self.untold_speed),
             metered_by: self.metered_by.clone(),
+            servo: self.servo.as_ref().map(|servo| servo.part(from, to)),
             parts: Vec::new(),
             remarks: self.remarks.clone(),
         }

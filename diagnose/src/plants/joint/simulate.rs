@@ -192,6 +192,11 @@ fn free_run(plant: &Model, run: &JointRun, protocol: &Protocol) -> Vec<f64> {
     let (first, mut state) = begun((plant, &mut free), (run, &there), &fine, protocol);
     let mut out = there.get(..first).unwrap_or_default().to_vec();
     let step_s = run.step_s / protocol.substeps as f64;
+    if let Some(servo) = &run.servo {
+        let begun = (first, &mut state);
+        out.extend(servo.free_run((plant, &mut free), begun, protocol, step_s));
+        return shown(&plant.effects, out, clock);
+    }
     for period in 0..=protocol.warm_up_periods {
         let counts = period == protocol.warm_up_periods;
         let from = if period == 0 { first } else { 0 };

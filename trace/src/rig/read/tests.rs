@@ -225,6 +225,7 @@ prop_compose! {
                 time: None,
                 position: ChannelMap { column_unit: position.column_unit.as_ref().map(|_| unit.clone()), unit, ..position },
                 command: Some(command),
+                enabled: None,
                 force: None,
                 current: None,
                 simulated: None,
@@ -232,6 +233,8 @@ prop_compose! {
             protocol: Protocol { drive, start_samples, substeps, warm_up_periods },
             parameters: Some(Parameters { inertia, command_gain }),
             brake: None,
+            servo: None,
+            recordings: Vec::new(),
             text,
         }
     }
