@@ -161,6 +161,14 @@ impl Names {
                 &["backlash_width", "backlash", "compliance"],
                 &["inertia_error", "presliding"],
             ),
+            _ => return Names::of_sensors(effect),
+        };
+        Names { right, companions }
+    }
+
+    /// Of what is left out of the frame and the sensors.
+    const fn of_sensors(effect: &Effect) -> Names {
+        let (right, companions): (&[&str], &[&str]) = match effect.form {
             Form::LinkLength => (&["link_length"], &["encoder_offset", "encoder_scale"]),
             Form::Gravity => (&["gravity"], &[]),
             Form::PlaneSpring => (&["plane_spring", "spring"], &["gravity", "force_bias"]),

@@ -3,13 +3,13 @@
 //! Residuals are neither white nor of one size where a law of another family stands in for the true one, and blocks are few: the jackknife over blocks is
 //! on the safe side there (MacKinnon, Nielsen and Webb 2023), with Student's t of as many blocks as a number really lives in
 //! (after Carter, Schnepel and Steigerwald 2017). Where more than noise is left the law is not the true one, and what is left may look like the effect everywhere
-//! alike, which no block shows: there they are wider by what is left over the noise (Birge 1932).
+//! alike, which no block shows: there they are wider by what is left over the noise (Birge 1932), up to a bound: blocks show what is left by themselves.
 
 use super::{Number, Sensitivity, coefficients_by_term, parameter_count, sensitivities};
 use crate::filter::rms;
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, covariance, dot};
-use crate::rules::LEAST_FREEDOM;
+use crate::rules::{LEAST_FREEDOM, TIMES_BY_FORM};
 use crate::select::{Selection, change_with_onset, onset_interval, refs, usable_rms};
 use crate::student::half_width;
 use nalgebra::{DMatrix, DVector};
@@ -37,7 +37,8 @@ pub fn intervals(problem: &Problem, selection: &Selection) -> Intervals {
     let residual = problem.whitener.whiten(&selection.after.residual);
     let halves = half_widths(&white, &residual, &Blocks::new(problem))
         .unwrap_or_else(|| vec![f64::NAN; white.len()]);
-    let birge = (usable_rms(problem, &selection.after.residual) / problem.floor).max(1.0);
+    let left = usable_rms(problem, &selection.after.residual) / problem.floor;
+    let form = left.clamp(1.0, TIMES_BY_FORM);
     let mut intervals = Intervals {
         nuisances: vec![f64::NAN; problem.nuisances.len()],
         terms: terms
@@ -47,7 +48,7 @@ pub fn intervals(problem: &Problem, selection: &Selection) -> Intervals {
         onsets: onsets(problem, selection, &columns),
     };
     for (column, half) in columns.iter().zip(halves) {
-        let half = birge * half;
+        let half = form * half;
         match column.number {
             Number::Nuisance(index) => {
                 if let Some(slot) = intervals.nuisances.get_mut(index) {

@@ -23,6 +23,8 @@ rules! {
     TELLABLE: f64 = 0.02, "share", REASON;
     /// Fewest degrees of freedom: a number that lives in one or two blocks is not believed to be without any scatter, nor to have none but theirs.
     LEAST_FREEDOM: f64 = 3.0, "freedoms", "five-bar (decision 0149)";
+    /// Most times by which an interval is wider because the law is another form of the true one.
+    TIMES_BY_FORM: f64 = 3.0, "times", "axis and bench, other forms, seeds 2100 to 2130 (decision 0233)";
     /// Length of a part in which a number may differ: some widths of a window, shorter than what swings.
     PART_S: f64 = 0.25, "s", "five-bar, seeds below 10 000 (decision 0130)";
     /// Share of the unexplained energy that must go when a number may differ from part to part for it not to be constant. A number that is constant came to 0.28 at most beside a law of another family, one that is not to 0.47 and more.

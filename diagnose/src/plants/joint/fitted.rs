@@ -41,6 +41,23 @@ fn better(refitted: Shown, windows: &Model, run: &JointRun, protocol: &Protocol)
     }
 }
 
+/// The intervals of the windows' numbers, for those of the free runs: wider by what the two differ by, which is the model's own error.
+pub(crate) fn wider(intervals: &Intervals, fitted: &Fitted) -> Intervals {
+    let (windows, runs) = (&fitted.by_windows, &fitted.found.plant);
+    let mut wider = intervals.clone();
+    if let Some(half) = wider.nuisances.first_mut() {
+        *half += (runs.inertia - windows.inertia).abs();
+    }
+    let effects = windows.effects.iter().zip(&runs.effects);
+    for (halves, (windows, runs)) in wider.terms.iter_mut().zip(effects) {
+        let numbers = windows.parameters.iter().zip(&runs.parameters);
+        for (half, (windows, runs)) in halves.iter_mut().zip(numbers) {
+            *half += (runs - windows).abs();
+        }
+    }
+    wider
+}
+
 impl Stand<'_, Rig> {
     /// The plant of the windows' fit, with or without the mechanisms found.
     pub(crate) fn model(&self, found: bool) -> Model {

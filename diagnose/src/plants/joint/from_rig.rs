@@ -26,66 +26,8 @@ pub(super) fn bare(
     recording: &Recording,
     behind: impl Fn(&[f64], Clock) -> Vec<f64>,
 ) -> Result<JointRun, Fault> {
-    let axis = recording.plant == RigPlant::Axis;
     let gain = rig.parameters.map_or(1.0, |p| p.command_gain.value);
-    let drive = recording.drive.as_ref();
-    let effort = if axis {
-        drive
-    } else {
-        recording.force.as_ref()
-    };
-    // What a servo does with the noise of the position, its own input, is a noise of the effort.
-    let scale = match (&recording.servo, axis) {
-        (Some(servo), _) => gain * servo.gain,
-        (None, true) => gain,
-        (None, false) => 1.0,
-    };
-    let quantum = recording.position.quantum;
-    let scaled = |x: Option<f64>| x.map(|x| x * scale.abs());
-    let quantum_noise = |quantum: f64| quantum / 12f64.sqrt();
-    let given = |e: &Signal| -> Vec<f64> {
-        let Some(servo) = recording.servo else {
-            return e.samples.iter().map(|x| x * scale).collect();
-        };
-        let pairs = e.samples.iter().zip(&recording.position.samples);
-        pairs
-            .map(|(goal, at)| gain * servo.voltage(goal - at))
-            .collect()
-    };
-    let effort_noise = match recording.servo {
-        Some(_) => Some(
-            quantum_noise(quantum.unwrap_or(0.0)).hypot(recording.position.noise.unwrap_or(0.0)),
-        ),
-        None => effort.and_then(|e| match (e.noise, e.quantum) {
-            (None, None) => None,
-            (noise, quantum) => Some(
-                noise
-                    .unwrap_or(0.0)
-                    .hypot(quantum_noise(quantum.unwrap_or(0.0))),
-            ),
-        }),
-    };
-    let mut run = align(&Signals {
-        plant: if axis {
-            PlantKind::Axis
-        } else {
-            PlantKind::Bench
-        },
-        kind: recording.motion,
-        time_s: recording.time_s.clone(),
-        position: behind(&recording.position.samples, stamps(&recording.time_s)),
-        effort: effort.map_or_else(Vec::new, given),
-        predicted: recording.simulated.as_ref().map(|s| s.samples.clone()),
-        current: drive.filter(|_| !axis).map(|d| d.samples.clone()),
-        held: rig.protocol.drive == Drive::Held,
-        position_quantum: recording.position.quantum,
-        position_noise: recording.position.noise,
-        effort_noise: scaled(effort_noise),
-        effort_limit: match recording.servo {
-            Some(servo) => Some(gain.abs() * servo.supply_v),
-            None => scaled(effort.and_then(|e| e.limit)),
-        },
-    })?;
+    let mut run = align(&signals(rig, recording, gain, behind))?;
     run.servo = Servoed::of(recording, gain, &run);
     if let Some(servo) = &run.servo {
         run.effort = servo.along(&run);
@@ -100,6 +42,71 @@ pub(super) fn bare(
         forget_sense_near_reversals(&mut run.motion, &run.position, still);
     }
     Ok(run)
+}
+
+/// A recording's channels as efforts and motion; `gain` is the effort that one unit of command gives.
+fn signals(
+    rig: &Rig,
+    recording: &Recording,
+    gain: f64,
+    behind: impl Fn(&[f64], Clock) -> Vec<f64>,
+) -> Signals {
+    let axis = recording.plant == RigPlant::Axis;
+    let drive = recording.drive.as_ref();
+    let effort = if axis {
+        drive
+    } else {
+        recording.force.as_ref()
+    };
+    // What a servo does with the noise of the position, its own input, is a noise of the effort.
+    let scale = match (&recording.servo, axis) {
+        (Some(servo), _) => gain * servo.gain,
+        (None, true) => gain,
+        (None, false) => 1.0,
+    };
+    let scaled = |x: Option<f64>| x.map(|x| x * scale.abs());
+    let given = |e: &Signal| -> Vec<f64> {
+        let Some(servo) = recording.servo else {
+            return e.samples.iter().map(|x| x * scale).collect();
+        };
+        let pairs = e.samples.iter().zip(&recording.position.samples);
+        pairs
+            .map(|(goal, at)| gain * servo.voltage(goal - at))
+            .collect()
+    };
+    let noisy = match recording.servo {
+        Some(_) => Some(sample_noise(&recording.position)),
+        None => effort
+            .filter(|e| e.noise.is_some() || e.quantum.is_some())
+            .map(sample_noise),
+    };
+    Signals {
+        plant: if axis {
+            PlantKind::Axis
+        } else {
+            PlantKind::Bench
+        },
+        kind: recording.motion,
+        time_s: recording.time_s.clone(),
+        position: behind(&recording.position.samples, stamps(&recording.time_s)),
+        effort: effort.map_or_else(Vec::new, given),
+        predicted: recording.simulated.as_ref().map(|s| s.samples.clone()),
+        current: drive.filter(|_| !axis).map(|d| d.samples.clone()),
+        held: rig.protocol.drive == Drive::Held,
+        position_quantum: recording.position.quantum,
+        position_noise: recording.position.noise,
+        effort_noise: scaled(noisy),
+        effort_limit: match recording.servo {
+            Some(servo) => Some(gain.abs() * servo.supply_v),
+            None => scaled(effort.and_then(|e| e.limit)),
+        },
+    }
+}
+
+/// The standard deviation of one sample of a channel: of its noise and of its rounding, in its own unit.
+fn sample_noise(channel: &Signal) -> f64 {
+    let rounding = channel.quantum.unwrap_or(0.0) / 12f64.sqrt();
+    channel.noise.unwrap_or(0.0).hypot(rounding)
 }
 
 /// The clock of stamps, the first of them at 0.

@@ -1,5 +1,6 @@
 //! This file is a plant of one joint by its description.
 
+use super::fitted::wider;
 use super::inverse::{self, CUTOFF_HZ, DECIMATION, FILTER_ORDER};
 use super::mistaken::{
     another_drive, another_inertia, beyond_reason, impossible_numbers, without_brake,
@@ -105,6 +106,10 @@ impl Plant for Rig {
         let is_refitted = fitted.as_ref().is_some_and(|fitted| fitted.is_refitted);
         let refitted = is_refitted && stand.train.brake().is_none();
         let fit = fitted.as_ref();
+        let wider = fit
+            .filter(|_| refitted)
+            .map(|fitted| wider(intervals, fitted));
+        let intervals = wider.as_ref().unwrap_or(intervals);
         Shown {
             calibration: calibrated(stand.plant, &after, intervals, refitted),
             fit: fit.map(|fitted| stand.fit_report(fitted, intervals, &protocol)),
