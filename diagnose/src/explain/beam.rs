@@ -127,7 +127,7 @@ fn by_evidence(folds: &Folds, judge: &Judge, all: Vec<Fitted>) -> Vec<Fitted> {
 }
 
 /// A cause stands once in an explanation, in one form.
-fn may_join(terms: &[Term], term: &Term) -> bool {
+pub fn may_join(terms: &[Term], term: &Term) -> bool {
     let same = |own: &Term| {
         own.cause.at == term.cause.at && kind(own.cause.mechanism) == kind(term.cause.mechanism)
     };
