@@ -59,7 +59,7 @@ impl Names {
     pub const fn of(effect: &Effect) -> Names {
         let (right, companions): (&[&str], &[&str]) = match effect.form {
             Form::Coulomb | Form::Bearing if matches!(effect.scales, Scales::Drive) => {
-                (&["gain_error"], &[])
+                (&["gain_error", "current_gain"], &[])
             }
             Form::Coulomb => (&["dry_offset"], &[]),
             Form::Viscous => (&["viscous"], &[]),
@@ -67,8 +67,14 @@ impl Names {
             Form::Asymmetric => (&["direction_asymmetry"], &["constant_bias", "gain_error"]),
             Form::Stribeck | Form::Rational => (&["stribeck"], &["dry_offset", "viscous"]),
             Form::Travelled | Form::Lugre => (
-                &["stribeck"],
-                &["presliding", "hysteresis", "dry_offset", "viscous"],
+                &["stribeck", "lugre_bristle"],
+                &[
+                    "presliding",
+                    "dahl_bristle",
+                    "hysteresis",
+                    "dry_offset",
+                    "viscous",
+                ],
             ),
             Form::Dahl
             | Form::DahlPower
@@ -76,7 +82,7 @@ impl Names {
             | Form::ElastoPlastic
             | Form::MaxwellSlip
             | Form::BoucWen => (
-                &["presliding", "hysteresis"],
+                &["presliding", "dahl_bristle", "lugre_bristle", "hysteresis"],
                 &["dry_offset", "asymmetric_presliding"],
             ),
             Form::OneSided => (
@@ -93,11 +99,12 @@ impl Names {
             Form::Anchored => (&["spring"], &["constant_bias"]),
             Form::Cubic | Form::Hardening => (&["nonlinear_spring"], &["spring"]),
             Form::Ripple | Form::TwoOrders | Form::Toothed => (&["ripple"], &[]),
-            Form::LoadShare | Form::LoadArm | Form::LoadSquare => {
-                (&["load_dependent"], &["gain_error", "dry_offset"])
-            }
+            Form::LoadShare | Form::LoadArm | Form::LoadSquare => (
+                &["load_dependent", "load_friction"],
+                &["gain_error", "dry_offset"],
+            ),
             Form::LoadSided => (
-                &["load_dependent"],
+                &["load_dependent", "load_friction"],
                 &["gain_error", "dry_offset", "direction_asymmetry"],
             ),
             _ => return Names::elsewhere(effect),
@@ -116,7 +123,7 @@ impl Names {
             | Form::YieldOvershoot
             | Form::YieldOvershootLinear => (
                 &["reversal_overshoot"],
-                &["stribeck", "presliding", "hysteresis"],
+                &["stribeck", "presliding", "dahl_bristle", "hysteresis"],
             ),
             Form::Gap => (
                 &["backlash_width", "backlash", "presliding", "hysteresis"],
@@ -128,15 +135,17 @@ impl Names {
             Form::LagSecond => (&["lag", "dead_time", "channel_skew"], &["gain_error"]),
             Form::RateLimit => (&["lag", "rate_limit"], &["saturation", "gain_error"]),
             Form::DeadTime | Form::Skew => (&["dead_time", "channel_skew", "lag"], &[]),
-            Form::Gain => (&["gain_error"], &[]),
-            Form::Saturation | Form::SoftSaturation => (&["saturation"], &["gain_error"]),
-            Form::Play | Form::Preisach | Form::Plays | Form::BoucWenCurrent => {
-                (&["current_hysteresis"], &["gain_error", "lag"])
+            Form::Gain => (&["gain_error", "current_gain"], &[]),
+            Form::Saturation | Form::SoftSaturation => {
+                (&["saturation", "drive_saturation"], &["gain_error"])
             }
+            Form::Play | Form::Preisach | Form::Plays | Form::BoucWenCurrent => (
+                &["current_hysteresis"],
+                &["gain_error", "current_gain", "lag"],
+            ),
             Form::TimeConstants => (&["time_constant", "lag"], &[]),
             Form::OffState => (&["off_state_torque", "dry_offset"], &[]),
-            Form::Payload => (&["payload", "inertia_error"], &[]),
-            Form::Inertia => (&["inertia_error", "payload"], &[]),
+            Form::Payload | Form::Inertia => (&["payload", "inertia_error", "added_inertia"], &[]),
             Form::Compliance => (&["compliance"], &["payload", "inertia_error"]),
             Form::TwoMass => (
                 &["compliance"],
@@ -154,7 +163,7 @@ impl Names {
             ),
             Form::LinkLength => (&["link_length"], &["encoder_offset", "encoder_scale"]),
             Form::Gravity => (&["gravity"], &[]),
-            Form::PlaneSpring => (&["anchored_spring", "spring"], &["gravity", "force_bias"]),
+            Form::PlaneSpring => (&["plane_spring", "spring"], &["gravity", "force_bias"]),
             Form::EncoderScale => (&["encoder_scale"], &[]),
             Form::EncoderOffset => (&["encoder_offset"], &[]),
             Form::Eccentric => (

@@ -7,7 +7,7 @@ use rigproof_diagnose::self_calibration::SelfTest;
 use rigproof_diagnose::{Description, Diagnosis, Measured, Options};
 use rigproof_trace::store::Folder;
 
-use crate::input::{self, Cut, Source};
+use crate::input::{self, Cut, Source, Taken};
 use crate::outcome::{Failure, Outcome, print};
 use crate::{folder, keep, page, progress, shell, text, threads};
 
@@ -16,22 +16,22 @@ use crate::{folder, keep, page, progress, shell, text, threads};
 #[command(after_help = AFTER_HELP)]
 pub struct Args {
     #[command(flatten)]
-    source: Source,
+    pub source: Source,
     /// Another recording of the rig, on which the result is shown
     #[arg(long, value_name = "CSV", conflicts_with = "hold_out_share")]
     hold_out: Option<PathBuf>,
     /// Share of the recording's end on which the result is shown, 0.05 to 0.8
     #[arg(long, value_name = "SHARE", default_value_t = 0.25, value_parser = parse_share)]
-    hold_out_share: f64,
+    pub hold_out_share: f64,
     /// The folder to write [default: the recording's name with `-diagnosis`]
     #[arg(long, value_name = "FOLDER")]
     out: Option<PathBuf>,
     /// Say how far the result can be believed: diagnose as many simulated recordings like this one whose causes are known
     #[arg(long, value_name = "RUNS", num_args = 0..=1, default_missing_value = "20", value_parser = parse_runs)]
-    calibrate: Option<usize>,
+    pub calibrate: Option<usize>,
     /// What is worked on at once: explanations, and with --calibrate simulated recordings; 0 takes every processor. The result does not depend on it
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = threads::parse)]
-    jobs: usize,
+    pub jobs: usize,
     /// Print the report as JSON
     #[arg(long)]
     json: bool,
@@ -84,9 +84,9 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
 /// A diagnosis that is written.
 pub struct Made {
     out: PathBuf,
-    files: Vec<&'static str>,
+    pub files: Vec<&'static str>,
     next: String,
-    diagnosis: Diagnosis,
+    pub diagnosis: Diagnosis,
 }
 
 /// Diagnoses recordings and writes the folder.
@@ -100,7 +100,21 @@ pub fn made(args: &Args) -> Result<Made, Failure> {
     // A wrong place is refused before the work, not after it.
     drop(Folder::begin(&out)?);
     let rig = Description::read(&args.source.rig)?;
-    let given = Given::read(args, &rig)?;
+    let identity = input::identity(&args.source.rig, None)?;
+    let given = Given::read(args, &rig, identity)?;
+    written(args, out, &rig, given)
+}
+
+/// Diagnoses what is read already, and writes the folder.
+///
+/// # Errors
+/// It cannot be diagnosed, or the folder cannot be written.
+pub fn written(
+    args: &Args,
+    out: PathBuf,
+    rig: &Description,
+    given: Given,
+) -> Result<Made, Failure> {
     if args.calibrate.is_some() && given.recordings.len() > 1 {
         let problem = "--calibrate simulates a single recording: give one, not a folder of several";
         return Err(Failure::Usage(problem.to_owned()));
@@ -121,7 +135,7 @@ pub fn made(args: &Args) -> Result<Made, Failure> {
         ));
     };
     if let Some(runs) = args.calibrate {
-        calibrate(&rig, &given, &mut diagnosis, &options, (runs, args.jobs))?;
+        calibrate(rig, &given, &mut diagnosis, &options, (runs, args.jobs))?;
     }
     diagnosis.report.inputs = given.identities;
     diagnosis.report.protocol.extend(given.read_as);
@@ -129,7 +143,7 @@ pub fn made(args: &Args) -> Result<Made, Failure> {
     let next = next(&args.source.rig, &out, &given.shown_on, &diagnosis.report);
     let shown = given.held_out.as_ref().or(given.recordings.last());
     let beside = page::Beside {
-        replay: page::replay(&rig, &diagnosis, shown),
+        replay: page::replay(rig, &diagnosis, shown),
         next: Some(next.clone()),
     };
     let files = folder::write(&folder, rig.name(), &mut diagnosis, beside)?;
@@ -143,7 +157,7 @@ pub fn made(args: &Args) -> Result<Made, Failure> {
 }
 
 /// What the command line names, read.
-struct Given {
+pub struct Given {
     recordings: Vec<Measured>,
     held_out: Option<Measured>,
     /// The file on which the result is shown.
@@ -154,39 +168,61 @@ struct Given {
 }
 
 impl Given {
-    fn read(args: &Args, rig: &Description) -> Result<Given, Failure> {
-        let source = &args.source;
-        let read = |file: &PathBuf, cut| input::measured(rig, file, cut, &source.reading);
-        let mut files = input::recordings(&source.recording)?;
-        let all = files.iter().map(|file| read(file, source.cut));
+    fn read(args: &Args, rig: &Description, rig_file: InputFile) -> Result<Given, Failure> {
+        let files = input::recordings(&args.source.recording)?;
+        let fitted = files.into_iter().map(Taken::File).collect();
+        Given::of(
+            args,
+            (rig, rig_file),
+            fitted,
+            args.hold_out.clone().map(Taken::File),
+        )
+    }
+
+    /// Reads recordings of a rig: those to fit, and the one that is held out, if there is one.
+    ///
+    /// # Errors
+    /// One of them is not usable.
+    pub fn of(
+        args: &Args,
+        (rig, rig_file): (&Description, InputFile),
+        fitted: Vec<Taken>,
+        held_out: Option<Taken>,
+    ) -> Result<Given, Failure> {
+        let reading = &args.source.reading;
+        let read = |one: &Taken, cut| input::taken(rig, one, cut, reading);
+        let all = fitted.iter().map(|one| read(one, args.source.cut));
         let all: Vec<_> = all.collect::<Result<_, Failure>>()?;
         let (recordings, mut hows): (Vec<_>, Vec<_>) = all.into_iter().unzip();
-        let mut held_out = None;
-        if let Some(file) = &args.hold_out {
-            let (recording, how) = read(file, Cut::default())?;
-            held_out = Some(recording);
-            files.push(file.clone());
+        let count = recordings.len();
+        let mut files = fitted;
+        let mut other = None;
+        if let Some(one) = held_out {
+            let (recording, how) = read(&one, Cut::default())?;
+            other = Some(recording);
+            files.push(one);
             hows.push(how);
         }
-        let pairs = || files.iter().zip(&hows);
-        let identities = pairs().map(|(file, how)| (file, how.dialect()));
-        let identities = identities.chain([(&source.rig, None)]);
-        let identities = identities.map(|(file, dialect)| input::identity(file, dialect));
-        let identities = identities.collect::<Result<Vec<InputFile>, _>>()?;
-        let (fitted, others) = identities.split_at(recordings.len());
-        let shown = others.first().filter(|_| held_out.is_some());
-        if let (Some(shown), Some(file)) = (shown, &args.hold_out)
-            && fitted.iter().any(|own| own.sha256 == shown.sha256)
+        let identities = files.iter().zip(&hows);
+        let identities = identities.map(|(one, how)| one.identity(how.dialect()));
+        let mut identities = identities.collect::<Result<Vec<InputFile>, _>>()?;
+        let (own, others) = identities.split_at(count);
+        if let (Some(shown), Some(file)) = (others.first(), files.get(count))
+            && own.iter().any(|own| own.sha256 == shown.sha256)
         {
             let problem = "it is one of the recordings that are fitted: hold out another one, or leave --hold-out away, and the end of the recording is held out";
-            return Err(Failure::unusable(file, problem.to_owned()));
+            return Err(Failure::unusable(file.name(), problem.to_owned()));
         }
+        identities.push(rig_file);
+        let pairs = files.iter().zip(&hows);
         Ok(Given {
             recordings,
-            held_out,
+            held_out: other,
             identities,
-            read_as: pairs().flat_map(|(file, how)| how.lines(file)).collect(),
-            shown_on: files.pop().unwrap_or_default(),
+            read_as: pairs.flat_map(|(one, how)| how.lines(one.name())).collect(),
+            shown_on: files
+                .last()
+                .map_or_else(PathBuf::new, |one| one.name().to_path_buf()),
         })
     }
 }

@@ -9,7 +9,7 @@ use rigproof_diagnose::{Description, Measured};
 use rigproof_trace::csv::{Dialect, LEAST_SAMPLES};
 use rigproof_trace::mcap;
 use rigproof_trace::rig::{Recording, Rig};
-use rigproof_trace::{Place, TraceError};
+use rigproof_trace::{Place, Trace, TraceError};
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
@@ -28,6 +28,16 @@ pub struct Cut {
 }
 
 impl Cut {
+    /// What lies between two time stamps, s.
+    pub fn between(from_s: Option<f64>, to_s: Option<f64>) -> Cut {
+        Cut { from_s, to_s }
+    }
+
+    /// Whether everything counts.
+    fn is_whole(self) -> bool {
+        self.from_s.is_none() && self.to_s.is_none()
+    }
+
     /// Which samples count.
     fn kept(self, file: &Path, time_s: &[f64]) -> Result<Vec<bool>, Failure> {
         let first_s = self.from_s.unwrap_or(f64::NEG_INFINITY);
@@ -219,6 +229,83 @@ pub fn whole(
     }
     let (recording, dialect, remarks) = rig.read_text(file, &reading.hints())?;
     Ok((recording, HowRead::of_text(dialect, &remarks)))
+}
+
+/// A recording that is given: a file, or channels in memory under a name.
+pub enum Taken {
+    /// A file.
+    File(PathBuf),
+    /// Channels in memory, what messages call them, and what was mended in their time stamps.
+    Channels(PathBuf, Trace, Vec<String>),
+}
+
+impl Taken {
+    /// What messages call it.
+    pub fn name(&self) -> &Path {
+        match self {
+            Taken::File(name) | Taken::Channels(name, ..) => name,
+        }
+    }
+
+    /// What identifies it: of channels the SHA-256 of names, units and numbers, those as 8 bytes each, the lowest first.
+    ///
+    /// # Errors
+    /// A file cannot be read.
+    pub fn identity(&self, dialect: Option<Dialect>) -> Result<InputFile, Failure> {
+        let (name, trace) = match self {
+            Taken::File(file) => return identity(file, dialect),
+            Taken::Channels(name, trace, _) => (name, trace),
+        };
+        let mut hash = Sha256::new();
+        let mut all = |samples: &[f64]| {
+            for part in samples.chunks(1 << 13) {
+                let bytes: Vec<u8> = part.iter().flat_map(|x| x.to_le_bytes()).collect();
+                hash.update(&bytes);
+            }
+        };
+        all(&trace.time_s);
+        trace.channels.iter().for_each(|own| all(&own.samples));
+        for own in &trace.channels {
+            hash.update(format!("{:?} {:?};", own.name, own.unit));
+        }
+        Ok(InputFile {
+            path: name.display().to_string(),
+            sha256: hexadecimal(&hash.finalize()),
+            read_as: None,
+        })
+    }
+}
+
+/// Reads a recording that is given, and cuts it.
+///
+/// # Errors
+/// It is not usable, or the cut leaves too little.
+pub fn taken(
+    description: &Description,
+    one: &Taken,
+    cut: Cut,
+    reading: &RigReading,
+) -> Result<(Measured, HowRead), Failure> {
+    let (name, trace, said) = match one {
+        Taken::File(file) => return measured(description, file, cut, reading),
+        Taken::Channels(name, trace, said) => (name, trace, said),
+    };
+    let mut description = description.clone();
+    // Units of channels in memory are said by whoever gives them: they count like those of the command line.
+    let stated = trace.channels.iter().filter(|own| !own.unit.is_empty());
+    for own in stated {
+        let unit = [(own.name.clone(), own.unit.clone())];
+        if let Ok(with) = description.with_column_units(&unit) {
+            description = with;
+        }
+    }
+    let whole = description.apply(trace, name)?;
+    let how = HowRead::of_messages(said);
+    if cut.is_whole() {
+        return Ok((whole, how));
+    }
+    let kept = cut.kept(name, whole.time_s())?;
+    Ok((whole.only(&kept), how))
 }
 
 /// Reads a recording of any plant and cuts it, and says how it was read.

@@ -16,7 +16,7 @@ use crate::explain::{Explanations, explain, explain_many};
 use crate::plant::{At, Plant, Run};
 use crate::problem::{Problem, Term};
 use crate::report::Report;
-use crate::rules::{FEWEST_WINDOWS, HOLD_OUT_SHARE, MOST_LEFT};
+use crate::rules::{FEWEST_WINDOWS, HOLD_OUT_SHARE, MOST_LEFT, SUSPECTED};
 use crate::scatter::{Trials, left_over};
 use crate::select::{FLOOR_RATIO, Gates, Selection, is_noise, refs, select, usable_rms};
 use crate::unknown::surrogates;
@@ -163,6 +163,7 @@ pub fn diagnose<P: Plant>(
         (selection, explanations) = named(&mut problem, terms, options);
         withdrawn = withdraw(&problem, &mut selection, explanations.is_some());
     }
+    bound(&problem, &mut selection);
     Stand {
         plant,
         problem: &problem,
@@ -212,6 +213,17 @@ fn named(
         problem.whiten_with(whitener_of_sets);
     }
     (of_sets, Some(explanations))
+}
+
+/// Bounds the probabilities of names beside which more than noise is left: a name that takes away little beside it may be a part of it. It is as sure as
+/// even odds and the share that it takes away of what would be left without it.
+fn bound(problem: &Problem, selection: &mut Selection) {
+    if is_noise(problem, &selection.after) {
+        return;
+    }
+    for found in &mut selection.found {
+        found.probability = found.probability.min(SUSPECTED + found.share.max(0.0));
+    }
 }
 
 /// The problem and its nominal terms as they were with the sensors' noise alone.

@@ -166,19 +166,22 @@ fn texts_take_memory_and_time_by_their_length_and_by_their_width() {
     holds("text in gzip", files(home.path(), "packed", "csv", packed));
 }
 
+/// A run of so many columns and samples.
+fn run(columns: usize, samples: usize) -> Trace {
+    let channel = |k: usize| Channel {
+        name: format!("c{k}"),
+        unit: String::new(),
+        samples: (0..samples).map(|n| (n * k % 11) as f64).collect(),
+    };
+    Trace {
+        time_s: (0..samples).map(|k| 1e-3 * k as f64).collect(),
+        channels: (0..columns).map(channel).collect(),
+    }
+}
+
 #[test]
 fn runs_in_mcap_take_memory_and_time_by_their_length_and_by_their_width() {
     let home = tempfile::tempdir().unwrap();
-    let run = |columns: usize, samples: usize| Trace {
-        time_s: (0..samples).map(|k| 1e-3 * k as f64).collect(),
-        channels: (0..columns)
-            .map(|k| Channel {
-                name: format!("c{k}"),
-                unit: String::new(),
-                samples: (0..samples).map(|n| (n * k % 11) as f64).collect(),
-            })
-            .collect(),
-    };
     let long = |file: &Path, times: usize| {
         mcap::write(file, &run(3, 15_000 * times), &Extras::default()).unwrap()
     };
@@ -287,6 +290,10 @@ fn what_is_beyond_the_budget_is_refused_and_says_so() {
     let mat = home.path().join("much.mat");
     matlab(&mat, 40, 100_000);
     refused(&mat);
+    // 2.3 million numbers, where a quarter of 64 MiB is 2.1 million.
+    let mcap = home.path().join("much.mcap");
+    mcap::write(&mcap, &run(8, 260_000), &Extras::default()).unwrap();
+    refused(&mcap);
     let csv = home.path().join("much.csv");
     let mut packed = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::best());
     packed.write_all(b"time (s),a,b,c,d,e,f,g\n").unwrap();

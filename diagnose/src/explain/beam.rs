@@ -7,6 +7,9 @@ use super::score::{Judge, gives_energy};
 use crate::problem::{Problem, Term};
 use crate::rules::{BEAM, KEPT, MOST_TERMS};
 use rayon::prelude::*;
+use rigproof_model::effects::facts;
+use rigproof_model::effects::facts::Shapes;
+use rigproof_spec::effect::Mechanism;
 use std::collections::BTreeMap;
 
 /// A set of causes, told apart by name.
@@ -126,12 +129,21 @@ fn by_evidence(folds: &Folds, judge: &Judge, all: Vec<Fitted>) -> Vec<Fitted> {
     all.into_iter().map(|(_, fitted)| fitted).collect()
 }
 
-/// A cause stands once in an explanation, in one form.
+/// A cause stands once in an explanation, in one form, and so does a bristle: a second one only mends the form of the first.
 pub fn may_join(terms: &[Term], term: &Term) -> bool {
     let same = |own: &Term| {
-        own.cause.at == term.cause.at && kind(own.cause.mechanism) == kind(term.cause.mechanism)
+        let (a, b) = (own.cause.mechanism, term.cause.mechanism);
+        own.cause.at == term.cause.at && (kind(a) == kind(b) || is_bristle(a) && is_bristle(b))
     };
     !terms.iter().any(same)
+}
+
+/// Whether it is a force that builds up over a travel after each reversal and stays then.
+fn is_bristle(mechanism: Mechanism) -> bool {
+    matches!(
+        facts(mechanism).map(|facts| facts.shapes),
+        Some(Shapes::Bristle | Shapes::BristleCurve | Shapes::Memory)
+    )
 }
 
 /// The causes of an explanation in one order.

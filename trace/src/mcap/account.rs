@@ -16,6 +16,10 @@ pub(super) trait Visitor {
     fn metadata(&mut self, _name: &str) {}
     /// A file inside the file.
     fn attachment(&mut self, _name: &str, _bytes: u64) {}
+    /// Whether it holds all that it may: the rest of the file is not read then.
+    fn is_full(&self) -> bool {
+        false
+    }
 }
 
 /// One message.

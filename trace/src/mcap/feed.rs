@@ -14,6 +14,7 @@ use super::run::Run;
 use super::shapes::Shapes;
 use super::summary::stamp;
 use super::topics::Topic;
+use crate::budget;
 use crate::csv::TimeColumn;
 
 /// Addresses of a topic that a message names.
@@ -36,6 +37,9 @@ pub(super) struct Feeds {
     readers: Vec<Option<Reader>>,
     refusals: HashMap<String, String>,
     addresses: HashMap<String, Vec<String>>,
+    /// Numbers that are held, and the most that may be.
+    held: u64,
+    most: u64,
 }
 
 /// The samples of one topic.
@@ -89,7 +93,14 @@ impl Feeds {
             readers: Vec::new(),
             refusals: HashMap::new(),
             addresses: HashMap::new(),
+            held: 0,
+            most: budget::held() / 8,
         }
+    }
+
+    /// What the chosen numbers take, bytes, where that is more than a reader may hold.
+    pub(super) fn beyond(&self) -> Option<u64> {
+        (self.held > self.most).then(|| self.held.saturating_mul(8))
     }
 
     /// Where each wanted number was found first.
@@ -236,6 +247,10 @@ impl Feeds {
 }
 
 impl Visitor for Feeds {
+    fn is_full(&self) -> bool {
+        self.beyond().is_some()
+    }
+
     fn topic(&mut self, _place: usize, topic: &Topic) {
         self.topics.push(topic.name.clone());
         let reader = self.feed_of(topic).and_then(|feed| {
@@ -266,6 +281,10 @@ impl Visitor for Feeds {
         let Some(feed) = self.feeds.get_mut(reader.feed) else {
             return;
         };
+        self.held += 1 + feed.columns.len() as u64;
+        if self.held > self.most {
+            return;
+        }
         let addresses = &mut self.addresses;
         self.flat.elements = reader.elements;
         let decoder = &reader.decoder;

@@ -9,6 +9,7 @@ use super::feed::Feeds;
 use super::integrity::Integrity;
 use super::resample::{Between, Ordered, order, resample};
 use super::stream::walk;
+use crate::budget;
 use crate::csv::{LEAST_SAMPLES, TimeColumn};
 use crate::error::TraceError;
 use crate::series::{Channel, Trace};
@@ -66,6 +67,10 @@ pub fn read_from(
     let mut feeds = Feeds::new(selection);
     let (_, integrity) = walk(source, file, &mut feeds)?;
     let refused = |problem: String| TraceError::recording(file, problem);
+    if let Some(bytes) = feeds.beyond() {
+        let what = "what is chosen of its messages";
+        return Err(refused(budget::beyond(what, bytes, budget::bytes())));
+    }
     if feeds.wanted.is_empty() {
         return Err(refused(nothing_wanted(&feeds.topics, &integrity)));
     }

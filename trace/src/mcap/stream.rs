@@ -37,7 +37,7 @@ pub(super) fn walk<R: Read, V: Visitor>(
         return Err(TraceError::recording(file, problem));
     }
     walk.source.add_to_sum(&magic);
-    while walk.record().map_err(refused())? {}
+    while !walk.account.visitor.is_full() && walk.record().map_err(refused())? {}
     walk.account.close();
     Ok((walk.account.topics.into_topics(), walk.account.integrity))
 }

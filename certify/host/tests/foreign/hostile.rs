@@ -12,6 +12,9 @@ use rigproof_certify::trial::run;
 
 use crate::bench::{SOUND_A, begin, compiled, compiler, faulty, foreign, limits, trial};
 
+/// Samples of a trial whose last one is the faulty tick: what that one commands is what the trial answers.
+const REACHED: u32 = 3;
+
 /// How often a trial of a controller was not repeated.
 fn not_repeated(library: &Path) -> u32 {
     let source = foreign(library, limits());
@@ -70,14 +73,16 @@ fn a_library_that_is_swapped_or_taken_away_is_the_one_that_was_hashed() {
     };
     let bytes = std::fs::read(&library).unwrap();
     let other = faulty("hostile_other", &[("IN_TICK", "currents_a[1] = 0.5")]).unwrap();
+    // The other one is told from it.
+    assert_ne!(trial(&foreign(&other, limits()), REACHED), Ok(SOUND_A));
     let source = foreign(&library, limits());
     assert_eq!(source.sha256(), digest::of_bytes(&bytes));
     std::fs::remove_file(&library).unwrap();
     std::fs::copy(&other, &library).unwrap();
-    assert_eq!(trial(&source, 5), Ok(SOUND_A));
+    assert_eq!(trial(&source, REACHED), Ok(SOUND_A));
     source.end();
     std::fs::remove_file(&library).unwrap();
-    assert_eq!(trial(&source, 5), Ok(SOUND_A));
+    assert_eq!(trial(&source, REACHED), Ok(SOUND_A));
 }
 
 #[test]
@@ -145,12 +150,15 @@ fn other_processes_and_the_network_are_out_of_reach() {
     let Some(library) = reaching("hostile_reaching", REACHES) else {
         return;
     };
+    // What it reaches is seen in its currents.
+    let open = reaching("hostile_open", "if (getppid() > 1) currents_a[2] = 0.5").unwrap();
+    assert_ne!(trial(&foreign(&open, limits()), REACHED), Ok(SOUND_A));
     let source = foreign(&library, limits());
     if source.lacks().iter().any(|lack| lack.contains("seccomp")) {
         println!("passed over: this system has no filter");
         return;
     }
-    assert_eq!(trial(&source, 5), Ok(SOUND_A));
+    assert_eq!(trial(&source, REACHED), Ok(SOUND_A));
 }
 
 /// The campaign's memory, through /proc: as another user than root it cannot be opened, and as root the certificate says that it can.
@@ -164,7 +172,7 @@ fn the_campaign_s_memory_is_closed_or_it_is_said_that_it_is_not() {
         return;
     };
     let source = foreign(&library, limits());
-    let [_, opened_a, ..] = trial(&source, 5).unwrap();
+    let [_, opened_a, ..] = trial(&source, REACHED).unwrap();
     let is_root = source.lacks().iter().any(|lack| lack.contains("as root"));
     println!(
         "as root: {is_root}; the campaign's memory was opened: {}",

@@ -1,0 +1,77 @@
+"""This file diagnoses: what the program's verb of that name does, from files or from arrays."""
+
+from __future__ import annotations
+
+import os
+import sys
+import tempfile
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from . import _rigproof
+from ._errors import Error
+from ._recording import taken
+from ._report import Report
+from ._rig import Rig
+
+
+def diagnose(
+    recording: Any,
+    rig: Any,
+    hold_out: Any = None,
+    progress: bool | Callable[[float], object] = True,
+    *,
+    units: Mapping[str, str] | None = None,
+    time: str | None = None,
+    from_s: float | None = None,
+    to_s: float | None = None,
+    calibrate: int | None = None,
+    jobs: int = 0,
+    out: str | os.PathLike[str] | None = None,
+) -> Report:
+    """Finds out why a recording disagrees with its rig's model.
+
+    recording: a path (CSV, MCAP, or a folder of them), a dict of arrays of shape (n,), a frame of pandas or polars, or a list of these, which are diagnosed
+    together. rig: a path, a dict, or a Rig. hold_out: another recording, or the share (0.05 to 0.8) of the end on which the result is shown; 0.25 where it is
+    None. units: the unit of each column of arrays, such as {"q": "deg"}; where it says nothing the rig's own counts. time: the column of time stamps; `time`,
+    `t`, `timestamp` and the like are found. Whole numbers, such as nanoseconds, count from the first. from_s, to_s: what lies between these stamps counts.
+    calibrate: so many simulated recordings say what the result is worth. jobs: 0 takes every processor; the result does not depend on it. progress: True shows
+    the seconds on a terminal, a callable is called with them. out: the folder to write; a temporary one where it is None.
+
+    Raises rigproof.Error where an input is not usable. Ctrl-C raises KeyboardInterrupt at once; the thread that computes ends by itself a while later.
+    """
+    several: Sequence[Any] = recording if isinstance(recording, (list, tuple)) else [recording]
+    if not several:
+        raise Error("recording: the list is empty; give at least one recording")
+    many = len(several) > 1
+    given = [taken(one, units or {}, time, f"recording {k + 1}" if many else "recording") for k, one in enumerate(several)]
+    is_share = isinstance(hold_out, (int, float)) and not isinstance(hold_out, bool)
+    held_out = None if hold_out is None or is_share else taken(hold_out, units or {}, time, "hold_out")
+    scratch = None
+    if out is None:
+        scratch = tempfile.TemporaryDirectory(prefix="rigproof-", ignore_cleanup_errors=True)
+        out = os.path.join(scratch.name, "diagnosis")
+    tick = progress if callable(progress) else _shown if progress and sys.stderr.isatty() else None
+    try:
+        curves = _rigproof.diagnose(
+            given,
+            Rig.of(rig).given(),
+            os.fspath(out),
+            held_out=held_out,
+            hold_out_share=float(hold_out) if is_share else None,
+            between_s=(from_s, to_s),
+            calibrate=calibrate,
+            jobs=jobs,
+            tick=tick,
+        )
+    except ValueError as error:
+        raise Error(str(error)) from None
+    finally:
+        if tick is _shown:
+            sys.stderr.write("\r\x1b[K")
+    return Report(os.fspath(out), curves, scratch)
+
+
+def _shown(seconds: float) -> None:
+    sys.stderr.write(f"\rdiagnosing, {seconds:.0f} s")
+    sys.stderr.flush()
