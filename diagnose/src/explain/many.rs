@@ -5,7 +5,7 @@ use super::fitted::{Fitted, Folds};
 use super::score::{Judge, gives_energy, prior};
 use super::{Explanation, Explanations, candidates, selected};
 use crate::problem::{Problem, Term};
-use crate::regression::{free_columns, reduced_target};
+use crate::regression::{Blocks, fit, free_columns, reduced_target};
 use crate::rules::{LEAST_CORRELATION, LISTED, MOST_LAGS, MOST_OF_MANY, ROWS_A_SAMPLE};
 use crate::select::{Selection, usable_rms};
 use rayon::prelude::*;
@@ -13,19 +13,14 @@ use std::sync::Arc;
 
 /// Explains a recording of many places on top of the terms of its nominal model.
 pub fn explain_many(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection, Explanations) {
-    let mut rows = ROWS_A_SAMPLE;
-    let mut noise = problem.floor;
-    // Twice: what the first explanation leaves is noise and correlation of the second.
-    for _ in 0..2 {
-        let round = Round::of(problem, &nominal, noise, rows);
-        let leading = round.searched(problem);
-        let raw = raw_residual(problem, &nominal, &leading.terms);
-        noise = usable_rms(problem, &raw).max(problem.floor);
-        problem.rewhiten(noise);
-        nominal.iter_mut().for_each(|term| problem.refresh(term));
-        let white = problem.whitener.whiten(&raw);
-        rows = rows_a_sample(problem, &white);
-    }
+    // Noise and its correlation are of what is left with everything plain free: whatever an explanation leaves beyond that is not noise.
+    let raw = plain_residual(problem, &nominal);
+    let noise = usable_rms(problem, &raw).max(problem.floor);
+    problem.rewhiten(noise);
+    nominal.iter_mut().for_each(|term| problem.refresh(term));
+    // Again, with every equation's own noise.
+    let raw = plain_residual(problem, &nominal);
+    let rows = rows_a_sample(problem, &problem.whitener.whiten(&raw));
     let round = Round::of(problem, &nominal, noise, rows);
     let leading = round.searched(problem);
     let living = round.neighbours(problem, &leading, noise);
@@ -33,9 +28,12 @@ pub fn explain_many(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection
     (selected(problem, nominal, &explanations), explanations)
 }
 
-fn raw_residual(problem: &Problem, nominal: &[Term], terms: &[Term]) -> Vec<f64> {
-    let all: Vec<&Term> = nominal.iter().chain(terms).collect();
-    crate::regression::fit(problem, &all, &crate::regression::Blocks::new(problem)).residual
+/// What is left of each row with every mechanism free that has no shape to be looked for.
+fn plain_residual(problem: &Problem, nominal: &[Term]) -> Vec<f64> {
+    let tried = candidates(problem, nominal);
+    let plain = tried.iter().filter(|term| term.shape.is_empty());
+    let all: Vec<&Term> = nominal.iter().chain(plain).collect();
+    fit(problem, &all, &Blocks::new(problem)).residual
 }
 
 /// Rows that say as much as one that is independent of all others, from what is left of each equation.

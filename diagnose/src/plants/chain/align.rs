@@ -116,7 +116,7 @@ fn joint(recording: &ChainRecording, k: usize, step_s: f64) -> Result<Aligned, F
     let noise = (quantum / 12f64.sqrt()).hypot(position.noise.unwrap_or(0.0));
     let of_effort = effort
         .noise
-        .unwrap_or_else(|| smallest_step(&tau) / 12f64.sqrt());
+        .unwrap_or_else(|| (smallest_step(&tau) / 12f64.sqrt()).max(scatter(&tau)));
     let cutoff_hz = ARM_PERIODS / ARM_WIDTH_S;
     let (mut motion, floor) = smoothed_motion(&q, step_s, cutoff_hz, noise);
     let still = (STILL_QUANTA * quantum).max(STILL_SIGMAS * noise);
@@ -130,6 +130,21 @@ fn joint(recording: &ChainRecording, k: usize, step_s: f64) -> Result<Aligned, F
         noise: [noise, of_effort],
     })
 }
+
+/// The standard deviation of a signal's noise by the median of its second differences, to which a motion adds little at the rate of a recording.
+fn scatter(signal: &[f64]) -> f64 {
+    let second = signal.windows(3).map(|own| match own {
+        [a, b, c] => (a - 2.0 * b + c).abs(),
+        _ => 0.0,
+    });
+    let mut sizes: Vec<f64> = second.collect();
+    sizes.sort_by(f64::total_cmp);
+    let median = sizes.get(sizes.len() / 2).copied().unwrap_or(0.0);
+    median / NORMAL_MEDIAN / 6f64.sqrt()
+}
+
+/// Half of the absolute values of normal noise of variance 1 lie below.
+const NORMAL_MEDIAN: f64 = 0.674_489_750_196_081_7;
 
 /// The equations along a motion: what the description gives, and what each inertial number adds.
 fn equations(chain: &Chain, joints: &[Aligned], step_s: f64) -> ChainRun {
