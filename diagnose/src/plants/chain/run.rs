@@ -231,13 +231,17 @@ impl Run for ChainRun {
         [rms(&curved), rms(&effort)]
     }
 
+    /// What nothing explains is slower than a window: as white effort it would be looked for above the band that a window lets pass.
     fn whitener(&self, windows: &Windows, excess: f64) -> Whitener {
         let outputs = self.names.len();
         let uneven = self.uneven(windows);
         let each = self.noise.iter().zip(&self.masses).zip(uneven);
         let each = each.map(|(([position, effort], mass), uneven)| {
-            let sensors = [position * mass, *effort];
-            windows.noise_covariance(sensors, excess * uneven * uneven, NOISE_ORDER + 1)
+            let mut own = windows.noise_covariance([position * mass, *effort], 0.0, NOISE_ORDER + 1);
+            if let Some(variance) = own.first_mut() {
+                *variance += excess * uneven * uneven;
+            }
+            own
         });
         let each: Vec<Vec<f64>> = each.collect();
         Whitener::banded(&windows.usable, NOISE_ORDER * outputs, |row, earlier| {
