@@ -15,11 +15,13 @@ use std::sync::Arc;
 pub fn explain_many(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection, Explanations) {
     // Noise and its correlation are of what is left with everything plain free: whatever an explanation leaves beyond that is not noise.
     let raw = plain_residual(problem, &nominal);
+    problem.rewhiten(usable_rms(problem, &raw));
+    nominal.iter_mut().for_each(|term| problem.refresh(term));
+    // Again, with every equation weighed by its own noise.
+    let raw = plain_residual(problem, &nominal);
     let noise = usable_rms(problem, &raw).max(problem.floor);
     problem.rewhiten(noise);
     nominal.iter_mut().for_each(|term| problem.refresh(term));
-    // Again, with every equation's own noise.
-    let raw = plain_residual(problem, &nominal);
     let rows = rows_a_sample(problem, &problem.whitener.whiten(&raw));
     let round = Round::of(problem, &nominal, noise, rows);
     let leading = round.searched(problem);

@@ -37,8 +37,8 @@ rules! {
     MOST_TERMS: usize = 3, "terms", DRIVEN;
     /// An arm: the most terms of its explanation.
     MOST_OF_MANY: usize = 48, "terms", REASON;
-    /// An arm: the width of a window. A test function of this width lets pass half of the power at 8 Hz, as the low-pass that arms are fitted behind.
-    ARM_WIDTH_S: f64 = 0.11, "s", REASON;
+    /// An arm: the width of a window. A test function of this width lets pass half of the amplitude at 8 Hz, as a low-pass run forward and backward that arms are fitted behind.
+    ARM_WIDTH_S: f64 = 0.155, "s", REASON;
     /// An arm: cut-off of the positions' smoothing, periods in a width of a window.
     ARM_PERIODS: f64 = 3.0, "periods", REASON;
     /// An arm: lags over which the correlation of what is left is summed.
