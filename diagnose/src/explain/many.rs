@@ -9,6 +9,7 @@ use crate::regression::{Blocks, fit, free_columns, reduced_target};
 use crate::rules::{LEAST_CORRELATION, LISTED, MOST_LAGS, MOST_OF_MANY, ROWS_A_SAMPLE};
 use crate::select::{Selection, usable_rms};
 use rayon::prelude::*;
+use rigproof_spec::effect::Mechanism;
 use std::sync::Arc;
 
 /// Explains a recording of many places on top of the terms of its nominal model.
@@ -51,6 +52,12 @@ fn rows_a_sample(problem: &Problem, white: &[f64]) -> f64 {
     ROWS_A_SAMPLE * (1.0 + 2.0 * sum)
 }
 
+/// Whether it is other masses of a link on which some effort hangs.
+fn is_link(term: &Term) -> bool {
+    let acts = || term.free.iter().any(|own| own.raw.iter().any(|x| *x != 0.0));
+    term.cause.mechanism == Mechanism::LinkInertia && acts()
+}
+
 /// One search under one noise model.
 struct Round {
     folds: Folds,
@@ -78,9 +85,20 @@ impl Round {
         self.judge.evidence(&self.folds, fitted) + prior(problem, &fitted.terms)
     }
 
-    /// The explanation to which nothing can be added and from which nothing can be taken that would make it more probable.
+    /// The better of two searches: from nothing, and from other masses of every link, which show beside one another only.
     fn searched(&self, problem: &Problem) -> Fitted {
-        let mut best = (self.score(problem, &self.bare), self.bare.clone());
+        let links = self.tried.iter().filter(|term| is_link(term)).cloned();
+        let links = self.bare.of(&self.folds, &links.collect::<Vec<_>>());
+        let from_links = self.climbed(problem, (self.score(problem, &links), links), false);
+        let from_links = self.pruned(problem, from_links);
+        let nothing = (self.score(problem, &self.bare), self.bare.clone());
+        let ends = [nothing, from_links].map(|start| self.climbed(problem, start, true));
+        let best = ends.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
+        best.map_or_else(|| self.bare.clone(), |own| own.1)
+    }
+
+    /// The explanation to which nothing can be added, and if `prunes` from which nothing can be taken, that would make it more probable.
+    fn climbed(&self, problem: &Problem, mut best: (f64, Fitted), prunes: bool) -> (f64, Fitted) {
         let mut hopeful = vec![true; self.tried.len()];
         while best.1.terms.len() < MOST_OF_MANY {
             let grown = self.grown(problem, &best, &mut hopeful).or_else(|| {
@@ -89,9 +107,12 @@ impl Round {
                 self.grown(problem, &best, &mut hopeful)
             });
             let Some(grown) = grown else { break };
-            best = self.pruned(problem, grown);
+            best = match prunes {
+                true => self.pruned(problem, grown),
+                false => grown,
+            };
         }
-        best.1
+        best
     }
 
     /// With the term that helps most; those that do not help are no longer hoped for.

@@ -56,7 +56,11 @@ pub fn prior(problem: &Problem, terms: &[Term]) -> f64 {
 
 fn odds(problem: &Problem, term: &Term) -> f64 {
     let empty = |rows: &&Arc<Rows>| rows.raw.iter().all(|x| *x == 0.0);
-    let free = term.free.len() - term.free.iter().filter(empty).count();
+    // The numbers of a link are wrong together: one description gives them all. What each costs the left-out blocks say.
+    let free = match term.cause.mechanism {
+        Mechanism::LinkInertia => 1,
+        _ => term.free.len() - term.free.iter().filter(empty).count(),
+    };
     let numbers =
         free.max(1) + searched(problem, term) + usize::from(term.onset_s.is_some());
     // The first number of a shape takes the place of a coefficient that is not there.
