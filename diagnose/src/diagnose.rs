@@ -12,7 +12,7 @@ pub(crate) mod write;
 use crate::align::Fault;
 use crate::cause::{Cause, Place};
 use crate::evidence::{inconstant, is_told_by_itself, rivals};
-use crate::explain::{Explanations, explain};
+use crate::explain::{Explanations, explain, explain_many};
 use crate::plant::{At, Plant, Run};
 use crate::problem::{Problem, Term};
 use crate::report::Report;
@@ -189,6 +189,10 @@ fn named(
     options: &Options,
 ) -> (Selection, Option<Explanations>) {
     let whitener = problem.whitener.clone();
+    if problem.rules.many {
+        let (selection, explanations) = explain_many(problem, terms);
+        return (selection, Some(explanations));
+    }
     if problem.rules.by_family {
         let selection = select(problem, terms.clone(), options.gates);
         if is_noise(problem, &selection.after) {

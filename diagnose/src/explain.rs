@@ -4,6 +4,7 @@ mod beam;
 mod discrepancy;
 mod fitted;
 mod late;
+mod many;
 mod refine;
 mod score;
 
@@ -14,6 +15,7 @@ use crate::regression::{Blocks, fit, free_columns, paired, reduced_target};
 use crate::rules::{EXCHANGES, LISTED, NAMED, OFFERED, ROWS_A_SAMPLE, SUSPECTED};
 use crate::select::{Found, Selection, Stage, is_noise, refined, usable_rms};
 use fitted::{Fitted, Folds};
+pub use many::explain_many;
 use rayon::prelude::*;
 use rigproof_model::effects::{Form, facts, form};
 use rigproof_spec::effect::Mechanism;

@@ -125,6 +125,8 @@ pub enum OfJoint {
     Inertia,
     /// An inertia behind a spring.
     Compliance,
+    /// Other masses of a link of an arm.
+    Link,
 }
 
 /// A change of the driving effort.
@@ -263,6 +265,7 @@ pub const LIBRARY: &[Entry] = &[
     driven::LOAD_FRICTION,
     driven::FRICTION_FADE,
     driven::ADDED_INERTIA,
+    driven::LINK_INERTIA,
     driven::COMPLIANCE,
     linkage::GRAVITY,
     linkage::INERTIA_ERROR,

@@ -19,6 +19,7 @@
 pub mod axis;
 pub mod bench;
 pub mod brake;
+pub mod chain;
 pub mod control;
 pub mod effects;
 pub mod encoder;

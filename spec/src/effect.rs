@@ -180,6 +180,19 @@ vocabulary! {
     FrictionFade = "friction_fade" | "warming up" [needed("rate", PerTime)],
     /// Another inertia than the described one.
     AddedInertia = "added_inertia" | "load inertia" [needed("inertia", Inertia)],
+    /// Other inertial numbers of a link than the described ones, as far as efforts hang on them.
+    LinkInertia = "link_inertia" | "base parameters" | "link mass" [
+        needed("mass", Mass),
+        needed("x", FirstMoment),
+        needed("y", FirstMoment),
+        needed("z", FirstMoment),
+        needed("xx", MomentOfInertia),
+        needed("xy", MomentOfInertia),
+        needed("xz", MomentOfInertia),
+        needed("yy", MomentOfInertia),
+        needed("yz", MomentOfInertia),
+        needed("zz", MomentOfInertia),
+    ],
     /// A greatest effort of the drive.
     DriveSaturation = "drive_saturation" | "torque limit" [needed("limit", Effort).above_zero()],
     /// An encoder whose disc turns off its centre.
@@ -306,6 +319,8 @@ pub enum Quantity {
     Mass,
     /// Kilograms times squared metres, whatever the plant does.
     MomentOfInertia,
+    /// Kilograms times metres, whatever the plant does.
+    FirstMoment,
     /// Newtons, whatever the plant does.
     Force,
     /// Radians, whatever the plant does.
@@ -348,6 +363,7 @@ impl Quantity {
             Quantity::Mass => Dimension::FORCE
                 .per(Dimension::LENGTH)
                 .times(Dimension::TIME.power(2)),
+            Quantity::FirstMoment => Dimension::FORCE.times(Dimension::TIME.power(2)),
             Quantity::MomentOfInertia => Dimension::FORCE
                 .times(Dimension::LENGTH)
                 .times(Dimension::TIME.power(2)),

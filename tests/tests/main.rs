@@ -2,6 +2,7 @@
 
 mod budget;
 
+mod arm;
 mod blind_brake;
 mod blind_rig;
 mod blind_slice;

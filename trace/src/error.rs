@@ -203,7 +203,8 @@ impl TraceError {
         }
     }
 
-    pub(crate) fn recording(file: &Path, problem: impl Into<String>) -> TraceError {
+    /// A recording or its rig that does not serve.
+    pub fn recording(file: &Path, problem: impl Into<String>) -> TraceError {
         TraceError::Recording {
             file: file.to_path_buf(),
             problem: problem.into(),

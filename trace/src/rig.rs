@@ -5,6 +5,7 @@
 
 mod apply;
 mod brake;
+pub mod chain;
 pub mod five_bar;
 pub mod linkage;
 mod messages;

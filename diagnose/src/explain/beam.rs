@@ -130,7 +130,7 @@ fn by_evidence(folds: &Folds, judge: &Judge, all: Vec<Fitted>) -> Vec<Fitted> {
 }
 
 /// A cause stands once in an explanation, in one form, and so does a bristle: a second one only mends the form of the first.
-fn may_join(terms: &[Term], term: &Term) -> bool {
+pub fn may_join(terms: &[Term], term: &Term) -> bool {
     let same = |own: &Term| {
         let (a, b) = (own.cause.mechanism, term.cause.mechanism);
         own.cause.at == term.cause.at && (kind(a) == kind(b) || is_bristle(a) && is_bristle(b))

@@ -2,11 +2,12 @@
 
 use super::fitted::{Fitted, Folds};
 use crate::candidates::{is_end, shape_bounds};
-use crate::problem::{Problem, Term};
+use crate::problem::{Problem, Rows, Term};
 use crate::rules::{A_NUMBER, RELEVANT_NOISE, USUAL_ODDS};
 use rigproof_model::effects::facts::Usual;
 use rigproof_model::effects::{entry, facts};
 use rigproof_spec::effect::Mechanism;
+use std::sync::Arc;
 
 /// Judges explanations of one problem.
 pub struct Judge {
@@ -54,8 +55,14 @@ pub fn prior(problem: &Problem, terms: &[Term]) -> f64 {
 }
 
 fn odds(problem: &Problem, term: &Term) -> f64 {
+    let empty = |rows: &&Arc<Rows>| rows.raw.iter().all(|x| *x == 0.0);
+    // The numbers of a link are wrong together: one description gives them all. What each costs the left-out blocks say.
+    let free = match term.cause.mechanism {
+        Mechanism::LinkInertia => 1,
+        _ => term.free.len() - term.free.iter().filter(empty).count(),
+    };
     let numbers =
-        term.free.len().max(1) + searched(problem, term) + usize::from(term.onset_s.is_some());
+        free.max(1) + searched(problem, term) + usize::from(term.onset_s.is_some());
     // The first number of a shape takes the place of a coefficient that is not there.
     let numbers = numbers - usize::from(term.free.is_empty() && !term.shape.is_empty());
     usual(term.cause.mechanism) - A_NUMBER * numbers.saturating_sub(1) as f64

@@ -29,6 +29,8 @@ pub struct Rules {
     pub constancy: bool,
     /// Whether a name is withdrawn where a free curve over its own variable takes much of what is left.
     pub curves: bool,
+    /// Whether many places may lack something at once: names are then added one by one to one explanation and taken out again, not weighed in small sets.
+    pub many: bool,
 }
 
 impl Rules {
@@ -44,6 +46,13 @@ impl Rules {
         by_window: false,
         constancy: false,
         curves: true,
+        many: false,
+    };
+
+    /// As for one equation; an arm lacks something at every joint.
+    pub const ARM: Rules = Rules {
+        many: true,
+        ..Rules::ONE_EQUATION
     };
 
     /// Chosen on recordings of a linkage: an effect often lives in few blocks.
@@ -58,5 +67,6 @@ impl Rules {
         by_window: true,
         constancy: true,
         curves: false,
+        many: false,
     };
 }

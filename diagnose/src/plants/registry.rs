@@ -5,6 +5,7 @@ use crate::plant::{Described, Plant, Replayed, Simulated, Unsimulated};
 use rand_pcg::Pcg64Mcg;
 use rigproof_trace::csv::{Dialect, Hints};
 use rigproof_trace::rig::Rig;
+use rigproof_trace::rig::chain::ChainRig;
 use rigproof_trace::rig::five_bar::FiveBar;
 use rigproof_trace::{Trace, TraceError, store};
 use std::path::Path;
@@ -222,6 +223,7 @@ macro_rules! plants {
 // The first that a text describes takes it.
 plants! {
     #[doc = "The five-bar."] FiveBar(FiveBar),
+    #[doc = "A serial arm."] Chain(ChainRig),
     #[doc = "A plant of one joint."] Joint(Rig),
 }
 

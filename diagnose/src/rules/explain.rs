@@ -35,6 +35,14 @@ rules! {
     LATE: usize = 2, "explanations", REASON;
     /// The most terms of one explanation.
     MOST_TERMS: usize = 3, "terms", DRIVEN;
+    /// An arm: the most terms of its explanation.
+    MOST_OF_MANY: usize = 48, "terms", REASON;
+    /// An arm: the width of a window. A test function of this width lets pass half of the amplitude at 8 Hz, as a low-pass run forward and backward that arms are fitted behind.
+    ARM_WIDTH_S: f64 = 0.155, "s", REASON;
+    /// An arm: cut-off of the positions' smoothing, periods in a width of a window.
+    ARM_PERIODS: f64 = 3.0, "periods", REASON;
+    /// An arm: lags over which the correlation of what is left is summed.
+    MOST_LAGS: usize = 24, "windows", REASON;
     /// Explanations of each size that are gone on from.
     BEAM: usize = 6, "explanations", DRIVEN;
     /// Explanations of each size that are kept to be weighed.

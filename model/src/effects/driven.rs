@@ -81,6 +81,30 @@ pub(super) const ADDED_INERTIA: Entry = Entry {
     },
 };
 
+pub(super) const LINK_INERTIA: Entry = Entry {
+    mechanism: Mechanism::LinkInertia,
+    form: Form::Joint(OfJoint::Link),
+    linear: 10,
+    passive: false,
+    refuted_by: "the described weight and centre of the link on a scale",
+    equation: "regressor·(numbers − described numbers), of the link's base parameters",
+    facts: Facts {
+        in_sets: true,
+        usual: Usual::Frequent,
+        ..Facts::of(
+            Family::Inertia,
+            Asked {
+                alone: Alone::Never,
+                five_bar: Where::Nowhere,
+            },
+            Words {
+                what: "other inertial numbers of a link",
+                look_for: "a payload, a tool, cables, inertias that were guessed",
+            },
+        )
+    },
+};
+
 pub(super) const COMPLIANCE: Entry = Entry {
     mechanism: Mechanism::Compliance,
     form: Form::Joint(OfJoint::Compliance),

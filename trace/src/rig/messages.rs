@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::chain::{ChainRecording, ChainRig};
 use super::five_bar::{FiveBar, FiveBarRecording};
 use super::{ChannelMap, Recording, Rig, TimeColumn};
 use crate::error::TraceError;
@@ -45,6 +46,20 @@ impl FiveBar {
         let measured = channels.theta.iter().chain(&channels.force);
         let currents = channels.currents.iter().flatten();
         let reading = mcap::read(path, &selected(measured, currents, &channels.time))?;
+        let mut lines = reading.integrity.lines();
+        lines.extend(reading.protocol);
+        Ok((self.apply(&reading.trace, path)?, lines))
+    }
+}
+
+impl ChainRig {
+    /// Reads a recording of this arm from an MCAP file, and says how. The time is that of the first joint's position.
+    ///
+    /// # Errors
+    /// As [`mcap::read()`] and [`ChainRig::apply`].
+    pub fn read_mcap(&self, path: &Path) -> Result<(ChainRecording, Vec<String>), TraceError> {
+        let selection = selected(self.maps().into_iter(), [].into_iter(), &self.time);
+        let reading = mcap::read(path, &selection)?;
         let mut lines = reading.integrity.lines();
         lines.extend(reading.protocol);
         Ok((self.apply(&reading.trace, path)?, lines))

@@ -167,7 +167,7 @@ impl Free {
                     });
                 }
                 // Its laws do that.
-                OfJoint::Fade => {}
+                OfJoint::Fade | OfJoint::Link => {}
             }
         }
         self.axis.inertia = self.axis.inertia.max(LEAST_INERTIA * self.inertia);

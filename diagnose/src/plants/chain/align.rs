@@ -1,0 +1,237 @@
+//! This file puts a recording of an arm on regular samples and sets up the equations of its joints.
+
+use super::run::ChainRun;
+use crate::align::{
+    Fault, check_clock, check_missing, forget_sense_at_rest, median_step, regular_count, resample,
+    smallest_step, smoothed_motion,
+};
+use crate::filter::gradient;
+use crate::rules::{ARM_PERIODS, ARM_WIDTH_S, STILL_QUANTA, STILL_SIGMAS};
+use core::f64::consts::TAU;
+use rigproof_model::chain::{Chain, INERTIAL};
+use rigproof_model::effects::Instant;
+use rigproof_spec::effect::Motion;
+use rigproof_trace::rig::chain::{ChainRecording, ChainRig};
+use std::collections::BTreeSet;
+use std::sync::{Mutex, PoisonError};
+
+/// A fault of a channel over the whole recording.
+pub(super) fn fault(channel: &'static str, reason: String) -> Fault {
+    Fault {
+        channel,
+        from_s: 0.0,
+        to_s: 0.0,
+        reason,
+    }
+}
+
+/// A name that lasts: reports hold the names of places as long as the program runs.
+pub(super) fn lasting(name: &str) -> &'static str {
+    static NAMES: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
+    let mut names = NAMES.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(own) = names.get(name) {
+        return own;
+    }
+    let own: &'static str = Box::leak(name.to_owned().into_boxed_str());
+    names.insert(own);
+    own
+}
+
+/// The arm of a description: its URDF, each joint with a channel.
+pub(super) fn arm(rig: &ChainRig) -> Result<Chain, String> {
+    let tip = rig.tip.as_deref();
+    let chain = Chain::from_urdf(&rig.model, tip);
+    let chain = chain.map_err(|error| format!("{}: {error}", rig.urdf))?;
+    let known: Vec<&str> = chain.joints.iter().map(|own| own.name.as_str()).collect();
+    for joint in &rig.joints {
+        if !known.contains(&joint.name.as_str()) {
+            return Err(format!(
+                "`{}` is no moving joint of {}; it has {}",
+                joint.name,
+                rig.urdf,
+                known.join(", ")
+            ));
+        }
+    }
+    for own in &chain.joints {
+        let Some(joint) = rig.joints.iter().find(|joint| joint.name == own.name) else {
+            return Err(format!(
+                "joint `{}` of {} has no `[[joint]]`: its position and effort are needed, or end the arm before it (`tip`)",
+                own.name, rig.urdf
+            ));
+        };
+        let slides = own.kind == rigproof_model::chain::Kind::Prismatic;
+        if slides != (joint.motion == Motion::Linear) {
+            let word = if slides { "linear" } else { "rotary" };
+            return Err(format!("joint `{}` needs `motion = \"{word}\"`", own.name));
+        }
+    }
+    Ok(chain)
+}
+
+/// A joint's channels on regular samples.
+struct Aligned {
+    position: Vec<f64>,
+    effort: Vec<f64>,
+    recorded: Vec<bool>,
+    motion: Vec<Instant>,
+    floor: f64,
+    noise: [f64; 2],
+}
+
+/// Aligns a recording, or says why nothing can be concluded from it.
+pub(super) fn aligned(rig: &ChainRig, recording: &ChainRecording) -> Result<ChainRun, Fault> {
+    let chain = arm(rig).map_err(|reason| fault("urdf", reason))?;
+    let step_s = median_step(&recording.time_s);
+    check_clock(&recording.time_s, step_s)?;
+    let place = |name: &str| rig.joints.iter().position(|joint| joint.name == name);
+    let each = chain.joints.iter().filter_map(|own| place(&own.name));
+    let each = each.map(|k| joint(recording, k, step_s));
+    let joints: Vec<Aligned> = each.collect::<Result<_, Fault>>()?;
+    for (own, joint) in chain.joints.iter().zip(&joints) {
+        let most = joint.position.iter().fold(0.0, |m: f64, q| m.max(q.abs()));
+        if own.kind == rigproof_model::chain::Kind::Revolute && most > 4.0 * TAU {
+            let reason = format!(
+                "joint `{}` goes to {most:.0} rad, beyond four turns: are these degrees? say `unit = \"deg\"`",
+                own.name
+            );
+            return Err(fault("position", reason));
+        }
+    }
+    Ok(equations(&chain, &joints, step_s))
+}
+
+fn joint(recording: &ChainRecording, k: usize, step_s: f64) -> Result<Aligned, Fault> {
+    let time_s = &recording.time_s;
+    let (Some(position), Some(effort)) = (recording.position.get(k), recording.effort.get(k))
+    else {
+        return Err(fault("position", "a joint has no channel".to_owned()));
+    };
+    check_missing("position", time_s, &position.samples)?;
+    check_missing("effort", time_s, &effort.samples)?;
+    let count = regular_count(time_s, step_s);
+    let (q, recorded) = resample(time_s, &position.samples, step_s, count);
+    let (tau, also) = resample(time_s, &effort.samples, step_s, count);
+    let quantum = position.quantum.unwrap_or_else(|| smallest_step(&q));
+    let noise = (quantum / 12f64.sqrt()).hypot(position.noise.unwrap_or(0.0));
+    let of_effort = effort
+        .noise
+        .unwrap_or_else(|| (smallest_step(&tau) / 12f64.sqrt()).max(scatter(&tau)));
+    let cutoff_hz = ARM_PERIODS / ARM_WIDTH_S;
+    let (mut motion, floor) = smoothed_motion(&q, step_s, cutoff_hz, noise);
+    let still = (STILL_QUANTA * quantum).max(STILL_SIGMAS * noise);
+    forget_sense_at_rest(&mut motion, &q, step_s, still);
+    Ok(Aligned {
+        position: q,
+        effort: tau,
+        recorded: recorded.iter().zip(also).map(|(a, b)| *a && b).collect(),
+        motion,
+        floor,
+        noise: [noise, of_effort],
+    })
+}
+
+/// The standard deviation of a signal's noise by the median of its second differences, to which a motion adds little at the rate of a recording.
+fn scatter(signal: &[f64]) -> f64 {
+    let second = signal.windows(3).map(|own| match own {
+        [a, b, c] => (a - 2.0 * b + c).abs(),
+        _ => 0.0,
+    });
+    let mut sizes: Vec<f64> = second.collect();
+    sizes.sort_by(f64::total_cmp);
+    let median = sizes.get(sizes.len() / 2).copied().unwrap_or(0.0);
+    median / NORMAL_MEDIAN / 6f64.sqrt()
+}
+
+/// Half of the absolute values of normal noise of variance 1 lie below.
+const NORMAL_MEDIAN: f64 = 0.674_489_750_196_081_7;
+
+/// The equations along a motion: what the description gives, and what each inertial number adds.
+fn equations(chain: &Chain, joints: &[Aligned], step_s: f64) -> ChainRun {
+    let (count, samples) = (
+        joints.len(),
+        joints.first().map_or(0, |own| own.motion.len()),
+    );
+    let base = chain.base();
+    let parameters = chain.parameters();
+    let all = base.columns.len();
+    let mut momentum = vec![vec![0.0; count * samples]; all + 1];
+    let mut rest = momentum.clone();
+    for k in 0..samples {
+        let at = |of: fn(&Instant) -> f64| -> Vec<f64> {
+            let each = joints.iter();
+            each.map(|own| own.motion.get(k).map_or(0.0, of)).collect()
+        };
+        let own = chain.momentum(&at(|now| now.position), &at(|now| now.speed));
+        for (from, to) in [(&own.momentum, &mut momentum), (&own.rest, &mut rest)] {
+            for joint in 0..count {
+                let row = from.row(joint);
+                let numbers = base
+                    .columns
+                    .iter()
+                    .map(|&c| row.get(c).copied().unwrap_or(0.0));
+                let whole: f64 = row.iter().zip(&parameters).map(|(x, p)| x * p).sum();
+                for (signal, value) in to.iter_mut().zip(numbers.chain([whole])) {
+                    if let Some(slot) = signal.get_mut(joint * samples + k) {
+                        *slot = value;
+                    }
+                }
+            }
+        }
+    }
+    let signals = momentum.into_iter().zip(rest).map(|(momentum, rest)| {
+        let stretches = momentum.chunks(samples.max(1));
+        let rates = stretches.flat_map(|own| gradient(own, step_s));
+        rates.zip(rest).map(|(rate, rest)| rate + rest).collect()
+    });
+    let mut signals: Vec<Vec<f64>> = signals.collect();
+    let mut known = signals.pop().unwrap_or_default();
+    for ((stretch, joint), own) in known
+        .chunks_mut(samples.max(1))
+        .zip(joints)
+        .zip(&chain.joints)
+    {
+        for (slot, now) in stretch.iter_mut().zip(&joint.motion) {
+            *slot += own.damping * now.speed + own.friction * now.sense;
+        }
+    }
+    let mut recorded = vec![true; samples];
+    for joint in joints {
+        recorded
+            .iter_mut()
+            .zip(&joint.recorded)
+            .for_each(|(a, b)| *a = *a && *b);
+    }
+    ChainRun {
+        step_s,
+        start_s: 0.0,
+        names: chain.joints.iter().map(|own| lasting(&own.name)).collect(),
+        motions: joints.iter().map(|own| own.motion.clone()).collect(),
+        effort: joints
+            .iter()
+            .flat_map(|own| own.effort.iter().copied())
+            .collect(),
+        known,
+        links: base
+            .columns
+            .iter()
+            .map(|c| (c / INERTIAL, c % INERTIAL))
+            .zip(signals)
+            .collect(),
+        noise: joints.iter().map(|own| own.noise).collect(),
+        masses: {
+            let middle: Vec<f64> = joints
+                .iter()
+                .map(|own| own.position.get(samples / 2).copied().unwrap_or(0.0))
+                .collect();
+            chain
+                .mass_matrix(&middle)
+                .diagonal()
+                .iter()
+                .copied()
+                .collect()
+        },
+        speed_floor: joints.iter().map(|own| own.floor).fold(0.0, f64::max),
+        recorded,
+    }
+}

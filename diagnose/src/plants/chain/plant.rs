@@ -1,0 +1,169 @@
+//! This file is an arm by its description.
+
+use super::align::{aligned, arm};
+use super::run::ChainRun;
+use crate::align::Fault;
+use crate::cause::{Cause, JointId, Place};
+use crate::diagnose::balance::modelled;
+use crate::diagnose::numbers::fitted;
+use crate::diagnose::write::Stand;
+use crate::effect::Effect;
+use crate::evidence::Intervals;
+use crate::filter::rms;
+use crate::plant::{Described, Plant, Run};
+use crate::problem::Problem;
+use crate::report::FitReport;
+use crate::rules::ARM_WIDTH_S;
+use crate::sensor::sensed;
+use rand_pcg::Pcg64Mcg;
+use rigproof_trace::csv::{Dialect, Hints};
+use rigproof_trace::rig::Status;
+use rigproof_trace::rig::chain::{AtJoint, ChainRecording, ChainRig};
+use rigproof_trace::{Trace, TraceError};
+use std::path::Path;
+
+impl Plant for ChainRig {
+    type Recording = ChainRecording;
+    type Run = ChainRun;
+
+    fn plant_name(&self) -> &'static str {
+        "chain"
+    }
+
+    fn aligned(&self, recording: &ChainRecording, _: f64) -> Result<ChainRun, Fault> {
+        aligned(self, recording)
+    }
+
+    fn part(run: &ChainRun, from: usize, to: usize) -> ChainRun {
+        run.part(from, to)
+    }
+
+    /// The physics of the description beyond its URDF; places go by the order of the arm, not of the file.
+    fn nominal(&self) -> Vec<Effect> {
+        let chain = arm(self).ok();
+        let joints = chain.iter().flat_map(|chain| &chain.joints);
+        let names: Vec<&str> = joints.map(|own| own.name.as_str()).collect();
+        let each = self.effects.iter().filter_map(|own| {
+            let joint = names.iter().position(|name| *name == own.joint)?;
+            let values = &own.effect.values;
+            Some(Effect {
+                cause: Cause::at(own.effect.mechanism, Place::Joint(JointId(joint))),
+                parameters: values.iter().map(|value| value.value).collect(),
+                unknown: values.iter().any(|value| value.status == Status::Unknown),
+                onset_s: own.effect.onset.map(|onset| onset.value),
+            })
+        });
+        each.collect()
+    }
+
+    fn calibrated(stand: &Stand<'_, ChainRig>, intervals: &Intervals) -> ChainRig {
+        let mut rig = stand.plant.clone();
+        let all = fitted(stand.problem, stand.selection, intervals).into_iter();
+        let nominal = stand.selection.nominal.len();
+        let found = all.skip(nominal).zip(&stand.selection.found);
+        rig.effects.extend(found.filter_map(|(effect, found)| {
+            let joint = stand.problem.run.place_name(found.term.cause.at)?;
+            Some(AtJoint {
+                joint: joint.to_owned(),
+                effect,
+            })
+        }));
+        rig
+    }
+
+    /// What the description and the calibration leave of each joint's effort on the held-out part.
+    fn protocol(stand: &Stand<'_, ChainRig>, fit: Option<&FitReport>) -> Vec<String> {
+        let mut lines: Vec<String> = fit.iter().map(|fit| fit.protocol.clone()).collect();
+        let test = stand.test;
+        if test.clock().duration_s() <= ARM_WIDTH_S {
+            return lines;
+        }
+        let problem = Problem::new(test, test.all_windows(ARM_WIDTH_S));
+        let recorded = problem.windows.average(&test.effort());
+        let before = modelled(&problem, &stand.bare(), |_| true);
+        let after = modelled(&problem, stand.selection, |_| true);
+        let outputs = test.outputs();
+        for joint in 0..outputs {
+            let left = |model: &[f64]| {
+                let rows = recorded.iter().zip(model).skip(joint).step_by(outputs);
+                rms(&rows.map(|(r, m)| r - m).collect::<Vec<_>>())
+            };
+            lines.push(format!(
+                "{}: {:.3} → {:.3}, root mean square of the effort left over by inverse dynamics on the held-out part, all windows",
+                test.output_name(joint),
+                left(&before),
+                left(&after)
+            ));
+        }
+        lines
+    }
+}
+
+impl Described for ChainRig {
+    fn describes(text: &str, origin: &Path) -> Result<bool, TraceError> {
+        ChainRig::describes(text, origin)
+    }
+
+    fn read(text: &str, origin: &Path) -> Result<ChainRig, TraceError> {
+        let rig = ChainRig::parse(text, origin)?;
+        arm(&rig).map_err(|reason| TraceError::recording(origin, reason))?;
+        Ok(rig)
+    }
+
+    fn rig_name(&self) -> &str {
+        &self.name
+    }
+
+    fn written(&self) -> String {
+        self.to_toml()
+    }
+
+    fn measured(&self, trace: &Trace, origin: &Path) -> Result<ChainRecording, TraceError> {
+        self.apply(trace, origin)
+    }
+
+    fn in_units(&self, units: &[(String, String)]) -> Result<ChainRig, String> {
+        self.with_column_units(units)
+    }
+
+    fn read_csv(
+        &self,
+        file: &Path,
+        hints: &Hints,
+    ) -> Result<(ChainRecording, Dialect, Vec<String>), TraceError> {
+        self.read_text(file, hints)
+    }
+
+    fn read_messages(&self, file: &Path) -> Result<(ChainRecording, Vec<String>), TraceError> {
+        self.read_mcap(file)
+    }
+
+    fn times_s(recording: &ChainRecording) -> &[f64] {
+        &recording.time_s
+    }
+
+    fn only(recording: &ChainRecording, kept: &[bool]) -> ChainRecording {
+        recording.only(kept)
+    }
+
+    fn sensed(
+        recording: &ChainRecording,
+        [position, effort]: [f64; 2],
+        random: &mut Pcg64Mcg,
+    ) -> ChainRecording {
+        let mut out = recording.clone();
+        for signal in &mut out.position {
+            *signal = sensed(signal, position, random);
+        }
+        for signal in &mut out.effort {
+            *signal = sensed(signal, effort, random);
+        }
+        out
+    }
+
+    fn without_found(&self, calibration: &ChainRig) -> ChainRig {
+        let mut out = calibration.clone();
+        out.effects.truncate(self.effects.len());
+        out
+    }
+}

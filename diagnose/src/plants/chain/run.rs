@@ -1,0 +1,334 @@
+//! This file is an aligned recording of an arm: an equation a joint, one stretch of samples after another.
+
+use crate::cause::{Cause, JointId, Place};
+use crate::filter::{gradient, rms};
+use crate::plant::{Clock, Columns, Rules, Run, resistances};
+use crate::problem::less;
+use crate::rules::{ARM_WIDTH_S, MOST_AMBIGUOUS, NOISE_ORDER};
+use crate::weak::{Windows, is_recorded, untold};
+use crate::whiten::Whitener;
+use nalgebra::{DMatrix, DVector};
+use rigproof_model::chain::INERTIAL;
+use rigproof_model::effects::Instant;
+use rigproof_spec::effect::Mechanism;
+
+/// An aligned recording in SI units.
+#[derive(Clone, Debug)]
+pub struct ChainRun {
+    /// Sample interval, s.
+    pub step_s: f64,
+    /// Time of the first sample, s.
+    pub start_s: f64,
+    /// The joints' names.
+    pub names: Vec<&'static str>,
+    /// The smoothed motion of each joint.
+    pub motions: Vec<Vec<Instant>>,
+    /// The efforts as recorded.
+    pub effort: Vec<f64>,
+    /// The efforts that the description gives.
+    pub known: Vec<f64>,
+    /// What one unit more of an inertial number of a link adds: link and number, and the signal.
+    pub links: Vec<((usize, usize), Vec<f64>)>,
+    /// Noise of a position and of an effort, each joint.
+    pub noise: Vec<[f64; 2]>,
+    /// What each joint moves by itself, kg·m² or kg.
+    pub masses: Vec<f64>,
+    /// Speed below which no sense of motion can be told.
+    pub speed_floor: f64,
+    /// Samples that were recorded, not filled in.
+    pub recorded: Vec<bool>,
+}
+
+/// What is looked for at each joint; the last of the link that it moves.
+const LOOKED_FOR: [Mechanism; 7] = [
+    Mechanism::DryOffset,
+    Mechanism::Viscous,
+    Mechanism::ConstantBias,
+    Mechanism::DirectionAsymmetry,
+    Mechanism::Stribeck,
+    Mechanism::AddedInertia,
+    Mechanism::LinkInertia,
+];
+
+impl ChainRun {
+    /// The number of samples.
+    pub fn len(&self) -> usize {
+        self.recorded.len()
+    }
+
+    /// Whether there are no samples.
+    pub fn is_empty(&self) -> bool {
+        self.recorded.is_empty()
+    }
+
+    /// The samples `from..to`, times kept.
+    pub fn part(&self, from: usize, to: usize) -> ChainRun {
+        let samples = self.len().max(1);
+        let own = |signal: &Vec<f64>| -> Vec<f64> {
+            let stretches = signal.chunks(samples);
+            let parts = stretches.map(|own| own.get(from..to).unwrap_or_default());
+            parts.collect::<Vec<_>>().concat()
+        };
+        let motions = self.motions.iter();
+        ChainRun {
+            start_s: self.start_s + from as f64 * self.step_s,
+            motions: motions
+                .map(|own| own.get(from..to).unwrap_or_default().to_vec())
+                .collect(),
+            effort: own(&self.effort),
+            known: own(&self.known),
+            links: self
+                .links
+                .iter()
+                .map(|(of, signal)| (*of, own(signal)))
+                .collect(),
+            recorded: self.recorded.get(from..to).unwrap_or_default().to_vec(),
+            step_s: self.step_s,
+            names: self.names.clone(),
+            noise: self.noise.clone(),
+            masses: self.masses.clone(),
+            speed_floor: self.speed_floor,
+        }
+    }
+
+    /// A signal of one joint among those of all.
+    fn at_joint(&self, joint: usize, own: &[f64]) -> Vec<f64> {
+        let mut all = vec![0.0; self.names.len() * self.len()];
+        let stretch = all.chunks_mut(self.len().max(1)).nth(joint);
+        stretch
+            .into_iter()
+            .flatten()
+            .zip(own)
+            .for_each(|(slot, x)| *slot = *x);
+        all
+    }
+
+    /// How unequal what is left of the joints is with everything free that is plain, mean square 1.
+    fn uneven(&self, windows: &Windows) -> Vec<f64> {
+        let outputs = self.names.len();
+        let target = windows.average(&less(&self.effort, &self.known));
+        let level = |values: &[f64], joint: usize| {
+            let rows = values
+                .iter()
+                .zip(&windows.usable)
+                .skip(joint)
+                .step_by(outputs);
+            let own: Vec<f64> = rows.filter(|(_, u)| **u).map(|(x, _)| *x).collect();
+            rms(&own).max(1e-12)
+        };
+        let mut columns: Vec<Vec<f64>> =
+            self.links.iter().map(|(_, s)| windows.average(s)).collect();
+        for joint in 0..outputs {
+            for mechanism in [
+                Mechanism::DryOffset,
+                Mechanism::Viscous,
+                Mechanism::ConstantBias,
+            ] {
+                let cause = Cause::at(mechanism, Place::Joint(JointId(joint)));
+                if let Some(Columns::Free(signals)) = self.columns(cause, &[], None) {
+                    columns.extend(signals.iter().map(|signal| windows.average(signal)));
+                }
+            }
+        }
+        let scale: Vec<f64> = (0..outputs).map(|joint| level(&target, joint)).collect();
+        let weight = |row: usize| match windows.usable.get(row) {
+            Some(true) => scale.get(row % outputs).map_or(0.0, |s| 1.0 / s),
+            _ => 0.0,
+        };
+        let weighted = |own: &[f64]| -> Vec<f64> {
+            own.iter()
+                .enumerate()
+                .map(|(row, x)| x * weight(row))
+                .collect()
+        };
+        let all: Vec<DVector<f64>> = columns
+            .iter()
+            .map(|own| DVector::from_vec(weighted(own)))
+            .map(|own| own.clone() / own.norm().max(1e-150))
+            .collect();
+        let matrix = DMatrix::from_columns(&all);
+        let aim = DVector::from_vec(weighted(&target));
+        let gram = matrix.transpose() * &matrix + DMatrix::identity(all.len(), all.len()) * 1e-8;
+        let left = match gram.cholesky() {
+            Some(factor) => &aim - &matrix * factor.solve(&(matrix.transpose() * &aim)),
+            None => aim.clone(),
+        };
+        let left: Vec<f64> = left.iter().copied().collect();
+        let sizes =
+            (0..outputs).map(|joint| level(&left, joint) * scale.get(joint).unwrap_or(&1.0));
+        let sizes: Vec<f64> = sizes.collect();
+        let mean = rms(&sizes).max(1e-300);
+        sizes.into_iter().map(|size| size / mean).collect()
+    }
+}
+
+/// The joint of a place.
+fn joint_at(at: Place) -> Option<usize> {
+    match at {
+        Place::Joint(JointId(joint)) => Some(joint),
+        _ => None,
+    }
+}
+
+impl Run for ChainRun {
+    fn clock(&self) -> Clock {
+        Clock {
+            step_s: self.step_s,
+            start_s: self.start_s,
+            samples: self.len(),
+        }
+    }
+
+    fn recorded(&self) -> &[bool] {
+        &self.recorded
+    }
+
+    fn outputs(&self) -> usize {
+        self.names.len()
+    }
+
+    fn output_name(&self, output: usize) -> &'static str {
+        self.names.get(output).copied().unwrap_or("effort")
+    }
+
+    fn rules(&self) -> &'static Rules {
+        &Rules::ARM
+    }
+
+    fn slice(&self, from: usize, to: usize) -> Option<Box<dyn Run>> {
+        Some(Box::new(self.part(from, to)))
+    }
+
+    fn effort(&self) -> Vec<f64> {
+        self.effort.clone()
+    }
+
+    fn driving(&self) -> Vec<f64> {
+        self.effort.clone()
+    }
+
+    fn known(&self) -> Vec<f64> {
+        self.known.clone()
+    }
+
+    fn windows(&self) -> Windows {
+        self.windows_of(ARM_WIDTH_S)
+    }
+
+    /// A joint's row is given up where its own sense of motion cannot be told.
+    fn keep_told(&self, windows: &mut Windows) {
+        windows.keep(|centre, bump| is_recorded(&self.recorded, centre, bump));
+        let rows = windows.centres.iter().zip(&mut windows.usable);
+        for ((&centre, usable), motion) in rows.zip(self.motions.iter().cycle()) {
+            *usable = *usable && untold(motion, centre, &windows.bump) <= MOST_AMBIGUOUS;
+        }
+    }
+
+    fn sensors(&self) -> [f64; 2] {
+        let pairs = self.noise.iter().zip(&self.masses);
+        let curved: Vec<f64> = pairs.map(|([position, _], mass)| position * mass).collect();
+        let effort: Vec<f64> = self.noise.iter().map(|[_, effort]| *effort).collect();
+        [rms(&curved), rms(&effort)]
+    }
+
+    /// What nothing explains is slower than a window: as white effort it would be looked for above the band that a window lets pass.
+    fn whitener(&self, windows: &Windows, excess: f64) -> Whitener {
+        let outputs = self.names.len();
+        let uneven = self.uneven(windows);
+        let each = self.noise.iter().zip(&self.masses).zip(uneven);
+        let each = each.map(|(([position, effort], mass), uneven)| {
+            let mut own = windows.noise_covariance([position * mass, *effort], 0.0, NOISE_ORDER + 1);
+            if let Some(variance) = own.first_mut() {
+                *variance += excess * uneven * uneven;
+            }
+            own
+        });
+        let each: Vec<Vec<f64>> = each.collect();
+        Whitener::banded(&windows.usable, NOISE_ORDER * outputs, |row, earlier| {
+            let lag = row - earlier;
+            if lag % outputs != 0 {
+                return 0.0;
+            }
+            let own = each
+                .get(row % outputs)
+                .and_then(|own| own.get(lag / outputs));
+            own.copied().unwrap_or(0.0)
+        })
+    }
+
+    fn position_noise(&self) -> f64 {
+        self.noise
+            .iter()
+            .map(|[position, _]| *position)
+            .fold(0.0, f64::max)
+    }
+
+    fn joints(&self) -> usize {
+        self.names.len()
+    }
+
+    fn place_name(&self, at: Place) -> Option<&'static str> {
+        joint_at(at).and_then(|joint| self.names.get(joint).copied())
+    }
+
+    fn motion(&self, at: Place) -> &[Instant] {
+        let joint = joint_at(at).unwrap_or(0);
+        self.motions.get(joint).map_or(&[], Vec::as_slice)
+    }
+
+    /// The range of a joint; the greatest for the whole.
+    fn travel(&self, at: Place) -> f64 {
+        let range = |own: &Vec<Instant>| {
+            let q = || own.iter().map(|now| now.position);
+            (q().fold(f64::NEG_INFINITY, f64::max) - q().fold(f64::INFINITY, f64::min)).max(0.0)
+        };
+        match joint_at(at) {
+            Some(joint) => self.motions.get(joint).map_or(0.0, range),
+            None => self.motions.iter().map(range).fold(0.0, f64::max),
+        }
+    }
+
+    fn speed_floor(&self) -> f64 {
+        self.speed_floor
+    }
+
+    /// What has a meaning at the joints that moved.
+    fn causes(&self) -> Vec<Cause> {
+        let moved = self.moving_places().into_iter();
+        let moved = moved.filter(|at| self.travel(*at) > 100.0 * self.position_noise());
+        moved
+            .flat_map(|at| LOOKED_FOR.map(|mechanism| Cause::at(mechanism, at)))
+            .collect()
+    }
+
+    fn columns(&self, cause: Cause, shape: &[f64], _: Option<&[f64]>) -> Option<Columns> {
+        let joint = joint_at(cause.at)?;
+        let motion = self.motions.get(joint)?;
+        let signals = match cause.mechanism {
+            // Numbers that no effort hangs on have an empty column.
+            Mechanism::LinkInertia => (0..INERTIAL)
+                .map(|number| {
+                    let own = self.links.iter().find(|(of, _)| *of == (joint, number));
+                    let none = || vec![0.0; self.effort.len()];
+                    own.map_or_else(none, |(_, signal)| signal.clone())
+                })
+                .collect(),
+            Mechanism::AddedInertia => {
+                let speeds: Vec<f64> = motion.iter().map(|now| now.speed).collect();
+                vec![self.at_joint(joint, &gradient(&speeds, self.step_s))]
+            }
+            mechanism => resistances(motion, self.step_s, mechanism, shape)?
+                .iter()
+                .map(|own| self.at_joint(joint, own))
+                .collect(),
+        };
+        Some(Columns::Free(signals))
+    }
+
+    fn shares(&self, at: Place, windows: &Windows) -> Vec<f64> {
+        let (joint, outputs) = (joint_at(at), self.names.len());
+        let rows = 0..windows.centres.len();
+        rows.map(|row| f64::from(u8::from(joint.is_none_or(|own| own == row % outputs))))
+            .collect()
+    }
+}

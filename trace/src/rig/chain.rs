@@ -1,0 +1,276 @@
+//! This file is the description of a serial arm: the URDF that it is modelled by, and what the channels of its recordings mean, joint by joint.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use rigproof_spec::effect::Motion;
+use rigproof_spec::units::Dimension;
+
+use super::apply::{Signal, read_text, signal, those, with_all_columns};
+use super::read::{choice, read_channel, read_effect, read_provenance, read_time};
+use super::table::{Source, Table};
+use super::write::{channel, effect_lines, provenance_lines, string, time_line};
+use super::{ChannelMap, RigEffect, state_units, text};
+use crate::csv::{Dialect, Hints, TimeColumn};
+use crate::error::TraceError;
+use crate::series::Trace;
+use crate::store;
+
+/// A serial arm, and how its recordings are to be read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChainRig {
+    /// What people call it.
+    pub name: String,
+    /// The file of its URDF.
+    pub urdf: String,
+    /// The text of that file.
+    pub model: String,
+    /// The link beyond which nothing is attached; without one the only end.
+    pub tip: Option<String>,
+    /// Where its recordings come from, in free words.
+    pub source: Option<String>,
+    /// The time, where the header of a recording does not say it.
+    pub time: Option<TimeColumn>,
+    /// Its joints, in the order of the file.
+    pub joints: Vec<ChainJoint>,
+    /// How its recordings are written down, where that cannot be seen in them.
+    pub text: Hints,
+    /// The physics that the nominal model has beyond the URDF's.
+    pub effects: Vec<AtJoint>,
+    /// Where a calibration came from: words of the program that wrote it, by topic.
+    pub provenance: BTreeMap<String, String>,
+}
+
+/// What is recorded of a joint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChainJoint {
+    /// Its name in the URDF.
+    pub name: String,
+    /// Whether it slides or turns.
+    pub motion: Motion,
+    /// Its position.
+    pub position: ChannelMap,
+    /// Its effort, N·m or N.
+    pub effort: ChannelMap,
+}
+
+/// A mechanism at a joint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AtJoint {
+    /// The joint's name; of a link that of the joint that moves it.
+    pub joint: String,
+    /// The mechanism with its numbers.
+    pub effect: RigEffect,
+}
+
+/// A recording of a serial arm in SI units, a signal a joint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChainRecording {
+    /// Time stamps, s.
+    pub time_s: Vec<f64>,
+    /// Positions, rad or m.
+    pub position: Vec<Signal>,
+    /// Efforts, N·m or N.
+    pub effort: Vec<Signal>,
+}
+
+impl ChainRecording {
+    /// The recording at the samples that are kept.
+    pub fn only(&self, kept: &[bool]) -> ChainRecording {
+        let each = |signals: &[Signal]| signals.iter().map(|s| s.only(kept)).collect();
+        ChainRecording {
+            time_s: those(&self.time_s, kept),
+            position: each(&self.position),
+            effort: each(&self.effort),
+        }
+    }
+}
+
+const fn motion_word(motion: Motion) -> &'static str {
+    match motion {
+        Motion::Rotary => "rotary",
+        Motion::Linear => "linear",
+    }
+}
+
+impl ChainRig {
+    /// Whether a description is one of a serial arm, `plant = "chain"`.
+    ///
+    /// # Errors
+    /// The text is no TOML, or its plant is no text.
+    pub fn describes(text: &str, origin: &Path) -> Result<bool, TraceError> {
+        let source = Source { text, file: origin };
+        let document = source.document()?;
+        Ok(Table::root(source, &document).text("plant")? == Some("chain"))
+    }
+
+    /// Reads a description and its URDF, which lies where `urdf` says from the folder of `origin`. Every value becomes SI.
+    ///
+    /// # Errors
+    /// The text is no such description, or the URDF cannot be read.
+    pub fn parse(text: &str, origin: &Path) -> Result<ChainRig, TraceError> {
+        let source = Source { text, file: origin };
+        let document = source.document()?;
+        let root = Table::root(source, &document);
+        root.only(&[
+            "name",
+            "plant",
+            "urdf",
+            "tip",
+            "source",
+            "channels",
+            "joint",
+            "text",
+            "effect",
+            "provenance",
+        ])?;
+        choice(&root, "plant", ["chain"], |name| name)?;
+        let urdf = root.need("urdf", root.text("urdf")?)?;
+        let file = origin.parent().unwrap_or(Path::new("")).join(urdf);
+        let file = std::path::absolute(&file).unwrap_or(file);
+        let joints = root.tables("joint")?;
+        let joints: Vec<ChainJoint> = joints.iter().map(read_joint).collect::<Result<_, _>>()?;
+        if joints.is_empty() {
+            return Err(root.error("no `[[joint]]`: name each joint with its position and effort"));
+        }
+        let effects = root.tables("effect")?;
+        let effects = effects.iter().map(|table| {
+            let joint = table.need("joint", table.text("joint")?)?;
+            let own = joints.iter().find(|own| own.name == joint);
+            let own = own.ok_or_else(|| {
+                table.error_at("joint", format!("`{joint}` is no joint of this arm"))
+            })?;
+            Ok(AtJoint {
+                joint: joint.to_owned(),
+                effect: read_effect(table, own.motion, &["joint"])?,
+            })
+        });
+        let channels = root.table("channels")?;
+        Ok(ChainRig {
+            name: root.need("name", root.text("name")?)?.to_owned(),
+            model: store::read_text(&file)?,
+            urdf: file.display().to_string(),
+            tip: root.text("tip")?.map(str::to_owned),
+            source: root.text("source")?.map(str::to_owned),
+            time: match &channels {
+                Some(table) => read_time(table)?,
+                None => None,
+            },
+            effects: effects.collect::<Result<_, TraceError>>()?,
+            joints,
+            text: text::read(&root)?,
+            provenance: read_provenance(&root)?,
+        })
+    }
+
+    /// Every channel that is named.
+    pub fn maps(&self) -> Vec<&ChannelMap> {
+        let each = self.joints.iter();
+        each.flat_map(|joint| [&joint.position, &joint.effort])
+            .collect()
+    }
+
+    /// Reads a text recording whose dialect is partly known, and says in which it was, and what was guessed, passed over or mended.
+    ///
+    /// # Errors
+    /// As [`crate::csv::read_text`](crate::csv::read) and [`ChainRig::apply`].
+    pub fn read_text(
+        &self,
+        path: &Path,
+        hints: &Hints,
+    ) -> Result<(ChainRecording, Dialect, Vec<String>), TraceError> {
+        let time = self.time.as_ref();
+        let hints = hints.or(self.text);
+        let (text, remarks) = read_text(path, time, hints, &self.maps())?;
+        let recording = self.apply(&text.trace, path);
+        let recording = recording
+            .map_err(|error| with_all_columns(path, time, hints, error, |t| self.apply(t, path)))?;
+        Ok((recording, text.dialect, remarks))
+    }
+
+    /// The description with the units that some columns are said to be in, whatever their headers say.
+    ///
+    /// # Errors
+    /// Names a channel that the rig does not have, and those it has.
+    pub fn with_column_units(&self, units: &[(String, String)]) -> Result<ChainRig, String> {
+        let mut rig = self.clone();
+        let joints = rig.joints.iter_mut();
+        let maps = joints.flat_map(|joint| [&mut joint.position, &mut joint.effort]);
+        state_units(maps, &self.name, units)?;
+        Ok(rig)
+    }
+
+    /// Turns a recording into SI quantities; `origin` is the file that messages name.
+    ///
+    /// # Errors
+    /// A channel of the rig is missing, or its unit in the header does not convert to the rig's.
+    pub fn apply(&self, trace: &Trace, origin: &Path) -> Result<ChainRecording, TraceError> {
+        let of = |map: &ChannelMap| signal(map, &self.name, trace, origin);
+        let joints = || self.joints.iter();
+        Ok(ChainRecording {
+            time_s: trace.time_s.clone(),
+            position: joints()
+                .map(|j| of(&j.position))
+                .collect::<Result<_, _>>()?,
+            effort: joints().map(|j| of(&j.effort)).collect::<Result<_, _>>()?,
+        })
+    }
+
+    /// The description as TOML, every value in SI units.
+    pub fn to_toml(&self) -> String {
+        let mut lines = vec![
+            format!("name = {}", string(&self.name)),
+            "plant = \"chain\"".to_owned(),
+            format!("urdf = {}", string(&self.urdf)),
+        ];
+        let tip = self.tip.iter();
+        lines.extend(tip.map(|tip| format!("tip = {}", string(tip))));
+        let source = self.source.iter();
+        lines.extend(source.map(|text| format!("source = {}", string(text))));
+        if let Some(time) = &self.time {
+            lines.extend(["\n[channels]".to_owned(), time_line(time)]);
+        }
+        lines.extend(text::lines(&self.text));
+        for joint in &self.joints {
+            lines.push("\n[[joint]]".to_owned());
+            lines.push(format!("name = {}", string(&joint.name)));
+            lines.push(format!("motion = {}", string(motion_word(joint.motion))));
+            lines.push(format!("position = {}", channel(&joint.position)));
+            lines.push(format!("effort = {}", channel(&joint.effort)));
+        }
+        for own in &self.effects {
+            let joint = self.joints.iter().find(|joint| joint.name == own.joint);
+            let motion = joint.map_or(Motion::Rotary, |joint| joint.motion);
+            let mut effect = effect_lines(&own.effect, motion).into_iter();
+            lines.extend(effect.by_ref().take(2));
+            lines.push(format!("joint = {}", string(&own.joint)));
+            lines.extend(effect);
+        }
+        lines.extend(provenance_lines(&self.provenance));
+        lines.join("\n") + "\n"
+    }
+}
+
+fn read_joint(table: &Table<'_>) -> Result<ChainJoint, TraceError> {
+    table.only(&["name", "motion", "position", "effort"])?;
+    let motion = match table.has("motion") {
+        true => choice(
+            table,
+            "motion",
+            [Motion::Rotary, Motion::Linear],
+            motion_word,
+        )?,
+        false => Motion::Rotary,
+    };
+    let (travel, effort) = match motion {
+        Motion::Rotary => (Dimension::ANGLE, Dimension::TORQUE),
+        Motion::Linear => (Dimension::LENGTH, Dimension::FORCE),
+    };
+    let need = |role: &str, own| table.need(role, read_channel(table, role, Some(own))?);
+    Ok(ChainJoint {
+        name: table.need("name", table.text("name")?)?.to_owned(),
+        motion,
+        position: need("position", travel)?,
+        effort: need("effort", effort)?,
+    })
+}
