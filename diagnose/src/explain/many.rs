@@ -54,7 +54,11 @@ fn rows_a_sample(problem: &Problem, white: &[f64]) -> f64 {
 
 /// Whether it is other masses of a link on which some effort hangs.
 fn is_link(term: &Term) -> bool {
-    let acts = || term.free.iter().any(|own| own.raw.iter().any(|x| *x != 0.0));
+    let acts = || {
+        term.free
+            .iter()
+            .any(|own| own.raw.iter().any(|x| *x != 0.0))
+    };
     term.cause.mechanism == Mechanism::LinkInertia && acts()
 }
 

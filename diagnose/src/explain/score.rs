@@ -61,8 +61,7 @@ fn odds(problem: &Problem, term: &Term) -> f64 {
         Mechanism::LinkInertia => 1,
         _ => term.free.len() - term.free.iter().filter(empty).count(),
     };
-    let numbers =
-        free.max(1) + searched(problem, term) + usize::from(term.onset_s.is_some());
+    let numbers = free.max(1) + searched(problem, term) + usize::from(term.onset_s.is_some());
     // The first number of a shape takes the place of a coefficient that is not there.
     let numbers = numbers - usize::from(term.free.is_empty() && !term.shape.is_empty());
     usual(term.cause.mechanism) - A_NUMBER * numbers.saturating_sub(1) as f64

@@ -237,7 +237,8 @@ impl Run for ChainRun {
         let uneven = self.uneven(windows);
         let each = self.noise.iter().zip(&self.masses).zip(uneven);
         let each = each.map(|(([position, effort], mass), uneven)| {
-            let mut own = windows.noise_covariance([position * mass, *effort], 0.0, NOISE_ORDER + 1);
+            let mut own =
+                windows.noise_covariance([position * mass, *effort], 0.0, NOISE_ORDER + 1);
             if let Some(variance) = own.first_mut() {
                 *variance += excess * uneven * uneven;
             }
