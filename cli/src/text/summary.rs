@@ -223,7 +223,7 @@ fn rounded(value: f64) -> String {
         let decimals = (2.0 - exponent).max(0.0) as usize;
         return format!("{value:.decimals$}");
     }
-    let scaled = value / 10_f64.powf(exponent);
+    let scaled = value / libm::pow(10.0, exponent);
     format!("{scaled:.2}·10^{exponent:.0}")
 }
 
