@@ -1,6 +1,6 @@
 //! This file is the program: one verb a file, and what each exit code means. [`door`] is its way in for another program.
 //!
-//! A verb is a module with `Args` and `run`, a line in [`Verb`] and a line in [`run`].
+//! A verb is a module with `Args` and `run`, a line in `Verb` and a line in `run`.
 
 mod blind;
 mod certify;
