@@ -146,8 +146,8 @@ fn scatter(signal: &[f64]) -> f64 {
 /// Half of the absolute values of normal noise of variance 1 lie below.
 const NORMAL_MEDIAN: f64 = 0.674_489_750_196_081_7;
 
-/// The equations along a motion: what the description gives, and what each inertial number adds.
-fn equations(chain: &Chain, joints: &[Aligned], step_s: f64) -> ChainRun {
+/// The effort that each base parameter gives along a motion, joint after joint, and last what all described numbers give together.
+fn efforts(chain: &Chain, joints: &[Aligned], step_s: f64) -> Vec<Vec<f64>> {
     let (count, samples) = (
         joints.len(),
         joints.first().map_or(0, |own| own.motion.len()),
@@ -184,7 +184,14 @@ fn equations(chain: &Chain, joints: &[Aligned], step_s: f64) -> ChainRun {
         let rates = stretches.flat_map(|own| gradient(own, step_s));
         rates.zip(rest).map(|(rate, rest)| rate + rest).collect()
     });
-    let mut signals: Vec<Vec<f64>> = signals.collect();
+    signals.collect()
+}
+
+/// The equations along a motion: what the description gives, and what each inertial number adds.
+fn equations(chain: &Chain, joints: &[Aligned], step_s: f64) -> ChainRun {
+    let samples = joints.first().map_or(0, |own| own.motion.len());
+    let base = chain.base();
+    let mut signals = efforts(chain, joints, step_s);
     let mut known = signals.pop().unwrap_or_default();
     for ((stretch, joint), own) in known
         .chunks_mut(samples.max(1))

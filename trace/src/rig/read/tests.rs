@@ -172,7 +172,7 @@ fn any_effect() -> impl Strategy<Value = RigEffect> {
         .into_iter()
         .filter(|m| !m.parameters().is_empty())
         .collect();
-    let values = prop::array::uniform5(any_value(true));
+    let values = prop::collection::vec(any_value(true), 10);
     (
         prop::sample::select(computed),
         values,
