@@ -16,6 +16,7 @@ pub(super) const ENTRY: Entry = Entry {
     refuted_by: "an offset that differs between slow motion in the two directions by more than its sign",
     equation: "level",
     facts: Facts {
+        at_arm: true,
         usual: Usual::Frequent,
         beside: Beside::Elementary,
         twin: Some(Mechanism::DirectionAsymmetry),

@@ -19,6 +19,7 @@ pub(super) const ENTRY: Entry = Entry {
     refuted_by: "equal resistance at equal speed in both directions",
     equation: "viscous·|q̇| + dry·[q̇ ≠ 0]",
     facts: Facts {
+        at_arm: true,
         of_torque: true,
         usual: Usual::Rare,
         turn: 2,

@@ -65,6 +65,7 @@ pub(super) const ADDED_INERTIA: Entry = Entry {
     refuted_by: "the described inertia on a swing or a scale",
     equation: "inertia·q̈, added to the described one",
     facts: Facts {
+        at_arm: true,
         in_sets: true,
         usual: Usual::Frequent,
         ..Facts::of(
@@ -89,6 +90,7 @@ pub(super) const LINK_INERTIA: Entry = Entry {
     refuted_by: "the described weight and centre of the link on a scale",
     equation: "regressor·(numbers − described numbers), of the link's base parameters",
     facts: Facts {
+        at_arm: true,
         in_sets: true,
         usual: Usual::Frequent,
         ..Facts::of(

@@ -18,6 +18,7 @@ pub(super) const ENTRY: Entry = Entry {
     refuted_by: "a resistance that stays the same when the motion reverses, or that vanishes with speed",
     equation: "level·sgn(q̇)",
     facts: Facts {
+        at_arm: true,
         usual: Usual::Plain,
         beside: Beside::Elementary,
         at_rest: AtRest::Dry(first),

@@ -38,6 +38,8 @@ pub struct Facts {
     pub form_of: Option<Mechanism>,
     /// Whether it is also looked for as a share of a brake's torque.
     pub of_torque: bool,
+    /// Whether it is looked for at each joint of a serial arm.
+    pub at_arm: bool,
     /// Whether it is weighed in sets of mechanisms only, not looked for one at a time.
     pub in_sets: bool,
     /// Two that it is together, once it has slid. The first gives the shape.
@@ -65,6 +67,7 @@ impl Facts {
             twin: None,
             form_of: None,
             of_torque: false,
+            at_arm: false,
             in_sets: false,
             both: None,
             refit: Refit {

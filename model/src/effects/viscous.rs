@@ -16,6 +16,7 @@ pub(super) const ENTRY: Entry = Entry {
     refuted_by: "a resistance that does not grow on a speed ramp",
     equation: "coefficient·q̇",
     facts: Facts {
+        at_arm: true,
         usual: Usual::Plain,
         beside: Beside::Elementary,
         shows: Shows::SpeedAndLevels,

@@ -10,6 +10,7 @@ use crate::whiten::Whitener;
 use nalgebra::{DMatrix, DVector};
 use rigproof_model::chain::INERTIAL;
 use rigproof_model::effects::Instant;
+use rigproof_model::effects::facts;
 use rigproof_spec::effect::Mechanism;
 
 /// An aligned recording in SI units.
@@ -39,16 +40,11 @@ pub struct ChainRun {
     pub recorded: Vec<bool>,
 }
 
-/// What is looked for at each joint; the last of the link that it moves.
-const LOOKED_FOR: [Mechanism; 7] = [
-    Mechanism::DryOffset,
-    Mechanism::Viscous,
-    Mechanism::ConstantBias,
-    Mechanism::DirectionAsymmetry,
-    Mechanism::Stribeck,
-    Mechanism::AddedInertia,
-    Mechanism::LinkInertia,
-];
+/// What is looked for at each joint.
+fn looked_for() -> impl Iterator<Item = Mechanism> {
+    let at_arm = |own: &Mechanism| facts(*own).is_some_and(|facts| facts.at_arm);
+    Mechanism::ALL.into_iter().filter(at_arm)
+}
 
 impl ChainRun {
     /// The number of samples.
@@ -298,7 +294,7 @@ impl Run for ChainRun {
         let moved = self.moving_places().into_iter();
         let moved = moved.filter(|at| self.travel(*at) > 100.0 * self.position_noise());
         moved
-            .flat_map(|at| LOOKED_FOR.map(|mechanism| Cause::at(mechanism, at)))
+            .flat_map(|at| looked_for().map(move |mechanism| Cause::at(mechanism, at)))
             .collect()
     }
 
