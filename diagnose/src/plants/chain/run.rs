@@ -11,6 +11,7 @@ use nalgebra::{DMatrix, DVector};
 use rigproof_model::chain::INERTIAL;
 use rigproof_model::effects::Instant;
 use rigproof_model::effects::facts;
+use rigproof_model::effects::facts::{Family, Shapes, Usual};
 use rigproof_spec::effect::Mechanism;
 
 /// An aligned recording in SI units.
@@ -38,6 +39,15 @@ pub struct ChainRun {
     pub speed_floor: f64,
     /// Samples that were recorded, not filled in.
     pub recorded: Vec<bool>,
+}
+
+/// Whether it is a usual friction or constant without a shape: what every arm has.
+fn is_plain(mechanism: &Mechanism) -> bool {
+    facts(*mechanism).is_some_and(|own| {
+        let family = matches!(own.family, Family::FrictionOfMotion | Family::Constant);
+        let usual = matches!(own.usual, Usual::Plain | Usual::Frequent);
+        family && usual && matches!(own.shapes, Shapes::None)
+    })
 }
 
 /// What is looked for at each joint.
@@ -115,11 +125,7 @@ impl ChainRun {
         let mut columns: Vec<Vec<f64>> =
             self.links.iter().map(|(_, s)| windows.average(s)).collect();
         for joint in 0..outputs {
-            for mechanism in [
-                Mechanism::DryOffset,
-                Mechanism::Viscous,
-                Mechanism::ConstantBias,
-            ] {
+            for mechanism in looked_for().filter(is_plain) {
                 let cause = Cause::at(mechanism, Place::Joint(JointId(joint)));
                 if let Some(Columns::Free(signals)) = self.columns(cause, &[], None) {
                     columns.extend(signals.iter().map(|signal| windows.average(signal)));
