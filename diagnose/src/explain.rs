@@ -172,18 +172,28 @@ impl Round {
             judge.all_matter(&folds, &bare, own) && !terms.any(|term| is_at_an_end(problem, term))
         });
         let scored = ranked(problem, &folds, &judge, all.collect());
-        let most = scored.first().map_or(0.0, |(score, _)| *score);
-        let sum: f64 = scored
-            .iter()
-            .map(|(score, _)| libm::exp(score - most))
-            .sum();
-        let listed = scored.into_iter().map(|(score, own)| Explanation {
-            weight: libm::exp(score - most) / sum,
-            leaves: (own.left() / folds.rows()).sqrt() * noise / problem.floor,
-            terms: own.terms,
-        });
-        listed.filter(|own| own.weight >= LISTED).collect()
+        living(problem, folds.rows(), scored, noise)
     }
+}
+
+/// The explanations with a noticeable weight beside the others, from their scores, the best first.
+fn living(
+    problem: &Problem,
+    rows: f64,
+    scored: Vec<(f64, Fitted)>,
+    noise: f64,
+) -> Vec<Explanation> {
+    let most = scored.first().map_or(0.0, |(score, _)| *score);
+    let sum: f64 = scored
+        .iter()
+        .map(|(score, _)| libm::exp(score - most))
+        .sum();
+    let listed = scored.into_iter().map(|(score, own)| Explanation {
+        weight: libm::exp(score - most) / sum,
+        leaves: (own.left() / rows).sqrt() * noise / problem.floor,
+        terms: own.terms,
+    });
+    listed.filter(|own| own.weight >= LISTED).collect()
 }
 
 /// Explanations with the logarithm of their weight, the most probable first.

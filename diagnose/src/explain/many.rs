@@ -3,10 +3,10 @@
 use super::beam::may_join;
 use super::fitted::{Fitted, Folds};
 use super::score::{Judge, gives_energy, prior};
-use super::{Explanation, Explanations, candidates, selected};
+use super::{Explanation, Explanations, candidates, living, selected};
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, fit, free_columns, reduced_target};
-use crate::rules::{LEAST_CORRELATION, LISTED, MOST_LAGS, MOST_OF_MANY, ROWS_A_SAMPLE};
+use crate::rules::{LEAST_CORRELATION, MOST_LAGS, MOST_OF_MANY, ROWS_A_SAMPLE};
 use crate::select::{Selection, usable_rms};
 use rayon::prelude::*;
 use rigproof_spec::effect::Mechanism;
@@ -26,8 +26,9 @@ pub fn explain_many(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection
     let rows = rows_a_sample(problem, &problem.whitener.whiten(&raw));
     let round = Round::of(problem, &nominal, noise, rows);
     let leading = round.searched(problem);
-    let living = round.neighbours(problem, &leading, noise);
-    let explanations = Explanations { living };
+    let explanations = Explanations {
+        living: round.neighbours(problem, &leading, noise),
+    };
     (selected(problem, nominal, &explanations), explanations)
 }
 
@@ -171,7 +172,6 @@ impl Round {
 
     /// The leading explanation, those with one term fewer, and those with another one in its place at its joint.
     fn neighbours(&self, problem: &Problem, leading: &Fitted, noise: f64) -> Vec<Explanation> {
-        let most = self.score(problem, leading);
         let others = (0..leading.terms.len())
             .into_par_iter()
             .flat_map_iter(|index| {
@@ -192,20 +192,9 @@ impl Round {
                     .collect::<Vec<_>>()
             });
         let mut all: Vec<(f64, Fitted)> = others.collect();
-        all.push((most, leading.clone()));
+        all.push((self.score(problem, leading), leading.clone()));
         all.sort_by(|a, b| b.0.total_cmp(&a.0));
         // An exchange that is better than what the search ended with leads.
-        let most = all.first().map_or(most, |own| own.0);
-        let weights: Vec<f64> = all.iter().map(|own| libm::exp(own.0 - most)).collect();
-        let sum: f64 = weights.iter().sum();
-        let each = all
-            .into_iter()
-            .zip(weights)
-            .map(|((_, own), weight)| Explanation {
-                weight: weight / sum,
-                leaves: (own.left() / self.folds.rows()).sqrt() * noise / problem.floor,
-                terms: own.terms,
-            });
-        each.filter(|own| own.weight >= LISTED).collect()
+        living(problem, self.folds.rows(), all, noise)
     }
 }
