@@ -110,11 +110,7 @@ impl Rig {
     ) -> Result<(Recording, Dialect, Vec<String>), TraceError> {
         let channels = &self.channels;
         let (time, hints) = (channels.time.as_ref(), hints.or(self.text));
-        let (text, remarks) = read_text(path, time, hints, &channels.maps())?;
-        let recording = self.apply(&text.trace, path);
-        let recording = recording
-            .map_err(|error| with_all_columns(path, time, hints, error, |t| self.apply(t, path)))?;
-        Ok((recording, text.dialect, remarks))
+        read_applied(path, time, hints, &channels.maps(), |t| self.apply(t, path))
     }
 
     /// Turns a recording into SI quantities; `origin` is the file that messages name.
@@ -142,7 +138,7 @@ impl Rig {
 }
 
 /// Reads the channels of a rig from a text, and says how: where a name suggests another unit than the rig states, too.
-pub(super) fn read_text(
+fn read_text(
     path: &Path,
     time: Option<&TimeColumn>,
     hints: Hints,
@@ -173,8 +169,22 @@ pub(super) fn read_text(
     Ok((text, remarks))
 }
 
+/// Reads a text and applies a description to it: the recording, how the text was read, and what is to be said of it.
+pub(super) fn read_applied<T>(
+    path: &Path,
+    time: Option<&TimeColumn>,
+    hints: Hints,
+    maps: &[&ChannelMap],
+    apply: impl Fn(&Trace) -> Result<T, TraceError>,
+) -> Result<(T, Dialect, Vec<String>), TraceError> {
+    let (text, remarks) = read_text(path, time, hints, maps)?;
+    let applied = apply(&text.trace);
+    let applied = applied.map_err(|error| with_all_columns(path, time, hints, error, &apply))?;
+    Ok((applied, text.dialect, remarks))
+}
+
 /// What is wrong with a recording, told with the columns that were passed over: one of them may be the channel that is missing.
-pub(super) fn with_all_columns<T>(
+fn with_all_columns<T>(
     path: &Path,
     time: Option<&TimeColumn>,
     hints: Hints,

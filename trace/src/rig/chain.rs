@@ -6,7 +6,7 @@ use std::path::Path;
 use rigproof_spec::effect::Motion;
 use rigproof_spec::units::Dimension;
 
-use super::apply::{Signal, read_text, signal, those, with_all_columns};
+use super::apply::{Signal, read_applied, signal, those};
 use super::read::{choice, read_channel, read_effect, read_provenance, read_time};
 use super::table::{Source, Table};
 use super::write::{channel, effect_lines, provenance_lines, string, time_line};
@@ -181,11 +181,7 @@ impl ChainRig {
     ) -> Result<(ChainRecording, Dialect, Vec<String>), TraceError> {
         let time = self.time.as_ref();
         let hints = hints.or(self.text);
-        let (text, remarks) = read_text(path, time, hints, &self.maps())?;
-        let recording = self.apply(&text.trace, path);
-        let recording = recording
-            .map_err(|error| with_all_columns(path, time, hints, error, |t| self.apply(t, path)))?;
-        Ok((recording, text.dialect, remarks))
+        read_applied(path, time, hints, &self.maps(), |t| self.apply(t, path))
     }
 
     /// The description with the units that some columns are said to be in, whatever their headers say.

@@ -9,7 +9,7 @@ use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
 use rigproof_spec::units::Dimension;
 
-use super::apply::{Signal, printed, read_text, signal, those, with_all_columns};
+use super::apply::{Signal, printed, read_applied, signal, those};
 use super::read::{choice, read_channel, read_effect, read_provenance, read_time};
 use super::table::{Source, Table};
 use super::write::{channel, effect_lines, string, time_line};
@@ -212,11 +212,7 @@ impl FiveBar {
         let maps: Vec<&ChannelMap> = measured.chain(channels.currents.iter().flatten()).collect();
         let time = channels.time.as_ref();
         let hints = hints.or(self.text);
-        let (text, remarks) = read_text(path, time, hints, &maps)?;
-        let recording = self.apply(&text.trace, path);
-        let recording = recording
-            .map_err(|error| with_all_columns(path, time, hints, error, |t| self.apply(t, path)))?;
-        Ok((recording, text.dialect, remarks))
+        read_applied(path, time, hints, &maps, |t| self.apply(t, path))
     }
 
     /// The description with the units that some columns are said to be in, whatever their headers say.
