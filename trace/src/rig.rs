@@ -6,6 +6,7 @@
 mod apply;
 mod brake;
 pub mod chain;
+mod column_unit;
 pub mod five_bar;
 pub mod linkage;
 mod messages;
