@@ -28,21 +28,38 @@ pub struct Onset {
     pub interval_s: Option<[f64; 2]>,
 }
 
-/// The effects of a report.
+/// The named effects of a report.
 ///
 /// # Errors
 /// [`Error::Report`] when `effects` or the mechanism of one is missing.
 pub fn found_effects(plant: Plant, report: &Value) -> Result<Vec<Found<'_>>, Error> {
+    effects_that_are(plant, report, |status| {
+        status.is_none_or(|status| status == "named")
+    })
+}
+
+/// The suspected effects of a report: they are offered, not named.
+///
+/// # Errors
+/// As [`found_effects`].
+pub fn suspected_effects(plant: Plant, report: &Value) -> Result<Vec<Found<'_>>, Error> {
+    effects_that_are(plant, report, |status| status == Some("suspected"))
+}
+
+fn effects_that_are(
+    plant: Plant,
+    report: &Value,
+    are: impl Fn(Option<&str>) -> bool,
+) -> Result<Vec<Found<'_>>, Error> {
     let effects = report
         .get("effects")
         .and_then(Value::as_array)
         .ok_or(Error::Report("array \"effects\""))?;
-    // What is suspected or possible is offered, not named.
-    let named = effects.iter().enumerate().filter(|(_, effect)| {
-        let status = effect.get("status").and_then(Value::as_str);
-        status.is_none_or(|status| status == "named")
-    });
-    named
+    let those = effects
+        .iter()
+        .enumerate()
+        .filter(|(_, effect)| are(effect.get("status").and_then(Value::as_str)));
+    those
         .map(|(index, effect)| {
             let mut alternatives = Vec::new();
             let of_report = report

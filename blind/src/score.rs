@@ -2,7 +2,7 @@
 
 use crate::answer::{Answer, HiddenEffect};
 use crate::error::Error;
-use crate::found::{Found, Onset, found_effects};
+use crate::found::{Found, Onset, found_effects, suspected_effects};
 use crate::stratum::Stratum;
 use crate::told::told;
 use rigproof_spec::units::Unit;
@@ -84,8 +84,12 @@ pub fn score(answer: &Answer, report: &Value) -> Result<Score, Error> {
         .ok_or(Error::Report("string \"verdict\""))?;
     let found = found_effects(answer.plant, report)?;
     let named: BTreeSet<&str> = found.iter().map(|effect| effect.name.as_str()).collect();
-    let alternatives = found.iter().flat_map(|effect| &effect.alternatives);
+    let suspected = suspected_effects(answer.plant, report)?;
+    let suspected_names = suspected.iter().map(|effect| &effect.name);
+    let alternatives = found.iter().chain(&suspected);
+    let alternatives = alternatives.flat_map(|effect| &effect.alternatives);
     let offered: BTreeSet<&str> = alternatives
+        .chain(suspected_names)
         .map(String::as_str)
         .chain(named.iter().copied())
         .collect();

@@ -193,7 +193,7 @@ fn named(
         let (selection, explanations) = explain_many(problem, terms);
         return (selection, Some(explanations));
     }
-    if problem.rules.by_family {
+    if problem.rules.by_family && std::env::var_os("RP_ONE").is_none() {
         let selection = select(problem, terms.clone(), options.gates);
         if is_noise(problem, &selection.after) {
             return (selection, None);
@@ -201,7 +201,8 @@ fn named(
         begin_anew(problem, &whitener, &mut terms);
     }
     let (of_sets, explanations) = explain(problem, terms.clone());
-    if !problem.rules.by_family && !is_noise(problem, &of_sets.after) {
+    let one = std::env::var_os("RP_ONE").is_some();
+    if !one && !problem.rules.by_family && !is_noise(problem, &of_sets.after) {
         let whitener_of_sets = problem.whitener.clone();
         begin_anew(problem, &whitener, &mut terms);
         let selection = select(problem, terms, options.gates);

@@ -12,7 +12,7 @@ use crate::candidates::{all_causes, is_at_an_end};
 use crate::cause::Cause;
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, fit, free_columns, paired, reduced_target};
-use crate::rules::{EXCHANGES, LISTED, NAMED, OFFERED, ROWS_A_SAMPLE, SUSPECTED};
+use crate::rules::{AS_ONE, EXCHANGES, LISTED, NAMED, OFFERED, ROWS_A_SAMPLE, SUSPECTED};
 use crate::select::{Found, Selection, Stage, is_noise, refined, usable_rms};
 use fitted::{Fitted, Folds};
 pub use many::explain_many;
@@ -20,7 +20,6 @@ use rayon::prelude::*;
 use rigproof_model::effects::{Form, facts, form};
 use rigproof_spec::effect::Mechanism;
 use score::{Judge, prior};
-use std::sync::Arc;
 
 /// One explanation beside others.
 #[derive(Clone, Debug)]
@@ -41,9 +40,12 @@ pub struct Explanations {
 }
 
 impl Explanations {
-    /// The probability of a cause: the weight of all explanations that hold it.
+    /// The probability of a cause: the weight of all explanations that hold it, or have it where physics makes it the same.
     pub fn probability(&self, cause: Cause) -> f64 {
-        let holds = |own: &&Explanation| own.holds(cause);
+        let Some(leading) = self.living.first() else {
+            return 0.0;
+        };
+        let holds = |own: &&Explanation| own.holds(cause) || leading.is_as(own, cause);
         self.living.iter().filter(holds).map(|own| own.weight).sum()
     }
 
@@ -71,6 +73,19 @@ impl Explanations {
 }
 
 impl Explanation {
+    /// Whether another explanation is this one with a cause at another place and as good to within rounding: no motion tells the places apart.
+    fn is_as(&self, other: &Explanation, cause: Cause) -> bool {
+        let apart = (self.weight / other.weight).ln().abs();
+        let elsewhere = |own: &&Term| !self.holds(own.cause);
+        let mut others = other.terms.iter().filter(elsewhere);
+        let same = |own: &Term| kind(own.cause.mechanism) == kind(cause.mechanism);
+        apart < AS_ONE
+            && self.terms.len() == other.terms.len()
+            && !other.holds(cause)
+            && others.next().is_some_and(same)
+            && others.next().is_none()
+    }
+
     /// Whether it holds a cause, in whatever form.
     fn holds(&self, cause: Cause) -> bool {
         let same = |own: Cause| own.at == cause.at && kind(own.mechanism) == kind(cause.mechanism);
@@ -134,12 +149,7 @@ impl Round {
         let judge = Judge::of(problem, noise, rows_a_sample);
         let common: Vec<&Term> = nominal.iter().collect();
         let target = reduced_target(problem, &common).white;
-        let free = free_columns(problem, &common).into_iter();
-        let bare = Fitted::bare(
-            &folds,
-            target,
-            free.map(|rows| Arc::new(rows.clone())).collect(),
-        );
+        let bare = Fitted::bare(&folds, &target, &free_columns(problem, &common));
         let tried = candidates(problem, nominal);
         let exchanges = if thorough { EXCHANGES } else { 0 };
         let mut all = beam::search(problem, &folds, &judge, &bare, &tried, exchanges);
@@ -156,7 +166,8 @@ impl Round {
     }
 
     fn rows_a_sample(&self, problem: &Problem) -> f64 {
-        let residual = self.predicts_best().map(Fitted::residual);
+        let best = self.predicts_best();
+        let residual = best.map(|own| own.residual(&self.folds));
         discrepancy::rows_a_sample(
             &self.folds,
             &residual.unwrap_or_default(),

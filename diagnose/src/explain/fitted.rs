@@ -4,11 +4,14 @@ use crate::problem::{Problem, Rows, Term, add};
 use crate::regression::{Blocks, dot};
 use crate::rules::FEWEST_ROWS;
 use nalgebra::{DMatrix, DVector};
-use rigproof_model::effects::{Form, form};
+use rigproof_model::effects::{Form, OfSensor, form};
 use std::sync::Arc;
 
-/// The blocks of a problem, with the number of usable rows in each.
+/// The blocks of a problem, with the number of usable rows in each. Only usable rows are looked at, one after another.
 pub struct Folds {
+    /// Where the usable rows stand among all rows.
+    rows: Vec<usize>,
+    /// The usable rows of each block.
     ranges: Vec<(usize, usize)>,
     /// Usable rows of each block.
     pub counts: Vec<f64>,
@@ -20,17 +23,32 @@ impl Folds {
     /// The blocks in which enough rows are usable.
     pub fn of(problem: &Problem) -> Folds {
         let usable = &problem.windows.usable;
-        let count = |&(first, end): &(usize, usize)| {
-            let rows = usable.get(first..end).unwrap_or_default();
-            rows.iter().filter(|u| **u).count()
+        let of_block = |&(first, end): &(usize, usize)| -> Vec<usize> {
+            let is_usable = |row: &usize| usable.get(*row) == Some(&true);
+            (first..end).filter(is_usable).collect()
         };
-        let blocks = Blocks::new(problem).ranges.into_iter();
-        let ranges: Vec<_> = blocks.filter(|r| count(r) > FEWEST_ROWS).collect();
-        Folds {
-            counts: ranges.iter().map(|r| count(r) as f64).collect(),
-            ranges,
-            driving: problem.windows.average(&problem.run.driving()),
+        let blocks = Blocks::new(problem).ranges;
+        let blocks = blocks.iter().map(of_block);
+        let mut rows: Vec<usize> = Vec::new();
+        let mut ranges = Vec::new();
+        for block in blocks.filter(|block| block.len() > FEWEST_ROWS) {
+            ranges.push((rows.len(), rows.len() + block.len()));
+            rows.extend(block);
         }
+        let counts = ranges.iter().map(|(first, end)| (end - first) as f64);
+        Folds {
+            counts: counts.collect(),
+            driving: problem.windows.average(&problem.run.driving()),
+            rows,
+            ranges,
+        }
+    }
+
+    /// The usable rows of a column.
+    fn usable(&self, column: &[f64]) -> Arc<[f64]> {
+        let rows = self.rows.iter();
+        rows.map(|row| column.get(*row).copied().unwrap_or(0.0))
+            .collect()
     }
 
     /// All usable rows in the blocks.
@@ -71,10 +89,14 @@ pub struct Fitted {
     pub terms: Vec<Term>,
     /// Columns that are always free: what the description does not know.
     nuisance: usize,
-    columns: Vec<Arc<Rows>>,
+    /// The usable rows of each column, white.
+    columns: Vec<Arc<[f64]>>,
+    /// The usable rows of the target, white.
     target: Vec<f64>,
-    /// The driving effort that acts, row by row.
+    /// The driving effort that acts, row by row, but for its own gain.
     acting: Vec<f64>,
+    /// Columns that are the driving effort itself, with their places among all.
+    gains: Vec<(usize, Arc<Rows>)>,
     parts: Vec<Part>,
     /// What it leaves of each block when fitted to the others.
     pub losses: Vec<f64>,
@@ -84,7 +106,8 @@ pub struct Fitted {
 
 impl Fitted {
     /// The fit of the columns that are always free alone, to a white target.
-    pub fn bare(folds: &Folds, target: Vec<f64>, free: Vec<Arc<Rows>>) -> Fitted {
+    pub fn bare(folds: &Folds, target: &[f64], free: &[&Rows]) -> Fitted {
+        let target = folds.usable(target).to_vec();
         let parts = folds.dots(&target, &target).into_iter();
         let parts = parts.map(|square| Part {
             gram: DMatrix::zeros(0, 0),
@@ -97,12 +120,13 @@ impl Fitted {
             columns: Vec::new(),
             target,
             acting: folds.driving.clone(),
+            gains: Vec::new(),
             parts: parts.collect(),
             losses: Vec::new(),
             coefficients: Vec::new(),
         };
         for column in free {
-            fitted.take_in(folds, &column);
+            fitted.take_in(folds, column);
         }
         fitted.solve();
         fitted
@@ -118,6 +142,9 @@ impl Fitted {
             }
         }
         for column in &term.free {
+            if let Some(Form::Sensor(OfSensor::ForceGain)) = form(term.cause.mechanism) {
+                fitted.gains.push((fitted.columns.len(), column.clone()));
+            }
             fitted.take_in(folds, column);
         }
         fitted.terms.push(term.clone());
@@ -143,13 +170,19 @@ impl Fitted {
         self.terms.iter().map(&mut own).collect()
     }
 
-    /// What it leaves of each row when fitted to all of them.
-    pub fn residual(&self) -> Vec<f64> {
+    /// What it leaves of each row when fitted to all usable ones; 0 in the others.
+    pub fn residual(&self, folds: &Folds) -> Vec<f64> {
         let mut left = self.target.clone();
         for (column, times) in self.columns.iter().zip(&self.coefficients) {
-            add(&mut left, &column.white, -times);
+            add(&mut left, column, -times);
         }
-        left
+        let mut all = vec![0.0; folds.driving.len()];
+        for (row, value) in folds.rows.iter().zip(left) {
+            if let Some(slot) = all.get_mut(*row) {
+                *slot = value;
+            }
+        }
+        all
     }
 
     /// The sum of what it leaves of the blocks.
@@ -160,17 +193,23 @@ impl Fitted {
     /// The energy of the effort that acts over that of the recorded one. A change of the drive that takes the effort away makes every residual
     /// small: what is left is judged beside what acts.
     pub fn acting_share(&self, folds: &Folds) -> f64 {
-        dot(&self.acting, &self.acting) / dot(&folds.driving, &folds.driving).max(1e-300)
+        let mut acting = self.acting.clone();
+        for (place, column) in &self.gains {
+            let gain = self.coefficients.get(*place).copied().unwrap_or(0.0);
+            add(&mut acting, &column.raw, -gain);
+        }
+        dot(&acting, &acting) / dot(&folds.driving, &folds.driving).max(1e-300)
     }
 
-    fn take_in(&mut self, folds: &Folds, column: &Arc<Rows>) {
+    fn take_in(&mut self, folds: &Folds, column: &Rows) {
+        let column = folds.usable(&column.white);
         let size = self.columns.len();
-        let with_target = folds.dots(&column.white, &self.target);
-        let with_itself = folds.dots(&column.white, &column.white);
+        let with_target = folds.dots(&column, &self.target);
+        let with_itself = folds.dots(&column, &column);
         let with_others: Vec<Vec<f64>> = self
             .columns
             .iter()
-            .map(|other| folds.dots(&column.white, &other.white))
+            .map(|other| folds.dots(&column, other))
             .collect();
         for (block, part) in self.parts.iter_mut().enumerate() {
             let at = |values: &[f64]| values.get(block).copied().unwrap_or(0.0);
@@ -183,16 +222,17 @@ impl Fitted {
             part.gram = gram;
             part.moment = part.moment.clone().push(at(&with_target));
         }
-        self.columns.push(column.clone());
+        self.columns.push(column);
     }
 
     fn take_away(&mut self, folds: &Folds, fixed: &[f64]) {
+        let fixed = &folds.usable(fixed)[..];
         let with_target = folds.dots(fixed, &self.target);
         let with_itself = folds.dots(fixed, fixed);
         let with_columns: Vec<Vec<f64>> = self
             .columns
             .iter()
-            .map(|column| folds.dots(fixed, &column.white))
+            .map(|column| folds.dots(fixed, column))
             .collect();
         for (block, part) in self.parts.iter_mut().enumerate() {
             let at = |values: &[f64]| values.get(block).copied().unwrap_or(0.0);

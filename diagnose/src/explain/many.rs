@@ -10,7 +10,6 @@ use crate::rules::{LEAST_CORRELATION, MOST_LAGS, MOST_OF_MANY, ROWS_A_SAMPLE};
 use crate::select::{Selection, usable_rms};
 use rayon::prelude::*;
 use rigproof_spec::effect::Mechanism;
-use std::sync::Arc;
 
 /// Explains a recording of many places on top of the terms of its nominal model.
 pub fn explain_many(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection, Explanations) {
@@ -76,10 +75,8 @@ impl Round {
         let folds = Folds::of(problem);
         let common: Vec<&Term> = nominal.iter().collect();
         let target = reduced_target(problem, &common).white;
-        let free = free_columns(problem, &common).into_iter();
-        let free = free.map(|rows| Arc::new(rows.clone())).collect();
         Round {
-            bare: Fitted::bare(&folds, target, free),
+            bare: Fitted::bare(&folds, &target, &free_columns(problem, &common)),
             judge: Judge::of(problem, noise, rows_a_sample),
             tried: candidates(problem, nominal),
             folds,

@@ -18,30 +18,69 @@ pub fn refined(
 ) -> Fitted {
     let mut best = (judge.evidence(folds, &start), start);
     for stride in STRIDES {
-        for index in 0..best.1.terms.len() {
-            for _ in 0..MOST_MOVES {
-                let tried = moves(problem, &best.1, index, stride).into_iter();
-                let tried = tried.map(|terms| bare.of(folds, &terms));
-                let tried = tried.filter(|fitted| !gives_energy(fitted));
-                let better = tried
-                    .map(|fitted| (judge.evidence(folds, &fitted), fitted))
-                    .filter(|(evidence, _)| *evidence > best.0)
-                    .max_by(|a, b| a.0.total_cmp(&b.0));
-                match better {
-                    Some(better) => best = better,
-                    None => break,
-                }
-            }
+        // Each term comes to the end of the list in its turn, so that all stand in their order again afterwards.
+        for _ in 0..best.1.terms.len() {
+            best = moved(problem, folds, judge, bare, best, stride);
         }
     }
     best.1
 }
 
-/// The terms with one shape parameter of one of them moved by a stride either way.
-fn moves(problem: &Problem, fitted: &Fitted, index: usize, stride: f64) -> Vec<Vec<Term>> {
-    let Some(own) = fitted.terms.get(index) else {
-        return Vec::new();
+/// The explanation with its first term moved by strides as long as that helps, and put last.
+fn moved(
+    problem: &Problem,
+    folds: &Folds,
+    judge: &Judge,
+    bare: &Fitted,
+    start: (f64, Fitted),
+    stride: f64,
+) -> (f64, Fitted) {
+    let (before, start) = start;
+    let Some((own, others)) = start.terms.split_first() else {
+        return (before, start);
     };
+    let others = bare.of(folds, others);
+    let mut best = (before, others.with(folds, own));
+    let mut came_from = None;
+    for _ in 0..MOST_MOVES {
+        let Some(own) = best.1.terms.last() else {
+            break;
+        };
+        let tried = moves(problem, own, stride).into_iter();
+        let tried = tried.filter(|(by, _)| came_from != Some(by.back()));
+        let tried = tried.map(|(by, term)| (by, others.with(folds, &term)));
+        let tried = tried.filter(|(_, fitted)| !gives_energy(fitted));
+        let better = tried
+            .map(|(by, fitted)| (judge.evidence(folds, &fitted), by, fitted))
+            .filter(|(evidence, ..)| *evidence > best.0)
+            .max_by(|a, b| a.0.total_cmp(&b.0));
+        let Some((evidence, by, fitted)) = better else {
+            break;
+        };
+        came_from = Some(by);
+        best = (evidence, fitted);
+    }
+    best
+}
+
+/// A move of one shape parameter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Move {
+    place: usize,
+    up: bool,
+}
+
+impl Move {
+    fn back(self) -> Move {
+        Move {
+            up: !self.up,
+            ..self
+        }
+    }
+}
+
+/// A term with one shape parameter moved by a stride either way.
+fn moves(problem: &Problem, own: &Term, stride: f64) -> Vec<(Move, Term)> {
     let bounds = shape_bounds(problem, own.cause);
     // A period is known to a small share of it before, and its neighbours are other periods.
     let stride = match own.cause.mechanism {
@@ -50,7 +89,7 @@ fn moves(problem: &Problem, fitted: &Fitted, index: usize, stride: f64) -> Vec<V
     };
     let mut all = Vec::new();
     for (place, &(low, high)) in (0..own.shape.len()).zip(&bounds) {
-        for factor in [1.0 + stride, 1.0 / (1.0 + stride)] {
+        for (up, factor) in [(true, 1.0 + stride), (false, 1.0 / (1.0 + stride))] {
             let mut shape = own.shape.clone();
             let Some(value) = shape.get_mut(place) else {
                 continue;
@@ -59,14 +98,8 @@ fn moves(problem: &Problem, fitted: &Fitted, index: usize, stride: f64) -> Vec<V
             if *value < low.min(high) || *value > high.max(low) {
                 continue;
             }
-            let Some(moved) = unfitted(problem, own.cause, &shape, own.onset_s) else {
-                continue;
-            };
-            let mut terms = fitted.terms.clone();
-            if let Some(slot) = terms.get_mut(index) {
-                *slot = moved;
-            }
-            all.push(terms);
+            let moved = unfitted(problem, own.cause, &shape, own.onset_s);
+            all.extend(moved.map(|term| (Move { place, up }, term)));
         }
     }
     all

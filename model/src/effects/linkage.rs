@@ -79,7 +79,7 @@ pub(super) const PAYLOAD: Entry = Entry {
     mechanism: Mechanism::Payload,
     form: Form::Linkage(OfLinkage::Payload),
     linear: 1,
-    passive: false,
+    passive: true,
     refuted_by: "a handle that weighs what the model says",
     equation: "mass at the tip, added to the nominal one",
     facts: Facts {
