@@ -15,7 +15,6 @@ use crate::rules::{
 };
 use crate::weak::Windows;
 use core::f64::consts::TAU;
-use rayon::prelude::*;
 use rigproof_model::effects::facts::Shapes;
 use rigproof_model::effects::{Instant, facts};
 use rigproof_spec::effect::{Mechanism, Motion};
@@ -48,19 +47,6 @@ pub fn variants(problem: &Problem, cause: Cause, terms: &[&Term], fitted: &Fit) 
                 .kept_term(cause, shape)
                 .or_else(|| realise(problem, cause, shape, None, &effort))
         })
-        .collect()
-}
-
-/// The variants of several causes, a list a cause.
-pub fn all_variants(
-    problem: &Problem,
-    causes: Vec<Cause>,
-    terms: &[&Term],
-    fitted: &Fit,
-) -> Vec<Vec<Term>> {
-    let lists = causes.into_par_iter();
-    lists
-        .map(|cause| variants(problem, cause, terms, fitted))
         .collect()
 }
 
@@ -254,18 +240,6 @@ pub fn shape_bounds(problem: &Problem, cause: Cause) -> Vec<(f64, f64)> {
         *first = problem.run.reach(cause).unwrap_or(*first);
     }
     bounds
-}
-
-/// Whether a term's first shape parameter has run into the upper end of its range: a law that wants to be slower,
-/// wider or faster than it can mean is standing in for another one.
-pub fn is_at_edge(problem: &Problem, term: &Term) -> bool {
-    let shapes = facts(term.cause.mechanism).map(|facts| facts.shapes);
-    let bounded = shapes.is_some_and(Shapes::has_edge);
-    let bounds = shape_bounds(problem, term.cause);
-    match (term.shape.first(), bounds.first()) {
-        (Some(value), Some((_, high))) => bounded && *value > EDGE * high,
-        _ => false,
-    }
 }
 
 /// Whether the first shape parameter has run into an end of the range that was looked through: the recording does not determine it, and the law stands

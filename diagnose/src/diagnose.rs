@@ -11,28 +11,22 @@ pub(crate) mod write;
 
 use crate::align::Fault;
 use crate::cause::{Cause, Place};
-use crate::evidence::{inconstant, is_told_by_itself, rivals};
 use crate::explain::{Explanations, explain, explain_many};
 use crate::plant::{At, Plant, Run};
 use crate::problem::{Problem, Term};
 use crate::report::Report;
-use crate::rules::{FEWEST_WINDOWS, HOLD_OUT_SHARE, MOST_LEFT, SUSPECTED};
+use crate::rules::{FEWEST_WINDOWS, FLOOR_RATIO, HOLD_OUT_SHARE, SUSPECTED};
 use crate::scatter::{Trials, left_over};
-use crate::select::{FLOOR_RATIO, Gates, Selection, is_noise, refs, select, usable_rms};
-use crate::unknown::surrogates;
-use crate::whiten::Whitener;
+use crate::selection::{Selection, is_noise, refs};
 use ended::{faulty, not_excited};
 use parts::Parts;
 use rigproof_model::effects::entry;
-use rigproof_spec::effect::Mechanism;
 use rigproof_trace::Trace;
 use write::Stand;
 
 /// What a diagnosis is asked to do.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// What a mechanism must show before it is named.
-    pub gates: Gates,
     /// Share of the recording's end that is held out when no other recording is.
     pub hold_out_share: f64,
     /// Whether the numbers are refitted by free runs (the naming does not need it).
@@ -44,7 +38,6 @@ pub struct Options {
 impl Default for Options {
     fn default() -> Options {
         Options {
-            gates: Gates::default(),
             hold_out_share: HOLD_OUT_SHARE,
             refit: true,
             next_experiment: true,
@@ -145,7 +138,7 @@ pub fn diagnose<P: Plant>(
         Ok(terms) => terms,
         Err((at, fault)) => return faulty(plant, at, fault),
     };
-    let (mut selection, mut explanations) = named(&mut problem, terms, options);
+    let (mut selection, mut explanations) = named(&mut problem, terms);
     let checked = plant.check_found(&problem, &selection);
     let checked = checked.and_then(|()| plant.check_numbers(&parts.train, &problem, &selection));
     if let Err(fault) = checked {
@@ -153,15 +146,14 @@ pub fn diagnose<P: Plant>(
     }
     let beyond = plant.beyond_reason(&problem, &selection);
     selection.withdraw(&problem, beyond.as_slice());
-    let mut withdrawn = withdraw(&problem, &mut selection, explanations.is_some());
-    withdrawn.extend(beyond);
+    let mut withdrawn: Vec<Cause> = beyond.into_iter().collect();
     let trials = scattered(&problem, &selection);
     if let Some(trials) = trials.clone() {
         let windows = problem.windows.clone();
         problem = Problem::new(train, windows).within(trials);
         let terms = nominal(plant, &problem).unwrap_or_default();
-        (selection, explanations) = named(&mut problem, terms, options);
-        withdrawn = withdraw(&problem, &mut selection, explanations.is_some());
+        (selection, explanations) = named(&mut problem, terms);
+        withdrawn.clear();
     }
     bound(&problem, &mut selection);
     Stand {
@@ -175,45 +167,17 @@ pub fn diagnose<P: Plant>(
         other_recording: parts.other_recording,
         options,
         trials: trials.as_ref(),
-        explanations: explanations.as_ref(),
+        explanations: &explanations,
     }
     .report()
 }
 
-/// What is named on top of the nominal terms. Sets of mechanisms are weighed together. On a linkage one mechanism at a time is looked for first, and what
-/// leaves only noise stands; on one joint it is looked for where sets leave more, and stands where it leaves only noise, where sets name nothing, and where they
-/// leave what is no noise by far.
-fn named(
-    problem: &mut Problem,
-    mut terms: Vec<Term>,
-    options: &Options,
-) -> (Selection, Option<Explanations>) {
-    let whitener = problem.whitener.clone();
-    if problem.rules.many {
-        let (selection, explanations) = explain_many(problem, terms);
-        return (selection, Some(explanations));
+/// What is named on top of the nominal terms: sets of mechanisms weighed together.
+fn named(problem: &mut Problem, terms: Vec<Term>) -> (Selection, Explanations) {
+    match problem.rules.many {
+        true => explain_many(problem, terms),
+        false => explain(problem, terms),
     }
-    if problem.rules.by_family && std::env::var_os("RP_ONE").is_none() {
-        let selection = select(problem, terms.clone(), options.gates);
-        if is_noise(problem, &selection.after) {
-            return (selection, None);
-        }
-        begin_anew(problem, &whitener, &mut terms);
-    }
-    let (of_sets, explanations) = explain(problem, terms.clone());
-    let one = std::env::var_os("RP_ONE").is_some();
-    if !one && !problem.rules.by_family && !is_noise(problem, &of_sets.after) {
-        let whitener_of_sets = problem.whitener.clone();
-        begin_anew(problem, &whitener, &mut terms);
-        let selection = select(problem, terms, options.gates);
-        let beyond = usable_rms(problem, &of_sets.after.residual) > MOST_LEFT * problem.floor;
-        let stands = of_sets.found.is_empty() || beyond && !selection.found.is_empty();
-        if stands || is_noise(problem, &selection.after) {
-            return (selection, None);
-        }
-        problem.whiten_with(whitener_of_sets);
-    }
-    (of_sets, Some(explanations))
 }
 
 /// Bounds the probabilities of names beside which more than noise is left: a name that takes away little beside it may be a part of it. It is as sure as
@@ -225,12 +189,6 @@ fn bound(problem: &Problem, selection: &mut Selection) {
     for found in &mut selection.found {
         found.probability = found.probability.min(SUSPECTED + found.share.max(0.0));
     }
-}
-
-/// The problem and its nominal terms as they were with the sensors' noise alone.
-fn begin_anew(problem: &mut Problem, whitener: &Whitener, terms: &mut [Term]) {
-    problem.whiten_with(whitener.clone());
-    terms.iter_mut().for_each(|term| problem.refresh(term));
 }
 
 /// The physics of the nominal model as terms.
@@ -265,59 +223,4 @@ fn scattered(problem: &Problem, selection: &Selection) -> Option<Trials> {
     let least = FLOOR_RATIO * problem.floor;
     let scatter = trials.scatter(&residual, &problem.windows.usable, least);
     scatter.map(|_| trials)
-}
-
-/// Takes out the names that the recording itself contradicts.
-fn withdraw(problem: &Problem, selection: &mut Selection, weighed: bool) -> Vec<Cause> {
-    let mut withdrawn = Vec::new();
-    // Curves compete with names where these are weighed; they do not veto them.
-    if problem.rules.curves && !weighed {
-        withdrawn.extend(withdraw_surrogates(problem, selection));
-    }
-    if problem.rules.constancy {
-        withdrawn.extend(withdraw_inconstant(problem, selection));
-    }
-    withdrawn
-}
-
-/// Takes out the names that only stand in for another law, where more than noise is left.
-fn withdraw_surrogates(problem: &Problem, selection: &mut Selection) -> Vec<Cause> {
-    if is_noise(problem, &selection.after) {
-        return Vec::new();
-    }
-    let found: Vec<Mechanism> = selection
-        .found
-        .iter()
-        .map(|f| f.term.cause.mechanism)
-        .collect();
-    let residual = &selection.after.residual;
-    let withdrawn: Vec<Cause> = surrogates(problem, residual, &found)
-        .into_iter()
-        .map(Cause::of)
-        .collect();
-    selection.withdraw(problem, &withdrawn);
-    withdrawn
-}
-
-/// Takes out the names whose number is not constant where more than noise is left, and what then explains too little. Where
-/// something with a memory would explain as much, that may be what changes the number: the name stays beside it, as ambiguous.
-fn withdraw_inconstant(problem: &Problem, selection: &mut Selection) -> Vec<Cause> {
-    let mut withdrawn = Vec::new();
-    loop {
-        let mut causes = inconstant(problem, selection);
-        if !causes.is_empty() {
-            let rivals = rivals(problem, selection);
-            let pairs = selection.found.iter().zip(&rivals);
-            let told =
-                pairs.filter(|(_, own)| own.instead.iter().all(|c| is_told_by_itself(c.mechanism)));
-            let told: Vec<Cause> = told.map(|(found, _)| found.term.cause).collect();
-            causes.retain(|cause| told.contains(cause) && !cause.is_composed());
-        }
-        if causes.is_empty() {
-            return withdrawn;
-        }
-        selection.withdraw(problem, &causes);
-        selection.weigh_again(problem);
-        withdrawn.extend(causes);
-    }
 }

@@ -1,16 +1,14 @@
 //! This file says how sure a selection is: intervals, rivals, what would have been seen, what cannot be told.
 
-mod constancy;
 mod intervals;
-mod rivals;
 
 use crate::candidates::{causes, modelled_effort, realise, variants};
 use crate::cause::Cause;
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, dot, fit, free_columns, norm};
 use crate::report::{NotSeen, NullDirection};
-use crate::rules::{INCLUSION_REPLICATES, POWER_Z, TELLABLE};
-use crate::select::{Found, Gates, Selection, refs};
+use crate::rules::{GATE_SHARE, GATE_Z, INCLUSION_REPLICATES, POWER_Z, TELLABLE};
+use crate::selection::{Found, Selection, refs};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
@@ -19,9 +17,7 @@ use rigproof_model::effects::entry;
 use rigproof_spec::effect::Mechanism;
 use std::collections::BTreeMap;
 
-pub use constancy::{inconstant, is_told_by_itself};
 pub use intervals::{Intervals, intervals};
-pub use rivals::{Rivals, rivals};
 
 fn parameter_count(term: &Term) -> usize {
     entry(term.cause.mechanism).map_or(0, |e| e.linear) + term.shape.len()
@@ -131,8 +127,8 @@ fn without(found: &[Found], index: usize) -> Vec<Found> {
     others.map(|(_, f)| f.clone()).collect()
 }
 
-/// Share of block-bootstrap replicates in which a found mechanism still takes the gates' share of the loss away.
-pub fn inclusion(problem: &Problem, selection: &Selection, index: usize, gates: Gates) -> f64 {
+/// Share of block-bootstrap replicates in which a found mechanism still takes a share of the loss away that matters.
+pub fn inclusion(problem: &Problem, selection: &Selection, index: usize) -> f64 {
     let blocks = Blocks::new(problem);
     let others = without(&selection.found, index);
     let bare = fit(problem, &refs(&selection.nominal, &others), &blocks);
@@ -152,14 +148,14 @@ pub fn inclusion(problem: &Problem, selection: &Selection, index: usize, gates: 
                 before += b;
                 after += a;
             }
-            after < (1.0 - gates.share) * before
+            after < (1.0 - GATE_SHARE) * before
         })
         .count();
     passed as f64 / INCLUSION_REPLICATES as f64
 }
 
 /// The least size of every mechanism that was not named.
-pub fn not_seen(problem: &Problem, selection: &Selection, gates: Gates) -> Vec<NotSeen> {
+pub fn not_seen(problem: &Problem, selection: &Selection) -> Vec<NotSeen> {
     let motion = problem.run.motion_kind();
     let terms = refs(&selection.nominal, &selection.found);
     let taken: Vec<Cause> = terms.iter().map(|t| t.cause).collect();
@@ -173,7 +169,7 @@ pub fn not_seen(problem: &Problem, selection: &Selection, gates: Gates) -> Vec<N
         .filter(|cause| !taken.contains(cause))
         .filter_map(|cause| {
             let tried = variants(problem, cause, &terms, &selection.after);
-            let least = |t: &Term| least_size(t, &basis, selection.after.loss, gates);
+            let least = |t: &Term| least_size(t, &basis, selection.after.loss);
             let minimum = tried.iter().filter_map(least).fold(f64::INFINITY, f64::min);
             let parameter = cause.mechanism.parameters().first()?;
             minimum.is_finite().then(|| NotSeen {
@@ -187,8 +183,8 @@ pub fn not_seen(problem: &Problem, selection: &Selection, gates: Gates) -> Vec<N
         .collect()
 }
 
-/// The size of a term's leading parameter at which it passes the gates.
-fn least_size(term: &Term, basis: &[Vec<f64>], loss: f64, gates: Gates) -> Option<f64> {
+/// The size of a term's leading parameter at which it would be seen.
+fn least_size(term: &Term, basis: &[Vec<f64>], loss: f64) -> Option<f64> {
     let (rows, unit) = match (&term.fixed, term.free.first()) {
         (Some(fixed), _) => (fixed, term.shape.first()?.abs()),
         (None, Some(free)) => (free, 1.0),
@@ -202,7 +198,7 @@ fn least_size(term: &Term, basis: &[Vec<f64>], loss: f64, gates: Gates) -> Optio
         }
     }
     let own = norm(&rest);
-    let needed = (gates.z + POWER_Z).max((gates.share * loss).sqrt());
+    let needed = (GATE_Z + POWER_Z).max((GATE_SHARE * loss).sqrt());
     (own > TELLABLE * norm(&rows.white)).then(|| unit * needed / own)
 }
 

@@ -13,7 +13,7 @@ use crate::cause::Cause;
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, fit, free_columns, paired, reduced_target};
 use crate::rules::{AS_ONE, EXCHANGES, LISTED, NAMED, OFFERED, ROWS_A_SAMPLE, SUSPECTED};
-use crate::select::{Found, Selection, Stage, is_noise, refined, usable_rms};
+use crate::selection::{Found, Selection, Stage, centred, is_noise, refined, usable_rms};
 use fitted::{Fitted, Folds};
 pub use many::explain_many;
 use rayon::prelude::*;
@@ -260,7 +260,8 @@ fn polished(problem: &Problem, nominal: &[Term], terms: &[Term]) -> Vec<Term> {
         }
         let common: Vec<&Term> = nominal.iter().chain(&others).collect();
         if let Some(slot) = all.get_mut(index) {
-            *slot = refined(problem, &common, own, &blocks);
+            let own = refined(problem, &common, own, &blocks);
+            *slot = centred(problem, &common, &own).unwrap_or(own);
         }
     }
     all
@@ -308,7 +309,6 @@ fn selected(problem: &Problem, nominal: Vec<Term>, explanations: &Explanations) 
     let stages: Vec<Stage> = stages.collect();
     Selection {
         found,
-        too_small: Vec::new(),
         stages,
         before,
         after,

@@ -81,7 +81,7 @@ mod regression;
 pub mod report;
 pub mod rules;
 mod scatter;
-mod select;
+mod selection;
 pub mod self_calibration;
 mod sensor;
 mod signals;
@@ -92,4 +92,3 @@ mod whiten;
 
 pub use diagnose::{Curves, Diagnosis, FittedCurves, Options, diagnose};
 pub use plants::{Description, Measured};
-pub use select::Gates;

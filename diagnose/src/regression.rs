@@ -103,33 +103,6 @@ pub fn loss_of(problem: &Problem, terms: &[&Term]) -> f64 {
     loss(&all, &solve(&all))
 }
 
-/// The left-out losses when, inside each fold, the best of several variants is chosen on the other blocks.
-pub fn nested_block_losses(
-    problem: &Problem,
-    common: &[&Term],
-    variants: &[Term],
-    blocks: &Blocks,
-) -> Vec<f64> {
-    let mut best = vec![(f64::INFINITY, f64::INFINITY); blocks.ranges.len()];
-    for variant in variants {
-        let mut terms = common.to_vec();
-        terms.push(variant);
-        let columns = free_columns(problem, &terms);
-        let target = reduced_target(problem, &terms);
-        let redundant = redundancy(&columns);
-        let own = kept(&columns, &redundant);
-        for (best, (trained, left_out)) in
-            best.iter_mut()
-                .zip(fold_losses(&own, &target.white, blocks))
-        {
-            if trained < best.0 {
-                *best = (trained, left_out);
-            }
-        }
-    }
-    best.into_iter().map(|(_, left_out)| left_out).collect()
-}
-
 /// Left-out loss of a white target over the blocks with these columns.
 pub fn left_out_loss(target: &[f64], columns: &[Rows], blocks: &Blocks) -> f64 {
     let columns: Vec<&Rows> = columns.iter().collect();
@@ -199,15 +172,8 @@ fn redundancy(columns: &[&Rows]) -> Vec<bool> {
         .collect()
 }
 
+/// For each block, the loss that the fit to the others leaves there.
 fn block_losses(columns: &[&[f64]], target: &[f64], blocks: &Blocks) -> Vec<f64> {
-    fold_losses(columns, target, blocks)
-        .into_iter()
-        .map(|(_, left_out)| left_out)
-        .collect()
-}
-
-/// For each block: the loss on the other blocks and the loss on the block left out.
-fn fold_losses(columns: &[&[f64]], target: &[f64], blocks: &Blocks) -> Vec<(f64, f64)> {
     let parts: Vec<Normal> = blocks
         .ranges
         .iter()
@@ -227,8 +193,7 @@ fn fold_losses(columns: &[&[f64]], target: &[f64], blocks: &Blocks) -> Vec<(f64,
                 moment: &sum.moment - &part.moment,
                 square: sum.square - part.square,
             };
-            let solution = solve(&others);
-            (loss(&others, &solution), loss(part, &solution))
+            loss(part, &solve(&others))
         })
         .collect()
 }
@@ -346,10 +311,9 @@ pub fn norm(a: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
-    use crate::cause::Cause;
     use crate::plant::Run;
     use crate::plants::joint::recorded::{Noise, exact_bench};
-    use crate::problem::{Problem, Term};
+    use crate::problem::Problem;
     use rigproof_spec::effect::Mechanism;
 
     fn rows(white: Vec<f64>) -> Rows {
@@ -405,49 +369,6 @@ mod tests {
             (found - expected).abs() < 1e-8 * expected,
             "{found} {expected}"
         );
-    }
-
-    #[test]
-    fn the_best_variant_is_chosen_without_the_block_it_is_judged_on() {
-        let run = exact_bench(&[(Mechanism::Viscous, &[2.3])], 11_000);
-        let mut problem = Problem::new(&run, run.windows_of(0.043));
-        let count = problem.windows.centres.len();
-        let blocks = Blocks::new(&problem);
-        let (one, other) = (noise(count, 11), noise(count, 12));
-        // One variant is right in the first block only, where it is far stronger; the other one everywhere else.
-        let first = blocks.ranges[0];
-        let target: Vec<f64> = (0..count)
-            .map(|k| {
-                if k < first.1 {
-                    9.0 * one[k]
-                } else {
-                    0.7 * other[k]
-                }
-            })
-            .collect();
-        problem.target = rows(target.clone());
-        let term = |column: &Vec<f64>| Term {
-            cause: Cause::of(Mechanism::Viscous),
-            shape: Vec::new(),
-            onset_s: None,
-            free: vec![Arc::new(rows(column.clone()))],
-            fixed: None,
-            known: None,
-        };
-        let variants = [term(&one), term(&other)];
-        let nested = nested_block_losses(&problem, &[], &variants, &blocks);
-        let alone: Vec<Vec<f64>> = variants
-            .iter()
-            .map(|v| fit(&problem, &[v], &blocks).block_loss)
-            .collect();
-        // Chosen on all blocks it would be the first variant; judged on the first block it must be the second.
-        assert!(
-            fit(&problem, &[&variants[0]], &blocks).loss
-                < fit(&problem, &[&variants[1]], &blocks).loss
-        );
-        assert!((nested[0] - alone[1][0]).abs() < 1e-9 * nested[0]);
-        assert!((nested[0] - alone[0][0]).abs() > 1e-3 * nested[0]);
-        assert!((nested[3] - alone[0][3]).abs() < 1e-9 * nested[3]);
     }
 
     #[test]

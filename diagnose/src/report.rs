@@ -42,8 +42,6 @@ pub struct Report {
     pub effects: Vec<EffectReport>,
     /// For each effect, what explains as much in its place: a mechanism, or as `viscous at E` where there are several joints; two that do so together as `presliding at E with constant_bias at E`.
     pub ambiguous_with: Vec<Vec<String>>,
-    /// Mechanisms that help, but by less than what stays unexplained: not named.
-    pub too_small_to_name: Vec<String>,
     /// Mechanisms that only stand in for another law over the same variable: not named.
     pub withdrawn: Vec<String>,
     /// The nominal model's own unknowns after the fit.
@@ -284,25 +282,6 @@ pub struct EffectReport {
     pub equation: &'static str,
     /// What would refute it.
     pub refuted_by: &'static str,
-    /// Richer laws that come to the same as it, or as a rival of it, on this recording, because that is their limit.
-    pub limit_of: Vec<LimitOf>,
-}
-
-/// A richer law that comes to the same as its limit on this recording.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct LimitOf {
-    /// The richer law, as `presliding at A` where there are several joints.
-    pub name: String,
-    /// The simpler law: what is named, or a rival of it.
-    pub limit: String,
-    /// The parameter that is at its limit there.
-    pub parameter: &'static str,
-    /// The greatest value of it that was tried and looks the same, where the limit is 0; absent where it is not told from 0.
-    pub at_most: Option<f64>,
-    /// The least value of it that was tried and looks the same, where the limit lies beyond every value.
-    pub at_least: Option<f64>,
-    /// Unit of the parameter.
-    pub unit: String,
 }
 
 /// The least size at which a mechanism would have been named.

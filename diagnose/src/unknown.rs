@@ -6,11 +6,7 @@ use crate::cause::Place;
 use crate::problem::{Problem, Rows};
 use crate::regression::{Blocks, left_out_loss};
 use crate::report::Unknown;
-use rigproof_spec::effect::Mechanism;
-
-use crate::rules::{BLOCKS_A_KNOT, CURVE_SHARE, KNOTS, PARITY_TIMES, SURROGATE_SHARE};
-use rigproof_model::effects::facts;
-use rigproof_model::effects::facts::Shows;
+use crate::rules::{BLOCKS_A_KNOT, CURVE_SHARE, KNOTS, PARITY_TIMES};
 pub use variables::variables;
 
 /// Screens position, speed, time and effort for the curve that takes away most of the residual, or `None` when no
@@ -38,22 +34,6 @@ fn screen(problem: &Problem, residual: &[f64], variables: Vec<Variable>) -> Vec<
         .collect()
 }
 
-/// The found mechanisms that only stand in for another law: with them in place, a free curve over a variable that
-/// they are functions of, or that their level should not depend on, still takes a good part of the remaining loss away.
-pub fn surrogates(problem: &Problem, residual: &[f64], found: &[Mechanism]) -> Vec<Mechanism> {
-    let related = over(problem)
-        .into_iter()
-        .filter(|v| found.iter().any(|m| v.concerns(*m)))
-        .collect();
-    let curves: Vec<Variable> = screen(problem, residual, related)
-        .into_iter()
-        .filter(|(_, share)| *share > SURROGATE_SHARE)
-        .map(|(variable, _)| variable)
-        .collect();
-    let stands_in = |m: &Mechanism| curves.iter().any(|v| v.concerns(*m));
-    found.iter().copied().filter(stands_in).collect()
-}
-
 /// What a free curve can be drawn over; every list has one value a row.
 pub struct Variable {
     /// `position`, `speed`, `time`, `effort` or `load`.
@@ -77,18 +57,6 @@ fn over(problem: &Problem) -> Vec<Variable> {
 }
 
 impl Variable {
-    /// Whether a mechanism is a function of this variable, or has a level that should not depend on it.
-    fn concerns(&self, mechanism: Mechanism) -> bool {
-        match facts(mechanism).map_or(Shows::Nowhere, |facts| facts.shows) {
-            Shows::SpeedAndLevels => self.level || self.name == "speed",
-            Shows::Speed => self.name == "speed",
-            Shows::Position => self.name == "position" && !self.level,
-            Shows::Time => self.name == "time" && !self.level,
-            Shows::Effort => matches!(self.name, "effort" | "load"),
-            Shows::Nowhere => false,
-        }
-    }
-
     /// What a curve of height 1 adds to each row.
     fn effect(&self) -> impl Iterator<Item = f64> + Clone {
         let pairs = self.sense.iter().zip(&self.share);
@@ -266,6 +234,7 @@ mod tests {
 
     use crate::plant::Run;
     use crate::plants::joint::recorded::exact_bench;
+    use rigproof_spec::effect::Mechanism;
 
     #[test]
     fn a_curve_over_the_position_is_found_and_drawn() {
@@ -282,8 +251,6 @@ mod tests {
             ("position", "odd", false)
         );
         assert!(unknown.share > 0.9, "{}", unknown.share);
-        let found = [Mechanism::Viscous, Mechanism::Spring];
-        assert_eq!(surrogates(&problem, &residual, &found), [Mechanism::Spring]);
     }
 
     #[test]
@@ -300,11 +267,6 @@ mod tests {
         let unknown = unknown(&problem, &residual).unwrap();
         assert_eq!((unknown.variable, unknown.along_motion), ("time", true));
         assert!(unknown.shape.windows(2).all(|w| w[1].1 < w[0].1));
-        let found = [Mechanism::DryOffset, Mechanism::Spring];
-        assert_eq!(
-            surrogates(&problem, &residual, &found),
-            [Mechanism::DryOffset]
-        );
     }
 
     #[test]

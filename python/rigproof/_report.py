@@ -69,8 +69,8 @@ class Report:
 
     @property
     def remaining(self) -> Row:
-        """What is left: `floor` (residual against noise), `unknown` (its shape, or None), `too_small_to_name`."""
-        return {key: self.json[key] for key in ("floor", "unknown", "too_small_to_name")}
+        """What is left: `floor` (residual against noise), `unknown` (its shape, or None)."""
+        return {key: self.json[key] for key in ("floor", "unknown")}
 
     @property
     def before_after(self) -> Names:

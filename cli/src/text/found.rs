@@ -1,8 +1,8 @@
 //! This file says where a recording disagrees, how the cause was named, and what it is.
 
-use rigproof_diagnose::report::{EffectReport, LimitOf, Located, Number, Report};
+use rigproof_diagnose::report::{EffectReport, Located, Number, Report};
 
-use super::number::{percent, significant, with_interval, with_unit};
+use super::number::{percent, significant, with_interval};
 use super::section;
 
 /// Regimes that are printed; the report holds all.
@@ -118,7 +118,6 @@ fn one(effect: &EffectReport, rivals: &[String]) -> Vec<String> {
     if !rivals.is_empty() {
         lines.push(format!("    cannot be told from: {}", rivals.join(", ")));
     }
-    lines.extend(effect.limit_of.iter().map(limit));
     lines.push(format!("    would be refuted by: {}", effect.refuted_by));
     lines
 }
@@ -131,23 +130,6 @@ fn onset(effect: &EffectReport) -> Option<String> {
         high95: effect.onset_high95_s,
     };
     Some(format!("    begins at {}", with_interval(&onset)))
-}
-
-/// A richer law that comes to the same.
-fn limit(richer: &LimitOf) -> String {
-    let LimitOf {
-        name,
-        limit,
-        parameter,
-        unit,
-        ..
-    } = richer;
-    let how = match (richer.at_most, richer.at_least) {
-        (Some(value), _) => format!("with a {parameter} of {} or less", with_unit(value, unit)),
-        (_, Some(value)) => format!("with a {parameter} of {} or more", with_unit(value, unit)),
-        (None, None) => format!("with a {parameter} that is not told from 0"),
-    };
-    format!("    {name} {how} would look like {limit}, which is the simpler law")
 }
 
 /// The numbers of the nominal model after the fit.

@@ -18,14 +18,10 @@ pub fn left_over(report: &Report) -> Vec<String> {
             with_unit(floor.predicted, &floor.unit),
         )
     }));
-    if !report.too_small_to_name.is_empty() {
-        let names = report.too_small_to_name.join(", ");
-        lines.push(format!("  too small to name: {names}"));
-    }
     if !report.withdrawn.is_empty() {
         let names = report.withdrawn.join(", ");
         lines.push(format!(
-            "  not named, because they only stand in for another law: {names}"
+            "  not named, because nothing real comes to such a size: {names}"
         ));
     }
     lines.extend(report.null_directions.iter().map(|null| {

@@ -9,7 +9,7 @@ use crate::plant::{Plant, Run, Shown};
 use crate::problem::{Problem, Term, add};
 use crate::report::{Agreement, BeforeAfter, FitReport};
 use crate::rules::HELD_OUT_TIMES;
-use crate::select::{Selection, refs};
+use crate::selection::{Selection, refs};
 use rigproof_spec::effect::Quantity;
 
 /// What a fit comes to by the balance of efforts.

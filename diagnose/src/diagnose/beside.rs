@@ -5,7 +5,7 @@ use crate::evidence::{Intervals, coefficients_by_term, parameters};
 use crate::plant::{Plant, Run};
 use crate::report::{Floor, Remark};
 use crate::rules::FAR_BELOW_FLOOR;
-use crate::select::refs;
+use crate::selection::refs;
 use rigproof_spec::effect::Mechanism;
 
 impl<P: Plant> Stand<'_, P> {

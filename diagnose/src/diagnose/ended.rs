@@ -65,7 +65,6 @@ pub(crate) fn blank(plant: &'static str, verdict: Verdict, summary: String) -> R
         stages: Vec::new(),
         effects: Vec::new(),
         ambiguous_with: Vec::new(),
-        too_small_to_name: Vec::new(),
         withdrawn: Vec::new(),
         nominal: Default::default(),
         inverse_model: None,

@@ -3,7 +3,7 @@
 use crate::evidence::{Intervals, coefficients_by_term, parameters};
 use crate::problem::Problem;
 use crate::report::Number;
-use crate::select::{Selection, refs};
+use crate::selection::{Selection, refs};
 use rigproof_spec::effect::Motion;
 use rigproof_trace::rig::{RigEffect, Value};
 use std::collections::BTreeMap;

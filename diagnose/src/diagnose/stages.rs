@@ -3,7 +3,7 @@
 use super::write::Stand;
 use crate::plant::Plant;
 use crate::report::{InverseReport, StageReport};
-use crate::select::Stage;
+use crate::selection::Stage;
 use rigproof_spec::effect::Mechanism;
 
 /// A law with its shape, and when it begins, s.

@@ -3,7 +3,7 @@
 use crate::plant::Run;
 use crate::problem::Problem;
 use crate::report::{FitReport, Verdict};
-use crate::select::Selection;
+use crate::selection::Selection;
 
 /// How several recordings stand together, in words; `None` for one.
 pub(crate) fn together<R: Run>(parts: &[R]) -> Option<String> {

@@ -5,7 +5,7 @@ use super::numbers::numbers;
 use super::words::summary;
 use super::{Diagnosis, Options};
 use crate::cause::Cause;
-use crate::evidence::{Rivals, inclusion, intervals, not_seen, null_directions, rivals};
+use crate::evidence::{inclusion, intervals, not_seen, null_directions};
 use crate::explain::{Explanations, status};
 use crate::locate::locate;
 use crate::plant::{Plant, Shown};
@@ -13,7 +13,7 @@ use crate::problem::Problem;
 use crate::report::{EffectReport, ExplanationReport, Floor, Report, Unknown, Verdict};
 use crate::rules::{MOST_LISTED, NAMED};
 use crate::scatter::{Trials, left_over};
-use crate::select::{Selection, floor_limit, refs, usable_rms};
+use crate::selection::{Selection, floor_limit, refs, usable_rms};
 use crate::unknown::unknown;
 use rigproof_model::effects::entry;
 use rigproof_spec::effect::Quantity;
@@ -80,8 +80,8 @@ pub struct Stand<'a, P: Plant> {
     pub options: &'a Options,
     /// Trials of a brake whose gains differ; `problem` is told within them.
     pub trials: Option<&'a Trials>,
-    /// The explanations that were weighed, where they were.
-    pub explanations: Option<&'a Explanations>,
+    /// The explanations that were weighed.
+    pub explanations: &'a Explanations,
 }
 
 impl<P: Plant> Stand<'_, P> {
@@ -89,7 +89,10 @@ impl<P: Plant> Stand<'_, P> {
     pub(crate) fn report(&self) -> Diagnosis<P> {
         let (problem, selection) = (self.problem, self.selection);
         let all = self.rivals();
-        let rivals: Vec<Vec<String>> = all.iter().map(|own| own.names(problem)).collect();
+        let rivals: Vec<Vec<String>> = all
+            .iter()
+            .map(|own| own.iter().map(|cause| problem.name(*cause)).collect())
+            .collect();
         let floor = self.floor();
         let verdict = verdict(selection, &floor, floor_limit(problem), &rivals);
         let is_left = floor.ratio_after > floor_limit(problem);
@@ -119,13 +122,12 @@ impl<P: Plant> Stand<'_, P> {
             protocol,
             located: locate(problem, before, after),
             stages: self.stages(),
-            effects: self.effects(&calibration.found(self, &intervals), &all),
+            effects: self.effects(&calibration.found(self, &intervals)),
             ambiguous_with: rivals,
-            too_small_to_name: names(&selection.too_small),
             withdrawn: names(self.withdrawn),
             nominal: self.plant.nominal_numbers(&calibration),
             inverse_model: self.inverse_model(&[]),
-            not_seen: not_seen(problem, selection, self.options.gates),
+            not_seen: not_seen(problem, selection),
             held: P::held(self),
             null_directions: null_directions(problem, selection),
             unknown,
@@ -146,8 +148,7 @@ impl<P: Plant> Stand<'_, P> {
 
     /// The explanations that were weighed, the most probable first.
     fn explained(&self) -> Vec<ExplanationReport> {
-        let living = self.explanations.iter().flat_map(|all| &all.living);
-        let living = living.take(MOST_LISTED);
+        let living = self.explanations.living.iter().take(MOST_LISTED);
         living
             .map(|own| ExplanationReport {
                 names: own
@@ -161,32 +162,18 @@ impl<P: Plant> Stand<'_, P> {
             .collect()
     }
 
-    /// For each effect, what explains as much in its place: measured rivals, and the twin that no recording of this
-    /// plant can tell.
-    fn rivals(&self) -> Vec<Rivals> {
-        if let Some(explanations) = self.explanations {
-            let found = self.selection.found.iter();
-            let instead = found.map(|own| explanations.instead_of(own.term.cause));
-            return instead
-                .map(|instead| Rivals {
-                    instead,
-                    ..Rivals::default()
-                })
-                .collect();
-        }
-        let mut all = rivals(self.problem, self.selection);
-        for (rivals, found) in all.iter_mut().zip(&self.selection.found) {
-            let Some(twin) = self.problem.run.twin(found.term.cause) else {
-                continue;
-            };
-            let taken = refs(&self.selection.nominal, &self.selection.found)
-                .iter()
-                .any(|t| t.cause == twin);
-            if !taken && !rivals.instead.contains(&twin) {
-                rivals.instead.push(twin);
-            }
-        }
-        all
+    /// For each effect, what explains as much in its place, and the twin that no recording of this plant can tell.
+    fn rivals(&self) -> Vec<Vec<Cause>> {
+        let Selection { nominal, found, .. } = self.selection;
+        let taken = |cause: &Cause| refs(nominal, found).iter().any(|t| t.cause == *cause);
+        let of = |own: Cause| {
+            let mut instead = self.explanations.instead_of(own);
+            let twin = self.problem.run.twin(own);
+            let twin = twin.filter(|twin| !taken(twin) && !instead.contains(twin));
+            instead.extend(twin);
+            instead
+        };
+        found.iter().map(|own| of(own.term.cause)).collect()
     }
 
     pub(crate) fn floor(&self) -> Floor {
@@ -234,7 +221,7 @@ impl<P: Plant> Stand<'_, P> {
     }
 
     /// The named effects; `fitted` has their numbers.
-    fn effects(&self, fitted: &[RigEffect], limits: &[Rivals]) -> Vec<EffectReport> {
+    fn effects(&self, fitted: &[RigEffect]) -> Vec<EffectReport> {
         let (problem, selection) = (self.problem, self.selection);
         let motion = problem.run.motion_kind();
         let found = selection.found.iter().zip(fitted).enumerate();
@@ -242,7 +229,6 @@ impl<P: Plant> Stand<'_, P> {
             .filter_map(|(index, (found, fitted))| {
                 let cause = found.term.cause;
                 let entry = entry(cause.mechanism)?;
-                let richer = limits.get(index);
                 Some(EffectReport {
                     mechanism: cause.mechanism.name(),
                     joint: problem.run.place_name(cause.at),
@@ -251,13 +237,12 @@ impl<P: Plant> Stand<'_, P> {
                     onset_low95_s: fitted.onset.and_then(|onset| onset.low95),
                     onset_high95_s: fitted.onset.and_then(|onset| onset.high95),
                     z: found.z,
-                    inclusion: inclusion(problem, selection, index, self.options.gates),
+                    inclusion: inclusion(problem, selection, index),
                     share_explained: found.share,
                     probability: found.probability,
                     status: status(found.probability),
                     equation: entry.equation,
                     refuted_by: entry.refuted_by,
-                    limit_of: richer.map_or_else(Vec::new, |own| own.limits(problem)),
                 })
             })
             .collect()

@@ -10,7 +10,7 @@ use crate::filter::rms;
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, covariance, dot};
 use crate::rules::{LEAST_FREEDOM, TIMES_BY_FORM};
-use crate::select::{Selection, change_with_onset, onset_interval, refs, usable_rms};
+use crate::selection::{Selection, change_with_onset, onset_interval, refs, usable_rms};
 use crate::student::half_width;
 use nalgebra::{DMatrix, DVector};
 use rigproof_spec::effect::Mechanism;

@@ -7,7 +7,7 @@ use super::{Explanation, Explanations, candidates, living, selected};
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, fit, free_columns, reduced_target};
 use crate::rules::{LEAST_CORRELATION, MOST_LAGS, MOST_OF_MANY, ROWS_A_SAMPLE};
-use crate::select::{Selection, usable_rms};
+use crate::selection::{Selection, usable_rms};
 use rayon::prelude::*;
 use rigproof_spec::effect::Mechanism;
 

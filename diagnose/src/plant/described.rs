@@ -7,10 +7,10 @@ use crate::diagnose::numbers::fitted;
 use crate::diagnose::write::Stand;
 use crate::diagnose::{Curves, balance};
 use crate::effect::Effect;
-use crate::evidence::{Intervals, Rivals};
+use crate::evidence::Intervals;
 use crate::problem::Problem;
 use crate::report::{FitReport, HeldReport, Horizon, InverseReport, NextExperiment, Number};
-use crate::select::Selection;
+use crate::selection::Selection;
 use core::fmt::Debug;
 use rand_pcg::Pcg64Mcg;
 use rigproof_spec::effect::Mechanism;
@@ -199,7 +199,7 @@ pub trait Plant: Clone + Debug + Send + Sync + Sized {
     /// The experiment that would tell rival explanations apart, and its file.
     fn next_experiment(
         stand: &Stand<'_, Self>,
-        rivals: &[Rivals],
+        rivals: &[Vec<Cause>],
     ) -> Option<(NextExperiment, Option<Trace>)> {
         let _ = (stand, rivals);
         None

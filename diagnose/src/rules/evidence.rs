@@ -1,20 +1,8 @@
 //! This file is the rules by which a name is doubted, bounded or withdrawn, and by which what stays is shown.
 
-use super::{AXIS_BENCH, FIVE_BAR, REASON};
+use super::{AXIS_BENCH, REASON};
 
 rules! {
-    /// Share of an effect's gain that a rival must reach to be ambiguous with it.
-    RIVAL_SHARE: f64 = 0.9, "share", AXIS_BENCH;
-    /// Axis and bench: share of an effect's gain below which nothing counts as explaining as much, however the blocks scatter: there is none.
-    LEAST_RIVAL_SHARE_JOINT: f64 = f64::NEG_INFINITY, "share", AXIS_BENCH;
-    /// Five-bar: the same. An effect of the five-bar often lives in few blocks.
-    LEAST_RIVAL_SHARE_FIVE_BAR: f64 = 0.5, "share", FIVE_BAR;
-    /// Share of an effect's gain from which on the grid of a rival's shapes is refined.
-    NEAR_RIVAL: f64 = 0.7, "share", AXIS_BENCH;
-    /// z below which one that reaches that share is a rival: twice that of a tie.
-    RIVAL_TIE_Z: f64 = 4.0, "z", AXIS_BENCH;
-    /// Times what the named laws leave that a rival may leave in one's place, the block aside in which it leaves most more, where they leave more than noise.
-    TIMES_LEFT: f64 = 2.0, "times", "five-bar, 186 recordings of seeds 9000 to 9799 (decision 0157)";
     /// Bootstrap replicates of the inclusion frequency.
     INCLUSION_REPLICATES: usize = 500, "1", REASON;
     /// z a coefficient must have to be seen with 80 % power at the gates' z.
@@ -25,18 +13,8 @@ rules! {
     LEAST_FREEDOM: f64 = 3.0, "freedoms", "five-bar (decision 0149)";
     /// Most times by which an interval is wider because the law is another form of the true one.
     TIMES_BY_FORM: f64 = 3.0, "times", "axis and bench, other forms, seeds 2100 to 2130 (decision 0233)";
-    /// Length of a part in which a number may differ: some widths of a window, shorter than what swings.
-    PART_S: f64 = 0.25, "s", "five-bar, seeds below 10 000 (decision 0130)";
-    /// Share of the unexplained energy that must go when a number may differ from part to part for it not to be constant. A number that is constant came to 0.28 at most beside a law of another family, one that is not to 0.47 and more.
-    INCONSTANT_SHARE: f64 = 0.4, "share", "five-bar, seeds 3000 to 3100 (decision 0130)";
-    /// What is left is along the name itself if no elementary torque at a joint, that differs from part to part, takes much more of it.
-    INCONSTANT_OWN_SHARE: f64 = 0.9, "share", "five-bar, seeds below 10 000 (decision 0130)";
-    /// Rows that a part must have for each number.
-    ROWS_A_NUMBER: usize = 3, "rows", REASON;
     /// Standard deviations of its noise by which a reaction must be beyond what holds the joint before something is said to be missing: several thousand windows are looked at.
     BEYOND_SIGMAS: f64 = 5.0, "deviations", "five-bar, 28 recordings of seeds 7201 to 7261 (decision 0156)";
-    /// Share of the remaining loss that a free curve must take away before the named laws that it concerns count as surrogates of another law.
-    SURROGATE_SHARE: f64 = 0.3, "share", AXIS_BENCH;
     /// Share of the remaining loss that a curve must take away on left-out blocks to be drawn.
     CURVE_SHARE: f64 = 0.02, "share", AXIS_BENCH;
     /// Knots of a curve.

@@ -17,8 +17,6 @@ rules! {
     A_NUMBER: f64 = 2.4, "ln odds", DRIVEN;
     /// How common a mechanism is among those that models leave out, from the plainest to the most seldom, in natural logarithms of odds: which it is stands with the mechanism.
     USUAL_ODDS: [f64; 6] = [-3.2, -4.0, -4.8, -5.6, -6.4, -8.0], "ln odds", DRIVEN;
-    /// What sets of mechanisms may leave on one joint, in standard deviations of the sensors' noise, for their names to come before those of mechanisms that are taken one at a time: beyond it what is left is the model's own ignorance, and sets name what imitates it.
-    MOST_LEFT: f64 = 25.0, "deviations", "thirty simulated recordings (24 at most) and ten real ones (31 at least)";
     /// Explanations with one mechanism at two places are one where their odds differ by no more: what rounding leaves between places that move alike.
     AS_ONE: f64 = 0.01, "ln odds", REASON;
     /// The least weight of an explanation that is listed.

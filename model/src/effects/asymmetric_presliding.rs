@@ -4,7 +4,7 @@
 //! Once it has slid, it is a bristle with the mean of both limits and a constant of half their difference beside it; a recording tells them
 //! apart where it begins relaxed, because the constant is there at once. It takes energy in every closed cycle as long as no limit is negative.
 
-use super::facts::{Alone, Asked, AtRest, Beside, Facts, Family, Shapes, Where, Words};
+use super::facts::{Alone, Asked, AtRest, Facts, Family, Shapes, Where, Words};
 use super::{Entry, Form, Instant, Law, parameter, relaxed};
 use rigproof_spec::effect::Mechanism;
 
@@ -25,7 +25,6 @@ pub(super) const ENTRY: Entry = Entry {
     facts: Facts {
         has_forms: true,
         shapes: Shapes::Bristle,
-        beside: Beside::Bends,
         at_rest: AtRest::Level(|numbers| numbers.iter().copied().fold(0.0, f64::max)),
         both: Some([Mechanism::Presliding, Mechanism::ConstantBias]),
         ..Facts::of(

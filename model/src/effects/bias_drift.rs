@@ -1,6 +1,6 @@
 //! This file is a constant effort that drifts in proportion to the time since the start (a warming amplifier).
 
-use super::facts::{Alone, Asked, Facts, Family, Refit, Shows, Usual, Where, Words};
+use super::facts::{Alone, Asked, Facts, Family, Refit, Usual, Where, Words};
 use super::{Entry, Form, Instant, Law, parameter};
 use rigproof_spec::effect::Mechanism;
 
@@ -17,7 +17,6 @@ pub(super) const ENTRY: Entry = Entry {
     equation: "rate·t",
     facts: Facts {
         usual: Usual::Exceptional,
-        shows: Shows::Time,
         refit: Refit {
             leads: false,
             sizes: &[0.1],

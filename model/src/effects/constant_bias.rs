@@ -1,6 +1,6 @@
 //! This file is a constant effort: an offset of the drive or of the force sensor.
 
-use super::facts::{Alone, Asked, Beside, Facts, Family, Refit, Usual, Where, Words};
+use super::facts::{Alone, Asked, Facts, Family, Refit, Usual, Where, Words};
 use super::{Entry, Form, Instant, Law, parameter};
 use rigproof_spec::effect::Mechanism;
 
@@ -18,7 +18,6 @@ pub(super) const ENTRY: Entry = Entry {
     facts: Facts {
         at_arm: true,
         usual: Usual::Frequent,
-        beside: Beside::Elementary,
         twin: Some(Mechanism::DirectionAsymmetry),
         refit: Refit {
             leads: true,

@@ -1,8 +1,6 @@
 //! This file is friction that differs between the two directions of motion (a worn screw, a preloaded nut).
 
-use super::facts::{
-    Alone, Asked, AtRest, End, Facts, Family, Limit, Refit, Shows, Usual, Where, Words,
-};
+use super::facts::{Alone, Asked, AtRest, End, Facts, Family, Limit, Refit, Usual, Where, Words};
 use super::{Entry, Form, Instant, Law, parameter};
 use rigproof_spec::effect::Mechanism;
 
@@ -25,7 +23,6 @@ pub(super) const ENTRY: Entry = Entry {
         turn: 2,
         // It shifts both breakaway levels.
         at_rest: AtRest::Level(|numbers| parameter(numbers, 1).abs()),
-        shows: Shows::Speed,
         limit: Some(Limit {
             of: Mechanism::ConstantBias,
             parameter: 0,

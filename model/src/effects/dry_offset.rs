@@ -1,8 +1,6 @@
 //! This file is dry (Coulomb) friction: a level that opposes motion whatever the speed.
 
-use super::facts::{
-    Alone, Asked, AtRest, Beside, Facts, Family, Refit, Shows, Usual, Where, Words, first,
-};
+use super::facts::{Alone, Asked, AtRest, Facts, Family, Refit, Usual, Where, Words, first};
 use super::{Entry, Form, Instant, Law, parameter};
 use rigproof_spec::effect::Mechanism;
 
@@ -20,9 +18,7 @@ pub(super) const ENTRY: Entry = Entry {
     facts: Facts {
         at_arm: true,
         usual: Usual::Plain,
-        beside: Beside::Elementary,
         at_rest: AtRest::Dry(first),
-        shows: Shows::SpeedAndLevels,
         refit: Refit {
             leads: true,
             sizes: &[1.0],

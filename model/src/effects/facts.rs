@@ -22,12 +22,8 @@ pub struct Facts {
     pub usual: Usual,
     /// The shapes that are tried.
     pub shapes: Shapes,
-    /// What it does to names beside it at the same joint.
-    pub beside: Beside,
     /// What it holds its joint with at rest.
     pub at_rest: AtRest,
-    /// Over which variable a curve of what is left would show it.
-    pub shows: Shows,
     /// The mechanism that it comes to where one of its parameters goes to an end.
     pub limit: Option<Limit>,
     /// The mechanism that its own zero is: the second number that a fit gives it where that zero is not known.
@@ -59,9 +55,7 @@ impl Facts {
             turn: 0,
             usual: Usual::Rare,
             shapes: Shapes::None,
-            beside: Beside::Nothing,
             at_rest: AtRest::Nothing,
-            shows: Shows::Nowhere,
             limit: None,
             zero: None,
             twin: None,
@@ -232,16 +226,6 @@ pub enum Shapes {
     },
 }
 
-impl Shapes {
-    /// Whether one at the upper end of what is tried is slower, wider or faster than the law can mean, and stands in for another one.
-    pub const fn has_edge(self) -> bool {
-        matches!(
-            self,
-            Shapes::Peak | Shapes::Bristle | Shapes::Lag | Shapes::Shift
-        )
-    }
-}
-
 /// How common a mechanism is among what models leave out, from the plainest to the most seldom.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Usual {
@@ -257,21 +241,6 @@ pub enum Usual {
     Rare,
     /// Hardly ever.
     Exceptional,
-}
-
-/// What a mechanism does to names beside it at the same joint.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Beside {
-    /// Nothing that is known of.
-    Nothing,
-    /// It is elementary: one number without memory. Others mask it, it masks others, and it may bend a shape.
-    Elementary,
-    /// One number: it masks others and others mask it.
-    Masks,
-    /// Its shape bends towards elementary friction beside it that is not seen.
-    Bends,
-    /// It only mends the form of one that bends.
-    Mends,
 }
 
 /// The most that a mechanism holds its joint with at rest, from its numbers; where it goes from one level to another the higher one.
@@ -297,23 +266,6 @@ pub(super) fn first(numbers: &[f64]) -> f64 {
 /// The first number, nothing where it is negative.
 pub(super) fn first_if_positive(numbers: &[f64]) -> f64 {
     first(numbers).max(0.0)
-}
-
-/// Over which variable a curve of what is left would show a mechanism.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shows {
-    /// None of them.
-    Nowhere,
-    /// The speed, and every level of friction, which should not depend on its variable.
-    SpeedAndLevels,
-    /// The speed.
-    Speed,
-    /// The position.
-    Position,
-    /// The time.
-    Time,
-    /// The effort or the load.
-    Effort,
 }
 
 /// The mechanism that a richer one comes to.

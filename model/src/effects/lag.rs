@@ -1,8 +1,6 @@
 //! This file is what can be wrong with the drive: a first-order lag, a wrong gain, a time shift.
 
-use super::facts::{
-    Alone, Asked, AtRest, Beside, Facts, Family, Shapes, Shows, Usual, Where, Words, first,
-};
+use super::facts::{Alone, Asked, AtRest, Facts, Family, Shapes, Usual, Where, Words, first};
 use super::{Drive, Entry, Form};
 use rigproof_spec::effect::Mechanism;
 
@@ -41,9 +39,7 @@ pub(super) const GAIN_ENTRY: Entry = Entry {
     facts: Facts {
         usual: Usual::Frequent,
         turn: 1,
-        beside: Beside::Masks,
         at_rest: AtRest::OfBrake(first),
-        shows: Shows::Effort,
         ..Facts::of(
             Family::Drive,
             Asked {

@@ -1,6 +1,6 @@
 //! This file is a cubic (Duffing) spring about the position zero.
 
-use super::facts::{Alone, Asked, Facts, Family, Shows, Usual, Where, Words};
+use super::facts::{Alone, Asked, Facts, Family, Usual, Where, Words};
 use super::{Entry, Form, Instant, Law, parameter};
 use rigproof_spec::effect::Mechanism;
 
@@ -17,7 +17,6 @@ pub(super) const ENTRY: Entry = Entry {
     equation: "cubic·q³",
     facts: Facts {
         usual: Usual::Exceptional,
-        shows: Shows::Position,
         ..Facts::of(
             Family::Position,
             Asked {

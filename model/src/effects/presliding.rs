@@ -1,7 +1,7 @@
 //! This file is elastic motion before sliding: Dahl's bristle (P. R. Dahl, 1968).
 
 use super::facts::{
-    Alone, Asked, AtRest, Beside, End, Facts, Family, Limit, Refit, Shapes, Usual, Where, Words,
+    Alone, Asked, AtRest, End, Facts, Family, Limit, Refit, Shapes, Usual, Where, Words,
     first_if_positive,
 };
 use super::{Entry, Form, Instant, Law, parameter, relaxed};
@@ -24,7 +24,6 @@ pub(super) const ENTRY: Entry = Entry {
         turn: 2,
         has_forms: true,
         shapes: Shapes::Bristle,
-        beside: Beside::Bends,
         at_rest: AtRest::Level(first_if_positive),
         limit: Some(Limit {
             of: Mechanism::DryOffset,

@@ -1,6 +1,6 @@
 //! This file is an effort periodic in position (cogging, a bent shaft, a tooth mesh).
 
-use super::facts::{Alone, Asked, Facts, Family, Refit, Shapes, Shows, Usual, Where, Words};
+use super::facts::{Alone, Asked, Facts, Family, Refit, Shapes, Usual, Where, Words};
 use super::{Entry, Form, Instant, Law, parameter};
 use core::f64::consts::TAU;
 use rigproof_spec::effect::Mechanism;
@@ -23,7 +23,6 @@ pub(super) const ENTRY: Entry = Entry {
         usual: Usual::Seldom,
         turn: 9,
         shapes: Shapes::Period,
-        shows: Shows::Position,
         refit: Refit {
             leads: false,
             sizes: &[1.0, 1.0, 1.0],

@@ -1,8 +1,7 @@
 //! This file is a resistance that rest has built up and motion stirs away: settled particles (§3.4.1 names the scatter).
 
 use super::facts::{
-    Alone, Asked, AtRest, Beside, End, Facts, Family, Limit, Shapes, Where, Words,
-    first_if_positive,
+    Alone, Asked, AtRest, End, Facts, Family, Limit, Shapes, Where, Words, first_if_positive,
 };
 use super::{Entry, Form, Instant, Law, parameter, relaxed};
 use rigproof_spec::effect::Mechanism;
@@ -26,7 +25,6 @@ pub(super) const ENTRY: Entry = Entry {
             high: 30.0,
             count: 5,
         },
-        beside: Beside::Mends,
         at_rest: AtRest::Dry(first_if_positive),
         limit: Some(Limit {
             of: Mechanism::DryOffset,

@@ -1,6 +1,6 @@
 //! This file is a linear spring about its position of rest (a cable, a bellows).
 
-use super::facts::{Alone, Asked, End, Facts, Family, Limit, Shows, Usual, Where, Words};
+use super::facts::{Alone, Asked, End, Facts, Family, Limit, Usual, Where, Words};
 use super::{Entry, Form, Instant, Law, parameter};
 use rigproof_spec::effect::Mechanism;
 
@@ -18,7 +18,6 @@ pub(super) const ENTRY: Entry = Entry {
     equation: "stiffness·(q − rest)",
     facts: Facts {
         usual: Usual::Seldom,
-        shows: Shows::Position,
         limit: Some(Limit {
             of: Mechanism::ConstantBias,
             parameter: 0,

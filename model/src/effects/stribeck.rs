@@ -3,8 +3,7 @@
 //! is a travel rather than a time (Hess and Soom 1990; Canudas de Wit et al. 1995).
 
 use super::facts::{
-    Alone, Asked, AtRest, Beside, Facts, Family, Shapes, Shows, Usual, Where, Words,
-    first_if_positive,
+    Alone, Asked, AtRest, Facts, Family, Shapes, Usual, Where, Words, first_if_positive,
 };
 use super::{Entry, Form, Instant, Law, parameter, relaxed};
 use rigproof_spec::effect::Mechanism;
@@ -30,9 +29,7 @@ pub(super) const ENTRY: Entry = Entry {
         turn: 2,
         has_forms: true,
         shapes: Shapes::Peak,
-        beside: Beside::Bends,
         at_rest: AtRest::Dry(first_if_positive),
-        shows: Shows::SpeedAndLevels,
         ..Facts::of(
             Family::FrictionOfMotion,
             Asked {

@@ -3,7 +3,7 @@
 //!
 //! At an exponent of 1 it is viscous friction, at 0 it would be dry friction: a recording over a narrow range of speeds does not tell them apart.
 
-use super::facts::{Alone, Asked, Facts, Family, Shapes, Shows, Usual, Where, Words};
+use super::facts::{Alone, Asked, Facts, Family, Shapes, Usual, Where, Words};
 use super::{Entry, Form, Instant, Law, parameter};
 use rigproof_spec::effect::Mechanism;
 
@@ -24,7 +24,6 @@ pub(super) const ENTRY: Entry = Entry {
         in_sets: true,
         usual: Usual::Seldom,
         shapes: Shapes::Values(&[0.25, 0.5, 2.0, 3.0]),
-        shows: Shows::SpeedAndLevels,
         ..Facts::of(
             Family::FrictionOfMotion,
             Asked {

@@ -1,6 +1,6 @@
 //! This file is viscous friction: resistance in proportion to speed (thesis §3.3.2 measured and neglected it).
 
-use super::facts::{Alone, Asked, Beside, Facts, Family, Shows, Usual, Where, Words};
+use super::facts::{Alone, Asked, Facts, Family, Usual, Where, Words};
 use super::{Entry, Form, Instant, Law, parameter};
 use rigproof_spec::effect::Mechanism;
 
@@ -18,8 +18,6 @@ pub(super) const ENTRY: Entry = Entry {
     facts: Facts {
         at_arm: true,
         usual: Usual::Plain,
-        beside: Beside::Elementary,
-        shows: Shows::SpeedAndLevels,
         ..Facts::of(
             Family::FrictionOfMotion,
             Asked {

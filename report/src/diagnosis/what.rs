@@ -1,7 +1,7 @@
 //! This file says what was left out: words, equation, numbers with units and intervals, rivals and how the names entered.
 
 use maud::{Markup, html};
-use rigproof_diagnose::report::{EffectReport, LimitOf, Number, Report};
+use rigproof_diagnose::report::{EffectReport, Number, Report};
 use std::collections::BTreeMap;
 
 use crate::number::{percent, significant, with_unit};
@@ -38,20 +38,8 @@ fn one(effect: &EffectReport, rivals: &[String]) -> Markup {
                 @if let (Some(low), Some(high)) = (effect.onset_low95_s, effect.onset_high95_s) { ", in 95 % of cases between " (with_unit(low, "s")) " and " (with_unit(high, "s")) } "." } }
             p { @if rivals.is_empty() { "Everything else in the library that was tried in its place explains less." }
                 @else { "Would explain this recording as well in its place: " @for (k, rival) in rivals.iter().enumerate() { @if k > 0 { "; " } (plain_cause(rival)) " (" code { (rival) } ")" } "." } }
-            @for richer in &effect.limit_of { p.soft { (capital(&plain_cause(&richer.name))) " (" code { (richer.name) } ") " (limit(richer)) " would look like " (plain_cause(&richer.limit)) ", which is the simpler law." } }
             p.soft { "What would refute it: " (effect.refuted_by) "." }
         }
-    }
-}
-
-/// Where a richer law comes to the same.
-fn limit(richer: &LimitOf) -> String {
-    let parameter = richer.parameter.replace('_', " ");
-    let value = |value| with_unit(value, &richer.unit);
-    match (richer.at_most, richer.at_least) {
-        (Some(most), _) => format!("with a {parameter} of {} or less", value(most)),
-        (_, Some(least)) => format!("with a {parameter} of {} or more", value(least)),
-        (None, None) => format!("with a {parameter} that is not told from 0"),
     }
 }
 
@@ -114,17 +102,8 @@ fn unknown(report: &Report) -> Markup {
 }
 
 fn not_named(report: &Report) -> Markup {
-    let lists = [
-        (
-            "Help a little, but less than what stays unexplained, and are therefore not named:",
-            &report.too_small_to_name,
-        ),
-        (
-            "Were named on the way and taken back, because they only stood in for something else:",
-            &report.withdrawn,
-        ),
-    ];
-    html! { @for (words, names) in lists { @if !names.is_empty() {
-        p { (words) " " @for (k, name) in names.iter().enumerate() { @if k > 0 { "; " } (plain_cause(name)) } "." }
-    } } }
+    let names = &report.withdrawn;
+    html! { @if !names.is_empty() {
+        p { "Were named on the way and taken back, because nothing real comes to such a size: " @for (k, name) in names.iter().enumerate() { @if k > 0 { "; " } (plain_cause(name)) } "." }
+    } }
 }

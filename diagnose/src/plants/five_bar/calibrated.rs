@@ -7,7 +7,7 @@ use crate::cause::{Cause, Place, Scales};
 use crate::diagnose::numbers::{fitted, with_interval};
 use crate::diagnose::write::Stand;
 use crate::evidence::{Intervals, coefficients_by_term};
-use crate::select::refs;
+use crate::selection::refs;
 use rigproof_model::effects::facts;
 use rigproof_trace::rig::five_bar::{FiveBar, JointEffect};
 use rigproof_trace::rig::{RigEffect, Value};

@@ -13,13 +13,14 @@ use super::undone::described;
 use crate::candidates::{realise, variants};
 use crate::cause::Cause;
 use crate::diagnose::write::Stand;
-use crate::evidence::{Intervals, Rivals};
+use crate::evidence::Intervals;
 use crate::plant::Run;
 use crate::problem::Problem;
 use crate::regression::{Blocks, fit};
 use crate::report::{NextExperiment, Separation};
+use crate::rules::LEAST_SIGMAS;
 use crate::rules::{FINALISTS, MOST_EXPLANATIONS};
-use crate::select::{Found, LEAST_SIGMAS, Selection, best_variant, refined, refs};
+use crate::selection::{Found, Selection, best_variant, refined, refs};
 use explanation::Explanation;
 use plan::{DURATION_S, MIDDLE_M, Plan, plans};
 use play::{Sensors, play, with_effects};
@@ -33,7 +34,7 @@ use room::has_room;
 /// The experiment that tells the explanations apart best, and the plan; `None` where there is one explanation only.
 pub(super) fn next(
     stand: &Stand<'_, FiveBar>,
-    rivals: &[Rivals],
+    rivals: &[Vec<Cause>],
 ) -> Option<(NextExperiment, Option<Trace>)> {
     let run = stand.train;
     let layout = run.parameters.layout;
@@ -150,9 +151,8 @@ fn pairs(count: usize) -> Vec<[usize; 2]> {
 
 /// What was named, and each rival of one effect in its place, with the numbers that fit the recording best. Where several effects have
 /// rivals it is the first of them: what was named first explains most.
-fn explanations(stand: &Stand<'_, FiveBar>, rivals: &[Rivals]) -> Vec<Explanation> {
-    let instead = rivals.iter().map(|own| &own.instead);
-    let contested = instead.enumerate().find(|(_, own)| !own.is_empty());
+fn explanations(stand: &Stand<'_, FiveBar>, rivals: &[Vec<Cause>]) -> Vec<Explanation> {
+    let contested = rivals.iter().enumerate().find(|(_, own)| !own.is_empty());
     let Some((index, rivals)) = contested else {
         return Vec::new();
     };

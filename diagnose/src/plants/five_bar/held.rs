@@ -13,7 +13,7 @@ use crate::problem::{Problem, Term, add};
 use crate::regression::dot;
 use crate::report::{HeldJoint, HeldReport};
 use crate::rules::BEYOND_SIGMAS;
-use crate::select::{Selection, refs, usable_rms};
+use crate::selection::{Selection, refs, usable_rms};
 use crate::weak::{Windows, is_recorded};
 use nalgebra::Vector2;
 use rigproof_model::effects::facts::AtRest;
@@ -254,7 +254,7 @@ mod tests {
     use crate::plants::five_bar::from_rig::aligned;
     use crate::plants::five_bar::recorded::{self, nothing, recording, rig};
     use crate::regression::{Blocks, fit};
-    use crate::select::Found;
+    use crate::selection::Found;
     use rigproof_spec::layout::Layout;
 
     fn run() -> FiveBarRun {
@@ -289,7 +289,6 @@ mod tests {
         change(&mut after.coefficients);
         let selection = Selection {
             nominal: Vec::new(),
-            too_small: Vec::new(),
             stages: Vec::new(),
             before,
             after,
@@ -331,7 +330,6 @@ mod tests {
         let selection = Selection {
             nominal: Vec::new(),
             found: Vec::new(),
-            too_small: Vec::new(),
             stages: Vec::new(),
             before: none.clone(),
             after: none,
@@ -413,7 +411,6 @@ mod tests {
         }];
         let selection = Selection {
             nominal: Vec::new(),
-            too_small: Vec::new(),
             stages: Vec::new(),
             before: fit(&problem, &[], &blocks),
             after: fit(&problem, &refs(&[], &found), &blocks),

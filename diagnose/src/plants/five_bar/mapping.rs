@@ -9,7 +9,7 @@ use crate::evidence::{coefficients_by_term, parameters};
 use crate::plant::Run;
 use crate::problem::{Problem, less};
 use crate::rules::{ANOTHER_UNIT, READING_LEFT, READING_ODD};
-use crate::select::{Selection, usable_rms};
+use crate::selection::{Selection, usable_rms};
 use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
 

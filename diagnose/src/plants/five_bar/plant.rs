@@ -10,17 +10,18 @@ use super::replica::replica;
 use super::run::FiveBarRun;
 use super::undone::{described, left};
 use crate::align::Fault;
+use crate::cause::Cause;
 use crate::diagnose::numbers::fitted;
 use crate::diagnose::write::Stand;
 use crate::effect::Effect;
-use crate::evidence::{Intervals, Rivals};
+use crate::evidence::Intervals;
 use crate::plant::{
     At, Described, Plant, Replayed, Replica, Simulated, SimulatedOutput, Unsimulated,
 };
 use crate::plants::joined::joined;
 use crate::problem::Problem;
 use crate::report::{FitReport, HeldReport, Horizon, NextExperiment};
-use crate::select::Selection;
+use crate::selection::Selection;
 use crate::sensor::sensed;
 use rand_pcg::Pcg64Mcg;
 use rigproof_trace::csv::{Dialect, Hints};
@@ -121,7 +122,7 @@ impl Plant for FiveBar {
 
     fn next_experiment(
         stand: &Stand<'_, FiveBar>,
-        rivals: &[Rivals],
+        rivals: &[Vec<Cause>],
     ) -> Option<(NextExperiment, Option<Trace>)> {
         experiment::next(stand, rivals)
     }

@@ -3,6 +3,7 @@
 use crate::diagnose::words::{filled_in, together};
 use crate::diagnose::write::Stand;
 use crate::plant::Run;
+use crate::rules::{NAMED, SUSPECTED};
 use rigproof_trace::rig::five_bar::FiveBar;
 
 impl Stand<'_, FiveBar> {
@@ -18,7 +19,6 @@ impl Stand<'_, FiveBar> {
         };
         let (single, all) = (rows().filter(|(_, c)| c.is_some()).count(), rows().count());
         let whole = (all - single) / windows.outputs;
-        let gates = self.options.gates;
         let mut lines: Vec<String> = together(&self.train.parts).into_iter().collect();
         lines.extend([
             format!(
@@ -46,11 +46,8 @@ impl Stand<'_, FiveBar> {
                 self.train.theta_noise, self.train.force_noise
             ),
             format!(
-                "naming: z ≥ {} over left-out contiguous blocks, ≥ {} % of the loss, ≥ {} % of the driving effort, ≥ {} times what stays unexplained",
-                gates.z,
-                100.0 * gates.share,
-                100.0 * gates.relevance,
-                self.problem.rules.own_to_unexplained
+                "naming: sets of mechanisms weighed by what they predict of blocks of time that were left out; named from a probability of {NAMED} on, suspected from {SUSPECTED} on, beside effects of {} % of the effort",
+                100.0 * self.problem.rules.relevant,
             ),
         ]);
         lines.extend(filled_in(&self.train.recorded));

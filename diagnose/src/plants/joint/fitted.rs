@@ -11,7 +11,7 @@ use crate::plants::joint::refit::error_rms;
 use crate::plants::joint::run::{JointRun, PlantKind};
 use crate::plants::joint::simulate::{Model, Protocol, output};
 use crate::report::{BeforeAfter, FitReport, HELD_OUT_PART, Horizon};
-use crate::select::{floor_limit, refs};
+use crate::selection::{floor_limit, refs};
 use rigproof_spec::effect::Quantity;
 use rigproof_trace::rig::Rig;
 

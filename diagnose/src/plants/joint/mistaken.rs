@@ -10,7 +10,7 @@ use crate::evidence::{Intervals, coefficients_by_term, intervals};
 use crate::problem::Problem;
 use crate::regression::Fit;
 use crate::rules::{ANOTHER_INERTIA, ANOTHER_UNIT, DRAG_HALVES, UNIT_LEFT};
-use crate::select::{Selection, is_noise, usable_rms};
+use crate::selection::{Selection, is_noise, usable_rms};
 use rigproof_model::effects::entry;
 use rigproof_spec::effect::Mechanism;
 use rigproof_trace::rig::Rig;

@@ -18,7 +18,7 @@ use crate::plant::{At, Described, Plant, Replica, Shown, Simulated, SimulatedOut
 use crate::plants::joined::joined;
 use crate::problem::Problem;
 use crate::report::{FitReport, InverseReport, Number};
-use crate::select::Selection;
+use crate::selection::Selection;
 use crate::sensor::sensed;
 use rand_pcg::Pcg64Mcg;
 use rigproof_spec::effect::{Mechanism, Quantity};

@@ -5,7 +5,7 @@ use super::simulate::{Interpolation, Protocol};
 use crate::diagnose::words::{filled_in, together};
 use crate::diagnose::write::Stand;
 use crate::plant::Run;
-use crate::rules::NOISE_ORDER;
+use crate::rules::{NAMED, NOISE_ORDER, SUSPECTED};
 use rigproof_trace::rig::Rig;
 
 impl Stand<'_, Rig> {
@@ -37,11 +37,8 @@ impl Stand<'_, Rig> {
                 self.train.position_noise, self.train.effort_noise
             ),
             format!(
-                "naming: z ≥ {} over left-out contiguous blocks, ≥ {} % of the loss, ≥ {} % of the effort, ≥ {} times what stays unexplained",
-                self.options.gates.z,
-                100.0 * self.options.gates.share,
-                100.0 * self.options.gates.relevance,
-                self.problem.rules.own_to_unexplained
+                "naming: sets of mechanisms weighed by what they predict of blocks of time that were left out; named from a probability of {NAMED} on, suspected from {SUSPECTED} on, beside effects of {} % of the effort",
+                100.0 * self.problem.rules.relevant,
             ),
             self.fit_protocol(protocol),
         ]);

@@ -6,7 +6,7 @@ use super::undone::is_undone;
 use crate::diagnose::numbers::{number, numbers, onset, with_interval};
 use crate::evidence::Intervals;
 use crate::report::Number;
-use crate::select::Selection;
+use crate::selection::Selection;
 use rigproof_spec::effect::Mechanism;
 use rigproof_trace::rig::{Rig, RigEffect, Status};
 use std::collections::BTreeMap;

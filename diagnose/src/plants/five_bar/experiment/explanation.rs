@@ -5,7 +5,7 @@ use crate::candidates::{realise, variants};
 use crate::cause::Cause;
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, fit};
-use crate::select::best_variant;
+use crate::selection::best_variant;
 
 /// A cause with its shape, as an explanation has it.
 #[derive(Clone, Debug)]

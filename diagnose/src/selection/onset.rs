@@ -1,26 +1,11 @@
 //! This file says between which times an onset may lie, and puts it into the middle of them: where a joint rests or turns back nobody sees when something begins.
 
-use super::refine::ONSET_MARGIN;
 use super::weigh::{acting, loss_with, own_coefficients};
-use super::{Found, Selection, refs};
+use super::{Selection, refs};
 use crate::candidates::realise;
 use crate::problem::{Problem, Term, less};
 use crate::regression::{Blocks, dot, fit};
-use crate::rules::{ALIKE, FIRST_STEP_S, LOOKED_AT, NEAR_S, ONSET_INTERVAL_HALVINGS};
-
-/// Puts every onset into the middle of the times around it that are alike.
-pub(super) fn centre(problem: &Problem, nominal: &[Term], found: &mut [Found]) {
-    for index in 0..found.len() {
-        let others = found.iter().enumerate().filter(|(k, _)| *k != index);
-        let common: Vec<&Term> = nominal.iter().chain(others.map(|(_, f)| &f.term)).collect();
-        let centred = found
-            .get(index)
-            .and_then(|own| centred(problem, &common, &own.term));
-        if let (Some(term), Some(slot)) = (centred, found.get_mut(index)) {
-            slot.term = term;
-        }
-    }
-}
+use crate::rules::{ALIKE, FIRST_STEP_S, LOOKED_AT, NEAR_S, ONSET_INTERVAL_HALVINGS, ONSET_MARGIN};
 
 /// The 95 % interval of a found mechanism's onset, s. Where other numbers imitate a later onset, what is alike is so many times more (`imitated`, from 1 on). `None` where it begins with the
 /// recording.
@@ -59,7 +44,8 @@ pub(crate) fn change_with_onset(
     Some(less(&at(FIRST_STEP_S)?, &at(-FIRST_STEP_S)?))
 }
 
-fn centred(problem: &Problem, common: &[&Term], term: &Term) -> Option<Term> {
+/// A term with its onset in the middle of the times that explain the recording alike.
+pub(crate) fn centred(problem: &Problem, common: &[&Term], term: &Term) -> Option<Term> {
     let Valley {
         span_s: [low_s, high_s],
         best,

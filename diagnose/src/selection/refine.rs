@@ -1,40 +1,27 @@
 //! This file refines the shape and the onset of a mechanism by a pattern search inside their bounds.
 
-use super::Found;
 use super::weigh::{effort_beside, loss_with, own_coefficients};
 use crate::candidates::{modelled_effort, realise, shape_bounds};
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, fit};
-pub(super) use crate::rules::ONSET_MARGIN;
 use crate::rules::{
-    LEAST_IMPROVEMENT, MOST_ROUNDS, NO_WORSE, ONSET_HALVINGS, ONSET_STRIDE, PERIOD_STRIDE, STRIDE,
-    STRIDE_HALVINGS, TAKEN_AGAIN,
+    LEAST_IMPROVEMENT, MOST_ROUNDS, NO_WORSE, ONSET_HALVINGS, ONSET_MARGIN, ONSET_STRIDE,
+    PERIOD_STRIDE, STRIDE, STRIDE_HALVINGS, TAKEN_AGAIN,
 };
 use rigproof_model::effects::facts;
 use rigproof_model::effects::facts::Shapes;
 
-/// Improves the shape (and onset) of each found term by halving steps on the loss over all blocks.
-pub(super) fn refine(problem: &Problem, nominal: &[Term], found: &mut [Found], blocks: &Blocks) {
-    for index in 0..found.len() {
-        let Some(current) = found.get(index).map(|f| f.term.clone()) else {
-            continue;
-        };
-        if current.shape.is_empty() && current.onset_s.is_none() {
-            continue;
-        }
-        let others: Vec<Term> = found
-            .iter()
-            .enumerate()
-            .filter(|(k, _)| *k != index)
-            .map(|(_, f)| f.term.clone())
-            .collect();
-        let mut common: Vec<&Term> = nominal.iter().collect();
-        common.extend(others.iter());
-        let better = refined(problem, &common, current, blocks);
-        if let Some(slot) = found.get_mut(index) {
-            slot.term = better;
-        }
-    }
+/// The variant that leaves least over all blocks, and what it leaves.
+pub(crate) fn best_variant(
+    problem: &Problem,
+    common: &[&Term],
+    tried: &[Term],
+) -> Option<(Term, f64)> {
+    tried
+        .iter()
+        .map(|term| (term, loss_with(problem, common, term)))
+        .min_by(|a, b| a.1.total_cmp(&b.1))
+        .map(|(term, loss)| (term.clone(), loss))
 }
 
 /// Pattern search over the logarithms of the shape parameters and the onset.

@@ -1,0 +1,82 @@
+//! This file is what was chosen to explain a recording: the mechanisms, with the fit of all of them together.
+
+mod onset;
+mod refine;
+mod weigh;
+
+use crate::cause::Cause;
+use crate::problem::{Problem, Term};
+use crate::regression::{Blocks, Fit, fit};
+use crate::rules::{FLOOR_RATIO, FLOOR_SIGMAS, WINDOWS_A_FREEDOM};
+
+pub(crate) use onset::{centred, change_with_onset, onset_interval};
+pub(crate) use refine::{best_variant, refined};
+pub use weigh::{is_noise, usable_rms};
+
+/// One mechanism that was found, with the evidence for it.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// The term.
+    pub term: Term,
+    /// Paired z over blocks when it entered.
+    pub z: f64,
+    /// Share of the left-out loss it removed when it entered.
+    pub share: f64,
+    /// Whether nothing beyond sensor noise was left with it.
+    pub at_floor: bool,
+    /// How probable it is beside other explanations.
+    pub probability: f64,
+}
+
+/// What stood after one mechanism was named.
+#[derive(Clone, Debug)]
+pub struct Stage {
+    /// The cause that entered.
+    pub entered: Cause,
+    /// All causes that stood then.
+    pub standing: Vec<Cause>,
+    /// The shape and the onset of each of them.
+    pub shapes: Vec<(Vec<f64>, Option<f64>)>,
+    /// Root-mean-square residual of the windows, N or N·m.
+    pub residual: f64,
+}
+
+/// The outcome of the selection.
+#[derive(Clone, Debug)]
+pub struct Selection {
+    /// Terms of the nominal model.
+    pub nominal: Vec<Term>,
+    /// Mechanisms found, in the order they were named.
+    pub found: Vec<Found>,
+    /// How the mechanisms were named, one after another.
+    pub stages: Vec<Stage>,
+    /// The fit of the nominal model alone.
+    pub before: Fit,
+    /// The fit of everything.
+    pub after: Fit,
+}
+
+/// Residual over floor up to which nothing counts as unexplained on a recording: of few windows noise alone may be above
+/// [`FLOOR_RATIO`], so three standard deviations of what it comes to are allowed.
+pub fn floor_limit(problem: &Problem) -> f64 {
+    let usable = problem.windows.usable.iter().filter(|u| **u).count();
+    let freedom = (usable as f64 / WINDOWS_A_FREEDOM).max(1.0);
+    FLOOR_RATIO.max(1.0 + FLOOR_SIGMAS / (2.0 * freedom).sqrt())
+}
+
+impl Selection {
+    /// Takes mechanisms out again and fits what stays.
+    pub fn withdraw(&mut self, problem: &Problem, causes: &[Cause]) {
+        self.found.retain(|f| !causes.contains(&f.term.cause));
+        let blocks = Blocks::new(problem);
+        self.after = fit(problem, &refs(&self.nominal, &self.found), &blocks);
+    }
+}
+
+/// The nominal terms and the found ones, in the order of the fit's columns.
+pub fn refs<'b>(nominal: &'b [Term], found: &'b [Found]) -> Vec<&'b Term> {
+    nominal
+        .iter()
+        .chain(found.iter().map(|f| &f.term))
+        .collect()
+}
