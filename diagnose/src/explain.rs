@@ -30,6 +30,8 @@ pub struct Explanation {
     pub weight: f64,
     /// Root mean square of what it leaves of left-out data, in standard deviations of the sensors' noise.
     pub leaves: f64,
+    /// The logarithm of how well it predicts left-out data, however common its mechanisms are.
+    pub evidence: f64,
 }
 
 /// The explanations of a recording, the most probable first.
@@ -66,7 +68,11 @@ impl Explanations {
             let holds = without().filter(|own| own.holds(*other));
             holds.map(|own| own.weight).sum()
         };
-        instead.retain(|other| weight(other) >= OFFERED);
+        let is_as = |other: &Cause| {
+            let mut own = without().filter(|own| own.holds(*other));
+            own.any(|own| leading.is_as(own, cause))
+        };
+        instead.retain(|other| weight(other) >= OFFERED || is_as(other));
         instead.sort_by(|a, b| weight(b).total_cmp(&weight(a)));
         instead
     }
@@ -75,7 +81,7 @@ impl Explanations {
 impl Explanation {
     /// Whether another explanation is this one with a cause at another place and as good to within rounding: no motion tells the places apart.
     fn is_as(&self, other: &Explanation, cause: Cause) -> bool {
-        let apart = (self.weight / other.weight).ln().abs();
+        let apart = (self.evidence - other.evidence).abs();
         let elsewhere = |own: &&Term| !self.holds(own.cause);
         let mut others = other.terms.iter().filter(elsewhere);
         let same = |own: &Term| kind(own.cause.mechanism) == kind(cause.mechanism);
@@ -201,6 +207,7 @@ fn living(
         .sum();
     let listed = scored.into_iter().map(|(score, own)| Explanation {
         weight: libm::exp(score - most) / sum,
+        evidence: score - prior(problem, &own.terms),
         leaves: (own.left() / rows).sqrt() * noise / problem.floor,
         terms: own.terms,
     });

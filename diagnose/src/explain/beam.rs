@@ -26,7 +26,7 @@ pub fn search(
 ) -> Vec<Fitted> {
     let mut kept: BTreeMap<Names, Fitted> = BTreeMap::from([(Names::new(), bare.clone())]);
     let mut living = vec![bare.clone()];
-    for _ in 0..MOST_TERMS {
+    for size in 1..=MOST_TERMS {
         let ranked = children(problem, folds, judge, &living, tried);
         let (near, far) = ranked.split_at(ranked.len().min(BEAM));
         let near: Vec<Fitted> = near
@@ -34,7 +34,9 @@ pub fn search(
             .map(|fitted| refined(problem, folds, judge, bare, fitted.clone()))
             .collect();
         let near = by_evidence(folds, judge, near);
-        for fitted in near.iter().chain(far.iter().take(KEPT)) {
+        // Of single causes all stay: what begins late may explain nothing from the start on.
+        let kept_far = if size == 1 { far.len() } else { KEPT };
+        for fitted in near.iter().chain(far.iter().take(kept_far)) {
             kept.insert(names(problem, &fitted.terms), fitted.clone());
         }
         living = near.into_iter().take(BEAM).collect();

@@ -51,6 +51,7 @@ pub(super) const BEARING: Entry = Entry {
     equation: "level·sgn(ω) at a joint without a brake",
     facts: Facts {
         at_rest: AtRest::Dry(first),
+        form_of: Some(Mechanism::DryOffset),
         ..Facts::of(
             Family::FrictionOfMotion,
             Asked {
