@@ -5,13 +5,13 @@ use crate::plant::Run;
 use crate::problem::{Problem, Term, add};
 use crate::regression::Fit;
 use crate::rules::{
-    BENDS_JOINT, BRISTLE_EXPONENTS, EDGE, EFFORT_LIMIT_SHARES, EFFORT_LIMITS, FASTEST_PEAK,
+    BENDS_JOINT, BRISTLE_EXPONENTS, DELAYS, EDGE, EFFORT_LIMIT_SHARES, EFFORT_LIMITS, FASTEST_PEAK,
     FASTEST_RESONANCE, FEWEST_CYCLES, GAPS, LAGS_JOINT, LEAST_BEND, LEAST_BEND_SIGMAS, LEAST_GAP,
-    LEAST_GAP_SIGMAS, LEAST_LAG_STEPS, LEAST_SHIFT_STEPS_JOINT, MEMORY_COUNT, MEMORY_RATES,
-    MEMORY_RATIOS, MOST_A_TURN, MOST_BEND, MOST_CYCLES, MOST_GAP, MOST_LAG_S_JOINT,
-    MOST_SHIFT_S_JOINT, MOST_SHIFT_STEPS, PEAK_EXPONENTS_JOINT, PEAK_SPEEDS, PEAKS, PEAKS_APART,
-    RESONANCE_DAMPINGS, RESONANCE_STEPS, RESONANCES, SHIFTS_JOINT, SLOWEST_PEAK,
-    SLOWEST_PEAK_FLOORS, SLOWEST_RESONANCE, SPACING,
+    LEAST_GAP_SIGMAS, LEAST_LAG_STEPS, LEAST_LIMITED_A, LEAST_SHIFT_STEPS_JOINT, LIMIT_SHARES,
+    LIMITS, MEMORY_COUNT, MEMORY_RATES, MEMORY_RATIOS, MOST_A_TURN, MOST_BEND, MOST_CYCLES,
+    MOST_DELAY_S, MOST_GAP, MOST_LAG_S_JOINT, MOST_SHIFT_S_JOINT, MOST_SHIFT_STEPS,
+    PEAK_EXPONENTS_JOINT, PEAK_SPEEDS, PEAKS, PEAKS_APART, RESONANCE_DAMPINGS, RESONANCE_STEPS,
+    RESONANCES, SHIFTS_JOINT, SLOWEST_PEAK, SLOWEST_PEAK_FLOORS, SLOWEST_RESONANCE, SPACING,
 };
 use crate::weak::Windows;
 use core::f64::consts::TAU;
@@ -153,8 +153,13 @@ pub fn standard_shapes<R: Run + ?Sized>(
             SHIFTS_JOINT,
         ))),
         Shapes::CurrentPlay { low, high, count } => one(geometric(low, high, count)),
-        // Neither has a meaning where a brake's current is not the plant's own.
-        Shapes::Delay | Shapes::CurrentLimit | Shapes::Anchor => vec![vec![]],
+        Shapes::Delay => one(geometric(step_s, MOST_DELAY_S, DELAYS)),
+        Shapes::CurrentLimit => {
+            let current = run.brake().map(|(_, current)| current);
+            one(current_limits(current.unwrap_or_default()))
+        }
+        // Nothing of one joint is anchored in a plane.
+        Shapes::Anchor => vec![vec![]],
         own @ (Shapes::None
         | Shapes::Values(_)
         | Shapes::Geometric { .. }
@@ -176,6 +181,16 @@ fn resonances(step_s: f64) -> Vec<Vec<f64>> {
         .into_iter()
         .flat_map(|resonance| RESONANCE_DAMPINGS.map(|damping| vec![resonance, damping]))
         .collect()
+}
+
+/// Currents below the greatest one that a brake was given, A: where its amplifier may have stopped.
+pub fn current_limits(given: &[f64]) -> Vec<f64> {
+    let greatest = given.iter().copied().fold(0.0, f64::max);
+    let [lowest, highest] = LIMIT_SHARES;
+    if greatest < LEAST_LIMITED_A {
+        return Vec::new();
+    }
+    geometric(lowest * greatest, highest * greatest, LIMITS)
 }
 
 /// Limits below the greatest effort that was asked for.

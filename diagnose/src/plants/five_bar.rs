@@ -1,7 +1,6 @@
 //! This room is the five-bar with three or four brakes in the diagnosis: its recording, its noise, its columns.
 
-pub mod brakes;
-mod calibrated;
+pub mod calibrated;
 pub mod candidates;
 pub mod columns;
 pub(crate) mod encoder;

@@ -73,15 +73,15 @@ rules! {
     MOST_SHIFT_S_FIVE_BAR: f64 = 0.04, "s", FIVE_BAR;
     /// On a slow clock the greatest shift is as long as this many samples.
     MOST_SHIFT_STEPS: f64 = 4.0, "samples", BOTH;
-    /// Five-bar: the greatest delay of a brake; the least is one sample.
+    /// A brake: the greatest delay; the least is one sample.
     MOST_DELAY_S: f64 = 0.08, "s", FIVE_BAR;
-    /// Five-bar: delays that are tried.
+    /// A brake: delays that are tried.
     DELAYS: usize = 8, "times", FIVE_BAR;
-    /// Five-bar: a brake that was never given more has no limit to find.
+    /// A brake that was never given more has no limit to find.
     LEAST_LIMITED_A: f64 = 0.05, "A", FIVE_BAR;
-    /// Five-bar: the lowest and the highest limit of a current, over the greatest that was given.
+    /// A brake: the lowest and the highest limit of its current, over the greatest that was given.
     LIMIT_SHARES: [f64; 2] = [0.3, 0.97], "share", FIVE_BAR;
-    /// Five-bar: limits that are tried.
+    /// A brake: limits that are tried.
     LIMITS: usize = 8, "currents", FIVE_BAR;
     /// Axis: the lowest and the highest limit of a drive's effort, over the greatest that was asked for: a loop that winds up asks for many times what it gets.
     EFFORT_LIMIT_SHARES: [f64; 2] = [0.02, 0.97], "share", DRIVEN;

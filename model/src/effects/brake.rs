@@ -21,7 +21,7 @@ pub(super) const BACKLASH_WIDTH: Entry = Entry {
         ..Facts::of(
             Family::Brake,
             Asked {
-                alone: Alone::Never,
+                alone: Alone::WithBrake,
                 five_bar: Where::Brakes,
             },
             Words {
@@ -74,7 +74,7 @@ pub(super) const DEAD_TIME: Entry = Entry {
         ..Facts::of(
             Family::Brake,
             Asked {
-                alone: Alone::Never,
+                alone: Alone::WithBrake,
                 five_bar: Where::Brakes,
             },
             Words {
@@ -99,7 +99,7 @@ pub(super) const SATURATION: Entry = Entry {
         ..Facts::of(
             Family::Brake,
             Asked {
-                alone: Alone::Never,
+                alone: Alone::WithBrake,
                 five_bar: Where::Brakes,
             },
             Words {
@@ -128,7 +128,7 @@ pub(super) const THERMAL_FADE: Entry = Entry {
         ..Facts::of(
             Family::Brake,
             Asked {
-                alone: Alone::Never,
+                alone: Alone::WithBrake,
                 five_bar: Where::Brakes,
             },
             Words {
@@ -157,7 +157,7 @@ pub(super) const TIME_CONSTANT: Entry = Entry {
         ..Facts::of(
             Family::Brake,
             Asked {
-                alone: Alone::Never,
+                alone: Alone::WithBrake,
                 five_bar: Where::Brakes,
             },
             Words {
@@ -186,7 +186,7 @@ pub(super) const CURRENT_GAIN: Entry = Entry {
         ..Facts::of(
             Family::Brake,
             Asked {
-                alone: Alone::Never,
+                alone: Alone::WithBrake,
                 five_bar: Where::Brakes,
             },
             Words {

@@ -2,16 +2,15 @@
 
 use super::run::{FiveBarRun, at, joint_at, place};
 use crate::candidates::{
-    both_signs, fastest, geometric, in_numbers, of_a_turn, periods, stribeck_shapes,
+    both_signs, current_limits, fastest, geometric, in_numbers, of_a_turn, periods, stribeck_shapes,
 };
 use crate::cause::{Cause, Place};
 use crate::plant::Run;
 use crate::rules::{
     ANCHOR_REACH, ANCHORS, BENDS_FIVE_BAR, CLOSING_A, DELAYS, DELAYS_RAD, LAGS_FIVE_BAR,
-    LEAST_BEND, LEAST_BEND_SIGMAS, LEAST_LAG_STEPS, LEAST_LIMITED_A, LEAST_SHIFT_STEPS_FIVE_BAR,
-    LIMIT_SHARES, LIMITS, MOST_BEND, MOST_DELAY_S, MOST_LAG_S_FIVE_BAR, MOST_OF_AN_ENCODER,
-    MOST_SHIFT_S_FIVE_BAR, MOST_SHIFT_STEPS, PEAK_EXPONENTS_FIVE_BAR, SHIFTS_FIVE_BAR,
-    SOFTEST_BRISTLE, WIDEST_PEAK,
+    LEAST_BEND, LEAST_BEND_SIGMAS, LEAST_LAG_STEPS, LEAST_SHIFT_STEPS_FIVE_BAR, MOST_BEND,
+    MOST_DELAY_S, MOST_LAG_S_FIVE_BAR, MOST_OF_AN_ENCODER, MOST_SHIFT_S_FIVE_BAR, MOST_SHIFT_STEPS,
+    PEAK_EXPONENTS_FIVE_BAR, SHIFTS_FIVE_BAR, SOFTEST_BRISTLE, WIDEST_PEAK,
 };
 use crate::weak::Windows;
 use rigproof_model::effects::facts::{Shapes, Where};
@@ -166,17 +165,11 @@ fn points(run: &FiveBarRun, cause: Cause, windows: &Windows, residual: &[f64]) -
         .collect()
 }
 
-/// Currents below the greatest one that a brake was given, A: where its amplifier may have stopped.
+/// Limits of the current of a cause's brake, A.
 fn limits(run: &FiveBarRun, cause: Cause) -> Vec<f64> {
     let joint = joint_at(cause.at);
-    let current = joint.and_then(|joint| run.currents.get(place(joint)));
-    let given = current.into_iter().flatten().flatten().copied();
-    let greatest = given.fold(0.0, f64::max);
-    let [lowest, highest] = LIMIT_SHARES;
-    if greatest < LEAST_LIMITED_A {
-        return Vec::new();
-    }
-    geometric(lowest * greatest, highest * greatest, LIMITS)
+    let current = joint.and_then(|joint| run.currents.get(place(joint))?.as_ref());
+    current.map_or(Vec::new(), |current| current_limits(current))
 }
 
 /// Half widths of a play, A, and the currents below which its sides come together, where they do.

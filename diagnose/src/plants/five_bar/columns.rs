@@ -1,6 +1,5 @@
 //! This file is the columns of the five-bar: what each cause would add to the efforts of θA and θB.
 
-use super::brakes;
 use super::encoder::Encoder;
 use super::free_run::length_of;
 use super::from_rig::with_angles;
@@ -11,7 +10,10 @@ use crate::problem::{add, less};
 use crate::rules::SMALL_LENGTH_M;
 use crate::signals::{numerov, shifted, unit_parameters};
 use rigproof_model::bench::{column, column_by_travel};
-use rigproof_model::effects::{Drive, Form, Law, OfLinkage, OfSensor, entry, facts, form, law};
+use rigproof_model::effects::{
+    Drive, Form, Law, OfBrake, OfLinkage, OfSensor, entry, facts, first_order_lag_straight, form,
+    law,
+};
 use rigproof_model::motion::added_mass;
 use rigproof_model::motion::two_coordinate::{TwoCoordinate, two_coordinate};
 use rigproof_spec::inertia::Inertia;
@@ -76,7 +78,8 @@ fn free_of_one(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<
             Some(vec![seen(&run.at_joint(joint, &run.brake_torque(joint)))])
         }
         (Form::Brake(kind), Some(joint)) => {
-            let change = brakes::unit(run, kind, joint, shape)?;
+            let is_unit = entry(cause.mechanism).is_some_and(|entry| entry.linear > 0);
+            let change = is_unit.then(|| changed(run, kind, joint, shape))??;
             Some(vec![along_motion(run, joint, &change)])
         }
         // A spring at a joint has its rest angle where it likes: the second column is its torque at θ = 0.
@@ -146,8 +149,15 @@ fn fixed_of_one(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<f64
     let value = *shape.first()?;
     match (form(cause.mechanism)?, joint_at(cause.at)) {
         // The yield of a brake changes, its sign does not (docs/decisions/0001).
-        (_, Some(joint)) => {
-            let change = brakes::change(run, cause.mechanism, joint, value)?;
+        (Form::Brake(kind), Some(joint)) => {
+            let change = changed(run, kind, joint, shape)?;
+            Some(along_motion(run, joint, &change))
+        }
+        // What lags is the effort, as the equation of the library has it: the whole brake, its own response included.
+        (Form::Drive(Drive::Lag), Some(joint)) => {
+            run.braked(joint)?;
+            let own = run.yields.get(place(joint))?;
+            let change = less(&first_order_lag_straight(own, run.step_s, value), own);
             Some(along_motion(run, joint, &change))
         }
         // The recorded force is the one of a while ago: what acts is ahead of it.
@@ -168,22 +178,22 @@ fn fixed_of_one(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<f64
             Some(driving(run, too_much))
         }
         (
-            Form::Drive(Drive::Lag | Drive::Gain | Drive::Limit)
+            Form::Drive(_)
             | Form::Joint(_)
             | Form::Resistance(_)
             | Form::ShareOfBrake(_)
             | Form::Brake(_)
             | Form::Linkage(_)
-            | Form::Sensor(
-                OfSensor::EncoderScale
-                | OfSensor::EncoderOffset
-                | OfSensor::Eccentric
-                | OfSensor::ForceGain
-                | OfSensor::ForceBias,
-            ),
-            None,
+            | Form::Sensor(_),
+            _,
         ) => None,
     }
+}
+
+/// What a cause adds to the yield torque of a joint's brake.
+fn changed(run: &FiveBarRun, kind: OfBrake, joint: Joint, shape: &[f64]) -> Option<Vec<f64>> {
+    let own = run.yields.get(place(joint))?;
+    run.braked(joint)?.change(own, kind, shape)
 }
 
 /// What a spring from the tip to an anchor takes: for a unit of stiffness, and for a unit of tension.

@@ -6,6 +6,7 @@ use crate::cause::{Cause, JointId, Place};
 use crate::continuity::Remark;
 use crate::locate::Regimes;
 use crate::plant::{Clock, Columns, Rules, Run};
+use crate::plants::brake::Braked;
 use crate::rules::{QUIET_NM, WIDTHS_S};
 use crate::weak::Windows;
 use crate::whiten::Whitener;
@@ -18,6 +19,7 @@ use rigproof_model::motion::two_coordinate::{TwoCoordinate, two_coordinate};
 use rigproof_model::rig::Parameters;
 use rigproof_spec::effect::{Mechanism, Motion};
 use rigproof_spec::joint::Joint;
+use rigproof_spec::tables::brake_table;
 
 /// An aligned recording of the five-bar in SI units, one value a sample in every vector.
 #[derive(Clone, Debug)]
@@ -137,6 +139,17 @@ impl FiveBarRun {
     /// The recorded force as θA and θB feel it, N·m.
     pub fn driving_effort(&self) -> Vec<f64> {
         self.at_tip(self.forces())
+    }
+
+    /// The brake of a joint along its motion; `None` at a joint without one.
+    pub fn braked(&self, joint: Joint) -> Option<Braked<'_>> {
+        Some(Braked {
+            table: brake_table(joint),
+            motion: self.motion_of(joint),
+            current: self.currents.get(place(joint))?.as_ref()?,
+            held: true,
+            step_s: self.step_s,
+        })
     }
 
     /// The resistance of the nominal brake at a joint, along the motion, N·m.

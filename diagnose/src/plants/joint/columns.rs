@@ -7,12 +7,10 @@ use crate::effect::Effect;
 use crate::filter::gradient;
 use crate::plant::{self, Columns, Run};
 use crate::problem::{add, less};
-use crate::signals::{
-    USUAL_SHARE, lagged_yield, numerov, second_difference, shifted, through_play,
-};
+use crate::signals::{lagged_yield, numerov, second_difference, shifted};
 use rigproof_model::bench::column;
 use rigproof_model::effects::{
-    CurrentPlay, Drive, Form, OfJoint, OfSensor, entry, facts, first_order_lag, form, law,
+    Drive, Form, OfJoint, OfSensor, entry, facts, first_order_lag, form, law,
 };
 use rigproof_spec::effect::Mechanism;
 
@@ -27,36 +25,24 @@ pub fn resistances(run: &JointRun, mechanism: Mechanism, shape: &[f64]) -> Optio
 }
 
 /// Whether a mechanism is something that a brake does with its current or its torque.
-pub const fn is_of_brake(mechanism: Mechanism) -> bool {
-    matches!(
-        mechanism,
-        Mechanism::CurrentHysteresis | Mechanism::ReversalOvershoot
-    )
+pub fn is_of_brake(mechanism: Mechanism) -> bool {
+    matches!(form(mechanism), Some(Form::Brake(_))) || mechanism == Mechanism::ReversalOvershoot
 }
 
-/// What a brake's mechanism adds to the torque for a linear parameter of 1; `None` on a plant without a brake and its current.
+/// What a brake's mechanism adds to the torque, for a linear parameter of 1 where it has one; `None` on a plant without a brake and its current.
 pub fn of_brake(run: &JointRun, mechanism: Mechanism, shape: &[f64]) -> Option<Vec<f64>> {
     let (predicted, current) = run.brake()?;
-    let value = *shape.first()?;
-    match mechanism {
-        Mechanism::CurrentHysteresis => {
-            let play = CurrentPlay {
-                half_width_a: value,
-                closing_a: 0.0,
-            };
-            let held = through_play(current, play, USUAL_SHARE);
-            let change = less(&run.braked(&held)?, &run.braked(current)?);
-            Some(change.into_iter().map(|c| c / USUAL_SHARE).collect())
-        }
-        // The law says which share of the brake's torque.
-        Mechanism::ReversalOvershoot => {
-            let law = law(mechanism, &[1.0, value])?;
-            let share = column(law.as_ref(), &run.motion, run.step_s);
-            let pairs = share.iter().zip(predicted);
-            Some(pairs.map(|(share, torque)| share * torque.abs()).collect())
-        }
-        _ => None,
+    if let Some(Form::Brake(kind)) = form(mechanism) {
+        let brake = run.brake_along(current)?;
+        let change = brake.change(&brake.yields(), kind, shape)?;
+        let along = run.motion.iter().zip(change);
+        return Some(along.map(|(now, change)| now.sense * change).collect());
     }
+    // The law says which share of the brake's torque.
+    let law = law(mechanism, &[1.0, *shape.first()?])?;
+    let share = column(law.as_ref(), &run.motion, run.step_s);
+    let pairs = share.iter().zip(predicted);
+    Some(pairs.map(|(share, torque)| share * torque.abs()).collect())
 }
 
 /// A resistance as the discrete second difference of the position sees it: on an axis with Numerov's weights,
@@ -242,6 +228,9 @@ pub fn columns(
         },
         _ if beside.is_some() => None,
         form @ (Form::Joint(_) | Form::Sensor(_)) => of_joint(run, form, shape),
+        Form::Brake(_) if entry(mechanism)?.linear == 0 => {
+            of_brake(run, mechanism, shape).map(|own| Columns::Fixed(seen(run, own)))
+        }
         _ => {
             let mut signals = resistances(run, mechanism, shape)?;
             // Where its zero is not known a second number goes with it.
@@ -270,6 +259,12 @@ fn drive(run: &JointRun, what: Drive, shape: &[f64]) -> Option<Columns> {
         // The yield of a brake lags, its sign does not (docs/decisions/0001).
         (Drive::Lag, PlantKind::Bench, Some((predicted, _))) => {
             fixed(less(&lagged_yield(predicted, step_s, value), predicted))
+        }
+        // All that is metered comes late, friction that the description states included.
+        (Drive::Skew, PlantKind::Bench, _) => {
+            let mut known = run.known();
+            add(&mut known, &seen(run, described(run, false)), 1.0);
+            fixed(less(&changed(&known)?, &known))
         }
         (_, PlantKind::Bench, Some((predicted, _))) => fixed(less(&changed(predicted)?, predicted)),
         (_, PlantKind::Bench, None) => None,

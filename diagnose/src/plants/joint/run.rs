@@ -12,6 +12,7 @@ use crate::effect::Effect;
 use crate::filter::rms;
 use crate::locate::{self, Regimes};
 use crate::plant::{Clock, Columns, Run};
+use crate::plants::brake::Braked;
 use crate::problem::add;
 use crate::rules::{
     LEAST_STEPS_AXIS, LEAST_STEPS_BENCH, MOST_AMBIGUOUS, MOST_NOISE, MOST_UNTOLD, PERIODS_A_WIDTH,
@@ -19,7 +20,6 @@ use crate::rules::{
 };
 use crate::signals::second_difference;
 use crate::weak::{Windows, is_recorded, untold};
-use rigproof_model::brake::Brake;
 use rigproof_model::effects::{Drive, Form, Instant, OfSensor, facts, form};
 use rigproof_spec::effect::{Mechanism, Motion};
 use rigproof_spec::tables::BrakeTable;
@@ -115,20 +115,24 @@ impl JointRun {
     }
 
     fn braked_along(&self, motion: &[Instant], current: &[f64]) -> Option<Vec<f64>> {
-        let mut brake = Brake::of(self.table?, motion.first()?.position);
-        let mut yields = vec![brake.yield_torque()];
-        let currents = current.iter().zip(current.iter().skip(1));
-        for ((before, current), now) in currents.zip(motion.iter().skip(1)) {
-            let acting = match self.held {
-                true => *before,
-                false => 0.5 * (before + current),
-            };
-            brake.step(acting, now.position, now.speed, self.step_s);
-            yields.push(brake.yield_torque());
-        }
+        let brake = Braked {
+            motion,
+            ..self.brake_along(current)?
+        };
         // Where the sense cannot be told the torque is spread over it, as for the dry laws.
-        let torques = motion.iter().zip(yields);
+        let torques = motion.iter().zip(brake.yields());
         Some(torques.map(|(now, torque)| torque * now.sense).collect())
+    }
+
+    /// The thesis's brake along the recorded motion under a current, A; `None` on a plant without one.
+    pub fn brake_along<'a>(&'a self, current: &'a [f64]) -> Option<Braked<'a>> {
+        Some(Braked {
+            table: self.table?,
+            motion: &self.motion,
+            current,
+            held: self.held,
+            step_s: self.step_s,
+        })
     }
 
     /// Whether there are no samples.

@@ -1,0 +1,85 @@
+//! This file is what a brake may do with its current other than the nominal model says, as changes of its yield torque along a recorded motion.
+
+use crate::problem::less;
+use crate::signals::{USUAL_SHARE, shifted, through_play};
+use rigproof_model::brake::{Brake, slowed};
+use rigproof_model::effects::{CurrentPlay, Instant, OfBrake};
+use rigproof_spec::tables::BrakeTable;
+use rigproof_spec::units::RAD_PER_DEG;
+
+/// A brake along a recorded motion under its recorded current.
+#[derive(Clone, Copy)]
+pub struct Braked<'a> {
+    /// Its numbers.
+    pub table: BrakeTable,
+    /// The motion of its joint.
+    pub motion: &'a [Instant],
+    /// The current of each sample, A.
+    pub current: &'a [f64],
+    /// Whether the current holds its value to the next sample; else it goes straight.
+    pub held: bool,
+    /// Sample interval, s.
+    pub step_s: f64,
+}
+
+impl Braked<'_> {
+    /// The yield torque of each sample, N·m.
+    pub fn yields(&self) -> Vec<f64> {
+        let start = self.motion.first().map_or(0.0, |now| now.position);
+        let mut brake = Brake::of(self.table, start);
+        let mut own = vec![brake.yield_torque()];
+        let currents = self.current.iter().zip(self.current.iter().skip(1));
+        for ((before, current), now) in currents.zip(self.motion.iter().skip(1)) {
+            let acting = match self.held {
+                true => *before,
+                false => 0.5 * (before + current),
+            };
+            brake.step(acting, now.position, now.speed, self.step_s);
+            own.push(brake.yield_torque());
+        }
+        own
+    }
+
+    /// What a cause adds to its yield torque `own`, sample by sample: for a coefficient of 1 where it has one, else all of it. N·m.
+    pub fn change(&self, own: &[f64], kind: OfBrake, shape: &[f64]) -> Option<Vec<f64>> {
+        let value = *shape.first()?;
+        let given = |current: &[f64]| less(&Braked { current, ..*self }.yields(), own);
+        let built = |table: BrakeTable| less(&Braked { table, ..*self }.yields(), own);
+        let each = |of: &dyn Fn(f64) -> f64| -> Vec<f64> {
+            let current = self.current.iter();
+            given(&current.map(|i| of(*i)).collect::<Vec<_>>())
+        };
+        Some(match kind {
+            OfBrake::DeadTime => given(&shifted(self.current, -value / self.step_s)),
+            OfBrake::Saturation => each(&|current| current.min(value)),
+            OfBrake::CurrentGain => each(&|current| value * current),
+            OfBrake::TimeConstant => built(slowed(self.table, value)),
+            OfBrake::BacklashWidth => built(BrakeTable {
+                backlash_width_deg: value / RAD_PER_DEG,
+                ..self.table
+            }),
+            OfBrake::CurrentHysteresis => {
+                let play = CurrentPlay {
+                    half_width_a: value,
+                    closing_a: shape.get(1).copied().unwrap_or(0.0),
+                };
+                // The torque is not linear in the current: a share of the size that is expected stands for the slope.
+                let change = given(&through_play(self.current, play, USUAL_SHARE));
+                change.into_iter().map(|c| c / USUAL_SHARE).collect()
+            }
+            OfBrake::ThermalFade => self.faded(own, value),
+        })
+    }
+
+    /// What a yield torque loses for a unit of loss by heat, which goes away with a time constant, s.
+    fn faded(&self, own: &[f64], time_s: f64) -> Vec<f64> {
+        let mut heat_j = 0.0;
+        let pairs = own.iter().zip(self.motion);
+        let fade = pairs.map(|(torque, now)| {
+            let lost = torque * heat_j;
+            heat_j += self.step_s * (torque * now.speed.abs() - heat_j / time_s);
+            -lost
+        });
+        fade.collect()
+    }
+}
