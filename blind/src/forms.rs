@@ -122,7 +122,7 @@ impl Names {
             | Form::OvershootLinear
             | Form::YieldOvershoot
             | Form::YieldOvershootLinear => (
-                &["reversal_overshoot"],
+                &["reversal_overshoot", "friction_overshoot"],
                 &["stribeck", "presliding", "dahl_bristle", "hysteresis"],
             ),
             Form::Gap => (

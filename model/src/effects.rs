@@ -252,6 +252,7 @@ pub const LIBRARY: &[Entry] = &[
     lag::SKEW_ENTRY,
     lag::LIMIT_ENTRY,
     reversal_overshoot::ENTRY,
+    reversal_overshoot::OF_FRICTION,
     settling::ENTRY,
     brake::BACKLASH_WIDTH,
     brake::CURRENT_HYSTERESIS,

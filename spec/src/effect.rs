@@ -66,6 +66,8 @@ vocabulary! {
     ],
     /// Higher torque of a brake just after a reversal.
     ReversalOvershoot = "reversal_overshoot" | "overshoot" [needed("fraction", Number), needed("travel", Travel).above_zero()],
+    /// Friction that is higher just after each reversal.
+    FrictionOvershoot = "friction_overshoot" | "breakaway overshoot" [needed("level", Effort), needed("travel", Travel).above_zero()],
     /// Wrong width of the backlash window.
     BacklashWidth = "backlash_width" [needed("width", Travel).not_below_zero()],
     /// Elastic motion before sliding (Dahl 1968).

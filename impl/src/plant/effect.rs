@@ -34,6 +34,13 @@ pub struct Instant {
     pub brake_nm: f64,
 }
 
+impl Instant {
+    /// What a level is of: the brake's torque, N·m, or a force of its own.
+    const fn of(&self, brake: bool) -> f64 {
+        if brake { self.brake_nm } else { 1.0 }
+    }
+}
+
 /// A law with its parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(
@@ -100,8 +107,12 @@ pub enum Law {
     NonlinearSpring { cubic: f64 },
     /// rate·t.
     BiasDrift { rate: f64 },
-    /// Of the brake's torque fraction·exp(−x/travel), x travelled since the sense changed.
-    ReversalOvershoot { fraction: f64, travel: f64 },
+    /// level·exp(−x/travel), x travelled since the sense changed; of a brake a share of its torque.
+    Overshoot {
+        level: f64,
+        travel: f64,
+        of_brake: bool,
+    },
     /// level·(1 − m)·sgn q̇, travel·dm/dt = |q̇|·(1 − m); nothing at rest.
     Settling { level: f64, travel: f64 },
 }
@@ -195,9 +206,16 @@ impl Law {
                 }
             }
             (Mechanism::Backlash, &[missing, gap]) if gap > 0.0 => Law::Backlash { missing, gap },
-            (Mechanism::ReversalOvershoot, &[fraction, travel]) if travel > 0.0 => {
-                Law::ReversalOvershoot { fraction, travel }
-            }
+            (Mechanism::ReversalOvershoot, &[fraction, travel]) if travel > 0.0 => Law::Overshoot {
+                level: fraction,
+                travel,
+                of_brake: true,
+            },
+            (Mechanism::FrictionOvershoot, &[level, travel]) if travel > 0.0 => Law::Overshoot {
+                level,
+                travel,
+                of_brake: false,
+            },
             (Mechanism::Settling, &[level, travel]) if travel > 0.0 => {
                 Law::Settling { level, travel }
             }
@@ -209,7 +227,7 @@ impl Law {
     /// The memory before any motion.
     pub const fn starts_with(&self) -> f64 {
         match self {
-            Law::ReversalOvershoot { .. } => NOT_MOVED,
+            Law::Overshoot { .. } => NOT_MOVED,
             Law::Backlash { gap, .. } => 0.5 * *gap,
             _ => 0.0,
         }
@@ -247,8 +265,10 @@ impl Law {
             Law::Spring { stiffness, rest } => stiffness * (now.position - rest),
             Law::NonlinearSpring { cubic } => cubic * now.position * now.position * now.position,
             Law::BiasDrift { rate } => rate * now.time_s,
-            Law::ReversalOvershoot { .. } if memory == NOT_MOVED => 0.0,
-            Law::ReversalOvershoot { fraction, .. } => -0.5 * fraction * now.brake_nm * memory,
+            Law::Overshoot { .. } if memory == NOT_MOVED => 0.0,
+            Law::Overshoot {
+                level, of_brake, ..
+            } => -0.5 * level * now.of(of_brake) * memory,
             Law::Settling { level, .. } => level * (1.0 - memory) * now.sense,
         }
     }
@@ -257,10 +277,10 @@ impl Law {
     pub fn dry(&self, now: &Instant, memory: f64) -> f64 {
         match *self {
             Law::DryOffset { level } => level,
-            Law::ReversalOvershoot { .. } if memory == NOT_MOVED => 0.0,
-            Law::ReversalOvershoot { fraction, .. } => {
-                fraction * now.brake_nm * (1.0 - 0.5 * memory.abs())
-            }
+            Law::Overshoot { .. } if memory == NOT_MOVED => 0.0,
+            Law::Overshoot {
+                level, of_brake, ..
+            } => level * now.of(of_brake) * (1.0 - 0.5 * memory.abs()),
             Law::Stribeck {
                 peak,
                 speed,
@@ -272,7 +292,7 @@ impl Law {
 
     /// The memory with which a motion of this rate goes on, rad/s: every change of sense begins an overshoot anew.
     fn begun(&self, memory: f64, speed: f64) -> f64 {
-        let overshoots = matches!(self, Law::ReversalOvershoot { .. });
+        let overshoots = matches!(self, Law::Overshoot { .. });
         let turns = memory * speed < 0.0 && speed.abs() > LEAST_TURNING_RAD_S;
         match (overshoots, memory == NOT_MOVED) {
             (true, true) => speed.signum(),
@@ -283,7 +303,7 @@ impl Law {
 
     /// The memory after a time, s, at a constant rate, rad/s, and halfway: exact while the memory keeps its sign.
     pub fn remember(&self, memory: f64, speed: f64, time_s: f64) -> [f64; 2] {
-        if let Law::ReversalOvershoot { .. } = self
+        if let Law::Overshoot { .. } = self
             && memory == NOT_MOVED
             && speed.abs() <= LEAST_TURNING_RAD_S
         {
@@ -293,7 +313,7 @@ impl Law {
         let (gain, decay) = match *self {
             Law::Presliding { travel, .. }
             | Law::LugreBristle { travel, .. }
-            | Law::ReversalOvershoot { travel, .. } => (speed / travel, speed.abs() / travel),
+            | Law::Overshoot { travel, .. } => (speed / travel, speed.abs() / travel),
             Law::DahlBristle {
                 travel, exponent, ..
             } => {

@@ -13,7 +13,7 @@ pub(super) const ENTRY: Entry = Entry {
         })
     }),
     linear: 1,
-    passive: false,
+    passive: true,
     refuted_by: "full friction from the first instant after a reversal",
     equation: "−missing·sgn(q̇) while 0 < x < gap, x the travel across the gap",
     facts: Facts {

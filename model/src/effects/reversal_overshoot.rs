@@ -1,5 +1,5 @@
-//! This file is a brake's greater torque just after a reversal, as §3.5 of the thesis saw it: a share of its torque that decays with
-//! the travel since.
+//! This file is a greater torque just after a reversal, as §3.5 of the thesis saw it on a brake: a share of its torque that decays with
+//! the travel since; and the same of a joint's friction, a force of its own.
 
 use super::facts::{
     Alone, Asked, AtRest, End, Facts, Family, Limit, Shapes, Where, Words, first_if_positive,
@@ -47,9 +47,44 @@ pub(super) const ENTRY: Entry = Entry {
     },
 };
 
+pub(super) const OF_FRICTION: Entry = Entry {
+    mechanism: Mechanism::FrictionOvershoot,
+    form: Form::Resistance(|p| {
+        Box::new(Overshoot {
+            fraction: parameter(p, 0),
+            travel: parameter(p, 1),
+        })
+    }),
+    equation: "level·exp(−x/travel)·sgn(q̇), x travelled since the sense changed, without an end before it first does",
+    facts: Facts {
+        turn: 0,
+        has_forms: true,
+        shapes: Shapes::Bristle,
+        at_rest: AtRest::Dry(first_if_positive),
+        limit: Some(Limit {
+            of: Mechanism::DryOffset,
+            parameter: 1,
+            end: End::Everything,
+        }),
+        ..Facts::of(
+            Family::MemoryOfMotion,
+            Asked {
+                alone: Alone::Always,
+                five_bar: Where::Nowhere,
+            },
+            Words {
+                what: "friction that is higher just after each reversal and falls with the way gone since",
+                look_for: "seals and grease that have to yield anew, a belt or a cable that settles",
+            },
+        )
+    },
+    ..ENTRY
+};
+
 /// The memory is the share of its travel that a joint has gone since it turned, with the sense in which it goes: every change of
 /// sense begins anew, the first motion does not: it is no reversal.
 struct Overshoot {
+    /// What it begins with: a share of a brake's torque, or a force.
     fraction: f64,
     travel: f64,
 }

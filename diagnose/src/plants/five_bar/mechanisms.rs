@@ -238,6 +238,7 @@ fn every_mechanism_does_along_a_motion_what_its_column_says() {
         ),
         (at(Hysteresis, Joint::E, &[3.1, 11.3, 4.7]), None),
         (at(ReversalOvershoot, Joint::B, &[0.37, 0.083]), None),
+        (at(FrictionOvershoot, Joint::B, &[0.117, 0.083]), None),
         (at(Settling, Joint::E, &[0.41, 0.53]), None),
         (at(Ripple, Joint::A, &[0.091, -0.053, 0.113]), None),
         (at(Spring, Joint::B, &[0.171]), None),
