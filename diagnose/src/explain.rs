@@ -124,8 +124,8 @@ pub fn explain(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection, Exp
     let best = first.predicts_best().map_or(&[][..], |own| &own.terms);
     let terms: Vec<&Term> = nominal.iter().chain(best).collect();
     let residual = fit(problem, &terms, &Blocks::new(problem)).residual;
-    // What no explanation takes away is noise of the next round.
-    let left = usable_rms(problem, &residual);
+    // What no explanation takes away is noise of the next round, as the typical block has it: what a few blocks keep is not everywhere.
+    let left = first.folds.typical(&residual);
     problem.rewhiten(left);
     nominal.iter_mut().for_each(|term| problem.refresh(term));
     let noise = left.max(problem.floor);

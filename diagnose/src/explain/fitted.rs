@@ -61,6 +61,19 @@ impl Folds {
         self.rows() / self.counts.len().max(1) as f64
     }
 
+    /// The root mean square of a column in the median block.
+    pub fn typical(&self, column: &[f64]) -> f64 {
+        let own = self.usable(column);
+        let energies = self.dots(&own, &own).into_iter();
+        let mut squares: Vec<f64> = energies.zip(&self.counts).map(|(e, n)| e / n).collect();
+        squares.sort_by(f64::total_cmp);
+        squares
+            .get(squares.len() / 2)
+            .copied()
+            .unwrap_or(0.0)
+            .sqrt()
+    }
+
     fn dots(&self, a: &[f64], b: &[f64]) -> Vec<f64> {
         let ranges = self.ranges.iter();
         ranges
