@@ -12,8 +12,8 @@ use rigproof_trace::rig::table::{Source, Table};
 use rigproof_trace::suggest::advice;
 
 use crate::built_in::{BuiltIn, Kind};
-use crate::declared::{Choice, Declared, EVERY, Solid};
 use crate::controller::Task;
+use crate::declared::{Choice, Declared, EVERY, Solid};
 use crate::metrics::{METRICS, Metric};
 use crate::recordings::expected::{Expected, path};
 use crate::scenario::Rig;

@@ -39,7 +39,11 @@ pub fn whose(file: &str, libc: Option<&String>) -> Whose {
     let is_beside_libc = libc.is_some_and(|libc| libc.parent() == file.parent());
     let along: Option<Vec<[u32; 2]>> = file
         .ancestors()
-        .map(|path| std::fs::metadata(path).ok().map(|own| [own.uid(), own.mode()]))
+        .map(|path| {
+            std::fs::metadata(path)
+                .ok()
+                .map(|own| [own.uid(), own.mode()])
+        })
         .collect();
     match along {
         Some(along) if is_in => judged(&along, is_beside_libc, unmapped()),
@@ -112,7 +116,10 @@ mod tests {
 
     #[test]
     fn the_number_of_nobody_says_nothing_where_somebody_has_it() {
-        assert_eq!(unmapped_in("         0       1000          1\n", NOBODY), Some(NOBODY));
+        assert_eq!(
+            unmapped_in("         0       1000          1\n", NOBODY),
+            Some(NOBODY)
+        );
         assert_eq!(unmapped_in("0 0 4294967295\n", NOBODY), None);
         assert_eq!(unmapped_in("0 100000 65536\n", NOBODY), None);
         assert_eq!(unmapped_in("0 1000 1\n65534 2000 1\n", NOBODY), None);

@@ -200,7 +200,8 @@ impl Compared {
 
 /// A sample that differs, with what was known in it.
 fn first(taken: &Taken, task: &Task, k: usize, [old_a, new_a]: [Option<[f64; 4]>; 2]) -> First {
-    let bits = |own: Option<[f64; 4]>, place: usize| own.and_then(|a| a.get(place).map(|a| a.to_bits()));
+    let bits =
+        |own: Option<[f64; 4]>, place: usize| own.and_then(|a| a.get(place).map(|a| a.to_bits()));
     let joints = Joint::ALL.into_iter().enumerate();
     let differing = joints.filter(|(place, _)| bits(old_a, *place) != bits(new_a, *place));
     First {
@@ -253,7 +254,9 @@ fn broken(taken: &Taken, old: &Answered, new: &Answered) -> Vec<Broken> {
         law,
         old: old.broken,
         new: new.broken,
-        first_s: new.first.and_then(|tick| taken.time_s.get(tick as usize).copied()),
+        first_s: new
+            .first
+            .and_then(|tick| taken.time_s.get(tick as usize).copied()),
     })
     .collect()
 }

@@ -84,13 +84,17 @@ impl Expected {
             value => Ok(value),
         };
         let expected = Expected {
-            brakes: table.text("brakes")?.map(|own| brakes(table, own)).transpose()?,
+            brakes: table
+                .text("brakes")?
+                .map(|own| brakes(table, own))
+                .transpose()?,
             most_a: optional("most_a", GREATEST_CURRENT_A)?,
             most_share: optional("most_share", 1.0)?,
             same_brakes: table.flag("same_brakes")?.unwrap_or(false),
         };
         if expected == Expected::default() {
-            let problem = "it states nothing: add `brakes`, `most_a`, `most_share` or `same_brakes = true`";
+            let problem =
+                "it states nothing: add `brakes`, `most_a`, `most_share` or `same_brakes = true`";
             return Err(table.error(problem));
         }
         Ok(expected)
@@ -101,7 +105,9 @@ impl Expected {
 fn brakes(table: &Table<'_>, text: &str) -> Result<[bool; 4], TraceError> {
     let mut named = [false; 4];
     for letter in text.split([' ', ',']).filter(|letter| !letter.is_empty()) {
-        let place = Joint::ALL.into_iter().position(|own| own.letter() == letter);
+        let place = Joint::ALL
+            .into_iter()
+            .position(|own| own.letter() == letter);
         match place.and_then(|place| named.get_mut(place)) {
             Some(named) => *named = true,
             None => {
@@ -121,7 +127,14 @@ pub fn path(table: &Table<'_>) -> Result<Task, TraceError> {
     let number = |key: &str| table.need(key, table.number(key)?);
     let task = match table.need("kind", table.text("kind")?)? {
         "arc" => {
-            table.only(&["kind", "centre_x_m", "centre_y_m", "radius_m", "from_rad", "to_rad"])?;
+            table.only(&[
+                "kind",
+                "centre_x_m",
+                "centre_y_m",
+                "radius_m",
+                "from_rad",
+                "to_rad",
+            ])?;
             Task::Arc {
                 centre_m: [number("centre_x_m")?, number("centre_y_m")?],
                 radius_m: number("radius_m")?,

@@ -77,9 +77,13 @@ fn near(one: [f64; 4], other: [f64; 4]) -> bool {
 
 /// The median of the ratios of the commands that differ.
 fn median(differing: &[usize], old: &[[f64; 4]], new: &[[f64; 4]]) -> f64 {
-    let pairs = differing.iter().filter_map(|k| Some((old.get(*k)?, new.get(*k)?)));
+    let pairs = differing
+        .iter()
+        .filter_map(|k| Some((old.get(*k)?, new.get(*k)?)));
     let pairs = pairs.flat_map(|(old, new)| old.iter().zip(new));
-    let ratios = pairs.filter(|(old, _)| **old != 0.0).map(|(old, new)| new / old);
+    let ratios = pairs
+        .filter(|(old, _)| **old != 0.0)
+        .map(|(old, new)| new / old);
     let mut ratios: Vec<f64> = ratios.filter(|ratio| ratio.is_finite()).collect();
     ratios.sort_unstable_by(f64::total_cmp);
     ratios.get(ratios.len() / 2).copied().unwrap_or(1.0)
@@ -112,7 +116,10 @@ mod tests {
         assert!(matches!(times[..], [Looks::Times(factor)] if (factor - 1.25).abs() < 1e-12));
         let later = of(&|k, _| old[k.saturating_sub(3)]);
         assert_eq!(later, [Looks::Later(3)]);
-        assert_eq!(of(&|_, [a, e, b, c]| [a, b, e, c]), [Looks::Exchanged("E", "B")]);
+        assert_eq!(
+            of(&|_, [a, e, b, c]| [a, b, e, c]),
+            [Looks::Exchanged("E", "B")]
+        );
         assert_eq!(of(&|_, [a, e, b, c]| [a, e, -b, c]), [Looks::Sign("B")]);
         assert_eq!(of(&|_, a| a), []);
         // Noise looks like nothing.

@@ -79,7 +79,9 @@ impl Taken {
             });
             let currents = recording.currents.each_ref();
             let current = |own: Option<&Signal>| own.map_or(0.0, |own| number(own, k));
-            taken.recorded_a.push(currents.map(|own| current(own.as_ref())));
+            taken
+                .recorded_a
+                .push(currents.map(|own| current(own.as_ref())));
         }
         if taken.told.len() < 2 {
             return Err(format!(
@@ -108,7 +110,10 @@ impl Taken {
 
     /// Samples in which a sensor or the clock failed.
     pub fn faults(&self) -> usize {
-        self.is_faulty.iter().filter(|is_faulty| **is_faulty).count()
+        self.is_faulty
+            .iter()
+            .filter(|is_faulty| **is_faulty)
+            .count()
     }
 }
 
@@ -232,11 +237,7 @@ mod tests {
     fn a_slower_recording_has_its_own_interval_and_angles_between_counts_are_counted() {
         let time_s: Vec<f64> = (0..9).map(|k| 0.002 * f64::from(k)).collect();
         let counts: Vec<f64> = (0..9).map(|k| 7013.4 + f64::from(k)).collect();
-        let taken = Taken::of(
-            Layout::ThreeBrake,
-            &recording(&time_s, &counts, &[0.0; 9]),
-        )
-        .unwrap();
+        let taken = Taken::of(Layout::ThreeBrake, &recording(&time_s, &counts, &[0.0; 9])).unwrap();
         assert!((taken.settings.sample_s - 0.002).abs() < 1e-12);
         assert_eq!(taken.between_counts, 9);
         assert_eq!(taken.faults(), 0);
@@ -244,6 +245,10 @@ mod tests {
         assert!(Taken::of(Layout::FourBrake, &few).is_err());
         let mut coarse = recording(&time_s, &counts, &[0.0; 9]);
         coarse.theta[0].quantum = Some(40.0);
-        assert!(Taken::of(Layout::FourBrake, &coarse).unwrap_err().contains("0 counts"));
+        assert!(
+            Taken::of(Layout::FourBrake, &coarse)
+                .unwrap_err()
+                .contains("0 counts")
+        );
     }
 }

@@ -97,7 +97,9 @@ fn changes() -> Vec<(&'static str, Box<dyn Source>)> {
 
 /// A trial as a laboratory's recorder writes it: a row for every new sample, an empty cell for what is no number.
 fn written(told: &[(Sensed<f64>, [f64; 4])]) -> String {
-    let mut text = String::from("t (s),theta_A (rad),theta_B (rad),F_x (N),F_y (N),I_A (A),I_E (A),I_B (A),I_C (A)\n");
+    let mut text = String::from(
+        "t (s),theta_A (rad),theta_B (rad),F_x (N),F_y (N),I_A (A),I_E (A),I_B (A),I_C (A)\n",
+    );
     let mut last = None;
     for (sensed, currents_a) in told {
         if last.replace(sensed.number) == Some(sensed.number) {
@@ -149,13 +151,21 @@ fn is_what_was_told(taken: &Taken, told: &[(Sensed<f64>, [f64; 4])]) {
     new.dedup_by_key(|(sensed, _)| sensed.number);
     assert_eq!(taken.told.len(), new.len());
     for (k, (own, (sensed, currents_a))) in taken.told.iter().zip(new).enumerate() {
-        assert_eq!((own.number, own.counts), (sensed.number, sensed.counts), "{k}");
+        assert_eq!(
+            (own.number, own.counts),
+            (sensed.number, sensed.counts),
+            "{k}"
+        );
         assert_eq!(taken.recorded_a[k], *currents_a);
         let pairs = [
             (own.tip_force_n.x, sensed.tip_force_n.x),
             (own.tip_force_n.y, sensed.tip_force_n.y),
         ];
-        assert!(pairs.into_iter().all(|(own, n)| own == n || own.is_nan() && !n.is_finite()));
+        assert!(
+            pairs
+                .into_iter()
+                .all(|(own, n)| own == n || own.is_nan() && !n.is_finite())
+        );
     }
 }
 
@@ -164,7 +174,10 @@ fn independent() -> Option<(Vec<Taken>, Task)> {
     let near = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/data");
     let data = std::env::var_os("RIGPROOF_DATA").map_or_else(near, PathBuf::from);
     if !data.join("rigs").is_dir() {
-        println!("passed over: no recordings of the rig at {}", data.display());
+        println!(
+            "passed over: no recordings of the rig at {}",
+            data.display()
+        );
         return None;
     }
     let all = (1..=16).filter_map(|number| {
@@ -178,7 +191,12 @@ fn independent() -> Option<(Vec<Taken>, Task)> {
 }
 
 /// The first sample in which two controllers differ, found by asking them both and nothing else.
-fn first_by_hand(taken: &Taken, task: &Task, one: &dyn Source, other: &dyn Source) -> Option<usize> {
+fn first_by_hand(
+    taken: &Taken,
+    task: &Task,
+    one: &dyn Source,
+    other: &dyn Source,
+) -> Option<usize> {
     let mut one = one.begin(&taken.settings, task).unwrap();
     let mut other = other.begin(&taken.settings, task).unwrap();
     taken.told.iter().position(|sensed| {
@@ -189,12 +207,14 @@ fn first_by_hand(taken: &Taken, task: &Task, one: &dyn Source, other: &dyn Sourc
 
 fn compared(taken: &Taken, task: &Task, new: &dyn Source, expected: Option<&Expected>) -> Compared {
     let old = low(GAIN_N_S_PER_M);
-    let through = |source: &dyn Source, declared: &Declared| {
-        answered(taken, task, source, declared).unwrap()
-    };
+    let through =
+        |source: &dyn Source, declared: &Declared| answered(taken, task, source, declared).unwrap();
     // Which law of the rig it is, only the old one claims: `reference` looks at it alone.
     let claims = old.declared();
-    let promises = Declared { reference: None, ..claims };
+    let promises = Declared {
+        reference: None,
+        ..claims
+    };
     let (before, now) = (through(&old, &claims), through(new, &promises));
     Compared::of(taken, task, [&before, &now], expected)
 }
@@ -210,7 +230,10 @@ fn shows(name: &str, recordings: &[Taken], task: &Task) {
         assert_eq!((same.differing, same.holds()), (0, true));
         assert_eq!(same.samples, taken.told.len());
     }
-    println!("  {:<20} found in  first at (brakes)       differ  most    laws more broken", "change");
+    println!(
+        "  {:<20} found in  first at (brakes)       differ  most    laws more broken",
+        "change"
+    );
     for (change, source) in changes() {
         let mut found = 0;
         let mut shown = String::new();
@@ -243,7 +266,10 @@ fn shows(name: &str, recordings: &[Taken], task: &Task) {
         }
         laws.sort_unstable();
         laws.dedup();
-        println!("  {change:<20} {found:>8}  {shown:<22} {differing:>7}  {most_a:.4} A  {}", laws.join(" "));
+        println!(
+            "  {change:<20} {found:>8}  {shown:<22} {differing:>7}  {most_a:.4} A  {}",
+            laws.join(" ")
+        );
         // Where a change makes no difference there is none to be found: asked by hand, the controllers command the same.
         assert!(2 * found >= COUNT, "{change} is found in {found}");
     }
@@ -271,7 +297,10 @@ fn the_old_controller_commands_what_was_recorded() {
         let own = compared(taken, &task, &low(GAIN_N_S_PER_M), None);
         // What was told again is not in the file; everything else is.
         assert_eq!(own.recorded.samples, taken.told.len());
-        assert!(own.recorded.same as f64 > 0.98 * own.recorded.samples as f64, "{own:?}");
+        assert!(
+            own.recorded.same as f64 > 0.98 * own.recorded.samples as f64,
+            "{own:?}"
+        );
         // With another path it does not.
         let other = Task::Chain(vec![[-0.2, 0.31], [0.2, 0.33]]);
         let old = low(GAIN_N_S_PER_M);
@@ -290,31 +319,54 @@ fn what_is_meant_passes_and_nothing_else_does() {
     };
     let all = |source: &dyn Source, expected: &Expected| -> Vec<Compared> {
         let each = recordings.iter();
-        each.map(|taken| compared(taken, &task, source, Some(expected))).collect()
+        each.map(|taken| compared(taken, &task, source, Some(expected)))
+            .collect()
     };
     let gain = stronger();
     for own in all(&gain, &meant) {
         assert!(own.holds() && own.differing > 0, "{own:?}");
     }
     // A greater gain lets brakes act that did not; that alone is unmeant where the same ones have to.
-    let same = Expected { same_brakes: true, ..meant };
-    let unmeant = all(&gain, &same).into_iter().filter_map(|own| own.first_unmeant);
+    let same = Expected {
+        same_brakes: true,
+        ..meant
+    };
+    let unmeant = all(&gain, &same)
+        .into_iter()
+        .filter_map(|own| own.first_unmeant);
     let unmeant: Vec<_> = unmeant.collect();
     assert!(!unmeant.is_empty());
     for (first, why) in unmeant {
         let pairs = first.old_a.unwrap().into_iter().zip(first.new_a.unwrap());
         assert_eq!(why, Unmeant::OtherBrakesAct);
-        assert!(pairs.into_iter().any(|(old, new)| (old == 0.0) != (new == 0.0)));
+        assert!(
+            pairs
+                .into_iter()
+                .any(|(old, new)| (old == 0.0) != (new == 0.0))
+        );
     }
-    let too_narrow = Expected { most_a: Some(1e-6), ..meant };
+    let too_narrow = Expected {
+        most_a: Some(1e-6),
+        ..meant
+    };
     for own in all(&gain, &too_narrow) {
         let (first, why) = own.first_unmeant.clone().unwrap();
         assert_eq!(why, Unmeant::TooMuch);
         assert!(first.sample >= own.first.as_ref().unwrap().sample && !own.holds());
     }
-    let seldom = Expected { most_share: Some(1e-4), ..meant };
-    assert!(all(&gain, &seldom).iter().all(|own| own.is_too_often && !own.holds()));
-    let of_a = Expected { brakes: Some([true, false, false, false]), ..meant };
+    let seldom = Expected {
+        most_share: Some(1e-4),
+        ..meant
+    };
+    assert!(
+        all(&gain, &seldom)
+            .iter()
+            .all(|own| own.is_too_often && !own.holds())
+    );
+    let of_a = Expected {
+        brakes: Some([true, false, false, false]),
+        ..meant
+    };
     let others = all(&gain, &of_a);
     assert!(others.iter().any(|own| {
         own.first_unmeant.as_ref().is_some_and(|(first, why)| {
@@ -324,6 +376,9 @@ fn what_is_meant_passes_and_nothing_else_does() {
     for (change, source) in changes().iter().skip(1) {
         let found = all(source.as_ref(), &meant);
         let differ = found.iter().filter(|own| own.differing > 0);
-        assert!(differ.clone().count() > 4 && differ.clone().all(|own| !own.holds()), "{change}");
+        assert!(
+            differ.clone().count() > 4 && differ.clone().all(|own| !own.holds()),
+            "{change}"
+        );
     }
 }

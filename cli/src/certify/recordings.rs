@@ -81,7 +81,11 @@ pub fn run(args: &Args, recordings: &Path) -> Result<Outcome, Failure> {
     })?;
     drop(bar);
     let compiled = [&replay.compiled_old, &replay.compiled_new];
-    let between: Vec<String> = compiled.into_iter().flatten().flat_map(Opened::ended).collect();
+    let between: Vec<String> = compiled
+        .into_iter()
+        .flatten()
+        .flat_map(Opened::ended)
+        .collect();
     let all = All {
         recordings: done,
         expected: replay.expected,
@@ -105,7 +109,11 @@ impl Replay {
         let description = Description::parse(&read_text(file)?, file)?;
         let rig = FiveBar::read(rig)?;
         let lacks = |what: &str| Failure::unusable(file, what.to_owned());
-        if !description.rigs.iter().any(|own| own.layout() == rig.layout) {
+        if !description
+            .rigs
+            .iter()
+            .any(|own| own.layout() == rig.layout)
+        {
             let problem = format!(
                 "its `layout` is not the rig's, which is {}",
                 layout_name(rig.layout)
@@ -124,12 +132,16 @@ impl Replay {
         let of_the_rig = |law| Subject::beside(law, every);
         let new = one_of(
             description.controller.map(of_the_rig),
-            compiled_new.as_ref().map(|own| own.subject(description.declares)),
+            compiled_new
+                .as_ref()
+                .map(|own| own.subject(description.declares)),
             "the new controller: a table [controller], or --controller",
         )?;
         let old = one_of(
             description.baseline.map(of_the_rig),
-            compiled_old.as_ref().map(|own| own.subject(declared_by(&description))),
+            compiled_old
+                .as_ref()
+                .map(|own| own.subject(declared_by(&description))),
             "the old controller: a table [baseline], or --old",
         )?;
         Ok(Replay {

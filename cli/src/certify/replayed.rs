@@ -14,7 +14,10 @@ const AS_RECORDED: f64 = 0.95;
 
 /// What a person reads.
 pub fn words(all: &All, between: &[String], args: &Args) -> String {
-    let details = all.recordings.iter().filter(|own| own.compared.differing > 0);
+    let details = all
+        .recordings
+        .iter()
+        .filter(|own| own.compared.differing > 0);
     let details: Vec<&Replayed> = details.collect();
     let rig = args.rig.as_ref().map(|rig| rig.display().to_string());
     let mut sections = vec![vec![verdict(all, between)], table(all)];
@@ -49,27 +52,44 @@ fn verdict(all: &All, between: &[String]) -> String {
         1 => "the recording".to_owned(),
         _ => format!("all {count} recordings"),
     };
-    let failed = all.recordings.iter().filter(|own| !own.compared.holds()).count();
+    let failed = all
+        .recordings
+        .iter()
+        .filter(|own| !own.compared.holds())
+        .count();
     let differs = all.recordings.iter().any(|own| own.compared.differing > 0);
     if failed > 0 {
-        return format!("The new controller does NOT do what is expected in {failed} of {count} recordings.");
+        return format!(
+            "The new controller does NOT do what is expected in {failed} of {count} recordings."
+        );
     }
     if !between.is_empty() {
         return "The replay does NOT hold: a controller failed between trials.".to_owned();
     }
     if all.is_not_seen() {
-        return format!("The change that certify.toml expects was NOT seen: both controllers command the same in {what}.");
+        return format!(
+            "The change that certify.toml expects was NOT seen: both controllers command the same in {what}."
+        );
     }
     match differs {
-        true => format!("The new controller differs as expected, and in nothing else, in {what}, {samples} samples."),
-        false => format!("The new controller commands bit for bit what the old one does in {what}, {samples} samples."),
+        true => format!(
+            "The new controller differs as expected, and in nothing else, in {what}, {samples} samples."
+        ),
+        false => format!(
+            "The new controller commands bit for bit what the old one does in {what}, {samples} samples."
+        ),
     }
 }
 
 /// A line a recording.
 fn table(all: &All) -> Vec<String> {
     let names: Vec<String> = all.recordings.iter().map(name).collect();
-    let width = names.iter().map(|own| own.chars().count()).max().unwrap_or(0).max(9);
+    let width = names
+        .iter()
+        .map(|own| own.chars().count())
+        .max()
+        .unwrap_or(0)
+        .max(9);
     let head = format!(
         "  {:<width$}  {:>8}  {:>6}  {:>8}  {:<22}  {:<16}  result",
         "recording", "samples", "faulty", "differ", "greatest difference", "first at"
@@ -78,7 +98,11 @@ fn table(all: &All) -> Vec<String> {
         let compared = &own.compared;
         let first = compared.first.as_ref();
         let first = first.map_or("-".to_owned(), |own| {
-            format!("{} s ({})", significant(own.time_s, 4), own.brakes.join(" "))
+            format!(
+                "{} s ({})",
+                significant(own.time_s, 4),
+                own.brakes.join(" ")
+            )
         });
         format!(
             "  {name:<width$}  {:>8}  {:>6}  {:>8}  {:<22}  {first:<16}  {}",
@@ -103,16 +127,21 @@ fn greatest(compared: &Compared) -> String {
     let fields = fields.filter(|(_, field)| field.differing > 0);
     // What is no number is the greatest.
     let size = |a: Option<f64>| a.map_or(f64::INFINITY, f64::abs);
-    let most = fields.max_by(|(_, one), (_, other)| {
-        size(one.greatest_a).total_cmp(&size(other.greatest_a))
-    });
+    let most = fields
+        .max_by(|(_, one), (_, other)| size(one.greatest_a).total_cmp(&size(other.greatest_a)));
     match most {
         None => "-".to_owned(),
         Some((joint, field)) => {
             let by = field.greatest_a.map_or("no number".to_owned(), |by_a| {
-                format!("{}{} A", if by_a > 0.0 { "+" } else { "" }, significant(by_a, 3))
+                format!(
+                    "{}{} A",
+                    if by_a > 0.0 { "+" } else { "" },
+                    significant(by_a, 3)
+                )
             });
-            let at = field.greatest_s.map_or_else(String::new, |s| format!(" at {} s", significant(s, 4)));
+            let at = field
+                .greatest_s
+                .map_or_else(String::new, |s| format!(" at {} s", significant(s, 4)));
             format!("{}: {by}{at}", joint.letter())
         }
     }
@@ -144,12 +173,17 @@ fn detail(own: &Replayed) -> Vec<String> {
     if compared.is_too_often {
         lines.push(format!(
             "  commands differ in {} % of the samples, more than `most_share` allows",
-            significant(100.0 * compared.differing as f64 / compared.samples as f64, 3)
+            significant(
+                100.0 * compared.differing as f64 / compared.samples as f64,
+                3
+            )
         ));
     }
     lines.extend(compared.looks.iter().map(looks));
     lines.extend(compared.broken.iter().map(|broken| {
-        let first = broken.first_s.map_or_else(String::new, |s| format!(", first at {} s", significant(s, 5)));
+        let first = broken.first_s.map_or_else(String::new, |s| {
+            format!(", first at {} s", significant(s, 5))
+        });
         format!(
             "  the law {} is broken in {} samples, by the old controller in {}{first}: {}",
             broken.law.name(),
@@ -160,7 +194,10 @@ fn detail(own: &Replayed) -> Vec<String> {
     }));
     let [_, new] = &own.answers;
     lines.extend(new.failure.iter().map(|failure| format!("  {failure}")));
-    lines.push(format!("  in {} stretches", compared.stretches));
+    lines.push(format!(
+        "  the commands differ in {} stretches",
+        compared.stretches
+    ));
     section(&name(own), lines)
 }
 
@@ -173,7 +210,9 @@ fn first(own: &First) -> Vec<String> {
     };
     let pair = |pair: [f64; 2]| pair.map(|one| significant(one, 4)).join(", ");
     let state = &own.state;
-    let force = state.force_n.map(|n| n.map_or("no number".to_owned(), |n| significant(n, 3)));
+    let force = state
+        .force_n
+        .map(|n| n.map_or("no number".to_owned(), |n| significant(n, 3)));
     let mut told = format!(
         "    counts A, B: {}, {}; force: {} N",
         state.counts[0],
@@ -184,23 +223,37 @@ fn first(own: &First) -> Vec<String> {
         told += &format!("; tip: {} m, {} m/s", pair(tip_m), pair(speed_m_s));
     }
     if let Some(offset_m) = state.offset_m {
-        told += &format!("; {} mm left of the path", significant(1000.0 * offset_m, 3));
+        told += &format!(
+            "; {} mm left of the path",
+            significant(1000.0 * offset_m, 3)
+        );
     }
     if state.is_faulty {
         told += "; a sensor or the clock failed";
     }
     vec![
-        format!("    A, E, B, C: {} before, {} now", command(own.old_a), command(own.new_a)),
+        format!(
+            "    A, E, B, C: {} before, {} now",
+            command(own.old_a),
+            command(own.new_a)
+        ),
         told,
     ]
 }
 
 fn looks(looks: &Looks) -> String {
     match looks {
-        Looks::Times(factor) => format!("  it looks like a factor: {} times the old currents", significant(*factor, 6)),
+        Looks::Times(factor) => format!(
+            "  it looks like a factor: {} times the old currents",
+            significant(*factor, 6)
+        ),
         Looks::Later(1) => "  it looks like a delay: the old currents, 1 sample later".to_owned(),
-        Looks::Later(by) => format!("  it looks like a delay: the old currents, {by} samples later"),
-        Looks::Exchanged(one, other) => format!("  it looks like brakes {one} and {other} exchanged"),
+        Looks::Later(by) => {
+            format!("  it looks like a delay: the old currents, {by} samples later")
+        }
+        Looks::Exchanged(one, other) => {
+            format!("  it looks like brakes {one} and {other} exchanged")
+        }
         Looks::Sign(brake) => format!("  it looks like the sign of brake {brake}"),
     }
 }
@@ -211,7 +264,10 @@ fn remarks(own: &Replayed) -> Vec<String> {
     let name = name(own);
     let taken = &own.taken;
     if taken.lost > 0 {
-        lines.push(format!("{name}: {} rows have no angle: samples that never came", taken.lost));
+        lines.push(format!(
+            "{name}: {} rows have no angle: samples that never came",
+            taken.lost
+        ));
     }
     if taken.between_counts > 0 {
         lines.push(format!(

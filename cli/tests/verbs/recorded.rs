@@ -15,18 +15,21 @@ fn description(gain_n_s_per_m: f64, more: &str) -> String {
     law("controller", gain_n_s_per_m) + &law("baseline", 400.0) + PATH + more
 }
 
-/// Two recordings of a concealed rig in `runs`.
+/// Two recordings of a concealed rig in `runs`, 5 s each.
 fn desk() -> Desk {
     let desk = Desk::new();
-    for seed in [31, 32] {
-        desk.prints(&format!("blind make --plant rig --seed {seed} --out case{seed}"), 0);
-    }
+    desk.prints("blind make --plant rig --seed 34 --out case", 0);
     std::fs::create_dir(desk.path("runs")).unwrap();
-    for seed in [31, 32] {
-        let text = desk.read(&format!("case{seed}/recording.csv"));
-        desk.put(&format!("runs/{seed}.csv"), &text);
+    let text = desk.read("case/recording.csv");
+    let (head, rows) = text.split_once('\n').unwrap();
+    let rows: Vec<&str> = rows.lines().collect();
+    for (name, part) in [("first", &rows[..5000]), ("second", &rows[9000..14_000])] {
+        desk.put(
+            &format!("runs/{name}.csv"),
+            &format!("{head}\n{}\n", part.join("\n")),
+        );
     }
-    desk.put("runs/rig.toml", &desk.read("case31/rig.toml"));
+    desk.put("runs/rig.toml", &desk.read("case/rig.toml"));
     desk
 }
 
@@ -43,7 +46,9 @@ fn an_unchanged_controller_passes_and_a_changed_gain_is_found_with_field_and_tim
     desk.put("certify.toml", &description(400.0, ""));
     let same = desk.prints(LINE, 0);
     assert!(
-        same.starts_with("The new controller commands bit for bit what the old one does in all 2 recordings"),
+        same.starts_with(
+            "The new controller commands bit for bit what the old one does in all 2 recordings"
+        ),
         "{same}"
     );
     assert_eq!(same.matches("the same bit for bit").count(), 2, "{same}");
@@ -53,22 +58,40 @@ fn an_unchanged_controller_passes_and_a_changed_gain_is_found_with_field_and_tim
         text.starts_with("The new controller does NOT do what is expected in 2 of 2 recordings."),
         "{text}"
     );
-    for words in ["31.csv", "32.csv", "no difference is expected", "left of the path", "counts A, B"] {
+    for words in [
+        "first.csv",
+        "second.csv",
+        "no difference is expected",
+        "left of the path",
+        "counts A, B",
+    ] {
         assert!(text.contains(words), "{words}: {text}");
     }
     let json = desk.json(&format!("{LINE} --json"), 1);
-    assert_eq!((&json["holds"], &json["expected"]), (&false.into(), &Value::Null));
+    assert_eq!(
+        (&json["holds"], &json["expected"]),
+        (&false.into(), &Value::Null)
+    );
     for own in json["recordings"].as_array().unwrap() {
         let [first, why] = [0, 1].map(|k| &own["compared"]["first_unmeant"][k]);
         assert_eq!(why, "nothing_expected");
-        let (time_s, sample) = (first["time_s"].as_f64().unwrap(), first["sample"].as_u64().unwrap());
+        let (time_s, sample) = (
+            first["time_s"].as_f64().unwrap(),
+            first["sample"].as_u64().unwrap(),
+        );
         assert!(time_s > 0.0 && sample > 0 && !first["brakes"].as_array().unwrap().is_empty());
         assert_ne!(first["old_a"], first["new_a"]);
     }
     // One of them alone.
-    let alone = desk.json(&format!("{LINE} --json").replace("--recordings runs", "--recordings runs/32.csv"), 1);
+    let alone = desk.json(
+        &format!("{LINE} --json").replace("--recordings runs", "--recordings runs/second.csv"),
+        1,
+    );
     assert_eq!(alone["recordings"].as_array().unwrap().len(), 1);
-    assert_eq!(alone["recordings"][0]["compared"], json["recordings"][1]["compared"]);
+    assert_eq!(
+        alone["recordings"][0]["compared"],
+        json["recordings"][1]["compared"]
+    );
 }
 
 #[test]
@@ -77,14 +100,29 @@ fn what_is_expected_passes_and_what_is_expected_and_not_seen_does_not() {
     let meant = "[expected]\nmost_a = 0.2\n";
     desk.put("certify.toml", &description(440.0, meant));
     let text = desk.prints(LINE, 0);
-    assert!(text.starts_with("The new controller differs as expected, and in nothing else"), "{text}");
+    assert!(
+        text.starts_with("The new controller differs as expected, and in nothing else"),
+        "{text}"
+    );
     desk.put("certify.toml", &description(400.0, meant));
     let text = desk.prints(LINE, 1);
-    assert!(text.starts_with("The change that certify.toml expects was NOT seen"), "{text}");
-    desk.put("certify.toml", &description(440.0, "[expected]\nmost_a = 0.00001\n"));
+    assert!(
+        text.starts_with("The change that certify.toml expects was NOT seen"),
+        "{text}"
+    );
+    desk.put(
+        "certify.toml",
+        &description(440.0, "[expected]\nmost_a = 0.00001\n"),
+    );
     let text = desk.prints(LINE, 1);
-    assert!(text.contains("a command differs by more than `most_a`"), "{text}");
-    desk.put("certify.toml", &description(440.0, "[expected]\nmost_share = 0.0001\n"));
+    assert!(
+        text.contains("a command differs by more than `most_a`"),
+        "{text}"
+    );
+    desk.put(
+        "certify.toml",
+        &description(440.0, "[expected]\nmost_share = 0.0001\n"),
+    );
     let text = desk.prints(LINE, 1);
     assert!(text.contains("more than `most_share` allows"), "{text}");
 }
@@ -94,17 +132,53 @@ fn what_cannot_be_replayed_is_refused_and_says_why() {
     let desk = desk();
     desk.put("certify.toml", &description(440.0, ""));
     refused(&desk, "certify certify.toml --recordings runs", 2, "--rig");
-    refused(&desk, "certify --recordings runs --rig runs/rig.toml", 2, "CERTIFY.TOML");
-    refused(&desk, &format!("{LINE} --search 3"), 2, "cannot be used with");
+    refused(
+        &desk,
+        "certify --recordings runs --rig runs/rig.toml",
+        2,
+        "CERTIFY.TOML",
+    );
+    refused(
+        &desk,
+        &format!("{LINE} --search 3"),
+        2,
+        "cannot be used with",
+    );
     for (text, why) in [
         (description(440.0, "[expected]\n"), "it states nothing"),
-        (description(440.0, "[expected]\nbrakes = \"A D\"\n"), "`D` is no brake"),
-        (description(440.0, "[expected]\nmost_a = 2\n"), "from 0 to 1"),
-        (description(440.0, "").replace("chain", "circle"), "no kind of path"),
-        (description(440.0, "").replace(PATH, ""), "add a table [path]"),
-        (description(440.0, "").replace("[baseline]\nkind = \"proportional\"\ngain_n_s_per_m = 400\n", ""), "the old controller"),
-        (format!("layout = \"three_brake\"\n{}", description(440.0, "")), "not the rig's, which is four_brake"),
-        (description(440.0, "").replace("y_m = 0.41", "y_m = 0.37").replace("x_m = 0.13", "x_m = -0.12"), "no path comes of it"),
+        (
+            description(440.0, "[expected]\nbrakes = \"A D\"\n"),
+            "`D` is no brake",
+        ),
+        (
+            description(440.0, "[expected]\nmost_a = 2\n"),
+            "from 0 to 1",
+        ),
+        (
+            description(440.0, "").replace("chain", "circle"),
+            "no kind of path",
+        ),
+        (
+            description(440.0, "").replace(PATH, ""),
+            "add a table [path]",
+        ),
+        (
+            description(440.0, "").replace(
+                "[baseline]\nkind = \"proportional\"\ngain_n_s_per_m = 400\n",
+                "",
+            ),
+            "the old controller",
+        ),
+        (
+            format!("layout = \"three_brake\"\n{}", description(440.0, "")),
+            "not the rig's, which is four_brake",
+        ),
+        (
+            description(440.0, "")
+                .replace("y_m = 0.41", "y_m = 0.37")
+                .replace("x_m = 0.13", "x_m = -0.12"),
+            "no path comes of it",
+        ),
     ] {
         desk.put("certify.toml", &text);
         refused(&desk, LINE, 3, why);
@@ -124,13 +198,24 @@ fn a_compiled_controller_is_replayed_beside_the_compiled_one_before_it() {
         assert!(source.contains(line));
         let changed = source.replace(line, &format!("#define GAIN_A_S_PER_RAD {gain}\n"));
         desk.put(&format!("{name}.c"), &changed);
-        if compiled(&desk.path(&format!("{name}.c")), &desk.path(&format!("{name}.so"))).is_none() {
+        if compiled(
+            &desk.path(&format!("{name}.c")),
+            &desk.path(&format!("{name}.so")),
+        )
+        .is_none()
+        {
             return;
         }
     }
-    desk.put("certify.toml", &format!("[declares]\nmost_brakes = 1\nlocks = false\n{PATH}"));
+    desk.put(
+        "certify.toml",
+        &format!("[declares]\nmost_brakes = 1\nlocks = false\n{PATH}"),
+    );
     let same = desk.prints(&format!("{LINE} --old old.so --controller old.so"), 0);
     assert!(same.contains("bit for bit"), "{same}");
     let text = desk.prints(&format!("{LINE} --old old.so --controller new.so"), 1);
-    assert!(text.contains("it looks like a factor: 1.1 times the old currents"), "{text}");
+    assert!(
+        text.contains("it looks like a factor: 1.1 times the old currents"),
+        "{text}"
+    );
 }

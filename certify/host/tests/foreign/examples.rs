@@ -200,7 +200,10 @@ fn the_damper_brakes_the_faster_joint_and_lets_go_at_a_fault() {
 fn makes_anything() -> bool {
     let least = Path::new(env!("CARGO_TARGET_TMPDIR")).join("least.mk");
     std::fs::write(&least, "all:\n\ttrue\n").unwrap();
-    let made = std::process::Command::new("make").arg("-f").arg(&least).output();
+    let made = std::process::Command::new("make")
+        .arg("-f")
+        .arg(&least)
+        .output();
     made.is_ok_and(|made| made.status.success())
 }
 

@@ -110,7 +110,11 @@ fn with_code_beside(name: &str) -> Option<[PathBuf; 2]> {
         "-lbeside",
         &format!("-Wl,-rpath,{tmp}"),
     ];
-    let by_path = compiled(&format!("hostile_linked_{name}"), "tests/foreign/faulty.c", &linked)?;
+    let by_path = compiled(
+        &format!("hostile_linked_{name}"),
+        "tests/foreign/faulty.c",
+        &linked,
+    )?;
     let opened = format!("-DAT_OPENING=dlopen(\"{tmp}/libbeside.so\", 2)");
     let opened = compiled(
         &format!("hostile_opened_{name}"),
@@ -146,7 +150,11 @@ fn in_a_foreign_namespace(library: &Path) -> Option<Output> {
     let mut command = Command::new(words.next()?);
     command.args(words);
     let program = env!("CARGO_BIN_EXE_rigproof-controller-host");
-    let answer = command.args([program, "try"]).arg(library).arg("60").output();
+    let answer = command
+        .args([program, "try"])
+        .arg(library)
+        .arg("60")
+        .output();
     let answer = answer.ok()?;
     // What the host did not begin it did not answer.
     let said = String::from_utf8_lossy(&answer.stderr);
@@ -169,7 +177,10 @@ fn in_a_foreign_user_namespace_the_system_s_libraries_are_told_from_others() {
         let answer = in_a_foreign_namespace(&library).unwrap();
         let said = String::from_utf8_lossy(&answer.stderr);
         assert!(!answer.status.success(), "{library:?}");
-        assert!(said.contains("libbeside.so, which its hash does not name"), "{said}");
+        assert!(
+            said.contains("libbeside.so, which its hash does not name"),
+            "{said}"
+        );
     }
 }
 
