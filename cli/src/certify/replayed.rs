@@ -245,7 +245,7 @@ fn looks(looks: &Looks) -> String {
     match looks {
         Looks::Times(factor) => format!(
             "  it looks like a factor: {} times the old currents",
-            significant(*factor, 6)
+            significant(*factor, 4)
         ),
         Looks::Later(1) => "  it looks like a delay: the old currents, 1 sample later".to_owned(),
         Looks::Later(by) => {

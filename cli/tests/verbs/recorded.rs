@@ -215,7 +215,7 @@ fn a_compiled_controller_is_replayed_beside_the_compiled_one_before_it() {
     assert!(same.contains("bit for bit"), "{same}");
     let text = desk.prints(&format!("{LINE} --old old.so --controller new.so"), 1);
     assert!(
-        text.contains("it looks like a factor: 1.1 times the old currents"),
+        text.contains("it looks like a factor: 1.100 times the old currents"),
         "{text}"
     );
 }
