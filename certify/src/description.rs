@@ -12,8 +12,10 @@ use rigproof_trace::rig::table::{Source, Table};
 use rigproof_trace::suggest::advice;
 
 use crate::built_in::{BuiltIn, Kind};
+use crate::controller::Task;
 use crate::declared::{Choice, Declared, EVERY, Solid};
 use crate::metrics::{METRICS, Metric};
+use crate::recordings::expected::{Expected, path};
 use crate::scenario::Rig;
 
 /// What a description says.
@@ -35,6 +37,10 @@ pub struct Description {
     pub limits: [Option<f64>; METRICS],
     /// By how much the mean may be worse than the baseline's.
     pub regressions: [Option<f64>; METRICS],
+    /// The path that the rig kept to in recordings that are replayed.
+    pub path: Option<Task>,
+    /// Which differences of their commands are meant.
+    pub expected: Option<Expected>,
 }
 
 /// The reference configurations: the rows of table 6.1.
@@ -83,6 +89,8 @@ impl Description {
             "reference_every",
             "limits",
             "regressions",
+            "path",
+            "expected",
         ])?;
         let rigs = match root.text("layout")? {
             None | Some("both") => vec![Rig::ThreeBrake, Rig::FourBrake],
@@ -118,6 +126,11 @@ impl Description {
             rigs,
             limits: metrics("limits")?,
             regressions: metrics("regressions")?,
+            path: root.table("path")?.map(|table| path(&table)).transpose()?,
+            expected: root
+                .table("expected")?
+                .map(|table| Expected::read(&table))
+                .transpose()?,
         })
     }
 }

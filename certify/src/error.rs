@@ -31,6 +31,9 @@ pub enum Error {
         "scenario {0} has no path, pose or plant; it was not written by this program: make it again"
     )]
     Scenario(u64),
+    /// A recording that cannot be sent through a controller.
+    #[error("{0}")]
+    Replay(String),
     /// Folders that are not the shards of one campaign.
     #[error("{0}")]
     Shards(String),

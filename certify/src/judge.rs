@@ -22,7 +22,7 @@ use crate::law::{Fared, LAWS, Law};
 use crate::way::Way;
 use behaviour::Behaviour;
 use reference::Reference;
-use seen::Seen;
+pub(crate) use seen::Seen;
 
 /// Samples of a fault over which the last command may still hold (decision 0124).
 pub const MOST_HELD: u32 = 2;

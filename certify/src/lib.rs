@@ -29,6 +29,7 @@ pub mod proved;
 mod rebuilt;
 pub mod recheck;
 pub mod record;
+pub mod recordings;
 pub mod scenario;
 pub mod search;
 mod shape;

@@ -311,7 +311,7 @@ fn is_stretched(plant: &Plant) -> bool {
 }
 
 /// Whether two commands are the same bits; the margin is minus the greatest difference, A.
-fn same(one_a: [f64; 4], other_a: [f64; 4]) -> Margin {
+pub(crate) fn same(one_a: [f64; 4], other_a: [f64; 4]) -> Margin {
     if one_a.map(f64::to_bits) == other_a.map(f64::to_bits) {
         return Margin(0.0);
     }

@@ -5,7 +5,9 @@ mod check;
 mod compiled;
 mod merge;
 mod page;
+mod recordings;
 mod replay;
+mod replayed;
 mod sign;
 mod words;
 
@@ -67,6 +69,15 @@ pub struct Args {
     /// Run a finding or a worst case again instead
     #[arg(long, value_name = "FINDING.JSON")]
     replay: Option<PathBuf>,
+    /// Send recordings through the baseline and the controller instead, sample by sample: a file, or a folder of them
+    #[arg(long, value_name = "FOLDER", requires = "rig", conflicts_with_all = ["check", "replay", "calibration", "search", "sign"])]
+    recordings: Option<PathBuf>,
+    /// Of --recordings: the five-bar that they are of
+    #[arg(long, value_name = "RIG.TOML", requires = "recordings")]
+    rig: Option<PathBuf>,
+    /// Of --recordings: a compiled controller that is on the rig now, in place of the table `baseline`
+    #[arg(long, value_name = "LIBRARY", requires = "recordings")]
+    old: Option<PathBuf>,
     #[command(flatten)]
     compiled: compiled::Compiled,
     /// Print the result as JSON
@@ -85,7 +96,7 @@ enum Verb {
 }
 
 const AFTER_HELP: &str = "\
-Exit code 1 says that a law or a limit is broken, that a certificate does not hold, or that a replayed finding breaks its law again.
+Exit code 1 says that a law or a limit is broken, that a certificate does not hold, that a replayed finding breaks its law again, or that commands on recordings differ in what certify.toml does not expect.
 
 Example:
   rigproof certify certify.toml --scenarios 1000 --out certified
@@ -94,6 +105,7 @@ Example:
   rigproof certify declared.toml --controller mine.so --scenarios 200
   rigproof certify certify.toml --search 200 --sign lab.pem
   rigproof certify --check certified/certificate.json --public-key lab.pem.pub
+  rigproof certify certify.toml --recordings runs --rig rig.toml
 
 certify.toml:
   [controller]
@@ -106,6 +118,9 @@ certify.toml:
 
 /// Runs a campaign, or looks at what one left.
 pub fn run(args: &Args) -> Result<Outcome, Failure> {
+    if let Some(recordings) = &args.recordings {
+        return recordings::run(args, recordings);
+    }
     match (&args.verb, &args.check, &args.replay, &args.description) {
         (Some(Verb::Merge(args)), ..) => merge::run(args),
         (Some(Verb::Key(args)), ..) => sign::make_key(args),

@@ -123,11 +123,13 @@ pub enum HowRead {
 }
 
 impl HowRead {
-    fn of_messages(lines: &[String]) -> HowRead {
+    /// As MCAP, with what was said of it.
+    pub fn of_messages(lines: &[String]) -> HowRead {
         HowRead::Messages(plain_lines(lines))
     }
 
-    fn of_text(dialect: Dialect, remarks: &[String]) -> HowRead {
+    /// As text, with what was guessed, passed over or mended.
+    pub fn of_text(dialect: Dialect, remarks: &[String]) -> HowRead {
         HowRead::Text(dialect, plain_lines(remarks))
     }
 

@@ -7,6 +7,8 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
+use tempfile::NamedTempFile;
+
 use crate::error::{Place, TraceError};
 
 pub use folder::Folder;
@@ -54,19 +56,46 @@ pub fn write_aside_with(
         Err(_) => path.to_path_buf(),
     };
     let parent = parent(&place);
-    part::sweep(&parent);
-    let mut temporary = part::builder()
-        .make_in(&parent, |aside| {
-            OpenOptions::new().write(true).create_new(true).open(aside)
-        })
-        .map_err(refused())?;
-    part::hold(temporary.as_file());
-    write(temporary.as_file_mut()).map_err(refused())?;
-    temporary.as_file().sync_all().map_err(refused())?;
-    temporary
+    let whole = aside(&parent, &OpenOptions::new(), write).map_err(refused())?;
+    whole
         .persist(&place)
         .map_err(|error| refused()(error.error))?;
     sync_folder(&parent).map_err(refused())
+}
+
+/// Writes a file that must not be there yet, as whole as [`write_aside`] does; a secret one is its owner's alone from the beginning, where the system knows owners.
+///
+/// # Errors
+/// Something stands there, a link that leads nowhere too, or the system refuses.
+pub fn write_new(path: &Path, bytes: &[u8], is_secret: bool) -> Result<(), TraceError> {
+    let refused = || TraceError::io("write", path);
+    let mut options = OpenOptions::new();
+    #[cfg(unix)]
+    std::os::unix::fs::OpenOptionsExt::mode(&mut options, if is_secret { 0o600 } else { 0o644 });
+    #[cfg(not(unix))]
+    let _ = is_secret;
+    let parent = parent(path);
+    let whole = aside(&parent, &options, |file| file.write_all(bytes)).map_err(refused())?;
+    whole
+        .persist_noclobber(path)
+        .map_err(|error| refused()(error.error))?;
+    sync_folder(&parent).map_err(refused())
+}
+
+/// A whole file in a folder, on the disk and not in its place yet; what dead processes left there goes.
+fn aside(
+    folder: &Path,
+    options: &OpenOptions,
+    write: impl FnOnce(&mut File) -> io::Result<()>,
+) -> io::Result<NamedTempFile> {
+    part::sweep(folder);
+    let mut new = options.clone();
+    new.write(true).create_new(true);
+    let mut temporary = part::builder().make_in(folder, |aside| new.open(aside))?;
+    part::hold(temporary.as_file());
+    write(temporary.as_file_mut())?;
+    temporary.as_file().sync_all()?;
+    Ok(temporary)
 }
 
 /// Reads a small text file, such as a rig description.
@@ -169,6 +198,27 @@ mod tests {
             assert!(write_aside(&link, b"new").is_err(), "{name}");
             assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
         }
+    }
+
+    #[test]
+    fn a_new_file_replaces_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("key.pem");
+        write_new(&path, b"first", true).unwrap();
+        let message = write_new(&path, b"second", true).unwrap_err().to_string();
+        assert!(message.contains("cannot write"), "{message}");
+        assert_eq!(read_text(&path).unwrap(), "first");
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt;
+            let mode = fs::metadata(&path).unwrap().permissions().mode();
+            assert_eq!(mode & 0o077, 0);
+            let link = folder.path().join("link.pem");
+            std::os::unix::fs::symlink("gone.pem", &link).unwrap();
+            assert!(write_new(&link, b"new", false).is_err());
+            fs::remove_file(link).unwrap();
+        }
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 
     #[test]

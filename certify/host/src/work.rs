@@ -2,7 +2,6 @@
 
 use std::ffi::{c_char, c_int, c_void};
 use std::io::{self, Write};
-use std::os::unix::fs::MetadataExt;
 use std::os::unix::net::UnixStream;
 use std::path::Path;
 
@@ -15,6 +14,7 @@ use crate::call::{Controller, Outcome};
 use crate::descendants::beside_this;
 use crate::library::Exports;
 use crate::limits::limit;
+use crate::owner::{Whose, is_libc, whose};
 use crate::watch::{inherited, private};
 
 // Of the C library that this program is linked to.
@@ -63,10 +63,16 @@ fn opened(library: &Path) -> Result<Exports, String> {
             exports.map_err(|why| why.replace(&path, name))
         }
     }?;
-    let own = linked().into_iter().filter(|file| !before.contains(file));
-    match own.into_iter().find(|file| !is_of_the_system(file)) {
+    let after = linked();
+    let own = after.iter().filter(|file| !before.contains(file));
+    let libc = before.iter().find(|file| is_libc(file));
+    let mut others = own.map(|file| (file, whose(file, libc)));
+    match others.find(|(_, whose)| *whose != Whose::TheSystem) {
         None => Ok(exports),
-        Some(file) => Err(format!(
+        Some((file, Whose::CannotBeTold)) => Err(format!(
+            "it links to {file}, and whether that is the system's cannot be told here: this user namespace does not map its owner; run the campaign outside of it, or link that in statically"
+        )),
+        Some((file, _)) => Err(format!(
             "it links to {file}, which its hash does not name: link that in statically, so that the controller is one file"
         )),
     }
@@ -81,25 +87,6 @@ fn linked() -> Vec<String> {
     // The library itself is memory.
     files.retain(|file| !file.starts_with("/memfd:"));
     files
-}
-
-/// Whether a file is the system's: root's, in a folder of root's, so that nobody else changes it.
-fn is_of_the_system(file: &str) -> bool {
-    let is_roots = |path: &Path| {
-        std::fs::metadata(path).is_ok_and(|own| own.uid() == 0 && own.mode() & 0o022 == 0)
-    };
-    let folders = ["/lib", "/usr/lib", "/usr/local/lib"];
-    let Ok(file) = Path::new(file).canonicalize() else {
-        return false;
-    };
-    folders.iter().any(|folder| {
-        let folder = Path::new(folder).canonicalize();
-        folder.is_ok_and(|folder| file.starts_with(folder)) || {
-            // lib64, lib32 and their kin.
-            let text = file.to_string_lossy();
-            text.starts_with("/lib") || text.starts_with("/usr/lib")
-        }
-    }) && file.ancestors().all(is_roots)
 }
 
 /// The connection, out of the controller's way.

@@ -6,5 +6,6 @@ mod five;
 mod forged;
 mod plain;
 mod planted;
+mod recorded;
 mod runs;
 mod searched;

@@ -58,23 +58,34 @@ impl Compiled {
         })
     }
 
-    fn opened_with(&self, limits: Limits) -> Result<Option<Opened>, Failure> {
-        let Some(file) = &self.library else {
-            return Ok(None);
-        };
-        let unusable = |why: String| Failure::unusable(file, why);
-        let source = Foreign::new(file, host()?, limits);
-        let source = source.map_err(|failure| unusable(failure.to_string()))?;
-        source
-            .check()
-            .map_err(|failure| unusable(failure.to_string()))?;
-        let name = file.file_name().unwrap_or(file.as_os_str());
-        Ok(Some(Opened {
-            source,
-            limits,
-            name: name.to_string_lossy().into_owned(),
-        }))
+    /// Opens another one beside it, with the same limits.
+    ///
+    /// # Errors
+    /// As [`Compiled::opened`].
+    pub fn opened_beside(&self, file: &Path) -> Result<Opened, Failure> {
+        opened(file, self.given.limits())
     }
+
+    fn opened_with(&self, limits: Limits) -> Result<Option<Opened>, Failure> {
+        let library = self.library.as_deref();
+        library.map(|file| opened(file, limits)).transpose()
+    }
+}
+
+/// Opens a library once, to see that it can be run.
+fn opened(file: &Path, limits: Limits) -> Result<Opened, Failure> {
+    let unusable = |why: String| Failure::unusable(file, why);
+    let source = Foreign::new(file, host()?, limits);
+    let source = source.map_err(|failure| unusable(failure.to_string()))?;
+    source
+        .check()
+        .map_err(|failure| unusable(failure.to_string()))?;
+    let name = file.file_name().unwrap_or(file.as_os_str());
+    Ok(Opened {
+        source,
+        limits,
+        name: name.to_string_lossy().into_owned(),
+    })
 }
 
 impl Opened {

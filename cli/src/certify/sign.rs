@@ -1,11 +1,9 @@
 //! This file signs certificates with an ordinary key file, makes such keys, and says whether a signature holds.
 
-use std::fs::OpenOptions;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use ed25519_compact::{KeyPair, PublicKey, Seed, Signature};
-use rigproof_trace::store::{read_text, write_aside};
+use rigproof_trace::store::{read_text, write_aside, write_new};
 
 use super::check;
 use super::compiled::Compiled;
@@ -51,22 +49,34 @@ The signature is the 64 bytes of Ed25519 (RFC 8032) over the file, beside it as 
 Example:
   rigproof certify sign certified/certificate.json --key lab.pem";
 
-/// Makes a key; neither file may be there.
+/// Makes a key; neither file may be there. A secret key that stands there alone, as a kill between both files leaves it, gets its public half.
 pub fn make_key(args: &Key) -> Result<Outcome, Failure> {
+    let public = beside(&args.file, "pub");
+    let shown = (args.file.display(), public.display());
+    if args.file.is_file() && std::fs::symlink_metadata(&public).is_err() {
+        let keys = secret(&args.file)?;
+        write_new(&public, keys.pk.to_pem().as_bytes(), false)?;
+        return print(&format!(
+            "The secret key {} was there already. Its public key: {}.",
+            shown.0, shown.1
+        ));
+    }
+    for file in [&args.file, &public] {
+        if std::fs::symlink_metadata(file).is_ok() {
+            let problem = "a key is never written over; name another file".to_owned();
+            return Err(Failure::unusable(file, problem));
+        }
+    }
     let mut seed = [0; Seed::BYTES];
     getrandom::fill(&mut seed)
         .map_err(|error| Failure::Input(format!("the system gives no random numbers: {error}")))?;
     let keys = KeyPair::from_seed(Seed::new(seed));
-    let public = beside(&args.file, "pub");
-    write_new(&public, &keys.pk.to_pem(), 0o644)?;
-    if let Err(failure) = write_new(&args.file, &keys.sk.to_pem(), 0o600) {
-        // It is the public half of nothing.
-        let _ = std::fs::remove_file(&public);
-        return Err(failure);
-    }
-    let (file, public) = (args.file.display(), public.display());
+    // The secret one first: the other can be made of it.
+    write_new(&args.file, keys.sk.to_pem().as_bytes(), true)?;
+    write_new(&public, keys.pk.to_pem().as_bytes(), false)?;
     print(&format!(
-        "Secret key: {file} (who has it can sign). Public key: {public}."
+        "Secret key: {} (who has it can sign). Public key: {}.",
+        shown.0, shown.1
     ))
 }
 
@@ -188,19 +198,4 @@ fn beside(file: &Path, ending: &str) -> PathBuf {
     name.push(".");
     name.push(ending);
     PathBuf::from(name)
-}
-
-/// Writes a file that must not be there yet.
-fn write_new(file: &Path, text: &str, mode: u32) -> Result<(), Failure> {
-    let mut options = OpenOptions::new();
-    options.write(true).create_new(true);
-    #[cfg(unix)]
-    std::os::unix::fs::OpenOptionsExt::mode(&mut options, mode);
-    #[cfg(not(unix))]
-    let _ = mode;
-    let written = options
-        .open(file)
-        .and_then(|mut opened| opened.write_all(text.as_bytes()));
-    written
-        .map_err(|error| Failure::unusable(file, format!("a key is never written over: {error}")))
 }

@@ -1,5 +1,7 @@
 //! This file attacks certificates as a forger with a text editor and a hash program does, and folders as a campaign that fails does.
 
+use std::collections::BTreeSet;
+
 use rigproof_certify::certificate::Certificate;
 use serde_json::Value;
 
@@ -194,6 +196,8 @@ fn an_escape_in_a_name_steers_no_terminal_and_breaks_no_drawing() {
     for printed in [&answer.stdout, &answer.stderr] {
         assert!(!printed.contains(&0x1b) && !printed.contains(&7));
     }
+    // What is harmless of the name is shown, so that the rest could have been.
+    let mut shown = BTreeSet::new();
     for name in desk
         .names("found")
         .iter()
@@ -204,7 +208,10 @@ fn an_escape_in_a_name_steers_no_terminal_and_breaks_no_drawing() {
             .chars()
             .find(|c| c.is_control() && !"\n\t\r".contains(*c) || *c == '\u{fffe}');
         assert_eq!(bad, None, "{name}");
+        let ending = name.rsplit('.').next().unwrap().to_owned();
+        shown.extend(text.contains("[31mred").then_some(ending));
     }
+    assert_eq!(shown, ["html", "svg"].map(str::to_owned).into());
 }
 
 /// An edited file of an output folder is somebody's work.

@@ -260,6 +260,14 @@ fn a_recording_is_known_by_its_bytes_and_not_by_its_time() {
     file.set_modified(SystemTime::now() + Duration::from_secs(1000))
         .unwrap();
     drop(file);
-    std::thread::sleep(Duration::from_secs(4));
+    // One recording is diagnosed after another, in the order of their names: when a later one is done, this one would have been.
+    std::thread::sleep(Duration::from_secs(2));
+    fs::copy(desk.path("case11/recording.csv"), desk.path("runs/b.csv")).unwrap();
+    let later = desk.path("runs/b-diagnosis/report.json");
+    let begun = Instant::now();
+    while !later.exists() {
+        assert!(begun.elapsed() < Duration::from_secs(120), "{later:?}");
+        std::thread::sleep(Duration::from_millis(200));
+    }
     assert_eq!(fs::metadata(&report).unwrap().modified().unwrap(), written);
 }

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use crate::desk::Desk;
 
-const RIG: &str = r#"name = "bench"
+pub const RIG: &str = r#"name = "bench"
 plant = "bench"
 motion = "rotary"
 [channels]
@@ -23,7 +23,7 @@ fn torque(i: f64) -> f64 {
 }
 
 /// Steps to each current and back at one speed; rises take 9 ms (20 ms below 4 rpm), falls 6 ms (8 ms below 2 rpm).
-fn steps(rpm: f64) -> String {
+pub fn steps(rpm: f64) -> String {
     let mut text = String::from("time (s),angle (deg),torque (Nm),current (A)\n");
     let mut sample = 0_u32;
     let mut from = torque(0.0);

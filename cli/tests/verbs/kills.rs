@@ -1,134 +1,27 @@
 //! This file kills verbs that write before chosen system calls: what was there or what is to be there stands then, and the next run tidies up.
 #![cfg(target_os = "linux")]
 
+mod table;
+
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use ed25519_compact::{KeyPair, PublicKey};
 
 use crate::desk::Desk;
+use table::{Kind, Writes};
 
-/// How many kills each verb gets in a usual test; `RIGPROOF_KILLS` says how many all verbs get together.
+/// How many kills each verb gets in a usual test; `RIGPROOF_KILLS` says another number.
 const EACH: u64 = 5;
 
-/// A verb that writes over something that it wrote before.
-struct Writes {
-    name: &'static str,
-    /// What makes ready, what writes first, and what writes over that.
-    ready: &'static [&'static str],
-    old: &'static str,
-    new: &'static str,
-    /// The file or folder that it writes.
-    out: &'static str,
-    /// The files that a kill may leave away or leave as they are at any time: a campaign's folder is worked in.
-    grows: bool,
-}
+/// What stands at a place: every file with its bytes.
+type Stands = BTreeMap<PathBuf, Vec<u8>>;
 
-const CASE: &str = "blind make --plant bench --seed 11 --stratum single --out case";
-
-/// A verb that takes long under the killer: it is killed only where the number of kills is set.
-const DIAGNOSE: Writes = Writes {
-    name: "diagnose",
-    ready: &[CASE],
-    old: "",
-    new: "diagnose case/recording.csv --rig case/rig.toml --out found",
-    out: "found",
-    grows: false,
-};
-
-const ALL: [Writes; 11] = [
-    Writes {
-        name: "simulate",
-        ready: &[CASE],
-        old: "",
-        new: "simulate case/recording.csv --rig case/rig.toml --out simulated.csv",
-        out: "simulated.csv",
-        grows: false,
-    },
-    Writes {
-        name: "design",
-        ready: &[],
-        old: "design --no-sweep --out maps",
-        new: "design --ae 26.4cm --ed 30.5cm --ab 20cm --no-sweep --out maps",
-        out: "maps",
-        grows: false,
-    },
-    Writes {
-        name: "reproduce",
-        ready: &[],
-        old: "reproduce 3.5 --out figures",
-        new: "reproduce 3.3 --out figures",
-        out: "figures",
-        grows: false,
-    },
-    Writes {
-        name: "convert",
-        ready: &[],
-        old: "convert one.csv out.mcap",
-        new: "convert two.csv out.mcap",
-        out: "out.mcap",
-        grows: false,
-    },
-    Writes {
-        name: "inspect --write-rig",
-        ready: &[],
-        old: "",
-        new: "inspect one.csv --write-rig rig.toml",
-        out: "rig.toml",
-        grows: false,
-    },
-    Writes {
-        name: "blind make",
-        ready: &[],
-        old: "blind make --plant axis --seed 3 --out case",
-        new: "blind make --plant axis --seed 4 --out case",
-        out: "case",
-        grows: false,
-    },
-    Writes {
-        name: "new",
-        ready: &[],
-        old: "",
-        new: "new bench",
-        out: "bench",
-        grows: false,
-    },
-    Writes {
-        name: "man",
-        ready: &[],
-        old: "man --out pages",
-        new: "man --out pages",
-        out: "pages",
-        grows: false,
-    },
-    Writes {
-        name: "certify",
-        ready: &[],
-        old: "",
-        new: "certify certify.toml --scenarios 24 --seconds 0.2 --jobs 1 --out campaign",
-        out: "campaign",
-        grows: true,
-    },
-    Writes {
-        name: "certify merge",
-        ready: &["certify certify.toml --scenarios 24 --seconds 0.2 --shard 1/1 --out part"],
-        old: "certify merge part --out merged",
-        new: "certify merge part --out merged",
-        out: "merged",
-        grows: true,
-    },
-    Writes {
-        name: "certify sign",
-        ready: &["certify certify.toml --scenarios 8 --seconds 0.2 --out part"],
-        old: "",
-        new: "certify sign part/certificate.json --key lab.pem --sample 8",
-        out: "part/certificate.json.sig",
-        grows: false,
-    },
-];
-
-/// The secret key of RFC 8032, 7.1, test 1: signatures are the same in every folder.
-const KEY: &str = "-----BEGIN PRIVATE KEY-----\nMC4CAQAwBQYDK2VwBCIEIJ1hsZ3v/VpguoRK9JLsLMREScVpezJpGXA7rAMcrn9g\n-----END PRIVATE KEY-----\n";
+/// How many kills there were so far, of all verbs.
+static ALL: AtomicU64 = AtomicU64::new(0);
 
 /// The killer, built; `None` without a C compiler or where processes are not traced.
 fn killer(desk: &Desk) -> Option<PathBuf> {
@@ -156,27 +49,12 @@ fn killer(desk: &Desk) -> Option<PathBuf> {
     Some(program)
 }
 
+/// A folder with what a verb reads, and with what it writes over.
 fn desk(writes: &Writes) -> Desk {
     let desk = Desk::new();
-    for (name, step) in [("one", 0.25), ("two", 0.5)] {
-        let rows =
-            (0..60).map(|k| format!("{:.3},{}\n", 1e-3 * f64::from(k), step * f64::from(k % 9)));
-        desk.put(
-            &format!("{name}.csv"),
-            &format!("time (s),x (m)\n{}", rows.collect::<String>()),
-        );
-    }
-    desk.put("lab.pem", KEY);
-    desk.put(
-        "certify.toml",
-        "[controller]\nnamed = \"proportional_low\"\n",
-    );
-    for line in writes
-        .ready
-        .iter()
-        .chain([&writes.old])
-        .filter(|line| !line.is_empty())
-    {
+    (writes.put)(&desk);
+    let lines = writes.ready.iter().chain([&writes.old]);
+    for line in lines.filter(|line| !line.is_empty()) {
         let answer = desk.rigproof(line);
         assert!(
             answer.status.code().is_some_and(|code| code < 2),
@@ -186,8 +64,28 @@ fn desk(writes: &Writes) -> Desk {
     desk
 }
 
-/// What stands at a place: every file with its bytes, parts left out.
-fn stands(place: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+/// The same folder once more.
+fn copied(from: &Desk) -> Desk {
+    let to = Desk::new();
+    let mut left = vec![PathBuf::new()];
+    while let Some(part) = left.pop() {
+        for entry in fs::read_dir(from.path("").join(&part)).unwrap().flatten() {
+            let part = part.join(entry.file_name());
+            let place = to.path("").join(&part);
+            match entry.path().is_dir() {
+                true => {
+                    fs::create_dir(&place).unwrap();
+                    left.push(part);
+                }
+                false => drop(fs::copy(entry.path(), place).unwrap()),
+            }
+        }
+    }
+    to
+}
+
+/// What stands at a place, parts left out.
+fn stands(place: &Path) -> Stands {
     let mut all = BTreeMap::new();
     let mut left = vec![place.to_path_buf()];
     while let Some(path) = left.pop() {
@@ -239,14 +137,74 @@ fn killed(killer: &Path, desk: &Desk, line: &str, at: u64) -> (i32, String) {
     (answer.status.code().unwrap_or(-1), said)
 }
 
-/// Kills a verb at so many of its calls, spread over all of them; how many kills there were.
-fn kills(writes: &Writes, most: u64) -> u64 {
-    let first = desk(writes);
-    let Some(killer_here) = killer(&first) else {
-        return 0;
+/// Whether a kill may leave this.
+fn may_stand(kind: Kind, left: &Stands, old: &Stands, new: &Stands) -> bool {
+    match kind {
+        Kind::Whole => left == old || left == new,
+        Kind::Files => {
+            let is_one = |(name, own)| [old.get(name), new.get(name)].contains(&Some(own));
+            left.iter().all(is_one) && old.keys().all(|name| left.contains_key(name))
+        }
+        Kind::Campaign => {
+            let verdict = Path::new("certificate.json");
+            left.get(verdict)
+                .is_none_or(|own| [new.get(verdict), old.get(verdict)].contains(&Some(own)))
+        }
+        Kind::Key => left == old || is_key(left, 1) || is_key(left, 2),
+    }
+}
+
+/// Whether what stands is so many halves of one key, the secret one first.
+fn is_key(left: &Stands, halves: usize) -> bool {
+    let text = |name: &str| core::str::from_utf8(left.get(Path::new(name))?).ok();
+    let secret = text("own.pem").and_then(|own| KeyPair::from_pem(own).ok());
+    let public = text("own.pem.pub").and_then(|own| PublicKey::from_pem(own).ok());
+    let is_same = public.is_none_or(|public| secret.as_ref().is_some_and(|own| own.pk == public));
+    left.len() == halves && secret.is_some() && is_same && (halves < 2 || public.is_some())
+}
+
+/// Kills a verb before one of its calls, and runs it again.
+fn kill(writes: &Writes, killer: &Path, [old, new]: [&Stands; 2], desk: &Desk, at: u64) {
+    let place = desk.path(writes.out);
+    let (code, said) = killed(killer, desk, writes.new, at);
+    let named = format!("{} at {at}", writes.name);
+    // Threads make a call more or less; then it came to its end.
+    assert!([99, 0, 1].contains(&code), "{named}: {code} {said}");
+    let left = stands(&place);
+    let names = left.keys();
+    assert!(
+        may_stand(writes.kind, &left, old, new),
+        "{named}: {names:?}"
+    );
+    let is_new = |left: &Stands| match writes.kind {
+        Kind::Key => is_key(left, 2),
+        _ => left == new,
     };
-    let old = stands(&first.path(writes.out));
-    let (code, said) = killed(&killer_here, &first, writes.new, 0);
+    if code == 99 {
+        let again = desk.rigproof(writes.new);
+        let code = again.status.code();
+        // What was there before the kill is not made again where a verb refuses to write over it.
+        let is_refused = code == Some(3) && is_new(&left);
+        assert!(
+            is_refused || code.is_some_and(|code| code < 2),
+            "{named}: {again:?}"
+        );
+    }
+    assert!(is_new(&stands(&place)), "{named}: not what is to be there");
+    let left = parts(&desk.path(""));
+    let is_refused = writes.old.is_empty() && matches!(writes.kind, Kind::Whole | Kind::Key);
+    assert!(left.is_empty() || is_refused, "{named}: {left:?}");
+}
+
+/// Kills a verb at calls spread over all that it makes.
+fn kills(writes: &Writes, most: u64) {
+    let ready = desk(writes);
+    let first = copied(&ready);
+    let Some(killer) = killer(&first) else {
+        return;
+    };
+    let old = stands(&ready.path(writes.out));
+    let (code, said) = killed(&killer, &first, writes.new, 0);
     assert!((0..=1).contains(&code), "{}: {code} {said}", writes.name);
     let new = stands(&first.path(writes.out));
     let calls = said.lines().find_map(|line| line.strip_prefix("calls: "));
@@ -255,72 +213,52 @@ fn kills(writes: &Writes, most: u64) -> u64 {
     let count = calls.min(most);
     for k in 0..count {
         let at = 1 + k * (calls - 1) / (count - 1).max(1);
-        let desk = desk(writes);
-        let (code, said) = killed(&killer_here, &desk, writes.new, at);
-        // Threads make a call more or less; then it came to its end.
-        assert!(
-            [99, 0, 1].contains(&code),
-            "{} at {at}: {code} {said}",
-            writes.name
-        );
-        let left = stands(&desk.path(writes.out));
-        let is_one = match writes.grows {
-            false => left == old || left == new,
-            true => {
-                let verdict = Path::new("certificate.json");
-                left.get(verdict)
-                    .is_none_or(|own| [new.get(verdict), old.get(verdict)].contains(&Some(own)))
-            }
-        };
-        assert!(
-            is_one,
-            "{} at {at} of {calls}: {:?}",
-            writes.name,
-            left.keys()
-        );
-        if code == 99 {
-            let again = desk.rigproof(writes.new);
-            let code = again.status.code();
-            // What was there before the kill is not made again where a verb refuses to write over it.
-            let is_refused = code == Some(3) && left == new;
-            assert!(
-                is_refused || code.is_some_and(|code| code < 2),
-                "{} at {at}: {again:?}",
-                writes.name
-            );
-        }
-        assert_eq!(
-            stands(&desk.path(writes.out)),
-            new,
-            "{} at {at} of {calls}",
-            writes.name
-        );
-        let left = parts(&desk.path(""));
-        let is_refused = writes.old.is_empty() && !writes.grows;
-        assert!(
-            left.is_empty() || is_refused,
-            "{} at {at}: {left:?}",
-            writes.name
-        );
+        kill(writes, &killer, [&old, &new], &copied(&ready), at);
     }
-    println!("{:<20} {count} kills before {calls} calls", writes.name);
-    count
+    let all = ALL.fetch_add(count, Ordering::Relaxed) + count;
+    println!(
+        "{:<20} {count} kills before {calls} calls; {all} so far",
+        writes.name
+    );
 }
 
-#[test]
-fn a_kill_leaves_what_was_or_what_is_to_be_and_the_next_run_tidies_up() {
+/// How many kills a verb gets: 5, or what `RIGPROOF_KILLS` says.
+fn asked() -> Option<u64> {
     let asked = std::env::var("RIGPROOF_KILLS").ok();
-    let asked: Option<u64> = asked.map(|text| text.parse().unwrap());
-    let long = asked.is_some().then_some(&DIAGNOSE);
-    let verbs: Vec<&Writes> = ALL.iter().chain(long).collect();
-    let each = asked.map_or(EACH, |all| all.div_ceil(verbs.len() as u64));
-    let mut all: u64 = 0;
-    while all == 0 || asked.is_some_and(|asked| all < asked) {
-        let round: u64 = verbs.iter().map(|writes| kills(writes, each)).sum();
-        if round == 0 {
-            return;
-        }
-        all += round;
-    }
-    println!("{all} kills");
+    asked.map(|text| text.parse().unwrap())
+}
+
+/// A test a verb: a kill leaves what was or what is to be, and the next run tidies up.
+macro_rules! killed_anywhere {
+    ($($name:ident: $writes:ident, $usual:expr;)*) => {
+        $(#[test]
+        fn $name() {
+            if let Some(most) = asked().or($usual) {
+                kills(&table::$writes, most);
+            }
+        })*
+    };
+}
+
+killed_anywhere! {
+    simulate: SIMULATE, Some(EACH);
+    design: DESIGN, Some(EACH);
+    reproduce: REPRODUCE, Some(EACH);
+    convert: CONVERT, Some(EACH);
+    inspect: INSPECT, Some(EACH);
+    identify: IDENTIFY, Some(EACH);
+    blind_make: MAKE, Some(EACH);
+    blind_trial: TRIAL, Some(EACH);
+    blind_trial_page: TRIAL_PAGE, Some(EACH);
+    new: NEW, Some(EACH);
+    man: MAN, Some(EACH);
+    golden_export: EXPORT, Some(EACH);
+    golden_regenerate: REGENERATE, Some(EACH);
+    certify: CERTIFY, Some(EACH);
+    certify_merge: MERGE, Some(EACH);
+    certify_sign: SIGN, Some(EACH);
+    certify_key: MAKE_KEY, Some(EACH);
+    // These take long under the killer.
+    diagnose: DIAGNOSE, None;
+    demo: DEMO, None;
 }

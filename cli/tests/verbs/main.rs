@@ -24,5 +24,6 @@ mod kills;
 mod mcap;
 mod mistakes;
 mod new;
+mod recorded;
 mod reproduce;
 mod serve;

@@ -196,6 +196,17 @@ fn the_damper_brakes_the_faster_joint_and_lets_go_at_a_fault() {
     assert_eq!(running(&named(&library)), [0_u32; 0]);
 }
 
+/// Whether make can do the least that there is to do.
+fn makes_anything() -> bool {
+    let least = Path::new(env!("CARGO_TARGET_TMPDIR")).join("least.mk");
+    std::fs::write(&least, "all:\n\ttrue\n").unwrap();
+    let made = std::process::Command::new("make")
+        .arg("-f")
+        .arg(&least)
+        .output();
+    made.is_ok_and(|made| made.status.success())
+}
+
 #[test]
 fn the_makefile_builds_the_damper() {
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("made");
@@ -209,6 +220,11 @@ fn the_makefile_builds_the_damper() {
         println!("no make or no C compiler: the Makefile was not run");
         return;
     };
+    // In a user namespace that maps nobody, make starts no program at all.
+    if !makes_anything() {
+        println!("make does nothing here: the Makefile was not run");
+        return;
+    }
     let said = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{said}");
     assert_eq!(foreign(&library, limits()).check(), Ok(()));

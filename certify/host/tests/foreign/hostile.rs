@@ -1,7 +1,8 @@
 //! This file says what a controller with intent cannot do: be another than the one that was hashed, answer by what a run has by chance, reach other processes or a network.
 
-use std::path::Path;
-use std::process::Command;
+use std::os::unix::fs::MetadataExt;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
 
 use rigproof_certify::controller::Failure;
 use rigproof_certify::declared::Declared;
@@ -85,12 +86,11 @@ fn a_library_that_is_swapped_or_taken_away_is_the_one_that_was_hashed() {
     assert_eq!(trial(&source, REACHED), Ok(SOUND_A));
 }
 
-#[test]
-fn code_that_its_hash_does_not_name_is_refused() {
-    let tmp = env!("CARGO_TARGET_TMPDIR");
-    let Some(compiler) = compiler() else {
-        return;
-    };
+/// A controller that links by its run path to a library beside it, and one that opens that when it is loaded; `None` without a C compiler.
+fn with_code_beside(name: &str) -> Option<[PathBuf; 2]> {
+    let compiler = compiler()?;
+    let tmp = format!("{}/{name}", env!("CARGO_TARGET_TMPDIR"));
+    std::fs::create_dir_all(&tmp).unwrap();
     let source = format!("{tmp}/beside.c");
     std::fs::write(&source, "int beside(void) { return 7; }\n").unwrap();
     let built = Command::new(compiler)
@@ -110,14 +110,26 @@ fn code_that_its_hash_does_not_name_is_refused() {
         "-lbeside",
         &format!("-Wl,-rpath,{tmp}"),
     ];
-    let by_path = compiled("hostile_linked", "tests/foreign/faulty.c", &linked).unwrap();
+    let by_path = compiled(
+        &format!("hostile_linked_{name}"),
+        "tests/foreign/faulty.c",
+        &linked,
+    )?;
     let opened = format!("-DAT_OPENING=dlopen(\"{tmp}/libbeside.so\", 2)");
     let opened = compiled(
-        "hostile_opened",
+        &format!("hostile_opened_{name}"),
         "tests/foreign/faulty.c",
         &[&opened, "-include", "dlfcn.h", "-w"],
     );
-    for library in [by_path, opened.unwrap()] {
+    Some([by_path, opened?])
+}
+
+#[test]
+fn code_that_its_hash_does_not_name_is_refused() {
+    let Some(libraries) = with_code_beside("beside") else {
+        return;
+    };
+    for library in libraries {
         let source = foreign(&library, limits());
         let Err(Failure::Unusable(why)) = begin(&source).map(drop) else {
             panic!("{library:?} was begun");
@@ -129,6 +141,49 @@ fn code_that_its_hash_does_not_name_is_refused() {
     }
 }
 
+/// What the host says of a controller in a user namespace of somebody who is not root, which maps nobody but him; `None` where this system makes none.
+fn in_a_foreign_namespace(library: &Path) -> Option<Output> {
+    let is_root = std::fs::metadata("/proc/self").is_ok_and(|own| own.uid() == 0);
+    let as_another = "setpriv --reuid=65534 --regid=65534 --clear-groups";
+    let before = if is_root { as_another } else { "" };
+    let mut words = before.split_whitespace().chain(["unshare", "-Ur"]);
+    let mut command = Command::new(words.next()?);
+    command.args(words);
+    let program = env!("CARGO_BIN_EXE_rigproof-controller-host");
+    let answer = command
+        .args([program, "try"])
+        .arg(library)
+        .arg("60")
+        .output();
+    let answer = answer.ok()?;
+    // What the host did not begin it did not answer.
+    let said = String::from_utf8_lossy(&answer.stderr);
+    (answer.status.success() || said.starts_with("error: ")).then_some(answer)
+}
+
+#[test]
+fn in_a_foreign_user_namespace_the_system_s_libraries_are_told_from_others() {
+    let Some(others) = with_code_beside("foreign") else {
+        return;
+    };
+    // It links to libm.
+    let sound = compiled("hostile_damper", "../c/examples/damper.c", &[]).unwrap();
+    let Some(answer) = in_a_foreign_namespace(&sound) else {
+        println!("passed over: this system makes no user namespace");
+        return;
+    };
+    assert!(answer.status.success(), "{answer:?}");
+    for library in others {
+        let answer = in_a_foreign_namespace(&library).unwrap();
+        let said = String::from_utf8_lossy(&answer.stderr);
+        assert!(!answer.status.success(), "{library:?}");
+        assert!(
+            said.contains("libbeside.so, which its hash does not name"),
+            "{said}"
+        );
+    }
+}
+
 /// A controller that tries to reach out in a tick, and says in its currents what it reached.
 const REACHES: &str = "{ int memory; char name[64]; \
     if (ptrace(PTRACE_ATTACH, getppid(), 0, 0) == 0) currents_a[1] = 0.5; \
@@ -136,7 +191,7 @@ const REACHES: &str = "{ int memory; char name[64]; \
     if (syscall(SYS_process_vm_readv, getppid(), 0, 0, 0, 0, 0) == 0) currents_a[3] = 0.5; \
     if (syscall(SYS_bpf, 0, 0, 0) >= 0 || errno != EPERM) currents_a[3] = 0.25; }";
 
-fn reaching(name: &str, code: &str) -> Option<std::path::PathBuf> {
+fn reaching(name: &str, code: &str) -> Option<PathBuf> {
     let tick = format!("-DIN_TICK={code}");
     let mut told = vec![tick.as_str(), "-w"];
     for header in ["errno.h", "sys/ptrace.h", "sys/socket.h", "sys/syscall.h"] {
