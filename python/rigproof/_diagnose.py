@@ -8,6 +8,8 @@ import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
+import numpy as np
+
 from . import _rigproof
 from ._errors import Error
 from ._recording import taken
@@ -69,7 +71,8 @@ def diagnose(
     finally:
         if tick is _shown:
             sys.stderr.write("\r\x1b[K")
-    return Report(os.fspath(out), curves, scratch)
+    arrays = {key: np.frombuffer(own) if isinstance(own, bytes) else own for key, own in curves.items()}
+    return Report(os.fspath(out), arrays, scratch)
 
 
 def _shown(seconds: float) -> None:
