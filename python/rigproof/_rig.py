@@ -67,6 +67,7 @@ class Rig:
         name: str = "axis",
         status: str = "known",
         drive: str | None = None,
+        servo: Mapping[str, float] | None = None,
         effects: list[dict[str, Any]] | None = None,
         **roles: dict[str, float],
     ) -> Rig:
@@ -74,7 +75,9 @@ class Rig:
 
         position, command: the names of the channels. inertia, command_gain: value and unit, such as (0.002, "kg·m²/rad") and (0.4, "N·m/A"). status: `known`,
         or `unknown` where both are only a start for the fit. effects: physics that the model has already, each a dict as a table `[[effect]]` of a rig file.
-        drive: what the command does between two samples, `held` where a card holds it, as `[protocol]` of a rig file says. position_keys, command_keys: further keys of a channel, such as {"quantum": 1e-4, "sign": -1}.
+        drive: what the command does between two samples, `held` where a card holds it, as `[protocol]` of a rig file says. servo:
+        numbers of a position servo as `[servo]` says, such as {"gain": 8.5, "supply_v": 7.4, "back_emf": 0.386} in V/rad, V and V·s/rad; the command is then its
+        goal, and the gain of the command is N·m/V. position_keys, command_keys: further keys of a channel, such as {"quantum": 1e-4, "sign": -1}.
         """
 
         def value(number: Number) -> dict[str, Any]:
@@ -94,6 +97,7 @@ class Rig:
                 "channels": {"position": of("position", position, position_unit), "command": of("command", command, command_unit)},
                 "parameters": {"inertia": value(inertia), "command_gain": value(command_gain)},
                 "effect": effects or [],
+                **({} if servo is None else {"servo": servo}),
                 "protocol": {} if drive is None else {"drive": drive},
             }
         )
@@ -201,9 +205,12 @@ class Rig:
             return cls.from_dict(rig)
         return cls.from_path(rig)
 
-    def given(self) -> str | tuple[str, str]:
-        """What the compiled part takes: the path, or the text and its name."""
-        return self.path if self.path is not None else (self.text, "rig.toml")
+    def given(self, settings: Sequence[tuple[str, Mapping[str, float]]] = ()) -> str | tuple[str, str]:
+        """What the compiled part takes: the path, or the text and its name; with a table `[[recording]]` for each recording that has settings of its own."""
+        if self.path is not None and not settings:
+            return self.path
+        more = "".join("\n[[recording]]\n" + "".join(f"{key} = {_toml(value)}\n" for key, value in {"file": name, **own}.items()) for name, own in settings)
+        return (self.text + more, self.path or "rig.toml")
 
     def write(self, path: str | os.PathLike[str]) -> None:
         """Writes the description as TOML."""

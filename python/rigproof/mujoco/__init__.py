@@ -17,7 +17,8 @@ An arm, by the efforts that its motion takes:
 
 from ._apply import apply
 from ._effort import effort
+from ._law import load_friction
 from ._load import load
 from ._replay import replay
 
-__all__ = ["apply", "effort", "load", "replay"]
+__all__ = ["apply", "effort", "load", "load_friction", "replay"]

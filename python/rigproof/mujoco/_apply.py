@@ -33,10 +33,7 @@ def apply(calibration: Any, model: Any, joint: str | int = 0, actuator: str | in
     Of an arm (`chain`): at each joint damping, frictionloss and armature, of each link mass, centre and inertia, and constant torques in the joint's actuator.
     joints: the model's name of a joint by the rig's, where they differ. These numbers are added to what the model has from its URDF: apply once.
     """
-    text = calibration.calibration if isinstance(calibration, Report) else calibration.text if isinstance(calibration, Rig) else calibration
-    if text is None:
-        raise Error("calibration: nothing was fitted, so nothing can be set; look at the verdict of the report")
-    keys = tomllib.loads(text)
+    keys = keys_of(calibration)
     done: Done = {"set": [], "not_held": []}
     if keys.get("plant") == "axis":
         _axis(keys, model, joint, model.actuator(actuator), done)
@@ -46,6 +43,14 @@ def apply(calibration: Any, model: Any, joint: str | int = 0, actuator: str | in
         raise Error(f"calibration: a plant of kind `{keys.get('plant')}` cannot be carried into MuJoCo; give one of an `axis` or a `chain`")
     _settle(model)
     return done
+
+
+def keys_of(calibration: Any) -> Keys:
+    """The keys of a Report's calibration, of a Rig, or of the TOML text of one."""
+    text = calibration.calibration if isinstance(calibration, Report) else calibration.text if isinstance(calibration, Rig) else calibration
+    if text is None:
+        raise Error("calibration: nothing was fitted, so nothing can be set; look at the verdict of the report")
+    return tomllib.loads(text)
 
 
 def _friction(effect: Keys, model: Any, dof: int, where: str, done: Done) -> bool:
@@ -66,7 +71,8 @@ def _friction(effect: Keys, model: Any, dof: int, where: str, done: Done) -> boo
 
 def _not_held(effect: Keys, where: str, done: Done) -> None:
     since = " from an onset on" if "onset" in effect else ""
-    done["not_held"].append(f"{where}{effect['mechanism']}{since}: MuJoCo has no number for it")
+    how = "; load_friction(...) works it out at each step" if effect["mechanism"] == "load_friction" and not where else ""
+    done["not_held"].append(f"{where}{effect['mechanism']}{since}: MuJoCo has no number for it{how}")
 
 
 def _axis(keys: Keys, model: Any, joint: str | int, actuator: Any, done: Done) -> None:

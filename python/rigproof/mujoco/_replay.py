@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -13,13 +13,21 @@ Named = str | int
 
 
 def replay(
-    model: Any, time_s: Any, position: Any, command: Any, joint: Named | Sequence[Named] = 0, actuator: Named | Sequence[Named] = 0, restart_s: float = 1.0
+    model: Any,
+    time_s: Any,
+    position: Any,
+    command: Any,
+    joint: Named | Sequence[Named] = 0,
+    actuator: Named | Sequence[Named] = 0,
+    restart_s: float = 1.0,
+    before_step: Callable[[Any, Any], None] | None = None,
 ) -> dict[str, Any]:
     """Runs the model freely beside a recording, the command held between samples, and starts from the recorded state again every `restart_s` seconds.
 
     time_s: shape (n,). position (m or rad), command (the unit of the calibrated gain): shape (n,) of one joint; of k joints shape (n, k), a column for each of
     `joint` and `actuator`. Gives `rms` of simulated less recorded position, a number or shape (k,), `simulated`, shaped as position, and `runs`. The step of the
     model's `opt.timestep` is made to divide the interval of the samples, which is taken as even.
+    before_step: called with model and data before each step, the forces up to date, such as `load_friction(report)`.
     """
     import mujoco
 
@@ -46,8 +54,22 @@ def replay(
             for k in range(begin, min(begin + every, len(t))):
                 simulated[k] = data.qpos[places]
                 data.ctrl[inputs] = u[k]
-                mujoco.mj_step(model, data, inner)
+                _step(model, data, inner, before_step)
     finally:
         model.opt.timestep = kept
     rms = np.sqrt(np.nanmean((simulated - x) ** 2, axis=0))
     return {"rms": rms if several else float(rms[0]), "simulated": simulated.reshape(given.shape), "runs": -(-len(t) // every)}
+
+
+def _step(model: Any, data: Any, count: int, before_step: Callable[[Any, Any], None] | None) -> None:
+    import mujoco
+
+    if before_step is None:
+        mujoco.mj_step(model, data, count)
+        return
+    for _ in range(count):
+        mujoco.mj_fwdPosition(model, data)
+        mujoco.mj_fwdVelocity(model, data)
+        mujoco.mj_fwdActuation(model, data)
+        before_step(model, data)
+        mujoco.mj_step(model, data)
