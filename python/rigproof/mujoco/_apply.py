@@ -178,7 +178,7 @@ def _bodies_of(model: Any, numbers: Mapping[int, Any], armature: Mapping[int, fl
         done["set"].append(f"bodies: the calibration's numbers are sums over links that no real bodies have one by one; the nearest real ones are {away / size:.1%} of the change away")
     for k, body, dof in zip(joints, bodies, dofs):
         _inertia.put(model, body, put[10 * k : 10 * k + 10])
-        model.dof_armature[dof] = put[10 * len(joints) + k]
+        model.dof_armature[dof] = max(0.0, put[10 * len(joints) + k])
         done["set"].append(f"{model.joint(k).name}: mass {model.body_mass[body]:.4g} kg, centre {np.round(model.body_ipos[body], 4).tolist()} m, armature {model.dof_armature[dof]:.3g}")
 
 
