@@ -18,6 +18,6 @@ from ._program import inspect, simulate
 from ._report import Report
 from ._rig import Rig
 from ._rigproof import __version__
-from .read import read
+from .read import even, read
 
-__all__ = ["Error", "Report", "Rig", "__version__", "blind", "certify", "diagnose", "inspect", "read", "simulate"]
+__all__ = ["Error", "Report", "Rig", "__version__", "blind", "certify", "diagnose", "even", "inspect", "read", "simulate"]

@@ -8,6 +8,8 @@ import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
+import numpy as np
+
 from . import _rigproof
 from ._errors import Error
 from ._recording import taken
@@ -32,7 +34,7 @@ def diagnose(
     """Finds out why a recording disagrees with its rig's model.
 
     recording: a path (CSV, MCAP, or a folder of them), a dict of arrays of shape (n,), a frame of pandas or polars, or a list of these, which are diagnosed
-    together. rig: a path, a dict, or a Rig. hold_out: another recording, or the share (0.05 to 0.8) of the end on which the result is shown; 0.25 where it is
+    together; each may be a pair with its settings, (recording, {"gain": 8.5}), the gain of the position servo in it. rig: a path, a dict, or a Rig. hold_out: another recording, or the share (0.05 to 0.8) of the end on which the result is shown; 0.25 where it is
     None. units: the unit of each column of arrays, such as {"q": "deg"}; where it says nothing the rig's own counts. time: the column of time stamps; `time`,
     `t`, `timestamp` and the like are found. Whole numbers, such as nanoseconds, count from the first. from_s, to_s: what lies between these stamps counts.
     calibrate: so many simulated recordings say what the result is worth. jobs: 0 takes every processor; the result does not depend on it. progress: True shows
@@ -40,13 +42,22 @@ def diagnose(
 
     Raises rigproof.Error where an input is not usable. Ctrl-C raises KeyboardInterrupt at once; the thread that computes ends by itself a while later.
     """
-    several: Sequence[Any] = recording if isinstance(recording, (list, tuple)) else [recording]
+    several: Sequence[Any] = recording if isinstance(recording, (list, tuple)) and not _is_set(recording) else [recording]
     if not several:
         raise Error("recording: the list is empty; give at least one recording")
     many = len(several) > 1
-    given = [taken(one, units or {}, time, f"recording {k + 1}" if many else "recording") for k, one in enumerate(several)]
+    settings: list[tuple[str, Mapping[str, float]]] = []
+
+    def of(one: Any, name: str) -> Any:
+        one, own = one if _is_set(one) else (one, {})
+        given = taken(one, units or {}, time, name)
+        if own:
+            settings.append((os.path.basename(given) if isinstance(given, str) else name, own))
+        return given
+
+    given = [of(one, f"recording {k + 1}" if many else "recording") for k, one in enumerate(several)]
     is_share = isinstance(hold_out, (int, float)) and not isinstance(hold_out, bool)
-    held_out = None if hold_out is None or is_share else taken(hold_out, units or {}, time, "hold_out")
+    held_out = None if hold_out is None or is_share else of(hold_out, "hold_out")
     scratch = None
     if out is None:
         scratch = tempfile.TemporaryDirectory(prefix="rigproof-", ignore_cleanup_errors=True)
@@ -55,7 +66,7 @@ def diagnose(
     try:
         curves = _rigproof.diagnose(
             given,
-            Rig.of(rig).given(),
+            Rig.of(rig).given(settings),
             os.fspath(out),
             held_out=held_out,
             hold_out_share=float(hold_out) if is_share else None,
@@ -69,7 +80,13 @@ def diagnose(
     finally:
         if tick is _shown:
             sys.stderr.write("\r\x1b[K")
-    return Report(os.fspath(out), curves, scratch)
+    arrays = {key: np.frombuffer(own) if isinstance(own, bytes) else own for key, own in curves.items()}
+    return Report(os.fspath(out), arrays, scratch)
+
+
+def _is_set(one: Any) -> bool:
+    """Whether it is a recording with its settings."""
+    return isinstance(one, tuple) and len(one) == 2 and isinstance(one[1], Mapping) and set(one[1]) == {"gain"}
 
 
 def _shown(seconds: float) -> None:

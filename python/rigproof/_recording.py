@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import datetime
 import os
 from collections.abc import Mapping
 from typing import Any
@@ -56,7 +57,17 @@ def _columns(recording: Any, name: str) -> dict[str, Any]:
 
 def _array(samples: Any) -> np.ndarray[Any, Any]:
     """Anything with one value a sample as an array; no copy where it is one."""
+    if isinstance(samples, np.ma.MaskedArray):
+        return np.asarray(samples.astype(np.float64).filled(np.nan))
     return np.asarray(samples.to_numpy() if hasattr(samples, "to_numpy") else samples)
+
+
+def _is_missing(value: Any) -> bool:
+    """None, nan, and what pandas puts for a missing value, which equals nothing and says neither yes nor no."""
+    try:
+        return value is None or bool(value != value)
+    except TypeError:
+        return True
 
 
 def _stamps(samples: Any, unit: str | None, time: str, name: str) -> np.ndarray[Any, Any]:
@@ -66,6 +77,11 @@ def _stamps(samples: Any, unit: str | None, time: str, name: str) -> np.ndarray[
         if np.isnat(array).any():
             raise Error(f"{name}, line {int(np.isnat(array).argmax()) + 1}: the time stamp is missing; every sample needs one")
         return np.ascontiguousarray((array - array[0]) / np.timedelta64(1, "ns") * 1e-9, dtype=np.float64)
+    if array.dtype.kind == "O" and array.size and hasattr(array[0], "utcoffset"):
+        missing = next((k for k, own in enumerate(array) if _is_missing(own)), None)
+        if missing is not None:
+            raise Error(f"{name}, line {missing + 1}: the time stamp is missing; every sample needs one")
+        return np.array([(own - array[0]) / datetime.timedelta(seconds=1) for own in array], dtype=np.float64)
     unit = unit or next((own for own in ("ns", "us", "ms") if str(time).endswith(f"_{own}")), None)
     if unit is not None and unit not in SECONDS:
         raise Error(f"{name}: `{unit}` is no unit of time; give one of {', '.join(SECONDS)}")
@@ -89,7 +105,7 @@ def _numbers(samples: Any, own: str, name: str, wanted: bool) -> np.ndarray[Any,
     if array.dtype.kind == "O":
         numbers = np.full(len(array), np.nan)
         for k, value in enumerate(array):
-            if value is None or value != value:
+            if _is_missing(value):
                 continue
             if isinstance(value, (str, bytes)) or not hasattr(value, "__float__"):
                 if not wanted:

@@ -137,3 +137,10 @@ def bam(path: Path, channels: Sequence[str] | None = None) -> Columns:
         # Position control of a Dynamixel XL330, as its authors' model has it.
         columns["duty"] = np.clip(record["kp"] * 0.0028774 * (columns["goal_position"] - columns["position"]), -1, 1)
     return {"t": stamps - stamps[0], **columns}
+
+
+def even(columns: Columns, step_s: float) -> Columns:
+    """The columns at even times, `step_s` apart, by straight lines between samples: recordings that are diagnosed together have one rate. Needs the times in `t`."""
+    t = np.asarray(columns["t"], dtype=float)
+    times = t[0] + step_s * np.arange(int((t[-1] - t[0]) / step_s) + 1)
+    return {"t": times, **{name: np.interp(times, t, np.asarray(own, dtype=float)) for name, own in columns.items() if name != "t"}}

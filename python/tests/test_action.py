@@ -1,17 +1,23 @@
-"""This file runs what the example of a workflow runs."""
+"""This file runs what the examples of a workflow and of hooks run, and what makes a release."""
 
 from __future__ import annotations
 
+import hashlib
+import os
 import re
+import shlex
 import subprocess
 import sys
+import tarfile
 from pathlib import Path
 
 import pytest
 import rigproof
 from rigproof._program import program
 
-ACTION = Path(__file__).parent.parent / "action"
+ROOM = Path(__file__).parent.parent
+ACTION = ROOM / "action"
+SOUND = '[controller]\nnamed = "sdof_with_gap"\n[baseline]\nnamed = "proportional_low"\n'
 
 
 def test_the_summary_says_verdict_names_and_before_and_after(case, rig, tmp_path: Path) -> None:
@@ -27,3 +33,39 @@ def test_the_program_knows_every_option_of_the_workflow(verb: str) -> None:
     options = re.findall(r"--[a-z-]+", line)
     said = subprocess.run([program(), verb, "--help"], check=True, capture_output=True, text=True).stdout
     assert options and all(option in said for option in options)
+
+
+def hook(name: str, folder: Path) -> int:
+    """The exit code of a hook of the example, in a folder."""
+    text = (ACTION / "pre-commit-config.yaml").read_text()
+    entry = re.search(rf"- id: {name}\n(?:.*\n)*?\s+entry: (.*)\n", text)
+    assert entry
+    path = f"{Path(program()).parent}{os.pathsep}{os.environ['PATH']}"
+    return subprocess.run(shlex.split(entry[1]), cwd=folder, capture_output=True, env={**os.environ, "PATH": path}).returncode
+
+
+@pytest.mark.skipif(os.name == "nt", reason="the hooks are for bash")
+def test_a_hook_passes_what_is_sound_and_stops_what_is_not(case, rig, tmp_path: Path) -> None:
+    rows = (f"{t!r},{x!r},{f!r}" for t, x, f in zip(*(case[key][:3000].tolist() for key in ("t", "x", "f"))))
+    (tmp_path / "recording.csv").write_text("t (s),x (m),f (N)\n" + "\n".join(rows) + "\n")
+    rig.write(tmp_path / "rig.toml")
+    (tmp_path / "certify.toml").write_text(SOUND)
+    assert hook("rig", tmp_path) == 0 and hook("controller", tmp_path) == 0
+    (tmp_path / "rig.toml").write_text(rig.text.replace('"x"', '"y"'))
+    (tmp_path / "certify.toml").write_text(SOUND + "[limits]\nswitching_per_s = 0.5\n")
+    assert hook("rig", tmp_path) == 1 and hook("controller", tmp_path) == 1
+
+
+def test_a_release_holds_the_program_and_its_sums(tmp_path: Path) -> None:
+    words = [sys.executable, ROOM / "build/release.py", "--program", program()]
+    for folder in ("one", "two"):
+        subprocess.run([*words, tmp_path / folder], check=True, capture_output=True)
+    (made,) = (tmp_path / "one").glob("*.tar.gz")
+    assert made.read_bytes() == (tmp_path / "two" / made.name).read_bytes()
+    assert (tmp_path / "one/SHA256SUMS").read_text() == f"{hashlib.sha256(made.read_bytes()).hexdigest()}  {made.name}\n"
+    with tarfile.open(made) as archive:
+        names = {name.partition("/")[2] for name in archive.getnames()}
+        assert {"rigproof", "LICENSE-MIT", "README.md", "man/rigproof.1", "completions/rigproof.bash"} <= names
+        archive.extractall(tmp_path / "out", filter="data")
+    (unpacked,) = (tmp_path / "out").iterdir()
+    assert subprocess.run([unpacked / "rigproof", "--version"], capture_output=True, text=True).stdout.startswith("rigproof ")

@@ -6,7 +6,6 @@ import json
 import os
 import signal
 import subprocess
-import sys
 import threading
 import time
 from pathlib import Path
@@ -118,20 +117,3 @@ def test_ctrl_c_returns_at_once_and_other_threads_run_meanwhile(tmp_path: Path) 
         # Long enough that it is not done before the signal.
         rigproof.diagnose(tmp_path / "case/recording.csv", tmp_path / "case/rig.toml", progress=beats.append, calibrate=50)
     assert time.monotonic() - begun < 2.0 and beats
-
-
-MEASURE = """
-import resource, sys, numpy as np, rigproof
-n = int(sys.argv[1])
-t = np.arange(n) * 1e-3
-x, f = np.sin(t), np.cos(t)
-before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-taken = rigproof._recording.taken({"t": t, "x": x, "f": f}, {}, None, "r")
-assert taken[1] is t and taken[2][0][2] is x
-print((resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) * 1024 / (3 * 8 * n))
-"""
-
-
-def test_python_copies_no_array_of_floats() -> None:
-    done = subprocess.run([sys.executable, "-c", "import rigproof._recording" + MEASURE, "4000000"], check=True, capture_output=True, text=True)
-    assert float(done.stdout) < 0.1

@@ -11,5 +11,5 @@ import pytest
 def test_a_notebook_runs_to_its_end(file: Path) -> None:
     nbformat, nbclient = pytest.importorskip("nbformat"), pytest.importorskip("nbclient")
     notebook = nbformat.read(file, as_version=4)
-    nbclient.NotebookClient(notebook, timeout=120, kernel_name="python3").execute()
+    nbclient.NotebookClient(notebook, timeout=600, kernel_name="python3").execute()
     assert any(cell.get("outputs") for cell in notebook.cells)

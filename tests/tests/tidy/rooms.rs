@@ -8,7 +8,7 @@ use crate::tidy::assert_tidy;
 use crate::tidy::workspace::root;
 
 /// Every room, built or coming, and the rooms it may depend on. A room that is not here has no place.
-const ROOMS: [(&str, &[&str]); 15] = [
+const ROOMS: [(&str, &[&str]); 16] = [
     ("spec", &[]),
     ("model", &["spec"]),
     ("impl", &["spec"]),
@@ -55,6 +55,7 @@ const ROOMS: [(&str, &[&str]); 15] = [
             "cli",
         ],
     ),
+    ("python", &["trace"]),
 ];
 
 #[test]

@@ -14,7 +14,13 @@ use crate::tidy::workspace::{Text, sources};
 const APART: [&str; 3] = ["docs/mutants", "trace/fuzz", "certify/fuzz"];
 
 /// Dependencies whose use no source shows: package, dependency, why it stands there.
-const UNSEEN: [(&str, &str, &str); 4] = [
+const UNSEEN: [(&str, &str, &str); 6] = [
+    (
+        "cli",
+        "once_cell",
+        "with the features that the Python package wants of it, so that what both need is compiled once (decision 0217)",
+    ),
+    ("cli", "syn", "the same, of macros"),
     (
         "proofs",
         "rigproof-spec",
