@@ -40,7 +40,7 @@ pub struct Answer {
 pub struct HiddenEffect {
     /// The vocabulary's name, or a name of this room for physics outside the vocabulary.
     pub mechanism: String,
-    /// The joint of a five-bar it acts at: A, E, B or C; absent where it has none.
+    /// The joint of a five-bar it acts at, A, E, B or C, or of an arm, joint1 and so on; absent where it has none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub joint: Option<String>,
     /// When it begins, s; absent when it acts throughout.
@@ -104,6 +104,7 @@ impl HiddenEffect {
         let parameters = effect.parameters(motion).into_iter();
         let joint = match effect.at {
             At::Joint(joint) => Some(joint.letter().to_owned()),
+            At::Arm(joint) => Some(format!("joint{}", joint + 1)),
             At::Whole | At::Every | At::Sensor(_) => None,
         };
         HiddenEffect {
@@ -145,7 +146,7 @@ impl HiddenEffect {
             At::Every => Some("every"),
             At::Sensor(0) => Some("x"),
             At::Sensor(_) => Some("y"),
-            At::Whole | At::Joint(_) => None,
+            At::Whole | At::Joint(_) | At::Arm(_) => None,
         };
         HiddenEffect {
             form: format!("{:?}", effect.form),

@@ -21,6 +21,8 @@ pub enum At {
     Whole,
     /// One joint of a five-bar.
     Joint(Joint),
+    /// One joint of a serial arm, counted from the base, or the link that it moves.
+    Arm(usize),
     /// Every joint with a brake, with the same numbers.
     Every,
     /// One axis of a sensor: 0 for x, 1 for y.

@@ -4,7 +4,7 @@
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// The plant's name is not known.
-    #[error("plant \"{0}\" is not known; name one of: axis, bench, rig")]
+    #[error("plant \"{0}\" is not known; name one of: axis, bench, rig, chain")]
     UnknownPlant(String),
     /// The family's name is not known.
     #[error("forms \"{0}\" are not known; name one of: usual, other")]

@@ -201,6 +201,10 @@ forms! {
     Payload: "payload", Body, [*"mass" Mass];
     /// Masses and inertias × (1 + fraction).
     Inertia: "inertia_error", Body, [*"fraction" Number];
+    /// A link of an arm weighs so much more, its shape kept.
+    LinkMass: "link_inertia", Body, [*"heavier_by" Mass];
+    /// What a motor's rotor adds at a joint of an arm, behind its gear.
+    Rotor: "added_inertia", Body, [*"inertia" Inertia];
     /// A mass on a spring of its own: the handle, between sensor and tip.
     Compliance: "compliance", Body, [*"mass" Mass, -"frequency" Number];
     /// A share of the inertia behind a spring of a frequency, with play in it.

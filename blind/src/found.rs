@@ -94,7 +94,7 @@ fn effects_that_are(
 /// On axis and bench there is one joint, which no report has to name.
 fn name(plant: Plant, mechanism: &str, effect: &Value) -> String {
     match plant {
-        Plant::Rig => key(mechanism, joint(effect)),
+        Plant::Rig | Plant::Chain => key(mechanism, joint(effect)),
         Plant::Axis | Plant::Bench => mechanism.to_owned(),
     }
 }

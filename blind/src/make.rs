@@ -50,6 +50,12 @@ pub fn make_in(
     seed: u64,
     stratum: Option<Stratum>,
 ) -> Result<Case, Error> {
+    // An arm has one family.
+    let forms = if plant == Plant::Chain {
+        Forms::Other
+    } else {
+        forms
+    };
     let stratum = stratum.unwrap_or_else(|| Stratum::of_seed_in(forms, plant, seed));
     if stratum.of_twenty_in(forms, plant) == 0 {
         return Err(Error::OtherPlant {

@@ -13,11 +13,13 @@ pub enum Plant {
     Bench,
     /// The five-bar with three or four brakes: angles, force on the tip and currents are recorded.
     Rig,
+    /// A serial arm: positions and efforts of its joints are recorded.
+    Chain,
 }
 
 impl Plant {
     /// Every plant.
-    pub const ALL: [Plant; 3] = [Plant::Axis, Plant::Bench, Plant::Rig];
+    pub const ALL: [Plant; 4] = [Plant::Axis, Plant::Bench, Plant::Rig, Plant::Chain];
 
     /// The name used in files and on the command line.
     pub const fn name(self) -> &'static str {
@@ -25,6 +27,7 @@ impl Plant {
             Plant::Axis => "axis",
             Plant::Bench => "bench",
             Plant::Rig => "rig",
+            Plant::Chain => "chain",
         }
     }
 

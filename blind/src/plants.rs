@@ -1,5 +1,6 @@
 //! This file is the register of the plants: a folder each, behind one trait.
 
+pub mod arm;
 pub mod driven_joint;
 pub mod five_bar;
 pub mod one_joint;
@@ -14,6 +15,7 @@ use crate::stratum::Stratum;
 pub fn unspoilt(plant: Plant, seed: u64) -> Result<Case, Error> {
     match plant {
         Plant::Rig => clean(&five_bar::Rig(Forms::Usual), seed),
+        Plant::Chain => clean(&arm::Arm, seed),
         Plant::Axis | Plant::Bench => clean(&one_joint::OneJoint(plant, Forms::Usual), seed),
     }
 }
@@ -22,6 +24,7 @@ pub fn unspoilt(plant: Plant, seed: u64) -> Result<Case, Error> {
 pub fn make(forms: Forms, plant: Plant, seed: u64, stratum: Stratum) -> Result<Case, Error> {
     match (forms, plant) {
         (Forms::Other, Plant::Axis) => case(&driven_joint::DrivenJoint, seed, stratum),
+        (_, Plant::Chain) => case(&arm::Arm, seed, stratum),
         (_, Plant::Rig) => case(&five_bar::Rig(forms), seed, stratum),
         (_, Plant::Axis | Plant::Bench) => case(&one_joint::OneJoint(plant, forms), seed, stratum),
     }

@@ -3,6 +3,7 @@
 use crate::answer::{Answer, HiddenEffect};
 use crate::error::Error;
 use crate::found::{Found, Onset, found_effects, suspected_effects};
+use crate::plant::Plant;
 use crate::stratum::Stratum;
 use crate::told::told;
 use rigproof_spec::units::Unit;
@@ -222,9 +223,19 @@ fn recovered_share(answer: &Answer, report: &Value) -> Option<f64> {
 pub(crate) fn parameter_errors(answer: &Answer, found: &[Found<'_>]) -> Vec<ParameterError> {
     let mut errors = Vec::new();
     for truth in &answer.effects {
+        let same = |f: &&Found<'_>| f.mechanism == truth.mechanism;
+        let here = |f: &&Found<'_>| same(f) && f.joint == truth.joint.as_deref();
+        // An arm has one mechanism at many joints.
+        let anywhere = || {
+            found
+                .iter()
+                .find(same)
+                .filter(|_| answer.plant != Plant::Chain)
+        };
         let Some(parameters) = found
             .iter()
-            .find(|f| f.mechanism == truth.mechanism)
+            .find(here)
+            .or_else(anywhere)
             .and_then(|f| f.parameters)
         else {
             continue;

@@ -104,12 +104,20 @@ impl Stratum {
         match plant {
             Plant::Rig => rig,
             Plant::Axis | Plant::Bench => joint,
+            Plant::Chain => match self {
+                Stratum::Single => 7,
+                Stratum::Two => 6,
+                Stratum::Nothing => 4,
+                Stratum::Three => 3,
+                _ => 0,
+            },
         }
     }
 
     /// The same for a family of forms.
     pub const fn of_twenty_in(self, forms: Forms, plant: Plant) -> usize {
         match (forms, self) {
+            _ if matches!(plant, Plant::Chain) => self.of_twenty(plant),
             (Forms::Usual, _) => self.of_twenty(plant),
             (Forms::Other, Stratum::Single) => 9,
             (Forms::Other, Stratum::Nothing | Stratum::Two) => 3,

@@ -16,7 +16,7 @@ use crate::shell;
 #[derive(clap::Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct Args {
-    /// The plant: axis (command in, position out), bench (motion in, force or torque out) or rig (the five-bar)
+    /// The plant: axis (command in, position out), bench (motion in, force or torque out), rig (the five-bar) or chain (a serial arm)
     #[arg(long, value_parser = parse_plant)]
     plant: Plant,
     /// The seed that everything follows from
@@ -42,7 +42,7 @@ pub struct Args {
 const AFTER_HELP: &str = "\
 The strata: nothing, single, masked, late_onset, too_small, not_in_library, data_fault; on the rig also noisy,
 in_loop, unidentifiable, wrong_inertia.
-With --forms other: nothing, single, two, three, late_onset, not_in_library.
+With --plant chain, and with --forms other: nothing, single, two, three, late_onset, not_in_library.
 The folder holds recording.csv, rig.toml and answer.sealed.
 
 Example:

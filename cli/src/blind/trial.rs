@@ -32,7 +32,7 @@ pub struct Args {
     /// The seeds, from the first to before the last
     #[arg(long, value_name = "FIRST..END", value_parser = parse_seeds)]
     seeds: Range<u64>,
-    /// The plant; both: even seeds on the axis, odd seeds on the bench; rig: the five-bar
+    /// The plant; both: even seeds on the axis, odd seeds on the bench; rig: the five-bar; chain: a serial arm
     #[arg(long, value_enum, default_value_t = Which::Both)]
     plant: Which,
     /// The forms of what is hidden: usual, or other, which is judged by outcomes and probabilities
@@ -73,6 +73,7 @@ enum Which {
     Bench,
     Both,
     Rig,
+    Chain,
 }
 
 const AFTER_HELP: &str = "\
@@ -165,7 +166,8 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     if let Some(folder) = &args.misses {
         write_misses(folder, args.forms, &tried)?;
     }
-    if args.forms == Forms::Other {
+    let judged = tried.iter().any(|case| case.judgement.is_some());
+    if args.forms == Forms::Other || judged {
         return other::show(&tried, &how(args), args.details, args.json);
     }
     let claims: Vec<Measured<'_>> = claimed(args.plant)
@@ -206,6 +208,7 @@ fn plant(which: Which, seed: u64) -> Plant {
         Which::Axis => Plant::Axis,
         Which::Bench => Plant::Bench,
         Which::Rig => Plant::Rig,
+        Which::Chain => Plant::Chain,
         Which::Both if seed.is_multiple_of(2) => Plant::Axis,
         Which::Both => Plant::Bench,
     }
@@ -214,7 +217,7 @@ fn plant(which: Which, seed: u64) -> Plant {
 const fn claimed(which: Which) -> &'static [Claim] {
     match which {
         Which::Rig => &OF_THE_RIG,
-        Which::Axis | Which::Bench | Which::Both => &OF_A_JOINT,
+        Which::Axis | Which::Bench | Which::Both | Which::Chain => &OF_A_JOINT,
     }
 }
 
@@ -234,6 +237,7 @@ const fn assignment(which: Which) -> &'static str {
         Which::Axis => "Every seed is on the axis.",
         Which::Bench => "Every seed is on the bench.",
         Which::Rig => "Every seed is on the five-bar.",
+        Which::Chain => "Every seed is on an arm of its own.",
         Which::Both => "Even seeds are on the axis, odd seeds on the bench.",
     }
 }
@@ -266,7 +270,7 @@ fn one(args: &Args, plant: Plant, seed: u64, bar: &ProgressBar) -> Result<Tried,
     let then = asked
         .map(|experiment| after(seed, &case, (&report, &score), experiment))
         .transpose()?;
-    let judgement = match args.forms {
+    let judgement = match answer.forms {
         Forms::Usual => None,
         Forms::Other => Some(judge(&answer, &report)?),
     };
@@ -412,7 +416,9 @@ impl Tried {
             self.answer.stratum.name().to_owned(),
             hidden.join("; "),
             self.score.verdict.clone(),
-            list(&self.named()),
+            self.judgement
+                .as_ref()
+                .map_or_else(|| list(&self.named()), places),
             flags.join(", "),
         ]
     }
@@ -446,6 +452,12 @@ impl Tried {
             "named": self.named(), "ambiguous": self.ambiguous(), "score": self.score, "judgement": self.judgement, "after_experiment": self.then.as_ref().map(|then| &then.score),
         })
     }
+}
+
+/// The names of a judged report, each with its place.
+fn places(judgement: &Judgement) -> String {
+    let names = judgement.names.iter().map(|(name, ..)| name.as_str());
+    list(&names.collect::<Vec<_>>())
 }
 
 fn list(names: &[&str]) -> String {

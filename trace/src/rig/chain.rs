@@ -21,8 +21,10 @@ use crate::store;
 pub struct ChainRig {
     /// What people call it.
     pub name: String,
-    /// The file of its URDF.
+    /// The file of its URDF; the description itself where the URDF stands in it.
     pub urdf: String,
+    /// Whether the URDF stands in the description itself.
+    pub is_inside: bool,
     /// The text of that file.
     pub model: String,
     /// The link beyond which nothing is attached; without one the only end.
@@ -104,7 +106,7 @@ impl ChainRig {
         Ok(Table::root(source, &document).text("plant")? == Some("chain"))
     }
 
-    /// Reads a description and its URDF, which lies where `urdf` says from the folder of `origin`. Every value becomes SI.
+    /// Reads a description and its URDF, which lies where `urdf` says from the folder of `origin`, or is the text that stands there. Every value becomes SI.
     ///
     /// # Errors
     /// The text is no such description, or the URDF cannot be read.
@@ -126,8 +128,7 @@ impl ChainRig {
         ])?;
         choice(&root, "plant", ["chain"], |name| name)?;
         let urdf = root.need("urdf", root.text("urdf")?)?;
-        let file = origin.parent().unwrap_or(Path::new("")).join(urdf);
-        let file = std::path::absolute(&file).unwrap_or(file);
+        let (urdf, model) = read_urdf(urdf, origin)?;
         let joints = root.tables("joint")?;
         let joints: Vec<ChainJoint> = joints.iter().map(read_joint).collect::<Result<_, _>>()?;
         if joints.is_empty() {
@@ -148,8 +149,9 @@ impl ChainRig {
         let channels = root.table("channels")?;
         Ok(ChainRig {
             name: root.need("name", root.text("name")?)?.to_owned(),
-            model: store::read_text(&file)?,
-            urdf: file.display().to_string(),
+            is_inside: urdf.is_none(),
+            urdf: urdf.unwrap_or_else(|| "the URDF".to_owned()),
+            model,
             tip: root.text("tip")?.map(str::to_owned),
             source: root.text("source")?.map(str::to_owned),
             time: match &channels {
@@ -217,7 +219,10 @@ impl ChainRig {
         let mut lines = vec![
             format!("name = {}", string(&self.name)),
             "plant = \"chain\"".to_owned(),
-            format!("urdf = {}", string(&self.urdf)),
+            match self.is_inside {
+                true => format!("urdf = '''\n{}'''", self.model),
+                false => format!("urdf = {}", string(&self.urdf)),
+            },
         ];
         let tip = self.tip.iter();
         lines.extend(tip.map(|tip| format!("tip = {}", string(tip))));
@@ -245,6 +250,17 @@ impl ChainRig {
         lines.extend(provenance_lines(&self.provenance));
         lines.join("\n") + "\n"
     }
+}
+
+/// The file of a URDF, unless its text stands in the description, and the text.
+fn read_urdf(urdf: &str, origin: &Path) -> Result<(Option<String>, String), TraceError> {
+    if urdf.trim_start().starts_with('<') {
+        return Ok((None, urdf.to_owned()));
+    }
+    let file = origin.parent().unwrap_or(Path::new("")).join(urdf);
+    let file = std::path::absolute(&file).unwrap_or(file);
+    let text = store::read_text(&file)?;
+    Ok((Some(file.display().to_string()), text))
 }
 
 fn read_joint(table: &Table<'_>) -> Result<ChainJoint, TraceError> {
