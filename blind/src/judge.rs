@@ -146,6 +146,7 @@ fn said(effect: &HiddenEffect, found: &[Found<'_>]) -> bool {
             for name in named {
                 match name.joint {
                     None => all = true,
+                    Some(joint) if joint.starts_with("every") => all = true,
                     Some(_) => single += 1,
                 }
             }
@@ -252,6 +253,7 @@ mod tests {
             outcome(&case, json!([{ "mechanism": "stribeck" }])),
             Outcome::Right
         );
+        assert_eq!(outcome(&case, json!([at("every brake")])), Outcome::Right);
         assert_eq!(
             outcome(&case, json!([at("A"), at("E"), at("B")])),
             Outcome::Right

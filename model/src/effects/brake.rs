@@ -36,7 +36,7 @@ pub(super) const CURRENT_HYSTERESIS: Entry = Entry {
     mechanism: Mechanism::CurrentHysteresis,
     form: Form::Brake(OfBrake::CurrentHysteresis),
     linear: 1,
-    passive: false,
+    passive: true,
     refuted_by: "the same torque on the way up and on the way down of a slow current triangle",
     equation: "τ follows I + share·(p − I), p the play of half width `half_width` that the current moves; its sides meet at 0 from `closing` down",
     facts: Facts {
@@ -114,7 +114,7 @@ pub(super) const THERMAL_FADE: Entry = Entry {
     mechanism: Mechanism::ThermalFade,
     form: Form::Brake(OfBrake::ThermalFade),
     linear: 1,
-    passive: false,
+    passive: true,
     refuted_by: "the same torque before and after long dissipation",
     equation: "τ·(1 − per_joule·E), dE/dt = τ·|ω| − E/cooling",
     facts: Facts {

@@ -249,9 +249,11 @@ impl FiveBarRun {
 
 /// Pairs of values as one signal: the first of every pair, then the second.
 pub fn stacked(pairs: impl Iterator<Item = [f64; 2]>) -> Vec<f64> {
-    let (mut first, second): (Vec<f64>, Vec<f64>) = pairs.map(|[a, b]| (a, b)).unzip();
-    first.extend(second);
-    first
+    let pairs: Vec<[f64; 2]> = pairs.collect();
+    let mut both = Vec::with_capacity(2 * pairs.len());
+    both.extend(pairs.iter().map(|[first, _]| first));
+    both.extend(pairs.iter().map(|[_, second]| second));
+    both
 }
 
 /// Poses and forms along a smoothed motion of θA and θB.
