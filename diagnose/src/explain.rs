@@ -143,7 +143,7 @@ struct Round {
 }
 
 impl Round {
-    /// `noise` is the standard deviation of a row before whitening; `thorough` exchanges terms and lets them begin late.
+    /// `noise` is the standard deviation of a row before whitening; `thorough` exchanges terms.
     fn of(
         problem: &Problem,
         nominal: &[Term],
@@ -159,11 +159,9 @@ impl Round {
         let tried = candidates(problem, nominal);
         let exchanges = if thorough { EXCHANGES } else { 0 };
         let mut all = beam::search(problem, &folds, &judge, &bare, &tried, exchanges);
-        if thorough {
-            let leading = ranked(problem, &folds, &judge, all.clone()).into_iter();
-            let leading: Vec<Fitted> = leading.map(|(_, own)| own).collect();
-            all.extend(late::late(problem, &folds, &judge, &bare, &leading));
-        }
+        let leading = ranked(problem, &folds, &judge, all.clone()).into_iter();
+        let leading: Vec<Fitted> = leading.map(|(_, own)| own).collect();
+        all.extend(late::late(problem, &folds, &judge, &bare, &leading));
         Round { folds, bare, all }
     }
 
