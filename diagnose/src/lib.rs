@@ -85,6 +85,7 @@ mod select;
 pub mod self_calibration;
 mod sensor;
 mod signals;
+pub mod stop;
 mod student;
 mod unknown;
 mod weak;
