@@ -1,14 +1,17 @@
 //! This file is the way in for another program: a diagnosis of files or of channels in memory, written by the verb's own functions.
 
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::path::{Path, PathBuf};
 
 use rigproof_diagnose::Description;
+use rigproof_diagnose::stop::Stopped;
 use rigproof_trace::clock::{self, Settled};
 use rigproof_trace::csv::LEAST_SAMPLES;
 use rigproof_trace::store::Folder;
 use rigproof_trace::{Place, Trace, TraceError};
 
 pub use rigproof_diagnose::Curves;
+pub use rigproof_diagnose::stop::Stop;
 
 use crate::diagnose::{Args, Given, written};
 use crate::input::{self, Cut, Taken};
@@ -48,6 +51,8 @@ pub struct Asked {
     pub jobs: usize,
     /// The folder to write.
     pub out: PathBuf,
+    /// Ends the work early.
+    pub stop: Stop,
 }
 
 /// Why something could not be done; the message names file, line and column where there are any.
@@ -71,8 +76,17 @@ impl From<TraceError> for Refused {
 /// Diagnoses, writes the folder as the program does, and gives the curves of its pictures.
 ///
 /// # Errors
-/// An input is not usable, or the folder cannot be written.
+/// An input is not usable, the folder cannot be written, or the work was ended; nothing is written then.
 pub fn diagnose(asked: Asked) -> Result<Curves, Refused> {
+    let stop = asked.stop.clone();
+    let work = AssertUnwindSafe(|| stop.during(|| worked(asked)));
+    catch_unwind(work).unwrap_or_else(|payload| match payload.is::<Stopped>() {
+        true => Err(Refused("the diagnosis was ended".to_owned())),
+        false => resume_unwind(payload),
+    })
+}
+
+fn worked(asked: Asked) -> Result<Curves, Refused> {
     drop(Folder::begin(&asked.out)?);
     let (rig, rig_path, rig_file) = match &asked.rig {
         Rig::File(file) => (

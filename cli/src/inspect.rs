@@ -17,6 +17,7 @@ use serde_json::{Value, json};
 use crate::input;
 use crate::outcome::{Failure, Outcome, plain, print};
 use crate::reading::{self, Reading};
+use crate::schema;
 use crate::shell;
 use crate::text::{join, section};
 use pace::Pace;
@@ -158,7 +159,8 @@ fn write_rig(file: &Path, text: &str) -> Result<(), Failure> {
         let problem = "a file stands there already; name another".to_owned();
         return Err(Failure::unusable(file, problem));
     }
-    Ok(rigproof_trace::store::write_aside(file, text.as_bytes())?)
+    rigproof_trace::store::write_aside(file, text.as_bytes())?;
+    schema::beside(file)
 }
 
 /// A file of arrays, which do not say what the time is.

@@ -26,6 +26,7 @@ mod picture;
 mod progress;
 mod reading;
 mod reproduce;
+mod schema;
 mod serve;
 mod shell;
 mod simulate;

@@ -3,11 +3,14 @@
 use std::path::PathBuf;
 
 use rigproof_blind::{Case, Plant, Stratum, make, open};
+use rigproof_trace::rig::SCHEMA_LINE;
+use rigproof_trace::rig::schema::schema_text;
 use rigproof_trace::store::Folder;
 use serde_json::json;
 
 use crate::blind::{contents, parse_plant};
 use crate::outcome::{Failure, Outcome, print};
+use crate::schema;
 
 /// What is to be begun.
 #[derive(clap::Args)]
@@ -57,11 +60,14 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     let (seed, stratum) = example(args.plant);
     let case = make(args.plant, seed, Some(stratum))?;
     let [recording, rig, _] = contents(&case)?;
-    let rig = [RIG_HEAD.as_bytes(), &rig].concat();
+    let line = format!("{SCHEMA_LINE}\n").into_bytes();
+    let plain = rig.strip_prefix(&*line).unwrap_or(&rig);
+    let rig = [&line, RIG_HEAD.as_bytes(), plain].concat();
     let mut files = vec![
         ("README.md", readme(args, &case)?.into_bytes()),
         ("rig.toml", rig),
         ("recording.csv", recording),
+        (schema::FILE, schema_text().into_bytes()),
     ];
     if args.plant == Plant::Rig {
         let certify = include_str!("../../certify/example.toml");

@@ -1,7 +1,8 @@
 //! This file says how many threads a verb works with.
 
 use crate::outcome::Failure;
-use rayon::{ThreadPool, ThreadPoolBuilder};
+use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
+use rigproof_diagnose::stop::Stop;
 use std::fmt::Display;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread::Builder;
@@ -24,8 +25,16 @@ pub fn parse(text: &str) -> Result<usize, String> {
 /// # Errors
 /// The system does not give them.
 pub fn pool(jobs: usize) -> Result<ThreadPool, Failure> {
-    let pool = ThreadPoolBuilder::new().num_threads(jobs).build();
-    pool.map_err(|error| refused(jobs, &error))
+    started(jobs).map_err(|error| refused(jobs, &error))
+}
+
+/// Threads that end when this one is told to.
+fn started(jobs: usize) -> Result<ThreadPool, ThreadPoolBuildError> {
+    let stop = Stop::current();
+    ThreadPoolBuilder::new()
+        .num_threads(jobs)
+        .start_handler(move |_| Stop::put(stop.clone()))
+        .build()
 }
 
 fn refused(jobs: usize, error: &dyn Display) -> Failure {
@@ -58,10 +67,8 @@ pub fn apart<T: Sync, R: Send>(
         0 => rayon::current_num_threads(),
         jobs => jobs,
     };
-    let alone = (0..jobs.min(items.len())).map(|_| {
-        let pool = ThreadPoolBuilder::new().num_threads(1).build();
-        pool.map_err(|error| refused(jobs, &error))
-    });
+    let alone =
+        (0..jobs.min(items.len())).map(|_| started(1).map_err(|error| refused(jobs, &error)));
     let alone = alone.collect::<Result<Vec<ThreadPool>, Failure>>()?;
     let next = AtomicUsize::new(0);
     let work = || -> Vec<(usize, Result<R, Failure>)> {

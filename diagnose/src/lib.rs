@@ -85,6 +85,7 @@ mod selection;
 pub mod self_calibration;
 mod sensor;
 mod signals;
+pub mod stop;
 mod student;
 mod unknown;
 mod weak;

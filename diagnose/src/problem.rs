@@ -124,6 +124,7 @@ impl<'a> Problem<'a> {
 
     /// A column given row by row.
     pub fn rows_of(&self, mut raw: Vec<f64>) -> Rows {
+        crate::stop::look();
         self.take_out_trials(&mut raw);
         Rows {
             signal: Vec::new(),

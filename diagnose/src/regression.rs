@@ -199,6 +199,7 @@ fn block_losses(columns: &[&[f64]], target: &[f64], blocks: &Blocks) -> Vec<f64>
 }
 
 fn normal(columns: &[&[f64]], target: &[f64], first: usize, end: usize) -> Normal {
+    crate::stop::look();
     let columns: Vec<&[f64]> = columns
         .iter()
         .map(|column| column.get(first..end).unwrap_or_default())

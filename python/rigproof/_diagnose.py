@@ -40,7 +40,7 @@ def diagnose(
     calibrate: so many simulated recordings say what the result is worth. jobs: 0 takes every processor; the result does not depend on it. progress: True shows
     the seconds on a terminal, a callable is called with them. out: the folder to write; a temporary one where it is None.
 
-    Raises rigproof.Error where an input is not usable. Ctrl-C raises KeyboardInterrupt at once; the thread that computes ends by itself a while later.
+    Raises rigproof.Error where an input is not usable. Ctrl-C raises KeyboardInterrupt at once and ends the work; nothing is written then.
     """
     several: Sequence[Any] = recording if isinstance(recording, (list, tuple)) and not _is_set(recording) else [recording]
     if not several:
@@ -70,7 +70,8 @@ def diagnose(
             os.fspath(out),
             held_out=held_out,
             hold_out_share=float(hold_out) if is_share else None,
-            between_s=(from_s, to_s),
+            from_s=from_s,
+            to_s=to_s,
             calibrate=calibrate,
             jobs=jobs,
             tick=tick,

@@ -58,7 +58,7 @@ def _columns(recording: Any, name: str) -> dict[str, Any]:
 def _array(samples: Any) -> np.ndarray[Any, Any]:
     """Anything with one value a sample as an array; no copy where it is one."""
     if isinstance(samples, np.ma.MaskedArray):
-        return np.asarray(samples.astype(np.float64).filled(np.nan))
+        return np.asarray(np.ma.filled(samples.astype(np.float64), np.nan))
     return np.asarray(samples.to_numpy() if hasattr(samples, "to_numpy") else samples)
 
 

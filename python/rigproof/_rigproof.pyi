@@ -1,6 +1,8 @@
 from collections.abc import Callable, Sequence
 from typing import Any
 
+__all__ = ["__version__", "diagnose", "working"]
+
 __version__: str
 
 def diagnose(
@@ -9,8 +11,10 @@ def diagnose(
     out: str,
     held_out: Any = None,
     hold_out_share: float | None = None,
-    between_s: tuple[float | None, float | None] = (None, None),
+    from_s: float | None = None,
+    to_s: float | None = None,
     calibrate: int | None = None,
     jobs: int = 0,
     tick: Callable[[float], object] | None = None,
 ) -> dict[str, Any]: ...
+def working() -> int: ...

@@ -1,13 +1,14 @@
 //! This file is the compiled part of the Python package: arrays in, a folder and curves out, everything else in Python.
 
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
 
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PySlice};
-use rigproof::door::{self, Asked, Recording, Rig};
+use rigproof::door::{self, Asked, Recording, Rig, Stop};
 use rigproof_trace::{Channel, Trace};
 
 /// How often signals are looked for and progress is told.
@@ -77,9 +78,9 @@ fn floats(array: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
 }
 
 /// Diagnoses, writes the folder `out`, and gives the curves of its pictures. The interpreter's lock is free meanwhile; `tick` is called with the seconds that
-/// have passed. After Ctrl-C the call ends at once; the thread that works ends by itself later.
+/// have passed. After Ctrl-C the call ends at once, and the thread that works at its next column or fit.
 #[pyfunction]
-#[pyo3(signature = (recordings, rig, out, held_out=None, hold_out_share=None, between_s=(None, None), calibrate=None, jobs=0, tick=None))]
+#[pyo3(signature = (recordings, rig, out, held_out=None, hold_out_share=None, from_s=None, to_s=None, calibrate=None, jobs=0, tick=None))]
 #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
 fn diagnose<'py>(
     py: Python<'py>,
@@ -88,7 +89,8 @@ fn diagnose<'py>(
     out: PathBuf,
     held_out: Option<Given<'py>>,
     hold_out_share: Option<f64>,
-    between_s: (Option<f64>, Option<f64>),
+    from_s: Option<f64>,
+    to_s: Option<f64>,
     calibrate: Option<usize>,
     jobs: usize,
     tick: Option<Bound<'py, PyAny>>,
@@ -104,13 +106,19 @@ fn diagnose<'py>(
             RigGiven::Text(text, name) => Rig::Text(text, name),
         },
         hold_out_share,
-        between_s: [between_s.0, between_s.1],
+        between_s: [from_s, to_s],
         calibrate,
         jobs,
         out,
+        stop: Stop::default(),
     };
+    let _stop = Ended(asked.stop.clone());
     let (sender, mut receiver) = channel();
-    std::thread::spawn(move || sender.send(door::diagnose(asked)));
+    WORKING.fetch_add(1, Ordering::Relaxed);
+    std::thread::spawn(move || {
+        let _done = Done;
+        sender.send(door::diagnose(asked))
+    });
     let begun = Instant::now();
     loop {
         let got;
@@ -129,6 +137,33 @@ fn diagnose<'py>(
             tick.call1((begun.elapsed().as_secs_f64(),))?;
         }
     }
+}
+
+/// How many diagnoses are worked on.
+static WORKING: AtomicUsize = AtomicUsize::new(0);
+
+/// Counts one less, however its work ends.
+struct Done;
+
+impl Drop for Done {
+    fn drop(&mut self) {
+        WORKING.fetch_sub(1, Ordering::Relaxed);
+    }
+}
+
+/// Ends the work when nobody waits for it any more.
+struct Ended(Stop);
+
+impl Drop for Ended {
+    fn drop(&mut self) {
+        self.0.stop();
+    }
+}
+
+/// How many diagnoses are worked on in this process; one that was interrupted counts until its thread has ended.
+#[pyfunction]
+fn working() -> usize {
+    WORKING.load(Ordering::Relaxed)
 }
 
 /// The curves of the held-out part, each the bytes of 64-bit floats.
@@ -156,5 +191,6 @@ fn drawn<'py>(py: Python<'py>, curves: &door::Curves) -> PyResult<Bound<'py, PyD
 #[pymodule]
 fn _rigproof(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(diagnose, module)?)?;
+    module.add_function(wrap_pyfunction!(working, module)?)?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))
 }

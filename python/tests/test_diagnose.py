@@ -15,6 +15,7 @@ import pandas as pd
 import polars as pl
 import pytest
 import rigproof
+from rigproof import _rigproof
 from rigproof._program import program
 
 
@@ -117,3 +118,7 @@ def test_ctrl_c_returns_at_once_and_other_threads_run_meanwhile(tmp_path: Path) 
         # Long enough that it is not done before the signal.
         rigproof.diagnose(tmp_path / "case/recording.csv", tmp_path / "case/rig.toml", progress=beats.append, calibrate=50)
     assert time.monotonic() - begun < 2.0 and beats
+    # The thread that computes ends too, long before fifty simulated recordings would be done.
+    while _rigproof.working() > 0:
+        assert time.monotonic() - begun < 60.0
+        time.sleep(0.05)

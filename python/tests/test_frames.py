@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import datetime
+import subprocess
+import sys
 from decimal import Decimal
 
 import numpy as np
@@ -107,3 +109,30 @@ def test_a_date_that_is_missing_is_said() -> None:
     with pytest.raises(rigproof.Error, match="time stamp is missing") as refused:
         columns({"t": stamps, "x": X})
     assert refused.value.line == 4
+
+
+# What a large recording takes beside its arrays while it is handed over: once as it is, and once in SI units.
+MEASURE = """
+import resource, sys, threading, time, numpy as np, rigproof, rigproof._recording
+n = int(sys.argv[1])
+t = np.arange(n) * 1e-3
+x, f, g = np.sin(t), np.cos(t), np.sin(3.0 * t)
+given = {"t": t, "x": x, "f": f, "g": g}
+held = rigproof._recording.taken(given, {}, None, "r")
+assert held[1] is t and held[2][0][2] is x
+rig = rigproof.Rig.axis(position="x", command="f", inertia=(1.0, "kg"), command_gain=(1.0, "N/N"), motion="linear", position_unit="m", command_unit="N")
+before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+try:
+    rigproof.diagnose(given, rig, from_s=1e9)
+except rigproof.Error as error:
+    print(error, file=sys.stderr)
+print((resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) * 1024 / (4 * 8 * n))
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="the unit of ru_maxrss")
+def test_a_large_recording_is_copied_twice_at_the_most() -> None:
+    done = subprocess.run([sys.executable, "-c", MEASURE, "4000000"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    print(f"copies of 128 MB of arrays at the most: {float(done.stdout):.2f}; {done.stderr.strip()}")
+    assert float(done.stdout) < 2.3, done.stderr

@@ -30,3 +30,8 @@ def test_who_uses_the_package_is_checked(tmp_path: Path) -> None:
     (tmp_path / "use.py").write_text(USE)
     said = mypy(str(tmp_path / "use.py")).stdout
     assert "use.py:5: error: Incompatible types" in said and "use.py:6: error: Missing positional arguments" in said and "Found 2 errors" in said, said
+
+
+def test_the_stub_names_what_the_compiled_part_has() -> None:
+    done = subprocess.run([sys.executable, "-m", "mypy.stubtest", "--mypy-config-file", "pyproject.toml", "rigproof._rigproof"], capture_output=True, text=True, cwd=ROOM)
+    assert done.returncode == 0, done.stdout

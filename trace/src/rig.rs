@@ -13,6 +13,7 @@ mod messages;
 mod plausible;
 mod protocol;
 mod read;
+pub mod schema;
 mod servo;
 pub mod table;
 mod text;
@@ -33,6 +34,9 @@ pub use apply::{Recording, Signal};
 pub use brake::{Brake, Gain, Surface};
 pub use protocol::{Drive, Protocol};
 pub use servo::{RecordingEntry, Servo};
+
+/// The first line of a description that is written: where an editor finds what may stand in it, beside the file.
+pub const SCHEMA_LINE: &str = "#:schema rig.schema.json";
 
 /// What stands in a description that was begun for somebody, wherever something is to be filled in.
 pub const FILL_IN: &str = "fill in";

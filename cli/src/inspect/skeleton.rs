@@ -5,7 +5,7 @@ use std::path::Path;
 
 use rigproof_spec::units::{Dimension, Unit};
 use rigproof_trace::csv::{Hints, TimeColumn};
-use rigproof_trace::rig::FILL_IN;
+use rigproof_trace::rig::{FILL_IN, SCHEMA_LINE};
 
 use super::signal::SignalView;
 use crate::text::number::significant;
@@ -195,6 +195,7 @@ pub fn toml(
     let level = effort.iter().find_map(|signal| signal.size());
     let stem = recording.file_stem().unwrap_or_default().to_string_lossy();
     let mut lines = vec![
+        SCHEMA_LINE.to_owned(),
         "# Begun by `rigproof inspect` from a recording. A `guess` comes from a name or a unit: check it. Complete what".to_owned(),
         format!("# says {FILL_IN:?}: until then `rigproof diagnose` refuses this file and names the place."),
         format!("name = {}", string(&stem)),

@@ -16,7 +16,7 @@ fn the_three_commands_of_a_new_folder_find_what_its_readme_says_is_hidden() {
     desk.prints("new my-lab", 0);
     assert_eq!(
         desk.names("my-lab"),
-        ["README.md", "recording.csv", "rig.toml"]
+        ["README.md", "recording.csv", "rig.schema.json", "rig.toml"]
     );
     let readme = desk.read("my-lab/README.md");
     let commands = commands(&readme);

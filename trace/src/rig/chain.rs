@@ -10,7 +10,7 @@ use super::apply::{Signal, read_applied, signal, those};
 use super::read::{choice, read_channel, read_effect, read_provenance, read_time};
 use super::table::{Source, Table};
 use super::write::{channel, effect_lines, provenance_lines, string, time_line};
-use super::{ChannelMap, RigEffect, state_units, text};
+use super::{ChannelMap, RigEffect, SCHEMA_LINE, state_units, text};
 use crate::csv::{Dialect, Hints, TimeColumn};
 use crate::error::TraceError;
 use crate::series::Trace;
@@ -155,7 +155,7 @@ impl ChainRig {
             tip: root.text("tip")?.map(str::to_owned),
             source: root.text("source")?.map(str::to_owned),
             time: match &channels {
-                Some(table) => read_time(table)?,
+                Some(table) => table.only(&["time"]).and_then(|()| read_time(table))?,
                 None => None,
             },
             effects: effects.collect::<Result<_, TraceError>>()?,
@@ -217,6 +217,7 @@ impl ChainRig {
     /// The description as TOML, every value in SI units.
     pub fn to_toml(&self) -> String {
         let mut lines = vec![
+            SCHEMA_LINE.to_owned(),
             format!("name = {}", string(&self.name)),
             "plant = \"chain\"".to_owned(),
             match self.is_inside {

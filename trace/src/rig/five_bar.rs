@@ -13,7 +13,7 @@ use super::apply::{Signal, printed, read_applied, signal, those};
 use super::read::{choice, read_channel, read_effect, read_provenance, read_time};
 use super::table::{Source, Table};
 use super::write::{channel, effect_lines, string, time_line};
-use super::{ChannelMap, Protocol, RigEffect, state_units, text};
+use super::{ChannelMap, Protocol, RigEffect, SCHEMA_LINE, state_units, text};
 use crate::csv::{Dialect, Hints, TimeColumn};
 use crate::error::TraceError;
 use crate::series::Trace;
@@ -272,6 +272,7 @@ impl FiveBar {
     /// The description as TOML, every value in SI units; reads back bit for bit.
     pub fn to_toml(&self) -> String {
         let mut lines = vec![
+            SCHEMA_LINE.to_owned(),
             format!("name = {}", string(&self.name)),
             "plant = \"rig\"".to_owned(),
             format!("layout = {}", string(layout_name(self.layout))),

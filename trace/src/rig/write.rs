@@ -9,13 +9,15 @@ use rigproof_spec::units::Dimension;
 use crate::csv::TimeColumn;
 
 use super::{
-    Brake, ChannelMap, RecordingEntry, Rig, RigEffect, Servo, Status, Value, motion_name, text,
+    Brake, ChannelMap, RecordingEntry, Rig, RigEffect, SCHEMA_LINE, Servo, Status, Value,
+    motion_name, text,
 };
 
 impl Rig {
     /// The description as TOML, every value in SI units.
     pub fn to_toml(&self) -> String {
         let mut lines = vec![
+            SCHEMA_LINE.to_owned(),
             format!("name = {}", string(&self.name)),
             format!("plant = {}", string(self.plant.name())),
             format!("motion = {}", string(motion_name(self.motion))),

@@ -3,6 +3,7 @@
 use super::setup::Setup;
 use crate::draw::{Draw, rounded};
 use crate::plant::Plant;
+use rigproof_trace::rig::SCHEMA_LINE;
 use std::fmt::Write;
 
 /// The description, TOML: a number that is not known is off by a factor of 0.4 to 2.
@@ -21,7 +22,7 @@ pub fn toml(seed: u64, setup: &Setup) -> String {
         _ => "1",
     };
     let mut text = format!(
-        "name = \"blind axis {seed}, other forms\"\nplant = \"axis\"\nmotion = \"rotary\"\n\n[channels]\n\
+        "{SCHEMA_LINE}\nname = \"blind axis {seed}, other forms\"\nplant = \"axis\"\nmotion = \"rotary\"\n\n[channels]\n\
          position = {{ channel = \"position\", unit = \"rad\", quantum = {} }}\n\
          command = {{ channel = \"command\", unit = \"{unit}\", noise = {} }}\n\n[parameters]\n\
          inertia = {}\ncommand_gain = {}\n",

@@ -5,6 +5,7 @@ use crate::draw::{Draw, rounded};
 use crate::effect::Effect;
 use crate::plant::Plant;
 use rigproof_spec::effect::{Motion, Quantity};
+use rigproof_trace::rig::SCHEMA_LINE;
 use std::fmt::Write;
 
 /// The rig description as TOML. Values of unknown parameters are off by a factor of 0.4 to 2.
@@ -15,7 +16,7 @@ pub fn toml(plant: Plant, seed: u64, setup: &Setup, known: &[Effect], draw: &mut
         Motion::Linear => "linear",
     };
     let mut text = format!(
-        "name = \"blind {plant} {seed}\"\nplant = \"{plant}\"\nmotion = \"{motion}\"\n\n[channels]\n\
+        "{SCHEMA_LINE}\nname = \"blind {plant} {seed}\"\nplant = \"{plant}\"\nmotion = \"{motion}\"\n\n[channels]\n\
          position = {{ channel = \"position\", unit = \"{}\", quantum = {} }}\n",
         unit(Quantity::Travel),
         setup.quantum,
