@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use rigproof_certify::built_in::{BuiltIn, Kind};
 use rigproof_certify::controller::{Source, Task};
@@ -121,8 +122,13 @@ fn written(told: &[(Sensed<f64>, [f64; 4])]) -> String {
     text
 }
 
-/// Ten recordings that this project's own plant makes under the old controller, faults included, and the path.
+/// Ten recordings that this project's own plant makes under the old controller, faults included, and the path; made once for all tests.
 fn simulated() -> (Vec<Taken>, Task) {
+    static MADE: OnceLock<(Vec<Taken>, Task)> = OnceLock::new();
+    MADE.get_or_init(made).clone()
+}
+
+fn made() -> (Vec<Taken>, Task) {
     let rig = FiveBar::parse(RIG, Path::new("rig.toml")).unwrap();
     let declared = Declared::default();
     let base = Scenario::drawn(31, 4, &[Rig::FourBrake], 3000);
@@ -310,40 +316,34 @@ fn the_old_controller_commands_what_was_recorded() {
     }
 }
 
+/// What a replay says of each recording, of a controller and what is expected.
+fn all(
+    recordings: &[Taken],
+    task: &Task,
+    source: &dyn Source,
+    expected: &Expected,
+) -> Vec<Compared> {
+    let each = recordings.iter();
+    each.map(|taken| compared(taken, task, source, Some(expected)))
+        .collect()
+}
+
+/// A gain of 3 % more changes no command by as much as this, A.
+const MEANT: Expected = Expected {
+    brakes: None,
+    most_a: Some(0.05),
+    most_share: None,
+    same_brakes: false,
+};
+
 #[test]
 fn what_is_meant_passes_and_nothing_else_does() {
     let (recordings, task) = simulated();
-    let meant = Expected {
-        most_a: Some(0.05),
-        ..Expected::default()
-    };
-    let all = |source: &dyn Source, expected: &Expected| -> Vec<Compared> {
-        let each = recordings.iter();
-        each.map(|taken| compared(taken, &task, source, Some(expected)))
-            .collect()
-    };
+    let all = |source: &dyn Source, expected: &Expected| all(&recordings, &task, source, expected);
+    let meant = MEANT;
     let gain = stronger();
     for own in all(&gain, &meant) {
         assert!(own.holds() && own.differing > 0, "{own:?}");
-    }
-    // A greater gain lets brakes act that did not; that alone is unmeant where the same ones have to.
-    let same = Expected {
-        same_brakes: true,
-        ..meant
-    };
-    let unmeant = all(&gain, &same)
-        .into_iter()
-        .filter_map(|own| own.first_unmeant);
-    let unmeant: Vec<_> = unmeant.collect();
-    assert!(!unmeant.is_empty());
-    for (first, why) in unmeant {
-        let pairs = first.old_a.unwrap().into_iter().zip(first.new_a.unwrap());
-        assert_eq!(why, Unmeant::OtherBrakesAct);
-        assert!(
-            pairs
-                .into_iter()
-                .any(|(old, new)| (old == 0.0) != (new == 0.0))
-        );
     }
     let too_narrow = Expected {
         most_a: Some(1e-6),
@@ -379,6 +379,31 @@ fn what_is_meant_passes_and_nothing_else_does() {
         assert!(
             differ.clone().count() > 4 && differ.clone().all(|own| !own.holds()),
             "{change}"
+        );
+    }
+}
+
+#[test]
+fn a_brake_that_did_not_act_before_is_unmeant_where_the_same_ones_have_to() {
+    let (recordings, task) = simulated();
+    let same = Expected {
+        same_brakes: true,
+        ..MEANT
+    };
+    // A greater gain lets brakes act that did not.
+    let found = all(&recordings, &task, &stronger(), &same);
+    let unmeant: Vec<_> = found
+        .into_iter()
+        .filter_map(|own| own.first_unmeant)
+        .collect();
+    assert!(!unmeant.is_empty());
+    for (first, why) in unmeant {
+        let pairs = first.old_a.unwrap().into_iter().zip(first.new_a.unwrap());
+        assert_eq!(why, Unmeant::OtherBrakesAct);
+        assert!(
+            pairs
+                .into_iter()
+                .any(|(old, new)| (old == 0.0) != (new == 0.0))
         );
     }
 }
