@@ -6,6 +6,7 @@ pub(crate) mod ended;
 pub(crate) mod numbers;
 mod parts;
 mod stages;
+mod watch;
 pub(crate) mod words;
 pub(crate) mod write;
 
@@ -26,6 +27,7 @@ use parts::Parts;
 use rigproof_model::effects::entry;
 use rigproof_spec::effect::Mechanism;
 use rigproof_trace::Trace;
+pub use watch::{Stage, Watch};
 use write::Stand;
 
 /// What a diagnosis is asked to do.
@@ -39,6 +41,8 @@ pub struct Options {
     pub refit: bool,
     /// Whether the experiment is looked for that tells rival explanations apart.
     pub next_experiment: bool,
+    /// Who is told which stage is reached.
+    pub watch: Watch,
 }
 
 impl Default for Options {
@@ -48,6 +52,7 @@ impl Default for Options {
             hold_out_share: HOLD_OUT_SHARE,
             refit: true,
             next_experiment: true,
+            watch: Watch::default(),
         }
     }
 }
@@ -129,6 +134,7 @@ pub fn diagnose<P: Plant>(
     held_out: Option<&P::Recording>,
     options: &Options,
 ) -> Diagnosis<P> {
+    options.watch.enters(Stage::Align);
     let parts = match Parts::of(plant, recordings, held_out, options) {
         Ok(parts) => parts,
         Err((which, fault)) => return faulty(plant, &which, fault),
@@ -145,6 +151,7 @@ pub fn diagnose<P: Plant>(
         Ok(terms) => terms,
         Err((at, fault)) => return faulty(plant, at, fault),
     };
+    options.watch.enters(Stage::Explain);
     let (mut selection, mut explanations) = named(&mut problem, terms, options);
     let checked = plant.check_found(&problem, &selection);
     let checked = checked.and_then(|()| plant.check_numbers(&parts.train, &problem, &selection));
@@ -164,6 +171,7 @@ pub fn diagnose<P: Plant>(
         withdrawn = withdraw(&problem, &mut selection, explanations.is_some());
     }
     bound(&problem, &mut selection);
+    options.watch.enters(Stage::Show);
     Stand {
         plant,
         problem: &problem,

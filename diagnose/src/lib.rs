@@ -90,6 +90,6 @@ mod unknown;
 mod weak;
 mod whiten;
 
-pub use diagnose::{Curves, Diagnosis, FittedCurves, Options, diagnose};
+pub use diagnose::{Curves, Diagnosis, FittedCurves, Options, Stage, Watch, diagnose};
 pub use plants::{Description, Measured};
 pub use select::Gates;

@@ -34,6 +34,9 @@ pub use brake::{Brake, Gain, Surface};
 pub use protocol::{Drive, Protocol};
 pub use servo::{RecordingEntry, Servo};
 
+/// Every word for a plant in a description.
+const PLANTS: [&str; 4] = ["axis", "bench", "rig", "chain"];
+
 /// What stands in a description that was begun for somebody, wherever something is to be filled in.
 pub const FILL_IN: &str = "fill in";
 

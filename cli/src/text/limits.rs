@@ -12,7 +12,7 @@ pub fn left_over(report: &Report) -> Vec<String> {
     let mut lines = Vec::new();
     lines.extend(report.floor.as_ref().map(|floor| {
         format!(
-            "  the residual falls from {} to {} times what sensor noise predicts ({})",
+            "  the residual is {} times the sensor noise before and {} times after (noise: {})",
             significant(floor.ratio_before, 3),
             significant(floor.ratio_after, 3),
             with_unit(floor.predicted, &floor.unit),
@@ -25,7 +25,7 @@ pub fn left_over(report: &Report) -> Vec<String> {
     if !report.withdrawn.is_empty() {
         let names = report.withdrawn.join(", ");
         lines.push(format!(
-            "  not named, because they only stand in for another law: {names}"
+            "  taken back, because they only imitate another law: {names}"
         ));
     }
     lines.extend(report.null_directions.iter().map(|null| {
@@ -35,7 +35,7 @@ pub fn left_over(report: &Report) -> Vec<String> {
         )
     }));
     lines.extend(report.unknown.iter().flat_map(shape));
-    section("What stays", lines)
+    section("What is still unexplained", lines)
 }
 
 fn shape(unknown: &Unknown) -> Vec<String> {
@@ -116,7 +116,7 @@ pub fn not_seen(report: &Report) -> Vec<String> {
         )
     });
     section(
-        "Not named, and from which size on each would have been",
+        "Not seen: an effect smaller than this could hide in the recording",
         lines,
     )
 }

@@ -282,3 +282,36 @@ fn structures_of_a_matlab_file_are_shown_one_by_one() {
     let answer = desk.rigproof(&format!("inspect {file} --write-rig rig.toml"));
     assert_eq!(answer.status.code(), Some(2));
 }
+
+/// Of many topics each is one line, and one of them in full where it is asked for.
+#[test]
+fn many_topics_are_a_line_each() {
+    let topics: Vec<String> = (0..20).map(|k| format!("/arm/joint_{k:02}")).collect();
+    let texts = topics.iter().map(|name| (name.clone(), "tuned".to_owned()));
+    let extras = rigproof_trace::mcap::Extras {
+        texts: texts.collect(),
+        ..Default::default()
+    };
+    let trace = rigproof_trace::Trace {
+        time_s: (0..300).map(|k| 0.01 * f64::from(k)).collect(),
+        channels: vec![rigproof_trace::Channel {
+            name: "angle".to_owned(),
+            unit: "rad".to_owned(),
+            samples: (0..300).map(|k| libm::sin(0.07 * f64::from(k))).collect(),
+        }],
+    };
+    let desk = Desk::new();
+    rigproof_trace::mcap::write(&desk.path("run.mcap"), &trace, &extras).unwrap();
+    let text = desk.prints("inspect run.mcap", 0);
+    let lines = |of: &str| text.lines().filter(|line| line.contains(of)).count();
+    assert!(
+        topics.iter().all(|name| lines(&format!("  {name} ")) == 1),
+        "{text}"
+    );
+    assert!(text.lines().count() < topics.len() + 20, "{text}");
+    let one = desk.prints("inspect run.mcap --topic /joint_states", 0);
+    assert!(one.contains("100.0 Hz") && !one.contains("/arm/"), "{one}");
+    let wrong = desk.rigproof("inspect run.mcap --topic /joint_state");
+    let said = String::from_utf8(wrong.stderr).unwrap();
+    assert!(said.contains("did you mean `/joint_states`?"), "{said}");
+}

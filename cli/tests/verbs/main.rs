@@ -24,5 +24,6 @@ mod kills;
 mod mcap;
 mod mistakes;
 mod new;
+mod newcomers;
 mod reproduce;
 mod serve;
