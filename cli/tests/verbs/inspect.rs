@@ -2,6 +2,7 @@
 
 use approx::assert_relative_eq;
 
+use crate::convert::public;
 use crate::desk::{Desk, assert_shape};
 
 /// A recording as a German spreadsheet saves it: `;`, decimal commas, a remark and a units row.
@@ -283,35 +284,43 @@ fn structures_of_a_matlab_file_are_shown_one_by_one() {
     assert_eq!(answer.status.code(), Some(2));
 }
 
-/// Of many topics each is one line, and one of them in full where it is asked for.
 #[test]
-fn many_topics_are_a_line_each() {
-    let topics: Vec<String> = (0..20).map(|k| format!("/arm/joint_{k:02}")).collect();
-    let texts = topics.iter().map(|name| (name.clone(), "tuned".to_owned()));
-    let extras = rigproof_trace::mcap::Extras {
-        texts: texts.collect(),
-        ..Default::default()
-    };
-    let trace = rigproof_trace::Trace {
-        time_s: (0..300).map(|k| 0.01 * f64::from(k)).collect(),
-        channels: vec![rigproof_trace::Channel {
-            name: "angle".to_owned(),
-            unit: "rad".to_owned(),
-            samples: (0..300).map(|k| libm::sin(0.07 * f64::from(k))).collect(),
-        }],
-    };
+fn one_topic_is_shown_where_it_is_asked_for() {
     let desk = Desk::new();
-    rigproof_trace::mcap::write(&desk.path("run.mcap"), &trace, &extras).unwrap();
-    let text = desk.prints("inspect run.mcap", 0);
-    let lines = |of: &str| text.lines().filter(|line| line.contains(of)).count();
-    assert!(
-        topics.iter().all(|name| lines(&format!("  {name} ")) == 1),
-        "{text}"
+    desk.prints(
+        "blind make --plant bench --seed 11 --stratum single --out case",
+        0,
     );
-    assert!(text.lines().count() < topics.len() + 20, "{text}");
+    desk.prints("convert case/recording.csv run.mcap", 0);
     let one = desk.prints("inspect run.mcap --topic /joint_states", 0);
-    assert!(one.contains("100.0 Hz") && !one.contains("/arm/"), "{one}");
+    assert!(
+        one.contains("/joint_states") && !one.contains("/rigproof/run"),
+        "{one}"
+    );
     let wrong = desk.rigproof("inspect run.mcap --topic /joint_state");
     let said = String::from_utf8(wrong.stderr).unwrap();
     assert!(said.contains("did you mean `/joint_states`?"), "{said}");
+    let text = desk.rigproof("inspect case/recording.csv --topic /joint_states");
+    assert_eq!(text.status.code(), Some(2));
+}
+
+/// Of many topics each is one line; the public bag holds 94.
+#[test]
+fn many_topics_are_a_line_each() {
+    let Some(bag) = public("mcap/test_bag_mcap.mcap") else {
+        return;
+    };
+    let desk = Desk::new();
+    let bag = bag.display().to_string();
+    let answer = desk.runs(&["inspect", &bag]);
+    let text = String::from_utf8(answer.stdout).unwrap();
+    assert!(text.contains("188 messages on 94 topics"), "{text}");
+    assert!((94..94 + 20).contains(&text.lines().count()), "{text}");
+    assert_eq!(
+        text.lines()
+            .filter(|line| line.contains(" channels  "))
+            .count(),
+        94
+    );
+    assert!(text.contains("--topic "), "{text}");
 }
