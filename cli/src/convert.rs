@@ -24,7 +24,7 @@ use crate::{input, keep};
 pub struct Args {
     /// The recording: HDF5, MATLAB (version 5 to 7.3), MCAP or CSV, told apart by its content
     input: PathBuf,
-    /// The file to write: MCAP if its name ends in `.mcap`, else CSV
+    /// The file to write: CSV if its name ends in `.csv` or `.txt`, MCAP if it ends in `.mcap`
     #[arg(required_unless_present = "list", conflicts_with = "list")]
     output: Option<PathBuf>,
     /// Say what the file holds, and write nothing
@@ -74,10 +74,10 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
         input: input::file(&args.input)?,
         ..args.clone()
     };
-    let to_mcap = args.output.as_ref().is_some_and(|output| {
-        let extension = output.extension().unwrap_or_default();
-        extension.eq_ignore_ascii_case("mcap")
-    });
+    let to_mcap = match &args.output {
+        Some(output) => is_mcap_wanted(output)?,
+        None => false,
+    };
     if !to_mcap && !args.attach.is_empty() {
         let problem = "--attach is for MCAP files; give the output a name that ends in `.mcap`";
         return Err(Failure::Usage(problem.into()));
@@ -98,6 +98,23 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
         None => text_recording(args).map(|(trace, dialect)| (trace, Some(dialect)))?,
     };
     write(args, output, &trace, dialect, to_mcap)
+}
+
+/// Whether the name of an output asks for MCAP and not for CSV.
+///
+/// # Errors
+/// It asks for neither.
+fn is_mcap_wanted(output: &Path) -> Result<bool, Failure> {
+    let extension = output.extension().unwrap_or_default();
+    let is = |own: &str| extension.eq_ignore_ascii_case(own);
+    match (is("mcap"), is("csv") || is("txt")) {
+        (true, _) => Ok(true),
+        (_, true) => Ok(false),
+        _ => Err(Failure::Usage(format!(
+            "{}: the name does not say what to write; end it in `.csv` or `.mcap`",
+            output.display()
+        ))),
+    }
 }
 
 /// Writes the recording and says what it holds.

@@ -2,14 +2,16 @@
 
 use std::path::{Path, PathBuf};
 
-use rigproof_blind::{Plant, Stratum, make, open, score};
+use rigproof_blind::{Answer, Plant, Score, Stratum, make, open, score};
+use rigproof_diagnose::report::Report;
 use rigproof_diagnose::{Description, Options, diagnose};
 use rigproof_trace::rig::Rig;
 use rigproof_trace::store::Folder;
 use serde_json::json;
 
-use crate::blind::{FILES, contents, in_words};
-use crate::outcome::{Failure, Outcome, print};
+use crate::blind::{FILES, contents, in_words, truth};
+use crate::outcome::{Failure, Outcome, print, print_steadied, steady};
+use crate::text::summary::{Style, summary};
 use crate::{folder, input, page, progress, shell, text};
 
 /// What is to be shown.
@@ -22,6 +24,9 @@ pub struct Args {
     /// Print the report, the answer and the score as JSON
     #[arg(long)]
     json: bool,
+    /// Print the whole report, the whole answer and the score
+    #[arg(long, conflicts_with = "json")]
+    verbose: bool,
 }
 
 const AFTER_HELP: &str = "\
@@ -45,13 +50,18 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     let recording = rig.apply(&case.trace, Path::new(recording_name))?;
     if !args.json {
         print(&format!(
-            "A recording of a driven axis with hidden causes, {} samples. SHA-256 of the sealed answer:\n{}\n",
+            "A recording of a driven axis with hidden causes, {} samples: {}\nSHA-256 of the sealed answer: {}\n",
             case.trace.len(),
+            args.out.join(recording_name).display(),
             case.commitment
         ))?;
     }
-    let mark = progress::spinner("diagnosing");
-    let diagnosis = diagnose(&rig, &[&recording], None, &Options::default());
+    let (mark, watch) = progress::stages();
+    let options = Options {
+        watch,
+        ..Options::default()
+    };
+    let diagnosis = diagnose(&rig, &[&recording], None, &options);
     let mut diagnosis = diagnosis.map(Description::Joint);
     drop(mark);
     let contents = contents(&case)?;
@@ -82,25 +92,57 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
         });
         print(&result.to_string())?;
     } else {
-        let paths = written
-            .iter()
-            .map(|name| format!("  {}", args.out.join(name).display()));
-        print(&text::join([
-            vec![text::report(&diagnosis.report)],
-            vec![
-                "The seal is opened.".to_owned(),
+        let said = match args.verbose {
+            true => at_length(
+                args,
+                &diagnosis.report,
                 in_words(&answer, &report, &score),
-            ],
-            text::section("Files", paths),
-            text::section(
-                "Look at it in a browser",
-                [format!("  {}", args.out.join(folder::PAGE).display())],
+                &written,
             ),
-        ]))?;
+            false => in_short(args, &diagnosis.report, &opened(&answer, &score)),
+        };
+        print_steadied(&said)?;
     }
     Ok(Outcome {
         checks_hold: score.exact && text::holds(&diagnosis.report),
     })
+}
+
+/// The whole report, the whole answer, and the files.
+fn at_length(args: &Args, report: &Report, opened: String, written: &[&str]) -> String {
+    let paths = written
+        .iter()
+        .map(|name| format!("  {}", args.out.join(name).display()));
+    steady(&text::join([
+        vec![text::report(report)],
+        vec!["The seal is opened.".to_owned(), opened],
+        text::section("Files", paths),
+    ]))
+}
+
+/// The summary, marked for a terminal, and the answer.
+fn in_short(args: &Args, report: &Report, opened: &[String]) -> String {
+    let page = args.out.join(folder::PAGE);
+    let found = steady(&summary(report, &next(&args.out), &page));
+    let headed = Style::of_output().headed(&found, report.verdict);
+    format!("{headed}\n\n{}", steady(&opened.join("\n")))
+}
+
+/// What was hidden, and how the diagnosis did.
+fn opened(answer: &Answer, score: &Score) -> Vec<String> {
+    let mut lines = vec!["The seal is opened. Hidden were:".to_owned()];
+    lines.extend(truth(answer));
+    let names = match score.exact {
+        true => "Every name is right, and nothing else is named",
+        false => "The names are not the hidden ones",
+    };
+    let of = score.parameters.iter().filter_map(|own| own.covered);
+    let covered = of.clone().filter(|covered| *covered).count();
+    lines.push(format!(
+        "{names}; {covered} of {} intervals hold the hidden number.",
+        of.count()
+    ));
+    lines
 }
 
 /// The command that shows what the calibration is worth.

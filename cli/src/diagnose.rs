@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use rigproof_diagnose::report::{InputFile, Report, Verdict};
 use rigproof_diagnose::self_calibration::SelfTest;
-use rigproof_diagnose::{Description, Diagnosis, Measured, Options};
+use rigproof_diagnose::{Description, Diagnosis, Measured, Options, Watch};
 use rigproof_trace::store::Folder;
 
 use crate::input::{self, Cut, Source, Taken};
@@ -24,7 +24,7 @@ pub struct Args {
     /// Share of the recording's end on which the result is shown, 0.05 to 0.8
     #[arg(long, value_name = "SHARE", default_value_t = 0.25, value_parser = parse_share)]
     pub hold_out_share: f64,
-    /// The folder to write [default: the recording's name with `-diagnosis`]
+    /// The folder to write [default: the recording's name with `-diagnosis`, numbered from the second diagnosis on]. One that is named here and holds an earlier diagnosis is replaced
     #[arg(long, value_name = "FOLDER")]
     out: Option<PathBuf>,
     /// Say how far the result can be believed: diagnose as many simulated recordings like this one whose causes are known
@@ -128,11 +128,12 @@ pub fn written(
         let problem = "--calibrate simulates a single recording: give one, not a folder of several";
         return Err(Failure::Usage(problem.to_owned()));
     }
+    let (mark, watch) = progress::stages();
     let options = Options {
         hold_out_share: args.hold_out_share,
+        watch,
         ..Options::default()
     };
-    let mark = progress::spinner("diagnosing");
     let diagnosis = threads::pool(args.jobs)?
         .install(|| rig.diagnose(&given.recordings, given.held_out.as_ref(), &options));
     drop(mark);
@@ -248,6 +249,11 @@ fn calibrate(
     if report.floor.is_none() {
         return Ok(());
     }
+    // Many are diagnosed at once: a bar tells of them, not a stage.
+    let options = &Options {
+        watch: Watch::default(),
+        ..options.clone()
+    };
     let [recording] = given.recordings.as_slice() else {
         return Ok(());
     };
@@ -332,7 +338,21 @@ fn out(args: &Args) -> Result<PathBuf, Failure> {
     };
     let mut name = stem.to_os_string();
     name.push("-diagnosis");
-    Ok(PathBuf::from(name))
+    Ok(not_there_yet(PathBuf::from(name)))
+}
+
+/// The folder itself, or the first with a number that nothing stands at: an earlier diagnosis is kept.
+fn not_there_yet(folder: PathBuf) -> PathBuf {
+    if folder.symlink_metadata().is_err() {
+        return folder;
+    }
+    let numbered = (2_u64..).map(|number| {
+        let mut name = folder.clone().into_os_string();
+        name.push(format!("-{number}"));
+        PathBuf::from(name)
+    });
+    let mut free = numbered.filter(|name| name.symlink_metadata().is_err());
+    free.next().unwrap_or(folder)
 }
 
 /// The most simulated recordings of each kind.

@@ -36,6 +36,9 @@ pub struct Args {
     /// as `header.stamp`
     #[arg(long, value_name = "NAME")]
     time_from: Option<String>,
+    /// Only this topic of an MCAP file, with all of its channels; may be given several times
+    #[arg(long, value_name = "NAME")]
+    topic: Vec<String>,
     /// A rig description to begin with; what must be filled in says so
     #[arg(long, value_name = "TOML")]
     write_rig: Option<PathBuf>,
@@ -75,6 +78,11 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     };
     if mcap::is_mcap(&args.recording)? {
         return messages::run(args);
+    }
+    if !args.topic.is_empty() {
+        let file = args.recording.display();
+        let problem = format!("{file}: --topic is for MCAP files; this one has no topics");
+        return Err(Failure::Usage(problem));
     }
     match Arrays::open(&args.recording)? {
         Some(arrays) => variables(args, &arrays),

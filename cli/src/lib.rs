@@ -11,6 +11,7 @@ mod convert;
 mod demo;
 mod design;
 mod diagnose;
+mod diff;
 pub mod door;
 mod folder;
 mod golden;
@@ -35,6 +36,7 @@ mod threads;
 
 use std::process::ExitCode;
 
+use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
 
 use crate::outcome::{Failure, Outcome};
@@ -51,6 +53,8 @@ struct Program {
 enum Verb {
     /// Find out why a recording disagrees with the rig's model, and calibrate the model
     Diagnose(diagnose::Args),
+    /// Say what changed between two diagnoses, or between two calibrations
+    Diff(diff::Args),
     /// Run a rig's model along a recording and say how far the two lie apart
     Simulate(simulate::Args),
     /// Show the whole of it on a recording that is made for it: hide, diagnose, open the seal
@@ -100,6 +104,7 @@ Examples:
 fn run(verb: &Verb) -> Result<Outcome, Failure> {
     match verb {
         Verb::Diagnose(args) => diagnose::run(args),
+        Verb::Diff(args) => diff::run(args),
         Verb::Simulate(args) => simulate::run(args),
         Verb::Demo(args) => demo::run(args),
         Verb::New(args) => new::run(args),
@@ -121,8 +126,25 @@ fn run(verb: &Verb) -> Result<Outcome, Failure> {
 
 /// Reads the command line, does what it says, and gives the exit code.
 pub fn main() -> ExitCode {
-    outcome::exit(run(&Program::parse().verb))
+    match Program::try_parse() {
+        Ok(program) => outcome::exit(run(&program.verb)),
+        Err(error) => refused(&error),
+    }
 }
+
+/// Says what is wrong with a command line; where the rig description is missing, also how to begin one.
+fn refused(error: &clap::Error) -> ExitCode {
+    // Nobody is left to be told when this fails.
+    let _ = error.print();
+    if error.kind() == ErrorKind::MissingRequiredArgument && error.to_string().contains("--rig <") {
+        eprintln!("\n{BEGIN_A_RIG}");
+    }
+    ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2))
+}
+
+const BEGIN_A_RIG: &str = "\
+No rig description yet? This begins one from a recording:
+  rigproof inspect RECORDING --write-rig rig.toml";
 
 #[cfg(test)]
 mod tests {

@@ -37,11 +37,29 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
         let mut page = Vec::new();
         let failed = |error| Failure::Input(format!("cannot write the page of {name}: {error}"));
         Man::new(verb.clone()).render(&mut page).map_err(failed)?;
-        folder.write(&format!("{name}.1"), &page)?;
+        let page = with_usage(&String::from_utf8_lossy(&page), verb);
+        folder.write(&format!("{name}.1"), page.as_bytes())?;
         count += 1;
     }
     folder.finish()?;
     print(&format!("{count} pages in {}", args.out.display()))
+}
+
+/// The page with the usage of the help as its synopsis: that of `clap_mangen` leaves out what an option takes.
+fn with_usage(page: &str, verb: &Command) -> String {
+    const SYNOPSIS: &str = ".SH SYNOPSIS\n";
+    let Some((before, rest)) = page.split_once(SYNOPSIS) else {
+        return page.to_owned();
+    };
+    let after = rest.find(".SH ").and_then(|at| rest.get(at..));
+    let usage = verb.clone().render_usage().to_string();
+    let usage = usage.trim_start_matches("Usage:").replace('-', "\\-");
+    let lines: Vec<&str> = usage.lines().map(str::trim).collect();
+    format!(
+        "{before}{SYNOPSIS}{}\n{}",
+        lines.join("\n.br\n"),
+        after.unwrap_or_default()
+    )
 }
 
 /// The command and every command below it that a person is meant to see.

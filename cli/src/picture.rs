@@ -17,7 +17,7 @@ use rigproof_diagnose::report::Report;
 use svg::Document;
 use svg::node::element::{Line, Rectangle, Text, Title};
 
-pub use before_after::before_after;
+pub use before_after::{before_after, overlay};
 pub use figure::figure;
 pub use residual::residual;
 

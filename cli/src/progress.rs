@@ -2,6 +2,8 @@
 
 use std::time::Duration;
 
+use rigproof_diagnose::Watch;
+
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressFinish, ProgressStyle};
 
 /// A turning mark for work of unknown length; it vanishes when dropped.
@@ -10,6 +12,16 @@ pub fn spinner(doing: &'static str) -> ProgressBar {
     let bar = styled(bar, "{spinner} {msg} {elapsed}").with_message(doing);
     bar.enable_steady_tick(Duration::from_millis(120));
     bar
+}
+
+/// A turning mark that names the stage of a diagnosis, and who has to be told of the stages.
+pub fn stages() -> (ProgressBar, Watch) {
+    let mark = spinner("diagnosing");
+    let told = mark.clone();
+    (
+        mark,
+        Watch::new(move |stage| told.set_message(stage.doing())),
+    )
 }
 
 /// A bar for work of known length; it vanishes when dropped.

@@ -7,18 +7,20 @@ use rigproof_spec::units::Unit;
 use rigproof_trace::csv::{Decimal, Dialect, Hints, Separator};
 use serde_json::{Value, json};
 
+/// Where the options of a text recording stand in the help. Each names it: a heading of the whole group would take in what follows.
+const HEADING: &str = "Text recordings (found out and printed where not given)";
+
 /// What is known of a text recording; the rest is found out and printed.
 #[derive(Clone, Copy, Debug, Default, clap::Args)]
-#[command(next_help_heading = "Text recordings (found out and printed where not given)")]
 pub struct Reading {
     /// What stands between two cells: `,` `;` `tab` or `blank`
-    #[arg(long, value_name = "MARK", value_parser = parse_separator)]
+    #[arg(long, value_name = "MARK", value_parser = parse_separator, help_heading = HEADING)]
     separator: Option<Separator>,
     /// What stands before the fraction of a number: `.` or `,`
-    #[arg(long, value_name = "MARK", value_parser = parse_decimal)]
+    #[arg(long, value_name = "MARK", value_parser = parse_decimal, help_heading = HEADING)]
     decimal: Option<Decimal>,
     /// Lines before the line with the names
-    #[arg(long, value_name = "COUNT")]
+    #[arg(long, value_name = "COUNT", help_heading = HEADING)]
     header_lines: Option<usize>,
 }
 
@@ -38,7 +40,7 @@ pub struct RigReading {
     #[command(flatten)]
     text: Reading,
     /// The unit that a column is in, whatever its header says
-    #[arg(long = "unit", value_name = "NAME=UNIT", value_parser = parse_unit)]
+    #[arg(long = "unit", value_name = "NAME=UNIT", value_parser = parse_unit, help_heading = HEADING)]
     units: Vec<(String, String)>,
 }
 

@@ -1,6 +1,7 @@
 //! This file runs a rig's model along a recording and says how far the two lie apart.
 
 mod experiment;
+mod uncalibrated;
 
 use std::path::{Path, PathBuf};
 
@@ -8,13 +9,14 @@ use rigproof_diagnose::Description;
 use rigproof_diagnose::align::Fault;
 use rigproof_diagnose::plant::{Simulated, SimulatedOutput, Unsimulated};
 use rigproof_trace::compare::{Comparison, compare};
-use rigproof_trace::{Channel, Trace, csv};
+use rigproof_trace::{Channel, Trace, csv, store};
 use serde_json::{Value, json};
 
 use crate::input::{self, HowRead, Source};
 use crate::outcome::{Failure, Outcome, print};
 use crate::text::number::{significant, with_unit};
 use crate::{keep, progress};
+use uncalibrated::Uncalibrated;
 
 /// What is to be simulated.
 #[derive(clap::Args)]
@@ -31,6 +33,9 @@ pub struct Args {
     /// A CSV file to write: time, recorded and simulated output; of an experiment, what the rig would record
     #[arg(long, value_name = "CSV")]
     out: Option<PathBuf>,
+    /// A picture to write: the recorded output, and both models over it; it needs a calibration
+    #[arg(long, value_name = "SVG", requires = "calibration")]
+    picture: Option<PathBuf>,
     /// Seed of the counts and the noise that the rig file states, in the recording of an experiment; without it there are none
     #[arg(long, value_name = "NUMBER")]
     seed: Option<u64>,
@@ -53,7 +58,7 @@ Examples:
 
 /// Simulates, compares, and writes both outputs.
 pub fn run(args: &Args) -> Result<Outcome, Failure> {
-    if let Some(out) = &args.out {
+    for out in args.out.iter().chain(&args.picture) {
         let Source { recording, rig, .. } = &args.source;
         keep::check(out, [recording, rig].into_iter().chain(&args.calibration))?;
     }
@@ -78,7 +83,16 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
         let first_s = recording.time_s().first().copied().unwrap_or(0.0);
         csv::write(out, &trace(&simulated, first_s))?;
     }
-    say(args, &simulated, &off, &how)
+    let without = match &args.calibration {
+        Some(_) => Uncalibrated::of(&rig, &recording, args.restart_s),
+        None => None,
+    };
+    if let Some(file) = &args.picture {
+        let drawn = uncalibrated::picture(rig.name(), without.as_ref(), &simulated);
+        let drawn = drawn.map_err(|why| Failure::unusable(file, why))?;
+        store::write_aside(file, drawn.as_bytes())?;
+    }
+    say(args, &simulated, (&off, without.as_ref()), &how)
 }
 
 /// The file whose numbers count.
@@ -147,7 +161,7 @@ fn in_json(off: &Comparison, unit: &str) -> Value {
 fn say(
     args: &Args,
     simulated: &Simulated,
-    off: &[Comparison],
+    (off, without): (&[Comparison], Option<&Uncalibrated>),
     how: &HowRead,
 ) -> Result<Outcome, Failure> {
     let pairs = || simulated.outputs.iter().zip(off);
@@ -158,6 +172,8 @@ fn say(
             "rig": args.source.rig.display().to_string(),
             "calibration": path(&args.calibration),
             "file": path(&args.out),
+            "picture": path(&args.picture),
+            "without_calibration": without.map(|own| own.json(simulated)),
         });
         let mut of = |name: &str, value: Value| result[name] = value;
         match simulated.runs {
@@ -177,9 +193,13 @@ fn say(
         return print(&result.to_string());
     }
     let mut lines = Vec::new();
+    let arrow = match without {
+        Some(_) => ", without → with the calibration",
+        None => "",
+    };
     if let Some([runs, broken_off]) = simulated.runs {
         lines.push(format!(
-            "simulated less recorded in {runs} free runs of {} s, each from the recorded state",
+            "simulated less recorded in {runs} free runs of {} s, each from the recorded state{arrow}",
             args.restart_s,
         ));
         if broken_off > 0 {
@@ -188,29 +208,37 @@ fn say(
             ));
         }
     }
-    for (own, off) in pairs() {
+    for (k, (own, off)) in pairs().enumerate() {
         lines.push(match simulated.runs {
             Some(_) => format!("{}, {} samples", own.name, off.pairs),
-            None => format!("simulated less recorded over {} samples", off.pairs),
+            None => format!("simulated less recorded over {} samples{arrow}", off.pairs),
         });
         let shown = if own.recorded.is_none() { 2 } else { 3 };
-        lines.extend(measures(off, &own.unit).into_iter().take(shown));
+        let before = without.and_then(|own| own.off.get(k));
+        lines.extend(measures(before, off, &own.unit).into_iter().take(shown));
     }
     lines.extend(read_as(how));
     lines.extend(path(&args.out).map(|file| format!("  file     {file}")));
+    lines.extend(path(&args.picture).map(|file| format!("  picture  {file}")));
     print(&lines.join("\n"))
 }
 
-/// How far two outputs lie apart, a line each.
-fn measures(comparison: &Comparison, unit: &str) -> Vec<String> {
-    let nrmse = comparison.nrmse_percent.map_or_else(
-        || "not defined: the recorded output never moves".to_owned(),
-        |nrmse| format!("{} %", significant(nrmse, 3)),
-    );
+/// How far two outputs lie apart, a line each: with the rig's own numbers where there is a calibration, and with those that count.
+fn measures(before: Option<&Comparison>, now: &Comparison, unit: &str) -> Vec<String> {
+    let nrmse = |off: &Comparison| {
+        off.nrmse_percent.map_or_else(
+            || "not defined: the recorded output never moves".to_owned(),
+            |nrmse| format!("{} %", significant(nrmse, 3)),
+        )
+    };
+    let line = |name: &str, of: &dyn Fn(&Comparison) -> String| match before {
+        Some(before) => format!("  {name} {} → {}", of(before), of(now)),
+        None => format!("  {name} {}", of(now)),
+    };
     vec![
-        format!("  rms      {}", with_unit(comparison.rms, unit)),
-        format!("  maximum  {}", with_unit(comparison.maximum, unit)),
-        format!("  NRMSE    {nrmse}"),
+        line("rms     ", &|off| with_unit(off.rms, unit)),
+        line("maximum ", &|off| with_unit(off.maximum, unit)),
+        line("NRMSE   ", &nrmse),
     ]
 }
 

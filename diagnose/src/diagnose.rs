@@ -6,6 +6,7 @@ pub(crate) mod ended;
 pub(crate) mod numbers;
 mod parts;
 mod stages;
+mod watch;
 pub(crate) mod words;
 pub(crate) mod write;
 
@@ -22,6 +23,7 @@ use ended::{faulty, not_excited};
 use parts::Parts;
 use rigproof_model::effects::entry;
 use rigproof_trace::Trace;
+pub use watch::{Stage, Watch};
 use write::Stand;
 
 /// What a diagnosis is asked to do.
@@ -33,6 +35,8 @@ pub struct Options {
     pub refit: bool,
     /// Whether the experiment is looked for that tells rival explanations apart.
     pub next_experiment: bool,
+    /// Who is told which stage is reached.
+    pub watch: Watch,
 }
 
 impl Default for Options {
@@ -41,6 +45,7 @@ impl Default for Options {
             hold_out_share: HOLD_OUT_SHARE,
             refit: true,
             next_experiment: true,
+            watch: Watch::default(),
         }
     }
 }
@@ -122,6 +127,7 @@ pub fn diagnose<P: Plant>(
     held_out: Option<&P::Recording>,
     options: &Options,
 ) -> Diagnosis<P> {
+    options.watch.enters(Stage::Align);
     let parts = match Parts::of(plant, recordings, held_out, options) {
         Ok(parts) => parts,
         Err((which, fault)) => return faulty(plant, &which, fault),
@@ -138,6 +144,7 @@ pub fn diagnose<P: Plant>(
         Ok(terms) => terms,
         Err((at, fault)) => return faulty(plant, at, fault),
     };
+    options.watch.enters(Stage::Explain);
     let (mut selection, mut explanations) = named(&mut problem, terms);
     let checked = plant.check_found(&problem, &selection);
     let checked = checked.and_then(|()| plant.check_numbers(&parts.train, &problem, &selection));
@@ -156,6 +163,7 @@ pub fn diagnose<P: Plant>(
         withdrawn.clear();
     }
     bound(&problem, &mut selection);
+    options.watch.enters(Stage::Show);
     Stand {
         plant,
         problem: &problem,

@@ -74,8 +74,9 @@
   });
 
   let leading = null;
+  // Only what somebody does moves the others: a chart that is being made shows all of its own.
   const follow = (spec) => (u, key) => {
-    if (key !== 'x' || leading || !spec.sync) return;
+    if (key !== 'x' || leading || !spec.sync || !rigproof.charts[spec.id]?.ready) return;
     leading = u;
     for (const other of Object.values(rigproof.charts)) {
       if (other.plot !== u && other.spec.sync === spec.sync) other.plot.setScale('x', { min: u.scales.x.min, max: u.scales.x.max });
@@ -96,7 +97,9 @@
       hooks: { drawClear: [marks(spec)], setScale: [follow(spec)] },
     };
     const plot = new uPlot(options, [spec.t, ...spec.series.map((own) => own.v)], place);
-    rigproof.charts[spec.id] = { plot, spec };
+    const own = { plot, spec, ready: false };
+    rigproof.charts[spec.id] = own;
+    requestAnimationFrame(() => { own.ready = true; });
     const resize = () => plot.setSize({ width: width(place), height: spec.height });
     new ResizeObserver(() => { if (Math.abs(plot.width - width(place)) > 1) resize(); }).observe(place);
     const markers = () => place.querySelectorAll('.u-marker').forEach((own, k) => { if (k > 0) own.style.borderColor = colour(spec.series[k - 1].role); });
@@ -136,5 +139,10 @@
     rigproof.saveCsv(spec.id, [head, ...spec.t.map((t, k) => [t, ...spec.series.map((own) => own.v[k])])]);
   };
 
-  data.charts.forEach(make);
+  // What is folded up has no width yet: it is made when it is opened.
+  for (const spec of data.charts) {
+    const fold = document.getElementById(`plot-${spec.id}`).closest('details:not([open])');
+    if (fold) fold.addEventListener('toggle', () => make(spec), { once: true });
+    else make(spec);
+  }
 })();

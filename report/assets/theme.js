@@ -7,7 +7,8 @@ const rigproof = { redraw: [] };
   let chosen = null;
   const show = (theme) => {
     root.dataset.theme = theme;
-    button.setAttribute('aria-pressed', String(theme === 'dark'));
+    // The button says what it does.
+    button.textContent = theme === 'dark' ? 'Light' : 'Dark';
     for (const redraw of rigproof.redraw) redraw();
   };
   const wanted = () => chosen ?? (dark.matches ? 'dark' : 'light');

@@ -40,6 +40,7 @@ async function check(file) {
   holds(name, 'a headline', (await page.$eval('h1', (h1) => h1.textContent.trim().length)) > 20);
   holds(name, 'a script of a file ran', (await page.evaluate(() => window.hacked)) === undefined);
   await picture(page, `${name}-light`);
+  await order(page, name);
   await charts(page, name);
   await replay(page, name);
   await saves(page, name);
@@ -52,6 +53,20 @@ async function check(file) {
   const away = requests.filter((request) => request !== url && !/^(data|blob):/.test(request) && !(isServed(file) && request === new URL('/state.json', url).href));
   holds(name, `requests leave the page: ${away.join(' ')}`, away.length === 0);
   await page.close();
+}
+
+// A diagnosis begins with its proof; where model and recording agree no place is said to go wrong.
+async function order(page, name) {
+  const [badge, ids] = await page.evaluate(() => [document.querySelector('.badge')?.textContent, [...document.querySelectorAll('main > section')].map((own) => own.id)]);
+  const proof = await page.$('#figure-output');
+  if (proof) {
+    const { y } = await proof.boundingBox();
+    holds(name, `the first section is ${ids[0]}`, ids[0] === 'before-and-after');
+    holds(name, `the held-out comparison begins at ${y} px`, y < 1000);
+  }
+  const clipped = await page.evaluate(() => [...document.querySelectorAll('.scroll:has(td.words)')].filter((own) => own.scrollWidth > own.clientWidth + 1).map((own) => own.closest('section').id));
+  holds(name, `sentences are clipped in ${clipped.join(', ')}`, clipped.length === 0);
+  if (badge === 'Model and rig agree') holds(name, 'agreement goes wrong nowhere', !ids.includes('where'));
 }
 
 // A list of runs while a recording comes: it shows its diagnosis without being loaded anew, and what somebody chose stays chosen.
@@ -116,6 +131,12 @@ const scale = (id) => {
 };
 
 async function charts(page, name) {
+  // What is folded up is drawn when it is opened.
+  await page.evaluate(() => document.querySelectorAll('details').forEach((own) => { own.open = true; }));
+  await settled(page);
+  await settled(page);
+  const parts = await page.evaluate(() => Object.values(rigproof.charts).map(({ plot, spec }) => [spec.id, plot.scales.x.min, plot.scales.x.max, spec.t[0], spec.t[spec.t.length - 1]]).filter(([, min, max, from, to]) => min > from || max < to));
+  holds(name, `charts that are not whole on load: ${parts.join('; ')}`, parts.length === 0);
   const ids = await page.evaluate(() => Object.keys(rigproof.charts));
   const places = await page.$$eval('.plot', (plots) => plots.length);
   holds(name, 'every chart has its place', ids.length === places);
@@ -128,7 +149,7 @@ async function charts(page, name) {
     await settled(page);
     holds(name, `chart ${id} is empty: ${full} pixels, ${blank} without its curves`, full > blank + 150);
   }
-  const linked = await page.evaluate(() => Object.values(rigproof.charts).filter((own) => own.spec.sync).map((own) => own.spec.id));
+  const linked = await page.evaluate(() => Object.values(rigproof.charts).filter((own, k, all) => own.spec.sync && own.spec.sync === all.find((one) => one.spec.sync).spec.sync).map((own) => own.spec.id));
   if (linked.length === 0) return;
   const [first] = linked;
   const whole = await page.evaluate(scale, first);

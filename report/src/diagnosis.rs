@@ -3,6 +3,7 @@
 mod after;
 mod drawing;
 mod headline;
+mod left_over;
 mod next;
 mod sure;
 mod what;
@@ -10,7 +11,7 @@ mod wherein;
 
 use maud::{Markup, html};
 use rigproof_diagnose::Curves;
-use rigproof_diagnose::report::Report;
+use rigproof_diagnose::report::{Report, Verdict};
 
 use crate::chart::Chart;
 use crate::document::{Document, Section};
@@ -41,18 +42,26 @@ pub fn page(diagnosed: Diagnosed) -> String {
             sections.push(Section { id, heading, body });
         }
     };
-    section(
-        "where",
-        "Where it goes wrong",
-        wherein::body(report, curves, &mut charts),
-    );
-    section("what", "What it is", what::body(report));
-    section("sure", "How sure this is", sure::body(report));
     let replay = diagnosed.replay;
     section(
         "before-and-after",
-        "Before and after",
+        "Before and after, on held-out data",
         after::body(report, curves, replay.as_ref(), &mut charts),
+    );
+    section("what", "What it is", what::body(report));
+    // Where nothing goes wrong there is no place to show.
+    if report.verdict != Verdict::Consistent {
+        section(
+            "where",
+            "Where it goes wrong",
+            wherein::body(report, curves, &mut charts),
+        );
+    }
+    section("sure", "How sure this is", sure::body(report));
+    section(
+        "left",
+        "What is left over",
+        left_over::body(curves, &mut charts),
     );
     section(
         "next",
@@ -95,6 +104,7 @@ fn counted(curves: &Curves, residual: &[f64]) -> Vec<f64> {
 
 fn made(report: &Report) -> Option<Markup> {
     Some(html! {
+        details { summary { "The files and the protocol, line by line" }
         @if !report.inputs.is_empty() {
             div.scroll { table.grid {
                 caption { "The files that were read." }
@@ -102,9 +112,7 @@ fn made(report: &Report) -> Option<Markup> {
                 tbody { @for input in &report.inputs { tr { th scope="row" { (input.path) } td.sha { (input.sha256) } } } }
             } }
         }
-        details {
-            summary { "The protocol, line by line" }
-            ul { @for line in &report.protocol { li { (line) } } }
+        ul { @for line in &report.protocol { li { (line) } } }
         }
         p.soft { "The plant is: " (report.plant) ". The verdict in the report is " code { (report.verdict.name()) } ": " (report.summary) "." }
     })

@@ -143,7 +143,7 @@ impl Document {
                     a.skip href="#content" { "Skip to the content" }
                     header.top {
                         div { span.brand { "rigproof" } " " span.what { (self.kind) " · " (self.about) } }
-                        button #theme type="button" aria-pressed="false" { "Dark" }
+                        button #theme type="button" { "Dark" }
                     }
                     main #content {
                         (self.headline.markup())

@@ -4,7 +4,10 @@ use rigproof_diagnose::report::{Number, Rate};
 
 /// A number with as many significant digits, in powers of ten only where it is very large or small.
 pub fn significant(value: f64, digits: usize) -> String {
-    if value == 0.0 || !value.is_finite() {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    if !value.is_finite() {
         return value.to_string();
     }
     let scientific = format!("{value:.*e}", digits.saturating_sub(1));
@@ -29,9 +32,19 @@ pub fn grouped(count: u64) -> String {
     groups.join("\u{202f}")
 }
 
-/// A share as per cent.
+/// A share as per cent; what rounds to nothing has no sign.
 pub fn percent(share: f64) -> String {
-    format!("{:.0} %", 100.0 * share)
+    // −0 and 0 are 0.
+    format!("{:.0} %", (100.0 * share).round() + 0.0)
+}
+
+/// A probability, never more certain than two digits can say.
+pub fn probability(share: f64) -> String {
+    match share {
+        share if share > 0.99 => "above 99 %".to_owned(),
+        share if share < 0.01 => "below 1 %".to_owned(),
+        share => percent(share),
+    }
 }
 
 /// How often of how many, with its interval.
@@ -80,12 +93,19 @@ mod tests {
             (2.5e-7, "2.500e-7"),
             (7.25e8, "7.250e8"),
             (0.0, "0"),
+            (-0.0, "0"),
             (f64::NAN, "NaN"),
         ] {
             assert_eq!(significant(value, 4), expected);
         }
         assert_eq!(with_unit(1.5, "1"), "1.500");
         assert_eq!(percent(0.374), "37 %");
+        assert_eq!(
+            [1.0, 0.97, 0.0].map(probability),
+            ["above 99 %", "97 %", "below 1 %"]
+        );
+        assert_eq!(percent(-0.004), "0 %");
+        assert_eq!(percent(-0.026), "-3 %");
         assert_eq!(
             [7, 921, 1004, 8_512_034].map(grouped),
             ["7", "921", "1\u{202f}004", "8\u{202f}512\u{202f}034"]

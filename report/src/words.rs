@@ -28,6 +28,22 @@ pub fn plain_at(name: &str, joint: Option<&str>) -> String {
     }
 }
 
+/// What the field calls a mechanism, with its name in files where the one does not hold the other: `Coulomb friction (dry_offset) at 3`.
+pub fn called_at(name: &str, joint: Option<&str>) -> String {
+    let called = Mechanism::from_name(name).map(Mechanism::called);
+    let what = match called {
+        Some(called) if called.to_lowercase().contains(&name.replace('_', " ")) => {
+            called.to_owned()
+        }
+        Some(called) => format!("{called} ({name})"),
+        None => name.to_owned(),
+    };
+    match joint {
+        Some(joint) => format!("{what} at {joint}"),
+        None => what,
+    }
+}
+
 /// What to look for on the rig; nothing for a name that is not in the vocabulary.
 pub fn look_for(name: &str) -> Option<&'static str> {
     Some(words(Mechanism::from_name(name)?).look_for)
@@ -69,6 +85,18 @@ pub fn at_rest(own: &HeldJoint, unit: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_word_of_the_field_stands_beside_a_name_that_is_another_one() {
+        let at_three = called_at("dry_offset", Some("3"));
+        assert_eq!(at_three, "Coulomb friction (dry_offset) at 3");
+        assert_eq!(called_at("viscous", None), "viscous friction");
+        assert_eq!(
+            called_at("stribeck", None),
+            "breakaway (Stribeck) friction peak"
+        );
+        assert_eq!(called_at("unheard_of", None), "unheard_of");
+    }
 
     #[test]
     fn a_cause_is_said_in_plain_words_and_a_name_of_none_stands_as_it_is() {

@@ -9,10 +9,10 @@ pub const LEAST_TURNING_RAD_S: f64 = 1e-9;
 /// first motion is no reversal.
 pub const NOT_MOVED: f64 = 2.0;
 
-/// Declares the vocabulary: a block a mechanism, with its meaning, its variant, its name in files, other words for it
-/// that somebody may try, and its parameters in their order.
+/// Declares the vocabulary: a block a mechanism, with its meaning, its variant, its name in files, what the field calls it,
+/// other words for it that somebody may try, and its parameters in their order.
 macro_rules! vocabulary {
-    ($($(#[doc = $doc:literal])+ $variant:ident = $name:literal $(| $also:literal)* [$($parameter:expr),* $(,)?],)+) => {
+    ($($(#[doc = $doc:literal])+ $variant:ident = $name:literal called $called:literal $(| $also:literal)* [$($parameter:expr),* $(,)?],)+) => {
         /// A physical mechanism that a model may contain or may have left out.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum Mechanism {
@@ -27,6 +27,13 @@ macro_rules! vocabulary {
             pub const fn name(self) -> &'static str {
                 match self {
                     $(Mechanism::$variant => $name,)+
+                }
+            }
+
+            /// What the field calls it, for a person who reads.
+            pub const fn called(self) -> &'static str {
+                match self {
+                    $(Mechanism::$variant => $called,)+
                 }
             }
 
@@ -50,70 +57,70 @@ macro_rules! vocabulary {
 
 vocabulary! {
     /// Rate-independent (Coulomb) friction.
-    DryOffset = "dry_offset" | "coulomb" | "dry friction" | "coulomb friction" [needed("level", Effort)],
+    DryOffset = "dry_offset" called "Coulomb friction" | "coulomb" | "dry friction" | "dry" | "sliding friction" [needed("level", Effort)],
     /// Wrong torque constant of a drive or a brake.
-    GainError = "gain_error" | "gain" | "torque constant" [needed("fraction", Number)],
+    GainError = "gain_error" called "wrong gain" | "gain" | "torque constant" | "motor constant" [needed("fraction", Number)],
     /// Friction proportional to speed.
-    Viscous = "viscous" | "damping" | "viscous friction" [needed("coefficient", EffortPerSpeed)],
+    Viscous = "viscous" called "viscous friction" | "damping" | "drag" | "damper" [needed("coefficient", EffortPerSpeed)],
     /// Different friction in the two directions of motion.
-    DirectionAsymmetry = "direction_asymmetry" | "asymmetry" | "asymmetric friction" [needed("viscous", EffortPerSpeed), needed("dry", Effort)],
+    DirectionAsymmetry = "direction_asymmetry" called "direction-dependent friction" | "asymmetry" | "asymmetric friction" [needed("viscous", EffortPerSpeed), needed("dry", Effort)],
     /// Friction that falls with rising speed near standstill.
-    Stribeck = "stribeck" | "stiction" | "breakaway" [
+    Stribeck = "stribeck" called "breakaway (Stribeck) friction peak" | "stiction" | "breakaway" | "static friction" | "breakaway peak" [
         needed("peak", Effort),
         needed("speed", Speed).above_zero(),
         needed("exponent", Number),
         optional("travel", Travel).above_zero(),
     ],
     /// Higher torque of a brake just after a reversal.
-    ReversalOvershoot = "reversal_overshoot" | "overshoot" [needed("fraction", Number), needed("travel", Travel).above_zero()],
+    ReversalOvershoot = "reversal_overshoot" called "torque overshoot after a reversal" | "overshoot" [needed("fraction", Number), needed("travel", Travel).above_zero()],
     /// Friction that is higher just after each reversal.
-    FrictionOvershoot = "friction_overshoot" | "breakaway overshoot" [needed("level", Effort), needed("travel", Travel).above_zero()],
+    FrictionOvershoot = "friction_overshoot" called "friction overshoot after a reversal" | "breakaway overshoot" [needed("level", Effort), needed("travel", Travel).above_zero()],
     /// Wrong width of the backlash window.
-    BacklashWidth = "backlash_width" [needed("width", Travel).not_below_zero()],
+    BacklashWidth = "backlash_width" called "backlash of a brake" [needed("width", Travel).not_below_zero()],
     /// Elastic motion before sliding (Dahl 1968).
-    Presliding = "presliding" | "dahl" | "bristle" [needed("level", Effort), needed("travel", Travel).above_zero()],
+    Presliding = "presliding" called "presliding friction" | "dahl" | "bristle" [needed("level", Effort), needed("travel", Travel).above_zero()],
     /// Elastic motion before sliding, with another limit in each direction.
-    AsymmetricPresliding = "asymmetric_presliding" | "asymmetric dahl" [
+    AsymmetricPresliding = "asymmetric_presliding" called "presliding friction, uneven" | "asymmetric dahl" [
         needed("forward", Effort),
         needed("backward", Effort),
         needed("travel", Travel).above_zero(),
     ],
     /// Memory of the current history.
-    CurrentHysteresis = "current_hysteresis" | "remanence" | "magnetic hysteresis" [
+    CurrentHysteresis = "current_hysteresis" called "magnetic hysteresis" | "remanence" [
         needed("share", Number),
         needed("half_width", Current).above_zero(),
         optional("closing", Current).not_below_zero(),
     ],
     /// Memory of the displacement history (Bouc 1967, Wen 1976).
-    Hysteresis = "hysteresis" | "bouc-wen" | "bouc_wen" [
+    Hysteresis = "hysteresis" called "Bouc-Wen hysteresis" | "bouc-wen" | "bouc_wen" [
         needed("alpha", EffortPerTravel),
         needed("beta_gamma", PerTravel),
         needed("beta_delta", PerTravel),
     ],
     /// First-order delay of the commanded effort.
-    Lag = "lag" | "slow drive" [needed("time_constant", Time).above_zero()],
+    Lag = "lag" called "first-order lag of the drive" | "slow drive" | "low-pass" [needed("time_constant", Time).above_zero()],
     /// Pure delay of the commanded effort.
-    DeadTime = "dead_time" | "latency" [needed("delay", Time).above_zero()],
+    DeadTime = "dead_time" called "dead time" | "latency" | "delay" | "transport delay" [needed("delay", Time).above_zero()],
     /// Limited effort.
-    Saturation = "saturation" | "clipping" [needed("limit", Current).not_below_zero()],
+    Saturation = "saturation" called "saturation of a brake" | "clipping" [needed("limit", Current).not_below_zero()],
     /// Friction proportional to the transmitted load.
-    LoadDependent = "load_dependent" | "load friction" [needed("arm", Length)],
+    LoadDependent = "load_dependent" called "friction under load at the tip" | "load friction" [needed("arm", Length)],
     /// Torque lost to heating.
-    ThermalFade = "thermal_fade" | "fade" | "heat" [needed("per_joule", PerEnergy), needed("cooling", Time).above_zero()],
+    ThermalFade = "thermal_fade" called "fade by heat" | "fade" | "heat" [needed("per_joule", PerEnergy), needed("cooling", Time).above_zero()],
     /// Torque changed by rest (particle settling).
-    Settling = "settling" | "sedimentation" [needed("level", Effort), needed("travel", Travel).above_zero()],
+    Settling = "settling" called "settling of particles" | "sedimentation" [needed("level", Effort), needed("travel", Travel).above_zero()],
     /// Force periodic in position.
-    Ripple = "ripple" | "cogging" [needed("sine", Effort), needed("cosine", Effort), needed("period", Travel).above_zero()],
+    Ripple = "ripple" called "torque ripple (cogging)" | "cogging" [needed("sine", Effort), needed("cosine", Effort), needed("period", Travel).above_zero()],
     /// Weight of a tilted mechanism.
-    Gravity = "gravity" | "tilt" | "weight" [needed("x", Acceleration), needed("y", Acceleration)],
+    Gravity = "gravity" called "gravity" | "tilt" | "weight" [needed("x", Acceleration), needed("y", Acceleration)],
     /// Linear spring.
-    Spring = "spring" | "stiffness" [needed("stiffness", EffortPerTravel), optional("rest", Travel)],
+    Spring = "spring" called "linear spring" | "stiffness" [needed("stiffness", EffortPerTravel), optional("rest", Travel)],
     /// Constant force.
-    ConstantBias = "constant_bias" | "bias" | "offset" [needed("level", Effort)],
+    ConstantBias = "constant_bias" called "constant bias" | "bias" | "offset" [needed("level", Effort)],
     /// Constant force that drifts with the time since the start.
-    BiasDrift = "bias_drift" | "drift" [needed("rate", EffortPerTime)],
+    BiasDrift = "bias_drift" called "drift of the bias" | "drift" [needed("rate", EffortPerTime)],
     /// Wrong inertia.
-    InertiaError = "inertia_error" | "inertia" [
+    InertiaError = "inertia_error" called "wrong inertia of an arm" | "inertia" [
         needed("arm_ae", MomentOfInertia),
         needed("arm_bc", MomentOfInertia),
         needed("arm_ed", MomentOfInertia),
@@ -121,69 +128,69 @@ vocabulary! {
         needed("tip", Mass),
     ],
     /// Extra mass at the tip.
-    Payload = "payload" | "tip mass" [needed("mass", Mass)],
+    Payload = "payload" called "payload" | "tip mass" [needed("mass", Mass)],
     /// Friction at a joint without a brake.
-    BearingFriction = "bearing_friction" | "bearing" [needed("level", Effort)],
+    BearingFriction = "bearing_friction" called "bearing friction" | "bearing" [needed("level", Effort)],
     /// Structural flexibility.
-    Compliance = "compliance" | "flexibility" | "elasticity" [
+    Compliance = "compliance" called "structural compliance" | "flexibility" | "elasticity" | "flexible joint" [
         needed("share", Number),
         needed("resonance", PerTime).above_zero(),
         needed("damping", Number).above_zero(),
     ],
     /// Time shift between two channels.
-    ChannelSkew = "channel_skew" | "skew" [needed("delay", Time)],
+    ChannelSkew = "channel_skew" called "time skew between channels" | "skew" [needed("delay", Time)],
     /// Wrong scale of a position channel.
-    EncoderScale = "encoder_scale" | "encoder gain" [needed("fraction", Number)],
+    EncoderScale = "encoder_scale" called "encoder scale error" | "encoder gain" [needed("fraction", Number)],
     /// Wrong zero of a position channel.
-    EncoderOffset = "encoder_offset" | "homing" [needed("angle", Angle)],
+    EncoderOffset = "encoder_offset" called "encoder zero error" | "homing" [needed("angle", Angle)],
     /// Wrong scale of a force channel.
-    ForceGain = "force_gain" | "force scale" [needed("fraction", Number)],
+    ForceGain = "force_gain" called "force sensor gain error" | "force scale" [needed("fraction", Number)],
     /// Wrong zero of a force channel.
-    ForceBias = "force_bias" | "tare" | "force offset" [needed("x", Force), needed("y", Force)],
+    ForceBias = "force_bias" called "force sensor bias" | "tare" | "force offset" [needed("x", Force), needed("y", Force)],
     /// Rotated force sensor.
-    ForceRotation = "force_rotation" | "force angle" [needed("angle", Angle)],
+    ForceRotation = "force_rotation" called "rotated force sensor" | "force angle" [needed("angle", Angle)],
     /// Cubic spring.
-    NonlinearSpring = "nonlinear_spring" | "duffing" | "cubic spring" [needed("cubic", EffortPerCubicTravel)],
+    NonlinearSpring = "nonlinear_spring" called "cubic (Duffing) spring" | "duffing" | "cubic spring" [needed("cubic", EffortPerCubicTravel)],
     /// Friction proportional to a power of speed.
-    VelocityPower = "velocity_power" | "quadratic drag" | "turbulent drag" [
+    VelocityPower = "velocity_power" called "drag by a power of speed" | "quadratic drag" | "turbulent drag" [
         needed("coefficient", Effort),
         needed("exponent", Number).above_zero(),
     ],
     /// Elastic motion before sliding with drag beside it (Canudas de Wit et al. 1995).
-    LugreBristle = "lugre_bristle" | "lugre" [
+    LugreBristle = "lugre_bristle" called "LuGre friction" | "lugre" [
         needed("level", Effort),
         needed("viscous", EffortPerSpeed),
         needed("travel", Travel).above_zero(),
     ],
     /// Elastic motion before sliding on Dahl's own curve (Dahl 1968).
-    DahlBristle = "dahl_bristle" [
+    DahlBristle = "dahl_bristle" called "Dahl friction" [
         needed("level", Effort),
         needed("travel", Travel).above_zero(),
         needed("exponent", Number).above_zero(),
     ],
     /// Wrong time constants of a brake.
-    TimeConstant = "time_constant" | "slow brake" [needed("scale", Number).above_zero()],
+    TimeConstant = "time_constant" called "wrong time constant of a brake" | "slow brake" [needed("scale", Number).above_zero()],
     /// An amplifier that gives another current than the commanded one.
-    CurrentGain = "current_gain" | "amplifier gain" [needed("scale", Number).above_zero()],
+    CurrentGain = "current_gain" called "current gain error" | "amplifier gain" [needed("scale", Number).above_zero()],
     /// A spring from the tip to an anchor in the plane.
-    PlaneSpring = "plane_spring" | "tether" [
+    PlaneSpring = "plane_spring" called "spring to an anchor" | "tether" [
         needed("stiffness", EffortPerTravel),
         needed("tension", Force),
         needed("x", Length),
         needed("y", Length),
     ],
     /// An arm of another length than described.
-    LinkLength = "link_length" | "arm length" [needed("more", Length)],
+    LinkLength = "link_length" called "wrong link length" | "arm length" [needed("more", Length)],
     /// Friction that is missing while a gap is crossed after a reversal.
-    Backlash = "backlash" | "play" | "dead zone" [needed("missing", Effort), needed("gap", Travel).above_zero()],
+    Backlash = "backlash" called "backlash" | "play" | "dead zone" | "deadband" | "lost motion" [needed("missing", Effort), needed("gap", Travel).above_zero()],
     /// Friction in proportion to the effort that a joint transmits.
-    LoadFriction = "load_friction" | "gear efficiency" [needed("share", Number).not_below_zero()],
+    LoadFriction = "load_friction" called "friction under load" | "gear efficiency" [needed("share", Number).not_below_zero()],
     /// Friction that falls with time.
-    FrictionFade = "friction_fade" | "warming up" [needed("rate", PerTime)],
+    FrictionFade = "friction_fade" called "fading friction" | "warming up" [needed("rate", PerTime)],
     /// Another inertia than the described one.
-    AddedInertia = "added_inertia" | "load inertia" [needed("inertia", Inertia)],
+    AddedInertia = "added_inertia" called "wrong inertia" | "load inertia" | "armature" [needed("inertia", Inertia)],
     /// Other inertial numbers of a link than the described ones, as far as efforts hang on them.
-    LinkInertia = "link_inertia" | "base parameters" | "link mass" [
+    LinkInertia = "link_inertia" called "wrong inertial numbers of a link" | "base parameters" | "link mass" [
         needed("mass", Mass),
         needed("x", FirstMoment),
         needed("y", FirstMoment),
@@ -196,9 +203,9 @@ vocabulary! {
         needed("zz", MomentOfInertia),
     ],
     /// A greatest effort of the drive.
-    DriveSaturation = "drive_saturation" | "torque limit" [needed("limit", Effort).above_zero()],
+    DriveSaturation = "drive_saturation" called "saturation of the drive" | "torque limit" | "torque saturation" [needed("limit", Effort).above_zero()],
     /// An encoder whose disc turns off its centre.
-    EccentricEncoder = "eccentric_encoder" | "eccentricity" [needed("sine", Travel), needed("cosine", Travel)],
+    EccentricEncoder = "eccentric_encoder" called "encoder eccentricity" | "eccentricity" [needed("sine", Travel), needed("cosine", Travel)],
 }
 
 impl Mechanism {
@@ -209,14 +216,28 @@ impl Mechanism {
             .find(|mechanism| mechanism.name() == name)
     }
 
-    /// The mechanism that somebody may mean by a word that is not its name.
+    /// The mechanism that somebody means by another word for it, however that is written: `Coulomb`, `dead-band`.
     pub fn meant_by(word: &str) -> Option<Mechanism> {
         let meant = |own: &Mechanism| {
-            own.also()
-                .iter()
-                .any(|also| also.eq_ignore_ascii_case(word))
+            let mut words = [own.name(), own.called()]
+                .into_iter()
+                .chain(own.also().iter().copied());
+            words.any(|own| same_word(own, word))
         };
-        Mechanism::ALL.into_iter().find(meant)
+        let is_name = Mechanism::from_name(word).is_some();
+        Mechanism::ALL
+            .into_iter()
+            .find(|own| !is_name && meant(own))
+    }
+
+    /// Every mechanism whose other words or whose word in the field hold this one, such as `friction`; the plainest come first.
+    pub fn suggested_by(word: &str) -> impl Iterator<Item = Mechanism> + '_ {
+        let holds = move |text: &str| {
+            let mut parts = text.split(|c: char| !c.is_alphanumeric());
+            parts.any(|part| part.eq_ignore_ascii_case(word))
+        };
+        let all = Mechanism::ALL.into_iter();
+        all.filter(move |own| holds(own.called()) || own.also().iter().any(|also| holds(also)))
     }
 
     /// How many of the parameters may not be left out.
@@ -224,6 +245,15 @@ impl Mechanism {
         let all = self.parameters().iter();
         all.filter(|parameter| !parameter.is_optional).count()
     }
+}
+
+/// Whether two words are one, letter case, blanks and marks between their parts left out.
+fn same_word(one: &str, other: &str) -> bool {
+    fn letters(word: &str) -> impl Iterator<Item = char> + '_ {
+        let plain = word.chars().filter(|c| c.is_alphanumeric());
+        plain.flat_map(char::to_lowercase)
+    }
+    letters(one).eq(letters(other))
 }
 
 /// One parameter of a mechanism.
@@ -383,11 +413,13 @@ mod tests {
     #[test]
     fn names_and_other_words_are_unique_and_read_back() {
         assert_eq!(Mechanism::meant_by("Coulomb"), Some(Mechanism::DryOffset));
+        assert_eq!(Mechanism::meant_by("dead-band"), Some(Mechanism::Backlash));
         for mechanism in Mechanism::ALL {
             assert_eq!(Mechanism::from_name(mechanism.name()), Some(mechanism));
             assert_eq!(Mechanism::meant_by(mechanism.name()), None);
             for other in Mechanism::ALL {
                 let is_other = other != mechanism;
+                assert!(!is_other || other.called() != mechanism.called());
                 assert!(!is_other || other.name() != mechanism.name());
                 for word in mechanism.also() {
                     assert!(*word != other.name());
@@ -396,8 +428,18 @@ mod tests {
             }
             for word in mechanism.also() {
                 assert_eq!(Mechanism::meant_by(word), Some(mechanism));
+                assert!(!same_word(word, mechanism.called()), "{word}");
             }
         }
+    }
+
+    #[test]
+    fn a_family_suggests_its_members_the_plainest_first() {
+        let mut friction = Mechanism::suggested_by("Friction");
+        assert_eq!(friction.next(), Some(Mechanism::DryOffset));
+        assert_eq!(friction.next(), Some(Mechanism::Viscous));
+        assert!(friction.any(|own| own == Mechanism::Stribeck));
+        assert_eq!(Mechanism::suggested_by("zeal").count(), 0);
     }
 
     #[test]

@@ -3,6 +3,7 @@
 mod citations;
 mod ledger;
 mod packages;
+mod pages;
 mod plants;
 mod rooms;
 mod rules;

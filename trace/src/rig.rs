@@ -38,6 +38,9 @@ pub use servo::{RecordingEntry, Servo};
 /// The first line of a description that is written: where an editor finds what may stand in it, beside the file.
 pub const SCHEMA_LINE: &str = "#:schema rig.schema.json";
 
+/// Every word for a plant in a description.
+const PLANTS: [&str; 4] = ["axis", "bench", "rig", "chain"];
+
 /// What stands in a description that was begun for somebody, wherever something is to be filled in.
 pub const FILL_IN: &str = "fill in";
 

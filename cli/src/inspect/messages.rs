@@ -1,10 +1,12 @@
 //! This file says what is in an MCAP file.
 
 use rigproof_trace::mcap::{self, TopicSummary};
+use rigproof_trace::suggest::advice;
 use serde_json::{Value, json};
 
 use super::{Args, next, show, signal, signal::SignalView, skeleton, write_rig};
 use crate::outcome::{Failure, Outcome, print};
+use crate::shell;
 use crate::text::number::significant;
 use crate::text::section;
 
@@ -12,6 +14,9 @@ use crate::text::section;
 const MOST_STILL: usize = 8;
 /// A stamp that lies further from the writing of its message, in s, is of another clock: about three years.
 const ANOTHER_CLOCK_S: f64 = 1e8;
+
+/// Of more topics each is one line, until one is asked for.
+const MOST_TOPICS: usize = 12;
 
 /// Numbers of stamps that are named.
 const STAMPS: usize = 2;
@@ -33,7 +38,7 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
             .collect(),
         topic,
     });
-    let topics: Vec<TopicView> = topics.collect();
+    let topics = chosen(args, topics.collect())?;
     if let Some(file) = &args.write_rig {
         let signals: Vec<&SignalView> = topics.iter().flat_map(|view| &view.signals).collect();
         let time = args.time_column();
@@ -76,11 +81,58 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
             integrity.iter().map(|line| format!("  {line}")),
         ),
     ];
-    sections.extend(topics.iter().map(|view| view.lines(args.ascii)));
-    sections.push(section("Metadata and attachments", metadata.chain(inside)));
     let seen = topics.iter().any(|view| !view.signals.is_empty());
+    if topics.len() > MOST_TOPICS && args.topic.is_empty() {
+        sections.push(section("Topics", one_by_one(&topics)));
+        let name = topics
+            .first()
+            .map_or("NAME", |view| view.topic.name.as_str());
+        let command = shell::line(&["rigproof", "inspect"], &[("", args.recording.as_path())]);
+        let more = format!("  {command} --topic {name}   (its channels)");
+        sections.push(section("One topic", [more]));
+    } else {
+        sections.extend(topics.iter().map(|view| view.lines(args.ascii)));
+    }
+    sections.push(section("Metadata and attachments", metadata.chain(inside)));
     sections.push(section("Next", seen.then(|| format!("  {}", next(args)))));
     show(sections)
+}
+
+/// The topics that are asked for: all, unless `--topic` names some.
+fn chosen(args: &Args, mut topics: Vec<TopicView>) -> Result<Vec<TopicView>, Failure> {
+    let names: Vec<&str> = topics.iter().map(|view| view.topic.name.as_str()).collect();
+    let unknown = args.topic.iter().find(|own| !names.contains(&own.as_str()));
+    if let Some(own) = unknown {
+        let problem = format!("`{own}` is no topic; {}", advice(own, "topics", &names));
+        return Err(Failure::unusable(&args.recording, problem));
+    }
+    topics.retain(|view| args.topic.is_empty() || args.topic.contains(&view.topic.name));
+    Ok(topics)
+}
+
+/// A line a topic, in the order of their names: those below one name stand together.
+fn one_by_one(topics: &[TopicView]) -> Vec<String> {
+    let mut topics: Vec<&TopicView> = topics.iter().collect();
+    topics.sort_by(|a, b| a.topic.name.cmp(&b.topic.name));
+    let names = topics.iter().map(|view| view.topic.name.chars().count());
+    let width = names.max().unwrap_or(0);
+    let lines = topics.iter().map(|view| {
+        let topic = &view.topic;
+        let rate = match topic.messages > 2 {
+            true => format!("{} Hz", significant(1.0 / topic.step_s, 4)),
+            false => String::new(),
+        };
+        let numbers = view.signals.iter().filter(|own| !is_stamp(&own.name));
+        let line = format!(
+            "  {:<width$}  {:>9} messages  {rate:>9}  {:>5} channels  {}",
+            topic.name,
+            topic.messages,
+            numbers.count(),
+            topic.type_name
+        );
+        line.trim_end().to_owned()
+    });
+    lines.collect()
 }
 
 impl TopicView {

@@ -8,8 +8,15 @@ use super::scale::Scale;
 use super::{NAMED, NOMINAL, RECORDED, heading, legend, page};
 use crate::text::number::significant;
 
-/// The picture as SVG.
+/// The picture of a diagnosis as SVG.
 pub fn before_after(rig: &str, report: &Report, curves: &Curves) -> String {
+    let subtitle = format!("{rig}, held-out part{}", figures(report.fit.as_ref()));
+    let names = ["nominal model, its unknowns fitted", "with what is named"];
+    overlay((&heading(report), &subtitle), names, curves)
+}
+
+/// A recording and two models over it, and the error of each, as SVG.
+pub fn overlay((title, subtitle): (&str, &str), [old, new]: [&str; 2], curves: &Curves) -> String {
     let time = || {
         let (first, last) = range(curves.time_s.iter().copied());
         Scale::exact(first, last, "time from the first sample", "s")
@@ -43,15 +50,14 @@ pub fn before_after(rig: &str, report: &Report, curves: &Curves) -> String {
     lower.curve(&curves.time_s, &before, NOMINAL, 1.0);
     lower.curve(&curves.time_s, &after, NAMED, 1.0);
 
-    let subtitle = format!("{rig}, held-out part{}", figures(report.fit.as_ref()));
-    let page = page(680.0, &heading(report), &subtitle);
+    let page = page(680.0, title, subtitle);
     let page = legend(
         page,
         76.0,
         &[
             ("recorded", RECORDED, 4.0),
-            ("nominal model, its unknowns fitted", NOMINAL, 2.0),
-            ("with what is named", NAMED, 2.0),
+            (old, NOMINAL, 2.0),
+            (new, NAMED, 2.0),
         ],
     );
     page.add(upper.finish("output"))

@@ -2,7 +2,7 @@
 
 use rigproof_diagnose::report::{BeforeAfter, HELD_OUT_PART, Horizon, Report};
 
-use super::number::significant;
+use super::number::{percent, significant};
 use super::section;
 
 /// The errors before and after, on what was fitted and on what was not.
@@ -11,34 +11,38 @@ pub fn before_after(report: &Report) -> Vec<String> {
         return Vec::new();
     };
     let unit = fit.unit.as_str();
-    let mut lines = vec![part("fitted part", fit.train, unit)];
+    let mut lines = vec![part("fitted data", fit.train, unit)];
     lines.extend(
         fit.held_out
-            .map(|errors| part("held-out part", errors, unit)),
+            .map(|errors| part("held-out data", errors, unit)),
     );
     let alone = |error: f64, how: &str| {
         let error = significant(error, 4);
-        format!("  {:<26} {error} {unit} {how}", "held-out part")
+        format!("  {:<26} {error} {unit} {how}", "held-out data")
     };
     let windows = fit.held_out_without_refit;
-    lines
-        .extend(windows.map(|error| alone(error, "with the numbers of the windows, not refitted")));
+    lines.extend(windows.map(|error| {
+        alone(
+            error,
+            "with the numbers of the first fit, before free runs refine them",
+        )
+    }));
     let rest = fit.held_out_from_rest;
     lines.extend(rest.map(|error| alone(error, "started from rest, without a warm-up")));
     lines.extend(fit.horizon.iter().map(ahead));
     if !report.effects.is_empty() {
         lines.push(if fit.improved {
-            let share = 100.0 * fit.recovered_share;
-            format!("  {share:.0} % of the improvement that sensor noise allows is reached on the held-out part")
+            let share = percent(fit.recovered_share);
+            format!("  {share} of what a perfect model would gain on held-out data is gained")
         } else {
-            "  the held-out part did not improve: do not use this calibration".to_owned()
+            "  held-out data did not improve: do not use this calibration".to_owned()
         });
     }
     let disagrees = fit.agreement.as_ref().and_then(|own| own.said(unit));
     lines.extend(disagrees.map(|said| format!("  {said}")));
     lines.extend(fit.drift.iter().map(|drift| format!("  {drift}")));
     section(
-        "Before and after (nominal model fitted → with what is named)",
+        "Error of the simulation (model as described → with what is named)",
         lines,
     )
 }

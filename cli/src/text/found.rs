@@ -2,7 +2,9 @@
 
 use rigproof_diagnose::report::{EffectReport, Located, Number, Report};
 
-use super::number::{percent, significant, with_interval};
+use rigproof_report::words::called_at;
+
+use super::number::{percent, probability, significant, with_interval};
 use super::section;
 
 /// Regimes that are printed; the report holds all.
@@ -12,7 +14,7 @@ const PLACES: usize = 3;
 pub fn place(report: &Report) -> Vec<String> {
     let lines = report.located.iter().take(PLACES).map(|place| {
         format!(
-            "  {:<38} {} of what is unexplained (95 %: {} to {}), in {} of the time",
+            "  {:<38} {} of the unexplained energy (95 %: {} to {}), in {} of the time",
             regime(place),
             percent(place.share),
             percent(place.share_low95),
@@ -20,7 +22,7 @@ pub fn place(report: &Report) -> Vec<String> {
             percent(place.share_of_time),
         )
     });
-    section("Where the nominal model fails", lines)
+    section("Where the model is wrong", lines)
 }
 
 /// A name with its joint, where there are several.
@@ -47,21 +49,28 @@ pub fn naming(report: &Report) -> Vec<String> {
     let line = |what: &str, residual: f64, standing: String| {
         format!("  {what:<26} {:>11}{standing}", significant(residual, 4))
     };
-    let mut lines = vec![line("nominal model", floor.measured_before, String::new())];
+    let mut lines = vec![line(
+        "model as described",
+        floor.measured_before,
+        String::new(),
+    )];
     lines.extend(report.stages.iter().map(|stage| {
         let standing = format!("   with {}", stage.standing.join(", "));
         let entered = at(stage.entered, stage.joint);
         line(&format!("+ {entered}"), stage.residual, standing)
     }));
     if !report.stages.is_empty() {
-        lines.push(line("what is named", floor.measured_after, String::new()));
+        lines.push(line(
+            "with all that is named",
+            floor.measured_after,
+            String::new(),
+        ));
     }
-    lines.push(line(
-        "sensor noise predicts",
-        floor.predicted,
-        String::new(),
-    ));
-    let heading = format!("How it was named (residual of the windows, {})", floor.unit);
+    lines.push(line("sensor noise alone", floor.predicted, String::new()));
+    let heading = format!(
+        "How the residual fell as names were added (root mean square, {})",
+        floor.unit
+    );
     section(&heading, lines)
 }
 
@@ -71,7 +80,7 @@ pub fn inverse(report: &Report) -> Vec<String> {
         return Vec::new();
     };
     let line = |what: &str, percent: f64| format!("  {what:<26} {percent:>11.4} %");
-    let mut lines = vec![line("nominal model", inverse.nominal_error_percent)];
+    let mut lines = vec![line("model as described", inverse.nominal_error_percent)];
     lines.extend(report.stages.iter().filter_map(|stage| {
         let percent = stage.inverse_error_percent?;
         let with = stage.standing.join(", ");
@@ -82,7 +91,7 @@ pub fn inverse(report: &Report) -> Vec<String> {
     }));
     lines.push(format!("  {}", inverse.protocol));
     section(
-        "Inverse model under the published filter protocol (no verdict rests on it)",
+        "Inverse model, filtered as published, for comparison with figures of others",
         lines,
     )
 }
@@ -102,7 +111,7 @@ pub fn effects(report: &Report) -> Vec<String> {
 fn one(effect: &EffectReport, rivals: &[String]) -> Vec<String> {
     let mut lines = vec![format!(
         "  {}: {}",
-        at(effect.mechanism, effect.joint),
+        called_at(effect.mechanism, effect.joint),
         effect.equation
     )];
     let parameters = effect.parameters.iter();
@@ -110,13 +119,16 @@ fn one(effect: &EffectReport, rivals: &[String]) -> Vec<String> {
         .extend(parameters.map(|(name, number)| format!("    {name} = {}", with_interval(number))));
     lines.extend(onset(effect));
     lines.push(format!(
-        "    z = {:.1} against the model without it; stays in {} of the resampled recordings; takes away {} of the loss",
+        "    probability {}; without it left-out blocks are predicted worse by {:.1} standard errors; named again in {} of the resampled recordings",
+        probability(effect.probability),
         effect.z,
         percent(effect.inclusion),
-        percent(effect.share_explained),
     ));
     if !rivals.is_empty() {
-        lines.push(format!("    cannot be told from: {}", rivals.join(", ")));
+        lines.push(format!(
+            "    this recording cannot rule out in its place: {}",
+            rivals.join(", ")
+        ));
     }
     lines.push(format!("    would be refuted by: {}", effect.refuted_by));
     lines
@@ -136,5 +148,5 @@ fn onset(effect: &EffectReport) -> Option<String> {
 pub fn nominal(report: &Report) -> Vec<String> {
     let numbers = report.nominal.iter();
     let lines = numbers.map(|(name, number)| format!("  {name} = {}", with_interval(number)));
-    section("The nominal model's own numbers after the fit", lines)
+    section("The model's own numbers after the fit", lines)
 }

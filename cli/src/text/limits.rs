@@ -12,7 +12,7 @@ pub fn left_over(report: &Report) -> Vec<String> {
     let mut lines = Vec::new();
     lines.extend(report.floor.as_ref().map(|floor| {
         format!(
-            "  the residual falls from {} to {} times what sensor noise predicts ({})",
+            "  the residual is {} times the sensor noise before and {} times after (noise: {})",
             significant(floor.ratio_before, 3),
             significant(floor.ratio_after, 3),
             with_unit(floor.predicted, &floor.unit),
@@ -31,7 +31,7 @@ pub fn left_over(report: &Report) -> Vec<String> {
         )
     }));
     lines.extend(report.unknown.iter().flat_map(shape));
-    section("What stays", lines)
+    section("What is still unexplained", lines)
 }
 
 fn shape(unknown: &Unknown) -> Vec<String> {
@@ -112,7 +112,7 @@ pub fn not_seen(report: &Report) -> Vec<String> {
         )
     });
     section(
-        "Not named, and from which size on each would have been",
+        "Not seen: an effect smaller than this could hide in the recording",
         lines,
     )
 }

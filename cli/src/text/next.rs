@@ -21,9 +21,9 @@ pub fn experiment(report: &Report) -> Vec<String> {
                 "; sample by sample in {file}, which `simulate` plays"
             )),
         ));
-        lines.push("  then diagnose a folder that holds this recording and the new one: what stays has to explain both".to_owned());
+        lines.push("  then diagnose a folder that holds this recording and the new one: one explanation has to fit both".to_owned());
         if report.verdict == Verdict::PartlyExplained {
-            lines.push("  more than noise is left by what is named: if its law has another form on the rig, the doubt may outlast the experiment".to_owned());
+            lines.push("  more than noise is still unexplained: if the true law has another form, the doubt may outlast the experiment".to_owned());
         }
     }
     lines.extend(next.separations.iter().map(|pair| {

@@ -4,10 +4,10 @@ use std::io::IsTerminal;
 use std::path::Path;
 
 use rigproof_diagnose::report::{EffectReport, Number, Report, Verdict};
-use rigproof_report::number::percent;
-use rigproof_report::words::{list, plain_at, plain_cause};
+use rigproof_report::number::{percent, probability};
+use rigproof_report::words::{called_at, list, plain_at, plain_cause};
 
-use super::found::{at, regime};
+use super::found::regime;
 
 /// The most lines of a summary.
 pub const MOST_LINES: usize = 14;
@@ -128,21 +128,12 @@ fn name(effect: &EffectReport) -> String {
     if let Some(onset) = effect.onset_s {
         parts.push(format!("from {} s on", rounded(onset)));
     }
-    let named = at(effect.mechanism, effect.joint);
+    let named = called_at(effect.mechanism, effect.joint);
     format!(
-        "  {named}: {}; {}",
+        "  {named}: {}; probability {}",
         parts.join(", "),
         probability(effect.probability)
     )
-}
-
-/// How probable, never more certain than two digits can say.
-fn probability(share: f64) -> String {
-    match share {
-        share if share > 0.99 => "probability above 99 %".to_owned(),
-        share if share < 0.01 => "probability below 1 %".to_owned(),
-        share => format!("probability {}", percent(share)),
-    }
 }
 
 /// The error of the simulation before and after, on data that nothing was fitted to where there are such.
@@ -210,7 +201,7 @@ fn with_interval(number: &Number) -> String {
 }
 
 /// Three significant digits; powers of ten only where decimals would be long.
-fn rounded(value: f64) -> String {
+pub fn rounded(value: f64) -> String {
     let size = value.abs();
     if !value.is_finite() {
         return "not a number".to_owned();
@@ -239,13 +230,6 @@ mod tests {
         assert_eq!(rounded(12_345.6), "12346");
         assert_eq!(rounded(9.992e-16), "9.99·10^-16");
         assert_eq!(rounded(f64::NAN), "not a number");
-    }
-
-    #[test]
-    fn nothing_is_more_certain_than_it_can_be() {
-        assert_eq!(probability(1.0), "probability above 99 %");
-        assert_eq!(probability(0.97), "probability 97 %");
-        assert_eq!(probability(0.0), "probability below 1 %");
     }
 
     #[test]

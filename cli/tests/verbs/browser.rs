@@ -72,6 +72,12 @@ fn pages_hold_in_a_browser() {
         "hostile",
     ];
     assert_eq!(desk.runs(&line).status.code(), Some(0));
+    desk.prints(
+        "blind make --plant axis --seed 5 --stratum nothing --out nothing",
+        0,
+    );
+    desk.rigproof("diagnose nothing/recording.csv --rig nothing/rig.toml --out agreed");
+    desk.rigproof("diff rigproof-demo hostile --html compared.html");
     let short: Vec<&str> = recording.lines().take(40).collect();
     desk.put("short.csv", &short.join("\n"));
     assert_eq!(
@@ -92,6 +98,8 @@ fn pages_hold_in_a_browser() {
         "found/report.html",
         "hostile/report.html",
         "short/report.html",
+        "agreed/report.html",
+        "compared.html",
         "trial.html",
         "thesis.html",
         "certified/certificate.html",

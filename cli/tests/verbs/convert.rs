@@ -13,7 +13,7 @@ fn convert(arguments: &[&str]) -> Output {
 }
 
 /// A public recording, or `None` with a printed line where there is none.
-fn public(name: &str) -> Option<PathBuf> {
+pub fn public(name: &str) -> Option<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let data = std::env::var_os("RIGPROOF_DATA").map_or(root.join("../shared/data"), PathBuf::from);
     let path = data.join(name);

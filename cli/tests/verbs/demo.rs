@@ -52,6 +52,11 @@ fn the_hidden_causes_are_named_and_the_model_is_calibrated() {
     );
     assert_eq!(scored["score"], shown["score"]);
     assert_eq!(scored["score"]["exact"], true);
+    let numbers = scored["score"]["parameters"].as_array().unwrap();
+    assert!(numbers.len() > 3, "{scored}");
+    for number in numbers {
+        assert_eq!(number["covered"], true, "{number}");
+    }
     let with = "simulate shown/recording.csv --rig shown/rig.toml --json";
     let rms = |line: &str| desk.json(line, 0)["rms"].as_f64().unwrap();
     let calibrated = rms(&format!("{with} --calibration shown/calibration.toml"));
@@ -62,24 +67,46 @@ fn the_hidden_causes_are_named_and_the_model_is_calibrated() {
 fn the_commitment_is_printed_before_anything_is_named() {
     let desk = Desk::new();
     let text = desk.prints("demo", 0);
-    assert!(text.lines().count() > 40 && !text.contains('\u{1b}'));
+    assert!(text.lines().count() <= 18, "{text}");
+    assert!(!text.contains('\u{1b}'), "{text}");
     let sealed: serde_json::Value =
         serde_json::from_str(&desk.read("rigproof-demo/answer.sealed")).unwrap();
-    let at = |words: &str| {
-        text.find(words)
-            .unwrap_or_else(|| panic!("{words} is missing"))
-    };
-    let places = [
-        sealed["commitment"].as_str().unwrap(),
-        "explained: the model left out",
-        "Where the nominal model fails",
-        "What the model left out",
-        "held-out part",
-        "The seal is opened.",
-        "Hidden (masked)",
-        "Named (explained)",
-        "rigproof-demo/before-after.svg",
-        "Look at it in a browser\n  rigproof-demo/report.html",
-    ];
-    assert!(places.windows(2).all(|pair| at(pair[0]) < at(pair[1])));
+    in_order(
+        &text,
+        &[
+            sealed["commitment"].as_str().unwrap(),
+            "Cause found: the model leaves out",
+            "viscous friction: coefficient",
+            " on held-out data",
+            "rigproof-demo/report.html",
+            "The seal is opened. Hidden were:",
+            "viscous: coefficient",
+            "Every name is right",
+            "4 of 4 intervals hold the hidden number",
+        ],
+    );
+    let whole = desk.prints("demo --verbose", 0);
+    in_order(
+        &whole,
+        &[
+            sealed["commitment"].as_str().unwrap(),
+            "explained: the model left out",
+            "Where the model is wrong",
+            "What the model left out",
+            "held-out data",
+            "The seal is opened.",
+            "Hidden (masked)",
+            "Named (explained)",
+            "rigproof-demo/before-after.svg",
+        ],
+    );
+}
+
+/// Each of the words stands in the text, one after another.
+fn in_order(text: &str, words: &[&str]) {
+    let mut from = 0;
+    for word in words {
+        let place = text[from..].find(word);
+        from += place.unwrap_or_else(|| panic!("{word} is missing: {text}"));
+    }
 }

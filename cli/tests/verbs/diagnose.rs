@@ -67,6 +67,14 @@ fn a_hidden_cause_is_named_and_shown_on_another_recording() {
     assert!((rms - stated).abs() < 1e-6 * stated, "{rms} {stated}");
     let nominal = desk.json("simulate rest.csv --rig case/rig.toml --json", 0);
     assert!(rms < nominal["rms"].as_f64().unwrap());
+    // Both errors stand side by side, and both models in a picture.
+    let without = &simulated["without_calibration"]["effort"]["rms"];
+    assert_eq!(without, &nominal["rms"]);
+    let line = format!("{next} --picture overlay.svg");
+    let said = desk.prints(line.strip_prefix("rigproof ").unwrap(), 0);
+    assert!(said.contains(" N·m → "), "{said}");
+    let picture = desk.read("overlay.svg");
+    assert!(picture.contains("without the calibration") && !picture.contains("NaN"));
 }
 
 #[test]
@@ -175,8 +183,8 @@ fn a_diagnosis_is_printed_on_one_screen_and_quiet_prints_nothing() {
     let report: serde_json::Value =
         serde_json::from_str(&desk.read("first-diagnosis/report.json")).unwrap();
     let name = report["effects"][0]["mechanism"].as_str().unwrap();
+    assert!(text.to_lowercase().contains(name), "{name}: {text}");
     for words in [
-        name,
         "Cause found",
         " on held-out data",
         "probability",
@@ -186,6 +194,13 @@ fn a_diagnosis_is_printed_on_one_screen_and_quiet_prints_nothing() {
     }
     assert!(desk.prints(&format!("{line} --verbose"), 0).lines().count() > 14);
     assert_eq!(desk.prints(&format!("{line} --quiet"), 0), "");
+    // Without --out no diagnosis replaces another.
+    let own = desk.names(".");
+    let own = own.iter().filter(|name| name.starts_with("first-"));
+    let own: Vec<&String> = own.collect();
+    let expected = ["first-diagnosis", "first-diagnosis-2", "first-diagnosis-3"];
+    assert_eq!(own, expected);
+    assert!(text.contains("first-diagnosis/report.html"));
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 use approx::assert_relative_eq;
 
+use crate::convert::public;
 use crate::desk::{Desk, assert_shape};
 
 /// A recording as a German spreadsheet saves it: `;`, decimal commas, a remark and a units row.
@@ -281,4 +282,45 @@ fn structures_of_a_matlab_file_are_shown_one_by_one() {
     );
     let answer = desk.rigproof(&format!("inspect {file} --write-rig rig.toml"));
     assert_eq!(answer.status.code(), Some(2));
+}
+
+#[test]
+fn one_topic_is_shown_where_it_is_asked_for() {
+    let desk = Desk::new();
+    desk.prints(
+        "blind make --plant bench --seed 11 --stratum single --out case",
+        0,
+    );
+    desk.prints("convert case/recording.csv run.mcap", 0);
+    let one = desk.prints("inspect run.mcap --topic /joint_states", 0);
+    assert!(
+        one.contains("/joint_states") && !one.contains("/rigproof/run"),
+        "{one}"
+    );
+    let wrong = desk.rigproof("inspect run.mcap --topic /joint_state");
+    let said = String::from_utf8(wrong.stderr).unwrap();
+    assert!(said.contains("did you mean `/joint_states`?"), "{said}");
+    let text = desk.rigproof("inspect case/recording.csv --topic /joint_states");
+    assert_eq!(text.status.code(), Some(2));
+}
+
+/// Of many topics each is one line; the public bag holds 94.
+#[test]
+fn many_topics_are_a_line_each() {
+    let Some(bag) = public("mcap/test_bag_mcap.mcap") else {
+        return;
+    };
+    let desk = Desk::new();
+    let bag = bag.display().to_string();
+    let answer = desk.runs(&["inspect", &bag]);
+    let text = String::from_utf8(answer.stdout).unwrap();
+    assert!(text.contains("188 messages on 94 topics"), "{text}");
+    assert!((94..94 + 20).contains(&text.lines().count()), "{text}");
+    assert_eq!(
+        text.lines()
+            .filter(|line| line.contains(" channels  "))
+            .count(),
+        94
+    );
+    assert!(text.contains("--topic "), "{text}");
 }

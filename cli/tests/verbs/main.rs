@@ -24,6 +24,7 @@ mod kills;
 mod mcap;
 mod mistakes;
 mod new;
+mod newcomers;
 mod recorded;
 mod reproduce;
 mod serve;

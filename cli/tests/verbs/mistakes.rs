@@ -215,3 +215,34 @@ fn lost_samples() {
         assert!(desk.read("found/report.json").contains("filled in: 2 of "));
     }
 }
+
+#[test]
+fn a_word_for_a_plant_or_a_mechanism_that_is_none() {
+    let robot = desk("axis", "plant = \"axis\"", "plant = \"robot\"");
+    let expected = ["`robot` is no plant", "`axis`, `bench`, `rig`, `chain`"];
+    says(&robot, DIAGNOSE, 3, &expected);
+    let rig = laid_out().read("axis/rig.toml");
+    let described = rig.split("mechanism = ").nth(1).unwrap();
+    let described = described.lines().next().unwrap();
+    let friction = desk("axis", described, "\"friction\"");
+    let expected = ["did you mean `dry_offset` (Coulomb friction)", "`viscous`"];
+    says(&friction, DIAGNOSE, 3, &expected);
+}
+
+#[test]
+fn no_rig_description_yet() {
+    let desk = desk("axis", "axis", "axis");
+    let begins = [
+        "--rig <TOML>",
+        "rigproof inspect RECORDING --write-rig rig.toml",
+    ];
+    says(&desk, "diagnose run.csv", 2, &begins);
+}
+
+#[test]
+fn the_name_of_an_output_says_what_it_is() {
+    let desk = desk("axis", "axis", "axis");
+    let neither = ["run.xyz", "end it in `.csv` or `.mcap`"];
+    says(&desk, "convert run.csv run.xyz", 2, &neither);
+    assert_eq!(desk.names("."), ["rig.toml", "run.csv"]);
+}

@@ -71,6 +71,12 @@ fn every_verb_has_a_manual_page_and_every_shell_its_completions() {
         page.contains("rigproof diagnose") && page.contains("hold\\-out"),
         "{page}"
     );
+    let (_, synopsis) = page.split_once(".SH SYNOPSIS\n").unwrap();
+    let synopsis = synopsis.lines().next().unwrap();
+    assert_eq!(
+        synopsis,
+        "rigproof diagnose [OPTIONS] \\-\\-rig <TOML> <RECORDING>"
+    );
     assert!(!pages.iter().any(|name| name.contains("host")));
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
         let script = desk.prints(&format!("completions {shell}"), 0);

@@ -308,6 +308,7 @@ impl Entry {
 mod tests {
     use super::super::LIBRARY;
     use super::*;
+    use std::iter::once;
 
     /// A mechanism's row on the page.
     fn row(entry: &Entry) -> String {
@@ -345,7 +346,11 @@ mod tests {
             "| `{}` | {} | {forms} | {limit} | {alone} | {five_bar} | {} |",
             entry.mechanism.name(),
             facts.family.name(),
-            entry.mechanism.also().join(", ")
+            once(&entry.mechanism.called())
+                .chain(entry.mechanism.also())
+                .copied()
+                .collect::<Vec<_>>()
+                .join(", ")
         )
     }
 

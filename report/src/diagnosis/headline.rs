@@ -4,7 +4,7 @@ use maud::{Markup, html};
 use rigproof_diagnose::report::{BeforeAfter, EffectReport, Report, Verdict};
 
 use crate::document::{Headline, Tone};
-use crate::number::{percent, significant, with_unit};
+use crate::number::{probability, significant, with_unit};
 use crate::words::{list, plain_at};
 
 /// The top of the page.
@@ -122,12 +122,12 @@ fn outcome(report: &Report) -> Option<Markup> {
     let held_out = fit.held_out.filter(|_| !report.effects.is_empty())?;
     Some(if fit.improved {
         html! {
-            "The check: on a part of the recording that was kept aside, the simulation was off by "
+            "The check, on held-out data that no number was fitted to: the simulation was off by "
             strong { (with_unit(held_out.before, &fit.unit)) } " before and is off by "
             strong { (with_unit(held_out.after, &fit.unit)) } " now" (times(held_out)) "."
         }
     } else {
-        html! { "The check failed: on the part of the recording that was kept aside the simulation did not get better. Do not use this calibration." }
+        html! { "The check failed: on held-out data the simulation did not get better. Do not use this calibration." }
     })
 }
 
@@ -172,18 +172,13 @@ fn cards(report: &Report) -> Vec<[String; 3]> {
             "about 1 means: nothing but noise".to_owned(),
         );
     }
-    let sure = report
-        .effects
-        .iter()
-        .map(|effect| effect.inclusion)
-        .reduce(f64::min);
-    if let Some(inclusion) = sure {
-        let remark = "of the resampled recordings name it again (the least sure of what is named)";
-        card(
-            "How often it comes back",
-            percent(inclusion),
-            remark.to_owned(),
-        );
+    let sure = report.effects.iter().map(|effect| effect.probability);
+    if let Some(least) = sure.reduce(f64::min) {
+        let remark = match report.effects.len() {
+            1 => "that the name is right",
+            _ => "that the least sure of the names is right",
+        };
+        card("How sure", probability(least), remark.to_owned());
     }
     cards
 }

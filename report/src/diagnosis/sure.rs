@@ -3,8 +3,8 @@
 use maud::{Markup, html};
 use rigproof_diagnose::report::{NamedRate, Report};
 
-use crate::number::{percent, rate, significant, with_unit};
-use crate::words::{at_rest, plain_at, plain_cause};
+use crate::number::{percent, probability, rate, significant, with_unit};
+use crate::words::{at_rest, called_at, capital, plain_at, plain_cause};
 
 /// Odds, resampling, floor, trials on simulated recordings, and what could have been overlooked; nothing where nothing was concluded.
 pub fn body(report: &Report) -> Option<Markup> {
@@ -23,13 +23,22 @@ pub fn body(report: &Report) -> Option<Markup> {
 fn effects(report: &Report) -> Markup {
     html! { @if !report.effects.is_empty() {
         div.scroll { table.grid {
-            caption { "How firmly each name stands. z: by how many standard errors the model with it is better on blocks of time that were left out; names need at least a few. Comes back: share of resampled recordings in which it is named again." }
-            thead { tr { th scope="col" { "name" } th.number scope="col" { "z" } th.number scope="col" { "comes back" } th.number scope="col" { "explains" } } }
+            caption { "How probable each name is." }
+            thead { tr { th scope="col" { "name" } th.number scope="col" { "probability" } } }
             tbody { @for effect in &report.effects { tr {
-                th scope="row" { (plain_at(effect.mechanism, effect.joint)) }
-                td.number { (format!("{:.1}", effect.z)) } td.number { (percent(effect.inclusion)) } td.number { (percent(effect.share_explained)) }
+                th scope="row" { (capital(&plain_at(effect.mechanism, effect.joint))) } td.number { (probability(effect.probability)) }
             } } }
         } }
+        details { summary { "What stands behind the probabilities" }
+            div.scroll { table.grid {
+                caption { "Cross-validation: by how many standard errors blocks of time that were left out are predicted better with the name than without it. Resampling: the share of resampled recordings in which it is named again. Explained: the share of the misfit that goes with it." }
+                thead { tr { th scope="col" { "name" } th.number scope="col" { "cross-validation" } th.number scope="col" { "resampling" } th.number scope="col" { "explained" } } }
+                tbody { @for effect in &report.effects { tr {
+                    th scope="row" { (called_at(effect.mechanism, effect.joint)) }
+                    td.number { (format!("{:.1}", effect.z)) } td.number { (percent(effect.inclusion)) } td.number { (percent(effect.share_explained)) }
+                } } }
+            } }
+        }
     } }
 }
 

@@ -5,7 +5,7 @@ use rigproof_diagnose::report::{EffectReport, Number, Report};
 use std::collections::BTreeMap;
 
 use crate::number::{percent, significant, with_unit};
-use crate::words::{capital, look_for, plain_at, plain_cause};
+use crate::words::{called_at, capital, look_for, plain_at, plain_cause};
 
 /// The named mechanisms, what is left unknown, and the nominal model's numbers; nothing where nothing was concluded.
 pub fn body(report: &Report) -> Option<Markup> {
@@ -21,7 +21,7 @@ pub fn body(report: &Report) -> Option<Markup> {
         @for (effect, rivals) in report.effects.iter().zip(rivals) { (one(effect, rivals)) }
         (unknown(report))
         (stages(report))
-        @if !report.nominal.is_empty() { h3 { "What the model already had, after the fit" } (numbers("Numbers of the nominal model.", &report.nominal)) }
+        @if !report.nominal.is_empty() { details { summary { "What the model already had, after the fit" } (numbers("Numbers of the nominal model.", &report.nominal)) } }
         (not_named(report))
     })
 }
@@ -30,7 +30,7 @@ fn one(effect: &EffectReport, rivals: &[String]) -> Markup {
     html! {
         div.effect {
             h3 { (capital(&plain_at(effect.mechanism, effect.joint))) }
-            p.soft { "In the vocabulary: " code { (effect.mechanism) } @if let Some(joint) = effect.joint { " at " (joint) }
+            p.soft { (capital(&called_at(effect.mechanism, effect.joint))) "; in files " code { (effect.mechanism) }
                 @if let Some(look) = look_for(effect.mechanism) { ". On the rig, look at: " (look) "." } }
             div.equation role="math" { (effect.equation) }
             (numbers("Its numbers.", &effect.parameters))
@@ -64,7 +64,7 @@ fn stages(report: &Report) -> Markup {
         return html! {};
     };
     html! {
-        h3 { "How it was named" }
+        details { summary { "How it was named, step by step" }
         div.scroll { table.grid {
             caption { "What was left over as the names entered, one after another (root mean square, " (floor.unit) "). Each had to help on blocks of time that the fit had not seen." }
             thead { tr { th scope="col" { "model" } th.number scope="col" { "left over" } th.number scope="col" { "÷ noise" } th scope="col" { "with" } } }
@@ -75,6 +75,7 @@ fn stages(report: &Report) -> Markup {
                 (stage("sensor noise alone", floor.predicted, floor.predicted, ""))
             }
         } }
+        }
     }
 }
 

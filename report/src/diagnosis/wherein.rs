@@ -6,7 +6,7 @@ use rigproof_diagnose::report::{Located, Report};
 
 use super::{counted, drawing, place};
 use crate::chart::{Axis, Chart, Curve, Span};
-use crate::number::percent;
+use crate::number::{percent, significant};
 
 /// Stretches of the time line.
 const STRETCHES: usize = 120;
@@ -21,21 +21,21 @@ pub fn body(report: &Report, curves: &Curves, charts: &mut Vec<Chart>) -> Option
     let line = (!curves.window_time_s.is_empty()).then(|| time_line(curves));
     Some(html! {
         p.lead { (worst(report)) }
-        (drawing::figure(report))
+        @if report.plant == "rig" { (drawing::figure(report)) }
         @if let Some((chart, caption)) = line { (place(charts, chart, &caption)) }
         (heat(report))
     })
 }
 
-/// Below this excess no kind of motion stands out.
-const EVEN: f64 = 0.2;
+/// Below this ratio no kind of motion stands out.
+const EVEN: f64 = 1.3;
 
-/// The regime with the greatest excess in a sentence.
+/// The regime that the report puts first in a sentence.
 fn worst(report: &Report) -> String {
     let Some(first) = report.located.first() else {
         return "Nothing could be told apart by place.".to_owned();
     };
-    if excess(first) < EVEN {
+    if ratio(first) < EVEN {
         return "The old model fails about alike in every kind of motion: none stands out."
             .to_owned();
     }
@@ -119,59 +119,102 @@ fn unexplained(begins: &[f64], last: f64, ratios: &[f64]) -> Vec<Span> {
     spans
 }
 
-/// The heat map: a row a regime, a column a joint where there are several.
+/// Kinds of motion that are shown; the rest is folded up.
+const ROWS: usize = 6;
+
+/// The heat map: a row a regime, the culprit first, and a column a joint where there are several.
 fn heat(report: &Report) -> Markup {
     let mut joints: Vec<Option<&str>> = Vec::new();
-    let mut regimes: Vec<&str> = Vec::new();
+    let mut regimes: Vec<(&str, f64)> = Vec::new();
     for place in &report.located {
         if !joints.contains(&place.joint) {
             joints.push(place.joint);
         }
-        if !regimes.contains(&place.regime.as_str()) {
-            regimes.push(&place.regime);
+        let own = ratio(place);
+        match regimes.iter_mut().find(|(name, _)| *name == place.regime) {
+            Some((_, most)) => *most = own.max(*most),
+            None => regimes.push((&place.regime, own)),
         }
     }
     joints.sort_unstable_by_key(|joint| joint.map_or(9, |joint| "AEBC".find(joint).unwrap_or(8)));
-    let at = |regime: &str, joint: Option<&str>| {
-        report
-            .located
-            .iter()
-            .find(|p| p.regime == regime && p.joint == joint)
-    };
+    regimes.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let regimes: Vec<&str> = regimes.into_iter().map(|(name, _)| name).collect();
+    let (first, rest) = regimes.split_at(regimes.len().min(ROWS));
     html! {
         figure {
-            div.scroll { table.heat #heat-map {
-                caption { strong { "In which motion." } " Share of what the old model does not explain; in brackets the share of the time. The darker a cell, the more than its share of the time it holds." }
-                thead { tr {
-                    th scope="col" { "kind of motion" }
-                    @for joint in &joints { th scope="col" { @match joint { Some(joint) => { "joint " (joint) } None if joints.len() > 1 => "whole rig", None => "share" } } }
-                } }
-                tbody { @for regime in &regimes { tr {
-                    th scope="row" { (regime) }
-                    @for joint in &joints { @match at(regime, *joint) {
-                        Some(place) => td.cell style={ "--share: " (format!("{:.2}", excess(place))) } { (percent(place.share)) " (" (percent(place.share_of_time)) ")" },
-                        None => td { "–" },
-                    } }
-                } } }
-            } }
+            (regime_table("heat-map", report, &joints, first))
+            @if !rest.is_empty() { details { summary { "Other kinds of motion" } (regime_table("heat-map-rest", report, &joints, rest)) } }
             div.tools { button type="button" data-save-table="heat-map" aria-label="Save CSV: in which motion" { "Save CSV" } }
         }
     }
 }
 
-/// From 0 where a regime holds its share of the time or less, to 1 where it holds everything in no time.
-fn excess(place: &Located) -> f64 {
-    let more = (place.share - place.share_of_time) / (1.0 - place.share_of_time).max(1e-9);
-    if more.is_finite() {
-        more.clamp(0.0, 1.0)
+fn regime_table(id: &str, report: &Report, joints: &[Option<&str>], regimes: &[&str]) -> Markup {
+    let at = |regime: &str, joint: Option<&str>| {
+        let mut all = report.located.iter();
+        all.find(|p| p.regime == regime && p.joint == joint)
+    };
+    html! {
+        div.scroll { table.heat #(id) {
+            caption { strong { "In which motion." } " Share of what the old model does not explain, and how many times its share of the time that is. The darker a cell, the greater that ratio." }
+            thead { tr {
+                th scope="col" { "kind of motion" }
+                @for joint in joints { th scope="col" { @match joint { Some(joint) => { "joint " (joint) } None if joints.len() > 1 => "whole rig", None => "share" } } }
+            } }
+            tbody { @for regime in regimes { tr {
+                th scope="row" { (regime) }
+                @for joint in joints { @match at(regime, *joint) {
+                    Some(place) => td.cell style={ "--share: " (format!("{:.2}", shade(place))) } { (percent(place.share)) " " small { "×" (significant(ratio(place), 2)) } },
+                    None => td { "–" },
+                } }
+            } } }
+        } }
+    }
+}
+
+/// How many times its share of the time a regime holds of what is not explained.
+fn ratio(place: &Located) -> f64 {
+    let ratio = place.share / place.share_of_time.max(1e-9);
+    if ratio.is_finite() {
+        ratio.max(0.0)
     } else {
         0.0
     }
 }
 
+/// The ratio that is darkest.
+const DARKEST: f64 = 8.0;
+
+/// From 0 where a regime holds its share of the time or less, to 1 where it holds eight times as much, by equal steps of the ratio's logarithm.
+fn shade(place: &Located) -> f64 {
+    (libm::log(ratio(place).max(1.0)) / libm::log(DARKEST)).clamp(0.0, 1.0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_cell_is_the_darker_the_more_than_its_share_of_the_time_it_holds() {
+        let at = |share: f64, share_of_time: f64| {
+            shade(&Located {
+                output: "effort",
+                joint: None,
+                from_s: 0.0,
+                to_s: 9.5,
+                regime: "fast".to_owned(),
+                share,
+                share_low95: share,
+                share_high95: share,
+                share_after: 0.0,
+                share_of_time,
+            })
+        };
+        assert_eq!(at(0.3, 0.6), 0.0);
+        assert!(at(0.02, 0.01) > at(0.7, 0.5));
+        assert_eq!(at(0.9, 0.1), 1.0);
+        assert_eq!(at(0.0, 0.0), 0.0);
+    }
 
     #[test]
     fn neighbouring_stretches_are_one() {

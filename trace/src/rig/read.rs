@@ -6,6 +6,7 @@ use std::path::Path;
 use rigproof_spec::effect::{Mechanism, Motion, Quantity, Range};
 use rigproof_spec::units::{Dimension, Unit};
 
+use super::PLANTS;
 use super::table::{Source, Table};
 use super::{
     Brake, ChannelMap, Channels, Parameters, Plant, Protocol, RecordingEntry, Rig, RigEffect,
@@ -41,7 +42,7 @@ impl Rig {
             "provenance",
         ])?;
         let name = root.need("name", root.text("name")?)?.to_string();
-        let plant = choice(&root, "plant", [Plant::Axis, Plant::Bench], Plant::name)?;
+        let plant = plant(&root)?;
         let motion = choice(
             &root,
             "motion",
@@ -77,6 +78,19 @@ impl Rig {
             channels,
         })
     }
+}
+
+/// A plant of one joint. Other plants are read elsewhere, but somebody who looks for a word is told of all of them.
+fn plant(root: &Table<'_>) -> Result<Plant, TraceError> {
+    let word = choice(root, "plant", PLANTS, |word| word)?;
+    let own = [Plant::Axis, Plant::Bench].into_iter();
+    let mut own = own.filter(|plant| plant.name() == word);
+    own.next().ok_or_else(|| {
+        root.error_at(
+            "plant",
+            format!("`{word}` is no plant of one joint; give `axis` or `bench` here"),
+        )
+    })
 }
 
 /// A servo's goal is a position of an axis.
@@ -290,11 +304,8 @@ pub(super) fn read_effect(
         .ok_or_else(|| {
             let computed = Mechanism::ALL.iter().filter(|m| !m.parameters().is_empty());
             let names: Vec<&str> = computed.map(|mechanism| mechanism.name()).collect();
-            let meant = Mechanism::meant_by(word).map(Mechanism::name);
-            let advice = match meant.filter(|name| names.contains(name)) {
-                Some(name) => format!("here it is called `{name}`"),
-                None => advice(word, "mechanisms that a model computes", &names),
-            };
+            let advice = other_word(word, &names)
+                .unwrap_or_else(|| advice(word, "mechanisms that a model computes", &names));
             table.error_at("mechanism", format!("`{word}` cannot be used; {advice}"))
         })?;
     let parameters = mechanism.parameters();
@@ -325,6 +336,24 @@ pub(super) fn read_effect(
         values,
         onset: read_value(table, "onset", Dimension::TIME)?,
     })
+}
+
+/// The most mechanisms that a word such as `friction` suggests.
+const MOST_SUGGESTED: usize = 4;
+
+/// What a word that is no name means here, or which of these names it may mean.
+fn other_word(word: &str, names: &[&str]) -> Option<String> {
+    let is_known = |own: &Mechanism| names.contains(&own.name());
+    if let Some(own) = Mechanism::meant_by(word).filter(is_known) {
+        return Some(format!("here it is called `{}`", own.name()));
+    }
+    let suggested = Mechanism::suggested_by(word).filter(is_known);
+    let said = suggested.map(|own| format!("`{}` ({})", own.name(), own.called()));
+    let said: Vec<String> = said.take(MOST_SUGGESTED).collect();
+    match said.is_empty() {
+        true => None,
+        false => Some(format!("did you mean {}?", said.join(", or "))),
+    }
 }
 
 /// A value with its unit, in SI.

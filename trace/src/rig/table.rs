@@ -32,6 +32,25 @@ impl<'a> Source<'a> {
         })
     }
 
+    /// What else is to be filled in beside the value at a byte position, so that nobody is told one thing at a time.
+    fn others_to_fill_in(&self, except: usize) -> String {
+        let Ok(document) = self.document() else {
+            return String::new();
+        };
+        let mut found = Vec::new();
+        unfilled(document.get_ref(), "", &mut found);
+        found.retain(|(_, at)| *at != except);
+        let before = |at: usize| self.text.get(..at).unwrap_or_default();
+        let others = found
+            .iter()
+            .map(|(key, at)| format!("`{key}` in line {}", before(*at).matches('\n').count() + 1));
+        let others: Vec<String> = others.collect();
+        match others.is_empty() {
+            true => String::new(),
+            false => format!("; so are {}", others.join(", ")),
+        }
+    }
+
     /// An error at a byte position of the text.
     pub fn error(&self, at: usize, problem: impl Into<String>) -> TraceError {
         let before = self.text.get(..at).unwrap_or(self.text);
@@ -43,6 +62,32 @@ impl<'a> Source<'a> {
                 ..Place::line(self.file, before.matches('\n').count() + 1)
             },
             problem: problem.into(),
+        }
+    }
+}
+
+/// The keys below a table that are still to be filled in, with their byte positions, in the order of the text.
+fn unfilled(table: &DeTable<'_>, within: &str, found: &mut Vec<(String, usize)>) {
+    let mut own: Vec<(&str, &Spanned<DeValue<'_>>)> = Vec::new();
+    for (key, value) in table {
+        own.push((key.get_ref(), value));
+    }
+    own.sort_by_key(|(_, value)| value.span().start);
+    for (key, value) in own {
+        let key = match within {
+            "" => key.to_owned(),
+            within => format!("{within}.{key}"),
+        };
+        match value.get_ref() {
+            DeValue::String(text) if text.as_ref() == FILL_IN => {
+                found.push((key, value.span().start));
+            }
+            DeValue::Table(below) => unfilled(below, &key, found),
+            DeValue::Array(items) => items
+                .iter()
+                .filter_map(|item| item.get_ref().as_table())
+                .for_each(|below| unfilled(below, &key, found)),
+            _ => {}
         }
     }
 }
@@ -228,7 +273,9 @@ impl<'a> Table<'a> {
         };
         if value.get_ref().as_str() == Some(FILL_IN) {
             let title = &self.title;
-            let problem = format!("`{key}` of {title} is still to be filled in; give {expected}");
+            let others = self.source.others_to_fill_in(value.span().start);
+            let problem =
+                format!("`{key}` of {title} is still to be filled in; give {expected}{others}");
             return Err(self.error_at(key, problem));
         }
         let found = value.get_ref().type_str();

@@ -95,6 +95,8 @@ const FAULTS: &[(&str, &str, &str, &str)] = &[
     (AXIS, "= \"axis", "= axis", "rig.toml, line 2, column 9: the text is no TOML"),
     (AXIS, "plant = \"axis\"\n", "", "line 1, column 1: `plant` is missing in the file; add it"),
     (AXIS, "\"axis\"", "\"axes\"", "line 2, column 9: `axes` is no plant; did you mean `axis`?"),
+    (AXIS, "\"axis\"", "\"robot\"", "`robot` is no plant; the words are `axis`, `bench`, `rig`, `chain`"),
+    (AXIS, "\"axis\"", "\"chain\"", "`chain` is no plant of one joint; give `axis` or `bench` here"),
     (AXIS, "motion", "motoin", "line 3, column 1: `motoin` is no key of the file; did you mean `motion`?"),
     (AXIS, "channel = \"x\"", "chanel = \"x\"", "line 5, column 14: `chanel` is no key of `position`"),
     (AXIS, "command =", "force =", "line 6, column 1: `force` is no key of `channels`; the keys are"),
@@ -113,6 +115,11 @@ const FAULTS: &[(&str, &str, &str, &str)] = &[
     (AXIS, "sd = 30", "sd = 30, low95 = 1", "the 95 % interval needs"),
     (AXIS, "inertia =", "inertia = 4\ninert =", "`inert` is no key of `parameters`"),
     (AXIS, "\"viscous\"", "\"viscuos\"", "line 11, column 13: `viscuos` cannot be used; did you mean `viscous`?"),
+    (AXIS, "\"viscous\"", "\"Damping\"", "`Damping` cannot be used; here it is called `viscous`"),
+    (AXIS, "\"viscous\"", "\"coulomb\"", "here it is called `dry_offset`"),
+    (AXIS, "\"viscous\"", "\"stiction\"", "here it is called `stribeck`"),
+    (AXIS, "\"viscous\"", "\"deadband\"", "here it is called `backlash`"),
+    (AXIS, "\"viscous\"", "\"friction\"", "did you mean `dry_offset` (Coulomb friction), or `viscous` (viscous friction), or"),
     (AXIS, "coefficient", "coeficient", "line 12, column 1: `coeficient` is no key of `[[effect]]`; did you mean `coefficient`?"),
     (AXIS, "coefficient", "# coefficient", "line 10, column 1: `coefficient` is missing in `[[effect]]`"),
     (AXIS, "\"ms\"", "\"mm\"", "`mm` does not convert to `s`"),
@@ -133,6 +140,19 @@ fn every_fault_has_its_place_and_its_remedy() {
         let one_line = message.starts_with("rig.toml, line ") && !message.contains('\n');
         assert!(one_line, "{message}");
     }
+}
+
+#[test]
+fn all_that_is_to_be_filled_in_is_said_at_once() {
+    let begun = AXIS
+        .replacen("1700,", "\"fill in\",", 1)
+        .replacen("\"u\"", "\"fill in\"", 1)
+        .replacen("\"N/V\"", "\"fill in\"", 1);
+    let message = parse(&begun).unwrap_err();
+    let expected = "line 6, column 23: `channel` of `command` is still to be filled in; give text in quotes; so are `parameters.inertia.value` in line 8, `parameters.command_gain.unit` in line 9";
+    assert!(message.contains(expected), "{message}");
+    let one = parse(&AXIS.replacen("1700,", "\"fill in\",", 1)).unwrap_err();
+    assert!(one.ends_with("give a number"), "{one}");
 }
 
 fn number() -> impl Strategy<Value = f64> {
