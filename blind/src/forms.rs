@@ -145,7 +145,12 @@ impl Names {
             ),
             Form::TimeConstants => (&["time_constant", "lag"], &[]),
             Form::OffState => (&["off_state_torque", "dry_offset"], &[]),
-            Form::Payload | Form::Inertia => (&["payload", "inertia_error", "added_inertia"], &[]),
+            // Of an arm: other numbers of its last link are the same.
+            Form::Payload => (
+                &["payload", "inertia_error", "added_inertia", "link_inertia"],
+                &[],
+            ),
+            Form::Inertia => (&["payload", "inertia_error", "added_inertia"], &[]),
             Form::LinkMass => (&["link_inertia"], &[]),
             Form::Rotor => (&["added_inertia"], &[]),
             Form::Compliance => (&["compliance"], &["payload", "inertia_error"]),

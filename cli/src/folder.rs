@@ -34,6 +34,10 @@ pub fn write(
         diagnosis.report.calibration_file = Some(CALIBRATION.to_owned());
         folder.write(CALIBRATION, diagnosis.calibration.to_toml().as_bytes())?;
         files.push(CALIBRATION);
+        for (name, text) in diagnosis.calibration.beside() {
+            folder.write(name, text.as_bytes())?;
+            files.push(name);
+        }
         let report = &diagnosis.report;
         let curves = &diagnosis.curves;
         for (name, drawn) in [

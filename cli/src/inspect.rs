@@ -1,5 +1,6 @@
 //! This file says what is in a recording that nobody has described yet, and begins a rig description for it.
 
+mod arm;
 mod messages;
 mod noise;
 mod pace;
@@ -42,6 +43,8 @@ pub struct Args {
     /// A rig description to begin with; what must be filled in says so
     #[arg(long, value_name = "TOML")]
     write_rig: Option<PathBuf>,
+    #[command(flatten)]
+    model: arm::Model,
     /// Draw with ASCII characters only
     #[arg(long)]
     ascii: bool,
@@ -68,6 +71,7 @@ From an unknown file to a first diagnosis:
 Examples:
   rigproof inspect run.csv
   rigproof inspect run.csv --write-rig rig.toml
+  rigproof inspect run.csv --write-rig rig.toml --model arm.urdf
   rigproof inspect scope.txt --separator ';' --decimal ',' --header-lines 12 --json";
 
 /// Looks at a recording, and writes the beginning of a rig description if asked.
@@ -105,7 +109,7 @@ fn text(args: &Args) -> Result<Outcome, Failure> {
     let signals: Vec<SignalView> = trace.channels.into_iter().map(SignalView::of).collect();
     let signals: Vec<&SignalView> = signals.iter().collect();
     if let Some(file) = &args.write_rig {
-        let text = skeleton::toml(&args.recording, time.as_ref(), &hints, &signals);
+        let text = begun(args, file, time.as_ref(), &signals)?;
         write_rig(file, &text)?;
     }
     if args.json {
@@ -159,6 +163,19 @@ fn next(args: &Args) -> String {
             &[recording, ("--write-rig", Path::new("rig.toml"))],
         ),
     }
+}
+
+/// The beginning of a description: of an arm where its model is given.
+fn begun(
+    args: &Args,
+    rig: &Path,
+    time: Option<&TimeColumn>,
+    signals: &[&SignalView],
+) -> Result<String, Failure> {
+    let hints = args.reading.hints();
+    let files = (args.recording.as_path(), rig);
+    let arm = args.model.toml(files, time, &hints, signals)?;
+    Ok(arm.unwrap_or_else(|| skeleton::toml(&args.recording, time, &hints, signals)))
 }
 
 /// Writes the description unless one stands there: it may hold somebody's work.

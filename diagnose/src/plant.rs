@@ -221,6 +221,12 @@ pub trait Run: Debug + Send + Sync {
         standard_shapes(self, cause, windows, residual)
     }
 
+    /// How much of a passive cause the nominal model already has: so much of it may be taken away.
+    fn described(&self, cause: Cause) -> f64 {
+        let _ = cause;
+        0.0
+    }
+
     /// How far the first number of a cause's shape may go where that is beyond what is tried first.
     fn reach(&self, cause: Cause) -> Option<(f64, f64)> {
         let _ = cause;

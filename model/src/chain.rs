@@ -5,14 +5,17 @@
 mod base;
 mod dynamics;
 mod inertial;
+mod possible;
 mod regressor;
 mod urdf;
+mod written;
 
 pub use base::{Base, Group};
 pub use dynamics::Pose;
 pub use inertial::{INERTIAL, Inertial, PARAMETER_NAMES};
 pub use regressor::Momentum;
 pub use urdf::UrdfError;
+pub use written::Changes;
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -42,6 +45,8 @@ pub struct Joint {
     pub axis: Vector3<f64>,
     /// The inertial numbers of its link about the frame's origin; links fixed to it are counted in.
     pub inertial: Inertial,
+    /// Those of the link alone.
+    pub own: Inertial,
     /// Viscous friction that the description states, N·m·s/rad or N·s/m.
     pub damping: f64,
     /// Coulomb friction that the description states, N·m or N.
@@ -55,6 +60,8 @@ pub struct Chain {
     pub name: String,
     /// The joints from the base on.
     pub joints: Vec<Joint>,
+    /// The place of the last link, the tip, in the frame of the last joint, m: where a payload is fixed.
+    pub tip: Vector3<f64>,
     /// Acceleration of free fall in the frame of the base, m/s².
     pub gravity: Vector3<f64>,
 }
@@ -64,6 +71,14 @@ impl Chain {
     pub fn parameters(&self) -> Vec<f64> {
         let each = self.joints.iter();
         each.flat_map(|joint| joint.inertial.numbers()).collect()
+    }
+
+    /// What one kilogram at the tip adds to the inertial numbers, ten a link.
+    pub fn of_a_payload(&self) -> Vec<f64> {
+        let ball = Inertial::about_centre(1.0, self.tip, Matrix3::zeros());
+        let mut numbers = vec![0.0; INERTIAL * self.joints.len().saturating_sub(1)];
+        numbers.extend(ball.numbers());
+        numbers
     }
 
     /// The same arm with other inertial numbers, ten a link.

@@ -1,6 +1,8 @@
 //! This file holds the diagnosis of a serial arm against a recording of a real one; where it is absent it says so and passes over itself.
 
-use rigproof_diagnose::{Options, diagnose};
+use rigproof_blind::{Plant as Made, make};
+use rigproof_diagnose::{Diagnosis, Options, diagnose};
+use rigproof_trace::Trace;
 use rigproof_trace::rig::chain::ChainRig;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -61,4 +63,81 @@ fn a_panda_lacks_friction_at_its_joints_and_masses_of_its_links() {
     // Coulomb friction at every joint but for one at most; friction that grows with speed is not told from it here.
     assert!(named("dry_offset") >= 6, "{}", named("dry_offset"));
     assert!(named("link_inertia") >= 1);
+}
+
+/// A made arm with what is hidden, its recording and its description.
+fn made(seed: u64) -> (ChainRig, Trace) {
+    let case = make(Made::Chain, seed, None).unwrap();
+    let rig = ChainRig::parse(&case.rig_toml, Path::new("case.toml")).unwrap();
+    (rig, case.trace)
+}
+
+fn whole(rig: &ChainRig, trace: &Trace) -> Diagnosis<ChainRig> {
+    let recording = rig.apply(trace, Path::new("case.csv")).unwrap();
+    let options = Options {
+        hold_out_share: 0.0,
+        next_experiment: false,
+        ..Options::default()
+    };
+    diagnose(rig, &[&recording], None, &options)
+}
+
+#[test]
+fn an_arm_described_wrongly_says_so_in_one_line() {
+    let (rig, trace) = made(14);
+    let fault = |rig: &ChainRig| {
+        let fault = whole(rig, &trace).report.fault.unwrap();
+        assert!(!fault.reason.contains('\n'), "{}", fault.reason);
+        fault.reason
+    };
+    let mut other = rig.clone();
+    other.joints[0].name = "jiont1".to_owned();
+    let said = fault(&other);
+    assert!(
+        said.contains("`jiont1` is no moving joint") && said.contains("joint1"),
+        "{said}"
+    );
+    let mut fewer = rig.clone();
+    fewer.joints.pop();
+    let said = fault(&fewer);
+    assert!(said.contains("has no `[[joint]]`"), "{said}");
+    // Degrees that are said to be radians.
+    let mut degrees = trace.clone();
+    for channel in degrees.channels.iter_mut().filter(|own| own.unit == "rad") {
+        channel.samples.iter_mut().for_each(|q| *q = q.to_degrees());
+    }
+    let said = whole(&rig, &degrees).report.fault.unwrap().reason;
+    assert!(said.contains("are these degrees?"), "{said}");
+}
+
+/// The URDF that is written back needs no more than what its table lists.
+#[test]
+fn an_arm_with_its_calibrated_urdf_lacks_nothing() {
+    // Coulomb friction at every joint and viscous friction at one; a payload beside a peak, which no URDF holds.
+    for (seed, table) in [(25, false), (22, true)] {
+        let (rig, trace) = made(seed);
+        let found = whole(&rig, &trace);
+        assert!(!found.report.effects.is_empty());
+        let files = found.calibration.beside();
+        let text = |name: &str| files.iter().find(|(own, _)| *own == name).map(|own| &own.1);
+        let left = text("not-in-urdf.csv");
+        assert_eq!(left.is_some(), table, "{seed}");
+        let mut again = rig.clone();
+        again.model = text("calibrated.urdf").unwrap().clone();
+        assert_ne!(again.model, rig.model);
+        let report = whole(&again, &trace).report;
+        let kinds: Vec<&str> = report
+            .effects
+            .iter()
+            .map(|own| own.mechanism.as_str())
+            .collect();
+        println!("{seed}: {} {kinds:?}", report.verdict);
+        match left {
+            None => assert_eq!(report.verdict, "consistent", "{kinds:?}"),
+            Some(left) => assert!(
+                kinds.iter().all(|own| left.contains(own)),
+                "{kinds:?}\n{left}"
+            ),
+        }
+    }
 }

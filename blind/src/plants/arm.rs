@@ -73,7 +73,7 @@ impl Lab for Arm {
             };
             let counted = |time_s: &f64| {
                 let [q, ..] = path.at(*time_s);
-                (q / count).floor() * count
+                (q / count).round() * count
             };
             channels.push(Channel {
                 name: format!("q{}", k + 1),

@@ -4,7 +4,7 @@ use rigproof_trace::mcap::{self, TopicSummary};
 use rigproof_trace::suggest::advice;
 use serde_json::{Value, json};
 
-use super::{Args, next, show, signal, signal::SignalView, skeleton, write_rig};
+use super::{Args, begun, next, show, signal, signal::SignalView, write_rig};
 use crate::outcome::{Failure, Outcome, print};
 use crate::shell;
 use crate::text::number::significant;
@@ -42,12 +42,7 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     if let Some(file) = &args.write_rig {
         let signals: Vec<&SignalView> = topics.iter().flat_map(|view| &view.signals).collect();
         let time = args.time_column();
-        let text = skeleton::toml(
-            &args.recording,
-            time.as_ref(),
-            &args.reading.hints(),
-            &signals,
-        );
+        let text = begun(args, file, time.as_ref(), &signals)?;
         write_rig(file, &text)?;
     }
     let integrity = summary.integrity.lines();

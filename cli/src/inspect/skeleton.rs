@@ -372,7 +372,7 @@ fn entry(key: &str, guess: Option<&str>, choices: &str) -> String {
 }
 
 /// What the caller said of the text, which the next reader needs as well.
-fn hinted(hints: &Hints) -> Vec<String> {
+pub fn hinted(hints: &Hints) -> Vec<String> {
     let separator = hints
         .separator
         .map(|s| format!("separator = {:?}", s.name()));
@@ -388,12 +388,12 @@ fn hinted(hints: &Hints) -> Vec<String> {
     lines
 }
 
-fn string(text: &str) -> String {
+pub fn string(text: &str) -> String {
     toml::Value::from(text).to_string()
 }
 
 /// A name in a comment, which ends with its line.
-fn plain(name: &str) -> String {
+pub fn plain(name: &str) -> String {
     name.chars()
         .map(|c| if c.is_control() { '\u{fffd}' } else { c })
         .collect()

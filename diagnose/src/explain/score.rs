@@ -3,7 +3,7 @@
 use super::fitted::{Fitted, Folds};
 use crate::candidates::{is_end, shape_bounds};
 use crate::problem::{Problem, Rows, Term};
-use crate::rules::{A_NUMBER, RELEVANT_NOISE, USUAL_ODDS};
+use crate::rules::{A_LINK, A_NUMBER, GIVEN_BACK, RELEVANT_NOISE, USUAL_ODDS};
 use rigproof_model::effects::facts::Usual;
 use rigproof_model::effects::{entry, facts};
 use rigproof_spec::effect::Mechanism;
@@ -57,9 +57,10 @@ pub fn prior(problem: &Problem, terms: &[Term]) -> f64 {
 fn odds(problem: &Problem, term: &Term) -> f64 {
     let empty = |rows: &&Arc<Rows>| rows.raw.iter().all(|x| *x == 0.0);
     // The numbers of a link are wrong together: one description gives them all. What each costs the left-out blocks say.
+    let free = term.free.len() - term.free.iter().filter(empty).count();
     let free = match term.cause.mechanism {
-        Mechanism::LinkInertia => 1,
-        _ => term.free.len() - term.free.iter().filter(empty).count(),
+        Mechanism::LinkInertia => free.min(A_LINK),
+        _ => free,
     };
     let numbers = free.max(1) + searched(problem, term) + usize::from(term.onset_s.is_some());
     // The first number of a shape takes the place of a coefficient that is not there.
@@ -83,6 +84,16 @@ fn searched(problem: &Problem, term: &Term) -> usize {
 fn usual(mechanism: Mechanism) -> f64 {
     let usual = facts(mechanism).map_or(Usual::Rare, |facts| facts.usual);
     USUAL_ODDS.get(usual as usize).copied().unwrap_or(0.0)
+}
+
+/// Whether a passive mechanism came out giving more energy than what the nominal model already takes.
+pub fn gives_beyond(problem: &Problem, fitted: &Fitted) -> bool {
+    let own = fitted.terms.iter().zip(fitted.by_term());
+    own.into_iter().any(|(term, own)| {
+        let passive = entry(term.cause.mechanism).filter(|entry| entry.passive);
+        let least = -GIVEN_BACK * problem.run.described(term.cause);
+        passive.is_some_and(|entry| own.iter().take(entry.linear).any(|c| *c < least))
+    })
 }
 
 /// Whether a passive mechanism came out giving energy.

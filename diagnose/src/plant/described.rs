@@ -236,6 +236,11 @@ pub trait Described: Plant + PartialEq {
     /// As TOML.
     fn written(&self) -> String;
 
+    /// It in formats of other programs: names of files and their texts.
+    fn beside(&self) -> Vec<(&'static str, String)> {
+        Vec::new()
+    }
+
     /// Turns a recording into SI quantities; `origin` is the file that messages name.
     ///
     /// # Errors

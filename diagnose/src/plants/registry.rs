@@ -187,6 +187,13 @@ macro_rules! plants {
                 }
             }
 
+            /// It in formats of other programs: names of files and their texts.
+            pub fn beside(&self) -> Vec<(&'static str, String)> {
+                match self {
+                    $(Description::$name(own) => own.beside(),)+
+                }
+            }
+
             /// As TOML.
             pub fn to_toml(&self) -> String {
                 match self {

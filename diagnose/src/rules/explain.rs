@@ -37,6 +37,10 @@ rules! {
     MOST_TERMS: usize = 3, "terms", DRIVEN;
     /// An arm: the most terms of its explanation.
     MOST_OF_MANY: usize = 48, "terms", REASON;
+    /// An arm: how many numbers the inertial numbers of a link count as: wrong together, as one description gives them, and less plain than a single mass.
+    A_LINK: usize = 3, "numbers", "thirty concealed arms, seeds 0 to 29";
+    /// An arm: how much of a described friction may be taken away again, where a fit may be off by some.
+    GIVEN_BACK: f64 = 1.2, "share", REASON;
     /// An arm: the width of a window. A test function of this width lets pass half of the amplitude at 8 Hz, as a low-pass run forward and backward that arms are fitted behind.
     ARM_WIDTH_S: f64 = 0.155, "s", REASON;
     /// An arm: cut-off of the positions' smoothing, periods in a width of a window.

@@ -28,7 +28,7 @@ fn fault<T>(at: Node<'_, '_>, reason: String) -> Read<T> {
     Err(UrdfError { line, reason })
 }
 
-fn child<'a, 'i>(of: Node<'a, 'i>, name: &str) -> Option<Node<'a, 'i>> {
+pub(super) fn child<'a, 'i>(of: Node<'a, 'i>, name: &str) -> Option<Node<'a, 'i>> {
     of.children().find(|node| node.has_tag_name(name))
 }
 
@@ -76,6 +76,7 @@ impl Chain {
         let mut chain = Chain {
             name: root.attribute("name").unwrap_or("arm").to_owned(),
             joints: Vec::new(),
+            tip: Vector3::zeros(),
             gravity: Vector3::new(0.0, 0.0, -FREE_FALL),
         };
         // The frame of the last moving joint, in which the present link's frame lies.
@@ -92,6 +93,7 @@ impl Chain {
                 last.inertial = last.inertial.with(&more);
             }
         }
+        chain.tip = offset.1;
         if chain.joints.is_empty() {
             return fault(
                 root,
@@ -261,6 +263,10 @@ impl<'a, 'i> Tree<'a, 'i> {
             origin,
             axis: axis.normalize(),
             inertial: Inertial::none(),
+            own: match self.links.get(own.child) {
+                Some(node) => inertial(*node, own.child)?,
+                None => Inertial::none(),
+            },
             damping: stated("damping")?,
             friction: stated("friction")?,
         })

@@ -37,6 +37,7 @@ pub(super) const GAIN_ENTRY: Entry = Entry {
     refuted_by: "the same effort error at small and at large command",
     equation: "e = (1 + fraction)·gain·u",
     facts: Facts {
+        at_arm: true,
         usual: Usual::Frequent,
         turn: 1,
         at_rest: AtRest::OfBrake(first),
@@ -62,6 +63,7 @@ pub(super) const SKEW_ENTRY: Entry = Entry {
     refuted_by: "an effort error that does not follow the slope of the effort",
     equation: "e(t) = gain·u(t − delay)",
     facts: Facts {
+        at_arm: true,
         usual: Usual::Frequent,
         turn: 4,
         shapes: Shapes::Shift,

@@ -83,6 +83,8 @@ pub(super) const PAYLOAD: Entry = Entry {
     refuted_by: "a handle that weighs what the model says",
     equation: "mass at the tip, added to the nominal one",
     facts: Facts {
+        at_arm: true,
+        usual: Usual::Frequent,
         turn: 1,
         ..Facts::of(
             Family::Inertia,

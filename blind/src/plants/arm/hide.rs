@@ -14,6 +14,7 @@ const KINDS: &[Kind] = &[
     Kind::At(Form::Bias),
     Kind::At(Form::Rotor),
     Kind::At(Form::Gain),
+    Kind::At(Form::Skew),
     Kind::At(Form::LinkMass),
     Kind::Last(Form::Payload),
     Kind::Absent(Form::Coulomb),
@@ -92,6 +93,7 @@ fn effect(setup: &Setup, form: Form, joint: usize, draw: &mut Draw) -> Option<Ef
             0.0,
         ],
         Form::Payload => [link.mass * draw.uniform(0.15, 0.8), 0.0, 0.0],
+        Form::Skew => [draw.log_uniform(0.004, 0.02), 0.0, 0.0],
         Form::Rotor => [setup.inertia(joint) * draw.uniform(0.15, 0.6), 0.0, 0.0],
         _ => [level, 0.0, 0.0],
     };

@@ -17,10 +17,19 @@ pub fn run(setup: &Setup, hidden: &[Effect]) -> Run {
     let body = changed(&setup.body, hidden);
     let mut efforts = vec![Vec::with_capacity(setup.samples()); body.joints.len()];
     for k in 0..setup.samples() {
-        let states = setup.states(k as f64 / setup.rate_hz);
-        let now = shown(&body, &states, hidden);
+        let time_s = k as f64 / setup.rate_hz;
+        let now = shown(&body, &setup.states(time_s), hidden);
         for (signal, effort) in efforts.iter_mut().zip(now) {
             signal.push(effort);
+        }
+        // An effort that is recorded late is that of a time before.
+        for late in hidden.iter().filter(|own| own.form == Form::Skew) {
+            let At::Arm(joint) = late.at else { continue };
+            let then = shown(&body, &setup.states(time_s - late.first()), hidden);
+            let last = efforts.get_mut(joint).and_then(|own| own.last_mut());
+            if let (Some(last), Some(then)) = (last, then.get(joint)) {
+                *last = *then;
+            }
         }
     }
     Run { efforts }

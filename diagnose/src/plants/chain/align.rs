@@ -146,16 +146,15 @@ fn scatter(signal: &[f64]) -> f64 {
 /// Half of the absolute values of normal noise of variance 1 lie below.
 const NORMAL_MEDIAN: f64 = 0.674_489_750_196_081_7;
 
-/// The effort that each base parameter gives along a motion, joint after joint, and last what all described numbers give together.
-fn efforts(chain: &Chain, joints: &[Aligned], step_s: f64) -> Vec<Vec<f64>> {
+/// The effort that each base parameter gives along a motion, joint after joint, and last what whole sets of numbers give together.
+fn efforts(chain: &Chain, joints: &[Aligned], step_s: f64, sets: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let (count, samples) = (
         joints.len(),
         joints.first().map_or(0, |own| own.motion.len()),
     );
     let base = chain.base();
-    let parameters = chain.parameters();
     let all = base.columns.len();
-    let mut momentum = vec![vec![0.0; count * samples]; all + 1];
+    let mut momentum = vec![vec![0.0; count * samples]; all + sets.len()];
     let mut rest = momentum.clone();
     for k in 0..samples {
         let at = |of: fn(&Instant) -> f64| -> Vec<f64> {
@@ -170,8 +169,9 @@ fn efforts(chain: &Chain, joints: &[Aligned], step_s: f64) -> Vec<Vec<f64>> {
                     .columns
                     .iter()
                     .map(|&c| row.get(c).copied().unwrap_or(0.0));
-                let whole: f64 = row.iter().zip(&parameters).map(|(x, p)| x * p).sum();
-                for (signal, value) in to.iter_mut().zip(numbers.chain([whole])) {
+                let whole = |set: &Vec<f64>| row.iter().zip(set).map(|(x, p)| x * p).sum();
+                let wholes = sets.iter().map(whole);
+                for (signal, value) in to.iter_mut().zip(numbers.chain(wholes)) {
                     if let Some(slot) = signal.get_mut(joint * samples + k) {
                         *slot = value;
                     }
@@ -191,8 +191,10 @@ fn efforts(chain: &Chain, joints: &[Aligned], step_s: f64) -> Vec<Vec<f64>> {
 fn equations(chain: &Chain, joints: &[Aligned], step_s: f64) -> ChainRun {
     let samples = joints.first().map_or(0, |own| own.motion.len());
     let base = chain.base();
-    let mut signals = efforts(chain, joints, step_s);
+    let sets = [chain.of_a_payload(), chain.parameters()];
+    let mut signals = efforts(chain, joints, step_s, &sets);
     let mut known = signals.pop().unwrap_or_default();
+    let payload = signals.pop().unwrap_or_default();
     for ((stretch, joint), own) in known
         .chunks_mut(samples.max(1))
         .zip(joints)
@@ -219,6 +221,12 @@ fn equations(chain: &Chain, joints: &[Aligned], step_s: f64) -> ChainRun {
             .flat_map(|own| own.effort.iter().copied())
             .collect(),
         known,
+        payload,
+        described: chain
+            .joints
+            .iter()
+            .map(|own| [own.friction, own.damping])
+            .collect(),
         links: base
             .columns
             .iter()

@@ -1,6 +1,7 @@
 //! This file is an arm by its description.
 
 use super::align::{aligned, arm};
+use super::beside::beside;
 use super::run::ChainRun;
 use crate::align::Fault;
 use crate::cause::{Cause, JointId, Place};
@@ -116,6 +117,10 @@ impl Described for ChainRig {
 
     fn written(&self) -> String {
         self.to_toml()
+    }
+
+    fn beside(&self) -> Vec<(&'static str, String)> {
+        beside(self)
     }
 
     fn measured(&self, trace: &Trace, origin: &Path) -> Result<ChainRecording, TraceError> {

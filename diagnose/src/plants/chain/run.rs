@@ -1,5 +1,6 @@
 //! This file is an aligned recording of an arm: an equation a joint, one stretch of samples after another.
 
+use crate::candidates::standard_shapes;
 use crate::cause::{Cause, JointId, Place};
 use crate::filter::{gradient, rms};
 use crate::plant::{Clock, Columns, Rules, Run, resistances};
@@ -31,6 +32,10 @@ pub struct ChainRun {
     pub known: Vec<f64>,
     /// What one unit more of an inertial number of a link adds: link and number, and the signal.
     pub links: Vec<((usize, usize), Vec<f64>)>,
+    /// What a kilogram at the tip adds.
+    pub payload: Vec<f64>,
+    /// The friction that the description states of each joint: Coulomb and viscous.
+    pub described: Vec<[f64; 2]>,
     /// Noise of a position and of an effort, each joint.
     pub noise: Vec<[f64; 2]>,
     /// What each joint moves by itself, kg·m² or kg.
@@ -83,6 +88,8 @@ impl ChainRun {
                 .collect(),
             effort: own(&self.effort),
             known: own(&self.known),
+            payload: own(&self.payload),
+            described: self.described.clone(),
             links: self
                 .links
                 .iter()
@@ -95,6 +102,12 @@ impl ChainRun {
             masses: self.masses.clone(),
             speed_floor: self.speed_floor,
         }
+    }
+
+    /// What a signal of all joints is at one.
+    fn stretch<'a>(&self, signal: &'a [f64], joint: usize) -> &'a [f64] {
+        let mut stretches = signal.chunks(self.len().max(1));
+        stretches.nth(joint).unwrap_or_default()
     }
 
     /// A signal of one joint among those of all.
@@ -161,6 +174,14 @@ impl ChainRun {
         let sizes: Vec<f64> = sizes.collect();
         let mean = rms(&sizes).max(1e-300);
         sizes.into_iter().map(|size| size / mean).collect()
+    }
+}
+
+/// The coefficient of a torque constant's column from its fraction, and the fraction from it.
+fn undone(mechanism: Mechanism, own: f64) -> f64 {
+    match mechanism {
+        Mechanism::GainError => -own / (1.0 + own),
+        _ => own,
     }
 }
 
@@ -299,9 +320,37 @@ impl Run for ChainRun {
     fn causes(&self) -> Vec<Cause> {
         let moved = self.moving_places().into_iter();
         let moved = moved.filter(|at| self.travel(*at) > 100.0 * self.position_noise());
-        moved
-            .flat_map(|at| looked_for().map(move |mechanism| Cause::at(mechanism, at)))
+        let each = moved.flat_map(|at| looked_for().map(move |mechanism| Cause::at(mechanism, at)));
+        let last = Place::Joint(JointId(self.names.len().saturating_sub(1)));
+        each.filter(|cause| cause.mechanism != Mechanism::Payload || cause.at == last)
             .collect()
+    }
+
+    /// Small shifts in time are linear in the delay.
+    fn shapes(&self, cause: Cause, windows: &Windows, residual: &[f64]) -> Vec<Vec<f64>> {
+        match cause.mechanism {
+            Mechanism::ChannelSkew => vec![Vec::new()],
+            _ => standard_shapes(self, cause, windows, residual),
+        }
+    }
+
+    fn described(&self, cause: Cause) -> f64 {
+        let joint = joint_at(cause.at).and_then(|joint| self.described.get(joint));
+        match (cause.mechanism, joint) {
+            (Mechanism::DryOffset, Some([dry, _])) => *dry,
+            (Mechanism::Viscous, Some([_, viscous])) => *viscous,
+            _ => 0.0,
+        }
+    }
+
+    /// A torque constant that is off by a fraction shows as the described effort off by what undoes that.
+    fn linear(&self, mechanism: Mechanism, coefficients: &[f64]) -> Vec<f64> {
+        let each = coefficients.iter().copied();
+        each.map(|own| undone(mechanism, own)).collect()
+    }
+
+    fn coefficients(&self, mechanism: Mechanism, parameters: &[f64]) -> Vec<f64> {
+        self.linear(mechanism, parameters)
     }
 
     fn columns(&self, cause: Cause, shape: &[f64], _: Option<&[f64]>) -> Option<Columns> {
@@ -319,6 +368,20 @@ impl Run for ChainRun {
             Mechanism::AddedInertia => {
                 let speeds: Vec<f64> = motion.iter().map(|now| now.speed).collect();
                 vec![self.at_joint(joint, &gradient(&speeds, self.step_s))]
+            }
+            Mechanism::Payload => vec![self.payload.clone()],
+            // The effort acts with (1 + fraction): the recorded one is smaller by that.
+            Mechanism::GainError => vec![self.at_joint(joint, self.stretch(&self.known, joint))],
+            // Recorded late by a delay, an effort lacks its rate times the delay. A window's average of a rate takes no noise in that the average itself has.
+            Mechanism::ChannelSkew => {
+                let rate = gradient(self.stretch(&self.effort, joint), self.step_s);
+                let delay = shape.first().copied();
+                let late: Vec<f64> = rate.iter().map(|x| -x * delay.unwrap_or(1.0)).collect();
+                let late = self.at_joint(joint, &late);
+                match delay {
+                    None => vec![late],
+                    Some(_) => return Some(Columns::Fixed(late)),
+                }
             }
             mechanism => resistances(motion, self.step_s, mechanism, shape)?
                 .iter()
