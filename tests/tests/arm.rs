@@ -1,6 +1,8 @@
 //! This file holds the diagnosis of a serial arm against a recording of a real one; where it is absent it says so and passes over itself.
 
 use rigproof_blind::{Plant as Made, make};
+use rigproof_diagnose::plant::Described;
+use rigproof_diagnose::report::Verdict;
 use rigproof_diagnose::{Diagnosis, Options, diagnose};
 use rigproof_trace::Trace;
 use rigproof_trace::rig::chain::ChainRig;
@@ -129,11 +131,11 @@ fn an_arm_with_its_calibrated_urdf_lacks_nothing() {
         let kinds: Vec<&str> = report
             .effects
             .iter()
-            .map(|own| own.mechanism.as_str())
+            .map(|own| own.mechanism)
             .collect();
-        println!("{seed}: {} {kinds:?}", report.verdict);
+        println!("{seed}: {:?} {kinds:?}", report.verdict);
         match left {
-            None => assert_eq!(report.verdict, "consistent", "{kinds:?}"),
+            None => assert_eq!(report.verdict, Verdict::Consistent, "{kinds:?}"),
             Some(left) => assert!(
                 kinds.iter().all(|own| left.contains(own)),
                 "{kinds:?}\n{left}"
