@@ -128,11 +128,7 @@ fn an_arm_with_its_calibrated_urdf_lacks_nothing() {
         again.model = text("calibrated.urdf").unwrap().clone();
         assert_ne!(again.model, rig.model);
         let report = whole(&again, &trace).report;
-        let kinds: Vec<&str> = report
-            .effects
-            .iter()
-            .map(|own| own.mechanism)
-            .collect();
+        let kinds: Vec<&str> = report.effects.iter().map(|own| own.mechanism).collect();
         println!("{seed}: {:?} {kinds:?}", report.verdict);
         match left {
             None => assert_eq!(report.verdict, Verdict::Consistent, "{kinds:?}"),
