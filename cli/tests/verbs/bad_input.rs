@@ -170,7 +170,9 @@ fn places_that_hold_no_file_or_take_none_are_refused() {
         &[],
         "there is no such file or folder",
     );
-    desk.refused(&input, &folder, &[], "cannot write");
+    let taken = desk.path("taken.csv");
+    fs::create_dir(&taken).unwrap();
+    desk.refused(&input, &taken, &[], "cannot write");
     desk.refused(
         &input,
         &desk.path("none").join("out.csv"),

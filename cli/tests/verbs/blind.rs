@@ -126,7 +126,7 @@ fn a_five_bar_is_diagnosed_at_its_joint_and_runs_closer_with_its_calibration() {
     desk.prints("blind make --plant rig --seed 9 --out case", 0);
     let found = "diagnose case/recording.csv --rig case/rig.toml --out found";
     let text = desk.prints(found, 0);
-    assert!(text.contains("gain_error at B"), "{text}");
+    assert!(text.contains("(gain_error) at B"), "{text}");
     let scored = desk.json("blind score case/answer.sealed found/report.json --json", 0);
     assert_eq!(scored["score"]["exact"], true);
     let calibration = desk.read("found/calibration.toml");
