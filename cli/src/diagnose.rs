@@ -315,6 +315,12 @@ fn next(rig: &Path, out: &Path, shown_on: &Path, report: &Report) -> String {
             report.unknown.as_ref().map_or("`located`", |_| "`unknown`"),
             report.unknown.as_ref().map_or("joint and regime hint at", |_| "the shape says"),
         ),
+        // An arm does not run freely here.
+        _ if report.plant == "chain" => format!(
+            "take {} into your own simulation; {} has all that was found",
+            out.join("calibrated.urdf").display(),
+            calibration.display()
+        ),
         _ => shell::line(
             &["rigproof", "simulate"],
             &[
