@@ -172,6 +172,7 @@ impl Axis {
 
     /// One Runge-Kutta step with the sense of motion held.
     fn slide(&self, from: &State, sense: f64, effort: f64, slope: f64, step_s: f64) -> State {
+        let from = &self.begun(from, sense);
         let memories = self.memories();
         let rate =
             |at: &State, after_s: f64| self.rate(at, sense, effort + slope * after_s, memories);
@@ -189,6 +190,16 @@ impl Axis {
             to.advance(&k, made_s, memories);
         }
         to
+    }
+
+    /// The state with the memories that a new sense of motion begins anew.
+    fn begun(&self, from: &State, sense: f64) -> State {
+        let mut state = *from;
+        let own = state.memory.iter_mut().zip(&self.laws);
+        for (memory, law) in own.filter(|(_, law)| law.begins_anew()) {
+            *memory = law.memory_after(*memory, 0.0, sense);
+        }
+        state
     }
 
     /// How many memories move: up to that of the last law that has one.
@@ -311,6 +322,33 @@ mod tests {
         }
         assert_eq!(state.speed, 0.0);
         assert!((state.position - 0.5 * 1.3 * 0.81 / 0.7).abs() < 1e-9);
+    }
+
+    #[test]
+    fn friction_that_overshoots_takes_more_after_a_reversal_only() {
+        let axis = axis(&[
+            (Mechanism::DryOffset, &[0.7]),
+            (Mechanism::FrictionOvershoot, &[0.4, 0.05]),
+        ]);
+        // How far 0.9 m/s carry it: on its first way, and after it has turned back.
+        let mut state = axis.state(0.0, 0.0, 0.9);
+        let way = |state: &mut State| {
+            let begun = state.position;
+            for _ in 0..3000 {
+                axis.step(state, 0.0, 0.0, 1e-3);
+            }
+            (state.position - begun).abs()
+        };
+        let first = way(&mut state);
+        state.speed = -0.9;
+        let second = way(&mut state);
+        // The work of the overshoot, 0.4·0.05 N·m over the second way, is friction's that is not needed any more.
+        let energy = 0.5 * 1.3 * 0.81;
+        assert!((first - energy / 0.7).abs() < 1e-6, "{first}");
+        assert!(
+            (second - (energy - 0.4 * 0.05) / 0.7).abs() < 1e-4,
+            "{second}"
+        );
     }
 
     #[test]

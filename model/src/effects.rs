@@ -37,7 +37,7 @@ use facts::{Facts, Words};
 use rigproof_spec::effect::Mechanism;
 
 /// What a law may look at: one instant of the motion. Travel in m or rad.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Instant {
     /// Time since the recording's first sample, s.
     pub time_s: f64,
@@ -436,6 +436,6 @@ mod tests {
                 tried += usize::from(law.remembers());
             }
         }
-        assert_eq!(tried, 36);
+        assert_eq!(tried, 40);
     }
 }

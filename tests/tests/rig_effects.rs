@@ -30,7 +30,6 @@ fn takers() -> Vec<JointEffect> {
         at(Joint::A, Viscous, &[0.083]),
         at(Joint::B, Stribeck, &[0.31, 0.23, 1.7]),
         at(Joint::C, ReversalOvershoot, &[0.29, 0.061]),
-        at(Joint::E, FrictionOvershoot, &[0.113, 0.061]),
         at(Joint::E, Settling, &[0.37, 0.71]),
         at(Joint::B, GainError, &[0.19]),
         at(Joint::A, ThermalFade, &[0.043, 5.3]),

@@ -34,13 +34,6 @@ pub struct Instant {
     pub brake_nm: f64,
 }
 
-impl Instant {
-    /// What a level is of: the brake's torque, N·m, or a force of its own.
-    const fn of(&self, brake: bool) -> f64 {
-        if brake { self.brake_nm } else { 1.0 }
-    }
-}
-
 /// A law with its parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(
@@ -267,8 +260,14 @@ impl Law {
             Law::BiasDrift { rate } => rate * now.time_s,
             Law::Overshoot { .. } if memory == NOT_MOVED => 0.0,
             Law::Overshoot {
-                level, of_brake, ..
-            } => -0.5 * level * now.of(of_brake) * memory,
+                level,
+                of_brake: true,
+                ..
+            } => -0.5 * level * now.brake_nm * memory,
+            Law::Overshoot { level, .. } => {
+                let since = memory * now.sense.signum();
+                level * (1.0 - if since > 0.0 { since } else { 0.0 }) * now.sense
+            }
             Law::Settling { level, .. } => level * (1.0 - memory) * now.sense,
         }
     }
@@ -279,8 +278,10 @@ impl Law {
             Law::DryOffset { level } => level,
             Law::Overshoot { .. } if memory == NOT_MOVED => 0.0,
             Law::Overshoot {
-                level, of_brake, ..
-            } => level * now.of(of_brake) * (1.0 - 0.5 * memory.abs()),
+                level,
+                of_brake: true,
+                ..
+            } => level * now.brake_nm * (1.0 - 0.5 * memory.abs()),
             Law::Stribeck {
                 peak,
                 speed,

@@ -60,7 +60,7 @@ pub(super) const OF_FRICTION: Entry = Entry {
         turn: 0,
         has_forms: true,
         shapes: Shapes::Bristle,
-        at_rest: AtRest::Dry(first_if_positive),
+        at_rest: AtRest::Nothing,
         limit: Some(Limit {
             of: Mechanism::DryOffset,
             parameter: 1,

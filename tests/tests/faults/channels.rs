@@ -66,7 +66,7 @@ fn degrees_for_radians_are_a_fault_also_where_no_counts_are_stated() {
         |made: Made| made.with("angle", |x| x.iter_mut().for_each(|x| *x = x.to_degrees()));
     assert_fault(&degrees(made::axis()), "position", None, "degrees");
     assert_fault(&degrees(made::bench()), "position", None, "degrees");
-    assert_fault(&degrees(unstated(made::axis())), "inertia", None, "degrees");
+    assert_fault(&degrees(unstated(made::axis())), "drive", None, "degrees");
     assert_fault(
         &degrees(unstated(unknown(made::axis()))),
         "inertia",

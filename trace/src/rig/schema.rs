@@ -48,40 +48,8 @@ fn one_joint(is_axis: bool) -> Value {
                 &["inertia", "command_gain"],
             ),
         ));
-        let servo = vec![
-            ("gain", above_zero("Voltage for an error, V/rad or V/m.")),
-            (
-                "supply_v",
-                above_zero("The supply, at which the voltage saturates, V."),
-            ),
-            (
-                "dead_band",
-                not_below_zero("Error within which no voltage is given, rad or m."),
-            ),
-            (
-                "back_emf",
-                not_below_zero("Voltage that motion induces, V·s/rad or V·s/m."),
-            ),
-        ];
-        keys.push((
-            "servo",
-            object(
-                Some("A position servo: the command is a goal."),
-                servo,
-                &["gain", "supply_v"],
-            ),
-        ));
-        let recording = vec![
-            ("file", text("The name of its file, without folders.")),
-            ("gain", above_zero("The gain of the servo in it.")),
-        ];
-        keys.push((
-            "recording",
-            list(
-                "What single recordings state of their own.",
-                object(None, recording, &["file", "gain"]),
-            ),
-        ));
+        keys.push(("servo", servo()));
+        keys.push(("recording", recordings()));
         required.push("parameters");
     } else {
         let roles = ["position", "force", "torque", "current", "simulated"];
@@ -91,6 +59,42 @@ fn one_joint(is_axis: bool) -> Value {
         keys.push(("brake", brake()));
     }
     object(None, keys, &required)
+}
+
+/// A position servo as the drive of a joint.
+fn servo() -> Value {
+    let keys = vec![
+        ("gain", above_zero("Voltage for an error, V/rad or V/m.")),
+        (
+            "supply_v",
+            above_zero("The supply, at which the voltage saturates, V."),
+        ),
+        (
+            "dead_band",
+            not_below_zero("Error within which no voltage is given, rad or m."),
+        ),
+        (
+            "back_emf",
+            not_below_zero("Voltage that motion induces, V·s/rad or V·s/m."),
+        ),
+    ];
+    object(
+        Some("A position servo: the command is a goal."),
+        keys,
+        &["gain", "supply_v"],
+    )
+}
+
+/// What single recordings of a servo state.
+fn recordings() -> Value {
+    let keys = vec![
+        ("file", text("The name of its file, without folders.")),
+        ("gain", above_zero("The gain of the servo in it.")),
+    ];
+    list(
+        "What single recordings state of their own.",
+        object(None, keys, &["file", "gain"]),
+    )
 }
 
 fn five_bar() -> Value {

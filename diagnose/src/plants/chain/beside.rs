@@ -2,6 +2,7 @@
 
 use super::align::arm;
 use rigproof_model::chain::{Chain, Changes, INERTIAL, Inertial};
+use rigproof_model::effects::{Drive, Form, OfJoint, OfLinkage, form};
 use rigproof_spec::effect::{Mechanism, Motion};
 use rigproof_trace::rig::RigEffect;
 use rigproof_trace::rig::chain::{AtJoint, ChainRig};
@@ -60,8 +61,8 @@ const NO_BODY: &str =
 
 fn is_of_masses(own: &AtJoint) -> bool {
     matches!(
-        own.effect.mechanism,
-        Mechanism::LinkInertia | Mechanism::Payload
+        form(own.effect.mechanism),
+        Some(Form::Joint(OfJoint::Link) | Form::Linkage(OfLinkage::Payload))
     )
 }
 
@@ -77,8 +78,8 @@ fn moved(chain: &Chain, masses: &[&AtJoint]) -> Vec<f64> {
             .joints
             .iter()
             .position(|joint| joint.name == own.joint);
-        let values: Vec<f64> = match own.effect.mechanism {
-            Mechanism::Payload => {
+        let values: Vec<f64> = match form(own.effect.mechanism) {
+            Some(Form::Linkage(OfLinkage::Payload)) => {
                 let mass = first(&own.effect);
                 chain.of_a_payload().iter().map(|x| mass * x).collect()
             }
@@ -107,14 +108,18 @@ fn named(chain: &Chain, links: Vec<Inertial>) -> std::collections::BTreeMap<Stri
 }
 
 /// Why a URDF has no place for it.
-const fn reason(mechanism: Mechanism) -> &'static str {
-    match mechanism {
-        Mechanism::AddedInertia => "a URDF has no inertia of a rotor; an MJCF's `armature` is one",
-        Mechanism::GainError => {
+fn reason(mechanism: Mechanism) -> &'static str {
+    match form(mechanism) {
+        Some(Form::Joint(OfJoint::Inertia)) => {
+            "a URDF has no inertia of a rotor; an MJCF's `armature` is one"
+        }
+        Some(Form::Drive(Drive::Gain)) => {
             "a URDF has no torque constant; scale the effort that is recorded or sent"
         }
-        Mechanism::ChannelSkew => "a URDF has no time; shift the recorded effort",
-        Mechanism::ConstantBias => "a URDF has no constant effort; take it off the recorded one",
+        Some(Form::Drive(Drive::Skew)) => "a URDF has no time; shift the recorded effort",
+        _ if mechanism == Mechanism::ConstantBias => {
+            "a URDF has no constant effort; take it off the recorded one"
+        }
         _ => "a URDF's friction is a Coulomb level and a damping only",
     }
 }

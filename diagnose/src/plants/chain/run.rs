@@ -10,9 +10,8 @@ use crate::weak::{Windows, is_recorded, untold};
 use crate::whiten::Whitener;
 use nalgebra::{DMatrix, DVector};
 use rigproof_model::chain::INERTIAL;
-use rigproof_model::effects::Instant;
-use rigproof_model::effects::facts;
 use rigproof_model::effects::facts::{Family, Shapes, Usual};
+use rigproof_model::effects::{Drive, Form, Instant, OfJoint, OfLinkage, facts, form};
 use rigproof_spec::effect::Mechanism;
 
 /// An aligned recording in SI units.
@@ -179,8 +178,8 @@ impl ChainRun {
 
 /// The coefficient of a torque constant's column from its fraction, and the fraction from it.
 fn undone(mechanism: Mechanism, own: f64) -> f64 {
-    match mechanism {
-        Mechanism::GainError => -own / (1.0 + own),
+    match form(mechanism) {
+        Some(Form::Drive(Drive::Gain)) => -own / (1.0 + own),
         _ => own,
     }
 }
@@ -322,14 +321,16 @@ impl Run for ChainRun {
         let moved = moved.filter(|at| self.travel(*at) > 100.0 * self.position_noise());
         let each = moved.flat_map(|at| looked_for().map(move |mechanism| Cause::at(mechanism, at)));
         let last = Place::Joint(JointId(self.names.len().saturating_sub(1)));
-        each.filter(|cause| cause.mechanism != Mechanism::Payload || cause.at == last)
+        let is_payload =
+            |own: Mechanism| matches!(form(own), Some(Form::Linkage(OfLinkage::Payload)));
+        each.filter(|cause| !is_payload(cause.mechanism) || cause.at == last)
             .collect()
     }
 
     /// Small shifts in time are linear in the delay.
     fn shapes(&self, cause: Cause, windows: &Windows, residual: &[f64]) -> Vec<Vec<f64>> {
-        match cause.mechanism {
-            Mechanism::ChannelSkew => vec![Vec::new()],
+        match form(cause.mechanism) {
+            Some(Form::Drive(Drive::Skew)) => vec![Vec::new()],
             _ => standard_shapes(self, cause, windows, residual),
         }
     }
@@ -356,24 +357,26 @@ impl Run for ChainRun {
     fn columns(&self, cause: Cause, shape: &[f64], _: Option<&[f64]>) -> Option<Columns> {
         let joint = joint_at(cause.at)?;
         let motion = self.motions.get(joint)?;
-        let signals = match cause.mechanism {
+        let signals = match form(cause.mechanism)? {
             // Numbers that no effort hangs on have an empty column.
-            Mechanism::LinkInertia => (0..INERTIAL)
+            Form::Joint(OfJoint::Link) => (0..INERTIAL)
                 .map(|number| {
                     let own = self.links.iter().find(|(of, _)| *of == (joint, number));
                     let none = || vec![0.0; self.effort.len()];
                     own.map_or_else(none, |(_, signal)| signal.clone())
                 })
                 .collect(),
-            Mechanism::AddedInertia => {
+            Form::Joint(OfJoint::Inertia) => {
                 let speeds: Vec<f64> = motion.iter().map(|now| now.speed).collect();
                 vec![self.at_joint(joint, &gradient(&speeds, self.step_s))]
             }
-            Mechanism::Payload => vec![self.payload.clone()],
+            Form::Linkage(OfLinkage::Payload) => vec![self.payload.clone()],
             // The effort acts with (1 + fraction): the recorded one is smaller by that.
-            Mechanism::GainError => vec![self.at_joint(joint, self.stretch(&self.known, joint))],
+            Form::Drive(Drive::Gain) => {
+                vec![self.at_joint(joint, self.stretch(&self.known, joint))]
+            }
             // Recorded late by a delay, an effort lacks its rate times the delay. A window's average of a rate takes no noise in that the average itself has.
-            Mechanism::ChannelSkew => {
+            Form::Drive(Drive::Skew) => {
                 let rate = gradient(self.stretch(&self.effort, joint), self.step_s);
                 let delay = shape.first().copied();
                 let late: Vec<f64> = rate.iter().map(|x| -x * delay.unwrap_or(1.0)).collect();
@@ -383,7 +386,7 @@ impl Run for ChainRun {
                     Some(_) => return Some(Columns::Fixed(late)),
                 }
             }
-            mechanism => resistances(motion, self.step_s, mechanism, shape)?
+            _ => resistances(motion, self.step_s, cause.mechanism, shape)?
                 .iter()
                 .map(|own| self.at_joint(joint, own))
                 .collect(),

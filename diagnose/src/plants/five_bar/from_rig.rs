@@ -1,6 +1,6 @@
 //! This file turns a five-bar's description and its recording into an aligned run.
 
-use super::run::{FiveBarRun, forms, place, place_of, yields};
+use super::run::{FiveBarRun, forms, place, place_of};
 use super::sensors::{angle_noise, noise_of_force, quantum_of};
 use super::stops::{forget_sense_at_stops, switched};
 use crate::align::{
@@ -370,6 +370,16 @@ fn joint_motion(
     forget_sense_at_stops(&mut motion, &recorded, (run.step_s, still), &run.switched);
     forget_sense_at_reversals(&mut motion);
     motion
+}
+
+/// The yield torque of a brake along a joint's motion, the current of each sample held to the next.
+pub fn yields(mut brake: Brake, motion: &[Instant], current: &[f64], step_s: f64) -> Vec<f64> {
+    let mut own = vec![brake.yield_torque()];
+    for (now, &current) in motion.iter().skip(1).zip(current) {
+        brake.step(current, now.position, now.speed, step_s);
+        own.push(brake.yield_torque());
+    }
+    own
 }
 
 /// The yield torque of a joint's nominal brake along the motion, N·m; none without a brake.

@@ -11,7 +11,6 @@ use crate::rules::{QUIET_NM, WIDTHS_S};
 use crate::weak::Windows;
 use crate::whiten::Whitener;
 use nalgebra::{Matrix2, Vector2};
-use rigproof_model::brake::Brake;
 use rigproof_model::effects::Instant;
 use rigproof_model::error::ModelError;
 use rigproof_model::linkage::{Pose, forward};
@@ -275,16 +274,6 @@ pub fn forms(
         forms.push(form);
     }
     Ok((poses, forms))
-}
-
-/// The yield torque of a brake along a joint's motion, the current of each sample held to the next.
-pub fn yields(mut brake: Brake, motion: &[Instant], current: &[f64], step_s: f64) -> Vec<f64> {
-    let mut own = vec![brake.yield_torque()];
-    for (now, &current) in motion.iter().skip(1).zip(current) {
-        brake.step(current, now.position, now.speed, step_s);
-        own.push(brake.yield_torque());
-    }
-    own
 }
 
 /// What the inertia of some mass matrices takes, sample by sample, as the second difference of the angles sees it:

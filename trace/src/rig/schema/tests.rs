@@ -1,3 +1,5 @@
+//! This file claims that the schema that editors check descriptions by says what the reader takes.
+
 use super::*;
 use rigproof_spec::effect::Mechanism;
 
