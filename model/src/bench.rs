@@ -18,38 +18,14 @@ pub fn resistance(laws: &[Box<dyn Law>], motion: &[Instant], step_s: f64) -> Vec
 
 /// The resistance of one law along an imposed motion.
 ///
-/// A memory that a change of sense begins anew stands still where the sense cannot be told: a smoothed angle rings at rest. When it is told
-/// again the memory goes by the way from where it was told last, or from where the joint turned back.
+/// A memory that a change of sense begins anew stands still where the sense cannot be told: a smoothed angle rings at rest.
 pub fn column(law: &dyn Law, motion: &[Instant], step_s: f64) -> Vec<f64> {
-    if law.begins_anew() {
-        return remembered(law, motion, told_travel(motion).into_iter(), step_s);
-    }
     let first = motion.first().into_iter();
-    let pairs = first.chain(motion).zip(motion);
-    let travel = pairs.map(|(before, now)| Some(now.position - before.position));
-    remembered(law, motion, travel, step_s)
-}
-
-/// The travel since the sense was told last, where it is told.
-fn told_travel(motion: &[Instant]) -> Vec<Option<f64>> {
-    let start = motion.first().map_or(0.0, |now| now.position);
-    let (mut last, mut low, mut high) = (Instant::default(), start, start);
-    let each = motion.iter().map(|now| {
-        (low, high) = (low.min(now.position), high.max(now.position));
-        if now.sense.abs() < 1.0 {
-            return None;
-        }
-        let turned = last.sense * now.sense < 0.0;
-        let from = match (turned, now.sense > 0.0) {
-            (true, true) => low,
-            (true, false) => high,
-            (false, _) if last.sense == 0.0 => start,
-            (false, _) => last.position,
-        };
-        (last, low, high) = (*now, now.position, now.position);
-        Some(now.position - from)
+    let travel = first.chain(motion).zip(motion).map(|(before, now)| {
+        let told = now.sense.abs() >= 1.0 || !law.begins_anew();
+        told.then_some(now.position - before.position)
     });
-    each.collect()
+    remembered(law, motion, travel, step_s)
 }
 
 /// The resistance of one law along an imposed motion whose every travel is known better than its speed: the memory goes by it.

@@ -145,6 +145,8 @@ pub enum Alone {
     Driven,
     /// On an axis whose inertia is known.
     WithInertia,
+    /// On a bench.
+    Imposed,
 }
 
 /// Where on the five-bar a mechanism is looked for.
@@ -332,6 +334,7 @@ mod tests {
             Alone::WithBrake => "with a brake's current",
             Alone::WithDrive => "with a drive or a brake's current",
             Alone::Driven => "on an axis",
+            Alone::Imposed => "on a bench",
             Alone::WithInertia => "on an axis of known inertia",
         };
         let five_bar = match facts.asked.five_bar {

@@ -69,7 +69,7 @@ pub(super) const OF_FRICTION: Entry = Entry {
         ..Facts::of(
             Family::MemoryOfMotion,
             Asked {
-                alone: Alone::Always,
+                alone: Alone::Imposed,
                 five_bar: Where::Nowhere,
             },
             Words {

@@ -88,7 +88,7 @@ fn thousandths_of_a_unit_are_a_fault_also_where_no_noise_is_stated() {
     );
     assert_fault(
         &more(unstated(made::axis()), "u"),
-        "drive",
+        "inertia",
         None,
         "thousandths",
     );

@@ -32,7 +32,7 @@ const LEFT_OUT: &[(Mechanism, &[f64], &[PlantKind])] = &[
     (DirectionAsymmetry, &[1.9, 0.83], BOTH),
     (Stribeck, &[1.9, 0.07, 1.0], BOTH),
     (Presliding, &[1.73, 0.013], BOTH),
-    (FrictionOvershoot, &[1.73, 0.031], BOTH),
+    (FrictionOvershoot, &[1.73, 0.031], BENCH),
     (DahlBristle, &[1.73, 0.017, 2.0], BOTH),
     (LugreBristle, &[1.73, 1.1, 0.013], BOTH),
     (AsymmetricPresliding, &[2.1, 1.3, 0.013], BOTH),

@@ -105,6 +105,8 @@ fn reason(rig: &Rig, effect: &Effect) -> Option<String> {
             true => None,
             false => Some("needs a bench with a brake and its current".to_owned()),
         },
+        // What begins anew after each reversal is computed along an imposed motion only.
+        Some(Form::Resistance(law)) if is_axis && law(&[1.0; 4]).begins_anew() => no_meaning(),
         Some(Form::Resistance(_)) => None,
         Some(Form::Drive(Drive::Lag | Drive::Skew)) => None,
         Some(Form::Drive(_)) if is_axis => None,
