@@ -15,7 +15,7 @@ use crate::differential::tie::Ties;
 use crate::error::Error;
 use crate::judge::Judge;
 use crate::law::{Fared, LAWS, Law};
-use crate::trial::same;
+use crate::trial::retold;
 use taken::Taken;
 
 /// What a controller made of a recording.
@@ -119,18 +119,10 @@ impl Telling<'_> {
     }
 
     fn repeated(&mut self, fresh: &mut dyn Controller) {
-        let samples = self.taken.told.iter().zip(&self.currents_a);
-        for (tick, (sensed, currents_a)) in (0..).zip(samples) {
-            let Ok(again_a) = fresh.tick(sensed) else {
-                return self.judge.add(Law::Repeats, tick, Margin(f64::NAN));
-            };
-            let margin = same(*currents_a, again_a);
-            self.judge.add(Law::Repeats, tick, margin);
-            if !margin.holds() {
-                break;
-            }
+        let told = self.taken.told.iter().zip(&self.currents_a);
+        if retold(&mut self.judge, fresh, told) {
+            self.over(fresh);
         }
-        self.over(fresh);
     }
 
     fn over(&mut self, controller: &mut dyn Controller) {

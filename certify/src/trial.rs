@@ -278,18 +278,34 @@ impl<'a> Trial<'a> {
 
     /// Tells a controller what was told, and judges whether it answers the same.
     fn tell(&mut self, fresh: &mut dyn Controller) {
-        for (tick, (sensed, currents_a)) in (0..).zip(&self.told) {
-            let Ok(again_a) = fresh.tick(sensed) else {
-                return self.judge.add(Law::Repeats, tick, Margin(f64::NAN));
-            };
-            let margin = same(*currents_a, again_a);
-            self.judge.add(Law::Repeats, tick, margin);
-            if !margin.holds() {
-                break;
-            }
+        let told = self
+            .told
+            .iter()
+            .map(|(sensed, answer_a)| (sensed, answer_a));
+        if retold(&mut self.judge, fresh, told) {
+            self.over(fresh);
         }
-        self.over(fresh);
     }
+}
+
+/// Judges whether a fresh controller answers the same to what was told, up to the first other answer; false where it gave none.
+pub fn retold<'a>(
+    judge: &mut Judge,
+    fresh: &mut dyn Controller,
+    told: impl Iterator<Item = (&'a Sensed<f64>, &'a [f64; 4])>,
+) -> bool {
+    for (tick, (sensed, answer_a)) in (0..).zip(told) {
+        let Ok(again_a) = fresh.tick(sensed) else {
+            judge.add(Law::Repeats, tick, Margin(f64::NAN));
+            return false;
+        };
+        let margin = same(*answer_a, again_a);
+        judge.add(Law::Repeats, tick, margin);
+        if !margin.holds() {
+            break;
+        }
+    }
+    true
 }
 
 /// Least sine between two arms: that of 10°, where table 4.2 has its stops and a step of 1 ms its accuracy.
@@ -311,7 +327,7 @@ fn is_stretched(plant: &Plant) -> bool {
 }
 
 /// Whether two commands are the same bits; the margin is minus the greatest difference, A.
-pub(crate) fn same(one_a: [f64; 4], other_a: [f64; 4]) -> Margin {
+fn same(one_a: [f64; 4], other_a: [f64; 4]) -> Margin {
     if one_a.map(f64::to_bits) == other_a.map(f64::to_bits) {
         return Margin(0.0);
     }
