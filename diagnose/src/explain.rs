@@ -13,7 +13,7 @@ use crate::cause::Cause;
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, fit, free_columns, paired, reduced_target};
 use crate::rules::{AS_ONE, EXCHANGES, LISTED, NAMED, OFFERED, ROWS_A_SAMPLE, SUSPECTED};
-use crate::selection::{Found, Selection, Stage, centred, is_noise, refined, usable_rms};
+use crate::selection::{Found, Selection, Stage, centred, refined, usable_rms};
 use fitted::{Fitted, Folds};
 pub use many::explain_many;
 use rayon::prelude::*;
@@ -119,7 +119,7 @@ pub const fn status(probability: f64) -> &'static str {
 
 /// Explains a recording on top of the terms of its nominal model.
 pub fn explain(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection, Explanations) {
-    let first = Round::of(problem, &nominal, problem.floor, ROWS_A_SAMPLE, false);
+    let first = Round::of(problem, &nominal, problem.floor, ROWS_A_SAMPLE, 0);
     let rows_a_sample = first.rows_a_sample(problem);
     let best = first.predicts_best().map_or(&[][..], |own| &own.terms);
     let terms: Vec<&Term> = nominal.iter().chain(best).collect();
@@ -129,7 +129,7 @@ pub fn explain(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection, Exp
     problem.rewhiten(left);
     nominal.iter_mut().for_each(|term| problem.refresh(term));
     let noise = left.max(problem.floor);
-    let second = Round::of(problem, &nominal, noise, rows_a_sample, true);
+    let second = Round::of(problem, &nominal, noise, rows_a_sample, EXCHANGES);
     let living = second.weighed(problem, noise);
     let explanations = Explanations { living };
     (selected(problem, nominal, &explanations), explanations)
@@ -143,13 +143,13 @@ struct Round {
 }
 
 impl Round {
-    /// `noise` is the standard deviation of a row before whitening; `thorough` exchanges terms.
+    /// `noise` is the standard deviation of a row before whitening; terms are exchanged in so many rounds.
     fn of(
         problem: &Problem,
         nominal: &[Term],
         noise: f64,
         rows_a_sample: f64,
-        thorough: bool,
+        exchanges: usize,
     ) -> Round {
         let folds = Folds::of(problem);
         let judge = Judge::of(problem, noise, rows_a_sample);
@@ -157,7 +157,6 @@ impl Round {
         let target = reduced_target(problem, &common).white;
         let bare = Fitted::bare(&folds, &target, &free_columns(problem, &common));
         let tried = candidates(problem, nominal);
-        let exchanges = if thorough { EXCHANGES } else { 0 };
         let mut all = beam::search(problem, &folds, &judge, &bare, &tried, exchanges);
         let leading = ranked(problem, &folds, &judge, all.clone()).into_iter();
         let leading: Vec<Fitted> = leading.map(|(_, own)| own).collect();
@@ -293,7 +292,6 @@ fn selected(problem: &Problem, nominal: Vec<Term>, explanations: &Explanations) 
                 term: term.clone(),
                 z,
                 share: gain / without.left_out().max(1e-300),
-                at_floor: is_noise(problem, &after),
                 probability: explanations.probability(term.cause),
             }
         })

@@ -22,8 +22,6 @@ pub struct Found {
     pub z: f64,
     /// Share of the left-out loss it removed when it entered.
     pub share: f64,
-    /// Whether nothing beyond sensor noise was left with it.
-    pub at_floor: bool,
     /// How probable it is beside other explanations.
     pub probability: f64,
 }

@@ -107,7 +107,7 @@ fn children(
             .filter(|term| may_join(&parent.terms, term));
         let own: Vec<(f64, Fitted)> = open
             .map(|term| parent.with(folds, term))
-            .filter(|fitted| !gives_energy(fitted))
+            .filter(|fitted| !gives_energy(problem, fitted))
             .map(|fitted| (judge.evidence(folds, &fitted), fitted))
             .collect();
         for (evidence, fitted) in own {

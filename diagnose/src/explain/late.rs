@@ -75,7 +75,7 @@ fn begun(
     *own = unfitted(problem, own.cause, &own.shape, Some(onset_s))?;
     let fitted = bare.of(folds, &terms);
     let evidence = judge.evidence(folds, &fitted);
-    (!gives_energy(&fitted)).then_some(Begun {
+    (!gives_energy(problem, &fitted)).then_some(Begun {
         evidence,
         share,
         fitted,

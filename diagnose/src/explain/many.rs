@@ -2,7 +2,7 @@
 
 use super::beam::may_join;
 use super::fitted::{Fitted, Folds};
-use super::score::{Judge, gives_beyond, prior};
+use super::score::{Judge, gives_energy, prior};
 use super::{Explanation, Explanations, candidates, living, selected};
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, fit, free_columns, reduced_target};
@@ -133,7 +133,7 @@ impl Round {
                     return None;
                 }
                 let fitted = best.1.with(&self.folds, term);
-                (!gives_beyond(problem, &fitted)).then(|| self.score(problem, &fitted))
+                (!gives_energy(problem, &fitted)).then(|| self.score(problem, &fitted))
             })
             .collect();
         for (hoped, score) in hopeful.iter_mut().zip(&scores) {
@@ -179,7 +179,7 @@ impl Round {
                 });
                 let beside = beside.filter(|term| may_join(&fewer.terms, term));
                 let exchanged = beside.map(|term| fewer.with(&self.folds, term));
-                let exchanged = exchanged.filter(|own| !gives_beyond(problem, own));
+                let exchanged = exchanged.filter(|own| !gives_energy(problem, own));
                 let scored = exchanged.map(|own| (self.score(problem, &own), own));
                 let best = scored.max_by(|a, b| a.0.total_cmp(&b.0));
                 let fewer = (self.score(problem, &fewer), fewer.clone());

@@ -49,7 +49,7 @@ fn moved(
         let tried = moves(problem, own, stride).into_iter();
         let tried = tried.filter(|(by, _)| came_from != Some(by.back()));
         let tried = tried.map(|(by, term)| (by, others.with(folds, &term)));
-        let tried = tried.filter(|(_, fitted)| !gives_energy(fitted));
+        let tried = tried.filter(|(_, fitted)| !gives_energy(problem, fitted));
         let better = tried
             .map(|(by, fitted)| (judge.evidence(folds, &fitted), by, fitted))
             .filter(|(evidence, ..)| *evidence > best.0)

@@ -87,20 +87,11 @@ fn usual(mechanism: Mechanism) -> f64 {
 }
 
 /// Whether a passive mechanism came out giving more energy than what the nominal model already takes.
-pub fn gives_beyond(problem: &Problem, fitted: &Fitted) -> bool {
+pub fn gives_energy(problem: &Problem, fitted: &Fitted) -> bool {
     let own = fitted.terms.iter().zip(fitted.by_term());
     own.into_iter().any(|(term, own)| {
         let passive = entry(term.cause.mechanism).filter(|entry| entry.passive);
         let least = -GIVEN_BACK * problem.run.described(term.cause);
         passive.is_some_and(|entry| own.iter().take(entry.linear).any(|c| *c < least))
-    })
-}
-
-/// Whether a passive mechanism came out giving energy.
-pub fn gives_energy(fitted: &Fitted) -> bool {
-    let own = fitted.terms.iter().zip(fitted.by_term());
-    own.into_iter().any(|(term, own)| {
-        let passive = entry(term.cause.mechanism).filter(|entry| entry.passive);
-        passive.is_some_and(|entry| own.iter().take(entry.linear).any(|c| *c < 0.0))
     })
 }

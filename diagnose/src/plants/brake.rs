@@ -26,7 +26,11 @@ impl Braked<'_> {
     /// The yield torque of each sample, N·m.
     pub fn yields(&self) -> Vec<f64> {
         let start = self.motion.first().map_or(0.0, |now| now.position);
-        let mut brake = Brake::of(self.table, start);
+        self.yields_of(Brake::of(self.table, start))
+    }
+
+    /// The yield torque of a brake in its place, N·m.
+    pub fn yields_of(&self, mut brake: Brake) -> Vec<f64> {
         let mut own = vec![brake.yield_torque()];
         let currents = self.current.iter().zip(self.current.iter().skip(1));
         for ((before, current), now) in currents.zip(self.motion.iter().skip(1)) {

@@ -1,11 +1,11 @@
-//! This file is the rules by which a mechanism is named, replaced and taken out.
+//! This file is the rules by which the leading explanation is polished, and by which a mechanism would be seen.
 
 use super::{AXIS_BENCH, BOTH, REASON};
 
 rules! {
-    /// Paired z over blocks, weighted by the mechanism's excitation, that a name needs.
+    /// z at which a mechanism would be seen: the least sizes that are told of what was not named go by it.
     GATE_Z: f64 = 2.5, "z", BOTH;
-    /// Share of the left-out loss that must go away.
+    /// Share of the left-out loss that goes away where a mechanism is seen, and where a name holds on a resampled recording.
     GATE_SHARE: f64 = 0.02, "share", BOTH;
     /// Residual over floor up to which nothing counts as unexplained.
     FLOOR_RATIO: f64 = 1.3, "floors", BOTH;

@@ -57,10 +57,8 @@ pub(super) const OF_FRICTION: Entry = Entry {
     }),
     equation: "level·exp(−x/travel)·sgn(q̇), x travelled since the sense changed, without an end before it first does",
     facts: Facts {
-        turn: 0,
         has_forms: true,
         shapes: Shapes::Bristle,
-        at_rest: AtRest::Nothing,
         limit: Some(Limit {
             of: Mechanism::DryOffset,
             parameter: 1,

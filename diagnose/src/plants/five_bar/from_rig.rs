@@ -13,6 +13,7 @@ use crate::continuity::{Position, Remark, Stamps, mend, settle};
 use crate::doubt::{Smoothing, a_sample_late, greatest_change, turning};
 use crate::effect::Effect;
 use crate::plant::Run;
+use crate::plants::brake::Braked;
 use crate::rules::{
     CURRENTS_A, KINEMATIC_DOUBT, MOST_OF_AN_ENCODER, MOST_TAKEN, STILL_QUANTA, STILL_SIGMAS,
 };
@@ -372,27 +373,10 @@ fn joint_motion(
     motion
 }
 
-/// The yield torque of a brake along a joint's motion, the current of each sample held to the next.
-pub fn yields(mut brake: Brake, motion: &[Instant], current: &[f64], step_s: f64) -> Vec<f64> {
-    let mut own = vec![brake.yield_torque()];
-    for (now, &current) in motion.iter().skip(1).zip(current) {
-        brake.step(current, now.position, now.speed, step_s);
-        own.push(brake.yield_torque());
-    }
-    own
-}
-
 /// The yield torque of a joint's nominal brake along the motion, N·m; none without a brake.
 pub fn nominal_yields(run: &FiveBarRun, joint: Joint) -> Option<Vec<f64>> {
-    let motion = run.motion_of(joint);
-    let current = run.currents.get(place(joint))?.as_ref()?;
-    let start = motion.first()?.position;
-    Some(yields(
-        Brake::new(joint, start),
-        motion,
-        current,
-        run.step_s,
-    ))
+    run.motion_of(joint).first()?;
+    Some(run.braked(joint)?.yields())
 }
 
 /// By how much the yield torque of a joint's brake would differ if the joint turned faster or slower by what cannot be told, if
@@ -405,9 +389,9 @@ fn yield_errors(run: &FiveBarRun, joint: Joint, untold: &Untold) -> Vec<f64> {
 
 fn errors_of_brake(run: &FiveBarRun, joint: Joint, untold: &Untold) -> Option<Vec<f64>> {
     let (motion, own) = (run.motion_of(joint), run.yields.get(place(joint))?);
-    let current = run.currents.get(place(joint))?.as_ref()?;
+    let braked = run.braked(joint)?;
     let start = motion.first()?.position;
-    let along = |brake, motion: &[Instant]| yields(brake, motion, current, run.step_s);
+    let along = |brake, motion: &[Instant]| Braked { motion, ..braked }.yields_of(brake);
     let untold = untold_of_joint(run, joint, untold);
     let turned = [1.0, -1.0].map(|sign| turning(motion, &untold, sign));
     let nominal = || Brake::new(joint, start);

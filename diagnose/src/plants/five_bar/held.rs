@@ -278,7 +278,6 @@ mod tests {
                     term: problem.term(at(mechanism, *joint), shape, None)?,
                     z: 3.7,
                     share: 0.7,
-                    at_floor: true,
                     probability: 1.0,
                 })
             });
@@ -406,7 +405,6 @@ mod tests {
             term: problem.term(cause, &[0.007], None).unwrap(),
             z: 3.7,
             share: 0.7,
-            at_floor: true,
             probability: 1.0,
         }];
         let selection = Selection {

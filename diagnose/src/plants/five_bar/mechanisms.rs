@@ -1,7 +1,6 @@
 //! This file claims that what the diagnosis takes each mechanism for along a motion is what the reference rig does with it.
 
 use super::columns::{driving, fixed, free, known};
-use super::from_rig::yields;
 use super::run::{FiveBarRun, place_of};
 use crate::cause::Cause;
 use crate::filter::rms;
@@ -108,10 +107,10 @@ fn counted(run: &mut FiveBarRun) -> Vec<bool> {
     for i in 0..4 {
         let motion = &run.joints[i];
         let (own, turned) = match &run.currents[i] {
-            Some(current) => {
+            Some(_) => {
                 let brake = Brake::new(Joint::ALL[i], motion[0].position);
                 (
-                    yields(brake, motion, current, STEP_S),
+                    run.braked(Joint::ALL[i]).unwrap().yields(),
                     turned(brake, motion),
                 )
             }
