@@ -129,6 +129,19 @@ const scale = (id) => {
   const { min, max } = rigproof.charts[id].plot.scales.x;
   return [min, max];
 };
+// Where in a chart, in pixels from its left, the middle of the longest shown stretch lies in which something counts.
+const counted = (id) => {
+  const { plot } = rigproof.charts[id];
+  const [times, ...curves] = plot.data;
+  const { min, max } = plot.scales.x;
+  const shown = (k) => times[k] >= min && times[k] <= max && curves.some((own) => Number.isFinite(own[k]));
+  let [best, begun] = [[0, 0], 0];
+  for (let k = 0; k < times.length; k += 1) {
+    if (!shown(k)) begun = k + 1;
+    else if (k - begun > best[1] - best[0]) best = [begun, k];
+  }
+  return plot.valToPos(times[Math.round((best[0] + best[1]) / 2)], 'x');
+};
 
 async function charts(page, name) {
   // What is folded up is drawn when it is opened.
@@ -167,7 +180,7 @@ async function charts(page, name) {
   const share = (zoomed[1] - zoomed[0]) / (whole[1] - whole[0]);
   holds(name, `dragging zooms: ${share}`, share > 0.2 && share < 0.4);
   for (const id of linked) holds(name, `${id} is zoomed with ${first}`, String(await page.evaluate(scale, id)) === String(zoomed));
-  await page.mouse.move(left, middle);
+  await page.mouse.move(box.x + (await page.evaluate(counted, first)), middle);
   await settled(page);
   const values = await page.$$eval(`#plot-${first} .u-value`, (cells) => cells.map((cell) => cell.textContent));
   holds(name, `values under the cursor: ${values}`, values.length > 1 && /\d.* s$/.test(values[0]) && values.slice(1).some((value) => /\d/.test(value)));
