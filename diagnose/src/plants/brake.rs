@@ -66,6 +66,7 @@ impl Braked<'_> {
                 let play = CurrentPlay {
                     half_width_a: value,
                     closing_a: shape.get(1).copied().unwrap_or(0.0),
+                    spread: shape.get(2).copied().unwrap_or(0.0),
                 };
                 // The torque is not linear in the current: a share of the size that is expected stands for the slope.
                 let change = given(&through_play(self.current, play, USUAL_SHARE));

@@ -327,7 +327,11 @@ pub(super) fn read_effect(
                 let message = format!("`{}` is below 0: it is 0 or more", parameter.name);
                 return Err(table.error_at(parameter.name, message));
             }
-            Range::NotBelowZero | Range::Any => {}
+            Range::Part if !(0.0..=1.0).contains(&value.value) => {
+                let message = format!("`{}` is from 0 to 1", parameter.name);
+                return Err(table.error_at(parameter.name, message));
+            }
+            Range::NotBelowZero | Range::Part | Range::Any => {}
         }
         values.push(value);
     }
