@@ -171,11 +171,7 @@ impl Round {
     fn rows_a_sample(&self, problem: &Problem) -> f64 {
         let best = self.predicts_best();
         let residual = best.map(|own| own.residual(&self.folds));
-        discrepancy::rows_a_sample(
-            &self.folds,
-            &residual.unwrap_or_default(),
-            &problem.windows.usable,
-        )
+        discrepancy::rows_a_sample(&self.folds, &residual.unwrap_or_default(), problem)
     }
 
     fn weighed(self, problem: &Problem, noise: f64) -> Vec<Explanation> {

@@ -1,19 +1,64 @@
 //! This file says how far what no explanation takes away is from noise: over how many rows it stays alike.
 
 use super::fitted::Folds;
-use crate::rules::{LEAST_CORRELATION, ROWS_A_SAMPLE};
+use crate::problem::Problem;
+use crate::rules::{FEWEST_REPEATS, LEAST_CORRELATION, ROWS_A_SAMPLE};
 
 /// Rows that say as much as one that is independent of all others, by what the best of the explanations leaves. Blocks of time are independent of
-/// one another.
-pub fn rows_a_sample(folds: &Folds, residual: &[f64], usable: &[bool]) -> f64 {
-    (ROWS_A_SAMPLE * correlation(residual, usable))
+/// one another, but for what comes again whenever the motion does.
+pub fn rows_a_sample(folds: &Folds, residual: &[f64], problem: &Problem) -> f64 {
+    let usable = &problem.windows.usable;
+    let within = (ROWS_A_SAMPLE * correlation(residual, usable))
         .min(folds.mean_rows())
-        .max(ROWS_A_SAMPLE)
+        .max(ROWS_A_SAMPLE);
+    let outputs = problem.windows.outputs;
+    let driving = problem.windows.average(&problem.run.driving());
+    let mean = driving.iter().sum::<f64>() / driving.len().max(1) as f64;
+    let driving: Vec<f64> = driving.iter().map(|own| own - mean).collect();
+    let residual = residual.iter().zip(usable).map(usable_or_none);
+    within * repeated(&driving, &residual.collect::<Vec<_>>(), outputs)
+}
+
+fn usable_or_none((value, usable): (&f64, &bool)) -> f64 {
+    if *usable { *value } else { 0.0 }
+}
+
+/// How many times over the same is left: what repeats with a motion that repeats itself is counted once (the design effect of clustered samples: Kish,
+/// Survey Sampling, 1965; weights of Newey and West, Econometrica 55, 1987). 1 where the motion does not repeat, or where what is left does not. `outputs` rows stand for one time.
+fn repeated(driving: &[f64], residual: &[f64], outputs: usize) -> f64 {
+    let most = driving.len() / outputs / FEWEST_REPEATS;
+    let same = |own: &[f64], lag: usize| {
+        let later = own.iter().skip(lag * outputs);
+        own.iter().zip(later).map(|(a, b)| a * b).sum::<f64>()
+    };
+    let motion = |lag: usize| {
+        let (earlier, later) = (driving.len() - lag * outputs, lag * outputs);
+        let parts = [driving.get(..earlier), driving.get(later..)].map(Option::unwrap_or_default);
+        let sizes = parts.map(|own| same(own, 0).sqrt());
+        same(driving, lag) / sizes.iter().product::<f64>().max(1e-300)
+    };
+    let left = |lag: usize| same(residual, lag) / same(residual, 0).max(1e-300);
+    let lags: Vec<f64> = (0..=most).map(motion).collect();
+    let turned = lags.iter().position(|own| *own <= 0.0);
+    let open = lags.get(turned.unwrap_or(lags.len())..).unwrap_or_default();
+    let best = open.iter().copied().fold(0.0, f64::max);
+    // The first of the peaks that are as high as the highest: the others are its multiples.
+    let is_peak = |own: &[f64]| matches!(own, [a, b, c] if a <= b && b >= c && *b >= best - LEAST_CORRELATION);
+    let Some(peak) = open.windows(3).position(is_peak) else {
+        return 1.0;
+    };
+    let period = turned.unwrap_or(0) + peak + 1;
+    let count = driving.len() / outputs / period;
+    let pairs = (1..count).map(|k| {
+        let weight = 1.0 - k as f64 / count as f64;
+        let lag = k * period;
+        2.0 * weight * motion(lag).max(0.0) * left(lag)
+    });
+    1.0 + pairs.sum::<f64>().max(0.0)
 }
 
 /// The integrated autocorrelation of white rows, in rows: 1 where they are independent.
 fn correlation(residual: &[f64], usable: &[bool]) -> f64 {
-    let usable_or_none = |(r, usable): (&f64, &bool)| if *usable { *r } else { 0.0 };
     let rows: Vec<f64> = residual.iter().zip(usable).map(usable_or_none).collect();
     let covariance = |lag: usize| -> f64 {
         let later = rows.iter().skip(lag);
@@ -45,6 +90,20 @@ mod tests {
     #[test]
     fn independent_rows_are_one_apiece() {
         assert!((correlation(&wandering(0.0), &[true; 4000]) - 1.0).abs() < 0.2);
+    }
+
+    #[test]
+    fn what_comes_again_with_the_motion_is_counted_once() {
+        let turning = |k: usize| libm::sin(core::f64::consts::TAU * k as f64 / 100.0);
+        let motion: Vec<f64> = (0..2000).map(turning).collect();
+        let bent: Vec<f64> = motion.iter().map(|x| x * x * x).collect();
+        // Twenty times over the same, with the weights of so few times.
+        let own = repeated(&motion, &bent, 1);
+        assert!((own - 13.0).abs() < 1.0, "{own}");
+        let noise = &wandering(0.0)[..2000];
+        assert!((repeated(&motion, noise, 1) - 1.0).abs() < 0.7);
+        let own = repeated(&wandering(0.9)[..2000], &bent, 1);
+        assert!(own < 2.5, "{own}");
     }
 
     #[test]

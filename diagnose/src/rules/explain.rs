@@ -13,6 +13,8 @@ rules! {
     LEAST_CORRELATION: f64 = 0.05, "1", REASON;
     /// Rows that say as much as one that is independent of all others, times the integrated autocorrelation of what the best explanation leaves: that is an estimate itself.
     ROWS_A_SAMPLE: f64 = 2.5, "rows", DRIVEN;
+    /// Fewest times that a motion repeats itself in a recording for its period to be seen.
+    FEWEST_REPEATS: usize = 3, "times", REASON;
     /// What each number beyond the first costs an explanation, in natural logarithms of odds.
     A_NUMBER: f64 = 2.4, "ln odds", DRIVEN;
     /// How common a mechanism is among those that models leave out, from the plainest to the most seldom, in natural logarithms of odds: which it is stands with the mechanism.

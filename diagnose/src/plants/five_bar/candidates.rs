@@ -2,7 +2,8 @@
 
 use super::run::{FiveBarRun, at, joint_at, place};
 use crate::candidates::{
-    both_signs, current_limits, fastest, geometric, in_numbers, of_a_turn, periods, plays, stribeck_shapes,
+    both_signs, current_limits, fastest, geometric, in_numbers, of_a_turn, periods, plays,
+    stribeck_shapes,
 };
 use crate::cause::{Cause, Place};
 use crate::plant::Run;
