@@ -171,7 +171,7 @@ impl Round {
     fn rows_a_sample(&self, problem: &Problem) -> f64 {
         let best = self.predicts_best();
         let residual = best.map(|own| own.residual(&self.folds));
-        discrepancy::rows_a_sample(&self.folds, &residual.unwrap_or_default(), problem)
+        discrepancy::rows_a_sample(problem, &self.folds, &residual.unwrap_or_default())
     }
 
     fn weighed(self, problem: &Problem, noise: f64) -> Vec<Explanation> {

@@ -4,40 +4,31 @@ use super::fitted::Folds;
 use crate::problem::Problem;
 use crate::rules::{FEWEST_REPEATS, LEAST_CORRELATION, ROWS_A_SAMPLE};
 
-/// Rows that say as much as one that is independent of all others, by what the best of the explanations leaves. Blocks of time are independent of
-/// one another, but for what comes again whenever the motion does.
-pub fn rows_a_sample(folds: &Folds, residual: &[f64], problem: &Problem) -> f64 {
-    let usable = &problem.windows.usable;
-    let within = (ROWS_A_SAMPLE * correlation(residual, usable))
-        .min(folds.mean_rows())
-        .max(ROWS_A_SAMPLE);
+/// Rows that say as much as one that is independent of all others, by the white rows of what the best of the explanations leaves; 0 where a row is not
+/// usable. Blocks of time are independent of one another, but for what comes again whenever the motion does.
+pub fn rows_a_sample(problem: &Problem, folds: &Folds, left: &[f64]) -> f64 {
     let outputs = problem.windows.outputs;
+    let within = (ROWS_A_SAMPLE * correlation(left, outputs))
+        .min(folds.mean_rows() / outputs as f64)
+        .max(ROWS_A_SAMPLE);
     let driving = problem.windows.average(&problem.run.driving());
     let mean = driving.iter().sum::<f64>() / driving.len().max(1) as f64;
     let driving: Vec<f64> = driving.iter().map(|own| own - mean).collect();
-    let residual = residual.iter().zip(usable).map(usable_or_none);
-    within * repeated(&driving, &residual.collect::<Vec<_>>(), outputs)
-}
-
-fn usable_or_none((value, usable): (&f64, &bool)) -> f64 {
-    if *usable { *value } else { 0.0 }
+    within * repeated(&driving, left, outputs)
 }
 
 /// How many times over the same is left: what repeats with a motion that repeats itself is counted once (the design effect of clustered samples: Kish,
-/// Survey Sampling, 1965; weights of Newey and West, Econometrica 55, 1987). 1 where the motion does not repeat, or where what is left does not. `outputs` rows stand for one time.
+/// Survey Sampling, 1965; weights of Newey and West, Econometrica 55, 1987). 1 where the motion does not repeat, or where what is left does not. `outputs`
+/// rows stand for one time.
 fn repeated(driving: &[f64], residual: &[f64], outputs: usize) -> f64 {
     let most = driving.len() / outputs / FEWEST_REPEATS;
-    let same = |own: &[f64], lag: usize| {
-        let later = own.iter().skip(lag * outputs);
-        own.iter().zip(later).map(|(a, b)| a * b).sum::<f64>()
-    };
     let motion = |lag: usize| {
         let (earlier, later) = (driving.len() - lag * outputs, lag * outputs);
         let parts = [driving.get(..earlier), driving.get(later..)].map(Option::unwrap_or_default);
-        let sizes = parts.map(|own| same(own, 0).sqrt());
-        same(driving, lag) / sizes.iter().product::<f64>().max(1e-300)
+        let sizes = parts.map(|own| products(own, 0).sqrt());
+        products(driving, lag * outputs) / sizes.iter().product::<f64>().max(1e-300)
     };
-    let left = |lag: usize| same(residual, lag) / same(residual, 0).max(1e-300);
+    let left = |lag: usize| products(residual, lag * outputs) / products(residual, 0).max(1e-300);
     let lags: Vec<f64> = (0..=most).map(motion).collect();
     let turned = lags.iter().position(|own| *own <= 0.0);
     let open = lags.get(turned.unwrap_or(lags.len())..).unwrap_or_default();
@@ -57,17 +48,20 @@ fn repeated(driving: &[f64], residual: &[f64], outputs: usize) -> f64 {
     1.0 + pairs.sum::<f64>().max(0.0)
 }
 
-/// The integrated autocorrelation of white rows, in rows: 1 where they are independent.
-fn correlation(residual: &[f64], usable: &[bool]) -> f64 {
-    let rows: Vec<f64> = residual.iter().zip(usable).map(usable_or_none).collect();
-    let covariance = |lag: usize| -> f64 {
-        let later = rows.iter().skip(lag);
-        rows.iter().zip(later).map(|(a, b)| a * b).sum()
-    };
-    let variance = covariance(0).max(1e-300);
-    let lags = (1..rows.len() / 4).map(|lag| covariance(lag) / variance);
+/// The integrated autocorrelation of white rows, in rows of one equation: 1 where they are independent.
+fn correlation(left: &[f64], outputs: usize) -> f64 {
+    let variance = products(left, 0).max(1e-300);
+    let lags = (1..left.len() / outputs / 4).map(|lag| products(left, lag * outputs) / variance);
     let alike = lags.take_while(|own| *own >= LEAST_CORRELATION);
     1.0 + 2.0 * alike.sum::<f64>()
+}
+
+/// The sum of the products of rows with those so many later.
+fn products(rows: &[f64], later: usize) -> f64 {
+    rows.iter()
+        .zip(rows.iter().skip(later))
+        .map(|(a, b)| a * b)
+        .sum()
 }
 
 #[cfg(test)]
@@ -89,7 +83,7 @@ mod tests {
 
     #[test]
     fn independent_rows_are_one_apiece() {
-        assert!((correlation(&wandering(0.0), &[true; 4000]) - 1.0).abs() < 0.2);
+        assert!((correlation(&wandering(0.0), 1) - 1.0).abs() < 0.2);
     }
 
     #[test]
@@ -107,9 +101,19 @@ mod tests {
     }
 
     #[test]
+    fn equations_that_stand_row_by_row_are_not_taken_for_one_another() {
+        let [one, two] = [0.0, 0.8].map(wandering);
+        let both: Vec<f64> = one.iter().zip(&two).flat_map(|(a, b)| [*a, *b]).collect();
+        // The second one has 1/(1 - 0.8²) of the energy of the first.
+        let share = 1.0 / (1.0 + 0.36);
+        let own = correlation(&both, 2);
+        assert!((own - (1.0 + share * 8.0)).abs() < 2.0, "{own}");
+    }
+
+    #[test]
     fn a_wandering_rest_says_less() {
         // The integrated autocorrelation of an autoregressive process is (1 + a)/(1 - a).
-        let own = correlation(&wandering(0.8), &[true; 4000]);
+        let own = correlation(&wandering(0.8), 1);
         assert!((own - 9.0).abs() < 2.5, "{own}");
     }
 }

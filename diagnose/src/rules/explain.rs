@@ -47,8 +47,6 @@ rules! {
     ARM_WIDTH_S: f64 = 0.155, "s", REASON;
     /// An arm: cut-off of the positions' smoothing, periods in a width of a window.
     ARM_PERIODS: f64 = 3.0, "periods", REASON;
-    /// An arm: lags over which the correlation of what is left is summed.
-    MOST_LAGS: usize = 24, "windows", REASON;
     /// Explanations of each size that are gone on from.
     BEAM: usize = 6, "explanations", DRIVEN;
     /// Explanations of each size that are kept to be weighed.
