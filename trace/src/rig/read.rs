@@ -70,7 +70,10 @@ impl Rig {
             effects: root
                 .tables("effect")?
                 .iter()
-                .map(|table| read_effect(table, motion, &[]))
+                .map(|table| match plant {
+                    Plant::Bench => read_effect(table, motion, &["of"]),
+                    Plant::Axis => read_effect(table, motion, &[]),
+                })
                 .collect::<Result<_, _>>()?,
             protocol: Protocol::read(&root)?,
             text: text::read(&root)?,
@@ -313,6 +316,9 @@ pub(super) fn read_effect(
     known.extend(other_keys);
     known.extend(parameters.iter().map(|parameter| parameter.name));
     table.only(&known)?;
+    if table.has("of") {
+        choice(table, "of", ["torque"], |name| name)?;
+    }
     let mut values = Vec::with_capacity(parameters.len());
     for parameter in parameters {
         let dimension = parameter.quantity.dimension(motion);
@@ -338,6 +344,7 @@ pub(super) fn read_effect(
     Ok(RigEffect {
         mechanism,
         values,
+        of_torque: table.has("of"),
         onset: read_value(table, "onset", Dimension::TIME)?,
     })
 }

@@ -42,6 +42,7 @@ impl Stand<'_, FiveBar> {
                 mechanism,
                 values: vec![with_interval(level, None)],
                 onset: term.onset_s.map(Value::known),
+                of_torque: false,
             };
             // A share of a torque has its zero beside the torque.
             let cause = Cause::at(mechanism, term.cause.at);
@@ -63,8 +64,10 @@ impl Stand<'_, FiveBar> {
                 Place::Axis(axis) => Some(axis),
                 _ => None,
             },
-            of_torque: cause.scales == Scales::Torque,
-            effect: effect.clone(),
+            effect: RigEffect {
+                of_torque: cause.scales == Scales::Torque,
+                ..effect.clone()
+            },
         };
         match cause.at {
             Place::Every => {

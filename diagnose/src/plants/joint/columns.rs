@@ -3,6 +3,7 @@
 use super::drive::driven;
 use super::inertia::Inertia;
 use super::run::{JointRun, PlantKind};
+use crate::cause::{Cause, Scales};
 use crate::effect::Effect;
 use crate::filter::gradient;
 use crate::plant::{self, Columns, Run};
@@ -16,33 +17,61 @@ use rigproof_spec::effect::Mechanism;
 
 /// One signal for each linear parameter of a resistance, as the position sees it: the law with that parameter 1 and the
 /// others 0. `None` for a mechanism that acts on the drive.
-pub fn resistances(run: &JointRun, mechanism: Mechanism, shape: &[f64]) -> Option<Vec<Vec<f64>>> {
-    if is_of_brake(mechanism) {
-        return Some(vec![seen(run, of_brake(run, mechanism, shape)?)]);
-    }
-    let own = plant::resistances(&run.motion, run.step_s, mechanism, shape)?;
+pub fn resistances(run: &JointRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<f64>>> {
+    let own = match is_of_brake(cause) {
+        true => of_brake(run, cause, shape)?,
+        false => plant::resistances(&run.motion, run.step_s, cause.mechanism, shape)?,
+    };
     Some(own.into_iter().map(|signal| seen(run, signal)).collect())
 }
 
-/// Whether a mechanism is something that a brake does with its current or its torque.
-pub fn is_of_brake(mechanism: Mechanism) -> bool {
-    matches!(form(mechanism), Some(Form::Brake(_))) || mechanism == Mechanism::ReversalOvershoot
+/// What an effect adds to a brake's torque, sample by sample.
+pub fn of_effect(run: &JointRun, effect: &Effect) -> Option<Vec<f64>> {
+    let linear = entry(effect.mechanism())?.linear;
+    let (coefficients, shape) = effect
+        .parameters
+        .split_at(linear.min(effect.parameters.len()));
+    let mut sum = vec![0.0; run.motion.len()];
+    for (k, signal) in of_brake(run, effect.cause, shape)?.iter().enumerate() {
+        add(
+            &mut sum,
+            signal,
+            coefficients.get(k).copied().unwrap_or(1.0),
+        );
+    }
+    Some(sum)
 }
 
-/// What a brake's mechanism adds to the torque, for a linear parameter of 1 where it has one; `None` on a plant without a brake and its current.
-pub fn of_brake(run: &JointRun, mechanism: Mechanism, shape: &[f64]) -> Option<Vec<f64>> {
+/// Whether a cause is something that a brake does with its current, or a share of its torque.
+pub fn is_of_brake(cause: Cause) -> bool {
+    let is_share = cause.scales == Scales::Torque;
+    is_share
+        || matches!(
+            form(cause.mechanism),
+            Some(Form::Brake(_) | Form::ShareOfBrake(_))
+        )
+}
+
+/// What a cause adds to a brake's torque, a signal for each linear parameter; `None` on a plant without a brake and its current.
+pub fn of_brake(run: &JointRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<f64>>> {
     let (predicted, current) = run.brake()?;
-    if let Some(Form::Brake(kind)) = form(mechanism) {
+    if let Some(Form::Brake(kind)) = form(cause.mechanism) {
         let brake = run.brake_along(current)?;
         let change = brake.change(&brake.yields(), kind, shape)?;
         let along = run.motion.iter().zip(change);
-        return Some(along.map(|(now, change)| now.sense * change).collect());
+        return Some(vec![
+            along.map(|(now, change)| now.sense * change).collect(),
+        ]);
     }
     // The law says which share of the brake's torque.
-    let law = law(mechanism, &[1.0, *shape.first()?])?;
-    let share = column(law.as_ref(), &run.motion, run.step_s);
-    let pairs = share.iter().zip(predicted);
-    Some(pairs.map(|(share, torque)| share * torque.abs()).collect())
+    let mut shares = plant::resistances(&run.motion, run.step_s, cause.mechanism, shape)?;
+    for share in shares
+        .iter_mut()
+        .flat_map(|own| own.iter_mut().zip(predicted))
+    {
+        *share.0 *= share.1.abs();
+    }
+    Some(shares)
 }
 
 /// A resistance as the discrete second difference of the position sees it: on an axis with Numerov's weights,
@@ -90,10 +119,14 @@ fn described(run: &JointRun, known_only: bool) -> Vec<f64> {
 fn sum_of<'a>(run: &JointRun, effects: impl Iterator<Item = &'a Effect>) -> Vec<f64> {
     let mut sum = vec![0.0; run.motion.len()];
     for effect in effects {
-        let Some(law) = law(effect.mechanism(), &effect.parameters) else {
+        let own = match is_of_brake(effect.cause) {
+            true => of_effect(run, effect),
+            false => law(effect.mechanism(), &effect.parameters)
+                .map(|law| column(law.as_ref(), &run.motion, run.step_s)),
+        };
+        let Some(own) = own else {
             continue;
         };
-        let own = column(law.as_ref(), &run.motion, run.step_s);
         let begins = effect.first_sample(run.clock());
         for (sum, own) in sum.iter_mut().zip(own).skip(begins) {
             *sum += own;
@@ -217,10 +250,11 @@ const SUBSTEPS: usize = 8;
 /// Columns of a mechanism. A change of the drive acts on what the others give, `beside`; where that is empty, on the recorded drive itself.
 pub fn columns(
     run: &JointRun,
-    mechanism: Mechanism,
+    cause: Cause,
     shape: &[f64],
     beside: Option<&[f64]>,
 ) -> Option<Columns> {
+    let mechanism = cause.mechanism;
     match entry(mechanism)?.form {
         Form::Drive(what) => match beside? {
             [] => drive(run, what, shape),
@@ -229,13 +263,14 @@ pub fn columns(
         _ if beside.is_some() => None,
         form @ (Form::Joint(_) | Form::Sensor(_)) => of_joint(run, form, shape),
         Form::Brake(_) if entry(mechanism)?.linear == 0 => {
-            of_brake(run, mechanism, shape).map(|own| Columns::Fixed(seen(run, own)))
+            let own = of_brake(run, cause, shape)?.pop()?;
+            Some(Columns::Fixed(seen(run, own)))
         }
         _ => {
-            let mut signals = resistances(run, mechanism, shape)?;
+            let mut signals = resistances(run, cause, shape)?;
             // Where its zero is not known a second number goes with it.
             if let Some(zero) = facts(mechanism).and_then(|facts| facts.zero) {
-                signals.extend(resistances(run, zero, &[])?);
+                signals.extend(resistances(run, Cause::of(zero), &[])?);
             }
             Some(Columns::Free(signals))
         }

@@ -3,6 +3,7 @@
 use super::from_rig::nominal;
 use super::simulate::Model;
 use super::undone::is_undone;
+use crate::cause::Scales;
 use crate::diagnose::numbers::{number, numbers, onset, with_interval};
 use crate::evidence::Intervals;
 use crate::report::Number;
@@ -32,6 +33,7 @@ pub fn calibrated(rig: &Rig, model: &Model, intervals: &Intervals, refitted: boo
             mechanism: effect.mechanism(),
             values: values.collect(),
             onset: onset(effect.onset_s, intervals, index),
+            of_torque: effect.cause.scales == Scales::Torque,
         })
     };
     // What was undone before the fit stays as it is; every other effect of the description has its own place in the model.
