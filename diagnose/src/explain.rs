@@ -15,6 +15,7 @@ use crate::regression::{Blocks, fit, free_columns, paired, reduced_target};
 use crate::rules::{AS_ONE, EXCHANGES, LISTED, NAMED, OFFERED, ROWS_A_SAMPLE, SUSPECTED};
 use crate::selection::{Found, Selection, Stage, centred, refined, usable_rms};
 use fitted::{Fitted, Folds};
+use late::Late;
 pub use many::explain_many;
 use rayon::prelude::*;
 use rigproof_model::effects::{Form, facts, form};
@@ -160,7 +161,13 @@ impl Round {
         let mut all = beam::search(problem, &folds, &judge, &bare, &tried, exchanges);
         let leading = ranked(problem, &folds, &judge, all.clone()).into_iter();
         let leading: Vec<Fitted> = leading.map(|(_, own)| own).collect();
-        all.extend(late::late(problem, &folds, &judge, &bare, &leading));
+        let late = Late {
+            problem,
+            folds: &folds,
+            judge: &judge,
+            bare: &bare,
+        };
+        all.extend(late.found(&leading, &tried));
         Round { folds, bare, all }
     }
 
