@@ -59,6 +59,11 @@ impl Trials {
         })
     }
 
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.start_s.len()
+    }
+
     /// The share of the brake's torque that fits the rows best, trial by trial; 0 where there are no rows.
     fn gains(&self, rows: &[f64], usable: &[bool]) -> Vec<f64> {
         let mut sums = vec![(0.0, 0.0); self.start_s.len()];
