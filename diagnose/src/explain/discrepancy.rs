@@ -1,10 +1,12 @@
-//! This file says how far what no explanation takes away is from noise: over how many rows it stays alike.
+//! This file says how many neighbouring rows of a residual count as one independent sample.
 
 use super::fitted::Folds;
 use crate::rules::{LEAST_CORRELATION, ROWS_A_SAMPLE};
 
-/// Rows that say as much as one that is independent of all others, by what the best of the explanations leaves. Blocks of time are independent of
-/// one another.
+/// The number of rows that carry as much information as one independent sample.
+///
+/// It is `ROWS_A_SAMPLE` times the integrated autocorrelation of the best explanation's residual,
+/// at most one block: blocks are taken as independent.
 pub fn rows_a_sample(folds: &Folds, residual: &[f64], usable: &[bool]) -> f64 {
     (ROWS_A_SAMPLE * correlation(residual, usable))
         .min(folds.mean_rows())
