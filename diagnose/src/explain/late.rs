@@ -1,4 +1,5 @@
-//! This file looks for what begins in the middle of a recording: each term of an explanation from an onset on.
+//! This file searches for onsets: a term of an explanation that begins in the middle of a
+//! recording.
 
 use super::fitted::{Fitted, Folds};
 use super::score::{Judge, gives_energy};
@@ -7,15 +8,17 @@ use crate::problem::{Problem, Term};
 use crate::rules::{BEAM, LATE, ONSET_GRID, ONSET_HALVINGS, ONSET_MARGIN};
 use rayon::prelude::*;
 
-/// An explanation with one term from an onset on, at a share of the recording.
+/// An explanation in which one term begins at `share` of the recording.
 struct Begun {
     evidence: f64,
     share: f64,
     fitted: Fitted,
 }
 
-/// The explanations with one term from an onset on: each of one term and the leading ones, on a grid of onsets first, those that predict best then between
-/// the points of the grid.
+/// Explanations in which one term has an onset.
+///
+/// Onsets are tried on a grid for every single cause and for the leading explanations. The best of
+/// these are refined between the points of the grid.
 pub fn late(
     problem: &Problem,
     folds: &Folds,
