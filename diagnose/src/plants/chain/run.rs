@@ -22,6 +22,7 @@ pub struct ChainRun {
     pub step_s: f64,
     /// Time of the first sample, s.
     pub start_s: f64,
+    /// The names of the joints.
     pub names: Vec<&'static str>,
     /// The smoothed motion of each joint.
     pub motions: Vec<Vec<Instant>>,
@@ -62,10 +63,12 @@ fn looked_for() -> impl Iterator<Item = Mechanism> {
 }
 
 impl ChainRun {
+    /// The number of samples.
     pub fn len(&self) -> usize {
         self.recorded.len()
     }
 
+    /// Whether there are no samples.
     pub fn is_empty(&self) -> bool {
         self.recorded.is_empty()
     }

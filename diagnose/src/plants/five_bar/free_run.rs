@@ -33,6 +33,7 @@ pub struct Model {
 }
 
 impl Model {
+    /// The model of a description.
     pub fn of(description: &FiveBar) -> Model {
         Model::with(nominal(description))
     }
