@@ -34,6 +34,7 @@ pub struct FiveBarRun {
     pub theta: [Vec<f64>; 2],
     /// Smoothed motion of the joints A, E, B, C.
     pub joints: [Vec<Instant>; 4],
+    /// The pose of every sample.
     pub poses: Vec<Pose>,
     /// The equations of motion along the smoothed motion.
     pub forms: Vec<TwoCoordinate>,
@@ -89,19 +90,23 @@ pub fn joint_at(at: Place) -> Option<Joint> {
     }
 }
 
+/// A mechanism at a joint.
 pub fn at(mechanism: Mechanism, joint: Joint) -> Cause {
     Cause::at(mechanism, place_of(Some(joint)))
 }
 
 impl FiveBarRun {
+    /// The number of samples.
     pub fn len(&self) -> usize {
         self.recorded.len()
     }
 
+    /// Whether there are no samples.
     pub fn is_empty(&self) -> bool {
         self.recorded.is_empty()
     }
 
+    /// The smoothed motion of a joint.
     pub fn motion_of(&self, joint: Joint) -> &[Instant] {
         self.joints.get(place(joint)).map_or(&[], Vec::as_slice)
     }
@@ -127,6 +132,7 @@ impl FiveBarRun {
         stacked(pairs.map(|(form, force)| (form.tip.transpose() * Vector2::from(force)).into()))
     }
 
+    /// The recorded force on the tip, N.
     pub fn forces(&self) -> impl Iterator<Item = [f64; 2]> {
         let [x, y] = &self.force;
         x.iter().zip(y).map(|(x, y)| [*x, *y])

@@ -18,6 +18,7 @@ use rigproof_spec::effect::Motion;
 /// The recorded signals of a plant by role, in SI units; NaN where nothing was recorded.
 #[derive(Clone, Debug)]
 pub struct Signals {
+    /// The kind of plant.
     pub plant: PlantKind,
     /// Whether the joint is linear or rotary.
     pub kind: Motion,
