@@ -64,6 +64,7 @@ fn size_of(effect: &Effect, parameter: usize, effort: f64) -> f64 {
 
 /// A refitted plant.
 pub struct Shown {
+    /// The refitted plant.
     pub plant: Model,
     /// Root-mean-square error of the free run on the fitted part.
     pub train: f64,

@@ -14,8 +14,10 @@ pub struct Free {
     pub scale: f64,
 }
 
+/// The outcome of an output-error refit.
 #[derive(Clone, Debug)]
 pub struct Refit {
+    /// The refitted plant.
     pub plant: Model,
     /// Root-mean-square error of its free run.
     pub error: f64,
