@@ -37,9 +37,11 @@ pub enum PlantKind {
 /// An aligned recording in SI units. Every vector has one value per sample.
 #[derive(Clone, Debug)]
 pub struct JointRun {
+    /// The kind of plant.
     pub plant: PlantKind,
     /// Whether the joint is linear or rotary.
     pub kind: Motion,
+    /// The inertia as the description gives it.
     pub inertia: Inertia,
     /// The effects of the description.
     pub described: Vec<Effect>,
@@ -83,6 +85,7 @@ pub struct JointRun {
 }
 
 impl JointRun {
+    /// The number of samples.
     pub fn len(&self) -> usize {
         self.position.len()
     }
@@ -140,6 +143,7 @@ impl JointRun {
         })
     }
 
+    /// Whether there are no samples.
     pub fn is_empty(&self) -> bool {
         self.position.is_empty()
     }

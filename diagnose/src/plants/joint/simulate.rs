@@ -40,6 +40,7 @@ pub enum Interpolation {
 /// The protocol of a free run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Protocol {
+    /// How the effort is interpolated.
     pub interpolation: Interpolation,
     /// Samples from which the start state is estimated: a parabola, then a fit to the samples after
     /// it. With 0 the run starts from rest at the first position.
