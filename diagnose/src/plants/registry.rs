@@ -212,6 +212,7 @@ macro_rules! plants {
         }
 
         impl Measured {
+            /// The time stamps, s.
             pub fn time_s(&self) -> &[f64] {
                 match self {
                     $(Measured::$name(own) => <$plant>::times_s(own),)+
