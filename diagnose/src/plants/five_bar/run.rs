@@ -44,8 +44,7 @@ pub struct FiveBarRun {
     pub currents: [Option<Vec<f64>>; 4],
     /// Yield torques of the nominal brakes at A, E, B, C, N·m; 0 without a brake.
     pub yields: [Vec<f64>; 4],
-    /// The uncertainty of the nominal yield torques, N·m: the start and end of a backlash are known
-    /// to a few counts.
+    /// The uncertainty of the nominal yield torques from that of their backlash, N·m.
     pub yield_errors: [Vec<f64>; 4],
     /// Standard deviation of one angle sample, rad.
     pub theta_noise: f64,
@@ -111,8 +110,7 @@ impl FiveBarRun {
         self.joints.get(place(joint)).map_or(&[], Vec::as_slice)
     }
 
-    /// The joint's row of the Jacobian, sample by sample: the efforts of θA and θB per unit of
-    /// torque at the joint.
+    /// The efforts of θA and θB per unit of torque at a joint, sample by sample.
     pub fn joint_rows(&self, joint: Joint) -> impl Iterator<Item = [f64; 2]> {
         let row = place(joint);
         self.forms
@@ -161,8 +159,7 @@ impl FiveBarRun {
         pairs.map(|(now, y)| now.sense * y).collect()
     }
 
-    /// The travel of a joint from sample to sample, rad, filtered by a backlash as wide as the
-    /// apparent motion of a joint at rest.
+    /// The travel of a joint between samples, rad, without the apparent motion of a joint at rest.
     pub fn known_travel(&self, joint: Joint) -> Vec<f64> {
         let half = 0.5 * self.still_rad_at(joint);
         let base = [Joint::A, Joint::B].map(|base| self.motion_of(base));
@@ -184,8 +181,7 @@ impl FiveBarRun {
         self.still_rad * sizes.fold(1.0, f64::max)
     }
 
-    /// The angle of a joint that follows from the recorded θA and θB, rad, given the smoothed
-    /// motion of A, B and the joint.
+    /// The angle of a joint that follows from the recorded θA and θB, rad.
     pub fn recorded_angle(
         &self,
         joint: Joint,
