@@ -1,11 +1,11 @@
-//! This file says in words what a diagnosis came to.
+//! This file puts into words how the recordings were used.
 
 use crate::plant::Run;
 use crate::problem::Problem;
 use crate::report::{FitReport, Verdict};
 use crate::selection::Selection;
 
-/// How several recordings stand together, in words; `None` for one.
+/// A sentence on several recordings; `None` for one.
 pub(crate) fn together<R: Run>(parts: &[R]) -> Option<String> {
     let mut ends_s = 0.0;
     let ends = parts.iter().map(|part| {
@@ -22,7 +22,7 @@ pub(crate) fn together<R: Run>(parts: &[R]) -> Option<String> {
     })
 }
 
-/// What was not recorded, in words; `None` where no more than single samples are missing, which lie between their neighbours.
+/// A sentence on missing samples; `None` if only single ones are missing, which are interpolated.
 pub(crate) fn filled_in(recorded: &[bool]) -> Option<String> {
     let missing = recorded.iter().filter(|&&r| !r).count();
     let of = recorded.len();
