@@ -8,6 +8,7 @@ use rigproof_spec::effect::Mechanism;
 /// A mechanism at a place, with its parameters and its onset.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Effect {
+    /// The mechanism, and where it acts.
     pub cause: Cause,
     /// Its parameters in the vocabulary's order, SI units.
     pub parameters: Vec<f64>,
@@ -28,6 +29,7 @@ impl Effect {
         }
     }
 
+    /// The mechanism of its cause.
     pub const fn mechanism(&self) -> Mechanism {
         self.cause.mechanism
     }

@@ -40,9 +40,8 @@ pub struct Report {
     pub stages: Vec<StageReport>,
     /// The mechanisms that are named.
     pub effects: Vec<EffectReport>,
-    /// For each effect, the rivals that explain as much in its place: a mechanism, written `viscous
-    /// at E` where there are several joints. Two rivals that act together are written `presliding
-    /// at E with constant_bias at E`.
+    /// For each effect, the rivals that explain as much in its place, written `viscous at E` where
+    /// there are several joints.
     pub ambiguous_with: Vec<Vec<String>>,
     /// Mechanisms that only substitute for another law over the same variable, and are not named.
     pub withdrawn: Vec<String>,

@@ -43,10 +43,10 @@ impl Agreement {
     pub fn said(&self, unit: &str) -> Option<String> {
         (!self.agrees).then(|| {
             let from = self.departs_s.map_or(String::new(), |departs_s| {
-                format!(", it departs at {departs_s:.3} s")
+                format!("; it grows from {departs_s:.3} s on")
             });
             format!(
-                "the held-out part does not agree: its error is {:.3e} {unit} where noise and the intervals of the numbers allow {:.3e} {unit}{from} and is greatest at {:.3} s",
+                "the held-out part does not agree: its error is {:.3e} {unit}, while noise and the intervals of the parameters allow {:.3e} {unit}{from}; it is greatest at {:.3} s",
                 self.error, self.allowed, self.greatest_s
             )
         })
