@@ -117,7 +117,7 @@ fn found(rig: Rig, effect: &JointEffect) -> Result<Found, String> {
     let at = effect.joint.map_or(String::new(), |joint| {
         format!(" at joint {}", joint.letter())
     });
-    if effect.axis.is_some() || effect.of_torque {
+    if effect.axis.is_some() || effect.effect.of_torque {
         return Err(format!(
             "the fixed-step plant has no `{}`{at} as a share of a torque or of one axis of a sensor: take it out, and know that it is not looked at",
             mechanism.name()

@@ -157,7 +157,7 @@ pub fn standard_shapes<R: Run + ?Sized>(
             MOST_SHIFT_S_JOINT.max(MOST_SHIFT_STEPS * step_s),
             SHIFTS_JOINT,
         ))),
-        Shapes::CurrentPlay { low, high, count } => one(geometric(low, high, count)),
+        Shapes::CurrentPlay { low, high, count } => plays(&geometric(low, high, count), &[]),
         Shapes::Delay => one(geometric(step_s, MOST_DELAY_S, DELAYS)),
         Shapes::CurrentLimit => {
             let current = run.brake().map(|(_, current)| current);
@@ -170,6 +170,16 @@ pub fn standard_shapes<R: Run + ?Sized>(
         | Shapes::Geometric { .. }
         | Shapes::BothSigns { .. }) => in_numbers(own),
     }
+}
+
+/// Half widths of a current hysteresis, A: with sides that close towards no current, with open
+/// sides, and the widest of plays of every width.
+pub fn plays(widths: &[f64], closing_a: &[f64]) -> Vec<Vec<f64>> {
+    let each = widths.iter().flat_map(|width| {
+        let closing = closing_a.iter().map(|below| vec![*width, *below]);
+        closing.chain([vec![*width], vec![*width, 0.0, 1.0]])
+    });
+    each.collect()
 }
 
 /// Trial travels of presliding, from the least that can be observed.

@@ -17,6 +17,7 @@ use crate::regression::{Blocks, fit, free_columns, paired, reduced_target};
 use crate::rules::{AS_ONE, EXCHANGES, LISTED, NAMED, OFFERED, ROWS_A_SAMPLE, SUSPECTED};
 use crate::selection::{Found, Selection, Stage, centred, refined, usable_rms};
 use fitted::{Fitted, Folds};
+use late::Late;
 pub use many::explain_many;
 use rayon::prelude::*;
 use rigproof_model::effects::{Form, facts, form};
@@ -169,7 +170,13 @@ impl Round {
         let mut all = beam::search(problem, &folds, &judge, &bare, &tried, exchanges);
         let leading = ranked(problem, &folds, &judge, all.clone()).into_iter();
         let leading: Vec<Fitted> = leading.map(|(_, own)| own).collect();
-        all.extend(late::late(problem, &folds, &judge, &bare, &leading));
+        let late = Late {
+            problem,
+            folds: &folds,
+            judge: &judge,
+            bare: &bare,
+        };
+        all.extend(late.found(&leading, &tried));
         Round { folds, bare, all }
     }
 
@@ -180,11 +187,7 @@ impl Round {
     fn rows_a_sample(&self, problem: &Problem) -> f64 {
         let best = self.predicts_best();
         let residual = best.map(|own| own.residual(&self.folds));
-        discrepancy::rows_a_sample(
-            &self.folds,
-            &residual.unwrap_or_default(),
-            &problem.windows.usable,
-        )
+        discrepancy::rows_a_sample(problem, &self.folds, &residual.unwrap_or_default())
     }
 
     fn weighed(self, problem: &Problem, noise: f64) -> Vec<Explanation> {

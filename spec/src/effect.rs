@@ -90,6 +90,7 @@ vocabulary! {
         needed("share", Number),
         needed("half_width", Current).above_zero(),
         optional("closing", Current).not_below_zero(),
+        optional("spread", Number).part(),
     ],
     /// Memory of the displacement history (Bouc 1967, Wen 1976).
     Hysteresis = "hysteresis" called "Bouc-Wen hysteresis" | "bouc-wen" | "bouc_wen" [
@@ -278,6 +279,8 @@ pub enum Range {
     NotBelowZero,
     /// More than 0: a law divides by it, or it is a time.
     AboveZero,
+    /// From 0 to 1: a part of something.
+    Part,
 }
 
 const fn needed(name: &'static str, quantity: Quantity) -> Parameter {
@@ -300,6 +303,13 @@ impl Parameter {
     const fn above_zero(self) -> Parameter {
         Parameter {
             range: Range::AboveZero,
+            ..self
+        }
+    }
+
+    const fn part(self) -> Parameter {
+        Parameter {
+            range: Range::Part,
             ..self
         }
     }

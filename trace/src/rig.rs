@@ -259,6 +259,8 @@ pub struct RigEffect {
     pub values: Vec<Value>,
     /// When it sets in, s; from the start when absent.
     pub onset: Option<Value>,
+    /// Whether its efforts are shares of the torque of the brake at its place.
+    pub of_torque: bool,
 }
 
 impl RigEffect {

@@ -1,5 +1,6 @@
 //! This file formats parameters with their intervals for a calibration and a report.
 
+use crate::cause::Scales;
 use crate::evidence::{Intervals, coefficients_by_term, parameters};
 use crate::problem::Problem;
 use crate::report::Number;
@@ -52,6 +53,7 @@ pub(crate) fn fitted(
                     .map(|(k, value)| with_interval(value, halves.and_then(|h| h.get(k)).copied()))
                     .collect(),
                 onset: onset(term.onset_s, intervals, index),
+                of_torque: term.cause.scales == Scales::Torque,
             }
         })
         .collect()

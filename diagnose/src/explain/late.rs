@@ -2,85 +2,154 @@
 //! recording.
 
 use super::fitted::{Fitted, Folds};
+use super::refine::refined;
 use super::score::{Judge, gives_energy};
 use super::unfitted;
+use crate::cause::Cause;
 use crate::problem::{Problem, Term};
 use crate::rules::{BEAM, LATE, ONSET_GRID, ONSET_HALVINGS, ONSET_MARGIN};
 use rayon::prelude::*;
 
-/// An explanation in which one term begins at `share` of the recording.
+/// What is needed to judge explanations with an onset.
+pub struct Late<'a> {
+    pub problem: &'a Problem<'a>,
+    pub folds: &'a Folds,
+    pub judge: &'a Judge,
+    pub bare: &'a Fitted,
+}
+
+/// An explanation whose last term begins at `share` of the recording.
+#[derive(Clone)]
 struct Begun {
     evidence: f64,
     share: f64,
     fitted: Fitted,
 }
 
-/// Explanations in which one term has an onset.
-///
-/// Onsets are tried on a grid for every single cause and for the leading explanations. The best of
-/// these are refined between the points of the grid.
-pub fn late(
-    problem: &Problem,
-    folds: &Folds,
-    judge: &Judge,
-    bare: &Fitted,
-    ranked: &[Fitted],
-) -> Vec<Fitted> {
-    let tried = |own: &Fitted, index: usize, share: f64| {
-        begun(problem, folds, judge, bare, &own.terms, index, share)
-    };
-    let open = ranked.iter().enumerate();
-    let open = open.filter(|(place, own)| own.terms.len() == 1 || *place < LATE);
-    let places: Vec<(&Fitted, usize)> = open
-        .flat_map(|(_, own)| (0..own.terms.len()).map(move |index| (own, index)))
-        .collect();
-    let on_grid = places.into_par_iter().filter_map(|(own, index)| {
-        let grid = (1..ONSET_GRID).map(|k| k as f64 / ONSET_GRID as f64);
-        let all = grid.filter_map(|share| tried(own, index, share));
-        let best = all.max_by(|a, b| a.evidence.total_cmp(&b.evidence))?;
-        Some((own, index, best))
-    });
-    let mut on_grid: Vec<(&Fitted, usize, Begun)> = on_grid.collect();
-    on_grid.sort_by(|a, b| b.2.evidence.total_cmp(&a.2.evidence));
-    on_grid.truncate(BEAM);
-    let placed = on_grid.into_par_iter().map(|(own, index, mut best)| {
-        let mut stride = 0.5 / ONSET_GRID as f64;
-        for _ in 0..ONSET_HALVINGS {
-            for share in [best.share - stride, best.share + stride] {
-                let moved = tried(own, index, share);
-                best = moved
-                    .filter(|moved| moved.evidence > best.evidence)
-                    .unwrap_or(best);
+impl Late<'_> {
+    /// Explanations in which one term has an onset.
+    ///
+    /// Onsets are tried on a grid for every single cause and for the leading explanations. The best
+    /// of these are refined between the points of the grid. Where one of them predicts better than
+    /// every explanation without onset, every other term is tried from that onset on: the shape of
+    /// a law over the whole recording says little about its shape after the onset.
+    pub fn found(&self, ranked: &[Fitted], tried: &[Term]) -> Vec<Fitted> {
+        let open = ranked.iter().enumerate();
+        let open = open.filter(|(place, own)| own.terms.len() == 1 || *place < LATE);
+        let places: Vec<(&Fitted, usize)> = open
+            .flat_map(|(_, own)| (0..own.terms.len()).map(move |index| (own, index)))
+            .collect();
+        let on_grid = places.into_par_iter().filter_map(|(own, index)| {
+            let (others, term) = self.apart(own, index)?;
+            let grid = (1..ONSET_GRID).map(|k| k as f64 / ONSET_GRID as f64);
+            let all = grid.filter_map(|share| self.begun(&others, &term, share));
+            all.max_by(|a, b| a.evidence.total_cmp(&b.evidence))
+        });
+        let found = self.placed(on_grid.collect());
+        let from_start = ranked
+            .iter()
+            .map(|own| self.judge.evidence(self.folds, own));
+        let most = from_start.fold(f64::NEG_INFINITY, f64::max);
+        let leading = found
+            .iter()
+            .max_by(|a, b| a.evidence.total_cmp(&b.evidence));
+        let exchanged = leading.filter(|own| own.evidence > most).map(|leading| {
+            let shapes = self.exchanged(leading, tried);
+            self.placed(shapes)
+        });
+        let all = found.into_iter().chain(exchanged.into_iter().flatten());
+        let mut best: Vec<Begun> = Vec::new();
+        for own in self.ranked(all.collect()) {
+            let causes = |own: &Begun| -> Vec<Cause> {
+                own.fitted.terms.iter().map(|term| term.cause).collect()
+            };
+            if !best.iter().any(|other| causes(other) == causes(&own)) {
+                best.push(own);
             }
-            stride *= 0.5;
         }
-        best.fitted
-    });
-    placed.collect()
-}
-
-fn begun(
-    problem: &Problem,
-    folds: &Folds,
-    judge: &Judge,
-    bare: &Fitted,
-    terms: &[Term],
-    index: usize,
-    share: f64,
-) -> Option<Begun> {
-    if !(ONSET_MARGIN..1.0 - ONSET_MARGIN).contains(&share) {
-        return None;
+        best.into_iter().map(|own| own.fitted).collect()
     }
-    let clock = problem.run.clock();
-    let onset_s = clock.start_s + share * clock.duration_s();
-    let mut terms = terms.to_vec();
-    let own = terms.get_mut(index)?;
-    *own = unfitted(problem, own.cause, &own.shape, Some(onset_s))?;
-    let fitted = bare.of(folds, &terms);
-    let evidence = judge.evidence(folds, &fitted);
-    (!gives_energy(problem, &fitted)).then_some(Begun {
-        evidence,
-        share,
-        fitted,
-    })
+
+    /// An explanation without one of its terms, and that term.
+    fn apart(&self, own: &Fitted, index: usize) -> Option<(Fitted, Term)> {
+        let mut others = own.terms.clone();
+        (index < others.len())
+            .then(|| others.remove(index))
+            .map(|term| (self.bare.of(self.folds, &others), term))
+    }
+
+    /// The explanations with every other term in the place of the late one, from the same onset on.
+    /// The best get refined shapes.
+    fn exchanged(&self, leading: &Begun, tried: &[Term]) -> Vec<Begun> {
+        let last = leading.fitted.terms.len().saturating_sub(1);
+        let Some((others, _)) = self.apart(&leading.fitted, last) else {
+            return Vec::new();
+        };
+        let begun = tried.par_iter().filter(|term| {
+            let mut own = others.terms.iter();
+            !own.any(|other| other.cause == term.cause)
+        });
+        let begun = begun.filter_map(|term| self.begun(&others, term, leading.share));
+        let mut best: Vec<Begun> = Vec::new();
+        for own in self.ranked(begun.collect()) {
+            let cause = |own: &Begun| own.fitted.terms.last().map(|term| term.cause);
+            if !best.iter().any(|other| cause(other) == cause(&own)) {
+                best.push(own);
+            }
+        }
+        best.truncate(BEAM);
+        let refined = best.into_par_iter().map(|own| {
+            let fitted = refined(self.problem, self.folds, self.judge, self.bare, own.fitted);
+            Begun {
+                evidence: self.judge.evidence(self.folds, &fitted),
+                fitted,
+                ..own
+            }
+        });
+        refined.collect()
+    }
+
+    /// The best explanations, with onsets refined between the points of the grid.
+    fn placed(&self, on_grid: Vec<Begun>) -> Vec<Begun> {
+        let mut best = self.ranked(on_grid);
+        best.truncate(BEAM);
+        let placed = best.into_par_iter().filter_map(|mut best| {
+            let last = best.fitted.terms.len().checked_sub(1)?;
+            let (others, term) = self.apart(&best.fitted, last)?;
+            let mut stride = 0.5 / ONSET_GRID as f64;
+            for _ in 0..ONSET_HALVINGS {
+                for share in [best.share - stride, best.share + stride] {
+                    let moved = self.begun(&others, &term, share);
+                    best = moved
+                        .filter(|moved| moved.evidence > best.evidence)
+                        .unwrap_or(best);
+                }
+                stride *= 0.5;
+            }
+            Some(best)
+        });
+        placed.collect()
+    }
+
+    fn ranked(&self, mut all: Vec<Begun>) -> Vec<Begun> {
+        all.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
+        all
+    }
+
+    /// An explanation with one more term, from an onset on.
+    fn begun(&self, others: &Fitted, term: &Term, share: f64) -> Option<Begun> {
+        if !(ONSET_MARGIN..1.0 - ONSET_MARGIN).contains(&share) {
+            return None;
+        }
+        let clock = self.problem.run.clock();
+        let onset_s = clock.start_s + share * clock.duration_s();
+        let term = unfitted(self.problem, term.cause, &term.shape, Some(onset_s))?;
+        let fitted = others.with(self.folds, &term);
+        let evidence = self.judge.evidence(self.folds, &fitted);
+        (!gives_energy(self.problem, &fitted)).then_some(Begun {
+            evidence,
+            share,
+            fitted,
+        })
+    }
 }

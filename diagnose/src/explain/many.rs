@@ -4,12 +4,13 @@
 //! A beam over sets would be too wide: several places usually lack something at once.
 
 use super::beam::may_join;
+use super::discrepancy::rows_a_sample;
 use super::fitted::{Fitted, Folds};
 use super::score::{Judge, gives_energy, prior};
 use super::{Explanation, Explanations, candidates, living, selected};
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, fit, free_columns, reduced_target};
-use crate::rules::{LEAST_CORRELATION, MOST_LAGS, MOST_OF_MANY, ROWS_A_SAMPLE};
+use crate::rules::MOST_OF_MANY;
 use crate::selection::{Selection, usable_rms};
 use rayon::prelude::*;
 use rigproof_spec::effect::Mechanism;
@@ -26,7 +27,8 @@ pub fn explain_many(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection
     let noise = usable_rms(problem, &raw).max(problem.floor);
     problem.rewhiten(noise);
     nominal.iter_mut().for_each(|term| problem.refresh(term));
-    let rows = rows_a_sample(problem, &problem.whitener.whiten(&raw));
+    let white = problem.whitener.whiten(&raw);
+    let rows = rows_a_sample(problem, &Folds::of(problem), &white);
     let round = Round::of(problem, &nominal, noise, rows);
     let leading = round.searched(problem);
     let explanations = Explanations {
@@ -41,20 +43,6 @@ fn plain_residual(problem: &Problem, nominal: &[Term]) -> Vec<f64> {
     let plain = tried.iter().filter(|term| term.shape.is_empty());
     let all: Vec<&Term> = nominal.iter().chain(plain).collect();
     fit(problem, &all, &Blocks::new(problem)).residual
-}
-
-/// The number of rows that carry as much information as one independent sample, from the
-/// autocorrelation within each equation.
-fn rows_a_sample(problem: &Problem, white: &[f64]) -> f64 {
-    let outputs = problem.windows.outputs;
-    let products = |lag: usize| -> f64 {
-        let later = white.iter().skip(lag * outputs);
-        white.iter().zip(later).map(|(a, b)| a * b).sum()
-    };
-    let whole = products(0).max(1e-300);
-    let each = (1..=MOST_LAGS).map(|lag| products(lag) / whole);
-    let sum: f64 = each.take_while(|rho| *rho > LEAST_CORRELATION).sum();
-    ROWS_A_SAMPLE * (1.0 + 2.0 * sum)
 }
 
 /// Whether it corrects the inertia of a link that an effort depends on.

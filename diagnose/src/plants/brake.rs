@@ -69,6 +69,7 @@ impl Braked<'_> {
                 let play = CurrentPlay {
                     half_width_a: value,
                     closing_a: shape.get(1).copied().unwrap_or(0.0),
+                    spread: shape.get(2).copied().unwrap_or(0.0),
                 };
                 // The torque is not linear in the current. The slope is taken as a finite
                 // difference over the usual size of the effect.

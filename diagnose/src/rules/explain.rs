@@ -13,6 +13,8 @@ rules! {
     LEAST_CORRELATION: f64 = 0.05, "1", REASON;
     /// Rows that say as much as one that is independent of all others, times the integrated autocorrelation of what the best explanation leaves: that is an estimate itself.
     ROWS_A_SAMPLE: f64 = 2.5, "rows", DRIVEN;
+    /// Fewest times that a motion repeats itself in a recording for its period to be seen.
+    FEWEST_REPEATS: usize = 3, "times", REASON;
     /// What each number beyond the first costs an explanation, in natural logarithms of odds.
     A_NUMBER: f64 = 2.4, "ln odds", DRIVEN;
     /// How common a mechanism is among those that models leave out, from the plainest to the most seldom, in natural logarithms of odds: which it is stands with the mechanism.
@@ -45,8 +47,6 @@ rules! {
     ARM_WIDTH_S: f64 = 0.155, "s", REASON;
     /// An arm: cut-off of the positions' smoothing, periods in a width of a window.
     ARM_PERIODS: f64 = 3.0, "periods", REASON;
-    /// An arm: lags over which the correlation of what is left is summed.
-    MOST_LAGS: usize = 24, "windows", REASON;
     /// Explanations of each size that are gone on from.
     BEAM: usize = 6, "explanations", DRIVEN;
     /// Explanations of each size that are kept to be weighed.

@@ -25,7 +25,7 @@ pub(super) const ENTRY: Entry = Entry {
             Family::Constant,
             Asked {
                 alone: Alone::Always,
-                five_bar: Where::Nowhere,
+                five_bar: Where::Brakes,
             },
             Words {
                 what: "a pull to one side that grows with time",

@@ -38,7 +38,7 @@ pub(super) const CURRENT_HYSTERESIS: Entry = Entry {
     linear: 1,
     passive: true,
     refuted_by: "the same torque on the way up and on the way down of a slow current triangle",
-    equation: "τ follows I + share·(p − I), p the play of half width `half_width` that the current moves; its sides meet at 0 from `closing` down",
+    equation: "τ follows I + share·(p − I), p the play of half width `half_width` that the current moves; its sides meet at 0 from `closing` down; with `spread` the mean of plays whose half widths reach down to (1 − spread)·half_width",
     facts: Facts {
         turn: 6,
         has_forms: true,

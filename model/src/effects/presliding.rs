@@ -20,6 +20,7 @@ pub(super) const ENTRY: Entry = Entry {
     refuted_by: "a full change of force at a reversal without any travel",
     equation: "level·w, travel·dw/dt = q̇ − |q̇|·w",
     facts: Facts {
+        of_torque: true,
         usual: Usual::Frequent,
         turn: 2,
         has_forms: true,

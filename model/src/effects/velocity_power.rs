@@ -28,7 +28,7 @@ pub(super) const ENTRY: Entry = Entry {
             Family::FrictionOfMotion,
             Asked {
                 alone: Alone::Always,
-                five_bar: Where::Nowhere,
+                five_bar: Where::Brakes,
             },
             Words {
                 what: "drag that grows with a power of the speed",

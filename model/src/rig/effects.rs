@@ -176,6 +176,7 @@ fn of_brake(effect: &JointEffect, joint: Joint) -> Option<Term> {
             play: CurrentPlay {
                 half_width_a: value(1),
                 closing_a: value(2),
+                spread: value(3),
             },
         },
         Form::Brake(OfBrake::DeadTime) => Term::Late {
@@ -239,7 +240,8 @@ fn check_numbers(effect: &JointEffect) -> Result<(), ModelError> {
             match name.range {
                 Range::AboveZero if *value <= 0.0 => "above 0",
                 Range::NotBelowZero if *value < 0.0 => "0 or more",
-                Range::Any | Range::AboveZero | Range::NotBelowZero => continue,
+                Range::Part if !(0.0..=1.0).contains(value) => "from 0 to 1",
+                Range::Any | Range::AboveZero | Range::NotBelowZero | Range::Part => continue,
             }
         };
         return Err(ModelError::EffectValue {

@@ -9,7 +9,7 @@ use rigproof_spec::joint::Joint;
 
 use super::contact::Contact;
 use super::effects::JointEffect;
-use crate::effects::{CurrentPlay, Instant, Law, lagged};
+use crate::effects::{CurrentPlay, Instant, Law, PLAYS, Played, held_a, lagged};
 use crate::motion::two_coordinate::TwoCoordinate;
 
 /// The least yield of a joint with dry friction, N·m: what holds has to be able to let go.
@@ -35,7 +35,7 @@ pub enum Term {
         per_joule: f64,
         cooling_s: f64,
     },
-    /// A share of a brake's current is that of a play; remembers the play, A.
+    /// A share of a brake's current is that of a play; where the play stands is remembered beside the numbers.
     Play {
         place: usize,
         share: f64,
@@ -79,6 +79,8 @@ pub struct LeftOut {
     given: Arc<[JointEffect]>,
     terms: Arc<[Timed]>,
     memory: Vec<f64>,
+    /// Where the plays of the currents stand, A: some a term.
+    played: Vec<Played>,
     /// What the brakes alone yielded when the memories were last advanced, N·m.
     own_before_nm: [f64; 4],
     /// What the brakes were commanded, A, and since when, s: as far back as the longest delay reaches.
@@ -91,6 +93,7 @@ impl PartialEq for LeftOut {
     fn eq(&self, other: &LeftOut) -> bool {
         self.given == other.given
             && self.memory == other.memory
+            && self.played == other.played
             && self.own_before_nm == other.own_before_nm
             && self.commands == other.commands
     }
@@ -140,6 +143,7 @@ impl LeftOut {
         LeftOut {
             given: Arc::from(given),
             memory: memory.collect(),
+            played: vec![[0.0; PLAYS]; terms.len()],
             own_before_nm: [NO_TORQUE_YET_NM; 4],
             terms,
             commands: Vec::new(),
@@ -211,13 +215,13 @@ impl LeftOut {
                 given_a[place] = given_a[place].min(most_a);
             }
         }
-        for (timed, memory) in terms.iter().zip(&mut self.memory) {
+        for (timed, played) in terms.iter().zip(&mut self.played) {
             if let Term::Play { place, share, play } = timed.term {
                 let now_a = given_a[place];
-                let before_a = if first { 0.0 } else { *memory };
-                *memory = play.moved(before_a, now_a);
+                let before = if first { [0.0; PLAYS] } else { *played };
+                *played = play.moved(before, now_a);
                 if time_s >= timed.onset_s {
-                    given_a[place] += share * (*memory - now_a);
+                    given_a[place] += share * (held_a(played) - now_a);
                 }
             }
         }

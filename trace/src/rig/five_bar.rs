@@ -60,8 +60,6 @@ pub struct JointEffect {
     pub joint: Option<Joint>,
     /// The axis of the force sensor that it is of alone, 0 for x, 1 for y.
     pub axis: Option<usize>,
-    /// Whether its efforts are shares of the torque of the joint's brake.
-    pub of_torque: bool,
     /// The mechanism with its parameters.
     pub effect: RigEffect,
 }
@@ -165,14 +163,10 @@ impl FiveBar {
                 true => Some(choice(table, "axis", [0, 1], axis_name)?),
                 false => None,
             };
-            if table.has("of") {
-                choice(table, "of", ["torque"], |name| name)?;
-            }
             let effect = read_effect(table, Motion::Rotary, &["joint", "axis", "of"])?;
             Ok(JointEffect {
                 joint,
                 axis,
-                of_torque: table.has("of"),
                 effect,
             })
         });
@@ -294,7 +288,6 @@ impl FiveBar {
             lines.extend(effect.by_ref().take(2));
             lines.extend(joint.map(|joint| format!("joint = {}", string(joint.letter()))));
             lines.extend(axis.map(|axis| format!("axis = {}", string(axis_name(axis)))));
-            lines.extend(own.of_torque.then(|| "of = \"torque\"".to_owned()));
             lines.extend(effect);
         }
         lines.extend(self.protocol.lines());

@@ -70,7 +70,10 @@ impl Rig {
             effects: root
                 .tables("effect")?
                 .iter()
-                .map(|table| read_effect(table, motion, &[]))
+                .map(|table| match plant {
+                    Plant::Bench => read_effect(table, motion, &["of"]),
+                    Plant::Axis => read_effect(table, motion, &[]),
+                })
                 .collect::<Result<_, _>>()?,
             protocol: Protocol::read(&root)?,
             text: text::read(&root)?,
@@ -313,6 +316,9 @@ pub(super) fn read_effect(
     known.extend(other_keys);
     known.extend(parameters.iter().map(|parameter| parameter.name));
     table.only(&known)?;
+    if table.has("of") {
+        choice(table, "of", ["torque"], |name| name)?;
+    }
     let mut values = Vec::with_capacity(parameters.len());
     for parameter in parameters {
         let dimension = parameter.quantity.dimension(motion);
@@ -327,13 +333,18 @@ pub(super) fn read_effect(
                 let message = format!("`{}` is below 0: it is 0 or more", parameter.name);
                 return Err(table.error_at(parameter.name, message));
             }
-            Range::NotBelowZero | Range::Any => {}
+            Range::Part if !(0.0..=1.0).contains(&value.value) => {
+                let message = format!("`{}` is from 0 to 1", parameter.name);
+                return Err(table.error_at(parameter.name, message));
+            }
+            Range::NotBelowZero | Range::Part | Range::Any => {}
         }
         values.push(value);
     }
     Ok(RigEffect {
         mechanism,
         values,
+        of_torque: table.has("of"),
         onset: read_value(table, "onset", Dimension::TIME)?,
     })
 }

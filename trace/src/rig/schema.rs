@@ -18,6 +18,7 @@ use tables::{brake, channel, channels, common, effect, effects, protocol, value}
 /// One driven joint, or one brake or damper at an imposed motion.
 fn one_joint(is_axis: bool) -> Value {
     let mut keys = common(if is_axis { "axis" } else { "bench" });
+    let of_torque = [of_torque()];
     keys.extend([
         (
             "motion",
@@ -25,7 +26,11 @@ fn one_joint(is_axis: bool) -> Value {
         ),
         (
             "effect",
-            effects("The physics that the model has already.", &[], &[]),
+            effects(
+                "The physics that the model has already.",
+                if is_axis { &[] } else { &of_torque },
+                &[],
+            ),
         ),
         ("protocol", protocol()),
     ]);
@@ -97,18 +102,17 @@ fn recordings() -> Value {
     )
 }
 
+fn of_torque() -> (&'static str, Value) {
+    let about = "`torque`: its efforts are shares of the torque of the brake.";
+    ("of", one_of(about, ["torque"]))
+}
+
 fn five_bar() -> Value {
     let letters = Joint::ALL.map(Joint::letter);
     let more = [
         ("joint", one_of("The joint at which it acts.", letters)),
         ("axis", one_of("The axis of the force sensor.", ["x", "y"])),
-        (
-            "of",
-            one_of(
-                "`torque`: its efforts are shares of the torque of the joint's brake.",
-                ["torque"],
-            ),
-        ),
+        of_torque(),
     ];
     let roles = [
         "theta_a",

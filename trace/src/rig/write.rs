@@ -91,6 +91,7 @@ pub(super) fn effect_lines(effect: &RigEffect, motion: Motion) -> Vec<String> {
         "\n[[effect]]".to_owned(),
         format!("mechanism = {}", string(effect.mechanism.name())),
     ];
+    lines.extend(effect.of_torque.then(|| "of = \"torque\"".to_owned()));
     for (parameter, number) in effect.mechanism.parameters().iter().zip(&effect.values) {
         let dimension = parameter.quantity.dimension(motion);
         lines.push(format!("{} = {}", parameter.name, value(number, dimension)));

@@ -43,6 +43,7 @@ impl Stand<'_, FiveBar> {
                 mechanism,
                 values: vec![with_interval(level, None)],
                 onset: term.onset_s.map(Value::known),
+                of_torque: false,
             };
             // A law whose zero is fitted is written as two effects.
             let cause = Cause::at(mechanism, term.cause.at);
@@ -64,8 +65,10 @@ impl Stand<'_, FiveBar> {
                 Place::Axis(axis) => Some(axis),
                 _ => None,
             },
-            of_torque: cause.scales == Scales::Torque,
-            effect: effect.clone(),
+            effect: RigEffect {
+                of_torque: cause.scales == Scales::Torque,
+                ..effect.clone()
+            },
         };
         match cause.at {
             Place::Every => {

@@ -3,7 +3,8 @@
 
 use super::run::{FiveBarRun, at, joint_at, place};
 use crate::candidates::{
-    both_signs, current_limits, fastest, geometric, in_numbers, of_a_turn, periods, stribeck_shapes,
+    both_signs, current_limits, fastest, geometric, in_numbers, of_a_turn, periods, plays,
+    stribeck_shapes,
 };
 use crate::cause::{Cause, Place};
 use crate::plant::Run;
@@ -176,15 +177,6 @@ fn limits(run: &FiveBarRun, cause: Cause) -> Vec<f64> {
     current.map_or(Vec::new(), |current| current_limits(current))
 }
 
-/// Trial half widths of a current hysteresis, A, and the currents at which it closes, if it does.
-fn plays(widths: Vec<f64>) -> Vec<Vec<f64>> {
-    let open = widths.iter().map(|width| vec![*width]);
-    let closing = widths
-        .iter()
-        .flat_map(|width| CLOSING_A.map(|below| vec![*width, below]));
-    closing.chain(open).collect()
-}
-
 /// The trial shapes of a cause.
 pub fn shapes(
     run: &FiveBarRun,
@@ -224,7 +216,7 @@ pub fn shapes(
         )),
         Shapes::Delay => one(geometric(run.step_s, MOST_DELAY_S, DELAYS)),
         Shapes::CurrentLimit => one(limits(run, cause)),
-        Shapes::CurrentPlay { low, high, count } => plays(geometric(low, high, count)),
+        Shapes::CurrentPlay { low, high, count } => plays(&geometric(low, high, count), &CLOSING_A),
         Shapes::Shift => one(both_signs(geometric(
             LEAST_SHIFT_STEPS_FIVE_BAR * run.step_s,
             MOST_SHIFT_S_FIVE_BAR.max(MOST_SHIFT_STEPS * run.step_s),

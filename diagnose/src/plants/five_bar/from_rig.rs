@@ -457,7 +457,7 @@ pub fn nominal(rig: &FiveBar) -> Vec<Effect> {
             cause: Cause {
                 mechanism: own.effect.mechanism,
                 at: own.axis.map_or(place_of(own.joint), Place::Axis),
-                scales: match own.of_torque {
+                scales: match own.effect.of_torque {
                     true => Scales::Torque,
                     false => Scales::Nothing,
                 },

@@ -4,6 +4,7 @@
 use super::drive::driven;
 use super::inertia::Inertia;
 use super::run::{JointRun, PlantKind};
+use crate::cause::{Cause, Scales};
 use crate::effect::Effect;
 use crate::filter::gradient;
 use crate::plant::{self, Columns, Run};
@@ -17,34 +18,62 @@ use rigproof_spec::effect::Mechanism;
 
 /// One column per linear parameter of a resistance: the law with that parameter 1 and the others 0,
 /// filtered as the position shows it. `None` for a mechanism of the drive.
-pub fn resistances(run: &JointRun, mechanism: Mechanism, shape: &[f64]) -> Option<Vec<Vec<f64>>> {
-    if is_of_brake(mechanism) {
-        return Some(vec![seen(run, of_brake(run, mechanism, shape)?)]);
-    }
-    let own = plant::resistances(&run.motion, run.step_s, mechanism, shape)?;
+pub fn resistances(run: &JointRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<f64>>> {
+    let own = match is_of_brake(cause) {
+        true => of_brake(run, cause, shape)?,
+        false => plant::resistances(&run.motion, run.step_s, cause.mechanism, shape)?,
+    };
     Some(own.into_iter().map(|signal| seen(run, signal)).collect())
 }
 
-/// Whether a mechanism belongs to a brake's current or torque.
-pub fn is_of_brake(mechanism: Mechanism) -> bool {
-    matches!(form(mechanism), Some(Form::Brake(_))) || mechanism == Mechanism::ReversalOvershoot
+/// The torque that an effect adds to a brake, sample by sample.
+pub fn of_effect(run: &JointRun, effect: &Effect) -> Option<Vec<f64>> {
+    let linear = entry(effect.mechanism())?.linear;
+    let (coefficients, shape) = effect
+        .parameters
+        .split_at(linear.min(effect.parameters.len()));
+    let mut sum = vec![0.0; run.motion.len()];
+    for (k, signal) in of_brake(run, effect.cause, shape)?.iter().enumerate() {
+        add(
+            &mut sum,
+            signal,
+            coefficients.get(k).copied().unwrap_or(1.0),
+        );
+    }
+    Some(sum)
 }
 
-/// The torque that a brake's mechanism adds, per unit of its linear parameter if it has one. `None`
-/// on a plant without a brake and its current.
-pub fn of_brake(run: &JointRun, mechanism: Mechanism, shape: &[f64]) -> Option<Vec<f64>> {
+/// Whether a cause belongs to a brake's current or torque, or is a share of its torque.
+pub fn is_of_brake(cause: Cause) -> bool {
+    let is_share = cause.scales == Scales::Torque;
+    is_share
+        || matches!(
+            form(cause.mechanism),
+            Some(Form::Brake(_) | Form::ShareOfBrake(_))
+        )
+}
+
+/// The torque that a cause adds to a brake, one signal per linear parameter. `None` on a plant
+/// without a brake and its current.
+pub fn of_brake(run: &JointRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<f64>>> {
     let (predicted, current) = run.brake()?;
-    if let Some(Form::Brake(kind)) = form(mechanism) {
+    if let Some(Form::Brake(kind)) = form(cause.mechanism) {
         let brake = run.brake_along(current)?;
         let change = brake.change(&brake.yields(), kind, shape)?;
         let along = run.motion.iter().zip(change);
-        return Some(along.map(|(now, change)| now.sense * change).collect());
+        return Some(vec![
+            along.map(|(now, change)| now.sense * change).collect(),
+        ]);
     }
-    // This law gives a share of the brake's torque.
-    let law = law(mechanism, &[1.0, *shape.first()?])?;
-    let share = column(law.as_ref(), &run.motion, run.step_s);
-    let pairs = share.iter().zip(predicted);
-    Some(pairs.map(|(share, torque)| share * torque.abs()).collect())
+    // The law gives a share of the brake's torque.
+    let mut shares = plant::resistances(&run.motion, run.step_s, cause.mechanism, shape)?;
+    for share in shares
+        .iter_mut()
+        .flat_map(|own| own.iter_mut().zip(predicted))
+    {
+        *share.0 *= share.1.abs();
+    }
+    Some(shares)
 }
 
 /// A resistance as the discrete second difference of the position shows it. On an axis this applies
@@ -94,10 +123,14 @@ fn described(run: &JointRun, known_only: bool) -> Vec<f64> {
 fn sum_of<'a>(run: &JointRun, effects: impl Iterator<Item = &'a Effect>) -> Vec<f64> {
     let mut sum = vec![0.0; run.motion.len()];
     for effect in effects {
-        let Some(law) = law(effect.mechanism(), &effect.parameters) else {
+        let own = match is_of_brake(effect.cause) {
+            true => of_effect(run, effect),
+            false => law(effect.mechanism(), &effect.parameters)
+                .map(|law| column(law.as_ref(), &run.motion, run.step_s)),
+        };
+        let Some(own) = own else {
             continue;
         };
-        let own = column(law.as_ref(), &run.motion, run.step_s);
         let begins = effect.first_sample(run.clock());
         for (sum, own) in sum.iter_mut().zip(own).skip(begins) {
             *sum += own;
@@ -228,10 +261,11 @@ const SUBSTEPS: usize = 8;
 /// that is empty, the recorded drive is changed instead.
 pub fn columns(
     run: &JointRun,
-    mechanism: Mechanism,
+    cause: Cause,
     shape: &[f64],
     beside: Option<&[f64]>,
 ) -> Option<Columns> {
+    let mechanism = cause.mechanism;
     match entry(mechanism)?.form {
         Form::Drive(what) => match beside? {
             [] => drive(run, what, shape),
@@ -240,13 +274,14 @@ pub fn columns(
         _ if beside.is_some() => None,
         form @ (Form::Joint(_) | Form::Sensor(_)) => of_joint(run, form, shape),
         Form::Brake(_) if entry(mechanism)?.linear == 0 => {
-            of_brake(run, mechanism, shape).map(|own| Columns::Fixed(seen(run, own)))
+            let own = of_brake(run, cause, shape)?.pop()?;
+            Some(Columns::Fixed(seen(run, own)))
         }
         _ => {
-            let mut signals = resistances(run, mechanism, shape)?;
+            let mut signals = resistances(run, cause, shape)?;
             // A law with an unknown zero gets a second coefficient for it.
             if let Some(zero) = facts(mechanism).and_then(|facts| facts.zero) {
-                signals.extend(resistances(run, zero, &[])?);
+                signals.extend(resistances(run, Cause::of(zero), &[])?);
             }
             Some(Columns::Free(signals))
         }

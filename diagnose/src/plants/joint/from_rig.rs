@@ -138,7 +138,10 @@ pub(crate) fn nominal(rig: &Rig) -> Vec<Effect> {
     rig.effects
         .iter()
         .map(|effect| Effect {
-            cause: Cause::of(effect.mechanism),
+            cause: match effect.of_torque {
+                true => Cause::of(effect.mechanism).of_torque(),
+                false => Cause::of(effect.mechanism),
+            },
             parameters: effect.values.iter().map(|v| v.value).collect(),
             unknown: effect.values.iter().any(|v| v.status != Status::Known),
             onset_s: effect.onset.map(|v| v.value),

@@ -44,7 +44,7 @@ fn resistances(plant: &Model) -> impl Iterator<Item = (&Effect, Box<dyn Law>)> {
 
 /// The law of an effect that is a resistance of its own; `None` for what a brake does.
 pub(super) fn own_law(effect: &Effect) -> Option<Box<dyn Law>> {
-    let is_own = !is_of_brake(effect.mechanism());
+    let is_own = !is_of_brake(effect.cause);
     is_own.then(|| law(effect.mechanism(), &effect.parameters))?
 }
 

@@ -21,7 +21,7 @@ pub fn without_brake(rig: &Rig, run: &JointRun) -> Option<Fault> {
     let effects = from_rig::nominal(rig);
     let effect = effects
         .iter()
-        .find(|n| is_of_brake(n.cause.mechanism) && run.brake().is_none())?;
+        .find(|n| is_of_brake(n.cause) && run.brake().is_none())?;
     Some(Fault {
         channel: "effect",
         from_s: 0.0,

@@ -172,6 +172,7 @@ fn a_description_that_states_the_truth_is_obeyed() {
                 mechanism: effect.mechanism(),
                 values: effect.parameters.iter().map(|v| Value::known(*v)).collect(),
                 onset: None,
+                of_torque: effect.cause.scales == Scales::Torque,
             });
             let found = diagnose(
                 &stated,

@@ -319,7 +319,7 @@ impl Run for JointRun {
                 Some(beside) => Some(beside.get(part)?),
                 None => None,
             };
-            columns::columns(run, cause.mechanism, shape, beside)
+            columns::columns(run, cause, shape, beside)
         })
     }
 

@@ -4,8 +4,8 @@ use super::inertia::Inertia;
 use super::run::{JointRun, PlantKind};
 use crate::cause::Cause;
 use crate::plant::Run;
-use rigproof_model::effects::LIBRARY;
 use rigproof_model::effects::facts::Alone;
+use rigproof_model::effects::{LIBRARY, facts};
 use rigproof_spec::effect::Mechanism;
 
 /// The causes that have a meaning on this plant, in the library's order.
@@ -35,5 +35,9 @@ pub fn causes(run: &JointRun) -> Vec<Cause> {
         let is_twin = entry.mechanism == Mechanism::LugreBristle && is_drag_free;
         asked(entry.facts.asked.alone) && !is_twin
     });
-    asked_for.map(|entry| Cause::of(entry.mechanism)).collect()
+    let asked_for: Vec<Cause> = asked_for.map(|entry| Cause::of(entry.mechanism)).collect();
+    let is_share =
+        |own: &&Cause| has_brake && facts(own.mechanism).is_some_and(|facts| facts.of_torque);
+    let shares = asked_for.iter().filter(is_share).map(|own| own.of_torque());
+    asked_for.iter().copied().chain(shares).collect()
 }

@@ -1,6 +1,6 @@
 //! This file simulates a plant from the recorded inputs, without feeding back the recorded output.
 
-use super::columns::{is_of_brake, of_brake};
+use super::columns::{is_of_brake, of_effect};
 use super::drive::{drive_of, driven, fine_effort, local_interpolation};
 use super::encoder::{behind, shown};
 use super::laws::{bend_bristles, laws};
@@ -12,7 +12,7 @@ use crate::rules::MOST_TRAILING;
 use crate::signals::lagged_yield;
 use rigproof_model::axis::{Axis, State, Trailing, Transmission};
 use rigproof_model::bench::resistance;
-use rigproof_model::effects::{Drive, Form, OfJoint, entry, form};
+use rigproof_model::effects::{Drive, Form, OfJoint, form};
 
 /// A plant with all its parameters.
 #[derive(Clone, Debug, PartialEq)]
@@ -88,16 +88,11 @@ fn bench(plant: &Model, run: &JointRun) -> Vec<f64> {
     };
     let value = |own: Drive| change(own).and_then(|e| e.parameters.first().copied());
     let mut effort = resistance(&laws(plant), &run.motion, run.step_s);
-    for effect in plant.effects.iter().filter(|e| is_of_brake(e.mechanism())) {
-        let linear = entry(effect.mechanism()).map_or(0, |entry| entry.linear);
-        let (coefficients, shape) = effect
-            .parameters
-            .split_at(linear.min(effect.parameters.len()));
-        let coefficient = coefficients.first().copied().unwrap_or(1.0);
-        let signal = of_brake(run, effect.mechanism(), shape).unwrap_or_default();
+    for effect in plant.effects.iter().filter(|e| is_of_brake(e.cause)) {
+        let signal = of_effect(run, effect).unwrap_or_default();
         let first = effect.first_sample(run.clock());
         for (e, s) in effort.iter_mut().zip(signal).skip(first) {
-            *e += coefficient * s;
+            *e += s;
         }
     }
     let mut on_sum = vec![Drive::Skew, Drive::Lag];

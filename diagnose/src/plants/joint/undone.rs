@@ -103,7 +103,7 @@ fn reason(rig: &Rig, effect: &Effect) -> Option<String> {
         ))
     };
     match form(effect.mechanism()) {
-        _ if is_of_brake(effect.mechanism()) => match has_brake {
+        _ if is_of_brake(effect.cause) => match has_brake {
             true => None,
             false => Some("needs a bench with a brake and its current".to_owned()),
         },

@@ -4,6 +4,7 @@
 use super::from_rig::nominal;
 use super::simulate::Model;
 use super::undone::is_undone;
+use crate::cause::Scales;
 use crate::diagnose::numbers::{number, numbers, onset, with_interval};
 use crate::evidence::Intervals;
 use crate::report::Number;
@@ -33,6 +34,7 @@ pub fn calibrated(rig: &Rig, model: &Model, intervals: &Intervals, refitted: boo
             mechanism: effect.mechanism(),
             values: values.collect(),
             onset: onset(effect.onset_s, intervals, index),
+            of_torque: effect.cause.scales == Scales::Torque,
         })
     };
     // Effects that were inverted before the fit stay as described. Every other described effect has

@@ -124,6 +124,9 @@ pub fn effect() -> Value {
                     Range::NotBelowZero => {
                         what["properties"] = json!({ "value": { "minimum": 0 } })
                     }
+                    Range::Part => {
+                        what["properties"] = json!({ "value": { "minimum": 0, "maximum": 1 } })
+                    }
                 }
                 keys.push((parameter.name, what));
                 if !parameter.is_optional {
