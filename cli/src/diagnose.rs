@@ -12,7 +12,7 @@ use crate::outcome::{Failure, Outcome, print, print_steadied, steady};
 use crate::text::summary::{Style, summary};
 use crate::{folder, keep, page, progress, shell, text, threads};
 
-/// What is to be diagnosed.
+/// The recordings to diagnose, and how.
 #[derive(clap::Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct Args {
@@ -27,10 +27,12 @@ pub struct Args {
     /// The folder to write [default: the recording's name with `-diagnosis`, numbered from the second diagnosis on]. One that is named here and holds an earlier diagnosis is replaced
     #[arg(long, value_name = "FOLDER")]
     out: Option<PathBuf>,
-    /// Say how far the result can be believed: diagnose as many simulated recordings like this one whose causes are known
+    /// Measure how reliable the result is: diagnose this many simulated recordings like this one,
+    /// whose causes are known
     #[arg(long, value_name = "RUNS", num_args = 0..=1, default_missing_value = "20", value_parser = parse_runs)]
     pub calibrate: Option<usize>,
-    /// What is worked on at once: explanations, and with --calibrate simulated recordings; 0 takes every processor. The result does not depend on it
+    /// Tasks to run at once, also those of --calibrate; 0 takes every processor. The result does
+    /// not depend on it
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = threads::parse)]
     pub jobs: usize,
     /// Print the report as JSON
@@ -60,7 +62,7 @@ Examples:
 Of a folder of recordings of one rig all are diagnosed together, and the result is shown on the end of the second of two, on the last of more.";
 
 impl Args {
-    /// A recording and its rig, and where the result is to stand; everything else as it is without an option.
+    /// The arguments for one recording and its rig, with every option at its default.
     pub fn of(recording: &Path, rig: &Path, out: &Path) -> Args {
         Args {
             source: Source {
@@ -90,7 +92,7 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     })
 }
 
-/// A diagnosis that is written.
+/// A diagnosis that was written to its folder.
 pub struct Made {
     out: PathBuf,
     pub files: Vec<&'static str>,
@@ -106,7 +108,7 @@ pub fn made(args: &Args) -> Result<Made, Failure> {
     let out = out(args)?;
     let Source { recording, rig, .. } = &args.source;
     keep::check(&out, [recording, rig].into_iter().chain(&args.hold_out))?;
-    // A wrong place is refused before the work, not after it.
+    // An unusable folder is refused before the work, not after it.
     drop(Folder::begin(&out)?);
     let rig = Description::read(&args.source.rig)?;
     let identity = input::identity(&args.source.rig, None)?;
@@ -114,7 +116,7 @@ pub fn made(args: &Args) -> Result<Made, Failure> {
     written(args, out, &rig, given)
 }
 
-/// Diagnoses what is read already, and writes the folder.
+/// Diagnoses what was read, and writes the folder.
 ///
 /// # Errors
 /// It cannot be diagnosed, or the folder cannot be written.
@@ -166,7 +168,7 @@ pub fn written(
     })
 }
 
-/// What the command line names, read.
+/// The inputs that the command line names, after reading.
 pub struct Given {
     recordings: Vec<Measured>,
     held_out: Option<Measured>,
@@ -189,7 +191,7 @@ impl Given {
         )
     }
 
-    /// Reads recordings of a rig: those to fit, and the one that is held out, if there is one.
+    /// Reads the recordings to fit, and the held-out one if there is one.
     ///
     /// # Errors
     /// One of them is not usable.
@@ -237,7 +239,8 @@ impl Given {
     }
 }
 
-/// Enters into the report what is named on simulated recordings; where they cannot be simulated the protocol says why.
+/// Adds to the report what is named on simulated recordings. Where they cannot be simulated the
+/// protocol says why.
 fn calibrate(
     rig: &Description,
     given: &Given,
@@ -249,7 +252,7 @@ fn calibrate(
     if report.floor.is_none() {
         return Ok(());
     }
-    // Many are diagnosed at once: a bar tells of them, not a stage.
+    // Many recordings are diagnosed at once, so a bar shows their number instead of stages.
     let options = &Options {
         watch: Watch::default(),
         ..options.clone()
@@ -302,7 +305,7 @@ fn say(
     ]))
 }
 
-/// What to do now, as a command where there is one.
+/// The next step, as a command where there is one.
 fn next(rig: &Path, out: &Path, shown_on: &Path, report: &Report) -> String {
     let calibration = out.join(folder::CALIBRATION);
     match report.verdict {
@@ -315,7 +318,7 @@ fn next(rig: &Path, out: &Path, shown_on: &Path, report: &Report) -> String {
             report.unknown.as_ref().map_or("`located`", |_| "`unknown`"),
             report.unknown.as_ref().map_or("joint and regime hint at", |_| "the shape says"),
         ),
-        // An arm does not run freely here.
+        // An arm has no free run here.
         _ if report.plant == "chain" => format!(
             "take {} into your own simulation; {} has all that was found",
             out.join("calibrated.urdf").display(),
@@ -347,7 +350,7 @@ fn out(args: &Args) -> Result<PathBuf, Failure> {
     Ok(not_there_yet(PathBuf::from(name)))
 }
 
-/// The folder itself, or the first with a number that nothing stands at: an earlier diagnosis is kept.
+/// The folder itself, or the first numbered one that does not exist: an earlier diagnosis is kept.
 fn not_there_yet(folder: PathBuf) -> PathBuf {
     if folder.symlink_metadata().is_err() {
         return folder;

@@ -1,4 +1,5 @@
-//! This file is stage 0: a recording is put on regular samples, its faults are named, its noise is measured.
+//! This file is stage 0: it resamples a recording to regular samples, finds its faults and measures
+//! its noise.
 
 mod clock;
 mod reversals;
@@ -23,11 +24,11 @@ pub(crate) use units::{Stated, check_units};
 pub struct Fault {
     /// The role of the channel.
     pub channel: &'static str,
-    /// When it begins, s.
+    /// Start, s.
     pub from_s: f64,
-    /// When it ends, s.
+    /// End, s.
     pub to_s: f64,
-    /// What is wrong, in words.
+    /// The reason, in words.
     pub reason: String,
 }
 
@@ -64,7 +65,8 @@ pub(crate) fn check_missing(
     Ok(())
 }
 
-/// A position that repeats one value to the bit while its jumps show that the plant is alive.
+/// A position that repeats one value exactly and then jumps: the plant moved while the channel
+/// stood still.
 pub(crate) fn check_frozen(time_s: &[f64], position: &[f64], step_s: f64) -> Result<(), Fault> {
     for (first, end) in constant_runs(position, longest_freeze(step_s)) {
         if moved_behind(position, first, end) {
@@ -74,7 +76,7 @@ pub(crate) fn check_frozen(time_s: &[f64], position: &[f64], step_s: f64) -> Res
     Ok(())
 }
 
-/// Samples for which a live channel may repeat one value to the bit.
+/// The number of samples for which a live channel may repeat one value exactly.
 pub(crate) fn longest_freeze(step_s: f64) -> usize {
     (LONGEST_FREEZE_S / step_s).ceil() as usize
 }
@@ -104,7 +106,8 @@ pub(crate) fn constant_runs(values: &[f64], least: usize) -> Vec<(usize, usize)>
     runs
 }
 
-/// Whether a constant position must be a fault: it ends in a jump that no motion before or after explains.
+/// Whether a constant position must be a fault: it ends in a jump that the motion before and after
+/// does not explain.
 fn moved_behind(position: &[f64], first: usize, end: usize) -> bool {
     let steps = |from: usize, to: usize| {
         position
@@ -124,7 +127,7 @@ fn moved_behind(position: &[f64], first: usize, end: usize) -> bool {
     jump > JUMP_TIMES * usual.max(2.0 * smallest_step(position))
 }
 
-/// An effort that rests on its own extreme for many samples, unless the rig says that it saturates there.
+/// An effort that stays at its own extreme for many samples, unless the rig states that limit.
 pub(crate) fn check_clipped(
     time_s: &[f64],
     effort: &[f64],
@@ -156,7 +159,8 @@ pub(crate) fn check_clipped(
     Ok(())
 }
 
-/// Whether an effort comes to its extreme by jumps, or dwells on other levels as well: it was commanded in steps.
+/// Whether an effort reaches its extreme by jumps, or stays on other levels as well: it was then
+/// commanded in steps.
 fn is_stepped(effort: &[f64], extreme: f64, range: f64) -> bool {
     let pairs = || {
         effort
@@ -191,9 +195,10 @@ pub(crate) fn regular_count(time_s: &[f64], step_s: f64) -> usize {
     }
 }
 
-/// Values on regular samples: the recorded one where a stamp lies within a tenth of a step, else interpolated.
+/// Values on regular samples: the recorded one where a stamp lies within a tenth of a step,
+/// otherwise interpolated.
 ///
-/// The second vector says which values were recorded.
+/// The second vector marks the recorded values.
 pub(crate) fn resample(
     time_s: &[f64],
     values: &[f64],
@@ -232,7 +237,7 @@ pub(crate) fn resample(
     (out, recorded)
 }
 
-/// The smallest difference between two values that differ: the resolution of a quantised channel.
+/// The smallest difference between two distinct values: the resolution of a quantised channel.
 pub(crate) fn smallest_step(values: &[f64]) -> f64 {
     let mut sorted: Vec<f64> = values.iter().copied().filter(|x| x.is_finite()).collect();
     sorted.sort_by(f64::total_cmp);
@@ -271,14 +276,14 @@ pub fn band_hz(effort: &[f64], step_s: f64) -> f64 {
     (index.max(1)) as f64 / (step_s * effort.len() as f64)
 }
 
-/// Where the low-pass of the motion ends, Hz: it keeps twice the effort's band.
+/// Cut-off of the motion's low-pass, Hz: twice the effort's band.
 pub(crate) fn cutoff_hz(step_s: f64, band_hz: f64) -> f64 {
     let rate_hz = 1.0 / step_s;
     (2.0 * band_hz).clamp(LEAST_CUTOFF_HZ.min(0.25 * rate_hz), 0.35 * rate_hz)
 }
 
-/// The same, ended earlier where the noise of the position would be a noticeable speed: an effort that is fed back from the position is as fast as
-/// its noise.
+/// The cut-off, lowered where the position's noise would be a noticeable speed. An effort that is
+/// fed back from the position is as fast as its noise.
 pub(crate) fn quiet_cutoff_hz(position: &[f64], step_s: f64, cutoff_hz: f64, noise: f64) -> f64 {
     let rate_hz = 1.0 / step_s;
     let least_hz = LEAST_CUTOFF_HZ.min(0.25 * rate_hz);
@@ -299,8 +304,8 @@ pub(crate) fn quiet_cutoff_hz(position: &[f64], step_s: f64, cutoff_hz: f64, noi
     cutoff_hz.min(quiet_hz.max(least_hz))
 }
 
-/// Position and speed after a zero-phase low-pass, and the speed below which
-/// noise decides the sign.
+/// Position and speed after a zero-phase low-pass, and the speed below which noise decides the
+/// direction.
 pub(crate) fn smoothed_motion(
     position: &[f64],
     step_s: f64,
@@ -328,7 +333,8 @@ pub(crate) fn smoothed_motion(
     (motion, floor)
 }
 
-/// Takes the sense away wherever the recorded position stays within `still` for a while: smoothing rings there.
+/// Marks the direction as unknown wherever the recorded position stays within `still` for a while,
+/// since the smoothed position rings there.
 pub(crate) fn forget_sense_at_rest(
     motion: &mut [Instant],
     position: &[f64],
@@ -351,7 +357,8 @@ pub(crate) fn forget_sense_at_rest(
     }
 }
 
-/// Whether already the ends of a stretch are further apart than a joint at rest comes: most stretches need no closer look.
+/// Whether the two ends of a stretch are already further apart than a joint at rest moves. Most
+/// stretches need no closer look.
 fn moves_through(around: &[f64], still: f64) -> bool {
     match (around.first(), around.last()) {
         (Some(first), Some(last)) => (last - first).abs() > still,
@@ -359,8 +366,8 @@ fn moves_through(around: &[f64], still: f64) -> bool {
     }
 }
 
-/// Takes the sense away on both sides of a reversal between two samples: dry friction jumps at an instant that the
-/// samples do not tell, and on an axis the acceleration jumps with it.
+/// Marks the direction as unknown on both sides of a reversal between two samples. Dry friction
+/// jumps at an instant that the samples do not show, and on an axis the acceleration jumps with it.
 pub(crate) fn forget_sense_at_reversals(motion: &mut [Instant]) {
     let senses: Vec<f64> = motion.iter().map(|now| now.sense).collect();
     for (k, pair) in senses.windows(2).enumerate() {

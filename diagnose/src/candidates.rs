@@ -1,4 +1,5 @@
-//! This file says which shapes of each mechanism are tried on a recording.
+//! This file lists the causes that are candidates on a recording, and the trial shapes of each
+//! mechanism.
 
 use crate::cause::{Cause, Place};
 use crate::plant::Run;
@@ -21,7 +22,8 @@ use rigproof_model::effects::{Instant, entry, facts};
 use rigproof_spec::effect::{Mechanism, Motion, Range};
 use rigproof_spec::tables::GREATEST_CURRENT_A;
 
-/// The causes that are looked for one at a time: within trials a gain is taken out of every row.
+/// The candidates for the search by one cause at a time. Mechanisms that are only compared in sets
+/// are left out.
 pub fn causes(problem: &Problem) -> Vec<Cause> {
     let mut causes = all_causes(problem);
     causes.retain(|cause| {
@@ -32,14 +34,15 @@ pub fn causes(problem: &Problem) -> Vec<Cause> {
     causes
 }
 
-/// Every cause that has a meaning on this plant.
+/// Every cause that has a meaning on this plant. Within trials a gain is not identifiable, because
+/// each trial has a gain of its own.
 pub fn all_causes(problem: &Problem) -> Vec<Cause> {
     let mut causes = problem.run.causes();
     causes.retain(|cause| cause.mechanism != Mechanism::GainError || !problem.is_within_trials());
     causes
 }
 
-/// The variants of a cause that are tried beside the terms of `fitted`: one term a shape.
+/// One term for each trial shape of a cause, built beside the terms of `fitted`.
 pub fn variants(problem: &Problem, cause: Cause, terms: &[&Term], fitted: &Fit) -> Vec<Term> {
     let effort = modelled_effort(problem, terms, fitted);
     shapes(problem, cause, &fitted.residual)
@@ -52,7 +55,7 @@ pub fn variants(problem: &Problem, cause: Cause, terms: &[&Term], fitted: &Fit) 
         .collect()
 }
 
-/// The term of any cause; `effort` is what the other terms give.
+/// The term of any cause. `effort` is the effort that the other terms give.
 pub fn realise(
     problem: &Problem,
     cause: Cause,
@@ -60,7 +63,8 @@ pub fn realise(
     onset_s: Option<f64>,
     effort: &[f64],
 ) -> Option<Term> {
-    // What takes the whole plant to be moved anew is worth keeping: other rounds of the search ask for the same shapes.
+    // A cause that moves the whole plant is expensive to compute, and later rounds of the search
+    // ask for the same shapes.
     if problem.run.moves(cause) && onset_s.is_none() {
         return problem.kept_term(cause, shape);
     }
@@ -69,8 +73,9 @@ pub fn realise(
         .or_else(|| problem.drive_term(cause, shape, onset_s, effort))
 }
 
-/// The effort that the known part and the fitted terms give together, sample by sample; a change of the drive
-/// among them is left out, because it acts on what the others give. Empty where no change of the drive needs it.
+/// The effort that the known part and the fitted terms give together, sample by sample.
+///
+/// Changes of the drive are left out, since they act on this effort. Empty where no cause needs it.
 pub fn modelled_effort(problem: &Problem, terms: &[&Term], fitted: &Fit) -> Vec<f64> {
     if !problem.run.is_linearised() {
         return Vec::new();
@@ -102,7 +107,7 @@ fn shapes(problem: &Problem, cause: Cause, residual: &[f64]) -> Vec<Vec<f64>> {
     problem.run.shapes(cause, &problem.windows, residual)
 }
 
-/// The shapes of a cause that are tried on most plants; `residual` is what is left, row by row.
+/// The trial shapes of a cause on most plants. `residual` has one value per row.
 pub fn standard_shapes<R: Run + ?Sized>(
     run: &R,
     cause: Cause,
@@ -162,7 +167,7 @@ pub fn standard_shapes<R: Run + ?Sized>(
             let current = run.brake().map(|(_, current)| current);
             one(current_limits(current.unwrap_or_default()))
         }
-        // Nothing of one joint is anchored in a plane.
+        // A spring to an anchor needs a plane.
         Shapes::Anchor => vec![vec![]],
         own @ (Shapes::None
         | Shapes::Values(_)
@@ -193,13 +198,13 @@ pub fn plays(widths: &[f64], closing_a: &[f64], top_a: f64) -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// Travels over which a bristle bends, from the least that is seen on.
+/// Trial travels of presliding, from the least that can be observed.
 fn bends<R: Run + ?Sized>(run: &R, travel: f64) -> Vec<f64> {
     let least = (LEAST_BEND_SIGMAS * run.position_noise()).max(LEAST_BEND * travel);
     geometric(least, MOST_BEND * travel, BENDS_JOINT)
 }
 
-/// Resonances of what bends, with damping ratios.
+/// Trial resonances of a compliance, with damping ratios.
 fn resonances(step_s: f64) -> Vec<Vec<f64>> {
     let [least, most] = FASTEST_RESONANCE;
     let fastest = (RESONANCE_STEPS / step_s).clamp(least, most);
@@ -209,7 +214,7 @@ fn resonances(step_s: f64) -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// Currents below the greatest one that a brake was given, A: where its amplifier may have stopped.
+/// Trial limits of a brake's current, A: values below the greatest command.
 pub fn current_limits(given: &[f64]) -> Vec<f64> {
     let greatest = given.iter().copied().fold(0.0, f64::max);
     let [lowest, highest] = LIMIT_SHARES;
@@ -219,20 +224,19 @@ pub fn current_limits(given: &[f64]) -> Vec<f64> {
     geometric(lowest * greatest, highest * greatest, LIMITS)
 }
 
-/// Limits below the greatest effort that was asked for.
+/// Trial limits of the effort, below the greatest command.
 fn effort_limits(effort: &[f64]) -> Vec<f64> {
     let greatest = effort.iter().fold(0.0, |most: f64, e| most.max(e.abs()));
     let [lowest, highest] = EFFORT_LIMIT_SHARES;
     geometric(lowest * greatest, highest * greatest, EFFORT_LIMITS)
 }
 
-/// The whole parts of a turn that a travel holds.
+/// The integer fractions of a turn that are no longer than a travel.
 pub fn of_a_turn(travel: f64) -> impl Iterator<Item = f64> {
     let parts = (1..=MOST_A_TURN).map(|order| TAU / f64::from(order));
     parts.filter(move |period| *period <= travel)
 }
 
-/// Position and residual of each usable window.
 fn points(motion: &[Instant], windows: &Windows, residual: &[f64]) -> Vec<(f64, f64)> {
     windows
         .centres
@@ -244,7 +248,8 @@ fn points(motion: &[Instant], windows: &Windows, residual: &[f64]) -> Vec<(f64, 
         .collect()
 }
 
-/// The shapes that need no recording; one empty shape where a mechanism has none.
+/// The trial shapes that do not depend on the recording; one empty shape for a mechanism without
+/// shape.
 pub fn in_numbers(shapes: Shapes) -> Vec<Vec<f64>> {
     let values = match shapes {
         Shapes::Values(values) => values.to_vec(),
@@ -255,12 +260,12 @@ pub fn in_numbers(shapes: Shapes) -> Vec<Vec<f64>> {
     values.into_iter().map(|value| vec![value]).collect()
 }
 
-/// Each number with both signs.
 pub fn both_signs(sizes: Vec<f64>) -> Vec<f64> {
     sizes.into_iter().flat_map(|size| [size, -size]).collect()
 }
 
-/// The range that each shape parameter of a mechanism may take: that of the shapes tried, for a period all of them.
+/// The bounds of each shape parameter: those of the trial shapes, and for a period the whole range
+/// of periods.
 pub fn shape_bounds(problem: &Problem, cause: Cause) -> Vec<(f64, f64)> {
     if facts(cause.mechanism).is_some_and(|facts| facts.shapes == Shapes::Period) {
         let travel = problem.run.travel(cause.at);
@@ -291,21 +296,21 @@ pub fn shape_bounds(problem: &Problem, cause: Cause) -> Vec<(f64, f64)> {
     bounds
 }
 
-/// Whether the first shape parameter has run into an end of the range that was looked through: the recording does not determine it, and the law stands
-/// in for another one.
+/// Whether the first shape parameter ended at a bound. The recording then does not determine it,
+/// and the law substitutes for another one.
 pub fn is_at_an_end(problem: &Problem, term: &Term) -> bool {
     let bounds = shape_bounds(problem, term.cause);
     let first = term.shape.first().zip(bounds.first());
     first.is_some_and(|(value, bounds)| bounds.0 < bounds.1 && is_end(*value, *bounds))
 }
 
-/// Whether a number is at an end of a range.
+/// Whether a value lies at an end of a range.
 pub fn is_end(value: f64, (low, high): (f64, f64)) -> bool {
     let near = (1.0 - EDGE) * value.abs();
     value <= low + near || value >= high - near
 }
 
-/// The speed that all but one in a hundred samples stay below.
+/// The 99th percentile of the speed.
 pub fn fastest(motion: &[Instant]) -> f64 {
     let mut speeds: Vec<f64> = motion.iter().map(|now| now.speed.abs()).collect();
     speeds.sort_by(f64::total_cmp);
@@ -316,7 +321,7 @@ pub fn fastest(motion: &[Instant]) -> f64 {
         .max(1e-12)
 }
 
-/// Speeds and exponents of a peak near standstill.
+/// Trial Stribeck speeds and exponents.
 pub fn stribeck_shapes(speed_floor: f64, fastest: f64, exponents: &[f64]) -> Vec<Vec<f64>> {
     let slowest = (SLOWEST_PEAK_FLOORS * speed_floor).max(SLOWEST_PEAK * fastest);
     geometric(slowest, FASTEST_PEAK * fastest, PEAK_SPEEDS)
@@ -325,7 +330,7 @@ pub fn stribeck_shapes(speed_floor: f64, fastest: f64, exponents: &[f64]) -> Vec
         .collect()
 }
 
-/// `count` values from `low` to `high` in equal ratios.
+/// `count` values from `low` to `high` in geometric progression.
 pub fn geometric(low: f64, high: f64, count: usize) -> Vec<f64> {
     let ratio = libm::log(high.max(1.01 * low) / low) / (count.max(2) - 1) as f64;
     (0..count)
@@ -333,7 +338,7 @@ pub fn geometric(low: f64, high: f64, count: usize) -> Vec<f64> {
         .collect()
 }
 
-/// The periods at the highest peaks of the spectrum of values over their positions.
+/// The periods of the highest peaks in the spectrum of values over position.
 pub fn periods(points: &[(f64, f64)], travel: f64) -> Vec<f64> {
     let travel = travel.max(1e-12);
     let count = ((MOST_CYCLES - FEWEST_CYCLES) / SPACING) as usize;

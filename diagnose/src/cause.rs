@@ -1,8 +1,8 @@
-//! This file is what can be left out, and where.
+//! This file names a cause: a mechanism that a model may lack, and its place.
 
 use rigproof_spec::effect::Mechanism;
 
-/// A joint of a plant, by its place in the plant's own order; the plant has its name.
+/// A joint by its index in the plant's own order. The plant knows its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct JointId(pub usize);
 
@@ -13,34 +13,34 @@ pub enum Place {
     Whole,
     /// One joint of several.
     Joint(JointId),
-    /// Every joint of a kind, with one set of numbers.
+    /// Every joint of a kind, with common parameters.
     Every,
     /// One axis of a sensor.
     Axis(usize),
 }
 
-/// What the law of a cause is multiplied by.
+/// The factor of a cause's law.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Scales {
-    /// Nothing: its numbers are efforts.
+    /// None: the parameters are efforts.
     Nothing,
-    /// The torque that the brake at its place gives: its numbers are shares.
+    /// The torque of the brake at its place: the parameters are shares of it.
     Torque,
 }
 
-/// Something that can be left out: a mechanism, and the place where it acts.
+/// Something that a model may lack: a mechanism at a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Cause {
     /// The mechanism.
     pub mechanism: Mechanism,
-    /// Where it acts.
+    /// The place where it acts.
     pub at: Place,
-    /// What it scales.
+    /// The factor of its law.
     pub scales: Scales,
 }
 
 impl Cause {
-    /// A mechanism of the whole.
+    /// A mechanism of the whole plant.
     pub const fn of(mechanism: Mechanism) -> Cause {
         Cause::at(mechanism, Place::Whole)
     }
@@ -54,7 +54,7 @@ impl Cause {
         }
     }
 
-    /// The same as a share of the torque that the brake gives.
+    /// The same cause as a share of the brake's torque.
     pub const fn of_torque(self) -> Cause {
         Cause {
             scales: Scales::Torque,
@@ -62,7 +62,8 @@ impl Cause {
         }
     }
 
-    /// Whether it is composed: shared by joints, in proportion to a torque, or of one axis of a sensor.
+    /// Whether it is a composed variant: shared by joints, in proportion to a torque, or on one
+    /// axis of a sensor.
     pub const fn is_composed(self) -> bool {
         matches!(self.at, Place::Every | Place::Axis(_)) || matches!(self.scales, Scales::Torque)
     }

@@ -1,4 +1,5 @@
-//! This file holds positions against continuity: what wraps is unwrapped, a few bad samples are left out and counted, what cannot be mended is a fault.
+//! This file repairs positions that are not continuous: it unwraps counters, and leaves out and
+//! counts a few bad samples. What cannot be repaired is a fault.
 
 mod clock;
 mod jumps;
@@ -11,7 +12,7 @@ use crate::rules::MOST_MISSING;
 
 pub use clock::{roughness, settle};
 
-/// What was wrong in a channel and is mended, or only said.
+/// What was repaired in a channel, or is only noted.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Remark {
     /// The role of the channel.
@@ -22,37 +23,37 @@ pub struct Remark {
     pub from_s: f64,
     /// The last time, s.
     pub to_s: f64,
-    /// How many samples, or how often.
+    /// The number of samples or events.
     pub count: usize,
-    /// What was found and what was done, in words.
+    /// A sentence on what was found and what was done.
     pub words: String,
 }
 
-/// A recorded position, as it is mended.
+/// A recorded position under repair.
 #[derive(Clone, Debug)]
 pub struct Position {
     /// Its role.
     pub channel: &'static str,
-    /// Its samples, m or rad; not a number where none was recorded.
+    /// Its samples, m or rad; NaN where none was recorded.
     pub samples: Vec<f64>,
-    /// Its resolution, m or rad, where it is stated.
+    /// Its stated resolution, m or rad.
     pub stated_quantum: Option<f64>,
-    /// Its resolution as it seems, m or rad.
+    /// Its resolution, stated or estimated, m or rad.
     pub quantum: f64,
-    /// Standard deviation of its noise beside the resolution, m or rad.
+    /// Standard deviation of its noise besides the resolution, m or rad.
     pub noise: f64,
-    /// Whether it is an angle, which a turn brings back.
+    /// Whether it is an angle, which repeats after a turn.
     pub is_angle: bool,
-    /// A single jump up to this is a slip that the diagnosis itself names, m or rad.
+    /// The largest single jump that counts as a slip, m or rad. The diagnosis names slips itself.
     pub slip: f64,
 }
 
-/// The stamps of a recording and its usual step, s.
+/// The time stamps of a recording, and its sample interval.
 #[derive(Clone, Copy, Debug)]
 pub struct Stamps<'a> {
     /// Time stamps, s, increasing.
     pub time_s: &'a [f64],
-    /// The usual step, s.
+    /// The sample interval, s.
     pub step_s: f64,
 }
 
@@ -61,7 +62,7 @@ impl Stamps<'_> {
         self.time_s.get(k).copied().unwrap_or(0.0)
     }
 
-    /// How many steps lie between two samples.
+    /// Number of intervals between two samples.
     fn places(&self, k: usize, next: usize) -> f64 {
         ((self.at(next) - self.at(k)) / self.step_s)
             .round()
@@ -69,10 +70,11 @@ impl Stamps<'_> {
     }
 }
 
-/// Mends the positions of a recording; `others` are its other channels, which lose the samples that every channel repeats.
+/// Repairs the positions of a recording. `others` are its other channels, from which samples that
+/// every channel repeats are removed too.
 ///
 /// # Errors
-/// What cannot be mended: its channel, its time and the reason.
+/// What cannot be repaired: its channel, its time and the reason.
 pub fn mend(
     stamps: Stamps<'_>,
     positions: &mut [Position],
@@ -97,7 +99,7 @@ pub fn mend(
     Ok(mended)
 }
 
-/// Single samples that are left out lie on the cubic through their neighbours.
+/// Single samples that are left out are interpolated by a cubic through their neighbours.
 fn bridge(own: &mut Position) {
     let p = &own.samples;
     let at = |k: usize| p.get(k).copied().unwrap_or(f64::NAN);
@@ -118,7 +120,8 @@ fn bridge(own: &mut Position) {
     }
 }
 
-/// Samples that are left out, as long as they are few; else a fault. `of` is how many could have been seen.
+/// Leaves out samples if they are few; otherwise a fault. `of` is the number that could have been
+/// seen.
 fn few(
     stamps: Stamps<'_>,
     (channel, what): (&'static str, &'static str),

@@ -26,16 +26,16 @@ use rigproof_trace::Trace;
 pub use watch::{Stage, Watch};
 use write::Stand;
 
-/// What a diagnosis is asked to do.
+/// The options of a diagnosis.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// Share of the recording's end that is held out when no other recording is.
+    /// The share at the end of the recording that is held out if there is no other recording.
     pub hold_out_share: f64,
-    /// Whether the numbers are refitted by free runs (the naming does not need it).
+    /// Whether the parameters are refitted by free runs. The naming does not need it.
     pub refit: bool,
-    /// Whether the experiment is looked for that tells rival explanations apart.
+    /// Whether to look for the experiment that separates rival explanations.
     pub next_experiment: bool,
-    /// Who is told which stage is reached.
+    /// Who is informed of each stage.
     pub watch: Watch,
 }
 
@@ -54,16 +54,16 @@ impl Default for Options {
 pub struct Diagnosis<D = crate::Description> {
     /// What was found.
     pub report: Report,
-    /// The rig with the physics found and the numbers fitted.
+    /// The rig with the found effects and the fitted parameters.
     pub calibration: D,
     /// Curves for the pictures; empty after a fault.
     pub curves: Curves,
-    /// The experiment that would tell rival explanations apart, where there is one.
+    /// The experiment that would separate rival explanations, if there are any.
     pub experiment: Option<Trace>,
 }
 
 impl<D> Diagnosis<D> {
-    /// The same with its calibration as something else.
+    /// The same diagnosis with its calibration converted.
     pub fn map<E>(self, of: impl FnOnce(D) -> E) -> Diagnosis<E> {
         Diagnosis {
             report: self.report,
@@ -79,10 +79,10 @@ impl<D> Diagnosis<D> {
 pub struct Curves {
     /// Time stamps of the held-out part, s.
     pub time_s: Vec<f64>,
-    /// What the output is, in words.
+    /// The name of the output.
     pub output: &'static str,
-    /// Recorded output: position of an axis, effort of a bench, on the five-bar the effort on one of its arms; not a number where it
-    /// does not count.
+    /// The recorded output: the position of an axis, the effort of a bench, the effort on one arm
+    /// of the five-bar. NaN where it does not count.
     pub recorded: Vec<f64>,
     /// Output of the nominal model.
     pub before: Vec<f64>,
@@ -92,7 +92,7 @@ pub struct Curves {
     pub unit: String,
     /// Window times of the fitted part, s.
     pub window_time_s: Vec<f64>,
-    /// Which windows count in the naming: at rest and across a reversal they do not.
+    /// Whether a window counts in the naming. At rest and across a reversal it does not.
     pub window_counts: Vec<bool>,
     /// Residual effort with the nominal model.
     pub residual_before: Vec<f64>,
@@ -102,16 +102,16 @@ pub struct Curves {
     pub floor: f64,
     /// Unit of the residual.
     pub residual_unit: String,
-    /// The same output on the part that was fitted.
+    /// The same output on the fitted part.
     pub fitted: FittedCurves,
 }
 
-/// Recorded output and both models on the part that was fitted; empty where it was not asked for.
+/// The recorded output and both models on the fitted part; empty if not requested.
 #[derive(Clone, Debug, Default)]
 pub struct FittedCurves {
     /// Time stamps, s.
     pub time_s: Vec<f64>,
-    /// Recorded output; not a number where it does not count.
+    /// The recorded output; NaN where it does not count.
     pub recorded: Vec<f64>,
     /// Output of the nominal model.
     pub before: Vec<f64>,
@@ -119,8 +119,10 @@ pub struct FittedCurves {
     pub after: Vec<f64>,
 }
 
-/// Diagnoses recordings of a rig together; `held_out` is another recording of it. Without it the last of many shows the result, or the
-/// end of the last.
+/// Diagnoses recordings of a rig together.
+///
+/// The result is shown on `held_out`, another recording. Without it, the last of many recordings is
+/// held out, or the end of the last.
 pub fn diagnose<P: Plant>(
     plant: &P,
     recordings: &[&P::Recording],
@@ -186,7 +188,7 @@ pub fn diagnose<P: Plant>(
     .report()
 }
 
-/// What is named on top of the nominal terms: sets of mechanisms weighed together.
+/// The mechanisms that are named on top of the nominal terms.
 fn named(problem: &mut Problem, terms: Vec<Term>) -> (Selection, Explanations) {
     match problem.rules.many {
         true => explain_many(problem, terms),
@@ -194,8 +196,10 @@ fn named(problem: &mut Problem, terms: Vec<Term>) -> (Selection, Explanations) {
     }
 }
 
-/// Bounds the probabilities of names beside which more than noise is left: a name that takes away little beside it may be a part of it. It is as sure as
-/// even odds and the share that it takes away of what would be left without it.
+/// Bounds the probabilities if the residual is more than noise.
+///
+/// A mechanism that explains little beside the rest may be a part of the unexplained physics. Its
+/// probability is at most one half plus the share of the loss that it removes.
 fn bound(problem: &Problem, selection: &mut Selection) {
     if is_noise(problem, &selection.after) {
         return;
@@ -205,16 +209,17 @@ fn bound(problem: &Problem, selection: &mut Selection) {
     }
 }
 
-/// The physics of the nominal model as terms.
+/// The effects of the nominal model as terms.
 ///
 /// # Errors
-/// An effect of the description that has no meaning on this plant.
+/// An effect of the description has no meaning on this plant.
 fn nominal<P: Plant>(plant: &P, problem: &Problem) -> Result<Vec<Term>, (At, Fault)> {
     let mut terms = Vec::new();
     for effect in plant.nominal() {
         match problem.nominal_term(&effect) {
             Some(mut term) => {
-                // What stands beside a law's own numbers, such as the rest angle of a spring, has an effect of its own in a description.
+                // Additional coefficients, such as the rest angle of a spring, are separate effects
+                // in a description.
                 let linear = entry(effect.cause.mechanism).map_or(0, |entry| entry.linear);
                 term.free.truncate(linear);
                 terms.push(term);
@@ -229,7 +234,7 @@ fn nominal<P: Plant>(plant: &P, problem: &Problem) -> Result<Vec<Term>, (At, Fau
     Ok(terms)
 }
 
-/// The trials of a brake, where it is their gains that differ and hide what else may be left out.
+/// The trials of a brake, if their gains differ and hide other effects.
 fn scattered(problem: &Problem, selection: &Selection) -> Option<Trials> {
     let trials = Trials::of(problem.run, &problem.windows)?;
     let terms = refs(&selection.nominal, &selection.found);

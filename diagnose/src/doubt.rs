@@ -1,4 +1,5 @@
-//! This file is recordings as they may have been instead, for what a brake may be mistaken by.
+//! This file varies a recorded motion within its uncertainty, to find how uncertain a brake's
+//! torque is.
 
 use crate::rules::{BEND_S, SENSE_SIGMAS};
 use core::f64::consts::TAU;
@@ -8,17 +9,20 @@ use rigproof_model::effects::Instant;
 pub struct Smoothing {
     /// Sample interval, s.
     pub step_s: f64,
-    /// Where the low-pass ends, Hz.
+    /// Cut-off of the low-pass, Hz.
     pub cutoff_hz: f64,
     /// Standard deviation of one sample of the position, m or rad.
     pub noise: f64,
-    /// Speed below which noise decides the sense, m/s or rad/s.
+    /// Speed below which noise decides the direction, m/s or rad/s.
     pub speed_floor: f64,
 }
 
 impl Smoothing {
-    /// By how much a speed may be mistaken, sample by sample, m/s or rad/s: what noise does, and what the low-pass does where it bends the
-    /// recorded position, because the acceleration jumps there; that counts `octaves` times.
+    /// The uncertainty of the speed, one value per sample, m/s or rad/s.
+    ///
+    /// It has two parts: sensor noise, and the error of the low-pass where the acceleration jumps.
+    /// The second is estimated from the difference between recorded and smoothed position, times
+    /// `octaves`.
     pub fn untold_speeds(&self, raw: &[f64], motion: &[Instant], octaves: &[f64]) -> Vec<f64> {
         let reach = (BEND_S / self.step_s).round().max(1.0) as usize;
         let pairs = raw.iter().zip(motion);
@@ -28,7 +32,8 @@ impl Smoothing {
             .map(|(k, octaves)| {
                 let around = bend.get(k.saturating_sub(reach)..(k + reach + 1).min(bend.len()));
                 let greatest = around.into_iter().flatten().copied().fold(0.0, f64::max);
-                // White noise bends by up to four times its size, which the floor already counts.
+                // White noise alone differs by up to four standard deviations, and the floor
+                // already counts those.
                 let excess = (greatest - SENSE_SIGMAS * self.noise).max(0.0);
                 self.speed_floor + octaves * TAU * self.cutoff_hz * excess
             })
@@ -36,7 +41,7 @@ impl Smoothing {
     }
 }
 
-/// A motion, faster or slower by what cannot be told of its speed.
+/// A motion with its speed changed by its uncertainty.
 pub fn turning(motion: &[Instant], untold: &[f64], sign: f64) -> Vec<Instant> {
     let pairs = motion.iter().zip(untold);
     pairs
@@ -49,7 +54,7 @@ pub fn turning(motion: &[Instant], untold: &[f64], sign: f64) -> Vec<Instant> {
         .collect()
 }
 
-/// A motion whose position is a sample late.
+/// A motion whose position is one sample late.
 pub fn a_sample_late(motion: &[Instant]) -> Vec<Instant> {
     let before = motion.iter().take(1).chain(motion);
     let pairs = motion.iter().zip(before);
@@ -61,7 +66,7 @@ pub fn a_sample_late(motion: &[Instant]) -> Vec<Instant> {
         .collect()
 }
 
-/// A signal whose jumps come a sample late; where it goes on as it went before it stays.
+/// A signal whose jumps come one sample late. Where it continues its slope it is unchanged.
 pub fn jumps_late(signal: &[f64]) -> Vec<f64> {
     let begin = signal.iter().take(2).copied();
     let rest = signal.windows(3).map(|three| match three {
@@ -71,7 +76,7 @@ pub fn jumps_late(signal: &[f64]) -> Vec<f64> {
     begin.chain(rest).collect()
 }
 
-/// The greatest change from a signal to any of some others, sample by sample.
+/// The greatest deviation of other signals from `own`, sample by sample.
 pub fn greatest_change(own: &[f64], others: &[Vec<f64>]) -> Vec<f64> {
     let mut greatest = vec![0.0f64; own.len()];
     for other in others {

@@ -1,24 +1,25 @@
-//! This file is a cause with its numbers: what a description states, what a fit gives, and what a free run computes.
+//! This file is a cause with its parameters: what a description states, a fit estimates, and a free
+//! run simulates.
 
 use crate::cause::Cause;
 use crate::plant::Clock;
 use rigproof_spec::effect::Mechanism;
 
-/// A mechanism, where it acts, its numbers, and when it begins.
+/// A mechanism at a place, with its parameters and its onset.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Effect {
     /// The mechanism, and where it acts.
     pub cause: Cause,
-    /// Its parameters in the vocabulary's order, SI.
+    /// Its parameters in the vocabulary's order, SI units.
     pub parameters: Vec<f64>,
     /// Whether its linear parameters are to be estimated.
     pub unknown: bool,
-    /// When it begins, s.
+    /// The time from which it acts, s; `None` from the start.
     pub onset_s: Option<f64>,
 }
 
 impl Effect {
-    /// A mechanism of the whole from the start, its numbers as they are.
+    /// A known effect of the whole plant that acts from the start.
     pub fn of(mechanism: Mechanism, parameters: &[f64]) -> Effect {
         Effect {
             cause: Cause::of(mechanism),
@@ -28,12 +29,12 @@ impl Effect {
         }
     }
 
-    /// The mechanism.
+    /// The mechanism of its cause.
     pub const fn mechanism(&self) -> Mechanism {
         self.cause.mechanism
     }
 
-    /// A parameter by its place, 0 where it has none.
+    /// A parameter by index; 0 if there is none.
     pub fn value(&self, place: usize) -> f64 {
         self.parameters.get(place).copied().unwrap_or(0.0)
     }

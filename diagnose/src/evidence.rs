@@ -1,4 +1,5 @@
-//! This file says how sure a selection is: intervals, rivals, what would have been seen, what cannot be told.
+//! This file quantifies a selection: detection limits, stability under the block bootstrap, and
+//! parameters that are not identifiable.
 
 mod intervals;
 
@@ -23,16 +24,16 @@ fn parameter_count(term: &Term) -> usize {
     entry(term.cause.mechanism).map_or(0, |e| e.linear) + term.shape.len()
 }
 
-/// A number of a fit.
+/// A parameter of a fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Number {
-    /// One of the plant's own.
+    /// A nuisance parameter of the plant.
     Nuisance(usize),
-    /// A parameter of a term, both by their places.
+    /// A parameter of a term: the indices of both.
     Of(usize, usize),
 }
 
-/// The whitened change of the modelled effort with one number.
+/// The whitened derivative of the modelled effort with respect to one parameter.
 struct Sensitivity {
     number: Number,
     values: Vec<f64>,
@@ -70,7 +71,7 @@ fn sensitivities(problem: &Problem, terms: &[&Term], selection: &Selection) -> V
     columns
 }
 
-/// Relative difference step of a shape parameter.
+/// Relative step of the finite difference for a shape parameter.
 const SHAPE_STEP: f64 = 1e-3;
 
 fn shape_sensitivities(
@@ -83,7 +84,8 @@ fn shape_sensitivities(
     let Some(term) = terms.get(index) else {
         return Vec::new();
     };
-    // The shape of what moves the plant is where its columns are taken, no number of its own.
+    // For a cause that moves the plant, the shape is only the step of a finite difference and not a
+    // parameter.
     if problem.run.moves(term.cause) {
         return Vec::new();
     }
@@ -127,7 +129,8 @@ fn without(found: &[Found], index: usize) -> Vec<Found> {
     others.map(|(_, f)| f.clone()).collect()
 }
 
-/// Share of block-bootstrap replicates in which a found mechanism still takes a share of the loss away that matters.
+/// Share of block-bootstrap replicates in which a found mechanism still reduces the left-out loss
+/// by a relevant share.
 pub fn inclusion(problem: &Problem, selection: &Selection, index: usize) -> f64 {
     let blocks = Blocks::new(problem);
     let others = without(&selection.found, index);
@@ -154,7 +157,7 @@ pub fn inclusion(problem: &Problem, selection: &Selection, index: usize) -> f64 
     passed as f64 / INCLUSION_REPLICATES as f64
 }
 
-/// The least size of every mechanism that was not named.
+/// The detection limit of every mechanism that was not named.
 pub fn not_seen(problem: &Problem, selection: &Selection) -> Vec<NotSeen> {
     let motion = problem.run.motion_kind();
     let terms = refs(&selection.nominal, &selection.found);
@@ -183,7 +186,7 @@ pub fn not_seen(problem: &Problem, selection: &Selection) -> Vec<NotSeen> {
         .collect()
 }
 
-/// The size of a term's leading parameter at which it would be seen.
+/// The detection limit of a term, as a value of its leading parameter.
 fn least_size(term: &Term, basis: &[Vec<f64>], loss: f64) -> Option<f64> {
     let (rows, unit) = match (&term.fixed, term.free.first()) {
         (Some(fixed), _) => (fixed, term.shape.first()?.abs()),
@@ -221,11 +224,11 @@ fn orthonormal(columns: &[&[f64]]) -> Vec<Vec<f64>> {
     basis
 }
 
-/// Eigenvalue ratio below which a direction counts as unknowable.
+/// Eigenvalue ratio below which a direction counts as not identifiable.
 const NULL_RATIO: f64 = 1e-9;
 
-/// Combinations of printed parameters that change nothing: for Bouc-Wen, `β`, `γ` and `δ` with the sensitivities
-/// of the two products that the equation holds.
+/// Directions of the parameters that change nothing. For Bouc-Wen only the products of `β` with `γ`
+/// and with `δ` enter the equation.
 pub fn null_directions(problem: &Problem, selection: &Selection) -> Vec<NullDirection> {
     let terms = refs(&selection.nominal, &selection.found);
     let is_told = |term: &&Term| term.cause.mechanism == Mechanism::Hysteresis;
@@ -251,7 +254,7 @@ pub fn null_directions(problem: &Problem, selection: &Selection) -> Vec<NullDire
                         .collect::<Vec<f64>>(),
                 )
             };
-            // In relative changes: β moves both products, γ the first, δ the second.
+            // In relative changes, β changes both products, γ the first and δ the second.
             let (gamma, delta) = (product(1)?, product(2)?);
             let beta: Vec<f64> = gamma.iter().zip(&delta).map(|(g, d)| g + d).collect();
             smallest_direction(&["beta", "gamma", "delta"], &[beta, gamma, delta])
@@ -297,7 +300,7 @@ pub fn parameters(problem: &Problem, term: &Term, coefficients: &[f64]) -> Vec<f
     parameters
 }
 
-/// The coefficients of the plant's own numbers, and those of each term of a selection, in order.
+/// The coefficients of the nuisance parameters, and those of each term of a selection, in order.
 pub fn coefficients_by_term(problem: &Problem, selection: &Selection) -> (Vec<f64>, Vec<Vec<f64>>) {
     let mut values = selection.after.coefficients.iter().copied();
     let nuisances = values.by_ref().take(problem.nuisances.len()).collect();

@@ -1,4 +1,6 @@
-//! This file explains a recording: sets of mechanisms judged together, on data that they were not fitted to, against a model of what every model leaves open.
+//! This file explains a recording by sets of mechanisms, compared by cross-validation.
+//!
+//! Every set is granted the same model discrepancy, because no model is exact.
 
 mod beam;
 mod discrepancy;
@@ -22,23 +24,23 @@ use rigproof_model::effects::{Form, facts, form};
 use rigproof_spec::effect::Mechanism;
 use score::{Judge, prior};
 
-/// One explanation beside others.
+/// One explanation: a set of terms on top of the nominal model.
 #[derive(Clone, Debug)]
 pub struct Explanation {
-    /// Its terms.
     pub terms: Vec<Term>,
-    /// Its probability beside the others.
+    /// Its posterior probability among the explanations that were compared.
     pub weight: f64,
-    /// Root mean square of what it leaves of left-out data, in standard deviations of the sensors' noise.
+    /// Root mean square of its residual on left-out blocks, in standard deviations of the sensor
+    /// noise.
     pub leaves: f64,
-    /// The logarithm of how well it predicts left-out data, however common its mechanisms are.
+    /// The logarithm of its predictive density on left-out blocks, without the prior.
     pub evidence: f64,
 }
 
 /// The explanations of a recording, the most probable first.
 #[derive(Clone, Debug)]
 pub struct Explanations {
-    /// Those with a noticeable weight.
+    /// Those whose weight is at least `LISTED`.
     pub living: Vec<Explanation>,
     /// How many independent samples the recording comes to beside what the best of them leaves.
     pub samples: f64,
@@ -61,8 +63,9 @@ impl Explanations {
         self.living.iter().filter(holds).map(|own| own.weight).sum()
     }
 
-    /// What explains as much in the place of a cause of the leading explanation: the others of the explanations that lack it, as far as they
-    /// weigh together.
+    /// The causes that rival explanations hold instead of a cause of the leading one.
+    ///
+    /// Only causes whose summed weight reaches `OFFERED` are listed, the heaviest first.
     pub fn instead_of(&self, cause: Cause) -> Vec<Cause> {
         let Some((leading, others)) = self.living.split_first() else {
             return Vec::new();
@@ -89,7 +92,8 @@ impl Explanations {
 }
 
 impl Explanation {
-    /// Whether another explanation is this one with a cause at another place and as good to within rounding: no motion tells the places apart.
+    /// Whether `other` differs from this explanation only in the place of `cause` and predicts
+    /// equally well. The places are then not identifiable from this motion.
     fn is_as(&self, other: &Explanation, cause: Cause) -> bool {
         let apart = (self.evidence - other.evidence).abs();
         let elsewhere = |own: &&Term| !self.holds(own.cause);
@@ -102,21 +106,21 @@ impl Explanation {
             && others.next().is_none()
     }
 
-    /// Whether it holds a cause, in whatever form.
+    /// Whether it holds a cause, in any form of its law.
     fn holds(&self, cause: Cause) -> bool {
         let same = |own: Cause| own.at == cause.at && kind(own.mechanism) == kind(cause.mechanism);
         self.terms.iter().any(|term| same(term.cause))
     }
 }
 
-/// The mechanism of which one is a form.
+/// The mechanism that this one is a form of, or itself.
 fn kind(mechanism: Mechanism) -> Mechanism {
     facts(mechanism)
         .and_then(|facts| facts.form_of)
         .unwrap_or(mechanism)
 }
 
-/// What is said of something with this probability.
+/// The word for a cause of this probability.
 pub const fn status(probability: f64) -> &'static str {
     if probability >= NAMED {
         "named"
@@ -134,7 +138,8 @@ pub fn explain(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection, Exp
     let best = first.predicts_best().map_or(&[][..], |own| &own.terms);
     let terms: Vec<&Term> = nominal.iter().chain(best).collect();
     let residual = fit(problem, &terms, &Blocks::new(problem)).residual;
-    // What no explanation takes away is noise of the next round, as the typical block has it: what a few blocks keep is not everywhere.
+    // What the best explanation leaves is the noise of the second round. The median block sets its
+    // level, so that a disturbance in a few blocks does not count as noise everywhere.
     let left = first.folds.typical(&residual);
     problem.rewhiten(left);
     nominal.iter_mut().for_each(|term| problem.refresh(term));
@@ -144,7 +149,7 @@ pub fn explain(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection, Exp
     (selected(problem, nominal, &explanations), explanations)
 }
 
-/// One search among sets of terms, and what it found.
+/// One search among sets of terms, with everything that it fitted.
 struct Round {
     folds: Folds,
     bare: Fitted,
@@ -152,7 +157,8 @@ struct Round {
 }
 
 impl Round {
-    /// `noise` is the standard deviation of a row before whitening; terms are exchanged in so many rounds.
+    /// `noise` is the standard deviation of a row before whitening. `exchanges` counts the rounds
+    /// in which terms are exchanged.
     fn of(
         problem: &Problem,
         nominal: &[Term],
@@ -205,7 +211,8 @@ impl Round {
     }
 }
 
-/// The explanations with a noticeable weight beside the others, from their scores, the best first.
+/// Explanations with their probability; those below `LISTED` are dropped. `scored` is sorted, the
+/// best first.
 fn living(
     problem: &Problem,
     rows: f64,
@@ -226,7 +233,7 @@ fn living(
     listed.filter(|own| own.weight >= LISTED).collect()
 }
 
-/// Explanations with the logarithm of their weight, the most probable first.
+/// Explanations with their log posterior, up to a constant, the most probable first.
 fn ranked(problem: &Problem, folds: &Folds, judge: &Judge, all: Vec<Fitted>) -> Vec<(f64, Fitted)> {
     let score = |own: &Fitted| judge.evidence(folds, own) + prior(problem, &own.terms);
     let mut scored: Vec<(f64, Fitted)> = all.into_iter().map(|own| (score(&own), own)).collect();
@@ -234,7 +241,7 @@ fn ranked(problem: &Problem, folds: &Folds, judge: &Judge, all: Vec<Fitted>) -> 
     scored
 }
 
-/// Every mechanism in every shape that is tried.
+/// Every mechanism that the nominal model does not fix, in every shape of the grid.
 fn candidates(problem: &Problem, nominal: &[Term]) -> Vec<Term> {
     let common: Vec<&Term> = nominal.iter().collect();
     let plain = fit(problem, &common, &Blocks::new(problem));
@@ -255,7 +262,7 @@ fn candidates(problem: &Problem, nominal: &[Term]) -> Vec<Term> {
     open.into_par_iter().flat_map_iter(of_cause).collect()
 }
 
-/// A term of a cause as the recording has it, whatever the other terms give.
+/// A term of a cause, with its columns taken from the recorded signals alone.
 pub(crate) fn unfitted(
     problem: &Problem,
     cause: Cause,
@@ -266,7 +273,8 @@ pub(crate) fn unfitted(
     term.or_else(|| problem.drive_term(cause, shape, onset_s, &[]))
 }
 
-/// Terms with their shapes refined on all blocks; a change of the drive stays as it was weighed.
+/// Terms with their shapes refined on all blocks. A change of the drive keeps the shape with which
+/// it was compared.
 fn polished(problem: &Problem, nominal: &[Term], terms: &[Term]) -> Vec<Term> {
     let blocks = Blocks::new(problem);
     let mut all = terms.to_vec();
@@ -286,7 +294,7 @@ fn polished(problem: &Problem, nominal: &[Term], terms: &[Term]) -> Vec<Term> {
     all
 }
 
-/// The leading explanation as a selection.
+/// The leading explanation as a `Selection`.
 fn selected(problem: &Problem, nominal: Vec<Term>, explanations: &Explanations) -> Selection {
     let blocks = Blocks::new(problem);
     let leading = explanations.living.first();

@@ -67,7 +67,8 @@ impl LowPass {
 
     /// Filters forward and backward, with the ends extended by odd reflection.
     ///
-    /// Output has the length of the input; a signal of fewer than two samples is returned as it is.
+    /// The output has the length of the input. A signal of fewer than two samples is returned
+    /// unchanged.
     pub fn zero_phase(&self, signal: &[f64]) -> Vec<f64> {
         let (Some(&first), Some(&last)) = (signal.first(), signal.last()) else {
             return Vec::new();

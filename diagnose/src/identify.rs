@@ -1,6 +1,7 @@
-//! This file turns recordings of a brake on the bench into its table, as §3.4 does: torque gain, time constants, backlash.
+//! This file identifies the table of a brake from recordings on the bench, as §3.4 does: torque
+//! gain, time constants, backlash.
 //!
-//! What it computes stands in `model`; here it finds the steps and reversals in what somebody recorded.
+//! The computation is in `model`; this file finds the steps and reversals in a recording.
 
 mod backlash;
 mod interval;
@@ -24,10 +25,10 @@ use interval::with_interval;
 use sampled::Sampled;
 use sets::Sets;
 
-/// What recordings of a brake say about it.
+/// What recordings of a brake determine.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Identified {
-    /// The parts of the table that the recordings determine, each number with its 95 % interval.
+    /// The parts of the table that the recordings determine, with 95 % intervals.
     pub brake: Brake,
     /// The parts that they do not determine, and what to record for each.
     pub missing: Vec<String>,
@@ -45,11 +46,13 @@ pub struct Identified {
 
 /// Identifies a brake from recordings: `(name, recording)`.
 ///
-/// Settled torques and time constants are averaged over the consecutive steps of one current and one speed in one
-/// recording, as the text does; the averages are fitted, and their scatter gives the intervals.
+/// Settled torques and time constants are averaged over the consecutive steps of one current and
+/// one speed in one recording, as in the text. The averages are fitted, and their scatter gives the
+/// intervals.
 ///
 /// # Errors
-/// A recording has no current or torque, its torque drives the motion, or none of them holds a step or a reversal.
+/// A recording has no current or torque, its torque drives the motion, or none of them holds a step
+/// or a reversal.
 pub fn identify(recordings: &[(String, Recording)]) -> Result<Identified, IdentifyError> {
     let mut found = Identified::default();
     for (index, (name, recording)) in recordings.iter().enumerate() {
@@ -141,7 +144,7 @@ fn surface(sets: &Sets, edge: Edge, missing: &mut Vec<String>) -> Option<Surface
     })
 }
 
-/// Speed in rpm, in magnitude.
+/// Absolute speed in rpm.
 fn speed_rpm(omega_rad_s: f64) -> f64 {
     rpm_from_rad_s(omega_rad_s.abs())
 }

@@ -1,4 +1,5 @@
-//! This file says where the unexplained energy is: in which regimes of the motion.
+//! This file finds the regimes of motion in which the nominal model fails: where the unexplained
+//! energy is.
 
 mod along;
 
@@ -9,13 +10,12 @@ use crate::rules::{LOCATE_BLOCKS, LOCATE_REPLICATES};
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 
-/// Which rows belong to a regime.
+/// A regime and its rows.
 pub struct Cell {
-    /// The regime, in words.
+    /// A label for people.
     pub label: &'static str,
-    /// Where it is.
     pub at: Place,
-    /// One value a row.
+    /// Whether each row belongs to it.
     pub member: Vec<bool>,
 }
 
@@ -23,17 +23,16 @@ pub use along::along;
 
 /// The regimes of a recording.
 pub struct Regimes {
-    /// The equation that does not balance.
+    /// The name of the equation whose residual is located.
     pub output: &'static str,
-    /// Which rows count.
+    /// Which rows are counted.
     pub counted: Vec<bool>,
-    /// The regimes.
     pub cells: Vec<Cell>,
 }
 
-/// Regimes ranked by how much more than their share of time they hold of `before`'s energy.
+/// Regimes ranked by the share of `before`'s energy in excess of their share of time.
 ///
-/// `before` and `after` are residuals, one value a window.
+/// `before` and `after` are residuals, one value per window.
 pub fn locate(problem: &Problem, before: &[f64], after: &[f64]) -> Vec<Located> {
     let Regimes {
         output,
@@ -95,7 +94,7 @@ fn share(values: &[f64], member: &[bool]) -> f64 {
     part / total.max(1e-300)
 }
 
-/// 95 % interval of a share, by resampling contiguous blocks of windows.
+/// 95 % interval of a share, by block bootstrap over windows.
 fn interval(values: &[f64], member: &[bool]) -> (f64, f64) {
     let size = values.len().div_ceil(LOCATE_BLOCKS).max(1);
     let blocks: Vec<(f64, f64)> = values

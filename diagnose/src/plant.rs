@@ -1,4 +1,5 @@
-//! This file is the interface of a plant: all that naming, judging and showing ask of a recording. Nothing behind it knows which plant it is.
+//! This file is the interface of a plant: everything that the diagnosis asks of an aligned
+//! recording. Code that uses it does not know which plant it is.
 
 mod described;
 mod replayed;
@@ -27,14 +28,14 @@ pub use replayed::{Frame, RESTART_S, Replayed};
 pub use rules::Rules;
 pub use simulated::{Simulated, SimulatedOutput, Unsimulated};
 
-/// The clock of a recording: regular samples.
+/// The clock of a recording, with regular samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clock {
     /// Sample interval, s.
     pub step_s: f64,
     /// Time of the first sample, s.
     pub start_s: f64,
-    /// How many samples there are.
+    /// Number of samples.
     pub samples: usize,
 }
 
@@ -50,20 +51,23 @@ impl Clock {
     }
 }
 
-/// What a cause adds to the balance of efforts. Every signal holds a stretch of samples for each output, one stretch after another.
+/// What a cause adds to the balance of efforts. With several outputs, a signal holds the samples of
+/// one output after those of another.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Columns {
-    /// One signal for each linear parameter: its coefficient is the parameter.
+    /// One signal per linear parameter, which is its coefficient.
     Free(Vec<Vec<f64>>),
-    /// A signal that enters with coefficient 1: the cause has no linear parameter.
+    /// A signal with coefficient 1: the cause has no linear parameter.
     Fixed(Vec<f64>),
-    /// Signals of a plant that stands otherwise than recorded; [`Run::moved_rows`] makes rows of them, which are no averages of a signal.
+    /// Signals of a plant in another configuration than recorded. [`Run::moved_rows`] makes rows of
+    /// them, which are no averages of a signal.
     Moved(Vec<Vec<f64>>),
 }
 
-/// A recording that is aligned, with the equations of its plant.
+/// An aligned recording, with the equations of its plant.
 ///
-/// Signals are in SI units, one value a sample; a plant with several outputs has a stretch of samples for each, one stretch after another.
+/// Signals are in SI units, one value per sample. With several outputs, a signal holds the samples
+/// of one output after those of another.
 pub trait Run: Debug + Send + Sync {
     /// Its samples.
     fn clock(&self) -> Clock {
@@ -77,70 +81,73 @@ pub trait Run: Debug + Send + Sync {
         }
     }
 
-    /// Which samples were recorded, not filled in; empty where all were.
+    /// Whether each sample was recorded rather than interpolated; empty if all were.
     fn recorded(&self) -> &[bool] {
         &[]
     }
 
-    /// What was mended in it, or is to be said of it.
+    /// What was repaired, and other remarks.
     fn remarks(&self) -> &[Remark] {
         &[]
     }
 
-    /// Whether it slides or turns: what the units of its numbers are.
+    /// Whether the plant is linear or rotary, which decides the units of its parameters.
     fn motion_kind(&self) -> Motion {
         Motion::Rotary
     }
 
-    /// How many equations it has: each window gives as many rows.
+    /// Number of equations: each window gives as many rows.
     fn outputs(&self) -> usize {
         1
     }
 
-    /// What an output is, in words.
+    /// The name of an output.
     fn output_name(&self, output: usize) -> &'static str {
         let _ = output;
         "effort"
     }
 
-    /// The rules by which names are judged here.
+    /// The rules of naming for this plant.
     fn rules(&self) -> &'static Rules {
         &Rules::ONE_EQUATION
     }
 
-    /// The samples `from..to`, times kept; `None` where it cannot be parted.
+    /// The samples `from..to`, with their times; `None` if the recording cannot be cut.
     fn slice(&self, from: usize, to: usize) -> Option<Box<dyn Run>> {
         let _ = (from, to);
         None
     }
 
-    // The balance of efforts: driving effort = known + what the nominal model leaves out.
+    // The balance of efforts: driving effort = known part + what the nominal model lacks.
 
-    /// The driving effort as recorded: what a contribution is compared with.
+    /// The driving effort as recorded: the scale of all contributions.
     fn effort(&self) -> Vec<f64>;
 
-    /// The driving effort as the second difference of the positions sees it: with Numerov's weights where it is smooth between samples.
+    /// The driving effort as the second difference of the positions shows it: with Numerov's
+    /// weights where it is smooth between samples.
     fn driving(&self) -> Vec<f64> {
         numerov(&self.effort())
     }
 
-    /// What the nominal model knows of it: inertia, predicted efforts.
+    /// The known part of the balance: inertia, predicted efforts.
     fn known(&self) -> Vec<f64>;
 
-    /// Signals of the plant's own unknown numbers, such as an inertia: they stand in every fit.
+    /// Signals of the nuisance parameters, such as an unknown inertia. They enter every fit.
     fn nuisances(&self) -> Vec<Vec<f64>> {
         Vec::new()
     }
 
-    // Windows and their noise.
+    // Windows and noise.
 
-    /// The windows that suit it, those given up in which its sensors tell too little.
+    /// The windows that suit the recording. Those in which the sensors show too little are marked
+    /// unusable.
     fn windows(&self) -> Windows {
         let [narrowest_s, ..] = WIDTHS_S;
         self.windows_of(narrowest_s)
     }
 
-    /// Gives up the rows of windows in which the sensors tell too little: a sample is missing, or a sense of motion is not known.
+    /// Marks rows as unusable where the sensors show too little: a sample is missing, or a
+    /// direction of motion is unknown.
     fn keep_told(&self, windows: &mut Windows) {
         windows.keep(|centre, bump| is_recorded(self.recorded(), centre, bump));
         for place in self.moving_places() {
@@ -149,64 +156,67 @@ pub trait Run: Debug + Send + Sync {
         }
     }
 
-    /// Windows of about a width, s, those given up in which its sensors tell too little.
+    /// Windows of about a width in s, with unusable rows marked.
     fn windows_of(&self, width_s: f64) -> Windows {
         let mut windows = self.all_windows(width_s);
         self.keep_told(&mut windows);
         windows
     }
 
-    /// All windows of about a width, s.
+    /// All windows of about a width in s.
     fn all_windows(&self, width_s: f64) -> Windows {
         let clock = self.clock();
         let times = (clock.step_s, clock.start_s);
         Windows::over(clock.samples, self.outputs(), times, width_s)
     }
 
-    /// What noise is made of: the standard deviation of what is differenced twice, an inertia times a position, and that of an effort.
+    /// Standard deviations of the sensor noise: of the signal that is differenced twice (an inertia
+    /// times a position), and of the effort.
     fn sensors(&self) -> [f64; 2];
 
-    /// Root mean square over the usable rows of the standard deviation that sensor noise alone gives them.
+    /// The noise floor: root mean square over the usable rows of the standard deviation that sensor
+    /// noise gives them.
     fn floor(&self, windows: &Windows) -> f64 {
         let covariance = windows.noise_covariance(self.sensors(), 0.0, 1);
         covariance.iter().sum::<f64>().sqrt()
     }
 
-    /// The noise model of the usable rows; `excess` is a variance of white effort that nothing explains.
+    /// The noise model of the usable rows. `excess` is the variance of additional white effort.
     fn whitener(&self, windows: &Windows, excess: f64) -> Whitener {
         let covariance = windows.noise_covariance(self.sensors(), excess, NOISE_ORDER + 1);
         Whitener::new(&covariance, &windows.usable)
     }
 
-    /// Standard deviation of one sample of a position: what a travel is compared with.
+    /// Standard deviation of a position sample: the scale of a travel.
     fn position_noise(&self) -> f64 {
         0.0
     }
 
     // Places.
 
-    /// How many joints it has that have names of their own; none where the whole is one joint.
+    /// Number of named joints; 0 if the plant is a single joint.
     fn joints(&self) -> usize {
         0
     }
 
-    /// The name of a place in reports; `None` for the whole.
+    /// The name of a place in reports; `None` for the whole plant.
     fn place_name(&self, at: Place) -> Option<&'static str> {
         let _ = at;
         None
     }
 
-    /// The smoothed motion at a place: what the laws are evaluated on. Empty where nothing moves by itself.
+    /// The smoothed motion at a place, on which the laws are evaluated. Empty for a place without a
+    /// motion of its own.
     fn motion(&self, at: Place) -> &[Instant];
 
-    /// The range of the motion at a place, m or rad.
+    /// The range of the position at a place, m or rad.
     fn travel(&self, at: Place) -> f64 {
         let positions = self.motion(at).iter().map(|now| now.position);
         let low = positions.clone().fold(f64::INFINITY, f64::min);
         (positions.fold(f64::NEG_INFINITY, f64::max) - low).max(0.0)
     }
 
-    /// Speed below which a sense of motion cannot be told.
+    /// Speed below which the direction of motion cannot be told.
     fn speed_floor(&self) -> f64 {
         0.0
     }
@@ -216,32 +226,33 @@ pub trait Run: Debug + Send + Sync {
     /// The causes that have a meaning on this plant.
     fn causes(&self) -> Vec<Cause>;
 
-    /// The shapes of a cause that are tried; `residual` is what is left, row by row.
+    /// The trial shapes of a cause. `residual` has one value per row.
     fn shapes(&self, cause: Cause, windows: &Windows, residual: &[f64]) -> Vec<Vec<f64>> {
         standard_shapes(self, cause, windows, residual)
     }
 
-    /// How much of a passive cause the nominal model already has: so much of it may be taken away.
+    /// How much of a passive cause the nominal model already has. A fit may take away that much.
     fn described(&self, cause: Cause) -> f64 {
         let _ = cause;
         0.0
     }
 
-    /// How far the first number of a cause's shape may go where that is beyond what is tried first.
+    /// The bounds of the first shape parameter, where they lie beyond the grid.
     fn reach(&self, cause: Cause) -> Option<(f64, f64)> {
         let _ = cause;
         None
     }
 
-    /// What a cause of this shape adds to the balance; `None` where it has no meaning here.
+    /// What a cause of this shape adds to the balance; `None` if it has no meaning here.
     ///
-    /// `beside` is what all other terms give together, sample by sample. A cause that acts on that cannot be told without it: `None`.
+    /// `beside` is the effort of all other terms, sample by sample. A cause that acts on that
+    /// effort has no columns without it.
     fn columns(&self, cause: Cause, shape: &[f64], beside: Option<&[f64]>) -> Option<Columns> {
         let _ = beside;
         self.resistances(cause, shape)
     }
 
-    /// What a resistance adds along the motion at its place, with Numerov's weights.
+    /// The columns of a resistance along the motion at its place, with Numerov's weights.
     fn resistances(&self, cause: Cause, shape: &[f64]) -> Option<Columns> {
         let (motion, step_s) = (self.motion(cause.at), self.clock().step_s);
         let own = resistances(motion, step_s, cause.mechanism, shape)?;
@@ -250,18 +261,20 @@ pub trait Run: Debug + Send + Sync {
         ))
     }
 
-    /// Whether some causes act on what the others give, so that they are linearised about it again and again.
+    /// Whether some causes act on the effort of the other terms, so that they have to be linearised
+    /// repeatedly.
     fn is_linearised(&self) -> bool {
         false
     }
 
-    /// Whether a cause moves the whole plant: its columns are [`Columns::Moved`].
+    /// Whether a cause changes the configuration of the plant: its columns are [`Columns::Moved`].
     fn moves(&self, cause: Cause) -> bool {
         let _ = cause;
         false
     }
 
-    /// The rows of [`Columns::Moved`], one list a linear parameter: `recorded` is the balance as recorded, `first` the sample at which it begins.
+    /// The rows of [`Columns::Moved`], one list per linear parameter. `recorded` is the recorded
+    /// balance, `first` the sample of the onset.
     fn moved_rows(
         &self,
         windows: &Windows,
@@ -274,38 +287,40 @@ pub trait Run: Debug + Send + Sync {
         Vec::new()
     }
 
-    /// The shape of a cause that moves the plant whose columns are taken over the whole change that these coefficients say.
+    /// For a cause that moves the plant: the shape with which the finite difference spans the whole
+    /// change that these coefficients state.
     fn shape_over(&self, cause: Cause, shape: &[f64], coefficients: &[f64]) -> Option<Vec<f64>> {
         let _ = (cause, shape, coefficients);
         None
     }
 
-    /// The linear parameters in the vocabulary's meaning, from the coefficients of the columns.
+    /// The linear parameters of a mechanism from the coefficients of its columns.
     fn linear(&self, mechanism: Mechanism, coefficients: &[f64]) -> Vec<f64> {
         let _ = mechanism;
         coefficients.to_vec()
     }
 
-    /// The coefficients of the columns, from linear parameters in the vocabulary's meaning: what [`Run::linear`] takes them back from.
+    /// The coefficients of the columns from the linear parameters: the inverse of [`Run::linear`].
     fn coefficients(&self, mechanism: Mechanism, parameters: &[f64]) -> Vec<f64> {
         let _ = mechanism;
         parameters.to_vec()
     }
 
-    /// The cause that no recording of this plant can tell from another.
+    /// The cause that no recording of this plant can distinguish from another.
     fn twin(&self, cause: Cause) -> Option<Cause> {
         let _ = cause;
         None
     }
 
-    /// What a bench with one brake has: the torque that its nominal model predicts, and its current, A.
+    /// For a bench with one brake: the torque that its nominal model predicts, N·m, and its
+    /// current, A.
     fn brake(&self) -> Option<(&[f64], &[f64])> {
         None
     }
 
-    // What is left.
+    // The residual.
 
-    /// The regimes that unexplained energy is located in.
+    /// The regimes in which unexplained energy is located.
     fn regimes(&self, windows: &Windows) -> Regimes {
         let motion = self.motion(Place::Whole);
         let positions = motion.iter().map(|now| now.position);
@@ -318,20 +333,20 @@ pub trait Run: Debug + Send + Sync {
         )
     }
 
-    /// What a unit of effort at a place adds to each row.
+    /// The row entries of a unit of effort at a place.
     fn shares(&self, at: Place, windows: &Windows) -> Vec<f64> {
         let _ = at;
         vec![1.0; windows.centres.len()]
     }
 
-    /// What a free curve of what is left can be drawn over.
+    /// The variables over which a free curve of the residual can be drawn.
     fn variables(&self, windows: &Windows) -> Vec<Variable> {
         let places = self.moving_places().into_iter();
         let each = places.map(|at| variables(self, windows, at, &self.shares(at, windows)));
         each.flatten().collect()
     }
 
-    /// All places that have a motion of their own: every joint, or the whole where it is one.
+    /// All places with a motion of their own: every joint, or the whole of a single joint.
     fn moving_places(&self) -> Vec<Place> {
         match self.joints() {
             0 => vec![Place::Whole],
@@ -339,7 +354,8 @@ pub trait Run: Debug + Send + Sync {
         }
     }
 
-    /// The name of a cause in reports: `viscous`, `viscous at E`, `stribeck of the torque at every brake`.
+    /// The name of a cause in reports: `viscous`, `viscous at E`, `stribeck of the torque at every
+    /// brake`.
     fn cause_name(&self, cause: Cause) -> String {
         let mechanism = cause.mechanism.name();
         let of = match cause.scales {
@@ -353,8 +369,8 @@ pub trait Run: Debug + Send + Sync {
     }
 }
 
-/// One signal for each linear parameter of a resistance along a motion: the law with that parameter 1 and the others 0. `None` for a mechanism
-/// that is no resistance.
+/// One signal per linear parameter of a resistance along a motion: the law with that parameter 1
+/// and the others 0. `None` for a mechanism that is no resistance.
 pub fn resistances(
     motion: &[Instant],
     step_s: f64,

@@ -1,5 +1,5 @@
-//! This file is the regression problem of one recording: what the nominal model leaves over, window by window,
-//! and the columns that a cause could explain it with.
+//! This file is the regression problem of a recording: the residual of the nominal model in each
+//! window, and the columns of each cause.
 
 mod within;
 
@@ -15,67 +15,64 @@ use rigproof_model::effects::entry;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError, RwLock};
 
-/// One column of the regression over all windows.
+/// A column of the regression over all windows.
 #[derive(Clone, Debug)]
 pub struct Rows {
-    /// Sample by sample, one output after another; empty where they are not kept.
+    /// The signal, one output after another; empty where it is not kept.
     pub signal: Vec<f64>,
-    /// As averaged by the test function.
+    /// The signal averaged by the test function.
     pub raw: Vec<f64>,
-    /// After whitening.
+    /// The whitened averages.
     pub white: Vec<f64>,
 }
 
-/// A cause with its shape fixed: what it adds to the regression.
+/// A cause with fixed shape: what it adds to the regression.
 #[derive(Clone, Debug)]
 pub struct Term {
-    /// The cause.
     pub cause: Cause,
-    /// The parameters that shape it, in the vocabulary's order after the linear ones.
+    /// Its shape parameters, in the vocabulary's order.
     pub shape: Vec<f64>,
-    /// When it begins, s; `None` from the start.
+    /// The time from which it acts, s; `None` from the start.
     pub onset_s: Option<f64>,
     /// Columns whose coefficients are the linear parameters.
     pub free: Vec<Arc<Rows>>,
-    /// A column that enters with coefficient 1: a change of the drive.
+    /// A column with coefficient 1.
     pub fixed: Option<Arc<Rows>>,
-    /// Given values of the linear parameters, where the nominal model states them as known.
+    /// The linear parameters, if the nominal model states them as known.
     pub known: Option<Vec<f64>>,
 }
 
-/// The regression problem of one recording.
 pub struct Problem<'a> {
-    /// The recording.
     pub run: &'a dyn Run,
-    /// The rules by which its names are judged.
+    /// The rules of naming.
     pub rules: &'static Rules,
-    /// The windows.
     pub windows: Windows,
     /// The noise model.
     pub whitener: Whitener,
-    /// Effort less everything the nominal model knows.
+    /// The effort less the known part.
     pub target: Rows,
-    /// The effort that the nominal model knows, sample by sample: known inertia, predicted effort.
+    /// The known part, sample by sample: known inertia, predicted effort.
     pub known: Vec<f64>,
-    /// The columns of the plant's own unknown numbers, such as an inertia that is to be estimated.
+    /// The columns of the nuisance parameters, such as an unknown inertia.
     pub nuisances: Vec<Rows>,
-    /// Predicted standard deviation of one residual from sensor noise alone.
+    /// The standard deviation of a residual from sensor noise alone.
     pub floor: f64,
-    /// Root mean square of the averaged driving effort: what a contribution is compared with.
+    /// Root mean square of the averaged driving effort: the scale of all contributions.
     pub effort_size: f64,
-    /// Trials of a brake whose gains are taken out of every row.
+    /// Trials of a brake, each with a gain of its own that is projected out of every row.
     trials: Option<Trials>,
-    /// Terms from the start of the recording that are asked for again and again.
+    /// Terms without onset that are requested repeatedly.
     kept: RwLock<Vec<Term>>,
-    /// The columns that each thread asked for last: several onsets are tried of the same ones.
+    /// The columns that each thread requested last: several onsets are tried with the same ones.
     recent: Mutex<HashMap<Option<usize>, Recent>>,
 }
 
-/// A cause, a shape, and what they give.
+/// A cause, a shape, and their columns.
 type Recent = (Cause, Vec<f64>, Arc<Columns>);
 
 impl<'a> Problem<'a> {
-    /// Sets up the problem in the usable rows of some windows, with white effort beyond the sensors' noise left aside; `rewhiten` refines that.
+    /// The problem in the usable rows of some windows. Its noise is sensor noise alone until
+    /// `rewhiten`.
     pub fn new(run: &'a dyn Run, windows: Windows) -> Problem<'a> {
         let known = run.known();
         let target = rows(&windows, less(&run.driving(), &known));
@@ -98,12 +95,12 @@ impl<'a> Problem<'a> {
         problem
     }
 
-    /// The name of a cause in reports.
     pub fn name(&self, cause: Cause) -> String {
         self.run.cause_name(cause)
     }
 
-    /// Refines the noise model: what these residuals have beyond the floor counts as unexplained white effort.
+    /// Refines the noise model: the variance of these residuals beyond the floor counts as white
+    /// effort.
     ///
     /// `rms` is the root mean square of the residuals over the usable windows.
     pub fn rewhiten(&mut self, rms: f64) {
@@ -112,7 +109,7 @@ impl<'a> Problem<'a> {
         self.whiten_with(whitener);
     }
 
-    /// Takes a noise model and whitens with it.
+    /// Replaces the noise model and whitens the problem's columns with it.
     pub fn whiten_with(&mut self, whitener: Whitener) {
         self.whitener = whitener;
         self.whiten_own();
@@ -122,7 +119,7 @@ impl<'a> Problem<'a> {
         self.kept = RwLock::new(kept);
     }
 
-    /// A column given row by row.
+    /// A column from given row values.
     pub fn rows_of(&self, mut raw: Vec<f64>) -> Rows {
         crate::stop::look();
         self.take_out_trials(&mut raw);
@@ -140,7 +137,8 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// The term of a cause; `None` for one that acts on what the others give, or that has no meaning here.
+    /// The term of a cause; `None` if it acts on the effort of the other terms, or has no meaning
+    /// here.
     pub fn term(&self, cause: Cause, shape: &[f64], onset_s: Option<f64>) -> Option<Term> {
         let kept = match (self.kept(cause, shape), onset_s) {
             (Some(kept), None) => return Some(kept),
@@ -202,13 +200,14 @@ impl<'a> Problem<'a> {
         Some(columns)
     }
 
-    /// The shape of a term that moves the plant whose columns are taken over the whole change that its coefficients say.
+    /// For a cause that moves the plant: the shape with which the finite difference spans the whole
+    /// change that the coefficients state.
     pub fn shape_over(&self, term: &Term, coefficients: &[f64]) -> Option<Vec<f64>> {
         self.run.shape_over(term.cause, &term.shape, coefficients)
     }
 
-    /// The term of a cause that acts from the start, kept for the next time: for shapes that are tried in every
-    /// step of the search. `None` for one that has to be linearised about the other terms.
+    /// The term of a cause without onset, cached because every step of the search tries the same
+    /// shapes. `None` if it has to be linearised about the other terms.
     pub fn kept_term(&self, cause: Cause, shape: &[f64]) -> Option<Term> {
         self.kept(cause, shape).or_else(|| {
             let mut term = self.term(cause, shape, None)?;
@@ -219,7 +218,7 @@ impl<'a> Problem<'a> {
         })
     }
 
-    /// Lets go of a term's samples where nothing is linearised about them: there may be too many to hold.
+    /// Frees the samples of a term where nothing is linearised about them, to save memory.
     pub fn lighten(&self, term: &mut Term) {
         if !self.run.is_linearised() {
             for rows in term.free.iter_mut().chain(&mut term.fixed) {
@@ -234,11 +233,11 @@ impl<'a> Problem<'a> {
         kept.iter().find(same).cloned()
     }
 
-    /// The term of a change of the drive, linearised about `beside`: the effort, sample by sample, that the model
-    /// gives with the other terms. `None` where the cause has no meaning on this plant.
+    /// The term of a change of the drive, linearised about `beside`, the effort of the other terms.
+    /// `None` if the cause has no meaning on this plant.
     ///
-    /// The recorded effort stays the target and the model's side is changed, because a change of the target
-    /// would make every residual small that the change itself makes small.
+    /// The recorded effort stays the target and the model changes. If the target changed instead, a
+    /// change that shrinks it would shrink every residual.
     pub fn drive_term(
         &self,
         cause: Cause,
@@ -250,7 +249,8 @@ impl<'a> Problem<'a> {
         Some(self.term_of(cause, shape, onset_s, &columns))
     }
 
-    /// A term of the nominal model: its columns where unknown, else its value as a fixed column. What moves the plant has its slope over its value.
+    /// A term of the nominal model. Unknown parameters become columns, known ones a fixed column.
+    /// For a cause that moves the plant the finite difference spans its stated size.
     pub fn nominal_term(&self, effect: &Effect) -> Option<Term> {
         let linear = entry(effect.cause.mechanism)?.linear;
         let first = if self.run.moves(effect.cause) {
@@ -288,7 +288,7 @@ impl<'a> Problem<'a> {
     }
 }
 
-/// A signal with its averages; not yet whitened.
+/// A signal with its averages, not yet whitened.
 fn rows(windows: &Windows, signal: Vec<f64>) -> Rows {
     Rows {
         raw: windows.average(&signal),
@@ -297,14 +297,12 @@ fn rows(windows: &Windows, signal: Vec<f64>) -> Rows {
     }
 }
 
-/// Adds `times` a signal to another.
 pub fn add(to: &mut [f64], what: &[f64], times: f64) {
     for (x, y) in to.iter_mut().zip(what) {
         *x += times * y;
     }
 }
 
-/// One signal less another.
 pub fn less(from: &[f64], what: &[f64]) -> Vec<f64> {
     from.iter().zip(what).map(|(a, b)| a - b).collect()
 }

@@ -1,14 +1,16 @@
-//! This file is least squares on white windows, and its cross-validation over contiguous blocks of time.
+//! This file is least squares on whitened windows, with cross-validation over contiguous blocks of
+//! time.
 
 use crate::problem::{Problem, Rows, Term};
 use crate::rules::{BLOCK_S, FEWEST_BLOCKS, LEAST_WEIGHT, MOST_BLOCKS, OWN_OF_COLUMN, PURGE};
 use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
 
-/// Blocks of time that are left out in turn.
+/// The blocks of cross-validation.
 #[derive(Clone, Debug)]
 pub struct Blocks {
-    /// Row ranges `(first, end)`; the windows between two blocks belong to neither (the purge gap).
+    /// Row ranges `(first, end)`. Windows in the gap between two blocks belong to neither, so that
+    /// no sample is in both.
     pub ranges: Vec<(usize, usize)>,
 }
 
@@ -28,29 +30,30 @@ impl Blocks {
     }
 }
 
-/// A fitted set of terms.
+/// The fit of a set of terms.
 #[derive(Clone, Debug)]
 pub struct Fit {
-    /// Coefficient of each free column, in the order base, then term by term; 0 where a column was redundant.
+    /// The coefficient of each free column, nuisance parameters first, then term by term; 0 for a
+    /// redundant column.
     pub coefficients: Vec<f64>,
-    /// Which free columns were redundant: their direction lies in the earlier ones.
+    /// Whether each free column is redundant: linearly dependent on the earlier ones.
     pub redundant: Vec<bool>,
     /// Sum of squared white residuals over all windows.
     pub loss: f64,
-    /// Left-out loss of each block.
+    /// The loss of each block when the coefficients come from the other blocks.
     pub block_loss: Vec<f64>,
-    /// Residual before whitening, one value a window.
+    /// Residual before whitening, one value per window.
     pub residual: Vec<f64>,
 }
 
 impl Fit {
-    /// The sum of left-out losses.
+    /// The summed loss of the left-out blocks.
     pub fn left_out(&self) -> f64 {
         self.block_loss.iter().sum()
     }
 }
 
-/// Normal equations of one range of windows.
+/// Normal equations of a range of windows.
 #[derive(Clone)]
 struct Normal {
     gram: DMatrix<f64>,
@@ -93,7 +96,7 @@ pub fn fit(problem: &Problem, terms: &[&Term], blocks: &Blocks) -> Fit {
     }
 }
 
-/// The loss over all windows of a fit, without the fit.
+/// The loss over all windows, without cross-validation.
 pub fn loss_of(problem: &Problem, terms: &[&Term]) -> f64 {
     let columns = free_columns(problem, terms);
     let target = reduced_target(problem, terms);
@@ -103,7 +106,7 @@ pub fn loss_of(problem: &Problem, terms: &[&Term]) -> f64 {
     loss(&all, &solve(&all))
 }
 
-/// Left-out loss of a white target over the blocks with these columns.
+/// The summed left-out loss of a white target with these columns.
 pub fn left_out_loss(target: &[f64], columns: &[Rows], blocks: &Blocks) -> f64 {
     let columns: Vec<&Rows> = columns.iter().collect();
     let redundant = redundancy(&columns);
@@ -111,7 +114,7 @@ pub fn left_out_loss(target: &[f64], columns: &[Rows], blocks: &Blocks) -> f64 {
     block_losses(&own, target, blocks).iter().sum()
 }
 
-/// All free columns: inertia first, then term by term.
+/// All free columns: nuisance parameters first, then term by term.
 pub fn free_columns<'b>(problem: &'b Problem, terms: &[&'b Term]) -> Vec<&'b Rows> {
     let of_terms = terms
         .iter()
@@ -120,7 +123,7 @@ pub fn free_columns<'b>(problem: &'b Problem, terms: &[&'b Term]) -> Vec<&'b Row
     problem.nuisances.iter().chain(of_terms).collect()
 }
 
-/// The target less the columns that enter with a given coefficient, window by window.
+/// The target less the columns with given coefficients, window by window.
 pub fn reduced_target(problem: &Problem, terms: &[&Term]) -> Rows {
     let mut target = Rows {
         signal: Vec::new(),
@@ -147,7 +150,8 @@ fn kept<'b>(columns: &[&'b Rows], redundant: &[bool]) -> Vec<&'b [f64]> {
     own.map(|(rows, _)| rows.white.as_slice()).collect()
 }
 
-/// Modified Gram-Schmidt in order: a column that hardly stands out of the earlier ones is redundant.
+/// Modified Gram-Schmidt in order. A column with little component orthogonal to the earlier ones is
+/// redundant.
 fn redundancy(columns: &[&Rows]) -> Vec<bool> {
     let mut basis: Vec<Vec<f64>> = Vec::new();
     columns
@@ -172,7 +176,7 @@ fn redundancy(columns: &[&Rows]) -> Vec<bool> {
         .collect()
 }
 
-/// For each block, the loss that the fit to the others leaves there.
+/// The loss of each block when the coefficients come from the other blocks.
 fn block_losses(columns: &[&[f64]], target: &[f64], blocks: &Blocks) -> Vec<f64> {
     let parts: Vec<Normal> = blocks
         .ranges
@@ -216,8 +220,8 @@ fn normal(columns: &[&[f64]], target: &[f64], first: usize, end: usize) -> Norma
     }
 }
 
-/// Solves the normal equations with each column scaled to length 1 and a ridge at rounding level, so that a
-/// block without excitation does not decide.
+/// Solves the normal equations. Each column is scaled to length 1, and a ridge at rounding level
+/// keeps a block without excitation from deciding.
 #[expect(
     clippy::indexing_slicing,
     reason = "indices below the matrix's own size"
@@ -255,17 +259,17 @@ fn loss(normal: &Normal, solution: &DVector<f64>) -> f64 {
     (normal.square - 2.0 * normal.moment.dot(solution) + quadratic).max(0.0)
 }
 
-/// Covariance of the coefficients of these columns for white noise of variance 1; `None` when singular.
+/// Covariance of the coefficients for white noise of variance 1; `None` if singular.
 pub fn covariance(columns: &[&[f64]]) -> Option<DMatrix<f64>> {
     let none = vec![0.0; columns.first().map_or(0, |c| c.len())];
     let normal = normal(columns, &none, 0, none.len());
     symmetric(&normal.gram).try_inverse()
 }
 
-/// Paired comparison of block losses: `(total gain, z)`; positive means `after` is better.
+/// Paired comparison of block losses: `(total gain, z)`. Positive means that `after` is better.
 ///
-/// `weight` is the gain that each block can be expected to show (its excitation, or 1): the gain is compared with
-/// its scatter about that share, so that a mechanism which lives in few blocks is not judged by the others.
+/// `weight` is the gain expected of each block (its excitation, or 1). The scatter is taken about
+/// that share, so that blocks without the mechanism do not judge it.
 pub fn paired(before: &[f64], after: &[f64], weight: &[f64]) -> (f64, f64) {
     let mean_weight = weight.iter().sum::<f64>() / weight.len().max(1) as f64;
     let blocks: Vec<(f64, f64)> = before
@@ -289,7 +293,7 @@ pub fn paired(before: &[f64], after: &[f64], weight: &[f64]) -> (f64, f64) {
     (gain, gain / (scatter * n / (n - 1.0)).sqrt().max(1e-300))
 }
 
-/// The inner product of two columns, in four running sums so that the processor can overlap them.
+/// The inner product, in four running sums that the processor can overlap.
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     let (a4, a_rest) = a.as_chunks::<4>();
     let (b4, b_rest) = b.as_chunks::<4>();
@@ -303,7 +307,6 @@ pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     sums.iter().sum::<f64>() + rest
 }
 
-/// The Euclidean length of a column.
 pub fn norm(a: &[f64]) -> f64 {
     dot(a, a).sqrt()
 }

@@ -1,4 +1,4 @@
-//! This file is the report: what a diagnosis says, in the fields that `report.json` has.
+//! This file is the report of a diagnosis, with the fields of `report.json`.
 
 mod agreement;
 mod fault;
@@ -40,59 +40,65 @@ pub struct Report {
     pub stages: Vec<StageReport>,
     /// The mechanisms that are named.
     pub effects: Vec<EffectReport>,
-    /// For each effect, what explains as much in its place: a mechanism, or as `viscous at E` where there are several joints; two that do so together as `presliding at E with constant_bias at E`.
+    /// For each effect, the rivals that explain as much in its place, written `viscous at E` where
+    /// there are several joints.
     pub ambiguous_with: Vec<Vec<String>>,
-    /// Mechanisms that only stand in for another law over the same variable: not named.
+    /// Mechanisms that only substitute for another law over the same variable, and are not named.
     pub withdrawn: Vec<String>,
-    /// The nominal model's own unknowns after the fit.
+    /// The nuisance parameters and unknown parameters of the nominal model after the fit.
     pub nominal: BTreeMap<String, Number>,
-    /// The inverse model of an axis under the published filter protocol; its errors stand with the stages.
+    /// The inverse model of an axis under the published filter protocol. Its errors are listed with
+    /// the stages.
     pub inverse_model: Option<InverseReport>,
-    /// The explanations that were weighed, the most probable first; none where names were not weighed.
+    /// The explanations that were compared, the most probable first; none if names were not
+    /// compared.
     pub explanations: Vec<ExplanationReport>,
-    /// For each mechanism that is not named, what would have been seen.
+    /// The detection limit of each mechanism that is not named.
     pub not_seen: Vec<NotSeen>,
-    /// What the joints of a five-bar at rest tell; nothing on other plants, where an encoder was named, and where nothing was concluded.
+    /// What joints of a five-bar at rest bound; none on other plants, where an encoder error was
+    /// named, or where nothing was concluded.
     pub held: Option<HeldReport>,
-    /// Combinations of parameters that this recording cannot tell.
+    /// Combinations of parameters that this recording does not identify.
     pub null_directions: Vec<NullDirection>,
-    /// The shape of what is left, when it is more than noise.
+    /// The shape of the residual, if it is more than noise.
     pub unknown: Option<Unknown>,
-    /// Before and after, on what was fitted and on what was held out.
+    /// Errors before and after, on the fitted and on the held-out part.
     pub fit: Option<FitReport>,
-    /// What would tell a five-bar's rival explanations apart; nothing where there are none, and on other plants.
+    /// The experiment that separates a five-bar's rival explanations; none without rivals, and on
+    /// other plants.
     pub next_experiment: Option<NextExperiment>,
-    /// What the diagnosis says of simulated recordings like this one, where it was asked to try.
+    /// What the diagnosis finds in simulated recordings like this one, if that was requested.
     pub self_calibration: Option<SelfCalibration>,
     /// The file that holds the calibrated model, beside the report.
     pub calibration_file: Option<String>,
-    /// What was mended in the recordings before anything was fitted, or is to be said of them.
+    /// What was repaired in the recordings before anything was fitted, and other remarks.
     pub remarks: Vec<Remark>,
     /// The fault that ended the diagnosis.
     pub fault: Option<FaultReport>,
 }
 
-/// What the diagnosis says of simulated recordings that excite what this one excites.
+/// What the diagnosis finds in simulated recordings with the same excitation.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SelfCalibration {
     /// How the recordings were simulated.
     pub protocol: String,
-    /// With nothing left out of the model: in how many something was named.
+    /// With nothing left out of the model: how often something was named.
     pub false_alarms: Rate,
-    /// With what was found left out: in how many it was named and nothing else.
+    /// With the found mechanisms left out: how often exactly these were named.
     pub exact: Option<Rate>,
-    /// With what was found left out: in how many each of it was named.
+    /// With the found mechanisms left out: how often each was named.
     pub found_again: Vec<NamedRate>,
-    /// What was named without being there, with nothing or with what was found left out; the most frequent first.
+    /// Names without a cause, with nothing or with the found mechanisms left out; the most frequent
+    /// first.
     pub false_names: Vec<NamedRate>,
 }
 
-/// How often something happened.
+/// A count with its 95 % interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Rate {
-    /// How often it happened.
+    /// The count.
     pub count: usize,
-    /// Of how many.
+    /// The number of trials.
     pub of: usize,
     /// Lower end of the 95 % interval of Clopper and Pearson (1934).
     pub low95: f64,
@@ -103,9 +109,9 @@ pub struct Rate {
 /// How often a mechanism was named.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct NamedRate {
-    /// A mechanism, or as `viscous at E` where there are several joints.
+    /// A mechanism, written `viscous at E` where there are several joints.
     pub name: String,
-    /// How often.
+    /// How often it was named.
     #[serde(flatten)]
     pub rate: Rate,
 }
@@ -117,7 +123,7 @@ pub struct InputFile {
     pub path: String,
     /// SHA-256 in hexadecimal.
     pub sha256: String,
-    /// How a text recording was read; nothing for another file.
+    /// How a text recording was read; none for other files.
     pub read_as: Option<ReadAs>,
 }
 
@@ -133,11 +139,11 @@ pub enum Verdict {
     PartlyExplained,
     /// Another set of mechanisms explains it as well.
     Ambiguous,
-    /// Something is left out that is not in the library.
+    /// The unexplained part matches nothing in the library.
     NoneOfLibrary,
-    /// The recording moves too little to tell.
+    /// The recording moves too little for a conclusion.
     NotExcited,
-    /// The recording itself is at fault.
+    /// The recording is faulty.
     DataFault,
 }
 
@@ -156,7 +162,7 @@ impl Verdict {
     }
 }
 
-/// Residual of the windows against the predicted noise.
+/// The residual of the windows beside the predicted noise.
 #[derive(Clone, Debug, Serialize)]
 pub struct Floor {
     /// Predicted standard deviation.
@@ -176,7 +182,7 @@ pub struct Floor {
 /// A regime and its share of the unexplained energy.
 #[derive(Clone, Debug, Serialize)]
 pub struct Located {
-    /// The equation that does not balance.
+    /// The equation whose residual this is.
     pub output: &'static str,
     /// The joint, where there are several.
     pub joint: Option<&'static str>,
@@ -198,23 +204,24 @@ pub struct Located {
     pub share_after: f64,
 }
 
-/// One step of the naming.
+/// The selection after one more mechanism entered.
 #[derive(Clone, Debug, Serialize)]
 pub struct StageReport {
-    /// What entered.
+    /// The mechanism that entered.
     pub entered: &'static str,
     /// The joint at which it acts, where there are several.
     pub joint: Option<&'static str>,
-    /// What stood then; with its joint where there are several, as `viscous at E`.
+    /// All mechanisms selected by then, written `viscous at E` where there are several joints.
     pub standing: Vec<String>,
-    /// Root-mean-square residual of the windows then.
+    /// Root-mean-square residual of the windows.
     pub residual: f64,
-    /// Error of the inverse model with what stood then, per cent; absent where `inverse_model` is, or where a law has a
-    /// memory, an onset, or acts on the drive.
+    /// Error of the inverse model with these mechanisms, per cent. Absent where `inverse_model` is,
+    /// or where a law has memory, an onset, or acts on the drive.
     pub inverse_error_percent: Option<f64>,
 }
 
-/// The inverse model under the published filter protocol: for comparison with published figures, no verdict rests on it.
+/// The inverse model under the published filter protocol, for comparison with published figures. No
+/// verdict depends on it.
 #[derive(Clone, Debug, Serialize)]
 pub struct InverseReport {
     /// The protocol in words.
@@ -223,7 +230,7 @@ pub struct InverseReport {
     pub filter_order: usize,
     /// Its cut-off, Hz.
     pub cutoff_hz: f64,
-    /// Every how many samples one is kept.
+    /// Every n-th sample is kept.
     pub decimation: usize,
     /// Error with the nominal model alone, per cent of the effort.
     pub nominal_error_percent: f64,
@@ -242,14 +249,16 @@ pub struct Number {
     pub high95: Option<f64>,
 }
 
-/// A set of mechanisms that explains the recording, beside others.
+/// A set of mechanisms that was compared with others.
 #[derive(Clone, Debug, Serialize)]
 pub struct ExplanationReport {
-    /// Its mechanisms, as `viscous at E` where there are several joints; none for the nominal model alone.
+    /// Its mechanisms, written `viscous at E` where there are several joints; none for the nominal
+    /// model alone.
     pub names: Vec<String>,
-    /// How probable it is beside the others.
+    /// Its posterior probability.
     pub probability: f64,
-    /// What it leaves of data that was not fitted, in standard deviations of the sensors' noise.
+    /// The root-mean-square residual on left-out blocks, in standard deviations of the sensor
+    /// noise.
     pub leaves: f64,
 }
 
@@ -268,13 +277,14 @@ pub struct EffectReport {
     pub onset_low95_s: Option<f64>,
     /// Upper end.
     pub onset_high95_s: Option<f64>,
-    /// Paired z against the model without it, over left-out blocks; over windows where it shows in too few blocks.
+    /// Paired z against the model without it, over left-out blocks; over windows if it acts in too
+    /// few blocks.
     pub z: f64,
-    /// Share of block-bootstrap replicates in which it still passes.
+    /// Share of block-bootstrap replicates in which it still reduces the loss by a relevant share.
     pub inclusion: f64,
     /// Share of the left-out loss that it removes from the model without it.
     pub share_explained: f64,
-    /// How probable it is beside everything that was tried; 1 where it was not weighed.
+    /// Its posterior probability; 1 if it was not compared.
     pub probability: f64,
     /// `named` from 0.9 on, `suspected` from 0.5 on, else `possible`.
     pub status: &'static str,
@@ -284,56 +294,59 @@ pub struct EffectReport {
     pub refuted_by: &'static str,
 }
 
-/// The least size at which a mechanism would have been named.
+/// The detection limit of a mechanism: the least size at which it would have been named.
 #[derive(Clone, Debug, Serialize)]
 pub struct NotSeen {
     /// The mechanism.
     pub mechanism: &'static str,
     /// The joint, where there are several.
     pub joint: Option<&'static str>,
-    /// The parameter that was bounded.
+    /// Its leading parameter.
     pub parameter: &'static str,
-    /// Its least visible size.
+    /// The detection limit of that parameter.
     pub minimum_detectable: f64,
     /// Unit of that size.
     pub unit: String,
 }
 
-/// What brakes at rest tell: each holds at least what it was pushed with.
+/// What brakes at rest bound: each holds at least the torque it was pushed with.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct HeldReport {
-    /// The brakes that were at rest alone, in the order A, E, B, C; those are left out whose named law depends on what the brake did before.
+    /// The brakes that were at rest while all others moved, in the order A, E, B, C. Brakes whose
+    /// named law depends on past currents are left out.
     pub joints: Vec<HeldJoint>,
-    /// For how long, by whole windows, every brake was at rest, s: what each of them holds then cannot be told, and nothing is attributed.
+    /// Total time in which every brake was at rest, s, in whole windows. The holding torques cannot
+    /// be told apart then.
     pub all_seen_s: f64,
     /// Unit of all torques.
     pub unit: String,
 }
 
-/// A brake that was at rest while all others moved, in the window that says most.
+/// A brake that was at rest while all others moved, in its most informative window.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct HeldJoint {
     /// The joint.
     pub joint: &'static str,
-    /// For how long, by whole windows, s.
+    /// Total time, in whole windows, s.
     pub seen_s: f64,
     /// The middle of the window, s.
     pub at_s: f64,
-    /// The torque on the joint there, everything else being as named.
+    /// The torque on the joint, if everything else acts as named.
     pub pushed: f64,
     /// Standard deviation of that torque.
     pub pushed_deviation: f64,
-    /// The most that the nominal model lets the joint hold there.
+    /// The greatest torque that the joint can hold by the nominal model.
     pub holds_nominal: f64,
-    /// The most that it holds there with what is named at it.
+    /// The greatest torque that it can hold with the named mechanisms.
     pub holds: f64,
-    /// What the names have to hold at least, five standard deviations aside; 0 where the nominal model holds it.
+    /// The least torque that named mechanisms must hold, minus five standard deviations; 0 if the
+    /// nominal model holds it.
     pub named_at_least: f64,
-    /// What is missing at least, five standard deviations aside; 0 where nothing has to be.
+    /// The least torque that is missing, minus five standard deviations; 0 if none is.
     pub missing: f64,
 }
 
-/// A combination of parameters along which nothing changes.
+/// A direction in parameter space along which nothing changes.
 #[derive(Clone, Debug, Serialize)]
 pub struct NullDirection {
     /// The mechanism.
@@ -342,23 +355,23 @@ pub struct NullDirection {
     pub direction: BTreeMap<String, f64>,
     /// Smallest over largest eigenvalue of the information matrix.
     pub eigenvalue_ratio: f64,
-    /// In words.
+    /// Its meaning in words.
     pub meaning: String,
 }
 
-/// The shape of what the library does not explain.
+/// The shape of the residual that the library does not explain.
 #[derive(Clone, Debug, Serialize)]
 pub struct Unknown {
-    /// The variable that orders it best.
+    /// The variable over which it is most regular.
     pub variable: &'static str,
     /// The joint whose motion it is, where there are several.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub joint: Option<&'static str>,
     /// Unit of the variable.
     pub variable_unit: String,
-    /// Whether the curve is a level along the motion, as a friction's is, instead of an effort.
+    /// Whether the curve is a friction level, whose effort acts along the motion.
     pub along_motion: bool,
-    /// Share of the remaining energy that a curve over that variable takes away, on left-out blocks.
+    /// Share of the remaining energy that a curve over that variable removes on left-out blocks.
     pub share: f64,
     /// Points of the curve: variable, residual.
     pub shape: Vec<(f64, f64)>,
@@ -366,45 +379,48 @@ pub struct Unknown {
     pub memory: bool,
     /// `odd`, `even` or `neither` in the variable.
     pub parity: &'static str,
-    /// What family of physics has such a shape.
+    /// The family of physics that has such a shape.
     pub suggestion: String,
 }
 
-/// The experiment that tells rival explanations apart best, of those that were simulated.
+/// The simulated experiment that best separates the rival explanations.
 #[derive(Clone, Debug, Serialize)]
 pub struct NextExperiment {
-    /// What to do; nothing where no experiment tells any two of them apart.
+    /// What to do; none if no experiment separates any two of them.
     pub what: Option<String>,
     /// How long it takes, s.
     pub duration_s: f64,
-    /// The greatest current it asks for, A.
+    /// The greatest current, A.
     pub greatest_current_a: f64,
     /// The greatest force of the hand, N.
     pub greatest_force_n: f64,
-    /// How many experiments were simulated for the named explanation; the best two of them were for every one.
+    /// Number of experiments that were simulated for the named explanation. The best two were
+    /// simulated for every explanation.
     pub tried: usize,
-    /// How far it sets each pair of explanations apart.
+    /// The separation of each pair of explanations.
     pub separations: Vec<Separation>,
-    /// Explanations that are in no comparison: the reference rig does not compute them, or they leave most where there are many.
+    /// Explanations that were not compared: the reference rig cannot simulate them, or there are
+    /// many and they fit worst.
     pub not_compared: Vec<String>,
     /// Its file, beside the report.
     pub file: Option<String>,
 }
 
-/// Two explanations and how far an experiment sets them apart.
+/// Two explanations, and how far an experiment separates them.
 #[derive(Clone, Debug, Serialize)]
 pub struct Separation {
     /// One cause.
     pub one: String,
-    /// The other one in its place.
+    /// The other cause.
     pub other: String,
-    /// Standard deviations of the sensors' noise, summed over the windows, by which either leaves more of the other's recording.
+    /// Separation in standard deviations of the sensor noise, summed over the windows. It is the
+    /// lesser of the two, as either cause may be true.
     pub sigmas: f64,
-    /// Whether this experiment tells them apart.
+    /// Whether the experiment can tell them apart.
     pub tellable: bool,
 }
 
-/// Before and after.
+/// Errors before and after.
 #[derive(Clone, Debug, Serialize)]
 pub struct FitReport {
     /// How it was measured.
@@ -415,9 +431,11 @@ pub struct FitReport {
     pub train: BeforeAfter,
     /// On the held-out part.
     pub held_out: Option<BeforeAfter>,
-    /// Held-out part with the mechanisms named, but the numbers of the windows (no output-error refit).
+    /// Held-out error with the named mechanisms and the parameters of the weak form (no
+    /// output-error refit).
     pub held_out_without_refit: Option<f64>,
-    /// Held-out part of a periodic protocol, with the mechanisms named, started from rest without a warm-up.
+    /// Held-out error of a periodic protocol with the named mechanisms, started from rest without a
+    /// warm-up.
     pub held_out_from_rest: Option<f64>,
     /// Error after a given time from the recorded state.
     pub horizon: Vec<Horizon>,
@@ -425,16 +443,16 @@ pub struct FitReport {
     pub recovered_share: f64,
     /// Whether the held-out part improved.
     pub improved: bool,
-    /// Whether the held-out part agrees with the windows.
+    /// Whether the held-out error is as large as predicted.
     pub agreement: Option<Agreement>,
-    /// A slow drift that the free run needed and the windows could not see.
+    /// A slow drift that the free run needed and that the windows did not show.
     pub drift: Option<String>,
 }
 
-/// A figure before and after.
+/// An error before and after.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct BeforeAfter {
-    /// With the nominal model, its unknowns fitted.
+    /// With the nominal model, its unknown parameters fitted.
     pub before: f64,
     /// With the named mechanisms.
     pub after: f64,
@@ -463,7 +481,7 @@ pub struct Horizon {
     pub tip_after_mm: Option<f64>,
 }
 
-/// What was not fitted, in words.
+/// Label of the part that was not fitted.
 pub const HELD_OUT_PART: &str = "held-out part";
-/// What was fitted, in words.
+/// Label of the part that was fitted.
 pub const FITTED_PART: &str = "fitted part";

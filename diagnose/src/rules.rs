@@ -1,6 +1,8 @@
-//! This file is every number that decides a name, a verdict or a fault, with its unit, its reason and what it was chosen on.
+//! This file is the table of rules: every number that decides a name, a verdict or a fault, with
+//! its unit, its reason and the recordings it was chosen on.
 //!
-//! Where the five-bar and the plants of one joint have rules of their own, both stand side by side: each was chosen on recordings of its plants.
+//! The five-bar and the plants of one joint have separate values where each was chosen on
+//! recordings of its own plants.
 
 /// A number that decides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,4 +1,5 @@
-//! This file tells apart what differs from trial to trial of a brake: the law is the same, but there is more or less of it each time.
+//! This file detects trials of a brake that differ only in gain: the law is the same, but each
+//! trial has more or less of it.
 
 use crate::candidates::modelled_effort;
 use crate::filter::rms;
@@ -9,7 +10,7 @@ use crate::report::Unknown;
 use crate::rules::{FEWEST_TRIALS, TRIAL_JUMP_A, TRIALS_SHARE, WINDOWS_A_TRIAL};
 use crate::weak::Windows;
 
-/// The trials of a brake on a bench; each begins where the current jumps.
+/// The trials of a brake on a bench. Each begins at a jump of the current.
 #[derive(Clone, Debug)]
 pub struct Trials {
     /// The trial of every row.
@@ -20,21 +21,21 @@ pub struct Trials {
     torque: Vec<f64>,
 }
 
-/// How a brake's torque differs from trial to trial.
+/// The scatter of a brake's torque from trial to trial.
 #[derive(Clone, Debug)]
 pub struct Scatter {
     /// Standard deviation of the trials' gains.
     deviation: f64,
-    /// The same at the greatest torque of the recording, N·m.
+    /// The same in N·m at the greatest torque of the recording.
     torque_nm: f64,
-    /// Share of what is left that the gains take away.
+    /// Share of the residual that the gains remove.
     share: f64,
-    /// Start of every trial, s, and by how much its torque was more, as a share.
+    /// Start of every trial, s, and its excess torque as a share.
     gains: Vec<(f64, f64)>,
 }
 
 impl Trials {
-    /// The trials of a run; `None` where there is no brake or not enough is seen of enough of them.
+    /// The trials of a run; `None` without a brake, or if too few trials show enough torque.
     pub fn of(run: &dyn Run, windows: &Windows) -> Option<Trials> {
         let (predicted, current) = run.brake()?;
         let clock = run.clock();
@@ -82,7 +83,7 @@ impl Trials {
         sums.into_iter().map(gain).collect()
     }
 
-    /// Takes out of rows what a gain for every trial could do.
+    /// Projects the gains of all trials out of rows.
     pub fn take_out(&self, rows: &mut [f64], usable: &[bool]) {
         let gains = self.gains(rows, usable);
         for (row, (trial, torque)) in rows.iter_mut().zip(self.of_row.iter().zip(&self.torque)) {
@@ -90,7 +91,8 @@ impl Trials {
         }
     }
 
-    /// The scatter that a fit leaves over; `None` where less is left than `least`, N·m, or where gains of the trials do not explain it.
+    /// The scatter of the trials; `None` if the residual is below `least`, N·m, or if gains do not
+    /// explain it.
     pub fn scatter(&self, residual: &[f64], usable: &[bool], least: f64) -> Option<Scatter> {
         let size = |rows: &[f64]| {
             let kept = rows.iter().zip(usable).filter(|(_, u)| **u);
@@ -118,7 +120,7 @@ impl Trials {
 }
 
 impl Scatter {
-    /// As the report says it: what is left has a shape, but no law.
+    /// The scatter as a report states it: a shape without a law.
     pub fn described(&self) -> Unknown {
         Unknown {
             variable: "trial",
@@ -138,7 +140,7 @@ impl Scatter {
     }
 }
 
-/// What a fit leaves over of the effort, row by row, with the gains of the trials still in it.
+/// The residual of a fit in the effort, row by row, including the gains of the trials.
 pub fn left_over(problem: &Problem, terms: &[&Term], fitted: &Fit) -> Vec<f64> {
     let modelled = modelled_effort(problem, terms, fitted);
     problem

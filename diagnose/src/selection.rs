@@ -1,4 +1,4 @@
-//! This file is what was chosen to explain a recording: the mechanisms, with the fit of all of them together.
+//! This file is the selected explanation of a recording: its mechanisms, with their joint fit.
 
 mod onset;
 mod refine;
@@ -13,25 +13,24 @@ pub(crate) use onset::{centred, change_with_onset, onset_interval};
 pub(crate) use refine::{best_variant, refined};
 pub use weigh::{is_noise, usable_rms};
 
-/// One mechanism that was found, with the evidence for it.
+/// One mechanism that was found, with its evidence.
 #[derive(Clone, Debug)]
 pub struct Found {
-    /// The term.
     pub term: Term,
     /// Paired z over blocks when it entered.
     pub z: f64,
-    /// Share of the left-out loss it removed when it entered.
+    /// Share of the left-out loss that it removed when it entered.
     pub share: f64,
-    /// How probable it is beside other explanations.
+    /// Its posterior probability.
     pub probability: f64,
 }
 
-/// What stood after one mechanism was named.
+/// The selection after one more mechanism entered.
 #[derive(Clone, Debug)]
 pub struct Stage {
     /// The cause that entered.
     pub entered: Cause,
-    /// All causes that stood then.
+    /// All causes selected by then.
     pub standing: Vec<Cause>,
     /// The shape and the onset of each of them.
     pub shapes: Vec<(Vec<f64>, Option<f64>)>,
@@ -42,20 +41,21 @@ pub struct Stage {
 /// The outcome of the selection.
 #[derive(Clone, Debug)]
 pub struct Selection {
-    /// Terms of the nominal model.
     pub nominal: Vec<Term>,
-    /// Mechanisms found, in the order they were named.
+    /// Mechanisms found, in the order in which they entered.
     pub found: Vec<Found>,
-    /// How the mechanisms were named, one after another.
+    /// The selection after each entry.
     pub stages: Vec<Stage>,
     /// The fit of the nominal model alone.
     pub before: Fit,
-    /// The fit of everything.
+    /// The fit with all mechanisms.
     pub after: Fit,
 }
 
-/// Residual over floor up to which nothing counts as unexplained on a recording: of few windows noise alone may be above
-/// [`FLOOR_RATIO`], so three standard deviations of what it comes to are allowed.
+/// The ratio of residual to noise floor up to which a residual counts as noise.
+///
+/// With few windows noise alone may exceed [`FLOOR_RATIO`], so three standard deviations of the
+/// ratio are allowed.
 pub fn floor_limit(problem: &Problem) -> f64 {
     let usable = problem.windows.usable.iter().filter(|u| **u).count();
     let freedom = (usable as f64 / WINDOWS_A_FREEDOM).max(1.0);
@@ -63,7 +63,7 @@ pub fn floor_limit(problem: &Problem) -> f64 {
 }
 
 impl Selection {
-    /// Takes mechanisms out again and fits what stays.
+    /// Removes mechanisms and fits the rest again.
     pub fn withdraw(&mut self, problem: &Problem, causes: &[Cause]) {
         self.found.retain(|f| !causes.contains(&f.term.cause));
         let blocks = Blocks::new(problem);

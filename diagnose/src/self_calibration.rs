@@ -1,4 +1,5 @@
-//! This file says how far a diagnosis of one recording can be believed: it is made again on simulated recordings like it whose causes are known.
+//! This file measures how reliable a diagnosis is: it is repeated on simulated recordings like the
+//! real one, whose causes are known.
 
 use crate::Options;
 use crate::plants::{Description, Measured, Replica};
@@ -13,18 +14,20 @@ pub struct SelfTest<'a> {
     rig: &'a Description,
     options: Options,
     whole: bool,
-    /// Nothing left out of the model, its numbers fitted.
+    /// With nothing left out of the model, its parameters fitted.
     nothing: Replica,
-    /// What was found left out, and its names; `None` where nothing was found.
+    /// With the found mechanisms left out, and their names; `None` if nothing was found.
     found: Option<(Replica, BTreeSet<String>)>,
     runs: usize,
 }
 
-/// The names that one simulated recording got; `None` where its diagnosis ended in a fault or too little motion.
+/// The names found in one simulated recording; `None` if its diagnosis ended in a fault or too
+/// little motion.
 pub type Named = Option<BTreeSet<String>>;
 
 impl<'a> SelfTest<'a> {
-    /// Simulates what the rig would have recorded with what a diagnosis found, and without. `whole`: the diagnosis held out another recording.
+    /// Simulates the recordings of the rig with and without the found mechanisms. With `whole` the
+    /// diagnosis held out another recording.
     ///
     /// # Errors
     /// Why it cannot be simulated.
@@ -55,17 +58,17 @@ impl<'a> SelfTest<'a> {
         })
     }
 
-    /// How many recordings are diagnosed: first those with nothing left out.
+    /// The number of recordings to diagnose. Those with nothing left out come first.
     pub fn len(&self) -> usize {
         self.runs * (1 + usize::from(self.found.is_some()))
     }
 
-    /// Whether there is none.
+    /// Whether there are no recordings.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// Diagnoses recording `k`; its noise follows from `k`.
+    /// Diagnoses recording `k`. Its noise is seeded by `k`.
     pub fn named(&self, k: usize) -> Named {
         let exact = match &self.found {
             Some((found, _)) if k >= self.runs => found,
@@ -79,7 +82,7 @@ impl<'a> SelfTest<'a> {
         report.floor.is_some().then(|| names(&report))
     }
 
-    /// The account of all recordings, in the order of their numbers.
+    /// The summary of all recordings, in the order of their numbers.
     pub fn account(&self, named: &[Named]) -> SelfCalibration {
         let nothing = || named.iter().take(self.runs).flatten();
         let with = || named.iter().skip(self.runs).flatten();
@@ -152,7 +155,8 @@ fn names(report: &Report) -> BTreeSet<String> {
 
 /// A count of `of` with its 95 % interval.
 fn rate(count: usize, of: usize) -> Rate {
-    // Quantiles of the beta distribution; at the ends of the range the interval ends there.
+    // Quantiles of the beta distribution (Clopper and Pearson 1934). For no or all hits one end is
+    // 0 or 1.
     let quantile = |share: f64, a: usize, b: usize| {
         Beta::new(a as f64, b as f64).map_or(f64::NAN, |beta| beta.inverse_cdf(share))
     };

@@ -1,8 +1,8 @@
-//! This file is what is done to a signal before it becomes a column: delayed, shifted, weighted, differenced.
+//! This file transforms signals before they become columns: delays, shifts, weights, differences.
 
 use rigproof_model::effects::{CurrentPlay, PLAYS, first_order_lag_straight};
 
-/// A brake's signed torque with its magnitude delayed by a first-order lag and its sign kept.
+/// A brake's signed torque with a first-order lag on its magnitude and an unchanged sign.
 pub fn lagged_yield(predicted: &[f64], step_s: f64, time_constant_s: f64) -> Vec<f64> {
     let magnitude: Vec<f64> = predicted.iter().map(|p| p.abs()).collect();
     let lagged = first_order_lag_straight(&magnitude, step_s, time_constant_s);
@@ -12,7 +12,7 @@ pub fn lagged_yield(predicted: &[f64], step_s: f64, time_constant_s: f64) -> Vec
         .collect()
 }
 
-/// A current of which a share goes through a play, sample by sample, A.
+/// A current of which a share passes through backlash, sample by sample, A.
 pub fn through_play(current_a: &[f64], play: CurrentPlay, share: f64) -> Vec<f64> {
     let mut played = [0.0; PLAYS];
     let held = current_a.iter().map(|i| {
@@ -22,7 +22,7 @@ pub fn through_play(current_a: &[f64], play: CurrentPlay, share: f64) -> Vec<f64
     held.collect()
 }
 
-/// Numerov's weights 1/12, 10/12, 1/12; the end samples stay.
+/// Numerov's weights 1/12, 10/12, 1/12; the end samples are unchanged.
 pub fn numerov(signal: &[f64]) -> Vec<f64> {
     let mut out = signal.to_vec();
     for (value, window) in out.iter_mut().skip(1).zip(signal.windows(3)) {
@@ -44,7 +44,7 @@ pub fn second_difference(position: &[f64], step_s: f64) -> Vec<f64> {
     out
 }
 
-/// `signal(t + delay)` in samples, linear between samples, held at the ends.
+/// `signal(t + delay)`, with `delay` in samples: linear between samples, held at the ends.
 pub fn shifted(signal: &[f64], delay: f64) -> Vec<f64> {
     let last = signal.len().saturating_sub(1) as f64;
     (0..signal.len())
@@ -58,7 +58,7 @@ pub fn shifted(signal: &[f64], delay: f64) -> Vec<f64> {
         .collect()
 }
 
-/// The parameters of a law with each of its linear ones 1 in turn and the others 0.
+/// The parameters of a law with one of its linear parameters 1 and the others 0, for each in turn.
 pub fn unit_parameters(linear: usize, shape: &[f64]) -> impl Iterator<Item = Vec<f64>> {
     (0..linear).map(move |index| {
         let unit = (0..linear).map(|k| if k == index { 1.0 } else { 0.0 });

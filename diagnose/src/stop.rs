@@ -1,4 +1,4 @@
-//! This file says how a diagnosis that nobody waits for any more ends early.
+//! This file ends a diagnosis early from another thread.
 
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -21,27 +21,27 @@ thread_local! {
 #[derive(Clone, Debug, Default)]
 pub struct Stop(Arc<AtomicBool>);
 
-/// What a diagnosis that was ended unwinds with; it is no panic, and nothing is printed.
+/// The payload with which an ended diagnosis unwinds. It is no panic, and nothing is printed.
 #[derive(Clone, Copy, Debug)]
 pub struct Stopped;
 
 impl Stop {
-    /// Ends the work of every thread that this one is on, at its next column or fit.
+    /// Ends the work of every thread that has this stop, at its next column or fit.
     pub fn stop(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// The one of this thread: whoever starts other threads for the same work puts it on them.
+    /// The stop of this thread, to be put on other threads that share its work.
     pub fn current() -> Option<Stop> {
         OWN.with_borrow(Clone::clone)
     }
 
-    /// Puts one on this thread, or takes it away, for good.
+    /// Puts a stop on this thread, or removes it, permanently.
     pub fn put(own: Option<Stop>) {
         OWN.set(own);
     }
 
-    /// Puts it on this thread for as long as some work takes.
+    /// Puts this stop on the thread for the duration of some work.
     pub fn during<T>(self, work: impl FnOnce() -> T) -> T {
         struct Before(Option<Stop>);
         impl Drop for Before {
@@ -54,7 +54,8 @@ impl Stop {
     }
 }
 
-/// Unwinds with [`Stopped`] where the work of this thread was ended. What a search does often calls it.
+/// Unwinds with [`Stopped`] if the work of this thread was ended. Inner loops of the search call
+/// it.
 pub fn look() {
     let is_ended = OWN.with_borrow(|own| {
         own.as_ref()

@@ -1,8 +1,8 @@
-//! This file turns a standard error into half the width of a 95 % interval.
+//! This file converts a standard error to the half width of a 95 % interval by Student's t.
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-/// Half the width by Student's t; `None` where nothing was left to judge the scatter by.
+/// The half width; `None` if there are no degrees of freedom.
 pub fn half_width(standard_error: f64, freedom: f64) -> Option<f64> {
     if !(standard_error > 0.0 && freedom > 0.0) {
         return None;

@@ -1,4 +1,5 @@
-//! This file draws the shape of what no mechanism of the library explains.
+//! This file describes what no mechanism of the library explains, as a free curve over one
+//! variable.
 
 mod variables;
 
@@ -9,8 +10,8 @@ use crate::report::Unknown;
 use crate::rules::{BLOCKS_A_KNOT, CURVE_SHARE, KNOTS, PARITY_TIMES};
 pub use variables::variables;
 
-/// Screens position, speed, time and effort for the curve that takes away most of the residual, or `None` when no
-/// curve over one of them helps.
+/// The curve over position, speed, time or effort that removes most of the residual; `None` if none
+/// helps.
 pub fn unknown(problem: &Problem, residual: &[f64]) -> Option<Unknown> {
     let screened = screen(problem, residual, over(problem));
     let best = screened
@@ -20,7 +21,7 @@ pub fn unknown(problem: &Problem, residual: &[f64]) -> Option<Unknown> {
     best.map(|(variable, share)| describe(problem, residual, &variable, share))
 }
 
-/// Each variable with the share of the left-out loss that a free curve over it takes away.
+/// Each variable with the share of the left-out loss that a free curve over it removes.
 fn screen(problem: &Problem, residual: &[f64], variables: Vec<Variable>) -> Vec<(Variable, f64)> {
     let blocks = Blocks::new(problem);
     let plain = left_out(problem, residual, &[], &blocks).max(1e-300);
@@ -34,21 +35,21 @@ fn screen(problem: &Problem, residual: &[f64], variables: Vec<Variable>) -> Vec<
         .collect()
 }
 
-/// What a free curve can be drawn over; every list has one value a row.
+/// A variable over which a free curve can be drawn. Every list has one value per row.
 pub struct Variable {
     /// `position`, `speed`, `time`, `effort` or `load`.
     pub name: &'static str,
     /// Its unit.
     pub unit: String,
-    /// Whether the curve is the level of a friction: its effort is along the motion.
+    /// Whether the curve is a friction level, whose effort acts along the motion.
     pub level: bool,
-    /// Where what the curve describes would act.
+    /// The place at which the described effort would act.
     pub at: Place,
     /// Its values.
     pub values: Vec<f64>,
-    /// The sense of motion.
+    /// The direction of motion.
     pub sense: Vec<f64>,
-    /// What a unit of effort at that place adds to the row.
+    /// The row entry of a unit of effort at that place.
     pub share: Vec<f64>,
 }
 
@@ -57,7 +58,7 @@ fn over(problem: &Problem) -> Vec<Variable> {
 }
 
 impl Variable {
-    /// What a curve of height 1 adds to each row.
+    /// The row entries of a curve of height 1.
     fn effect(&self) -> impl Iterator<Item = f64> + Clone {
         let pairs = self.sense.iter().zip(&self.share);
         pairs.map(|(sense, share)| if self.level { sense * share } else { *share })
@@ -71,7 +72,7 @@ impl Variable {
         knots(&self.values, count)
     }
 
-    /// Piecewise linear hats over equal shares of the windows, along the motion for a level.
+    /// Piecewise linear basis functions with equal shares of the windows.
     fn columns(&self, problem: &Problem, blocks: &Blocks) -> Vec<Rows> {
         let knots = self.knots(blocks);
         let rows = self.values.iter().zip(self.effect());
@@ -84,13 +85,13 @@ impl Variable {
     }
 }
 
-/// Left-out loss of the residual with a set of columns.
+/// The left-out loss of the residual with these columns.
 fn left_out(problem: &Problem, residual: &[f64], columns: &[Rows], blocks: &Blocks) -> f64 {
     let white = problem.whitener.whiten(residual);
     left_out_loss(&white, columns, blocks)
 }
 
-/// Quantiles of the values, in equal shares.
+/// Quantiles of the values, with equal shares between them.
 fn knots(values: &[f64], count: usize) -> Vec<f64> {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
@@ -138,7 +139,8 @@ fn describe(problem: &Problem, residual: &[f64], variable: &Variable, share: f64
     }
 }
 
-/// Mean residual near each knot, over all windows or those in which the variable rises or falls.
+/// Mean residual near each knot, over all windows or over those in which the variable rises or
+/// falls.
 fn means(
     problem: &Problem,
     knots: &[f64],
@@ -181,7 +183,7 @@ fn spread(values: &[f64]) -> f64 {
         .sqrt()
 }
 
-/// Odd or even about the middle of the curve.
+/// Whether the curve is odd or even about its middle.
 fn parity(shape: &[f64]) -> &'static str {
     let mean = shape.iter().sum::<f64>() / shape.len().max(1) as f64;
     let (mut odd, mut even) = (0.0, 0.0);
@@ -258,7 +260,8 @@ mod tests {
         let run = exact_bench(&[(Mechanism::Viscous, &[2.3])], 11_000);
         let problem = Problem::new(&run, run.windows_of(0.043));
         let centres = &problem.windows.centres;
-        // What a constant level leaves over of one that falls along the recording.
+        // The residual of a friction level that falls along the recording, after a constant level
+        // was fitted.
         let residual: Vec<f64> = centres
             .iter()
             .map(|c| &run.motion[*c])

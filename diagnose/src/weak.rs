@@ -1,5 +1,6 @@
-//! This file is the weak form: the equations of motion multiplied by compact test functions and summed, so
-//! that positions enter and accelerations do not.
+//! This file is the weak form: the equations of motion multiplied by compact test functions and
+//! summed. Summation by parts moves the derivatives to the test function, so that positions are not
+//! differentiated.
 
 use crate::regression::dot;
 use crate::rules::{BUMP_ORDER, FEWEST_WINDOWS, MOST_DOUBT, MOST_STEP};
@@ -8,20 +9,22 @@ use rigproof_model::effects::Instant;
 /// The test function and the windows it is applied to.
 #[derive(Clone, Debug)]
 pub struct Windows {
-    /// Weights of the test function, sum 1, odd length.
+    /// Weights of the test function: sum 1, odd length.
     pub bump: Vec<f64>,
-    /// Discrete second difference of `bump` over the squared step, two samples longer: summation by parts is
-    /// exact with it, and it sums to zero.
+    /// Discrete second difference of `bump` over the squared step, two samples longer. Summation by
+    /// parts is exact with it, and it sums to zero.
     pub curvature: Vec<f64>,
     /// Samples between window centres.
     pub hop: usize,
-    /// How many equations the plant has: each window gives as many rows, one after another.
+    /// Number of equations: each window gives as many rows, one after another.
     pub outputs: usize,
     /// Centre sample of each row.
     pub centres: Vec<usize>,
-    /// Whether the row may be used: recorded throughout, and its sense of motion known.
+    /// Whether the row may be used: all its samples were recorded, and the direction of motion is
+    /// known.
     pub usable: Vec<bool>,
-    /// For a row that is a combination of all equations, which of `combinations` it is; the window's other rows are not used.
+    /// For a row that combines all equations: the index of its combination. The window's other rows
+    /// are then unused.
     pub combined: Vec<Option<usize>>,
     /// Weights of the equations, sample by sample, one equation after another.
     pub combinations: Vec<Vec<f64>>,
@@ -32,8 +35,10 @@ pub struct Windows {
 }
 
 impl Windows {
-    /// Windows of about `width_s`, a quarter of a width apart, over `samples` samples of a plant with `outputs` equations, all of them usable; `clock` is
-    /// the sample interval and the time of the first sample, s.
+    /// Windows of about `width_s`, a quarter of a width apart, all usable.
+    ///
+    /// `clock` is the sample interval and the time of the first sample, s. The plant has `outputs`
+    /// equations.
     pub fn over(samples: usize, outputs: usize, clock: (f64, f64), width_s: f64) -> Windows {
         let (step_s, start_s) = clock;
         let half = ((0.5 * width_s / step_s).round() as usize).max(2);
@@ -58,24 +63,26 @@ impl Windows {
         }
     }
 
-    /// Gives up the rows whose window does not pass; the rule takes a window's centre and its weights.
+    /// Marks rows as unusable whose window fails a rule. The rule takes the window's centre and its
+    /// weights.
     pub fn keep(&mut self, rule: impl Fn(usize, &[f64]) -> bool) {
         for (usable, &centre) in self.usable.iter_mut().zip(&self.centres) {
             *usable = *usable && rule(centre, &self.bump);
         }
     }
 
-    /// `Σ φ·signal`, one value a row. A signal holds a stretch of samples for each output, one stretch after another.
+    /// `Σ φ·signal`, one value per row. With several outputs, a signal holds the samples of one
+    /// output after those of another.
     pub fn average(&self, signal: &[f64]) -> Vec<f64> {
         self.apply(&self.bump, signal, &self.combinations)
     }
 
-    /// The same where the equations combine in another way.
+    /// The same for other combinations of the equations.
     pub fn average_with(&self, signal: &[f64], combinations: &[Vec<f64>]) -> Vec<f64> {
         self.apply(&self.bump, signal, combinations)
     }
 
-    /// A signal that is zero before the sample `first` of each output.
+    /// A signal with the samples before `first` of each output set to zero.
     pub fn since(&self, signal: &[f64], first: usize) -> Vec<f64> {
         let mut late = signal.to_vec();
         for output in late.chunks_mut((signal.len() / self.outputs).max(1)) {
@@ -84,8 +91,9 @@ impl Windows {
         late
     }
 
-    /// Keeps the windows in which a predicted effort hardly changes from sample to sample, because what may be left out of a brake is
-    /// linearised there. Where these are too few, those in which it may not be mistaken by more than `floor` tells.
+    /// Keeps windows in which a predicted effort is nearly constant, because changes of a brake are
+    /// linearised there. If these are too few, keeps those in which its uncertainty is small beside
+    /// `floor`.
     pub fn keep_foreseen(&mut self, predicted: &[f64], doubt: &[f64], floor: f64) {
         let steps: Vec<f64> = predicted
             .windows(2)
@@ -150,11 +158,12 @@ impl Windows {
             .collect()
     }
 
-    /// Autocovariance over windows of one residual: sensor noise through the test function, and `excess` (a
-    /// variance) of effort that nothing explains, as white effort through the same function.
+    /// Autocovariance of a residual over windows: sensor noise through the test function, and white
+    /// effort of variance `excess` through the same function.
     ///
-    /// `curved` is the standard deviation of what is differenced twice, an inertia times a position, `effort` that of a sample of the effort;
-    /// `lags` values, one window hop apart.
+    /// `curved` is the standard deviation of the signal that is differenced twice (an inertia times
+    /// a position), `effort` that of an effort sample. There are `lags` values, one window hop
+    /// apart.
     pub fn noise_covariance(
         &self,
         [curved, effort]: [f64; 2],
@@ -216,7 +225,7 @@ pub fn is_recorded(recorded: &[bool], centre: usize, bump: &[f64]) -> bool {
     samples.all(|&r| r)
 }
 
-/// Share of a window's weight that lies where the sense of motion cannot be told.
+/// The share of a window's weight at samples with unknown direction of motion.
 pub fn untold(motion: &[Instant], centre: usize, bump: &[f64]) -> f64 {
     let motion = motion.iter().skip(centre - bump.len() / 2);
     let weighted = bump.iter().zip(motion);
@@ -308,7 +317,7 @@ mod tests {
         }
     }
 
-    /// Weight of a window's end in which two samples of unknown sense still weigh little enough.
+    /// Weight of a window's end in which two samples of unknown direction are tolerated.
     const LAST_WEIGHT: f64 = 0.02;
 
     #[test]

@@ -1,12 +1,13 @@
-//! This file makes correlated residuals white: by an autoregressive model of stationary noise, applied within each
-//! unbroken stretch of windows, or by the Cholesky factor of a covariance with a band.
+//! This file whitens correlated residuals: by an autoregressive model of stationary noise within
+//! each unbroken stretch of windows, or by the Cholesky factor of a banded covariance.
 
 pub use crate::rules::NOISE_ORDER;
 
-/// What makes rows white.
+/// A noise model that whitens rows.
 #[derive(Clone, Debug)]
 pub enum Whitener {
-    /// Prediction-error filters of order 0 to `NOISE_ORDER`, so that the first windows of a stretch are whitened too.
+    /// Prediction-error filters of order 0 to `NOISE_ORDER`, so that the first windows of a stretch
+    /// are whitened too.
     Stationary {
         /// For each order, the predictor's coefficients and the standard deviation of its error.
         filters: Vec<(Vec<f64>, f64)>,
@@ -17,19 +18,20 @@ pub enum Whitener {
     Banded(Vec<FactorRow>),
 }
 
-/// One row of a Cholesky factor with a band.
+/// One row of a banded Cholesky factor.
 #[derive(Clone, Debug)]
 pub struct FactorRow {
     /// The row of the problem that it whitens.
     row: usize,
-    /// Its entries left of the diagonal, the last one next to it.
+    /// Its entries left of the diagonal; the last one is next to it.
     before: Vec<f64>,
     /// Its diagonal entry.
     diagonal: f64,
 }
 
 impl Whitener {
-    /// The noise model with this autocovariance (one value a lag, in windows) over the usable windows.
+    /// The noise model with this autocovariance (one value per lag, in windows) over the usable
+    /// windows.
     pub fn new(covariance: &[f64], usable: &[bool]) -> Whitener {
         let mut covariance: Vec<f64> = covariance.iter().take(NOISE_ORDER + 1).copied().collect();
         if let Some(variance) = covariance.first_mut() {
@@ -73,9 +75,9 @@ impl Whitener {
         Whitener::Banded(rows)
     }
 
-    /// White rows: each usable window of each stretch, divided by its prediction error's standard deviation.
+    /// White rows: the prediction error of each usable window, divided by its standard deviation.
     ///
-    /// Windows that are not usable come out as 0 and so carry no weight.
+    /// Unusable windows become 0 and carry no weight.
     pub fn whiten(&self, rows: &[f64]) -> Vec<f64> {
         match self {
             Whitener::Stationary { filters, stretches } => {

@@ -1,6 +1,7 @@
 //! This file says that the house is in order: it reads every text of the workspace and enforces its rules by name.
 
 mod citations;
+mod decisions;
 mod ledger;
 mod packages;
 mod pages;

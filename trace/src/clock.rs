@@ -1,49 +1,52 @@
-//! This file finds the even grid that time stamps belong to: by least squares through all of them, never from single steps.
+//! This file finds the even grid of time stamps by least squares over all of them, because single
+//! steps are rounded.
 
-/// Fewer stamps do not make a grid.
+/// Fewest stamps that make a grid.
 const LEAST_STAMPS: usize = 16;
-/// What lies closer to its place on the grid, in steps, is there.
+/// Greatest distance from the grid, in steps, of a stamp that is on it.
 const ON_GRID: f64 = 1e-6;
-/// How far off a rounded stamp may lie, in units of its last digit: half a unit, and what the fit adds.
+/// Greatest distance of a rounded stamp from the grid, in units of its last digit: half a unit, and
+/// the error of the fit.
 const ROUNDED: f64 = 0.75;
-/// How far the longest and the shortest burst may differ, as a share of the usual one.
+/// Greatest difference between the longest and the shortest burst, as a share of the usual one.
 const BURSTS_DIFFER: f64 = 0.25;
-/// The share of stamps that may be left out because they are repeated.
+/// Greatest share of stamps that may be left out because they are repeated.
 const FEW: f64 = 0.02;
-/// Rounds of fitting while samples are counted across gaps.
+/// Iterations of the fit while samples are counted across gaps.
 const ROUNDS: usize = 4;
 
 /// An even grid through time stamps.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
-    /// Where it begins, s.
+    /// Its first time, s.
     pub start_s: f64,
     /// The mean step over the whole record, s.
     pub step_s: f64,
-    /// The number of each stamp's place, from 0.
+    /// The index of each stamp on the grid, from 0.
     pub places: Vec<f64>,
-    /// How far the stamps lie off their places, root mean square, s.
+    /// Root mean square distance of the stamps from the grid, s.
     pub jitter_s: f64,
-    /// How far the worst of them lies off, s.
+    /// Greatest distance of a stamp from the grid, s.
     pub worst_s: f64,
 }
 
-/// What to do with time stamps.
+/// How to treat time stamps.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Settled {
-    /// They say when the samples were taken as well as can be known.
+    /// As they are: they say as well as possible when the samples were taken.
     AsTheyAre,
-    /// They are rounded, or shared by bursts of samples: these are the times, and what is to be said of it.
+    /// They are rounded, or shared by bursts of samples. These are the times on the grid, and the
+    /// remark.
     Even(Vec<f64>, String),
-    /// A few are repeated: the samples at these places count, and what is to be said of it.
+    /// A few are repeated. These are the indices of the samples that count, and the remark.
     Once(Vec<usize>, String),
-    /// Stamps are repeated in no regular way.
+    /// Stamps are repeated without a pattern.
     Refused,
 }
 
 impl Grid {
-    /// The grid through stamps that never fall, each in the place that is nearest to it; `None` where there is none that keeps
-    /// their order.
+    /// The grid through stamps that never decrease, each at its nearest index. `None` if no grid
+    /// keeps their order.
     pub fn of(time_s: &[f64]) -> Option<Grid> {
         if time_s.len() < LEAST_STAMPS {
             return None;
@@ -55,7 +58,8 @@ impl Grid {
         Grid::across_gaps(time_s)
     }
 
-    /// The grid where samples are missing: they are counted by the usual step first, then by the fit.
+    /// The grid where samples are missing. They are counted by the usual step first, then by the
+    /// fit.
     fn across_gaps(time_s: &[f64]) -> Option<Grid> {
         let steps = || {
             time_s
@@ -84,7 +88,7 @@ impl Grid {
         (grid.worst_s < 0.5 * grid.step_s).then_some(grid)
     }
 
-    /// The line through stamps over their places, by least squares.
+    /// The least-squares line of stamps over their indices.
     fn through(time_s: &[f64], places: Vec<f64>) -> Grid {
         let count = time_s.len().max(1) as f64;
         let origin_s = time_s.first().copied().unwrap_or(0.0);
@@ -113,7 +117,8 @@ impl Grid {
         }
     }
 
-    /// The line through the first stamp of each burst: through all of them, few bursts would make it too flat.
+    /// The line through the first stamp of each burst. A line through all stamps would be too flat
+    /// for few bursts.
     fn by_bursts(time_s: &[f64]) -> Option<Grid> {
         let pairs = time_s.windows(2).enumerate();
         let edges = pairs.filter(|(_, pair)| pair.first() != pair.get(1));
@@ -137,7 +142,6 @@ impl Grid {
         })
     }
 
-    /// The times of the places.
     fn times(&self) -> Vec<f64> {
         let time = |place: &f64| self.start_s + self.step_s * place;
         self.places.iter().map(time).collect()
@@ -150,13 +154,12 @@ impl Grid {
         off.all(|(off, t)| off.abs() <= tolerance(t))
     }
 
-    /// The rate in words.
     fn rate(&self) -> String {
         format!("{:.2} Hz", 1.0 / self.step_s)
     }
 }
 
-/// What to do with stamps that never fall, the last printed digit of which counts `resolution_s`.
+/// How to treat stamps that never decrease, whose last printed digit is worth `resolution_s`.
 pub fn settle(time_s: &[f64], resolution_s: f64) -> Settled {
     let repeated = time_s
         .windows(2)
@@ -175,7 +178,7 @@ pub fn settle(time_s: &[f64], resolution_s: f64) -> Settled {
     if repeated == 0 && in_turn.worst_s < ON_GRID * in_turn.step_s {
         return Settled::AsTheyAre;
     }
-    // Stamps that were rounded from another interval do not come at one interval but for gaps.
+    // Stamps with one interval, apart from gaps, were not rounded from another interval.
     if repeated == 0 && is_even_but_for_gaps(time_s) {
         return Settled::AsTheyAre;
     }
@@ -210,7 +213,8 @@ pub fn settle(time_s: &[f64], resolution_s: f64) -> Settled {
     }
 }
 
-/// Whether nearly all intervals between stamps are the same one to rounding: then it is the step, however long the gaps are.
+/// Whether nearly all intervals between stamps are equal to rounding. That interval is then the
+/// step, however long the gaps are.
 pub fn is_even_but_for_gaps(time_s: &[f64]) -> bool {
     let mut between: Vec<f64> = time_s
         .windows(2)
@@ -224,13 +228,13 @@ pub fn is_even_but_for_gaps(time_s: &[f64]) -> bool {
     same.count() as f64 >= NEARLY_ALL * between.len() as f64
 }
 
-/// Share of intervals that are nearly all.
+/// Share of intervals that counts as nearly all.
 const NEARLY_ALL: f64 = 0.9;
 
-/// Share of an interval by which two of the same size may differ.
+/// Relative difference of two equal intervals, from rounding.
 const SAME: f64 = 1e-6;
 
-/// Of stamps some of which are repeated.
+/// How to treat stamps of which some are repeated.
 fn settle_repeated(time_s: &[f64], repeated: usize, in_turn: &Grid) -> Settled {
     let bursts: Vec<&[f64]> = time_s.chunk_by(|a, b| a == b).collect();
     let starts = bursts.iter().filter_map(|burst| burst.first());
@@ -241,7 +245,7 @@ fn settle_repeated(time_s: &[f64], repeated: usize, in_turn: &Grid) -> Settled {
         .collect();
     between.sort_by(f64::total_cmp);
     let usual_s = between.get(between.len() / 2).copied().unwrap_or(0.0);
-    // The first and the last one may be cut.
+    // The first and the last burst may be incomplete.
     let inner = bursts
         .get(1..bursts.len().saturating_sub(1))
         .unwrap_or_default();
@@ -274,7 +278,7 @@ fn settle_repeated(time_s: &[f64], repeated: usize, in_turn: &Grid) -> Settled {
 mod tests {
     use super::*;
 
-    /// Samples at an even rate, with some left out.
+    /// Samples at an even rate, without the missing ones.
     fn even(rate_hz: f64, count: usize, missing: &[usize]) -> Vec<f64> {
         let kept = (0..count).filter(|k| !missing.contains(k));
         kept.map(|k| 0.37 + k as f64 / rate_hz).collect()

@@ -21,12 +21,12 @@ pub fn left_over(report: &Report) -> Vec<String> {
     if !report.withdrawn.is_empty() {
         let names = report.withdrawn.join(", ");
         lines.push(format!(
-            "  not named, because nothing real comes to such a size: {names}"
+            "  not named, because no real plant has such a value: {names}"
         ));
     }
     lines.extend(report.null_directions.iter().map(|null| {
         format!(
-            "  the recording does not tell apart within {}: {}",
+            "  not identifiable within {}: {}",
             null.mechanism, null.meaning
         )
     }));
@@ -46,7 +46,7 @@ fn shape(unknown: &Unknown) -> Vec<String> {
     };
     vec![
         format!(
-            "  a {} over {}{unit} takes away {} of it, {} in that variable, {branches}",
+            "  a {} over {}{unit} removes {} of it; it is {} in that variable, and {branches}",
             if unknown.along_motion {
                 "friction level"
             } else {
@@ -74,7 +74,7 @@ pub fn held(report: &Report) -> Vec<String> {
     let joints = held.joints.iter().map(|own| pushed(own, &held.unit));
     let all = (held.all_seen_s > 0.0).then(|| {
         format!(
-            "  all brakes at rest for {}: what each of them holds then cannot be told, nothing is attributed",
+            "  all brakes at rest for {}: their holding torques cannot be told apart",
             with_unit(held.all_seen_s, "s")
         )
     });
@@ -92,7 +92,7 @@ fn pushed(own: &HeldJoint, unit: &str) -> String {
         ),
     };
     format!(
-        "  {}, seen alone at rest for {}: pushed with {} ± {} at {}; {holds}: {}",
+        "  {}, alone at rest for {}: pushed with {} ± {} at {}; {holds}: {}",
         own.joint,
         with_unit(own.seen_s, "s"),
         significant(own.pushed, 4),

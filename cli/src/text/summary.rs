@@ -51,7 +51,7 @@ pub fn summary(report: &Report, next: &str, page: &Path) -> String {
         let share = percent(place.share);
         line(
             "where",
-            &format!("{} ({share} of the unexplained energy)", regime(place)),
+            &format!("{}: {share} of the unexplained energy", regime(place)),
         )
     }));
     lines.extend(names(report));

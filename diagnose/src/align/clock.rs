@@ -5,8 +5,8 @@ use crate::rules::{EVEN, LONGEST_GAP_STEPS, LONGEST_STEP_S};
 use core::cmp::Ordering;
 use rigproof_trace::clock::{Grid, is_even_but_for_gaps};
 
-/// The step between samples: the median where that fits all stamps, else the mean of the even grid through them, so that
-/// rounded stamps do not add up.
+/// The sample interval: the median step if it fits all stamps, otherwise the mean step of an even
+/// grid through them. Rounding of the stamps then does not accumulate.
 pub(crate) fn median_step(time_s: &[f64]) -> f64 {
     let mut steps: Vec<f64> = time_s
         .windows(2)
@@ -58,7 +58,7 @@ pub(crate) fn check_clock(time_s: &[f64], step_s: f64) -> Result<(), Fault> {
     Ok(())
 }
 
-/// A clock so slow that nothing can be said: most often it counts in another unit.
+/// A clock so slow that it probably counts in another unit.
 fn check_pace(time_s: &[f64], step_s: f64) -> Result<(), Fault> {
     if step_s <= LONGEST_STEP_S {
         return Ok(());

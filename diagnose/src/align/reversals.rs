@@ -1,9 +1,10 @@
-//! This file forgets the sense of a motion around its turning points.
+//! This file marks the direction of motion as unknown around reversals.
 
 use rigproof_model::effects::Instant;
 
-/// Takes the sense away as long as the position stays within `still` of where it turns back: when in there it turned, and whether it
-/// stood, is not recorded, and a brake without backlash gives its whole torque both ways.
+/// Marks the direction as unknown while the position stays within `still` of a reversal. No
+/// recording shows when in there the joint reversed or whether it stopped, and a brake without
+/// backlash gives its full torque in either direction.
 pub(crate) fn forget_sense_near_reversals(motion: &mut [Instant], position: &[f64], still: f64) {
     let turns: Vec<usize> = motion
         .windows(2)
@@ -15,7 +16,7 @@ pub(crate) fn forget_sense_near_reversals(motion: &mut [Instant], position: &[f6
         .collect();
     let mut done = 0;
     for turn in turns {
-        // At rest nearly every sample turns: what was forgotten already is not looked at again.
+        // At rest nearly every sample reverses. Samples that are already marked are skipped.
         if turn < done {
             continue;
         }

@@ -1,22 +1,23 @@
-//! This file finds units that a recording contradicts: its counts or its noise are those of another unit than the description says.
+//! This file finds stated units that a recording contradicts: its resolution or its noise fits
+//! another unit.
 
 use super::{Fault, smallest_step};
 use crate::continuity::roughness;
 use crate::rules::{NEAR_UNIT, THOUSANDFOLD};
 
-/// A channel with what is stated of it.
+/// A channel with its stated properties.
 pub(crate) struct Stated<'a> {
     /// Its role.
     pub channel: &'static str,
     /// Its samples.
     pub samples: &'a [f64],
-    /// Its resolution, where it is stated.
+    /// Its resolution, if stated.
     pub quantum: Option<f64>,
-    /// Its noise with its resolution, where it is stated.
+    /// Its noise including its resolution, if stated.
     pub noise: Option<f64>,
 }
 
-/// How many of one unit another one is, with their names.
+/// Ratios between units that are often confused, with their names.
 const UNITS: [(f64, &str); 4] = [
     (
         180.0 / core::f64::consts::PI,
@@ -31,7 +32,7 @@ const UNITS: [(f64, &str); 4] = [
 ];
 
 /// # Errors
-/// The smallest step of the samples, or their scatter, is what is stated in another unit.
+/// The smallest step of the samples, or their scatter, fits the stated value in another unit.
 pub(crate) fn check_units(stated: &Stated<'_>, ends_s: [f64; 2]) -> Result<(), Fault> {
     let [from_s, to_s] = ends_s;
     let fault = |reason| {

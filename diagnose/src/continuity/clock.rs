@@ -1,4 +1,5 @@
-//! This file settles jitter of the time stamps: whether the samples are even and their stamps are not, or both are uneven.
+//! This file decides what jitter of the time stamps means: even samples with uneven stamps, or
+//! samples that are uneven themselves.
 
 use super::steps::median;
 use super::{Position, Remark, Stamps};
@@ -6,19 +7,21 @@ use crate::filter::rms;
 use crate::rules::EVEN;
 use rigproof_trace::clock::Grid;
 
-/// Stamps that jitter, put on a grid.
+/// Samples moved to a regular grid.
 #[derive(Clone, Debug)]
 pub struct Settled {
-    /// The places of the samples on the grid, s.
+    /// The grid times of the samples, s.
     pub time_s: Vec<f64>,
-    /// What was found.
+    /// The remark.
     pub said: Remark,
-    /// By how much jitter makes the noise of a position greater, m or rad.
+    /// The position noise that jitter adds, m or rad.
     pub noise: f64,
 }
 
-/// Puts positions on the grid of their stamps where these jitter; of two readings, that the samples themselves are even and that each was taken
-/// when its stamp says, the one that gives the smoother motion is taken.
+/// Moves positions to the grid of their stamps if these jitter.
+///
+/// There are two readings: the samples are even, or each was taken at its stamp. The reading with
+/// the smoother motion is chosen.
 pub fn settle(stamps: Stamps<'_>, positions: &mut [Position]) -> Option<Settled> {
     let grid = Grid::of(stamps.time_s)?;
     if grid.worst_s < EVEN * grid.step_s {
@@ -85,7 +88,7 @@ pub fn settle(stamps: Stamps<'_>, positions: &mut [Position]) -> Option<Settled>
     })
 }
 
-/// Speeds by central differences on the grid.
+/// Speeds on the grid by central differences.
 fn speeds(samples: &[f64], grid: &Grid) -> Vec<f64> {
     let at = |k: usize| samples.get(k).copied().unwrap_or(f64::NAN);
     let place = |k: usize| grid.places.get(k).copied().unwrap_or(0.0);
@@ -98,14 +101,15 @@ fn speeds(samples: &[f64], grid: &Grid) -> Vec<f64> {
     each.collect()
 }
 
-/// Samples carried back from their stamps to their places on the grid.
+/// Samples interpolated from their stamps to the grid.
 fn moved_back(samples: &[f64], grid: &Grid, late: &[f64]) -> Vec<f64> {
     let speeds = speeds(samples, grid);
     let each = samples.iter().zip(speeds).zip(late);
     each.map(|((x, speed), late)| x - speed * late).collect()
 }
 
-/// What noise of a sample would bend a standing position as much: from the median third difference, which a smooth motion hardly has.
+/// The noise that would explain the median third difference of a resting position. A smooth motion
+/// has a small third difference.
 pub fn roughness(samples: &[f64]) -> f64 {
     let bends = samples.windows(4).filter_map(|w| match w {
         [a, b, c, d] => Some((d - 3.0 * c + 3.0 * b - a).abs()),

@@ -1,4 +1,5 @@
-//! This file is the jumps of a position: a counter that wraps is unwrapped, dropouts are left out, every other jump is a fault.
+//! This file treats jumps of a position: counters are unwrapped, dropouts are left out, every other
+//! jump is a fault.
 
 use super::steps::Steps;
 use super::{Position, Remark, Stamps, few};
@@ -9,7 +10,7 @@ use core::f64::consts::TAU;
 /// Powers of two at which counters wrap.
 const BITS: core::ops::RangeInclusive<i32> = 8..=32;
 
-/// Takes out the jumps of a counter that begins anew at the end of its range.
+/// Removes the jumps of a counter that restarts at the end of its range.
 pub fn unwrap(stamps: Stamps<'_>, own: &mut Position) -> Option<Remark> {
     let steps = Steps::of(stamps, own);
     let range = range(&own.samples);
@@ -18,7 +19,7 @@ pub fn unwrap(stamps: Stamps<'_>, own: &mut Position) -> Option<Remark> {
     let jumps = jumps.filter(|(_, (excess, limit))| excess.abs() > *limit);
     let large: Vec<(usize, f64, f64)> = jumps
         .filter_map(|(j, (excess, limit))| {
-            // The expected step is one of `places`.
+            // The step that neighbours suggest applies to one interval.
             let by = excess * steps.places.get(j)?;
             (by.abs() * WRAP_RANGE >= range).then_some((j, by, limit))
         })
@@ -54,7 +55,7 @@ pub fn unwrap(stamps: Stamps<'_>, own: &mut Position) -> Option<Remark> {
     })
 }
 
-/// A turn or a power of two in counts that a jump is the size of.
+/// The period of a counter that a jump fits: a turn, or a power of two in counts.
 fn period(own: &Position, by: f64, limit: f64) -> Option<f64> {
     let turn = own.is_angle.then_some(TAU);
     let counts = BITS.map(|bits| libm::ldexp(own.stated_quantum.unwrap_or(own.quantum), bits));
@@ -62,7 +63,7 @@ fn period(own: &Position, by: f64, limit: f64) -> Option<f64> {
     turn.into_iter().chain(counts).find(near)
 }
 
-/// The mean size of all jumps, where there are several and all are of that size.
+/// The mean size of the jumps, if there are several of equal size.
 fn agreed(large: &[(usize, f64, f64)], by: f64, limit: f64) -> Option<f64> {
     let alike = |(_, other, own): &(usize, f64, f64)| {
         (other.abs() - by.abs()).abs() <= own.max(limit).max(WRAP_NEAR * by.abs())
@@ -83,7 +84,7 @@ fn range(samples: &[f64]) -> f64 {
     live().fold(f64::NEG_INFINITY, f64::max) - live().fold(f64::INFINITY, f64::min)
 }
 
-/// Leaves out a few samples that lie far off while those before and after them go on as if nothing had been.
+/// Leaves out a few samples that lie far off, if the motion before continues after them.
 pub fn leave_out_dropouts(stamps: Stamps<'_>, own: &mut Position) -> Result<Option<Remark>, Fault> {
     let steps = Steps::of(stamps, own);
     let excesses = steps.excesses(own);
@@ -96,7 +97,7 @@ pub fn leave_out_dropouts(stamps: Stamps<'_>, own: &mut Position) -> Result<Opti
             let places = (j..=j + count)
                 .filter_map(|k| steps.places.get(k))
                 .sum::<f64>();
-            // Behind the dropout the position is where its speed before and after brought it.
+            // After the dropout the position has moved on with the speed before and after.
             let [before, after] = steps.beside(j, j + count + 1);
             let way = places * 0.5 * (before + after);
             let off = back.map(|(after, before)| after - before - way);
@@ -131,7 +132,7 @@ pub fn leave_out_dropouts(stamps: Stamps<'_>, own: &mut Position) -> Result<Opti
 }
 
 /// # Errors
-/// A jump that nothing explains, or a clock that stepped while the position did not.
+/// A jump that nothing explains, or a clock that was set while the position continued.
 pub fn check(stamps: Stamps<'_>, own: &Position) -> Result<(), Fault> {
     let steps = Steps::of(stamps, own);
     let excesses = steps.excesses(own);
@@ -166,14 +167,15 @@ pub fn check(stamps: Stamps<'_>, own: &Position) -> Result<(), Fault> {
     })
 }
 
-/// A gap in the time stamps across which the position moves by a single step is none: the clock was set.
+/// A gap in the time stamps across which the position moves by a single step is no gap: the clock
+/// was set.
 fn check_clock(stamps: Stamps<'_>, own: &Position, steps: &Steps) -> Result<(), Fault> {
     for (j, places) in steps.places.iter().enumerate() {
         let [before, after] = steps.beside(j, j + 1);
         let usual = 0.5 * (before + after);
         let missing = (places - 1.0) * usual;
         let floor = 4.0 * (own.quantum + own.noise) + (before - after).abs();
-        // Samples that are left out make gaps too, between stamps that are even.
+        // Samples that are left out make gaps too, but with even stamps.
         let neighbours = steps.index.get(j).zip(steps.index.get(j + 1));
         let Some((k, next)) = neighbours.filter(|(k, next)| **next == **k + 1) else {
             continue;

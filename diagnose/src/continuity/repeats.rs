@@ -1,4 +1,5 @@
-//! This file is samples that repeat the one before while the plant moves on: in every channel, or in a position alone.
+//! This file finds samples that repeat the one before while the plant moves on: in every channel,
+//! or in a position alone.
 
 use super::steps::{Steps, median};
 use super::{Position, Remark, Stamps, few};
@@ -43,7 +44,7 @@ pub fn check_refreshed(stamps: Stamps<'_>, own: &Position) -> Result<(), Fault> 
     })
 }
 
-/// Leaves out the samples at which every channel repeats the one before while a position moves on.
+/// Leaves out samples at which every channel repeats the one before while a position moves on.
 pub fn leave_out_rows(
     stamps: Stamps<'_>,
     positions: &mut [Position],
@@ -56,7 +57,7 @@ pub fn leave_out_rows(
     };
     let stands = |k: usize| positions.iter().all(|own| same(&own.samples, k));
     let repeats = |k: usize| stands(k) && others.iter().all(|own| same(own, k));
-    // A channel that never repeats by chance tells a repeated sample also where the motion is slow.
+    // A channel that never repeats by chance shows repeated samples even in slow motion.
     let moved: Vec<usize> = (1..count).filter(|k| !stands(*k)).collect();
     let tells = others.iter().any(|own| {
         let by_chance = moved.iter().filter(|k| same(own, **k)).count();
@@ -96,7 +97,7 @@ pub fn leave_out_rows(
     Ok(mended)
 }
 
-/// Leaves out the samples at which a position alone repeats the one before and catches up afterwards.
+/// Leaves out samples at which a position alone repeats the one before and then catches up.
 pub fn leave_out_held(stamps: Stamps<'_>, own: &mut Position) -> Result<Option<Remark>, Fault> {
     let same = |k: usize| {
         let pair = own.samples.get(k.wrapping_sub(1)).zip(own.samples.get(k));
@@ -134,7 +135,7 @@ fn forget(samples: &mut [f64], bad: &[usize]) {
     }
 }
 
-/// Runs of samples that repeat the one before them: the first, and the one behind the last.
+/// Runs of samples that repeat the one before them, as first index and end.
 fn runs(count: usize, repeats: impl Fn(usize) -> bool, stamps: Stamps<'_>) -> Vec<(usize, usize)> {
     let longest = (LONGEST_FREEZE_S / stamps.step_s).ceil() as usize;
     let mut runs = Vec::new();
@@ -149,7 +150,7 @@ fn runs(count: usize, repeats: impl Fn(usize) -> bool, stamps: Stamps<'_>) -> Ve
     runs
 }
 
-/// Whether a position moves around a run by more than its counts flicker.
+/// Whether a position moves around a run by more than flicker between counts.
 fn moves(own: &Position, first: usize, end: usize) -> bool {
     let before = own.samples.get(first.saturating_sub(1 + MOVED_WITHIN));
     let after = own
@@ -161,7 +162,8 @@ fn moves(own: &Position, first: usize, end: usize) -> bool {
     moved.is_some_and(|moved| moved > 4.0 * own.quantum + 6.0 * own.noise)
 }
 
-/// Whether a position that stood for a run then makes up for all of it in one step; `least` counts a step its usual steps have.
+/// Whether a position catches up in one step after a run. A step counts from `least` times the
+/// usual step.
 fn catches_up(own: &Position, (first, end): (usize, usize), least: f64) -> bool {
     let at = |k: usize| own.samples.get(k).copied();
     let step = |k: usize| Some(at(k)? - at(k.checked_sub(1)?)?).filter(|step| !step.is_nan());

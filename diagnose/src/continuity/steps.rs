@@ -1,4 +1,4 @@
-//! This file is the steps of a position from sample to sample, and how large one may be beside its neighbours.
+//! This file compares each step of a position with its neighbours.
 
 use super::{Position, Stamps};
 use crate::rules::{
@@ -9,9 +9,9 @@ use crate::rules::{
 pub struct Steps {
     /// The recorded samples.
     pub index: Vec<usize>,
-    /// From each to the next one, for one usual step of time, m or rad.
+    /// The step to the next recorded sample per sample interval, m or rad.
     pub step: Vec<f64>,
-    /// How many usual steps of time lie between them.
+    /// The number of sample intervals in each step.
     pub places: Vec<f64>,
 }
 
@@ -35,7 +35,7 @@ impl Steps {
         }
     }
 
-    /// What a step should be by those around it, and by how much these differ.
+    /// The step that the neighbours suggest, and their scatter.
     pub fn expected(&self, j: usize) -> (f64, f64) {
         let before = self.step.get(j.saturating_sub(STEPS_AROUND)..j);
         let after = self
@@ -47,7 +47,7 @@ impl Steps {
         (middle, median(apart))
     }
 
-    /// The mean of some steps before the sample at a place, and after another one.
+    /// The mean step before one sample and after another.
     pub fn beside(&self, j: usize, next: usize) -> [f64; 2] {
         let before = self.step.get(j.saturating_sub(STEPS_AROUND)..j);
         let after = self
@@ -56,7 +56,8 @@ impl Steps {
         [before, after].map(|own| median(own.unwrap_or_default().to_vec()))
     }
 
-    /// By how much each step exceeds what its neighbours let expect, and the most that is no jump.
+    /// The excess of each step over the one that its neighbours suggest, and the greatest excess
+    /// that is no jump.
     pub fn excesses(&self, own: &Position) -> Vec<(f64, f64)> {
         let each = (0..self.step.len()).map(|j| {
             let (middle, apart) = self.expected(j);
@@ -87,7 +88,7 @@ impl Steps {
     }
 }
 
-/// The middle of some values; 0 of none.
+/// The median; 0 of none.
 pub fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     let half = values.len() / 2;

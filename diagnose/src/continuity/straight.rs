@@ -5,7 +5,7 @@ use super::{Position, Remark, Stamps, few};
 use crate::align::{Fault, smallest_step};
 use crate::rules::{LEAST_STRAIGHT, LONGEST_GAP_S, MOST_STRAIGHT};
 
-/// How far two steps of a straight line may differ: the rounding of the numbers.
+/// Relative difference of two equal steps, from rounding.
 const ROUNDING: f64 = 1e-9;
 
 /// Leaves out short stretches of a straight line between samples that do not lie on one.
@@ -48,8 +48,10 @@ pub fn leave_out(stamps: Stamps<'_>, own: &mut Position) -> Result<Option<Remark
     Ok(mended)
 }
 
-/// Stretches that were filled in: the samples at their ends. Where counts are known what lies between them is; elsewhere what is
-/// straight in a recording that mostly is not.
+/// Stretches that were filled in, by the samples at their ends.
+///
+/// If the resolution is known, filled-in samples lie between counts. Otherwise a straight stretch
+/// is suspicious in a recording that is mostly not straight.
 fn filled(stamps: Stamps<'_>, own: &Position) -> Vec<(usize, usize)> {
     let steps = Steps::of(stamps, own);
     let size = own
@@ -86,7 +88,7 @@ fn filled(stamps: Stamps<'_>, own: &Position) -> Vec<(usize, usize)> {
     match counts {
         Some(quantum) => runs.retain(|run| is_between_counts(own, *run, quantum)),
         None if all as f64 > MOST_STRAIGHT * moving as f64 => runs.clear(),
-        // Steps of a few counts of whatever size may well be alike.
+        // Steps of a few counts may be equal by chance.
         None => runs.retain(|(first, _)| {
             let pair = own.samples.get(*first).zip(own.samples.get(first + 1));
             pair.is_some_and(|(a, b)| (b - a).abs() > 1e3 * smallest_step(&own.samples))
@@ -95,7 +97,7 @@ fn filled(stamps: Stamps<'_>, own: &Position) -> Vec<(usize, usize)> {
     runs
 }
 
-/// Whether most samples lie on counts of a size.
+/// Whether most samples are multiples of a resolution.
 fn are_on(samples: &[f64], quantum: f64) -> bool {
     let origin = samples.first().copied().unwrap_or(0.0);
     let on = |x: &&f64| {
@@ -105,7 +107,8 @@ fn are_on(samples: &[f64], quantum: f64) -> bool {
     2 * samples.iter().filter(on).count() > samples.len()
 }
 
-/// Whether the position goes on in another way before or after some steps: a line that nothing tells from the motion does no harm.
+/// Whether the motion before or after some steps has another slope. A line that continues the
+/// motion does no harm.
 fn bends(steps: &Steps, own: &Position, j: usize, end: usize) -> bool {
     let own_step = steps.step.get(j).copied().unwrap_or(0.0);
     let least = own.stated_quantum.unwrap_or(0.0) + 2.0 * own.noise + 0.01 * own_step.abs();
@@ -115,7 +118,7 @@ fn bends(steps: &Steps, own: &Position, j: usize, end: usize) -> bool {
         .any(|step| (step - own_step).abs() > least)
 }
 
-/// Whether most samples of a stretch lie between the counts on which its ends lie.
+/// Whether most samples of a stretch lie between the counts of its ends.
 fn is_between_counts(own: &Position, (first, end): (usize, usize), quantum: f64) -> bool {
     let origin = own.samples.get(first).copied().unwrap_or(0.0);
     let off = |x: &&f64| {

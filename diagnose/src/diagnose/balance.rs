@@ -1,4 +1,5 @@
-//! This file shows a fit by the balance of efforts: what the models before and after leave of it on what was fitted and on what was not.
+//! This file shows a fit by the balance of efforts: the residual before and after, on the fitted
+//! and on the held-out part.
 
 use super::write::Stand;
 use super::{Curves, FittedCurves};
@@ -12,7 +13,7 @@ use crate::rules::HELD_OUT_TIMES;
 use crate::selection::{Selection, refs};
 use rigproof_spec::effect::Quantity;
 
-/// What a fit comes to by the balance of efforts.
+/// The result of a fit by the balance of efforts.
 pub(crate) fn shown<P: Plant>(stand: &Stand<'_, P>, intervals: &Intervals) -> Shown<P> {
     let test = stand.balanced(stand.test, stand.test_from_s);
     let calibration = P::calibrated(stand, intervals);
@@ -28,21 +29,21 @@ pub(crate) fn shown<P: Plant>(stand: &Stand<'_, P>, intervals: &Intervals) -> Sh
     }
 }
 
-/// The windows of a recording with the models before and after.
+/// The windows of a recording with the model before and after.
 struct Balanced {
     times_s: Vec<f64>,
     usable: Vec<bool>,
-    /// Which rows are one output's alone.
+    /// Whether a row belongs to one output alone.
     whole: Vec<bool>,
     recorded: Vec<f64>,
     before: Vec<f64>,
     after: Vec<f64>,
-    /// What sensor noise alone leaves in the usable rows, N·m.
+    /// The noise floor of the usable rows, N·m.
     floor: f64,
 }
 
 impl<P: Plant> Stand<'_, P> {
-    /// The selection with nothing found.
+    /// The selection without the found mechanisms.
     pub(crate) fn bare(&self) -> Selection {
         Selection {
             found: Vec::new(),
@@ -51,7 +52,7 @@ impl<P: Plant> Stand<'_, P> {
         }
     }
 
-    /// The models before and after on a recording from a time on, both with the numbers of the fitted part.
+    /// Both models on a recording from a time on, with the parameters of the fitted part.
     fn balanced(&self, run: &P::Run, from_s: f64) -> Balanced {
         let fitted = &self.problem.windows;
         let width_s = (fitted.bump.len() - 1) as f64 * fitted.step_s;
@@ -112,7 +113,8 @@ impl<P: Plant> Stand<'_, P> {
         }
     }
 
-    /// Whether the held-out windows leave no more than the fitted ones do, both over what noise predicts.
+    /// Whether the held-out windows leave no more than the fitted ones, both relative to the noise
+    /// floor.
     fn balance_agreement(&self, test: &Balanced) -> Agreement {
         let allowed = HELD_OUT_TIMES * test.floor * self.floor().ratio_after.max(1.0);
         let pairs = test.recorded.iter().zip(&test.after).zip(&test.usable);
@@ -126,7 +128,8 @@ impl<P: Plant> Stand<'_, P> {
         Quantity::Effort.dimension(motion).to_string()
     }
 
-    /// The held-out balance and the residual of the output in which more was unexplained; not a number where a window does not count.
+    /// The curves of the output with the larger unexplained residual; NaN where a window does not
+    /// count.
     fn balance_curves(&self, train: Option<Balanced>, test: Balanced) -> Curves {
         let counted = |values: &[f64], usable: &[bool]| -> Vec<f64> {
             let pairs = values.iter().zip(usable);
@@ -134,7 +137,7 @@ impl<P: Plant> Stand<'_, P> {
         };
         let windows = &self.problem.windows;
         let outputs = windows.outputs;
-        // A row that combines both equations belongs to neither picture.
+        // A row that combines both equations appears in neither picture.
         let own = windows.usable.iter().zip(&windows.combined);
         let usable: Vec<bool> = own.map(|(u, combined)| *u && combined.is_none()).collect();
         let before = counted(&self.selection.before.residual, &usable);
@@ -189,7 +192,7 @@ impl<P: Plant> Stand<'_, P> {
     }
 }
 
-/// What a selection's numbers give on a problem of other rows, of the terms that act.
+/// The modelled effort of a selection on a problem with other rows, from the terms that act.
 pub(crate) fn modelled(
     problem: &Problem,
     selection: &Selection,

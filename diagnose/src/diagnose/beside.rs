@@ -1,4 +1,4 @@
-//! This file is what is to be said beside a result: numbers that a careful reader would look at twice.
+//! This file adds remarks beside a result: repairs, and numbers that a careful reader would check.
 
 use super::write::Stand;
 use crate::evidence::{Intervals, coefficients_by_term, parameters};
@@ -9,22 +9,22 @@ use crate::selection::refs;
 use rigproof_spec::effect::Mechanism;
 
 impl<P: Plant> Stand<'_, P> {
-    /// What was mended, of what shows the result too where that is another recording, and what in the result is odd.
+    /// What was repaired, also in a held-out recording, and what is odd in the result.
     pub(crate) fn remarks(&self, floor: &Floor, intervals: &Intervals) -> Vec<Remark> {
         let shown = self.other_recording.then(|| self.test.remarks());
         let mut remarks = [self.train.remarks(), shown.unwrap_or_default()].concat();
         if floor.ratio_after < FAR_BELOW_FLOOR {
             remarks.push(self.odd("below_floor", "effort", format!(
-                "what stays unexplained is {:.2} times what the stated noise and resolution predict: one of them is stated too great (`noise` and `quantum` in the rig file), and hides small effects",
+                "the residual is {:.2} times what the stated noise and resolution predict: `noise` or `quantum` in the rig file is too large, which hides small effects",
                 floor.ratio_after
             )));
         }
         let (nuisances, coefficients) = coefficients_by_term(self.problem, self.selection);
         for (value, half) in nuisances.iter().zip(&intervals.nuisances) {
-            // Not a number says as well that nothing is told.
+            // NaN also means that nothing is determined.
             if half.is_nan() || value.abs() <= *half {
                 remarks.push(self.odd("inertia_not_told", "inertia", format!(
-                    "the inertia comes out as {value:.2e} (SI) with a 95 % interval that holds 0: this recording does not tell it; state it as known, or record faster motion"
+                    "the inertia comes out as {value:.2e} (SI), and its 95 % interval holds 0: this recording does not determine it; state it as known, or record faster motion"
                 )));
             }
         }
@@ -35,7 +35,7 @@ impl<P: Plant> Stand<'_, P> {
                 && *delay_s < 0.0
             {
                 remarks.push(self.odd("negative_delay", "time", format!(
-                    "a delay of {delay_s:.2e} s is negative: the motion comes before what drives it; look at the time stamps of the two channels"
+                    "a delay of {delay_s:.2e} s is negative: the motion comes before its drive; check the time stamps of the two channels"
                 )));
             }
         }

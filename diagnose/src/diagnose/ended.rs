@@ -6,7 +6,7 @@ use crate::plant::Plant;
 use crate::report::{FaultReport, Report, SCHEMA, Verdict};
 use crate::rules::FEWEST_WINDOWS;
 
-/// The answer where a channel is at fault; `which` says in which recording.
+/// The answer for a faulty channel. `which` names the recording.
 pub(crate) fn faulty<P: Plant>(plant: &P, which: &str, fault: Fault) -> Diagnosis<P> {
     let mut diagnosis = empty(
         plant,
@@ -25,7 +25,7 @@ pub(crate) fn faulty<P: Plant>(plant: &P, which: &str, fault: Fault) -> Diagnosi
     diagnosis
 }
 
-/// The answer where the motion is too small or too short.
+/// The answer for too little motion, or too short a recording.
 pub(crate) fn not_excited<P: Plant>(
     plant: &P,
     usable: usize,
@@ -50,7 +50,7 @@ fn empty<P: Plant>(plant: &P, verdict: Verdict, summary: String) -> Diagnosis<P>
     }
 }
 
-/// A report that says what was concluded and nothing else.
+/// A report with a verdict and nothing else.
 pub(crate) fn blank(plant: &'static str, verdict: Verdict, summary: String) -> Report {
     Report {
         schema: SCHEMA,

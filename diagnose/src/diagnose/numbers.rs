@@ -1,4 +1,4 @@
-//! This file is numbers as a calibration and a report have them: with their intervals.
+//! This file formats parameters with their intervals for a calibration and a report.
 
 use crate::cause::Scales;
 use crate::evidence::{Intervals, coefficients_by_term, parameters};
@@ -9,7 +9,7 @@ use rigproof_spec::effect::Motion;
 use rigproof_trace::rig::{RigEffect, Value};
 use std::collections::BTreeMap;
 
-/// A value with a 95 % interval of this half width, where it is a number.
+/// A value with a 95 % interval of this half width, if that is finite.
 pub(crate) fn with_interval(value: f64, half: Option<f64>) -> Value {
     let mut out = Value::unknown(value);
     if let Some(half) = half.filter(|h| h.is_finite()) {
@@ -19,7 +19,7 @@ pub(crate) fn with_interval(value: f64, half: Option<f64>) -> Value {
     out
 }
 
-/// The onset of a term, which no fit touches, with its interval.
+/// The onset of a term with its interval.
 pub(crate) fn onset(onset_s: Option<f64>, intervals: &Intervals, index: usize) -> Option<Value> {
     let [low95, high95] = match intervals.onsets.get(index) {
         Some(Some(ends)) => ends.map(Some),
@@ -32,7 +32,7 @@ pub(crate) fn onset(onset_s: Option<f64>, intervals: &Intervals, index: usize) -
     })
 }
 
-/// The effects of a selection with the numbers of the windows, nominal ones first.
+/// The effects of a selection with the parameters of the weak form, nominal ones first.
 pub(crate) fn fitted(
     problem: &Problem,
     selection: &Selection,

@@ -1,27 +1,28 @@
-//! This file parts recordings of one rig into what is fitted and what shows the result.
+//! This file divides recordings of one rig into a fitted and a held-out part.
 
 use crate::Options;
 use crate::align::Fault;
 use crate::plant::{Plant, Run};
 use crate::rules::MANY_RECORDINGS;
 
-/// What is fitted, and what shows the result.
+/// The fitted and the held-out part.
 pub struct Parts<P: Plant> {
-    /// The fitted recordings, one after another.
+    /// The fitted recordings, joined.
     pub train: P::Run,
-    /// The recording that shows the result.
+    /// The recording on which the result is shown.
     pub test: P::Run,
-    /// Where its held-out part begins, s after its first sample.
+    /// Time at which its held-out part begins, s after its first sample.
     pub test_from_s: f64,
-    /// Whether it is a recording of its own.
+    /// Whether it is a separate recording.
     pub other_recording: bool,
 }
 
 impl<P: Plant> Parts<P> {
-    /// Recordings of which another one shows the result, or the last of many, or the end of the last.
+    /// The result is shown on `held_out`. Without it, the last of many recordings is held out, or
+    /// the end of the last.
     ///
     /// # Errors
-    /// What the recording is called that cannot be used, and why.
+    /// The name of the recording that cannot be used, and why.
     pub fn of(
         plant: &P,
         recordings: &[&P::Recording],
@@ -70,7 +71,7 @@ impl<P: Plant> Parts<P> {
     }
 }
 
-/// What a recording is called.
+/// The name of a recording.
 fn which(place: usize, of: usize) -> String {
     match of {
         1 => "recording".to_owned(),

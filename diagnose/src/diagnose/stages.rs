@@ -1,4 +1,4 @@
-//! This file says how the mechanisms were named, stage by stage, with the inverse model of each stage.
+//! This file reports the selection stage by stage, with the inverse model of each stage.
 
 use super::write::Stand;
 use crate::plant::Plant;
@@ -6,7 +6,7 @@ use crate::report::{InverseReport, StageReport};
 use crate::selection::Stage;
 use rigproof_spec::effect::Mechanism;
 
-/// A law with its shape, and when it begins, s.
+/// A law with its shape and its onset, s.
 type Law = (Mechanism, Vec<f64>, Option<f64>);
 
 impl<P: Plant> Stand<'_, P> {
@@ -26,7 +26,7 @@ impl<P: Plant> Stand<'_, P> {
             .collect()
     }
 
-    /// The inverse model with the nominal laws and some more; `None` where one has an onset.
+    /// The inverse model with the nominal laws and some more; `None` if one has an onset.
     pub(crate) fn inverse_model(&self, more: &[Law]) -> Option<InverseReport> {
         let nominal = self.selection.nominal.iter();
         let nominal = nominal.map(|t| (t.cause.mechanism, t.shape.clone(), t.onset_s));

@@ -1,16 +1,16 @@
-//! This file says to whoever waits which stage a diagnosis has reached.
+//! This file reports the progress of a diagnosis.
 
 use std::fmt;
 use std::sync::Arc;
 
-/// A stage of a diagnosis, in the order in which they come.
+/// A stage of a diagnosis, in order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Stage {
-    /// Channels are brought to one time, and the nominal model is set against them.
+    /// Channels are resampled, and the nominal model is fitted.
     Align,
-    /// Sets of mechanisms are weighed.
+    /// Sets of mechanisms are compared.
     Explain,
-    /// Numbers are fitted, doubts are looked for, and free runs show the result.
+    /// Parameters are fitted, uncertainties estimated, and free runs computed.
     Show,
 }
 
@@ -28,12 +28,12 @@ impl Stage {
     }
 }
 
-/// Who is told of every stage; nobody by default.
+/// A callback for every stage; none by default.
 #[derive(Clone, Default)]
 pub struct Watch(Option<Arc<dyn Fn(Stage) + Send + Sync>>);
 
 impl Watch {
-    /// Tells `whom` of every stage as it begins.
+    /// Calls `whom` at the start of every stage.
     pub fn new(whom: impl Fn(Stage) + Send + Sync + 'static) -> Watch {
         Watch(Some(Arc::new(whom)))
     }

@@ -1,11 +1,11 @@
-//! This file says in words what a diagnosis came to.
+//! This file puts the result of a diagnosis into words.
 
 use crate::plant::Run;
 use crate::problem::Problem;
 use crate::report::{FitReport, Verdict};
 use crate::selection::Selection;
 
-/// How several recordings stand together, in words; `None` for one.
+/// A sentence on several recordings; `None` for one.
 pub(crate) fn together<R: Run>(parts: &[R]) -> Option<String> {
     let mut ends_s = 0.0;
     let ends = parts.iter().map(|part| {
@@ -16,17 +16,17 @@ pub(crate) fn together<R: Run>(parts: &[R]) -> Option<String> {
     let ends = ends.collect::<Vec<_>>().join(", ");
     (!parts.is_empty()).then(|| {
         format!(
-            "{} recordings one after another on one clock, which end at {ends} s; every memory begins anew with each",
+            "{} recordings one after another on a common clock, which end at {ends} s; memories start anew in each",
             parts.len()
         )
     })
 }
 
-/// What was not recorded, in words; `None` where no more than single samples are missing, which lie between their neighbours.
+/// A sentence on missing samples; `None` if only single ones are missing, which are interpolated.
 pub(crate) fn filled_in(recorded: &[bool]) -> Option<String> {
     let missing = recorded.iter().filter(|&&r| !r).count();
     let of = recorded.len();
-    (missing > 0).then(|| format!("filled in: {missing} of {of} samples of the fitted part, in gaps of two or more; no window that holds one is used"))
+    (missing > 0).then(|| format!("filled in: {missing} of {of} samples of the fitted part, in gaps of two or more; windows that hold one are not used"))
 }
 
 pub(crate) fn summary(
@@ -45,32 +45,34 @@ pub(crate) fn summary(
     let shown = match fit.and_then(|f| f.held_out.map(|h| (h, f))) {
         Some((held, fit)) if !names.is_empty() && fit.improved => {
             format!(
-                "; on data it never saw the error falls from {:.4e} to {:.4e} {}",
-                held.before, held.after, fit.unit
+                "; the error on held-out data falls from {} to {} {}",
+                rounded(held.before),
+                rounded(held.after),
+                fit.unit
             )
         }
         Some(_) if !names.is_empty() => {
-            "; but the held-out part did not improve: do not use this calibration".to_owned()
+            "; the error on held-out data did not fall: do not use this calibration".to_owned()
         }
         _ => String::new(),
     };
     let disagrees = fit.and_then(|fit| fit.agreement.as_ref()?.said(&fit.unit));
     let disagrees = disagrees.map_or(String::new(), |said| format!("; but {said}"));
     let or = match rivals.iter().any(|own| !own.is_empty()) {
-        true => ", or what is listed as ambiguous with it",
+        true => ", or one of the rivals that are listed",
         false => "",
     };
     match verdict {
         Verdict::Consistent => {
-            format!("the nominal model explains the recording down to its sensor noise{disagrees}")
+            format!("the nominal model explains the recording to within sensor noise{disagrees}")
         }
         Verdict::Explained => {
             format!(
-                "the model left out {named}; with it nothing but sensor noise stays{shown}{disagrees}"
+                "the model left out {named}; with it only sensor noise is left{shown}{disagrees}"
             )
         }
         Verdict::PartlyExplained => {
-            format!("the model left out {named}{or}; something beyond sensor noise stays{shown}")
+            format!("the model left out {named}{or}; more than sensor noise is left{shown}")
         }
         Verdict::Ambiguous => {
             format!("the model left out {named}{or}{shown}{disagrees}")
@@ -79,7 +81,31 @@ pub(crate) fn summary(
             "the model left out something that is not in the library; `located` says where"
                 .to_owned()
         }
-        Verdict::NotExcited => "the recording moves too little to tell anything".to_owned(),
-        Verdict::DataFault => "the recording itself is at fault".to_owned(),
+        Verdict::NotExcited => "the recording moves too little for a conclusion".to_owned(),
+        Verdict::DataFault => "the recording is faulty".to_owned(),
+    }
+}
+
+/// A number with three significant digits, in powers of ten only where it is very large or small.
+fn rounded(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let exponent = libm::log10(value.abs()).floor();
+    if !(-5.0..6.0).contains(&exponent) {
+        return format!("{value:.2e}");
+    }
+    let decimals = (2.0 - exponent).max(0.0) as usize;
+    format!("{value:.decimals$}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_of_a_sentence_have_three_digits() {
+        let all = [0.308_11, 7.196e-4, -12_345.6, 9.992e-16, 0.0].map(rounded);
+        assert_eq!(all, ["0.308", "0.000720", "-12346", "9.99e-16", "0"]);
     }
 }

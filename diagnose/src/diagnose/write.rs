@@ -19,7 +19,7 @@ use rigproof_model::effects::entry;
 use rigproof_spec::effect::Quantity;
 use rigproof_trace::rig::RigEffect;
 
-/// The residual of the windows against what sensor noise predicts.
+/// The residual of the windows beside the predicted sensor noise.
 pub(crate) fn floor(problem: &Problem, selection: &Selection) -> Floor {
     let predicted = problem.floor;
     let before = usable_rms(problem, &selection.before.residual);
@@ -36,7 +36,7 @@ pub(crate) fn floor(problem: &Problem, selection: &Selection) -> Floor {
     }
 }
 
-/// What a selection comes to.
+/// The verdict on a selection.
 pub(crate) fn verdict(
     selection: &Selection,
     floor: &Floor,
@@ -44,7 +44,8 @@ pub(crate) fn verdict(
     rivals: &[Vec<String>],
 ) -> Verdict {
     let explained = floor.ratio_after <= limit;
-    // Where names have probabilities these say whether something else may stand in their place.
+    // A name below the probability for naming has rivals. Names that were not compared have rivals
+    // if any are listed.
     let by_name = selection.found.iter().zip(rivals);
     let is_open = by_name.into_iter().any(|(own, rivals)| {
         own.probability < NAMED || own.probability >= 1.0 && !rivals.is_empty()
@@ -58,34 +59,32 @@ pub(crate) fn verdict(
     }
 }
 
-/// Everything the report is written from.
+/// Everything that the report is written from.
 pub struct Stand<'a, P: Plant> {
     /// The description.
     pub plant: &'a P,
-    /// The problem of what is fitted.
+    /// The problem of the fitted part.
     pub problem: &'a Problem<'a>,
     /// What was named.
     pub selection: &'a Selection,
-    /// What was named and taken out again.
+    /// What was named and withdrawn.
     pub withdrawn: &'a [Cause],
-    /// What is fitted.
+    /// The fitted part.
     pub train: &'a P::Run,
-    /// What shows the result.
+    /// The recording on which the result is shown.
     pub test: &'a P::Run,
-    /// Where the held-out part of `test` begins, s after its first sample.
+    /// Time at which the held-out part of `test` begins, s after its first sample.
     pub test_from_s: f64,
-    /// Whether it is a recording of its own.
+    /// Whether it is a separate recording.
     pub other_recording: bool,
-    /// What was asked for.
     pub options: &'a Options,
-    /// Trials of a brake whose gains differ; `problem` is told within them.
+    /// Trials of a brake with different gains; `problem` is then restricted to within trials.
     pub trials: Option<&'a Trials>,
-    /// The explanations that were weighed.
+    /// The explanations that were compared.
     pub explanations: &'a Explanations,
 }
 
 impl<P: Plant> Stand<'_, P> {
-    /// The diagnosis.
     pub(crate) fn report(&self) -> Diagnosis<P> {
         let (problem, selection) = (self.problem, self.selection);
         let all = self.rivals();
@@ -103,7 +102,7 @@ impl<P: Plant> Stand<'_, P> {
             fit,
             curves,
         } = P::shown(self, &intervals);
-        // What is composed is not simulated yet.
+        // Composed variants are not simulated yet.
         let is_plain = !selection
             .found
             .iter()
@@ -146,7 +145,7 @@ impl<P: Plant> Stand<'_, P> {
         }
     }
 
-    /// The explanations that were weighed, the most probable first.
+    /// The explanations that were compared, the most probable first.
     fn explained(&self) -> Vec<ExplanationReport> {
         let living = self.explanations.living.iter().take(MOST_LISTED);
         living
@@ -162,7 +161,8 @@ impl<P: Plant> Stand<'_, P> {
             .collect()
     }
 
-    /// For each effect, what explains as much in its place, and the twin that no recording of this plant can tell.
+    /// For each effect the rivals in its place, and the twin that no recording of this plant can
+    /// distinguish.
     fn rivals(&self) -> Vec<Vec<Cause>> {
         let Selection { nominal, found, .. } = self.selection;
         let taken = |cause: &Cause| refs(nominal, found).iter().any(|t| t.cause == *cause);
@@ -181,7 +181,8 @@ impl<P: Plant> Stand<'_, P> {
         if self.trials.is_none() {
             return floor;
         }
-        // What differs from trial to trial is not explained by being taken out.
+        // Gains that differ between trials are projected out, which explains nothing. The floor is
+        // computed with them.
         let rms = |of| usable_rms(self.problem, &self.left_over(of));
         let (before, after) = (rms(false), rms(true));
         Floor {
@@ -193,7 +194,7 @@ impl<P: Plant> Stand<'_, P> {
         }
     }
 
-    /// What the nominal model, or the one with the names, leaves over with the gains of the trials still in it.
+    /// The residual of the nominal or the extended model, including the gains of the trials.
     fn left_over(&self, with_found: bool) -> Vec<f64> {
         let Selection {
             nominal,
@@ -209,7 +210,7 @@ impl<P: Plant> Stand<'_, P> {
         }
     }
 
-    /// The shape of what is left: a scatter of the trials, or a curve.
+    /// The shape of the residual: a scatter of the trials, or a curve.
     fn unknown(&self) -> Option<Unknown> {
         let usable = &self.problem.windows.usable;
         let scatter = |trials: &Trials| trials.scatter(&self.left_over(true), usable, 0.0);
@@ -220,7 +221,7 @@ impl<P: Plant> Stand<'_, P> {
         unknown(self.problem, residual)
     }
 
-    /// The named effects; `fitted` has their numbers.
+    /// The named effects. `fitted` holds their parameters.
     fn effects(&self, fitted: &[RigEffect]) -> Vec<EffectReport> {
         let (problem, selection) = (self.problem, self.selection);
         let motion = problem.run.motion_kind();

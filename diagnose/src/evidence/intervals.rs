@@ -1,9 +1,13 @@
-//! This file gives the found numbers their 95 % intervals, by leaving out one block of time after another.
+//! This file computes 95 % intervals of the fitted parameters, by a jackknife over blocks of time.
 //!
-//! Residuals are neither white nor of one size where a law of another family stands in for the true one, and blocks are few: the jackknife over blocks is
-//! on the safe side there (MacKinnon, Nielsen and Webb 2023), with Student's t of as many blocks as a number really lives in
-//! (after Carter, Schnepel and Steigerwald 2017). Where more than noise is left the law is not the true one, and what is left may look like the effect everywhere
-//! alike, which no block shows: there they are wider by what is left over the noise (Birge 1932), up to a bound: blocks show what is left by themselves.
+//! Residuals are neither white nor of equal variance where an approximate law replaces the true
+//! one, and there are few blocks. The block jackknife is conservative in that case (MacKinnon,
+//! Nielsen and Webb 2023). Student's t takes as many degrees of freedom as there are blocks that
+//! determine the parameter (after Carter, Schnepel and Steigerwald 2017).
+//!
+//! A residual larger than noise shows that the law is not exact. Its error may be the same in every
+//! block, so that no jackknife shows it. The intervals are therefore widened by the ratio of
+//! residual to noise (Birge 1932), up to a bound.
 
 use super::{Number, Sensitivity, coefficients_by_term, parameter_count, sensitivities};
 use crate::filter::rms;
@@ -15,21 +19,22 @@ use crate::student::half_width;
 use nalgebra::{DMatrix, DVector};
 use rigproof_spec::effect::Mechanism;
 
-/// Half widths of the 95 % intervals of every parameter of every term, and of the plant's own numbers where they are estimated.
+/// Half widths of the 95 % intervals of all parameters.
 #[derive(Clone, Debug, Default)]
 pub struct Intervals {
-    /// Of the plant's own numbers; NaN where the recording does not determine one.
+    /// Of the nuisance parameters; NaN where the recording does not determine one.
     pub nuisances: Vec<f64>,
-    /// Of each term's parameters in the vocabulary's order; NaN where the recording does not determine one.
+    /// Of each term's parameters, in the vocabulary's order; NaN where the recording does not
+    /// determine one.
     pub terms: Vec<Vec<f64>>,
-    /// The 95 % interval of each term's onset, s; `None` where it has none.
+    /// The 95 % interval of each term's onset, s; `None` without an onset.
     pub onsets: Vec<Option<[f64; 2]>>,
 }
 
-/// 97.5 % of the normal distribution lie below.
+/// The 97.5 % quantile of the normal distribution.
 const NORMAL: f64 = 1.959_963_984_540_054;
 
-/// The intervals of a selection, shape parameters included through their sensitivities.
+/// The intervals of a selection. Shape parameters enter through their sensitivities.
 pub fn intervals(problem: &Problem, selection: &Selection) -> Intervals {
     let terms = refs(&selection.nominal, &selection.found);
     let columns = sensitivities(problem, &terms, selection);
@@ -68,7 +73,7 @@ pub fn intervals(problem: &Problem, selection: &Selection) -> Intervals {
     intervals
 }
 
-/// Of the nominal terms none has an onset.
+/// Nominal terms have no onset.
 fn onsets(
     problem: &Problem,
     selection: &Selection,
@@ -82,7 +87,8 @@ fn onsets(
     vec![None; first].into_iter().chain(found).collect()
 }
 
-/// How many times the variance of a term's onset grows with its shape unknown; `None` where it has none.
+/// The factor by which an unknown shape increases the variance of a term's onset; `None` without an
+/// onset.
 fn imitated(
     problem: &Problem,
     selection: &Selection,
@@ -104,8 +110,8 @@ fn imitated(
     Some((unknown / known).max(1.0))
 }
 
-/// The standard deviation of what lies between two samples, in the unit of the term's parameters: a play ends somewhere on the way from one
-/// sample to the next. 0 for any other mechanism.
+/// The standard deviation that sampling adds, in the unit of the term's parameters: a backlash ends
+/// somewhere between two samples. 0 for other mechanisms.
 fn between_samples(problem: &Problem, term: &Term) -> f64 {
     if term.cause.mechanism != Mechanism::BacklashWidth {
         return 0.0;
@@ -119,8 +125,8 @@ fn between_samples(problem: &Problem, term: &Term) -> f64 {
     rms(&speeds) * step_s / 12f64.sqrt()
 }
 
-/// Half widths of the coefficients' intervals, never less than white residuals of variance 1 would give; `None` where the columns are
-/// not independent.
+/// Half widths of the coefficients' intervals, at least those for white residuals of variance 1.
+/// `None` if the columns are linearly dependent.
 pub(super) fn half_widths(
     columns: &[&[f64]],
     residual: &[f64],
@@ -130,13 +136,14 @@ pub(super) fn half_widths(
     let whole = gram(columns, 0, residual.len());
     let ends = blocks.ranges.iter().skip(1).map(|(first, _)| *first);
     let firsts = blocks.ranges.iter().map(|(first, _)| *first);
-    // What lies between two blocks belongs to the one before: here nothing is left out.
+    // The gap between two blocks is added to the block before it, because nothing is fitted without
+    // it.
     let departures: Vec<DVector<f64>> = firsts
         .zip(ends.chain([residual.len()]))
         .map(|(first, end)| {
             let score = scores(columns, residual, first, end);
             let rest = (&whole - gram(columns, first, end)).cholesky();
-            // Where a number lives in this block alone nothing is left without it.
+            // If only this block determines a parameter, the fit without it is singular.
             rest.map_or_else(|| &bread * &score, |rest| rest.solve(&score))
         })
         .collect();
@@ -155,7 +162,7 @@ pub(super) fn half_widths(
     Some(halves.collect())
 }
 
-/// Blocks that a column lives in, as many as of equal energy would be as uneven, less one.
+/// Degrees of freedom of a column: the effective number of blocks that hold its energy, less one.
 fn freedom(column: Option<&&[f64]>, blocks: &Blocks) -> f64 {
     let column = column.copied().unwrap_or_default();
     let energies = blocks.ranges.iter().map(|&(first, end)| {

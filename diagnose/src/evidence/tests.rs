@@ -1,4 +1,4 @@
-//! This file holds intervals and undetermined directions against known truths.
+//! This file tests intervals and non-identifiable directions against known truths.
 
 use super::intervals::half_widths;
 use super::*;
@@ -35,7 +35,7 @@ fn intervals_cover_the_truth_although_the_noise_is_uneven() {
         covered += usize::from(departure[0].abs() < halves[0]);
         naive += usize::from(departure[0].abs() < 1.96 * bread[(0, 0)].sqrt());
     }
-    // 95 % of 400 is 380 with a standard deviation of 4.4.
+    // 95 % of 400 is 380, with a standard deviation of 4.4.
     assert!((370..=394).contains(&covered), "{covered} of {repeats}");
     assert!(
         naive < 320,
@@ -55,6 +55,6 @@ fn of_bouc_wen_only_the_two_products_are_determined() {
     for (name, expected) in names.iter().zip([share, -share, -share]) {
         assert!((null.direction[*name] - expected).abs() < 1e-9, "{name}");
     }
-    // A column of its own leaves no direction.
+    // A column that differs from the products leaves no null direction.
     assert!(smallest_direction(&names, &[column(), gamma, delta]).is_none());
 }

@@ -1,4 +1,5 @@
-//! This file searches among sets of terms: several explanations stay alive at once, and none is judged by the order in which its members came.
+//! This file searches among sets of terms with a beam: several explanations stay alive at once, so
+//! that the order in which terms enter decides nothing.
 
 use super::fitted::{Fitted, Folds};
 use super::kind;
@@ -12,10 +13,10 @@ use rigproof_model::effects::facts::Shapes;
 use rigproof_spec::effect::Mechanism;
 use std::collections::BTreeMap;
 
-/// A set of causes, told apart by name.
 type Names = Vec<String>;
 
-/// Every explanation that was worth weighing, the best of each set of causes, refined where it stood near the top, the one that predicts best first.
+/// Every explanation that was kept, one for each set of causes, the best evidence first. The
+/// leading ones of each size have refined shapes.
 pub fn search(
     problem: &Problem,
     folds: &Folds,
@@ -34,7 +35,8 @@ pub fn search(
             .map(|fitted| refined(problem, folds, judge, bare, fitted.clone()))
             .collect();
         let near = by_evidence(folds, judge, near);
-        // Of single causes all stay: what begins late may explain nothing from the start on.
+        // All single causes are kept. A cause that begins late may explain nothing when it is
+        // fitted to the whole recording.
         let kept_far = if size == 1 { far.len() } else { KEPT };
         for fitted in near.iter().chain(far.iter().take(kept_far)) {
             kept.insert(names(problem, &fitted.terms), fitted.clone());
@@ -62,7 +64,8 @@ pub fn search(
     by_evidence(folds, judge, kept.into_values().collect())
 }
 
-/// The leading explanations with one term exchanged or taken out, the best of each set of causes, those near the top refined.
+/// The leading explanations with one term removed or exchanged, one for each set of causes. The
+/// best of them have refined shapes.
 fn exchanged(
     problem: &Problem,
     folds: &Folds,
@@ -92,7 +95,7 @@ fn exchanged(
         .collect()
 }
 
-/// The best child of the living for each set of causes, the best first.
+/// The best extension by one term for each set of causes, the best evidence first.
 fn children(
     problem: &Problem,
     folds: &Folds,
@@ -131,7 +134,8 @@ fn by_evidence(folds: &Folds, judge: &Judge, all: Vec<Fitted>) -> Vec<Fitted> {
     all.into_iter().map(|(_, fitted)| fitted).collect()
 }
 
-/// A cause stands once in an explanation, in one form, and so does a bristle: a second one only mends the form of the first.
+/// Whether a term may be added. A cause enters once, in one form. One bristle law is allowed at
+/// each place, since a second one would only correct the shape of the first.
 pub fn may_join(terms: &[Term], term: &Term) -> bool {
     let same = |own: &Term| {
         let (a, b) = (own.cause.mechanism, term.cause.mechanism);
@@ -140,7 +144,7 @@ pub fn may_join(terms: &[Term], term: &Term) -> bool {
     !terms.iter().any(same)
 }
 
-/// Whether it is a force that builds up over a travel after each reversal and stays then.
+/// Whether its force builds up over a travel after each reversal and then stays.
 fn is_bristle(mechanism: Mechanism) -> bool {
     matches!(
         facts(mechanism).map(|facts| facts.shapes),
@@ -148,7 +152,7 @@ fn is_bristle(mechanism: Mechanism) -> bool {
     )
 }
 
-/// The causes of an explanation in one order.
+/// The sorted names of the causes: the key of a set.
 pub fn names(problem: &Problem, terms: &[Term]) -> Names {
     let mut names: Names = terms
         .iter()

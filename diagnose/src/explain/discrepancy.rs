@@ -1,11 +1,14 @@
-//! This file says how far what no explanation takes away is from noise: over how many rows it stays alike.
+//! This file says how many neighbouring rows of a residual count as one independent sample.
 
 use super::fitted::Folds;
 use crate::problem::Problem;
 use crate::rules::{FEWEST_REPEATS, LEAST_CORRELATION, ROWS_A_SAMPLE};
 
-/// Rows that say as much as one that is independent of all others, by the white rows of what the best of the explanations leaves; 0 where a row is not
-/// usable. Blocks of time are independent of one another, but for what comes again whenever the motion does.
+/// The number of rows that carry as much information as one independent sample. `left` is the white
+/// residual of the best explanation, 0 where a row is not usable.
+///
+/// It is `ROWS_A_SAMPLE` times the integrated autocorrelation, at most one block, since blocks are
+/// taken as independent. A residual that repeats with a repeating motion is counted once.
 pub fn rows_a_sample(problem: &Problem, folds: &Folds, left: &[f64]) -> f64 {
     let outputs = problem.windows.outputs;
     let within = (ROWS_A_SAMPLE * correlation(left, outputs))
@@ -17,9 +20,9 @@ pub fn rows_a_sample(problem: &Problem, folds: &Folds, left: &[f64]) -> f64 {
     within * repeated(&driving, left, outputs)
 }
 
-/// How many times over the same is left: what repeats with a motion that repeats itself is counted once (the design effect of clustered samples: Kish,
-/// Survey Sampling, 1965; weights of Newey and West, Econometrica 55, 1987). 1 where the motion does not repeat, or where what is left does not. `outputs`
-/// rows stand for one time.
+/// The number of times that a residual repeats with the motion: the design effect of clustered
+/// samples (Kish, Survey Sampling, 1965), with the weights of Newey and West (Econometrica 55,
+/// 1987). 1 where motion or residual does not repeat. `outputs` rows belong to one time.
 fn repeated(driving: &[f64], residual: &[f64], outputs: usize) -> f64 {
     let most = driving.len() / outputs / FEWEST_REPEATS;
     let motion = |lag: usize| {
@@ -48,7 +51,8 @@ fn repeated(driving: &[f64], residual: &[f64], outputs: usize) -> f64 {
     1.0 + pairs.sum::<f64>().max(0.0)
 }
 
-/// The integrated autocorrelation of white rows, in rows of one equation: 1 where they are independent.
+/// The integrated autocorrelation of white rows, in rows of one equation: 1 where they are
+/// independent.
 fn correlation(left: &[f64], outputs: usize) -> f64 {
     let variance = products(left, 0).max(1e-300);
     let lags = (1..left.len() / outputs / 4).map(|lag| products(left, lag * outputs) / variance);
@@ -56,7 +60,7 @@ fn correlation(left: &[f64], outputs: usize) -> f64 {
     1.0 + 2.0 * alike.sum::<f64>()
 }
 
-/// The sum of the products of rows with those so many later.
+/// The sum of products of rows with those `later` rows on.
 fn products(rows: &[f64], later: usize) -> f64 {
     rows.iter()
         .zip(rows.iter().skip(later))
@@ -91,7 +95,7 @@ mod tests {
         let turning = |k: usize| libm::sin(core::f64::consts::TAU * k as f64 / 100.0);
         let motion: Vec<f64> = (0..2000).map(turning).collect();
         let bent: Vec<f64> = motion.iter().map(|x| x * x * x).collect();
-        // Twenty times over the same, with the weights of so few times.
+        // Twenty repetitions, with the weights of so few.
         let own = repeated(&motion, &bent, 1);
         assert!((own - 13.0).abs() < 1.0, "{own}");
         let noise = &wandering(0.0)[..2000];
@@ -104,7 +108,7 @@ mod tests {
     fn equations_that_stand_row_by_row_are_not_taken_for_one_another() {
         let [one, two] = [0.0, 0.8].map(wandering);
         let both: Vec<f64> = one.iter().zip(&two).flat_map(|(a, b)| [*a, *b]).collect();
-        // The second one has 1/(1 - 0.8²) of the energy of the first.
+        // The second output has 1/(1 - 0.8²) of the energy of the first.
         let share = 1.0 / (1.0 + 0.36);
         let own = correlation(&both, 2);
         assert!((own - (1.0 + share * 8.0)).abs() < 2.0, "{own}");

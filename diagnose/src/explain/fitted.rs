@@ -1,4 +1,5 @@
-//! This file fits one explanation, a set of terms together, and says what it leaves on blocks of time that were not fitted.
+//! This file fits one explanation, a set of terms together, and gives its squared residual on each
+//! left-out block.
 
 use crate::problem::{Problem, Rows, Term, add};
 use crate::regression::{Blocks, dot};
@@ -7,20 +8,21 @@ use nalgebra::{DMatrix, DVector};
 use rigproof_model::effects::{Form, OfSensor, form};
 use std::sync::Arc;
 
-/// The blocks of a problem, with the number of usable rows in each. Only usable rows are looked at, one after another.
+/// The blocks of cross-validation. Unusable rows are removed, so the rows of a block are stored
+/// contiguously.
 pub struct Folds {
-    /// Where the usable rows stand among all rows.
+    /// The index of each usable row among all rows.
     rows: Vec<usize>,
-    /// The usable rows of each block.
+    /// First and end position of each block among the usable rows.
     ranges: Vec<(usize, usize)>,
-    /// Usable rows of each block.
+    /// The number of usable rows of each block.
     pub counts: Vec<f64>,
-    /// The driving effort, row by row.
+    /// The driving effort of every row.
     driving: Vec<f64>,
 }
 
 impl Folds {
-    /// The blocks in which enough rows are usable.
+    /// The blocks with more than `FEWEST_ROWS` usable rows.
     pub fn of(problem: &Problem) -> Folds {
         let usable = &problem.windows.usable;
         let of_block = |&(first, end): &(usize, usize)| -> Vec<usize> {
@@ -44,24 +46,23 @@ impl Folds {
         }
     }
 
-    /// The usable rows of a column.
     fn usable(&self, column: &[f64]) -> Arc<[f64]> {
         let rows = self.rows.iter();
         rows.map(|row| column.get(*row).copied().unwrap_or(0.0))
             .collect()
     }
 
-    /// All usable rows in the blocks.
+    /// The number of usable rows in all blocks.
     pub fn rows(&self) -> f64 {
         self.counts.iter().sum()
     }
 
-    /// Usable rows of a block, on average.
+    /// The mean number of usable rows of a block.
     pub fn mean_rows(&self) -> f64 {
         self.rows() / self.counts.len().max(1) as f64
     }
 
-    /// The root mean square of a column in the median block.
+    /// The median over blocks of a column's root mean square.
     pub fn typical(&self, column: &[f64]) -> f64 {
         let own = self.usable(column);
         let energies = self.dots(&own, &own).into_iter();
@@ -87,7 +88,7 @@ impl Folds {
     }
 }
 
-/// Sums of products over one block.
+/// The normal equations of one block.
 #[derive(Clone)]
 struct Part {
     gram: DMatrix<f64>,
@@ -95,30 +96,30 @@ struct Part {
     square: f64,
 }
 
-/// An explanation with its fit.
+/// An explanation with its least-squares fit.
 #[derive(Clone)]
 pub struct Fitted {
-    /// The terms that the nominal model has not, in the order in which they came.
+    /// The terms beyond the nominal model, in the order in which they entered.
     pub terms: Vec<Term>,
-    /// Columns that are always free: what the description does not know.
+    /// The number of nuisance columns: parameters that the description leaves open.
     nuisance: usize,
-    /// The usable rows of each column, white.
+    /// The whitened columns on usable rows.
     columns: Vec<Arc<[f64]>>,
-    /// The usable rows of the target, white.
+    /// The whitened target on usable rows.
     target: Vec<f64>,
-    /// The driving effort that acts, row by row, but for its own gain.
+    /// The driving effort that reaches the plant, row by row, before any gain of the force sensor.
     acting: Vec<f64>,
-    /// Columns that are the driving effort itself, with their places among all.
+    /// Columns of a force sensor's gain, with their positions among all columns.
     gains: Vec<(usize, Arc<Rows>)>,
     parts: Vec<Part>,
-    /// What it leaves of each block when fitted to the others.
+    /// The squared residual of each block when the coefficients come from the other blocks.
     pub losses: Vec<f64>,
-    /// Coefficient of each column, those that are always free first.
+    /// The coefficient of each column, nuisance columns first.
     pub coefficients: Vec<f64>,
 }
 
 impl Fitted {
-    /// The fit of the columns that are always free alone, to a white target.
+    /// The fit of the nuisance columns alone to a white target.
     pub fn bare(folds: &Folds, target: &[f64], free: &[&Rows]) -> Fitted {
         let target = folds.usable(target).to_vec();
         let parts = folds.dots(&target, &target).into_iter();
@@ -165,14 +166,13 @@ impl Fitted {
         fitted
     }
 
-    /// The fit of these terms on top of what is always free.
+    /// The fit of these terms on top of this one.
     pub fn of(&self, folds: &Folds, terms: &[Term]) -> Fitted {
         terms
             .iter()
             .fold(self.clone(), |fitted, term| fitted.with(folds, term))
     }
 
-    /// The coefficients of each term.
     pub fn by_term(&self) -> Vec<&[f64]> {
         let mut rest = self.coefficients.get(self.nuisance..).unwrap_or_default();
         let mut own = |term: &Term| {
@@ -183,7 +183,7 @@ impl Fitted {
         self.terms.iter().map(&mut own).collect()
     }
 
-    /// What it leaves of each row when fitted to all usable ones; 0 in the others.
+    /// The residual of every row when the coefficients come from all usable rows; 0 in the others.
     pub fn residual(&self, folds: &Folds) -> Vec<f64> {
         let mut left = self.target.clone();
         for (column, times) in self.columns.iter().zip(&self.coefficients) {
@@ -198,13 +198,15 @@ impl Fitted {
         all
     }
 
-    /// The sum of what it leaves of the blocks.
+    /// The squared residual over all left-out blocks.
     pub fn left(&self) -> f64 {
         self.losses.iter().sum()
     }
 
-    /// The energy of the effort that acts over that of the recorded one. A change of the drive that takes the effort away makes every residual
-    /// small: what is left is judged beside what acts.
+    /// The energy of the effort that reaches the plant, over that of the recorded effort.
+    ///
+    /// A change of the drive that shrinks the effort shrinks every residual with it. Residuals are
+    /// therefore divided by this share.
     pub fn acting_share(&self, folds: &Folds) -> f64 {
         let mut acting = self.acting.clone();
         for (place, column) in &self.gains {
@@ -292,7 +294,8 @@ fn set(matrix: &mut DMatrix<f64>, at: (usize, usize), value: f64) {
     }
 }
 
-/// The least-squares solution with each column scaled to length 1 and a ridge far below anything that a recording determines.
+/// The least-squares solution. Each column is scaled to length 1, and a ridge keeps dependent
+/// columns solvable.
 fn solution(gram: &DMatrix<f64>, moment: &DVector<f64>, scale: &DVector<f64>) -> DVector<f64> {
     let size = moment.len();
     let mut scaled = gram.component_mul(&(scale * scale.transpose()));
@@ -308,5 +311,5 @@ fn solution(gram: &DMatrix<f64>, moment: &DVector<f64>, scale: &DVector<f64>) ->
     }
 }
 
-/// Ridge on columns of length 1.
+/// The ridge, relative to columns of length 1. No recording determines a coefficient this weakly.
 const RIDGE: f64 = 1e-8;

@@ -1,4 +1,5 @@
-//! This file looks for what begins in the middle of a recording: each term of an explanation from an onset on.
+//! This file searches for onsets: a term of an explanation that begins in the middle of a
+//! recording.
 
 use super::fitted::{Fitted, Folds};
 use super::refine::refined;
@@ -9,7 +10,7 @@ use crate::problem::{Problem, Term};
 use crate::rules::{BEAM, LATE, ONSET_GRID, ONSET_HALVINGS, ONSET_MARGIN};
 use rayon::prelude::*;
 
-/// What explanations with an onset are judged by.
+/// What is needed to judge explanations with an onset.
 pub struct Late<'a> {
     pub problem: &'a Problem<'a>,
     pub folds: &'a Folds,
@@ -17,7 +18,7 @@ pub struct Late<'a> {
     pub bare: &'a Fitted,
 }
 
-/// An explanation with its last term from an onset on, at a share of the recording.
+/// An explanation whose last term begins at `share` of the recording.
 #[derive(Clone)]
 struct Begun {
     evidence: f64,
@@ -26,9 +27,12 @@ struct Begun {
 }
 
 impl Late<'_> {
-    /// The explanations with one term from an onset on: each of one term and the leading ones, on a grid of onsets first, those that predict best then
-    /// between the points of the grid. Where one of them predicts better than all that act from the start on, every term that is tried is tried from its
-    /// onset on as well: what a law's shape is over the whole recording says little of it where it acts.
+    /// Explanations in which one term has an onset.
+    ///
+    /// Onsets are tried on a grid for every single cause and for the leading explanations. The best
+    /// of these are refined between the points of the grid. Where one of them predicts better than
+    /// every explanation without onset, every other term is tried from that onset on: the shape of
+    /// a law over the whole recording says little about its shape after the onset.
     pub fn found(&self, ranked: &[Fitted], tried: &[Term]) -> Vec<Fitted> {
         let open = ranked.iter().enumerate();
         let open = open.filter(|(place, own)| own.terms.len() == 1 || *place < LATE);
@@ -74,7 +78,8 @@ impl Late<'_> {
             .map(|term| (self.bare.of(self.folds, &others), term))
     }
 
-    /// With every other term in the place of the one that begins late, from the same onset on: those that predict best, with their shapes refined.
+    /// The explanations with every other term in the place of the late one, from the same onset on.
+    /// The best get refined shapes.
     fn exchanged(&self, leading: &Begun, tried: &[Term]) -> Vec<Begun> {
         let last = leading.fitted.terms.len().saturating_sub(1);
         let Some((others, _)) = self.apart(&leading.fitted, last) else {
@@ -104,7 +109,7 @@ impl Late<'_> {
         refined.collect()
     }
 
-    /// The best of them with their onsets between the points of the grid.
+    /// The best explanations, with onsets refined between the points of the grid.
     fn placed(&self, on_grid: Vec<Begun>) -> Vec<Begun> {
         let mut best = self.ranked(on_grid);
         best.truncate(BEAM);
@@ -131,7 +136,7 @@ impl Late<'_> {
         all
     }
 
-    /// An explanation with one term more, from an onset on.
+    /// An explanation with one more term, from an onset on.
     fn begun(&self, others: &Fitted, term: &Term, share: f64) -> Option<Begun> {
         if !(ONSET_MARGIN..1.0 - ONSET_MARGIN).contains(&share) {
             return None;

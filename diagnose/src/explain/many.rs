@@ -1,4 +1,7 @@
-//! This file explains a recording in which many places lack something at once: names come to one explanation one by one and go again, each judged on data that it was not fitted to.
+//! This file explains a recording of a plant with many places: one explanation grows and is pruned
+//! term by term, compared by cross-validation.
+//!
+//! A beam over sets would be too wide: several places usually lack something at once.
 
 use super::beam::may_join;
 use super::discrepancy::rows_a_sample;
@@ -14,11 +17,12 @@ use rigproof_spec::effect::Mechanism;
 
 /// Explains a recording of many places on top of the terms of its nominal model.
 pub fn explain_many(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection, Explanations) {
-    // Noise and its correlation are of what is left with everything plain free: whatever an explanation leaves beyond that is not noise.
+    // The noise model is estimated with every term without a shape free. Whatever an explanation
+    // leaves beyond that is not noise.
     let raw = plain_residual(problem, &nominal);
     problem.rewhiten(usable_rms(problem, &raw));
     nominal.iter_mut().for_each(|term| problem.refresh(term));
-    // Again, with every equation weighed by its own noise.
+    // Once more, now that each equation has its own noise.
     let raw = plain_residual(problem, &nominal);
     let noise = usable_rms(problem, &raw).max(problem.floor);
     problem.rewhiten(noise);
@@ -34,7 +38,7 @@ pub fn explain_many(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection
     (selected(problem, nominal, &explanations), explanations)
 }
 
-/// What is left of each row with every mechanism free that has no shape to be looked for.
+/// The residual with every term free that has no shape parameter.
 fn plain_residual(problem: &Problem, nominal: &[Term]) -> Vec<f64> {
     let tried = candidates(problem, nominal);
     let plain = tried.iter().filter(|term| term.shape.is_empty());
@@ -42,7 +46,7 @@ fn plain_residual(problem: &Problem, nominal: &[Term]) -> Vec<f64> {
     fit(problem, &all, &Blocks::new(problem)).residual
 }
 
-/// Whether it is other masses of a link on which some effort hangs.
+/// Whether it corrects the inertia of a link that an effort depends on.
 fn is_link(term: &Term) -> bool {
     let acts = || {
         term.free
@@ -77,7 +81,8 @@ impl Round {
         self.judge.evidence(&self.folds, fitted) + prior(problem, &fitted.terms)
     }
 
-    /// The better of two searches: from nothing, and from other masses of every link, which show beside one another only.
+    /// The better of two searches: one starts from nothing, the other from corrected inertias of
+    /// all links. Inertias of neighbouring links often explain something only together.
     fn searched(&self, problem: &Problem) -> Fitted {
         let links = self.tried.iter().filter(|term| is_link(term)).cloned();
         let links = self.bare.of(&self.folds, &links.collect::<Vec<_>>());
@@ -89,12 +94,13 @@ impl Round {
         best.map_or_else(|| self.bare.clone(), |own| own.1)
     }
 
-    /// The explanation to which nothing can be added, and if `prunes` from which nothing can be taken, that would make it more probable.
+    /// Adds terms as long as one makes the explanation more probable. If `prunes`, removes terms in
+    /// the same way after each addition.
     fn climbed(&self, problem: &Problem, mut best: (f64, Fitted), prunes: bool) -> (f64, Fitted) {
         let mut hopeful = vec![true; self.tried.len()];
         while best.1.terms.len() < MOST_OF_MANY {
             let grown = self.grown(problem, &best, &mut hopeful).or_else(|| {
-                // What was of no use beside fewer may be of use now.
+                // A term that did not help a smaller set may help now.
                 hopeful = vec![true; self.tried.len()];
                 self.grown(problem, &best, &mut hopeful)
             });
@@ -107,7 +113,8 @@ impl Round {
         best
     }
 
-    /// With the term that helps most; those that do not help are no longer hoped for.
+    /// The explanation with the term that helps most. Terms that do not help are skipped until
+    /// nothing else helps.
     fn grown(
         &self,
         problem: &Problem,
@@ -136,7 +143,7 @@ impl Round {
         Some((score, best.1.with(&self.folds, term)))
     }
 
-    /// Without the terms without which it is more probable.
+    /// The explanation without the terms whose removal makes it more probable.
     fn pruned(&self, problem: &Problem, mut best: (f64, Fitted)) -> (f64, Fitted) {
         loop {
             let fewer = (0..best.1.terms.len()).into_par_iter().map(|index| {
@@ -157,7 +164,8 @@ impl Round {
         self.bare.of(&self.folds, &terms)
     }
 
-    /// The leading explanation, those with one term fewer, and those with another one in its place at its joint.
+    /// The leading explanation and its neighbours: each term removed, and each exchanged for the
+    /// best other one at its place.
     fn neighbours(&self, problem: &Problem, leading: &Fitted, noise: f64) -> Vec<Explanation> {
         let others = (0..leading.terms.len())
             .into_par_iter()
@@ -181,7 +189,6 @@ impl Round {
         let mut all: Vec<(f64, Fitted)> = others.collect();
         all.push((self.score(problem, leading), leading.clone()));
         all.sort_by(|a, b| b.0.total_cmp(&a.0));
-        // An exchange that is better than what the search ended with leads.
         living(problem, self.folds.rows(), all, noise)
     }
 }

@@ -8,7 +8,7 @@ use crate::problem::{Problem, Term};
 use crate::rules::{MOST_MOVES, STRIDES};
 use rigproof_spec::effect::Mechanism;
 
-/// The explanation with the shapes that leave least.
+/// The explanation with the shapes of the best evidence that the search meets.
 pub fn refined(
     problem: &Problem,
     folds: &Folds,
@@ -18,7 +18,7 @@ pub fn refined(
 ) -> Fitted {
     let mut best = (judge.evidence(folds, &start), start);
     for stride in STRIDES {
-        // Each term comes to the end of the list in its turn, so that all stand in their order again afterwards.
+        // `moved` takes the first term and puts it last, so a full turn restores the order.
         for _ in 0..best.1.terms.len() {
             best = moved(problem, folds, judge, bare, best, stride);
         }
@@ -26,7 +26,7 @@ pub fn refined(
     best.1
 }
 
-/// The explanation with its first term moved by strides as long as that helps, and put last.
+/// The first term moved by strides as long as the evidence grows, then put last.
 fn moved(
     problem: &Problem,
     folds: &Folds,
@@ -63,7 +63,6 @@ fn moved(
     best
 }
 
-/// A move of one shape parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Move {
     place: usize,
@@ -79,10 +78,11 @@ impl Move {
     }
 }
 
-/// A term with one shape parameter moved by a stride either way.
+/// A term with one shape parameter moved by a stride, up or down.
 fn moves(problem: &Problem, own: &Term, stride: f64) -> Vec<(Move, Term)> {
     let bounds = shape_bounds(problem, own.cause);
-    // A period is known to a small share of it before, and its neighbours are other periods.
+    // The grid already knows a period to within a few percent, and a longer stride leads to another
+    // period.
     let stride = match own.cause.mechanism {
         Mechanism::Ripple => 0.02 * stride,
         _ => stride,

@@ -1,4 +1,5 @@
-//! This file says how probable an explanation is beside others: by what it leaves of data that it was not fitted to, and by how plain it is.
+//! This file gives the posterior of an explanation: its predictive density on left-out blocks, and
+//! a prior that prefers few parameters.
 
 use super::fitted::{Fitted, Folds};
 use crate::candidates::{is_end, shape_bounds};
@@ -9,16 +10,16 @@ use rigproof_model::effects::{entry, facts};
 use rigproof_spec::effect::Mechanism;
 use std::sync::Arc;
 
-/// Judges explanations of one problem.
 pub struct Judge {
-    /// The discrepancy that every explanation is granted, as a variance of a white row.
+    /// The granted model discrepancy, as a variance of a white row.
     granted: f64,
-    /// Rows that say as much as one that is independent of all others.
+    /// The number of rows that carry as much information as one independent sample.
     rows_a_sample: f64,
 }
 
 impl Judge {
-    /// Grants a share of the effort; `noise` is the standard deviation of a row before whitening.
+    /// `noise` is the standard deviation of a row before whitening. The discrepancy is a share of
+    /// the effort.
     pub fn of(problem: &Problem, noise: f64, rows_a_sample: f64) -> Judge {
         let granted = problem.rules.relevant * problem.effort_size / noise.max(1e-300);
         Judge {
@@ -27,7 +28,7 @@ impl Judge {
         }
     }
 
-    /// The logarithm of the predictive density of the blocks that were left out, up to a constant.
+    /// The logarithm of the predictive density of left-out blocks, up to a constant.
     pub fn evidence(&self, folds: &Folds, fitted: &Fitted) -> f64 {
         let share = fitted.acting_share(folds).max(1e-300);
         let blocks = folds.counts.iter().zip(&fitted.losses);
@@ -38,7 +39,8 @@ impl Judge {
         each.sum()
     }
 
-    /// Whether each term takes away more than the granted discrepancy when the others stand.
+    /// Whether removing any one term increases the left-out residual by more than the granted
+    /// discrepancy.
     pub fn all_matter(&self, folds: &Folds, bare: &Fitted, fitted: &Fitted) -> bool {
         (0..fitted.terms.len()).all(|index| {
             let mut others = fitted.terms.clone();
@@ -49,27 +51,31 @@ impl Judge {
     }
 }
 
-/// The logarithm of the odds of a set of terms before any data.
+/// The log prior of a set of terms.
 pub fn prior(problem: &Problem, terms: &[Term]) -> f64 {
     terms.iter().map(|term| odds(problem, term)).sum()
 }
 
 fn odds(problem: &Problem, term: &Term) -> f64 {
     let empty = |rows: &&Arc<Rows>| rows.raw.iter().all(|x| *x == 0.0);
-    // The numbers of a link are wrong together: one description gives them all. What each costs the left-out blocks say.
+    // Parameters of a link's inertia count as at most `A_LINK`: one description gives them all, so
+    // they are wrong together.
     let free = term.free.len() - term.free.iter().filter(empty).count();
     let free = match term.cause.mechanism {
         Mechanism::LinkInertia => free.min(A_LINK),
         _ => free,
     };
     let numbers = free.max(1) + searched(problem, term) + usize::from(term.onset_s.is_some());
-    // The first number of a shape takes the place of a coefficient that is not there.
+    // Where a term has no coefficient, its first shape parameter takes the coefficient's place and
+    // is not counted.
     let numbers = numbers - usize::from(term.free.is_empty() && !term.shape.is_empty());
     usual(term.cause.mechanism) - A_NUMBER * numbers.saturating_sub(1) as f64
 }
 
-/// The parameters of a shape that were looked for: one whose range is a point is given, and one beyond the first that came to an end of its range is the
-/// plainer law's.
+/// The number of shape parameters that were searched for.
+///
+/// A parameter whose range is a point is given. One that ends at a bound, other than the first,
+/// stands for the simpler law and does not count.
 fn searched(problem: &Problem, term: &Term) -> usize {
     let bounds = shape_bounds(problem, term.cause);
     let own = term.shape.iter().zip(&bounds).enumerate();
@@ -80,13 +86,14 @@ fn searched(problem: &Problem, term: &Term) -> usize {
     .count()
 }
 
-/// How common a mechanism is among those that models leave out.
+/// The log odds that a model leaves this mechanism out.
 fn usual(mechanism: Mechanism) -> f64 {
     let usual = facts(mechanism).map_or(Usual::Rare, |facts| facts.usual);
     USUAL_ODDS.get(usual as usize).copied().unwrap_or(0.0)
 }
 
-/// Whether a passive mechanism came out giving more energy than what the nominal model already takes.
+/// Whether the fit of a passive mechanism gives out energy, beyond what the nominal model already
+/// takes.
 pub fn gives_energy(problem: &Problem, fitted: &Fitted) -> bool {
     let own = fitted.terms.iter().zip(fitted.by_term());
     own.into_iter().any(|(term, own)| {

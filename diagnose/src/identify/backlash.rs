@@ -1,4 +1,5 @@
-//! This file measures the backlash of a brake: how far its shaft turns back before the torque returns (§3.3.3).
+//! This file measures the backlash of a brake: the travel after a reversal before the torque
+//! returns (§3.3.3).
 
 use crate::rules::{BEGINNING, BEYOND_BREAK, FREE_SHARE, LEAST_DWELL, LEAST_TRAVEL_DEG, UNSEEN_S};
 use rigproof_model::brake::identify::{TRANSIENT, average, fit_step};
@@ -14,15 +15,15 @@ use super::sampled::{Part, Sampled, deviation, mean, median};
 /// One reversal at constant current.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reversal {
-    /// Which recording.
+    /// The index of the recording.
     pub recording: usize,
-    /// When the shaft turned back, s.
+    /// The time of the reversal, s.
     pub time_s: f64,
     /// Current, A.
     pub current_a: f64,
-    /// Travel from there to where the torque began to return, rad; 0 where it never left.
+    /// Travel from the reversal to where the torque begins to return, rad; 0 if it never vanished.
     pub width_rad: f64,
-    /// Travel within which a backlash could hide, where none was seen, rad.
+    /// Travel within which a backlash could hide, if none was seen, rad.
     pub resolution_rad: f64,
 }
 
@@ -46,7 +47,7 @@ pub fn find(sampled: &Sampled, plateaus: &[Plateau], recording: usize, found: &m
                     width_rad,
                     resolution_rad,
                 }),
-                // The recording ends on the way.
+                // The recording ends before the torque returns.
                 None if first + after + 1 >= plateau.samples.end => {}
                 None => found.left_out.push(format!(
                     "{}: the torque after the reversal at {:.3} s does not return within the travel; turn further between reversals",
@@ -58,7 +59,7 @@ pub fn find(sampled: &Sampled, plateaus: &[Plateau], recording: usize, found: &m
     }
 }
 
-/// Where the motion turns back, with both ends of the stretch.
+/// The samples at which the motion reverses, with both ends of the stretch.
 fn turns(position: &[f64]) -> Vec<usize> {
     let least = rad_from_deg(LEAST_TRAVEL_DEG);
     let (mut low, mut high) = (0, 0);
@@ -87,7 +88,8 @@ fn turns(position: &[f64]) -> Vec<usize> {
     turns
 }
 
-/// Travel from a reversal to where the torque begins to return, and what could hide where it never left.
+/// Travel from a reversal to where the torque begins to return, and the travel that could hide a
+/// backlash if the torque never vanished.
 fn reversal(before: &Part<'_>, after: &Part<'_>) -> Option<(f64, f64)> {
     let (&first, &last) = (after.position_rad.first()?, after.position_rad.last()?);
     let sense = (last - first).signum();
@@ -139,7 +141,8 @@ fn position_at(part: &Part<'_>, time_s: f64) -> Option<f64> {
 
 /// The backlash width: the mean over the reversals (§3.3.3); `None` of none.
 ///
-/// Where most reversals show none, it is 0 and the interval ends at the travel in which one could hide.
+/// If most reversals show none, it is 0 and the interval ends at the travel in which one could
+/// hide.
 pub fn width(reversals: &[Reversal]) -> Option<Value> {
     let widths: Vec<f64> = reversals.iter().map(|r| r.width_rad).collect();
     let seen: Vec<f64> = widths.iter().copied().filter(|w| *w > 0.0).collect();

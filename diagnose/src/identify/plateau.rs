@@ -1,4 +1,4 @@
-//! This file finds the stretches of a recording over which the current stands still.
+//! This file finds the stretches of a recording with constant current.
 
 use crate::rules::{LEAST_TOLERANCE_A, SHORTEST_S, TOLERANCE_SIGMAS};
 use core::ops::Range;
@@ -14,7 +14,7 @@ pub struct Plateau {
     pub current_a: f64,
 }
 
-/// The stretches of constant current, in their order.
+/// The stretches of constant current, in order.
 pub fn plateaus(sampled: &Sampled) -> Vec<Plateau> {
     let current = &sampled.current_a;
     let tolerance_a = (TOLERANCE_SIGMAS * noise_a(current)).max(LEAST_TOLERANCE_A);
@@ -28,7 +28,7 @@ pub fn plateaus(sampled: &Sampled) -> Vec<Plateau> {
     for (k, value) in current.iter().enumerate() {
         let count = k - first;
         let mean = sum / count as f64;
-        // One sample alone is a disturbance, not a step.
+        // A single sample is a disturbance, not a step.
         if count > 0 && away(k, mean) && away(k + 1, mean) {
             close(sampled, first..k, mean, &mut found);
             (first, sum) = (k, 0.0);
@@ -51,14 +51,14 @@ fn close(sampled: &Sampled, samples: Range<usize>, current_a: f64, found: &mut V
     }
 }
 
-/// Standard deviation of the current's noise, from its steps between samples.
+/// Standard deviation of the current's noise, from differences between samples.
 fn noise_a(current: &[f64]) -> f64 {
     let steps = current.windows(2).map(|pair| match pair {
         [before, after] => (after - before).abs(),
         _ => 0.0,
     });
     let steps: Vec<f64> = steps.collect();
-    // The median of |x − y| of two normal numbers is 0.6745·√2 of their deviation.
+    // The median of |x − y| of two normal variables is 0.6745·√2 standard deviations.
     median(&steps) / 0.953_9
 }
 
@@ -105,7 +105,7 @@ mod tests {
     fn a_current_that_never_stands_still_has_no_plateau() {
         let current = (0..900).map(|k| 0.5 + 0.5 * libm::sin(0.02 * f64::from(k)));
         for plateau in plateaus(&sampled(current.collect())) {
-            // At most around the crests, where it hardly moves.
+            // At most near the crests, where it is nearly constant.
             assert!(plateau.samples.len() < 120, "{plateau:?}");
         }
     }

@@ -1,4 +1,4 @@
-//! This file says why recordings of a brake cannot be used.
+//! This file lists the reasons for which recordings of a brake cannot be used.
 
 /// Why a brake cannot be identified.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -10,7 +10,7 @@ pub enum IdentifyError {
     Channel {
         /// The recording.
         recording: String,
-        /// What the rig does not have.
+        /// The missing channel.
         missing: &'static str,
     },
     /// The torque drives the motion.
@@ -20,7 +20,7 @@ pub enum IdentifyError {
     Sign {
         /// The recording.
         recording: String,
-        /// How often.
+        /// The share of the moving samples, per cent.
         percent: u32,
     },
     /// Too many samples are missing.
@@ -30,9 +30,9 @@ pub enum IdentifyError {
     Samples {
         /// The recording.
         recording: String,
-        /// How many are complete.
+        /// The number of complete samples.
         complete: usize,
-        /// The fewest that are of use.
+        /// The least number that is needed.
         least: usize,
     },
     /// No recording holds a step or a reversal.
@@ -40,7 +40,7 @@ pub enum IdentifyError {
         "no recording holds a step of current at constant speed or a reversal at constant current: {left_out}"
     )]
     Nothing {
-        /// What was seen instead.
+        /// What was found and not used.
         left_out: String,
     },
 }

@@ -1,4 +1,5 @@
-//! This file is a recording of a brake as the identification reads it: complete samples only, torque as a resistance.
+//! This file prepares a recording of a brake for identification: complete samples only, torque as a
+//! resistance.
 
 use crate::rules::{LEAST_SAMPLES, MOST_DRIVING};
 use rigproof_spec::effect::Motion;
@@ -6,7 +7,7 @@ use rigproof_trace::rig::{Plant, Recording};
 
 use super::IdentifyError;
 
-/// One recording, all columns of equal length.
+/// One recording; all columns have equal length.
 pub struct Sampled {
     pub name: String,
     pub time_s: Vec<f64>,
@@ -16,7 +17,7 @@ pub struct Sampled {
 }
 
 impl Sampled {
-    /// Takes the samples that are complete.
+    /// Takes the complete samples.
     pub fn new(name: &str, recording: &Recording) -> Result<Sampled, IdentifyError> {
         let channel = |missing| IdentifyError::Channel {
             recording: name.to_owned(),
@@ -75,7 +76,7 @@ impl Sampled {
         }
     }
 
-    /// A resistance has the sense of the motion.
+    /// A resistance has the sign of the motion.
     fn check_sign(&self) -> Result<(), IdentifyError> {
         let reach = 10;
         let (mut moving, mut driving) = (0_u32, 0_u32);
@@ -110,7 +111,6 @@ pub struct Part<'a> {
 }
 
 impl Part<'_> {
-    /// Time from the first to the last sample, s.
     pub fn duration_s(&self) -> f64 {
         match (self.time_s.first(), self.time_s.last()) {
             (Some(first), Some(last)) => last - first,
@@ -147,12 +147,11 @@ impl Part<'_> {
     }
 }
 
-/// Mean of numbers; NaN of none.
 pub fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// Standard deviation of numbers about their mean; 0 of fewer than two.
+/// Standard deviation; 0 of fewer than two values.
 pub fn deviation(values: &[f64]) -> f64 {
     if values.len() < 2 {
         return 0.0;
@@ -162,7 +161,7 @@ pub fn deviation(values: &[f64]) -> f64 {
     libm::sqrt(square / (values.len() - 1) as f64)
 }
 
-/// The middle of numbers, half of them below it; NaN of none.
+/// Median; NaN of none.
 pub fn median(values: &[f64]) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);

@@ -1,4 +1,5 @@
-//! This file averages what belongs together: the steps of one current and one speed in one recording.
+//! This file averages what belongs together: the steps of one current and one speed in one
+//! recording.
 
 use crate::rules::{SAME_CURRENT_A, SAME_SPEED};
 use rigproof_spec::tables::Edge;
@@ -8,14 +9,14 @@ use super::{Identified, speed_rpm};
 
 /// Settled torques and time constants by current, speed and recording.
 pub struct Sets {
-    /// Current, A, its level, and the settled torques of the set, N·m.
+    /// Current, A, the index of its level, and the settled torques of the set, N·m.
     torques: Vec<(f64, usize, Vec<f64>)>,
     /// Edge, current, A, speed, rpm, and the time constants of the set, s.
     times: Vec<(Edge, f64, f64, Vec<f64>)>,
 }
 
 impl Sets {
-    /// Sorts what was found.
+    /// Groups what was found.
     pub fn new(found: &Identified) -> Sets {
         let currents = found.steady.iter().map(|s| s.current_a);
         let currents = levels(
@@ -56,21 +57,22 @@ impl Sets {
         }
     }
 
-    /// Current, A, mean settled torque, N·m, and level of the current, one a set.
+    /// Current, A, mean settled torque, N·m, and level of the current; one entry per set.
     pub fn steady(&self) -> Vec<(f64, f64, usize)> {
         let sets = self.torques.iter();
         sets.map(|(current_a, level, torques)| (*current_a, mean(torques), *level))
             .collect()
     }
 
-    /// Current, A, speed, rpm, and mean time constant, s, one a set.
+    /// Current, A, speed, rpm, and mean time constant, s; one entry per set.
     pub fn time_constants(&self, edge: Edge) -> Vec<(f64, f64, f64)> {
         let sets = self.times.iter().filter(|(of, ..)| *of == edge);
         sets.map(|(_, current_a, omega_rpm, times)| (*current_a, *omega_rpm, mean(times)))
             .collect()
     }
 
-    /// Current, A, standard deviation of the settled torques at it, N·m, and how many there are (§3.4.1, figure 3.9).
+    /// Current, A, standard deviation of its settled torques, N·m, and their number (§3.4.1, figure
+    /// 3.9).
     pub fn scatter(&self) -> Vec<(f64, f64, usize)> {
         let greatest = self.torques.iter().map(|set| set.1).max().unwrap_or(0);
         let of = |level: usize| {
@@ -89,7 +91,7 @@ impl Sets {
 
 type Key = (usize, usize, usize);
 
-/// The values of each key, column by column, in the order in which the keys come first.
+/// Values grouped by key, column by column. Keys are in the order of their first appearance.
 fn grouped(items: impl Iterator<Item = (Key, [f64; 3])>) -> Vec<(Key, [Vec<f64>; 3])> {
     let mut sets: Vec<(Key, [Vec<f64>; 3])> = Vec::new();
     for (key, values) in items {
@@ -104,7 +106,7 @@ fn grouped(items: impl Iterator<Item = (Key, [f64; 3])>) -> Vec<(Key, [Vec<f64>;
     sets
 }
 
-/// The lowest value of each level; two neighbours that are `same` belong to one.
+/// The lowest value of each level. Two neighbours that are `same` belong to one level.
 fn levels(values: impl Iterator<Item = f64>, same: fn(f64, f64) -> bool) -> Vec<f64> {
     let mut sorted: Vec<f64> = values.collect();
     sorted.sort_by(f64::total_cmp);
@@ -119,7 +121,7 @@ fn levels(values: impl Iterator<Item = f64>, same: fn(f64, f64) -> bool) -> Vec<
     levels
 }
 
-/// The level that a value belongs to.
+/// The index of a value's level.
 fn level(levels: &[f64], value: f64) -> usize {
     levels
         .iter()

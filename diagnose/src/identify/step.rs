@@ -13,7 +13,7 @@ use super::sampled::{Part, Sampled, deviation, mean};
 /// A settled stretch at constant current and speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Steady {
-    /// Which recording.
+    /// The index of the recording.
     pub recording: usize,
     /// Current, A.
     pub current_a: f64,
@@ -26,15 +26,15 @@ pub struct Steady {
 /// A step of current at constant speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step {
-    /// Which recording.
+    /// The index of the recording.
     pub recording: usize,
-    /// Whether the torque grew.
+    /// The direction of the edge.
     pub edge: Edge,
-    /// The current that counts: the target of a rising, the origin of a falling step, A.
+    /// The current of the step, A: the target of a rising step, the origin of a falling one.
     pub current_a: f64,
     /// Speed, rad/s.
     pub omega_rad_s: f64,
-    /// When the torque began to move, s.
+    /// The time at which the torque starts to change, s.
     pub start_s: f64,
     /// Time constant, s.
     pub time_constant_s: f64,
@@ -60,7 +60,7 @@ pub fn find(sampled: &Sampled, plateaus: &[Plateau], recording: usize, found: &m
             Ok(Some(step)) => found.steps.push(step),
             Ok(None) => {}
             Err(reason) => {
-                // What has not settled is neither a torque nor the end of a step.
+                // An unsettled plateau gives no torque and ends no step.
                 kept.get_mut(index + 1).into_iter().for_each(|k| *k = false);
                 found.left_out.push(format!("{}: {reason}", sampled.name));
             }
@@ -78,7 +78,8 @@ pub fn find(sampled: &Sampled, plateaus: &[Plateau], recording: usize, found: &m
     }
 }
 
-/// The plateau's torque over its last part; `None` where the speed is not constant or there is none.
+/// The settled torque of a plateau, from its last part; `None` if the speed is not constant or
+/// there is none.
 fn settled<'a>(sampled: &Sampled, plateau: &'a Plateau) -> Option<Settled<'a>> {
     let samples = &plateau.samples;
     let count = samples.len();
@@ -104,7 +105,7 @@ fn resistance(part: &Part<'_>, omega_rad_s: f64) -> Vec<f64> {
     part.torque_nm.iter().map(|torque| torque * sense).collect()
 }
 
-/// The step between two plateaus, if there is one that can be read; the reason if there is one that cannot.
+/// The step between two plateaus, if there is one; the reason if it cannot be read.
 fn step(
     sampled: &Sampled,
     before: &Settled<'_>,

@@ -1,4 +1,5 @@
-//! This file is the regimes of one motion: sense and size of speed, time since a reversal, position, time.
+//! This file divides one motion into regimes: direction and size of speed, time since a reversal,
+//! position, time.
 
 use super::{Cell, Regimes};
 use crate::cause::Place;
@@ -6,7 +7,8 @@ use crate::rules::REVERSAL_S;
 use crate::weak::Windows;
 use rigproof_model::effects::Instant;
 
-/// Regimes of a motion; every window in motion counts, the ambiguous ones too. `low` is the lowest position and `travel` the range of them.
+/// The regimes of a motion. All windows in motion count, including those with unknown direction.
+/// `low` is the lowest position and `travel` the range.
 pub fn along(
     output: &'static str,
     motion: &[Instant],
@@ -20,7 +22,8 @@ pub fn along(
     }
 }
 
-/// Windows whose centre is in motion: at rest a resistance is anything up to its level and says nothing.
+/// Windows whose centre is in motion. At rest a friction takes any value up to its level and shows
+/// nothing.
 fn moving(motion: &[Instant], windows: &Windows) -> Vec<bool> {
     let centres = windows.centres.iter();
     centres
@@ -85,7 +88,7 @@ fn cells(motion: &[Instant], windows: &Windows, [low, travel]: [f64; 2]) -> Vec<
     ]
 }
 
-/// Time from each window's centre to the nearest change of sense, s.
+/// Time from each window's centre to the nearest reversal, s.
 fn since_reversal_s(motion: &[Instant], windows: &Windows) -> Vec<f64> {
     let mut sense = 0.0;
     let mut reversals: Vec<f64> = Vec::new();
@@ -97,7 +100,7 @@ fn since_reversal_s(motion: &[Instant], windows: &Windows) -> Vec<f64> {
             sense = now.sense;
         }
     }
-    // Both are in the order of time, so that one pass finds the reversals on either side of each window.
+    // Reversals and windows are sorted by time, so one pass suffices.
     let mut past = f64::NEG_INFINITY;
     let mut coming = reversals.into_iter().peekable();
     let times = windows.times_s().into_iter();

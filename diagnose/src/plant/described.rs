@@ -1,4 +1,5 @@
-//! This file is a plant by its description: what it needs recorded, how that becomes a run, and what only this plant can show.
+//! This file is a plant by its description: what it needs recorded, how a recording becomes a run,
+//! and what only this plant can show.
 
 use super::{Replayed, Run, Simulated, Unsimulated};
 use crate::align::Fault;
@@ -20,17 +21,18 @@ use rigproof_trace::{Trace, TraceError};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// What a fault is of: a recording, or the description itself.
+/// What is at fault: a recording, or the description.
 pub type At = &'static str;
 
-/// A recording before noise and counts, and the noise of positions and of efforts where it states none.
+/// A simulated recording before noise and quantisation, with the noise to add where its signals
+/// state none.
 #[derive(Clone, Debug)]
 pub struct Replica<R> {
     /// The recording.
     pub recording: R,
     /// Standard deviation of a position and of an effort, in the recording's units.
     pub noise: [f64; 2],
-    /// How it was made, in words.
+    /// A sentence on how it was simulated.
     pub how: &'static str,
 }
 
@@ -44,18 +46,19 @@ pub trait Plant: Clone + Debug + Send + Sync + Sized {
     /// The plant's name in reports.
     fn plant_name(&self) -> &'static str;
 
-    // Becoming a run.
+    // From a recording to a run.
 
-    /// Aligns a recording; `before_s` of other recordings come before it on the clock of onsets.
+    /// Aligns a recording. `before_s` is the length of the recordings before it on the clock of the
+    /// onsets.
     ///
     /// # Errors
     /// The fault that makes any conclusion meaningless.
     fn aligned(&self, recording: &Self::Recording, before_s: f64) -> Result<Self::Run, Fault>;
 
-    /// Runs one after another, so that one set of numbers explains them all.
+    /// Joins runs into one, so that one set of parameters is fitted to all of them.
     ///
     /// # Errors
-    /// The place of the one that does not fit the others, and why.
+    /// The index of the run that does not fit the others, and why.
     fn joined(runs: Vec<Self::Run>) -> Result<Self::Run, (usize, Fault)> {
         let mut runs = runs.into_iter();
         match (runs.next(), runs.next()) {
@@ -75,8 +78,8 @@ pub trait Plant: Clone + Debug + Send + Sync + Sized {
     /// The samples `from..to` of a run.
     fn part(run: &Self::Run, from: usize, to: usize) -> Self::Run;
 
-    /// What is fitted of a run that is cut at a sample, what shows the result, and where in it the held-out part begins, s.
-    /// `before` samples of other recordings come before it.
+    /// Cuts a run at a sample: the fitted run, the run that shows the result, and the time at which
+    /// its held-out part begins, s. `before` is the number of samples of earlier recordings.
     fn parted(run: Self::Run, cut: usize, before: usize) -> (Self::Run, Self::Run, f64) {
         let _ = before;
         let samples = run.clock().samples;
@@ -87,12 +90,12 @@ pub trait Plant: Clone + Debug + Send + Sync + Sized {
         )
     }
 
-    /// What the nominal model has beside what the run knows.
+    /// The effects of the nominal model that the run does not include in its known part.
     fn nominal(&self) -> Vec<Effect> {
         Vec::new()
     }
 
-    /// Checks what can be checked before anything is fitted.
+    /// Checks before anything is fitted.
     ///
     /// # Errors
     /// What is at fault, and why.
@@ -101,19 +104,19 @@ pub trait Plant: Clone + Debug + Send + Sync + Sized {
         Ok(())
     }
 
-    /// Checks what only the search tells.
+    /// Checks after the search.
     ///
     /// # Errors
-    /// Why the recording is no recording of this plant.
+    /// Why the recording does not belong to this plant.
     fn check_found(&self, problem: &Problem, selection: &Selection) -> Result<(), Fault> {
         let _ = (problem, selection);
         Ok(())
     }
 
-    /// Checks the plant's own numbers.
+    /// Checks the fitted parameters of the plant.
     ///
     /// # Errors
-    /// Why they are those of no plant.
+    /// Why no plant has these parameters.
     fn check_numbers(
         &self,
         run: &Self::Run,
@@ -124,13 +127,13 @@ pub trait Plant: Clone + Debug + Send + Sync + Sized {
         Ok(())
     }
 
-    /// A name whose number nothing has, and which is therefore none.
+    /// A named cause with a parameter that no plant has, which is therefore not named.
     fn beyond_reason(&self, problem: &Problem, selection: &Selection) -> Option<Cause> {
         let _ = (problem, selection);
         None
     }
 
-    /// Why an effect of the description has no meaning here; `None` where it is passed over.
+    /// Why an effect of the description has no meaning here; `None` if it is ignored.
     fn meaningless(&self, problem: &Problem, effect: &Effect) -> Option<Fault> {
         Some(Fault {
             channel: "effect",
@@ -143,27 +146,29 @@ pub trait Plant: Clone + Debug + Send + Sync + Sized {
         })
     }
 
-    // Showing.
+    // From a selection to a result.
 
-    /// The description with the numbers of a selection; found effects follow the nominal ones.
+    /// The description with the parameters of a selection. Found effects follow the nominal ones.
     fn calibrated(stand: &Stand<'_, Self>, intervals: &Intervals) -> Self {
         let _ = intervals;
         stand.plant.clone()
     }
 
-    /// The effects that a selection found, with the numbers of this calibration.
+    /// The effects that a selection found, with their parameters.
     fn found(&self, stand: &Stand<'_, Self>, intervals: &Intervals) -> Vec<RigEffect> {
         let Selection { nominal, found, .. } = stand.selection;
         let effects = fitted(stand.problem, stand.selection, intervals).into_iter();
         effects.skip(nominal.len()).take(found.len()).collect()
     }
 
-    /// What the fit comes to, on what was fitted and what was not: of the balance of efforts, unless the plant has better.
+    /// The errors before and after, on the fitted and the held-out part: of the balance of efforts,
+    /// unless the plant has free runs.
     fn shown(stand: &Stand<'_, Self>, intervals: &Intervals) -> Shown<Self> {
         balance::shown(stand, intervals)
     }
 
-    /// Errors of free runs with the nominal effects of a calibration and with all of them, and how they were made, in words.
+    /// The errors of free runs with the nominal and with all effects of a calibration, and the
+    /// protocol.
     fn free_runs(stand: &Stand<'_, Self>, calibration: &Self) -> (Vec<Horizon>, String) {
         let _ = (stand, calibration);
         (
@@ -172,13 +177,13 @@ pub trait Plant: Clone + Debug + Send + Sync + Sized {
         )
     }
 
-    /// How the naming was measured, line by line.
+    /// The protocol of the naming, line by line.
     fn protocol(stand: &Stand<'_, Self>, fit: Option<&FitReport>) -> Vec<String> {
         let _ = stand;
         fit.iter().map(|fit| fit.protocol.clone()).collect()
     }
 
-    /// The nominal model's own unknowns after the fit.
+    /// The parameters of the nominal model after the fit.
     fn nominal_numbers(&self, calibration: &Self) -> BTreeMap<String, Number> {
         let _ = calibration;
         BTreeMap::new()
@@ -190,13 +195,13 @@ pub trait Plant: Clone + Debug + Send + Sync + Sized {
         None
     }
 
-    /// What joints at rest tell.
+    /// What joints at rest bound.
     fn held(stand: &Stand<'_, Self>) -> Option<HeldReport> {
         let _ = stand;
         None
     }
 
-    /// The experiment that would tell rival explanations apart, and its file.
+    /// The experiment that would separate rival explanations, and its file.
     fn next_experiment(
         stand: &Stand<'_, Self>,
         rivals: &[Vec<Cause>],
@@ -206,54 +211,55 @@ pub trait Plant: Clone + Debug + Send + Sync + Sized {
     }
 }
 
-/// What a fit comes to.
+/// The result of a fit.
 pub struct Shown<P> {
-    /// The description with the numbers.
+    /// The description with the fitted parameters.
     pub calibration: P,
-    /// Before and after; `None` where it was not asked for.
+    /// Errors before and after; `None` if not requested.
     pub fit: Option<FitReport>,
     /// Curves for the pictures.
     pub curves: Curves,
 }
 
-/// A plant whose description and recordings are files: what the registry and the program need.
+/// A plant whose description and recordings are files, as the registry and the program need it.
 pub trait Described: Plant + PartialEq {
-    /// Whether a text describes such a plant; `origin` is the file that messages name.
+    /// Whether a text describes such a plant. `origin` is the file named in error messages.
     ///
     /// # Errors
-    /// It is no description of any plant.
+    /// The text is no description of any plant.
     fn describes(text: &str, origin: &Path) -> Result<bool, TraceError>;
 
-    /// Reads a description; `origin` is the file that messages name.
+    /// Reads a description. `origin` is the file named in error messages.
     ///
     /// # Errors
     /// The text does not describe such a plant.
     fn read(text: &str, origin: &Path) -> Result<Self, TraceError>;
 
-    /// What people call it.
+    /// The rig's name as its description gives it.
     fn rig_name(&self) -> &str;
 
-    /// As TOML.
+    /// The description as TOML.
     fn written(&self) -> String;
 
-    /// It in formats of other programs: names of files and their texts.
+    /// The description in formats of other programs, as file names and texts.
     fn beside(&self) -> Vec<(&'static str, String)> {
         Vec::new()
     }
 
-    /// Turns a recording into SI quantities; `origin` is the file that messages name.
+    /// Converts a recording to SI units. `origin` is the file named in error messages.
     ///
     /// # Errors
-    /// A channel is missing, or its unit does not convert.
+    /// A channel is missing, or its unit cannot be converted.
     fn measured(&self, trace: &Trace, origin: &Path) -> Result<Self::Recording, TraceError>;
 
-    /// The description with the units that some columns are said to be in, whatever their headers say.
+    /// The description with the given units for some columns, overriding what their headers say.
     ///
     /// # Errors
-    /// Names a channel that the rig does not have, and those it has.
+    /// The rig has no such channel; the message lists those that it has.
     fn in_units(&self, units: &[(String, String)]) -> Result<Self, String>;
 
-    /// Reads a text recording whose dialect is partly known, and says in which it was, and what was guessed, passed over or mended.
+    /// Reads a text recording whose dialect is partly known. Returns the recording, the dialect,
+    /// and remarks on what was guessed, skipped or repaired.
     ///
     /// # Errors
     /// The file cannot be read, or as [`Described::measured`].
@@ -263,7 +269,7 @@ pub trait Described: Plant + PartialEq {
         hints: &Hints,
     ) -> Result<(Self::Recording, Dialect, Vec<String>), TraceError>;
 
-    /// Reads an MCAP recording, and says how it was read.
+    /// Reads an MCAP recording, with remarks on how it was read.
     ///
     /// # Errors
     /// The file cannot be read, or as [`Described::measured`].
@@ -272,10 +278,11 @@ pub trait Described: Plant + PartialEq {
     /// The time stamps of a recording, s.
     fn times_s(recording: &Self::Recording) -> &[f64];
 
-    /// A recording of which only some samples count.
+    /// The recording reduced to the samples that are `true` in `kept`.
     fn only(recording: &Self::Recording, kept: &[bool]) -> Self::Recording;
 
-    /// What a plant with the numbers of `model` would have recorded; this one describes the recording.
+    /// Simulates the recording that a plant with the parameters of `model` would have made. This
+    /// description describes the recording.
     ///
     /// # Errors
     /// Why it cannot be simulated.
@@ -288,17 +295,19 @@ pub trait Described: Plant + PartialEq {
         Err("nothing simulates this plant".to_owned())
     }
 
-    /// A recording with fresh noise, of the size that it states or of an estimate of positions and efforts, in counts.
+    /// The recording with fresh sensor noise, quantised. `noise` is used where a signal states
+    /// none.
     fn sensed(
         recording: &Self::Recording,
         noise: [f64; 2],
         random: &mut Pcg64Mcg,
     ) -> Self::Recording;
 
-    /// A model beside a recording that this description describes; where it runs freely it starts from the recorded state every `restart_s`.
+    /// Simulates a model beside a recording of this plant. A free run restarts from the recorded
+    /// state every `restart_s`.
     ///
     /// # Errors
-    /// The recording is at fault, or the model cannot be simulated.
+    /// The recording is faulty, or the model cannot be simulated.
     fn simulated(
         &self,
         model: &Self,
@@ -311,19 +320,20 @@ pub trait Described: Plant + PartialEq {
         ))
     }
 
-    /// Why a calibration is none of this rig; `None` if it is one. It may be of another plant altogether: `None`.
+    /// Why a calibration does not belong to this rig; `None` if it does. The argument is `None` for
+    /// a calibration of another plant.
     fn refuses(&self, calibration: Option<&Self>) -> Option<String> {
         calibration.is_none().then(|| {
             "the calibration is of another plant; give the calibration of this rig".to_owned()
         })
     }
 
-    /// The end of a recording beside free runs of this description and another one.
+    /// The end of a recording beside free runs of this description and of `after`.
     fn replay(&self, after: &Self, recording: &Self::Recording) -> Option<Replayed> {
         let _ = (after, recording);
         None
     }
 
-    /// A calibration without what was found: this one is nominal.
+    /// A calibration of this nominal description, without the effects that were found.
     fn without_found(&self, calibration: &Self) -> Self;
 }

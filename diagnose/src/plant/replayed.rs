@@ -1,11 +1,12 @@
-//! This file is what a replay shows: the places of a linkage's joints over time, as recorded and as two models move them.
+//! This file is the content of a replay: the joint positions of a linkage over time, as recorded
+//! and as two models simulate them.
 
-/// How long the models run freely before they start from the recorded state again, s.
+/// Time after which a free run restarts from the recorded state, s.
 pub const RESTART_S: f64 = 1.0;
-/// Points E, D (the tip) and C, x and y of each, m; nothing where there is no pose.
+/// Points E, D (the tip) and C, x and y of each, m; `None` without a pose.
 pub type Frame = Option<[f64; 6]>;
 
-/// Frames of a recording and of two models beside it.
+/// The frames of a recording and of two models beside it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Replayed {
     /// Times of the frames, s.
@@ -16,8 +17,8 @@ pub struct Replayed {
     pub point_b_m: [f64; 2],
     /// As recorded.
     pub recorded: Vec<Frame>,
-    /// As the first model moves it.
+    /// As the first model simulates it.
     pub before: Vec<Frame>,
-    /// As the second model moves it.
+    /// As the second model simulates it.
     pub after: Vec<Frame>,
 }

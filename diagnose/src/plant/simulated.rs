@@ -1,4 +1,4 @@
-//! This file is a model beside a recording: what both say of each output.
+//! This file is a simulation of a model beside a recording, output by output.
 
 use crate::align::Fault;
 
@@ -9,7 +9,8 @@ pub struct Simulated {
     pub time_s: Vec<f64>,
     /// The outputs that are compared.
     pub outputs: Vec<SimulatedOutput>,
-    /// How many free runs there were and how many of them broke off; `None` for one run of the whole.
+    /// The number of free runs, and the number of those that broke off; `None` for one run of the
+    /// whole recording.
     pub runs: Option<[usize; 2]>,
 }
 
@@ -20,7 +21,7 @@ pub struct SimulatedOutput {
     pub name: &'static str,
     /// Its unit.
     pub unit: String,
-    /// As recorded; `None` for a distance from what was recorded.
+    /// The recorded output; `None` if the output is a distance from the recording.
     pub recorded: Option<Vec<f64>>,
     /// As simulated.
     pub simulated: Vec<f64>,
@@ -29,7 +30,7 @@ pub struct SimulatedOutput {
 }
 
 impl SimulatedOutput {
-    /// The recorded output where it counts, not a number elsewhere; 0 for a distance.
+    /// The recorded output, NaN where it does not count; 0 for a distance.
     pub fn counted(&self) -> Vec<f64> {
         let counts = self.counts.iter().enumerate();
         let recorded = |k: usize| match &self.recorded {
@@ -42,11 +43,11 @@ impl SimulatedOutput {
     }
 }
 
-/// Why a model cannot be set beside a recording.
+/// Why a model cannot be simulated beside a recording.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Unsimulated {
-    /// The recording is at fault.
+    /// The recording is faulty.
     Recording(Fault),
-    /// The model cannot be simulated: why.
+    /// The model cannot be simulated, and why.
     Model(String),
 }

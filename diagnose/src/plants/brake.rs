@@ -1,4 +1,5 @@
-//! This file is what a brake may do with its current other than the nominal model says, as changes of its yield torque along a recorded motion.
+//! This file computes how a brake's yield torque along a recorded motion changes when its brake law
+//! differs from the nominal one.
 
 use crate::problem::less;
 use crate::signals::{shifted, through_play};
@@ -10,13 +11,13 @@ use rigproof_spec::units::RAD_PER_DEG;
 /// A brake along a recorded motion under its recorded current.
 #[derive(Clone, Copy)]
 pub struct Braked<'a> {
-    /// Its numbers.
     pub table: BrakeTable,
     /// The motion of its joint.
     pub motion: &'a [Instant],
     /// The current of each sample, A.
     pub current: &'a [f64],
-    /// Whether the current holds its value to the next sample; else it goes straight.
+    /// Whether the current holds its value until the next sample. Otherwise it is interpolated
+    /// linearly.
     pub held: bool,
     /// Sample interval, s.
     pub step_s: f64,
@@ -29,7 +30,7 @@ impl Braked<'_> {
         self.yields_of(Brake::of(self.table, start))
     }
 
-    /// The yield torque of a brake in its place, N·m.
+    /// The yield torque of each sample for a given initial state of the brake, N·m.
     pub fn yields_of(&self, mut brake: Brake) -> Vec<f64> {
         let mut own = vec![brake.yield_torque()];
         let currents = self.current.iter().zip(self.current.iter().skip(1));
@@ -44,7 +45,9 @@ impl Braked<'_> {
         own
     }
 
-    /// What a cause adds to its yield torque `own`, sample by sample: for a coefficient of 1 where it has one, else all of it. N·m.
+    /// The change that a mechanism makes to the yield torque `own`, N·m.
+    ///
+    /// For a mechanism with a linear coefficient it is the change per unit of that coefficient.
     pub fn change(&self, own: &[f64], kind: OfBrake, shape: &[f64]) -> Option<Vec<f64>> {
         let value = *shape.first()?;
         let given = |current: &[f64]| less(&Braked { current, ..*self }.yields(), own);
@@ -76,7 +79,7 @@ impl Braked<'_> {
         })
     }
 
-    /// What a yield torque loses for a unit of loss by heat, which goes away with a time constant, s.
+    /// The yield torque lost per unit of fade. The heat decays with the time constant `time_s`.
     fn faded(&self, own: &[f64], time_s: f64) -> Vec<f64> {
         let mut heat_j = 0.0;
         let pairs = own.iter().zip(self.motion);

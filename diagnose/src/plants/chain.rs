@@ -1,4 +1,5 @@
-//! This room is the serial arm: its recordings, its equations in the momenta of the joints, and what can be left out of its description.
+//! This room is the serial arm: its recordings, the momentum equations of its joints, and the
+//! physics that its description may lack.
 
 mod align;
 mod beside;

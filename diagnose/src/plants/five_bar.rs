@@ -1,4 +1,5 @@
-//! This room is the five-bar with three or four brakes in the diagnosis: its recording, its noise, its columns.
+//! This room is the five-bar with three or four brakes: its recordings, its noise model, its
+//! regression columns and its free runs.
 
 pub mod calibrated;
 pub mod candidates;

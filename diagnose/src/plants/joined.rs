@@ -1,22 +1,24 @@
-//! This file puts several recordings of one rig one after another, so that one set of numbers explains them all.
+//! This file joins several recordings of one rig into one run, so that one set of parameters is
+//! fitted to all of them.
 
 use crate::align::Fault;
 use crate::plant::Run;
 use crate::rules::SAME_STEP;
 
-/// A run that others of the same rig can follow.
+/// A run to which further recordings of the same rig can be appended.
 pub(crate) trait Joins: Run + Clone {
-    /// Takes the samples of another run after its own. The sample before the seam counts as not recorded: no window lies across it.
+    /// Appends the samples of another run. The sample before the seam is marked as not recorded, so
+    /// that no window spans the seam.
     fn append(&mut self, run: &Self);
 
-    /// Keeps the recordings that it was joined from, in which every memory begins anew.
+    /// Keeps the separate recordings. The memory of every law starts anew in each.
     fn keep_parts(&mut self, parts: Vec<Self>);
 }
 
-/// One run of several recordings in their order, its clock going on from each to the next.
+/// Joins recordings in their order into one run with a continuous clock.
 ///
 /// # Errors
-/// A recording of another sample interval than the first one's: its place, and what is wrong.
+/// A recording has another sample interval than the first: its position, and the fault.
 pub(crate) fn joined<R: Joins>(runs: Vec<R>) -> Result<R, (usize, Fault)> {
     let mut own = runs.iter();
     let Some(mut whole) = own.next().cloned() else {

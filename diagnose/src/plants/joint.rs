@@ -1,4 +1,4 @@
-//! This room is a plant of one joint: an axis that is driven, or a bench at which a brake or damper is turned.
+//! This room is a plant of one joint: a driven axis, or a bench that turns a brake or damper.
 
 mod agreement;
 pub mod align;

@@ -1,4 +1,5 @@
-//! This file is the registry of plants, a line each, and what is diagnosed whichever plant it is: a rig's description and a recording of it.
+//! This file is the registry of plants, one line each, and the operations that work on a
+//! description and a recording of any plant.
 
 use crate::diagnose::{Diagnosis, Options, diagnose};
 use crate::plant::{Described, Plant, Replayed, Simulated, Unsimulated};
@@ -10,7 +11,7 @@ use rigproof_trace::rig::five_bar::FiveBar;
 use rigproof_trace::{Trace, TraceError, store};
 use std::path::Path;
 
-/// A recording of a plant before noise and counts, whichever plant it is.
+/// A simulated recording of any plant, before sensor noise and quantisation.
 pub type Replica = crate::plant::Replica<Measured>;
 
 macro_rules! plants {
@@ -37,17 +38,17 @@ macro_rules! plants {
                 }
             }
 
-            /// What people call the rig.
+            /// The rig's name as its description gives it.
             pub fn name(&self) -> &str {
                 match self {
                     $(Description::$name(own) => own.rig_name(),)+
                 }
             }
 
-            /// Reads a description of any plant; `origin` is the file that messages name.
+            /// Reads a description of any plant. `origin` is the file named in error messages.
             ///
             /// # Errors
-            /// It describes none of them.
+            /// The text describes none of the plants, or is malformed.
             pub fn parse(text: &str, origin: &Path) -> Result<Description, TraceError> {
                 $(if <$plant>::describes(text, origin)? {
                     return <$plant as Described>::read(text, origin).map(Description::$name);
@@ -55,27 +56,30 @@ macro_rules! plants {
                 Rig::parse(text, origin).map(Description::Joint)
             }
 
-            /// Turns a recording into SI quantities; `origin` is the file that messages name.
+            /// Converts a recording to SI units. `origin` is the file named in error messages.
             ///
             /// # Errors
-            /// A channel of the rig is missing, or its unit in the header does not convert to the rig's.
+            /// A channel of the rig is missing, or the unit in its header cannot be converted to
+            /// the rig's.
             pub fn apply(&self, trace: &Trace, origin: &Path) -> Result<Measured, TraceError> {
                 match self {
                     $(Description::$name(own) => own.measured(trace, origin).map(Measured::$name),)+
                 }
             }
 
-            /// The description with the units that some columns are said to be in, whatever their headers say.
+            /// The description with the given units for some columns, overriding what their headers
+            /// say.
             ///
             /// # Errors
-            /// Names a channel that the rig does not have, and those it has.
+            /// The rig has no such channel; the message lists those that it has.
             pub fn with_column_units(&self, units: &[(String, String)]) -> Result<Description, String> {
                 match self {
                     $(Description::$name(own) => own.in_units(units).map(Description::$name),)+
                 }
             }
 
-            /// Reads a text recording whose dialect is partly known, and says in which it was, and what was guessed, passed over or mended.
+            /// Reads a text recording whose dialect is partly known. Returns the recording, the
+            /// dialect, and remarks on what was guessed, skipped or repaired.
             ///
             /// # Errors
             /// The file cannot be read, or as [`Description::apply`].
@@ -88,7 +92,7 @@ macro_rules! plants {
                 }
             }
 
-            /// Reads an MCAP recording, and says how it was read.
+            /// Reads an MCAP recording, with remarks on how it was read.
             ///
             /// # Errors
             /// The file cannot be read, or as [`Description::apply`].
@@ -100,7 +104,10 @@ macro_rules! plants {
                 }
             }
 
-            /// Diagnoses recordings of this rig together; `held_out` is another one. `None` where one is of another plant.
+            /// Diagnoses several recordings of this rig together. The numbers are checked on
+            /// `held_out`, another recording, if there is one.
+            ///
+            /// `None` if a recording belongs to another plant.
             pub fn diagnose(
                 &self,
                 recordings: &[Measured],
@@ -123,7 +130,7 @@ macro_rules! plants {
                 }
             }
 
-            /// What a rig with the numbers of `model` would have recorded.
+            /// Simulates the recording that a rig with the numbers of `model` would have made.
             ///
             /// # Errors
             /// Why it cannot be simulated.
@@ -141,10 +148,11 @@ macro_rules! plants {
                 }
             }
 
-            /// A model beside a recording; where it runs freely it starts from the recorded state every `restart_s`.
+            /// Simulates a model beside a recording. A free run restarts from the recorded state
+            /// every `restart_s`.
             ///
             /// # Errors
-            /// The recording is at fault, or the model cannot be simulated.
+            /// The recording is faulty, or the model cannot be simulated.
             pub fn simulated(
                 &self,
                 model: &Description,
@@ -159,7 +167,7 @@ macro_rules! plants {
                 }
             }
 
-            /// Why a calibration is none of this rig; `None` if it is one.
+            /// Why a calibration does not belong to this rig; `None` if it does.
             pub fn refuses(&self, calibration: &Description) -> Option<String> {
                 match (self, calibration) {
                     $((Description::$name(own), Description::$name(calibration)) => own.refuses(Some(calibration)),)+
@@ -167,7 +175,8 @@ macro_rules! plants {
                 }
             }
 
-            /// The end of a recording beside free runs of this description and another one; `None` where the plant has no such picture.
+            /// The end of a recording beside free runs of this description and of `after`; `None`
+            /// if the plant has no such picture.
             pub fn replay(&self, after: &Description, recording: &Measured) -> Option<Replayed> {
                 match (self, after, recording) {
                     $((Description::$name(own), Description::$name(after), Measured::$name(recording)) => {
@@ -177,7 +186,7 @@ macro_rules! plants {
                 }
             }
 
-            /// A calibration without what was found: this one is nominal.
+            /// A calibration of this nominal description, without the effects that were found.
             pub fn without_found(&self, calibration: &Description) -> Description {
                 match (self, calibration) {
                     $((Description::$name(own), Description::$name(calibration)) => {
@@ -187,14 +196,14 @@ macro_rules! plants {
                 }
             }
 
-            /// It in formats of other programs: names of files and their texts.
+            /// The description in formats of other programs, as file names and texts.
             pub fn beside(&self) -> Vec<(&'static str, String)> {
                 match self {
                     $(Description::$name(own) => own.beside(),)+
                 }
             }
 
-            /// As TOML.
+            /// The description as TOML.
             pub fn to_toml(&self) -> String {
                 match self {
                     $(Description::$name(own) => own.written(),)+
@@ -210,14 +219,14 @@ macro_rules! plants {
                 }
             }
 
-            /// The samples that are kept.
+            /// The recording reduced to the samples that are `true` in `kept`.
             pub fn only(&self, kept: &[bool]) -> Measured {
                 match self {
                     $(Measured::$name(own) => Measured::$name(<$plant>::only(own, kept)),)+
                 }
             }
 
-            /// The recording with fresh noise, in counts.
+            /// The recording with fresh sensor noise, quantised.
             pub(crate) fn sensed(&self, noise: [f64; 2], random: &mut Pcg64Mcg) -> Measured {
                 match self {
                     $(Measured::$name(own) => Measured::$name(<$plant>::sensed(own, noise, random)),)+
@@ -227,7 +236,7 @@ macro_rules! plants {
     };
 }
 
-// The first that a text describes takes it.
+// The first plant whose format the text has reads it.
 plants! {
     #[doc = "The five-bar."] FiveBar(FiveBar),
     #[doc = "A serial arm."] Chain(ChainRig),

@@ -1,4 +1,5 @@
-//! This file claims that the weak form holds on exact motion, and what is done to signals.
+//! This file claims that the weak form holds on exact motion, and tests the transformations of
+//! signals.
 
 use super::*;
 use rigproof_spec::effect::Mechanism;
@@ -9,7 +10,7 @@ use crate::plants::joint::run::JointRun;
 use crate::regression::reduced_target;
 use crate::signals::{numerov, second_difference, shifted};
 
-/// The residual of the usable windows when the nominal model knows everything, over the effort.
+/// The residual of the usable windows relative to the effort, when the nominal model is complete.
 fn relative_residual(run: &JointRun) -> f64 {
     let mut laws = NOMINAL.to_vec();
     laws.push((Mechanism::DryOffset, &[1.73]));
@@ -27,7 +28,8 @@ fn relative_residual(run: &JointRun) -> f64 {
         .collect();
     assert_eq!(terms.len(), 3);
     let residual = reduced_target(&problem, &terms.iter().collect::<Vec<_>>()).raw;
-    // The exact motion knows its sense everywhere: windows that hold a reversal are left out here.
+    // The exact motion has a known direction everywhere. Windows that hold a reversal are left out
+    // here.
     let senses: Vec<f64> = run.motion.iter().map(|now| now.sense).collect();
     let half = problem.windows.bump.len() / 2 + 2;
     let away: Vec<f64> = residual
@@ -48,7 +50,8 @@ fn relative_residual(run: &JointRun) -> f64 {
 fn the_weak_form_holds_on_exact_motion_and_only_with_the_right_drive() {
     let mut laws = NOMINAL.to_vec();
     laws.push((Mechanism::DryOffset, &[1.73]));
-    // Under a held drive the acceleration jumps at every sample, which costs Numerov's weights an order.
+    // Under a held drive the acceleration jumps at every sample, which costs Numerov's weights an
+    // order.
     for (held, most) in [(true, 1e-5), (false, 1e-6)] {
         let mut run = exact_axis(&laws, 5300, held);
         let right = relative_residual(&run);

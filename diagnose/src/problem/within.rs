@@ -1,4 +1,5 @@
-//! This file tells a problem within the trials of a brake: what a gain for every trial could do is taken out of every row.
+//! This file restricts a problem to what happens within the trials of a brake: a gain for every
+//! trial is projected out of every row.
 
 use super::Problem;
 use crate::scatter::Trials;
@@ -16,7 +17,7 @@ impl Problem<'_> {
         self
     }
 
-    /// Whether gains of trials are taken out.
+    /// Whether the gains of trials are projected out.
     pub fn is_within_trials(&self) -> bool {
         self.trials.is_some()
     }

@@ -1,25 +1,27 @@
-//! This file is whether the held-out part agrees with what windows and noise predict for it.
+//! This file compares the held-out error with the error that noise, residual and parameter
+//! intervals predict.
 
 use crate::filter::rms;
 use serde::Serialize;
 
-/// The held-out error with the named mechanisms against the one that noise and the intervals of the numbers allow.
+/// The held-out error with the named mechanisms, beside the predicted one.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Agreement {
-    /// Whether the error is no greater than allowed.
+    /// Whether the error is within the limit.
     pub agrees: bool,
     /// Root mean square of the held-out error, in the fit's unit.
     pub error: f64,
-    /// What the noise of the sensors, what the windows leave over, and the intervals of the numbers allow of it.
+    /// The limit that follows from sensor noise, the residual of the windows, and the parameter
+    /// intervals.
     pub allowed: f64,
-    /// From when on the error is another one than before, s; nothing where it agrees.
+    /// The time from which the error is larger than before, s; `None` if it agrees.
     pub departs_s: Option<f64>,
-    /// When it is greatest, s.
+    /// The time of the greatest error, s.
     pub greatest_s: f64,
 }
 
 impl Agreement {
-    /// The error of samples, each with its time, s, against what is allowed of their root mean square.
+    /// Compares errors, each with its time in s, with the limit of their root mean square.
     pub(crate) fn of(errors: &[(f64, f64)], allowed: f64) -> Agreement {
         let values: Vec<f64> = errors.iter().map(|(error, _)| *error).collect();
         let error = rms(&values);
@@ -37,22 +39,22 @@ impl Agreement {
         }
     }
 
-    /// What disagrees and where, in words; `None` where nothing does.
+    /// A sentence on the disagreement; `None` if it agrees.
     pub fn said(&self, unit: &str) -> Option<String> {
         (!self.agrees).then(|| {
             let from = self.departs_s.map_or(String::new(), |departs_s| {
-                format!(", it departs at {departs_s:.3} s")
+                format!("; it grows from {departs_s:.3} s on")
             });
             format!(
-                "the held-out part does not agree: its error is {:.3e} {unit} where noise and the intervals of the numbers allow {:.3e} {unit}{from} and is greatest at {:.3} s",
+                "the held-out part does not agree: its error is {:.3e} {unit}, while noise and the intervals of the parameters allow {:.3e} {unit}{from}; it is greatest at {:.3} s",
                 self.error, self.allowed, self.greatest_s
             )
         })
     }
 }
 
-/// The time that divides the errors best into two stretches of one variance each (likelihood ratio of a change in variance), what is allowed counting as
-/// the least variance.
+/// The most likely time of a change in variance (likelihood ratio of two stretches with one
+/// variance each). The limit is the least variance of either.
 fn departure(errors: &[(f64, f64)], allowed: f64) -> Option<f64> {
     let whole: f64 = errors.iter().map(|(error, _)| error * error).sum();
     let cost = |squares: f64, count: usize| {

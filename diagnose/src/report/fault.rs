@@ -1,4 +1,4 @@
-//! This file is what is wrong with a recording, as the report says it.
+//! This file is a fault of a recording, as the report states it.
 
 use serde::Serialize;
 

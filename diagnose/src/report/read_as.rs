@@ -1,4 +1,4 @@
-//! This file is how a text recording was read, in the fields that `report.json` has.
+//! This file is how a text recording was read, with the fields of `report.json`.
 
 use rigproof_trace::csv::Dialect;
 use serde::Serialize;

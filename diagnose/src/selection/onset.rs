@@ -1,4 +1,6 @@
-//! This file says between which times an onset may lie, and puts it into the middle of them: where a joint rests or turns back nobody sees when something begins.
+//! This file gives an onset its 95 % interval, and places it in the middle of that interval.
+//!
+//! While a joint rests or reverses, no recording shows when an effect begins.
 
 use super::weigh::{acting, loss_with, own_coefficients};
 use super::{Selection, refs};
@@ -7,8 +9,10 @@ use crate::problem::{Problem, Term, less};
 use crate::regression::{Blocks, dot, fit};
 use crate::rules::{ALIKE, FIRST_STEP_S, LOOKED_AT, NEAR_S, ONSET_INTERVAL_HALVINGS, ONSET_MARGIN};
 
-/// The 95 % interval of a found mechanism's onset, s. Where other numbers imitate a later onset, what is alike is so many times more (`imitated`, from 1 on). `None` where it begins with the
-/// recording.
+/// The 95 % interval of a found mechanism's onset, s; `None` if it acts from the start.
+///
+/// `imitated` (at least 1) is the factor by which other parameters that imitate a later onset
+/// increase its variance.
 pub(crate) fn onset_interval(
     problem: &Problem,
     selection: &Selection,
@@ -26,7 +30,7 @@ pub(crate) fn onset_interval(
 fn interval(problem: &Problem, common: &[&Term], own: &Term, imitated: f64) -> Option<[f64; 2]> {
     let more = imitated * alike(problem, common, own);
     let [low_s, high_s] = valley(problem, common, own, more)?.span_s;
-    // What begins does so between two samples.
+    // An effect begins between two samples.
     let step_s = problem.run.clock().step_s;
     Some([
         low_s.min(own.onset_s?) - step_s,
@@ -34,7 +38,7 @@ fn interval(problem: &Problem, common: &[&Term], own: &Term, imitated: f64) -> O
     ])
 }
 
-/// How an effect changes as its onset moves by twice [`FIRST_STEP_S`], white.
+/// The whitened change of an effect when its onset moves by twice [`FIRST_STEP_S`].
 pub(crate) fn change_with_onset(
     problem: &Problem,
     term: &Term,
@@ -44,7 +48,7 @@ pub(crate) fn change_with_onset(
     Some(less(&at(FIRST_STEP_S)?, &at(-FIRST_STEP_S)?))
 }
 
-/// A term with its onset in the middle of the times that explain the recording alike.
+/// A term with its onset in the middle of the onsets that explain the recording equally well.
 pub(crate) fn centred(problem: &Problem, common: &[&Term], term: &Term) -> Option<Term> {
     let Valley {
         span_s: [low_s, high_s],
@@ -56,17 +60,19 @@ pub(crate) fn centred(problem: &Problem, common: &[&Term], term: &Term) -> Optio
     Some(if is_alike { centred } else { best })
 }
 
-/// Where an onset may lie.
+/// The possible onsets of a term.
 struct Valley {
-    /// The first and the last time that leaves no more than the limit, s.
+    /// The first and the last onset whose loss is within the limit, s.
     span_s: [f64; 2],
-    /// The term with the onset that leaves least.
+    /// The term with the least loss.
     best: Term,
-    /// What that leaves, and what is alike.
+    /// The greatest loss that counts as equal.
     limit: f64,
 }
 
-/// The times around an onset that leave no more by so much than the best of those that leave no more than it by so much.
+/// The onsets whose loss exceeds the least loss by at most `more`: a likelihood-ratio interval.
+///
+/// The least loss is looked for within a first interval of the same kind about the given onset.
 fn valley(problem: &Problem, common: &[&Term], own: &Term, more: f64) -> Option<Valley> {
     let loss = |term: &Term| loss_with(problem, common, term);
     let [low_s, high_s] = span(problem, common, own, loss(own) + more)?;
@@ -89,8 +95,10 @@ fn valley(problem: &Problem, common: &[&Term], own: &Term, more: f64) -> Option<
     })
 }
 
-/// What an onset may leave more and explain the recording alike, the more so the more is left than noise where the effect acts, or where it would begin: a law
-/// of another family fits one stretch better than another.
+/// How much more loss an onset may have and still count as equal.
+///
+/// It grows with the ratio of residual to noise where the effect acts and where it would begin,
+/// because an approximate law fits some stretches better than others.
 fn alike(problem: &Problem, common: &[&Term], term: &Term) -> f64 {
     let terms = [common, &[term]].concat();
     let with = fit(problem, &terms, &Blocks::new(problem));
@@ -112,7 +120,7 @@ fn at(problem: &Problem, term: &Term, onset_s: f64) -> Option<Term> {
     realise(problem, term.cause, &term.shape, Some(onset_s), &[])
 }
 
-/// How far around a term's onset another one leaves no more than a limit, s.
+/// The interval around a term's onset in which the loss stays within a limit, s.
 fn span(problem: &Problem, common: &[&Term], term: &Term, limit: f64) -> Option<[f64; 2]> {
     let onset_s = term.onset_s?;
     let clock = problem.run.clock();
@@ -128,7 +136,7 @@ fn span(problem: &Problem, common: &[&Term], term: &Term, limit: f64) -> Option<
     Some(ends)
 }
 
-/// How far one may go while it is alike, s.
+/// The distance up to which a condition holds, s.
 fn reach(is_alike: impl Fn(f64) -> bool) -> f64 {
     let (mut inside, mut outside) = (0.0, FIRST_STEP_S);
     while is_alike(outside) {

@@ -1,4 +1,4 @@
-//! This file refines the shape and the onset of a mechanism by a pattern search inside their bounds.
+//! This file refines the shape and the onset of a term by a pattern search inside their bounds.
 
 use super::weigh::{effort_beside, loss_with, own_coefficients};
 use crate::candidates::{modelled_effort, realise, shape_bounds};
@@ -11,7 +11,7 @@ use crate::rules::{
 use rigproof_model::effects::facts;
 use rigproof_model::effects::facts::Shapes;
 
-/// The variant that leaves least over all blocks, and what it leaves.
+/// The variant with the least loss over all blocks, and its loss.
 pub(crate) fn best_variant(
     problem: &Problem,
     common: &[&Term],
@@ -79,7 +79,8 @@ fn taken_again(problem: &Problem, common: &[&Term], start: (f64, Term), blocks: 
     term
 }
 
-/// Every direction of the pattern: each parameter alone both ways, and pairs of shape parameters together.
+/// The directions of the pattern: each parameter alone both ways, and pairs of shape parameters
+/// together.
 fn directions(shape: usize, onset: bool) -> Vec<Vec<f64>> {
     let size = shape + usize::from(onset);
     let unit = |index: usize, sign: f64| {
@@ -100,8 +101,8 @@ fn directions(shape: usize, onset: bool) -> Vec<Vec<f64>> {
     all
 }
 
-/// The term with its shape scaled by `1 + stride` along a direction, and its onset moved by the last component.
-/// `None` outside the bounds.
+/// The term with its shape scaled by `1 + stride` along a direction, and its onset moved by the
+/// last component. `None` outside the bounds.
 fn moved(
     problem: &Problem,
     term: &Term,

@@ -1,4 +1,4 @@
-//! This file weighs one mechanism in a fit: its coefficients, its contribution, its sign.
+//! This file evaluates one term in a fit: its coefficients, its contribution, its loss.
 
 use super::floor_limit;
 use crate::candidates::modelled_effort;
@@ -18,7 +18,7 @@ pub(super) fn own_coefficients<'f>(term: &Term, fitted: &'f Fit) -> &'f [f64] {
     fitted.coefficients.get(first..).unwrap_or_default()
 }
 
-/// What a term contributes, white, row by row.
+/// The whitened contribution of a term, row by row.
 pub(super) fn acting(term: &Term, coefficients: &[f64]) -> Vec<f64> {
     let length = term
         .free
@@ -49,14 +49,15 @@ pub fn is_noise(problem: &Problem, fitted: &Fit) -> bool {
     usable_rms(problem, &fitted.residual) <= floor_limit(problem) * problem.floor
 }
 
-/// Loss over all blocks with one more term.
+/// The loss over all blocks with one more term.
 pub(super) fn loss_with(problem: &Problem, common: &[&Term], term: &Term) -> f64 {
     let mut terms = common.to_vec();
     terms.push(term);
     loss_of(problem, &terms)
 }
 
-/// What the other terms give when a change of the drive stands beside them: the point to linearise about.
+/// The effort of the other terms beside a change of the drive: the point about which the change is
+/// linearised.
 pub(super) fn effort_beside(
     problem: &Problem,
     common: &[&Term],

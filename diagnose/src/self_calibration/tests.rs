@@ -1,4 +1,4 @@
-//! This file claims that rates come with their intervals.
+//! This file claims that rates have the right intervals.
 
 use super::rate;
 

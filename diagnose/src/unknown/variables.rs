@@ -1,4 +1,4 @@
-//! This file is what a curve of what is left can be drawn over: what moves at a place.
+//! This file lists the variables over which a free curve of the residual can be drawn.
 
 use super::Variable;
 use crate::cause::Place;
@@ -7,8 +7,8 @@ use crate::weak::Windows;
 use rigproof_model::effects::Instant;
 use rigproof_spec::effect::Quantity;
 
-/// Position, speed and time at a place in every window, and the level of a friction over them; effort and load where there is one output.
-/// `share` is what a unit of effort there adds to each row.
+/// Position, speed and time at a place in every window, and the friction level over each of them;
+/// with one output also effort and load. `share` is the row entry of a unit of effort there.
 pub fn variables<R: Run + ?Sized>(
     run: &R,
     windows: &Windows,

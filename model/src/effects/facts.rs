@@ -1,4 +1,5 @@
-//! This file is what is known of a mechanism beside its law: one record a mechanism, which every other room looks up.
+//! This file is what is known of a mechanism besides its law: one record a mechanism, which every
+//! other room looks up.
 
 use super::Entry;
 use rigproof_spec::effect::Mechanism;
@@ -6,46 +7,47 @@ use rigproof_spec::effect::Mechanism;
 /// What is known of a mechanism.
 #[derive(Clone, Copy)]
 pub struct Facts {
-    /// What kind of thing it is.
+    /// The family of physics.
     pub family: Family,
-    /// Whether laws of several forms describe it, such as a peak, a memory or heat. A law of another form then leaves a part of the effect, and
-    /// the name is right. Without, what it leaves is something else, which it may only stand in for.
+    /// Whether its law is one of a family, such as a peak, a memory or heat. A true law of another
+    /// form then leaves a part of the effect unexplained, and the name is still right. Otherwise an
+    /// unexplained part is something else, and the mechanism may only substitute for it.
     pub has_forms: bool,
-    /// It in plain words.
+    /// Its description in plain words.
     pub words: Words,
-    /// Which plants it is looked for on.
+    /// The plants on which it is a candidate.
     pub asked: Asked,
-    /// Its turn among those of one place of the five-bar: what is tried and offered earlier has a lower one, equal ones come in the order of
-    /// the library.
+    /// Its position among the candidates of one place of the five-bar: lower ones are tried and
+    /// offered first, equal ones in the order of the library.
     pub turn: u8,
     /// How common it is among what models leave out.
     pub usual: Usual,
-    /// The shapes that are tried.
+    /// Its trial shapes.
     pub shapes: Shapes,
-    /// What it holds its joint with at rest.
+    /// The torque or force with which it holds its joint at rest.
     pub at_rest: AtRest,
-    /// The mechanism that it comes to where one of its parameters goes to an end.
+    /// The simpler mechanism that it becomes when one of its parameters goes to a limit.
     pub limit: Option<Limit>,
-    /// The mechanism that its own zero is: the second number that a fit gives it where that zero is not known.
+    /// The mechanism that its unknown zero adds, as a second coefficient.
     pub zero: Option<Mechanism>,
-    /// Another one that no recording of a plant of one joint tells from it.
+    /// Another mechanism that no recording of a plant of one joint can distinguish from it.
     pub twin: Option<Mechanism>,
-    /// The mechanism of which it is another form: what one is, the other is.
+    /// The mechanism of which it is another form.
     pub form_of: Option<Mechanism>,
-    /// Whether it is also looked for as a share of a brake's torque.
+    /// Whether it is also a candidate as a share of a brake's torque.
     pub of_torque: bool,
-    /// Whether it is looked for at each joint of a serial arm.
+    /// Whether it is a candidate at each joint of a serial arm.
     pub at_arm: bool,
-    /// Whether it is weighed in sets of mechanisms only, not looked for one at a time.
+    /// Whether it is compared in sets of mechanisms only, not one at a time.
     pub in_sets: bool,
-    /// Two that it is together, once it has slid. The first gives the shape.
+    /// The two mechanisms whose sum it equals once it has slid. The first gives the shape.
     pub both: Option<[Mechanism; 2]>,
-    /// How great a change of its parameters is small.
+    /// The size of a small change of its parameters.
     pub refit: Refit,
 }
 
 impl Facts {
-    /// Facts of a mechanism without shape, of one form, that holds nothing and comes to no other.
+    /// The facts of a mechanism with one form, without shape, limit or holding force.
     pub(super) const fn of(family: Family, asked: Asked, words: Words) -> Facts {
         Facts {
             family,
@@ -72,22 +74,22 @@ impl Facts {
     }
 }
 
-/// What kind of thing a mechanism is.
+/// The family of physics to which a mechanism belongs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Family {
-    /// Friction that the motion of the moment gives.
+    /// Friction that depends on the present motion.
     FrictionOfMotion,
-    /// A force that depends on the way the motion came.
+    /// A force that depends on the past motion.
     MemoryOfMotion,
-    /// A force that the position gives.
+    /// A force that depends on the position.
     Position,
-    /// A force that is there whatever moves.
+    /// A constant force.
     Constant,
     /// What a drive does with its command.
     Drive,
     /// What a brake does with its current.
     Brake,
-    /// Masses.
+    /// Masses and inertias.
     Inertia,
     /// What a sensor or its clock shows.
     Sensor,
@@ -109,17 +111,17 @@ impl Family {
     }
 }
 
-/// A mechanism in the words of somebody who mends machines.
+/// A mechanism in the words of somebody who repairs machines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Words {
-    /// What it is, to stand after "the model leaves out".
+    /// What it is, to follow "the model leaves out".
     pub what: &'static str,
-    /// What one would look for on the rig.
+    /// What to look for on the rig.
     pub look_for: &'static str,
 }
 
-/// Which plants a mechanism is looked for on. What is tried costs time in every diagnosis, and the rules of a plant are chosen with what it is
-/// asked for.
+/// The plants on which a mechanism is a candidate. Every candidate costs time, and the rules of a
+/// plant are chosen with its candidates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Asked {
     /// On a plant of one joint: an axis or a bench.
@@ -128,7 +130,7 @@ pub struct Asked {
     pub five_bar: Where,
 }
 
-/// When a plant of one joint is asked for a mechanism.
+/// When a mechanism is a candidate on a plant of one joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Alone {
     /// Never.
@@ -149,7 +151,7 @@ pub enum Alone {
     Imposed,
 }
 
-/// Where on the five-bar a mechanism is looked for.
+/// Where a mechanism is a candidate on the five-bar.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Where {
     /// Nowhere.
@@ -162,44 +164,44 @@ pub enum Where {
     Joints,
     /// At both encoders.
     Encoders,
-    /// Of the linkage as a whole.
+    /// For the linkage as a whole.
     Whole,
 }
 
-/// The shapes that are tried: numbers, or the kind of grid that a plant lays over its own motion.
+/// The trial shapes: numbers, or the kind of grid that a plant computes from its own motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shapes {
     /// It has none.
     None,
     /// These numbers.
     Values(&'static [f64]),
-    /// So many from low to high in equal ratios.
+    /// A geometric progression.
     Geometric {
         /// The least.
         low: f64,
         /// The greatest.
         high: f64,
-        /// How many.
+        /// Their number.
         count: usize,
     },
-    /// So many from low to high in equal ratios, each with both signs.
+    /// A geometric progression, each value with both signs.
     BothSigns {
         /// The least.
         low: f64,
         /// The greatest.
         high: f64,
-        /// How many.
+        /// Their number.
         count: usize,
     },
-    /// Speeds of a peak near standstill, with its exponents.
+    /// Stribeck speeds, with exponents.
     Peak,
-    /// Travels over which a bristle bends.
+    /// Travels of presliding.
     Bristle,
-    /// The same with exponents of the curve on which it bends.
+    /// The same, with exponents of the presliding curve.
     BristleCurve,
     /// Rates of a memory of the displacement.
     Memory,
-    /// Periods over the travel, from the spectrum of what is left.
+    /// Periods over the travel, from the spectrum of the residual.
     Period,
     /// Time constants from half a sample on.
     Lag,
@@ -207,28 +209,29 @@ pub enum Shapes {
     Delay,
     /// Shifts in time of both signs.
     Shift,
-    /// Currents below the greatest that was given.
+    /// Currents below the greatest command.
     CurrentLimit,
-    /// Efforts below the greatest that was given.
+    /// Efforts below the greatest command.
     EffortLimit,
     /// Anchors in the plane, around where the tip moves.
     Anchor,
-    /// Widths of a gap, shares of the travel.
+    /// Widths of a gap, as shares of the travel.
     Gap,
     /// Resonances and damping ratios.
     Resonance,
-    /// Half widths of a play of the current, A: so many from low to high in equal ratios; a plant may add where its sides close.
+    /// Half widths of a current hysteresis, A: a geometric progression. A plant may add the current
+    /// at which it closes.
     CurrentPlay {
         /// The least.
         low: f64,
         /// The greatest.
         high: f64,
-        /// How many.
+        /// Their number.
         count: usize,
     },
 }
 
-/// How common a mechanism is among what models leave out, from the plainest to the most seldom.
+/// How common a mechanism is among those that models leave out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Usual {
     /// Most models leave some of it out.
@@ -245,62 +248,65 @@ pub enum Usual {
     Exceptional,
 }
 
-/// The most that a mechanism holds its joint with at rest, from its numbers; where it goes from one level to another the higher one.
+/// The greatest torque or force with which a mechanism holds its joint at rest, from its
+/// parameters.
 #[derive(Clone, Copy)]
 pub enum AtRest {
     /// It does not hold.
     Nothing,
-    /// A dry level, N·m or N.
+    /// A dry friction level, N·m or N.
     Dry(fn(&[f64]) -> f64),
-    /// A force that stands against a push, N·m or N.
+    /// A force against a push, N·m or N.
     Level(fn(&[f64]) -> f64),
     /// A share of the brake's torque.
     OfBrake(fn(&[f64]) -> f64),
-    /// A lever arm of the force on the tip, m.
+    /// A lever arm for the force on the tip, m.
     OfLoad(fn(&[f64]) -> f64),
 }
 
-/// The first number.
+/// The first parameter.
 pub(super) fn first(numbers: &[f64]) -> f64 {
     numbers.first().copied().unwrap_or(0.0)
 }
 
-/// The first number, nothing where it is negative.
+/// The first parameter; 0 if it is negative.
 pub(super) fn first_if_positive(numbers: &[f64]) -> f64 {
     first(numbers).max(0.0)
 }
 
-/// The mechanism that a richer one comes to.
+/// The simpler mechanism that a richer one becomes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limit {
     /// The simpler one.
     pub of: Mechanism,
-    /// The parameter that goes to an end, by its place in the vocabulary.
+    /// The index of the parameter that goes to a limit.
     pub parameter: usize,
-    /// Which end.
+    /// The limit.
     pub end: End,
 }
 
-/// Where the limit of a parameter is.
+/// The limit of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum End {
     /// At 0.
     Nothing,
-    /// Beyond every value.
+    /// At infinity.
     Everything,
 }
 
-/// How great a change of a mechanism's parameters is small, when a plant is fitted to its free run.
+/// The size of a small change of a mechanism's parameters, for a refit by free runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Refit {
-    /// Whether its first number counts for the size of the efforts of the plant.
+    /// Whether its first parameter counts in the scale of the plant's efforts.
     pub leads: bool,
-    /// The size of each parameter over that of the efforts; nothing for one that is measured by itself alone.
+    /// The scale of each parameter relative to that of the efforts; empty for one that is scaled by
+    /// itself.
     pub sizes: &'static [f64],
 }
 
 impl Entry {
-    /// Whether it is a mechanism or has it as its limit: both are that one in a recording that does not tell them apart.
+    /// Whether it is a mechanism or has it as its limit: a recording that cannot separate them
+    /// holds either.
     pub fn is_or_has_limit(&self, mechanism: Mechanism) -> bool {
         self.mechanism == mechanism || self.facts.limit.is_some_and(|limit| limit.of == mechanism)
     }
@@ -312,7 +318,7 @@ mod tests {
     use super::*;
     use std::iter::once;
 
-    /// A mechanism's row on the page.
+    /// A mechanism's row in the catalogue.
     fn row(entry: &Entry) -> String {
         let facts = entry.facts;
         let forms = match facts.has_forms {

@@ -8,9 +8,10 @@ const MOST_WORDS: usize = 900;
 
 /// Whether somebody who has never seen the project is led to a page. Pages that are printed from the code, and those of one room, are longer.
 fn is_for_newcomers(path: &str) -> bool {
-    const PAGES: [&str; 7] = [
+    const PAGES: [&str; 8] = [
         "README.md",
         "impl/README.md",
+        "docs/architecture.md",
         "docs/diagnosis.md",
         "docs/limits.md",
         "docs/recordings.md",

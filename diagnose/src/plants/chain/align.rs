@@ -1,4 +1,5 @@
-//! This file puts a recording of an arm on regular samples and sets up the equations of its joints.
+//! This file resamples a recording of an arm to a regular clock and sets up the equations of its
+//! joints.
 
 use super::run::ChainRun;
 use crate::align::{
@@ -15,7 +16,7 @@ use rigproof_trace::rig::chain::{ChainRecording, ChainRig};
 use std::collections::BTreeSet;
 use std::sync::{Mutex, PoisonError};
 
-/// A fault of a channel over the whole recording.
+/// A fault of a channel that concerns the whole recording.
 pub(super) fn fault(channel: &'static str, reason: String) -> Fault {
     Fault {
         channel,
@@ -25,7 +26,7 @@ pub(super) fn fault(channel: &'static str, reason: String) -> Fault {
     }
 }
 
-/// A name that lasts: reports hold the names of places as long as the program runs.
+/// A name with a static lifetime. Reports hold the names of joints as `&'static str`.
 pub(super) fn lasting(name: &str) -> &'static str {
     static NAMES: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
     let mut names = NAMES.lock().unwrap_or_else(PoisonError::into_inner);
@@ -37,7 +38,7 @@ pub(super) fn lasting(name: &str) -> &'static str {
     own
 }
 
-/// The arm of a description: its URDF, each joint with a channel.
+/// The arm of a description, from its URDF. Every joint that moves needs a channel.
 pub(super) fn arm(rig: &ChainRig) -> Result<Chain, String> {
     let tip = rig.tip.as_deref();
     let chain = Chain::from_urdf(&rig.model, tip);
@@ -69,7 +70,7 @@ pub(super) fn arm(rig: &ChainRig) -> Result<Chain, String> {
     Ok(chain)
 }
 
-/// A joint's channels on regular samples.
+/// The channels of one joint on regular samples.
 struct Aligned {
     position: Vec<f64>,
     effort: Vec<f64>,
@@ -79,7 +80,10 @@ struct Aligned {
     noise: [f64; 2],
 }
 
-/// Aligns a recording, or says why nothing can be concluded from it.
+/// Aligns a recording.
+///
+/// # Errors
+/// The fault that makes any conclusion meaningless.
 pub(super) fn aligned(rig: &ChainRig, recording: &ChainRecording) -> Result<ChainRun, Fault> {
     let chain = arm(rig).map_err(|reason| fault("urdf", reason))?;
     let step_s = median_step(&recording.time_s);
@@ -131,7 +135,8 @@ fn joint(recording: &ChainRecording, k: usize, step_s: f64) -> Result<Aligned, F
     })
 }
 
-/// The standard deviation of a signal's noise by the median of its second differences, to which a motion adds little at the rate of a recording.
+/// The standard deviation of a signal's noise, from the median of its second differences. Motion
+/// adds little to these at the usual sample rates.
 fn scatter(signal: &[f64]) -> f64 {
     let second = signal.windows(3).map(|own| match own {
         [a, b, c] => (a - 2.0 * b + c).abs(),
@@ -143,10 +148,11 @@ fn scatter(signal: &[f64]) -> f64 {
     median / NORMAL_MEDIAN / 6f64.sqrt()
 }
 
-/// Half of the absolute values of normal noise of variance 1 lie below.
+/// Median of the absolute value of a standard normal variable.
 const NORMAL_MEDIAN: f64 = 0.674_489_750_196_081_7;
 
-/// The effort that each base parameter gives along a motion, joint after joint, and last what whole sets of numbers give together.
+/// The effort of every joint, one joint after another, per unit of each base parameter. The last
+/// signals are the efforts of the given parameter `sets`.
 fn efforts(chain: &Chain, joints: &[Aligned], step_s: f64, sets: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let (count, samples) = (
         joints.len(),
@@ -187,7 +193,8 @@ fn efforts(chain: &Chain, joints: &[Aligned], step_s: f64, sets: &[Vec<f64>]) ->
     signals.collect()
 }
 
-/// The equations along a motion: what the description gives, and what each inertial number adds.
+/// The equations along a motion: the effort of the described inertias, and the effort per unit of
+/// each inertial parameter.
 fn equations(chain: &Chain, joints: &[Aligned], step_s: f64) -> ChainRun {
     let samples = joints.first().map_or(0, |own| own.motion.len());
     let base = chain.base();

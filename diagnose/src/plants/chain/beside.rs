@@ -1,4 +1,4 @@
-//! This file writes a calibration in the format of the arm's own description, and a table of what that format cannot hold.
+//! This file writes a calibration as URDF, and lists in a table what a URDF cannot hold.
 
 use super::align::arm;
 use rigproof_model::chain::{Chain, Changes, INERTIAL, Inertial};
@@ -7,12 +7,12 @@ use rigproof_spec::effect::{Mechanism, Motion};
 use rigproof_trace::rig::RigEffect;
 use rigproof_trace::rig::chain::{AtJoint, ChainRig};
 
-/// The URDF with what was found.
+/// The calibrated URDF.
 const URDF: &str = "calibrated.urdf";
-/// What it cannot hold.
+/// The table of what the URDF cannot hold.
 const TABLE: &str = "not-in-urdf.csv";
 
-/// Files beside the calibration: the URDF with what was found, and what it cannot hold.
+/// The files to write beside the calibration.
 pub(super) fn beside(rig: &ChainRig) -> Vec<(&'static str, String)> {
     let Ok(chain) = arm(rig) else {
         return Vec::new();
@@ -51,7 +51,7 @@ pub(super) fn beside(rig: &ChainRig) -> Vec<(&'static str, String)> {
     files
 }
 
-/// The friction that is written of an effect's joint.
+/// The Coulomb and viscous friction of an effect's joint, to be changed in place.
 fn put<'a>(changes: &'a mut Changes, own: &AtJoint, stated: [f64; 2]) -> &'a mut [f64; 2] {
     changes.joints.entry(own.joint.clone()).or_insert(stated)
 }
@@ -70,7 +70,7 @@ fn first(effect: &RigEffect) -> f64 {
     effect.values.first().map_or(0.0, |own| own.value)
 }
 
-/// The change of all inertial numbers, ten a link.
+/// The change of all inertial parameters, ten a link.
 fn moved(chain: &Chain, masses: &[&AtJoint]) -> Vec<f64> {
     let mut all = vec![0.0; INERTIAL * chain.joints.len()];
     for own in masses {
@@ -94,7 +94,7 @@ fn moved(chain: &Chain, masses: &[&AtJoint]) -> Vec<f64> {
     all
 }
 
-/// The links whose numbers are others than the described ones.
+/// The links whose inertial parameters changed, by name.
 fn named(chain: &Chain, links: Vec<Inertial>) -> std::collections::BTreeMap<String, Inertial> {
     let each = chain.joints.iter().zip(links);
     let changed = each.filter(|(joint, own)| {
@@ -107,7 +107,7 @@ fn named(chain: &Chain, links: Vec<Inertial>) -> std::collections::BTreeMap<Stri
         .collect()
 }
 
-/// Why a URDF has no place for it.
+/// Why a URDF cannot hold this mechanism.
 fn reason(mechanism: Mechanism) -> &'static str {
     match form(mechanism) {
         Some(Form::Joint(OfJoint::Inertia)) => {

@@ -1,4 +1,4 @@
-//! This file is an arm by its description.
+//! This file makes an arm a `Plant`.
 
 use super::align::{aligned, arm};
 use super::beside::beside;
@@ -39,7 +39,8 @@ impl Plant for ChainRig {
         run.part(from, to)
     }
 
-    /// The physics of the description beyond its URDF; places go by the order of the arm, not of the file.
+    /// The effects in the description besides the URDF. Joints are numbered in the arm's order, not
+    /// the file's.
     fn nominal(&self) -> Vec<Effect> {
         let chain = arm(self).ok();
         let joints = chain.iter().flat_map(|chain| &chain.joints);
@@ -72,7 +73,8 @@ impl Plant for ChainRig {
         rig
     }
 
-    /// What the description and the calibration leave of each joint's effort on the held-out part.
+    /// States the residual of each joint's effort on the held-out part, with the nominal and with
+    /// the calibrated model.
     fn protocol(stand: &Stand<'_, ChainRig>, fit: Option<&FitReport>) -> Vec<String> {
         let mut lines: Vec<String> = fit.iter().map(|fit| fit.protocol.clone()).collect();
         let test = stand.test;

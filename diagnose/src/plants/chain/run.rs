@@ -1,4 +1,5 @@
-//! This file is an aligned recording of an arm: an equation a joint, one stretch of samples after another.
+//! This file is an aligned recording of an arm. Its signals hold one joint's samples after
+//! another's.
 
 use crate::candidates::standard_shapes;
 use crate::cause::{Cause, JointId, Place};
@@ -21,31 +22,32 @@ pub struct ChainRun {
     pub step_s: f64,
     /// Time of the first sample, s.
     pub start_s: f64,
-    /// The joints' names.
+    /// The names of the joints.
     pub names: Vec<&'static str>,
     /// The smoothed motion of each joint.
     pub motions: Vec<Vec<Instant>>,
-    /// The efforts as recorded.
+    /// The recorded efforts.
     pub effort: Vec<f64>,
-    /// The efforts that the description gives.
+    /// The efforts that the description predicts.
     pub known: Vec<f64>,
-    /// What one unit more of an inertial number of a link adds: link and number, and the signal.
+    /// The effort per unit of one inertial parameter: link and parameter index, and the signal.
     pub links: Vec<((usize, usize), Vec<f64>)>,
-    /// What a kilogram at the tip adds.
+    /// The effort per kilogram at the tip.
     pub payload: Vec<f64>,
-    /// The friction that the description states of each joint: Coulomb and viscous.
+    /// Coulomb and viscous friction of each joint as described.
     pub described: Vec<[f64; 2]>,
-    /// Noise of a position and of an effort, each joint.
+    /// Noise of the position and of the effort of each joint, standard deviation.
     pub noise: Vec<[f64; 2]>,
-    /// What each joint moves by itself, kg·m² or kg.
+    /// The inertia that each joint moves when it moves alone, kg·m² or kg.
     pub masses: Vec<f64>,
-    /// Speed below which no sense of motion can be told.
+    /// Speed below which the direction of motion cannot be told.
     pub speed_floor: f64,
-    /// Samples that were recorded, not filled in.
+    /// Whether a sample was recorded rather than interpolated.
     pub recorded: Vec<bool>,
 }
 
-/// Whether it is a usual friction or constant without a shape: what every arm has.
+/// Whether it is a common friction or a constant without a shape: something that every arm may
+/// have.
 fn is_plain(mechanism: &Mechanism) -> bool {
     facts(*mechanism).is_some_and(|own| {
         let family = matches!(own.family, Family::FrictionOfMotion | Family::Constant);
@@ -54,7 +56,7 @@ fn is_plain(mechanism: &Mechanism) -> bool {
     })
 }
 
-/// What is looked for at each joint.
+/// The mechanisms that are candidates at every joint.
 fn looked_for() -> impl Iterator<Item = Mechanism> {
     let at_arm = |own: &Mechanism| facts(*own).is_some_and(|facts| facts.at_arm);
     Mechanism::ALL.into_iter().filter(at_arm)
@@ -71,7 +73,7 @@ impl ChainRun {
         self.recorded.is_empty()
     }
 
-    /// The samples `from..to`, times kept.
+    /// The samples `from..to`, with their times.
     pub fn part(&self, from: usize, to: usize) -> ChainRun {
         let samples = self.len().max(1);
         let own = |signal: &Vec<f64>| -> Vec<f64> {
@@ -103,13 +105,13 @@ impl ChainRun {
         }
     }
 
-    /// What a signal of all joints is at one.
+    /// The samples of one joint in a signal of all joints.
     fn stretch<'a>(&self, signal: &'a [f64], joint: usize) -> &'a [f64] {
         let mut stretches = signal.chunks(self.len().max(1));
         stretches.nth(joint).unwrap_or_default()
     }
 
-    /// A signal of one joint among those of all.
+    /// A signal of all joints that is `own` at one joint and 0 elsewhere.
     fn at_joint(&self, joint: usize, own: &[f64]) -> Vec<f64> {
         let mut all = vec![0.0; self.names.len() * self.len()];
         let stretch = all.chunks_mut(self.len().max(1)).nth(joint);
@@ -121,7 +123,8 @@ impl ChainRun {
         all
     }
 
-    /// How unequal what is left of the joints is with everything free that is plain, mean square 1.
+    /// The relative noise of each joint: the residual with every common mechanism free, scaled to
+    /// mean square 1.
     fn uneven(&self, windows: &Windows) -> Vec<f64> {
         let outputs = self.names.len();
         let target = windows.average(&less(&self.effort, &self.known));
@@ -176,7 +179,7 @@ impl ChainRun {
     }
 }
 
-/// The coefficient of a torque constant's column from its fraction, and the fraction from it.
+/// Converts the coefficient of a torque constant's column to its fraction. It is its own inverse.
 fn undone(mechanism: Mechanism, own: f64) -> f64 {
     match form(mechanism) {
         Some(Form::Drive(Drive::Gain)) => -own / (1.0 + own),
@@ -184,7 +187,6 @@ fn undone(mechanism: Mechanism, own: f64) -> f64 {
     }
 }
 
-/// The joint of a place.
 fn joint_at(at: Place) -> Option<usize> {
     match at {
         Place::Joint(JointId(joint)) => Some(joint),
@@ -237,7 +239,7 @@ impl Run for ChainRun {
         self.windows_of(ARM_WIDTH_S)
     }
 
-    /// A joint's row is given up where its own sense of motion cannot be told.
+    /// A joint's row is unusable where the direction of its own motion cannot be told.
     fn keep_told(&self, windows: &mut Windows) {
         windows.keep(|centre, bump| is_recorded(&self.recorded, centre, bump));
         let rows = windows.centres.iter().zip(&mut windows.usable);
@@ -253,7 +255,8 @@ impl Run for ChainRun {
         [rms(&curved), rms(&effort)]
     }
 
-    /// What nothing explains is slower than a window: as white effort it would be looked for above the band that a window lets pass.
+    /// The unexplained residual is slower than a window. Modelled as white effort it would be
+    /// spread over frequencies that the windows suppress.
     fn whitener(&self, windows: &Windows, excess: f64) -> Whitener {
         let outputs = self.names.len();
         let uneven = self.uneven(windows);
@@ -299,7 +302,7 @@ impl Run for ChainRun {
         self.motions.get(joint).map_or(&[], Vec::as_slice)
     }
 
-    /// The range of a joint; the greatest for the whole.
+    /// The range of motion of a joint; the greatest one for the whole arm.
     fn travel(&self, at: Place) -> f64 {
         let range = |own: &Vec<Instant>| {
             let q = || own.iter().map(|now| now.position);
@@ -315,7 +318,7 @@ impl Run for ChainRun {
         self.speed_floor
     }
 
-    /// What has a meaning at the joints that moved.
+    /// All candidates at the joints that moved.
     fn causes(&self) -> Vec<Cause> {
         let moved = self.moving_places().into_iter();
         let moved = moved.filter(|at| self.travel(*at) > 100.0 * self.position_noise());
@@ -327,7 +330,7 @@ impl Run for ChainRun {
             .collect()
     }
 
-    /// Small shifts in time are linear in the delay.
+    /// A small delay enters linearly.
     fn shapes(&self, cause: Cause, windows: &Windows, residual: &[f64]) -> Vec<Vec<f64>> {
         match form(cause.mechanism) {
             Some(Form::Drive(Drive::Skew)) => vec![Vec::new()],
@@ -344,7 +347,8 @@ impl Run for ChainRun {
         }
     }
 
-    /// A torque constant that is off by a fraction shows as the described effort off by what undoes that.
+    /// The column is the described effort, so a coefficient c means a torque constant off by −c/(1
+    /// + c).
     fn linear(&self, mechanism: Mechanism, coefficients: &[f64]) -> Vec<f64> {
         let each = coefficients.iter().copied();
         each.map(|own| undone(mechanism, own)).collect()
@@ -358,7 +362,7 @@ impl Run for ChainRun {
         let joint = joint_at(cause.at)?;
         let motion = self.motions.get(joint)?;
         let signals = match form(cause.mechanism)? {
-            // Numbers that no effort hangs on have an empty column.
+            // Inertial parameters that no effort depends on have an empty column.
             Form::Joint(OfJoint::Link) => (0..INERTIAL)
                 .map(|number| {
                     let own = self.links.iter().find(|(of, _)| *of == (joint, number));
@@ -371,11 +375,12 @@ impl Run for ChainRun {
                 vec![self.at_joint(joint, &gradient(&speeds, self.step_s))]
             }
             Form::Linkage(OfLinkage::Payload) => vec![self.payload.clone()],
-            // The effort acts with (1 + fraction): the recorded one is smaller by that.
+            // The true effort is (1 + fraction) times the recorded one.
             Form::Drive(Drive::Gain) => {
                 vec![self.at_joint(joint, self.stretch(&self.known, joint))]
             }
-            // Recorded late by a delay, an effort lacks its rate times the delay. A window's average of a rate takes no noise in that the average itself has.
+            // An effort recorded with a delay lacks the delay times its rate. Averaged over a
+            // window, the rate is no noisier than the effort itself.
             Form::Drive(Drive::Skew) => {
                 let rate = gradient(self.stretch(&self.effort, joint), self.step_s);
                 let delay = shape.first().copied();

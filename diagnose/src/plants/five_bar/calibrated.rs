@@ -1,4 +1,5 @@
-//! This file gives a five-bar's description the numbers of a selection.
+//! This file writes a calibration: the five-bar's description with the fitted parameters and the
+//! found effects.
 
 use super::encoder::Encoder;
 use super::run::joint_at;
@@ -13,7 +14,7 @@ use rigproof_trace::rig::five_bar::{FiveBar, JointEffect};
 use rigproof_trace::rig::{RigEffect, Value};
 
 impl Stand<'_, FiveBar> {
-    /// The rig with the numbers of all terms; found effects follow the nominal ones.
+    /// The rig with the parameters of all terms. Found effects follow the nominal ones.
     pub(super) fn with_numbers(&self, intervals: &Intervals) -> FiveBar {
         let mut rig = self.plant.clone();
         let (_, coefficients) = coefficients_by_term(self.problem, self.selection);
@@ -44,7 +45,7 @@ impl Stand<'_, FiveBar> {
                 onset: term.onset_s.map(Value::known),
                 of_torque: false,
             };
-            // A share of a torque has its zero beside the torque.
+            // A law whose zero is fitted is written as two effects.
             let cause = Cause::at(mechanism, term.cause.at);
             Some(self.at_places(cause, effect))
         });
@@ -56,7 +57,7 @@ impl Stand<'_, FiveBar> {
 }
 
 impl Stand<'_, FiveBar> {
-    /// An effect at the joints where it acts: a shared one at every brake.
+    /// An effect at each joint where it acts: at every brake if the brakes share it.
     fn at_places(&self, cause: Cause, effect: RigEffect) -> Vec<JointEffect> {
         let at = |joint| JointEffect {
             joint,

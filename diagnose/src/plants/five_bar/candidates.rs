@@ -1,4 +1,5 @@
-//! This file says which causes are tried on a recording of the five-bar, where, and in which shapes.
+//! This file lists the causes that are candidates on a recording of the five-bar, with their places
+//! and shapes.
 
 use super::run::{FiveBarRun, at, joint_at, place};
 use crate::candidates::{
@@ -57,7 +58,8 @@ pub fn causes(run: &FiveBarRun) -> Vec<Cause> {
     single.iter().copied().chain(composed(&single)).collect()
 }
 
-/// What is shared by every brake, is a share of its torque, or is of one axis of a sensor.
+/// Variants of the causes at single places: shared by every brake, as a share of a brake's torque,
+/// or on one axis of a sensor.
 fn composed(single: &[Cause]) -> Vec<Cause> {
     let mut all: Vec<Cause> = Vec::new();
     let of_brakes = |cause: &&Cause| {
@@ -83,7 +85,8 @@ fn composed(single: &[Cause]) -> Vec<Cause> {
     all
 }
 
-/// The joint whose motion stands for a place: of every brake the one that travels most.
+/// The place whose motion is used for the shapes of a cause. For a cause of every brake it is the
+/// joint that travels most.
 fn standing_for(run: &FiveBarRun, at: Place) -> Place {
     match at {
         Place::Every => {
@@ -96,7 +99,7 @@ fn standing_for(run: &FiveBarRun, at: Place) -> Place {
     }
 }
 
-/// Anchors around where the tip moved, m.
+/// Trial anchors of a spring around the region where the tip moved, m.
 fn anchors(run: &FiveBarRun) -> Vec<Vec<f64>> {
     let along = |axis: usize| -> Vec<f64> {
         let tips = run
@@ -117,7 +120,7 @@ fn anchors(run: &FiveBarRun) -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// How far the first number of a cause's shape may go where that is beyond what is tried first.
+/// The bounds of the first shape parameter, where they lie beyond the grid.
 pub fn reach(run: &FiveBarRun, cause: Cause) -> Option<(f64, f64)> {
     let cause = Cause {
         at: standing_for(run, cause.at),
@@ -143,12 +146,13 @@ pub fn reach(run: &FiveBarRun, cause: Cause) -> Option<(f64, f64)> {
     }
 }
 
-/// The least angle over which a bristle is seen to bend, rad.
+/// The least angle of presliding that can be observed, rad.
 fn least_bending(run: &FiveBarRun, travel: f64) -> f64 {
     (LEAST_BEND_SIGMAS * run.theta_noise).max(LEAST_BEND * travel)
 }
 
-/// The angle of a cause's joint at each usable window, and the residual as a torque there.
+/// The angle of a cause's joint at each usable window, and the residual there as a torque of that
+/// joint.
 fn points(run: &FiveBarRun, cause: Cause, windows: &Windows, residual: &[f64]) -> Vec<(f64, f64)> {
     let Some(joint) = joint_at(cause.at) else {
         return Vec::new();
@@ -167,14 +171,14 @@ fn points(run: &FiveBarRun, cause: Cause, windows: &Windows, residual: &[f64]) -
         .collect()
 }
 
-/// Limits of the current of a cause's brake, A.
+/// Trial limits of the current of a cause's brake, A.
 fn limits(run: &FiveBarRun, cause: Cause) -> Vec<f64> {
     let joint = joint_at(cause.at);
     let current = joint.and_then(|joint| run.currents.get(place(joint))?.as_ref());
     current.map_or(Vec::new(), |current| current_limits(current))
 }
 
-/// The shapes of a cause that are tried.
+/// The trial shapes of a cause.
 pub fn shapes(
     run: &FiveBarRun,
     cause: Cause,
@@ -221,7 +225,7 @@ pub fn shapes(
             MOST_SHIFT_S_FIVE_BAR.max(MOST_SHIFT_STEPS * run.step_s),
             SHIFTS_FIVE_BAR,
         ))),
-        // The rig is not asked for these.
+        // Not candidates on this plant.
         Shapes::Memory
         | Shapes::EffortLimit
         | Shapes::Gap

@@ -1,4 +1,5 @@
-//! This file is the columns of the five-bar: what each cause would add to the efforts of θA and θB.
+//! This file computes the regression columns of the five-bar: what each cause would add to the
+//! efforts of θA and θB.
 
 use super::encoder::Encoder;
 use super::free_run::length_of;
@@ -19,12 +20,13 @@ use rigproof_model::motion::two_coordinate::{TwoCoordinate, two_coordinate};
 use rigproof_spec::inertia::Inertia;
 use rigproof_spec::joint::Joint;
 
-/// What a force on the tip, N, sample by sample, does to θA and θB, as the second difference of the angles sees it.
+/// The effort of a force on the tip, N, at θA and θB, as the second difference of the angles shows
+/// it.
 pub fn driving(run: &FiveBarRun, force: impl Iterator<Item = [f64; 2]>) -> Vec<f64> {
     seen(&run.at_tip(force))
 }
 
-/// What the nominal model knows of the resistance: inertia and brakes.
+/// The efforts that the nominal model predicts: inertia and brakes.
 pub fn known(run: &FiveBarRun) -> Vec<f64> {
     let mut sum = inertial(run, &run.forms);
     for joint in run.parameters.layout.brakes() {
@@ -34,7 +36,8 @@ pub fn known(run: &FiveBarRun) -> Vec<f64> {
     sum
 }
 
-/// One signal for each linear parameter of a cause; `None` where it has another form or no meaning here.
+/// One column per linear parameter of a cause. `None` if the cause has another form or no meaning
+/// here.
 pub fn free(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<f64>>> {
     if cause.at == Place::Every {
         let each = everywhere(run, cause).map(|own| free(run, own, shape));
@@ -50,7 +53,7 @@ pub fn free(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<f64
     over_parts(run, |part| free_of_one(part, cause, shape))
 }
 
-/// A cause of every brake at each of them.
+/// The single causes that a cause of every brake stands for.
 fn everywhere(run: &FiveBarRun, cause: Cause) -> impl Iterator<Item = Cause> {
     let joints = run.parameters.layout.brakes().iter();
     joints.map(move |joint| Cause {
@@ -82,7 +85,7 @@ fn free_of_one(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<
             let change = is_unit.then(|| changed(run, kind, joint, shape))??;
             Some(vec![along_motion(run, joint, &change)])
         }
-        // A spring at a joint has its rest angle where it likes: the second column is its torque at θ = 0.
+        // A joint spring has an unknown rest angle. The second column is its torque at θ = 0.
         (Form::Resistance(_) | Form::ShareOfBrake(_), Some(joint)) => {
             let mut columns = at_joint(run, cause, joint, shape)?;
             if let Some(zero) = facts(cause.mechanism)?.zero {
@@ -114,7 +117,7 @@ fn free_of_one(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<
                 .map(|unit| inertial(run, &forms_of(run, &unit)))
                 .into(),
         ),
-        // These have a column of coefficient 1, or belong elsewhere.
+        // These have a fixed column, or belong elsewhere.
         (Form::Drive(_) | Form::Sensor(_) | Form::Linkage(_) | Form::Joint(_), Some(_))
         | (
             Form::Resistance(_)
@@ -134,7 +137,7 @@ fn free_of_one(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<
     }
 }
 
-/// A column with coefficient 1: a change of the brakes, of the clock or of the sensor's direction.
+/// A column with coefficient 1: a change of a brake, of the clock or of the sensor's direction.
 pub fn fixed(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<f64>> {
     if cause.at == Place::Every {
         let each = everywhere(run, cause).map(|own| fixed(run, own, shape));
@@ -148,19 +151,19 @@ pub fn fixed(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<f64>> 
 fn fixed_of_one(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<f64>> {
     let value = *shape.first()?;
     match (form(cause.mechanism)?, joint_at(cause.at)) {
-        // The yield of a brake changes, its sign does not (docs/decisions/0001).
+        // A brake's mechanism changes its yield torque, not the sign of its torque (decision 0001).
         (Form::Brake(kind), Some(joint)) => {
             let change = changed(run, kind, joint, shape)?;
             Some(along_motion(run, joint, &change))
         }
-        // What lags is the effort, as the equation of the library has it: the whole brake, its own response included.
+        // The effort lags, as in the library's equation: the whole brake with its own response.
         (Form::Drive(Drive::Lag), Some(joint)) => {
             run.braked(joint)?;
             let own = run.yields.get(place(joint))?;
             let change = less(&first_order_lag_straight(own, run.step_s, value), own);
             Some(along_motion(run, joint, &change))
         }
-        // The recorded force is the one of a while ago: what acts is ahead of it.
+        // The recorded force is delayed, so the acting force is the recorded one shifted forward.
         (Form::Drive(Drive::Skew), None) => {
             let delay = value / run.step_s;
             let [x, y] = run
@@ -169,7 +172,8 @@ fn fixed_of_one(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<f64
                 .map(|force| less(force, &shifted(force, delay)));
             Some(driving(run, x.into_iter().zip(y).map(|(x, y)| [x, y])))
         }
-        // The whole turn: its first order alone leaves 1 − cos of the force, which is a gain.
+        // The full rotation. Its first-order term alone would leave 1 − cos of the force, which
+        // looks like a gain error.
         (Form::Sensor(OfSensor::ForceRotation), None) => {
             let (sine, cosine) = libm::sincos(value);
             let too_much = run
@@ -190,13 +194,14 @@ fn fixed_of_one(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<f64
     }
 }
 
-/// What a cause adds to the yield torque of a joint's brake.
+/// The change that a cause makes to the yield torque of a joint's brake.
 fn changed(run: &FiveBarRun, kind: OfBrake, joint: Joint, shape: &[f64]) -> Option<Vec<f64>> {
     let own = run.yields.get(place(joint))?;
     run.braked(joint)?.change(own, kind, shape)
 }
 
-/// What a spring from the tip to an anchor takes: for a unit of stiffness, and for a unit of tension.
+/// The efforts of a spring from the tip to an anchor, per unit of stiffness and per unit of
+/// tension.
 fn anchored(run: &FiveBarRun, shape: &[f64]) -> Option<Vec<Vec<f64>>> {
     let [x, y] = *shape else {
         return None;
@@ -212,7 +217,8 @@ fn anchored(run: &FiveBarRun, shape: &[f64]) -> Option<Vec<Vec<f64>>> {
     Some(vec![driving(run, away()), driving(run, unit)])
 }
 
-/// What an arm that is longer takes in effort for a unit of length: the balance is told from the recorded angles with it and without it.
+/// The effort per unit of additional arm length, by a finite difference of the balance along the
+/// recorded angles.
 fn longer(run: &FiveBarRun, joint: Joint) -> Option<Vec<f64>> {
     let mut changed = run.clone();
     *length_of(&mut changed.parameters.arms, joint) += SMALL_LENGTH_M;
@@ -222,14 +228,14 @@ fn longer(run: &FiveBarRun, joint: Joint) -> Option<Vec<f64>> {
     Some(difference.map(|x| x / SMALL_LENGTH_M).collect())
 }
 
-/// A change of a brake's yield torque along its joint's motion.
+/// A change of yield torque as a torque along the joint's motion.
 fn along_motion(run: &FiveBarRun, joint: Joint, change: &[f64]) -> Vec<f64> {
     let pairs = run.motion_of(joint).iter().zip(change);
     let torque: Vec<f64> = pairs.map(|(now, c)| now.sense * c).collect();
     seen(&run.at_joint(joint, &torque))
 }
 
-/// The signals of a joint's own law.
+/// The columns of a law at one joint.
 fn at_joint(run: &FiveBarRun, cause: Cause, joint: Joint, shape: &[f64]) -> Option<Vec<Vec<f64>>> {
     let mechanism = cause.mechanism;
     let entry = entry(mechanism)?;
@@ -253,8 +259,10 @@ fn at_joint(run: &FiveBarRun, cause: Cause, joint: Joint, shape: &[f64]) -> Opti
         .collect()
 }
 
-/// The resistance of a law along a joint's motion. What a reversal begins anew goes by the recorded angle: a joint that turns back
-/// slowly, for a few counts, turns back.
+/// The resistance of a law along a joint's motion.
+///
+/// A law that restarts at a reversal uses the recorded angle, since smoothing would hide a slow
+/// reversal of a few counts.
 fn along(law: &dyn Law, run: &FiveBarRun, joint: Joint) -> Vec<f64> {
     let motion = run.motion_of(joint);
     if law.begins_anew() {
@@ -263,7 +271,7 @@ fn along(law: &dyn Law, run: &FiveBarRun, joint: Joint) -> Vec<f64> {
     column(law, motion, run.step_s)
 }
 
-/// The weight's resistance for a unit of gravity along x (0) or y (1), N·m.
+/// The effort of the weight per unit of gravity along x (0) or y (1), N·m.
 fn weight(run: &FiveBarRun, axis: usize) -> Vec<f64> {
     let gravity = if axis == 0 { [1.0, 0.0] } else { [0.0, 1.0] };
     let [joint_a, _, joint_b, _] = &run.joints;
@@ -283,7 +291,7 @@ fn forms_of(run: &FiveBarRun, inertia: &Inertia) -> Vec<TwoCoordinate> {
         .collect()
 }
 
-/// One unit of each parameter of an inertia error: AE, BC, ED, CD, tip.
+/// A unit of each parameter of an inertia error: AE, BC, ED, CD, tip.
 fn unit_inertias(nominal: &Inertia) -> [Inertia; 5] {
     [0, 1, 2, 3, 4].map(|own| {
         let unit = [0, 1, 2, 3, 4].map(|k| f64::from(u8::from(k == own)));
@@ -291,7 +299,7 @@ fn unit_inertias(nominal: &Inertia) -> [Inertia; 5] {
     })
 }
 
-/// An effort as the second difference of the angles sees it: Numerov's weights on both outputs.
+/// An effort as the second difference of the angles shows it: Numerov's weights on both outputs.
 fn seen(signal: &[f64]) -> Vec<f64> {
     let (a, b) = signal.split_at(signal.len() / 2);
     let mut out = numerov(a);

@@ -1,9 +1,15 @@
-//! This file is what the zero of an encoder, or its scale and its zero, add to the balance of efforts.
+//! This file computes the columns of an encoder's zero error, and of its scale error with a zero.
 //!
-//! The linkage bends them: a few hundredths of a radian are no small step. The shape is the step over which the slope is taken, best the size that
-//! it has; then a column times its coefficient is the whole change. An encoder counts from where it was homed: the second column of a scale is its
-//! zero, and the shape may say where that is at the step. A wrong angle also turns the direction in which a held joint pushes, so that its reaction, which may be as large as any effort, is seen in the
-//! combination that should be without it: rows are averaged as the moved linkage combines them.
+//! The linkage is nonlinear: an error of a few hundredths of a radian is no small step. The shape
+//! of such a cause is the step of the finite difference, ideally its true size, so that column
+//! times coefficient is the whole change.
+//!
+//! An encoder counts from where it was homed. The second column of a scale error is therefore its
+//! zero, and the shape may give that zero at the step.
+//!
+//! A wrong angle also turns the direction in which a held joint pushes. Its reaction may be as
+//! large as any effort and appears in the combination that should be free of it. Rows are therefore
+//! averaged with the combinations of the moved linkage.
 
 use super::columns::{driving, known};
 use super::from_rig::with_angles;
@@ -16,28 +22,30 @@ use rigproof_model::effects::{Form, OfSensor, form};
 use rigproof_model::linkage::inverse;
 use rigproof_spec::joint::Joint;
 
-/// Least step of an encoder's zero, rad, and of its scale, over which their columns are taken.
+/// The least finite-difference step of an encoder's zero, rad, and of its scale.
 const LEAST_STEP: f64 = 1e-3;
 
-/// A place of the tip amidst the workspace of either layout, m.
+/// A tip position near the middle of the workspace of both layouts, m.
 const AMIDST_M: [f64; 2] = [0.0, 0.4];
 
-/// Signals of a linkage: its balance of efforts, then the combination without each joint.
+/// The signals of a linkage: its balance of efforts, and for each joint the combination without
+/// that joint.
 const SIGNALS: usize = 1 + Joint::ALL.len();
 
-/// An encoder's change: where, of which kind, and its size.
+/// A change of an encoder: the output, its kind and its size.
 pub(crate) struct Encoder {
     output: usize,
     is_scale: bool,
     step: f64,
-    /// What a scale's zero is off at the step, rad.
+    /// The zero error of a scale at the step, rad.
     zero_rad: f64,
-    /// The angle at which a scale leaves the encoder right, rad: amidst the workspace, so that its zero has little to do with it.
+    /// The angle at which a scale error leaves the encoder right, rad. In the middle of the
+    /// workspace, scale and zero correlate least.
     pivot_rad: f64,
 }
 
 impl Encoder {
-    /// Of a cause; `None` where it is none of an encoder.
+    /// The encoder error that a cause is; `None` for other causes.
     pub(crate) fn of(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Encoder> {
         let output = match joint_at(cause.at)? {
             Joint::A => 0,
@@ -69,7 +77,8 @@ impl Encoder {
         })
     }
 
-    /// What the moved linkage leaves unbalanced and how its equations combine: at the step, and for a scale with its zero moved too.
+    /// The imbalance of the moved linkage and its combinations: at the step, and for a scale with
+    /// its zero moved as well.
     pub(super) fn signals(&self, run: &FiveBarRun) -> Option<Vec<Vec<f64>>> {
         let with = |run: &FiveBarRun, moved: &dyn Fn(f64) -> f64| {
             let mut theta = run.theta.clone();
@@ -89,7 +98,7 @@ impl Encoder {
         self.pivot_rad + (shown - self.pivot_rad) / (1.0 + self.step) - self.zero_rad
     }
 
-    /// By how much the encoder is off where it shows zero, rad, from the two coefficients of a scale.
+    /// The error of the encoder where it shows zero, rad, from the two coefficients of a scale.
     pub(super) fn zero_at_zero_rad(&self, [scale, zero]: [f64; 2]) -> f64 {
         self.zero_off_rad([scale, zero]) - self.pivot_rad * scale / (1.0 + scale)
     }
@@ -98,7 +107,7 @@ impl Encoder {
         self.zero_rad * scale / self.step + zero
     }
 
-    /// The shape whose columns are taken over the whole change that the coefficients say.
+    /// The shape at which the finite difference spans the whole change that the coefficients state.
     pub(crate) fn over(&self, coefficients: &[f64]) -> Option<Vec<f64>> {
         let size = *coefficients.first()?;
         if self.is_scale {
@@ -108,7 +117,7 @@ impl Encoder {
     }
 }
 
-/// θA and θB with the tip amidst the workspace, rad.
+/// θA and θB with the tip in the middle of the workspace, rad.
 fn amidst(run: &FiveBarRun) -> Option<[f64; 2]> {
     let pose = inverse::pose(&run.parameters.arms, AMIDST_M).ok()?;
     Some([pose.theta_a_rad, pose.theta_b_rad])
@@ -119,7 +128,8 @@ fn seen_by(run: &FiveBarRun) -> Vec<Vec<f64>> {
     [vec![balance], combinations(run)].concat()
 }
 
-/// The columns, row by row, from the recorded balance and the signals of the moved linkage; `first` is the sample at which the cause begins.
+/// The columns, row by row, from the recorded balance and the signals of the moved linkage. `first`
+/// is the sample of the onset.
 pub(crate) fn rows(
     windows: &Windows,
     recorded: &[f64],

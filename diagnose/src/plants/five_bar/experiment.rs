@@ -1,4 +1,5 @@
-//! This file says which experiment on a five-bar would tell the explanations of a recording apart.
+//! This file finds the next experiment on a five-bar: the one that best separates the rival
+//! explanations of a recording.
 
 mod explanation;
 pub mod plan;
@@ -31,7 +32,7 @@ use rigproof_trace::Trace;
 use rigproof_trace::rig::five_bar::FiveBar;
 use room::has_room;
 
-/// The experiment that tells the explanations apart best, and the plan; `None` where there is one explanation only.
+/// The experiment with the best separation, and its plan; `None` with fewer than two explanations.
 pub(super) fn next(
     stand: &Stand<'_, FiveBar>,
     rivals: &[Vec<Cause>],
@@ -42,7 +43,7 @@ pub(super) fn next(
     if all.len() < 2 {
         return None;
     }
-    // What the reference rig does not compute cannot be simulated.
+    // Explanations that the reference rig cannot simulate are left out.
     let simulated = |e: &Explanation| with_effects(&e.model, layout, MIDDLE_M).is_ok();
     let (mut all, mut left_out): (Vec<_>, Vec<_>) = all.into_iter().partition(simulated);
     left_out.extend(all.split_off(MOST_EXPLANATIONS.min(all.len())));
@@ -69,7 +70,7 @@ pub(super) fn next(
     Some((report, chosen.map(|plan| plan.trace(layout))))
 }
 
-/// The best of the plans, and how far it sets each pair of explanations apart; `None` where there are no two.
+/// The best plan, and the separation of each pair of explanations; `None` with fewer than two.
 fn best<'p>(
     stand: &Stand<'_, FiveBar>,
     explanations: &[Explanation],
@@ -79,7 +80,8 @@ fn best<'p>(
     if others.is_empty() {
         return None;
     }
-    // All of them as if what was named were true, then the best of these whatever is true.
+    // Screening assumes that the named explanation is true. The best plans are then judged for
+    // every possible truth.
     let screen = |plan: &Plan| -> Vec<f64> {
         let losses = losses(stand, named, explanations, plan).unwrap_or_default();
         let others = 1..losses.len();
@@ -110,7 +112,7 @@ fn best<'p>(
     Some((plan, separations.collect()))
 }
 
-/// The joints that the explanations are about, each once.
+/// The joints of the explanations, each once.
 fn joints(explanations: &[Explanation]) -> Vec<Joint> {
     let own: Vec<Joint> = explanations
         .iter()
@@ -120,7 +122,8 @@ fn joints(explanations: &[Explanation]) -> Vec<Joint> {
     all.filter(|joint| own.contains(joint)).collect()
 }
 
-/// The least separation of each experiment, those left out that none of them reaches: they decide nothing.
+/// The least separation that each experiment reaches. Pairs that no experiment separates are left
+/// out, because they decide nothing.
 fn least(all: &[Vec<f64>]) -> Vec<f64> {
     let greatest = |pair: usize| {
         let own = all.iter().filter_map(|sigmas| sigmas.get(pair));
@@ -143,14 +146,15 @@ fn greatest_current_a(plan: &Plan) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Pairs of places, each once.
+/// All pairs of indices.
 fn pairs(count: usize) -> Vec<[usize; 2]> {
     let all = (0..count).flat_map(|one| (one + 1..count).map(move |other| [one, other]));
     all.collect()
 }
 
-/// What was named, and each rival of one effect in its place, with the numbers that fit the recording best. Where several effects have
-/// rivals it is the first of them: what was named first explains most.
+/// The named explanation, and one for each rival of a named effect, each refitted to the recording.
+///
+/// If several effects have rivals, the first of them is chosen: it explains most.
 fn explanations(stand: &Stand<'_, FiveBar>, rivals: &[Vec<Cause>]) -> Vec<Explanation> {
     let contested = rivals.iter().enumerate().find(|(_, own)| !own.is_empty());
     let Some((index, rivals)) = contested else {
@@ -182,7 +186,7 @@ fn explanation(
     Some(Explanation::new(&own.term, others, model))
 }
 
-/// The selection with another cause in the place of a found one.
+/// The selection with a found cause replaced by another.
 fn replaced(
     problem: &Problem,
     selection: &Selection,
@@ -216,8 +220,8 @@ fn replaced(
     })
 }
 
-/// What each explanation leaves of an experiment's recording, with other numbers where they fit better, if one of them is true. `None` where the
-/// rig cannot do the experiment, or comes near its stops.
+/// The loss of each explanation on a simulated experiment in which `truth` is true, with its
+/// parameters refitted. `None` if the rig cannot do the experiment or comes near its stops.
 fn losses(
     stand: &Stand<'_, FiveBar>,
     truth: &Explanation,
@@ -243,14 +247,14 @@ fn losses(
     Some(own.collect())
 }
 
-/// By how many standard deviations of the noise one explanation leaves more than the one that is true.
+/// The separation of an explanation from the true one, in standard deviations of the noise.
 fn beyond(losses: &[f64], truth: usize, other: usize) -> f64 {
     let at = |place: usize| losses.get(place).copied().unwrap_or(0.0);
     (at(other) - at(truth)).max(0.0).sqrt()
 }
 
-/// How far each pair of explanations lies apart on an experiment, in standard deviations of the noise: the lesser of what either
-/// leaves of the other's recording.
+/// The separation of each pair of explanations by an experiment, in standard deviations of the
+/// noise: the lesser of the two, as either may be true.
 fn separations(
     stand: &Stand<'_, FiveBar>,
     explanations: &[Explanation],

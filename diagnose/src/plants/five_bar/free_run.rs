@@ -1,4 +1,5 @@
-//! This file lets the reference rig run freely from the recorded force and currents, again and again from the recorded state.
+//! This file runs the reference rig freely from recorded force and currents, restarted from the
+//! recorded state again and again.
 
 use super::from_rig::{nominal, with_angles};
 use super::run::{FiveBarRun, joint_at};
@@ -22,11 +23,12 @@ use rigproof_spec::layout::Layout;
 use rigproof_spec::tables::GREATEST_CURRENT_A;
 use rigproof_trace::rig::five_bar::FiveBar;
 
-/// A five-bar with all its numbers: what acts on the rig, and what its sensors do.
+/// A five-bar with all its parameters: the effects on the rig and those of its sensors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Model {
     pub(super) rig: Vec<JointEffect>,
-    /// What the sensors do, and arms of another length: what makes other angles and forces of the recorded ones.
+    /// Effects of the sensors, and arms of other lengths: all that changes the recorded angles and
+    /// forces.
     pub(super) sensors: Vec<Effect>,
 }
 
@@ -52,7 +54,7 @@ impl Model {
         }
     }
 
-    /// What a rig of these effects has besides them: arms of other lengths.
+    /// The geometry and masses with the arm lengths of these effects.
     pub(super) fn parameters(&self, parameters: &Parameters) -> Parameters {
         let mut own = *parameters;
         for effect in &self.sensors {
@@ -65,7 +67,7 @@ impl Model {
         own
     }
 
-    /// Why the reference rig cannot have all of this; `None` where it can.
+    /// Why the reference rig cannot have all effects; `None` if it can.
     pub(super) fn not_computed(&self, layout: Layout) -> Option<String> {
         let late =
             |own: &&Effect| own.onset_s.is_some() && own.mechanism() == Mechanism::LinkLength;
@@ -92,7 +94,7 @@ impl Model {
     }
 }
 
-/// The arm that begins at a joint.
+/// The length of the arm that begins at a joint.
 pub(super) const fn length_of(arms: &mut Arms, joint: Joint) -> &mut f64 {
     match joint {
         Joint::A => &mut arms.l_ae_m,
@@ -102,7 +104,7 @@ pub(super) const fn length_of(arms: &mut Arms, joint: Joint) -> &mut f64 {
     }
 }
 
-/// A height at which the tip of every layout can stand, m.
+/// A height that the tip of every layout can reach, m.
 const MIDDLE_M: f64 = 0.4;
 
 fn is_of_readings(effect: &Effect) -> bool {
@@ -115,7 +117,7 @@ fn is_of_readings(effect: &Effect) -> bool {
         )
 }
 
-/// The recording with what its sensors did to force and angles taken back.
+/// The recording with the sensors' effects on force and angles inverted.
 pub(super) fn truly(model: &Model, run: &FiveBarRun) -> Result<FiveBarRun, ModelError> {
     let mut own = run.clone();
     own.parameters = model.parameters(&run.parameters);
@@ -151,7 +153,7 @@ pub(super) fn truly(model: &Model, run: &FiveBarRun) -> Result<FiveBarRun, Model
                     (*x, *y) = of_axis(effect.cause.at, behind, [*x, *y]);
                 }
             }
-            // No sensor changes what these do.
+            // These do not change the readings of a sensor.
             Some(
                 Form::Drive(Drive::Lag | Drive::Gain | Drive::Limit)
                 | Form::Joint(_)
@@ -170,7 +172,7 @@ pub(super) fn truly(model: &Model, run: &FiveBarRun) -> Result<FiveBarRun, Model
     with_angles(&own, theta).map_err(|(_, error)| error)
 }
 
-/// A force that is changed on one axis of the sensor alone, or on both.
+/// Applies a change of the force on one axis of the sensor, or on both.
 pub(super) const fn of_axis(
     at: Place,
     (changed_x, changed_y): (f64, f64),
@@ -183,7 +185,7 @@ pub(super) const fn of_axis(
     }
 }
 
-/// The force behind one that a sensor shows.
+/// The true force behind one that a sensor shows.
 fn force_behind(of: OfSensor, [a, b]: [f64; 2], [x, y]: [f64; 2]) -> (f64, f64) {
     match of {
         OfSensor::ForceGain => (x / (1.0 + a), y / (1.0 + a)),
@@ -196,7 +198,7 @@ fn force_behind(of: OfSensor, [a, b]: [f64; 2], [x, y]: [f64; 2]) -> (f64, f64) 
     }
 }
 
-/// Currents that a brake can be given, A.
+/// The currents of the brakes at a sample, A, cut to what a brake accepts.
 pub(super) fn currents_at(run: &FiveBarRun, k: usize) -> [f64; 4] {
     run.currents.each_ref().map(|current| {
         let own = current.as_ref().and_then(|current| current.get(k));
@@ -211,7 +213,8 @@ pub(super) fn force_at(run: &FiveBarRun, k: usize) -> [f64; 2] {
         .map(|force| force.get(k.min(last)).copied().unwrap_or(0.0))
 }
 
-/// The rig at the samples of `starts`, in rising order: led there along the smoothed motion from the first sample.
+/// The rig at each sample of `starts` (ascending), led there along the smoothed motion from the
+/// first sample. Its brakes thereby have the recorded history.
 fn led(model: &Model, run: &FiveBarRun, starts: &[usize]) -> Result<Vec<Rig>, ModelError> {
     let [joint_a, _, joint_b, _] = &run.joints;
     let mut at = joint_a
@@ -237,22 +240,23 @@ fn led(model: &Model, run: &FiveBarRun, starts: &[usize]) -> Result<Vec<Rig>, Mo
     Ok(there)
 }
 
-/// Where the rig was after a sample.
+/// The state of the rig after a sample.
 #[derive(Clone, Copy, Debug)]
 struct Reached {
     theta_rad: [f64; 2],
     tip_m: [f64; 2],
 }
 
-/// The rig let go at a sample, `count` samples long; shorter where the force drives the linkage out of its assembly.
-///
-/// Into how many steps of the rig a sample interval, s, is divided.
+/// The number of integration steps in a sample interval of `step_s`.
 pub(super) fn parts_of(step_s: f64) -> f64 {
     (step_s / LONGEST_STEP_S * (1.0 - 1e-9)).ceil().max(1.0)
 }
 
+/// A free run of `count` samples from the state of `rig`. It ends early if the force drives the
+/// linkage out of its assembly.
+///
 /// # Errors
-/// Those of [`Rig::step`] but where the linkage comes apart.
+/// Those of [`Rig::step`], other than a linkage that comes apart.
 fn let_go(
     mut rig: Rig,
     run: &FiveBarRun,
@@ -285,22 +289,23 @@ fn let_go(
     Ok(reached)
 }
 
-/// Free runs of a whole recording, one after another, each from the recorded state.
+/// The free runs of a whole recording, one after another, each from the recorded state.
 #[derive(Clone, Debug)]
 pub struct Simulated {
-    /// θA and θB, rad; the smoothed recording where a run begins, not a number where one broke off.
+    /// θA and θB, rad. Each run starts at the smoothed recording; after a run broke off the values
+    /// are NaN.
     pub theta_rad: [Vec<f64>; 2],
-    /// How far the tip is from the recorded one, m.
+    /// Distance of the tip from the recorded one, m.
     pub tip_off_m: Vec<f64>,
-    /// Recorded θA and θB with what their encoders did taken back, rad.
+    /// Recorded θA and θB with the effects of their encoders inverted, rad.
     pub recorded_rad: [Vec<f64>; 2],
-    /// How many runs there were.
+    /// Number of runs.
     pub runs: usize,
-    /// How many of them drove the linkage out of its assembly.
+    /// Number of runs that drove the linkage out of its assembly.
     pub broken_off: usize,
 }
 
-/// Lets a model run freely along a recording, `restart_s` at a time.
+/// Simulates a model along a recording, restarting every `restart_s`.
 ///
 /// # Errors
 /// The rig cannot be given the model's effects.
@@ -340,14 +345,15 @@ pub fn simulated(model: &Model, run: &FiveBarRun, restart_s: f64) -> Result<Simu
     Ok(out)
 }
 
-/// How far a tip is from the recorded one, m.
+/// Distance of the tip from the recorded one, m.
 fn tip_off_m(run: &FiveBarRun, k: usize, [x, y]: [f64; 2]) -> f64 {
     let recorded = run.poses.get(k).map_or([f64::NAN; 2], |pose| pose.tip_m);
     let [r_x, r_y] = recorded;
     libm::hypot(x - r_x, y - r_y)
 }
 
-/// Errors at the horizons: of each shot, θA, θB and the tip; empty where a shot broke off or a sample was not recorded.
+/// The errors of each run at the horizons: θA, θB and the tip. Empty where a run broke off or a
+/// sample was not recorded.
 struct Errors {
     at: Vec<Vec<Option<[f64; 3]>>>,
     broken_off: usize,
@@ -381,14 +387,15 @@ fn errors(
     Ok(Errors { at, broken_off })
 }
 
-/// Root mean squares over shots: of the angles, rad, and of the tip, mm.
+/// Root mean square over runs: of the angles, rad, and of the tip, mm.
 fn size(shots: &[[f64; 3]]) -> (f64, f64) {
     let angles: Vec<f64> = shots.iter().flat_map(|[a, b, _]| [*a, *b]).collect();
     let tips: Vec<f64> = shots.iter().map(|[_, _, tip_m]| 1e3 * tip_m).collect();
     (rms(&angles), rms(&tips))
 }
 
-/// The errors at the horizons with two models on a part of a recording, and how the runs went, in words.
+/// The errors at the horizons with two models on a part of a recording, and a sentence on how the
+/// runs went.
 ///
 /// # Errors
 /// The rig cannot be given a model's effects.
@@ -417,7 +424,7 @@ pub fn horizons(
         errors(after, run, &starts, &counts)?,
     );
     let horizons = kept.iter().enumerate().filter_map(|(index, &horizon_s)| {
-        // A shot counts where it came that far with both models.
+        // A run counts if it reached the horizon with both models.
         let shots = old.at.iter().zip(&new.at);
         let shots = shots.filter_map(|(old, new)| Some(((*old.get(index)?)?, (*new.get(index)?)?)));
         let (of_old, of_new): (Vec<_>, Vec<_>) = shots.unzip();

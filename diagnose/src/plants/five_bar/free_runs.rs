@@ -1,4 +1,4 @@
-//! This file shows a five-bar's fit by free runs of the reference rig, before and after.
+//! This file compares free runs of a five-bar before and after calibration.
 
 use super::free_run::{Model, horizons};
 use super::undone::undone_first;
@@ -8,7 +8,8 @@ use crate::report::{FITTED_PART, HELD_OUT_PART, Horizon};
 use rigproof_trace::rig::five_bar::FiveBar;
 
 impl Stand<'_, FiveBar> {
-    /// Errors of free runs with the nominal effects of the calibration and with all of them, and how they were made.
+    /// The errors of free runs with the nominal and with all effects of the calibration, and the
+    /// protocol.
     pub(super) fn free_runs(&self, calibration: &FiveBar) -> (Vec<Horizon>, String) {
         let bare = self.bare();
         let intervals = intervals(self.problem, &bare);
@@ -16,7 +17,7 @@ impl Stand<'_, FiveBar> {
             selection: &bare,
             ..*self
         };
-        // The runs have the angles that the linkage had.
+        // The encoders are inverted already: the runs have the true angles.
         let (undone, _) = undone_first(self.plant);
         let model = |calibration: &FiveBar| {
             let mut own = calibration.clone();
@@ -26,7 +27,7 @@ impl Stand<'_, FiveBar> {
         let before = model(&nominal.with_numbers(&intervals));
         let after = model(calibration);
         let first = (self.test_from_s / self.test.step_s).round() as usize;
-        // Of several recordings the first: a run does not go across a seam.
+        // Only the first of several recordings, since a run cannot cross a seam.
         let fitted = self.train.parts.first().unwrap_or(self.train);
         let parts = [
             (HELD_OUT_PART, self.test, first..self.test.len()),

@@ -1,4 +1,4 @@
-//! This file turns a five-bar's description and its recording into an aligned run.
+//! This file aligns a recording of a five-bar with its description.
 
 use super::run::{FiveBarRun, forms, place, place_of};
 use super::sensors::{angle_noise, noise_of_force, quantum_of};
@@ -61,7 +61,7 @@ pub fn aligned(rig: &FiveBar, recording: &FiveBarRecording) -> Result<FiveBarRun
     }
     check_clipped_forces(recording)?;
     check_currents(recording)?;
-    // One number stands for both channels: the greater.
+    // One value stands for both channels: the greater.
     let greater = |of: fn(&Signal) -> f64, [one, other]: [&Signal; 2]| of(one).max(of(other));
     let quantum = greater(quantum_of, [theta_a, theta_b]);
     let theta_noise = greater(angle_noise, [theta_a, theta_b]).hypot(*jitter);
@@ -100,10 +100,10 @@ pub fn aligned(rig: &FiveBar, recording: &FiveBarRecording) -> Result<FiveBarRun
     Ok(run)
 }
 
-/// A run with other angles, and what its brakes may be mistaken by with them.
+/// The run with other angles, and with the uncertainty of its brakes recomputed.
 ///
 /// # Errors
-/// The linkage cannot be assembled at some sample: its number, and why.
+/// The linkage cannot be assembled at some sample: its index, and why.
 pub fn realigned(
     run: &FiveBarRun,
     theta: [Vec<f64>; 2],
@@ -113,7 +113,8 @@ pub fn realigned(
     Ok(run)
 }
 
-/// The fault of angles at which the linkage cannot stand, and what they may be instead.
+/// The fault of angles at which the linkage cannot be assembled, with a likely reading of the
+/// channels.
 fn unassembled(
     run: FiveBarRun,
     theta: [Vec<f64>; 2],
@@ -137,10 +138,10 @@ fn unassembled(
     }
 }
 
-/// A run with other angles: its motion, its forms and its brakes follow them.
+/// The run with other angles. Its motion, equations and brakes are recomputed.
 ///
 /// # Errors
-/// The linkage cannot be assembled at some sample: its number, and why.
+/// The linkage cannot be assembled at some sample: its index, and why.
 pub fn with_angles(
     run: &FiveBarRun,
     theta: [Vec<f64>; 2],
@@ -148,10 +149,10 @@ pub fn with_angles(
     moved_by(run, theta).map(|(run, _)| run)
 }
 
-/// The speeds of θA and θB below which their sense cannot be told, sample by sample, rad/s.
+/// The speeds of θA and θB below which their direction cannot be told, one value per sample, rad/s.
 type Untold = [Vec<f64>; 2];
 
-/// The run with other angles, and what cannot be told of them.
+/// The run with other angles, and the speeds below which directions cannot be told.
 fn moved_by(
     run: &FiveBarRun,
     theta: [Vec<f64>; 2],
@@ -178,7 +179,8 @@ fn moved_by(
     Ok((run, untold))
 }
 
-/// A linkage with brakes takes energy in: a force that takes it out on the whole has the wrong sign.
+/// A linkage with brakes absorbs energy. A force that takes out energy on average has the wrong
+/// sign.
 fn check_sign(run: &FiveBarRun) -> Result<(), Fault> {
     let rates = run.motion_of(Joint::A).iter().zip(run.motion_of(Joint::B));
     let powers: Vec<[f64; 2]> = run
@@ -226,7 +228,7 @@ fn check_currents(recording: &FiveBarRecording) -> Result<(), Fault> {
     Ok(())
 }
 
-/// Counts of the angles and noise of the forces are those of the units that are stated.
+/// Checks that the angles' resolution and the forces' noise fit the stated units.
 fn check_units_of(recording: &FiveBarRecording) -> Result<(), Fault> {
     let ends_s = [recording.time_s.first(), recording.time_s.last()];
     let ends_s = ends_s.map(|end| end.copied().unwrap_or(0.0));
@@ -265,7 +267,8 @@ fn check_present(recording: &FiveBarRecording) -> Result<(), Fault> {
     Ok(())
 }
 
-/// The recording with its angles mended and its samples on the grid of their stamps; what was mended, and what jitter adds to the noise of an angle.
+/// The recording with its angles repaired and its samples moved to the grid of their time stamps.
+/// Also the remarks, and the angle noise that jitter adds.
 fn mended(
     recording: &FiveBarRecording,
     step_s: f64,
@@ -314,8 +317,8 @@ fn check_clipped_forces(recording: &FiveBarRecording) -> Result<(), Fault> {
     Ok(())
 }
 
-/// The speeds of θA and θB below which their sense cannot be told, sample by sample, rad/s. While brakes are switched a joint may swing
-/// at twice the low-pass's end and more.
+/// The speeds of θA and θB below which their direction cannot be told, one value per sample, rad/s.
+/// While a brake switches, a joint may swing at twice the cut-off of the low-pass and more.
 fn untold_speeds(run: &FiveBarRun, base: &[Vec<Instant>; 2]) -> Untold {
     let smoothing = Smoothing {
         step_s: run.step_s,
@@ -333,7 +336,7 @@ fn untold_speeds(run: &FiveBarRun, base: &[Vec<Instant>; 2]) -> Untold {
     [(theta_a, a), (theta_b, b)].map(|(theta, own)| smoothing.untold_speeds(theta, own, &octaves))
 }
 
-/// The motion of a joint that the angles and rates of A and B imply.
+/// The motion of a joint that follows from the angles and rates of A and B.
 fn joint_motion(
     run: &FiveBarRun,
     base: &[Vec<Instant>; 2],
@@ -373,15 +376,16 @@ fn joint_motion(
     motion
 }
 
-/// The yield torque of a joint's nominal brake along the motion, N·m; none without a brake.
+/// The yield torque of a joint's nominal brake along the motion, N·m; `None` without a brake.
 pub fn nominal_yields(run: &FiveBarRun, joint: Joint) -> Option<Vec<f64>> {
     run.motion_of(joint).first()?;
     Some(run.braked(joint)?.yields())
 }
 
-/// By how much the yield torque of a joint's brake would differ if the joint turned faster or slower by what cannot be told, if
-/// the backlash began and ended a sample later or where the angle's own error may put it, or if the shaft did not start in its
-/// middle, N·m.
+/// The uncertainty of the yield torque of a joint's brake, N·m.
+///
+/// It is the change of the torque if the speed, the start and end of the backlash, or the initial
+/// position in the backlash differ by what the recording leaves open.
 fn yield_errors(run: &FiveBarRun, joint: Joint, untold: &Untold) -> Vec<f64> {
     let none = || vec![0.0; run.motion_of(joint).len()];
     errors_of_brake(run, joint, untold).unwrap_or_else(none)
@@ -420,14 +424,15 @@ fn errors_of_brake(run: &FiveBarRun, joint: Joint, untold: &Untold) -> Option<Ve
     Some(greatest_change(own, &others))
 }
 
-/// The speed of a joint below which its sense cannot be told, sample by sample, rad/s.
+/// The speed of a joint below which its direction cannot be told, one value per sample, rad/s.
 fn untold_of_joint(run: &FiveBarRun, joint: Joint, [untold_a, untold_b]: &Untold) -> Vec<f64> {
     let rows = run.joint_rows(joint).zip(untold_a.iter().zip(untold_b));
     rows.map(|([by_a, by_b], (a, b))| by_a.abs() * a + by_b.abs() * b)
         .collect()
 }
 
-/// How far the angle at which a joint turns back may be mistaken, rad: by counts, and by the low-pass that rounds it off.
+/// The uncertainty of the angle at which a joint reverses, rad, from counts and from the low-pass
+/// that rounds the reversal.
 fn turning_point_error(run: &FiveBarRun, joint: Joint, untold: &[f64]) -> f64 {
     let pairs = run
         .joint_rows(joint)
@@ -444,7 +449,7 @@ fn turning_point_error(run: &FiveBarRun, joint: Joint, untold: &[f64]) -> f64 {
     errors.fold(0.0, f64::max)
 }
 
-/// The physics that the nominal model has beyond the thesis's.
+/// The effects that the nominal model has beyond the thesis's.
 pub fn nominal(rig: &FiveBar) -> Vec<Effect> {
     rig.effects
         .iter()

@@ -1,7 +1,9 @@
-//! This file says what a joint at rest tells: it was pushed with so much and did not move.
+//! This file draws bounds from joints at rest: a joint that was pushed and did not move is held by
+//! at least that torque.
 //!
-//! What a held joint transmits is a reaction and no measurement of any law, but a bound on all of them together: its brake and its friction
-//! hold at least as much (Coulomb 1785). The equation in which it occurs is not fitted, so this is evidence of its own for what was named.
+//! The torque that a held joint transmits is a reaction and measures no law. It only bounds the sum
+//! of brake and friction torque from below (Coulomb 1785). The equation in which it occurs is not
+//! fitted, so it is independent evidence for what was named.
 
 use super::columns::{driving, free};
 use super::noise::pair_covariances;
@@ -22,8 +24,11 @@ use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
 
-/// What the windows say in which one brake alone is at rest. Where every brake is, three or four share what two equations tell: nothing is
-/// attributed. `None` where an encoder was named: the recorded angles are not those that the linkage had.
+/// Compares what is named with the windows in which a single brake is at rest.
+///
+/// Where all brakes rest, two equations cannot be divided among three or four joints, and nothing
+/// is attributed. `None` where an encoder error was named: the recorded angles are then not the
+/// true ones.
 pub fn held(problem: &Problem, run: &FiveBarRun, selection: &Selection) -> Option<HeldReport> {
     let terms = refs(&selection.nominal, &selection.found);
     if terms.iter().any(|term| run.moves(term.cause)) {
@@ -34,7 +39,7 @@ pub fn held(problem: &Problem, run: &FiveBarRun, selection: &Selection) -> Optio
     let joints = joints.filter(|joint| {
         let own = terms.iter().filter(|term| is_at(run, term, **joint));
         let mut own = own.filter_map(|term| form(term.cause.mechanism));
-        // Where what a brake holds depends on what it did before, nothing is said of its joint.
+        // No bound is given where the holding torque depends on past currents.
         alone.contains(&Some(**joint)) && !own.any(Form::goes_by_past_current)
     });
     Some(HeldReport {
@@ -53,7 +58,7 @@ fn hop_s(problem: &Problem) -> f64 {
     problem.windows.hop as f64 * problem.windows.step_s
 }
 
-/// Whether a law is one of a joint; with three brakes the bearing at C turns as E does.
+/// Whether a law acts at a joint. With three brakes, the bearing at C turns as E does.
 fn is_at(run: &FiveBarRun, term: &Term, joint: Joint) -> bool {
     let turns_alike = run.parameters.layout == Layout::ThreeBrake
         && joint == Joint::E
@@ -61,7 +66,8 @@ fn is_at(run: &FiveBarRun, term: &Term, joint: Joint) -> bool {
     term.cause.at == place_of(Some(joint)) || turns_alike
 }
 
-/// For every window the joint that alone is at rest in all of it, if the others are told; and in how many windows every brake is at rest.
+/// For every window, the joint that alone is at rest throughout, provided that the directions of
+/// the others are known. Also the number of windows in which every brake is at rest.
 fn at_rest(problem: &Problem, run: &FiveBarRun) -> (Vec<Option<Joint>>, usize) {
     let Windows {
         bump,
@@ -93,7 +99,8 @@ fn at_rest(problem: &Problem, run: &FiveBarRun) -> (Vec<Option<Joint>>, usize) {
     (alone.collect(), all)
 }
 
-/// Whether a joint is at rest at each sample: without a sense, and its recorded angle does not tell that it moves.
+/// Whether a joint is at rest at each sample: its direction is unknown and its recorded angle does
+/// not show motion.
 fn resting(run: &FiveBarRun, joint: Joint) -> Vec<bool> {
     let motion = run.motion_of(joint).iter().zip(run.known_travel(joint));
     motion
@@ -101,16 +108,17 @@ fn resting(run: &FiveBarRun, joint: Joint) -> Vec<bool> {
         .collect()
 }
 
-/// What a joint at rest transmits in a window.
+/// The torque that a joint at rest transmits in a window.
 struct Reaction {
     centre: usize,
-    /// Against a motion in the positive sense, N·m.
+    /// Positive against a motion in the positive direction, N·m.
     torque: f64,
-    /// Its standard deviation by the noise of the sensors and what is left unexplained elsewhere, N·m.
+    /// Its standard deviation from sensor noise and from the residual of the fitted rows, N·m.
     deviation: f64,
 }
 
-/// The reactions that both equations tell while a joint alone is at rest, all but what holds it being as named.
+/// The reactions of joints that are alone at rest, given by both equations. Everything else acts as
+/// named.
 fn reactions(
     fitted: &Problem,
     run: &FiveBarRun,
@@ -159,7 +167,7 @@ fn reactions(
         .collect()
 }
 
-/// What all windows of a joint say together; nothing where there is none.
+/// The summary of all windows of a joint; `None` if there are none.
 fn told(
     problem: &Problem,
     run: &FiveBarRun,
@@ -191,7 +199,8 @@ fn told(
             missing: beyond(named),
         }
     });
-    // The window in which most is missing; else that which asks most of what is named; else the nearest to that.
+    // The window in which most torque is missing. If none is missing, the window that comes closest
+    // to the limit.
     each.max_by(|a, b| {
         let least = |own: &HeldJoint| own.holds_nominal - own.pushed;
         let missing = a.missing.total_cmp(&b.missing);
@@ -200,7 +209,8 @@ fn told(
     })
 }
 
-/// The most that holds a joint with the nominal brake and the first `count` terms, sample by sample, N·m.
+/// The greatest holding torque of the nominal brake and the first `count` terms, one value per
+/// sample, N·m.
 fn holding(
     problem: &Problem,
     run: &FiveBarRun,
@@ -211,7 +221,7 @@ fn holding(
     let of = |all: &[Vec<f64>; 4]| all.get(place(joint)).cloned().unwrap_or_default();
     let yields = of(&run.yields);
     let mut sum = yields.clone();
-    // Where a backlash begins and ends is known to a few counts.
+    // The start and end of a backlash are known to a few counts.
     add(&mut sum, &of(&run.yield_errors), 1.0);
     let terms = refs(&selection.nominal, &selection.found);
     let (_, coefficients) = coefficients_by_term(problem, selection);
@@ -228,7 +238,7 @@ fn holding(
     sum.into_iter().map(|most| most.max(0.0)).collect()
 }
 
-/// The most that a law holds its joint with, sample by sample, N·m.
+/// The greatest holding torque of a law at its joint, one value per sample, N·m.
 fn level(run: &FiveBarRun, yields: &[f64], law: Mechanism, numbers: &[f64]) -> Vec<f64> {
     let times = |signal: &[f64], share: f64| signal.iter().map(|x| share * x).collect();
     match at_rest_of(law) {
@@ -242,7 +252,7 @@ fn level(run: &FiveBarRun, yields: &[f64], law: Mechanism, numbers: &[f64]) -> V
     }
 }
 
-/// What a law holds its joint with at rest.
+/// What a law holds at rest.
 fn at_rest_of(law: Mechanism) -> AtRest {
     facts(law).map_or(AtRest::Nothing, |facts| facts.at_rest)
 }
@@ -262,7 +272,7 @@ mod tests {
         aligned(&rig(Layout::FourBrake), &recording).unwrap()
     }
 
-    /// What is said with a law at every brake, its numbers those of the fitted rows, changed.
+    /// The report with a law at every brake, its parameters changed from the fitted ones.
     fn said(
         run: &FiveBarRun,
         law: Option<(Mechanism, &[f64])>,
@@ -360,7 +370,8 @@ mod tests {
             let first = own.centre - bump.len() / 2;
             let brake = dot(bump, &torque[first..first + bump.len()]);
             let doubt = dot(bump, &run.yield_errors[1][first..first + bump.len()]);
-            // Torque and row of the Jacobian change within a window: its mean is that of their product.
+            // Torque and Jacobian row both change within a window; the reaction is the mean of
+            // their product.
             let off = (own.torque - brake).abs() - doubt - 0.02 * brake.abs();
             assert!(
                 off < BEYOND_SIGMAS * own.deviation,
@@ -383,7 +394,7 @@ mod tests {
             bare.at_s == own.at_s && (more - 0.41).abs() < 1e-9
         });
         assert_eq!(same.count(), bare.joints.len());
-        // That of the other joints, which move, is taken off the push.
+        // The friction of the other joints, which move, is subtracted from the push.
         let moved = bare.joints.iter().zip(&bristles.joints);
         let mut moved = moved.map(|(bare, own)| (bare.pushed - own.pushed).abs());
         assert!(moved.any(|by| by > 0.01));

@@ -1,4 +1,4 @@
-//! This file is how recordings of one five-bar follow each other, and signals over all of them.
+//! This file joins recordings of one five-bar, and computes signals over all of them.
 
 use super::run::FiveBarRun;
 use crate::plants::joined::Joins;
@@ -25,7 +25,7 @@ impl Joins for FiveBarRun {
                 more(own, new);
             }
         });
-        // A window that needs the sample before the seam lies across it.
+        // No window may span the seam.
         if let Some(last) = self.recorded.last_mut() {
             *last = false;
         }
@@ -44,7 +44,7 @@ impl Joins for FiveBarRun {
     }
 }
 
-/// Signals of two outputs over a joined run, from what each of its recordings gives.
+/// Signals of both outputs over a joined run, computed separately for each recording.
 pub fn over_parts(
     run: &FiveBarRun,
     of: impl Fn(&FiveBarRun) -> Option<Vec<Vec<f64>>>,

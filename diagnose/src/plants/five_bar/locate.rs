@@ -1,4 +1,4 @@
-//! This file is the regimes of a five-bar: of each joint, of each equation, of time.
+//! This file defines the regimes of a five-bar: by joint, by equation and by time.
 
 use super::run::{FiveBarRun, place, place_of};
 use crate::cause::Place;
@@ -10,7 +10,7 @@ use rigproof_model::effects::Instant;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::units::RAD_S_PER_RPM;
 
-/// Regimes of each joint and thirds of the recording.
+/// The regimes of each joint, and the thirds of the recording.
 pub fn regimes(run: &FiveBarRun, windows: &Windows) -> Regimes {
     let mut cells: Vec<Cell> = Joint::ALL
         .into_iter()

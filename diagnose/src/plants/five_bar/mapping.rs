@@ -1,5 +1,5 @@
-//! This file finds channels that the description takes for something else: a component of the force with the wrong sign, the
-//! two components swapped, the currents of brakes in another order.
+//! This file finds channels that are not what the description takes them for: a force component
+//! with the wrong sign, swapped components, currents of brakes in another order.
 
 use super::columns::{driving, known};
 use super::from_rig::nominal_yields;
@@ -23,7 +23,7 @@ pub fn check(run: &FiveBarRun, problem: &Problem) -> Result<(), Fault> {
 }
 
 /// # Errors
-/// The force is found to be so many times as large, or as small, as no sensor's gain error is.
+/// The found gain of the force sensor is beyond any real sensor's.
 pub fn check_found(problem: &Problem, selection: &Selection) -> Result<(), Fault> {
     let (_, coefficients) = coefficients_by_term(problem, selection);
     let found = coefficients.iter().skip(selection.nominal.len());
@@ -66,7 +66,7 @@ fn fault(channel: &'static str, run: &FiveBarRun, reason: String) -> Result<(), 
     })
 }
 
-/// A way to read the components of the force.
+/// One way to read the components of the force.
 struct Reading {
     channel: &'static str,
     how: &'static str,
@@ -76,7 +76,7 @@ struct Reading {
 
 const WRONG_SIGN: &str = "the channel has the wrong sign (set `sign = -1`)";
 
-/// The force as it may have been recorded instead.
+/// The readings that are tried beside the described one.
 const READINGS: [Reading; 3] = [
     Reading {
         channel: "force_x",
@@ -98,7 +98,7 @@ const READINGS: [Reading; 3] = [
     },
 ];
 
-/// `own` is what stays unexplained as described.
+/// `own` is the residual as described.
 fn force(run: &FiveBarRun, problem: &Problem, own: f64) -> Result<(), Fault> {
     let readings = READINGS.iter().map(|reading| {
         let driving = driving(run, run.forces().map(reading.of));
@@ -118,7 +118,7 @@ fn force(run: &FiveBarRun, problem: &Problem, own: f64) -> Result<(), Fault> {
     }
 }
 
-/// The currents in another order, where much stays unexplained.
+/// Tries the currents in other orders, if the residual is large.
 fn currents(run: &FiveBarRun, problem: &Problem, own: f64, driving: &[f64]) -> Result<(), Fault> {
     let size = usable_rms(problem, &problem.windows.average(driving));
     if own < READING_ODD * size {
@@ -154,7 +154,7 @@ fn currents(run: &FiveBarRun, problem: &Problem, own: f64, driving: &[f64]) -> R
     }
 }
 
-/// The run with the current described as that of `brakes[i]` given to `order[i]`.
+/// The run with the current of brake `brakes[i]` given to `order[i]`.
 fn with_order(run: &FiveBarRun, brakes: &[Joint], order: &[Joint]) -> FiveBarRun {
     let mut other = run.clone();
     for (from, to) in brakes.iter().zip(order) {
@@ -172,7 +172,7 @@ fn with_order(run: &FiveBarRun, brakes: &[Joint], order: &[Joint]) -> FiveBarRun
     other
 }
 
-/// Every order of the joints but their own.
+/// Every permutation of the joints but the identity.
 fn orders(joints: &[Joint]) -> Vec<Vec<Joint>> {
     let mut all = vec![Vec::new()];
     for _ in joints {

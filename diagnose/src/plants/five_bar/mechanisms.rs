@@ -1,4 +1,5 @@
-//! This file claims that what the diagnosis takes each mechanism for along a motion is what the reference rig does with it.
+//! This file claims that the regression column of each mechanism equals what the mechanism does on
+//! the reference rig.
 
 use super::columns::{driving, fixed, free, known};
 use super::run::{FiveBarRun, place_of};
@@ -17,7 +18,7 @@ use rigproof_spec::layout::Layout;
 const STEP_S: f64 = 1e-4;
 const COUNT: usize = 9000;
 
-/// Where a hand leads the tip, m.
+/// The tip position to which a hand leads, m.
 fn goal(time_s: f64) -> [f64; 2] {
     let sine = |rate: f64, phase: f64| libm::sin(rate * time_s + phase);
     [
@@ -26,12 +27,12 @@ fn goal(time_s: f64) -> [f64; 2] {
     ]
 }
 
-/// A swelling current of a brake, different for each, A.
+/// A smoothly varying current, different for each brake, A.
 fn current(place: usize, time_s: f64) -> f64 {
     0.19 + 0.13 * libm::sin(7.3 * time_s + 1.3 * place as f64)
 }
 
-/// A recording of which nothing has been recorded yet.
+/// An empty recording.
 fn blank(layout: Layout) -> FiveBarRun {
     let braked = |joint| layout.brakes().contains(&joint);
     FiveBarRun {
@@ -58,7 +59,7 @@ fn blank(layout: Layout) -> FiveBarRun {
     }
 }
 
-/// Records the rig as it is, exactly, with the masses of the nominal model.
+/// Records the state of the rig exactly, with the masses of the nominal model.
 fn record(run: &mut FiveBarRun, rig: &Rig, force: [f64; 2], currents: [f64; 4]) {
     let theta = rig.base_angles_rad();
     run.theta
@@ -101,7 +102,8 @@ fn turned(mut brake: Brake, motion: &[Instant]) -> Vec<bool> {
     core::iter::once(false).chain(along).collect()
 }
 
-/// Lets the nominal brakes follow; says around which samples every joint turns one way and no brake enters or leaves its backlash.
+/// Computes the nominal brakes along the recording. Returns the samples around which no joint
+/// reverses and no brake enters or leaves its backlash.
 fn counted(run: &mut FiveBarRun) -> Vec<bool> {
     let mut counts = vec![true; COUNT];
     for i in 0..4 {
@@ -128,7 +130,7 @@ fn counted(run: &mut FiveBarRun) -> Vec<bool> {
     counts
 }
 
-/// A run of the rig with an effect as an exact recording of it, and which samples count.
+/// An exact recording of the rig with effects, and the samples that count.
 fn exact(layout: Layout, effects: &[JointEffect]) -> (FiveBarRun, Vec<bool>) {
     let mut run = blank(layout);
     let rig = Rig::new(layout, goal(0.0)).unwrap();
@@ -145,7 +147,7 @@ fn exact(layout: Layout, effects: &[JointEffect]) -> (FiveBarRun, Vec<bool>) {
         });
         let force = hand(time_s, rig.tip_m(), rig.tip_velocity_m_s());
         record(&mut run, &rig, force, currents);
-        // The goal stands still within a step: in its middle, so that its mean is right.
+        // The goal is constant within a step. Its midpoint gives the right mean.
         let middle_s = time_s + 0.5 * STEP_S;
         let force = |tip: [f64; 2], speed: [f64; 2]| hand(middle_s, tip, speed);
         rig.step_under(&force, currents, STEP_S).unwrap();
@@ -154,7 +156,7 @@ fn exact(layout: Layout, effects: &[JointEffect]) -> (FiveBarRun, Vec<bool>) {
     (run, counts)
 }
 
-/// What the mechanism adds along the run by the diagnosis.
+/// The regression columns of a mechanism, times its parameters.
 fn column(run: &FiveBarRun, effect: &JointEffect) -> Vec<f64> {
     let cause = Cause::at(effect.mechanism, place_of(effect.joint));
     let cause = match effect.of_torque {
@@ -182,8 +184,8 @@ fn column(run: &FiveBarRun, effect: &JointEffect) -> Vec<f64> {
     sum
 }
 
-/// Over the samples that count: the third quartile of what is unexplained with the column and the root mean square of the column, N·m,
-/// and how many samples there are.
+/// Over the samples that count: the third quartile of the residual with the column, the root mean
+/// square of the column, both N·m, and the number of samples.
 fn apart(layout: Layout, effect: &JointEffect) -> (f64, f64, usize) {
     let (run, counts) = exact(layout, std::slice::from_ref(effect));
     let residual = less(&driving(&run, run.forces()), &known(&run));
@@ -273,8 +275,8 @@ fn every_mechanism_does_along_a_motion_what_its_column_says() {
     assert_meets(Layout::ThreeBrake, &at(BearingFriction, Joint::C, &[0.107]));
 }
 
-/// Measured: at most 1.2e-4 N·m unexplained (another backlash), of columns from 0.053 to 0.64 N·m, over 6700 samples or more. The
-/// last quarter holds the samples in which a brake's time constant jumps.
+/// Measured: a residual of at most 1.2e-4 N·m (other backlash) for columns of 0.053 to 0.64 N·m,
+/// over at least 6700 samples. The last quarter of samples holds jumps of a brake's time constant.
 fn assert_meets(layout: Layout, effect: &JointEffect) {
     let (unexplained, size, counted) = apart(layout, effect);
     assert!(
@@ -289,7 +291,8 @@ fn what_a_sensor_does_is_the_whole_of_it_and_not_its_slope() {
     let balance = |run: &FiveBarRun| less(&driving(run, run.forces()), &known(run));
     let own = balance(&run);
     let assert_is = |cause: Cause, told: &[f64], slope: &[f64], shown: &FiveBarRun| {
-        // The diagnosis sees what is shown; what its cause adds leaves the balance of what is there.
+        // The diagnosis sees the shown angles. Subtracting the cause's column must leave the
+        // balance of the true ones.
         let there = less(&balance(shown), told);
         let [off, by_slope, size] = [&there, &less(&balance(shown), slope), &balance(shown)]
             .map(|values| rms(&less(values, &own)));

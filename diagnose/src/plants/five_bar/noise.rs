@@ -1,4 +1,5 @@
-//! This file is the noise of the five-bar's residuals: what encoders and force sensor put into each row, and how rows share it.
+//! This file is the noise model of the five-bar's residuals: the variance that encoders and force
+//! sensor give each row, and the covariance between rows.
 
 use super::run::{FiveBarRun, stacked};
 use crate::filter::rms;
@@ -10,11 +11,15 @@ use rigproof_model::effects::Instant;
 use rigproof_spec::joint::Joint;
 use std::sync::OnceLock;
 
-/// Gives up the rows whose window holds a missing sample, or in which a joint's brake cannot be told: it could do more than
-/// half the floor where its joint's sense is not known (a reversal, a joint at rest or held: what a held brake transmits is no
-/// measurement), or its torque may be mistaken by as much after its backlash began or ended.
+/// Marks rows as unusable whose window has a missing sample, or in which the torque of a brake is
+/// too uncertain.
 ///
-/// Where one joint alone cannot be told, one equation is left: the combination of both in which nothing at that joint acts.
+/// A torque is too uncertain if its unknown direction (a reversal, a joint at rest or held) or its
+/// backlash could change the row by more than half the noise floor. The torque of a held brake is a
+/// reaction and measures nothing.
+///
+/// If this concerns one joint only, one equation is left: the combination of both that is free of
+/// that joint.
 pub fn keep_told(run: &FiveBarRun, windows: &mut Windows) {
     let most = MOST_UNTOLD * floor(run, windows);
     let untold = run.joints.iter().zip(&run.yields).map(|(motion, yields)| {
@@ -53,12 +58,13 @@ pub fn keep_told(run: &FiveBarRun, windows: &mut Windows) {
     }
 }
 
-/// For every joint the combination of both equations in which no torque there acts.
+/// For every joint, the combination of both equations that is free of any torque at it.
 pub fn combinations(run: &FiveBarRun) -> Vec<Vec<f64>> {
     Joint::ALL.map(|joint| without(run, joint)).into()
 }
 
-/// The combination of both equations in which no torque at a joint acts, of length one, sample by sample.
+/// The combination of both equations that is free of torque at a joint, of unit length, one value
+/// per sample.
 fn without(run: &FiveBarRun, joint: Joint) -> Vec<f64> {
     stacked(run.joint_rows(joint).map(|[by_a, by_b]| {
         let length = by_a.hypot(by_b).max(1e-300);
@@ -66,7 +72,8 @@ fn without(run: &FiveBarRun, joint: Joint) -> Vec<f64> {
     }))
 }
 
-/// Root mean square over the usable rows of the standard deviation that sensor noise gives them, N·m.
+/// Root mean square over the usable rows of the standard deviation that sensor noise gives them,
+/// N·m.
 pub fn floor(run: &FiveBarRun, windows: &Windows) -> f64 {
     let noise = Noise::new(run, windows, 0.0);
     let rows = windows.usable.iter().enumerate().filter(|(_, u)| **u);
@@ -76,10 +83,11 @@ pub fn floor(run: &FiveBarRun, windows: &Windows) -> f64 {
     rms(&deviations)
 }
 
-/// The noise model of the usable rows; `excess` is a variance of effort that nothing explains, the same on both outputs.
+/// The noise model of the usable rows. `excess` is an additional variance of the effort that
+/// nothing explains, equal on both outputs.
 pub fn whitener(run: &FiveBarRun, windows: &Windows, excess: f64) -> Whitener {
     let noise = Noise::new(run, windows, excess);
-    // Windows share samples up to their own length and two more.
+    // Windows share samples up to their own length plus two.
     let reach = (windows.bump.len() + 1) / windows.hop;
     let band = windows.outputs * (reach + 1);
     Whitener::banded(&windows.usable, band, |row, other| {
@@ -87,7 +95,8 @@ pub fn whitener(run: &FiveBarRun, windows: &Windows, excess: f64) -> Whitener {
     })
 }
 
-/// The covariance of both rows of a window, given the first of them, (N·m)²; `excess` as in [`whitener`].
+/// The covariance of both rows of a window, given the first of them, (N·m)². `excess` as in
+/// [`whitener`].
 pub fn pair_covariances<'a>(
     run: &'a FiveBarRun,
     windows: &'a Windows,
@@ -102,7 +111,8 @@ struct Noise<'a> {
     windows: &'a Windows,
     /// The weights of both equations in each row.
     shares: Vec<Vector2<f64>>,
-    /// Overlaps of two windows by their distance in hops: of the curvatures and of the bumps.
+    /// Overlaps of two windows by their distance in hops: of the second differences and of the
+    /// bumps.
     overlaps: Vec<OnceLock<[f64; 2]>>,
     excess: f64,
 }
@@ -121,7 +131,6 @@ impl<'a> Noise<'a> {
         }
     }
 
-    /// Covariance of two rows, (N·m)².
     fn covariance(&self, row: usize, other: usize) -> f64 {
         let centre = |row: usize| self.windows.centres.get(row).copied().unwrap_or(0);
         let (here, there) = (centre(row), centre(other));

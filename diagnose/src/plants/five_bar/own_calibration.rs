@@ -1,6 +1,7 @@
-//! This file claims that the five-bar's diagnosis obeys what its description states, and that its own calibration leaves nothing to name.
+//! This file claims that a five-bar simulated with its own calibration is diagnosed as consistent,
+//! and that stated effects are obeyed.
 //!
-//! One seed a mechanism; `RIGPROOF_SEEDS=5` in the environment takes as many.
+//! One seed for each mechanism; `RIGPROOF_SEEDS=5` in the environment takes five.
 
 use super::recorded::{nothing, recording, rig};
 use super::replica::replica;
@@ -15,7 +16,8 @@ use rigproof_spec::layout::Layout;
 use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording};
 use std::path::Path;
 
-/// What is left out: the lines of a description that state it. The last three have a calibration of their own, too.
+/// The effects to leave out, as lines of a description. The last three also get a calibration of
+/// their own.
 const LEFT_OUT: &[&str] = &[
     "mechanism = \"time_constant\"\njoint = \"E\"\nscale = { value = 2.3, unit = \"1\" }\n",
     "mechanism = \"current_gain\"\njoint = \"A\"\nscale = { value = 1.31, unit = \"1\" }\n",
@@ -40,7 +42,7 @@ fn stating(lines: &str) -> FiveBar {
     FiveBar::parse(&text, Path::new("rig.toml")).unwrap()
 }
 
-/// What the rig that a description states records along the path of the thesis's rig.
+/// The recording of a rig as described, along the path of the thesis's rig.
 fn recorded(stated: &FiveBar, seed: u64) -> FiveBarRecording {
     let own = rig(Layout::FourBrake);
     let path = recording(Layout::FourBrake, 9.0, seed, &nothing);
@@ -87,7 +89,7 @@ fn a_description_that_states_the_truth_is_obeyed() {
                 let said = (&found.report.summary, names(&found), &found.report.floor);
                 wrong.push(format!("{lines}{said:?}"));
             }
-            // Free runs have it too: they end nearer to the recording than those without it.
+            // Free runs with the effect end nearer to the recording than those without it.
             let tip_m = |model: &FiveBar| {
                 let free = stated.simulated(model, &recording, 0.3).unwrap();
                 rms(&free.outputs[2].simulated)

@@ -1,4 +1,4 @@
-//! This file is the five-bar by its description.
+//! This file makes the five-bar a `Plant`.
 
 use super::experiment;
 use super::free_run::{Model, simulated};
@@ -50,10 +50,11 @@ impl Plant for FiveBar {
         run.part(from, to)
     }
 
-    /// What is held out of the same recording keeps its past: brakes, heat and memories begin at its first sample.
+    /// The held-out part of the same recording keeps its history: brakes, heat and memories start
+    /// at the first sample.
     fn parted(mut run: FiveBarRun, cut: usize, before: usize) -> (FiveBarRun, FiveBarRun, f64) {
         let fitted = run.part(0, cut);
-        // An onset is a time on the clock of all of them.
+        // An onset is a time on the common clock of all recordings.
         run.start_s += before as f64 * run.step_s;
         let from_s = cut as f64 * run.step_s;
         (fitted, run, from_s)
@@ -63,7 +64,8 @@ impl Plant for FiveBar {
         left(self)
     }
 
-    /// A description with effects of its own was balanced before; without them its recording may be far from balance.
+    /// A description with effects of its own was balanced before. Without them its recording may be
+    /// far from balance.
     fn check(&self, run: &FiveBarRun, problem: &Problem) -> Result<(), (At, Fault)> {
         if let Some(reason) = Model::of(self).not_computed(self.layout) {
             let fault = Fault {

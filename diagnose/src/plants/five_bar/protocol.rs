@@ -1,4 +1,4 @@
-//! This file says how a five-bar's diagnosis was made, line by line.
+//! This file states how a five-bar was diagnosed, line by line.
 
 use crate::diagnose::words::{filled_in, together};
 use crate::diagnose::write::Stand;
@@ -7,7 +7,7 @@ use crate::rules::{NAMED, SUSPECTED};
 use rigproof_trace::rig::five_bar::FiveBar;
 
 impl Stand<'_, FiveBar> {
-    /// How the naming was measured, line by line.
+    /// The lines on how the naming was done.
     pub(super) fn protocol_lines(&self) -> Vec<String> {
         let windows = &self.problem.windows;
         let rows = || {

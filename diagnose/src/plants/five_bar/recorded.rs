@@ -1,5 +1,5 @@
-//! This file makes the recordings of the five-bar that unit tests are about: the reference model led by a hand, with encoders,
-//! sensor noise, and something left out that acts on the tip.
+//! This file makes recordings of the five-bar for unit tests: the reference model led by a hand,
+//! with encoders, sensor noise, and additional torques.
 
 use super::from_rig::aligned;
 use super::run::FiveBarRun;
@@ -18,17 +18,17 @@ use std::path::Path;
 
 /// Sample interval, s.
 const STEP_S: f64 = 1e-3;
-/// Steps of the reference model a sample.
+/// Steps of the reference model per sample.
 const PARTS: usize = 4;
 /// Standard deviation of the force sensor, N.
 const FORCE_NOISE: f64 = 0.037;
-/// Counts of an encoder in a turn.
+/// Counts of an encoder per turn.
 const COUNTS: f64 = 100_000.0;
 
-/// Joint torques that were left out of the model: at a pose, rates of A, E, B, C and a time, N·m.
+/// Joint torques that the model leaves out, N·m, as a function of the pose, the rates of A, E, B,
+/// C, and the time.
 pub type LeftOut<'a> = &'a dyn Fn(&Pose, [f64; 4], f64) -> [f64; 4];
 
-/// Nothing left out.
 pub fn nothing(_: &Pose, _: [f64; 4], _: f64) -> [f64; 4] {
     [0.0; 4]
 }
@@ -56,7 +56,7 @@ pub fn rig(layout: Layout) -> FiveBar {
     FiveBar::parse(&text, Path::new("rig.toml")).unwrap()
 }
 
-/// Where the hand leads the tip, m.
+/// The tip position to which the hand leads, m.
 fn goal(time_s: f64) -> [f64; 2] {
     let sine = |rate: f64, phase: f64| libm::sin(rate * time_s + phase);
     [
@@ -65,13 +65,13 @@ fn goal(time_s: f64) -> [f64; 2] {
     ]
 }
 
-/// The current of a brake: off, then steps that change every 0.9 s, each brake at its own time.
+/// The current of a brake: off, then a step every 0.9 s, each brake at its own time.
 fn current(place: usize, time_s: f64) -> f64 {
     let step = ((time_s + 0.23 * place as f64) / 0.9) as usize;
     [0.0, 0.31, 0.0, 0.17, 0.0, 0.0, 0.43][(step + 3 * place) % 7]
 }
 
-/// A recording of `seconds` with something left out of the model.
+/// A recording of `seconds` with joint torques that the model leaves out.
 pub fn recording(layout: Layout, seconds: f64, seed: u64, left_out: LeftOut) -> FiveBarRecording {
     let mut own = Rig::new(layout, goal(0.0)).unwrap();
     let arms = own.parameters().arms;
@@ -101,7 +101,7 @@ pub fn recording(layout: Layout, seconds: f64, seed: u64, left_out: LeftOut) -> 
         let row = counts.into_iter().chain(seen).chain(currents);
         columns.iter_mut().zip(row).for_each(|(c, x)| c.push(x));
         for part in 0..PARTS {
-            // The hand's goal stands still within a part: in its middle, so that its mean is right.
+            // The hand's goal is constant within a part. Its midpoint gives the right mean.
             let middle_s = time_s + (part as f64 + 0.5) * STEP_S / PARTS as f64;
             let force = |tip: [f64; 2], speed: [f64; 2]| {
                 let at = hand(middle_s, tip, speed);
@@ -142,7 +142,7 @@ pub fn problem(run: &FiveBarRun) -> Problem<'_> {
     Problem::new(run, run.windows_of(0.080))
 }
 
-/// A target that is given row by row.
+/// A target with given rows.
 pub fn target(problem: &Problem, raw: Vec<f64>) -> Rows {
     Rows {
         signal: Vec::new(),
@@ -151,7 +151,7 @@ pub fn target(problem: &Problem, raw: Vec<f64>) -> Rows {
     }
 }
 
-/// Rows of noise, 0.9 times what sensors give.
+/// Rows of noise, 0.9 times the sensors' noise.
 pub fn noise_rows(problem: &Problem, seed: u64) -> Vec<f64> {
     let mut noise = Noise::new(seed);
     let rows = problem.windows.usable.iter();

@@ -1,4 +1,5 @@
-//! This file gives the places of the linkage's joints over time, as recorded and as two models move them: what a replay shows.
+//! This file computes the joint positions of the linkage over time, as recorded and as two models
+//! simulate them, for a replay.
 
 use super::free_run::{Model, Simulated, simulated};
 use super::from_rig::aligned;
@@ -7,12 +8,13 @@ use crate::plant::{Frame, RESTART_S, Replayed};
 use rigproof_model::linkage::{Pose, forward, point_a_m, point_b_m};
 use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording};
 
-/// Frames a second.
+/// Frames per second.
 const RATE_HZ: f64 = 25.0;
-/// The longest replay, s: the reference rig takes its time.
+/// The longest replay, s. The reference rig is slow to simulate.
 pub const LONGEST_S: f64 = 20.0;
 
-/// The end of a recording, [`LONGEST_S`] at most, beside free runs of two descriptions; nothing where it cannot be simulated.
+/// The end of a recording, at most [`LONGEST_S`], beside free runs of two descriptions; `None` if
+/// it cannot be simulated.
 pub fn replayed(
     before: &FiveBar,
     after: &FiveBar,

@@ -1,5 +1,5 @@
-//! This file plays a recording of the five-bar again on the reference rig: a hand leads the tip along the recorded path with the recorded force,
-//! so that the same is excited whatever the rig has.
+//! This file simulates a recording of the five-bar: a hand leads the tip of the reference rig along
+//! the recorded path with the recorded force, so that the excitation is the same.
 
 use super::experiment::play::{DAMPING_NS_M, Played, STIFFNESS_N_M, shown};
 use super::free_run::{Model, currents_at, force_at, parts_of, truly};
@@ -11,10 +11,11 @@ use rigproof_model::rig::Rig;
 use rigproof_trace::rig::Signal;
 use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording};
 
-/// What a rig with the numbers of `model` would have recorded; `nominal` describes the recording.
+/// The recording that a rig with the parameters of `model` would have made. `nominal` describes the
+/// recording.
 ///
 /// # Errors
-/// Why not: the recording is at fault, or the rig cannot be given the effects or led there.
+/// The recording is faulty, or the rig cannot be given the effects or be led there.
 pub(crate) fn replica(
     nominal: &FiveBar,
     model: &FiveBar,
@@ -48,7 +49,7 @@ pub(crate) fn replica(
     })
 }
 
-/// The recorded path of the tip, its velocity and the force on it, between samples straight.
+/// The recorded tip path, its velocity and the force, interpolated linearly between samples.
 struct Led<'a> {
     run: &'a FiveBarRun,
 }
@@ -68,7 +69,7 @@ impl Led<'_> {
         [(to_x - x) / time_s, (to_y - y) / time_s]
     }
 
-    /// The force of the hand, N, a share of a sample after sample `k`.
+    /// The force of the hand, N, at the fraction `share` of the interval after sample `k`.
     fn force_n(&self, k: usize, share: f64, tip_m: [f64; 2], velocity_m_s: [f64; 2]) -> [f64; 2] {
         let between = |of: &dyn Fn(usize) -> [f64; 2]| {
             let ([x, y], [to_x, to_y]) = (of(k), of(k + 1));

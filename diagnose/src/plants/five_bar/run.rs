@@ -1,4 +1,5 @@
-//! This file is an aligned recording of the five-bar: joint motions, forms of the equations of motion, nominal brakes.
+//! This file is an aligned recording of the five-bar: joint motions, equations of motion, nominal
+//! brakes.
 
 use super::encoder::{self, Encoder};
 use super::{candidates, columns, locate, noise};
@@ -20,7 +21,7 @@ use rigproof_spec::effect::{Mechanism, Motion};
 use rigproof_spec::joint::Joint;
 use rigproof_spec::tables::brake_table;
 
-/// An aligned recording of the five-bar in SI units, one value a sample in every vector.
+/// An aligned recording of the five-bar in SI units. Every vector has one value per sample.
 #[derive(Clone, Debug)]
 pub struct FiveBarRun {
     /// Layout, lengths and masses of the nominal model.
@@ -43,29 +44,29 @@ pub struct FiveBarRun {
     pub currents: [Option<Vec<f64>>; 4],
     /// Yield torques of the nominal brakes at A, E, B, C, N·m; 0 without a brake.
     pub yields: [Vec<f64>; 4],
-    /// By how much the nominal yield torques may be mistaken, because where a backlash begins and ends is known to a few counts, N·m.
+    /// The uncertainty of the nominal yield torques from that of their backlash, N·m.
     pub yield_errors: [Vec<f64>; 4],
     /// Standard deviation of one angle sample, rad.
     pub theta_noise: f64,
-    /// Travel within which a joint may rest, rad.
+    /// The travel within which a joint may be at rest, rad.
     pub still_rad: f64,
-    /// Where the low-pass of the angles ends, Hz.
+    /// Cut-off of the low-pass of the angles, Hz.
     pub cutoff_hz: f64,
     /// Standard deviation of one force sample, N.
     pub force_noise: f64,
-    /// Samples that were recorded, not filled in.
+    /// Whether a sample was recorded rather than interpolated.
     pub recorded: Vec<bool>,
     /// Whether a brake's current changes around each sample.
     pub switched: Vec<bool>,
-    /// Speed of θA or θB below which its sense cannot be told, rad/s.
+    /// Speed of θA or θB below which its direction cannot be told, rad/s.
     pub speed_floor: f64,
-    /// The recordings that stand in it one after another; empty for one recording.
+    /// The separate recordings of a joined run; empty for a single one.
     pub parts: Vec<FiveBarRun>,
-    /// What was mended in it.
+    /// What was repaired.
     pub remarks: Vec<Remark>,
 }
 
-/// A joint's place in the order A, E, B, C.
+/// A joint's index in the order A, E, B, C.
 pub const fn place(joint: Joint) -> usize {
     match joint {
         Joint::A => 0,
@@ -75,12 +76,12 @@ pub const fn place(joint: Joint) -> usize {
     }
 }
 
-/// The place of a joint, or of the whole linkage.
+/// The place of a joint; the whole linkage for `None`.
 pub fn place_of(joint: Option<Joint>) -> Place {
     joint.map_or(Place::Whole, |joint| Place::Joint(JointId(place(joint))))
 }
 
-/// The joint at a place; `None` for the whole.
+/// The joint at a place; `None` for the whole linkage.
 pub fn joint_at(at: Place) -> Option<Joint> {
     match at {
         Place::Joint(JointId(joint)) => Joint::ALL.get(joint).copied(),
@@ -109,7 +110,7 @@ impl FiveBarRun {
         self.joints.get(place(joint)).map_or(&[], Vec::as_slice)
     }
 
-    /// What a torque at each joint does to θA and θB, sample by sample: the joint's row of the form.
+    /// The efforts of θA and θB per unit of torque at a joint, sample by sample.
     pub fn joint_rows(&self, joint: Joint) -> impl Iterator<Item = [f64; 2]> {
         let row = place(joint);
         self.forms
@@ -117,25 +118,25 @@ impl FiveBarRun {
             .map(move |form| [0, 1].map(|k| form.joints.get((row, k)).copied().unwrap_or(0.0)))
     }
 
-    /// A resistance at a joint as θA and θB feel it, θA's samples first.
+    /// The efforts of θA and θB for a resistance at a joint; θA's samples first.
     pub fn at_joint(&self, joint: Joint, resistance: &[f64]) -> Vec<f64> {
         let pairs = self.joint_rows(joint).zip(resistance);
         stacked(pairs.map(|(row, r)| row.map(|g| g * r)))
     }
 
-    /// A force on the tip as θA and θB feel it, θA's samples first.
+    /// The efforts of θA and θB for a force on the tip; θA's samples first.
     pub fn at_tip(&self, force: impl Iterator<Item = [f64; 2]>) -> Vec<f64> {
         let pairs = self.forms.iter().zip(force);
         stacked(pairs.map(|(form, force)| (form.tip.transpose() * Vector2::from(force)).into()))
     }
 
-    /// The recorded force on the tip.
+    /// The recorded force on the tip, N.
     pub fn forces(&self) -> impl Iterator<Item = [f64; 2]> {
         let [x, y] = &self.force;
         x.iter().zip(y).map(|(x, y)| [*x, *y])
     }
 
-    /// The recorded force as θA and θB feel it, N·m.
+    /// The efforts of θA and θB for the recorded force, N·m.
     pub fn driving_effort(&self) -> Vec<f64> {
         self.at_tip(self.forces())
     }
@@ -151,15 +152,14 @@ impl FiveBarRun {
         })
     }
 
-    /// The resistance of the nominal brake at a joint, along the motion, N·m.
+    /// The torque of the nominal brake at a joint, along the motion, N·m.
     pub fn brake_torque(&self, joint: Joint) -> Vec<f64> {
         let yields = self.yields.get(place(joint)).into_iter().flatten();
         let pairs = self.motion_of(joint).iter().zip(yields);
         pairs.map(|(now, y)| now.sense * y).collect()
     }
 
-    /// The travel of a joint from sample to sample as far as its recorded angle tells it, rad: through a play as wide as what a joint
-    /// at rest seems to move.
+    /// The travel of a joint between samples, rad, without the apparent motion of a joint at rest.
     pub fn known_travel(&self, joint: Joint) -> Vec<f64> {
         let half = 0.5 * self.still_rad_at(joint);
         let base = [Joint::A, Joint::B].map(|base| self.motion_of(base));
@@ -175,13 +175,13 @@ impl FiveBarRun {
             .collect()
     }
 
-    /// Travel within which a joint may rest, rad.
+    /// The travel within which a joint may be at rest, rad.
     pub fn still_rad_at(&self, joint: Joint) -> f64 {
         let sizes = self.joint_rows(joint).map(|[a, b]| a.abs() + b.abs());
         self.still_rad * sizes.fold(1.0, f64::max)
     }
 
-    /// The angle of a joint that the recorded θA and θB imply, rad, given the smoothed motion of A and B and its own.
+    /// The angle of a joint that follows from the recorded θA and θB, rad.
     pub fn recorded_angle(
         &self,
         joint: Joint,
@@ -195,7 +195,7 @@ impl FiveBarRun {
         rows.map(|(([by_a, by_b], (a, b)), own)| own.position + by_a * a + by_b * b)
     }
 
-    /// What was recorded beside the angles; what follows from them is empty.
+    /// The recorded signals other than the angles. Everything that depends on the angles is empty.
     pub fn without_motion(&self) -> FiveBarRun {
         FiveBarRun {
             parameters: self.parameters,
@@ -215,7 +215,7 @@ impl FiveBarRun {
         }
     }
 
-    /// The samples `from..to`, times kept.
+    /// The samples `from..to`, with their times.
     pub fn part(&self, from: usize, to: usize) -> FiveBarRun {
         let part = |values: &Vec<f64>| values.get(from..to).unwrap_or_default().to_vec();
         FiveBarRun {
@@ -255,10 +255,10 @@ pub fn stacked(pairs: impl Iterator<Item = [f64; 2]>) -> Vec<f64> {
     both
 }
 
-/// Poses and forms along a smoothed motion of θA and θB.
+/// Poses and equations of motion along a smoothed motion of θA and θB.
 ///
 /// # Errors
-/// The linkage cannot be assembled at some sample: its number, and why.
+/// The linkage cannot be assembled at some sample: its index, and why.
 pub fn forms(
     parameters: &Parameters,
     base: &[Vec<Instant>; 2],
@@ -276,8 +276,8 @@ pub fn forms(
     Ok((poses, forms))
 }
 
-/// What the inertia of some mass matrices takes, sample by sample, as the second difference of the angles sees it:
-/// d/dt(M·q̇) − ½·∂(q̇ᵀ·M·q̇)/∂q, θA's samples first.
+/// The inertial effort of some mass matrices, as the second difference of the angles shows it:
+/// d/dt(M·q̇) − ½·∂(q̇ᵀ·M·q̇)/∂q; θA's samples first.
 pub fn inertial(run: &FiveBarRun, forms: &[TwoCoordinate]) -> Vec<f64> {
     let step_s = run.step_s;
     let count = forms.len();
@@ -353,7 +353,7 @@ impl Run for FiveBarRun {
         columns::known(self)
     }
 
-    /// The narrowest windows whose predicted floor is small against the driving effort.
+    /// The narrowest windows whose predicted noise is small beside the driving effort.
     fn windows(&self) -> Windows {
         let [narrow, middle, wide] = WIDTHS_S;
         let quiet = |width_s: f64| {
@@ -364,12 +364,12 @@ impl Run for FiveBarRun {
         windows.unwrap_or_else(|| self.windows_of(wide))
     }
 
-    /// The rows in which what its brakes do is known.
+    /// Keeps the rows in which the torques of the brakes are known.
     fn keep_told(&self, windows: &mut Windows) {
         noise::keep_told(self, windows);
     }
 
-    /// Of θA's or θB's own equation; the noise of every row is told by the poses.
+    /// Of θA's or θB's own equation. The noise of each row depends on the poses.
     fn sensors(&self) -> [f64; 2] {
         let inertia = self.forms.first().map_or(0.0, |form| form.mass.m11);
         [inertia * self.theta_noise, self.force_noise]
@@ -404,7 +404,7 @@ impl Run for FiveBarRun {
         joint_at(at).map_or(&[], |joint| self.motion_of(joint))
     }
 
-    /// The range of a joint's angle; the greater of those of θA and θB for the whole.
+    /// The range of a joint's angle; for the whole linkage the greater of those of θA and θB.
     fn travel(&self, at: Place) -> f64 {
         let range = |positions: &mut dyn Iterator<Item = f64>| {
             let (low, high) = positions
@@ -481,7 +481,7 @@ impl Run for FiveBarRun {
         locate::regimes(self, windows)
     }
 
-    /// The joint's row of the form at each window's centre, as the row combines both equations.
+    /// The weight of the joint's torque in each row, at the window's centre.
     fn shares(&self, at: Place, windows: &Windows) -> Vec<f64> {
         let Some(joint) = joint_at(at) else {
             return vec![0.0; windows.centres.len()];

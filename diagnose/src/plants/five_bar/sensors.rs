@@ -1,4 +1,4 @@
-//! This file is what the sensors of a five-bar leave unknown of a sample: the step of an encoder, and the noise of angles and forces.
+//! This file gives the resolution and the noise of the five-bar's sensors.
 
 use crate::align::smallest_step;
 use rigproof_trace::rig::Signal;
@@ -13,7 +13,8 @@ pub(super) fn angle_noise(angle: &Signal) -> f64 {
     (quantum_of(angle) / 12f64.sqrt()).hypot(angle.noise.unwrap_or(0.0))
 }
 
-/// The noise of a force as stated, else from its second differences, which a smooth force hardly has.
+/// The noise of a force as stated, otherwise estimated from its second differences, which are small
+/// for a smooth force.
 pub(super) fn noise_of_force(force: &Signal) -> f64 {
     if let Some(noise) = force.noise {
         return noise.hypot(force.quantum.unwrap_or(0.0) / 12f64.sqrt());
@@ -29,6 +30,7 @@ pub(super) fn noise_of_force(force: &Signal) -> f64 {
         .collect();
     bends.sort_by(f64::total_cmp);
     let median = bends.get(bends.len() / 2).copied().unwrap_or(0.0);
-    // White noise: the median of a magnitude is 0.6745 of the standard deviation, that of a second difference √6 of a sample's.
+    // For white noise the median of a magnitude is 0.6745 standard deviations, and a second
+    // difference has √6 times the deviation of a sample.
     (median / (0.6745 * 6f64.sqrt())).max(smallest_step(&force.samples) / 12f64.sqrt())
 }

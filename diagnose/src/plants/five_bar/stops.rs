@@ -1,9 +1,10 @@
-//! This file takes the sense from a joint that may stop and go: slow, while brakes are switched.
+//! This file marks the direction of a joint as unknown where it may stop and start again: at low
+//! speed, while brakes switch.
 
 use crate::rules::{STOP_S, SWITCHED_A, SWITCHED_S};
 use rigproof_model::effects::Instant;
 
-/// Whether a brake's current changes around each sample.
+/// Whether a brake's current changes near each sample.
 pub fn switched(currents: &[Option<Vec<f64>>; 4], step_s: f64, count: usize) -> Vec<bool> {
     let reach = samples(SWITCHED_S, step_s);
     let mut switched = vec![false; count];
@@ -15,8 +16,8 @@ pub fn switched(currents: &[Option<Vec<f64>>; 4], step_s: f64, count: usize) -> 
     switched
 }
 
-/// Takes the sense away where brakes are switched and the recorded angle stays within `still` for a few milliseconds: a joint may stop
-/// and go faster than its smoothed angle tells.
+/// Marks the direction as unknown where brakes switch and the recorded angle stays within `still`
+/// for a few milliseconds. A joint may stop and start faster than its smoothed angle shows.
 pub fn forget_sense_at_stops(
     motion: &mut [Instant],
     recorded: &[f64],
@@ -35,13 +36,13 @@ fn samples(time_s: f64, step_s: f64) -> usize {
     (time_s / step_s).round().max(1.0) as usize
 }
 
-/// The samples within `reach` of one.
+/// The samples within `reach` of sample `k`.
 fn around(values: &[f64], k: usize, reach: usize) -> &[f64] {
     let end = (k + reach + 1).min(values.len());
     values.get(k.saturating_sub(reach)..end).unwrap_or_default()
 }
 
-/// The greatest of some values less the least.
+/// The greatest value less the least.
 fn range(values: impl Iterator<Item = f64> + Clone) -> f64 {
     let low = values.clone().fold(f64::INFINITY, f64::min);
     values.fold(f64::NEG_INFINITY, f64::max) - low
@@ -55,7 +56,7 @@ mod tests {
 
     #[test]
     fn a_stop_between_two_motions_is_seen_where_brakes_are_switched() {
-        // A count a millisecond, then 9 ms at one place, then on.
+        // A count per millisecond, then 9 ms at one place, then on.
         let recorded: Vec<f64> = (0..60)
             .map(|k: i32| COUNT * f64::from(k.min(30) + (k - 39).max(0)))
             .collect();

@@ -1,4 +1,5 @@
-//! This file claims that the diagnosis of the five-bar names what was left out, where it was left out, and nothing else.
+//! This file claims that the diagnosis of the five-bar names what was left out, where it was left
+//! out, and nothing else.
 
 use super::columns::{driving, free};
 use super::from_rig::aligned;
@@ -24,7 +25,7 @@ use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording};
 /// Long enough for a name, s.
 const SECONDS: f64 = 9.0;
 
-/// What names and numbers need: the next experiment has tests of its own.
+/// The next experiment has tests of its own and is switched off here.
 fn options() -> Options {
     Options {
         next_experiment: false,
@@ -68,7 +69,7 @@ fn a_recording_of_the_model_itself_is_consistent() {
 #[test]
 fn drag_at_one_joint_is_named_there_with_its_coefficient() {
     let drag = |_: &_, rates: [f64; 4], _: f64| [-DRAG * rates[0], 0.0, 0.0, 0.0];
-    // Long enough for free runs of a second on the held-out part to be worth comparing.
+    // Long enough for free runs of a second on the held-out part.
     let report = diagnosed(Layout::ThreeBrake, 16.0, 9, &drag).report;
     let expected = [("viscous", Some("A"))];
     assert_eq!(named(&report), expected, "{}", report.summary);
@@ -104,7 +105,7 @@ fn where_one_joint_is_held_or_turns_back_the_other_equation_still_balances() {
             .map(|&row| problem.target.white[row])
             .collect();
         assert!(rms(&white) < 1.2, "{layout:?}: {} deviations", rms(&white));
-        // Neither equation alone balances there: what a held brake transmits is in both.
+        // Neither equation balances on its own: the reaction of a held brake is in both.
         let [own, other] = [0, 1].map(|output| {
             let mut whole = problem.windows.clone();
             whole.combined.fill(None);
@@ -131,7 +132,7 @@ fn a_joint_turns_back_where_its_angle_does_and_not_where_it_wavers_by_counts() {
         senses.dedup_by(|now, before| *now * *before > 0.0);
         senses.len()
     };
-    // On by 0.4 rad/s, back for 0.2 s at a thousandth of that, on again.
+    // Forward at 0.4 rad/s, back for 0.2 s at a thousandth of that, forward again.
     let at = |by_rad: f64| (by_rad / (0.1 * still)).round() * 0.1 * still;
     let path = |k: usize, back: f64| {
         let (on, slow) = (4e-4 * k as f64, k.clamp(700, 900) as f64 - 700.0);
@@ -146,7 +147,7 @@ fn a_joint_turns_back_where_its_angle_does_and_not_where_it_wavers_by_counts() {
     assert_eq!(senses(&run), 1);
 }
 
-/// The fault that is seen before anything is looked for, after a mistake in the recording.
+/// The fault that is found before any fit, after a mistake in the recording.
 fn fault(
     layout: Layout,
     recording: &FiveBarRecording,
@@ -178,7 +179,7 @@ fn a_channel_taken_for_another_or_with_the_wrong_sign_is_a_fault_and_friction_le
         let swapped = fault(layout, &dragged, |recording| recording.force.reverse());
         let reason = swapped.unwrap().reason;
         assert!(reason.contains("swapped"), "{layout:?}: {reason}");
-        // What B got is recorded as A's, what A got as E's, what E got as B's.
+        // The channels of A, E, B hold the currents of B, A, E.
         let exact = recording(layout, 0.5 * SECONDS, 13, &nothing);
         let turned = |recording: &mut FiveBarRecording| recording.currents[..3].rotate_right(1);
         let reason = fault(layout, &exact, turned).unwrap().reason;
@@ -338,7 +339,8 @@ fn an_encoder_that_slips_is_named_with_when_and_its_calibration_leaves_nothing()
     assert_calibrated(&found, &recording);
 }
 
-/// With what was found in its description a recording is explained, and what stands there stays.
+/// A recording diagnosed with its own calibration is consistent, and the stated effects keep their
+/// parameters.
 fn assert_calibrated(found: &Diagnosis<FiveBar>, recording: &FiveBarRecording) {
     let calibrated = &found.calibration;
     let again = diagnose(calibrated, &[recording], None, &options());
@@ -353,7 +355,7 @@ fn a_delay_that_swings_is_a_delay_and_more() {
     for force in &mut recording.force {
         let now = force.samples.clone();
         for (k, sample) in force.samples.iter_mut().enumerate() {
-            // Late by 8 ms, give or take 5 ms within 2.1 s; straight between samples.
+            // Late by 8 ms ± 5 ms within 2.1 s, interpolated linearly between samples.
             let late = 8.0 + 5.0 * libm::sin(2.99e-3 * k as f64);
             let at = (k as f64 - late).max(0.0);
             let (before, share) = (at as usize, at.fract());
@@ -367,7 +369,7 @@ fn a_delay_that_swings_is_a_delay_and_more() {
     assert_eq!(report.verdict, Verdict::PartlyExplained);
 }
 
-/// A spring at A of the four-brake layout, N·m/rad, and where it rests, rad.
+/// A spring at A of the four-brake layout, N·m/rad, and its rest angle, rad.
 const SPRING: [f64; 2] = [0.47, 1.63];
 
 #[test]

@@ -1,4 +1,5 @@
-//! This file undoes what a description says of its encoders before anything is fitted: the linkage bends a wrong angle too much for a sum of columns.
+//! This file inverts the described encoder errors before anything is fitted. The linkage is too
+//! nonlinear for them to enter as regression columns.
 
 use super::free_run::{Model, truly};
 use super::from_rig::{aligned, nominal, realigned};
@@ -11,7 +12,7 @@ use rigproof_model::error::ModelError;
 use rigproof_spec::effect::Mechanism;
 use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording, JointEffect};
 
-/// The effects of a description that are undone, and those that are left for the nominal model.
+/// The described effects that are inverted, and those that stay in the nominal model.
 pub fn undone_first(rig: &FiveBar) -> (Vec<JointEffect>, Vec<JointEffect>) {
     let effects = rig.effects.iter().cloned();
     effects.partition(|own| is_of_encoder(own.effect.mechanism))
@@ -21,7 +22,7 @@ fn is_of_encoder(mechanism: Mechanism) -> bool {
     form(mechanism).is_some_and(Form::is_of_encoder)
 }
 
-/// What the nominal model has beyond the thesis's when the encoders are undone.
+/// The effects of the nominal model beyond the thesis's, without those of the encoders.
 pub fn left(rig: &FiveBar) -> Vec<Effect> {
     nominal(&with(rig, undone_first(rig).1))
 }
@@ -33,7 +34,8 @@ fn with(rig: &FiveBar, effects: Vec<JointEffect>) -> FiveBar {
     }
 }
 
-/// A recording aligned, with the angles that the linkage had; `before_s` of other recordings come before it on the clock of onsets.
+/// An aligned recording with the true angles of the linkage. `before_s` is the length of the
+/// recordings before it on the clock of the onsets.
 ///
 /// # Errors
 /// The fault that makes any conclusion meaningless.

@@ -1,4 +1,5 @@
-//! This file asks whether the held-out free run of a joint agrees with what noise, windows and the intervals of the numbers predict.
+//! This file checks whether the error of the held-out free run is as large as noise, residual and
+//! parameter intervals predict.
 
 use super::refit::errors;
 use super::run::{JointRun, PlantKind};
@@ -14,13 +15,14 @@ use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::SeedableRng;
 use rigproof_trace::rig::Rig;
 
-/// Half widths of a 95 % interval in standard deviations.
+/// Half width of a 95 % interval, in standard deviations.
 const NORMAL: f64 = 1.959_963_984_540_054;
-/// Seed of the effort's noise that a free run is tried with.
+/// Seed of the noise that is added to the effort of a trial run.
 const SEED: u64 = 41;
 
 impl Stand<'_, Rig> {
-    /// Whether the held-out free run of a plant agrees; `None` with a brake, whose edges are told to a sample only.
+    /// Compares the held-out free run with its predicted error. `None` with a brake: the edges of
+    /// its torque are known to one sample only.
     pub(super) fn agreement(
         &self,
         plant: &Model,
@@ -50,7 +52,8 @@ impl Stand<'_, Rig> {
                 let other = changed(&errors(plant, &noisy(test), protocol));
                 test.position_noise.hypot(other)
             }
-            // What differs from sample to sample alone is noise, whatever its size is said to be.
+            // On a bench the scatter between neighbouring samples is noise, whatever noise the
+            // description states.
             PlantKind::Bench => {
                 let next = own.iter().skip(1);
                 let jumps: Vec<f64> = own.iter().zip(next).map(|(a, b)| b - a).collect();
@@ -58,7 +61,7 @@ impl Stand<'_, Rig> {
             }
         };
         variance += noise * noise;
-        // What the windows leave over acts on a free run too.
+        // The model discrepancy that the windows show acts on a free run too.
         let discrepancy = self.floor().ratio_after.max(1.0);
         let allowed = AGREES_WITHIN * discrepancy * variance.sqrt();
         let first_s = test.start_s + test.len().saturating_sub(own.len()) as f64 * test.step_s;
@@ -68,7 +71,7 @@ impl Stand<'_, Rig> {
     }
 }
 
-/// The plant with one number after another moved by its standard deviation.
+/// The plant with one parameter at a time moved by its standard deviation.
 fn moved(plant: &Model, intervals: &Intervals) -> Vec<Model> {
     let mut all = Vec::new();
     if let Some(half) = intervals.nuisances.first().filter(|half| half.is_finite()) {
@@ -94,7 +97,7 @@ fn moved(plant: &Model, intervals: &Intervals) -> Vec<Model> {
     all
 }
 
-/// The recording with noise of its stated size on the effort.
+/// The recording with extra noise on the effort, of the stated size.
 fn noisy(run: &JointRun) -> JointRun {
     let mut random = Pcg64Mcg::seed_from_u64(SEED);
     let mut own = run.part(0, run.len());

@@ -1,4 +1,5 @@
-//! This file is stage 0 of a plant of one joint: its recording is put on regular samples, its faults are named, its noise is measured.
+//! This file is stage 0 for a plant of one joint: it resamples a recording, finds its faults and
+//! measures its noise.
 
 use super::checks;
 use super::inertia::Inertia;
@@ -14,12 +15,12 @@ use crate::plant::Run;
 use crate::rules::{MOST_GIVEN, STILL_QUANTA, STILL_SIGMAS};
 use rigproof_spec::effect::Motion;
 
-/// What stage 0 takes: the plant's roles in SI units, NaN where nothing was recorded.
+/// The recorded signals of a plant by role, in SI units; NaN where nothing was recorded.
 #[derive(Clone, Debug)]
 pub struct Signals {
-    /// The plant.
+    /// The kind of plant.
     pub plant: PlantKind,
-    /// Whether it slides or turns.
+    /// Whether the joint is linear or rotary.
     pub kind: Motion,
     /// Time stamps, s, increasing.
     pub time_s: Vec<f64>,
@@ -27,7 +28,7 @@ pub struct Signals {
     pub position: Vec<f64>,
     /// Axis: command times its gain. Bench: metered effort. N or N·m.
     pub effort: Vec<f64>,
-    /// Bench: effort that somebody's simulation predicts.
+    /// Bench: the effort that an external simulation predicts.
     pub predicted: Option<Vec<f64>>,
     /// Bench: the current, A.
     pub current: Option<Vec<f64>>,
@@ -43,7 +44,10 @@ pub struct Signals {
     pub effort_limit: Option<f64>,
 }
 
-/// Aligns a recording, or says why nothing can be concluded from it.
+/// Aligns a recording.
+///
+/// # Errors
+/// The fault that makes any conclusion meaningless.
 pub fn align(recorded: &Signals) -> Result<JointRun, Fault> {
     let mut signals = recorded.clone();
     let step_s = median_step(&signals.time_s);
@@ -111,7 +115,8 @@ pub fn align(recorded: &Signals) -> Result<JointRun, Fault> {
     Ok(run)
 }
 
-/// Mends the position, and puts the samples on the grid of their stamps; gives what was mended and what jitter adds to the noise of a position.
+/// Repairs jumps of the position and moves samples to the grid of their time stamps. Returns the
+/// remarks, and the position noise that jitter adds.
 fn mended(
     signals: &mut Signals,
     (step_s, quantum): (f64, f64),
@@ -146,7 +151,7 @@ fn mended(
     Ok((mended, noise))
 }
 
-/// The resolution of the position, and the noise that it makes with what is stated.
+/// The resolution of the position, and its noise including rounding.
 fn resolution(signals: &Signals) -> (f64, f64) {
     let quantum = signals
         .position_quantum
@@ -155,7 +160,8 @@ fn resolution(signals: &Signals) -> (f64, f64) {
     (quantum, (quantum / 12f64.sqrt()).hypot(stated))
 }
 
-/// A resistance that gives energy on the whole has a channel with the wrong sign.
+/// A passive resistance cannot give out energy on average. If it does, a channel has the wrong
+/// sign.
 fn check_sign(run: &JointRun) -> Result<(), Fault> {
     if run.plant == PlantKind::Axis {
         return Ok(());

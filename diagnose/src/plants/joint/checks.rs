@@ -1,4 +1,5 @@
-//! This file finds channels of a plant of one joint that are dead, clipped or in another unit, before anything is fitted.
+//! This file finds channels of a plant of one joint that are dead, clipped or in another unit,
+//! before anything is fitted.
 
 use super::align::Signals;
 use super::run::PlantKind;
@@ -7,10 +8,10 @@ use crate::align::{
 };
 use crate::rules::{DIES_AWAY, GROWS, LEAST_WAY, MOST_TURNS};
 
-/// Checks the channels as recorded, and as mended.
+/// Checks the channels as recorded, and after repair.
 ///
 /// # Errors
-/// The channel that is at fault, and why.
+/// The faulty channel, and the reason.
 pub fn check(recorded: &Signals, signals: &Signals, step_s: f64) -> Result<(), Fault> {
     check_units_of(recorded)?;
     check_metered(signals, step_s)?;
@@ -18,7 +19,7 @@ pub fn check(recorded: &Signals, signals: &Signals, step_s: f64) -> Result<(), F
     check_clipped(&signals.time_s, &signals.effort, signals.effort_limit)
 }
 
-/// Counts of the position and noise of the effort are those of the units that are stated.
+/// Checks that the position's resolution and the effort's noise fit the stated units.
 fn check_units_of(signals: &Signals) -> Result<(), Fault> {
     let ends_s = [signals.time_s.first(), signals.time_s.last()];
     let ends_s = ends_s.map(|end| end.copied().unwrap_or(0.0));
@@ -38,7 +39,8 @@ fn check_units_of(signals: &Signals) -> Result<(), Fault> {
     check_units(&effort, ends_s)
 }
 
-/// Under a constant command an axis comes to rest, or goes on one way: one that is driven to and fro has a dead command, or another column's.
+/// Under a constant command an axis comes to rest or keeps its direction. If it is driven to and
+/// fro instead, the command is dead or another column.
 fn check_commanded(signals: &Signals) -> Result<(), Fault> {
     let level = signals.effort.iter().find(|x| !x.is_nan());
     let Some(level) = level.filter(|_| signals.plant == PlantKind::Axis) else {
@@ -65,7 +67,7 @@ fn check_commanded(signals: &Signals) -> Result<(), Fault> {
     })
 }
 
-/// Whether a position comes to move faster than it did before, by more than a free motion ever does.
+/// Whether the motion grows by more than a free motion ever does.
 fn starts_by_itself(position: &[f64]) -> bool {
     let stretch = (position.len() / 20).max(2);
     let ways = position.chunks(stretch).map(|own| {
@@ -81,7 +83,8 @@ fn starts_by_itself(position: &[f64]) -> bool {
     })
 }
 
-/// The travel from sample to sample in the first and the second half, and how often a position turns back by a tenth of its range.
+/// The path length of the first and the second half, and the number of reversals by more than a
+/// tenth of the range.
 fn to_and_fro(position: &[f64]) -> ([f64; 2], usize) {
     let live: Vec<f64> = position.iter().copied().filter(|x| !x.is_nan()).collect();
     let (first, second) = live.split_at(live.len() / 2);
@@ -107,7 +110,7 @@ fn to_and_fro(position: &[f64]) -> ([f64; 2], usize) {
     ([way(first), way(second)], turns)
 }
 
-/// A metered effort has noise: on a bench a constant one is a dead channel, unless the motion rests too.
+/// A metered effort is noisy. If it stays constant on a moving bench, the channel is dead.
 fn check_metered(signals: &Signals, step_s: f64) -> Result<(), Fault> {
     if signals.plant == PlantKind::Axis {
         return Ok(());

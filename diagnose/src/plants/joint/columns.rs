@@ -1,4 +1,5 @@
-//! This file is the columns of a plant of one joint: resistances along its motion, and changes of its drive.
+//! This file computes the regression columns of a plant of one joint: resistances along its motion,
+//! and changes of its drive.
 
 use super::drive::driven;
 use super::inertia::Inertia;
@@ -15,8 +16,8 @@ use rigproof_model::effects::{
 };
 use rigproof_spec::effect::Mechanism;
 
-/// One signal for each linear parameter of a resistance, as the position sees it: the law with that parameter 1 and the
-/// others 0. `None` for a mechanism that acts on the drive.
+/// One column per linear parameter of a resistance: the law with that parameter 1 and the others 0,
+/// filtered as the position shows it. `None` for a mechanism of the drive.
 pub fn resistances(run: &JointRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<f64>>> {
     let own = match is_of_brake(cause) {
         true => of_brake(run, cause, shape)?,
@@ -25,7 +26,7 @@ pub fn resistances(run: &JointRun, cause: Cause, shape: &[f64]) -> Option<Vec<Ve
     Some(own.into_iter().map(|signal| seen(run, signal)).collect())
 }
 
-/// What an effect adds to a brake's torque, sample by sample.
+/// The torque that an effect adds to a brake, sample by sample.
 pub fn of_effect(run: &JointRun, effect: &Effect) -> Option<Vec<f64>> {
     let linear = entry(effect.mechanism())?.linear;
     let (coefficients, shape) = effect
@@ -42,7 +43,7 @@ pub fn of_effect(run: &JointRun, effect: &Effect) -> Option<Vec<f64>> {
     Some(sum)
 }
 
-/// Whether a cause is something that a brake does with its current, or a share of its torque.
+/// Whether a cause belongs to a brake's current or torque, or is a share of its torque.
 pub fn is_of_brake(cause: Cause) -> bool {
     let is_share = cause.scales == Scales::Torque;
     is_share
@@ -52,7 +53,8 @@ pub fn is_of_brake(cause: Cause) -> bool {
         )
 }
 
-/// What a cause adds to a brake's torque, a signal for each linear parameter; `None` on a plant without a brake and its current.
+/// The torque that a cause adds to a brake, one signal per linear parameter. `None` on a plant
+/// without a brake and its current.
 pub fn of_brake(run: &JointRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<f64>>> {
     let (predicted, current) = run.brake()?;
     if let Some(Form::Brake(kind)) = form(cause.mechanism) {
@@ -63,7 +65,7 @@ pub fn of_brake(run: &JointRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<f
             along.map(|(now, change)| now.sense * change).collect(),
         ]);
     }
-    // The law says which share of the brake's torque.
+    // The law gives a share of the brake's torque.
     let mut shares = plant::resistances(&run.motion, run.step_s, cause.mechanism, shape)?;
     for share in shares
         .iter_mut()
@@ -74,8 +76,8 @@ pub fn of_brake(run: &JointRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<f
     Some(shares)
 }
 
-/// A resistance as the discrete second difference of the position sees it: on an axis with Numerov's weights,
-/// exact to fourth order in the step for a signal that is smooth between samples.
+/// A resistance as the discrete second difference of the position shows it. On an axis this applies
+/// Numerov's weights, which are exact to fourth order in the step for a smooth signal.
 fn seen(run: &JointRun, signal: Vec<f64>) -> Vec<f64> {
     match run.plant {
         PlantKind::Axis => numerov(&signal),
@@ -83,7 +85,7 @@ fn seen(run: &JointRun, signal: Vec<f64>) -> Vec<f64> {
     }
 }
 
-/// A resistance as a bench meters it.
+/// A resistance as a bench meters it, with the sensor effects that the description states.
 pub fn metered(run: &JointRun, signal: Vec<f64>) -> Vec<f64> {
     match run.metered_by.is_empty() {
         true => signal,
@@ -91,8 +93,9 @@ pub fn metered(run: &JointRun, signal: Vec<f64>) -> Vec<f64> {
     }
 }
 
-/// The effort as the discrete second difference of the position sees it: half of the last value and half of this
-/// one for a drive that holds, Numerov's weights for one that was sampled; the metered effort itself on a bench.
+/// The effort as the discrete second difference of the position shows it. A held drive counts half
+/// the previous and half the present value; a sampled smooth one gets Numerov's weights. On a bench
+/// it is the metered effort itself.
 pub fn acting_effort(run: &JointRun, effort: &[f64]) -> Vec<f64> {
     match (run.plant, run.held) {
         (PlantKind::Bench, _) => effort.to_vec(),
@@ -104,18 +107,19 @@ pub fn acting_effort(run: &JointRun, effort: &[f64]) -> Vec<f64> {
     }
 }
 
-/// What a recorded drive has more than the one that acts, as the position sees it.
+/// The recorded effort less the acting one, as the position shows it.
 fn missing_effort(run: &JointRun, acting: &[f64]) -> Vec<f64> {
     acting_effort(run, &less(&run.effort, acting))
 }
 
-/// The resistance of the description along the motion, with the numbers that it states; with `known_only` of those that it knows.
+/// The described resistance along the motion, with the stated parameters. With `known_only`,
+/// parameters that are to be estimated are left out.
 fn described(run: &JointRun, known_only: bool) -> Vec<f64> {
     let effects = run.described.iter();
     sum_of(run, effects.filter(|own| !(known_only && own.unknown)))
 }
 
-/// The resistance of effects along the motion, with the numbers that are stated.
+/// The summed resistance of effects along the motion, with their stated parameters.
 fn sum_of<'a>(run: &JointRun, effects: impl Iterator<Item = &'a Effect>) -> Vec<f64> {
     let mut sum = vec![0.0; run.motion.len()];
     for effect in effects {
@@ -135,7 +139,8 @@ fn sum_of<'a>(run: &JointRun, effects: impl Iterator<Item = &'a Effect>) -> Vec<
     sum
 }
 
-/// The described resistance that a fade is of: all of it, or what a description that states a fade has before it.
+/// The described resistance that fades. A description that states a fade lists the faded effects
+/// before it.
 fn faded_by_time(run: &JointRun) -> Vec<f64> {
     let is_fade = |own: &Effect| matches!(form(own.mechanism()), Some(Form::Joint(OfJoint::Fade)));
     let before = run.described.iter().position(is_fade);
@@ -143,27 +148,27 @@ fn faded_by_time(run: &JointRun) -> Vec<f64> {
     sum_of(run, run.described.iter().take(before))
 }
 
-/// The part of the described resistance that goes with the speed, not with its sense alone.
+/// The described viscous coefficient. The rest of the described resistance depends on the direction
+/// of motion only.
 fn described_viscous(run: &JointRun) -> f64 {
     let own = run.described.iter();
     let own = own.filter(|e| e.cause.mechanism == Mechanism::Viscous && !e.unknown);
     own.filter_map(|e| e.parameters.first()).sum()
 }
 
-/// The acceleration of the smoothed motion.
 fn acceleration(run: &JointRun) -> Vec<f64> {
     let speeds: Vec<f64> = run.motion.iter().map(|now| now.speed).collect();
     gradient(&speeds, run.step_s)
 }
 
-/// What everything known comes to if the drive is not as described.
+/// The known part of the equation, with the described resistance: what a changed drive scales.
 fn known_effort(run: &JointRun) -> Vec<f64> {
     let mut known = run.known();
     add(&mut known, &seen(run, described(run, true)), 1.0);
     known
 }
 
-/// Columns of what a driven joint has as a whole, or its encoder shows.
+/// The columns of a mechanism of the whole joint or of its encoder.
 fn of_joint(run: &JointRun, form: Form, shape: &[f64]) -> Option<Columns> {
     let free = |signal: Vec<f64>| Some(Columns::Free(vec![signal]));
     let inertia = run.inertia.start();
@@ -176,7 +181,8 @@ fn of_joint(run: &JointRun, form: Form, shape: &[f64]) -> Option<Columns> {
             let mut effort = described(run, false);
             add(&mut effort, &acceleration(run), inertia);
             let loads = effort.iter().zip(&run.motion);
-            // The friction by load is part of the load: e = rest + share·|e|·sgn(q̇).
+            // Friction in proportion to the load depends on the load that includes it: e = rest +
+            // share·|e|·sgn(q̇).
             let signal = loads.map(|(rest, now)| {
                 let along = rest.signum() * now.sense;
                 share * rest.abs() / (1.0 - share * along) * now.sense
@@ -213,7 +219,8 @@ fn of_joint(run: &JointRun, form: Form, shape: &[f64]) -> Option<Columns> {
     }
 }
 
-/// What a motion that is shown in the place of another one by so much takes in effort.
+/// The effort that an error of the shown position adds: its second difference times the inertia,
+/// and its slope times the friction.
 fn shown_by(run: &JointRun, wave: fn(f64) -> f64, inertia: f64) -> Vec<f64> {
     let more: Vec<f64> = run.motion.iter().map(|now| wave(now.position)).collect();
     let mut signal = second_difference(&more, run.step_s);
@@ -225,7 +232,8 @@ fn shown_by(run: &JointRun, wave: fn(f64) -> f64, inertia: f64) -> Vec<f64> {
     signal
 }
 
-/// The acceleration of a resonator's mass that hangs on what moves with this acceleration, relative to it.
+/// The acceleration, relative to its base, of a mass on a damped spring whose base has the given
+/// acceleration.
 fn trailing(acceleration: &[f64], resonance: f64, damping: f64, step_s: f64) -> Vec<f64> {
     let h = step_s / SUBSTEPS as f64;
     let (mut x, mut v) = (0.0, 0.0);
@@ -234,7 +242,7 @@ fn trailing(acceleration: &[f64], resonance: f64, damping: f64, step_s: f64) -> 
         let pull = |x: f64, v: f64| -2.0 * damping * resonance * v - resonance * resonance * x;
         let now = pull(x, v) - base;
         for part in 0..SUBSTEPS {
-            // In the middle of a part, so that its mean is right.
+            // The midpoint of a substep, so that the mean is right.
             let share = (part as f64 + 0.5) / SUBSTEPS as f64;
             v += h * (pull(x, v) - base - share * (next - base));
             x += h * v;
@@ -244,10 +252,13 @@ fn trailing(acceleration: &[f64], resonance: f64, damping: f64, step_s: f64) -> 
     each.collect()
 }
 
-/// Steps of a resonator in one sample.
+/// Integration steps of a resonator in one sample.
 const SUBSTEPS: usize = 8;
 
-/// Columns of a mechanism. A change of the drive acts on what the others give, `beside`; where that is empty, on the recorded drive itself.
+/// The columns of a mechanism.
+///
+/// A change of the drive is linearised about the effort `beside`, which the other terms give. If
+/// that is empty, the recorded drive is changed instead.
 pub fn columns(
     run: &JointRun,
     cause: Cause,
@@ -268,7 +279,7 @@ pub fn columns(
         }
         _ => {
             let mut signals = resistances(run, cause, shape)?;
-            // Where its zero is not known a second number goes with it.
+            // A law with an unknown zero gets a second coefficient for it.
             if let Some(zero) = facts(mechanism).and_then(|facts| facts.zero) {
                 signals.extend(resistances(run, Cause::of(zero), &[])?);
             }
@@ -277,7 +288,7 @@ pub fn columns(
     }
 }
 
-/// Columns of a change of the drive: what the recorded effort has more than the one that acts.
+/// The columns of a change of the recorded drive: the recorded effort less the acting one.
 fn drive(run: &JointRun, what: Drive, shape: &[f64]) -> Option<Columns> {
     let value = shape.first().copied().unwrap_or(0.0);
     let step_s = run.step_s;
@@ -291,11 +302,11 @@ fn drive(run: &JointRun, what: Drive, shape: &[f64]) -> Option<Columns> {
     match (what, run.plant, run.brake()) {
         (Drive::Gain, ..) => Some(Columns::Free(vec![known_effort(run)])),
         (_, PlantKind::Axis, _) => fixed(missing_effort(run, &changed(&run.effort)?)),
-        // The yield of a brake lags, its sign does not (docs/decisions/0001).
+        // The yield torque of a brake lags, the sign of its torque does not (decision 0001).
         (Drive::Lag, PlantKind::Bench, Some((predicted, _))) => {
             fixed(less(&lagged_yield(predicted, step_s, value), predicted))
         }
-        // All that is metered comes late, friction that the description states included.
+        // The whole metered effort is late, the described friction included.
         (Drive::Skew, PlantKind::Bench, _) => {
             let mut known = run.known();
             add(&mut known, &seen(run, described(run, false)), 1.0);
@@ -306,7 +317,7 @@ fn drive(run: &JointRun, what: Drive, shape: &[f64]) -> Option<Columns> {
     }
 }
 
-/// Columns of a change of the drive, linearised about what the other terms give.
+/// The columns of a change of the drive, linearised about the effort that the other terms give.
 fn linearised(run: &JointRun, what: Drive, shape: &[f64], fitted: &[f64]) -> Option<Columns> {
     let value = shape.first().copied().unwrap_or(0.0);
     let step_s = run.step_s;
@@ -316,9 +327,11 @@ fn linearised(run: &JointRun, what: Drive, shape: &[f64], fitted: &[f64]) -> Opt
         (Drive::Limit, _) => None,
         (Drive::Gain, _) if is_known => Some(Columns::Free(vec![run.known()])),
         (Drive::Gain, _) => None,
-        // With a known inertia the command itself can be delayed: it has less noise than an acceleration.
+        // With a known inertia the command itself is delayed. It is less noisy than an
+        // acceleration.
         (_, PlantKind::Axis) if is_known => drive(run, what, shape),
-        // Else the command is ahead of the effort that moves the joint: gain·u = e + time_constant·de/dt.
+        // Otherwise the command leads the effort that moves the joint: gain·u = e +
+        // time_constant·de/dt.
         (Drive::Lag, PlantKind::Axis) => {
             let slope = gradient(fitted, step_s);
             fixed(slope.into_iter().map(|s| value * s).collect())

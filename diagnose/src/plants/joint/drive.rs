@@ -1,4 +1,5 @@
-//! This file is the drive of a free run: what its changes make of an effort, and what the effort does between samples.
+//! This file applies changes of the drive to the effort of a free run, and interpolates the effort
+//! between samples.
 
 use super::simulate::{Interpolation, Protocol};
 use crate::effect::Effect;
@@ -10,7 +11,7 @@ use rustfft::{FftPlannerScalar, num_complex::Complex64};
 /// Effort at the beginning and the end of every integration step.
 pub(super) type Efforts = [(f64, f64)];
 
-/// The change of the drive that an effect is.
+/// The change of the drive that an effect makes; `None` for other effects.
 pub(super) fn drive_of(effect: &Effect) -> Option<Drive> {
     match form(effect.mechanism())? {
         Form::Drive(change) => Some(change),
@@ -18,8 +19,11 @@ pub(super) fn drive_of(effect: &Effect) -> Option<Drive> {
     }
 }
 
-/// The effort after these changes of the drive, in their order. On an axis the recorded command is ahead of the effort; on a bench
-/// `effort` is what the laws give and the recorded one is behind. `first` is the effort's first sample on the clock of the onsets.
+/// The effort after these changes of the drive, applied in order.
+///
+/// On an axis `effort` is the command and the result acts on the joint. On a bench `effort` is the
+/// resistance and the result is what is metered. `first` is the index of the first sample on the
+/// clock of the onsets.
 pub(super) fn driven<'a>(
     changes: impl IntoIterator<Item = &'a Effect>,
     effort: &[f64],
@@ -95,7 +99,7 @@ fn band_limited(signal: &[f64], factor: usize) -> Vec<f64> {
     wide.into_iter().map(|c| c.re / n as f64).collect()
 }
 
-/// Over a short stretch a band-limited effort goes straight between its samples.
+/// Over a short stretch a band-limited effort is interpolated linearly.
 pub(super) fn local_interpolation(interpolation: Interpolation) -> Interpolation {
     match interpolation {
         Interpolation::Band => Interpolation::Linear,

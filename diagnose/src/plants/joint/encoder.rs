@@ -1,13 +1,14 @@
-//! This file is what the encoder of a joint shows instead of the angle that is there, and the angle behind what it shows.
+//! This file converts between the true position of a joint and the one that a faulty encoder shows.
 
 use crate::effect::Effect;
 use crate::plant::Clock;
 use rigproof_model::effects::{Form, OfSensor, form};
 
-/// Rounds in which the angle behind an eccentric disc is found: each brings it closer by the eccentricity over a turn's radius.
+/// Rounds of the fixed-point iteration that inverts an eccentric disc. Each multiplies the error by
+/// the eccentricity.
 const ROUNDS: usize = 12;
 
-/// What an effect of the encoder does; `None` for any other.
+/// The error of the encoder that an effect is; `None` for other effects.
 pub(super) fn of_encoder(effect: &Effect) -> Option<OfSensor> {
     match form(effect.mechanism())? {
         Form::Sensor(
@@ -17,10 +18,10 @@ pub(super) fn of_encoder(effect: &Effect) -> Option<OfSensor> {
     }
 }
 
-/// The positions that are there where these are shown.
+/// The true positions behind the shown ones.
 pub(super) fn behind(effects: &[Effect], shown: &[f64], clock: Clock) -> Vec<f64> {
     let mut there = shown.to_vec();
-    // What the sensor did last is taken back first.
+    // The sensor's effects are inverted in reverse order.
     for effect in effects.iter().rev() {
         let Some(of) = of_encoder(effect) else {
             continue;
@@ -39,7 +40,7 @@ pub(super) fn behind(effects: &[Effect], shown: &[f64], clock: Clock) -> Vec<f64
     there
 }
 
-/// What is shown where these positions are there.
+/// The positions that the encoder shows for the true ones.
 pub(super) fn shown(effects: &[Effect], mut there: Vec<f64>, clock: Clock) -> Vec<f64> {
     for effect in effects {
         let Some(of) = of_encoder(effect) else {
@@ -56,7 +57,7 @@ pub(super) fn shown(effects: &[Effect], mut there: Vec<f64>, clock: Clock) -> Ve
     there
 }
 
-/// What a disc off its centre shows more at an angle.
+/// The error that an eccentric disc adds at an angle.
 fn eccentric(effect: &Effect, angle: f64) -> f64 {
     let (sine, cosine) = libm::sincos(angle);
     effect.value(0) * sine + effect.value(1) * cosine

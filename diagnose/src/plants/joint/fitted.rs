@@ -1,4 +1,4 @@
-//! This file fits the plants before and after, and shows their free runs.
+//! This file fits the nominal and the extended model, and gives their free runs.
 
 use super::inertia::Inertia;
 use crate::diagnose::write::Stand;
@@ -15,16 +15,16 @@ use crate::selection::{floor_limit, refs};
 use rigproof_spec::effect::Quantity;
 use rigproof_trace::rig::Rig;
 
-/// The plants before and after, and their free runs.
+/// The fitted nominal and extended model, with their free runs.
 pub(crate) struct Fitted {
     pub(crate) nominal: Shown,
     pub(crate) found: Shown,
     pub(crate) by_windows: Model,
-    /// Whether the refitted numbers predict what was left out better than those of the windows.
+    /// Whether the output-error refit predicts the held-out part better than the weak-form fit.
     pub(crate) is_refitted: bool,
 }
 
-/// The numbers of a refit or those of the windows, whichever predict the part that neither saw better.
+/// The refitted parameters or those of the weak form, whichever predict the held-out part better.
 fn better(refitted: Shown, windows: &Model, run: &JointRun, protocol: &Protocol) -> (Shown, bool) {
     let error = |plant: &Model| error_rms(plant, run, protocol);
     let (of_refit, of_windows) = (error(&refitted.plant), error(windows));
@@ -41,7 +41,8 @@ fn better(refitted: Shown, windows: &Model, run: &JointRun, protocol: &Protocol)
     }
 }
 
-/// The intervals of the windows' numbers, for those of the free runs: wider by what the two differ by, which is the model's own error.
+/// The intervals of the refitted parameters: those of the weak form, widened by the difference
+/// between the two fits, which estimates the model error.
 pub(crate) fn wider(intervals: &Intervals, fitted: &Fitted) -> Intervals {
     let (windows, runs) = (&fitted.by_windows, &fitted.found.plant);
     let mut wider = intervals.clone();
@@ -59,7 +60,7 @@ pub(crate) fn wider(intervals: &Intervals, fitted: &Fitted) -> Intervals {
 }
 
 impl Stand<'_, Rig> {
-    /// The plant of the windows' fit, with or without the mechanisms found.
+    /// The model of the weak-form fit, with or without the mechanisms found.
     pub(crate) fn model(&self, found: bool) -> Model {
         let mut selection = self.selection.clone();
         if !found {
@@ -95,7 +96,8 @@ impl Stand<'_, Rig> {
             return None;
         }
         let inertia_free = matches!(self.train.inertia, Inertia::Unknown(_));
-        // The edges of a brake's torque are told to a sample and outweigh all else in a run: its numbers stay those of the windows.
+        // The edges of a brake's torque are known to one sample and would dominate a free run. A
+        // brake keeps the parameters of the weak form.
         let stays = self.train.brake().is_some();
         let nominal = self.selection.nominal.iter();
         let known_nominal: Vec<bool> = nominal.map(|t| stays || t.known.is_some()).collect();
@@ -108,7 +110,7 @@ impl Stand<'_, Rig> {
             &known_all,
             self.train,
             protocol,
-            // Where the windows leave only noise there is nothing that a drift could stand for.
+            // Where the windows leave only noise, there is no drift to fit.
             !self.selection.found.is_empty()
                 && self.floor().ratio_after > floor_limit(self.problem),
         );

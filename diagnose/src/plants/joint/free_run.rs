@@ -1,4 +1,5 @@
-//! This file shows the fit: output-error refit of old and new parameters, free runs before and after, horizons.
+//! This file refits nominal and found parameters by output error, and measures free runs and
+//! prediction horizons.
 
 use crate::effect::Effect;
 use crate::filter::rms;
@@ -10,9 +11,10 @@ use crate::rules::{DRIFT_SHARE, HORIZON_STARTS};
 use rigproof_model::effects::{entry, facts};
 use rigproof_spec::effect::Mechanism;
 
-/// Which numbers of a plant the refit may move: those of effects that are not known, and the inertia if unknown.
+/// The parameters that a refit may change: an unknown inertia, and those of effects that are not
+/// known.
 ///
-/// `known` says which effects stay; shape parameters move with `shapes` only.
+/// `known` marks the effects that stay. Shape parameters are free only with `shapes`.
 fn free_numbers(plant: &Model, inertia_free: bool, known: &[bool], shapes: bool) -> Vec<Free> {
     let mut free = Vec::new();
     if inertia_free {
@@ -29,7 +31,7 @@ fn free_numbers(plant: &Model, inertia_free: bool, known: &[bool], shapes: bool)
             if *known || (is_shape && !shapes) {
                 continue;
             }
-            // A coefficient that happens to be near zero still needs a step that is felt.
+            // A coefficient near zero still needs a step of noticeable size.
             let least = if is_shape {
                 0.0
             } else {
@@ -44,7 +46,8 @@ fn free_numbers(plant: &Model, inertia_free: bool, known: &[bool], shapes: bool)
     free
 }
 
-/// The largest leading coefficient among the efforts of the plant: what "small" is measured against.
+/// The largest leading coefficient among the plant's efforts: the scale that a small coefficient is
+/// compared with.
 fn leading_size(plant: &Model) -> f64 {
     let leads = |mechanism| facts(mechanism).is_some_and(|facts| facts.refit.leads);
     let efforts = plant.effects.iter().filter(|e| leads(e.mechanism()));
@@ -59,18 +62,19 @@ fn size_of(effect: &Effect, parameter: usize, effort: f64) -> f64 {
     sizes.get(parameter).map_or(0.0, |size| size * effort)
 }
 
-/// A refitted plant, and whether a slow drift had to be taken in.
+/// A refitted plant.
 pub struct Shown {
-    /// The plant.
+    /// The refitted plant.
     pub plant: Model,
-    /// Error of the free run on the fitted part.
+    /// Root-mean-square error of the free run on the fitted part.
     pub train: f64,
-    /// The drift's rate, when it was taken in.
+    /// The rate of the bias drift, if one was added.
     pub drift: Option<f64>,
 }
 
-/// Refits a plant on a recording: first what enters linearly, then the shapes, then a slow drift if the free run
-/// of an axis shows one.
+/// Refits a plant on a recording: the linear parameters first, then the shapes as well.
+///
+/// With `drift`, a slow bias drift is added to an axis if it removes enough of the error.
 pub fn show(
     plant: &Model,
     inertia_free: bool,
@@ -133,8 +137,8 @@ fn staged(
     }
 }
 
-/// Root-mean-square position error after a horizon, over starts spread along the recording; `None` on a bench or
-/// when the recording is too short.
+/// Root-mean-square position error of predictions over a horizon, started at points spread along
+/// the recording. `None` on a bench, or if the recording is too short.
 pub fn horizon_error(
     plant: &Model,
     run: &JointRun,
@@ -156,7 +160,7 @@ pub fn horizon_error(
     Some(rms(&errors))
 }
 
-/// Error of the free run and the output's standard deviation.
+/// The root-mean-square error of the free run, and the standard deviation of the recorded output.
 pub fn figure(plant: &Model, run: &JointRun, protocol: &Protocol) -> (f64, f64) {
     let output = match run.plant {
         PlantKind::Axis => &run.position,

@@ -1,4 +1,4 @@
-//! This file turns a rig description and its recording into the plant's equations.
+//! This file builds the equations of a plant from its rig description and a recording.
 
 use super::align::{Signals, align};
 use super::inertia::Inertia;
@@ -12,7 +12,7 @@ use crate::plants::joint::simulate::{Interpolation, Model, Protocol};
 use crate::rules::STILL_NOISES;
 use rigproof_trace::rig::{Drive, Plant as RigPlant, Recording, Rig, Signal, Status};
 
-/// Aligns a recording of a rig as its sensors show it.
+/// Aligns a recording as its sensors show it.
 ///
 /// # Errors
 /// The fault that makes any conclusion meaningless.
@@ -20,7 +20,7 @@ pub fn aligned(rig: &Rig, recording: &Recording) -> Result<JointRun, Fault> {
     bare(rig, recording, |position, _| position.to_vec())
 }
 
-/// Aligns a recording with other positions than the shown ones: `behind` gives them on its clock.
+/// Aligns a recording with corrected positions: `behind` gives them from the shown ones.
 pub(super) fn bare(
     rig: &Rig,
     recording: &Recording,
@@ -36,7 +36,8 @@ pub(super) fn bare(
     run.described = nominal(rig);
     if let (Some(brake), Some(current)) = (&rig.brake, &run.current) {
         run.table = Some(brake.table());
-        // Before the sense is forgotten: a lag follows the yield torque through a reversal.
+        // This comes before the directions near reversals are discarded, since a lag follows the
+        // yield torque through a reversal.
         run.predicted = run.braked(current);
         let still = STILL_NOISES * run.position_noise;
         forget_sense_near_reversals(&mut run.motion, &run.position, still);
@@ -44,7 +45,7 @@ pub(super) fn bare(
     Ok(run)
 }
 
-/// A recording's channels as efforts and motion; `gain` is the effort that one unit of command gives.
+/// The channels of a recording as efforts and motion. `gain` is the effort per unit of command.
 fn signals(
     rig: &Rig,
     recording: &Recording,
@@ -58,7 +59,7 @@ fn signals(
     } else {
         recording.force.as_ref()
     };
-    // What a servo does with the noise of the position, its own input, is a noise of the effort.
+    // A servo computes its effort from the noisy position, so the effort takes on noise too.
     let scale = match (&recording.servo, axis) {
         (Some(servo), _) => gain * servo.gain,
         (None, true) => gain,
@@ -103,13 +104,14 @@ fn signals(
     }
 }
 
-/// The standard deviation of one sample of a channel: of its noise and of its rounding, in its own unit.
+/// The standard deviation of one sample of a channel from noise and rounding, in the channel's own
+/// unit.
 fn sample_noise(channel: &Signal) -> f64 {
     let rounding = channel.quantum.unwrap_or(0.0) / 12f64.sqrt();
     channel.noise.unwrap_or(0.0).hypot(rounding)
 }
 
-/// The clock of stamps, the first of them at 0.
+/// A clock over time stamps, with the first at 0.
 fn stamps(time_s: &[f64]) -> Clock {
     let ends = time_s.first().zip(time_s.last());
     let samples = time_s.len();
@@ -121,7 +123,6 @@ fn stamps(time_s: &[f64]) -> Clock {
     }
 }
 
-/// The inertia as the rig states it.
 pub(crate) fn inertia(rig: &Rig) -> Inertia {
     match (rig.plant, rig.parameters) {
         (RigPlant::Axis, Some(parameters)) => match parameters.inertia.status {
@@ -132,7 +133,7 @@ pub(crate) fn inertia(rig: &Rig) -> Inertia {
     }
 }
 
-/// The physics that the nominal model has.
+/// The effects of the nominal model.
 pub(crate) fn nominal(rig: &Rig) -> Vec<Effect> {
     rig.effects
         .iter()
@@ -148,7 +149,7 @@ pub(crate) fn nominal(rig: &Rig) -> Vec<Effect> {
         .collect()
 }
 
-/// The plant with every number as the rig states it.
+/// The plant with all parameters as stated.
 pub fn plant(rig: &Rig) -> Model {
     Model {
         inertia: rig.parameters.map_or(0.0, |p| p.inertia.value),
@@ -157,7 +158,7 @@ pub fn plant(rig: &Rig) -> Model {
     }
 }
 
-/// The protocol of free runs that the rig states.
+/// The protocol of free runs as stated.
 pub fn protocol(rig: &Rig) -> Protocol {
     Protocol {
         interpolation: match rig.protocol.drive {

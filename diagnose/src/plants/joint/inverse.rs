@@ -1,5 +1,5 @@
-//! This file is the inverse model under the published protocol of robot identification (Janot, Gautier, Brunot
-//! 2019): filter, differentiate, decimate, least squares.
+//! This file is the inverse model by the published protocol of robot identification (Janot,
+//! Gautier, Brunot 2019): filter, differentiate, decimate, least squares.
 
 use crate::filter::{LowPass, decimate, gradient};
 use crate::plants::joint::run::{JointRun, PlantKind};
@@ -30,7 +30,8 @@ pub struct InverseModel {
 
 /// Fits the inverse model of an axis with these memoryless mechanisms (given with their shapes).
 ///
-/// `None` on a bench, on a recording slower than 400 Hz, or with a mechanism that has a memory or acts on the drive.
+/// `None` on a bench, on a recording slower than 400 Hz, or with a mechanism that has memory or
+/// acts on the drive.
 pub fn inverse_model(run: &JointRun, mechanisms: &[(Mechanism, Vec<f64>)]) -> Option<InverseModel> {
     let rate_hz = 1.0 / run.step_s;
     if run.plant == PlantKind::Bench || !run.parts.is_empty() || rate_hz < 4.0 * CUTOFF_HZ {

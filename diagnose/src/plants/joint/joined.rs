@@ -1,4 +1,4 @@
-//! This file is how recordings of one axis or bench follow each other, and columns over all of them.
+//! This file joins recordings of one axis or bench, and computes columns over all of them.
 
 use super::run::JointRun;
 use crate::plant::Columns;
@@ -7,7 +7,7 @@ use core::ops::Range;
 
 impl Joins for JointRun {
     fn append(&mut self, run: &JointRun) {
-        // A window that needs the sample before the seam lies across it.
+        // No window may span the seam.
         if let Some(last) = self.recorded.last_mut() {
             *last = false;
         }
@@ -35,7 +35,7 @@ impl Joins for JointRun {
     }
 }
 
-/// The samples of each recording in a joined run.
+/// The separate recordings of a joined run, with their sample ranges.
 pub fn parts(run: &JointRun) -> impl Iterator<Item = (&JointRun, Range<usize>)> {
     let mut first = 0;
     run.parts.iter().map(move |part| {
@@ -45,7 +45,7 @@ pub fn parts(run: &JointRun) -> impl Iterator<Item = (&JointRun, Range<usize>)> 
     })
 }
 
-/// Columns over a joined run, from what each of its recordings gives.
+/// Columns over a joined run, computed separately for each recording.
 pub fn over_parts(
     run: &JointRun,
     of: impl Fn(&JointRun, Range<usize>) -> Option<Columns>,
@@ -59,7 +59,7 @@ pub fn over_parts(
         .reduce(after)
 }
 
-/// Columns of two recordings, one after the other.
+/// The columns of one recording followed by those of the next.
 fn after(before: Columns, next: Columns) -> Columns {
     let chained = |(before, next): (Vec<f64>, Vec<f64>)| [before, next].concat();
     match (before, next) {

@@ -1,4 +1,4 @@
-//! This file is the laws that act in a free run of a plant of one joint, from their onsets on.
+//! This file gives the laws that act in a free run of a plant of one joint, each from its onset on.
 
 use super::columns::is_of_brake;
 use super::simulate::Model;
@@ -7,7 +7,8 @@ use rigproof_model::axis::MOST_LAWS;
 use rigproof_model::effects::{Form, Instant, Law, OfJoint, facts, form, law};
 use rigproof_spec::effect::Mechanism;
 
-/// The laws of a plant: each effect that is a resistance of its own, and what fades of the described ones.
+/// The laws of a plant: one for each effect that is a resistance, and one for each described effect
+/// that fades.
 pub(super) fn laws(plant: &Model) -> Vec<Box<dyn Law>> {
     let own = resistances(plant).map(|(effect, law)| with_onset(law, effect.onset_s));
     let mut all: Vec<Box<dyn Law>> = own.collect();
@@ -26,7 +27,7 @@ pub(super) fn laws(plant: &Model) -> Vec<Box<dyn Law>> {
     all
 }
 
-/// Why a plant's laws cannot act together; `None` where they can.
+/// Why a free run cannot evaluate so many laws; `None` if it can.
 pub(super) fn too_many(plant: &Model) -> Option<String> {
     let count = laws(plant).len();
     (count > MOST_LAWS).then(|| {
@@ -41,13 +42,13 @@ fn resistances(plant: &Model) -> impl Iterator<Item = (&Effect, Box<dyn Law>)> {
     effects.filter_map(|effect| Some((effect, own_law(effect)?)))
 }
 
-/// The law of an effect that is a resistance of its own, not something that a brake does.
+/// The law of an effect that is a resistance of its own; `None` for what a brake does.
 pub(super) fn own_law(effect: &Effect) -> Option<Box<dyn Law>> {
     let is_own = !is_of_brake(effect.cause);
     is_own.then(|| law(effect.mechanism(), &effect.parameters))?
 }
 
-/// A bristle that has been sliding is bent by all it can bend.
+/// After sliding, a bristle has its full deflection.
 pub(super) fn bend_bristles(plant: &Model, memory: &mut [f64], speed: f64) {
     for ((effect, law), memory) in resistances(plant).zip(memory) {
         if is_bristle(effect.mechanism()) && speed != 0.0 {
@@ -56,7 +57,7 @@ pub(super) fn bend_bristles(plant: &Model, memory: &mut [f64], speed: f64) {
     }
 }
 
-/// Whether a mechanism is friction that bends, a form of it, or one that has it in it.
+/// Whether a mechanism is presliding friction, a form of it, or a sum that contains it.
 fn is_bristle(mechanism: Mechanism) -> bool {
     let facts = facts(mechanism);
     let same_as = facts.and_then(|facts| facts.form_of).unwrap_or(mechanism);
@@ -64,10 +65,10 @@ fn is_bristle(mechanism: Mechanism) -> bool {
     [Some(same_as), first].contains(&Some(Mechanism::Presliding))
 }
 
-/// A travel after which every bristle is bent, m or rad.
+/// A travel long enough to deflect every bristle fully, m or rad.
 const FAR: f64 = 1e12;
 
-/// What a law loses with time.
+/// The part of a law that fades with time.
 struct Faded {
     law: Box<dyn Law>,
     rate: f64,
@@ -105,7 +106,7 @@ impl Law for Faded {
     }
 }
 
-/// A law that acts from a given time on.
+/// A law that starts to act at its onset.
 struct Late {
     law: Box<dyn Law>,
     onset_s: f64,

@@ -1,4 +1,5 @@
-//! This file claims that names and numbers are those of the plant, however its recording is written down.
+//! This file claims that the diagnosis does not depend on units, signs, order and offsets in which
+//! a recording is written.
 
 use super::recorded::{EFFORT_NOISE, NOMINAL, QUANTUM, exact_axis, signals};
 use crate::report::Report;
@@ -7,20 +8,20 @@ use rigproof_spec::effect::Mechanism;
 use rigproof_trace::rig::Rig;
 use std::path::Path;
 
-/// How a recording is written down.
+/// One way to write a recording.
 #[derive(Clone, Copy)]
 struct Written {
-    /// Unit of the position, and how many of it are a metre.
+    /// Unit of the position, and the number of units in a metre.
     position: (&'static str, f64),
-    /// Unit of the command, and how many of it are a newton.
+    /// Unit of the command, and the number of units in a newton.
     command: (&'static str, f64),
-    /// Sign of the position's column, and of the command's.
+    /// Sign of the position's column and of the command's.
     signs: [f64; 2],
-    /// Whole seconds at the first sample, and decimals of the stamps.
+    /// The whole seconds of the first stamp, and the decimals of all stamps.
     stamps: (u64, usize),
-    /// Whether the command comes before the position, and both before the time.
+    /// Whether the columns stand in reverse order.
     backwards: bool,
-    /// Every how many samples are there.
+    /// Every n-th sample is written.
     every: usize,
 }
 
@@ -51,7 +52,7 @@ fn rig(written: &Written) -> Rig {
     Rig::parse(&text, Path::new("rig.toml")).unwrap()
 }
 
-/// The report on a slide with dry friction, its recording written to a file and read again.
+/// Writes a recording of a slide with Coulomb friction to a file, reads it back and diagnoses it.
 fn told(written: &Written, name: &str) -> Report {
     let laws = [NOMINAL, &[(Mechanism::DryOffset, &[1.73])]].concat();
     let seen = signals(&exact_axis(&laws, 14_000, false), 53);
@@ -90,7 +91,7 @@ fn told(written: &Written, name: &str) -> Report {
     diagnose(&rig, &[&recording.unwrap()], None, &options).report
 }
 
-/// Names, and every number of them and of the nominal model.
+/// The names in a report, and all parameters of found and nominal effects.
 fn said(report: &Report) -> (Vec<&'static str>, Vec<(String, f64)>) {
     let names = report.effects.iter().map(|own| own.mechanism).collect();
     let of_effects = report.effects.iter().flat_map(|own| {
@@ -102,7 +103,7 @@ fn said(report: &Report) -> (Vec<&'static str>, Vec<(String, f64)>) {
     (names, of_effects.chain(of_nominal).collect())
 }
 
-/// The same names, and numbers that differ by no more than a share.
+/// Asserts the same names, and parameters that differ by at most a share.
 fn assert_same(plain: &Report, other: &Report, share: f64, how: &str) {
     let ((names, numbers), (others, other_numbers)) = (said(plain), said(other));
     assert_eq!(names, others, "{how}: {}", other.summary);
@@ -113,7 +114,8 @@ fn assert_same(plain: &Report, other: &Report, share: f64, how: &str) {
     }
 }
 
-/// Ways to write one recording, each with the share by which a number may differ: what changes the last bits of a sample may change its last digits.
+/// Ways to write one recording, each with the share by which a parameter may change. Rounding of
+/// samples changes the last digits.
 fn ways() -> [(&'static str, f64, Written); 8] {
     [
         (
@@ -191,7 +193,7 @@ fn names_and_numbers_do_not_change_with_the_way_a_recording_is_written() {
     for (how, share, written) in ways() {
         assert_same(&plain, &told(&written, &how.replace(' ', "_")), share, how);
     }
-    // Half of the samples tell the same with less certainty.
+    // Half of the samples give the same result with less certainty.
     let halved = told(&Written { every: 2, ..PLAIN }, "halved");
     assert_same(&plain, &halved, 0.02, "every second sample");
 }

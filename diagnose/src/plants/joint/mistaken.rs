@@ -1,4 +1,5 @@
-//! This file finds descriptions of a plant of one joint that its recording contradicts: a brake that is none, a drive of another unit or sign.
+//! This file finds descriptions of a plant of one joint that the recording contradicts: a brake
+//! that is missing, a drive with a wrong unit or sign.
 
 use super::columns::is_of_brake;
 use super::from_rig;
@@ -15,7 +16,7 @@ use rigproof_model::effects::entry;
 use rigproof_spec::effect::Mechanism;
 use rigproof_trace::rig::Rig;
 
-/// Something that only a brake does in the description of a plant without a brake and its current.
+/// A description that states an effect of a brake, for a plant without a brake and its current.
 pub fn without_brake(rig: &Rig, run: &JointRun) -> Option<Fault> {
     let effects = from_rig::nominal(rig);
     let effect = effects
@@ -32,8 +33,10 @@ pub fn without_brake(rig: &Rig, run: &JointRun) -> Option<Fault> {
     })
 }
 
-/// A gain error of more than the whole gain is a channel with the wrong sign; a gain of another size is no physics. One that begins
-/// late is none of both, nor is one that leaves much: other physics is then missing.
+/// A wrong sign or unit of the drive, shown by an impossible gain.
+///
+/// A gain that begins late is no such error. If the fit leaves a large residual, other physics is
+/// missing and nothing is concluded.
 pub fn another_drive(problem: &Problem, selection: &Selection) -> Option<Fault> {
     let (index, gain) = impossible_gain(problem, selection)?;
     let begins_late = selection
@@ -53,7 +56,7 @@ pub fn another_drive(problem: &Problem, selection: &Selection) -> Option<Fault> 
     Some(throughout(problem, "drive", reason))
 }
 
-/// The place of a found gain that no drive has, and the gain.
+/// The index of a found gain outside the range of real drives, and the gain.
 fn impossible_gain(problem: &Problem, selection: &Selection) -> Option<(usize, f64)> {
     let (_, coefficients) = coefficients_by_term(problem, selection);
     let found = coefficients.iter().skip(selection.nominal.len());
@@ -63,14 +66,15 @@ fn impossible_gain(problem: &Problem, selection: &Selection) -> Option<(usize, f
         .zip(found)
         .enumerate()
         .find(|(_, (found, _))| found.term.cause.mechanism == Mechanism::GainError)?;
-    // The column is the known effort: y = e + c·e, so that the applied gain is 1/(1 + c) of the stated one.
+    // The column is the known effort: y = e + c·e, so the applied gain is 1/(1 + c) of the stated
+    // one.
     let fraction = *own.first()?;
     let gain = 1.0 - fraction / (1.0 + fraction);
     let is_possible = (1.0 / ANOTHER_UNIT..ANOTHER_UNIT).contains(&gain);
     (!is_possible).then_some((index, gain))
 }
 
-/// A found inertia beside which the stated one is another unit's: so little or so much acceleration takes no part of the effort.
+/// A found inertia so far from the stated one that the stated one must have another unit.
 pub fn another_inertia(run: &JointRun, problem: &Problem, selection: &Selection) -> Option<Fault> {
     let Inertia::Known(stated) = run.inertia else {
         return None;
@@ -103,13 +107,14 @@ pub fn another_inertia(run: &JointRun, problem: &Problem, selection: &Selection)
     ))
 }
 
-/// A gain that no drive has and that is no fault of the description either: it stands in for something else.
+/// The cause of an impossible gain that is no error of the description either: a substitute for
+/// missing physics.
 pub fn beyond_reason(problem: &Problem, selection: &Selection) -> Option<Cause> {
     let (index, _) = impossible_gain(problem, selection)?;
     selection.found.get(index).map(|own| own.term.cause)
 }
 
-/// Whether what is found leaves little beside what the nominal model leaves.
+/// Whether the found mechanisms leave little of the nominal residual.
 fn explains(problem: &Problem, selection: &Selection) -> bool {
     let rms = |fit: &Fit| usable_rms(problem, &fit.residual);
     is_noise(problem, &selection.after)
@@ -126,8 +131,8 @@ fn throughout(problem: &Problem, channel: &'static str, reason: String) -> Fault
     }
 }
 
-/// An unknown inertia, or an unknown friction, that no plant has: with a wrong sign or in another unit the plant's own numbers go wherever the channels send
-/// them.
+/// An unknown inertia or friction whose estimate no plant has. A wrong sign or unit of a channel
+/// drives such estimates anywhere.
 pub fn impossible_numbers(
     run: &JointRun,
     problem: &Problem,
@@ -168,7 +173,7 @@ pub fn impossible_numbers(
     }
 }
 
-/// A nominal model that leaves more of the effort than there is, whatever is found beside it.
+/// A nominal model whose residual is larger than the effort itself.
 fn explains_nothing(problem: &Problem, selection: &Selection) -> Option<Fault> {
     let left = usable_rms(problem, &selection.before.residual);
     let leaves_noise = is_noise(problem, &selection.after);
@@ -184,7 +189,7 @@ fn explains_nothing(problem: &Problem, selection: &Selection) -> Option<Fault> {
     })
 }
 
-/// A nominal friction that drives the motion.
+/// A nominal friction whose coefficient is negative.
 fn negative_drag(problem: &Problem, selection: &Selection, intervals: &Intervals) -> Option<Fault> {
     let (_, coefficients) = coefficients_by_term(problem, selection);
     let nominal = selection

@@ -1,6 +1,7 @@
-//! This file claims that what a diagnosis names it also computes: with the numbers of its own calibration nothing is named again.
+//! This file claims that a plant simulated with its own calibration is diagnosed as consistent:
+//! nothing is named again.
 //!
-//! One seed a mechanism; `RIGPROOF_SEEDS=5` in the environment takes as many.
+//! One seed for each mechanism; `RIGPROOF_SEEDS=5` in the environment takes five.
 
 use super::encoder::shown;
 use super::recorded::{EFFORT_NOISE, INERTIA, NOMINAL, QUANTUM, exact_axis, exact_bench, signals};
@@ -19,12 +20,12 @@ use std::path::Path;
 
 /// Samples of a recording.
 const COUNT: usize = 10_000;
-/// Where something is left out.
+/// The plants on which a mechanism is left out.
 const BOTH: &[PlantKind] = &[PlantKind::Axis, PlantKind::Bench];
 const AXIS: &[PlantKind] = &[PlantKind::Axis];
 const BENCH: &[PlantKind] = &[PlantKind::Bench];
 
-/// What is left out, and of which plants.
+/// The mechanisms to leave out, with parameters and plants.
 const LEFT_OUT: &[(Mechanism, &[f64], &[PlantKind])] = &[
     (DryOffset, &[1.73], BOTH),
     (ConstantBias, &[1.31], BOTH),
@@ -52,7 +53,7 @@ const LEFT_OUT: &[(Mechanism, &[f64], &[PlantKind])] = &[
     (EccentricEncoder, &[0.011, -0.007], AXIS),
 ];
 
-/// What a bench without a prediction cannot name, but obeys where it is stated.
+/// Effects that a bench without a prediction cannot name, but must simulate if they are stated.
 const STATED: &[(Mechanism, &[f64], &[PlantKind])] = &[
     (Lag, &[0.021], BENCH),
     (EncoderScale, &[0.07], BENCH),
@@ -82,14 +83,15 @@ fn rig(plant: PlantKind) -> Rig {
     Rig::parse(&text, Path::new("rig.toml")).unwrap()
 }
 
-/// What a plant with one mechanism more records.
+/// The recording of a nominal plant with one more mechanism.
 fn recording(plant: PlantKind, left_out: &Effect, seed: u64) -> Recording {
     let mut base = match plant {
         PlantKind::Axis => exact_axis(NOMINAL, COUNT, true),
         PlantKind::Bench => exact_bench(NOMINAL, COUNT),
     };
     if plant == PlantKind::Axis {
-        // The drive begins gently: what trails behind a spring is not told from an edge.
+        // The drive starts gently. After an abrupt start, a mass on a spring is hard to tell from
+        // the edge of the drive.
         let times_s = base.motion.iter().map(|now| now.time_s);
         let pairs = base.effort.iter_mut().zip(times_s);
         pairs.for_each(|(effort, time_s)| *effort *= -libm::expm1(-3.0 * time_s));

@@ -1,4 +1,4 @@
-//! This file is a plant of one joint by its description.
+//! This file makes an axis or a bench a `Plant`.
 
 use super::fitted::wider;
 use super::inverse::{self, CUTOFF_HZ, DECIMATION, FILTER_ORDER};
@@ -94,7 +94,8 @@ impl Plant for Rig {
         found_in(&self.effects, stand.plant.effects.len(), stand.selection)
     }
 
-    /// By free runs of an axis under the recorded command, and along the recorded motion of a bench; the numbers are refitted by them.
+    /// Refits the parameters by free runs: of an axis under the recorded command, of a bench along
+    /// the recorded motion.
     fn shown(stand: &Stand<'_, Rig>, intervals: &Intervals) -> Shown<Rig> {
         let protocol = from_rig::protocol(stand.plant);
         let fitted = stand.fit(&protocol);
@@ -102,7 +103,7 @@ impl Plant for Rig {
             Some(f) => (f.nominal.plant.clone(), f.found.plant.clone()),
             None => (stand.model(false), stand.model(true)),
         };
-        // A bench with a brake keeps the numbers of its windows.
+        // A bench with a brake keeps the parameters of the weak form.
         let is_refitted = fitted.as_ref().is_some_and(|fitted| fitted.is_refitted);
         let refitted = is_refitted && stand.train.brake().is_none();
         let fit = fitted.as_ref();
@@ -138,7 +139,7 @@ impl Plant for Rig {
 }
 
 impl Described for Rig {
-    /// What no other plant takes.
+    /// Every text that no other plant describes.
     fn describes(_: &str, _: &Path) -> Result<bool, TraceError> {
         Ok(true)
     }
@@ -194,7 +195,7 @@ impl Described for Rig {
     ) -> Recording {
         let mut out = recording.clone();
         out.position = sensed(&out.position, position, random);
-        // The current of a bench is a command: it has no noise of its own.
+        // The current of a bench is a command and has no sensor noise.
         if let Some(signal) = out.force.as_mut().or(out.drive.as_mut()) {
             *signal = sensed(signal, effort, random);
         }
@@ -213,7 +214,7 @@ impl Described for Rig {
         let run = from_rig::aligned(model, recording).map_err(Unsimulated::Recording)?;
         let protocol = from_rig::protocol(model);
         let (name, recorded, quantity, start) = match run.plant {
-            // What gave the start state does not count.
+            // The samples that gave the start state are not compared.
             PlantKind::Axis if protocol.warm_up_periods == 0 => (
                 "position",
                 &run.position,

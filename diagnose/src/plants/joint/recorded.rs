@@ -1,5 +1,5 @@
-//! This file makes the recordings that unit tests are about: from the reference model, at a fine step, with noise
-//! of known size.
+//! This file makes recordings for unit tests, from the reference model at a fine step, with known
+//! noise.
 
 use super::align::Signals;
 use super::inertia::Inertia;
@@ -12,7 +12,6 @@ use rigproof_model::bench::resistance;
 use rigproof_model::effects::{Instant, law};
 use rigproof_spec::effect::{Mechanism, Motion};
 
-/// Mechanisms with their parameters.
 pub type Laws<'a> = &'a [(Mechanism, &'a [f64])];
 
 /// Sample interval, s.
@@ -23,9 +22,9 @@ pub const INERTIA: f64 = 1.37;
 pub const QUANTUM: f64 = 1.3e-6;
 /// Standard deviation of the bench's metered force, N.
 pub const EFFORT_NOISE: f64 = 0.043;
-/// What the nominal axis has.
+/// The nominal physics of the axis.
 pub const NOMINAL: Laws = &[(Mechanism::Viscous, &[7.3]), (Mechanism::Spring, &[41.7])];
-/// Steps of the reference model a sample.
+/// Steps of the reference model per sample.
 const FINE: usize = 8;
 
 /// Seeded noise of standard deviation 1, close to Gaussian.
@@ -48,7 +47,8 @@ pub fn drive(time_s: f64) -> f64 {
         + 2.7 * libm::sin(11.9 * time_s + 0.4)
 }
 
-/// An axis without sensor noise, its motion exact; the drive holds between samples or is smooth.
+/// A recording of an axis without sensor noise. The drive is held between samples if `held`, smooth
+/// otherwise.
 pub fn exact_axis(laws: Laws, count: usize, held: bool) -> JointRun {
     let axis = Axis {
         inertia: INERTIA,
@@ -85,7 +85,7 @@ pub fn exact_axis(laws: Laws, count: usize, held: bool) -> JointRun {
     run(PlantKind::Axis, motion, effort, held)
 }
 
-/// A bench at imposed motion, without sensor noise, its motion exact.
+/// A recording of a bench under imposed motion, without sensor noise.
 pub fn exact_bench(laws: Laws, count: usize) -> JointRun {
     let fine_s = STEP_S / FINE as f64;
     let fine: Vec<Instant> = (0..count * FINE)
@@ -137,7 +137,7 @@ fn run(plant: PlantKind, motion: Vec<Instant>, effort: Vec<f64>, held: bool) -> 
     }
 }
 
-/// What the sensors make of an exact run: a quantised position and a noisy effort.
+/// The exact run as sensors record it: position quantised, effort noisy.
 pub fn signals(run: &JointRun, seed: u64) -> Signals {
     let mut noise = Noise::new(seed);
     Signals {

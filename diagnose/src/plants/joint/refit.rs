@@ -1,29 +1,29 @@
-//! This file adjusts the plant's numbers so that its free run meets the recording (output error).
+//! This file fits the plant's parameters so that its free run matches the recording (output error).
 
 use crate::plants::joint::run::{JointRun, PlantKind};
 use crate::plants::joint::simulate::{Model, Protocol, output};
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
 use nalgebra::{DMatrix, DVector, Dyn, Owned};
 
-/// Which number of a plant is adjusted, and over what distance it is felt.
+/// A parameter that is fitted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Free {
-    /// `None` for the inertia, else the effect's index and the parameter's index in it.
+    /// `None` for the inertia, otherwise the index of the effect and of its parameter.
     pub place: Option<(usize, usize)>,
-    /// Scale of the number.
+    /// The size of change that the fit uses as a unit.
     pub scale: f64,
 }
 
 /// The outcome of an output-error refit.
 #[derive(Clone, Debug)]
 pub struct Refit {
-    /// The adjusted plant.
+    /// The refitted plant.
     pub plant: Model,
     /// Root-mean-square error of its free run.
     pub error: f64,
 }
 
-/// Adjusts the free numbers of a plant over a recording.
+/// Fits the free parameters of a plant to a recording.
 pub fn refit(plant: &Model, free: &[Free], run: &JointRun, protocol: &Protocol) -> Refit {
     let problem = OutputError {
         start: plant,
@@ -49,7 +49,7 @@ pub fn refit(plant: &Model, free: &[Free], run: &JointRun, protocol: &Protocol) 
         .minimize(problem);
     let found = solved.plant();
     let error = error_rms(&found, run, protocol);
-    // A refit that made it worse is no refit.
+    // A refit that made the error larger is discarded.
     if error.is_nan() || error > before {
         return unchanged;
     }
@@ -59,7 +59,7 @@ pub fn refit(plant: &Model, free: &[Free], run: &JointRun, protocol: &Protocol) 
     }
 }
 
-/// Samples whose error counts: past those that gave the start state, and recorded ones only.
+/// The first sample whose error counts: those before it gave the start state.
 fn counted(run: &JointRun, protocol: &Protocol) -> usize {
     if protocol.warm_up_periods > 0 || run.plant == PlantKind::Bench {
         0
@@ -68,7 +68,7 @@ fn counted(run: &JointRun, protocol: &Protocol) -> usize {
     }
 }
 
-/// Simulated less recorded output, one value a counted sample.
+/// Simulated less recorded output, one value for each sample that counts.
 pub fn errors(plant: &Model, run: &JointRun, protocol: &Protocol) -> Vec<f64> {
     let simulated = output(plant, run, protocol);
     let recorded = match run.plant {
@@ -84,7 +84,7 @@ pub fn errors(plant: &Model, run: &JointRun, protocol: &Protocol) -> Vec<f64> {
         .collect()
 }
 
-/// Root-mean-square error of the free run over the counted samples.
+/// Root-mean-square error of the free run over the samples that count.
 pub fn error_rms(plant: &Model, run: &JointRun, protocol: &Protocol) -> f64 {
     crate::filter::rms(&errors(plant, run, protocol))
 }
@@ -94,11 +94,11 @@ struct OutputError<'a> {
     free: &'a [Free],
     run: &'a JointRun,
     protocol: &'a Protocol,
-    /// Departure from the start in units of each number's scale.
+    /// Departure from the start value, in units of each parameter's scale.
     x: DVector<f64>,
 }
 
-/// Difference step of the sensitivities, in scales.
+/// Step of the finite differences, in scales.
 const STEP: f64 = 1e-3;
 
 impl OutputError<'_> {

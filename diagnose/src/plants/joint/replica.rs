@@ -1,4 +1,5 @@
-//! This file runs a plant of one joint through a recording again: an axis freely under the recorded command, a bench along the recorded motion.
+//! This file simulates a recording of a plant of one joint: an axis freely under the recorded
+//! command, a bench along the recorded motion.
 
 use super::undone::not_computed;
 use crate::plant::Replica;
@@ -7,10 +8,11 @@ use crate::plants::joint::run::PlantKind;
 use crate::plants::joint::simulate::output;
 use rigproof_trace::rig::{Recording, Rig, Signal};
 
-/// What a plant with the numbers of `model` would have recorded; `nominal` describes the recording.
+/// The recording that a plant with the parameters of `model` would have made. `nominal` describes
+/// the recording.
 ///
 /// # Errors
-/// The recording is at fault.
+/// The recording is faulty.
 pub(crate) fn replica(
     nominal: &Rig,
     model: &Rig,

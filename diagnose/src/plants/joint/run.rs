@@ -1,4 +1,5 @@
-//! This file is an aligned recording: regular samples, smoothed motion, known efforts, noise levels.
+//! This file is an aligned recording of a plant of one joint: regular samples, smoothed motion,
+//! efforts, noise levels.
 
 use super::inertia::Inertia;
 use super::joined::over_parts;
@@ -24,7 +25,7 @@ use rigproof_model::effects::{Drive, Form, Instant, OfSensor, facts, form};
 use rigproof_spec::effect::{Mechanism, Motion};
 use rigproof_spec::tables::BrakeTable;
 
-/// Which plant's equations a recording obeys.
+/// The kind of plant, which decides the equation that a recording obeys.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlantKind {
     /// Driven joint: the residual is `gain·u − inertia·q̈ − resistance`.
@@ -33,22 +34,23 @@ pub enum PlantKind {
     Bench,
 }
 
-/// An aligned recording in SI units, one value a sample in every vector.
+/// An aligned recording in SI units. Every vector has one value per sample.
 #[derive(Clone, Debug)]
 pub struct JointRun {
-    /// The plant.
+    /// The kind of plant.
     pub plant: PlantKind,
-    /// Whether it slides or turns.
+    /// Whether the joint is linear or rotary.
     pub kind: Motion,
-    /// The inertia, as far as it is known.
+    /// The inertia as the description gives it.
     pub inertia: Inertia,
-    /// The physics of its description.
+    /// The effects of the description.
     pub described: Vec<Effect>,
     /// Sample interval, s.
     pub step_s: f64,
     /// Time of the first sample, s.
     pub start_s: f64,
-    /// Whether the drive holds its value between samples, so that it acts half a sample late on average.
+    /// Whether the drive holds its value between samples, so that it acts half a sample late on
+    /// average.
     pub held: bool,
     /// Recorded position, m or rad.
     pub position: Vec<f64>,
@@ -56,7 +58,7 @@ pub struct JointRun {
     pub motion: Vec<Instant>,
     /// Axis: `gain·u`. Bench: the metered effort. N or N·m.
     pub effort: Vec<f64>,
-    /// Bench: the effort that the nominal model already predicts (a brake, or somebody's simulation).
+    /// Bench: the effort that the nominal model predicts (from a brake or an external simulation).
     pub predicted: Option<Vec<f64>>,
     /// Bench: the current, A.
     pub current: Option<Vec<f64>>,
@@ -66,19 +68,19 @@ pub struct JointRun {
     pub position_noise: f64,
     /// Standard deviation of one effort sample, N or N·m.
     pub effort_noise: f64,
-    /// Samples that were recorded, not filled in.
+    /// Whether a sample was recorded rather than interpolated.
     pub recorded: Vec<bool>,
-    /// Speed below which the sense of motion cannot be told, m/s or rad/s.
+    /// Speed below which the direction of motion cannot be told, m/s or rad/s.
     pub speed_floor: f64,
-    /// By how much the speed may be mistaken, m/s or rad/s.
+    /// The uncertainty of the speed, m/s or rad/s.
     pub untold_speed: Vec<f64>,
-    /// Changes between the resistance and what a bench meters that its description states.
+    /// Bench: the described effects between the resistance and the metered effort.
     pub metered_by: Vec<Effect>,
-    /// Axis: the position servo that drives it.
+    /// Axis: the position servo that drives it, if one does.
     pub servo: Option<Servoed>,
-    /// The recordings that stand in it one after another; empty for one recording.
+    /// The separate recordings of a joined run; empty for a single one.
     pub parts: Vec<JointRun>,
-    /// What was mended in it.
+    /// What was repaired.
     pub remarks: Vec<Remark>,
 }
 
@@ -88,18 +90,23 @@ impl JointRun {
         self.position.len()
     }
 
-    /// What a bench with a brake and its current has: the predicted torque, N·m, and the current, A.
+    /// The predicted torque, N·m, and the current, A, of a bench with a brake; `None` on other
+    /// plants.
     pub fn brake(&self) -> Option<(&[f64], &[f64])> {
         Some((self.predicted.as_deref()?, self.current.as_deref()?))
     }
 
-    /// The torque of the thesis's brake along the recorded motion under a current, A; `None` on a plant without one. N·m.
+    /// The torque of the thesis's brake along the recorded motion for a current in A; N·m. `None`
+    /// without a brake.
     pub fn braked(&self, current: &[f64]) -> Option<Vec<f64>> {
         self.braked_along(&self.motion, current)
     }
 
-    /// By how much the brake's torque may be mistaken, N·m: because nothing is known of the time between two samples (when the shaft turns
-    /// back, when a backlash begins and ends and, where the current is not held, when it jumps), and because its time constant jumps at speeds that noise may cross.
+    /// The uncertainty of the brake's torque, N·m.
+    ///
+    /// Between two samples it is unknown when the shaft reverses, when backlash begins and ends,
+    /// and when a current jumps that is not held. Noise may also carry the speed across the
+    /// thresholds at which the time constant jumps.
     pub fn brake_doubt(&self) -> Option<Vec<f64>> {
         let current = self.current.as_deref()?;
         let own = self.braked(current)?;
@@ -119,12 +126,13 @@ impl JointRun {
             motion,
             ..self.brake_along(current)?
         };
-        // Where the sense cannot be told the torque is spread over it, as for the dry laws.
+        // Where the direction cannot be told, the torque is spread over both directions, as for the
+        // dry friction laws.
         let torques = motion.iter().zip(brake.yields());
         Some(torques.map(|(now, torque)| torque * now.sense).collect())
     }
 
-    /// The thesis's brake along the recorded motion under a current, A; `None` on a plant without one.
+    /// The thesis's brake along the recorded motion for a current in A. `None` without a brake.
     pub fn brake_along<'a>(&'a self, current: &'a [f64]) -> Option<Braked<'a>> {
         Some(Braked {
             table: self.table?,
@@ -140,7 +148,7 @@ impl JointRun {
         self.position.is_empty()
     }
 
-    /// The samples `from..to`, times kept.
+    /// The samples `from..to`, with their times.
     pub fn part(&self, from: usize, to: usize) -> JointRun {
         let part = |values: &Vec<f64>| values.get(from..to).unwrap_or_default().to_vec();
         JointRun {
@@ -182,8 +190,10 @@ impl JointRun {
 }
 
 impl JointRun {
-    /// The narrowest window whose predicted floor is small against the effort, narrowed again where the effort itself is
-    /// faster than that and its noise leaves something to see (at least eight samples, five on a bench), s.
+    /// The width of the windows, s.
+    ///
+    /// It is the narrowest width whose predicted noise is small beside the effort. If the effort is
+    /// faster than that, the width is reduced further, to at least eight samples (five on a bench).
     pub fn width_s(&self) -> f64 {
         let scale = rms(&self.effort);
         let quiet = |width_s: &f64| self.floor(&self.all_windows(*width_s)) <= QUIET * scale;
@@ -191,7 +201,8 @@ impl JointRun {
         if self.plant == PlantKind::Bench {
             return WIDTHS_S[0].min(fast_s).max(LEAST_STEPS_BENCH * self.step_s);
         }
-        // An effort may be fast because it holds the noise of the position: a narrow window is taken where its noise leaves something to see.
+        // A fast effort may only be position noise fed back. The narrow width is used if its noise
+        // leaves something to see.
         let wide_s = WIDTHS_S.iter().copied().find(quiet).unwrap_or(WIDTHS_S[2]);
         let narrow_s = wide_s.min(fast_s).max(LEAST_STEPS_AXIS * self.step_s);
         match self.floor(&self.all_windows(narrow_s)) <= MOST_NOISE * scale {
@@ -257,8 +268,8 @@ impl Run for JointRun {
         self.windows_of(self.width_s())
     }
 
-    /// Windows in which the sense of motion is known throughout; on an axis such that no rest begins or ends unseen, with a brake such that its
-    /// torque is foreseen.
+    /// Keeps windows in which the direction of motion is known throughout. On an axis they must not
+    /// hide the start or end of a rest; with a brake, its torque must be predictable.
     fn keep_told(&self, windows: &mut Windows) {
         let most = |share: f64| {
             move |centre: usize, bump: &[f64]| untold(&self.motion, centre, bump) <= share
@@ -318,12 +329,12 @@ impl Run for JointRun {
 
     fn linear(&self, mechanism: Mechanism, coefficients: &[f64]) -> Vec<f64> {
         match (form(mechanism), self.plant) {
-            // The column is the known effort: y = e + c·e, so that the applied gain is 1/(1 + c) of the stated one. What a bench meters is the
-            // brake's torque itself.
+            // On an axis the column is the known effort: y = e + c·e, so the applied gain is 1/(1 +
+            // c) of the stated one. On a bench the metered effort is the brake's torque itself.
             (Some(Form::Drive(Drive::Gain)), PlantKind::Axis) => {
                 coefficients.iter().map(|c| -c / (1.0 + c)).collect()
             }
-            // The motion is less by what is shown more.
+            // An encoder that shows too much motion means that the true motion is smaller.
             (Some(Form::Sensor(OfSensor::EncoderScale | OfSensor::Eccentric)), _) => {
                 coefficients.iter().map(|c| -c).collect()
             }
@@ -334,7 +345,7 @@ impl Run for JointRun {
         }
     }
 
-    /// A constant that changes no sign with the motion is a bias or a direction asymmetry.
+    /// Without a reversal, a constant may be a bias or a direction asymmetry.
     fn twin(&self, cause: Cause) -> Option<Cause> {
         facts(cause.mechanism)?.twin.map(Cause::of)
     }

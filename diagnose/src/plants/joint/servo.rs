@@ -1,5 +1,5 @@
-//! This file is a position servo at a joint: the effort that it gave along a recording, and the one that it gives in a free run, where its error is
-//! that of the simulated joint.
+//! This file is a position servo at a joint: the effort that it gave along a recording, and the
+//! effort that it gives in a free run, where it feeds back the simulated position.
 
 use super::drive::drive_of;
 use super::run::JointRun;
@@ -9,19 +9,19 @@ use rigproof_model::axis::State;
 use rigproof_model::effects::Drive;
 use rigproof_trace::rig::{Recording, Servo};
 
-/// A servo with its goal, one value a sample of the run that it drives.
+/// A servo with its goal, one value per sample of the run that it drives.
 #[derive(Clone, Debug)]
 pub struct Servoed {
     servo: Servo,
-    /// Effort for a volt.
+    /// Effort per volt.
     command_gain: f64,
     goal: Vec<f64>,
-    /// Where it is switched on.
+    /// Whether it is switched on.
     is_on: Vec<bool>,
 }
 
 impl Servoed {
-    /// The servo of a recording on the samples of its run; `None` where another drive acts.
+    /// The servo of a recording, resampled to its run; `None` without a servo.
     pub(super) fn of(recording: &Recording, command_gain: f64, run: &JointRun) -> Option<Servoed> {
         let (servo, goal) = (recording.servo?, recording.drive.as_ref()?);
         let on_run =
@@ -41,12 +41,11 @@ impl Servoed {
         })
     }
 
-    /// The goal, one value a sample.
+    /// The goal of each sample.
     pub(super) fn goal(&self) -> &[f64] {
         &self.goal
     }
 
-    /// The samples `from..to`.
     pub(super) fn part(&self, from: usize, to: usize) -> Servoed {
         Servoed {
             goal: self.goal.get(from..to).unwrap_or_default().to_vec(),
@@ -55,7 +54,7 @@ impl Servoed {
         }
     }
 
-    /// The effort at a sample with the joint somewhere at some speed; `between` says how far on the way to the next sample.
+    /// The effort at a state of the joint. `between` is the fraction of the way to the next sample.
     fn effort(&self, sample: usize, between: f64, position: f64, speed: f64) -> f64 {
         if !self.is_on.get(sample).is_some_and(|on| *on) {
             return 0.0;
@@ -66,14 +65,14 @@ impl Servoed {
         self.command_gain * (self.servo.voltage(error) - self.servo.back_emf * speed)
     }
 
-    /// The effort that it gave along the motion of a recording.
+    /// The effort that it gave along the recorded motion.
     pub(super) fn along(&self, run: &JointRun) -> Vec<f64> {
         let each = run.position.iter().zip(&run.motion).enumerate();
         each.map(|(k, (position, now))| self.effort(k, 0.0, *position, now.speed))
             .collect()
     }
 
-    /// The positions of a free run from a sample and its state on: the loop is closed over the simulated joint.
+    /// The positions of a free run from a start state. The loop is closed over the simulated joint.
     pub(super) fn free_run(
         &self,
         (plant, free): (&Model, &mut Free),
@@ -97,7 +96,7 @@ impl Servoed {
     }
 }
 
-/// The effort of a closed loop after what its drive does otherwise than described, step by step.
+/// The effort of the closed loop after the described changes of its drive, step by step.
 struct Driven<'a> {
     plant: &'a Model,
     step_s: f64,

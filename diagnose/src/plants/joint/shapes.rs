@@ -1,4 +1,4 @@
-//! This file says which causes are tried on a plant of one joint.
+//! This file lists the causes that are candidates on a plant of one joint.
 
 use super::inertia::Inertia;
 use super::run::{JointRun, PlantKind};
@@ -8,11 +8,11 @@ use rigproof_model::effects::facts::Alone;
 use rigproof_model::effects::{LIBRARY, facts};
 use rigproof_spec::effect::Mechanism;
 
-/// The causes that have a meaning on a plant of one joint, in the library's order.
+/// The causes that have a meaning on this plant, in the library's order.
 pub fn causes(run: &JointRun) -> Vec<Cause> {
     let has_brake = run.brake().is_some();
     let is_driven = run.plant == PlantKind::Axis;
-    // A gain can only be wrong against something that is known.
+    // A gain error needs a known effort to be measured against.
     let is_known =
         run.known().iter().any(|e| *e != 0.0) || run.described.iter().any(|e| !e.unknown);
     let asked = |alone: Alone| match alone {
@@ -26,7 +26,7 @@ pub fn causes(run: &JointRun) -> Vec<Cause> {
         Alone::WithInertia => is_driven && matches!(run.inertia, Inertia::Known(_)),
     };
     let library = LIBRARY.iter();
-    // Drag that is free anyhow is no part of a bristle.
+    // If viscous friction is fitted anyway, a bristle law needs no viscous part.
     let is_drag_free = run
         .described
         .iter()

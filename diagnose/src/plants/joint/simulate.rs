@@ -1,4 +1,4 @@
-//! This file runs a calibrated plant from the recorded inputs, without looking at the recorded output again.
+//! This file simulates a plant from the recorded inputs, without feeding back the recorded output.
 
 use super::columns::{is_of_brake, of_effect};
 use super::drive::{drive_of, driven, fine_effort, local_interpolation};
@@ -14,39 +14,41 @@ use rigproof_model::axis::{Axis, State, Trailing, Transmission};
 use rigproof_model::bench::resistance;
 use rigproof_model::effects::{Drive, Form, OfJoint, form};
 
-/// A plant with all its numbers.
+/// A plant with all its parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Model {
     /// Mass or moment of inertia; unused on a bench.
     pub inertia: f64,
-    /// Everything that acts: first what the description has, in its order.
+    /// Everything that acts; the described effects come first, in the order of the description.
     pub effects: Vec<Effect>,
-    /// How many of the effects are the description's. What fades is the friction of those before it.
+    /// The number of described effects. A fade acts on the described effects before it.
     pub described: usize,
 }
 
-/// What the effort does between two samples.
+/// How the effort is interpolated between two samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Interpolation {
-    /// It holds, as a digital controller's output does.
+    /// Held, as a digital controller's output is.
     #[default]
     Hold,
-    /// It goes straight.
+    /// Linear.
     Linear,
-    /// It is band-limited and periodic over the recording.
+    /// Band-limited and periodic over the recording.
     Band,
 }
 
 /// The protocol of a free run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Protocol {
-    /// What the effort does between samples.
+    /// How the effort is interpolated.
     pub interpolation: Interpolation,
-    /// Samples from which the start state is estimated (a parabola, then a fit to the samples after it); 0 starts from rest at the first position.
+    /// Samples from which the start state is estimated: a parabola, then a fit to the samples after
+    /// it. With 0 the run starts from rest at the first position.
     pub start_samples: usize,
-    /// Integration steps a sample.
+    /// Integration steps per sample.
     pub substeps: usize,
-    /// Periods that are run before the one that counts (a periodic recording in steady state).
+    /// Periods that are simulated before the one that is compared (a periodic recording in steady
+    /// state).
     pub warm_up_periods: usize,
 }
 
@@ -61,9 +63,10 @@ impl Default for Protocol {
     }
 }
 
-/// The output of a run: position of an axis, or effort of a bench, one value a sample.
+/// The output of a free run: the position of an axis or the effort of a bench, one value per
+/// sample.
 ///
-/// The first `start_samples` of an axis repeat the recording, because the state is taken from them.
+/// The first `start_samples` of an axis repeat the recording, because they give the start state.
 pub fn output(plant: &Model, run: &JointRun, protocol: &Protocol) -> Vec<f64> {
     if !run.parts.is_empty() {
         let each = run
@@ -95,7 +98,7 @@ fn bench(plant: &Model, run: &JointRun) -> Vec<f64> {
     let mut on_sum = vec![Drive::Skew, Drive::Lag];
     if let Some(predicted) = &run.predicted {
         let mut predicted = predicted.clone();
-        // The yield of a brake lags; anything else lags as a whole, below.
+        // The yield torque of a brake lags here; on other benches the whole effort lags, below.
         if let (Some(time_constant_s), Some(_)) = (value(Drive::Lag), &run.current) {
             let first = change(Drive::Lag).map_or(0, |e| e.first_sample(run.clock()));
             let lagged = lagged_yield(&predicted, run.step_s, time_constant_s);
@@ -114,7 +117,8 @@ fn bench(plant: &Model, run: &JointRun) -> Vec<f64> {
     driven(rest.chain(&run.metered_by), &effort, run.clock(), 0)
 }
 
-/// A joint that runs freely: what is of the joint as a whole takes hold when its time comes.
+/// A joint in a free run. Changes of the joint itself, such as added inertia, start at their
+/// onsets.
 pub(super) struct Free {
     pub(super) axis: Axis,
     inertia: f64,
@@ -141,7 +145,7 @@ impl Free {
         }
     }
 
-    /// The joint as it is from a time on.
+    /// Updates the joint to a time.
     pub(super) fn take_hold(&mut self, time_s: f64) {
         if self.of_joint.is_empty() {
             return;
@@ -163,7 +167,7 @@ impl Free {
                         damping: effect.value(2),
                     });
                 }
-                // Its laws do that.
+                // These act through the laws.
                 OfJoint::Fade | OfJoint::Link => {}
             }
         }
@@ -177,7 +181,7 @@ impl Free {
     }
 }
 
-/// The least part of an inertia that another one leaves of it.
+/// The smallest share of the inertia that a negative added inertia may leave.
 const LEAST_INERTIA: f64 = 1e-3;
 
 fn free_run(plant: &Model, run: &JointRun, protocol: &Protocol) -> Vec<f64> {
@@ -233,7 +237,7 @@ pub fn predict(
     let &[position, next] = there.as_slice() else {
         return None;
     };
-    // An encoder that shows more travel shows more speed.
+    // A scale error of the encoder scales the shown speed too.
     let shows = |seen: f64, is: f64| if is == 0.0 { 1.0 } else { seen / is };
     let speed = match begin.sense.abs() < 1.0 {
         true => 0.0,

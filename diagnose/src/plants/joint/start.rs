@@ -1,4 +1,5 @@
-//! This file is the start of a free run: a parabola through the first samples, then fitted so that the model meets the samples after it.
+//! This file estimates the start state of a free run: a parabola through the first samples, then a
+//! fit of the model to the samples after it.
 
 use super::drive::Efforts;
 use super::laws::bend_bristles;
@@ -9,10 +10,11 @@ use crate::problem::less;
 use crate::rules::FITTED_TIMES;
 use rigproof_model::axis::State;
 
-/// Rounds of the fit: the model bends little over so short a stretch.
+/// Iterations of the fit. Over so short a stretch the model is nearly linear in its start state.
 const ROUNDS: usize = 3;
 
-/// The first sample of a free run, and the state there; `there` are the positions behind what the encoder shows.
+/// The first sample of a free run, and the state there. `there` are the positions behind what the
+/// encoder shows.
 pub(super) fn begun(
     (plant, free): (&Model, &mut Free),
     (run, there): (&JointRun, &[f64]),
@@ -76,7 +78,7 @@ pub(super) fn begun(
     (first, state_at(best, free))
 }
 
-/// The step of least squares: errors less what the slopes take of them.
+/// The least-squares step of the start state: `errors` projected on the two sensitivities.
 fn step([a, b]: &[Vec<f64>; 2], errors: &[f64]) -> Option<[f64; 2]> {
     let product = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
     let gram = nalgebra::Matrix2::new(product(a, a), product(a, b), product(a, b), product(b, b));
@@ -84,7 +86,7 @@ fn step([a, b]: &[Vec<f64>; 2], errors: &[f64]) -> Option<[f64; 2]> {
     gram.lu().solve(&right).map(Into::into)
 }
 
-/// Start sample, position and speed: the end of a parabola through the first `samples` positions.
+/// The end of a parabola through the first `samples` positions: sample, position and speed.
 fn start(position: &[f64], step_s: f64, samples: usize) -> (usize, f64, f64) {
     if samples < 3 {
         return (0, position.first().copied().unwrap_or(0.0), 0.0);
@@ -140,7 +142,7 @@ mod tests {
         let mut run = exact_axis(NOMINAL, 1900, true);
         let seen = signals(&run, 37);
         run.position = seen.position;
-        // Counts as coarse as this put a parabola's speed off, and with it the whole run.
+        // With counts this coarse, the parabola's speed is wrong enough to spoil the whole run.
         let coarse = 2e-4;
         run.position_noise = coarse / libm::sqrt(12.0);
         let rounded = run.position.iter().map(|x| coarse * (x / coarse).round());

@@ -1,4 +1,5 @@
-//! This file claims that the diagnosis of an axis and of a bench names what was left out and nothing else.
+//! This file claims that the diagnosis of an axis and of a bench names what was left out and
+//! nothing else.
 
 use super::recorded::{EFFORT_NOISE, Laws, NOMINAL, QUANTUM, exact_axis, exact_bench, signals};
 use super::run::JointRun;
@@ -60,7 +61,7 @@ fn named(diagnosis: &Diagnosis<Rig>) -> Vec<&str> {
 
 const DRY: (Mechanism, &[f64]) = (Mechanism::DryOffset, &[1.73]);
 
-/// An axis and a bench with their nominal laws and these.
+/// Diagnoses an axis and a bench with their nominal laws and these.
 fn both(left_out: Laws) -> [Diagnosis<Rig>; 2] {
     let laws = [NOMINAL, left_out].concat();
     let rig_a = axis();
@@ -146,7 +147,7 @@ fn a_rest_is_not_excited_and_a_reversed_drive_is_a_fault() {
     assert!(answer.report.summary.contains("wrong sign"));
 }
 
-/// The axis with its inertia known: then the drive's gain can be measured.
+/// The axis with its inertia known, so that the gain of its drive is identifiable.
 fn rig_with_gain_known() -> Rig {
     let rest = format!(
         "[parameters]\ninertia = {{ value = 1.37, unit = \"kg\" }}\n\
@@ -173,7 +174,7 @@ fn recordings_of_an_axis_are_diagnosed_together() {
     assert!(held_out.after < 0.1 * held_out.before, "{held_out:?}");
 }
 
-/// What the held-out part of a plant says that is another one from a sample on.
+/// Diagnoses a recording that continues as `after` from sample `from` on.
 fn held_out_of(rig: &Rig, before: &JointRun, after: &JointRun, from: usize) -> Diagnosis<Rig> {
     let mut run = before.clone();
     for (own, other) in [
@@ -189,7 +190,8 @@ fn held_out_of(rig: &Rig, before: &JointRun, after: &JointRun, from: usize) -> D
 fn a_held_out_part_that_goes_another_way_is_said_with_when() {
     let axis = axis();
     let exact = exact_axis(NOMINAL, 15_300, true);
-    // The last quarter begins at sample 11 475: what begins at 13 000 no window of the fitted part sees.
+    // The held-out quarter begins at sample 11 475. A change at 13 000 therefore lies outside every
+    // fitted window.
     let (from, time_s) = (13_000, 13_000.0 * 1.1e-3);
     let mut rezeroed = exact.clone();
     rezeroed.position.iter_mut().for_each(|x| *x -= 0.031);
@@ -237,7 +239,7 @@ fn a_held_out_part_that_goes_another_way_is_said_with_when() {
 fn the_numbers_that_are_written_predict_no_worse_than_those_of_the_windows() {
     let axis = axis();
     let exact = exact_axis(&[NOMINAL, &[DRY]].concat(), 15_300, true);
-    // A push by hand that no channel records, and counts that are lost once: a free run goes across both.
+    // A push that no channel records, and lost counts: a free run crosses both.
     let mut pushed = exact.clone();
     for (k, x) in pushed.position.iter_mut().enumerate() {
         let since_s = (k as f64 - 5_000.0) * 1.1e-3;

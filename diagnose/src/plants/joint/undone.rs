@@ -1,4 +1,5 @@
-//! This file is what a description states of a drive and an encoder, undone before anything is fitted, and what it states that no plant of one joint computes.
+//! This file inverts the described effects of drive and encoder before anything is fitted, and
+//! refuses effects that a plant of one joint cannot compute.
 
 use super::columns::is_of_brake;
 use super::drive::{drive_of, driven};
@@ -15,20 +16,21 @@ use rigproof_model::effects::{Drive, Form, OfJoint, form};
 use rigproof_spec::effect::Mechanism;
 use rigproof_trace::rig::{Plant, Recording, Rig, Status};
 
-/// Whether an effect of a description is undone before anything is fitted.
+/// Whether an effect is inverted before anything is fitted.
 pub(super) fn is_undone(effect: &Effect) -> bool {
     drive_of(effect).is_some() || of_encoder(effect).is_some()
 }
 
-/// What the nominal model has when drive and encoder are undone.
+/// The effects of the nominal model that remain.
 pub(super) fn left(rig: &Rig) -> Vec<Effect> {
     let mut effects = nominal(rig);
     effects.retain(|effect| !is_undone(effect));
     effects
 }
 
-/// A recording aligned, with the position that the joint had and the effort that it was given; `before_s` of other recordings come before
-/// it on the clock of onsets.
+/// An aligned recording with the true position and the effort that acted.
+///
+/// `before_s` is the length of the recordings before it on the clock of the onsets.
 ///
 /// # Errors
 /// The fault that makes any conclusion meaningless.
@@ -50,7 +52,7 @@ pub(super) fn aligned(rig: &Rig, recording: &Recording, before_s: f64) -> Result
     for effect in &undone {
         let of_predicted = match drive_of(effect) {
             Some(Drive::Gain) => true,
-            // The yield of a brake lags; anything else lags as a whole.
+            // The yield torque of a brake lags; on other benches the whole effort lags.
             Some(Drive::Lag) => run.current.is_some() && run.predicted.is_some(),
             Some(Drive::Skew) => false,
             Some(Drive::Limit) | None => continue,
@@ -71,7 +73,7 @@ pub(super) fn aligned(rig: &Rig, recording: &Recording, before_s: f64) -> Result
     Ok(run)
 }
 
-/// Why an effect of a description cannot be computed; `None` where all can.
+/// Why an effect of a description cannot be computed; `None` if all can.
 pub(super) fn not_computed(rig: &Rig) -> Option<String> {
     let effects = nominal(rig);
     let refused = effects.iter().find_map(|effect| {
@@ -105,7 +107,7 @@ fn reason(rig: &Rig, effect: &Effect) -> Option<String> {
             true => None,
             false => Some("needs a bench with a brake and its current".to_owned()),
         },
-        // What begins anew after each reversal is computed along an imposed motion only.
+        // A law that restarts at each reversal needs an imposed motion.
         Some(Form::Resistance(law)) if is_axis && law(&[1.0; 4]).begins_anew() => no_meaning(),
         Some(Form::Resistance(_)) => None,
         Some(Form::Drive(Drive::Lag | Drive::Skew)) => None,
@@ -128,7 +130,7 @@ fn reason(rig: &Rig, effect: &Effect) -> Option<String> {
     }
 }
 
-/// Why a description does not say enough for a diagnosis; `None` where it does.
+/// Why a description does not say enough for a diagnosis; `None` if it does.
 pub(super) fn not_told(rig: &Rig) -> Option<String> {
     let parameters = rig.parameters.as_ref()?;
     if parameters.command_gain.status == Status::Unknown {
@@ -145,7 +147,6 @@ pub(super) fn not_told(rig: &Rig) -> Option<String> {
     })
 }
 
-/// The fault of a description.
 pub(super) fn of_description(reason: String) -> Fault {
     Fault {
         channel: "effect",

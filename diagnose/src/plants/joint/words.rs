@@ -1,4 +1,4 @@
-//! This file says in words how a plant of one joint was diagnosed.
+//! This file puts into words how a plant of one joint was diagnosed.
 
 use super::run::PlantKind;
 use super::simulate::{Interpolation, Protocol};

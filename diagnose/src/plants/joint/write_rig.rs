@@ -1,4 +1,5 @@
-//! This file writes what was found as a rig description: the calibration that a simulation can read.
+//! This file writes a calibration: the rig description with the fitted parameters and the found
+//! effects.
 
 use super::from_rig::nominal;
 use super::simulate::Model;
@@ -12,7 +13,7 @@ use rigproof_spec::effect::Mechanism;
 use rigproof_trace::rig::{Rig, RigEffect, Status};
 use std::collections::BTreeMap;
 
-/// The rig with a model's numbers and their intervals; found effects follow the nominal ones.
+/// The rig with a model's parameters and intervals. Found effects follow the nominal ones.
 pub fn calibrated(rig: &Rig, model: &Model, intervals: &Intervals, refitted: bool) -> Rig {
     let mut out = rig.clone();
     if let Some(parameters) = &mut out.parameters
@@ -36,7 +37,8 @@ pub fn calibrated(rig: &Rig, model: &Model, intervals: &Intervals, refitted: boo
             of_torque: effect.cause.scales == Scales::Torque,
         })
     };
-    // What was undone before the fit stays as it is; every other effect of the description has its own place in the model.
+    // Effects that were inverted before the fit stay as described. Every other described effect has
+    // its place in the model.
     let mut fitted = 0..model.described;
     let described = rig.effects.iter().zip(nominal(rig));
     out.effects = described
@@ -52,7 +54,7 @@ pub fn calibrated(rig: &Rig, model: &Model, intervals: &Intervals, refitted: boo
     let mut found: Vec<RigEffect> = (model.described..model.effects.len())
         .filter_map(|index| written(index, None))
         .collect();
-    // What fades is what stands before it.
+    // A fade acts on the effects before it, so it comes last.
     found.sort_by_key(|own| own.mechanism != Mechanism::FrictionFade);
     out.effects.extend(found);
     let how = if refitted {
@@ -64,7 +66,8 @@ pub fn calibrated(rig: &Rig, model: &Model, intervals: &Intervals, refitted: boo
     out
 }
 
-/// The effects of a calibration that were found, in the order of their names: by mechanism and onset, whatever else stands there.
+/// The found effects of a calibration, in the order of the names. They are matched by mechanism and
+/// onset.
 pub(super) fn found_in(
     effects: &[RigEffect],
     described: usize,
@@ -81,7 +84,8 @@ pub(super) fn found_in(
     own.collect()
 }
 
-/// The nominal model's own numbers after the fit, `mechanism.parameter` by name, the inertia as `inertia`.
+/// The fitted parameters of the nominal model by the name `mechanism.parameter`; the inertia is
+/// `inertia`.
 pub fn nominal_numbers(rig: &Rig, calibration: &Rig) -> BTreeMap<String, Number> {
     let mut out = BTreeMap::new();
     if let Some(parameters) = &calibration.parameters {

@@ -1,4 +1,5 @@
-//! This file is one of several explanations of a recording, and how badly it fits another one.
+//! This file is one of several rival explanations of a recording, and its loss on another
+//! recording.
 
 use super::super::free_run::Model;
 use crate::candidates::{realise, variants};
@@ -7,7 +8,7 @@ use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, fit};
 use crate::selection::best_variant;
 
-/// A cause with its shape, as an explanation has it.
+/// A cause with its shape.
 #[derive(Clone, Debug)]
 struct Part {
     cause: Cause,
@@ -24,7 +25,7 @@ impl Part {
         }
     }
 
-    /// The term on another recording; an onset belongs to the recording it was found on.
+    /// The term on another recording, without its onset, which belongs to the original one.
     fn on(&self, problem: &Problem) -> Option<Term> {
         let term = realise(problem, self.cause, &self.shape, None, &[])?;
         Some(Term {
@@ -34,19 +35,18 @@ impl Part {
     }
 }
 
-/// An explanation of a recording.
 #[derive(Clone, Debug)]
 pub struct Explanation {
-    /// What the rivals disagree about.
+    /// The term about which the rivals disagree.
     own: Part,
-    /// What stands beside it.
+    /// The terms that all rivals share.
     others: Vec<Part>,
-    /// The rig with its numbers.
+    /// The rig with its parameters.
     pub model: Model,
 }
 
 impl Explanation {
-    /// An explanation by its own term, those beside it, and the rig with all their numbers.
+    /// An explanation by its own term, those beside it, and the rig with all their parameters.
     pub fn new<'a>(own: &Term, others: impl Iterator<Item = &'a Term>, model: Model) -> Self {
         Explanation {
             own: Part::of(own),
@@ -55,13 +55,13 @@ impl Explanation {
         }
     }
 
-    /// What the rivals disagree about.
+    /// The cause about which the rivals disagree.
     pub fn cause(&self) -> Cause {
         self.own.cause
     }
 
-    /// The loss that stays on another recording when the explanation may have other numbers there, and its own cause any shape
-    /// that is tried.
+    /// Its loss on another recording, with all parameters refitted and the contested cause in its
+    /// best trial shape.
     pub fn loss(&self, problem: &Problem, blocks: &Blocks) -> f64 {
         let others: Vec<Term> = self.others.iter().filter_map(|p| p.on(problem)).collect();
         let common: Vec<&Term> = others.iter().collect();

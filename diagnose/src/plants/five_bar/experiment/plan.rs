@@ -1,4 +1,5 @@
-//! This file says what a five-bar can be asked to do: where a hand leads its tip, and which currents its brakes get meanwhile.
+//! This file lists the experiments that a five-bar can do: where a hand leads its tip, and the
+//! currents of its brakes.
 
 use crate::rules::JITTER;
 pub use crate::rules::{DURATION_S, MIDDLE_M, STRONGEST_A};
@@ -10,21 +11,21 @@ use rigproof_trace::{Channel, Trace};
 /// An experiment, sample by sample.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
-    /// What is done, for whoever does it.
+    /// Instructions for a person.
     pub words: String,
     /// Sample interval, s.
     pub step_s: f64,
-    /// Where the hand leads the tip, x and y, m.
+    /// The tip position to which the hand leads, x and y, m.
     pub hand_m: Vec<[f64; 2]>,
-    /// Currents of A, E, B, C, A; 0 without a brake.
+    /// The currents of A, E, B, C, A; 0 without a brake.
     pub currents_a: [Vec<f64>; 4],
 }
 
-/// The columns in a file.
+/// The columns of a file.
 const HAND: [&str; 2] = ["hand_x", "hand_y"];
 const CURRENTS: [&str; 4] = ["current_a", "current_e", "current_b", "current_c"];
 
-/// What the hand does.
+/// A movement of the hand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Hand {
     Winding,
@@ -33,7 +34,7 @@ enum Hand {
     Rests,
 }
 
-/// What the brakes get.
+/// A use of the brakes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Currents {
     Off,
@@ -43,7 +44,8 @@ enum Currents {
     Steps(Joint),
 }
 
-/// The experiments that are tried: every movement of the hand with every use of the brakes, of those at `joints` most of all.
+/// The experiments that are tried: every movement of the hand with every use of the brakes, chiefly
+/// of those at `joints`.
 pub fn plans(layout: Layout, joints: &[Joint], step_s: f64) -> Vec<Plan> {
     let braked = joints
         .iter()
@@ -100,7 +102,7 @@ impl Hand {
         }
     }
 
-    /// Where the hand is, m.
+    /// The position of the hand, m.
     fn at(self, time_s: f64) -> [f64; 2] {
         let sine = |rate: f64, phase: f64| libm::sin(rate * time_s + phase);
         let [by_x, by_y] = match self {
@@ -109,7 +111,8 @@ impl Hand {
                 0.041 * sine(3.07, 2.1) + 0.024 * sine(6.71, 0.7),
             ],
             Hand::Ramp => {
-                // From an eighth of a turn a second to a half: the force that a hand may give carries the arms round no faster.
+                // From an eighth of a turn per second to a half. The force of a hand cannot move
+                // the arms faster.
                 let turns = (0.125 + 0.5 * 0.375 * time_s / DURATION_S) * time_s;
                 [
                     0.071 * libm::sin(TAU * turns),
@@ -120,7 +123,7 @@ impl Hand {
                 let third = (3.0 * time_s / DURATION_S).floor();
                 let within_s = time_s - third * DURATION_S / 3.0;
                 let (sine, cosine) = libm::sincos(0.35 + third * TAU / 6.0);
-                // From half a stroke a second to four.
+                // From half a stroke per second to four.
                 let strokes = (0.5 + 0.5 * 3.5 * within_s * 3.0 / DURATION_S) * within_s;
                 let along = 0.047 * triangle(strokes);
                 [along * cosine, along * sine]
@@ -140,7 +143,8 @@ impl Hand {
     }
 }
 
-/// Between −1 and 1, straight, with a stroke from turn to turn; starts in the middle.
+/// A triangle wave between −1 and 1, one stroke between two turning points; it starts in the
+/// middle.
 fn triangle(strokes: f64) -> f64 {
     let phase = (0.5 * strokes + 0.25).rem_euclid(1.0);
     1.0 - 4.0 * (phase - 0.5).abs()
@@ -199,7 +203,7 @@ fn alone(joint: Joint, how: &str) -> String {
     )
 }
 
-/// A value of a list that begins again at its end.
+/// A value of a list, repeated cyclically.
 fn pick(values: &[f64], index: usize) -> f64 {
     values
         .get(index % values.len().max(1))
@@ -208,7 +212,7 @@ fn pick(values: &[f64], index: usize) -> f64 {
 }
 
 impl Plan {
-    /// The plan as a file has it.
+    /// The plan as a time series.
     pub fn trace(&self, layout: Layout) -> Trace {
         let hand = [0, 1].map(|axis: usize| {
             let of = |point: &[f64; 2]| point.get(axis).copied().unwrap_or(0.0);
@@ -235,15 +239,16 @@ impl Plan {
         }
     }
 
-    /// Whether a file holds a plan: it says where the hand is.
+    /// Whether a file holds a plan: it has columns for the hand.
     pub fn is_in(trace: &Trace) -> bool {
         HAND.iter().all(|name| trace.channel(name).is_some())
     }
 
-    /// The plan in a file; a brake that it does not name stays off.
+    /// Reads a plan from a file. A brake that it does not name stays off.
     ///
     /// # Errors
-    /// What is wrong with it: no hand, a value missing, another clock than a regular one, a unit other than m and A, a current of a brake that is not there.
+    /// The hand is missing, a value is missing, the clock is irregular, a unit is not m or A, or a
+    /// current belongs to a brake that is not there.
     pub fn of(trace: &Trace, layout: Layout) -> Result<Plan, String> {
         let step_s = regular_step(&trace.time_s)?;
         let samples = |name: &str, unit: &str| -> Result<Option<Vec<f64>>, String> {

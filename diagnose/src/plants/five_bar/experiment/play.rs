@@ -1,4 +1,5 @@
-//! This file plays an experiment on the reference rig: what encoders, force sensor and amplifiers would record of it.
+//! This file simulates an experiment on the reference rig: what encoders, force sensor and
+//! amplifiers would record.
 
 use super::super::free_run::{Model, of_axis, parts_of};
 use super::super::run::joint_at;
@@ -20,7 +21,7 @@ use rigproof_spec::units::{Dimension, Unit};
 use rigproof_trace::rig::Signal;
 use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording};
 
-/// What is recorded of an experiment, before counts and noise.
+/// The recording of an experiment, before quantisation and noise.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Played {
     /// Time stamps, s.
@@ -33,7 +34,8 @@ pub struct Played {
     pub currents_a: [Vec<f64>; 4],
 }
 
-/// The force of a hand that leads the tip to a point, N: never above what the thesis's controllers ask for at the tip.
+/// The force of a hand that leads the tip to a point, N, at most what the thesis's controllers
+/// request at the tip.
 fn hand_n(layout: Layout, to_m: [f64; 2], tip_m: [f64; 2], velocity_m_s: [f64; 2]) -> [f64; 2] {
     let mut force = [0.0; 2];
     let pairs = to_m.iter().zip(tip_m).zip(velocity_m_s);
@@ -45,11 +47,10 @@ fn hand_n(layout: Layout, to_m: [f64; 2], tip_m: [f64; 2], velocity_m_s: [f64; 2
     force.map(|f| share * f)
 }
 
-/// The rig of a model at rest with its tip at a point, m. What the model says to begin at some time of its own recording is there from
-/// the start.
+/// The rig of a model at rest with its tip at a point, m. Effects with an onset act from the start.
 ///
 /// # Errors
-/// The rig cannot be given the model's effects, or cannot stand there.
+/// The rig cannot be given the model's effects, or the tip cannot reach the point.
 pub fn with_effects(model: &Model, layout: Layout, tip_m: [f64; 2]) -> Result<Rig, ModelError> {
     let begun = |effect: &JointEffect| JointEffect {
         onset_s: None,
@@ -62,7 +63,7 @@ pub fn with_effects(model: &Model, layout: Layout, tip_m: [f64; 2]) -> Result<Ri
     Rig::moving(parameters, theta_rad, [0.0; 2])?.with_effects(&effects)
 }
 
-/// Plays a plan on the rig of a model, which starts at rest.
+/// Simulates a plan on the rig of a model, which starts at rest.
 ///
 /// # Errors
 /// Those of [`with_effects`], or the rig is driven out of its assembly.
@@ -82,7 +83,7 @@ pub fn play(model: &Model, layout: Layout, plan: &Plan) -> Result<Played, ModelE
         let time_s = k as f64 * plan.step_s;
         played.record(time_s, rig.base_angles_rad(), force, currents);
         for part in 0..parts as usize {
-            // The hand stands still within a part: in its middle, so that its mean is right.
+            // The hand is constant within a part. Its midpoint gives the right mean.
             let share = (part as f64 + 0.5) / parts;
             let ([f_x, f_y], [t_x, t_y]) = (*from, *to);
             let at = [f_x + share * (t_x - f_x), f_y + share * (t_y - f_y)];
@@ -103,7 +104,7 @@ fn push<const N: usize>(signals: &mut [Vec<f64>; N], values: [f64; N]) {
     signals.iter_mut().zip(values).for_each(|(s, x)| s.push(x));
 }
 
-/// What a sensor makes of angles and forces from sample `first` on.
+/// Applies a sensor's effect to angles and forces from sample `first` on.
 pub fn shown(effect: &Effect, played: &mut Played, step_s: f64, first: usize) {
     let value = |k: usize| effect.value(k);
     let [a, b] = &mut played.theta_rad;
@@ -157,7 +158,7 @@ fn force_shown(own: OfSensor, [a, b]: [f64; 2], [x, y]: [f64; 2]) -> (f64, f64) 
     }
 }
 
-/// What angles and forces are recorded with, as far as it is known.
+/// The resolution and noise of the sensors, as far as they are known.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sensors {
     /// An encoder's count, rad.
@@ -167,7 +168,7 @@ pub struct Sensors {
 }
 
 impl Played {
-    /// One sample more.
+    /// Appends a sample.
     pub fn record(
         &mut self,
         time_s: f64,
@@ -181,7 +182,7 @@ impl Played {
         push(&mut self.currents_a, currents_a);
     }
 
-    /// With the counts of the encoders and the noise of the force sensor that a description states.
+    /// The recording with the quantisation and the noise that a description states.
     pub fn sensed(mut self, rig: &FiveBar, seed: u64) -> Played {
         let mut random = Pcg64Mcg::seed_from_u64(seed);
         let maps = rig.channels.theta.iter().chain(&rig.channels.force);
@@ -200,7 +201,7 @@ impl Played {
         self
     }
 
-    /// As a recording with these sensors stated; brakes that are not there have no channel.
+    /// As a recording with these sensors stated. Missing brakes have no channel.
     pub fn recording(self, layout: Layout, sensors: Sensors) -> FiveBarRecording {
         let signal = |dimension, samples, quantum, noise| Signal {
             channel: String::new(),

@@ -1,4 +1,4 @@
-//! This file says whether an experiment keeps the arms away from their stops.
+//! This file checks that an experiment keeps the arms away from their stops.
 
 use super::play::Played;
 use crate::rules::{LEAST_ROOM_DEG, ROOM_EVERY};
@@ -7,7 +7,7 @@ use rigproof_spec::geometry::{Angle, angle_ranges, arms};
 use rigproof_spec::layout::Layout;
 use rigproof_spec::units::RAD_PER_DEG;
 
-/// Whether every angle stays well within its range.
+/// Whether every angle stays inside its range with a margin.
 pub fn has_room(played: &Played, layout: Layout) -> bool {
     let (arms, ranges) = (arms(layout), angle_ranges(layout));
     let [a, b] = &played.theta_rad;

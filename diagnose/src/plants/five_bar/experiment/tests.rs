@@ -1,4 +1,4 @@
-//! This file claims that the experiment a diagnosis asks for tells twins apart, and that a rig can do it.
+//! This file claims that the next experiment separates twins, and that a rig can do it.
 
 use super::super::free_run::Model;
 use super::super::recorded::rig;
@@ -35,7 +35,7 @@ fn model(mechanism: Mechanism, joint: Option<Joint>, parameters: &[f64]) -> Mode
     }
 }
 
-/// What the rig's sensors make of an experiment on it.
+/// What the rig's sensors record of an experiment.
 fn recorded(truth: &Model, layout: Layout, plan: &Plan, seed: u64) -> FiveBarRecording {
     let sensors = Sensors {
         count_rad: Some(COUNT_RAD),
@@ -58,7 +58,7 @@ fn diagnosed(
     diagnose(&rig(layout), recordings, None, &options)
 }
 
-/// What a report names, and what it says might stand in its place; what it names together counts as one.
+/// The causes that a report names or offers instead. Several that are named together count as one.
 fn offered(report: &Report) -> Vec<String> {
     let effects = report.effects.iter();
     let name = |e: &EffectReport| format!("{} at {}", e.mechanism, e.joint.unwrap_or("all"));
@@ -70,7 +70,7 @@ fn offered(report: &Report) -> Vec<String> {
         .collect()
 }
 
-/// Something left out, and a recording that says little about it.
+/// A left-out mechanism, and a recording that says little about it.
 struct Case {
     layout: Layout,
     mechanism: Mechanism,
@@ -93,7 +93,7 @@ impl Case {
         };
         let mut poor = plans(layout, &[], STEP_S).swap_remove(0);
         poor.hand_m.truncate(8000);
-        // Currents that never change; for a lag one step.
+        // Constant currents; for a lag with one step.
         poor.currents_a = Joint::ALL.map(|own| {
             let from = if mechanism == Mechanism::Lag { 2600 } else { 0 };
             let on = |k| own == joint && k >= from;
@@ -108,7 +108,7 @@ impl Case {
         }
     }
 
-    /// What would look the same at a current that never changes.
+    /// The mechanism that looks the same at a constant current.
     fn twin(&self) -> Mechanism {
         match self.mechanism {
             Mechanism::DryOffset => Mechanism::GainError,
@@ -116,8 +116,8 @@ impl Case {
         }
     }
 
-    /// What a recording that says little names or offers, and what it and the recording of the experiment that it asks for do together. `None`
-    /// where the first does not leave both the truth and its twin.
+    /// The names and rivals from a poor recording alone, and from that recording with the
+    /// experiment that it asks for. `None` if the first does not leave both the truth and its twin.
     fn asked(&self, seed: u64) -> Option<[Vec<String>; 2]> {
         let Case { layout, .. } = *self;
         let truth = model(self.mechanism, Some(self.joint), &[self.size]);
@@ -140,8 +140,9 @@ impl Case {
     }
 }
 
-/// `RIGPROOF_CAMPAIGN` says how many cases are tried; each takes a quarter of a minute. Without it one of dry friction, which a bristle that
-/// hardly bends and friction that hardly settles are told from by nothing.
+/// `RIGPROOF_CAMPAIGN` sets the number of cases, a quarter of a minute each. Without it one case of
+/// dry friction runs. One case in ten may stay open: nothing separates dry friction from a bristle
+/// that hardly bends.
 #[test]
 fn the_experiment_that_is_asked_for_leaves_the_truth_alone() {
     let cases = std::env::var("RIGPROOF_CAMPAIGN").map_or(1..2, |n| 0..n.parse().unwrap());
@@ -193,14 +194,14 @@ fn every_experiment_stays_inside_joint_limits_currents_and_force() {
             assert_eq!(read.hand_m, plan.hand_m);
             assert_eq!(read.currents_a, plan.currents_a);
         }
-        // The same path three times as wide leads into the stops.
+        // The same path three times as wide runs into the stops.
         let mut wild = plans[0].clone();
         for tip in &mut wild.hand_m {
             *tip = [0, 1].map(|axis| MIDDLE_M[axis] + 3.0 * (tip[axis] - MIDDLE_M[axis]));
         }
         let played = play(&Model::of(&rig(layout)), layout, &wild);
         assert!(!played.is_ok_and(|played| has_room(&played, layout)));
-        // Brakes at their strongest hold the tip, and the hand does not push harder.
+        // Brakes at full current hold the tip, and the hand does not push harder.
         let mut held = plans[0].clone();
         held.hand_m.truncate(900);
         held.currents_a = [0, 1, 2, 3].map(|place| {

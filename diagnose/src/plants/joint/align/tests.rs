@@ -1,4 +1,4 @@
-//! This file holds alignment against recordings with one crafted fault each, and against healthy ones.
+//! This file tests alignment on recordings with one fault each, and on healthy ones.
 
 use super::*;
 
@@ -17,7 +17,7 @@ fn healthy_bench() -> Signals {
     signals(&exact_bench(&laws, 6100), 6)
 }
 
-/// The channel and the words of the fault that a change of a healthy recording leads to.
+/// The channel and the reason of the fault that a change of a healthy recording causes.
 fn fault(mut signals: Signals, change: impl Fn(&mut Signals)) -> (&'static str, String) {
     change(&mut signals);
     let fault = align(&signals).unwrap_err();
