@@ -42,19 +42,22 @@ pub struct Explanation {
 pub struct Explanations {
     /// Those whose weight is at least `LISTED`.
     pub living: Vec<Explanation>,
-    /// How many independent samples the recording comes to beside what the best of them leaves.
+    /// The number of independent samples in the residual of the best explanation.
     pub samples: f64,
 }
 
 impl Explanations {
-    /// By how much better others predict that have a number more for each of so many trials, in natural logarithms of odds.
+    /// The log odds of `others`, which have one number more for each of `trials`, against these.
     pub fn worse_than(&self, others: &Explanations, trials: usize) -> f64 {
         let leaves =
             |own: &Explanations| own.living.first().map_or(1.0, |own| own.leaves.hypot(1.0));
         self.samples * libm::log(leaves(self) / leaves(others)) - A_NUMBER * trials as f64
     }
 
-    /// The probability of a cause: the weight of all explanations that hold it, or have it where physics makes it the same.
+    /// The probability of a cause: the summed weight of all explanations that hold it.
+    ///
+    /// An explanation that holds it at another place counts too where no motion tells the places
+    /// apart.
     pub fn probability(&self, cause: Cause) -> f64 {
         let Some(leading) = self.living.first() else {
             return 0.0;
