@@ -190,6 +190,8 @@ pub fn diagnose<P: Plant>(
 
 /// The mechanisms that are named on top of the nominal terms.
 fn named(problem: &mut Problem, terms: Vec<Term>) -> (Selection, Explanations) {
+    let open = terms.iter().filter(|term| term.known.is_none());
+    problem.open = open.map(|term| term.cause).collect();
     match problem.rules.many {
         true => explain_many(problem, terms),
         false => explain(problem, terms),

@@ -59,6 +59,8 @@ pub struct Problem<'a> {
     pub floor: f64,
     /// Root mean square of the averaged driving effort: the scale of all contributions.
     pub effort_size: f64,
+    /// The causes that the description states with numbers that are to be estimated.
+    pub open: Vec<Cause>,
     /// Trials of a brake, each with a gain of its own that is projected out of every row.
     trials: Option<Trials>,
     /// Terms without onset that are requested repeatedly.
@@ -87,6 +89,7 @@ impl<'a> Problem<'a> {
             floor: run.floor(&windows),
             effort_size: rms(&windows.average(&run.effort())),
             windows,
+            open: Vec::new(),
             trials: None,
             kept: RwLock::default(),
             recent: Mutex::default(),

@@ -2,12 +2,14 @@
 //! a prior that prefers few parameters.
 
 use super::fitted::{Fitted, Folds};
+use super::kind;
 use crate::candidates::{is_end, shape_bounds};
+use crate::cause::{Cause, Scales};
 use crate::problem::{Problem, Rows, Term};
 use crate::rules::{A_LINK, A_NUMBER, GIVEN_BACK, RELEVANT_NOISE, USUAL_ODDS};
-use rigproof_model::effects::facts::Usual;
+use rigproof_model::effects::facts::{End, Usual};
 use rigproof_model::effects::{entry, facts};
-use rigproof_spec::effect::Mechanism;
+use rigproof_spec::effect::{Mechanism, Quantity};
 use std::sync::Arc;
 
 pub struct Judge {
@@ -69,7 +71,26 @@ fn odds(problem: &Problem, term: &Term) -> f64 {
     // Where a term has no coefficient, its first shape parameter takes the coefficient's place and
     // is not counted.
     let numbers = numbers - usize::from(term.free.is_empty() && !term.shape.is_empty());
-    usual(term.cause.mechanism) - A_NUMBER * numbers.saturating_sub(1) as f64
+    let usual = match refines_a_stated_law(problem, term.cause) {
+        true => 0.0,
+        false => usual(term.cause.mechanism),
+    };
+    usual - A_NUMBER * numbers.saturating_sub(1) as f64
+}
+
+/// Whether a cause is a stated law of unknown size with a travel besides: all dry friction bends
+/// before it slides. It takes the place of the stated law, and only its further numbers cost.
+fn refines_a_stated_law(problem: &Problem, cause: Cause) -> bool {
+    let mechanism = kind(cause.mechanism);
+    let limit = facts(mechanism).and_then(|facts| facts.limit);
+    limit.is_some_and(|limit| {
+        let number = mechanism.parameters().get(limit.parameter);
+        let stated = |own: &Cause| own.mechanism == limit.of && own.at == cause.at;
+        limit.end == End::Nothing
+            && number.is_some_and(|number| number.quantity == Quantity::Travel)
+            && cause.scales == Scales::Nothing
+            && problem.open.iter().any(stated)
+    })
 }
 
 /// The number of shape parameters that were searched for.
