@@ -11,14 +11,16 @@ use crate::rules::{
     LEAST_GAP_SIGMAS, LEAST_LAG_STEPS, LEAST_LIMITED_A, LEAST_SHIFT_STEPS_JOINT, LIMIT_SHARES,
     LIMITS, MEMORY_COUNT, MEMORY_RATES, MEMORY_RATIOS, MOST_A_TURN, MOST_BEND, MOST_CYCLES,
     MOST_DELAY_S, MOST_GAP, MOST_LAG_S_JOINT, MOST_SHIFT_S_JOINT, MOST_SHIFT_STEPS,
-    PEAK_EXPONENTS_JOINT, PEAK_SPEEDS, PEAKS, PEAKS_APART, RESONANCE_DAMPINGS, RESONANCE_STEPS,
-    RESONANCES, SHIFTS_JOINT, SLOWEST_PEAK, SLOWEST_PEAK_FLOORS, SLOWEST_RESONANCE, SPACING,
+    PEAK_EXPONENTS_JOINT, PEAK_SPEEDS, PEAKS, PEAKS_APART, PLAYED_SHARES, RESONANCE_DAMPINGS,
+    RESONANCE_STEPS, RESONANCES, SHIFTS_JOINT, SLOWEST_PEAK, SLOWEST_PEAK_FLOORS,
+    SLOWEST_RESONANCE, SPACING,
 };
 use crate::weak::Windows;
 use core::f64::consts::TAU;
 use rigproof_model::effects::facts::Shapes;
-use rigproof_model::effects::{Instant, facts};
-use rigproof_spec::effect::{Mechanism, Motion};
+use rigproof_model::effects::{Instant, entry, facts};
+use rigproof_spec::effect::{Mechanism, Motion, Range};
+use rigproof_spec::tables::GREATEST_CURRENT_A;
 
 /// The candidates for the search by one cause at a time. Mechanisms that are only compared in sets
 /// are left out.
@@ -157,7 +159,9 @@ pub fn standard_shapes<R: Run + ?Sized>(
             MOST_SHIFT_S_JOINT.max(MOST_SHIFT_STEPS * step_s),
             SHIFTS_JOINT,
         ))),
-        Shapes::CurrentPlay { low, high, count } => plays(&geometric(low, high, count), &[]),
+        Shapes::CurrentPlay { low, high, count } => {
+            plays(&geometric(low, high, count), &[], GREATEST_CURRENT_A)
+        }
         Shapes::Delay => one(geometric(step_s, MOST_DELAY_S, DELAYS)),
         Shapes::CurrentLimit => {
             let current = run.brake().map(|(_, current)| current);
@@ -172,14 +176,27 @@ pub fn standard_shapes<R: Run + ?Sized>(
     }
 }
 
-/// Half widths of a current hysteresis, A: with sides that close towards no current, with open
-/// sides, and the widest of plays of every width.
-pub fn plays(widths: &[f64], closing_a: &[f64]) -> Vec<Vec<f64>> {
-    let each = widths.iter().flat_map(|width| {
-        let closing = closing_a.iter().map(|below| vec![*width, *below]);
-        closing.chain([vec![*width], vec![*width, 0.0, 1.0]])
-    });
-    each.collect()
+/// Trial plays of a current by half width, A: with sides that close below a current, with open
+/// sides, and the widest of plays of every width, behind the current everywhere or not at the top of
+/// a table.
+pub fn plays(widths: &[f64], closing_a: &[f64], top_a: f64) -> Vec<Vec<f64>> {
+    let of_width = |width: f64, share: f64| {
+        let closing = closing_a
+            .iter()
+            .map(move |below| vec![width, share, *below]);
+        let others = [
+            vec![width, share],
+            vec![width, share, 0.0, 1.0],
+            vec![width, share, 0.0, 1.0, top_a],
+        ];
+        closing.chain(others)
+    };
+    let pairs = widths
+        .iter()
+        .flat_map(|width| PLAYED_SHARES.map(|share| (*width, share)));
+    pairs
+        .flat_map(|(width, share)| of_width(width, share))
+        .collect()
 }
 
 /// Trial travels of presliding, from the least that can be observed.
@@ -266,6 +283,14 @@ pub fn shape_bounds(problem: &Problem, cause: Cause) -> Vec<(f64, f64)> {
             })
         })
         .collect();
+    // A part of something is looked for from nothing to all of it.
+    let numbers = cause.mechanism.parameters().iter();
+    let linear = entry(cause.mechanism).map_or(0, |entry| entry.linear);
+    for (own, number) in bounds.iter_mut().zip(numbers.skip(linear)) {
+        if number.range == Range::Part {
+            *own = (0.0, 1.0);
+        }
+    }
     if let Some(first) = bounds.first_mut() {
         *first = problem.run.reach(cause).unwrap_or(*first);
     }

@@ -156,13 +156,19 @@ pub fn diagnose<P: Plant>(
     let beyond = plant.beyond_reason(&problem, &selection);
     selection.withdraw(&problem, beyond.as_slice());
     let mut withdrawn: Vec<Cause> = beyond.into_iter().collect();
-    let trials = scattered(&problem, &selection);
-    if let Some(trials) = trials.clone() {
-        let windows = problem.windows.clone();
-        problem = Problem::new(train, windows).within(trials);
-        let terms = nominal(plant, &problem).unwrap_or_default();
-        (selection, explanations) = named(&mut problem, terms);
-        withdrawn.clear();
+    let mut trials = scattered(&problem, &selection);
+    if let Some(own) = trials.clone() {
+        let count = own.count();
+        let mut within = Problem::new(train, problem.windows.clone()).within(own);
+        let terms = nominal(plant, &within).unwrap_or_default();
+        let (told, others) = named(&mut within, terms);
+        // A gain for every trial is a number each: a law that leaves hardly more is the plainer explanation.
+        if explanations.worse_than(&others, count) > 0.0 {
+            (problem, selection, explanations) = (within, told, others);
+            withdrawn.clear();
+        } else {
+            trials = None;
+        }
     }
     bound(&problem, &mut selection);
     options.watch.enters(Stage::Show);

@@ -1,7 +1,6 @@
 //! This file transforms signals before they become columns: delays, shifts, weights, differences.
 
-pub use crate::rules::USUAL_SHARE;
-use rigproof_model::effects::{CurrentPlay, PLAYS, first_order_lag_straight, held_a};
+use rigproof_model::effects::{CurrentPlay, PLAYS, first_order_lag_straight};
 
 /// A brake's signed torque with a first-order lag on its magnitude and an unchanged sign.
 pub fn lagged_yield(predicted: &[f64], step_s: f64, time_constant_s: f64) -> Vec<f64> {
@@ -18,7 +17,7 @@ pub fn through_play(current_a: &[f64], play: CurrentPlay, share: f64) -> Vec<f64
     let mut played = [0.0; PLAYS];
     let held = current_a.iter().map(|i| {
         played = play.moved(played, *i);
-        i + share * (held_a(&played) - i)
+        i + share * (play.held_a(&played) - i)
     });
     held.collect()
 }

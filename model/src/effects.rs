@@ -31,7 +31,7 @@ mod velocity_power;
 mod viscous;
 
 pub use lag::{first_order_lag, first_order_lag_straight, lagged};
-pub use play::{CurrentPlay, PLAYS, Played, held_a};
+pub use play::{CurrentPlay, PLAYS, Played};
 
 use facts::{Facts, Words};
 use rigproof_spec::effect::Mechanism;

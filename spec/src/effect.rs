@@ -87,10 +87,11 @@ vocabulary! {
     ],
     /// Memory of the current history.
     CurrentHysteresis = "current_hysteresis" called "magnetic hysteresis" | "remanence" [
-        needed("share", Number),
         needed("half_width", Current).above_zero(),
+        needed("share", Number).part(),
         optional("closing", Current).not_below_zero(),
         optional("spread", Number).part(),
+        optional("top", Current).not_below_zero(),
     ],
     /// Memory of the displacement history (Bouc 1967, Wen 1976).
     Hysteresis = "hysteresis" called "Bouc-Wen hysteresis" | "bouc-wen" | "bouc_wen" [

@@ -5,6 +5,7 @@ mod budget;
 mod arm;
 mod blind_brake;
 mod blind_rig;
+mod blind_share;
 mod blind_slice;
 mod brake;
 mod control_choice;

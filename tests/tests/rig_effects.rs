@@ -34,7 +34,7 @@ fn takers() -> Vec<JointEffect> {
         at(Joint::B, GainError, &[0.19]),
         at(Joint::A, ThermalFade, &[0.043, 5.3]),
         at(Joint::A, LoadDependent, &[0.0071]),
-        at(Joint::C, CurrentHysteresis, &[0.31, 0.041, 0.37]),
+        at(Joint::C, CurrentHysteresis, &[0.041, 0.31, 0.37]),
     ]
 }
 

@@ -2,7 +2,7 @@
 //! differs from the nominal one.
 
 use crate::problem::less;
-use crate::signals::{USUAL_SHARE, shifted, through_play};
+use crate::signals::{shifted, through_play};
 use rigproof_model::brake::{Brake, slowed};
 use rigproof_model::effects::{CurrentPlay, Instant, OfBrake};
 use rigproof_spec::tables::BrakeTable;
@@ -66,15 +66,14 @@ impl Braked<'_> {
                 ..self.table
             }),
             OfBrake::CurrentHysteresis => {
+                let number = |place: usize| shape.get(place).copied().unwrap_or(0.0);
                 let play = CurrentPlay {
                     half_width_a: value,
-                    closing_a: shape.get(1).copied().unwrap_or(0.0),
-                    spread: shape.get(2).copied().unwrap_or(0.0),
+                    closing_a: number(2),
+                    spread: number(3),
+                    top_a: number(4),
                 };
-                // The torque is not linear in the current. The slope is taken as a finite
-                // difference over the usual size of the effect.
-                let change = given(&through_play(self.current, play, USUAL_SHARE));
-                change.into_iter().map(|c| c / USUAL_SHARE).collect()
+                given(&through_play(self.current, play, number(1)))
             }
             OfBrake::ThermalFade => self.faded(own, value),
         })

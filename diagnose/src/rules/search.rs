@@ -49,6 +49,4 @@ rules! {
     NO_WORSE: f64 = 1.1, "times", "five-bar, seeds below 10 000 (decision 0150)";
     /// Rounds in which a change of the drive is linearised again about the fit it gave.
     RELINEARISE: usize = 3, "rounds", REASON;
-    /// Share of a current that hysteresis is linearised with: the torque is not linear in the current.
-    USUAL_SHARE: f64 = 0.3, "share", REASON;
 }

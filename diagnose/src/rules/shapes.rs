@@ -115,6 +115,8 @@ rules! {
     RESONANCES: usize = 12, "resonances", DRIVEN;
     /// Axis: damping ratios of a resonance that are tried.
     RESONANCE_DAMPINGS: [f64; 2] = [0.03, 0.12], "1", DRIVEN;
+    /// Shares of a brake's current that go through a play that are tried.
+    PLAYED_SHARES: [f64; 2] = [0.3, 0.7], "share", REASON;
     /// Five-bar: currents below which the sides of a play come together: a little, most of the range, and beyond all that flows.
     CLOSING_A: [f64; 3] = [0.1, 0.4, 1.5], "A", "five-bar, seeds below 10 000 (decision 0151)";
     /// Five-bar: an encoder's scale may be off by this share, its zero by this angle: what more it was is seen before anything is recorded.

@@ -35,10 +35,10 @@ pub(super) const BACKLASH_WIDTH: Entry = Entry {
 pub(super) const CURRENT_HYSTERESIS: Entry = Entry {
     mechanism: Mechanism::CurrentHysteresis,
     form: Form::Brake(OfBrake::CurrentHysteresis),
-    linear: 1,
+    linear: 0,
     passive: true,
     refuted_by: "the same torque on the way up and on the way down of a slow current triangle",
-    equation: "τ follows I + share·(p − I), p the play of half width `half_width` that the current moves; its sides meet at 0 from `closing` down; with `spread` the mean of plays whose half widths reach down to (1 − spread)·half_width",
+    equation: "τ follows I + share·(p − I), p the play of half width `half_width` that the current moves; its sides meet at 0 from `closing` down; with `spread` the mean of plays whose half widths reach down to (1 − spread)·half_width; with `top` in the scale in which it is I where I has risen to `top`",
     facts: Facts {
         turn: 6,
         has_forms: true,

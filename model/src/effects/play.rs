@@ -13,6 +13,8 @@ pub struct CurrentPlay {
     pub closing_a: f64,
     /// How far down the half widths are spread evenly, as a share of the widest: 0 for a single play, 1 for plays of every width from none on.
     pub spread: f64,
+    /// The current at which the play, that rose from none, holds all of it, A: there a table was taken. 0 where what it is short of is short everywhere.
+    pub top_a: f64,
 }
 
 /// Where plays of unlike widths stand, A; all of them at no current before any flowed.
@@ -34,11 +36,16 @@ impl CurrentPlay {
         }
         played
     }
-}
 
-/// The current that plays of unlike widths hold together, A.
-pub fn held_a(played: &Played) -> f64 {
-    played.iter().sum::<f64>() / PLAYS as f64
+    /// The current that plays which stand there hold together, A.
+    pub fn held_a(&self, played: &Played) -> f64 {
+        let held_a = played.iter().sum::<f64>() / PLAYS as f64;
+        let short_a = self.half_width_a * (1.0 - 0.5 * self.spread);
+        match self.top_a > short_a {
+            true => held_a * self.top_a / (self.top_a - short_a),
+            false => held_a,
+        }
+    }
 }
 
 #[cfg(test)]
@@ -49,6 +56,7 @@ mod tests {
         half_width_a: 0.07,
         closing_a: 0.0,
         spread: 0.0,
+        top_a: 0.0,
     };
 
     #[test]
@@ -59,7 +67,7 @@ mod tests {
         };
         for (play, at_rest) in [(OPEN, 0.07), (closing, 0.0)] {
             let up = play.moved([0.0; PLAYS], 0.53);
-            assert!((held_a(&up) - 0.46).abs() < 1e-12, "{up:?}");
+            assert!((play.held_a(&up) - 0.46).abs() < 1e-12, "{up:?}");
             assert_eq!(play.moved(up, 0.41), up);
             let down = play.moved(up, 0.31);
             let half = if play == OPEN {
@@ -67,9 +75,12 @@ mod tests {
             } else {
                 0.07 * 0.31 / 0.4
             };
-            assert!((held_a(&down) - (0.31 + half)).abs() < 1e-12, "{down:?}");
+            assert!(
+                (play.held_a(&down) - (0.31 + half)).abs() < 1e-12,
+                "{down:?}"
+            );
             let gone = play.moved(down, 0.0);
-            assert!((held_a(&gone) - at_rest).abs() < 1e-12, "{gone:?}");
+            assert!((play.held_a(&gone) - at_rest).abs() < 1e-12, "{gone:?}");
         }
     }
 
@@ -82,12 +93,27 @@ mod tests {
         };
         let up = spread.moved([0.0; PLAYS], 0.5);
         // The mean half width of plays of every width is half of the widest.
-        assert!((held_a(&up) - 0.45).abs() < 1e-12, "{up:?}");
+        assert!((spread.held_a(&up) - 0.45).abs() < 1e-12, "{up:?}");
         // After a turn the narrow ones move first: with a lag that grows with the square of the way back.
-        let back = |by_a: f64| held_a(&up) - held_a(&spread.moved(up, 0.5 - by_a));
+        let back = |by_a: f64| spread.held_a(&up) - spread.held_a(&spread.moved(up, 0.5 - by_a));
         let ways = [0.05, 0.1, 0.15, 0.2].map(back);
         assert!(ways[0] > 0.0 && ways.windows(2).all(|w| w[1] - w[0] > 0.0));
         assert!(ways[3] - ways[2] > ways[1] - ways[0], "{ways:?}");
         assert!((back(0.3) - 0.2).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_play_that_meets_the_table_at_its_top_holds_all_there() {
+        for spread in [0.0, 0.4, 1.0] {
+            let play = CurrentPlay {
+                half_width_a: 0.2,
+                spread,
+                top_a: 0.9,
+                ..OPEN
+            };
+            let at = |current_a: f64| play.held_a(&play.moved([0.0; PLAYS], current_a));
+            assert!((at(0.9) - 0.9).abs() < 1e-12, "{}", at(0.9));
+            assert!(at(0.5) < 0.5);
+        }
     }
 }

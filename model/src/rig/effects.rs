@@ -172,11 +172,12 @@ fn of_brake(effect: &JointEffect, joint: Joint) -> Option<Term> {
         },
         Form::Brake(OfBrake::CurrentHysteresis) => Term::Play {
             place,
-            share: value(0),
+            share: value(1),
             play: CurrentPlay {
-                half_width_a: value(1),
+                half_width_a: value(0),
                 closing_a: value(2),
                 spread: value(3),
+                top_a: value(4),
             },
         },
         Form::Brake(OfBrake::DeadTime) => Term::Late {

@@ -9,7 +9,7 @@ use rigproof_spec::joint::Joint;
 
 use super::contact::Contact;
 use super::effects::JointEffect;
-use crate::effects::{CurrentPlay, Instant, Law, PLAYS, Played, held_a, lagged};
+use crate::effects::{CurrentPlay, Instant, Law, PLAYS, Played, lagged};
 use crate::motion::two_coordinate::TwoCoordinate;
 
 /// The least yield of a joint with dry friction, N·m: what holds has to be able to let go.
@@ -221,7 +221,7 @@ impl LeftOut {
                 let before = if first { [0.0; PLAYS] } else { *played };
                 *played = play.moved(before, now_a);
                 if time_s >= timed.onset_s {
-                    given_a[place] += share * (held_a(played) - now_a);
+                    given_a[place] += share * (play.held_a(played) - now_a);
                 }
             }
         }

@@ -7,6 +7,7 @@ use super::encoder::shown;
 use super::recorded::{EFFORT_NOISE, INERTIA, NOMINAL, QUANTUM, exact_axis, exact_bench, signals};
 use super::run::{JointRun, PlantKind};
 use super::simulate::{Model, Protocol, output};
+use crate::cause::Scales;
 use crate::effect::Effect;
 use crate::plant::{Described, Run};
 use crate::report::Verdict;

@@ -206,6 +206,7 @@ fn any_effect() -> impl Strategy<Value = RigEffect> {
                 mechanism,
                 values: values.into_iter().take(given.count()).collect(),
                 onset,
+                of_torque: false,
             }
         })
 }
