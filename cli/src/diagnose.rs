@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use rigproof_diagnose::report::{InputFile, Report, Verdict};
+use rigproof_diagnose::report::{InputFile, Verdict};
 use rigproof_diagnose::self_calibration::SelfTest;
 use rigproof_diagnose::{Description, Diagnosis, Measured, Options, Watch};
 use rigproof_trace::store::Folder;
@@ -152,7 +152,7 @@ pub fn written(
     diagnosis.report.inputs = given.identities;
     diagnosis.report.protocol.extend(given.read_as);
     let folder = Folder::begin(&out)?;
-    let next = next(&args.source.rig, &out, &given.shown_on, &diagnosis.report);
+    let next = next(&args.source.rig, &out, &given.shown_on, &diagnosis);
     let shown = given.held_out.as_ref().or(given.recordings.last());
     let beside = page::Beside {
         replay: page::replay(rig, &diagnosis, shown),
@@ -306,7 +306,9 @@ fn say(
 }
 
 /// The next step, as a command where there is one.
-fn next(rig: &Path, out: &Path, shown_on: &Path, report: &Report) -> String {
+fn next(rig: &Path, out: &Path, shown_on: &Path, diagnosis: &Diagnosis) -> String {
+    let report = &diagnosis.report;
+    let model = diagnosis.calibration.beside().into_iter().next();
     let calibration = out.join(folder::CALIBRATION);
     match report.verdict {
         Verdict::DataFault => "mend the recording or the rig file, or cut the fault away with --from-s and --to-s; then diagnose again".to_owned(),
@@ -318,20 +320,22 @@ fn next(rig: &Path, out: &Path, shown_on: &Path, report: &Report) -> String {
             report.unknown.as_ref().map_or("`located`", |_| "`unknown`"),
             report.unknown.as_ref().map_or("joint and regime hint at", |_| "the shape says"),
         ),
-        // An arm has no free run here.
-        _ if report.plant == "chain" => format!(
-            "take {} into your own simulation; {} has all that was found",
-            out.join("calibrated.urdf").display(),
-            calibration.display()
-        ),
-        _ => shell::line(
-            &["rigproof", "simulate"],
-            &[
-                ("", shown_on),
-                ("--rig", rig),
-                ("--calibration", &calibration),
-            ],
-        ),
+        // A model of another simulator is simulated there.
+        _ => match model {
+            Some((name, _)) => format!(
+                "take {} into your own simulation; {} has all that was found",
+                out.join(name).display(),
+                calibration.display()
+            ),
+            None => shell::line(
+                &["rigproof", "simulate"],
+                &[
+                    ("", shown_on),
+                    ("--rig", rig),
+                    ("--calibration", &calibration),
+                ],
+            ),
+        },
     }
 }
 

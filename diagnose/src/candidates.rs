@@ -176,9 +176,8 @@ pub fn standard_shapes<R: Run + ?Sized>(
     }
 }
 
-/// Trial plays of a current by half width, A: with sides that close below a current, with open
-/// sides, and the widest of plays of every width, behind the current everywhere or not at the top of
-/// a table.
+/// The shapes of a play of the current: single plays whose sides meet below a current or stay open,
+/// and spread plays with and without the scale of a table that was taken up to `top_a`.
 pub fn plays(widths: &[f64], closing_a: &[f64], top_a: f64) -> Vec<Vec<f64>> {
     let of_width = |width: f64, share: f64| {
         let closing = closing_a

@@ -42,13 +42,12 @@ pub struct Explanation {
 pub struct Explanations {
     /// Those whose weight is at least `LISTED`.
     pub living: Vec<Explanation>,
-    /// How many independent samples the recording comes to beside what the best of them leaves.
+    /// The number of independent samples in the residual of the best explanation.
     pub samples: f64,
 }
 
 impl Explanations {
-    /// By how much better `others` predict, in natural logarithms of odds. They have one more
-    /// parameter for each of `trials`.
+    /// The log odds of `others`, which have one number more for each of `trials`, against these.
     pub fn worse_than(&self, others: &Explanations, trials: usize) -> f64 {
         let leaves =
             |own: &Explanations| own.living.first().map_or(1.0, |own| own.leaves.hypot(1.0));

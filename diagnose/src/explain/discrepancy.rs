@@ -36,7 +36,7 @@ fn repeated(driving: &[f64], residual: &[f64], outputs: usize) -> f64 {
     let turned = lags.iter().position(|own| *own <= 0.0);
     let open = lags.get(turned.unwrap_or(lags.len())..).unwrap_or_default();
     let best = open.iter().copied().fold(0.0, f64::max);
-    // The first of the peaks that are as high as the highest: the others are its multiples.
+    // The first peak that is as high as the highest: later ones are its multiples.
     let is_peak = |own: &[f64]| matches!(own, [a, b, c] if a <= b && b >= c && *b >= best - LEAST_CORRELATION);
     let Some(peak) = open.windows(3).position(is_peak) else {
         return 1.0;

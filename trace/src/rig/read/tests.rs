@@ -202,9 +202,15 @@ fn any_effect() -> impl Strategy<Value = RigEffect> {
         .prop_map(|(mechanism, values, onset, whole)| {
             let parameters = mechanism.parameters().iter();
             let given = parameters.filter(|parameter| whole || !parameter.is_optional);
+            let values = given
+                .zip(values)
+                .map(|(parameter, value)| match parameter.range {
+                    Range::Part => Value::known(1.0 / (1.0 + value.value)),
+                    _ => value,
+                });
             RigEffect {
                 mechanism,
-                values: values.into_iter().take(given.count()).collect(),
+                values: values.collect(),
                 onset,
                 of_torque: false,
             }
