@@ -60,12 +60,12 @@ impl Trials {
         })
     }
 
-    /// How many there are.
+    /// The number of trials.
     pub fn count(&self) -> usize {
         self.start_s.len()
     }
 
-    /// The share of the brake's torque that fits the rows best, trial by trial; 0 where there are no rows.
+    /// The least-squares gain of each trial; 0 without rows.
     fn gains(&self, rows: &[f64], usable: &[bool]) -> Vec<f64> {
         let mut sums = vec![(0.0, 0.0); self.start_s.len()];
         let each = self
