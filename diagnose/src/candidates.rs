@@ -18,7 +18,7 @@ use crate::rules::{
 use crate::weak::Windows;
 use core::f64::consts::TAU;
 use rigproof_model::effects::facts::Shapes;
-use rigproof_model::effects::{Instant, entry, facts};
+use rigproof_model::effects::{Form, Instant, entry, facts, form};
 use rigproof_spec::effect::{Mechanism, Motion, Range};
 use rigproof_spec::tables::GREATEST_CURRENT_A;
 
@@ -38,7 +38,10 @@ pub fn causes(problem: &Problem) -> Vec<Cause> {
 /// each trial has a gain of its own.
 pub fn all_causes(problem: &Problem) -> Vec<Cause> {
     let mut causes = problem.run.causes();
-    causes.retain(|cause| cause.mechanism != Mechanism::GainError || !problem.is_within_trials());
+    // Within trials a gain is projected out of every row, and with it a gain for each direction.
+    let asymmetry = Cause::of(Mechanism::DirectionAsymmetry).of_torque();
+    let is_gain = |own: &Cause| own.mechanism == Mechanism::GainError || *own == asymmetry;
+    causes.retain(|cause| !problem.is_within_trials() || !is_gain(cause));
     causes
 }
 
@@ -98,6 +101,10 @@ pub fn modelled_effort(problem: &Problem, terms: &[&Term], fitted: &Fit) -> Vec<
                 coefficients.next()
             };
             add(&mut effort, &rows.signal, times.unwrap_or(0.0));
+        }
+        let is_drive = matches!(form(term.cause.mechanism), Some(Form::Drive(_)));
+        if let Some(fixed) = term.fixed.as_ref().filter(|_| !is_drive) {
+            add(&mut effort, &fixed.signal, 1.0);
         }
     }
     effort

@@ -18,7 +18,7 @@ use crate::problem::{Problem, Term};
 use crate::report::Report;
 use crate::rules::{FEWEST_WINDOWS, FLOOR_RATIO, HOLD_OUT_SHARE, SUSPECTED};
 use crate::scatter::{Trials, left_over};
-use crate::selection::{Selection, is_noise, refs};
+use crate::selection::{Selection, is_noise, refs, usable_rms};
 use ended::{faulty, not_excited};
 use parts::Parts;
 use rigproof_model::effects::entry;
@@ -156,19 +156,13 @@ pub fn diagnose<P: Plant>(
     let beyond = plant.beyond_reason(&problem, &selection);
     selection.withdraw(&problem, beyond.as_slice());
     let mut withdrawn: Vec<Cause> = beyond.into_iter().collect();
-    let mut trials = scattered(&problem, &selection);
-    if let Some(own) = trials.clone() {
-        let count = own.count();
-        let mut within = Problem::new(train, problem.windows.clone()).within(own);
-        let terms = nominal(plant, &within).unwrap_or_default();
-        let (told, others) = named(&mut within, terms);
-        // A gain for every trial is a number each: a law that leaves hardly more is the plainer explanation.
-        if explanations.worse_than(&others, count) > 0.0 {
-            (problem, selection, explanations) = (within, told, others);
-            withdrawn.clear();
-        } else {
-            trials = None;
-        }
+    let trials = scattered(&problem, &selection);
+    if let Some(trials) = trials.clone() {
+        let windows = problem.windows.clone();
+        problem = Problem::new(train, windows).within(trials);
+        let terms = nominal(plant, &problem).unwrap_or_default();
+        (selection, explanations) = named(&mut problem, terms);
+        withdrawn.clear();
     }
     bound(&problem, &mut selection);
     options.watch.enters(Stage::Show);
@@ -239,9 +233,15 @@ fn nominal<P: Plant>(plant: &P, problem: &Problem) -> Result<Vec<Term>, (At, Fau
 /// The trials of a brake, if their gains differ and hide other effects.
 fn scattered(problem: &Problem, selection: &Selection) -> Option<Trials> {
     let trials = Trials::of(problem.run, &problem.windows)?;
+    let usable = &problem.windows.usable;
     let terms = refs(&selection.nominal, &selection.found);
     let residual = left_over(problem, &terms, &selection.after);
     let least = FLOOR_RATIO * problem.floor;
-    let scatter = trials.scatter(&residual, &problem.windows.usable, least);
-    scatter.map(|_| trials)
+    trials.scatter(&residual, usable, least)?;
+    // Laws of a few numbers that leave less than a gain for every trial are the better explanation.
+    let nominal: Vec<&Term> = selection.nominal.iter().collect();
+    let mut by_gains = left_over(problem, &nominal, &selection.before);
+    trials.take_out(&mut by_gains, usable);
+    let [laws, gains] = [&residual, &by_gains].map(|rows| usable_rms(problem, rows));
+    (laws >= gains).then_some(trials)
 }

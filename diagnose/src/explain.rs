@@ -14,7 +14,7 @@ use crate::candidates::{all_causes, is_at_an_end};
 use crate::cause::Cause;
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, fit, free_columns, paired, reduced_target};
-use crate::rules::{A_NUMBER, AS_ONE, EXCHANGES, LISTED, NAMED, OFFERED, ROWS_A_SAMPLE, SUSPECTED};
+use crate::rules::{AS_ONE, EXCHANGES, LISTED, NAMED, OFFERED, ROWS_A_SAMPLE, SUSPECTED};
 use crate::selection::{Found, Selection, Stage, centred, refined, usable_rms};
 use fitted::{Fitted, Folds};
 use late::Late;
@@ -42,18 +42,9 @@ pub struct Explanation {
 pub struct Explanations {
     /// Those whose weight is at least `LISTED`.
     pub living: Vec<Explanation>,
-    /// The number of independent samples in the residual of the best explanation.
-    pub samples: f64,
 }
 
 impl Explanations {
-    /// The log odds of `others`, which have one number more for each of `trials`, against these.
-    pub fn worse_than(&self, others: &Explanations, trials: usize) -> f64 {
-        let leaves =
-            |own: &Explanations| own.living.first().map_or(1.0, |own| own.leaves.hypot(1.0));
-        self.samples * libm::log(leaves(self) / leaves(others)) - A_NUMBER * trials as f64
-    }
-
     /// The probability of a cause: the summed weight of all explanations that hold it.
     ///
     /// An explanation that holds it at another place counts too where no motion tells the places
@@ -148,7 +139,8 @@ pub fn explain(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection, Exp
     nominal.iter_mut().for_each(|term| problem.refresh(term));
     let noise = left.max(problem.floor);
     let second = Round::of(problem, &nominal, noise, rows_a_sample, EXCHANGES);
-    let explanations = second.weighed(problem, noise);
+    let living = second.weighed(problem, noise);
+    let explanations = Explanations { living };
     (selected(problem, nominal, &explanations), explanations)
 }
 
@@ -198,19 +190,15 @@ impl Round {
         discrepancy::rows_a_sample(problem, &self.folds, &residual.unwrap_or_default())
     }
 
-    fn weighed(self, problem: &Problem, noise: f64) -> Explanations {
-        let rows_a_sample = self.rows_a_sample(problem);
-        let judge = Judge::of(problem, noise, rows_a_sample);
+    fn weighed(self, problem: &Problem, noise: f64) -> Vec<Explanation> {
+        let judge = Judge::of(problem, noise, self.rows_a_sample(problem));
         let Round { folds, bare, all } = self;
         let all = all.into_iter().filter(|own| {
             let mut terms = own.terms.iter();
             judge.all_matter(&folds, &bare, own) && !terms.any(|term| is_at_an_end(problem, term))
         });
         let scored = ranked(problem, &folds, &judge, all.collect());
-        Explanations {
-            living: living(problem, folds.rows(), scored, noise),
-            samples: folds.rows() / rows_a_sample,
-        }
+        living(problem, folds.rows(), scored, noise)
     }
 }
 

@@ -61,10 +61,6 @@ impl Trials {
     }
 
     /// The number of trials.
-    pub fn count(&self) -> usize {
-        self.start_s.len()
-    }
-
     /// The least-squares gain of each trial; 0 without rows.
     fn gains(&self, rows: &[f64], usable: &[bool]) -> Vec<f64> {
         let mut sums = vec![(0.0, 0.0); self.start_s.len()];

@@ -33,7 +33,6 @@ pub fn explain_many(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection
     let leading = round.searched(problem);
     let explanations = Explanations {
         living: round.neighbours(problem, &leading, noise),
-        samples: round.folds.rows() / rows,
     };
     (selected(problem, nominal, &explanations), explanations)
 }
