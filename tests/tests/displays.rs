@@ -1,0 +1,5 @@
+//! This file says that the other displays of chapter 2 obey their laws, whatever pushes them.
+
+mod hands;
+mod plant;
+mod pter;
