@@ -2,14 +2,22 @@
 
 mod choice;
 mod clutch;
+mod local_paths;
+mod osaka;
+mod padyc;
 mod plant;
 mod pter;
 mod run;
+mod scooter;
 
 pub use clutch::Clutch;
+pub use local_paths::with_local_paths;
+pub use osaka::Osaka;
+pub use padyc::Padyc;
 pub use plant::{Body, Place, Plant, Resisted, Rows};
 pub use pter::Pter;
 pub use run::{Display, Run, run};
+pub use scooter::Scooter;
 
 use crate::control::Side;
 use crate::control::path::{Line, Path};
