@@ -81,8 +81,7 @@ impl Device for Osaka {
             Aim::Free | Aim::Point(_) => [false; 2],
             Aim::Wall(boundary, solid) => {
                 let contact = contact(boundary, *solid, now.place.tip_m);
-                let pushed = Vector2::from(now.tip_force_n).dot(&contact.inward) > 0.0;
-                [contact.depth_m > 0.0 && pushed; 2]
+                [contact.pressed(now).is_some(); 2]
             }
             Aim::Path(path) => {
                 let leading = self.lead(*path, now);

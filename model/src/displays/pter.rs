@@ -79,11 +79,10 @@ impl Pter {
 
     fn at_wall(&self, contact: &Contact, now: &Now<'_>) -> [f64; 4] {
         let mut torques_nm = [0.0; 4];
-        let force_n = Vector2::from(now.tip_force_n);
-        if contact.depth_m <= 0.0 || force_n.dot(&contact.inward) <= 0.0 {
+        let Some(push) = contact.pressed(now) else {
             return torques_nm;
-        }
-        match guiding(&tip_rows(now.place), contact, force_n) {
+        };
+        match guiding(&tip_rows(now.place), contact, push) {
             Some(clutch) => torques_nm[clutch] = self.strength_nm(),
             None => torques_nm = [self.strength_nm(), self.strength_nm(), 0.0, 0.0],
         }

@@ -74,7 +74,8 @@ impl Device for Scooter {
                 let contact = contact(boundary, *solid, now.place.tip_m);
                 let inward_m_s = contact.inward.dot(&Vector2::from(now.tip_velocity_m_s));
                 let ahead_m = contact.depth_m + inward_m_s.max(0.0) * SCOOTER_AHEAD_S;
-                if ahead_m > 0.0 && contact.inward.dot(&force_n) > 0.0 {
+                let pressed = contact.inward.dot(&force_n) > 0.0 || inward_m_s > 0.0;
+                if ahead_m > 0.0 && pressed {
                     self.steer(contact.along);
                 } else if felt {
                     self.steer(force_n);
