@@ -1,14 +1,14 @@
 //! This file runs Scooter, figure 2.1: the one way that its castors leave it, and its three tasks.
 
-use rigproof_model::displays::Aim;
+use rigproof_model::displays::{Aim, Scooter};
 use rigproof_spec::laws::{Castor, one_degree, rolls};
 use rigproof_spec::methods::SAMPLE_STEP_S;
 
 use super::compared::{paths, table};
-use super::shown::Shown;
+use super::shown::{DISSIPATIVE, Shown, of_a_display};
 use super::statements::judged;
-use super::tasks::TASKS;
-use super::trials::of;
+use super::tasks::{TASKS, Task};
+use super::trials::{measure, of};
 use crate::finding::with_unit;
 use crate::{Error, Experiment, Finding, Outcome};
 
@@ -27,6 +27,7 @@ fn run() -> Result<Outcome, Error> {
         findings.push(judged(Shown::Scooter, task)?);
         own.push(of(Shown::Scooter, task)?.clone());
     }
+    findings.push(without_looking_ahead()?);
     Ok(Outcome {
         tables: vec![table(&own)?],
         pictures: vec![paths("runs", "Scooter", &[Shown::Scooter])?],
@@ -79,6 +80,40 @@ fn one_way() -> Result<Finding, Error> {
         (ours, holds),
         because,
     ))
+}
+
+/// The same wall for castors that turn only once they are in it, as brakes lock: what looking ahead is worth.
+fn without_looking_ahead() -> Result<Finding, Error> {
+    let refused = |error| Error::model("Scooter that does not look ahead", error);
+    let mut depths_m = Vec::new();
+    for run in 0..9 {
+        let start_m = Task::Wall.start_m();
+        let display = Scooter::new(0.0)
+            .with_ahead_s(0.0)
+            .at(start_m)
+            .map_err(refused)?;
+        let ran = of_a_display(display, Task::Wall, 31 + 7919 * run).map_err(refused)?;
+        depths_m.push(measure(Task::Wall, &ran)?.greatest_m);
+    }
+    depths_m.sort_by(f64::total_cmp);
+    let depth_m = depths_m.get(4).copied().unwrap_or(f64::NAN);
+    let mut best_m = f64::INFINITY;
+    for other in DISSIPATIVE {
+        best_m = best_m.min(of(other, Task::Wall)?.median(|m| m.greatest_m));
+    }
+    let ours = format!("greatest depth {}", with_unit(1e3 * depth_m, "mm"));
+    let because = format!(
+        "deeper than the best dissipative display, {}, which does not look ahead either",
+        with_unit(1e3 * best_m, "mm")
+    );
+    let statement = "Scooter at a wall that it meets unawares";
+    let stated = "steerable devices do a poor job of simulating walls";
+    let judged = (ours, depth_m > best_m);
+    let finding = Finding::claim("§1.1", statement, stated, judged, because);
+    Ok(match finding.is_unaccounted() {
+        true => finding.accounted("scooter-figures"),
+        false => finding,
+    })
 }
 
 /// Three castors around the handle with one heading.

@@ -26,6 +26,7 @@ use crate::motion::friction::DryBrakes;
 pub struct Scooter {
     heading_rad: f64,
     wanted_rad: f64,
+    ahead_s: f64,
 }
 
 impl Scooter {
@@ -34,7 +35,14 @@ impl Scooter {
         Scooter {
             heading_rad,
             wanted_rad: heading_rad,
+            ahead_s: SCOOTER_AHEAD_S,
         }
+    }
+
+    /// The same castors with another time, s, by which they look ahead for a wall; at zero they turn once they are in it, as brakes do.
+    #[must_use]
+    pub const fn with_ahead_s(self, ahead_s: f64) -> Scooter {
+        Scooter { ahead_s, ..self }
     }
 
     /// The display, at rest with its handle at a point, m.
@@ -73,7 +81,7 @@ impl Device for Scooter {
             Aim::Wall(boundary, solid) => {
                 let contact = contact(boundary, *solid, now.place.tip_m);
                 let inward_m_s = contact.inward.dot(&Vector2::from(now.tip_velocity_m_s));
-                let ahead_m = contact.depth_m + inward_m_s.max(0.0) * SCOOTER_AHEAD_S;
+                let ahead_m = contact.depth_m + inward_m_s.max(0.0) * self.ahead_s;
                 let pressed = contact.inward.dot(&force_n) > 0.0 || inward_m_s > 0.0;
                 if ahead_m > 0.0 && pressed {
                     self.steer(contact.along);
