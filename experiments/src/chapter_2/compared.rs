@@ -17,8 +17,11 @@ pub const EXPERIMENT: Experiment = Experiment {
     run,
 };
 
-/// The five measures: their names, their units, and how a run gives them.
-pub const MEASURES: [(&str, &str, fn(&Measured) -> f64); 5] = [
+/// A measure: its name, its unit, and how a run gives it.
+type Measure = (&'static str, &'static str, fn(&Measured) -> f64);
+
+/// The five measures.
+const MEASURES: [Measure; 5] = [
     ("greatest depth or distance", "mm", |m| 1e3 * m.greatest_m),
     ("mean depth or distance", "mm", |m| 1e3 * m.error_m),
     ("average force", "N", |m| m.force_n),
