@@ -1,4 +1,4 @@
-//! This file says where the repository obeys an equation of the thesis, what witnesses it, and what is known to be wrong with it.
+//! This file says where the repository obeys an equation or a section of the thesis, what witnesses it, and what is known to be wrong with it.
 
 mod citation;
 mod equation;
@@ -20,7 +20,7 @@ use repository::Repository;
 #[derive(clap::Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct Args {
-    /// The number of an equation of the thesis, such as 5.36 or A.7
+    /// The number of an equation of the thesis, such as 5.36 or A.7, or of a section, such as §2.2.1
     #[arg(value_name = "NUMBER")]
     number: String,
     /// The repository, or a folder in it; the current folder if it is not given
@@ -32,16 +32,18 @@ pub struct Args {
 }
 
 const AFTER_HELP: &str = "\
-Read are spec/thesis (equations.md, errata.toml, gaps.toml) and every line `//= thesis (5.36)` of the repository's Rust sources.
+Read are spec/thesis (equations.md, sections.md, errata.toml, gaps.toml) and every line `//= thesis (5.36)` or
+`//= thesis section 2.2.1` of the repository's Rust sources.
 
 Exit codes:
   0  shown
-  1  shown, and neither code and a witness nor an erratum or gap stand for the equation
-  2  the command line is wrong, or the thesis has no equation of that number
+  1  shown, and neither code and a witness nor an erratum or gap stand for it
+  2  the command line is wrong, or the thesis has no equation or section of that number
   3  there is no repository, or a file cannot be read
 
 Examples:
   rigproof cite 5.36
+  rigproof cite §2.2.1
   rigproof cite 3.3 --json";
 
 /// An equation with everything that stands for it.
@@ -99,7 +101,8 @@ impl Cited {
     fn is_accounted_for(&self) -> bool {
         let tied = self.of(Kind::Code).next().is_some() && self.of(Kind::Test).next().is_some();
         let mut records = self.errata.iter().chain(&self.gaps);
-        tied || records.any(|record| record.is_of(&self.equation.number))
+        let is_section = self.equation.is_section();
+        tied || records.any(|record| is_section || record.is_of(&self.equation.number))
     }
 
     fn text(&self) -> String {
@@ -107,7 +110,7 @@ impl Cited {
         let head = [
             format!("{}  {}", equation.in_brackets(), equation.says),
             format!("  {}", equation.symbols),
-            format!("  {}:{}", equation::FILE, equation.line),
+            format!("  {}:{}", equation.file, equation.line),
         ];
         let places = |kind: Kind| {
             let lines = self.of(kind).map(Citation::line_of_text);
@@ -139,7 +142,7 @@ impl Cited {
         let of = |kind: Kind| self.of(kind).map(Citation::json).collect::<Value>();
         json!({
             "number": self.equation.number, "says": self.equation.says, "symbols": self.equation.symbols,
-            "file": equation::FILE, "line": self.equation.line,
+            "file": self.equation.file, "line": self.equation.line,
             "code": of(Kind::Code), "tests": of(Kind::Test), "proofs": of(Kind::Proof),
             "errata": self.errata.iter().map(Record::json).collect::<Value>(),
             "gaps": self.gaps.iter().map(Record::json).collect::<Value>(),

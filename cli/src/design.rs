@@ -8,6 +8,7 @@ mod write;
 use std::path::PathBuf;
 
 use rayon::prelude::*;
+use rigproof_model::displays::with_local_paths;
 use rigproof_model::linkage::device::Concept;
 use rigproof_model::linkage::sweep::{self, Candidate};
 use rigproof_model::linkage::workspace::{self, Boundary, Figures, Map};
@@ -81,6 +82,8 @@ pub(crate) struct Compared {
 pub(crate) struct Design {
     drawn: Vec<Drawn>,
     concepts: Vec<Compared>,
+    /// The displays of chapter 2 that have local paths.
+    displays: Vec<(&'static str, Option<Figures>)>,
     /// Best first.
     ranked: Vec<Candidate>,
     is_thesis: bool,
@@ -99,6 +102,7 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     let drawn = shapes.into_iter().map(|shape| draw(shape, args.step));
     let drawn = drawn.collect::<Result<Vec<Drawn>, Failure>>()?;
     let concepts = concepts()?;
+    let displays = displays()?;
     drop(mark);
     let ranked = match args.no_sweep {
         true => Vec::new(),
@@ -107,6 +111,7 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     let design = Design {
         drawn,
         concepts,
+        displays,
         ranked,
         is_thesis: args.own.is_thesis() && ranges == STOPS,
     };
@@ -148,7 +153,15 @@ fn concepts() -> Result<Vec<Compared>, Failure> {
     compared.collect()
 }
 
-/// Side of the cells in which the concepts are compared, m.
+fn displays() -> Result<Vec<(&'static str, Option<Figures>)>, Failure> {
+    let compared = with_local_paths().into_iter().map(|(name, device)| {
+        let figures = workspace::map(&device, CONCEPT_STEP_M)?.figures();
+        Ok((name, figures))
+    });
+    compared.collect()
+}
+
+/// Side of the cells in which concepts and displays are compared, m.
 const CONCEPT_STEP_M: f64 = 0.003;
 
 /// Traverses every pair of the sweep, best first; equal scores keep the order of the pairs.

@@ -7,6 +7,7 @@
 )]
 
 pub mod appendix_b;
+pub mod chapter_2;
 pub mod chapter_3;
 pub mod chapter_4;
 pub mod chapter_5;
@@ -27,6 +28,7 @@ pub use table::{Cells, Column, Table};
 /// Every experiment, in the order of the thesis. A chapter is a module with its list `EXPERIMENTS`.
 pub fn all() -> Vec<Experiment> {
     [
+        chapter_2::EXPERIMENTS,
         chapter_3::EXPERIMENTS,
         chapter_4::EXPERIMENTS,
         chapter_5::EXPERIMENTS,

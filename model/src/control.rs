@@ -28,6 +28,7 @@ pub use rigproof_spec::settings::{GREATEST_DISTANCE_M, SHORTEST_PIECE_M};
 
 pub use sdof::Sdof;
 pub use velocity_ratio::VelocityRatio;
+pub(crate) use velocity_ratio::excess_speeds;
 
 use crate::error::ModelError;
 use crate::linkage::Pose;

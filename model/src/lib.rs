@@ -21,6 +21,7 @@ pub mod bench;
 pub mod brake;
 pub mod chain;
 pub mod control;
+pub mod displays;
 pub mod effects;
 pub mod encoder;
 pub mod error;

@@ -5,6 +5,7 @@ pub mod added_mass;
 pub mod constraints;
 pub mod coordinates;
 pub mod friction;
+pub mod limited;
 pub mod lumped;
 pub mod mass;
 pub mod stick;

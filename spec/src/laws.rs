@@ -7,11 +7,14 @@ mod current_limit;
 mod desired_force;
 mod dissipation;
 mod influence;
+mod local_path;
 mod passivity;
 mod power_balance;
 mod quiet;
+mod rolling;
 mod time_constant;
 mod torque_limit;
+mod velocity_limits;
 
 pub use backlash::{Window, backlash_torque, backlash_travel, backlash_width, backlash_window};
 pub use brake_count::{brake_count, braked_joints};
@@ -20,11 +23,14 @@ pub use current_limit::current_limit;
 pub use desired_force::{desired_force, opposition};
 pub use dissipation::dissipation;
 pub use influence::{best_influence, influence_rank};
+pub use local_path::local_path;
 pub use passivity::{in_quarter_turn, opposes};
 pub use power_balance::power_balance;
 pub use quiet::{free_side, gap, lock, undefined_input};
+pub use rolling::{Castor, one_degree, rolls};
 pub use time_constant::time_constant;
 pub use torque_limit::{torque_limit, yield_limit};
+pub use velocity_limits::{clutches_never_drive, velocity_limits};
 
 /// How far a law is from failing, in the unit the law states.
 ///

@@ -8,6 +8,7 @@
 )]
 
 pub mod command;
+pub mod displays;
 pub mod effect;
 pub mod geometry;
 pub mod inertia;

@@ -12,6 +12,7 @@ mod control_choice;
 mod control_laws;
 mod diagnosed;
 mod experiments;
+mod displays;
 mod faults;
 mod force_limit;
 mod friction;

@@ -1,7 +1,8 @@
-//! This file reads where sources cite an equation, and the name of what obeys or witnesses it there.
+//! This file reads where sources cite an equation or a section, and the name of what obeys or witnesses it there.
 
 use serde_json::{Value, json};
 
+use super::equation::SECTION;
 use super::repository::Source;
 
 /// What stands under a citation.
@@ -15,10 +16,10 @@ pub enum Kind {
     Proof,
 }
 
-/// One line `//= thesis (5.36)`.
+/// One line `//= thesis (5.36)`, or one of a section.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Citation {
-    /// The number of the equation.
+    /// The number of the equation, or that of the section after its sign.
     pub equation: String,
     /// What stands under it.
     pub kind: Kind,
@@ -47,8 +48,7 @@ impl Citation {
 pub fn of(source: &Source) -> Vec<Citation> {
     let lines: Vec<&str> = source.text.lines().collect();
     let cited = lines.iter().enumerate().filter_map(|(index, line)| {
-        let rest = line.trim().strip_prefix("//= thesis (")?;
-        let (equation, kind) = rest.split_once(')')?;
+        let (equation, kind) = cited(line.trim())?;
         let kind = match kind.trim() {
             "" => Kind::Code,
             "test" => Kind::Test,
@@ -56,7 +56,7 @@ pub fn of(source: &Source) -> Vec<Citation> {
             _ => return None,
         };
         Some(Citation {
-            equation: equation.to_owned(),
+            equation,
             kind,
             file: source.path.clone(),
             line: index + 1,
@@ -64,6 +64,17 @@ pub fn of(source: &Source) -> Vec<Citation> {
         })
     });
     cited.collect()
+}
+
+/// What a line cites, and the word after it.
+fn cited(line: &str) -> Option<(String, &str)> {
+    let rest = line.strip_prefix("//= thesis ")?;
+    if let Some(section) = rest.strip_prefix("section ") {
+        let (number, kind) = section.split_once(' ').unwrap_or((section, ""));
+        return Some((format!("{SECTION}{number}"), kind));
+    }
+    let (equation, kind) = rest.strip_prefix('(')?.split_once(')')?;
+    Some((equation.to_owned(), kind))
 }
 
 /// The item that the code under a citation begins, else the function that it stands in.
@@ -144,6 +155,8 @@ pub(crate) const TABLE: [f64; 2] = [0.3, 0.7];
     @ (5.36) test
     fn it_is_so() {}
     @ (5.36) guess
+    @ section 2.2.1 test
+    fn it_is_told() {}
 ";
         let found = of(&Source {
             path: "model/src/a.rs".to_owned(),
@@ -168,6 +181,7 @@ pub(crate) const TABLE: [f64; 2] = [0.3, 0.7];
                 ("5.1", Kind::Code, 8, "jacobian"),
                 ("3.3", Kind::Code, 14, "TABLE"),
                 ("5.36", Kind::Test, 18, "it_is_so"),
+                ("§2.2.1", Kind::Test, 21, "it_is_told"),
             ]
         );
     }

@@ -1,23 +1,29 @@
-//! This file reads the numbered equations of the thesis, and says which are next to a number that there is none of.
+//! This file reads the numbered equations and sections of the thesis, and says which are next to a number that there is none of.
 
 use super::repository::Repository;
 use crate::outcome::Failure;
 
-/// Where they stand.
+/// Where the equations stand.
 pub const FILE: &str = "spec/thesis/equations.md";
+/// Where the sections stand.
+const SECTIONS: &str = "spec/thesis/sections.md";
+/// The sign before the number of a section.
+pub const SECTION: char = '§';
 
 /// How many are offered for a number that there is none of.
 const OFFERED: usize = 3;
 
-/// One row of the table.
+/// One row of a table: an equation, or a section.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Equation {
-    /// Its number, such as `5.36`.
+    /// Its number, such as `5.36`, or `§2.2.1`.
     pub number: String,
-    /// What it says.
+    /// What it says, or its title.
     pub says: String,
-    /// Its symbols.
+    /// Its symbols, or what a section is cited for.
     pub symbols: String,
+    /// The file with the table.
+    pub file: &'static str,
     /// The line of the file, from one.
     pub line: usize,
 }
@@ -25,20 +31,46 @@ pub struct Equation {
 impl Equation {
     /// The number as it is printed.
     pub fn in_brackets(&self) -> String {
-        format!("({})", self.number)
+        match self.is_section() {
+            true => self.number.clone(),
+            false => format!("({})", self.number),
+        }
+    }
+
+    /// Whether it is a section.
+    pub fn is_section(&self) -> bool {
+        self.number.starts_with(SECTION)
     }
 }
 
-/// Every equation, in the order of the file.
+/// Every equation, in the order of the file, and every section after them.
 ///
 /// # Errors
-/// The file cannot be read.
+/// A file cannot be read.
 pub fn all(repository: &Repository) -> Result<Vec<Equation>, Failure> {
-    let table = repository.read(FILE)?;
-    let rows = table.lines().enumerate();
-    Ok(rows
-        .filter_map(|(index, row)| equation(row, index + 1))
-        .collect())
+    let mut all = Vec::new();
+    for (file, row_of) in [
+        (FILE, equation as fn(&str, usize) -> Option<Equation>),
+        (SECTIONS, section),
+    ] {
+        let table = repository.read(file)?;
+        let rows = table.lines().enumerate();
+        all.extend(rows.filter_map(|(index, row)| row_of(row, index + 1)));
+    }
+    Ok(all)
+}
+
+/// The section of a row.
+fn section(row: &str, line: usize) -> Option<Equation> {
+    let (number, rest) = row.strip_prefix("| ")?.split_once(" |")?;
+    let (says, symbols) = rest.trim_end().strip_suffix('|')?.split_once('|')?;
+    number.starts_with(SECTION).then(|| Equation {
+        number: number.to_owned(),
+        says: says.trim().to_owned(),
+        symbols: symbols.trim().to_owned(),
+        file: SECTIONS,
+        line,
+    })
 }
 
 /// The equation of a row; a bar inside a cell is written `\|`.
@@ -51,17 +83,25 @@ fn equation(row: &str, line: usize) -> Option<Equation> {
         number: number.to_owned(),
         says: cell(says),
         symbols: cell(symbols),
+        file: FILE,
         line,
     })
 }
 
-/// The equation of a number, with or without brackets; else a message with the nearest ones.
+/// The equation of a number, with or without brackets, or the section after its sign or word; else a message with the nearest
+/// equations.
 pub fn find(equations: &[Equation], number: &str) -> Result<Equation, String> {
     let wanted = number.trim().trim_start_matches('(').trim_end_matches(')');
+    let section = wanted.strip_prefix("section ");
+    let section = section.map(|number| format!("{SECTION}{}", number.trim()));
+    let wanted = section.as_deref().unwrap_or(wanted);
     let found = equations
         .iter()
         .find(|equation| equation.number.eq_ignore_ascii_case(wanted));
     found.cloned().ok_or_else(|| {
+        if wanted.starts_with(SECTION) {
+            return format!("the thesis has no section {wanted}; `{SECTIONS}` lists them");
+        }
         let nearest = nearest(equations, wanted);
         let advice = match nearest.as_slice() {
             [] => "give a chapter and a number, such as 5.36 or A.7".to_owned(),
@@ -125,6 +165,23 @@ mod tests {
             ("F force, N", 3)
         );
         assert_eq!(find(&equations, "(a.7)").unwrap(), equations[3]);
+    }
+
+    #[test]
+    fn a_section_is_found_by_its_sign_and_by_its_word() {
+        let row = "| §2.2.1 | Existing Designs | what each is |";
+        let sections = [section(row, 9).unwrap()];
+        assert_eq!(sections[0].says, "Existing Designs");
+        assert_eq!(sections[0].in_brackets(), "§2.2.1");
+        for name in ["§2.2.1", "section 2.2.1"] {
+            assert_eq!(find(&sections, name).unwrap(), sections[0]);
+        }
+        let message = find(&sections, "§9.9").unwrap_err();
+        assert!(
+            message.starts_with("the thesis has no section §9.9"),
+            "{message}"
+        );
+        assert!(section("|---|---|---|", 7).is_none() && section("| (2.1) | a | b |", 7).is_none());
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use serde_json::{Map, Value};
 
+use super::equation::SECTION;
 use super::repository::{Repository, Source};
 use crate::outcome::Failure;
 
@@ -80,8 +81,14 @@ impl Record {
         self.get("equation") == Some(number)
     }
 
-    /// Whether it is the entry of an equation, or names it.
+    /// Whether it is the entry of an equation, or names it; of a section, whether that is where it stands.
     pub fn concerns(&self, number: &str) -> bool {
+        if let Some(section) = number.strip_prefix(SECTION) {
+            return self.get("where").is_some_and(|place| {
+                let mut words = place.split([' ', ',', ';']);
+                words.any(|word| word.trim_start_matches(SECTION) == section)
+            });
+        }
         let name = format!("({number})");
         self.is_of(number) || self.fields.iter().any(|(_, value)| value.contains(&name))
     }
@@ -143,6 +150,14 @@ mod tests {
                 "    printed   and λ4 of (5.24) likewise"
             ]
         );
+    }
+
+    #[test]
+    fn a_record_concerns_the_sections_in_which_it_stands() {
+        let text = "[[gap]]\nid = \"one\"\nwhere = \"sections 2.2.1, 1.1\"\nopen = \"(5.1)\"\n";
+        let records = records(text, "gap").unwrap();
+        let concerns = ["§2.2.1", "§1.1", "§2.2", "2.2.1", "5.1"].map(|n| records[0].concerns(n));
+        assert_eq!(concerns, [true, true, false, false, true]);
     }
 
     #[test]

@@ -43,6 +43,11 @@ pub fn json(design: &Design) -> Value {
             json!({ "name": compared.concept.name(), "figures": compared.figures.as_ref().map(figures) })
         })
         .collect();
+    let displays: Vec<Value> = design
+        .displays
+        .iter()
+        .map(|(name, of)| json!({ "name": name, "figures": of.as_ref().map(figures) }))
+        .collect();
     let ranked = design.ranked.iter().map(|candidate| {
         json!({
             "l_ae": candidate.l_ae, "l_ab": candidate.l_ab, "score": candidate.score(),
@@ -60,6 +65,7 @@ pub fn json(design: &Design) -> Value {
     json!({
         "linkages": design.drawn.iter().map(linkage).collect::<Vec<_>>(),
         "concepts": concepts,
+        "displays": displays,
         "sweep": ranked.collect::<Vec<_>>(),
         "statements": statements.collect::<Vec<_>>(),
     })

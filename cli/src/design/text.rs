@@ -18,6 +18,10 @@ pub fn report(design: &Design, out: &Path, files: &[String]) -> String {
         let name = compared.concept.name();
         compared.figures.map(|figures| line(name, &figures))
     });
+    let displays = design
+        .displays
+        .iter()
+        .filter_map(|(name, figures)| figures.as_ref().map(|figures| line(name, figures)));
     let statements = statements(design);
     let statements = statements.iter().flat_map(|statement| {
         [
@@ -36,6 +40,10 @@ pub fn report(design: &Design, out: &Path, files: &[String]) -> String {
         section(
             "Concepts of §4.2 (size of the table, and arms of the PTER, are assumed)",
             std::iter::once(head()).chain(concepts),
+        ),
+        section(
+            "Displays of §2.2 (arms are assumed; Scooter steers anywhere and has no local paths)",
+            std::iter::once(head()).chain(displays),
         ),
         sweep(design),
         section("What the thesis says, and what was computed", statements),

@@ -50,6 +50,21 @@ fn an_equation_is_cited_with_its_code_its_tests_and_its_errata() {
 }
 
 #[test]
+fn a_section_is_cited_with_its_code_its_tests_and_its_gaps() {
+    let desk = Desk::new();
+    let root = repository();
+    let cited = desk.json(&format!("cite §2.2.2 --root {root} --json"), 0);
+    assert!(holds(&cited, "| §2.2.2 |"));
+    let code = cited["code"].as_array().unwrap();
+    let obeyed = code.iter().find(|place| place["item"] == "Pter");
+    assert!(holds(obeyed.unwrap(), "//= thesis section 2.2.2"), "{cited}");
+    let tests = cited["tests"].as_array().unwrap();
+    assert!(!tests.is_empty() && tests.iter().all(|place| holds(place, "section 2.2.2 test")));
+    let gaps = cited["gaps"].as_array().unwrap();
+    assert!(gaps.iter().any(|gap| gap["id"] == "pter-control"), "{cited}");
+}
+
+#[test]
 fn an_unknown_number_is_answered_with_the_nearest_ones() {
     let desk = Desk::new();
     let answer = desk.rigproof(&format!("cite 5.99 --root {}", repository()));
@@ -83,6 +98,7 @@ fn an_equation_that_nothing_stands_for_fails_the_check() {
         "spec/thesis/equations.md",
         "| (7.1) | a = b | a, b |\n| (7.2) | c = d | c, d |\n",
     );
+    desk.put("spec/thesis/sections.md", "| §7.1 | A title | – |\n");
     let erratum = "[[erratum]]\nid = \"x\"\nequation = \"7.1\"\nprinted = \"b = a\"\n";
     desk.put("spec/thesis/errata.toml", erratum);
     desk.put(

@@ -23,6 +23,10 @@ fn the_layouts_of_the_thesis_are_drawn_compared_and_ranked() {
     let area = |index: usize| linkages[index]["figures"]["area_m2"].as_f64().unwrap();
     assert!((area(0) - 0.287_81).abs() < 6e-4 && (area(1) - 0.1563).abs() < 6e-4);
     assert_eq!(report["concepts"].as_array().unwrap().len(), 4);
+    let displays = report["displays"].as_array().unwrap();
+    let mean = |place: usize| displays[place]["figures"]["mean_deg"].as_f64().unwrap();
+    // Four paths lie closer together than two.
+    assert!(displays.len() == 3 && mean(0) < mean(1) && mean(0) < mean(2));
     let sweep = report["sweep"].as_array().unwrap();
     assert_eq!(sweep.len(), 420);
     let scores: Vec<f64> = sweep.iter().map(|c| c["score"].as_f64().unwrap()).collect();

@@ -107,7 +107,7 @@ fn base_rows(j: &SMatrix<f64, 4, 2>) -> Matrix2<f64> {
 ///
 /// A link that moves against the desired motion is too fast by all its speed: a brake can do no more than stop it. If no
 /// ratio is positive that holds for both.
-fn excess_speeds(actual_rad_s: [f64; 2], wanted: [f64; 2]) -> [f64; 2] {
+pub fn excess_speeds(actual_rad_s: [f64; 2], wanted: [f64; 2]) -> [f64; 2] {
     let [actual_a, actual_b] = actual_rad_s;
     let [wanted_a, wanted_b] = wanted;
     let ratio = |wanted: f64, actual: f64| if actual == 0.0 { 0.0 } else { wanted / actual };

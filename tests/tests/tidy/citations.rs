@@ -1,6 +1,6 @@
 //! This file says that page and code stay tied: every equation is obeyed and witnessed, or its defect is written down.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
 use toml::{Table, Value};
@@ -232,6 +232,47 @@ fn an_erratum_named_in_a_comment_is_read() {
     assert_eq!(named("let text = \"(gap `two`)\";").count(), 0);
 }
 
+#[test]
+fn every_cited_section_is_known_and_has_code_and_a_witness() {
+    let table = fs::read_to_string(root().join("spec/thesis/sections.md")).unwrap();
+    let known: BTreeSet<&str> = table
+        .lines()
+        .filter_map(|line| line.strip_prefix("| §"))
+        .filter_map(|line| line.split_once(" |"))
+        .map(|(number, _)| number)
+        .collect();
+    let mut cited: BTreeMap<String, [bool; 2]> = BTreeMap::new();
+    let mut violations = Vec::new();
+    for source in sources() {
+        for (number, line) in numbered(&source.content) {
+            let Some(rest) = line.trim().strip_prefix("//= thesis section ") else {
+                continue;
+            };
+            let (section, witness) = rest.split_once(' ').unwrap_or((rest, ""));
+            if !known.contains(section) || !["", "test", "proof"].contains(&witness) {
+                violations.push(format!(
+                    "{}:{number}: cite a section of spec/thesis/sections.md, alone or followed by `test` or `proof`",
+                    source.path
+                ));
+            }
+            let found = cited.entry(section.to_owned()).or_default();
+            found[usize::from(witness == "test")] = true;
+        }
+    }
+    for (section, found) in cited {
+        if found != [true; 2] {
+            violations.push(format!(
+                "section {section}: cite it above code and above a test"
+            ));
+        }
+    }
+    assert!(
+        known.contains("2.2.1"),
+        "spec/thesis/sections.md is not read"
+    );
+    assert_tidy("citations of sections", violations);
+}
+
 /// The numbers in the first column of `spec/thesis/equations.md`.
 fn equations() -> BTreeSet<String> {
     let table = fs::read_to_string(root().join("spec/thesis/equations.md")).unwrap();
@@ -255,6 +296,9 @@ fn citations() -> Vec<Citation> {
             let Some(cited) = line.trim().strip_prefix("//= thesis") else {
                 continue;
             };
+            if cited.starts_with(" section ") {
+                continue;
+            }
             let (equation, witness) = cited.trim().split_once(')').unwrap_or_default();
             citations.push(Citation {
                 place: format!("{}:{number}", source.path),
