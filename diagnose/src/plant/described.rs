@@ -245,7 +245,7 @@ pub trait Described: Plant + PartialEq {
     ///
     /// # Errors
     /// A channel is missing, or its unit does not convert.
-    fn measured(&self, trace: &Trace, origin: &Path) -> Result<Self::Recording, TraceError>;
+    fn measured(&self, trace: Trace, origin: &Path) -> Result<Self::Recording, TraceError>;
 
     /// The description with the units that some columns are said to be in, whatever their headers say.
     ///

@@ -60,6 +60,14 @@ macro_rules! plants {
             /// # Errors
             /// A channel of the rig is missing, or its unit in the header does not convert to the rig's.
             pub fn apply(&self, trace: &Trace, origin: &Path) -> Result<Measured, TraceError> {
+                self.taken(trace.clone(), origin)
+            }
+
+            /// The same of a recording that nobody needs afterwards: its numbers are turned where they stand.
+            ///
+            /// # Errors
+            /// As [`Description::apply`].
+            pub fn taken(&self, trace: Trace, origin: &Path) -> Result<Measured, TraceError> {
                 match self {
                     $(Description::$name(own) => own.measured(trace, origin).map(Measured::$name),)+
                 }
