@@ -1,7 +1,7 @@
 //! This file shows a fit by the balance of efforts: what the models before and after leave of it on what was fitted and on what was not.
 
 use super::write::Stand;
-use super::{Curves, FittedCurves};
+use super::{Contributed, Curves, FittedCurves};
 use crate::candidates::realise;
 use crate::evidence::{Intervals, coefficients_by_term};
 use crate::filter::rms;
@@ -126,6 +126,24 @@ impl<P: Plant> Stand<'_, P> {
         Quantity::Effort.dimension(motion).to_string()
     }
 
+    /// What each named mechanism contributes to the windows of the fitted part; `of` takes the shown ones.
+    pub(crate) fn contributed(&self, of: impl Fn(&[f64]) -> Vec<f64>) -> Vec<Contributed> {
+        let (problem, selection) = (self.problem, self.selection);
+        let known = modelled(problem, selection, |_| false);
+        let found = selection.found.iter();
+        found
+            .map(|found| {
+                let mut effort =
+                    modelled(problem, selection, |term| core::ptr::eq(term, &found.term));
+                add(&mut effort, &known, -1.0);
+                Contributed {
+                    name: problem.name(found.term.cause),
+                    effort: of(&effort),
+                }
+            })
+            .collect()
+    }
+
     /// The held-out balance and the residual of the output in which more was unexplained; not a number where a window does not count.
     fn balance_curves(&self, train: Option<Balanced>, test: Balanced) -> Curves {
         let counted = |values: &[f64], usable: &[bool]| -> Vec<f64> {
@@ -183,6 +201,7 @@ impl<P: Plant> Stand<'_, P> {
                 .collect(),
             residual_before: of(&before),
             residual_after: of(&after),
+            contributed: self.contributed(of),
             floor: self.problem.floor,
             residual_unit: self.effort_unit(),
         }
