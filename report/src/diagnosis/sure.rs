@@ -51,6 +51,7 @@ fn rivals(all: &[ExplanationReport]) -> Markup {
         figure {
             div.scroll { table.bars #rivals {
                 caption { strong { "The explanations that were weighed." } " How probable each is beside the others." }
+                thead { tr { th scope="col" { "explanation" } th scope="col" { "probability" } } }
                 tbody { @for own in drawn { tr {
                     th scope="row" { (named(own)) }
                     td style={ "--share: " (format!("{:.3}", own.probability)) } { (probability(own.probability)) }
