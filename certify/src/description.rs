@@ -1,5 +1,7 @@
 //! This file reads `certify.toml`: the controller, the baseline, the layouts and the limits. What it does not know it refuses.
 
+pub mod schema;
+
 use std::path::Path;
 
 use rigproof_spec::methods::{BLEND_BOUNDARY_M, Method};
@@ -71,6 +73,23 @@ const KINDS: [(&str, &[&str]); 6] = [
     ),
 ];
 
+/// Words for layouts.
+const LAYOUTS: [&str; 3] = ["both", "three_brake", "four_brake"];
+
+/// Within which a parameter of a law lies.
+fn range(parameter: &str) -> [f64; 2] {
+    match parameter {
+        "boundary_m" => BOUNDARY_RANGE_M,
+        "gap_m" => [0.0, BOUNDARY_RANGE_M[1]],
+        "gain_n_s_per_m" => PROPORTIONAL_GAIN_RANGE_N_S_PER_M,
+        "gain_nm_s_per_rad" => RATIO_GAIN_RANGE_NM_S_PER_RAD,
+        "weight_angle" | "weight_energy" => WEIGHT_RANGE,
+        "horizon_s" => HORIZON_RANGE_S,
+        "stiffness_n_per_m" => STIFFNESS_RANGE_N_PER_M,
+        _ => DAMPING_RANGE_N_S_PER_M,
+    }
+}
+
 impl Description {
     /// Reads a description; `origin` is the file that messages name.
     ///
@@ -96,10 +115,7 @@ impl Description {
             None | Some("both") => vec![Rig::ThreeBrake, Rig::FourBrake],
             Some("three_brake") => vec![Rig::ThreeBrake],
             Some("four_brake") => vec![Rig::FourBrake],
-            Some(other) => {
-                let words = ["both", "three_brake", "four_brake"];
-                return Err(unknown(&root, "layout", other, &words));
-            }
+            Some(other) => return Err(unknown(&root, "layout", other, &LAYOUTS)),
         };
         let law = |key: &str| root.table(key)?.map(|table| controller(&table)).transpose();
         let (controller, declares) = (law("controller")?, root.table("declares")?);
@@ -161,7 +177,7 @@ fn controller(table: &Table<'_>) -> Result<BuiltIn, TraceError> {
     known.extend(parameters);
     table.only(&known)?;
     let boundary_m = match table.has("boundary_m") {
-        true => ranged(table, "boundary_m", BOUNDARY_RANGE_M)?,
+        true => ranged(table, "boundary_m", range("boundary_m"))?,
         false => BLEND_BOUNDARY_M,
     };
     Ok(BuiltIn {
@@ -172,26 +188,26 @@ fn controller(table: &Table<'_>) -> Result<BuiltIn, TraceError> {
 }
 
 fn law(table: &Table<'_>, kind: &str, boundary_m: f64) -> Result<Kind, TraceError> {
-    let number = |key: &str, range: [f64; 2]| ranged(table, key, range);
+    let number = |key: &str| ranged(table, key, range(key));
     Ok(match kind {
         "sdof" => Kind::Sdof {
-            gap_m: number("gap_m", [0.0, boundary_m])?,
+            gap_m: ranged(table, "gap_m", [0.0, boundary_m])?,
         },
         "proportional" => Kind::Proportional {
-            gain_n_s_per_m: number("gain_n_s_per_m", PROPORTIONAL_GAIN_RANGE_N_S_PER_M)?,
+            gain_n_s_per_m: number("gain_n_s_per_m")?,
         },
         "velocity_ratio" => Kind::VelocityRatio {
-            gain_nm_s_per_rad: number("gain_nm_s_per_rad", RATIO_GAIN_RANGE_NM_S_PER_RAD)?,
+            gain_nm_s_per_rad: number("gain_nm_s_per_rad")?,
         },
         "optimal" => Kind::Optimal {
-            weight_angle: number("weight_angle", WEIGHT_RANGE)?,
-            weight_energy: number("weight_energy", WEIGHT_RANGE)?,
-            horizon_s: number("horizon_s", HORIZON_RANGE_S)?,
+            weight_angle: number("weight_angle")?,
+            weight_energy: number("weight_energy")?,
+            horizon_s: number("horizon_s")?,
         },
         "impedance" => Kind::Impedance {
-            stiffness_n_per_m: number("stiffness_n_per_m", STIFFNESS_RANGE_N_PER_M)?,
-            damping_across_n_s_per_m: number("damping_across_n_s_per_m", DAMPING_RANGE_N_S_PER_M)?,
-            damping_along_n_s_per_m: number("damping_along_n_s_per_m", DAMPING_RANGE_N_S_PER_M)?,
+            stiffness_n_per_m: number("stiffness_n_per_m")?,
+            damping_across_n_s_per_m: number("damping_across_n_s_per_m")?,
+            damping_along_n_s_per_m: number("damping_along_n_s_per_m")?,
         },
         _ => Kind::Uncontrolled,
     })
@@ -218,14 +234,17 @@ fn side(table: &Table<'_>) -> Result<Option<Solid>, TraceError> {
     }
 }
 
+/// A sample of so many, at the rarest.
+const MOST_EVERY: u32 = 1_000_000;
+
 fn reference_every(root: &Table<'_>) -> Result<u32, TraceError> {
     if !root.has("reference_every") {
         return Ok(EVERY);
     }
-    let every = ranged(root, "reference_every", [1.0, 1e6])?;
+    let every = ranged(root, "reference_every", [1.0, f64::from(MOST_EVERY)])?;
     if every.fract() != 0.0 {
         let problem =
-            format!("`reference_every` is {every}; give a whole number from 1 to 1000000");
+            format!("`reference_every` is {every}; give a whole number from 1 to {MOST_EVERY}");
         return Err(root.error_at("reference_every", problem));
     }
     Ok(every as u32)
@@ -265,7 +284,7 @@ fn declared(table: &Table<'_>) -> Result<Declared, TraceError> {
         }
         most => most.map(|most| most as u8),
     };
-    let boundary_m = optional("boundary_m", BOUNDARY_RANGE_M)?;
+    let boundary_m = optional("boundary_m", range("boundary_m"))?;
     let locks = table.flag("locks")?;
     for (key, needs_it) in [("locks", locks == Some(true)), ("choice", choice.is_some())] {
         if needs_it && boundary_m.is_none() {
@@ -276,7 +295,7 @@ fn declared(table: &Table<'_>) -> Result<Declared, TraceError> {
     Ok(Declared {
         most_brakes,
         locks,
-        gap_m: optional("gap_m", [0.0, BOUNDARY_RANGE_M[1]])?,
+        gap_m: optional("gap_m", range("gap_m"))?,
         boundary_m,
         choice,
         within_force: table.flag("within_force")?.unwrap_or(false),

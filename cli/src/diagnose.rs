@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use indicatif::ProgressBar;
 use rigproof_diagnose::report::{InputFile, Verdict};
 use rigproof_diagnose::self_calibration::SelfTest;
 use rigproof_diagnose::{Description, Diagnosis, Measured, Options, Watch};
@@ -113,10 +114,11 @@ pub fn made(args: &Args) -> Result<Made, Failure> {
     let rig = Description::read(&args.source.rig)?;
     let identity = input::identity(&args.source.rig, None)?;
     let given = Given::read(args, &rig, identity)?;
-    written(args, out, &rig, given)
+    written(args, out, &rig, given, None)
 }
 
-/// Diagnoses what was read, and writes the folder.
+/// Diagnoses what was read, and writes the folder. `watch` is told of the stages; without it the
+/// terminal shows them.
 ///
 /// # Errors
 /// It cannot be diagnosed, or the folder cannot be written.
@@ -125,12 +127,20 @@ pub fn written(
     out: PathBuf,
     rig: &Description,
     given: Given,
+    watch: Option<Watch>,
 ) -> Result<Made, Failure> {
     if args.calibrate.is_some() && given.recordings.len() > 1 {
         let problem = "--calibrate simulates a single recording: give one, not a folder of several";
         return Err(Failure::Usage(problem.to_owned()));
     }
-    let (mark, watch) = progress::stages();
+    let is_told = watch.is_some();
+    let (mark, watch) = match watch {
+        Some(watch) => (None, watch),
+        None => {
+            let (mark, watch) = progress::stages();
+            (Some(mark), watch)
+        }
+    };
     let options = Options {
         hold_out_share: args.hold_out_share,
         watch,
@@ -147,7 +157,18 @@ pub fn written(
         ));
     };
     if let Some(runs) = args.calibrate {
-        calibrate(rig, &given, &mut diagnosis, &options, (runs, args.jobs))?;
+        let bar = match is_told {
+            true => progress::nothing,
+            false => progress::bar,
+        };
+        calibrate(
+            rig,
+            &given,
+            &mut diagnosis,
+            &options,
+            (runs, args.jobs),
+            bar,
+        )?;
     }
     diagnosis.report.inputs = given.identities;
     diagnosis.report.protocol.extend(given.read_as);
@@ -202,39 +223,38 @@ impl Given {
         held_out: Option<Taken>,
     ) -> Result<Given, Failure> {
         let reading = &args.source.reading;
-        let read = |one: &Taken, cut| input::taken(rig, one, cut, reading);
-        let all = fitted.iter().map(|one| read(one, args.source.cut));
-        let all: Vec<_> = all.collect::<Result<_, Failure>>()?;
-        let (recordings, mut hows): (Vec<_>, Vec<_>) = all.into_iter().unzip();
-        let count = recordings.len();
-        let mut files = fitted;
+        let names: Vec<PathBuf> = fitted
+            .iter()
+            .chain(&held_out)
+            .map(|one| one.name().to_path_buf())
+            .collect();
+        let (mut recordings, mut hows, mut identities) = (Vec::new(), Vec::new(), Vec::new());
+        for one in fitted {
+            let (recording, how, identity) = input::taken(rig, one, args.source.cut, reading)?;
+            recordings.push(recording);
+            hows.push(how);
+            identities.push(identity);
+        }
         let mut other = None;
         if let Some(one) = held_out {
-            let (recording, how) = read(&one, Cut::default())?;
+            let name = one.name().to_path_buf();
+            let (recording, how, shown) = input::taken(rig, one, Cut::default(), reading)?;
+            if identities.iter().any(|own| own.sha256 == shown.sha256) {
+                let problem = "it is one of the recordings that are fitted: hold out another one, or leave --hold-out away, and the end of the recording is held out";
+                return Err(Failure::unusable(&name, problem.to_owned()));
+            }
             other = Some(recording);
-            files.push(one);
             hows.push(how);
-        }
-        let identities = files.iter().zip(&hows);
-        let identities = identities.map(|(one, how)| one.identity(how.dialect()));
-        let mut identities = identities.collect::<Result<Vec<InputFile>, _>>()?;
-        let (own, others) = identities.split_at(count);
-        if let (Some(shown), Some(file)) = (others.first(), files.get(count))
-            && own.iter().any(|own| own.sha256 == shown.sha256)
-        {
-            let problem = "it is one of the recordings that are fitted: hold out another one, or leave --hold-out away, and the end of the recording is held out";
-            return Err(Failure::unusable(file.name(), problem.to_owned()));
+            identities.push(shown);
         }
         identities.push(rig_file);
-        let pairs = files.iter().zip(&hows);
+        let pairs = names.iter().zip(&hows);
         Ok(Given {
             recordings,
             held_out: other,
             identities,
-            read_as: pairs.flat_map(|(one, how)| how.lines(one.name())).collect(),
-            shown_on: files
-                .last()
-                .map_or_else(PathBuf::new, |one| one.name().to_path_buf()),
+            read_as: pairs.flat_map(|(name, how)| how.lines(name)).collect(),
+            shown_on: names.last().cloned().unwrap_or_default(),
         })
     }
 }
@@ -247,6 +267,7 @@ fn calibrate(
     diagnosis: &mut Diagnosis,
     options: &Options,
     (runs, jobs): (usize, usize),
+    bar: fn(usize, &'static str) -> ProgressBar,
 ) -> Result<(), Failure> {
     let report = &mut diagnosis.report;
     if report.floor.is_none() {
@@ -264,7 +285,7 @@ fn calibrate(
     let whole = given.held_out.is_some();
     match SelfTest::new(rig, recording, found, (whole, runs), options) {
         Ok(test) => {
-            let bar = progress::bar(test.len(), "simulated recordings");
+            let bar = bar(test.len(), "simulated recordings");
             let all: Vec<usize> = (0..test.len()).collect();
             let named = threads::apart(jobs, &all, |k| {
                 let named = test.named(*k);

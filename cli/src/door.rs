@@ -2,9 +2,10 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex};
 
-use rigproof_diagnose::Description;
 use rigproof_diagnose::stop::Stopped;
+use rigproof_diagnose::{Description, Watch};
 use rigproof_trace::clock::{self, Settled};
 use rigproof_trace::csv::LEAST_SAMPLES;
 use rigproof_trace::store::Folder;
@@ -53,7 +54,12 @@ pub struct Asked {
     pub out: PathBuf,
     /// Ends the work early.
     pub stop: Stop,
+    /// What is worked on, in words; nothing is drawn on a terminal.
+    pub doing: Doing,
 }
+
+/// What is worked on, in words.
+pub type Doing = Arc<Mutex<&'static str>>;
 
 /// Why something could not be done; the message names file, line and column where there are any.
 #[derive(Debug)]
@@ -126,7 +132,13 @@ fn worked(asked: Asked) -> Result<Curves, Refused> {
         None => None,
     };
     let given = Given::of(&args, (&rig, rig_file), fitted, held_out)?;
-    let made = written(&args, asked.out, &rig, given)?;
+    let doing = asked.doing;
+    let watch = Watch::new(move |stage| {
+        if let Ok(mut words) = doing.lock() {
+            *words = stage.doing();
+        }
+    });
+    let made = written(&args, asked.out, &rig, given, Some(watch))?;
     Ok(made.diagnosis.curves)
 }
 

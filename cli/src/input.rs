@@ -248,48 +248,45 @@ impl Taken {
             Taken::File(name) | Taken::Channels(name, ..) => name,
         }
     }
+}
 
-    /// What identifies it: of channels the SHA-256 of names, units and numbers, those as 8 bytes each, the lowest first.
-    ///
-    /// # Errors
-    /// A file cannot be read.
-    pub fn identity(&self, dialect: Option<Dialect>) -> Result<InputFile, Failure> {
-        let (name, trace) = match self {
-            Taken::File(file) => return identity(file, dialect),
-            Taken::Channels(name, trace, _) => (name, trace),
-        };
-        let mut hash = Sha256::new();
-        let mut all = |samples: &[f64]| {
-            for part in samples.chunks(1 << 13) {
-                let bytes: Vec<u8> = part.iter().flat_map(|x| x.to_le_bytes()).collect();
-                hash.update(&bytes);
-            }
-        };
-        all(&trace.time_s);
-        trace.channels.iter().for_each(|own| all(&own.samples));
-        for own in &trace.channels {
-            hash.update(format!("{:?} {:?};", own.name, own.unit));
+/// What identifies channels in memory: the SHA-256 of names, units and numbers, those as 8 bytes each, the lowest first.
+fn identity_of_channels(name: &Path, trace: &Trace) -> InputFile {
+    let mut hash = Sha256::new();
+    let mut all = |samples: &[f64]| {
+        for part in samples.chunks(1 << 13) {
+            let bytes: Vec<u8> = part.iter().flat_map(|x| x.to_le_bytes()).collect();
+            hash.update(&bytes);
         }
-        Ok(InputFile {
-            path: name.display().to_string(),
-            sha256: hexadecimal(&hash.finalize()),
-            read_as: None,
-        })
+    };
+    all(&trace.time_s);
+    trace.channels.iter().for_each(|own| all(&own.samples));
+    for own in &trace.channels {
+        hash.update(format!("{:?} {:?};", own.name, own.unit));
+    }
+    InputFile {
+        path: name.display().to_string(),
+        sha256: hexadecimal(&hash.finalize()),
+        read_as: None,
     }
 }
 
-/// Reads a recording that is given, and cuts it.
+/// Reads a recording that is given, cuts it, and says how it was read and what identifies it. Channels in memory are turned into SI units where they stand.
 ///
 /// # Errors
 /// It is not usable, or the cut leaves too little.
 pub fn taken(
     description: &Description,
-    one: &Taken,
+    one: Taken,
     cut: Cut,
     reading: &RigReading,
-) -> Result<(Measured, HowRead), Failure> {
+) -> Result<(Measured, HowRead, InputFile), Failure> {
     let (name, trace, said) = match one {
-        Taken::File(file) => return measured(description, file, cut, reading),
+        Taken::File(file) => {
+            let (recording, how) = measured(description, &file, cut, reading)?;
+            let identity = identity(&file, how.dialect())?;
+            return Ok((recording, how, identity));
+        }
         Taken::Channels(name, trace, said) => (name, trace, said),
     };
     let mut description = description.clone();
@@ -301,13 +298,14 @@ pub fn taken(
             description = with;
         }
     }
-    let whole = description.apply(trace, name)?;
-    let how = HowRead::of_messages(said);
+    let identity = identity_of_channels(&name, &trace);
+    let whole = description.taken(trace, &name)?;
+    let how = HowRead::of_messages(&said);
     if cut.is_whole() {
-        return Ok((whole, how));
+        return Ok((whole, how, identity));
     }
-    let kept = cut.kept(name, whole.time_s())?;
-    Ok((whole.only(&kept), how))
+    let kept = cut.kept(&name, whole.time_s())?;
+    Ok((whole.only(&kept), how, identity))
 }
 
 /// Reads a recording of any plant and cuts it, and says how it was read.

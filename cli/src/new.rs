@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use rigproof_blind::{Case, Plant, Stratum, make, open};
+use rigproof_certify::description::schema as certify_schema;
 use rigproof_trace::rig::SCHEMA_LINE;
 use rigproof_trace::rig::schema::schema_text;
 use rigproof_trace::store::Folder;
@@ -70,8 +71,14 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
         (schema::FILE, schema_text().into_bytes()),
     ];
     if args.plant == Plant::Rig {
-        let certify = include_str!("../../certify/example.toml");
-        files.push(("certify.toml", certify.as_bytes().to_vec()));
+        let kept = include_str!("../../certify/example.toml");
+        let (_, certify) = kept.split_once('\n').unwrap_or(("", kept));
+        let text = format!("{}\n{certify}", certify_schema::SCHEMA_LINE);
+        files.push(("certify.toml", text.into_bytes()));
+        files.push((
+            schema::CERTIFY_FILE,
+            certify_schema::schema_text().into_bytes(),
+        ));
     }
     for (name, bytes) in &files {
         folder.write(name, bytes)?;

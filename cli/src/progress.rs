@@ -30,6 +30,11 @@ pub fn bar(length: usize, unit: &'static str) -> ProgressBar {
     styled(bar, "{wide_bar} {pos} of {len} {msg}, {eta} left").with_message(unit)
 }
 
+/// Shows nothing: somebody else is told of the work.
+pub fn nothing(_: usize, _: &'static str) -> ProgressBar {
+    ProgressBar::hidden()
+}
+
 /// indicatif draws on a terminal only; a template that it cannot read leaves its own.
 fn styled(bar: ProgressBar, template: &str) -> ProgressBar {
     let bar = bar.with_finish(ProgressFinish::AndClear);

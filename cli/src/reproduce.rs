@@ -1,10 +1,11 @@
 //! This file runs what the thesis ran, and prints its numbers beside ours.
 
+mod pages;
+
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 use rigproof_experiments::{Experiment, Finding, Outcome as Left, Verdict, all, find};
-use rigproof_report::compared::{self, Again, Statement};
 use rigproof_trace::store::{Folder, write_aside};
 use serde_json::{Value, json};
 
@@ -22,7 +23,7 @@ pub struct Args {
     /// The folder to write: for each experiment its tables (CSV) and pictures (SVG)
     #[arg(long, value_name = "FOLDER", default_value = "rigproof-reproduced")]
     out: PathBuf,
-    /// Also write one page to look at in a browser: every statement and every picture
+    /// Also write pages to look at in a browser: every statement and every picture; of several chapters an index, and a page for each beside it
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
     /// Experiments that run at once; 0 takes every processor. The result does not depend on it
@@ -78,7 +79,9 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     drop(bar);
     let files = write(&args.out, &done)?;
     if let Some(file) = &args.html {
-        write_aside(file, page(&args.out, &done).as_bytes())?;
+        for (file, page) in pages::pages(file, &args.out, &done) {
+            write_aside(&file, page.as_bytes())?;
+        }
     }
     if args.json {
         print(&report(&done)?)?;
@@ -150,50 +153,6 @@ fn write(out: &Path, done: &[Done]) -> Result<Vec<String>, Failure> {
     )?;
     folder.finish()?;
     Ok(files)
-}
-
-/// The page with every statement and picture; `out` is the folder with the numbers.
-fn page(out: &Path, done: &[Done]) -> String {
-    let statement = |own: &Finding| Statement {
-        place: own.place.to_owned(),
-        statement: own.statement.clone(),
-        stated: own.stated.clone(),
-        ours: own.ours.clone(),
-        verdict: own.verdict.name(),
-        because: match own.account {
-            Some(account) => format!("{}, {account}", own.because),
-            None => own.because.clone(),
-        },
-    };
-    let again = done.iter().map(|Done { experiment, left }| Again {
-        id: experiment.id.to_owned(),
-        title: experiment.title.to_owned(),
-        what: experiment.what.to_owned(),
-        statements: left.findings.iter().map(statement).collect(),
-        pictures: left
-            .pictures
-            .iter()
-            .map(|drawn| (drawn.name.clone(), picture::figure(drawn)))
-            .collect(),
-        files: left
-            .tables
-            .iter()
-            .map(|table| out.join(experiment.id).join(&table.name))
-            .map(|file| format!("{}.csv", file.display()))
-            .collect(),
-    });
-    let findings = done.iter().flat_map(|done| &done.left.findings);
-    let unaccounted = findings.filter(|own| own.is_unaccounted()).count();
-    let words = [
-        Verdict::Agrees,
-        Verdict::Disagrees,
-        Verdict::CannotBeCompared,
-    ];
-    compared::page(
-        &again.collect::<Vec<_>>(),
-        words.map(Verdict::name),
-        unaccounted,
-    )
 }
 
 fn report(done: &[Done]) -> Result<String, Failure> {

@@ -1,4 +1,4 @@
-//! This file is what may stand in a rig description, for editors that complete and check: laid beside a description that somebody is to complete.
+//! This file is what may stand in a description, for editors that complete and check: laid beside one that somebody is to complete.
 
 use std::path::Path;
 
@@ -7,10 +7,12 @@ use rigproof_trace::store;
 
 use crate::outcome::Failure;
 
-/// Its file, as the first line of a description names it.
+/// The file for rigs, as the first line of a description names it.
 pub const FILE: &str = "rig.schema.json";
+/// The file for `certify.toml`.
+pub const CERTIFY_FILE: &str = "certify.schema.json";
 
-/// Lays it beside a description, unless a file of that name stands there.
+/// Lays the one for rigs beside a description, unless a file of that name stands there.
 ///
 /// # Errors
 /// The system refuses.

@@ -98,12 +98,23 @@ pub struct Curves {
     pub residual_before: Vec<f64>,
     /// Residual effort with the named mechanisms.
     pub residual_after: Vec<f64>,
+    /// What each named mechanism contributes to the efforts, window by window: without it the residual is larger by so much.
+    pub contributed: Vec<Contributed>,
     /// Predicted standard deviation of the residual.
     pub floor: f64,
     /// Unit of the residual.
     pub residual_unit: String,
     /// The same output on the fitted part.
     pub fitted: FittedCurves,
+}
+
+/// What a named mechanism contributes to the efforts of the fitted part.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contributed {
+    /// The mechanism, as `viscous at E` where there are several joints.
+    pub name: String,
+    /// The effort in each window, in the residual's unit.
+    pub effort: Vec<f64>,
 }
 
 /// The recorded output and both models on the fitted part; empty if not requested.

@@ -91,5 +91,5 @@ mod unknown;
 mod weak;
 mod whiten;
 
-pub use diagnose::{Curves, Diagnosis, FittedCurves, Options, Stage, Watch, diagnose};
+pub use diagnose::{Contributed, Curves, Diagnosis, FittedCurves, Options, Stage, Watch, diagnose};
 pub use plants::{Description, Measured};

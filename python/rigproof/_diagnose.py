@@ -38,7 +38,7 @@ def diagnose(
     None. units: the unit of each column of arrays, such as {"q": "deg"}; where it says nothing the rig's own counts. time: the column of time stamps; `time`,
     `t`, `timestamp` and the like are found. Whole numbers, such as nanoseconds, count from the first. from_s, to_s: what lies between these stamps counts.
     calibrate: so many simulated recordings say what the result is worth. jobs: 0 takes every processor; the result does not depend on it. progress: True shows
-    the seconds on a terminal, a callable is called with them. out: the folder to write; a temporary one where it is None.
+    what is worked on and the seconds, on a terminal and in a notebook; a callable is called with the seconds. out: the folder to write; a temporary one where it is None.
 
     Raises rigproof.Error where an input is not usable. Ctrl-C raises KeyboardInterrupt at once and ends the work; nothing is written then.
     """
@@ -62,7 +62,7 @@ def diagnose(
     if out is None:
         scratch = tempfile.TemporaryDirectory(prefix="rigproof-", ignore_cleanup_errors=True)
         out = os.path.join(scratch.name, "diagnosis")
-    tick = progress if callable(progress) else _shown if progress and sys.stderr.isatty() else None
+    tick = _telling(progress)
     try:
         curves = _rigproof.diagnose(
             given,
@@ -80,7 +80,7 @@ def diagnose(
         raise Error(str(error)) from None
     finally:
         if tick is _shown:
-            sys.stderr.write("\r\x1b[K")
+            sys.stderr.write("\r" + " " * 60 + "\r")
     arrays = {key: np.frombuffer(own) if isinstance(own, bytes) else own for key, own in curves.items()}
     return Report(os.fspath(out), arrays, scratch)
 
@@ -90,6 +90,15 @@ def _is_set(one: Any) -> bool:
     return isinstance(one, tuple) and len(one) == 2 and isinstance(one[1], Mapping) and set(one[1]) == {"gain"}
 
 
-def _shown(seconds: float) -> None:
-    sys.stderr.write(f"\rdiagnosing, {seconds:.0f} s")
+def _telling(progress: bool | Callable[[float], object]) -> Callable[[float, str], object] | None:
+    """What is called while the work goes on."""
+    if callable(progress):
+        own = progress
+        return lambda seconds, doing: own(seconds)
+    return _shown if progress and (sys.stderr.isatty() or "ipykernel" in sys.modules) else None
+
+
+def _shown(seconds: float, doing: str) -> None:
+    # What is longer than this line is wiped by the one that follows it.
+    sys.stderr.write(f"\r{doing or 'diagnosing'}, {seconds:.0f} s".ljust(60))
     sys.stderr.flush()

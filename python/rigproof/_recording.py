@@ -70,13 +70,33 @@ def _is_missing(value: Any) -> bool:
         return True
 
 
-def _stamps(samples: Any, unit: str | None, time: str, name: str) -> np.ndarray[Any, Any]:
+class Seconds:
+    """Time stamps as seconds from the first, turned into floats where a part of them is asked for: the whole is not copied."""
+
+    def __init__(self, array: np.ndarray[Any, Any], scale: float) -> None:
+        # Dates and durations differ by whole numbers of nanoseconds at the finest.
+        self._array = array.astype(f"{array.dtype.kind}8[ns]", copy=False) if array.dtype.kind in "mM" else array
+        self._scale = scale
+
+    def __len__(self) -> int:
+        return len(self._array)
+
+    def __getitem__(self, part: slice) -> np.ndarray[Any, Any]:
+        # Nanoseconds since 1970 have more digits than a float holds: the difference is taken in whole numbers.
+        since = self._array[part].astype(np.int64) - self._array[:1].astype(np.int64)
+        return np.asarray(since * self._scale, dtype=np.float64)
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> np.ndarray[Any, Any]:
+        return np.asarray(self[:], dtype=dtype)
+
+
+def _stamps(samples: Any, unit: str | None, time: str, name: str) -> Any:
     """Time stamps in seconds; dates, durations and whole numbers of large size count from the first."""
     array = _array(samples)
     if array.dtype.kind in "mM":
         if np.isnat(array).any():
             raise Error(f"{name}, line {int(np.isnat(array).argmax()) + 1}: the time stamp is missing; every sample needs one")
-        return np.ascontiguousarray((array - array[0]) / np.timedelta64(1, "ns") * 1e-9, dtype=np.float64)
+        return Seconds(array, 1e-9)
     if array.dtype.kind == "O" and array.size and hasattr(array[0], "utcoffset"):
         missing = next((k for k, own in enumerate(array) if _is_missing(own)), None)
         if missing is not None:
@@ -88,20 +108,19 @@ def _stamps(samples: Any, unit: str | None, time: str, name: str) -> np.ndarray[
     if array.dtype.kind in "iu":
         if unit is None and array.size > 1 and abs(int(array[-1]) - int(array[0])) > 10**8:
             raise Error(f"{name}: `{time}` holds whole numbers too large for seconds; say what they are, units={{{time!r}: 'ns'}}")
-        # Nanoseconds since 1970 have more digits than a float holds: the difference is taken in whole numbers.
-        return (array - array[0]).astype(np.float64) * SECONDS[unit or "s"] if array.size else array.astype(np.float64)
+        return Seconds(array, SECONDS[unit or "s"]) if array.size else array.astype(np.float64)
     numbers = _numbers(array, time, name, wanted=True)
     assert numbers is not None
     return numbers * SECONDS[unit] if unit not in (None, "s") else numbers
 
 
 def _numbers(samples: Any, own: str, name: str, wanted: bool) -> np.ndarray[Any, Any] | None:
-    """Samples as float64; the array itself where it is one. None for text that nobody asked for."""
+    """Samples as numbers; an array of them as it is, whatever its kind: the compiled part takes it in parts. None for text that nobody asked for."""
     array = _array(samples)
     if array.ndim != 1:
         raise Error(f"{name}: `{own}` has shape {array.shape}; give one value a sample, shape (n,)")
-    if array.dtype == np.float64 or array.dtype.kind in "iufb":
-        return np.asarray(array, dtype=np.float64)
+    if array.dtype.kind in "iufb":
+        return array
     if array.dtype.kind == "O":
         numbers = np.full(len(array), np.nan)
         for k, value in enumerate(array):

@@ -98,6 +98,12 @@ class Report:
         file = self.folder / "calibration.toml"
         return file.read_text(encoding="utf-8") if file.exists() else None
 
+    @property
+    def urdf(self) -> str | None:
+        """An arm's URDF with what was found, as text; None for other plants and where nothing was fitted."""
+        file = self.folder / "calibrated.urdf"
+        return file.read_text(encoding="utf-8") if file.exists() else None
+
     def plot(self, axes: Any = None) -> Any:
         """Draws recorded, old and new model over the held-out part (matplotlib); gives the axes."""
         import matplotlib.pyplot as plt

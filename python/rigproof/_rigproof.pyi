@@ -15,6 +15,6 @@ def diagnose(
     to_s: float | None = None,
     calibrate: int | None = None,
     jobs: int = 0,
-    tick: Callable[[float], object] | None = None,
+    tick: Callable[[float, str], object] | None = None,
 ) -> dict[str, Any]: ...
 def working() -> int: ...

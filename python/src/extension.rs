@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PySlice};
-use rigproof::door::{self, Asked, Recording, Rig, Stop};
+use rigproof::door::{self, Asked, Doing, Recording, Rig, Stop};
 use rigproof_trace::{Channel, Trace};
 
 /// How often signals are looked for and progress is told.
@@ -19,7 +19,7 @@ const BEAT: Duration = Duration::from_millis(100);
 enum Given<'py> {
     /// A path.
     Path(PathBuf),
-    /// A name, time stamps in seconds, and channels: name, unit, samples. Arrays of numpy, of 64-bit floats.
+    /// A name, time stamps in seconds, and channels: name, unit, samples. Arrays of numpy, or what gives one for a slice, of any kind of real numbers.
     Channels(
         String,
         Bound<'py, PyAny>,
@@ -63,14 +63,15 @@ impl Given<'_> {
 /// How many samples pass at once as bytes: the stable interface of Python 3.10 has no view of an array.
 const PART: usize = 1 << 17;
 
-/// The samples of an array of 64-bit floats, whatever its strides.
+/// The samples of an array as 64-bit floats, whatever its kind and its strides.
 fn floats(array: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
     let length = array.len()?;
     let mut all = Vec::with_capacity(length);
     for from in (0..length).step_by(PART) {
         let to = (from + PART).min(length);
         let part = array.get_item(PySlice::new(array.py(), from as isize, to as isize, 1))?;
-        let bytes = part.call_method0("tobytes")?.cast_into::<PyBytes>()?;
+        let floats = part.call_method1("astype", ("=f8",))?;
+        let bytes = floats.call_method0("tobytes")?.cast_into::<PyBytes>()?;
         let (floats, _) = bytes.as_bytes().as_chunks();
         all.extend(floats.iter().copied().map(f64::from_ne_bytes));
     }
@@ -78,7 +79,7 @@ fn floats(array: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
 }
 
 /// Diagnoses, writes the folder `out`, and gives the curves of its pictures. The interpreter's lock is free meanwhile; `tick` is called with the seconds that
-/// have passed. After Ctrl-C the call ends at once, and the thread that works at its next column or fit.
+/// have passed and with what is worked on. After Ctrl-C the call ends at once, and the thread that works at its next column or fit.
 #[pyfunction]
 #[pyo3(signature = (recordings, rig, out, held_out=None, hold_out_share=None, from_s=None, to_s=None, calibrate=None, jobs=0, tick=None))]
 #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
@@ -111,7 +112,9 @@ fn diagnose<'py>(
         jobs,
         out,
         stop: Stop::default(),
+        doing: Doing::default(),
     };
+    let doing = asked.doing.clone();
     let _stop = Ended(asked.stop.clone());
     let (sender, mut receiver) = channel();
     WORKING.fetch_add(1, Ordering::Relaxed);
@@ -134,7 +137,8 @@ fn diagnose<'py>(
         }
         py.check_signals()?;
         if let Some(tick) = &tick {
-            tick.call1((begun.elapsed().as_secs_f64(),))?;
+            let words = doing.lock().map_or("", |words| *words);
+            tick.call1((begun.elapsed().as_secs_f64(), words))?;
         }
     }
 }

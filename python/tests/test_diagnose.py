@@ -46,6 +46,7 @@ def test_arrays_frames_and_their_kinds_of_columns_give_one_answer(case, rig) -> 
     nanoseconds = start + np.round(case["t"] * 1e9).astype(np.int64)
     for recording, units in [
         ({**case, "x": wide[:, 3]}, {}),
+        ({**case, "x": case["x"].astype(">f8"), "f": case["f"].astype(np.float32)}, {}),
         (pd.DataFrame({**case, "note": ["a"] * len(case["t"]), "x": case["x"].astype(object)}), {}),
         (pl.DataFrame(case), {}),
         ({"t": nanoseconds, "x": case["x"], "f": case["f"]}, {"t": "ns"}),

@@ -96,6 +96,7 @@
       legend: { live: true },
       hooks: { drawClear: [marks(spec)], setScale: [follow(spec)] },
     };
+    if (spec.what_if) spec.series[spec.what_if.curve].v = leftWithout(spec.what_if, []);
     const plot = new uPlot(options, [spec.t, ...spec.series.map((own) => own.v)], place);
     const own = { plot, spec, ready: false };
     rigproof.charts[spec.id] = own;
@@ -105,6 +106,38 @@
     const markers = () => place.querySelectorAll('.u-marker').forEach((own, k) => { if (k > 0) own.style.borderColor = colour(spec.series[k - 1].role); });
     rigproof.redraw.push(() => { markers(); if (rigproof.printing || plot.width !== width(place)) resize(); plot.redraw(false, true); });
     controls(spec, plot, place);
+    if (spec.what_if) whatIf(spec, plot);
+  };
+
+  // What would be left over without the names that are switched off: a quadratic form of products that the page holds, stretch by stretch. A weight of 1 is off.
+  const squaresWithout = ({ products }, off) => products.map((own) => {
+    const weights = [1, ...off];
+    let [sum, k] = [0, 0];
+    weights.forEach((one, i) => {
+      for (let j = 0; j <= i; j += 1, k += 1) sum += (i === j ? 1 : 2) * one * weights[j] * own[k];
+    });
+    return Math.max(sum, 0);
+  });
+  const leftWithout = (own, off) => squaresWithout(own, off).map((x, k) => (own.counts[k] > 0 ? Math.sqrt(x) / own.floor : null));
+
+  const whatIf = (spec, plot) => {
+    const { what_if: own } = spec;
+    const boxes = [...document.querySelectorAll(`[data-what-if="${spec.id}"]`)];
+    const said = document.getElementById(`what-if-${spec.id}`);
+    const say = () => {
+      const off = boxes.map((box) => (box.checked ? 0 : 1));
+      const windows = own.counts.reduce((sum, count) => sum + count, 0);
+      const whole = Math.sqrt(squaresWithout(own, off).reduce((sum, x, k) => sum + x * own.counts[k], 0) / windows) / own.floor;
+      said.textContent = `${off.includes(1) ? 'Without what is switched off' : 'With all of it'} the new model leaves ${digits(whole, 3)} times the noise here.`;
+      return off;
+    };
+    const switched = () => {
+      spec.series[own.curve].v = leftWithout(own, say());
+      plot.setData([spec.t, ...spec.series.map((one) => one.v)], false);
+      plot.redraw();
+    };
+    for (const box of boxes) box.addEventListener('change', switched);
+    say();
   };
 
   // Zoom and move by keys and buttons, for hands that hold no mouse.

@@ -1,6 +1,6 @@
 // Opens pages in a real browser and uses them as a person does: `node check.mjs CHROMIUM PAGE…`, a page being a file, or an address of `rigproof serve`. Ends with 1 and a
 // line for each thing that does not hold. RIGPROOF_DROP names a recording, and where it is laid while a list of runs is looked at.
-import { copyFile, mkdtemp, readFile, readdir, rm } from 'node:fs/promises';
+import { access, copyFile, mkdtemp, readFile, readdir, rm } from 'node:fs/promises';
 import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
 import { basename, dirname, join, resolve } from 'node:path';
@@ -43,6 +43,7 @@ async function check(file) {
   await order(page, name);
   await charts(page, name);
   await replay(page, name);
+  await whatIf(page, name);
   await saves(page, name);
   await keyboard(page, name);
   await accessible(page, `${name}, light`);
@@ -66,6 +67,14 @@ async function order(page, name) {
   }
   const clipped = await page.evaluate(() => [...document.querySelectorAll('.scroll:has(td.words)')].filter((own) => own.scrollWidth > own.clientWidth + 1).map((own) => own.closest('section').id));
   holds(name, `sentences are clipped in ${clipped.join(', ')}`, clipped.length === 0);
+  const apart = await page.$$eval('#heat-map tr.group', (all) => all.map((own) => own.textContent));
+  const turning = await page.$$eval('#heat-map tbody th[scope="row"]', (all) => all.map((own) => own.textContent).filter((own) => /of a reversal$/.test(own)));
+  holds(name, `reversals do not stand apart: ${apart}`, turning.length === 0 || apart.length === 2);
+  const dead = isServed(page.url()) ? [] : await page.$$eval('main a[href]', (all) => all.map((own) => own.href));
+  for (const link of dead) {
+    const there = link.startsWith('file:') && await access(new URL(link.split('#')[0])).then(() => true, () => false);
+    holds(name, `${link} leads nowhere`, there);
+  }
   if (badge === 'Model and rig agree') holds(name, 'agreement goes wrong nowhere', !ids.includes('where'));
 }
 
@@ -207,6 +216,15 @@ async function replay(page, name) {
   holds(name, 'the linkage is drawn', seen);
   holds(name, 'the slider moves the linkage', before.split('|').every((points) => points.length > 20) && before !== after);
   holds(name, 'the replay says how far apart', /mm/.test(await page.$eval('#replay-said', (own) => own.textContent)));
+  // Twenty times the difference of the tips, and the recording where it was.
+  const tips = () => page.$$eval('#replay-drawing .tip', (all) => all.map((own) => [own.getAttribute('cx'), own.getAttribute('cy')].map(Number)));
+  const apart = ([recorded, old]) => Math.hypot(old[0] - recorded[0], old[1] - recorded[1]);
+  const plain = await tips();
+  await page.select('#replay-times', '20');
+  const [enlarged, words] = [await tips(), await page.$eval('#replay-said', (own) => own.textContent)];
+  await page.select('#replay-times', '1');
+  holds(name, `differences of ${apart(plain)} m are drawn as ${apart(enlarged)} m`, Math.abs(apart(enlarged) - 20 * apart(plain)) < 1e-6 && String(plain[0]) === String(enlarged[0]));
+  holds(name, `the replay says how it is drawn: ${words}`, /20 times/.test(words));
   const at = () => page.$eval('#replay-time', (slider) => Number(slider.value));
   const from = await at();
   const pressed = async () => { await page.focus('#replay-play'); await page.keyboard.press('Enter'); };
@@ -217,6 +235,26 @@ async function replay(page, name) {
   const to = await at();
   await new Promise((done) => setTimeout(done, 200));
   holds(name, `the replay plays and pauses: ${from} to ${to}`, to > from && (await at()) === to);
+}
+
+// A named effect that is switched off is missing: more is left over, and the chart shows it; switched on again everything is as before.
+async function whatIf(page, name) {
+  const boxes = await page.$$('[data-what-if]');
+  if (boxes.length === 0) return;
+  const said = () => page.$eval('#what-if-time-line', (own) => own.textContent);
+  const curve = () => page.evaluate(() => String(rigproof.charts['time-line'].plot.data[2]));
+  const [before, drawn] = [await said(), await curve()];
+  const left = (text) => Number(text.match(/leaves ([\d.]+)/)?.[1]);
+  for (const box of boxes) {
+    await box.focus();
+    await page.keyboard.press('Space');
+    await settled(page);
+    const without = await said();
+    holds(name, `without an effect: ${without}; with it: ${before}`, left(without) > left(before) && (await curve()) !== drawn);
+    await page.keyboard.press('Space');
+    await settled(page);
+    holds(name, 'an effect that is switched on again is there', (await said()) === before && (await curve()) === drawn);
+  }
 }
 
 // Every button that saves, saves a file of the kind that it says. The first file is really saved; of the others, what would be: a browser stops at

@@ -3,6 +3,8 @@
 use maud::{Markup, html};
 use serde::Serialize;
 
+use crate::what_if::WhatIf;
+
 /// Most buckets of a chart; each keeps the least and the greatest value of every curve.
 const BUCKETS: usize = 3000;
 
@@ -99,6 +101,9 @@ pub struct Chart {
     pub log_y: bool,
     /// Charts of the same name are zoomed together.
     pub sync: Option<&'static str>,
+    /// What one of its curves would be without some of the named effects.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub what_if: Option<WhatIf>,
 }
 
 impl Chart {
@@ -128,6 +133,7 @@ impl Chart {
             from_zero: false,
             log_y: false,
             sync: Some("time"),
+            what_if: None,
         }
     }
 
@@ -146,20 +152,16 @@ impl Chart {
         let buttons = buttons
             .into_iter()
             .filter(|(what, _)| moves || matches!(*what, "svg" | "csv"));
-        let keys = if moves {
-            " Drag to zoom, double-click for the whole; keys + − ← → 0."
-        } else {
-            ""
-        };
         html! {
             figure #{ "figure-" (self.id) } {
-                figcaption { strong { (self.title) "." } " " (caption) (keys) }
+                figcaption { strong { (self.title) "." } " " (caption) }
                 div.plot #{ "plot-" (self.id) } tabindex="0" role="group" aria-label={ "Chart: " (self.title) } {}
                 noscript { p.soft { "The chart needs JavaScript; its numbers stand in report.json beside this page." } }
                 div.tools {
                     @for (what, label) in buttons {
                         button type="button" data-chart=(self.id) data-do=(what) aria-label={ (label) ": " (self.title) } { (label) }
                     }
+                    @if moves { span.hint { "Drag to zoom, double-click for the whole; keys + − ← → 0." } }
                 }
             }
         }

@@ -1,4 +1,4 @@
-//! This file is the page of a thesis run again: its statements beside what comes out here, with the pictures.
+//! This file is the pages of a thesis run again: its statements beside what comes out here, with the pictures, a page a chapter and an index of them.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -39,17 +39,122 @@ pub struct Again {
     pub files: Vec<String>,
 }
 
-/// The page as HTML; `verdicts` are the words for agreement, disagreement and what cannot be compared, `unaccounted` the disagreements without an account.
-pub fn page(experiments: &[Again], verdicts: [&'static str; 3], unaccounted: usize) -> String {
-    let statements = || experiments.iter().flat_map(|own| &own.statements);
-    let [agree, disagree, lost] =
-        verdicts.map(|verdict| statements().filter(|own| own.verdict == verdict).count());
+/// Experiments of a chapter, and the file of their page.
+pub struct Chapter {
+    /// Its name.
+    pub name: String,
+    /// The file of its page, beside the index.
+    pub file: String,
+    /// Its experiments.
+    pub experiments: Vec<Again>,
+}
+
+/// The words for agreement, disagreement and what cannot be compared.
+pub type Words = [&'static str; 3];
+
+/// How many statements there are of each verdict.
+fn counts<'a>(experiments: impl Iterator<Item = &'a Again>, verdicts: Words) -> [usize; 3] {
+    let mut counts = [0; 3];
+    for own in experiments.flat_map(|own| &own.statements) {
+        let places = counts.iter_mut().zip(verdicts);
+        places
+            .filter(|(_, verdict)| own.verdict == *verdict)
+            .for_each(|(count, _)| *count += 1);
+    }
+    counts
+}
+
+/// The page of one chapter, or of some experiments, as HTML; `unaccounted` are the disagreements without an account. `index` is a file that leads to the other chapters.
+pub fn page(
+    experiments: &[Again],
+    verdicts: Words,
+    unaccounted: usize,
+    index: Option<&str>,
+) -> String {
+    let counted = counts(experiments.iter(), verdicts);
+    let mut headline = headline(counted, unaccounted);
+    headline
+        .paragraphs
+        .extend(index.map(|file| html! { a href=(file) { "All chapters" } }));
+    let [_, against, _] = verdicts;
+    let apart = (counted[1] > 0).then(|| apart(experiments.iter(), against));
+    let sections = experiments.iter().map(|own| Section {
+        id: anchor(&own.id),
+        heading: format!("{} {}", own.id, own.title),
+        body: experiment(own),
+    });
+    let sections = apart.into_iter().chain(sections).collect();
+    document(headline, experiments.len(), sections)
+}
+
+/// The page that leads to the chapters, with what does not come out in any of them.
+pub fn index(chapters: &[Chapter], verdicts: Words, unaccounted: usize) -> String {
+    let experiments = || chapters.iter().flat_map(|own| &own.experiments);
+    let counted = counts(experiments(), verdicts);
+    let [_, against, _] = verdicts;
+    let list = Section {
+        id: "chapters".to_owned(),
+        heading: "Chapters".to_owned(),
+        body: listed(chapters, verdicts),
+    };
+    let apart = (counted[1] > 0).then(|| apart(experiments(), against));
+    let sections = [list].into_iter().chain(apart).collect();
+    document(
+        headline(counted, unaccounted),
+        experiments().count(),
+        sections,
+    )
+}
+
+/// The chapters with their counts, and each experiment with its page.
+fn listed(chapters: &[Chapter], verdicts: Words) -> Markup {
+    html! {
+        div.scroll { table.grid #chapter-table {
+            caption { "How many statements of the text come out here." }
+            thead { tr { th scope="col" { "chapter" } @for verdict in verdicts { th.number scope="col" { (verdict) } } } }
+            tbody { @for own in chapters { tr {
+                th scope="row" { a href=(own.file) { (own.name) } }
+                @for count in counts(own.experiments.iter(), verdicts) { td.number { (count) } }
+            } } }
+        } }
+        @for own in chapters {
+            h3 { (own.name) }
+            ul { @for one in &own.experiments { li { a href={ (own.file) "#" (anchor(&one.id)) } { (one.id) " " (one.title) } } } }
+        }
+    }
+}
+
+fn anchor(id: &str) -> String {
+    format!("experiment-{}", id.replace('.', "-"))
+}
+
+fn document(headline: Headline, experiments: usize, sections: Vec<Section>) -> String {
+    Document {
+        title: format!("{} – the thesis, run again", headline.sentence),
+        kind: "Reproduction",
+        about: format!("{experiments} experiments"),
+        headline,
+        sections,
+        charts: Vec::new(),
+        replay: None,
+        served: None,
+        footer: format!(
+            "Written by rigproof {}. This page is one file: it loads nothing and sends nothing.",
+            env!("CARGO_PKG_VERSION")
+        ),
+    }
+    .to_html()
+}
+
+fn headline([agree, disagree, lost]: [usize; 3], unaccounted: usize) -> Headline {
     let sentence = format!(
         "{agree} of {} statements of the text come out here as well, {disagree} {} not.",
         agree + disagree,
         if disagree == 1 { "does" } else { "do" }
     );
-    let headline = Headline {
+    let card =
+        |what: &str, count: usize, remark: String| [what.to_owned(), count.to_string(), remark];
+    Headline {
         tone: if unaccounted == 0 {
             Tone::Good
         } else {
@@ -62,50 +167,24 @@ pub fn page(experiments: &[Again], verdicts: [&'static str; 3], unaccounted: usi
             some => html! { (some) " of those that do not have no account yet." },
         }],
         cards: vec![
-            [
-                "Agree".to_owned(),
-                agree.to_string(),
+            card(
+                "Agree",
+                agree,
                 "within the tolerance that each line states".to_owned(),
-            ],
-            [
-                "Disagree".to_owned(),
-                disagree.to_string(),
+            ),
+            card(
+                "Disagree",
+                disagree,
                 format!("{unaccounted} without an account"),
-            ],
-            [
-                "Cannot be compared".to_owned(),
-                lost.to_string(),
-                "the figure is lost".to_owned(),
-            ],
+            ),
+            card("Cannot be compared", lost, "the figure is lost".to_owned()),
         ],
         sentence,
-    };
-    let [_, against, _] = verdicts;
-    let apart = (disagree > 0).then(|| apart(experiments, against));
-    let sections = experiments.iter().map(|own| Section {
-        id: format!("experiment-{}", own.id.replace('.', "-")),
-        heading: format!("{} {}", own.id, own.title),
-        body: experiment(own),
-    });
-    Document {
-        title: format!("{} – the thesis, run again", headline.sentence),
-        kind: "Reproduction",
-        about: format!("{} experiments", experiments.len()),
-        headline,
-        sections: apart.into_iter().chain(sections).collect(),
-        charts: Vec::new(),
-        replay: None,
-        served: None,
-        footer: format!(
-            "Written by rigproof {}. This page is one file: it loads nothing and sends nothing.",
-            env!("CARGO_PKG_VERSION")
-        ),
     }
-    .to_html()
 }
 
 /// The statements that come out otherwise, all together.
-fn apart(experiments: &[Again], verdict: &str) -> Section {
+fn apart<'a>(experiments: impl Iterator<Item = &'a Again>, verdict: &str) -> Section {
     let row = |own: &Statement| {
         vec![
             own.place.clone(),
@@ -115,7 +194,7 @@ fn apart(experiments: &[Again], verdict: &str) -> Section {
             own.because.clone(),
         ]
     };
-    let statements = experiments.iter().flat_map(|own| &own.statements);
+    let statements = experiments.flat_map(|own| &own.statements);
     let rows: Vec<Vec<String>> = statements
         .filter(|own| own.verdict == verdict)
         .map(row)

@@ -7,6 +7,7 @@ mod left_over;
 mod next;
 mod sure;
 mod what;
+mod when;
 mod wherein;
 
 use maud::{Markup, html};
@@ -48,27 +49,27 @@ pub fn page(diagnosed: Diagnosed) -> String {
         "Before and after, on held-out data",
         after::body(report, curves, replay.as_ref(), &mut charts),
     );
-    section("what", "What it is", what::body(report));
+    // Where something is named, the time line answers what its absence would cost.
+    let when = when::body(curves, &mut charts);
+    let (if_off, when) = match report.effects.is_empty() {
+        true => (None, when),
+        false => (when, None),
+    };
+    section("what", "What it is", what::body(report, if_off));
     // Where nothing goes wrong there is no place to show.
     if report.verdict != Verdict::Consistent {
-        section(
-            "where",
-            "Where it goes wrong",
-            wherein::body(report, curves, &mut charts),
-        );
+        section("where", "Where it goes wrong", wherein::body(report, when));
     }
-    section("sure", "How sure this is", sure::body(report));
     section(
-        "left",
-        "What is left over",
-        left_over::body(curves, &mut charts),
+        "sure",
+        "How sure this is",
+        sure::body(report, curves, &mut charts),
     );
     section(
         "next",
         "What would settle it",
-        next::body(report, diagnosed.next),
+        next::body(report, &made(report)),
     );
-    section("made", "How it was measured", made(report));
     let headline = headline::headline(report, diagnosed.next);
     Document {
         title: format!("{} – {}", headline.sentence, diagnosed.rig),
@@ -102,9 +103,10 @@ fn counted(curves: &Curves, residual: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-fn made(report: &Report) -> Option<Markup> {
-    Some(html! {
-        details { summary { "The files and the protocol, line by line" }
+/// How it was measured, folded up.
+fn made(report: &Report) -> Markup {
+    html! {
+        details #made { summary { "How it was measured: the files and the protocol, line by line" }
         @if !report.inputs.is_empty() {
             div.scroll { table.grid {
                 caption { "The files that were read." }
@@ -113,7 +115,7 @@ fn made(report: &Report) -> Option<Markup> {
             } }
         }
         ul { @for line in &report.protocol { li { (line) } } }
-        }
         p.soft { "The plant is: " (report.plant) ". The verdict in the report is " code { (report.verdict.name()) } ": " (report.summary) "." }
-    })
+        }
+    }
 }

@@ -24,4 +24,5 @@ pub mod replay;
 mod statistics;
 pub mod table;
 pub mod trial;
+pub mod what_if;
 pub mod words;

@@ -67,6 +67,8 @@ impl Replay {
                         input #replay-time type="range" min="0" value="0" step="1";
                         label for="replay-speed" { "Speed" }
                         select #replay-speed { option value="0.1" { "1/10" } option value="0.5" { "1/2" } option value="1" selected { "1" } option value="4" { "4" } }
+                        label for="replay-times" { "Differences" }
+                        select #replay-times { option value="1" selected { "×1" } option value="20" { "×20" } }
                     }
                     p.soft #replay-said role="status" aria-live="off" {}
                 }

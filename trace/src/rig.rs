@@ -15,6 +15,7 @@ mod protocol;
 mod read;
 pub mod schema;
 mod servo;
+mod signals;
 pub mod table;
 mod text;
 mod write;

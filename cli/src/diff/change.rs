@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use rigproof_report::number::probability;
 use serde_json::{Value, json};
 
-use super::side::{Number, Side};
+use super::side::{File, Number, Side};
 use crate::text::summary::rounded;
 
 /// Numbers that differ by a smaller share of the greater are one: what is printed has so many digits.
@@ -30,6 +30,7 @@ pub fn changes(one: &Side, other: &Side) -> Vec<Change> {
             all.push(Change::Words(what, own.clone(), new));
         }
     }
+    all.extend(files(one, other));
     all.sort_by_key(|own| !matches!(own, Change::Words("verdict", ..)));
     let names = |side: &Side| side.named.keys().cloned().collect::<BTreeSet<_>>();
     let (own, new) = (names(one), names(other));
@@ -53,6 +54,21 @@ pub fn changes(one: &Side, other: &Side) -> Vec<Change> {
         }
     }
     all
+}
+
+/// The files that only one of the two read. What a file holds counts, and not where it lies or what it is called.
+fn files(one: &Side, other: &Side) -> Option<Change> {
+    let only = |own: &Side, other: &Side| -> String {
+        let read = |file: &File| other.files.iter().any(|one| one.sha256 == file.sha256);
+        let only = own.files.iter().filter(|file| !read(file));
+        let only: Vec<String> = only.map(File::words).collect();
+        match only.is_empty() {
+            true => "–".to_owned(),
+            false => only.join(", "),
+        }
+    };
+    let (own, new) = (only(one, other), only(other, one));
+    (own != new).then(|| Change::Words("files", own, new))
 }
 
 /// Whether the intervals of two numbers do not meet; nothing where one has none.
@@ -152,6 +168,26 @@ mod tests {
             unit: "N".to_owned(),
             interval: Some([value - half, value + half]),
         }
+    }
+
+    #[test]
+    fn a_file_is_another_by_what_it_holds_and_not_by_its_path() {
+        let side = |files: [(&str, &str); 2]| {
+            let inputs: Vec<Value> = files
+                .iter()
+                .map(|(path, hash)| json!({ "path": path, "sha256": hash.repeat(32) }))
+                .collect();
+            Side::of_report(&json!({ "verdict": "explained", "inputs": inputs }))
+        };
+        let own = side([("monday/run.csv", "a7"), ("rig.toml", "19")]);
+        let moved = side([("friday/run-2.csv", "a7"), ("old/rig.toml", "19")]);
+        assert!(changes(&own, &moved).is_empty());
+        let other = side([("monday/run.csv", "a7"), ("rig.toml", "2b")]);
+        let said: Vec<String> = changes(&own, &other).iter().map(Change::words).collect();
+        assert_eq!(
+            said,
+            ["files: rig.toml (191919191919) → rig.toml (2b2b2b2b2b2b)"]
+        );
     }
 
     #[test]

@@ -18,14 +18,31 @@ pub struct Number {
     pub interval: Option<[f64; 2]>,
 }
 
+/// A file that was read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct File {
+    pub path: String,
+    pub sha256: String,
+}
+
+impl File {
+    /// Its path, and enough of its hash to tell it from another.
+    pub fn words(&self) -> String {
+        let hash = self.sha256.get(..12).unwrap_or(&self.sha256);
+        format!("{} ({hash})", self.path)
+    }
+}
+
 /// One of the two.
 pub struct Side {
     /// What messages call it.
     pub name: String,
     /// Whether it is a diagnosis and not a calibration.
     pub is_diagnosis: bool,
-    /// Words that stand for themselves: the verdict, the files that were read.
+    /// Words that stand for themselves, such as the verdict.
     pub words: BTreeMap<&'static str, String>,
+    /// The files that a diagnosis read.
+    pub files: Vec<File>,
     /// Of what is named: how sure it is. A calibration does not say.
     pub named: BTreeMap<String, Option<f64>>,
     /// Numbers, by what they belong to and their own name.
@@ -73,13 +90,14 @@ impl Side {
             name: String::new(),
             is_diagnosis,
             words: BTreeMap::new(),
+            files: Vec::new(),
             named: BTreeMap::new(),
             numbers: BTreeMap::new(),
             page: None,
         }
     }
 
-    fn of_report(report: &Value) -> Side {
+    pub(super) fn of_report(report: &Value) -> Side {
         let mut side = Side::empty(true);
         let text = |pointer: &str| report.pointer(pointer).and_then(Value::as_str);
         for (words, pointer) in [("verdict", "/verdict"), ("tool", "/tool")] {
@@ -87,15 +105,14 @@ impl Side {
             side.words.extend(said.map(|own| (words, own)));
         }
         let inputs = report.get("inputs").and_then(Value::as_array);
-        let inputs: Vec<String> = inputs
-            .into_iter()
-            .flatten()
-            .filter_map(|own| {
-                let hash = own.get("sha256")?.as_str()?.get(..12)?;
-                Some(format!("{} ({hash})", own.get("path")?.as_str()?))
+        let files = inputs.into_iter().flatten().filter_map(|own| {
+            let word = |key: &str| Some(own.get(key)?.as_str()?.to_owned());
+            Some(File {
+                path: word("path")?,
+                sha256: word("sha256")?,
             })
-            .collect();
-        side.words.insert("files", inputs.join(", "));
+        });
+        side.files.extend(files);
         let effects = report.get("effects").and_then(Value::as_array);
         for effect in effects.into_iter().flatten() {
             let joint = effect.get("joint").and_then(Value::as_str);

@@ -1,7 +1,8 @@
 //! This file opens the pages that the program writes in a real browser and uses them.
 //!
 //! It needs a folder with the packages of `report/browser/package-lock.json`, named by `RIGPROOF_BROWSER`, and Chromium (`RIGPROOF_CHROMIUM`, else `/usr/bin/chromium`);
-//! `.ci/run` sets both up. Without the first it passes over itself with a printed line; with it everything is required.
+//! `.ci/run` sets both up. Without the first it passes over itself with a printed line; with it everything is required, but for Firefox, in which the pages are
+//! opened once more where there is one.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -20,15 +21,32 @@ fn tools() -> Option<PathBuf> {
 
 /// Runs `check.mjs` on pages; it looks for its packages beside itself. `drop` is a recording, and where it is to come while a list of runs is looked at.
 fn holds(tools: &Path, pages: &[String], drop: Option<[PathBuf; 2]>) {
-    let check = tools.join("check.mjs");
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("../report/browser/check.mjs");
-    std::fs::copy(&source, &check).unwrap();
     let chromium =
         std::env::var_os("RIGPROOF_CHROMIUM").unwrap_or_else(|| "/usr/bin/chromium".into());
+    let drop = drop.map(|[from, to]| format!("{}\n{}", from.display(), to.display()));
+    runs(tools, "check.mjs", Path::new(&chromium), pages, drop);
+}
+
+/// Runs `smoke.mjs` on pages in Firefox; where there is none, and none is named by `RIGPROOF_FIREFOX`, a line says so.
+fn holds_in_another_engine(tools: &Path, pages: &[String]) {
+    let named = std::env::var_os("RIGPROOF_FIREFOX").map(PathBuf::from);
+    let firefox = named
+        .clone()
+        .unwrap_or_else(|| "/usr/bin/firefox-esr".into());
+    if named.is_none() && !firefox.exists() {
+        println!("passed over: there is no Firefox at /usr/bin/firefox-esr");
+        return;
+    }
+    runs(tools, "smoke.mjs", &firefox, pages, None);
+}
+
+fn runs(tools: &Path, script: &str, browser: &Path, pages: &[String], drop: Option<String>) {
+    let check = tools.join(script);
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("../report/browser");
+    std::fs::copy(source.join(script), &check).unwrap();
     let mut command = Command::new("node");
-    command.arg(&check).arg(chromium).args(pages);
-    if let Some([from, to]) = drop {
-        let drop = format!("{}\n{}", from.display(), to.display());
+    command.arg(&check).arg(browser).args(pages);
+    if let Some(drop) = drop {
         command.env("RIGPROOF_DROP", drop);
     }
     let answer = command.output().unwrap();
@@ -102,10 +120,12 @@ fn pages_hold_in_a_browser() {
         "compared.html",
         "trial.html",
         "thesis.html",
+        "thesis-chapter-4.html",
         "certified/certificate.html",
     ];
     let pages = pages.map(|page| desk.path(page).display().to_string());
     holds(&tools, &pages, None);
+    holds_in_another_engine(&tools, &pages);
     served(&tools, &desk);
 }
 

@@ -57,11 +57,17 @@ fn a_section_is_cited_with_its_code_its_tests_and_its_gaps() {
     assert!(holds(&cited, "| §2.2.2 |"));
     let code = cited["code"].as_array().unwrap();
     let obeyed = code.iter().find(|place| place["item"] == "Pter");
-    assert!(holds(obeyed.unwrap(), "//= thesis section 2.2.2"), "{cited}");
+    assert!(
+        holds(obeyed.unwrap(), "//= thesis section 2.2.2"),
+        "{cited}"
+    );
     let tests = cited["tests"].as_array().unwrap();
     assert!(!tests.is_empty() && tests.iter().all(|place| holds(place, "section 2.2.2 test")));
     let gaps = cited["gaps"].as_array().unwrap();
-    assert!(gaps.iter().any(|gap| gap["id"] == "pter-control"), "{cited}");
+    assert!(
+        gaps.iter().any(|gap| gap["id"] == "pter-control"),
+        "{cited}"
+    );
 }
 
 #[test]

@@ -27,4 +27,5 @@ mod new;
 mod newcomers;
 mod recorded;
 mod reproduce;
+mod schema;
 mod serve;

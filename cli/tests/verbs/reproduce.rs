@@ -3,6 +3,23 @@
 use crate::desk::Desk;
 
 #[test]
+fn several_chapters_have_an_index_and_a_page_each() {
+    let desk = Desk::new();
+    desk.prints("reproduce 3.3 4.7 4.8 --html thesis.html", 0);
+    let (index, fourth) = (desk.read("thesis.html"), desk.read("thesis-chapter-4.html"));
+    for link in [
+        "href=\"thesis-chapter-3.html\"",
+        "href=\"thesis-chapter-4.html#experiment-4-8\"",
+    ] {
+        assert!(index.contains(link), "{link}");
+    }
+    // The index has no picture, a chapter its own alone, and the way back.
+    assert!(!index.contains("data:image/svg+xml;base64,") && index.len() < 120_000);
+    assert!(fourth.contains("id=\"experiment-4-7\"") && !fourth.contains("experiment-3-3"));
+    assert!(fourth.contains("href=\"thesis.html\""));
+}
+
+#[test]
 fn an_experiment_writes_its_tables_pictures_and_findings() {
     let desk = Desk::new();
     let printed = desk.prints("reproduce 3.3 --html thesis.html", 0);

@@ -2,7 +2,7 @@
 //! and on the held-out part.
 
 use super::write::Stand;
-use super::{Curves, FittedCurves};
+use super::{Contributed, Curves, FittedCurves};
 use crate::candidates::realise;
 use crate::evidence::{Intervals, coefficients_by_term};
 use crate::filter::rms;
@@ -128,6 +128,25 @@ impl<P: Plant> Stand<'_, P> {
         Quantity::Effort.dimension(motion).to_string()
     }
 
+    /// The contribution of each named mechanism in the windows of the fitted part. `of` takes the
+    /// shown ones.
+    pub(crate) fn contributed(&self, of: impl Fn(&[f64]) -> Vec<f64>) -> Vec<Contributed> {
+        let (problem, selection) = (self.problem, self.selection);
+        let known = modelled(problem, selection, |_| false);
+        let found = selection.found.iter();
+        found
+            .map(|found| {
+                let mut effort =
+                    modelled(problem, selection, |term| core::ptr::eq(term, &found.term));
+                add(&mut effort, &known, -1.0);
+                Contributed {
+                    name: problem.name(found.term.cause),
+                    effort: of(&effort),
+                }
+            })
+            .collect()
+    }
+
     /// The curves of the output with the larger unexplained residual; NaN where a window does not
     /// count.
     fn balance_curves(&self, train: Option<Balanced>, test: Balanced) -> Curves {
@@ -186,6 +205,7 @@ impl<P: Plant> Stand<'_, P> {
                 .collect(),
             residual_before: of(&before),
             residual_after: of(&after),
+            contributed: self.contributed(of),
             floor: self.problem.floor,
             residual_unit: self.effort_unit(),
         }

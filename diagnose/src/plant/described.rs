@@ -250,7 +250,7 @@ pub trait Described: Plant + PartialEq {
     ///
     /// # Errors
     /// A channel is missing, or its unit cannot be converted.
-    fn measured(&self, trace: &Trace, origin: &Path) -> Result<Self::Recording, TraceError>;
+    fn measured(&self, trace: Trace, origin: &Path) -> Result<Self::Recording, TraceError>;
 
     /// The description with the given units for some columns, overriding what their headers say.
     ///

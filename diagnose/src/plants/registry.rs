@@ -62,6 +62,14 @@ macro_rules! plants {
             /// A channel of the rig is missing, or the unit in its header cannot be converted to
             /// the rig's.
             pub fn apply(&self, trace: &Trace, origin: &Path) -> Result<Measured, TraceError> {
+                self.taken(trace.clone(), origin)
+            }
+
+            /// The same of a recording that nobody needs afterwards: its numbers are turned where they stand.
+            ///
+            /// # Errors
+            /// As [`Description::apply`].
+            pub fn taken(&self, trace: Trace, origin: &Path) -> Result<Measured, TraceError> {
                 match self {
                     $(Description::$name(own) => own.measured(trace, origin).map(Measured::$name),)+
                 }

@@ -24,10 +24,20 @@ pub fn body(
     for (chart, caption) in outputs(curves) {
         figures.push(place(charts, chart, &caption));
     }
+    // The headline has the error as a number; its course is for who doubts it.
+    let mut figures = figures.into_iter();
+    let first = figures.next();
     Some(html! {
-        @if let Some(fit) = &report.fit { (errors(fit)) }
-        @for figure in figures { (figure) }
+        @if let Some(figure) = first { (figure) }
         @if let Some(replay) = replay { (replay.figure()) }
+        @if report.fit.is_some() || figures.len() > 0 {
+            details {
+                summary { "The error, as numbers and over time" }
+                @if let Some(fit) = &report.fit { (errors(fit)) }
+                @for figure in figures { (figure) }
+            }
+        }
+        @if let Some(drift) = report.fit.as_ref().and_then(|fit| fit.drift.as_ref()) { p { (drift) } }
     })
 }
 
@@ -138,6 +148,7 @@ fn pair(
     );
     // A model that runs away must not flatten what was recorded.
     shown.limits = Some([low - room, high + room]);
+    shown.height = 260;
     spans(&mut shown);
     let off =
         |model: &[f64]| -> Vec<f64> { model.iter().zip(recorded).map(|(m, r)| m - r).collect() };
@@ -178,18 +189,14 @@ fn errors(fit: &FitReport) -> Markup {
             } } } }
         } }
         @if !fit.horizon.is_empty() {
-            details {
-                summary { "Error some time after the simulation was let go" }
                 div.scroll { table.grid {
-                    caption { "Free runs from the recorded state." }
+                    caption { "Error some time after the simulation was let go from the recorded state." }
                     thead { tr { th.number scope="col" { "after" } th scope="col" { "part" } th.number scope="col" { "old model" } th.number scope="col" { "new model" } th.number scope="col" { "tip, old" } th.number scope="col" { "tip, new" } } }
                     tbody { @for own in &fit.horizon { tr {
                         td.number { (with_unit(own.horizon_s, "s")) } td { (own.part) } td.number { (with_unit(own.before, &own.unit)) } td.number { (with_unit(own.after, &own.unit)) }
                         td.number { (own.tip_before_mm.map_or_else(|| "–".to_owned(), |mm| with_unit(mm, "mm"))) } td.number { (own.tip_after_mm.map_or_else(|| "–".to_owned(), |mm| with_unit(mm, "mm"))) }
                     } } }
                 } }
-            }
         }
-        @if let Some(drift) = &fit.drift { p { (drift) } }
     }
 }

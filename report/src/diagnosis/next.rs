@@ -6,12 +6,12 @@ use rigproof_diagnose::report::{NextExperiment, Report, Verdict};
 use crate::number::{significant, with_unit};
 use crate::words::plain_cause;
 
-/// The next experiment, or what helps in its place.
-pub fn body(report: &Report, command: Option<&str>) -> Option<Markup> {
+/// The next experiment, or what helps in its place, and how it was measured.
+pub fn body(report: &Report, made: &Markup) -> Option<Markup> {
     Some(html! {
         p { (advice(report)) }
         @if let Some(next) = &report.next_experiment { (experiment(next, report.verdict)) }
-        @if let Some(command) = command { p { "Now:" } pre tabindex="0" { code { (command) } } }
+        (made)
     })
 }
 

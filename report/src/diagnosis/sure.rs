@@ -1,34 +1,69 @@
 //! This file says how far the names can be believed.
 
 use maud::{Markup, html};
-use rigproof_diagnose::report::{NamedRate, Report};
+use rigproof_diagnose::Curves;
+use rigproof_diagnose::report::{ExplanationReport, NamedRate, Report};
 
+use super::{left_over, when};
+use crate::chart::Chart;
 use crate::number::{percent, probability, rate, significant, with_unit};
+use crate::what_if::WhatIf;
 use crate::words::{at_rest, called_at, capital, plain_at, plain_cause};
 
-/// Odds, resampling, floor, trials on simulated recordings, and what could have been overlooked; nothing where nothing was concluded.
-pub fn body(report: &Report) -> Option<Markup> {
+/// Rivals, correlations, floor, trials on simulated recordings, and what could have been overlooked; nothing where nothing was concluded.
+pub fn body(report: &Report, curves: &Curves, charts: &mut Vec<Chart>) -> Option<Markup> {
     let floor = report.floor.as_ref()?;
+    let alike = WhatIf::of(curves, when::stretch(curves), 1).and_then(|own| own.correlations());
     Some(html! {
         p { "From the noise of the sensors it is computed what a perfect model would leave over: " strong { (with_unit(floor.predicted, &floor.unit)) }
             ". The old model leaves " strong { (significant(floor.ratio_before, 3)) } " times as much, the new one " strong { (significant(floor.ratio_after, 3)) } " times." }
-        (effects(report))
+        (rivals(&report.explanations))
+        @if let Some(alike) = alike { (alike) }
         (trials(report))
         (directions(report))
         (held(report))
+        (effects(report))
+        @if let Some(left) = left_over::body(curves, charts) { (left) }
         (not_seen(report))
     })
 }
 
+/// Explanations that are drawn; the report has all.
+const DRAWN: usize = 5;
+/// Below this probability an explanation is no rival.
+const NO_RIVAL: f64 = 0.005;
+
+/// The explanations that were weighed, as bars of their probabilities.
+fn rivals(all: &[ExplanationReport]) -> Markup {
+    let drawn = all.iter().take(DRAWN).enumerate();
+    let drawn: Vec<&ExplanationReport> = drawn
+        .filter(|(k, own)| *k < 2 || own.probability >= NO_RIVAL)
+        .map(|(_, own)| own)
+        .collect();
+    let named = |own: &ExplanationReport| match own.names.is_empty() {
+        true => "Nothing is left out".to_owned(),
+        false => {
+            let names: Vec<String> = own.names.iter().map(|name| plain_cause(name)).collect();
+            capital(&names.join(" + "))
+        }
+    };
+    html! { @if !drawn.is_empty() {
+        figure {
+            div.scroll { table.bars #rivals {
+                caption { strong { "The explanations that were weighed." } " How probable each is beside the others." }
+                thead { tr { th scope="col" { "explanation" } th scope="col" { "probability" } } }
+                tbody { @for own in drawn { tr {
+                    th scope="row" { (named(own)) }
+                    td style={ "--share: " (format!("{:.3}", own.probability)) } { (probability(own.probability)) }
+                } } }
+            } }
+            div.tools { button type="button" data-save-table="rivals" aria-label="Save CSV: the explanations that were weighed" { "Save CSV" } }
+        }
+    } }
+}
+
 fn effects(report: &Report) -> Markup {
     html! { @if !report.effects.is_empty() {
-        div.scroll { table.grid {
-            caption { "How probable each name is." }
-            thead { tr { th scope="col" { "name" } th.number scope="col" { "probability" } } }
-            tbody { @for effect in &report.effects { tr {
-                th scope="row" { (capital(&plain_at(effect.mechanism, effect.joint))) } td.number { (probability(effect.probability)) }
-            } } }
-        } }
         details { summary { "What stands behind the probabilities" }
             div.scroll { table.grid {
                 caption { "Cross-validation: by how many standard errors blocks of time that were left out are predicted better with the name than without it. Resampling: the share of resampled recordings in which it is named again. Explained: the share of the misfit that goes with it." }

@@ -4,11 +4,11 @@ use maud::{Markup, html};
 use rigproof_diagnose::report::{EffectReport, Number, Report};
 use std::collections::BTreeMap;
 
-use crate::number::{percent, significant, with_unit};
+use crate::number::{percent, probability, significant, with_unit};
 use crate::words::{called_at, capital, look_for, plain_at, plain_cause};
 
-/// The named mechanisms, what is left unknown, and the nominal model's numbers; nothing where nothing was concluded.
-pub fn body(report: &Report) -> Option<Markup> {
+/// The named mechanisms, what is left unknown, and the nominal model's numbers; nothing where nothing was concluded. `if_off` says what their absence costs.
+pub fn body(report: &Report, if_off: Option<Markup>) -> Option<Markup> {
     report.floor.as_ref()?;
     let none: &[String] = &[];
     let rivals = report
@@ -19,6 +19,7 @@ pub fn body(report: &Report) -> Option<Markup> {
     Some(html! {
         @if report.effects.is_empty() { p { "No effect is named." } }
         @for (effect, rivals) in report.effects.iter().zip(rivals) { (one(effect, rivals)) }
+        @if let Some(if_off) = if_off { details #what-if { summary { "What if: switch a name off and see what is left over" } (if_off) } }
         (unknown(report))
         (stages(report))
         @if !report.nominal.is_empty() { details { summary { "What the model already had, after the fit" } (numbers("Numbers of the nominal model.", &report.nominal)) } }
@@ -30,24 +31,25 @@ fn one(effect: &EffectReport, rivals: &[String]) -> Markup {
     html! {
         div.effect {
             h3 { (capital(&plain_at(effect.mechanism, effect.joint))) }
-            p.soft { (capital(&called_at(effect.mechanism, effect.joint))) "; in files " code { (effect.mechanism) }
-                @if let Some(look) = look_for(effect.mechanism) { ". On the rig, look at: " (look) "." } }
-            div.equation role="math" { (effect.equation) }
+            p { strong { (capital(&probability(effect.probability))) } " probable. " span.soft { (capital(&called_at(effect.mechanism, effect.joint)))
+                @if let Some(look) = look_for(effect.mechanism) { ". On the rig, look at: " (look) } "." } }
             (numbers("Its numbers.", &effect.parameters))
             @if let Some(onset_s) = effect.onset_s { p { "It begins " strong { (with_unit(onset_s, "s")) } " after the first sample"
                 @if let (Some(low), Some(high)) = (effect.onset_low95_s, effect.onset_high95_s) { ", in 95 % of cases between " (with_unit(low, "s")) " and " (with_unit(high, "s")) } "." } }
-            p { @if rivals.is_empty() { "Everything else in the library that was tried in its place explains less." }
-                @else { "Would explain this recording as well in its place: " @for (k, rival) in rivals.iter().enumerate() { @if k > 0 { "; " } (plain_cause(rival)) " (" code { (rival) } ")" } "." } }
-            p.soft { "What would refute it: " (effect.refuted_by) "." }
+            @if !rivals.is_empty() { p { "Would explain this recording as well in its place: " @for (k, rival) in rivals.iter().enumerate() { @if k > 0 { "; " } (plain_cause(rival)) " (" code { (rival) } ")" } "." } }
+            details { summary { "Its equation, and what would refute it" }
+                div.equation role="math" { (effect.equation) }
+                p.soft { "In files it is called " code { (effect.mechanism) } ". What would refute it: " (effect.refuted_by) "."
+                    @if rivals.is_empty() { " Everything else in the library that was tried in its place explains less." } }
+            }
         }
     }
 }
 
 fn numbers(caption: &str, all: &BTreeMap<String, Number>) -> Markup {
     html! { @if !all.is_empty() {
-        div.scroll { table.grid {
-            caption { (caption) }
-            thead { tr { th scope="col" { "name" } th.number scope="col" { "value" } th scope="col" { "unit" } th scope="col" { "95 % interval" } } }
+        div.scroll { table.grid aria-label=(caption) {
+            thead { tr { th scope="col" { "number" } th.number scope="col" { "value" } th scope="col" { "unit" } th scope="col" { "95 % interval" } } }
             tbody { @for (name, number) in all { tr {
                 th scope="row" { (name.replace('_', " ")) }
                 td.number { (significant(number.value, 4)) }

@@ -1,128 +1,71 @@
 //! This file shows where the model goes wrong: when, at which joint, and in which kind of motion.
 
 use maud::{Markup, html};
-use rigproof_diagnose::Curves;
 use rigproof_diagnose::report::{Located, Report};
 
-use super::{counted, drawing, place};
-use crate::chart::{Axis, Chart, Curve, Span};
+use super::drawing;
 use crate::number::{percent, significant};
 
-/// Stretches of the time line.
-const STRETCHES: usize = 120;
-/// A stretch is unexplained when its residual is so many times the noise.
-const UNEXPLAINED: f64 = 2.0;
-
-/// Time line, drawing and heat map; nothing where nothing was concluded.
-pub fn body(report: &Report, curves: &Curves, charts: &mut Vec<Chart>) -> Option<Markup> {
-    if report.located.is_empty() && curves.window_time_s.is_empty() {
+/// Drawing, heat map and time line; nothing where nothing was concluded.
+pub fn body(report: &Report, when: Option<Markup>) -> Option<Markup> {
+    if report.located.is_empty() && when.is_none() {
         return None;
     }
-    let line = (!curves.window_time_s.is_empty()).then(|| time_line(curves));
     Some(html! {
         p.lead { (worst(report)) }
         @if report.plant == "rig" { (drawing::figure(report)) }
-        @if let Some((chart, caption)) = line { (place(charts, chart, &caption)) }
         (heat(report))
+        @if let Some(when) = when { (when) }
     })
 }
 
 /// Below this ratio no kind of motion stands out.
 const EVEN: f64 = 1.3;
 
-/// The regime that the report puts first in a sentence.
+/// Whether a regime is where the motion turns back: a resistance can have any size up to its level there, so little can be judged.
+fn is_reversal(regime: &str) -> bool {
+    regime.ends_with("of a reversal")
+}
+
+/// The regime that stands first where the model can be judged, in a sentence, and how much lies at reversals.
 fn worst(report: &Report) -> String {
-    let Some(first) = report.located.first() else {
+    let mut judged = report
+        .located
+        .iter()
+        .filter(|own| !is_reversal(&own.regime));
+    let Some(first) = judged.next() else {
         return "Nothing could be told apart by place.".to_owned();
     };
-    if ratio(first) < EVEN {
-        return "The old model fails about alike in every kind of motion: none stands out."
-            .to_owned();
+    let share = |own: &Located| {
+        format!(
+            "{} of what it cannot explain lies there, in {} of the time.",
+            percent(own.share),
+            percent(own.share_of_time)
+        )
+    };
+    let most = if ratio(first) < EVEN {
+        "The old model fails about alike in every kind of motion: none stands out.".to_owned()
+    } else {
+        let joint = first
+            .joint
+            .map_or_else(String::new, |joint| format!(" at joint {joint}"));
+        format!(
+            "The old model fails most{joint} in this kind of motion: {}. {}",
+            first.regime,
+            share(first)
+        )
+    };
+    let turning = report.located.iter().find(|own| is_reversal(&own.regime));
+    match turning {
+        Some(own) => format!("{most} At reversals: {}", share(own)),
+        None => most,
     }
-    let joint = first
-        .joint
-        .map_or_else(String::new, |joint| format!(" at joint {joint}"));
-    format!(
-        "The old model fails most{joint} in this kind of motion: {}. {} of what it cannot explain lies there, in {} of the time.",
-        first.regime,
-        percent(first.share),
-        percent(first.share_of_time),
-    )
-}
-
-/// How many times the noise the residual is, stretch by stretch.
-fn time_line(curves: &Curves) -> (Chart, Markup) {
-    let size = curves.window_time_s.len().div_ceil(STRETCHES).max(1);
-    let over = |values: &[f64]| -> Vec<f64> {
-        let rms = |part: &[f64]| {
-            let finite = part.iter().filter(|v| v.is_finite());
-            let (count, sum) =
-                finite.fold((0.0, 0.0), |(count, sum), v| (count + 1.0, sum + v * v));
-            if count > 0.0 {
-                (sum / count).sqrt() / curves.floor
-            } else {
-                f64::NAN
-            }
-        };
-        values.chunks(size).map(rms).collect()
-    };
-    let begins: Vec<f64> = curves
-        .window_time_s
-        .chunks(size)
-        .filter_map(|part| part.first().copied())
-        .collect();
-    let (before, after) = (
-        over(&counted(curves, &curves.residual_before)),
-        over(&counted(curves, &curves.residual_after)),
-    );
-    let last = curves.window_time_s.last().copied().unwrap_or(0.0);
-    let y = Axis {
-        label: "left over ÷ noise".to_owned(),
-        unit: "1".to_owned(),
-    };
-    let spans = unexplained(&begins, last, &before);
-    let marked = spans.iter().map(|span| span.to - span.from).sum::<f64>();
-    let whole = last - begins.first().copied().unwrap_or(0.0);
-    let curves = vec![
-        Curve::line("old model", "old", &before),
-        Curve::line("new model", "new", &after),
-    ];
-    let mut chart = Chart::over_time("time-line", "When", y, &begins, curves);
-    chart.spans = spans;
-    chart.height = 220;
-    chart.log_y = true;
-    chart.band = Some([0.0, 1.0]);
-    let caption = html! {
-        "What is left over, in units of what the sensors' noise alone would leave (green up to 1), on a logarithmic scale. Marked in yellow: stretches that the old model does not explain, "
-        (percent(if whole > 0.0 { marked / whole } else { 0.0 })) " of the fitted part. Gaps: at rest and where the motion turns back nothing can be told."
-    };
-    (chart, caption)
-}
-
-/// Neighbouring stretches that are unexplained, joined.
-fn unexplained(begins: &[f64], last: f64, ratios: &[f64]) -> Vec<Span> {
-    let mut spans: Vec<Span> = Vec::new();
-    let ends = begins.iter().skip(1).copied().chain([last]);
-    for ((from, to), ratio) in begins.iter().copied().zip(ends).zip(ratios) {
-        if ratio.is_nan() || *ratio <= UNEXPLAINED {
-            continue;
-        }
-        match spans.last_mut() {
-            Some(span) if span.to >= from => span.to = to,
-            _ => spans.push(Span {
-                from,
-                to,
-                role: "mark",
-            }),
-        }
-    }
-    spans
 }
 
 /// Kinds of motion that are shown; the rest is folded up.
-const ROWS: usize = 6;
+const ROWS: usize = 4;
 
-/// The heat map: a row a regime, the culprit first, and a column a joint where there are several.
+/// The heat map: a row a regime, the culprit first, and a column a joint where there are several; reversals stand apart.
 fn heat(report: &Report) -> Markup {
     let mut joints: Vec<Option<&str>> = Vec::new();
     let mut regimes: Vec<(&str, f64)> = Vec::new();
@@ -138,18 +81,34 @@ fn heat(report: &Report) -> Markup {
     }
     joints.sort_unstable_by_key(|joint| joint.map_or(9, |joint| "AEBC".find(joint).unwrap_or(8)));
     regimes.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let regimes: Vec<&str> = regimes.into_iter().map(|(name, _)| name).collect();
-    let (first, rest) = regimes.split_at(regimes.len().min(ROWS));
+    let names = regimes.into_iter().map(|(name, _)| name);
+    let (turning, mut judged): (Vec<&str>, Vec<&str>) = names.partition(|name| is_reversal(name));
+    // Beside its counterpart it is a row twice.
+    judged.retain(|name| turning.is_empty() || *name != "away from reversals");
+    let (first, rest) = judged.split_at(judged.len().min(ROWS));
+    let mut groups = vec![("", first)];
+    if !turning.is_empty() {
+        groups = vec![
+            ("Where the model can be judged", first),
+            ("At reversals, where little can be told", &turning),
+        ];
+    }
     html! {
         figure {
-            (regime_table("heat-map", report, &joints, first))
-            @if !rest.is_empty() { details { summary { "Other kinds of motion" } (regime_table("heat-map-rest", report, &joints, rest)) } }
+            (regime_table("heat-map", report, &joints, &groups))
+            @if !rest.is_empty() { details { summary { "Other kinds of motion" } (regime_table("heat-map-rest", report, &joints, &[("", rest)])) } }
             div.tools { button type="button" data-save-table="heat-map" aria-label="Save CSV: in which motion" { "Save CSV" } }
         }
     }
 }
 
-fn regime_table(id: &str, report: &Report, joints: &[Option<&str>], regimes: &[&str]) -> Markup {
+/// Regimes in groups, each with its name where there are several.
+fn regime_table(
+    id: &str,
+    report: &Report,
+    joints: &[Option<&str>],
+    groups: &[(&str, &[&str])],
+) -> Markup {
     let at = |regime: &str, joint: Option<&str>| {
         let mut all = report.located.iter();
         all.find(|p| p.regime == regime && p.joint == joint)
@@ -161,13 +120,16 @@ fn regime_table(id: &str, report: &Report, joints: &[Option<&str>], regimes: &[&
                 th scope="col" { "kind of motion" }
                 @for joint in joints { th scope="col" { @match joint { Some(joint) => { "joint " (joint) } None if joints.len() > 1 => "whole rig", None => "share" } } }
             } }
-            tbody { @for regime in regimes { tr {
-                th scope="row" { (regime) }
-                @for joint in joints { @match at(regime, *joint) {
-                    Some(place) => td.cell style={ "--share: " (format!("{:.2}", shade(place))) } { (percent(place.share)) " " small { "×" (significant(ratio(place), 2)) } },
-                    None => td { "–" },
+            @for (group, regimes) in groups { tbody {
+                @if !group.is_empty() { tr.group { th scope="rowgroup" colspan=(joints.len() + 1) { (group) } } }
+                @for regime in *regimes { tr {
+                    th scope="row" { (regime) }
+                    @for joint in joints { @match at(regime, *joint) {
+                        Some(place) => td.cell style={ "--share: " (format!("{:.2}", shade(place))) } { (percent(place.share)) " " small { "×" (significant(ratio(place), 2)) } },
+                        None => td { "–" },
+                    } }
                 } }
-            } } }
+            } }
         } }
     }
 }
@@ -214,20 +176,5 @@ mod tests {
         assert!(at(0.02, 0.01) > at(0.7, 0.5));
         assert_eq!(at(0.9, 0.1), 1.0);
         assert_eq!(at(0.0, 0.0), 0.0);
-    }
-
-    #[test]
-    fn neighbouring_stretches_are_one() {
-        let spans = unexplained(&[0.0, 1.5, 2.5, 4.0], 5.25, &[2.5, 3.1, 0.9, f64::NAN]);
-        assert_eq!(
-            spans,
-            [Span {
-                from: 0.0,
-                to: 2.5,
-                role: "mark"
-            }]
-        );
-        let last = unexplained(&[0.0, 1.5], 5.25, &[0.7, 2.6]);
-        assert_eq!(last[0].to, 5.25);
     }
 }

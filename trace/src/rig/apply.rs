@@ -5,13 +5,12 @@ use std::path::Path;
 use rigproof_spec::effect::Motion;
 use rigproof_spec::units::{Dimension, Unit};
 
-use super::column_unit::column_unit;
-use super::{ChannelMap, Plant, Rig, Servo, plausible};
+use super::signals::Recorded;
+use super::{ChannelMap, Plant, Rig, Servo};
 use crate::csv::{self, Dialect, Hints, Known, Text, TimeColumn};
 use crate::error::TraceError;
 use crate::mcap;
-use crate::series::{Channel, Trace};
-use crate::suggest::advice;
+use crate::series::Trace;
 
 /// A recording of a plant, in SI units; every signal is as long as `time_s`, NaN where a sample is missing.
 #[derive(Clone, Debug, PartialEq)]
@@ -111,7 +110,7 @@ impl Rig {
     ) -> Result<(Recording, Dialect, Vec<String>), TraceError> {
         let channels = &self.channels;
         let (time, hints) = (channels.time.as_ref(), hints.or(self.text));
-        read_applied(path, time, hints, &channels.maps(), |t| self.apply(t, path))
+        read_applied(path, time, hints, &channels.maps(), |t| self.taken(t, path))
     }
 
     /// Turns a recording into SI quantities; `origin` is the file that messages name.
@@ -119,21 +118,41 @@ impl Rig {
     /// # Errors
     /// A channel of the rig is missing, or its unit in the header does not convert to the rig's.
     pub fn apply(&self, trace: &Trace, origin: &Path) -> Result<Recording, TraceError> {
-        let signal = |map: &ChannelMap| signal(map, &self.name, trace, origin);
-        let optional = |map: &Option<ChannelMap>| map.as_ref().map(signal).transpose();
+        self.taken(trace.clone(), origin)
+    }
+
+    /// The same of a recording that nobody needs afterwards: its numbers are turned where they stand.
+    ///
+    /// # Errors
+    /// As [`Rig::apply`].
+    pub fn taken(&self, trace: Trace, origin: &Path) -> Result<Recording, TraceError> {
+        let channels = &self.channels;
+        let drive = match self.plant {
+            Plant::Axis => &channels.command,
+            Plant::Bench => &channels.current,
+        };
+        let others = [
+            drive,
+            &channels.enabled,
+            &channels.force,
+            &channels.simulated,
+        ];
+        let mut maps = vec![&channels.position];
+        maps.extend(others.into_iter().flatten());
+        let (time_s, mut recorded) = Recorded::of(trace, &maps, &self.name, origin);
+        let position = recorded.signal(&channels.position)?;
+        let mut optional =
+            |map: &Option<ChannelMap>| map.as_ref().map(|own| recorded.signal(own)).transpose();
         Ok(Recording {
             plant: self.plant,
             motion: self.motion,
-            time_s: trace.time_s.clone(),
-            position: signal(&self.channels.position)?,
-            drive: match self.plant {
-                Plant::Axis => optional(&self.channels.command)?,
-                Plant::Bench => optional(&self.channels.current)?,
-            },
-            enabled: optional(&self.channels.enabled)?,
+            time_s,
+            position,
+            drive: optional(drive)?,
+            enabled: optional(&channels.enabled)?,
             servo: self.servo.map(|servo| servo.of(&self.recordings, origin)),
-            force: optional(&self.channels.force)?,
-            simulated: optional(&self.channels.simulated)?,
+            force: optional(&channels.force)?,
+            simulated: optional(&channels.simulated)?,
         })
     }
 }
@@ -176,10 +195,10 @@ pub(super) fn read_applied<T>(
     time: Option<&TimeColumn>,
     hints: Hints,
     maps: &[&ChannelMap],
-    apply: impl Fn(&Trace) -> Result<T, TraceError>,
+    apply: impl Fn(Trace) -> Result<T, TraceError>,
 ) -> Result<(T, Dialect, Vec<String>), TraceError> {
     let (text, remarks) = read_text(path, time, hints, maps)?;
-    let applied = apply(&text.trace);
+    let applied = apply(text.trace);
     let applied = applied.map_err(|error| with_all_columns(path, time, hints, error, &apply))?;
     Ok((applied, text.dialect, remarks))
 }
@@ -190,7 +209,7 @@ fn with_all_columns<T>(
     time: Option<&TimeColumn>,
     hints: Hints,
     error: TraceError,
-    apply: impl Fn(&Trace) -> Result<T, TraceError>,
+    apply: impl Fn(Trace) -> Result<T, TraceError>,
 ) -> TraceError {
     let known = Known {
         time,
@@ -198,77 +217,13 @@ fn with_all_columns<T>(
         wanted: None,
     };
     let all = csv::read_text(path, &known).ok();
-    all.and_then(|all| apply(&all.trace).err()).unwrap_or(error)
-}
-
-/// One channel of a recording in SI units; `rig` is the name of the description.
-pub(super) fn signal(
-    map: &ChannelMap,
-    rig: &str,
-    trace: &Trace,
-    origin: &Path,
-) -> Result<Signal, TraceError> {
-    let refused = |problem: String| TraceError::recording(origin, problem);
-    let name = map.channel.as_str();
-    let Some(channel) = trace.channel(name) else {
-        let names: Vec<&str> = trace.channels.iter().map(|c| c.name.as_str()).collect();
-        let advice = advice(name, "channels of the recording", &names);
-        return Err(refused(format!(
-            "the channel `{name}` of the rig `{rig}` is missing: correct the rig file, or it is the recording of another plant; {advice}"
-        )));
-    };
-    let rig_unit = Unit::parse(&map.unit).ok_or_else(|| {
-        refused(format!(
-            "`{}`, the unit of `{name}` in the rig, is no known unit",
-            map.unit
-        ))
-    })?;
-    let column_unit = column_unit(map, rig_unit, rig, channel).map_err(refused)?;
-    let to_rig_unit = column_unit.to_si / rig_unit.to_si;
-    let in_rig_unit = channel.samples.iter().map(|x| x * to_rig_unit);
-    let in_rig_unit: Vec<f64> = in_rig_unit.collect();
-    if let Some(problem) = plausible::contradiction(map, &in_rig_unit) {
-        return Err(refused(problem));
-    }
-    let to_si = map.sign * map.scale * rig_unit.to_si;
-    let in_si = |magnitude: Option<f64>| magnitude.map(|x| x * to_si.abs());
-    Ok(Signal {
-        channel: name.to_string(),
-        dimension: rig_unit.dimension,
-        samples: in_rig_unit
-            .iter()
-            .map(|recorded| to_si * (recorded - map.offset))
-            .collect(),
-        quantum: in_si(map.quantum),
-        noise: in_si(map.noise),
-        limit: in_si(map.limit),
-    })
-}
-
-/// A signal in SI units as the channel has it in its file: what [`signal`] makes of it is the signal.
-pub(super) fn printed(
-    map: &ChannelMap,
-    samples: &[f64],
-    origin: &Path,
-) -> Result<Channel, TraceError> {
-    let unit = Unit::parse(&map.unit).ok_or_else(|| {
-        let problem = format!(
-            "`{}`, the unit of `{}` in the rig, is no known unit",
-            map.unit, map.channel
-        );
-        TraceError::recording(origin, problem)
-    })?;
-    let to_si = map.sign * map.scale * unit.to_si;
-    Ok(Channel {
-        name: map.channel.clone(),
-        unit: map.unit.clone(),
-        samples: samples.iter().map(|x| x / to_si + map.offset).collect(),
-    })
+    all.and_then(|all| apply(all.trace).err()).unwrap_or(error)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::series::Channel;
 
     const RIG: &str = r#"
         name = "slide"
@@ -310,27 +265,6 @@ mod tests {
         assert!((x.limit.unwrap() - 0.12).abs() < 1e-15);
         assert_eq!(recording.drive.unwrap().samples[0], 4.5);
         assert_eq!(recording.force, None);
-    }
-
-    #[test]
-    fn what_is_printed_reads_back() {
-        let rig = Rig::parse(RIG, Path::new("rig.toml")).unwrap();
-        let own = [0.0173, -0.0044];
-        let channel = printed(&rig.channels.position, &own, Path::new("run.csv")).unwrap();
-        let trace = Trace {
-            time_s: vec![0.1, 0.3],
-            channels: vec![channel],
-        };
-        let read = signal(
-            &rig.channels.position,
-            "slide",
-            &trace,
-            Path::new("run.csv"),
-        )
-        .unwrap();
-        for (read, own) in read.samples.iter().zip(own) {
-            assert!((read - own).abs() < 1e-17, "{read} {own}");
-        }
     }
 
     #[test]

@@ -6,8 +6,9 @@ use std::path::Path;
 use rigproof_spec::effect::Motion;
 use rigproof_spec::units::Dimension;
 
-use super::apply::{Signal, read_applied, signal, those};
+use super::apply::{Signal, read_applied, those};
 use super::read::{choice, read_channel, read_effect, read_provenance, read_time};
+use super::signals::Recorded;
 use super::table::{Source, Table};
 use super::write::{channel, effect_lines, provenance_lines, string, time_line};
 use super::{ChannelMap, RigEffect, SCHEMA_LINE, state_units, text};
@@ -183,7 +184,7 @@ impl ChainRig {
     ) -> Result<(ChainRecording, Dialect, Vec<String>), TraceError> {
         let time = self.time.as_ref();
         let hints = hints.or(self.text);
-        read_applied(path, time, hints, &self.maps(), |t| self.apply(t, path))
+        read_applied(path, time, hints, &self.maps(), |t| self.taken(t, path))
     }
 
     /// The description with the units that some columns are said to be in, whatever their headers say.
@@ -203,14 +204,24 @@ impl ChainRig {
     /// # Errors
     /// A channel of the rig is missing, or its unit in the header does not convert to the rig's.
     pub fn apply(&self, trace: &Trace, origin: &Path) -> Result<ChainRecording, TraceError> {
-        let of = |map: &ChannelMap| signal(map, &self.name, trace, origin);
+        self.taken(trace.clone(), origin)
+    }
+
+    /// The same of a recording that nobody needs afterwards: its numbers are turned where they stand.
+    ///
+    /// # Errors
+    /// As [`ChainRig::apply`].
+    pub fn taken(&self, trace: Trace, origin: &Path) -> Result<ChainRecording, TraceError> {
+        let (time_s, mut recorded) = Recorded::of(trace, &self.maps(), &self.name, origin);
         let joints = || self.joints.iter();
         Ok(ChainRecording {
-            time_s: trace.time_s.clone(),
+            time_s,
             position: joints()
-                .map(|j| of(&j.position))
+                .map(|j| recorded.signal(&j.position))
                 .collect::<Result<_, _>>()?,
-            effort: joints().map(|j| of(&j.effort)).collect::<Result<_, _>>()?,
+            effort: joints()
+                .map(|j| recorded.signal(&j.effort))
+                .collect::<Result<_, _>>()?,
         })
     }
 

@@ -9,8 +9,9 @@ use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
 use rigproof_spec::units::Dimension;
 
-use super::apply::{Signal, printed, read_applied, signal, those};
+use super::apply::{Signal, read_applied, those};
 use super::read::{choice, read_channel, read_effect, read_provenance, read_time};
+use super::signals::{Recorded, printed};
 use super::table::{Source, Table};
 use super::write::{channel, effect_lines, string, time_line};
 use super::{ChannelMap, Protocol, RigEffect, SCHEMA_LINE, state_units, text};
@@ -201,12 +202,16 @@ impl FiveBar {
         path: &Path,
         hints: &Hints,
     ) -> Result<(FiveBarRecording, Dialect, Vec<String>), TraceError> {
+        let time = self.channels.time.as_ref();
+        let hints = hints.or(self.text);
+        read_applied(path, time, hints, &self.maps(), |t| self.taken(t, path))
+    }
+
+    /// Every channel that is named.
+    fn maps(&self) -> Vec<&ChannelMap> {
         let channels = &self.channels;
         let measured = channels.theta.iter().chain(&channels.force);
-        let maps: Vec<&ChannelMap> = measured.chain(channels.currents.iter().flatten()).collect();
-        let time = channels.time.as_ref();
-        let hints = hints.or(self.text);
-        read_applied(path, time, hints, &maps, |t| self.apply(t, path))
+        measured.chain(channels.currents.iter().flatten()).collect()
     }
 
     /// The description with the units that some columns are said to be in, whatever their headers say.
@@ -227,14 +232,31 @@ impl FiveBar {
     /// # Errors
     /// A channel of the rig is missing, or its unit in the header does not convert to the rig's.
     pub fn apply(&self, trace: &Trace, origin: &Path) -> Result<FiveBarRecording, TraceError> {
-        let signal = |map: &ChannelMap| signal(map, &self.name, trace, origin);
-        let pair = |[first, second]: &[ChannelMap; 2]| Ok([signal(first)?, signal(second)?]);
-        let [a, e, b, c] = &self.channels.currents;
-        let current = |map: &Option<ChannelMap>| map.as_ref().map(signal).transpose();
+        self.taken(trace.clone(), origin)
+    }
+
+    /// The same of a recording that nobody needs afterwards: its numbers are turned where they stand.
+    ///
+    /// # Errors
+    /// As [`FiveBar::apply`].
+    pub fn taken(&self, trace: Trace, origin: &Path) -> Result<FiveBarRecording, TraceError> {
+        let FiveBarChannels {
+            theta,
+            force,
+            currents: [a, e, b, c],
+            ..
+        } = &self.channels;
+        let (time_s, mut recorded) = Recorded::of(trace, &self.maps(), &self.name, origin);
+        let mut pair = |[first, second]: &[ChannelMap; 2]| {
+            Ok::<_, TraceError>([recorded.signal(first)?, recorded.signal(second)?])
+        };
+        let (theta, force) = (pair(theta)?, pair(force)?);
+        let mut current =
+            |map: &Option<ChannelMap>| map.as_ref().map(|own| recorded.signal(own)).transpose();
         Ok(FiveBarRecording {
-            time_s: trace.time_s.clone(),
-            theta: pair(&self.channels.theta)?,
-            force: pair(&self.channels.force)?,
+            time_s,
+            theta,
+            force,
             currents: [current(a)?, current(e)?, current(b)?, current(c)?],
         })
     }

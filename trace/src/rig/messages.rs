@@ -21,7 +21,7 @@ impl Rig {
         let reading = mcap::read(path, &self.selection())?;
         let mut lines = reading.integrity.lines();
         lines.extend(reading.protocol);
-        Ok((self.apply(&reading.trace, path)?, lines))
+        Ok((self.taken(reading.trace, path)?, lines))
     }
 
     fn selection(&self) -> Selection {
@@ -48,7 +48,7 @@ impl FiveBar {
         let reading = mcap::read(path, &selected(measured, currents, &channels.time))?;
         let mut lines = reading.integrity.lines();
         lines.extend(reading.protocol);
-        Ok((self.apply(&reading.trace, path)?, lines))
+        Ok((self.taken(reading.trace, path)?, lines))
     }
 }
 
@@ -62,7 +62,7 @@ impl ChainRig {
         let reading = mcap::read(path, &selection)?;
         let mut lines = reading.integrity.lines();
         lines.extend(reading.protocol);
-        Ok((self.apply(&reading.trace, path)?, lines))
+        Ok((self.taken(reading.trace, path)?, lines))
     }
 }
 

@@ -6,6 +6,8 @@ use super::ChannelMap;
 const LEAST_SAMPLES: usize = 200;
 /// So many more values than steps of the stated resolution fit into their range cannot be.
 const MORE_VALUES: f64 = 20.0;
+/// Of so many samples the values are told apart: a long recording is not sorted, and not copied.
+const MOST_VALUES: usize = 1 << 20;
 /// How far the stated noise may exceed what third differences of the samples scatter: filtered noise hardly shows in them.
 const ABOVE_THIRD: f64 = 300.0;
 /// The same for first differences.
@@ -13,8 +15,8 @@ const ABOVE_FIRST: f64 = 20.0;
 
 /// What cannot be true of the resolution or the noise that a map states, with what the samples show, all in the unit of the map.
 pub(super) fn contradiction(map: &ChannelMap, samples: &[f64]) -> Option<String> {
-    let mut values: Vec<f64> = samples.iter().copied().filter(|x| x.is_finite()).collect();
-    if values.len() < LEAST_SAMPLES {
+    let seen = || samples.iter().copied().filter(|x| x.is_finite());
+    if seen().count() < LEAST_SAMPLES {
         return None;
     }
     let (name, unit) = (&map.channel, &map.unit);
@@ -29,7 +31,8 @@ pub(super) fn contradiction(map: &ChannelMap, samples: &[f64]) -> Option<String>
     });
     noise.or_else(|| {
         let quantum = map.quantum?;
-        values.sort_by(f64::total_cmp);
+        let mut values: Vec<f64> = seen().take(MOST_VALUES).collect();
+        values.sort_unstable_by(f64::total_cmp);
         let range = values.last()? - values.first()?;
         let bits = 1e-12 * values.last()?.abs().max(values.first()?.abs());
         values.dedup_by(|b, a| *b - *a <= bits);
@@ -47,22 +50,25 @@ pub(super) fn contradiction(map: &ChannelMap, samples: &[f64]) -> Option<String>
 
 /// The greatest noise that the samples leave possible; nothing where they never differ.
 fn scatter(samples: &[f64]) -> Option<f64> {
-    let differences = |samples: &[f64]| -> Vec<f64> {
-        let pairs = samples.windows(2);
-        pairs
-            .filter_map(|pair| Some(pair.get(1)? - pair.first()?))
-            .collect()
-    };
-    let first = differences(samples);
-    let third = differences(&differences(&first));
-    let rms = |values: &[f64]| {
-        let seen = || values.iter().filter(|x| x.is_finite());
-        (seen().map(|x| x * x).sum::<f64>() / seen().count().max(1) as f64).sqrt()
-    };
+    let first = samples.windows(2).filter_map(|own| match own {
+        [a, b] => Some(b - a),
+        _ => None,
+    });
+    let third = samples.windows(4).filter_map(|own| match own {
+        [a, b, c, d] => Some(((d - c) - (c - b)) - ((c - b) - (b - a))),
+        _ => None,
+    });
     // White noise makes first differences of twice its variance, third ones of twenty times.
-    let (by_first, by_third) = (rms(&first) / 2f64.sqrt(), rms(&third) / 20f64.sqrt());
+    let (by_first, by_third) = (rms(first) / 2f64.sqrt(), rms(third) / 20f64.sqrt());
     let most = (ABOVE_FIRST * by_first).min(ABOVE_THIRD * by_third);
     (most > 0.0).then_some(most)
+}
+
+/// The root mean square of the values that are there.
+fn rms(values: impl Iterator<Item = f64>) -> f64 {
+    let seen = values.filter(|x| x.is_finite());
+    let (count, sum) = seen.fold((0_usize, 0.0), |(count, sum), x| (count + 1, sum + x * x));
+    (sum / count.max(1) as f64).sqrt()
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@
     reason = "a member of a JSON object that was made here is set"
 )]
 
-mod shape;
+pub mod shape;
 mod tables;
 
 use rigproof_spec::joint::Joint;

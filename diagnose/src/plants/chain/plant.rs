@@ -125,8 +125,8 @@ impl Described for ChainRig {
         beside(self)
     }
 
-    fn measured(&self, trace: &Trace, origin: &Path) -> Result<ChainRecording, TraceError> {
-        self.apply(trace, origin)
+    fn measured(&self, trace: Trace, origin: &Path) -> Result<ChainRecording, TraceError> {
+        self.taken(trace, origin)
     }
 
     fn in_units(&self, units: &[(String, String)]) -> Result<ChainRig, String> {

@@ -147,8 +147,8 @@ impl Described for FiveBar {
         self.to_toml()
     }
 
-    fn measured(&self, trace: &Trace, origin: &Path) -> Result<FiveBarRecording, TraceError> {
-        self.apply(trace, origin)
+    fn measured(&self, trace: Trace, origin: &Path) -> Result<FiveBarRecording, TraceError> {
+        self.taken(trace, origin)
     }
 
     fn in_units(&self, units: &[(String, String)]) -> Result<FiveBar, String> {

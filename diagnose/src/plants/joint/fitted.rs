@@ -230,6 +230,7 @@ impl Stand<'_, Rig> {
             window_counts: self.problem.windows.usable.clone(),
             residual_before: self.selection.before.residual.clone(),
             residual_after: self.selection.after.residual.clone(),
+            contributed: self.contributed(<[f64]>::to_vec),
             floor: self.problem.floor,
             residual_unit: Quantity::Effort.dimension(self.plant.motion).to_string(),
         }

@@ -156,8 +156,8 @@ impl Described for Rig {
         self.to_toml()
     }
 
-    fn measured(&self, trace: &Trace, origin: &Path) -> Result<Recording, TraceError> {
-        self.apply(trace, origin)
+    fn measured(&self, trace: Trace, origin: &Path) -> Result<Recording, TraceError> {
+        self.taken(trace, origin)
     }
 
     fn in_units(&self, units: &[(String, String)]) -> Result<Rig, String> {

@@ -113,12 +113,31 @@ fn dry_friction_left_out_is_named_measured_and_shown() {
         assert!(rivals.iter().all(|r| *r == "presliding"), "{rivals:?}");
         let level = &diagnosis.report.effects[0].parameters["level"];
         assert!((level.value / 1.73 - 1.0).abs() < 0.02, "{} N", level.value);
-        let fit = diagnosis.report.fit.unwrap();
+        let fit = diagnosis.report.fit.as_ref().unwrap();
         let held_out = fit.held_out.unwrap();
         assert!(
             fit.improved && held_out.after < 0.1 * held_out.before,
             "{held_out:?}"
         );
+        // Where windows count it is the level to either side, and the old model lacks it with its sign.
+        let curves = &diagnosis.curves;
+        let [own] = curves.contributed.as_slice() else {
+            panic!("{:?}", curves.contributed);
+        };
+        assert_eq!(own.name, "dry_offset");
+        let windows = own.effort.iter().zip(&curves.residual_before);
+        let counted = windows.zip(&curves.window_counts).filter(|(_, c)| **c);
+        let counted: Vec<(&f64, &f64)> = counted.map(|(pair, _)| pair).collect();
+        assert!(
+            counted
+                .iter()
+                .all(|(effort, _)| (effort.abs() / level.value - 1.0).abs() < 0.03)
+        );
+        let together: f64 = counted
+            .iter()
+            .map(|(effort, before)| *effort * *before)
+            .sum();
+        assert!(counted.len() > 100 && together > 0.0, "{together}");
     }
 }
 
