@@ -1,5 +1,7 @@
 //! This file reads `certify.toml`: the controller, the baseline, the layouts and the limits. What it does not know it refuses.
 
+mod asked;
+
 use std::path::Path;
 
 use rigproof_spec::methods::{BLEND_BOUNDARY_M, Method};
@@ -11,11 +13,13 @@ use rigproof_trace::TraceError;
 use rigproof_trace::rig::table::{Source, Table};
 use rigproof_trace::suggest::advice;
 
+use self::asked::{least_met, requirements};
 use crate::built_in::{BuiltIn, Kind};
 use crate::controller::Task;
 use crate::declared::{Choice, Declared, EVERY, Solid};
 use crate::metrics::{METRICS, Metric};
 use crate::recordings::expected::{Expected, path};
+use crate::requirement::Asked;
 use crate::scenario::Rig;
 
 /// What a description says.
@@ -37,6 +41,10 @@ pub struct Description {
     pub limits: [Option<f64>; METRICS],
     /// By how much the mean may be worse than the baseline's.
     pub regressions: [Option<f64>; METRICS],
+    /// In how many trials the premise of every law has to be met at least; `None` for what [`crate::plan::least_met`] says.
+    pub least_met: Option<u64>,
+    /// What the laboratory asks for, in its own words.
+    pub requirements: Vec<Asked>,
     /// The path that the rig kept to in recordings that are replayed.
     pub path: Option<Task>,
     /// Which differences of their commands are meant.
@@ -89,6 +97,8 @@ impl Description {
             "reference_every",
             "limits",
             "regressions",
+            "coverage",
+            "requirement",
             "path",
             "expected",
         ])?;
@@ -126,6 +136,8 @@ impl Description {
             rigs,
             limits: metrics("limits")?,
             regressions: metrics("regressions")?,
+            least_met: least_met(&root)?,
+            requirements: requirements(&root)?,
             path: root.table("path")?.map(|table| path(&table)).transpose()?,
             expected: root
                 .table("expected")?
