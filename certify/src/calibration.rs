@@ -210,11 +210,11 @@ mod tests {
     #[test]
     fn what_the_plant_does_not_have_is_refused_by_name() {
         let refused = calibration(
-            "[[effect]]\nmechanism = \"dead_time\"\njoint = \"A\"\ndelay = { value = 0.003, unit = \"s\", status = \"unknown\" }\n",
+            "[[effect]]\nmechanism = \"thermal_fade\"\njoint = \"A\"\nper_joule = { value = 0.003, unit = \"1/J\", status = \"unknown\" }\ncooling = { value = 30, unit = \"s\", status = \"unknown\" }\n",
         );
         let refused = refused.unwrap_err();
         assert!(
-            refused.contains("no `dead_time` at joint A") && refused.contains("viscous"),
+            refused.contains("no `thermal_fade` at joint A") && refused.contains("viscous"),
             "{refused}"
         );
         let spring = calibration(

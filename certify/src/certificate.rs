@@ -1,21 +1,28 @@
 //! This file is the certificate: what was run, how it fared, what was proved, tested and not looked at; a changed byte is refused.
 
+mod reasons;
+
 use std::path::Path;
 
+use rigproof_spec::methods::BLEND_BOUNDARY_M;
 use serde::{Deserialize, Serialize};
 
+use self::reasons::reasons;
+use crate::cluster::{Cluster, clusters};
 use crate::digest;
 use crate::error::Error;
 use crate::finding::Named;
 use crate::journal::Chunks;
+use crate::metrics::Metric;
 use crate::plan::{FORM, Plan};
 use crate::proved::{Ledger, Proved, proved};
 use crate::record::Record;
+use crate::requirement::{self, Requirement};
 use crate::search::NamedWorst;
 use crate::shape;
 use crate::summary::{
-    Ended, LawSummary, MetricSummary, NotLookedAt, TieSummary, ended, laws, metrics, not_looked_at,
-    ties,
+    Ended, LawSummary, MetricSummary, NotLookedAt, TieSummary, Visited, ended, laws, metrics,
+    not_looked_at, ties, visited,
 };
 use crate::tool::Tool;
 
@@ -50,6 +57,10 @@ pub struct Certificate {
     pub samples: u64,
     /// Tested: how every law fared.
     pub laws: Vec<LawSummary>,
+    /// Tested: what is asked for, with what stands for it and how that fared.
+    pub requirements: Vec<Requirement>,
+    /// Tested: in which parts of workspace, speed, force and fault samples lay.
+    pub visited: Visited,
     /// Tested: the samples in which the reference may decide otherwise, by why.
     pub ties: Vec<TieSummary>,
     /// Tested: the metrics.
@@ -62,6 +73,8 @@ pub struct Certificate {
     pub not_looked_at: Vec<NotLookedAt>,
     /// What broke a law, in files beside this one.
     pub findings: Vec<Named>,
+    /// What the trials that broke a law have in common, the most frequent first.
+    pub clusters: Vec<Cluster>,
     /// The first 16 digits of the SHA-256 of the records of every chunk of scenarios, in their order.
     pub chunks: Vec<String>,
     /// The SHA-256 of this file with nothing between these quotes.
@@ -140,25 +153,40 @@ impl Certificate {
             ended: ended(plan, &records),
             samples: records.iter().map(|record| u64::from(record.ticks)).sum(),
             laws: laws(plan, &records),
+            requirements: Vec::new(),
+            visited: visited(&records),
             ties: ties(&records),
             metrics: metrics(plan, &records),
             worst,
             proved: proved(&plan.controller)?,
             not_looked_at: not_looked_at(plan),
             findings,
+            clusters: clusters(plan, &records),
             chunks: digests,
             digest: String::new(),
         };
         certificate.sealed()
     }
 
-    /// With everything computed anew that follows from its plan, its figures and the hashes of its records: verdict, hashes and digest. That anybody can do;
+    /// With the examples of its clusters.
+    ///
+    /// # Errors
+    /// It cannot be written as JSON.
+    pub fn with_examples(mut self, examples: Vec<Option<Named>>) -> Result<Certificate, Error> {
+        for (cluster, example) in self.clusters.iter_mut().zip(examples) {
+            cluster.example = example;
+        }
+        self.sealed()
+    }
+
+    /// With everything computed anew that follows from its plan, its figures and the hashes of its records: requirements, verdict, hashes and digest. That anybody can do;
     /// what it says is true only if its scenarios come to it when they are run again ([`crate::recheck`]).
     ///
     /// # Errors
     /// It cannot be written as JSON.
     pub fn sealed(mut self) -> Result<Certificate, Error> {
-        self.reasons = reasons(&self.laws, &self.ties, &self.findings, &self.metrics);
+        self.requirements = requirement::table(&self.plan, &self.laws, &self.metrics);
+        self.reasons = self.own_reasons();
         self.may_go_on_the_rig = self.reasons.is_empty();
         self.sha256 = Hashes::of(&self.plan, &self.chunks)?;
         self.digest = self.own_digest()?;
@@ -217,9 +245,12 @@ impl Certificate {
                 "the hashes of controller, rig, plan or records do not follow from it".to_owned(),
             ));
         }
-        if reasons(&read.laws, &read.ties, &read.findings, &read.metrics) != read.reasons
-            || read.may_go_on_the_rig != read.reasons.is_empty()
-        {
+        if requirement::table(&read.plan, &read.laws, &read.metrics) != read.requirements {
+            return Err(refused(
+                "its table of requirements does not follow from its figures".to_owned(),
+            ));
+        }
+        if read.own_reasons() != read.reasons || read.may_go_on_the_rig != read.reasons.is_empty() {
             return Err(refused(
                 "its verdict does not follow from its figures".to_owned(),
             ));
@@ -234,7 +265,35 @@ impl Certificate {
 
     /// Whether it may go on the rig, by its figures.
     pub fn may_go(&self) -> bool {
-        reasons(&self.laws, &self.ties, &self.findings, &self.metrics).is_empty()
+        self.own_reasons().is_empty()
+    }
+
+    fn own_reasons(&self) -> Vec<String> {
+        reasons(
+            &self.laws,
+            &self.ties,
+            &self.findings,
+            &self.metrics,
+            &self.requirements,
+        )
+    }
+
+    /// What a person is to look at although it is no reason against, a sentence each: a trial far off the path.
+    pub fn cautions(&self) -> Vec<String> {
+        let own = self
+            .metrics
+            .iter()
+            .find(|own| own.metric == Metric::PathError);
+        let greatest = own.and_then(|own| Some((own.controller?.greatest, own.worst_scenario?)));
+        let far = greatest.filter(|(error_m, _)| *error_m > BLEND_BOUNDARY_M);
+        let sentence = |(error_m, index): (f64, u64)| {
+            format!(
+                "in trial {index} the tip was {:.0} mm off the path in the mean, beyond the {:.0} mm at which the velocity field points straight back to it",
+                1e3 * error_m,
+                1e3 * BLEND_BOUNDARY_M
+            )
+        };
+        far.map(sentence).into_iter().collect()
     }
 
     /// How what it calls proved lies to this program's ledger.
@@ -244,48 +303,4 @@ impl Certificate {
     pub fn ledger(&self) -> Result<Ledger, Error> {
         Ok(self.proved.beside(&proved(&self.plan.controller)?))
     }
-}
-
-/// Why a controller must not go on the rig.
-fn reasons(
-    laws: &[LawSummary],
-    ties: &[TieSummary],
-    findings: &[Named],
-    metrics: &[MetricSummary],
-) -> Vec<String> {
-    let mut reasons = Vec::new();
-    for law in laws {
-        let name = law.law.name();
-        if let Some(first) = law.first_broken {
-            let count = law.broken_in;
-            reasons.push(format!(
-                "the law {name} is broken in {count} scenarios, first in scenario {first}: {}",
-                law.words
-            ));
-        } else if law.samples == 0 {
-            reasons.push(format!(
-                "the law {name} was held against no sample: run more or longer scenarios, or declare less"
-            ));
-        }
-    }
-    for tie in ties.iter().filter(|tie| tie.trials > tie.most) {
-        let (name, trials, most) = (tie.tie.name(), tie.trials, tie.most);
-        reasons.push(format!(
-            "beside the reference {trials} trials have ties of the kind {name}, where at most {most} may: {}",
-            tie.words
-        ));
-    }
-    for found in findings {
-        let Some(target) = found.searched else {
-            continue;
-        };
-        let (name, target, file) = (found.law.name(), target.name(), &found.file);
-        let words = found.law.words();
-        reasons.push(format!(
-            "the law {name} is broken in a scenario that the search for a worse {target} met, {file}: {words}"
-        ));
-    }
-    let beyond = metrics.iter().flat_map(|metric| &metric.beyond);
-    reasons.extend(beyond.map(|beyond| beyond.words.clone()));
-    reasons
 }

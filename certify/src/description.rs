@@ -1,5 +1,6 @@
 //! This file reads `certify.toml`: the controller, the baseline, the layouts and the limits. What it does not know it refuses.
 
+mod asked;
 pub mod schema;
 
 use std::path::Path;
@@ -13,11 +14,13 @@ use rigproof_trace::TraceError;
 use rigproof_trace::rig::table::{Source, Table};
 use rigproof_trace::suggest::advice;
 
+use self::asked::{least_met, requirements};
 use crate::built_in::{BuiltIn, Kind};
 use crate::controller::Task;
 use crate::declared::{Choice, Declared, EVERY, Solid};
 use crate::metrics::{METRICS, Metric};
 use crate::recordings::expected::{Expected, path};
+use crate::requirement::Asked;
 use crate::scenario::Rig;
 
 /// What a description says.
@@ -39,6 +42,10 @@ pub struct Description {
     pub limits: [Option<f64>; METRICS],
     /// By how much the mean may be worse than the baseline's.
     pub regressions: [Option<f64>; METRICS],
+    /// In how many trials the premise of every law has to be met at least; `None` for what [`crate::plan::least_met`] says.
+    pub least_met: Option<u64>,
+    /// What the laboratory asks for, in its own words.
+    pub requirements: Vec<Asked>,
     /// The path that the rig kept to in recordings that are replayed.
     pub path: Option<Task>,
     /// Which differences of their commands are meant.
@@ -108,6 +115,8 @@ impl Description {
             "reference_every",
             "limits",
             "regressions",
+            "coverage",
+            "requirement",
             "path",
             "expected",
         ])?;
@@ -142,6 +151,8 @@ impl Description {
             rigs,
             limits: metrics("limits")?,
             regressions: metrics("regressions")?,
+            least_met: least_met(&root)?,
+            requirements: requirements(&root)?,
             path: root.table("path")?.map(|table| path(&table)).transpose()?,
             expected: root
                 .table("expected")?

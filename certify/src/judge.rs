@@ -16,6 +16,7 @@ use rigproof_spec::layout::Layout;
 use rigproof_spec::tables::GREATEST_CURRENT_A;
 
 use crate::controller::Task;
+use crate::coverage::{Cell, Covered};
 use crate::declared::Declared;
 use crate::differential::tie::Ties;
 use crate::law::{Fared, LAWS, Law};
@@ -37,6 +38,8 @@ pub struct Judge {
     seen: Seen,
     /// How every law fared, in the order of [`Law::ALL`].
     pub fared: [Fared; LAWS],
+    /// Where their premises were met.
+    pub covered: Covered,
     /// The last command before a fault, A.
     held_a: [f64; 4],
     /// Samples since the fault began.
@@ -64,6 +67,7 @@ impl Judge {
             behaviour: Behaviour::new(settings.layout, declared, way),
             seen: Seen::new(settings)?,
             fared: [Fared::default(); LAWS],
+            covered: Covered::default(),
             held_a: [0.0; 4],
             faulty: 0,
             has_let_go: false,
@@ -87,9 +91,20 @@ impl Judge {
         &mut self.fared[law as usize]
     }
 
-    /// Counts a sample of a law.
+    /// Counts a sample of a law whose premise is met.
     pub fn add(&mut self, law: Law, tick: u32, margin: Margin) {
+        self.add_if(law, tick, margin, true);
+    }
+
+    /// Counts a sample of a law, and where it lies if the law's premise is met in it.
+    fn add_if(&mut self, law: Law, tick: u32, margin: Margin, is_met: bool) {
         self.of(law).add(tick, margin);
+        self.covered.judged(law, margin, is_met);
+    }
+
+    /// The next sample lies in this cell.
+    pub fn at(&mut self, cell: Cell) {
+        self.covered.next(cell);
     }
 
     /// Judges the currents, A, of a sample that is faulty or not.
@@ -105,9 +120,11 @@ impl Judge {
         let within = currents_a.into_iter().fold(Margin(f64::MAX), limit);
         self.add(Law::CurrentLimit, tick, within);
         let layout = self.layout;
-        self.add(Law::BrakedJoints, tick, braked_joints(layout, &command));
-        if let Some(margin) = self.behaviour.count(&command) {
-            self.add(Law::BrakeCount, tick, margin);
+        let has_bare = layout.brakes().len() < Joint::ALL.len();
+        let of_joints = braked_joints(layout, &command);
+        self.add_if(Law::BrakedJoints, tick, of_joints, has_bare);
+        if let Some((margin, is_met)) = self.behaviour.count(&command) {
+            self.add_if(Law::BrakeCount, tick, margin, is_met);
         }
         if is_faulty {
             self.faulty += 1;
@@ -132,14 +149,16 @@ impl Judge {
             {
                 self.add(Law::Reference, tick, margin);
             }
-            let fared = &mut self.fared;
-            self.behaviour.judge(&situation, &command, |law, margin| {
+            let (fared, covered) = (&mut self.fared, &mut self.covered);
+            let judged = |law: Law, margin: Margin, is_met: bool| {
                 #[expect(
                     clippy::indexing_slicing,
                     reason = "a law's number is below their count"
                 )]
                 fared[law as usize].add(tick, margin);
-            });
+                covered.judged(law, margin, is_met);
+            };
+            self.behaviour.judge(&situation, &command, judged);
         }
     }
 
@@ -147,10 +166,14 @@ impl Judge {
     pub fn step(&mut self, tick: u32, plant: &Plant, force_n: [f64; 2], from_m: Vector<f64>) {
         let brakes = plant.brake_torques_nm().into_iter();
         let each = brakes.zip(plant.joint_rates_rad_s());
-        let taken = each.fold(Margin(f64::MAX), |margin, (torque_nm, rate_rad_s)| {
-            margin.and(dissipation(torque_nm, rate_rad_s))
-        });
-        self.add(Law::Dissipation, tick, taken);
+        let none = (Margin(f64::MAX), false);
+        let (taken, is_turning) =
+            each.fold(none, |(margin, is_turning), (torque_nm, rate_rad_s)| {
+                let turns = torque_nm * rate_rad_s != 0.0;
+                let margin = margin.and(dissipation(torque_nm, rate_rad_s));
+                (margin, is_turning || turns)
+            });
+        self.add_if(Law::Dissipation, tick, taken, is_turning);
         let Some(start_j) = self.start_j else { return };
         self.work_j += Vector::from(force_n).dot(plant.tip_m() - from_m);
         let stored_j = plant.kinetic_energy_j() - start_j;

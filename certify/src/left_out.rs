@@ -1,8 +1,12 @@
 //! This file puts physics that the thesis leaves out into the fixed-step plant and its sensors.
 
+mod drive;
+mod refused;
+
 use rigproof_impl::plant::Parameters;
 use rigproof_impl::plant::effect::{Asked, Law};
 use rigproof_impl::vector::Vector;
+use rigproof_model::brake::slowed;
 use rigproof_model::effects::facts::{AtRest, Family};
 use rigproof_model::effects::{Drive, Form, OfBrake, OfLinkage, OfSensor, entry, form, law};
 use rigproof_model::motion::added_mass;
@@ -11,6 +15,9 @@ use rigproof_spec::joint::Joint;
 use rigproof_spec::tables::BrakeTable;
 use rigproof_spec::units::deg_from_rad;
 use serde::{Deserialize, Serialize};
+
+pub use drive::Amplifiers;
+pub use refused::{runs, why_not};
 
 /// A mechanism of the library with its numbers, in the vocabulary's order and units, at a joint or of the whole rig.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -73,6 +80,8 @@ pub enum Role {
     Resistance,
     /// The numbers of a brake.
     Brake,
+    /// What a brake gets of a command.
+    Drive,
     /// Masses.
     Masses,
     /// What an encoder says.
@@ -84,7 +93,10 @@ pub enum Role {
 impl Role {
     /// Whether it acts at a joint.
     pub const fn needs_joint(self) -> bool {
-        matches!(self, Role::Resistance | Role::Brake | Role::Encoder)
+        matches!(
+            self,
+            Role::Resistance | Role::Brake | Role::Drive | Role::Encoder
+        )
     }
 }
 
@@ -95,24 +107,27 @@ pub fn role(mechanism: Mechanism) -> Option<Role> {
             let numbers = vec![1.0; mechanism.needed()];
             Law::new(mechanism, &numbers).map(|_| Role::Resistance)
         }
-        Form::Drive(Drive::Gain) | Form::Brake(OfBrake::BacklashWidth) => Some(Role::Brake),
-        Form::Linkage(OfLinkage::Payload | OfLinkage::Inertias) => Some(Role::Masses),
-        Form::Sensor(OfSensor::EncoderScale | OfSensor::EncoderOffset) => Some(Role::Encoder),
-        Form::Sensor(OfSensor::ForceGain | OfSensor::ForceBias) => Some(Role::Force),
-        Form::Drive(Drive::Lag | Drive::Skew | Drive::Limit)
-        | Form::Joint(_)
-        | Form::Brake(
+        Form::Drive(Drive::Gain) | Form::Brake(OfBrake::BacklashWidth | OfBrake::TimeConstant) => {
+            Some(Role::Brake)
+        }
+        Form::Brake(
             OfBrake::CurrentHysteresis
             | OfBrake::DeadTime
             | OfBrake::Saturation
-            | OfBrake::ThermalFade
-            | OfBrake::TimeConstant
             | OfBrake::CurrentGain,
-        )
+        ) => Some(Role::Drive),
+        Form::Linkage(OfLinkage::Payload | OfLinkage::Inertias) => Some(Role::Masses),
+        Form::Sensor(OfSensor::EncoderScale | OfSensor::EncoderOffset) => Some(Role::Encoder),
+        Form::Sensor(OfSensor::ForceGain | OfSensor::ForceBias | OfSensor::ForceRotation) => {
+            Some(Role::Force)
+        }
+        Form::Drive(Drive::Lag | Drive::Skew | Drive::Limit)
+        | Form::Joint(_)
+        | Form::Brake(OfBrake::ThermalFade)
         | Form::Linkage(
             OfLinkage::Load | OfLinkage::Weight | OfLinkage::PlaneSpring | OfLinkage::LinkLength,
         )
-        | Form::Sensor(OfSensor::ForceRotation | OfSensor::Eccentric) => None,
+        | Form::Sensor(OfSensor::Eccentric) => None,
     }
 }
 
@@ -126,7 +141,7 @@ impl LeftOut {
         match role(self.mechanism) {
             None => false,
             Some(Role::Resistance) => self.is_passive_resistance().unwrap_or(false),
-            Some(Role::Brake | Role::Masses | Role::Encoder | Role::Force) => true,
+            Some(Role::Brake | Role::Drive | Role::Masses | Role::Encoder | Role::Force) => true,
         }
     }
 
@@ -158,6 +173,10 @@ impl LeftOut {
     pub fn shown_n(&self, force_n: Vector<f64>) -> Vector<f64> {
         match form(self.mechanism) {
             Some(Form::Sensor(OfSensor::ForceGain)) => force_n * (1.0 + self.number(0)),
+            Some(Form::Sensor(OfSensor::ForceRotation)) => {
+                let (sine, cosine) = libm::sincos(self.number(0));
+                force_n * cosine + force_n.left() * sine
+            }
             Some(Form::Sensor(OfSensor::ForceBias)) => {
                 force_n + Vector::new(self.number(0), self.number(1))
             }
@@ -189,8 +208,13 @@ pub fn change(parameters: &mut Parameters, left_out: &[LeftOut]) -> Option<()> {
                 let table = parameters.brakes.get_mut(one.joint? as usize)?.as_mut()?;
                 match form(one.mechanism)? {
                     Form::Drive(_) => scale_torque(table, 1.0 + one.number(0)),
+                    Form::Brake(OfBrake::TimeConstant) => *table = slowed(*table, one.number(0)),
                     _ => table.backlash_width_deg = deg_from_rad(one.number(0)),
                 }
+            }
+            Role::Drive => {
+                parameters.brakes.get(one.joint? as usize)?.as_ref()?;
+                is_drive(one).then_some(())?;
             }
             Role::Masses => {
                 let more = match form(one.mechanism)? {
@@ -213,6 +237,17 @@ pub fn change(parameters: &mut Parameters, left_out: &[LeftOut]) -> Option<()> {
         }
     }
     Some(())
+}
+
+/// Whether a command can be so late, multiplied, cut or held back.
+fn is_drive(one: &LeftOut) -> bool {
+    match form(one.mechanism) {
+        Some(Form::Brake(OfBrake::DeadTime)) => (0.0..=drive::LONGEST_S).contains(&one.number(0)),
+        Some(Form::Brake(OfBrake::CurrentHysteresis)) => {
+            one.number(1) > 0.0 && one.number(2) >= 0.0
+        }
+        _ => one.number(0) > 0.0,
+    }
 }
 
 /// Makes a brake's torque greater by a factor, with and without current.

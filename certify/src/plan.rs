@@ -11,10 +11,11 @@ use crate::error::Error;
 use crate::foreign::Limits;
 use crate::law::Law;
 use crate::metrics::METRICS;
+use crate::requirement::Asked;
 use crate::scenario::{Rig, Scenario};
 
 /// The form of plans, journals and certificates; another form is another number.
-pub const FORM: u32 = 4;
+pub const FORM: u32 = 5;
 
 /// What a campaign runs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -44,6 +45,10 @@ pub struct Plan {
     pub limits: [Option<f64>; METRICS],
     /// By how much the mean may be worse than the baseline's.
     pub regressions: [Option<f64>; METRICS],
+    /// In how many trials the premise of every law has to be met at least.
+    pub least_met: u64,
+    /// What the laboratory asks for, in its own words.
+    pub requirements: Vec<Asked>,
 }
 
 /// A controller and what it says of itself.
@@ -109,6 +114,11 @@ pub struct Sources<'a> {
     pub baseline: Option<&'a dyn Source>,
 }
 
+/// In how many of so many trials the premise of a law has to be met, unless a description says otherwise: one in a hundred.
+pub const fn least_met(scenarios: u64) -> u64 {
+    scenarios.div_ceil(100)
+}
+
 impl Plan {
     /// The scenario of an index.
     pub fn scenario(&self, index: u64) -> Scenario {
@@ -129,6 +139,9 @@ impl Plan {
             Law::Passivity if !is_passive => Some(
                 "the calibration names what stores energy or gives it, which the rig's motion does not tell",
             ),
+            Law::BrakedJoints if self.rigs == [Rig::FourBrake] => {
+                Some("every joint of the 4-brake layout has a brake")
+            }
             law => law.not_looked_at(&self.controller.declared),
         }
     }

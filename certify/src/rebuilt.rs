@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::certificate::{Certificate, records};
+use crate::cluster::{self, Cluster, MOST};
 use crate::digest;
 use crate::error::Error;
 use crate::finding::{Finding, Named};
@@ -12,7 +13,6 @@ use crate::plan::Sources;
 use crate::record::Record;
 use crate::search::{Worst, search, targets};
 use crate::summary::{self, LawSummary, MetricSummary};
-use crate::trial::Ending;
 
 impl Certificate {
     /// The figures that do not come out of the records of all its scenarios, a sentence each.
@@ -42,6 +42,15 @@ impl Certificate {
                 same(&own.samples, &self.samples),
             ),
             ("the ties beside the reference", same(&own.ties, &self.ties)),
+            (
+                "what the trials that broke a law have in common",
+                same(&own.clusters, &bare(&self.clusters)),
+            ),
+            ("which cells it visited", same(&own.visited, &self.visited)),
+            (
+                "its table of requirements",
+                same(&own.requirements, &self.requirements),
+            ),
             ("the hashes of its records", same(&own.chunks, &self.chunks)),
             ("its reasons", same(&own.reasons, &self.reasons)),
         ];
@@ -86,7 +95,14 @@ impl Certificate {
         let found: Vec<Named> = found.iter().map(Finding::named).collect::<Result<_, _>>()?;
         let worst = searched.worst.iter().map(Worst::named);
         let worst: Vec<_> = worst.collect::<Result<_, _>>()?;
+        let examples = cluster::examples(&self.plan, sources.controller, &self.clusters)?;
+        let examples = cluster::named(&examples)?;
+        let said: Vec<_> = self.clusters.iter().map(|own| &own.example).collect();
         let both = [
+            (
+                "examples",
+                same(&examples.iter().collect::<Vec<_>>(), &said),
+            ),
             ("findings", same(&found, &self.findings)),
             ("worse cases", same(&worst, &self.worst)),
         ];
@@ -110,19 +126,27 @@ impl Certificate {
                 self.samples
             ));
         }
-        let count =
-            |ending: Ending| some.iter().filter(|record| record.ending == ending).count() as u64;
-        let said = self.ended.controller;
-        for (ending, said) in [
-            (Ending::Time, said.time),
-            (Ending::LeftWorkspace, said.left_workspace),
-            (Ending::NoAnswer, said.no_answer),
-        ] {
-            if count(ending) > said {
-                wrong.push(format!(
-                    "fewer of its trials ended as {ending:?} than of those that were run again"
-                ));
-            }
+        let own = summary::ended(&self.plan, some).controller;
+        let both = own.each().into_iter().zip(self.ended.controller.each());
+        if both.into_iter().any(|(own, said)| own > said) {
+            wrong.push(
+                "fewer of its trials ended in one of the ways than of those that were run again"
+                    .to_owned(),
+            );
+        }
+        let clusters = cluster::clusters(&self.plan, some);
+        let is_said = |own: &Cluster| {
+            self.clusters.len() == MOST || self.clusters.iter().any(|said| said.holds(own))
+        };
+        if !clusters.iter().all(is_said) {
+            wrong.push("it knows less of what broke a law than the scenarios run again".to_owned());
+        }
+        let again = summary::visited(some);
+        let is_visited = |name: &String| !again.never.contains(name);
+        if self.visited.never.iter().any(is_visited) {
+            wrong.push(
+                "it calls a cell never visited in which the scenarios run again were".to_owned(),
+            );
         }
         for own in summary::ties(some) {
             let said = self.ties.iter().find(|said| said.tie == own.tie);
@@ -141,6 +165,15 @@ impl Certificate {
         }
         wrong
     }
+}
+
+/// Clusters without their examples, which no record tells.
+fn bare(clusters: &[Cluster]) -> Vec<Cluster> {
+    let without = |own: &Cluster| Cluster {
+        example: None,
+        ..own.clone()
+    };
+    clusters.iter().map(without).collect()
 }
 
 /// Whether two values are written alike: to the bit, where equal numbers may differ in the sign of a zero.
@@ -164,7 +197,10 @@ fn impossible_law(own: &LawSummary, said: &LawSummary, some: &[&Record]) -> Opti
     };
     let names_another = is_of_these(said.first_broken) && own.first_broken != said.first_broken
         || is_of_these(said.worst_scenario) && own.worst_margin != said.worst_margin;
-    let is_less = own.broken_in > said.broken_in || own.samples > said.samples;
+    let is_met_less = own.met.samples > said.met.samples
+        || own.met.trials > said.met.trials
+        || own.met.cells > said.met.cells;
+    let is_less = own.broken_in > said.broken_in || own.samples > said.samples || is_met_less;
     let cannot_be = is_less || first_is_later || worst_is_better || names_another;
     cannot_be.then(|| {
         format!(

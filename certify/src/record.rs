@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::coverage::Met;
 use crate::declared::Declared;
 use crate::differential::tie::Ties;
 use crate::error::Error;
@@ -22,6 +23,8 @@ pub struct Record {
     pub ending: Ending,
     /// How the laws fared.
     pub fared: [Fared; LAWS],
+    /// Where their premises were met.
+    pub met: [Met; LAWS],
     /// The samples that were ties beside the reference.
     pub ties: Ties,
     /// The metrics.
@@ -74,6 +77,7 @@ impl Record {
             ticks: ran.ticks,
             ending: ran.ending,
             fared: ran.fared,
+            met: ran.met,
             ties: ran.ties,
             measured: ran.measured,
             failure: ran.failure.map(|failure| failure.to_string()),

@@ -1,7 +1,9 @@
-//! This file searches for worse cases than were drawn: an optimiser without slopes moves a scenario's continuous numbers. It finds, and proves nothing.
+//! This file searches for worse cases than were drawn, and for places where no drawn trial met a law's premise: an optimiser without slopes moves a
+//! scenario's continuous numbers. It finds, and proves nothing.
 //! A law that it meets broken is a finding.
 
 mod moved;
+mod premise;
 
 use std::cell::RefCell;
 use std::path::Path;
@@ -11,6 +13,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::controller::Source;
+use crate::coverage::Cell;
 use crate::digest;
 use crate::error::Error;
 use crate::law::{Fared, Law};
@@ -35,6 +38,8 @@ pub enum Target {
     Law(Law),
     /// A metric.
     Metric(Metric),
+    /// The cells in which a law's premise is met, and no drawn trial met it.
+    Premise(Law),
 }
 
 /// The worst case that was found for a target, with a scenario that anybody can run again.
@@ -47,10 +52,12 @@ pub struct Worst {
     pub target: Target,
     /// The drawn scenario in which the search began.
     pub begun_in: u64,
-    /// The worst that was drawn: a least margin, or a greatest metric.
+    /// The worst that was drawn: a least margin, or a greatest metric; 0 new cells.
     pub drawn: f64,
     /// The worst that was found.
     pub found: f64,
+    /// The cells that were found, of a premise.
+    pub cells: Vec<String>,
     /// Trials that the search took, from all its starts.
     pub trials: u32,
     /// The controller.
@@ -110,10 +117,12 @@ pub struct NamedWorst {
 }
 
 impl Target {
-    /// Every law and every metric.
+    /// Every law, every metric and every premise that is searched for.
     pub fn all() -> impl Iterator<Item = Target> {
         let laws = Law::ALL.into_iter().map(Target::Law);
+        let premises = premise::LAWS_WITH_PREMISES.into_iter();
         laws.chain(Metric::ALL.into_iter().map(Target::Metric))
+            .chain(premises.map(Target::Premise))
     }
 
     /// Its name in files.
@@ -121,6 +130,7 @@ impl Target {
         match self {
             Target::Law(law) => law.name(),
             Target::Metric(metric) => metric.key(),
+            Target::Premise(law) => premise::name(law),
         }
     }
 
@@ -129,6 +139,7 @@ impl Target {
         match self {
             Target::Law(law) => law.unit(),
             Target::Metric(metric) => metric.unit(),
+            Target::Premise(_) => "cells",
         }
     }
 
@@ -137,6 +148,7 @@ impl Target {
         let good = match self {
             Target::Law(law) => fared.get(law as usize).filter(|own| own.samples > 0)?.worst,
             Target::Metric(metric) => -measured.get(metric as usize).copied().flatten()?,
+            Target::Premise(_) => return None,
         };
         good.is_finite().then_some(good)
     }
@@ -146,6 +158,7 @@ impl Target {
         match self {
             Target::Law(_) => good,
             Target::Metric(_) => -good,
+            Target::Premise(_) => 0.0 - good,
         }
     }
 }
@@ -189,6 +202,7 @@ pub fn search(plan: &Plan, source: &dyn Source, records: &[&Record]) -> Result<S
             begun_in: worst.index,
             drawn: begun.target.written(begun.least),
             found: begun.target.written(worst.good),
+            cells: worst.cells.into_iter().map(Cell::name).collect(),
             trials,
             controller: plan.controller.clone(),
             scenario: worst.scenario,
@@ -211,12 +225,15 @@ pub fn targets(plan: &Plan, records: &[&Record]) -> Vec<(Target, f64)> {
 
 fn all_begun(plan: &Plan, records: &[&Record]) -> impl Iterator<Item = Begun> {
     let is_looked_at = |target: &Target| match target {
-        Target::Law(law) => plan.not_looked_at(*law).is_none(),
+        Target::Law(law) | Target::Premise(law) => plan.not_looked_at(*law).is_none(),
         Target::Metric(_) => true,
     };
     Target::all()
         .filter(is_looked_at)
-        .filter_map(|target| begun(target, records))
+        .filter_map(|target| match target {
+            Target::Premise(law) => premise::begun(law, records),
+            target => begun(target, records),
+        })
 }
 
 /// Where a search for a target begins.
@@ -227,6 +244,8 @@ struct Begun {
     /// How good the worst and the best scenario were.
     least: f64,
     most: f64,
+    /// The cells that are to be reached, of a premise.
+    goal: Vec<Cell>,
 }
 
 /// Nothing where the drawn scenarios show no slope, or where the law is broken already.
@@ -253,6 +272,7 @@ fn begun(target: Target, records: &[&Record]) -> Option<Begun> {
             .collect(),
         least,
         most,
+        goal: Vec::new(),
     })
 }
 
@@ -262,6 +282,8 @@ struct Moved {
     good: f64,
     trials: u32,
     scenario: Scenario,
+    /// The cells that it reached, of a premise.
+    cells: Vec<Cell>,
     /// The laws that it met broken, each once.
     met: Vec<Met>,
 }
@@ -275,6 +297,7 @@ fn moved(plan: &Plan, source: &dyn Source, begun: &Begun, index: u64, trials: u3
         good: begun.most,
         trials: 0,
         scenario: start.clone(),
+        cells: Vec::new(),
         met: Vec::new(),
     });
     let target = begun.target;
@@ -298,10 +321,17 @@ fn moved(plan: &Plan, source: &dyn Source, begun: &Begun, index: u64, trials: u3
                 });
             }
         }
-        let good = target.good(&ran.fared, &ran.measured);
+        let cells = match target {
+            Target::Premise(law) => premise::reached(law, &begun.goal, &ran.met),
+            _ => Vec::new(),
+        };
+        let good = match target {
+            Target::Premise(_) => Some(0.0 - cells.len() as f64),
+            target => target.good(&ran.fared, &ran.measured),
+        };
         let good = good.unwrap_or(begun.most);
         if good < best.good {
-            (best.good, best.scenario) = (good, scenario);
+            (best.good, best.scenario, best.cells) = (good, scenario, cells);
         }
         good
     };
@@ -418,8 +448,18 @@ impl Worst {
     pub fn replayed(&self, source: &dyn Source) -> Result<Again, Error> {
         let ran = run(&self.scenario, source, &self.controller.declared, false);
         let ran = ran.ok_or(Error::Scenario(self.begun_in))?;
-        let value = self.target.good(&ran.fared, &ran.measured);
-        let value = value.map(|good| self.target.written(good));
+        let value = match self.target {
+            Target::Premise(law) => {
+                let is_named = |cell: &Cell| self.cells.contains(&cell.name());
+                let named: Vec<Cell> = Cell::all().filter(is_named).collect();
+                Some(premise::reached(law, &named, &ran.met).len() as f64)
+            }
+            target => target.good(&ran.fared, &ran.measured),
+        };
+        let value = value.map(|good| match self.target {
+            Target::Premise(_) => good,
+            target => target.written(good),
+        });
         Ok(Again {
             value,
             is_same: value == Some(self.found),

@@ -2,11 +2,12 @@
 
 use crate::campaign::CHUNK;
 use crate::certificate::Certificate;
+use crate::cluster::{Cluster, MOST, stem_of};
 use crate::finding::{Finding, MOST_TICKS};
 use crate::law::Law;
 use crate::plan::{FORM, Subject, What};
 use crate::search::{Target, Worst};
-use crate::summary::{LawSummary, MetricSummary, laws, metrics, not_looked_at};
+use crate::summary::{Bound, LawSummary, MetricSummary, laws, metrics, not_looked_at};
 
 /// Most scenarios of a campaign.
 const MOST_SCENARIOS: u64 = 100_000_000;
@@ -48,6 +49,11 @@ pub fn problem(read: &Certificate) -> Option<String> {
             "its figures are not those that its plan asks for, or contradict each other".to_owned(),
         );
     }
+    if !clusters(read) {
+        return Some(
+            "what its failures have in common does not follow from its figures".to_owned(),
+        );
+    }
     if !found(read) || !worst(read) {
         return Some("its findings or worse cases are not such as its figures allow".to_owned());
     }
@@ -65,10 +71,14 @@ fn same_laws(read: &Certificate) -> bool {
             && inside(law.first_broken)
             && inside(law.worst_scenario)
             && (law.samples > 0 || law.broken_in == 0)
+            && law.met.samples <= law.samples
+            && law.met.trials <= scenarios
+            && law.met.cells <= law.met.of_cells
     };
     planned.len() == read.laws.len()
         && planned.iter().zip(&read.laws).all(|(own, said)| {
             (own.law, &own.words, &own.unit) == (said.law, &said.words, &said.unit)
+                && own.met.least_trials == said.met.least_trials
                 && is_sound(said)
         })
 }
@@ -91,8 +101,15 @@ fn same_metrics(read: &Certificate) -> bool {
         && planned.iter().zip(&read.metrics).all(|(own, said)| {
             (own.metric, &own.words, &own.unit) == (said.metric, &said.words, &said.unit)
                 && (own.limit, own.regression) == (said.limit, said.regression)
+                && limits(own).eq(limits(said))
                 && is_sound(said)
         })
+}
+
+/// The limits that a metric is held to.
+fn limits(metric: &MetricSummary) -> impl Iterator<Item = (Bound, f64)> {
+    let limits = metric.limits.iter();
+    limits.map(|limit| (limit.bound, limit.most))
 }
 
 /// Whether every trial ended once.
@@ -100,9 +117,8 @@ fn ends(read: &Certificate) -> bool {
     let scenarios = read.plan.scenarios;
     let all = [Some(read.ended.controller), read.ended.baseline];
     all.into_iter().flatten().all(|own| {
-        let ended = [own.time, own.left_workspace, own.no_answer];
-        let ended = ended.into_iter().try_fold(0_u64, u64::checked_add);
-        ended == Some(scenarios) && own.finished <= scenarios
+        let ended = own.each().into_iter().try_fold(0_u64, u64::checked_add);
+        ended == Some(scenarios)
     }) && read.ended.baseline.is_some() == read.plan.baseline.is_some()
 }
 
@@ -127,6 +143,35 @@ fn found(read: &Certificate) -> bool {
                 Some(_) => read.plan.search > 0 && law.first_broken.is_none(),
             });
             is_drawn && named.file == Finding::stem_of(named.law) + ".json"
+        })
+}
+
+/// Whether its clusters are of laws that are broken so often, the largest first, and name files of their own.
+fn clusters(read: &Certificate) -> bool {
+    let of = |law: Law| {
+        let own = read.clusters.iter().filter(|own| own.law == law);
+        own.fold(0_u64, |sum, own| sum.saturating_add(own.trials))
+    };
+    let is_whole = read.clusters.len() < MOST;
+    let fits = |law: &LawSummary| match is_whole {
+        true => of(law.law) == law.broken_in,
+        false => of(law.law) <= law.broken_in,
+    };
+    let is_known = |own: &Cluster| read.laws.iter().any(|law| law.law == own.law);
+    let mut numbered = (1..).zip(&read.clusters);
+    read.clusters.len() <= MOST
+        && read
+            .clusters
+            .iter()
+            .map(|own| own.trials)
+            .is_sorted_by(|one, next| one >= next)
+        && read.clusters.iter().all(is_known)
+        && read.laws.iter().all(fits)
+        && numbered.all(|(number, own)| {
+            let file = stem_of(number) + ".json";
+            own.example.as_ref().is_none_or(|named| {
+                (named.law, named.scenario, &named.file) == (own.law, own.scenario, &file)
+            })
         })
 }
 

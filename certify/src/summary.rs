@@ -1,7 +1,9 @@
 //! This file turns the records of a campaign into figures: how every law fared, and the metrics beside the baseline's.
 
 mod beyond;
+mod covered;
 mod ended;
+mod exact;
 mod paired;
 mod ties;
 
@@ -13,8 +15,10 @@ use crate::metrics::{METRICS, Metric};
 use crate::plan::{Plan, What};
 use crate::record::Record;
 
-pub use beyond::{Beyond, Bound};
+pub use beyond::{Bound, Limited};
+pub use covered::{MetSummary, PartSummary, Visited, visited};
 pub use ended::{Ended, Endings, ended};
+pub use exact::Exact;
 pub use paired::{Change, Word};
 pub use ties::{TieSummary, ties};
 
@@ -28,6 +32,8 @@ pub struct LawSummary {
     pub words: String,
     /// Samples that were held to it.
     pub samples: u64,
+    /// How often its premise was met, and where.
+    pub met: MetSummary,
     /// Scenarios in which it was broken.
     pub broken_in: u64,
     /// The first of them.
@@ -38,6 +44,18 @@ pub struct LawSummary {
     pub unit: String,
     /// The scenario of the least margin.
     pub worst_scenario: Option<u64>,
+}
+
+impl LawSummary {
+    /// Whether its premise was met in as many trials as are asked for.
+    pub const fn is_met(&self) -> bool {
+        self.met.trials >= self.met.least_trials
+    }
+
+    /// Whether it holds: never broken, and met often enough.
+    pub const fn holds(&self) -> bool {
+        self.broken_in == 0 && self.samples > 0 && self.is_met()
+    }
 }
 
 /// A law that was not looked at.
@@ -70,8 +88,10 @@ pub struct MetricSummary {
     pub limit: Option<f64>,
     /// By how much the mean may be worse than the baseline's.
     pub regression: Option<f64>,
-    /// Which of them do not hold, and by how much.
-    pub beyond: Vec<Beyond>,
+    /// Each of them that was given, with what stands beside it.
+    pub limits: Vec<Limited>,
+    /// The scenario of the controller's greatest value.
+    pub worst_scenario: Option<u64>,
 }
 
 /// What of a hundred trials lies below.
@@ -97,14 +117,15 @@ pub fn laws(plan: &Plan, records: &[&Record]) -> Vec<LawSummary> {
     let looked_at = Law::ALL
         .into_iter()
         .filter(|law| plan.not_looked_at(*law).is_none());
-    looked_at.map(|law| of_law(law, records)).collect()
+    looked_at.map(|law| of_law(plan, law, records)).collect()
 }
 
-fn of_law(law: Law, records: &[&Record]) -> LawSummary {
+fn of_law(plan: &Plan, law: Law, records: &[&Record]) -> LawSummary {
     let mut summary = LawSummary {
         law,
         words: law.words().to_owned(),
         samples: 0,
+        met: covered::met(law, plan.least_met, records),
         broken_in: 0,
         first_broken: None,
         worst_margin: None,
@@ -212,8 +233,12 @@ fn of_metric(plan: &Plan, records: &[&Record], index: usize, metric: Metric) -> 
         Metric::Finish => records.len(),
         _ => own.len(),
     };
-    let of_trials = limit.and_then(|most| beyond::of_trials(metric, &own, trials, most));
-    let of_mean = regression.and_then(|most| beyond::of_mean(metric, change.as_ref(), most));
+    let of_trials = limit.map(|most| beyond::of_trials(metric, &own, trials, most));
+    let of_mean = regression.map(|most| beyond::of_mean(metric, change.as_ref(), most));
+    let greatest = records
+        .iter()
+        .filter_map(|r| Some((of(&r.measured)?, r.index)));
+    let greatest = greatest.reduce(|one, other| if other.0 > one.0 { other } else { one });
     MetricSummary {
         metric,
         words: metric.words().to_owned(),
@@ -223,7 +248,8 @@ fn of_metric(plan: &Plan, records: &[&Record], index: usize, metric: Metric) -> 
         change,
         limit,
         regression,
-        beyond: of_trials.into_iter().chain(of_mean).collect(),
+        limits: of_trials.into_iter().chain(of_mean).collect(),
+        worst_scenario: greatest.map(|(_, index)| index),
     }
 }
 

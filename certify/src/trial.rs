@@ -11,11 +11,13 @@ use rigproof_spec::tables::GREATEST_CURRENT_A;
 use serde::{Deserialize, Serialize};
 
 use crate::controller::{Controller, Failure, Source};
+use crate::coverage::{Cell, Met, Since};
 use crate::declared::Declared;
 use crate::differential::tie::Ties;
 use crate::hand::Pushing;
 use crate::judge::Judge;
 use crate::law::{Fared, LAWS, Law};
+use crate::left_out::Amplifiers;
 use crate::metrics::{Measured, Track};
 use crate::scenario::Scenario;
 use crate::way::Way;
@@ -42,6 +44,8 @@ pub struct Ran {
     pub ending: Ending,
     /// How every law fared, in the order of [`Law::ALL`].
     pub fared: [Fared; LAWS],
+    /// Where their premises were met.
+    pub met: [Met; LAWS],
     /// The samples that were ties beside the reference.
     pub ties: Ties,
     /// The metrics.
@@ -97,6 +101,7 @@ pub fn run(
         ticks: trial.told.len() as u32,
         ending: trial.ending,
         fared: trial.judge.fared,
+        met: trial.judge.covered.met(),
         ties: trial.judge.ties(),
         measured: trial.track.measured(&way),
         failure: trial.failure,
@@ -111,7 +116,9 @@ struct Trial<'a> {
     plant: Plant,
     hand: Pushing,
     sensors: Sensors<'a>,
+    amplifiers: Amplifiers,
     judge: Judge,
+    since: Since,
     track: Track,
     has_turned: bool,
     has_left_end: bool,
@@ -133,6 +140,7 @@ impl<'a> Trial<'a> {
             way,
             hand: Pushing::new(&scenario.hand, &scenario.task)?,
             sensors: Sensors::new(scenario),
+            amplifiers: Amplifiers::new(&scenario.left_out, SAMPLE_STEP_S),
             judge: Judge::new(
                 &settings,
                 declared,
@@ -140,6 +148,7 @@ impl<'a> Trial<'a> {
                 scenario.is_passive().then(|| plant.kinetic_energy_j()),
             )?,
             plant,
+            since: Since::default(),
             track: Track {
                 tips_m: Vec::with_capacity(capacity),
                 forces_n: Vec::with_capacity(capacity),
@@ -182,7 +191,11 @@ impl<'a> Trial<'a> {
         last_a: &mut [f64; 4],
     ) -> Option<()> {
         let force_n = self.hand.push(&self.plant, *last_a, self.has_turned);
-        let (sensed, is_faulty) = self.sensors.read(tick, &self.plant, force_n);
+        let (sensed, fault) = self.sensors.read(tick, &self.plant, force_n);
+        let (tip_m, velocity_m_s) = (self.plant.tip_m(), self.plant.tip_velocity_m_s());
+        let of_fault = self.since.part(fault);
+        self.judge
+            .at(Cell::of(tip_m, velocity_m_s, force_n, of_fault));
         let currents_a = match controller.tick(&sensed) {
             Ok(currents_a) => currents_a,
             Err(failure) => {
@@ -192,17 +205,18 @@ impl<'a> Trial<'a> {
         };
         self.judge.add(Law::Answers, tick, Margin(0.0));
         self.told.push((sensed, currents_a));
-        self.judge.command(tick, &sensed, is_faulty, currents_a);
+        self.judge
+            .command(tick, &sensed, fault.is_some(), currents_a);
         let given_a = self.given(currents_a);
-        let from_m = self.plant.tip_m();
-        self.note(tick, from_m, force_n, given_a, *last_a);
+        self.note(tick, tip_m, force_n, given_a, *last_a);
         *last_a = given_a;
-        let outcome = self.plant.step(force_n, given_a, SAMPLE_STEP_S);
+        let flowing_a = self.amplifiers.given(given_a);
+        let outcome = self.plant.step(force_n, flowing_a, SAMPLE_STEP_S);
         if outcome != Outcome::Moved || is_stretched(&self.plant) {
             self.ending = Ending::LeftWorkspace;
             return None;
         }
-        self.judge.step(tick, &self.plant, force_n, from_m);
+        self.judge.step(tick, &self.plant, force_n, tip_m);
         Some(())
     }
 
@@ -295,6 +309,7 @@ pub fn retold<'a>(
     told: impl Iterator<Item = (&'a Sensed<f64>, &'a [f64; 4])>,
 ) -> bool {
     for (tick, (sensed, answer_a)) in (0..).zip(told) {
+        judge.covered.back_to(tick);
         let Ok(again_a) = fresh.tick(sensed) else {
             judge.add(Law::Repeats, tick, Margin(f64::NAN));
             return false;

@@ -1,10 +1,12 @@
 //! This file is the page of a certificate: may it go on the rig, why not, what was tested, what was proved and what nobody looked at.
 
 mod change;
+mod coverage;
 mod run;
 
 use maud::{Markup, html};
 use rigproof_certify::certificate::Certificate;
+use rigproof_certify::cluster::Cluster;
 use rigproof_certify::search::NamedWorst;
 use rigproof_certify::summary::{LawSummary, MetricSummary, TieSummary, Word};
 
@@ -65,6 +67,13 @@ fn sections(
             findings(certificate, beside.replay),
         ));
     }
+    if !certificate.clusters.is_empty() {
+        sections.push(section(
+            "clusters",
+            "What the failures have in common",
+            clusters(certificate, beside.replay),
+        ));
+    }
     let run = beside.run.map(|run| {
         let heading = match certificate.findings.is_empty() {
             true => "The worst of the trials, run again",
@@ -78,6 +87,11 @@ fn sections(
     };
     sections.extend(first);
     sections.push(section("laws", "The laws", laws(&certificate.laws)));
+    sections.push(section(
+        "coverage",
+        "How often each law was met, and where",
+        coverage::coverage(certificate),
+    ));
     if !certificate.ties.is_empty() {
         sections.push(section("ties", "Ties", ties(&certificate.ties)));
     }
@@ -91,21 +105,30 @@ fn sections(
     sections.push(section(
         "metrics",
         "How it feels and how well it guides",
-        html! { (change::figure(&certificate.metrics)) (metrics(&certificate.metrics)) },
+        html! { (change::figure(&certificate.metrics)) (coverage::limits(&certificate.metrics)) (metrics(&certificate.metrics)) },
     ));
     sections.extend(last);
-    sections.push(section("proved", "What was proved", proved(certificate)));
-    sections.push(section(
-        "not",
-        "What nobody looked at",
-        not_looked_at(certificate),
-    ));
-    sections.push(section(
-        "hashes",
-        "What this depends on",
-        hashes(certificate),
-    ));
+    sections.extend(of_the_plan(certificate));
     sections
+}
+
+/// What was asked for, proved, left out, and what all of it depends on.
+fn of_the_plan(certificate: &Certificate) -> [Section; 4] {
+    let section = |id: &str, heading: &str, body: Markup| Section {
+        id: id.to_owned(),
+        heading: heading.to_owned(),
+        body,
+    };
+    [
+        section(
+            "requirements",
+            "What is asked for, and what stands for it",
+            coverage::requirements(&certificate.requirements),
+        ),
+        section("proved", "What was proved", proved(certificate)),
+        section("not", "What nobody looked at", not_looked_at(certificate)),
+        section("hashes", "What this depends on", hashes(certificate)),
+    ]
 }
 
 fn headline(certificate: &Certificate) -> Headline {
@@ -132,15 +155,21 @@ fn headline(certificate: &Certificate) -> Headline {
             .map(|reason| html! { (capital(reason)) "." })
             .collect(),
     };
+    let cautions = certificate.cautions();
+    paragraphs.extend(cautions.iter().map(|own| html! { (capital(own)) "." }));
     let calibration = plan.calibration.iter();
     paragraphs.extend(calibration.map(|found| html! { (found.words()) }));
     let endings = &certificate.ended.controller;
     Headline {
-        tone: if may { Tone::Good } else { Tone::Bad },
-        badge: if may {
-            "May go on the rig"
-        } else {
-            "Must not go on the rig"
+        tone: match may {
+            true if cautions.is_empty() => Tone::Good,
+            true => Tone::Doubt,
+            false => Tone::Bad,
+        },
+        badge: match may {
+            true if cautions.is_empty() => "May go on the rig",
+            true => "May go on the rig: look at the worst trial",
+            false => "Must not go on the rig",
         }
         .to_owned(),
         sentence,
@@ -155,8 +184,12 @@ fn headline(certificate: &Certificate) -> Headline {
                 "Trials".to_owned(),
                 grouped(plan.scenarios),
                 format!(
-                    "{} came to the path's end; {} ended at the stops, {} without an answer",
-                    endings.finished, endings.left_workspace, endings.no_answer
+                    "{} came to the path's end, {} did and ended at the stops on the way back, {} ended at the stops, {} when their time was over, {} without an answer",
+                    endings.finished,
+                    endings.finished_then_stopped,
+                    endings.stopped,
+                    endings.time_over,
+                    endings.no_answer
                 ),
             ],
             [
@@ -205,10 +238,46 @@ fn findings(certificate: &Certificate, replay: &dyn Fn(&str) -> String) -> Marku
     }
 }
 
+/// Failures by what they have in common, the most frequent first, and one of each shrunk.
+fn clusters(certificate: &Certificate, replay: &dyn Fn(&str) -> String) -> Markup {
+    let row = |own: &Cluster| {
+        let also = own.common.iter().map(|common| {
+            let others = significant(100.0 * common.others, 2);
+            format!("{} ({others} % of the others)", common.what)
+        });
+        let example = own.example.as_ref();
+        vec![
+            own.law.name().to_owned(),
+            grouped(own.trials),
+            format!("{} %", significant(100.0 * own.share, 2)),
+            own.place.clone(),
+            own.fault.clone(),
+            also.collect::<Vec<_>>().join("; "),
+            example.map_or_else(|| "–".to_owned(), |named| replay(&named.file)),
+        ]
+    };
+    let rows: Vec<Vec<String>> = certificate.clusters.iter().map(row).collect();
+    table(
+        "clusters-table",
+        "Trials that broke a law, gathered by law, place and fault, the most frequent first; what all of them have and few others do.",
+        &[
+            "law",
+            "trials",
+            "of all failures",
+            "place",
+            "fault",
+            "all have",
+            "to see one, shrunk",
+        ],
+        &rows,
+    )
+}
+
 fn laws(laws: &[LawSummary]) -> Markup {
     let row = |law: &LawSummary| {
         let fared = match law.broken_in {
             0 if law.samples == 0 => "✘ held against no sample".to_owned(),
+            0 if !law.is_met() => "✘ met too rarely".to_owned(),
             0 => "holds".to_owned(),
             count => format!(
                 "✘ BROKEN in {count} trials, first in {}",
@@ -274,11 +343,15 @@ fn metrics(metrics: &[MetricSummary]) -> Markup {
                     Word::Worse => "worse",
                     Word::NoDifference => "no difference",
                 };
+                let own = &change.exact;
                 format!(
-                    "{word}: {} [{} to {}]",
+                    "{word}: {} [{} to {}]; better in {}, worse in {}, p = {}",
                     significant(change.mean, 3),
                     significant(low, 3),
-                    significant(high, 3)
+                    significant(high, 3),
+                    own.better,
+                    own.worse,
+                    significant(own.p, 2)
                 )
             },
         );
@@ -288,9 +361,7 @@ fn metrics(metrics: &[MetricSummary]) -> Markup {
             own(|q| q.q95, &metric.controller),
             own(|q| q.q50, &metric.baseline),
             change,
-            metric
-                .limit
-                .map_or_else(|| "–".to_owned(), |limit| significant(limit, 3)),
+            own(|q| q.greatest, &metric.controller),
             fared(metric),
         ]
     };
@@ -301,12 +372,12 @@ fn metrics(metrics: &[MetricSummary]) -> Markup {
         "95 % below",
         "baseline's median",
         "against the baseline, paired",
-        "limit",
+        "worst trial",
         "fared",
     ];
     table(
         "metrics-table",
-        "What was measured in every trial, beside what is on the rig now.",
+        "What was measured in every trial, beside what is on the rig now: the same hand, plant and noise. p is that of the exact sign test over the pairs.",
         &head,
         &rows,
     )
@@ -314,8 +385,10 @@ fn metrics(metrics: &[MetricSummary]) -> Markup {
 
 /// Whether a metric's limits hold, and which does not by how much.
 fn fared(metric: &MetricSummary) -> String {
-    let beyond: Vec<&str> = metric.beyond.iter().map(|own| own.words.as_str()).collect();
+    let beyond = metric.limits.iter().filter(|limit| !limit.holds);
+    let beyond: Vec<&str> = beyond.map(|own| own.words.as_str()).collect();
     match beyond.as_slice() {
+        [] if metric.limits.is_empty() => "no limit given".to_owned(),
         [] => "holds".to_owned(),
         beyond => format!("✘ BEYOND: {}", beyond.join("; ")),
     }
@@ -351,7 +424,7 @@ fn worst(certificate: &Certificate, replay: &dyn Fn(&str) -> String) -> Markup {
     };
     let rows: Vec<Vec<String>> = certificate.worst.iter().map(row).collect();
     html! {
-        p { "An optimiser went on from the worst drawn trials of each law and metric. It finds, and proves nothing." }
+        p { "An optimiser went on from the worst drawn trials of each law and metric, and towards cells in which no drawn trial met a law. It finds, and proves nothing." }
         (table("worst-table", "The worst that was drawn and the worst that was found.", &["of", "drawn", "found", "unit", "to see it"], &rows))
     }
 }

@@ -12,6 +12,7 @@ use rigproof_trace::rig::schema::shape::{defined, list, number, object, one_of, 
 use serde_json::{Value, json};
 
 use super::{GREATEST_LIMIT, KINDS, LAYOUTS, MOST_EVERY, NAMED, range};
+use crate::law::Law;
 use crate::metrics::Metric;
 use crate::way::MOST_PIECES;
 
@@ -187,6 +188,34 @@ fn expected() -> Value {
     whole
 }
 
+/// In how many trials the premise of every law has to be met.
+fn coverage() -> Value {
+    let about = "In how many trials the premise of every law has to be met.";
+    let least = vec![("least_trials", whole(about, 0, 100_000_000))];
+    object(None, least, &[])
+}
+
+/// A sentence, and the law or the metric that stands for it.
+fn requirement() -> Value {
+    let keys = vec![
+        ("says", text("The sentence.")),
+        (
+            "law",
+            one_of("The law that stands for it.", Law::ALL.map(Law::name)),
+        ),
+        (
+            "metric",
+            one_of(
+                "The metric that stands for it.",
+                Metric::ALL.map(Metric::key),
+            ),
+        ),
+    ];
+    let mut own = object(None, keys, &["says"]);
+    own["oneOf"] = json!([{ "required": ["law"] }, { "required": ["metric"] }]);
+    own
+}
+
 /// The JSON Schema of `certify.toml`.
 pub fn schema() -> Value {
     let keys = vec![
@@ -213,6 +242,14 @@ pub fn schema() -> Value {
         ),
         ("path", path()),
         ("expected", expected()),
+        ("coverage", coverage()),
+        (
+            "requirement",
+            list(
+                "Sentences of the laboratory, in their order.",
+                requirement(),
+            ),
+        ),
     ];
     let mut all = object(
         Some("A changed controller: what is certified, beside what, and within which limits."),

@@ -58,22 +58,28 @@ impl Behaviour {
         self.is_looked_at.get(law as usize) == Some(&true)
     }
 
-    /// Judges a command by what was sensed.
+    /// Judges a command by what was sensed: the law, its margin, and whether its premise is met.
     #[inline]
-    pub fn judge(&self, now: &Situation<f64>, command: &Command, mut add: impl FnMut(Law, Margin)) {
+    pub fn judge(
+        &self,
+        now: &Situation<f64>,
+        command: &Command,
+        mut add: impl FnMut(Law, Margin, bool),
+    ) {
         let is_lock = self.is_lock(command);
         let nearest = self.way.path.nearest(now.linkage.tip_m);
         if let Some(gap_m) = self.declared.gap_m.filter(|_| self.looks_at(Law::Gap)) {
             let distance_m = nearest.distance_m() + PLACE_SLACK_M;
-            add(Law::Gap, gap(distance_m, gap_m, command));
+            let margin = gap(distance_m, gap_m, command);
+            add(Law::Gap, margin, distance_m <= gap_m);
         }
         if let Some(solid) = self.declared.solid {
             let depth_m = match solid {
                 Solid::Left => nearest.offset_m,
                 Solid::Right => -nearest.offset_m,
             };
-            let margin = free_side(depth_m + PLACE_SLACK_M, command);
-            add(Law::FreeSide, margin);
+            let depth_m = depth_m + PLACE_SLACK_M;
+            add(Law::FreeSide, free_side(depth_m, command), depth_m <= 0.0);
         }
         let (acting, others) = acting(command);
         if !is_lock && acting.is_none() {
@@ -85,7 +91,7 @@ impl Behaviour {
         let desired = desired(&nearest, now.tip_force_n, boundary_m);
         if is_lock {
             if self.looks_at(Law::Lock) {
-                add(Law::Lock, locked(&desired, now, command));
+                add(Law::Lock, locked(&desired, now, command), true);
             }
             return;
         }
@@ -98,15 +104,16 @@ impl Behaviour {
                     Choice::QuarterTurn => Law::QuarterTurn,
                 },
                 Margin(-1.0),
+                true,
             ),
             (Some(joint), Some(Choice::Influence)) => {
                 if let Some(margin) = influence(self.layout, joint, now, &desired) {
-                    add(Law::Influence, margin);
+                    add(Law::Influence, margin, true);
                 }
             }
             (Some(joint), Some(Choice::QuarterTurn)) => {
                 if let Some(margin) = quarter_turn(joint, now, &desired) {
-                    add(Law::QuarterTurn, margin);
+                    add(Law::QuarterTurn, margin, true);
                 }
             }
             _ => {}
@@ -118,8 +125,8 @@ impl Behaviour {
         command.reason.is_lock() && self.looks_at(Law::Lock)
     }
 
-    /// How many brakes have current, if it is declared how many may.
-    pub fn count(&self, command: &Command) -> Option<Margin> {
+    /// How many brakes have current, if it is declared how many may, and whether that is met: while one acts, or always where none may.
+    pub fn count(&self, command: &Command) -> Option<(Margin, bool)> {
         let unlocked = Command {
             reason: rigproof_spec::command::Reason::NothingToDo,
             ..*command
@@ -128,14 +135,16 @@ impl Behaviour {
             true => command,
             false => &unlocked,
         };
-        Some(brake_count(of, self.declared.most_brakes?))
+        let most = self.declared.most_brakes?;
+        let acts = command.currents_a != [0.0; 4];
+        Some((brake_count(of, most), acts || most == 0))
     }
 
     fn tip_force(
         &self,
         now: &Situation<f64>,
         command: &Command,
-        add: &mut impl FnMut(Law, Margin),
+        add: &mut impl FnMut(Law, Margin, bool),
     ) {
         if !self.looks_at(Law::TipForce) {
             return;
@@ -144,7 +153,7 @@ impl Behaviour {
         let each = each.filter(|(_, current_a)| *current_a != 0.0);
         let margins = each.map(|(joint, current_a)| force(self.layout, joint, current_a, now));
         if let Some(margin) = margins.reduce(Margin::and) {
-            add(Law::TipForce, margin);
+            add(Law::TipForce, margin, true);
         }
     }
 }

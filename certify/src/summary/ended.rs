@@ -1,4 +1,4 @@
-//! This file says how trials ended, beside the baseline's in the same scenarios.
+//! This file says how trials ended, each in one way, beside the baseline's in the same scenarios.
 
 use serde::{Deserialize, Serialize};
 
@@ -22,18 +22,43 @@ pub struct Ended {
     pub stopped: Option<Change>,
 }
 
-/// Trials, by how they ended.
+/// Trials, by how they ended: each is counted once, so that they sum to the trials.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Endings {
-    /// The tip came to the end of the path, whatever came after; counted below too.
+    /// The tip came to the end of the path, and nothing stopped it on the way back.
     pub finished: u64,
-    /// Their time was over.
-    pub time: u64,
-    /// The hand took the linkage to its stops.
-    pub left_workspace: u64,
-    /// The controller did not answer any more.
+    /// The tip came to the end of the path, and the hand took the linkage to its stops on the way back.
+    pub finished_then_stopped: u64,
+    /// The hand took the linkage to its stops before that.
+    pub stopped: u64,
+    /// Their time was over before that.
+    pub time_over: u64,
+    /// The controller did not answer any more, before the path's end or after it.
     pub no_answer: u64,
+}
+
+impl Endings {
+    /// All of them.
+    pub const fn each(&self) -> [u64; 5] {
+        [
+            self.finished,
+            self.finished_then_stopped,
+            self.stopped,
+            self.time_over,
+            self.no_answer,
+        ]
+    }
+
+    /// How many trials came to the end of the path, whatever came after, as long as the controller answered.
+    pub const fn came_to_the_end(&self) -> u64 {
+        self.finished.saturating_add(self.finished_then_stopped)
+    }
+
+    /// How many trials ended at the stops, before the path's end or after it.
+    pub const fn at_the_stops(&self) -> u64 {
+        self.stopped.saturating_add(self.finished_then_stopped)
+    }
 }
 
 /// One trial's end.
@@ -82,17 +107,34 @@ pub fn ended(plan: &Plan, records: &[&Record]) -> Ended {
 
 fn endings(all: impl Iterator<Item = One>) -> Endings {
     let mut count = Endings::default();
-    for One {
-        is_finished,
-        ending,
-    } in all
-    {
-        count.finished += u64::from(is_finished);
-        match ending {
-            Ending::Time => count.time += 1,
-            Ending::LeftWorkspace => count.left_workspace += 1,
-            Ending::NoAnswer => count.no_answer += 1,
-        }
+    for one in all {
+        let place = match (one.ending, one.is_finished) {
+            (Ending::NoAnswer, _) => &mut count.no_answer,
+            (Ending::Time, true) => &mut count.finished,
+            (Ending::LeftWorkspace, true) => &mut count.finished_then_stopped,
+            (Ending::Time, false) => &mut count.time_over,
+            (Ending::LeftWorkspace, false) => &mut count.stopped,
+        };
+        *place += 1;
     }
     count
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_trial_is_counted_once() {
+        let all = [Ending::Time, Ending::LeftWorkspace, Ending::NoAnswer];
+        let all = all.into_iter().flat_map(|ending| {
+            [true, false].map(|is_finished| One {
+                is_finished,
+                ending,
+            })
+        });
+        let count = endings(all);
+        assert_eq!(count.each(), [1, 1, 1, 1, 2]);
+        assert_eq!((count.came_to_the_end(), count.at_the_stops()), (2, 2));
+    }
 }

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::exact::{Exact, exact};
 use crate::scenario::Draw;
 
 /// Resamples of the bootstrap.
@@ -21,6 +22,8 @@ pub struct Change {
     pub interval: [f64; 2],
     /// What that says.
     pub word: Word,
+    /// The same pairs, compared exactly.
+    pub exact: Exact,
 }
 
 /// What a change is; less is better.
@@ -66,6 +69,7 @@ pub fn change(pairs: &[[f64; 2]], seed: u64) -> Option<Change> {
         mean: mean(differences.iter().sum()),
         interval,
         word,
+        exact: exact(&differences)?,
     })
 }
 

@@ -34,13 +34,18 @@ impl<'a> Sensors<'a> {
         }
     }
 
-    /// What is told in a tick, and whether it is faulty.
-    pub fn read(&mut self, tick: u32, plant: &Plant, force_n: [f64; 2]) -> (Sensed<f64>, bool) {
+    /// What is told in a tick, and what is wrong with it.
+    pub fn read(
+        &mut self,
+        tick: u32,
+        plant: &Plant,
+        force_n: [f64; 2],
+    ) -> (Sensed<f64>, Option<FaultKind>) {
         let fault = self.fault(tick);
         if fault == Some(FaultKind::Stale)
             && let Some(last) = self.last
         {
-            return (last, true);
+            return (last, fault);
         }
         if let Some(FaultKind::Missed(count)) = fault {
             self.number = self.number.wrapping_add(count);
@@ -66,7 +71,7 @@ impl<'a> Sensors<'a> {
         };
         self.number = self.number.wrapping_add(1);
         self.last = Some(sensed);
-        (sensed, fault.is_some())
+        (sensed, fault)
     }
 
     /// What the encoders show of angles, rad; what a calibration names first is what the recording shows last.

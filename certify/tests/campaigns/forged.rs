@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use rigproof_certify::certificate::{Certificate, records};
+use rigproof_certify::cluster::{examples, named};
 use rigproof_certify::digest;
 use rigproof_certify::finding::Finding;
 use rigproof_certify::journal::Chunks;
@@ -47,7 +48,9 @@ fn honest(plan: &Plan, chunks: &Chunks) -> Certificate {
     let found = found.iter().map(|found| found.named().unwrap());
     let worst = searched.worst.iter().map(Worst::named);
     let worst = worst.map(Result::unwrap).collect();
-    Certificate::new(plan, chunks, found.collect(), worst, tool()).unwrap()
+    let bare = Certificate::new(plan, chunks, found.collect(), worst, tool()).unwrap();
+    let examples = examples(plan, sources.controller, &bare.clusters).unwrap();
+    bare.with_examples(named(&examples).unwrap()).unwrap()
 }
 
 fn read(certificate: &Certificate) -> Result<Certificate, String> {
@@ -141,6 +144,9 @@ fn forged(honest: &Certificate, dice: &mut Dice) -> Option<Certificate> {
         "metrics",
         "worst",
         "findings",
+        "clusters",
+        "requirements",
+        "visited",
         "chunks",
         "not_looked_at",
     ] {
@@ -163,6 +169,7 @@ fn emptied(honest: &Certificate) -> Certificate {
         law.worst_margin = law.worst_margin.map(f64::abs);
     }
     forged.findings.clear();
+    forged.clusters.clear();
     forged.sealed().unwrap()
 }
 

@@ -2,6 +2,7 @@
 
 mod bent;
 mod certificates;
+mod covered;
 mod five;
 mod forged;
 mod plain;

@@ -446,6 +446,8 @@ fn beyond(source: &dyn Source) -> Vec<&'static str> {
         search: 0,
         limits: [None; 5],
         regressions: [Some(0.002), Some(1.0), None, Some(40.0), Some(1.0)],
+        least_met: 1,
+        requirements: Vec::new(),
     };
     let baseline = low();
     let sources = Sources {
@@ -466,7 +468,7 @@ fn beyond(source: &dyn Source) -> Vec<&'static str> {
     }
     metrics
         .into_iter()
-        .filter(|metric| !metric.beyond.is_empty())
+        .filter(|metric| metric.limits.iter().any(|limit| !limit.holds))
         .map(|metric| metric.metric.key())
         .collect()
 }

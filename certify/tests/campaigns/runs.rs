@@ -33,6 +33,8 @@ pub fn plan() -> Plan {
         search: 0,
         limits: [None; 5],
         regressions: [None; 5],
+        least_met: 1,
+        requirements: Vec::new(),
     }
 }
 

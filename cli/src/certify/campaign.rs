@@ -6,12 +6,13 @@ use ed25519_compact::KeyPair;
 use rigproof_certify::calibration::Calibration;
 use rigproof_certify::campaign;
 use rigproof_certify::certificate::{Certificate, records};
+use rigproof_certify::cluster;
 use rigproof_certify::description::Description;
 use rigproof_certify::digest;
 use rigproof_certify::finding::Finding;
 use rigproof_certify::journal::{Chunks, FILE, Header};
 use rigproof_certify::law::Law;
-use rigproof_certify::plan::{FORM, Plan, Sources, Subject};
+use rigproof_certify::plan::{FORM, Plan, Sources, Subject, least_met};
 use rigproof_certify::search::{Met, Searched, Target, Worst, search};
 use rigproof_certify::tool::Tool;
 use rigproof_spec::methods::SAMPLE_STEP_S;
@@ -137,6 +138,10 @@ fn plan(
         search: args.search,
         limits: description.limits,
         regressions: description.regressions,
+        least_met: description
+            .least_met
+            .unwrap_or_else(|| least_met(args.scenarios)),
+        requirements: description.requirements.clone(),
     })
 }
 
@@ -183,11 +188,12 @@ pub fn finish(
     let worst = searched.worst.iter().map(Worst::named);
     let worst = worst.collect::<Result<_, _>>()?;
     let run = page::worst(plan, sources, chunks, found.first())?;
+    let certificate = Certificate::new(plan, chunks, named, worst, tool()?)?;
+    let certificate = with_examples(certificate, plan, sources, folder)?;
     // Shrinking and searching run the controller too.
     if let Some(between) = between(written.compiled) {
         return between_trials(&between, folder);
     }
-    let certificate = Certificate::new(plan, chunks, named, worst, tool()?)?;
     let (file, text) = (folder.join(CERTIFICATE), certificate.to_json()?);
     campaign::withdraw(folder)?;
     write_aside(&file, text.as_bytes())?;
@@ -252,6 +258,24 @@ fn findings(
     }
     drop(spinner);
     Ok(found)
+}
+
+/// Shrinks and writes an example of every cluster of failures.
+fn with_examples(
+    certificate: Certificate,
+    plan: &Plan,
+    sources: &Sources<'_>,
+    folder: &Path,
+) -> Result<Certificate, Failure> {
+    let examples = cluster::examples(plan, sources.controller, &certificate.clusters)?;
+    for number in 1..=cluster::MOST {
+        let file = folder.join(cluster::stem_of(number) + ".json");
+        match examples.get(number - 1) {
+            Some(Some(own)) => write_aside(&file, own.to_json()?.as_bytes())?,
+            _ => take_away(&file)?,
+        }
+    }
+    Ok(certificate.with_examples(cluster::named(&examples)?)?)
 }
 
 /// Takes away what an earlier campaign left: it is none of this one's.

@@ -4,10 +4,12 @@ use std::path::Path;
 
 use rigproof_certify::calibration::Calibration;
 use rigproof_certify::certificate::Certificate;
+use rigproof_certify::cluster::Cluster;
 use rigproof_certify::finding::Named;
+use rigproof_certify::requirement::Requirement;
 use rigproof_certify::search::NamedWorst;
 use rigproof_certify::summary::{
-    Change, Ended, Endings, LawSummary, MetricSummary, TieSummary, Word,
+    Change, Ended, Endings, LawSummary, Limited, MetricSummary, TieSummary, Visited, Word,
 };
 
 use super::campaign::CERTIFICATE;
@@ -17,25 +19,11 @@ use crate::text::{join, section};
 
 /// What a person reads after a campaign; `library` is the compiled controller's, if it is one.
 pub fn certificate(certificate: &Certificate, folder: &Path, library: Option<&Path>) -> String {
-    let verdict = match certificate.may_go() {
-        true => format!(
-            "May go on the rig: no law was broken in {} scenarios, {} samples.",
-            certificate.plan.scenarios, certificate.samples
-        ),
-        false => "Must NOT go on the rig:".to_owned(),
-    };
-    let mut first = vec![verdict];
-    first.extend(
-        certificate
-            .reasons
-            .iter()
-            .map(|reason| format!("  {reason}")),
-    );
-    let calibration = certificate.plan.calibration.iter();
-    first.extend(calibration.map(Calibration::words));
+    let first = verdict(certificate);
     let findings = certificate.findings.iter();
     let findings = findings.map(|found| finding(found, folder, library));
-    let laws = certificate.laws.iter().map(law);
+    let scenarios = certificate.plan.scenarios;
+    let laws = certificate.laws.iter().map(|own| law(own, scenarios));
     let not = certificate
         .not_looked_at
         .iter()
@@ -49,7 +37,26 @@ pub fn certificate(certificate: &Certificate, folder: &Path, library: Option<&Pa
     join([
         first,
         section("Findings", findings),
+        section(
+            "What the failures have in common, the most frequent first",
+            certificate
+                .clusters
+                .iter()
+                .map(|own| cluster(own, folder, library)),
+        ),
         section(&of_laws(certificate), laws),
+        section(
+            "What the laboratory asks for",
+            certificate
+                .requirements
+                .iter()
+                .filter(|own| own.is_own())
+                .map(requirement),
+        ),
+        section(
+            "Where the trials were: workspace × speed × force × fault",
+            visited(&certificate.visited),
+        ),
         section(
             "Ties: samples in which the reference may decide otherwise",
             certificate.ties.iter().map(tie),
@@ -69,6 +76,34 @@ pub fn certificate(certificate: &Certificate, folder: &Path, library: Option<&Pa
     ])
 }
 
+/// Whether it may go on the rig, why not, and what to look at.
+fn verdict(certificate: &Certificate) -> Vec<String> {
+    let verdict = match certificate.may_go() {
+        true => format!(
+            "May go on the rig: no law was broken in {} scenarios, {} samples.",
+            certificate.plan.scenarios, certificate.samples
+        ),
+        false => "Must NOT go on the rig:".to_owned(),
+    };
+    let mut first = vec![verdict];
+    first.extend(
+        certificate
+            .reasons
+            .iter()
+            .map(|reason| format!("  {reason}")),
+    );
+    let cautions = certificate.cautions();
+    let joined = if certificate.may_go() { "But" } else { "Also," };
+    first.extend(
+        cautions
+            .iter()
+            .map(|caution| format!("  {joined} {caution}.")),
+    );
+    let calibration = certificate.plan.calibration.iter();
+    first.extend(calibration.map(Calibration::words));
+    first
+}
+
 /// A finding, how it is run again, and how the controller broke.
 fn finding(found: &Named, folder: &Path, library: Option<&Path>) -> String {
     let file = folder.join(&found.file);
@@ -82,6 +117,33 @@ fn finding(found: &Named, folder: &Path, library: Option<&Path>) -> String {
         found.law.name(),
         found.scenario,
         significant(found.time_s, 3)
+    )
+}
+
+/// Trials that broke a law and have something in common, and one of them shrunk.
+fn cluster(own: &Cluster, folder: &Path, library: Option<&Path>) -> String {
+    let also: String = own
+        .common
+        .iter()
+        .map(|common| {
+            let others = significant(100.0 * common.others, 2);
+            format!("; all with {} ({others} % of the others)", common.what)
+        })
+        .collect();
+    let replay = own.example.as_ref().map(|example| {
+        let file = folder.join(&example.file);
+        let mut words = vec![("--replay", file.as_path())];
+        words.extend(library.map(|library| ("--controller", library)));
+        format!("\n    {}", shell::line(&["rigproof", "certify"], &words))
+    });
+    format!(
+        "  {:<14} trials: {}, {} % of all failures: {}, {}{also}{}",
+        own.law.name(),
+        own.trials,
+        significant(100.0 * own.share, 2),
+        own.place,
+        own.fault,
+        replay.unwrap_or_default()
     )
 }
 
@@ -123,34 +185,77 @@ fn tie(tie: &TieSummary) -> String {
     )
 }
 
-fn law(law: &LawSummary) -> String {
+fn law(law: &LawSummary, scenarios: u64) -> String {
     let worst = law
         .worst_margin
         .map_or("–".to_owned(), |worst| significant(worst, 3));
     let broken = match law.broken_in {
         _ if law.samples == 0 => "NOT HELD".to_owned(),
+        0 if !law.is_met() => "TOO RARE".to_owned(),
         0 => "holds".to_owned(),
         count => format!("BROKEN in {count}"),
     };
     format!(
-        "  {:<14} {broken:<14} {:>12} samples, worst margin {worst} {}",
+        "  {:<14} {broken:<14} met in {:>9} of {:>9} samples, {} of {scenarios} trials (at least {}), {} of {} cells; least margin {worst} {}",
         law.law.name(),
+        law.met.samples,
         law.samples,
+        law.met.trials,
+        law.met.least_trials,
+        law.met.cells,
+        law.met.of_cells,
         law.unit
     )
+}
+
+/// A sentence that is asked for, and how it fared.
+fn requirement(own: &Requirement) -> String {
+    let margin = own.margin.map_or_else(
+        || "–".to_owned(),
+        |margin| format!("{} {}", significant(margin, 3), own.unit),
+    );
+    format!(
+        "  {} “{}”: {}, {} trials, margin {margin}",
+        if own.holds { "✔" } else { "✘" },
+        own.says,
+        own.by.name(),
+        own.trials
+    )
+}
+
+/// How many cells a sample lay in, and the first of the others.
+fn visited(visited: &Visited) -> Vec<String> {
+    const SHOWN: usize = 5;
+    let mut lines = vec![format!(
+        "  {} of {} cells visited",
+        visited.visited, visited.cells
+    )];
+    let never = &visited.never;
+    lines.extend(
+        never
+            .iter()
+            .take(SHOWN)
+            .map(|cell| format!("  never: {cell}")),
+    );
+    if never.len() > SHOWN {
+        let more = never.len() - SHOWN;
+        lines.push(format!("  and {more} more, in {CERTIFICATE}"));
+    }
+    lines
 }
 
 fn ended(ended: &Ended) -> Vec<String> {
     let of = |whose: &str, endings: &Endings| {
         let Endings {
             finished,
-            time,
-            left_workspace,
+            finished_then_stopped,
+            stopped,
+            time_over,
             no_answer,
         } = endings;
         format!(
-            "  {whose:<16} {finished} of {} came to the path's end; {left_workspace} ended at the stops, {no_answer} without an answer",
-            time + left_workspace + no_answer
+            "  {whose:<16} {} trials: {finished} came to the path's end, {finished_then_stopped} did and ended at the stops on the way back, {stopped} ended at the stops, {time_over} when their time was over, {no_answer} without an answer",
+            endings.each().iter().sum::<u64>()
         )
     };
     let mut lines = vec![of("the controller", &ended.controller)];
@@ -174,32 +279,47 @@ fn changed(change: &Change, unit: &str) -> String {
         Word::NoDifference => "no difference from the baseline",
     };
     let [low, high] = change.interval;
-    format!(
+    let own = &change.exact;
+    let mean = format!(
         "{word}: {} [{} to {}] {unit}",
         significant(change.mean, 3),
         significant(low, 3),
         significant(high, 3),
+    );
+    format!(
+        "{}; better in {} of {} pairs, worse in {} (exact sign test: p = {})",
+        mean.trim_end(),
+        own.better,
+        change.pairs,
+        own.worse,
+        significant(own.p, 2)
     )
-    .trim_end()
-    .to_owned()
 }
 
 fn metric(metric: &MetricSummary) -> String {
     let quantiles = metric.controller.map_or("not measured".to_owned(), |own| {
         format!(
-            "median {}, 95 % below {} {}",
+            "median {}, 95 % below {}, greatest {} {}{}",
             significant(own.q50, 3),
             significant(own.q95, 3),
-            metric.unit
+            significant(own.greatest, 3),
+            metric.unit,
+            metric
+                .worst_scenario
+                .map_or_else(String::new, |index| format!(" in trial {index}"))
         )
     });
     let change = metric.change.map_or_else(String::new, |change| {
         format!("; {}", changed(&change, &metric.unit))
     });
-    let beyond: String = metric
-        .beyond
-        .iter()
-        .map(|beyond| format!("\n    BEYOND ITS LIMIT: {}", beyond.words))
-        .collect();
-    format!("  {:<16} {quantiles}{change}{beyond}", metric.metric.key())
+    let limit = |limit: &Limited| {
+        let word = if limit.holds {
+            "within its limit"
+        } else {
+            "BEYOND ITS LIMIT"
+        };
+        format!("\n    {word}: {}", limit.words)
+    };
+    let limits: String = metric.limits.iter().map(limit).collect();
+    format!("  {:<16} {quantiles}{change}{limits}", metric.metric.key())
 }

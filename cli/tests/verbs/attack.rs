@@ -45,7 +45,9 @@ fn a_refused_certificate_whose_reasons_were_emptied_is_refused_and_not_signed() 
     );
     forge(&desk, |own| {
         for metric in &mut own.metrics {
-            (metric.limit, metric.beyond) = (metric.limit, Vec::new());
+            for limit in &mut metric.limits {
+                (limit.holds, limit.value) = (true, Some(0.0));
+            }
             if let Some(own) = metric.controller.as_mut() {
                 (own.q05, own.q50, own.q95, own.greatest) = (0.0, 0.0, 0.0, 0.0);
             }

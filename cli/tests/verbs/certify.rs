@@ -30,12 +30,27 @@ fn a_sound_controller_may_go_and_its_certificate_is_checked() {
         "Proved",
         "the baseline:",
         "came to the path's end",
+        "of 180 cells visited",
+        "exact sign test",
         "certificate.json",
     ] {
         assert!(text.contains(words), "{words}: {text}");
     }
+    let page = desk.read("done/certificate.html");
+    for words in [
+        "How often each law was met, and where",
+        "cells that no trial visited",
+        "What is asked for, and what stands for it",
+        "A gap surrounding the desired path within which no control action is taken.",
+        "No limit was given",
+    ] {
+        assert!(page.contains(words), "{words}");
+    }
     let certificate: Value = serde_json::from_str(&desk.read("done/certificate.json")).unwrap();
     assert_shape_of(&certificate, SCHEMA);
+    let ended = certificate["ended"]["controller"].as_object().unwrap();
+    let ended: u64 = ended.values().map(|count| count.as_u64().unwrap()).sum();
+    assert_eq!(ended, 24);
     assert_eq!(desk.json(&format!("{line} --json"), 0), certificate);
     let checked = desk.json(
         "certify --check done/certificate.json --sample 16 --json",
@@ -73,7 +88,25 @@ fn limits_that_are_broken_are_said_and_end_with_one() {
     );
     let allowed = "1/s, where certify.toml allows 0.5 1/s";
     assert_eq!(text.matches(allowed).count(), 2, "{text}");
-    assert!(desk.read("no/certificate.html").contains(allowed));
+    let page = desk.read("no/certificate.html");
+    assert!(page.contains(allowed) && page.contains("limits-table"));
+    // One limit that holds is shown too, with its worst trial.
+    desk.put(
+        "certify.toml",
+        &format!(
+            "{SOUND}[limits]\nfinish_s = 1e9\nswitching_per_s = 1000\n[[requirement]]\nsays = \"not restless\"\nmetric = \"switching_per_s\"\n"
+        ),
+    );
+    let text = desk.prints(
+        "certify certify.toml --scenarios 16 --seconds 1 --out some",
+        1,
+    );
+    assert!(
+        text.contains("within its limit: switching_per_s: 95 of 100 trials come to")
+            && text.contains("BEYOND ITS LIMIT: finish_s")
+            && text.contains("✔ “not restless”: switching_per_s, 16 trials"),
+        "{text}"
+    );
     desk.prints("certify --check no/certificate.json", 0);
 }
 
@@ -367,6 +400,10 @@ fn a_calibration_is_the_plant_or_is_refused_by_what_it_names() {
         "late.toml",
         &with("mechanism = \"dead_time\"\ndelay = { value = 3, unit = \"ms\" }\n"),
     );
+    desk.put(
+        "hot.toml",
+        &with("mechanism = \"thermal_fade\"\nper_joule = { value = 0.003, unit = \"1/J\" }\ncooling = { value = 30, unit = \"s\" }\n"),
+    );
     let line = "certify certify.toml --scenarios 24 --seconds 1 --out out --calibration";
     let printed = desk.prints(&format!("{line} found.toml"), 0);
     assert!(
@@ -380,8 +417,11 @@ fn a_calibration_is_the_plant_or_is_refused_by_what_it_names() {
         serde_json::json!(["three_brake"])
     );
     desk.prints("certify --check out/certificate.json --sample 8", 0);
+    // What acts between command and brake runs too, and the commands are late then.
+    let other = desk.json(&format!("{line} late.toml --json"), 0);
+    assert_ne!(other["metrics"], certificate["metrics"]);
     for (file, part) in [
-        ("late.toml", "has no `dead_time` at joint E"),
+        ("hot.toml", "has no `thermal_fade` at joint E"),
         ("certify.toml", "no calibration of a five-bar"),
     ] {
         let answer = desk.rigproof(&format!("{line} {file}"));
@@ -391,4 +431,55 @@ fn a_calibration_is_the_plant_or_is_refused_by_what_it_names() {
             "{message}"
         );
     }
+}
+
+#[test]
+fn a_worst_trial_far_off_the_path_is_named_in_the_verdict() {
+    let desk = Desk::new();
+    // Nothing guides: an adversary takes the tip far away, and no limit was given.
+    desk.put("certify.toml", "[controller]\nnamed = \"uncontrolled\"\n");
+    let text = desk.prints(
+        "certify certify.toml --scenarios 60 --seconds 2 --out far",
+        0,
+    );
+    let mut lines = text.lines();
+    assert!(lines.next().unwrap().starts_with("May go on the rig"));
+    let caution = lines.next().unwrap();
+    assert!(
+        caution.starts_with("  But in trial ") && caution.contains("mm off the path in the mean"),
+        "{text}"
+    );
+    let page = desk.read("far/certificate.html");
+    assert!(page.contains("look at the worst trial") && page.contains("tone-doubt"));
+    assert!(!page.contains("verdict tone-good"));
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn failures_are_gathered_by_what_they_have_in_common() {
+    let desk = Desk::new();
+    let damper = std::path::Path::new(crate::controller::ROOM).join("examples/damper.c");
+    if crate::controller::compiled(&damper, &desk.path("damper.so")).is_none() {
+        return;
+    }
+    // It brakes, and promises not to.
+    desk.put("certify.toml", "[declares]\nmost_brakes = 0\n");
+    let line = "certify certify.toml --controller damper.so --scenarios 24 --seconds 0.5 --out no";
+    let certificate = desk.json(&format!("{line} --json"), 1);
+    assert_shape_of(&certificate, SCHEMA);
+    let clusters = certificate["clusters"].as_array().unwrap();
+    assert!(!clusters.is_empty() && clusters.len() <= 8);
+    let trials: Vec<u64> = clusters
+        .iter()
+        .map(|own| own["trials"].as_u64().unwrap())
+        .collect();
+    assert!(trials.is_sorted_by(|one, next| one >= next), "{trials:?}");
+    let file = clusters[0]["example"]["file"].as_str().unwrap();
+    assert_eq!(file, "cluster-1.json");
+    desk.prints(
+        &format!("certify --replay no/{file} --controller damper.so"),
+        1,
+    );
+    let page = desk.read("no/certificate.html");
+    assert!(page.contains("What the failures have in common"));
 }
