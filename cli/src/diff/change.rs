@@ -68,7 +68,7 @@ fn files(one: &Side, other: &Side) -> Option<Change> {
         }
     };
     let (own, new) = (only(one, other), only(other, one));
-    (own != new).then(|| Change::Words("files", own, new))
+    (own != new).then_some(Change::Words("files", own, new))
 }
 
 /// Whether the intervals of two numbers do not meet; nothing where one has none.
