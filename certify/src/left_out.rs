@@ -244,7 +244,7 @@ fn is_drive(one: &LeftOut) -> bool {
     match form(one.mechanism) {
         Some(Form::Brake(OfBrake::DeadTime)) => (0.0..=drive::LONGEST_S).contains(&one.number(0)),
         Some(Form::Brake(OfBrake::CurrentHysteresis)) => {
-            one.number(1) > 0.0 && one.number(2) >= 0.0
+            one.number(0) > 0.0 && one.number(2) >= 0.0 && (0.0..=1.0).contains(&one.number(3))
         }
         _ => one.number(0) > 0.0,
     }

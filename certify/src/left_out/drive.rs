@@ -154,7 +154,7 @@ mod tests {
         let gain = effect(Mechanism::CurrentGain, &[0.5]);
         let limit = effect(Mechanism::Saturation, &[0.4]);
         is(&[limit, gain], [0.0, 0.15, 0.4, 0.4, 0.2, 0.05, 0.0, 0.0]);
-        let play = effect(Mechanism::CurrentHysteresis, &[1.0, 0.2, 0.0]);
+        let play = effect(Mechanism::CurrentHysteresis, &[0.2, 1.0, 0.0]);
         is(&[play], [0.0, 0.1, 0.7, 0.7, 0.6, 0.3, 0.2, 0.2]);
         // More than the table is for is not given.
         let gain = effect(Mechanism::CurrentGain, &[3.0]);

@@ -82,7 +82,9 @@ fn odds(problem: &Problem, term: &Term) -> f64 {
 /// before it slides. It takes the place of the stated law, and only its further numbers cost.
 fn refines_a_stated_law(problem: &Problem, cause: Cause) -> bool {
     let mechanism = kind(cause.mechanism);
+    let linear = |own: Mechanism| entry(own).map(|entry| entry.linear);
     let limit = facts(mechanism).and_then(|facts| facts.limit);
+    let limit = limit.filter(|limit| linear(cause.mechanism) == linear(limit.of));
     limit.is_some_and(|limit| {
         let number = mechanism.parameters().get(limit.parameter);
         let stated = |own: &Cause| own.mechanism == limit.of && own.at == cause.at;
