@@ -49,8 +49,10 @@ pub fn page(diagnosed: Diagnosed) -> String {
         "Before and after, on held-out data",
         after::body(report, curves, replay.as_ref(), &mut charts),
     );
-    // Where something is named, the time line answers what its absence would cost.
-    let when = when::body(curves, &mut charts);
+    // Where something is named, the time line answers what its absence would cost. Where nothing
+    // goes wrong and nothing is named there is no line to show.
+    let is_shown = report.verdict != Verdict::Consistent || !report.effects.is_empty();
+    let when = is_shown.then(|| when::body(curves, &mut charts)).flatten();
     let (if_off, when) = match report.effects.is_empty() {
         true => (None, when),
         false => (when, None),

@@ -100,7 +100,10 @@ fn parts(law: &LawSummary) -> Markup {
     let rows: Vec<Vec<String>> = law.met.parts.iter().map(row).collect();
     table(
         &format!("coverage-{}", law.law.name()),
-        "Samples in which its premise was met, and the least margin in them.",
+        &format!(
+            "Samples in which the premise of {} was met, and the least margin in them.",
+            law.law.name()
+        ),
         &["axis", "part", "samples", "least margin"],
         &rows,
     )
