@@ -109,7 +109,8 @@ async function fresh(url, from, to) {
   const title = await page.$eval('h1', (own) => own.textContent);
   holds(name, `compared: ${title}`, title.includes(run) && title.includes(wanted[1]));
   await Promise.all([page.waitForNavigation({ waitUntil: 'load' }), page.click('.verdict p:last-child a:nth-of-type(2)')]);
-  holds(name, 'from the comparison to the run', (await page.$$('.plot canvas')).length > 2);
+  // The charts of the held-out data are drawn; what is folded is drawn when it is opened.
+  holds(name, 'from the comparison to the run', (await page.$$('.plot canvas')).length >= 2);
   await page.close();
 }
 
