@@ -109,8 +109,9 @@ async function fresh(url, from, to) {
   const title = await page.$eval('h1', (own) => own.textContent);
   holds(name, `compared: ${title}`, title.includes(run) && title.includes(wanted[1]));
   await Promise.all([page.waitForNavigation({ waitUntil: 'load' }), page.click('.verdict p:last-child a:nth-of-type(2)')]);
-  // The charts of the held-out data are drawn; what is folded is drawn when it is opened.
-  holds(name, 'from the comparison to the run', (await page.$$('.plot canvas')).length >= 2);
+  // What is folded is drawn when it is opened: places are counted, and one chart at least is drawn.
+  const [places, drawn] = [(await page.$$('.plot')).length, (await page.$$('.plot canvas')).length];
+  holds(name, `from the comparison to the run: ${places} places, ${drawn} charts at ${page.url()}`, places > 2 && drawn > 0);
   await page.close();
 }
 
