@@ -18,7 +18,7 @@ use crate::rules::{
 use crate::weak::Windows;
 use core::f64::consts::TAU;
 use rigproof_model::effects::facts::Shapes;
-use rigproof_model::effects::{Form, Instant, entry, facts, form};
+use rigproof_model::effects::{Instant, entry, facts};
 use rigproof_spec::effect::{Mechanism, Motion, Range};
 use rigproof_spec::tables::GREATEST_CURRENT_A;
 
@@ -102,8 +102,8 @@ pub fn modelled_effort(problem: &Problem, terms: &[&Term], fitted: &Fit) -> Vec<
             };
             add(&mut effort, &rows.signal, times.unwrap_or(0.0));
         }
-        let is_drive = matches!(form(term.cause.mechanism), Some(Form::Drive(_)));
-        if let Some(fixed) = term.fixed.as_ref().filter(|_| !is_drive) {
+        let fixed = term.fixed.as_ref();
+        if let Some(fixed) = fixed.filter(|_| !term.cause.is_of_drive()) {
             add(&mut effort, &fixed.signal, 1.0);
         }
     }
@@ -166,9 +166,7 @@ pub fn standard_shapes<R: Run + ?Sized>(
             MOST_SHIFT_S_JOINT.max(MOST_SHIFT_STEPS * step_s),
             SHIFTS_JOINT,
         ))),
-        Shapes::CurrentPlay { low, high, count } => {
-            plays(&geometric(low, high, count), &[], GREATEST_CURRENT_A)
-        }
+        Shapes::CurrentPlay { low, high, count } => plays(&geometric(low, high, count), &[]),
         Shapes::Delay => one(geometric(step_s, MOST_DELAY_S, DELAYS)),
         Shapes::CurrentLimit => {
             let current = run.brake().map(|(_, current)| current);
@@ -184,8 +182,8 @@ pub fn standard_shapes<R: Run + ?Sized>(
 }
 
 /// The shapes of a play of the current: single plays whose sides meet below a current or stay open,
-/// and spread plays with and without the scale of a table that was taken up to `top_a`.
-pub fn plays(widths: &[f64], closing_a: &[f64], top_a: f64) -> Vec<Vec<f64>> {
+/// and spread plays with and without the scale of the table, which ends at the greatest current.
+pub fn plays(widths: &[f64], closing_a: &[f64]) -> Vec<Vec<f64>> {
     let of_width = |width: f64, share: f64| {
         let closing = closing_a
             .iter()
@@ -193,7 +191,7 @@ pub fn plays(widths: &[f64], closing_a: &[f64], top_a: f64) -> Vec<Vec<f64>> {
         let others = [
             vec![width, share],
             vec![width, share, 0.0, 1.0],
-            vec![width, share, 0.0, 1.0, top_a],
+            vec![width, share, 0.0, 1.0, GREATEST_CURRENT_A],
         ];
         closing.chain(others)
     };

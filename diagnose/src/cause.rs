@@ -1,5 +1,6 @@
 //! This file names a cause: a mechanism that a model may lack, and its place.
 
+use rigproof_model::effects::{Form, form};
 use rigproof_spec::effect::Mechanism;
 
 /// A joint by its index in the plant's own order. The plant knows its name.
@@ -60,6 +61,11 @@ impl Cause {
             scales: Scales::Torque,
             ..self
         }
+    }
+
+    /// Whether it changes the drive: it acts on the effort that everything else gives.
+    pub fn is_of_drive(self) -> bool {
+        matches!(form(self.mechanism), Some(Form::Drive(_)))
     }
 
     /// Whether it is a composed variant: shared by joints, in proportion to a torque, or on one

@@ -20,7 +20,7 @@ use fitted::{Fitted, Folds};
 use late::Late;
 pub use many::explain_many;
 use rayon::prelude::*;
-use rigproof_model::effects::{Form, facts, form};
+use rigproof_model::effects::facts;
 use rigproof_spec::effect::Mechanism;
 use score::{Judge, prior};
 
@@ -272,8 +272,7 @@ fn polished(problem: &Problem, nominal: &[Term], terms: &[Term]) -> Vec<Term> {
     for index in 0..all.len() {
         let mut others = all.clone();
         let own = others.remove(index);
-        let is_drive = matches!(form(own.cause.mechanism), Some(Form::Drive(_)));
-        if is_drive || own.shape.is_empty() && own.onset_s.is_none() {
+        if own.cause.is_of_drive() || own.shape.is_empty() && own.onset_s.is_none() {
             continue;
         }
         let common: Vec<&Term> = nominal.iter().chain(&others).collect();

@@ -51,11 +51,13 @@ pub fn page(diagnosed: Diagnosed) -> String {
     );
     // Where something is named, the time line answers what its absence would cost. Where nothing
     // goes wrong and nothing is named there is no line to show.
-    let is_shown = report.verdict != Verdict::Consistent || !report.effects.is_empty();
-    let when = is_shown.then(|| when::body(curves, &mut charts)).flatten();
-    let (if_off, when) = match report.effects.is_empty() {
-        true => (None, when),
-        false => (when, None),
+    let what_if = when::what_if(curves);
+    let is_named = !report.effects.is_empty();
+    let is_shown = is_named || report.verdict != Verdict::Consistent;
+    let line = is_shown.then(|| when::body(curves, what_if.as_ref(), &mut charts));
+    let (if_off, when) = match (line.flatten(), is_named) {
+        (line, true) => (line, None),
+        (line, false) => (None, line),
     };
     section("what", "What it is", what::body(report, if_off));
     // Where nothing goes wrong there is no place to show.
@@ -65,7 +67,7 @@ pub fn page(diagnosed: Diagnosed) -> String {
     section(
         "sure",
         "How sure this is",
-        sure::body(report, curves, &mut charts),
+        sure::body(report, curves, what_if.as_ref(), &mut charts),
     );
     section(
         "next",

@@ -151,7 +151,7 @@ impl Fitted {
         let mut fitted = self.clone();
         if let Some(fixed) = &term.fixed {
             fitted.take_away(folds, &fixed.white);
-            if let Some(Form::Drive(_)) = form(term.cause.mechanism) {
+            if term.cause.is_of_drive() {
                 add(&mut fitted.acting, &fixed.raw, -1.0);
             }
         }

@@ -1,6 +1,7 @@
 //! This file searches for onsets: a term of an explanation that begins in the middle of a
 //! recording.
 
+use super::beam::may_join;
 use super::fitted::{Fitted, Folds};
 use super::refine::refined;
 use super::score::{Judge, gives_energy};
@@ -58,16 +59,8 @@ impl Late<'_> {
             self.placed(shapes)
         });
         let all = found.into_iter().chain(exchanged.into_iter().flatten());
-        let mut best: Vec<Begun> = Vec::new();
-        for own in self.ranked(all.collect()) {
-            let causes = |own: &Begun| -> Vec<Cause> {
-                own.fitted.terms.iter().map(|term| term.cause).collect()
-            };
-            if !best.iter().any(|other| causes(other) == causes(&own)) {
-                best.push(own);
-            }
-        }
-        best.into_iter().map(|own| own.fitted).collect()
+        let best = self.best_of_each(all.collect()).into_iter();
+        best.map(|own| own.fitted).collect()
     }
 
     /// An explanation without one of its terms, and that term.
@@ -85,18 +78,10 @@ impl Late<'_> {
         let Some((others, _)) = self.apart(&leading.fitted, last) else {
             return Vec::new();
         };
-        let begun = tried.par_iter().filter(|term| {
-            let mut own = others.terms.iter();
-            !own.any(|other| other.cause == term.cause)
-        });
-        let begun = begun.filter_map(|term| self.begun(&others, term, leading.share));
-        let mut best: Vec<Begun> = Vec::new();
-        for own in self.ranked(begun.collect()) {
-            let cause = |own: &Begun| own.fitted.terms.last().map(|term| term.cause);
-            if !best.iter().any(|other| cause(other) == cause(&own)) {
-                best.push(own);
-            }
-        }
+        let open = tried.par_iter();
+        let open = open.filter(|term| may_join(&others.terms, term));
+        let begun = open.filter_map(|term| self.begun(&others, term, leading.share));
+        let mut best = self.best_of_each(begun.collect());
         best.truncate(BEAM);
         let refined = best.into_par_iter().map(|own| {
             let fitted = refined(self.problem, self.folds, self.judge, self.bare, own.fitted);
@@ -129,6 +114,20 @@ impl Late<'_> {
             Some(best)
         });
         placed.collect()
+    }
+
+    /// The best explanation of each set of causes, the best first.
+    fn best_of_each(&self, all: Vec<Begun>) -> Vec<Begun> {
+        let causes = |own: &Begun| -> Vec<Cause> {
+            own.fitted.terms.iter().map(|term| term.cause).collect()
+        };
+        let mut best: Vec<Begun> = Vec::new();
+        for own in self.ranked(all) {
+            if !best.iter().any(|other| causes(other) == causes(&own)) {
+                best.push(own);
+            }
+        }
+        best
     }
 
     fn ranked(&self, mut all: Vec<Begun>) -> Vec<Begun> {

@@ -4,16 +4,21 @@ use maud::{Markup, html};
 use rigproof_diagnose::Curves;
 use rigproof_diagnose::report::{ExplanationReport, NamedRate, Report};
 
-use super::{left_over, when};
+use super::left_over;
 use crate::chart::Chart;
 use crate::number::{percent, probability, rate, significant, with_unit};
 use crate::what_if::WhatIf;
 use crate::words::{at_rest, called_at, capital, plain_at, plain_cause};
 
 /// Rivals, correlations, floor, trials on simulated recordings, and what could have been overlooked; nothing where nothing was concluded.
-pub fn body(report: &Report, curves: &Curves, charts: &mut Vec<Chart>) -> Option<Markup> {
+pub fn body(
+    report: &Report,
+    curves: &Curves,
+    what_if: Option<&WhatIf>,
+    charts: &mut Vec<Chart>,
+) -> Option<Markup> {
     let floor = report.floor.as_ref()?;
-    let alike = WhatIf::of(curves, when::stretch(curves), 1).and_then(|own| own.correlations());
+    let alike = what_if.and_then(WhatIf::correlations);
     Some(html! {
         p { "From the noise of the sensors it is computed what a perfect model would leave over: " strong { (with_unit(floor.predicted, &floor.unit)) }
             ". The old model leaves " strong { (significant(floor.ratio_before, 3)) } " times as much, the new one " strong { (significant(floor.ratio_after, 3)) } " times." }

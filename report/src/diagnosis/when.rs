@@ -16,17 +16,22 @@ const UNEXPLAINED: f64 = 2.0;
 const ID: &str = "time-line";
 
 /// How many windows make a stretch.
-pub fn stretch(curves: &Curves) -> usize {
+fn stretch(curves: &Curves) -> usize {
     curves.window_time_s.len().div_ceil(STRETCHES).max(1)
 }
 
+/// What the new model would leave in each stretch without one of its names; nothing where none is.
+pub fn what_if(curves: &Curves) -> Option<WhatIf> {
+    WhatIf::of(curves, stretch(curves), 1)
+}
+
 /// The time line, with a switch for each name; nothing where there are no windows.
-pub fn body(curves: &Curves, charts: &mut Vec<Chart>) -> Option<Markup> {
+pub fn body(curves: &Curves, what_if: Option<&WhatIf>, charts: &mut Vec<Chart>) -> Option<Markup> {
     if curves.window_time_s.is_empty() {
         return None;
     }
     let (mut chart, caption) = time_line(curves);
-    chart.what_if = WhatIf::of(curves, stretch(curves), 1);
+    chart.what_if = what_if.cloned();
     let switches = chart.what_if.as_ref().map(|own| own.switches(ID));
     Some(
         html! { @if let Some(switches) = switches { (switches) } (place(charts, chart, &caption)) },

@@ -18,7 +18,6 @@ use crate::weak::Windows;
 use rigproof_model::effects::facts::{Shapes, Where};
 use rigproof_model::effects::{Entry, Form, LIBRARY, OfSensor, entry, facts, form};
 use rigproof_spec::joint::Joint;
-use rigproof_spec::tables::GREATEST_CURRENT_A;
 
 /// The causes that have a meaning on this layout.
 pub fn causes(run: &FiveBarRun) -> Vec<Cause> {
@@ -217,9 +216,7 @@ pub fn shapes(
         )),
         Shapes::Delay => one(geometric(run.step_s, MOST_DELAY_S, DELAYS)),
         Shapes::CurrentLimit => one(limits(run, cause)),
-        Shapes::CurrentPlay { low, high, count } => {
-            plays(&geometric(low, high, count), &CLOSING_A, GREATEST_CURRENT_A)
-        }
+        Shapes::CurrentPlay { low, high, count } => plays(&geometric(low, high, count), &CLOSING_A),
         Shapes::Shift => one(both_signs(geometric(
             LEAST_SHIFT_STEPS_FIVE_BAR * run.step_s,
             MOST_SHIFT_S_FIVE_BAR.max(MOST_SHIFT_STEPS * run.step_s),
