@@ -329,7 +329,6 @@ fn say(
 /// The next step, as a command where there is one.
 fn next(rig: &Path, out: &Path, shown_on: &Path, diagnosis: &Diagnosis) -> String {
     let report = &diagnosis.report;
-    let model = diagnosis.calibration.beside().into_iter().next();
     let calibration = out.join(folder::CALIBRATION);
     match report.verdict {
         Verdict::DataFault => "mend the recording or the rig file, or cut the fault away with --from-s and --to-s; then diagnose again".to_owned(),
@@ -342,7 +341,7 @@ fn next(rig: &Path, out: &Path, shown_on: &Path, diagnosis: &Diagnosis) -> Strin
             report.unknown.as_ref().map_or("joint and regime hint at", |_| "the shape says"),
         ),
         // A model of another simulator is simulated there.
-        _ => match model {
+        _ => match diagnosis.calibration.beside().first() {
             Some((name, _)) => format!(
                 "take {} into your own simulation; {} has all that was found",
                 out.join(name).display(),
