@@ -20,13 +20,13 @@ RATE_HZ, SUBSTEPS = 1000, 8
 RIGHT = {
     "frictionloss": ["dry_offset"],
     "damping": ["viscous"],
-    "armature": ["inertia_error", "payload"],
+    "armature": ["added_inertia", "inertia_error", "payload"],
     "stiffness": ["spring"],
     "springref": ["spring"],
     "gear": ["gain_error"],
     "filter": ["lag", "dead_time"],
     "delay": ["dead_time", "channel_skew", "lag"],
-    "backlash": ["backlash_width", "backlash", "compliance"],
+    "backlash": ["load_backlash", "backlash_width", "backlash", "compliance"],
 }
 COMPANIONS = {"springref": ["constant_bias"], "filter": ["channel_skew"],
               "backlash": ["presliding", "hysteresis", "inertia_error", "payload"]}

@@ -21,9 +21,12 @@ pub struct Axis {
 pub struct Transmission {
     /// Dry friction as a share of the driving effort.
     pub friction_share: f64,
-    /// Parts that hang on the joint by a damped spring.
-    pub trailing: Option<Trailing>,
+    /// Parts that hang on the joint by a damped spring or in a gap.
+    pub trailing: [Option<Trailing>; TRAILING_PARTS],
 }
+
+/// How many parts can hang on a joint.
+pub const TRAILING_PARTS: usize = 2;
 
 /// A part of the inertia that follows the joint as a resonator does.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,13 +37,34 @@ pub struct Trailing {
     pub resonance_rad_s: f64,
     /// Its damping ratio.
     pub damping: f64,
+    /// How far it moves freely to either side before it meets spring and damper, m or rad; 0 where they hold it always.
+    pub half_gap: f64,
 }
 
+/// The contact at the ends of a gap turns by so much of its oscillation in an integration step, rad: as stiff as the step follows.
+const CONTACT_RAD: f64 = 0.5;
+
 impl Trailing {
-    /// What spring and damper give it, m/s² or rad/s², at a displacement from the joint and its rate.
-    fn pull(&self, [displacement, rate]: [f64; 2]) -> f64 {
+    /// A part that is free inside a gap and meets its ends without a bounce.
+    pub fn in_a_gap(share: f64, gap: f64, step_s: f64) -> Trailing {
+        Trailing {
+            share,
+            resonance_rad_s: CONTACT_RAD / step_s,
+            damping: 1.0,
+            half_gap: 0.5 * gap,
+        }
+    }
+
+    /// What holds it to the joint gives it this acceleration, m/s² or rad/s², at a displacement from the joint and its rate.
+    pub fn pull(&self, [displacement, rate]: [f64; 2]) -> f64 {
         let resonance = self.resonance_rad_s;
-        -resonance * (2.0 * self.damping * rate + resonance * displacement)
+        let beyond = displacement - displacement.clamp(-self.half_gap, self.half_gap);
+        let pull = -resonance * (2.0 * self.damping * rate + resonance * beyond);
+        // The ends of a gap push and never hold.
+        match self.half_gap > 0.0 && pull * beyond >= 0.0 {
+            true => 0.0,
+            false => pull,
+        }
     }
 }
 
@@ -58,8 +82,8 @@ pub struct State {
     pub speed: f64,
     /// The memory of each law, in the order of `Axis::laws`.
     pub memory: [f64; MOST_LAWS],
-    /// Displacement of the trailing parts from the joint, m or rad, and its rate.
-    pub trailing: [f64; 2],
+    /// Displacement of each trailing part from the joint, m or rad, and its rate.
+    pub trailing: [[f64; 2]; TRAILING_PARTS],
 }
 
 /// Stops that one step may contain before the rest of the step is taken as stuck.
@@ -81,7 +105,7 @@ impl Axis {
             position,
             speed,
             memory,
-            trailing: [0.0; 2],
+            trailing: [[0.0; 2]; TRAILING_PARTS],
         }
     }
 
@@ -116,26 +140,28 @@ impl Axis {
 
     /// Lets the trailing parts swing while the joint stands.
     fn ring(&self, state: &mut State, left_s: f64) {
-        let Some(trailing) = self.transmission.trailing else {
-            return;
-        };
-        let steps = (left_s * trailing.resonance_rad_s / RING_RAD)
-            .ceil()
-            .max(1.0);
-        let step_s = left_s / steps;
-        let [displacement, rate] = &mut state.trailing;
-        for _ in 0..steps as usize {
-            *rate += step_s * trailing.pull([*displacement, *rate]);
-            *displacement += step_s * *rate;
+        for (part, moved) in self.parts().zip(&mut state.trailing) {
+            let Some(part) = part else {
+                continue;
+            };
+            let steps = (left_s * part.resonance_rad_s / RING_RAD).ceil().max(1.0);
+            let step_s = left_s / steps;
+            for _ in 0..steps as usize {
+                moved[1] += step_s * part.pull(*moved);
+                moved[0] += step_s * moved[1];
+            }
         }
     }
 
-    /// What the trailing parts' spring and damper hold against the joint.
+    fn parts(&self) -> impl Iterator<Item = Option<Trailing>> {
+        self.transmission.trailing.into_iter()
+    }
+
+    /// The effort with which the trailing parts hold the joint back.
     fn held_back(&self, state: &State) -> f64 {
-        let trailing = self.transmission.trailing;
-        trailing.map_or(0.0, |own| {
-            self.inertia * own.share * own.pull(state.trailing)
-        })
+        let each = self.parts().zip(state.trailing);
+        let held = each.filter_map(|(part, moved)| Some(part?.share * part?.pull(moved)));
+        self.inertia * held.sum::<f64>()
     }
 
     /// The sense in which the joint moves next: that of its speed, or at rest that of an effort which breaks it
@@ -218,12 +244,13 @@ impl Axis {
             *rate = law.memory_rate(&now, memory);
         }
         let net = effort - resistance - self.held_back(at);
-        let mut acceleration = net / self.inertia;
-        let mut trailing = [0.0; 2];
-        if let Some(own) = self.transmission.trailing {
-            acceleration /= 1.0 - own.share;
-            let [_, rate] = at.trailing;
-            trailing = [rate, own.pull(at.trailing) - acceleration];
+        let apart: f64 = self.parts().flatten().map(|part| part.share).sum();
+        let acceleration = net / (self.inertia * (1.0 - apart));
+        let mut trailing = [[0.0; 2]; TRAILING_PARTS];
+        for ((part, moved), rate) in self.parts().zip(at.trailing).zip(&mut trailing) {
+            if let Some(part) = part {
+                *rate = [moved[1], part.pull(moved) - acceleration];
+            }
         }
         State {
             time_s: 1.0,
@@ -265,7 +292,8 @@ impl State {
         for (memory, rate) in moving.take(memories) {
             *memory += step_s * rate;
         }
-        for (own, rate) in self.trailing.iter_mut().zip(rate.trailing) {
+        let own = self.trailing.iter_mut().flatten();
+        for (own, rate) in own.zip(rate.trailing.iter().flatten()) {
             *own += step_s * rate;
         }
     }
@@ -279,8 +307,9 @@ impl State {
         for ((memory, from), rate) in moving.take(memories) {
             *memory = from + step_s * rate;
         }
-        let trailing = from.trailing.iter().zip(rate.trailing);
-        for (own, (from, rate)) in self.trailing.iter_mut().zip(trailing) {
+        let moving = from.trailing.iter().zip(&rate.trailing);
+        let moving = moving.flat_map(|(from, rate)| from.iter().zip(rate));
+        for (own, (from, rate)) in self.trailing.iter_mut().flatten().zip(moving) {
             *own = from + step_s * rate;
         }
     }
@@ -386,19 +415,56 @@ mod tests {
             share: 0.31,
             resonance_rad_s: 47.0,
             damping: 0.08,
+            half_gap: 0.0,
         };
-        axis.transmission.trailing = Some(trailing);
+        axis.transmission.trailing[0] = Some(trailing);
         let mut state = axis.state(0.0, 0.0, 0.0);
         for _ in 0..3000 {
             axis.step(&mut state, 0.9, 0.9, 1e-3);
         }
-        let [_, rate] = state.trailing;
+        let [displacement, rate] = state.trailing[0];
         let momentum = 1.3 * state.speed + 1.3 * 0.31 * rate;
         assert!((momentum - 0.9 * 3.0).abs() < 1e-9, "{momentum}");
         // In the end everything accelerates together, the spring stretched by what its part weighs.
         let acceleration = 0.9 / 1.3;
         let stretched = -acceleration / (47.0 * 47.0);
-        assert!((state.trailing[0] - stretched).abs() < 1e-5 * stretched.abs());
+        assert!((displacement - stretched).abs() < 1e-5 * stretched.abs());
+    }
+
+    #[test]
+    fn a_part_in_a_gap_is_free_until_an_end_of_it_pushes() {
+        let mut axis = axis(&[]);
+        let (share, gap, step_s) = (0.37, 0.02, 1e-3);
+        axis.transmission.trailing[1] = Some(Trailing::in_a_gap(share, gap, step_s));
+        let mut state = axis.state(0.0, 0.0, 0.0);
+        // In the gap the joint is lighter by the part.
+        for _ in 0..50 {
+            axis.step(&mut state, 0.9, 0.9, step_s);
+        }
+        let alone = 0.9 * 0.05 / (1.3 * (1.0 - share));
+        assert!((state.speed - alone).abs() < 1e-12, "{}", state.speed);
+        let mut energy = 0.0;
+        for _ in 0..1950 {
+            axis.step(&mut state, 0.9, 0.9, step_s);
+        }
+        let momentum = |state: &State| 1.3 * (state.speed + share * state.trailing[1][1]);
+        assert!((momentum(&state) - 0.9 * 2.0).abs() < 1e-9);
+        // Pushed together, the part stands at the rear end of the gap.
+        assert!((state.trailing[1][0] + 0.5 * gap).abs() < 0.02 * gap);
+        assert!((state.speed - 0.9 * 2.0 / 1.3).abs() < 1e-3);
+        // Braked, the part flies on at its speed to the front end, and no energy is made.
+        let flown = state.speed + state.trailing[1][1];
+        for k in 0..100 {
+            axis.step(&mut state, -0.2, -0.2, step_s);
+            let [displacement, rate] = state.trailing[1];
+            if k > 5 && displacement < 0.5 * gap {
+                assert!((state.speed + rate - flown).abs() < 1e-3, "{k}");
+            }
+            let part = state.speed + rate;
+            let now = (1.0 - share) * state.speed.powi(2) + share * part.powi(2);
+            assert!(k == 0 || now <= energy, "{k}: {now} > {energy}");
+            energy = now;
+        }
     }
 
     #[test]

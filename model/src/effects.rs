@@ -125,6 +125,8 @@ pub enum OfJoint {
     Inertia,
     /// An inertia behind a spring.
     Compliance,
+    /// An inertia behind a gap.
+    Gap,
     /// Other masses of a link of an arm.
     Link,
 }
@@ -268,6 +270,7 @@ pub const LIBRARY: &[Entry] = &[
     driven::ADDED_INERTIA,
     driven::LINK_INERTIA,
     driven::COMPLIANCE,
+    driven::LOAD_BACKLASH,
     linkage::GRAVITY,
     linkage::INERTIA_ERROR,
     linkage::PAYLOAD,

@@ -185,6 +185,11 @@ vocabulary! {
     LinkLength = "link_length" called "wrong link length" | "arm length" [needed("more", Length)],
     /// Friction that is missing while a gap is crossed after a reversal.
     Backlash = "backlash" called "backlash" | "play" | "dead zone" | "deadband" | "lost motion" [needed("missing", Effort), needed("gap", Travel).above_zero()],
+    /// A gap between a joint and a part of its inertia.
+    LoadBacklash = "load_backlash" called "backlash between motor and load" | "gear lash" | "two-mass backlash" [
+        needed("inertia", Inertia).not_below_zero(),
+        needed("gap", Travel).above_zero(),
+    ],
     /// Friction in proportion to the effort that a joint transmits.
     LoadFriction = "load_friction" called "friction under load" | "gear efficiency" [needed("share", Number).not_below_zero()],
     /// Friction that falls with time.

@@ -3,7 +3,8 @@
 
 use super::{Fault, smallest_step};
 use crate::continuity::roughness;
-use crate::rules::{NEAR_UNIT, THOUSANDFOLD};
+use crate::filter::rms;
+use crate::rules::{MOST_SCATTER, NEAR_UNIT, THOUSANDFOLD};
 
 /// A channel with its stated properties.
 pub(crate) struct Stated<'a> {
@@ -55,8 +56,10 @@ pub(crate) fn check_units(stated: &Stated<'_>, ends_s: [f64; 2]) -> Result<(), F
     let Some(noise) = stated.noise.filter(|noise| *noise > 0.0) else {
         return Ok(());
     };
-    let times = roughness(stated.samples) / noise;
-    if THOUSANDFOLD.contains(&times) {
+    let scatter = roughness(stated.samples);
+    let times = scatter / noise;
+    // A command that chatters scatters too, but by more than any sensor's noise.
+    if THOUSANDFOLD.contains(&times) && scatter < MOST_SCATTER * rms(stated.samples) {
         return fault(format!(
             "its samples scatter {times:.0} times as much as the stated noise: they seem to be thousandths (mN, mN·m, mV), described as whole units; correct `unit`, or `noise`"
         ));

@@ -89,6 +89,8 @@ rules! {
     NEAR_UNIT: f64 = 0.005, "share", REASON;
     /// A scatter of so many times the stated noise is that of thousandths of the unit.
     THOUSANDFOLD: core::ops::RangeInclusive<f64> = 500.0..=2000.0, "times", REASON;
+    /// The most that a sensor's noise is of what it measures: what scatters more is a signal.
+    MOST_SCATTER: f64 = 0.1, "share", REASON;
     /// What a gain that is a unit leaves of what the nominal model leaves: with the right unit the model is right.
     UNIT_LEFT: f64 = 0.25, "share", REASON;
     /// A nominal friction that is below zero by so many half widths of its 95 % interval drives the plant.

@@ -18,7 +18,7 @@ pub(super) const ENTRY: Entry = Entry {
     equation: "−missing·sgn(q̇) while 0 < x < gap, x the travel across the gap",
     facts: Facts {
         in_sets: true,
-        usual: Usual::Seldom,
+        usual: Usual::Common,
         has_forms: true,
         shapes: Shapes::Gap,
         ..Facts::of(

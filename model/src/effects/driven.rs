@@ -1,4 +1,4 @@
-//! This file is what a driven joint has as a whole: friction by load or by time, another inertia, an inertia behind a spring.
+//! This file is what a driven joint has as a whole: friction by load or by time, another inertia, an inertia behind a spring or a gap.
 
 use super::facts::{Alone, Asked, Facts, Family, Shapes, Usual, Where, Words};
 use super::{Entry, Form, OfJoint};
@@ -127,6 +127,32 @@ pub(super) const COMPLIANCE: Entry = Entry {
             Words {
                 what: "parts that bend",
                 look_for: "arms, couplings, the clamping of the base",
+            },
+        )
+    },
+};
+
+pub(super) const LOAD_BACKLASH: Entry = Entry {
+    mechanism: Mechanism::LoadBacklash,
+    form: Form::Joint(OfJoint::Gap),
+    linear: 1,
+    passive: true,
+    refuted_by: "a load that moves as the joint does when the drive turns from pushing to braking",
+    equation: "inertia·(acceleration of the load − q̈), the load free inside the gap and pushed at its ends",
+    facts: Facts {
+        in_sets: true,
+        usual: Usual::Common,
+        shapes: Shapes::Gap,
+        form_of: Some(Mechanism::Backlash),
+        ..Facts::of(
+            Family::Inertia,
+            Asked {
+                alone: Alone::Driven,
+                five_bar: Where::Nowhere,
+            },
+            Words {
+                what: "a gap between the motor and its load, in which the load's inertia is missing",
+                look_for: "gear teeth, a coupling, a key, a belt that has grown",
             },
         )
     },

@@ -10,6 +10,7 @@ use crate::filter::gradient;
 use crate::plant::{self, Columns, Run};
 use crate::problem::{add, less};
 use crate::signals::{lagged_yield, numerov, second_difference, shifted};
+use rigproof_model::axis::Trailing;
 use rigproof_model::bench::column;
 use rigproof_model::effects::{
     Drive, Form, OfJoint, OfSensor, entry, facts, first_order_lag, form, law,
@@ -197,11 +198,21 @@ fn of_joint(run: &JointRun, form: Form, shape: &[f64]) -> Option<Columns> {
         }
         Form::Joint(OfJoint::Inertia) => free(second_difference(&run.position, run.step_s)),
         Form::Joint(OfJoint::Compliance) => {
-            let [resonance, damping] = *shape else {
+            let [resonance_rad_s, damping] = *shape else {
                 return None;
             };
-            let apart = trailing(&acceleration(run), resonance, damping, run.step_s);
+            let part = Trailing {
+                share: 1.0,
+                resonance_rad_s,
+                damping,
+                half_gap: 0.0,
+            };
+            let apart = trailing(&acceleration(run), &part, run.step_s);
             free(seen(run, apart.into_iter().map(|a| inertia * a).collect()))
+        }
+        Form::Joint(OfJoint::Gap) => {
+            let part = Trailing::in_a_gap(1.0, *shape.first()?, run.step_s);
+            free(seen(run, trailing(&acceleration(run), &part, run.step_s)))
         }
         Form::Sensor(OfSensor::EncoderScale) => {
             let mut signal = run.known();
@@ -232,20 +243,18 @@ fn shown_by(run: &JointRun, wave: fn(f64) -> f64, inertia: f64) -> Vec<f64> {
     signal
 }
 
-/// The acceleration, relative to its base, of a mass on a damped spring whose base has the given
-/// acceleration.
-fn trailing(acceleration: &[f64], resonance: f64, damping: f64, step_s: f64) -> Vec<f64> {
+/// The acceleration of a trailing part relative to a joint that has the given acceleration.
+fn trailing(acceleration: &[f64], part: &Trailing, step_s: f64) -> Vec<f64> {
     let h = step_s / SUBSTEPS as f64;
-    let (mut x, mut v) = (0.0, 0.0);
+    let mut moved = [0.0; 2];
     let next = acceleration.iter().skip(1).chain(acceleration.last());
     let each = acceleration.iter().zip(next).map(|(base, next)| {
-        let pull = |x: f64, v: f64| -2.0 * damping * resonance * v - resonance * resonance * x;
-        let now = pull(x, v) - base;
-        for part in 0..SUBSTEPS {
+        let now = part.pull(moved) - base;
+        for sub in 0..SUBSTEPS {
             // The midpoint of a substep, so that the mean is right.
-            let share = (part as f64 + 0.5) / SUBSTEPS as f64;
-            v += h * (pull(x, v) - base - share * (next - base));
-            x += h * v;
+            let share = (sub as f64 + 0.5) / SUBSTEPS as f64;
+            moved[1] += h * (part.pull(moved) - base - share * (next - base));
+            moved[0] += h * moved[1];
         }
         now
     });

@@ -49,6 +49,7 @@ const LEFT_OUT: &[(Mechanism, &[f64], &[PlantKind])] = &[
     (FrictionFade, &[0.037], BOTH),
     (AddedInertia, &[0.29], AXIS),
     (Compliance, &[0.23, 61.0, 0.11], AXIS),
+    (LoadBacklash, &[0.43, 0.013], AXIS),
     (EncoderScale, &[0.07], AXIS),
     (EccentricEncoder, &[0.011, -0.007], AXIS),
 ];

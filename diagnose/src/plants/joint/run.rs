@@ -308,6 +308,13 @@ impl Run for JointRun {
         shapes::causes(self)
     }
 
+    /// A stated number can be too large as well as too small.
+    fn described(&self, cause: Cause) -> f64 {
+        let own = self.described.iter();
+        let own = own.filter(|effect| effect.cause == cause && !effect.unknown);
+        own.filter_map(|effect| effect.parameters.first()).sum()
+    }
+
     fn speed_floor(&self) -> f64 {
         self.speed_floor
     }

@@ -123,10 +123,11 @@ pub(super) struct Free {
     pub(super) axis: Axis,
     inertia: f64,
     of_joint: Vec<(OfJoint, Effect)>,
+    step_s: f64,
 }
 
 impl Free {
-    fn of(plant: &Model) -> Free {
+    fn of(plant: &Model, step_s: f64) -> Free {
         let of_joint = plant
             .effects
             .iter()
@@ -142,6 +143,7 @@ impl Free {
             },
             inertia: plant.inertia,
             of_joint: of_joint.collect(),
+            step_s,
         }
     }
 
@@ -161,11 +163,18 @@ impl Free {
                 OfJoint::Inertia => self.axis.inertia += effect.value(0),
                 OfJoint::Load => self.axis.transmission.friction_share += effect.value(0),
                 OfJoint::Compliance => {
-                    self.axis.transmission.trailing = Some(Trailing {
+                    self.axis.transmission.trailing[0] = Some(Trailing {
                         share: effect.value(0).min(MOST_TRAILING),
                         resonance_rad_s: effect.value(1),
                         damping: effect.value(2),
+                        half_gap: 0.0,
                     });
+                }
+                OfJoint::Gap => {
+                    let share = effect.value(0) / self.inertia;
+                    let share = share.min(MOST_TRAILING);
+                    let part = Trailing::in_a_gap(share, effect.value(1), self.step_s);
+                    self.axis.transmission.trailing[1] = Some(part);
                 }
                 // These act through the laws.
                 OfJoint::Fade | OfJoint::Link => {}
@@ -189,10 +198,10 @@ fn free_run(plant: &Model, run: &JointRun, protocol: &Protocol) -> Vec<f64> {
     let effort = driven(&plant.effects, &run.effort, clock, 0);
     let fine = fine_effort(&effort, protocol);
     let there = behind(&plant.effects, &run.position, clock);
-    let mut free = Free::of(plant);
+    let step_s = run.step_s / protocol.substeps as f64;
+    let mut free = Free::of(plant, step_s);
     let (first, mut state) = begun((plant, &mut free), (run, &there), &fine, protocol);
     let mut out = there.get(..first).unwrap_or_default().to_vec();
-    let step_s = run.step_s / protocol.substeps as f64;
     if let Some(servo) = &run.servo {
         let begun = (first, &mut state);
         out.extend(servo.free_run((plant, &mut free), begun, protocol, step_s));
@@ -243,10 +252,10 @@ pub fn predict(
         true => 0.0,
         false => begin.speed / shows(seen[1] - seen[0], next - position),
     };
-    let mut free = Free::of(plant);
+    let step_s = run.step_s / protocol.substeps as f64;
+    let mut free = Free::of(plant, step_s);
     let mut state = free.axis.state(begin.time_s, position, speed);
     bend_bristles(plant, &mut state.memory, speed);
-    let step_s = run.step_s / protocol.substeps as f64;
     let local = Protocol {
         interpolation: local_interpolation(protocol.interpolation),
         ..*protocol

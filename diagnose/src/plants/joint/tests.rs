@@ -145,6 +145,21 @@ fn dry_friction_left_out_is_named_measured_and_shown() {
 }
 
 #[test]
+fn a_friction_that_is_stated_too_large_is_the_friction_and_not_a_gain() {
+    let stated = "[parameters]\ninertia = { value = 1.29, unit = \"kg\", status = \"unknown\" }\n\
+         command_gain = { value = 1.0, unit = \"N/N\" }\n\
+         [[effect]]\nmechanism = \"dry_offset\"\nlevel = { value = 2.6, unit = \"N\" }\n\
+         [[effect]]\nmechanism = \"spring\"\nstiffness = { value = 41.7, unit = \"N/m\" }\n";
+    let rig = rig("axis", &[stated, VISCOUS].concat());
+    let exact = exact_axis(&[NOMINAL, &[DRY]].concat(), 15_300, true);
+    let diagnosis = diagnose(&rig, &[&recording(&rig, &exact)], None, &Options::default());
+    let report = &diagnosis.report;
+    assert_eq!(named(&diagnosis), ["dry_offset"], "{}", report.summary);
+    let more = report.effects[0].parameters["level"].value;
+    assert!((more - (1.73 - 2.6)).abs() < 0.05, "{more} N");
+}
+
+#[test]
 fn a_rest_is_not_excited_and_a_reversed_drive_is_a_fault() {
     let rig = axis();
     let mut still = exact_axis(NOMINAL, 5100, true);

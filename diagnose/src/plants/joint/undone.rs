@@ -125,6 +125,14 @@ fn reason(rig: &Rig, effect: &Effect) -> Option<String> {
             })
         }
         Some(Form::Joint(OfJoint::Inertia)) if is_axis => None,
+        Some(Form::Joint(OfJoint::Gap)) if is_axis => {
+            let whole = rig.parameters.as_ref().map_or(0.0, |own| own.inertia.value);
+            (share >= whole).then(|| {
+                format!(
+                    "has an inertia of {share}; behind the gap is less than the whole of {whole}"
+                )
+            })
+        }
         Some(Form::Sensor(_)) if of_encoder(effect).is_some() => None,
         _ => no_meaning(),
     }
