@@ -126,10 +126,19 @@ impl Names {
                 &["stribeck", "presliding", "dahl_bristle", "hysteresis"],
             ),
             Form::Gap => (
-                &["backlash_width", "backlash", "presliding", "hysteresis"],
+                &[
+                    "backlash_width",
+                    "backlash",
+                    "load_backlash",
+                    "presliding",
+                    "hysteresis",
+                ],
                 &["dry_offset"],
             ),
-            Form::Backlash => (&["backlash_width", "backlash"], &["presliding"]),
+            Form::Backlash => (
+                &["backlash_width", "backlash", "load_backlash"],
+                &["presliding"],
+            ),
             // A pure delay between two recorded channels has one name for each of them.
             Form::Lag => (&["lag", "dead_time"], &["channel_skew"]),
             Form::LagSecond => (&["lag", "dead_time", "channel_skew"], &["gain_error"]),
@@ -159,13 +168,14 @@ impl Names {
                 &[
                     "backlash_width",
                     "backlash",
+                    "load_backlash",
                     "spring",
                     "inertia_error",
                     "payload",
                 ],
             ),
             Form::ImpactGap => (
-                &["backlash_width", "backlash", "compliance"],
+                &["backlash_width", "backlash", "load_backlash", "compliance"],
                 &["inertia_error", "presliding"],
             ),
             _ => return Names::of_sensors(effect),
@@ -195,6 +205,9 @@ impl Names {
             Form::ForceRotation => (&["force_rotation"], &[]),
             Form::Repeated => (&["repeated_samples", "dropped_samples"], &[]),
             Form::Clock => (&["clock", "clock_skew", "clock_jitter"], &["inertia_error"]),
+            // Not in the library, but a part of it is: the mean level, and one of the two periods.
+            Form::Uneven => (&[], &["dry_offset"]),
+            Form::TwoRipples => (&[], &["ripple"]),
             _ => (&[], &[]),
         };
         Names { right, companions }

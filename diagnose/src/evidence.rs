@@ -18,7 +18,7 @@ use rigproof_model::effects::entry;
 use rigproof_spec::effect::Mechanism;
 use std::collections::BTreeMap;
 
-pub use intervals::{Intervals, intervals};
+pub use intervals::{Intervals, intervals, times_by_form};
 
 fn parameter_count(term: &Term) -> usize {
     entry(term.cause.mechanism).map_or(0, |e| e.linear) + term.shape.len()

@@ -135,7 +135,7 @@ vocabulary! {
     BearingFriction = "bearing_friction" called "bearing friction" | "bearing" [needed("level", Effort)],
     /// Structural flexibility.
     Compliance = "compliance" called "structural compliance" | "flexibility" | "elasticity" | "flexible joint" [
-        needed("share", Number),
+        needed("share", Number).part(),
         needed("resonance", PerTime).above_zero(),
         needed("damping", Number).above_zero(),
     ],

@@ -42,8 +42,7 @@ pub fn intervals(problem: &Problem, selection: &Selection) -> Intervals {
     let residual = problem.whitener.whiten(&selection.after.residual);
     let halves = half_widths(&white, &residual, &Blocks::new(problem))
         .unwrap_or_else(|| vec![f64::NAN; white.len()]);
-    let left = usable_rms(problem, &selection.after.residual) / problem.floor;
-    let form = left.clamp(1.0, TIMES_BY_FORM);
+    let form = times_by_form(problem, selection);
     let mut intervals = Intervals {
         nuisances: vec![f64::NAN; problem.nuisances.len()],
         terms: terms
@@ -71,6 +70,12 @@ pub fn intervals(problem: &Problem, selection: &Selection) -> Intervals {
         }
     }
     intervals
+}
+
+/// How many times wider intervals are because the law may have another form than the true one.
+pub fn times_by_form(problem: &Problem, selection: &Selection) -> f64 {
+    let left = usable_rms(problem, &selection.after.residual) / problem.floor;
+    left.clamp(1.0, TIMES_BY_FORM)
 }
 
 /// Nominal terms have no onset.

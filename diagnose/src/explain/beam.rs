@@ -4,7 +4,7 @@
 use super::fitted::{Fitted, Folds};
 use super::kind;
 use super::refine::refined;
-use super::score::{Judge, gives_energy};
+use super::score::{Judge, is_impossible};
 use crate::problem::{Problem, Term};
 use crate::rules::{BEAM, KEPT, MOST_TERMS};
 use rayon::prelude::*;
@@ -110,7 +110,7 @@ fn children(
             .filter(|term| may_join(&parent.terms, term));
         let own: Vec<(f64, Fitted)> = open
             .map(|term| parent.with(folds, term))
-            .filter(|fitted| !gives_energy(problem, fitted))
+            .filter(|fitted| !is_impossible(problem, fitted))
             .map(|fitted| (judge.evidence(folds, &fitted), fitted))
             .collect();
         for (evidence, fitted) in own {

@@ -4,7 +4,7 @@
 use super::beam::may_join;
 use super::fitted::{Fitted, Folds};
 use super::refine::refined;
-use super::score::{Judge, gives_energy};
+use super::score::{Judge, is_impossible};
 use super::unfitted;
 use crate::cause::Cause;
 use crate::problem::{Problem, Term};
@@ -145,7 +145,7 @@ impl Late<'_> {
         let term = unfitted(self.problem, term.cause, &term.shape, Some(onset_s))?;
         let fitted = others.with(self.folds, &term);
         let evidence = self.judge.evidence(self.folds, &fitted);
-        (!gives_energy(self.problem, &fitted)).then_some(Begun {
+        (!is_impossible(self.problem, &fitted)).then_some(Begun {
             evidence,
             share,
             fitted,

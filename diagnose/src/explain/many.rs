@@ -6,7 +6,7 @@
 use super::beam::may_join;
 use super::discrepancy::rows_a_sample;
 use super::fitted::{Fitted, Folds};
-use super::score::{Judge, gives_energy, prior};
+use super::score::{Judge, is_impossible, prior};
 use super::{Explanation, Explanations, candidates, living, selected};
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, fit, free_columns, reduced_target};
@@ -129,7 +129,7 @@ impl Round {
                     return None;
                 }
                 let fitted = best.1.with(&self.folds, term);
-                (!gives_energy(problem, &fitted)).then(|| self.score(problem, &fitted))
+                (!is_impossible(problem, &fitted)).then(|| self.score(problem, &fitted))
             })
             .collect();
         for (hoped, score) in hopeful.iter_mut().zip(&scores) {
@@ -176,7 +176,7 @@ impl Round {
                 });
                 let beside = beside.filter(|term| may_join(&fewer.terms, term));
                 let exchanged = beside.map(|term| fewer.with(&self.folds, term));
-                let exchanged = exchanged.filter(|own| !gives_energy(problem, own));
+                let exchanged = exchanged.filter(|own| !is_impossible(problem, own));
                 let scored = exchanged.map(|own| (self.score(problem, &own), own));
                 let best = scored.max_by(|a, b| a.0.total_cmp(&b.0));
                 let fewer = (self.score(problem, &fewer), fewer.clone());

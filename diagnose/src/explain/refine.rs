@@ -1,7 +1,7 @@
 //! This file refines the shapes of an explanation's terms by a pattern search inside their bounds.
 
 use super::fitted::{Fitted, Folds};
-use super::score::{Judge, gives_energy};
+use super::score::{Judge, is_impossible};
 use super::unfitted;
 use crate::candidates::shape_bounds;
 use crate::problem::{Problem, Term};
@@ -49,7 +49,7 @@ fn moved(
         let tried = moves(problem, own, stride).into_iter();
         let tried = tried.filter(|(by, _)| came_from != Some(by.back()));
         let tried = tried.map(|(by, term)| (by, others.with(folds, &term)));
-        let tried = tried.filter(|(_, fitted)| !gives_energy(problem, fitted));
+        let tried = tried.filter(|(_, fitted)| !is_impossible(problem, fitted));
         let better = tried
             .map(|(by, fitted)| (judge.evidence(folds, &fitted), by, fitted))
             .filter(|(evidence, ..)| *evidence > best.0)

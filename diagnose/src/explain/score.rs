@@ -9,7 +9,7 @@ use crate::problem::{Problem, Rows, Term};
 use crate::rules::{A_LINK, A_NUMBER, GIVEN_BACK, RELEVANT_NOISE, USUAL_ODDS};
 use rigproof_model::effects::facts::{End, Usual};
 use rigproof_model::effects::{entry, facts};
-use rigproof_spec::effect::{Mechanism, Quantity};
+use rigproof_spec::effect::{Mechanism, Quantity, Range};
 use std::sync::Arc;
 
 pub struct Judge {
@@ -115,13 +115,16 @@ fn usual(mechanism: Mechanism) -> f64 {
     USUAL_ODDS.get(usual as usize).copied().unwrap_or(0.0)
 }
 
-/// Whether the fit of a passive mechanism gives out energy, beyond what the nominal model already
-/// takes.
-pub fn gives_energy(problem: &Problem, fitted: &Fitted) -> bool {
+/// Whether a fit is no physics: a passive mechanism gives out energy, beyond what the nominal model
+/// already takes, or a part is more than the whole.
+pub fn is_impossible(problem: &Problem, fitted: &Fitted) -> bool {
     let own = fitted.terms.iter().zip(fitted.by_term());
     own.into_iter().any(|(term, own)| {
-        let passive = entry(term.cause.mechanism).filter(|entry| entry.passive);
+        let mechanism = term.cause.mechanism;
+        let passive = entry(mechanism).filter(|entry| entry.passive);
         let least = -GIVEN_BACK * problem.run.described(term.cause);
+        let mut parts = mechanism.parameters().iter().zip(own);
         passive.is_some_and(|entry| own.iter().take(entry.linear).any(|c| *c < least))
+            || parts.any(|(number, part)| number.range == Range::Part && *part > 1.0)
     })
 }
