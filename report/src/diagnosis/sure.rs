@@ -38,6 +38,9 @@ const DRAWN: usize = 5;
 /// Below this probability an explanation is no rival.
 const NO_RIVAL: f64 = 0.005;
 
+/// From this probability on a second explanation is a rival that a reader has to see.
+const RIVAL: f64 = 0.03;
+
 /// The explanations that were weighed, as bars of their probabilities.
 fn rivals(all: &[ExplanationReport]) -> Markup {
     let drawn = all.iter().take(DRAWN).enumerate();
@@ -52,10 +55,12 @@ fn rivals(all: &[ExplanationReport]) -> Markup {
             capital(&names.join(" + "))
         }
     };
+    // One that stands alone is told by its names; its bars are for who doubts it.
+    let is_open = all.get(1).is_some_and(|own| own.probability >= RIVAL);
     html! { @if !drawn.is_empty() {
-        figure {
+        details open[is_open] { summary { "The explanations that were weighed" } figure {
             div.scroll { table.bars #rivals {
-                caption { strong { "The explanations that were weighed." } " How probable each is beside the others." }
+                caption { "How probable each is beside the others." }
                 thead { tr { th scope="col" { "explanation" } th scope="col" { "probability" } } }
                 tbody { @for own in drawn { tr {
                     th scope="row" { (named(own)) }
@@ -63,7 +68,7 @@ fn rivals(all: &[ExplanationReport]) -> Markup {
                 } } }
             } }
             div.tools { button type="button" data-save-table="rivals" aria-label="Save CSV: the explanations that were weighed" { "Save CSV" } }
-        }
+        } }
     } }
 }
 
@@ -131,7 +136,7 @@ fn held(report: &Report) -> Markup {
 fn not_seen(report: &Report) -> Markup {
     html! { @if !report.not_seen.is_empty() {
         details {
-            summary { "What was looked for and not seen, and how large it could still be" }
+            summary { "What was not seen, and how large it could be" }
             div.scroll { table.grid #not-seen {
                 caption { "An effect smaller than this could hide in this recording." }
                 thead { tr { th scope="col" { "effect" } th scope="col" { "joint" } th scope="col" { "number" } th.number scope="col" { "least visible" } th scope="col" { "unit" } } }
