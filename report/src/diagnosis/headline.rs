@@ -155,9 +155,9 @@ fn cards(report: &Report) -> Vec<[String; 3]> {
             significant(errors.nrmse_after, 3)
         );
         card(
-            "Error of the simulation",
+            "Error, of how much the output varies",
             arrow,
-            format!("{part}, of how much the output varies"),
+            part.to_owned(),
         );
     }
     if let Some(floor) = &report.floor {

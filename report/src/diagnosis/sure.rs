@@ -118,7 +118,7 @@ fn held(report: &Report) -> Markup {
     let torque = |size: f64| with_unit(size, &held.unit);
     html! {
         @if !held.joints.is_empty() {
-            h3 { "Pushed and did not move" }
+            details { summary { "Pushed and did not move" }
             div.scroll { table.grid {
                 caption { "Where one brake alone was at rest, it held what it was pushed with. The equation that tells this was not fitted, so it is evidence of its own. Each row is the moment that says most; up to five standard deviations of the push are noise." }
                 thead { tr { th scope="col" { "joint" } th.number scope="col" { "seen at rest" } th.number scope="col" { "pushed with" } th.number scope="col" { "old model holds up to" } th.number scope="col" { "new model holds up to" } th scope="col" { "verdict" } } }
@@ -128,6 +128,7 @@ fn held(report: &Report) -> Markup {
                     td { (at_rest(own, &held.unit)) }
                 } } }
             } }
+            }
         }
         @if held.all_seen_s > 0.0 { p { "For " (with_unit(held.all_seen_s, "s")) " all brakes were at rest. What each of them held then cannot be told; nothing is attributed to any." } }
     }
