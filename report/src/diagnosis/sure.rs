@@ -138,7 +138,7 @@ fn held(report: &Report) -> Markup {
                 thead { tr { th scope="col" { "joint" } th.number scope="col" { "seen at rest" } th.number scope="col" { "pushed with" } th.number scope="col" { "old model holds up to" } th.number scope="col" { "new model holds up to" } th scope="col" { "verdict" } } }
                 tbody { @for own in &held.joints { tr {
                     th scope="row" { (own.joint) }
-                    td.number { (with_unit(own.seen_s, "s")) } td.number { (significant(own.pushed, 4)) " ± " (torque(own.pushed_deviation)) } td.number { (torque(own.holds_nominal)) } td.number { (torque(own.holds)) }
+                    td.number { (with_unit(own.seen_s, "s")) } td.number { (significant(own.pushed, 3)) " ± " (torque(own.pushed_deviation)) } td.number { (torque(own.holds_nominal)) } td.number { (torque(own.holds)) }
                     td { (at_rest(own, &held.unit)) }
                 } } }
             } }
