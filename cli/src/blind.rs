@@ -77,10 +77,10 @@ pub fn truth(answer: &Answer) -> Vec<String> {
 }
 
 fn hidden(effect: &HiddenEffect) -> String {
-    use crate::text::number::{significant, with_unit};
+    use crate::text::number::{significant, stated};
     let numbers = effect.parameters.iter();
     let numbers: Vec<String> = numbers
-        .map(|p| format!("{} = {}", p.name, with_unit(p.value, &p.unit)))
+        .map(|p| format!("{} = {}", p.name, stated(p.value, &p.unit)))
         .collect();
     let onset = effect.onset_s.map_or_else(String::new, |onset_s| {
         format!(", beginning at {} s", significant(onset_s, 4))

@@ -4,7 +4,7 @@ use rigproof_diagnose::plant::{Frame, RESTART_S};
 use rigproof_diagnose::{Description, Diagnosis, Measured};
 use rigproof_report::chart::rounded;
 use rigproof_report::diagnosis::{Diagnosed, page};
-use rigproof_report::replay::{Replay, Way};
+use rigproof_report::replay::{Replay, Shape, Way};
 
 /// What a page shows beside the diagnosis.
 #[derive(Default)]
@@ -39,10 +39,11 @@ pub fn replay(
         role,
         frames: frames
             .into_iter()
-            .map(|frame| Some(frame?.map(|x| rounded(x, 5))))
+            .map(|frame| Some(frame?.map(|x| rounded(x, 5)).to_vec()))
             .collect(),
     };
     Some(Replay {
+        shape: Shape::Linkage,
         time_s: own.time_s.iter().map(|t| rounded(*t, 6)).collect(),
         a: own.point_a_m,
         b: own.point_b_m,

@@ -40,6 +40,15 @@ pub struct Clock {
 }
 
 impl Clock {
+    /// A clock from its sample interval (s), its first time (s) and its number of samples.
+    pub const fn new(step_s: f64, start_s: f64, samples: usize) -> Clock {
+        Clock {
+            step_s,
+            start_s,
+            samples,
+        }
+    }
+
     /// The length of the recording, s.
     pub fn duration_s(self) -> f64 {
         self.step_s * self.samples.saturating_sub(1) as f64
@@ -74,11 +83,8 @@ pub trait Run: Debug + Send + Sync {
         let motion = self.motion(Place::Whole);
         let at = |now: Option<&Instant>| now.map_or(0.0, |now| now.time_s);
         let (start_s, samples) = (at(motion.first()), motion.len());
-        Clock {
-            step_s: (at(motion.last()) - start_s) / samples.saturating_sub(1).max(1) as f64,
-            start_s,
-            samples,
-        }
+        let step_s = (at(motion.last()) - start_s) / samples.saturating_sub(1).max(1) as f64;
+        Clock::new(step_s, start_s, samples)
     }
 
     /// Whether each sample was recorded rather than interpolated; empty if all were.

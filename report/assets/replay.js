@@ -1,4 +1,4 @@
-// Plays the linkage: the recording, and the old and the new model let go from the recorded state again and again.
+// Plays what moves: the recording, and the old and the new model beside it.
 (() => {
   const { replay } = rigproof.data;
   if (!replay) return;
@@ -13,9 +13,31 @@
   const named = (name) => drawing.querySelector(`[data-linkage="${name}"]`);
   // y points away from the base, up on the screen.
   const points = (flat) => flat.map(([x, y]) => `${x},${-y}`).join(' ');
+  const [left, , width, height] = drawing.getAttribute('viewBox').split(' ').map(Number);
+  // How each shape is drawn from the numbers of a frame: its arms, its tip, and how far the tips of two frames are apart.
+  const shape = {
+    linkage: {
+      arms: ([ex, ey, dx, dy, cx, cy]) => [replay.a, [ex, ey], [dx, dy], [cx, cy], replay.b],
+      tip: ([, , dx, dy]) => [dx, dy],
+      apart: (one, other) => [1e3 * Math.hypot(one[2] - other[2], one[3] - other[3]), 'mm off at the tip'],
+      columns: [['tip x', 'm', 2], ['tip y', 'm', 3]],
+    },
+    turning: {
+      arms: ([angle]) => [replay.a, [Math.cos(angle), Math.sin(angle)]],
+      tip: ([angle]) => [Math.cos(angle), Math.sin(angle)],
+      apart: (one, other) => [Math.abs(one[0] - other[0]), 'rad off'],
+      columns: [['angle', 'rad', 0]],
+    },
+    sliding: {
+      arms: ([x]) => [[x, 0.4 * height], [x, -0.4 * height]],
+      tip: ([x]) => [Math.min(Math.max(x, left), left + width), 0],
+      apart: (one, other) => [1e3 * Math.abs(one[0] - other[0]), 'mm off'],
+      columns: [['position', 'm', 0]],
+    },
+  }[replay.shape];
   const trail = (way, k) => {
     const from = Math.max(0, k - 25);
-    return way.frames.slice(from, k + 1).map((_, i) => drawn(way, from + i)).filter((f) => f).map((f) => [f[2], f[3]]);
+    return way.frames.slice(from, k + 1).map((_, i) => drawn(way, from + i)).filter((f) => f).map(shape.tip);
   };
   // A model as far from the recording as it is, or twenty times as far; the recording stays where it was.
   const drawn = (way, k) => {
@@ -29,15 +51,18 @@
       const group = named(way.role);
       group.style.visibility = frame ? 'visible' : 'hidden';
       if (!frame) continue;
-      const [ex, ey, dx, dy, cx, cy] = frame;
-      group.querySelector('.arms').setAttribute('points', points([replay.a, [ex, ey], [dx, dy], [cx, cy], replay.b]));
+      const [dx, dy] = shape.tip(frame);
+      group.querySelector('.arms').setAttribute('points', points(shape.arms(frame)));
       group.querySelector('.trail').setAttribute('points', points(trail(way, k)));
       group.querySelector('.tip').setAttribute('cx', dx);
       group.querySelector('.tip').setAttribute('cy', -dy);
     }
     const recorded = replay.ways[0].frames[k];
-    const off = (frame) => (frame && recorded ? 1e3 * Math.hypot(frame[2] - recorded[2], frame[3] - recorded[3]) : null);
-    const apart = replay.ways.slice(1).map((way) => `${way.name} ${digits(off(way.frames[k]), 3)} mm off at the tip`);
+    const off = (frame) => {
+      const [size, unit] = frame && recorded ? shape.apart(frame, recorded) : [null, 'off'];
+      return `${digits(size, 3)} ${unit}`;
+    };
+    const apart = replay.ways.slice(1).map((way) => `${way.name} ${off(way.frames[k])}`);
     const drawnAs = times.value === '1' ? '' : `; the differences are drawn ${times.value} times as large`;
     said.textContent = `${digits(replay.time_s[k], 4)} s: ${apart.join(', ')}${drawnAs}`;
     slider.setAttribute('aria-valuetext', said.textContent);
@@ -71,8 +96,8 @@
   slider.max = last;
   slider.addEventListener('input', () => { show(Number(slider.value)); start(); });
   document.getElementById('replay-csv').addEventListener('click', () => {
-    const head = ['time (s)', ...replay.ways.flatMap((way) => [`tip x, ${way.name} (m)`, `tip y, ${way.name} (m)`])];
-    const row = (t, k) => [t, ...replay.ways.flatMap((way) => (way.frames[k] ? [way.frames[k][2], way.frames[k][3]] : [null, null]))];
+    const head = ['time (s)', ...replay.ways.flatMap((way) => shape.columns.map(([name, unit]) => `${name}, ${way.name} (${unit})`))];
+    const row = (t, k) => [t, ...replay.ways.flatMap((way) => shape.columns.map(([, , place]) => way.frames[k]?.[place] ?? null))];
     rigproof.saveCsv('replay', [head, ...replay.time_s.map(row)]);
   });
   show(0);

@@ -214,18 +214,25 @@ async function replay(page, name) {
   await page.focus('#replay-time');
   for (let k = 0; k < 12; k++) await page.keyboard.press('ArrowRight');
   const after = await arms();
-  const seen = await page.$$eval('#replay-drawing .arms', (all) => all.map((own) => own.getBoundingClientRect()).every((box) => box.width > 60 && box.height > 60));
-  holds(name, 'the linkage is drawn', seen);
-  holds(name, 'the slider moves the linkage', before.split('|').every((points) => points.length > 20) && before !== after);
-  holds(name, 'the replay says how far apart', /mm/.test(await page.$eval('#replay-said', (own) => own.textContent)));
+  const seen = await page.$$eval('#replay-drawing .arms', (all) => all.map((own) => own.getBoundingClientRect()).every((box) => Math.max(box.width, box.height) > 30));
+  const shape = await page.evaluate(() => rigproof.data.replay.shape);
+  holds(name, `what moves (${shape}) is drawn`, seen);
+  holds(name, 'the slider moves it', before.split('|').every((points) => points.split(' ').length > 1) && before !== after);
+  holds(name, 'the replay says how far apart', /\d (mm|rad) off/.test(await page.$eval('#replay-said', (own) => own.textContent)));
   // Twenty times the difference of the tips, and the recording where it was.
   const tips = () => page.$$eval('#replay-drawing .tip', (all) => all.map((own) => [own.getAttribute('cx'), own.getAttribute('cy')].map(Number)));
-  const apart = ([recorded, old]) => Math.hypot(old[0] - recorded[0], old[1] - recorded[1]);
+  // A joint that turns is off by an angle.
+  const turn = ([x, y]) => Math.atan2(y, x);
+  const between = shape === 'turning' ? (one, other) => Math.abs(turn(one) - turn(other)) : (one, other) => Math.hypot(one[0] - other[0], one[1] - other[1]);
+  const apart = ([recorded, old]) => between(old, recorded);
   const plain = await tips();
   await page.select('#replay-times', '20');
   const [enlarged, words] = [await tips(), await page.$eval('#replay-said', (own) => own.textContent)];
   await page.select('#replay-times', '1');
-  holds(name, `differences of ${apart(plain)} m are drawn as ${apart(enlarged)} m`, Math.abs(apart(enlarged) - 20 * apart(plain)) < 1e-6 && String(plain[0]) === String(enlarged[0]));
+  // A whole turn looks like none.
+  const seenAs = shape === 'turning' ? Math.cos : (size) => size;
+  const error = Math.abs(seenAs(apart(enlarged)) - seenAs(20 * apart(plain)));
+  holds(name, `differences of ${apart(plain)} are drawn as ${apart(enlarged)}`, error < 1e-5 && String(plain[0]) === String(enlarged[0]));
   holds(name, `the replay says how it is drawn: ${words}`, /20 times/.test(words));
   const at = () => page.$eval('#replay-time', (slider) => Number(slider.value));
   const from = await at();
@@ -358,7 +365,20 @@ async function phone(page, name) {
   await settled(page);
   const wide = await page.evaluate(() => document.documentElement.scrollWidth);
   holds(name, `a phone scrolls sideways: ${wide} px of 375`, wide <= 375);
+  await short(page, name);
   await picture(page, `${name}-phone`);
+}
+
+// A diagnosis of one or two names is read on a phone without scrolling far: what nobody acts on is folded, and what everybody does is open.
+async function short(page, name) {
+  const names = (await page.$$('#what .effect')).length;
+  if (!(await page.$('#before-and-after')) || !(await page.$('#sure')) || names > 2) return;
+  await page.setViewport({ width: 390, height: 844, isMobile: true, hasTouch: true, deviceScaleFactor: 2 });
+  await settled(page);
+  const long = await page.evaluate(() => document.documentElement.scrollHeight);
+  holds(name, `a diagnosis of ${names} names is ${long} px long at 390 px`, long <= 3434);
+  const isOpen = (id) => page.$eval(id, (own) => own.checkVisibility());
+  for (const id of ['h1', '#figure-output', '#next > p', ...(names > 0 ? ['#what .effect table'] : [])]) holds(name, `${id} is folded up`, await isOpen(id));
 }
 
 async function paper(page, name) {

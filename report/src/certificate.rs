@@ -317,12 +317,9 @@ fn ties(ties: &[TieSummary]) -> Markup {
         ]
     };
     let rows: Vec<Vec<String>> = ties.iter().map(row).collect();
-    table(
-        "ties-table",
-        "Samples in which the reference may decide otherwise, each checked to be one.",
-        &["kind", "what turns", "samples", "trials", "trials at most"],
-        &rows,
-    )
+    let head = ["kind", "what turns", "samples", "trials", "trials at most"];
+    let words = "Samples in which the reference may decide otherwise, each checked to be one.";
+    html! { details { summary { "Which, and how many" } (table("ties-table", words, &head, &rows)) } }
 }
 
 fn metrics(metrics: &[MetricSummary]) -> Markup {
@@ -448,10 +445,6 @@ fn hashes(certificate: &Certificate) -> Markup {
             .iter()
             .map(|baseline| vec!["baseline".to_owned(), baseline.clone()]),
     );
-    table(
-        "hashes-table",
-        "SHA-256 of everything it depends on.",
-        &["of", "SHA-256"],
-        &rows,
-    )
+    let words = "SHA-256 of everything it depends on.";
+    html! { details { summary { "The hashes" } (table("hashes-table", words, &["of", "SHA-256"], &rows)) } }
 }

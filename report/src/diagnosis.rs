@@ -4,6 +4,7 @@ mod after;
 mod drawing;
 mod headline;
 mod left_over;
+mod moving;
 mod next;
 mod sure;
 mod what;
@@ -26,7 +27,7 @@ pub struct Diagnosed<'a> {
     pub report: &'a Report,
     /// Its curves.
     pub curves: &'a Curves,
-    /// The linkage that moves, of a five-bar.
+    /// The linkage that moves, of a five-bar; an axis moves by its curves.
     pub replay: Option<Replay>,
     /// What to do now: a command, or words.
     pub next: Option<&'a str>,
@@ -43,7 +44,7 @@ pub fn page(diagnosed: Diagnosed) -> String {
             sections.push(Section { id, heading, body });
         }
     };
-    let replay = diagnosed.replay;
+    let replay = diagnosed.replay.or_else(|| moving::joint(curves));
     section(
         "before-and-after",
         "Before and after, on held-out data",
@@ -110,7 +111,7 @@ fn counted(curves: &Curves, residual: &[f64]) -> Vec<f64> {
 /// How it was measured, folded up.
 fn made(report: &Report) -> Markup {
     html! {
-        details #made { summary { "How it was measured: the files and the protocol, line by line" }
+        details #made { summary { "How it was measured" }
         @if !report.inputs.is_empty() {
             div.scroll { table.grid {
                 caption { "The files that were read." }

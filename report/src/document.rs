@@ -95,7 +95,7 @@ pub struct Document {
     pub sections: Vec<Section>,
     /// The charts whose places the sections hold.
     pub charts: Vec<Chart>,
-    /// The linkage that moves, where there is one.
+    /// What moves, where something does.
     pub replay: Option<Replay>,
     /// The line at the bottom.
     pub footer: String,

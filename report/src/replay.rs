@@ -1,12 +1,24 @@
-//! This file is a linkage that moves: frames of the recording and of the models beside it.
+//! This file is a plant that moves: frames of the recording and of the models beside it.
 
 use maud::{Markup, html};
 use serde::Serialize;
 
-/// Points E, D (the tip) and C of a frame: x and y of each, m.
-pub type Frame = [f64; 6];
+/// What moves, and what the numbers of a frame are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Shape {
+    /// A five-bar linkage: x and y of E, of D (the tip) and of C, m.
+    Linkage,
+    /// A joint that turns: its angle, rad.
+    Turning,
+    /// A joint that slides: its position, m.
+    Sliding,
+}
 
-/// One way in which the linkage moves.
+/// The numbers of a frame: as many as its shape has.
+pub type Frame = Vec<f64>;
+
+/// One way in which the plant moves.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Way {
     /// Its name.
@@ -17,14 +29,16 @@ pub struct Way {
     pub frames: Vec<Option<Frame>>,
 }
 
-/// A five-bar's recording and simulations, frame by frame.
+/// A recording and its simulations, frame by frame.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Replay {
+    /// What moves.
+    pub shape: Shape,
     /// Times of the frames, s.
     pub time_s: Vec<f64>,
-    /// Base joint A, m.
+    /// Base joint A of a linkage, m; of one joint where it is held.
     pub a: [f64; 2],
-    /// Base joint B, m.
+    /// Base joint B of a linkage, m; of one joint the same.
     pub b: [f64; 2],
     /// The ways, the recorded one first.
     pub ways: Vec<Way>,
@@ -36,15 +50,20 @@ pub struct Replay {
 impl Replay {
     /// The drawing, its slider and its buttons.
     pub fn figure(&self) -> Markup {
-        let [left, top, width, height] = self.frame();
+        let [left, top, width, height] = self.view();
         let stroke = |role: &str| if role == "recorded" { 0.022 } else { 0.008 } * width;
         let dash =
             |role: &str| (role == "old").then(|| format!("{} {}", 0.03 * width, 0.015 * width));
         html! {
             figure #figure-replay {
-                figcaption { strong { "Replay." } " The linkage as recorded, and as the two models move it from the recorded forces. " (self.protocol) }
+                figcaption { strong { "Replay." } " " (self.what()) " as recorded, and as the two models move it. " (self.protocol) }
                 div.replay {
-                    svg.drawing #replay-drawing viewBox={ (left) " " (top) " " (width) " " (height) } role="img" aria-label="The five-bar linkage as recorded and as simulated" {
+                    svg.drawing #replay-drawing viewBox={ (left) " " (top) " " (width) " " (height) } role="img" aria-label={ (self.what()) " as recorded and as simulated" } {
+                        @match self.shape {
+                            Shape::Turning => circle cx="0" cy="0" r="1" fill="none" stroke="var(--line)" stroke-width=(0.01 * width) {},
+                            Shape::Sliding => line x1=(left) y1="0" x2=(left + width) y2="0" stroke="var(--line)" stroke-width=(0.02 * width) {},
+                            Shape::Linkage => {}
+                        }
                         line x1=(self.a[0]) y1=(-self.a[1]) x2=(self.b[0]) y2=(-self.b[1]) stroke="var(--line)" stroke-width=(0.02 * width) {}
                         @for way in &self.ways {
                             g data-linkage=(way.role) {
@@ -80,20 +99,36 @@ impl Replay {
         }
     }
 
+    /// What moves, at the beginning of a sentence.
+    const fn what(&self) -> &'static str {
+        match self.shape {
+            Shape::Linkage => "The linkage",
+            Shape::Turning => "The joint, as a hand that turns with it,",
+            Shape::Sliding => "The joint, as a mark that slides with it,",
+        }
+    }
+
     /// The base joints with their names; one point where they lie on one axis.
     fn bases(&self) -> Vec<(&'static str, [f64; 2])> {
-        if self.a == self.b {
-            return vec![("A, B", self.a)];
+        match self.shape {
+            Shape::Linkage if self.a == self.b => vec![("A, B", self.a)],
+            Shape::Linkage => vec![("A", self.a), ("B", self.b)],
+            Shape::Turning => vec![("", self.a)],
+            Shape::Sliding => Vec::new(),
         }
-        vec![("A", self.a), ("B", self.b)]
     }
 
     /// What the drawing has to show, y downward: left, top, width, height.
-    fn frame(&self) -> [f64; 4] {
+    fn view(&self) -> [f64; 4] {
         let frames = self.ways.iter().filter(|way| way.role == "recorded");
         let frames = frames.flat_map(|way| way.frames.iter().flatten());
-        let points =
-            frames.flat_map(|[ex, ey, dx, dy, cx, cy]| [[*ex, *ey], [*dx, *dy], [*cx, *cy]]);
+        match self.shape {
+            Shape::Turning => return [-1.2, -1.2, 2.4, 2.4],
+            Shape::Sliding => return sliding(frames.flatten()),
+            Shape::Linkage => {}
+        }
+        let points = frames.flat_map(|frame| frame.chunks_exact(2));
+        let points = points.filter_map(|point| <[f64; 2]>::try_from(point).ok());
         let start = [self.a[0], self.b[0], self.a[1], self.a[1]];
         let [left, right, low, high] = points
             .chain([self.a, self.b])
@@ -109,4 +144,21 @@ impl Replay {
         ]
         .map(|x| (1e4 * x).round() / 1e4)
     }
+}
+
+/// How much of the way of a joint that slides is shown above and below it.
+const HALF_HEIGHT: f64 = 0.12;
+
+/// The view of a joint that slides along x, with a tenth of its way on each side.
+fn sliding<'a>(positions: impl Iterator<Item = &'a f64>) -> [f64; 4] {
+    let [least, greatest] = positions.fold([f64::INFINITY, f64::NEG_INFINITY], |own, x| {
+        [own[0].min(*x), own[1].max(*x)]
+    });
+    let way = (greatest - least).max(f64::MIN_POSITIVE);
+    [
+        least - 0.1 * way,
+        -HALF_HEIGHT * way,
+        1.2 * way,
+        2.0 * HALF_HEIGHT * way,
+    ]
 }

@@ -104,7 +104,7 @@ pub fn named(report: &Value) -> Vec<String> {
             let unit = unit.unwrap_or_default();
             format!(
                 "{name} = {}",
-                crate::text::number::with_unit(value.unwrap_or(f64::NAN), unit)
+                crate::text::number::stated(value.unwrap_or(f64::NAN), unit)
             )
         });
         let numbers: Vec<String> = numbers.collect();

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 use super::noise;
 use super::sparkline;
-use crate::text::number::{significant, with_unit};
+use crate::text::number::{significant, stated};
 
 /// How far off its grid a value may lie, in steps of the grid: printed digits are rounded.
 const OFF_GRID: f64 = 0.02;
@@ -106,7 +106,7 @@ impl SignalView {
         let unit = self.unit.as_str();
         let range = match (self.range, self.quantum) {
             (None, _) => "no sample".to_owned(),
-            (Some((value, _)), None) => with_unit(value, &guess),
+            (Some((value, _)), None) => stated(value, &guess),
             (Some((least, greatest)), _) => {
                 // As many digits as tell the ends apart, and two more where four do not.
                 let differ =
@@ -126,9 +126,9 @@ impl SignalView {
             (None, _) if self.range.is_none() => String::new(),
             (None, _) if self.count == 1 => "one sample".to_owned(),
             (None, _) => "never moves".to_owned(),
-            (Some((step, true)), _) => format!("quantum {}", with_unit(step, unit)),
-            (Some(_), Some(noise)) => format!("noise up to {}", with_unit(noise, unit)),
-            (Some((step, false)), None) => format!("least step {}", with_unit(step, unit)),
+            (Some((step, true)), _) => format!("quantum {}", stated(step, unit)),
+            (Some(_), Some(noise)) => format!("noise up to {}", stated(noise, unit)),
+            (Some((step, false)), None) => format!("least step {}", stated(step, unit)),
         };
         let missing = match self.missing {
             0 => String::new(),

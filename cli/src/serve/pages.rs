@@ -281,7 +281,7 @@ fn effects(run: &Run) -> Vec<(String, String)> {
                 .unwrap_or_default();
             all.push((
                 format!("{mechanism}{joint}: {name}"),
-                crate::text::number::with_unit(value, unit),
+                crate::text::number::stated(value, unit),
             ));
         }
     }

@@ -95,7 +95,7 @@ fn pushed(own: &HeldJoint, unit: &str) -> String {
         "  {}, alone at rest for {}: pushed with {} ± {} at {}; {holds}: {}",
         own.joint,
         with_unit(own.seen_s, "s"),
-        significant(own.pushed, 4),
+        significant(own.pushed, 3),
         with_unit(own.pushed_deviation, unit),
         with_unit(own.at_s, "s"),
         at_rest(own, unit),
@@ -140,18 +140,18 @@ mod tests {
         let line = said(0.21, 0.0, 0.0);
         assert!(
             line.ends_with(
-                "pushed with 0.6100 ± 0.004000 N·m at 2.700 s; holds up to 0.2100 N·m: agrees"
+                "pushed with 0.610 ± 0.00400 N·m at 2.70 s; holds up to 0.210 N·m: agrees"
             ),
             "{line}"
         );
         let line = said(0.67, 0.38, 0.0);
         assert!(
-            line.ends_with("0.6700 N·m with what is named: agrees, and of this what is named has to hold at least 0.3800 N·m"),
+            line.ends_with("0.670 N·m with what is named: agrees, and of this what is named has to hold at least 0.380 N·m"),
             "{line}"
         );
         let line = said(0.33, 0.38, 0.26);
         assert!(
-            line.ends_with("at least 0.2600 N·m of what holds it is not named"),
+            line.ends_with("at least 0.260 N·m of what holds it is not named"),
             "{line}"
         );
     }

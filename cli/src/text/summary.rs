@@ -4,7 +4,7 @@ use std::io::IsTerminal;
 use std::path::Path;
 
 use rigproof_diagnose::report::{EffectReport, Number, Report, Verdict};
-use rigproof_report::number::{percent, probability};
+use rigproof_report::number::{interval, percent, probability, told};
 use rigproof_report::words::{called_at, list, plain_at, plain_cause};
 
 use super::found::regime;
@@ -189,19 +189,19 @@ fn with_interval(number: &Number) -> String {
         "" | "1" => String::new(),
         unit => format!(" {unit}"),
     };
-    let value = rounded(number.value);
-    match (number.low95, number.high95) {
-        (Some(low), Some(high)) => format!(
-            "{value}{unit} (95 %: {} to {})",
-            rounded(low),
-            rounded(high)
-        ),
-        _ => format!("{value}{unit}"),
+    match told(number.value, interval(number), 3, digits) {
+        (value, Some([low, high])) => format!("{value}{unit} (95 %: {low} to {high})"),
+        (value, None) => format!("{value}{unit}"),
     }
 }
 
 /// Three significant digits; powers of ten only where decimals would be long.
 pub fn rounded(value: f64) -> String {
+    digits(value, 3)
+}
+
+/// So many significant digits; powers of ten only where decimals would be long.
+fn digits(value: f64, count: usize) -> String {
     let size = value.abs();
     if !value.is_finite() {
         return "not a number".to_owned();
@@ -210,12 +210,13 @@ pub fn rounded(value: f64) -> String {
         return "0".to_owned();
     }
     let exponent = size.log10().floor();
+    let behind = count.saturating_sub(1);
     if (-5.0..6.0).contains(&exponent) {
-        let decimals = (2.0 - exponent).max(0.0) as usize;
+        let decimals = (behind as f64 - exponent).max(0.0) as usize;
         return format!("{value:.decimals$}");
     }
     let scaled = value / libm::pow(10.0, exponent);
-    format!("{scaled:.2}·10^{exponent:.0}")
+    format!("{scaled:.behind$}·10^{exponent:.0}")
 }
 
 #[cfg(test)]
@@ -230,6 +231,24 @@ mod tests {
         assert_eq!(rounded(12_345.6), "12346");
         assert_eq!(rounded(9.992e-16), "9.99·10^-16");
         assert_eq!(rounded(f64::NAN), "not a number");
+    }
+
+    #[test]
+    fn a_number_ends_where_its_interval_begins_to_doubt_it() {
+        let number = |value, low, high| Number {
+            value,
+            unit: "N".to_owned(),
+            low95: Some(low),
+            high95: Some(high),
+        };
+        assert_eq!(
+            with_interval(&number(0.0152, -1.263, 1.294)),
+            "0 N (95 %: -1.3 to 1.3)"
+        );
+        assert_eq!(
+            with_interval(&number(21.57, 19.21, 23.94)),
+            "21.6 N (95 %: 19.2 to 23.9)"
+        );
     }
 
     #[test]

@@ -50,6 +50,17 @@ fn a_hidden_cause_is_named_and_shown_on_another_recording() {
         "{}: {summary}",
         report["verdict"].as_str().unwrap()
     )));
+    // What was held out is another recording, and no part of the first one.
+    let page = desk.read("first-diagnosis/report.html");
+    for said in [
+        "All of it was kept aside: no number was fitted to it.",
+        "samples of another recording",
+        "held out: another recording",
+    ] {
+        assert!(page.contains(said), "{said}");
+    }
+    assert!(!page.contains("The blue part at the end"));
+    assert!(!page.contains("at the end of the recording"));
     let scored = desk.json(
         "blind score case/answer.sealed first-diagnosis/report.json --json",
         0,

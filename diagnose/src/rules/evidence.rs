@@ -3,46 +3,46 @@
 use super::{AXIS_BENCH, REASON};
 
 rules! {
-    /// Bootstrap replicates of the inclusion frequency.
+    /// Bootstrap replicates behind the inclusion frequency of a name.
     INCLUSION_REPLICATES: usize = 500, "1", REASON;
-    /// z a coefficient must have to be seen with 80 % power at the gates' z.
+    /// Added to the detection z, so that a coefficient of that size would be detected with a power of 80 %.
     POWER_Z: f64 = 0.84, "z", REASON;
-    /// Share of a column that must stand out of the named ones for a bound on it to mean anything.
+    /// Share of a column that must remain once the named ones are projected out for a bound on its coefficient to mean anything.
     TELLABLE: f64 = 0.02, "share", REASON;
-    /// Fewest degrees of freedom: a number that lives in one or two blocks is not believed to be without any scatter, nor to have none but theirs.
+    /// Fewest degrees of freedom of an interval: the scatter between one or two blocks is no estimate of a variance.
     LEAST_FREEDOM: f64 = 3.0, "freedoms", "five-bar (decision 0149)";
-    /// Most times by which an interval is wider because the law is another form of the true one.
+    /// Greatest factor by which an interval is widened because the true law may have another form.
     TIMES_BY_FORM: f64 = 3.0, "times", "axis and bench, other forms, seeds 2100 to 2130 (decision 0233)";
-    /// Standard deviations of its noise by which a reaction must be beyond what holds the joint before something is said to be missing: several thousand windows are looked at.
+    /// How far the torque on a joint at rest must exceed what holds it, in standard deviations of its noise, before something is said to be missing. Several thousand windows are examined, so the limit is high.
     BEYOND_SIGMAS: f64 = 5.0, "deviations", "five-bar, 28 recordings of seeds 7201 to 7261 (decision 0156)";
-    /// Share of the remaining loss that a curve must take away on left-out blocks to be drawn.
+    /// A curve of the residual is drawn if it removes this share of the remaining loss on left-out blocks.
     CURVE_SHARE: f64 = 0.02, "share", AXIS_BENCH;
-    /// Knots of a curve.
+    /// Knots of such a curve.
     KNOTS: usize = 20, "knots", AXIS_BENCH;
-    /// Blocks between two knots of a curve over time: a block that is left out must leave something of each hat.
+    /// Blocks between two knots of a curve over time, so that every basis function keeps data when a block is left out.
     BLOCKS_A_KNOT: usize = 2, "blocks", AXIS_BENCH;
-    /// Energy of one part of a curve over the other's from which on it is called odd or even.
+    /// A curve is called odd or even if that part of it has this many times the energy of the other part.
     PARITY_TIMES: f64 = 3.0, "times", REASON;
-    /// Share of the free run's squared error that a slow drift must take away on the fitted part to be named.
+    /// A slow drift is named if it removes this share of the free run's squared error on the fitted part.
     DRIFT_SHARE: f64 = 0.5, "share", "axis (decision 0012)";
     /// Horizons at which the error of a free run is shown.
     HORIZONS_S: [f64; 4] = [0.01, 0.05, 0.2, 1.0], "s", REASON;
-    /// Axis and bench: starts of a figure at a horizon.
+    /// Axis and bench: free runs that are started for the error at one horizon.
     HORIZON_STARTS: usize = 60, "runs", REASON;
-    /// Five-bar: free runs of a part of a recording from which the errors at the horizons are taken.
+    /// Five-bar: free runs within a part of a recording from which the errors at the horizons are computed.
     SHOTS: usize = 24, "runs", "five-bar (decision 0115)";
-    /// Five-bar: a horizon is asked for where it is at most this share of the part.
+    /// Five-bar: a horizon is reported if it is at most this share of the part.
     MOST_OF_PART: f64 = 0.5, "share", REASON;
-    /// Time since a reversal below which a window belongs to it, in the table of where the residual is.
+    /// In the table of where the residual is, a window belongs to a reversal up to this time after it.
     REVERSAL_S: f64 = 0.1, "s", REASON;
     /// Bootstrap replicates of the shares of that table.
     LOCATE_REPLICATES: usize = 200, "1", REASON;
-    /// Blocks that they draw from.
+    /// Blocks of time that these replicates draw from.
     LOCATE_BLOCKS: usize = 20, "blocks", REASON;
     /// Current above which a brake counts as on, in that table.
     ON_A: f64 = 0.05, "A", REASON;
-    /// Axis and bench: a held-out free run agrees with the windows where its error is within so many deviations of what noise, the windows and the intervals of the numbers predict.
+    /// Axis and bench: a held-out free run agrees with the windows if its error is within this many standard deviations of what noise, windows and the intervals of the numbers predict.
     AGREES_WITHIN: f64 = 3.0, "deviations", REASON;
-    /// Held-out windows agree with the fitted ones where they leave at most so many times the noise, times what the fitted ones leave over it: intervals of the numbers are in it.
+    /// Held-out windows agree with the fitted ones if their ratio of residual to noise is at most this many times that of the fitted ones. The uncertainty of the numbers is included in it.
     HELD_OUT_TIMES: f64 = 2.0, "times", REASON;
 }

@@ -3,58 +3,58 @@
 use super::{DRIVEN, LINKAGE, REASON};
 
 rules! {
-    /// Axis and bench: share of the effort below which nothing matters to anybody: what a model and its discretisation leave open anyhow.
+    /// Axis and bench: effects below this share of the effort do not matter: no model and no discretisation is that exact.
     RELEVANT_JOINT: f64 = 0.003, "share", DRIVEN;
-    /// Five-bar: the same. The hand's effort is many times what its brakes do at rest.
+    /// Five-bar: the same share. It is smaller because the hand's effort is many times the torque of brakes without current.
     RELEVANT_FIVE_BAR: f64 = 0.001, "share", LINKAGE;
-    /// The same as a share of what sensor noise leaves: below it nothing can be told from what the noise model lacks.
+    /// The same limit as a share of the residual that sensor noise alone leaves: smaller effects cannot be told from errors of the noise model.
     RELEVANT_NOISE: f64 = 0.7, "share", DRIVEN;
-    /// The least autocorrelation of what is left that counts.
+    /// Autocorrelations of the residual below this count as zero.
     LEAST_CORRELATION: f64 = 0.05, "1", REASON;
-    /// Rows that say as much as one that is independent of all others, times the integrated autocorrelation of what the best explanation leaves: that is an estimate itself.
+    /// Rows for each independent sample, times the integrated autocorrelation of the residual. It is above one because that autocorrelation is an estimate itself.
     ROWS_A_SAMPLE: f64 = 2.5, "rows", DRIVEN;
-    /// Fewest times that a motion repeats itself in a recording for its period to be seen.
+    /// Fewest repetitions of a periodic motion from which its period is detected.
     FEWEST_REPEATS: usize = 3, "times", REASON;
-    /// What each number beyond the first costs an explanation, in natural logarithms of odds.
+    /// What every parameter beyond a mechanism's first costs an explanation, in natural logarithms of odds.
     A_NUMBER: f64 = 2.4, "ln odds", DRIVEN;
-    /// How common a mechanism is among those that models leave out, from the plainest to the most seldom, in natural logarithms of odds: which it is stands with the mechanism.
+    /// Prior odds of a mechanism, in natural logarithms, from those that models leave out most often to the rarest. Each mechanism says which of these it has.
     USUAL_ODDS: [f64; 6] = [-3.2, -4.0, -4.8, -5.6, -6.4, -8.0], "ln odds", DRIVEN;
-    /// Explanations with one mechanism at two places are one where their odds differ by no more: what rounding leaves between places that move alike.
+    /// Two explanations with one mechanism at two places count as one if their odds differ by no more than this, which is rounding between places that move alike.
     AS_ONE: f64 = 0.01, "ln odds", REASON;
     /// The least weight of an explanation that is listed.
     LISTED: f64 = 1e-4, "share", DRIVEN;
-    /// The probability from which on something is named.
+    /// Probability from which on a mechanism is named.
     NAMED: f64 = 0.9, "probability", REASON;
-    /// The probability from which on something is suspected.
+    /// Probability from which on a mechanism is suspected.
     SUSPECTED: f64 = 0.5, "probability", REASON;
-    /// The least weight of what is offered in the place of a name.
+    /// Least weight of an alternative that is printed beside a name.
     OFFERED: f64 = 0.03, "probability", REASON;
     /// The most explanations that are listed.
     MOST_LISTED: usize = 8, "explanations", REASON;
     /// Rounds in which each term of the leading explanations is exchanged for every other.
     EXCHANGES: usize = 2, "rounds", DRIVEN;
-    /// Leading explanations of which each term is tried from an onset on, beside all those of one term.
+    /// Leading explanations whose terms are tried with an onset, beside all explanations of one term.
     LATE: usize = 2, "explanations", REASON;
     /// The most terms of one explanation.
     MOST_TERMS: usize = 3, "terms", DRIVEN;
     /// An arm: the most terms of its explanation.
     MOST_OF_MANY: usize = 48, "terms", REASON;
-    /// An arm: how many numbers the inertial numbers of a link count as: wrong together, as one description gives them, and less plain than a single mass.
+    /// An arm: all inertial parameters of a link cost as much as this many parameters: one description gets them wrong together, and that is rarer than a single wrong mass.
     A_LINK: usize = 3, "numbers", "thirty concealed arms, seeds 0 to 29";
-    /// An arm: how much of a described friction may be taken away again, where a fit may be off by some.
+    /// An arm: greatest share of a described friction that may be removed again. It is above one because a fit has an error.
     GIVEN_BACK: f64 = 1.2, "share", REASON;
-    /// An arm: the width of a window. A test function of this width lets pass half of the amplitude at 8 Hz, as a low-pass run forward and backward that arms are fitted behind.
+    /// An arm: width of a window. A test function of this width passes half of the amplitude at 8 Hz, like the forward and backward low-pass behind which arms are usually fitted.
     ARM_WIDTH_S: f64 = 0.155, "s", REASON;
-    /// An arm: cut-off of the positions' smoothing, periods in a width of a window.
+    /// An arm: cut-off of the smoothing of positions, in periods within the width of a window.
     ARM_PERIODS: f64 = 3.0, "periods", REASON;
-    /// Explanations of each size that are gone on from.
+    /// Explanations of each size from which the search goes on (beam search).
     BEAM: usize = 6, "explanations", DRIVEN;
-    /// Explanations of each size that are kept to be weighed.
+    /// Explanations of each size that are kept and weighed.
     KEPT: usize = 40, "explanations", DRIVEN;
-    /// Strides of the search for a shape, as shares of a shape parameter.
+    /// Strides of the pattern search for a shape, as shares of a shape parameter.
     STRIDES: [f64; 4] = [0.15, 0.06, 0.025, 0.01], "share", DRIVEN;
-    /// Moves of one parameter by one stride.
+    /// Most moves of one parameter at one stride.
     MOST_MOVES: usize = 4, "moves", DRIVEN;
-    /// Fewest usable rows of a block that is counted.
+    /// Fewest usable rows with which a block counts.
     FEWEST_ROWS: usize = 5, "rows", REASON;
 }

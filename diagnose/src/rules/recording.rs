@@ -9,144 +9,144 @@ rules! {
     LONGEST_GAP_STEPS: f64 = 8.0, "samples", REASON;
     /// Share of samples that may be missing.
     MOST_MISSING: f64 = 0.02, "share", REASON;
-    /// Time for which a live channel may repeat one value to the bit.
+    /// Time for which a working channel may repeat one value to the bit.
     LONGEST_FREEZE_S: f64 = 0.25, "s", REASON;
-    /// A constant position is a fault if it ends in a jump greater than the usual steps around it by this factor.
+    /// A constant position is a fault if it ends in a jump of more than this many of the usual steps around it.
     JUMP_TIMES: f64 = 6.0, "times", REASON;
-    /// How far before and after a constant position its usual steps are looked for.
+    /// Samples before and after a constant position from which its usual steps are taken.
     JUMP_AROUND: usize = 400, "samples", REASON;
-    /// A step of a position is a jump if it exceeds what its neighbours let expect by more than they differ, times this.
+    /// A step of a position is a jump if it differs from what its neighbours predict by more than this many times the spread of the neighbours.
     STEP_TIMES: f64 = 6.0, "times", REASON;
-    /// The same in counts: each end of a step is off by half a count, and so are its neighbours.
+    /// The same limit in counts: both ends of a step, and of its neighbours, are off by up to half a count.
     JUMP_QUANTA: f64 = 5.0, "counts", REASON;
-    /// The same in deviations of the noise of the position.
+    /// The same limit in standard deviations of the position noise.
     JUMP_SIGMAS: f64 = 10.0, "deviations", REASON;
-    /// The same as a share of the step: so much of a step a sample may be taken too late.
+    /// The same limit as a share of the step: a sample may be taken late by this share of the interval.
     LATE_SAMPLE: f64 = 0.1, "share", "by its reason; EMPS, whose greatest is 0.01";
-    /// Steps over which the usual excess of a step is taken, with those before and after.
+    /// Steps over which the usual difference from that prediction is taken, with as many before and after.
     BLOCK_STEPS: usize = 200, "samples", REASON;
-    /// The share of steps that exceed less than the usual excess: more than that are not jumps.
+    /// Quantile of these differences that counts as usual: jumps are rarer.
     USUAL_QUANTILE: f64 = 0.9, "share", REASON;
-    /// A position that wraps stays within its period: its range may exceed a jump by rounding only.
+    /// A wrapped position stays within its period: its range may exceed the jump by this factor, for rounding.
     WRAP_RANGE: f64 = 1.01, "times", REASON;
-    /// How far a jump may be off a known period.
+    /// Relative difference up to which a jump counts as a known period.
     WRAP_NEAR: f64 = 0.002, "share", REASON;
     /// Samples before and after a held one within which a position must have moved.
     MOVED_WITHIN: usize = 10, "samples", REASON;
-    /// Steps before and after one that say how large it should be.
+    /// Steps before and after a step that predict its size.
     STEPS_AROUND: usize = 3, "steps", REASON;
-    /// What the start state is fitted on, over what the first parabola goes through.
+    /// Stretch on which the start state of a free run is fitted, in lengths of the first parabola.
     FITTED_TIMES: usize = 5, "times", REASON;
-    /// The greatest share of an inertia that can hang behind a spring: with all of it nothing is left to drive.
+    /// Greatest share of an inertia that can sit behind a spring: with all of it behind the spring nothing would be driven.
     MOST_TRAILING: f64 = 0.99, "share", REASON;
     /// Samples in a row that may be left out as a dropout.
     LONGEST_DROPOUT: usize = 5, "samples", REASON;
-    /// By how much the step that catches up may differ from all that a repeated sample missed.
+    /// After repeated samples: relative difference allowed between the step that catches up and the motion that was missed.
     CATCH_UP: f64 = 0.35, "share", REASON;
-    /// Steps of more counts are no flicker: a sensor that moves so fast repeats no sample.
+    /// Above this many counts a step is no flicker: a sensor that moves so fast repeats no sample.
     HELD_QUANTA: f64 = 3.0, "counts", REASON;
-    /// Fewer large steps do not say how often a sensor is refreshed.
+    /// Fewest large steps from which the refresh rate of a sensor is estimated.
     FEWEST_REFRESHED: usize = 30, "steps", REASON;
-    /// Share of the large steps that follow a repeated sample from which on a sensor is refreshed more slowly than it is written.
+    /// A sensor is refreshed more slowly than it is written if this share of its large steps follow a repeated sample.
     REFRESHED: f64 = 0.5, "share", REASON;
-    /// Share of samples that a channel may repeat by chance if its repetitions are to tell anything.
+    /// Share of samples that a channel may repeat by chance for its repetitions to be evidence.
     MOST_REPEATED_BY_CHANCE: f64 = 0.01, "share", REASON;
-    /// Steps in a row that are the same to the last digit by no chance.
+    /// Equal steps in a row, to the last digit, that are not chance.
     LEAST_STRAIGHT: usize = 8, "samples", REASON;
-    /// Share of a motion that may lie on straight lines if these are to be something that was filled in.
+    /// Share of a motion that may lie on straight lines for these to count as filled in.
     MOST_STRAIGHT: f64 = 0.3, "share", REASON;
     /// Samples at one extreme that may be chance.
     MOST_CLIPPED: usize = 20, "samples", REASON;
     /// Share of the samples at one extreme that may be chance.
     MOST_CLIPPED_SHARE: f64 = 0.005, "share", REASON;
-    /// An effort that comes to its extreme by more than this share of its range within one sample jumps there; what is clipped runs into it.
+    /// An effort that reaches its extreme by more than this share of its range in one sample jumps there; a clipped effort runs into its limit.
     JUMP_SHARE: f64 = 0.2, "share", REASON;
-    /// Share of the ways to the extreme that are jumps from which on the effort was commanded in steps.
+    /// An effort was commanded in steps if this share of its ways to the extreme are jumps.
     STEPPED: f64 = 0.8, "share", REASON;
-    /// Equal samples in a row that are a level of a command in steps.
+    /// Equal samples in a row that are one level of a stepped command.
     LEVEL_SAMPLES: usize = 5, "samples", REASON;
-    /// Share of the stated limit from which on an extreme is that limit.
+    /// Share of the stated limit above which an extreme is that limit.
     AT_LIMIT: f64 = 0.999, "share", REASON;
-    /// Share of the work to and fro by which a resistance may give more than it takes: a bench whose sign is right always takes.
+    /// Share of the total work to and fro by which a bench's resistance may give more than it takes: with the right sign a resistance takes work.
     MOST_GIVEN: f64 = 0.2, "share", REASON;
-    /// Share of the work to and fro by which the hand may take more out of the five-bar than it puts in: kinetic energy, and where the recording ends.
+    /// Share of the total work to and fro that the hand may take out of the five-bar beyond what it put in: kinetic energy, and where the recording ends.
     MOST_TAKEN: f64 = 0.2, "share", REASON;
-    /// Outside of this a current is none that the brakes were measured at.
+    /// Range of currents that the brakes were measured at.
     CURRENTS_A: core::ops::RangeInclusive<f64> = -0.01..=1.5, "A", REASON;
     /// A sample interval longer than this leaves fewer than four samples to the widest window.
     LONGEST_STEP_S: f64 = 0.04, "s", REASON;
-    /// Share of a sample interval by which those of two recordings may differ.
+    /// Relative difference allowed between the sample intervals of two recordings.
     SAME_STEP: f64 = 1e-6, "share", REASON;
-    /// From how many recordings on the last is held out whole. The second of two may be the experiment that the first one asked for: it is needed for the naming, and its end is enough to show the result.
+    /// From this many recordings on the last is held out whole. The second of two may be the experiment that the first asked for: it is needed to name, and its end is enough to show the result.
     MANY_RECORDINGS: usize = 3, "recordings", "by its reason (decision 0143)";
     /// Share at the end of a recording that is held out where nothing else is said.
     HOLD_OUT_SHARE: f64 = 0.25, "share", REASON;
-    /// Axis and bench: a travel of fewer deviations of the noise of the position is no excitation.
+    /// Axis and bench: a travel of less than this many standard deviations of the position noise is no excitation.
     LEAST_TRAVEL_SIGMAS_JOINT: f64 = 20.0, "deviations", REASON;
-    /// Five-bar: the same. There is none: its windows say whether enough has moved.
+    /// Five-bar: the same. There is no such limit: the windows say whether enough has moved.
     LEAST_TRAVEL_SIGMAS_FIVE_BAR: f64 = 0.0, "deviations", REASON;
-    /// How close the smallest step must be to the stated one in another unit to be that.
+    /// Relative difference up to which the smallest step is the stated one in another unit.
     NEAR_UNIT: f64 = 0.005, "share", REASON;
-    /// A scatter of so many times the stated noise is that of thousandths of the unit.
+    /// A scatter of this many times the stated noise means samples in thousandths of the unit.
     THOUSANDFOLD: core::ops::RangeInclusive<f64> = 500.0..=2000.0, "times", REASON;
     /// The most that a sensor's noise is of what it measures: what scatters more is a signal.
     MOST_SCATTER: f64 = 0.1, "share", REASON;
-    /// What a gain that is a unit leaves of what the nominal model leaves: with the right unit the model is right.
+    /// A gain is taken for a wrong unit if it leaves at most this share of the nominal model's residual: with the right unit the model fits.
     UNIT_LEFT: f64 = 0.25, "share", REASON;
-    /// A nominal friction that is below zero by so many half widths of its 95 % interval drives the plant.
+    /// A nominal friction is negative, and so drives the plant, if it is below zero by this many half widths of its 95 % interval.
     DRAG_HALVES: f64 = 3.0, "half widths", REASON;
-    /// An unknown inertia that comes out so many times as large, or as small, as the value to start from is another unit.
+    /// An unknown inertia that is this many times as large, or as small, as its start value has another unit.
     ANOTHER_INERTIA: f64 = 20.0, "times", REASON;
-    /// A plant under a constant command that turns back so often is driven by something else.
+    /// A plant under a constant command that reverses this often or more is driven by something else.
     MOST_TURNS: usize = 3, "reversals", REASON;
-    /// The speed of a free motion dies away: in its second half it is below this share of that in the first.
+    /// A free motion dies away if its speed in the second half is below this share of that in the first.
     DIES_AWAY: f64 = 0.7, "share", REASON;
-    /// A free motion dies away: it never travels farther in a twentieth of the recording than in one before, times this.
+    /// A free motion dies away if in no twentieth of the recording it travels this many times as far as in an earlier one.
     GROWS: f64 = 3.0, "times", "axis with faults, blind seed 20004 (decision 0193)";
-    /// A twentieth counts there from this share of the greatest way on.
+    /// Such a twentieth counts if its travel is at least this share of the greatest.
     LEAST_WAY: f64 = 0.2, "share", REASON;
-    /// A residual below this share of the predicted noise says that noise or resolution are stated too great.
+    /// A residual below this share of the predicted noise says that the stated noise or resolution is too great.
     FAR_BELOW_FLOOR: f64 = 0.3, "share", REASON;
-    /// A gain that is wrong by more than this factor is no physics: a unit is.
+    /// A gain that is wrong by more than this factor is a wrong unit and no physics.
     ANOTHER_UNIT: f64 = 5.0, "times", REASON;
-    /// What another reading of the channels must leave of the unexplained effort to be believed. With the right sign, turning a component adds twice its effort.
+    /// Another assignment of the channels is believed if it leaves at most this share of the unexplained effort. With the right sign, turning a component around adds twice its effort.
     READING_LEFT: f64 = 0.5, "share", "five-bar, channels taken for others (decision 0141)";
-    /// Share of the effort that must stay unexplained before brakes are asked whether they got each other's current.
+    /// Share of the effort that must be unexplained before it is tested whether brakes have each other's current.
     READING_ODD: f64 = 0.2, "share", "five-bar, channels taken for others (decision 0141)";
-    /// How far a stamp may lie off the steps counted from the first one where the median is the step.
+    /// Greatest distance of a time stamp from the even grid of the median step, up to which that median is the step.
     EVEN: f64 = 1e-3, "steps", REASON;
-    /// Axis and bench: noise of the speed that is not noticed beside its root mean square.
+    /// Axis and bench: noise of the speed, as a share of its root mean square, that is negligible.
     QUIET_SPEED: f64 = 0.005, "share", DRIVEN;
-    /// Axis and bench: noise of the speed up to which the low-pass ends where the effort's band asks, as a share of the speed.
+    /// Axis and bench: noise of the speed, as a share of the speed, up to which the low-pass keeps the band of the effort.
     LOUD_SPEED: f64 = 0.05, "share", DRIVEN;
-    /// Axis and bench: the lowest end of the low-pass.
+    /// Axis and bench: lowest cut-off of the low-pass.
     LEAST_CUTOFF_HZ: f64 = 25.0, "Hz", DRIVEN;
-    /// Half the stretch of time over which a joint must have moved for its sense to be known.
+    /// Half the span of time over which a joint must have moved for its direction to be known.
     REST_S: f64 = 0.025, "s", AXIS_BENCH;
-    /// Travel within which a joint at rest seems to move, in counts.
+    /// Travel, in counts, that a joint at rest may seem to make.
     STILL_QUANTA: f64 = 2.0, "counts", REASON;
-    /// The same in deviations of the noise of the position.
+    /// The same in standard deviations of the position noise.
     STILL_SIGMAS: f64 = 6.0, "deviations", REASON;
-    /// Travel within which the shaft of a bench that turns back may also stand, in deviations of its noise: two counts.
+    /// Travel, in standard deviations of its noise, within which the shaft of a bench that reverses may be at rest: two counts.
     STILL_NOISES: f64 = 7.0, "deviations", REASON;
-    /// Deviations of the noise of the smoothed speed below which its sign is noise.
+    /// Below this many standard deviations of its noise the sign of the smoothed speed is noise.
     SENSE_SIGMAS: f64 = 4.0, "deviations", AXIS_BENCH;
-    /// Half the stretch of time over which the bend of a smoothed position counts.
+    /// Half the span of time over which the curvature of a smoothed position is taken.
     BEND_S: f64 = 0.02, "s", "bench and five-bar, brakes that change as foreseen (decision 0153)";
-    /// Share of the rates of θA and θB by which the rate of E or C is in doubt: an encoder's zero a few hundredths of a radian off, or an arm's length a few per cent, makes a held joint seem to creep.
+    /// Uncertainty of the rate of E or C, as a share of the rates of θA and θB: an encoder's zero that is off by some hundredths of a radian, or an arm's length by some per cent, makes a held joint seem to creep.
     KINEMATIC_DOUBT: f64 = 0.05, "share", "five-bar, seeds below 10 000 (decision 0116)";
-    /// Half the stretch of time over which a slow joint must have moved for its sense to be known while brakes are switched.
+    /// Half the span of time over which a slow joint must have moved for its direction to be known while brakes switch.
     STOP_S: f64 = 0.003, "s", "five-bar, golden cases and seeds 8300 to 8339 (decision 0153)";
-    /// How long before and after a current has changed its brake counts as switched.
+    /// Time before and after a change of current in which the brake counts as switching.
     SWITCHED_S: f64 = 0.025, "s", "five-bar, golden cases and seeds 8300 to 8339 (decision 0153)";
-    /// Change of a current within that time that may stop a joint or let it go.
+    /// Change of current within that time that may stop a joint or release it.
     SWITCHED_A: f64 = 0.02, "A", "five-bar, golden cases and seeds 8300 to 8339 (decision 0153)";
-    /// Change of the current between two samples with which a trial of a brake begins.
+    /// A trial of a brake begins with a change of current of at least this between two samples.
     TRIAL_JUMP_A: f64 = 0.05, "A", REASON;
-    /// Fewest trials that tell a spread of their gains.
+    /// Fewest trials from which a spread of their gains is estimated.
     FEWEST_TRIALS: usize = 8, "trials", REASON;
-    /// Fewest usable windows for each of these trials.
+    /// Fewest usable windows in each of these trials.
     WINDOWS_A_TRIAL: usize = 4, "windows", REASON;
-    /// Share of what is left that a gain for every trial must take away for the gains to differ.
+    /// Share of the residual that one gain for each trial must remove for the gains to differ.
     TRIALS_SHARE: f64 = 0.7, "share", REASON;
 }

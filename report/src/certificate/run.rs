@@ -12,6 +12,8 @@ const POINTS: usize = 400;
 const WIDTH: f64 = 480.0;
 const HEIGHT: f64 = 420.0;
 const ROOM: f64 = 26.0;
+/// Span of time whose mean a curve of currents shows, s: what switches faster is a share of it.
+const MEAN_S: f64 = 0.05;
 
 /// A trial, sample by sample.
 pub struct Run {
@@ -37,8 +39,13 @@ impl Run {
     /// The drawing and the charts.
     pub fn body(&self, charts: &mut Vec<Chart>) -> Markup {
         let own = self.charts();
-        let figures = html! { @for (chart, caption) in &own { (chart.figure(caption)) } };
+        let every = self.every_sample();
+        let figures = html! {
+            @for (chart, caption) in &own { (chart.figure(caption)) }
+            details { summary { "The currents sample by sample" } (every.figure(&html! { "A brake that switches at every sample fills the chart: zoom in." })) }
+        };
         charts.extend(own.into_iter().map(|(chart, _)| chart));
+        charts.push(every);
         html! { p { (self.words) } (self.drawing()) (figures) }
     }
 
@@ -73,11 +80,21 @@ impl Run {
                     "currents",
                     "Currents that the controller asks for",
                     ["current", "A"],
-                    self.currents(),
+                    self.currents(MEAN_S),
                 ),
-                html! { "One curve a brake; more current brakes harder." (marked) },
+                html! { "Means over " (significant(1e3 * MEAN_S, 2)) " ms, one curve a brake; more current brakes harder. How often they switch stands among the metrics." (marked) },
             ),
         ]
+    }
+
+    /// The currents as they are, which say when a brake switches.
+    fn every_sample(&self) -> Chart {
+        self.chart(
+            "every-current",
+            "Currents, sample by sample",
+            ["current", "A"],
+            self.currents(0.0),
+        )
     }
 
     fn chart(
@@ -114,10 +131,13 @@ impl Run {
         ]
     }
 
-    fn currents(&self) -> Vec<Curve> {
+    /// The current of each brake, as means over a span of time.
+    fn currents(&self, span_s: f64) -> Vec<Curve> {
+        let half = libm::round(0.5 * span_s / self.step_s) as usize;
         let current = |joint: usize| -> Vec<f64> {
             let one = |currents: &[f64; 4]| currents.get(joint).copied().unwrap_or(f64::NAN);
-            self.currents_a.iter().map(one).collect()
+            let own: Vec<f64> = self.currents_a.iter().map(one).collect();
+            means(&own, half)
         };
         let joints = [
             ("A", "recorded", false),
@@ -191,6 +211,16 @@ impl Run {
     }
 }
 
+/// For each sample the mean of those up to `half` samples away on either side; a part of it at the ends.
+fn means(values: &[f64], half: usize) -> Vec<f64> {
+    let around = |k: usize| {
+        let to = (k + half + 1).min(values.len());
+        let part = values.get(k.saturating_sub(half)..to).unwrap_or_default();
+        part.iter().sum::<f64>() / part.len().max(1) as f64
+    };
+    (0..values.len()).map(around).collect()
+}
+
 /// A curve that is told apart by its dashes too.
 fn line(name: &str, role: &'static str, values: &[f64], dashed: bool) -> Curve {
     Curve {
@@ -260,6 +290,18 @@ impl Place {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_current_that_switches_at_every_sample_is_a_line_at_its_mean() {
+        let switching: Vec<f64> = (0..400).map(|k| f64::from(u8::from(k % 4 == 0))).collect();
+        let shown = means(&switching, 25);
+        assert_eq!(shown.len(), switching.len());
+        for mean in &shown[25..375] {
+            assert!((mean - 0.25).abs() < 0.02, "{mean}");
+        }
+        assert_eq!(means(&switching, 0), switching);
+        assert!(means(&[], 25).is_empty());
+    }
 
     #[test]
     fn the_drawing_keeps_shape_and_sides() {

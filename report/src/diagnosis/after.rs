@@ -29,7 +29,7 @@ pub fn body(
     let first = figures.next();
     Some(html! {
         @if let Some(figure) = first { (figure) }
-        @if let Some(replay) = replay { (replay.figure()) }
+        @if let Some(replay) = replay { details { summary { "Watch it move" } (replay.figure()) } }
         @if report.fit.is_some() || figures.len() > 0 {
             details {
                 summary { "The error, as numbers and over time" }

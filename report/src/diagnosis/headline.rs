@@ -155,9 +155,9 @@ fn cards(report: &Report) -> Vec<[String; 3]> {
             significant(errors.nrmse_after, 3)
         );
         card(
-            "Error of the simulation",
+            "Error, of how much the output varies",
             arrow,
-            format!("{part}, in per cent of how much the output varies"),
+            part.to_owned(),
         );
     }
     if let Some(floor) = &report.floor {
@@ -167,16 +167,16 @@ fn cards(report: &Report) -> Vec<[String; 3]> {
             significant(floor.ratio_after, 3)
         );
         card(
-            "Left over, in units of sensor noise",
+            "Left over ÷ sensor noise",
             arrow,
-            "about 1 means: nothing but noise".to_owned(),
+            "1 is noise alone".to_owned(),
         );
     }
     let sure = report.effects.iter().map(|effect| effect.probability);
     if let Some(least) = sure.reduce(f64::min) {
         let remark = match report.effects.len() {
             1 => "that the name is right",
-            _ => "that the least sure of the names is right",
+            _ => "of the least sure name",
         };
         card("How sure", probability(least), remark.to_owned());
     }

@@ -23,7 +23,7 @@ pub fn body(curves: &Curves, charts: &mut Vec<Chart>) -> Option<Markup> {
         figures.push(place(charts, chart, &caption));
     }
     Some(html! {
-        details { summary { "What is left over: over time, how large, and with what memory" } @for figure in figures { (figure) } }
+        details { summary { "What is left over, in detail" } @for figure in figures { (figure) } }
     })
 }
 

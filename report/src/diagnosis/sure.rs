@@ -38,33 +38,52 @@ const DRAWN: usize = 5;
 /// Below this probability an explanation is no rival.
 const NO_RIVAL: f64 = 0.005;
 
+/// From this probability on a second explanation is a rival that a reader has to see.
+const RIVAL: f64 = 0.03;
+
 /// The explanations that were weighed, as bars of their probabilities.
 fn rivals(all: &[ExplanationReport]) -> Markup {
+    let all = by_name(all);
     let drawn = all.iter().take(DRAWN).enumerate();
-    let drawn: Vec<&ExplanationReport> = drawn
-        .filter(|(k, own)| *k < 2 || own.probability >= NO_RIVAL)
+    let drawn: Vec<&(String, f64)> = drawn
+        .filter(|(k, (_, probability))| *k < 2 || *probability >= NO_RIVAL)
         .map(|(_, own)| own)
         .collect();
-    let named = |own: &ExplanationReport| match own.names.is_empty() {
-        true => "Nothing is left out".to_owned(),
-        false => {
-            let names: Vec<String> = own.names.iter().map(|name| plain_cause(name)).collect();
-            capital(&names.join(" + "))
-        }
-    };
+    // One that stands alone is told by its names; its bars are for who doubts it.
+    let is_open = all
+        .get(1)
+        .is_some_and(|(_, probability)| *probability >= RIVAL);
     html! { @if !drawn.is_empty() {
-        figure {
+        details open[is_open] { summary { "The explanations that were weighed" } figure {
             div.scroll { table.bars #rivals {
-                caption { strong { "The explanations that were weighed." } " How probable each is beside the others." }
+                caption { "How probable each is beside the others." }
                 thead { tr { th scope="col" { "explanation" } th scope="col" { "probability" } } }
-                tbody { @for own in drawn { tr {
-                    th scope="row" { (named(own)) }
-                    td style={ "--share: " (format!("{:.3}", own.probability)) } { (probability(own.probability)) }
+                tbody { @for (names, share) in drawn { tr {
+                    th scope="row" { (names) }
+                    td style={ "--share: " (format!("{share:.3}")) } { (probability(*share)) }
                 } } }
             } }
             div.tools { button type="button" data-save-table="rivals" aria-label="Save CSV: the explanations that were weighed" { "Save CSV" } }
-        }
+        } }
     } }
+}
+
+/// Explanations in words with their probabilities, in their order. Two that name the same, in
+/// absolute numbers and as a share of a torque for instance, are one.
+fn by_name(all: &[ExplanationReport]) -> Vec<(String, f64)> {
+    let mut named: Vec<(String, f64)> = Vec::new();
+    for own in all {
+        let names: Vec<String> = own.names.iter().map(|name| plain_cause(name)).collect();
+        let words = match names.is_empty() {
+            true => "Nothing is left out".to_owned(),
+            false => capital(&names.join(" + ")),
+        };
+        match named.iter_mut().find(|(known, _)| *known == words) {
+            Some((_, share)) => *share += own.probability,
+            None => named.push((words, own.probability)),
+        }
+    }
+    named
 }
 
 fn effects(report: &Report) -> Markup {
@@ -113,16 +132,17 @@ fn held(report: &Report) -> Markup {
     let torque = |size: f64| with_unit(size, &held.unit);
     html! {
         @if !held.joints.is_empty() {
-            h3 { "Pushed and did not move" }
+            details { summary { "Pushed and did not move" }
             div.scroll { table.grid {
                 caption { "Where one brake alone was at rest, it held what it was pushed with. The equation that tells this was not fitted, so it is evidence of its own. Each row is the moment that says most; up to five standard deviations of the push are noise." }
                 thead { tr { th scope="col" { "joint" } th.number scope="col" { "seen at rest" } th.number scope="col" { "pushed with" } th.number scope="col" { "old model holds up to" } th.number scope="col" { "new model holds up to" } th scope="col" { "verdict" } } }
                 tbody { @for own in &held.joints { tr {
                     th scope="row" { (own.joint) }
-                    td.number { (with_unit(own.seen_s, "s")) } td.number { (significant(own.pushed, 4)) " ± " (torque(own.pushed_deviation)) } td.number { (torque(own.holds_nominal)) } td.number { (torque(own.holds)) }
+                    td.number { (with_unit(own.seen_s, "s")) } td.number { (significant(own.pushed, 3)) " ± " (torque(own.pushed_deviation)) } td.number { (torque(own.holds_nominal)) } td.number { (torque(own.holds)) }
                     td { (at_rest(own, &held.unit)) }
                 } } }
             } }
+            }
         }
         @if held.all_seen_s > 0.0 { p { "For " (with_unit(held.all_seen_s, "s")) " all brakes were at rest. What each of them held then cannot be told; nothing is attributed to any." } }
     }
@@ -131,7 +151,7 @@ fn held(report: &Report) -> Markup {
 fn not_seen(report: &Report) -> Markup {
     html! { @if !report.not_seen.is_empty() {
         details {
-            summary { "What was looked for and not seen, and how large it could still be" }
+            summary { "What was not seen, and how large it could be" }
             div.scroll { table.grid #not-seen {
                 caption { "An effect smaller than this could hide in this recording." }
                 thead { tr { th scope="col" { "effect" } th scope="col" { "joint" } th scope="col" { "number" } th.number scope="col" { "least visible" } th scope="col" { "unit" } } }
@@ -143,4 +163,27 @@ fn not_seen(report: &Report) -> Markup {
             div.tools { button type="button" data-save-table="not-seen" { "Save CSV" } }
         }
     } }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn explanations_that_name_the_same_are_one_bar() {
+        let of = |names: &[&str], probability| ExplanationReport {
+            names: names.iter().map(|name| (*name).to_owned()).collect(),
+            probability,
+            leaves: 1.9,
+        };
+        let all = [
+            of(&["viscous at C"], 0.75),
+            of(&[], 0.125),
+            of(&["viscous at C"], 0.0625),
+        ];
+        let shown = by_name(&all);
+        assert_eq!(shown.len(), 2);
+        assert_eq!(shown[0].1, 0.8125);
+        assert_eq!(shown[1], ("Nothing is left out".to_owned(), 0.125));
+    }
 }

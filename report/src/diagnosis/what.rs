@@ -4,7 +4,7 @@ use maud::{Markup, html};
 use rigproof_diagnose::report::{EffectReport, Number, Report};
 use std::collections::BTreeMap;
 
-use crate::number::{percent, probability, significant, with_unit};
+use crate::number::{percent, probability, significant, told, told_of};
 use crate::words::{called_at, capital, look_for, plain_at, plain_cause};
 
 /// The named mechanisms, what is left unknown, and the nominal model's numbers; nothing where nothing was concluded. `if_off` says what their absence costs.
@@ -19,10 +19,10 @@ pub fn body(report: &Report, if_off: Option<Markup>) -> Option<Markup> {
     Some(html! {
         @if report.effects.is_empty() { p { "No effect is named." } }
         @for (effect, rivals) in report.effects.iter().zip(rivals) { (one(effect, rivals)) }
-        @if let Some(if_off) = if_off { details #what-if { summary { "What if: switch a name off and see what is left over" } (if_off) } }
+        @if let Some(if_off) = if_off { details #what-if { summary { "What if a name is switched off?" } (if_off) } }
         (unknown(report))
         (stages(report))
-        @if !report.nominal.is_empty() { details { summary { "What the model already had, after the fit" } (numbers("Numbers of the nominal model.", &report.nominal)) } }
+        @if !report.nominal.is_empty() { details { summary { "The model's own numbers, after the fit" } (numbers("Numbers of the nominal model.", &report.nominal)) } }
         (not_named(report))
     })
 }
@@ -34,8 +34,7 @@ fn one(effect: &EffectReport, rivals: &[String]) -> Markup {
             p { strong { (capital(&probability(effect.probability))) } " probable. " span.soft { (capital(&called_at(effect.mechanism, effect.joint)))
                 @if let Some(look) = look_for(effect.mechanism) { ". On the rig, look at: " (look) } "." } }
             (numbers("Its numbers.", &effect.parameters))
-            @if let Some(onset_s) = effect.onset_s { p { "It begins " strong { (with_unit(onset_s, "s")) } " after the first sample"
-                @if let (Some(low), Some(high)) = (effect.onset_low95_s, effect.onset_high95_s) { ", in 95 % of cases between " (with_unit(low, "s")) " and " (with_unit(high, "s")) } "." } }
+            @if let Some(onset_s) = effect.onset_s { (onset(onset_s, effect.onset_low95_s.zip(effect.onset_high95_s))) }
             @if !rivals.is_empty() { p { "Would explain this recording as well in its place: " @for (k, rival) in rivals.iter().enumerate() { @if k > 0 { "; " } (plain_cause(rival)) " (" code { (rival) } ")" } "." } }
             details { summary { "Its equation, and what would refute it" }
                 div.equation role="math" { (effect.equation) }
@@ -46,15 +45,22 @@ fn one(effect: &EffectReport, rivals: &[String]) -> Markup {
     }
 }
 
+/// When an effect begins, and the interval in which it does.
+fn onset(onset_s: f64, interval: Option<(f64, f64)>) -> Markup {
+    let (begins, interval) = told(onset_s, interval.map(<[f64; 2]>::from), 4, significant);
+    html! { p { "It begins " strong { (begins) " s" } " after the first sample"
+    @if let Some([low, high]) = interval { ", in 95 % of cases between " (low) " and " (high) " s" } "." } }
+}
+
 fn numbers(caption: &str, all: &BTreeMap<String, Number>) -> Markup {
     html! { @if !all.is_empty() {
         div.scroll { table.grid aria-label=(caption) {
             thead { tr { th scope="col" { "number" } th.number scope="col" { "value" } th scope="col" { "unit" } th scope="col" { "95 % interval" } } }
-            tbody { @for (name, number) in all { tr {
+            tbody { @for (name, number) in all { @let (value, interval) = told_of(number); tr {
                 th scope="row" { (name.replace('_', " ")) }
-                td.number { (significant(number.value, 4)) }
+                td.number { (value) }
                 td { (if number.unit == "1" { "–".to_owned() } else { number.unit.replace("^2", "²").replace("^3", "³") }) }
-                td { @match (number.low95, number.high95) { (Some(low), Some(high)) => { (significant(low, 4)) " to " (significant(high, 4)) } _ => "not determined" } }
+                td { @match interval { Some([low, high]) => { (low) " to " (high) } None => "not determined" } }
             } } }
         } }
     } }

@@ -13,8 +13,11 @@ pub fn body(report: &Report, when: Option<Markup>) -> Option<Markup> {
     }
     Some(html! {
         p.lead { (worst(report)) }
-        @if report.plant == "rig" { (drawing::figure(report)) }
-        (heat(report))
+        // Where something is named the names are what to act on; else the place is.
+        details open[report.effects.is_empty()] { summary { "Place by place" }
+            @if report.plant == "rig" { (drawing::figure(report)) }
+            (heat(report))
+        }
         @if let Some(when) = when { (when) }
     })
 }

@@ -196,11 +196,7 @@ fn joint_at(at: Place) -> Option<usize> {
 
 impl Run for ChainRun {
     fn clock(&self) -> Clock {
-        Clock {
-            step_s: self.step_s,
-            start_s: self.start_s,
-            samples: self.len(),
-        }
+        Clock::new(self.step_s, self.start_s, self.len())
     }
 
     fn recorded(&self) -> &[bool] {

@@ -303,11 +303,7 @@ pub fn inertial(run: &FiveBarRun, forms: &[TwoCoordinate]) -> Vec<f64> {
 
 impl Run for FiveBarRun {
     fn clock(&self) -> Clock {
-        Clock {
-            step_s: self.step_s,
-            start_s: self.start_s,
-            samples: self.len(),
-        }
+        Clock::new(self.step_s, self.start_s, self.len())
     }
 
     fn recorded(&self) -> &[bool] {

@@ -214,11 +214,7 @@ impl JointRun {
 
 impl Run for JointRun {
     fn clock(&self) -> Clock {
-        Clock {
-            step_s: self.step_s,
-            start_s: self.start_s,
-            samples: self.len(),
-        }
+        Clock::new(self.step_s, self.start_s, self.len())
     }
 
     fn recorded(&self) -> &[bool] {

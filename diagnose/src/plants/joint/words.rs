@@ -27,17 +27,17 @@ impl Stand<'_, Rig> {
                 },
             ),
             format!(
-                "windows: bump (1 - x²)⁴, {:.1} ms wide, {} samples apart, {usable} of {} usable (sense of motion known)",
+                "windows: test function (1 - x²)⁴, {:.1} ms wide, one every {} samples; {usable} of {} are used (there the direction of motion is known)",
                 1e3 * self.train.width_s(),
                 windows.hop,
                 windows.centres.len()
             ),
             format!(
-                "noise: position {:.3e}, effort {:.3e} (standard deviation of a sample, SI); whitened by an autoregression of order {NOISE_ORDER} of the noise model",
+                "noise: position {:.3e}, effort {:.3e} (standard deviation of one sample, SI); the windows are whitened with an autoregressive noise model of order {NOISE_ORDER}",
                 self.train.position_noise, self.train.effort_noise
             ),
             format!(
-                "naming: sets of mechanisms weighed by what they predict of blocks of time that were left out; named from a probability of {NAMED} on, suspected from {SUSPECTED} on, beside effects of {} % of the effort",
+                "naming: sets of mechanisms compared by cross-validation over blocks of time; named from a probability of {NAMED} on, suspected from {SUSPECTED} on; effects below {} % of the effort do not count",
                 100.0 * self.problem.rules.relevant,
             ),
             self.fit_protocol(protocol),
@@ -54,19 +54,29 @@ impl Stand<'_, Rig> {
         };
         match self.train.plant {
             PlantKind::Axis => format!(
-                "free run from the recorded drive only; state from a parabola through the first {} samples, error from there on; drive {} between samples; Runge-Kutta 4 with located stops, {} step(s) a sample; {} warm-up period(s); held out: {held_out}",
+                "free run: the simulation gets the recorded drive alone; it starts from a parabola through the first {} samples, and its error counts from there; the drive is {} between samples; Runge-Kutta of order 4 that locates each stop, {} step{} a sample; {} warm-up period{}; held out: {held_out}",
                 protocol.start_samples,
                 match protocol.interpolation {
                     Interpolation::Hold => "held",
-                    Interpolation::Linear => "straight",
+                    Interpolation::Linear => "interpolated linearly",
                     Interpolation::Band => "band-limited and periodic",
                 },
                 protocol.substeps,
+                plural(protocol.substeps),
                 protocol.warm_up_periods,
+                plural(protocol.warm_up_periods),
             ),
             PlantKind::Bench => format!(
-                "effort along the recorded motion (zero-phase low-pass, central difference), memories empty at the start, no sample discarded; held out: {held_out}"
+                "effort computed along the recorded motion (zero-phase low-pass, central differences); hysteresis and other memories start empty, and every sample counts; held out: {held_out}"
             ),
         }
+    }
+}
+
+/// The ending of a noun of which there are so many.
+fn plural(count: usize) -> &'static str {
+    match count {
+        1 => "",
+        _ => "s",
     }
 }
