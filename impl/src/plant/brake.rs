@@ -45,6 +45,12 @@ impl Characteristic {
         }
     }
 
+    /// Torque without current, N·m.
+    pub fn off_state_nm(&self) -> f64 {
+        let [off_nm, _] = self.limits_nm;
+        off_nm
+    }
+
     /// Time constant a at the nearest measured current and speed, s (3.5), (3.6).
     //= thesis (3.5)
     //= thesis (3.6)

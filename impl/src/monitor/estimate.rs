@@ -1,0 +1,149 @@
+//! This file says which numbers the balances speak for, and how surely: recursive least squares that falls back to what is certified.
+//!
+//! The numbers θ follow θ' = a·θ + w about the middle of what is certified, with the variance P₀ at rest, so that
+//! P ≤ P₀ whatever is seen: without excitation the estimate comes back to the middle and cannot grow.
+
+use super::constants::{NUMBERS, WATCHED};
+
+/// Mean and covariance of the numbers, what the last rows say of a change, and how surprising they were.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estimate {
+    mean: [f64; NUMBERS],
+    covariance: [[f64; NUMBERS]; NUMBERS],
+    at_rest: [f64; NUMBERS],
+    changes: [Change; WATCHED],
+    surprise: f64,
+}
+
+/// What the last rows say of one number if it alone has changed: the least squares of one unknown.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Change {
+    information: f64,
+    score: f64,
+}
+
+/// A balance: what is left of it, what each number would add, and its variance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Row {
+    /// What is left, N·m·s.
+    pub left: f64,
+    /// What one unit of each number adds.
+    pub of: [f64; NUMBERS],
+    /// Variance, (N·m·s)².
+    pub variance: f64,
+}
+
+/// A watched number, as the last rows say if it alone has changed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Number {
+    /// How far it is from the middle of what is certified.
+    pub value: f64,
+    /// Its variance.
+    pub variance: f64,
+}
+
+/// Share of the newest row in the mean square of the surprise: one in so many rows, half a second of blocks of 64 ms with two rows each.
+const SURPRISE_SHARE: f64 = 1.0 / 16.0;
+/// Information of a change before anything is seen, 1 over the square of its unit: none, but above zero.
+const LEAST_INFORMATION: f64 = 1e-6;
+
+impl Estimate {
+    /// Nothing seen yet: spreads about the middle.
+    pub fn new(spread: &[f64; NUMBERS]) -> Estimate {
+        let at_rest = spread.map(|spread| spread * spread);
+        let mut covariance = [[0.0; NUMBERS]; NUMBERS];
+        for (place, (row, variance)) in covariance.iter_mut().zip(at_rest).enumerate() {
+            if let Some(own) = row.get_mut(place) {
+                *own = variance;
+            }
+        }
+        Estimate {
+            mean: [0.0; NUMBERS],
+            covariance,
+            at_rest,
+            changes: [Change::default(); WATCHED],
+            surprise: 0.0,
+        }
+    }
+
+    /// Forgets: what is kept of what was learned, and of the last rows, are shares.
+    pub fn forget(&mut self, [of_learned, of_last]: [f64; 2]) {
+        let square = of_learned * of_learned;
+        for (place, (row, at_rest)) in self.covariance.iter_mut().zip(self.at_rest).enumerate() {
+            for own in row.iter_mut() {
+                *own *= square;
+            }
+            if let Some(own) = row.get_mut(place) {
+                *own += (1.0 - square) * at_rest;
+            }
+        }
+        for mean in &mut self.mean {
+            *mean *= of_learned;
+        }
+        for change in &mut self.changes {
+            change.information *= of_last;
+            change.score *= of_last;
+        }
+    }
+
+    /// Takes a row in. One that is no number changes nothing.
+    pub fn take(&mut self, row: &Row) {
+        let mut along = [0.0; NUMBERS];
+        for (along, covariance) in along.iter_mut().zip(&self.covariance) {
+            *along = dot(covariance, &row.of);
+        }
+        let variance = dot(&along, &row.of) + row.variance;
+        let unforeseen = row.left - dot(&self.mean, &row.of);
+        if !(variance > 0.0 && variance.is_finite() && unforeseen.is_finite()) {
+            return;
+        }
+        let inverse = 1.0 / variance;
+        let step = unforeseen * inverse;
+        for (change, of) in self.changes.iter_mut().zip(row.of) {
+            change.information += of * of * inverse;
+            change.score += of * step;
+        }
+        for (mean, along) in self.mean.iter_mut().zip(&along) {
+            *mean += along * step;
+        }
+        for (covariance, one) in self.covariance.iter_mut().zip(&along) {
+            let share = one * inverse;
+            for (own, other) in covariance.iter_mut().zip(&along) {
+                *own -= share * other;
+            }
+        }
+        self.surprise += SURPRISE_SHARE * (unforeseen * step - self.surprise);
+    }
+
+    /// The watched numbers, each as if it alone had changed.
+    pub fn numbers(&self) -> impl Iterator<Item = Number> + '_ {
+        let learned = self.mean.iter().zip(self.covariance.iter().enumerate());
+        let all = self.changes.iter().zip(learned);
+        all.map(|(change, (mean, (place, row)))| {
+            let inverse = 1.0 / (change.information + LEAST_INFORMATION);
+            let learned = row.get(place).copied().unwrap_or(0.0);
+            Number {
+                value: mean + change.score * inverse,
+                variance: inverse + learned,
+            }
+        })
+    }
+
+    /// What was learned of all numbers: means and variances.
+    pub fn learned(&self) -> impl Iterator<Item = Number> + '_ {
+        let all = self.mean.iter().zip(self.covariance.iter().enumerate());
+        all.map(|(mean, (place, row))| Number {
+            value: *mean,
+            variance: row.get(place).copied().unwrap_or(0.0),
+        })
+    }
+
+    /// Mean square of the normalised surprise of the last rows: 1 where the model is right.
+    pub fn surprise(&self) -> f64 {
+        self.surprise
+    }
+}
+
+fn dot(one: &[f64; NUMBERS], other: &[f64; NUMBERS]) -> f64 {
+    one.iter().zip(other).map(|(a, b)| a * b).sum()
+}
