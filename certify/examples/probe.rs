@@ -15,7 +15,7 @@ fn main() {
     let (count, ticks) = (args[0] as u64, args[1] as u32);
     let memory = [args[2], args[3]]; let missed = [args[4], args[5]];
     let threshold = args[6]; let factor = args[7]; let from = args[8] as u32;
-    for rig in [Rig::ThreeBrake, Rig::FourBrake] {
+    for rig in if args[9] == 3.0 { vec![Rig::ThreeBrake] } else { vec![Rig::FourBrake] } {
         let plan = Plan { form: FORM, name: "x".into(), controller: Subject::built_in(BuiltIn::of(Method::ProportionalLow)), baseline: None, rigs: vec![rig], seed: 77, scenarios: count, ticks, calibration: None, search: 0, limits: [None;5], regressions: [None;5], least_met: 1, requirements: vec![] };
         let mut of = constants(&plan, rig).unwrap();
         of.memory_s = memory; of.missed_share = missed;
@@ -26,8 +26,8 @@ fn main() {
         let rows: Vec<_> = (0..count).into_par_iter().filter(|i| use_(*i)).map(|i| {
             let s = scen(i);
             let mut z = [-99.0f64; 10]; let mut sur = 0.0f64;
-            let d = drill::run(&s, src, &of, None, |m, _| {
-                for (k, n) in m.estimate().numbers().enumerate() { z[k] = z[k].max((n.value - of.high[k]).max(of.low[k]-n.value)/n.variance.sqrt()); }
+            let d = drill::run(&s, src, &of, None, |m, _, _, _| {
+                for (k, n) in m.estimate().numbers().enumerate() { z[k] = z[k].max(n.beyond(of.low[k], of.high[k])); }
                 sur = sur.max(m.estimate().surprise());
             }).unwrap();
             (d, z, sur, i)
@@ -44,18 +44,17 @@ fn main() {
             let out: Vec<_> = (0..count).into_par_iter().filter(|i| use_(*i)).filter_map(|i| {
                 let mut s = scen(i);
                 let sign = if i % 2 == 0 { 1.0 } else { -1.0 };
-                s.plant.torque[joint as usize] = 0.0;
+                if factor < 3.0 { s.plant.torque[joint as usize] = 0.0; }
                 let effect = LeftOut { mechanism: if kind == 0 { Mechanism::GainError } else { Mechanism::DryOffset }, joint: Some(joint), parameters: vec![sign*factor*half] };
                 s.ticks = ticks;
                 let c = drill::Concealed { effect, from_tick: from, is_driven: kind == 0 };
-                drill::run(&s, src, &of, Some(&c), |_, _| {})
+                drill::run(&s, src, &of, Some(&c), |_, _, _, _| {}).map(|d| (d, c))
             }).collect();
-            for d in out {
+            for (d, c) in out {
                 if let Some((_, t)) = d.alarm && t < from { early += 1; continue; }
-                if d.ticks <= from || (d.alarm.is_none() && d.excited < 2000) { continue; }
-                n += 1;
-                if let Some((a, _)) = d.alarm { if d.excited <= 2000 { found += 1; }
-                    times.push(d.excited); let want = if kind == 0 { rigproof_impl::monitor::Alarm::Gain(joint) } else { rigproof_impl::monitor::Alarm::Friction(joint) }; if a == want { named += 1; } }
+                let Some(f) = d.is_found(&c) else { continue };
+                n += 1; if f { found += 1; times.push(d.excited_at_alarm);
+                 let want = if kind == 0 { rigproof_impl::monitor::Alarm::Gain(joint) } else { rigproof_impl::monitor::Alarm::Friction(joint) }; if d.alarm.unwrap().0 == want { named += 1; } }
             }
             times.sort();
             println!("  {} {joint:?}: {found}/{n} within 2 s, {} ever, named {named}, early {early}; excited ms median {:?}", if kind == 0 {"gain"} else {"friction"}, times.len(), times.get(times.len()/2));

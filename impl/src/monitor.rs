@@ -12,7 +12,7 @@ use balance::{Accuracy, BLOCK, Block, Step};
 use braking::Braking;
 use constants::{Constants, WATCHED};
 use envelope::Envelope;
-use estimate::{Estimate, Number};
+use estimate::Estimate;
 
 use rigproof_spec::joint::Joint;
 use rigproof_spec::tables::GREATEST_CURRENT_A;
@@ -30,7 +30,7 @@ type Plane = Vector<f64>;
 
 /// Rate below which it is not asked what resists at a joint, rad/s: eight times what a count in eight samples is of the thesis's rig, so that the
 /// sense of a joint between two arms is known too.
-const LEAST_RATE_RAD_S: f64 = 0.03;
+const LEAST_RATE_RAD_S: f64 = 0.02;
 
 /// Why the rig is not what was certified.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -152,12 +152,18 @@ impl Monitor {
             brakings: of.brakes.map(|table| Braking::new(&table)),
             last: None,
             blocks: [Block::new(); 2],
-            estimate: Estimate::new(&of.spread),
+            estimate: Estimate::new(&of.spread, [of.low, of.high]),
             envelope: Envelope::default(),
             faulty: 0,
             wait: BLOCK,
             alarm: None,
         })
+    }
+
+    /// dbg
+    pub fn dbg(&self) -> ([f64; 4], u8, [bool;4]) {
+        let [_, b] = &self.blocks;
+        (self.brakings.map(|b| b.last_nm), b.open, self.brakings.map(|b| b.inside()))
     }
 
     /// The alarm, once there is one.
@@ -241,6 +247,9 @@ impl Monitor {
         self.last = None;
         self.blocks = [Block::new(); 2];
         self.wait = BLOCK;
+        for braking in &mut self.brakings {
+            braking.lose();
+        }
     }
 
     /// A sample that can be used.
@@ -370,10 +379,9 @@ impl Monitor {
             .zip(self.estimate.numbers())
             .zip(ends);
         let mut worst = (1.0, None);
-        for ((alarm, Number { value, variance }), ((low, high), sigmas)) in all {
-            let beyond = (value - high).max(low - value);
-            let share = beyond * beyond / (sigmas * sigmas * variance);
-            if beyond > 0.0 && share > worst.0 {
+        for ((alarm, number), ((low, high), sigmas)) in all {
+            let share = number.beyond(*low, *high) * (1.0 / sigmas);
+            if share > worst.0 {
                 worst = (share, Some(alarm));
             }
         }

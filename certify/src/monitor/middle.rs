@@ -50,7 +50,8 @@ pub fn constants(plan: &Plan, rig: Rig) -> Result<Constants, String> {
         all.take(one, &mut resists)?;
     }
     let [viscous_nm_s, dry_nm, constant_nm] = resists;
-    let (low, high) = all.numbers();
+    let spread = spread(&parameters, all.numbers());
+    let [low, high] = ends(&spread, all.numbers());
     Ok(Constants {
         inertia: parameters.inertia,
         brakes: Joint::ALL.map(|joint| {
@@ -63,7 +64,7 @@ pub fn constants(plan: &Plan, rig: Rig) -> Result<Constants, String> {
         backlash_share: BACKLASH_SHARE + BACKLASH_ROUNDING,
         low,
         high,
-        spread: spread(&parameters, low, high),
+        spread,
         memory_s: MEMORY_S,
         missed_share: MISSED_SHARE,
         sigmas: [f64::MAX; WATCHED],
@@ -167,12 +168,13 @@ impl Ends {
         let end = |side: usize| {
             let at = |ends: &[f64; 2]| ends.get(side).copied().unwrap_or(0.0);
             let friction = self.torque.iter().zip(&self.off_nm).zip(&self.beside_nm);
-            let friction = friction.map(|((torque, off_nm), beside)| at(torque) * off_nm + at(beside));
-            let [bias_a, _, bias_b, _] = &self.bias_nm;
-            let bias = [bias_a, bias_b].map(|ends| {
-                let least = if side == 0 { -LEAST_NM } else { LEAST_NM };
-                at(ends) + least
+            let least = if side == 0 { -LEAST_NM } else { LEAST_NM };
+            let friction = friction.map(|((torque, off_nm), beside)| {
+                let own = at(torque) * off_nm + at(beside);
+                if own.abs() < LEAST_NM { least } else { own }
             });
+            let [bias_a, _, bias_b, _] = &self.bias_nm;
+            let bias = [bias_a, bias_b].map(|ends| at(ends) + least);
             let mut all = [0.0; WATCHED];
             let each = self.torque.iter().map(at).chain(friction).chain(bias);
             for (own, value) in all.iter_mut().zip(each) {
@@ -185,7 +187,10 @@ impl Ends {
 }
 
 /// How far each number lies about its middle before anything is seen.
-fn spread(parameters: &Parameters, low: [f64; WATCHED], high: [f64; WATCHED]) -> [f64; NUMBERS] {
+fn spread(
+    parameters: &Parameters,
+    (low, high): ([f64; WATCHED], [f64; WATCHED]),
+) -> [f64; NUMBERS] {
     let half = low.iter().zip(high).map(|(low, high)| 0.5 * (high - low));
     let watched = half.map(|half| EVEN * half);
     let slow = [TIME_CONSTANT_SHARE * EVEN; 4];
@@ -195,6 +200,17 @@ fn spread(parameters: &Parameters, low: [f64; WATCHED], high: [f64; WATCHED]) ->
         *own = value;
     }
     all
+}
+
+/// The ends of all numbers: of those that are not watched as far from the middle as their spread says of an even draw.
+fn ends(spread: &[f64; NUMBERS], (low, high): ([f64; WATCHED], [f64; WATCHED])) -> [[f64; NUMBERS]; 2] {
+    [(-1.0, low), (1.0, high)].map(|(sign, watched)| {
+        let mut all = spread.map(|spread| sign * spread / EVEN);
+        for (own, end) in all.iter_mut().zip(watched) {
+            *own = end;
+        }
+        all
+    })
 }
 
 /// The same of the masses of both sides: what every arm may differ, and the payload on the side of the tip.

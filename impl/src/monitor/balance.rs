@@ -12,7 +12,7 @@ use crate::vector::Vector;
 type Plane = Vector<f64>;
 
 /// Steps of a block: 64 ms at 1 kHz. The quantum of a count weighs with the inverse square of it, and a reversal costs two blocks.
-pub const BLOCK: u32 = 64;
+pub const BLOCK: u32 = 32;
 
 /// What happens in a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,7 +65,8 @@ pub struct Block {
     load: Weighed,
     /// Of every joint: sense, driven torque, slowness.
     joints: [[Weighed; 3]; 4],
-    open: u8,
+    /// dbg
+    pub open: u8,
     rows: [Plane; 4],
     steps: u32,
 }

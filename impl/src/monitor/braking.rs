@@ -25,6 +25,10 @@ pub struct Braking {
     turned_rad: f64,
     farthest_rad: f64,
     sense: f64,
+    /// Whether it has once come through its whole backlash: before, nobody knows where in it the shaft is.
+    is_known: bool,
+    /// dbg
+    pub last_nm: f64,
 }
 
 /// What a brake resists with over a step, N·m.
@@ -54,9 +58,13 @@ impl Braking {
             turned_rad: 0.0,
             farthest_rad: 0.0,
             sense: 1.0,
+            is_known: false,
+            last_nm: 0.0,
         }
     }
 
+    /// dbg
+    pub fn inside(&self) -> bool { self.own.backlash().is_inside() }
     /// Torque without current, N·m.
     pub fn off_nm(&self) -> f64 {
         self.off_nm
@@ -83,13 +91,14 @@ impl Braking {
         let yield_nm = self.own.step(&self.of, current_a, &own);
         let slower_nm = self.slower.step(&self.of, current_a, &slower);
         self.travel(to_rad);
+        self.last_nm = yield_nm;
         let driven_nm = yield_nm - self.off_nm;
         let acts = driven_nm > ACTS_SHARE * self.off_nm || current_a > 0.0;
         Torque {
             yield_nm,
             driven_nm,
             slowness_nm: (slower_nm - yield_nm) * (1.0 / (SLOWER - 1.0)),
-            is_open: acts && self.is_near_boundary(share),
+            is_open: self.is_near_boundary(share) && acts,
         }
     }
 
@@ -107,10 +116,17 @@ impl Braking {
     }
 
     /// Whether the shaft came so far since it turned back that a backlash of another width would have ended, or not.
-    fn is_near_boundary(&self, share: f64) -> bool {
+    fn is_near_boundary(&mut self, share: f64) -> bool {
         let come_rad = (self.at_rad - self.turned_rad).abs();
         let nearest = self.width_rad * (1.0 - share);
         let farthest = self.width_rad * (1.0 + share);
-        (nearest < come_rad) & (come_rad < farthest)
+        self.is_known |= come_rad >= farthest;
+        ((nearest < come_rad) | !self.is_known) & (come_rad < farthest)
+    }
+
+    /// Samples are missing: the shaft may be anywhere in its backlash.
+    pub fn lose(&mut self) {
+        (self.turned_rad, self.farthest_rad) = (self.at_rad, self.at_rad);
+        self.is_known = false;
     }
 }

@@ -26,10 +26,10 @@ pub struct Constants {
     /// Share of the width of a backlash by which it may be another: what a brake does there is not asked.
     pub backlash_share: f64,
     /// Between which ends each number was certified, as its difference from the middle: a gain as a share of the torque that
-    /// current makes, a level of friction and a bias in N·m.
-    pub low: [f64; WATCHED],
+    /// current makes, a level of friction and a bias in N·m, slowness and masses as shares.
+    pub low: [f64; NUMBERS],
     /// The upper ends.
-    pub high: [f64; WATCHED],
+    pub high: [f64; NUMBERS],
     /// How far each number lies about the middle where nothing was seen: the standard deviation, in its unit.
     pub spread: [f64; NUMBERS],
     /// Times over which what was learned of the rig, and what the last rows say of a change, are forgotten, s of motion that could be used.

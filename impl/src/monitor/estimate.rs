@@ -4,6 +4,7 @@
 //! P ≤ P₀ whatever is seen: without excitation the estimate comes back to the middle and cannot grow.
 
 use super::constants::{NUMBERS, WATCHED};
+use crate::number::{Scalar, least, most};
 
 /// Mean and covariance of the numbers, what the last rows say of a change, and how surprising they were.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,6 +12,7 @@ pub struct Estimate {
     mean: [f64; NUMBERS],
     covariance: [[f64; NUMBERS]; NUMBERS],
     at_rest: [f64; NUMBERS],
+    ends: [[f64; NUMBERS]; 2],
     changes: [Change; WATCHED],
     surprise: f64,
 }
@@ -36,10 +38,28 @@ pub struct Row {
 /// A watched number, as the last rows say if it alone has changed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Number {
-    /// How far it is from the middle of what is certified.
-    pub value: f64,
-    /// Its variance.
+    /// What was learned of it: how far it is from the middle of what is certified.
+    pub learned: f64,
+    /// The variance of that.
+    pub doubt: f64,
+    /// What the last rows say it has changed by since.
+    pub change: f64,
+    /// The variance of that.
     pub variance: f64,
+}
+
+impl Number {
+    /// How far it is surely beyond one of its ends, in standard deviations of the change: wherever it was before within what was
+    /// learned, by two standard deviations, and within its interval.
+    pub fn beyond(&self, low: f64, high: f64) -> f64 {
+        let (end, before) = if self.change > 0.0 {
+            (high - self.learned, self.learned - low)
+        } else {
+            (self.learned - low, high - self.learned)
+        };
+        let doubt = least(2.0 * libm::sqrt(self.doubt), most(before, 0.0));
+        (self.change.magnitude() - end - doubt) * (1.0 / libm::sqrt(self.variance))
+    }
 }
 
 /// Share of the newest row in the mean square of the surprise: one in so many rows, half a second of blocks of 64 ms with two rows each.
@@ -48,8 +68,8 @@ const SURPRISE_SHARE: f64 = 1.0 / 16.0;
 const LEAST_INFORMATION: f64 = 1e-6;
 
 impl Estimate {
-    /// Nothing seen yet: spreads about the middle.
-    pub fn new(spread: &[f64; NUMBERS]) -> Estimate {
+    /// Nothing seen yet: spreads about the middle, between ends about it.
+    pub fn new(spread: &[f64; NUMBERS], ends: [[f64; NUMBERS]; 2]) -> Estimate {
         let at_rest = spread.map(|spread| spread * spread);
         let mut covariance = [[0.0; NUMBERS]; NUMBERS];
         for (place, (row, variance)) in covariance.iter_mut().zip(at_rest).enumerate() {
@@ -61,6 +81,7 @@ impl Estimate {
             mean: [0.0; NUMBERS],
             covariance,
             at_rest,
+            ends,
             changes: [Change::default(); WATCHED],
             surprise: 0.0,
         }
@@ -103,8 +124,11 @@ impl Estimate {
             change.information += of * of * inverse;
             change.score += of * step;
         }
-        for (mean, along) in self.mean.iter_mut().zip(&along) {
-            *mean += along * step;
+        let [low, high] = &self.ends;
+        let ends = along.iter().zip(low).zip(high);
+        for (mean, ((along, low), high)) in self.mean.iter_mut().zip(ends) {
+            // What was certified lies between its ends: what does not, is no thing to learn but a change.
+            *mean = most(*low, least(*high, *mean + along * step));
         }
         for (covariance, one) in self.covariance.iter_mut().zip(&along) {
             let share = one * inverse;
@@ -121,20 +145,12 @@ impl Estimate {
         let all = self.changes.iter().zip(learned);
         all.map(|(change, (mean, (place, row)))| {
             let inverse = 1.0 / (change.information + LEAST_INFORMATION);
-            let learned = row.get(place).copied().unwrap_or(0.0);
             Number {
-                value: mean + change.score * inverse,
-                variance: inverse + learned,
+                learned: *mean,
+                doubt: row.get(place).copied().unwrap_or(0.0),
+                change: change.score * inverse,
+                variance: inverse,
             }
-        })
-    }
-
-    /// What was learned of all numbers: means and variances.
-    pub fn learned(&self) -> impl Iterator<Item = Number> + '_ {
-        let all = self.mean.iter().zip(self.covariance.iter().enumerate());
-        all.map(|(mean, (place, row))| Number {
-            value: *mean,
-            variance: row.get(place).copied().unwrap_or(0.0),
         })
     }
 
