@@ -11,7 +11,7 @@ pub mod estimate;
 use balance::{Accuracy, BLOCK, Block, Step};
 use braking::Braking;
 use constants::{Constants, WATCHED};
-use envelope::Envelope;
+use envelope::{Envelope, Seen};
 use estimate::Estimate;
 
 use rigproof_spec::joint::Joint;
@@ -28,8 +28,8 @@ use crate::velocity::Velocity;
 
 type Plane = Vector<f64>;
 
-/// Rate below which it is not asked what resists at a joint, rad/s: eight times what a count in eight samples is of the thesis's rig, so that the
-/// sense of a joint between two arms is known too.
+/// Rate below which it is not asked what resists at a joint, rad/s: two and a half times what one count in eight samples is on the thesis's rig
+/// (7.9 mrad/s), so that its sense is known between two arms too.
 const LEAST_RATE_RAD_S: f64 = 0.02;
 
 /// Why the rig is not what was certified.
@@ -160,15 +160,14 @@ impl Monitor {
         })
     }
 
-    /// dbg
-    pub fn dbg(&self) -> ([f64; 4], u8, [bool;4]) {
-        let [_, b] = &self.blocks;
-        (self.brakings.map(|b| b.last_nm), b.open, self.brakings.map(|b| b.inside()))
-    }
-
     /// The alarm, once there is one.
     pub fn alarm(&self) -> Option<Alarm> {
         self.alarm
+    }
+
+    /// Where the last good sample lay.
+    pub fn seen(&self) -> Seen {
+        self.envelope.seen()
     }
 
     /// What the balances say of the numbers: how far each is from the middle, with its variance.

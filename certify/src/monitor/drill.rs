@@ -48,7 +48,9 @@ const LONGEST_TICKS: u32 = 60_000;
 impl Drilled {
     /// Whether the change was found within [`IN_TICKS`]; `None` where it was not excited so long, or an alarm came before it.
     pub fn is_found(&self, concealed: &Concealed) -> Option<bool> {
-        let is_before = self.alarm.is_some_and(|(_, tick)| tick < concealed.from_tick);
+        let is_before = self
+            .alarm
+            .is_some_and(|(_, tick)| tick < concealed.from_tick);
         (!is_before && self.excited >= IN_TICKS).then_some(self.alarm.is_some())
     }
 }
@@ -59,10 +61,13 @@ pub fn run(
     source: &dyn Source,
     of: &Constants,
     concealed: Option<&Concealed>,
-    mut look: impl FnMut(&Monitor, &Plant, [f64; 4], u32),
+    mut look: impl FnMut(&Monitor),
 ) -> Option<Drilled> {
     let settings = scenario.settings();
-    let ways = [Way::new(&scenario.task)?, Way::new(&reversed(&scenario.task))?];
+    let ways = [
+        Way::new(&scenario.task)?,
+        Way::new(&reversed(&scenario.task))?,
+    ];
     let mut plant = scenario.begun()?;
     let mut hand = Pushing::new(&scenario.hand, &scenario.task)?;
     let mut sensors = Sensors::new(scenario);
@@ -70,7 +75,12 @@ pub fn run(
     let mut controller = source.begin(&settings, &scenario.task).ok()?;
     let mut monitor = Monitor::new(&settings, of)?;
     let (mut last_a, mut is_back, mut has_left) = ([0.0; 4], false, false);
-    let mut drilled = Drilled { ticks: 0, alarm: None, excited: 0, excited_at_alarm: 0 };
+    let mut drilled = Drilled {
+        ticks: 0,
+        alarm: None,
+        excited: 0,
+        excited_at_alarm: 0,
+    };
     for tick in 0..scenario.ticks {
         if let Some(change) = concealed.filter(|own| own.from_tick == tick) {
             plant = changed(scenario, &plant, &change.effect)?;
@@ -79,7 +89,7 @@ pub fn run(
         let (sensed, _) = sensors.read(tick, &plant, force_n);
         let commanded_a = controller.tick(&sensed).ok()?;
         let watched = monitor.watch(&sensed, commanded_a);
-        look(&monitor, &plant, last_a, tick);
+        look(&monitor);
         drilled.ticks = tick + 1;
         if let Some(change) = concealed.filter(|own| own.from_tick <= tick) {
             drilled.excited += u32::from(acts(&plant, change));

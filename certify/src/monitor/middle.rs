@@ -24,15 +24,14 @@ const LEAST_NM: f64 = 0.021;
 /// Speed of a joint at which an interval of viscous friction is taken as one of friction, rad/s: 0.3 m/s, the hasty hand's (decision
 /// 0125), at 0.3 m from its axis.
 const AT_RAD_S: f64 = 1.0;
-/// Times over which the monitor forgets, s: what it learned of the rig in a minute of motion, so that what changes within two seconds is
+/// Times over which the monitor forgets, s: what it learned of the rig in five minutes of motion, so that what changes within seconds is
 /// not learned first; what the last rows say in one second, half of the time in which it is to speak.
-pub const MEMORY_S: [f64; 2] = [60.0, 1.0];
-/// Shares of inertial and braking impulses that the model may miss: what a side's mass, one number here, differs within the
-/// side (a tenth each arm, so 0.058 of independent shares, less what they have in common), and the square of what a time
-/// constant differs (0.2² = 0.04).
-const MISSED_SHARE: [f64; 2] = [0.04, 0.04];
+const MEMORY_S: [f64; 2] = [300.0, 1.0];
+/// Shares of inertial and braking impulses that the model may miss. The mass of a side is one number here and its arms are drawn apart, by
+/// 0.058 in the mean square each, of which most is common; the square of what a time constant differs is 0.04.
+const MISSED_SHARE: [f64; 2] = [0.02, 0.04];
 
-/// The numbers of one rig of a plan, before its trials have said what they covered; `None` of thresholds is infinite.
+/// The numbers of one rig of a plan, before its trials have said what they covered; with thresholds that nothing passes.
 ///
 /// # Errors
 /// A mechanism of the calibration that the monitor has no number for.
@@ -112,14 +111,26 @@ impl Ends {
     }
 
     /// Takes a mechanism of the calibration in.
-    fn take(&mut self, found: &Found, [viscous, dry, constant]: &mut [[f64; 4]; 3]) -> Result<(), String> {
+    fn take(
+        &mut self,
+        found: &Found,
+        [viscous, dry, constant]: &mut [[f64; 4]; 3],
+    ) -> Result<(), String> {
         let own = &found.as_found;
         let no_number = || {
-            let at = own.joint.map_or(String::new(), |joint| format!(" at joint {}", joint.letter()));
-            format!("the monitor has no number for `{}`{at}", own.mechanism.name())
+            let at = own.joint.map_or(String::new(), |joint| {
+                format!(" at joint {}", joint.letter())
+            });
+            format!(
+                "the monitor has no number for `{}`{at}",
+                own.mechanism.name()
+            )
         };
         let first = |all: &[f64]| all.first().copied().unwrap_or(0.0);
-        let (value, ends) = (first(&own.parameters), [first(&found.low), first(&found.high)]);
+        let (value, ends) = (
+            first(&own.parameters),
+            [first(&found.low), first(&found.high)],
+        );
         if role(own.mechanism) == Some(Role::Masses) {
             return Ok(());
         }
@@ -203,7 +214,10 @@ fn spread(
 }
 
 /// The ends of all numbers: of those that are not watched as far from the middle as their spread says of an even draw.
-fn ends(spread: &[f64; NUMBERS], (low, high): ([f64; WATCHED], [f64; WATCHED])) -> [[f64; NUMBERS]; 2] {
+fn ends(
+    spread: &[f64; NUMBERS],
+    (low, high): ([f64; WATCHED], [f64; WATCHED]),
+) -> [[f64; NUMBERS]; 2] {
     [(-1.0, low), (1.0, high)].map(|(sign, watched)| {
         let mut all = spread.map(|spread| sign * spread / EVEN);
         for (own, end) in all.iter_mut().zip(watched) {
@@ -226,7 +240,9 @@ fn masses(parameters: &Parameters) -> [f64; 2] {
     };
     let middle_kg = parameters.inertia.payload_kg;
     let shares = with(middle_kg + 0.5 * GREATEST_PAYLOAD_KG * EVEN).into_iter();
-    let shares = shares.zip(with(middle_kg)).map(|(more, own)| more / own - 1.0);
+    let shares = shares
+        .zip(with(middle_kg))
+        .map(|(more, own)| more / own - 1.0);
     let squares: f64 = shares.map(|share| share * share).sum();
     [libm::sqrt(own * own + squares / 3.0), own]
 }

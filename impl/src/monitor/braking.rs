@@ -27,8 +27,6 @@ pub struct Braking {
     sense: f64,
     /// Whether it has once come through its whole backlash: before, nobody knows where in it the shaft is.
     is_known: bool,
-    /// dbg
-    pub last_nm: f64,
 }
 
 /// What a brake resists with over a step, N·m.
@@ -59,12 +57,9 @@ impl Braking {
             farthest_rad: 0.0,
             sense: 1.0,
             is_known: false,
-            last_nm: 0.0,
         }
     }
 
-    /// dbg
-    pub fn inside(&self) -> bool { self.own.backlash().is_inside() }
     /// Torque without current, N·m.
     pub fn off_nm(&self) -> f64 {
         self.off_nm
@@ -91,7 +86,6 @@ impl Braking {
         let yield_nm = self.own.step(&self.of, current_a, &own);
         let slower_nm = self.slower.step(&self.of, current_a, &slower);
         self.travel(to_rad);
-        self.last_nm = yield_nm;
         let driven_nm = yield_nm - self.off_nm;
         let acts = driven_nm > ACTS_SHARE * self.off_nm || current_a > 0.0;
         Torque {

@@ -5,9 +5,23 @@ use super::constants::{CELLS, Constants};
 use crate::number::Scalar;
 use crate::vector::Vector;
 
+/// Where a sample lay.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Seen {
+    /// The tip, m.
+    pub tip_m: [f64; 2],
+    /// The square of its speed, m²/s².
+    pub speed_squared: f64,
+    /// The square of the force, N².
+    pub force_squared: f64,
+    /// The cell, below [`CELLS`].
+    pub cell: u32,
+}
+
 /// How many samples in a row were outside, of each kind.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Envelope {
+    seen: Seen,
     place: u32,
     speed: u32,
     force: u32,
@@ -15,6 +29,11 @@ pub struct Envelope {
 }
 
 impl Envelope {
+    /// Where the last sample lay.
+    pub fn seen(&self) -> Seen {
+        self.seen
+    }
+
     /// Looks at a sample: tip, m, its velocity, m/s, the force, N. Returns what was outside for too long.
     pub fn look(
         &mut self,
@@ -28,6 +47,12 @@ impl Envelope {
             (tip_m.x >= from_x) & (tip_m.x <= to_x) & (tip_m.y >= from_y) & (tip_m.y <= to_y);
         let (speed, force) = (velocity_m_s.norm_squared(), force_n.norm_squared());
         let cell = cell(of, tip_m, speed, force);
+        self.seen = Seen {
+            tip_m: tip_m.into(),
+            speed_squared: speed,
+            force_squared: force,
+            cell,
+        };
         let counts = [
             (&mut self.place, is_there, Alarm::Place),
             (

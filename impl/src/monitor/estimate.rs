@@ -62,7 +62,7 @@ impl Number {
     }
 }
 
-/// Share of the newest row in the mean square of the surprise: one in so many rows, half a second of blocks of 64 ms with two rows each.
+/// Share of the newest row in the mean square of the surprise: a quarter of a second of blocks of 32 ms with two rows each.
 const SURPRISE_SHARE: f64 = 1.0 / 16.0;
 /// Information of a change before anything is seen, 1 over the square of its unit: none, but above zero.
 const LEAST_INFORMATION: f64 = 1e-6;
