@@ -10,10 +10,17 @@
 #[path = "../benches/rig/mod.rs"]
 mod rig;
 
+#[path = "../c/tests/monitor/rigproof_monitor.rs"]
+#[allow(dead_code, reason = "one of its two layouts is counted")]
+mod numbers;
+
 use std::hint::black_box;
 
+use rigproof_impl::monitor::Monitor;
+use rigproof_impl::monitor::constants::{Constants, WATCHED};
 use rigproof_impl::plant::motion::{Mechanism, Motion};
 use rigproof_impl::plant::{Parameters, Scheme};
+use rigproof_impl::tick::Settings;
 use rigproof_spec::layout::Layout;
 use rigproof_spec::methods::SAMPLE_STEP_S;
 
@@ -25,7 +32,7 @@ const PUSH_N: [f64; 2] = [0.013, 0.011];
 fn main() {
     let arguments: Vec<String> = std::env::args().collect();
     let [_, what, ticks] = arguments.as_slice() else {
-        eprintln!("arguments: loop|controller|plant|linkage|bits ticks");
+        eprintln!("arguments: loop|controller|plant|linkage|monitor|bits ticks");
         std::process::exit(2);
     };
     let ticks: usize = ticks.parse().unwrap();
@@ -33,7 +40,15 @@ fn main() {
     let Parameters { arms, inertia, .. } = Parameters::of(Layout::FourBrake);
     let mechanism = Mechanism::new(&arms, &inertia, Scheme::Midpoint);
     let theta_rad = start.plant.base_angles_rad().into();
-    let mut bits = 0_u64;
+    let (mut bits, mut times_ns) = (0_u64, Vec::new());
+    // Certified numbers that watch everything and raise nothing, so that every sample costs what it costs.
+    let of = Constants {
+        sigmas: [f64::MAX; WATCHED],
+        surprise: f64::MAX,
+        hold: u32::MAX,
+        ..numbers::FOUR_BRAKE
+    };
+    let mut monitor = Monitor::new(&Settings::thesis(Layout::FourBrake), &of).unwrap();
     let mut motion = Motion::new(&mechanism, theta_rad, [0.0; 2].into()).unwrap();
     for tick in 0..ticks {
         let (sensed, command) = black_box(&record[tick]);
@@ -52,6 +67,14 @@ fn main() {
             "controller" => {
                 black_box(start.controller.tick(sensed));
             }
+            "monitor" => {
+                black_box(monitor.watch(sensed, command.currents_a));
+            }
+            "timed" => {
+                let start = std::time::Instant::now();
+                black_box(monitor.watch(sensed, command.currents_a));
+                times_ns.push(start.elapsed().as_nanos());
+            }
             "plant" => {
                 let force_n = sensed.tip_force_n.into();
                 black_box(start.plant.step(force_n, command.currents_a, SAMPLE_STEP_S));
@@ -65,5 +88,15 @@ fn main() {
     if what == "bits" {
         println!("{bits:016x}");
     }
-    black_box((start, motion));
+    if what == "timed" {
+        times_ns.sort_unstable();
+        let sum: u128 = times_ns.iter().sum();
+        let (count, middle) = (times_ns.len(), times_ns.len() / 2);
+        println!(
+            "{} ns in the mean, median {}",
+            sum / count as u128,
+            times_ns[middle]
+        );
+    }
+    black_box((start, motion, monitor));
 }
