@@ -1,6 +1,6 @@
 //! This program measures a monitor: false alarms in hours of use of rigs that are as certified, and how soon concealed changes are found.
 //!
-//! `watched false HOURS` and `watched found RIGS HALVES`, both for both layouts and the low proportional gain of table 6.1.
+//! `watched false HOURS`, `watched found RIGS HALVES` and `watched both HOURS RIGS HALVES`, both for both layouts and the low proportional gain of table 6.1.
 #![allow(
     clippy::unwrap_used,
     clippy::print_stdout,
@@ -29,7 +29,7 @@ const CHANGE_TICKS: u32 = 60_000;
 /// Trials of the certificate.
 const TRIALS: u64 = 1000;
 /// Sets the rigs in use apart from those of the certificate.
-const SEED_OF_USE: u64 = 2_025_1125;
+const SEED_OF_USE: u64 = 20_251_125;
 
 fn plan(rig: Rig) -> Plan {
     Plan {
@@ -92,11 +92,22 @@ fn false_alarms(plan: &Plan, made: &Made, hours: f64) {
         ticks += u64::from(drilled.ticks);
         alarms.extend(drilled.alarm.map(|(alarm, tick)| (index, alarm, tick)));
     }
+    // Where no trial was, an alarm is right.
+    let is_right = |alarm: &Alarm| {
+        matches!(
+            alarm,
+            Alarm::Place | Alarm::Speed | Alarm::Force | Alarm::Cell
+        )
+    };
+    let right = alarms
+        .iter()
+        .filter(|(_, alarm, _)| is_right(alarm))
+        .count();
     println!(
-        "{:?}: {:.2} h of use, {} false alarms {alarms:?}",
+        "{:?}: {:.2} h of use, {right} alarms outside of what was covered, {} false alarms: {alarms:?}",
         made.rig,
         ticks as f64 / 3.6e6,
-        alarms.len()
+        alarms.len() - right
     );
 }
 
@@ -172,6 +183,10 @@ fn main() {
         );
         match arguments[0].as_str() {
             "false" => false_alarms(&plan, &made, number(1)),
+            "both" => {
+                false_alarms(&plan, &made, number(1));
+                found(&plan, &made, number(2) as u64, number(3));
+            }
             _ => found(&plan, &made, number(1) as u64, number(2)),
         }
     }

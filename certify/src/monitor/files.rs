@@ -184,5 +184,6 @@ fn of_rig(made: &Made) -> Value {
         },
         "trials": made.basis.trials,
         "samples": made.basis.samples,
+        "use_samples": made.basis.use_samples,
     })
 }

@@ -5,14 +5,19 @@ use rigproof_impl::monitor::Monitor;
 use rigproof_impl::monitor::constants::{Constants, WATCHED};
 use serde::Serialize;
 
+use super::drill;
 use super::middle::constants;
 use crate::certificate::Certificate;
 use crate::controller::Source;
 use crate::plan::Plan;
-use crate::scenario::Rig;
+use crate::scenario::{Rig, Scenario};
 use crate::trial;
 
-/// How far beyond what the certificate's trials came to a statistic has to be. The greatest of n trials is passed by the next n with a
+/// Length of a use, samples: ninety seconds, in which the monitor learns the rig as it does in use.
+const USE_TICKS: u32 = 90_000;
+/// For so many trials there is one use: together a few times as long as the trials of 10 s.
+const TRIALS_OF_USE: u64 = 4;
+/// How far beyond what the certificate's trials and uses came to a statistic has to be. The greatest of n trials is passed by the next n with a
 /// chance of one half; the excess of a statistic with exponential tails over it is then a small share of it.
 const BEYOND: f64 = 1.25;
 /// Fewest standard deviations that are ever enough: one-sided chance 0.0013 where the model is right.
@@ -38,6 +43,8 @@ pub struct Basis {
     pub trials: u64,
     /// Their samples.
     pub samples: u64,
+    /// Samples of longer use of its rigs.
+    pub use_samples: u64,
     /// The greatest of each number's statistic, standard deviations beyond its end.
     pub sigmas: [f64; WATCHED],
     /// The greatest mean square of the surprise.
@@ -101,16 +108,40 @@ fn one(plan: &Plan, rig: Rig, source: &dyn Source, most: u64) -> Result<Made, Re
         Ok(came)
     });
     let came = runs.try_reduce(|| Came::NONE, |one, other| Ok(one.and(&other)))?;
+    let came = came.and(&in_use(plan, rig, source, &open, most));
     Ok(Made {
         rig,
         constants: came.closed(open),
         basis: Basis {
             trials: came.trials,
             samples: came.samples,
+            use_samples: came.use_samples,
             sigmas: came.sigmas,
             surprise: came.surprise,
         },
     })
+}
+
+/// What the statistics came to where rigs of the certificate's scenarios are used for longer, by hands that go back and forth. Only the
+/// trials say what is covered.
+fn in_use(plan: &Plan, rig: Rig, source: &dyn Source, open: &Constants, most: u64) -> Came {
+    let uses = 0..plan.scenarios.min(most).div_ceil(TRIALS_OF_USE);
+    let each = uses.into_par_iter().filter_map(|index| {
+        let scenario = Scenario {
+            ticks: USE_TICKS,
+            ..plan.scenario(index)
+        };
+        if scenario.rig != rig {
+            return None;
+        }
+        let mut came = Came::NONE;
+        let drilled = drill::run(&scenario, source, open, None, |monitor| {
+            came.judge(monitor, open);
+        })?;
+        came.use_samples = u64::from(drilled.ticks);
+        Some(came)
+    });
+    each.reduce(|| Came::NONE, |one, other| one.and(&other))
 }
 
 /// What trials came to.
@@ -118,6 +149,7 @@ fn one(plan: &Plan, rig: Rig, source: &dyn Source, most: u64) -> Result<Made, Re
 struct Came {
     trials: u64,
     samples: u64,
+    use_samples: u64,
     /// Greatest of minus x, x, minus y, y, m, and of the squares of speed and force.
     most: [f64; 6],
     cells: u64,
@@ -129,6 +161,7 @@ impl Came {
     const NONE: Came = Came {
         trials: 0,
         samples: 0,
+        use_samples: 0,
         most: [f64::MIN; 6],
         cells: 0,
         sigmas: [f64::MIN; WATCHED],
@@ -147,6 +180,11 @@ impl Came {
             *most = most.max(now);
         }
         self.cells |= 1 << seen.cell;
+        self.judge(monitor, of);
+    }
+
+    /// How far the statistics went.
+    fn judge(&mut self, monitor: &Monitor, of: &Constants) {
         let ends = of.low.iter().zip(&of.high);
         let numbers = monitor.estimate().numbers().zip(ends);
         for (most, (number, (low, high))) in self.sigmas.iter_mut().zip(numbers) {
@@ -158,6 +196,7 @@ impl Came {
     fn and(mut self, other: &Came) -> Came {
         self.trials += other.trials;
         self.samples += other.samples;
+        self.use_samples += other.use_samples;
         for (most, now) in self.most.iter_mut().zip(other.most) {
             *most = most.max(now);
         }
