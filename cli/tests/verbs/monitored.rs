@@ -15,12 +15,20 @@ const PROGRAM: &str = "#include \"rigproof_monitor_constants.h\"\n\
 fn a_certificate_becomes_numbers_that_compile() {
     let desk = Desk::new();
     desk.put("certify.toml", SOUND);
-    desk.prints("certify certify.toml --scenarios 16 --seconds 1 --out done", 0);
+    desk.prints(
+        "certify certify.toml --scenarios 16 --seconds 1 --out done",
+        0,
+    );
     let line = "certify monitor done/certificate.json --out monitor";
     let said = desk.json(&format!("{line} --json"), 0);
     let certificate: Value = serde_json::from_str(&desk.read("done/certificate.json")).unwrap();
     assert_eq!(said["digest"], certificate["digest"]);
-    let trials: u64 = said["rigs"].as_array().unwrap().iter().map(|rig| rig["trials"].as_u64().unwrap()).sum();
+    let trials: u64 = said["rigs"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|rig| rig["trials"].as_u64().unwrap())
+        .sum();
     assert_eq!(trials, 16);
     let source = desk.read("monitor/rigproof_monitor.rs");
     let header = desk.read("monitor/rigproof_monitor_constants.h");
@@ -35,7 +43,15 @@ fn a_certificate_becomes_numbers_that_compile() {
     desk.put("monitor/program.c", PROGRAM);
     let include = concat!(env!("CARGO_MANIFEST_DIR"), "/../impl/c/include");
     let compiled = Command::new("cc")
-        .args(["-std=c99", "-Wall", "-Wextra", "-Werror", "-ffreestanding", "-c", "program.c"])
+        .args([
+            "-std=c99",
+            "-Wall",
+            "-Wextra",
+            "-Werror",
+            "-ffreestanding",
+            "-c",
+            "program.c",
+        ])
         .arg(format!("-I{include}"))
         .current_dir(desk.path("monitor"))
         .status();
@@ -48,7 +64,10 @@ fn a_certificate_becomes_numbers_that_compile() {
 #[test]
 fn what_may_not_go_gets_no_monitor() {
     let desk = Desk::new();
-    desk.put("certify.toml", &format!("{SOUND}[limits]\nswitching_per_s = 0.1\n"));
+    desk.put(
+        "certify.toml",
+        &format!("{SOUND}[limits]\nswitching_per_s = 0.1\n"),
+    );
     desk.prints("certify certify.toml --scenarios 8 --seconds 1 --out no", 1);
     let text = desk.prints("certify monitor no/certificate.json --out monitor", 1);
     assert!(
