@@ -31,13 +31,13 @@ pub const PARTS: usize = 15;
 pub const CELLS: usize = 180;
 
 /// What lies farther from the base joints' line is far, m: the middle of the box in which paths are drawn.
-const FAR_M: f64 = 0.37;
+pub const FAR_M: f64 = 0.37;
 /// Below this the tip is still, m/s: one count in one sample at the end of an arm (decision 0124).
-const STILL_M_S: f64 = 0.02;
+pub const STILL_M_S: f64 = 0.02;
 /// From this on the tip is fast, m/s: between what a gentle and a hasty hand intends (decision 0125).
-const FAST_M_S: f64 = 0.15;
+pub const FAST_M_S: f64 = 0.15;
 /// Below the first a push is light, from the second on strong, N: a tenth and a half of the greatest (decision 0047).
-const FORCES_N: [f64; 2] = [2.0, 10.0];
+pub const FORCES_N: [f64; 2] = [2.0, 10.0];
 /// Samples after a fault that count as just after it.
 const AFTER: u32 = 100;
 

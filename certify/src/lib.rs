@@ -26,6 +26,7 @@ pub mod judge;
 pub mod law;
 pub mod left_out;
 pub mod metrics;
+pub mod monitor;
 pub mod plan;
 pub mod proved;
 mod rebuilt;

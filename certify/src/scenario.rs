@@ -80,6 +80,17 @@ pub struct PlantChange {
     pub payload_kg: f64,
 }
 
+/// Greatest share by which the torque of a brake is drawn to differ (decision 0125).
+pub const TORQUE_SHARE: f64 = 0.1;
+/// The same of its time constants.
+pub const TIME_CONSTANT_SHARE: f64 = 0.2;
+/// The same of the width of its backlash.
+pub const BACKLASH_SHARE: f64 = 0.3;
+/// The same of the masses and inertias of the arms.
+pub const INERTIA_SHARE: f64 = 0.1;
+/// Greatest mass at the tip that is drawn, kg.
+pub const GREATEST_PAYLOAD_KG: f64 = 0.5;
+
 impl Scenario {
     /// What the controller is told of the rig.
     pub fn settings(&self) -> Settings {
@@ -170,11 +181,11 @@ impl Scenario {
             PlantChange::default()
         } else {
             PlantChange {
-                torque: share(draw, 0.1),
-                time_constant: share(draw, 0.2),
-                backlash: share(draw, 0.3),
-                inertia: share(draw, 0.1),
-                payload_kg: draw.between(0.0, 0.5),
+                torque: share(draw, TORQUE_SHARE),
+                time_constant: share(draw, TIME_CONSTANT_SHARE),
+                backlash: share(draw, BACKLASH_SHARE),
+                inertia: share(draw, INERTIA_SHARE),
+                payload_kg: draw.between(0.0, GREATEST_PAYLOAD_KG),
             }
         };
         let zero = |draw: &mut Draw| draw.whole(-40_000, 40_000);

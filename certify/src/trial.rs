@@ -1,6 +1,6 @@
 //! This file runs one trial: a controller on a plant under a hand, sample by sample, before a judge.
 
-mod sensors;
+pub(crate) mod sensors;
 
 use rigproof_impl::plant::{Outcome, Plant};
 use rigproof_impl::tick::Sensed;
@@ -327,7 +327,7 @@ pub fn retold<'a>(
 pub const LEAST_SINE: f64 = 0.173_648;
 
 /// Whether a pair of arms is nearer to a line than table 4.2 allows.
-fn is_stretched(plant: &Plant) -> bool {
+pub(crate) fn is_stretched(plant: &Plant) -> bool {
     let linkage = plant.linkage();
     let pairs = [
         (linkage.ed, linkage.ae),

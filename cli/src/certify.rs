@@ -4,6 +4,7 @@ mod campaign;
 mod check;
 mod compiled;
 mod merge;
+mod monitor;
 mod page;
 mod recordings;
 mod replay;
@@ -89,6 +90,8 @@ pub struct Args {
 enum Verb {
     /// Join the parts of a campaign into one certificate
     Merge(merge::Args),
+    /// Make the monitor of a certificate: what says on the rig that it has left what was certified
+    Monitor(monitor::Args),
     /// Make a key to sign certificates with
     Key(sign::Key),
     /// Sign a certificate
@@ -106,6 +109,7 @@ Example:
   rigproof certify certify.toml --search 200 --sign lab.pem
   rigproof certify --check certified/certificate.json --public-key lab.pem.pub
   rigproof certify certify.toml --recordings runs --rig rig.toml
+  rigproof certify monitor certified/certificate.json --out monitor
 
 certify.toml:
   [controller]
@@ -123,6 +127,7 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
     }
     match (&args.verb, &args.check, &args.replay, &args.description) {
         (Some(Verb::Merge(args)), ..) => merge::run(args),
+        (Some(Verb::Monitor(args)), ..) => monitor::run(args),
         (Some(Verb::Key(args)), ..) => sign::make_key(args),
         (Some(Verb::Sign(args)), ..) => sign::sign(args),
         (_, Some(file), ..) => check::run(args, file),

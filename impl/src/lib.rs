@@ -41,6 +41,7 @@ pub mod encoder;
 pub mod guard;
 pub mod law;
 pub mod linkage;
+pub mod monitor;
 pub mod number;
 pub mod path;
 pub mod plant;

@@ -73,7 +73,7 @@ impl Settings {
     }
 
     /// Whether every number is one of a rig that can be.
-    fn are_sound(&self) -> bool {
+    pub(crate) fn are_sound(&self) -> bool {
         let Arms {
             l_ae_m,
             l_ed_m,
@@ -89,6 +89,16 @@ impl Settings {
             && inside(self.sample_s, SAMPLE_RANGE_S)
             && inside(self.greatest_rate_rad_s, GREATEST_RATE_RANGE_RAD_S)
             && inside(self.greatest_force_n, GREATEST_FORCE_RANGE_N)
+    }
+
+    /// What watches the samples of this rig.
+    pub(crate) fn guard<R: Real>(&self) -> Guard<R> {
+        let step = |counts_per_turn: u32| {
+            let turns = self.greatest_rate_rad_s * self.sample_s / core::f64::consts::TAU;
+            // A travel of a turn is the most there is; a float beyond u32 becomes the greatest u32.
+            libm::ceil(turns * f64::from(counts_per_turn)) as u32
+        };
+        Guard::new(self.counts_per_turn.map(step), R::of(self.greatest_force_n))
     }
 }
 
@@ -116,11 +126,6 @@ impl<R: Real, L: Law<R>> Tick<R, L> {
         let [of_a, of_b] = settings.counts_per_turn;
         let [zero_a, zero_b] = settings.zero_counts;
         let encoders = [Encoder::new(of_a, zero_a)?, Encoder::new(of_b, zero_b)?];
-        let step = |counts_per_turn: u32| {
-            let turns = settings.greatest_rate_rad_s * settings.sample_s / core::f64::consts::TAU;
-            // A travel of a turn is the most there is; a float beyond u32 becomes the greatest u32.
-            libm::ceil(turns * f64::from(counts_per_turn)) as u32
-        };
         let shape = Shape::new(&settings.arms);
         let braked = Joint::ALL.map(|joint| settings.layout.brakes().contains(&joint));
         if law.actuation().is_some_and(|of| !of.is_of(&shape, braked)) {
@@ -131,10 +136,7 @@ impl<R: Real, L: Law<R>> Tick<R, L> {
             braked,
             velocities: encoders.map(|encoder| Velocity::new(&encoder, settings.sample_s)),
             encoders,
-            guard: Guard::new(
-                settings.counts_per_turn.map(step),
-                R::of(settings.greatest_force_n),
-            ),
+            guard: settings.guard(),
             law,
             last: Command::none(Reason::Starting),
         })

@@ -23,6 +23,7 @@ mod inspect;
 mod kills;
 mod mcap;
 mod mistakes;
+mod monitored;
 mod new;
 mod newcomers;
 mod recorded;

@@ -1,8 +1,8 @@
-/* A program without a C library, an allocator or an operating system: it links only if the tick needs none of them.
+/* A program without a C library, an allocator or an operating system: it links only if tick and monitor need none of them.
  *
  * The four functions on memory are what a compiler may always ask for; a bare-metal toolchain brings them. */
 
-#include "rigproof_tick.h"
+#include "rigproof_monitor_constants.h"
 
 void *memcpy(void *to, const void *from, size_t size)
 {
@@ -48,6 +48,7 @@ int memcmp(const void *one, const void *other, size_t size)
 }
 
 static RigproofTick tick;
+static RigproofMonitor monitor;
 volatile double current_a;
 
 void start(void)
@@ -55,14 +56,20 @@ void start(void)
     RigproofTickSettings settings;
     RigproofTickSensed sensed = {sizeof sensed, RIGPROOF_TICK_VERSION, 0, {0, 0}, {0.0, 0.0}};
     RigproofTickCommand command;
+    RigproofMonitorReport report;
     settings.size = sizeof settings;
     command.size = sizeof command;
     tick.size = sizeof tick;
+    monitor.size = sizeof monitor;
+    report.size = sizeof report;
     settings.version = command.version = tick.version = RIGPROOF_TICK_VERSION;
+    monitor.version = report.version = RIGPROOF_TICK_VERSION;
     if (rigproof_tick_thesis(&settings, 4) == RIGPROOF_TICK_STATUS_OK &&
-        rigproof_tick_create(&tick, &settings) == RIGPROOF_TICK_STATUS_OK) {
+        rigproof_tick_create(&tick, &settings) == RIGPROOF_TICK_STATUS_OK &&
+        rigproof_monitor_create(&monitor, &settings, &RIGPROOF_MONITOR_FOUR_BRAKE) == RIGPROOF_TICK_STATUS_OK) {
         for (;; sensed.number++) {
             rigproof_tick_step(&tick, &sensed, &command);
+            rigproof_monitor_watch(&monitor, &sensed, &command, &report);
             current_a = command.currents_a[0];
         }
     }

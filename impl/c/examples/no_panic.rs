@@ -1,4 +1,4 @@
-//! This program links only if the compiler has proved that no tick can panic: `make no-panic` in `impl/c`.
+//! This program links only if the compiler has proved that neither a tick nor the monitor can panic: `make no-panic` in `impl/c`.
 //!
 //! A function marked `no_panic` refers, from where a panic would leave it, to a symbol that is nowhere. An optimised build of one piece
 //! deletes that reference where nothing can panic.
@@ -12,6 +12,7 @@ use rigproof_impl::law::{
     Impedance, Law, Obstacle, Optimal, Proportional, Sdof, Side, Uncontrolled, VelocityRatio,
     Virtual, Weights,
 };
+use rigproof_impl::monitor::{Monitor, Watched};
 use rigproof_impl::number::Real;
 use rigproof_impl::path::{Arc, Line, Path, Polyline, Spline};
 use rigproof_impl::tick::{Sensed, Settings, Tick};
@@ -21,6 +22,9 @@ use rigproof_spec::geometry::arms;
 use rigproof_spec::inertia::inertia;
 use rigproof_spec::layout::Layout;
 use rigproof_spec::methods::BLEND_BOUNDARY_M;
+
+#[path = "../tests/monitor/rigproof_monitor.rs"]
+mod numbers;
 
 const LAYOUT: Layout = Layout::FourBrake;
 const CORNERS_M: [[f64; 2]; 4] = [
@@ -33,6 +37,32 @@ const CORNERS_M: [[f64; 2]; 4] = [
 #[no_panic]
 fn tick<R: Real, L: Law<R>>(tick: &mut Tick<R, L>, sensed: &Sensed<R>) -> Command<R> {
     tick.tick(sensed)
+}
+
+#[no_panic]
+fn watch(monitor: &mut Monitor, sensed: &Sensed<f64>, commanded_a: [f64; 4]) -> Watched {
+    monitor.watch(sensed, commanded_a)
+}
+
+fn monitors() {
+    for (layout, of) in [
+        (Layout::ThreeBrake, numbers::THREE_BRAKE),
+        (Layout::FourBrake, numbers::FOUR_BRAKE),
+    ] {
+        let Some(mut monitor) = Monitor::new(&Settings::thesis(layout), &of) else {
+            println!("the monitor's numbers are refused");
+            return;
+        };
+        for number in 0..200 {
+            let sensed = Sensed {
+                number,
+                counts: [33_421, 14_327],
+                tip_force_n: Vector::new(1.3, -2.7),
+            };
+            black_box(watch(&mut monitor, black_box(&sensed), [0.0; 4]));
+        }
+    }
+    println!("monitor: no sample can panic");
 }
 
 fn run<R: Real, L: Law<R>>(name: &str, law: Option<L>) {
@@ -100,6 +130,7 @@ fn all<R: Real>() {
 fn main() {
     println!("f64");
     all::<f64>();
+    monitors();
     println!("f32");
     all::<f32>();
 }

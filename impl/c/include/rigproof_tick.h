@@ -19,6 +19,21 @@
 #define RIGPROOF_TICK_WORDS 384
 
 /*
+ Size of a monitor, words of eight bytes.
+ */
+#define RIGPROOF_MONITOR_WORDS 1280
+
+/*
+ Numbers that a monitor watches: gains and levels of A, E, B, C, bias of A and B.
+ */
+#define RIGPROOF_MONITOR_WATCHED 10
+
+/*
+ Numbers that it estimates: those, slowness of A, E, B, C, and the masses of both sides.
+ */
+#define RIGPROOF_MONITOR_NUMBERS 16
+
+/*
  Most corners of a path.
  */
 #define RIGPROOF_MOST_CORNERS 16
@@ -132,6 +147,56 @@ typedef enum RigproofTickReason {
    */
   RIGPROOF_TICK_REASON_REFUSED_COMMAND = 14,
 } RigproofTickReason;
+
+/*
+ Why the rig is not what was certified.
+ */
+typedef enum RigproofMonitorAlarm {
+  /*
+   It is, as far as was seen.
+   */
+  RIGPROOF_MONITOR_ALARM_NONE = 0,
+  /*
+   No good sample came for longer than in any trial.
+   */
+  RIGPROOF_MONITOR_ALARM_SENSOR = 1,
+  /*
+   A command is no current of a brake that is there.
+   */
+  RIGPROOF_MONITOR_ALARM_COMMAND = 2,
+  /*
+   The tip is where it was in no trial.
+   */
+  RIGPROOF_MONITOR_ALARM_PLACE = 3,
+  /*
+   The tip is faster than in any trial.
+   */
+  RIGPROOF_MONITOR_ALARM_SPEED = 4,
+  /*
+   The hand pushes harder than in any trial.
+   */
+  RIGPROOF_MONITOR_ALARM_FORCE = 5,
+  /*
+   Place, speed and force came together in no trial.
+   */
+  RIGPROOF_MONITOR_ALARM_CELL = 6,
+  /*
+   The torque that current makes at a joint's brake is outside its interval.
+   */
+  RIGPROOF_MONITOR_ALARM_GAIN = 7,
+  /*
+   Friction without current at a joint is outside its interval.
+   */
+  RIGPROOF_MONITOR_ALARM_FRICTION = 8,
+  /*
+   A constant torque at A or B is outside its interval.
+   */
+  RIGPROOF_MONITOR_ALARM_BIAS = 9,
+  /*
+   The motion is further from the model than in any trial.
+   */
+  RIGPROOF_MONITOR_ALARM_MOTION = 10,
+} RigproofMonitorAlarm;
 
 /*
  A controller. Its memory is the caller's and its content, but for size and version, this library's; it may be copied with memcpy.
@@ -275,6 +340,192 @@ typedef struct RigproofTickCommand {
   int32_t chosen[2];
 } RigproofTickCommand;
 
+/*
+ A monitor. Its memory is the caller's and its content, but for size and version, this library's.
+ */
+typedef struct RigproofMonitor {
+  /*
+   Size of this struct, bytes.
+   */
+  uint32_t size;
+  /*
+   `RIGPROOF_TICK_VERSION`.
+   */
+  uint32_t version;
+  uint64_t mark;
+  uint64_t words[RIGPROOF_MONITOR_WORDS];
+} RigproofMonitor;
+
+/*
+ A brake as a certificate has it, with the coefficients of tables 3.1 to 3.3 in their order.
+ */
+typedef struct RigproofMonitorBrake {
+  /*
+   Width of the backlash, degrees.
+   */
+  double backlash_width_deg;
+  /*
+   k1 to k5 of the torque gain (3.3).
+   */
+  double torque_gain[5];
+  /*
+   `a_avg` and a1 to a6 of the rising time constant (3.5).
+   */
+  double rising[7];
+  /*
+   The same of the falling one (3.6).
+   */
+  double falling[7];
+  /*
+   Currents that were measured, A.
+   */
+  double current_range_a[2];
+  /*
+   Speeds that were measured, rpm.
+   */
+  double speed_range_rpm[2];
+} RigproofMonitorBrake;
+
+/*
+ What is certified, and how sure the monitor has to be. `rigproof certify monitor` writes it.
+ */
+typedef struct RigproofMonitorConstants {
+  /*
+   Size of this struct, bytes.
+   */
+  uint32_t size;
+  /*
+   `RIGPROOF_TICK_VERSION`.
+   */
+  uint32_t version;
+  /*
+   How many brakes: 3 (A, E, B) or 4 (A, E, B, C).
+   */
+  uint32_t brakes;
+  /*
+   Samples in a row outside of what was covered that raise an alarm.
+   */
+  uint32_t hold;
+  /*
+   Samples in a row without a good one that raise an alarm.
+   */
+  uint32_t longest_fault;
+  /*
+   0.
+   */
+  uint32_t reserved;
+  /*
+   The cells in which samples lay, a bit each.
+   */
+  uint64_t cells;
+  /*
+   Mass, kg, inertia about the centre of mass, kg·m², and its distance from the first joint, m, of AE, ED, BC, CD.
+   */
+  double arms[4][3];
+  /*
+   Mass at the tip, kg.
+   */
+  double payload_kg;
+  /*
+   The brakes A, E, B, C.
+   */
+  struct RigproofMonitorBrake brake[4];
+  /*
+   Viscous friction of A, E, B, C, N·m·s/rad.
+   */
+  double viscous_nm_s[4];
+  /*
+   Dry friction beside the brakes', N·m.
+   */
+  double dry_nm[4];
+  /*
+   Constant torque against each joint, N·m.
+   */
+  double constant_nm[4];
+  /*
+   Share by which the width of a backlash may be another.
+   */
+  double backlash_share;
+  /*
+   Lower ends of gains and levels of A, E, B, C, bias of A and B, slowness of A, E, B, C, and masses of both sides.
+   */
+  double low[RIGPROOF_MONITOR_NUMBERS];
+  /*
+   Their upper ends.
+   */
+  double high[RIGPROOF_MONITOR_NUMBERS];
+  /*
+   Their spreads.
+   */
+  double spread[RIGPROOF_MONITOR_NUMBERS];
+  /*
+   Times over which the monitor forgets, s.
+   */
+  double memory_s[2];
+  /*
+   Shares of inertial and braking impulses that the model may miss.
+   */
+  double missed_share[2];
+  /*
+   How many standard deviations beyond its end a number has to be.
+   */
+  double sigmas[RIGPROOF_MONITOR_WATCHED];
+  /*
+   Greatest mean square of the normalised surprise.
+   */
+  double surprise;
+  /*
+   Least and greatest x, least and greatest y of the tip, m.
+   */
+  double tip_m[4];
+  /*
+   Greatest speed of the tip, m/s.
+   */
+  double speed_m_s;
+  /*
+   Greatest force on it, N.
+   */
+  double force_n;
+  /*
+   What lies farther from the base joints' line is far, m.
+   */
+  double far_m;
+  /*
+   Speeds between still, slow and fast, m/s.
+   */
+  double speeds_m_s[2];
+  /*
+   Forces between light, middle and strong, N.
+   */
+  double forces_n[2];
+} RigproofMonitorConstants;
+
+/*
+ What the monitor makes of a sample.
+ */
+typedef struct RigproofMonitorReport {
+  /*
+   Size of this struct, bytes.
+   */
+  uint32_t size;
+  /*
+   `RIGPROOF_TICK_VERSION`.
+   */
+  uint32_t version;
+  /*
+   A number of `RigproofMonitorAlarm`; once it is not 0 it stays.
+   */
+  uint32_t alarm;
+  /*
+   The joint that it names, 0 to 3 in the order A, E, B, C; -1 for none.
+   */
+  int32_t joint;
+  /*
+   Whether a sensor is wrong in this sample.
+   */
+  uint32_t is_faulty;
+} RigproofMonitorReport;
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
@@ -300,6 +551,29 @@ enum RigproofTickStatus rigproof_tick_create(struct RigproofTick *tick,
 enum RigproofTickStatus rigproof_tick_step(struct RigproofTick *tick,
                                            const struct RigproofTickSensed *sensed,
                                            struct RigproofTickCommand *command);
+
+/*
+ Makes a monitor in `monitor` that has seen nothing, for the rig of a tick's settings.
+
+ # Safety
+ Each pointer must be null or point to as many bytes as its size says; `monitor` to bytes that may be written.
+ */
+enum RigproofTickStatus rigproof_monitor_create(struct RigproofMonitor *monitor,
+                                                const struct RigproofTickSettings *settings,
+                                                const struct RigproofMonitorConstants *constants);
+
+/*
+ Watches a sample and the command that the tick gave for it, and lets go where it has to: then the command has no current. Bounded work,
+ whatever is told. As of `rigproof_tick_step`, a caller takes every status but `OK` for no current.
+
+ # Safety
+ Each pointer must be null or point to as many bytes as its size says; `monitor` to a monitor that was created and that no other
+ thread uses; `command` and `report` to bytes that may be written.
+ */
+enum RigproofTickStatus rigproof_monitor_watch(struct RigproofMonitor *monitor,
+                                               const struct RigproofTickSensed *sensed,
+                                               struct RigproofTickCommand *command,
+                                               struct RigproofMonitorReport *report);
 
 /*
  Fills in the thesis's rig with 3 or 4 brakes; law, gain, gap and path are left to choose. Size and version have to be there already.

@@ -8,6 +8,7 @@
 #[cfg(feature = "std")]
 extern crate std;
 
+mod monitor;
 mod settings;
 mod words;
 
@@ -15,6 +16,11 @@ use rigproof_impl::law::PathLaw;
 use rigproof_impl::path::AnyPath;
 use rigproof_impl::tick::{Sensed, Tick};
 
+pub use monitor::{
+    RIGPROOF_MONITOR_NUMBERS, RIGPROOF_MONITOR_WATCHED, RIGPROOF_MONITOR_WORDS, RigproofMonitor,
+    RigproofMonitorAlarm, RigproofMonitorBrake, RigproofMonitorConstants, RigproofMonitorReport,
+    rigproof_monitor_create, rigproof_monitor_watch, word as monitor_word,
+};
 pub use settings::{RIGPROOF_MOST_CORNERS, RigproofTickSettings, rigproof_tick_thesis};
 pub use words::{
     RigproofTickCommand, RigproofTickLaw, RigproofTickReason, RigproofTickSensed,

@@ -88,9 +88,14 @@ impl RigproofTickSettings {
 
     /// The controller of these settings, if they are those of one.
     pub(crate) fn controller(&self) -> Option<Controller> {
-        let layout = layout(self.brakes)?;
+        let settings = self.tick()?;
+        Tick::new(&settings, self.law(settings.layout, &settings.arms)?)
+    }
+
+    /// What they say of the rig.
+    pub(crate) fn tick(&self) -> Option<Settings> {
         let [l_ae_m, l_ed_m, l_bc_m, l_cd_m, l_ab_m] = self.arms_m;
-        let settings = Settings {
+        Some(Settings {
             arms: Arms {
                 l_ae_m,
                 l_ed_m,
@@ -98,14 +103,13 @@ impl RigproofTickSettings {
                 l_cd_m,
                 l_ab_m,
             },
-            layout,
+            layout: layout(self.brakes)?,
             counts_per_turn: self.counts_per_turn,
             zero_counts: self.zero_counts,
             sample_s: self.sample_s,
             greatest_rate_rad_s: self.greatest_rate_rad_s,
             greatest_force_n: self.greatest_force_n,
-        };
-        Tick::new(&settings, self.law(layout, &settings.arms)?)
+        })
     }
 
     fn path(&self) -> Option<ChosenPath> {

@@ -45,6 +45,12 @@ impl Characteristic {
         }
     }
 
+    /// Torque without current, N·m.
+    pub fn off_state_nm(&self) -> f64 {
+        let [off_nm, _] = self.limits_nm;
+        off_nm
+    }
+
     /// Time constant a at the nearest measured current and speed, s (3.5), (3.6).
     //= thesis (3.5)
     //= thesis (3.6)
@@ -120,6 +126,14 @@ impl Brake {
         };
         self.current_a = current_a;
         within(mean_nm, of.limits_nm)
+    }
+
+    /// Turns the shaft of a brake that has no current and has come to its off-state torque, from one angle to another, rad.
+    #[inline(always)]
+    pub fn rest(&mut self, of: &Characteristic, [from_rad, to_rad]: [f64; 2]) {
+        self.backlash.turn(from_rad, to_rad);
+        self.yield_nm = of.off_state_nm();
+        (self.current_a, self.fall_origin_a) = (0.0, 0.0);
     }
 
     /// A step in which a boundary of the backlash was passed, inwards or outwards, at a moment, s after its start; seldom, so kept apart.

@@ -43,6 +43,16 @@ impl<R: Real> Bodies<R> {
     }
 }
 
+impl<R: Real> Bodies<R> {
+    /// Of each side, A-E-D first: the inertia about its base joint, what its outer arm carries, and the outer arm's inertia.
+    pub fn sides(&self) -> [[R; 3]; 2] {
+        let [base_a, base_b] = self.base_kg_m2;
+        let [carried_a, carried_b] = self.carried_kg;
+        let [outer_a, outer_b] = self.outer_kg_m2;
+        [[base_a, carried_a, outer_a], [base_b, carried_b, outer_b]]
+    }
+}
+
 /// A symmetric matrix of two rows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mass<R> {

@@ -77,6 +77,12 @@ impl Plant {
         yields_nm
     }
 
+    /// The torques of the brakes A, E, B, C without current, N·m; zero where there is none.
+    pub fn off_state_nm(&self) -> [f64; 4] {
+        self.characteristics
+            .map(|of| of.map_or(0.0, |of| of.off_state_nm()))
+    }
+
     /// Which of the joints A, E, B, C were held at the end of the last step.
     pub fn stuck(&self) -> [bool; 4] {
         self.held

@@ -158,6 +158,21 @@ impl Plant {
         Some(plant)
     }
 
+    /// This plant where it is, as if it had been made of other parameters and effects from now on: motion, torques and places in the
+    /// backlashes stay; effects begin anew. `None` as of [`Plant::new`].
+    pub fn changed(&self, parameters: &Parameters, effects: &[Asked<'_>]) -> Option<Plant> {
+        let (theta_rad, rates_rad_s) = (self.motion.theta_rad, self.motion.rates_rad_s);
+        let other = Plant::new(parameters, theta_rad.into(), rates_rad_s.into(), effects)?;
+        Some(Plant {
+            mechanism: other.mechanism,
+            characteristics: other.characteristics,
+            greatest_a: other.greatest_a,
+            paths: other.paths,
+            effects: other.effects,
+            ..*self
+        })
+    }
+
     fn add(&mut self, asked: &Asked<'_>) -> Option<()> {
         let Asked {
             joint,

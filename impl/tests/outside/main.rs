@@ -11,3 +11,4 @@ mod nothing_to_go_by;
 mod numbers;
 mod outcomes;
 mod standing;
+mod watched;

@@ -1,6 +1,5 @@
 //! This file says that a program in C gets from the library, bit for bit, what a program in Rust gets from the tick.
 
-use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -34,7 +33,7 @@ fn library() -> PathBuf {
 }
 
 /// A program in C, compiled; `None` without a C compiler.
-fn compiled(source: &str) -> Option<PathBuf> {
+pub fn compiled(source: &str) -> Option<PathBuf> {
     let compiler = std::env::var("CC").unwrap_or_else(|_| "cc".to_owned());
     if Command::new(&compiler).arg("--version").output().is_err() {
         println!("no C compiler `{compiler}`: {source} was not built");
@@ -51,6 +50,7 @@ fn compiled(source: &str) -> Option<PathBuf> {
             "-ffp-contract=off",
         ])
         .arg(format!("-I{ROOM}/include"))
+        .arg(format!("-I{ROOM}/tests/monitor"))
         .arg("-o")
         .arg(&program)
         .arg(format!("{ROOM}/{source}"))
@@ -63,7 +63,7 @@ fn compiled(source: &str) -> Option<PathBuf> {
 }
 
 /// Samples of a tip that is led and pushed about, with every fault in between.
-fn samples() -> Vec<Sensed<f64>> {
+pub fn samples() -> Vec<Sensed<f64>> {
     // Numbers of a linear congruence, 0 to 1.
     let mut state = 20_031_107_u64;
     let mut draw = move || {
@@ -107,11 +107,22 @@ fn samples() -> Vec<Sensed<f64>> {
 fn replayed(program: &Path, arguments: &[String], samples: &[Sensed<f64>]) -> Vec<String> {
     let mut lines = String::new();
     for sensed in samples {
-        let [a, b] = sensed.counts;
-        let Vector { x, y } = sensed.tip_force_n;
-        // Rust's shortest decimal reads back to the same float.
-        writeln!(lines, "{} {a} {b} {x:?} {y:?}", sensed.number).unwrap();
+        lines += &line(sensed);
+        lines.push('\n');
     }
+    answered(program, arguments, lines)
+}
+
+/// A sample as the examples read it.
+pub fn line(sensed: &Sensed<f64>) -> String {
+    let [a, b] = sensed.counts;
+    let Vector { x, y } = sensed.tip_force_n;
+    // Rust's shortest decimal reads back to the same float.
+    format!("{} {a} {b} {x:?} {y:?}", sensed.number)
+}
+
+/// What a program prints, a line each, that is told these lines.
+pub fn answered(program: &Path, arguments: &[String], lines: String) -> Vec<String> {
     let mut child = Command::new(program)
         .args(arguments)
         .stdin(Stdio::piped())
@@ -128,7 +139,7 @@ fn replayed(program: &Path, arguments: &[String], samples: &[Sensed<f64>]) -> Ve
 }
 
 /// The bits of a float that C printed with `%a`.
-fn bits(text: &str) -> u64 {
+pub fn bits(text: &str) -> u64 {
     let body = text.strip_prefix("0x").unwrap();
     let (digits, exponent) = body.split_once('p').unwrap();
     let (whole, fraction) = digits.split_once('.').unwrap_or((digits, ""));

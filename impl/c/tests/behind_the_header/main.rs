@@ -2,4 +2,5 @@
 
 mod c_example;
 mod misuse;
+mod monitored;
 mod no_heap;
