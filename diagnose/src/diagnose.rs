@@ -12,7 +12,6 @@ pub(crate) mod write;
 
 use crate::align::Fault;
 use crate::cause::{Cause, Place};
-use crate::evidence::{intervals, times_by_form};
 use crate::explain::{Explanations, explain, explain_many};
 use crate::plant::{At, Plant, Run};
 use crate::problem::{Problem, Term};
@@ -21,11 +20,9 @@ use crate::rules::{FEWEST_WINDOWS, FLOOR_RATIO, HOLD_OUT_SHARE, SUSPECTED};
 use crate::scatter::{Trials, left_over};
 use crate::selection::{Selection, is_noise, refs, usable_rms};
 use ended::{faulty, not_excited};
-use numbers::fitted;
 use parts::Parts;
 use rigproof_model::effects::entry;
 use rigproof_trace::Trace;
-use rigproof_trace::rig::Value;
 pub use watch::{Stage, Watch};
 use write::Stand;
 
@@ -179,7 +176,6 @@ pub fn diagnose<P: Plant>(
         withdrawn.clear();
     }
     bound(&problem, &mut selection);
-    bound_by_size(&problem, &mut selection);
     options.watch.enters(Stage::Show);
     Stand {
         plant,
@@ -217,27 +213,6 @@ fn bound(problem: &Problem, selection: &mut Selection) {
     }
     for found in &mut selection.found {
         found.probability = found.probability.min(SUSPECTED + found.share.max(0.0));
-    }
-}
-
-/// Bounds the probability of a mechanism whose size the recording does not tell from none.
-///
-/// The 95 % intervals of all its sizes then hold 0, and it is as likely as not. What the form of a
-/// law may be mistaken by says nothing of whether it is there.
-fn bound_by_size(problem: &Problem, selection: &mut Selection) {
-    let halves = intervals(problem, selection);
-    let form = times_by_form(problem, selection);
-    let effects = fitted(problem, selection, &halves);
-    let effects = effects.iter().skip(selection.nominal.len());
-    for (found, effect) in selection.found.iter_mut().zip(effects) {
-        let sizes = effect.values.iter().take(found.term.free.len().max(1));
-        let is_told = |own: &Value| {
-            let half = own.high95.map(|high| (high - own.value) / form);
-            half.is_none_or(|half| own.value.abs() > half)
-        };
-        if !sizes.map(is_told).any(|told| told) {
-            found.probability = found.probability.min(SUSPECTED);
-        }
     }
 }
 

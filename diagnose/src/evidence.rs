@@ -18,7 +18,7 @@ use rigproof_model::effects::entry;
 use rigproof_spec::effect::Mechanism;
 use std::collections::BTreeMap;
 
-pub use intervals::{Intervals, intervals, times_by_form};
+pub use intervals::{Intervals, intervals};
 
 fn parameter_count(term: &Term) -> usize {
     entry(term.cause.mechanism).map_or(0, |e| e.linear) + term.shape.len()

@@ -42,7 +42,8 @@ pub fn intervals(problem: &Problem, selection: &Selection) -> Intervals {
     let residual = problem.whitener.whiten(&selection.after.residual);
     let halves = half_widths(&white, &residual, &Blocks::new(problem))
         .unwrap_or_else(|| vec![f64::NAN; white.len()]);
-    let form = times_by_form(problem, selection);
+    let left = usable_rms(problem, &selection.after.residual) / problem.floor;
+    let form = left.clamp(1.0, TIMES_BY_FORM);
     let mut intervals = Intervals {
         nuisances: vec![f64::NAN; problem.nuisances.len()],
         terms: terms
@@ -70,12 +71,6 @@ pub fn intervals(problem: &Problem, selection: &Selection) -> Intervals {
         }
     }
     intervals
-}
-
-/// How many times wider intervals are because the law may have another form than the true one.
-pub fn times_by_form(problem: &Problem, selection: &Selection) -> f64 {
-    let left = usable_rms(problem, &selection.after.residual) / problem.floor;
-    left.clamp(1.0, TIMES_BY_FORM)
 }
 
 /// Nominal terms have no onset.
