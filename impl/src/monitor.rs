@@ -151,7 +151,7 @@ impl Monitor {
             kept: of.memory_s.map(|memory_s| libm::exp(-time_s / memory_s)),
             brakings: of.brakes.map(|table| Braking::new(&table)),
             last: None,
-            blocks: [Block::new(); 2],
+            blocks: [Block::NONE; 2],
             estimate: Estimate::new(&of.spread, [of.low, of.high]),
             envelope: Envelope::default(),
             faulty: 0,
@@ -231,7 +231,7 @@ impl Monitor {
     fn may_leave(&self, commanded_a: [f64; 4]) -> bool {
         let allowed = |(current_a, braked): (f64, bool)| {
             (current_a == 0.0)
-                | (braked & (current_a >= -SLACK_A) & (current_a <= GREATEST_CURRENT_A + SLACK_A))
+                | (braked & (-SLACK_A..=GREATEST_CURRENT_A + SLACK_A).contains(&current_a))
         };
         commanded_a.into_iter().zip(self.braked).all(allowed)
     }
@@ -244,7 +244,7 @@ impl Monitor {
     /// What was begun is not gone on with: samples are missing.
     fn interrupt(&mut self) {
         self.last = None;
-        self.blocks = [Block::new(); 2];
+        self.blocks = [Block::NONE; 2];
         self.wait = BLOCK;
         for braking in &mut self.brakings {
             braking.lose();
@@ -353,7 +353,7 @@ impl Monitor {
     /// Ends a block: where two are whole, they are balanced and the numbers are looked at.
     fn close(&mut self, form: &Form<f64>) {
         let [first, second] = self.blocks;
-        self.blocks = [second, Block::new()];
+        self.blocks = [second, Block::NONE];
         if !first.is_whole() {
             return;
         }

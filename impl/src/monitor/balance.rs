@@ -73,7 +73,7 @@ pub struct Block {
 
 impl Block {
     /// Nothing yet.
-    pub const fn new() -> Block {
+    pub const NONE: Block = {
         let none = Vector { x: 0.0, y: 0.0 };
         Block {
             momentum: [none; 2],
@@ -84,7 +84,7 @@ impl Block {
             rows: [none; 4],
             steps: 0,
         }
-    }
+    };
 
     /// Whether it has all its steps.
     pub fn is_whole(&self) -> bool {
