@@ -41,15 +41,17 @@ pub struct Trailing {
     pub half_gap: f64,
 }
 
-/// The contact at the ends of a gap turns by so much of its oscillation in an integration step, rad: as stiff as the step follows.
-const CONTACT_RAD: f64 = 0.5;
+/// The contact at the ends of a gap, rad/s: teeth meet within a millisecond.
+const CONTACT_RAD_S: f64 = 2000.0;
+/// Longest integration step of a joint with trailing parts, rad of their oscillation.
+const STEP_RAD: f64 = 0.5;
 
 impl Trailing {
     /// A part that is free inside a gap and meets its ends without a bounce.
-    pub fn in_a_gap(share: f64, gap: f64, step_s: f64) -> Trailing {
+    pub const fn in_a_gap(share: f64, gap: f64) -> Trailing {
         Trailing {
             share,
-            resonance_rad_s: CONTACT_RAD / step_s,
+            resonance_rad_s: CONTACT_RAD_S,
             damping: 1.0,
             half_gap: 0.5 * gap,
         }
@@ -111,6 +113,21 @@ impl Axis {
 
     /// Advances the state by `step_s` under a driving effort that goes linearly from `effort` to `effort_end`.
     pub fn step(&self, state: &mut State, effort: f64, effort_end: f64, step_s: f64) {
+        let stiffest = self.parts().flatten().map(|part| part.resonance_rad_s);
+        let stiffest = stiffest.fold(0.0, f64::max);
+        let count = (stiffest * step_s / STEP_RAD).ceil();
+        if count <= 1.0 {
+            return self.step_once(state, effort, effort_end, step_s);
+        }
+        let slope = (effort_end - effort) / count;
+        for part in 0..count as usize {
+            let begin = effort + slope * part as f64;
+            self.step_once(state, begin, begin + slope, step_s / count);
+        }
+    }
+
+    /// One integration step.
+    fn step_once(&self, state: &mut State, effort: f64, effort_end: f64, step_s: f64) {
         let slope = (effort_end - effort) / step_s;
         let mut done_s = 0.0;
         for _ in 0..STOPS_A_STEP {
@@ -435,7 +452,7 @@ mod tests {
     fn a_part_in_a_gap_is_free_until_an_end_of_it_pushes() {
         let mut axis = axis(&[]);
         let (share, gap, step_s) = (0.37, 0.02, 1e-3);
-        axis.transmission.trailing[1] = Some(Trailing::in_a_gap(share, gap, step_s));
+        axis.transmission.trailing[1] = Some(Trailing::in_a_gap(share, gap));
         let mut state = axis.state(0.0, 0.0, 0.0);
         // In the gap the joint is lighter by the part.
         for _ in 0..50 {

@@ -211,7 +211,7 @@ fn of_joint(run: &JointRun, form: Form, shape: &[f64]) -> Option<Columns> {
             free(seen(run, apart.into_iter().map(|a| inertia * a).collect()))
         }
         Form::Joint(OfJoint::Gap) => {
-            let part = Trailing::in_a_gap(1.0, *shape.first()?, run.step_s);
+            let part = Trailing::in_a_gap(1.0, *shape.first()?);
             free(seen(run, trailing(&acceleration(run), &part, run.step_s)))
         }
         Form::Sensor(OfSensor::EncoderScale) => {
@@ -245,14 +245,15 @@ fn shown_by(run: &JointRun, wave: fn(f64) -> f64, inertia: f64) -> Vec<f64> {
 
 /// The acceleration of a trailing part relative to a joint that has the given acceleration.
 fn trailing(acceleration: &[f64], part: &Trailing, step_s: f64) -> Vec<f64> {
-    let h = step_s / SUBSTEPS as f64;
+    let substeps = SUBSTEPS.max((part.resonance_rad_s * step_s / SUBSTEP_RAD).ceil() as usize);
+    let h = step_s / substeps as f64;
     let mut moved = [0.0; 2];
     let next = acceleration.iter().skip(1).chain(acceleration.last());
     let each = acceleration.iter().zip(next).map(|(base, next)| {
         let now = part.pull(moved) - base;
-        for sub in 0..SUBSTEPS {
+        for sub in 0..substeps {
             // The midpoint of a substep, so that the mean is right.
-            let share = (sub as f64 + 0.5) / SUBSTEPS as f64;
+            let share = (sub as f64 + 0.5) / substeps as f64;
             moved[1] += h * (part.pull(moved) - base - share * (next - base));
             moved[0] += h * moved[1];
         }
@@ -261,8 +262,10 @@ fn trailing(acceleration: &[f64], part: &Trailing, step_s: f64) -> Vec<f64> {
     each.collect()
 }
 
-/// Integration steps of a resonator in one sample.
+/// Fewest integration steps of a trailing part in one sample.
 const SUBSTEPS: usize = 8;
+/// Longest of these steps, rad of the part's oscillation.
+const SUBSTEP_RAD: f64 = 0.25;
 
 /// The columns of a mechanism.
 ///

@@ -49,7 +49,6 @@ const LEFT_OUT: &[(Mechanism, &[f64], &[PlantKind])] = &[
     (FrictionFade, &[0.037], BOTH),
     (AddedInertia, &[0.29], AXIS),
     (Compliance, &[0.23, 61.0, 0.11], AXIS),
-    (LoadBacklash, &[0.43, 0.013], AXIS),
     (EncoderScale, &[0.07], AXIS),
     (EccentricEncoder, &[0.011, -0.007], AXIS),
 ];
@@ -61,6 +60,10 @@ const STATED: &[(Mechanism, &[f64], &[PlantKind])] = &[
     (EncoderOffset, &[0.31], BOTH),
     (Backlash, &[1.1, 0.011], AXIS),
 ];
+
+/// Stated, it is computed along the smoothed motion, which blurs the moment of an impact: a quiet
+/// recording shows the difference (decision 0277).
+const BLURRED: &[(Mechanism, &[f64], &[PlantKind])] = &[(LoadBacklash, &[0.43, 0.013], AXIS)];
 
 fn rig(plant: PlantKind) -> Rig {
     let (name, effort, parameters) = match plant {
@@ -199,7 +202,7 @@ fn a_description_that_states_the_truth_is_obeyed() {
 
 #[test]
 fn with_its_own_calibration_nothing_is_named_again() {
-    let wrong = cases(LEFT_OUT)
+    let wrong = cases(&[LEFT_OUT, BLURRED].concat())
         .into_par_iter()
         .filter_map(|(plant, effect, seed)| {
             let recording = recording(plant, &effect, seed);

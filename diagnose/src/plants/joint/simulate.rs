@@ -123,11 +123,10 @@ pub(super) struct Free {
     pub(super) axis: Axis,
     inertia: f64,
     of_joint: Vec<(OfJoint, Effect)>,
-    step_s: f64,
 }
 
 impl Free {
-    fn of(plant: &Model, step_s: f64) -> Free {
+    fn of(plant: &Model) -> Free {
         let of_joint = plant
             .effects
             .iter()
@@ -143,7 +142,6 @@ impl Free {
             },
             inertia: plant.inertia,
             of_joint: of_joint.collect(),
-            step_s,
         }
     }
 
@@ -173,7 +171,7 @@ impl Free {
                 OfJoint::Gap => {
                     let share = effect.value(0) / self.inertia;
                     let share = share.min(MOST_TRAILING);
-                    let part = Trailing::in_a_gap(share, effect.value(1), self.step_s);
+                    let part = Trailing::in_a_gap(share, effect.value(1));
                     self.axis.transmission.trailing[1] = Some(part);
                 }
                 // These act through the laws.
@@ -199,7 +197,7 @@ fn free_run(plant: &Model, run: &JointRun, protocol: &Protocol) -> Vec<f64> {
     let fine = fine_effort(&effort, protocol);
     let there = behind(&plant.effects, &run.position, clock);
     let step_s = run.step_s / protocol.substeps as f64;
-    let mut free = Free::of(plant, step_s);
+    let mut free = Free::of(plant);
     let (first, mut state) = begun((plant, &mut free), (run, &there), &fine, protocol);
     let mut out = there.get(..first).unwrap_or_default().to_vec();
     if let Some(servo) = &run.servo {
@@ -253,7 +251,7 @@ pub fn predict(
         false => begin.speed / shows(seen[1] - seen[0], next - position),
     };
     let step_s = run.step_s / protocol.substeps as f64;
-    let mut free = Free::of(plant, step_s);
+    let mut free = Free::of(plant);
     let mut state = free.axis.state(begin.time_s, position, speed);
     bend_bristles(plant, &mut state.memory, speed);
     let local = Protocol {
