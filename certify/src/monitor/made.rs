@@ -46,7 +46,7 @@ pub struct Basis {
     pub samples: u64,
     /// Samples of longer use of its rigs by operators.
     pub use_samples: u64,
-    /// The greatest of each number's statistic, standard deviations beyond its end.
+    /// The greatest of each number's statistic where it was to be silent, standard deviations beyond its end; 0 where none came beyond.
     pub sigmas: [f64; WATCHED],
     /// The greatest mean square of the surprise.
     pub surprise: f64,
@@ -176,7 +176,7 @@ impl Came {
         use_samples: 0,
         most: [f64::MIN; 6],
         cells: 0,
-        sigmas: [f64::MIN; WATCHED],
+        sigmas: [0.0; WATCHED],
         surprise: 0.0,
     };
 
