@@ -1,6 +1,6 @@
 //! This program measures a monitor: false alarms in hours of use of rigs that are as certified, and how soon concealed changes are found.
 //!
-//! `watched false HOURS`, `watched found RIGS HALVES`, `watched both HOURS RIGS HALVES`, `watched far USES` and `watched all HOURS RIGS HALVES USES`, each for both layouts and the low proportional
+//! `watched false HOURS`, `watched found RIGS HALVES`, `watched both HOURS RIGS HALVES`, `watched far USES` and `watched all HOURS RIGS HALVES USES TRIALS`, each for both layouts and the low proportional
 //! gain of table 6.1; the last says how far the statistics go in uses of the certificate's scenarios as they are drawn, with adversaries and faults.
 //! A last word `three` or `four` asks for one layout only.
 #![allow(
@@ -34,7 +34,7 @@ const TRIALS: u64 = 1000;
 /// Sets the rigs in use apart from those of the certificate.
 const SEED_OF_USE: u64 = 20_251_125;
 
-fn plan(rig: Rig) -> Plan {
+fn plan(rig: Rig, trials: u64) -> Plan {
     Plan {
         form: FORM,
         name: "watched".to_owned(),
@@ -42,7 +42,7 @@ fn plan(rig: Rig) -> Plan {
         baseline: None,
         rigs: vec![rig],
         seed: 1,
-        scenarios: TRIALS,
+        scenarios: trials,
         ticks: 10_000,
         calibration: None,
         search: 0,
@@ -65,7 +65,7 @@ fn monitor(plan: &Plan) -> Made {
     none.requirements.clear();
     none.metrics.clear();
     let source = plan.controller.source().unwrap();
-    made(&none, source, TRIALS).unwrap().pop().unwrap()
+    made(&none, source, plan.scenarios).unwrap().pop().unwrap()
 }
 
 /// A rig in use: an operator's hand, back and forth along the path, with sensors that work.
@@ -279,6 +279,23 @@ fn is_covered(monitor: &Monitor, of: &Constants) -> bool {
             && of.cells >> seen.cell & 1 == 1
 }
 
+/// Where in a use the motion surprised most, and what the monitor knew then.
+fn surprises(plan: &Plan, rig: Rig, index: u64) {
+    let source = plan.controller.source().unwrap();
+    let open = constants(plan, rig).unwrap();
+    let scenario = in_use(plan, index).unwrap();
+    println!("{scenario:?}");
+    let (mut tick, mut last) = (0, 0.0);
+    run(&scenario, source, &open, None, |monitor| {
+        tick += 1;
+        let surprise = monitor.estimate().surprise();
+        if surprise - last > 1.0 {
+            println!("sample {tick}: {last:.2} to {surprise:.2}: {monitor:?}");
+        }
+        last = surprise;
+    });
+}
+
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let number = |place: usize| arguments[place].parse::<f64>().unwrap();
@@ -287,7 +304,12 @@ fn main() {
         if ["three", "four"].contains(&only) && only != name {
             continue;
         }
-        let plan = plan(rig);
+        let is_all = arguments[0] == "all";
+        let plan = plan(rig, if is_all { number(5) as u64 } else { TRIALS });
+        if arguments[0] == "surprises" {
+            surprises(&plan, rig, number(1) as u64);
+            continue;
+        }
         let made = monitor(&plan);
         println!(
             "{:?} {:?} {:?}",
