@@ -16,6 +16,9 @@ const ACTS_SHARE: f64 = 0.1;
 /// What is left of a fall without current that is not followed, N·m: a fifth of the last digit printed in table 3.2.
 const SETTLED_NM: f64 = 0.002;
 
+/// How far an angle may be off by rounding, rad.
+const ROUNDING_RAD: f64 = 1e-12;
+
 /// One brake as it was found, and the same brake slower.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Braking {
@@ -116,15 +119,16 @@ impl Braking {
         let [low, high] = self.been_rad;
         let (low, high) = (least(low, to_rad), most(high, to_rad));
         self.been_rad = [low, high];
-        let entry_rad = rad_from_deg(ENTRY_TRAVEL_DEG);
-        let pushes = |end: &mut f64, share: f64| {
+        let pushes = |end: &mut f64, share: f64, entry_rad: f64| {
             let width_rad = self.width_rad * share;
             *end = most(to_rad - width_rad, least(*end, to_rad));
             let come_rad = to_rad - *end;
             (come_rad <= entry_rad) | (width_rad - come_rad <= entry_rad)
         };
         let [narrow, wide] = &mut self.ends_rad;
-        let (by_narrow, by_wide) = (pushes(narrow, 1.0 - share), pushes(wide, 1.0 + share));
+        // Between an end and the entry after it a shaft may be either, so that only the narrowest counts as left there.
+        let by_narrow = pushes(narrow, 1.0 - share, rad_from_deg(ENTRY_TRAVEL_DEG));
+        let by_wide = pushes(wide, 1.0 + share, ROUNDING_RAD);
         let is_known = high - low >= self.width_rad * (1.0 + share);
         !is_known | (by_narrow & !by_wide)
     }
@@ -132,5 +136,47 @@ impl Braking {
     /// Samples are missing: the shaft may be anywhere in its backlash.
     pub fn lose(&mut self) {
         self.been_rad = [self.at_rad; 2];
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use rigproof_spec::tables::brake_table;
+
+    use super::*;
+    use crate::plant::backlash::Backlash;
+    use rigproof_spec::joint::Joint;
+
+    /// A shaft that turns back anywhere, within its backlash too: three sines whose periods have no common multiple.
+    fn shaft_rad(sample: u32) -> f64 {
+        let time = f64::from(sample) * 0.01;
+        0.02 * libm::sin(time) + 0.012 * libm::sin(2.71 * time) + 0.008 * libm::sin(7.3 * time)
+    }
+
+    #[test]
+    fn what_is_told_of_a_backlash_holds_for_every_width() {
+        let table = brake_table(Joint::E);
+        let mut braking = Braking::new(&table);
+        let mut widths =
+            [0.7, 0.85, 1.0, 1.3].map(|share| Backlash::new(share * table.backlash_width_deg, 0.0));
+        let (mut open, mut inside, mut outside) = (0, 0, 0);
+        for sample in 1..200_000 {
+            let (from_rad, to_rad) = (shaft_rad(sample - 1), shaft_rad(sample));
+            for backlash in &mut widths {
+                backlash.turn(from_rad, to_rad);
+            }
+            if braking.travel(to_rad, 0.35) {
+                open += 1;
+                continue;
+            }
+            let told = widths.map(|backlash| backlash.is_inside());
+            assert_eq!(told, [told[0]; 4], "sample {sample}");
+            *(if told[0] { &mut inside } else { &mut outside }) += 1;
+        }
+        // Much can be told, of either kind.
+        assert!(
+            open > 10_000 && inside > 10_000 && outside > 10_000,
+            "{open} {inside} {outside}"
+        );
     }
 }
