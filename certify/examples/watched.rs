@@ -1,6 +1,8 @@
 //! This program measures a monitor: false alarms in hours of use of rigs that are as certified, and how soon concealed changes are found.
 //!
-//! `watched false HOURS`, `watched found RIGS HALVES` and `watched both HOURS RIGS HALVES`, both for both layouts and the low proportional gain of table 6.1.
+//! `watched false HOURS`, `watched found RIGS HALVES`, `watched both HOURS RIGS HALVES`, `watched far USES` and `watched all HOURS RIGS HALVES USES TRIALS`, each for both layouts and the low proportional
+//! gain of table 6.1; the last says how far the statistics go in uses of the certificate's scenarios as they are drawn, with adversaries and faults.
+//! A last word `three` or `four` asks for one layout only.
 #![allow(
     clippy::unwrap_used,
     clippy::print_stdout,
@@ -13,11 +15,12 @@ use rigproof_certify::certificate::Certificate;
 use rigproof_certify::hand::Hand;
 use rigproof_certify::left_out::LeftOut;
 use rigproof_certify::monitor::drill::{Concealed, Drilled, run};
-use rigproof_certify::monitor::{Made, made};
+use rigproof_certify::monitor::{Made, constants, made};
 use rigproof_certify::plan::{FORM, Plan, Subject};
 use rigproof_certify::scenario::{Rig, Scenario};
 use rigproof_certify::tool::Tool;
-use rigproof_impl::monitor::Alarm;
+use rigproof_impl::monitor::constants::Constants;
+use rigproof_impl::monitor::{Alarm, Monitor};
 use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::methods::Method;
@@ -31,7 +34,7 @@ const TRIALS: u64 = 1000;
 /// Sets the rigs in use apart from those of the certificate.
 const SEED_OF_USE: u64 = 20_251_125;
 
-fn plan(rig: Rig) -> Plan {
+fn plan(rig: Rig, trials: u64) -> Plan {
     Plan {
         form: FORM,
         name: "watched".to_owned(),
@@ -39,7 +42,7 @@ fn plan(rig: Rig) -> Plan {
         baseline: None,
         rigs: vec![rig],
         seed: 1,
-        scenarios: TRIALS,
+        scenarios: trials,
         ticks: 10_000,
         calibration: None,
         search: 0,
@@ -62,7 +65,7 @@ fn monitor(plan: &Plan) -> Made {
     none.requirements.clear();
     none.metrics.clear();
     let source = plan.controller.source().unwrap();
-    made(&none, source, TRIALS).unwrap().pop().unwrap()
+    made(&none, source, plan.scenarios).unwrap().pop().unwrap()
 }
 
 /// A rig in use: an operator's hand, back and forth along the path, with sensors that work.
@@ -171,11 +174,142 @@ fn found(plan: &Plan, made: &Made, rigs: u64, halves: f64) {
     }
 }
 
+/// How far the statistics went in a use, in standard deviations: as long as it was covered, and after.
+struct Far {
+    index: u64,
+    is_adversary: bool,
+    faults: usize,
+    covered: f64,
+    after: f64,
+    at: (u32, usize),
+    left_at: Option<u32>,
+}
+
+fn far(plan: &Plan, made: &Made, uses: u64) {
+    let source = plan.controller.source().unwrap();
+    let closed = &made.constants;
+    let open = constants(plan, made.rig).unwrap();
+    let all = (0..uses).into_par_iter().filter_map(|index| {
+        let mut scenario = plan.scenario(index);
+        scenario.ticks = USE_TICKS;
+        let mut own = Far {
+            index,
+            is_adversary: matches!(scenario.hand, Hand::Adversary { .. }),
+            faults: scenario.faults.len(),
+            covered: 0.0,
+            after: 0.0,
+            at: (0, 0),
+            left_at: None,
+        };
+        let (mut tick, mut outside) = (0, 0);
+        run(&scenario, source, &open, None, |monitor| {
+            tick += 1;
+            outside = if is_covered(monitor, closed) {
+                0
+            } else {
+                outside + 1
+            };
+            if outside >= closed.hold {
+                own.left_at.get_or_insert(tick);
+            }
+            let ends = open.low.iter().zip(&open.high);
+            for (place, (number, (low, high))) in monitor.estimate().numbers().zip(ends).enumerate()
+            {
+                let sigmas = number.beyond(*low, *high);
+                if sigmas > own.covered.max(own.after) {
+                    own.at = (tick, place);
+                }
+                let most = if own.left_at.is_some() {
+                    &mut own.after
+                } else {
+                    &mut own.covered
+                };
+                *most = most.max(sigmas);
+            }
+        })?;
+        Some(own)
+    });
+    let mut all: Vec<Far> = all.collect();
+    all.sort_by(|one, other| {
+        other
+            .covered
+            .max(other.after)
+            .total_cmp(&one.covered.max(one.after))
+    });
+    for (is_adversary, is_faulty) in [(false, false), (false, true), (true, false), (true, true)] {
+        let own = all
+            .iter()
+            .filter(|own| own.is_adversary == is_adversary && (own.faults > 0) == is_faulty);
+        let (mut count, mut left, mut covered, mut after) = (0, 0, 0.0_f64, 0.0_f64);
+        for one in own {
+            count += 1;
+            left += usize::from(one.left_at.is_some());
+            covered = covered.max(one.covered);
+            after = after.max(one.after);
+        }
+        println!(
+            "{:?} far: adversary {is_adversary}, faults {is_faulty}: {count} uses, most {covered:.2} while covered; {left} left it, most {after:.2} after",
+            made.rig
+        );
+    }
+    for one in all.iter().take(12) {
+        println!(
+            "use {}: adversary {}, {} faults, {:.2} covered, {:.2} after, number {} at sample {}, left at {:?}",
+            one.index,
+            one.is_adversary,
+            one.faults,
+            one.covered,
+            one.after,
+            one.at.1,
+            one.at.0,
+            one.left_at
+        );
+    }
+}
+
+/// Whether the last good sample lay where trials were.
+fn is_covered(monitor: &Monitor, of: &Constants) -> bool {
+    let seen = monitor.seen();
+    let ([x, y], [left, right, near, far]) = (seen.tip_m, of.tip_m);
+    [x, y] == [0.0; 2]
+        || (left..=right).contains(&x)
+            && (near..=far).contains(&y)
+            && seen.speed_squared <= of.speed_m_s * of.speed_m_s
+            && seen.force_squared <= of.force_n * of.force_n
+            && of.cells >> seen.cell & 1 == 1
+}
+
+/// Where in a use the motion surprised most, and what the monitor knew then.
+fn surprises(plan: &Plan, rig: Rig, index: u64) {
+    let source = plan.controller.source().unwrap();
+    let open = constants(plan, rig).unwrap();
+    let scenario = in_use(plan, index).unwrap();
+    println!("{scenario:?}");
+    let (mut tick, mut last) = (0, 0.0);
+    run(&scenario, source, &open, None, |monitor| {
+        tick += 1;
+        let surprise = monitor.estimate().surprise();
+        if surprise - last > 1.0 {
+            println!("sample {tick}: {last:.2} to {surprise:.2}: {monitor:?}");
+        }
+        last = surprise;
+    });
+}
+
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let number = |place: usize| arguments[place].parse::<f64>().unwrap();
-    for rig in [Rig::ThreeBrake, Rig::FourBrake] {
-        let plan = plan(rig);
+    let only = arguments.last().map_or("", String::as_str);
+    for (rig, name) in [(Rig::ThreeBrake, "three"), (Rig::FourBrake, "four")] {
+        if ["three", "four"].contains(&only) && only != name {
+            continue;
+        }
+        let is_all = arguments[0] == "all";
+        let plan = plan(rig, if is_all { number(5) as u64 } else { TRIALS });
+        if arguments[0] == "surprises" {
+            surprises(&plan, rig, number(1) as u64);
+            continue;
+        }
         let made = monitor(&plan);
         println!(
             "{:?} {:?} {:?}",
@@ -183,6 +317,12 @@ fn main() {
         );
         match arguments[0].as_str() {
             "false" => false_alarms(&plan, &made, number(1)),
+            "far" => far(&plan, &made, number(1) as u64),
+            "all" => {
+                false_alarms(&plan, &made, number(1));
+                found(&plan, &made, number(2) as u64, number(3));
+                far(&plan, &made, number(4) as u64);
+            }
             "both" => {
                 false_alarms(&plan, &made, number(1));
                 found(&plan, &made, number(2) as u64, number(3));

@@ -9,13 +9,14 @@ use super::drill;
 use super::middle::constants;
 use crate::certificate::Certificate;
 use crate::controller::Source;
+use crate::hand::Hand;
 use crate::plan::Plan;
 use crate::scenario::{Rig, Scenario};
 use crate::trial;
 
 /// Length of a use, samples: ninety seconds, in which the monitor learns the rig as it does in use.
 const USE_TICKS: u32 = 90_000;
-/// For so many trials there is one use: together a few times as long as the trials of 10 s.
+/// For so many trials there is one use, three in four of them an operator's: together longer than the trials of 10 s.
 const TRIALS_OF_USE: u64 = 4;
 /// How far beyond what the certificate's trials and uses came to a statistic has to be. The greatest of n trials is passed by the next n with a
 /// chance of one half; the excess of a statistic with exponential tails over it is then a small share of it.
@@ -43,9 +44,9 @@ pub struct Basis {
     pub trials: u64,
     /// Their samples.
     pub samples: u64,
-    /// Samples of longer use of its rigs.
+    /// Samples of longer use of its rigs by operators.
     pub use_samples: u64,
-    /// The greatest of each number's statistic, standard deviations beyond its end.
+    /// The greatest of each number's statistic where it was to be silent, standard deviations beyond its end; 0 where none came beyond.
     pub sigmas: [f64; WATCHED],
     /// The greatest mean square of the surprise.
     pub surprise: f64,
@@ -102,13 +103,17 @@ fn one(plan: &Plan, rig: Rig, source: &dyn Source, most: u64) -> Result<Made, Re
             let watched = monitor.watch(sensed, *commanded_a);
             came.samples += 1;
             if !watched.is_faulty {
-                came.look(&monitor, &open);
+                came.cover(&monitor);
+            }
+            if is_quiet(&scenario) {
+                came.judge(&monitor, &open);
             }
         }
         Ok(came)
     });
     let came = runs.try_reduce(|| Came::NONE, |one, other| Ok(one.and(&other)))?;
-    let came = came.and(&in_use(plan, rig, source, &open, most));
+    let covered = came.covered(open);
+    let came = came.and(&in_use(plan, rig, source, &covered, most));
     Ok(Made {
         rig,
         constants: came.closed(open),
@@ -122,21 +127,28 @@ fn one(plan: &Plan, rig: Rig, source: &dyn Source, most: u64) -> Result<Made, Re
     })
 }
 
-/// What the statistics came to where rigs of the certificate's scenarios are used for longer, by hands that go back and forth. Only the
-/// trials say what is covered.
-fn in_use(plan: &Plan, rig: Rig, source: &dyn Source, open: &Constants, most: u64) -> Came {
+/// Whether a monitor is meant to be silent there: an operator's hand, and sensors that work. An adversary, and what follows a fault, may
+/// raise it: letting go is right there.
+fn is_quiet(scenario: &Scenario) -> bool {
+    matches!(scenario.hand, Hand::Operator { .. }) && scenario.faults.is_empty()
+}
+
+/// What the statistics came to where rigs of the certificate's scenarios are used for longer, by operators who go back and forth with
+/// sensors that work. Only the trials say what is covered; where a use leaves that, it ends.
+fn in_use(plan: &Plan, rig: Rig, source: &dyn Source, covered: &Constants, most: u64) -> Came {
     let uses = 0..plan.scenarios.min(most).div_ceil(TRIALS_OF_USE);
     let each = uses.into_par_iter().filter_map(|index| {
         let scenario = Scenario {
             ticks: USE_TICKS,
+            faults: Vec::new(),
             ..plan.scenario(index)
         };
-        if scenario.rig != rig {
+        if scenario.rig != rig || !is_quiet(&scenario) {
             return None;
         }
         let mut came = Came::NONE;
-        let drilled = drill::run(&scenario, source, open, None, |monitor| {
-            came.judge(monitor, open);
+        let drilled = drill::run(&scenario, source, covered, None, |monitor| {
+            came.judge(monitor, covered);
         })?;
         came.use_samples = u64::from(drilled.ticks);
         Some(came)
@@ -164,11 +176,12 @@ impl Came {
         use_samples: 0,
         most: [f64::MIN; 6],
         cells: 0,
-        sigmas: [f64::MIN; WATCHED],
+        sigmas: [0.0; WATCHED],
         surprise: 0.0,
     };
 
-    fn look(&mut self, monitor: &Monitor, of: &Constants) {
+    /// Where a good sample lay.
+    fn cover(&mut self, monitor: &Monitor) {
         let seen = monitor.seen();
         let [x, y] = seen.tip_m;
         // Before the second sample nothing was seen.
@@ -180,7 +193,6 @@ impl Came {
             *most = most.max(now);
         }
         self.cells |= 1 << seen.cell;
-        self.judge(monitor, of);
     }
 
     /// How far the statistics went.
@@ -208,12 +220,19 @@ impl Came {
         self
     }
 
-    /// Numbers with the ends that trials came to.
+    /// Numbers with the thresholds and the ends that trials and uses came to.
     fn closed(&self, open: Constants) -> Constants {
-        let [left, right, near, far, speed, force] = self.most;
         Constants {
             sigmas: self.sigmas.map(|sigmas| LEAST_SIGMAS.max(BEYOND * sigmas)),
             surprise: LEAST_SURPRISE.max(BEYOND * self.surprise),
+            ..self.covered(open)
+        }
+    }
+
+    /// Numbers with the ends of what trials covered.
+    fn covered(&self, open: Constants) -> Constants {
+        let [left, right, near, far, speed, force] = self.most;
+        Constants {
             tip_m: [-left, right, -near, far],
             speed_m_s: speed.max(0.0).sqrt(),
             force_n: force.max(0.0).sqrt(),

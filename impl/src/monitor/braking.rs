@@ -3,7 +3,7 @@
 use rigproof_spec::tables::BrakeTable;
 use rigproof_spec::units::rad_from_deg;
 
-use crate::number::most;
+use crate::number::{least, most};
 use crate::plant::backlash::ENTRY_TRAVEL_DEG;
 use crate::plant::brake::{Brake, Characteristic, Turn};
 
@@ -16,6 +16,9 @@ const ACTS_SHARE: f64 = 0.1;
 /// What is left of a fall without current that is not followed, N·m: a fifth of the last digit printed in table 3.2.
 const SETTLED_NM: f64 = 0.002;
 
+/// How far an angle may be off by rounding, rad.
+const ROUNDING_RAD: f64 = 1e-12;
+
 /// One brake as it was found, and the same brake slower.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Braking {
@@ -24,13 +27,12 @@ pub struct Braking {
     slower: Brake,
     off_nm: f64,
     width_rad: f64,
-    /// Where the shaft is, where it last turned back, and the farthest place since, rad.
+    /// Where the shaft is, and between which places it was since it was last lost, rad.
     at_rad: f64,
-    turned_rad: f64,
-    farthest_rad: f64,
-    sense: f64,
-    /// Whether it has once come through its whole backlash: before, nobody knows where in it the shaft is.
-    is_known: bool,
+    been_rad: [f64; 2],
+    /// Lower ends of the narrowest and the widest backlash that is certified, each pushed along by the shaft, rad. What turns back within
+    /// a backlash leaves it where its end is, not a width from where it turned.
+    ends_rad: [f64; 2],
 }
 
 /// What a brake resists with over a step, N·m.
@@ -57,10 +59,8 @@ impl Braking {
             off_nm: table.torque_gain.off_state_nm(),
             width_rad: rad_from_deg(table.backlash_width_deg),
             at_rad: 0.0,
-            turned_rad: 0.0,
-            farthest_rad: 0.0,
-            sense: 1.0,
-            is_known: false,
+            been_rad: [0.0; 2],
+            ends_rad: [0.0; 2],
         }
     }
 
@@ -84,8 +84,7 @@ impl Braking {
         if current_a == 0.0 && left_nm <= SETTLED_NM {
             self.own.rest(&self.of, [self.at_rad, to_rad]);
             self.slower = self.own;
-            self.travel(to_rad);
-            self.is_near_boundary(share);
+            self.travel(to_rad, share);
             return Torque {
                 yield_nm: self.off_nm,
                 ..Torque::default()
@@ -101,42 +100,83 @@ impl Braking {
         let (own, slower) = (turn(step_s), turn(step_s * (1.0 / SLOWER)));
         let yield_nm = self.own.step(&self.of, current_a, &own);
         let slower_nm = self.slower.step(&self.of, current_a, &slower);
-        self.travel(to_rad);
+        let is_near = self.travel(to_rad, share);
         let driven_nm = yield_nm - self.off_nm;
         let acts = driven_nm > ACTS_SHARE * self.off_nm || current_a > 0.0;
         Torque {
             yield_nm,
             driven_nm,
             slowness_nm: (slower_nm - yield_nm) * (1.0 / (SLOWER - 1.0)),
-            is_open: self.is_near_boundary(share) && acts,
+            is_open: is_near && acts,
         }
     }
 
-    /// Keeps where the shaft last turned back.
-    fn travel(&mut self, to_rad: f64) {
-        let beyond = (to_rad - self.farthest_rad) * self.sense;
-        if beyond > 0.0 {
-            self.farthest_rad = to_rad;
-        } else if beyond < -rad_from_deg(ENTRY_TRAVEL_DEG) {
-            self.turned_rad = self.farthest_rad;
-            self.farthest_rad = to_rad;
-            self.sense = -self.sense;
-        }
+    /// Pushes the ends of the backlash along. Returns whether a backlash of another width would be left where this one is not: the
+    /// narrowest is, as every one is that the widest has pushed, and the widest is not. Before the shaft has come through the widest
+    /// nobody knows.
+    fn travel(&mut self, to_rad: f64, share: f64) -> bool {
         self.at_rad = to_rad;
-    }
-
-    /// Whether the shaft came so far since it turned back that a backlash of another width would have ended, or not.
-    fn is_near_boundary(&mut self, share: f64) -> bool {
-        let come_rad = (self.at_rad - self.turned_rad).abs();
-        let nearest = self.width_rad * (1.0 - share);
-        let farthest = self.width_rad * (1.0 + share);
-        self.is_known |= come_rad >= farthest;
-        ((nearest < come_rad) | !self.is_known) & (come_rad < farthest)
+        let [low, high] = self.been_rad;
+        let (low, high) = (least(low, to_rad), most(high, to_rad));
+        self.been_rad = [low, high];
+        let pushes = |end: &mut f64, share: f64, entry_rad: f64| {
+            let width_rad = self.width_rad * share;
+            *end = most(to_rad - width_rad, least(*end, to_rad));
+            let come_rad = to_rad - *end;
+            (come_rad <= entry_rad) | (width_rad - come_rad <= entry_rad)
+        };
+        let [narrow, wide] = &mut self.ends_rad;
+        // Between an end and the entry after it a shaft may be either, so that only the narrowest counts as left there.
+        let by_narrow = pushes(narrow, 1.0 - share, rad_from_deg(ENTRY_TRAVEL_DEG));
+        let by_wide = pushes(wide, 1.0 + share, ROUNDING_RAD);
+        let is_known = high - low >= self.width_rad * (1.0 + share);
+        !is_known | (by_narrow & !by_wide)
     }
 
     /// Samples are missing: the shaft may be anywhere in its backlash.
     pub fn lose(&mut self) {
-        (self.turned_rad, self.farthest_rad) = (self.at_rad, self.at_rad);
-        self.is_known = false;
+        self.been_rad = [self.at_rad; 2];
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use rigproof_spec::tables::brake_table;
+
+    use super::*;
+    use crate::plant::backlash::Backlash;
+    use rigproof_spec::joint::Joint;
+
+    /// A shaft that turns back anywhere, within its backlash too: three sines whose periods have no common multiple.
+    fn shaft_rad(sample: u32) -> f64 {
+        let time = f64::from(sample) * 0.01;
+        0.02 * libm::sin(time) + 0.012 * libm::sin(2.71 * time) + 0.008 * libm::sin(7.3 * time)
+    }
+
+    #[test]
+    fn what_is_told_of_a_backlash_holds_for_every_width() {
+        let table = brake_table(Joint::E);
+        let mut braking = Braking::new(&table);
+        let mut widths =
+            [0.7, 0.85, 1.0, 1.3].map(|share| Backlash::new(share * table.backlash_width_deg, 0.0));
+        let (mut open, mut inside, mut outside) = (0, 0, 0);
+        for sample in 1..200_000 {
+            let (from_rad, to_rad) = (shaft_rad(sample - 1), shaft_rad(sample));
+            for backlash in &mut widths {
+                backlash.turn(from_rad, to_rad);
+            }
+            if braking.travel(to_rad, 0.35) {
+                open += 1;
+                continue;
+            }
+            let told = widths.map(|backlash| backlash.is_inside());
+            assert_eq!(told, [told[0]; 4], "sample {sample}");
+            *(if told[0] { &mut inside } else { &mut outside }) += 1;
+        }
+        // Much can be told, of either kind.
+        assert!(
+            open > 10_000 && inside > 10_000 && outside > 10_000,
+            "{open} {inside} {outside}"
+        );
     }
 }
