@@ -41,8 +41,8 @@ pub struct Trailing {
     pub half_gap: f64,
 }
 
-/// The contact at the ends of a gap, rad/s: teeth meet within a millisecond.
-const CONTACT_RAD_S: f64 = 2000.0;
+/// The contact at the ends of a gap, rad/s: teeth, shafts and housing give way for milliseconds.
+const CONTACT_RAD_S: f64 = 500.0;
 /// Longest integration step of a joint with trailing parts, rad of their oscillation.
 const STEP_RAD: f64 = 0.5;
 
