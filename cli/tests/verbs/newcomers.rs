@@ -1,8 +1,24 @@
 //! This file does what five newcomers want, by the commands of README and guide alone, each in an empty folder.
 
 use std::fmt::Write;
+use std::time::Instant;
 
 use crate::desk::Desk;
+
+/// Prints how long a task took, when it ends.
+struct Timed(&'static str, Instant);
+
+impl Timed {
+    fn task(task: &'static str) -> Timed {
+        Timed(task, Instant::now())
+    }
+}
+
+impl Drop for Timed {
+    fn drop(&mut self) {
+        println!("{}: {:.1} s", self.0, self.1.elapsed().as_secs_f64());
+    }
+}
 
 /// The mechanisms of a diagnosis with their joints.
 fn names(desk: &Desk, folder: &str) -> Vec<String> {
@@ -21,6 +37,7 @@ fn names(desk: &Desk, folder: &str) -> Vec<String> {
 
 #[test]
 fn the_first_sees_the_demonstration() {
+    let _timed = Timed::task("demo");
     let desk = Desk::new();
     let said = desk.prints("demo", 0);
     assert!(said.contains("Cause found") && said.lines().count() <= 18);
@@ -41,6 +58,7 @@ fn value<'a>(rig: &'a str, key: &str) -> &'a str {
 
 #[test]
 fn the_second_brings_a_csv_of_a_motor_and_gets_a_right_name() {
+    let _timed = Timed::task("a CSV of a motor to a right name");
     let desk = Desk::new();
     desk.prints(
         "blind make --plant axis --seed 10 --stratum single --out case",
@@ -179,6 +197,7 @@ fn torques([[q1, w1, a1], [q2, w2, a2]]: [[f64; 3]; 2]) -> [f64; 2] {
 
 #[test]
 fn the_third_brings_an_arm_and_its_urdf() {
+    let _timed = Timed::task("an arm and its URDF");
     let desk = Desk::new();
     desk.put("arm.urdf", include_str!("../../../rigs/arm.urdf"));
     desk.put("arm.toml", include_str!("../../../rigs/arm.toml"));
@@ -203,6 +222,7 @@ fn the_third_brings_an_arm_and_its_urdf() {
 
 #[test]
 fn the_fourth_changes_a_controller_that_must_not_go_on_the_rig() {
+    let _timed = Timed::task("a changed controller refused");
     let desk = Desk::new();
     desk.prints("new lab --plant rig", 0);
     let plan = desk.read("lab/certify.toml");
@@ -225,6 +245,7 @@ fn the_fourth_changes_a_controller_that_must_not_go_on_the_rig() {
 
 #[test]
 fn the_fifth_compares_two_diagnoses() {
+    let _timed = Timed::task("two diagnoses compared");
     let desk = Desk::new();
     desk.prints(
         "blind make --plant bench --seed 11 --stratum single --out case",
