@@ -185,50 +185,53 @@ struct Far {
     left_at: Option<u32>,
 }
 
-fn far(plan: &Plan, made: &Made, uses: u64) {
+/// How far they go in the use of this number.
+fn far_in(plan: &Plan, index: u64, open: &Constants, closed: &Constants) -> Option<Far> {
     let source = plan.controller.source().unwrap();
-    let closed = &made.constants;
-    let open = constants(plan, made.rig).unwrap();
-    let all = (0..uses).into_par_iter().filter_map(|index| {
-        let mut scenario = plan.scenario(index);
-        scenario.ticks = USE_TICKS;
-        let mut own = Far {
-            index,
-            is_adversary: matches!(scenario.hand, Hand::Adversary { .. }),
-            faults: scenario.faults.len(),
-            covered: 0.0,
-            after: 0.0,
-            at: (0, 0),
-            left_at: None,
+    let mut scenario = plan.scenario(index);
+    scenario.ticks = USE_TICKS;
+    let mut own = Far {
+        index,
+        is_adversary: matches!(scenario.hand, Hand::Adversary { .. }),
+        faults: scenario.faults.len(),
+        covered: 0.0,
+        after: 0.0,
+        at: (0, 0),
+        left_at: None,
+    };
+    let (mut tick, mut outside) = (0, 0);
+    run(&scenario, source, open, None, |monitor| {
+        tick += 1;
+        outside = if is_covered(monitor, closed) {
+            0
+        } else {
+            outside + 1
         };
-        let (mut tick, mut outside) = (0, 0);
-        run(&scenario, source, &open, None, |monitor| {
-            tick += 1;
-            outside = if is_covered(monitor, closed) {
-                0
+        if outside >= closed.hold {
+            own.left_at.get_or_insert(tick);
+        }
+        let ends = open.low.iter().zip(&open.high);
+        for (place, (number, (low, high))) in monitor.estimate().numbers().zip(ends).enumerate() {
+            let sigmas = number.beyond(*low, *high);
+            if sigmas > own.covered.max(own.after) {
+                own.at = (tick, place);
+            }
+            let most = if own.left_at.is_some() {
+                &mut own.after
             } else {
-                outside + 1
+                &mut own.covered
             };
-            if outside >= closed.hold {
-                own.left_at.get_or_insert(tick);
-            }
-            let ends = open.low.iter().zip(&open.high);
-            for (place, (number, (low, high))) in monitor.estimate().numbers().zip(ends).enumerate()
-            {
-                let sigmas = number.beyond(*low, *high);
-                if sigmas > own.covered.max(own.after) {
-                    own.at = (tick, place);
-                }
-                let most = if own.left_at.is_some() {
-                    &mut own.after
-                } else {
-                    &mut own.covered
-                };
-                *most = most.max(sigmas);
-            }
-        })?;
-        Some(own)
-    });
+            *most = most.max(sigmas);
+        }
+    })?;
+    Some(own)
+}
+
+fn far(plan: &Plan, made: &Made, uses: u64) {
+    let open = constants(plan, made.rig).unwrap();
+    let all = (0..uses)
+        .into_par_iter()
+        .filter_map(|index| far_in(plan, index, &open, &made.constants));
     let mut all: Vec<Far> = all.collect();
     all.sort_by(|one, other| {
         other

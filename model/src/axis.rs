@@ -4,7 +4,10 @@
 //! Runge-Kutta rule; the instant of a stop is located inside the step, and at rest the joint stays stuck for
 //! as long as the applied effort lies between the two breakaway levels.
 
+mod transmission;
+
 use crate::effects::{Instant, Law};
+pub use transmission::{TRAILING_PARTS, Trailing, Transmission};
 
 /// One driven joint. Travel in m (N, kg) or rad (N·m, kg·m²).
 pub struct Axis {
@@ -14,60 +17,6 @@ pub struct Axis {
     pub laws: Vec<Box<dyn Law>>,
     /// What the joint does with the effort that it transmits.
     pub transmission: Transmission,
-}
-
-/// What a joint does with the effort that it transmits: friction by it, and parts of the inertia behind a spring.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Transmission {
-    /// Dry friction as a share of the driving effort.
-    pub friction_share: f64,
-    /// Parts that hang on the joint by a damped spring or in a gap.
-    pub trailing: [Option<Trailing>; TRAILING_PARTS],
-}
-
-/// How many parts can hang on a joint.
-pub const TRAILING_PARTS: usize = 2;
-
-/// A part of the inertia that follows the joint as a resonator does.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Trailing {
-    /// Its share of the inertia, below 1.
-    pub share: f64,
-    /// Its resonance with the joint held, rad/s.
-    pub resonance_rad_s: f64,
-    /// Its damping ratio.
-    pub damping: f64,
-    /// How far it moves freely to either side before it meets spring and damper, m or rad; 0 where they hold it always.
-    pub half_gap: f64,
-}
-
-/// The contact at the ends of a gap, rad/s: teeth, shafts and housing give way for milliseconds.
-const CONTACT_RAD_S: f64 = 500.0;
-/// Longest integration step of a joint with trailing parts, rad of their oscillation.
-const STEP_RAD: f64 = 0.5;
-
-impl Trailing {
-    /// A part that is free inside a gap and meets its ends without a bounce.
-    pub const fn in_a_gap(share: f64, gap: f64) -> Trailing {
-        Trailing {
-            share,
-            resonance_rad_s: CONTACT_RAD_S,
-            damping: 1.0,
-            half_gap: 0.5 * gap,
-        }
-    }
-
-    /// What holds it to the joint gives it this acceleration, m/s² or rad/s², at a displacement from the joint and its rate.
-    pub fn pull(&self, [displacement, rate]: [f64; 2]) -> f64 {
-        let resonance = self.resonance_rad_s;
-        let beyond = displacement - displacement.clamp(-self.half_gap, self.half_gap);
-        let pull = -resonance * (2.0 * self.damping * rate + resonance * beyond);
-        // The ends of a gap push and never hold.
-        match self.half_gap > 0.0 && pull * beyond >= 0.0 {
-            true => 0.0,
-            false => pull,
-        }
-    }
 }
 
 /// The most laws that can act together.
@@ -88,6 +37,8 @@ pub struct State {
     pub trailing: [[f64; 2]; TRAILING_PARTS],
 }
 
+/// Longest integration step of a joint with trailing parts, rad of their oscillation.
+const STEP_RAD: f64 = 0.5;
 /// Stops that one step may contain before the rest of the step is taken as stuck.
 const STOPS_A_STEP: usize = 4;
 /// Longest step in which trailing parts swing while the joint stands, rad of their oscillation.

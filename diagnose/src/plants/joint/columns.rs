@@ -245,7 +245,8 @@ fn shown_by(run: &JointRun, wave: fn(f64) -> f64, inertia: f64) -> Vec<f64> {
 
 /// The acceleration of a trailing part relative to a joint that has the given acceleration.
 fn trailing(acceleration: &[f64], part: &Trailing, step_s: f64) -> Vec<f64> {
-    let substeps = SUBSTEPS.max((part.resonance_rad_s * step_s / SUBSTEP_RAD).ceil() as usize);
+    let turned = (part.resonance_rad_s * step_s).max(1.0);
+    let substeps = (SUBSTEPS as f64 * turned).ceil() as usize;
     let h = step_s / substeps as f64;
     let mut moved = [0.0; 2];
     let next = acceleration.iter().skip(1).chain(acceleration.last());
@@ -262,10 +263,8 @@ fn trailing(acceleration: &[f64], part: &Trailing, step_s: f64) -> Vec<f64> {
     each.collect()
 }
 
-/// Fewest integration steps of a trailing part in one sample.
+/// Integration steps of a trailing part in one sample, and in a radian of its oscillation.
 const SUBSTEPS: usize = 8;
-/// Longest of these steps, rad of the part's oscillation.
-const SUBSTEP_RAD: f64 = 0.25;
 
 /// The columns of a mechanism.
 ///
