@@ -153,6 +153,7 @@ impl Free {
         self.axis.inertia = self.inertia;
         self.axis.transmission = Transmission::default();
         let begun = |onset_s: f64| onset_s <= time_s;
+        let mut gap = None;
         for (of, effect) in &self.of_joint {
             if !effect.onset_s.is_none_or(begun) {
                 continue;
@@ -168,17 +169,19 @@ impl Free {
                         half_gap: 0.0,
                     });
                 }
-                OfJoint::Gap => {
-                    let share = effect.value(0) / self.inertia;
-                    let share = share.min(MOST_TRAILING);
-                    let part = Trailing::in_a_gap(share, effect.value(1));
-                    self.axis.transmission.trailing[1] = Some(part);
-                }
+                OfJoint::Gap => gap = Some(effect),
                 // These act through the laws.
                 OfJoint::Fade | OfJoint::Link => {}
             }
         }
         self.axis.inertia = self.axis.inertia.max(LEAST_INERTIA * self.inertia);
+        // What hangs on the joint is less than the whole of it, with all that was added.
+        let [spring, part] = &mut self.axis.transmission.trailing;
+        let left = MOST_TRAILING - spring.map_or(0.0, |own| own.share);
+        *part = gap.map(|own| {
+            let share = (own.value(0) / self.axis.inertia).min(left);
+            Trailing::in_a_gap(share, own.value(1))
+        });
     }
 
     pub(super) fn run(&mut self, state: &mut State, efforts: &[(f64, f64)], step_s: f64) {
@@ -305,6 +308,26 @@ pub(super) mod tests {
         assert!(worst < 1e-9, "{worst} m");
         let ahead = predict(&plant(), &run, 611, 700, &protocol).unwrap();
         assert!((ahead - run.position[1311]).abs() < 1e-8, "{ahead}");
+    }
+
+    #[test]
+    fn what_hangs_in_a_gap_keeps_its_inertia_and_leaves_some_of_the_joint() {
+        let mut heavier = plant();
+        heavier.effects.extend([
+            Effect::of(Mechanism::LoadBacklash, &[0.43, 0.013]),
+            Effect::of(Mechanism::AddedInertia, &[0.7]),
+        ]);
+        let mut free = Free::of(&heavier);
+        free.take_hold(0.0);
+        let [_, part] = free.axis.transmission.trailing;
+        let held = part.unwrap().share * free.axis.inertia;
+        assert!((held - 0.43).abs() < 1e-12, "{held} kg");
+        let compliance = Effect::of(Mechanism::Compliance, &[0.9, 61.0, 0.11]);
+        heavier.effects.push(compliance);
+        let mut free = Free::of(&heavier);
+        free.take_hold(0.0);
+        let parts = free.axis.transmission.trailing.into_iter().flatten();
+        assert!(parts.map(|part| part.share).sum::<f64>() < 1.0);
     }
 
     #[test]
