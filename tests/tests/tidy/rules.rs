@@ -153,9 +153,11 @@ fn no_room_keeps_a_list_of_mechanisms() {
 
 /// The mechanisms that a source names before its tests, each once.
 fn named(content: &str) -> Vec<&str> {
-    let code = content
-        .split("#[cfg(test)]\nmod tests {")
-        .next()
+    let before = |opening: &str| content.split(opening).next().unwrap_or_default();
+    let code = ["", "pub(super) ", "pub(crate) "]
+        .map(|seen| before(&format!("#[cfg(test)]\n{seen}mod tests {{")))
+        .into_iter()
+        .min_by_key(|code| code.len())
         .unwrap_or_default();
     let after = code.split("Mechanism::").skip(1);
     let mut named: Vec<&str> = after
@@ -174,4 +176,6 @@ fn named(content: &str) -> Vec<&str> {
 fn a_list_of_mechanisms_is_noticed() {
     let list = "const A: [Mechanism; 2] = [Mechanism::Lag, Mechanism::Viscous]; Mechanism::ALL; Mechanism::from_name(x); Mechanism::Lag\n#[cfg(test)]\nmod tests { Mechanism::Spring }";
     assert_eq!(named(list), ["Lag", "Viscous"]);
+    let seen = list.replace("mod tests", "pub(super) mod tests");
+    assert_eq!(named(&seen), ["Lag", "Viscous"]);
 }
