@@ -87,6 +87,12 @@ impl Element {
             Form::LoadSided if at.load * at.direction >= 0.0 => a * at.load.abs(),
             Form::LoadSided => b * at.load.abs(),
             Form::LoadSquare => a * (at.load / b) * (at.load / b),
+            // A brake resists: its ripple is one of its resistance.
+            Form::Ripple | Form::TwoOrders | Form::Toothed | Form::TwoRipples
+                if self.effect.scales == Scales::Drive =>
+            {
+                self.of_position(at)
+            }
             Form::Uneven => a * (1.0 + b * libm::sin(TAU * at.position / c)),
             Form::WorkFade => a / (1.0 + memory / b),
             Form::FadeLinear => -a * (at.time_s / b).min(1.0),
@@ -122,16 +128,12 @@ impl Element {
             Form::Anchored => a * (q - b),
             Form::Cubic => a * q * q * q,
             Form::Hardening => a * q + b * q * q * q,
-            Form::Ripple => {
-                let (s, c) = libm::sincos(TAU * q / c);
-                a * s + b * c
+            Form::Ripple | Form::TwoOrders | Form::Toothed | Form::TwoRipples => {
+                match self.effect.scales {
+                    Scales::Nothing => self.of_position(at),
+                    Scales::Drive => 0.0,
+                }
             }
-            Form::TwoOrders => {
-                let phase = TAU * q / b;
-                a * (libm::sin(phase) + c * libm::sin(2.0 * phase + 1.0))
-            }
-            Form::Toothed => a * libm::tanh(c * libm::sin(TAU * q / b)) / libm::tanh(c),
-            Form::TwoRipples => a * (libm::sin(TAU * q / b) + libm::sin(TAU * q / c + 1.0)),
             Form::Square => a * (v / b) * (v / b).abs(),
             Form::Root => a * (v / b).abs().sqrt() * v.signum(),
             Form::Power => a * libm::pow((v / b).abs(), c) * v.signum(),
@@ -150,6 +152,23 @@ impl Element {
         };
         let _ = d;
         self.share(at) * force
+    }
+
+    /// What comes and goes with the position.
+    fn of_position(&self, at: &Instant) -> f64 {
+        let ([a, b, c, _], q) = (self.effect.values, at.position);
+        match self.effect.form {
+            Form::Ripple => {
+                let (sine, cosine) = libm::sincos(TAU * q / c);
+                a * sine + b * cosine
+            }
+            Form::TwoOrders => {
+                let phase = TAU * q / b;
+                a * (libm::sin(phase) + c * libm::sin(2.0 * phase + 1.0))
+            }
+            Form::Toothed => a * libm::tanh(c * libm::sin(TAU * q / b)) / libm::tanh(c),
+            _ => a * (libm::sin(TAU * q / b) + libm::sin(TAU * q / c + 1.0)),
+        }
     }
 
     fn first_after(&self, at: &Instant, travel: f64) -> f64 {

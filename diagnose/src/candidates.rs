@@ -7,13 +7,13 @@ use crate::problem::{Problem, Term, add};
 use crate::regression::Fit;
 use crate::rules::{
     BENDS_JOINT, BRISTLE_EXPONENTS, DELAYS, EDGE, EFFORT_LIMIT_SHARES, EFFORT_LIMITS, FASTEST_PEAK,
-    FASTEST_RESONANCE, FEWEST_CYCLES, GAPS, LAGS_JOINT, LEAST_BEND, LEAST_BEND_SIGMAS, LEAST_GAP,
-    LEAST_GAP_SIGMAS, LEAST_LAG_STEPS, LEAST_LIMITED_A, LEAST_SHIFT_STEPS_JOINT, LIMIT_SHARES,
-    LIMITS, MEMORY_COUNT, MEMORY_RATES, MEMORY_RATIOS, MOST_A_TURN, MOST_BEND, MOST_CYCLES,
-    MOST_DELAY_S, MOST_GAP, MOST_LAG_S_JOINT, MOST_SHIFT_S_JOINT, MOST_SHIFT_STEPS,
-    PEAK_EXPONENTS_JOINT, PEAK_SPEEDS, PEAKS, PEAKS_APART, PLAYED_SHARES, RESONANCE_DAMPINGS,
-    RESONANCE_STEPS, RESONANCES, SHIFTS_JOINT, SLOWEST_PEAK, SLOWEST_PEAK_FLOORS,
-    SLOWEST_RESONANCE, SPACING,
+    FASTEST_RESONANCE, FEWEST_CYCLES, GAPS, LAGS_JOINT, LEAST_BEND, LEAST_BEND_SIGMAS,
+    LEAST_CYCLES, LEAST_GAP, LEAST_GAP_SIGMAS, LEAST_LAG_STEPS, LEAST_LIMITED_A,
+    LEAST_SHIFT_STEPS_JOINT, LIMIT_SHARES, LIMITS, MEMORY_COUNT, MEMORY_RATES, MEMORY_RATIOS,
+    MOST_A_TURN, MOST_BEND, MOST_CYCLES, MOST_DELAY_S, MOST_GAP, MOST_LAG_S_JOINT,
+    MOST_SHIFT_S_JOINT, MOST_SHIFT_STEPS, PEAK_EXPONENTS_JOINT, PEAK_SPEEDS, PEAKS, PEAKS_APART,
+    PLAYED_SHARES, RESONANCE_DAMPINGS, RESONANCE_STEPS, RESONANCES, SHIFTS_JOINT, SLOWEST_PEAK,
+    SLOWEST_PEAK_FLOORS, SLOWEST_RESONANCE, SPACING,
 };
 use crate::weak::Windows;
 use core::f64::consts::TAU;
@@ -236,10 +236,10 @@ fn effort_limits(effort: &[f64]) -> Vec<f64> {
     geometric(lowest * greatest, highest * greatest, EFFORT_LIMITS)
 }
 
-/// The integer fractions of a turn that are no longer than a travel.
+/// The integer fractions of a turn of which a travel shows enough.
 pub fn of_a_turn(travel: f64) -> impl Iterator<Item = f64> {
     let parts = (1..=MOST_A_TURN).map(|order| TAU / f64::from(order));
-    parts.filter(move |period| *period <= travel)
+    parts.filter(move |period| LEAST_CYCLES * period <= travel)
 }
 
 fn points(motion: &[Instant], windows: &Windows, residual: &[f64]) -> Vec<(f64, f64)> {
@@ -275,7 +275,7 @@ pub fn shape_bounds(problem: &Problem, cause: Cause) -> Vec<(f64, f64)> {
     if facts(cause.mechanism).is_some_and(|facts| facts.shapes == Shapes::Period) {
         let travel = problem.run.travel(cause.at);
         let travel = travel.max(1e-12);
-        return vec![(travel / MOST_CYCLES, travel)];
+        return vec![(travel / MOST_CYCLES, travel / LEAST_CYCLES)];
     }
     let tried = shapes(problem, cause, &[]);
     let count = tried.iter().map(Vec::len).max().unwrap_or(0);
@@ -307,6 +307,21 @@ pub fn is_at_an_end(problem: &Problem, term: &Term) -> bool {
     let bounds = shape_bounds(problem, term.cause);
     let first = term.shape.first().zip(bounds.first());
     first.is_some_and(|(value, bounds)| bounds.0 < bounds.1 && is_end(*value, *bounds))
+}
+
+/// The places of a term's shape parameters that were searched for.
+///
+/// A parameter whose range is a point is given. One that ends at a bound, other than the first,
+/// stands for the simpler law and does not count.
+pub fn searched(problem: &Problem, term: &Term) -> impl Iterator<Item = usize> {
+    let bounds = shape_bounds(problem, term.cause);
+    let own: Vec<(f64, (f64, f64))> = term.shape.iter().copied().zip(bounds).collect();
+    let open = own.into_iter().enumerate();
+    open.filter(|(k, (value, bounds))| match k {
+        0 => bounds.0 < bounds.1,
+        _ => !is_end(*value, *bounds),
+    })
+    .map(|(k, _)| k)
 }
 
 /// Whether a value lies at an end of a range.

@@ -1,6 +1,6 @@
 //! This file names a cause: a mechanism that a model may lack, and its place.
 
-use rigproof_model::effects::{Form, form};
+use rigproof_model::effects::{Form, Law, form, law, law_of_torque};
 use rigproof_spec::effect::Mechanism;
 
 /// A joint by its index in the plant's own order. The plant knows its name.
@@ -60,6 +60,15 @@ impl Cause {
         Cause {
             scales: Scales::Torque,
             ..self
+        }
+    }
+
+    /// The law of a resistance with these parameters, an effort or a share of the brake's torque;
+    /// `None` for another form.
+    pub fn law(self, parameters: &[f64]) -> Option<Box<dyn Law>> {
+        match self.scales {
+            Scales::Nothing => law(self.mechanism, parameters),
+            Scales::Torque => law_of_torque(self.mechanism, parameters),
         }
     }
 

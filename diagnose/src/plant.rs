@@ -17,7 +17,7 @@ use crate::weak::{Windows, is_recorded, untold};
 use crate::whiten::Whitener;
 use core::fmt::Debug;
 use rigproof_model::bench::column;
-use rigproof_model::effects::{Form, Instant, entry, law};
+use rigproof_model::effects::{Form, Instant, entry};
 use rigproof_spec::effect::{Mechanism, Motion};
 
 pub use crate::align::Fault;
@@ -261,7 +261,7 @@ pub trait Run: Debug + Send + Sync {
     /// The columns of a resistance along the motion at its place, with Numerov's weights.
     fn resistances(&self, cause: Cause, shape: &[f64]) -> Option<Columns> {
         let (motion, step_s) = (self.motion(cause.at), self.clock().step_s);
-        let own = resistances(motion, step_s, cause.mechanism, shape)?;
+        let own = resistances(motion, step_s, cause, shape)?;
         Some(Columns::Free(
             own.iter().map(|signal| numerov(signal)).collect(),
         ))
@@ -380,16 +380,16 @@ pub trait Run: Debug + Send + Sync {
 pub fn resistances(
     motion: &[Instant],
     step_s: f64,
-    mechanism: Mechanism,
+    cause: Cause,
     shape: &[f64],
 ) -> Option<Vec<Vec<f64>>> {
-    let entry = entry(mechanism)?;
+    let entry = entry(cause.mechanism)?;
     if !matches!(entry.form, Form::Resistance(_) | Form::ShareOfBrake(_)) {
         return None;
     }
     let each = unit_parameters(entry.linear, shape);
     each.map(|parameters| {
-        let law = law(mechanism, &parameters)?;
+        let law = cause.law(&parameters)?;
         Some(column(law.as_ref(), motion, step_s))
     })
     .collect()

@@ -33,7 +33,7 @@ mod viscous;
 pub use lag::{first_order_lag, first_order_lag_straight, lagged};
 pub use play::{CurrentPlay, PLAYS, Played};
 
-use facts::{Facts, Words};
+use facts::{Facts, Family, Words};
 use rigproof_spec::effect::Mechanism;
 
 /// What a law may look at: one instant of the motion. Travel in m or rad.
@@ -297,6 +297,26 @@ pub fn law(mechanism: Mechanism, parameters: &[f64]) -> Option<Box<dyn Law>> {
         Form::Drive(_) | Form::Brake(_) | Form::Linkage(_) | Form::Sensor(_) | Form::Joint(_) => {
             None
         }
+    }
+}
+
+/// The law of a mechanism as a share of a brake's torque; `None` for a mechanism of another form.
+///
+/// A brake resists: what depends on the position alone is then a share of its resistance, and turns with the sense of motion.
+pub fn law_of_torque(mechanism: Mechanism, parameters: &[f64]) -> Option<Box<dyn Law>> {
+    let own = law(mechanism, parameters)?;
+    match facts(mechanism)?.family {
+        Family::Position => Some(Box::new(Resisting(own))),
+        _ => Some(own),
+    }
+}
+
+/// A law of the position as a resistance.
+struct Resisting(Box<dyn Law>);
+
+impl Law for Resisting {
+    fn dry(&self, now: &Instant) -> f64 {
+        self.0.smooth(now, 0.0)
     }
 }
 

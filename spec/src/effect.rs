@@ -193,7 +193,10 @@ vocabulary! {
     /// Friction in proportion to the effort that a joint transmits.
     LoadFriction = "load_friction" called "friction under load" | "gear efficiency" [needed("share", Number).not_below_zero()],
     /// Friction that falls with time.
-    FrictionFade = "friction_fade" called "fading friction" | "warming up" [needed("rate", PerTime)],
+    FrictionFade = "friction_fade" called "fading friction" | "warming up" [
+        needed("rate", PerTime),
+        needed("drag_rate", PerTime),
+    ],
     /// Another inertia than the described one.
     AddedInertia = "added_inertia" called "wrong inertia" | "load inertia" | "armature" [needed("inertia", Inertia)],
     /// Other inertial numbers of a link than the described ones, as far as efforts hang on them.
@@ -418,6 +421,19 @@ impl Quantity {
             Quantity::Force => Dimension::FORCE,
             Quantity::Length => Dimension::LENGTH,
             Quantity::Angle => Dimension::ANGLE,
+        }
+    }
+
+    /// The dimension of a value that is a share of an effort: over that effort where it is one.
+    pub const fn dimension_of_share(self, motion: Motion) -> Dimension {
+        let own = self.dimension(motion);
+        match self {
+            Quantity::Effort
+            | Quantity::EffortPerTravel
+            | Quantity::EffortPerSpeed
+            | Quantity::EffortPerCubicTravel
+            | Quantity::EffortPerTime => own.per(Quantity::Effort.dimension(motion)),
+            _ => own,
         }
     }
 }

@@ -23,7 +23,7 @@ mod write;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use rigproof_spec::effect::{Mechanism, Motion, Quantity};
+use rigproof_spec::effect::{Mechanism, Motion, Parameter, Quantity};
 use rigproof_spec::units::{Dimension, Unit};
 
 use crate::csv::{Hints, TimeColumn};
@@ -265,6 +265,14 @@ pub struct RigEffect {
 }
 
 impl RigEffect {
+    /// The dimension of one of its parameters, on a plant that slides or turns.
+    pub fn dimension(&self, parameter: &Parameter, motion: Motion) -> Dimension {
+        match self.of_torque {
+            true => parameter.quantity.dimension_of_share(motion),
+            false => parameter.quantity.dimension(motion),
+        }
+    }
+
     /// The value of the parameter of that name, or `None`.
     pub fn parameter(&self, name: &str) -> Option<&Value> {
         let parameters = self.mechanism.parameters().iter();

@@ -66,7 +66,7 @@ pub fn numbers(effect: &RigEffect, motion: Motion) -> BTreeMap<String, Number> {
         .map(|(parameter, value)| {
             (
                 parameter.name.to_owned(),
-                number(value, parameter.quantity.dimension(motion).to_string()),
+                number(value, effect.dimension(parameter, motion).to_string()),
             )
         })
         .collect()

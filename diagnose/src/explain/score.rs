@@ -3,7 +3,7 @@
 
 use super::fitted::{Fitted, Folds};
 use super::kind;
-use crate::candidates::{is_end, shape_bounds};
+use crate::candidates::searched;
 use crate::cause::{Cause, Scales};
 use crate::problem::{Problem, Rows, Term};
 use crate::rules::{A_LINK, A_NUMBER, GIVEN_BACK, RELEVANT_NOISE, USUAL_ODDS};
@@ -67,7 +67,8 @@ fn odds(problem: &Problem, term: &Term) -> f64 {
         Mechanism::LinkInertia => free.min(A_LINK),
         _ => free,
     };
-    let numbers = free.max(1) + searched(problem, term) + usize::from(term.onset_s.is_some());
+    let numbers =
+        free.max(1) + searched(problem, term).count() + usize::from(term.onset_s.is_some());
     // Where a term has no coefficient, its first shape parameter takes the coefficient's place and
     // is not counted.
     let numbers = numbers - usize::from(term.free.is_empty() && !term.shape.is_empty());
@@ -93,20 +94,6 @@ fn refines_a_stated_law(problem: &Problem, cause: Cause) -> bool {
             && cause.scales == Scales::Nothing
             && problem.open.iter().any(stated)
     })
-}
-
-/// The number of shape parameters that were searched for.
-///
-/// A parameter whose range is a point is given. One that ends at a bound, other than the first,
-/// stands for the simpler law and does not count.
-fn searched(problem: &Problem, term: &Term) -> usize {
-    let bounds = shape_bounds(problem, term.cause);
-    let own = term.shape.iter().zip(&bounds).enumerate();
-    own.filter(|(k, (value, bounds))| match k {
-        0 => bounds.0 < bounds.1,
-        _ => !is_end(**value, **bounds),
-    })
-    .count()
 }
 
 /// The log odds that a model leaves this mechanism out.

@@ -3,6 +3,8 @@
 use super::{AXIS_BENCH, BOTH, DRIVEN, FIVE_BAR, REASON};
 
 rules! {
+    /// A ripple of a whole number of periods a turn is tried where the travel shows this much of one: a rise or a fall.
+    LEAST_CYCLES: f64 = 0.5, "cycles", REASON;
     /// A shape counts as at the edge of its range from this share of the upper end on.
     EDGE: f64 = 0.98, "share", AXIS_BENCH;
     /// Highest spatial frequency that is examined, in cycles over the travel.
@@ -29,8 +31,8 @@ rules! {
     PEAK_EXPONENTS_FIVE_BAR: [f64; 2] = [1.0, 2.0], "1", "as published: Tustin 1947, Bo and Pavelescu 1982";
     /// Five-bar: Stribeck speed, as a share of the greatest speed, up to which a peak is one: at the greatest speed a sixteenth of it is left.
     WIDEST_PEAK: f64 = 0.6, "share", FIVE_BAR;
-    /// Five-bar: travels within which friction reaches the level that belongs to its speed.
-    DELAYS_RAD: [f64; 4] = [0.001, 0.01, 0.05, 0.2], "rad", "five-bar, seeds 1060 to 1109 (decision 0116)";
+    /// Five-bar: travels within which friction reaches the level that belongs to its speed, besides none.
+    DELAYS_RAD: [f64; 3] = [0.004, 0.03, 0.2], "rad", "five-bar, seeds 1060 to 1109 (decision 0116)";
     /// Smallest presliding travel that can be seen, in standard deviations of the position noise.
     LEAST_BEND_SIGMAS: f64 = 3.0, "deviations", BOTH;
     /// The same as a share of the travel.

@@ -36,10 +36,10 @@ pub(super) const LOAD_FRICTION: Entry = Entry {
 pub(super) const FRICTION_FADE: Entry = Entry {
     mechanism: Mechanism::FrictionFade,
     form: Form::Joint(OfJoint::Fade),
-    linear: 1,
+    linear: 2,
     passive: false,
     refuted_by: "the same friction at the start and at the end of the recording",
-    equation: "described friction × (1 − rate·t)",
+    equation: "described dry friction × (1 − rate·t), described drag × (1 − drag_rate·t)",
     facts: Facts {
         in_sets: true,
         usual: Usual::Seldom,

@@ -8,7 +8,7 @@ use rigproof_spec::joint::Joint;
 use super::left_out::{LeftOut, Term, Timed};
 use super::{Parameters, Rig};
 use crate::effects::facts::AtRest;
-use crate::effects::{CurrentPlay, Drive, Form, OfBrake, OfLinkage, facts, form};
+use crate::effects::{CurrentPlay, Drive, Form, OfBrake, OfLinkage, facts, form, law_of_torque};
 use crate::error::ModelError;
 use crate::motion::two_coordinate::two_coordinate;
 use crate::motion::{added_mass, check_inertia};
@@ -113,15 +113,11 @@ fn term(rig: &Rig, effect: &JointEffect) -> Result<Term, ModelError> {
     };
     let unknown = || refused("it is nothing that a rig does");
     if effect.of_torque {
-        return match form(effect.mechanism).ok_or_else(unknown)? {
-            Form::Resistance(law) | Form::ShareOfBrake(law) => Ok(Term::Share {
-                place: braked()? as usize,
-                law: law(&effect.parameters),
-            }),
-            _ => Err(refused(
-                "it is no resistance that could be a share of a torque",
-            )),
-        };
+        let law = law_of_torque(effect.mechanism, &effect.parameters).ok_or(refused(
+            "it is no resistance that could be a share of a torque",
+        ))?;
+        let place = braked()? as usize;
+        return Ok(Term::Share { place, law });
     }
     match form(effect.mechanism).ok_or_else(unknown)? {
         Form::Drive(Drive::Gain | Drive::Lag)

@@ -316,12 +316,16 @@ pub(super) fn read_effect(
     known.extend(other_keys);
     known.extend(parameters.iter().map(|parameter| parameter.name));
     table.only(&known)?;
-    if table.has("of") {
+    let of_torque = table.has("of");
+    if of_torque {
         choice(table, "of", ["torque"], |name| name)?;
     }
     let mut values = Vec::with_capacity(parameters.len());
     for parameter in parameters {
-        let dimension = parameter.quantity.dimension(motion);
+        let dimension = match of_torque {
+            true => parameter.quantity.dimension_of_share(motion),
+            false => parameter.quantity.dimension(motion),
+        };
         let value = read_value(table, parameter.name, dimension)?;
         if parameter.is_optional && value.is_none() {
             break;
@@ -344,7 +348,7 @@ pub(super) fn read_effect(
     Ok(RigEffect {
         mechanism,
         values,
-        of_torque: table.has("of"),
+        of_torque,
         onset: read_value(table, "onset", Dimension::TIME)?,
     })
 }

@@ -93,7 +93,7 @@ pub(super) fn effect_lines(effect: &RigEffect, motion: Motion) -> Vec<String> {
     ];
     lines.extend(effect.of_torque.then(|| "of = \"torque\"".to_owned()));
     for (parameter, number) in effect.mechanism.parameters().iter().zip(&effect.values) {
-        let dimension = parameter.quantity.dimension(motion);
+        let dimension = effect.dimension(parameter, motion);
         lines.push(format!("{} = {}", parameter.name, value(number, dimension)));
     }
     let onset = effect.onset.as_ref();

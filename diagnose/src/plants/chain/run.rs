@@ -387,7 +387,7 @@ impl Run for ChainRun {
                     Some(_) => return Some(Columns::Fixed(late)),
                 }
             }
-            _ => resistances(motion, self.step_s, cause.mechanism, shape)?
+            _ => resistances(motion, self.step_s, cause, shape)?
                 .iter()
                 .map(|own| self.at_joint(joint, own))
                 .collect(),

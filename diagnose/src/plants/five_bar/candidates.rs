@@ -15,7 +15,7 @@ use crate::rules::{
     PEAK_EXPONENTS_FIVE_BAR, SHIFTS_FIVE_BAR, SOFTEST_BRISTLE, WIDEST_PEAK,
 };
 use crate::weak::Windows;
-use rigproof_model::effects::facts::{Shapes, Where};
+use rigproof_model::effects::facts::{Family, Shapes, Where};
 use rigproof_model::effects::{Entry, Form, LIBRARY, OfSensor, entry, facts, form};
 use rigproof_spec::joint::Joint;
 
@@ -61,11 +61,13 @@ pub fn causes(run: &FiveBarRun) -> Vec<Cause> {
 /// or on one axis of a sensor.
 fn composed(single: &[Cause]) -> Vec<Cause> {
     let mut all: Vec<Cause> = Vec::new();
-    let of_brakes = |cause: &&Cause| {
-        let asked = facts(cause.mechanism).map(|facts| facts.asked.five_bar);
-        asked == Some(Where::Brakes)
+    // Brakes of one make have one friction; a constant force is each joint's own, in size and sign.
+    let of_a_make = |cause: &&Cause| {
+        facts(cause.mechanism).is_some_and(|facts| {
+            facts.asked.five_bar == Where::Brakes && facts.family != Family::Constant
+        })
     };
-    for cause in single.iter().filter(of_brakes) {
+    for cause in single.iter().filter(of_a_make) {
         let shared = Cause::at(cause.mechanism, Place::Every);
         if !all.contains(&shared) {
             all.push(shared);
@@ -193,7 +195,10 @@ pub fn shapes(
     match facts(cause.mechanism).map_or(Shapes::None, |facts| facts.shapes) {
         Shapes::Peak => stribeck_shapes(run.speed_floor, fastest(motion), &PEAK_EXPONENTS_FIVE_BAR)
             .into_iter()
-            .flat_map(|shape| DELAYS_RAD.map(|travel| [&shape[..], &[travel]].concat()))
+            .flat_map(|shape| {
+                let behind = DELAYS_RAD.map(|travel| [&shape[..], &[travel]].concat());
+                core::iter::once(shape).chain(behind)
+            })
             .collect(),
         Shapes::Bristle => {
             let travel = run.travel(cause.at).max(1e-12);

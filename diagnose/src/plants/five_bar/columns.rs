@@ -13,7 +13,6 @@ use crate::signals::{numerov, shifted, unit_parameters};
 use rigproof_model::bench::{column, column_by_travel};
 use rigproof_model::effects::{
     Drive, Form, Law, OfBrake, OfLinkage, OfSensor, entry, facts, first_order_lag_straight, form,
-    law,
 };
 use rigproof_model::motion::added_mass;
 use rigproof_model::motion::two_coordinate::{TwoCoordinate, two_coordinate};
@@ -237,8 +236,7 @@ fn along_motion(run: &FiveBarRun, joint: Joint, change: &[f64]) -> Vec<f64> {
 
 /// The columns of a law at one joint.
 fn at_joint(run: &FiveBarRun, cause: Cause, joint: Joint, shape: &[f64]) -> Option<Vec<Vec<f64>>> {
-    let mechanism = cause.mechanism;
-    let entry = entry(mechanism)?;
+    let entry = entry(cause.mechanism)?;
     let is_share = cause.scales == Scales::Torque;
     let of: Option<&Vec<f64>> = match entry.form {
         Form::Resistance(_) if !is_share => None,
@@ -249,7 +247,7 @@ fn at_joint(run: &FiveBarRun, cause: Cause, joint: Joint, shape: &[f64]) -> Opti
     };
     unit_parameters(entry.linear, shape)
         .map(|parameters| {
-            let law = law(mechanism, &parameters)?;
+            let law = cause.law(&parameters)?;
             let mut resistance = along(law.as_ref(), run, joint);
             for (share, torque) in resistance.iter_mut().zip(of.into_iter().flatten()) {
                 *share *= torque;

@@ -259,6 +259,7 @@ fn every_mechanism_does_along_a_motion_what_its_column_says() {
         (at(CurrentGain, Joint::B, &[0.71]), Some(0.43)),
         (of_torque(at(DryOffset, Joint::A, &[0.17])), None),
         (of_torque(at(Stribeck, Joint::E, &[0.31, 0.53, 1.7])), None),
+        (of_torque(at(Ripple, Joint::B, &[0.13, -0.07, 0.31])), None),
         (of_torque(at(Presliding, Joint::C, &[0.23, 0.013])), None),
         (whole(PlaneSpring, &[17.0, 1.3, 0.113, 0.271]), None),
         (whole(Gravity, &[0.071, -0.113]), None),

@@ -22,7 +22,7 @@ const LEFT_OUT: &[&str] = &[
     "mechanism = \"time_constant\"\njoint = \"E\"\nscale = { value = 2.3, unit = \"1\" }\n",
     "mechanism = \"current_gain\"\njoint = \"A\"\nscale = { value = 1.31, unit = \"1\" }\n",
     "mechanism = \"link_length\"\njoint = \"A\"\nmore = { value = 2.7, unit = \"mm\" }\n",
-    "mechanism = \"stribeck\"\njoint = \"E\"\nof = \"torque\"\npeak = { value = 0.47, unit = \"N·m\" }\nspeed = { value = 0.53, unit = \"rad/s\" }\nexponent = { value = 1.0, unit = \"1\" }\n",
+    "mechanism = \"stribeck\"\njoint = \"E\"\nof = \"torque\"\npeak = { value = 0.47, unit = \"1\" }\nspeed = { value = 0.53, unit = \"rad/s\" }\nexponent = { value = 1.0, unit = \"1\" }\n",
     "mechanism = \"lag\"\njoint = \"B\"\ntime_constant = { value = 37.0, unit = \"ms\" }\n",
     "mechanism = \"channel_skew\"\ndelay = { value = 9.0, unit = \"ms\" }\n",
     "mechanism = \"force_gain\"\naxis = \"x\"\nfraction = { value = 0.13, unit = \"1\" }\n",

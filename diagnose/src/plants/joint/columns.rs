@@ -12,6 +12,7 @@ use crate::problem::{add, less};
 use crate::signals::{lagged_yield, numerov, second_difference, shifted};
 use rigproof_model::axis::Trailing;
 use rigproof_model::bench::column;
+use rigproof_model::effects::facts::{AtRest, Family};
 use rigproof_model::effects::{
     Drive, Form, OfJoint, OfSensor, entry, facts, first_order_lag, form, law,
 };
@@ -22,7 +23,7 @@ use rigproof_spec::effect::Mechanism;
 pub fn resistances(run: &JointRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<f64>>> {
     let own = match is_of_brake(cause) {
         true => of_brake(run, cause, shape)?,
-        false => plant::resistances(&run.motion, run.step_s, cause.mechanism, shape)?,
+        false => plant::resistances(&run.motion, run.step_s, cause, shape)?,
     };
     Some(own.into_iter().map(|signal| seen(run, signal)).collect())
 }
@@ -67,7 +68,7 @@ pub fn of_brake(run: &JointRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<f
         ]);
     }
     // The law gives a share of the brake's torque.
-    let mut shares = plant::resistances(&run.motion, run.step_s, cause.mechanism, shape)?;
+    let mut shares = plant::resistances(&run.motion, run.step_s, cause, shape)?;
     for share in shares
         .iter_mut()
         .flat_map(|own| own.iter_mut().zip(predicted))
@@ -140,13 +141,25 @@ fn sum_of<'a>(run: &JointRun, effects: impl Iterator<Item = &'a Effect>) -> Vec<
     sum
 }
 
-/// The described resistance that fades. A description that states a fade lists the faded effects
-/// before it.
-fn faded_by_time(run: &JointRun) -> Vec<f64> {
+/// The described friction that fades at one of the rates of a fade. A description that states a fade
+/// lists the faded effects before it.
+fn faded_by_time(run: &JointRun, rate: usize) -> Vec<f64> {
     let is_fade = |own: &Effect| matches!(form(own.mechanism()), Some(Form::Joint(OfJoint::Fade)));
     let before = run.described.iter().position(is_fade);
     let before = before.unwrap_or(run.described.len());
-    sum_of(run, run.described.iter().take(before))
+    let own = run.described.iter().take(before);
+    sum_of(run, own.filter(|own| fades_at(own) == Some(rate)))
+}
+
+/// The index of the rate at which a friction fades: one for what holds at rest and one for drag.
+/// `None` for what is no friction.
+pub(super) fn fades_at(effect: &Effect) -> Option<usize> {
+    let facts = facts(effect.mechanism())?;
+    match (facts.family, facts.at_rest) {
+        (Family::FrictionOfMotion, AtRest::Nothing) => Some(1),
+        (Family::FrictionOfMotion | Family::MemoryOfMotion, _) => Some(0),
+        _ => None,
+    }
 }
 
 /// The described viscous coefficient. The rest of the described resistance depends on the direction
@@ -191,10 +204,13 @@ fn of_joint(run: &JointRun, form: Form, shape: &[f64]) -> Option<Columns> {
             Some(Columns::Fixed(seen(run, signal.collect())))
         }
         Form::Joint(OfJoint::Fade) => {
-            let friction = faded_by_time(run);
-            let faded = friction.iter().zip(&run.motion);
-            let signal = faded.map(|(friction, now)| -friction * now.time_s);
-            free(seen(run, signal.collect()))
+            let signals = [0, 1].map(|rate| {
+                let friction = faded_by_time(run, rate);
+                let faded = friction.iter().zip(&run.motion);
+                let signal = faded.map(|(friction, now)| -friction * now.time_s);
+                seen(run, signal.collect())
+            });
+            Some(Columns::Free(signals.into()))
         }
         Form::Joint(OfJoint::Inertia) => free(second_difference(&run.position, run.step_s)),
         Form::Joint(OfJoint::Compliance) => {

@@ -1,6 +1,6 @@
 //! This file gives the laws that act in a free run of a plant of one joint, each from its onset on.
 
-use super::columns::is_of_brake;
+use super::columns::{fades_at, is_of_brake};
 use super::simulate::Model;
 use crate::effect::Effect;
 use rigproof_model::axis::MOST_LAWS;
@@ -19,7 +19,7 @@ pub(super) fn laws(plant: &Model) -> Vec<Box<dyn Law>> {
         let described = plant.effects.iter().take(place.min(plant.described));
         let faded = described.filter_map(|effect| {
             let law = with_onset(own_law(effect)?, effect.onset_s);
-            let rate = fade.value(0);
+            let rate = fade.value(fades_at(effect)?);
             Some(with_onset(Box::new(Faded { law, rate }), fade.onset_s))
         });
         all.extend(faded.collect::<Vec<_>>());

@@ -46,7 +46,7 @@ const LEFT_OUT: &[(Mechanism, &[f64], &[PlantKind])] = &[
     (ChannelSkew, &[0.017], AXIS),
     (DriveSaturation, &[7.1], AXIS),
     (LoadFriction, &[0.19], AXIS),
-    (FrictionFade, &[0.037], BOTH),
+    (FrictionFade, &[0.037, 0.061], BOTH),
     (AddedInertia, &[0.29], AXIS),
     (Compliance, &[0.23, 61.0, 0.11], AXIS),
     (EncoderScale, &[0.07], AXIS),

@@ -118,3 +118,20 @@ fn what_is_wrong_is_named_with_its_place() {
         "{message}"
     );
 }
+
+#[test]
+fn a_share_of_a_torque_is_a_number() {
+    let share = "[[effect]]\nmechanism = \"stribeck\"\njoint = \"E\"\nof = \"torque\"\n\
+                 peak = { value = 0.17, unit = \"1\" }\nspeed = { value = 0.31, unit = \"rad/s\" }\n\
+                 exponent = { value = 2.0, unit = \"1\" }\n";
+    let text = format!("{RIG}\n{share}");
+    let read = parse(&text).unwrap();
+    let written = read.to_toml();
+    assert!(
+        written.contains("peak = { value = 0.17, unit = \"1\""),
+        "{written}"
+    );
+    assert_eq!(parse(&written), Ok(read));
+    let message = parse(&text.replace("0.17, unit = \"1\"", "0.17, unit = \"N·m\"")).unwrap_err();
+    assert!(message.contains("`N·m` does not convert to"), "{message}");
+}

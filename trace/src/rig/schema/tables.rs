@@ -114,6 +114,11 @@ pub fn effect() -> Value {
                     true => format!("In `{rotary}`."),
                     false => format!("In `{rotary}`, or `{linear}` of a linear motion."),
                 };
+                let share = parameter.quantity.dimension_of_share(Motion::Rotary);
+                let unit = match share == rotary {
+                    true => unit,
+                    false => format!("{unit} A share of a torque in `{share}`."),
+                };
                 let mut what = defined("value");
                 what["description"] = json!(unit);
                 match parameter.range {
