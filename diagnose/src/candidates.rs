@@ -1,19 +1,19 @@
 //! This file lists the causes that are candidates on a recording, and the trial shapes of each
 //! mechanism.
 
-use crate::cause::{Cause, Place};
+use crate::cause::{Cause, Place, Scales};
 use crate::plant::Run;
 use crate::problem::{Problem, Term, add};
 use crate::regression::Fit;
 use crate::rules::{
     BENDS_JOINT, BRISTLE_EXPONENTS, DELAYS, EDGE, EFFORT_LIMIT_SHARES, EFFORT_LIMITS, FASTEST_PEAK,
-    FASTEST_RESONANCE, FEWEST_CYCLES, GAPS, LAGS_JOINT, LEAST_BEND, LEAST_BEND_SIGMAS,
-    LEAST_CYCLES, LEAST_GAP, LEAST_GAP_SIGMAS, LEAST_LAG_STEPS, LEAST_LIMITED_A,
-    LEAST_SHIFT_STEPS_JOINT, LIMIT_SHARES, LIMITS, MEMORY_COUNT, MEMORY_RATES, MEMORY_RATIOS,
-    MOST_A_TURN, MOST_BEND, MOST_CYCLES, MOST_DELAY_S, MOST_GAP, MOST_LAG_S_JOINT,
-    MOST_SHIFT_S_JOINT, MOST_SHIFT_STEPS, PEAK_EXPONENTS_JOINT, PEAK_SPEEDS, PEAKS, PEAKS_APART,
-    PLAYED_SHARES, RESONANCE_DAMPINGS, RESONANCE_STEPS, RESONANCES, SHIFTS_JOINT, SLOWEST_PEAK,
-    SLOWEST_PEAK_FLOORS, SLOWEST_RESONANCE, SPACING,
+    FASTEST_RESONANCE, FEWEST_CYCLES, GAPS, LAGS_JOINT, LEAST_BEND, LEAST_BEND_SIGMAS, LEAST_GAP,
+    LEAST_GAP_SIGMAS, LEAST_LAG_STEPS, LEAST_LIMITED_A, LEAST_OF_A_PERIOD, LEAST_SHIFT_STEPS_JOINT,
+    LIMIT_SHARES, LIMITS, MEMORY_COUNT, MEMORY_RATES, MEMORY_RATIOS, MOST_A_TURN, MOST_BEND,
+    MOST_CYCLES, MOST_DELAY_S, MOST_GAP, MOST_LAG_S_JOINT, MOST_SHIFT_S_JOINT, MOST_SHIFT_STEPS,
+    PEAK_EXPONENTS_JOINT, PEAK_SPEEDS, PEAKS, PEAKS_APART, PLAYED_SHARES, RESONANCE_DAMPINGS,
+    RESONANCE_STEPS, RESONANCES, SHIFTS_JOINT, SLOWEST_PEAK, SLOWEST_PEAK_FLOORS,
+    SLOWEST_RESONANCE, SPACING,
 };
 use crate::weak::Windows;
 use core::f64::consts::TAU;
@@ -152,7 +152,7 @@ pub fn standard_shapes<R: Run + ?Sized>(
             let points = points(run.motion(cause.at), windows, residual);
             let mut all = periods(&points, run.travel(cause.at));
             if run.motion_kind() == Motion::Rotary {
-                all.extend(of_a_turn(run.travel(cause.at)));
+                all.extend(of_a_turn(longest_period(run.travel(cause.at), cause)));
             }
             one(all)
         }
@@ -236,10 +236,19 @@ fn effort_limits(effort: &[f64]) -> Vec<f64> {
     geometric(lowest * greatest, highest * greatest, EFFORT_LIMITS)
 }
 
-/// The integer fractions of a turn of which a travel shows enough.
-pub fn of_a_turn(travel: f64) -> impl Iterator<Item = f64> {
+/// The integer fractions of a turn up to a longest one.
+pub fn of_a_turn(longest: f64) -> impl Iterator<Item = f64> {
     let parts = (1..=MOST_A_TURN).map(|order| TAU / f64::from(order));
-    parts.filter(move |period| LEAST_CYCLES * period <= travel)
+    parts.filter(move |period| *period <= longest)
+}
+
+/// The longest period of which a travel shows enough. A part of a period looks like a spring or a
+/// constant, unless it scales a torque.
+pub fn longest_period(travel: f64, cause: Cause) -> f64 {
+    match cause.scales {
+        Scales::Nothing => travel,
+        Scales::Torque => travel / LEAST_OF_A_PERIOD,
+    }
 }
 
 fn points(motion: &[Instant], windows: &Windows, residual: &[f64]) -> Vec<(f64, f64)> {
@@ -275,7 +284,7 @@ pub fn shape_bounds(problem: &Problem, cause: Cause) -> Vec<(f64, f64)> {
     if facts(cause.mechanism).is_some_and(|facts| facts.shapes == Shapes::Period) {
         let travel = problem.run.travel(cause.at);
         let travel = travel.max(1e-12);
-        return vec![(travel / MOST_CYCLES, travel / LEAST_CYCLES)];
+        return vec![(travel / MOST_CYCLES, longest_period(travel, cause))];
     }
     let tried = shapes(problem, cause, &[]);
     let count = tried.iter().map(Vec::len).max().unwrap_or(0);

@@ -21,6 +21,7 @@ use late::Late;
 pub use many::explain_many;
 use rayon::prelude::*;
 use rigproof_model::effects::facts;
+use rigproof_model::effects::facts::Shapes;
 use rigproof_spec::effect::Mechanism;
 use score::{Judge, prior};
 
@@ -92,7 +93,7 @@ impl Explanation {
         let apart = (self.evidence - other.evidence).abs();
         let elsewhere = |own: &&Term| !self.holds(own.cause);
         let mut others = other.terms.iter().filter(elsewhere);
-        let same = |own: &Term| kind(own.cause.mechanism) == kind(cause.mechanism);
+        let same = |own: &Term| are_forms(own.cause.mechanism, cause.mechanism);
         apart < AS_ONE
             && self.terms.len() == other.terms.len()
             && !other.holds(cause)
@@ -102,7 +103,7 @@ impl Explanation {
 
     /// Whether it holds a cause, in any form of its law.
     fn holds(&self, cause: Cause) -> bool {
-        let same = |own: Cause| own.at == cause.at && kind(own.mechanism) == kind(cause.mechanism);
+        let same = |own: Cause| own.at == cause.at && are_forms(own.mechanism, cause.mechanism);
         self.terms.iter().any(|term| same(term.cause))
     }
 }
@@ -112,6 +113,18 @@ fn kind(mechanism: Mechanism) -> Mechanism {
     facts(mechanism)
         .and_then(|facts| facts.form_of)
         .unwrap_or(mechanism)
+}
+
+/// Whether two mechanisms are forms of one: of the same law, or bristles, whose force builds up over
+/// a travel after each reversal and then stays.
+fn are_forms(a: Mechanism, b: Mechanism) -> bool {
+    let is_bristle = |mechanism| {
+        matches!(
+            facts(mechanism).map(|facts| facts.shapes),
+            Some(Shapes::Bristle | Shapes::BristleCurve | Shapes::Memory)
+        )
+    };
+    kind(a) == kind(b) || is_bristle(a) && is_bristle(b)
 }
 
 /// The word for a cause of this probability.

@@ -30,7 +30,6 @@ pub fn changes(one: &Side, other: &Side) -> Vec<Change> {
             all.push(Change::Words(what, own.clone(), new));
         }
     }
-    all.extend(files(one, other));
     all.sort_by_key(|own| !matches!(own, Change::Words("verdict", ..)));
     let names = |side: &Side| side.named.keys().cloned().collect::<BTreeSet<_>>();
     let (own, new) = (names(one), names(other));
@@ -53,6 +52,8 @@ pub fn changes(one: &Side, other: &Side) -> Vec<Change> {
             ));
         }
     }
+    // Other findings come from other files: they are last.
+    all.extend(files(one, other));
     all
 }
 

@@ -1,16 +1,13 @@
 //! This file searches among sets of terms with a beam: several explanations stay alive at once, so
 //! that the order in which terms enter decides nothing.
 
+use super::are_forms;
 use super::fitted::{Fitted, Folds};
-use super::kind;
 use super::refine::refined;
 use super::score::{Judge, is_impossible};
 use crate::problem::{Problem, Term};
 use crate::rules::{BEAM, KEPT, MOST_TERMS};
 use rayon::prelude::*;
-use rigproof_model::effects::facts;
-use rigproof_model::effects::facts::Shapes;
-use rigproof_spec::effect::Mechanism;
 use std::collections::BTreeMap;
 
 type Names = Vec<String>;
@@ -134,22 +131,13 @@ fn by_evidence(folds: &Folds, judge: &Judge, all: Vec<Fitted>) -> Vec<Fitted> {
     all.into_iter().map(|(_, fitted)| fitted).collect()
 }
 
-/// Whether a term may be added. A cause enters once, in one form. One bristle law is allowed at
-/// each place, since a second one would only correct the shape of the first.
+/// Whether a term may be added. A cause enters once at each place, in one form: a second one would
+/// only correct the shape of the first.
 pub fn may_join(terms: &[Term], term: &Term) -> bool {
     let same = |own: &Term| {
-        let (a, b) = (own.cause.mechanism, term.cause.mechanism);
-        own.cause.at == term.cause.at && (kind(a) == kind(b) || is_bristle(a) && is_bristle(b))
+        own.cause.at == term.cause.at && are_forms(own.cause.mechanism, term.cause.mechanism)
     };
     !terms.iter().any(same)
-}
-
-/// Whether its force builds up over a travel after each reversal and then stays.
-fn is_bristle(mechanism: Mechanism) -> bool {
-    matches!(
-        facts(mechanism).map(|facts| facts.shapes),
-        Some(Shapes::Bristle | Shapes::BristleCurve | Shapes::Memory)
-    )
 }
 
 /// The sorted names of the causes: the key of a set.

@@ -3,8 +3,8 @@
 use super::{AXIS_BENCH, BOTH, DRIVEN, FIVE_BAR, REASON};
 
 rules! {
-    /// A ripple of a whole number of periods a turn is tried where the travel shows this much of one: a rise or a fall.
-    LEAST_CYCLES: f64 = 0.5, "cycles", REASON;
+    /// A ripple of a brake's torque by a whole number of periods a turn is tried where the travel shows this much of one: a rise or a fall, which no other law has.
+    LEAST_OF_A_PERIOD: f64 = 0.5, "periods", REASON;
     /// A shape counts as at the edge of its range from this share of the upper end on.
     EDGE: f64 = 0.98, "share", AXIS_BENCH;
     /// Highest spatial frequency that is examined, in cycles over the travel.

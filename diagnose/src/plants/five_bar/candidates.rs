@@ -3,8 +3,8 @@
 
 use super::run::{FiveBarRun, at, joint_at, place};
 use crate::candidates::{
-    both_signs, current_limits, fastest, geometric, in_numbers, of_a_turn, periods, plays,
-    stribeck_shapes,
+    both_signs, current_limits, fastest, geometric, in_numbers, longest_period, of_a_turn, periods,
+    plays, stribeck_shapes,
 };
 use crate::cause::{Cause, Place};
 use crate::plant::Run;
@@ -211,7 +211,7 @@ pub fn shapes(
         Shapes::Period => {
             let travel = run.travel(cause.at);
             let mut all = periods(&points(run, cause, windows, residual), travel);
-            all.extend(of_a_turn(travel));
+            all.extend(of_a_turn(longest_period(travel, cause)));
             one(all)
         }
         Shapes::Lag => one(geometric(
