@@ -257,6 +257,7 @@ killed_anywhere! {
     certify: CERTIFY, Some(EACH);
     certify_merge: MERGE, Some(EACH);
     certify_sign: SIGN, Some(EACH);
+    certify_monitor: MONITOR, Some(EACH);
     certify_key: MAKE_KEY, Some(EACH);
     // These take long under the killer.
     diagnose: DIAGNOSE, None;

@@ -53,6 +53,14 @@ fn two(desk: &Desk) {
     }
 }
 
+/// A campaign's description of a controller that may go.
+fn sound(desk: &Desk) {
+    desk.put(
+        "certify.toml",
+        "[controller]\nnamed = \"sdof_with_gap\"\n[coverage]\nleast_trials = 1\n",
+    );
+}
+
 /// A campaign's description and a key. The key is that of RFC 8032, 7.1, test 1: signatures are the same in every folder.
 fn campaign(desk: &Desk) {
     desk.put(
@@ -299,6 +307,20 @@ pub const SIGN: Writes = writes(
         "",
         "certify sign part/certificate.json --key lab.pem --sample 8",
         "part/certificate.json.sig",
+    ],
+    Whole,
+);
+pub const MONITOR: Writes = writes(
+    "certify monitor",
+    sound,
+    &[
+        "certify certify.toml --scenarios 16 --seconds 1 --out first",
+        "certify certify.toml --scenarios 20 --seconds 1 --out second",
+    ],
+    [
+        "certify monitor first/certificate.json --out monitor",
+        "certify monitor second/certificate.json --out monitor",
+        "monitor",
     ],
     Whole,
 );
