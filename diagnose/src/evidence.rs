@@ -3,7 +3,7 @@
 
 mod intervals;
 
-use crate::candidates::{causes, modelled_effort, realise, searched, variants};
+use crate::candidates::{causes, modelled_effort, realise, variants};
 use crate::cause::Cause;
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, dot, fit, free_columns, norm};
@@ -100,7 +100,7 @@ fn shape_sensitivities(
         }
         Some(sum)
     };
-    searched(problem, term)
+    (0..term.shape.len())
         .filter_map(|k| {
             let step = SHAPE_STEP * term.shape.get(k)?.abs();
             let moved = |by: f64| {

@@ -12,13 +12,6 @@ pub fn table(id: &str, caption: &str, head: &[&str], rows: &[Vec<String>]) -> Ma
                     .all(|row| row.get(column).is_none_or(|cell| starts_as_number(cell)))
         })
         .collect();
-    // Of a hash every letter may begin a line; a sentence keeps some width on a phone.
-    let worded = |cell: &str| match cell {
-        cell if cell.len() == 64 && cell.bytes().all(|byte| byte.is_ascii_hexdigit()) => {
-            Some("sha")
-        }
-        cell => (cell.chars().count() > 30).then_some("words"),
-    };
     let class = |column: usize| {
         is_number
             .get(column)
@@ -26,19 +19,34 @@ pub fn table(id: &str, caption: &str, head: &[&str], rows: &[Vec<String>]) -> Ma
             .unwrap_or(false)
             .then_some("number")
     };
+    // On a phone a table with sentences is one line a cell, each with its heading.
+    let stacks = rows
+        .iter()
+        .flat_map(|row| row.iter().skip(1))
+        .any(|cell| worded(cell) == Some("words"));
     html! {
         div.scroll tabindex="0" role="region" aria-label=(caption) {
-            table.grid #(id) {
+            table.grid.stacks[stacks] #(id) {
                 caption { (caption) }
                 thead { tr { @for (column, name) in head.iter().enumerate() { th scope="col" class=[class(column)] { (name) } } } }
                 tbody { @for row in rows { tr {
                     @for (column, cell) in row.iter().enumerate() {
-                        @if column == 0 { th scope="row" { (cell) } } @else { td class=[class(column).or(worded(cell))] { (cell) } }
+                        @if column == 0 { th scope="row" { (cell) } } @else { td class=[class(column).or(worded(cell))] data-head=[head.get(column).filter(|_| stacks)] { (cell) } }
                     }
                 } } }
             }
         }
         div.tools { button type="button" data-save-table=(id) aria-label={ "Save CSV: " (caption) } { "Save CSV" } }
+    }
+}
+
+/// The class of a cell of words. Of a hash every letter may begin a line; a sentence keeps some width.
+fn worded(cell: &str) -> Option<&'static str> {
+    match cell {
+        cell if cell.len() == 64 && cell.bytes().all(|byte| byte.is_ascii_hexdigit()) => {
+            Some("sha")
+        }
+        cell => (cell.chars().count() > 30).then_some("words"),
     }
 }
 
@@ -68,8 +76,10 @@ mod tests {
         ];
         let html = table("t", "What", &["name", "word"], &rows).into_string();
         assert!(
-            html.contains("<td class=\"sha\">0123") && html.contains("<td class=\"words\">more"),
+            html.contains("<td class=\"sha\" data-head=\"word\">0123")
+                && html.contains("<td class=\"words\" data-head=\"word\">more"),
             "{html}"
         );
+        assert!(html.contains("class=\"grid stacks\""), "{html}");
     }
 }

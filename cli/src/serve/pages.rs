@@ -105,15 +105,15 @@ fn address(run: &Run, file: &str) -> String {
 fn all(runs: &[Run]) -> Markup {
     html! {
         @if runs.is_empty() { p { "None yet: they are the folders that " code { "rigproof diagnose" } " and " code { "rigproof certify" } " write here." } } @else {
-            div.scroll tabindex="0" role="region" aria-label="Runs" { table.grid {
+            div.scroll tabindex="0" role="region" aria-label="Runs" { table.grid.stacks {
                 caption { "Diagnoses and certificates." }
                 thead { tr { th scope="col" { "run" } th scope="col" { "written" } th scope="col" { "result" } th scope="col" { "in words" } } }
                 tbody { @for run in runs { tr {
                     th scope="row" { a href=(address(run, Run::page(run.is_certificate()))) { (run.name) } }
-                    td { (written(run)) }
+                    td data-head="written" { (written(run)) }
                     @if run.is_certificate() {
-                        td { (verdict(run)) } td { (run.text("/name")) }
-                    } @else { td { (run.text("/verdict").replace('_', " ")) } td.words { (found(run)) } }
+                        td data-head="result" { (verdict(run)) } td data-head="in words" { (run.text("/name")) }
+                    } @else { td data-head="result" { (run.text("/verdict").replace('_', " ")) } td.words data-head="in words" { (found(run)) } }
                 } } }
             } }
         }

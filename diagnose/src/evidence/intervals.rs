@@ -10,6 +10,7 @@
 //! residual to noise (Birge 1932), up to a bound.
 
 use super::{Number, Sensitivity, coefficients_by_term, parameter_count, sensitivities};
+use crate::candidates::{searched, shape_bounds};
 use crate::filter::rms;
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, covariance, dot};
@@ -37,11 +38,21 @@ const NORMAL: f64 = 1.959_963_984_540_054;
 /// The intervals of a selection. Shape parameters enter through their sensitivities.
 pub fn intervals(problem: &Problem, selection: &Selection) -> Intervals {
     let terms = refs(&selection.nominal, &selection.found);
-    let columns = sensitivities(problem, &terms, selection);
-    let white: Vec<&[f64]> = columns.iter().map(|c| c.values.as_slice()).collect();
     let residual = problem.whitener.whiten(&selection.after.residual);
-    let halves = half_widths(&white, &residual, &Blocks::new(problem))
-        .unwrap_or_else(|| vec![f64::NAN; white.len()]);
+    let mut columns = sensitivities(problem, &terms, selection);
+    let mut halves = halves_of(problem, &columns, &residual);
+    let is_given = |(column, half): (&Sensitivity, &f64)| match column.number {
+        Number::Of(term, parameter) => terms
+            .get(term)
+            .is_some_and(|term| is_given(problem, term, parameter, *half)),
+        Number::Nuisance(_) => false,
+    };
+    let given: Vec<bool> = columns.iter().zip(&halves).map(is_given).collect();
+    if given.contains(&true) {
+        let mut given = given.into_iter();
+        columns.retain(|_| given.next() != Some(true));
+        halves = halves_of(problem, &columns, &residual);
+    }
     let left = usable_rms(problem, &selection.after.residual) / problem.floor;
     let form = left.clamp(1.0, TIMES_BY_FORM);
     let mut intervals = Intervals {
@@ -71,6 +82,23 @@ pub fn intervals(problem: &Problem, selection: &Selection) -> Intervals {
         }
     }
     intervals
+}
+
+fn halves_of(problem: &Problem, columns: &[Sensitivity], residual: &[f64]) -> Vec<f64> {
+    let white: Vec<&[f64]> = columns.iter().map(|c| c.values.as_slice()).collect();
+    half_widths(&white, residual, &Blocks::new(problem))
+        .unwrap_or_else(|| vec![f64::NAN; white.len()])
+}
+
+/// Whether a shape number stands for the simpler law and is not determined: it ended at a bound, and
+/// its interval is wider than the range in which it was looked for.
+fn is_given(problem: &Problem, term: &Term, parameter: usize, half: f64) -> bool {
+    let shape = parameter.checked_sub(parameter_count(term) - term.shape.len());
+    shape.is_some_and(|shape| {
+        let bounds = shape_bounds(problem, term.cause);
+        let range = bounds.get(shape).map_or(0.0, |(low, high)| high - low);
+        half > range && !searched(problem, term).any(|own| own == shape)
+    })
 }
 
 /// Nominal terms have no onset.
