@@ -1,11 +1,13 @@
 //! This file refines the shapes of an explanation's terms by a pattern search inside their bounds.
 
 use super::fitted::{Fitted, Folds};
-use super::score::{Judge, is_impossible};
+use super::score::{Judge, is_impossible, prior};
 use super::unfitted;
 use crate::candidates::shape_bounds;
 use crate::problem::{Problem, Term};
 use crate::rules::{MOST_MOVES, STRIDES};
+use rigproof_model::effects::facts::Shapes;
+use rigproof_model::effects::{entry, facts};
 use rigproof_spec::effect::Mechanism;
 
 /// The explanation with the shapes of the best evidence that the search meets.
@@ -23,7 +25,70 @@ pub fn refined(
             best = moved(problem, folds, judge, bare, best, stride);
         }
     }
+    for _ in 0..best.1.terms.len() {
+        best.1 = plainer(problem, folds, judge, bare, best.1);
+    }
     best.1
+}
+
+/// The first term in a plainer form of its law, where that is at least as probable, then put last.
+fn plainer(
+    problem: &Problem,
+    folds: &Folds,
+    judge: &Judge,
+    bare: &Fitted,
+    start: Fitted,
+) -> Fitted {
+    let Some((own, others)) = start.terms.split_first() else {
+        return start;
+    };
+    let score = |fitted: &Fitted| judge.evidence(folds, fitted) + prior(problem, &fitted.terms);
+    let others = bare.of(folds, others);
+    let own = others.with(folds, own);
+    let mut best = (score(&own), own);
+    let count = best.1.terms.last().map_or(0, |own| own.shape.len());
+    for place in 1..count {
+        let Some(own) = best.1.terms.last() else {
+            break;
+        };
+        let tried = plain_forms(problem, own, place).into_iter();
+        let tried = tried.map(|term| others.with(folds, &term));
+        let tried = tried.filter(|fitted| !is_impossible(problem, fitted));
+        let better = tried
+            .map(|fitted| (score(&fitted), fitted))
+            .filter(|(score, _)| *score > best.0)
+            .max_by(|a, b| a.0.total_cmp(&b.0));
+        best = better.unwrap_or(best);
+    }
+    best.1
+}
+
+/// A term with one shape parameter left out where it may be, and a peak with it at either bound: its
+/// exponents end where textbooks have them.
+fn plain_forms(problem: &Problem, own: &Term, place: usize) -> Vec<Term> {
+    let mechanism = own.cause.mechanism;
+    let is_peak = facts(mechanism).is_some_and(|facts| facts.shapes == Shapes::Peak);
+    let bounds = shape_bounds(problem, own.cause).get(place).copied();
+    let mut shapes: Vec<Vec<f64>> = Vec::new();
+    for end in bounds
+        .filter(|_| is_peak)
+        .into_iter()
+        .flat_map(<[f64; 2]>::from)
+    {
+        let mut shape = own.shape.clone();
+        if let Some(value) = shape.get_mut(place) {
+            *value = end;
+        }
+        shapes.push(shape);
+    }
+    let linear = entry(mechanism).map_or(0, |entry| entry.linear);
+    if place + 1 == own.shape.len() && linear + place >= mechanism.needed() {
+        shapes.push(own.shape.get(..place).unwrap_or_default().to_vec());
+    }
+    let realised = shapes.iter();
+    realised
+        .filter_map(|shape| unfitted(problem, own.cause, shape, own.onset_s))
+        .collect()
 }
 
 /// The first term moved by strides as long as the evidence grows, then put last.
