@@ -5,7 +5,7 @@ use super::score::{Judge, is_impossible, prior};
 use super::unfitted;
 use crate::candidates::shape_bounds;
 use crate::problem::{Problem, Term};
-use crate::rules::{MOST_MOVES, STRIDES};
+use crate::rules::{MOST_MOVES, PEAK_EXPONENTS_FIVE_BAR, STRIDES};
 use rigproof_model::effects::facts::Shapes;
 use rigproof_model::effects::{entry, facts};
 use rigproof_spec::effect::Mechanism;
@@ -63,28 +63,28 @@ fn plainer(
     best.1
 }
 
-/// A term with one shape parameter left out where it may be, and a peak with it at either bound: its
-/// exponents end where textbooks have them.
+/// A peak with its exponent as published, or without its travel. Nothing for other laws.
 fn plain_forms(problem: &Problem, own: &Term, place: usize) -> Vec<Term> {
     let mechanism = own.cause.mechanism;
-    let is_peak = facts(mechanism).is_some_and(|facts| facts.shapes == Shapes::Peak);
-    let bounds = shape_bounds(problem, own.cause).get(place).copied();
-    let mut shapes: Vec<Vec<f64>> = Vec::new();
-    for end in bounds
-        .filter(|_| is_peak)
-        .into_iter()
-        .flat_map(<[f64; 2]>::from)
-    {
-        let mut shape = own.shape.clone();
-        if let Some(value) = shape.get_mut(place) {
-            *value = end;
-        }
-        shapes.push(shape);
+    if facts(mechanism).is_none_or(|facts| facts.shapes != Shapes::Peak) {
+        return Vec::new();
     }
     let linear = entry(mechanism).map_or(0, |entry| entry.linear);
-    if place + 1 == own.shape.len() && linear + place >= mechanism.needed() {
-        shapes.push(own.shape.get(..place).unwrap_or_default().to_vec());
-    }
+    let shapes: Vec<Vec<f64>> = match linear + place < mechanism.needed() {
+        true => PEAK_EXPONENTS_FIVE_BAR
+            .into_iter()
+            .map(|exponent| {
+                let mut shape = own.shape.clone();
+                shape
+                    .iter_mut()
+                    .skip(place)
+                    .take(1)
+                    .for_each(|x| *x = exponent);
+                shape
+            })
+            .collect(),
+        false => vec![own.shape.iter().copied().take(place).collect()],
+    };
     let realised = shapes.iter();
     realised
         .filter_map(|shape| unfitted(problem, own.cause, shape, own.onset_s))

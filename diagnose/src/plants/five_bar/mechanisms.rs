@@ -203,6 +203,13 @@ fn apart(layout: Layout, effect: &JointEffect) -> (f64, f64, usize) {
     (unexplained, rms(&kept(&column)), counted)
 }
 
+fn of_torque(effect: JointEffect) -> JointEffect {
+    JointEffect {
+        of_torque: true,
+        ..effect
+    }
+}
+
 #[test]
 fn every_mechanism_does_along_a_motion_what_its_column_says() {
     use Mechanism::*;
@@ -216,10 +223,6 @@ fn every_mechanism_does_along_a_motion_what_its_column_says() {
     let whole = |mechanism, parameters: &[f64]| JointEffect {
         joint: None,
         ..at(mechanism, Joint::A, parameters)
-    };
-    let of_torque = |effect: JointEffect| JointEffect {
-        of_torque: true,
-        ..effect
     };
     for (effect, onset_s) in [
         (at(DryOffset, Joint::E, &[0.137]), None),
