@@ -87,12 +87,6 @@ impl Element {
             Form::LoadSided if at.load * at.direction >= 0.0 => a * at.load.abs(),
             Form::LoadSided => b * at.load.abs(),
             Form::LoadSquare => a * (at.load / b) * (at.load / b),
-            // A brake resists: its ripple is one of its resistance.
-            Form::Ripple | Form::TwoOrders | Form::Toothed | Form::TwoRipples
-                if self.effect.scales == Scales::Drive =>
-            {
-                self.of_position(at)
-            }
             Form::Uneven => a * (1.0 + b * libm::sin(TAU * at.position / c)),
             Form::WorkFade => a / (1.0 + memory / b),
             Form::FadeLinear => -a * (at.time_s / b).min(1.0),
@@ -104,6 +98,8 @@ impl Element {
             Form::Overshoot => a * libm::exp(-memory.abs() / b),
             Form::OvershootLinear => a * (1.0 - memory.abs() / b).max(0.0),
             Form::Gap if memory.abs() < b => -a,
+            // A brake resists: its ripple is one of its resistance.
+            _ if self.effect.scales == Scales::Drive => self.of_position(at),
             _ => return 0.0,
         };
         self.share(at) * bound
@@ -128,12 +124,6 @@ impl Element {
             Form::Anchored => a * (q - b),
             Form::Cubic => a * q * q * q,
             Form::Hardening => a * q + b * q * q * q,
-            Form::Ripple | Form::TwoOrders | Form::Toothed | Form::TwoRipples => {
-                match self.effect.scales {
-                    Scales::Nothing => self.of_position(at),
-                    Scales::Drive => 0.0,
-                }
-            }
             Form::Square => a * (v / b) * (v / b).abs(),
             Form::Root => a * (v / b).abs().sqrt() * v.signum(),
             Form::Power => a * libm::pow((v / b).abs(), c) * v.signum(),
@@ -148,13 +138,14 @@ impl Element {
             Form::MaxwellSlip | Form::OneSided => {
                 self.memory_after(at, travel, step_s).iter().sum()
             }
+            _ if self.effect.scales == Scales::Nothing => self.of_position(at),
             _ => return 0.0,
         };
         let _ = d;
         self.share(at) * force
     }
 
-    /// What comes and goes with the position.
+    /// What comes and goes with the position; 0 for the other forms.
     fn of_position(&self, at: &Instant) -> f64 {
         let ([a, b, c, _], q) = (self.effect.values, at.position);
         match self.effect.form {
@@ -167,7 +158,8 @@ impl Element {
                 a * (libm::sin(phase) + c * libm::sin(2.0 * phase + 1.0))
             }
             Form::Toothed => a * libm::tanh(c * libm::sin(TAU * q / b)) / libm::tanh(c),
-            _ => a * (libm::sin(TAU * q / b) + libm::sin(TAU * q / c + 1.0)),
+            Form::TwoRipples => a * (libm::sin(TAU * q / b) + libm::sin(TAU * q / c + 1.0)),
+            _ => 0.0,
         }
     }
 

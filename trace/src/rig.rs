@@ -264,13 +264,18 @@ pub struct RigEffect {
     pub of_torque: bool,
 }
 
+/// The dimension of a parameter, as an effort or as a share of a torque.
+fn dimension(parameter: &Parameter, motion: Motion, of_torque: bool) -> Dimension {
+    match of_torque {
+        true => parameter.quantity.dimension_of_share(motion),
+        false => parameter.quantity.dimension(motion),
+    }
+}
+
 impl RigEffect {
     /// The dimension of one of its parameters, on a plant that slides or turns.
     pub fn dimension(&self, parameter: &Parameter, motion: Motion) -> Dimension {
-        match self.of_torque {
-            true => parameter.quantity.dimension_of_share(motion),
-            false => parameter.quantity.dimension(motion),
-        }
+        dimension(parameter, motion, self.of_torque)
     }
 
     /// The value of the parameter of that name, or `None`.

@@ -6,11 +6,12 @@ use super::unfitted;
 use crate::candidates::shape_bounds;
 use crate::problem::{Problem, Term};
 use crate::rules::{MOST_MOVES, PEAK_EXPONENTS_FIVE_BAR, STRIDES};
+use rigproof_model::effects::facts;
 use rigproof_model::effects::facts::Shapes;
-use rigproof_model::effects::{entry, facts};
 use rigproof_spec::effect::Mechanism;
 
-/// The explanation with the shapes of the best evidence that the search meets.
+/// The explanation with the shapes of the best evidence that the search meets, and then with peaks in
+/// plainer forms where that is more probable.
 pub fn refined(
     problem: &Problem,
     folds: &Folds,
@@ -18,114 +19,134 @@ pub fn refined(
     bare: &Fitted,
     start: Fitted,
 ) -> Fitted {
+    let refining = Refining {
+        problem,
+        folds,
+        judge,
+        bare,
+    };
     let mut best = (judge.evidence(folds, &start), start);
+    // A step takes the first term and puts it last, so a full turn restores the order.
     for stride in STRIDES {
-        // `moved` takes the first term and puts it last, so a full turn restores the order.
         for _ in 0..best.1.terms.len() {
-            best = moved(problem, folds, judge, bare, best, stride);
+            best = refining.moved(best, stride);
         }
     }
-    for _ in 0..best.1.terms.len() {
-        best.1 = plainer(problem, folds, judge, bare, best.1);
+    let mut best = best.1;
+    if best.terms.iter().any(is_peak) {
+        for _ in 0..best.terms.len() {
+            best = refining.plainer(best);
+        }
     }
-    best.1
+    best
 }
 
-/// The first term in a plainer form of its law, where that is at least as probable, then put last.
-fn plainer(
-    problem: &Problem,
-    folds: &Folds,
-    judge: &Judge,
-    bare: &Fitted,
-    start: Fitted,
-) -> Fitted {
-    let Some((own, others)) = start.terms.split_first() else {
-        return start;
-    };
-    let score = |fitted: &Fitted| judge.evidence(folds, fitted) + prior(problem, &fitted.terms);
-    let others = bare.of(folds, others);
-    let own = others.with(folds, own);
-    let mut best = (score(&own), own);
-    let count = best.1.terms.last().map_or(0, |own| own.shape.len());
-    for place in 1..count {
-        let Some(own) = best.1.terms.last() else {
-            break;
-        };
-        let tried = plain_forms(problem, own, place).into_iter();
-        let tried = tried.map(|term| others.with(folds, &term));
-        let tried = tried.filter(|fitted| !is_impossible(problem, fitted));
-        let better = tried
-            .map(|fitted| (score(&fitted), fitted))
-            .filter(|(score, _)| *score > best.0)
-            .max_by(|a, b| a.0.total_cmp(&b.0));
-        best = better.unwrap_or(best);
-    }
-    best.1
+/// What a refinement is judged by.
+struct Refining<'a> {
+    problem: &'a Problem<'a>,
+    folds: &'a Folds,
+    judge: &'a Judge,
+    bare: &'a Fitted,
 }
+
+impl Refining<'_> {
+    /// The first term moved by strides as long as the evidence grows, then put last.
+    fn moved(&self, start: (f64, Fitted), stride: f64) -> (f64, Fitted) {
+        let (before, start) = start;
+        let Some((own, others)) = start.terms.split_first() else {
+            return (before, start);
+        };
+        let others = self.bare.of(self.folds, others);
+        let mut best = (before, others.with(self.folds, own));
+        let mut came_from = None;
+        let evidence = |fitted: &Fitted| self.judge.evidence(self.folds, fitted);
+        for _ in 0..MOST_MOVES {
+            let Some(own) = best.1.terms.last() else {
+                break;
+            };
+            let mut tried = moves(self.problem, own, stride);
+            tried.retain(|(by, _)| came_from != Some(by.back()));
+            let Some((by, better)) = self.better(&others, tried, best.0, evidence) else {
+                break;
+            };
+            came_from = Some(by);
+            best = better;
+        }
+        best
+    }
+
+    /// The first term in a plainer form of its law, where that is more probable, then put last.
+    fn plainer(&self, start: Fitted) -> Fitted {
+        let Some((own, others)) = start.terms.split_first() else {
+            return start;
+        };
+        let score = |fitted: &Fitted| {
+            self.judge.evidence(self.folds, fitted) + prior(self.problem, &fitted.terms)
+        };
+        let others = self.bare.of(self.folds, others);
+        let own = others.with(self.folds, own);
+        let mut best = (score(&own), own);
+        for place in PLAINER {
+            let own = best.1.terms.last();
+            let tried = own.map_or(Vec::new(), |own| plain_forms(self.problem, own, place));
+            let better = self.better(&others, tried, best.0, score);
+            best = better.map_or(best, |(_, better)| better);
+        }
+        best.1
+    }
+
+    /// The best of the terms beside others, with its value and its label; `None` if none is worth
+    /// more than `than`.
+    fn better<T>(
+        &self,
+        others: &Fitted,
+        tried: Vec<(T, Term)>,
+        than: f64,
+        value: impl Fn(&Fitted) -> f64,
+    ) -> Option<(T, (f64, Fitted))> {
+        tried
+            .into_iter()
+            .map(|(label, term)| (label, others.with(self.folds, &term)))
+            .filter(|(_, fitted)| !is_impossible(self.problem, fitted))
+            .map(|(label, fitted)| (label, (value(&fitted), fitted)))
+            .filter(|(_, (value, _))| *value > than)
+            .max_by(|(_, a), (_, b)| a.0.total_cmp(&b.0))
+    }
+}
+
+fn is_peak(term: &Term) -> bool {
+    facts(term.cause.mechanism).is_some_and(|facts| facts.shapes == Shapes::Peak)
+}
+
+/// The part of a peak that becomes plainer.
+#[derive(Clone, Copy)]
+enum Plainer {
+    Exponent,
+    Travel,
+}
+
+/// In the order in which they are tried.
+const PLAINER: [Plainer; 2] = [Plainer::Exponent, Plainer::Travel];
 
 /// A peak with its exponent as published, or without its travel. Nothing for other laws.
-fn plain_forms(problem: &Problem, own: &Term, place: usize) -> Vec<Term> {
-    let mechanism = own.cause.mechanism;
-    if facts(mechanism).is_none_or(|facts| facts.shapes != Shapes::Peak) {
+fn plain_forms(problem: &Problem, own: &Term, part: Plainer) -> Vec<(Plainer, Term)> {
+    if !is_peak(own) {
         return Vec::new();
     }
-    let linear = entry(mechanism).map_or(0, |entry| entry.linear);
-    let shapes: Vec<Vec<f64>> = match linear + place < mechanism.needed() {
-        true => PEAK_EXPONENTS_FIVE_BAR
-            .into_iter()
-            .map(|exponent| {
-                let mut shape = own.shape.clone();
-                shape
-                    .iter_mut()
-                    .skip(place)
-                    .take(1)
-                    .for_each(|x| *x = exponent);
-                shape
-            })
-            .collect(),
-        false => vec![own.shape.iter().copied().take(place).collect()],
+    let shapes: Vec<Vec<f64>> = match (part, own.shape.as_slice()) {
+        (Plainer::Exponent, [speed, _, travel @ ..]) => {
+            let published = PEAK_EXPONENTS_FIVE_BAR.into_iter();
+            published
+                .map(|exponent| [&[*speed, exponent], travel].concat())
+                .collect()
+        }
+        (Plainer::Travel, [speed, exponent, _]) => vec![vec![*speed, *exponent]],
+        _ => Vec::new(),
     };
     let realised = shapes.iter();
     realised
-        .filter_map(|shape| unfitted(problem, own.cause, shape, own.onset_s))
+        .filter_map(|shape| Some((part, unfitted(problem, own.cause, shape, own.onset_s)?)))
         .collect()
-}
-
-/// The first term moved by strides as long as the evidence grows, then put last.
-fn moved(
-    problem: &Problem,
-    folds: &Folds,
-    judge: &Judge,
-    bare: &Fitted,
-    start: (f64, Fitted),
-    stride: f64,
-) -> (f64, Fitted) {
-    let (before, start) = start;
-    let Some((own, others)) = start.terms.split_first() else {
-        return (before, start);
-    };
-    let others = bare.of(folds, others);
-    let mut best = (before, others.with(folds, own));
-    let mut came_from = None;
-    for _ in 0..MOST_MOVES {
-        let Some(own) = best.1.terms.last() else {
-            break;
-        };
-        let tried = moves(problem, own, stride).into_iter();
-        let tried = tried.filter(|(by, _)| came_from != Some(by.back()));
-        let tried = tried.map(|(by, term)| (by, others.with(folds, &term)));
-        let tried = tried.filter(|(_, fitted)| !is_impossible(problem, fitted));
-        let better = tried
-            .map(|(by, fitted)| (judge.evidence(folds, &fitted), by, fitted))
-            .filter(|(evidence, ..)| *evidence > best.0)
-            .max_by(|a, b| a.0.total_cmp(&b.0));
-        let Some((evidence, by, fitted)) = better else {
-            break;
-        };
-        came_from = Some(by);
-        best = (evidence, fitted);
-    }
-    best
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -10,7 +10,7 @@ use super::PLANTS;
 use super::table::{Source, Table};
 use super::{
     Brake, ChannelMap, Channels, Parameters, Plant, Protocol, RecordingEntry, Rig, RigEffect,
-    Servo, Status, Value, motion_name, text,
+    Servo, Status, Value, dimension, motion_name, text,
 };
 use crate::csv::TimeColumn;
 use crate::error::TraceError;
@@ -322,10 +322,7 @@ pub(super) fn read_effect(
     }
     let mut values = Vec::with_capacity(parameters.len());
     for parameter in parameters {
-        let dimension = match of_torque {
-            true => parameter.quantity.dimension_of_share(motion),
-            false => parameter.quantity.dimension(motion),
-        };
+        let dimension = dimension(parameter, motion, of_torque);
         let value = read_value(table, parameter.name, dimension)?;
         if parameter.is_optional && value.is_none() {
             break;
