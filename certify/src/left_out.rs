@@ -127,7 +127,7 @@ pub fn role(mechanism: Mechanism) -> Option<Role> {
         | Form::Linkage(
             OfLinkage::Load | OfLinkage::Weight | OfLinkage::PlaneSpring | OfLinkage::LinkLength,
         )
-        | Form::Sensor(OfSensor::Eccentric) => None,
+        | Form::Sensor(OfSensor::Eccentric | OfSensor::Clock) => None,
     }
 }
 

@@ -34,7 +34,7 @@ pub fn report(report: &Report) -> String {
 /// Whether everything holds that a diagnosis promises: exit code 0, or 1.
 pub fn holds(report: &Report) -> bool {
     let usable = !matches!(report.verdict, Verdict::DataFault | Verdict::NotExcited);
-    let named = !report.effects.is_empty();
+    let named = report.changes_the_model();
     let improved = report.fit.as_ref().is_some_and(|fit| fit.improved);
     usable && (!named || improved)
 }

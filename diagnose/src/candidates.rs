@@ -18,7 +18,7 @@ use crate::rules::{
 use crate::weak::Windows;
 use core::f64::consts::TAU;
 use rigproof_model::effects::facts::Shapes;
-use rigproof_model::effects::{Instant, entry, facts};
+use rigproof_model::effects::{Form, Instant, facts, form, linear};
 use rigproof_spec::effect::{Mechanism, Motion, Range};
 use rigproof_spec::tables::GREATEST_CURRENT_A;
 
@@ -123,6 +123,10 @@ pub fn standard_shapes<R: Run + ?Sized>(
 ) -> Vec<Vec<f64>> {
     let (travel, step_s) = (run.travel(cause.at).max(1e-12), run.clock().step_s);
     let one = |values: Vec<f64>| values.into_iter().map(|v| vec![v]).collect();
+    // The trial values of an encoder's cause are steps of a finite difference.
+    if form(cause.mechanism).is_some_and(Form::is_of_encoder) && !run.moves(cause) {
+        return vec![vec![]];
+    }
     match facts(cause.mechanism).map_or(Shapes::None, |facts| facts.shapes) {
         Shapes::Peak => stribeck_shapes(
             run.speed_floor(),
@@ -298,7 +302,7 @@ pub fn shape_bounds(problem: &Problem, cause: Cause) -> Vec<(f64, f64)> {
         .collect();
     // A part of something is looked for from nothing to all of it.
     let numbers = cause.mechanism.parameters().iter();
-    let linear = entry(cause.mechanism).map_or(0, |entry| entry.linear);
+    let linear = linear(cause.mechanism);
     for (own, number) in bounds.iter_mut().zip(numbers.skip(linear)) {
         if number.range == Range::Part {
             *own = (0.0, 1.0);

@@ -8,6 +8,7 @@ mod steps;
 mod straight;
 
 use crate::align::{Fault, check_frozen};
+use crate::effect::Effect;
 use crate::rules::MOST_MISSING;
 
 pub use clock::{roughness, settle};
@@ -27,6 +28,9 @@ pub struct Remark {
     pub count: usize,
     /// A sentence on what was found and what was done.
     pub words: String,
+    /// The cause that it is by itself, where it matters beside the noise of the sensors.
+    #[serde(skip)]
+    pub cause: Option<Effect>,
 }
 
 /// A recorded position under repair.
@@ -148,5 +152,6 @@ fn few(
         to_s,
         count: bad.len(),
         words: format!("{channel}, {from_s:.3} to {to_s:.3} s: {found}; they are left out"),
+        cause: None,
     }))
 }

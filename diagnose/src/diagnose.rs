@@ -21,7 +21,7 @@ use crate::scatter::{Trials, left_over};
 use crate::selection::{Selection, is_noise, refs, usable_rms};
 use ended::{faulty, not_excited};
 use parts::Parts;
-use rigproof_model::effects::entry;
+use rigproof_model::effects::linear;
 use rigproof_trace::Trace;
 pub use watch::{Stage, Watch};
 use write::Stand;
@@ -227,7 +227,7 @@ fn nominal<P: Plant>(plant: &P, problem: &Problem) -> Result<Vec<Term>, (At, Fau
             Some(mut term) => {
                 // Additional coefficients, such as the rest angle of a spring, are separate effects
                 // in a description.
-                let linear = entry(effect.cause.mechanism).map_or(0, |entry| entry.linear);
+                let linear = linear(effect.cause.mechanism);
                 term.free.truncate(linear);
                 terms.push(term);
             }

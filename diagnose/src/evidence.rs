@@ -14,14 +14,14 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 use rayon::prelude::*;
-use rigproof_model::effects::entry;
+use rigproof_model::effects::linear;
 use rigproof_spec::effect::Mechanism;
 use std::collections::BTreeMap;
 
 pub use intervals::{Intervals, intervals};
 
 fn parameter_count(term: &Term) -> usize {
-    entry(term.cause.mechanism).map_or(0, |e| e.linear) + term.shape.len()
+    linear(term.cause.mechanism) + term.shape.len()
 }
 
 /// A parameter of a fit.
@@ -89,7 +89,7 @@ fn shape_sensitivities(
     if problem.run.moves(term.cause) {
         return Vec::new();
     }
-    let linear = entry(term.cause.mechanism).map_or(0, |e| e.linear);
+    let linear = linear(term.cause.mechanism);
     let effort = modelled_effort(problem, terms, &selection.after);
     let at = |shape: &[f64]| -> Option<Vec<f64>> {
         let moved = realise(problem, term.cause, shape, term.onset_s, &effort)?;

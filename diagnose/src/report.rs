@@ -4,6 +4,7 @@ mod agreement;
 mod fault;
 mod read_as;
 
+use rigproof_spec::effect::Mechanism;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -260,6 +261,15 @@ pub struct ExplanationReport {
     /// The root-mean-square residual on left-out blocks, in standard deviations of the sensor
     /// noise.
     pub leaves: f64,
+}
+
+impl Report {
+    /// Whether a named cause changes the model. The scatter of the time stamps does not: alignment
+    /// mends it in the recording.
+    pub fn changes_the_model(&self) -> bool {
+        let mended = Mechanism::ClockJitter.name();
+        self.effects.iter().any(|own| own.mechanism != mended)
+    }
 }
 
 /// A named mechanism.

@@ -8,6 +8,7 @@ mod asymmetric_presliding;
 mod backlash;
 mod bias_drift;
 mod brake;
+mod clock_jitter;
 mod constant_bias;
 mod dahl_bristle;
 mod direction_asymmetry;
@@ -189,6 +190,8 @@ pub enum OfSensor {
     EncoderOffset,
     /// A disc off its centre.
     Eccentric,
+    /// Time stamps that scatter.
+    Clock,
     /// A wrong scale of the force.
     ForceGain,
     /// A wrong zero of the force.
@@ -279,6 +282,7 @@ pub const LIBRARY: &[Entry] = &[
     linkage::ENCODER_SCALE,
     linkage::ENCODER_OFFSET,
     eccentric_encoder::ENTRY,
+    clock_jitter::ENTRY,
     linkage::FORCE_GAIN,
     linkage::FORCE_BIAS,
     linkage::FORCE_ROTATION,
@@ -323,6 +327,12 @@ impl Law for Resisting {
 /// How a mechanism enters the equations, or `None` while the library has no law for it.
 pub fn form(mechanism: Mechanism) -> Option<Form> {
     entry(mechanism).map(|entry| entry.form)
+}
+
+/// How many of a mechanism's leading parameters are linear coefficients; 0 while the library has no
+/// law for it.
+pub fn linear(mechanism: Mechanism) -> usize {
+    entry(mechanism).map_or(0, |entry| entry.linear)
 }
 
 /// What is known of a mechanism, or `None` while the library has no law for it.

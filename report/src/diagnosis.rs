@@ -53,7 +53,7 @@ pub fn page(diagnosed: Diagnosed) -> String {
     // Where something is named, the time line answers what its absence would cost. Where nothing
     // goes wrong and nothing is named there is no line to show.
     let what_if = when::what_if(curves);
-    let is_named = !report.effects.is_empty();
+    let is_named = report.changes_the_model();
     let is_shown = is_named || report.verdict != Verdict::Consistent;
     let line = is_shown.then(|| when::body(curves, what_if.as_ref(), &mut charts));
     let (if_off, when) = match (line.flatten(), is_named) {

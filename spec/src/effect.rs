@@ -214,6 +214,8 @@ vocabulary! {
     ],
     /// A greatest effort of the drive.
     DriveSaturation = "drive_saturation" called "saturation of the drive" | "torque limit" | "torque saturation" [needed("limit", Effort).above_zero()],
+    /// Time stamps that scatter about an even clock.
+    ClockJitter = "clock_jitter" called "jitter of the time stamps" | "jitter" | "time stamps" [needed("jitter", Time).not_below_zero()],
     /// An encoder whose disc turns off its centre.
     EccentricEncoder = "eccentric_encoder" called "encoder eccentricity" | "eccentricity" [needed("sine", Travel), needed("cosine", Travel)],
 }

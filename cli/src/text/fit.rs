@@ -30,7 +30,7 @@ pub fn before_after(report: &Report) -> Vec<String> {
     let rest = fit.held_out_from_rest;
     lines.extend(rest.map(|error| alone(error, "started from rest, without a warm-up")));
     lines.extend(fit.horizon.iter().map(ahead));
-    if !report.effects.is_empty() {
+    if report.changes_the_model() {
         lines.push(if fit.improved {
             let share = percent(fit.recovered_share);
             format!("  {share} of what a perfect model would gain on held-out data is gained")

@@ -46,7 +46,8 @@ impl Style {
 pub fn summary(report: &Report, next: &str, page: &Path) -> String {
     let mut lines = vec![verdict(report)];
     let place = report.located.first();
-    let shown = place.filter(|_| report.verdict != Verdict::Consistent);
+    let is_left = !matches!(report.verdict, Verdict::Consistent | Verdict::Explained);
+    let shown = place.filter(|_| is_left || report.changes_the_model());
     lines.extend(shown.map(|place| {
         let share = percent(place.share);
         line(
@@ -143,7 +144,7 @@ fn error(report: &Report) -> Option<String> {
         Some(errors) => ("held-out data", errors),
         None => ("fitted data", fit.train),
     };
-    let outcome = match fit.improved || report.effects.is_empty() {
+    let outcome = match fit.improved || !report.changes_the_model() {
         true => "",
         false => "; it did not improve: do not use this calibration",
     };

@@ -3,8 +3,10 @@
 
 use super::steps::median;
 use super::{Position, Remark, Stamps};
+use crate::effect::Effect;
 use crate::filter::rms;
-use crate::rules::EVEN;
+use crate::rules::{EVEN, RELEVANT_NOISE};
+use rigproof_spec::effect::Mechanism;
 use rigproof_trace::clock::Grid;
 
 /// Samples moved to a regular grid.
@@ -49,7 +51,7 @@ pub fn settle(stamps: Stamps<'_>, positions: &mut [Position]) -> Option<Settled>
         uneven += roughness(moved) / scale;
     }
     let are_even = even <= uneven;
-    let mut noise = 0.0_f64;
+    let (mut noise, mut matters) = (0.0_f64, false);
     for (own, moved) in positions.iter_mut().zip(moved) {
         if !are_even {
             own.samples = moved;
@@ -57,6 +59,7 @@ pub fn settle(stamps: Stamps<'_>, positions: &mut [Position]) -> Option<Settled>
         let predicted = (own.quantum / 12f64.sqrt()).hypot(own.noise);
         let rough = roughness(&own.samples);
         let most = grid.jitter_s * rms(&speeds(&own.samples, &grid));
+        matters |= most > RELEVANT_NOISE * predicted;
         let excess = (rough * rough - predicted * predicted).max(0.0).sqrt();
         noise = noise.max(excess.min(most));
     }
@@ -82,6 +85,7 @@ pub fn settle(stamps: Stamps<'_>, positions: &mut [Position]) -> Option<Settled>
                 grid.worst_s,
                 1.0 / grid.step_s
             ),
+            cause: matters.then(|| Effect::of(Mechanism::ClockJitter, &[grid.jitter_s])),
         },
         time_s,
         noise,
@@ -117,4 +121,41 @@ pub fn roughness(samples: &[f64]) -> f64 {
     });
     let bends: Vec<f64> = bends.filter(|bend| bend.is_finite()).collect();
     median(bends) / (0.6745 * 20f64.sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A position that swings by `travel` once a second, with stamps that scatter by 0.1 ms.
+    fn settled(travel: f64) -> Settled {
+        let even = |k: usize| 1e-3 * k as f64;
+        let scatter = |k: usize| 1.4e-4 * libm::sin(1.7 * (k * k) as f64);
+        let time_s: Vec<f64> = (0..4000).map(|k| even(k) + scatter(k)).collect();
+        let swing = |k: usize| travel * libm::sin(core::f64::consts::TAU * even(k));
+        let quantum = 1e-4;
+        let counted = |k: usize| (swing(k) / quantum).round() * quantum;
+        let mut positions = [Position {
+            channel: "position",
+            samples: (0..4000).map(counted).collect(),
+            stated_quantum: Some(quantum),
+            quantum,
+            noise: 0.0,
+            is_angle: true,
+            slip: 0.0,
+        }];
+        let stamps = Stamps {
+            time_s: &time_s,
+            step_s: 1e-3,
+        };
+        settle(stamps, &mut positions).unwrap()
+    }
+
+    #[test]
+    fn stamps_that_scatter_are_a_cause_where_they_displace_more_than_the_sensor_errs() {
+        let cause = settled(1.3).said.cause.unwrap();
+        assert_eq!(cause.mechanism(), Mechanism::ClockJitter);
+        assert!((cause.value(0) - 1e-4).abs() < 5e-6, "{cause:?}");
+        assert_eq!(settled(0.02).said.cause, None);
+    }
 }

@@ -52,6 +52,7 @@ pub fn unwrap(stamps: Stamps<'_>, own: &mut Position) -> Option<Remark> {
         words: format!(
             "{channel} wraps {count} time(s) at a period of {size:.6} {unit}, first at {from_s:.3} s: it is unwrapped"
         ),
+        cause: None,
     })
 }
 

@@ -51,6 +51,7 @@ impl<P: Plant> Stand<'_, P> {
             to_s: clock.start_s + clock.duration_s(),
             count: 1,
             words,
+            cause: None,
         }
     }
 }

@@ -1,5 +1,6 @@
 //! This file puts the result of a diagnosis into words.
 
+use crate::effect::Effect;
 use crate::plant::Run;
 use crate::problem::Problem;
 use crate::report::{FitReport, Verdict};
@@ -35,13 +36,13 @@ pub(crate) fn summary(
     selection: &Selection,
     fit: Option<&FitReport>,
     rivals: &[Vec<String>],
+    mended: &[Effect],
 ) -> String {
-    let names: Vec<String> = selection
-        .found
-        .iter()
-        .map(|f| problem.name(f.term.cause))
-        .collect();
-    let named = names.join(", ");
+    let found = selection.found.iter().map(|own| own.term.cause);
+    let names: Vec<String> = found.map(|cause| problem.name(cause)).collect();
+    let mended = mended.iter().map(|own| problem.name(own.cause));
+    let named: Vec<String> = names.iter().cloned().chain(mended).collect();
+    let named = named.join(", ");
     let shown = match fit.and_then(|f| f.held_out.map(|h| (h, f))) {
         Some((held, fit)) if !names.is_empty() && fit.improved => {
             format!(

@@ -5,10 +5,11 @@ use super::numbers::numbers;
 use super::words::summary;
 use super::{Diagnosis, Options};
 use crate::cause::Cause;
+use crate::effect::Effect;
 use crate::evidence::{inclusion, intervals, not_seen, null_directions};
 use crate::explain::{Explanations, status};
 use crate::locate::locate;
-use crate::plant::{Plant, Shown};
+use crate::plant::{Plant, Run, Shown};
 use crate::problem::Problem;
 use crate::report::{EffectReport, ExplanationReport, Floor, Report, Unknown, Verdict};
 use crate::rules::{MOST_LISTED, NAMED};
@@ -17,7 +18,7 @@ use crate::selection::{Selection, floor_limit, refs, usable_rms};
 use crate::unknown::unknown;
 use rigproof_model::effects::entry;
 use rigproof_spec::effect::Quantity;
-use rigproof_trace::rig::RigEffect;
+use rigproof_trace::rig::{RigEffect, Value};
 
 /// The residual of the windows beside the predicted sensor noise.
 pub(crate) fn floor(problem: &Problem, selection: &Selection) -> Floor {
@@ -42,6 +43,7 @@ pub(crate) fn verdict(
     floor: &Floor,
     limit: f64,
     rivals: &[Vec<String>],
+    mended: &[Effect],
 ) -> Verdict {
     let explained = floor.ratio_after <= limit;
     // A name below the probability for naming has rivals. Names that were not compared have rivals
@@ -50,7 +52,7 @@ pub(crate) fn verdict(
     let is_open = by_name.into_iter().any(|(own, rivals)| {
         own.probability < NAMED || own.probability >= 1.0 && !rivals.is_empty()
     });
-    match (selection.found.is_empty(), explained) {
+    match (selection.found.is_empty() && mended.is_empty(), explained) {
         (true, true) => Verdict::Consistent,
         (true, false) => Verdict::NoneOfLibrary,
         (false, false) => Verdict::PartlyExplained,
@@ -88,12 +90,14 @@ impl<P: Plant> Stand<'_, P> {
     pub(crate) fn report(&self) -> Diagnosis<P> {
         let (problem, selection) = (self.problem, self.selection);
         let all = self.rivals();
-        let rivals: Vec<Vec<String>> = all
+        let mut rivals: Vec<Vec<String>> = all
             .iter()
             .map(|own| own.iter().map(|cause| problem.name(*cause)).collect())
             .collect();
         let floor = self.floor();
-        let verdict = verdict(selection, &floor, floor_limit(problem), &rivals);
+        let mended = self.train.remarks().iter();
+        let mended: Vec<Effect> = mended.filter_map(|own| own.cause.clone()).collect();
+        let verdict = verdict(selection, &floor, floor_limit(problem), &rivals, &mended);
         let is_left = floor.ratio_after > floor_limit(problem);
         let unknown = is_left.then(|| self.unknown()).flatten();
         let intervals = intervals(problem, selection);
@@ -113,7 +117,10 @@ impl<P: Plant> Stand<'_, P> {
         };
         let (before, after) = (&selection.before.residual, &selection.after.residual);
         let remarks = self.remarks(&floor, &intervals);
-        let summary = summary(problem, verdict, selection, fit.as_ref(), &rivals);
+        let summary = summary(problem, verdict, selection, fit.as_ref(), &rivals, &mended);
+        let mut effects = self.effects(&calibration.found(self, &intervals));
+        effects.extend(mended.iter().filter_map(|own| self.mended(own)));
+        rivals.resize(effects.len(), Vec::new());
         let names = |causes: &[Cause]| causes.iter().map(|c| problem.name(*c)).collect();
         let mut protocol = P::protocol(self, fit.as_ref());
         protocol.extend(remarks.iter().map(|own| own.words.clone()));
@@ -121,7 +128,7 @@ impl<P: Plant> Stand<'_, P> {
             protocol,
             located: locate(problem, before, after),
             stages: self.stages(),
-            effects: self.effects(&calibration.found(self, &intervals)),
+            effects,
             ambiguous_with: rivals,
             withdrawn: names(self.withdrawn),
             nominal: self.plant.nominal_numbers(&calibration),
@@ -219,6 +226,34 @@ impl<P: Plant> Stand<'_, P> {
         }
         let residual = &self.selection.after.residual;
         unknown(self.problem, residual)
+    }
+
+    /// A cause that alignment measured and mended: nothing else competes with it.
+    fn mended(&self, effect: &Effect) -> Option<EffectReport> {
+        let entry = entry(effect.mechanism())?;
+        let motion = self.problem.run.motion_kind();
+        let values = effect.parameters.iter().copied().map(Value::unknown);
+        let stated = RigEffect {
+            mechanism: effect.mechanism(),
+            values: values.collect(),
+            onset: None,
+            of_torque: false,
+        };
+        Some(EffectReport {
+            mechanism: effect.mechanism().name(),
+            joint: self.problem.run.place_name(effect.cause.at),
+            parameters: numbers(&stated, motion),
+            onset_s: None,
+            onset_low95_s: None,
+            onset_high95_s: None,
+            z: 0.0,
+            inclusion: 1.0,
+            share_explained: 0.0,
+            probability: 1.0,
+            status: status(1.0),
+            equation: entry.equation,
+            refuted_by: entry.refuted_by,
+        })
     }
 
     /// The named effects. `fitted` holds their parameters.

@@ -6,6 +6,7 @@ use super::kind;
 use crate::candidates::searched;
 use crate::cause::{Cause, Scales};
 use crate::problem::{Problem, Rows, Term};
+use crate::regression::dot;
 use crate::rules::{A_LINK, A_NUMBER, GIVEN_BACK, RELEVANT_NOISE, USUAL_ODDS};
 use rigproof_model::effects::facts::{End, Usual};
 use rigproof_model::effects::{entry, facts};
@@ -21,9 +22,11 @@ pub struct Judge {
 
 impl Judge {
     /// `noise` is the standard deviation of a row before whitening. The discrepancy is a share of
-    /// the effort.
+    /// the effort, and no more than the noise: where an explanation leaves noise alone, the model
+    /// is that exact.
     pub fn of(problem: &Problem, noise: f64, rows_a_sample: f64) -> Judge {
         let granted = problem.rules.relevant * problem.effort_size / noise.max(1e-300);
+        let granted = granted.min(1.0);
         Judge {
             granted: granted * granted + RELEVANT_NOISE * RELEVANT_NOISE,
             rows_a_sample,
@@ -41,14 +44,17 @@ impl Judge {
         each.sum()
     }
 
-    /// Whether removing any one term increases the left-out residual by more than the granted
-    /// discrepancy.
+    /// Whether removing any one term increases the residual by more than the granted discrepancy.
+    ///
+    /// The residual is that of the fit itself: a block that alone determines a term would make its
+    /// left-out residual as large as one likes.
     pub fn all_matter(&self, folds: &Folds, bare: &Fitted, fitted: &Fitted) -> bool {
+        let energy = |own: &Fitted| dot(&own.residual(folds), &own.residual(folds));
+        let least = energy(fitted) + self.granted * folds.rows();
         (0..fitted.terms.len()).all(|index| {
             let mut others = fitted.terms.clone();
             others.remove(index);
-            let more = bare.of(folds, &others).left() - fitted.left();
-            more >= self.granted * folds.rows()
+            energy(&bare.of(folds, &others)) >= least
         })
     }
 }

@@ -119,7 +119,7 @@ fn meaning(report: &Report) -> Markup {
 /// What the names are worth on data that were not used to find them.
 fn outcome(report: &Report) -> Option<Markup> {
     let fit = report.fit.as_ref()?;
-    let held_out = fit.held_out.filter(|_| !report.effects.is_empty())?;
+    let held_out = fit.held_out.filter(|_| report.changes_the_model())?;
     Some(if fit.improved {
         html! {
             "The check, on held-out data that no number was fitted to: the simulation was off by "

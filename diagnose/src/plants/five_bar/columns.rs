@@ -129,6 +129,7 @@ fn free_of_one(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<
                 OfSensor::EncoderScale
                 | OfSensor::EncoderOffset
                 | OfSensor::Eccentric
+                | OfSensor::Clock
                 | OfSensor::ForceRotation,
             ),
             None,

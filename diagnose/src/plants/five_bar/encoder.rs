@@ -57,6 +57,7 @@ impl Encoder {
             Form::Sensor(OfSensor::EncoderOffset) => false,
             Form::Sensor(
                 OfSensor::Eccentric
+                | OfSensor::Clock
                 | OfSensor::ForceGain
                 | OfSensor::ForceBias
                 | OfSensor::ForceRotation,

@@ -79,7 +79,7 @@ impl Model {
         let shows = |own: &&Effect| {
             matches!(
                 form(own.mechanism()),
-                Some(Form::Sensor(OfSensor::Eccentric))
+                Some(Form::Sensor(OfSensor::Eccentric | OfSensor::Clock))
             )
         };
         if let Some(own) = self.sensors.iter().find(shows) {
@@ -194,7 +194,10 @@ fn force_behind(of: OfSensor, [a, b]: [f64; 2], [x, y]: [f64; 2]) -> (f64, f64) 
             let (sine, cosine) = libm::sincos(a);
             (cosine * x + sine * y, cosine * y - sine * x)
         }
-        OfSensor::EncoderScale | OfSensor::EncoderOffset | OfSensor::Eccentric => (x, y),
+        OfSensor::EncoderScale
+        | OfSensor::EncoderOffset
+        | OfSensor::Eccentric
+        | OfSensor::Clock => (x, y),
     }
 }
 

@@ -8,7 +8,7 @@ use crate::plants::joint::run::{JointRun, PlantKind};
 use crate::plants::joint::simulate::{Model, Protocol, predict};
 pub use crate::rules::HORIZONS_S;
 use crate::rules::{DRIFT_SHARE, HORIZON_STARTS};
-use rigproof_model::effects::{entry, facts};
+use rigproof_model::effects::{facts, linear};
 use rigproof_spec::effect::Mechanism;
 
 /// The parameters that a refit may change: an unknown inertia, and those of effects that are not
@@ -24,7 +24,7 @@ fn free_numbers(plant: &Model, inertia_free: bool, known: &[bool], shapes: bool)
         });
     }
     for (index, (effect, known)) in plant.effects.iter().zip(known).enumerate() {
-        let linear = entry(effect.mechanism()).map_or(0, |e| e.linear);
+        let linear = linear(effect.mechanism());
         let size = leading_size(plant);
         for (parameter, value) in effect.parameters.iter().enumerate() {
             let is_shape = parameter >= linear;

@@ -5,7 +5,7 @@ use crate::filter::{LowPass, decimate, gradient};
 use crate::plants::joint::run::{JointRun, PlantKind};
 use nalgebra::{DMatrix, DVector};
 use rigproof_model::bench::column;
-use rigproof_model::effects::{Instant, entry, law};
+use rigproof_model::effects::{Instant, entry, law, linear};
 use rigproof_spec::effect::Mechanism;
 
 /// Order of the position filter (Butterworth, forward and backward), as published.
@@ -98,15 +98,7 @@ fn solve(
     let inertia = values.next()?;
     let parameters = mechanisms
         .iter()
-        .map(|(m, _)| {
-            (
-                *m,
-                values
-                    .by_ref()
-                    .take(entry(*m).map_or(0, |e| e.linear))
-                    .collect(),
-            )
-        })
+        .map(|(m, _)| (*m, values.by_ref().take(linear(*m)).collect()))
         .collect();
     Some(InverseModel {
         inertia,

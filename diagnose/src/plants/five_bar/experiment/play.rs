@@ -135,7 +135,7 @@ pub fn shown(effect: &Effect, played: &mut Played, step_s: f64, first: usize) {
         Some(
             Form::Drive(Drive::Lag | Drive::Gain | Drive::Limit)
             | Form::Joint(_)
-            | Form::Sensor(OfSensor::Eccentric)
+            | Form::Sensor(OfSensor::Eccentric | OfSensor::Clock)
             | Form::Resistance(_)
             | Form::ShareOfBrake(_)
             | Form::Brake(_)
@@ -154,7 +154,10 @@ fn force_shown(own: OfSensor, [a, b]: [f64; 2], [x, y]: [f64; 2]) -> (f64, f64) 
             let (sine, cosine) = libm::sincos(a);
             (cosine * x - sine * y, sine * x + cosine * y)
         }
-        OfSensor::EncoderScale | OfSensor::EncoderOffset | OfSensor::Eccentric => (x, y),
+        OfSensor::EncoderScale
+        | OfSensor::EncoderOffset
+        | OfSensor::Eccentric
+        | OfSensor::Clock => (x, y),
     }
 }
 
