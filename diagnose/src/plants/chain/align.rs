@@ -3,8 +3,8 @@
 
 use super::run::ChainRun;
 use crate::align::{
-    Fault, check_clock, check_missing, forget_sense_at_rest, median_step, regular_count, resample,
-    smallest_step, smoothed_motion,
+    Fault, check_clock, check_missing, cutoff_hz, forget_sense_at_rest, forget_sense_at_reversals,
+    median_step, quiet_cutoff_hz, regular_count, resample, smallest_step, smoothed_motion,
 };
 use crate::filter::gradient;
 use crate::rules::{ARM_PERIODS, ARM_WIDTH_S, STILL_QUANTA, STILL_SIGMAS};
@@ -121,10 +121,12 @@ fn joint(recording: &ChainRecording, k: usize, step_s: f64) -> Result<Aligned, F
     let of_effort = effort
         .noise
         .unwrap_or_else(|| (smallest_step(&tau) / 12f64.sqrt()).max(scatter(&tau)));
-    let cutoff_hz = ARM_PERIODS / ARM_WIDTH_S;
+    let most_hz = cutoff_hz(step_s, ARM_PERIODS / ARM_WIDTH_S);
+    let cutoff_hz = quiet_cutoff_hz(&q, step_s, most_hz, noise);
     let (mut motion, floor) = smoothed_motion(&q, step_s, cutoff_hz, noise);
     let still = (STILL_QUANTA * quantum).max(STILL_SIGMAS * noise);
     forget_sense_at_rest(&mut motion, &q, step_s, still);
+    forget_sense_at_reversals(&mut motion);
     Ok(Aligned {
         position: q,
         effort: tau,

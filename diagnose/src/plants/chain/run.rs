@@ -187,7 +187,8 @@ fn undone(mechanism: Mechanism, own: f64) -> f64 {
     }
 }
 
-fn joint_at(at: Place) -> Option<usize> {
+/// The joint of a place.
+pub(super) fn joint_at(at: Place) -> Option<usize> {
     match at {
         Place::Joint(JointId(joint)) => Some(joint),
         _ => None,
