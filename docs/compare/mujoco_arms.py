@@ -1,10 +1,11 @@
 """Recordings of serial arms in MuJoCo with a hidden cause, in MuJoCo's own terms: a source of truth that shares nothing with the project.
 
 An arm of two to seven joints with links of possible bodies; a servo in this file (computed torque of the described arm, from encoder counts, 4 kHz)
-leads it along sums of sines, so that friction stops and frees its joints. What is hidden is none, one or two of: more frictionloss, more damping or
+leads it along sums of sines, so that friction stops and frees its joints. As it comes, MuJoCo's frictionloss lets a joint creep where it should stand;
+here it is made a thousand times stiffer. What is hidden is none, one or two of: more frictionloss, more damping or
 another armature at a joint, another mass of a link, a payload, another gear of a joint, an effort that is recorded late, and a described friction that
-is absent. Written are NAME.csv (t, q1, effort1, ...), NAME.urdf and NAME.toml (the description) and key/NAME.json (what is hidden, and which names
-are right).
+is absent. Written are NAME.csv (t, q1, effort1, ...), NAME.urdf and NAME.toml (the description) and key/NAME.json (what is hidden, how
+much of it shows in the noise of the sensors, and which names are right).
 
     python mujoco_arms.py FOLDER --seed 0 --count 30
 """
@@ -84,12 +85,12 @@ def compiled(joints):
     bodies = "".join(
         f'<body pos="{numbers(own["place"])}" euler="{numbers(own["angles"])}"><joint name="{own["name"]}" type="{"slide" if own["slides"] else "hinge"}"'
         f' axis="0 0 1" frictionloss="{own["friction"]:.17g}" damping="{own["damping"]:.17g}" armature="{own["armature"]:.17g}"'
-        f' solreffriction="0.0006 1"/><inertial pos="{numbers(own["link"]["centre"])}" mass="{own["link"]["mass"]:.17g}"'
+        f' solreffriction="0.0005 1" solimpfriction="0.999 0.9999 0.001"/><inertial pos="{numbers(own["link"]["centre"])}" mass="{own["link"]["mass"]:.17g}"'
         f' fullinertia="{numbers(six(own["link"]["moments"]))}"/>' for own in joints)
     motors = "".join(f'<motor joint="{own["name"]}" gear="{own["gear"]:.17g}"/>' for own in joints)
     return mujoco.MjModel.from_xml_string(
         f'<mujoco><compiler angle="radian" eulerseq="XYZ"/><option timestep="{1 / (RATE_HZ * SERVO)}" gravity="0 0 -9.81"'
-        f' integrator="implicitfast" cone="elliptic" iterations="60" tolerance="1e-12"/><worldbody>{bodies}{"</body>" * len(joints)}</worldbody>'
+        f' integrator="RK4" cone="elliptic" iterations="60" tolerance="1e-12"/><worldbody>{bodies}{"</body>" * len(joints)}</worldbody>'
         f"<actuator>{motors}</actuator></mujoco>")
 
 
@@ -217,8 +218,7 @@ def simulate(lab, hidden, rng):
         efforts.append(data.ctrl.copy())
         mujoco.mj_step(model, data)
     # A drive logs the mean of its effort over a sample's interval, here about the sample.
-    weights = np.ones(SERVO + 1) / SERVO
-    weights[[0, -1]] /= 2
+    weights = np.ones(SERVO) / SERVO
     efforts = np.array([np.convolve(own, weights, "same") for own in np.array(efforts).T]).T[SERVO::SERVO]
     positions = np.array(positions)[SERVO::SERVO]
     for cause in hidden:
@@ -228,6 +228,33 @@ def simulate(lab, hidden, rng):
     efforts += rng.normal(0, 1, efforts.shape) * [own["noise"] for own in lab["joints"]]
     late = max([round(own["amount"] * RATE_HZ) for own in hidden if own["kind"] == "delay"], default=0)
     return positions[late:], efforts[late:]
+
+
+def efforts_along(joints, states):
+    """The efforts of an arm along a motion, friction by its sign."""
+    model = rigid(joints)
+    data = mujoco.MjData(model)
+    dry = np.array([own["friction"] for own in joints])
+    own = np.array([inverse(model, data, *state) + dry * np.sign(state[1]) for state in states])
+    return own / [own["gear"] for own in joints]
+
+
+def size(lab, cause):
+    """What a cause alone changes in averages of 80 ms, in the noise of such an average: the joint that shows it best."""
+    joints, length = lab["joints"], round(0.08 * RATE_HZ)
+    states = lab["paths"][:, :, ::SERVO].transpose(2, 0, 1)
+    before = efforts_along(joints, states)
+    if cause["kind"] == "delay":
+        late, k = round(cause["amount"] * RATE_HZ), cause["joint"]
+        after = before.copy()
+        after[late:, k] = before[:-late, k]
+    else:
+        after = efforts_along(true_arm(lab, [cause]), states)
+    count = len(before) // length
+    averages = (after - before)[:count * length].reshape(count, length, -1).mean(axis=1)
+    curved = [mass_at(joints, k) * math.sqrt(720 / length) * own["quantum"] / math.sqrt(12) / 0.08**2 for k, own in enumerate(joints)]
+    noise = np.hypot(curved, [own["noise"] / math.sqrt(length) for own in joints])
+    return float(np.max(np.sqrt(np.mean(averages**2, axis=0)) / noise))
 
 
 def urdf(name, lab):
@@ -285,7 +312,7 @@ def main():
         (args.folder / f"{name}.urdf").write_text(urdf(name, lab))
         (args.folder / f"{name}.toml").write_text(description(name, lab))
         last = count - 1
-        key = {"seed": seed, "joints": count, "stated": lab["stated"], "effects": [dict(own, right=right(own, last)) for own in hidden]}
+        key = {"seed": seed, "joints": count, "stated": lab["stated"], "effects": [dict(own, right=right(own, last), size=size(lab, own)) for own in hidden]}
         (args.folder / "key" / f"{name}.json").write_text(json.dumps(key, indent=1, default=float) + "\n")
 
 
