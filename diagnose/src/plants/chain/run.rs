@@ -46,9 +46,10 @@ pub struct ChainRun {
     pub recorded: Vec<bool>,
 }
 
-/// The squared cosine between two signals from which on they are one; what is left to 1 is also the
-/// share of a signal's energy that is rounding.
-const SAME: f64 = 1.0 - 1e-9;
+/// The squared cosine between two signals from which on they are one: the ends of a part of a
+/// recording are differenced one-sidedly. What is left to 1 is also the share of a signal's energy
+/// that is rounding.
+const SAME: f64 = 1.0 - 1e-6;
 
 /// Whether it is a common friction or a constant without a shape: something that every arm may
 /// have.
