@@ -112,7 +112,7 @@ fn an_arm_described_wrongly_says_so_in_one_line() {
     assert!(said.contains("are these degrees?"), "{said}");
 }
 
-/// The efforts of the calibrated arm lie as near to the recorded ones as their sensors allow; those of the described arm do not.
+/// The efforts of the calibrated arm lie much nearer to the recorded ones than those of the described arm.
 #[test]
 fn a_calibrated_arm_simulates_what_was_recorded() {
     // Coulomb friction at every joint; a rotor and a delay.
@@ -125,7 +125,6 @@ fn a_calibrated_arm_simulates_what_was_recorded() {
         assert_eq!(after.len(), rig.joints.len());
         for ((joint, before), after) in rig.joints.iter().zip(before).zip(after) {
             assert_eq!(after.name, format!("effort_{}", joint.name));
-            let noise = joint.effort.noise.unwrap();
             let left = |own: &SimulatedOutput| {
                 let pairs = own.recorded.as_ref().unwrap().iter().zip(&own.simulated);
                 // At a reversal friction jumps between samples.
@@ -134,8 +133,8 @@ fn a_calibrated_arm_simulates_what_was_recorded() {
                 off[off.len() / 2] / 0.6745
             };
             let (before, after) = (left(&before), left(&after));
-            println!("{seed} {}: {before} → {after}, noise {noise}", joint.name);
-            assert!(after < 1.3 * noise && after < before, "{seed} {}: {after}", joint.name);
+            println!("{seed} {}: {before} → {after}", joint.name);
+            assert!(after < 0.25 * before, "{seed} {}: {after}", joint.name);
         }
     }
 }
