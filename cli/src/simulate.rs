@@ -214,14 +214,7 @@ fn say(
         }
     }
     for (k, (own, off)) in pairs().enumerate() {
-        lines.push(match simulated.runs {
-            Some(_) => format!("{}, {} samples", own.name, off.pairs),
-            None if simulated.outputs.len() > 1 => format!(
-                "{}, simulated less recorded over {} samples{arrow}",
-                own.name, off.pairs
-            ),
-            None => format!("simulated less recorded over {} samples{arrow}", off.pairs),
-        });
+        lines.push(heading(simulated, own, off, arrow));
         let shown = if own.recorded.is_none() { 2 } else { 3 };
         let before = without.and_then(|own| own.off.get(k));
         lines.extend(measures(before, off, &own.unit).into_iter().take(shown));
@@ -230,6 +223,18 @@ fn say(
     lines.extend(path(&args.out).map(|file| format!("  file     {file}")));
     lines.extend(path(&args.picture).map(|file| format!("  picture  {file}")));
     print(&lines.join("\n"))
+}
+
+/// What stands above the measures of an output: its name where there are several.
+fn heading(simulated: &Simulated, own: &SimulatedOutput, off: &Comparison, arrow: &str) -> String {
+    match (simulated.runs, simulated.outputs.len()) {
+        (Some(_), _) => format!("{}, {} samples", own.name, off.pairs),
+        (None, 0 | 1) => format!("simulated less recorded over {} samples{arrow}", off.pairs),
+        (None, _) => format!(
+            "{}, simulated less recorded over {} samples{arrow}",
+            own.name, off.pairs
+        ),
+    }
 }
 
 /// How far two outputs lie apart, a line each: with the rig's own numbers where there is a calibration, and with those that count.
