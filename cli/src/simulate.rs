@@ -45,7 +45,8 @@ pub struct Args {
 }
 
 const AFTER_HELP: &str = "\
-An axis runs freely from the recorded command; a bench follows the recorded motion. A five-bar runs freely from the
+An axis runs freely from the recorded command; a bench follows the recorded motion, and so does an arm, whose efforts
+are those of inverse dynamics along the smoothed positions. A five-bar runs freely from the
 recorded force and currents, every `--restart-s` from the recorded state: nothing holds it where the hand's stiffness did.
 The experiment that a diagnosis of a five-bar writes (columns hand_x and hand_y in m, current_a and so on in A) is played
 from rest with a hand of 420 N/m and 11 N·s/m; `--out` then is a recording, which `diagnose` takes.
@@ -184,6 +185,10 @@ fn say(
                 let all = pairs().map(|(own, off)| (own.name.to_owned(), in_json(off, &own.unit)));
                 of("outputs", Value::Object(all.collect()));
             }
+            None if off.len() > 1 => {
+                let all = pairs().map(|(own, off)| (own.name.to_owned(), in_json(off, &own.unit)));
+                of("outputs", Value::Object(all.collect()));
+            }
             None => {
                 let all = pairs().map(|(own, off)| in_json(off, &own.unit));
                 let all = all.filter_map(|own| own.as_object().cloned()).flatten();
@@ -209,10 +214,7 @@ fn say(
         }
     }
     for (k, (own, off)) in pairs().enumerate() {
-        lines.push(match simulated.runs {
-            Some(_) => format!("{}, {} samples", own.name, off.pairs),
-            None => format!("simulated less recorded over {} samples{arrow}", off.pairs),
-        });
+        lines.push(heading(simulated, own, off, arrow));
         let shown = if own.recorded.is_none() { 2 } else { 3 };
         let before = without.and_then(|own| own.off.get(k));
         lines.extend(measures(before, off, &own.unit).into_iter().take(shown));
@@ -221,6 +223,18 @@ fn say(
     lines.extend(path(&args.out).map(|file| format!("  file     {file}")));
     lines.extend(path(&args.picture).map(|file| format!("  picture  {file}")));
     print(&lines.join("\n"))
+}
+
+/// What stands above the measures of an output: its name where there are several.
+fn heading(simulated: &Simulated, own: &SimulatedOutput, off: &Comparison, arrow: &str) -> String {
+    match (simulated.runs, simulated.outputs.len()) {
+        (Some(_), _) => format!("{}, {} samples", own.name, off.pairs),
+        (None, 0 | 1) => format!("simulated less recorded over {} samples{arrow}", off.pairs),
+        (None, _) => format!(
+            "{}, simulated less recorded over {} samples{arrow}",
+            own.name, off.pairs
+        ),
+    }
 }
 
 /// How far two outputs lie apart, a line each: with the rig's own numbers where there is a calibration, and with those that count.

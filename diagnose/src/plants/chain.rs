@@ -5,5 +5,6 @@ mod align;
 mod beside;
 mod plant;
 mod run;
+mod simulated;
 
 pub use run::ChainRun;

@@ -27,42 +27,18 @@ pub struct Group {
 const STATES_A_JOINT: usize = 12;
 /// Length of a column's part that the columns before do not have, below which it has none.
 const NONE: f64 = 1e-7;
+/// Length of a column, as a share of the longest, below which it is rounding.
+const ROUNDING: f64 = 1e-12;
 
 impl Chain {
     /// The base parameters of this arm: links from the tip to the base, of each the numbers that the efforts hang on beside those already there.
     pub fn base(&self) -> Base {
-        let count = self.joints.len();
-        let states = STATES_A_JOINT * count.max(1);
-        let all = INERTIAL * count;
-        let mut stacked = DMatrix::zeros(states * count, all);
-        let mut drawn = Drawn(0x9e37_79b9_7f4a_7c15);
-        for state in 0..states {
-            let [q, speed, acceleration]: [Vec<f64>; 3] =
-                core::array::from_fn(|_| (0..count).map(|_| 3.0 * drawn.next()).collect());
-            let own = self.regressor(&q, &speed, &acceleration);
-            stacked.rows_mut(state * count, count).copy_from(&own);
-        }
-        // Orthogonal directions of the columns that are kept, and each column by them.
-        let mut directions: Vec<DVector<f64>> = Vec::new();
-        let mut kept: Vec<usize> = Vec::new();
-        let from_the_tip = (0..count)
+        let all = INERTIAL * self.joints.len();
+        let stacked = self.stacked();
+        let from_the_tip = (0..self.joints.len())
             .rev()
             .flat_map(|link| (0..INERTIAL).map(move |k| INERTIAL * link + k));
-        for column in from_the_tip {
-            let own: DVector<f64> = stacked.column(column).into_owned();
-            let mut left = own.clone();
-            // Twice is enough (Parlett): once leaves rounding in the order of the parts taken away.
-            for _ in 0..2 {
-                for direction in &directions {
-                    left -= direction * direction.dot(&left);
-                }
-            }
-            let size = left.norm();
-            if size > NONE * own.norm() && size > 0.0 {
-                directions.push(left / size);
-                kept.push(column);
-            }
-        }
+        let mut kept = independent(&stacked, from_the_tip);
         kept.sort_unstable();
         let chosen =
             DMatrix::from_columns(&kept.iter().map(|&c| stacked.column(c)).collect::<Vec<_>>());
@@ -80,6 +56,55 @@ impl Chain {
             counts,
         }
     }
+
+    /// The numbers of each link that the efforts hang on when the other links are as described, ten a link counted from the base. Those of
+    /// neighbouring links overlap.
+    pub fn of_each_link(&self) -> Vec<usize> {
+        let stacked = self.stacked();
+        let links = 0..self.joints.len();
+        let of_a_link = |link| independent(&stacked, INERTIAL * link..INERTIAL * (link + 1));
+        links.flat_map(of_a_link).collect()
+    }
+
+    /// The regressor at drawn states, one below another.
+    fn stacked(&self) -> DMatrix<f64> {
+        let count = self.joints.len();
+        let states = STATES_A_JOINT * count.max(1);
+        let mut stacked = DMatrix::zeros(states * count, INERTIAL * count);
+        let mut drawn = Drawn(0x9e37_79b9_7f4a_7c15);
+        for state in 0..states {
+            let [q, speed, acceleration]: [Vec<f64>; 3] =
+                core::array::from_fn(|_| (0..count).map(|_| 3.0 * drawn.next()).collect());
+            let own = self.regressor(&q, &speed, &acceleration);
+            stacked.rows_mut(state * count, count).copy_from(&own);
+        }
+        stacked
+    }
+}
+
+/// Those of the columns, in this order, that are no combination of the ones before. A column of rounding is none.
+fn independent(stacked: &DMatrix<f64>, columns: impl Iterator<Item = usize>) -> Vec<usize> {
+    let longest = stacked
+        .column_iter()
+        .fold(0.0, |most: f64, own| most.max(own.norm()));
+    let mut directions: Vec<DVector<f64>> = Vec::new();
+    let mut kept: Vec<usize> = Vec::new();
+    for column in columns {
+        let own: DVector<f64> = stacked.column(column).into_owned();
+        let mut left = own.clone();
+        // Twice is enough (Parlett): once leaves rounding in the order of the parts taken away.
+        for _ in 0..2 {
+            for direction in &directions {
+                left -= direction * direction.dot(&left);
+            }
+        }
+        let size = left.norm();
+        if size > NONE * own.norm() && size > ROUNDING * longest {
+            directions.push(left / size);
+            kept.push(column);
+        }
+    }
+    kept
 }
 
 impl Base {

@@ -184,3 +184,28 @@ fn links_fixed_to_one_another_are_one_and_nothing_is_attached_beyond_the_tip() {
     assert_eq!(part.joints.len(), 3);
     assert!((part.joints[2].inertial.mass - 0.9).abs() < 1e-12);
 }
+
+/// What a heavier link changes is a combination of that link's own numbers; the base parameters need those of its neighbours for it.
+#[test]
+fn a_link_is_told_by_its_own_numbers_alone() {
+    let arm = arm();
+    let own = arm.of_each_link();
+    let kept = |link: usize| own.iter().filter(move |c| **c / INERTIAL == link);
+    assert_eq!(kept(3).count(), INERTIAL);
+    let states = (0..40).map(|k| {
+        let at = |of: [f64; 4], rate: f64| of.map(|x| x * libm::cos(rate * f64::from(k) + x));
+        arm.regressor(&at(Q, 0.7), &at(SPEED, 1.3), &at(FASTER, 0.4))
+    });
+    let blocks: Vec<_> = states.collect();
+    let stacked = nalgebra::DMatrix::from_fn(160, 40, |row, c| blocks[row / 4][(row % 4, c)]);
+    for link in 0..4 {
+        let numbers = arm.joints[link].inertial.numbers();
+        let numbers = DVector::from_iterator(INERTIAL, numbers);
+        let more = stacked.columns(INERTIAL * link, INERTIAL) * (0.3 * numbers);
+        let columns: Vec<usize> = kept(link).copied().collect();
+        let few = stacked.select_columns(&columns);
+        let fit = few.clone().svd(true, true).solve(&more, 1e-12).unwrap();
+        let left = (&more - few * fit).norm() / more.norm();
+        assert!(left < 1e-9, "link {link}: {left}");
+    }
+}

@@ -3,8 +3,8 @@
 
 use super::run::ChainRun;
 use crate::align::{
-    Fault, check_clock, check_missing, forget_sense_at_rest, median_step, regular_count, resample,
-    smallest_step, smoothed_motion,
+    Fault, check_clock, check_missing, cutoff_hz, forget_sense_at_rest, forget_sense_at_reversals,
+    median_step, quiet_cutoff_hz, regular_count, resample, smallest_step, smoothed_motion,
 };
 use crate::filter::gradient;
 use crate::rules::{ARM_PERIODS, ARM_WIDTH_S, STILL_QUANTA, STILL_SIGMAS};
@@ -121,10 +121,12 @@ fn joint(recording: &ChainRecording, k: usize, step_s: f64) -> Result<Aligned, F
     let of_effort = effort
         .noise
         .unwrap_or_else(|| (smallest_step(&tau) / 12f64.sqrt()).max(scatter(&tau)));
-    let cutoff_hz = ARM_PERIODS / ARM_WIDTH_S;
+    let most_hz = cutoff_hz(step_s, ARM_PERIODS / ARM_WIDTH_S);
+    let cutoff_hz = quiet_cutoff_hz(&q, step_s, most_hz, noise);
     let (mut motion, floor) = smoothed_motion(&q, step_s, cutoff_hz, noise);
     let still = (STILL_QUANTA * quantum).max(STILL_SIGMAS * noise);
     forget_sense_at_rest(&mut motion, &q, step_s, still);
+    forget_sense_at_reversals(&mut motion);
     Ok(Aligned {
         position: q,
         effort: tau,
@@ -151,15 +153,16 @@ fn scatter(signal: &[f64]) -> f64 {
 /// Median of the absolute value of a standard normal variable.
 const NORMAL_MEDIAN: f64 = 0.674_489_750_196_081_7;
 
-/// The effort of every joint, one joint after another, per unit of each base parameter. The last
+/// The effort of every joint, one joint after another, per unit of each
+/// inertial parameter of each link. The last
 /// signals are the efforts of the given parameter `sets`.
 fn efforts(chain: &Chain, joints: &[Aligned], step_s: f64, sets: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let (count, samples) = (
         joints.len(),
         joints.first().map_or(0, |own| own.motion.len()),
     );
-    let base = chain.base();
-    let all = base.columns.len();
+    let columns = chain.of_each_link();
+    let all = columns.len();
     let mut momentum = vec![vec![0.0; count * samples]; all + sets.len()];
     let mut rest = momentum.clone();
     for k in 0..samples {
@@ -171,10 +174,7 @@ fn efforts(chain: &Chain, joints: &[Aligned], step_s: f64, sets: &[Vec<f64>]) ->
         for (from, to) in [(&own.momentum, &mut momentum), (&own.rest, &mut rest)] {
             for joint in 0..count {
                 let row = from.row(joint);
-                let numbers = base
-                    .columns
-                    .iter()
-                    .map(|&c| row.get(c).copied().unwrap_or(0.0));
+                let numbers = columns.iter().map(|&c| row.get(c).copied().unwrap_or(0.0));
                 let whole = |set: &Vec<f64>| row.iter().zip(set).map(|(x, p)| x * p).sum();
                 let wholes = sets.iter().map(whole);
                 for (signal, value) in to.iter_mut().zip(numbers.chain(wholes)) {
@@ -197,7 +197,6 @@ fn efforts(chain: &Chain, joints: &[Aligned], step_s: f64, sets: &[Vec<f64>]) ->
 /// each inertial parameter.
 fn equations(chain: &Chain, joints: &[Aligned], step_s: f64) -> ChainRun {
     let samples = joints.first().map_or(0, |own| own.motion.len());
-    let base = chain.base();
     let sets = [chain.of_a_payload(), chain.parameters()];
     let mut signals = efforts(chain, joints, step_s, &sets);
     let mut known = signals.pop().unwrap_or_default();
@@ -234,8 +233,8 @@ fn equations(chain: &Chain, joints: &[Aligned], step_s: f64) -> ChainRun {
             .iter()
             .map(|own| [own.friction, own.damping])
             .collect(),
-        links: base
-            .columns
+        links: chain
+            .of_each_link()
             .iter()
             .map(|c| (c / INERTIAL, c % INERTIAL))
             .zip(signals)

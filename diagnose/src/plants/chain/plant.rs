@@ -3,6 +3,7 @@
 use super::align::{aligned, arm};
 use super::beside::beside;
 use super::run::ChainRun;
+use super::simulated::simulated;
 use crate::align::Fault;
 use crate::cause::{Cause, JointId, Place};
 use crate::diagnose::balance::modelled;
@@ -11,7 +12,7 @@ use crate::diagnose::write::Stand;
 use crate::effect::Effect;
 use crate::evidence::Intervals;
 use crate::filter::rms;
-use crate::plant::{Described, Plant, Run};
+use crate::plant::{Described, Plant, Run, Simulated, Unsimulated};
 use crate::problem::Problem;
 use crate::report::FitReport;
 use crate::rules::ARM_WIDTH_S;
@@ -166,6 +167,15 @@ impl Described for ChainRig {
             *signal = sensed(signal, effort, random);
         }
         out
+    }
+
+    fn simulated(
+        &self,
+        model: &ChainRig,
+        recording: &ChainRecording,
+        _: f64,
+    ) -> Result<Simulated, Unsimulated> {
+        simulated(model, recording)
     }
 
     fn without_found(&self, calibration: &ChainRig) -> ChainRig {

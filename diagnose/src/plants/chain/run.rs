@@ -46,6 +46,11 @@ pub struct ChainRun {
     pub recorded: Vec<bool>,
 }
 
+/// The squared cosine between two signals from which on they are one: the ends of a part of a
+/// recording are differenced one-sidedly. What is left to 1 is also the share of a signal's energy
+/// that is rounding.
+const SAME: f64 = 1.0 - 1e-6;
+
 /// Whether it is a common friction or a constant without a shape: something that every arm may
 /// have.
 fn is_plain(mechanism: &Mechanism) -> bool {
@@ -123,6 +128,33 @@ impl ChainRun {
         all
     }
 
+    /// Whether all that a link shows acts as the inertia of its joint does: a first link that turns
+    /// about the vertical.
+    fn is_inertia_alone(&self, cause: Cause) -> bool {
+        let Some(Form::Joint(OfJoint::Link)) = form(cause.mechanism) else {
+            return false;
+        };
+        let inertia = Cause::at(Mechanism::AddedInertia, cause.at);
+        let Some(Columns::Free(signals)) = self.columns(inertia, &[], None) else {
+            return false;
+        };
+        let Some(inertia) = signals.first() else {
+            return false;
+        };
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
+        let of = self
+            .links
+            .iter()
+            .filter(|own| joint_at(cause.at) == Some(own.0.0));
+        let numbers: Vec<(f64, f64)> = of
+            .map(|(_, own)| (dot(own, own), dot(own, inertia)))
+            .collect();
+        let most = numbers.iter().fold(0.0, |most: f64, own| most.max(own.0));
+        let square = dot(inertia, inertia);
+        let mut acting = numbers.iter().filter(|own| own.0 > (1.0 - SAME) * most);
+        acting.all(|(own, both)| both * both >= SAME * own * square)
+    }
+
     /// The relative noise of each joint: the residual with every common mechanism free, scaled to
     /// mean square 1.
     fn uneven(&self, windows: &Windows) -> Vec<f64> {
@@ -187,7 +219,8 @@ fn undone(mechanism: Mechanism, own: f64) -> f64 {
     }
 }
 
-fn joint_at(at: Place) -> Option<usize> {
+/// The joint of a place.
+pub(super) fn joint_at(at: Place) -> Option<usize> {
     match at {
         Place::Joint(JointId(joint)) => Some(joint),
         _ => None,
@@ -314,7 +347,8 @@ impl Run for ChainRun {
         self.speed_floor
     }
 
-    /// All candidates at the joints that moved.
+    /// All candidates at the joints that moved, without links that the inertia of their joint stands
+    /// for.
     fn causes(&self) -> Vec<Cause> {
         let moved = self.moving_places().into_iter();
         let moved = moved.filter(|at| self.travel(*at) > 100.0 * self.position_noise());
@@ -323,6 +357,7 @@ impl Run for ChainRun {
         let is_payload =
             |own: Mechanism| matches!(form(own), Some(Form::Linkage(OfLinkage::Payload)));
         each.filter(|cause| !is_payload(cause.mechanism) || cause.at == last)
+            .filter(|cause| !self.is_inertia_alone(*cause))
             .collect()
     }
 
