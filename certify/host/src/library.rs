@@ -66,7 +66,8 @@ impl Exports {
         let version: unsafe extern "C" fn() -> u32 =
             unsafe { export(opened, "rigproof_controller_version", HEADER) }?;
         // SAFETY: it takes nothing.
-        of_version(unsafe { version() }, RIGPROOF_CONTROLLER_VERSION, HEADER)?;
+        let version = unsafe { version() };
+        of_version(version, RIGPROOF_CONTROLLER_VERSION, HEADER)?;
         Ok(Exports {
             // SAFETY: as of this version.
             init: unsafe { export(opened, "rigproof_controller_init", HEADER) }?,

@@ -44,11 +44,8 @@ impl Exports {
             return Ok(None);
         };
         // SAFETY: it takes nothing.
-        of_version(
-            unsafe { version() },
-            RIGPROOF_AXIS_CONTROLLER_VERSION,
-            HEADER,
-        )?;
+        let version = unsafe { version() };
+        of_version(version, RIGPROOF_AXIS_CONTROLLER_VERSION, HEADER)?;
         Ok(Some(Exports {
             // SAFETY: as of this version.
             init: unsafe { export(library, "rigproof_axis_controller_init", HEADER) }?,
