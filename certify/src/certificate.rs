@@ -8,6 +8,7 @@ use rigproof_spec::methods::BLEND_BOUNDARY_M;
 use serde::{Deserialize, Serialize};
 
 use self::reasons::reasons;
+use crate::axis;
 use crate::cluster::{Cluster, clusters};
 use crate::digest;
 use crate::error::Error;
@@ -122,7 +123,7 @@ pub fn records(chunks: &Chunks) -> Vec<&Record> {
 }
 
 /// The first digits of the SHA-256 of a chunk's records.
-pub(crate) fn chunk_digest(records: &[Record]) -> Result<String, Error> {
+pub(crate) fn chunk_digest(records: &[impl Serialize]) -> Result<String, Error> {
     Ok(digest::of_value(&records)?.chars().take(16).collect())
 }
 
@@ -218,6 +219,10 @@ impl Certificate {
             let advice = "it was changed after it was written; run the campaign again";
             Error::unusable(file, format!("{problem}: {advice}"))
         };
+        if axis::certificate::Certificate::is_one(text) {
+            let problem = "it is the certificate of an axis: `rigproof certify --check` and `rigproof certify sign` take it";
+            return Err(Error::unusable(file, problem));
+        }
         let read: Certificate = serde_json::from_str(text)
             .map_err(|error| refused(format!("it is no certificate ({error})")))?;
         if read.form != FORM {

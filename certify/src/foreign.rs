@@ -208,6 +208,17 @@ impl crate::controller::Source for Foreign {
 }
 
 #[cfg(not(target_os = "linux"))]
+impl crate::axis::controller::Source for Foreign {
+    fn begin(
+        &self,
+        _settings: &crate::axis::controller::Settings,
+        _place: crate::axis::controller::Place,
+    ) -> Result<Box<dyn crate::axis::controller::Controller + '_>, Failure> {
+        Err(elsewhere())
+    }
+}
+
+#[cfg(not(target_os = "linux"))]
 fn elsewhere() -> Failure {
     Failure::Unusable(
         "a compiled controller is run in a process with limits, which this build knows on Linux only: run the campaign there"

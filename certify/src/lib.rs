@@ -6,6 +6,7 @@
     clippy::indexing_slicing
 )]
 
+pub mod axis;
 pub mod built_in;
 pub mod calibration;
 pub mod campaign;

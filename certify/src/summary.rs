@@ -19,6 +19,7 @@ pub use beyond::{Bound, Limited};
 pub use covered::{MetSummary, PartSummary, Visited, visited};
 pub use ended::{Ended, Endings, ended};
 pub use exact::Exact;
+pub(crate) use paired::change;
 pub use paired::{Change, Word};
 pub use ties::{TieSummary, ties};
 
@@ -152,7 +153,7 @@ fn of_law(plan: &Plan, law: Law, records: &[&Record]) -> LawSummary {
 }
 
 /// What no protection of a compiled controller's process gives.
-const ISOLATION: &str = "it was a process of the same user: it could read and change that user's files, end his processes, and load code that its hash does not name";
+pub(crate) const ISOLATION: &str = "it was a process of the same user: it could read and change that user's files, end his processes, and load code that its hash does not name";
 
 /// The laws that cannot be judged, and what no campaign of this kind sees.
 pub fn not_looked_at(plan: &Plan) -> Vec<NotLookedAt> {
@@ -253,7 +254,8 @@ fn of_metric(plan: &Plan, records: &[&Record], index: usize, metric: Metric) -> 
     }
 }
 
-fn quantiles(mut values: Vec<f64>) -> Option<Quantiles> {
+/// Mean and quantiles of values; `None` of none.
+pub(crate) fn quantiles(mut values: Vec<f64>) -> Option<Quantiles> {
     // The mean in the order of the scenarios, which no thread changes.
     let mean = values.iter().sum::<f64>() / values.len() as f64;
     values.sort_by(f64::total_cmp);

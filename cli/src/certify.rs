@@ -1,5 +1,6 @@
 //! This file is the verb that says whether a changed controller may go on the rig.
 
+mod axis;
 mod campaign;
 mod check;
 mod compiled;
@@ -18,6 +19,7 @@ use std::path::PathBuf;
 
 use clap::Subcommand;
 use rigproof_certify::journal::Shard;
+use rigproof_trace::store::read_text;
 
 use crate::outcome::{Failure, Outcome};
 use crate::threads;
@@ -64,9 +66,9 @@ pub struct Args {
     /// Check a certificate instead: every byte, every hash, every figure that its records allow, and a sample of its scenarios run again
     #[arg(long, value_name = "CERTIFICATE.JSON", conflicts_with = "replay")]
     check: Option<PathBuf>,
-    /// Scenarios that are run again by --check: with all of them it is a proof, and else a sample
-    #[arg(long, value_name = "N", default_value_t = 64, requires = "check")]
-    sample: u64,
+    /// Scenarios that are run again by --check, 64 if it is not given: with all of them it is a proof, and else a sample. Those of an axis are always all
+    #[arg(long, value_name = "N", requires = "check")]
+    sample: Option<u64>,
     /// Run a finding or a worst case again instead
     #[arg(long, value_name = "FINDING.JSON")]
     replay: Option<PathBuf>,
@@ -76,8 +78,8 @@ pub struct Args {
     /// Of --recordings: the five-bar that they are of
     #[arg(long, value_name = "RIG.TOML", requires = "recordings")]
     rig: Option<PathBuf>,
-    /// Of --recordings: a compiled controller that is on the rig now, in place of the table `baseline`
-    #[arg(long, value_name = "LIBRARY", requires = "recordings")]
+    /// Of --recordings, and of an axis: a compiled controller that is on the rig now, in place of the table `baseline`
+    #[arg(long, value_name = "LIBRARY")]
     old: Option<PathBuf>,
     #[command(flatten)]
     compiled: compiled::Compiled,
@@ -110,6 +112,7 @@ Example:
   rigproof certify --check certified/certificate.json --public-key lab.pem.pub
   rigproof certify certify.toml --recordings runs --rig rig.toml
   rigproof certify monitor certified/certificate.json --out monitor
+  rigproof certify axis.toml --controller pd.so --old before.so
 
 certify.toml:
   [controller]
@@ -132,10 +135,29 @@ pub fn run(args: &Args) -> Result<Outcome, Failure> {
         (Some(Verb::Sign(args)), ..) => sign::sign(args),
         (_, Some(file), ..) => check::run(args, file),
         (_, _, Some(file), _) => replay::run(args, file),
-        (.., Some(file)) => campaign::run(args, file),
+        (.., Some(file)) => {
+            let text = read_text(file)?;
+            match axis::describes(&text, file)? {
+                true => axis::run(args, file, &text),
+                false => campaign::run(args, file, &text),
+            }
+        }
         _ => Err(Failure::Usage(
             "say what is to be certified: `rigproof certify certify.toml`".to_owned(),
         )),
+    }
+}
+
+impl Args {
+    /// Refuses a library beside a five-bar's campaign, whose baseline is a law of the rig.
+    fn without_old(&self) -> Result<(), Failure> {
+        match self.old {
+            None => Ok(()),
+            Some(_) => Err(Failure::Usage(
+                "--old is of --recordings and of an axis; the baseline of a five-bar's campaign is the table [baseline]"
+                    .to_owned(),
+            )),
+        }
     }
 }
 

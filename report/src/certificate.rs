@@ -1,5 +1,6 @@
 //! This file is the page of a certificate: may it go on the rig, why not, what was tested, what was proved and what nobody looked at.
 
+pub mod axis;
 mod change;
 mod coverage;
 mod run;
@@ -8,7 +9,7 @@ use maud::{Markup, html};
 use rigproof_certify::certificate::Certificate;
 use rigproof_certify::cluster::Cluster;
 use rigproof_certify::search::NamedWorst;
-use rigproof_certify::summary::{LawSummary, MetricSummary, TieSummary, Word};
+use rigproof_certify::summary::{Change, LawSummary, MetricSummary, TieSummary, Word};
 
 use crate::chart::Chart;
 use crate::document::{Document, Headline, Section, Tone};
@@ -331,27 +332,7 @@ fn metrics(metrics: &[MetricSummary]) -> Markup {
                 |quantiles| significant(pick(quantiles), 3),
             )
         };
-        let change = metric.change.as_ref().map_or_else(
-            || "–".to_owned(),
-            |change| {
-                let [low, high] = change.interval;
-                let word = match change.word {
-                    Word::Better => "better",
-                    Word::Worse => "worse",
-                    Word::NoDifference => "no difference",
-                };
-                let own = &change.exact;
-                format!(
-                    "{word}: {} [{} to {}]; better in {}, worse in {}, p = {}",
-                    significant(change.mean, 3),
-                    significant(low, 3),
-                    significant(high, 3),
-                    own.better,
-                    own.worse,
-                    significant(own.p, 2)
-                )
-            },
-        );
+        let change = changed(metric.change.as_ref());
         vec![
             format!("{} ({})", metric.words, metric.unit),
             own(|q| q.q50, &metric.controller),
@@ -377,6 +358,29 @@ fn metrics(metrics: &[MetricSummary]) -> Markup {
         "What was measured in every trial, beside what is on the rig now: the same hand, plant and noise. p is that of the exact sign test over the pairs.",
         &head,
         &rows,
+    )
+}
+
+/// A change from the baseline, in words.
+fn changed(change: Option<&Change>) -> String {
+    let Some(change) = change else {
+        return "–".to_owned();
+    };
+    let [low, high] = change.interval;
+    let word = match change.word {
+        Word::Better => "better",
+        Word::Worse => "worse",
+        Word::NoDifference => "no difference",
+    };
+    let own = &change.exact;
+    format!(
+        "{word}: {} [{} to {}]; better in {}, worse in {}, p = {}",
+        significant(change.mean, 3),
+        significant(low, 3),
+        significant(high, 3),
+        own.better,
+        own.worse,
+        significant(own.p, 2)
     )
 }
 

@@ -1,5 +1,6 @@
 //! Laws: what must hold on every rig, in every run, each a plain function that anybody may call.
 
+mod axis;
 mod backlash;
 mod brake_count;
 mod clamp;
@@ -16,6 +17,7 @@ mod time_constant;
 mod torque_limit;
 mod velocity_limits;
 
+pub use axis::{effort_limit, reversals, spring_passivity, travel};
 pub use backlash::{Window, backlash_torque, backlash_travel, backlash_width, backlash_window};
 pub use brake_count::{brake_count, braked_joints};
 pub use clamp::clamped;

@@ -24,9 +24,10 @@ const WORDS: usize = 64;
 
 /// A struct of C between two canaries.
 #[repr(C)]
-struct Guarded<T> {
+pub struct Guarded<T> {
     before: [u64; WORDS],
-    inside: T,
+    /// What is handed over.
+    pub inside: T,
     after: [u64; WORDS],
 }
 
@@ -143,7 +144,7 @@ impl Controller {
 }
 
 /// A struct between whole canaries.
-fn guarded<T>(inside: T) -> Box<Guarded<T>> {
+pub fn guarded<T>(inside: T) -> Box<Guarded<T>> {
     Box::new(Guarded {
         before: CANARY,
         inside,
@@ -152,7 +153,7 @@ fn guarded<T>(inside: T) -> Box<Guarded<T>> {
 }
 
 /// Where a controller wrote beside a struct, if it did.
-fn written<T>(name: &str, memory: &Guarded<T>) -> Option<String> {
+pub fn written<T>(name: &str, memory: &Guarded<T>) -> Option<String> {
     // The call went to code that the compiler does not see and that was handed these addresses: they are read anew.
     let memory = std::hint::black_box(memory);
     if memory.before == CANARY && memory.after == CANARY {

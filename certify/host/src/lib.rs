@@ -4,6 +4,7 @@
     reason = "a controller in C exports functions, which only trust can call, and is handed pointers"
 )]
 
+pub mod axis;
 #[cfg(target_os = "linux")]
 mod call;
 #[cfg(target_os = "linux")]

@@ -10,9 +10,10 @@ use rigproof_certify::foreign::link::Link;
 use rigproof_certify::foreign::protocol::{LOST, Message};
 use rustix::stdio::{dup2_stdin, stdin};
 
+use crate::axis::call as axis;
 use crate::call::{Controller, Outcome};
 use crate::descendants::beside_this;
-use crate::library::Exports;
+use crate::library::Opened;
 use crate::limits::limit;
 use crate::owner::{Whose, is_libc, whose};
 use crate::watch::{inherited, private};
@@ -43,7 +44,7 @@ pub fn work(library: &Path, memory_bytes: u64) -> u8 {
     if link.send(0, &first).is_ok()
         && let Some(exports) = exports
     {
-        answer(&mut link, &mut Controller::new(exports));
+        answer(&mut link, &mut Either::new(exports));
     }
     // The controller may have closed its descriptor, which must not be closed again.
     std::mem::forget(link);
@@ -51,13 +52,13 @@ pub fn work(library: &Path, memory_bytes: u64) -> u8 {
 }
 
 /// Opens the library, and closes the descriptor that it came in.
-fn opened(library: &Path) -> Result<Exports, String> {
+fn opened(library: &Path) -> Result<Opened, String> {
     let before = linked();
     let exports = match inherited(library) {
-        None => Exports::of(library),
+        None => Opened::of(library),
         Some((number, name)) => {
             let path = format!("/proc/self/fd/{number}");
-            let exports = Exports::of(Path::new(&path));
+            let exports = Opened::of(Path::new(&path));
             // SAFETY: it was handed down for this library alone, and nothing in this process holds it.
             unsafe { rustix::io::close(number) };
             exports.map_err(|why| why.replace(&path, name))
@@ -98,25 +99,57 @@ fn connection() -> io::Result<Link> {
     Ok(link)
 }
 
-/// Answers until the connection ends.
-fn answer(link: &mut Link, controller: &mut Controller) {
-    while let Ok((number, message)) = link.receive() {
-        let answer = match message {
-            Message::Begin(begin) => {
-                mark();
-                done(controller.init(&begin))
+/// A controller behind either header.
+enum Either {
+    FiveBar(Controller),
+    Axis(axis::Controller),
+}
+
+impl Either {
+    fn new(opened: Opened) -> Either {
+        match opened {
+            Opened::FiveBar(exports) => Either::FiveBar(Controller::new(exports)),
+            Opened::Axis(exports) => Either::Axis(axis::Controller::new(exports)),
+        }
+    }
+
+    /// What it answers to a message; `None` where nobody asks that.
+    fn answer(&mut self, message: Message) -> Option<Message> {
+        Some(match (message, self) {
+            (Message::Begin(begin), Either::FiveBar(own)) => done(own.init(&begin)),
+            (Message::BeginAxis(settings), Either::Axis(own)) => done(own.init(&settings)),
+            (Message::Begin(_), Either::Axis(_)) => Message::Unusable(
+                "it is a controller of an axis (rigproof_axis_controller.h): write `plant = \"axis\"`".to_owned(),
+            ),
+            (Message::BeginAxis(_), Either::FiveBar(_)) => Message::Unusable(
+                "it is a controller of the five-bar (rigproof_controller.h): one of an axis exports the functions of rigproof_axis_controller.h".to_owned(),
+            ),
+            (Message::Tick(sensed), Either::FiveBar(own)) => told(own.tick(&sensed), Message::Currents),
+            (Message::TickAxis(sensed), Either::Axis(own)) => told(own.tick(&sensed), Message::Effort),
+            (Message::Over, own) => {
+                let over = match own {
+                    Either::FiveBar(own) => own.shutdown(),
+                    Either::Axis(own) => own.shutdown(),
+                };
+                match (done(over), beside_this()) {
+                    (Message::Done, left) if left > 0 => Message::Left(left),
+                    (done, _) => done,
+                }
             }
-            Message::Tick(sensed) => match controller.tick(&sensed) {
-                Outcome::Answered(currents_a) => Message::Currents(currents_a),
-                Outcome::Status(status) => Message::Status(status),
-                Outcome::WroteOutside(place) => Message::WroteOutside(place),
-            },
-            Message::Over => match (done(controller.shutdown()), beside_this()) {
-                (Message::Done, left) if left > 0 => Message::Left(left),
-                (done, _) => done,
-            },
             // Nothing else is asked.
-            _ => return,
+            _ => return None,
+        })
+    }
+}
+
+/// Answers until the connection ends.
+fn answer(link: &mut Link, controller: &mut Either) {
+    while let Ok((number, message)) = link.receive() {
+        if let Message::Begin(_) | Message::BeginAxis(_) = message {
+            mark();
+        }
+        let Some(answer) = controller.answer(message) else {
+            return;
         };
         if link.send(number, &answer).is_err() {
             return;
@@ -125,8 +158,12 @@ fn answer(link: &mut Link, controller: &mut Controller) {
 }
 
 fn done(outcome: Outcome<()>) -> Message {
+    told(outcome, |()| Message::Done)
+}
+
+fn told<T>(outcome: Outcome<T>, answered: fn(T) -> Message) -> Message {
     match outcome {
-        Outcome::Answered(()) => Message::Done,
+        Outcome::Answered(answer) => answered(answer),
         Outcome::Status(status) => Message::Status(status),
         Outcome::WroteOutside(place) => Message::WroteOutside(place),
     }

@@ -62,7 +62,7 @@ impl Child {
         Ok(child)
     }
 
-    /// Asks, and waits for the answer: [`Message::Done`] or [`Message::Currents`].
+    /// Asks, and waits for the answer: [`Message::Done`], [`Message::Currents`] or [`Message::Effort`].
     ///
     /// # Errors
     /// [`Failure`]: the process has been ended, with everything that it had started.
@@ -90,7 +90,7 @@ impl Child {
         };
         let failure = match answer {
             Ok((number, answer)) if number == self.number => match answer {
-                Message::Done | Message::Currents(_) => return Ok(answer),
+                Message::Done | Message::Currents(_) | Message::Effort(_) => return Ok(answer),
                 Message::Unusable(text) => Failure::Unusable(text),
                 Message::WroteOutside(text) => Failure::WroteOutside(text),
                 Message::Status(status) if phase == Phase::Init => Failure::Refused(format!(

@@ -129,6 +129,7 @@ fn garbage(bytes: Option<&[u8]>) -> Broken {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::axis::controller as axis;
     use crate::controller::Task;
     use crate::foreign::protocol::{Begin, End};
     use rigproof_impl::tick::{Sensed, Settings};
@@ -168,8 +169,11 @@ mod tests {
                 counts: [i32::MIN + 7, 33_421],
                 tip_force_n: Vector::new(-3.7, 1e-300),
             }),
+            Message::BeginAxis(axis::Settings::of(true, [0.002, 1.7, 9.5, 1e-6])),
+            Message::TickAxis(axis::Sensed::of(71, [0.3, -0.0, 7.1, f64::INFINITY, 1e-9])),
             Message::Over,
             Message::Done,
+            Message::Effort(-3.7),
             Message::Currents([0.31, -0.0, f64::INFINITY, 1e-9]),
             Message::Status(-71),
             Message::Left(3),

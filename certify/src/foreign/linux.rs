@@ -8,6 +8,7 @@ use super::child::{Child, of_left};
 use super::phase::Phase;
 use super::protocol::{Begin, Message};
 use super::{Foreign, MOST_POINTS, held};
+use crate::axis::controller as axis;
 use crate::controller::{Controller, Failure, Source, Task};
 
 impl Foreign {
@@ -40,28 +41,52 @@ impl Foreign {
         held(&self.idle).remove(&current().id())
     }
 
+    /// A trial in the process that this thread's last one had, or in a new one.
+    fn begun(&self, message: &Message, sample_s: f64) -> Result<Trial<'_>, Failure> {
+        if let Some(child) = self.rested() {
+            match self.trial(child, message, sample_s, true) {
+                Ok(trial) => return Ok(trial),
+                // Which trial it had before is chance: a trial is judged by a new process.
+                Err(failure) => self.keep(format!("after another trial: {failure}")),
+            }
+        }
+        self.trial(self.start()?, message, sample_s, true)
+    }
+
+    /// The same trial again, in the process that it had.
+    fn begun_again(&self, message: &Message, sample_s: f64) -> Result<Trial<'_>, Failure> {
+        match self.rested() {
+            Some(child) => self.trial(child, message, sample_s, true),
+            None => self.begun(message, sample_s),
+        }
+    }
+
+    /// The same trial in a process that has run none, and runs no other.
+    fn begun_elsewhere(&self, message: &Message, sample_s: f64) -> Result<Trial<'_>, Failure> {
+        self.trial(self.start()?, message, sample_s, false)
+    }
+
     /// A trial in a process that begins it as it is told.
     fn trial(
         &self,
         mut child: Child,
-        begin: Begin,
+        message: &Message,
+        sample_s: f64,
         rests: bool,
-    ) -> Result<Box<dyn Controller + '_>, Failure> {
-        let sample_s = begin.settings.sample_s;
+    ) -> Result<Trial<'_>, Failure> {
         child.forget_ticks();
-        let message = Message::Begin(Box::new(begin));
-        child.ask(Phase::Init, &message, self.limits.start_ms)?;
-        Ok(Box::new(Trial {
+        child.ask(Phase::Init, message, self.limits.start_ms)?;
+        Ok(Trial {
             source: self,
             child: Some(child),
             rests: rests && !self.limits.one_trial_a_process,
             limit_ms: self.limits.tick_ms(sample_s),
-        }))
+        })
     }
 }
 
 /// What a controller is told at the beginning.
-fn told(settings: &Settings, path: &Task) -> Result<Begin, Failure> {
+fn told(settings: &Settings, path: &Task) -> Result<Message, Failure> {
     if let Task::Chain(points_m) | Task::Spline(points_m) = path
         && points_m.len() > MOST_POINTS
     {
@@ -70,23 +95,16 @@ fn told(settings: &Settings, path: &Task) -> Result<Begin, Failure> {
             points_m.len()
         )));
     }
-    Ok(Begin {
+    Ok(Message::Begin(Box::new(Begin {
         settings: *settings,
         task: path.clone(),
-    })
+    })))
 }
 
 impl Source for Foreign {
     fn begin(&self, settings: &Settings, path: &Task) -> Result<Box<dyn Controller + '_>, Failure> {
-        let begin = told(settings, path)?;
-        if let Some(child) = self.rested() {
-            match self.trial(child, begin.clone(), true) {
-                Ok(trial) => return Ok(trial),
-                // Which trial it had before is chance: a trial is judged by a new process.
-                Err(failure) => self.keep(format!("after another trial: {failure}")),
-            }
-        }
-        self.trial(self.start()?, begin, true)
+        let trial = self.begun(&told(settings, path)?, settings.sample_s)?;
+        Ok(Box::new(trial))
     }
 
     fn begin_again(
@@ -94,10 +112,8 @@ impl Source for Foreign {
         settings: &Settings,
         path: &Task,
     ) -> Result<Box<dyn Controller + '_>, Failure> {
-        match self.rested() {
-            Some(child) => self.trial(child, told(settings, path)?, true),
-            None => self.begin(settings, path),
-        }
+        let trial = self.begun_again(&told(settings, path)?, settings.sample_s)?;
+        Ok(Box::new(trial))
     }
 
     fn begin_elsewhere(
@@ -105,8 +121,24 @@ impl Source for Foreign {
         settings: &Settings,
         path: &Task,
     ) -> Result<Option<Box<dyn Controller + '_>>, Failure> {
-        let begin = told(settings, path)?;
-        self.trial(self.start()?, begin, false).map(Some)
+        let trial = self.begun_elsewhere(&told(settings, path)?, settings.sample_s)?;
+        Ok(Some(Box::new(trial)))
+    }
+}
+
+impl axis::Source for Foreign {
+    fn begin(
+        &self,
+        settings: &axis::Settings,
+        place: axis::Place,
+    ) -> Result<Box<dyn axis::Controller + '_>, Failure> {
+        let (message, sample_s) = (Message::BeginAxis(*settings), settings.sample_s);
+        let trial = match place {
+            axis::Place::Any => self.begun(&message, sample_s),
+            axis::Place::Same => self.begun_again(&message, sample_s),
+            axis::Place::New => self.begun_elsewhere(&message, sample_s),
+        };
+        Ok(Box::new(trial?))
     }
 }
 
@@ -120,21 +152,26 @@ struct Trial<'a> {
     limit_ms: u64,
 }
 
-impl Controller for Trial<'_> {
-    fn tick(&mut self, sensed: &Sensed<f64>) -> Result<[f64; 4], Failure> {
+impl Trial<'_> {
+    /// Asks for one tick.
+    fn ask(&mut self, message: &Message) -> Result<Message, Failure> {
         let Some(child) = &mut self.child else {
             return Err(Failure::Ended("it failed before".to_owned()));
         };
         let phase = Phase::Tick(child.next_tick());
-        let failure = match child.ask(phase, &Message::Tick(*sensed), self.limit_ms) {
-            Ok(Message::Currents(currents_a)) => return Ok(currents_a),
-            Ok(_) => Failure::Garbage(format!("no currents, {phase}")),
-            Err(failure) => failure,
+        let answer = child.ask(phase, message, self.limit_ms);
+        let failure = match (answer, message) {
+            (Ok(answer @ Message::Currents(_)), Message::Tick(_))
+            | (Ok(answer @ Message::Effort(_)), Message::TickAxis(_)) => return Ok(answer),
+            (Ok(other), _) => Failure::Garbage(format!("{other:?}, {phase}")),
+            (Err(failure), _) => failure,
         };
         self.child = None;
         Err(failure)
     }
-    fn end(&mut self) -> Result<(), Failure> {
+
+    /// Ends the trial; its process may rest.
+    fn over(&mut self) -> Result<(), Failure> {
         // One that failed has ended.
         let Some(mut child) = self.child.take() else {
             return Ok(());
@@ -145,5 +182,31 @@ impl Controller for Trial<'_> {
             held(&self.source.idle).insert(current().id(), child);
         }
         Ok(())
+    }
+}
+
+impl Controller for Trial<'_> {
+    fn tick(&mut self, sensed: &Sensed<f64>) -> Result<[f64; 4], Failure> {
+        match self.ask(&Message::Tick(*sensed))? {
+            Message::Currents(currents_a) => Ok(currents_a),
+            other => Err(Failure::Garbage(format!("{other:?}"))),
+        }
+    }
+
+    fn end(&mut self) -> Result<(), Failure> {
+        self.over()
+    }
+}
+
+impl axis::Controller for Trial<'_> {
+    fn tick(&mut self, sensed: &axis::Sensed) -> Result<f64, Failure> {
+        match self.ask(&Message::TickAxis(*sensed))? {
+            Message::Effort(effort) => Ok(effort),
+            other => Err(Failure::Garbage(format!("{other:?}"))),
+        }
+    }
+
+    fn end(&mut self) -> Result<(), Failure> {
+        self.over()
     }
 }

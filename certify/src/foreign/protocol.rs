@@ -5,6 +5,7 @@ use rigproof_impl::vector::Vector;
 use rigproof_spec::geometry::Arms;
 use rigproof_spec::layout::Layout;
 
+use crate::axis::controller as axis;
 use crate::controller::Task;
 
 pub use super::end::{End, LOST};
@@ -16,12 +17,18 @@ pub enum Message {
     Begin(Box<Begin>),
     /// Asked: one tick.
     Tick(Sensed<f64>),
+    /// Asked of a controller of an axis: begin a trial.
+    BeginAxis(axis::Settings),
+    /// Asked of a controller of an axis: one tick.
+    TickAxis(axis::Sensed),
     /// Asked: the trial is over.
     Over,
     /// Answered: it is done.
     Done,
     /// Answered: the currents, A.
     Currents([f64; 4]),
+    /// Answered: the effort, N or N·m.
+    Effort(f64),
     /// Answered: the controller's status, which is not 0.
     Status(i32),
     /// Answered: where it wrote though it must not.
@@ -119,8 +126,17 @@ pub fn encode(number: u64, message: &Message, out: &mut Vec<u8>) {
             }
             put(out, [sensed.tip_force_n.x, sensed.tip_force_n.y]);
         }
+        Message::BeginAxis(settings) => {
+            out.extend_from_slice(&u32::from(settings.is_rotary).to_le_bytes());
+            put(out, settings.numbers());
+        }
+        Message::TickAxis(sensed) => {
+            out.extend_from_slice(&sensed.number.to_le_bytes());
+            put(out, sensed.numbers());
+        }
         Message::Over | Message::Done => {}
         Message::Currents(currents_a) => put(out, *currents_a),
+        Message::Effort(effort) => put(out, [*effort]),
         Message::Status(status) => out.extend_from_slice(&status.to_le_bytes()),
         Message::Left(count) => out.extend_from_slice(&count.to_le_bytes()),
         Message::WroteOutside(text) | Message::Unusable(text) => {
@@ -150,9 +166,12 @@ fn kind(message: &Message) -> [u8; 4] {
     *match message {
         Message::Begin(_) => b"RPbe",
         Message::Tick(_) => b"RPti",
+        Message::BeginAxis(_) => b"RPba",
+        Message::TickAxis(_) => b"RPta",
         Message::Over => b"RPov",
         Message::Done => b"RPdo",
         Message::Currents(_) => b"RPcu",
+        Message::Effort(_) => b"RPef",
         Message::Status(_) => b"RPst",
         Message::Left(_) => b"RPle",
         Message::WroteOutside(_) => b"RPwr",
@@ -183,9 +202,22 @@ pub fn decode(kind: [u8; 4], mut body: &[u8]) -> Option<Message> {
             ],
             tip_force_n: Vector::from(floats(bytes)?),
         }),
+        b"RPba" => {
+            let is_rotary = match u32::from_le_bytes(take(bytes)?) {
+                0 => false,
+                1 => true,
+                _ => return None,
+            };
+            Message::BeginAxis(axis::Settings::of(is_rotary, floats(bytes)?))
+        }
+        b"RPta" => {
+            let number = u32::from_le_bytes(take(bytes)?);
+            Message::TickAxis(axis::Sensed::of(number, floats(bytes)?))
+        }
         b"RPov" => Message::Over,
         b"RPdo" => Message::Done,
         b"RPcu" => Message::Currents(floats(bytes)?),
+        b"RPef" => floats(bytes).map(|[effort]| Message::Effort(effort))?,
         b"RPst" => Message::Status(i32::from_le_bytes(take(bytes)?)),
         b"RPle" => Message::Left(u32::from_le_bytes(take(bytes)?)),
         b"RPwr" => Message::WroteOutside(text(bytes)),

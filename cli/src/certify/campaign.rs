@@ -30,8 +30,9 @@ use crate::threads;
 pub const CERTIFICATE: &str = "certificate.json";
 
 /// Runs what is not done yet; the certificate is written when the campaign is whole.
-pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
-    let description = Description::parse(&read_text(file)?, file)?;
+pub fn run(args: &Args, file: &Path, text: &str) -> Result<Outcome, Failure> {
+    args.without_old()?;
+    let description = Description::parse(text, file)?;
     let [_, parts] = args.shard;
     if parts > 1 && args.sign.is_some() {
         let problem = "a part has no certificate to sign: give --sign to `rigproof certify merge`";
@@ -81,7 +82,7 @@ fn between(compiled: Option<&Opened>) -> Option<Vec<String>> {
 }
 
 /// What no law sees must not be certified by going on from the journal either.
-fn between_trials(what: &[String], folder: &Path) -> Result<Outcome, Failure> {
+pub fn between_trials(what: &[String], folder: &Path) -> Result<Outcome, Failure> {
     let journal = folder.join(FILE);
     take_away(&journal)?;
     campaign::withdraw(folder)?;
@@ -89,7 +90,7 @@ fn between_trials(what: &[String], folder: &Path) -> Result<Outcome, Failure> {
         "Must NOT go on the rig: it failed between trials, where no law looks",
         what.iter().map(|line| format!("  {line}")),
     );
-    let end = "No certificate is written, and the journal is taken away: nothing goes on from it.";
+    let end = "No certificate is written, and no journal is kept: nothing goes on from it.";
     print(&format!("{}\n{end}", lines.join("\n")))?;
     Ok(Outcome { checks_hold: false })
 }

@@ -16,21 +16,28 @@ use serde_json::json;
 
 use super::compiled::{Compiled, sources};
 use super::sign::{self, Looked};
-use super::{Args, campaign};
+use super::{Args, axis, campaign};
 use crate::outcome::{Failure, Outcome, print};
 use crate::text::number::significant;
 use crate::threads;
+
+/// Scenarios that are run again where no number is given.
+const SAMPLE: u64 = 64;
 
 /// Checks, and says what was checked.
 pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
     let threads = threads::pool(args.jobs)?;
     let text = read_text(file)?;
+    if axis::is_certificate(&text) {
+        return axis::check::run(args, file, &text);
+    }
+    args.without_old()?;
     let signature = sign::looked_at(file, text.as_bytes(), args.public_key.as_deref())?;
     // Whoever wrote the certificate must not know what is run again.
     let seed = args.seed.map_or_else(unforeseen, Ok)?;
     let compiled = &args.compiled;
-    let (certificate, mut checked) =
-        threads.install(|| looked_through(&text, file, compiled, args.sample, seed))?;
+    let (certificate, mut checked) = threads
+        .install(|| looked_through(&text, file, compiled, args.sample.unwrap_or(SAMPLE), seed))?;
     if signature == Looked::DoesNotHold {
         checked.wrong.extend(signature.words().map(str::to_owned));
     }

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use rigproof_certify::axis::plan::Library;
 use rigproof_certify::controller::Source;
 use rigproof_certify::declared::Declared;
 use rigproof_certify::foreign::{Between, Foreign, Limits};
@@ -46,16 +47,22 @@ impl Compiled {
     /// # Errors
     /// As [`Compiled::opened`], and where limits are given here too.
     pub fn opened_again(&self, subject: &Subject) -> Result<Option<Opened>, Failure> {
-        if self.given.is_given() {
-            return Err(Failure::Usage(
-                "a controller is run again with the limits it had, which the file says: leave --tick-ms, --start-ms, --memory-mb and --one-trial-a-process away"
-                    .to_owned(),
-            ));
-        }
+        self.without_limits()?;
         self.opened_with(match &subject.what {
             What::Given { process, .. } => process.unwrap_or_default(),
             What::BuiltIn(_) => Limits::default(),
         })
+    }
+
+    /// Refuses limits for something that was run before.
+    pub fn without_limits(&self) -> Result<(), Failure> {
+        match self.given.is_given() {
+            false => Ok(()),
+            true => Err(Failure::Usage(
+                "a controller is run again with the limits it had, which the file says: leave --tick-ms, --start-ms, --memory-mb and --one-trial-a-process away"
+                    .to_owned(),
+            )),
+        }
     }
 
     /// Opens another one beside it, with the same limits.
@@ -73,7 +80,10 @@ impl Compiled {
 }
 
 /// Opens a library once, to see that it can be run.
-fn opened(file: &Path, limits: Limits) -> Result<Opened, Failure> {
+///
+/// # Errors
+/// It cannot be read or run.
+pub fn opened(file: &Path, limits: Limits) -> Result<Opened, Failure> {
     let unusable = |why: String| Failure::unusable(file, why);
     let source = Foreign::new(file, host()?, limits);
     let source = source.map_err(|failure| unusable(failure.to_string()))?;
@@ -89,6 +99,21 @@ fn opened(file: &Path, limits: Limits) -> Result<Opened, Failure> {
 }
 
 impl Opened {
+    /// What makes its controllers.
+    pub const fn source(&self) -> &Foreign {
+        &self.source
+    }
+
+    /// As a library of the plan of an axis.
+    pub fn of_axis(&self) -> Library {
+        Library {
+            name: self.name.clone(),
+            sha256: self.source.sha256().to_owned(),
+            process: self.limits,
+            lacks: self.source.lacks().to_vec(),
+        }
+    }
+
     /// As the subject of a plan, with what is declared of it.
     pub fn subject(&self, declared: Declared) -> Subject {
         Subject {

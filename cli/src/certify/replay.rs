@@ -15,6 +15,7 @@ use crate::text::number::significant;
 
 /// Runs it, and says what broke.
 pub fn run(args: &Args, file: &Path) -> Result<Outcome, Failure> {
+    args.without_old()?;
     let text = read_text(file)?;
     // A worst case has a target where a finding has a law.
     if let Ok(worst) = Worst::parse(&text, file) {

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use ed25519_compact::{KeyPair, PublicKey, Seed, Signature};
 use rigproof_trace::store::{read_text, write_aside, write_new};
 
-use super::check;
 use super::compiled::Compiled;
+use super::{axis, check};
 use crate::outcome::{Failure, Outcome, print};
 
 /// What a secret key is made for.
@@ -37,6 +37,9 @@ pub struct Sign {
     /// Scenarios that are run again before
     #[arg(long, value_name = "N", default_value_t = 64)]
     sample: u64,
+    /// Of an axis: the compiled controller that stood beside it
+    #[arg(long, value_name = "LIBRARY")]
+    old: Option<PathBuf>,
     #[command(flatten)]
     compiled: Compiled,
 }
@@ -84,11 +87,21 @@ pub fn make_key(args: &Key) -> Result<Outcome, Failure> {
 pub fn sign(args: &Sign) -> Result<Outcome, Failure> {
     let keys = secret(&args.key)?;
     let text = read_text(&args.certificate)?;
-    let seed = check::unforeseen()?;
     let file = &args.certificate;
-    let (_, checked) = check::looked_through(&text, file, &args.compiled, args.sample, seed)?;
-    if !checked.wrong.is_empty() {
-        let wrong = checked.wrong.join("; ");
+    let wrong = match axis::is_certificate(&text) {
+        true => {
+            let old = args.old.as_deref();
+            axis::check::looked_through(&text, file, &args.compiled, old)?.1
+        }
+        false => {
+            let seed = check::unforeseen()?;
+            check::looked_through(&text, file, &args.compiled, args.sample, seed)?
+                .1
+                .wrong
+        }
+    };
+    if !wrong.is_empty() {
+        let wrong = wrong.join("; ");
         let problem = format!("it does not hold and is not signed: {wrong}");
         return Err(Failure::unusable(file, problem));
     }

@@ -272,7 +272,7 @@ fn ended(ended: &Ended) -> Vec<String> {
 }
 
 /// A change from the baseline.
-fn changed(change: &Change, unit: &str) -> String {
+pub fn changed(change: &Change, unit: &str) -> String {
     let word = match change.word {
         Word::Better => "better than the baseline",
         Word::Worse => "worse than the baseline",

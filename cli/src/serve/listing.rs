@@ -8,6 +8,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
+use rigproof_certify::axis::certificate::Certificate as OfAxis;
 use rigproof_certify::certificate::Certificate;
 use rigproof_trace::store;
 use serde_json::Value;
@@ -168,10 +169,11 @@ fn run(entry: &fs::DirEntry) -> Option<Run> {
         }
         // What a certificate says of itself is not read: it has to follow from the rest of it.
         if result.get("may_go_on_the_rig").is_some() {
-            let may = match Certificate::parse(&text, &path) {
-                Ok(own) => Value::Bool(own.may_go()),
-                Err(_) => Value::Null,
+            let may = match OfAxis::is_one(&text) {
+                true => OfAxis::parse(&text, &path).map(|own| own.may_go()),
+                false => Certificate::parse(&text, &path).map(|own| own.may_go()),
             };
+            let may = may.map_or(Value::Null, Value::Bool);
             *result.get_mut("may_go_on_the_rig")? = may;
         }
         Some((result, metadata.modified().ok()?))

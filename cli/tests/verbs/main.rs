@@ -6,6 +6,7 @@ mod bad_input;
 mod blind;
 mod browser;
 mod certify;
+mod certify_axis;
 mod cite;
 mod controller;
 mod convert;

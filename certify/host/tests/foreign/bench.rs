@@ -35,7 +35,7 @@ pub fn compiled(name: &str, source: &str, told: &[&str]) -> Option<PathBuf> {
         .arg(format!("-I{ROOM}/../../impl/c/include"))
         .arg("-o")
         .arg(&library)
-        .arg(format!("{ROOM}/{source}"))
+        .arg(Path::new(ROOM).join(source))
         .args(told)
         .arg("-lm")
         .output()
