@@ -189,7 +189,8 @@ fn explains_nothing(problem: &Problem, selection: &Selection) -> Option<Fault> {
     })
 }
 
-/// A nominal friction whose coefficient is negative.
+/// A nominal friction whose coefficient is negative, together with what else is stated of it: a
+/// calibration lists a correction beside the law that it corrects.
 fn negative_drag(problem: &Problem, selection: &Selection, intervals: &Intervals) -> Option<Fault> {
     let (_, coefficients) = coefficients_by_term(problem, selection);
     let nominal = selection
@@ -199,7 +200,11 @@ fn negative_drag(problem: &Problem, selection: &Selection, intervals: &Intervals
         .zip(&intervals.terms);
     let (term, value) = nominal.into_iter().find_map(|((term, own), halves)| {
         let is_friction = entry(term.cause.mechanism).is_some_and(|entry| entry.passive);
-        let (value, half) = (*own.first()?, *halves.first()?);
+        let known = match term.known {
+            Some(_) => 0.0,
+            None => problem.run.described(term.cause),
+        };
+        let (value, half) = (known + *own.first()?, *halves.first()?);
         (is_friction && value + DRAG_HALVES * half < 0.0).then_some((term, value))
     })?;
     Some(throughout(
