@@ -58,6 +58,25 @@ impl Explanations {
         self.living.iter().filter(holds).map(|own| own.weight).sum()
     }
 
+    /// The other forms of a cause that explanations hold in its place, each with its probability.
+    ///
+    /// They are part of the probability of the cause. Only those that reach `OFFERED` are listed.
+    pub fn other_forms(&self, cause: Cause) -> Vec<(Mechanism, f64)> {
+        let mut forms: Vec<(Mechanism, f64)> = Vec::new();
+        for own in self.living.iter().filter(|own| own.holds(cause)) {
+            let terms = own.terms.iter().map(|term| term.cause);
+            let form = terms.filter(|own| own.at == cause.at && *own != cause);
+            for form in form.filter(|own| are_forms(own.mechanism, cause.mechanism)) {
+                match forms.iter_mut().find(|(own, _)| *own == form.mechanism) {
+                    Some((_, weight)) => *weight += own.weight,
+                    None => forms.push((form.mechanism, own.weight)),
+                }
+            }
+        }
+        forms.retain(|(_, weight)| *weight >= OFFERED);
+        forms
+    }
+
     /// The causes that rival explanations hold instead of a cause of the leading one.
     ///
     /// Only causes whose summed weight reaches `OFFERED` are listed, the heaviest first.

@@ -1,6 +1,7 @@
 //! This file adds remarks beside a result: repairs, and numbers that a careful reader would check.
 
 use super::write::Stand;
+use crate::cause::Cause;
 use crate::evidence::{Intervals, coefficients_by_term, parameters};
 use crate::plant::{Plant, Run};
 use crate::report::{Floor, Remark};
@@ -39,7 +40,28 @@ impl<P: Plant> Stand<'_, P> {
                 )));
             }
         }
+        let found = self.selection.found.iter().map(|own| own.term.cause);
+        remarks.extend(found.filter_map(|cause| self.forms_of(cause)));
         remarks
+    }
+
+    /// Says that a name stands for other forms of its law too.
+    fn forms_of(&self, cause: Cause) -> Option<Remark> {
+        let forms = self.explanations.other_forms(cause);
+        let forms = forms
+            .iter()
+            .map(|(form, weight)| format!("`{}` ({:.0} %)", form.name(), 100.0 * weight));
+        let forms = forms.collect::<Vec<_>>().join(", ");
+        (!forms.is_empty()).then(|| {
+            self.odd(
+                "forms",
+                "effect",
+                format!(
+                    "`{}` stands for another form of its law too, which this recording does not tell from it: {forms}",
+                    self.problem.name(cause)
+                ),
+            )
+        })
     }
 
     fn odd(&self, what: &'static str, channel: &'static str, words: String) -> Remark {
