@@ -293,8 +293,7 @@ mod tests {
 
     #[test]
     fn a_servo_is_refused_with_what_to_do() {
-        let (channels, _) = HEAD.split_once("command_gain").unwrap();
-        let channels = channels.replace("unit = \"V\"", "unit = \"m\"");
+        let channels = HEAD.replace("unit = \"V\"", "unit = \"m\"");
         let text = format!("{channels}[servo]\ngain = 3.0\nsupply_v = 12.0\nback_emf = 1.1\n");
         let servo = Found::read(&text, Path::new("calibration.toml"));
         let servo = servo.unwrap_err().to_string();
