@@ -85,7 +85,8 @@ pub fn settle(stamps: Stamps<'_>, positions: &mut [Position]) -> Option<Settled>
                 grid.worst_s,
                 1.0 / grid.step_s
             ),
-            cause: matters.then(|| Effect::of(Mechanism::ClockJitter, &[grid.jitter_s])),
+            cause: (are_even && matters)
+                .then(|| Effect::of(Mechanism::ClockJitter, &[grid.jitter_s])),
         },
         time_s,
         noise,

@@ -22,11 +22,9 @@ pub struct Judge {
 
 impl Judge {
     /// `noise` is the standard deviation of a row before whitening. The discrepancy is a share of
-    /// the effort, and no more than the noise: where an explanation leaves noise alone, the model
-    /// is that exact.
+    /// the effort.
     pub fn of(problem: &Problem, noise: f64, rows_a_sample: f64) -> Judge {
         let granted = problem.rules.relevant * problem.effort_size / noise.max(1e-300);
-        let granted = granted.min(1.0);
         Judge {
             granted: granted * granted + RELEVANT_NOISE * RELEVANT_NOISE,
             rows_a_sample,

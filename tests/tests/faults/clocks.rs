@@ -1,7 +1,8 @@
 //! This file spoils the clock.
 
 use super::made::{self, Noise};
-use super::{assert_consistent, assert_fault, assert_mended, diagnosed};
+use super::{assert_consistent, assert_fault, diagnosed};
+use rigproof_diagnose::report::{Remark, Verdict};
 
 #[test]
 fn a_clock_that_is_set_is_told_from_missing_samples() {
@@ -44,7 +45,7 @@ fn missing_samples_are_missing_and_no_fault() {
 }
 
 #[test]
-fn jitter_of_the_stamps_is_measured_and_changes_no_verdict() {
+fn jitter_of_the_stamps_is_measured_and_alone_is_named() {
     for (made, share) in [
         (made::axis(), 0.05),
         (made::bench(), 0.05),
@@ -55,7 +56,21 @@ fn jitter_of_the_stamps_is_measured_and_changes_no_verdict() {
             t.iter_mut()
                 .for_each(|t| *t += noise.draw(share / made::RATE_HZ))
         });
-        assert_mended(&spoilt, "time", "jitter");
+        let report = diagnosed(&spoilt);
+        let named: Vec<&str> = report.effects.iter().map(|own| own.mechanism).collect();
+        assert_eq!(named, ["clock_jitter"], "{}", report.summary);
+        assert_eq!(report.verdict, Verdict::Explained);
+        let jitter_s = report.effects[0].parameters["jitter"].value;
+        assert!(
+            (jitter_s / (share / made::RATE_HZ) - 1.0).abs() < 0.1,
+            "{jitter_s}"
+        );
+        let said = |own: &&Remark| own.what == "jitter" && own.channel == "time";
+        assert!(
+            report.remarks.iter().any(|own| said(&own)),
+            "{:?}",
+            report.remarks
+        );
     }
 }
 
