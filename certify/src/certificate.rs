@@ -90,7 +90,7 @@ pub struct Hashes {
     pub controller: String,
     /// The baseline.
     pub baseline: Option<String>,
-    /// The rigs: arms, brakes and inertias of the layouts.
+    /// The rigs: arms, brakes and inertias of the layouts, or the numbers of an axis and their intervals.
     pub rig: String,
     /// The plan: everything above, seed, number and length of the trials, limits.
     pub plan: String,

@@ -177,23 +177,18 @@ fn say(
             "without_calibration": without.map(|own| own.json(simulated)),
         });
         let mut of = |name: &str, value: Value| result[name] = value;
-        match simulated.runs {
-            Some([runs, broken_off]) => {
-                of("restart_s", json!(args.restart_s));
-                of("runs", json!(runs));
-                of("broken_off", json!(broken_off));
-                let all = pairs().map(|(own, off)| (own.name.to_owned(), in_json(off, &own.unit)));
-                of("outputs", Value::Object(all.collect()));
-            }
-            None if off.len() > 1 => {
-                let all = pairs().map(|(own, off)| (own.name.to_owned(), in_json(off, &own.unit)));
-                of("outputs", Value::Object(all.collect()));
-            }
-            None => {
-                let all = pairs().map(|(own, off)| in_json(off, &own.unit));
-                let all = all.filter_map(|own| own.as_object().cloned()).flatten();
-                all.for_each(|(name, value)| of(&name, value));
-            }
+        if let Some([runs, broken_off]) = simulated.runs {
+            of("restart_s", json!(args.restart_s));
+            of("runs", json!(runs));
+            of("broken_off", json!(broken_off));
+        }
+        if simulated.runs.is_some() || off.len() > 1 {
+            let all = pairs().map(|(own, off)| (own.name.to_owned(), in_json(off, &own.unit)));
+            of("outputs", Value::Object(all.collect()));
+        } else {
+            let all = pairs().map(|(own, off)| in_json(off, &own.unit));
+            let all = all.filter_map(|own| own.as_object().cloned()).flatten();
+            all.for_each(|(name, value)| of(&name, value));
         }
         return print(&result.to_string());
     }

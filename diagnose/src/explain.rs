@@ -20,8 +20,8 @@ use fitted::{Fitted, Folds};
 use late::Late;
 pub use many::explain_many;
 use rayon::prelude::*;
+use rigproof_model::effects::facts;
 use rigproof_model::effects::facts::Shapes;
-use rigproof_model::effects::{Drive, Form, facts, form};
 use rigproof_spec::effect::Mechanism;
 use score::{Judge, prior};
 
@@ -135,7 +135,7 @@ fn kind(mechanism: Mechanism) -> Mechanism {
 }
 
 /// Whether two mechanisms are forms of one: of the same law, or bristles, whose force builds up over
-/// a travel after each reversal and then stays, or delays of the whole drive.
+/// a travel after each reversal and then stays.
 fn are_forms(a: Mechanism, b: Mechanism) -> bool {
     let is_bristle = |mechanism| {
         matches!(
@@ -143,10 +143,7 @@ fn are_forms(a: Mechanism, b: Mechanism) -> bool {
             Some(Shapes::Bristle | Shapes::BristleCurve | Shapes::Memory)
         )
     };
-    let is_late =
-        |mechanism| matches!(form(mechanism), Some(Form::Drive(Drive::Lag | Drive::Skew)));
-    let both = |is: &dyn Fn(Mechanism) -> bool| is(a) && is(b);
-    kind(a) == kind(b) || both(&is_bristle) || both(&is_late)
+    kind(a) == kind(b) || is_bristle(a) && is_bristle(b)
 }
 
 /// The word for a cause of this probability.

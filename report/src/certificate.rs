@@ -286,24 +286,30 @@ fn laws(laws: &[LawSummary]) -> Markup {
                     .map_or_else(|| "–".to_owned(), |first| first.to_string())
             ),
         };
-        let margin = law.worst_margin.map_or_else(
-            || "–".to_owned(),
-            |margin| format!("{} {}", significant(margin, 3), law.unit),
-        );
         vec![
             law.law.name().to_owned(),
             fared,
             law.words.clone(),
             law.samples.to_string(),
-            margin,
+            margin(law.worst_margin, &law.unit),
         ]
     };
-    let rows: Vec<Vec<String>> = laws.iter().map(row).collect();
+    laws_table(&laws.iter().map(row).collect::<Vec<_>>())
+}
+
+/// A least margin in its unit.
+fn margin(worst: Option<f64>, unit: &str) -> String {
+    let shown = worst.map(|margin| format!("{} {unit}", significant(margin, 3)));
+    shown.unwrap_or_else(|| "–".to_owned())
+}
+
+/// The table of the laws, a row each.
+fn laws_table(rows: &[Vec<String>]) -> Markup {
     table(
         "laws-table",
         "A margin below zero breaks the law; the least one counts.",
         &["law", "fared", "what it says", "samples", "least margin"],
-        &rows,
+        rows,
     )
 }
 

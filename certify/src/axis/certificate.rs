@@ -10,7 +10,7 @@ use super::metrics::{MetricSummary, baseline_broke, metrics};
 use super::plan::{FORM, Library, Plan};
 use super::trial::Ending;
 use crate::campaign::CHUNK;
-use crate::certificate::chunk_digest;
+use crate::certificate::{Hashes, chunk_digest};
 use crate::digest;
 use crate::error::Error;
 use crate::summary::{ISOLATION, NotLookedAt};
@@ -57,22 +57,6 @@ pub struct Certificate {
     pub chunks: Vec<String>,
     /// The SHA-256 of this file with nothing between these quotes.
     pub digest: String,
-}
-
-/// What a result depends on.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Hashes {
-    /// The controller: its library and what its process is given.
-    pub controller: String,
-    /// The baseline.
-    pub baseline: Option<String>,
-    /// The axis: its numbers and their intervals.
-    pub rig: String,
-    /// The plan: everything above, seed, number and length of the trials, limits.
-    pub plan: String,
-    /// The records of all trials.
-    pub records: String,
 }
 
 /// How many trials ended in each way.
@@ -131,7 +115,7 @@ impl Certificate {
             reasons: Vec::new(),
             tool,
             plan: plan.clone(),
-            sha256: Hashes::of(plan, &chunks)?,
+            sha256: hashes(plan, &chunks)?,
             ended: Endings::of(records),
             baseline_broke: baseline_broke(records),
             samples: records.iter().map(|own| u64::from(own.ticks)).sum(),
@@ -153,7 +137,7 @@ impl Certificate {
     pub fn sealed(mut self) -> Result<Certificate, Error> {
         self.reasons = self.own_reasons();
         self.may_go_on_the_rig = self.reasons.is_empty();
-        self.sha256 = Hashes::of(&self.plan, &self.chunks)?;
+        self.sha256 = hashes(&self.plan, &self.chunks)?;
         self.digest = self.own_digest()?;
         Ok(self)
     }
@@ -201,7 +185,7 @@ impl Certificate {
                 read.digest
             )));
         }
-        if Hashes::of(&read.plan, &read.chunks)? != read.sha256 {
+        if hashes(&read.plan, &read.chunks)? != read.sha256 {
             return Err(refused("its hashes do not follow from it".to_owned()));
         }
         if read.own_reasons() != read.reasons || read.may_go_on_the_rig != read.may_go() {
@@ -264,17 +248,16 @@ impl Certificate {
     }
 }
 
-impl Hashes {
-    fn of(plan: &Plan, chunks: &[String]) -> Result<Hashes, Error> {
-        let baseline = plan.baseline.as_ref().map(digest::of_value);
-        Ok(Hashes {
-            controller: digest::of_value(&plan.controller)?,
-            baseline: baseline.transpose()?,
-            rig: digest::of_value(&plan.axis)?,
-            plan: digest::of_value(plan)?,
-            records: digest::of_value(&chunks)?,
-        })
-    }
+/// The hashes of a plan and of the records of its trials; the rig is the axis, its numbers and their intervals.
+fn hashes(plan: &Plan, chunks: &[String]) -> Result<Hashes, Error> {
+    let baseline = plan.baseline.as_ref().map(digest::of_value);
+    Ok(Hashes {
+        controller: digest::of_value(&plan.controller)?,
+        baseline: baseline.transpose()?,
+        rig: digest::of_value(&plan.axis)?,
+        plan: digest::of_value(plan)?,
+        records: digest::of_value(&chunks)?,
+    })
 }
 
 impl Endings {

@@ -47,7 +47,10 @@ impl Judge {
     /// The residual is that of the fit itself: a block that alone determines a term would make its
     /// left-out residual as large as one likes.
     pub fn all_matter(&self, folds: &Folds, bare: &Fitted, fitted: &Fitted) -> bool {
-        let energy = |own: &Fitted| dot(&own.residual(folds), &own.residual(folds));
+        let energy = |own: &Fitted| {
+            let left = own.residual(folds);
+            dot(&left, &left)
+        };
         let least = energy(fitted) + self.granted * folds.rows();
         (0..fitted.terms.len()).all(|index| {
             let mut others = fitted.terms.clone();

@@ -15,6 +15,8 @@ pub(super) const ENTRY: Entry = Entry {
         usual: Usual::Frequent,
         turn: 4,
         shapes: Shapes::Lag,
+        // A delay, as a shift in time is.
+        form_of: Some(Mechanism::ChannelSkew),
         ..Facts::of(
             Family::Drive,
             Asked {

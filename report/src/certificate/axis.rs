@@ -4,7 +4,7 @@ use maud::{Markup, html};
 use rigproof_certify::axis::certificate::{Certificate, LawSummary};
 use rigproof_certify::axis::metrics::MetricSummary;
 
-use super::changed;
+use super::{changed, laws_table, margin};
 use crate::chart::{Axis, Chart, Curve};
 use crate::document::{Document, Headline, Section, Tone};
 use crate::number::{grouped, significant};
@@ -165,25 +165,15 @@ fn laws(laws: &[LawSummary]) -> Markup {
             None if law.met_in < law.least_met => "✘ met too rarely".to_owned(),
             None => "holds".to_owned(),
         };
-        let margin = law.worst_margin.map_or_else(
-            || "–".to_owned(),
-            |margin| format!("{} {}", significant(margin, 3), law.unit),
-        );
         vec![
             law.law.name().to_owned(),
             fared,
             law.words.clone(),
             law.samples.to_string(),
-            margin,
+            margin(law.worst_margin, &law.unit),
         ]
     };
-    let rows: Vec<Vec<String>> = laws.iter().map(row).collect();
-    table(
-        "laws-table",
-        "A margin below zero breaks the law; the least one counts.",
-        &["law", "fared", "what it says", "samples", "least margin"],
-        &rows,
-    )
+    laws_table(&laws.iter().map(row).collect::<Vec<_>>())
 }
 
 fn metrics(metrics: &[MetricSummary]) -> Markup {

@@ -5,6 +5,7 @@ use super::align::{aligned, lasting};
 use super::run::{ChainRun, joint_at};
 use crate::effect::Effect;
 use crate::plant::{Columns, Plant, Run, Simulated, SimulatedOutput, Unsimulated};
+use crate::signals::shifted;
 use rigproof_model::effects::{Drive, Form, entry, form};
 use rigproof_spec::effect::Motion;
 use rigproof_trace::rig::chain::{ChainRecording, ChainRig};
@@ -93,12 +94,6 @@ fn delay(run: &ChainRun, effect: &Effect, efforts: &mut [f64]) {
     let Some(own) = efforts.chunks_mut(run.len().max(1)).nth(joint) else {
         return;
     };
-    let before = own.to_vec();
-    let last = before.len().saturating_sub(1);
-    let at = |place: usize| before.get(place.min(last)).copied().unwrap_or(0.0);
-    for (k, slot) in own.iter_mut().enumerate() {
-        let place = (k as f64 - late).clamp(0.0, last as f64);
-        let (whole, share) = (place.floor() as usize, place.fract());
-        *slot = at(whole) + share * (at(whole + 1) - at(whole));
-    }
+    let moved = shifted(own, -late);
+    own.copy_from_slice(&moved);
 }

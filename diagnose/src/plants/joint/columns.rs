@@ -352,7 +352,7 @@ fn linearised(run: &JointRun, what: Drive, shape: &[f64], fitted: &[f64]) -> Opt
     let fixed = |signal| Some(Columns::Fixed(signal));
     match (what, run.plant) {
         (Drive::Limit, _) => None,
-        (Drive::Gain, _) if is_known => Some(Columns::Free(vec![known_effort(run)])),
+        (Drive::Gain, _) if is_known => drive(run, what, shape),
         (Drive::Gain, _) => None,
         // With a known inertia the command itself is delayed. It is less noisy than an
         // acceleration.
