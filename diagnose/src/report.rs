@@ -270,6 +270,15 @@ impl Report {
         let mended = Mechanism::ClockJitter.name();
         self.effects.iter().any(|own| own.mechanism != mended)
     }
+
+    /// Whether the described model agrees with the recording, once alignment has mended it.
+    pub fn agrees(&self) -> bool {
+        match self.verdict {
+            Verdict::Consistent => true,
+            Verdict::Explained => !self.changes_the_model(),
+            _ => false,
+        }
+    }
 }
 
 /// A named mechanism.

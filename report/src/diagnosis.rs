@@ -13,7 +13,7 @@ mod wherein;
 
 use maud::{Markup, html};
 use rigproof_diagnose::Curves;
-use rigproof_diagnose::report::{Report, Verdict};
+use rigproof_diagnose::report::Report;
 
 use crate::chart::Chart;
 use crate::document::{Document, Section};
@@ -54,7 +54,7 @@ pub fn page(diagnosed: Diagnosed) -> String {
     // goes wrong and nothing is named there is no line to show.
     let what_if = when::what_if(curves);
     let is_named = report.changes_the_model();
-    let is_shown = is_named || report.verdict != Verdict::Consistent;
+    let is_shown = is_named || !report.agrees();
     let line = is_shown.then(|| when::body(curves, what_if.as_ref(), &mut charts));
     let (if_off, when) = match (line.flatten(), is_named) {
         (line, true) => (line, None),
@@ -62,7 +62,7 @@ pub fn page(diagnosed: Diagnosed) -> String {
     };
     section("what", "What it is", what::body(report, if_off));
     // Where nothing goes wrong there is no place to show.
-    if report.verdict != Verdict::Consistent {
+    if !report.agrees() {
         section("where", "Where it goes wrong", wherein::body(report, when));
     }
     section(

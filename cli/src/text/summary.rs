@@ -46,8 +46,7 @@ impl Style {
 pub fn summary(report: &Report, next: &str, page: &Path) -> String {
     let mut lines = vec![verdict(report)];
     let place = report.located.first();
-    let is_left = !matches!(report.verdict, Verdict::Consistent | Verdict::Explained);
-    let shown = place.filter(|_| is_left || report.changes_the_model());
+    let shown = place.filter(|_| !report.agrees());
     lines.extend(shown.map(|place| {
         let share = percent(place.share);
         line(
@@ -74,6 +73,9 @@ fn verdict(report: &Report) -> String {
     match report.verdict {
         Verdict::Consistent => {
             "The model agrees with the recording to within sensor noise.".to_owned()
+        }
+        Verdict::Explained if report.agrees() => {
+            format!("Cause found in the recording, and none in the model: {words}.")
         }
         Verdict::Explained => format!("Cause found: the model leaves out {words}."),
         Verdict::PartlyExplained => {

@@ -46,6 +46,9 @@ fn sentence(report: &Report) -> String {
         Verdict::Consistent => format!(
             "Nothing is missing: the model describes this {device} as well as its sensors can tell."
         ),
+        Verdict::Explained if report.agrees() => {
+            format!("The model describes this {device}, and the recording has {named}.")
+        }
         Verdict::Explained => {
             format!("The real {device} has something the model leaves out: {named}.")
         }
@@ -85,6 +88,9 @@ fn meaning(report: &Report) -> Markup {
     match report.verdict {
         Verdict::Consistent => {
             html! { "What simulation and recording still differ by is no more than the noise of the sensors. There is nothing to mend in the model." }
+        }
+        Verdict::Explained if report.agrees() => {
+            html! { "With that mended in the recording, what simulation and recording still differ by is no more than the noise of the sensors. There is nothing to mend in the model." }
         }
         Verdict::Explained => {
             html! { "Once that is added to the model, what simulation and recording still differ by is no more than the noise of the sensors." }
