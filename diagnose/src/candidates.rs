@@ -181,6 +181,7 @@ pub fn standard_shapes<R: Run + ?Sized>(
         own @ (Shapes::None
         | Shapes::Values(_)
         | Shapes::Geometric { .. }
+        | Shapes::Optional { .. }
         | Shapes::BothSigns { .. }) => in_numbers(own),
     }
 }
@@ -269,13 +270,17 @@ fn points(motion: &[Instant], windows: &Windows, residual: &[f64]) -> Vec<(f64, 
 /// The trial shapes that do not depend on the recording; one empty shape for a mechanism without
 /// shape.
 pub fn in_numbers(shapes: Shapes) -> Vec<Vec<f64>> {
+    let plainer = matches!(shapes, Shapes::Optional { .. }).then(Vec::new);
     let values = match shapes {
         Shapes::Values(values) => values.to_vec(),
-        Shapes::Geometric { low, high, count } => geometric(low, high, count),
+        Shapes::Geometric { low, high, count } | Shapes::Optional { low, high, count } => {
+            geometric(low, high, count)
+        }
         Shapes::BothSigns { low, high, count } => both_signs(geometric(low, high, count)),
         _ => return vec![vec![]],
     };
-    values.into_iter().map(|value| vec![value]).collect()
+    let values = values.into_iter().map(|value| vec![value]);
+    plainer.into_iter().chain(values).collect()
 }
 
 pub fn both_signs(sizes: Vec<f64>) -> Vec<f64> {

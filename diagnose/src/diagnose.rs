@@ -2,6 +2,7 @@
 
 pub(crate) mod balance;
 mod beside;
+mod bound;
 pub(crate) mod ended;
 pub(crate) mod numbers;
 mod parts;
@@ -16,9 +17,10 @@ use crate::explain::{Explanations, explain, explain_many};
 use crate::plant::{At, Plant, Run};
 use crate::problem::{Problem, Term};
 use crate::report::Report;
-use crate::rules::{FEWEST_WINDOWS, FLOOR_RATIO, HOLD_OUT_SHARE, SUSPECTED};
+use crate::rules::{FEWEST_WINDOWS, FLOOR_RATIO, HOLD_OUT_SHARE};
 use crate::scatter::{Trials, left_over};
-use crate::selection::{Selection, is_noise, refs, usable_rms};
+use crate::selection::{Selection, refs, usable_rms};
+use bound::bound;
 use ended::{faulty, not_excited};
 use parts::Parts;
 use rigproof_model::effects::linear;
@@ -200,19 +202,6 @@ fn named(problem: &mut Problem, terms: Vec<Term>) -> (Selection, Explanations) {
     match problem.rules.many {
         true => explain_many(problem, terms),
         false => explain(problem, terms),
-    }
-}
-
-/// Bounds the probabilities if the residual is more than noise.
-///
-/// A mechanism that explains little beside the rest may be a part of the unexplained physics. Its
-/// probability is at most one half plus the share of the loss that it removes.
-fn bound(problem: &Problem, selection: &mut Selection) {
-    if is_noise(problem, &selection.after) {
-        return;
-    }
-    for found in &mut selection.found {
-        found.probability = found.probability.min(SUSPECTED + found.share.max(0.0));
     }
 }
 

@@ -2,6 +2,7 @@
 
 pub mod backlash;
 pub mod brake;
+pub mod current;
 pub mod decay;
 pub mod effect;
 pub mod form;
@@ -13,7 +14,8 @@ mod step;
 pub mod turn;
 
 use brake::{Brake, Characteristic};
-use effect::{CurrentPath, Effect, MOST_EFFECTS};
+use current::CurrentPath;
+use effect::{Effect, MOST_EFFECTS};
 use friction::Contact;
 use motion::{Mechanism, Motion};
 

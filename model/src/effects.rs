@@ -431,7 +431,10 @@ mod tests {
                 assert!(self::entry(other).is_some(), "{name}");
             }
             // What has no shape needs no number but its coefficients; an encoder's is the step at which its column is taken.
-            let is_shaped = entry.mechanism.needed() > entry.linear || entry.form.is_of_encoder();
+            let is_optional = matches!(shapes, facts::Shapes::Optional { .. });
+            let is_shaped = entry.mechanism.needed() > entry.linear
+                || entry.form.is_of_encoder()
+                || is_optional && parameters.len() > entry.linear;
             assert_eq!(shapes != facts::Shapes::None, is_shaped, "{name}");
         }
     }

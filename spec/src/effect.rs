@@ -119,8 +119,8 @@ vocabulary! {
     Spring = "spring" called "linear spring" | "stiffness" [needed("stiffness", EffortPerTravel), optional("rest", Travel)],
     /// Constant force.
     ConstantBias = "constant_bias" called "constant bias" | "bias" | "offset" [needed("level", Effort)],
-    /// Constant force that drifts with the time since the start.
-    BiasDrift = "bias_drift" called "drift of the bias" | "drift" [needed("rate", EffortPerTime)],
+    /// Constant force that drifts with the time since the start, and comes to an end where it settles.
+    BiasDrift = "bias_drift" called "drift of the bias" | "drift" | "creep" | "zero drift" [needed("rate", EffortPerTime), optional("settling", Time).above_zero()],
     /// Wrong inertia.
     InertiaError = "inertia_error" called "wrong inertia of an arm" | "inertia" [
         needed("arm_ae", MomentOfInertia),

@@ -49,7 +49,7 @@ fn others() -> Vec<JointEffect> {
         at(Joint::A, Ripple, &[0.071, 0.043, 0.217]),
         at(Joint::E, Spring, &[0.113]),
         at(Joint::C, NonlinearSpring, &[0.037]),
-        at(Joint::B, BiasDrift, &[0.071]),
+        at(Joint::B, BiasDrift, &[0.071, 1.3]),
         at(Joint::A, Lag, &[0.029]),
         at(Joint::E, DeadTime, &[0.0173]),
         at(Joint::B, Saturation, &[0.17]),

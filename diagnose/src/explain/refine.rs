@@ -5,7 +5,7 @@ use super::score::{Judge, is_impossible, prior};
 use super::unfitted;
 use crate::candidates::shape_bounds;
 use crate::problem::{Problem, Term};
-use crate::rules::{MOST_MOVES, PEAK_EXPONENTS_FIVE_BAR, STRIDES};
+use crate::rules::{FINE_STRIDES, MOST_MOVES, PEAK_EXPONENTS_FIVE_BAR, STRIDES};
 use rigproof_model::effects::facts;
 use rigproof_model::effects::facts::Shapes;
 use rigproof_spec::effect::Mechanism;
@@ -26,8 +26,13 @@ pub fn refined(
         bare,
     };
     let mut best = (judge.evidence(folds, &start), start);
+    // The force of an anchored spring is so large that small steps of its anchor are seen.
+    let fine = match best.1.terms.iter().any(is_anchored) {
+        true => &FINE_STRIDES[..],
+        false => &[],
+    };
     // A step takes the first term and puts it last, so a full turn restores the order.
-    for stride in STRIDES {
+    for &stride in STRIDES.iter().chain(fine) {
         for _ in 0..best.1.terms.len() {
             best = refining.moved(best, stride);
         }
@@ -114,6 +119,10 @@ impl Refining<'_> {
     }
 }
 
+fn is_anchored(term: &Term) -> bool {
+    facts(term.cause.mechanism).is_some_and(|facts| facts.shapes == Shapes::Anchor)
+}
+
 fn is_peak(term: &Term) -> bool {
     facts(term.cause.mechanism).is_some_and(|facts| facts.shapes == Shapes::Peak)
 }
@@ -162,31 +171,65 @@ impl Move {
             ..self
         }
     }
+
+    fn factor(self, stride: f64) -> f64 {
+        match self.up {
+            true => 1.0 + stride,
+            false => 1.0 / (1.0 + stride),
+        }
+    }
 }
 
-/// A term with one shape parameter moved by a stride, up or down.
+/// A term with one shape parameter moved by a stride, up or down; of an anchor its distance and its
+/// direction from the middle of what is searched.
 fn moves(problem: &Problem, own: &Term, stride: f64) -> Vec<(Move, Term)> {
     let bounds = shape_bounds(problem, own.cause);
+    let is_anchor = is_anchored(own);
     // The grid already knows a period to within a few percent, and a longer stride leads to another
     // period.
     let stride = match own.cause.mechanism {
         Mechanism::Ripple => 0.02 * stride,
         _ => stride,
     };
-    let mut all = Vec::new();
-    for (place, &(low, high)) in (0..own.shape.len()).zip(&bounds) {
-        for (up, factor) in [(true, 1.0 + stride), (false, 1.0 / (1.0 + stride))] {
-            let mut shape = own.shape.clone();
-            let Some(value) = shape.get_mut(place) else {
-                continue;
-            };
-            *value *= factor;
-            if *value < low.min(high) || *value > high.max(low) {
-                continue;
-            }
-            let moved = unfitted(problem, own.cause, &shape, own.onset_s);
-            all.extend(moved.map(|term| (Move { place, up }, term)));
-        }
-    }
-    all
+    let each = (0..own.shape.len()).flat_map(|place| [true, false].map(|up| Move { place, up }));
+    let shapes = each.filter_map(|by| {
+        let shape = match is_anchor {
+            true => moved_anchor(&own.shape, &bounds, by, stride)?,
+            false => scaled(&own.shape, by, stride)?,
+        };
+        let mut moved = shape.iter().zip(&own.shape).zip(&bounds);
+        let stays = moved.all(|((to, from), &(low, high))| {
+            to == from || (low.min(high)..=high.max(low)).contains(to)
+        });
+        stays.then_some((by, shape))
+    });
+    shapes
+        .filter_map(|(by, shape)| Some((by, unfitted(problem, own.cause, &shape, own.onset_s)?)))
+        .collect()
+}
+
+/// A shape with one parameter longer or shorter by a share.
+fn scaled(shape: &[f64], by: Move, stride: f64) -> Option<Vec<f64>> {
+    let mut shape = shape.to_vec();
+    *shape.get_mut(by.place)? *= by.factor(stride);
+    Some(shape)
+}
+
+/// An anchor at another distance, or in another direction, from the middle of its bounds.
+fn moved_anchor(shape: &[f64], bounds: &[(f64, f64)], by: Move, stride: f64) -> Option<Vec<f64>> {
+    let ([x, y], [wide, high]) = (shape, bounds) else {
+        return None;
+    };
+    let middle = [wide, high].map(|(low, high)| 0.5 * (low + high));
+    let [x, y] = [x - middle[0], y - middle[1]];
+    let (factor, angle) = match (by.place, by.up) {
+        (0, _) => (by.factor(stride), 0.0),
+        (_, true) => (1.0, stride),
+        (_, false) => (1.0, -stride),
+    };
+    let (sine, cosine) = libm::sincos(angle);
+    Some(vec![
+        middle[0] + factor * (x * cosine - y * sine),
+        middle[1] + factor * (x * sine + y * cosine),
+    ])
 }

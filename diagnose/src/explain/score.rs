@@ -7,7 +7,7 @@ use crate::candidates::searched;
 use crate::cause::{Cause, Scales};
 use crate::problem::{Problem, Rows, Term};
 use crate::regression::dot;
-use crate::rules::{A_LINK, A_NUMBER, GIVEN_BACK, RELEVANT_NOISE, USUAL_ODDS};
+use crate::rules::{A_LINK, A_NUMBER, GIVEN_BACK, MOST_ACTING, RELEVANT_NOISE, USUAL_ODDS};
 use rigproof_model::effects::facts::{End, Usual};
 use rigproof_model::effects::{entry, facts};
 use rigproof_spec::effect::{Mechanism, Quantity, Range};
@@ -31,9 +31,14 @@ impl Judge {
         }
     }
 
-    /// The logarithm of the predictive density of left-out blocks, up to a constant.
+    /// The logarithm of the predictive density of left-out blocks, up to a constant; −∞ for an
+    /// effort that would have to be many times the recorded one. A gain that begins where no row is
+    /// usable has such a coefficient.
     pub fn evidence(&self, folds: &Folds, fitted: &Fitted) -> f64 {
         let share = fitted.acting_share(folds).max(1e-300);
+        if share > MOST_ACTING {
+            return f64::NEG_INFINITY;
+        }
         let blocks = folds.counts.iter().zip(&fitted.losses);
         let each = blocks.map(|(rows, loss)| {
             let left = loss / rows / share + self.granted;

@@ -51,8 +51,12 @@ rules! {
     BEAM: usize = 6, "explanations", DRIVEN;
     /// Explanations of each size that are kept and weighed.
     KEPT: usize = 40, "explanations", DRIVEN;
+    /// Energy of the effort that acts, over that of the recorded one, above which a gain is impossible: ten times the effort is a wrong unit, which is a fault of the data.
+    MOST_ACTING: f64 = 100.0, "1", REASON;
     /// Strides of the pattern search for a shape, as shares of a shape parameter.
     STRIDES: [f64; 4] = [0.15, 0.06, 0.025, 0.01], "share", DRIVEN;
+    /// The same, after these, beside a spring to an anchor, whose force is hundreds of times the noise.
+    FINE_STRIDES: [f64; 3] = [0.004, 0.0016, 0.0006], "share", REASON;
     /// Most moves of one parameter at one stride.
     MOST_MOVES: usize = 4, "moves", DRIVEN;
     /// Fewest usable rows with which a block counts.

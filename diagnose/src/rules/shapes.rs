@@ -93,10 +93,10 @@ rules! {
     BRISTLE_EXPONENTS: [f64; 3] = [0.5, 1.5, 2.5], "1", DRIVEN;
     /// Five-bar: a change of an arm's length for which the columns are linear.
     SMALL_LENGTH_M: f64 = 0.0005, "m", REASON;
-    /// Five-bar: how far beyond the tip's motion a spring may be anchored, as a share of its travel.
-    ANCHOR_REACH: f64 = 0.7, "share", REASON;
-    /// Five-bar: anchors that are tried along each axis.
-    ANCHORS: usize = 5, "anchors", REASON;
+    /// Five-bar: the nearest anchor of a spring that is tried, from the middle of the tip's motion, as a share of its travel; the farthest is two arms away.
+    NEAREST_ANCHOR: f64 = 0.15, "share", REASON;
+    /// Five-bar: distances and directions of the anchors that are tried.
+    ANCHORS: [usize; 2] = [6, 8], "anchors", REASON;
     /// Axis: limits of the drive's effort that are tried.
     EFFORT_LIMITS: usize = 24, "efforts", DRIVEN;
     /// Axis and bench: smallest backlash that can be seen, in standard deviations of the position noise.

@@ -98,8 +98,8 @@ pub enum Law {
     Spring { stiffness: f64, rest: f64 },
     /// cubic·q³.
     NonlinearSpring { cubic: f64 },
-    /// rate·t.
-    BiasDrift { rate: f64 },
+    /// rate·settling·(1 − exp(−t/settling)); rate·t where settling is infinite.
+    BiasDrift { rate: f64, settling: f64 },
     /// level·exp(−x/travel), x travelled since the sense changed; of a brake a share of its torque.
     Overshoot {
         level: f64,
@@ -158,7 +158,13 @@ impl Law {
             },
             (Mechanism::Spring, &[stiffness, rest]) => Law::Spring { stiffness, rest },
             (Mechanism::NonlinearSpring, &[cubic]) => Law::NonlinearSpring { cubic },
-            (Mechanism::BiasDrift, &[rate]) => Law::BiasDrift { rate },
+            (Mechanism::BiasDrift, &[rate]) => Law::BiasDrift {
+                rate,
+                settling: f64::INFINITY,
+            },
+            (Mechanism::BiasDrift, &[rate, settling]) if settling > 0.0 => {
+                Law::BiasDrift { rate, settling }
+            }
             _ => return Law::with_memory(mechanism, parameters),
         };
         Some(law)
@@ -257,7 +263,7 @@ impl Law {
             }
             Law::Spring { stiffness, rest } => stiffness * (now.position - rest),
             Law::NonlinearSpring { cubic } => cubic * now.position * now.position * now.position,
-            Law::BiasDrift { rate } => rate * now.time_s,
+            Law::BiasDrift { rate, settling } => rate * settled(now.time_s, settling),
             Law::Overshoot { .. } if memory == NOT_MOVED => 0.0,
             Law::Overshoot {
                 level,
@@ -368,6 +374,14 @@ impl Law {
     }
 }
 
+/// What a time counts where a drift settles, s.
+fn settled(time_s: f64, settling: f64) -> f64 {
+    if settling == f64::INFINITY {
+        return time_s;
+    }
+    -settling * libm::expm1(-time_s / settling)
+}
+
 /// Share of a Stribeck peak at a ratio of speeds.
 fn near_standstill(ratio: f64, exponent: f64) -> f64 {
     libm::exp(-libm::pow(ratio.abs(), exponent))
@@ -404,57 +418,6 @@ pub struct Effect {
     pub memory: f64,
 }
 
-/// What lies between the current that is asked for and the one that the brake has.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct CurrentPath {
-    /// Time constant of a lag, s; zero for none.
-    time_constant_s: f64,
-    /// Error of the gain.
-    fraction: f64,
-    current_a: f64,
-}
-
-impl CurrentPath {
-    /// The same path with one more mechanism on it; none for a mechanism that is not of this kind.
-    pub fn with(self, mechanism: Mechanism, parameters: &[f64]) -> Option<CurrentPath> {
-        match (mechanism, parameters) {
-            (Mechanism::Lag, &[time_constant_s])
-                if (0.0..=GREATEST_LAG_S).contains(&time_constant_s) =>
-            {
-                Some(CurrentPath {
-                    time_constant_s,
-                    ..self
-                })
-            }
-            (Mechanism::GainError, &[fraction]) if fraction.is_finite() => {
-                Some(CurrentPath { fraction, ..self })
-            }
-            _ => None,
-        }
-    }
-
-    /// The brake's current over a step, A: what it is in the middle, kept inside 0 to 1 A; the path at its end.
-    #[inline(always)]
-    pub fn step(&mut self, asked_a: f64, step_s: f64) -> f64 {
-        let target_a = asked_a * (1.0 + self.fraction);
-        let middle_a = if self.time_constant_s > 0.0 {
-            let exponent = step_s / self.time_constant_s;
-            let change_a = target_a - self.current_a;
-            let half = 0.5 * exponent;
-            let middle_a = self.current_a + change_a * half * decayed(half);
-            self.current_a += change_a * exponent * decayed(exponent);
-            middle_a
-        } else {
-            self.current_a = target_a;
-            target_a
-        };
-        middle_a.clamp(0.0, rigproof_spec::tables::GREATEST_CURRENT_A)
-    }
-}
-
-/// Longest lag of a current, s.
-const GREATEST_LAG_S: f64 = 100.0;
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -471,25 +434,10 @@ mod tests {
     }
 
     #[test]
-    fn a_lagging_current_follows_its_exponential() {
-        let path = CurrentPath::default().with(Mechanism::Lag, &[0.037]);
-        let mut path = path.unwrap().with(Mechanism::GainError, &[-0.13]).unwrap();
-        for _ in 0..50 {
-            path.step(0.9, 0.74e-3);
-        }
-        let expected = 0.9 * 0.87 * (1.0 - libm::exp(-1.0));
-        assert!((path.current_a - expected).abs() < 1e-14);
-    }
-
-    #[test]
     fn what_is_no_law_is_refused() {
         assert_eq!(Law::new(Mechanism::Presliding, &[0.31, 0.0]), None);
         assert_eq!(Law::new(Mechanism::Viscous, &[0.31, 0.7]), None);
         assert_eq!(Law::new(Mechanism::Spring, &[f64::NAN]), None);
         assert_eq!(Law::new(Mechanism::Lag, &[0.31]), None);
-        assert_eq!(
-            CurrentPath::default().with(Mechanism::ChannelSkew, &[0.01]),
-            None
-        );
     }
 }

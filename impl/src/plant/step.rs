@@ -4,7 +4,8 @@ use rigproof_spec::joint::Joint;
 
 use super::Plant;
 use super::brake::Turn;
-use super::effect::{CurrentPath, Effect, Instant};
+use super::current::CurrentPath;
+use super::effect::{Effect, Instant};
 use super::form::{joint_rows, tip_load};
 use super::friction::{Contact, Dry, DryBrake, dry_motion, standing};
 use super::motion::{Midway, Motion, Outcome, is_defined};

@@ -1,6 +1,7 @@
 //! This file says what a resistance law remembers halfway, what it makes of no sense of motion, and which changes of a current are refused.
 
-use rigproof_impl::plant::effect::{CurrentPath, Instant, Law};
+use rigproof_impl::plant::current::CurrentPath;
+use rigproof_impl::plant::effect::{Instant, Law};
 use rigproof_spec::effect::Mechanism;
 
 #[test]

@@ -184,6 +184,15 @@ pub enum Shapes {
         /// Their number.
         count: usize,
     },
+    /// None, which is the plainer law, or a geometric progression.
+    Optional {
+        /// The least.
+        low: f64,
+        /// The greatest.
+        high: f64,
+        /// Their number.
+        count: usize,
+    },
     /// A geometric progression, each value with both signs.
     BothSigns {
         /// The least.

@@ -136,6 +136,7 @@ fn every_effect_changes_the_motion_on_every_joint_and_a_null_one_does_not() {
             (Mechanism::Spring, &[0.37]),
             (Mechanism::NonlinearSpring, &[0.071]),
             (Mechanism::BiasDrift, &[0.41]),
+            (Mechanism::BiasDrift, &[0.41, 0.9]),
             (Mechanism::Lag, &[0.031]),
             (Mechanism::GainError, &[-0.17]),
         ] {

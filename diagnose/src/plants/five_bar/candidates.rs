@@ -9,15 +9,16 @@ use crate::candidates::{
 use crate::cause::{Cause, Place};
 use crate::plant::Run;
 use crate::rules::{
-    ANCHOR_REACH, ANCHORS, BENDS_FIVE_BAR, CLOSING_A, DELAYS, DELAYS_RAD, LAGS_FIVE_BAR,
-    LEAST_BEND, LEAST_BEND_SIGMAS, LEAST_LAG_STEPS, LEAST_SHIFT_STEPS_FIVE_BAR, MOST_BEND,
-    MOST_DELAY_S, MOST_LAG_S_FIVE_BAR, MOST_OF_AN_ENCODER, MOST_SHIFT_S_FIVE_BAR, MOST_SHIFT_STEPS,
-    PEAK_EXPONENTS_FIVE_BAR, SHIFTS_FIVE_BAR, SOFTEST_BRISTLE, WIDEST_PEAK,
+    ANCHORS, BENDS_FIVE_BAR, CLOSING_A, DELAYS, DELAYS_RAD, LAGS_FIVE_BAR, LEAST_BEND,
+    LEAST_BEND_SIGMAS, LEAST_LAG_STEPS, LEAST_SHIFT_STEPS_FIVE_BAR, MOST_BEND, MOST_DELAY_S,
+    MOST_LAG_S_FIVE_BAR, MOST_OF_AN_ENCODER, MOST_SHIFT_S_FIVE_BAR, MOST_SHIFT_STEPS,
+    NEAREST_ANCHOR, PEAK_EXPONENTS_FIVE_BAR, SHIFTS_FIVE_BAR, SOFTEST_BRISTLE, WIDEST_PEAK,
 };
 use crate::weak::Windows;
 use rigproof_model::effects::facts::{Family, Shapes, Where};
 use rigproof_model::effects::{Entry, Form, LIBRARY, OfSensor, entry, facts, form};
 use rigproof_spec::joint::Joint;
+use std::f64::consts::TAU;
 
 /// The causes that have a meaning on this layout.
 pub fn causes(run: &FiveBarRun) -> Vec<Cause> {
@@ -100,24 +101,28 @@ fn standing_for(run: &FiveBarRun, at: Place) -> Place {
     }
 }
 
-/// Trial anchors of a spring around the region where the tip moved, m.
+/// Trial anchors of a spring on circles around the middle of the tip's motion, m.
 fn anchors(run: &FiveBarRun) -> Vec<Vec<f64>> {
-    let along = |axis: usize| -> Vec<f64> {
-        let tips = run
-            .poses
-            .iter()
-            .filter_map(|pose| pose.tip_m.get(axis).copied());
+    let [(x, wide), (y, high)] = [0, 1].map(|axis| {
+        let tips = run.poses.iter();
+        let tips = tips.filter_map(|pose| pose.tip_m.get(axis).copied());
         let low = tips.clone().fold(f64::INFINITY, f64::min);
         let high = tips.fold(f64::NEG_INFINITY, f64::max);
-        let (middle, half) = (0.5 * (low + high), (0.5 + ANCHOR_REACH) * (high - low));
-        let step = 2.0 / (ANCHORS - 1) as f64;
-        (0..ANCHORS)
-            .map(|k| middle + half * (step * k as f64 - 1.0))
-            .collect()
-    };
-    let ys = along(1);
-    let xs = along(0).into_iter();
-    xs.flat_map(|x| ys.iter().map(move |y| vec![x, *y]))
+        (0.5 * (low + high), high - low)
+    });
+    let [distances, directions] = ANCHORS;
+    let arms = run.parameters.arms;
+    let nearest = NEAREST_ANCHOR * wide.max(high);
+    let farthest = (arms.l_ae_m + arms.l_ed_m).max(nearest);
+    let around = (0..directions).map(|k| TAU * k as f64 / directions as f64);
+    around
+        .flat_map(|angle| {
+            let distances = geometric(nearest, farthest, distances);
+            let (sine, cosine) = libm::sincos(angle);
+            distances
+                .into_iter()
+                .map(move |far| vec![x + far * cosine, y + far * sine])
+        })
         .collect()
 }
 
@@ -237,6 +242,7 @@ pub fn shapes(
         own @ (Shapes::None
         | Shapes::Values(_)
         | Shapes::Geometric { .. }
+        | Shapes::Optional { .. }
         | Shapes::BothSigns { .. }) => in_numbers(own),
     }
 }

@@ -41,6 +41,7 @@ const LEFT_OUT: &[(Mechanism, &[f64], &[PlantKind])] = &[
     (Ripple, &[0.91, -0.67, 0.11], BOTH),
     (NonlinearSpring, &[71.0], BOTH),
     (BiasDrift, &[0.17], BOTH),
+    (BiasDrift, &[0.53, 1.7], BOTH),
     (Lag, &[0.021], AXIS),
     (GainError, &[-0.13], AXIS),
     (ChannelSkew, &[0.017], AXIS),

@@ -1,0 +1,41 @@
+//! This file bounds the probabilities of names by what the data leave open.
+
+use crate::evidence::{coefficients_by_term, intervals};
+use crate::problem::Problem;
+use crate::rules::SUSPECTED;
+use crate::selection::{Selection, is_noise};
+
+/// Bounds the probabilities of what is named.
+///
+/// If the residual is more than noise, a mechanism that explains little beside the rest may be a part
+/// of the unexplained physics. Its probability is at most one half plus the share of the loss that it
+/// removes. A mechanism beside others whose numbers may all be 0 is at most suspected: the others,
+/// with other numbers, do without it.
+pub(super) fn bound(problem: &Problem, selection: &mut Selection) {
+    let may_be_nothing = may_be_nothing(problem, selection);
+    let is_noise = is_noise(problem, &selection.after);
+    for (found, is_nothing) in selection.found.iter_mut().zip(may_be_nothing) {
+        if is_nothing {
+            found.probability = found.probability.min(SUSPECTED);
+        }
+        if !is_noise {
+            found.probability = found.probability.min(SUSPECTED + found.share.max(0.0));
+        }
+    }
+}
+
+/// Of each found mechanism, whether the intervals of its coefficients all hold 0 beside others.
+fn may_be_nothing(problem: &Problem, selection: &Selection) -> Vec<bool> {
+    if selection.found.len() < 2 {
+        return vec![false; selection.found.len()];
+    }
+    let halves = intervals(problem, selection).terms;
+    let (_, coefficients) = coefficients_by_term(problem, selection);
+    let own = coefficients.iter().zip(&halves);
+    own.skip(selection.nominal.len())
+        .map(|(values, halves)| {
+            let mut pairs = values.iter().zip(halves);
+            !values.is_empty() && pairs.all(|(value, half)| value.abs() < *half)
+        })
+        .collect()
+}
