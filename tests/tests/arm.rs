@@ -4,8 +4,9 @@ use rigproof_blind::{Plant as Made, make};
 use rigproof_diagnose::plant::{Described, SimulatedOutput};
 use rigproof_diagnose::report::Verdict;
 use rigproof_diagnose::{Diagnosis, Options, diagnose};
+use rigproof_model::chain::{Chain, Kind};
 use rigproof_trace::Trace;
-use rigproof_trace::rig::chain::ChainRig;
+use rigproof_trace::rig::chain::{ChainRig, ModelFormat};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -139,30 +140,113 @@ fn a_calibrated_arm_simulates_what_was_recorded() {
     }
 }
 
-/// The URDF that is written back needs no more than what its table lists.
+/// The same arm in MJCF: a body a joint with all that is fixed to it, and one at the tip.
+fn as_mjcf(rig: &ChainRig) -> ChainRig {
+    let arm = Chain::from_urdf(&rig.model, rig.tip.as_deref()).unwrap();
+    let words = |own: &[f64]| own.iter().map(f64::to_string).collect::<Vec<_>>().join(" ");
+    let mut text = "<mujoco><compiler angle=\"radian\"/><worldbody>\n".to_owned();
+    for joint in &arm.joints {
+        let (own, i) = (&joint.inertial, joint.inertial.central());
+        let moments = [i.m11, i.m22, i.m33, i.m12, i.m13, i.m23];
+        writeln!(
+            text,
+            "<body name=\"{}\" pos=\"{}\" xyaxes=\"{}\"><joint name=\"{}\" type=\"{}\" axis=\"{}\" \
+             damping=\"{}\" frictionloss=\"{}\"/><inertial pos=\"{}\" mass=\"{}\" fullinertia=\"{}\"/>",
+            joint.link,
+            words(joint.origin.as_slice()),
+            words(joint.rotation.columns(0, 2).as_slice()),
+            joint.name,
+            if joint.kind == Kind::Revolute { "hinge" } else { "slide" },
+            words(joint.axis.as_slice()),
+            joint.damping,
+            joint.friction,
+            words(own.centre().as_slice()),
+            own.mass,
+            words(&moments),
+        )
+        .unwrap();
+    }
+    let ends = "</body>".repeat(arm.joints.len());
+    let tip = words(arm.tip.as_slice());
+    write!(
+        text,
+        "<body name=\"the tip\" pos=\"{tip}\"/>{ends}</worldbody></mujoco>"
+    )
+    .unwrap();
+    ChainRig {
+        format: ModelFormat::Mjcf,
+        model: text,
+        tip: Some("the tip".to_owned()),
+        ..rig.clone()
+    }
+}
+
+/// The model that is written back needs no more than what its table lists.
+fn lacks_nothing(rig: &ChainRig, trace: &Trace, [model, table]: [&str; 2]) -> Vec<String> {
+    let found = whole(rig, trace);
+    let files = found.calibration.beside();
+    let text = |name: &str| files.iter().find(|(own, _)| *own == name).map(|own| &own.1);
+    let mut again = rig.clone();
+    again.model = text(model).unwrap().clone();
+    assert_ne!(again.model, rig.model);
+    let report = whole(&again, trace).report;
+    let kinds: Vec<&str> = report.effects.iter().map(|own| own.mechanism).collect();
+    println!("{}: {:?} {kinds:?}", rig.name, report.verdict);
+    match text(table) {
+        None => assert_eq!(report.verdict, Verdict::Consistent, "{kinds:?}"),
+        Some(left) => assert!(
+            kinds.iter().all(|own| left.contains(own)),
+            "{kinds:?}\n{left}"
+        ),
+    }
+    let left = text(table).into_iter().flat_map(|own| own.lines().skip(1));
+    let left = left.filter_map(|own| own.split(',').nth(1));
+    let mut left: Vec<String> = left.map(str::to_owned).collect();
+    left.dedup();
+    left
+}
+
 #[test]
 fn an_arm_with_its_calibrated_urdf_lacks_nothing() {
     // Coulomb friction at every joint and viscous friction at one; a payload beside a peak, which no URDF holds.
     for (seed, table) in [(25, false), (22, true)] {
         let (rig, trace) = made(seed);
-        let found = whole(&rig, &trace);
-        assert!(!found.report.effects.is_empty());
-        let files = found.calibration.beside();
-        let text = |name: &str| files.iter().find(|(own, _)| *own == name).map(|own| &own.1);
-        let left = text("not-in-urdf.csv");
-        assert_eq!(left.is_some(), table, "{seed}");
-        let mut again = rig.clone();
-        again.model = text("calibrated.urdf").unwrap().clone();
-        assert_ne!(again.model, rig.model);
-        let report = whole(&again, &trace).report;
-        let kinds: Vec<&str> = report.effects.iter().map(|own| own.mechanism).collect();
-        println!("{seed}: {:?} {kinds:?}", report.verdict);
-        match left {
-            None => assert_eq!(report.verdict, Verdict::Consistent, "{kinds:?}"),
-            Some(left) => assert!(
-                kinds.iter().all(|own| left.contains(own)),
-                "{kinds:?}\n{left}"
-            ),
+        let left = lacks_nothing(&rig, &trace, ["calibrated.urdf", "not-in-urdf.csv"]);
+        assert_eq!(!left.is_empty(), table, "{seed}: {left:?}");
+    }
+}
+
+#[test]
+fn an_arm_with_its_calibrated_mjcf_lacks_nothing_and_its_rotor_is_written() {
+    // Coulomb friction; a payload beside a peak, which no MJCF holds; a rotor beside a delay.
+    for (seed, table) in [(25, &[][..]), (22, &["stribeck"]), (19, &["logger_skew"])] {
+        let (rig, trace) = made(seed);
+        let rig = as_mjcf(&rig);
+        let left = lacks_nothing(&rig, &trace, ["calibrated.xml", "not-in-mjcf.csv"]);
+        assert_eq!(left, table, "{seed}");
+    }
+}
+
+/// The equations hang on the arm, not on the format that describes it.
+#[test]
+fn an_arm_in_mjcf_gets_the_diagnosis_that_it_gets_in_a_urdf() {
+    let (rig, trace) = made(19);
+    let [one, other] = [&rig, &as_mjcf(&rig)].map(|rig| whole(rig, &trace).calibration.effects);
+    assert!(!one.is_empty());
+    assert_eq!(one.len(), other.len());
+    for (one, other) in one.iter().zip(&other) {
+        assert_eq!(
+            (&one.joint, one.effect.mechanism),
+            (&other.joint, other.effect.mechanism)
+        );
+        for (one, other) in one.effect.values.iter().zip(&other.effect.values) {
+            let off = (one.value - other.value).abs();
+            assert!(
+                off < 1e-6 * one.value.abs(),
+                "{} {}",
+                one.value,
+                other.value
+            );
         }
     }
 }

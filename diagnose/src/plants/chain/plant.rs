@@ -40,7 +40,7 @@ impl Plant for ChainRig {
         run.part(from, to)
     }
 
-    /// The effects in the description besides the URDF. Joints are numbered in the arm's order, not
+    /// The effects in the description besides the model. Joints are numbered in the arm's order, not
     /// the file's.
     fn nominal(&self) -> Vec<Effect> {
         let chain = arm(self).ok();

@@ -34,8 +34,8 @@ pub struct ChainRun {
     pub links: Vec<((usize, usize), Vec<f64>)>,
     /// The effort per kilogram at the tip.
     pub payload: Vec<f64>,
-    /// Coulomb and viscous friction of each joint as described.
-    pub described: Vec<[f64; 2]>,
+    /// Coulomb and viscous friction and the rotor of each joint as described.
+    pub described: Vec<[f64; 3]>,
     /// Noise of the position and of the effort of each joint, standard deviation.
     pub noise: Vec<[f64; 2]>,
     /// The inertia that each joint moves when it moves alone, kg·m² or kg.
@@ -372,8 +372,9 @@ impl Run for ChainRun {
     fn described(&self, cause: Cause) -> f64 {
         let joint = joint_at(cause.at).and_then(|joint| self.described.get(joint));
         match (cause.mechanism, joint) {
-            (Mechanism::DryOffset, Some([dry, _])) => *dry,
-            (Mechanism::Viscous, Some([_, viscous])) => *viscous,
+            (Mechanism::DryOffset, Some([dry, ..])) => *dry,
+            (Mechanism::Viscous, Some([_, viscous, _])) => *viscous,
+            (Mechanism::AddedInertia, Some([.., rotor])) => *rotor,
             _ => 0.0,
         }
     }
