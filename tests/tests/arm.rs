@@ -250,3 +250,53 @@ fn an_arm_in_mjcf_gets_the_diagnosis_that_it_gets_in_a_urdf() {
         }
     }
 }
+
+/// The samples of a made recording in a share of its time, on a clock of its own.
+fn cut(trace: &Trace, [from, to]: [f64; 2]) -> Trace {
+    let all = trace.len() as f64;
+    let range = (from * all) as usize..(to * all) as usize;
+    let mut part = trace.clone();
+    let start_s = part.time_s[range.start];
+    part.time_s = part.time_s[range.clone()]
+        .iter()
+        .map(|t| t - start_s)
+        .collect();
+    for channel in &mut part.channels {
+        channel.samples = channel.samples[range.clone()].to_vec();
+    }
+    part
+}
+
+/// Two recordings show what one of them and their sum show, and a third says how well.
+#[test]
+fn several_recordings_of_an_arm_are_diagnosed_together() {
+    let (rig, trace) = made(25);
+    let alone = whole(&rig, &trace).calibration;
+    let parts = [[0.0, 0.41], [0.41, 0.73], [0.73, 1.0]].map(|share| cut(&trace, share));
+    let parts = parts.map(|own| rig.apply(&own, Path::new("case.csv")).unwrap());
+    let [one, two, three] = &parts;
+    let options = Options {
+        next_experiment: false,
+        ..Options::default()
+    };
+    let found = diagnose(&rig, &[one, two], Some(three), &options);
+    assert!(found.report.fault.is_none(), "{:?}", found.report.fault);
+    let names = |rig: &ChainRig| -> Vec<(String, &'static str)> {
+        let each = rig.effects.iter();
+        each.map(|own| (own.joint.clone(), own.effect.mechanism.name()))
+            .collect()
+    };
+    assert_eq!(names(&found.calibration), names(&alone));
+    let fit = found.report.fit.unwrap();
+    let held_out = fit.held_out.unwrap();
+    println!("{} → {} {}", held_out.before, held_out.after, fit.unit);
+    assert!(held_out.after < 0.5 * held_out.before);
+    // A recording at another rate is refused by its place.
+    let mut other = three.clone();
+    other.time_s.iter_mut().for_each(|t| *t *= 2.0);
+    let fault = diagnose(&rig, &[one, &other], None, &options)
+        .report
+        .fault
+        .unwrap();
+    assert!(fault.reason.contains("at one rate"), "{}", fault.reason);
+}

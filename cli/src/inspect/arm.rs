@@ -199,11 +199,25 @@ mod tests {
     }
 
     fn begun(columns: &[(&str, &str)]) -> String {
+        let of = |file: &str| begun_with(file, columns);
+        let (urdf, mjcf) = (of("arm.urdf"), of("arm.xml"));
+        assert_eq!(
+            mjcf.replace("MJCF", "URDF")
+                .replace("mjcf", "urdf")
+                .replace(".xml", ".urdf"),
+            urdf
+        );
+        urdf
+    }
+
+    fn begun_with(file: &str, columns: &[(&str, &str)]) -> String {
         let views: Vec<SignalView> = columns
             .iter()
             .map(|(name, unit)| view(name, unit))
             .collect();
-        let urdf = Path::new(env!("CARGO_MANIFEST_DIR")).join("../rigs/arm.urdf");
+        let urdf = Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("../rigs")
+            .join(file);
         let model = Model {
             model: Some(urdf),
             tip: Some("fore".to_owned()),

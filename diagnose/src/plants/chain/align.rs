@@ -260,5 +260,6 @@ fn equations(chain: &Chain, joints: &[Aligned], step_s: f64) -> ChainRun {
         },
         speed_floor: joints.iter().map(|own| own.floor).fold(0.0, f64::max),
         recorded,
+        seams: Vec::new(),
     }
 }

@@ -13,6 +13,7 @@ use crate::effect::Effect;
 use crate::evidence::Intervals;
 use crate::filter::rms;
 use crate::plant::{Described, Plant, Run, Simulated, Unsimulated};
+use crate::plants::joined::joined;
 use crate::problem::Problem;
 use crate::report::FitReport;
 use crate::rules::ARM_WIDTH_S;
@@ -34,6 +35,10 @@ impl Plant for ChainRig {
 
     fn aligned(&self, recording: &ChainRecording, _: f64) -> Result<ChainRun, Fault> {
         aligned(self, recording)
+    }
+
+    fn joined(runs: Vec<ChainRun>) -> Result<ChainRun, (usize, Fault)> {
+        joined(runs)
     }
 
     fn part(run: &ChainRun, from: usize, to: usize) -> ChainRun {

@@ -28,52 +28,43 @@ impl<'a, 'i> Tree<'a, 'i> {
         };
         for section in self.root.children() {
             for node in section.children().filter(Node::is_element) {
-                let tag = node.tag_name().name();
                 let name = node.attribute("name").unwrap_or("without a name");
-                let at = |tied: (&str, &str)| format!("{} `{}` of the arm", tied.0, tied.1);
-                match section.tag_name().name() {
+                let said = match section.tag_name().name() {
                     "equality" if node.attribute("active") != Some("false") => {
-                        let Some(tied) = named(node) else { continue };
-                        let what = match tag {
-                            "connect" | "weld" => "a loop is no serial arm",
-                            _ => "a joint that follows has no effort of its own",
-                        };
-                        let said = format!(
-                            "the constraint `{tag}` ({name}) ties {}: {what}; take it out, or end the arm before it (`tip`)",
-                            at(tied)
-                        );
-                        return fault(node, said);
+                        named(node).map(|tied| constraint(node, name, tied))
                     }
-                    "tendon" => {
-                        let Some(tied) = node.descendants().find_map(named) else {
-                            continue;
-                        };
-                        let said = format!(
-                            "the tendon {name} runs over {}: tendons are not read; take it out, or end the arm before it (`tip`)",
-                            at(tied)
-                        );
-                        return fault(node, said);
-                    }
-                    "actuator" => {
-                        let Some(tied) = named(node).filter(|own| own.0 == "joint") else {
-                            continue;
-                        };
-                        for what in ["armature", "damping"] {
-                            let text = self.settings.attribute(node, MAIN, what)?;
-                            if text.is_some_and(is_not_zero) {
-                                let said = format!(
-                                    "the actuator {name} has {what} of its own: write it, times the square of the gear, at {}",
-                                    at(tied)
-                                );
-                                return fault(node, said);
-                            }
-                        }
-                    }
-                    _ => {}
+                    "tendon" => node.descendants().find_map(named).map(|(kind, tied)| {
+                        format!(
+                            "the tendon {name} runs over {kind} `{tied}` of the arm, and tendons \
+                             are not read: {OUT}"
+                        )
+                    }),
+                    "actuator" => match named(node) {
+                        Some(("joint", tied)) => self.rotor(node, name, tied)?,
+                        _ => None,
+                    },
+                    _ => None,
+                };
+                if let Some(said) = said {
+                    return fault(node, said);
                 }
             }
         }
         Ok(())
+    }
+
+    /// What an actuator states that belongs to its joint.
+    fn rotor(&self, node: Node<'a, 'i>, name: &str, joint: &str) -> Read<Option<String>> {
+        for what in ["armature", "damping"] {
+            let text = self.settings.attribute(node, MAIN, what)?;
+            if text.is_some_and(is_not_zero) {
+                return Ok(Some(format!(
+                    "the actuator {name} has {what} of its own: write it, times the square of the \
+                     gear, at joint `{joint}`"
+                )));
+            }
+        }
+        Ok(None)
     }
 
     /// What of the arm can be named, by kind.
@@ -88,4 +79,16 @@ impl<'a, 'i> Tree<'a, 'i> {
         each.filter_map(|(kind, node)| Some((kind, node.attribute("name")?)))
             .collect()
     }
+}
+
+const OUT: &str = "take it out, or end the arm before it (`tip`)";
+
+/// Why an arm has no such constraint.
+fn constraint(node: Node<'_, '_>, name: &str, (kind, tied): (&str, &str)) -> String {
+    let tag = node.tag_name().name();
+    let why = match tag {
+        "connect" | "weld" => "a loop is no serial arm",
+        _ => "a joint that follows has no effort of its own",
+    };
+    format!("the constraint `{tag}` ({name}) ties {kind} `{tied}` of the arm, and {why}: {OUT}")
 }

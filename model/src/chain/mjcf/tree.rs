@@ -157,7 +157,7 @@ impl<'a, 'i> Tree<'a, 'i> {
                 [end] => Ok((end, Place::none())),
                 [] => fault(
                     self.root,
-                    "no body moves on a base that is fixed: a serial arm has neither free joints nor none".to_owned(),
+                    "no body moves on a fixed base: free bodies are no serial arm".to_owned(),
                 ),
                 _ => {
                     let ends = ends().join(", ");
