@@ -219,11 +219,48 @@ fn an_arm_with_its_calibrated_urdf_lacks_nothing() {
 #[test]
 fn an_arm_with_its_calibrated_mjcf_lacks_nothing_and_its_rotor_is_written() {
     // Coulomb friction; a payload beside a peak, which no MJCF holds; a rotor beside a delay.
-    for (seed, table) in [(25, &[][..]), (22, &["stribeck"]), (19, &["logger_skew"])] {
+    for (seed, table) in [(25, &[][..]), (22, &["stribeck"]), (19, &["channel_skew"])] {
         let (rig, trace) = made(seed);
         let rig = as_mjcf(&rig);
         let left = lacks_nothing(&rig, &trace, ["calibrated.xml", "not-in-mjcf.csv"]);
         assert_eq!(left, table, "{seed}");
+    }
+}
+
+/// What begins during a recording, or has no number in a model, is in the table and not in the file.
+#[test]
+fn what_a_model_cannot_hold_stands_in_a_table() {
+    let (rig, _) = made(25);
+    let effects = "[[effect]]\nmechanism = \"viscous\"\njoint = \"joint1\"\n\
+         onset = { value = 3.1, unit = \"s\" }\n\
+         coefficient = { value = 0.7, unit = \"N·m·s/rad\" }\n\
+         [[effect]]\nmechanism = \"constant_bias\"\njoint = \"joint2\"\n\
+         level = { value = -0.31, unit = \"N·m\" }\n";
+    for (rig, table) in [
+        (rig.clone(), "not-in-urdf.csv"),
+        (as_mjcf(&rig), "not-in-mjcf.csv"),
+    ] {
+        let text = rig.to_toml() + effects;
+        let rig = ChainRig::parse(&text, Path::new("case.toml")).unwrap();
+        let files = rig.beside();
+        let [(name, lacks)] = &files[..] else {
+            panic!("{files:?}");
+        };
+        assert_eq!(*name, table);
+        let rows: Vec<&str> = lacks.lines().collect();
+        let has = |row: &str, words: [&str; 2]| words.iter().all(|own| row.contains(own));
+        assert_eq!(rows.len(), 3, "{lacks}");
+        assert!(
+            has(
+                rows[1],
+                ["constant_bias,level,-0.31,N·m", "no constant effort"]
+            ),
+            "{lacks}"
+        );
+        assert!(
+            has(rows[2], ["viscous,coefficient,0.7,", "begins during"]),
+            "{lacks}"
+        );
     }
 }
 

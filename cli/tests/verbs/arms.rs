@@ -48,83 +48,94 @@ fn refused(desk: &Desk, line: &str, words: &[&str]) {
     assert_eq!(desk.names("."), before, "{line}");
 }
 
+const INERTIAL_OF_FORE: &str =
+    "<inertial pos=\"0.09 0.004 0\" mass=\"0.37\" diaginertia=\"0.0003 0.0012 0.0011\"/>";
+const INERTIAL_OF_URDF: &str = r#"<inertial>
+      <origin xyz="0.09 0.004 0"/><mass value="0.37"/>
+      <inertia ixx="0.0003" ixy="0" ixz="0" iyy="0.0012" iyz="0" izz="0.0011"/>
+    </inertial>"#;
+
+/// The format, what is replaced in the arm by what, and the words that are said of it.
+const WRONG: &[(&str, &str, &str, [&str; 2])] = &[
+    (
+        "urdf",
+        "<parent link=\"base\"/>",
+        "<parent link=\"fore\"/>",
+        ["arm.urdf: line", "loop"],
+    ),
+    (
+        "urdf",
+        INERTIAL_OF_URDF,
+        "<visual/>",
+        ["arm.urdf: line", "no `inertial`"],
+    ),
+    (
+        "urdf",
+        "<axis xyz=\"0 1 0\"/>\n    <limit lower=\"-2.6\" upper=\"2.6\" effort=\"6\"",
+        "<mimic joint=\"shoulder\"/>\n    <limit effort=\"6\"",
+        ["arm.urdf: line", "mimic"],
+    ),
+    (
+        "urdf",
+        "value=\"0.37\"",
+        "value=\"-0.37\"",
+        ["arm.urdf: line", "negative"],
+    ),
+    (
+        "urdf",
+        "name=\"elbow\"",
+        "name=\"ellbow\"",
+        ["`elbow` is no moving joint", "ellbow"],
+    ),
+    (
+        "mjcf",
+        "</worldbody>",
+        "</worldbody><equality><connect body1=\"fore\" anchor=\"0 0 0\"/></equality>",
+        ["arm.xml: line 17", "loop"],
+    ),
+    (
+        "mjcf",
+        INERTIAL_OF_FORE,
+        "",
+        ["arm.xml: line 12", "no `inertial`"],
+    ),
+    (
+        "mjcf",
+        INERTIAL_OF_FORE,
+        "<geom size=\"0.1\"/>",
+        ["arm.xml: line 14", "s.compiler.saveinertial = True"],
+    ),
+    (
+        "mjcf",
+        "<worldbody>",
+        "<include file=\"more.xml\"/><worldbody>",
+        ["arm.xml: line 8", "`include`"],
+    ),
+    (
+        "mjcf",
+        "mass=\"0.37\"",
+        "mass=\"-0.37\"",
+        ["arm.xml: line 14", "negative"],
+    ),
+    (
+        "mjcf",
+        "name=\"elbow\"",
+        "name=\"ellbow\"",
+        ["`elbow` is no moving joint", "ellbow"],
+    ),
+    (
+        "mjcf",
+        MJCF,
+        URDF,
+        ["arm.xml: line", "say `urdf` instead of `mjcf`"],
+    ),
+];
+
 #[test]
 fn a_model_that_is_no_arm_is_refused_in_one_line() {
-    let inertial =
-        "<inertial pos=\"0.09 0.004 0\" mass=\"0.37\" diaginertia=\"0.0003 0.0012 0.0011\"/>";
-    let of_fore = URDF.rsplit_once("<link name=\"fore\">").unwrap().1;
-    let of_fore = of_fore.split("</link>").next().unwrap();
-    for (name, from, to, words) in [
-        (
-            "urdf",
-            "<parent link=\"base\"/>",
-            "<parent link=\"fore\"/>",
-            ["arm.urdf: line", "loop"],
-        ),
-        (
-            "urdf",
-            of_fore,
-            "<visual/>",
-            ["arm.urdf: line", "no `inertial`"],
-        ),
-        (
-            "urdf",
-            "<axis xyz=\"0 1 0\"/>\n    <limit lower=\"-2.6\" upper=\"2.6\" effort=\"6\"",
-            "<mimic joint=\"shoulder\"/>\n    <limit effort=\"6\"",
-            ["arm.urdf: line", "mimic"],
-        ),
-        (
-            "urdf",
-            "value=\"0.37\"",
-            "value=\"-0.37\"",
-            ["arm.urdf: line", "negative"],
-        ),
-        (
-            "urdf",
-            "name=\"elbow\"",
-            "name=\"ellbow\"",
-            ["`elbow` is no moving joint", "ellbow"],
-        ),
-        (
-            "mjcf",
-            "</worldbody>",
-            "</worldbody><equality><connect body1=\"fore\" anchor=\"0 0 0\"/></equality>",
-            ["arm.xml: line 18", "loop"],
-        ),
-        ("mjcf", inertial, "", ["arm.xml: line 13", "no `inertial`"]),
-        (
-            "mjcf",
-            inertial,
-            "<geom size=\"0.1\"/>",
-            ["arm.xml: line 15", "s.compiler.saveinertial = True"],
-        ),
-        (
-            "mjcf",
-            "<worldbody>",
-            "<include file=\"more.xml\"/><worldbody>",
-            ["arm.xml: line 8", "`include`"],
-        ),
-        (
-            "mjcf",
-            "mass=\"0.37\"",
-            "mass=\"-0.37\"",
-            ["arm.xml: line 15", "negative"],
-        ),
-        (
-            "mjcf",
-            "name=\"elbow\"",
-            "name=\"ellbow\"",
-            ["`elbow` is no moving joint", "ellbow"],
-        ),
-        (
-            "mjcf",
-            MJCF,
-            URDF,
-            ["arm.xml: line", "say `urdf` instead of `mjcf`"],
-        ),
-    ] {
+    for (name, from, to, words) in WRONG {
         let desk = desk();
-        let (file, text) = if name == "urdf" {
+        let (file, text) = if *name == "urdf" {
             ("arm.urdf", URDF)
         } else {
             ("arm.xml", MJCF)
@@ -134,7 +145,7 @@ fn a_model_that_is_no_arm_is_refused_in_one_line() {
         refused(
             &desk,
             &format!("diagnose run.csv --rig {name}.toml --out found"),
-            &words,
+            words,
         );
     }
     let desk = desk();

@@ -138,151 +138,155 @@ fn the_same_arm_in_a_urdf_is_the_same_arm() {
     }
 }
 
+const INERTIAL_OF_FORE: &str = "<inertial pos=\"0.08 0.01 0\" mass=\"0.61\" fullinertia=\"0.003 0.005 0.004 0.0004 -0.0003 0.0002\"/>";
+const BEND: &str = "<joint name=\"bend\"";
+const END: &str = "</worldbody>";
+
+/// What is replaced in the arm by what, and the words that are said of it.
+const WRONG: &[(&str, &str, [&str; 2])] = &[
+    // What the compiler would infer.
+    (
+        INERTIAL_OF_FORE,
+        "<geom size=\"0.1\"/>",
+        ["line 21", "saveinertial"],
+    ),
+    (
+        "angle=\"degree\"",
+        "inertiafromgeom=\"true\"",
+        ["line 2", "saveinertial"],
+    ),
+    (
+        "<option",
+        "<include file=\"a.xml\"/><option",
+        ["line 3", "`include`"],
+    ),
+    (
+        "angle=\"degree\"",
+        "settotalmass=\"3\"",
+        ["line 2", "`settotalmass`"],
+    ),
+    (
+        BEND,
+        "<replicate count=\"2\"/><joint name=\"bend\"",
+        ["line 20", "`replicate`"],
+    ),
+    // Inertias that are missing or of no body.
+    (INERTIAL_OF_FORE, "", ["line 19", "no `inertial`"]),
+    ("mass=\"0.61\"", "mass=\"-0.61\"", ["line 21", "negative"]),
+    (
+        "fullinertia=\"0.003",
+        "fullinertia=\"0.03",
+        ["line 21", "triangle"],
+    ),
+    (
+        "mass=\"0.61\" full",
+        "mass=\"0.61\" diaginertia=\"1 1 1\" full",
+        ["line 21", "one of `diaginertia`"],
+    ),
+    ("mass=\"0.61\"", "", ["line 21", "`mass` is missing"]),
+    // Joints and what pulls at them.
+    (
+        BEND,
+        "<joint type=\"ball\" name=\"bend\"",
+        ["line 20", "`ball`"],
+    ),
+    (
+        "<joint name=\"turn\"",
+        "<freejoint/><joint name=\"turn\"",
+        ["line 1:", "free"],
+    ),
+    (BEND, "<joint", ["line 20", "no name"]),
+    (BEND, "<joint name=\"turn\"", ["line 20", "twice"]),
+    (
+        BEND,
+        "<joint stiffness=\"3\" name=\"bend\"",
+        ["line 20", "spring"],
+    ),
+    (
+        BEND,
+        "<joint damping=\"0.1 0.2\" name=\"bend\"",
+        ["line 20", "`damping"],
+    ),
+    (
+        BEND,
+        "<joint armature=\"-1\" name=\"bend\"",
+        ["line 20", "`armature"],
+    ),
+    (
+        BEND,
+        "<joint class=\"gared\" name=\"bend\"",
+        ["line 20", "geared"],
+    ),
+    (
+        "axis=\"0 -0.6 0.8\"",
+        "axis=\"0 0 0\"",
+        ["line 20", "direction"],
+    ),
+    (
+        "<body name=\"sensor\"",
+        "<body gravcomp=\"1\" name=\"sensor\"",
+        ["line 15", "`gravcomp`"],
+    ),
+    (
+        "<site ",
+        "<body name=\"finger\"><joint name=\"f\"/></body><body name=\"thumb\"><joint name=\"t\"/></body><site ",
+        ["branches", "finger, thumb"],
+    ),
+    (
+        "<geom size=\"0.02\" mass=\"0\"/>",
+        "<joint name=\"loose\"/>",
+        ["branches", "sensor, fore"],
+    ),
+    (
+        END,
+        "</worldbody><equality><connect body1=\"fore\" anchor=\"0 0 0\"/></equality>",
+        ["line 26", "loop"],
+    ),
+    (
+        END,
+        "</worldbody><equality><weld site1=\"flange\" site2=\"x\"/></equality>",
+        ["line 26", "loop"],
+    ),
+    (
+        END,
+        "</worldbody><equality><joint name=\"both\" joint1=\"bend\" joint2=\"turn\"/></equality>",
+        ["line 26", "both"],
+    ),
+    (
+        END,
+        "</worldbody><tendon><fixed name=\"wire\"><joint joint=\"bend\" coef=\"1\"/></fixed></tendon>",
+        ["line 26", "wire"],
+    ),
+    (
+        END,
+        "</worldbody><actuator><motor name=\"m\" joint=\"bend\" armature=\"0.1\"/></actuator>",
+        ["line 26", "square of the gear"],
+    ),
+    // Text.
+    (
+        "xyaxes=\"0.9 0.1 0.2 -0.1 1 0.3\"",
+        "xyaxes=\"0.9 0.1 0.2\"",
+        ["line 19", "6 numbers"],
+    ),
+    (
+        "quat=\"0.8 0.1 -0.3 0.2\"",
+        "quat=\"0.8 0.1 -0.3 0.2\" euler=\"1 2 3\"",
+        ["line 15", "twice"],
+    ),
+    ("eulerseq=\"zYx\"", "eulerseq=\"zYw\"", ["line 2", "zYw"]),
+    ("<option ", "<option viscosity=\"1\" ", ["line 3", "fluid"]),
+    (
+        "<option gravity=\"0.7 -0.4 -9.6\"/>",
+        "<option><flag frictionloss=\"disable\"/></option>",
+        ["line 3", "frictionloss"],
+    ),
+    ("</mujoco>", "", ["line", "XML"]),
+    ("<mujoco", "<mujuco", ["line", "XML"]),
+];
+
 #[test]
 fn what_cannot_be_meant_is_said_in_one_line_with_its_number() {
-    let inertial = "<inertial pos=\"0.08 0.01 0\" mass=\"0.61\" fullinertia=\"0.003 0.005 0.004 0.0004 -0.0003 0.0002\"/>";
-    let bend = "<joint name=\"bend\"";
-    let end = "</worldbody>";
-    for (from, to, words) in [
-        // What the compiler would infer.
-        (
-            inertial,
-            "<geom size=\"0.1\"/>",
-            ["line 21", "saveinertial"],
-        ),
-        (
-            "angle=\"degree\"",
-            "inertiafromgeom=\"true\"",
-            ["line 2", "saveinertial"],
-        ),
-        (
-            "<option",
-            "<include file=\"a.xml\"/><option",
-            ["line 3", "`include`"],
-        ),
-        (
-            "angle=\"degree\"",
-            "settotalmass=\"3\"",
-            ["line 2", "`settotalmass`"],
-        ),
-        (
-            bend,
-            "<replicate count=\"2\"/><joint name=\"bend\"",
-            ["line 20", "`replicate`"],
-        ),
-        // Inertias that are missing or of no body.
-        (inertial, "", ["line 19", "no `inertial`"]),
-        ("mass=\"0.61\"", "mass=\"-0.61\"", ["line 21", "negative"]),
-        (
-            "fullinertia=\"0.003",
-            "fullinertia=\"0.03",
-            ["line 21", "triangle"],
-        ),
-        (
-            "mass=\"0.61\" full",
-            "mass=\"0.61\" diaginertia=\"1 1 1\" full",
-            ["line 21", "one of `diaginertia`"],
-        ),
-        ("mass=\"0.61\"", "", ["line 21", "`mass` is missing"]),
-        // Joints and what pulls at them.
-        (
-            bend,
-            "<joint type=\"ball\" name=\"bend\"",
-            ["line 20", "`ball`"],
-        ),
-        (
-            "<joint name=\"turn\"",
-            "<freejoint/><joint name=\"turn\"",
-            ["line 1:", "free"],
-        ),
-        (bend, "<joint", ["line 20", "no name"]),
-        (bend, "<joint name=\"turn\"", ["line 20", "twice"]),
-        (
-            bend,
-            "<joint stiffness=\"3\" name=\"bend\"",
-            ["line 20", "spring"],
-        ),
-        (
-            bend,
-            "<joint damping=\"0.1 0.2\" name=\"bend\"",
-            ["line 20", "`damping"],
-        ),
-        (
-            bend,
-            "<joint armature=\"-1\" name=\"bend\"",
-            ["line 20", "`armature"],
-        ),
-        (
-            bend,
-            "<joint class=\"gared\" name=\"bend\"",
-            ["line 20", "geared"],
-        ),
-        (
-            "axis=\"0 -0.6 0.8\"",
-            "axis=\"0 0 0\"",
-            ["line 20", "direction"],
-        ),
-        (
-            "<body name=\"sensor\"",
-            "<body gravcomp=\"1\" name=\"sensor\"",
-            ["line 15", "`gravcomp`"],
-        ),
-        (
-            "<site ",
-            "<body name=\"finger\"><joint name=\"f\"/></body><body name=\"thumb\"><joint name=\"t\"/></body><site ",
-            ["branches", "finger, thumb"],
-        ),
-        (
-            "<geom size=\"0.02\" mass=\"0\"/>",
-            "<joint name=\"loose\"/>",
-            ["branches", "sensor, fore"],
-        ),
-        (
-            end,
-            "</worldbody><equality><connect body1=\"fore\" anchor=\"0 0 0\"/></equality>",
-            ["line 26", "loop"],
-        ),
-        (
-            end,
-            "</worldbody><equality><weld site1=\"flange\" site2=\"x\"/></equality>",
-            ["line 26", "loop"],
-        ),
-        (
-            end,
-            "</worldbody><equality><joint name=\"both\" joint1=\"bend\" joint2=\"turn\"/></equality>",
-            ["line 26", "both"],
-        ),
-        (
-            end,
-            "</worldbody><tendon><fixed name=\"wire\"><joint joint=\"bend\" coef=\"1\"/></fixed></tendon>",
-            ["line 26", "wire"],
-        ),
-        (
-            end,
-            "</worldbody><actuator><motor name=\"m\" joint=\"bend\" armature=\"0.1\"/></actuator>",
-            ["line 26", "square of the gear"],
-        ),
-        // Text.
-        (
-            "xyaxes=\"0.9 0.1 0.2 -0.1 1 0.3\"",
-            "xyaxes=\"0.9 0.1 0.2\"",
-            ["line 19", "6 numbers"],
-        ),
-        (
-            "quat=\"0.8 0.1 -0.3 0.2\"",
-            "quat=\"0.8 0.1 -0.3 0.2\" euler=\"1 2 3\"",
-            ["line 15", "twice"],
-        ),
-        ("eulerseq=\"zYx\"", "eulerseq=\"zYw\"", ["line 2", "zYw"]),
-        ("<option ", "<option viscosity=\"1\" ", ["line 3", "fluid"]),
-        (
-            "<option gravity=\"0.7 -0.4 -9.6\"/>",
-            "<option><flag frictionloss=\"disable\"/></option>",
-            ["line 3", "frictionloss"],
-        ),
-        ("</mujoco>", "", ["line", "XML"]),
-        ("<mujoco", "<mujuco", ["line", "XML"]),
-    ] {
+    for (from, to, words) in WRONG {
         assert_ne!(ARM.replacen(from, to, 1), ARM, "{from}");
         let said = Chain::from_mjcf(&ARM.replacen(from, to, 1), None).map(|own| own.name);
         let said = said.expect_err(to).to_string();
