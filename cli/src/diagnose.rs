@@ -341,13 +341,18 @@ fn next(rig: &Path, out: &Path, shown_on: &Path, diagnosis: &Diagnosis) -> Strin
             report.unknown.as_ref().map_or("joint and regime hint at", |_| "the shape says"),
         ),
         // A model of another simulator is simulated there.
-        _ => match diagnosis.calibration.beside().first() {
-            Some((name, _)) => format!(
+        _ => match &diagnosis.calibration.beside()[..] {
+            [(model, _)] if !model.ends_with(".csv") => format!(
                 "take {} into your own simulation; {} has all that was found",
-                out.join(name).display(),
+                out.join(model).display(),
                 calibration.display()
             ),
-            None => shell::line(
+            [(model, _), (table, _)] => format!(
+                "take {} into your own simulation; {} lists what it cannot hold",
+                out.join(model).display(),
+                out.join(table).display()
+            ),
+            _ => shell::line(
                 &["rigproof", "simulate"],
                 &[
                     ("", shown_on),

@@ -5,17 +5,19 @@
 mod base;
 mod dynamics;
 mod inertial;
+mod mjcf;
 mod possible;
 mod regressor;
 mod urdf;
 mod written;
+mod xml;
 
 pub use base::{Base, Group};
 pub use dynamics::Pose;
 pub use inertial::{INERTIAL, Inertial, PARAMETER_NAMES};
 pub use regressor::Momentum;
-pub use urdf::UrdfError;
-pub use written::Changes;
+pub use written::{Changes, Stated};
+pub use xml::{FormatError, is_mjcf};
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -33,7 +35,7 @@ pub enum Kind {
 pub struct Joint {
     /// Its name.
     pub name: String,
-    /// The name of the link that it moves.
+    /// The name of the link that it moves; none between two joints of one body.
     pub link: String,
     /// Whether it turns or slides.
     pub kind: Kind,
@@ -51,6 +53,8 @@ pub struct Joint {
     pub damping: f64,
     /// Coulomb friction that the description states, N·m or N.
     pub friction: f64,
+    /// Inertia of a rotor that turns or slides with the joint alone, kg·m² or kg.
+    pub armature: f64,
 }
 
 /// A serial arm on a fixed base.

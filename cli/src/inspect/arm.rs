@@ -1,11 +1,12 @@
-//! This file begins the description of a serial arm from its URDF and the columns of a recording.
+//! This file begins the description of a serial arm from its URDF or MJCF and the columns of a recording.
 
 use std::path::{Path, PathBuf};
 
-use rigproof_model::chain::{Chain, Kind};
+use rigproof_model::chain::{Chain, Kind, is_mjcf};
 use rigproof_spec::units::{Dimension, Unit};
 use rigproof_trace::csv::{Hints, TimeColumn};
 use rigproof_trace::rig::FILL_IN;
+use rigproof_trace::rig::chain::ModelFormat;
 use rigproof_trace::store::read_text;
 
 use super::signal::SignalView;
@@ -19,10 +20,10 @@ const EFFORT: [&str; 5] = ["tau", "effort", "torque", "trq", "force"];
 /// The model that an arm is described by.
 #[derive(Clone, clap::Args)]
 pub struct Model {
-    /// With --write-rig: the URDF of a serial arm; its joints are looked for among the columns by their names, or as q1 … qn and tau1 … taun
-    #[arg(long, value_name = "URDF", requires = "write_rig")]
+    /// With --write-rig: the URDF or MJCF of a serial arm; its joints are looked for among the columns by their names, or as q1 … qn and tau1 … taun
+    #[arg(long, value_name = "FILE", requires = "write_rig")]
     model: Option<PathBuf>,
-    /// With --model: the link beyond which nothing is attached, where the arm branches
+    /// With --model: the link (of MJCF a body or site) beyond which nothing is attached, where the arm branches
     #[arg(long, value_name = "LINK", requires = "model")]
     tip: Option<String>,
 }
@@ -31,7 +32,7 @@ impl Model {
     /// The beginning of a description; `None` without a model.
     ///
     /// # Errors
-    /// The URDF describes no arm.
+    /// The model describes no arm.
     pub fn toml(
         &self,
         (recording, rig): (&Path, &Path),
@@ -42,14 +43,27 @@ impl Model {
         let Some(file) = &self.model else {
             return Ok(None);
         };
-        let chain = Chain::from_urdf(&read_text(file)?, self.tip.as_deref())
-            .map_err(|error| Failure::unusable(file, error.to_string()))?;
+        let text = read_text(file)?;
+        let (format, chain) = match is_mjcf(&text) {
+            true => (
+                ModelFormat::Mjcf,
+                Chain::from_mjcf(&text, self.tip.as_deref()),
+            ),
+            false => (
+                ModelFormat::Urdf,
+                Chain::from_urdf(&text, self.tip.as_deref()),
+            ),
+        };
+        let chain = chain.map_err(|error| Failure::unusable(file, error.to_string()))?;
         let stem = recording.file_stem().unwrap_or_default().to_string_lossy();
         let mut lines = vec![
-            "# Begun by `rigproof inspect` from a URDF and a recording: check that each joint has its own columns.".to_owned(),
+            format!(
+                "# Begun by `rigproof inspect` from {} and a recording: check that each joint has its own columns.",
+                format.name()
+            ),
             format!("name = {}", string(&stem)),
             "plant = \"chain\"".to_owned(),
-            format!("urdf = {}", string(&seen_from(file, rig))),
+            format!("{} = {}", format.key(), string(&seen_from(file, rig))),
         ];
         let tip = self.tip.iter();
         lines.extend(tip.map(|tip| format!("tip = {}", string(tip))));
@@ -89,10 +103,10 @@ impl Model {
     }
 }
 
-/// The URDF as a description names it: beside itself by its name, elsewhere by its whole path.
-fn seen_from(urdf: &Path, rig: &Path) -> String {
+/// The model as a description names it: beside itself by its name, elsewhere by its whole path.
+fn seen_from(model: &Path, rig: &Path) -> String {
     let whole = |path: &Path| std::path::absolute(path).unwrap_or(path.to_owned());
-    let (own, rig) = (whole(urdf), whole(rig));
+    let (own, rig) = (whole(model), whole(rig));
     match own.parent() == rig.parent() {
         true => own.file_name().map_or(own.clone(), PathBuf::from),
         false => own,
@@ -185,11 +199,25 @@ mod tests {
     }
 
     fn begun(columns: &[(&str, &str)]) -> String {
+        let of = |file: &str| begun_with(file, columns);
+        let (urdf, mjcf) = (of("arm.urdf"), of("arm.xml"));
+        assert_eq!(
+            mjcf.replace("MJCF", "URDF")
+                .replace("mjcf", "urdf")
+                .replace(".xml", ".urdf"),
+            urdf
+        );
+        urdf
+    }
+
+    fn begun_with(file: &str, columns: &[(&str, &str)]) -> String {
         let views: Vec<SignalView> = columns
             .iter()
             .map(|(name, unit)| view(name, unit))
             .collect();
-        let urdf = Path::new(env!("CARGO_MANIFEST_DIR")).join("../rigs/arm.urdf");
+        let urdf = Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("../rigs")
+            .join(file);
         let model = Model {
             model: Some(urdf),
             tip: Some("fore".to_owned()),

@@ -1,5 +1,6 @@
 //! This file joins the tests of the verbs, which run the program as a person does.
 
+mod arms;
 mod attack;
 mod bad_diagnosis;
 mod bad_input;

@@ -220,6 +220,38 @@ fn the_third_brings_an_arm_and_its_urdf() {
     assert!((found - HIDDEN).abs() < 0.1 * HIDDEN, "{found}");
 }
 
+/// The same arm in MJCF, from an empty folder to the model with what was found.
+#[test]
+fn the_third_brings_the_arm_in_mjcf_as_well() {
+    let _timed = Timed::task("an arm and its MJCF");
+    let desk = Desk::new();
+    desk.put("arm.xml", include_str!("../../../rigs/arm.xml"));
+    desk.put("run.csv", &arm());
+    desk.prints("inspect run.csv --model arm.xml --write-rig begun.toml", 0);
+    let begun = desk.read("begun.toml");
+    assert!(begun.contains("mjcf = \"arm.xml\""), "{begun}");
+    let answer = desk.rigproof("diagnose run.csv --rig begun.toml --out found");
+    let said = String::from_utf8([answer.stdout, answer.stderr].concat()).unwrap();
+    assert_eq!(answer.status.code(), Some(0), "{said}");
+    assert!(
+        names(&desk, "found").contains(&"viscous at elbow".to_owned()),
+        "{said}"
+    );
+    assert!(said.contains("take found/calibrated.xml"), "{said}");
+    let written = desk.read("found/calibrated.xml");
+    let (_, found) = written.split_once("<joint damping=\"").unwrap();
+    let found: f64 = found.split('"').next().unwrap().parse().unwrap();
+    assert!((found - HIDDEN).abs() < 0.1 * HIDDEN, "{written}");
+    // The calibrated model lacks that no more.
+    desk.put(
+        "again.toml",
+        &begun.replace("arm.xml", "found/calibrated.xml"),
+    );
+    desk.rigproof("diagnose run.csv --rig again.toml --out again");
+    let again = names(&desk, "again");
+    assert!(!again.contains(&"viscous at elbow".to_owned()), "{again:?}");
+}
+
 #[test]
 fn the_fourth_changes_a_controller_that_must_not_go_on_the_rig() {
     let _timed = Timed::task("a changed controller refused");

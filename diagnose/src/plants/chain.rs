@@ -3,6 +3,7 @@
 
 mod align;
 mod beside;
+mod joined;
 mod plant;
 mod run;
 mod simulated;

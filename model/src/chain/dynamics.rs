@@ -25,7 +25,7 @@ pub struct Pose {
 }
 
 /// A rotation by an angle about an axis of length 1, rad.
-fn turned(axis: &Vector3<f64>, angle: f64) -> Matrix3<f64> {
+pub(super) fn turned(axis: &Vector3<f64>, angle: f64) -> Matrix3<f64> {
     let (sin, cos) = libm::sincos(angle);
     let arm = super::inertial::cross(axis);
     Matrix3::identity() + sin * arm + (1.0 - cos) * arm * arm
@@ -96,7 +96,7 @@ impl Chain {
         let mut moment = Vector3::zeros();
         let mut efforts = Vec::with_capacity(poses.len());
         let mut further: Option<Vector3<f64>> = None;
-        for (joint, pose) in self.joints.iter().zip(&poses).rev() {
+        for (k, (joint, pose)) in self.joints.iter().zip(&poses).enumerate().rev() {
             if let Some(next) = further {
                 // What the further links take, about this origin.
                 moment += (next - pose.origin).cross(&force);
@@ -108,9 +108,10 @@ impl Chain {
             let fall = pose.acceleration - self.gravity;
             force += own.mass * fall + dw.cross(&first) + w.cross(&w.cross(&first));
             moment += second * dw + w.cross(&(second * w)) + first.cross(&fall);
+            let rotor = joint.armature * acceleration.get(k).copied().unwrap_or(0.0);
             efforts.push(match joint.kind {
-                Kind::Revolute => pose.axis.dot(&moment),
-                Kind::Prismatic => pose.axis.dot(&force),
+                Kind::Revolute => pose.axis.dot(&moment) + rotor,
+                Kind::Prismatic => pose.axis.dot(&force) + rotor,
             });
             further = Some(pose.origin);
         }
@@ -138,7 +139,10 @@ impl Chain {
     /// Kinetic and potential energy, J.
     pub fn energy(&self, q: &[f64], speed: &[f64]) -> [f64; 2] {
         let (mut kinetic, mut potential) = (0.0, 0.0);
-        for (joint, pose) in self.joints.iter().zip(self.poses(q, speed, &[])) {
+        let poses = self.poses(q, speed, &[]).into_iter();
+        for (k, (joint, pose)) in self.joints.iter().zip(poses).enumerate() {
+            let spin = speed.get(k).copied().unwrap_or(0.0);
+            kinetic += 0.5 * joint.armature * spin * spin;
             let own = &joint.inertial;
             let first = pose.rotation * own.first;
             let second = pose.rotation * own.second * pose.rotation.transpose();

@@ -27,6 +27,9 @@ pub(super) fn cross(v: &Vector3<f64>) -> Matrix3<f64> {
 }
 
 impl Inertial {
+    /// Share of the greatest moment of inertia that the rounding of a description may take.
+    pub(super) const ROUNDING: f64 = 1e-3;
+
     /// No mass.
     pub fn none() -> Inertial {
         Inertial {
@@ -46,12 +49,17 @@ impl Inertial {
         }
     }
 
+    /// The centre of mass, m; the origin where there is no mass.
+    pub fn centre(&self) -> Vector3<f64> {
+        match self.mass == 0.0 {
+            true => Vector3::zeros(),
+            false => self.first / self.mass,
+        }
+    }
+
     /// The tensor about the centre of mass; about the origin where there is no mass.
     pub fn central(&self) -> Matrix3<f64> {
-        if self.mass == 0.0 {
-            return self.second;
-        }
-        let arm = cross(&(self.first / self.mass));
+        let arm = cross(&self.centre());
         self.second + self.mass * arm * arm
     }
 

@@ -4,7 +4,7 @@ use super::*;
 use nalgebra::DVector;
 
 /// An arm of three joints that turn and one that slides, with made numbers.
-const ARM: &str = r#"<robot name="made">
+pub(super) const ARM: &str = r#"<robot name="made">
 <link name="base"/>
 <link name="one"><inertial><origin xyz="0.03 -0.02 0.11" rpy="0.1 0.2 -0.3"/><mass value="2.3"/><inertia ixx="0.021" ixy="0.002" ixz="-0.001" iyy="0.019" iyz="0.0015" izz="0.014"/></inertial></link>
 <joint name="j1" type="revolute"><origin xyz="0.01 0.02 0.31" rpy="0.05 0 0.4"/><parent link="base"/><child link="one"/><axis xyz="0 0 1"/></joint>

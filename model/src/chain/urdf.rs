@@ -1,36 +1,13 @@
 //! This file reads an arm from a URDF: the way from the root to a tip, links fixed to one another taken as one.
 
+use super::xml::{Read, child, fault, number, numbers, parsed};
 use super::{Chain, Inertial, Joint, Kind};
 use nalgebra::{Matrix3, Rotation3, Vector3};
-use roxmltree::{Document, Node};
+use roxmltree::Node;
 use std::collections::{BTreeMap, BTreeSet};
-use thiserror::Error;
-
-/// Why a URDF describes no arm.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("line {line}: {reason}")]
-pub struct UrdfError {
-    /// The line of the text.
-    pub line: u32,
-    /// What is wrong there.
-    pub reason: String,
-}
 
 /// Free fall along the base's z axis, m/s².
 const FREE_FALL: f64 = 9.81;
-/// Share of the greatest moment of inertia that the rounding of a description may take.
-const ROUNDING: f64 = 1e-3;
-
-type Read<T> = Result<T, UrdfError>;
-
-fn fault<T>(at: Node<'_, '_>, reason: String) -> Read<T> {
-    let line = at.document().text_pos_at(at.range().start).row;
-    Err(UrdfError { line, reason })
-}
-
-pub(super) fn child<'a, 'i>(of: Node<'a, 'i>, name: &str) -> Option<Node<'a, 'i>> {
-    of.children().find(|node| node.has_tag_name(name))
-}
 
 /// A joint as written.
 #[derive(Clone, Copy)]
@@ -56,17 +33,19 @@ impl Chain {
     /// # Errors
     /// What the text lacks or cannot mean for a serial arm on a fixed base, with the line.
     pub fn from_urdf(text: &str, tip: Option<&str>) -> Read<Chain> {
-        let document = Document::parse(text).map_err(|error| UrdfError {
-            line: error.pos().row,
-            reason: format!("this is no XML: {error}"),
-        })?;
+        let document = parsed(text)?;
         let root = document.root_element();
         if !root.has_tag_name("robot") {
             return fault(
                 root,
                 format!(
-                    "the outermost element is `{}`; a URDF has `robot`",
-                    root.tag_name().name()
+                    "the outermost element is `{}`; a URDF has `robot`{}",
+                    root.tag_name().name(),
+                    if root.has_tag_name("mujoco") {
+                        ": this is MJCF, say `mjcf` instead of `urdf`"
+                    } else {
+                        ""
+                    }
                 ),
             );
         }
@@ -269,6 +248,7 @@ impl<'a, 'i> Tree<'a, 'i> {
             },
             damping: stated("damping")?,
             friction: stated("friction")?,
+            armature: 0.0,
         })
     }
 
@@ -365,31 +345,8 @@ fn inertial(link: Node<'_, '_>, name: &str) -> Read<Inertial> {
     let tensor = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
     let tensor = rotation * tensor * rotation.transpose();
     let own = Inertial::about_centre(mass, centre, tensor);
-    match own.impossible(ROUNDING) {
+    match own.impossible(Inertial::ROUNDING) {
         Some(reason) => fault(node, format!("link `{name}`: {reason}")),
         None => Ok(own),
-    }
-}
-
-fn number(node: Node<'_, '_>, what: &str, otherwise: Option<f64>) -> Read<f64> {
-    match (node.attribute(what), otherwise) {
-        (Some(text), _) => match text.trim().parse::<f64>() {
-            Ok(value) if value.is_finite() => Ok(value),
-            _ => fault(node, format!("`{what}=\"{text}\"` is no number")),
-        },
-        (None, Some(value)) => Ok(value),
-        (None, None) => fault(node, format!("`{what}` is missing")),
-    }
-}
-
-fn numbers(node: Node<'_, '_>, what: &str, otherwise: [f64; 3]) -> Read<[f64; 3]> {
-    let Some(text) = node.attribute(what) else {
-        return Ok(otherwise);
-    };
-    let each = text.split_whitespace().map(str::parse::<f64>);
-    let each: Result<Vec<f64>, _> = each.collect();
-    match each.as_deref() {
-        Ok(&[x, y, z]) if [x, y, z].iter().all(|v| v.is_finite()) => Ok([x, y, z]),
-        _ => fault(node, format!("`{what}=\"{text}\"` is no three numbers")),
     }
 }

@@ -1,19 +1,30 @@
 //! This file writes other inertial numbers of links and other friction of joints into the text of a URDF, and leaves the rest of it as it is.
 
 use super::Inertial;
-use super::urdf::{UrdfError, child};
-use roxmltree::{Document, Node};
+use super::xml::{Read, child, parsed};
+use roxmltree::Node;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::ops::Range;
+
+/// What a joint states beside its link.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stated {
+    /// Coulomb friction, N·m or N.
+    pub friction: f64,
+    /// Viscous friction, N·m·s/rad or N·s/m.
+    pub damping: f64,
+    /// Inertia of a rotor, kg·m² or kg: MJCF alone has a place for it.
+    pub armature: f64,
+}
 
 /// What is to be written.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Changes {
     /// Links and their numbers in the frame of the link.
     pub links: BTreeMap<String, Inertial>,
-    /// Joints and their friction: Coulomb and viscous.
-    pub joints: BTreeMap<String, [f64; 2]>,
+    /// Joints and what they state.
+    pub joints: BTreeMap<String, Stated>,
     /// Lines of a comment at the head.
     pub said: Vec<String>,
 }
@@ -23,22 +34,24 @@ impl Changes {
     ///
     /// # Errors
     /// The text is no XML.
-    pub fn written(&self, text: &str) -> Result<String, UrdfError> {
-        let document = Document::parse(text).map_err(|error| UrdfError {
-            line: error.pos().row,
-            reason: format!("this is no XML: {error}"),
-        })?;
+    pub fn in_urdf(&self, text: &str) -> Read<String> {
+        let document = parsed(text)?;
         let root = document.root_element();
-        let mut edits: Vec<(Range<usize>, String)> = Vec::new();
+        let mut edits: Vec<Edit> = Vec::new();
         for node in root.children().filter(|node| node.is_element()) {
             let name = node.attribute("name").unwrap_or_default();
             if let Some(own) = self.links.get(name).filter(|_| node.has_tag_name("link")) {
                 edits.push(put(text, node, "inertial", &inertial(own)));
             }
             if let Some(own) = self.joints.get(name).filter(|_| node.has_tag_name("joint")) {
-                edits.push(put(text, node, "dynamics", &friction(*own)));
+                edits.push(put(text, node, "dynamics", &friction(own)));
             }
         }
+        Ok(self.edited(text, root, edits))
+    }
+
+    /// The text with the edits, and the lines at its head.
+    pub(super) fn edited(&self, text: &str, root: Node<'_, '_>, mut edits: Vec<Edit>) -> String {
         if !self.said.is_empty() {
             // No comment holds two dashes.
             let lines = self.said.join("\n     ").replace("--", "- -");
@@ -50,12 +63,15 @@ impl Changes {
         for (range, with) in edits.into_iter().rev() {
             out.replace_range(range, &with);
         }
-        Ok(out)
+        out
     }
 }
 
+/// Where the text changes, and what stands there then.
+pub(super) type Edit = (Range<usize>, String);
+
 /// Where an element stands in another one, or may stand, and what is to stand there.
-fn put(text: &str, node: Node<'_, '_>, name: &str, with: &str) -> (Range<usize>, String) {
+fn put(text: &str, node: Node<'_, '_>, name: &str, with: &str) -> Edit {
     if let Some(there) = child(node, name) {
         return (there.range(), with.to_owned());
     }
@@ -75,11 +91,7 @@ fn put(text: &str, node: Node<'_, '_>, name: &str, with: &str) -> (Range<usize>,
 }
 
 fn inertial(own: &Inertial) -> String {
-    let centre = match own.mass == 0.0 {
-        true => own.first,
-        false => own.first / own.mass,
-    };
-    let i = own.central();
+    let (centre, i) = (own.centre(), own.central());
     let mut text = format!(
         "<inertial>\n      <origin xyz=\"{} {} {}\" rpy=\"0 0 0\"/>\n      <mass value=\"{}\"/>\n",
         centre.x, centre.y, centre.z, own.mass
@@ -93,8 +105,11 @@ fn inertial(own: &Inertial) -> String {
     text
 }
 
-fn friction([dry, viscous]: [f64; 2]) -> String {
-    format!("<dynamics damping=\"{viscous}\" friction=\"{dry}\"/>")
+fn friction(own: &Stated) -> String {
+    let Stated {
+        friction, damping, ..
+    } = own;
+    format!("<dynamics damping=\"{damping}\" friction=\"{friction}\"/>")
 }
 
 #[cfg(test)]
@@ -104,6 +119,14 @@ mod tests {
 
     const ARM: &str = include_str!("../../../rigs/arm.urdf");
 
+    fn stated(friction: f64, damping: f64) -> Stated {
+        Stated {
+            friction,
+            damping,
+            armature: 0.0,
+        }
+    }
+
     #[test]
     fn what_is_written_is_read_again_and_the_rest_stays() {
         let arm = Chain::from_urdf(ARM, Some("fore")).unwrap();
@@ -112,12 +135,12 @@ mod tests {
         let changes = Changes {
             links: BTreeMap::from([("fore".to_owned(), own), ("base".to_owned(), own)]),
             joints: BTreeMap::from([
-                ("elbow".to_owned(), [0.21, 0.034]),
-                ("shoulder".to_owned(), [0.3, 0.0]),
+                ("elbow".to_owned(), stated(0.21, 0.034)),
+                ("shoulder".to_owned(), stated(0.3, 0.0)),
             ]),
             said: vec!["made by a test -- of rounding".to_owned()],
         };
-        let text = changes.written(ARM).unwrap();
+        let text = changes.in_urdf(ARM).unwrap();
         let again = Chain::from_urdf(&text, Some("fore")).unwrap();
         for (a, b) in again.joints[1].inertial.numbers().iter().zip(own.numbers()) {
             assert!((a - b).abs() < 1e-12, "{a} {b}");
@@ -126,6 +149,6 @@ mod tests {
         assert_eq!(friction.collect::<Vec<_>>(), [[0.3, 0.0], [0.21, 0.034]]);
         assert_eq!(again.joints[0].inertial, arm.joints[0].inertial);
         assert!(text.contains("<limit lower=\"-2.6\" upper=\"2.6\" effort=\"6\" velocity=\"6\"/>"));
-        assert_eq!(Changes::default().written(ARM).unwrap(), ARM);
+        assert_eq!(Changes::default().in_urdf(ARM).unwrap(), ARM);
     }
 }

@@ -1,4 +1,4 @@
-//! This file is the description of a serial arm: the URDF that it is modelled by, and what the channels of its recordings mean, joint by joint.
+//! This file is the description of a serial arm: the URDF or MJCF that it is modelled by, and what the channels of its recordings mean, joint by joint.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -17,18 +17,47 @@ use crate::error::TraceError;
 use crate::series::Trace;
 use crate::store;
 
+/// The format of the model of an arm.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ModelFormat {
+    /// URDF.
+    Urdf,
+    /// MJCF, MuJoCo's own.
+    Mjcf,
+}
+
+impl ModelFormat {
+    /// The key of the file in a description.
+    pub const fn key(self) -> &'static str {
+        match self {
+            ModelFormat::Urdf => "urdf",
+            ModelFormat::Mjcf => "mjcf",
+        }
+    }
+
+    /// Its name.
+    pub const fn name(self) -> &'static str {
+        match self {
+            ModelFormat::Urdf => "URDF",
+            ModelFormat::Mjcf => "MJCF",
+        }
+    }
+}
+
 /// A serial arm, and how its recordings are to be read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChainRig {
     /// What people call it.
     pub name: String,
-    /// The file of its URDF; the description itself where the URDF stands in it.
-    pub urdf: String,
-    /// Whether the URDF stands in the description itself.
+    /// The format of its model.
+    pub format: ModelFormat,
+    /// The file of its model; words for the description itself where the model stands in it.
+    pub file: String,
+    /// Whether the model stands in the description itself.
     pub is_inside: bool,
     /// The text of that file.
     pub model: String,
-    /// The link beyond which nothing is attached; without one the only end.
+    /// The link, or the body or site of MJCF, beyond which nothing is attached; without one the only end.
     pub tip: Option<String>,
     /// Where its recordings come from, in free words.
     pub source: Option<String>,
@@ -38,7 +67,7 @@ pub struct ChainRig {
     pub joints: Vec<ChainJoint>,
     /// How its recordings are written down, where that cannot be seen in them.
     pub text: Hints,
-    /// The physics that the nominal model has beyond the URDF's.
+    /// The physics that the nominal model has beyond the model's.
     pub effects: Vec<AtJoint>,
     /// Where a calibration came from: words of the program that wrote it, by topic.
     pub provenance: BTreeMap<String, String>,
@@ -47,7 +76,7 @@ pub struct ChainRig {
 /// What is recorded of a joint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChainJoint {
-    /// Its name in the URDF.
+    /// Its name in the model.
     pub name: String,
     /// Whether it slides or turns.
     pub motion: Motion,
@@ -107,10 +136,11 @@ impl ChainRig {
         Ok(Table::root(source, &document).text("plant")? == Some("chain"))
     }
 
-    /// Reads a description and its URDF, which lies where `urdf` says from the folder of `origin`, or is the text that stands there. Every value becomes SI.
+    /// Reads a description and its model, which lies where `urdf` or `mjcf` says from the folder of `origin`, or is the text that stands there. Every value
+    /// becomes SI.
     ///
     /// # Errors
-    /// The text is no such description, or the URDF cannot be read.
+    /// The text is no such description, or the model cannot be read.
     pub fn parse(text: &str, origin: &Path) -> Result<ChainRig, TraceError> {
         let source = Source { text, file: origin };
         let document = source.document()?;
@@ -119,6 +149,7 @@ impl ChainRig {
             "name",
             "plant",
             "urdf",
+            "mjcf",
             "tip",
             "source",
             "channels",
@@ -128,8 +159,19 @@ impl ChainRig {
             "provenance",
         ])?;
         choice(&root, "plant", ["chain"], |name| name)?;
-        let urdf = root.need("urdf", root.text("urdf")?)?;
-        let (urdf, model) = read_urdf(urdf, origin)?;
+        let (format, written) = match (root.text("urdf")?, root.text("mjcf")?) {
+            (Some(urdf), None) => (ModelFormat::Urdf, urdf),
+            (None, Some(mjcf)) => (ModelFormat::Mjcf, mjcf),
+            (None, None) => {
+                let said = "no `urdf` and no `mjcf`: name the file of the arm's model";
+                return Err(root.error(said));
+            }
+            (Some(_), Some(_)) => {
+                let said = "both `urdf` and `mjcf`: an arm has one model, keep one";
+                return Err(root.error_at("mjcf", said));
+            }
+        };
+        let (file, model) = read_model(written, origin)?;
         let joints = root.tables("joint")?;
         let joints: Vec<ChainJoint> = joints.iter().map(read_joint).collect::<Result<_, _>>()?;
         if joints.is_empty() {
@@ -150,8 +192,9 @@ impl ChainRig {
         let channels = root.table("channels")?;
         Ok(ChainRig {
             name: root.need("name", root.text("name")?)?.to_owned(),
-            is_inside: urdf.is_none(),
-            urdf: urdf.unwrap_or_else(|| "the URDF".to_owned()),
+            format,
+            is_inside: file.is_none(),
+            file: file.unwrap_or_else(|| format!("the {}", format.name())),
             model,
             tip: root.text("tip")?.map(str::to_owned),
             source: root.text("source")?.map(str::to_owned),
@@ -232,8 +275,8 @@ impl ChainRig {
             format!("name = {}", string(&self.name)),
             "plant = \"chain\"".to_owned(),
             match self.is_inside {
-                true => format!("urdf = '''\n{}'''", self.model),
-                false => format!("urdf = {}", string(&self.urdf)),
+                true => format!("{} = '''\n{}'''", self.format.key(), self.model),
+                false => format!("{} = {}", self.format.key(), string(&self.file)),
             },
         ];
         let tip = self.tip.iter();
@@ -264,12 +307,12 @@ impl ChainRig {
     }
 }
 
-/// The file of a URDF, unless its text stands in the description, and the text.
-fn read_urdf(urdf: &str, origin: &Path) -> Result<(Option<String>, String), TraceError> {
-    if urdf.trim_start().starts_with('<') {
-        return Ok((None, urdf.to_owned()));
+/// The file of a model, unless its text stands in the description, and the text.
+fn read_model(written: &str, origin: &Path) -> Result<(Option<String>, String), TraceError> {
+    if written.trim_start().starts_with('<') {
+        return Ok((None, written.to_owned()));
     }
-    let file = origin.parent().unwrap_or(Path::new("")).join(urdf);
+    let file = origin.parent().unwrap_or(Path::new("")).join(written);
     let file = std::path::absolute(&file).unwrap_or(file);
     let text = store::read_text(&file)?;
     Ok((Some(file.display().to_string()), text))

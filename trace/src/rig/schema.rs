@@ -166,7 +166,7 @@ fn five_bar() -> Value {
 
 fn chain() -> Value {
     let joint = vec![
-        ("name", text("Its name in the URDF.")),
+        ("name", text("Its name in the model.")),
         (
             "motion",
             one_of(
@@ -193,8 +193,14 @@ fn chain() -> Value {
             text("The file of the arm's URDF, from the folder of this file."),
         ),
         (
+            "mjcf",
+            text("Instead of `urdf`: the file of the arm's MJCF, its inertias written out."),
+        ),
+        (
             "tip",
-            text("The link beyond which nothing is attached; the only end where nothing is said."),
+            text(
+                "The link (of MJCF a body or site) beyond which nothing is attached; the only end where nothing is said.",
+            ),
         ),
         (
             "channels",
@@ -204,13 +210,15 @@ fn chain() -> Value {
         (
             "effect",
             effects(
-                "The physics that the model has beyond the URDF's.",
+                "The physics that the arm has beyond its model's.",
                 &more,
                 &["joint"],
             ),
         ),
     ]);
-    object(None, keys, &["name", "plant", "urdf", "joint"])
+    let mut whole = object(None, keys, &["name", "plant", "joint"]);
+    whole["oneOf"] = json!([{ "required": ["urdf"] }, { "required": ["mjcf"] }]);
+    whole
 }
 
 /// The JSON Schema of a rig description.

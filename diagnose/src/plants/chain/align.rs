@@ -12,7 +12,7 @@ use core::f64::consts::TAU;
 use rigproof_model::chain::{Chain, INERTIAL};
 use rigproof_model::effects::Instant;
 use rigproof_spec::effect::Motion;
-use rigproof_trace::rig::chain::{ChainRecording, ChainRig};
+use rigproof_trace::rig::chain::{ChainRecording, ChainRig, ModelFormat};
 use std::collections::BTreeSet;
 use std::sync::{Mutex, PoisonError};
 
@@ -38,18 +38,21 @@ pub(super) fn lasting(name: &str) -> &'static str {
     own
 }
 
-/// The arm of a description, from its URDF. Every joint that moves needs a channel.
+/// The arm of a description, from its model. Every joint that moves needs a channel.
 pub(super) fn arm(rig: &ChainRig) -> Result<Chain, String> {
-    let tip = rig.tip.as_deref();
-    let chain = Chain::from_urdf(&rig.model, tip);
-    let chain = chain.map_err(|error| format!("{}: {error}", rig.urdf))?;
+    let read = match rig.format {
+        ModelFormat::Urdf => Chain::from_urdf,
+        ModelFormat::Mjcf => Chain::from_mjcf,
+    };
+    let chain = read(&rig.model, rig.tip.as_deref());
+    let chain = chain.map_err(|error| format!("{}: {error}", rig.file))?;
     let known: Vec<&str> = chain.joints.iter().map(|own| own.name.as_str()).collect();
     for joint in &rig.joints {
         if !known.contains(&joint.name.as_str()) {
             return Err(format!(
                 "`{}` is no moving joint of {}; it has {}",
                 joint.name,
-                rig.urdf,
+                rig.file,
                 known.join(", ")
             ));
         }
@@ -58,7 +61,7 @@ pub(super) fn arm(rig: &ChainRig) -> Result<Chain, String> {
         let Some(joint) = rig.joints.iter().find(|joint| joint.name == own.name) else {
             return Err(format!(
                 "joint `{}` of {} has no `[[joint]]`: its position and effort are needed, or end the arm before it (`tip`)",
-                own.name, rig.urdf
+                own.name, rig.file
             ));
         };
         let slides = own.kind == rigproof_model::chain::Kind::Prismatic;
@@ -85,7 +88,7 @@ struct Aligned {
 /// # Errors
 /// The fault that makes any conclusion meaningless.
 pub(super) fn aligned(rig: &ChainRig, recording: &ChainRecording) -> Result<ChainRun, Fault> {
-    let chain = arm(rig).map_err(|reason| fault("urdf", reason))?;
+    let chain = arm(rig).map_err(|reason| fault(rig.format.key(), reason))?;
     let step_s = median_step(&recording.time_s);
     check_clock(&recording.time_s, step_s)?;
     let place = |name: &str| rig.joints.iter().position(|joint| joint.name == name);
@@ -206,8 +209,11 @@ fn equations(chain: &Chain, joints: &[Aligned], step_s: f64) -> ChainRun {
         .zip(joints)
         .zip(&chain.joints)
     {
-        for (slot, now) in stretch.iter_mut().zip(&joint.motion) {
-            *slot += own.damping * now.speed + own.friction * now.sense;
+        let speeds: Vec<f64> = joint.motion.iter().map(|now| now.speed).collect();
+        let faster = gradient(&speeds, step_s);
+        for ((slot, now), faster) in stretch.iter_mut().zip(&joint.motion).zip(faster) {
+            let friction = own.damping * now.speed + own.friction * now.sense;
+            *slot += friction + own.armature * faster;
         }
     }
     let mut recorded = vec![true; samples];
@@ -231,7 +237,7 @@ fn equations(chain: &Chain, joints: &[Aligned], step_s: f64) -> ChainRun {
         described: chain
             .joints
             .iter()
-            .map(|own| [own.friction, own.damping])
+            .map(|own| [own.friction, own.damping, own.armature])
             .collect(),
         links: chain
             .of_each_link()
@@ -254,5 +260,6 @@ fn equations(chain: &Chain, joints: &[Aligned], step_s: f64) -> ChainRun {
         },
         speed_floor: joints.iter().map(|own| own.floor).fold(0.0, f64::max),
         recorded,
+        seams: Vec::new(),
     }
 }

@@ -1,16 +1,21 @@
-//! This file writes a calibration as URDF, and lists in a table what a URDF cannot hold.
+//! This file writes a calibration into the URDF or MJCF of an arm, and lists in a table what that
+//! format cannot hold.
 
 use super::align::arm;
-use rigproof_model::chain::{Chain, Changes, INERTIAL, Inertial};
+use rigproof_model::chain::{Chain, Changes, INERTIAL, Inertial, Joint, Stated};
 use rigproof_model::effects::{Drive, Form, OfJoint, OfLinkage, form};
 use rigproof_spec::effect::{Mechanism, Motion};
 use rigproof_trace::rig::RigEffect;
-use rigproof_trace::rig::chain::{AtJoint, ChainRig};
+use rigproof_trace::rig::chain::{AtJoint, ChainRig, ModelFormat};
+use std::collections::BTreeMap;
 
-/// The calibrated URDF.
-const URDF: &str = "calibrated.urdf";
-/// The table of what the URDF cannot hold.
-const TABLE: &str = "not-in-urdf.csv";
+/// The calibrated model, and the table of what it cannot hold.
+const fn files(format: ModelFormat) -> [&'static str; 2] {
+    match format {
+        ModelFormat::Urdf => ["calibrated.urdf", "not-in-urdf.csv"],
+        ModelFormat::Mjcf => ["calibrated.xml", "not-in-mjcf.csv"],
+    }
+}
 
 /// The files to write beside the calibration.
 pub(super) fn beside(rig: &ChainRig) -> Vec<(&'static str, String)> {
@@ -18,44 +23,90 @@ pub(super) fn beside(rig: &ChainRig) -> Vec<(&'static str, String)> {
         return Vec::new();
     };
     let mut changes = Changes::default();
-    let mut left: Vec<(&AtJoint, &str)> = Vec::new();
-    let masses: Vec<&AtJoint> = rig.effects.iter().filter(|own| is_of_masses(own)).collect();
-    match chain.possible(&moved(&chain, &masses)) {
-        Some(links) if !masses.is_empty() => changes.links = named(&chain, links),
-        Some(_) => {}
-        None => left.extend(masses.iter().map(|own| (*own, NO_BODY))),
+    let mut left: Vec<(&AtJoint, String)> = Vec::new();
+    let (late, always): (Vec<&AtJoint>, Vec<&AtJoint>) = rig
+        .effects
+        .iter()
+        .partition(|own| own.effect.onset.is_some());
+    let (masses, others): (Vec<&AtJoint>, Vec<&AtJoint>) =
+        always.into_iter().partition(|own| is_of_masses(own));
+    match links(&chain, &masses) {
+        Ok(links) => changes.links = links,
+        Err(why) => left.extend(masses.iter().map(|own| (*own, why.to_owned()))),
     }
-    for own in rig.effects.iter().filter(|own| !is_of_masses(own)) {
+    for own in others {
         let joint = chain.joints.iter().find(|joint| joint.name == own.joint);
-        let friction = joint.map(|joint| [joint.friction, joint.damping]);
-        match (own.effect.mechanism, friction) {
-            (Mechanism::DryOffset, Some(stated)) => {
-                let [dry, _] = put(&mut changes, own, stated);
-                *dry = (*dry + first(&own.effect)).max(0.0);
-            }
-            (Mechanism::Viscous, Some(stated)) => {
-                let [_, viscous] = put(&mut changes, own, stated);
-                *viscous = (*viscous + first(&own.effect)).max(0.0);
-            }
-            (mechanism, _) => left.push((own, reason(mechanism))),
+        let slot = joint.and_then(|joint| {
+            let stated = changes.joints.entry(own.joint.clone());
+            stated_by(own, rig.format, stated.or_insert(stated_of(joint)))
+        });
+        match slot {
+            Some(slot) => *slot = (*slot + first(&own.effect)).max(0.0),
+            None => left.push((own, reason(own.effect.mechanism, rig.format))),
         }
     }
+    let is_changed = |joint: &Joint| changes.joints.get(&joint.name) != Some(&stated_of(joint));
+    let kept = chain.joints.iter().filter(|own| is_changed(own));
+    let kept: Vec<&str> = kept.map(|own| own.name.as_str()).collect();
+    changes
+        .joints
+        .retain(|name, _| kept.contains(&name.as_str()));
+    let begins = "a model is the same at all times, and this begins during the recording";
+    left.extend(late.into_iter().map(|own| (own, begins.to_owned())));
+    let [model, lacks] = files(rig.format);
     let mut files = Vec::new();
     if !changes.links.is_empty() || !changes.joints.is_empty() {
         changes.said = said(rig, &left);
-        files.extend(changes.written(&rig.model).ok().map(|text| (URDF, text)));
+        let written = match rig.format {
+            ModelFormat::Urdf => changes.in_urdf(&rig.model),
+            ModelFormat::Mjcf => changes.in_mjcf(&rig.model),
+        };
+        files.extend(written.ok().map(|text| (model, text)));
     }
     if !left.is_empty() {
-        files.push((TABLE, table(rig, &left)));
+        files.push((lacks, table(rig, &left)));
     }
     files
 }
 
-/// The Coulomb and viscous friction of an effect's joint, to be changed in place.
-fn put<'a>(changes: &'a mut Changes, own: &AtJoint, stated: [f64; 2]) -> &'a mut [f64; 2] {
-    changes.joints.entry(own.joint.clone()).or_insert(stated)
+fn stated_of(joint: &Joint) -> Stated {
+    Stated {
+        friction: joint.friction,
+        damping: joint.damping,
+        armature: joint.armature,
+    }
 }
 
+/// The number of a joint that a mechanism changes, where the format has it.
+fn stated_by<'a>(
+    own: &AtJoint,
+    format: ModelFormat,
+    stated: &'a mut Stated,
+) -> Option<&'a mut f64> {
+    match (own.effect.mechanism, form(own.effect.mechanism)) {
+        (Mechanism::DryOffset, _) => Some(&mut stated.friction),
+        (Mechanism::Viscous, _) => Some(&mut stated.damping),
+        (_, Some(Form::Joint(OfJoint::Inertia))) if format == ModelFormat::Mjcf => {
+            Some(&mut stated.armature)
+        }
+        _ => None,
+    }
+}
+
+/// The links whose inertial numbers change, by name, or why none are written.
+fn links(chain: &Chain, masses: &[&AtJoint]) -> Result<BTreeMap<String, Inertial>, &'static str> {
+    if masses.is_empty() {
+        return Ok(BTreeMap::new());
+    }
+    let links = chain.possible(&moved(chain, masses)).ok_or(NO_BODY)?;
+    let links = named(chain, links);
+    match links.contains_key("") {
+        true => Err(NO_PLACE),
+        false => Ok(links),
+    }
+}
+
+const NO_PLACE: &str = "it moves between two joints of one body, where MJCF has no inertia";
 const NO_BODY: &str =
     "no links that bodies can be were found with these groups of inertial numbers";
 
@@ -95,7 +146,7 @@ fn moved(chain: &Chain, masses: &[&AtJoint]) -> Vec<f64> {
 }
 
 /// The links whose inertial parameters changed, by name.
-fn named(chain: &Chain, links: Vec<Inertial>) -> std::collections::BTreeMap<String, Inertial> {
+fn named(chain: &Chain, links: Vec<Inertial>) -> BTreeMap<String, Inertial> {
     let each = chain.joints.iter().zip(links);
     let changed = each.filter(|(joint, own)| {
         let pairs = own.numbers().into_iter().zip(joint.own.numbers());
@@ -107,26 +158,29 @@ fn named(chain: &Chain, links: Vec<Inertial>) -> std::collections::BTreeMap<Stri
         .collect()
 }
 
-/// Why a URDF cannot hold this mechanism.
-fn reason(mechanism: Mechanism) -> &'static str {
+/// Why a format cannot hold this mechanism.
+fn reason(mechanism: Mechanism, format: ModelFormat) -> String {
+    let format = format.name();
     match form(mechanism) {
         Some(Form::Joint(OfJoint::Inertia)) => {
-            "a URDF has no inertia of a rotor; an MJCF's `armature` is one"
+            format!("{format} has no inertia of a rotor; MJCF has: its `armature`")
         }
         Some(Form::Drive(Drive::Gain)) => {
-            "a URDF has no torque constant; scale the effort that is recorded or sent"
+            format!("{format} has no torque constant; scale the effort that is recorded or sent")
         }
-        Some(Form::Drive(Drive::Skew)) => "a URDF has no time; shift the recorded effort",
+        Some(Form::Drive(Drive::Skew)) => {
+            format!("{format} has no delay; shift the recorded effort")
+        }
         _ if mechanism == Mechanism::ConstantBias => {
-            "a URDF has no constant effort; take it off the recorded one"
+            format!("{format} has no constant effort; take it off the recorded one")
         }
-        _ => "a URDF's friction is a Coulomb level and a damping only",
+        _ => format!("friction of {format} is a Coulomb level and a damping only"),
     }
 }
 
-fn said(rig: &ChainRig, left: &[(&AtJoint, &str)]) -> Vec<String> {
+fn said(rig: &ChainRig, left: &[(&AtJoint, String)]) -> Vec<String> {
     let head = format!(
-        "{} with what a diagnosis found: inertial numbers and friction. Links stand near the described ones among all that give the same efforts.",
+        "{} with what a diagnosis found: inertial numbers and what joints state. Links stand near the described ones among all that give the same efforts.",
         rig.name
     );
     let lacks = left.iter().map(|(own, why)| {
@@ -139,7 +193,7 @@ fn said(rig: &ChainRig, left: &[(&AtJoint, &str)]) -> Vec<String> {
     core::iter::once(head).chain(lacks).collect()
 }
 
-fn table(rig: &ChainRig, left: &[(&AtJoint, &str)]) -> String {
+fn table(rig: &ChainRig, left: &[(&AtJoint, String)]) -> String {
     let mut text = "joint,mechanism,number,value,unit,why\n".to_owned();
     for (own, why) in left {
         let joint = rig.joints.iter().find(|joint| joint.name == own.joint);

@@ -13,6 +13,7 @@ use crate::effect::Effect;
 use crate::evidence::Intervals;
 use crate::filter::rms;
 use crate::plant::{Described, Plant, Run, Simulated, Unsimulated};
+use crate::plants::joined::joined;
 use crate::problem::Problem;
 use crate::report::FitReport;
 use crate::rules::ARM_WIDTH_S;
@@ -36,11 +37,15 @@ impl Plant for ChainRig {
         aligned(self, recording)
     }
 
+    fn joined(runs: Vec<ChainRun>) -> Result<ChainRun, (usize, Fault)> {
+        joined(runs)
+    }
+
     fn part(run: &ChainRun, from: usize, to: usize) -> ChainRun {
         run.part(from, to)
     }
 
-    /// The effects in the description besides the URDF. Joints are numbered in the arm's order, not
+    /// The effects in the description besides the model. Joints are numbered in the arm's order, not
     /// the file's.
     fn nominal(&self) -> Vec<Effect> {
         let chain = arm(self).ok();

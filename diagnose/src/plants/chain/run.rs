@@ -34,8 +34,8 @@ pub struct ChainRun {
     pub links: Vec<((usize, usize), Vec<f64>)>,
     /// The effort per kilogram at the tip.
     pub payload: Vec<f64>,
-    /// Coulomb and viscous friction of each joint as described.
-    pub described: Vec<[f64; 2]>,
+    /// Coulomb and viscous friction and the rotor of each joint as described.
+    pub described: Vec<[f64; 3]>,
     /// Noise of the position and of the effort of each joint, standard deviation.
     pub noise: Vec<[f64; 2]>,
     /// The inertia that each joint moves when it moves alone, kg·m² or kg.
@@ -44,6 +44,8 @@ pub struct ChainRun {
     pub speed_floor: f64,
     /// Whether a sample was recorded rather than interpolated.
     pub recorded: Vec<bool>,
+    /// The samples with which further recordings begin.
+    pub seams: Vec<usize>,
 }
 
 /// The squared cosine between two signals from which on they are one: the ends of a part of a
@@ -102,12 +104,28 @@ impl ChainRun {
                 .map(|(of, signal)| (*of, own(signal)))
                 .collect(),
             recorded: self.recorded.get(from..to).unwrap_or_default().to_vec(),
+            seams: {
+                let inside = self.seams.iter().filter(|own| (from + 1..to).contains(own));
+                inside.map(|own| own - from).collect()
+            },
             step_s: self.step_s,
             names: self.names.clone(),
             noise: self.noise.clone(),
             masses: self.masses.clone(),
             speed_floor: self.speed_floor,
         }
+    }
+
+    /// The rate of change of a signal of one joint, of each recording by itself.
+    fn rate(&self, signal: &[f64]) -> Vec<f64> {
+        let ends = self.seams.iter().copied().chain([signal.len()]);
+        let mut from = 0;
+        let each = ends.flat_map(|to| {
+            let own = signal.get(from..to).unwrap_or_default();
+            from = to;
+            gradient(own, self.step_s)
+        });
+        each.collect()
     }
 
     /// The samples of one joint in a signal of all joints.
@@ -372,8 +390,9 @@ impl Run for ChainRun {
     fn described(&self, cause: Cause) -> f64 {
         let joint = joint_at(cause.at).and_then(|joint| self.described.get(joint));
         match (cause.mechanism, joint) {
-            (Mechanism::DryOffset, Some([dry, _])) => *dry,
-            (Mechanism::Viscous, Some([_, viscous])) => *viscous,
+            (Mechanism::DryOffset, Some([dry, ..])) => *dry,
+            (Mechanism::Viscous, Some([_, viscous, _])) => *viscous,
+            (Mechanism::AddedInertia, Some([.., rotor])) => *rotor,
             _ => 0.0,
         }
     }
@@ -403,7 +422,7 @@ impl Run for ChainRun {
                 .collect(),
             Form::Joint(OfJoint::Inertia) => {
                 let speeds: Vec<f64> = motion.iter().map(|now| now.speed).collect();
-                vec![self.at_joint(joint, &gradient(&speeds, self.step_s))]
+                vec![self.at_joint(joint, &self.rate(&speeds))]
             }
             Form::Linkage(OfLinkage::Payload) => vec![self.payload.clone()],
             // The true effort is (1 + fraction) times the recorded one.
@@ -413,7 +432,7 @@ impl Run for ChainRun {
             // An effort recorded with a delay lacks the delay times its rate. Averaged over a
             // window, the rate is no noisier than the effort itself.
             Form::Drive(Drive::Skew) => {
-                let rate = gradient(self.stretch(&self.effort, joint), self.step_s);
+                let rate = self.rate(self.stretch(&self.effort, joint));
                 let delay = shape.first().copied();
                 let late: Vec<f64> = rate.iter().map(|x| -x * delay.unwrap_or(1.0)).collect();
                 let late = self.at_joint(joint, &late);
