@@ -5,7 +5,8 @@ mod checks;
 
 use nalgebra::{SMatrix, Vector2};
 use rigproof_impl::plant::brake::{Brake, Characteristic, Turn};
-use rigproof_impl::plant::effect::{Asked, CurrentPath, Law};
+use rigproof_impl::plant::current::CurrentPath;
+use rigproof_impl::plant::effect::{Asked, Law};
 use rigproof_impl::plant::friction::Contact;
 use rigproof_impl::plant::{Outcome, Parameters, Plant, Scheme};
 use rigproof_model::effects::{Form, Instant, LIBRARY, entry, law};

@@ -1,6 +1,7 @@
 //! This file holds the plant's resistance laws against the library's, law by law.
 
-use rigproof_impl::plant::effect::{Asked, CurrentPath, Instant as OwnInstant, Law};
+use rigproof_impl::plant::current::CurrentPath;
+use rigproof_impl::plant::effect::{Asked, Instant as OwnInstant, Law};
 use rigproof_impl::plant::{Outcome, Parameters, Plant};
 use rigproof_model::effects::{Form, Instant, LIBRARY, first_order_lag, law};
 use rigproof_spec::effect::Mechanism;
