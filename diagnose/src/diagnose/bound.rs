@@ -24,9 +24,10 @@ pub(super) fn bound(problem: &Problem, selection: &mut Selection) {
     }
 }
 
-/// Of each found mechanism, whether the intervals of its coefficients all hold 0 beside others.
+/// Of each found mechanism, whether the intervals of its coefficients all hold 0 beside others. Not
+/// on a plant of many places, whose delays are measured without an interval.
 fn may_be_nothing(problem: &Problem, selection: &Selection) -> Vec<bool> {
-    if selection.found.len() < 2 {
+    if selection.found.len() < 2 || problem.rules.many {
         return vec![false; selection.found.len()];
     }
     let halves = intervals(problem, selection).terms;

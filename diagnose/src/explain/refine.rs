@@ -233,3 +233,38 @@ fn moved_anchor(shape: &[f64], bounds: &[(f64, f64)], by: Move, stride: f64) -> 
         middle[1] + factor * (x * sine + y * cosine),
     ])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BOUNDS: [(f64, f64); 2] = [(-0.4, 0.6), (-0.2, 1.0)];
+
+    fn moved(from: [f64; 2], place: usize, up: bool) -> [f64; 2] {
+        let moved = moved_anchor(&from, &BOUNDS, Move { place, up }, 0.15).unwrap();
+        [moved[0], moved[1]]
+    }
+
+    fn distance([x, y]: [f64; 2]) -> f64 {
+        (x - 0.1).hypot(y - 0.4)
+    }
+
+    #[test]
+    fn an_anchor_moves_away_and_around_and_across_the_axes() {
+        let from = [0.31, 0.02];
+        assert!((distance(moved(from, 0, true)) / distance(from) - 1.15).abs() < 1e-12);
+        let [x, y] = moved(from, 1, false);
+        assert!((distance([x, y]) - distance(from)).abs() < 1e-12);
+        assert!(y < 0.0, "{y}");
+        let back = moved([x, y], 1, true);
+        assert!((back[0] - from[0]).hypot(back[1] - from[1]) < 1e-12);
+    }
+
+    #[test]
+    fn what_is_no_point_in_a_plane_is_no_anchor() {
+        let by = Move { place: 0, up: true };
+        assert_eq!(moved_anchor(&[0.3], &BOUNDS, by, 0.15), None);
+        assert_eq!(scaled(&[0.3], by, 0.15), Some(vec![0.3 * 1.15]));
+        assert_eq!(scaled(&[], by, 0.15), None);
+    }
+}

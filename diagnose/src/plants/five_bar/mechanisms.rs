@@ -249,6 +249,7 @@ fn every_mechanism_does_along_a_motion_what_its_column_says() {
         (at(Spring, Joint::B, &[0.171]), None),
         (at(NonlinearSpring, Joint::C, &[0.071]), None),
         (at(BiasDrift, Joint::A, &[0.31]), None),
+        (at(BiasDrift, Joint::E, &[0.71, 0.37]), None),
         (at(Lag, Joint::E, &[0.037]), None),
         (at(DeadTime, Joint::A, &[0.0237]), None),
         (at(Saturation, Joint::B, &[0.213]), None),
