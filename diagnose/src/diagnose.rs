@@ -13,6 +13,7 @@ pub(crate) mod write;
 
 use crate::align::Fault;
 use crate::cause::{Cause, Place};
+use crate::evidence::intervals;
 use crate::explain::{Explanations, explain, explain_many};
 use crate::plant::{At, Plant, Run};
 use crate::problem::{Problem, Term};
@@ -177,7 +178,8 @@ pub fn diagnose<P: Plant>(
         (selection, explanations) = named(&mut problem, terms);
         withdrawn.clear();
     }
-    bound(&problem, &mut selection);
+    let intervals = intervals(&problem, &selection);
+    bound(&problem, &mut selection, &intervals);
     options.watch.enters(Stage::Show);
     Stand {
         plant,
@@ -192,7 +194,7 @@ pub fn diagnose<P: Plant>(
         trials: trials.as_ref(),
         explanations: &explanations,
     }
-    .report()
+    .report(&intervals)
 }
 
 /// The mechanisms that are named on top of the nominal terms.

@@ -14,7 +14,7 @@ import pathlib
 import mujoco
 import numpy as np
 
-from rig_model import ARMS_M, BACKLASH_DEG, BRAKES, ENTRY_DEG, FALL_END_NM, FALLING, JOINTS, MASSES, RISING, gain_nm, lag_terms_s
+from rig_model import ARMS_M, BACKLASH_DEG, BRAKES, FALL_END_NM, FALLING, JOINTS, MASSES, RISING, TESTED_RPM, Backlash, gain_nm, slow_lag_terms_s
 
 RATE_HZ, SUBSTEPS = 1000, 8
 STEP_S = 1 / (RATE_HZ * SUBSTEPS)
@@ -43,7 +43,7 @@ KINDS = {
     "asymmetry": (lambda rng, brake: {brake: rng.choice([-1, 1]) * rng.uniform(0.06, 0.2)}, ["direction_asymmetry", "constant_bias"]),
     "ripple": (lambda rng, brake: {brake: rng.uniform(0.05, 0.15), "order": int(rng.integers(5, 24)), "phase": rng.uniform(0, 6)}, ["ripple"]),
     "fade": (lambda rng, brake: {"share": rng.uniform(0.1, 0.3), "time": rng.uniform(3, 10)}, ["thermal_fade", "friction_fade"]),
-    "wide": (lambda rng, brake: {"EBC"[rng.integers(2)]: rng.uniform(1.5, 3.0)}, ["backlash_width"]),
+    "wide": (lambda rng, brake: {"EB"[rng.integers(2)]: rng.uniform(1.5, 3.0)}, ["backlash_width"]),
     "force_gain": (lambda rng, brake: {"xy"[rng.integers(2)]: 1 + rng.choice([-1, 1]) * rng.uniform(0.06, 0.15)}, ["force_gain"]),
     "turned": (lambda rng, brake: {"angle": rng.choice([-1, 1]) * rng.uniform(0.04, 0.12)}, ["force_rotation"]),
     "tare": (lambda rng, brake: {"x": rng.uniform(-0.8, 0.8), "y": rng.uniform(-0.8, 0.8)}, ["force_bias"]),
@@ -104,8 +104,7 @@ class Brake:
 
     def __init__(self, joint, angle, hidden):
         self.joint, self.hidden = joint, hidden
-        width = BACKLASH_DEG[joint] + hidden.get("wide", {}).get(joint, 0.0) * (joint in hidden.get("wide", {}))
-        self.width, self.low, self.inside = math.radians(width), angle - math.radians(width) / 2, False
+        self.backlash = Backlash(angle, BACKLASH_DEG[joint] + hidden.get("wide", {}).get(joint, 0.0))
         self.torque, self.origin = float(gain_nm(joint, np.array(0.0))), 0.2
         self.current = self.memory = 0.0
         self.sense, self.turned_at, self.turned = 0.0, angle, False
@@ -129,26 +128,17 @@ class Brake:
         self.memory = min(max(self.memory, self.current - magnet["radius"]), self.current + magnet["radius"])
         return (1 - magnet["share"]) * self.current + magnet["share"] * self.memory
 
-    def backlash(self, angle):
-        if angle <= self.low:
-            self.low, self.inside = angle, False
-        elif angle >= self.low + self.width:
-            self.low, self.inside = angle - self.width, False
-        else:
-            self.inside = self.inside or min(angle - self.low, self.low + self.width - angle) > math.radians(ENTRY_DEG)
-
     def step(self, command, angle, rate):
         current = self.amplified(command)
-        self.backlash(angle)
-        target = self.steady(0.0 if self.inside else current)
-        rpm = min(max(abs(rate) * 30 / math.pi, 0.5), 64.0)
-        log, tested = math.log2(rpm), min(max(current, 0.2), 1.0)
+        target = self.steady(0.0 if self.backlash.at(angle) else current)
+        tested = min(max(current, 0.2), 1.0)
         if self.torque - target <= FALL_END_NM:
             self.origin = tested
         fit, threshold, amps = (FALLING, 2.0, self.origin) if self.torque > target else (RISING, 4.0, tested)
-        average, a1, a2, a3, a4, a5, a6 = fit[self.joint]
-        slow = (a4 * log + a2) * log + a6 + ((a5 * log + a3) * log + a1) * amps
-        time = (average if rpm >= threshold else slow) * self.hidden.get("scale", {}).get("scale", 1.0)
+        slowest, fastest = TESTED_RPM
+        rpm = min(max(abs(rate) * 30 / math.pi, slowest), fastest)
+        constant, per_a = slow_lag_terms_s(fit[self.joint], math.log2(rpm))
+        time = (fit[self.joint][0] if rpm >= threshold else constant + per_a * amps) * self.hidden.get("scale", {}).get("scale", 1.0)
         self.torque = target + (self.torque - target) * math.exp(-STEP_S / time)
         return self.torque
 
@@ -193,7 +183,7 @@ class Lab:
                 hold = round(rng.uniform(0.25, 0.9) * RATE_HZ)
                 self.commands[at:at + hold, joint] = rng.choice([0.0, rng.uniform(0.03, 0.5), rng.uniform(0.03, 0.5)])
                 at += hold
-        self.drive = "held" if rng.random() < 0.5 else None
+        self.says_held = bool(rng.random() < 0.5)
 
     def aim(self, time):
         edge = min(max(time + SETTLE_S, 0.0) / SETTLE_S, 1.0)
@@ -274,7 +264,7 @@ def description(name, lab):
     currents = "\n".join(f'current_{j.lower()} = {{ channel = "I_{j}", unit = "A" }}' for j in BRAKES[lab.layout])
     angles = "\n".join(f'theta_{j} = {{ channel = "theta_{j.upper()}", unit = "rad", quantum = {COUNT_RAD!r} }}' for j in "ab")
     forces = "\n".join(f'force_{axis} = {{ channel = "F_{axis}", unit = "N", noise = {noise:.3g} }}' for axis in "xy")
-    drive = 'drive = "held"\n' if lab.drive else ""
+    drive = 'drive = "held"\n' if lab.says_held else ""
     return (f'name = "{name}"\nplant = "rig"\nlayout = "{lab.layout}"\n\n[channels]\ntime = {{ channel = "t", unit = "s" }}\n'
             f"{angles}\n{forces}\n{currents}\n\n[protocol]\n{drive}start_samples = 20\n")
 

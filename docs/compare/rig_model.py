@@ -33,6 +33,8 @@ FALLING = {
 }
 # Decisions 0002 to 0004 and 0006: where the thesis leaves a choice, the recordings' nominal model has taken it.
 ENTRY_DEG, FALL_END_NM = 0.02, 0.005
+# The speeds at which the brakes were tested.
+TESTED_RPM = 0.5, 64.0
 
 
 def dot(a, b):
@@ -139,28 +141,42 @@ def gain_nm(joint, current_a):
     return np.clip(fitted, k2, k3 + k4 + k5)
 
 
-def inside_backlash(angle_rad, width_deg):
-    """Whether the shaft is inside its backlash window (§3.4.3), which begins around it."""
-    width, entry = math.radians(width_deg), math.radians(ENTRY_DEG)
-    low, inside, flags = angle_rad[0] - width / 2, False, []
-    for angle in angle_rad.tolist():
-        if angle <= low:
-            low, inside = angle, False
-        elif angle >= low + width:
-            low, inside = angle - width, False
+class Backlash:
+    """The backlash window of a brake (§3.4.3), which begins around the shaft."""
+
+    def __init__(self, angle_rad, width_deg):
+        self.width, self.entry = math.radians(width_deg), math.radians(ENTRY_DEG)
+        self.low, self.inside = angle_rad - self.width / 2, False
+
+    def at(self, angle):
+        """Whether the shaft is inside, with the window moved along by it."""
+        if angle <= self.low:
+            self.low, self.inside = angle, False
+        elif angle >= self.low + self.width:
+            self.low, self.inside = angle - self.width, False
         else:
-            inside = inside or min(angle - low, low + width - angle) > entry
-        flags.append(inside)
-    return np.array(flags)
+            self.inside = self.inside or min(angle - self.low, self.low + self.width - angle) > self.entry
+        return self.inside
+
+
+def inside_backlash(angle_rad, width_deg):
+    """Whether the shaft is inside its backlash window."""
+    window = Backlash(angle_rad[0], width_deg)
+    return np.array([window.at(angle) for angle in angle_rad.tolist()])
+
+
+def slow_lag_terms_s(fit, log_rpm):
+    """Time constant (3.6) of a slow brake as a constant and a factor of the current, of the binary logarithm of its speed."""
+    _, a1, a2, a3, a4, a5, a6 = fit
+    return (a4 * log_rpm + a2) * log_rpm + a6, (a5 * log_rpm + a3) * log_rpm + a1
 
 
 def lag_terms_s(fit, threshold_rpm, speed_rpm):
     """Time constant (3.5), (3.6) as a constant and a factor of the current; the nearest tested speed."""
-    average, a1, a2, a3, a4, a5, a6 = fit
-    speed_rpm = np.clip(speed_rpm, 0.5, 64.0)
-    log = np.log2(speed_rpm)
+    speed_rpm = np.clip(speed_rpm, *TESTED_RPM)
+    constant, per_a = slow_lag_terms_s(fit, np.log2(speed_rpm))
     fast = speed_rpm >= threshold_rpm
-    return np.where(fast, average, (a4 * log + a2) * log + a6), np.where(fast, 0.0, (a5 * log + a3) * log + a1)
+    return np.where(fast, fit[0], constant), np.where(fast, 0.0, per_a)
 
 
 def brake_nm(joint, current_a, angle_rad, rate_rad_s, step_s, width_deg):

@@ -2,7 +2,7 @@
 //!
 //! A line in is a state, positions, speeds and accelerations of all joints (rad or m and per s, per s²). A line out is the efforts, N·m or N.
 
-use rigproof_model::chain::{Chain, is_mjcf};
+use rigproof_model::chain::Chain;
 use std::error::Error;
 use std::io::{BufRead, stdin};
 
@@ -10,12 +10,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut args = std::env::args().skip(1);
     let file = args.next().ok_or("name the URDF or MJCF of an arm")?;
     let (text, tip) = (std::fs::read_to_string(file)?, args.next());
-    let read = if is_mjcf(&text) {
-        Chain::from_mjcf
-    } else {
-        Chain::from_urdf
-    };
-    let arm = read(&text, tip.as_deref())?;
+    let arm = Chain::from_model(&text, tip.as_deref())?;
     for line in stdin().lock().lines() {
         let line = line?;
         let numbers = line.split_whitespace().map(str::parse);

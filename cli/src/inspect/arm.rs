@@ -44,17 +44,12 @@ impl Model {
             return Ok(None);
         };
         let text = read_text(file)?;
-        let (format, chain) = match is_mjcf(&text) {
-            true => (
-                ModelFormat::Mjcf,
-                Chain::from_mjcf(&text, self.tip.as_deref()),
-            ),
-            false => (
-                ModelFormat::Urdf,
-                Chain::from_urdf(&text, self.tip.as_deref()),
-            ),
+        let format = match is_mjcf(&text) {
+            true => ModelFormat::Mjcf,
+            false => ModelFormat::Urdf,
         };
-        let chain = chain.map_err(|error| Failure::unusable(file, error.to_string()))?;
+        let chain = Chain::from_model(&text, self.tip.as_deref())
+            .map_err(|error| Failure::unusable(file, error.to_string()))?;
         let stem = recording.file_stem().unwrap_or_default().to_string_lossy();
         let mut lines = vec![
             format!(

@@ -1,6 +1,6 @@
 //! This file bounds the probabilities of names by what the data leave open.
 
-use crate::evidence::{coefficients_by_term, intervals};
+use crate::evidence::{Intervals, coefficients_by_term};
 use crate::problem::Problem;
 use crate::rules::SUSPECTED;
 use crate::selection::{Selection, is_noise};
@@ -11,8 +11,8 @@ use crate::selection::{Selection, is_noise};
 /// of the unexplained physics. Its probability is at most one half plus the share of the loss that it
 /// removes. A mechanism beside others whose numbers may all be 0 is at most suspected: the others,
 /// with other numbers, do without it.
-pub(super) fn bound(problem: &Problem, selection: &mut Selection) {
-    let may_be_nothing = may_be_nothing(problem, selection);
+pub(super) fn bound(problem: &Problem, selection: &mut Selection, intervals: &Intervals) {
+    let may_be_nothing = may_be_nothing(problem, selection, intervals);
     let is_noise = is_noise(problem, &selection.after);
     for (found, is_nothing) in selection.found.iter_mut().zip(may_be_nothing) {
         if is_nothing {
@@ -26,13 +26,12 @@ pub(super) fn bound(problem: &Problem, selection: &mut Selection) {
 
 /// Of each found mechanism, whether the intervals of its coefficients all hold 0 beside others. Not
 /// on a plant of many places, whose delays are measured without an interval.
-fn may_be_nothing(problem: &Problem, selection: &Selection) -> Vec<bool> {
+fn may_be_nothing(problem: &Problem, selection: &Selection, intervals: &Intervals) -> Vec<bool> {
     if selection.found.len() < 2 || problem.rules.many {
         return vec![false; selection.found.len()];
     }
-    let halves = intervals(problem, selection).terms;
     let (_, coefficients) = coefficients_by_term(problem, selection);
-    let own = coefficients.iter().zip(&halves);
+    let own = coefficients.iter().zip(&intervals.terms);
     own.skip(selection.nominal.len())
         .map(|(values, halves)| {
             let mut pairs = values.iter().zip(halves);

@@ -6,7 +6,7 @@ use super::words::summary;
 use super::{Diagnosis, Options};
 use crate::cause::Cause;
 use crate::effect::Effect;
-use crate::evidence::{inclusion, intervals, not_seen, null_directions};
+use crate::evidence::{Intervals, inclusion, not_seen, null_directions};
 use crate::explain::{Explanations, status};
 use crate::locate::locate;
 use crate::plant::{Plant, Run, Shown};
@@ -87,7 +87,8 @@ pub struct Stand<'a, P: Plant> {
 }
 
 impl<P: Plant> Stand<'_, P> {
-    pub(crate) fn report(&self) -> Diagnosis<P> {
+    /// The report; `intervals` are those of the selection.
+    pub(crate) fn report(&self, intervals: &Intervals) -> Diagnosis<P> {
         let (problem, selection) = (self.problem, self.selection);
         let all = self.rivals();
         let mut rivals: Vec<Vec<String>> = all
@@ -100,12 +101,11 @@ impl<P: Plant> Stand<'_, P> {
         let verdict = verdict(selection, &floor, floor_limit(problem), &rivals, &mended);
         let is_left = floor.ratio_after > floor_limit(problem);
         let unknown = is_left.then(|| self.unknown()).flatten();
-        let intervals = intervals(problem, selection);
         let Shown {
             calibration,
             fit,
             curves,
-        } = P::shown(self, &intervals);
+        } = P::shown(self, intervals);
         // Composed variants are not simulated yet.
         let is_plain = !selection
             .found
@@ -116,9 +116,9 @@ impl<P: Plant> Stand<'_, P> {
             false => (None, None),
         };
         let (before, after) = (&selection.before.residual, &selection.after.residual);
-        let remarks = self.remarks(&floor, &intervals);
+        let remarks = self.remarks(&floor, intervals);
         let summary = summary(problem, verdict, selection, fit.as_ref(), &rivals, &mended);
-        let mut effects = self.effects(&calibration.found(self, &intervals));
+        let mut effects = self.effects(&calibration.found(self, intervals));
         effects.extend(mended.iter().filter_map(|own| self.mended(own)));
         rivals.resize(effects.len(), Vec::new());
         let names = |causes: &[Cause]| causes.iter().map(|c| problem.name(*c)).collect();

@@ -7,7 +7,7 @@ mod tree;
 mod written;
 
 use super::dynamics::turned;
-use super::xml::{Read, fault, number, numbers, parsed};
+use super::xml::{Read, fault, is_mjcf, number, numbers, parsed};
 use super::{Chain, Inertial, Joint, Kind};
 use nalgebra::{Matrix3, Vector3};
 use place::Place;
@@ -19,6 +19,17 @@ const WRITES_IT_OUT: &str = "MuJoCo writes it out: python -c \"import mujoco; s 
 const DEEPEST: usize = 256;
 
 impl Chain {
+    /// Reads an arm from the text of a model, by its outermost element of MJCF, else of a URDF.
+    ///
+    /// # Errors
+    /// As those of the format.
+    pub fn from_model(text: &str, tip: Option<&str>) -> Read<Chain> {
+        match is_mjcf(text) {
+            true => Chain::from_mjcf(text, tip),
+            false => Chain::from_urdf(text, tip),
+        }
+    }
+
     /// Reads an arm from the text of MJCF: from the world to the body `tip`, beyond which nothing is attached, or to the body of the site `tip`; without one
     /// to its only end.
     ///
@@ -91,10 +102,11 @@ impl<'a, 'i> Tree<'a, 'i> {
             );
         };
         let kind = self.kind(part, name)?;
-        let three =
-            |what: &str, otherwise| self.settings.numbers(node, part.class, what, otherwise);
-        let anchor = part.frame.origin + part.frame.turn * Vector3::from(three("pos", [0.0; 3])?);
-        let axis = part.frame.turn * Vector3::from(three("axis", [0.0, 0.0, 1.0])?);
+        let anchor = self.anchor(part)?;
+        let axis = self
+            .settings
+            .numbers(node, part.class, "axis", [0.0, 0.0, 1.0])?;
+        let axis = part.frame.turn * Vector3::from(axis);
         let Some(axis) = axis.try_normalize(1e-9) else {
             return fault(node, format!("the axis of joint `{name}` has no direction"));
         };
@@ -122,6 +134,14 @@ impl<'a, 'i> Tree<'a, 'i> {
             armature: self.stated(part, "armature")?,
         };
         Ok((joint, anchor))
+    }
+
+    /// The anchor of a joint in the frame of its body, m.
+    fn anchor(&self, part: &Part<'a, 'i>) -> Read<Vector3<f64>> {
+        let pos = self
+            .settings
+            .numbers(part.node, part.class, "pos", [0.0; 3])?;
+        Ok(part.frame.origin + part.frame.turn * Vector3::from(pos))
     }
 
     /// Whether a joint turns or slides, without a spring.

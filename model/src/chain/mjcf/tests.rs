@@ -344,16 +344,17 @@ fn what_is_written_is_read_again_and_the_rest_stays() {
         ]),
         said: vec!["made by a test -- of rounding".to_owned()],
     };
+    let read_again = |text: &str| {
+        let again = Chain::from_mjcf(text, Some("flange")).unwrap();
+        for (joint, wanted) in [(1, upper), (2, own)] {
+            let numbers = again.joints[joint].own.numbers().into_iter();
+            let pairs = numbers.zip(wanted.numbers());
+            pairs.for_each(|(a, b)| assert!((a - b).abs() < 1e-12, "{a} {b}"));
+        }
+        again
+    };
     let text = changes.in_mjcf(ARM).unwrap();
-    let again = Chain::from_mjcf(&text, Some("flange")).unwrap();
-    for (joint, wanted) in [(1, upper), (2, own)] {
-        let pairs = again.joints[joint]
-            .own
-            .numbers()
-            .into_iter()
-            .zip(wanted.numbers());
-        pairs.for_each(|(a, b)| assert!((a - b).abs() < 1e-12, "{a} {b}"));
-    }
+    let again = read_again(&text);
     let stated = again
         .joints
         .iter()
@@ -375,14 +376,6 @@ fn what_is_written_is_read_again_and_the_rest_stays() {
         .replacen("<inertial pos=\"0.08", "<frame euler=\"0 0 90\"><inertial pos=\"0.08", 1)
         .replacen("0.0002\"/>", "0.0002\"/></frame>", 1)
         .replacen("<inertial pos=\"0.04 -0.02 0.13\" mass=\"1.7\" diaginertia=\"0.011 0.014 0.009\" axisangle=\"1 2 -1 40\"/>", "", 1);
-    let again = Chain::from_mjcf(&changes.in_mjcf(&framed).unwrap(), Some("flange")).unwrap();
-    for (joint, wanted) in [(1, upper), (2, own)] {
-        let pairs = again.joints[joint]
-            .own
-            .numbers()
-            .into_iter()
-            .zip(wanted.numbers());
-        pairs.for_each(|(a, b)| assert!((a - b).abs() < 1e-12, "{a} {b}"));
-    }
+    read_again(&changes.in_mjcf(&framed).unwrap());
     assert_eq!(Changes::default().in_mjcf(ARM).unwrap(), ARM);
 }

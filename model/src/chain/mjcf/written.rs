@@ -34,15 +34,8 @@ impl Changes {
 impl<'a, 'i> Tree<'a, 'i> {
     /// The element of a body's inertial numbers, `own` those about its last joint.
     fn inertial_of(&self, body: &Body<'a, 'i>, own: &Inertial) -> Read<Vec<Edit>> {
-        let anchor = match body.joints.last() {
-            Some(joint) => {
-                let pos = self
-                    .settings
-                    .numbers(joint.node, joint.class, "pos", [0.0; 3])?;
-                joint.frame.origin + joint.frame.turn * Vector3::from(pos)
-            }
-            None => Vector3::zeros(),
-        };
+        let last = body.joints.last().map(|joint| self.anchor(joint));
+        let anchor = last.transpose()?.unwrap_or_else(Vector3::zeros);
         let own = own.seen_from(&Matrix3::identity(), &anchor);
         let (centre, i) = (own.centre(), own.central());
         let element = format!(
