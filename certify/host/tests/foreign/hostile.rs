@@ -28,18 +28,18 @@ fn not_repeated(library: &Path) -> u32 {
 #[test]
 fn what_a_process_has_by_chance_does_not_repeat() {
     let by = [
-        ("number", "currents_a[1] = (getpid() % 997) * 1e-4"),
+        ("number", "currents_a[1] = (getpid() % 99991) * 1e-6"),
         (
             "layout",
-            "currents_a[1] = ((size_t)&told >> 12) % 997 * 1e-4",
+            "currents_a[1] = ((size_t)&told >> 12) % 99991 * 1e-6",
         ),
         (
             "stack",
-            "currents_a[1] = ((size_t)__builtin_frame_address(0) >> 4) % 997 * 1e-4",
+            "currents_a[1] = ((size_t)__builtin_frame_address(0) >> 4) % 99991 * 1e-6",
         ),
         (
             "file",
-            "{ struct stat own; stat(\".\", &own); currents_a[1] = own.st_ino % 997 * 1e-4; }",
+            "{ struct stat own; stat(\".\", &own); currents_a[1] = own.st_ino % 99991 * 1e-6; }",
         ),
     ];
     for (name, code) in by {
