@@ -38,6 +38,14 @@ fn named(report: &Report) -> Vec<&str> {
     named.map(|e| e.mechanism).collect()
 }
 
+/// The next experiment is switched off: nobody can make it here.
+fn options() -> Options {
+    Options {
+        next_experiment: false,
+        ..Options::default()
+    }
+}
+
 #[test]
 fn emps_names_dry_friction_then_the_asymmetry() {
     let (Some(train), Some(test)) = (
@@ -51,7 +59,7 @@ fn emps_names_dry_friction_then_the_asymmetry() {
         rig.read_recording(&train).unwrap(),
         rig.read_recording(&test).unwrap(),
     );
-    let report = diagnose(&rig, &[&train], Some(&test), &Options::default()).report;
+    let report = diagnose(&rig, &[&train], Some(&test), &options()).report;
     let entered: Vec<&str> = report.stages.iter().take(3).map(|s| s.entered).collect();
     assert_eq!(entered, ["dry_offset", "direction_asymmetry"]);
     assert_eq!(named(&report), ["dry_offset", "direction_asymmetry"]);
@@ -232,7 +240,7 @@ simulated = { channel = "simulated", unit = "N" }
     )
     .unwrap();
     let recording = rig.apply(&trace, &path).unwrap();
-    let report = diagnose(&rig, &[&recording], None, &Options::default()).report;
+    let report = diagnose(&rig, &[&recording], None, &options()).report;
     assert_eq!(report.stages[0].entered, "channel_skew");
     let delay_s = report.effects[0].parameters["delay"].value;
     // The two start at different phases of a 1.2 s period: 1.16 s apart, or 0.04 s the other way.
@@ -268,13 +276,7 @@ fn the_bouc_wen_oscillator_shows_hysteresis_and_what_cannot_be_known_of_it() {
             .for_each(|c| c.samples.truncate(8192));
         rig.apply(&trace, path).unwrap()
     };
-    let report = diagnose(
-        &rig,
-        &[&read(&train)],
-        Some(&read(&test)),
-        &Options::default(),
-    )
-    .report;
+    let report = diagnose(&rig, &[&read(&train)], Some(&read(&test)), &options()).report;
     assert_eq!(named(&report), ["hysteresis"]);
     assert_eq!(report.verdict, Verdict::Explained);
     let direction = &report.null_directions[0].direction;

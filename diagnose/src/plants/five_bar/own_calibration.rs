@@ -45,7 +45,7 @@ fn stating(lines: &str) -> FiveBar {
 /// The recording of a rig as described, along the path of the thesis's rig.
 fn recorded(stated: &FiveBar, seed: u64) -> FiveBarRecording {
     let own = rig(Layout::FourBrake);
-    let path = recording(Layout::FourBrake, 9.0, seed, &nothing);
+    let path = recording(Layout::FourBrake, 6.0, seed, &nothing);
     let exact = replica(&own, stated, &path).unwrap();
     let mut random = Pcg64Mcg::seed_from_u64(seed);
     let [angle, force] = exact.noise;

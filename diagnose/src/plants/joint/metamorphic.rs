@@ -55,7 +55,7 @@ fn rig(written: &Written) -> Rig {
 /// Writes a recording of a slide with Coulomb friction to a file, reads it back and diagnoses it.
 fn told(written: &Written, name: &str) -> Report {
     let laws = [NOMINAL, &[(Mechanism::DryOffset, &[1.73])]].concat();
-    let seen = signals(&exact_axis(&laws, 14_000, false), 53);
+    let seen = signals(&exact_axis(&laws, 7_000, false), 53);
     let [position_sign, command_sign] = written.signs;
     let (start_s, decimals) = written.stamps;
     let mut text = match written.backwards {
@@ -86,6 +86,7 @@ fn told(written: &Written, name: &str) -> Report {
     std::fs::remove_file(&file).unwrap();
     let options = Options {
         refit: false,
+        next_experiment: false,
         ..Options::default()
     };
     diagnose(&rig, &[&recording.unwrap()], None, &options).report
