@@ -23,7 +23,7 @@ use rigproof_trace::rig::Signal;
 use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording};
 
 /// Long enough for a name, s.
-const SECONDS: f64 = 6.0;
+const SECONDS: f64 = 9.0;
 
 /// The next experiment has tests of its own and is switched off here.
 fn options() -> Options {

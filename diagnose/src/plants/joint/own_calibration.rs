@@ -19,7 +19,7 @@ use rigproof_trace::{Channel, Trace};
 use std::path::Path;
 
 /// Samples of a recording.
-const COUNT: usize = 6_000;
+const COUNT: usize = 10_000;
 /// The plants on which a mechanism is left out.
 const BOTH: &[PlantKind] = &[PlantKind::Axis, PlantKind::Bench];
 const AXIS: &[PlantKind] = &[PlantKind::Axis];
