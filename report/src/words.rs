@@ -16,13 +16,15 @@ pub fn plain_cause(cause: &str) -> String {
     all.join(" with ")
 }
 
-/// A mechanism's name and its joint in plain words; a name that is not in the vocabulary stands as it is.
+/// A mechanism's name and its place in plain words; a name that is not in the vocabulary stands as it is.
 pub fn plain_at(name: &str, joint: Option<&str>) -> String {
     let what = Mechanism::from_name(name).map_or_else(
         || name.to_owned(),
         |mechanism| words(mechanism).what.to_owned(),
     );
     match joint {
+        Some("every brake") => format!("{what}, the same at every brake"),
+        Some(axis @ ("x" | "y")) if name.starts_with("force_") => format!("{what}, along {axis}"),
         Some(joint) => format!("{what}, at joint {joint}"),
         None => what,
     }

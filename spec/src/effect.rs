@@ -176,7 +176,7 @@ vocabulary! {
     CurrentGain = "current_gain" called "current gain error" | "amplifier gain" [needed("scale", Number).above_zero()],
     /// A spring from the tip to an anchor in the plane.
     PlaneSpring = "plane_spring" called "spring to an anchor" | "tether" [
-        needed("stiffness", EffortPerTravel),
+        needed("stiffness", ForcePerLength),
         needed("tension", Force),
         needed("x", Length),
         needed("y", Length),
@@ -376,6 +376,8 @@ pub enum Quantity {
     FirstMoment,
     /// Newtons, whatever the plant does.
     Force,
+    /// Newtons per metre, whatever the plant does.
+    ForcePerLength,
     /// Radians, whatever the plant does.
     Angle,
 }
@@ -421,6 +423,7 @@ impl Quantity {
                 .times(Dimension::LENGTH)
                 .times(Dimension::TIME.power(2)),
             Quantity::Force => Dimension::FORCE,
+            Quantity::ForcePerLength => Dimension::FORCE.per(Dimension::LENGTH),
             Quantity::Length => Dimension::LENGTH,
             Quantity::Angle => Dimension::ANGLE,
         }

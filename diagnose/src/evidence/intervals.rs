@@ -153,8 +153,8 @@ fn between_samples(problem: &Problem, term: &Term) -> f64 {
     rms(&speeds) * step_s / 12f64.sqrt()
 }
 
-/// Half widths of the coefficients' intervals, at least those for white residuals of variance 1.
-/// `None` if the columns are linearly dependent.
+/// Half widths of the coefficients' intervals, at least those for white residuals of variance 1;
+/// NaN where a coefficient is not determined. `None` if the columns are linearly dependent.
 pub(super) fn half_widths(
     columns: &[&[f64]],
     residual: &[f64],
@@ -183,9 +183,13 @@ pub(super) fn half_widths(
             .map(|d| d * d)
             .collect();
         let jackknife = ((count - 1.0) / count * own.iter().sum::<f64>()).sqrt();
-        let white = bread.get((k, k)).map_or(f64::NAN, |v| v.max(0.0).sqrt());
-        let scatter = half_width(jackknife, freedom(columns.get(k), blocks));
-        scatter.unwrap_or_default().max(NORMAL * white)
+        let variance = bread.get((k, k)).copied().unwrap_or(f64::NAN);
+        let scatter = half_width(jackknife, freedom(columns.get(k), blocks)).unwrap_or_default();
+        // A variance of rounding errors is not of the parameter, and `max` would pass over NaN.
+        match variance > 0.0 && jackknife.is_finite() {
+            true => scatter.max(NORMAL * variance.sqrt()),
+            false => f64::NAN,
+        }
     });
     Some(halves.collect())
 }

@@ -44,6 +44,28 @@ fn intervals_cover_the_truth_although_the_noise_is_uneven() {
 }
 
 #[test]
+fn what_only_rounding_tells_has_no_interval_of_width_0() {
+    let blocks = Blocks {
+        ranges: (0..5).map(|b| (30 * b, 30 * (b + 1))).collect(),
+    };
+    let mut noise = Noise::new(57);
+    let own: Vec<f64> = (0..150).map(|_| noise.draw()).collect();
+    // The same column but for its last digits: the inverse is of rounding errors.
+    for seed in 0..20 {
+        let mut last = Noise::new(seed);
+        let twin: Vec<f64> = own
+            .iter()
+            .map(|v| v * (1.0 + 1e-16 * last.draw()))
+            .collect();
+        let residual = vec![0.0; 150];
+        let halves = half_widths(&[&own, &twin], &residual, &blocks);
+        for half in halves.unwrap_or_default() {
+            assert!(half.is_nan() || half > 1.0, "{seed}: {half}");
+        }
+    }
+}
+
+#[test]
 fn of_bouc_wen_only_the_two_products_are_determined() {
     let mut noise = Noise::new(61);
     let mut column = || -> Vec<f64> { (0..200).map(|_| noise.draw()).collect() };

@@ -26,7 +26,7 @@ const LEFT_OUT: &[&str] = &[
     "mechanism = \"lag\"\njoint = \"B\"\ntime_constant = { value = 37.0, unit = \"ms\" }\n",
     "mechanism = \"channel_skew\"\ndelay = { value = 9.0, unit = \"ms\" }\n",
     "mechanism = \"force_gain\"\naxis = \"x\"\nfraction = { value = 0.13, unit = \"1\" }\n",
-    "mechanism = \"plane_spring\"\nstiffness = { value = 17.0, unit = \"N·m/rad\" }\ntension = { value = 1.3, unit = \"N\" }\nx = { value = 0.11, unit = \"m\" }\ny = { value = 0.27, unit = \"m\" }\n",
+    "mechanism = \"plane_spring\"\nstiffness = { value = 17.0, unit = \"N/m\" }\ntension = { value = 1.3, unit = \"N\" }\nx = { value = 0.11, unit = \"m\" }\ny = { value = 0.27, unit = \"m\" }\n",
     "mechanism = \"viscous\"\njoint = \"E\"\ncoefficient = { value = 0.19, unit = \"N·m·s/rad\" }\n",
 ];
 
