@@ -19,7 +19,7 @@ use rigproof_certify::monitor::{Made, constants, made};
 use rigproof_certify::plan::{FORM, Plan, Subject};
 use rigproof_certify::scenario::{Rig, Scenario};
 use rigproof_certify::tool::Tool;
-use rigproof_impl::monitor::constants::Constants;
+use rigproof_impl::monitor::constants::{Constants, WATCHED};
 use rigproof_impl::monitor::{Alarm, Monitor};
 use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
@@ -211,7 +211,7 @@ fn far_in(plan: &Plan, index: u64, open: &Constants, closed: &Constants) -> Opti
             own.left_at.get_or_insert(tick);
         }
         let ends = open.low.iter().zip(&open.high);
-        for (place, (number, (low, high))) in monitor.estimate().numbers().zip(ends).enumerate() {
+        for (place, (number, (low, high))) in monitor.estimate().numbers().iter().zip(ends).enumerate() {
             let sigmas = number.beyond(*low, *high);
             if sigmas > own.covered.max(own.after) {
                 own.at = (tick, place);
@@ -282,20 +282,26 @@ fn is_covered(monitor: &Monitor, of: &Constants) -> bool {
             && of.cells >> seen.cell & 1 == 1
 }
 
-/// Where in a use the motion surprised most, and what the monitor knew then.
-fn surprises(plan: &Plan, rig: Rig, index: u64) {
+/// What every look of a use came to that found a number beyond its ends, standard deviations.
+fn looks(plan: &Plan, rig: Rig, index: u64) {
     let source = plan.controller.source().unwrap();
     let open = constants(plan, rig).unwrap();
     let scenario = in_use(plan, index).unwrap();
-    println!("{scenario:?}");
-    let (mut tick, mut last) = (0, 0.0);
+    println!("{:?} {:?} {:?}", scenario.hand, scenario.plant, scenario.task);
+    let (mut tick, mut last) = (0, [0.0; WATCHED]);
     run(&scenario, source, &open, None, |monitor| {
         tick += 1;
-        let surprise = monitor.estimate().surprise();
-        if surprise - last > 1.0 {
-            println!("sample {tick}: {last:.2} to {surprise:.2}: {monitor:?}");
+        let mut now = [0.0; WATCHED];
+        let ends = open.low.iter().zip(&open.high);
+        for (now, (number, (low, high))) in now.iter_mut().zip(monitor.estimate().numbers().iter().zip(ends)) {
+            *now = number.beyond(*low, *high);
         }
-        last = surprise;
+        let most = now.iter().copied().fold(0.0, f64::max);
+        if now != last && most > 1.3 {
+            let shown = now.map(|own| (own * 10.0).round() / 10.0);
+            println!("sample {tick}: {shown:?}, surprise {:.2}", monitor.estimate().surprise());
+        }
+        last = now;
     });
 }
 
@@ -309,8 +315,8 @@ fn main() {
         }
         let is_all = arguments[0] == "all";
         let plan = plan(rig, if is_all { number(5) as u64 } else { TRIALS });
-        if arguments[0] == "surprises" {
-            surprises(&plan, rig, number(1) as u64);
+        if arguments[0] == "looks" {
+            looks(&plan, rig, number(1) as u64);
             continue;
         }
         let made = monitor(&plan);

@@ -7,12 +7,14 @@ pub mod braking;
 pub mod constants;
 pub mod envelope;
 pub mod estimate;
+pub mod information;
+pub mod sought;
 
-use balance::{Accuracy, BLOCK, Block, Step};
+use balance::{Accuracy, BLOCK, Balancing, Due, Step};
 use braking::Braking;
 use constants::{Constants, WATCHED};
 use envelope::{Envelope, Seen};
-use estimate::Estimate;
+use estimate::{Estimate, PART_BLOCKS};
 
 use rigproof_spec::joint::Joint;
 use rigproof_spec::tables::GREATEST_CURRENT_A;
@@ -104,10 +106,9 @@ pub struct Monitor {
     velocities: [Velocity<f64>; 2],
     guard: Guard<f64>,
     accuracy: Accuracy,
-    kept: [f64; 2],
     brakings: [Braking; 4],
     last: Option<Last>,
-    blocks: [Block; 2],
+    balancing: Balancing,
     estimate: Estimate,
     envelope: Envelope,
     /// Samples in a row without a good one, and steps until blocks begin.
@@ -125,13 +126,14 @@ impl Monitor {
         let numbers = of.low.iter().chain(&of.high).chain(&of.spread);
         let is_sound = settings.are_sound()
             && numbers.chain(&of.sigmas).all(|number| number.is_finite())
-            && of.memory_s.iter().all(|memory| *memory > 0.0)
+            && of.memory_s > 0.0
+            && of.spread.iter().all(|spread| *spread > 0.0)
             && of.surprise > 0.0;
         if !is_sound {
             return None;
         }
         let bodies = Bodies::new(&settings.arms, &of.inertia);
-        let time_s = f64::from(BLOCK) * settings.sample_s;
+        let part_s = f64::from(BLOCK * PART_BLOCKS) * settings.sample_s;
         Some(Monitor {
             of: *of,
             shape: Shape::new(&settings.arms),
@@ -148,11 +150,10 @@ impl Monitor {
                 missed_share: of.missed_share,
             },
             encoders,
-            kept: of.memory_s.map(|memory_s| libm::exp(-time_s / memory_s)),
             brakings: of.brakes.map(|table| Braking::new(&table)),
             last: None,
-            blocks: [Block::NONE; 2],
-            estimate: Estimate::new(&of.spread, [of.low, of.high]),
+            balancing: Balancing::NONE,
+            estimate: Estimate::new(&of.spread, libm::exp(-part_s / of.memory_s)),
             envelope: Envelope::default(),
             faulty: 0,
             wait: BLOCK,
@@ -244,7 +245,7 @@ impl Monitor {
     /// What was begun is not gone on with: samples are missing.
     fn interrupt(&mut self) {
         self.last = None;
-        self.blocks = [Block::NONE; 2];
+        self.balancing.lose();
         self.wait = BLOCK;
         for braking in &mut self.brakings {
             braking.lose();
@@ -285,11 +286,8 @@ impl Monitor {
             self.wait -= 1;
             return;
         }
-        let [_, current] = &mut self.blocks;
-        current.add(&step);
-        if current.is_whole() {
-            self.close(&form);
-        }
+        self.balancing.add(&step, &form);
+        self.go_on();
     }
 
     fn angles(&self, [of_a, of_b]: [i32; 2]) -> Plane {
@@ -350,23 +348,19 @@ impl Monitor {
         }
     }
 
-    /// Ends a block: where two are whole, they are balanced and the numbers are looked at.
-    fn close(&mut self, form: &Form<f64>) {
-        let [first, second] = self.blocks;
-        self.blocks = [second, Block::NONE];
-        if !first.is_whole() {
-            return;
-        }
-        let rows = balance::rows(&first, &second, form, &self.accuracy);
-        if rows.iter().all(Option::is_none) {
-            return;
-        }
-        self.estimate.forget(self.kept);
-        for row in rows.iter().flatten() {
-            self.estimate.take(row);
-        }
-        if let Some(alarm) = self.judged() {
-            self.raise(alarm);
+    /// Goes on with what a block left to do: its balances first, then a look at the numbers. A part of bounded work in every sample.
+    fn go_on(&mut self) {
+        match self.balancing.due(&self.accuracy) {
+            Due::Row(Some(row)) => self.estimate.take(&row),
+            Due::Row(None) => {}
+            Due::End(has_rows) => self.estimate.end_block(has_rows),
+            Due::Nothing => {
+                if self.estimate.go_on()
+                    && let Some(alarm) = self.judged()
+                {
+                    self.raise(alarm);
+                }
+            }
         }
     }
 

@@ -122,7 +122,7 @@ fn fields(made: &Made) -> String {
         ("low", list(&of.low)),
         ("high", list(&of.high)),
         ("spread", list(&of.spread)),
-        ("memory_s", list(&of.memory_s)),
+        ("memory_s", format!("{:?}", of.memory_s)),
         ("missed_share", list(&missed)),
         ("sigmas", list(&of.sigmas)),
         ("surprise", format!("{:?}", of.surprise)),

@@ -198,7 +198,7 @@ impl Came {
     /// How far the statistics went.
     fn judge(&mut self, monitor: &Monitor, of: &Constants) {
         let ends = of.low.iter().zip(&of.high);
-        let numbers = monitor.estimate().numbers().zip(ends);
+        let numbers = monitor.estimate().numbers().iter().zip(ends);
         for (most, (number, (low, high))) in self.sigmas.iter_mut().zip(numbers) {
             *most = most.max(number.beyond(*low, *high));
         }

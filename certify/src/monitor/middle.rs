@@ -24,9 +24,8 @@ const LEAST_NM: f64 = 0.021;
 /// Speed of a joint at which an interval of viscous friction is taken as one of friction, rad/s: 0.3 m/s, the hasty hand's (decision
 /// 0125), at 0.3 m from its axis.
 const AT_RAD_S: f64 = 1.0;
-/// Times over which the monitor forgets, s: what it learned of the rig in five minutes of motion, so that what changes within seconds is
-/// not learned first; what the last rows say in one second, half of the time in which it is to speak.
-const MEMORY_S: [f64; 2] = [300.0, 1.0];
+/// Time over which the monitor forgets what it learned of the rig, s: five minutes of motion.
+const MEMORY_S: f64 = 300.0;
 /// Shares of inertial and braking impulses that the model may miss. The mass of a side is one number here and its arms are drawn apart, by
 /// 0.058 in the mean square each, of which most is common; the square of what a time constant differs is 0.04.
 const MISSED_SHARE: [f64; 2] = [0.02, 0.04];

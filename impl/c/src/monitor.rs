@@ -82,8 +82,8 @@ pub struct RigproofMonitorConstants {
     pub high: [f64; RIGPROOF_MONITOR_NUMBERS],
     /// Their spreads.
     pub spread: [f64; RIGPROOF_MONITOR_NUMBERS],
-    /// Times over which the monitor forgets, s.
-    pub memory_s: [f64; 2],
+    /// Time over which the monitor forgets what it learned, s.
+    pub memory_s: f64,
     /// Shares of inertial and braking impulses that the model may miss.
     pub missed_share: [f64; 2],
     /// How many standard deviations beyond its end a number has to be.

@@ -3,15 +3,16 @@
 use rigproof_spec::tables::BrakeTable;
 use rigproof_spec::units::rad_from_deg;
 
-use crate::number::{least, most};
+use crate::number::{Scalar, least, most};
 use crate::plant::backlash::ENTRY_TRAVEL_DEG;
 use crate::plant::brake::{Brake, Characteristic, Turn};
 
-/// By which factor the second brake is slower than the first: the greatest that a scenario draws (decision 0125).
-pub const SLOWER: f64 = 1.2;
 /// Torque that current makes, as a share of that without, from which the place in the backlash matters: below it the whole torque is
 /// known within the share that is certified.
 const ACTS_SHARE: f64 = 0.1;
+
+/// Distance from where a torque goes below which its course says no time constant, N·m.
+const LEAST_COURSE_NM: f64 = 1e-9;
 
 /// What is left of a fall without current that is not followed, N·m: a fifth of the last digit printed in table 3.2.
 const SETTLED_NM: f64 = 0.002;
@@ -19,12 +20,12 @@ const SETTLED_NM: f64 = 0.002;
 /// How far an angle may be off by rounding, rad.
 const ROUNDING_RAD: f64 = 1e-12;
 
-/// One brake as it was found, and the same brake slower.
+/// One brake as it was found, and how its torque would differ if it were slower.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Braking {
     of: Characteristic,
     own: Brake,
-    slower: Brake,
+    slower: Slower,
     off_nm: f64,
     width_rad: f64,
     /// Where the shaft is, and between which places it was since it was last lost, rad.
@@ -33,6 +34,33 @@ pub struct Braking {
     /// Lower ends of the narrowest and the widest backlash that is certified, each pushed along by the shaft, rad. What turns back within
     /// a backlash leaves it where its end is, not a width from where it turned.
     ends_rad: [f64; 2],
+}
+
+/// How much more torque a brake would have for each share by which its time constant a were longer: s = ∂y/∂(ln a) of its course
+/// a·dy/dt = T − y, so that a·ds/dt = y − T − s.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Slower {
+    by_nm: f64,
+    /// Shares of a distance from the target that are left after the last step, and in its mean.
+    left: f64,
+    mean: f64,
+}
+
+impl Slower {
+    /// Goes on by a step, of the distances from the target before it, in its mean and after it, N·m; returns the mean of s, N·m.
+    #[inline(always)]
+    fn step(&mut self, [before_nm, mean_nm, after_nm]: [f64; 3]) -> f64 {
+        if before_nm.magnitude() > LEAST_COURSE_NM {
+            let inverse = 1.0 / before_nm;
+            self.left = most(0.0, least(1.0, after_nm * inverse));
+            self.mean = most(self.left, least(1.0, mean_nm * inverse));
+        }
+        let Slower { by_nm, left, mean } = *self;
+        // With the exponent e = h/a, what is left is exp(−e) and the mean (1 − exp(−e))/e.
+        let exponent = if mean > 0.0 { (1.0 - left) / mean } else { 0.0 };
+        self.by_nm = left * (by_nm + before_nm * exponent);
+        by_nm * mean + before_nm * (mean - left)
+    }
 }
 
 /// What a brake resists with over a step, N·m.
@@ -55,7 +83,7 @@ impl Braking {
         Braking {
             of: Characteristic::new(table),
             own,
-            slower: own,
+            slower: Slower::default(),
             off_nm: table.torque_gain.off_state_nm(),
             width_rad: rad_from_deg(table.backlash_width_deg),
             at_rad: 0.0,
@@ -80,33 +108,35 @@ impl Braking {
         share: f64,
     ) -> Torque {
         let to_rad = self.at_rad + by_rad;
-        let left_nm = most(self.own.yield_nm(), self.slower.yield_nm()) - self.off_nm;
+        let before_nm = self.own.yield_nm();
+        let left_nm = most(before_nm - self.off_nm, self.slower.by_nm.magnitude());
         if current_a == 0.0 && left_nm <= SETTLED_NM {
             self.own.rest(&self.of, [self.at_rad, to_rad]);
-            self.slower = self.own;
+            self.slower = Slower::default();
             self.travel(to_rad, share);
             return Torque {
                 yield_nm: self.off_nm,
                 ..Torque::default()
             };
         }
-        let turn = |step_s: f64| Turn {
+        let turn = Turn {
             way_rad: [self.at_rad, to_rad],
             around_s: [0.0, step_s],
             speed_rad_s,
             step_s,
         };
-        // A brake that is slower by a factor does in a step what this one does in a shorter one.
-        let (own, slower) = (turn(step_s), turn(step_s * (1.0 / SLOWER)));
-        let yield_nm = self.own.step(&self.of, current_a, &own);
-        let slower_nm = self.slower.step(&self.of, current_a, &slower);
+        let yield_nm = self.own.step(&self.of, current_a, &turn);
+        let inside = self.own.backlash().is_inside();
+        let target_nm = self.of.target_nm(inside, current_a);
+        let course = [before_nm, yield_nm, self.own.yield_nm()].map(|own| own - target_nm);
+        let slowness_nm = self.slower.step(course);
         let is_near = self.travel(to_rad, share);
         let driven_nm = yield_nm - self.off_nm;
         let acts = driven_nm > ACTS_SHARE * self.off_nm || current_a > 0.0;
         Torque {
             yield_nm,
             driven_nm,
-            slowness_nm: (slower_nm - yield_nm) * (1.0 / (SLOWER - 1.0)),
+            slowness_nm,
             is_open: is_near && acts,
         }
     }
@@ -151,6 +181,37 @@ mod tests {
     fn shaft_rad(sample: u32) -> f64 {
         let time = f64::from(sample) * 0.01;
         0.02 * libm::sin(time) + 0.012 * libm::sin(2.71 * time) + 0.008 * libm::sin(7.3 * time)
+    }
+
+    #[test]
+    fn the_slowness_is_the_difference_to_a_slower_brake() {
+        let table = brake_table(Joint::E);
+        let of = Characteristic::new(&table);
+        let (mut braking, slower_by) = (Braking::new(&table), 1e-4);
+        let mut slower = Brake::new(&table, 0.0);
+        let (mut worst, mut greatest, mut at_rad) = (0.0_f64, 0.0_f64, 0.0);
+        for sample in 0..6000_u32 {
+            // Steps up and down between currents, the shaft turning one way.
+            let current_a = [0.0, 0.31, 0.83, 0.12][sample as usize / 70 % 4];
+            let (from_rad, step_s) = (at_rad, 1e-3);
+            at_rad += 7e-4;
+            let torque = braking.step(current_a, 7e-4, 0.7, step_s, 0.35);
+            let of_slower = step_s / (1.0 + slower_by);
+            let turn = Turn {
+                way_rad: [from_rad, at_rad],
+                around_s: [0.0, of_slower],
+                speed_rad_s: 0.7,
+                step_s: of_slower,
+            };
+            let yield_nm = slower.step(&of, current_a, &turn);
+            let expected_nm = (yield_nm - torque.yield_nm) / slower_by;
+            // The moment of a crossing is scaled with the step of the slower one.
+            if sample > 200 {
+                worst = worst.max((torque.slowness_nm - expected_nm).abs());
+                greatest = greatest.max(expected_nm.abs());
+            }
+        }
+        assert!(greatest > 1.0 && worst < 0.01 * greatest, "{worst} of {greatest}");
     }
 
     #[test]

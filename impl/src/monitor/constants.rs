@@ -32,8 +32,8 @@ pub struct Constants {
     pub high: [f64; NUMBERS],
     /// How far each number lies about the middle where nothing was seen: the standard deviation, in its unit.
     pub spread: [f64; NUMBERS],
-    /// Times over which what was learned of the rig, and what the last rows say of a change, are forgotten, s of motion that could be used.
-    pub memory_s: [f64; 2],
+    /// Time over which what was learned of the rig is forgotten, s of motion that could be used.
+    pub memory_s: f64,
     /// Share of an inertial impulse, and of an impulse of the brakes, that the model may miss.
     pub missed_share: [f64; 2],
     /// How many standard deviations beyond its end a number has to be.

@@ -221,7 +221,7 @@ pub const THREE_BRAKE: Constants = Constants {
         0.13476172334337178,
         0.05773502691896259,
     ],
-    memory_s: [300.0, 1.0],
+    memory_s: 300.0,
     missed_share: [0.02, 0.04],
     sigmas: [3.0, 3.0, 3.0, 3.0, 3.0, 3.0, 3.0, 3.0, 3.0, 3.0],
     surprise: 2.45,
@@ -458,7 +458,7 @@ pub const FOUR_BRAKE: Constants = Constants {
         0.13467899064643848,
         0.05773502691896259,
     ],
-    memory_s: [300.0, 1.0],
+    memory_s: 300.0,
     missed_share: [0.02, 0.04],
     sigmas: [
         3.0,
