@@ -32,7 +32,7 @@ const CHANGE_TICKS: u32 = 60_000;
 /// Trials of the certificate.
 const TRIALS: u64 = 1000;
 /// Sets the rigs in use apart from those of the certificate.
-const SEED_OF_USE: u64 = 20_251_125;
+const SEED_OF_USE: u64 = 20_261_126;
 
 fn plan(rig: Rig, trials: u64) -> Plan {
     Plan {
@@ -211,8 +211,10 @@ fn far_in(plan: &Plan, index: u64, open: &Constants, closed: &Constants) -> Opti
             own.left_at.get_or_insert(tick);
         }
         let ends = open.low.iter().zip(&open.high);
-        for (place, (number, (low, high))) in monitor.estimate().numbers().iter().zip(ends).enumerate() {
-            let sigmas = number.beyond(*low, *high);
+        for (place, (number, (low, high))) in
+            monitor.estimate().numbers().iter().zip(ends).enumerate()
+        {
+            let sigmas = number.beyond(*low, *high, 0.0) / number.variance.sqrt();
             if sigmas > own.covered.max(own.after) {
                 own.at = (tick, place);
             }
@@ -286,23 +288,67 @@ fn is_covered(monitor: &Monitor, of: &Constants) -> bool {
 fn looks(plan: &Plan, rig: Rig, index: u64) {
     let source = plan.controller.source().unwrap();
     let open = constants(plan, rig).unwrap();
-    let scenario = in_use(plan, index).unwrap();
-    println!("{:?} {:?} {:?}", scenario.hand, scenario.plant, scenario.task);
+    let scenario = Scenario {
+        ticks: USE_TICKS,
+        ..plan.scenario(index)
+    };
+    println!(
+        "{:?} {:?} {:?}",
+        scenario.hand, scenario.plant, scenario.task
+    );
     let (mut tick, mut last) = (0, [0.0; WATCHED]);
     run(&scenario, source, &open, None, |monitor| {
         tick += 1;
         let mut now = [0.0; WATCHED];
         let ends = open.low.iter().zip(&open.high);
-        for (now, (number, (low, high))) in now.iter_mut().zip(monitor.estimate().numbers().iter().zip(ends)) {
-            *now = number.beyond(*low, *high);
+        for (now, (number, (low, high))) in now
+            .iter_mut()
+            .zip(monitor.estimate().numbers().iter().zip(ends))
+        {
+            *now = number.beyond(*low, *high, 0.0) / number.variance.sqrt();
         }
         let most = now.iter().copied().fold(0.0, f64::max);
         if now != last && most > 1.3 {
             let shown = now.map(|own| (own * 10.0).round() / 10.0);
-            println!("sample {tick}: {shown:?}, surprise {:.2}", monitor.estimate().surprise());
+            println!(
+                "sample {tick}: {shown:?}, surprise {:.2}",
+                monitor.estimate().surprise()
+            );
         }
         last = now;
     });
+}
+
+/// The looks of a use that found a number farthest beyond its ends: standard deviations, number, sample.
+fn tops(plan: &Plan, rig: Rig, uses: u64) {
+    let source = plan.controller.source().unwrap();
+    let open = constants(plan, rig).unwrap();
+    let all = (0..uses).into_par_iter().filter_map(|index| {
+        let mut scenario = plan.scenario(index);
+        if !matches!(scenario.hand, Hand::Operator { .. }) || !scenario.faults.is_empty() {
+            return None;
+        }
+        scenario.ticks = USE_TICKS;
+        let (mut tick, mut top) = (0, (0.0, 0, 0));
+        run(&scenario, source, &open, None, |monitor| {
+            tick += 1;
+            let ends = open.low.iter().zip(&open.high);
+            for (place, (number, (low, high))) in
+                monitor.estimate().numbers().iter().zip(ends).enumerate()
+            {
+                let beyond = number.beyond(*low, *high, 0.0) / number.variance.sqrt();
+                if beyond > top.0 {
+                    top = (beyond, place, tick);
+                }
+            }
+        })?;
+        Some((top, index))
+    });
+    let mut all: Vec<_> = all.collect();
+    all.sort_by(|one, other| other.0.0.total_cmp(&one.0.0));
+    for one in all.iter().take(14) {
+        println!("{one:?}");
+    }
 }
 
 fn main() {
@@ -319,10 +365,14 @@ fn main() {
             looks(&plan, rig, number(1) as u64);
             continue;
         }
+        if arguments[0] == "tops" {
+            tops(&plan, rig, number(1) as u64);
+            continue;
+        }
         let made = monitor(&plan);
         println!(
             "{:?} {:?} {:?}",
-            made.rig, made.basis, made.constants.sigmas
+            made.rig, made.basis, made.constants.margins
         );
         match arguments[0].as_str() {
             "false" => false_alarms(&plan, &made, number(1)),

@@ -19,6 +19,8 @@ use estimate::{Estimate, PART_BLOCKS};
 use rigproof_spec::joint::Joint;
 use rigproof_spec::tables::GREATEST_CURRENT_A;
 
+use sought::SIGMAS;
+
 use crate::encoder::Encoder;
 use crate::guard::{Guard, RECOVERY_SAMPLES, SLACK_A, Verdict};
 use crate::linkage::{Linkage, Shape, linkage};
@@ -125,9 +127,10 @@ impl Monitor {
         let encoders = [Encoder::new(of_a, zero_a)?, Encoder::new(of_b, zero_b)?];
         let numbers = of.low.iter().chain(&of.high).chain(&of.spread);
         let is_sound = settings.are_sound()
-            && numbers.chain(&of.sigmas).all(|number| number.is_finite())
+            && numbers.chain(&of.margins).all(|number| number.is_finite())
             && of.memory_s > 0.0
             && of.spread.iter().all(|spread| *spread > 0.0)
+            && of.low.iter().zip(&of.high).all(|(low, high)| low < high)
             && of.surprise > 0.0;
         if !is_sound {
             return None;
@@ -366,14 +369,16 @@ impl Monitor {
 
     /// The number that is surely outside its interval by most, or what else the balances do not agree with.
     fn judged(&self) -> Option<Alarm> {
-        let ends = self.of.low.iter().zip(&self.of.high).zip(&self.of.sigmas);
+        let ends = self.of.low.iter().zip(&self.of.high).zip(&self.of.margins);
         let all = Alarm::NUMBERS
             .into_iter()
             .zip(self.estimate.numbers())
             .zip(ends);
-        let mut worst = (1.0, None);
-        for ((alarm, number), ((low, high), sigmas)) in all {
-            let share = number.beyond(*low, *high) * (1.0 / sigmas);
+        let mut worst = (0.0, None);
+        for ((alarm, number), ((low, high), margin)) in all {
+            // Beyond its margin by this share of the width of its interval.
+            let over = number.beyond(*low, *high, SIGMAS) - margin;
+            let share = over * (1.0 / (high - low));
             if share > worst.0 {
                 worst = (share, Some(alarm));
             }

@@ -124,7 +124,7 @@ fn fields(made: &Made) -> String {
         ("spread", list(&of.spread)),
         ("memory_s", format!("{:?}", of.memory_s)),
         ("missed_share", list(&missed)),
-        ("sigmas", list(&of.sigmas)),
+        ("margins", list(&of.margins)),
         ("surprise", format!("{:?}", of.surprise)),
         ("tip_m", list(&of.tip_m)),
         ("speed_m_s", format!("{:?}", of.speed_m_s)),
@@ -169,10 +169,10 @@ pub fn json(certificate: &Certificate, all: &[Made]) -> Value {
 
 fn of_rig(made: &Made) -> Value {
     let of: &Constants = &made.constants;
-    let ends = of.low.iter().zip(&of.high).zip(&of.sigmas);
-    let basis = ends.zip(&made.basis.sigmas).zip(NAMES);
-    let numbers = basis.map(|((((low, high), sigmas), greatest), (name, unit))| {
-        json!({ "name": name, "unit": unit, "low": low, "high": high, "sigmas": sigmas, "greatest_in_trials": greatest })
+    let ends = of.low.iter().zip(&of.high).zip(&of.margins);
+    let basis = ends.zip(&made.basis.beyond).zip(NAMES);
+    let numbers = basis.map(|((((low, high), margin), greatest), (name, unit))| {
+        json!({ "name": name, "unit": unit, "low": low, "high": high, "margin": margin, "greatest_in_trials": greatest })
     });
     json!({
         "rig": made.rig,

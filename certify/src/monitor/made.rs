@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 use rigproof_impl::monitor::Monitor;
 use rigproof_impl::monitor::constants::{Constants, WATCHED};
+use rigproof_impl::monitor::sought::SIGMAS;
 use serde::Serialize;
 
 use super::drill;
@@ -21,8 +22,9 @@ const TRIALS_OF_USE: u64 = 4;
 /// How far beyond what the certificate's trials and uses came to a statistic has to be. The greatest of n trials is passed by the next n with a
 /// chance of one half; the excess of a statistic with exponential tails over it is then a small share of it.
 const BEYOND: f64 = 1.25;
-/// Fewest standard deviations that are ever enough: one-sided chance 0.0013 where the model is right.
-const LEAST_SIGMAS: f64 = 3.0;
+/// Standard deviations beyond its end that a number may come to in trials and uses without a margin: as many as are enough for an alarm, less
+/// the same share.
+const SILENT_SIGMAS: f64 = SIGMAS / BEYOND;
 /// Least mean square of the surprise that is ever enough: of 16 rows the 0.1 % point of the chi-squared distribution over 16.
 const LEAST_SURPRISE: f64 = 2.45;
 
@@ -46,8 +48,8 @@ pub struct Basis {
     pub samples: u64,
     /// Samples of longer use of its rigs by operators.
     pub use_samples: u64,
-    /// The greatest of each number's statistic where it was to be silent, standard deviations beyond its end; 0 where none came beyond.
-    pub sigmas: [f64; WATCHED],
+    /// How far each number came beyond its end by 2.4 standard deviations where it was to be silent, in its unit; 0 where it did not.
+    pub beyond: [f64; WATCHED],
     /// The greatest mean square of the surprise.
     pub surprise: f64,
 }
@@ -121,7 +123,7 @@ fn one(plan: &Plan, rig: Rig, source: &dyn Source, most: u64) -> Result<Made, Re
             trials: came.trials,
             samples: came.samples,
             use_samples: came.use_samples,
-            sigmas: came.sigmas,
+            beyond: came.beyond,
             surprise: came.surprise,
         },
     })
@@ -165,7 +167,7 @@ struct Came {
     /// Greatest of minus x, x, minus y, y, m, and of the squares of speed and force.
     most: [f64; 6],
     cells: u64,
-    sigmas: [f64; WATCHED],
+    beyond: [f64; WATCHED],
     surprise: f64,
 }
 
@@ -176,7 +178,7 @@ impl Came {
         use_samples: 0,
         most: [f64::MIN; 6],
         cells: 0,
-        sigmas: [0.0; WATCHED],
+        beyond: [0.0; WATCHED],
         surprise: 0.0,
     };
 
@@ -199,8 +201,8 @@ impl Came {
     fn judge(&mut self, monitor: &Monitor, of: &Constants) {
         let ends = of.low.iter().zip(&of.high);
         let numbers = monitor.estimate().numbers().iter().zip(ends);
-        for (most, (number, (low, high))) in self.sigmas.iter_mut().zip(numbers) {
-            *most = most.max(number.beyond(*low, *high));
+        for (most, (number, (low, high))) in self.beyond.iter_mut().zip(numbers) {
+            *most = most.max(number.beyond(*low, *high, SILENT_SIGMAS));
         }
         self.surprise = self.surprise.max(monitor.estimate().surprise());
     }
@@ -213,7 +215,7 @@ impl Came {
             *most = most.max(now);
         }
         self.cells |= other.cells;
-        for (most, now) in self.sigmas.iter_mut().zip(other.sigmas) {
+        for (most, now) in self.beyond.iter_mut().zip(other.beyond) {
             *most = most.max(now);
         }
         self.surprise = self.surprise.max(other.surprise);
@@ -223,7 +225,7 @@ impl Came {
     /// Numbers with the thresholds and the ends that trials and uses came to.
     fn closed(&self, open: Constants) -> Constants {
         Constants {
-            sigmas: self.sigmas.map(|sigmas| LEAST_SIGMAS.max(BEYOND * sigmas)),
+            margins: self.beyond.map(|beyond| BEYOND * beyond),
             surprise: LEAST_SURPRISE.max(BEYOND * self.surprise),
             ..self.covered(open)
         }

@@ -65,7 +65,7 @@ pub fn constants(plan: &Plan, rig: Rig) -> Result<Constants, String> {
         spread,
         memory_s: MEMORY_S,
         missed_share: MISSED_SHARE,
-        sigmas: [f64::MAX; WATCHED],
+        margins: [f64::MAX; WATCHED],
         surprise: f64::MAX,
         tip_m: [f64::MIN, f64::MAX, f64::MIN, f64::MAX],
         speed_m_s: f64::MAX,

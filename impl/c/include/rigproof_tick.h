@@ -21,7 +21,7 @@
 /*
  Size of a monitor, words of eight bytes.
  */
-#define RIGPROOF_MONITOR_WORDS 1280
+#define RIGPROOF_MONITOR_WORDS 3584
 
 /*
  Numbers that a monitor watches: gains and levels of A, E, B, C, bias of A and B.
@@ -459,17 +459,17 @@ typedef struct RigproofMonitorConstants {
    */
   double spread[RIGPROOF_MONITOR_NUMBERS];
   /*
-   Times over which the monitor forgets, s.
+   Time over which the monitor forgets what it learned, s.
    */
-  double memory_s[2];
+  double memory_s;
   /*
    Shares of inertial and braking impulses that the model may miss.
    */
   double missed_share[2];
   /*
-   How many standard deviations beyond its end a number has to be.
+   How far beyond its end a number has to be, by three standard deviations, in its unit.
    */
-  double sigmas[RIGPROOF_MONITOR_WATCHED];
+  double margins[RIGPROOF_MONITOR_WATCHED];
   /*
    Greatest mean square of the normalised surprise.
    */

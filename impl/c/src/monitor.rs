@@ -13,7 +13,7 @@ use crate::{
 };
 
 /// Size of a monitor, words of eight bytes.
-pub const RIGPROOF_MONITOR_WORDS: usize = 1280;
+pub const RIGPROOF_MONITOR_WORDS: usize = 3584;
 
 /// Numbers that a monitor watches: gains and levels of A, E, B, C, bias of A and B.
 pub const RIGPROOF_MONITOR_WATCHED: usize = 10;
@@ -86,8 +86,8 @@ pub struct RigproofMonitorConstants {
     pub memory_s: f64,
     /// Shares of inertial and braking impulses that the model may miss.
     pub missed_share: [f64; 2],
-    /// How many standard deviations beyond its end a number has to be.
-    pub sigmas: [f64; RIGPROOF_MONITOR_WATCHED],
+    /// How far beyond its end a number has to be, by three standard deviations, in its unit.
+    pub margins: [f64; RIGPROOF_MONITOR_WATCHED],
     /// Greatest mean square of the normalised surprise.
     pub surprise: f64,
     /// Least and greatest x, least and greatest y of the tip, m.
@@ -317,7 +317,7 @@ impl RigproofMonitorConstants {
             spread: self.spread,
             memory_s: self.memory_s,
             missed_share: self.missed_share,
-            sigmas: self.sigmas,
+            margins: self.margins,
             surprise: self.surprise,
             tip_m: self.tip_m,
             speed_m_s: self.speed_m_s,

@@ -36,8 +36,8 @@ pub struct Constants {
     pub memory_s: f64,
     /// Share of an inertial impulse, and of an impulse of the brakes, that the model may miss.
     pub missed_share: [f64; 2],
-    /// How many standard deviations beyond its end a number has to be.
-    pub sigmas: [f64; WATCHED],
+    /// How far beyond its end a number has to be, by three standard deviations, in its unit: what errors of the model come to.
+    pub margins: [f64; WATCHED],
     /// Greatest mean square of the normalised surprise.
     pub surprise: f64,
     /// The box in which the tip was, m: least and greatest x, least and greatest y.

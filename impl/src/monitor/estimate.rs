@@ -8,7 +8,7 @@ use super::information::{Information, Row};
 use super::sought::{Number, Sought};
 
 /// Parts of the window of the last rows.
-const PARTS: usize = 5;
+pub const PARTS: usize = 5;
 /// Blocks with a balance in a part: the window is 32 to 40 blocks of 32 ms.
 pub const PART_BLOCKS: u32 = 8;
 /// Blocks from a look at the numbers to the next.

@@ -6,7 +6,7 @@
 use super::constants::{NUMBERS, WATCHED};
 use super::estimate::Seen;
 use super::information::{Information, along, dot};
-use crate::number::most;
+use crate::number::{Scalar, most};
 
 /// A watched number as the last rows say that it is, if it alone has changed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,11 +24,21 @@ impl Number {
         variance: f64::INFINITY,
     };
 
-    /// How far it is beyond the nearer of its ends, in standard deviations; below zero inside.
-    pub fn beyond(&self, low: f64, high: f64) -> f64 {
-        most(self.now - high, low - self.now) * (1.0 / libm::sqrt(self.variance))
+    /// How far it is beyond the nearer of its ends by so many standard deviations, in its unit; below zero inside, and 0 where the rows do
+    /// not tell it to within the width of its interval: what is left of other errors then looks like a change far larger than any.
+    pub fn beyond(&self, low: f64, high: f64, sigmas: f64) -> f64 {
+        let width = high - low;
+        if self.variance.is_within(width * width) {
+            most(self.now - high, low - self.now) - sigmas * libm::sqrt(self.variance)
+        } else {
+            0.0
+        }
     }
 }
+
+/// Standard deviations by which a number is beyond its end at least where an alarm is raised: one-sided chance 0.0013 where the model is
+/// right.
+pub const SIGMAS: f64 = 3.0;
 
 /// Rows with fewer than which the mean square of what is unexplained is as if there were so many.
 const FEWEST_ROWS: f64 = 16.0;
@@ -180,7 +190,11 @@ impl Sought {
         }
         let inverse = 1.0 / libm::sqrt(most(pivot, *at_rest));
         for (column, value) in own.iter_mut().enumerate() {
-            *value = if column > place { *value * inverse } else { 0.0 };
+            *value = if column > place {
+                *value * inverse
+            } else {
+                0.0
+            };
         }
         if let Some(own) = self.inverses.get_mut(place) {
             *own = inverse;
@@ -244,5 +258,118 @@ impl Sought {
             square += number * (dot(of, &numbers) - 2.0 * score);
         }
         most(square, 0.0) * (1.0 / most(self.window.rows, FEWEST_ROWS))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::monitor::estimate::PARTS;
+    use crate::monitor::information::Row;
+
+    /// Numbers in -1 to 1 from a sequence that never repeats here.
+    fn draw(seed: &mut u64) -> f64 {
+        *seed = seed
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (*seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+
+    /// Rows of numbers with noise of a standard deviation of 0.1.
+    fn rows<const COUNT: usize>(truth: &[f64; NUMBERS], seed: &mut u64) -> [Row; COUNT] {
+        [0; COUNT].map(|_| {
+            let of = [0; NUMBERS].map(|_| draw(seed));
+            let noise = 0.1 * libm::sqrt(3.0) * draw(seed);
+            Row {
+                left: dot(&of, truth) + noise,
+                of,
+                variance: 0.01,
+            }
+        })
+    }
+
+    /// Least squares with one unknown more, by elimination: the number and its variance.
+    fn by_elimination(at_rest: &[f64; NUMBERS], all: [&[Row]; 2], place: usize) -> (f64, f64) {
+        const MORE: usize = NUMBERS + 1;
+        let mut normal = [[0.0; MORE + 2]; MORE];
+        for (place, at_rest) in at_rest.iter().enumerate() {
+            normal[place][place] = *at_rest;
+        }
+        let [before, last] = all;
+        let rows = before.iter().map(|row| (0.0, row));
+        for (share, row) in rows.chain(last.iter().map(|row| (1.0, row))) {
+            let mut of = [0.0; MORE];
+            of[..NUMBERS].copy_from_slice(&row.of);
+            of[NUMBERS] = share * row.of[place];
+            for one in 0..MORE {
+                for other in 0..MORE {
+                    normal[one][other] += of[one] * of[other] / row.variance;
+                }
+                normal[one][MORE] += of[one] * row.left / row.variance;
+            }
+        }
+        // The variance of the number and its change is the contrast's solution along itself.
+        normal[place][MORE + 1] += 1.0;
+        normal[NUMBERS][MORE + 1] += 1.0;
+        for pivot in 0..MORE {
+            let own = normal[pivot];
+            for other in (0..MORE).filter(|other| *other != pivot) {
+                let step = normal[other][pivot] / own[pivot];
+                for column in 0..MORE + 2 {
+                    normal[other][column] -= step * own[column];
+                }
+            }
+        }
+        let of = |column: usize| [place, NUMBERS].map(|row| normal[row][column] / normal[row][row]);
+        (of(MORE).iter().sum(), of(MORE + 1).iter().sum())
+    }
+
+    #[test]
+    fn a_number_that_changed_is_what_least_squares_with_its_change_says() {
+        let mut seed = 91;
+        let before = [0; NUMBERS].map(|_| 0.3 * draw(&mut seed));
+        for place in 0..WATCHED {
+            let mut after = before;
+            after[place] += 1.1;
+            let (old, new): ([Row; 300], [Row; 41]) =
+                (rows(&before, &mut seed), rows(&after, &mut seed));
+            let mut seen = Seen {
+                at_rest: [0; NUMBERS].map(|_| 7.0 + draw(&mut seed)),
+                learned: Information::NONE,
+                last: [Information::NONE; PARTS],
+            };
+            old.iter().for_each(|row| seen.learned.take(row));
+            for (row, part) in new.iter().zip((0..PARTS).cycle()) {
+                seen.last[part].take(row);
+            }
+            let mut sought = Sought::NONE;
+            sought.begin();
+            let stages = (1..200).find(|_| sought.go_on(&seen));
+            // As often as the samples that are left between two looks.
+            assert!(stages.is_some_and(|stages| stages < 100), "{stages:?}");
+            let number = sought.numbers()[place];
+            let (now, variance) = by_elimination(&seen.at_rest, [&old, &new], place);
+            assert!((number.now - now).abs() < 1e-9, "{} {now}", number.now);
+            assert!((number.variance / variance - 1.0).abs() < 1e-9);
+            assert!((now - after[place]).abs() < 4.0 * libm::sqrt(variance));
+            assert!(number.beyond(-0.3, 0.3, SIGMAS) > 0.0);
+        }
+    }
+
+    #[test]
+    fn what_nothing_was_seen_of_is_not_beyond_its_ends() {
+        let mut sought = Sought::NONE;
+        let seen = Seen {
+            at_rest: [310.0; NUMBERS],
+            learned: Information::NONE,
+            last: [Information::NONE; PARTS],
+        };
+        sought.begin();
+        while !sought.go_on(&seen) {}
+        let beyond = sought
+            .numbers()
+            .map(|number| number.beyond(-0.02, 0.02, SIGMAS));
+        assert_eq!(beyond, [0.0; WATCHED]);
+        assert_eq!(sought.surprise(), 0.0);
     }
 }

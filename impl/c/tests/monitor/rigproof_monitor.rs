@@ -223,7 +223,7 @@ pub const THREE_BRAKE: Constants = Constants {
     ],
     memory_s: 300.0,
     missed_share: [0.02, 0.04],
-    sigmas: [3.0, 3.0, 3.0, 3.0, 3.0, 3.0, 3.0, 3.0, 3.0, 3.0],
+    margins: [0.0; 10],
     surprise: 2.45,
     tip_m: [
         -0.26750666180076355,
@@ -460,18 +460,7 @@ pub const FOUR_BRAKE: Constants = Constants {
     ],
     memory_s: 300.0,
     missed_share: [0.02, 0.04],
-    sigmas: [
-        3.0,
-        3.0,
-        3.0,
-        3.006162201530549,
-        3.1898412440291017,
-        3.0,
-        3.0,
-        3.0,
-        3.2571548157454364,
-        3.0,
-    ],
+    margins: [0.0; 10],
     surprise: 2.45,
     tip_m: [
         -0.24258118651860533,
