@@ -207,9 +207,6 @@ mod tests {
             let expected_nm = (yield_nm - torque.yield_nm) / slower_by;
             // The moment of a crossing is scaled with the step of the slower one; a fall that is over is not followed to its end.
             if sample > 200 && torque.driven_nm > 0.0 {
-                if (torque.slowness_nm - expected_nm).abs() > worst {
-                    std::println!(torque.slowness_nm, torque.yield_nm);
-                }
                 worst = worst.max((torque.slowness_nm - expected_nm).abs());
                 greatest = greatest.max(expected_nm.abs());
             }
