@@ -2,6 +2,7 @@
 //!
 //! `watched false HOURS`, `watched found RIGS HALVES`, `watched both HOURS RIGS HALVES`, `watched far USES` and `watched all HOURS RIGS HALVES USES TRIALS`, each for both layouts and the low proportional
 //! gain of table 6.1; the last says how far the statistics go in uses of the certificate's scenarios as they are drawn, with adversaries and faults.
+//! `looks INDEX` and `tops USES` say which looks at the numbers of uses of the certificate's scenarios found one beyond its end.
 //! A last word `three` or `four` asks for one layout only.
 #![allow(
     clippy::unwrap_used,
