@@ -16,10 +16,9 @@ use constants::{Constants, WATCHED};
 use envelope::{Envelope, Seen};
 use estimate::{Estimate, PART_BLOCKS};
 
+use rigproof_spec::inertia::Inertia;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::tables::GREATEST_CURRENT_A;
-
-use sought::SIGMAS;
 
 use crate::encoder::Encoder;
 use crate::guard::{Guard, RECOVERY_SAMPLES, SLACK_A, Verdict};
@@ -102,7 +101,8 @@ pub struct Monitor {
     of: Constants,
     shape: Shape<f64>,
     bodies: Bodies<f64>,
-    sides: [[f64; 3]; 2],
+    /// Of the arms of both sides and of the payload: see [`Bodies::sides`].
+    inertias: [[f64; 3]; 3],
     braked: [bool; 4],
     encoders: [Encoder<f64>; 2],
     velocities: [Velocity<f64>; 2],
@@ -127,7 +127,8 @@ impl Monitor {
         let encoders = [Encoder::new(of_a, zero_a)?, Encoder::new(of_b, zero_b)?];
         let numbers = of.low.iter().chain(&of.high).chain(&of.spread);
         let is_sound = settings.are_sound()
-            && numbers.chain(&of.margins).all(|number| number.is_finite())
+            && numbers.chain(&of.levels).all(|number| number.is_finite())
+            && of.levels.iter().all(|level| *level > 0.0)
             && of.memory_s > 0.0
             && of.spread.iter().all(|spread| *spread > 0.0)
             && of.low.iter().zip(&of.high).all(|(low, high)| low < high)
@@ -140,7 +141,7 @@ impl Monitor {
         Some(Monitor {
             of: *of,
             shape: Shape::new(&settings.arms),
-            sides: bodies.sides(),
+            inertias: inertias(settings, &of.inertia),
             bodies,
             braked: Joint::ALL.map(|joint| settings.layout.brakes().contains(&joint)),
             velocities: encoders.map(|encoder| Velocity::new(&encoder, settings.sample_s)),
@@ -153,7 +154,9 @@ impl Monitor {
                 missed_share: of.missed_share,
             },
             encoders,
-            brakings: of.brakes.map(|table| Braking::new(&table)),
+            brakings: of
+                .brakes
+                .map(|table| Braking::new(&table, of.backlash_share)),
             last: None,
             balancing: Balancing::NONE,
             estimate: Estimate::new(&of.spread, libm::exp(-part_s / of.memory_s)),
@@ -306,7 +309,7 @@ impl Monitor {
         [by, mean, rates]: [Plane; 3],
         before: &Last,
     ) -> Step {
-        let (momentum, motion) = balance::inertial(&self.sides, at, form, mean);
+        let (momentum, motion) = balance::inertial(&self.inertias, at, form, mean);
         let (rows, mut load) = balance::rows_and_load(form, at, before.force_n);
         let (mut senses, mut open, mut bit) = ([[0.0; 3]; 4], 0, 1);
         let known = self
@@ -324,13 +327,12 @@ impl Monitor {
         for (((row, ((braking, braked), current_a)), ((viscous, dry), constant)), own) in all {
             let speed = row.dot(rates);
             let sense = if speed < 0.0 { -1.0 } else { 1.0 };
-            let share = self.of.backlash_share;
             let step_s = self.accuracy.step_s;
             let mut resists = viscous * row.dot(mean) + dry * sense + constant;
             let is_slow = speed.magnitude() < LEAST_RATE_RAD_S;
             let mut is_open = is_slow & (*dry != 0.0);
             if braked {
-                let torque = braking.step(current_a, row.dot(by), speed, step_s, share);
+                let torque = braking.step(current_a, row.dot(by), speed, step_s);
                 resists += sense * torque.yield_nm;
                 is_open |= is_slow | torque.is_open;
                 *own = [sense, sense * torque.driven_nm, sense * torque.slowness_nm];
@@ -369,16 +371,15 @@ impl Monitor {
 
     /// The number that is surely outside its interval by most, or what else the balances do not agree with.
     fn judged(&self) -> Option<Alarm> {
-        let ends = self.of.low.iter().zip(&self.of.high).zip(&self.of.margins);
+        let ends = self.of.low.iter().zip(&self.of.high).zip(&self.of.levels);
         let all = Alarm::NUMBERS
             .into_iter()
             .zip(self.estimate.numbers())
             .zip(ends);
-        let mut worst = (0.0, None);
-        for ((alarm, number), ((low, high), margin)) in all {
-            // Beyond its margin by this share of the width of its interval.
-            let over = number.beyond(*low, *high, SIGMAS) - margin;
-            let share = over * (1.0 / (high - low));
+        let mut worst = (1.0, None);
+        for ((alarm, number), ((low, high), level)) in all {
+            // The square of its share of what is needed.
+            let share = number.beyond_squared(*low, *high) / (level * level);
             if share > worst.0 {
                 worst = (share, Some(alarm));
             }
@@ -387,6 +388,21 @@ impl Monitor {
         let is_unlike = self.estimate.surprise() > self.of.surprise;
         number.or(is_unlike.then_some(Alarm::Motion))
     }
+}
+
+/// The inertias of the arms of both sides, and what the payload adds to those of A-E-D.
+fn inertias(settings: &Settings, of: &Inertia) -> [[f64; 3]; 3] {
+    let empty = Inertia {
+        payload_kg: 0.0,
+        ..*of
+    };
+    let [left, right] = Bodies::new(&settings.arms, &empty).sides();
+    let [with, _] = Bodies::new(&settings.arms, of).sides();
+    let mut payload = with;
+    for (own, arms) in payload.iter_mut().zip(left) {
+        *own -= arms;
+    }
+    [left, right, payload]
 }
 
 /// Samples after which a fault of a sensor is over by itself in a trial: the longest that is drawn, and the window of the velocity.

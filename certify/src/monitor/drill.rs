@@ -46,13 +46,22 @@ pub const IN_TICKS: u32 = 2000;
 const LONGEST_TICKS: u32 = 60_000;
 
 impl Drilled {
-    /// Whether the change was found within [`IN_TICKS`]; `None` where it was not excited so long, or an alarm came before it.
+    /// Whether the change was found within [`IN_TICKS`]; `None` where it was not excited so long, or an alarm came before it or because
+    /// the tip or the hand left what was covered.
     pub fn is_found(&self, concealed: &Concealed) -> Option<bool> {
-        let is_before = self
+        let is_other = self
             .alarm
-            .is_some_and(|(_, tick)| tick < concealed.from_tick);
-        (!is_before && self.excited >= IN_TICKS).then_some(self.alarm.is_some())
+            .is_some_and(|(alarm, tick)| tick < concealed.from_tick || is_of_coverage(alarm));
+        (!is_other && self.excited >= IN_TICKS).then_some(self.alarm.is_some())
     }
+}
+
+/// Whether an alarm says that the tip or the hand is where no trial was.
+pub fn is_of_coverage(alarm: Alarm) -> bool {
+    matches!(
+        alarm,
+        Alarm::Place | Alarm::Speed | Alarm::Force | Alarm::Cell
+    )
 }
 
 /// Runs a scenario until an alarm or its end; `None` where it is none, or where what changes is no change of its plant.

@@ -2,7 +2,6 @@
 
 use rigproof_impl::monitor::constants::{Constants, NUMBERS, WATCHED};
 use rigproof_impl::plant::Parameters;
-use rigproof_impl::plant::form::Bodies;
 use rigproof_model::effects::{Drive, Form, OfBrake, form};
 use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
@@ -65,7 +64,7 @@ pub fn constants(plan: &Plan, rig: Rig) -> Result<Constants, String> {
         spread,
         memory_s: MEMORY_S,
         missed_share: MISSED_SHARE,
-        margins: [f64::MAX; WATCHED],
+        levels: [f64::MAX; WATCHED],
         surprise: f64::MAX,
         tip_m: [f64::MIN, f64::MAX, f64::MIN, f64::MAX],
         speed_m_s: f64::MAX,
@@ -226,22 +225,9 @@ fn ends(
     })
 }
 
-/// The same of the masses of both sides: what every arm may differ, and the payload on the side of the tip.
-fn masses(parameters: &Parameters) -> [f64; 2] {
+/// The same of the masses of both sides, and of the payload as a share of its middle.
+fn masses(parameters: &Parameters) -> [f64; 3] {
     let own = INERTIA_SHARE * EVEN;
-    let with = |payload_kg: f64| {
-        let inertia = rigproof_spec::inertia::Inertia {
-            payload_kg,
-            ..parameters.inertia
-        };
-        let [left, _] = Bodies::<f64>::new(&parameters.arms, &inertia).sides();
-        left
-    };
-    let middle_kg = parameters.inertia.payload_kg;
-    let shares = with(middle_kg + 0.5 * GREATEST_PAYLOAD_KG * EVEN).into_iter();
-    let shares = shares
-        .zip(with(middle_kg))
-        .map(|(more, own)| more / own - 1.0);
-    let squares: f64 = shares.map(|share| share * share).sum();
-    [libm::sqrt(own * own + squares / 3.0), own]
+    let payload = 0.5 * GREATEST_PAYLOAD_KG * EVEN / parameters.inertia.payload_kg;
+    [own, own, payload]
 }

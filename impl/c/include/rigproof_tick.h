@@ -29,9 +29,9 @@
 #define RIGPROOF_MONITOR_WATCHED 10
 
 /*
- Numbers that it estimates: those, slowness of A, E, B, C, and the masses of both sides.
+ Numbers that it estimates: those, slowness of A, E, B, C, the masses of both sides, and the payload.
  */
-#define RIGPROOF_MONITOR_NUMBERS 16
+#define RIGPROOF_MONITOR_NUMBERS 17
 
 /*
  Most corners of a path.
@@ -447,7 +447,7 @@ typedef struct RigproofMonitorConstants {
    */
   double backlash_share;
   /*
-   Lower ends of gains and levels of A, E, B, C, bias of A and B, slowness of A, E, B, C, and masses of both sides.
+   Lower ends of gains and levels of A, E, B, C, bias of A and B, slowness of A, E, B, C, masses of both sides, and payload.
    */
   double low[RIGPROOF_MONITOR_NUMBERS];
   /*
@@ -467,9 +467,9 @@ typedef struct RigproofMonitorConstants {
    */
   double missed_share[2];
   /*
-   How far beyond its end a number has to be, by three standard deviations, in its unit.
+   By how many standard deviations a number has to be beyond its end.
    */
-  double margins[RIGPROOF_MONITOR_WATCHED];
+  double levels[RIGPROOF_MONITOR_WATCHED];
   /*
    Greatest mean square of the normalised surprise.
    */

@@ -18,10 +18,10 @@ pub const BLOCK: u32 = 32;
 /// What happens in a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step {
-    /// Momentum of the sides A-E-D and B-C-D, N·m·s.
-    pub momentum: [Plane; 2],
+    /// Momentum of the arms of the sides A-E-D and B-C-D and of the payload, N·m·s.
+    pub momentum: [Plane; 3],
     /// What their motion makes of it, N·m.
-    pub motion: [Plane; 2],
+    pub motion: [Plane; 3],
     /// The hand's torque less what resists, N·m.
     pub load: Plane,
     /// How fast the joints A, E, B, C turn by the coordinates.
@@ -61,8 +61,8 @@ impl Weighed {
 /// The sums of a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Block {
-    momentum: [Plane; 2],
-    motion: [Weighed; 2],
+    momentum: [Plane; 3],
+    motion: [Weighed; 3],
     load: Weighed,
     /// Of every joint: sense, driven torque, slowness.
     joints: [[Weighed; 3]; 4],
@@ -76,8 +76,8 @@ impl Block {
     pub const NONE: Block = {
         let none = Vector { x: 0.0, y: 0.0 };
         Block {
-            momentum: [none; 2],
-            motion: [Weighed::NONE; 2],
+            momentum: [none; 3],
+            motion: [Weighed::NONE; 3],
             load: Weighed::NONE,
             joints: [[Weighed::NONE; 3]; 4],
             open: 0,
@@ -249,15 +249,15 @@ impl Both<'_> {
         let per_block = 1.0 / f64::from(BLOCK);
         let sides = first.momentum.iter().zip(&second.momentum);
         let motions = first.motion.iter().zip(&second.motion);
-        let mut inertial = [0.0; 2];
+        let mut inertial = [0.0; 3];
         for ((own, (up, down)), (rising, falling)) in inertial.iter_mut().zip(sides).zip(motions) {
             let change = (*down - *up) * per_block;
             *own = along.dot(change - rising.with(falling) * of.step_s);
         }
         let load = along.dot(first.load.with(&second.load)) * of.step_s;
-        let [left, right] = inertial;
+        let [left, right, payload] = inertial;
         let mut row = Row {
-            left: load - left - right,
+            left: load - left - right - payload,
             of: [0.0; NUMBERS],
             variance: 0.0,
         };
@@ -284,7 +284,7 @@ impl Both<'_> {
         for (mass, own) in masses.iter_mut().zip(inertial) {
             *mass = own;
         }
-        row.variance = self.variance(along, left.abs() + right.abs(), braked);
+        row.variance = self.variance(along, left.abs() + right.abs() + payload.abs(), braked);
         row
     }
 
@@ -303,21 +303,23 @@ impl Both<'_> {
     }
 }
 
-/// Momentum of the sides A-E-D and B-C-D, and what their motion makes of it: M·v and ∂T/∂q, at rates, rad/s.
+/// Momentum of the arms of both sides and of the payload, and what their motion makes of it: M·v and ∂T/∂q, at rates, rad/s.
 #[inline(always)]
 pub fn inertial(
-    bodies: &[[f64; 3]; 2],
+    bodies: &[[f64; 3]; 3],
     at: &Linkage<f64>,
     form: &Form<f64>,
     rates: Plane,
-) -> ([Plane; 2], [Plane; 2]) {
+) -> ([Plane; 3], [Plane; 3]) {
     let [left, right] = form.turning;
     let [left_rate, right_rate] = form.turning_rate;
-    let [of_left, of_right] = bodies;
+    let [of_left, of_right, of_payload] = bodies;
     let (x, y) = (Vector::new(1.0, 0.0), Vector::new(0.0, 1.0));
     let (p_left, c_left) = side(of_left, [at.ae, at.ed], [x, left, left_rate], rates);
     let (p_right, c_right) = side(of_right, [at.bc, at.cd], [y, right, right_rate], rates);
-    ([p_left, p_right], [c_left, c_right])
+    let carried = [x, left, left_rate];
+    let (p_payload, c_payload) = side(of_payload, [at.ae, at.ed], carried, rates);
+    ([p_left, p_right, p_payload], [c_left, c_right, c_payload])
 }
 
 /// Of one side: its base arm and outer arm, the directions of its coordinate, of the outer arm's turning and how that changes.

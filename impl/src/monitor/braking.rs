@@ -27,12 +27,14 @@ pub struct Braking {
     own: Brake,
     slower: Slower,
     off_nm: f64,
-    width_rad: f64,
+    /// Widths of the narrowest and the widest backlash that is certified, and way from an end that counts as being there, rad.
+    widths_rad: [f64; 2],
+    entries_rad: [f64; 2],
     /// Where the shaft is, and between which places it was since it was last lost, rad.
     at_rad: f64,
     been_rad: [f64; 2],
-    /// Lower ends of the narrowest and the widest backlash that is certified, each pushed along by the shaft, rad. What turns back within
-    /// a backlash leaves it where its end is, not a width from where it turned.
+    /// Lower ends of both backlashes, each pushed along by the shaft, rad. What turns back within a backlash leaves it where its end is, not
+    /// a width from where it turned.
     ends_rad: [f64; 2],
 }
 
@@ -77,15 +79,18 @@ pub struct Torque {
 }
 
 impl Braking {
-    /// A brake without current, its shaft anywhere in its backlash.
-    pub fn new(table: &BrakeTable) -> Braking {
+    /// A brake without current, its shaft anywhere in its backlash, whose width is known to a share.
+    pub fn new(table: &BrakeTable, share: f64) -> Braking {
         let own = Brake::new(table, 0.0);
+        let width_rad = rad_from_deg(table.backlash_width_deg);
         Braking {
             of: Characteristic::new(table),
             own,
             slower: Slower::default(),
             off_nm: table.torque_gain.off_state_nm(),
-            width_rad: rad_from_deg(table.backlash_width_deg),
+            widths_rad: [1.0 - share, 1.0 + share].map(|own| own * width_rad),
+            // Between an end and the entry after it a shaft may be either, so that only the narrowest counts as left there.
+            entries_rad: [rad_from_deg(ENTRY_TRAVEL_DEG), ROUNDING_RAD],
             at_rad: 0.0,
             been_rad: [0.0; 2],
             ends_rad: [0.0; 2],
@@ -99,21 +104,14 @@ impl Braking {
 
     /// Goes on over a step at a current, A: the shaft turns by so much, rad, at a rate, rad/s.
     #[inline]
-    pub fn step(
-        &mut self,
-        current_a: f64,
-        by_rad: f64,
-        speed_rad_s: f64,
-        step_s: f64,
-        share: f64,
-    ) -> Torque {
+    pub fn step(&mut self, current_a: f64, by_rad: f64, speed_rad_s: f64, step_s: f64) -> Torque {
         let to_rad = self.at_rad + by_rad;
         let before_nm = self.own.yield_nm();
         let left_nm = most(before_nm - self.off_nm, self.slower.by_nm.magnitude());
         if current_a == 0.0 && left_nm <= SETTLED_NM {
             self.own.rest(&self.of, [self.at_rad, to_rad]);
             self.slower = Slower::default();
-            self.travel(to_rad, share);
+            self.travel(to_rad);
             return Torque {
                 yield_nm: self.off_nm,
                 ..Torque::default()
@@ -130,7 +128,7 @@ impl Braking {
         let target_nm = self.of.target_nm(inside, current_a);
         let course = [before_nm, yield_nm, self.own.yield_nm()].map(|own| own - target_nm);
         let slowness_nm = self.slower.step(course);
-        let is_near = self.travel(to_rad, share);
+        let is_near = self.travel(to_rad);
         let driven_nm = yield_nm - self.off_nm;
         let acts = driven_nm > ACTS_SHARE * self.off_nm || current_a > 0.0;
         Torque {
@@ -144,22 +142,22 @@ impl Braking {
     /// Pushes the ends of the backlash along. Returns whether a backlash of another width would be left where this one is not: the
     /// narrowest is, as every one is that the widest has pushed, and the widest is not. Before the shaft has come through the widest
     /// nobody knows.
-    fn travel(&mut self, to_rad: f64, share: f64) -> bool {
+    fn travel(&mut self, to_rad: f64) -> bool {
         self.at_rad = to_rad;
         let [low, high] = self.been_rad;
         let (low, high) = (least(low, to_rad), most(high, to_rad));
         self.been_rad = [low, high];
-        let pushes = |end: &mut f64, share: f64, entry_rad: f64| {
-            let width_rad = self.width_rad * share;
+        let pushes = |end: &mut f64, width_rad: f64, entry_rad: f64| {
             *end = most(to_rad - width_rad, least(*end, to_rad));
             let come_rad = to_rad - *end;
             (come_rad <= entry_rad) | (width_rad - come_rad <= entry_rad)
         };
         let [narrow, wide] = &mut self.ends_rad;
-        // Between an end and the entry after it a shaft may be either, so that only the narrowest counts as left there.
-        let by_narrow = pushes(narrow, 1.0 - share, rad_from_deg(ENTRY_TRAVEL_DEG));
-        let by_wide = pushes(wide, 1.0 + share, ROUNDING_RAD);
-        let is_known = high - low >= self.width_rad * (1.0 + share);
+        let ([narrowest_rad, widest_rad], [entry_rad, left_rad]) =
+            (self.widths_rad, self.entries_rad);
+        let by_narrow = pushes(narrow, narrowest_rad, entry_rad);
+        let by_wide = pushes(wide, widest_rad, left_rad);
+        let is_known = high - low >= widest_rad;
         !is_known | (by_narrow & !by_wide)
     }
 
@@ -187,7 +185,7 @@ mod tests {
     fn the_slowness_is_the_difference_to_a_slower_brake() {
         let table = brake_table(Joint::E);
         let of = Characteristic::new(&table);
-        let (mut braking, slower_by) = (Braking::new(&table), 1e-4);
+        let (mut braking, slower_by) = (Braking::new(&table, 0.35), 1e-4);
         let mut slower = Brake::new(&table, 0.0);
         let (mut worst, mut greatest, mut at_rad) = (0.0_f64, 0.0_f64, 0.0);
         for sample in 0..6000_u32 {
@@ -195,7 +193,7 @@ mod tests {
             let current_a = [0.0, 0.31, 0.83, 0.12][sample as usize / 70 % 4];
             let (from_rad, step_s) = (at_rad, 1e-3);
             at_rad += 7e-4;
-            let torque = braking.step(current_a, 7e-4, 0.7, step_s, 0.35);
+            let torque = braking.step(current_a, 7e-4, 0.7, step_s);
             let of_slower = step_s / (1.0 + slower_by);
             let turn = Turn {
                 way_rad: [from_rad, at_rad],
@@ -220,7 +218,7 @@ mod tests {
     #[test]
     fn what_is_told_of_a_backlash_holds_for_every_width() {
         let table = brake_table(Joint::E);
-        let mut braking = Braking::new(&table);
+        let mut braking = Braking::new(&table, 0.35);
         let mut widths =
             [0.7, 0.85, 1.0, 1.3].map(|share| Backlash::new(share * table.backlash_width_deg, 0.0));
         let (mut open, mut inside, mut outside) = (0, 0, 0);
@@ -229,7 +227,7 @@ mod tests {
             for backlash in &mut widths {
                 backlash.turn(from_rad, to_rad);
             }
-            if braking.travel(to_rad, 0.35) {
+            if braking.travel(to_rad) {
                 open += 1;
                 continue;
             }

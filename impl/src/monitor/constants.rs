@@ -5,8 +5,8 @@ use rigproof_spec::tables::BrakeTable;
 
 /// Numbers that are told from the motion: gains and levels of A, E, B, C, then the bias of A and B.
 pub const WATCHED: usize = 10;
-/// Numbers that are estimated: those, the slowness of the brakes A, E, B, C, and the masses of the sides A-E-D and B-C-D.
-pub const NUMBERS: usize = 16;
+/// Numbers that are estimated: those, the slowness of the brakes A, E, B, C, the masses of the sides A-E-D and B-C-D, and the payload.
+pub const NUMBERS: usize = 17;
 /// Cells of place, speed and force.
 pub const CELLS: u32 = 36;
 
@@ -36,8 +36,8 @@ pub struct Constants {
     pub memory_s: f64,
     /// Share of an inertial impulse, and of an impulse of the brakes, that the model may miss.
     pub missed_share: [f64; 2],
-    /// How far beyond its end a number has to be, by three standard deviations, in its unit: what errors of the model come to.
-    pub margins: [f64; WATCHED],
+    /// By how many standard deviations a number has to be beyond its end.
+    pub levels: [f64; WATCHED],
     /// Greatest mean square of the normalised surprise.
     pub surprise: f64,
     /// The box in which the tip was, m: least and greatest x, least and greatest y.

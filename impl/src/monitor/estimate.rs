@@ -57,7 +57,7 @@ impl Estimate {
     /// Takes a row in.
     pub fn take(&mut self, row: &Row) {
         if let Some(newest) = self.seen.last.get_mut(self.newest) {
-            newest.take(row);
+            newest.take(row, self.sought.expected(row));
         }
     }
 

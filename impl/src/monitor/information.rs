@@ -14,15 +14,16 @@ pub struct Row {
     pub variance: f64,
 }
 
-/// Most standard deviations by which a row counts: farther is as far, and the sums stay finite.
-const MOST_SIGMAS: f64 = 1e6;
+/// Most standard deviations by which a row counts that is off from what the last look expects: farther is as far (Huber's score), so that one
+/// row says little alone. Rows of a right model are seldom off by more than one.
+const MOST_SIGMAS: f64 = 3.0;
 /// Most information of one row, 1 over the square of its numbers' units: a row with more is none.
 const MOST_INFORMATION: f64 = 1e18;
 
 /// The sums over rows: with x what each number would add, y what is left and v the variance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Information {
-    /// Σ x·xᵀ/v: 16×16, both in the order of the numbers.
+    /// Σ x·xᵀ/v: 17×17, both in the order of the numbers.
     pub of: [[f64; NUMBERS]; NUMBERS],
     /// Σ x·y/v.
     pub score: [f64; NUMBERS],
@@ -41,15 +42,15 @@ impl Information {
         rows: 0.0,
     };
 
-    /// Takes a row in. One that is no number changes nothing.
-    pub fn take(&mut self, row: &Row) {
+    /// Takes a row in, of which so much is expected to be left. One that is no number changes nothing.
+    pub fn take(&mut self, row: &Row, expected: f64) {
         let inverse = 1.0 / row.variance;
         let size = dot(&row.of, &row.of) * inverse;
         if !(row.variance > 0.0 && size < MOST_INFORMATION && row.left.is_finite()) {
             return;
         }
         let most_left = MOST_SIGMAS * libm::sqrt(row.variance);
-        let left = most(-most_left, least(most_left, row.left));
+        let left = expected + most(-most_left, least(most_left, row.left - expected));
         for (sums, own) in self.of.iter_mut().zip(row.of) {
             along(sums, own * inverse, &row.of);
         }
@@ -88,12 +89,14 @@ pub fn along(own: &mut [f64; NUMBERS], step: f64, way: &[f64; NUMBERS]) {
 #[inline(always)]
 pub fn dot(one: &[f64; NUMBERS], other: &[f64; NUMBERS]) -> f64 {
     let mut sums = [0.0; 2];
-    let pairs = one.as_chunks().0.iter().zip(other.as_chunks().0);
-    for ([a, b], [c, d]) in pairs {
+    let (pairs, last) = one.as_chunks();
+    let (other_pairs, other_last) = other.as_chunks();
+    for ([a, b], [c, d]) in pairs.iter().zip(other_pairs) {
         let [even, odd] = &mut sums;
         *even += a * c;
         *odd += b * d;
     }
     let [even, odd] = sums;
-    even + odd
+    let rest: f64 = last.iter().zip(other_last).map(|(a, b)| a * b).sum();
+    even + odd + rest
 }

@@ -5,7 +5,7 @@
 
 use super::constants::{NUMBERS, WATCHED};
 use super::estimate::Seen;
-use super::information::{Information, along, dot};
+use super::information::{Information, Row, along, dot};
 use crate::number::{Scalar, most};
 
 /// A watched number as the last rows say that it is, if it alone has changed.
@@ -24,21 +24,22 @@ impl Number {
         variance: f64::INFINITY,
     };
 
-    /// How far it is beyond the nearer of its ends by so many standard deviations, in its unit; below zero inside, and 0 where the rows do
-    /// not tell it to within the width of its interval: what is left of other errors then looks like a change far larger than any.
-    pub fn beyond(&self, low: f64, high: f64, sigmas: f64) -> f64 {
-        let width = high - low;
-        if self.variance.is_within(width * width) {
-            most(self.now - high, low - self.now) - sigmas * libm::sqrt(self.variance)
+    /// The square of how many standard deviations it is beyond the nearer of its ends; 0 inside, and where the rows do not tell it to within
+    /// the width of its interval: what is left of other errors then looks like a change far larger than any.
+    pub fn beyond_squared(&self, low: f64, high: f64) -> f64 {
+        let (width, beyond) = (high - low, most(self.now - high, low - self.now));
+        if beyond > 0.0 && self.variance.is_within(width * width) {
+            let missed = MISSED_WIDTH * width;
+            beyond * beyond / (self.variance + missed * missed)
         } else {
             0.0
         }
     }
 }
 
-/// Standard deviations by which a number is beyond its end at least where an alarm is raised: one-sided chance 0.0013 where the model is
-/// right.
-pub const SIGMAS: f64 = 3.0;
+/// Standard deviation of a number that stays however many rows there are, as a share of the width of its interval: errors of the model
+/// shift a number by a little and do not average out.
+const MISSED_WIDTH: f64 = 0.1;
 
 /// Rows with fewer than which the mean square of what is unexplained is as if there were so many.
 const FEWEST_ROWS: f64 = 16.0;
@@ -78,6 +79,8 @@ pub struct Sought {
     /// U⁻ᵀ times the information of the window on the number that is asked for.
     change: [f64; NUMBERS],
     numbers: [Number; WATCHED],
+    /// All numbers as all rows say that they are.
+    all: [f64; NUMBERS],
     surprise: f64,
 }
 
@@ -91,6 +94,7 @@ impl Sought {
         solved: [0.0; NUMBERS],
         change: [0.0; NUMBERS],
         numbers: [Number::NONE; WATCHED],
+        all: [0.0; NUMBERS],
         surprise: 0.0,
     };
 
@@ -102,6 +106,11 @@ impl Sought {
     /// Mean square of what no number explained in the last look: 1 where the model is right.
     pub fn surprise(&self) -> f64 {
         self.surprise
+    }
+
+    /// What is expected to be left in a row, N·m·s, with all numbers as the last look found them.
+    pub fn expected(&self, row: &Row) -> f64 {
+        dot(&row.of, &self.all)
     }
 
     /// Begins a look, where none is at work.
@@ -150,6 +159,7 @@ impl Sought {
                 Stage::Change(place + 1)
             }
             Stage::Unexplained => {
+                self.all = self.backward();
                 self.surprise = self.unexplained();
                 self.stage = Stage::Idle;
                 return true;
@@ -242,8 +252,8 @@ impl Sought {
         };
     }
 
-    /// Mean square of what is left in the window with all numbers where all rows say that they are.
-    fn unexplained(&self) -> f64 {
+    /// All numbers where all rows say that they are.
+    fn backward(&self) -> [f64; NUMBERS] {
         let mut numbers = [0.0; NUMBERS];
         let rows = self.factor.iter().zip(&self.inverses).zip(&self.solved);
         for (place, ((row, inverse), solved)) in rows.enumerate().rev() {
@@ -252,10 +262,15 @@ impl Sought {
                 *own = value;
             }
         }
+        numbers
+    }
+
+    /// Mean square of what is left in the window with these numbers.
+    fn unexplained(&self) -> f64 {
         let mut square = self.window.square;
         let rows = self.window.of.iter().zip(&self.window.score);
-        for (number, (of, score)) in numbers.iter().zip(rows) {
-            square += number * (dot(of, &numbers) - 2.0 * score);
+        for (number, (of, score)) in self.all.iter().zip(rows) {
+            square += number * (dot(of, &self.all) - 2.0 * score);
         }
         most(square, 0.0) * (1.0 / most(self.window.rows, FEWEST_ROWS))
     }
@@ -265,7 +280,6 @@ impl Sought {
 mod tests {
     use super::*;
     use crate::monitor::estimate::PARTS;
-    use crate::monitor::information::Row;
 
     /// Numbers in -1 to 1 from a sequence that never repeats here.
     fn draw(seed: &mut u64) -> f64 {
@@ -338,9 +352,9 @@ mod tests {
                 learned: Information::NONE,
                 last: [Information::NONE; PARTS],
             };
-            old.iter().for_each(|row| seen.learned.take(row));
+            old.iter().for_each(|row| seen.learned.take(row, row.left));
             for (row, part) in new.iter().zip((0..PARTS).cycle()) {
-                seen.last[part].take(row);
+                seen.last[part].take(row, row.left);
             }
             let mut sought = Sought::NONE;
             sought.begin();
@@ -352,7 +366,7 @@ mod tests {
             assert!((number.now - now).abs() < 1e-9, "{} {now}", number.now);
             assert!((number.variance / variance - 1.0).abs() < 1e-9);
             assert!((now - after[place]).abs() < 4.0 * libm::sqrt(variance));
-            assert!(number.beyond(-0.3, 0.3, SIGMAS) > 0.0);
+            assert!(number.beyond_squared(-0.3, 0.3) > 9.0);
         }
     }
 
@@ -368,7 +382,7 @@ mod tests {
         while !sought.go_on(&seen) {}
         let beyond = sought
             .numbers()
-            .map(|number| number.beyond(-0.02, 0.02, SIGMAS));
+            .map(|number| number.beyond_squared(-0.02, 0.02));
         assert_eq!(beyond, [0.0; WATCHED]);
         assert_eq!(sought.surprise(), 0.0);
     }

@@ -184,6 +184,7 @@ pub const THREE_BRAKE: Constants = Constants {
         -0.2,
         -0.23341415174626068,
         -0.1,
+        -1.0,
     ],
     high: [
         0.1,
@@ -202,6 +203,7 @@ pub const THREE_BRAKE: Constants = Constants {
         0.2,
         0.23341415174626068,
         0.1,
+        1.0,
     ],
     spread: [
         0.05773502691896259,
@@ -220,10 +222,11 @@ pub const THREE_BRAKE: Constants = Constants {
         0.11547005383792518,
         0.13476172334337178,
         0.05773502691896259,
+        0.5774,
     ],
     memory_s: 300.0,
     missed_share: [0.02, 0.04],
-    margins: [0.0; 10],
+    levels: [3.0; 10],
     surprise: 2.45,
     tip_m: [
         -0.26750666180076355,
@@ -421,6 +424,7 @@ pub const FOUR_BRAKE: Constants = Constants {
         -0.2,
         -0.23327085451172502,
         -0.1,
+        -1.0,
     ],
     high: [
         0.1,
@@ -439,6 +443,7 @@ pub const FOUR_BRAKE: Constants = Constants {
         0.2,
         0.23327085451172502,
         0.1,
+        1.0,
     ],
     spread: [
         0.05773502691896259,
@@ -457,10 +462,11 @@ pub const FOUR_BRAKE: Constants = Constants {
         0.11547005383792518,
         0.13467899064643848,
         0.05773502691896259,
+        0.5774,
     ],
     memory_s: 300.0,
     missed_share: [0.02, 0.04],
-    margins: [0.0; 10],
+    levels: [3.0; 10],
     surprise: 2.45,
     tip_m: [
         -0.24258118651860533,
