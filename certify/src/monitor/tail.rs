@@ -9,8 +9,9 @@ use serde::Serialize;
 /// Peaks that a tail is fitted to at most, and one in so many runs at most: a tail of more would be fitted to what is no tail.
 const MOST_PEAKS: usize = 30;
 const RUNS_A_PEAK: usize = 8;
-/// False alarms of one statistic in ten hours of use that are expected at its level: of ten numbers and the surprise one in 45 hours.
-const EXPECTED: f64 = 0.02;
+/// False alarms of one statistic in ten hours of use that are expected at its level: of ten numbers and the surprise one in 18 hours. Fewer
+/// would cost changes: at 0.02, six of 108 frictions on four brakes were missed. The tails that were seen end sooner than exponential ones.
+const EXPECTED: f64 = 0.05;
 /// The time of that, h.
 const IN_HOURS: f64 = 10.0;
 
@@ -70,9 +71,9 @@ mod tests {
 
     #[test]
     fn a_level_of_exponential_runs_is_where_as_few_come_as_are_allowed() {
-        // 799 runs in 8 hours: 998.75 in ten hours pass exp(−x/0.4), and 0.02 do at x = 0.4·ln(49937).
+        // 799 runs in 8 hours: 998.75 in ten hours pass exp(−x/0.4), and 0.05 do at x = 0.4·ln(19975).
         let own = tail(&exponential(799), 8.0, 3.0);
-        let expected = 0.4 * 49_937.5_f64.ln();
+        let expected = 0.4 * 19_975.0_f64.ln();
         assert_eq!(own.peaks, 30);
         assert!((own.mean_excess - 0.4).abs() < 0.02, "{own:?}");
         assert!((own.level - expected).abs() < 0.25, "{own:?} {expected}");

@@ -100,3 +100,34 @@ pub fn dot(one: &[f64; NUMBERS], other: &[f64; NUMBERS]) -> f64 {
     let rest: f64 = last.iter().zip(other_last).map(|(a, b)| a * b).sum();
     even + odd + rest
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_row_says_at_most_three_deviations_more_than_was_expected() {
+        let row = |left: f64| Row {
+            left,
+            of: [0.37; NUMBERS],
+            variance: 0.0169,
+        };
+        let taken = |left: f64| {
+            let mut sums = Information::NONE;
+            sums.take(&row(left), 0.71);
+            sums
+        };
+        // 0.71 and three times 0.13.
+        let most = taken(1.1);
+        for far in [1.2, 3.9, 1e9] {
+            assert!((taken(far).score[4] - most.score[4]).abs() < 1e-12);
+            assert!((taken(far).square - most.square).abs() < 1e-9);
+        }
+        let nearer = taken(1.05);
+        assert!((nearer.score[4] - 0.37 * 1.05 / 0.0169).abs() < 1e-12);
+        // What is no number changes nothing.
+        for left in [f64::NAN, f64::INFINITY] {
+            assert_eq!(taken(left), Information::NONE);
+        }
+    }
+}
