@@ -4,6 +4,7 @@ pub mod drill;
 mod files;
 mod made;
 mod middle;
+mod tail;
 
 pub use files::{FILES, header, json, source};
 pub use made::{Basis, Made, Refused, made};

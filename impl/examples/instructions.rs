@@ -44,7 +44,7 @@ fn main() {
     let mut bits = 0_u64;
     // Certified numbers that watch everything and raise nothing, so that every sample costs what it costs.
     let of = Constants {
-        sigmas: [f64::MAX; WATCHED],
+        levels: [f64::MAX; WATCHED],
         surprise: f64::MAX,
         hold: u32::MAX,
         ..numbers::FOUR_BRAKE

@@ -7,13 +7,16 @@ pub mod braking;
 pub mod constants;
 pub mod envelope;
 pub mod estimate;
+pub mod information;
+pub mod sought;
 
-use balance::{Accuracy, BLOCK, Block, Step};
+use balance::{Accuracy, BLOCK, Balancing, Due, Step};
 use braking::Braking;
 use constants::{Constants, WATCHED};
 use envelope::{Envelope, Seen};
-use estimate::Estimate;
+use estimate::{Estimate, PART_BLOCKS};
 
+use rigproof_spec::inertia::Inertia;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::tables::GREATEST_CURRENT_A;
 
@@ -98,16 +101,16 @@ pub struct Monitor {
     of: Constants,
     shape: Shape<f64>,
     bodies: Bodies<f64>,
-    sides: [[f64; 3]; 2],
+    /// Of the arms of both sides and of the payload: see [`Bodies::sides`].
+    inertias: [[f64; 3]; 3],
     braked: [bool; 4],
     encoders: [Encoder<f64>; 2],
     velocities: [Velocity<f64>; 2],
     guard: Guard<f64>,
     accuracy: Accuracy,
-    kept: [f64; 2],
     brakings: [Braking; 4],
     last: Option<Last>,
-    blocks: [Block; 2],
+    balancing: Balancing,
     estimate: Estimate,
     envelope: Envelope,
     /// Samples in a row without a good one, and steps until blocks begin.
@@ -124,18 +127,21 @@ impl Monitor {
         let encoders = [Encoder::new(of_a, zero_a)?, Encoder::new(of_b, zero_b)?];
         let numbers = of.low.iter().chain(&of.high).chain(&of.spread);
         let is_sound = settings.are_sound()
-            && numbers.chain(&of.sigmas).all(|number| number.is_finite())
-            && of.memory_s.iter().all(|memory| *memory > 0.0)
+            && numbers.chain(&of.levels).all(|number| number.is_finite())
+            && of.levels.iter().all(|level| *level > 0.0)
+            && of.memory_s > 0.0
+            && of.spread.iter().all(|spread| *spread > 0.0)
+            && of.low.iter().zip(&of.high).all(|(low, high)| low < high)
             && of.surprise > 0.0;
         if !is_sound {
             return None;
         }
         let bodies = Bodies::new(&settings.arms, &of.inertia);
-        let time_s = f64::from(BLOCK) * settings.sample_s;
+        let part_s = f64::from(BLOCK * PART_BLOCKS) * settings.sample_s;
         Some(Monitor {
             of: *of,
             shape: Shape::new(&settings.arms),
-            sides: bodies.sides(),
+            inertias: inertias(settings, &of.inertia),
             bodies,
             braked: Joint::ALL.map(|joint| settings.layout.brakes().contains(&joint)),
             velocities: encoders.map(|encoder| Velocity::new(&encoder, settings.sample_s)),
@@ -148,11 +154,12 @@ impl Monitor {
                 missed_share: of.missed_share,
             },
             encoders,
-            kept: of.memory_s.map(|memory_s| libm::exp(-time_s / memory_s)),
-            brakings: of.brakes.map(|table| Braking::new(&table)),
+            brakings: of
+                .brakes
+                .map(|table| Braking::new(&table, of.backlash_share)),
             last: None,
-            blocks: [Block::NONE; 2],
-            estimate: Estimate::new(&of.spread, [of.low, of.high]),
+            balancing: Balancing::NONE,
+            estimate: Estimate::new(&of.spread, libm::exp(-part_s / of.memory_s)),
             envelope: Envelope::default(),
             faulty: 0,
             wait: BLOCK,
@@ -244,7 +251,7 @@ impl Monitor {
     /// What was begun is not gone on with: samples are missing.
     fn interrupt(&mut self) {
         self.last = None;
-        self.blocks = [Block::NONE; 2];
+        self.balancing.lose();
         self.wait = BLOCK;
         for braking in &mut self.brakings {
             braking.lose();
@@ -285,11 +292,8 @@ impl Monitor {
             self.wait -= 1;
             return;
         }
-        let [_, current] = &mut self.blocks;
-        current.add(&step);
-        if current.is_whole() {
-            self.close(&form);
-        }
+        self.balancing.add(&step, &form);
+        self.go_on();
     }
 
     fn angles(&self, [of_a, of_b]: [i32; 2]) -> Plane {
@@ -305,7 +309,7 @@ impl Monitor {
         [by, mean, rates]: [Plane; 3],
         before: &Last,
     ) -> Step {
-        let (momentum, motion) = balance::inertial(&self.sides, at, form, mean);
+        let (momentum, motion) = balance::inertial(&self.inertias, at, form, mean);
         let (rows, mut load) = balance::rows_and_load(form, at, before.force_n);
         let (mut senses, mut open, mut bit) = ([[0.0; 3]; 4], 0, 1);
         let known = self
@@ -323,13 +327,12 @@ impl Monitor {
         for (((row, ((braking, braked), current_a)), ((viscous, dry), constant)), own) in all {
             let speed = row.dot(rates);
             let sense = if speed < 0.0 { -1.0 } else { 1.0 };
-            let share = self.of.backlash_share;
             let step_s = self.accuracy.step_s;
             let mut resists = viscous * row.dot(mean) + dry * sense + constant;
             let is_slow = speed.magnitude() < LEAST_RATE_RAD_S;
             let mut is_open = is_slow & (*dry != 0.0);
             if braked {
-                let torque = braking.step(current_a, row.dot(by), speed, step_s, share);
+                let torque = braking.step(current_a, row.dot(by), speed, step_s);
                 resists += sense * torque.yield_nm;
                 is_open |= is_slow | torque.is_open;
                 *own = [sense, sense * torque.driven_nm, sense * torque.slowness_nm];
@@ -350,36 +353,33 @@ impl Monitor {
         }
     }
 
-    /// Ends a block: where two are whole, they are balanced and the numbers are looked at.
-    fn close(&mut self, form: &Form<f64>) {
-        let [first, second] = self.blocks;
-        self.blocks = [second, Block::NONE];
-        if !first.is_whole() {
-            return;
-        }
-        let rows = balance::rows(&first, &second, form, &self.accuracy);
-        if rows.iter().all(Option::is_none) {
-            return;
-        }
-        self.estimate.forget(self.kept);
-        for row in rows.iter().flatten() {
-            self.estimate.take(row);
-        }
-        if let Some(alarm) = self.judged() {
-            self.raise(alarm);
+    /// Goes on with what a block left to do: its balances first, then a look at the numbers. A part of bounded work in every sample.
+    fn go_on(&mut self) {
+        match self.balancing.due(&self.accuracy) {
+            Due::Row(Some(row)) => self.estimate.take(&row),
+            Due::Row(None) => {}
+            Due::End(has_rows) => self.estimate.end_block(has_rows),
+            Due::Nothing => {
+                if self.estimate.go_on()
+                    && let Some(alarm) = self.judged()
+                {
+                    self.raise(alarm);
+                }
+            }
         }
     }
 
     /// The number that is surely outside its interval by most, or what else the balances do not agree with.
     fn judged(&self) -> Option<Alarm> {
-        let ends = self.of.low.iter().zip(&self.of.high).zip(&self.of.sigmas);
+        let ends = self.of.low.iter().zip(&self.of.high).zip(&self.of.levels);
         let all = Alarm::NUMBERS
             .into_iter()
             .zip(self.estimate.numbers())
             .zip(ends);
         let mut worst = (1.0, None);
-        for ((alarm, number), ((low, high), sigmas)) in all {
-            let share = number.beyond(*low, *high) * (1.0 / sigmas);
+        for ((alarm, number), ((low, high), level)) in all {
+            // The square of its share of what is needed.
+            let share = number.beyond_squared(*low, *high) / (level * level);
             if share > worst.0 {
                 worst = (share, Some(alarm));
             }
@@ -388,6 +388,21 @@ impl Monitor {
         let is_unlike = self.estimate.surprise() > self.of.surprise;
         number.or(is_unlike.then_some(Alarm::Motion))
     }
+}
+
+/// The inertias of the arms of both sides, and what the payload adds to those of A-E-D.
+fn inertias(settings: &Settings, of: &Inertia) -> [[f64; 3]; 3] {
+    let empty = Inertia {
+        payload_kg: 0.0,
+        ..*of
+    };
+    let [left, right] = Bodies::new(&settings.arms, &empty).sides();
+    let [with, _] = Bodies::new(&settings.arms, of).sides();
+    let mut payload = with;
+    for (own, arms) in payload.iter_mut().zip(left) {
+        *own -= arms;
+    }
+    [left, right, payload]
 }
 
 /// Samples after which a fault of a sensor is over by itself in a trial: the longest that is drawn, and the window of the velocity.

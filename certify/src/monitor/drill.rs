@@ -46,13 +46,22 @@ pub const IN_TICKS: u32 = 2000;
 const LONGEST_TICKS: u32 = 60_000;
 
 impl Drilled {
-    /// Whether the change was found within [`IN_TICKS`]; `None` where it was not excited so long, or an alarm came before it.
+    /// Whether the change was found within [`IN_TICKS`]; `None` where it was not excited so long, or an alarm came before it or because
+    /// the tip or the hand left what was covered.
     pub fn is_found(&self, concealed: &Concealed) -> Option<bool> {
-        let is_before = self
+        let is_other = self
             .alarm
-            .is_some_and(|(_, tick)| tick < concealed.from_tick);
-        (!is_before && self.excited >= IN_TICKS).then_some(self.alarm.is_some())
+            .is_some_and(|(alarm, tick)| tick < concealed.from_tick || is_of_coverage(alarm));
+        (!is_other && self.excited >= IN_TICKS).then_some(self.alarm.is_some())
     }
+}
+
+/// Whether an alarm says that the tip or the hand is where no trial was.
+pub fn is_of_coverage(alarm: Alarm) -> bool {
+    matches!(
+        alarm,
+        Alarm::Place | Alarm::Speed | Alarm::Force | Alarm::Cell
+    )
 }
 
 /// Runs a scenario until an alarm or its end; `None` where it is none, or where what changes is no change of its plant.
@@ -135,4 +144,53 @@ fn acts(plant: &Plant, change: &Concealed) -> bool {
     let off_nm = plant.off_state_nm();
     let is_driven = of(plant.yield_torques_nm()) >= 2.0 * of(off_nm);
     of(plant.joint_rates_rad_s()).abs() >= MOVES_RAD_S && (is_driven || !change.is_driven)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::built_in::BuiltIn;
+    use crate::monitor::constants;
+    use crate::plan::{FORM, Plan, Subject};
+    use crate::scenario::Rig;
+    use rigproof_spec::methods::Method;
+
+    #[test]
+    fn a_payload_of_the_certificate_is_no_friction() {
+        let plan = Plan {
+            form: FORM,
+            name: "payload".to_owned(),
+            controller: Subject::built_in(BuiltIn::of(Method::ProportionalLow)),
+            baseline: None,
+            rigs: vec![Rig::FourBrake],
+            seed: 1,
+            scenarios: 1000,
+            ticks: 10_000,
+            calibration: None,
+            search: 0,
+            limits: [None; 5],
+            regressions: [None; 5],
+            least_met: 1,
+            requirements: Vec::new(),
+        };
+        let of = constants(&plan, Rig::FourBrake).unwrap();
+        let source = plan.controller.source().unwrap();
+        // Nearly empty and nearly full; without the payload as a number friction at B came to 5.0 and 4.2 standard deviations.
+        for index in [114, 22] {
+            let scenario = Scenario {
+                ticks: 90_000,
+                faults: Vec::new(),
+                ..plan.scenario(index)
+            };
+            let mut greatest = 0.0_f64;
+            let ran = run(&scenario, source, &of, None, |monitor| {
+                let ends = of.low.iter().zip(&of.high);
+                for (number, (low, high)) in monitor.estimate().numbers().iter().zip(ends) {
+                    greatest = greatest.max(number.beyond_squared(*low, *high));
+                }
+            });
+            assert_eq!(ran.map(|own| own.ticks), Some(90_000));
+            assert!(greatest < 9.0, "{index}: {}", greatest.sqrt());
+        }
+    }
 }

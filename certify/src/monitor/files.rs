@@ -36,6 +36,7 @@ const NAMES: [(&str, &str); NUMBERS] = [
     ("slowness_c", "1"),
     ("mass_aed", "1"),
     ("mass_bcd", "1"),
+    ("payload", "1"),
 ];
 
 const fn name(rig: Rig) -> &'static str {
@@ -122,9 +123,9 @@ fn fields(made: &Made) -> String {
         ("low", list(&of.low)),
         ("high", list(&of.high)),
         ("spread", list(&of.spread)),
-        ("memory_s", list(&of.memory_s)),
+        ("memory_s", format!("{:?}", of.memory_s)),
         ("missed_share", list(&missed)),
-        ("sigmas", list(&of.sigmas)),
+        ("levels", list(&of.levels)),
         ("surprise", format!("{:?}", of.surprise)),
         ("tip_m", list(&of.tip_m)),
         ("speed_m_s", format!("{:?}", of.speed_m_s)),
@@ -169,15 +170,15 @@ pub fn json(certificate: &Certificate, all: &[Made]) -> Value {
 
 fn of_rig(made: &Made) -> Value {
     let of: &Constants = &made.constants;
-    let ends = of.low.iter().zip(&of.high).zip(&of.sigmas);
-    let basis = ends.zip(&made.basis.sigmas).zip(NAMES);
-    let numbers = basis.map(|((((low, high), sigmas), greatest), (name, unit))| {
-        json!({ "name": name, "unit": unit, "low": low, "high": high, "sigmas": sigmas, "greatest_in_trials": greatest })
+    let ends = of.low.iter().zip(&of.high);
+    let basis = ends.zip(&made.basis.tails).zip(NAMES);
+    let numbers = basis.map(|(((low, high), tail), (name, unit))| {
+        json!({ "name": name, "unit": unit, "low": low, "high": high, "deviations": tail })
     });
     json!({
         "rig": made.rig,
         "numbers": numbers.collect::<Vec<_>>(),
-        "surprise": { "greatest": of.surprise, "greatest_in_trials": made.basis.surprise },
+        "surprise": made.basis.surprise,
         "coverage": {
             "tip_m": of.tip_m, "speed_m_s": of.speed_m_s, "force_n": of.force_n, "cells": of.cells.count_ones(),
             "hold_samples": of.hold, "longest_fault_samples": of.longest_fault,
@@ -185,5 +186,6 @@ fn of_rig(made: &Made) -> Value {
         "trials": made.basis.trials,
         "samples": made.basis.samples,
         "use_samples": made.basis.use_samples,
+        "quiet_samples": made.basis.quiet_samples,
     })
 }

@@ -3,10 +3,12 @@
 use rayon::prelude::*;
 use rigproof_impl::monitor::Monitor;
 use rigproof_impl::monitor::constants::{Constants, WATCHED};
+use rigproof_spec::methods::SAMPLE_STEP_S;
 use serde::Serialize;
 
 use super::drill;
 use super::middle::constants;
+use super::tail::{Tail, tail};
 use crate::certificate::Certificate;
 use crate::controller::Source;
 use crate::hand::Hand;
@@ -18,13 +20,11 @@ use crate::trial;
 const USE_TICKS: u32 = 90_000;
 /// For so many trials there is one use, three in four of them an operator's: together longer than the trials of 10 s.
 const TRIALS_OF_USE: u64 = 4;
-/// How far beyond what the certificate's trials and uses came to a statistic has to be. The greatest of n trials is passed by the next n with a
-/// chance of one half; the excess of a statistic with exponential tails over it is then a small share of it.
-const BEYOND: f64 = 1.25;
-/// Fewest standard deviations that are ever enough: one-sided chance 0.0013 where the model is right.
+/// Standard deviations beyond its end that raise an alarm of a number at least: one-sided chance 0.0013 where the model is right.
 const LEAST_SIGMAS: f64 = 3.0;
-/// Least mean square of the surprise that is ever enough: of 16 rows the 0.1 % point of the chi-squared distribution over 16.
-const LEAST_SURPRISE: f64 = 2.45;
+/// Least mean square of the surprise that is ever enough: of 16 rows what is passed with a chance of 7·10⁻⁷, 0.02 times in the 28 000 windows
+/// of ten hours (chi-squared distribution, by Wilson and Hilferty's approximation).
+const LEAST_SURPRISE: f64 = 3.76;
 
 /// A monitor for one rig of a certificate.
 #[derive(Clone, Debug)]
@@ -38,7 +38,7 @@ pub struct Made {
 }
 
 /// What the trials came to.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Basis {
     /// Trials that were run again.
     pub trials: u64,
@@ -46,10 +46,12 @@ pub struct Basis {
     pub samples: u64,
     /// Samples of longer use of its rigs by operators.
     pub use_samples: u64,
-    /// The greatest of each number's statistic where it was to be silent, standard deviations beyond its end; 0 where none came beyond.
-    pub sigmas: [f64; WATCHED],
-    /// The greatest mean square of the surprise.
-    pub surprise: f64,
+    /// Samples of trials and uses where the monitor was to be silent.
+    pub quiet_samples: u64,
+    /// How far each number came beyond its end there, and what raises an alarm.
+    pub tails: [Tail; WATCHED],
+    /// The same of the mean square of the surprise.
+    pub surprise: Tail,
 }
 
 /// Why there is no monitor.
@@ -89,7 +91,7 @@ fn one(plan: &Plan, rig: Rig, source: &dyn Source, most: u64) -> Result<Made, Re
     let runs = indices.into_par_iter().map(|index| {
         let scenario = plan.scenario(index);
         if scenario.rig != rig {
-            return Ok(Came::NONE);
+            return Ok((Came::NONE, None));
         }
         let declared = &plan.controller.declared;
         let ran = trial::run(&scenario, source, declared, false).ok_or(Refused::Scenario(index))?;
@@ -99,6 +101,7 @@ fn one(plan: &Plan, rig: Rig, source: &dyn Source, most: u64) -> Result<Made, Re
             trials: 1,
             ..Came::NONE
         };
+        let mut greatest = Greatest::default();
         for (sensed, commanded_a) in &ran.told {
             let watched = monitor.watch(sensed, *commanded_a);
             came.samples += 1;
@@ -106,25 +109,51 @@ fn one(plan: &Plan, rig: Rig, source: &dyn Source, most: u64) -> Result<Made, Re
                 came.cover(&monitor);
             }
             if is_quiet(&scenario) {
-                came.judge(&monitor, &open);
+                greatest.judge(&monitor, &open);
             }
         }
-        Ok(came)
+        Ok((came, greatest.samples.gt(&0).then_some(greatest)))
     });
-    let came = runs.try_reduce(|| Came::NONE, |one, other| Ok(one.and(&other)))?;
+    let runs: Result<Vec<(Came, Option<Greatest>)>, Refused> = runs.collect();
+    let (came, quiet): (Vec<Came>, Vec<Option<Greatest>>) = runs?.into_iter().unzip();
+    let came = came.iter().fold(Came::NONE, |all, one| all.and(one));
     let covered = came.covered(open);
-    let came = came.and(&in_use(plan, rig, source, &covered, most));
+    let mut quiet: Vec<Greatest> = quiet.into_iter().flatten().collect();
+    let uses = in_use(plan, rig, source, &covered, most);
+    let use_samples = uses.iter().map(|own| own.samples).sum();
+    quiet.extend(uses);
+    let quiet_samples = quiet.iter().map(|own| own.samples).sum();
+    let (tails, surprise) = tails(&quiet, quiet_samples);
     Ok(Made {
         rig,
-        constants: came.closed(open),
+        constants: Constants {
+            levels: tails.map(|own| own.level),
+            surprise: surprise.level,
+            ..covered
+        },
         basis: Basis {
             trials: came.trials,
             samples: came.samples,
-            use_samples: came.use_samples,
-            sigmas: came.sigmas,
-            surprise: came.surprise,
+            use_samples,
+            quiet_samples,
+            tails,
+            surprise,
         },
     })
+}
+
+/// The tails of all numbers and of the surprise.
+fn tails(quiet: &[Greatest], samples: u64) -> ([Tail; WATCHED], Tail) {
+    let hours = samples as f64 * SAMPLE_STEP_S / 3600.0;
+    let of = |each: &dyn Fn(&Greatest) -> f64, least: f64| {
+        tail(&quiet.iter().map(each).collect::<Vec<f64>>(), hours, least)
+    };
+    let mut tails = [Tail::default(); WATCHED];
+    for (place, own) in tails.iter_mut().enumerate() {
+        let sigmas = |run: &Greatest| run.beyond_squared.get(place).map_or(0.0, |own| own.sqrt());
+        *own = of(&sigmas, LEAST_SIGMAS);
+    }
+    (tails, of(&|run| run.surprise, LEAST_SURPRISE))
 }
 
 /// Whether a monitor is meant to be silent there: an operator's hand, and sensors that work. An adversary, and what follows a fault, may
@@ -135,7 +164,13 @@ fn is_quiet(scenario: &Scenario) -> bool {
 
 /// What the statistics came to where rigs of the certificate's scenarios are used for longer, by operators who go back and forth with
 /// sensors that work. Only the trials say what is covered; where a use leaves that, it ends.
-fn in_use(plan: &Plan, rig: Rig, source: &dyn Source, covered: &Constants, most: u64) -> Came {
+fn in_use(
+    plan: &Plan,
+    rig: Rig,
+    source: &dyn Source,
+    covered: &Constants,
+    most: u64,
+) -> Vec<Greatest> {
     let uses = 0..plan.scenarios.min(most).div_ceil(TRIALS_OF_USE);
     let each = uses.into_par_iter().filter_map(|index| {
         let scenario = Scenario {
@@ -146,38 +181,52 @@ fn in_use(plan: &Plan, rig: Rig, source: &dyn Source, covered: &Constants, most:
         if scenario.rig != rig || !is_quiet(&scenario) {
             return None;
         }
-        let mut came = Came::NONE;
-        let drilled = drill::run(&scenario, source, covered, None, |monitor| {
-            came.judge(monitor, covered);
+        let mut greatest = Greatest::default();
+        drill::run(&scenario, source, covered, None, |monitor| {
+            greatest.judge(monitor, covered);
         })?;
-        came.use_samples = u64::from(drilled.ticks);
-        Some(came)
+        Some(greatest)
     });
-    each.reduce(|| Came::NONE, |one, other| one.and(&other))
+    each.collect()
 }
 
-/// What trials came to.
+/// How far the statistics went in a run.
+#[derive(Clone, Copy, Default)]
+struct Greatest {
+    samples: u64,
+    beyond_squared: [f64; WATCHED],
+    surprise: f64,
+}
+
+impl Greatest {
+    /// Looks at them after a sample.
+    fn judge(&mut self, monitor: &Monitor, of: &Constants) {
+        self.samples += 1;
+        let ends = of.low.iter().zip(&of.high);
+        let numbers = monitor.estimate().numbers().iter().zip(ends);
+        for (most, (number, (low, high))) in self.beyond_squared.iter_mut().zip(numbers) {
+            *most = most.max(number.beyond_squared(*low, *high));
+        }
+        self.surprise = self.surprise.max(monitor.estimate().surprise());
+    }
+}
+
+/// What trials covered.
 #[derive(Clone, Copy)]
 struct Came {
     trials: u64,
     samples: u64,
-    use_samples: u64,
     /// Greatest of minus x, x, minus y, y, m, and of the squares of speed and force.
     most: [f64; 6],
     cells: u64,
-    sigmas: [f64; WATCHED],
-    surprise: f64,
 }
 
 impl Came {
     const NONE: Came = Came {
         trials: 0,
         samples: 0,
-        use_samples: 0,
         most: [f64::MIN; 6],
         cells: 0,
-        sigmas: [0.0; WATCHED],
-        surprise: 0.0,
     };
 
     /// Where a good sample lay.
@@ -195,38 +244,14 @@ impl Came {
         self.cells |= 1 << seen.cell;
     }
 
-    /// How far the statistics went.
-    fn judge(&mut self, monitor: &Monitor, of: &Constants) {
-        let ends = of.low.iter().zip(&of.high);
-        let numbers = monitor.estimate().numbers().zip(ends);
-        for (most, (number, (low, high))) in self.sigmas.iter_mut().zip(numbers) {
-            *most = most.max(number.beyond(*low, *high));
-        }
-        self.surprise = self.surprise.max(monitor.estimate().surprise());
-    }
-
     fn and(mut self, other: &Came) -> Came {
         self.trials += other.trials;
         self.samples += other.samples;
-        self.use_samples += other.use_samples;
         for (most, now) in self.most.iter_mut().zip(other.most) {
             *most = most.max(now);
         }
         self.cells |= other.cells;
-        for (most, now) in self.sigmas.iter_mut().zip(other.sigmas) {
-            *most = most.max(now);
-        }
-        self.surprise = self.surprise.max(other.surprise);
         self
-    }
-
-    /// Numbers with the thresholds and the ends that trials and uses came to.
-    fn closed(&self, open: Constants) -> Constants {
-        Constants {
-            sigmas: self.sigmas.map(|sigmas| LEAST_SIGMAS.max(BEYOND * sigmas)),
-            surprise: LEAST_SURPRISE.max(BEYOND * self.surprise),
-            ..self.covered(open)
-        }
     }
 
     /// Numbers with the ends of what trials covered.

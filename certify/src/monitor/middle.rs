@@ -2,7 +2,6 @@
 
 use rigproof_impl::monitor::constants::{Constants, NUMBERS, WATCHED};
 use rigproof_impl::plant::Parameters;
-use rigproof_impl::plant::form::Bodies;
 use rigproof_model::effects::{Drive, Form, OfBrake, form};
 use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
@@ -24,9 +23,8 @@ const LEAST_NM: f64 = 0.021;
 /// Speed of a joint at which an interval of viscous friction is taken as one of friction, rad/s: 0.3 m/s, the hasty hand's (decision
 /// 0125), at 0.3 m from its axis.
 const AT_RAD_S: f64 = 1.0;
-/// Times over which the monitor forgets, s: what it learned of the rig in five minutes of motion, so that what changes within seconds is
-/// not learned first; what the last rows say in one second, half of the time in which it is to speak.
-const MEMORY_S: [f64; 2] = [300.0, 1.0];
+/// Time over which the monitor forgets what it learned of the rig, s: five minutes of motion.
+const MEMORY_S: f64 = 300.0;
 /// Shares of inertial and braking impulses that the model may miss. The mass of a side is one number here and its arms are drawn apart, by
 /// 0.058 in the mean square each, of which most is common; the square of what a time constant differs is 0.04.
 const MISSED_SHARE: [f64; 2] = [0.02, 0.04];
@@ -66,7 +64,7 @@ pub fn constants(plan: &Plan, rig: Rig) -> Result<Constants, String> {
         spread,
         memory_s: MEMORY_S,
         missed_share: MISSED_SHARE,
-        sigmas: [f64::MAX; WATCHED],
+        levels: [f64::MAX; WATCHED],
         surprise: f64::MAX,
         tip_m: [f64::MIN, f64::MAX, f64::MIN, f64::MAX],
         speed_m_s: f64::MAX,
@@ -227,22 +225,9 @@ fn ends(
     })
 }
 
-/// The same of the masses of both sides: what every arm may differ, and the payload on the side of the tip.
-fn masses(parameters: &Parameters) -> [f64; 2] {
+/// The same of the masses of both sides, and of the payload as a share of its middle.
+fn masses(parameters: &Parameters) -> [f64; 3] {
     let own = INERTIA_SHARE * EVEN;
-    let with = |payload_kg: f64| {
-        let inertia = rigproof_spec::inertia::Inertia {
-            payload_kg,
-            ..parameters.inertia
-        };
-        let [left, _] = Bodies::<f64>::new(&parameters.arms, &inertia).sides();
-        left
-    };
-    let middle_kg = parameters.inertia.payload_kg;
-    let shares = with(middle_kg + 0.5 * GREATEST_PAYLOAD_KG * EVEN).into_iter();
-    let shares = shares
-        .zip(with(middle_kg))
-        .map(|(more, own)| more / own - 1.0);
-    let squares: f64 = shares.map(|share| share * share).sum();
-    [libm::sqrt(own * own + squares / 3.0), own]
+    let payload = 0.5 * GREATEST_PAYLOAD_KG * EVEN / parameters.inertia.payload_kg;
+    [own, own, payload]
 }

@@ -21,7 +21,7 @@
 /*
  Size of a monitor, words of eight bytes.
  */
-#define RIGPROOF_MONITOR_WORDS 1280
+#define RIGPROOF_MONITOR_WORDS 3584
 
 /*
  Numbers that a monitor watches: gains and levels of A, E, B, C, bias of A and B.
@@ -29,9 +29,9 @@
 #define RIGPROOF_MONITOR_WATCHED 10
 
 /*
- Numbers that it estimates: those, slowness of A, E, B, C, and the masses of both sides.
+ Numbers that it estimates: those, slowness of A, E, B, C, the masses of both sides, and the payload.
  */
-#define RIGPROOF_MONITOR_NUMBERS 16
+#define RIGPROOF_MONITOR_NUMBERS 17
 
 /*
  Most corners of a path.
@@ -447,7 +447,7 @@ typedef struct RigproofMonitorConstants {
    */
   double backlash_share;
   /*
-   Lower ends of gains and levels of A, E, B, C, bias of A and B, slowness of A, E, B, C, and masses of both sides.
+   Lower ends of gains and levels of A, E, B, C, bias of A and B, slowness of A, E, B, C, masses of both sides, and payload.
    */
   double low[RIGPROOF_MONITOR_NUMBERS];
   /*
@@ -459,17 +459,17 @@ typedef struct RigproofMonitorConstants {
    */
   double spread[RIGPROOF_MONITOR_NUMBERS];
   /*
-   Times over which the monitor forgets, s.
+   Time over which the monitor forgets what it learned, s.
    */
-  double memory_s[2];
+  double memory_s;
   /*
    Shares of inertial and braking impulses that the model may miss.
    */
   double missed_share[2];
   /*
-   How many standard deviations beyond its end a number has to be.
+   By how many standard deviations a number has to be beyond its end.
    */
-  double sigmas[RIGPROOF_MONITOR_WATCHED];
+  double levels[RIGPROOF_MONITOR_WATCHED];
   /*
    Greatest mean square of the normalised surprise.
    */

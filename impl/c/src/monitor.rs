@@ -13,12 +13,12 @@ use crate::{
 };
 
 /// Size of a monitor, words of eight bytes.
-pub const RIGPROOF_MONITOR_WORDS: usize = 1280;
+pub const RIGPROOF_MONITOR_WORDS: usize = 3584;
 
 /// Numbers that a monitor watches: gains and levels of A, E, B, C, bias of A and B.
 pub const RIGPROOF_MONITOR_WATCHED: usize = 10;
-/// Numbers that it estimates: those, slowness of A, E, B, C, and the masses of both sides.
-pub const RIGPROOF_MONITOR_NUMBERS: usize = 16;
+/// Numbers that it estimates: those, slowness of A, E, B, C, the masses of both sides, and the payload.
+pub const RIGPROOF_MONITOR_NUMBERS: usize = 17;
 
 const _: () = assert!(RIGPROOF_MONITOR_WATCHED == WATCHED && RIGPROOF_MONITOR_NUMBERS == NUMBERS);
 
@@ -76,18 +76,18 @@ pub struct RigproofMonitorConstants {
     pub constant_nm: [f64; 4],
     /// Share by which the width of a backlash may be another.
     pub backlash_share: f64,
-    /// Lower ends of gains and levels of A, E, B, C, bias of A and B, slowness of A, E, B, C, and masses of both sides.
+    /// Lower ends of gains and levels of A, E, B, C, bias of A and B, slowness of A, E, B, C, masses of both sides, and payload.
     pub low: [f64; RIGPROOF_MONITOR_NUMBERS],
     /// Their upper ends.
     pub high: [f64; RIGPROOF_MONITOR_NUMBERS],
     /// Their spreads.
     pub spread: [f64; RIGPROOF_MONITOR_NUMBERS],
-    /// Times over which the monitor forgets, s.
-    pub memory_s: [f64; 2],
+    /// Time over which the monitor forgets what it learned, s.
+    pub memory_s: f64,
     /// Shares of inertial and braking impulses that the model may miss.
     pub missed_share: [f64; 2],
-    /// How many standard deviations beyond its end a number has to be.
-    pub sigmas: [f64; RIGPROOF_MONITOR_WATCHED],
+    /// By how many standard deviations a number has to be beyond its end.
+    pub levels: [f64; RIGPROOF_MONITOR_WATCHED],
     /// Greatest mean square of the normalised surprise.
     pub surprise: f64,
     /// Least and greatest x, least and greatest y of the tip, m.
@@ -317,7 +317,7 @@ impl RigproofMonitorConstants {
             spread: self.spread,
             memory_s: self.memory_s,
             missed_share: self.missed_share,
-            sigmas: self.sigmas,
+            levels: self.levels,
             surprise: self.surprise,
             tip_m: self.tip_m,
             speed_m_s: self.speed_m_s,

@@ -4,9 +4,9 @@
 //! for in the mean, so that nothing is differentiated twice and the quantum of a count is divided by a block.
 
 use super::constants::NUMBERS;
-use super::estimate::Row;
+use super::information::Row;
 use crate::linkage::Linkage;
-use crate::plant::form::{Form, joint_rows, tip_load};
+use crate::plant::form::{Form, Mass, joint_rows, tip_load};
 use crate::vector::Vector;
 
 type Plane = Vector<f64>;
@@ -18,10 +18,10 @@ pub const BLOCK: u32 = 32;
 /// What happens in a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step {
-    /// Momentum of the sides A-E-D and B-C-D, N·m·s.
-    pub momentum: [Plane; 2],
+    /// Momentum of the arms of the sides A-E-D and B-C-D and of the payload, N·m·s.
+    pub momentum: [Plane; 3],
     /// What their motion makes of it, N·m.
-    pub motion: [Plane; 2],
+    pub motion: [Plane; 3],
     /// The hand's torque less what resists, N·m.
     pub load: Plane,
     /// How fast the joints A, E, B, C turn by the coordinates.
@@ -61,8 +61,8 @@ impl Weighed {
 /// The sums of a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Block {
-    momentum: [Plane; 2],
-    motion: [Weighed; 2],
+    momentum: [Plane; 3],
+    motion: [Weighed; 3],
     load: Weighed,
     /// Of every joint: sense, driven torque, slowness.
     joints: [[Weighed; 3]; 4],
@@ -76,8 +76,8 @@ impl Block {
     pub const NONE: Block = {
         let none = Vector { x: 0.0, y: 0.0 };
         Block {
-            momentum: [none; 2],
-            motion: [Weighed::NONE; 2],
+            momentum: [none; 3],
+            motion: [Weighed::NONE; 3],
             load: Weighed::NONE,
             joints: [[Weighed::NONE; 3]; 4],
             open: 0,
@@ -125,19 +125,104 @@ pub struct Accuracy {
     pub missed_share: [f64; 2],
 }
 
-/// The balances of two blocks, each along a direction in which everything that resists is known: two, one or none.
-pub fn rows(first: &Block, second: &Block, form: &Form<f64>, of: &Accuracy) -> [Option<Row>; 2] {
+/// What the end of a block left to do.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Due {
+    /// A balance; none where not everything that resists is known along it.
+    Row(Option<Row>),
+    /// The block's balances are done: whether it had any.
+    End(bool),
+    /// Nothing.
+    Nothing,
+}
+
+/// The block at work, the two before it, and how much of their balances is done.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Balancing {
+    /// The third is at work.
+    blocks: [Block; 3],
+    /// The inertia at the end of the second.
+    mass: Mass<f64>,
+    /// Directions in which they are still to be balanced.
+    along: [Option<Plane>; 2],
+    is_due: [bool; 3],
+}
+
+impl Balancing {
+    /// Nothing yet.
+    pub const NONE: Balancing = Balancing {
+        blocks: [Block::NONE; 3],
+        mass: Mass {
+            aa: 0.0,
+            ab: 0.0,
+            bb: 0.0,
+        },
+        along: [None; 2],
+        is_due: [false; 3],
+    };
+
+    /// Samples are missing: what was begun is not gone on with.
+    pub fn lose(&mut self) {
+        *self = Balancing::NONE;
+    }
+
+    /// Adds a step. Where that ends a block after a whole one, both are to be balanced.
+    #[inline]
+    pub fn add(&mut self, step: &Step, form: &Form<f64>) {
+        let [_, _, current] = &mut self.blocks;
+        current.add(step);
+        if !current.is_whole() {
+            return;
+        }
+        let [_, first, second] = self.blocks;
+        self.blocks = [first, second, Block::NONE];
+        if first.is_whole() {
+            self.mass = form.mass;
+            self.along = known(&first, &second);
+            self.is_due = [true; 3];
+        }
+    }
+
+    /// One of the things to do: first the balances in both directions, then the end of the block.
+    pub fn due(&mut self, of: &Accuracy) -> Due {
+        let [first, second, _] = &self.blocks;
+        let both = Both {
+            first,
+            second,
+            mass: &self.mass,
+            of,
+        };
+        let row = |along: Option<Plane>| Due::Row(along.map(|along| both.row(along)));
+        let [x, y] = self.along;
+        match &mut self.is_due {
+            [due @ true, _, _] => {
+                *due = false;
+                row(x)
+            }
+            [_, due @ true, _] => {
+                *due = false;
+                row(y)
+            }
+            [_, _, due @ true] => {
+                *due = false;
+                Due::End(x.is_some() || y.is_some())
+            }
+            _ => Due::Nothing,
+        }
+    }
+}
+
+/// The directions in which everything that resists in two blocks is known: two, one or none.
+fn known(first: &Block, second: &Block) -> [Option<Plane>; 2] {
     let (x, y) = (Vector::new(1.0, 0.0), Vector::new(0.0, 1.0));
     let open = first.open | second.open;
-    let along = match open {
+    match open {
         0 => [Some(x), Some(y)],
         0b0001 => [None, Some(y)],
         0b0100 => [Some(x), None],
         0b0010 | 0b1000 => [across(first, open), None],
         _ => [None; 2],
-    };
-    let both = Both { first, second, of };
-    along.map(|along| Some(both.row(along?, form)))
+    }
 }
 
 /// The direction in which a joint that is open has no grip, of length one.
@@ -151,25 +236,28 @@ fn across(first: &Block, open: u8) -> Option<Plane> {
 struct Both<'a> {
     first: &'a Block,
     second: &'a Block,
+    mass: &'a Mass<f64>,
     of: &'a Accuracy,
 }
 
 impl Both<'_> {
     /// The balance along a direction.
-    fn row(&self, along: Plane, form: &Form<f64>) -> Row {
-        let Both { first, second, of } = *self;
+    fn row(&self, along: Plane) -> Row {
+        let Both {
+            first, second, of, ..
+        } = *self;
         let per_block = 1.0 / f64::from(BLOCK);
         let sides = first.momentum.iter().zip(&second.momentum);
         let motions = first.motion.iter().zip(&second.motion);
-        let mut inertial = [0.0; 2];
+        let mut inertial = [0.0; 3];
         for ((own, (up, down)), (rising, falling)) in inertial.iter_mut().zip(sides).zip(motions) {
             let change = (*down - *up) * per_block;
             *own = along.dot(change - rising.with(falling) * of.step_s);
         }
         let load = along.dot(first.load.with(&second.load)) * of.step_s;
-        let [left, right] = inertial;
+        let [left, right, payload] = inertial;
         let mut row = Row {
-            left: load - left - right,
+            left: load - left - right - payload,
             of: [0.0; NUMBERS],
             variance: 0.0,
         };
@@ -196,16 +284,16 @@ impl Both<'_> {
         for (mass, own) in masses.iter_mut().zip(inertial) {
             *mass = own;
         }
-        row.variance = self.variance(along, form, left.abs() + right.abs(), braked);
+        row.variance = self.variance(along, left.abs() + right.abs() + payload.abs(), braked);
         row
     }
 
     /// The variance of a balance: of the six counts at its ends and in its middle, and of what the model misses.
-    fn variance(&self, along: Plane, form: &Form<f64>, inertial: f64, braked: f64) -> f64 {
+    fn variance(&self, along: Plane, inertial: f64, braked: f64) -> f64 {
         let of = self.of;
         let [angle_a, angle_b] = of.angle_rad;
         let [of_inertia, of_brakes] = of.missed_share;
-        let heavy = form.mass.times(along);
+        let heavy = self.mass.times(along);
         let per_s = 1.0 / (f64::from(BLOCK) * of.step_s);
         // The middle counts twice: 1 + 4 + 1.
         let counts = 6.0 * per_s * per_s;
@@ -215,21 +303,23 @@ impl Both<'_> {
     }
 }
 
-/// Momentum of the sides A-E-D and B-C-D, and what their motion makes of it: M·v and ∂T/∂q, at rates, rad/s.
+/// Momentum of the arms of both sides and of the payload, and what their motion makes of it: M·v and ∂T/∂q, at rates, rad/s.
 #[inline(always)]
 pub fn inertial(
-    bodies: &[[f64; 3]; 2],
+    bodies: &[[f64; 3]; 3],
     at: &Linkage<f64>,
     form: &Form<f64>,
     rates: Plane,
-) -> ([Plane; 2], [Plane; 2]) {
+) -> ([Plane; 3], [Plane; 3]) {
     let [left, right] = form.turning;
     let [left_rate, right_rate] = form.turning_rate;
-    let [of_left, of_right] = bodies;
+    let [of_left, of_right, of_payload] = bodies;
     let (x, y) = (Vector::new(1.0, 0.0), Vector::new(0.0, 1.0));
     let (p_left, c_left) = side(of_left, [at.ae, at.ed], [x, left, left_rate], rates);
     let (p_right, c_right) = side(of_right, [at.bc, at.cd], [y, right, right_rate], rates);
-    ([p_left, p_right], [c_left, c_right])
+    let carried = [x, left, left_rate];
+    let (p_payload, c_payload) = side(of_payload, [at.ae, at.ed], carried, rates);
+    ([p_left, p_right, p_payload], [c_left, c_right, c_payload])
 }
 
 /// Of one side: its base arm and outer arm, the directions of its coordinate, of the outer arm's turning and how that changes.

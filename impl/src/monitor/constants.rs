@@ -5,8 +5,8 @@ use rigproof_spec::tables::BrakeTable;
 
 /// Numbers that are told from the motion: gains and levels of A, E, B, C, then the bias of A and B.
 pub const WATCHED: usize = 10;
-/// Numbers that are estimated: those, the slowness of the brakes A, E, B, C, and the masses of the sides A-E-D and B-C-D.
-pub const NUMBERS: usize = 16;
+/// Numbers that are estimated: those, the slowness of the brakes A, E, B, C, the masses of the sides A-E-D and B-C-D, and the payload.
+pub const NUMBERS: usize = 17;
 /// Cells of place, speed and force.
 pub const CELLS: u32 = 36;
 
@@ -32,12 +32,12 @@ pub struct Constants {
     pub high: [f64; NUMBERS],
     /// How far each number lies about the middle where nothing was seen: the standard deviation, in its unit.
     pub spread: [f64; NUMBERS],
-    /// Times over which what was learned of the rig, and what the last rows say of a change, are forgotten, s of motion that could be used.
-    pub memory_s: [f64; 2],
+    /// Time over which what was learned of the rig is forgotten, s of motion that could be used.
+    pub memory_s: f64,
     /// Share of an inertial impulse, and of an impulse of the brakes, that the model may miss.
     pub missed_share: [f64; 2],
-    /// How many standard deviations beyond its end a number has to be.
-    pub sigmas: [f64; WATCHED],
+    /// By how many standard deviations a number has to be beyond its end.
+    pub levels: [f64; WATCHED],
     /// Greatest mean square of the normalised surprise.
     pub surprise: f64,
     /// The box in which the tip was, m: least and greatest x, least and greatest y.

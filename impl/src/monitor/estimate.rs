@@ -1,165 +1,100 @@
-//! This file says which numbers the balances speak for, and how surely: recursive least squares that falls back to what is certified.
+//! This file keeps what balances say of the numbers: what was learned over minutes, and apart from it what the last second says.
 //!
-//! The numbers θ follow θ' = a·θ + w about the middle of what is certified, with the variance P₀ at rest, so that
-//! P ≤ P₀ whatever is seen: without excitation the estimate comes back to the middle and cannot grow.
+//! What is certified counts as seen with every number anywhere in its interval, so that without excitation nothing is learned. The
+//! last rows come to what was learned only when a change must have been found in them: a change is not learned first.
 
 use super::constants::{NUMBERS, WATCHED};
-use crate::number::{Scalar, least, most};
+use super::information::{Information, Row};
+use super::sought::{Number, Sought};
 
-/// Mean and covariance of the numbers, what the last rows say of a change, and how surprising they were.
+/// Parts of the window of the last rows.
+pub const PARTS: usize = 5;
+/// Blocks with a balance in a part: the window is 32 to 40 blocks of 32 ms.
+pub const PART_BLOCKS: u32 = 8;
+/// Blocks from a look at the numbers to the next.
+const LOOK_BLOCKS: u32 = 4;
+
+/// What was seen of the rig.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Seen {
+    /// What is certified: 1 over the square of each number's spread.
+    pub at_rest: [f64; NUMBERS],
+    /// What was learned before the window.
+    pub learned: Information,
+    /// The window, in parts.
+    pub last: [Information; PARTS],
+}
+
+/// What is known of the numbers, and the look at them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
-    mean: [f64; NUMBERS],
-    covariance: [[f64; NUMBERS]; NUMBERS],
-    at_rest: [f64; NUMBERS],
-    ends: [[f64; NUMBERS]; 2],
-    changes: [Change; WATCHED],
-    surprise: f64,
+    seen: Seen,
+    sought: Sought,
+    kept: f64,
+    newest: usize,
+    blocks: u32,
+    /// Blocks until the next look may begin.
+    wait: u32,
 }
-
-/// What the last rows say of one number if it alone has changed: the least squares of one unknown.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Change {
-    information: f64,
-    score: f64,
-}
-
-/// A balance: what is left of it, what each number would add, and its variance.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Row {
-    /// What is left, N·m·s.
-    pub left: f64,
-    /// What one unit of each number adds.
-    pub of: [f64; NUMBERS],
-    /// Variance, (N·m·s)².
-    pub variance: f64,
-}
-
-/// A watched number, as the last rows say if it alone has changed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Number {
-    /// What was learned of it: how far it is from the middle of what is certified.
-    pub learned: f64,
-    /// The variance of that.
-    pub doubt: f64,
-    /// What the last rows say it has changed by since.
-    pub change: f64,
-    /// The variance of that.
-    pub variance: f64,
-}
-
-impl Number {
-    /// How far it is surely beyond one of its ends, in standard deviations of the change: wherever it was before within what was
-    /// learned, by two standard deviations, and within its interval.
-    pub fn beyond(&self, low: f64, high: f64) -> f64 {
-        let (end, before) = if self.change > 0.0 {
-            (high - self.learned, self.learned - low)
-        } else {
-            (self.learned - low, high - self.learned)
-        };
-        let doubt = least(2.0 * libm::sqrt(self.doubt), most(before, 0.0));
-        (self.change.magnitude() - end - doubt) * (1.0 / libm::sqrt(self.variance))
-    }
-}
-
-/// Share of the newest row in the mean square of the surprise: a quarter of a second of blocks of 32 ms with two rows each.
-const SURPRISE_SHARE: f64 = 1.0 / 16.0;
-/// Information of a change before anything is seen, 1 over the square of its unit: none, but above zero.
-const LEAST_INFORMATION: f64 = 1e-6;
 
 impl Estimate {
-    /// Nothing seen yet: spreads about the middle, between ends about it.
-    pub fn new(spread: &[f64; NUMBERS], ends: [[f64; NUMBERS]; 2]) -> Estimate {
-        let at_rest = spread.map(|spread| spread * spread);
-        let mut covariance = [[0.0; NUMBERS]; NUMBERS];
-        for (place, (row, variance)) in covariance.iter_mut().zip(at_rest).enumerate() {
-            if let Some(own) = row.get_mut(place) {
-                *own = variance;
-            }
-        }
+    /// Nothing seen yet: spreads about the middle, and what is kept of what was learned from part to part.
+    pub fn new(spread: &[f64; NUMBERS], kept: f64) -> Estimate {
         Estimate {
-            mean: [0.0; NUMBERS],
-            covariance,
-            at_rest,
-            ends,
-            changes: [Change::default(); WATCHED],
-            surprise: 0.0,
+            seen: Seen {
+                at_rest: spread.map(|spread| 1.0 / (spread * spread)),
+                learned: Information::NONE,
+                last: [Information::NONE; PARTS],
+            },
+            sought: Sought::NONE,
+            kept,
+            newest: 0,
+            blocks: 0,
+            wait: 0,
         }
     }
 
-    /// Forgets: what is kept of what was learned, and of the last rows, are shares.
-    pub fn forget(&mut self, [of_learned, of_last]: [f64; 2]) {
-        let square = of_learned * of_learned;
-        for (place, (row, at_rest)) in self.covariance.iter_mut().zip(self.at_rest).enumerate() {
-            for own in row.iter_mut() {
-                *own *= square;
-            }
-            if let Some(own) = row.get_mut(place) {
-                *own += (1.0 - square) * at_rest;
-            }
-        }
-        for mean in &mut self.mean {
-            *mean *= of_learned;
-        }
-        for change in &mut self.changes {
-            change.information *= of_last;
-            change.score *= of_last;
-        }
-    }
-
-    /// Takes a row in. One that is no number changes nothing.
+    /// Takes a row in.
     pub fn take(&mut self, row: &Row) {
-        let mut along = [0.0; NUMBERS];
-        for (along, covariance) in along.iter_mut().zip(&self.covariance) {
-            *along = dot(covariance, &row.of);
+        if let Some(newest) = self.seen.last.get_mut(self.newest) {
+            newest.take(row, self.sought.expected(row));
         }
-        let variance = dot(&along, &row.of) + row.variance;
-        let unforeseen = row.left - dot(&self.mean, &row.of);
-        if !(variance > 0.0 && variance.is_finite() && unforeseen.is_finite()) {
+    }
+
+    /// All rows of a block were taken, if it had any: where the newest part of the window is full, the oldest is learned. A look begins
+    /// where the last is long enough ago.
+    pub fn end_block(&mut self, has_rows: bool) {
+        self.wait = self.wait.saturating_sub(1);
+        if !has_rows {
             return;
         }
-        let inverse = 1.0 / variance;
-        let step = unforeseen * inverse;
-        for (change, of) in self.changes.iter_mut().zip(row.of) {
-            change.information += of * of * inverse;
-            change.score += of * step;
-        }
-        let [low, high] = &self.ends;
-        let ends = along.iter().zip(low).zip(high);
-        for (mean, ((along, low), high)) in self.mean.iter_mut().zip(ends) {
-            // What was certified lies between its ends: what does not, is no thing to learn but a change.
-            *mean = most(*low, least(*high, *mean + along * step));
-        }
-        for (covariance, one) in self.covariance.iter_mut().zip(&along) {
-            let share = one * inverse;
-            for (own, other) in covariance.iter_mut().zip(&along) {
-                *own -= share * other;
+        self.blocks += 1;
+        if self.blocks >= PART_BLOCKS {
+            self.blocks = 0;
+            self.newest = (self.newest + 1) % PARTS;
+            if let Some(oldest) = self.seen.last.get_mut(self.newest) {
+                self.seen.learned.fade(self.kept, oldest);
+                *oldest = Information::NONE;
             }
         }
-        self.surprise += SURPRISE_SHARE * (unforeseen * step - self.surprise);
+        if self.wait == 0 {
+            self.wait = LOOK_BLOCKS;
+            self.sought.begin();
+        }
+    }
+
+    /// Goes on with a look by a bounded part; true where that ended it.
+    pub fn go_on(&mut self) -> bool {
+        self.sought.go_on(&self.seen)
     }
 
     /// The watched numbers, each as if it alone had changed.
-    pub fn numbers(&self) -> impl Iterator<Item = Number> + '_ {
-        let learned = self.mean.iter().zip(self.covariance.iter().enumerate());
-        let all = self.changes.iter().zip(learned);
-        all.map(|(change, (mean, (place, row)))| {
-            let inverse = 1.0 / (change.information + LEAST_INFORMATION);
-            Number {
-                learned: *mean,
-                doubt: row.get(place).copied().unwrap_or(0.0),
-                change: change.score * inverse,
-                variance: inverse,
-            }
-        })
+    pub fn numbers(&self) -> &[Number; WATCHED] {
+        self.sought.numbers()
     }
 
-    /// Mean square of the normalised surprise of the last rows: 1 where the model is right.
+    /// Mean square of what no number explains of the last rows: 1 where the model is right.
     pub fn surprise(&self) -> f64 {
-        self.surprise
+        self.sought.surprise()
     }
-}
-
-fn dot(one: &[f64; NUMBERS], other: &[f64; NUMBERS]) -> f64 {
-    one.iter().zip(other).map(|(a, b)| a * b).sum()
 }

@@ -51,6 +51,13 @@ impl Characteristic {
         off_nm
     }
 
+    /// What the yield torque goes towards at a current, A, inside the backlash or not, N·m.
+    #[inline(always)]
+    pub fn target_nm(&self, inside: bool, current_a: f64) -> f64 {
+        let asked_nm = gain_nm(&self.table.torque_gain, current_a);
+        target_nm(inside, asked_nm, self.limits_nm)
+    }
+
     /// Time constant a at the nearest measured current and speed, s (3.5), (3.6).
     //= thesis (3.5)
     //= thesis (3.6)
@@ -171,8 +178,7 @@ impl Brake {
         speed_rad_s: f64,
         time_s: f64,
     ) -> f64 {
-        let asked_nm = gain_nm(&of.table.torque_gain, current_a);
-        let target_nm = target_nm(inside, asked_nm, of.limits_nm);
+        let target_nm = of.target_nm(inside, current_a);
         let off_nm = self.yield_nm - target_nm;
         if off_nm <= SETTLED_NM {
             self.fall_origin_a = current_a;

