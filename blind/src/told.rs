@@ -16,7 +16,8 @@ pub struct Told {
     pub fault: String,
     /// The report's verdict.
     pub verdict: String,
-    /// Mechanisms that are named although the data are at fault.
+    /// Mechanisms that are named although the data are at fault. Jitter of the clock is the fault
+    /// itself where the stamps jitter.
     pub names: Vec<String>,
     /// Whether a fault, or something mended, is said of a right channel and at a right time.
     pub is_right: bool,
@@ -48,10 +49,16 @@ pub fn told(answer: &Answer, report: &Value) -> Result<Told, Error> {
             && number("to_s") >= spoilt.from_s - PLACE_S
     };
     let is_right = said.into_iter().any(is_there);
+    let is_the_fault =
+        |name: &str| name == "clock_jitter" && answer.fault.as_deref() == Some("jitter");
     Ok(Told {
         fault: answer.fault.clone().unwrap_or_default(),
         is_silent: !is_right && matches!(verdict.as_str(), "consistent" | "explained"),
-        names: names.into_iter().map(|own| own.name).collect(),
+        names: names
+            .into_iter()
+            .map(|own| own.name)
+            .filter(|name| !is_the_fault(name))
+            .collect(),
         verdict,
         is_right,
     })
@@ -96,5 +103,12 @@ mod tests {
             json!({ "verdict": "explained", "effects": [{ "mechanism": "lag" }], "remarks": [] });
         let silent = judged(silent);
         assert!(silent.is_silent && silent.names == ["lag"]);
+        let named = json!({ "verdict": "explained", "effects": [{ "mechanism": "lag" }, { "mechanism": "clock_jitter" }] });
+        let jitter = Answer {
+            fault: Some("jitter".to_owned()),
+            ..answer.clone()
+        };
+        assert_eq!(told(&jitter, &named).unwrap().names, ["lag"]);
+        assert_eq!(told(&answer, &named).unwrap().names.len(), 2);
     }
 }

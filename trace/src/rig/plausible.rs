@@ -24,7 +24,7 @@ pub(super) fn contradiction(map: &ChannelMap, samples: &[f64]) -> Option<String>
         let scatter = scatter(samples)?;
         (noise > scatter).then(|| {
             format!(
-                "the rig states a noise of {noise} {unit} for `{name}`, but its samples follow each other far more closely than such noise lets them (at most about {:.2e} {unit}); correct `noise`, the standard deviation of one sample in {unit}, or leave it out",
+                "the rig states a noise of {noise} {unit} for `{name}`, but its samples follow each other far more closely than such noise lets them (at most about {:.2e} {unit}); see whether another channel stands in its place, or correct `noise`, the standard deviation of one sample in {unit}, or leave it out",
                 scatter / ABOVE_FIRST
             )
         })
