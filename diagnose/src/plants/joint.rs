@@ -14,6 +14,8 @@ pub mod inverse;
 mod joined;
 mod laws;
 #[cfg(test)]
+mod loaded;
+#[cfg(test)]
 mod metamorphic;
 mod mistaken;
 #[cfg(test)]

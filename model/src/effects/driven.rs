@@ -22,7 +22,7 @@ pub(super) const LOAD_FRICTION: Entry = Entry {
         ..Facts::of(
             Family::FrictionOfMotion,
             Asked {
-                alone: Alone::Driven,
+                alone: Alone::Loaded,
                 five_bar: Where::Nowhere,
             },
             Words {

@@ -145,6 +145,8 @@ pub enum Alone {
     WithDrive,
     /// On an axis.
     Driven,
+    /// On an axis, and on a bench with a simulated effort that it transmits.
+    Loaded,
     /// On an axis whose inertia is known.
     WithInertia,
     /// On a bench.
@@ -349,6 +351,7 @@ mod tests {
             Alone::WithBrake => "with a brake's current",
             Alone::WithDrive => "with a drive or a brake's current",
             Alone::Driven => "on an axis",
+            Alone::Loaded => "on an axis, and on a bench with a simulated effort",
             Alone::Imposed => "on a bench",
             Alone::WithInertia => "on an axis of known inertia",
         };

@@ -182,12 +182,28 @@ fn known_effort(run: &JointRun) -> Vec<f64> {
     known
 }
 
+/// Friction in proportion to the load of a bench: share·|load|·sgn(q̇). `None` where no load is
+/// simulated.
+pub fn under_load(run: &JointRun, share: f64) -> Option<Vec<f64>> {
+    let along = run.load()?.iter().zip(&run.motion);
+    Some(
+        along
+            .map(|(load, now)| share * load.abs() * now.sense)
+            .collect(),
+    )
+}
+
 /// The columns of a mechanism of the whole joint or of its encoder.
 fn of_joint(run: &JointRun, form: Form, shape: &[f64]) -> Option<Columns> {
     let free = |signal: Vec<f64>| Some(Columns::Free(vec![signal]));
     let inertia = run.inertia.start();
-    if run.plant == PlantKind::Bench && !matches!(form, Form::Joint(OfJoint::Fade)) {
-        return None;
+    match (run.plant, form) {
+        (PlantKind::Axis, _) | (_, Form::Joint(OfJoint::Fade)) => {}
+        (_, Form::Joint(OfJoint::Load)) => {
+            let signal = under_load(run, *shape.first()?)?;
+            return Some(Columns::Fixed(seen(run, signal)));
+        }
+        _ => return None,
     }
     match form {
         Form::Joint(OfJoint::Load) => {

@@ -96,6 +96,15 @@ impl JointRun {
         Some((self.predicted.as_deref()?, self.current.as_deref()?))
     }
 
+    /// The simulated effort of a bench without a brake: what the mechanism transmits. `None` on
+    /// other plants.
+    pub fn load(&self) -> Option<&[f64]> {
+        match self.brake() {
+            None => self.predicted.as_deref(),
+            Some(_) => None,
+        }
+    }
+
     /// The torque of the thesis's brake along the recorded motion for a current in A; N·m. `None`
     /// without a brake.
     pub fn braked(&self, current: &[f64]) -> Option<Vec<f64>> {

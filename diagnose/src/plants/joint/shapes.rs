@@ -22,6 +22,7 @@ pub fn causes(run: &JointRun) -> Vec<Cause> {
         Alone::WithBrake => has_brake,
         Alone::WithDrive => is_driven || run.predicted.is_some(),
         Alone::Driven => is_driven,
+        Alone::Loaded => is_driven || run.load().is_some(),
         Alone::Imposed => !is_driven,
         Alone::WithInertia => is_driven && matches!(run.inertia, Inertia::Known(_)),
     };

@@ -1,6 +1,6 @@
 //! This file simulates a plant from the recorded inputs, without feeding back the recorded output.
 
-use super::columns::{is_of_brake, of_effect};
+use super::columns::{is_of_brake, of_effect, under_load};
 use super::drive::{drive_of, driven, fine_effort, local_interpolation};
 use super::encoder::{behind, shown};
 use super::laws::{bend_bristles, laws};
@@ -88,8 +88,14 @@ fn bench(plant: &Model, run: &JointRun) -> Vec<f64> {
     };
     let value = |own: Drive| change(own).and_then(|e| e.parameters.first().copied());
     let mut effort = resistance(&laws(plant), &run.motion, run.step_s);
-    for effect in plant.effects.iter().filter(|e| is_of_brake(e.cause)) {
-        let signal = of_effect(run, effect).unwrap_or_default();
+    let is_of_load = |e: &Effect| matches!(form(e.mechanism()), Some(Form::Joint(OfJoint::Load)));
+    for effect in &plant.effects {
+        let signal = match is_of_load(effect) {
+            true => under_load(run, effect.value(0)),
+            false if is_of_brake(effect.cause) => of_effect(run, effect),
+            false => continue,
+        };
+        let signal = signal.unwrap_or_default();
         let first = effect.first_sample(run.clock());
         for (e, s) in effort.iter_mut().zip(signal).skip(first) {
             *e += s;

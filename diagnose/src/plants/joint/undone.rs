@@ -117,6 +117,8 @@ fn reason(rig: &Rig, effect: &Effect) -> Option<String> {
             false => Some("needs a brake or a simulated effort whose gain it can be".to_owned()),
         },
         Some(Form::Joint(OfJoint::Fade)) => None,
+        // On a bench it is a share of the simulated effort.
+        Some(Form::Joint(OfJoint::Load)) if !is_axis && has_prediction && !has_brake => None,
         Some(Form::Joint(OfJoint::Load)) if is_axis => (share >= 1.0)
             .then(|| format!("has a share of {share}; below 1, or the joint never moves")),
         Some(Form::Joint(OfJoint::Compliance)) if is_axis => {
