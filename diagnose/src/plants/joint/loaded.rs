@@ -1,12 +1,11 @@
 //! This file claims that friction under load is named on a bench whose load is simulated, and that
 //! its calibration leaves nothing.
 
-use super::recorded::{EFFORT_NOISE, NOMINAL, QUANTUM, exact_bench, signals};
+use super::recorded::{EFFORT_NOISE, NOMINAL, QUANTUM, exact_bench, signals, trace};
 use crate::plant::Run;
 use crate::report::Verdict;
 use crate::{Options, diagnose};
 use rigproof_trace::rig::{Recording, Rig};
-use rigproof_trace::{Channel, Trace};
 use std::path::Path;
 
 fn rig() -> Rig {
@@ -32,19 +31,7 @@ fn recorded(share: f64) -> Recording {
     }
     assert_eq!(run.clock().samples, loads.len());
     let seen = signals(&run, 67);
-    let channel = |name: &str, unit: &str, samples| Channel {
-        name: name.to_owned(),
-        unit: unit.to_owned(),
-        samples,
-    };
-    let trace = Trace {
-        time_s: seen.time_s,
-        channels: vec![
-            channel("x", "m", seen.position),
-            channel("f", "N", seen.effort),
-            channel("load", "N", loads),
-        ],
-    };
+    let trace = trace(seen, &[("load", loads)]);
     rig().apply(&trace, Path::new("test")).unwrap()
 }
 

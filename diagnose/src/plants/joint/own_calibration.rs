@@ -4,7 +4,9 @@
 //! One seed for each mechanism; `RIGPROOF_SEEDS=5` in the environment takes five.
 
 use super::encoder::shown;
-use super::recorded::{EFFORT_NOISE, INERTIA, NOMINAL, QUANTUM, exact_axis, exact_bench, signals};
+use super::recorded::{
+    EFFORT_NOISE, INERTIA, NOMINAL, QUANTUM, exact_axis, exact_bench, signals, trace,
+};
 use super::run::{JointRun, PlantKind};
 use super::simulate::{Model, Protocol, output};
 use crate::cause::Scales;
@@ -15,7 +17,6 @@ use crate::{Diagnosis, Options, diagnose};
 use rayon::prelude::*;
 use rigproof_spec::effect::Mechanism::{self, *};
 use rigproof_trace::rig::{Recording, Rig, RigEffect, Value};
-use rigproof_trace::{Channel, Trace};
 use std::path::Path;
 
 /// Samples of a recording.
@@ -118,18 +119,7 @@ fn recording(plant: PlantKind, left_out: &Effect, seed: u64) -> Recording {
         }
     }
     let seen = signals(&run, seed);
-    let channel = |name: &str, unit: &str, samples| Channel {
-        name: name.to_owned(),
-        unit: unit.to_owned(),
-        samples,
-    };
-    let trace = Trace {
-        time_s: seen.time_s,
-        channels: vec![
-            channel("x", "m", seen.position),
-            channel("f", "N", seen.effort),
-        ],
-    };
+    let trace = trace(seen, &[]);
     rig(plant).apply(&trace, Path::new("test")).unwrap()
 }
 

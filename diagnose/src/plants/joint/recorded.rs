@@ -11,6 +11,7 @@ use rigproof_model::axis::{Axis, Transmission};
 use rigproof_model::bench::resistance;
 use rigproof_model::effects::{Instant, law};
 use rigproof_spec::effect::{Mechanism, Motion};
+use rigproof_trace::{Channel, Trace};
 
 pub type Laws<'a> = &'a [(Mechanism, &'a [f64])];
 
@@ -45,6 +46,25 @@ pub fn drive(time_s: f64) -> f64 {
     6.3 * libm::sin(2.33 * time_s)
         + 5.1 * libm::sin(5.2 * time_s + 1.2)
         + 2.7 * libm::sin(11.9 * time_s + 0.4)
+}
+
+/// A slide as it is written down, in m and N: position `x`, effort `f` and what stands beside them.
+pub fn trace(seen: Signals, beside: &[(&str, Vec<f64>)]) -> Trace {
+    let channel = |name: &str, unit: &str, samples| Channel {
+        name: name.to_owned(),
+        unit: unit.to_owned(),
+        samples,
+    };
+    let own = [
+        channel("x", "m", seen.position),
+        channel("f", "N", seen.effort),
+    ];
+    let beside = beside.iter();
+    let beside = beside.map(|(name, samples)| channel(name, "N", samples.clone()));
+    Trace {
+        time_s: seen.time_s,
+        channels: own.into_iter().chain(beside).collect(),
+    }
 }
 
 /// A recording of an axis without sensor noise. The drive is held between samples if `held`, smooth

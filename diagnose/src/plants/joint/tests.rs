@@ -1,13 +1,14 @@
 //! This file claims that the diagnosis of an axis and of a bench names what was left out and
 //! nothing else.
 
-use super::recorded::{EFFORT_NOISE, Laws, NOMINAL, QUANTUM, exact_axis, exact_bench, signals};
+use super::recorded::{
+    EFFORT_NOISE, Laws, NOMINAL, QUANTUM, exact_axis, exact_bench, signals, trace,
+};
 use super::run::JointRun;
 use crate::report::Verdict;
 use crate::{Diagnosis, Options, diagnose};
 use rigproof_spec::effect::Mechanism;
 use rigproof_trace::rig::{Recording, Rig};
-use rigproof_trace::{Channel, Trace};
 use std::path::Path;
 
 fn rig(plant: &str, rest: &str) -> Rig {
@@ -35,18 +36,7 @@ fn axis() -> Rig {
 
 fn recording(rig: &Rig, exact: &JointRun) -> Recording {
     let seen = signals(exact, 71);
-    let channel = |name: &str, unit: &str, samples| Channel {
-        name: name.to_owned(),
-        unit: unit.to_owned(),
-        samples,
-    };
-    let trace = Trace {
-        time_s: seen.time_s,
-        channels: vec![
-            channel("x", "m", seen.position),
-            channel("f", "N", seen.effort),
-        ],
-    };
+    let trace = trace(seen, &[]);
     rig.apply(&trace, Path::new("test")).unwrap()
 }
 
