@@ -16,7 +16,7 @@ use rigproof_certify::hand::Hand;
 use rigproof_certify::left_out::LeftOut;
 use rigproof_certify::monitor::drill::{Concealed, Drilled, is_of_coverage, run};
 use rigproof_certify::monitor::{Made, made};
-use rigproof_certify::plan::{FORM, Plan, Subject};
+use rigproof_certify::plan::{Plan, Subject};
 use rigproof_certify::scenario::{Rig, Scenario};
 use rigproof_certify::tool::Tool;
 use rigproof_impl::monitor::Alarm;
@@ -31,21 +31,10 @@ const USE_TICKS: u32 = 90_000;
 const CHANGE_TICKS: u32 = 60_000;
 
 fn plan(rig: Rig, trials: u64) -> Plan {
+    let controller = Subject::built_in(BuiltIn::of(Method::ProportionalLow));
     Plan {
-        form: FORM,
-        name: "watched".to_owned(),
-        controller: Subject::built_in(BuiltIn::of(Method::ProportionalLow)),
-        baseline: None,
-        rigs: vec![rig],
-        seed: 1,
         scenarios: trials,
-        ticks: 10_000,
-        calibration: None,
-        search: 0,
-        limits: [None; 5],
-        regressions: [None; 5],
-        least_met: 1,
-        requirements: Vec::new(),
+        ..Plan::alone("watched", controller, vec![rig])
     }
 }
 

@@ -120,6 +120,26 @@ pub const fn least_met(scenarios: u64) -> u64 {
 }
 
 impl Plan {
+    /// A controller by itself in 1000 trials of 10 s: beside no baseline, on the thesis's plant, with nothing else asked for.
+    pub fn alone(name: &str, controller: Subject, rigs: Vec<Rig>) -> Plan {
+        Plan {
+            form: FORM,
+            name: name.to_owned(),
+            controller,
+            baseline: None,
+            rigs,
+            seed: 1,
+            scenarios: 1000,
+            ticks: 10_000,
+            calibration: None,
+            search: 0,
+            limits: [None; METRICS],
+            regressions: [None; METRICS],
+            least_met: 1,
+            requirements: Vec::new(),
+        }
+    }
+
     /// The scenario of an index.
     pub fn scenario(&self, index: u64) -> Scenario {
         let calibration = self.calibration.as_ref();

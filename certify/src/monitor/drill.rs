@@ -151,28 +151,17 @@ mod tests {
     use super::*;
     use crate::built_in::BuiltIn;
     use crate::monitor::constants;
-    use crate::plan::{FORM, Plan, Subject};
+    use crate::plan::{Plan, Subject};
     use crate::scenario::Rig;
     use rigproof_spec::methods::Method;
 
     #[test]
     fn a_payload_of_the_certificate_is_no_friction() {
-        let plan = Plan {
-            form: FORM,
-            name: "payload".to_owned(),
-            controller: Subject::built_in(BuiltIn::of(Method::ProportionalLow)),
-            baseline: None,
-            rigs: vec![Rig::FourBrake],
-            seed: 1,
-            scenarios: 1000,
-            ticks: 10_000,
-            calibration: None,
-            search: 0,
-            limits: [None; 5],
-            regressions: [None; 5],
-            least_met: 1,
-            requirements: Vec::new(),
-        };
+        let plan = Plan::alone(
+            "payload",
+            Subject::built_in(BuiltIn::of(Method::ProportionalLow)),
+            vec![Rig::FourBrake],
+        );
         let of = constants(&plan, Rig::FourBrake).unwrap();
         let source = plan.controller.source().unwrap();
         // Nearly empty and nearly full; without the payload as a number friction at B came to 5.0 and 4.2 standard deviations.

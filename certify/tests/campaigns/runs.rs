@@ -10,7 +10,7 @@ use rigproof_certify::certificate::Certificate;
 use rigproof_certify::digest;
 use rigproof_certify::journal::{Chunks, FILE, Header, Shard};
 use rigproof_certify::law::Law;
-use rigproof_certify::plan::{FORM, Plan, Subject};
+use rigproof_certify::plan::{Plan, Subject};
 use rigproof_certify::recheck::{Means, recheck};
 use rigproof_certify::scenario::{Rig, Scenario};
 use rigproof_certify::tool::Tool;
@@ -20,21 +20,13 @@ use rigproof_trace::rig::five_bar::FiveBar;
 use crate::five::BOTH;
 
 pub fn plan() -> Plan {
+    let controller = Subject::built_in(BuiltIn::of(Method::SdofWithGap));
     Plan {
-        form: FORM,
-        name: "a test".to_owned(),
-        controller: Subject::built_in(BuiltIn::of(Method::SdofWithGap)),
         baseline: Some(Subject::built_in(BuiltIn::of(Method::ProportionalLow))),
-        rigs: BOTH.to_vec(),
         seed: 23,
         scenarios: 44,
         ticks: 300,
-        calibration: None,
-        search: 0,
-        limits: [None; 5],
-        regressions: [None; 5],
-        least_met: 1,
-        requirements: Vec::new(),
+        ..Plan::alone("a test", controller, BOTH.to_vec())
     }
 }
 
