@@ -147,7 +147,6 @@ fn kinds(tried: &[Tried]) -> BTreeMap<String, [usize; 4]> {
 fn one(plant: Plant, seed: u64) -> Result<Tried, Failure> {
     let options = Options {
         next_experiment: false,
-        refit: false,
         ..Options::default()
     };
     let case = make(plant, seed, Some(Stratum::DataFault))?;

@@ -77,7 +77,7 @@ enum Which {
 }
 
 const AFTER_HELP: &str = "\
-The naming is tried: each recording as a whole, without a held-out part of its own.
+Each recording is diagnosed as `rigproof diagnose` does it: the last quarter is held out.
 Exit code 1 says that a claim does not hold. --reports scores anybody's diagnosis of the recordings that `blind make` writes.
 
 Example:
@@ -255,9 +255,8 @@ fn one(args: &Args, plant: Plant, seed: u64, bar: &ProgressBar) -> Result<Tried,
         None => {
             let held_out = args.held_out.then(|| again(seed)).transpose()?;
             let options = Options {
-                refit: args.held_out,
                 next_experiment: args.experiments,
-                ..whole()
+                ..Options::default()
             };
             let (report, next) = diagnosed(seed, &case, &[], held_out.as_ref(), &options)?;
             experiment = next;
@@ -303,7 +302,11 @@ fn after(
         done => done?,
     };
     let second = core::slice::from_ref(&done.trace);
-    let (report, _) = diagnosed(seed, case, second, None, &whole())?;
+    let options = Options {
+        next_experiment: false,
+        ..Options::default()
+    };
+    let (report, _) = diagnosed(seed, case, second, None, &options)?;
     // What the experiment does not tell either is no ambiguity of the diagnosis.
     Ok(Then {
         score: score(&open(&done.sealed)?, &report)?,
@@ -311,16 +314,6 @@ fn after(
         recording: Some(done.trace),
         report,
     })
-}
-
-/// A recording is diagnosed as a whole, by the balance of efforts alone.
-fn whole() -> Options {
-    Options {
-        refit: false,
-        next_experiment: false,
-        hold_out_share: 0.0,
-        ..Options::default()
-    }
 }
 
 /// The report of a case, with more recordings of its rig if there are any, and the experiment that it asks for; a recording that cannot be read
