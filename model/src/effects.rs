@@ -31,7 +31,7 @@ mod stribeck;
 mod velocity_power;
 mod viscous;
 
-pub use lag::{first_order_lag, first_order_lag_straight, lagged};
+pub use lag::{first_order_lag_held, first_order_lag_straight, lagged, lagged_held};
 pub use play::{CurrentPlay, PLAYS, Played};
 
 use facts::{Facts, Family, Words};

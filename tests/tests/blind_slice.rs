@@ -52,6 +52,17 @@ fn a_single_effect_is_inside_what_is_named_or_ambiguous() {
     assert!(exact >= 5, "{exact} of 6 exact");
 }
 
+/// The command of this axis runs straight between its samples. Taken for held, its lag came out half a sample too long.
+#[test]
+fn a_lag_of_a_few_milliseconds_is_told_to_two_per_cent() {
+    let score = examined(Plant::Axis, 110, Stratum::Single);
+    let [lag] = score.parameters.as_slice() else {
+        panic!("{score:?}")
+    };
+    assert_eq!(lag.mechanism, "lag");
+    assert!(lag.relative < 0.02 && lag.covered == Some(true), "{lag:?}");
+}
+
 /// A seed of the five-bar below 10 000, where its rules were chosen. One with a hidden effect is diagnosed and scored by the program's own tests.
 #[test]
 fn on_the_five_bar_nothing_hidden_gets_no_name() {

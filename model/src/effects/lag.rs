@@ -108,28 +108,32 @@ pub(super) const LIMIT_ENTRY: Entry = Entry {
     },
 };
 
-/// First-order lag of a sampled signal held between samples, by the exact discrete update.
+/// First-order lag of a drive that holds each sample until the next one. What comes out is the mean until the next sample, which is
+/// held in its place: the state there would come half a sample early.
 ///
 /// `signal` in any unit at `step_s` (s, > 0); `time_constant_s` ≥ 0. Starts in equilibrium with the first
 /// sample.
-pub fn first_order_lag(signal: &[f64], step_s: f64, time_constant_s: f64) -> Vec<f64> {
-    let share = if time_constant_s > 0.0 {
-        -libm::expm1(-step_s / time_constant_s)
-    } else {
-        1.0
-    };
+pub fn first_order_lag_held(signal: &[f64], step_s: f64, time_constant_s: f64) -> Vec<f64> {
     let mut state = signal.first().copied().unwrap_or(0.0);
-    signal
-        .iter()
-        .map(|&target| {
-            state += share * (target - state);
-            state
-        })
-        .collect()
+    let held = signal.iter().map(|&target| {
+        let [mean, end] = lagged_held(state, target, step_s, time_constant_s);
+        state = end;
+        mean
+    });
+    held.collect()
 }
 
-/// First-order lag of a signal that runs straight between its samples, such as a torque, by the exact discrete update; held between
-/// samples instead it would come half a sample early.
+/// What lags by `time_constant_s`, s, in a step of `step_s` in which what it follows is held: its mean, and its end.
+pub fn lagged_held(state: f64, target: f64, step_s: f64, time_constant_s: f64) -> [f64; 2] {
+    if time_constant_s <= 0.0 {
+        return [target; 2];
+    }
+    let ratio = step_s / time_constant_s;
+    let mean = -libm::expm1(-ratio) / ratio;
+    [mean, libm::exp(-ratio)].map(|kept| target + kept * (state - target))
+}
+
+/// First-order lag of a signal that runs straight between its samples, such as a torque, by the exact discrete update.
 ///
 /// `signal` in any unit at `step_s` (s, > 0); `time_constant_s` ≥ 0. Starts in equilibrium with the first sample.
 pub fn first_order_lag_straight(signal: &[f64], step_s: f64, time_constant_s: f64) -> Vec<f64> {
@@ -158,7 +162,7 @@ pub fn lagged(state: f64, [before, now]: [f64; 2], step_s: f64, time_constant_s:
 
 #[cfg(test)]
 mod tests {
-    use super::{first_order_lag, first_order_lag_straight};
+    use super::{first_order_lag_held, first_order_lag_straight, lagged_held};
 
     #[test]
     fn a_ramp_is_followed_one_time_constant_late() {
@@ -176,10 +180,26 @@ mod tests {
 
     #[test]
     fn a_step_reaches_one_minus_one_over_e_after_one_time_constant() {
-        let mut signal = vec![1.7; 200];
-        signal[0] = 0.3;
-        let lagged = first_order_lag(&signal, 1e-3, 0.037);
+        let mut state = 0.3;
+        for _ in 0..37 {
+            [_, state] = lagged_held(state, 1.7, 1e-3, 0.037);
+        }
         let expected = 0.3 + 1.4 * (1.0 - libm::exp(-1.0));
-        assert!((lagged[37] - expected).abs() < 1e-12);
+        assert!((state - expected).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_is_held_is_late_by_one_time_constant_in_the_mean() {
+        // A pulse of one sample: its centre of gravity is half a sample after its time stamp, as that of every held sample.
+        let (step_s, time_constant_s) = (2e-3, 0.0051);
+        let mut pulse = vec![0.0; 400];
+        pulse[3] = 1.3;
+        let held = first_order_lag_held(&pulse, step_s, time_constant_s);
+        let sum: f64 = held.iter().sum();
+        let moments = held.iter().enumerate().map(|(k, own)| k as f64 * own);
+        let late_s = (moments.sum::<f64>() / sum - 3.0) * step_s;
+        assert!((sum - 1.3).abs() < 1e-12, "{sum}");
+        assert!((late_s - time_constant_s).abs() < 1e-9, "{late_s}");
+        assert_eq!(first_order_lag_held(&pulse, step_s, 0.0), pulse);
     }
 }

@@ -1,7 +1,7 @@
 //! This file computes the regression columns of a plant of one joint: resistances along its motion,
 //! and changes of its drive.
 
-use super::drive::driven;
+use super::drive::{driven, lagging};
 use super::inertia::Inertia;
 use super::run::{JointRun, PlantKind};
 use crate::cause::{Cause, Scales};
@@ -13,9 +13,7 @@ use crate::signals::{lagged_yield, numerov, second_difference, shifted};
 use rigproof_model::axis::Trailing;
 use rigproof_model::bench::column;
 use rigproof_model::effects::facts::{AtRest, Family};
-use rigproof_model::effects::{
-    Drive, Form, OfJoint, OfSensor, entry, facts, first_order_lag, form, law,
-};
+use rigproof_model::effects::{Drive, Form, OfJoint, OfSensor, entry, facts, form, law};
 use rigproof_spec::effect::Mechanism;
 
 /// One column per linear parameter of a resistance: the law with that parameter 1 and the others 0,
@@ -91,7 +89,7 @@ fn seen(run: &JointRun, signal: Vec<f64>) -> Vec<f64> {
 pub fn metered(run: &JointRun, signal: Vec<f64>) -> Vec<f64> {
     match run.metered_by.is_empty() {
         true => signal,
-        false => driven(&run.metered_by, &signal, run.clock(), 0),
+        false => driven(&run.metered_by, &signal, run.clock(), 0, false),
     }
 }
 
@@ -337,7 +335,7 @@ fn drive(run: &JointRun, what: Drive, shape: &[f64]) -> Option<Columns> {
     let step_s = run.step_s;
     let fixed = |signal| Some(Columns::Fixed(signal));
     let changed = |effort: &[f64]| match what {
-        Drive::Lag => Some(first_order_lag(effort, step_s, value)),
+        Drive::Lag => Some(lagging(effort, step_s, value, run.holds_drive())),
         Drive::Skew => Some(shifted(effort, -value / step_s)),
         Drive::Limit => Some(effort.iter().map(|e| e.max(-value).min(value)).collect()),
         Drive::Gain => None,
@@ -382,7 +380,7 @@ fn linearised(run: &JointRun, what: Drive, shape: &[f64], fitted: &[f64]) -> Opt
         (Drive::Skew, PlantKind::Axis) => fixed(less(&shifted(fitted, value / step_s), fitted)),
         (Drive::Lag, PlantKind::Bench) if run.brake().is_some() => drive(run, what, shape),
         (Drive::Lag, PlantKind::Bench) => {
-            fixed(less(&first_order_lag(fitted, step_s, value), fitted))
+            fixed(less(&lagging(fitted, step_s, value, false), fitted))
         }
         (Drive::Skew, PlantKind::Bench) => fixed(less(&shifted(fitted, -value / step_s), fitted)),
     }

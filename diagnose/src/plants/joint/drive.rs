@@ -5,7 +5,7 @@ use super::simulate::{Interpolation, Protocol};
 use crate::effect::Effect;
 use crate::plant::Clock;
 use crate::signals::shifted;
-use rigproof_model::effects::{Drive, Form, first_order_lag, form};
+use rigproof_model::effects::{Drive, Form, first_order_lag_held, first_order_lag_straight, form};
 use rustfft::{FftPlannerScalar, num_complex::Complex64};
 
 /// Effort at the beginning and the end of every integration step.
@@ -23,12 +23,13 @@ pub(super) fn drive_of(effect: &Effect) -> Option<Drive> {
 ///
 /// On an axis `effort` is the command and the result acts on the joint. On a bench `effort` is the
 /// resistance and the result is what is metered. `first` is the index of the first sample on the
-/// clock of the onsets.
+/// clock of the onsets; `held` says that each sample acts until the next.
 pub(super) fn driven<'a>(
     changes: impl IntoIterator<Item = &'a Effect>,
     effort: &[f64],
     clock: Clock,
     first: usize,
+    held: bool,
 ) -> Vec<f64> {
     let step_s = clock.step_s;
     let mut out = effort.to_vec();
@@ -40,7 +41,7 @@ pub(super) fn driven<'a>(
         let changed = match change {
             Drive::Gain => out.iter().map(|e| e * (1.0 + value)).collect(),
             Drive::Skew => shifted(&out, -value / step_s),
-            Drive::Lag => first_order_lag(&out, step_s, value),
+            Drive::Lag => lagging(&out, step_s, value, held),
             Drive::Limit => out.iter().map(|e| e.min(value).max(-value)).collect(),
         };
         let begins = effect.first_sample(clock).saturating_sub(first);
@@ -49,6 +50,14 @@ pub(super) fn driven<'a>(
         }
     }
     out
+}
+
+/// A lagging effort, sample by sample.
+pub(super) fn lagging(effort: &[f64], step_s: f64, time_constant_s: f64, held: bool) -> Vec<f64> {
+    match held {
+        true => first_order_lag_held(effort, step_s, time_constant_s),
+        false => first_order_lag_straight(effort, step_s, time_constant_s),
+    }
 }
 
 /// Effort at the beginning and the end of every integration step.

@@ -6,7 +6,7 @@ use super::run::JointRun;
 use super::simulate::{Free, Model, Protocol};
 use crate::align::resample;
 use rigproof_model::axis::State;
-use rigproof_model::effects::Drive;
+use rigproof_model::effects::{Drive, lagged_held};
 use rigproof_trace::rig::{Recording, Servo};
 
 /// A servo with its goal, one value per sample of the run that it drives.
@@ -127,9 +127,9 @@ impl Driven<'_> {
                 Some(Drive::Limit) => out = out.clamp(-value.abs(), value.abs()),
                 Some(Drive::Lag) => {
                     let last = self.lagged.unwrap_or(out);
-                    let share = 1.0 - libm::exp(-self.step_s / value.max(1e-12));
-                    out = last + share * (out - last);
-                    self.lagged = Some(out);
+                    let [mean, end] = lagged_held(last, out, self.step_s, value);
+                    out = mean;
+                    self.lagged = Some(end);
                 }
                 Some(Drive::Skew) => {
                     let back = (value / self.step_s).round().max(0.0) as usize;
