@@ -45,7 +45,7 @@ fn stating(lines: &str) -> FiveBar {
 /// The recording of a rig as described, along the path of the thesis's rig.
 fn recorded(stated: &FiveBar, seed: u64) -> FiveBarRecording {
     let own = rig(Layout::FourBrake);
-    let path = recording(Layout::FourBrake, 6.0, seed, &nothing);
+    let path = recording(Layout::FourBrake, 4.0, seed, &nothing);
     let exact = replica(&own, stated, &path).unwrap();
     let mut random = Pcg64Mcg::seed_from_u64(seed);
     let [angle, force] = exact.noise;
@@ -115,7 +115,10 @@ fn with_its_own_calibration_nothing_is_named_again() {
             let toml = first.calibration.to_toml();
             let calibration = FiveBar::parse(&toml, Path::new("calibration.toml")).unwrap();
             let again = diagnose(&calibration, &[&recording], None, &options());
-            if !again.report.effects.is_empty() || again.report.fault.is_some() {
+            // Something was left out, and the recording is long enough to show it.
+            let is_seen = first.report.verdict != Verdict::Consistent;
+            let is_quiet = again.report.effects.is_empty() && again.report.fault.is_none();
+            if !(is_quiet && is_seen) {
                 let said = (&first.report.summary, names(&first));
                 wrong.push(format!(
                     "{lines}{said:?}, then {} {:?}",

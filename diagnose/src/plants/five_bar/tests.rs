@@ -23,13 +23,23 @@ use rigproof_trace::rig::Signal;
 use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording};
 
 /// Long enough for a name, s.
-const SECONDS: f64 = 9.0;
+const SECONDS: f64 = 6.0;
+/// Long enough for free runs of all horizons, and for the name of what begins late, s.
+const LONGER: f64 = 9.0;
 
 /// The next experiment has tests of its own and is switched off here.
 fn options() -> Options {
     Options {
         next_experiment: false,
         ..Options::default()
+    }
+}
+
+/// Without a free run, where a test looks at names and coefficients alone.
+fn naming() -> Options {
+    Options {
+        refit: false,
+        ..options()
     }
 }
 
@@ -46,7 +56,7 @@ fn named(report: &Report) -> Vec<(&'static str, Option<&'static str>)> {
 #[test]
 fn a_recording_of_the_model_itself_is_consistent() {
     for (layout, seed) in [(Layout::FourBrake, 3), (Layout::ThreeBrake, 5)] {
-        let report = diagnosed(layout, SECONDS, seed, &nothing).report;
+        let report = diagnosed(layout, LONGER, seed, &nothing).report;
         let floor = report.floor.as_ref().unwrap();
         assert_eq!(
             report.verdict,
@@ -272,7 +282,7 @@ fn a_turned_force_sensor_is_turned_and_has_no_other_gain() {
         (*x, *y) = (cosine * *x - sine * *y, sine * *x + cosine * *y);
     }
     let rig = rig(Layout::FourBrake);
-    let report = diagnose(&rig, &[&recording], None, &options()).report;
+    let report = diagnose(&rig, &[&recording], None, &naming()).report;
     assert_eq!(
         named(&report),
         [("force_rotation", None)],
@@ -291,7 +301,7 @@ fn an_encoder_with_its_zero_off_is_named_so_and_not_as_a_scale() {
         *angle -= 0.037;
     }
     let rig = rig(Layout::FourBrake);
-    let report = diagnose(&rig, &[&recording], None, &options()).report;
+    let report = diagnose(&rig, &[&recording], None, &naming()).report;
     assert_eq!(
         named(&report),
         [("encoder_offset", Some("A"))],
@@ -324,7 +334,7 @@ fn a_scale_far_off_is_named_with_its_number_and_its_calibration_leaves_nothing()
 
 #[test]
 fn an_encoder_that_slips_is_named_with_when_and_its_calibration_leaves_nothing() {
-    let mut recording = recording(Layout::FourBrake, SECONDS, 21, &nothing);
+    let mut recording = recording(Layout::FourBrake, LONGER, 21, &nothing);
     let [theta_a, _] = &mut recording.theta;
     for angle in theta_a.samples.iter_mut().skip(3700) {
         *angle += 0.043;
@@ -363,7 +373,7 @@ fn a_delay_that_swings_is_a_delay_and_more() {
         }
     }
     let rig = rig(Layout::FourBrake);
-    let report = diagnose(&rig, &[&recording], None, &options()).report;
+    let report = diagnose(&rig, &[&recording], None, &naming()).report;
     let only = [("channel_skew", None)];
     assert_eq!(named(&report), only, "{}", report.summary);
     assert_eq!(report.verdict, Verdict::PartlyExplained);
@@ -379,12 +389,8 @@ fn a_spring_rests_where_it_likes_and_may_push_at_angle_0() {
         [-stiffness * (pose.theta_a_rad - rest), 0.0, 0.0, 0.0]
     };
     let recording = recording(Layout::FourBrake, 3.0, 23, &spring);
-    let short = Options {
-        refit: false,
-        ..options()
-    };
     let rig = rig(Layout::FourBrake);
-    let report = diagnose(&rig, &[&recording], None, &short).report;
+    let report = diagnose(&rig, &[&recording], None, &naming()).report;
     let expected = [("spring", Some("A"))];
     assert_eq!(named(&report), expected, "{}", report.summary);
     let found = report.effects[0].parameters["stiffness"].value;

@@ -19,8 +19,8 @@ use rigproof_spec::effect::Mechanism::{self, *};
 use rigproof_trace::rig::{Recording, Rig, RigEffect, Value};
 use std::path::Path;
 
-/// Samples of a recording.
-const COUNT: usize = 10_000;
+/// Samples of a recording that shows what was left out of its description.
+const COUNT: usize = 5_000;
 /// The plants on which a mechanism is left out.
 const BOTH: &[PlantKind] = &[PlantKind::Axis, PlantKind::Bench];
 const AXIS: &[PlantKind] = &[PlantKind::Axis];
@@ -86,10 +86,10 @@ fn rig(plant: PlantKind) -> Rig {
 }
 
 /// The recording of a nominal plant with one more mechanism.
-fn recording(plant: PlantKind, left_out: &Effect, seed: u64) -> Recording {
+fn recording(plant: PlantKind, left_out: &Effect, seed: u64, count: usize) -> Recording {
     let mut base = match plant {
-        PlantKind::Axis => exact_axis(NOMINAL, COUNT, true),
-        PlantKind::Bench => exact_bench(NOMINAL, COUNT),
+        PlantKind::Axis => exact_axis(NOMINAL, count, true),
+        PlantKind::Bench => exact_bench(NOMINAL, count),
     };
     if plant == PlantKind::Axis {
         // The drive starts gently. After an abrupt start, a mass on a spring is hard to tell from
@@ -166,12 +166,10 @@ fn a_description_that_states_the_truth_is_obeyed() {
                 onset: None,
                 of_torque: effect.cause.scales == Scales::Torque,
             });
-            let found = diagnose(
-                &stated,
-                &[&recording(plant, &effect, seed)],
-                None,
-                &options(),
-            );
+            // Half as many samples leave 1.3 and 1.5 times the noise on a bench with two of the
+            // effects.
+            let recording = recording(plant, &effect, seed, 2 * COUNT);
+            let found = diagnose(&stated, &[&recording], None, &options());
             let told = &found.report;
             (told.verdict != Verdict::Consistent).then(|| {
                 format!(
@@ -192,7 +190,7 @@ fn with_its_own_calibration_nothing_is_named_again() {
     let wrong = cases(LEFT_OUT)
         .into_par_iter()
         .filter_map(|(plant, effect, seed)| {
-            let recording = recording(plant, &effect, seed);
+            let recording = recording(plant, &effect, seed, COUNT);
             let first = diagnose(&rig(plant), &[&recording], None, &options());
             let toml = first.calibration.to_toml();
             let read = Rig::parse(&toml, Path::new("calibration.toml"));
@@ -202,7 +200,9 @@ fn with_its_own_calibration_nothing_is_named_again() {
             };
             let again = diagnose(&calibration, &[&recording], None, &options());
             let is_quiet = again.report.effects.is_empty() && again.report.fault.is_none();
-            (!is_quiet).then(|| {
+            // Something was left out, and the recording is long enough to show it.
+            let is_seen = first.report.verdict != Verdict::Consistent;
+            (!(is_quiet && is_seen)).then(|| {
                 format!(
                     "{} {plant:?} {seed}: {} [{}], then {} [{}]",
                     effect.mechanism().name(),
@@ -241,7 +241,7 @@ fn what_no_joint_computes_is_refused_by_name() {
         number(0.01, "m")
     );
     let exact = [PlantKind::Axis, PlantKind::Bench]
-        .map(|plant| recording(plant, &Effect::of(DryOffset, &[1.73]), 71));
+        .map(|plant| recording(plant, &Effect::of(DryOffset, &[1.73]), 71, COUNT));
     let [axis, bench] = exact;
     for (plant, recording, lines, name) in [
         (PlantKind::Axis, &axis, &gravity, "gravity"),
@@ -269,7 +269,7 @@ fn what_no_joint_computes_is_refused_by_name() {
 
 #[test]
 fn a_gain_that_is_not_known_is_not_taken_as_known() {
-    let recording = recording(PlantKind::Axis, &Effect::of(DryOffset, &[1.73]), 71);
+    let recording = recording(PlantKind::Axis, &Effect::of(DryOffset, &[1.73]), 71, COUNT);
     let mut stated = rig(PlantKind::Axis);
     let parameters = stated.parameters.as_mut().unwrap();
     parameters.command_gain = Value::unknown(1.0);
