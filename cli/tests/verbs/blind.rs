@@ -121,6 +121,25 @@ fn a_trial_does_not_depend_on_the_number_of_jobs() {
 }
 
 #[test]
+fn a_trial_finds_what_the_command_finds() {
+    let desk = Desk::new();
+    std::fs::create_dir(desk.path("reports")).unwrap();
+    for (seed, plant) in [(10, "axis"), (11, "bench")] {
+        let case = format!("blind make --seed {seed} --plant {plant} --out case{seed}");
+        desk.prints(&case, 0);
+        let by_hand = desk.rigproof(&format!(
+            "diagnose case{seed}/recording.csv --rig case{seed}/rig.toml --out reports/{seed} --quiet"
+        ));
+        assert_eq!(by_hand.status.code(), Some(0), "{by_hand:?}");
+    }
+    let line = "blind trial --seeds 10..12 --details --json";
+    let trial = desk.rigproof(line);
+    let scored = desk.rigproof(&format!("{line} --reports reports"));
+    assert!(trial.stdout.len() > 2000);
+    assert_eq!(scored.stdout, trial.stdout);
+}
+
+#[test]
 fn a_five_bar_is_diagnosed_at_its_joint_and_runs_closer_with_its_calibration() {
     let desk = Desk::new();
     desk.prints("blind make --plant rig --seed 9 --out case", 0);
