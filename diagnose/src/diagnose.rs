@@ -18,7 +18,7 @@ use crate::explain::{Explanations, explain, explain_many};
 use crate::plant::{At, Plant, Run};
 use crate::problem::{Problem, Term};
 use crate::report::Report;
-use crate::rules::{FEWEST_WINDOWS, FLOOR_RATIO, HOLD_OUT_SHARE};
+use crate::rules::{EXPLAINED_LEFT, FEWEST_WINDOWS, FLOOR_RATIO, HOLD_OUT_SHARE};
 use crate::scatter::{Trials, left_over};
 use crate::selection::{Selection, refs, usable_rms};
 use bound::bound;
@@ -240,10 +240,12 @@ fn scattered(problem: &Problem, selection: &Selection) -> Option<Trials> {
     let residual = left_over(problem, &terms, &selection.after);
     let least = FLOOR_RATIO * problem.floor;
     trials.scatter(&residual, usable, least)?;
-    // Laws of a few numbers that leave less than a gain for every trial are the better explanation.
+    // Laws of a few numbers that leave less than a gain for every trial are the better explanation,
+    // and so are those that leave little of what the nominal model does.
     let nominal: Vec<&Term> = selection.nominal.iter().collect();
-    let mut by_gains = left_over(problem, &nominal, &selection.before);
+    let bare = left_over(problem, &nominal, &selection.before);
+    let mut by_gains = bare.clone();
     trials.take_out(&mut by_gains, usable);
-    let [laws, gains] = [&residual, &by_gains].map(|rows| usable_rms(problem, rows));
-    (laws >= gains).then_some(trials)
+    let [laws, gains, bare] = [&residual, &by_gains, &bare].map(|rows| usable_rms(problem, rows));
+    (laws >= gains && laws > EXPLAINED_LEFT * bare).then_some(trials)
 }

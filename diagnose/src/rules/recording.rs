@@ -91,8 +91,8 @@ rules! {
     THOUSANDFOLD: core::ops::RangeInclusive<f64> = 500.0..=2000.0, "times", REASON;
     /// The most that a sensor's noise is of what it measures: what scatters more is a signal.
     MOST_SCATTER: f64 = 0.1, "share", REASON;
-    /// A gain is taken for a wrong unit if it leaves at most this share of the nominal model's residual: with the right unit the model fits.
-    UNIT_LEFT: f64 = 0.25, "share", REASON;
+    /// A gain is taken for a wrong unit, and laws stand against a gain for every trial, if they leave at most this share of the nominal model's residual.
+    EXPLAINED_LEFT: f64 = 0.25, "share", REASON;
     /// A nominal friction is negative, and so drives the plant, if it is below zero by this many half widths of its 95 % interval.
     DRAG_HALVES: f64 = 3.0, "half widths", REASON;
     /// An unknown inertia that is this many times as large, or as small, as its start value has another unit.

@@ -10,7 +10,7 @@ use crate::cause::Cause;
 use crate::evidence::{Intervals, coefficients_by_term, intervals};
 use crate::problem::Problem;
 use crate::regression::Fit;
-use crate::rules::{ANOTHER_INERTIA, ANOTHER_UNIT, DRAG_HALVES, UNIT_LEFT};
+use crate::rules::{ANOTHER_INERTIA, ANOTHER_UNIT, DRAG_HALVES, EXPLAINED_LEFT};
 use crate::selection::{Selection, is_noise, usable_rms};
 use rigproof_model::effects::entry;
 use rigproof_spec::effect::Mechanism;
@@ -118,7 +118,7 @@ pub fn beyond_reason(problem: &Problem, selection: &Selection) -> Option<Cause> 
 fn explains(problem: &Problem, selection: &Selection) -> bool {
     let rms = |fit: &Fit| usable_rms(problem, &fit.residual);
     is_noise(problem, &selection.after)
-        || rms(&selection.after) < UNIT_LEFT * rms(&selection.before)
+        || rms(&selection.after) < EXPLAINED_LEFT * rms(&selection.before)
 }
 
 fn throughout(problem: &Problem, channel: &'static str, reason: String) -> Fault {
