@@ -89,7 +89,7 @@ fn seen(run: &JointRun, signal: Vec<f64>) -> Vec<f64> {
 pub fn metered(run: &JointRun, signal: Vec<f64>) -> Vec<f64> {
     match run.metered_by.is_empty() {
         true => signal,
-        false => driven(&run.metered_by, &signal, run.clock(), 0, false),
+        false => driven(&run.metered_by, &signal, run, 0),
     }
 }
 
@@ -335,7 +335,7 @@ fn drive(run: &JointRun, what: Drive, shape: &[f64]) -> Option<Columns> {
     let step_s = run.step_s;
     let fixed = |signal| Some(Columns::Fixed(signal));
     let changed = |effort: &[f64]| match what {
-        Drive::Lag => Some(lagging(effort, step_s, value, run.holds_drive())),
+        Drive::Lag => Some(lagging(run, effort, value)),
         Drive::Skew => Some(shifted(effort, -value / step_s)),
         Drive::Limit => Some(effort.iter().map(|e| e.max(-value).min(value)).collect()),
         Drive::Gain => None,
@@ -379,9 +379,7 @@ fn linearised(run: &JointRun, what: Drive, shape: &[f64], fitted: &[f64]) -> Opt
         }
         (Drive::Skew, PlantKind::Axis) => fixed(less(&shifted(fitted, value / step_s), fitted)),
         (Drive::Lag, PlantKind::Bench) if run.brake().is_some() => drive(run, what, shape),
-        (Drive::Lag, PlantKind::Bench) => {
-            fixed(less(&lagging(fitted, step_s, value, false), fitted))
-        }
+        (Drive::Lag, PlantKind::Bench) => fixed(less(&lagging(run, fitted, value), fitted)),
         (Drive::Skew, PlantKind::Bench) => fixed(less(&shifted(fitted, -value / step_s), fitted)),
     }
 }

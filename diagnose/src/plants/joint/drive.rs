@@ -1,9 +1,10 @@
 //! This file applies changes of the drive to the effort of a free run, and interpolates the effort
 //! between samples.
 
+use super::run::{JointRun, PlantKind};
 use super::simulate::{Interpolation, Protocol};
 use crate::effect::Effect;
-use crate::plant::Clock;
+use crate::plant::Run;
 use crate::signals::shifted;
 use rigproof_model::effects::{Drive, Form, first_order_lag_held, first_order_lag_straight, form};
 use rustfft::{FftPlannerScalar, num_complex::Complex64};
@@ -23,15 +24,14 @@ pub(super) fn drive_of(effect: &Effect) -> Option<Drive> {
 ///
 /// On an axis `effort` is the command and the result acts on the joint. On a bench `effort` is the
 /// resistance and the result is what is metered. `first` is the index of the first sample on the
-/// clock of the onsets; `held` says that each sample acts until the next.
+/// clock of the onsets.
 pub(super) fn driven<'a>(
     changes: impl IntoIterator<Item = &'a Effect>,
     effort: &[f64],
-    clock: Clock,
+    run: &JointRun,
     first: usize,
-    held: bool,
 ) -> Vec<f64> {
-    let step_s = clock.step_s;
+    let clock = run.clock();
     let mut out = effort.to_vec();
     for effect in changes {
         let value = effect.value(0);
@@ -40,8 +40,8 @@ pub(super) fn driven<'a>(
         };
         let changed = match change {
             Drive::Gain => out.iter().map(|e| e * (1.0 + value)).collect(),
-            Drive::Skew => shifted(&out, -value / step_s),
-            Drive::Lag => lagging(&out, step_s, value, held),
+            Drive::Skew => shifted(&out, -value / clock.step_s),
+            Drive::Lag => lagging(run, &out, value),
             Drive::Limit => out.iter().map(|e| e.min(value).max(-value)).collect(),
         };
         let begins = effect.first_sample(clock).saturating_sub(first);
@@ -52,11 +52,12 @@ pub(super) fn driven<'a>(
     out
 }
 
-/// A lagging effort, sample by sample.
-pub(super) fn lagging(effort: &[f64], step_s: f64, time_constant_s: f64, held: bool) -> Vec<f64> {
-    match held {
-        true => first_order_lag_held(effort, step_s, time_constant_s),
-        false => first_order_lag_straight(effort, step_s, time_constant_s),
+/// An effort that lags by a time constant, s, sample by sample. The drive of an axis may hold each
+/// sample until the next one; what is metered on a bench runs straight.
+pub(super) fn lagging(run: &JointRun, effort: &[f64], time_constant_s: f64) -> Vec<f64> {
+    match run.held && run.plant == PlantKind::Axis {
+        true => first_order_lag_held(effort, run.step_s, time_constant_s),
+        false => first_order_lag_straight(effort, run.step_s, time_constant_s),
     }
 }
 

@@ -105,11 +105,6 @@ impl JointRun {
         }
     }
 
-    /// Whether each sample of an axis's drive acts until the next.
-    pub fn holds_drive(&self) -> bool {
-        self.held && self.plant == PlantKind::Axis
-    }
-
     /// The torque of the thesis's brake along the recorded motion for a current in A; N·m. `None`
     /// without a brake.
     pub fn braked(&self, current: &[f64]) -> Option<Vec<f64>> {

@@ -120,7 +120,7 @@ fn bench(plant: &Model, run: &JointRun) -> Vec<f64> {
     }
     let rest = plant.effects.iter();
     let rest = rest.filter(|e| drive_of(e).is_some_and(|own| on_sum.contains(&own)));
-    driven(rest.chain(&run.metered_by), &effort, run.clock(), 0, false)
+    driven(rest.chain(&run.metered_by), &effort, run, 0)
 }
 
 /// A joint in a free run. Changes of the joint itself, such as added inertia, start at their
@@ -202,7 +202,7 @@ const LEAST_INERTIA: f64 = 1e-3;
 
 fn free_run(plant: &Model, run: &JointRun, protocol: &Protocol) -> Vec<f64> {
     let clock = run.clock();
-    let effort = driven(&plant.effects, &run.effort, clock, 0, run.holds_drive());
+    let effort = driven(&plant.effects, &run.effort, run, 0);
     let fine = fine_effort(&effort, protocol);
     let there = behind(&plant.effects, &run.position, clock);
     let step_s = run.step_s / protocol.substeps as f64;
@@ -241,7 +241,7 @@ pub fn predict(
 ) -> Option<f64> {
     let clock = run.clock();
     let efforts = run.effort.get(first..first + count)?;
-    let effort = driven(&plant.effects, efforts, clock, first, run.holds_drive());
+    let effort = driven(&plant.effects, efforts, run, first);
     let begin = run.motion.get(first)?;
     let seen = [begin, run.motion.get(first + 1)?].map(|now| now.position);
     let stretch = Clock {

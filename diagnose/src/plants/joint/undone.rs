@@ -46,7 +46,7 @@ pub(super) fn aligned(rig: &Rig, recording: &Recording, before_s: f64) -> Result
     run.described = left(rig);
     let clock = run.clock();
     if run.plant == PlantKind::Axis {
-        run.effort = driven(&undone, &run.effort, clock, 0, run.holds_drive());
+        run.effort = driven(&undone, &run.effort, &run, 0);
         return Ok(run);
     }
     for effect in &undone {
@@ -63,7 +63,7 @@ pub(super) fn aligned(rig: &Rig, recording: &Recording, before_s: f64) -> Result
         };
         let changed = match drive_of(effect) {
             Some(Drive::Lag) => lagged_yield(predicted, run.step_s, effect.value(0)),
-            _ => driven([effect], predicted, clock, 0, false),
+            _ => driven([effect], predicted, &run, 0),
         };
         let begins = effect.first_sample(clock);
         let pairs = predicted.iter().zip(changed).enumerate();
