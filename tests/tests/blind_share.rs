@@ -5,7 +5,7 @@ use rigproof_diagnose::{Description, Diagnosis, Options};
 use rigproof_trace::Trace;
 use std::path::Path;
 
-fn diagnosed(seed: u64, rig: &Description, trace: &Trace) -> Diagnosis {
+fn diagnosed(rig: &Description, trace: &Trace) -> Diagnosis {
     let options = Options {
         refit: false,
         hold_out_share: 0.0,
@@ -13,8 +13,7 @@ fn diagnosed(seed: u64, rig: &Description, trace: &Trace) -> Diagnosis {
         ..Options::default()
     };
     let recording = rig.apply(trace, Path::new("recording.csv")).unwrap();
-    let found = rig.diagnose(&[recording], None, &options);
-    found.unwrap_or_else(|| panic!("{seed}"))
+    rig.diagnose(&[recording], None, &options).unwrap()
 }
 
 #[test]
@@ -23,7 +22,7 @@ fn a_share_of_the_brakes_torque_is_named_written_and_obeyed() {
     for (seed, mechanism) in [(2459, "stribeck"), (2413, "direction_asymmetry")] {
         let case = make_in(Forms::Other, Plant::Bench, seed, None).unwrap();
         let rig = Description::parse(&case.rig_toml, Path::new("rig.toml")).unwrap();
-        let first = diagnosed(seed, &rig, &case.trace);
+        let first = diagnosed(&rig, &case.trace);
         let [effect] = &first.report.effects[..] else {
             panic!("{seed}: {}", first.report.summary);
         };
@@ -31,7 +30,7 @@ fn a_share_of_the_brakes_torque_is_named_written_and_obeyed() {
         let toml = first.calibration.to_toml();
         assert!(toml.contains("of = \"torque\""), "{toml}");
         let again = Description::parse(&toml, Path::new("calibration.toml")).unwrap();
-        let again = diagnosed(seed, &again, &case.trace).report;
+        let again = diagnosed(&again, &case.trace).report;
         assert!(again.effects.is_empty(), "{seed}: {}", again.summary);
     }
 }
@@ -39,10 +38,9 @@ fn a_share_of_the_brakes_torque_is_named_written_and_obeyed() {
 /// The current steps from trial to trial, and a gain for each of them leaves a little less than the limit does.
 #[test]
 fn a_limit_of_a_brake_is_not_put_aside_for_a_gain_for_every_trial() {
-    let seed = 2613;
-    let case = make_in(Forms::Other, Plant::Bench, seed, None).unwrap();
+    let case = make_in(Forms::Other, Plant::Bench, 2613, None).unwrap();
     let rig = Description::parse(&case.rig_toml, Path::new("rig.toml")).unwrap();
-    let report = diagnosed(seed, &rig, &case.trace).report;
+    let report = diagnosed(&rig, &case.trace).report;
     let names: Vec<&str> = report.effects.iter().map(|own| own.mechanism).collect();
     assert_eq!(names, ["saturation"], "{}", report.summary);
 }

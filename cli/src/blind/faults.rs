@@ -1,7 +1,6 @@
 //! This file tries recordings whose data are at fault, and the same recordings without the fault.
 
 use rigproof_blind::{Plant, Told, make, open, told, unspoilt};
-use rigproof_diagnose::Options;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
@@ -145,14 +144,10 @@ fn kinds(tried: &[Tried]) -> BTreeMap<String, [usize; 4]> {
 }
 
 fn one(plant: Plant, seed: u64) -> Result<Tried, Failure> {
-    let options = Options {
-        next_experiment: false,
-        ..Options::default()
-    };
     let case = make(plant, seed, Some(Stratum::DataFault))?;
-    let (report, _) = diagnosed(seed, &case, &[], None, &options)?;
+    let (report, _) = diagnosed(seed, &case, &[], None, false)?;
     let told = told(&open(&case.sealed)?, &report)?;
-    let (clean, _) = diagnosed(seed, &unspoilt(plant, seed)?, &[], None, &options)?;
+    let (clean, _) = diagnosed(seed, &unspoilt(plant, seed)?, &[], None, false)?;
     let verdict = |report: &Value| {
         report
             .get("verdict")

@@ -254,11 +254,7 @@ fn one(args: &Args, plant: Plant, seed: u64, bar: &ProgressBar) -> Result<Tried,
         }
         None => {
             let held_out = args.held_out.then(|| again(seed)).transpose()?;
-            let options = Options {
-                next_experiment: args.experiments,
-                ..Options::default()
-            };
-            let (report, next) = diagnosed(seed, &case, &[], held_out.as_ref(), &options)?;
+            let (report, next) = diagnosed(seed, &case, &[], held_out.as_ref(), args.experiments)?;
             experiment = next;
             report
         }
@@ -302,11 +298,7 @@ fn after(
         done => done?,
     };
     let second = core::slice::from_ref(&done.trace);
-    let options = Options {
-        next_experiment: false,
-        ..Options::default()
-    };
-    let (report, _) = diagnosed(seed, case, second, None, &options)?;
+    let (report, _) = diagnosed(seed, case, second, None, false)?;
     // What the experiment does not tell either is no ambiguity of the diagnosis.
     Ok(Then {
         score: score(&open(&done.sealed)?, &report)?,
@@ -316,14 +308,14 @@ fn after(
     })
 }
 
-/// The report of a case, with more recordings of its rig if there are any, and the experiment that it asks for; a recording that cannot be read
-/// counts as a data fault.
+/// The report of a case as the command makes it, with more recordings of its rig if there are any, and the experiment that it asks for where one
+/// is looked for; a recording that cannot be read counts as a data fault.
 pub fn diagnosed(
     seed: u64,
     case: &Case,
     more: &[Trace],
     held_out: Option<&Trace>,
-    options: &Options,
+    next_experiment: bool,
 ) -> Result<(Value, Option<Trace>), Failure> {
     let rig = Description::parse(&case.rig_toml, Path::new("rig.toml"))?;
     let applied = |trace: &Trace| rig.apply(trace, Path::new("recording.csv"));
@@ -337,7 +329,11 @@ pub fn diagnosed(
             return Ok((report, None));
         }
     };
-    let diagnosis = rig.diagnose(&recordings, held_out.as_ref(), options);
+    let options = Options {
+        next_experiment,
+        ..Options::default()
+    };
+    let diagnosis = rig.diagnose(&recordings, held_out.as_ref(), &options);
     let (report, experiment) = match diagnosis {
         Some(Diagnosis {
             report, experiment, ..
