@@ -81,7 +81,7 @@ pub(crate) fn longest_freeze(step_s: f64) -> usize {
     (LONGEST_FREEZE_S / step_s).ceil() as usize
 }
 
-pub(crate) fn frozen(channel: &'static str, time_s: &[f64], first: usize, end: usize) -> Fault {
+fn frozen(channel: &'static str, time_s: &[f64], first: usize, end: usize) -> Fault {
     let at = |k: usize| time_s.get(k).copied().unwrap_or(0.0);
     Fault {
         channel,
@@ -92,7 +92,7 @@ pub(crate) fn frozen(channel: &'static str, time_s: &[f64], first: usize, end: u
 }
 
 /// Runs of at least `least` samples of one value.
-pub(crate) fn constant_runs(values: &[f64], least: usize) -> Vec<(usize, usize)> {
+fn constant_runs(values: &[f64], least: usize) -> Vec<(usize, usize)> {
     let mut runs = Vec::new();
     let mut first = 0;
     for k in 1..=values.len() {
@@ -104,6 +104,39 @@ pub(crate) fn constant_runs(values: &[f64], least: usize) -> Vec<(usize, usize)>
         }
     }
     runs
+}
+
+/// A metered effort, and the positions of what it moves.
+pub(crate) struct Metered<'a> {
+    /// Its role.
+    pub channel: &'static str,
+    /// Its samples.
+    pub samples: &'a [f64],
+    /// The positions, sample for sample.
+    pub positions: &'a [&'a [f64]],
+    /// The number of samples for which it may repeat one value exactly.
+    pub least: usize,
+}
+
+/// Checks that a metered effort does not stay constant while the plant moves: the channel would be
+/// dead.
+pub(crate) fn check_metered(
+    effort: &Metered<'_>,
+    time_s: &[f64],
+    step_s: f64,
+) -> Result<(), Fault> {
+    let least_moves = longest_freeze(step_s) / 2;
+    let moves = |(first, end): (usize, usize)| {
+        let stretch = |position: &&[f64]| position.get(first..end).unwrap_or_default().to_vec();
+        let stretches = effort.positions.iter().map(stretch);
+        let steps = |own: Vec<f64>| own.windows(2).filter(|w| w.first() != w.last()).count();
+        stretches.map(steps).max().unwrap_or(0) > least_moves
+    };
+    let mut runs = constant_runs(effort.samples, effort.least).into_iter();
+    match runs.find(|run| moves(*run)) {
+        Some((first, end)) => Err(frozen(effort.channel, time_s, first, end)),
+        None => Ok(()),
+    }
 }
 
 /// Whether a constant position must be a fault: it ends in a jump that the motion before and after

@@ -18,7 +18,7 @@ pub use clock::{roughness, settle};
 pub struct Remark {
     /// The role of the channel.
     pub channel: &'static str,
-    /// What was wrong: `wrapped`, `dropouts`, `repeated`, `held`, `filled_in`, `jitter`.
+    /// What was wrong: `wrapped`, `dropouts`, `repeated`, `held`, `filled_in`, `jumped`, `jitter`.
     pub what: &'static str,
     /// The first time, s.
     pub from_s: f64,
@@ -48,7 +48,8 @@ pub struct Position {
     pub noise: f64,
     /// Whether it is an angle, which repeats after a turn.
     pub is_angle: bool,
-    /// The largest single jump that counts as a slip, m or rad. The diagnosis names slips itself.
+    /// The largest single jump that counts as a slip, m or rad. It is told, and the diagnosis weighs
+    /// slips itself.
     pub slip: f64,
 }
 
@@ -97,7 +98,7 @@ pub fn mend(
         mended.extend(repeats::leave_out_held(stamps, own)?);
         mended.extend(straight::leave_out(stamps, own)?);
         mended.extend(jumps::leave_out_dropouts(stamps, own)?);
-        jumps::check(stamps, own)?;
+        mended.extend(jumps::check(stamps, own)?);
         bridge(own);
     }
     Ok(mended)

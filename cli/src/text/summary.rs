@@ -64,26 +64,21 @@ pub fn summary(report: &Report, next: &str, page: &Path) -> String {
 
 /// One sentence on what is wrong.
 fn verdict(report: &Report) -> String {
-    let words: Vec<String> = report
-        .effects
-        .iter()
-        .map(|own| plain_at(own.mechanism, own.joint))
-        .collect();
-    let words = list(&words);
+    let [named, suspected] = report.by_status().map(|effects| {
+        let words = effects.iter().map(|own| plain_at(own.mechanism, own.joint));
+        list(&words.collect::<Vec<_>>())
+    });
     match report.verdict {
         Verdict::Consistent => {
             "The model agrees with the recording to within sensor noise.".to_owned()
         }
         Verdict::Explained if report.agrees() => {
-            format!("Cause found in the recording, and none in the model: {words}.")
+            format!("Cause found in the recording, and none in the model: {named}.")
         }
-        Verdict::Explained => format!("Cause found: the model leaves out {words}."),
-        Verdict::PartlyExplained => {
-            format!("Cause found in part: the model leaves out {words}, and something more.")
+        Verdict::Explained => format!("Cause found: the model leaves out {named}."),
+        Verdict::PartlyExplained | Verdict::Ambiguous => {
+            open(report.verdict == Verdict::Ambiguous, &named, &suspected)
         }
-        Verdict::Ambiguous => format!(
-            "Cause found, with a doubt: the model leaves out {words}, or what looks the same here."
-        ),
         Verdict::NoneOfLibrary => {
             "Cause not known: more than sensor noise is left, and no known effect has its shape."
                 .to_owned()
@@ -101,6 +96,26 @@ fn verdict(report: &Report) -> String {
                 )
             },
         ),
+    }
+}
+
+/// The sentence where something stays open: another cause, or more than noise.
+fn open(looks_the_same: bool, named: &str, suspected: &str) -> String {
+    let rest = match looks_the_same {
+        true => ", or what looks the same here",
+        false => ", and something more",
+    };
+    match (named, suspected) {
+        ("", suspected) => {
+            format!("Cause suspected: the model may leave out {suspected}{rest}.")
+        }
+        (named, "") if looks_the_same => {
+            format!("Cause found, with a doubt: the model leaves out {named}{rest}.")
+        }
+        (named, "") => format!("Cause found in part: the model leaves out {named}{rest}."),
+        (named, suspected) => {
+            format!("Cause found in part: the model leaves out {named}, perhaps {suspected}{rest}.")
+        }
     }
 }
 
@@ -234,6 +249,22 @@ mod tests {
         assert_eq!(rounded(12_345.6), "12346");
         assert_eq!(rounded(9.992e-16), "9.99·10^-16");
         assert_eq!(rounded(f64::NAN), "not a number");
+    }
+
+    #[test]
+    fn a_suspicion_is_no_cause_that_was_found() {
+        assert_eq!(
+            open(false, "", "drag"),
+            "Cause suspected: the model may leave out drag, and something more."
+        );
+        assert_eq!(
+            open(true, "drag", ""),
+            "Cause found, with a doubt: the model leaves out drag, or what looks the same here."
+        );
+        assert_eq!(
+            open(false, "drag", "a spring"),
+            "Cause found in part: the model leaves out drag, perhaps a spring, and something more."
+        );
     }
 
     #[test]

@@ -132,9 +132,11 @@ pub fn leave_out_dropouts(stamps: Stamps<'_>, own: &mut Position) -> Result<Opti
     Ok(mended)
 }
 
+/// Tells the one jump that may be a slip of the sensor on its shaft.
+///
 /// # Errors
-/// A jump that nothing explains, or a clock that was set while the position continued.
-pub fn check(stamps: Stamps<'_>, own: &Position) -> Result<(), Fault> {
+/// Any other jump that nothing explains, or a clock that was set while the position continued.
+pub fn check(stamps: Stamps<'_>, own: &Position) -> Result<Option<Remark>, Fault> {
     let steps = Steps::of(stamps, own);
     let excesses = steps.excesses(own);
     check_clock(stamps, own, &steps)?;
@@ -142,28 +144,43 @@ pub fn check(stamps: Stamps<'_>, own: &Position) -> Result<(), Fault> {
         excess.abs() > *limit && steps.places.get(*j).is_some_and(|places| *places < 2.0)
     });
     let Some((j, (by, _))) = jumps.next() else {
-        return Ok(());
+        return Ok(None);
     };
-    let more = match jumps.count() {
-        0 if by.abs() <= own.slip => return Ok(()),
-        0 => String::new(),
-        more => format!(", and {more} more such jump(s) follow"),
-    };
+    let others = jumps.count();
     let at = |j: usize| stamps.at(steps.index.get(j).copied().unwrap_or(0));
+    let (channel, from_s, to_s) = (own.channel, at(j), at(j + 1));
     let unit = if own.is_angle { "rad" } else { "m" };
     let counts = match own.stated_quantum {
         Some(quantum) => format!(" ({:.0} counts)", by / quantum),
         None => String::new(),
     };
     let usual = steps.expected(j).0;
+    let jump = format!(
+        "it jumps by {by:.4e} {unit}{counts} within one sample, where its steps around are {usual:.1e} {unit}"
+    );
+    if others == 0 && by.abs() <= own.slip {
+        return Ok(Some(Remark {
+            channel,
+            what: "jumped",
+            from_s,
+            to_s,
+            count: 1,
+            words: format!(
+                "{channel}, {from_s:.3} s: {jump}: counts were lost, or the sensor slipped on its shaft; the recording is used whole, and an error of the sensor from then on is weighed"
+            ),
+            cause: None,
+        }));
+    }
+    let more = match others {
+        0 => String::new(),
+        more => format!(", and {more} more such jump(s) follow"),
+    };
     Err(Fault {
-        channel: own.channel,
-        from_s: at(j),
-        to_s: at(j + 1),
+        channel,
+        from_s,
+        to_s,
         reason: format!(
-            "it jumps by {by:.4e} {unit}{counts} within one sample, where its steps around are {usual:.1e} {unit}{more}: counts were lost, or it was set to another zero; cut the recording there (`--to-s {:.3}`, or `--from-s {:.3}`)",
-            at(j),
-            at(j + 1)
+            "{jump}{more}: counts were lost, or it was set to another zero; cut the recording there (`--to-s {from_s:.3}`, or `--from-s {to_s:.3}`)"
         ),
     })
 }

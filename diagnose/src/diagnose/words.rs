@@ -4,6 +4,7 @@ use crate::effect::Effect;
 use crate::plant::Run;
 use crate::problem::Problem;
 use crate::report::{FitReport, Verdict};
+use crate::rules::NAMED;
 use crate::selection::Selection;
 
 /// A sentence on several recordings; `None` for one.
@@ -38,13 +39,24 @@ pub(crate) fn summary(
     rivals: &[Vec<String>],
     mended: &[Effect],
 ) -> String {
-    let found = selection.found.iter().map(|own| own.term.cause);
-    let names: Vec<String> = found.map(|cause| problem.name(cause)).collect();
-    let mended = mended.iter().map(|own| problem.name(own.cause));
-    let named: Vec<String> = names.iter().cloned().chain(mended).collect();
-    let named = named.join(", ");
+    let mut names: [Vec<String>; 2] = Default::default();
+    let [certain, suspected] = &mut names;
+    for own in &selection.found {
+        let list = match own.probability >= NAMED {
+            true => &mut *certain,
+            false => &mut *suspected,
+        };
+        list.push(problem.name(own.term.cause));
+    }
+    certain.extend(mended.iter().map(|own| problem.name(own.cause)));
+    let [certain, suspected] = names.map(|names| names.join(", "));
+    let left_out = match (certain.as_str(), suspected.as_str()) {
+        ("", suspected) => format!("may have left out {suspected}"),
+        (certain, "") => format!("left out {certain}"),
+        (certain, suspected) => format!("left out {certain}, perhaps {suspected}"),
+    };
     let shown = match fit.and_then(|f| f.held_out.map(|h| (h, f))) {
-        Some((held, fit)) if !names.is_empty() && fit.improved => {
+        Some((held, fit)) if !selection.found.is_empty() && fit.improved => {
             format!(
                 "; the error on held-out data falls from {} to {} {}",
                 rounded(held.before),
@@ -52,7 +64,7 @@ pub(crate) fn summary(
                 fit.unit
             )
         }
-        Some(_) if !names.is_empty() => {
+        Some(_) if !selection.found.is_empty() => {
             "; the error on held-out data did not fall: do not use this calibration".to_owned()
         }
         _ => String::new(),
@@ -68,15 +80,13 @@ pub(crate) fn summary(
             format!("the nominal model explains the recording to within sensor noise{disagrees}")
         }
         Verdict::Explained => {
-            format!(
-                "the model left out {named}; with it only sensor noise is left{shown}{disagrees}"
-            )
+            format!("the model {left_out}; with it only sensor noise is left{shown}{disagrees}")
         }
         Verdict::PartlyExplained => {
-            format!("the model left out {named}{or}; more than sensor noise is left{shown}")
+            format!("the model {left_out}{or}; more than sensor noise is left{shown}")
         }
         Verdict::Ambiguous => {
-            format!("the model left out {named}{or}{shown}{disagrees}")
+            format!("the model {left_out}{or}{shown}{disagrees}")
         }
         Verdict::NoneOfLibrary => {
             "the model left out something that is not in the library; `located` says where"

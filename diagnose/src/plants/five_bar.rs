@@ -3,6 +3,7 @@
 
 pub mod calibrated;
 pub mod candidates;
+mod checks;
 pub mod columns;
 pub(crate) mod encoder;
 pub mod experiment;

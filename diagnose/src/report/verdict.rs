@@ -1,6 +1,7 @@
 //! This file is the verdict of a diagnosis, and what it says of the model.
 
-use super::Report;
+use super::{EffectReport, Report};
+use crate::rules::NAMED;
 use rigproof_spec::effect::Mechanism;
 use serde::Serialize;
 
@@ -40,6 +41,15 @@ impl Verdict {
 }
 
 impl Report {
+    /// The effects that are named, and those that are suspected at most.
+    pub fn by_status(&self) -> [Vec<&EffectReport>; 2] {
+        let (named, suspected) = self
+            .effects
+            .iter()
+            .partition(|own| own.probability >= NAMED);
+        [named, suspected]
+    }
+
     /// Whether a named cause changes the model. The scatter of the time stamps does not: alignment
     /// mends it in the recording.
     pub fn changes_the_model(&self) -> bool {

@@ -22,12 +22,16 @@ pub fn headline(report: &Report, next: Option<&str>) -> Headline {
     }
 }
 
-const fn mood(report: &Report) -> (Tone, &'static str) {
+fn mood(report: &Report) -> (Tone, &'static str) {
+    let [named, suspected] = report.by_status();
     match report.verdict {
         Verdict::Consistent => (Tone::Good, "Model and rig agree"),
         Verdict::Explained => (Tone::Found, "Cause found"),
-        Verdict::PartlyExplained => (Tone::Doubt, "Cause found in part"),
-        Verdict::Ambiguous => (Tone::Doubt, "Cause found, with a doubt"),
+        Verdict::PartlyExplained | Verdict::Ambiguous if named.is_empty() => {
+            (Tone::Doubt, "Cause suspected")
+        }
+        Verdict::Ambiguous if suspected.is_empty() => (Tone::Doubt, "Cause found, with a doubt"),
+        Verdict::PartlyExplained | Verdict::Ambiguous => (Tone::Doubt, "Cause found in part"),
         Verdict::NoneOfLibrary => (Tone::Doubt, "Cause not known"),
         Verdict::NotExcited => (Tone::Bad, "No conclusion"),
         Verdict::DataFault => (Tone::Bad, "Recording at fault"),
@@ -39,9 +43,10 @@ fn sentence(report: &Report) -> String {
         "rig" => "linkage",
         other => other,
     };
-    let effects = report.effects.iter();
-    let names: Vec<String> = effects.map(in_words).collect();
-    let named = list(&names);
+    let [named, suspected] = report.by_status().map(|effects| {
+        let words = effects.into_iter().map(in_words);
+        list(&words.collect::<Vec<_>>())
+    });
     match report.verdict {
         Verdict::Consistent => format!(
             "Nothing is missing: the model describes this {device} as well as its sensors can tell."
@@ -52,12 +57,23 @@ fn sentence(report: &Report) -> String {
         Verdict::Explained => {
             format!("The real {device} has something the model leaves out: {named}.")
         }
-        Verdict::PartlyExplained => format!(
-            "The real {device} has something the model leaves out: {named} – and something more."
-        ),
-        Verdict::Ambiguous => format!(
-            "The real {device} has something the model leaves out: {named} – or something that looks the same in this recording."
-        ),
+        Verdict::PartlyExplained | Verdict::Ambiguous => {
+            let rest = match report.verdict {
+                Verdict::Ambiguous => "or something that looks the same in this recording",
+                _ => "and something more",
+            };
+            match (named.as_str(), suspected.as_str()) {
+                ("", suspected) => format!(
+                    "The real {device} may have something the model leaves out: {suspected} – {rest}."
+                ),
+                (named, "") => format!(
+                    "The real {device} has something the model leaves out: {named} – {rest}."
+                ),
+                (named, suspected) => format!(
+                    "The real {device} has something the model leaves out: {named}, perhaps {suspected} – {rest}."
+                ),
+            }
+        }
         Verdict::NoneOfLibrary => format!(
             "The real {device} does something that neither the model nor any effect in the library describes."
         ),

@@ -1,22 +1,19 @@
 //! This file aligns a recording of a five-bar with its description.
 
+use super::checks::{check_mended, check_recorded, check_sign};
 use super::run::{FiveBarRun, forms, place, place_of};
 use super::sensors::{angle_noise, noise_of_force, quantum_of};
 use super::stops::{forget_sense_at_stops, switched};
 use crate::align::{
-    Fault, Stated, band_hz, check_clipped, check_clock, check_missing, check_units, cutoff_hz,
-    forget_sense_at_rest, forget_sense_at_reversals, median_step, regular_count, resample,
-    smoothed_motion,
+    Fault, band_hz, check_clock, cutoff_hz, forget_sense_at_rest, forget_sense_at_reversals,
+    median_step, regular_count, resample, smoothed_motion,
 };
 use crate::cause::{Cause, Place, Scales};
 use crate::continuity::{Position, Remark, Stamps, mend, settle};
 use crate::doubt::{Smoothing, a_sample_late, greatest_change, turning};
 use crate::effect::Effect;
-use crate::plant::Run;
 use crate::plants::brake::Braked;
-use crate::rules::{
-    CURRENTS_A, KINEMATIC_DOUBT, MOST_OF_AN_ENCODER, MOST_TAKEN, STILL_QUANTA, STILL_SIGMAS,
-};
+use crate::rules::{KINEMATIC_DOUBT, MOST_OF_AN_ENCODER, STILL_QUANTA, STILL_SIGMAS};
 use core::f64::consts::TAU;
 use rigproof_model::brake::{Brake, ENTRY_TRAVEL_DEG};
 use rigproof_model::effects::Instant;
@@ -35,8 +32,7 @@ use rigproof_trace::rig::{Signal, Status};
 pub fn aligned(rig: &FiveBar, recording: &FiveBarRecording) -> Result<FiveBarRun, Fault> {
     let step_s = median_step(&recording.time_s);
     check_clock(&recording.time_s, step_s)?;
-    check_present(recording)?;
-    check_units_of(recording)?;
+    check_recorded(recording)?;
     let (recording, mended, jitter) = &mended(recording, step_s)?;
     let time_s = &recording.time_s;
     let count = regular_count(time_s, step_s);
@@ -59,8 +55,7 @@ pub fn aligned(rig: &FiveBar, recording: &FiveBarRecording) -> Result<FiveBarRun
             *slot = Some(regular(&signal.samples));
         }
     }
-    check_clipped_forces(recording)?;
-    check_currents(recording)?;
+    check_mended(recording, step_s)?;
     // One value stands for both channels: the greater.
     let greater = |of: fn(&Signal) -> f64, [one, other]: [&Signal; 2]| of(one).max(of(other));
     let quantum = greater(quantum_of, [theta_a, theta_b]);
@@ -179,94 +174,6 @@ fn moved_by(
     Ok((run, untold))
 }
 
-/// A linkage with brakes absorbs energy. A force that takes out energy on average has the wrong
-/// sign.
-fn check_sign(run: &FiveBarRun) -> Result<(), Fault> {
-    let rates = run.motion_of(Joint::A).iter().zip(run.motion_of(Joint::B));
-    let powers: Vec<[f64; 2]> = run
-        .forms
-        .iter()
-        .zip(run.forces())
-        .zip(rates)
-        .map(|((form, [f_x, f_y]), (a, b))| {
-            let [v_x, v_y] = form.tip_velocity_m_s([a.speed, b.speed]);
-            [f_x * v_x, f_y * v_y]
-        })
-        .collect();
-    let [by_x, by_y] = powers
-        .iter()
-        .fold([0.0; 2], |[x, y], [p_x, p_y]| [x + p_x, y + p_y]);
-    let size: f64 = powers.iter().map(|[x, y]| (x + y).abs()).sum();
-    if by_x + by_y < -MOST_TAKEN * size {
-        return Err(Fault {
-            channel: if by_x < by_y { "force_x" } else { "force_y" },
-            from_s: 0.0,
-            to_s: run.clock().duration_s(),
-            reason: "the rig drives the hand: energy comes out of it, most of it by this component; a force or an angle has the wrong sign (set `sign = -1`), or force_x and force_y are swapped".to_owned(),
-        });
-    }
-    Ok(())
-}
-
-fn check_currents(recording: &FiveBarRecording) -> Result<(), Fault> {
-    for signal in recording.currents.iter().flatten() {
-        let outside = |x: &f64| !x.is_nan() && !CURRENTS_A.contains(x);
-        if let Some(k) = signal.samples.iter().position(outside) {
-            let at_s = recording.time_s.get(k).copied().unwrap_or(0.0);
-            let value = signal.samples.get(k).copied().unwrap_or(f64::NAN);
-            return Err(Fault {
-                channel: "current",
-                from_s: at_s,
-                to_s: at_s,
-                reason: format!(
-                    "`{}` is {value} A; a brake takes 0 to 1 A: check the unit (mA?) and the sign in the description",
-                    signal.channel
-                ),
-            });
-        }
-    }
-    Ok(())
-}
-
-/// Checks that the angles' resolution and the forces' noise fit the stated units.
-fn check_units_of(recording: &FiveBarRecording) -> Result<(), Fault> {
-    let ends_s = [recording.time_s.first(), recording.time_s.last()];
-    let ends_s = ends_s.map(|end| end.copied().unwrap_or(0.0));
-    let angles = ["theta_a", "theta_b"].into_iter().zip(&recording.theta);
-    let angles = angles.map(|(channel, own)| (channel, own, own.quantum, None));
-    let forces = ["force_x", "force_y"].into_iter().zip(&recording.force);
-    let forces = forces.map(|(channel, own)| (channel, own, None, own.noise));
-    for (channel, own, quantum, noise) in angles.chain(forces) {
-        let stated = Stated {
-            channel,
-            samples: &own.samples,
-            quantum,
-            noise,
-        };
-        check_units(&stated, ends_s)?;
-    }
-    Ok(())
-}
-
-fn check_present(recording: &FiveBarRecording) -> Result<(), Fault> {
-    let [theta_a, theta_b] = &recording.theta;
-    let [force_x, force_y] = &recording.force;
-    let named = [
-        ("theta_a", theta_a),
-        ("theta_b", theta_b),
-        ("force_x", force_x),
-        ("force_y", force_y),
-    ];
-    let currents = recording.currents.iter().flatten();
-    let all = named
-        .into_iter()
-        .chain(currents.map(|own| ("current", own)));
-    for (channel, signal) in all {
-        check_missing(channel, &recording.time_s, &signal.samples)?;
-    }
-    Ok(())
-}
-
 /// The recording with its angles repaired and its samples moved to the grid of their time stamps.
 /// Also the remarks, and the angle noise that jitter adds.
 fn mended(
@@ -306,15 +213,6 @@ fn mended(
         noise = settled.noise;
     }
     Ok((own, mended, noise))
-}
-
-fn check_clipped_forces(recording: &FiveBarRecording) -> Result<(), Fault> {
-    let forces = ["force_x", "force_y"].into_iter().zip(&recording.force);
-    for (channel, force) in forces {
-        check_clipped(&recording.time_s, &force.samples, force.limit)
-            .map_err(|fault| Fault { channel, ..fault })?;
-    }
-    Ok(())
 }
 
 /// The speeds of θA and θB below which their direction cannot be told, one value per sample, rad/s.

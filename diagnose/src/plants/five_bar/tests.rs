@@ -346,7 +346,28 @@ fn an_encoder_that_slips_is_named_with_when_and_its_calibration_leaves_nothing()
     assert_eq!(named(report), expected, "{}", report.summary);
     let onset_s = report.effects[0].onset_s.unwrap();
     assert!((onset_s - 3.7).abs() < 0.3, "{onset_s} s");
+    let told = &report.remarks[0];
+    assert_eq!((told.channel, told.what), ("theta_a", "jumped"));
+    assert!((told.to_s - 3.7).abs() < 0.002, "{told:?}");
     assert_calibrated(&found, &recording);
+}
+
+#[test]
+fn a_force_that_reads_one_value_is_dead() {
+    for (axis, level) in [(0, 0.0), (1, 0.0), (1, -0.731)] {
+        let mut recording = recording(Layout::FourBrake, SECONDS, 22, &nothing);
+        recording.force[axis].samples.fill(level);
+        let rig = rig(Layout::FourBrake);
+        let report = diagnose(&rig, &[&recording], None, &naming()).report;
+        let fault = report.fault.expect("a dead force");
+        assert_eq!(
+            fault.channel,
+            ["force_x", "force_y"][axis],
+            "{}",
+            report.summary
+        );
+        assert!(fault.reason.contains("check the cable"), "{}", fault.reason);
+    }
 }
 
 /// A recording diagnosed with its own calibration is consistent, and the stated effects keep their

@@ -4,7 +4,7 @@
 use super::align::Signals;
 use super::run::PlantKind;
 use crate::align::{
-    Fault, Stated, check_clipped, check_units, constant_runs, frozen, longest_freeze,
+    Fault, Metered, Stated, check_clipped, check_metered, check_units, longest_freeze,
 };
 use crate::rules::{DIES_AWAY, GROWS, LEAST_WAY, MOST_TURNS};
 
@@ -14,7 +14,7 @@ use crate::rules::{DIES_AWAY, GROWS, LEAST_WAY, MOST_TURNS};
 /// The faulty channel, and the reason.
 pub fn check(recorded: &Signals, signals: &Signals, step_s: f64) -> Result<(), Fault> {
     check_units_of(recorded)?;
-    check_metered(signals, step_s)?;
+    check_metered_effort(signals, step_s)?;
     check_commanded(signals)?;
     check_clipped(&signals.time_s, &signals.effort, signals.effort_limit)
 }
@@ -110,17 +110,16 @@ fn to_and_fro(position: &[f64]) -> ([f64; 2], usize) {
     ([way(first), way(second)], turns)
 }
 
-/// A metered effort is noisy. If it stays constant on a moving bench, the channel is dead.
-fn check_metered(signals: &Signals, step_s: f64) -> Result<(), Fault> {
+/// A metered effort is noisy.
+fn check_metered_effort(signals: &Signals, step_s: f64) -> Result<(), Fault> {
     if signals.plant == PlantKind::Axis {
         return Ok(());
     }
-    let least = longest_freeze(step_s);
-    for (first, end) in constant_runs(&signals.effort, least) {
-        let moving = signals.position.get(first..end).unwrap_or_default();
-        if moving.windows(2).filter(|w| w.first() != w.last()).count() > least / 2 {
-            return Err(frozen("effort", &signals.time_s, first, end));
-        }
-    }
-    Ok(())
+    let effort = Metered {
+        channel: "effort",
+        samples: &signals.effort,
+        positions: &[&signals.position],
+        least: longest_freeze(step_s),
+    };
+    check_metered(&effort, &signals.time_s, step_s)
 }
