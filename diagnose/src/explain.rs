@@ -14,7 +14,9 @@ use crate::candidates::{all_causes, is_at_an_end};
 use crate::cause::Cause;
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, fit, free_columns, paired, reduced_target};
-use crate::rules::{AS_ONE, EXCHANGES, LISTED, NAMED, OFFERED, ROWS_A_SAMPLE, SUSPECTED};
+use crate::rules::{
+    AS_ONE, BEAM, EXCHANGES, EXPLAINED_LEFT, LISTED, NAMED, OFFERED, ROWS_A_SAMPLE, SUSPECTED,
+};
 use crate::selection::{Found, Selection, Stage, centred, refined, usable_rms};
 use fitted::{Fitted, Folds};
 use late::Late;
@@ -158,20 +160,26 @@ pub const fn status(probability: f64) -> &'static str {
 }
 
 /// Explains a recording on top of the terms of its nominal model.
+///
+/// The noise of a round of search is what the best explanation of the round before leaves. Where a
+/// round finds one that leaves much less, its noise was unexplained physics, and another follows.
+/// The leading explanations of a round compete in the next one.
 pub fn explain(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection, Explanations) {
-    let first = Round::of(problem, &nominal, problem.floor, ROWS_A_SAMPLE, 0);
-    let rows_a_sample = first.rows_a_sample(problem);
-    let best = first.predicts_best().map_or(&[][..], |own| &own.terms);
-    let terms: Vec<&Term> = nominal.iter().chain(best).collect();
-    let residual = fit(problem, &terms, &Blocks::new(problem)).residual;
-    // What the best explanation leaves is the noise of the second round. The median block sets its
-    // level, so that a disturbance in a few blocks does not count as noise everywhere.
-    let left = first.folds.typical(&residual);
-    problem.rewhiten(left);
-    nominal.iter_mut().for_each(|term| problem.refresh(term));
-    let noise = left.max(problem.floor);
-    let second = Round::of(problem, &nominal, noise, rows_a_sample, EXCHANGES);
-    let living = second.weighed(problem, noise);
+    let mut round = Round::of(problem, &nominal, problem.floor, ROWS_A_SAMPLE, 0, &[]);
+    let (last, noise) = loop {
+        let rows_a_sample = round.rows_a_sample(problem);
+        let left = round.leaves(problem, &nominal);
+        let mut found = round.leading();
+        problem.rewhiten(left);
+        let terms = nominal.iter_mut().chain(found.iter_mut().flatten());
+        terms.for_each(|term| problem.refresh(term));
+        let noise = left.max(problem.floor);
+        round = Round::of(problem, &nominal, noise, rows_a_sample, EXCHANGES, &found);
+        if round.leaves(problem, &nominal).max(problem.floor) > EXPLAINED_LEFT * noise {
+            break (round, noise);
+        }
+    };
+    let living = last.weighed(problem, noise);
     let explanations = Explanations { living };
     (selected(problem, nominal, &explanations), explanations)
 }
@@ -185,21 +193,33 @@ struct Round {
 
 impl Round {
     /// `noise` is the standard deviation of a row before whitening. `exchanges` counts the rounds
-    /// in which terms are exchanged.
+    /// in which terms are exchanged. `found` are sets of terms that compete in any case.
     fn of(
         problem: &Problem,
         nominal: &[Term],
         noise: f64,
         rows_a_sample: f64,
         exchanges: usize,
+        found: &[Vec<Term>],
     ) -> Round {
         let folds = Folds::of(problem);
         let judge = Judge::of(problem, noise, rows_a_sample);
         let common: Vec<&Term> = nominal.iter().collect();
         let target = reduced_target(problem, &common).white;
         let bare = Fitted::bare(&folds, &target, &free_columns(problem, &common));
-        let tried = candidates(problem, nominal);
+        let tried = shapes_of(problem, nominal, true);
         let mut all = beam::search(problem, &folds, &judge, &bare, &tried, exchanges);
+        for own in found.iter().map(|terms| bare.of(&folds, terms)) {
+            let names = beam::names(problem, &own.terms);
+            match all
+                .iter_mut()
+                .find(|other| beam::names(problem, &other.terms) == names)
+            {
+                Some(other) if other.left() > own.left() => *other = own,
+                Some(_) => {}
+                None => all.push(own),
+            }
+        }
         let leading = ranked(problem, &folds, &judge, all.clone()).into_iter();
         let leading: Vec<Fitted> = leading.map(|(_, own)| own).collect();
         let late = Late {
@@ -208,12 +228,29 @@ impl Round {
             judge: &judge,
             bare: &bare,
         };
-        all.extend(late.found(&leading, &tried));
+        all.extend(late.found(&leading, &tried, &shapes_of(problem, nominal, false)));
         Round { folds, bare, all }
     }
 
     fn predicts_best(&self) -> Option<&Fitted> {
         self.all.iter().min_by(|a, b| a.left().total_cmp(&b.left()))
+    }
+
+    /// The terms of the leading explanations without an onset, which stand first.
+    fn leading(&self) -> Vec<Vec<Term>> {
+        let from_start = |own: &&Fitted| own.terms.iter().all(|term| term.onset_s.is_none());
+        let best = self.predicts_best().into_iter();
+        let leading = best.chain(self.all.iter().take(BEAM)).filter(from_start);
+        leading.map(|own| own.terms.clone()).collect()
+    }
+
+    /// What the best explanation leaves of the effort. The median block sets its level, so that a
+    /// disturbance in a few blocks does not count as noise everywhere.
+    fn leaves(&self, problem: &Problem, nominal: &[Term]) -> f64 {
+        let best = self.predicts_best().map_or(&[][..], |own| &own.terms);
+        let terms: Vec<&Term> = nominal.iter().chain(best).collect();
+        let residual = fit(problem, &terms, &Blocks::new(problem)).residual;
+        self.folds.typical(&residual)
     }
 
     fn rows_a_sample(&self, problem: &Problem) -> f64 {
@@ -264,15 +301,17 @@ fn ranked(problem: &Problem, folds: &Folds, judge: &Judge, all: Vec<Fitted>) -> 
     scored
 }
 
-/// Every mechanism that the nominal model does not fix, in every shape of the grid.
-fn candidates(problem: &Problem, nominal: &[Term]) -> Vec<Term> {
+/// The mechanisms in every shape of the grid: those that the nominal model does not leave open, or
+/// those that it does.
+fn shapes_of(problem: &Problem, nominal: &[Term], are_new: bool) -> Vec<Term> {
     let common: Vec<&Term> = nominal.iter().collect();
     let plain = fit(problem, &common, &Blocks::new(problem));
-    let is_free = |cause: &Cause| {
+    let is_new = |cause: &Cause| {
         let mut own = nominal.iter().filter(|term| term.cause == *cause);
         own.all(|term| term.known.is_some())
     };
-    let open = all_causes(problem).into_iter().filter(is_free).collect();
+    let causes = all_causes(problem).into_iter();
+    let open: Vec<Cause> = causes.filter(|own| is_new(own) == are_new).collect();
     let of_cause = |cause: Cause| -> Vec<Term> {
         let shapes = problem.run.shapes(cause, &problem.windows, &plain.residual);
         let tried = shapes.iter().filter_map(|shape| {
@@ -281,7 +320,6 @@ fn candidates(problem: &Problem, nominal: &[Term]) -> Vec<Term> {
         });
         tried.collect()
     };
-    let open: Vec<Cause> = open;
     open.into_par_iter().flat_map_iter(of_cause).collect()
 }
 

@@ -7,6 +7,7 @@ mod blind_brake;
 mod blind_rig;
 mod blind_share;
 mod blind_slice;
+mod blind_when;
 mod brake;
 mod control_choice;
 mod control_laws;

@@ -5,7 +5,7 @@ use crate::evidence::{Intervals, coefficients_by_term, parameters};
 use crate::problem::Problem;
 use crate::report::Number;
 use crate::selection::{Selection, refs};
-use rigproof_spec::effect::Motion;
+use rigproof_spec::effect::{Motion, Range};
 use rigproof_trace::rig::{RigEffect, Value};
 use std::collections::BTreeMap;
 
@@ -17,6 +17,22 @@ pub(crate) fn with_interval(value: f64, half: Option<f64>) -> Value {
         out.high95 = Some(value + half);
     }
     out
+}
+
+/// An effect whose intervals end where its parameters do: a width or a time is not below 0, and a
+/// part is at most 1.
+pub(crate) fn within_ranges(mut effect: RigEffect) -> RigEffect {
+    let parameters = effect.mechanism.parameters().iter();
+    for (parameter, value) in parameters.zip(&mut effect.values) {
+        let [least, most] = match parameter.range {
+            Range::Any => continue,
+            Range::NotBelowZero | Range::AboveZero => [0.0, f64::INFINITY],
+            Range::Part => [0.0, 1.0],
+        };
+        value.low95 = value.low95.map(|low| low.max(least).min(value.value));
+        value.high95 = value.high95.map(|high| high.min(most).max(value.value));
+    }
+    effect
 }
 
 /// The onset of a term with its interval.
@@ -47,14 +63,14 @@ pub(crate) fn fitted(
             let halves = intervals.terms.get(index);
             let values = parameters(problem, term, own).into_iter().enumerate();
             let values = values.take(mechanism.parameters().len());
-            RigEffect {
+            within_ranges(RigEffect {
                 mechanism,
                 values: values
                     .map(|(k, value)| with_interval(value, halves.and_then(|h| h.get(k)).copied()))
                     .collect(),
                 onset: onset(term.onset_s, intervals, index),
                 of_torque: term.cause.scales == Scales::Torque,
-            }
+            })
         })
         .collect()
 }
@@ -84,6 +100,25 @@ pub(crate) fn number(value: &Value, unit: String) -> Number {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rigproof_spec::effect::Mechanism;
+
+    #[test]
+    fn an_interval_ends_where_its_parameter_does() {
+        let effect = |mechanism, values: &[f64]| {
+            let values = values.iter().map(|value| with_interval(*value, Some(0.3)));
+            within_ranges(RigEffect {
+                mechanism,
+                values: values.collect(),
+                onset: None,
+                of_torque: false,
+            })
+        };
+        let ends = |own: &RigEffect, k: usize| [own.values[k].low95, own.values[k].high95];
+        let lag = effect(Mechanism::Lag, &[0.1]);
+        assert_eq!(ends(&lag, 0), [Some(0.0), Some(0.4)]);
+        let spring = effect(Mechanism::Spring, &[0.1]);
+        assert_eq!(ends(&spring, 0), [Some(0.1 - 0.3), Some(0.4)]);
+    }
 
     #[test]
     fn an_interval_is_written_where_the_recording_gives_one() {

@@ -34,14 +34,19 @@ impl Late<'_> {
     /// of these are refined between the points of the grid. Where one of them predicts better than
     /// every explanation without onset, every other term is tried from that onset on: the shape of
     /// a law over the whole recording says little about its shape after the onset.
-    pub fn found(&self, ranked: &[Fitted], tried: &[Term]) -> Vec<Fitted> {
-        let open = ranked.iter().enumerate();
-        let open = open.filter(|(place, own)| own.terms.len() == 1 || *place < LATE);
-        let places: Vec<(&Fitted, usize)> = open
-            .flat_map(|(_, own)| (0..own.terms.len()).map(move |index| (own, index)))
-            .collect();
-        let on_grid = places.into_par_iter().filter_map(|(own, index)| {
-            let (others, term) = self.apart(own, index)?;
+    /// A law whose numbers the description leaves open can change them: each term of `open` is tried
+    /// from an onset on, beside the nominal model and the leading explanations.
+    pub fn found(&self, ranked: &[Fitted], tried: &[Term], open: &[Term]) -> Vec<Fitted> {
+        let places = ranked.iter().enumerate();
+        let places = places.filter(|(place, own)| own.terms.len() == 1 || *place < LATE);
+        let moved = places
+            .flat_map(|(_, own)| (0..own.terms.len()).filter_map(|index| self.apart(own, index)));
+        let beside = || std::iter::once(self.bare).chain(ranked.iter().take(LATE));
+        let changed = open
+            .iter()
+            .flat_map(|term| beside().map(|own| (own.clone(), term.clone())));
+        let all: Vec<(Fitted, Term)> = moved.chain(changed).collect();
+        let on_grid = all.into_par_iter().filter_map(|(others, term)| {
             let grid = (1..ONSET_GRID).map(|k| k as f64 / ONSET_GRID as f64);
             let all = grid.filter_map(|share| self.begun(&others, &term, share));
             all.max_by(|a, b| a.evidence.total_cmp(&b.evidence))
@@ -55,7 +60,7 @@ impl Late<'_> {
             .iter()
             .max_by(|a, b| a.evidence.total_cmp(&b.evidence));
         let exchanged = leading.filter(|own| own.evidence > most).map(|leading| {
-            let shapes = self.exchanged(leading, tried);
+            let shapes = self.exchanged(leading, &[tried, open].concat());
             self.placed(shapes)
         });
         let all = found.into_iter().chain(exchanged.into_iter().flatten());

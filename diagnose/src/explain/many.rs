@@ -7,7 +7,7 @@ use super::beam::may_join;
 use super::discrepancy::rows_a_sample;
 use super::fitted::{Fitted, Folds};
 use super::score::{Judge, is_impossible, prior};
-use super::{Explanation, Explanations, candidates, living, selected};
+use super::{Explanation, Explanations, living, selected, shapes_of};
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, fit, free_columns, reduced_target};
 use crate::rules::MOST_OF_MANY;
@@ -39,7 +39,7 @@ pub fn explain_many(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection
 
 /// The residual with every term free that has no shape parameter.
 fn plain_residual(problem: &Problem, nominal: &[Term]) -> Vec<f64> {
-    let tried = candidates(problem, nominal);
+    let tried = shapes_of(problem, nominal, true);
     let plain = tried.iter().filter(|term| term.shape.is_empty());
     let all: Vec<&Term> = nominal.iter().chain(plain).collect();
     fit(problem, &all, &Blocks::new(problem)).residual
@@ -71,7 +71,7 @@ impl Round {
         Round {
             bare: Fitted::bare(&folds, &target, &free_columns(problem, &common)),
             judge: Judge::of(problem, noise, rows_a_sample),
-            tried: candidates(problem, nominal),
+            tried: shapes_of(problem, nominal, true),
             folds,
         }
     }

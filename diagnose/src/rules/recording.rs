@@ -91,7 +91,7 @@ rules! {
     THOUSANDFOLD: core::ops::RangeInclusive<f64> = 500.0..=2000.0, "times", REASON;
     /// The most that a sensor's noise is of what it measures: what scatters more is a signal.
     MOST_SCATTER: f64 = 0.1, "share", REASON;
-    /// A gain is taken for a wrong unit, and laws stand against a gain for every trial, if they leave at most this share of the nominal model's residual.
+    /// A gain is taken for a wrong unit, and laws stand against a gain for every trial, if they leave at most this share of the nominal model's residual; a round of search that leaves at most this share of its noise is followed by another.
     EXPLAINED_LEFT: f64 = 0.25, "share", REASON;
     /// A nominal friction is negative, and so drives the plant, if it is below zero by this many half widths of its 95 % interval.
     DRAG_HALVES: f64 = 3.0, "half widths", REASON;

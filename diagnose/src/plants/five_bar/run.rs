@@ -149,6 +149,7 @@ impl FiveBarRun {
             current: self.currents.get(place(joint))?.as_ref()?,
             held: true,
             step_s: self.step_s,
+            heated_by: &[],
         })
     }
 

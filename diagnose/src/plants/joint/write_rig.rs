@@ -5,7 +5,7 @@ use super::from_rig::nominal;
 use super::simulate::Model;
 use super::undone::is_undone;
 use crate::cause::Scales;
-use crate::diagnose::numbers::{number, numbers, onset, with_interval};
+use crate::diagnose::numbers::{number, numbers, onset, with_interval, within_ranges};
 use crate::evidence::Intervals;
 use crate::report::Number;
 use crate::selection::Selection;
@@ -30,12 +30,12 @@ pub fn calibrated(rig: &Rig, model: &Model, intervals: &Intervals, refitted: boo
                 _ => with_interval(value, halves.and_then(|h| h.get(k)).copied()),
             }
         });
-        Some(RigEffect {
+        Some(within_ranges(RigEffect {
             mechanism: effect.mechanism(),
             values: values.collect(),
             onset: onset(effect.onset_s, intervals, index),
             of_torque: effect.cause.scales == Scales::Torque,
-        })
+        }))
     };
     // Effects that were inverted before the fit stay as described. Every other described effect has
     // its place in the model.

@@ -1,0 +1,52 @@
+//! This file says that what changes while a recording goes on is named with its beginning: a law whose size is unknown anyway, and a brake that warms up.
+
+use rigproof_blind::{Forms, Plant, make_in};
+use rigproof_diagnose::report::{EffectReport, Report};
+use rigproof_diagnose::{Description, Options};
+use std::path::Path;
+
+fn diagnosed(plant: Plant, seed: u64) -> Report {
+    let case = make_in(Forms::Other, plant, seed, None).unwrap();
+    let rig = Description::parse(&case.rig_toml, Path::new("rig.toml")).unwrap();
+    let recording = rig.apply(&case.trace, Path::new("recording.csv")).unwrap();
+    let options = Options {
+        next_experiment: false,
+        ..Options::default()
+    };
+    rig.diagnose(&[recording], None, &options).unwrap().report
+}
+
+fn only(report: &Report) -> &EffectReport {
+    match &report.effects[..] {
+        [own] => own,
+        _ => panic!("{}", report.summary),
+    }
+}
+
+/// Dry friction of unknown size grows by 0.0935 N·m at 6.22 s.
+#[test]
+fn a_law_of_unknown_size_that_changes_is_named_from_then_on() {
+    let report = diagnosed(Plant::Axis, 2588);
+    let effect = only(&report);
+    assert_eq!(effect.mechanism, "dry_offset", "{}", report.summary);
+    let onset_s = effect.onset_s.unwrap();
+    assert!((onset_s - 6.22).abs() < 0.05, "{onset_s} s");
+    let level = effect.parameters["level"].value;
+    assert!((level / 0.09346 - 1.0).abs() < 0.01, "{level} N·m");
+    let held_out = report.fit.unwrap().held_out.unwrap();
+    assert!(held_out.after < 0.1 * held_out.before, "{held_out:?}");
+}
+
+/// A brake loses torque by and by, and every trial of it could be given a gain of its own instead. The part that is held out begins warm.
+#[test]
+fn a_brake_that_warms_up_is_not_put_aside_for_a_gain_for_every_trial() {
+    let report = diagnosed(Plant::Bench, 2621);
+    assert_eq!(
+        only(&report).mechanism,
+        "thermal_fade",
+        "{}",
+        report.summary
+    );
+    let held_out = report.fit.unwrap().held_out.unwrap();
+    assert!(held_out.after < 0.5 * held_out.before, "{held_out:?}");
+}
