@@ -162,11 +162,11 @@ pub const fn status(probability: f64) -> &'static str {
 /// Explains a recording on top of the terms of its nominal model.
 ///
 /// The noise of a round of search is what the best explanation of the round before leaves. Where a
-/// round finds one that leaves much less, its noise was unexplained physics, and another follows.
-/// The leading explanations of a round compete in the next one.
+/// round names nothing although it found what leaves much less, its noise was unexplained physics,
+/// and another follows. The leading explanations of a round compete in the next one.
 pub fn explain(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection, Explanations) {
     let mut round = Round::of(problem, &nominal, problem.floor, ROWS_A_SAMPLE, 0, &[]);
-    let (last, noise) = loop {
+    let living = loop {
         let rows_a_sample = round.rows_a_sample(problem);
         let left = round.leaves(problem, &nominal);
         let mut found = round.leading();
@@ -175,11 +175,13 @@ pub fn explain(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection, Exp
         terms.for_each(|term| problem.refresh(term));
         let noise = left.max(problem.floor);
         round = Round::of(problem, &nominal, noise, rows_a_sample, EXCHANGES, &found);
-        if round.leaves(problem, &nominal).max(problem.floor) > EXPLAINED_LEFT * noise {
-            break (round, noise);
+        let living = round.weighed(problem, noise);
+        let names_nothing = living.first().is_none_or(|own| own.terms.is_empty());
+        let least = round.leaves(problem, &nominal).max(problem.floor);
+        if !names_nothing || least > EXPLAINED_LEFT * noise {
+            break living;
         }
     };
-    let living = last.weighed(problem, noise);
     let explanations = Explanations { living };
     (selected(problem, nominal, &explanations), explanations)
 }
@@ -189,6 +191,9 @@ struct Round {
     folds: Folds,
     bare: Fitted,
     all: Vec<Fitted>,
+    /// Those in which a described law changes. They do not say what is noise: with a change of
+    /// every law at hand, some law changes a little in every recording.
+    changed: Vec<Fitted>,
 }
 
 impl Round {
@@ -228,8 +233,15 @@ impl Round {
             judge: &judge,
             bare: &bare,
         };
-        all.extend(late.found(&leading, &tried, &shapes_of(problem, nominal, false)));
-        Round { folds, bare, all }
+        all.extend(late.found(&leading, &tried));
+        let mut changed = late.changed(&leading, &tried, &shapes_of(problem, nominal, false));
+        changed.retain(|own| !all.iter().any(|other| own.is_like(other)));
+        Round {
+            folds,
+            bare,
+            all,
+            changed,
+        }
     }
 
     fn predicts_best(&self) -> Option<&Fitted> {
@@ -259,14 +271,19 @@ impl Round {
         discrepancy::rows_a_sample(problem, &self.folds, &residual.unwrap_or_default())
     }
 
-    fn weighed(self, problem: &Problem, noise: f64) -> Vec<Explanation> {
+    fn weighed(&self, problem: &Problem, noise: f64) -> Vec<Explanation> {
         let judge = Judge::of(problem, noise, self.rows_a_sample(problem));
-        let Round { folds, bare, all } = self;
-        let all = all.into_iter().filter(|own| {
+        let Round {
+            folds,
+            bare,
+            all,
+            changed,
+        } = self;
+        let all = all.iter().chain(changed).filter(|own| {
             let mut terms = own.terms.iter();
-            judge.all_matter(&folds, &bare, own) && !terms.any(|term| is_at_an_end(problem, term))
+            judge.all_matter(folds, bare, own) && !terms.any(|term| is_at_an_end(problem, term))
         });
-        let scored = ranked(problem, &folds, &judge, all.collect());
+        let scored = ranked(problem, folds, &judge, all.cloned().collect());
         living(problem, folds.rows(), scored, noise)
     }
 }

@@ -4,15 +4,17 @@ use std::io::IsTerminal;
 use std::path::Path;
 
 use rigproof_diagnose::report::{EffectReport, Number, Report, Verdict};
+use rigproof_model::effects::entry;
 use rigproof_report::number::{interval, percent, probability, told};
 use rigproof_report::words::{called_at, list, plain_at, plain_cause};
+use rigproof_spec::effect::Mechanism;
 
 use super::found::regime;
 
 /// The most lines of a summary.
 pub const MOST_LINES: usize = 14;
-/// The lines that a summary needs beside its names: verdict, place, error, doubt, next step, page.
-const FRAME: usize = 6;
+/// The lines that a summary needs beside its names: verdict, place, error, doubt, what tells apart, next step, page.
+const FRAME: usize = 7;
 
 /// A verdict in bold and in a colour of its own, for a terminal only.
 pub struct Style {
@@ -57,6 +59,7 @@ pub fn summary(report: &Report, next: &str, page: &Path) -> String {
     lines.extend(names(report));
     lines.extend(error(report));
     lines.extend(doubt(report));
+    lines.extend(told_apart(report));
     lines.push(line("next", next));
     lines.push(line("page", &page.display().to_string()));
     lines.join("\n")
@@ -176,13 +179,10 @@ fn error(report: &Report) -> Option<String> {
 
 /// What else would explain the recording, or what is still unexplained.
 fn doubt(report: &Report) -> Option<String> {
-    let mut rivals: Vec<String> = Vec::new();
-    for rival in report.ambiguous_with.iter().flatten() {
-        let words = format!("{} ({rival})", plain_cause(rival));
-        if !rivals.contains(&words) {
-            rivals.push(words);
-        }
-    }
+    let rivals: Vec<String> = rivals(report)
+        .iter()
+        .map(|rival| format!("{} ({rival})", plain_cause(rival)))
+        .collect();
     let left = report.floor.as_ref().map(|floor| floor.ratio_after);
     let said = match (rivals.as_slice(), report.verdict) {
         ([], Verdict::PartlyExplained | Verdict::NoneOfLibrary) => {
@@ -190,12 +190,43 @@ fn doubt(report: &Report) -> Option<String> {
         }
         ([], _) => return None,
         ([one], _) => format!("this recording cannot rule out {one}"),
+        ([one, other], _) => format!("this recording cannot rule out {one}, nor {other}"),
         ([one, rest @ ..], _) => format!(
             "this recording cannot rule out {one}, nor {} more",
             rest.len()
         ),
     };
     Some(line("doubt", &said))
+}
+
+/// The causes that would explain as much as a name, each once.
+fn rivals(report: &Report) -> Vec<&str> {
+    let mut rivals: Vec<&str> = Vec::new();
+    for rival in report.ambiguous_with.iter().flatten() {
+        if !rivals.contains(&rival.as_str()) {
+            rivals.push(rival);
+        }
+    }
+    rivals
+}
+
+/// What would tell a cause from its first rival, where no experiment was found that does.
+fn told_apart(report: &Report) -> Option<String> {
+    let pairs = report.effects.iter().zip(&report.ambiguous_with);
+    let (effect, rival) = pairs
+        .filter_map(|(effect, rivals)| Some((effect, rivals.first()?)))
+        .find(|_| report.next_experiment.is_none())?;
+    let name = rival.split(' ').next()?;
+    let refuted_by = entry(Mechanism::from_name(name)?)?.refuted_by;
+    (name != effect.mechanism).then(|| {
+        line(
+            "tell",
+            &format!(
+                "{} is refuted by {}, {name} by {refuted_by}",
+                effect.mechanism, effect.refuted_by
+            ),
+        )
+    })
 }
 
 fn line(what: &str, text: &str) -> String {

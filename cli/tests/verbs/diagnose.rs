@@ -19,6 +19,22 @@ fn bench() -> Desk {
     desk
 }
 
+/// A scale of the angle, a gain of the drive and a wrong inertia are one where the friction is unknown too.
+#[test]
+fn what_cannot_be_told_apart_is_suspected_with_what_would_tell() {
+    let desk = Desk::new();
+    let make = "blind make --plant axis --forms other --seed 2538 --out case";
+    desk.prints(make, 0);
+    let text = desk.prints("diagnose case/recording.csv --rig case/rig.toml", 0);
+    for said in [
+        "Cause suspected: the model may leave out",
+        "  doubt  this recording cannot rule out",
+        "  tell   gain_error is refuted by the same effort error at small and at large command, added_inertia by the described inertia on a swing or a scale",
+    ] {
+        assert!(text.contains(said), "{text}");
+    }
+}
+
 #[test]
 fn a_hidden_cause_is_named_and_shown_on_another_recording() {
     let desk = bench();

@@ -173,6 +173,15 @@ impl Fitted {
             .fold(self.clone(), |fitted, term| fitted.with(folds, term))
     }
 
+    /// Whether another fit has the same causes, late or not as here.
+    pub fn is_like(&self, other: &Fitted) -> bool {
+        let same =
+            |a: &Term, b: &Term| a.cause == b.cause && a.onset_s.is_some() == b.onset_s.is_some();
+        let mut own = self.terms.iter();
+        self.terms.len() == other.terms.len()
+            && own.all(|term| other.terms.iter().any(|own| same(own, term)))
+    }
+
     pub fn by_term(&self) -> Vec<&[f64]> {
         let mut rest = self.coefficients.get(self.nuisance..).unwrap_or_default();
         let mut own = |term: &Term| {

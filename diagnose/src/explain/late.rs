@@ -34,24 +34,32 @@ impl Late<'_> {
     /// of these are refined between the points of the grid. Where one of them predicts better than
     /// every explanation without onset, every other term is tried from that onset on: the shape of
     /// a law over the whole recording says little about its shape after the onset.
-    /// A law whose numbers the description leaves open can change them: each term of `open` is tried
-    /// from an onset on, beside the nominal model and the leading explanations.
-    pub fn found(&self, ranked: &[Fitted], tried: &[Term], open: &[Term]) -> Vec<Fitted> {
+    pub fn found(&self, ranked: &[Fitted], tried: &[Term]) -> Vec<Fitted> {
         let places = ranked.iter().enumerate();
         let places = places.filter(|(place, own)| own.terms.len() == 1 || *place < LATE);
         let moved = places
             .flat_map(|(_, own)| (0..own.terms.len()).filter_map(|index| self.apart(own, index)));
+        self.begun_at_best(moved.collect(), ranked, tried)
+    }
+
+    /// Explanations in which a law whose numbers the description leaves open changes them: each term
+    /// of `open` from an onset on, beside the nominal model and the leading explanations.
+    pub fn changed(&self, ranked: &[Fitted], tried: &[Term], open: &[Term]) -> Vec<Fitted> {
         let beside = || std::iter::once(self.bare).chain(ranked.iter().take(LATE));
-        let changed = open
+        let places = open
             .iter()
             .flat_map(|term| beside().map(|own| (own.clone(), term.clone())));
-        let all: Vec<(Fitted, Term)> = moved.chain(changed).collect();
-        let on_grid = all.into_par_iter().filter_map(|(others, term)| {
-            let grid = (1..ONSET_GRID).map(|k| k as f64 / ONSET_GRID as f64);
-            let all = grid.filter_map(|share| self.begun(&others, &term, share));
-            all.max_by(|a, b| a.evidence.total_cmp(&b.evidence))
-        });
-        let found = self.placed(on_grid.collect());
+        self.begun_at_best(places.collect(), ranked, &[tried, open].concat())
+    }
+
+    /// Each explanation with its term from the best onset on, and what takes the place of the best.
+    fn begun_at_best(
+        &self,
+        places: Vec<(Fitted, Term)>,
+        ranked: &[Fitted],
+        tried: &[Term],
+    ) -> Vec<Fitted> {
+        let found = self.placed(self.on_grid(places));
         let from_start = ranked
             .iter()
             .map(|own| self.judge.evidence(self.folds, own));
@@ -60,12 +68,22 @@ impl Late<'_> {
             .iter()
             .max_by(|a, b| a.evidence.total_cmp(&b.evidence));
         let exchanged = leading.filter(|own| own.evidence > most).map(|leading| {
-            let shapes = self.exchanged(leading, &[tried, open].concat());
+            let shapes = self.exchanged(leading, tried);
             self.placed(shapes)
         });
         let all = found.into_iter().chain(exchanged.into_iter().flatten());
         let best = self.best_of_each(all.collect()).into_iter();
         best.map(|own| own.fitted).collect()
+    }
+
+    /// Each explanation with each term from the best onset on a grid.
+    fn on_grid(&self, places: Vec<(Fitted, Term)>) -> Vec<Begun> {
+        let begun = places.into_par_iter().filter_map(|(others, term)| {
+            let grid = (1..ONSET_GRID).map(|k| k as f64 / ONSET_GRID as f64);
+            let all = grid.filter_map(|share| self.begun(&others, &term, share));
+            all.max_by(|a, b| a.evidence.total_cmp(&b.evidence))
+        });
+        begun.collect()
     }
 
     /// An explanation without one of its terms, and that term.
@@ -76,8 +94,8 @@ impl Late<'_> {
             .map(|term| (self.bare.of(self.folds, &others), term))
     }
 
-    /// The explanations with every other term in the place of the late one, from the same onset on.
-    /// The best get refined shapes.
+    /// The explanations with every other term in the place of the late one, from about the same
+    /// onset on. The best get refined shapes.
     fn exchanged(&self, leading: &Begun, tried: &[Term]) -> Vec<Begun> {
         let last = leading.fitted.terms.len().saturating_sub(1);
         let Some((others, _)) = self.apart(&leading.fitted, last) else {
@@ -86,7 +104,10 @@ impl Late<'_> {
         let open = tried.par_iter();
         let open = open.filter(|term| may_join(&others.terms, term));
         let begun = open.filter_map(|term| self.begun(&others, term, leading.share));
-        let mut best = self.best_of_each(begun.collect());
+        // Each law from its own onset on: a little beside it, the right one may be among the last.
+        let each = self.best_of_each(begun.collect()).into_par_iter();
+        let begun = each.filter_map(|own| self.at_its_onset(own));
+        let mut best = self.ranked(begun.collect());
         best.truncate(BEAM);
         let refined = best.into_par_iter().map(|own| {
             let fitted = refined(self.problem, self.folds, self.judge, self.bare, own.fitted);
@@ -103,22 +124,25 @@ impl Late<'_> {
     fn placed(&self, on_grid: Vec<Begun>) -> Vec<Begun> {
         let mut best = self.ranked(on_grid);
         best.truncate(BEAM);
-        let placed = best.into_par_iter().filter_map(|mut best| {
-            let last = best.fitted.terms.len().checked_sub(1)?;
-            let (others, term) = self.apart(&best.fitted, last)?;
-            let mut stride = 0.5 / ONSET_GRID as f64;
-            for _ in 0..ONSET_HALVINGS {
-                for share in [best.share - stride, best.share + stride] {
-                    let moved = self.begun(&others, &term, share);
-                    best = moved
-                        .filter(|moved| moved.evidence > best.evidence)
-                        .unwrap_or(best);
-                }
-                stride *= 0.5;
+        let placed = best.into_par_iter();
+        placed.filter_map(|own| self.at_its_onset(own)).collect()
+    }
+
+    /// An explanation with its onset refined between the points of the grid.
+    fn at_its_onset(&self, mut best: Begun) -> Option<Begun> {
+        let last = best.fitted.terms.len().checked_sub(1)?;
+        let (others, term) = self.apart(&best.fitted, last)?;
+        let mut stride = 0.5 / ONSET_GRID as f64;
+        for _ in 0..ONSET_HALVINGS {
+            for share in [best.share - stride, best.share + stride] {
+                let moved = self.begun(&others, &term, share);
+                best = moved
+                    .filter(|moved| moved.evidence > best.evidence)
+                    .unwrap_or(best);
             }
-            Some(best)
-        });
-        placed.collect()
+            stride *= 0.5;
+        }
+        Some(best)
     }
 
     /// The best explanation of each set of causes, the best first.

@@ -72,7 +72,7 @@ pub(super) const SKEW_ENTRY: Entry = Entry {
         ..Facts::of(
             Family::Sensor,
             Asked {
-                alone: Alone::WithDrive,
+                alone: Alone::Always,
                 five_bar: Where::Whole,
             },
             Words {
