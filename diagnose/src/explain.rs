@@ -233,9 +233,15 @@ impl Round {
             judge: &judge,
             bare: &bare,
         };
-        all.extend(late.found(&leading, &tried));
-        let mut changed = late.changed(&leading, &tried, &shapes_of(problem, nominal, false));
-        changed.retain(|own| !all.iter().any(|other| own.is_like(other)));
+        let begun = late.found(&leading, &tried);
+        let mut changed = Vec::new();
+        // The first round only says what is noise.
+        if !found.is_empty() {
+            let leading = [leading, begun.clone()].concat();
+            changed = late.changed(&leading, &tried, &shapes_of(problem, nominal, false));
+            changed.retain(|own| !begun.iter().any(|other| own.is_like(other)));
+        }
+        all.extend(begun);
         Round {
             folds,
             bare,

@@ -68,7 +68,7 @@ impl Late<'_> {
             .iter()
             .max_by(|a, b| a.evidence.total_cmp(&b.evidence));
         let exchanged = leading.filter(|own| own.evidence > most).map(|leading| {
-            let shapes = self.exchanged(leading, tried);
+            let shapes = self.exchanged(leading, tried, most);
             self.placed(shapes)
         });
         let all = found.into_iter().chain(exchanged.into_iter().flatten());
@@ -95,8 +95,9 @@ impl Late<'_> {
     }
 
     /// The explanations with every other term in the place of the late one, from about the same
-    /// onset on. The best get refined shapes.
-    fn exchanged(&self, leading: &Begun, tried: &[Term]) -> Vec<Begun> {
+    /// onset on, where they predict better than every explanation from the start (`most`). The best
+    /// get refined shapes.
+    fn exchanged(&self, leading: &Begun, tried: &[Term], most: f64) -> Vec<Begun> {
         let last = leading.fitted.terms.len().saturating_sub(1);
         let Some((others, _)) = self.apart(&leading.fitted, last) else {
             return Vec::new();
@@ -106,6 +107,7 @@ impl Late<'_> {
         let begun = open.filter_map(|term| self.begun(&others, term, leading.share));
         // Each law from its own onset on: a little beside it, the right one may be among the last.
         let each = self.best_of_each(begun.collect()).into_par_iter();
+        let each = each.filter(|own| own.evidence > most);
         let begun = each.filter_map(|own| self.at_its_onset(own));
         let mut best = self.ranked(begun.collect());
         best.truncate(BEAM);
