@@ -1,4 +1,4 @@
-//! This file says that what changes while a recording goes on is named with its beginning: a law whose size is unknown anyway, one that a constant speed hardly tells from another, and a brake that warms up; and that a bench's force may be late.
+//! This file says that what changes while a recording goes on is named with its beginning: a law whose size is unknown anyway, and one that a constant speed hardly tells from another; and that a bench's force may be late.
 
 use rigproof_blind::{Forms, Plant, make_in};
 use rigproof_diagnose::report::{EffectReport, Report};
@@ -57,18 +57,4 @@ fn a_force_that_is_late_is_no_bristle() {
     assert_eq!(effect.mechanism, "channel_skew", "{}", report.summary);
     let delay_s = effect.parameters["delay"].value;
     assert!((delay_s - 0.00813).abs() < 0.0005, "{delay_s} s");
-}
-
-/// A brake loses torque by and by, and every trial of it could be given a gain of its own instead. The part that is held out begins warm.
-#[test]
-fn a_brake_that_warms_up_is_not_put_aside_for_a_gain_for_every_trial() {
-    let report = diagnosed(Plant::Bench, 2621);
-    assert_eq!(
-        only(&report).mechanism,
-        "thermal_fade",
-        "{}",
-        report.summary
-    );
-    let held_out = report.fit.unwrap().held_out.unwrap();
-    assert!(held_out.after < 0.5 * held_out.before, "{held_out:?}");
 }

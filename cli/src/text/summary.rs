@@ -212,20 +212,20 @@ fn rivals(report: &Report) -> Vec<&str> {
 
 /// What would tell a cause from its first rival, where no experiment was found that does.
 fn told_apart(report: &Report) -> Option<String> {
-    let pairs = report.effects.iter().zip(&report.ambiguous_with);
-    let (effect, rival) = pairs
-        .filter_map(|(effect, rivals)| Some((effect, rivals.first()?)))
-        .find(|_| report.next_experiment.is_none())?;
+    if report.next_experiment.is_some() {
+        return None;
+    }
+    let mut pairs = report.effects.iter().zip(&report.ambiguous_with);
+    let (effect, rival) = pairs.find_map(|(effect, rivals)| Some((effect, rivals.first()?)))?;
     let name = rival.split(' ').next()?;
     let refuted_by = entry(Mechanism::from_name(name)?)?.refuted_by;
-    (name != effect.mechanism).then(|| {
-        line(
-            "tell",
-            &format!(
-                "{} is refuted by {}, {name} by {refuted_by}",
-                effect.mechanism, effect.refuted_by
-            ),
-        )
+    let own = effect.mechanism;
+    (name != own).then(|| {
+        let text = format!(
+            "{own} is refuted by {}, {name} by {refuted_by}",
+            effect.refuted_by
+        );
+        line("tell", &text)
     })
 }
 

@@ -21,8 +21,6 @@ pub struct Braked<'a> {
     pub held: bool,
     /// Sample interval, s.
     pub step_s: f64,
-    /// The power that the brake took in before the first sample, sample by sample, W.
-    pub heated_by: &'a [f64],
 }
 
 impl Braked<'_> {
@@ -83,12 +81,11 @@ impl Braked<'_> {
 
     /// The yield torque lost per unit of fade. The heat decays with the time constant `time_s`.
     fn faded(&self, own: &[f64], time_s: f64) -> Vec<f64> {
-        let heated = |heat_j: f64, power: f64| heat_j + self.step_s * (power - heat_j / time_s);
-        let mut heat_j = self.heated_by.iter().copied().fold(0.0, heated);
+        let mut heat_j = 0.0;
         let pairs = own.iter().zip(self.motion);
         let fade = pairs.map(|(torque, now)| {
             let lost = torque * heat_j;
-            heat_j = heated(heat_j, torque * now.speed.abs());
+            heat_j += self.step_s * (torque * now.speed.abs() - heat_j / time_s);
             -lost
         });
         fade.collect()

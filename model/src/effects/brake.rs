@@ -128,7 +128,7 @@ pub(super) const THERMAL_FADE: Entry = Entry {
         ..Facts::of(
             Family::Brake,
             Asked {
-                alone: Alone::WithBrake,
+                alone: Alone::Never,
                 five_bar: Where::Brakes,
             },
             Words {

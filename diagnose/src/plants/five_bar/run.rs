@@ -149,7 +149,6 @@ impl FiveBarRun {
             current: self.currents.get(place(joint))?.as_ref()?,
             held: true,
             step_s: self.step_s,
-            heated_by: &[],
         })
     }
 

@@ -101,7 +101,6 @@ pub fn align(recorded: &Signals) -> Result<JointRun, Fault> {
         predicted,
         current,
         table: None,
-        heated_by: Vec::new(),
         position_noise,
         effort_noise,
         recorded: pairs.map(|(a, b)| a && b).collect(),

@@ -45,7 +45,7 @@ const LEFT_OUT: &[(Mechanism, &[f64], &[PlantKind])] = &[
     (BiasDrift, &[0.53, 1.7], BOTH),
     (Lag, &[0.021], AXIS),
     (GainError, &[-0.13], AXIS),
-    (ChannelSkew, &[0.017], AXIS),
+    (ChannelSkew, &[0.017], BOTH),
     (DriveSaturation, &[7.1], AXIS),
     (LoadFriction, &[0.19], AXIS),
     (FrictionFade, &[0.037, 0.061], BOTH),

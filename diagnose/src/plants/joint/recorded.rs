@@ -147,7 +147,6 @@ fn run(plant: PlantKind, motion: Vec<Instant>, effort: Vec<f64>, held: bool) -> 
         predicted: None,
         current: None,
         table: None,
-        heated_by: Vec::new(),
         position_noise: QUANTUM / 12f64.sqrt(),
         effort_noise: EFFORT_NOISE,
         speed_floor: 1e-4,

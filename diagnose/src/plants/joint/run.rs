@@ -64,8 +64,6 @@ pub struct JointRun {
     pub current: Option<Vec<f64>>,
     /// Bench: the brake whose torque is predicted.
     pub table: Option<BrakeTable>,
-    /// Bench with a brake: the power that it took in before the first sample, sample by sample, W.
-    pub heated_by: Vec<f64>,
     /// Standard deviation of one position sample, m or rad.
     pub position_noise: f64,
     /// Standard deviation of one effort sample, N or N·m.
@@ -151,16 +149,20 @@ impl JointRun {
             current,
             held: self.held,
             step_s: self.step_s,
-            heated_by: &self.heated_by,
         })
     }
 
-    /// The power that the brake takes in before sample `end`, sample by sample, W.
-    fn heated_until(&self, end: usize) -> Vec<f64> {
-        let own = self.brake().map_or(&[][..], |(torque, _)| torque);
-        let own = own.iter().zip(&self.motion).take(end);
-        let own = own.map(|(torque, now)| (torque * now.speed).abs());
-        self.heated_by.iter().copied().chain(own).collect()
+    /// Forgets the end of a recording whose motion, so much earlier or later, was not recorded.
+    pub fn forget_ends(&mut self, delay_s: f64) {
+        let count = (delay_s.abs() / self.step_s).ceil() as usize;
+        let count = count.min(self.recorded.len());
+        let from = match delay_s > 0.0 {
+            true => 0,
+            false => self.recorded.len() - count,
+        };
+        if let Some(ends) = self.recorded.get_mut(from..from + count) {
+            ends.fill(false);
+        }
     }
 
     /// Whether there are no samples.
@@ -185,7 +187,6 @@ impl JointRun {
             predicted: self.predicted.as_ref().map(part),
             current: self.current.as_ref().map(part),
             table: self.table,
-            heated_by: self.heated_until(from),
             position_noise: self.position_noise,
             effort_noise: self.effort_noise,
             recorded: self.recorded.get(from..to).unwrap_or_default().to_vec(),

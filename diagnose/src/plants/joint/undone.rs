@@ -57,6 +57,9 @@ pub(super) fn aligned(rig: &Rig, recording: &Recording, before_s: f64) -> Result
             Some(Drive::Skew) => false,
             Some(Drive::Limit) | None => continue,
         };
+        if let Some(Drive::Skew) = drive_of(effect) {
+            run.forget_ends(effect.value(0));
+        }
         let Some(predicted) = run.predicted.as_ref().filter(|_| of_predicted) else {
             run.metered_by.push(effect.clone());
             continue;
