@@ -292,10 +292,16 @@ fn smallest_direction(names: &[&str], columns: &[Vec<f64>]) -> Option<NullDirect
     })
 }
 
-/// The parameters of a term in the vocabulary's order: linear ones from the fit, then the shape.
+/// The parameters of a term in the vocabulary's order: linear ones from the fit, then the shape. A
+/// spring's place of rest follows from its force at zero.
 pub fn parameters(problem: &Problem, term: &Term, coefficients: &[f64]) -> Vec<f64> {
     let given = term.known.as_deref().unwrap_or(coefficients);
-    let mut parameters = problem.run.linear(term.cause.mechanism, given);
+    let mechanism = term.cause.mechanism;
+    if let (Mechanism::Spring, &[stiffness, level]) = (mechanism, given) {
+        let stated = term.shape.first().copied().unwrap_or(0.0);
+        return vec![stiffness, stated - level / stiffness];
+    }
+    let mut parameters = problem.run.linear(mechanism, given);
     parameters.extend_from_slice(&term.shape);
     parameters
 }

@@ -93,6 +93,10 @@ fn halves_of(problem: &Problem, columns: &[Sensitivity], residual: &[f64]) -> Ve
 /// Whether a shape number stands for the simpler law and is not determined: it ended at a bound, and
 /// its interval is wider than the range in which it was looked for.
 fn is_given(problem: &Problem, term: &Term, parameter: usize, half: f64) -> bool {
+    // A law may have a column more than linear parameters: that of its unknown zero.
+    if parameter < term.free.len() {
+        return false;
+    }
     let shape = parameter.checked_sub(parameter_count(term) - term.shape.len());
     shape.is_some_and(|shape| {
         let bounds = shape_bounds(problem, term.cause);

@@ -35,6 +35,10 @@ impl Stand<'_, FiveBar> {
         let second = terms.iter().zip(&coefficients);
         let second = second.filter_map(|(term, own)| {
             let mechanism = facts(term.cause.mechanism)?.zero?;
+            // A spring states its place of rest itself.
+            if term.cause.mechanism.parameters().len() > 1 {
+                return None;
+            }
             let mut level = *own.get(1)?;
             if let Some(encoder) = Encoder::of(self.train, term.cause, &term.shape) {
                 level = encoder.zero_at_zero_rad([*own.first()?, level]);
@@ -45,7 +49,7 @@ impl Stand<'_, FiveBar> {
                 onset: term.onset_s.map(Value::known),
                 of_torque: false,
             };
-            // A law whose zero is fitted is written as two effects.
+            // Another law whose zero is fitted is written as two effects.
             let cause = Cause::at(mechanism, term.cause.at);
             Some(self.at_places(cause, effect))
         });

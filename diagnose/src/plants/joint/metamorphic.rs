@@ -2,7 +2,7 @@
 //! a recording is written.
 
 use super::recorded::{EFFORT_NOISE, NOMINAL, QUANTUM, exact_axis, signals};
-use crate::report::Report;
+use crate::report::{Number, Report};
 use crate::{Options, diagnose};
 use rigproof_spec::effect::Mechanism;
 use rigproof_trace::rig::Rig;
@@ -23,6 +23,8 @@ struct Written {
     backwards: bool,
     /// Every n-th sample is written.
     every: usize,
+    /// What the position's column counts from, m.
+    from_m: f64,
 }
 
 const PLAIN: Written = Written {
@@ -32,6 +34,7 @@ const PLAIN: Written = Written {
     stamps: (0, 9),
     backwards: false,
     every: 1,
+    from_m: 0.0,
 };
 
 fn rig(written: &Written) -> Rig {
@@ -52,8 +55,13 @@ fn rig(written: &Written) -> Rig {
     Rig::parse(&text, Path::new("rig.toml")).unwrap()
 }
 
-/// Writes a recording of a slide with Coulomb friction to a file, reads it back and diagnoses it.
+/// The report of a slide with Coulomb friction that its description lacks.
 fn told(written: &Written, name: &str) -> Report {
+    told_by(&rig(written), written, name)
+}
+
+/// Writes a recording of the slide to a file, reads it back and diagnoses it by a description.
+fn told_by(rig: &Rig, written: &Written, name: &str) -> Report {
     let laws = [NOMINAL, &[(Mechanism::DryOffset, &[1.73])]].concat();
     let seen = signals(&exact_axis(&laws, 7_000, false), 53);
     let [position_sign, command_sign] = written.signs;
@@ -70,7 +78,7 @@ fn told(written: &Written, name: &str) -> Report {
             Some(rest) => format!("{whole}{rest}"),
             None => format!("{}{}", whole + 1, &rest[1..]),
         };
-        let x = position_sign * x * written.position.1;
+        let x = position_sign * (x - written.from_m) * written.position.1;
         let f = command_sign * f * written.command.1;
         text += &match written.backwards {
             true => format!("{f:e},{x:e},{stamp}\n"),
@@ -81,7 +89,6 @@ fn told(written: &Written, name: &str) -> Report {
     std::fs::create_dir_all(&folder).unwrap();
     let file = folder.join(format!("{name}.csv"));
     std::fs::write(&file, text).unwrap();
-    let rig = rig(written);
     let recording = rig.read_recording(&file);
     std::fs::remove_file(&file).unwrap();
     let options = Options {
@@ -89,7 +96,7 @@ fn told(written: &Written, name: &str) -> Report {
         next_experiment: false,
         ..Options::default()
     };
-    diagnose(&rig, &[&recording.unwrap()], None, &options).report
+    diagnose(rig, &[&recording.unwrap()], None, &options).report
 }
 
 /// The names in a report, and all parameters of found and nominal effects.
@@ -208,4 +215,31 @@ fn names_and_numbers_do_not_change_with_the_number_of_threads() {
             .install(|| told(&PLAIN, &format!("threads-{threads}")))
     };
     assert_same(&with(1), &with(3), 0.0, "three threads");
+}
+
+#[test]
+fn the_interval_of_a_spring_does_not_depend_on_where_positions_count_from() {
+    let from_m = 3.1;
+    let moved = Written { from_m, ..PLAIN };
+    let [here, there] = [("from-0", PLAIN), ("from-3", moved)].map(|(name, written)| {
+        let mut rig = rig(&written);
+        rig.effects.retain(|own| own.mechanism != Mechanism::Spring);
+        let report = told_by(&rig, &written, name);
+        let mut effects = report.effects.into_iter();
+        effects
+            .find(|own| own.mechanism == "spring")
+            .unwrap()
+            .parameters
+    });
+    let half = |own: &Number| 0.5 * (own.high95.unwrap() - own.low95.unwrap());
+    let [near, far] = [&here, &there].map(|own| &own["stiffness"]);
+    // The effective number of blocks behind an interval is by the energy of the column.
+    let wider = half(far) / half(near) - 1.0;
+    let off = far.value / near.value - 1.0;
+    assert!(
+        off.abs() < 1e-5 && wider.abs() < 0.2,
+        "{near:?} and {far:?}"
+    );
+    let rest_m = [&here, &there].map(|own| own["rest"].value);
+    assert!((rest_m[0] - rest_m[1] - from_m).abs() < 1e-5, "{rest_m:?}");
 }

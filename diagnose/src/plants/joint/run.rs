@@ -363,10 +363,7 @@ impl Run for JointRun {
             (Some(Form::Sensor(OfSensor::EncoderScale | OfSensor::Eccentric)), _) => {
                 coefficients.iter().map(|c| -c).collect()
             }
-            _ => match (mechanism, coefficients) {
-                (Mechanism::Spring, &[stiffness, level]) => vec![stiffness, -level / stiffness],
-                _ => coefficients.to_vec(),
-            },
+            _ => coefficients.to_vec(),
         }
     }
 
