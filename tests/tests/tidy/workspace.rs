@@ -56,7 +56,17 @@ pub fn folders() -> Vec<String> {
     folders
 }
 
+/// Whether a name is what the last part of a pattern of ignored files says, with one `*` at most.
+fn matches(pattern: &str, name: &str) -> bool {
+    let last = pattern.rsplit('/').next().unwrap_or(pattern);
+    match last.split_once('*') {
+        Some((before, after)) => name.starts_with(before) && name.ends_with(after),
+        None => last == name,
+    }
+}
+
 fn files(folder: &Path) -> Vec<String> {
+    let ignored = fs::read_to_string(root().join(".gitignore")).unwrap();
     let mut found = Vec::new();
     let mut waiting = vec![folder.to_path_buf()];
     while let Some(folder) = waiting.pop() {
@@ -64,7 +74,9 @@ fn files(folder: &Path) -> Vec<String> {
             let entry = entry.unwrap();
             let name = entry.file_name().into_string().unwrap();
             let kind = entry.file_type().unwrap();
-            if ["target", ".git"].contains(&name.as_str()) {
+            // What the program, the proofs or a package write may change while it is read here.
+            let is_output = ignored.lines().any(|pattern| matches(pattern, &name));
+            if is_output || name == ".git" {
                 continue;
             }
             if kind.is_dir() {
