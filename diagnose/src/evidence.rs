@@ -299,7 +299,13 @@ pub fn parameters(problem: &Problem, term: &Term, coefficients: &[f64]) -> Vec<f
     let mechanism = term.cause.mechanism;
     if let (Mechanism::Spring, &[stiffness, level]) = (mechanism, given) {
         let stated = term.shape.first().copied().unwrap_or(0.0);
-        return vec![stiffness, stated - level / stiffness];
+        // Where only the force at zero is determined, there is no place of rest.
+        let away = if stiffness == 0.0 {
+            0.0
+        } else {
+            level / stiffness
+        };
+        return vec![stiffness, stated - away];
     }
     let mut parameters = problem.run.linear(mechanism, given);
     parameters.extend_from_slice(&term.shape);

@@ -188,6 +188,7 @@ fn a_rig_that_was_led_goes_on_as_the_one_that_went_there() {
                 free.base_angles_rad(),
                 free.base_rates_rad_s(),
                 currents_a,
+                [true; 4],
                 step_s,
             )
             .unwrap();

@@ -15,6 +15,9 @@ impl Rig {
     /// as in a step of `step_s` with these currents, A; a brake whose joint turns slips. What moved the rig is not asked for, so that work and
     /// dissipated energy stay as they are.
     ///
+    /// `told` says of which joints it is known that they turn: at the others the path is smoothed noise, which is no reversal, and what a
+    /// reversal begins anew stands still.
+    ///
     /// So a rig comes to the state that a recording implies, and can be let go there.
     ///
     /// # Errors
@@ -24,6 +27,7 @@ impl Rig {
         theta_rad: [f64; 2],
         rates_rad_s: [f64; 2],
         currents_a: [f64; 4],
+        told: [bool; 4],
         step_s: f64,
     ) -> Result<(), ModelError> {
         self.check_currents(currents_a)?;
@@ -41,7 +45,7 @@ impl Rig {
                 brake.step(given_a[i], angles[i], rates[i], step_s);
             }
         }
-        self.effects_follow(&pose, step_s);
+        self.effects_follow(&pose, told, step_s);
         (self.theta_rad, self.rates_rad_s, self.pose) = (theta_rad, rates_rad_s, pose);
         self.time_s += step_s;
         self.contacts = Contacts::starting(self.contacts.exist(), rates);
@@ -64,11 +68,11 @@ impl Rig {
     }
 
     /// Advances what the left-out physics remembers to where the joints stand in `pose`; the brakes are there already.
-    pub(super) fn effects_follow(&mut self, pose: &Pose, step_s: f64) {
+    pub(super) fn effects_follow(&mut self, pose: &Pose, told: [bool; 4], step_s: f64) {
         let travels_rad = self.travels_rad(pose);
         let own_nm = self.own_yields_nm();
         if let Some(effects) = &mut self.effects {
-            effects.follow(travels_rad, own_nm, step_s);
+            effects.follow(travels_rad, told, own_nm, step_s);
         }
     }
 

@@ -312,12 +312,21 @@ impl LeftOut {
         Done { drive, yields_nm }
     }
 
-    /// Advances what is remembered by a stretch in which the joints turned by `travels_rad` and the brakes alone yielded `own_nm`.
-    pub fn follow(&mut self, travels_rad: [f64; 4], own_nm: [f64; 4], step_s: f64) {
+    /// Advances what is remembered by a stretch in which the joints turned by `travels_rad`, known to be so where `told`, and the brakes
+    /// alone yielded `own_nm`.
+    pub fn follow(
+        &mut self,
+        travels_rad: [f64; 4],
+        told: [bool; 4],
+        own_nm: [f64; 4],
+        step_s: f64,
+    ) {
         self.ahead_s = (self.ahead_s - step_s).max(0.0);
         for (timed, memory) in self.terms.iter().zip(&mut self.memory) {
             match &timed.term {
-                Term::Law { place, law } | Term::Share { place, law } => {
+                Term::Law { place, law } | Term::Share { place, law }
+                    if told[*place] || !law.begins_anew() =>
+                {
                     let travel = travels_rad[*place];
                     *memory = law.memory_after(*memory, travel, travel / step_s);
                 }
@@ -389,8 +398,14 @@ mod tests {
                 let time_s = 1e-3 * f64::from(k);
                 let to = [a + 0.31 * time_s, b - 0.23 * time_s];
                 let current = if k / 200 % 2 == 0 { 0.43 } else { 0.07 };
-                rig.lead(to, [0.31, -0.23], [0.11, current, 0.13, 0.17], 1e-3)
-                    .unwrap();
+                rig.lead(
+                    to,
+                    [0.31, -0.23],
+                    [0.11, current, 0.13, 0.17],
+                    [true; 4],
+                    1e-3,
+                )
+                .unwrap();
                 rig.yield_torques_nm()[1]
             });
             steps.collect()

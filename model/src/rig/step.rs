@@ -145,7 +145,7 @@ impl Rig {
             .contacts
             .project(&instant.form, Vector2::new(end[2], end[3]));
         self.brakes = brakes;
-        self.effects_follow(&instant.pose, taken_s);
+        self.effects_follow(&instant.pose, [true; 4], taken_s);
         self.theta_rad = [end[0], end[1]];
         self.time_s += taken_s;
         self.work_j += end[8];

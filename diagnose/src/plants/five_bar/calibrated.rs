@@ -35,13 +35,15 @@ impl Stand<'_, FiveBar> {
         let second = terms.iter().zip(&coefficients);
         let second = second.filter_map(|(term, own)| {
             let mechanism = facts(term.cause.mechanism)?.zero?;
-            // A spring states its place of rest itself.
-            if term.cause.mechanism.parameters().len() > 1 {
+            let [size, mut level] = *own.get(..2)? else {
+                return None;
+            };
+            // A spring states its place of rest itself, unless only its force is determined.
+            if term.cause.mechanism.parameters().len() > 1 && size != 0.0 {
                 return None;
             }
-            let mut level = *own.get(1)?;
             if let Some(encoder) = Encoder::of(self.train, term.cause, &term.shape) {
-                level = encoder.zero_at_zero_rad([*own.first()?, level]);
+                level = encoder.zero_at_zero_rad([size, level]);
             }
             let effect = RigEffect {
                 mechanism,

@@ -231,7 +231,9 @@ fn led(model: &Model, run: &FiveBarRun, starts: &[usize]) -> Result<Vec<Rig>, Mo
     let mut starts = starts.iter().peekable();
     for (k, (theta, rates)) in (0..).zip(core::iter::once((theta, rates)).chain(at)) {
         if k > 0 {
-            rig.lead(theta, rates, currents_at(run, k - 1), run.step_s)?;
+            let joints = run.joints.each_ref();
+            let told = joints.map(|joint| joint.get(k).is_some_and(|now| now.sense.abs() >= 1.0));
+            rig.lead(theta, rates, currents_at(run, k - 1), told, run.step_s)?;
         }
         while starts.next_if(|start| **start == k).is_some() {
             there.push(rig.clone());

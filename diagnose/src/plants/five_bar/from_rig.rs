@@ -19,10 +19,11 @@ use rigproof_model::brake::{Brake, ENTRY_TRAVEL_DEG};
 use rigproof_model::effects::Instant;
 use rigproof_model::error::ModelError;
 use rigproof_model::rig::Parameters;
+use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::tables::{BrakeTable, brake_table};
 use rigproof_spec::units::RAD_PER_DEG;
-use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording};
+use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording, JointEffect};
 use rigproof_trace::rig::{Signal, Status};
 
 /// Aligns a recording of a five-bar.
@@ -78,6 +79,7 @@ pub fn aligned(rig: &FiveBar, recording: &FiveBarRecording) -> Result<FiveBarRun
         currents,
         yields: [const { Vec::new() }; 4],
         yield_errors: [const { Vec::new() }; 4],
+        stated_gaps_rad: Joint::ALL.map(|joint| stated_gap_rad(rig, joint)),
         theta_noise,
         still_rad: (STILL_QUANTA * quantum).max(STILL_SIGMAS * theta_noise),
         force_noise,
@@ -290,17 +292,47 @@ fn yield_errors(run: &FiveBarRun, joint: Joint, untold: &Untold) -> Vec<f64> {
 }
 
 fn errors_of_brake(run: &FiveBarRun, joint: Joint, untold: &Untold) -> Option<Vec<f64>> {
-    let (motion, own) = (run.motion_of(joint), run.yields.get(place(joint))?);
+    let table = brake_table(joint);
+    let own = errors_with(run, joint, untold, table)?;
+    let Some(gap_rad) = *run.stated_gaps_rad.get(place(joint))? else {
+        return Some(own);
+    };
+    // It may have the stated width from an onset on only.
+    let stated = BrakeTable {
+        backlash_width_deg: gap_rad / RAD_PER_DEG,
+        ..table
+    };
+    let stated = errors_with(run, joint, untold, stated)?;
+    Some(own.iter().zip(&stated).map(|(a, b)| a.max(*b)).collect())
+}
+
+/// The width of the backlash that a description states for a joint, rad.
+fn stated_gap_rad(rig: &FiveBar, joint: Joint) -> Option<f64> {
+    let mut effects = rig.effects.iter();
+    let is_gap = |own: &&JointEffect| {
+        own.joint == Some(joint) && own.effect.mechanism == Mechanism::BacklashWidth
+    };
+    Some(effects.find(is_gap)?.effect.values.first()?.value)
+}
+
+/// The uncertainty of the yield torque of a brake, N·m, with the numbers of a table.
+fn errors_with(
+    run: &FiveBarRun,
+    joint: Joint,
+    untold: &Untold,
+    table: BrakeTable,
+) -> Option<Vec<f64>> {
+    let motion = run.motion_of(joint);
     let braked = run.braked(joint)?;
     let start = motion.first()?.position;
     let along = |brake, motion: &[Instant]| Braked { motion, ..braked }.yields_of(brake);
     let untold = untold_of_joint(run, joint, untold);
     let turned = [1.0, -1.0].map(|sign| turning(motion, &untold, sign));
-    let nominal = || Brake::new(joint, start);
+    let nominal = || Brake::of(table, start);
+    let own = along(nominal(), motion);
     let mut others: Vec<Vec<f64>> = turned.map(|motion| along(nominal(), &motion)).into();
-    let table = brake_table(joint);
     if table.backlash_width_deg == 0.0 {
-        return Some(greatest_change(own, &others));
+        return Some(greatest_change(&own, &others));
     }
     others.push(along(nominal(), &a_sample_late(motion)));
     let angle_deg = turning_point_error(run, joint, &untold) / RAD_PER_DEG;
@@ -319,7 +351,7 @@ fn errors_of_brake(run: &FiveBarRun, joint: Joint, untold: &Untold) -> Option<Ve
         let brake = Brake::of(changed, start).with_backlash_entry(start, entry_deg);
         others.push(along(brake, motion));
     }
-    Some(greatest_change(own, &others))
+    Some(greatest_change(&own, &others))
 }
 
 /// The speed of a joint below which its direction cannot be told, one value per sample, rad/s.

@@ -47,6 +47,7 @@ fn blank(layout: Layout) -> FiveBarRun {
         currents: Joint::ALL.map(|joint| braked(joint).then(Vec::new)),
         yields: Default::default(),
         yield_errors: Default::default(),
+        stated_gaps_rad: [None; 4],
         theta_noise: 1e-9,
         still_rad: 1e-9,
         cutoff_hz: 1e3,

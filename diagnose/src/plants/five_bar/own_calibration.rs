@@ -156,14 +156,22 @@ fn names(diagnosis: &Diagnosis<FiveBar>) -> Vec<(&'static str, Option<&'static s
 }
 
 /// What is wrong with a model whose free runs do not end nearer to the recording than those of the
-/// rig without the effect.
-fn ends_no_nearer(model: &FiveBar, recording: &FiveBarRecording) -> Option<String> {
-    let tip_m = |model: &FiveBar| {
+/// rig without the effect. Where the effect moves the tip by less than the free runs of a true
+/// description miss it by, they may miss it by that much.
+fn ends_no_nearer(model: &FiveBar, recording: &FiveBarRecording, seed: u64) -> Option<String> {
+    let tip_m = |model: &FiveBar, recording: &FiveBarRecording| {
         let free = model.simulated(model, recording, 0.3).unwrap();
         rms(&free.outputs[2].simulated)
     };
-    let (with, without) = (tip_m(model), tip_m(&rig(Layout::FourBrake)));
-    (with > 0.5 * without).then(|| format!("free runs: {with} m with it, {without} without"))
+    let nominal = rig(Layout::FourBrake);
+    let (with, without) = (tip_m(model, recording), tip_m(&nominal, recording));
+    if with <= 0.5 * without {
+        return None;
+    }
+    let least = tip_m(&nominal, &recorded(&nominal, seed));
+    (with > 1.1 * least).then(|| {
+        format!("free runs: {with} m with it, {without} without, {least} where nothing is left out")
+    })
 }
 
 /// Fails with what is wrong in each case.
@@ -187,7 +195,7 @@ fn a_description_that_states_the_truth_is_obeyed() {
             let said = (&found.report.summary, names(&found), &found.report.floor);
             wrong.push(format!("{said:?}"));
         }
-        wrong.extend(ends_no_nearer(&stated, &recording));
+        wrong.extend(ends_no_nearer(&stated, &recording, seed));
         wrong
     });
 }
@@ -199,7 +207,10 @@ fn with_its_own_calibration_nothing_is_named_again() {
         let recording = recorded(&stating(own), seed);
         let first = diagnose(&rig(Layout::FourBrake), &[&recording], None, &options());
         let toml = first.calibration.to_toml();
-        let calibration = FiveBar::parse(&toml, Path::new("calibration.toml")).unwrap();
+        let calibration = match FiveBar::parse(&toml, Path::new("calibration.toml")) {
+            Ok(calibration) => calibration,
+            Err(error) => return vec![format!("{error}\n{toml}")],
+        };
         let again = diagnose(&calibration, &[&recording], None, &options());
         // Something was left out, and the recording is long enough to show it.
         let is_seen = first.report.verdict != Verdict::Consistent;
@@ -210,7 +221,7 @@ fn with_its_own_calibration_nothing_is_named_again() {
             let then = (&again.report.summary, names(&again));
             wrong.push(format!("{said:?}, then {then:?}"));
         }
-        wrong.extend(ends_no_nearer(&calibration, &recording));
+        wrong.extend(ends_no_nearer(&calibration, &recording, seed));
         wrong
     });
 }

@@ -46,6 +46,8 @@ pub struct FiveBarRun {
     pub yields: [Vec<f64>; 4],
     /// The uncertainty of the nominal yield torques from that of their backlash, N·m.
     pub yield_errors: [Vec<f64>; 4],
+    /// The backlash of A, E, B, C where the description states another width than the table, rad.
+    pub stated_gaps_rad: [Option<f64>; 4],
     /// Standard deviation of one angle sample, rad.
     pub theta_noise: f64,
     /// The travel within which a joint may be at rest, rad.
@@ -233,6 +235,7 @@ impl FiveBarRun {
             currents: self.currents.each_ref().map(|c| c.as_ref().map(part)),
             yields: self.yields.each_ref().map(part),
             yield_errors: self.yield_errors.each_ref().map(part),
+            stated_gaps_rad: self.stated_gaps_rad,
             theta_noise: self.theta_noise,
             still_rad: self.still_rad,
             cutoff_hz: self.cutoff_hz,
