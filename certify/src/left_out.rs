@@ -121,7 +121,7 @@ pub fn role(mechanism: Mechanism) -> Option<Role> {
         Form::Sensor(OfSensor::ForceGain | OfSensor::ForceBias | OfSensor::ForceRotation) => {
             Some(Role::Force)
         }
-        Form::Drive(Drive::Lag | Drive::Skew | Drive::Limit)
+        Form::Drive(Drive::Lag | Drive::Skew | Drive::Limit | Drive::Rate)
         | Form::Joint(_)
         | Form::Brake(OfBrake::ThermalFade)
         | Form::Linkage(

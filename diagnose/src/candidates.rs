@@ -12,8 +12,8 @@ use crate::rules::{
     LIMIT_SHARES, LIMITS, MEMORY_COUNT, MEMORY_RATES, MEMORY_RATIOS, MOST_A_TURN, MOST_BEND,
     MOST_CYCLES, MOST_DELAY_S, MOST_GAP, MOST_LAG_S_JOINT, MOST_SHIFT_S_JOINT, MOST_SHIFT_STEPS,
     PEAK_EXPONENTS_JOINT, PEAK_SPEEDS, PEAKS, PEAKS_APART, PLAYED_SHARES, RESONANCE_DAMPINGS,
-    RESONANCE_STEPS, RESONANCES, SHIFTS_JOINT, SLOWEST_PEAK, SLOWEST_PEAK_FLOORS,
-    SLOWEST_RESONANCE, SPACING,
+    RESONANCE_STEPS, RESONANCES, RISE_TIMES_S, ROUND_LIMIT_SHARES, SHARPNESSES, SHIFTS_JOINT,
+    SLOWEST_PEAK, SLOWEST_PEAK_FLOORS, SLOWEST_RESONANCE, SPACING,
 };
 use crate::weak::Windows;
 use core::f64::consts::TAU;
@@ -151,7 +151,8 @@ pub fn standard_shapes<R: Run + ?Sized>(
             GAPS,
         )),
         Shapes::Resonance => resonances(step_s),
-        Shapes::EffortLimit => one(effort_limits(&run.effort())),
+        Shapes::EffortLimit => effort_limits(&run.effort()),
+        Shapes::EffortRate => one(effort_rates(&run.effort())),
         Shapes::Period => {
             let points = points(run.motion(cause.at), windows, residual);
             let mut all = periods(&points, run.travel(cause.at));
@@ -234,11 +235,33 @@ pub fn current_limits(given: &[f64]) -> Vec<f64> {
     geometric(lowest * greatest, highest * greatest, LIMITS)
 }
 
-/// Trial limits of the effort, below the greatest command.
-fn effort_limits(effort: &[f64]) -> Vec<f64> {
-    let greatest = effort.iter().fold(0.0, |most: f64, e| most.max(e.abs()));
+/// Trial limits of the effort: sharp ones below the greatest command, and round ones, which an
+/// effort feels before it reaches them.
+fn effort_limits(effort: &[f64]) -> Vec<Vec<f64>> {
+    let greatest = greatest(effort);
     let [lowest, highest] = EFFORT_LIMIT_SHARES;
-    geometric(lowest * greatest, highest * greatest, EFFORT_LIMITS)
+    let sharp = geometric(lowest * greatest, highest * greatest, EFFORT_LIMITS);
+    let [lowest, highest] = ROUND_LIMIT_SHARES;
+    let round = geometric(lowest * greatest, highest * greatest, LIMITS);
+    let bent = round
+        .into_iter()
+        .flat_map(|limit| SHARPNESSES.map(|sharpness| vec![limit, sharpness]));
+    sharp
+        .into_iter()
+        .map(|limit| vec![limit])
+        .chain(bent)
+        .collect()
+}
+
+/// Trial rates of the effort: those that reach the greatest command within a time.
+fn effort_rates(effort: &[f64]) -> Vec<f64> {
+    let [longest_s, shortest_s] = RISE_TIMES_S;
+    let greatest = greatest(effort);
+    geometric(greatest / longest_s, greatest / shortest_s, LAGS_JOINT)
+}
+
+fn greatest(effort: &[f64]) -> f64 {
+    effort.iter().fold(0.0, |most: f64, e| most.max(e.abs()))
 }
 
 /// The integer fractions of a turn up to a longest one.

@@ -17,7 +17,7 @@ use crate::weak::{Windows, is_recorded, untold};
 use crate::whiten::Whitener;
 use core::fmt::Debug;
 use rigproof_model::bench::column;
-use rigproof_model::effects::{Form, Instant, entry};
+use rigproof_model::effects::{Form, Instant, Law, entry};
 use rigproof_spec::effect::{Mechanism, Motion};
 
 pub use crate::align::Fault;
@@ -261,7 +261,7 @@ pub trait Run: Debug + Send + Sync {
     /// The columns of a resistance along the motion at its place, with Numerov's weights.
     fn resistances(&self, cause: Cause, shape: &[f64]) -> Option<Columns> {
         let (motion, step_s) = (self.motion(cause.at), self.clock().step_s);
-        let own = resistances(motion, step_s, cause, shape)?;
+        let own = resistances(cause, shape, |law| column(law, motion, step_s))?;
         Some(Columns::Free(
             own.iter().map(|signal| numerov(signal)).collect(),
         ))
@@ -375,13 +375,12 @@ pub trait Run: Debug + Send + Sync {
     }
 }
 
-/// One signal per linear parameter of a resistance along a motion: the law with that parameter 1
-/// and the others 0. `None` for a mechanism that is no resistance.
+/// One signal per linear parameter of a resistance: the law with that parameter 1 and the others 0,
+/// `along` a motion. `None` for a mechanism that is no resistance.
 pub fn resistances(
-    motion: &[Instant],
-    step_s: f64,
     cause: Cause,
     shape: &[f64],
+    along: impl Fn(&dyn Law) -> Vec<f64>,
 ) -> Option<Vec<Vec<f64>>> {
     let entry = entry(cause.mechanism)?;
     if !matches!(entry.form, Form::Resistance(_) | Form::ShareOfBrake(_)) {
@@ -390,7 +389,7 @@ pub fn resistances(
     let each = unit_parameters(entry.linear, shape);
     each.map(|parameters| {
         let law = cause.law(&parameters)?;
-        Some(column(law.as_ref(), motion, step_s))
+        Some(along(law.as_ref()))
     })
     .collect()
 }

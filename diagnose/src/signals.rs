@@ -44,6 +44,19 @@ pub fn second_difference(position: &[f64], step_s: f64) -> Vec<f64> {
     out
 }
 
+/// The travel between samples without the apparent motion of a joint at rest: what a recorded
+/// position pushes that may lie up to `half` away from it.
+pub fn known_travel(positions: impl Iterator<Item = f64>, half: f64) -> Vec<f64> {
+    let mut known: Option<f64> = None;
+    let travels = positions.map(|position| {
+        let before = known.unwrap_or(position);
+        let after = before.clamp(position - half, position + half);
+        known = Some(after);
+        after - before
+    });
+    travels.collect()
+}
+
 /// `signal(t + delay)`, with `delay` in samples: linear between samples, held at the ends.
 pub fn shifted(signal: &[f64], delay: f64) -> Vec<f64> {
     let last = signal.len().saturating_sub(1) as f64;

@@ -18,6 +18,7 @@ mod eccentric_encoder;
 pub mod facts;
 mod hysteresis;
 mod lag;
+mod limits;
 mod linkage;
 mod lugre_bristle;
 mod nonlinear_spring;
@@ -32,6 +33,7 @@ mod velocity_power;
 mod viscous;
 
 pub use lag::{first_order_lag_held, first_order_lag_straight, lagged, lagged_held};
+pub use limits::{limited, slewed};
 pub use play::{CurrentPlay, PLAYS, Played};
 
 use facts::{Facts, Family, Words};
@@ -143,6 +145,8 @@ pub enum Drive {
     Skew,
     /// A greatest effort.
     Limit,
+    /// A greatest rate of the effort.
+    Rate,
 }
 
 /// What a brake does with its current.
@@ -255,7 +259,8 @@ pub const LIBRARY: &[Entry] = &[
     lag::ENTRY,
     lag::GAIN_ENTRY,
     lag::SKEW_ENTRY,
-    lag::LIMIT_ENTRY,
+    limits::ENTRY,
+    limits::RATE_ENTRY,
     reversal_overshoot::ENTRY,
     reversal_overshoot::OF_FRICTION,
     settling::ENTRY,

@@ -213,7 +213,12 @@ vocabulary! {
         needed("zz", MomentOfInertia),
     ],
     /// A greatest effort of the drive.
-    DriveSaturation = "drive_saturation" called "saturation of the drive" | "torque limit" | "torque saturation" [needed("limit", Effort).above_zero()],
+    DriveSaturation = "drive_saturation" called "saturation of the drive" | "torque limit" | "torque saturation" [
+        needed("limit", Effort).above_zero(),
+        optional("sharpness", Number).above_zero(),
+    ],
+    /// A greatest rate of the drive's effort.
+    RateLimit = "rate_limit" called "slew-rate limit of the drive" | "slew rate" | "rate limiter" | "slew limit" [needed("rate", EffortPerTime).above_zero()],
     /// Time stamps that scatter about an even clock.
     ClockJitter = "clock_jitter" called "jitter of the time stamps" | "jitter" | "time stamps" [needed("jitter", Time).not_below_zero()],
     /// An encoder whose disc turns off its centre.

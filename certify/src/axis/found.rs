@@ -198,7 +198,7 @@ fn why_not(effect: &RigEffect) -> Option<&'static str> {
     let first = effect.values.first().map_or(0.0, |own| own.value);
     match entry(effect.mechanism)?.form {
         Form::Resistance(_)
-        | Form::Drive(Drive::Gain | Drive::Lag | Drive::Limit)
+        | Form::Drive(Drive::Gain | Drive::Lag | Drive::Limit | Drive::Rate)
         | Form::Joint(OfJoint::Load | OfJoint::Inertia | OfJoint::Compliance | OfJoint::Gap)
         | Form::Sensor(OfSensor::EncoderScale | OfSensor::EncoderOffset | OfSensor::Eccentric) => {
             None

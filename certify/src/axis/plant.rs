@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use rigproof_model::axis::{Axis, State, Trailing, Transmission};
-use rigproof_model::effects::{Drive, Form, OfJoint, OfSensor, form, lagged, law};
+use rigproof_model::effects::{Drive, Form, OfJoint, OfSensor, form, lagged, law, limited, slewed};
 
 use super::found::Drawn;
 
@@ -31,8 +31,17 @@ pub struct Plant {
 /// A change of the effort.
 enum Stage {
     Gain(f64),
-    Limit(f64),
-    Lag { time_constant_s: f64, state: f64 },
+    /// By the parameters of a saturation.
+    Limit(Vec<f64>),
+    /// At a greatest rate, N/s or N·m/s.
+    Rate {
+        most: f64,
+        state: f64,
+    },
+    Lag {
+        time_constant_s: f64,
+        state: f64,
+    },
 }
 
 impl Plant {
@@ -62,7 +71,7 @@ impl Plant {
         for (mechanism, numbers) in &drawn.effects {
             let number = |index: usize| numbers.get(index).copied().unwrap_or(0.0);
             match form(*mechanism) {
-                Some(Form::Drive(of)) => plant.driven(of, number(0)),
+                Some(Form::Drive(of)) => plant.driven(of, numbers),
                 Some(Form::Joint(OfJoint::Gap)) => gap = Some([number(0), number(1)]),
                 Some(Form::Joint(of)) => plant.joined(of, [number(0), number(1), number(2)]),
                 Some(Form::Sensor(of)) => plant.encoder.push((of, numbers.clone())),
@@ -78,10 +87,15 @@ impl Plant {
         plant
     }
 
-    fn driven(&mut self, of: Drive, value: f64) {
+    fn driven(&mut self, of: Drive, numbers: &[f64]) {
+        let value = numbers.first().copied().unwrap_or(0.0);
         match of {
             Drive::Gain => self.drive.push(Stage::Gain(1.0 + value)),
-            Drive::Limit => self.drive.push(Stage::Limit(value.abs())),
+            Drive::Limit => self.drive.push(Stage::Limit(numbers.to_vec())),
+            Drive::Rate => self.drive.push(Stage::Rate {
+                most: value,
+                state: 0.0,
+            }),
             Drive::Lag => self.drive.push(Stage::Lag {
                 time_constant_s: value,
                 state: 0.0,
@@ -154,7 +168,13 @@ impl Plant {
 fn given(drive: &mut [Stage], held: f64, step_s: f64) -> [f64; 2] {
     drive.iter_mut().fold([held; 2], |ends, stage| match stage {
         Stage::Gain(gain) => ends.map(|own| own * *gain),
-        Stage::Limit(most) => ends.map(|own| own.clamp(-*most, *most)),
+        Stage::Limit(numbers) => ends.map(|own| limited(own, numbers)),
+        Stage::Rate { most, state } => {
+            let begin = *state;
+            let [_, end] = ends;
+            *state = slewed(begin, end, *most * step_s);
+            [begin, *state]
+        }
         Stage::Lag {
             time_constant_s,
             state,
@@ -212,6 +232,24 @@ mod tests {
             drive.step(0.9);
         }
         assert_eq!(drive.effort, 0.5);
+    }
+
+    #[test]
+    fn a_drive_follows_a_step_at_its_rate_and_bends_towards_its_limit() {
+        let mut slow = plant(&[(Mechanism::RateLimit, &[5.0])]);
+        for _ in 0..20 {
+            slow.step(0.9);
+        }
+        // 40 ms at 5 N/s, of 1.1·0.9 N.
+        assert!((slow.effort - 0.2).abs() < 1e-12, "{}", slow.effort);
+        for _ in 0..400 {
+            slow.step(0.9);
+        }
+        assert!((slow.effort - 0.99).abs() < 1e-12, "{}", slow.effort);
+        let mut round = plant(&[(Mechanism::DriveSaturation, &[0.99, 2.0])]);
+        round.step(0.9);
+        let at_limit = 0.99 / core::f64::consts::SQRT_2;
+        assert!((round.effort - at_limit).abs() < 1e-12, "{}", round.effort);
     }
 
     #[test]

@@ -149,8 +149,6 @@ pub enum Alone {
     Loaded,
     /// On an axis whose inertia is known.
     WithInertia,
-    /// On a bench.
-    Imposed,
 }
 
 /// Where a mechanism is a candidate on the five-bar.
@@ -222,8 +220,10 @@ pub enum Shapes {
     Shift,
     /// Currents below the greatest command.
     CurrentLimit,
-    /// Efforts below the greatest command.
+    /// Efforts below the greatest command, also with how sharply the effort bends towards them.
     EffortLimit,
+    /// Rates at which the effort reaches the greatest command in a time.
+    EffortRate,
     /// Anchors in the plane, around where the tip moves.
     Anchor,
     /// Widths of a gap, as shares of the travel.
@@ -352,7 +352,6 @@ mod tests {
             Alone::WithDrive => "with a drive or a brake's current",
             Alone::Driven => "on an axis",
             Alone::Loaded => "on an axis, and on a bench with a simulated effort",
-            Alone::Imposed => "on a bench",
             Alone::WithInertia => "on an axis of known inertia",
         };
         let five_bar = match facts.asked.five_bar {

@@ -83,31 +83,6 @@ pub(super) const SKEW_ENTRY: Entry = Entry {
     },
 };
 
-pub(super) const LIMIT_ENTRY: Entry = Entry {
-    mechanism: Mechanism::DriveSaturation,
-    form: Form::Drive(Drive::Limit),
-    linear: 0,
-    passive: false,
-    refuted_by: "an effort that grows with the command beyond the limit",
-    equation: "e = gain·u cut at ±limit",
-    facts: Facts {
-        in_sets: true,
-        usual: Usual::Frequent,
-        shapes: Shapes::EffortLimit,
-        ..Facts::of(
-            Family::Drive,
-            Asked {
-                alone: Alone::Driven,
-                five_bar: Where::Nowhere,
-            },
-            Words {
-                what: "a drive that gives no more than so much",
-                look_for: "the amplifier's current limit, its supply voltage, a torque limit in a controller",
-            },
-        )
-    },
-};
-
 /// First-order lag of a drive that holds each sample until the next one. What comes out is the mean until the next sample, which is
 /// held in its place: the state there would come half a sample early.
 ///

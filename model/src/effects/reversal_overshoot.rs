@@ -67,7 +67,7 @@ pub(super) const OF_FRICTION: Entry = Entry {
         ..Facts::of(
             Family::MemoryOfMotion,
             Asked {
-                alone: Alone::Imposed,
+                alone: Alone::Always,
                 five_bar: Where::Nowhere,
             },
             Words {

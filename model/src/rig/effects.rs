@@ -141,7 +141,7 @@ fn term(rig: &Rig, effect: &JointEffect) -> Result<Term, ModelError> {
             place: joint()? as usize,
             law: law(&effect.parameters),
         }),
-        Form::Drive(Drive::Skew | Drive::Limit)
+        Form::Drive(Drive::Skew | Drive::Limit | Drive::Rate)
         | Form::Sensor(_)
         | Form::Joint(_)
         | Form::Linkage(OfLinkage::LinkLength) => Err(unknown()),
@@ -204,7 +204,7 @@ fn of_brake(effect: &JointEffect, joint: Joint) -> Option<Term> {
             place,
             arm_m: value(0),
         },
-        Form::Drive(Drive::Skew | Drive::Limit)
+        Form::Drive(Drive::Skew | Drive::Limit | Drive::Rate)
         | Form::Resistance(_)
         | Form::Sensor(_)
         | Form::Joint(_)

@@ -10,6 +10,7 @@ use crate::rules::{ARM_WIDTH_S, MOST_AMBIGUOUS, NOISE_ORDER};
 use crate::weak::{Windows, is_recorded, untold};
 use crate::whiten::Whitener;
 use nalgebra::{DMatrix, DVector};
+use rigproof_model::bench::column;
 use rigproof_model::chain::INERTIAL;
 use rigproof_model::effects::facts::{Family, Shapes, Usual};
 use rigproof_model::effects::{Drive, Form, Instant, OfJoint, OfLinkage, facts, form};
@@ -441,7 +442,7 @@ impl Run for ChainRun {
                     Some(_) => return Some(Columns::Fixed(late)),
                 }
             }
-            _ => resistances(motion, self.step_s, cause, shape)?
+            _ => resistances(cause, shape, |law| column(law, motion, self.step_s))?
                 .iter()
                 .map(|own| self.at_joint(joint, own))
                 .collect(),

@@ -235,6 +235,7 @@ pub fn shapes(
         // Not candidates on this plant.
         Shapes::Memory
         | Shapes::EffortLimit
+        | Shapes::EffortRate
         | Shapes::Gap
         | Shapes::Resonance
         | Shapes::BristleCurve => vec![vec![]],

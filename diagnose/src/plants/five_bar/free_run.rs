@@ -155,7 +155,7 @@ pub(super) fn truly(model: &Model, run: &FiveBarRun) -> Result<FiveBarRun, Model
             }
             // These do not change the readings of a sensor.
             Some(
-                Form::Drive(Drive::Lag | Drive::Gain | Drive::Limit)
+                Form::Drive(Drive::Lag | Drive::Gain | Drive::Limit | Drive::Rate)
                 | Form::Joint(_)
                 | Form::Resistance(_)
                 | Form::ShareOfBrake(_)

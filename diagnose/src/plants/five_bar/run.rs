@@ -9,6 +9,7 @@ use crate::locate::Regimes;
 use crate::plant::{Clock, Columns, Rules, Run};
 use crate::plants::brake::Braked;
 use crate::rules::{QUIET_NM, WIDTHS_S};
+use crate::signals::known_travel;
 use crate::weak::Windows;
 use crate::whiten::Whitener;
 use nalgebra::{Matrix2, Vector2};
@@ -165,16 +166,10 @@ impl FiveBarRun {
     pub fn known_travel(&self, joint: Joint) -> Vec<f64> {
         let half = 0.5 * self.still_rad_at(joint);
         let base = [Joint::A, Joint::B].map(|base| self.motion_of(base));
-        let mut known: Option<f64> = None;
-        let positions = self.recorded_angle(joint, base, self.motion_of(joint));
-        positions
-            .map(|position| {
-                let before = known.unwrap_or(position);
-                let after = before.clamp(position - half, position + half);
-                known = Some(after);
-                after - before
-            })
-            .collect()
+        known_travel(
+            self.recorded_angle(joint, base, self.motion_of(joint)),
+            half,
+        )
     }
 
     /// The travel within which a joint may be at rest, rad.

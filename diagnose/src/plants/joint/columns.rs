@@ -1,7 +1,7 @@
 //! This file computes the regression columns of a plant of one joint: resistances along its motion,
 //! and changes of its drive.
 
-use super::drive::{driven, lagging};
+use super::drive::{changed, driven, lagging};
 use super::inertia::Inertia;
 use super::run::{JointRun, PlantKind};
 use crate::cause::{Cause, Scales};
@@ -9,11 +9,12 @@ use crate::effect::Effect;
 use crate::filter::gradient;
 use crate::plant::{self, Columns, Run};
 use crate::problem::{add, less};
-use crate::signals::{lagged_yield, numerov, second_difference, shifted};
+use crate::rules::STILL_NOISES;
+use crate::signals::{known_travel, lagged_yield, numerov, second_difference, shifted};
 use rigproof_model::axis::Trailing;
-use rigproof_model::bench::column;
+use rigproof_model::bench::{column, column_by_travel};
 use rigproof_model::effects::facts::{AtRest, Family};
-use rigproof_model::effects::{Drive, Form, OfJoint, OfSensor, entry, facts, form, law};
+use rigproof_model::effects::{Drive, Form, Law, OfJoint, OfSensor, entry, facts, form, law};
 use rigproof_spec::effect::Mechanism;
 
 /// One column per linear parameter of a resistance: the law with that parameter 1 and the others 0,
@@ -21,9 +22,22 @@ use rigproof_spec::effect::Mechanism;
 pub fn resistances(run: &JointRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<f64>>> {
     let own = match is_of_brake(cause) {
         true => of_brake(run, cause, shape)?,
-        false => plant::resistances(&run.motion, run.step_s, cause, shape)?,
+        false => plant::resistances(cause, shape, |law| along(run, law))?,
     };
     Some(own.into_iter().map(|signal| seen(run, signal)).collect())
+}
+
+/// The resistance of a law along the motion.
+///
+/// A law that restarts at a reversal uses the recorded position: a smoothed one rings where the
+/// joint comes to rest, and would turn there.
+fn along(run: &JointRun, law: &dyn Law) -> Vec<f64> {
+    if law.begins_anew() {
+        let half = 0.5 * STILL_NOISES * run.position_noise;
+        let travel = known_travel(run.position.iter().copied(), half);
+        return column_by_travel(law, &run.motion, &travel, run.step_s);
+    }
+    column(law, &run.motion, run.step_s)
 }
 
 /// The torque that an effect adds to a brake, sample by sample.
@@ -66,7 +80,7 @@ pub fn of_brake(run: &JointRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<f
         ]);
     }
     // The law gives a share of the brake's torque.
-    let mut shares = plant::resistances(&run.motion, run.step_s, cause, shape)?;
+    let mut shares = plant::resistances(cause, shape, |law| along(run, law))?;
     for share in shares
         .iter_mut()
         .flat_map(|own| own.iter_mut().zip(predicted))
@@ -125,8 +139,9 @@ fn sum_of<'a>(run: &JointRun, effects: impl Iterator<Item = &'a Effect>) -> Vec<
     for effect in effects {
         let own = match is_of_brake(effect.cause) {
             true => of_effect(run, effect),
-            false => law(effect.mechanism(), &effect.parameters)
-                .map(|law| column(law.as_ref(), &run.motion, run.step_s)),
+            false => {
+                law(effect.mechanism(), &effect.parameters).map(|law| along(run, law.as_ref()))
+            }
         };
         let Some(own) = own else {
             continue;
@@ -334,15 +349,10 @@ fn drive(run: &JointRun, what: Drive, shape: &[f64]) -> Option<Columns> {
     let value = shape.first().copied().unwrap_or(0.0);
     let step_s = run.step_s;
     let fixed = |signal| Some(Columns::Fixed(signal));
-    let changed = |effort: &[f64]| match what {
-        Drive::Lag => Some(lagging(run, effort, value)),
-        Drive::Skew => Some(shifted(effort, -value / step_s)),
-        Drive::Limit => Some(effort.iter().map(|e| e.max(-value).min(value)).collect()),
-        Drive::Gain => None,
-    };
+    let changed = |effort: &[f64]| changed(what, shape, effort, run);
     match (what, run.plant, run.brake()) {
         (Drive::Gain, ..) => Some(Columns::Free(vec![known_effort(run)])),
-        (_, PlantKind::Axis, _) => fixed(missing_effort(run, &changed(&run.effort)?)),
+        (_, PlantKind::Axis, _) => fixed(missing_effort(run, &changed(&run.effort))),
         // The yield torque of a brake lags, the sign of its torque does not (decision 0001).
         (Drive::Lag, PlantKind::Bench, Some((predicted, _))) => {
             fixed(less(&lagged_yield(predicted, step_s, value), predicted))
@@ -351,9 +361,9 @@ fn drive(run: &JointRun, what: Drive, shape: &[f64]) -> Option<Columns> {
         (Drive::Skew, PlantKind::Bench, _) => {
             let mut known = run.known();
             add(&mut known, &seen(run, described(run, false)), 1.0);
-            fixed(less(&changed(&known)?, &known))
+            fixed(less(&changed(&known), &known))
         }
-        (_, PlantKind::Bench, Some((predicted, _))) => fixed(less(&changed(predicted)?, predicted)),
+        (_, PlantKind::Bench, Some((predicted, _))) => fixed(less(&changed(predicted), predicted)),
         (_, PlantKind::Bench, None) => None,
     }
 }
@@ -365,7 +375,7 @@ fn linearised(run: &JointRun, what: Drive, shape: &[f64], fitted: &[f64]) -> Opt
     let is_known = !matches!(run.inertia, Inertia::Unknown(_));
     let fixed = |signal| Some(Columns::Fixed(signal));
     match (what, run.plant) {
-        (Drive::Limit, _) => None,
+        (Drive::Limit | Drive::Rate, _) => None,
         (Drive::Gain, _) if is_known => drive(run, what, shape),
         (Drive::Gain, _) => None,
         // With a known inertia the command itself is delayed. It is less noisy than an

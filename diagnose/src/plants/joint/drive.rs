@@ -6,7 +6,9 @@ use super::simulate::{Interpolation, Protocol};
 use crate::effect::Effect;
 use crate::plant::Run;
 use crate::signals::shifted;
-use rigproof_model::effects::{Drive, Form, first_order_lag_held, first_order_lag_straight, form};
+use rigproof_model::effects::{
+    Drive, Form, first_order_lag_held, first_order_lag_straight, form, limited, slewed,
+};
 use rustfft::{FftPlannerScalar, num_complex::Complex64};
 
 /// Effort at the beginning and the end of every integration step.
@@ -34,22 +36,36 @@ pub(super) fn driven<'a>(
     let clock = run.clock();
     let mut out = effort.to_vec();
     for effect in changes {
-        let value = effect.value(0);
         let Some(change) = drive_of(effect) else {
             continue;
         };
-        let changed = match change {
-            Drive::Gain => out.iter().map(|e| e * (1.0 + value)).collect(),
-            Drive::Skew => shifted(&out, -value / clock.step_s),
-            Drive::Lag => lagging(run, &out, value),
-            Drive::Limit => out.iter().map(|e| e.min(value).max(-value)).collect(),
-        };
+        let changed = changed(change, &effect.parameters, &out, run);
         let begins = effect.first_sample(clock).saturating_sub(first);
         for (o, c) in out.iter_mut().zip(changed).skip(begins) {
             *o = c;
         }
     }
     out
+}
+
+/// The effort after one change of the drive.
+pub(super) fn changed(of: Drive, numbers: &[f64], effort: &[f64], run: &JointRun) -> Vec<f64> {
+    let value = numbers.first().copied().unwrap_or(0.0);
+    match of {
+        Drive::Gain => effort.iter().map(|e| e * (1.0 + value)).collect(),
+        Drive::Skew => shifted(effort, -value / run.step_s),
+        Drive::Lag => lagging(run, effort, value),
+        Drive::Limit => effort.iter().map(|e| limited(*e, numbers)).collect(),
+        Drive::Rate => {
+            let mut state = effort.first().copied().unwrap_or(0.0);
+            let most = value * run.step_s;
+            let each = effort.iter().map(|e| {
+                state = slewed(state, *e, most);
+                state
+            });
+            each.collect()
+        }
+    }
 }
 
 /// An effort that lags by a time constant, s, sample by sample. The drive of an axis may hold each

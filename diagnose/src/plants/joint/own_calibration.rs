@@ -35,7 +35,7 @@ const LEFT_OUT: &[(Mechanism, &[f64], &[PlantKind])] = &[
     (DirectionAsymmetry, &[1.9, 0.83], BOTH),
     (Stribeck, &[1.9, 0.07, 1.0], BOTH),
     (Presliding, &[1.73, 0.013], BOTH),
-    (FrictionOvershoot, &[1.73, 0.031], BENCH),
+    (FrictionOvershoot, &[1.73, 0.031], BOTH),
     (DahlBristle, &[1.73, 0.017, 2.0], BOTH),
     (LugreBristle, &[1.73, 1.1, 0.013], BOTH),
     (AsymmetricPresliding, &[2.1, 1.3, 0.013], BOTH),
@@ -47,6 +47,7 @@ const LEFT_OUT: &[(Mechanism, &[f64], &[PlantKind])] = &[
     (GainError, &[-0.13], AXIS),
     (ChannelSkew, &[0.017], BOTH),
     (DriveSaturation, &[7.1], AXIS),
+    (DriveSaturation, &[9.3, 2.1], AXIS),
     (LoadFriction, &[0.19], AXIS),
     (FrictionFade, &[0.037, 0.061], BOTH),
     (AddedInertia, &[0.29], AXIS),
@@ -54,6 +55,10 @@ const LEFT_OUT: &[(Mechanism, &[f64], &[PlantKind])] = &[
     (EncoderScale, &[0.07], AXIS),
     (EccentricEncoder, &[0.011, -0.007], AXIS),
 ];
+
+/// Effects that are named, but leave more than noise where they are stated: with the command's rate
+/// its noise is limited too.
+const RATHER_NAMED: &[(Mechanism, &[f64], &[PlantKind])] = &[(RateLimit, &[61.0], AXIS)];
 
 /// Effects that a bench without a prediction cannot name, but must simulate if they are stated.
 const STATED: &[(Mechanism, &[f64], &[PlantKind])] = &[
@@ -187,7 +192,7 @@ fn a_description_that_states_the_truth_is_obeyed() {
 
 #[test]
 fn with_its_own_calibration_nothing_is_named_again() {
-    let wrong = cases(LEFT_OUT)
+    let wrong = cases(&[LEFT_OUT, RATHER_NAMED].concat())
         .into_par_iter()
         .filter_map(|(plant, effect, seed)| {
             let recording = recording(plant, &effect, seed, COUNT);

@@ -6,7 +6,7 @@ use super::run::JointRun;
 use super::simulate::{Free, Model, Protocol};
 use crate::align::resample;
 use rigproof_model::axis::State;
-use rigproof_model::effects::{Drive, lagged_held};
+use rigproof_model::effects::{Drive, lagged_held, limited, slewed};
 use rigproof_trace::rig::{Recording, Servo};
 
 /// A servo with its goal, one value per sample of the run that it drives.
@@ -102,6 +102,7 @@ struct Driven<'a> {
     step_s: f64,
     before: Vec<f64>,
     lagged: Option<f64>,
+    slewed: Option<f64>,
 }
 
 impl Driven<'_> {
@@ -111,6 +112,7 @@ impl Driven<'_> {
             step_s,
             before: Vec::new(),
             lagged: None,
+            slewed: None,
         }
     }
 
@@ -124,7 +126,12 @@ impl Driven<'_> {
             let value = effect.value(0);
             match drive_of(effect) {
                 Some(Drive::Gain) => out *= 1.0 + value,
-                Some(Drive::Limit) => out = out.clamp(-value.abs(), value.abs()),
+                Some(Drive::Limit) => out = limited(out, &effect.parameters),
+                Some(Drive::Rate) => {
+                    let last = self.slewed.unwrap_or(out);
+                    out = slewed(last, out, value * self.step_s);
+                    self.slewed = Some(out);
+                }
                 Some(Drive::Lag) => {
                     let last = self.lagged.unwrap_or(out);
                     let [mean, end] = lagged_held(last, out, self.step_s, value);

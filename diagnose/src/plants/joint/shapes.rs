@@ -23,7 +23,6 @@ pub fn causes(run: &JointRun) -> Vec<Cause> {
         Alone::WithDrive => is_driven || run.predicted.is_some(),
         Alone::Driven => is_driven,
         Alone::Loaded => is_driven || run.load().is_some(),
-        Alone::Imposed => !is_driven,
         Alone::WithInertia => is_driven && matches!(run.inertia, Inertia::Known(_)),
     };
     let library = LIBRARY.iter();

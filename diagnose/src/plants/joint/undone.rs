@@ -55,7 +55,7 @@ pub(super) fn aligned(rig: &Rig, recording: &Recording, before_s: f64) -> Result
             // The yield torque of a brake lags; on other benches the whole effort lags.
             Some(Drive::Lag) => run.current.is_some() && run.predicted.is_some(),
             Some(Drive::Skew) => false,
-            Some(Drive::Limit) | None => continue,
+            Some(Drive::Limit | Drive::Rate) | None => continue,
         };
         if let Some(Drive::Skew) = drive_of(effect) {
             run.forget_ends(effect.value(0));
@@ -110,8 +110,6 @@ fn reason(rig: &Rig, effect: &Effect) -> Option<String> {
             true => None,
             false => Some("needs a bench with a brake and its current".to_owned()),
         },
-        // A law that restarts at each reversal needs an imposed motion.
-        Some(Form::Resistance(law)) if is_axis && law(&[1.0; 4]).begins_anew() => no_meaning(),
         Some(Form::Resistance(_)) => None,
         Some(Form::Drive(Drive::Lag | Drive::Skew)) => None,
         Some(Form::Drive(_)) if is_axis => None,

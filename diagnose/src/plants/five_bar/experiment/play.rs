@@ -133,7 +133,7 @@ pub fn shown(effect: &Effect, played: &mut Played, step_s: f64, first: usize) {
             }
         }
         Some(
-            Form::Drive(Drive::Lag | Drive::Gain | Drive::Limit)
+            Form::Drive(Drive::Lag | Drive::Gain | Drive::Limit | Drive::Rate)
             | Form::Joint(_)
             | Form::Sensor(OfSensor::Eccentric | OfSensor::Clock)
             | Form::Resistance(_)
