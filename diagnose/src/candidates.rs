@@ -173,10 +173,9 @@ pub fn standard_shapes<R: Run + ?Sized>(
         ))),
         Shapes::CurrentPlay { low, high, count } => plays(&geometric(low, high, count), &[]),
         Shapes::Delay => one(geometric(step_s, MOST_DELAY_S, DELAYS)),
-        Shapes::CurrentLimit => {
-            let current = run.brake().map(|(_, current)| current);
-            one(current_limits(current.unwrap_or_default()))
-        }
+        Shapes::CurrentLimit => one(run
+            .brake()
+            .map_or(Vec::new(), |(_, own)| current_limits(own))),
         // A spring to an anchor needs a plane.
         Shapes::Anchor => vec![vec![]],
         own @ (Shapes::None
