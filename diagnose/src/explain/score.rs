@@ -72,11 +72,11 @@ pub fn prior(problem: &Problem, terms: &[Term]) -> f64 {
 
 fn odds(problem: &Problem, term: &Term) -> f64 {
     let empty = |rows: &&Arc<Rows>| rows.raw.iter().all(|x| *x == 0.0);
-    // Inertial parameters count as at most `A_LINK`: one description gives them all, so they are
-    // wrong together.
+    // Parameters of a link's inertia count as at most `A_LINK`: one description gives them all, so
+    // they are wrong together.
     let free = term.free.len() - term.free.iter().filter(empty).count();
     let free = match term.cause.mechanism {
-        Mechanism::LinkInertia | Mechanism::InertiaError => free.min(A_LINK),
+        Mechanism::LinkInertia => free.min(A_LINK),
         _ => free,
     };
     let numbers =

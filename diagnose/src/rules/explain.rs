@@ -39,8 +39,8 @@ rules! {
     MOST_TERMS: usize = 3, "terms", DRIVEN;
     /// An arm: the most terms of its explanation.
     MOST_OF_MANY: usize = 48, "terms", REASON;
-    /// All inertial parameters of a link of an arm, or of the five-bar, cost as much as this many parameters: one description gets them wrong together, and that is rarer than a single wrong mass.
-    A_LINK: usize = 3, "numbers", "thirty concealed arms, seeds 0 to 29; five-bar, seeds 33000 to 33249 (decision 0296)";
+    /// An arm: all inertial parameters of a link cost as much as this many parameters: one description gets them wrong together, and that is rarer than a single wrong mass.
+    A_LINK: usize = 3, "numbers", "thirty concealed arms, seeds 0 to 29";
     /// An arm: greatest share of a described friction that may be removed again. It is above one because a fit has an error.
     GIVEN_BACK: f64 = 1.2, "share", REASON;
     /// An arm: width of a window. A test function of this width passes half of the amplitude at 8 Hz, like the forward and backward low-pass behind which arms are usually fitted.

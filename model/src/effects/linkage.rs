@@ -61,7 +61,6 @@ pub(super) const INERTIA_ERROR: Entry = Entry {
     equation: "moments of inertia about each arm's first joint and a mass at the tip, added to the nominal ones",
     facts: Facts {
         turn: 2,
-        usual: Usual::Frequent,
         ..Facts::of(
             Family::Inertia,
             Asked {
