@@ -33,7 +33,7 @@ mod velocity_power;
 mod viscous;
 
 pub use lag::{first_order_lag_held, first_order_lag_straight, lagged, lagged_held};
-pub use limits::{limited, slewed};
+pub use limits::{limited, slewed, slewed_held};
 pub use play::{CurrentPlay, PLAYS, Played};
 
 use facts::{Facts, Family, Words};

@@ -70,9 +70,17 @@ pub fn slewed(state: f64, effort: f64, most: f64) -> f64 {
     state + (effort - state).clamp(-most, most)
 }
 
+/// The same in a step in which the effort is held: the mean in the step, and the end.
+pub fn slewed_held(state: f64, effort: f64, most: f64) -> [f64; 2] {
+    let end = slewed(state, effort, most);
+    // The share of the step in which the effort still changes.
+    let share = (end - state).abs() / most;
+    [end - 0.5 * share * (end - state), end]
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{limited, slewed};
+    use super::{limited, slewed, slewed_held};
 
     #[test]
     fn an_effort_bends_towards_its_limit_and_is_cut_where_it_bends_at_once() {
@@ -99,5 +107,13 @@ mod tests {
             .collect();
         assert_eq!(path, [0.35, 0.6, 0.85, 1.0, 1.0]);
         assert_eq!(slewed(0.2, -3.0, 0.5), -0.3);
+        // A ramp through the whole step, and one that ends after two fifths of it.
+        let [mean, end] = slewed_held(0.2, -3.0, 0.5);
+        assert!((mean + 0.05).abs() < 1e-15 && end == -0.3, "{mean}");
+        let [mean, end] = slewed_held(0.2, 0.4, 0.5);
+        assert!(
+            (mean - (0.4 * 0.3 + 0.6 * 0.4)).abs() < 1e-15 && end == 0.4,
+            "{mean}"
+        );
     }
 }

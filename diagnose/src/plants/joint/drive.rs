@@ -7,7 +7,7 @@ use crate::effect::Effect;
 use crate::plant::Run;
 use crate::signals::shifted;
 use rigproof_model::effects::{
-    Drive, Form, first_order_lag_held, first_order_lag_straight, form, limited, slewed,
+    Drive, Form, first_order_lag_held, first_order_lag_straight, form, limited, slewed_held,
 };
 use rustfft::{FftPlannerScalar, num_complex::Complex64};
 
@@ -60,8 +60,9 @@ pub(super) fn changed(of: Drive, numbers: &[f64], effort: &[f64], run: &JointRun
             let mut state = effort.first().copied().unwrap_or(0.0);
             let most = value * run.step_s;
             let each = effort.iter().map(|e| {
-                state = slewed(state, *e, most);
-                state
+                let [mean, end] = slewed_held(state, *e, most);
+                state = end;
+                if run.held { mean } else { end }
             });
             each.collect()
         }

@@ -6,7 +6,7 @@ use super::run::JointRun;
 use super::simulate::{Free, Model, Protocol};
 use crate::align::resample;
 use rigproof_model::axis::State;
-use rigproof_model::effects::{Drive, lagged_held, limited, slewed};
+use rigproof_model::effects::{Drive, lagged_held, limited, slewed_held};
 use rigproof_trace::rig::{Recording, Servo};
 
 /// A servo with its goal, one value per sample of the run that it drives.
@@ -129,8 +129,9 @@ impl Driven<'_> {
                 Some(Drive::Limit) => out = limited(out, &effect.parameters),
                 Some(Drive::Rate) => {
                     let last = self.slewed.unwrap_or(out);
-                    out = slewed(last, out, value * self.step_s);
-                    self.slewed = Some(out);
+                    let [mean, end] = slewed_held(last, out, value * self.step_s);
+                    out = mean;
+                    self.slewed = Some(end);
                 }
                 Some(Drive::Lag) => {
                     let last = self.lagged.unwrap_or(out);
