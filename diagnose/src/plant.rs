@@ -16,7 +16,7 @@ use crate::unknown::{Variable, variables};
 use crate::weak::{Windows, is_recorded, untold};
 use crate::whiten::Whitener;
 use core::fmt::Debug;
-use rigproof_model::bench::column;
+use rigproof_model::bench::{column, column_by_travel};
 use rigproof_model::effects::{Form, Instant, Law, entry};
 use rigproof_spec::effect::{Mechanism, Motion};
 
@@ -373,6 +373,22 @@ pub trait Run: Debug + Send + Sync {
             None => format!("{mechanism}{of}"),
         }
     }
+}
+
+/// The resistance of a law along the motion of a joint.
+///
+/// A law that restarts at a reversal goes by the recorded travel. A smoothed position hides a slow
+/// reversal of a few counts, and rings where the joint comes to rest.
+pub fn along(
+    law: &dyn Law,
+    motion: &[Instant],
+    step_s: f64,
+    known_travel: impl FnOnce() -> Vec<f64>,
+) -> Vec<f64> {
+    if law.begins_anew() {
+        return column_by_travel(law, motion, &known_travel(), step_s);
+    }
+    column(law, motion, step_s)
 }
 
 /// One signal per linear parameter of a resistance: the law with that parameter 1 and the others 0,

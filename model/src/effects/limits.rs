@@ -32,26 +32,18 @@ pub(super) const ENTRY: Entry = Entry {
 pub(super) const RATE_ENTRY: Entry = Entry {
     mechanism: Mechanism::RateLimit,
     form: Form::Drive(Drive::Rate),
-    linear: 0,
-    passive: false,
     refuted_by: "a large step of the effort that takes no longer than a small one",
     equation: "de/dt = ±rate until e = gain·u",
     facts: Facts {
-        in_sets: true,
         usual: Usual::Seldom,
         shapes: Shapes::EffortRate,
-        ..Facts::of(
-            Family::Drive,
-            Asked {
-                alone: Alone::Driven,
-                five_bar: Where::Nowhere,
-            },
-            Words {
-                what: "a drive whose effort changes no faster than so much",
-                look_for: "the supply voltage over the motor's inductance, a ramp in the amplifier or the controller",
-            },
-        )
+        words: Words {
+            what: "a drive whose effort changes no faster than so much",
+            look_for: "the supply voltage over the motor's inductance, a ramp in the amplifier or the controller",
+        },
+        ..ENTRY.facts
     },
+    ..ENTRY
 };
 
 /// An effort that a drive limits by the parameters of `drive_saturation`: a limit, N or N·m, and how sharply the effort

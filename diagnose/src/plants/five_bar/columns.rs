@@ -7,10 +7,10 @@ use super::from_rig::with_angles;
 use super::joined::over_parts;
 use super::run::{FiveBarRun, inertial, joint_at, place, place_of, stacked};
 use crate::cause::{Cause, Place, Scales};
+use crate::plant;
 use crate::problem::{add, less};
 use crate::rules::SMALL_LENGTH_M;
 use crate::signals::{numerov, shifted, unit_parameters};
-use rigproof_model::bench::{column, column_by_travel};
 use rigproof_model::effects::{
     Drive, Form, Law, OfBrake, OfLinkage, OfSensor, entry, facts, first_order_lag_straight, form,
 };
@@ -259,15 +259,9 @@ fn at_joint(run: &FiveBarRun, cause: Cause, joint: Joint, shape: &[f64]) -> Opti
 }
 
 /// The resistance of a law along a joint's motion.
-///
-/// A law that restarts at a reversal uses the recorded angle, since smoothing would hide a slow
-/// reversal of a few counts.
 fn along(law: &dyn Law, run: &FiveBarRun, joint: Joint) -> Vec<f64> {
-    let motion = run.motion_of(joint);
-    if law.begins_anew() {
-        return column_by_travel(law, motion, &run.known_travel(joint), run.step_s);
-    }
-    column(law, motion, run.step_s)
+    let known_travel = || run.known_travel(joint);
+    plant::along(law, run.motion_of(joint), run.step_s, known_travel)
 }
 
 /// The effort of the weight per unit of gravity along x (0) or y (1), N·m.

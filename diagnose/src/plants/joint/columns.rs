@@ -12,7 +12,6 @@ use crate::problem::{add, less};
 use crate::rules::STILL_NOISES;
 use crate::signals::{known_travel, lagged_yield, numerov, second_difference, shifted};
 use rigproof_model::axis::Trailing;
-use rigproof_model::bench::{column, column_by_travel};
 use rigproof_model::effects::facts::{AtRest, Family};
 use rigproof_model::effects::{Drive, Form, Law, OfJoint, OfSensor, entry, facts, form, law};
 use rigproof_spec::effect::Mechanism;
@@ -28,16 +27,10 @@ pub fn resistances(run: &JointRun, cause: Cause, shape: &[f64]) -> Option<Vec<Ve
 }
 
 /// The resistance of a law along the motion.
-///
-/// A law that restarts at a reversal uses the recorded position: a smoothed one rings where the
-/// joint comes to rest, and would turn there.
 fn along(run: &JointRun, law: &dyn Law) -> Vec<f64> {
-    if law.begins_anew() {
-        let half = 0.5 * STILL_NOISES * run.position_noise;
-        let travel = known_travel(run.position.iter().copied(), half);
-        return column_by_travel(law, &run.motion, &travel, run.step_s);
-    }
-    column(law, &run.motion, run.step_s)
+    let half = 0.5 * STILL_NOISES * run.position_noise;
+    let known_travel = || known_travel(run.position.iter().copied(), half);
+    plant::along(law, &run.motion, run.step_s, known_travel)
 }
 
 /// The torque that an effect adds to a brake, sample by sample.
