@@ -122,6 +122,7 @@ impl Element {
             Form::Creep => a * (1.0 - libm::exp(-at.time_s / b)),
             Form::Spring => a * q,
             Form::Anchored => a * (q - b),
+            Form::Tether => a * (b.signum() * q - b.abs()).max(0.0) * b.signum(),
             Form::Cubic => a * q * q * q,
             Form::Hardening => a * q + b * q * q * q,
             Form::Square => a * (v / b) * (v / b).abs(),

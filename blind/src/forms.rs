@@ -99,6 +99,7 @@ impl Names {
             Form::Anchored => (&["spring"], &["constant_bias"]),
             Form::Cubic | Form::Hardening => (&["nonlinear_spring"], &["spring"]),
             Form::Ripple | Form::TwoOrders | Form::Toothed => (&["ripple"], &[]),
+            Form::Uneven => (&["uneven_friction"], &["dry_offset"]),
             Form::LoadShare | Form::LoadArm | Form::LoadSquare => (
                 &["load_dependent", "load_friction"],
                 &["gain_error", "dry_offset"],
@@ -117,7 +118,7 @@ impl Names {
             Form::WorkFade | Form::FadeLinear | Form::FadeExponential | Form::FadeByWay => {
                 (&["thermal_fade", "friction_fade"], &["dry_offset"])
             }
-            Form::Thermal | Form::YieldFade => (&["thermal_fade"], &["gain_error"]),
+            Form::Thermal | Form::YieldFade => (&["thermal_fade", "torque_drift"], &["gain_error"]),
             Form::Overshoot
             | Form::OvershootLinear
             | Form::YieldOvershoot
@@ -205,8 +206,7 @@ impl Names {
             Form::ForceRotation => (&["force_rotation"], &[]),
             Form::Repeated => (&["repeated_samples", "dropped_samples"], &[]),
             Form::Clock => (&["clock", "clock_skew", "clock_jitter"], &["inertia_error"]),
-            // Not in the library, but a part of it is: the mean level, and one of the two periods.
-            Form::Uneven => (&[], &["dry_offset"]),
+            // Not in the library, but a part of it is: one of the two periods.
             Form::TwoRipples => (&[], &["ripple"]),
             _ => (&[], &[]),
         };

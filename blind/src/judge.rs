@@ -280,15 +280,15 @@ mod tests {
 
     #[test]
     fn of_the_unknown_the_part_that_the_library_holds_is_no_false_name() {
-        let hidden = Form::Uneven.of([0.1, 0.8, 0.2]).joint(Joint::A);
-        let uneven = answer(&[(hidden, 5.0)], Stratum::NotInLibrary);
+        let hidden = Form::TwoRipples.of([0.1, 0.8, 0.2]).joint(Joint::A);
+        let cogging = answer(&[(hidden, 5.0)], Stratum::NotInLibrary);
         let outcome = |verdict: &str, mechanism: &str| {
             let effects = json!([{ "mechanism": mechanism, "joint": "A" }]);
             let report = json!({ "verdict": verdict, "effects": effects });
-            judge(&uneven, &report).unwrap().outcome
+            judge(&cogging, &report).unwrap().outcome
         };
-        assert_eq!(outcome("partly_explained", "dry_offset"), Outcome::Right);
-        assert_eq!(outcome("explained", "dry_offset"), Outcome::Incomplete);
+        assert_eq!(outcome("partly_explained", "ripple"), Outcome::Right);
+        assert_eq!(outcome("explained", "ripple"), Outcome::Incomplete);
         assert_eq!(outcome("partly_explained", "viscous"), Outcome::FalseName);
     }
 }

@@ -123,6 +123,10 @@ impl Typical {
                 let anchor = draw.sign() * travel * draw.uniform(0.3, 1.2);
                 form.of([level / travel, anchor])
             }
+            Form::Tether => {
+                let beyond = draw.sign() * travel * draw.uniform(0.05, 0.25);
+                form.of([4.0 * level / travel, beyond])
+            }
             Form::Hardening => form.of([0.6 * level / travel, 2.0 * stiff]),
             Form::Cubic => form.of([2.0 * stiff]),
             _ => form.of([level]),

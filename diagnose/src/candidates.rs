@@ -17,7 +17,7 @@ use crate::rules::{
 };
 use crate::weak::Windows;
 use core::f64::consts::TAU;
-use rigproof_model::effects::facts::Shapes;
+use rigproof_model::effects::facts::{Family, Shapes};
 use rigproof_model::effects::{Form, Instant, facts, form, linear};
 use rigproof_spec::effect::{Mechanism, Motion, Range};
 use rigproof_spec::tables::GREATEST_CURRENT_A;
@@ -154,7 +154,7 @@ pub fn standard_shapes<R: Run + ?Sized>(
         Shapes::EffortLimit => effort_limits(&run.effort()),
         Shapes::EffortRate => one(effort_rates(&run.effort())),
         Shapes::Period => {
-            let points = points(run.motion(cause.at), windows, residual);
+            let points = points(cause, run.motion(cause.at), windows, residual);
             let mut all = periods(&points, run.travel(cause.at));
             if run.motion_kind() == Motion::Rotary {
                 all.extend(of_a_turn(longest_period(run.travel(cause.at), cause)));
@@ -278,14 +278,37 @@ pub fn longest_period(travel: f64, cause: Cause) -> f64 {
     }
 }
 
-fn points(motion: &[Instant], windows: &Windows, residual: &[f64]) -> Vec<(f64, f64)> {
+/// Whether a cause is periodic over the position.
+pub fn is_periodic(cause: Cause) -> bool {
+    facts(cause.mechanism).is_some_and(|facts| facts.shapes == Shapes::Period)
+}
+
+/// The part of a residual that a periodic cause may explain: of friction what opposes the motion.
+pub fn periodic_part(cause: Cause, now: &Instant, residual: f64) -> f64 {
+    let family = facts(cause.mechanism).map(|facts| facts.family);
+    match family {
+        Some(Family::FrictionOfMotion) => now.sense * residual,
+        _ => residual,
+    }
+}
+
+fn points(
+    cause: Cause,
+    motion: &[Instant],
+    windows: &Windows,
+    residual: &[f64],
+) -> Vec<(f64, f64)> {
     windows
         .centres
         .iter()
         .zip(residual)
         .zip(&windows.usable)
         .filter(|(_, usable)| **usable)
-        .filter_map(|((&centre, &r), _)| motion.get(centre).map(|now| (now.position, r)))
+        .filter_map(|((&centre, &r), _)| {
+            motion
+                .get(centre)
+                .map(|now| (now.position, periodic_part(cause, now, r)))
+        })
         .collect()
 }
 
@@ -312,7 +335,7 @@ pub fn both_signs(sizes: Vec<f64>) -> Vec<f64> {
 /// The bounds of each shape parameter: those of the trial shapes, and for a period the whole range
 /// of periods.
 pub fn shape_bounds(problem: &Problem, cause: Cause) -> Vec<(f64, f64)> {
-    if facts(cause.mechanism).is_some_and(|facts| facts.shapes == Shapes::Period) {
+    if is_periodic(cause) {
         let travel = problem.run.travel(cause.at);
         let travel = travel.max(1e-12);
         return vec![(travel / MOST_CYCLES, longest_period(travel, cause))];
@@ -398,13 +421,15 @@ pub fn geometric(low: f64, high: f64, count: usize) -> Vec<f64> {
         .collect()
 }
 
-/// The periods of the highest peaks in the spectrum of values over position.
+/// The periods of the highest peaks in the spectrum of values over position, less their mean.
 pub fn periods(points: &[(f64, f64)], travel: f64) -> Vec<f64> {
     let travel = travel.max(1e-12);
+    let mean = points.iter().map(|(_, r)| r).sum::<f64>() / points.len().max(1) as f64;
+    let points: Vec<(f64, f64)> = points.iter().map(|(q, r)| (*q, r - mean)).collect();
     let count = ((MOST_CYCLES - FEWEST_CYCLES) / SPACING) as usize;
     let mut peaks: Vec<(f64, f64)> = (0..count)
         .map(|k| FEWEST_CYCLES + SPACING * k as f64)
-        .map(|cycles| (power(points, TAU * cycles / travel), cycles))
+        .map(|cycles| (power(&points, TAU * cycles / travel), cycles))
         .collect();
     peaks.sort_by(|a, b| b.0.total_cmp(&a.0));
     let mut chosen: Vec<f64> = Vec::new();

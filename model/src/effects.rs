@@ -29,6 +29,8 @@ mod ripple;
 mod settling;
 mod spring;
 mod stribeck;
+mod torque_drift;
+mod uneven_friction;
 mod velocity_power;
 mod viscous;
 
@@ -253,6 +255,7 @@ pub const LIBRARY: &[Entry] = &[
     asymmetric_presliding::ENTRY,
     hysteresis::ENTRY,
     ripple::ENTRY,
+    uneven_friction::ENTRY,
     spring::ENTRY,
     nonlinear_spring::ENTRY,
     bias_drift::ENTRY,
@@ -268,6 +271,7 @@ pub const LIBRARY: &[Entry] = &[
     brake::CURRENT_HYSTERESIS,
     brake::DEAD_TIME,
     brake::SATURATION,
+    torque_drift::ENTRY,
     brake::THERMAL_FADE,
     brake::TIME_CONSTANT,
     brake::CURRENT_GAIN,

@@ -109,10 +109,14 @@ vocabulary! {
     LoadDependent = "load_dependent" called "friction under load at the tip" | "load friction" [needed("arm", Length)],
     /// Torque lost to heating.
     ThermalFade = "thermal_fade" called "fade by heat" | "fade" | "heat" [needed("per_joule", PerEnergy), needed("cooling", Time).above_zero()],
+    /// A brake's torque changed by the time since the start.
+    TorqueDrift = "torque_drift" called "drift of a brake's torque" | "torque fade" | "weakening brake" [needed("rate", PerTime), optional("settling", Time).above_zero()],
     /// Torque changed by rest (particle settling).
     Settling = "settling" called "settling of particles" | "sedimentation" [needed("level", Effort), needed("travel", Travel).above_zero()],
     /// Force periodic in position.
     Ripple = "ripple" called "torque ripple (cogging)" | "cogging" [needed("sine", Effort), needed("cosine", Effort), needed("period", Travel).above_zero()],
+    /// Dry friction whose level is periodic in position.
+    UnevenFriction = "uneven_friction" called "friction that varies along the travel" | "position-dependent friction" | "eccentric seal" [needed("sine", Effort), needed("cosine", Effort), needed("period", Travel).above_zero()],
     /// Weight of a tilted mechanism.
     Gravity = "gravity" called "gravity" | "tilt" | "weight" [needed("x", Acceleration), needed("y", Acceleration)],
     /// Linear spring.

@@ -47,6 +47,7 @@ fn others() -> Vec<JointEffect> {
         at(Joint::E, Stribeck, &[0.19, 0.41, 1.7, 0.023]),
         at(Joint::B, Hysteresis, &[2.3, 9.7, 3.1]),
         at(Joint::A, Ripple, &[0.071, 0.043, 0.217]),
+        at(Joint::A, UnevenFriction, &[0.031, -0.023, 0.31]),
         at(Joint::E, Spring, &[0.113]),
         at(Joint::C, NonlinearSpring, &[0.037]),
         at(Joint::B, BiasDrift, &[0.071, 1.3]),

@@ -3,12 +3,11 @@
 use super::fitted::{Fitted, Folds};
 use super::score::{Judge, is_impossible, prior};
 use super::unfitted;
-use crate::candidates::shape_bounds;
+use crate::candidates::{is_periodic, shape_bounds};
 use crate::problem::{Problem, Term};
-use crate::rules::{FINE_STRIDES, MOST_MOVES, PEAK_EXPONENTS_FIVE_BAR, STRIDES};
+use crate::rules::{FINE_STRIDES, MOST_MOVES, PEAK_EXPONENTS_FIVE_BAR, PERIOD_STRIDE, STRIDES};
 use rigproof_model::effects::facts;
 use rigproof_model::effects::facts::Shapes;
-use rigproof_spec::effect::Mechanism;
 
 /// The explanation with the shapes of the best evidence that the search meets, and then with peaks in
 /// plainer forms where that is more probable.
@@ -187,9 +186,9 @@ fn moves(problem: &Problem, own: &Term, stride: f64) -> Vec<(Move, Term)> {
     let is_anchor = is_anchored(own);
     // The grid already knows a period to within a few percent, and a longer stride leads to another
     // period.
-    let stride = match own.cause.mechanism {
-        Mechanism::Ripple => 0.02 * stride,
-        _ => stride,
+    let stride = match is_periodic(own.cause) {
+        true => PERIOD_STRIDE * stride,
+        false => stride,
     };
     let each = (0..own.shape.len()).flat_map(|place| [true, false].map(|up| Move { place, up }));
     let shapes = each.filter_map(|by| {

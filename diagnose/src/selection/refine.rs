@@ -1,15 +1,13 @@
 //! This file refines the shape and the onset of a term by a pattern search inside their bounds.
 
 use super::weigh::{effort_beside, loss_with, own_coefficients};
-use crate::candidates::{modelled_effort, realise, shape_bounds};
+use crate::candidates::{is_periodic, modelled_effort, realise, shape_bounds};
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, fit};
 use crate::rules::{
     LEAST_IMPROVEMENT, MOST_ROUNDS, NO_WORSE, ONSET_HALVINGS, ONSET_MARGIN, ONSET_STRIDE,
     PERIOD_STRIDE, STRIDE, STRIDE_HALVINGS, TAKEN_AGAIN,
 };
-use rigproof_model::effects::facts;
-use rigproof_model::effects::facts::Shapes;
 
 /// The variant with the least loss over all blocks, and its loss.
 pub(crate) fn best_variant(
@@ -112,9 +110,9 @@ fn moved(
     effort: &[f64],
 ) -> Option<Term> {
     let mut shape = term.shape.clone();
-    let own = match facts(term.cause.mechanism).map(|facts| facts.shapes) {
-        Some(Shapes::Period) => PERIOD_STRIDE * stride,
-        _ => stride,
+    let own = match is_periodic(term.cause) {
+        true => PERIOD_STRIDE * stride,
+        false => stride,
     };
     for ((value, along), (low, high)) in shape.iter_mut().zip(direction).zip(bounds) {
         *value *= 1.0 + own * along;

@@ -94,12 +94,16 @@ pub enum Law {
     },
     /// sine·sin(2π·q/period) + cosine·cos(2π·q/period).
     Ripple { sine: f64, cosine: f64, period: f64 },
+    /// (sine·sin(2π·q/period) + cosine·cos(2π·q/period))·sgn q̇.
+    UnevenFriction { sine: f64, cosine: f64, period: f64 },
     /// stiffness·(q − rest).
     Spring { stiffness: f64, rest: f64 },
     /// cubic·q³.
     NonlinearSpring { cubic: f64 },
     /// rate·settling·(1 − exp(−t/settling)); rate·t where settling is infinite.
     BiasDrift { rate: f64, settling: f64 },
+    /// The same as a share of a brake's torque.
+    TorqueDrift { rate: f64, settling: f64 },
     /// level·exp(−x/travel), x travelled since the sense changed; of a brake a share of its torque.
     Overshoot {
         level: f64,
@@ -152,6 +156,13 @@ impl Law {
                 cosine,
                 period,
             },
+            (Mechanism::UnevenFriction, &[sine, cosine, period]) if period > 0.0 => {
+                Law::UnevenFriction {
+                    sine,
+                    cosine,
+                    period,
+                }
+            }
             (Mechanism::Spring, &[stiffness]) => Law::Spring {
                 stiffness,
                 rest: 0.0,
@@ -162,6 +173,13 @@ impl Law {
                 rate,
                 settling: f64::INFINITY,
             },
+            (Mechanism::TorqueDrift, &[rate]) => Law::TorqueDrift {
+                rate,
+                settling: f64::INFINITY,
+            },
+            (Mechanism::TorqueDrift, &[rate, settling]) if settling > 0.0 => {
+                Law::TorqueDrift { rate, settling }
+            }
             (Mechanism::BiasDrift, &[rate, settling]) if settling > 0.0 => {
                 Law::BiasDrift { rate, settling }
             }
@@ -235,7 +253,7 @@ impl Law {
     /// The part of the resistance that follows from the instant and the memory, N·m.
     pub fn smooth(&self, now: &Instant, memory: f64) -> f64 {
         match *self {
-            Law::DryOffset { .. } | Law::Stribeck { .. } => 0.0,
+            Law::DryOffset { .. } | Law::Stribeck { .. } | Law::UnevenFriction { .. } => 0.0,
             Law::ConstantBias { level } => level,
             Law::Viscous { coefficient } => coefficient * now.speed,
             Law::VelocityPower {
@@ -257,13 +275,11 @@ impl Law {
                 sine,
                 cosine,
                 period,
-            } => {
-                let (sin, cos) = libm::sincos(core::f64::consts::TAU * now.position / period);
-                sine * sin + cosine * cos
-            }
+            } => wave(sine, cosine, now.position / period),
             Law::Spring { stiffness, rest } => stiffness * (now.position - rest),
             Law::NonlinearSpring { cubic } => cubic * now.position * now.position * now.position,
             Law::BiasDrift { rate, settling } => rate * settled(now.time_s, settling),
+            Law::TorqueDrift { .. } => 0.0,
             Law::Overshoot { .. } if memory == NOT_MOVED => 0.0,
             Law::Overshoot {
                 level,
@@ -293,6 +309,14 @@ impl Law {
                 speed,
                 exponent,
             } => peak * near_standstill(now.speed / speed, exponent),
+            Law::UnevenFriction {
+                sine,
+                cosine,
+                period,
+            } => wave(sine, cosine, now.position / period),
+            Law::TorqueDrift { rate, settling } => {
+                rate * settled(now.time_s, settling) * now.brake_nm
+            }
             _ => 0.0,
         }
     }
@@ -380,6 +404,12 @@ fn settled(time_s: f64, settling: f64) -> f64 {
         return time_s;
     }
     -settling * libm::expm1(-time_s / settling)
+}
+
+/// A sum of a sine and a cosine after some turns.
+fn wave(sine: f64, cosine: f64, turns: f64) -> f64 {
+    let (sin, cos) = libm::sincos(core::f64::consts::TAU * turns);
+    sine * sin + cosine * cos
 }
 
 /// Share of a Stribeck peak at a ratio of speeds.

@@ -50,11 +50,15 @@ struct Drift {
 
 impl Law for Drift {
     fn smooth(&self, now: &Instant, _memory: f64) -> f64 {
-        if self.settling > 0.0 {
-            -self.rate * self.settling * libm::expm1(-now.time_s / self.settling)
-        } else {
-            self.rate * now.time_s
-        }
+        drifted(self.rate, self.settling, now.time_s)
+    }
+}
+
+/// What has drifted by a time: at a rate that settles, or at the same one all the time where `settling` is 0.
+pub(super) fn drifted(rate: f64, settling: f64, time_s: f64) -> f64 {
+    match settling > 0.0 {
+        true => -rate * settling * libm::expm1(-time_s / settling),
+        false => rate * time_s,
     }
 }
 

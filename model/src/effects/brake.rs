@@ -120,6 +120,8 @@ pub(super) const THERMAL_FADE: Entry = Entry {
     facts: Facts {
         turn: 6,
         has_forms: true,
+        // Heat is one reason why a torque changes with time.
+        form_of: Some(Mechanism::TorqueDrift),
         shapes: Shapes::Geometric {
             low: 3.0,
             high: 300.0,

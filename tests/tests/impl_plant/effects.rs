@@ -135,6 +135,7 @@ fn every_effect_changes_the_motion_on_every_joint_and_a_null_one_does_not() {
             (Mechanism::AsymmetricPresliding, &[0.07, 0.23, 0.011]),
             (Mechanism::Hysteresis, &[7.0, 13.0, 5.0]),
             (Mechanism::Ripple, &[0.11, 0.07, 0.29]),
+            (Mechanism::UnevenFriction, &[0.07, 0.05, 0.29]),
             (Mechanism::Spring, &[0.37]),
             (Mechanism::NonlinearSpring, &[0.071]),
             (Mechanism::BiasDrift, &[0.41]),

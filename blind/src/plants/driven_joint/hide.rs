@@ -30,6 +30,7 @@ pub const MECHANISMS: &[&[Form]] = &[
     &[Form::Bias, Form::Drift, Form::Creep],
     &[Form::FadeLinear, Form::FadeExponential, Form::FadeByWay],
     &[Form::Ripple, Form::TwoOrders, Form::Toothed],
+    &[Form::Uneven],
     &[Form::Anchored, Form::Hardening, Form::Cubic],
     &[Form::TwoMass],
     &[Form::Gap, Form::ImpactGap],
@@ -42,7 +43,7 @@ pub const MECHANISMS: &[&[Form]] = &[
 pub const FOREIGN: &[Form] = &[
     Form::Disturbance,
     Form::DeadZone,
-    Form::Uneven,
+    Form::Tether,
     Form::Settling,
 ];
 

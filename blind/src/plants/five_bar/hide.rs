@@ -15,7 +15,9 @@ use std::f64::consts::TAU;
 pub type Recipe = fn(Joint, &mut Draw) -> Effect;
 
 /// At a joint with a brake.
-const JOINT: [Recipe; 7] = [dry, viscous, stribeck, presliding, spring, ripple, load];
+const JOINT: [Recipe; 8] = [
+    dry, viscous, stribeck, presliding, spring, ripple, uneven, load,
+];
 const BRAKE: [Recipe; 6] = [gain, lag, backlash, preisach, thermal, overshoot];
 const WHOLE: [Recipe; 4] = [payload, gravity, inertia, bias];
 const SENSOR: [Recipe; 6] = [
@@ -35,7 +37,7 @@ const SCALABLE: [Recipe; 12] = [
     dry, viscous, stribeck, presliding, spring, ripple, load, gain, payload, gravity, force_gain,
     force_bias,
 ];
-const FOREIGN: [Recipe; 4] = [two_ripples, uneven, varying_skew, compliance];
+const FOREIGN: [Recipe; 4] = [two_ripples, tether, varying_skew, compliance];
 /// Sets of which each looks like less of the others, all at one joint.
 const MASKED: [&[Recipe]; 10] = [
     &[dry, gain],
@@ -294,6 +296,13 @@ fn uneven(joint: Joint, draw: &mut Draw) -> Effect {
             draw.uniform(0.5, 1.0),
             draw.log_uniform(0.2, 1.5),
         ])
+        .joint(joint)
+}
+
+fn tether(joint: Joint, draw: &mut Draw) -> Effect {
+    let beyond = draw.sign() * draw.uniform(0.03, 0.15);
+    Form::Tether
+        .of([draw.log_uniform(1.0, 5.0), beyond])
         .joint(joint)
 }
 

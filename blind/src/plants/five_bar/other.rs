@@ -24,6 +24,7 @@ const JOINT: &[&[Form]] = &[
     &[Form::Root, Form::Square, Form::Power, Form::Tanh],
     &[Form::LoadArm, Form::LoadSquare],
     &[Form::TwoOrders, Form::Toothed],
+    &[Form::Uneven],
     &[Form::Anchored, Form::Hardening],
     &[Form::OvershootLinear],
 ];
@@ -62,7 +63,7 @@ const WHOLE: &[&[Form]] = &[
 ];
 
 /// Physics outside the library.
-const FOREIGN: &[Form] = &[Form::TwoRipples, Form::Uneven];
+const FOREIGN: &[Form] = &[Form::TwoRipples, Form::Tether];
 
 /// Draws the hidden effects of a stratum. At most one of them is known only by what the equations lack.
 pub fn draw(setup: &Setup, stratum: Stratum, draw: &mut Draw) -> Vec<Effect> {

@@ -200,7 +200,7 @@ fn the_bookkeeping_of_every_law_closes() {
             break;
         }
     }
-    assert_eq!(names.len(), 28, "{names:?}");
+    assert_eq!(names.len(), 29, "{names:?}");
 }
 
 #[test]
@@ -301,7 +301,9 @@ fn the_bookkeeping_of_every_other_form_closes() {
             continue;
         };
         assert!(secret.sizes.left < 0.5, "{effect:?} {}", secret.sizes.left);
-        assert!(secret.sizes.ratio.unwrap() > 1.001, "{effect:?}");
+        // A sharp limit that the currents do not reach leaves nothing.
+        let leaves = secret.sizes.ratio.unwrap() > 1.001;
+        assert!(leaves || effect.form == Form::Saturation, "{effect:?}");
         closed += 1;
     }
     assert!(closed > 25, "{closed}");

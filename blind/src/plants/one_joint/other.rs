@@ -26,6 +26,7 @@ const ANYWHERE: &[&[Form]] = &[
     &[Form::Asymmetric],
     &[Form::Drift, Form::Creep],
     &[Form::Ripple, Form::TwoOrders, Form::Toothed],
+    &[Form::Uneven],
     &[Form::Anchored, Form::Hardening, Form::Cubic],
     &[Form::Overshoot, Form::OvershootLinear],
     &[Form::Skew],
@@ -58,7 +59,7 @@ const SHARES: &[Form] = &[
 const GREATEST_NM: f64 = 6.0;
 
 /// Physics outside the library.
-const FOREIGN: &[Form] = &[Form::Disturbance, Form::Uneven];
+const FOREIGN: &[Form] = &[Form::Disturbance, Form::Tether];
 
 /// A bench with what it hides.
 pub fn draw(seed: u64, stratum: Stratum, draw: &mut Draw) -> Drawn<Setup> {

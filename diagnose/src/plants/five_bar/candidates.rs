@@ -3,8 +3,8 @@
 
 use super::run::{FiveBarRun, at, joint_at, place};
 use crate::candidates::{
-    both_signs, current_limits, fastest, geometric, in_numbers, longest_period, of_a_turn, periods,
-    plays, stribeck_shapes,
+    both_signs, current_limits, fastest, geometric, in_numbers, longest_period, of_a_turn,
+    periodic_part, periods, plays, stribeck_shapes,
 };
 use crate::cause::{Cause, Place};
 use crate::plant::Run;
@@ -172,7 +172,7 @@ fn points(run: &FiveBarRun, cause: Cause, windows: &Windows, residual: &[f64]) -
             let centre = *centres.first()?;
             let (row, now) = (rows.get(centre)?, run.motion_of(joint).get(centre)?);
             let along: f64 = row.iter().zip(residual).map(|(g, r)| g * r).sum();
-            Some((now.position, along))
+            Some((now.position, periodic_part(cause, now, along)))
         })
         .collect()
 }

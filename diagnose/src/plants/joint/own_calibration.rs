@@ -40,6 +40,8 @@ const LEFT_OUT: &[(Mechanism, &[f64], &[PlantKind])] = &[
     (LugreBristle, &[1.73, 1.1, 0.013], BOTH),
     (AsymmetricPresliding, &[2.1, 1.3, 0.013], BOTH),
     (Ripple, &[0.91, -0.67, 0.11], BOTH),
+    // Of an axis that has no friction it would drive.
+    (UnevenFriction, &[0.91, -0.67, 0.11], BENCH),
     (NonlinearSpring, &[71.0], BOTH),
     (BiasDrift, &[0.17], BOTH),
     (BiasDrift, &[0.53, 1.7], BOTH),
