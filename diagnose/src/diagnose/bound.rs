@@ -1,21 +1,23 @@
 //! This file bounds the probabilities of names by what the data leave open.
 
+use crate::candidates::is_periodic;
 use crate::evidence::{Intervals, coefficients_by_term};
-use crate::problem::Problem;
-use crate::rules::SUSPECTED;
+use crate::problem::{Problem, Term};
+use crate::rules::{PERIOD_KNOWN, SUSPECTED};
 use crate::selection::{Selection, is_noise};
+use rigproof_model::effects::facts;
 
 /// Bounds the probabilities of what is named.
 ///
 /// If the residual is more than noise, a mechanism that explains little beside the rest may be a part
 /// of the unexplained physics. Its probability is at most one half plus the share of the loss that it
-/// removes. A mechanism beside others whose numbers may all be 0 is at most suspected: the others,
-/// with other numbers, do without it.
+/// removes. A mechanism beside others whose numbers may all be those of nothing is at most suspected:
+/// the others, with other numbers, do without it. So is a periodic law whose period is not known.
 pub(super) fn bound(problem: &Problem, selection: &mut Selection, intervals: &Intervals) {
-    let may_be_nothing = may_be_nothing(problem, selection, intervals);
+    let left_open = left_open(problem, selection, intervals);
     let is_noise = is_noise(problem, &selection.after);
-    for (found, is_nothing) in selection.found.iter_mut().zip(may_be_nothing) {
-        if is_nothing {
+    for (found, is_open) in selection.found.iter_mut().zip(left_open) {
+        if is_open {
             found.probability = found.probability.min(SUSPECTED);
         }
         if !is_noise {
@@ -24,18 +26,35 @@ pub(super) fn bound(problem: &Problem, selection: &mut Selection, intervals: &In
     }
 }
 
-/// Of each found mechanism, whether the intervals of its coefficients all hold 0 beside others. Not
-/// on a plant of many places, whose delays are measured without an interval.
-fn may_be_nothing(problem: &Problem, selection: &Selection, intervals: &Intervals) -> Vec<bool> {
-    if selection.found.len() < 2 || problem.rules.many {
-        return vec![false; selection.found.len()];
-    }
+/// Of each found mechanism, whether its intervals leave open that it is nothing, or what it is.
+fn left_open(problem: &Problem, selection: &Selection, intervals: &Intervals) -> Vec<bool> {
     let (_, coefficients) = coefficients_by_term(problem, selection);
     let own = coefficients.iter().zip(&intervals.terms);
-    own.skip(selection.nominal.len())
-        .map(|(values, halves)| {
-            let mut pairs = values.iter().zip(halves);
-            !values.is_empty() && pairs.all(|(value, half)| value.abs() < *half)
-        })
-        .collect()
+    let own = own.skip(selection.nominal.len()).zip(&selection.found);
+    // Of a plant of many places delays are measured without an interval.
+    let beside = selection.found.len() > 1 && !problem.rules.many;
+    own.map(|((values, halves), found)| {
+        beside && may_be_nothing(&found.term, values, halves) || is_vague(&found.term, halves)
+    })
+    .collect()
+}
+
+/// Whether every coefficient may be 0 by its interval; of a law without one whether its first number may
+/// be the one at which it does nothing.
+fn may_be_nothing(term: &Term, values: &[f64], halves: &[f64]) -> bool {
+    let nothing = facts(term.cause.mechanism).and_then(|facts| facts.nothing);
+    match (values, nothing, term.shape.first(), halves.first()) {
+        ([], Some(nothing), Some(own), Some(half)) => (own - nothing).abs() < *half,
+        ([], ..) => false,
+        _ => values
+            .iter()
+            .zip(halves)
+            .all(|(value, half)| *value == 0.0 || value.abs() < *half),
+    }
+}
+
+/// Whether the period of a periodic law is not known.
+fn is_vague(term: &Term, halves: &[f64]) -> bool {
+    let own = term.shape.first().zip(halves.last());
+    is_periodic(term.cause) && own.is_some_and(|(period, half)| *half > PERIOD_KNOWN * period)
 }

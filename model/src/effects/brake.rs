@@ -71,6 +71,7 @@ pub(super) const DEAD_TIME: Entry = Entry {
     facts: Facts {
         turn: 5,
         shapes: Shapes::Delay,
+        nothing: Some(0.0),
         ..Facts::of(
             Family::Brake,
             Asked {
@@ -156,6 +157,7 @@ pub(super) const TIME_CONSTANT: Entry = Entry {
             high: 2.5,
             count: 9,
         },
+        nothing: Some(1.0),
         ..Facts::of(
             Family::Brake,
             Asked {
@@ -185,6 +187,7 @@ pub(super) const CURRENT_GAIN: Entry = Entry {
             high: 1.6,
             count: 9,
         },
+        nothing: Some(1.0),
         ..Facts::of(
             Family::Brake,
             Asked {

@@ -40,6 +40,9 @@ pub struct Facts {
     pub at_arm: bool,
     /// Whether it is compared in sets of mechanisms only, not one at a time.
     pub in_sets: bool,
+    /// The value of its first number at which a mechanism without a coefficient does nothing, if
+    /// there is one.
+    pub nothing: Option<f64>,
     /// The two mechanisms whose sum it equals once it has slid. The first gives the shape.
     pub both: Option<[Mechanism; 2]>,
     /// The size of a small change of its parameters.
@@ -65,6 +68,7 @@ impl Facts {
             of_torque: false,
             at_arm: false,
             in_sets: false,
+            nothing: None,
             both: None,
             refit: Refit {
                 leads: false,

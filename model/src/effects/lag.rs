@@ -17,6 +17,7 @@ pub(super) const ENTRY: Entry = Entry {
         shapes: Shapes::Lag,
         // A delay, as a shift in time is.
         form_of: Some(Mechanism::ChannelSkew),
+        nothing: Some(0.0),
         ..Facts::of(
             Family::Drive,
             Asked {
@@ -69,6 +70,7 @@ pub(super) const SKEW_ENTRY: Entry = Entry {
         usual: Usual::Frequent,
         turn: 4,
         shapes: Shapes::Shift,
+        nothing: Some(0.0),
         ..Facts::of(
             Family::Sensor,
             Asked {

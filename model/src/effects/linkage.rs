@@ -213,6 +213,7 @@ pub(super) const FORCE_ROTATION: Entry = Entry {
             high: 0.39,
             count: 8,
         },
+        nothing: Some(0.0),
         ..Facts::of(
             Family::Sensor,
             Asked {

@@ -4,6 +4,7 @@ use crate::plants::joint::run::{JointRun, PlantKind};
 use crate::plants::joint::simulate::{Model, Protocol, output};
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
 use nalgebra::{DMatrix, DVector, Dyn, Owned};
+use rigproof_spec::effect::Range;
 
 /// A parameter that is fitted.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -98,6 +99,17 @@ struct OutputError<'a> {
     x: DVector<f64>,
 }
 
+/// The nearest number that has a meaning; what must be above zero keeps a thousandth of where it
+/// started.
+fn within(range: Range, number: f64, start: f64) -> f64 {
+    match range {
+        Range::Any => number,
+        Range::NotBelowZero => number.max(0.0),
+        Range::AboveZero => number.max(1e-3 * start),
+        Range::Part => number.clamp(0.0, 1.0),
+    }
+}
+
 /// Step of the finite differences, in scales.
 const STEP: f64 = 1e-3;
 
@@ -109,18 +121,20 @@ impl OutputError<'_> {
     fn plant_at(&self, x: &DVector<f64>) -> Model {
         let mut plant = self.start.clone();
         for (free, departure) in self.free.iter().zip(x.iter()) {
-            let number = match free.place {
-                None => Some(&mut plant.inertia),
-                Some((effect, parameter)) => plant
-                    .effects
-                    .get_mut(effect)
-                    .and_then(|e| e.parameters.get_mut(parameter)),
+            let moved = |number: f64| number + departure * free.scale;
+            let Some((effect, parameter)) = free.place else {
+                plant.inertia = moved(plant.inertia);
+                continue;
             };
-            if let Some(number) = number {
-                *number += departure * free.scale;
+            let own = plant.effects.get_mut(effect);
+            let Some(own) = own else { continue };
+            let range = own.mechanism().parameters().get(parameter);
+            let range = range.map_or(Range::Any, |own| own.range);
+            if let Some(number) = own.parameters.get_mut(parameter) {
+                *number = within(range, moved(*number), *number);
             }
         }
-        plant.inertia = plant.inertia.max(1e-3 * self.start.inertia);
+        plant.inertia = within(Range::AboveZero, plant.inertia, self.start.inertia);
         plant
     }
 
