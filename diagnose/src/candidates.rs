@@ -151,7 +151,7 @@ pub fn standard_shapes<R: Run + ?Sized>(
             GAPS,
         )),
         Shapes::Resonance => resonances(step_s),
-        Shapes::EffortLimit => effort_limits(&run.effort()),
+        Shapes::EffortLimit => limits(greatest(&run.effort()), EFFORT_LIMIT_SHARES, EFFORT_LIMITS),
         Shapes::EffortRate => one(effort_rates(&run.effort())),
         Shapes::Period => {
             let points = points(cause, run.motion(cause.at), windows, residual);
@@ -173,9 +173,9 @@ pub fn standard_shapes<R: Run + ?Sized>(
         ))),
         Shapes::CurrentPlay { low, high, count } => plays(&geometric(low, high, count), &[]),
         Shapes::Delay => one(geometric(step_s, MOST_DELAY_S, DELAYS)),
-        Shapes::CurrentLimit => one(run
+        Shapes::CurrentLimit => run
             .brake()
-            .map_or(Vec::new(), |(_, own)| current_limits(own))),
+            .map_or(Vec::new(), |(_, own)| current_limits(own)),
         // A spring to an anchor needs a plane.
         Shapes::Anchor => vec![vec![]],
         own @ (Shapes::None
@@ -224,32 +224,25 @@ fn resonances(step_s: f64) -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// Trial limits of a brake's current, A: values below the greatest command.
-pub fn current_limits(given: &[f64]) -> Vec<f64> {
-    let greatest = given.iter().copied().fold(0.0, f64::max);
-    let [lowest, highest] = LIMIT_SHARES;
-    if greatest < LEAST_LIMITED_A {
-        return Vec::new();
+/// Trial limits of a brake's current, A; none where hardly any flowed.
+pub fn current_limits(given: &[f64]) -> Vec<Vec<f64>> {
+    match greatest(given) {
+        most if most < LEAST_LIMITED_A => Vec::new(),
+        most => limits(most, LIMIT_SHARES, LIMITS),
     }
-    geometric(lowest * greatest, highest * greatest, LIMITS)
 }
 
-/// Trial limits of the effort: sharp ones below the greatest command, and round ones, which an
-/// effort feels before it reaches them.
-fn effort_limits(effort: &[f64]) -> Vec<Vec<f64>> {
-    let greatest = greatest(effort);
-    let [lowest, highest] = EFFORT_LIMIT_SHARES;
-    let sharp = geometric(lowest * greatest, highest * greatest, EFFORT_LIMITS);
+/// Trial limits of an effort or a current: `count` sharp ones between two shares of the greatest
+/// command, and round ones, which a command feels before it reaches them.
+fn limits(greatest: f64, [lowest, highest]: [f64; 2], count: usize) -> Vec<Vec<f64>> {
+    let sharp = geometric(lowest * greatest, highest * greatest, count);
     let [lowest, highest] = ROUND_LIMIT_SHARES;
     let round = geometric(lowest * greatest, highest * greatest, LIMITS);
     let bent = round
         .into_iter()
         .flat_map(|limit| SHARPNESSES.map(|sharpness| vec![limit, sharpness]));
-    sharp
-        .into_iter()
-        .map(|limit| vec![limit])
-        .chain(bent)
-        .collect()
+    let sharp = sharp.into_iter().map(|limit| vec![limit]);
+    sharp.chain(bent).collect()
 }
 
 /// Trial rates of the effort: those that reach the greatest command within a time.

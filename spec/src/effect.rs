@@ -104,7 +104,10 @@ vocabulary! {
     /// Pure delay of the commanded effort.
     DeadTime = "dead_time" called "dead time" | "latency" | "delay" | "transport delay" [needed("delay", Time).above_zero()],
     /// Limited effort.
-    Saturation = "saturation" called "saturation of a brake" | "clipping" [needed("limit", Current).not_below_zero()],
+    Saturation = "saturation" called "saturation of a brake" | "clipping" [
+        needed("limit", Current).not_below_zero(),
+        optional("sharpness", Number).above_zero(),
+    ],
     /// Friction proportional to the transmitted load.
     LoadDependent = "load_dependent" called "friction under load at the tip" | "load friction" [needed("arm", Length)],
     /// Torque lost to heating.

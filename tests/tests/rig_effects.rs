@@ -54,6 +54,7 @@ fn others() -> Vec<JointEffect> {
         at(Joint::A, Lag, &[0.029]),
         at(Joint::E, DeadTime, &[0.0173]),
         at(Joint::B, Saturation, &[0.17]),
+        at(Joint::B, Saturation, &[0.27, 2.3]),
         at(Joint::C, BacklashWidth, &[0.037]),
         whole(Gravity, &[0.071, -0.093]),
         whole(Payload, &[0.31]),

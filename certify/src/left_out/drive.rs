@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use rigproof_model::effects::{CurrentPlay, Form, OfBrake, PLAYS, Played, form};
+use rigproof_model::effects::{CurrentPlay, Form, OfBrake, PLAYS, Played, form, limited};
 use rigproof_spec::tables::GREATEST_CURRENT_A;
 
 use super::LeftOut;
@@ -22,7 +22,8 @@ pub struct Amplifiers {
 struct Amplifier {
     late_steps: f64,
     times: f64,
-    most_a: f64,
+    /// The limit, A, and how sharply the current bends towards it.
+    limits: Vec<[f64; 2]>,
     /// Share, play, and where that stands, A; where it stands is not known before the first command.
     plays: Vec<(f64, CurrentPlay, Played)>,
     /// Commands, the newest first, A.
@@ -34,7 +35,7 @@ impl Default for Amplifier {
         Amplifier {
             late_steps: 0.0,
             times: 1.0,
-            most_a: GREATEST_CURRENT_A,
+            limits: Vec::new(),
             plays: Vec::new(),
             past_a: VecDeque::new(),
         }
@@ -57,7 +58,7 @@ impl Amplifiers {
                 Some(Form::Brake(OfBrake::DeadTime)) => own.late_steps += one.number(0) / step_s,
                 Some(Form::Brake(OfBrake::CurrentGain)) => own.times *= one.number(0),
                 Some(Form::Brake(OfBrake::Saturation)) => {
-                    own.most_a = own.most_a.min(one.number(0))
+                    own.limits.push([one.number(0), one.number(1)])
                 }
                 Some(Form::Brake(OfBrake::CurrentHysteresis)) => {
                     let play = CurrentPlay {
@@ -91,7 +92,10 @@ impl Amplifiers {
 
 impl Amplifier {
     fn given(&mut self, commanded_a: f64) -> f64 {
-        let mut current_a = (self.times * self.late(commanded_a)).min(self.most_a);
+        let mut current_a = self.times * self.late(commanded_a);
+        for numbers in &self.limits {
+            current_a = limited(current_a, numbers);
+        }
         for (share, play, played) in &mut self.plays {
             *played = play.moved(*played, current_a);
             current_a += *share * (play.held_a(played) - current_a);
@@ -154,6 +158,11 @@ mod tests {
         let gain = effect(Mechanism::CurrentGain, &[0.5]);
         let limit = effect(Mechanism::Saturation, &[0.4]);
         is(&[limit, gain], [0.0, 0.15, 0.4, 0.4, 0.2, 0.05, 0.0, 0.0]);
+        let bent = effect(Mechanism::Saturation, &[0.3, 1.0]);
+        is(
+            &[bent],
+            [0.0, 0.15, 0.225, 0.225, 0.12 / 0.7, 0.075, 0.0, 0.0],
+        );
         let play = effect(Mechanism::CurrentHysteresis, &[0.2, 1.0, 0.0]);
         is(&[play], [0.0, 0.1, 0.7, 0.7, 0.6, 0.3, 0.2, 0.2]);
         // More than the table is for is not given.

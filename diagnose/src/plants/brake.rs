@@ -4,7 +4,7 @@
 use crate::problem::less;
 use crate::signals::{shifted, through_play};
 use rigproof_model::brake::{Brake, slowed};
-use rigproof_model::effects::{CurrentPlay, Instant, OfBrake};
+use rigproof_model::effects::{CurrentPlay, Instant, OfBrake, limited};
 use rigproof_spec::tables::BrakeTable;
 use rigproof_spec::units::RAD_PER_DEG;
 
@@ -58,7 +58,7 @@ impl Braked<'_> {
         };
         Some(match kind {
             OfBrake::DeadTime => given(&shifted(self.current, -value / self.step_s)),
-            OfBrake::Saturation => each(&|current| current.min(value)),
+            OfBrake::Saturation => each(&|current| limited(current, shape)),
             OfBrake::CurrentGain => each(&|current| value * current),
             OfBrake::TimeConstant => built(slowed(self.table, value)),
             OfBrake::BacklashWidth => built(BrakeTable {

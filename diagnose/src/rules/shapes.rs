@@ -83,13 +83,13 @@ rules! {
     LEAST_LIMITED_A: f64 = 0.05, "A", FIVE_BAR;
     /// A brake: lowest and highest current limit that is tried, as shares of the greatest current.
     LIMIT_SHARES: [f64; 2] = [0.3, 0.97], "share", FIVE_BAR;
-    /// A brake: current limits that are tried; of an axis efforts to which the drive's bends.
+    /// A brake: sharp limits of the current that are tried; on every plant limits to which a command bends.
     LIMITS: usize = 8, "currents", FIVE_BAR;
     /// Axis: lowest and highest limit of the drive's effort that is tried, as shares of the greatest that was commanded: a loop that winds up commands many times what it gets.
     EFFORT_LIMIT_SHARES: [f64; 2] = [0.02, 0.97], "share", DRIVEN;
     /// The same of limits to which the effort bends: it feels them before it reaches them.
     ROUND_LIMIT_SHARES: [f64; 2] = [0.1, 2.0], "share", REASON;
-    /// Axis: how sharply the effort bends towards its limit: about as an arctangent does, and more sharply than a hyperbolic tangent.
+    /// How sharply an effort or a current bends towards its limit: about as an arctangent does, and more sharply than a hyperbolic tangent.
     SHARPNESSES: [f64; 2] = [1.5, 3.0], "1", REASON;
     /// Axis: longest and shortest time in which a drive of limited rate reaches the greatest effort: beyond them it answers never or at once.
     RISE_TIMES_S: [f64; 2] = [3.0, 0.005], "s", REASON;

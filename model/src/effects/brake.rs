@@ -92,7 +92,7 @@ pub(super) const SATURATION: Entry = Entry {
     linear: 0,
     passive: false,
     refuted_by: "a torque that grows with the current beyond the limit",
-    equation: "τ follows min(I, limit)",
+    equation: "τ follows I cut at limit, or I/(1 + (I/limit)^sharpness)^(1/sharpness) where it bends towards it",
     facts: Facts {
         usual: Usual::Common,
         turn: 5,
@@ -104,8 +104,8 @@ pub(super) const SATURATION: Entry = Entry {
                 five_bar: Where::Brakes,
             },
             Words {
-                what: "a command that is cut off at a limit",
-                look_for: "the amplifier's limit or its supply",
+                what: "a command that is cut off at a limit or bends towards it",
+                look_for: "the amplifier's limit or its supply, iron that saturates",
             },
         )
     },

@@ -222,7 +222,7 @@ pub enum Shapes {
     Delay,
     /// Shifts in time of both signs.
     Shift,
-    /// Currents below the greatest command.
+    /// Currents below the greatest command, also with how sharply the current bends towards them.
     CurrentLimit,
     /// Efforts below the greatest command, also with how sharply the effort bends towards them.
     EffortLimit,

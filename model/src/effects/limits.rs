@@ -46,15 +46,17 @@ pub(super) const RATE_ENTRY: Entry = Entry {
     ..ENTRY
 };
 
-/// An effort that a drive limits by the parameters of `drive_saturation`: a limit, N or N·m, and how sharply the effort
-/// bends towards it (Rapp 1991); without that it is cut off.
-pub fn limited(effort: f64, parameters: &[f64]) -> f64 {
+/// An effort or a current that is limited by the parameters of `drive_saturation` or `saturation`: a limit, N, N·m or A, and
+/// how sharply it bends towards that (Rapp 1991); without a sharpness it is cut off.
+pub fn limited(given: f64, parameters: &[f64]) -> f64 {
     let (limit, sharpness) = (parameter(parameters, 0).abs(), parameter(parameters, 1));
-    if sharpness <= 0.0 {
-        return effort.clamp(-limit, limit);
+    let size = given.abs();
+    if sharpness <= 0.0 || limit == 0.0 {
+        return given.clamp(-limit, limit);
     }
-    let times = libm::pow(effort.abs() / limit, sharpness);
-    effort / libm::pow(1.0 + times, 1.0 / sharpness)
+    let (less, more) = (size.min(limit), size.max(limit));
+    let times = libm::pow(less / more, sharpness);
+    given * (limit / more) / libm::pow(1.0 + times, 1.0 / sharpness)
 }
 
 /// What follows an effort in a step no farther than `most`, N or N·m.
@@ -86,6 +88,8 @@ mod tests {
             assert!(bent(1e6) > 0.699 && bent(1e6) <= 0.7, "{}", bent(1e6));
         }
         assert!((limited(0.65, &[0.7, 400.0]) - 0.65).abs() < 1e-6);
+        assert!((limited(-7e3, &[0.7, 400.0]) + 0.7).abs() < 1e-15);
+        assert_eq!([0.0, 0.3].map(|e| limited(e, &[0.0, 2.0])), [0.0; 2]);
     }
 
     #[test]

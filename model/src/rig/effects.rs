@@ -182,7 +182,7 @@ fn of_brake(effect: &JointEffect, joint: Joint) -> Option<Term> {
         },
         Form::Brake(OfBrake::Saturation) => Term::Limit {
             place,
-            most_a: value(0),
+            numbers: [value(0), value(1)],
         },
         Form::Brake(OfBrake::CurrentGain) => Term::Amplifier {
             place,

@@ -9,7 +9,7 @@ use rigproof_spec::joint::Joint;
 
 use super::contact::Contact;
 use super::effects::JointEffect;
-use crate::effects::{CurrentPlay, Instant, Law, PLAYS, Played, lagged};
+use crate::effects::{CurrentPlay, Instant, Law, PLAYS, Played, lagged, limited};
 use crate::motion::two_coordinate::TwoCoordinate;
 
 /// The least yield of a joint with dry friction, N·m: what holds has to be able to let go.
@@ -43,8 +43,8 @@ pub enum Term {
     },
     /// A brake's current comes late.
     Late { place: usize, delay_s: f64 },
-    /// A brake's current is limited.
-    Limit { place: usize, most_a: f64 },
+    /// A brake's current is limited: the limit, A, and how sharply it bends towards that.
+    Limit { place: usize, numbers: [f64; 2] },
     /// A brake's current is another one.
     Amplifier { place: usize, times: f64 },
     /// A brake's time constants are others; remembers whether that has begun.
@@ -209,10 +209,10 @@ impl LeftOut {
             }
         }
         for timed in terms.iter() {
-            if let Term::Limit { place, most_a } = timed.term
+            if let Term::Limit { place, numbers } = timed.term
                 && time_s >= timed.onset_s
             {
-                given_a[place] = given_a[place].min(most_a);
+                given_a[place] = limited(given_a[place], &numbers);
             }
         }
         for (timed, played) in terms.iter().zip(&mut self.played) {

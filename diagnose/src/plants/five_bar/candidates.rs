@@ -178,7 +178,7 @@ fn points(run: &FiveBarRun, cause: Cause, windows: &Windows, residual: &[f64]) -
 }
 
 /// Trial limits of the current of a cause's brake, A.
-fn limits(run: &FiveBarRun, cause: Cause) -> Vec<f64> {
+fn limits(run: &FiveBarRun, cause: Cause) -> Vec<Vec<f64>> {
     let joint = joint_at(cause.at);
     let current = joint.and_then(|joint| run.currents.get(place(joint))?.as_ref());
     current.map_or(Vec::new(), |current| current_limits(current))
@@ -225,7 +225,7 @@ pub fn shapes(
             LAGS_FIVE_BAR,
         )),
         Shapes::Delay => one(geometric(run.step_s, MOST_DELAY_S, DELAYS)),
-        Shapes::CurrentLimit => one(limits(run, cause)),
+        Shapes::CurrentLimit => limits(run, cause),
         Shapes::CurrentPlay { low, high, count } => plays(&geometric(low, high, count), &CLOSING_A),
         Shapes::Shift => one(both_signs(geometric(
             LEAST_SHIFT_STEPS_FIVE_BAR * run.step_s,

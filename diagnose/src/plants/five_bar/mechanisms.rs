@@ -255,6 +255,7 @@ fn every_mechanism_does_along_a_motion_what_its_column_says() {
         (at(Lag, Joint::E, &[0.037]), None),
         (at(DeadTime, Joint::A, &[0.0237]), None),
         (at(Saturation, Joint::B, &[0.213]), None),
+        (at(Saturation, Joint::B, &[0.313, 2.1]), None),
         (at(CurrentHysteresis, Joint::C, &[0.071, 0.3]), None),
         (at(CurrentHysteresis, Joint::C, &[0.071, 0.3, 0.31]), None),
         (at(ThermalFade, Joint::A, &[0.31, 7.3]), None),

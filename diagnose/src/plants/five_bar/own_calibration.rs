@@ -71,6 +71,7 @@ const WITH_SEEDS: &[LeftOut] = &[
     (BiasDrift, One(A), &[0.31]),
     (DeadTime, One(A), &[0.0237]),
     (Saturation, One(B), &[0.213]),
+    (Saturation, One(B), &[0.313, 2.1]),
     (CurrentHysteresis, One(C), &[0.071, 0.3]),
     (ThermalFade, One(A), &[0.31, 7.3]),
     (TorqueDrift, One(A), &[-0.031]),
