@@ -9,7 +9,7 @@ use crate::rules::{
     PERIOD_STRIDE, STRIDE, STRIDE_HALVINGS, TAKEN_AGAIN,
 };
 use rigproof_model::effects::facts;
-use rigproof_model::effects::facts::Shapes;
+use rigproof_model::effects::facts::Facts;
 
 /// The variant with the least loss over all blocks, and its loss.
 pub(crate) fn best_variant(
@@ -36,7 +36,7 @@ pub(crate) fn refined(problem: &Problem, common: &[&Term], start: Term, blocks: 
     let mut halvings = 0;
     for _ in 0..MOST_ROUNDS {
         let before = best.0;
-        for direction in directions(best.1.shape.len(), best.1.onset_s.is_some()) {
+        for direction in directions(best.1.numbers().len(), best.1.onset_s.is_some()) {
             let Some(moved) = moved(problem, &best.1, &direction, stride, &bounds, &effort) else {
                 continue;
             };
@@ -112,9 +112,10 @@ fn moved(
     effort: &[f64],
 ) -> Option<Term> {
     let mut shape = term.shape.clone();
-    let own = match facts(term.cause.mechanism).map(|facts| facts.shapes) {
-        Some(Shapes::Period) => PERIOD_STRIDE * stride,
-        _ => stride,
+    let is_a_period = |facts: &Facts| facts.shapes.is_a_period();
+    let own = match facts(term.cause.mechanism).is_some_and(is_a_period) {
+        true => PERIOD_STRIDE * stride,
+        false => stride,
     };
     for ((value, along), (low, high)) in shape.iter_mut().zip(direction).zip(bounds) {
         *value *= 1.0 + own * along;
@@ -124,7 +125,7 @@ fn moved(
     }
     let length_s = problem.run.clock().duration_s();
     let mut onset_s = term.onset_s;
-    if let (Some(onset), Some(along)) = (&mut onset_s, direction.get(term.shape.len())) {
+    if let (Some(onset), Some(along)) = (&mut onset_s, direction.get(term.numbers().len())) {
         *onset += ONSET_STRIDE * stride * along * length_s;
         let share = (*onset - problem.run.clock().start_s) / length_s;
         if !(ONSET_MARGIN..1.0 - ONSET_MARGIN).contains(&share) {
