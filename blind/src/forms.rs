@@ -197,7 +197,12 @@ impl Names {
                 &["encoder_scale", "ripple"],
             ),
             Form::Interpolation => (
-                &["encoder_eccentricity", "interpolation_error", "ripple"],
+                &[
+                    "encoder_eccentricity",
+                    "eccentric_encoder",
+                    "interpolation_error",
+                    "ripple",
+                ],
                 &[],
             ),
             Form::ForceGain => (&["force_gain"], &[]),

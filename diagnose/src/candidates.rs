@@ -153,13 +153,13 @@ pub fn standard_shapes<R: Run + ?Sized>(
         Shapes::Resonance => resonances(step_s),
         Shapes::EffortLimit => limits(greatest(&run.effort()), EFFORT_LIMIT_SHARES, EFFORT_LIMITS),
         Shapes::EffortRate => one(effort_rates(&run.effort())),
-        Shapes::Period => {
-            let points = points(cause, run.motion(cause.at), windows, residual);
-            let mut all = periods(&points, run.travel(cause.at));
-            if run.motion_kind() == Motion::Rotary {
-                all.extend(of_a_turn(longest_period(run.travel(cause.at), cause)));
-            }
-            one(all)
+        Shapes::Period => one(all_periods(run, cause, windows, residual)),
+        Shapes::Pitch => {
+            let mut pitches = all_periods(run, cause, windows, residual);
+            pitches.retain(|pitch| *pitch != TAU);
+            let once_a_turn = (run.motion_kind() == Motion::Rotary).then(Vec::new);
+            let pitches = pitches.into_iter().map(|pitch| vec![pitch]);
+            once_a_turn.into_iter().chain(pitches).collect()
         }
         Shapes::Lag => one(geometric(
             LEAST_LAG_STEPS * step_s,
@@ -184,6 +184,21 @@ pub fn standard_shapes<R: Run + ?Sized>(
         | Shapes::Optional { .. }
         | Shapes::BothSigns { .. }) => in_numbers(own),
     }
+}
+
+/// Trial periods: those of the highest peaks of the residual's spectrum, and parts of a turn.
+fn all_periods<R: Run + ?Sized>(
+    run: &R,
+    cause: Cause,
+    windows: &Windows,
+    residual: &[f64],
+) -> Vec<f64> {
+    let (motion, travel) = (run.motion(cause.at), run.travel(cause.at));
+    let mut all = periods(&points(cause, motion, windows, residual), travel);
+    if run.motion_kind() == Motion::Rotary {
+        all.extend(of_a_turn(longest_period(travel, cause)));
+    }
+    all
 }
 
 /// The shapes of a play of the current: single plays whose sides meet below a current or stay open,
@@ -273,7 +288,7 @@ pub fn longest_period(travel: f64, cause: Cause) -> f64 {
 
 /// Whether a cause is periodic over the position.
 pub fn is_periodic(cause: Cause) -> bool {
-    facts(cause.mechanism).is_some_and(|facts| facts.shapes == Shapes::Period)
+    facts(cause.mechanism).is_some_and(|facts| facts.shapes.is_a_period())
 }
 
 /// The part of a residual that a periodic cause may explain: of friction what opposes the motion.

@@ -21,7 +21,7 @@ use std::collections::BTreeMap;
 pub use intervals::{Intervals, intervals};
 
 fn parameter_count(term: &Term) -> usize {
-    linear(term.cause.mechanism) + term.shape.len()
+    linear(term.cause.mechanism) + term.numbers().len()
 }
 
 /// A parameter of a fit.
@@ -100,7 +100,7 @@ fn shape_sensitivities(
         }
         Some(sum)
     };
-    (0..term.shape.len())
+    (0..term.numbers().len())
         .filter_map(|k| {
             let step = SHAPE_STEP * term.shape.get(k)?.abs();
             let moved = |by: f64| {
@@ -308,7 +308,7 @@ pub fn parameters(problem: &Problem, term: &Term, coefficients: &[f64]) -> Vec<f
         return vec![stiffness, stated - away];
     }
     let mut parameters = problem.run.linear(mechanism, given);
-    parameters.extend_from_slice(&term.shape);
+    parameters.extend_from_slice(term.numbers());
     parameters
 }
 

@@ -293,8 +293,8 @@ pub trait Run: Debug + Send + Sync {
         Vec::new()
     }
 
-    /// For a cause that moves the plant: the shape with which the finite difference spans the whole
-    /// change that these coefficients state.
+    /// For a cause whose columns are straight for a small change only: the shape with which they
+    /// hold for the whole change that these coefficients state.
     fn shape_over(&self, cause: Cause, shape: &[f64], coefficients: &[f64]) -> Option<Vec<f64>> {
         let _ = (cause, shape, coefficients);
         None

@@ -11,7 +11,8 @@ use crate::scatter::Trials;
 use crate::weak::Windows;
 use crate::whiten::Whitener;
 use rayon::prelude::*;
-use rigproof_model::effects::entry;
+use rigproof_model::effects::facts::Shapes;
+use rigproof_model::effects::{entry, facts};
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError, RwLock};
 
@@ -40,6 +41,18 @@ pub struct Term {
     pub fixed: Option<Arc<Rows>>,
     /// The linear parameters, if the nominal model states them as known.
     pub known: Option<Vec<f64>>,
+}
+
+impl Term {
+    /// Its shape parameters that are numbers of the law. The pitch of an encoder is followed by the
+    /// error about which its columns are straight.
+    pub fn numbers(&self) -> &[f64] {
+        let is_pitch = facts(self.cause.mechanism).is_some_and(|own| own.shapes == Shapes::Pitch);
+        match self.shape.get(..1) {
+            Some(pitch) if is_pitch => pitch,
+            _ => &self.shape,
+        }
+    }
 }
 
 pub struct Problem<'a> {
@@ -203,8 +216,8 @@ impl<'a> Problem<'a> {
         Some(columns)
     }
 
-    /// For a cause that moves the plant: the shape with which the finite difference spans the whole
-    /// change that the coefficients state.
+    /// For a cause whose columns are straight for a small change only: the shape with which they
+    /// hold for the whole change that the coefficients state.
     pub fn shape_over(&self, term: &Term, coefficients: &[f64]) -> Option<Vec<f64>> {
         self.run.shape_over(term.cause, &term.shape, coefficients)
     }

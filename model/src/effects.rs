@@ -34,6 +34,7 @@ mod uneven_friction;
 mod velocity_power;
 mod viscous;
 
+pub use eccentric_encoder::{behind_shown, shown_too_much};
 pub use lag::{first_order_lag_held, first_order_lag_straight, lagged, lagged_held};
 pub use limits::{limited, slewed, slewed_held};
 pub use play::{CurrentPlay, PLAYS, Played};
@@ -194,7 +195,7 @@ pub enum OfSensor {
     EncoderScale,
     /// A wrong zero of an angle.
     EncoderOffset,
-    /// A disc off its centre.
+    /// An error that repeats, such as that of a disc off its centre.
     Eccentric,
     /// Time stamps that scatter.
     Clock,
@@ -440,7 +441,10 @@ mod tests {
                 assert!(self::entry(other).is_some(), "{name}");
             }
             // What has no shape needs no number but its coefficients; an encoder's is the step at which its column is taken.
-            let is_optional = matches!(shapes, facts::Shapes::Optional { .. });
+            let is_optional = matches!(
+                shapes,
+                facts::Shapes::Optional { .. } | facts::Shapes::Pitch
+            );
             let is_shaped = entry.mechanism.needed() > entry.linear
                 || entry.form.is_of_encoder()
                 || is_optional && parameters.len() > entry.linear;

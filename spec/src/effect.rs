@@ -228,8 +228,12 @@ vocabulary! {
     RateLimit = "rate_limit" called "slew-rate limit of the drive" | "slew rate" | "rate limiter" | "slew limit" [needed("rate", EffortPerTime).above_zero()],
     /// Time stamps that scatter about an even clock.
     ClockJitter = "clock_jitter" called "jitter of the time stamps" | "jitter" | "time stamps" [needed("jitter", Time).not_below_zero()],
-    /// An encoder whose disc turns off its centre.
-    EccentricEncoder = "eccentric_encoder" called "encoder eccentricity" | "eccentricity" [needed("sine", Travel), needed("cosine", Travel)],
+    /// An encoder whose disc turns off its centre, or that errs alike in every one of its lines.
+    EccentricEncoder = "eccentric_encoder" called "encoder eccentricity" | "eccentricity" | "interpolation error" | "subdivisional error" [
+        needed("sine", Travel),
+        needed("cosine", Travel),
+        optional("period", Travel).above_zero(),
+    ],
 }
 
 impl Mechanism {

@@ -3,7 +3,9 @@
 use std::collections::VecDeque;
 
 use rigproof_model::axis::{Axis, State, Trailing, Transmission};
-use rigproof_model::effects::{Drive, Form, OfJoint, OfSensor, form, lagged, law, limited, slewed};
+use rigproof_model::effects::{
+    Drive, Form, OfJoint, OfSensor, form, lagged, law, limited, shown_too_much, slewed,
+};
 
 use super::found::Drawn;
 
@@ -134,10 +136,7 @@ impl Plant {
             match of {
                 OfSensor::EncoderScale => position * (1.0 + number(0)),
                 OfSensor::EncoderOffset => position + number(0),
-                OfSensor::Eccentric => {
-                    let (sine, cosine) = libm::sincos(position);
-                    position + number(0) * sine + number(1) * cosine
-                }
+                OfSensor::Eccentric => position + shown_too_much(position, numbers),
                 _ => position,
             }
         })

@@ -55,6 +55,6 @@ fn may_be_nothing(term: &Term, values: &[f64], halves: &[f64]) -> bool {
 
 /// Whether the period of a periodic law is not known.
 fn is_vague(term: &Term, halves: &[f64]) -> bool {
-    let own = term.shape.first().zip(halves.last());
+    let own = term.numbers().first().zip(halves.last());
     is_periodic(term.cause) && own.is_some_and(|(period, half)| *half > PERIOD_KNOWN * period)
 }

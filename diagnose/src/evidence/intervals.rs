@@ -97,7 +97,7 @@ fn is_given(problem: &Problem, term: &Term, parameter: usize, half: f64) -> bool
     if parameter < term.free.len() {
         return false;
     }
-    let shape = parameter.checked_sub(parameter_count(term) - term.shape.len());
+    let shape = parameter.checked_sub(parameter_count(term) - term.numbers().len());
     shape.is_some_and(|shape| {
         let bounds = shape_bounds(problem, term.cause);
         let range = bounds.get(shape).map_or(0.0, |(low, high)| high - low);

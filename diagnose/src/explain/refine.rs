@@ -5,7 +5,9 @@ use super::score::{Judge, is_impossible, prior};
 use super::unfitted;
 use crate::candidates::{is_periodic, shape_bounds};
 use crate::problem::{Problem, Term};
-use crate::rules::{FINE_STRIDES, MOST_MOVES, PEAK_EXPONENTS_FIVE_BAR, PERIOD_STRIDE, STRIDES};
+use crate::rules::{
+    FINE_STRIDES, MOST_MOVES, PEAK_EXPONENTS_FIVE_BAR, PERIOD_STRIDE, STRIDES, TAKEN_AGAIN,
+};
 use rigproof_model::effects::facts;
 use rigproof_model::effects::facts::Shapes;
 
@@ -36,7 +38,7 @@ pub fn refined(
             best = refining.moved(best, stride);
         }
     }
-    let mut best = best.1;
+    let mut best = refining.taken_again(best);
     if best.terms.iter().any(is_peak) {
         for _ in 0..best.terms.len() {
             best = refining.plainer(best);
@@ -77,6 +79,35 @@ impl Refining<'_> {
             best = better;
         }
         best
+    }
+
+    /// With columns that are straight for a small change taken anew at the change that was fitted,
+    /// as long as the evidence grows.
+    fn taken_again(&self, start: (f64, Fitted)) -> Fitted {
+        let mut best = start;
+        for _ in 0..TAKEN_AGAIN {
+            let fitted = best.1.terms.iter().zip(best.1.by_term());
+            let again = fitted.map(|(term, coefficients)| {
+                let is_own = !self.problem.run.moves(term.cause);
+                let shape = self.problem.shape_over(term, coefficients);
+                let again = shape
+                    .filter(|_| is_own)
+                    .and_then(|shape| unfitted(self.problem, term.cause, &shape, term.onset_s));
+                again.unwrap_or_else(|| term.clone())
+            });
+            let terms: Vec<Term> = again.collect();
+            let is_as_before = |(a, b): (&Term, &Term)| a.shape == b.shape;
+            if terms.iter().zip(&best.1.terms).all(is_as_before) {
+                break;
+            }
+            let again = self.bare.of(self.folds, &terms);
+            let evidence = self.judge.evidence(self.folds, &again);
+            if evidence <= best.0 {
+                break;
+            }
+            best = (evidence, again);
+        }
+        best.1
     }
 
     /// The first term in a plainer form of its law, where that is more probable, then put last.
@@ -190,7 +221,8 @@ fn moves(problem: &Problem, own: &Term, stride: f64) -> Vec<(Move, Term)> {
         true => PERIOD_STRIDE * stride,
         false => stride,
     };
-    let each = (0..own.shape.len()).flat_map(|place| [true, false].map(|up| Move { place, up }));
+    let each =
+        (0..own.numbers().len()).flat_map(|place| [true, false].map(|up| Move { place, up }));
     let shapes = each.filter_map(|by| {
         let shape = match is_anchor {
             true => moved_anchor(&own.shape, &bounds, by, stride)?,

@@ -43,7 +43,7 @@ rules! {
     PERIOD_STRIDE: f64 = 0.004 / STRIDE, "share", AXIS_BENCH;
     /// Share of the loss that a round must remove for its stride to stay.
     LEAST_IMPROVEMENT: f64 = 1e-4, "share", REASON;
-    /// Rounds in which columns that change the linkage are computed anew at the fitted change.
+    /// Rounds in which columns that change the linkage, or what an encoder shows, are computed anew at the fitted change.
     TAKEN_AGAIN: usize = 3, "rounds", REASON;
     /// Such columns are kept if the loss is at most this many times the loss before: they are more accurate even where they fit no better.
     NO_WORSE: f64 = 1.1, "times", "five-bar, seeds below 10 000 (decision 0150)";

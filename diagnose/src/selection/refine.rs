@@ -34,7 +34,7 @@ pub(crate) fn refined(problem: &Problem, common: &[&Term], start: Term, blocks: 
     let mut halvings = 0;
     for _ in 0..MOST_ROUNDS {
         let before = best.0;
-        for direction in directions(best.1.shape.len(), best.1.onset_s.is_some()) {
+        for direction in directions(best.1.numbers().len(), best.1.onset_s.is_some()) {
             let Some(moved) = moved(problem, &best.1, &direction, stride, &bounds, &effort) else {
                 continue;
             };
@@ -122,7 +122,7 @@ fn moved(
     }
     let length_s = problem.run.clock().duration_s();
     let mut onset_s = term.onset_s;
-    if let (Some(onset), Some(along)) = (&mut onset_s, direction.get(term.shape.len())) {
+    if let (Some(onset), Some(along)) = (&mut onset_s, direction.get(term.numbers().len())) {
         *onset += ONSET_STRIDE * stride * along * length_s;
         let share = (*onset - problem.run.clock().start_s) / length_s;
         if !(ONSET_MARGIN..1.0 - ONSET_MARGIN).contains(&share) {

@@ -216,6 +216,8 @@ pub enum Shapes {
     Memory,
     /// Periods over the travel, from the spectrum of the residual.
     Period,
+    /// None, which is once a turn, or the same periods.
+    Pitch,
     /// Time constants from half a sample on.
     Lag,
     /// Delays from a sample on.
@@ -244,6 +246,13 @@ pub enum Shapes {
         /// Their number.
         count: usize,
     },
+}
+
+impl Shapes {
+    /// Whether the shape is a period over the travel.
+    pub const fn is_a_period(self) -> bool {
+        matches!(self, Shapes::Period | Shapes::Pitch)
+    }
 }
 
 /// How common a mechanism is among those that models leave out.

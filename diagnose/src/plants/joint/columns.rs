@@ -3,6 +3,7 @@
 
 use super::drive::{changed, driven, lagging};
 use super::inertia::Inertia;
+use super::laws::own_law;
 use super::run::{JointRun, PlantKind};
 use crate::cause::{Cause, Scales};
 use crate::effect::Effect;
@@ -13,7 +14,10 @@ use crate::rules::STILL_NOISES;
 use crate::signals::{known_travel, lagged_yield, numerov, second_difference, shifted};
 use rigproof_model::axis::Trailing;
 use rigproof_model::effects::facts::{AtRest, Family};
-use rigproof_model::effects::{Drive, Form, Law, OfJoint, OfSensor, entry, facts, form, law};
+use rigproof_model::effects::{
+    Drive, Form, Instant, Law, OfJoint, OfSensor, behind_shown, entry, facts, form, law,
+    shown_too_much,
+};
 use rigproof_spec::effect::Mechanism;
 
 /// One column per linear parameter of a resistance: the law with that parameter 1 and the others 0,
@@ -260,26 +264,54 @@ fn of_joint(run: &JointRun, form: Form, shape: &[f64]) -> Option<Columns> {
             free(signal)
         }
         Form::Sensor(OfSensor::Eccentric) => Some(Columns::Free(
-            [libm::sin as fn(f64) -> f64, libm::cos]
-                .map(|wave| shown_by(run, wave, inertia))
+            [[1.0, 0.0], [0.0, 1.0]]
+                .map(|wave| shown_by(run, wave, shape, inertia))
                 .into(),
         )),
         _ => None,
     }
 }
 
-/// The effort that an error of the shown position adds: its second difference times the inertia,
-/// and its slope times the friction.
-fn shown_by(run: &JointRun, wave: fn(f64) -> f64, inertia: f64) -> Vec<f64> {
-    let more: Vec<f64> = run.motion.iter().map(|now| wave(now.position)).collect();
+/// The effort that an encoder's error adds, of so much sine and cosine: its second difference times
+/// the inertia, and what the described laws take it for.
+///
+/// The shape is the pitch, if it is not a turn, and the error already known there: what the encoder
+/// adds goes by the true position.
+fn shown_by(run: &JointRun, wave: [f64; 2], shape: &[f64], inertia: f64) -> Vec<f64> {
+    let pitch = shape.get(..1).unwrap_or_default();
+    let known = [shape.get(1..).unwrap_or_default(), pitch].concat();
+    let numbers = [&wave, pitch].concat();
+    let there = |shown: f64| match shape.len() > 1 {
+        true => behind_shown(shown, &known),
+        false => shown,
+    };
+    let along = run.motion.iter();
+    let more: Vec<f64> = along
+        .map(|now| shown_too_much(there(now.position), &numbers))
+        .collect();
     let mut signal = second_difference(&more, run.step_s);
     signal.iter_mut().for_each(|x| *x *= inertia);
-    let own = run.described.iter();
-    let own = own.filter(|e| e.cause.mechanism == Mechanism::Viscous);
-    let drag: f64 = own.filter_map(|e| e.parameters.first()).sum();
-    add(&mut signal, &seen(run, gradient(&more, run.step_s)), drag);
+    let laws: Vec<Box<dyn Law>> = run.described.iter().filter_map(own_law).collect();
+    let moved = run
+        .motion
+        .iter()
+        .zip(more.iter().zip(gradient(&more, run.step_s)));
+    let taken = moved.map(|(now, (more, faster))| {
+        let moved = Instant {
+            position: now.position + SMALL * more,
+            speed: now.speed + SMALL * faster,
+            ..*now
+        };
+        let own = laws.iter().filter(|law| !law.remembers());
+        own.map(|law| (law.smooth(&moved, 0.0) - law.smooth(now, 0.0)) / SMALL)
+            .sum()
+    });
+    add(&mut signal, &seen(run, taken.collect()), 1.0);
     signal
 }
+
+/// The share of an encoder's error for which a law is a straight line.
+const SMALL: f64 = 1e-6;
 
 /// The acceleration of a trailing part relative to a joint that has the given acceleration.
 fn trailing(acceleration: &[f64], part: &Trailing, step_s: f64) -> Vec<f64> {

@@ -2,11 +2,7 @@
 
 use crate::effect::Effect;
 use crate::plant::Clock;
-use rigproof_model::effects::{Form, OfSensor, form};
-
-/// Rounds of the fixed-point iteration that inverts an eccentric disc. Each multiplies the error by
-/// the eccentricity.
-const ROUNDS: usize = 12;
+use rigproof_model::effects::{Form, OfSensor, behind_shown, form, shown_too_much};
 
 /// The error of the encoder that an effect is; `None` for other effects.
 pub(super) fn of_encoder(effect: &Effect) -> Option<OfSensor> {
@@ -29,10 +25,7 @@ pub(super) fn behind(effects: &[Effect], shown: &[f64], clock: Clock) -> Vec<f64
         for position in there.iter_mut().skip(effect.first_sample(clock)) {
             *position = match of {
                 OfSensor::EncoderScale => *position / (1.0 + effect.value(0)),
-                OfSensor::Eccentric => {
-                    let seen = *position;
-                    (0..ROUNDS).fold(seen, |there, _| seen - eccentric(effect, there))
-                }
+                OfSensor::Eccentric => behind_shown(*position, &effect.parameters),
                 _ => *position - effect.value(0),
             }
         }
@@ -49,18 +42,14 @@ pub(super) fn shown(effects: &[Effect], mut there: Vec<f64>, clock: Clock) -> Ve
         for position in there.iter_mut().skip(effect.first_sample(clock)) {
             match of {
                 OfSensor::EncoderScale => *position *= 1.0 + effect.value(0),
-                OfSensor::Eccentric => *position += eccentric(effect, *position),
+                OfSensor::Eccentric => {
+                    *position += shown_too_much(*position, &effect.parameters);
+                }
                 _ => *position += effect.value(0),
             }
         }
     }
     there
-}
-
-/// The error that an eccentric disc adds at an angle.
-fn eccentric(effect: &Effect, angle: f64) -> f64 {
-    let (sine, cosine) = libm::sincos(angle);
-    effect.value(0) * sine + effect.value(1) * cosine
 }
 
 #[cfg(test)]

@@ -55,7 +55,7 @@ const LEFT_OUT: &[(Mechanism, &[f64], &[PlantKind])] = &[
     (AddedInertia, &[0.29], AXIS),
     (Compliance, &[0.23, 61.0, 0.11], AXIS),
     (EncoderScale, &[0.07], AXIS),
-    (EccentricEncoder, &[0.011, -0.007], AXIS),
+    (EccentricEncoder, &[0.0011, -0.0007, 0.083], AXIS),
 ];
 
 /// Effects that are named, but leave more than noise where they are stated: with the command's rate

@@ -21,6 +21,7 @@ use crate::rules::{
 };
 use crate::signals::second_difference;
 use crate::weak::{Windows, is_recorded, untold};
+use rigproof_model::effects::facts::Shapes;
 use rigproof_model::effects::{Drive, Form, Instant, OfSensor, facts, form};
 use rigproof_spec::effect::{Mechanism, Motion};
 use rigproof_spec::tables::BrakeTable;
@@ -365,6 +366,12 @@ impl Run for JointRun {
             }
             _ => coefficients.to_vec(),
         }
+    }
+
+    fn shape_over(&self, cause: Cause, shape: &[f64], coefficients: &[f64]) -> Option<Vec<f64>> {
+        let is_pitch = facts(cause.mechanism)?.shapes == Shapes::Pitch;
+        let pitch = shape.get(..1).filter(|_| is_pitch)?;
+        Some([pitch, &self.linear(cause.mechanism, coefficients)].concat())
     }
 
     /// Without a reversal, a constant may be a bias or a direction asymmetry.

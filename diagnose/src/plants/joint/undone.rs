@@ -12,8 +12,8 @@ use crate::align::Fault;
 use crate::effect::Effect;
 use crate::plant::Run;
 use crate::signals::lagged_yield;
-use rigproof_model::effects::{Drive, Form, OfJoint, form};
-use rigproof_spec::effect::Mechanism;
+use rigproof_model::effects::{Drive, Form, OfJoint, OfSensor, form};
+use rigproof_spec::effect::{Mechanism, Motion};
 use rigproof_trace::rig::{Plant, Recording, Rig, Status};
 
 /// Whether an effect is inverted before anything is fitted.
@@ -135,6 +135,11 @@ fn reason(rig: &Rig, effect: &Effect) -> Option<String> {
                     "has an inertia of {share}; behind the gap is less than the whole of {whole}"
                 )
             })
+        }
+        Some(Form::Sensor(OfSensor::Eccentric))
+            if rig.motion == Motion::Linear && effect.parameters.len() < 3 =>
+        {
+            Some("needs a `period`: what slides has no turn".to_owned())
         }
         Some(Form::Sensor(_)) if of_encoder(effect).is_some() => None,
         _ => no_meaning(),
