@@ -292,7 +292,9 @@ fn moving_effort<R: Run + ?Sized>(run: &R, at: Place) -> f64 {
 fn shares(shares: &[f64], exponents: &[f64], typical: f64) -> Vec<Vec<f64>> {
     let powers = exponents.iter().flat_map(|exponent| {
         let there = libm::pow(typical, 1.0 - exponent);
-        shares.iter().map(move |share| vec![share * there, *exponent])
+        shares
+            .iter()
+            .map(move |share| vec![share * there, *exponent])
     });
     shares
         .iter()

@@ -219,7 +219,8 @@ fn moves(problem: &Problem, own: &Term, stride: f64) -> Vec<(Move, Term)> {
         true => 0.02 * stride,
         false => stride,
     };
-    let each = (0..own.numbers().len()).flat_map(|place| [true, false].map(|up| Move { place, up }));
+    let each =
+        (0..own.numbers().len()).flat_map(|place| [true, false].map(|up| Move { place, up }));
     let shapes = each.filter_map(|by| {
         let shape = match is_anchor {
             true => moved_anchor(&own.shape, &bounds, by, stride)?,
