@@ -2,6 +2,7 @@
 //! mechanism.
 
 use crate::cause::{Cause, Place, Scales};
+use crate::filter::rms;
 use crate::plant::Run;
 use crate::problem::{Problem, Term, add};
 use crate::regression::Fit;
@@ -151,6 +152,16 @@ pub fn standard_shapes<R: Run + ?Sized>(
             GAPS,
         )),
         Shapes::Resonance => resonances(step_s),
+        Shapes::Share {
+            low,
+            high,
+            count,
+            exponents,
+        } => shares(
+            &geometric(low, high, count),
+            exponents,
+            moving_effort(run, cause.at),
+        ),
         Shapes::EffortLimit => limits(greatest(&run.effort()), EFFORT_LIMIT_SHARES, EFFORT_LIMITS),
         Shapes::EffortRate => one(effort_rates(&run.effort())),
         Shapes::Period => one(all_periods(run, cause, windows, residual)),
@@ -260,6 +271,31 @@ fn limits(greatest: f64, [lowest, highest]: [f64; 2], count: usize) -> Vec<Vec<f
     sharp.chain(bent).collect()
 }
 
+/// The root mean square of the effort while the joint moves: a loop winds up while friction holds
+/// it.
+fn moving_effort<R: Run + ?Sized>(run: &R, at: Place) -> f64 {
+    let (effort, motion) = (run.effort(), run.motion(at));
+    let moving = effort.iter().zip(motion);
+    let moving = moving.filter(|(_, now)| now.sense.abs() >= 1.0);
+    let moving: Vec<f64> = moving.map(|(effort, _)| *effort).collect();
+    rms(&moving).max(1e-12)
+}
+
+/// Trial shares of a load, and with each exponent the same shares at a typical load.
+fn shares(shares: &[f64], exponents: &[f64], typical: f64) -> Vec<Vec<f64>> {
+    let powers = exponents.iter().flat_map(|exponent| {
+        let there = libm::pow(typical, 1.0 - exponent);
+        shares
+            .iter()
+            .map(move |share| vec![share * there, *exponent])
+    });
+    shares
+        .iter()
+        .map(|share| vec![*share])
+        .chain(powers)
+        .collect()
+}
+
 /// Trial rates of the effort: those that reach the greatest command within a time.
 fn effort_rates(effort: &[f64]) -> Vec<f64> {
     let [longest_s, shortest_s] = RISE_TIMES_S;
@@ -340,9 +376,10 @@ pub fn both_signs(sizes: Vec<f64>) -> Vec<f64> {
     sizes.into_iter().flat_map(|size| [size, -size]).collect()
 }
 
-/// The bounds of each shape parameter: those of the trial shapes, and for a period the whole range
-/// of periods.
-pub fn shape_bounds(problem: &Problem, cause: Cause) -> Vec<(f64, f64)> {
+/// The bounds of each parameter of a shape: those of the trial shapes, and for a period the whole
+/// range of periods. Those of the first are of the trial shapes with as many numbers: with one more
+/// the law is another form, and its first number has another range.
+pub fn shape_bounds(problem: &Problem, cause: Cause, shape: &[f64]) -> Vec<(f64, f64)> {
     if is_periodic(cause) {
         let travel = problem.run.travel(cause.at);
         let travel = travel.max(1e-12);
@@ -350,9 +387,14 @@ pub fn shape_bounds(problem: &Problem, cause: Cause) -> Vec<(f64, f64)> {
     }
     let tried = shapes(problem, cause, &[]);
     let count = tried.iter().map(Vec::len).max().unwrap_or(0);
+    let is_as_long = |own: &&Vec<f64>| own.len() == shape.len();
+    let of_form = tried.iter().any(|own| is_as_long(&own));
     let mut bounds: Vec<(f64, f64)> = (0..count)
         .map(|k| {
-            let values = tried.iter().filter_map(|shape| shape.get(k).copied());
+            let own = tried
+                .iter()
+                .filter(|own| k > 0 || !of_form || is_as_long(own));
+            let values = own.filter_map(|shape| shape.get(k).copied());
             values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
                 (low.min(v), high.max(v))
             })
@@ -375,7 +417,7 @@ pub fn shape_bounds(problem: &Problem, cause: Cause) -> Vec<(f64, f64)> {
 /// Whether the first shape parameter ended at a bound. The recording then does not determine it,
 /// and the law substitutes for another one.
 pub fn is_at_an_end(problem: &Problem, term: &Term) -> bool {
-    let bounds = shape_bounds(problem, term.cause);
+    let bounds = shape_bounds(problem, term.cause, &term.shape);
     let first = term.shape.first().zip(bounds.first());
     first.is_some_and(|(value, bounds)| bounds.0 < bounds.1 && is_end(*value, *bounds))
 }
@@ -385,7 +427,7 @@ pub fn is_at_an_end(problem: &Problem, term: &Term) -> bool {
 /// A parameter whose range is a point is given. One that ends at a bound, other than the first,
 /// stands for the simpler law and does not count.
 pub fn searched(problem: &Problem, term: &Term) -> impl Iterator<Item = usize> {
-    let bounds = shape_bounds(problem, term.cause);
+    let bounds = shape_bounds(problem, term.cause, &term.shape);
     let own: Vec<(f64, (f64, f64))> = term.shape.iter().copied().zip(bounds).collect();
     let open = own.into_iter().enumerate();
     open.filter(|(k, (value, bounds))| match k {

@@ -237,7 +237,7 @@ impl Axis {
     /// The dry level in this sense under a driving effort; a negative sum (only possible with odd parameters) holds nothing.
     fn dry(&self, now: &Instant, effort: f64) -> f64 {
         let of_laws = self.laws.iter().map(|law| law.dry(now)).sum::<f64>();
-        (of_laws + self.transmission.friction_share * effort.abs()).max(0.0)
+        (of_laws + self.transmission.friction(effort)).max(0.0)
     }
 }
 

@@ -34,6 +34,7 @@ mod uneven_friction;
 mod velocity_power;
 mod viscous;
 
+pub use driven::load_friction;
 pub use eccentric_encoder::{behind_shown, shown_too_much};
 pub use lag::{first_order_lag_held, first_order_lag_straight, lagged, lagged_held};
 pub use limits::{limited, slewed, slewed_held};

@@ -197,8 +197,11 @@ vocabulary! {
         needed("inertia", Inertia).not_below_zero(),
         needed("gap", Travel).above_zero(),
     ],
-    /// Friction in proportion to the effort that a joint transmits.
-    LoadFriction = "load_friction" called "friction under load" | "gear efficiency" [needed("share", Number).not_below_zero()],
+    /// Friction in proportion to the effort that a joint transmits, or to a power of it.
+    LoadFriction = "load_friction" called "friction under load" | "gear efficiency" [
+        needed("share", Number).not_below_zero(),
+        optional("exponent", Number).above_zero(),
+    ],
     /// Friction that falls with time.
     FrictionFade = "friction_fade" called "fading friction" | "warming up" [
         needed("rate", PerTime),

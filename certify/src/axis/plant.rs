@@ -75,7 +75,7 @@ impl Plant {
             match form(*mechanism) {
                 Some(Form::Drive(of)) => plant.driven(of, numbers),
                 Some(Form::Joint(OfJoint::Gap)) => gap = Some([number(0), number(1)]),
-                Some(Form::Joint(of)) => plant.joined(of, [number(0), number(1), number(2)]),
+                Some(Form::Joint(of)) => plant.joined(of, numbers),
                 Some(Form::Sensor(of)) => plant.encoder.push((of, numbers.clone())),
                 _ => {}
             }
@@ -106,16 +106,17 @@ impl Plant {
         }
     }
 
-    fn joined(&mut self, of: OfJoint, [first, second, third]: [f64; 3]) {
+    fn joined(&mut self, of: OfJoint, numbers: &[f64]) {
+        let number = |index: usize| numbers.get(index).copied().unwrap_or(0.0);
         match of {
-            OfJoint::Inertia => self.axis.inertia += first,
-            OfJoint::Load => self.axis.transmission.friction_share += first,
+            OfJoint::Inertia => self.axis.inertia += number(0),
+            OfJoint::Load => self.axis.transmission.add_friction(numbers),
             OfJoint::Compliance => {
                 let [spring, _] = &mut self.axis.transmission.trailing;
                 *spring = Some(Trailing {
-                    share: first.min(MOST_TRAILING),
-                    resonance_rad_s: second,
-                    damping: third,
+                    share: number(0).min(MOST_TRAILING),
+                    resonance_rad_s: number(1),
+                    damping: number(2),
                     half_gap: 0.0,
                 });
             }

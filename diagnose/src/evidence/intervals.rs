@@ -99,7 +99,7 @@ fn is_given(problem: &Problem, term: &Term, parameter: usize, half: f64) -> bool
     }
     let shape = parameter.checked_sub(parameter_count(term) - term.numbers().len());
     shape.is_some_and(|shape| {
-        let bounds = shape_bounds(problem, term.cause);
+        let bounds = shape_bounds(problem, term.cause, &term.shape);
         let range = bounds.get(shape).map_or(0.0, |(low, high)| high - low);
         half > range && !searched(problem, term).any(|own| own == shape)
     })

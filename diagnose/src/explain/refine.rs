@@ -213,7 +213,7 @@ impl Move {
 /// A term with one shape parameter moved by a stride, up or down; of an anchor its distance and its
 /// direction from the middle of what is searched.
 fn moves(problem: &Problem, own: &Term, stride: f64) -> Vec<(Move, Term)> {
-    let bounds = shape_bounds(problem, own.cause);
+    let bounds = shape_bounds(problem, own.cause, &own.shape);
     let is_anchor = is_anchored(own);
     // The grid already knows a period to within a few percent, and a longer stride leads to another
     // period.

@@ -28,7 +28,7 @@ pub(crate) fn refined(problem: &Problem, common: &[&Term], start: Term, blocks: 
     let fitted = fit(problem, common, blocks);
     let effort = effort_beside(problem, common, &start, blocks)
         .unwrap_or_else(|| modelled_effort(problem, common, &fitted));
-    let bounds = shape_bounds(problem, start.cause);
+    let bounds = shape_bounds(problem, start.cause, &start.shape);
     let mut best = (score(&start), start);
     let mut stride = STRIDE;
     let mut halvings = 0;

@@ -1,12 +1,33 @@
 //! This file is what a joint does with the effort that it transmits.
 
+use crate::effects::load_friction;
+
 /// What a joint does with the effort that it transmits: friction by it, and parts of the inertia behind a spring.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Transmission {
     /// Dry friction as a share of the driving effort.
     pub friction_share: f64,
+    /// Dry friction by a power of the driving effort: its share at 1 N or N·m, and the exponent.
+    pub friction_power: Option<[f64; 2]>,
     /// Parts that hang on the joint by a damped spring or in a gap.
     pub trailing: [Option<Trailing>; TRAILING_PARTS],
+}
+
+impl Transmission {
+    /// Adds friction by the parameters of `load_friction`.
+    pub fn add_friction(&mut self, parameters: &[f64]) {
+        match *parameters {
+            [share, exponent, ..] => self.friction_power = Some([share, exponent]),
+            [share] => self.friction_share += share,
+            [] => {}
+        }
+    }
+
+    /// Dry friction under a driving effort, N or N·m.
+    pub fn friction(&self, effort: f64) -> f64 {
+        let by_power = self.friction_power;
+        self.friction_share * effort.abs() + by_power.map_or(0.0, |own| load_friction(effort, &own))
+    }
 }
 
 /// How many parts can hang on a joint.

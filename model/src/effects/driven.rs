@@ -1,7 +1,7 @@
 //! This file is what a driven joint has as a whole: friction by load or by time, another inertia, an inertia behind a spring or a gap.
 
 use super::facts::{Alone, Asked, Facts, Family, Shapes, Usual, Where, Words};
-use super::{Entry, Form, OfJoint};
+use super::{Entry, Form, OfJoint, parameter};
 use rigproof_spec::effect::Mechanism;
 
 pub(super) const LOAD_FRICTION: Entry = Entry {
@@ -10,14 +10,15 @@ pub(super) const LOAD_FRICTION: Entry = Entry {
     linear: 0,
     passive: true,
     refuted_by: "the same friction whether the joint drives hard or coasts",
-    equation: "share·|e|·sgn(q̇), e the effort at the joint",
+    equation: "share·|e|·sgn(q̇), or share·|e/(1 N·m)|^exponent·(1 N·m)·sgn(q̇), e the effort at the joint",
     facts: Facts {
         in_sets: true,
         usual: Usual::Seldom,
-        shapes: Shapes::Geometric {
+        shapes: Shapes::Share {
             low: 0.03,
             high: 0.5,
             count: 7,
+            exponents: &[4.0 / 3.0, 2.0],
         },
         ..Facts::of(
             Family::FrictionOfMotion,
@@ -32,6 +33,18 @@ pub(super) const LOAD_FRICTION: Entry = Entry {
         )
     },
 };
+
+/// Friction, N or N·m, by an effort that is transmitted, from the parameters of `load_friction`.
+///
+/// It grows with the load where dry surfaces meet, with its power 4/3 where a ball rolls (Hertz), and with its square in the gears of
+/// servos (Duclusaud et al. 2024).
+pub fn load_friction(effort: f64, parameters: &[f64]) -> f64 {
+    let load = match parameters.get(1) {
+        Some(exponent) => libm::pow(effort.abs(), *exponent),
+        None => effort.abs(),
+    };
+    parameter(parameters, 0) * load
+}
 
 pub(super) const FRICTION_FADE: Entry = Entry {
     mechanism: Mechanism::FrictionFade,
@@ -157,3 +170,15 @@ pub(super) const LOAD_BACKLASH: Entry = Entry {
         )
     },
 };
+
+#[cfg(test)]
+mod tests {
+    use super::load_friction;
+
+    #[test]
+    fn friction_by_the_load_grows_with_it_or_with_its_power() {
+        assert_eq!([1.3, -1.3].map(|e| load_friction(e, &[0.2])), [0.26, 0.26]);
+        assert_eq!(load_friction(-3.0, &[0.2, 2.0]), 0.2 * 9.0);
+        assert_eq!(load_friction(1.0, &[0.2, 4.0 / 3.0]), 0.2);
+    }
+}

@@ -236,6 +236,7 @@ pub fn shapes(
         Shapes::Memory
         | Shapes::EffortLimit
         | Shapes::EffortRate
+        | Shapes::Share { .. }
         | Shapes::Pitch
         | Shapes::Gap
         | Shapes::Resonance

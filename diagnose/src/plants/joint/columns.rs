@@ -16,7 +16,7 @@ use rigproof_model::axis::Trailing;
 use rigproof_model::effects::facts::{AtRest, Family};
 use rigproof_model::effects::{
     Drive, Form, Instant, Law, OfJoint, OfSensor, behind_shown, entry, facts, form, law,
-    shown_too_much,
+    load_friction, shown_too_much,
 };
 use rigproof_spec::effect::Mechanism;
 
@@ -192,13 +192,12 @@ fn known_effort(run: &JointRun) -> Vec<f64> {
     known
 }
 
-/// Friction in proportion to the load of a bench: share·|load|·sgn(q̇). `None` where no load is
-/// simulated.
-pub fn under_load(run: &JointRun, share: f64) -> Option<Vec<f64>> {
+/// Friction by the load of a bench. `None` where no load is simulated.
+pub fn under_load(run: &JointRun, numbers: &[f64]) -> Option<Vec<f64>> {
     let along = run.load()?.iter().zip(&run.motion);
     Some(
         along
-            .map(|(load, now)| share * load.abs() * now.sense)
+            .map(|(load, now)| load_friction(*load, numbers) * now.sense)
             .collect(),
     )
 }
@@ -210,24 +209,18 @@ fn of_joint(run: &JointRun, form: Form, shape: &[f64]) -> Option<Columns> {
     match (run.plant, form) {
         (PlantKind::Axis, _) | (_, Form::Joint(OfJoint::Fade)) => {}
         (_, Form::Joint(OfJoint::Load)) => {
-            let signal = under_load(run, *shape.first()?)?;
+            let signal = under_load(run, shape)?;
             return Some(Columns::Fixed(seen(run, signal)));
         }
         _ => return None,
     }
     match form {
         Form::Joint(OfJoint::Load) => {
-            let share = *shape.first()?;
-            let mut effort = described(run, false);
-            add(&mut effort, &acceleration(run), inertia);
-            let loads = effort.iter().zip(&run.motion);
-            // Friction in proportion to the load depends on the load that includes it: e = rest +
-            // share·|e|·sgn(q̇).
-            let signal = loads.map(|(rest, now)| {
-                let along = rest.signum() * now.sense;
-                share * rest.abs() / (1.0 - share * along) * now.sense
-            });
-            Some(Columns::Fixed(seen(run, signal.collect())))
+            // The drive's effort is the load, friction included.
+            let loads = run.effort.iter().zip(&run.motion);
+            let signal = loads.map(|(load, now)| load_friction(*load, shape) * now.sense);
+            let signal: Vec<f64> = signal.collect();
+            Some(Columns::Fixed(acting_effort(run, &signal)))
         }
         Form::Joint(OfJoint::Fade) => {
             let signals = [0, 1].map(|rate| {

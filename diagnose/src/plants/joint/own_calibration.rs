@@ -51,6 +51,7 @@ const LEFT_OUT: &[(Mechanism, &[f64], &[PlantKind])] = &[
     (DriveSaturation, &[7.1], AXIS),
     (DriveSaturation, &[9.3, 2.1], AXIS),
     (LoadFriction, &[0.19], AXIS),
+    (LoadFriction, &[0.017, 2.0], AXIS),
     (FrictionFade, &[0.037, 0.061], BOTH),
     (AddedInertia, &[0.29], AXIS),
     (Compliance, &[0.23, 61.0, 0.11], AXIS),

@@ -91,7 +91,7 @@ fn bench(plant: &Model, run: &JointRun) -> Vec<f64> {
     let is_of_load = |e: &Effect| matches!(form(e.mechanism()), Some(Form::Joint(OfJoint::Load)));
     for effect in &plant.effects {
         let signal = match is_of_load(effect) {
-            true => under_load(run, effect.value(0)),
+            true => under_load(run, &effect.parameters),
             false if is_of_brake(effect.cause) => of_effect(run, effect),
             false => continue,
         };
@@ -166,7 +166,7 @@ impl Free {
             }
             match of {
                 OfJoint::Inertia => self.axis.inertia += effect.value(0),
-                OfJoint::Load => self.axis.transmission.friction_share += effect.value(0),
+                OfJoint::Load => self.axis.transmission.add_friction(&effect.parameters),
                 OfJoint::Compliance => {
                     self.axis.transmission.trailing[0] = Some(Trailing {
                         share: effect.value(0).min(MOST_TRAILING),

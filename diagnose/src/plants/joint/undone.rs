@@ -120,7 +120,8 @@ fn reason(rig: &Rig, effect: &Effect) -> Option<String> {
         Some(Form::Joint(OfJoint::Fade)) => None,
         // On a bench it is a share of the simulated effort.
         Some(Form::Joint(OfJoint::Load)) if !is_axis && has_prediction && !has_brake => None,
-        Some(Form::Joint(OfJoint::Load)) if is_axis => (share >= 1.0)
+        Some(Form::Joint(OfJoint::Load)) if is_axis => (share >= 1.0
+            && effect.parameters.len() < 2)
             .then(|| format!("has a share of {share}; below 1, or the joint never moves")),
         Some(Form::Joint(OfJoint::Compliance)) if is_axis => {
             (!(0.0..1.0).contains(&share)).then(|| {
