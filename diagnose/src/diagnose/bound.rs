@@ -24,8 +24,9 @@ pub(super) fn bound(problem: &Problem, selection: &mut Selection, intervals: &In
     }
 }
 
-/// Of each found mechanism, whether the intervals of its coefficients all hold 0 beside others. Not
-/// on a plant of many places, whose delays are measured without an interval.
+/// Of each found mechanism, whether the intervals of its coefficients all hold 0 beside others; a
+/// coefficient that is 0 since others stand for it has none. Not on a plant of many places, whose
+/// delays are measured without an interval.
 fn may_be_nothing(problem: &Problem, selection: &Selection, intervals: &Intervals) -> Vec<bool> {
     if selection.found.len() < 2 || problem.rules.many {
         return vec![false; selection.found.len()];
@@ -35,7 +36,7 @@ fn may_be_nothing(problem: &Problem, selection: &Selection, intervals: &Interval
     own.skip(selection.nominal.len())
         .map(|(values, halves)| {
             let mut pairs = values.iter().zip(halves);
-            !values.is_empty() && pairs.all(|(value, half)| value.abs() < *half)
+            !values.is_empty() && pairs.all(|(value, half)| *value == 0.0 || value.abs() < *half)
         })
         .collect()
 }
