@@ -116,7 +116,9 @@ pub fn role(mechanism: Mechanism) -> Option<Role> {
             | OfBrake::Saturation
             | OfBrake::CurrentGain,
         ) => Some(Role::Drive),
-        Form::Linkage(OfLinkage::Payload | OfLinkage::Inertias) => Some(Role::Masses),
+        Form::Linkage(OfLinkage::Payload | OfLinkage::Inertias | OfLinkage::InertiaScale) => {
+            Some(Role::Masses)
+        }
         Form::Sensor(OfSensor::EncoderScale | OfSensor::EncoderOffset) => Some(Role::Encoder),
         Form::Sensor(OfSensor::ForceGain | OfSensor::ForceBias | OfSensor::ForceRotation) => {
             Some(Role::Force)
@@ -219,6 +221,9 @@ pub fn change(parameters: &mut Parameters, left_out: &[LeftOut]) -> Option<()> {
             Role::Masses => {
                 let more = match form(one.mechanism)? {
                     Form::Linkage(OfLinkage::Payload) => added_mass::at_tip(one.number(0)),
+                    Form::Linkage(OfLinkage::InertiaScale) => {
+                        added_mass::share(&parameters.inertia, one.number(0))
+                    }
                     _ => added_mass::in_all(
                         &parameters.inertia,
                         [0, 1, 2, 3, 4].map(|index| one.number(index)),

@@ -181,6 +181,8 @@ pub enum OfLinkage {
     Weight,
     /// Other moments of inertia.
     Inertias,
+    /// All inertias by one factor.
+    InertiaScale,
     /// A mass at the tip.
     Payload,
     /// A spring from the tip to the plane.
@@ -287,6 +289,7 @@ pub const LIBRARY: &[Entry] = &[
     driven::LOAD_BACKLASH,
     linkage::GRAVITY,
     linkage::INERTIA_ERROR,
+    linkage::INERTIA_SCALE,
     linkage::PAYLOAD,
     linkage::PLANE_SPRING,
     linkage::LINK_LENGTH,

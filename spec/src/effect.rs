@@ -136,6 +136,8 @@ vocabulary! {
         needed("arm_cd", MomentOfInertia),
         needed("tip", Mass),
     ],
+    /// Masses and inertias that are all wrong by one factor.
+    InertiaScale = "inertia_scale" called "wrong scale of all inertias" | "mass scale" | "density" [needed("fraction", Number)],
     /// Extra mass at the tip.
     Payload = "payload" called "payload" | "tip mass" [needed("mass", Mass)],
     /// Friction at a joint without a brake.

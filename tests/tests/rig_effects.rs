@@ -58,6 +58,7 @@ fn others() -> Vec<JointEffect> {
         at(Joint::C, BacklashWidth, &[0.037]),
         whole(Gravity, &[0.071, -0.093]),
         whole(Payload, &[0.31]),
+        whole(InertiaScale, &[-0.11]),
         whole(InertiaError, &[0.0113, -0.0053, 0.0037, 0.0071, 0.053]),
     ]
 }

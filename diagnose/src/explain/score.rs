@@ -115,7 +115,8 @@ fn usual(mechanism: Mechanism) -> f64 {
 }
 
 /// Whether a fit is no physics: a passive mechanism gives out energy, beyond what the nominal model
-/// already takes, or a part is more than the whole.
+/// already takes, a part is more than the whole, or all inertias are wrong by a share of the effort
+/// that no model and no discretisation is exact to.
 pub fn is_impossible(problem: &Problem, fitted: &Fitted) -> bool {
     let own = fitted.terms.iter().zip(fitted.by_term());
     own.into_iter().any(|(term, own)| {
@@ -125,5 +126,7 @@ pub fn is_impossible(problem: &Problem, fitted: &Fitted) -> bool {
         let mut parts = mechanism.parameters().iter().zip(own);
         passive.is_some_and(|entry| own.iter().take(entry.linear).any(|c| *c < least))
             || parts.any(|(number, part)| number.range == Range::Part && *part > 1.0)
+            || mechanism == Mechanism::InertiaScale
+                && own.iter().all(|share| share.abs() < problem.rules.relevant)
     })
 }

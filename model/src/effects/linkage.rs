@@ -75,6 +75,23 @@ pub(super) const INERTIA_ERROR: Entry = Entry {
     },
 };
 
+pub(super) const INERTIA_SCALE: Entry = Entry {
+    mechanism: Mechanism::InertiaScale,
+    form: Form::Linkage(OfLinkage::InertiaScale),
+    linear: 1,
+    refuted_by: "arms and handle that weigh what the model says; a force sensor and brakes that are all wrong by one factor do the same",
+    equation: "(1 + fraction)·(mass matrix·q̈ + velocity terms)",
+    facts: Facts {
+        form_of: Some(Mechanism::InertiaError),
+        words: Words {
+            what: "moving parts that are all heavier or lighter than the model's by one factor",
+            look_for: "the density in the drawing, the whole linkage on a scale",
+        },
+        ..INERTIA_ERROR.facts
+    },
+    ..INERTIA_ERROR
+};
+
 pub(super) const PAYLOAD: Entry = Entry {
     mechanism: Mechanism::Payload,
     form: Form::Linkage(OfLinkage::Payload),

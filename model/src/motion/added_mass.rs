@@ -43,6 +43,22 @@ pub fn in_all(nominal: &Inertia, [ae, bc, ed, cd, tip_kg]: [f64; 5]) -> Inertia 
     }
 }
 
+/// A share of all masses and moments of inertia.
+pub fn share(nominal: &Inertia, fraction: f64) -> Inertia {
+    let arm = |own: &ArmInertia| ArmInertia {
+        mass_kg: own.mass_kg * fraction,
+        inertia_kg_m2: own.inertia_kg_m2 * fraction,
+        centre_m: own.centre_m,
+    };
+    Inertia {
+        ae: arm(&nominal.ae),
+        ed: arm(&nominal.ed),
+        bc: arm(&nominal.bc),
+        cd: arm(&nominal.cd),
+        payload_kg: nominal.payload_kg * fraction,
+    }
+}
+
 /// Masses, kg, and moments of inertia, kg·m², with what is added to them; centres of mass stay.
 pub fn sum(own: &Inertia, more: &Inertia) -> Inertia {
     let arm = |own: &ArmInertia, more: &ArmInertia| ArmInertia {

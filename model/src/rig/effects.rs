@@ -132,6 +132,10 @@ fn term(rig: &Rig, effect: &JointEffect) -> Result<Term, ModelError> {
             &rig.parameters.inertia,
             [value(0), value(1), value(2), value(3), value(4)],
         ))),
+        Form::Linkage(OfLinkage::InertiaScale) => whole(Term::Masses(added_mass::share(
+            &rig.parameters.inertia,
+            value(0),
+        ))),
         Form::Linkage(OfLinkage::PlaneSpring) => whole(Term::Anchor {
             stiffness_n_m: value(0),
             tension_n: value(1),
@@ -208,15 +212,7 @@ fn of_brake(effect: &JointEffect, joint: Joint) -> Option<Term> {
         | Form::Resistance(_)
         | Form::Sensor(_)
         | Form::Joint(_)
-        | Form::Linkage(
-            OfLinkage::Weight
-            | OfLinkage::Payload
-            | OfLinkage::Inertias
-            | OfLinkage::PlaneSpring
-            | OfLinkage::LinkLength,
-        ) => {
-            return None;
-        }
+        | Form::Linkage(_) => return None,
     })
 }
 

@@ -46,7 +46,7 @@ pub fn sets(setup: &Setup, effect: &Effect) -> Vec<Vec<String>> {
 ///
 /// - On three brakes the joints E and C turn alike: friction at one is bearing friction at the other.
 /// - Brake A has no backlash: at a constant current a gain error is dry friction.
-/// - A payload is inside what the entries of the mass matrix can be.
+/// - A payload is inside what the entries of the mass matrix can be; one factor of them all is their scale.
 fn equivalent(setup: &Setup, effect: &Effect) -> &'static [&'static str] {
     let three = setup.layout == Layout::ThreeBrake;
     let [_, viscous, ..] = effect.values;
@@ -57,6 +57,7 @@ fn equivalent(setup: &Setup, effect: &Effect) -> &'static [&'static str] {
         (Form::Gain, At::Joint(Joint::A)) if setup.is_constant() => &["dry_offset at A"],
         (Form::Coulomb, At::Joint(Joint::A)) if setup.is_constant() => &["gain_error at A"],
         (Form::Payload, _) => &["inertia_error"],
+        (Form::Inertia, _) => &["inertia_scale"],
         _ => &[],
     }
 }

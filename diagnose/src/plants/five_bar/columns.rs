@@ -107,15 +107,12 @@ fn free_of_one(run: &FiveBarRun, cause: Cause, shape: &[f64]) -> Option<Vec<Vec<
         (Form::Linkage(OfLinkage::Weight), None) => {
             Some([0, 1].map(|axis| seen(&weight(run, axis))).into())
         }
-        (Form::Linkage(OfLinkage::Payload), None) => Some(vec![inertial(
-            run,
-            &forms_of(run, &added_mass::at_tip(1.0)),
-        )]),
-        (Form::Linkage(OfLinkage::Inertias), None) => Some(
-            unit_inertias(&run.parameters.inertia)
-                .map(|unit| inertial(run, &forms_of(run, &unit)))
-                .into(),
-        ),
+        (
+            Form::Linkage(
+                of @ (OfLinkage::Payload | OfLinkage::Inertias | OfLinkage::InertiaScale),
+            ),
+            None,
+        ) => Some(by_masses(run, of)),
         // These have a fixed column, or belong elsewhere.
         (Form::Drive(_) | Form::Sensor(_) | Form::Linkage(_) | Form::Joint(_), Some(_))
         | (
@@ -273,6 +270,19 @@ fn weight(run: &FiveBarRun, axis: usize) -> Vec<f64> {
         let inertia = &run.parameters.inertia;
         (-form.weight(inertia, [a.position, b.position], gravity)).into()
     }))
+}
+
+/// The efforts per unit of each number by which masses differ from the nominal ones.
+fn by_masses(run: &FiveBarRun, of: OfLinkage) -> Vec<Vec<f64>> {
+    let by = |more: &Inertia| inertial(run, &forms_of(run, more));
+    match of {
+        OfLinkage::InertiaScale => vec![inertial(run, &run.forms)],
+        OfLinkage::Payload => vec![by(&added_mass::at_tip(1.0))],
+        _ => unit_inertias(&run.parameters.inertia)
+            .each_ref()
+            .map(by)
+            .into(),
+    }
 }
 
 fn forms_of(run: &FiveBarRun, inertia: &Inertia) -> Vec<TwoCoordinate> {

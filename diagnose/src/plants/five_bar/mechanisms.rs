@@ -275,6 +275,7 @@ fn every_mechanism_does_along_a_motion_what_its_column_says() {
         (whole(Gravity, &[0.071, -0.113]), Some(0.43)),
         (whole(Payload, &[0.37]), None),
         (whole(Payload, &[0.37]), Some(0.43)),
+        (whole(InertiaScale, &[-0.11]), Some(0.43)),
         (
             whole(InertiaError, &[0.0137, -0.0071, 0.0053, 0.0047, 0.071]),
             None,

@@ -84,6 +84,7 @@ const WITH_SEEDS: &[LeftOut] = &[
         Whole,
         &[0.0137, -0.0071, 0.0053, 0.0047, 0.071],
     ),
+    (InertiaScale, Whole, &[0.13]),
     (ForceGain, Whole, &[0.13]),
     (ForceBias, Whole, &[0.31, -0.23]),
     (ForceRotation, Whole, &[0.137]),
