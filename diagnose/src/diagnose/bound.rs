@@ -11,16 +11,15 @@ use rigproof_model::effects::facts;
 ///
 /// If the residual is more than noise, a mechanism that explains little beside the rest may be a part
 /// of the unexplained physics. Its probability is at most one half plus the share of the loss that it
-/// removes. A mechanism whose numbers may all be those of nothing is at most suspected beside others
-/// and beside what is unexplained: these, with other numbers, do without it. So is a periodic law
-/// whose period is not known.
+/// removes. A mechanism beside others whose numbers may all be those of nothing is at most suspected:
+/// the others, with other numbers, do without it. So is a periodic law whose period is not known.
 pub(super) fn bound(problem: &Problem, selection: &mut Selection, intervals: &Intervals) {
     let is_noise = is_noise(problem, &selection.after);
     let (_, coefficients) = coefficients_by_term(problem, selection);
     let numbers = coefficients.iter().zip(&intervals.terms);
     let numbers = numbers.skip(selection.nominal.len());
     // Of a plant of many places delays are measured without an interval.
-    let beside = (selection.found.len() > 1 || !is_noise) && !problem.rules.many;
+    let beside = selection.found.len() > 1 && !problem.rules.many;
     for (found, (values, halves)) in selection.found.iter_mut().zip(numbers) {
         let is_nothing = beside && may_be_nothing(&found.term, values, halves);
         if is_nothing || is_vague(&found.term, halves) {
