@@ -1,24 +1,29 @@
 //! This file lists the causes that are candidates on a recording, and the trial shapes of each
 //! mechanism.
 
-use crate::cause::{Cause, Place, Scales};
+mod periods;
+
+pub use periods::{is_periodic, longest_period, of_a_turn, periodic_part, periods};
+
+use crate::cause::{Cause, Place};
 use crate::filter::rms;
 use crate::plant::Run;
 use crate::problem::{Problem, Term, add};
 use crate::regression::Fit;
 use crate::rules::{
     BENDS_JOINT, BRISTLE_EXPONENTS, DELAYS, EDGE, EFFORT_LIMIT_SHARES, EFFORT_LIMITS, FASTEST_PEAK,
-    FASTEST_RESONANCE, FEWEST_CYCLES, GAPS, LAGS_JOINT, LEAST_BEND, LEAST_BEND_SIGMAS, LEAST_GAP,
-    LEAST_GAP_SIGMAS, LEAST_LAG_STEPS, LEAST_LIMITED_A, LEAST_OF_A_PERIOD, LEAST_SHIFT_STEPS_JOINT,
-    LIMIT_SHARES, LIMITS, MEMORY_COUNT, MEMORY_RATES, MEMORY_RATIOS, MOST_A_TURN, MOST_BEND,
-    MOST_CYCLES, MOST_DELAY_S, MOST_GAP, MOST_LAG_S_JOINT, MOST_SHIFT_S_JOINT, MOST_SHIFT_STEPS,
-    PEAK_EXPONENTS_JOINT, PEAK_SPEEDS, PEAKS, PEAKS_APART, PLAYED_SHARES, RESONANCE_DAMPINGS,
-    RESONANCE_STEPS, RESONANCES, RISE_TIMES_S, ROUND_LIMIT_SHARES, SHARPNESSES, SHIFTS_JOINT,
-    SLOWEST_PEAK, SLOWEST_PEAK_FLOORS, SLOWEST_RESONANCE, SPACING,
+    FASTEST_RESONANCE, GAPS, LAGS_JOINT, LEAST_BEND, LEAST_BEND_SIGMAS, LEAST_GAP,
+    LEAST_GAP_SIGMAS, LEAST_LAG_STEPS, LEAST_LIMITED_A, LEAST_SHIFT_STEPS_JOINT, LIMIT_SHARES,
+    LIMITS, MEMORY_COUNT, MEMORY_RATES, MEMORY_RATIOS, MOST_BEND, MOST_CYCLES, MOST_DELAY_S,
+    MOST_GAP, MOST_LAG_S_JOINT, MOST_SHIFT_S_JOINT, MOST_SHIFT_STEPS, PEAK_EXPONENTS_JOINT,
+    PEAK_SPEEDS, PLAYED_SHARES, RESONANCE_DAMPINGS, RESONANCE_STEPS, RESONANCES, RISE_TIMES_S,
+    ROUND_LIMIT_SHARES, SHARPNESSES, SHIFTS_JOINT, SLOWEST_PEAK, SLOWEST_PEAK_FLOORS,
+    SLOWEST_RESONANCE,
 };
 use crate::weak::Windows;
 use core::f64::consts::TAU;
-use rigproof_model::effects::facts::{Family, Shapes};
+use periods::all_periods;
+use rigproof_model::effects::facts::Shapes;
 use rigproof_model::effects::{Form, Instant, facts, form, linear};
 use rigproof_spec::effect::{Mechanism, Motion, Range};
 use rigproof_spec::tables::GREATEST_CURRENT_A;
@@ -197,21 +202,6 @@ pub fn standard_shapes<R: Run + ?Sized>(
     }
 }
 
-/// Trial periods: those of the highest peaks of the residual's spectrum, and parts of a turn.
-fn all_periods<R: Run + ?Sized>(
-    run: &R,
-    cause: Cause,
-    windows: &Windows,
-    residual: &[f64],
-) -> Vec<f64> {
-    let (motion, travel) = (run.motion(cause.at), run.travel(cause.at));
-    let mut all = periods(&points(cause, motion, windows, residual), travel);
-    if run.motion_kind() == Motion::Rotary {
-        all.extend(of_a_turn(longest_period(travel, cause)));
-    }
-    all
-}
-
 /// The shapes of a play of the current: single plays whose sides meet below a current or stay open,
 /// and spread plays with and without the scale of the table, which ends at the greatest current.
 pub fn plays(widths: &[f64], closing_a: &[f64]) -> Vec<Vec<f64>> {
@@ -305,55 +295,6 @@ fn effort_rates(effort: &[f64]) -> Vec<f64> {
 
 fn greatest(effort: &[f64]) -> f64 {
     effort.iter().fold(0.0, |most: f64, e| most.max(e.abs()))
-}
-
-/// The integer fractions of a turn up to a longest one.
-pub fn of_a_turn(longest: f64) -> impl Iterator<Item = f64> {
-    let parts = (1..=MOST_A_TURN).map(|order| TAU / f64::from(order));
-    parts.filter(move |period| *period <= longest)
-}
-
-/// The longest period of which a travel shows enough. A part of a period looks like a spring or a
-/// constant, unless it scales a torque.
-pub fn longest_period(travel: f64, cause: Cause) -> f64 {
-    match cause.scales {
-        Scales::Nothing => travel,
-        Scales::Torque => travel / LEAST_OF_A_PERIOD,
-    }
-}
-
-/// Whether a cause is periodic over the position.
-pub fn is_periodic(cause: Cause) -> bool {
-    facts(cause.mechanism).is_some_and(|facts| facts.shapes.is_a_period())
-}
-
-/// The part of a residual that a periodic cause may explain: of friction what opposes the motion.
-pub fn periodic_part(cause: Cause, now: &Instant, residual: f64) -> f64 {
-    let family = facts(cause.mechanism).map(|facts| facts.family);
-    match family {
-        Some(Family::FrictionOfMotion) => now.sense * residual,
-        _ => residual,
-    }
-}
-
-fn points(
-    cause: Cause,
-    motion: &[Instant],
-    windows: &Windows,
-    residual: &[f64],
-) -> Vec<(f64, f64)> {
-    windows
-        .centres
-        .iter()
-        .zip(residual)
-        .zip(&windows.usable)
-        .filter(|(_, usable)| **usable)
-        .filter_map(|((&centre, &r), _)| {
-            motion
-                .get(centre)
-                .map(|now| (now.position, periodic_part(cause, now, r)))
-        })
-        .collect()
 }
 
 /// The trial shapes that do not depend on the recording; one empty shape for a mechanism without
@@ -471,61 +412,9 @@ pub fn geometric(low: f64, high: f64, count: usize) -> Vec<f64> {
         .collect()
 }
 
-/// The periods of the highest peaks in the spectrum of values over position, less their mean.
-pub fn periods(points: &[(f64, f64)], travel: f64) -> Vec<f64> {
-    let travel = travel.max(1e-12);
-    let mean = points.iter().map(|(_, r)| r).sum::<f64>() / points.len().max(1) as f64;
-    let points: Vec<(f64, f64)> = points.iter().map(|(q, r)| (*q, r - mean)).collect();
-    let count = ((MOST_CYCLES - FEWEST_CYCLES) / SPACING) as usize;
-    let mut peaks: Vec<(f64, f64)> = (0..count)
-        .map(|k| FEWEST_CYCLES + SPACING * k as f64)
-        .map(|cycles| (power(&points, TAU * cycles / travel), cycles))
-        .collect();
-    peaks.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let mut chosen: Vec<f64> = Vec::new();
-    for (_, cycles) in peaks {
-        if chosen
-            .iter()
-            .all(|c: &f64| (c - cycles).abs() > PEAKS_APART)
-        {
-            chosen.push(cycles);
-        }
-        if chosen.len() == PEAKS {
-            break;
-        }
-    }
-    chosen.into_iter().map(|cycles| travel / cycles).collect()
-}
-
-fn power(points: &[(f64, f64)], wave_number: f64) -> f64 {
-    let (mut re, mut im) = (0.0, 0.0);
-    for &(position, r) in points {
-        let (sin, cos) = libm::sincos(wave_number * position);
-        re += r * cos;
-        im += r * sin;
-    }
-    re * re + im * im
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    use crate::plants::joint::recorded::exact_bench;
-
-    #[test]
-    fn the_period_of_a_ripple_is_among_those_tried() {
-        let run = exact_bench(&[(Mechanism::Viscous, &[2.3])], 11_000);
-        let windows = run.windows_of(0.017);
-        let period = run.travel() / 23.7;
-        let residual: Vec<f64> = windows
-            .centres
-            .iter()
-            .map(|c| 0.4 * libm::sin(TAU * run.motion[*c].position / period + 0.9))
-            .collect();
-        let best = periods(&points(&run.motion, &windows, &residual), run.travel())[0];
-        assert!((best / period - 1.0).abs() < 0.02, "{best} {period}");
-    }
 
     #[test]
     fn a_geometric_grid_meets_both_ends_in_equal_ratios() {
