@@ -21,11 +21,10 @@ use crate::rules::{
     SLOWEST_RESONANCE,
 };
 use crate::weak::Windows;
-use core::f64::consts::TAU;
-use periods::all_periods;
+use periods::{all_periods, pitches};
 use rigproof_model::effects::facts::Shapes;
 use rigproof_model::effects::{Form, Instant, facts, form, linear};
-use rigproof_spec::effect::{Mechanism, Motion, Range};
+use rigproof_spec::effect::{Mechanism, Range};
 use rigproof_spec::tables::GREATEST_CURRENT_A;
 
 /// The candidates for the search by one cause at a time. Mechanisms that are only compared in sets
@@ -144,13 +143,7 @@ pub fn standard_shapes<R: Run + ?Sized>(
             .into_iter()
             .flat_map(|travel| BRISTLE_EXPONENTS.map(|exponent| vec![travel, exponent]))
             .collect(),
-        Shapes::Memory => {
-            let [slowest, fastest] = MEMORY_RATES;
-            geometric(slowest / travel, fastest / travel, MEMORY_COUNT)
-                .into_iter()
-                .flat_map(|gamma| MEMORY_RATIOS.map(|ratio| vec![gamma, gamma * ratio]))
-                .collect()
-        }
+        Shapes::Memory => memories(travel),
         Shapes::Gap => one(geometric(
             (LEAST_GAP_SIGMAS * run.position_noise()).max(LEAST_GAP * travel),
             MOST_GAP * travel,
@@ -170,13 +163,7 @@ pub fn standard_shapes<R: Run + ?Sized>(
         Shapes::EffortLimit => limits(greatest(&run.effort()), EFFORT_LIMIT_SHARES, EFFORT_LIMITS),
         Shapes::EffortRate => one(effort_rates(&run.effort())),
         Shapes::Period => one(all_periods(run, cause, windows, residual)),
-        Shapes::Pitch => {
-            let mut pitches = all_periods(run, cause, windows, residual);
-            pitches.retain(|pitch| *pitch != TAU);
-            let once_a_turn = (run.motion_kind() == Motion::Rotary).then(Vec::new);
-            let pitches = pitches.into_iter().map(|pitch| vec![pitch]);
-            once_a_turn.into_iter().chain(pitches).collect()
-        }
+        Shapes::Pitch => pitches(run, cause, windows, residual),
         Shapes::Lag => one(geometric(
             LEAST_LAG_STEPS * step_s,
             MOST_LAG_S_JOINT,
@@ -228,6 +215,15 @@ pub fn plays(widths: &[f64], closing_a: &[f64]) -> Vec<Vec<f64>> {
 fn bends<R: Run + ?Sized>(run: &R, travel: f64) -> Vec<f64> {
     let least = (LEAST_BEND_SIGMAS * run.position_noise()).max(LEAST_BEND * travel);
     geometric(least, MOST_BEND * travel, BENDS_JOINT)
+}
+
+/// Trial rates of a memory of the displacement.
+fn memories(travel: f64) -> Vec<Vec<f64>> {
+    let [slowest, fastest] = MEMORY_RATES;
+    geometric(slowest / travel, fastest / travel, MEMORY_COUNT)
+        .into_iter()
+        .flat_map(|gamma| MEMORY_RATIOS.map(|ratio| vec![gamma, gamma * ratio]))
+        .collect()
 }
 
 /// Trial resonances of a compliance, with damping ratios.

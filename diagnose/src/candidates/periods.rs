@@ -26,6 +26,20 @@ pub fn all_periods<R: Run + ?Sized>(
     all
 }
 
+/// Trial pitches of an encoder: none, which is once a turn, and the same periods.
+pub fn pitches<R: Run + ?Sized>(
+    run: &R,
+    cause: Cause,
+    windows: &Windows,
+    residual: &[f64],
+) -> Vec<Vec<f64>> {
+    let mut pitches = all_periods(run, cause, windows, residual);
+    pitches.retain(|pitch| *pitch != TAU);
+    let once_a_turn = (run.motion_kind() == Motion::Rotary).then(Vec::new);
+    let pitches = pitches.into_iter().map(|pitch| vec![pitch]);
+    once_a_turn.into_iter().chain(pitches).collect()
+}
+
 /// The integer fractions of a turn up to a longest one.
 pub fn of_a_turn(longest: f64) -> impl Iterator<Item = f64> {
     let parts = (1..=MOST_A_TURN).map(|order| TAU / f64::from(order));
