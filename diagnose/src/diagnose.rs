@@ -21,7 +21,7 @@ use crate::report::Report;
 use crate::rules::{EXPLAINED_LEFT, FEWEST_WINDOWS, FLOOR_RATIO, HOLD_OUT_SHARE};
 use crate::scatter::{Trials, left_over};
 use crate::selection::{Selection, refs, usable_rms};
-use bound::bound;
+use bound::{bound, vague};
 use ended::{faulty, not_excited};
 use parts::Parts;
 use rigproof_model::effects::linear;
@@ -178,8 +178,14 @@ pub fn diagnose<P: Plant>(
         (selection, explanations) = named(&mut problem, terms);
         withdrawn.clear();
     }
-    let intervals = intervals(&problem, &selection);
-    bound(&problem, &mut selection, &intervals);
+    let mut numbers = intervals(&problem, &selection);
+    let vague = vague(&selection, &numbers);
+    if !vague.is_empty() {
+        selection.withdraw(&problem, &vague);
+        withdrawn.extend(vague);
+        numbers = intervals(&problem, &selection);
+    }
+    bound(&problem, &mut selection, &numbers);
     options.watch.enters(Stage::Show);
     Stand {
         plant,
@@ -194,7 +200,7 @@ pub fn diagnose<P: Plant>(
         trials: trials.as_ref(),
         explanations: &explanations,
     }
-    .report(&intervals)
+    .report(&numbers)
 }
 
 /// The mechanisms that are named on top of the nominal terms.

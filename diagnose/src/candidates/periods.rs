@@ -19,7 +19,7 @@ pub fn all_periods<R: Run + ?Sized>(
     residual: &[f64],
 ) -> Vec<f64> {
     let (motion, travel) = (run.motion(cause.at), run.travel(cause.at));
-    let mut all = periods(&points(cause, motion, windows, residual), travel);
+    let mut all = periods(cause, &points(cause, motion, windows, residual), travel);
     if run.motion_kind() == Motion::Rotary {
         all.extend(of_a_turn(longest_period(travel, cause)));
     }
@@ -62,11 +62,14 @@ pub fn is_periodic(cause: Cause) -> bool {
 
 /// The part of a residual that a periodic cause may explain: of friction what opposes the motion.
 pub fn periodic_part(cause: Cause, now: &Instant, residual: f64) -> f64 {
-    let family = facts(cause.mechanism).map(|facts| facts.family);
-    match family {
-        Some(Family::FrictionOfMotion) => now.sense * residual,
-        _ => residual,
+    match is_friction(cause) {
+        true => now.sense * residual,
+        false => residual,
     }
+}
+
+fn is_friction(cause: Cause) -> bool {
+    facts(cause.mechanism).is_some_and(|facts| facts.family == Family::FrictionOfMotion)
 }
 
 fn points(
@@ -89,10 +92,14 @@ fn points(
         .collect()
 }
 
-/// The periods of the highest peaks in the spectrum of values over position, less their mean.
-pub fn periods(points: &[(f64, f64)], travel: f64) -> Vec<f64> {
+/// The periods of the highest peaks in the spectrum of values over position. Of friction the mean is
+/// left out: it is dry friction, which may be unknown.
+pub fn periods(cause: Cause, points: &[(f64, f64)], travel: f64) -> Vec<f64> {
     let travel = travel.max(1e-12);
-    let mean = points.iter().map(|(_, r)| r).sum::<f64>() / points.len().max(1) as f64;
+    let mean = match is_friction(cause) {
+        true => points.iter().map(|(_, r)| r).sum::<f64>() / points.len().max(1) as f64,
+        false => 0.0,
+    };
     let points: Vec<(f64, f64)> = points.iter().map(|(q, r)| (*q, r - mean)).collect();
     let count = ((MOST_CYCLES - FEWEST_CYCLES) / SPACING) as usize;
     let mut peaks: Vec<(f64, f64)> = (0..count)
@@ -143,6 +150,7 @@ mod tests {
             .map(|c| 0.4 * libm::sin(TAU * run.motion[*c].position / period + 0.9))
             .collect();
         let best = periods(
+            cause,
             &points(cause, &run.motion, &windows, &residual),
             run.travel(),
         )[0];

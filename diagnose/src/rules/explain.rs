@@ -27,7 +27,7 @@ rules! {
     NAMED: f64 = 0.9, "probability", REASON;
     /// Probability from which on a mechanism is suspected.
     SUSPECTED: f64 = 0.5, "probability", REASON;
-    /// A periodic law whose period is known to no better than this share of itself, half its 95 % interval, is at most suspected: a part of one period is a spring or a friction as well.
+    /// A periodic law whose period is known to no better than this share of itself, half its 95 % interval, is withdrawn: a part of one period is a spring or a friction as well.
     PERIOD_KNOWN: f64 = 0.2, "share", "one joint, seeds 2700 to 3099 in other forms: true periods are known to 0.035 or better, two false ones to 0.28 and 0.7";
     /// Least weight of an alternative that is printed beside a name.
     OFFERED: f64 = 0.03, "probability", REASON;

@@ -275,7 +275,7 @@ impl Law {
                 sine,
                 cosine,
                 period,
-            } => wave(sine, cosine, now.position / period),
+            } => wave(sine, cosine, now.position, period),
             Law::Spring { stiffness, rest } => stiffness * (now.position - rest),
             Law::NonlinearSpring { cubic } => cubic * now.position * now.position * now.position,
             Law::BiasDrift { rate, settling } => rate * settled(now.time_s, settling),
@@ -313,7 +313,7 @@ impl Law {
                 sine,
                 cosine,
                 period,
-            } => wave(sine, cosine, now.position / period),
+            } => wave(sine, cosine, now.position, period),
             Law::TorqueDrift { rate, settling } => {
                 rate * settled(now.time_s, settling) * now.brake_nm
             }
@@ -406,9 +406,9 @@ fn settled(time_s: f64, settling: f64) -> f64 {
     -settling * libm::expm1(-time_s / settling)
 }
 
-/// A sum of a sine and a cosine after some turns.
-fn wave(sine: f64, cosine: f64, turns: f64) -> f64 {
-    let (sin, cos) = libm::sincos(core::f64::consts::TAU * turns);
+/// A sum of a sine and a cosine of a period.
+fn wave(sine: f64, cosine: f64, position: f64, period: f64) -> f64 {
+    let (sin, cos) = libm::sincos(core::f64::consts::TAU * position / period);
     sine * sin + cosine * cos
 }
 

@@ -56,7 +56,7 @@ fn every_resistance_law_of_the_library_is_the_plants() {
                 "{name}"
             );
             assert!(
-                (own.dry(&own_now, memory) - dry).abs() <= 1e-15 * dry,
+                (own.dry(&own_now, memory) - dry).abs() <= 1e-15 * dry.abs(),
                 "{name}"
             );
             // The memory, in a short time, against its rate by the Runge-Kutta formula.

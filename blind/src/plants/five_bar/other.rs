@@ -23,8 +23,7 @@ const JOINT: &[&[Form]] = &[
     ],
     &[Form::Root, Form::Square, Form::Power, Form::Tanh],
     &[Form::LoadArm, Form::LoadSquare],
-    &[Form::TwoOrders, Form::Toothed],
-    &[Form::Uneven],
+    &[Form::TwoOrders, Form::Toothed, Form::Uneven],
     &[Form::Anchored, Form::Hardening],
     &[Form::OvershootLinear],
 ];

@@ -215,7 +215,7 @@ pub fn shapes(
         }
         Shapes::Period => {
             let travel = run.travel(cause.at);
-            let mut all = periods(&points(run, cause, windows, residual), travel);
+            let mut all = periods(cause, &points(run, cause, windows, residual), travel);
             all.extend(of_a_turn(longest_period(travel, cause)));
             one(all)
         }

@@ -233,7 +233,7 @@ fn everything_that_a_brake_does_with_its_current_is_what_its_column_says() {
         (at(CurrentHysteresis, Joint::C, &[0.071, 0.3]), None),
         (at(CurrentHysteresis, Joint::C, &[0.071, 0.3, 0.31]), None),
         (at(ThermalFade, Joint::A, &[0.31, 7.3]), None),
-        (at(TorqueDrift, Joint::A, &[-0.071]), None),
+        (at(TorqueDrift, Joint::A, &[-0.13]), None),
         (at(TorqueDrift, Joint::E, &[-0.31, 0.7]), None),
         (at(BacklashWidth, Joint::A, &[0.031]), None),
         (at(TimeConstant, Joint::E, &[2.3]), None),
