@@ -6,7 +6,6 @@ mod periods;
 pub use periods::{is_periodic, longest_period, of_a_turn, periodic_part, periods};
 
 use crate::cause::{Cause, Place};
-use crate::filter::rms;
 use crate::plant::Run;
 use crate::problem::{Problem, Term, add};
 use crate::regression::Fit;
@@ -150,16 +149,6 @@ pub fn standard_shapes<R: Run + ?Sized>(
             GAPS,
         )),
         Shapes::Resonance => resonances(step_s),
-        Shapes::Share {
-            low,
-            high,
-            count,
-            exponents,
-        } => shares(
-            &geometric(low, high, count),
-            exponents,
-            moving_effort(run, cause.at),
-        ),
         Shapes::EffortLimit => limits(greatest(&run.effort()), EFFORT_LIMIT_SHARES, EFFORT_LIMITS),
         Shapes::EffortRate => one(effort_rates(&run.effort())),
         Shapes::Period => one(all_periods(run, cause, windows, residual)),
@@ -255,31 +244,6 @@ fn limits(greatest: f64, [lowest, highest]: [f64; 2], count: usize) -> Vec<Vec<f
         .flat_map(|limit| SHARPNESSES.map(|sharpness| vec![limit, sharpness]));
     let sharp = sharp.into_iter().map(|limit| vec![limit]);
     sharp.chain(bent).collect()
-}
-
-/// The root mean square of the effort while the joint moves: a loop winds up while friction holds
-/// it.
-fn moving_effort<R: Run + ?Sized>(run: &R, at: Place) -> f64 {
-    let (effort, motion) = (run.effort(), run.motion(at));
-    let moving = effort.iter().zip(motion);
-    let moving = moving.filter(|(_, now)| now.sense.abs() >= 1.0);
-    let moving: Vec<f64> = moving.map(|(effort, _)| *effort).collect();
-    rms(&moving).max(1e-12)
-}
-
-/// Trial shares of a load, and with each exponent the same shares at a typical load.
-fn shares(shares: &[f64], exponents: &[f64], typical: f64) -> Vec<Vec<f64>> {
-    let powers = exponents.iter().flat_map(|exponent| {
-        let there = libm::pow(typical, 1.0 - exponent);
-        shares
-            .iter()
-            .map(move |share| vec![share * there, *exponent])
-    });
-    shares
-        .iter()
-        .map(|share| vec![*share])
-        .chain(powers)
-        .collect()
 }
 
 /// Trial rates of the effort: those that reach the greatest command within a time.

@@ -14,11 +14,10 @@ pub(super) const LOAD_FRICTION: Entry = Entry {
     facts: Facts {
         in_sets: true,
         usual: Usual::Seldom,
-        shapes: Shapes::Share {
+        shapes: Shapes::Geometric {
             low: 0.03,
             high: 0.5,
             count: 7,
-            exponents: &[4.0 / 3.0, 2.0],
         },
         ..Facts::of(
             Family::FrictionOfMotion,

@@ -197,18 +197,6 @@ pub enum Shapes {
         /// Their number.
         count: usize,
     },
-    /// Shares of a load: a geometric progression, and with each exponent the same at a
-    /// typical load.
-    Share {
-        /// The least.
-        low: f64,
-        /// The greatest.
-        high: f64,
-        /// Their number.
-        count: usize,
-        /// Powers of the load, besides the load itself.
-        exponents: &'static [f64],
-    },
     /// A geometric progression, each value with both signs.
     BothSigns {
         /// The least.

@@ -21,12 +21,14 @@ def load_friction(calibration: Any, joint: str | int = 0) -> Law:
     effects = {effect["mechanism"]: effect for effect in keys.get("effect", []) if "onset" not in effect}
     if keys.get("plant") != "axis" or "load_friction" not in effects:
         raise Error("calibration: it has no friction under load of one joint; `apply` sets all that MuJoCo holds")
-    share = float(effects["load_friction"]["share"]["value"])
+    found = effects["load_friction"]
+    share = float(found["share"]["value"])
+    exponent = float(found["exponent"]["value"]) if "exponent" in found else 1.0
     level = float(effects["dry_offset"]["level"]["value"]) if "dry_offset" in effects else 0.0
     drag = float(keys["parameters"]["command_gain"]["value"] * keys.get("servo", {}).get("back_emf", 0.0))
 
     def law(model: Any, data: Any) -> None:
         dof = model.joint(joint).dofadr[0]
-        model.dof_frictionloss[dof] = max(0.0, level + share * abs(data.qfrc_actuator[dof] - drag * data.qvel[dof]))
+        model.dof_frictionloss[dof] = max(0.0, level + share * abs(data.qfrc_actuator[dof] - drag * data.qvel[dof]) ** exponent)
 
     return law

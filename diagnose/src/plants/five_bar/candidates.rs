@@ -236,7 +236,6 @@ pub fn shapes(
         Shapes::Memory
         | Shapes::EffortLimit
         | Shapes::EffortRate
-        | Shapes::Share { .. }
         | Shapes::Pitch
         | Shapes::Gap
         | Shapes::Resonance

@@ -216,11 +216,24 @@ fn of_joint(run: &JointRun, form: Form, shape: &[f64]) -> Option<Columns> {
     }
     match form {
         Form::Joint(OfJoint::Load) => {
-            // The drive's effort is the load, friction included.
-            let loads = run.effort.iter().zip(&run.motion);
-            let signal = loads.map(|(load, now)| load_friction(*load, shape) * now.sense);
-            let signal: Vec<f64> = signal.collect();
-            Some(Columns::Fixed(acting_effort(run, &signal)))
+            if shape.len() > 1 {
+                // Of a power of the load, the drive's effort, friction included.
+                let loads = run.effort.iter().zip(&run.motion);
+                let signal = loads.map(|(load, now)| load_friction(*load, shape) * now.sense);
+                let signal: Vec<f64> = signal.collect();
+                return Some(Columns::Fixed(acting_effort(run, &signal)));
+            }
+            let share = *shape.first()?;
+            let mut effort = described(run, false);
+            add(&mut effort, &acceleration(run), inertia);
+            let loads = effort.iter().zip(&run.motion);
+            // Friction in proportion to the load depends on the load that includes it: e = rest +
+            // share·|e|·sgn(q̇).
+            let signal = loads.map(|(rest, now)| {
+                let along = rest.signum() * now.sense;
+                share * rest.abs() / (1.0 - share * along) * now.sense
+            });
+            Some(Columns::Fixed(seen(run, signal.collect())))
         }
         Form::Joint(OfJoint::Fade) => {
             let signals = [0, 1].map(|rate| {

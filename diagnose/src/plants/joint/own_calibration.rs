@@ -51,7 +51,6 @@ const LEFT_OUT: &[(Mechanism, &[f64], &[PlantKind])] = &[
     (DriveSaturation, &[7.1], AXIS),
     (DriveSaturation, &[9.3, 2.1], AXIS),
     (LoadFriction, &[0.19], AXIS),
-    (LoadFriction, &[0.017, 2.0], AXIS),
     (FrictionFade, &[0.037, 0.061], BOTH),
     (AddedInertia, &[0.29], AXIS),
     (Compliance, &[0.23, 61.0, 0.11], AXIS),
@@ -63,10 +62,12 @@ const LEFT_OUT: &[(Mechanism, &[f64], &[PlantKind])] = &[
 /// its noise is limited too.
 const RATHER_NAMED: &[(Mechanism, &[f64], &[PlantKind])] = &[(RateLimit, &[61.0], AXIS)];
 
-/// Effects that a bench without a prediction cannot name, but must simulate if they are stated.
+/// Effects that are not looked for, by a bench without a prediction or at all, but are simulated if
+/// they are stated.
 const STATED: &[(Mechanism, &[f64], &[PlantKind])] = &[
     (Lag, &[0.021], BENCH),
     (EncoderScale, &[0.07], BENCH),
+    (LoadFriction, &[0.017, 2.0], AXIS),
     (EncoderOffset, &[0.31], BOTH),
     (Backlash, &[1.1, 0.011], AXIS),
 ];
