@@ -192,6 +192,13 @@ fn known_effort(run: &JointRun) -> Vec<f64> {
     known
 }
 
+/// Friction by a power of the load of an axis, which is its drive's effort, friction included.
+fn under_effort(run: &JointRun, numbers: &[f64]) -> Vec<f64> {
+    let loads = run.effort.iter().zip(&run.motion);
+    let signal = loads.map(|(load, now)| load_friction(*load, numbers) * now.sense);
+    acting_effort(run, &signal.collect::<Vec<f64>>())
+}
+
 /// Friction by the load of a bench. `None` where no load is simulated.
 pub fn under_load(run: &JointRun, numbers: &[f64]) -> Option<Vec<f64>> {
     let along = run.load()?.iter().zip(&run.motion);
@@ -217,11 +224,7 @@ fn of_joint(run: &JointRun, form: Form, shape: &[f64]) -> Option<Columns> {
     match form {
         Form::Joint(OfJoint::Load) => {
             if shape.len() > 1 {
-                // Of a power of the load, the drive's effort, friction included.
-                let loads = run.effort.iter().zip(&run.motion);
-                let signal = loads.map(|(load, now)| load_friction(*load, shape) * now.sense);
-                let signal: Vec<f64> = signal.collect();
-                return Some(Columns::Fixed(acting_effort(run, &signal)));
+                return Some(Columns::Fixed(under_effort(run, shape)));
             }
             let share = *shape.first()?;
             let mut effort = described(run, false);
