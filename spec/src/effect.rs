@@ -317,6 +317,17 @@ pub enum Range {
     Part,
 }
 
+impl Range {
+    /// The least and the greatest number that has a meaning, or that one comes near to.
+    pub const fn ends(self) -> [f64; 2] {
+        match self {
+            Range::Any => [f64::NEG_INFINITY, f64::INFINITY],
+            Range::NotBelowZero | Range::AboveZero => [0.0, f64::INFINITY],
+            Range::Part => [0.0, 1.0],
+        }
+    }
+}
+
 const fn needed(name: &'static str, quantity: Quantity) -> Parameter {
     Parameter {
         name,

@@ -5,7 +5,7 @@ use crate::evidence::{Intervals, coefficients_by_term, parameters};
 use crate::problem::Problem;
 use crate::report::Number;
 use crate::selection::{Selection, refs};
-use rigproof_spec::effect::{Motion, Range};
+use rigproof_spec::effect::Motion;
 use rigproof_trace::rig::{RigEffect, Value};
 use std::collections::BTreeMap;
 
@@ -24,11 +24,7 @@ pub(crate) fn with_interval(value: f64, half: Option<f64>) -> Value {
 pub(crate) fn within_ranges(mut effect: RigEffect) -> RigEffect {
     let parameters = effect.mechanism.parameters().iter();
     for (parameter, value) in parameters.zip(&mut effect.values) {
-        let [least, most] = match parameter.range {
-            Range::Any => continue,
-            Range::NotBelowZero | Range::AboveZero => [0.0, f64::INFINITY],
-            Range::Part => [0.0, 1.0],
-        };
+        let [least, most] = parameter.range.ends();
         value.low95 = value.low95.map(|low| low.max(least).min(value.value));
         value.high95 = value.high95.map(|high| high.min(most).max(value.value));
     }

@@ -1,6 +1,7 @@
 //! This file is an encoder whose error repeats: once a turn where its disc turns off its centre, and once or twice a line where its two signals are no sine and cosine of one size (Heydemann 1981).
 
 use super::facts::{Alone, Asked, Facts, Family, Shapes, Usual, Where, Words};
+use super::ripple::wave;
 use super::{Entry, Form, OfSensor, parameter};
 use core::f64::consts::TAU;
 use rigproof_spec::effect::Mechanism;
@@ -33,8 +34,7 @@ pub(super) const ENTRY: Entry = Entry {
 /// What an encoder shows too much at a position, m or rad, by the parameters of `eccentric_encoder`.
 pub fn shown_too_much(position: f64, parameters: &[f64]) -> f64 {
     let period = parameters.get(2).copied().unwrap_or(TAU);
-    let (sin, cos) = libm::sincos(TAU * position / period);
-    parameter(parameters, 0) * sin + parameter(parameters, 1) * cos
+    wave([0, 1].map(|k| parameter(parameters, k)), position, period)
 }
 
 /// Rounds of the iteration that finds the position behind a shown one. Each multiplies the error by the slope of what is shown too much.

@@ -49,7 +49,12 @@ struct Ripple {
 
 impl Law for Ripple {
     fn smooth(&self, now: &Instant, _memory: f64) -> f64 {
-        let (sin, cos) = libm::sincos(TAU * now.position / self.period);
-        self.sine * sin + self.cosine * cos
+        wave([self.sine, self.cosine], now.position, self.period)
     }
+}
+
+/// What is so much of a sine and a cosine over a position, m or rad, with a period.
+pub(super) fn wave([sine, cosine]: [f64; 2], position: f64, period: f64) -> f64 {
+    let (sin, cos) = libm::sincos(TAU * position / period);
+    sine * sin + cosine * cos
 }

@@ -1,8 +1,8 @@
 //! This file is a brake whose torque changes with the time since the start: in proportion to it, or ever slower to an end, as what
 //! warms does (Newton's law of cooling, 1701).
 
-use super::bias_drift::drifted;
-use super::facts::{Alone, Asked, Facts, Family, Shapes, Where, Words};
+use super::bias_drift::{self, drifted};
+use super::facts::{Alone, Asked, Facts, Family, Where, Words};
 use super::{Entry, Form, Instant, Law, parameter};
 use rigproof_spec::effect::Mechanism;
 
@@ -21,11 +21,7 @@ pub(super) const ENTRY: Entry = Entry {
     facts: Facts {
         turn: 6,
         has_forms: true,
-        shapes: Shapes::Optional {
-            low: 0.7,
-            high: 30.0,
-            count: 5,
-        },
+        shapes: bias_drift::ENTRY.facts.shapes,
         ..Facts::of(
             Family::Brake,
             Asked {

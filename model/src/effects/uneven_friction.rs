@@ -2,8 +2,8 @@
 //! line (Armstrong-Hélouvry 1991).
 
 use super::facts::{Alone, Asked, AtRest, Facts, Family, Refit, Shapes, Usual, Where, Words};
+use super::ripple::wave;
 use super::{Entry, Form, Instant, Law, parameter};
-use core::f64::consts::TAU;
 use rigproof_spec::effect::Mechanism;
 
 pub(super) const ENTRY: Entry = Entry {
@@ -54,7 +54,6 @@ struct Uneven {
 
 impl Law for Uneven {
     fn dry(&self, now: &Instant) -> f64 {
-        let (sin, cos) = libm::sincos(TAU * now.position / self.period);
-        self.sine * sin + self.cosine * cos
+        wave([self.sine, self.cosine], now.position, self.period)
     }
 }

@@ -102,12 +102,12 @@ struct OutputError<'a> {
 /// The nearest number that has a meaning; what must be above zero keeps a thousandth of where it
 /// started.
 fn within(range: Range, number: f64, start: f64) -> f64 {
-    match range {
-        Range::Any => number,
-        Range::NotBelowZero => number.max(0.0),
-        Range::AboveZero => number.max(1e-3 * start),
-        Range::Part => number.clamp(0.0, 1.0),
-    }
+    let [least, most] = range.ends();
+    let least = match range {
+        Range::AboveZero => 1e-3 * start,
+        _ => least,
+    };
+    number.max(least).min(most)
 }
 
 /// Step of the finite differences, in scales.
