@@ -4,16 +4,18 @@ use crate::candidates::is_periodic;
 use crate::cause::Cause;
 use crate::evidence::{Intervals, coefficients_by_term};
 use crate::problem::{Problem, Term};
-use crate::rules::{PERIOD_KNOWN, SUSPECTED};
+use crate::rules::{LEAST_BESIDE_POSITION, PERIOD_KNOWN, POSITION_BINS, SUSPECTED};
 use crate::selection::{Selection, is_noise};
 use rigproof_model::effects::facts;
+use rigproof_model::effects::facts::Family;
 
 /// Bounds the probabilities of what is named.
 ///
 /// If the residual is more than noise, a mechanism that explains little beside the rest may be a part
 /// of the unexplained physics. Its probability is at most one half plus the share of the loss that it
 /// removes. A mechanism beside others whose numbers may all be those of nothing is at most suspected:
-/// the others, with other numbers, do without it.
+/// the others, with other numbers, do without it. So is a friction that nothing but a function of the
+/// position is on this motion.
 pub(super) fn bound(problem: &Problem, selection: &mut Selection, intervals: &Intervals) {
     let is_noise = is_noise(problem, &selection.after);
     let (_, coefficients) = coefficients_by_term(problem, selection);
@@ -22,7 +24,9 @@ pub(super) fn bound(problem: &Problem, selection: &mut Selection, intervals: &In
     // Of a plant of many places delays are measured without an interval.
     let beside = selection.found.len() > 1 && !problem.rules.many;
     for (found, (values, halves)) in selection.found.iter_mut().zip(numbers) {
-        if beside && may_be_nothing(&found.term, values, halves) {
+        if beside && may_be_nothing(&found.term, values, halves)
+            || is_of_position(problem, &found.term, values)
+        {
             found.probability = found.probability.min(SUSPECTED);
         }
         if !is_noise {
@@ -56,4 +60,84 @@ pub(super) fn vague(selection: &Selection, intervals: &Intervals) -> Vec<Cause> 
 fn is_vague(term: &Term, halves: &[f64]) -> bool {
     let own = term.numbers().first().zip(halves.last());
     is_periodic(term.cause) && own.is_some_and(|(period, half)| *half > PERIOD_KNOWN * period)
+}
+
+/// Whether the effort of a friction is a function of the position alone on this motion. A single sine
+/// passes each position at one speed: friction that is equal in both directions is then a spring or
+/// a ripple as well.
+fn is_of_position(problem: &Problem, term: &Term, values: &[f64]) -> bool {
+    let family = facts(term.cause.mechanism).map(|facts| facts.family);
+    let motion = problem.run.motion(term.cause.at).iter();
+    let position: Vec<f64> = motion.map(|now| now.position).collect();
+    let position = problem.windows.average(&position);
+    let effort = weighted(
+        term.free.iter().map(|own| &own.raw[..]).zip(values),
+        position.len(),
+    );
+    family == Some(Family::FrictionOfMotion)
+        && problem.run.outputs() == 1
+        && !values.is_empty()
+        && left_beside(&position, &effort) < LEAST_BESIDE_POSITION
+}
+
+/// The sum of signals of one length, each with its coefficient.
+fn weighted<'a>(signals: impl Iterator<Item = (&'a [f64], &'a f64)>, len: usize) -> Vec<f64> {
+    let mut sum = vec![0.0; len];
+    for (signal, coefficient) in signals {
+        for (sum, own) in sum.iter_mut().zip(signal) {
+            *sum += coefficient * own;
+        }
+    }
+    sum
+}
+
+/// The share of the variance of `effort` that its mean in each of `POSITION_BINS` bins of the position leaves.
+fn left_beside(position: &[f64], effort: &[f64]) -> f64 {
+    let low = position.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = position.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let width = (high - low) / POSITION_BINS as f64;
+    let mut bins = vec![Vec::new(); POSITION_BINS + 1];
+    for (position, effort) in position.iter().zip(effort) {
+        if let Some(bin) = bins.get_mut(((position - low) / width) as usize) {
+            bin.push(*effort);
+        }
+    }
+    let within: f64 = bins.iter().map(|own| scatter(own)).sum();
+    within / scatter(effort).max(1e-300)
+}
+
+/// The sum of squares about the mean.
+fn scatter(own: &[f64]) -> f64 {
+    let mean = own.iter().sum::<f64>() / own.len().max(1) as f64;
+    own.iter().map(|own| (own - mean).powi(2)).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Position and speed of a sum of sines of unit speed, each with its angular frequency.
+    fn moving(frequencies: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let at = |k: usize| {
+            let time = 0.01 * f64::from(k as u32);
+            let each = frequencies
+                .iter()
+                .map(|w| (libm::sin(w * time) / w, libm::cos(w * time)));
+            each.fold((0.0, 0.0), |sum, own| (sum.0 + own.0, sum.1 + own.1))
+        };
+        (0..4000).map(at).unzip()
+    }
+
+    #[test]
+    fn one_sine_passes_each_position_at_one_speed_and_two_do_not() {
+        let magnitude = |speed: &[f64]| -> Vec<f64> { speed.iter().map(|v| v.abs()).collect() };
+        let (position, speed) = moving(&[1.9]);
+        let own = left_beside(&position, &magnitude(&speed));
+        assert!(own < LEAST_BESIDE_POSITION, "{own}");
+        let own = left_beside(&position, &speed);
+        assert!(own > 0.95, "against the motion: {own}");
+        let (position, speed) = moving(&[1.9, 3.1]);
+        let own = left_beside(&position, &magnitude(&speed));
+        assert!(own > 0.5, "{own}");
+    }
 }

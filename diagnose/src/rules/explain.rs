@@ -29,6 +29,10 @@ rules! {
     SUSPECTED: f64 = 0.5, "probability", REASON;
     /// A periodic law whose period is known to no better than this share of itself, half its 95 % interval, is withdrawn: a part of one period is a spring or a friction as well.
     PERIOD_KNOWN: f64 = 0.2, "share", "one joint, seeds 2700 to 3099 in other forms: true periods are known to 0.035 or better, two false ones to 0.28 and 0.7";
+    /// A friction whose effort keeps less than this share of its variance beside a function of the position is suspected at most: on such a motion it is a spring or a ripple as well.
+    LEAST_BESIDE_POSITION: f64 = 0.15, "share", "one sine: 0.07 and 0.08 (surgical drive); varied motions: 0.31 (EMPS) and 0.67 to 0.95 (one joint in other forms, ten seeds of 2759 to 3189)";
+    /// Bins of the position whose means are that function.
+    POSITION_BINS: usize = 20, "bins", REASON;
     /// Least weight of an alternative that is printed beside a name.
     OFFERED: f64 = 0.03, "probability", REASON;
     /// The most explanations that are listed.
