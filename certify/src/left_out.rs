@@ -8,7 +8,9 @@ use rigproof_impl::plant::effect::{Asked, Law};
 use rigproof_impl::vector::Vector;
 use rigproof_model::brake::slowed;
 use rigproof_model::effects::facts::{AtRest, Family};
-use rigproof_model::effects::{Drive, Form, OfBrake, OfLinkage, OfSensor, entry, form, law};
+use rigproof_model::effects::{
+    Drive, Form, OfBrake, OfLinkage, OfSensor, entry, form, law, shown_too_much,
+};
 use rigproof_model::motion::added_mass;
 use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
@@ -119,7 +121,9 @@ pub fn role(mechanism: Mechanism) -> Option<Role> {
         Form::Linkage(OfLinkage::Payload | OfLinkage::Inertias | OfLinkage::InertiaScale) => {
             Some(Role::Masses)
         }
-        Form::Sensor(OfSensor::EncoderScale | OfSensor::EncoderOffset) => Some(Role::Encoder),
+        Form::Sensor(OfSensor::EncoderScale | OfSensor::EncoderOffset | OfSensor::Eccentric) => {
+            Some(Role::Encoder)
+        }
         Form::Sensor(OfSensor::ForceGain | OfSensor::ForceBias | OfSensor::ForceRotation) => {
             Some(Role::Force)
         }
@@ -129,7 +133,7 @@ pub fn role(mechanism: Mechanism) -> Option<Role> {
         | Form::Linkage(
             OfLinkage::Load | OfLinkage::Weight | OfLinkage::PlaneSpring | OfLinkage::LinkLength,
         )
-        | Form::Sensor(OfSensor::Eccentric | OfSensor::Clock) => None,
+        | Form::Sensor(OfSensor::Clock) => None,
     }
 }
 
@@ -166,6 +170,9 @@ impl LeftOut {
             }
             Some(Form::Sensor(OfSensor::EncoderOffset)) if self.joint == Some(joint) => {
                 angle_rad + self.number(0)
+            }
+            Some(Form::Sensor(OfSensor::Eccentric)) if self.joint == Some(joint) => {
+                angle_rad + shown_too_much(angle_rad, &self.parameters)
             }
             _ => angle_rad,
         }

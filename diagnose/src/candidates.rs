@@ -118,6 +118,11 @@ fn shapes(problem: &Problem, cause: Cause, residual: &[f64]) -> Vec<Vec<f64>> {
     problem.run.shapes(cause, &problem.windows, residual)
 }
 
+/// Whether a cause is an encoder's error whose columns hold for any size.
+fn is_straight_encoder<R: Run + ?Sized>(run: &R, cause: Cause) -> bool {
+    form(cause.mechanism).is_some_and(Form::is_of_encoder) && !run.moves(cause)
+}
+
 /// The trial shapes of a cause on most plants. `residual` has one value per row.
 pub fn standard_shapes<R: Run + ?Sized>(
     run: &R,
@@ -127,10 +132,6 @@ pub fn standard_shapes<R: Run + ?Sized>(
 ) -> Vec<Vec<f64>> {
     let (travel, step_s) = (run.travel(cause.at).max(1e-12), run.clock().step_s);
     let one = |values: Vec<f64>| values.into_iter().map(|v| vec![v]).collect();
-    // The trial values of an encoder's cause are steps of a finite difference.
-    if form(cause.mechanism).is_some_and(Form::is_of_encoder) && !run.moves(cause) {
-        return vec![vec![]];
-    }
     match facts(cause.mechanism).map_or(Shapes::None, |facts| facts.shapes) {
         Shapes::Peak => stribeck_shapes(
             run.speed_floor(),
@@ -143,6 +144,8 @@ pub fn standard_shapes<R: Run + ?Sized>(
             .flat_map(|travel| BRISTLE_EXPONENTS.map(|exponent| vec![travel, exponent]))
             .collect(),
         Shapes::Memory => memories(travel),
+        // The trial values of an encoder's cause are steps of a finite difference.
+        Shapes::Values(_) if is_straight_encoder(run, cause) => vec![vec![]],
         Shapes::Gap => one(geometric(
             (LEAST_GAP_SIGMAS * run.position_noise()).max(LEAST_GAP * travel),
             MOST_GAP * travel,
@@ -319,7 +322,7 @@ pub fn shape_bounds(problem: &Problem, cause: Cause, shape: &[f64]) -> Vec<(f64,
 /// and the law substitutes for another one.
 pub fn is_at_an_end(problem: &Problem, term: &Term) -> bool {
     let bounds = shape_bounds(problem, term.cause, &term.shape);
-    let first = term.shape.first().zip(bounds.first());
+    let first = term.numbers().first().zip(bounds.first());
     first.is_some_and(|(value, bounds)| bounds.0 < bounds.1 && is_end(*value, *bounds))
 }
 
@@ -329,7 +332,7 @@ pub fn is_at_an_end(problem: &Problem, term: &Term) -> bool {
 /// stands for the simpler law and does not count.
 pub fn searched(problem: &Problem, term: &Term) -> impl Iterator<Item = usize> {
     let bounds = shape_bounds(problem, term.cause, &term.shape);
-    let own: Vec<(f64, (f64, f64))> = term.shape.iter().copied().zip(bounds).collect();
+    let own: Vec<(f64, (f64, f64))> = term.numbers().iter().copied().zip(bounds).collect();
     let open = own.into_iter().enumerate();
     open.filter(|(k, (value, bounds))| match k {
         0 => bounds.0 < bounds.1,

@@ -286,10 +286,11 @@ pub trait Run: Debug + Send + Sync {
         windows: &Windows,
         recorded: &[f64],
         signals: &[Vec<f64>],
+        cause: Cause,
         shape: &[f64],
         first: usize,
     ) -> Vec<Vec<f64>> {
-        let _ = (windows, recorded, signals, shape, first);
+        let _ = (windows, recorded, signals, cause, shape, first);
         Vec::new()
     }
 

@@ -44,11 +44,12 @@ pub struct Term {
 }
 
 impl Term {
-    /// Its shape parameters that are numbers of the law. The pitch of an encoder is followed by the
-    /// error about which its columns are straight.
+    /// Its shape parameters that are numbers of the law. The pitch of an encoder, 0 for a turn, is
+    /// followed by the error about which its columns are straight.
     pub fn numbers(&self) -> &[f64] {
         let is_pitch = facts(self.cause.mechanism).is_some_and(|own| own.shapes == Shapes::Pitch);
         match self.shape.get(..1) {
+            Some(turn) if is_pitch && turn.contains(&0.0) => &[],
             Some(pitch) if is_pitch => pitch,
             _ => &self.shape,
         }
@@ -189,7 +190,7 @@ impl<'a> Problem<'a> {
                 let (windows, recorded) = (&self.windows, &self.target.signal);
                 let moved = self
                     .run
-                    .moved_rows(windows, recorded, signals, shape, first);
+                    .moved_rows(windows, recorded, signals, cause, shape, first);
                 let moved = moved.into_iter();
                 (moved.map(|raw| Arc::new(self.rows_of(raw))).collect(), None)
             }

@@ -220,7 +220,7 @@ impl Form {
     pub const fn is_of_encoder(self) -> bool {
         matches!(
             self,
-            Form::Sensor(OfSensor::EncoderScale | OfSensor::EncoderOffset)
+            Form::Sensor(OfSensor::EncoderScale | OfSensor::EncoderOffset | OfSensor::Eccentric)
         )
     }
 }

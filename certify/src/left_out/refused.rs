@@ -39,7 +39,6 @@ pub fn why_not(mechanism: Mechanism) -> Option<&'static str> {
         Some(Form::Linkage(OfLinkage::LinkLength)) => {
             "controller and plant have the arms of the layout; with others neither path nor start are what was drawn"
         }
-        Some(Form::Sensor(OfSensor::Eccentric)) => "it is of a single joint's encoder",
         Some(Form::Sensor(OfSensor::Clock)) => {
             "it is of a recorder, and a controller goes by the rig's own clock"
         }

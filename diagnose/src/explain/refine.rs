@@ -88,10 +88,8 @@ impl Refining<'_> {
         for _ in 0..TAKEN_AGAIN {
             let fitted = best.1.terms.iter().zip(best.1.by_term());
             let again = fitted.map(|(term, coefficients)| {
-                let is_own = !self.problem.run.moves(term.cause);
                 let shape = self.problem.shape_over(term, coefficients);
                 let again = shape
-                    .filter(|_| is_own)
                     .and_then(|shape| unfitted(self.problem, term.cause, &shape, term.onset_s));
                 again.unwrap_or_else(|| term.clone())
             });

@@ -21,7 +21,7 @@ pub(super) const ENTRY: Entry = Entry {
             Family::Sensor,
             Asked {
                 alone: Alone::Driven,
-                five_bar: Where::Nowhere,
+                five_bar: Where::Encoders,
             },
             Words {
                 what: "an encoder that shows too much in one half of a turn, or of a line, and too little in the other",

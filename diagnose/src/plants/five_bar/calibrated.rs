@@ -8,8 +8,10 @@ use crate::cause::{Cause, Place, Scales};
 use crate::diagnose::numbers::{fitted, with_interval};
 use crate::diagnose::write::Stand;
 use crate::evidence::{Intervals, coefficients_by_term};
+use crate::problem::Term;
 use crate::selection::refs;
 use rigproof_model::effects::facts;
+use rigproof_spec::effect::Mechanism;
 use rigproof_trace::rig::five_bar::{FiveBar, JointEffect};
 use rigproof_trace::rig::{RigEffect, Value};
 
@@ -34,17 +36,10 @@ impl Stand<'_, FiveBar> {
         rig.effects.extend(fitted);
         let second = terms.iter().zip(&coefficients);
         let second = second.filter_map(|(term, own)| {
-            let mechanism = facts(term.cause.mechanism)?.zero?;
-            let [size, mut level] = *own.get(..2)? else {
-                return None;
+            let (mechanism, level) = match Encoder::of(self.train, term.cause, &term.shape) {
+                Some(encoder) => (Mechanism::EncoderOffset, encoder.zero_rad(own)?),
+                None => (facts(term.cause.mechanism)?.zero?, second_level(term, own)?),
             };
-            // A spring states its place of rest itself, unless only its force is determined.
-            if term.cause.mechanism.parameters().len() > 1 && size != 0.0 {
-                return None;
-            }
-            if let Some(encoder) = Encoder::of(self.train, term.cause, &term.shape) {
-                level = encoder.zero_at_zero_rad([size, level]);
-            }
             let effect = RigEffect {
                 mechanism,
                 values: vec![with_interval(level, None)],
@@ -60,6 +55,15 @@ impl Stand<'_, FiveBar> {
             .insert("fit".to_owned(), "weighted windows".to_owned());
         rig
     }
+}
+
+/// The level of a term's zero. A spring states its place of rest itself, unless only its force is
+/// determined.
+fn second_level(term: &Term, own: &[f64]) -> Option<f64> {
+    let [size, level] = *own.get(..2)? else {
+        return None;
+    };
+    (term.cause.mechanism.parameters().len() == 1 || size == 0.0).then_some(level)
 }
 
 impl Stand<'_, FiveBar> {

@@ -1,11 +1,12 @@
-//! This file computes the columns of an encoder's zero error, and of its scale error with a zero.
+//! This file computes the columns of an encoder's error: its zero; its scale, or its disc off the
+//! centre, each with a zero.
 //!
 //! The linkage is nonlinear: an error of a few hundredths of a radian is no small step. The shape
-//! of such a cause is the step of the finite difference, ideally its true size, so that column
-//! times coefficient is the whole change.
+//! of such a cause is the steps of a finite difference, ideally its true sizes, so that columns
+//! times coefficients are the whole change.
 //!
-//! An encoder counts from where it was homed. The second column of a scale error is therefore its
-//! zero, and the shape may give that zero at the step.
+//! An encoder counts from where it was homed. The last column of a scale or of a disc off its centre
+//! is therefore the zero.
 //!
 //! A wrong angle also turns the direction in which a held joint pushes. Its reaction may be as
 //! large as any effort and appears in the combination that should be free of it. Rows are therefore
@@ -18,27 +19,29 @@ use super::run::{FiveBarRun, joint_at};
 use crate::cause::Cause;
 use crate::problem::less;
 use crate::weak::Windows;
-use rigproof_model::effects::{Form, OfSensor, form};
+use rigproof_model::effects::{Form, OfSensor, behind_shown, form};
 use rigproof_model::linkage::inverse;
 use rigproof_spec::joint::Joint;
 
-/// The least finite-difference step of an encoder's zero, rad, and of its scale.
+/// The least finite-difference step of an encoder's zero, rad, of its scale, and of an error once a turn, rad.
 const LEAST_STEP: f64 = 1e-3;
 
 /// A tip position near the middle of the workspace of both layouts, m.
 const AMIDST_M: [f64; 2] = [0.0, 0.4];
 
+/// The pitch of an error that repeats once a turn.
+const A_TURN: f64 = 0.0;
+
 /// The signals of a linkage: its balance of efforts, and for each joint the combination without
 /// that joint.
 const SIGNALS: usize = 1 + Joint::ALL.len();
 
-/// A change of an encoder: the output, its kind and its size.
+/// A change of an encoder.
 pub(crate) struct Encoder {
     output: usize,
-    is_scale: bool,
-    step: f64,
-    /// The zero error of a scale at the step, rad.
-    zero_rad: f64,
+    of: OfSensor,
+    /// The size of each part of the error: those of the mechanism, then a zero, rad.
+    parts: Vec<f64>,
     /// The angle at which a scale error leaves the encoder right, rad. In the middle of the
     /// workspace, scale and zero correlate least.
     pivot_rad: f64,
@@ -52,69 +55,89 @@ impl Encoder {
             Joint::B => 1,
             Joint::E | Joint::C => return None,
         };
-        let is_scale = match form(cause.mechanism)? {
-            Form::Sensor(OfSensor::EncoderScale) => true,
-            Form::Sensor(OfSensor::EncoderOffset) => false,
-            Form::Sensor(
-                OfSensor::Eccentric
-                | OfSensor::Clock
-                | OfSensor::ForceGain
-                | OfSensor::ForceBias
-                | OfSensor::ForceRotation,
-            )
-            | Form::Resistance(_)
-            | Form::ShareOfBrake(_)
-            | Form::Drive(_)
-            | Form::Brake(_)
-            | Form::Linkage(_)
-            | Form::Joint(_) => return None,
+        let (of, count, sizes) = match form(cause.mechanism)? {
+            Form::Sensor(of @ OfSensor::EncoderScale) => (of, 2, shape),
+            Form::Sensor(of @ OfSensor::EncoderOffset) => (of, 1, shape),
+            // The first number of its shape is the pitch.
+            Form::Sensor(of @ OfSensor::Eccentric) => (of, 3, shape.get(1..).unwrap_or_default()),
+            _ => return None,
         };
         Some(Encoder {
             output,
-            is_scale,
-            step: step(shape),
-            zero_rad: shape.get(1).copied().unwrap_or(0.0),
+            of,
+            parts: (0..count).map(|k| step(sizes.get(k).copied())).collect(),
             pivot_rad: *amidst(run)?.get(output)?,
         })
     }
 
-    /// The imbalance of the moved linkage and its combinations: at the step, and for a scale with
-    /// its zero moved as well.
+    /// The imbalance of the moved linkage and its combinations: with the first part of the error, and
+    /// with each further one as well.
     pub(super) fn signals(&self, run: &FiveBarRun) -> Option<Vec<Vec<f64>>> {
-        let with = |run: &FiveBarRun, moved: &dyn Fn(f64) -> f64| {
+        let with = |count: usize| {
+            let parts = self.parts.get(..count)?;
             let mut theta = run.theta.clone();
             let own = theta.get_mut(self.output)?;
-            own.iter_mut().for_each(|theta| *theta = moved(*theta));
-            with_angles(run, theta).ok()
+            own.iter_mut()
+                .for_each(|theta| *theta = self.behind(*theta, parts));
+            with_angles(run, theta).ok().map(|moved| seen_by(&moved))
         };
-        if self.is_scale {
-            let scaled = with(run, &|theta| self.unscaled(theta))?;
-            let moved = with(&scaled, &|theta| theta - LEAST_STEP)?;
-            return Some([seen_by(&scaled), seen_by(&moved)].concat());
+        let states: Option<Vec<_>> = (1..=self.parts.len()).map(with).collect();
+        Some(states?.concat())
+    }
+
+    /// The angle behind a shown one, rad. Parts that are not given are 0.
+    fn behind(&self, shown: f64, parts: &[f64]) -> f64 {
+        let part = |k: usize| parts.get(k).copied().unwrap_or(0.0);
+        match self.of {
+            OfSensor::EncoderScale => {
+                self.pivot_rad + (shown - self.pivot_rad) / (1.0 + part(0)) - part(1)
+            }
+            OfSensor::Eccentric => behind_shown(shown, &[part(0), part(1)]) - part(2),
+            _ => shown - part(0),
         }
-        with(run, &|theta| theta - self.step).map(|moved| seen_by(&moved))
     }
 
-    fn unscaled(&self, shown: f64) -> f64 {
-        self.pivot_rad + (shown - self.pivot_rad) / (1.0 + self.step) - self.zero_rad
+    /// The columns, row by row, from the recorded balance and the signals of the moved linkage.
+    /// `first` is the sample of the onset.
+    pub(super) fn rows(
+        &self,
+        windows: &Windows,
+        recorded: &[f64],
+        signals: &[Vec<f64>],
+        first: usize,
+    ) -> Vec<Vec<f64>> {
+        let from = |signal: &[f64]| windows.since(signal, first);
+        let mut before = windows.average(&from(recorded));
+        let states = signals.chunks(SIGNALS).zip(&self.parts);
+        states
+            .filter_map(|(state, part)| {
+                let (balance, combinations) = state.split_first()?;
+                let after = windows.average_with(&from(balance), combinations);
+                let change = less(&before, &after);
+                before = after;
+                Some(change.into_iter().map(|x| x / part).collect())
+            })
+            .collect()
     }
 
-    /// The error of the encoder where it shows zero, rad, from the two coefficients of a scale.
-    pub(super) fn zero_at_zero_rad(&self, [scale, zero]: [f64; 2]) -> f64 {
-        self.zero_off_rad([scale, zero]) - self.pivot_rad * scale / (1.0 + scale)
-    }
-
-    fn zero_off_rad(&self, [scale, zero]: [f64; 2]) -> f64 {
-        self.zero_rad * scale / self.step + zero
+    /// The error besides the mechanism's own numbers, where the encoder shows zero, rad.
+    pub(super) fn zero_rad(&self, coefficients: &[f64]) -> Option<f64> {
+        match (self.of, coefficients) {
+            (OfSensor::EncoderScale, [scale, zero, ..]) => {
+                Some(zero - self.pivot_rad * scale / (1.0 + scale))
+            }
+            (OfSensor::Eccentric, [_, _, zero, ..]) => Some(*zero),
+            _ => None,
+        }
     }
 
     /// The shape at which the finite difference spans the whole change that the coefficients state.
     pub(crate) fn over(&self, coefficients: &[f64]) -> Option<Vec<f64>> {
-        let size = *coefficients.first()?;
-        if self.is_scale {
-            return Some(vec![size, self.zero_off_rad([size, *coefficients.get(1)?])]);
-        }
-        Some(vec![size])
+        let sizes = coefficients.get(..self.parts.len())?;
+        Some(match self.of {
+            OfSensor::Eccentric => [&[A_TURN], sizes].concat(),
+            _ => sizes.to_vec(),
+        })
     }
 }
 
@@ -129,31 +152,7 @@ fn seen_by(run: &FiveBarRun) -> Vec<Vec<f64>> {
     [vec![balance], combinations(run)].concat()
 }
 
-/// The columns, row by row, from the recorded balance and the signals of the moved linkage. `first`
-/// is the sample of the onset.
-pub(crate) fn rows(
-    windows: &Windows,
-    recorded: &[f64],
-    signals: &[Vec<f64>],
-    shape: &[f64],
-    first: usize,
-) -> Vec<Vec<f64>> {
-    let from = |signal: &[f64]| windows.since(signal, first);
-    let mut before = windows.average(&from(recorded));
-    let steps = [step(shape), LEAST_STEP];
-    let states = signals.chunks(SIGNALS).zip(steps);
-    states
-        .filter_map(|(state, step)| {
-            let (balance, combinations) = state.split_first()?;
-            let after = windows.average_with(&from(balance), combinations);
-            let change = less(&before, &after);
-            before = after;
-            Some(change.into_iter().map(|x| x / step).collect())
-        })
-        .collect()
-}
-
-fn step(shape: &[f64]) -> f64 {
-    let step = shape.first().copied().unwrap_or(0.0);
+fn step(size: Option<f64>) -> f64 {
+    let step = size.unwrap_or(0.0);
     step.abs().max(LEAST_STEP).copysign(step)
 }

@@ -13,7 +13,7 @@ use crate::rules::{MOST_OF_PART, SHOTS};
 use crate::signals::shifted;
 use core::ops::Range;
 use rigproof_model::effects::facts::Family;
-use rigproof_model::effects::{Drive, Form, OfLinkage, OfSensor, facts, form};
+use rigproof_model::effects::{Drive, Form, OfLinkage, OfSensor, behind_shown, facts, form};
 use rigproof_model::error::ModelError;
 use rigproof_model::rig::{JointEffect, LONGEST_STEP_S, Parameters, Rig};
 use rigproof_spec::effect::Mechanism;
@@ -133,7 +133,9 @@ pub(super) fn truly(model: &Model, run: &FiveBarRun) -> Result<FiveBarRun, Model
                     pairs.for_each(|(f, e)| *f = e);
                 }
             }
-            Some(Form::Sensor(of @ (OfSensor::EncoderScale | OfSensor::EncoderOffset))) => {
+            Some(Form::Sensor(
+                of @ (OfSensor::EncoderScale | OfSensor::EncoderOffset | OfSensor::Eccentric),
+            )) => {
                 let [a, b] = &mut own.theta;
                 let angle = match joint_at(effect.cause.at) {
                     Some(Joint::A) => a,
@@ -143,6 +145,7 @@ pub(super) fn truly(model: &Model, run: &FiveBarRun) -> Result<FiveBarRun, Model
                 shown.for_each(|theta| {
                     *theta = match of {
                         OfSensor::EncoderScale => *theta / (1.0 + value(0)),
+                        OfSensor::Eccentric => behind_shown(*theta, &effect.parameters),
                         _ => *theta - value(0),
                     }
                 });

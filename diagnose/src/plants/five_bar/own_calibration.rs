@@ -90,6 +90,7 @@ const WITH_SEEDS: &[LeftOut] = &[
     (ForceRotation, Whole, &[0.137]),
     (EncoderOffset, One(A), &[0.021]),
     (EncoderScale, One(B), &[0.017]),
+    (EccentricEncoder, One(B), &[0.031, -0.017]),
 ];
 
 fn stating((mechanism, at, values): LeftOut) -> FiveBar {

@@ -1,7 +1,7 @@
 //! This file is an aligned recording of the five-bar: joint motions, equations of motion, nominal
 //! brakes.
 
-use super::encoder::{self, Encoder};
+use super::encoder::Encoder;
 use super::{candidates, columns, locate, noise};
 use crate::cause::{Cause, JointId, Place};
 use crate::continuity::Remark;
@@ -13,7 +13,7 @@ use crate::signals::known_travel;
 use crate::weak::Windows;
 use crate::whiten::Whitener;
 use nalgebra::{Matrix2, Vector2};
-use rigproof_model::effects::Instant;
+use rigproof_model::effects::{Form, Instant, form};
 use rigproof_model::error::ModelError;
 use rigproof_model::linkage::{Pose, forward};
 use rigproof_model::motion::two_coordinate::{TwoCoordinate, two_coordinate};
@@ -438,8 +438,7 @@ impl Run for FiveBarRun {
     }
 
     fn moves(&self, cause: Cause) -> bool {
-        let encoder = [Mechanism::EncoderScale, Mechanism::EncoderOffset];
-        cause.at != Place::Whole && encoder.contains(&cause.mechanism)
+        cause.at != Place::Whole && form(cause.mechanism).is_some_and(Form::is_of_encoder)
     }
 
     fn moved_rows(
@@ -447,10 +446,14 @@ impl Run for FiveBarRun {
         windows: &Windows,
         recorded: &[f64],
         signals: &[Vec<f64>],
+        cause: Cause,
         shape: &[f64],
         first: usize,
     ) -> Vec<Vec<f64>> {
-        encoder::rows(windows, recorded, signals, shape, first)
+        let encoder = Encoder::of(self, cause, shape);
+        encoder.map_or(Vec::new(), |encoder| {
+            encoder.rows(windows, recorded, signals, first)
+        })
     }
 
     fn shape_over(&self, cause: Cause, shape: &[f64], coefficients: &[f64]) -> Option<Vec<f64>> {

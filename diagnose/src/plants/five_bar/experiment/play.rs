@@ -10,7 +10,7 @@ use crate::sensor::normal;
 use crate::signals::shifted;
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::SeedableRng;
-use rigproof_model::effects::{Drive, Form, OfSensor, form};
+use rigproof_model::effects::{Drive, Form, OfSensor, form, shown_too_much};
 use rigproof_model::error::ModelError;
 use rigproof_model::linkage::inverse;
 use rigproof_model::rig::{JointEffect, Parameters, Rig};
@@ -117,6 +117,9 @@ pub fn shown(effect: &Effect, played: &mut Played, step_s: f64, first: usize) {
     match form(effect.mechanism()) {
         Some(Form::Sensor(OfSensor::EncoderScale)) => angle.for_each(|x| *x *= 1.0 + value(0)),
         Some(Form::Sensor(OfSensor::EncoderOffset)) => angle.for_each(|x| *x += value(0)),
+        Some(Form::Sensor(OfSensor::Eccentric)) => {
+            angle.for_each(|x| *x += shown_too_much(*x, &effect.parameters));
+        }
         Some(Form::Drive(Drive::Skew)) => {
             for force in [force_x, force_y] {
                 let late = shifted(force, -value(0) / step_s);
@@ -135,7 +138,7 @@ pub fn shown(effect: &Effect, played: &mut Played, step_s: f64, first: usize) {
         Some(
             Form::Drive(Drive::Lag | Drive::Gain | Drive::Limit | Drive::Rate)
             | Form::Joint(_)
-            | Form::Sensor(OfSensor::Eccentric | OfSensor::Clock)
+            | Form::Sensor(OfSensor::Clock)
             | Form::Resistance(_)
             | Form::ShareOfBrake(_)
             | Form::Brake(_)
