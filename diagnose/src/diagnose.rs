@@ -21,7 +21,7 @@ use crate::report::Report;
 use crate::rules::{EXPLAINED_LEFT, FEWEST_WINDOWS, FLOOR_RATIO, HOLD_OUT_SHARE};
 use crate::scatter::{Trials, left_over};
 use crate::selection::{Selection, refs, usable_rms};
-use bound::{bound, vague};
+use bound::{bound, untenable};
 use ended::{faulty, not_excited};
 use parts::Parts;
 use rigproof_model::effects::linear;
@@ -179,10 +179,10 @@ pub fn diagnose<P: Plant>(
         withdrawn.clear();
     }
     let mut numbers = intervals(&problem, &selection);
-    let vague = vague(&selection, &numbers);
-    if !vague.is_empty() {
-        selection.withdraw(&problem, &vague);
-        withdrawn.extend(vague);
+    let untenable = untenable(&problem, &selection, &numbers);
+    if !untenable.is_empty() {
+        selection.withdraw(&problem, &untenable);
+        withdrawn.extend(untenable);
         numbers = intervals(&problem, &selection);
     }
     bound(&problem, &mut selection, &numbers);

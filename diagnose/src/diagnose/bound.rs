@@ -1,13 +1,14 @@
 //! This file bounds the probabilities of names by what the data leave open.
 
 use crate::candidates::is_periodic;
-use crate::cause::Cause;
+use crate::cause::{Cause, Scales};
 use crate::evidence::{Intervals, coefficients_by_term};
 use crate::problem::{Problem, Term};
 use crate::rules::{LEAST_BESIDE_POSITION, PERIOD_KNOWN, POSITION_BINS, SUSPECTED};
 use crate::selection::{Selection, is_noise};
 use rigproof_model::effects::facts;
 use rigproof_model::effects::facts::Family;
+use rigproof_spec::effect::Quantity;
 
 /// Bounds the probabilities of what is named.
 ///
@@ -49,17 +50,33 @@ fn may_be_nothing(term: &Term, values: &[f64], halves: &[f64]) -> bool {
     }
 }
 
-/// The periodic laws that were found without a known period: no periods were seen.
-pub(super) fn vague(selection: &Selection, intervals: &Intervals) -> Vec<Cause> {
-    let halves = intervals.terms.iter().skip(selection.nominal.len());
-    let found = selection.found.iter().zip(halves);
-    let vague = found.filter(|(found, halves)| is_vague(&found.term, halves));
-    vague.map(|(found, _)| found.term.cause).collect()
+/// The laws that were found with numbers that no such law has: a periodic one whose period is not
+/// known, since no periods were seen, and a loss of more than a brake's whole torque.
+pub(super) fn untenable(
+    problem: &Problem,
+    selection: &Selection,
+    intervals: &Intervals,
+) -> Vec<Cause> {
+    let (_, coefficients) = coefficients_by_term(problem, selection);
+    let numbers = coefficients.iter().zip(&intervals.terms);
+    let numbers = numbers.skip(selection.nominal.len());
+    let found = selection.found.iter().zip(numbers);
+    let untenable = found.filter(|(found, (values, halves))| {
+        is_vague(&found.term, halves) || loses_all(found.term.cause, values)
+    });
+    untenable.map(|(found, _)| found.term.cause).collect()
 }
 
 fn is_vague(term: &Term, halves: &[f64]) -> bool {
     let own = term.numbers().first().zip(halves.last());
     is_periodic(term.cause) && own.is_some_and(|(period, half)| *half > PERIOD_KNOWN * period)
+}
+
+/// Whether a share of a brake's torque takes away more than all of it.
+fn loses_all(cause: Cause, shares: &[f64]) -> bool {
+    let mut numbers = cause.mechanism.parameters().iter().zip(shares);
+    cause.scales == Scales::Torque
+        && numbers.any(|(number, share)| number.quantity == Quantity::Effort && *share < -1.0)
 }
 
 /// Whether the effort of a friction is a function of the position alone on this motion. A single sine

@@ -85,9 +85,8 @@ fn told_by(rig: &Rig, written: &Written, name: &str) -> Report {
             false => format!("{stamp},{x:e},{f:e}\n"),
         };
     }
-    let folder = std::env::temp_dir().join(format!("rigproof-written-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
-    let file = folder.join(format!("{name}.csv"));
+    let own = format!("rigproof-written-{}-{name}.csv", std::process::id());
+    let file = std::env::temp_dir().join(own);
     std::fs::write(&file, text).unwrap();
     let recording = rig.read_recording(&file);
     std::fs::remove_file(&file).unwrap();
