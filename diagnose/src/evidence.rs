@@ -308,6 +308,8 @@ pub fn parameters(problem: &Problem, term: &Term, coefficients: &[f64]) -> Vec<f
         return vec![stiffness, stated - away];
     }
     let mut parameters = problem.run.linear(mechanism, given);
+    // A zero that is fitted beside it is no number of its law.
+    parameters.truncate(linear(mechanism));
     parameters.extend_from_slice(term.numbers());
     parameters
 }

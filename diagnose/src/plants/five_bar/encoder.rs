@@ -29,9 +29,6 @@ const LEAST_STEP: f64 = 1e-3;
 /// A tip position near the middle of the workspace of both layouts, m.
 const AMIDST_M: [f64; 2] = [0.0, 0.4];
 
-/// The pitch of an error that repeats once a turn.
-const A_TURN: f64 = 0.0;
-
 /// The signals of a linkage: its balance of efforts, and for each joint the combination without
 /// that joint.
 const SIGNALS: usize = 1 + Joint::ALL.len();
@@ -135,7 +132,8 @@ impl Encoder {
     pub(crate) fn over(&self, coefficients: &[f64]) -> Option<Vec<f64>> {
         let sizes = coefficients.get(..self.parts.len())?;
         Some(match self.of {
-            OfSensor::Eccentric => [&[A_TURN], sizes].concat(),
+            // A pitch of 0 means a turn.
+            OfSensor::Eccentric => [&[0.0], sizes].concat(),
             _ => sizes.to_vec(),
         })
     }

@@ -16,7 +16,6 @@ use rigproof_model::effects::facts::Family;
 use rigproof_model::effects::{Drive, Form, OfLinkage, OfSensor, behind_shown, facts, form};
 use rigproof_model::error::ModelError;
 use rigproof_model::rig::{JointEffect, LONGEST_STEP_S, Parameters, Rig};
-use rigproof_spec::effect::Mechanism;
 use rigproof_spec::geometry::Arms;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
@@ -69,28 +68,31 @@ impl Model {
 
     /// Why the reference rig cannot have all effects; `None` if it can.
     pub(super) fn not_computed(&self, layout: Layout) -> Option<String> {
-        let late =
-            |own: &&Effect| own.onset_s.is_some() && own.mechanism() == Mechanism::LinkLength;
-        if self.sensors.iter().any(|own| late(&own)) {
-            return Some(
-                "`link_length` has an onset, and no arm grows: take the onset out".to_owned(),
-            );
-        }
-        let shows = |own: &&Effect| {
-            matches!(
-                form(own.mechanism()),
-                Some(Form::Sensor(OfSensor::Eccentric | OfSensor::Clock))
-            )
-        };
-        if let Some(own) = self.sensors.iter().find(shows) {
-            let name = own.mechanism().name();
-            return Some(format!(
-                "`{name}` is nothing that this five-bar computes: take it out"
-            ));
+        if let Some(why) = self.sensors.iter().find_map(not_shown) {
+            return Some(why);
         }
         let tip_m = [0.0, MIDDLE_M];
         let rig = Rig::new(layout, tip_m).and_then(|rig| rig.with_effects(&self.rig));
         rig.err().map(|error| error.to_string())
+    }
+}
+
+/// Why no sensor of this rig can have an effect; `None` if one can.
+fn not_shown(effect: &Effect) -> Option<String> {
+    let name = effect.mechanism().name();
+    let form = form(effect.mechanism())?;
+    let is_at_encoder = matches!(joint_at(effect.cause.at), Some(Joint::A | Joint::B));
+    match form {
+        Form::Linkage(OfLinkage::LinkLength) if effect.onset_s.is_some() => Some(format!(
+            "`{name}` has an onset, and no arm grows: take the onset out"
+        )),
+        Form::Sensor(OfSensor::Clock) => Some(format!(
+            "`{name}` is nothing that this five-bar computes: take it out"
+        )),
+        _ if form.is_of_encoder() && !is_at_encoder => Some(format!(
+            "`{name}` is at a joint without an encoder: only A and B have one"
+        )),
+        _ => None,
     }
 }
 

@@ -208,6 +208,9 @@ impl Described for FiveBar {
         recording: &FiveBarRecording,
         restart_s: f64,
     ) -> Result<Simulated, Unsimulated> {
+        if let Some(reason) = Model::of(model).not_computed(model.layout) {
+            return Err(Unsimulated::Model(reason));
+        }
         let run = aligned(self, recording).map_err(Unsimulated::Recording)?;
         let own = simulated(&Model::of(model), &run, restart_s)
             .map_err(|error| Unsimulated::Model(error.to_string()))?;

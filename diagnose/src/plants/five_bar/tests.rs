@@ -19,8 +19,8 @@ use rigproof_model::linkage::Pose;
 use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
 use rigproof_spec::layout::Layout;
-use rigproof_trace::rig::Signal;
-use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording};
+use rigproof_trace::rig::five_bar::{FiveBar, FiveBarRecording, JointEffect};
+use rigproof_trace::rig::{RigEffect, Signal, Value};
 
 /// Long enough for a name, s.
 const SECONDS: f64 = 6.0;
@@ -330,6 +330,49 @@ fn a_scale_far_off_is_named_with_its_number_and_its_calibration_leaves_nothing()
     let held_out = report.fit.as_ref().unwrap().held_out.unwrap();
     assert!(held_out.before > 5.0 * held_out.after, "{held_out:?}");
     assert_calibrated(&found, &recording);
+}
+
+#[test]
+fn a_disc_off_its_centre_is_named_with_its_numbers_and_its_calibration_leaves_nothing() {
+    let mut recording = recording(Layout::FourBrake, SECONDS, 19, &nothing);
+    let [theta_a, _] = &mut recording.theta;
+    let off = |angle: f64| 0.041 * libm::sin(angle) - 0.023 * libm::cos(angle);
+    let start = off(theta_a.samples[0]);
+    for angle in &mut theta_a.samples {
+        *angle += off(*angle) - start;
+    }
+    let rig = rig(Layout::FourBrake);
+    let found = diagnose(&rig, &[&recording], None, &options());
+    let report = &found.report;
+    let expected = [("eccentric_encoder", Some("A"))];
+    assert_eq!(named(report), expected, "{}", report.summary);
+    let [sine, cosine] = ["sine", "cosine"].map(|name| report.effects[0].parameters[name].value);
+    assert!(!report.effects[0].parameters.contains_key("period"));
+    // What is wrong at the start turns the phase by that angle.
+    assert!(
+        (sine.hypot(cosine) / 0.0470 - 1.0).abs() < 0.02,
+        "{sine} {cosine}"
+    );
+    assert_calibrated(&found, &recording);
+}
+
+#[test]
+fn an_encoder_error_is_refused_at_a_joint_without_an_encoder() {
+    let recording = recording(Layout::FourBrake, SECONDS, 19, &nothing);
+    let mut rig = rig(Layout::FourBrake);
+    rig.effects.push(JointEffect {
+        joint: Some(Joint::E),
+        axis: None,
+        effect: RigEffect {
+            mechanism: Mechanism::EncoderScale,
+            values: vec![Value::known(0.01)],
+            onset: None,
+            of_torque: false,
+        },
+    });
+    let report = diagnose(&rig, &[&recording], None, &naming()).report;
+    let reason = report.fault.expect("E has no encoder").reason;
+    assert!(reason.contains("only A and B have one"), "{reason}");
 }
 
 #[test]
