@@ -308,8 +308,11 @@ pub fn parameters(problem: &Problem, term: &Term, coefficients: &[f64]) -> Vec<f
         return vec![stiffness, stated - away];
     }
     let mut parameters = problem.run.linear(mechanism, given);
-    // A zero that is fitted beside it is no number of its law.
-    parameters.truncate(linear(mechanism));
+    // A zero that is fitted beside the law is none of its numbers. Of a law without a coefficient an
+    // arm measures the shape itself.
+    if linear(mechanism) > 0 {
+        parameters.truncate(linear(mechanism));
+    }
     parameters.extend_from_slice(term.numbers());
     parameters
 }

@@ -1,6 +1,7 @@
-//! This file is a serial arm with made-up but possible links, led along sums of sines: positions and efforts of its joints are recorded.
+//! This file is a serial arm with made-up but possible links, or one that people have, led along sums of sines: positions and efforts of its joints are recorded.
 
 mod body;
+mod built;
 mod describe;
 mod dynamics;
 mod hide;
@@ -19,6 +20,7 @@ use crate::lab::{Drawn, Lab, Secret};
 use crate::plant::Plant;
 use crate::size::Sizes;
 use crate::stratum::Stratum;
+use body::Body;
 use rigproof_spec::effect::Motion;
 use rigproof_trace::{Channel, Trace};
 use run::Run;
@@ -40,8 +42,9 @@ impl Lab for Arm {
         Forms::Other
     }
 
-    fn draw(&self, _: u64, stratum: Stratum, draw: &mut Draw) -> Option<Drawn<Setup>> {
-        let setup = Setup::draw(draw);
+    fn draw(&self, seed: u64, stratum: Stratum, draw: &mut Draw) -> Option<Drawn<Setup>> {
+        let body = built::of(seed).unwrap_or_else(|| Body::draw(draw));
+        let setup = Setup::of(body, draw);
         let hidden = hide::draw(&setup, stratum, draw);
         Some(Drawn {
             known: Vec::new(),

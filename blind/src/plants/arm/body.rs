@@ -4,7 +4,7 @@ use super::vector::{M, V, seen, turned};
 use crate::draw::{Draw, rounded};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// An arm of two to five joints; every joint turns about, or slides along, the z axis of its own frame.
+/// An arm; every joint turns about, or slides along, the z axis of its own frame.
 #[derive(Clone, Debug)]
 pub struct Body {
     pub joints: Vec<Member>,
@@ -85,7 +85,7 @@ impl Link {
 }
 
 impl Body {
-    /// An arm; the description of a share of all arms states friction.
+    /// An arm of two to five joints; the description of a share of all arms states friction.
     pub fn draw(draw: &mut Draw) -> Body {
         let count = 2 + draw.below(4);
         let size = draw.log_uniform(0.5, 1.2);

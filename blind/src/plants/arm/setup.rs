@@ -72,9 +72,8 @@ fn root_mean_square(values: impl Iterator<Item = f64>) -> f64 {
 }
 
 impl Setup {
-    /// A laboratory.
-    pub fn draw(draw: &mut Draw) -> Setup {
-        let body = Body::draw(draw);
+    /// The laboratory of an arm.
+    pub fn of(body: Body, draw: &mut Draw) -> Setup {
         let paths: Vec<Path> = body
             .joints
             .iter()
