@@ -19,12 +19,10 @@ use rigproof_spec::effect::Quantity;
 /// position is on this motion.
 pub(super) fn bound(problem: &Problem, selection: &mut Selection, intervals: &Intervals) {
     let is_noise = is_noise(problem, &selection.after);
-    let (_, coefficients) = coefficients_by_term(problem, selection);
-    let numbers = coefficients.iter().zip(&intervals.terms);
-    let numbers = numbers.skip(selection.nominal.len());
+    let numbers = numbers_of_found(problem, selection, intervals);
     // Of a plant of many places delays are measured without an interval.
     let beside = selection.found.len() > 1 && !problem.rules.many;
-    for (found, (values, halves)) in selection.found.iter_mut().zip(numbers) {
+    for (found, (values, halves)) in selection.found.iter_mut().zip(&numbers) {
         if beside && may_be_nothing(&found.term, values, halves)
             || is_of_position(problem, &found.term, values)
         {
@@ -34,6 +32,17 @@ pub(super) fn bound(problem: &Problem, selection: &mut Selection, intervals: &In
             found.probability = found.probability.min(SUSPECTED + found.share.max(0.0));
         }
     }
+}
+
+/// The coefficients of each found term, and the half widths of the intervals of its numbers.
+fn numbers_of_found<'a>(
+    problem: &Problem,
+    selection: &Selection,
+    intervals: &'a Intervals,
+) -> Vec<(Vec<f64>, &'a Vec<f64>)> {
+    let (_, coefficients) = coefficients_by_term(problem, selection);
+    let numbers = coefficients.into_iter().zip(&intervals.terms);
+    numbers.skip(selection.nominal.len()).collect()
 }
 
 /// Whether every coefficient may be 0 by its interval; of a law without one whether its first number may
@@ -57,10 +66,8 @@ pub(super) fn untenable(
     selection: &Selection,
     intervals: &Intervals,
 ) -> Vec<Cause> {
-    let (_, coefficients) = coefficients_by_term(problem, selection);
-    let numbers = coefficients.iter().zip(&intervals.terms);
-    let numbers = numbers.skip(selection.nominal.len());
-    let found = selection.found.iter().zip(numbers);
+    let numbers = numbers_of_found(problem, selection, intervals);
+    let found = selection.found.iter().zip(&numbers);
     let untenable = found.filter(|(found, (values, halves))| {
         is_vague(&found.term, halves) || loses_all(found.term.cause, values)
     });
@@ -84,6 +91,10 @@ fn loses_all(cause: Cause, shares: &[f64]) -> bool {
 /// a ripple as well.
 fn is_of_position(problem: &Problem, term: &Term, values: &[f64]) -> bool {
     let family = facts(term.cause.mechanism).map(|facts| facts.family);
+    let is_asked = family == Some(Family::FrictionOfMotion) && problem.run.outputs() == 1;
+    if !is_asked || values.is_empty() {
+        return false;
+    }
     let motion = problem.run.motion(term.cause.at).iter();
     let position: Vec<f64> = motion.map(|now| now.position).collect();
     let position = problem.windows.average(&position);
@@ -91,10 +102,7 @@ fn is_of_position(problem: &Problem, term: &Term, values: &[f64]) -> bool {
         term.free.iter().map(|own| &own.raw[..]).zip(values),
         position.len(),
     );
-    family == Some(Family::FrictionOfMotion)
-        && problem.run.outputs() == 1
-        && !values.is_empty()
-        && left_beside(&position, &effort) < LEAST_BESIDE_POSITION
+    left_beside(&position, &effort) < LEAST_BESIDE_POSITION
 }
 
 /// The sum of signals of one length, each with its coefficient.
