@@ -8,9 +8,7 @@ use rigproof_impl::plant::effect::{Asked, Law};
 use rigproof_impl::vector::Vector;
 use rigproof_model::brake::slowed;
 use rigproof_model::effects::facts::{AtRest, Family};
-use rigproof_model::effects::{
-    Drive, Form, OfBrake, OfLinkage, OfSensor, entry, form, law, shown_too_much,
-};
+use rigproof_model::effects::{Drive, Form, OfBrake, OfLinkage, OfSensor, entry, form, law};
 use rigproof_model::motion::added_mass;
 use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
@@ -165,14 +163,8 @@ impl LeftOut {
     /// The angle that an encoder shows of a joint's, rad.
     pub fn shown_rad(&self, joint: Joint, angle_rad: f64) -> f64 {
         match form(self.mechanism) {
-            Some(Form::Sensor(OfSensor::EncoderScale)) if self.joint == Some(joint) => {
-                angle_rad * (1.0 + self.number(0))
-            }
-            Some(Form::Sensor(OfSensor::EncoderOffset)) if self.joint == Some(joint) => {
-                angle_rad + self.number(0)
-            }
-            Some(Form::Sensor(OfSensor::Eccentric)) if self.joint == Some(joint) => {
-                angle_rad + shown_too_much(angle_rad, &self.parameters)
+            Some(Form::Sensor(of)) if self.joint == Some(joint) => {
+                of.shown(angle_rad, &self.parameters)
             }
             _ => angle_rad,
         }

@@ -15,6 +15,7 @@ mod direction_asymmetry;
 mod driven;
 mod dry_offset;
 mod eccentric_encoder;
+mod encoder;
 pub mod facts;
 mod hysteresis;
 mod lag;

@@ -3,9 +3,7 @@
 use std::collections::VecDeque;
 
 use rigproof_model::axis::{Axis, State, Trailing, Transmission};
-use rigproof_model::effects::{
-    Drive, Form, OfJoint, OfSensor, form, lagged, law, limited, shown_too_much, slewed,
-};
+use rigproof_model::effects::{Drive, Form, OfJoint, OfSensor, form, lagged, law, limited, slewed};
 
 use super::found::Drawn;
 
@@ -133,13 +131,7 @@ impl Plant {
     pub fn shown(&self) -> f64 {
         let each = self.encoder.iter();
         each.fold(self.state.position, |position, (of, numbers)| {
-            let number = |index: usize| numbers.get(index).copied().unwrap_or(0.0);
-            match of {
-                OfSensor::EncoderScale => position * (1.0 + number(0)),
-                OfSensor::EncoderOffset => position + number(0),
-                OfSensor::Eccentric => position + shown_too_much(position, numbers),
-                _ => position,
-            }
+            of.shown(position, numbers)
         })
     }
 

@@ -13,7 +13,7 @@ use crate::rules::{MOST_OF_PART, SHOTS};
 use crate::signals::shifted;
 use core::ops::Range;
 use rigproof_model::effects::facts::Family;
-use rigproof_model::effects::{Drive, Form, OfLinkage, OfSensor, behind_shown, facts, form};
+use rigproof_model::effects::{Drive, Form, OfLinkage, OfSensor, facts, form};
 use rigproof_model::error::ModelError;
 use rigproof_model::rig::{JointEffect, LONGEST_STEP_S, Parameters, Rig};
 use rigproof_spec::geometry::Arms;
@@ -135,22 +135,14 @@ pub(super) fn truly(model: &Model, run: &FiveBarRun) -> Result<FiveBarRun, Model
                     pairs.for_each(|(f, e)| *f = e);
                 }
             }
-            Some(Form::Sensor(
-                of @ (OfSensor::EncoderScale | OfSensor::EncoderOffset | OfSensor::Eccentric),
-            )) => {
+            Some(form @ Form::Sensor(of)) if form.is_of_encoder() => {
                 let [a, b] = &mut own.theta;
                 let angle = match joint_at(effect.cause.at) {
                     Some(Joint::A) => a,
                     _ => b,
                 };
                 let shown = angle.iter_mut().skip(first);
-                shown.for_each(|theta| {
-                    *theta = match of {
-                        OfSensor::EncoderScale => *theta / (1.0 + value(0)),
-                        OfSensor::Eccentric => behind_shown(*theta, &effect.parameters),
-                        _ => *theta - value(0),
-                    }
-                });
+                shown.for_each(|theta| *theta = of.behind(*theta, &effect.parameters));
             }
             Some(Form::Sensor(of)) => {
                 for (x, y) in force_x.iter_mut().zip(force_y).skip(first) {

@@ -2,14 +2,12 @@
 
 use crate::effect::Effect;
 use crate::plant::Clock;
-use rigproof_model::effects::{Form, OfSensor, behind_shown, form, shown_too_much};
+use rigproof_model::effects::{Form, OfSensor, form};
 
 /// The error of the encoder that an effect is; `None` for other effects.
 pub(super) fn of_encoder(effect: &Effect) -> Option<OfSensor> {
     match form(effect.mechanism())? {
-        Form::Sensor(
-            own @ (OfSensor::EncoderScale | OfSensor::EncoderOffset | OfSensor::Eccentric),
-        ) => Some(own),
+        form @ Form::Sensor(own) if form.is_of_encoder() => Some(own),
         _ => None,
     }
 }
@@ -23,11 +21,7 @@ pub(super) fn behind(effects: &[Effect], shown: &[f64], clock: Clock) -> Vec<f64
             continue;
         };
         for position in there.iter_mut().skip(effect.first_sample(clock)) {
-            *position = match of {
-                OfSensor::EncoderScale => *position / (1.0 + effect.value(0)),
-                OfSensor::Eccentric => behind_shown(*position, &effect.parameters),
-                _ => *position - effect.value(0),
-            }
+            *position = of.behind(*position, &effect.parameters);
         }
     }
     there
@@ -40,13 +34,7 @@ pub(super) fn shown(effects: &[Effect], mut there: Vec<f64>, clock: Clock) -> Ve
             continue;
         };
         for position in there.iter_mut().skip(effect.first_sample(clock)) {
-            match of {
-                OfSensor::EncoderScale => *position *= 1.0 + effect.value(0),
-                OfSensor::Eccentric => {
-                    *position += shown_too_much(*position, &effect.parameters);
-                }
-                _ => *position += effect.value(0),
-            }
+            *position = of.shown(*position, &effect.parameters);
         }
     }
     there

@@ -10,7 +10,7 @@ use crate::sensor::normal;
 use crate::signals::shifted;
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::SeedableRng;
-use rigproof_model::effects::{Drive, Form, OfSensor, form, shown_too_much};
+use rigproof_model::effects::{Drive, Form, OfSensor, form};
 use rigproof_model::error::ModelError;
 use rigproof_model::linkage::inverse;
 use rigproof_model::rig::{JointEffect, Parameters, Rig};
@@ -115,10 +115,10 @@ pub fn shown(effect: &Effect, played: &mut Played, step_s: f64, first: usize) {
     let angle = angle.iter_mut().skip(first);
     let [force_x, force_y] = &mut played.force_n;
     match form(effect.mechanism()) {
-        Some(Form::Sensor(OfSensor::EncoderScale)) => angle.for_each(|x| *x *= 1.0 + value(0)),
-        Some(Form::Sensor(OfSensor::EncoderOffset)) => angle.for_each(|x| *x += value(0)),
-        Some(Form::Sensor(OfSensor::Eccentric)) => {
-            angle.for_each(|x| *x += shown_too_much(*x, &effect.parameters));
+        Some(Form::Sensor(
+            of @ (OfSensor::EncoderScale | OfSensor::EncoderOffset | OfSensor::Eccentric),
+        )) => {
+            angle.for_each(|x| *x = of.shown(*x, &effect.parameters));
         }
         Some(Form::Drive(Drive::Skew)) => {
             for force in [force_x, force_y] {
