@@ -21,7 +21,7 @@ use crate::rules::{
 };
 use crate::weak::Windows;
 use periods::{all_periods, pitches};
-use rigproof_model::effects::facts::Shapes;
+use rigproof_model::effects::facts::{Family, Shapes, Usual};
 use rigproof_model::effects::{Form, Instant, facts, form, linear};
 use rigproof_spec::effect::{Mechanism, Range};
 use rigproof_spec::tables::GREATEST_CURRENT_A;
@@ -47,6 +47,16 @@ pub fn all_causes(problem: &Problem) -> Vec<Cause> {
     let is_gain = |own: &Cause| own.mechanism == Mechanism::GainError || *own == asymmetry;
     causes.retain(|cause| !problem.is_within_trials() || !is_gain(cause));
     causes
+}
+
+/// Whether it is a common friction or a constant without a shape: something that every joint may
+/// have.
+pub fn is_plain(mechanism: Mechanism) -> bool {
+    facts(mechanism).is_some_and(|own| {
+        let family = matches!(own.family, Family::FrictionOfMotion | Family::Constant);
+        let usual = matches!(own.usual, Usual::Plain | Usual::Frequent);
+        family && usual && matches!(own.shapes, Shapes::None)
+    })
 }
 
 /// One term for each trial shape of a cause, built beside the terms of `fitted`.

@@ -37,6 +37,8 @@ enum Number {
 struct Sensitivity {
     number: Number,
     values: Vec<f64>,
+    /// The precision of the parameter without the recording.
+    ridge: f64,
 }
 
 fn sensitivities(problem: &Problem, terms: &[&Term], selection: &Selection) -> Vec<Sensitivity> {
@@ -50,6 +52,7 @@ fn sensitivities(problem: &Problem, terms: &[&Term], selection: &Selection) -> V
             columns.push(Sensitivity {
                 number: Number::Nuisance(index),
                 values: column.white.clone(),
+                ridge: column.ridge(1.0),
             });
         }
     }
@@ -62,6 +65,7 @@ fn sensitivities(problem: &Problem, terms: &[&Term], selection: &Selection) -> V
                     columns.push(Sensitivity {
                         number: Number::Of(index, parameter),
                         values: rows.white.clone(),
+                        ridge: rows.ridge(1.0),
                     });
                 }
             }
@@ -119,6 +123,7 @@ fn shape_sensitivities(
             Some(Sensitivity {
                 number: Number::Of(index, linear + k),
                 values,
+                ridge: 0.0,
             })
         })
         .collect()

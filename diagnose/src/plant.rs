@@ -243,6 +243,13 @@ pub trait Run: Debug + Send + Sync {
         0.0
     }
 
+    /// The standard deviation of each linear parameter of a cause about 0 that is known without the
+    /// recording; empty where nothing is known.
+    fn prior_deviations(&self, cause: Cause) -> Vec<f64> {
+        let _ = cause;
+        Vec::new()
+    }
+
     /// The bounds of the first shape parameter, where they lie beyond the grid.
     fn reach(&self, cause: Cause) -> Option<(f64, f64)> {
         let _ = cause;

@@ -25,6 +25,17 @@ pub struct Rows {
     pub raw: Vec<f64>,
     /// The whitened averages.
     pub white: Vec<f64>,
+    /// The standard deviation of its coefficient about 0 that is known without the recording;
+    /// infinite where nothing is known.
+    pub prior_deviation: f64,
+}
+
+impl Rows {
+    /// The precision of its coefficient without the recording, where so many rows carry as much
+    /// information as one independent sample.
+    pub fn ridge(&self, rows_a_sample: f64) -> f64 {
+        rows_a_sample / (self.prior_deviation * self.prior_deviation)
+    }
 }
 
 /// A cause with fixed shape: what it adds to the regression.
@@ -73,6 +84,8 @@ pub struct Problem<'a> {
     pub floor: f64,
     /// Root mean square of the averaged driving effort: the scale of all contributions.
     pub effort_size: f64,
+    /// The number of rows that carry as much information as one independent sample.
+    pub rows_a_sample: f64,
     /// The causes that the description states with numbers that are to be estimated.
     pub open: Vec<Cause>,
     /// Trials of a brake, each with a gain of its own that is projected out of every row.
@@ -103,6 +116,7 @@ impl<'a> Problem<'a> {
             floor: run.floor(&windows),
             effort_size: rms(&windows.average(&run.effort())),
             windows,
+            rows_a_sample: 1.0,
             open: Vec::new(),
             trials: None,
             kept: RwLock::default(),
@@ -144,6 +158,7 @@ impl<'a> Problem<'a> {
             signal: Vec::new(),
             white: self.whitener.whiten(&raw),
             raw,
+            prior_deviation: f64::INFINITY,
         }
     }
 
@@ -181,10 +196,17 @@ impl<'a> Problem<'a> {
         onset_s: Option<f64>,
         columns: &Columns,
     ) -> Term {
-        let rows = |signal: &Vec<f64>| Arc::new(self.rows(signal.clone(), onset_s));
+        let rows = |signal: &Vec<f64>| self.rows(signal.clone(), onset_s);
         let (free, fixed) = match columns {
-            Columns::Free(signals) => (signals.iter().map(rows).collect(), None),
-            Columns::Fixed(signal) => (Vec::new(), Some(rows(signal))),
+            Columns::Free(signals) => {
+                let mut free: Vec<Rows> = signals.iter().map(rows).collect();
+                let priors = self.run.prior_deviations(cause).into_iter();
+                for (own, prior) in free.iter_mut().zip(priors) {
+                    own.prior_deviation = prior;
+                }
+                (free.into_iter().map(Arc::new).collect(), None)
+            }
+            Columns::Fixed(signal) => (Vec::new(), Some(Arc::new(rows(signal)))),
             Columns::Moved(signals) => {
                 let first = onset_s.map_or(0, |onset_s| self.run.clock().sample_at(onset_s));
                 let (windows, recorded) = (&self.windows, &self.target.signal);
@@ -311,6 +333,7 @@ fn rows(windows: &Windows, signal: Vec<f64>) -> Rows {
         raw: windows.average(&signal),
         signal,
         white: Vec::new(),
+        prior_deviation: f64::INFINITY,
     }
 }
 

@@ -66,9 +66,9 @@ pub fn fit(problem: &Problem, terms: &[&Term], blocks: &Blocks) -> Fit {
     let columns = free_columns(problem, terms);
     let target = reduced_target(problem, terms);
     let redundant = redundancy(&columns);
-    let own = kept(&columns, &redundant);
-    let all = normal(&own, &target.white, 0, target.white.len());
-    let solution = solve(&all);
+    let own = Kept::of(&columns, &redundant, problem.rows_a_sample);
+    let all = normal(&own.white, &target.white, 0, target.white.len());
+    let solution = solve(&all, &own.ridge);
     let block_loss = block_losses(&own, &target.white, blocks);
     let mut values = solution.iter();
     let coefficients: Vec<f64> = redundant
@@ -101,16 +101,16 @@ pub fn loss_of(problem: &Problem, terms: &[&Term]) -> f64 {
     let columns = free_columns(problem, terms);
     let target = reduced_target(problem, terms);
     let redundant = redundancy(&columns);
-    let own = kept(&columns, &redundant);
-    let all = normal(&own, &target.white, 0, target.white.len());
-    loss(&all, &solve(&all))
+    let own = Kept::of(&columns, &redundant, problem.rows_a_sample);
+    let all = normal(&own.white, &target.white, 0, target.white.len());
+    loss(&all, &solve(&all, &own.ridge))
 }
 
 /// The summed left-out loss of a white target with these columns.
 pub fn left_out_loss(target: &[f64], columns: &[Rows], blocks: &Blocks) -> f64 {
     let columns: Vec<&Rows> = columns.iter().collect();
     let redundant = redundancy(&columns);
-    let own = kept(&columns, &redundant);
+    let own = Kept::of(&columns, &redundant, 1.0);
     block_losses(&own, target, blocks).iter().sum()
 }
 
@@ -126,6 +126,7 @@ pub fn free_columns<'b>(problem: &'b Problem, terms: &[&'b Term]) -> Vec<&'b Row
 /// The target less the columns with given coefficients, window by window.
 pub fn reduced_target(problem: &Problem, terms: &[&Term]) -> Rows {
     let mut target = Rows {
+        prior_deviation: f64::INFINITY,
         signal: Vec::new(),
         raw: problem.target.raw.clone(),
         white: problem.target.white.clone(),
@@ -144,10 +145,21 @@ pub fn reduced_target(problem: &Problem, terms: &[&Term]) -> Rows {
     target
 }
 
-/// The white columns that are not redundant.
-fn kept<'b>(columns: &[&'b Rows], redundant: &[bool]) -> Vec<&'b [f64]> {
-    let own = columns.iter().zip(redundant).filter(|(_, r)| !**r);
-    own.map(|(rows, _)| rows.white.as_slice()).collect()
+/// The columns that are not redundant.
+struct Kept<'b> {
+    white: Vec<&'b [f64]>,
+    /// The precision of each coefficient without the recording.
+    ridge: Vec<f64>,
+}
+
+impl<'b> Kept<'b> {
+    fn of(columns: &[&'b Rows], redundant: &[bool], rows_a_sample: f64) -> Kept<'b> {
+        let own = || columns.iter().zip(redundant).filter(|(_, r)| !**r);
+        Kept {
+            white: own().map(|(rows, _)| rows.white.as_slice()).collect(),
+            ridge: own().map(|(rows, _)| rows.ridge(rows_a_sample)).collect(),
+        }
+    }
 }
 
 /// Modified Gram-Schmidt in order. A column with little component orthogonal to the earlier ones is
@@ -177,13 +189,13 @@ fn redundancy(columns: &[&Rows]) -> Vec<bool> {
 }
 
 /// The loss of each block when the coefficients come from the other blocks.
-fn block_losses(columns: &[&[f64]], target: &[f64], blocks: &Blocks) -> Vec<f64> {
+fn block_losses(columns: &Kept<'_>, target: &[f64], blocks: &Blocks) -> Vec<f64> {
     let parts: Vec<Normal> = blocks
         .ranges
         .iter()
-        .map(|&(first, end)| normal(columns, target, first, end))
+        .map(|&(first, end)| normal(&columns.white, target, first, end))
         .collect();
-    let mut sum = normal(columns, target, 0, 0);
+    let mut sum = normal(&columns.white, target, 0, 0);
     for part in &parts {
         sum.gram += &part.gram;
         sum.moment += &part.moment;
@@ -197,7 +209,7 @@ fn block_losses(columns: &[&[f64]], target: &[f64], blocks: &Blocks) -> Vec<f64>
                 moment: &sum.moment - &part.moment,
                 square: sum.square - part.square,
             };
-            loss(part, &solve(&others))
+            loss(part, &solve(&others, &columns.ridge))
         })
         .collect()
 }
@@ -220,23 +232,23 @@ fn normal(columns: &[&[f64]], target: &[f64], first: usize, end: usize) -> Norma
     }
 }
 
-/// Solves the normal equations. Each column is scaled to length 1, and a ridge at rounding level
-/// keeps a block without excitation from deciding.
+/// Solves the normal equations with the precision of each coefficient without the recording. Each
+/// column is scaled to length 1, and a ridge at rounding level keeps a block without excitation from
+/// deciding.
 #[expect(
     clippy::indexing_slicing,
     reason = "indices below the matrix's own size"
 )]
-fn solve(normal: &Normal) -> DVector<f64> {
+fn solve(normal: &Normal, ridge: &[f64]) -> DVector<f64> {
     let size = normal.moment.len();
+    let mut gram = symmetric(&normal.gram);
+    for (k, own) in ridge.iter().enumerate() {
+        gram[(k, k)] += own;
+    }
     let scale = DVector::from_iterator(
         size,
-        normal
-            .gram
-            .diagonal()
-            .iter()
-            .map(|d| 1.0 / d.sqrt().max(1e-150)),
+        gram.diagonal().iter().map(|d| 1.0 / d.sqrt().max(1e-150)),
     );
-    let gram = symmetric(&normal.gram);
     let mut scaled = DMatrix::from_fn(size, size, |i, j| gram[(i, j)] * scale[i] * scale[j]);
     for i in 0..size {
         scaled[(i, i)] += 1e-10;
@@ -259,11 +271,19 @@ fn loss(normal: &Normal, solution: &DVector<f64>) -> f64 {
     (normal.square - 2.0 * normal.moment.dot(solution) + quadratic).max(0.0)
 }
 
-/// Covariance of the coefficients for white noise of variance 1; `None` if singular.
-pub fn covariance(columns: &[&[f64]]) -> Option<DMatrix<f64>> {
+/// Covariance of the coefficients for white noise of variance 1, with the precision of each without
+/// the recording; `None` if singular.
+#[expect(
+    clippy::indexing_slicing,
+    reason = "indices below the matrix's own size"
+)]
+pub fn covariance(columns: &[&[f64]], ridge: &[f64]) -> Option<DMatrix<f64>> {
     let none = vec![0.0; columns.first().map_or(0, |c| c.len())];
-    let normal = normal(columns, &none, 0, none.len());
-    symmetric(&normal.gram).try_inverse()
+    let mut gram = symmetric(&normal(columns, &none, 0, none.len()).gram);
+    for (k, own) in ridge.iter().enumerate() {
+        gram[(k, k)] += own;
+    }
+    gram.try_inverse()
 }
 
 /// Paired comparison of block losses: `(total gain, z)`. Positive means that `after` is better.
@@ -325,6 +345,7 @@ mod tests {
             signal: Vec::new(),
             raw: white.clone(),
             white,
+            prior_deviation: f64::INFINITY,
         }
     }
 
@@ -373,6 +394,23 @@ mod tests {
             (found - expected).abs() < 1e-8 * expected,
             "{found} {expected}"
         );
+    }
+
+    #[test]
+    fn what_is_known_without_the_recording_counts_as_one_sample() {
+        let mut own = rows(vec![2.0, 0.0]);
+        let target = [6.0, 0.0];
+        own.prior_deviation = 0.5;
+        // The slope alone is 3. One sample of precision 4·1 against one of 1/0.5² leaves half of it,
+        // and a fifth where four rows are one sample.
+        for (rows_a_sample, expected) in [(1.0, 1.5), (4.0, 0.6)] {
+            let kept = Kept::of(&[&own], &[false], rows_a_sample);
+            let all = normal(&kept.white, &target, 0, 2);
+            let slope = solve(&all, &kept.ridge)[0];
+            assert!((slope - expected).abs() < 1e-8, "{slope}");
+            let variance = covariance(&kept.white, &kept.ridge).unwrap()[(0, 0)];
+            assert!((variance - 1.0 / (4.0 + 4.0 * rows_a_sample)).abs() < 1e-12);
+        }
     }
 
     #[test]

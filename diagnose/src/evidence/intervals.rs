@@ -86,7 +86,8 @@ pub fn intervals(problem: &Problem, selection: &Selection) -> Intervals {
 
 fn halves_of(problem: &Problem, columns: &[Sensitivity], residual: &[f64]) -> Vec<f64> {
     let white: Vec<&[f64]> = columns.iter().map(|c| c.values.as_slice()).collect();
-    half_widths(&white, residual, &Blocks::new(problem))
+    let ridge: Vec<f64> = columns.iter().map(|c| c.ridge).collect();
+    half_widths(&white, &ridge, residual, &Blocks::new(problem))
         .unwrap_or_else(|| vec![f64::NAN; white.len()])
 }
 
@@ -135,7 +136,7 @@ fn imitated(
     let variance = |others: Vec<&Sensitivity>| {
         let others = others.into_iter().map(|column| column.values.as_slice());
         let columns: Vec<&[f64]> = [onset.as_slice()].into_iter().chain(others).collect();
-        covariance(&columns)?.get((0, 0)).copied()
+        covariance(&columns, &[])?.get((0, 0)).copied()
     };
     let known = variance(columns.iter().filter(|column| !is_shape(column)).collect())?;
     let unknown = variance(columns.iter().collect())?;
@@ -158,14 +159,17 @@ fn between_samples(problem: &Problem, term: &Term) -> f64 {
 }
 
 /// Half widths of the coefficients' intervals, at least those for white residuals of variance 1;
-/// NaN where a coefficient is not determined. `None` if the columns are linearly dependent.
+/// NaN where a coefficient is not determined. `ridge` is the precision of each without the
+/// recording. `None` if the columns are linearly dependent.
 pub(super) fn half_widths(
     columns: &[&[f64]],
+    ridge: &[f64],
     residual: &[f64],
     blocks: &Blocks,
 ) -> Option<Vec<f64>> {
-    let bread = covariance(columns)?;
-    let whole = gram(columns, 0, residual.len());
+    let bread = covariance(columns, ridge)?;
+    let known = DMatrix::from_diagonal(&DVector::from_column_slice(ridge));
+    let whole = gram(columns, 0, residual.len()) + known;
     let ends = blocks.ranges.iter().skip(1).map(|(first, _)| *first);
     let firsts = blocks.ranges.iter().map(|(first, _)| *first);
     // The gap between two blocks is added to the block before it, because nothing is fitted without

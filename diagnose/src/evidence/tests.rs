@@ -16,7 +16,7 @@ fn intervals_cover_the_truth_although_the_noise_is_uneven() {
         .map(|_| (0..600).map(|_| noise.draw()).collect())
         .collect();
     let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
-    let bread = covariance(&columns).unwrap();
+    let bread = covariance(&columns, &[]).unwrap();
     let (mut covered, mut naive) = (0, 0);
     let repeats = 400;
     for _ in 0..repeats {
@@ -31,7 +31,7 @@ fn intervals_cover_the_truth_although_the_noise_is_uneven() {
             .enumerate()
             .map(|(k, e)| e - departure[0] * columns[0][k] - departure[1] * columns[1][k])
             .collect();
-        let halves = half_widths(&columns, &residual, &blocks).unwrap();
+        let halves = half_widths(&columns, &[0.0; 2], &residual, &blocks).unwrap();
         covered += usize::from(departure[0].abs() < halves[0]);
         naive += usize::from(departure[0].abs() < 1.96 * bread[(0, 0)].sqrt());
     }
@@ -58,7 +58,7 @@ fn what_only_rounding_tells_has_no_interval_of_width_0() {
             .map(|v| v * (1.0 + 1e-16 * last.draw()))
             .collect();
         let residual = vec![0.0; 150];
-        let halves = half_widths(&[&own, &twin], &residual, &blocks);
+        let halves = half_widths(&[&own, &twin], &[0.0; 2], &residual, &blocks);
         for half in halves.unwrap_or_default() {
             assert!(half.is_nan() || half > 1.0, "{seed}: {half}");
         }

@@ -19,6 +19,8 @@ pub struct Folds {
     pub counts: Vec<f64>,
     /// The driving effort of every row.
     driving: Vec<f64>,
+    /// The number of rows that carry as much information as one independent sample.
+    rows_a_sample: f64,
 }
 
 impl Folds {
@@ -41,6 +43,7 @@ impl Folds {
         Folds {
             counts: counts.collect(),
             driving: problem.windows.average(&problem.run.driving()),
+            rows_a_sample: problem.rows_a_sample,
             rows,
             ranges,
         }
@@ -105,6 +108,8 @@ pub struct Fitted {
     nuisance: usize,
     /// The whitened columns on usable rows.
     columns: Vec<Arc<[f64]>>,
+    /// The precision of the coefficient of each column without the recording.
+    ridge: Vec<f64>,
     /// The whitened target on usable rows.
     target: Vec<f64>,
     /// The driving effort that reaches the plant, row by row, before any gain of the force sensor.
@@ -132,6 +137,7 @@ impl Fitted {
             terms: Vec::new(),
             nuisance: free.len(),
             columns: Vec::new(),
+            ridge: Vec::new(),
             target,
             acting: folds.driving.clone(),
             gains: Vec::new(),
@@ -226,6 +232,7 @@ impl Fitted {
     }
 
     fn take_in(&mut self, folds: &Folds, column: &Rows) {
+        self.ridge.push(column.ridge(folds.rows_a_sample));
         let column = folds.usable(&column.white);
         let size = self.columns.len();
         let with_target = folds.dots(&column, &self.target);
@@ -273,7 +280,7 @@ impl Fitted {
     fn solve(&mut self) {
         let size = self.columns.len();
         let mut sum = Part {
-            gram: DMatrix::zeros(size, size),
+            gram: DMatrix::from_diagonal(&DVector::from_column_slice(&self.ridge)),
             moment: DVector::zeros(size),
             square: 0.0,
         };

@@ -29,6 +29,7 @@ pub fn explain_many(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection
     nominal.iter_mut().for_each(|term| problem.refresh(term));
     let white = problem.whitener.whiten(&raw);
     let rows = rows_a_sample(problem, &Folds::of(problem), &white);
+    problem.rows_a_sample = rows;
     let round = Round::of(problem, &nominal, noise, rows);
     let leading = round.searched(problem);
     let explanations = Explanations {
@@ -94,7 +95,7 @@ impl Round {
     }
 
     /// Adds terms as long as one makes the explanation more probable. If `prunes`, removes terms in
-    /// the same way after each addition.
+    /// the same way after each addition, and exchanges one where none helps.
     fn climbed(&self, problem: &Problem, mut best: (f64, Fitted), prunes: bool) -> (f64, Fitted) {
         let mut hopeful = vec![true; self.tried.len()];
         while best.1.terms.len() < MOST_OF_MANY {
@@ -103,10 +104,14 @@ impl Round {
                 hopeful = vec![true; self.tried.len()];
                 self.grown(problem, &best, &mut hopeful)
             });
-            let Some(grown) = grown else { break };
-            best = match prunes {
-                true => self.pruned(problem, grown),
+            let better = match prunes {
+                true => grown.or_else(|| self.exchanged(problem, &best)),
                 false => grown,
+            };
+            let Some(better) = better else { break };
+            best = match prunes {
+                true => self.pruned(problem, better),
+                false => better,
             };
         }
         best
@@ -142,6 +147,35 @@ impl Round {
         Some((score, best.1.with(&self.folds, term)))
     }
 
+    /// The explanation with one term exchanged for another; `None` where none makes it more
+    /// probable.
+    fn exchanged(&self, problem: &Problem, best: &(f64, Fitted)) -> Option<(f64, Fitted)> {
+        let of_each = (0..best.1.terms.len()).into_par_iter().filter_map(|index| {
+            let fewer = self.without(&best.1, index);
+            let others = self.tried.iter();
+            self.best_of(problem, &fewer, best.1.terms.get(index)?, others)
+        });
+        let better = of_each.max_by(|a, b| a.0.total_cmp(&b.0));
+        better.filter(|own| own.0 > best.0)
+    }
+
+    /// The best explanation with one of the tried terms beside these, where the cause of `taken` is
+    /// no longer wanted.
+    fn best_of<'a>(
+        &self,
+        problem: &Problem,
+        fewer: &Fitted,
+        taken: &Term,
+        tried: impl Iterator<Item = &'a Term>,
+    ) -> Option<(f64, Fitted)> {
+        let others = tried.filter(|term| term.cause != taken.cause);
+        let others = others.filter(|term| may_join(&fewer.terms, term));
+        let fitted = others.map(|term| fewer.with(&self.folds, term));
+        let fitted = fitted.filter(|own| !is_impossible(problem, own));
+        let scored = fitted.map(|own| (self.score(problem, &own), own));
+        scored.max_by(|a, b| a.0.total_cmp(&b.0))
+    }
+
     /// The explanation without the terms whose removal makes it more probable.
     fn pruned(&self, problem: &Problem, mut best: (f64, Fitted)) -> (f64, Fitted) {
         loop {
@@ -170,16 +204,12 @@ impl Round {
             .into_par_iter()
             .flat_map_iter(|index| {
                 let fewer = self.without(leading, index);
-                let place = leading.terms.get(index).map(|term| term.cause);
-                let beside = self.tried.iter().filter(|term| {
-                    place.is_some_and(|own| own.at == term.cause.at && own != term.cause)
+                let best = leading.terms.get(index).and_then(|own| {
+                    let tried = self.tried.iter();
+                    let beside = tried.filter(|term| term.cause.at == own.cause.at);
+                    self.best_of(problem, &fewer, own, beside)
                 });
-                let beside = beside.filter(|term| may_join(&fewer.terms, term));
-                let exchanged = beside.map(|term| fewer.with(&self.folds, term));
-                let exchanged = exchanged.filter(|own| !is_impossible(problem, own));
-                let scored = exchanged.map(|own| (self.score(problem, &own), own));
-                let best = scored.max_by(|a, b| a.0.total_cmp(&b.0));
-                let fewer = (self.score(problem, &fewer), fewer.clone());
+                let fewer = (self.score(problem, &fewer), fewer);
                 [Some(fewer), best]
                     .into_iter()
                     .flatten()

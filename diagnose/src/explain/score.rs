@@ -3,7 +3,7 @@
 
 use super::fitted::{Fitted, Folds};
 use super::kind;
-use crate::candidates::searched;
+use crate::candidates::{is_plain, searched};
 use crate::cause::{Cause, Scales};
 use crate::problem::{Problem, Rows, Term};
 use crate::regression::dot;
@@ -67,7 +67,33 @@ impl Judge {
 
 /// The log prior of a set of terms.
 pub fn prior(problem: &Problem, terms: &[Term]) -> f64 {
-    terms.iter().map(|term| odds(problem, term)).sum()
+    let each = terms.iter().enumerate().map(|(index, term)| {
+        let before = terms.get(..index).unwrap_or_default();
+        odds(problem, term) + known_from_others(problem, term.cause, before)
+    });
+    each.sum()
+}
+
+/// What joints that have a plain mechanism add to the log odds that another joint of the same arm
+/// has it too.
+///
+/// Joints of an arm are alike, but which share of them lacks something is not known. With a beta
+/// distribution of that share the odds after k of n joints are ((n + 1)·first + k)/(n + 1 − k), where
+/// `first` are the odds of the first one: Laplace's rule of succession, with one joint more that
+/// lacks nothing.
+fn known_from_others(problem: &Problem, cause: Cause, before: &[Term]) -> f64 {
+    if !problem.rules.many || !is_plain(cause.mechanism) {
+        return 0.0;
+    }
+    let same = |own: &&Term| own.cause.mechanism == cause.mechanism;
+    let known = before.iter().filter(same).count();
+    let first = libm::exp(usual(cause.mechanism));
+    libm::log(odds_after(known, problem.run.joints(), first) / first)
+}
+
+fn odds_after(known: usize, joints: usize, first: f64) -> f64 {
+    let (known, joints) = (known as f64, joints as f64);
+    ((joints + 1.0) * first + known) / (joints + 1.0 - known).max(1.0)
 }
 
 fn odds(problem: &Problem, term: &Term) -> f64 {
@@ -129,4 +155,20 @@ pub fn is_impossible(problem: &Problem, fitted: &Fitted) -> bool {
             || mechanism == Mechanism::InertiaScale
                 && own.iter().all(|share| share.abs() < problem.rules.relevant)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_joint_is_likelier_to_lack_what_others_lack() {
+        let first = 0.02;
+        assert!((odds_after(0, 7, first) - first).abs() < 1e-15);
+        let each: Vec<f64> = (0..7).map(|known| odds_after(known, 7, first)).collect();
+        assert!(each.is_sorted(), "{each:?}");
+        // Of two joints the second one has less than even odds, of seven the last one more.
+        assert!((odds_after(1, 2, first) - 0.53).abs() < 1e-12);
+        assert!((odds_after(6, 7, first) - 3.08).abs() < 1e-12);
+    }
 }

@@ -9,7 +9,7 @@ use crate::align::{
 use crate::filter::gradient;
 use crate::rules::{ARM_PERIODS, ARM_WIDTH_S, STILL_QUANTA, STILL_SIGMAS};
 use core::f64::consts::TAU;
-use rigproof_model::chain::{Chain, INERTIAL};
+use rigproof_model::chain::{Chain, INERTIAL, Inertial};
 use rigproof_model::effects::Instant;
 use rigproof_spec::effect::Motion;
 use rigproof_trace::rig::chain::{ChainRecording, ChainRig, ModelFormat};
@@ -196,6 +196,13 @@ fn efforts(chain: &Chain, joints: &[Aligned], step_s: f64, sets: &[Vec<f64>]) ->
     signals.collect()
 }
 
+/// The mass of a link and its radius of gyration about its joint: the root of half the trace of its
+/// tensor over its mass, 0 without mass.
+fn body(link: &Inertial) -> [f64; 2] {
+    let square = 0.5 * link.second.trace() / link.mass;
+    [link.mass, if square > 0.0 { square.sqrt() } else { 0.0 }]
+}
+
 /// The equations along a motion: the effort of the described inertias, and the effort per unit of
 /// each inertial parameter.
 fn equations(chain: &Chain, joints: &[Aligned], step_s: f64) -> ChainRun {
@@ -234,6 +241,7 @@ fn equations(chain: &Chain, joints: &[Aligned], step_s: f64) -> ChainRun {
             .collect(),
         known,
         payload,
+        bodies: chain.joints.iter().map(|own| body(&own.inertial)).collect(),
         described: chain
             .joints
             .iter()

@@ -1,18 +1,17 @@
 //! This file is an aligned recording of an arm. Its signals hold one joint's samples after
 //! another's.
 
-use crate::candidates::standard_shapes;
+use crate::candidates::{is_plain, standard_shapes};
 use crate::cause::{Cause, JointId, Place};
 use crate::filter::{gradient, rms};
 use crate::plant::{Clock, Columns, Rules, Run, resistances};
 use crate::problem::less;
-use crate::rules::{ARM_WIDTH_S, MOST_AMBIGUOUS, NOISE_ORDER};
+use crate::rules::{ARM_WIDTH_S, DESCRIBED_WITHIN, MOST_AMBIGUOUS, NOISE_ORDER};
 use crate::weak::{Windows, is_recorded, untold};
 use crate::whiten::Whitener;
 use nalgebra::{DMatrix, DVector};
 use rigproof_model::bench::column;
 use rigproof_model::chain::INERTIAL;
-use rigproof_model::effects::facts::{Family, Shapes, Usual};
 use rigproof_model::effects::{Drive, Form, Instant, OfJoint, OfLinkage, facts, form};
 use rigproof_spec::effect::Mechanism;
 
@@ -33,6 +32,8 @@ pub struct ChainRun {
     pub known: Vec<f64>,
     /// The effort per unit of one inertial parameter: link and parameter index, and the signal.
     pub links: Vec<((usize, usize), Vec<f64>)>,
+    /// The mass and the radius of gyration about its joint of each link, kg and m.
+    pub bodies: Vec<[f64; 2]>,
     /// The effort per kilogram at the tip.
     pub payload: Vec<f64>,
     /// Coulomb and viscous friction and the rotor of each joint as described.
@@ -53,16 +54,6 @@ pub struct ChainRun {
 /// recording are differenced one-sidedly. What is left to 1 is also the share of a signal's energy
 /// that is rounding.
 const SAME: f64 = 1.0 - 1e-6;
-
-/// Whether it is a common friction or a constant without a shape: something that every arm may
-/// have.
-fn is_plain(mechanism: &Mechanism) -> bool {
-    facts(*mechanism).is_some_and(|own| {
-        let family = matches!(own.family, Family::FrictionOfMotion | Family::Constant);
-        let usual = matches!(own.usual, Usual::Plain | Usual::Frequent);
-        family && usual && matches!(own.shapes, Shapes::None)
-    })
-}
 
 /// The mechanisms that are candidates at every joint.
 fn looked_for() -> impl Iterator<Item = Mechanism> {
@@ -98,6 +89,7 @@ impl ChainRun {
             effort: own(&self.effort),
             known: own(&self.known),
             payload: own(&self.payload),
+            bodies: self.bodies.clone(),
             described: self.described.clone(),
             links: self
                 .links
@@ -191,7 +183,7 @@ impl ChainRun {
         let mut columns: Vec<Vec<f64>> =
             self.links.iter().map(|(_, s)| windows.average(s)).collect();
         for joint in 0..outputs {
-            for mechanism in looked_for().filter(is_plain) {
+            for mechanism in looked_for().filter(|own| is_plain(*own)) {
                 let cause = Cause::at(mechanism, Place::Joint(JointId(joint)));
                 if let Some(Columns::Free(signals)) = self.columns(cause, &[], None) {
                     columns.extend(signals.iter().map(|signal| windows.average(signal)));
@@ -396,6 +388,21 @@ impl Run for ChainRun {
             (Mechanism::AddedInertia, Some([.., rotor])) => *rotor,
             _ => 0.0,
         }
+    }
+
+    /// Of the inertial numbers of a link: its own mass, times its radius of gyration for a moment of
+    /// the first order, times its square for one of the second, each by a share. A link without
+    /// mass, which stands for what is not described, tells nothing.
+    fn prior_deviations(&self, cause: Cause) -> Vec<f64> {
+        let is_link = matches!(form(cause.mechanism), Some(Form::Joint(OfJoint::Link)));
+        let body = joint_at(cause.at).and_then(|joint| self.bodies.get(joint));
+        let [mass, radius] = match body.filter(|[mass, _]| is_link && *mass > 0.0) {
+            Some(body) => *body,
+            None => return Vec::new(),
+        };
+        let orders = [0].into_iter().chain([1; 3]).chain([2; 6]);
+        let each = orders.map(|order| DESCRIBED_WITHIN * mass * radius.powi(order));
+        each.collect()
     }
 
     /// The column is the described effort, so a coefficient c means a torque constant off by −c/(1

@@ -145,6 +145,7 @@ pub fn problem(run: &FiveBarRun) -> Problem<'_> {
 /// A target with given rows.
 pub fn target(problem: &Problem, raw: Vec<f64>) -> Rows {
     Rows {
+        prior_deviation: f64::INFINITY,
         signal: Vec::new(),
         white: problem.whitener.whiten(&raw),
         raw,
