@@ -3,7 +3,7 @@
 
 use rigproof_diagnose::plants::joint::{from_rig, inverse::inverse_model};
 use rigproof_diagnose::report::{Report, Verdict};
-use rigproof_diagnose::{Options, diagnose};
+use rigproof_diagnose::{Diagnosis, Options, diagnose};
 use rigproof_spec::effect::Mechanism;
 use rigproof_trace::arrays::{Arrays, Selection, TimeSource};
 use rigproof_trace::rig::{Recording, Rig};
@@ -271,6 +271,94 @@ fn a_surgical_drive_bends_before_it_slides_and_rubs_more_under_load() {
     assert!((0.02..0.07).contains(&travel_rad), "{travel_rad}");
     let fit = report.fit.unwrap();
     println!("held out: {:?}", fit.held_out);
+}
+
+/// A run of the servo bench BAM, 200 samples a second: its file's name in the rig file, and the rows.
+fn servo_run(text: &str) -> (String, Trace) {
+    let run: serde_json::Value = serde_json::from_str(text).unwrap();
+    let entries = run["entries"].as_array().unwrap();
+    let column = |key: &str| -> Vec<f64> {
+        let each = entries.iter().map(|own| &own[key]);
+        each.map(|x| x.as_f64().or(x.as_bool().map(|on| f64::from(u8::from(on)))))
+            .collect::<Option<_>>()
+            .unwrap()
+    };
+    let stamps = column("timestamp");
+    let last = ((stamps[stamps.len() - 1] - stamps[0]) / 0.005) as usize;
+    let time_s: Vec<f64> = (0..=last).map(|k| 0.005 * k as f64).collect();
+    let channel = |name: &str, key: &str, unit: &str| {
+        let own = column(key);
+        let at = |t: &f64| {
+            let t = stamps[0] + t;
+            let next = stamps
+                .partition_point(|stamp| *stamp <= t)
+                .min(own.len() - 1);
+            let share = match key {
+                // A switch stays until it is moved.
+                "torque_enable" => 0.0,
+                _ => (t - stamps[next - 1]) / (stamps[next] - stamps[next - 1]),
+            };
+            own[next - 1] + share * (own[next] - own[next - 1])
+        };
+        Channel {
+            name: name.to_owned(),
+            unit: unit.to_owned(),
+            samples: time_s.iter().map(at).collect(),
+        }
+    };
+    let channels = vec![
+        channel("position_rad", "position", "rad"),
+        channel("goal_rad", "goal_position", "rad"),
+        channel("enabled", "torque_enable", "1"),
+    ];
+    let path = run["trajectory"].as_str().unwrap();
+    (
+        format!("{path}_{}.csv", run["kp"]),
+        Trace { time_s, channels },
+    )
+}
+
+#[test]
+fn a_servo_rubs_more_under_load() {
+    let Some(folder) = public("bam_xl330") else {
+        return;
+    };
+    let rig = rig("servo-pendulum.toml");
+    let files = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|own| own.unwrap().path());
+    let runs = files.filter(|own| own.extension().is_some_and(|own| own == "json"));
+    let mut runs: Vec<(String, Recording)> = runs
+        .map(|file| servo_run(&std::fs::read_to_string(file).unwrap()))
+        .map(|(name, trace)| (name.clone(), rig.apply(&trace, Path::new(&name)).unwrap()))
+        .collect();
+    runs.sort_by(|a, b| a.0.cmp(&b.0));
+    // One path, and both. What is left of a servo wanders so much that a sample more or less moves
+    // the probability between 0.83 and 0.97.
+    for (paths, count, held_out) in [
+        ("sin_sin", 3, "sin_sin_200.csv"),
+        ("_", 6, "lift_and_drop_200.csv"),
+    ] {
+        let own = |own: &&(String, Recording)| own.0.contains(paths) && !own.0.contains("_200");
+        let fitted: Vec<&Recording> = runs.iter().filter(own).map(|own| &own.1).collect();
+        assert_eq!(fitted.len(), count);
+        let held_out = runs.iter().find(|own| own.0 == held_out).map(|own| &own.1);
+        let Diagnosis { report, curves, .. } = diagnose(&rig, &fitted, held_out, &options());
+        let found = report.effects.iter();
+        let found: Vec<(&str, f64)> = found.map(|own| (own.mechanism, own.probability)).collect();
+        assert!(
+            matches!(found[..], [("load_friction", p)] if p >= 0.8),
+            "{found:?}"
+        );
+        let mean = |model: &[f64]| -> f64 {
+            let pairs = curves.recorded.iter().zip(model);
+            let errors = pairs.map(|(recorded, model)| (recorded - model).abs());
+            errors.clone().filter(|own| own.is_finite()).sum::<f64>() / errors.count() as f64
+        };
+        let (before, after) = (mean(&curves.before), mean(&curves.after));
+        println!("{found:?}: {before:.4} → {after:.4} rad, mean error of a free run");
+        assert!(after <= 0.7 * before, "{before} → {after}");
+    }
 }
 
 #[test]

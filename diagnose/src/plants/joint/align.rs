@@ -28,6 +28,8 @@ pub struct Signals {
     pub position: Vec<f64>,
     /// Axis: command times its gain. Bench: metered effort. N or N·m.
     pub effort: Vec<f64>,
+    /// Axis with a position servo: its goal. The effort is computed from it and the position.
+    pub goal: Option<Vec<f64>>,
     /// Bench: the effort that an external simulation predicts.
     pub predicted: Option<Vec<f64>>,
     /// Bench: the current, A.
@@ -134,7 +136,8 @@ fn mended(
         time_s: &signals.time_s,
         step_s,
     };
-    let others = [&mut signals.effort].into_iter();
+    // An effort that is computed from the position repeats with it, so it is no witness.
+    let others = [signals.goal.as_mut().unwrap_or(&mut signals.effort)].into_iter();
     let others = others
         .chain(&mut signals.predicted)
         .chain(&mut signals.current);

@@ -91,6 +91,7 @@ fn signals(
         time_s: recording.time_s.clone(),
         position: behind(&recording.position.samples, stamps(&recording.time_s)),
         effort: effort.map_or_else(Vec::new, given),
+        goal: recording.servo.and(drive).map(|d| d.samples.clone()),
         predicted: recording.simulated.as_ref().map(|s| s.samples.clone()),
         current: drive.filter(|_| !axis).map(|d| d.samples.clone()),
         held: rig.protocol.drive == Drive::Held,

@@ -174,6 +174,7 @@ pub fn signals(run: &JointRun, seed: u64) -> Signals {
             .iter()
             .map(|e| e + EFFORT_NOISE * noise.draw())
             .collect(),
+        goal: None,
         predicted: None,
         current: None,
         held: run.held,

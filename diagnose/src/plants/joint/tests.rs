@@ -1,6 +1,7 @@
 //! This file claims that the diagnosis of an axis and of a bench names what was left out and
 //! nothing else.
 
+use super::align::align;
 use super::recorded::{
     EFFORT_NOISE, Laws, NOMINAL, QUANTUM, exact_axis, exact_bench, signals, trace,
 };
@@ -296,4 +297,23 @@ fn the_numbers_that_are_written_predict_no_worse_than_those_of_the_windows() {
             "{written}"
         );
     }
+}
+
+/// The effort of a servo is computed from the position: it stands and moves with it, also where both
+/// only dwell on counts.
+#[test]
+fn a_servo_s_effort_is_no_witness_of_repeated_samples() {
+    let run = exact_bench(&[(Mechanism::Viscous, &[2.3])], 4000);
+    let mut seen = signals(&run, 71);
+    let coarse = 300.0 * QUANTUM;
+    seen.position_quantum = Some(coarse);
+    for x in &mut seen.position {
+        *x = coarse * (*x / coarse).round();
+    }
+    seen.effort = seen.position.iter().map(|x| 3.0 * (0.1 - x)).collect();
+    let said = align(&seen).unwrap_err().reason;
+    assert!(said.contains("repeat the one before"), "{said}");
+    seen.goal = Some(vec![0.1; seen.position.len()]);
+    let run = align(&seen).unwrap();
+    assert!(run.remarks.is_empty(), "{:?}", run.remarks);
 }
