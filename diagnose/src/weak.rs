@@ -114,10 +114,16 @@ impl Windows {
     fn apply(&self, weights: &[f64], signal: &[f64], combinations: &[Vec<f64>]) -> Vec<f64> {
         let half = weights.len() / 2;
         let stretch = signal.len() / self.outputs;
+        // A law at one joint of an arm has no effort at the others.
+        let is_silent = |own: &[f64]| own.iter().all(|x| *x == 0.0);
+        let silent: Vec<bool> = signal.chunks(stretch.max(1)).map(is_silent).collect();
         let rows = self.centres.iter().zip(&self.combined).enumerate();
         rows.map(|(row, (&centre, combined))| {
             let first = row % self.outputs * stretch + centre - half;
             let Some(shares) = combined.and_then(|which| combinations.get(which)) else {
+                if silent.get(row % self.outputs) == Some(&true) {
+                    return 0.0;
+                }
                 let window = signal.get(first..first + weights.len());
                 return dot(weights, window.unwrap_or_default());
             };

@@ -16,6 +16,8 @@ pub enum Whitener {
     },
     /// The rows of a Cholesky factor.
     Banded(Vec<FactorRow>),
+    /// One noise model for each output, whose rows take turns.
+    Apart(Vec<Whitener>),
 }
 
 /// One row of a banded Cholesky factor.
@@ -84,6 +86,21 @@ impl Whitener {
                 predicted_apart(filters, stretches, rows)
             }
             Whitener::Banded(factor) => substituted(factor, rows),
+            Whitener::Apart(outputs) => {
+                let mut white = vec![0.0; rows.len()];
+                for (output, own) in outputs.iter().enumerate() {
+                    let turns = |first: usize| (first..rows.len()).step_by(outputs.len());
+                    let of: Vec<f64> = turns(output)
+                        .filter_map(|row| rows.get(row).copied())
+                        .collect();
+                    for (row, value) in turns(output).zip(own.whiten(&of)) {
+                        if let Some(slot) = white.get_mut(row) {
+                            *slot = value;
+                        }
+                    }
+                }
+                white
+            }
         }
     }
 }

@@ -309,17 +309,14 @@ impl Run for ChainRun {
             }
             own
         });
-        let each: Vec<Vec<f64>> = each.collect();
-        Whitener::banded(&windows.usable, NOISE_ORDER * outputs, |row, earlier| {
-            let lag = row - earlier;
-            if lag % outputs != 0 {
-                return 0.0;
-            }
-            let own = each
-                .get(row % outputs)
-                .and_then(|own| own.get(lag / outputs));
-            own.copied().unwrap_or(0.0)
-        })
+        let apart = each.enumerate().map(|(output, own)| {
+            let usable = windows.usable.iter().skip(output).step_by(outputs);
+            let usable: Vec<bool> = usable.copied().collect();
+            Whitener::banded(&usable, NOISE_ORDER, |row, earlier| {
+                own.get(row - earlier).copied().unwrap_or(0.0)
+            })
+        });
+        Whitener::Apart(apart.collect())
     }
 
     fn position_noise(&self) -> f64 {
