@@ -25,6 +25,7 @@ use rigproof_model::effects::facts::{Family, Shapes, Usual};
 use rigproof_model::effects::{Form, Instant, facts, form, linear};
 use rigproof_spec::effect::{Mechanism, Range};
 use rigproof_spec::tables::GREATEST_CURRENT_A;
+use std::sync::Arc;
 
 /// The candidates for the search by one cause at a time. Mechanisms that are only compared in sets
 /// are left out.
@@ -293,7 +294,11 @@ pub fn both_signs(sizes: Vec<f64>) -> Vec<f64> {
 /// The bounds of each parameter of a shape: those of the trial shapes, and for a period the whole
 /// range of periods. Those of the first are of the trial shapes with as many numbers: with one more
 /// the law is another form, and its first number has another range.
-pub fn shape_bounds(problem: &Problem, cause: Cause, shape: &[f64]) -> Vec<(f64, f64)> {
+pub fn shape_bounds(problem: &Problem, cause: Cause, shape: &[f64]) -> Arc<[(f64, f64)]> {
+    problem.kept_bounds(cause, shape.len(), || bounds(problem, cause, shape.len()))
+}
+
+fn bounds(problem: &Problem, cause: Cause, length: usize) -> Vec<(f64, f64)> {
     if is_periodic(cause) {
         let travel = problem.run.travel(cause.at);
         let travel = travel.max(1e-12);
@@ -301,7 +306,7 @@ pub fn shape_bounds(problem: &Problem, cause: Cause, shape: &[f64]) -> Vec<(f64,
     }
     let tried = shapes(problem, cause, &[]);
     let count = tried.iter().map(Vec::len).max().unwrap_or(0);
-    let is_as_long = |own: &&Vec<f64>| own.len() == shape.len();
+    let is_as_long = |own: &&Vec<f64>| own.len() == length;
     let of_form = tried.iter().any(|own| is_as_long(&own));
     let mut bounds: Vec<(f64, f64)> = (0..count)
         .map(|k| {
@@ -342,7 +347,8 @@ pub fn is_at_an_end(problem: &Problem, term: &Term) -> bool {
 /// stands for the simpler law and does not count.
 pub fn searched(problem: &Problem, term: &Term) -> impl Iterator<Item = usize> {
     let bounds = shape_bounds(problem, term.cause, &term.shape);
-    let own: Vec<(f64, (f64, f64))> = term.numbers().iter().copied().zip(bounds).collect();
+    let own = term.numbers().iter().zip(&bounds[..]);
+    let own: Vec<(f64, (f64, f64))> = own.map(|(value, bounds)| (*value, *bounds)).collect();
     let open = own.into_iter().enumerate();
     open.filter(|(k, (value, bounds))| match k {
         0 => bounds.0 < bounds.1,

@@ -92,6 +92,8 @@ pub struct Problem<'a> {
     trials: Option<Trials>,
     /// Terms without onset that are requested repeatedly.
     kept: RwLock<Vec<Term>>,
+    /// The bounds of shapes of so many numbers, of each cause.
+    bounds: RwLock<HashMap<(Cause, usize), Arc<[(f64, f64)]>>>,
     /// The columns that each thread requested last: several onsets are tried with the same ones.
     recent: Mutex<HashMap<Option<usize>, Recent>>,
 }
@@ -120,6 +122,7 @@ impl<'a> Problem<'a> {
             open: Vec::new(),
             trials: None,
             kept: RwLock::default(),
+            bounds: RwLock::default(),
             recent: Mutex::default(),
         };
         problem.whiten_own();
@@ -255,6 +258,25 @@ impl<'a> Problem<'a> {
             kept.push(term.clone());
             Some(term)
         })
+    }
+
+    /// The bounds of a cause's shapes of so many numbers, computed once.
+    pub fn kept_bounds(
+        &self,
+        cause: Cause,
+        length: usize,
+        computed: impl FnOnce() -> Vec<(f64, f64)>,
+    ) -> Arc<[(f64, f64)]> {
+        let key = (cause, length);
+        let kept = self.bounds.read().unwrap_or_else(PoisonError::into_inner);
+        if let Some(own) = kept.get(&key) {
+            return own.clone();
+        }
+        drop(kept);
+        let own: Arc<[(f64, f64)]> = computed().into();
+        let mut kept = self.bounds.write().unwrap_or_else(PoisonError::into_inner);
+        kept.insert(key, own.clone());
+        own
     }
 
     /// Frees the samples of a term where nothing is linearised about them, to save memory.

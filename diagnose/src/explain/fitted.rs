@@ -172,6 +172,29 @@ impl Fitted {
         fitted
     }
 
+    /// The fit without one of its terms; `None` for a term that acts with a fixed effort, and beside
+    /// gains of a force sensor.
+    pub fn without(&self, index: usize) -> Option<Fitted> {
+        let term = self.terms.get(index)?;
+        if term.fixed.is_some() || !self.gains.is_empty() {
+            return None;
+        }
+        let before = self.terms.iter().take(index);
+        let first = self.nuisance + before.map(|own| own.free.len()).sum::<usize>();
+        let count = term.free.len();
+        let mut fewer = self.clone();
+        fewer.terms.remove(index);
+        fewer.columns.drain(first..first + count);
+        fewer.ridge.drain(first..first + count);
+        for part in &mut fewer.parts {
+            let gram = core::mem::take(&mut part.gram).remove_rows(first, count);
+            part.gram = gram.remove_columns(first, count);
+            part.moment = core::mem::take(&mut part.moment).remove_rows(first, count);
+        }
+        fewer.solve();
+        Some(fewer)
+    }
+
     /// The fit of these terms on top of this one.
     pub fn of(&self, folds: &Folds, terms: &[Term]) -> Fitted {
         terms

@@ -150,27 +150,34 @@ impl Round {
     /// The explanation with one term exchanged for another; `None` where none makes it more
     /// probable.
     fn exchanged(&self, problem: &Problem, best: &(f64, Fitted)) -> Option<(f64, Fitted)> {
-        let of_each = (0..best.1.terms.len()).into_par_iter().filter_map(|index| {
-            let fewer = self.without(&best.1, index);
-            let others = self.tried.iter();
-            self.best_of(problem, &fewer, best.1.terms.get(index)?, others)
-        });
+        let of_each = self.tried.par_iter();
+        let of_each =
+            of_each.filter_map(|term| self.with_instead(problem, &best.1, term, |_| true));
         let better = of_each.max_by(|a, b| a.0.total_cmp(&b.0));
         better.filter(|own| own.0 > best.0)
     }
 
-    /// The best explanation with one of the tried terms beside these, where the cause of `taken` is
-    /// no longer wanted.
-    fn best_of<'a>(
+    /// The best explanation with a term instead of one of those that may give way.
+    fn with_instead(
         &self,
         problem: &Problem,
-        fewer: &Fitted,
-        taken: &Term,
-        tried: impl Iterator<Item = &'a Term>,
+        own: &Fitted,
+        term: &Term,
+        may_give_way: impl Fn(&Term) -> bool,
     ) -> Option<(f64, Fitted)> {
-        let others = tried.filter(|term| term.cause != taken.cause);
-        let others = others.filter(|term| may_join(&fewer.terms, term));
-        let fitted = others.map(|term| fewer.with(&self.folds, term));
+        let stays_beside = |index: usize| {
+            let mut others = own.terms.iter().enumerate().filter(|(k, _)| *k != index);
+            others.all(|(_, other)| may_join(core::slice::from_ref(other), term))
+        };
+        let given = own.terms.iter().enumerate();
+        let given = given.filter(|(_, own)| own.cause != term.cause && may_give_way(own));
+        let given = given.filter(|(index, _)| stays_beside(*index));
+        let given: Vec<usize> = given.map(|(index, _)| index).collect();
+        if given.is_empty() {
+            return None;
+        }
+        let more = own.with(&self.folds, term);
+        let fitted = given.into_iter().map(|index| self.without(&more, index));
         let fitted = fitted.filter(|own| !is_impossible(problem, own));
         let scored = fitted.map(|own| (self.score(problem, &own), own));
         scored.max_by(|a, b| a.0.total_cmp(&b.0))
@@ -192,9 +199,11 @@ impl Round {
     }
 
     fn without(&self, own: &Fitted, index: usize) -> Fitted {
-        let mut terms = own.terms.clone();
-        terms.remove(index);
-        self.bare.of(&self.folds, &terms)
+        own.without(index).unwrap_or_else(|| {
+            let mut terms = own.terms.clone();
+            terms.remove(index);
+            self.bare.of(&self.folds, &terms)
+        })
     }
 
     /// The leading explanation and its neighbours: each term removed, and each exchanged for the
@@ -205,9 +214,14 @@ impl Round {
             .flat_map_iter(|index| {
                 let fewer = self.without(leading, index);
                 let best = leading.terms.get(index).and_then(|own| {
-                    let tried = self.tried.iter();
-                    let beside = tried.filter(|term| term.cause.at == own.cause.at);
-                    self.best_of(problem, &fewer, own, beside)
+                    let beside = self
+                        .tried
+                        .iter()
+                        .filter(|term| term.cause.at == own.cause.at);
+                    let is_own = |given: &Term| given.cause == own.cause;
+                    let each =
+                        beside.filter_map(|term| self.with_instead(problem, leading, term, is_own));
+                    each.max_by(|a, b| a.0.total_cmp(&b.0))
                 });
                 let fewer = (self.score(problem, &fewer), fewer);
                 [Some(fewer), best]

@@ -226,7 +226,7 @@ fn moves(problem: &Problem, own: &Term, stride: f64) -> Vec<(Move, Term)> {
             true => moved_anchor(&own.shape, &bounds, by, stride)?,
             false => scaled(&own.shape, by, stride)?,
         };
-        let mut moved = shape.iter().zip(&own.shape).zip(&bounds);
+        let mut moved = shape.iter().zip(&own.shape).zip(&bounds[..]);
         let stays = moved.all(|((to, from), &(low, high))| {
             to == from || (low.min(high)..=high.max(low)).contains(to)
         });
