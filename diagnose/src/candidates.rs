@@ -7,7 +7,7 @@ pub use periods::{is_periodic, longest_period, of_a_turn, periodic_part, periods
 
 use crate::cause::{Cause, Place};
 use crate::plant::Run;
-use crate::problem::{Problem, Term, add};
+use crate::problem::{Bounds, Problem, Term, add};
 use crate::regression::Fit;
 use crate::rules::{
     BENDS_JOINT, BRISTLE_EXPONENTS, DELAYS, EDGE, EFFORT_LIMIT_SHARES, EFFORT_LIMITS, FASTEST_PEAK,
@@ -25,7 +25,6 @@ use rigproof_model::effects::facts::{Family, Shapes, Usual};
 use rigproof_model::effects::{Form, Instant, facts, form, linear};
 use rigproof_spec::effect::{Mechanism, Range};
 use rigproof_spec::tables::GREATEST_CURRENT_A;
-use std::sync::Arc;
 
 /// The candidates for the search by one cause at a time. Mechanisms that are only compared in sets
 /// are left out.
@@ -294,7 +293,7 @@ pub fn both_signs(sizes: Vec<f64>) -> Vec<f64> {
 /// The bounds of each parameter of a shape: those of the trial shapes, and for a period the whole
 /// range of periods. Those of the first are of the trial shapes with as many numbers: with one more
 /// the law is another form, and its first number has another range.
-pub fn shape_bounds(problem: &Problem, cause: Cause, shape: &[f64]) -> Arc<[(f64, f64)]> {
+pub fn shape_bounds(problem: &Problem, cause: Cause, shape: &[f64]) -> Bounds {
     problem.kept_bounds(cause, shape.len(), || bounds(problem, cause, shape.len()))
 }
 

@@ -93,10 +93,13 @@ pub struct Problem<'a> {
     /// Terms without onset that are requested repeatedly.
     kept: RwLock<Vec<Term>>,
     /// The bounds of shapes of so many numbers, of each cause.
-    bounds: RwLock<HashMap<(Cause, usize), Arc<[(f64, f64)]>>>,
+    bounds: RwLock<HashMap<(Cause, usize), Bounds>>,
     /// The columns that each thread requested last: several onsets are tried with the same ones.
     recent: Mutex<HashMap<Option<usize>, Recent>>,
 }
+
+/// The least and the greatest value of each parameter of a shape.
+pub type Bounds = Arc<[(f64, f64)]>;
 
 /// A cause, a shape, and their columns.
 type Recent = (Cause, Vec<f64>, Arc<Columns>);
@@ -266,14 +269,14 @@ impl<'a> Problem<'a> {
         cause: Cause,
         length: usize,
         computed: impl FnOnce() -> Vec<(f64, f64)>,
-    ) -> Arc<[(f64, f64)]> {
+    ) -> Bounds {
         let key = (cause, length);
         let kept = self.bounds.read().unwrap_or_else(PoisonError::into_inner);
         if let Some(own) = kept.get(&key) {
             return own.clone();
         }
         drop(kept);
-        let own: Arc<[(f64, f64)]> = computed().into();
+        let own: Bounds = computed().into();
         let mut kept = self.bounds.write().unwrap_or_else(PoisonError::into_inner);
         kept.insert(key, own.clone());
         own
