@@ -79,6 +79,7 @@ pub mod plants;
 mod problem;
 mod regression;
 pub mod report;
+mod rivals;
 pub mod rules;
 mod scatter;
 mod selection;

@@ -357,9 +357,9 @@ pub struct NextExperiment {
     pub what: Option<String>,
     /// How long it takes, s.
     pub duration_s: f64,
-    /// The greatest current, A.
+    /// The greatest current, A; 0 without a brake.
     pub greatest_current_a: f64,
-    /// The greatest force of the hand, N.
+    /// The greatest force of the hand that leads a five-bar, N; 0 on other plants.
     pub greatest_force_n: f64,
     /// Number of experiments that were simulated for the named explanation. The best two were
     /// simulated for every explanation.

@@ -13,13 +13,21 @@ pub fn experiment(report: &Report) -> Vec<String> {
     let mut lines = Vec::new();
     if let Some(what) = &next.what {
         lines.push(format!("  {what}"));
+        let is_led = next.greatest_force_n > 0.0;
+        let force = with_unit(next.greatest_force_n, "N");
+        let hand = is_led.then(|| format!(", the hand with at most {force}"));
+        let played = if is_led {
+            ", which `simulate` plays"
+        } else {
+            ""
+        };
+        let file = next.file.iter();
+        let file = file.map(|file| format!("; sample by sample in {file}{played}"));
         lines.push(format!(
-            "  {} long, the hand with at most {}{}",
+            "  {} long{}{}",
             with_unit(next.duration_s, "s"),
-            with_unit(next.greatest_force_n, "N"),
-            next.file.as_ref().map_or_else(String::new, |file| format!(
-                "; sample by sample in {file}, which `simulate` plays"
-            )),
+            hand.unwrap_or_default(),
+            file.collect::<String>(),
         ));
         lines.push("  then diagnose a folder that holds this recording and the new one: one explanation has to fit both".to_owned());
         if report.verdict == Verdict::PartlyExplained {

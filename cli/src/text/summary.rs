@@ -210,10 +210,15 @@ fn rivals(report: &Report) -> Vec<&str> {
     rivals
 }
 
-/// What would tell a cause from its first rival, where no experiment was found that does.
+/// The experiment that tells a cause from its rivals; where none was simulated, what would refute
+/// the cause and its first rival.
 fn told_apart(report: &Report) -> Option<String> {
-    if report.next_experiment.is_some() {
-        return None;
+    if let Some(next) = &report.next_experiment {
+        let what = next.what.as_ref()?;
+        let file = next.file.iter().map(|file| format!(" ({file})"));
+        let file: String = file.collect();
+        let text = format!("{what}{file}, and diagnose both recordings together");
+        return Some(line("tell", &text));
     }
     let mut pairs = report.effects.iter().zip(&report.ambiguous_with);
     let (effect, rival) = pairs.find_map(|(effect, rivals)| Some((effect, rivals.first()?)))?;

@@ -106,3 +106,41 @@ fn an_experiment_that_a_rig_cannot_do_is_refused() {
         assert!(message.contains("plan.csv"), "{message}");
     }
 }
+
+/// A slide with viscous friction that its description lacks, to and fro at one speed.
+fn to_and_fro() -> String {
+    let row = |k: usize| {
+        let time_s = k as f64 * 1e-3;
+        let (sine, cosine) = libm::sincos(2.67 * time_s);
+        let round = (1.0 - 0.9998 * sine * sine).sqrt();
+        let hiss = libm::sin(8123.0 * time_s * time_s) * 0.02;
+        let x = 0.0637 * libm::asin(0.9999 * sine);
+        format!("{time_s:.3},{x:.7},{:.5}\n", 0.39 * cosine / round + hiss)
+    };
+    let rows: String = (0..9000).map(row).collect();
+    format!("time (s),x (m),f (N)\n{rows}")
+}
+
+#[test]
+fn an_ambiguous_bench_is_told_which_motion_to_repeat() {
+    let desk = Desk::new();
+    let rig = "name = \"slide\"\nplant = \"bench\"\nmotion = \"linear\"\n[channels]\n\
+        position = { channel = \"x\", unit = \"m\", quantum = 1e-7 }\n\
+        force = { channel = \"f\", unit = \"N\", noise = 0.015 }\n";
+    desk.put("rig.toml", rig);
+    desk.put("run.csv", &to_and_fro());
+    let said = desk.prints("diagnose run.csv --rig rig.toml --out found", 0);
+    let asked = said
+        .lines()
+        .find(|own| own.starts_with("  tell   repeat the recorded motion"));
+    let file = "(next-experiment.csv), and diagnose both recordings together";
+    assert!(asked.is_some_and(|own| own.ends_with(file)), "{said}");
+    let plan = rigproof_trace::csv::read(&desk.path("found/next-experiment.csv")).unwrap();
+    assert_eq!(plan.channels[0].name, "position");
+    let all = desk.prints("diagnose run.csv --rig rig.toml --out again --verbose", 0);
+    assert!(
+        all.contains("s long; sample by sample in next-experiment.csv\n"),
+        "{all}"
+    );
+    assert!(!all.contains("the hand"), "{all}");
+}

@@ -6,6 +6,7 @@ mod checks;
 pub mod columns;
 mod drive;
 mod encoder;
+mod experiment;
 mod fitted;
 pub mod free_run;
 pub mod from_rig;

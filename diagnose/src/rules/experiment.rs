@@ -1,4 +1,4 @@
-//! This file is the rules by which the next experiment of a five-bar is chosen and refused.
+//! This file is the rules by which the next experiment is chosen and refused.
 
 use super::REASON;
 

@@ -34,12 +34,24 @@ fn advice(report: &Report) -> &'static str {
     }
 }
 
+/// What a hand that leads a five-bar does.
+fn hand(next: &NextExperiment) -> String {
+    let [force, current] = [(next.greatest_force_n, "N"), (next.greatest_current_a, "A")]
+        .map(|(most, unit)| with_unit(most, unit));
+    match next.greatest_force_n > 0.0 {
+        true => {
+            format!("; the hand pushes with at most {force}, the brakes take at most {current}")
+        }
+        false => String::new(),
+    }
+}
+
 fn experiment(next: &NextExperiment, verdict: Verdict) -> Markup {
     html! {
         @match &next.what {
             Some(what) => {
                 p { strong { "The next experiment: " } (what) "." }
-                p { (with_unit(next.duration_s, "s")) " long; the hand pushes with at most " (with_unit(next.greatest_force_n, "N")) ", the brakes take at most " (with_unit(next.greatest_current_a, "A")) ". Chosen from " (next.tried) " that were simulated. Then diagnose a folder that holds this recording and the new one: what stays has to explain both."
+                p { (with_unit(next.duration_s, "s")) " long" (hand(next)) ". Chosen from " (next.tried) " that were simulated. Then diagnose a folder that holds this recording and the new one: what stays has to explain both."
                     @if let Some(file) = &next.file { " Sample by sample it stands in " code { (file) } "." }
                     @if verdict == Verdict::PartlyExplained { " More than noise is left by what is named: if its law has another form on the rig, the doubt may outlast the experiment." } }
             }

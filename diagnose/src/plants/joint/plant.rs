@@ -8,7 +8,7 @@ use super::mistaken::{
 use super::run::{JointRun, PlantKind};
 use super::simulate::output;
 use super::write_rig::{calibrated, found_in, nominal_numbers};
-use super::{from_rig, replica, undone};
+use super::{experiment, from_rig, replica, undone};
 use crate::align::Fault;
 use crate::cause::Cause;
 use crate::diagnose::write::Stand;
@@ -17,7 +17,7 @@ use crate::evidence::Intervals;
 use crate::plant::{At, Described, Plant, Replica, Shown, Simulated, SimulatedOutput, Unsimulated};
 use crate::plants::joined::joined;
 use crate::problem::Problem;
-use crate::report::{FitReport, InverseReport, Number};
+use crate::report::{FitReport, InverseReport, NextExperiment, Number};
 use crate::selection::Selection;
 use crate::sensor::sensed;
 use rand_pcg::Pcg64Mcg;
@@ -124,6 +124,13 @@ impl Plant for Rig {
 
     fn nominal_numbers(&self, calibration: &Rig) -> BTreeMap<String, Number> {
         nominal_numbers(self, calibration)
+    }
+
+    fn next_experiment(
+        stand: &Stand<'_, Rig>,
+        rivals: &[Vec<Cause>],
+    ) -> Option<(NextExperiment, Option<Trace>)> {
+        experiment::next(stand, rivals)
     }
 
     fn inverse_model(run: &JointRun, laws: &[(Mechanism, Vec<f64>)]) -> Option<InverseReport> {
