@@ -25,17 +25,17 @@ pub fn search(
     let mut kept: BTreeMap<Names, Fitted> = BTreeMap::from([(Names::new(), bare.clone())]);
     let mut living = vec![bare.clone()];
     for size in 1..=MOST_TERMS {
-        let ranked = children(problem, folds, judge, &living, tried);
+        // All single causes are kept. A cause that begins late may explain nothing when it is
+        // fitted to the whole recording.
+        let most = if size == 1 { usize::MAX } else { BEAM + KEPT };
+        let ranked = children(problem, folds, judge, &living, tried, most);
         let (near, far) = ranked.split_at(ranked.len().min(BEAM));
         let near: Vec<Fitted> = near
             .par_iter()
             .map(|fitted| refined(problem, folds, judge, bare, fitted.clone()))
             .collect();
         let near = by_evidence(folds, judge, near);
-        // All single causes are kept. A cause that begins late may explain nothing when it is
-        // fitted to the whole recording.
-        let kept_far = if size == 1 { far.len() } else { KEPT };
-        for fitted in near.iter().chain(far.iter().take(kept_far)) {
+        for fitted in near.iter().chain(far) {
             kept.insert(names(problem, &fitted.terms), fitted.clone());
         }
         living = near.into_iter().take(BEAM).collect();
@@ -79,8 +79,7 @@ fn exchanged(
         })
     });
     let fewer: Vec<Fitted> = fewer.collect();
-    let mut all = children(problem, folds, judge, &fewer, tried);
-    all.truncate(KEPT);
+    let all = children(problem, folds, judge, &fewer, tried, KEPT);
     let (near, far) = all.split_at(all.len().min(BEAM));
     let near = near.par_iter();
     let near: Vec<Fitted> = near
@@ -92,34 +91,42 @@ fn exchanged(
         .collect()
 }
 
-/// The best extension by one term for each set of causes, the best evidence first.
+/// The best extension by one term for each set of causes, the best evidence first, at most so many.
+///
+/// Thousands of terms are tried on every parent. Only what is kept is fitted twice, so that the
+/// fits of all of them are never in memory together.
 fn children(
     problem: &Problem,
     folds: &Folds,
     judge: &Judge,
     living: &[Fitted],
     tried: &[Term],
+    most: usize,
 ) -> Vec<Fitted> {
-    let mut best: BTreeMap<Names, (f64, Fitted)> = BTreeMap::new();
+    let mut best: BTreeMap<Names, (f64, &Fitted, &Term)> = BTreeMap::new();
     for parent in living {
         let open = tried
             .par_iter()
             .filter(|term| may_join(&parent.terms, term));
-        let own: Vec<(f64, Fitted)> = open
-            .map(|term| parent.with(folds, term))
-            .filter(|fitted| !is_impossible(problem, fitted))
-            .map(|fitted| (judge.evidence(folds, &fitted), fitted))
-            .collect();
-        for (evidence, fitted) in own {
-            let names = names(problem, &fitted.terms);
-            if best.get(&names).is_none_or(|(other, _)| evidence > *other) {
-                best.insert(names, (evidence, fitted));
+        let scored = open.filter_map(|term| {
+            let fitted = parent.with(folds, term);
+            let evidence = || judge.evidence(folds, &fitted);
+            (!is_impossible(problem, &fitted)).then(|| (evidence(), term))
+        });
+        let own: Vec<(f64, &Term)> = scored.collect();
+        for (evidence, term) in own {
+            let names = names(problem, parent.terms.iter().chain([term]));
+            if best.get(&names).is_none_or(|(other, ..)| evidence > *other) {
+                best.insert(names, (evidence, parent, term));
             }
         }
     }
-    let mut all: Vec<(f64, Fitted)> = best.into_values().collect();
+    let mut all: Vec<(f64, &Fitted, &Term)> = best.into_values().collect();
     all.sort_by(|a, b| b.0.total_cmp(&a.0));
-    all.into_iter().map(|(_, fitted)| fitted).collect()
+    all.truncate(most);
+    all.into_par_iter()
+        .map(|(_, parent, term)| parent.with(folds, term))
+        .collect()
 }
 
 fn by_evidence(folds: &Folds, judge: &Judge, all: Vec<Fitted>) -> Vec<Fitted> {
@@ -141,9 +148,9 @@ pub fn may_join(terms: &[Term], term: &Term) -> bool {
 }
 
 /// The sorted names of the causes: the key of a set.
-pub fn names(problem: &Problem, terms: &[Term]) -> Names {
+pub fn names<'a>(problem: &Problem, terms: impl IntoIterator<Item = &'a Term>) -> Names {
     let mut names: Names = terms
-        .iter()
+        .into_iter()
         .map(|term| problem.run.cause_name(term.cause))
         .collect();
     names.sort();
