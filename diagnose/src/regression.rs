@@ -241,10 +241,7 @@ fn normal(columns: &[&[f64]], target: &[f64], first: usize, end: usize) -> Norma
 )]
 fn solve(normal: &Normal, ridge: &[f64]) -> DVector<f64> {
     let size = normal.moment.len();
-    let mut gram = symmetric(&normal.gram);
-    for (k, own) in ridge.iter().enumerate() {
-        gram[(k, k)] += own;
-    }
+    let gram = with_ridge(&normal.gram, ridge);
     let scale = DVector::from_iterator(
         size,
         gram.diagonal().iter().map(|d| 1.0 / d.sqrt().max(1e-150)),
@@ -266,6 +263,20 @@ fn symmetric(upper: &DMatrix<f64>) -> DMatrix<f64> {
     full
 }
 
+/// A symmetric matrix from its upper triangle, with the precision of each coefficient on its
+/// diagonal; none where `ridge` is empty.
+#[expect(
+    clippy::indexing_slicing,
+    reason = "a ridge is as long as the matrix, or empty"
+)]
+fn with_ridge(upper: &DMatrix<f64>, ridge: &[f64]) -> DMatrix<f64> {
+    let mut full = symmetric(upper);
+    for (k, own) in ridge.iter().enumerate() {
+        full[(k, k)] += own;
+    }
+    full
+}
+
 fn loss(normal: &Normal, solution: &DVector<f64>) -> f64 {
     let quadratic = (symmetric(&normal.gram) * solution).dot(solution);
     (normal.square - 2.0 * normal.moment.dot(solution) + quadratic).max(0.0)
@@ -273,17 +284,9 @@ fn loss(normal: &Normal, solution: &DVector<f64>) -> f64 {
 
 /// Covariance of the coefficients for white noise of variance 1, with the precision of each without
 /// the recording; `None` if singular.
-#[expect(
-    clippy::indexing_slicing,
-    reason = "indices below the matrix's own size"
-)]
 pub fn covariance(columns: &[&[f64]], ridge: &[f64]) -> Option<DMatrix<f64>> {
     let none = vec![0.0; columns.first().map_or(0, |c| c.len())];
-    let mut gram = symmetric(&normal(columns, &none, 0, none.len()).gram);
-    for (k, own) in ridge.iter().enumerate() {
-        gram[(k, k)] += own;
-    }
-    gram.try_inverse()
+    with_ridge(&normal(columns, &none, 0, none.len()).gram, ridge).try_inverse()
 }
 
 /// Paired comparison of block losses: `(total gain, z)`. Positive means that `after` is better.

@@ -156,6 +156,11 @@ impl Windows {
             .collect()
     }
 
+    /// The width of a window, s.
+    pub fn width_s(&self) -> f64 {
+        (self.bump.len() - 1) as f64 * self.step_s
+    }
+
     /// Time of each row's window centre, s.
     pub fn times_s(&self) -> Vec<f64> {
         self.centres

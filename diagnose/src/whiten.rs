@@ -86,23 +86,21 @@ impl Whitener {
                 predicted_apart(filters, stretches, rows)
             }
             Whitener::Banded(factor) => substituted(factor, rows),
-            Whitener::Apart(outputs) => {
-                let mut white = vec![0.0; rows.len()];
-                for (output, own) in outputs.iter().enumerate() {
-                    let turns = |first: usize| (first..rows.len()).step_by(outputs.len());
-                    let of: Vec<f64> = turns(output)
-                        .filter_map(|row| rows.get(row).copied())
-                        .collect();
-                    for (row, value) in turns(output).zip(own.whiten(&of)) {
-                        if let Some(slot) = white.get_mut(row) {
-                            *slot = value;
-                        }
-                    }
-                }
-                white
-            }
+            Whitener::Apart(outputs) => whitened_apart(outputs, rows),
         }
     }
+}
+
+/// The rows of each output, which take turns, whitened by its own model.
+fn whitened_apart(outputs: &[Whitener], rows: &[f64]) -> Vec<f64> {
+    let mut white = vec![0.0; rows.len()];
+    for (output, own) in outputs.iter().enumerate() {
+        let of = rows.iter().skip(output).step_by(outputs.len());
+        let of = own.whiten(&of.copied().collect::<Vec<_>>());
+        let slots = white.iter_mut().skip(output).step_by(outputs.len());
+        slots.zip(of).for_each(|(slot, value)| *slot = value);
+    }
+    white
 }
 
 /// Forward substitution through a factor.

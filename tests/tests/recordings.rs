@@ -353,7 +353,8 @@ fn a_servo_rubs_more_under_load() {
         let mean = |model: &[f64]| -> f64 {
             let pairs = curves.recorded.iter().zip(model);
             let errors = pairs.map(|(recorded, model)| (recorded - model).abs());
-            errors.clone().filter(|own| own.is_finite()).sum::<f64>() / errors.count() as f64
+            let errors: Vec<f64> = errors.filter(|own| own.is_finite()).collect();
+            errors.iter().sum::<f64>() / errors.len() as f64
         };
         let (before, after) = (mean(&curves.before), mean(&curves.after));
         println!("{found:?}: {before:.4} → {after:.4} rad, mean error of a free run");

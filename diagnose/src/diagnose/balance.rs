@@ -54,8 +54,7 @@ impl<P: Plant> Stand<'_, P> {
 
     /// Both models on a recording from a time on, with the parameters of the fitted part.
     fn balanced(&self, run: &P::Run, from_s: f64) -> Balanced {
-        let fitted = &self.problem.windows;
-        let width_s = (fitted.bump.len() - 1) as f64 * fitted.step_s;
+        let width_s = self.problem.windows.width_s();
         let step_s = run.clock().step_s;
         let mut windows = run.all_windows(width_s);
         windows.keep(|centre, bump| {

@@ -139,14 +139,12 @@ fn losses(
         count_rad: Some(stand.train.theta_noise * 12f64.sqrt()),
         force_noise_n: Some(stand.train.force_noise),
     };
-    let fitted = &stand.problem.windows;
-    let width_s = (fitted.bump.len() - 1) as f64 * fitted.step_s;
     let played = play(&truth.model, layout, plan).ok()?;
     if !has_room(&played, layout) {
         return None;
     }
     let run = described(stand.plant, &played.recording(layout, sensors), 0.0).ok()?;
-    let windows = run.windows_of(width_s);
+    let windows = run.windows_of(stand.problem.windows.width_s());
     let problem = Problem::new(&run, windows);
     let blocks = Blocks::new(&problem);
     let own = explanations.iter().map(|e| e.rival.loss(&problem, &blocks));

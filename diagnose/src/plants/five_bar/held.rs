@@ -126,7 +126,7 @@ fn reactions(
     alone: &[Option<Joint>],
     joint: Joint,
 ) -> Vec<Reaction> {
-    let width_s = (fitted.windows.bump.len() - 1) as f64 * run.step_s;
+    let width_s = fitted.windows.width_s();
     let mut windows = Windows::over(run.len(), 2, (run.step_s, run.start_s), width_s);
     for (usable, own) in windows.usable.chunks_mut(2).zip(alone) {
         usable.fill(*own == Some(joint));

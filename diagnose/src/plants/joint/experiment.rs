@@ -6,12 +6,12 @@ mod plan;
 mod tests;
 
 use super::run::JointRun;
+use crate::candidates::modelled_effort;
 use crate::cause::Cause;
 use crate::diagnose::write::Stand;
-use crate::evidence::coefficients_by_term;
 use crate::plant::Run;
-use crate::problem::{Problem, add};
-use crate::regression::Blocks;
+use crate::problem::{Problem, Term};
+use crate::regression::{Blocks, Fit};
 use crate::report::NextExperiment;
 use crate::rivals::{Part, Rival, best, contested, parts};
 use crate::rules::{FEWEST_WINDOWS, MOST_EXPLANATIONS};
@@ -24,10 +24,10 @@ use rigproof_trace::rig::Rig;
 /// An explanation whose effort along another motion is known.
 struct Explanation {
     rival: Rival,
-    /// The coefficients of the nuisance parameters.
-    nuisances: Vec<f64>,
-    /// All its terms, with their coefficients.
-    parts: Vec<(Part, Vec<f64>)>,
+    /// All its terms.
+    parts: Vec<Part>,
+    /// Their fit to the recording.
+    fitted: Fit,
 }
 
 /// The experiment with the best separation, and its plan; `None` with fewer than two explanations,
@@ -42,7 +42,7 @@ pub(super) fn next(
     }
     let (index, all) = contested(stand.problem, stand.selection, rivals)?;
     let all = all.iter();
-    let all = all.filter_map(|own| Explanation::of(stand.problem, own, index));
+    let all = all.filter_map(|own| Explanation::of(own, index));
     let along_motion = |own: &Explanation| own.is_along_motion(stand.problem);
     let (mut all, mut left_out): (Vec<_>, Vec<_>) = all.partition(along_motion);
     left_out.extend(all.split_off(MOST_EXPLANATIONS.min(all.len())));
@@ -68,18 +68,17 @@ pub(super) fn next(
 }
 
 impl Explanation {
-    fn of(problem: &Problem, selection: &Selection, index: usize) -> Option<Explanation> {
-        let (nuisances, by_term) = coefficients_by_term(problem, selection);
+    fn of(selection: &Selection, index: usize) -> Option<Explanation> {
         Some(Explanation {
             rival: Rival::of(selection, index)?,
-            nuisances,
-            parts: parts(selection).into_iter().zip(by_term).collect(),
+            parts: parts(selection),
+            fitted: selection.after.clone(),
         })
     }
 
     /// Whether all its terms are efforts along the motion: no change of a drive or of a sensor.
     fn is_along_motion(&self, problem: &Problem) -> bool {
-        self.parts.iter().all(|(part, _)| {
+        self.parts.iter().all(|part| {
             let form = form(part.cause.mechanism);
             !matches!(form, Some(Form::Drive(_) | Form::Sensor(_)))
                 && !problem.run.moves(part.cause)
@@ -88,21 +87,10 @@ impl Explanation {
 
     /// The effort that it predicts along the motion of a problem.
     fn effort(&self, problem: &Problem) -> Option<Vec<f64>> {
-        let mut effort = problem.known.clone();
-        for (column, times) in problem.nuisances.iter().zip(&self.nuisances) {
-            add(&mut effort, &column.signal, *times);
-        }
-        for (part, coefficients) in &self.parts {
-            let term = part.on(problem)?;
-            let given = term.known.as_ref().unwrap_or(coefficients);
-            for (rows, times) in term.free.iter().zip(given) {
-                add(&mut effort, &rows.signal, *times);
-            }
-            if let Some(fixed) = &term.fixed {
-                add(&mut effort, &fixed.signal, 1.0);
-            }
-        }
-        Some(effort)
+        let terms = self.parts.iter().map(|part| part.on(problem));
+        let terms: Vec<Term> = terms.collect::<Option<_>>()?;
+        let terms: Vec<&Term> = terms.iter().collect();
+        Some(modelled_effort(problem, &terms, &self.fitted))
     }
 }
 
@@ -115,9 +103,8 @@ fn losses(
     truth: usize,
     plan: &Plan,
 ) -> Option<Vec<f64>> {
-    let fitted = &stand.problem.windows;
-    let width_s = (fitted.bump.len() - 1) as f64 * fitted.step_s;
-    let bare = Problem::new(&plan.run, plan.run.windows_of(width_s));
+    let width_s = stand.problem.windows.width_s();
+    let bare = Problem::new(&plan.run, plan.run.all_windows(width_s));
     let effort = all.get(truth)?.effort(&bare)?;
     let greatest = |effort: &[f64]| effort.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
     if greatest(&effort) > greatest(&stand.train.effort) {

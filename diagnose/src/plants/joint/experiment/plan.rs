@@ -6,6 +6,7 @@ use crate::align::{cutoff_hz, forget_sense_at_rest, forget_sense_at_reversals, s
 use crate::plant::Run;
 use crate::rules::{DURATION_S, STILL_SIGMAS};
 use core::f64::consts::TAU;
+use rigproof_spec::effect::Quantity;
 use rigproof_trace::rig::Rig;
 use rigproof_trace::{Channel, Trace};
 
@@ -148,9 +149,7 @@ impl Plan {
         let clock = self.run.clock();
         let position = Channel {
             name: "position".to_owned(),
-            unit: rigproof_spec::effect::Quantity::Travel
-                .dimension(rig.motion)
-                .to_string(),
+            unit: Quantity::Travel.dimension(rig.motion).to_string(),
             samples: self.run.position.clone(),
         };
         let current = self.run.current.iter().map(|own| Channel {
