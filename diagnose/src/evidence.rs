@@ -3,7 +3,7 @@
 
 mod intervals;
 
-use crate::candidates::{causes, modelled_effort, realise, variants};
+use crate::candidates::{causes, modelled_effort, realise, white_variants};
 use crate::cause::Cause;
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, dot, fit, free_columns, norm};
@@ -176,7 +176,7 @@ pub fn not_seen(problem: &Problem, selection: &Selection) -> Vec<NotSeen> {
         .into_par_iter()
         .filter(|cause| !taken.contains(cause))
         .filter_map(|cause| {
-            let tried = variants(problem, cause, &terms, &selection.after);
+            let tried = white_variants(problem, cause, &terms, &selection.after);
             let least = |t: &Term| least_size(t, &basis, selection.after.loss);
             let minimum = tried.iter().filter_map(least).fold(f64::INFINITY, f64::min);
             let parameter = cause.mechanism.parameters().first()?;

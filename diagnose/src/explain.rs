@@ -12,12 +12,13 @@ mod score;
 
 use crate::candidates::{all_causes, is_at_an_end};
 use crate::cause::Cause;
-use crate::problem::{Problem, Term};
+use crate::problem::{Kept, Problem, Term};
 use crate::regression::{Blocks, fit, free_columns, paired, reduced_target};
 use crate::rules::{
     AS_ONE, BEAM, EXCHANGES, EXPLAINED_LEFT, LISTED, NAMED, OFFERED, ROWS_A_SAMPLE, SUSPECTED,
 };
 use crate::selection::{Found, Selection, Stage, centred, refined, usable_rms};
+use beam::Beam;
 use fitted::{Fitted, Folds};
 use late::Late;
 pub use many::explain_many;
@@ -26,6 +27,7 @@ use rigproof_model::effects::facts;
 use rigproof_model::effects::facts::Shapes;
 use rigproof_spec::effect::Mechanism;
 use score::{Judge, prior};
+use std::sync::Arc;
 
 /// One explanation: a set of terms on top of the nominal model.
 #[derive(Clone, Debug)]
@@ -213,18 +215,15 @@ impl Round {
         let target = reduced_target(problem, &common).white;
         let bare = Fitted::bare(&folds, &target, &free_columns(problem, &common));
         let tried = shapes_of(problem, nominal, true);
-        let mut all = beam::search(problem, &folds, &judge, &bare, &tried, exchanges);
-        for own in found.iter().map(|terms| bare.of(&folds, terms)) {
-            let names = beam::names(problem, &own.terms);
-            match all
-                .iter_mut()
-                .find(|other| beam::names(problem, &other.terms) == names)
-            {
-                Some(other) if other.left() > own.left() => *other = own,
-                Some(_) => {}
-                None => all.push(own),
-            }
-        }
+        let known = found.iter().map(|terms| bare.of(&folds, terms)).collect();
+        let beam = Beam {
+            problem,
+            folds: &folds,
+            judge: &judge,
+            bare: &bare,
+            tried: &tried,
+        };
+        let mut all = beam.search(exchanges, known);
         let leading = ranked(problem, &folds, &judge, all.clone()).into_iter();
         let leading: Vec<Fitted> = leading.map(|(_, own)| own).collect();
         let late = Late {
@@ -326,7 +325,7 @@ fn ranked(problem: &Problem, folds: &Folds, judge: &Judge, all: Vec<Fitted>) -> 
 
 /// The mechanisms in every shape of the grid: those that the nominal model does not leave open, or
 /// those that it does.
-fn shapes_of(problem: &Problem, nominal: &[Term], are_new: bool) -> Vec<Term> {
+fn shapes_of(problem: &Problem, nominal: &[Term], are_new: bool) -> Vec<Arc<Kept>> {
     let common: Vec<&Term> = nominal.iter().collect();
     let plain = fit(problem, &common, &Blocks::new(problem));
     let is_new = |cause: &Cause| {
@@ -335,11 +334,13 @@ fn shapes_of(problem: &Problem, nominal: &[Term], are_new: bool) -> Vec<Term> {
     };
     let causes = all_causes(problem).into_iter();
     let open: Vec<Cause> = causes.filter(|own| is_new(own) == are_new).collect();
-    let of_cause = |cause: Cause| -> Vec<Term> {
+    let of_cause = |cause: Cause| -> Vec<Arc<Kept>> {
         let shapes = problem.run.shapes(cause, &problem.windows, &plain.residual);
         let tried = shapes.iter().filter_map(|shape| {
-            let kept = problem.kept_term(cause, shape);
-            kept.or_else(|| unfitted(problem, cause, shape, None))
+            let changed = || unfitted(problem, cause, shape, None).map(Kept::Whole);
+            problem
+                .kept(cause, shape)
+                .or_else(|| changed().map(Arc::new))
         });
         tried.collect()
     };

@@ -1,7 +1,10 @@
 //! This file is the regression problem of a recording: the residual of the nominal model in each
 //! window, and the columns of each cause.
 
+mod kept;
 mod within;
+
+pub use kept::Kept;
 
 use crate::cause::Cause;
 use crate::effect::Effect;
@@ -10,7 +13,6 @@ use crate::plant::{Columns, Rules, Run};
 use crate::scatter::Trials;
 use crate::weak::Windows;
 use crate::whiten::Whitener;
-use rayon::prelude::*;
 use rigproof_model::effects::facts::Shapes;
 use rigproof_model::effects::{entry, facts};
 use std::collections::HashMap;
@@ -91,7 +93,7 @@ pub struct Problem<'a> {
     /// Trials of a brake, each with a gain of its own that is projected out of every row.
     trials: Option<Trials>,
     /// Terms without onset that are requested repeatedly.
-    kept: RwLock<Vec<Term>>,
+    kept: kept::All,
     /// The bounds of shapes of so many numbers, of each cause.
     bounds: RwLock<HashMap<(Cause, usize), Bounds>>,
     /// The columns that each thread requested last: several onsets are tried with the same ones.
@@ -148,12 +150,9 @@ impl<'a> Problem<'a> {
 
     /// Replaces the noise model and whitens the problem's columns with it.
     pub fn whiten_with(&mut self, whitener: Whitener) {
-        self.whitener = whitener;
+        let old = core::mem::replace(&mut self.whitener, whitener);
         self.whiten_own();
-        let kept = core::mem::take(&mut self.kept).into_inner();
-        let mut kept = kept.unwrap_or_else(PoisonError::into_inner);
-        kept.par_iter_mut().for_each(|term| self.refresh(term));
-        self.kept = RwLock::new(kept);
+        self.whiten_kept(&old);
     }
 
     /// A column from given row values.
@@ -178,12 +177,12 @@ impl<'a> Problem<'a> {
     /// The term of a cause; `None` if it acts on the effort of the other terms, or has no meaning
     /// here.
     pub fn term(&self, cause: Cause, shape: &[f64], onset_s: Option<f64>) -> Option<Term> {
-        let kept = match (self.kept(cause, shape), onset_s) {
+        let kept = match (self.kept_whole(cause, shape), onset_s) {
             (Some(kept), None) => return Some(kept),
             (kept, _) => kept.filter(|_| self.run.is_linearised() && !self.run.moves(cause)),
         };
         if let Some(kept) = kept {
-            let late = |rows: &Arc<Rows>| Arc::new(self.rows(rows.signal.clone(), onset_s));
+            let late = |rows: &Arc<Rows>| Arc::new(self.rows(&rows.signal, onset_s));
             return Some(Term {
                 onset_s,
                 free: kept.free.iter().map(late).collect(),
@@ -191,6 +190,10 @@ impl<'a> Problem<'a> {
                 ..kept
             });
         }
+        self.computed(cause, shape, onset_s)
+    }
+
+    fn computed(&self, cause: Cause, shape: &[f64], onset_s: Option<f64>) -> Option<Term> {
         let columns = self.columns(cause, shape)?;
         Some(self.term_of(cause, shape, onset_s, &columns))
     }
@@ -202,7 +205,7 @@ impl<'a> Problem<'a> {
         onset_s: Option<f64>,
         columns: &Columns,
     ) -> Term {
-        let rows = |signal: &Vec<f64>| self.rows(signal.clone(), onset_s);
+        let rows = |signal: &Vec<f64>| self.rows(signal, onset_s);
         let (free, fixed) = match columns {
             Columns::Free(signals) => {
                 let mut free: Vec<Rows> = signals.iter().map(rows).collect();
@@ -251,18 +254,6 @@ impl<'a> Problem<'a> {
         self.run.shape_over(term.cause, &term.shape, coefficients)
     }
 
-    /// The term of a cause without onset, cached because every step of the search tries the same
-    /// shapes. `None` if it has to be linearised about the other terms.
-    pub fn kept_term(&self, cause: Cause, shape: &[f64]) -> Option<Term> {
-        self.kept(cause, shape).or_else(|| {
-            let mut term = self.term(cause, shape, None)?;
-            self.lighten(&mut term);
-            let mut kept = self.kept.write().unwrap_or_else(PoisonError::into_inner);
-            kept.push(term.clone());
-            Some(term)
-        })
-    }
-
     /// The bounds of a cause's shapes of so many numbers, computed once.
     pub fn kept_bounds(
         &self,
@@ -280,21 +271,6 @@ impl<'a> Problem<'a> {
         let mut kept = self.bounds.write().unwrap_or_else(PoisonError::into_inner);
         kept.insert(key, own.clone());
         own
-    }
-
-    /// Frees the samples of a term where nothing is linearised about them, to save memory.
-    pub fn lighten(&self, term: &mut Term) {
-        if !self.run.is_linearised() {
-            for rows in term.free.iter_mut().chain(&mut term.fixed) {
-                Arc::make_mut(rows).signal = Vec::new();
-            }
-        }
-    }
-
-    fn kept(&self, cause: Cause, shape: &[f64]) -> Option<Term> {
-        let kept = self.kept.read().unwrap_or_else(PoisonError::into_inner);
-        let same = |t: &&Term| t.cause == cause && t.shape == shape;
-        kept.iter().find(same).cloned()
     }
 
     /// The term of a change of the drive, linearised about `beside`, the effort of the other terms.
@@ -339,16 +315,17 @@ impl<'a> Problem<'a> {
         }
     }
 
-    fn rows(&self, mut signal: Vec<f64>, onset_s: Option<f64>) -> Rows {
-        if let Some(onset_s) = onset_s {
-            signal = self
-                .windows
-                .since(&signal, self.run.clock().sample_at(onset_s));
+    fn rows(&self, signal: &[f64], onset_s: Option<f64>) -> Rows {
+        let first = onset_s.map(|onset_s| self.run.clock().sample_at(onset_s));
+        let late = first.map(|first| self.windows.since(signal, first));
+        let signal = late.as_deref().unwrap_or(signal);
+        let rows = self.rows_of(self.windows.average(signal));
+        // Only what is linearised about the samples of other terms needs its own.
+        let is_read = self.run.is_linearised();
+        Rows {
+            signal: if is_read { signal.to_vec() } else { Vec::new() },
+            ..rows
         }
-        let mut rows = rows(&self.windows, signal);
-        self.take_out_trials(&mut rows.raw);
-        rows.white = self.whitener.whiten(&rows.raw);
-        rows
     }
 }
 

@@ -112,30 +112,34 @@ impl Windows {
     }
 
     fn apply(&self, weights: &[f64], signal: &[f64], combinations: &[Vec<f64>]) -> Vec<f64> {
-        let half = weights.len() / 2;
-        let stretch = signal.len() / self.outputs;
+        let stretch = (signal.len() / self.outputs).max(1);
+        let outputs: Vec<&[f64]> = signal.chunks(stretch).collect();
         // A law at one joint of an arm has no effort at the others.
-        let is_silent = |own: &[f64]| own.iter().all(|x| *x == 0.0);
-        let silent: Vec<bool> = signal.chunks(stretch.max(1)).map(is_silent).collect();
+        let is_silent = |own: &&[f64]| own.iter().all(|x| *x == 0.0);
+        let silent: Vec<bool> = outputs.iter().map(is_silent).collect();
+        let mut sum = vec![0.0; weights.len()];
         let rows = self.centres.iter().zip(&self.combined).enumerate();
         rows.map(|(row, (&centre, combined))| {
-            let first = row % self.outputs * stretch + centre - half;
-            let Some(shares) = combined.and_then(|which| combinations.get(which)) else {
-                if silent.get(row % self.outputs) == Some(&true) {
-                    return 0.0;
+            let first = centre - weights.len() / 2;
+            let window = first..first + weights.len();
+            let within = |own| <[f64]>::get(own, window.clone()).unwrap_or_default();
+            if let Some(shares) = combined.and_then(|which| combinations.get(which)) {
+                sum.fill(0.0);
+                for (own, shares) in outputs.iter().zip(shares.chunks(stretch)) {
+                    let terms = within(own).iter().zip(within(shares));
+                    sum.iter_mut()
+                        .zip(terms)
+                        .for_each(|(sum, (x, share))| *sum += x * share);
                 }
-                let window = signal.get(first..first + weights.len());
-                return dot(weights, window.unwrap_or_default());
-            };
-            (0..self.outputs)
-                .map(|output| {
-                    let first = output * stretch + centre - half;
-                    let window = signal.get(first..).unwrap_or_default();
-                    let shares = shares.get(first..).unwrap_or_default();
-                    let terms = weights.iter().zip(window).zip(shares);
-                    terms.map(|((w, x), share)| w * x * share).sum::<f64>()
-                })
-                .sum()
+                return dot(weights, &sum);
+            }
+            let output = row % self.outputs;
+            match silent.get(output) {
+                Some(false) => outputs
+                    .get(output)
+                    .map_or(0.0, |own| dot(weights, within(own))),
+                _ => 0.0,
+            }
         })
         .collect()
     }

@@ -86,21 +86,56 @@ impl Whitener {
                 predicted_apart(filters, stretches, rows)
             }
             Whitener::Banded(factor) => substituted(factor, rows),
-            Whitener::Apart(outputs) => whitened_apart(outputs, rows),
+            Whitener::Apart(outputs) => apart(outputs, rows, Whitener::whiten),
+        }
+    }
+
+    /// The rows whose white rows these are: the inverse of [`Whitener::whiten`] on usable windows.
+    pub fn coloured(&self, white: &[f64]) -> Vec<f64> {
+        match self {
+            Whitener::Stationary { filters, stretches } => {
+                let mut rows = vec![0.0; white.len()];
+                for_each_predicted(filters, stretches, |k, predict, deviation| {
+                    let value = predict(&rows) + deviation * white.get(k).copied().unwrap_or(0.0);
+                    rows.get_mut(k).into_iter().for_each(|row| *row = value);
+                });
+                rows
+            }
+            Whitener::Banded(factor) => multiplied(factor, white),
+            Whitener::Apart(outputs) => apart(outputs, white, Whitener::coloured),
         }
     }
 }
 
-/// The rows of each output, which take turns, whitened by its own model.
-fn whitened_apart(outputs: &[Whitener], rows: &[f64]) -> Vec<f64> {
-    let mut white = vec![0.0; rows.len()];
+/// What each noise model makes of the rows of its output, which take turns.
+fn apart(
+    outputs: &[Whitener],
+    rows: &[f64],
+    of: impl Fn(&Whitener, &[f64]) -> Vec<f64>,
+) -> Vec<f64> {
+    let mut all = vec![0.0; rows.len()];
     for (output, own) in outputs.iter().enumerate() {
-        let of = rows.iter().skip(output).step_by(outputs.len());
-        let of = own.whiten(&of.copied().collect::<Vec<_>>());
-        let slots = white.iter_mut().skip(output).step_by(outputs.len());
-        slots.zip(of).for_each(|(slot, value)| *slot = value);
+        let mine = rows.iter().skip(output).step_by(outputs.len());
+        let mine = of(own, &mine.copied().collect::<Vec<_>>());
+        let slots = all.iter_mut().skip(output).step_by(outputs.len());
+        slots.zip(mine).for_each(|(slot, value)| *slot = value);
     }
-    white
+    all
+}
+
+/// The product of a factor and white rows.
+fn multiplied(factor: &[FactorRow], white: &[f64]) -> Vec<f64> {
+    let mut rows = vec![0.0; white.len()];
+    let at = |line: &FactorRow| white.get(line.row).copied().unwrap_or(0.0);
+    for (place, line) in factor.iter().enumerate() {
+        let past = factor.get(place - line.before.len()..place);
+        let past = past.unwrap_or_default().iter().zip(&line.before);
+        let value = past.map(|(other, l)| at(other) * l).sum::<f64>() + at(line) * line.diagonal;
+        rows.get_mut(line.row)
+            .into_iter()
+            .for_each(|row| *row = value);
+    }
+    rows
 }
 
 /// Forward substitution through a factor.
@@ -125,24 +160,34 @@ fn predicted_apart(
     rows: &[f64],
 ) -> Vec<f64> {
     let mut white = vec![0.0; rows.len()];
+    for_each_predicted(filters, stretches, |k, predict, deviation| {
+        if let (Some(out), Some(x)) = (white.get_mut(k), rows.get(k)) {
+            *out = (x - predict(rows)) / deviation;
+        }
+    });
+    white
+}
+
+/// Takes each row of the stretches with what predicts it from earlier rows, and the standard
+/// deviation of that prediction's error.
+fn for_each_predicted(
+    filters: &[(Vec<f64>, f64)],
+    stretches: &[(usize, usize)],
+    mut take: impl FnMut(usize, &dyn Fn(&[f64]) -> f64, f64),
+) {
     for &(first, end) in stretches {
         for k in first..end {
             let order = (k - first).min(filters.len() - 1);
             let Some((coefficients, deviation)) = filters.get(order) else {
                 continue;
             };
-            let past = rows.get(k - order..k).unwrap_or_default();
-            let predicted: f64 = coefficients
-                .iter()
-                .zip(past.iter().rev())
-                .map(|(c, x)| c * x)
-                .sum();
-            if let (Some(out), Some(x)) = (white.get_mut(k), rows.get(k)) {
-                *out = (x - predicted) / deviation;
-            }
+            let predict = |rows: &[f64]| -> f64 {
+                let past = rows.get(k - order..k).unwrap_or_default().iter().rev();
+                coefficients.iter().zip(past).map(|(c, x)| c * x).sum()
+            };
+            take(k, &predict, *deviation);
         }
     }
-    white
 }
 
 /// Ranges of consecutive usable windows.
@@ -226,6 +271,31 @@ mod tests {
             let mean = products.sum::<f64>() / white.len() as f64;
             let expected = if lag == 0 { 1.0 } else { 0.0 };
             assert!((mean - expected).abs() < 0.05, "lag {lag}: {mean}");
+        }
+    }
+
+    #[test]
+    fn colouring_gives_the_usable_rows_back() {
+        let rows: Vec<f64> = (0..90).map(|k| libm::sin(0.7 * f64::from(k))).collect();
+        let usable: Vec<bool> = (0..90).map(|k| k % 17 != 5 && k % 13 != 2).collect();
+        let covariance = [1.0, 0.4, 0.1];
+        let of_lag = |a: usize, b: usize| covariance.get(a.abs_diff(b)).copied().unwrap_or(0.0);
+        let halves: Vec<bool> = usable.iter().step_by(2).copied().collect();
+        let models = [
+            (Whitener::new(&covariance, &usable), &usable),
+            (Whitener::banded(&usable, 2, of_lag), &usable),
+        ];
+        for (model, usable) in models {
+            let back = model.coloured(&model.whiten(&rows));
+            for (k, _) in usable.iter().enumerate().filter(|(_, u)| **u) {
+                assert!((back[k] - rows[k]).abs() < 1e-12, "row {k}: {}", back[k]);
+            }
+        }
+        let own = Whitener::new(&covariance, &halves);
+        let apart = Whitener::Apart(vec![own.clone(), own]);
+        let back = apart.coloured(&apart.whiten(&rows));
+        for k in (0..90).filter(|k| halves[k / 2]) {
+            assert!((back[k] - rows[k]).abs() < 1e-12, "row {k}: {}", back[k]);
         }
     }
 }

@@ -5,154 +5,149 @@ use super::are_forms;
 use super::fitted::{Fitted, Folds};
 use super::refine::refined;
 use super::score::{Judge, is_impossible};
-use crate::problem::{Problem, Term};
+use crate::cause::Cause;
+use crate::problem::{Kept, Problem, Term};
 use crate::rules::{BEAM, KEPT, MOST_TERMS};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 type Names = Vec<String>;
 
-/// Every explanation that was kept, one for each set of causes, the best evidence first. The
-/// leading ones of each size have refined shapes.
-pub fn search(
-    problem: &Problem,
-    folds: &Folds,
-    judge: &Judge,
-    bare: &Fitted,
-    tried: &[Term],
-    exchanges: usize,
-) -> Vec<Fitted> {
-    let mut kept: BTreeMap<Names, Fitted> = BTreeMap::from([(Names::new(), bare.clone())]);
-    let mut living = vec![bare.clone()];
-    for size in 1..=MOST_TERMS {
-        // All single causes are kept. A cause that begins late may explain nothing when it is
-        // fitted to the whole recording.
-        let most = if size == 1 { usize::MAX } else { BEAM + KEPT };
-        let ranked = children(problem, folds, judge, &living, tried, most);
-        let (near, far) = ranked.split_at(ranked.len().min(BEAM));
-        let near: Vec<Fitted> = near
-            .par_iter()
-            .map(|fitted| refined(problem, folds, judge, bare, fitted.clone()))
-            .collect();
-        let near = by_evidence(folds, judge, near);
-        for fitted in near.iter().chain(far) {
-            kept.insert(names(problem, &fitted.terms), fitted.clone());
+/// What a search needs.
+pub struct Beam<'a> {
+    pub problem: &'a Problem<'a>,
+    pub folds: &'a Folds,
+    pub judge: &'a Judge,
+    pub bare: &'a Fitted,
+    /// The terms that are tried.
+    pub tried: &'a [Arc<Kept>],
+}
+
+/// The best explanation of each set of causes.
+type Best = BTreeMap<Names, (f64, Fitted)>;
+
+impl Beam<'_> {
+    /// Every explanation that was kept, one for each set of causes, the best evidence first. The
+    /// leading ones of each size have refined shapes.
+    ///
+    /// `known` are explanations that compete in any case. `exchanges` counts the rounds in which
+    /// terms of the leading ones are removed or exchanged.
+    pub fn search(&self, exchanges: usize, known: Vec<Fitted>) -> Vec<Fitted> {
+        let mut best = Best::new();
+        self.keep(&mut best, [self.bare.clone()].into_iter().chain(known));
+        let mut living = vec![self.bare.clone()];
+        for size in 1..=MOST_TERMS {
+            // All single causes are kept. A cause that begins late may explain nothing when it is
+            // fitted to the whole recording.
+            let most = if size == 1 { usize::MAX } else { BEAM + KEPT };
+            let (near, far) = self.children(&living, most);
+            living = self.by_evidence(near);
+            self.keep(&mut best, living.iter().cloned().chain(far));
         }
-        living = near.into_iter().take(BEAM).collect();
+        for _ in 0..exchanges {
+            let mut leading = ranked(&best);
+            leading.truncate(BEAM);
+            let exchanged = self.exchanged(&leading);
+            self.keep(&mut best, exchanged);
+        }
+        ranked(&best).into_iter().cloned().collect()
     }
-    for _ in 0..exchanges {
-        let leading: Vec<Fitted> = kept.values().cloned().collect();
-        let leading: Vec<Fitted> = by_evidence(folds, judge, leading)
-            .into_iter()
-            .take(BEAM)
-            .collect();
-        let exchanged = exchanged(problem, folds, judge, bare, &leading, tried);
-        for fitted in exchanged {
-            let names = names(problem, &fitted.terms);
-            let evidence = judge.evidence(folds, &fitted);
-            if kept
-                .get(&names)
-                .is_none_or(|own| judge.evidence(folds, own) < evidence)
-            {
-                kept.insert(names, fitted);
+
+    /// Keeps an explanation where it is the best of its causes.
+    fn keep(&self, best: &mut Best, all: impl IntoIterator<Item = Fitted>) {
+        for own in all {
+            let evidence = self.judge.evidence(self.folds, &own);
+            let names = names(self.problem, own.causes());
+            if best.get(&names).is_none_or(|(other, _)| evidence > *other) {
+                best.insert(names, (evidence, own));
             }
         }
     }
-    by_evidence(folds, judge, kept.into_values().collect())
-}
 
-/// The leading explanations with one term removed or exchanged, one for each set of causes. The
-/// best of them have refined shapes.
-fn exchanged(
-    problem: &Problem,
-    folds: &Folds,
-    judge: &Judge,
-    bare: &Fitted,
-    leading: &[Fitted],
-    tried: &[Term],
-) -> Vec<Fitted> {
-    let fewer = leading.iter().flat_map(|own| {
-        (0..own.terms.len()).map(|index| {
-            let mut terms = own.terms.clone();
-            terms.remove(index);
-            bare.of(folds, &terms)
-        })
-    });
-    let fewer: Vec<Fitted> = fewer.collect();
-    let all = children(problem, folds, judge, &fewer, tried, KEPT);
-    let (near, far) = all.split_at(all.len().min(BEAM));
-    let near = near.par_iter();
-    let near: Vec<Fitted> = near
-        .map(|own| refined(problem, folds, judge, bare, own.clone()))
-        .collect();
-    near.into_iter()
-        .chain(far.iter().cloned())
-        .chain(fewer)
-        .collect()
-}
-
-/// The best extension by one term for each set of causes, the best evidence first, at most so many.
-///
-/// Thousands of terms are tried on every parent. Only what is kept is fitted twice, so that the
-/// fits of all of them are never in memory together.
-fn children(
-    problem: &Problem,
-    folds: &Folds,
-    judge: &Judge,
-    living: &[Fitted],
-    tried: &[Term],
-    most: usize,
-) -> Vec<Fitted> {
-    let mut best: BTreeMap<Names, (f64, &Fitted, &Term)> = BTreeMap::new();
-    for parent in living {
-        let open = tried
-            .par_iter()
-            .filter(|term| may_join(&parent.terms, term));
-        let scored = open.filter_map(|term| {
-            let fitted = parent.with(folds, term);
-            let evidence = || judge.evidence(folds, &fitted);
-            (!is_impossible(problem, &fitted)).then(|| (evidence(), term))
+    /// Explanations with one term removed or exchanged, one for each set of causes. The best of
+    /// them have refined shapes.
+    fn exchanged(&self, leading: &[&Fitted]) -> Vec<Fitted> {
+        let fewer = leading.iter().flat_map(|own| {
+            (0..own.terms.len()).map(|index| {
+                let mut terms = own.terms.clone();
+                terms.remove(index);
+                self.bare.of(self.folds, &terms)
+            })
         });
-        let own: Vec<(f64, &Term)> = scored.collect();
-        for (evidence, term) in own {
-            let names = names(problem, parent.terms.iter().chain([term]));
-            if best.get(&names).is_none_or(|(other, ..)| evidence > *other) {
-                best.insert(names, (evidence, parent, term));
+        let fewer: Vec<Fitted> = fewer.collect();
+        let (near, far) = self.children(&fewer, KEPT);
+        near.into_iter().chain(far).chain(fewer).collect()
+    }
+
+    /// The best extension by one term for each set of causes, at most so many: the leading ones
+    /// with refined shapes, and the others.
+    ///
+    /// Thousands of terms are tried on every parent. Only what is kept is fitted twice, so that
+    /// the fits of all of them are never in memory together.
+    fn children(&self, living: &[Fitted], most: usize) -> (Vec<Fitted>, Vec<Fitted>) {
+        let mut best: BTreeMap<Names, (f64, &Fitted, &Kept)> = BTreeMap::new();
+        for parent in living {
+            for (evidence, own) in self.extended(parent) {
+                let names = names(self.problem, parent.causes().chain([own.cause()]));
+                if best.get(&names).is_none_or(|(other, ..)| evidence > *other) {
+                    best.insert(names, (evidence, parent, own));
+                }
             }
         }
+        let mut all: Vec<(f64, &Fitted, &Kept)> = best.into_values().collect();
+        all.sort_by(|a, b| b.0.total_cmp(&a.0));
+        all.truncate(most);
+        let fitted = |(_, parent, own): &(f64, &Fitted, &Kept)| {
+            Some(parent.with(self.folds, &self.problem.whole(own)?))
+        };
+        let (near, far) = all.split_at(all.len().min(BEAM));
+        let near = near.par_iter().filter_map(fitted);
+        let near = near.map(|own| refined(self.problem, self.folds, self.judge, self.bare, own));
+        (near.collect(), far.par_iter().filter_map(fitted).collect())
     }
-    let mut all: Vec<(f64, &Fitted, &Term)> = best.into_values().collect();
-    all.sort_by(|a, b| b.0.total_cmp(&a.0));
-    all.truncate(most);
-    all.into_par_iter()
-        .map(|(_, parent, term)| parent.with(folds, term))
-        .collect()
+
+    /// The evidence of an explanation with each term that may join it.
+    fn extended(&self, parent: &Fitted) -> Vec<(f64, &Kept)> {
+        let usable = &self.problem.windows.usable;
+        let open = self.tried.par_iter().map(Arc::as_ref);
+        let open = open.filter(|own| may_join(&parent.terms, own.cause()));
+        let scored = open.filter_map(|own| {
+            let fitted = parent.with(self.folds, &own.trial(usable));
+            let evidence = || self.judge.evidence(self.folds, &fitted);
+            (!is_impossible(self.problem, &fitted)).then(|| (evidence(), own))
+        });
+        scored.collect()
+    }
+
+    fn by_evidence(&self, all: Vec<Fitted>) -> Vec<Fitted> {
+        let evidence = |own: &Fitted| self.judge.evidence(self.folds, own);
+        let mut all: Vec<(f64, Fitted)> =
+            all.into_iter().map(|own| (evidence(&own), own)).collect();
+        all.sort_by(|a, b| b.0.total_cmp(&a.0));
+        all.into_iter().map(|(_, own)| own).collect()
+    }
 }
 
-fn by_evidence(folds: &Folds, judge: &Judge, all: Vec<Fitted>) -> Vec<Fitted> {
-    let mut all: Vec<(f64, Fitted)> = all
-        .into_iter()
-        .map(|fitted| (judge.evidence(folds, &fitted), fitted))
-        .collect();
+/// The kept explanations, the best evidence first.
+fn ranked(best: &Best) -> Vec<&Fitted> {
+    let mut all: Vec<&(f64, Fitted)> = best.values().collect();
     all.sort_by(|a, b| b.0.total_cmp(&a.0));
-    all.into_iter().map(|(_, fitted)| fitted).collect()
+    all.into_iter().map(|(_, own)| own).collect()
 }
 
-/// Whether a term may be added. A cause enters once at each place, in one form: a second one would
+/// Whether a cause may be added. It enters once at each place, in one form: a second one would
 /// only correct the shape of the first.
-pub fn may_join(terms: &[Term], term: &Term) -> bool {
-    let same = |own: &Term| {
-        own.cause.at == term.cause.at && are_forms(own.cause.mechanism, term.cause.mechanism)
-    };
+pub fn may_join(terms: &[Term], cause: Cause) -> bool {
+    let same =
+        |own: &Term| own.cause.at == cause.at && are_forms(own.cause.mechanism, cause.mechanism);
     !terms.iter().any(same)
 }
 
 /// The sorted names of the causes: the key of a set.
-pub fn names<'a>(problem: &Problem, terms: impl IntoIterator<Item = &'a Term>) -> Names {
-    let mut names: Names = terms
-        .into_iter()
-        .map(|term| problem.run.cause_name(term.cause))
-        .collect();
+pub fn names(problem: &Problem, causes: impl IntoIterator<Item = Cause>) -> Names {
+    let causes = causes.into_iter();
+    let mut names: Names = causes.map(|cause| problem.run.cause_name(cause)).collect();
     names.sort();
     names
 }

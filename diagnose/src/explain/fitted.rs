@@ -1,6 +1,7 @@
 //! This file fits one explanation, a set of terms together, and gives its squared residual on each
 //! left-out block.
 
+use crate::cause::Cause;
 use crate::problem::{Problem, Rows, Term, add};
 use crate::regression::{Blocks, dot};
 use crate::rules::FEWEST_ROWS;
@@ -18,7 +19,9 @@ pub struct Folds {
     /// The number of usable rows of each block.
     pub counts: Vec<f64>,
     /// The driving effort of every row.
-    driving: Vec<f64>,
+    driving: Arc<Vec<f64>>,
+    /// Its energy.
+    driving_energy: f64,
     /// The number of rows that carry as much information as one independent sample.
     rows_a_sample: f64,
 }
@@ -40,9 +43,11 @@ impl Folds {
             rows.extend(block);
         }
         let counts = ranges.iter().map(|(first, end)| (end - first) as f64);
+        let driving = problem.windows.average(&problem.run.driving());
         Folds {
             counts: counts.collect(),
-            driving: problem.windows.average(&problem.run.driving()),
+            driving_energy: dot(&driving, &driving),
+            driving: Arc::new(driving),
             rows_a_sample: problem.rows_a_sample,
             rows,
             ranges,
@@ -110,10 +115,10 @@ pub struct Fitted {
     columns: Vec<Arc<[f64]>>,
     /// The precision of the coefficient of each column without the recording.
     ridge: Vec<f64>,
-    /// The whitened target on usable rows.
-    target: Vec<f64>,
+    /// The whitened target on usable rows. Explanations without a fixed effort share it.
+    target: Arc<Vec<f64>>,
     /// The driving effort that reaches the plant, row by row, before any gain of the force sensor.
-    acting: Vec<f64>,
+    acting: Arc<Vec<f64>>,
     /// Columns of a force sensor's gain, with their positions among all columns.
     gains: Vec<(usize, Arc<Rows>)>,
     parts: Vec<Part>,
@@ -126,7 +131,7 @@ pub struct Fitted {
 impl Fitted {
     /// The fit of the nuisance columns alone to a white target.
     pub fn bare(folds: &Folds, target: &[f64], free: &[&Rows]) -> Fitted {
-        let target = folds.usable(target).to_vec();
+        let target = Arc::new(folds.usable(target).to_vec());
         let parts = folds.dots(&target, &target).into_iter();
         let parts = parts.map(|square| Part {
             gram: DMatrix::zeros(0, 0),
@@ -158,7 +163,11 @@ impl Fitted {
         if let Some(fixed) = &term.fixed {
             fitted.take_away(folds, &fixed.white);
             if term.cause.is_of_drive() {
-                add(&mut fitted.acting, &fixed.raw, -1.0);
+                add(
+                    Arc::make_mut(&mut fitted.acting).as_mut_slice(),
+                    &fixed.raw,
+                    -1.0,
+                );
             }
         }
         for column in &term.free {
@@ -202,6 +211,11 @@ impl Fitted {
             .fold(self.clone(), |fitted, term| fitted.with(folds, term))
     }
 
+    /// The causes of its terms.
+    pub fn causes(&self) -> impl Iterator<Item = Cause> {
+        self.terms.iter().map(|term| term.cause)
+    }
+
     /// Whether another fit has the same causes, late or not as here.
     pub fn is_like(&self, other: &Fitted) -> bool {
         let same =
@@ -223,7 +237,7 @@ impl Fitted {
 
     /// The residual of every row when the coefficients come from all usable rows; 0 in the others.
     pub fn residual(&self, folds: &Folds) -> Vec<f64> {
-        let mut left = self.target.clone();
+        let mut left = self.target.to_vec();
         for (column, times) in self.columns.iter().zip(&self.coefficients) {
             add(&mut left, column, -times);
         }
@@ -246,12 +260,15 @@ impl Fitted {
     /// A change of the drive that shrinks the effort shrinks every residual with it. Residuals are
     /// therefore divided by this share.
     pub fn acting_share(&self, folds: &Folds) -> f64 {
-        let mut acting = self.acting.clone();
+        if self.gains.is_empty() && Arc::ptr_eq(&self.acting, &folds.driving) {
+            return 1.0;
+        }
+        let mut acting = self.acting.to_vec();
         for (place, column) in &self.gains {
             let gain = self.coefficients.get(*place).copied().unwrap_or(0.0);
             add(&mut acting, &column.raw, -gain);
         }
-        dot(&acting, &acting) / dot(&folds.driving, &folds.driving).max(1e-300)
+        dot(&acting, &acting) / folds.driving_energy.max(1e-300)
     }
 
     fn take_in(&mut self, folds: &Folds, column: &Rows) {
@@ -295,7 +312,7 @@ impl Fitted {
                 *moment -= at(products);
             }
         }
-        for (y, x) in self.target.iter_mut().zip(fixed) {
+        for (y, x) in Arc::make_mut(&mut self.target).iter_mut().zip(fixed) {
             *y -= x;
         }
     }

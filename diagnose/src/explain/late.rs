@@ -7,9 +7,10 @@ use super::refine::refined;
 use super::score::{Judge, is_impossible};
 use super::unfitted;
 use crate::cause::Cause;
-use crate::problem::{Problem, Term};
+use crate::problem::{Kept, Problem, Term};
 use crate::rules::{BEAM, LATE, ONSET_GRID, ONSET_HALVINGS, ONSET_MARGIN};
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// What is needed to judge explanations with an onset.
 pub struct Late<'a> {
@@ -18,6 +19,9 @@ pub struct Late<'a> {
     pub judge: &'a Judge,
     pub bare: &'a Fitted,
 }
+
+/// Where a term is tried from an onset on: the others, its cause and its shape.
+type Place = (Fitted, Cause, Vec<f64>);
 
 /// An explanation whose last term begins at `share` of the recording.
 #[derive(Clone)]
@@ -34,30 +38,37 @@ impl Late<'_> {
     /// of these are refined between the points of the grid. Where one of them predicts better than
     /// every explanation without onset, every other term is tried from that onset on: the shape of
     /// a law over the whole recording says little about its shape after the onset.
-    pub fn found(&self, ranked: &[Fitted], tried: &[Term]) -> Vec<Fitted> {
+    pub fn found(&self, ranked: &[Fitted], tried: &[Arc<Kept>]) -> Vec<Fitted> {
         let places = ranked.iter().enumerate();
         let places = places.filter(|(place, own)| own.terms.len() == 1 || *place < LATE);
-        let moved = places
-            .flat_map(|(_, own)| (0..own.terms.len()).filter_map(|index| self.apart(own, index)));
+        let moved = places.flat_map(|(_, own)| {
+            let apart = (0..own.terms.len()).filter_map(|index| self.apart(own, index));
+            apart.map(|(others, term)| (others, term.cause, term.shape))
+        });
         self.begun_at_best(moved.collect(), ranked, tried)
     }
 
     /// Explanations in which a law whose numbers the description leaves open changes them: each term
     /// of `open` from an onset on, beside the nominal model and the leading explanations.
-    pub fn changed(&self, ranked: &[Fitted], tried: &[Term], open: &[Term]) -> Vec<Fitted> {
+    pub fn changed(
+        &self,
+        ranked: &[Fitted],
+        tried: &[Arc<Kept>],
+        open: &[Arc<Kept>],
+    ) -> Vec<Fitted> {
         let beside = || std::iter::once(self.bare).chain(ranked.iter().take(LATE));
-        let places = open
-            .iter()
-            .flat_map(|term| beside().map(|own| (own.clone(), term.clone())));
+        let places = open.iter().flat_map(|term| {
+            beside().map(|own| (own.clone(), term.cause(), term.shape().to_vec()))
+        });
         self.begun_at_best(places.collect(), ranked, &[tried, open].concat())
     }
 
     /// Each explanation with its term from the best onset on, and what takes the place of the best.
     fn begun_at_best(
         &self,
-        places: Vec<(Fitted, Term)>,
+        places: Vec<Place>,
         ranked: &[Fitted],
-        tried: &[Term],
+        tried: &[Arc<Kept>],
     ) -> Vec<Fitted> {
         let found = self.placed(self.on_grid(places));
         let from_start = ranked
@@ -77,10 +88,10 @@ impl Late<'_> {
     }
 
     /// Each explanation with each term from the best onset on a grid.
-    fn on_grid(&self, places: Vec<(Fitted, Term)>) -> Vec<Begun> {
-        let begun = places.into_par_iter().filter_map(|(others, term)| {
+    fn on_grid(&self, places: Vec<Place>) -> Vec<Begun> {
+        let begun = places.into_par_iter().filter_map(|(others, cause, shape)| {
             let grid = (1..ONSET_GRID).map(|k| k as f64 / ONSET_GRID as f64);
-            let all = grid.filter_map(|share| self.begun(&others, &term, share));
+            let all = grid.filter_map(|share| self.begun(&others, cause, &shape, share));
             all.max_by(|a, b| a.evidence.total_cmp(&b.evidence))
         });
         begun.collect()
@@ -97,14 +108,15 @@ impl Late<'_> {
     /// The explanations with every other term in the place of the late one, from about the same
     /// onset on, where they predict better than every explanation from the start (`most`). The best
     /// get refined shapes.
-    fn exchanged(&self, leading: &Begun, tried: &[Term], most: f64) -> Vec<Begun> {
+    fn exchanged(&self, leading: &Begun, tried: &[Arc<Kept>], most: f64) -> Vec<Begun> {
         let last = leading.fitted.terms.len().saturating_sub(1);
         let Some((others, _)) = self.apart(&leading.fitted, last) else {
             return Vec::new();
         };
         let open = tried.par_iter();
-        let open = open.filter(|term| may_join(&others.terms, term));
-        let begun = open.filter_map(|term| self.begun(&others, term, leading.share));
+        let open = open.filter(|own| may_join(&others.terms, own.cause()));
+        let share = leading.share;
+        let begun = open.filter_map(|own| self.begun(&others, own.cause(), own.shape(), share));
         // Each law from its own onset on: a little beside it, the right one may be among the last.
         let each = self.best_of_each(begun.collect()).into_par_iter();
         let each = each.filter(|own| own.evidence > most);
@@ -137,7 +149,7 @@ impl Late<'_> {
         let mut stride = 0.5 / ONSET_GRID as f64;
         for _ in 0..ONSET_HALVINGS {
             for share in [best.share - stride, best.share + stride] {
-                let moved = self.begun(&others, &term, share);
+                let moved = self.begun(&others, term.cause, &term.shape, share);
                 best = moved
                     .filter(|moved| moved.evidence > best.evidence)
                     .unwrap_or(best);
@@ -167,13 +179,13 @@ impl Late<'_> {
     }
 
     /// An explanation with one more term, from an onset on.
-    fn begun(&self, others: &Fitted, term: &Term, share: f64) -> Option<Begun> {
+    fn begun(&self, others: &Fitted, cause: Cause, shape: &[f64], share: f64) -> Option<Begun> {
         if !(ONSET_MARGIN..1.0 - ONSET_MARGIN).contains(&share) {
             return None;
         }
         let clock = self.problem.run.clock();
         let onset_s = clock.start_s + share * clock.duration_s();
-        let term = unfitted(self.problem, term.cause, &term.shape, Some(onset_s))?;
+        let term = unfitted(self.problem, cause, shape, Some(onset_s))?;
         let fitted = others.with(self.folds, &term);
         let evidence = self.judge.evidence(self.folds, &fitted);
         (!is_impossible(self.problem, &fitted)).then_some(Begun {

@@ -40,10 +40,16 @@ pub fn explain_many(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection
 
 /// The residual with every term free that has no shape parameter.
 fn plain_residual(problem: &Problem, nominal: &[Term]) -> Vec<f64> {
-    let tried = shapes_of(problem, nominal, true);
+    let tried = terms_of(problem, nominal);
     let plain = tried.iter().filter(|term| term.shape.is_empty());
     let all: Vec<&Term> = nominal.iter().chain(plain).collect();
     fit(problem, &all, &Blocks::new(problem)).residual
+}
+
+/// The mechanisms that the nominal model does not leave open, in every shape of the grid.
+fn terms_of(problem: &Problem, nominal: &[Term]) -> Vec<Term> {
+    let kept = shapes_of(problem, nominal, true).into_iter();
+    kept.filter_map(|own| problem.whole(&own)).collect()
 }
 
 /// Whether it corrects the inertia of a link that an effort depends on.
@@ -72,7 +78,7 @@ impl Round {
         Round {
             bare: Fitted::bare(&folds, &target, &free_columns(problem, &common)),
             judge: Judge::of(problem, noise, rows_a_sample),
-            tried: shapes_of(problem, nominal, true),
+            tried: terms_of(problem, nominal),
             folds,
         }
     }
@@ -130,7 +136,7 @@ impl Round {
             .par_iter()
             .zip(hopeful.par_iter())
             .map(|(term, hoped)| {
-                if !hoped || !may_join(&best.1.terms, term) {
+                if !hoped || !may_join(&best.1.terms, term.cause) {
                     return None;
                 }
                 let fitted = best.1.with(&self.folds, term);
@@ -167,7 +173,7 @@ impl Round {
     ) -> Option<(f64, Fitted)> {
         let stays_beside = |index: usize| {
             let mut others = own.terms.iter().enumerate().filter(|(k, _)| *k != index);
-            others.all(|(_, other)| may_join(core::slice::from_ref(other), term))
+            others.all(|(_, other)| may_join(core::slice::from_ref(other), term.cause))
         };
         let given = own.terms.iter().enumerate();
         let given = given.filter(|(_, own)| own.cause != term.cause && may_give_way(own));

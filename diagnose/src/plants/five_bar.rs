@@ -6,6 +6,7 @@ pub mod candidates;
 mod checks;
 pub mod columns;
 pub(crate) mod encoder;
+mod equations;
 pub mod experiment;
 pub mod free_run;
 mod free_runs;

@@ -25,7 +25,8 @@ pub fn in_the_vocabulary(setup: &Setup, effect: &Effect) -> Effect {
 }
 
 /// Sets of mechanisms that no recording of this experiment can tell from an effect: single ones; what a joint does whose twin turns alike; and for
-/// a bristle with unequal limits, once it has slid, the bristle with the mean of both and a constant of half their difference.
+/// a bristle with unequal limits, once it has slid, the bristle with the mean of both and a constant of half their difference; for friction that varies
+/// about a level, dry friction of that level and what varies about 0.
 pub fn sets(setup: &Setup, effect: &Effect) -> Vec<Vec<String>> {
     let single = equivalent(setup, effect).iter();
     let mut sets: Vec<Vec<String>> = single.map(|name| vec![(*name).to_owned()]).collect();
@@ -34,8 +35,13 @@ pub fn sets(setup: &Setup, effect: &Effect) -> Vec<Vec<String>> {
     if setup.layout == Layout::ThreeBrake && effect.at == At::Joint(Joint::E) && of_joint {
         sets.push(vec![format!("{} at C", effect.name())]);
     }
-    if let (Form::OneSided, At::Joint(joint)) = (effect.form, effect.at) {
-        let both = [Mechanism::Presliding, Mechanism::ConstantBias];
+    // What varies about a mean is the mean and what varies about 0.
+    let both = match effect.form {
+        Form::OneSided => Some([Mechanism::Presliding, Mechanism::ConstantBias]),
+        Form::Uneven => Some([Mechanism::DryOffset, Mechanism::UnevenFriction]),
+        _ => None,
+    };
+    if let (Some(both), At::Joint(joint)) = (both, effect.at) {
         let named = both.map(|mechanism| format!("{} at {}", mechanism.name(), joint.letter()));
         sets.push(named.into());
     }

@@ -2,10 +2,11 @@
 //! efforts of θA and θB.
 
 use super::encoder::Encoder;
+use super::equations::{inertial, stacked};
 use super::free_run::length_of;
 use super::from_rig::with_angles;
 use super::joined::over_parts;
-use super::run::{FiveBarRun, inertial, joint_at, place, place_of, stacked};
+use super::run::{FiveBarRun, joint_at, place, place_of};
 use crate::cause::{Cause, Place, Scales};
 use crate::plant;
 use crate::problem::{add, less};

@@ -1,7 +1,8 @@
 //! This file aligns a recording of a five-bar with its description.
 
 use super::checks::{check_mended, check_recorded, check_sign};
-use super::run::{FiveBarRun, forms, place, place_of};
+use super::equations::{forms, levers};
+use super::run::{FiveBarRun, place, place_of};
 use super::sensors::{angle_noise, noise_of_force, quantum_of};
 use super::stops::{forget_sense_at_stops, switched};
 use crate::align::{
@@ -71,6 +72,7 @@ pub fn aligned(rig: &FiveBar, recording: &FiveBarRecording) -> Result<FiveBarRun
         joints: [const { Vec::new() }; 4],
         poses: Vec::new(),
         forms: Vec::new(),
+        levers: Default::default(),
         cutoff_hz: cutoff_hz(
             step_s,
             force.iter().map(|f| band_hz(f, step_s)).fold(0.0, f64::max),
@@ -163,6 +165,7 @@ fn moved_by(
     let mut run = FiveBarRun {
         theta,
         poses,
+        levers: levers(&forms),
         forms,
         speed_floor: floors.into_iter().fold(0.0, f64::max),
         ..run.without_motion()

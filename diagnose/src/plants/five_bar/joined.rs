@@ -15,6 +15,8 @@ impl Joins for FiveBarRun {
         all(&mut self.force, &run.force);
         all(&mut self.yields, &run.yields);
         all(&mut self.yield_errors, &run.yield_errors);
+        let levers = self.levers.iter_mut().zip(&run.levers);
+        levers.for_each(|(own, new)| all(own, new));
         let joints = self.joints.iter_mut().zip(&run.joints);
         joints.for_each(|(own, new)| own.extend_from_slice(new));
         self.poses.extend_from_slice(&run.poses);
@@ -52,19 +54,20 @@ pub fn over_parts(
     if run.parts.is_empty() {
         return of(run);
     }
-    let mut outputs: Vec<[Vec<f64>; 2]> = Vec::new();
+    let count = run.len();
+    let mut whole: Vec<Vec<f64>> = Vec::new();
+    let mut first = 0;
     for part in &run.parts {
         let signals = of(part)?;
-        outputs.resize(signals.len(), Default::default());
-        for ([first, second], signal) in outputs.iter_mut().zip(&signals) {
+        whole.resize_with(signals.len(), || vec![0.0; 2 * count]);
+        for (whole, signal) in whole.iter_mut().zip(&signals) {
             let (a, b) = signal.split_at(signal.len() / 2);
-            first.extend_from_slice(a);
-            second.extend_from_slice(b);
+            for (own, begin) in [(a, first), (b, count + first)] {
+                let slots = whole.iter_mut().skip(begin);
+                slots.zip(own).for_each(|(slot, x)| *slot = *x);
+            }
         }
+        first += part.len();
     }
-    let whole = |[mut first, second]: [Vec<f64>; 2]| {
-        first.extend(second);
-        first
-    };
-    Some(outputs.into_iter().map(whole).collect())
+    Some(whole)
 }

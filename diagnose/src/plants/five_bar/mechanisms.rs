@@ -2,6 +2,7 @@
 //! the reference rig.
 
 use super::columns::{driving, fixed, free, known};
+use super::equations::levers;
 use super::run::{FiveBarRun, place_of};
 use crate::cause::Cause;
 use crate::filter::rms;
@@ -43,6 +44,7 @@ fn blank(layout: Layout) -> FiveBarRun {
         joints: Default::default(),
         poses: Vec::new(),
         forms: Vec::new(),
+        levers: Default::default(),
         force: Default::default(),
         currents: Joint::ALL.map(|joint| braked(joint).then(Vec::new)),
         yields: Default::default(),
@@ -153,6 +155,7 @@ fn exact(layout: Layout, effects: &[JointEffect]) -> (FiveBarRun, Vec<bool>) {
         let force = |tip: [f64; 2], speed: [f64; 2]| hand(middle_s, tip, speed);
         rig.step_under(&force, currents, STEP_S).unwrap();
     }
+    run.levers = levers(&run.forms);
     let counts = counted(&mut run);
     (run, counts)
 }

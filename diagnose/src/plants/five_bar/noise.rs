@@ -1,7 +1,8 @@
 //! This file is the noise model of the five-bar's residuals: the variance that encoders and force
 //! sensor give each row, and the covariance between rows.
 
-use super::run::{FiveBarRun, stacked};
+use super::equations::stacked;
+use super::run::FiveBarRun;
 use crate::filter::rms;
 use crate::rules::MOST_UNTOLD;
 use crate::weak::{Windows, is_recorded, overlap};

@@ -2,6 +2,7 @@
 //! brakes.
 
 use super::encoder::Encoder;
+use super::equations::stacked;
 use super::{candidates, columns, locate, noise};
 use crate::cause::{Cause, JointId, Place};
 use crate::continuity::Remark;
@@ -12,11 +13,10 @@ use crate::rules::{QUIET_NM, WIDTHS_S};
 use crate::signals::known_travel;
 use crate::weak::Windows;
 use crate::whiten::Whitener;
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::Vector2;
 use rigproof_model::effects::{Form, Instant, form};
-use rigproof_model::error::ModelError;
-use rigproof_model::linkage::{Pose, forward};
-use rigproof_model::motion::two_coordinate::{TwoCoordinate, two_coordinate};
+use rigproof_model::linkage::Pose;
+use rigproof_model::motion::two_coordinate::TwoCoordinate;
 use rigproof_model::rig::Parameters;
 use rigproof_spec::effect::{Mechanism, Motion};
 use rigproof_spec::joint::Joint;
@@ -39,6 +39,8 @@ pub struct FiveBarRun {
     pub poses: Vec<Pose>,
     /// The equations of motion along the smoothed motion.
     pub forms: Vec<TwoCoordinate>,
+    /// The efforts of θA and θB per unit of torque at A, E, B, C.
+    pub levers: [[Vec<f64>; 2]; 4],
     /// Recorded force on the tip, x and y, N.
     pub force: [Vec<f64>; 2],
     /// Commanded currents of A, E, B, C, A; `None` without a brake.
@@ -115,16 +117,22 @@ impl FiveBarRun {
 
     /// The efforts of θA and θB per unit of torque at a joint, sample by sample.
     pub fn joint_rows(&self, joint: Joint) -> impl Iterator<Item = [f64; 2]> {
-        let row = place(joint);
-        self.forms
-            .iter()
-            .map(move |form| [0, 1].map(|k| form.joints.get((row, k)).copied().unwrap_or(0.0)))
+        let [by_a, by_b] = self.levers_of(joint);
+        by_a.iter().zip(by_b).map(|(a, b)| [*a, *b])
     }
 
     /// The efforts of θA and θB for a resistance at a joint; θA's samples first.
     pub fn at_joint(&self, joint: Joint, resistance: &[f64]) -> Vec<f64> {
-        let pairs = self.joint_rows(joint).zip(resistance);
-        stacked(pairs.map(|(row, r)| row.map(|g| g * r)))
+        let levers = self.levers_of(joint).into_iter();
+        let mut efforts = Vec::with_capacity(2 * resistance.len());
+        levers.for_each(|own| efforts.extend(own.iter().zip(resistance).map(|(g, r)| g * r)));
+        efforts
+    }
+
+    fn levers_of(&self, joint: Joint) -> [&[f64]; 2] {
+        self.levers
+            .get(place(joint))
+            .map_or([&[]; 2], |own| own.each_ref().map(Vec::as_slice))
     }
 
     /// The efforts of θA and θB for a force on the tip; θA's samples first.
@@ -200,6 +208,7 @@ impl FiveBarRun {
             joints: Default::default(),
             poses: Vec::new(),
             forms: Vec::new(),
+            levers: Default::default(),
             force: self.force.clone(),
             currents: self.currents.clone(),
             yields: Default::default(),
@@ -226,6 +235,7 @@ impl FiveBarRun {
                 .map(|joint| joint.get(from..to).unwrap_or_default().to_vec()),
             poses: self.poses.get(from..to).unwrap_or_default().to_vec(),
             forms: self.forms.get(from..to).unwrap_or_default().to_vec(),
+            levers: self.levers.each_ref().map(|own| own.each_ref().map(part)),
             force: self.force.each_ref().map(part),
             currents: self.currents.each_ref().map(|c| c.as_ref().map(part)),
             yields: self.yields.each_ref().map(part),
@@ -242,61 +252,6 @@ impl FiveBarRun {
             remarks: self.remarks.clone(),
         }
     }
-}
-
-/// Pairs of values as one signal: the first of every pair, then the second.
-pub fn stacked(pairs: impl Iterator<Item = [f64; 2]>) -> Vec<f64> {
-    let pairs: Vec<[f64; 2]> = pairs.collect();
-    let mut both = Vec::with_capacity(2 * pairs.len());
-    both.extend(pairs.iter().map(|[first, _]| first));
-    both.extend(pairs.iter().map(|[_, second]| second));
-    both
-}
-
-/// Poses and equations of motion along a smoothed motion of θA and θB.
-///
-/// # Errors
-/// The linkage cannot be assembled at some sample: its index, and why.
-pub fn forms(
-    parameters: &Parameters,
-    base: &[Vec<Instant>; 2],
-) -> Result<(Vec<Pose>, Vec<TwoCoordinate>), (usize, ModelError)> {
-    let [a, b] = base;
-    let mut poses = Vec::with_capacity(a.len());
-    let mut forms = Vec::with_capacity(a.len());
-    for (k, (a, b)) in a.iter().zip(b).enumerate() {
-        let pose = forward::pose(&parameters.arms, a.position, b.position).map_err(|e| (k, e))?;
-        let rates = [a.speed, b.speed];
-        let form = two_coordinate(&parameters.arms, &parameters.inertia, &pose, rates);
-        poses.push(pose);
-        forms.push(form);
-    }
-    Ok((poses, forms))
-}
-
-/// The inertial effort of some mass matrices, as the second difference of the angles shows it:
-/// d/dt(M·q̇) − ½·∂(q̇ᵀ·M·q̇)/∂q; θA's samples first.
-pub fn inertial(run: &FiveBarRun, forms: &[TwoCoordinate]) -> Vec<f64> {
-    let step_s = run.step_s;
-    let count = forms.len();
-    let [a, b] = &run.theta;
-    let at = |k: usize| {
-        let angle = |theta: &Vec<f64>| theta.get(k).copied().unwrap_or(0.0);
-        Vector2::new(angle(a), angle(b))
-    };
-    let mass = |k: usize| forms.get(k).map_or(Matrix2::zeros(), |form| form.mass);
-    let momentum = |k: usize| (mass(k) + mass(k + 1)) * (at(k + 1) - at(k)) * (0.5 / step_s);
-    let [joint_a, _, joint_b, _] = &run.joints;
-    let rates = joint_a.iter().zip(joint_b);
-    let pairs = forms.iter().zip(rates).enumerate();
-    stacked(pairs.map(|(k, (form, (a, b)))| {
-        if k == 0 || k + 1 >= count {
-            return [0.0; 2];
-        }
-        let mass_rate = (mass(k + 1) - mass(k - 1)) * (0.5 / step_s);
-        let rest = form.bias - mass_rate * Vector2::new(a.speed, b.speed);
-        ((momentum(k) - momentum(k - 1)) / step_s + rest).into()
-    }))
 }
 
 impl Run for FiveBarRun {
