@@ -30,6 +30,43 @@ pub fn plain_at(name: &str, joint: Option<&str>) -> String {
     }
 }
 
+/// Mechanisms with their places in plain words, one at several joints once: "viscous friction, at joints A and C".
+///
+/// Each has its name, its place and what is added to it; one with an addition stands by itself.
+pub fn plain_each<'a>(
+    all: impl IntoIterator<Item = (&'a str, Option<&'a str>, String)>,
+) -> Vec<String> {
+    let mut groups: Vec<(&str, Vec<Option<&str>>, String)> = Vec::new();
+    for (name, place, added) in all {
+        let same = groups.iter_mut().find(|(own, places, more)| {
+            let are_joints = places.iter().chain([&place]).all(|at| is_joint(*at));
+            are_joints && *own == name && added.is_empty() && more.is_empty()
+        });
+        match same {
+            Some((_, places, _)) => places.push(place),
+            None => groups.push((name, vec![place], added)),
+        }
+    }
+    let said = groups.into_iter().map(|(name, places, added)| {
+        let joints: Vec<&str> = places.iter().flatten().copied().collect();
+        match joints.as_slice() {
+            [first @ .., last] if !first.is_empty() => {
+                format!(
+                    "{}, at joints {} and {last}",
+                    plain_at(name, None),
+                    first.join(", ")
+                )
+            }
+            _ => plain_at(name, places.first().copied().flatten()) + &added,
+        }
+    });
+    said.collect()
+}
+
+fn is_joint(place: Option<&str>) -> bool {
+    place.is_some_and(|at| !["every brake", "x", "y"].contains(&at))
+}
+
 /// What the field calls a mechanism, with its name in files where the one does not hold the other: `Coulomb friction (dry_offset) at 3`.
 pub fn called_at(name: &str, joint: Option<&str>) -> String {
     let called = Mechanism::from_name(name).map(Mechanism::called);
@@ -87,6 +124,24 @@ pub fn at_rest(own: &HeldJoint, unit: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_mechanism_at_several_joints_is_said_once() {
+        let all = [
+            ("viscous", Some("A"), String::new()),
+            ("gain_error", Some("A"), " (+3 %)".to_owned()),
+            ("viscous", Some("every brake"), String::new()),
+            ("viscous", Some("E"), String::new()),
+            ("viscous", Some("C"), String::new()),
+            ("payload", None, String::new()),
+        ];
+        let said = plain_each(all);
+        assert_eq!(said.len(), 4);
+        assert!(said[0].ends_with(", at joints A, E and C"), "{}", said[0]);
+        assert!(said[1].ends_with(", at joint A (+3 %)"), "{}", said[1]);
+        assert!(said[2].ends_with("the same at every brake"), "{}", said[2]);
+        assert_eq!(said[3], plain_at("payload", None));
+    }
 
     #[test]
     fn the_word_of_the_field_stands_beside_a_name_that_is_another_one() {

@@ -6,7 +6,7 @@ use std::path::Path;
 use rigproof_diagnose::report::{EffectReport, Number, Report, Verdict};
 use rigproof_model::effects::entry;
 use rigproof_report::number::{interval, percent, probability, told};
-use rigproof_report::words::{called_at, list, plain_at, plain_cause};
+use rigproof_report::words::{called_at, list, plain_cause, plain_each};
 use rigproof_spec::effect::Mechanism;
 
 use super::found::regime;
@@ -68,8 +68,10 @@ pub fn summary(report: &Report, next: &str, page: &Path) -> String {
 /// One sentence on what is wrong.
 fn verdict(report: &Report) -> String {
     let [named, suspected] = report.by_status().map(|effects| {
-        let words = effects.iter().map(|own| plain_at(own.mechanism, own.joint));
-        list(&words.collect::<Vec<_>>())
+        let each = effects
+            .iter()
+            .map(|own| (own.mechanism, own.joint, String::new()));
+        list(&plain_each(each))
     });
     match report.verdict {
         Verdict::Consistent => {

@@ -5,7 +5,7 @@ use rigproof_diagnose::report::{BeforeAfter, EffectReport, Report, Verdict};
 
 use crate::document::{Headline, Tone};
 use crate::number::{probability, significant, with_unit};
-use crate::words::{list, plain_at};
+use crate::words::{list, plain_each};
 
 /// The top of the page.
 pub fn headline(report: &Report, next: Option<&str>) -> Headline {
@@ -44,8 +44,10 @@ fn sentence(report: &Report) -> String {
         other => other,
     };
     let [named, suspected] = report.by_status().map(|effects| {
-        let words = effects.into_iter().map(in_words);
-        list(&words.collect::<Vec<_>>())
+        let each = effects
+            .into_iter()
+            .map(|own| (own.mechanism, own.joint, how_wrong(own)));
+        list(&plain_each(each))
     });
     match report.verdict {
         Verdict::Consistent => format!(
@@ -87,8 +89,8 @@ fn sentence(report: &Report) -> String {
     }
 }
 
-/// A named mechanism in plain words; a wrong scale with how wrong it is.
-fn in_words(effect: &EffectReport) -> String {
+/// How wrong a wrong scale is; nothing for other mechanisms.
+fn how_wrong(effect: &EffectReport) -> String {
     let fraction = effect
         .parameters
         .get("fraction")
@@ -96,8 +98,7 @@ fn in_words(effect: &EffectReport) -> String {
     let by = fraction.map_or_else(String::new, |fraction| {
         format!(" ({:+.1} %)", 100.0 * fraction.value)
     });
-    let words = plain_at(effect.mechanism, effect.joint);
-    words + &by.replace('-', "−")
+    by.replace('-', "−")
 }
 
 fn meaning(report: &Report) -> Markup {
