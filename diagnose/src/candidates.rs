@@ -7,7 +7,7 @@ pub use periods::{is_periodic, longest_period, of_a_turn, periodic_part, periods
 
 use crate::cause::{Cause, Place};
 use crate::plant::Run;
-use crate::problem::{Bounds, Kept, Problem, Term, add};
+use crate::problem::{Bounds, Problem, Term, add};
 use crate::regression::Fit;
 use crate::rules::{
     BENDS_JOINT, BRISTLE_EXPONENTS, DELAYS, EDGE, EFFORT_LIMIT_SHARES, EFFORT_LIMITS, FASTEST_PEAK,
@@ -61,14 +61,16 @@ pub fn is_plain(mechanism: Mechanism) -> bool {
 
 /// One term for each trial shape of a cause, built beside the terms of `fitted`.
 pub fn variants(problem: &Problem, cause: Cause, terms: &[&Term], fitted: &Fit) -> Vec<Term> {
-    each_shape(problem, cause, terms, fitted, |kept| problem.whole(kept))
+    each_shape(problem, cause, terms, fitted, |shape| {
+        problem.whole_term(cause, shape)
+    })
 }
 
 /// The same with white rows alone, for what reads nothing else.
 pub fn white_variants(problem: &Problem, cause: Cause, terms: &[&Term], fitted: &Fit) -> Vec<Term> {
-    let usable = &problem.windows.usable;
-    each_shape(problem, cause, terms, fitted, |kept| {
-        Some(kept.trial(usable))
+    each_shape(problem, cause, terms, fitted, |shape| {
+        let kept = problem.kept(cause, shape)?;
+        Some(kept.trial(&problem.windows.usable).into_owned())
     })
 }
 
@@ -77,16 +79,12 @@ fn each_shape(
     cause: Cause,
     terms: &[&Term],
     fitted: &Fit,
-    of: impl Fn(&Kept) -> Option<Term>,
+    of: impl Fn(&[f64]) -> Option<Term>,
 ) -> Vec<Term> {
     let effort = modelled_effort(problem, terms, fitted);
     shapes(problem, cause, &fitted.residual)
         .iter()
-        .filter_map(|shape| {
-            let kept = problem.kept(cause, shape);
-            kept.and_then(|own| of(&own))
-                .or_else(|| realise(problem, cause, shape, None, &effort))
-        })
+        .filter_map(|shape| of(shape).or_else(|| realise(problem, cause, shape, None, &effort)))
         .collect()
 }
 
@@ -101,8 +99,7 @@ pub fn realise(
     // A cause that moves the whole plant is expensive to compute, and later rounds of the search
     // ask for the same shapes.
     if problem.run.moves(cause) && onset_s.is_none() {
-        let kept = problem.kept(cause, shape)?;
-        return problem.whole(&kept);
+        return problem.whole_term(cause, shape);
     }
     problem
         .term(cause, shape, onset_s)

@@ -24,7 +24,7 @@ pub fn plain_at(name: &str, joint: Option<&str>) -> String {
     );
     match joint {
         Some("every brake") => format!("{what}, the same at every brake"),
-        Some(axis @ ("x" | "y")) if name.starts_with("force_") => format!("{what}, along {axis}"),
+        Some(axis) if is_axis(name, axis) => format!("{what}, along {axis}"),
         Some(joint) => format!("{what}, at joint {joint}"),
         None => what,
     }
@@ -39,7 +39,7 @@ pub fn plain_each<'a>(
     let mut groups: Vec<(&str, Vec<Option<&str>>, String)> = Vec::new();
     for (name, place, added) in all {
         let same = groups.iter_mut().find(|(own, places, more)| {
-            let are_joints = places.iter().chain([&place]).all(|at| is_joint(*at));
+            let are_joints = places.iter().chain([&place]).all(|at| is_joint(name, *at));
             are_joints && *own == name && added.is_empty() && more.is_empty()
         });
         match same {
@@ -63,8 +63,13 @@ pub fn plain_each<'a>(
     said.collect()
 }
 
-fn is_joint(place: Option<&str>) -> bool {
-    place.is_some_and(|at| !["every brake", "x", "y"].contains(&at))
+fn is_joint(name: &str, place: Option<&str>) -> bool {
+    place.is_some_and(|at| at != "every brake" && !is_axis(name, at))
+}
+
+/// Whether a place is an axis of the force sensor.
+fn is_axis(name: &str, place: &str) -> bool {
+    name.starts_with("force_") && matches!(place, "x" | "y")
 }
 
 /// What the field calls a mechanism, with its name in files where the one does not hold the other: `Coulomb friction (dry_offset) at 3`.

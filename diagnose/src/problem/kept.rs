@@ -8,6 +8,7 @@ use crate::cause::Cause;
 use crate::whiten::Whitener;
 use rayon::prelude::*;
 use rigproof_model::effects::{Form, OfSensor, form};
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::sync::{Arc, PoisonError, RwLock};
 
@@ -48,60 +49,61 @@ impl Kept {
 
     /// The term for a trial. A packed one has white rows alone, with `usable` marking which these
     /// are.
-    pub fn trial(&self, usable: &[bool]) -> Term {
+    pub fn trial(&self, usable: &[bool]) -> Cow<'_, Term> {
         match self {
-            Kept::Whole(term) => term.clone(),
-            Kept::Packed(packed) => packed.trial(usable),
+            Kept::Whole(term) => Cow::Borrowed(term),
+            Kept::Packed(packed) => Cow::Owned(packed.trial(usable)),
         }
     }
 }
 
 impl Packed {
     fn of(term: &Term, usable: &[bool]) -> Packed {
-        let pack = |rows: &Arc<Rows>| -> Box<[f32]> {
-            let rows = rows.white.iter().zip(usable).filter(|(_, u)| **u);
-            rows.map(|(x, _)| *x as f32).collect()
-        };
+        let free = term.free.iter();
+        let free = free.map(|own| (packed(&own.white, usable), own.prior_deviation));
+        let fixed = term.fixed.as_ref();
         Packed {
             cause: term.cause,
             shape: term.shape.clone(),
-            free: term
-                .free
-                .iter()
-                .map(|own| (pack(own), own.prior_deviation))
-                .collect(),
-            fixed: term.fixed.as_ref().map(pack),
+            free: free.collect(),
+            fixed: fixed.map(|own| packed(&own.white, usable)),
         }
     }
 
     fn trial(&self, usable: &[bool]) -> Term {
-        let unpack = |own: &[f32], prior_deviation: f64| {
-            let mut white = vec![0.0; usable.len()];
-            let slots = white.iter_mut().zip(usable).filter(|(_, u)| **u);
-            for ((slot, _), value) in slots.zip(own) {
-                *slot = f64::from(*value);
-            }
+        let rows = |own: &[f32], prior_deviation: f64| {
             Arc::new(Rows {
                 signal: Vec::new(),
                 raw: Vec::new(),
-                white,
+                white: unpacked(own, usable),
                 prior_deviation,
             })
         };
+        let free = self.free.iter().map(|(own, prior)| rows(own, *prior));
         let fixed = self.fixed.as_ref();
         Term {
             cause: self.cause,
             shape: self.shape.clone(),
             onset_s: None,
-            free: self
-                .free
-                .iter()
-                .map(|(own, prior)| unpack(own, *prior))
-                .collect(),
-            fixed: fixed.map(|own| unpack(own, f64::INFINITY)),
+            free: free.collect(),
+            fixed: fixed.map(|own| rows(own, f64::INFINITY)),
             known: None,
         }
     }
+}
+
+fn packed(white: &[f64], usable: &[bool]) -> Box<[f32]> {
+    let rows = white.iter().zip(usable).filter(|(_, u)| **u);
+    rows.map(|(x, _)| *x as f32).collect()
+}
+
+fn unpacked(own: &[f32], usable: &[bool]) -> Vec<f64> {
+    let mut white = vec![0.0; usable.len()];
+    let slots = white.iter_mut().zip(usable).filter(|(_, u)| **u);
+    for ((slot, _), value) in slots.zip(own) {
+        *slot = f64::from(*value);
+    }
+    white
 }
 
 impl Problem<'_> {
@@ -133,6 +135,15 @@ impl Problem<'_> {
         }
     }
 
+    /// A whole term without onset; `None` as for [`Problem::kept`]. It is computed once where it is
+    /// kept whole.
+    pub fn whole_term(&self, cause: Cause, shape: &[f64]) -> Option<Term> {
+        match self.needs_more_than_white(cause) {
+            true => self.whole(&*self.kept(cause, shape)?),
+            false => self.computed(cause, shape, None),
+        }
+    }
+
     /// The whole term of a kept one.
     pub fn whole(&self, kept: &Kept) -> Option<Term> {
         match kept {
@@ -157,21 +168,19 @@ impl Problem<'_> {
 
     /// Whitens the kept terms, which were white under the noise model `old`.
     pub(super) fn whiten_kept(&self, old: &Whitener) {
+        let usable = &self.windows.usable;
+        let again = |own: &mut Box<[f32]>| {
+            let raw = old.coloured(&unpacked(own, usable));
+            *own = packed(&self.whitener.whiten(&raw), usable);
+        };
         let mut kept = self.kept.write().unwrap_or_else(PoisonError::into_inner);
-        kept.par_iter_mut().for_each(|(_, own)| {
-            let mut term = own.trial(&self.windows.usable);
-            let is_whole = matches!(**own, Kept::Whole(_));
-            if !is_whole {
-                for rows in term.free.iter_mut().chain(&mut term.fixed) {
-                    let rows = Arc::make_mut(rows);
-                    rows.raw = old.coloured(&rows.white);
-                }
+        let kept = kept.par_iter_mut();
+        kept.for_each(|(_, own)| match Arc::make_mut(own) {
+            Kept::Whole(term) => self.refresh(term),
+            Kept::Packed(packed) => {
+                packed.free.iter_mut().for_each(|(own, _)| again(own));
+                packed.fixed.iter_mut().for_each(again);
             }
-            self.refresh(&mut term);
-            *own = Arc::new(match is_whole {
-                true => Kept::Whole(term),
-                false => Kept::Packed(Packed::of(&term, &self.windows.usable)),
-            });
         });
     }
 }
@@ -197,8 +206,9 @@ mod tests {
         assert!(matches!(&*kept(&problem), Kept::Packed(_)));
         for excess_nm in [0.0, 0.013] {
             problem.rewhiten(problem.floor.hypot(excess_nm));
-            let trial = kept(&problem).trial(&problem.windows.usable);
-            let whole = problem.whole(&kept(&problem)).unwrap();
+            let kept = kept(&problem);
+            let trial = kept.trial(&problem.windows.usable);
+            let whole = problem.whole(&kept).unwrap();
             let (trial, whole) = (&trial.free[0].white, &whole.free[0].white);
             let most = whole.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
             assert!(most > 0.0);
