@@ -7,7 +7,7 @@
     document.body.append(link);
     link.click();
     link.remove();
-    setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+    setTimeout(() => URL.revokeObjectURL(link.href), 60000);
   };
   rigproof.saveCsv = (name, rows) => {
     const field = (value) => {

@@ -282,7 +282,8 @@ async function saves(page, name) {
     await page.keyboard.press('Enter');
     const text = await waited(place === 0 ? fileSaved : () => page.evaluate(lastKept));
     const fine = /SVG/.test(label) ? await page.evaluate(wellFormed, text) : text.split('\n').length > 2 && /\d/.test(text);
-    holds(name, `${label}: ${text.slice(0, 60)}`, fine);
+    const instead = text === '' ? `nothing; the folder holds ${await readdir(saved)}` : text.slice(0, 60);
+    holds(name, `${label}: ${instead}`, fine);
   }
   await session.detach();
 }
@@ -300,8 +301,9 @@ const keepWhatIsSaved = () => {
   HTMLAnchorElement.prototype.click = () => {};
 };
 const lastKept = async () => (await window.kept.pop()?.text()) ?? '';
+// A minute at most: a download on a busy disk may take longer than what the page shows.
 async function waited(looked) {
-  for (let wait = 0; wait < 200; wait++) {
+  for (let wait = 0; wait < 1200; wait++) {
     const text = await looked();
     if (text !== '') return text;
     await new Promise((done) => setTimeout(done, 50));
