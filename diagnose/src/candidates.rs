@@ -12,7 +12,7 @@ use crate::regression::Fit;
 use crate::rules::{
     BENDS_JOINT, BRISTLE_EXPONENTS, DELAYS, EDGE, EFFORT_LIMIT_SHARES, EFFORT_LIMITS, FASTEST_PEAK,
     FASTEST_RESONANCE, GAPS, LAGS_JOINT, LEAST_BEND, LEAST_BEND_SIGMAS, LEAST_GAP,
-    LEAST_GAP_SIGMAS, LEAST_LAG_STEPS, LEAST_LIMITED_A, LEAST_SHIFT_STEPS_JOINT, LIMIT_SHARES,
+    LEAST_GAP_SIGMAS, LEAST_LAG_STEPS, LEAST_LIMITED, LEAST_SHIFT_STEPS_JOINT, LIMIT_SHARES,
     LIMITS, MEMORY_COUNT, MEMORY_RATES, MEMORY_RATIOS, MOST_BEND, MOST_CYCLES, MOST_DELAY_S,
     MOST_GAP, MOST_LAG_S_JOINT, MOST_SHIFT_S_JOINT, MOST_SHIFT_STEPS, PEAK_EXPONENTS_JOINT,
     PEAK_SPEEDS, PLAYED_SHARES, RESONANCE_DAMPINGS, RESONANCE_STEPS, RESONANCES, RISE_TIMES_S,
@@ -24,7 +24,6 @@ use periods::{all_periods, pitches};
 use rigproof_model::effects::facts::{Family, Shapes, Usual};
 use rigproof_model::effects::{Form, Instant, facts, form, linear};
 use rigproof_spec::effect::{Mechanism, Range};
-use rigproof_spec::tables::GREATEST_CURRENT_A;
 
 /// The candidates for the search by one cause at a time. Mechanisms that are only compared in sets
 /// are left out.
@@ -192,11 +191,14 @@ pub fn standard_shapes<R: Run + ?Sized>(
             MOST_SHIFT_S_JOINT.max(MOST_SHIFT_STEPS * step_s),
             SHIFTS_JOINT,
         ))),
-        Shapes::CurrentPlay { low, high, count } => plays(&geometric(low, high, count), &[]),
+        Shapes::CurrentPlay { low, high, count } => {
+            let full = run.full_current();
+            plays(&geometric(low * full, high * full, count), &[], full)
+        }
         Shapes::Delay => one(geometric(step_s, MOST_DELAY_S, DELAYS)),
-        Shapes::CurrentLimit => run
-            .brake()
-            .map_or(Vec::new(), |(_, own)| current_limits(own)),
+        Shapes::CurrentLimit => run.brake().map_or(Vec::new(), |(_, own)| {
+            current_limits(own, run.full_current())
+        }),
         // A spring to an anchor needs a plane.
         Shapes::Anchor => vec![vec![]],
         own @ (Shapes::None
@@ -209,7 +211,7 @@ pub fn standard_shapes<R: Run + ?Sized>(
 
 /// The shapes of a play of the current: single plays whose sides meet below a current or stay open,
 /// and spread plays with and without the scale of the table, which ends at the greatest current.
-pub fn plays(widths: &[f64], closing_a: &[f64]) -> Vec<Vec<f64>> {
+pub fn plays(widths: &[f64], closing_a: &[f64], full: f64) -> Vec<Vec<f64>> {
     let of_width = |width: f64, share: f64| {
         let closing = closing_a
             .iter()
@@ -217,7 +219,7 @@ pub fn plays(widths: &[f64], closing_a: &[f64]) -> Vec<Vec<f64>> {
         let others = [
             vec![width, share],
             vec![width, share, 0.0, 1.0],
-            vec![width, share, 0.0, 1.0, GREATEST_CURRENT_A],
+            vec![width, share, 0.0, 1.0, full],
         ];
         closing.chain(others)
     };
@@ -254,10 +256,11 @@ fn resonances(step_s: f64) -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// Trial limits of a brake's current, A; none where hardly any flowed.
-pub fn current_limits(given: &[f64]) -> Vec<Vec<f64>> {
+/// Trial limits of a brake's current, A, of which `full` is the greatest; none where hardly any
+/// flowed.
+pub fn current_limits(given: &[f64], full: f64) -> Vec<Vec<f64>> {
     match greatest(given) {
-        most if most < LEAST_LIMITED_A => Vec::new(),
+        most if most < LEAST_LIMITED * full => Vec::new(),
         most => limits(most, LIMIT_SHARES, LIMITS),
     }
 }

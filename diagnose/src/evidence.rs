@@ -164,7 +164,7 @@ pub fn inclusion(problem: &Problem, selection: &Selection, index: usize) -> f64 
 
 /// The detection limit of every mechanism that was not named.
 pub fn not_seen(problem: &Problem, selection: &Selection) -> Vec<NotSeen> {
-    let motion = problem.run.motion_kind();
+    let (motion, driving) = (problem.run.motion_kind(), problem.run.driven_by());
     let terms = refs(&selection.nominal, &selection.found);
     let taken: Vec<Cause> = terms.iter().map(|t| t.cause).collect();
     let basis: Vec<&[f64]> = free_columns(problem, &terms)
@@ -185,7 +185,7 @@ pub fn not_seen(problem: &Problem, selection: &Selection) -> Vec<NotSeen> {
                 joint: problem.run.place_name(cause.at),
                 parameter: parameter.name,
                 minimum_detectable: minimum,
-                unit: parameter.quantity.dimension(motion).to_string(),
+                unit: parameter.quantity.driven(motion, driving).to_string(),
             })
         })
         .collect()

@@ -19,6 +19,8 @@ use core::fmt::Debug;
 use rigproof_model::bench::{column, column_by_travel};
 use rigproof_model::effects::{Form, Instant, Law, entry};
 use rigproof_spec::effect::{Mechanism, Motion};
+use rigproof_spec::tables::GREATEST_CURRENT_A;
+use rigproof_spec::units::Dimension;
 
 pub use crate::align::Fault;
 pub use crate::effect::Effect;
@@ -100,6 +102,16 @@ pub trait Run: Debug + Send + Sync {
     /// Whether the plant is linear or rotary, which decides the units of its parameters.
     fn motion_kind(&self) -> Motion {
         Motion::Rotary
+    }
+
+    /// What drives a brake, which decides the unit of its limits.
+    fn driven_by(&self) -> Dimension {
+        Dimension::CURRENT
+    }
+
+    /// The greatest current of a brake's table, A, or the greatest command of its characteristic.
+    fn full_current(&self) -> f64 {
+        GREATEST_CURRENT_A
     }
 
     /// Number of equations: each window gives as many rows.

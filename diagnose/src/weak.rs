@@ -3,7 +3,7 @@
 //! differentiated.
 
 use crate::regression::dot;
-use crate::rules::{BUMP_ORDER, FEWEST_WINDOWS, MOST_DOUBT, MOST_STEP};
+use crate::rules::{BUMP_ORDER, MOST_DOUBT};
 use rigproof_model::effects::Instant;
 
 /// The test function and the windows it is applied to.
@@ -91,24 +91,11 @@ impl Windows {
         late
     }
 
-    /// Keeps windows in which a predicted effort is nearly constant, because changes of a brake are
-    /// linearised there. If these are too few, keeps those in which its uncertainty is small beside
-    /// `floor`.
-    pub fn keep_foreseen(&mut self, predicted: &[f64], doubt: &[f64], floor: f64) {
-        let steps: Vec<f64> = predicted
-            .windows(2)
-            .map(|w| (w.last().unwrap_or(&0.0) - w.first().unwrap_or(&0.0)).abs())
-            .chain([0.0])
-            .collect();
-        let below = |signal: &[f64], most: f64| -> Vec<bool> {
-            let pairs = self.usable.iter().zip(self.average(signal));
-            pairs.map(|(usable, x)| *usable && x <= most).collect()
-        };
-        let calm = below(&steps, MOST_STEP * floor);
-        self.usable = match calm.iter().filter(|u| **u).count() < FEWEST_WINDOWS {
-            true => below(doubt, MOST_DOUBT * floor),
-            false => calm,
-        };
+    /// Keeps windows in which the uncertainty of a predicted effort is small beside `floor`.
+    pub fn keep_foreseen(&mut self, doubt: &[f64], floor: f64) {
+        let doubts = self.average(doubt);
+        let pairs = self.usable.iter_mut().zip(doubts);
+        pairs.for_each(|(usable, doubt)| *usable &= doubt <= MOST_DOUBT * floor);
     }
 
     fn apply(&self, weights: &[f64], signal: &[f64], combinations: &[Vec<f64>]) -> Vec<f64> {

@@ -1,6 +1,7 @@
 //! The magnetorheological brake of thesis chapter 3: from current and motion to resisting torque.
 
 mod backlash;
+mod characteristic;
 mod current_gain;
 mod fluid;
 pub mod identify;
@@ -10,6 +11,7 @@ mod time_constant;
 mod torque_gain;
 
 pub use backlash::{Backlash, ENTRY_TRAVEL_DEG};
+pub use characteristic::Characteristic;
 pub use current_gain::current_gain;
 pub use fluid::{bingham_stress, laminae_yield_stress};
 pub use one_joint::{OneJoint, SPRING_NM_PER_DEG, VirtualSpring, WALL_NM_PER_DEG};

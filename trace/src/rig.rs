@@ -6,6 +6,7 @@
 mod apply;
 mod brake;
 pub mod chain;
+mod characteristic;
 mod column_unit;
 pub mod five_bar;
 pub mod linkage;
@@ -33,6 +34,7 @@ use crate::suggest::advice;
 
 pub use apply::{Recording, Signal};
 pub use brake::{Brake, Gain, Surface};
+pub use characteristic::Characteristic;
 pub use protocol::{Drive, Protocol};
 pub use servo::{RecordingEntry, Servo};
 
@@ -64,6 +66,8 @@ pub struct Rig {
     pub parameters: Option<Parameters>,
     /// The brake that the nominal model holds; only on a turning `bench`.
     pub brake: Option<Brake>,
+    /// The brake or damper of a `bench` by its static characteristic.
+    pub characteristic: Option<Characteristic>,
     /// The position servo that drives an `axis`: its command is a goal.
     pub servo: Option<Servo>,
     /// What single recordings state of their own.
@@ -110,7 +114,7 @@ pub struct Channels {
     pub time: Option<TimeColumn>,
     /// Displacement, m or rad.
     pub position: ChannelMap,
-    /// Drive command of an `axis`, in any unit.
+    /// Command of the drive of an `axis` or of the brake of a `bench`, in any unit.
     pub command: Option<ChannelMap>,
     /// Whether the servo of an `axis` is switched on: 1 or 0; on throughout where it is not recorded.
     pub enabled: Option<ChannelMap>,
@@ -264,18 +268,28 @@ pub struct RigEffect {
     pub of_torque: bool,
 }
 
-/// The dimension of a parameter, as an effort or as a share of a torque.
-fn dimension(parameter: &Parameter, motion: Motion, of_torque: bool) -> Dimension {
+/// The dimension of a parameter, as an effort or as a share of a torque, on a plant of which this drives the brakes.
+fn dimension(
+    parameter: &Parameter,
+    motion: Motion,
+    of_torque: bool,
+    driving: Dimension,
+) -> Dimension {
     match of_torque {
         true => parameter.quantity.dimension_of_share(motion),
-        false => parameter.quantity.dimension(motion),
+        false => parameter.quantity.driven(motion, driving),
     }
 }
 
 impl RigEffect {
-    /// The dimension of one of its parameters, on a plant that slides or turns.
+    /// The dimension of one of its parameters, on a plant that slides or turns and whose brakes are driven by currents.
     pub fn dimension(&self, parameter: &Parameter, motion: Motion) -> Dimension {
-        dimension(parameter, motion, self.of_torque)
+        self.driven(parameter, motion, Dimension::CURRENT)
+    }
+
+    /// The same where something else drives the brake.
+    pub fn driven(&self, parameter: &Parameter, motion: Motion, driving: Dimension) -> Dimension {
+        dimension(parameter, motion, self.of_torque, driving)
     }
 
     /// The value of the parameter of that name, or `None`.
@@ -327,6 +341,13 @@ impl Rig {
     /// The dimension of force or torque, whichever the rig has.
     pub fn effort(&self) -> Dimension {
         Quantity::Effort.dimension(self.motion)
+    }
+
+    /// What drives a brake: the dimension of its command; a current where it has none.
+    pub fn driving(&self) -> Dimension {
+        let command = self.channels.command.as_ref();
+        let command = command.filter(|_| self.plant == Plant::Bench);
+        command.map_or(Dimension::CURRENT, ChannelMap::dimension)
     }
 
     /// The dimension of the command gain, when the rig has a command.

@@ -6,6 +6,7 @@ use crate::problem::Problem;
 use crate::report::Number;
 use crate::selection::{Selection, refs};
 use rigproof_spec::effect::Motion;
+use rigproof_spec::units::Dimension;
 use rigproof_trace::rig::{RigEffect, Value};
 use std::collections::BTreeMap;
 
@@ -72,13 +73,16 @@ pub(crate) fn fitted(
 }
 
 /// An effect's parameters as the report prints them.
-pub fn numbers(effect: &RigEffect, motion: Motion) -> BTreeMap<String, Number> {
+pub fn numbers(
+    effect: &RigEffect,
+    (motion, driving): (Motion, Dimension),
+) -> BTreeMap<String, Number> {
     let parameters = effect.mechanism.parameters().iter().zip(&effect.values);
     parameters
         .map(|(parameter, value)| {
             (
                 parameter.name.to_owned(),
-                number(value, effect.dimension(parameter, motion).to_string()),
+                number(value, effect.driven(parameter, motion, driving).to_string()),
             )
         })
         .collect()

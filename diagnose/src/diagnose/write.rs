@@ -231,7 +231,7 @@ impl<P: Plant> Stand<'_, P> {
     /// A cause that alignment measured and mended: nothing else competes with it.
     fn mended(&self, effect: &Effect) -> Option<EffectReport> {
         let entry = entry(effect.mechanism())?;
-        let motion = self.problem.run.motion_kind();
+        let run = self.problem.run;
         let values = effect.parameters.iter().copied().map(Value::unknown);
         let stated = RigEffect {
             mechanism: effect.mechanism(),
@@ -242,7 +242,7 @@ impl<P: Plant> Stand<'_, P> {
         Some(EffectReport {
             mechanism: effect.mechanism().name(),
             joint: self.problem.run.place_name(effect.cause.at),
-            parameters: numbers(&stated, motion),
+            parameters: numbers(&stated, (run.motion_kind(), run.driven_by())),
             onset_s: None,
             onset_low95_s: None,
             onset_high95_s: None,
@@ -259,7 +259,7 @@ impl<P: Plant> Stand<'_, P> {
     /// The named effects. `fitted` holds their parameters.
     fn effects(&self, fitted: &[RigEffect]) -> Vec<EffectReport> {
         let (problem, selection) = (self.problem, self.selection);
-        let motion = problem.run.motion_kind();
+        let units = (problem.run.motion_kind(), problem.run.driven_by());
         let found = selection.found.iter().zip(fitted).enumerate();
         found
             .filter_map(|(index, (found, fitted))| {
@@ -268,7 +268,7 @@ impl<P: Plant> Stand<'_, P> {
                 Some(EffectReport {
                     mechanism: cause.mechanism.name(),
                     joint: problem.run.place_name(cause.at),
-                    parameters: numbers(fitted, motion),
+                    parameters: numbers(fitted, units),
                     onset_s: found.term.onset_s,
                     onset_low95_s: fitted.onset.and_then(|onset| onset.low95),
                     onset_high95_s: fitted.onset.and_then(|onset| onset.high95),

@@ -3,15 +3,24 @@
 
 use crate::problem::less;
 use crate::signals::{shifted, through_play};
-use rigproof_model::brake::{Brake, slowed};
+use rigproof_model::brake::{Brake, Characteristic, slowed};
 use rigproof_model::effects::{CurrentPlay, Instant, OfBrake, limited};
 use rigproof_spec::tables::BrakeTable;
 use rigproof_spec::units::RAD_PER_DEG;
 
+/// What a nominal brake computes from its current.
+#[derive(Clone, Copy)]
+pub enum BrakeLaw<'a> {
+    /// The thesis's equations, with the numbers of a table.
+    Thesis(BrakeTable),
+    /// A static characteristic. The current is then whatever its command is.
+    Characteristic(&'a Characteristic),
+}
+
 /// A brake along a recorded motion under its recorded current.
 #[derive(Clone, Copy)]
 pub struct Braked<'a> {
-    pub table: BrakeTable,
+    pub law: BrakeLaw<'a>,
     /// The motion of its joint.
     pub motion: &'a [Instant],
     /// The current of each sample, A.
@@ -26,23 +35,45 @@ pub struct Braked<'a> {
 impl Braked<'_> {
     /// The yield torque of each sample, N·m.
     pub fn yields(&self) -> Vec<f64> {
-        let start = self.motion.first().map_or(0.0, |now| now.position);
-        self.yields_of(Brake::of(self.table, start))
+        match self.law {
+            BrakeLaw::Thesis(table) => {
+                let start = self.motion.first().map_or(0.0, |now| now.position);
+                self.yields_of(Brake::of(table, start))
+            }
+            BrakeLaw::Characteristic(own) => self.follows(own),
+        }
     }
 
     /// The yield torque of each sample for a given initial state of the brake, N·m.
     pub fn yields_of(&self, mut brake: Brake) -> Vec<f64> {
         let mut own = vec![brake.yield_torque()];
-        let currents = self.current.iter().zip(self.current.iter().skip(1));
-        for ((before, current), now) in currents.zip(self.motion.iter().skip(1)) {
-            let acting = match self.held {
-                true => *before,
-                false => 0.5 * (before + current),
-            };
+        for (acting, now) in self.acting().zip(self.motion.iter().skip(1)) {
             brake.step(acting, now.position, now.speed, self.step_s);
             own.push(brake.yield_torque());
         }
         own
+    }
+
+    /// The effort of each sample by a characteristic, settled at the first.
+    fn follows(&self, law: &Characteristic) -> Vec<f64> {
+        let Some(first) = self.current.first() else {
+            return Vec::new();
+        };
+        let mut effort = law.settled(*first);
+        let next = self.acting().map(|acting| {
+            effort = law.next(effort, acting, self.step_s);
+            effort
+        });
+        [law.settled(*first)].into_iter().chain(next).collect()
+    }
+
+    /// The current that acts between each sample and the next, A.
+    fn acting(&self) -> impl Iterator<Item = f64> {
+        let currents = self.current.iter().zip(self.current.iter().skip(1));
+        currents.map(|(before, current)| match self.held {
+            true => *before,
+            false => 0.5 * (before + current),
+        })
     }
 
     /// The change that a mechanism makes to the yield torque `own`, N·m.
@@ -51,7 +82,7 @@ impl Braked<'_> {
     pub fn change(&self, own: &[f64], kind: OfBrake, shape: &[f64]) -> Option<Vec<f64>> {
         let value = *shape.first()?;
         let given = |current: &[f64]| less(&Braked { current, ..*self }.yields(), own);
-        let built = |table: BrakeTable| less(&Braked { table, ..*self }.yields(), own);
+        let built = |law: BrakeLaw| less(&Braked { law, ..*self }.yields(), own);
         let each = |of: &dyn Fn(f64) -> f64| -> Vec<f64> {
             let current = self.current.iter();
             given(&current.map(|i| of(*i)).collect::<Vec<_>>())
@@ -60,11 +91,19 @@ impl Braked<'_> {
             OfBrake::DeadTime => given(&shifted(self.current, -value / self.step_s)),
             OfBrake::Saturation => each(&|current| limited(current, shape)),
             OfBrake::CurrentGain => each(&|current| value * current),
-            OfBrake::TimeConstant => built(slowed(self.table, value)),
-            OfBrake::BacklashWidth => built(BrakeTable {
-                backlash_width_deg: value / RAD_PER_DEG,
-                ..self.table
-            }),
+            OfBrake::TimeConstant => match self.law {
+                BrakeLaw::Thesis(table) => built(BrakeLaw::Thesis(slowed(table, value))),
+                BrakeLaw::Characteristic(law) => {
+                    built(BrakeLaw::Characteristic(&law.slowed(value)))
+                }
+            },
+            OfBrake::BacklashWidth => match self.law {
+                BrakeLaw::Thesis(table) => built(BrakeLaw::Thesis(BrakeTable {
+                    backlash_width_deg: value / RAD_PER_DEG,
+                    ..table
+                })),
+                BrakeLaw::Characteristic(_) => return None,
+            },
             OfBrake::CurrentHysteresis => {
                 let number = |place: usize| shape.get(place).copied().unwrap_or(0.0);
                 let play = CurrentPlay {

@@ -79,8 +79,8 @@ rules! {
     MOST_DELAY_S: f64 = 0.08, "s", FIVE_BAR;
     /// A brake: delays that are tried.
     DELAYS: usize = 8, "times", FIVE_BAR;
-    /// A brake whose current never reached this has no current limit to find.
-    LEAST_LIMITED_A: f64 = 0.05, "A", FIVE_BAR;
+    /// A brake whose current never reached this share of its greatest one has no current limit to find.
+    LEAST_LIMITED: f64 = 0.05, "share", FIVE_BAR;
     /// A brake: lowest and highest current limit that is tried, as shares of the greatest current.
     LIMIT_SHARES: [f64; 2] = [0.3, 0.97], "share", FIVE_BAR;
     /// A brake: sharp limits of the current that are tried; on every plant limits to which a command bends.

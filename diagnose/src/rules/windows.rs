@@ -25,8 +25,6 @@ rules! {
     MOST_AMBIGUOUS: f64 = 0.002, "share", AXIS_BENCH;
     /// Greatest contribution, in noise floors, of a friction as large as the whole effort (axis, bench) or of the brakes (five-bar) where the direction of motion is unknown.
     MOST_UNTOLD: f64 = 0.5, "floors", BOTH;
-    /// A window is used if the predicted effort changes from sample to sample by at most this on average.
-    MOST_STEP: f64 = 0.5, "floors", AXIS_BENCH;
     /// A window is used if the predicted effort may be wrong by at most this on average.
     MOST_DOUBT: f64 = 0.5, "floors", "bench, brakes that change as foreseen (decision 0153)";
     /// Fewest windows from which anything is concluded.

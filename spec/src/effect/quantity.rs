@@ -98,6 +98,14 @@ impl Quantity {
         }
     }
 
+    /// The dimension on a plant whose brakes may be driven by something else than a current.
+    pub const fn driven(self, motion: Motion, driving: Dimension) -> Dimension {
+        match self {
+            Quantity::Current => driving,
+            other => other.dimension(motion),
+        }
+    }
+
     /// The dimension of a value that is a share of an effort: over that effort where it is one.
     pub const fn dimension_of_share(self, motion: Motion) -> Dimension {
         let own = self.dimension(motion);

@@ -23,7 +23,7 @@ pub struct Recording {
     pub time_s: Vec<f64>,
     /// Displacement, m or rad.
     pub position: Signal,
-    /// What drives the plant: the command of an axis in its SI unit, the current of a bench in A.
+    /// What drives the plant: the command of an axis or a bench in its SI unit, or the current of a bench in A.
     pub drive: Option<Signal>,
     /// Whether the servo is switched on: 1 or 0.
     pub enabled: Option<Signal>,
@@ -129,6 +129,7 @@ impl Rig {
         let channels = &self.channels;
         let drive = match self.plant {
             Plant::Axis => &channels.command,
+            Plant::Bench if channels.command.is_some() => &channels.command,
             Plant::Bench => &channels.current,
         };
         let others = [

@@ -186,7 +186,7 @@ impl ChainRig {
             })?;
             Ok(AtJoint {
                 joint: joint.to_owned(),
-                effect: read_effect(table, own.motion, &["joint"])?,
+                effect: read_effect(table, (own.motion, Dimension::CURRENT), &["joint"])?,
             })
         });
         let channels = root.table("channels")?;
@@ -297,7 +297,7 @@ impl ChainRig {
         for own in &self.effects {
             let joint = self.joints.iter().find(|joint| joint.name == own.joint);
             let motion = joint.map_or(Motion::Rotary, |joint| joint.motion);
-            let mut effect = effect_lines(&own.effect, motion).into_iter();
+            let mut effect = effect_lines(&own.effect, (motion, Dimension::CURRENT)).into_iter();
             lines.extend(effect.by_ref().take(2));
             lines.push(format!("joint = {}", string(&own.joint)));
             lines.extend(effect);

@@ -94,6 +94,8 @@ impl FiveBarRecording {
 
 const THETA: [&str; 2] = ["theta_a", "theta_b"];
 const FORCE: [&str; 2] = ["force_x", "force_y"];
+/// Its joints turn, and currents drive its brakes.
+const ON_THE_RIG: (Motion, Dimension) = (Motion::Rotary, Dimension::CURRENT);
 const CURRENT: [&str; 4] = ["current_a", "current_e", "current_b", "current_c"];
 
 /// The name of a layout in files.
@@ -164,7 +166,7 @@ impl FiveBar {
                 true => Some(choice(table, "axis", [0, 1], axis_name)?),
                 false => None,
             };
-            let effect = read_effect(table, Motion::Rotary, &["joint", "axis", "of"])?;
+            let effect = read_effect(table, ON_THE_RIG, &["joint", "axis", "of"])?;
             Ok(JointEffect {
                 joint,
                 axis,
@@ -306,7 +308,7 @@ impl FiveBar {
         lines.extend(text::lines(&self.text));
         for own in &self.effects {
             let JointEffect { joint, axis, .. } = own;
-            let mut effect = effect_lines(&own.effect, Motion::Rotary).into_iter();
+            let mut effect = effect_lines(&own.effect, ON_THE_RIG).into_iter();
             lines.extend(effect.by_ref().take(2));
             lines.extend(joint.map(|joint| format!("joint = {}", string(joint.letter()))));
             lines.extend(axis.map(|axis| format!("axis = {}", string(axis_name(axis)))));

@@ -9,8 +9,8 @@ use rigproof_spec::units::{Dimension, Unit};
 use super::PLANTS;
 use super::table::{Source, Table};
 use super::{
-    Brake, ChannelMap, Channels, Parameters, Plant, Protocol, RecordingEntry, Rig, RigEffect,
-    Servo, Status, Value, dimension, motion_name, text,
+    Brake, ChannelMap, Channels, Characteristic, Parameters, Plant, Protocol, RecordingEntry, Rig,
+    RigEffect, Servo, Status, Value, dimension, motion_name, text,
 };
 use crate::csv::TimeColumn;
 use crate::error::TraceError;
@@ -35,6 +35,7 @@ impl Rig {
             "text",
             "parameters",
             "brake",
+            "characteristic",
             "servo",
             "recording",
             "effect",
@@ -58,12 +59,18 @@ impl Rig {
         if servo.is_some() {
             check_servo(&root, &channels, motion)?;
         }
+        let characteristic = read_characteristic(&root, plant, motion, &channels)?;
+        let driving = match (plant, &channels.command) {
+            (Plant::Bench, Some(command)) => command.dimension(),
+            _ => Dimension::CURRENT,
+        };
         Ok(Rig {
             name,
             plant,
             motion,
             source: root.text("source")?.map(str::to_string),
-            parameters: read_parameters(&root, motion, &channels, servo.is_some())?,
+            parameters: read_parameters(&root, (plant, motion), &channels, servo.is_some())?,
+            characteristic,
             brake: Brake::read(&root, motion, channels.current.as_ref())?,
             recordings: RecordingEntry::read_all(&root, servo.is_some())?,
             servo,
@@ -71,8 +78,8 @@ impl Rig {
                 .tables("effect")?
                 .iter()
                 .map(|table| match plant {
-                    Plant::Bench => read_effect(table, motion, &["of"]),
-                    Plant::Axis => read_effect(table, motion, &[]),
+                    Plant::Bench => read_effect(table, (motion, driving), &["of"]),
+                    Plant::Axis => read_effect(table, (motion, driving), &[]),
                 })
                 .collect::<Result<_, _>>()?,
             protocol: Protocol::read(&root)?,
@@ -94,6 +101,28 @@ fn plant(root: &Table<'_>) -> Result<Plant, TraceError> {
             format!("`{word}` is no plant of one joint; give `axis` or `bench` here"),
         )
     })
+}
+
+/// The characteristic of a brake. A command of a bench acts through one, and a brake has one description.
+fn read_characteristic(
+    root: &Table<'_>,
+    plant: Plant,
+    motion: Motion,
+    channels: &Channels,
+) -> Result<Option<Characteristic>, TraceError> {
+    let is_bench = plant == Plant::Bench;
+    let drive = channels.command.as_ref().or(channels.current.as_ref());
+    let driving = drive.filter(|_| is_bench).map(ChannelMap::dimension);
+    let effort = is_bench.then(|| Quantity::Effort.dimension(motion));
+    let own = Characteristic::read(root, [driving, effort])?;
+    if own.is_some() && root.has("brake") {
+        let problem = "`[characteristic]` and `[brake]` describe the same brake; give one";
+        return Err(root.error_at("characteristic", problem));
+    }
+    match is_bench && channels.command.is_some() {
+        true => root.need("characteristic", own).map(Some),
+        false => Ok(own),
+    }
 }
 
 /// A servo's goal is a position of an axis.
@@ -146,6 +175,7 @@ fn read_channels(table: &Table<'_>, plant: Plant, motion: Motion) -> Result<Chan
             "position",
             "force",
             "torque",
+            "command",
             "current",
             "simulated",
         ],
@@ -158,6 +188,11 @@ fn read_channels(table: &Table<'_>, plant: Plant, motion: Motion) -> Result<Chan
     };
     if table.has("torque") && table.has("force") {
         return Err(table.error_at("torque", "`force` and `torque` are the same role; give one"));
+    }
+    if plant == Plant::Bench && table.has("command") && table.has("current") {
+        let problem =
+            "`command` and `current` are the same role; give what the characteristic is over";
+        return Err(table.error_at("command", problem));
     }
     let travel = Quantity::Travel.dimension(motion);
     let position = read_channel(table, "position", Some(travel))?;
@@ -265,12 +300,13 @@ fn read_column_unit(table: &Table<'_>, unit: Unit) -> Result<Option<String>, Tra
 
 fn read_parameters(
     root: &Table<'_>,
-    motion: Motion,
+    (plant, motion): (Plant, Motion),
     channels: &Channels,
     is_servo: bool,
 ) -> Result<Option<Parameters>, TraceError> {
     let table = root.table("parameters")?;
-    let Some(command) = channels.command.as_ref() else {
+    let command = channels.command.as_ref();
+    let Some(command) = command.filter(|_| plant == Plant::Axis) else {
         return match table {
             Some(table) => table.only(&[]).map(|()| None),
             None => Ok(None),
@@ -295,10 +331,11 @@ fn read_parameters(
     }))
 }
 
-/// A mechanism with its parameters; `other_keys` are read by somebody else.
+/// A mechanism with its parameters, on a plant that slides or turns and whose brakes are driven by something;
+/// `other_keys` are read by somebody else.
 pub(super) fn read_effect(
     table: &Table<'_>,
-    motion: Motion,
+    (motion, driving): (Motion, Dimension),
     other_keys: &[&str],
 ) -> Result<RigEffect, TraceError> {
     let word = table.need("mechanism", table.text("mechanism")?)?;
@@ -322,7 +359,7 @@ pub(super) fn read_effect(
     }
     let mut values = Vec::with_capacity(parameters.len());
     for parameter in parameters {
-        let dimension = dimension(parameter, motion, of_torque);
+        let dimension = dimension(parameter, motion, of_torque, driving);
         let value = read_value(table, parameter.name, dimension)?;
         if parameter.is_optional && value.is_none() {
             break;

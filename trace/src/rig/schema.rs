@@ -13,7 +13,7 @@ use rigproof_spec::joint::Joint;
 use serde_json::{Value, json};
 
 use shape::{above_zero, defined, list, not_below_zero, object, one_of, text};
-use tables::{brake, channel, channels, common, effect, effects, protocol, value};
+use tables::{brake, channel, channels, characteristic, common, effect, effects, protocol, value};
 
 /// One driven joint, or one brake or damper at an imposed motion.
 fn one_joint(is_axis: bool) -> Value {
@@ -57,13 +57,30 @@ fn one_joint(is_axis: bool) -> Value {
         keys.push(("recording", recordings()));
         required.push("parameters");
     } else {
-        let roles = ["position", "force", "torque", "current", "simulated"];
+        let roles = [
+            "position",
+            "force",
+            "torque",
+            "command",
+            "current",
+            "simulated",
+        ];
         let mut own = channels("What the channels mean.", &roles, &["position"]);
         own["oneOf"] = json!([{ "required": ["force"] }, { "required": ["torque"] }]);
+        own["dependentSchemas"] = json!({ "command": { "properties": { "current": false } } });
         keys.push(("channels", own));
         keys.push(("brake", brake()));
+        keys.push(("characteristic", characteristic()));
     }
-    object(None, keys, &required)
+    let mut whole = object(None, keys, &required);
+    if !is_axis {
+        let commanded = json!({ "properties": { "channels": { "required": ["command"] } } });
+        whole["if"] = commanded;
+        whole["then"] = json!({ "required": ["characteristic"] });
+        whole["dependentSchemas"] =
+            json!({ "characteristic": { "properties": { "brake": false } } });
+    }
+    whole
 }
 
 /// A position servo as the drive of a joint.

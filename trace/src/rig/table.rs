@@ -177,20 +177,34 @@ impl<'a> Table<'a> {
     /// # Errors
     /// It is something else, or not finite.
     pub fn number(&self, key: &str) -> Result<Option<f64>, TraceError> {
-        let number = self.typed(key, "a number", |value| {
-            let integer = || value.as_integer().filter(|n| n.radix() == 10);
-            let float = value.as_float().map(|n| n.as_str());
-            float
-                .or_else(|| integer().map(|n| n.as_str()))?
-                .parse()
-                .ok()
-        })?;
+        let number = self.typed(key, "a number", number)?;
         match number {
             Some(number) if !f64::is_finite(number) => {
                 Err(self.error_at(key, format!("`{key}` is {number}; give a finite number")))
             }
             _ => Ok(number),
         }
+    }
+
+    /// The numbers of a list, if it is there.
+    ///
+    /// # Errors
+    /// It is something else, or holds something else.
+    pub fn numbers(&self, key: &str) -> Result<Option<Vec<f64>>, TraceError> {
+        let Some(list) = self.typed(key, "a list of numbers", DeValue::as_array)? else {
+            return Ok(None);
+        };
+        let number = |item: &Spanned<DeValue<'_>>| {
+            let own = number(item.get_ref()).filter(|own| own.is_finite());
+            own.ok_or_else(|| {
+                let found = item.get_ref().type_str();
+                let problem = format!(
+                    "`{key}` holds something of type {found}; give numbers that are finite"
+                );
+                self.source.error(item.span().start, problem)
+            })
+        };
+        list.iter().map(number).collect::<Result<_, _>>().map(Some)
     }
 
     /// A number above zero, if it is there.
@@ -282,4 +296,13 @@ impl<'a> Table<'a> {
         let wrong = || self.error_at(key, format!("`{key}` is of type {found}; give {expected}"));
         read(value.get_ref()).map(Some).ok_or_else(wrong)
     }
+}
+
+fn number(value: &DeValue<'_>) -> Option<f64> {
+    let integer = || value.as_integer().filter(|n| n.radix() == 10);
+    let float = value.as_float().map(|n| n.as_str());
+    float
+        .or_else(|| integer().map(|n| n.as_str()))?
+        .parse()
+        .ok()
 }

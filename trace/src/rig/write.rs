@@ -39,10 +39,13 @@ impl Rig {
             ));
         }
         lines.extend(self.brake.iter().flat_map(Brake::lines));
+        let dimensions = [self.driving(), self.effort()];
+        let characteristic = self.characteristic.iter();
+        lines.extend(characteristic.flat_map(|own| own.lines(dimensions)));
         lines.extend(self.servo.iter().flat_map(Servo::lines));
         lines.extend(self.recordings.iter().flat_map(RecordingEntry::lines));
         for effect in &self.effects {
-            lines.extend(effect_lines(effect, self.motion));
+            lines.extend(effect_lines(effect, (self.motion, self.driving())));
         }
         lines.extend(self.protocol.lines());
         lines.extend(provenance_lines(&self.provenance));
@@ -86,14 +89,17 @@ pub(super) fn provenance_lines(provenance: &BTreeMap<String, String>) -> Vec<Str
 }
 
 /// The title of the table, the mechanism, then its parameters.
-pub(super) fn effect_lines(effect: &RigEffect, motion: Motion) -> Vec<String> {
+pub(super) fn effect_lines(
+    effect: &RigEffect,
+    (motion, driving): (Motion, Dimension),
+) -> Vec<String> {
     let mut lines = vec![
         "\n[[effect]]".to_owned(),
         format!("mechanism = {}", string(effect.mechanism.name())),
     ];
     lines.extend(effect.of_torque.then(|| "of = \"torque\"".to_owned()));
     for (parameter, number) in effect.mechanism.parameters().iter().zip(&effect.values) {
-        let dimension = effect.dimension(parameter, motion);
+        let dimension = effect.driven(parameter, motion, driving);
         lines.push(format!("{} = {}", parameter.name, value(number, dimension)));
     }
     let onset = effect.onset.as_ref();

@@ -18,6 +18,7 @@ use crate::weak::Windows;
 use rigproof_model::effects::facts::{Family, Shapes, Where};
 use rigproof_model::effects::{Entry, Form, LIBRARY, OfSensor, entry, facts, form};
 use rigproof_spec::joint::Joint;
+use rigproof_spec::tables::GREATEST_CURRENT_A;
 use std::f64::consts::TAU;
 
 /// The causes that have a meaning on this layout.
@@ -181,7 +182,9 @@ fn points(run: &FiveBarRun, cause: Cause, windows: &Windows, residual: &[f64]) -
 fn limits(run: &FiveBarRun, cause: Cause) -> Vec<Vec<f64>> {
     let joint = joint_at(cause.at);
     let current = joint.and_then(|joint| run.currents.get(place(joint))?.as_ref());
-    current.map_or(Vec::new(), |current| current_limits(current))
+    current.map_or(Vec::new(), |current| {
+        current_limits(current, GREATEST_CURRENT_A)
+    })
 }
 
 /// The trial shapes of a cause.
@@ -226,7 +229,9 @@ pub fn shapes(
         )),
         Shapes::Delay => one(geometric(run.step_s, MOST_DELAY_S, DELAYS)),
         Shapes::CurrentLimit => limits(run, cause),
-        Shapes::CurrentPlay { low, high, count } => plays(&geometric(low, high, count), &CLOSING_A),
+        Shapes::CurrentPlay { low, high, count } => {
+            plays(&geometric(low, high, count), &CLOSING_A, GREATEST_CURRENT_A)
+        }
         Shapes::Shift => one(both_signs(geometric(
             LEAST_SHIFT_STEPS_FIVE_BAR * run.step_s,
             MOST_SHIFT_S_FIVE_BAR.max(MOST_SHIFT_STEPS * run.step_s),

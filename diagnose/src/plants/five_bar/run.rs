@@ -8,7 +8,7 @@ use crate::cause::{Cause, JointId, Place};
 use crate::continuity::Remark;
 use crate::locate::Regimes;
 use crate::plant::{Clock, Columns, Rules, Run};
-use crate::plants::brake::Braked;
+use crate::plants::brake::{BrakeLaw, Braked};
 use crate::rules::{QUIET_NM, WIDTHS_S};
 use crate::signals::known_travel;
 use crate::weak::Windows;
@@ -155,7 +155,7 @@ impl FiveBarRun {
     /// The brake of a joint along its motion; `None` at a joint without one.
     pub fn braked(&self, joint: Joint) -> Option<Braked<'_>> {
         Some(Braked {
-            table: brake_table(joint),
+            law: BrakeLaw::Thesis(brake_table(joint)),
             motion: self.motion_of(joint),
             current: self.currents.get(place(joint))?.as_ref()?,
             held: true,

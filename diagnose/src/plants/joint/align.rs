@@ -102,7 +102,7 @@ pub fn align(recorded: &Signals) -> Result<JointRun, Fault> {
         effort,
         predicted,
         current,
-        table: None,
+        law: None,
         position_noise,
         effort_noise,
         recorded: pairs.map(|(a, b)| a && b).collect(),

@@ -7,10 +7,11 @@ use crate::align::{Fault, forget_sense_near_reversals};
 use crate::cause::Cause;
 use crate::effect::Effect;
 use crate::plant::Clock;
-use crate::plants::joint::run::{JointRun, PlantKind};
+use crate::plants::joint::run::{JointBrake, JointRun, PlantKind};
 use crate::plants::joint::simulate::{Interpolation, Model, Protocol};
 use crate::rules::STILL_NOISES;
-use rigproof_trace::rig::{Drive, Plant as RigPlant, Recording, Rig, Signal, Status};
+use rigproof_model::brake::Characteristic;
+use rigproof_trace::rig::{Drive, Plant as RigPlant, Recording, Rig, Signal, Status, Value};
 
 /// Aligns a recording as its sensors show it.
 ///
@@ -34,8 +35,8 @@ pub(super) fn bare(
     }
     run.inertia = inertia(rig);
     run.described = nominal(rig);
-    if let (Some(brake), Some(current)) = (&rig.brake, &run.current) {
-        run.table = Some(brake.table());
+    run.law = brake(rig);
+    if let (Some(_), Some(current)) = (&run.law, &run.current) {
         // This comes before the directions near reversals are discarded, since a lag follows the
         // yield torque through a reversal.
         run.predicted = run.braked(current);
@@ -122,6 +123,25 @@ fn stamps(time_s: &[f64]) -> Clock {
         start_s: 0.0,
         samples,
     }
+}
+
+/// The nominal brake of a bench.
+fn brake(rig: &Rig) -> Option<JointBrake> {
+    let seconds = |own: &Option<Value>| own.map(|own| own.value);
+    let characteristic = rig.characteristic.as_ref().map(|own| {
+        let rising_s = seconds(&own.rising).unwrap_or(0.0);
+        let law = Characteristic {
+            points: own.points.clone(),
+            rising_s,
+            falling_s: seconds(&own.falling).unwrap_or(rising_s),
+        };
+        JointBrake::Characteristic(law, rig.driving())
+    });
+    let table = rig
+        .brake
+        .as_ref()
+        .map(|own| JointBrake::Thesis(own.table()));
+    characteristic.or(table)
 }
 
 pub(crate) fn inertia(rig: &Rig) -> Inertia {

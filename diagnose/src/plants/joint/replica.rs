@@ -41,7 +41,7 @@ pub(crate) fn replica(
             own.position.samples = run.motion.iter().map(|now| now.position).collect();
             set(&mut own.force, out.into_iter());
             set(&mut own.drive, run.current.into_iter().flatten());
-            if run.table.is_none() {
+            if run.law.is_none() {
                 set(&mut own.simulated, run.predicted.into_iter().flatten());
             }
         }

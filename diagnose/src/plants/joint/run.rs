@@ -13,7 +13,7 @@ use crate::effect::Effect;
 use crate::filter::rms;
 use crate::locate::{self, Regimes};
 use crate::plant::{Clock, Columns, Run};
-use crate::plants::brake::Braked;
+use crate::plants::brake::{BrakeLaw, Braked};
 use crate::problem::add;
 use crate::rules::{
     LEAST_STEPS_AXIS, LEAST_STEPS_BENCH, MOST_AMBIGUOUS, MOST_NOISE, MOST_UNTOLD, PERIODS_A_WIDTH,
@@ -21,10 +21,12 @@ use crate::rules::{
 };
 use crate::signals::second_difference;
 use crate::weak::{Windows, is_recorded, untold};
+use rigproof_model::brake::Characteristic;
 use rigproof_model::effects::facts::Shapes;
 use rigproof_model::effects::{Drive, Form, Instant, OfSensor, facts, form};
 use rigproof_spec::effect::{Mechanism, Motion};
-use rigproof_spec::tables::BrakeTable;
+use rigproof_spec::tables::{BrakeTable, GREATEST_CURRENT_A};
+use rigproof_spec::units::Dimension;
 
 /// The kind of plant, which decides the equation that a recording obeys.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,6 +35,15 @@ pub enum PlantKind {
     Axis,
     /// Imposed motion: the residual is the metered effort less the resistance.
     Bench,
+}
+
+/// The nominal brake of a bench.
+#[derive(Clone, Debug)]
+pub enum JointBrake {
+    /// The thesis's, with the numbers of a table.
+    Thesis(BrakeTable),
+    /// A static characteristic over a command in the unit of this dimension.
+    Characteristic(Characteristic, Dimension),
 }
 
 /// An aligned recording in SI units. Every vector has one value per sample.
@@ -61,10 +72,10 @@ pub struct JointRun {
     pub effort: Vec<f64>,
     /// Bench: the effort that the nominal model predicts (from a brake or an external simulation).
     pub predicted: Option<Vec<f64>>,
-    /// Bench: the current, A.
+    /// Bench: the current, A, or the command of a characteristic.
     pub current: Option<Vec<f64>>,
     /// Bench: the brake whose torque is predicted.
-    pub table: Option<BrakeTable>,
+    pub law: Option<JointBrake>,
     /// Standard deviation of one position sample, m or rad.
     pub position_noise: f64,
     /// Standard deviation of one effort sample, N or N·m.
@@ -106,7 +117,7 @@ impl JointRun {
         }
     }
 
-    /// The torque of the thesis's brake along the recorded motion for a current in A; N·m. `None`
+    /// The torque of the brake along the recorded motion for a current in A; N·m. `None`
     /// without a brake.
     pub fn braked(&self, current: &[f64]) -> Option<Vec<f64>> {
         self.braked_along(&self.motion, current)
@@ -142,10 +153,13 @@ impl JointRun {
         Some(torques.map(|(now, torque)| torque * now.sense).collect())
     }
 
-    /// The thesis's brake along the recorded motion for a current in A. `None` without a brake.
+    /// The brake along the recorded motion for a current in A. `None` without a brake.
     pub fn brake_along<'a>(&'a self, current: &'a [f64]) -> Option<Braked<'a>> {
         Some(Braked {
-            table: self.table?,
+            law: match self.law.as_ref()? {
+                JointBrake::Thesis(table) => BrakeLaw::Thesis(*table),
+                JointBrake::Characteristic(own, _) => BrakeLaw::Characteristic(own),
+            },
             motion: &self.motion,
             current,
             held: self.held,
@@ -187,7 +201,7 @@ impl JointRun {
             effort: part(&self.effort),
             predicted: self.predicted.as_ref().map(part),
             current: self.current.as_ref().map(part),
-            table: self.table,
+            law: self.law.clone(),
             position_noise: self.position_noise,
             effort_noise: self.effort_noise,
             recorded: self.recorded.get(from..to).unwrap_or_default().to_vec(),
@@ -252,6 +266,20 @@ impl Run for JointRun {
         self.kind
     }
 
+    fn driven_by(&self) -> Dimension {
+        match &self.law {
+            Some(JointBrake::Characteristic(_, driving)) => *driving,
+            _ => Dimension::CURRENT,
+        }
+    }
+
+    fn full_current(&self) -> f64 {
+        match &self.law {
+            Some(JointBrake::Characteristic(own, _)) => own.greatest_command(),
+            _ => GREATEST_CURRENT_A,
+        }
+    }
+
     fn slice(&self, from: usize, to: usize) -> Option<Box<dyn Run>> {
         Some(Box::new(self.part(from, to)))
     }
@@ -299,8 +327,8 @@ impl Run for JointRun {
         if self.plant == PlantKind::Axis {
             windows.keep(most(MOST_UNTOLD * floor / rms(&self.effort).max(1e-300)));
         }
-        if let (Some((predicted, _)), Some(doubt)) = (self.brake(), self.brake_doubt()) {
-            windows.keep_foreseen(predicted, &doubt, floor);
+        if let Some(doubt) = self.brake_doubt() {
+            windows.keep_foreseen(&doubt, floor);
         }
     }
 

@@ -96,8 +96,8 @@ pub(super) fn not_computed(rig: &Rig) -> Option<String> {
 fn reason(rig: &Rig, effect: &Effect) -> Option<String> {
     let is_axis = rig.plant == Plant::Axis;
     let has_current = rig.channels.current.is_some();
-    let has_brake = rig.brake.is_some() && has_current;
-    let has_prediction = rig.brake.is_some() || rig.channels.simulated.is_some();
+    let has_brake = rig.brake.is_some() && has_current || rig.characteristic.is_some();
+    let has_prediction = has_brake || rig.channels.simulated.is_some();
     let share = effect.value(0);
     let no_meaning = || {
         let plant = rig.plant.name();
@@ -108,7 +108,7 @@ fn reason(rig: &Rig, effect: &Effect) -> Option<String> {
     match form(effect.mechanism()) {
         _ if is_of_brake(effect.cause) => match has_brake {
             true => None,
-            false => Some("needs a bench with a brake and its current".to_owned()),
+            false => Some("needs a bench with a brake and what drives it".to_owned()),
         },
         Some(Form::Resistance(_)) => None,
         Some(Form::Drive(Drive::Lag | Drive::Skew)) => None,

@@ -95,7 +95,7 @@ pub fn nominal_numbers(rig: &Rig, calibration: &Rig) -> BTreeMap<String, Number>
         out.insert("inertia".to_owned(), number(&parameters.inertia, unit));
     }
     for effect in calibration.effects.iter().take(rig.effects.len()) {
-        for (name, number) in numbers(effect, rig.motion) {
+        for (name, number) in numbers(effect, (rig.motion, rig.driving())) {
             out.insert(format!("{}.{name}", effect.mechanism.name()), number);
         }
     }

@@ -260,6 +260,7 @@ prop_compose! {
             protocol: Protocol { drive, start_samples, substeps, warm_up_periods },
             parameters: Some(Parameters { inertia, command_gain }),
             brake: None,
+            characteristic: None,
             servo: None,
             recordings: Vec::new(),
             text,

@@ -208,6 +208,34 @@ pub fn brake() -> Value {
     whole
 }
 
+/// The static characteristic of a brake or damper.
+pub fn characteristic() -> Value {
+    let numbers = |about: &str| {
+        let points = list(about, json!({ "type": "number" }));
+        object(
+            None,
+            vec![("points", points), ("unit", text("Their unit."))],
+            &["points", "unit"],
+        )
+    };
+    let keys = vec![
+        ("command", numbers("Commands that grow, at least 2.")),
+        (
+            "effort",
+            numbers("The effort at which the brake settles under each of them."),
+        ),
+        ("rising", defined("value")),
+        ("falling", defined("value")),
+    ];
+    object(
+        Some(
+            "A brake or damper of any kind: its effort over its command, straight between the points, and the time constants with which it follows.",
+        ),
+        keys,
+        &["command", "effort"],
+    )
+}
+
 /// The channels of a plant.
 pub fn channels(about: &str, roles: &[&'static str], required: &[&str]) -> Value {
     let time = object(

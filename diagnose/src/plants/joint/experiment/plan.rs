@@ -7,6 +7,7 @@ use crate::plant::Run;
 use crate::rules::{DURATION_S, STILL_SIGMAS};
 use core::f64::consts::TAU;
 use rigproof_spec::effect::Quantity;
+use rigproof_spec::units::Dimension;
 use rigproof_trace::rig::Rig;
 use rigproof_trace::{Channel, Trace};
 
@@ -58,15 +59,24 @@ pub fn plans(run: &JointRun) -> Vec<Plan> {
 }
 
 fn plan(run: &JointRun, (change, words): &(Change, &str), current_a: Option<f64>) -> Plan {
+    let (what, unit) = (drive_word(run), run.driven_by());
     let held = match current_a {
-        Some(0.0) => ", without current".to_owned(),
-        Some(current_a) => format!(", with the current held at {current_a:.2} A"),
+        Some(0.0) => format!(", without {what}"),
+        Some(current_a) => format!(", with the {what} held at {current_a:.2} {unit}"),
         None => String::new(),
     };
     Plan {
         words: format!("repeat the recorded motion {words}{held}"),
         current_a,
         run: changed(run, *change, current_a),
+    }
+}
+
+/// What drives a brake, in a word.
+fn drive_word(run: &JointRun) -> &'static str {
+    match run.driven_by() == Dimension::CURRENT {
+        true => "current",
+        false => "command",
     }
 }
 
@@ -153,8 +163,8 @@ impl Plan {
             samples: self.run.position.clone(),
         };
         let current = self.run.current.iter().map(|own| Channel {
-            name: "current".to_owned(),
-            unit: "A".to_owned(),
+            name: drive_word(&self.run).to_owned(),
+            unit: self.run.driven_by().to_string(),
             samples: own.clone(),
         });
         Trace {
