@@ -8,7 +8,9 @@ use rigproof_impl::plant::effect::{Asked, Law};
 use rigproof_impl::vector::Vector;
 use rigproof_model::brake::slowed;
 use rigproof_model::effects::facts::{AtRest, Family};
-use rigproof_model::effects::{Drive, Form, OfBrake, OfLinkage, OfSensor, entry, form, law};
+use rigproof_model::effects::{
+    Drive, Form, OfBrake, OfLinkage, OfSensor, entry, form, law, slower,
+};
 use rigproof_model::motion::added_mass;
 use rigproof_spec::effect::Mechanism;
 use rigproof_spec::joint::Joint;
@@ -116,6 +118,8 @@ pub fn role(mechanism: Mechanism) -> Option<Role> {
             | OfBrake::Saturation
             | OfBrake::CurrentGain,
         ) => Some(Role::Drive),
+        // Of a brake that is stated otherwise than the rig's.
+        Form::Brake(OfBrake::CommandExponent) => None,
         Form::Linkage(OfLinkage::Payload | OfLinkage::Inertias | OfLinkage::InertiaScale) => {
             Some(Role::Masses)
         }
@@ -209,7 +213,9 @@ pub fn change(parameters: &mut Parameters, left_out: &[LeftOut]) -> Option<()> {
                 let table = parameters.brakes.get_mut(one.joint? as usize)?.as_mut()?;
                 match form(one.mechanism)? {
                     Form::Drive(_) => scale_torque(table, 1.0 + one.number(0)),
-                    Form::Brake(OfBrake::TimeConstant) => *table = slowed(*table, one.number(0)),
+                    Form::Brake(OfBrake::TimeConstant) => {
+                        *table = slowed(*table, slower(&one.parameters))
+                    }
                     _ => table.backlash_width_deg = deg_from_rad(one.number(0)),
                 }
             }

@@ -199,6 +199,11 @@ pub fn standard_shapes<R: Run + ?Sized>(
         Shapes::CurrentLimit => run.brake().map_or(Vec::new(), |(_, own)| {
             current_limits(own, run.full_current())
         }),
+        Shapes::Edges { low, high, count } => edges(&geometric(low, high, count)),
+        Shapes::CommandExponent(exponents) => exponents
+            .iter()
+            .map(|exponent| vec![*exponent, run.full_current()])
+            .collect(),
         // A spring to an anchor needs a plane.
         Shapes::Anchor => vec![vec![]],
         own @ (Shapes::None
@@ -228,6 +233,13 @@ pub fn plays(widths: &[f64], closing_a: &[f64], full: f64) -> Vec<Vec<f64>> {
         .flat_map(|width| PLAYED_SHARES.map(|share| (*width, share)));
     pairs
         .flat_map(|(width, share)| of_width(width, share))
+        .collect()
+}
+
+/// Both edges of a brake by one factor, the rising one alone, and the falling one alone.
+fn edges(times: &[f64]) -> Vec<Vec<f64>> {
+    let each = times.iter();
+    each.flat_map(|own| [vec![*own], vec![*own, 1.0], vec![1.0, *own]])
         .collect()
 }
 
@@ -295,9 +307,9 @@ pub fn in_numbers(shapes: Shapes) -> Vec<Vec<f64>> {
     let plainer = matches!(shapes, Shapes::Optional { .. }).then(Vec::new);
     let values = match shapes {
         Shapes::Values(values) => values.to_vec(),
-        Shapes::Geometric { low, high, count } | Shapes::Optional { low, high, count } => {
-            geometric(low, high, count)
-        }
+        Shapes::Geometric { low, high, count }
+        | Shapes::Edges { low, high, count }
+        | Shapes::Optional { low, high, count } => geometric(low, high, count),
         Shapes::BothSigns { low, high, count } => both_signs(geometric(low, high, count)),
         _ => return vec![vec![]],
     };

@@ -136,6 +136,23 @@ pub fn rms(values: &[f64]) -> f64 {
     (sum / values.len().max(1) as f64).sqrt()
 }
 
+/// About the standard deviation of the noise of a sample that is white, from sixth differences.
+///
+/// They take away what changes slowly from sample to sample, and their median what jumps now and then. `None` where
+/// most of them are zero, as in a channel that mostly rests on one step.
+pub fn white_noise(signal: &[f64]) -> Option<f64> {
+    let mut differences = signal.to_vec();
+    for _ in 0..6 {
+        let pairs = differences.iter().zip(differences.iter().skip(1));
+        differences = pairs.map(|(own, next)| next - own).collect();
+    }
+    let mut sizes: Vec<f64> = differences.iter().map(|own| own.abs()).collect();
+    sizes.sort_by(f64::total_cmp);
+    // The median of the magnitude of a normal variable, and the squared binomials of the sixth row.
+    let noise = sizes.get(sizes.len() / 2)? / 0.674_489_750_196_081_7 / 924_f64.sqrt();
+    (noise > 0.0).then_some(noise)
+}
+
 /// Keeps every `factor`-th sample after the Chebyshev anti-alias filter of the published protocols
 /// (order 8, 0.05 dB, 0.8 of the new Nyquist rate, zero phase).
 pub fn decimate(signal: &[f64], factor: usize) -> Vec<f64> {
@@ -194,5 +211,28 @@ mod tests {
                 0.6971447620688453,
             ],
         );
+    }
+
+    #[test]
+    fn white_noise_is_told_from_motion_and_jumps() {
+        // A multiplicative generator; twelve uniform numbers added are nearly normal.
+        let mut state = 77_u64;
+        let mut uniform = || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1);
+            (state >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        let noisy: Vec<f64> = (0..8000)
+            .map(|k| {
+                let normal = (0..12).map(|_| uniform()).sum::<f64>() - 6.0;
+                let t = 1e-3 * f64::from(k);
+                let side = if t.rem_euclid(0.61) < 0.27 { 2.0 } else { -3.0 };
+                side + 5.0 * libm::sin(60.0 * t) + 0.031 * normal
+            })
+            .collect();
+        let found = white_noise(&noisy).unwrap();
+        assert!((found / 0.031 - 1.0).abs() < 0.1, "{found}");
+        assert_eq!(white_noise(&[1.0; 100]), None);
     }
 }

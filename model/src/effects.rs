@@ -171,6 +171,8 @@ pub enum OfBrake {
     TimeConstant,
     /// Another current.
     CurrentGain,
+    /// Another curve over its command.
+    CommandExponent,
 }
 
 /// What a linkage has as a whole, or by the force on its tip.
@@ -209,6 +211,22 @@ pub enum OfSensor {
     ForceBias,
     /// A force sensor that is mounted turned.
     ForceRotation,
+}
+
+/// How often the rising and the falling time constants of a brake are what they were, by the numbers of their effect.
+pub fn slower(numbers: &[f64]) -> [f64; 2] {
+    let rising = numbers.first().copied().unwrap_or(1.0);
+    [rising, numbers.get(1).copied().unwrap_or(rising)]
+}
+
+/// A command on another curve that ends at the same greatest one, by the numbers of its effect.
+pub fn bent_command(command: f64, numbers: &[f64]) -> f64 {
+    match numbers {
+        [exponent, full, ..] => {
+            full * libm::pow((command / full).abs(), *exponent).copysign(command)
+        }
+        _ => command,
+    }
 }
 
 impl Form {
@@ -280,6 +298,7 @@ pub const LIBRARY: &[Entry] = &[
     brake::THERMAL_FADE,
     brake::TIME_CONSTANT,
     brake::CURRENT_GAIN,
+    brake::COMMAND_EXPONENT,
     dry_offset::BEARING,
     linkage::LOAD_DEPENDENT,
     driven::LOAD_FRICTION,

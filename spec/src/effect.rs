@@ -182,9 +182,17 @@ vocabulary! {
         needed("exponent", Number).above_zero(),
     ],
     /// Wrong time constants of a brake.
-    TimeConstant = "time_constant" called "wrong time constant of a brake" | "slow brake" [needed("scale", Number).above_zero()],
+    TimeConstant = "time_constant" called "wrong time constant of a brake" | "slow brake" [
+        needed("scale", Number).above_zero(),
+        optional("falling", Number).above_zero(),
+    ],
     /// An amplifier that gives another current than the commanded one.
     CurrentGain = "current_gain" called "current gain error" | "amplifier gain" [needed("scale", Number).above_zero()],
+    /// Another curve of a brake's effort over its command.
+    CommandExponent = "command_exponent" called "wrong curve of a brake over its command" | "quadratic brake" | "nonlinear command" [
+        needed("exponent", Number).above_zero(),
+        needed("full", Current).above_zero(),
+    ],
     /// A spring from the tip to an anchor in the plane.
     PlaneSpring = "plane_spring" called "spring to an anchor" | "tether" [
         needed("stiffness", ForcePerLength),

@@ -45,13 +45,18 @@ fn numbers_of_found<'a>(
     numbers.skip(selection.nominal.len()).collect()
 }
 
-/// Whether every coefficient may be 0 by its interval; of a law without one whether its first number may
-/// be the one at which it does nothing.
+/// Whether every coefficient may be 0 by its interval; of a law without one whether its numbers may be
+/// the one at which it does nothing.
 fn may_be_nothing(term: &Term, values: &[f64], halves: &[f64]) -> bool {
     let nothing = facts(term.cause.mechanism).and_then(|facts| facts.nothing);
-    match (values, nothing, term.shape.first(), halves.first()) {
-        ([], Some(nothing), Some(own), Some(half)) => (own - nothing).abs() < *half,
-        ([], ..) => false,
+    match (values, nothing) {
+        ([], Some(nothing)) => {
+            // A number without an interval is given, such as the end of a scale.
+            let numbers = term.shape.iter().zip(halves);
+            let mut found = numbers.filter(|(_, half)| **half > 0.0).peekable();
+            found.peek().is_some() && found.all(|(own, half)| (own - nothing).abs() < *half)
+        }
+        ([], None) => false,
         _ => values
             .iter()
             .zip(halves)

@@ -6,7 +6,7 @@ use super::unfitted;
 use crate::candidates::{is_periodic, shape_bounds};
 use crate::problem::{Problem, Term};
 use crate::rules::{
-    FINE_STRIDES, MOST_MOVES, PEAK_EXPONENTS_FIVE_BAR, PERIOD_STRIDE, STRIDES, TAKEN_AGAIN,
+    MOST_MOVES, PEAK_EXPONENTS_FIVE_BAR, PERIOD_STRIDE, STRIDES, TAKEN_AGAIN, TOP_STRIDES,
 };
 use rigproof_model::effects::facts;
 use rigproof_model::effects::facts::Shapes;
@@ -27,15 +27,15 @@ pub fn refined(
         bare,
     };
     let mut best = (judge.evidence(folds, &start), start);
-    // The force of an anchored spring is so large that small steps of its anchor are seen.
-    let fine = match best.1.terms.iter().any(is_anchored) {
-        true => &FINE_STRIDES[..],
-        false => &[],
-    };
     // A step takes the first term and puts it last, so a full turn restores the order.
-    for &stride in STRIDES.iter().chain(fine) {
+    for stride in STRIDES {
         for _ in 0..best.1.terms.len() {
             best = refining.moved(best, stride);
+        }
+    }
+    for stride in TOP_STRIDES {
+        for _ in 0..best.1.terms.len() {
+            best = refining.topped(best, stride);
         }
     }
     let mut best = refining.taken_again(best);
@@ -77,6 +77,45 @@ impl Refining<'_> {
             };
             came_from = Some(by);
             best = better;
+        }
+        best
+    }
+
+    /// The first term at the top of the parabola through the evidence a stride up and a stride down, one
+    /// number after the other, then put last.
+    fn topped(&self, start: (f64, Fitted), stride: f64) -> (f64, Fitted) {
+        let (before, start) = start;
+        let Some((own, others)) = start.terms.split_first() else {
+            return (before, start);
+        };
+        let others = self.bare.of(self.folds, others);
+        let mut best = (before, others.with(self.folds, own));
+        let evidence = |fitted: &Fitted| self.judge.evidence(self.folds, fitted);
+        for place in 0..own.numbers().len() {
+            let Some(own) = best.1.terms.last() else {
+                break;
+            };
+            let of_place = |(by, _): &(Move, Term)| by.place == place;
+            let beside: Vec<f64> = moves(self.problem, own, stride)
+                .iter()
+                .filter(|tried| of_place(tried))
+                .map(|(_, term)| evidence(&others.with(self.folds, term)))
+                .collect();
+            let [up, down] = beside[..] else { continue };
+            let bend = 2.0 * best.0 - up - down;
+            let part = 0.5 * (up - down) / bend;
+            // No top where the evidence grows to one side.
+            if bend <= 0.0 || part == 0.0 || part.abs() >= 1.0 {
+                continue;
+            }
+            let up = part > 0.0;
+            let tried = moves(self.problem, own, stride * part.abs());
+            let tried = tried
+                .into_iter()
+                .filter(|(by, _)| by.place == place && by.up == up);
+            if let Some((_, better)) = self.better(&others, tried.collect(), best.0, evidence) {
+                best = better;
+            }
         }
         best
     }

@@ -4,7 +4,7 @@
 use crate::problem::less;
 use crate::signals::{shifted, through_play};
 use rigproof_model::brake::{Brake, Characteristic, slowed};
-use rigproof_model::effects::{CurrentPlay, Instant, OfBrake, limited};
+use rigproof_model::effects::{CurrentPlay, Instant, OfBrake, bent_command, limited, slower};
 use rigproof_spec::tables::BrakeTable;
 use rigproof_spec::units::RAD_PER_DEG;
 
@@ -91,10 +91,11 @@ impl Braked<'_> {
             OfBrake::DeadTime => given(&shifted(self.current, -value / self.step_s)),
             OfBrake::Saturation => each(&|current| limited(current, shape)),
             OfBrake::CurrentGain => each(&|current| value * current),
+            OfBrake::CommandExponent => each(&|command| bent_command(command, shape)),
             OfBrake::TimeConstant => match self.law {
-                BrakeLaw::Thesis(table) => built(BrakeLaw::Thesis(slowed(table, value))),
+                BrakeLaw::Thesis(table) => built(BrakeLaw::Thesis(slowed(table, slower(shape)))),
                 BrakeLaw::Characteristic(law) => {
-                    built(BrakeLaw::Characteristic(&law.slowed(value)))
+                    built(BrakeLaw::Characteristic(&law.slowed(slower(shape))))
                 }
             },
             OfBrake::BacklashWidth => match self.law {

@@ -63,8 +63,8 @@ rules! {
     MOST_ACTING: f64 = 100.0, "1", REASON;
     /// Strides of the pattern search for a shape, as shares of a shape parameter.
     STRIDES: [f64; 4] = [0.15, 0.06, 0.025, 0.01], "share", DRIVEN;
-    /// The same, after these, beside a spring to an anchor, whose force is hundreds of times the noise.
-    FINE_STRIDES: [f64; 3] = [0.004, 0.0016, 0.0006], "share", REASON;
+    /// Strides to both sides of a shape parameter that was found; it is put at the top of the parabola through them. The second is for forces that are hundreds of times the noise.
+    TOP_STRIDES: [f64; 2] = [0.01, 0.001], "share", REASON;
     /// Most moves of one parameter at one stride.
     MOST_MOVES: usize = 4, "moves", DRIVEN;
     /// Fewest usable rows with which a block counts.

@@ -59,12 +59,12 @@ impl Characteristic {
         }
     }
 
-    /// The same brake with every time constant times so much.
-    pub fn slowed(&self, times: f64) -> Characteristic {
+    /// The same brake with its rising and falling time constants times so much.
+    pub fn slowed(&self, [rising, falling]: [f64; 2]) -> Characteristic {
         Characteristic {
             points: self.points.clone(),
-            rising_s: times * self.rising_s,
-            falling_s: times * self.falling_s,
+            rising_s: rising * self.rising_s,
+            falling_s: falling * self.falling_s,
         }
     }
 
@@ -113,7 +113,7 @@ mod tests {
         let cut = own().next(own().next(1.0, 1.0, 0.01), 1.0, 0.02);
         assert!((whole - cut).abs() < 1e-12 && whole < 5.0);
         assert_eq!(own().next(6.0, 1.0, 1e-9), 5.0);
-        assert_eq!(own().slowed(3.0).rising_s, 3.0 * 0.02);
+        assert_eq!(own().slowed([3.0, 1.0]).rising_s, 3.0 * 0.02);
         assert_eq!(own().greatest_command(), 3.0);
     }
 }

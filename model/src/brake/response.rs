@@ -98,8 +98,8 @@ impl Brake {
         self.table
     }
 
-    /// The same brake with every time constant times so much, in the state that it is in.
-    pub fn slowed(self, times: f64) -> Brake {
+    /// The same brake with its rising and falling time constants times so much, in the state that it is in.
+    pub fn slowed(self, times: [f64; 2]) -> Brake {
         Brake {
             table: slowed(self.table, times),
             ..self

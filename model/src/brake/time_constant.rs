@@ -142,9 +142,9 @@ fn low_speed(fit: &TimeConstantFit, current_a: f64, omega_rpm: f64) -> f64 {
         + fit.a_6
 }
 
-/// A brake's table with every time constant times so much.
-pub fn slowed(table: BrakeTable, times: f64) -> BrakeTable {
-    let scaled = |fit: TimeConstantFit| TimeConstantFit {
+/// A brake's table with every rising time constant times so much, and every falling one.
+pub fn slowed(table: BrakeTable, [rising, falling]: [f64; 2]) -> BrakeTable {
+    let scaled = |fit: TimeConstantFit, times: f64| TimeConstantFit {
         a_avg_s: times * fit.a_avg_s,
         a_1: times * fit.a_1,
         a_2: times * fit.a_2,
@@ -155,8 +155,8 @@ pub fn slowed(table: BrakeTable, times: f64) -> BrakeTable {
         ..fit
     };
     BrakeTable {
-        rising: scaled(table.rising),
-        falling: scaled(table.falling),
+        rising: scaled(table.rising, rising),
+        falling: scaled(table.falling, falling),
         ..table
     }
 }

@@ -148,14 +148,14 @@ pub(super) const TIME_CONSTANT: Entry = Entry {
     linear: 0,
     passive: false,
     refuted_by: "a torque that follows a step of the current as fast as its table says",
-    equation: "the brake's time constants × scale",
+    equation: "the brake's time constants × scale, the falling one × falling where that is another",
     facts: Facts {
         in_sets: true,
         usual: Usual::Common,
-        shapes: Shapes::Geometric {
+        shapes: Shapes::Edges {
             low: 0.4,
-            high: 2.5,
-            count: 9,
+            high: 4.0,
+            count: 11,
         },
         nothing: Some(1.0),
         ..Facts::of(
@@ -197,6 +197,32 @@ pub(super) const CURRENT_GAIN: Entry = Entry {
             Words {
                 what: "an amplifier that gives more or less current than it is told",
                 look_for: "the amplifier's scale and offset",
+            },
+        )
+    },
+};
+
+pub(super) const COMMAND_EXPONENT: Entry = Entry {
+    mechanism: Mechanism::CommandExponent,
+    form: Form::Brake(OfBrake::CommandExponent),
+    linear: 0,
+    passive: false,
+    refuted_by: "settled efforts on the stated curve at several commands",
+    equation: "τ follows full·(u/full)^exponent in place of u",
+    facts: Facts {
+        in_sets: true,
+        usual: Usual::Common,
+        shapes: Shapes::CommandExponent(&[0.5, 0.7, 0.85, 1.2, 1.5, 2.0, 2.5]),
+        nothing: Some(1.0),
+        ..Facts::of(
+            Family::Brake,
+            Asked {
+                alone: Alone::WithCharacteristic,
+                five_bar: Where::Nowhere,
+            },
+            Words {
+                what: "a brake whose effort grows with its command along another curve than stated",
+                look_for: "the settled effort at several commands: field that grows with the square of the current, iron that saturates",
             },
         )
     },

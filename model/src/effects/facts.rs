@@ -145,6 +145,8 @@ pub enum Alone {
     WithKnown,
     /// Where a brake acts whose current is recorded.
     WithBrake,
+    /// Where a brake is stated by its characteristic.
+    WithCharacteristic,
     /// Where something drives: an axis, or a brake with its current.
     WithDrive,
     /// On an axis.
@@ -228,6 +230,18 @@ pub enum Shapes {
     CurrentLimit,
     /// Efforts below the greatest command, also with how sharply the effort bends towards them.
     EffortLimit,
+    /// A geometric progression for both edges of a brake together, for the rising one and for the
+    /// falling one.
+    Edges {
+        /// The least.
+        low: f64,
+        /// The greatest.
+        high: f64,
+        /// Their number.
+        count: usize,
+    },
+    /// Exponents of a curve that ends at the greatest command.
+    CommandExponent(&'static [f64]),
     /// Rates at which the effort reaches the greatest command in a time.
     EffortRate,
     /// Anchors in the plane, around where the tip moves.
@@ -362,6 +376,7 @@ mod tests {
             Alone::Always => "yes",
             Alone::WithKnown => "with a known drive or brake",
             Alone::WithBrake => "with a brake's current",
+            Alone::WithCharacteristic => "on a bench with a characteristic",
             Alone::WithDrive => "with a drive or a brake's current",
             Alone::Driven => "on an axis",
             Alone::Loaded => "on an axis, and on a bench with a simulated effort",

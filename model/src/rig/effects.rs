@@ -8,7 +8,9 @@ use rigproof_spec::joint::Joint;
 use super::left_out::{LeftOut, Term, Timed};
 use super::{Parameters, Rig};
 use crate::effects::facts::AtRest;
-use crate::effects::{CurrentPlay, Drive, Form, OfBrake, OfLinkage, facts, form, law_of_torque};
+use crate::effects::{
+    CurrentPlay, Drive, Form, OfBrake, OfLinkage, facts, form, law_of_torque, slower,
+};
 use crate::error::ModelError;
 use crate::motion::two_coordinate::two_coordinate;
 use crate::motion::{added_mass, check_inertia};
@@ -194,7 +196,7 @@ fn of_brake(effect: &JointEffect, joint: Joint) -> Option<Term> {
         },
         Form::Brake(OfBrake::TimeConstant) => Term::Slower {
             place,
-            times: value(0),
+            times: slower(&effect.parameters),
         },
         Form::Drive(Drive::Lag) => Term::Lag {
             place,
@@ -208,7 +210,8 @@ fn of_brake(effect: &JointEffect, joint: Joint) -> Option<Term> {
             place,
             arm_m: value(0),
         },
-        Form::Drive(Drive::Skew | Drive::Limit | Drive::Rate)
+        Form::Brake(OfBrake::CommandExponent)
+        | Form::Drive(Drive::Skew | Drive::Limit | Drive::Rate)
         | Form::Resistance(_)
         | Form::Sensor(_)
         | Form::Joint(_)

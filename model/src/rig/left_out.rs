@@ -48,7 +48,7 @@ pub enum Term {
     /// A brake's current is another one.
     Amplifier { place: usize, times: f64 },
     /// A brake's time constants are others; remembers whether that has begun.
-    Slower { place: usize, times: f64 },
+    Slower { place: usize, times: [f64; 2] },
     /// A brake's torque follows its own by a first-order lag; remembers it, N·m.
     Lag { place: usize, time_constant_s: f64 },
     /// Another backlash; remembers whether it has begun.

@@ -239,6 +239,7 @@ pub fn shapes(
         ))),
         // Not candidates on this plant.
         Shapes::Memory
+        | Shapes::CommandExponent(_)
         | Shapes::EffortLimit
         | Shapes::EffortRate
         | Shapes::Pitch
@@ -249,6 +250,7 @@ pub fn shapes(
         own @ (Shapes::None
         | Shapes::Values(_)
         | Shapes::Geometric { .. }
+        | Shapes::Edges { .. }
         | Shapes::Optional { .. }
         | Shapes::BothSigns { .. }) => in_numbers(own),
     }

@@ -11,6 +11,7 @@ use crate::align::{
 };
 use crate::continuity::{Position, Remark, Stamps, mend, settle};
 use crate::doubt::Smoothing;
+use crate::filter::white_noise;
 use crate::plant::Run;
 use crate::rules::{MOST_GIVEN, STILL_QUANTA, STILL_SIGMAS};
 use rigproof_spec::effect::Motion;
@@ -69,9 +70,13 @@ pub fn align(recorded: &Signals) -> Result<JointRun, Fault> {
     };
     let predicted = optional(&signals.predicted);
     let current = optional(&signals.current);
-    let effort_noise = signals
-        .effort_noise
-        .unwrap_or_else(|| smallest_step(&effort) / 12f64.sqrt());
+    let effort_noise = signals.effort_noise.unwrap_or_else(|| {
+        let rounding = smallest_step(&effort) / 12f64.sqrt();
+        // What a bench measures is noisy, what drives an axis is not.
+        let is_measured = signals.plant == PlantKind::Bench;
+        let noise = is_measured.then(|| white_noise(&effort)).flatten();
+        noise.map_or(rounding, |noise| noise.max(rounding))
+    });
     let band_hz = band_hz(&effort, step_s);
     let most_hz = cutoff_hz(step_s, band_hz);
     let cutoff_hz = quiet_cutoff_hz(&position, step_s, most_hz, position_noise);

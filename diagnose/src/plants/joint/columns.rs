@@ -385,6 +385,8 @@ fn drive(run: &JointRun, what: Drive, shape: &[f64]) -> Option<Columns> {
     let fixed = |signal| Some(Columns::Fixed(signal));
     let changed = |effort: &[f64]| changed(what, shape, effort, run);
     match (what, run.plant, run.brake()) {
+        // Of a bench the brake or simulated effort alone is weaker: its stated friction is beside it.
+        (Drive::Gain, PlantKind::Bench, _) => Some(Columns::Free(vec![run.known()])),
         (Drive::Gain, ..) => Some(Columns::Free(vec![known_effort(run)])),
         (_, PlantKind::Axis, _) => fixed(missing_effort(run, &changed(&run.effort))),
         // The yield torque of a brake lags, the sign of its torque does not (decision 0001).

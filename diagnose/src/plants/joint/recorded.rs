@@ -146,7 +146,7 @@ fn run(plant: PlantKind, motion: Vec<Instant>, effort: Vec<f64>, held: bool) -> 
         effort,
         predicted: None,
         current: None,
-        table: None,
+        law: None,
         position_noise: QUANTUM / 12f64.sqrt(),
         effort_noise: EFFORT_NOISE,
         speed_floor: 1e-4,

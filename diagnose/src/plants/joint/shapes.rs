@@ -1,7 +1,7 @@
 //! This file lists the causes that are candidates on a plant of one joint.
 
 use super::inertia::Inertia;
-use super::run::{JointRun, PlantKind};
+use super::run::{JointBrake, JointRun, PlantKind};
 use crate::cause::Cause;
 use crate::plant::Run;
 use rigproof_model::effects::facts::Alone;
@@ -20,6 +20,7 @@ pub fn causes(run: &JointRun) -> Vec<Cause> {
         Alone::Always => true,
         Alone::WithKnown => is_known && (is_driven || has_brake),
         Alone::WithBrake => has_brake,
+        Alone::WithCharacteristic => matches!(run.law, Some(JointBrake::Characteristic(..))),
         Alone::WithDrive => is_driven || run.predicted.is_some(),
         Alone::Driven => is_driven,
         Alone::Loaded => is_driven || run.load().is_some(),
