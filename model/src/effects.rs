@@ -35,6 +35,7 @@ mod uneven_friction;
 mod velocity_power;
 mod viscous;
 
+pub use brake::{bent_command, slower};
 pub use driven::load_friction;
 pub use eccentric_encoder::{behind_shown, shown_too_much};
 pub use lag::{first_order_lag_held, first_order_lag_straight, lagged, lagged_held};
@@ -211,22 +212,6 @@ pub enum OfSensor {
     ForceBias,
     /// A force sensor that is mounted turned.
     ForceRotation,
-}
-
-/// How often the rising and the falling time constants of a brake are what they were, by the numbers of their effect.
-pub fn slower(numbers: &[f64]) -> [f64; 2] {
-    let rising = numbers.first().copied().unwrap_or(1.0);
-    [rising, numbers.get(1).copied().unwrap_or(rising)]
-}
-
-/// A command on another curve that ends at the same greatest one, by the numbers of its effect.
-pub fn bent_command(command: f64, numbers: &[f64]) -> f64 {
-    match numbers {
-        [exponent, full, ..] => {
-            full * libm::pow((command / full).abs(), *exponent).copysign(command)
-        }
-        _ => command,
-    }
 }
 
 impl Form {

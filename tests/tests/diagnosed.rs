@@ -7,6 +7,7 @@
 
 mod bench;
 mod chapter_3;
+mod damper;
 mod five_bar;
 mod laws;
 mod recording;
@@ -16,6 +17,7 @@ use rayon::prelude::*;
 use rigproof_diagnose::report::{Number, Report, Verdict};
 
 use chapter_3::Planted;
+use damper::Hidden;
 use recording::{Recording, diagnosed_together};
 use rigproof_spec::joint::Joint;
 
@@ -216,5 +218,60 @@ fn what_the_thesis_left_out_is_found_in_its_own_experiments() {
             let said = &report.unknown.unwrap().suggestion;
             assert!(said.contains("0.39 N·m"), "{said}");
         }
+    }
+}
+
+#[test]
+fn what_a_damper_under_volts_hides_is_named_with_its_number() {
+    let cases = [
+        (Hidden::Nothing, None),
+        (
+            Hidden::Gain(-0.23),
+            Some(("gain_error", "fraction", -0.23, "1")),
+        ),
+        (
+            Hidden::Square(0.6),
+            Some(("command_exponent", "full", 5.0, "V")),
+        ),
+        (
+            Hidden::Falling(2.7),
+            Some(("time_constant", "falling", 2.7, "1")),
+        ),
+        (
+            Hidden::Late(0.023),
+            Some(("dead_time", "delay", 0.023, "s")),
+        ),
+        (
+            Hidden::Remembers(0.55, 0.46),
+            // A spread of plays is a form of it that may be taken for one play of another width.
+            Some(("current_hysteresis", "half_width", f64::NAN, "V")),
+        ),
+        (
+            Hidden::Drag(310.0),
+            Some(("viscous", "coefficient", 310.0, "N·s/m")),
+        ),
+        // Straight up to the travel, where the law bends towards it.
+        (
+            Hidden::Bends(1.5e-3),
+            Some(("presliding", "travel", f64::NAN, "m")),
+        ),
+    ];
+    let reports = cases.into_par_iter().map(|(hidden, expected)| {
+        let report = damper::recording(hidden, 83).diagnosed();
+        (hidden, expected, report)
+    });
+    for (hidden, expected, report) in reports.collect::<Vec<_>>() {
+        println!("{}", said(&format!("{hidden:?}"), &report));
+        let Some((mechanism, parameter, number, unit)) = expected else {
+            assert_eq!(report.verdict, Verdict::Consistent, "{}", report.summary);
+            continue;
+        };
+        let sure = report.effects.iter().filter(|own| own.status == "named");
+        let sure: Vec<&str> = sure.map(|own| own.mechanism).collect();
+        assert_eq!(sure, [mechanism], "{}", report.summary);
+        let (found, its_unit) = damper::number(&report, mechanism, parameter).unwrap();
+        assert_eq!(its_unit, unit, "{mechanism}");
+        let is_near = (found / number - 1.0).abs() < 0.01;
+        assert!(is_near || number.is_nan(), "{hidden:?}: {found}");
     }
 }

@@ -27,6 +27,7 @@ pub fn why_not(mechanism: Mechanism) -> Option<&'static str> {
             "a brake's current follows its own time constant, and a second lag before it is no part of the plant"
         }
         Some(Form::Drive(_)) => "it is of a drive, and the rig has brakes",
+        Some(Form::Brake(OfBrake::CommandExponent)) => "no brake of the rig is stated by a curve",
         Some(Form::Joint(_)) => "it is of a driven joint or an arm",
         Some(Form::Brake(OfBrake::ThermalFade)) => {
             "the plant has no heat: the torque of a brake does not fall with the work it has taken"

@@ -209,11 +209,19 @@ pub fn toml(
         Some("bench") => {
             lines.push(EFFORT.line(&effort, rotary));
             let current = CURRENT.guess(signals);
+            let volts = match current.is_empty() {
+                true => COMMAND.guess(signals),
+                false => Vec::new(),
+            };
             lines.extend((!current.is_empty()).then(|| CURRENT.line(&current, rotary)));
+            if !volts.is_empty() {
+                lines.push(COMMAND.line(&volts, rotary));
+                lines.extend(characteristic(&volts, rotary));
+            }
             if !current.is_empty() && rotary == Some(true) {
                 lines.push("# A brake's torque follows its current: `rigproof identify brake RECORDINGS --rig THIS_FILE` writes its table, `[brake]`.\n# Without one, all that the current does is left over, and no law of the library is it.".to_owned());
             }
-            [position, effort, current].concat()
+            [position, effort, current, volts].concat()
         }
         _ => {
             lines.push(COMMAND.line(&command, rotary));
@@ -255,6 +263,21 @@ fn friction(plant: Option<&str>, level: Option<f64>, rotary: Option<bool>) -> St
              # [[effect]]\n# mechanism = \"viscous\"\n# coefficient = {{ value = 0.5, unit = {viscous:?}, status = \"unknown\" }}"
         ),
     }
+}
+
+/// The static characteristic of a brake under its command, which its data sheet tells or a measurement at a few commands.
+fn characteristic(command: &[&SignalView], rotary: Option<bool>) -> [String; 4] {
+    let unit = match command {
+        [signal] if !signal.unit.is_empty() => string(&signal.unit),
+        _ => format!("{FILL_IN:?}"),
+    };
+    let effort = if rotary == Some(true) { "N·m" } else { "N" };
+    [
+        "\n# The brake or damper by the effort at which it settles under its command, straight between the points. Does the command drive\n# the motor that moves it instead? Then take out this table and the channel.\n[characteristic]".to_owned(),
+        format!("command = {{ points = {FILL_IN:?}, unit = {unit} }}   # such as [0, 2, 5]"),
+        format!("effort = {{ points = {FILL_IN:?}, unit = {effort:?} }}"),
+        "# rising = { value = 20, unit = \"ms\" }   # the time constants with which it follows; without them at once\n# falling = { value = 20, unit = \"ms\" }".to_owned(),
+    ]
 }
 
 /// Whether the plant turns, as the first unit that tells says.

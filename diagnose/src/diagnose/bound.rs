@@ -8,22 +8,24 @@ use crate::rules::{LEAST_BESIDE_POSITION, PERIOD_KNOWN, POSITION_BINS, SUSPECTED
 use crate::selection::{Selection, is_noise};
 use rigproof_model::effects::facts;
 use rigproof_model::effects::facts::Family;
-use rigproof_spec::effect::Quantity;
+use rigproof_spec::effect::{Mechanism, Quantity};
 
 /// Bounds the probabilities of what is named.
 ///
 /// If the residual is more than noise, a mechanism that explains little beside the rest may be a part
 /// of the unexplained physics. Its probability is at most one half plus the share of the loss that it
 /// removes. A mechanism beside others whose numbers may all be those of nothing is at most suspected:
-/// the others, with other numbers, do without it. So is a friction that nothing but a function of the
-/// position is on this motion.
+/// the others, with other numbers, do without it. So is a gain whose loss another law of the torque
+/// gives back, and a friction that nothing but a function of the position is on this motion.
 pub(super) fn bound(problem: &Problem, selection: &mut Selection, intervals: &Intervals) {
     let is_noise = is_noise(problem, &selection.after);
     let numbers = numbers_of_found(problem, selection, intervals);
     // Of a plant of many places delays are measured without an interval.
     let beside = selection.found.len() > 1 && !problem.rules.many;
+    let given_back = given_back(selection, &numbers);
     for (found, (values, halves)) in selection.found.iter_mut().zip(&numbers) {
         if beside && may_be_nothing(&found.term, values, halves)
+            || given_back == Some(found.term.cause)
             || is_of_position(problem, &found.term, values)
         {
             found.probability = found.probability.min(SUSPECTED);
@@ -32,6 +34,32 @@ pub(super) fn bound(problem: &Problem, selection: &mut Selection, intervals: &In
             found.probability = found.probability.min(SUSPECTED + found.share.max(0.0));
         }
     }
+}
+
+/// A loss of a brake's gain that another law of its torque gives back within their intervals: the
+/// brake's own friction follows that law, and nothing is weaker.
+fn given_back(selection: &Selection, numbers: &[(Vec<f64>, &Vec<f64>)]) -> Option<Cause> {
+    let first = |(values, halves): &(Vec<f64>, &Vec<f64>)| {
+        values.first().copied().zip(halves.first().copied())
+    };
+    let mut found = selection
+        .found
+        .iter()
+        .map(|own| own.term.cause)
+        .zip(numbers);
+    let (gain, own) = found.find(|(own, _)| own.mechanism == Mechanism::GainError)?;
+    let (loss, half) = first(own)?;
+    let causes = selection
+        .found
+        .iter()
+        .map(|own| own.term.cause)
+        .zip(numbers);
+    let mut shares = causes.filter(|(own, _)| own.scales == Scales::Torque && own.at == gain.at);
+    let is_as_much =
+        |(share, its_half): (f64, f64)| share > 0.0 && (share + loss).abs() < half + its_half;
+    shares
+        .any(|(_, own)| first(own).is_some_and(is_as_much))
+        .then_some(gain)
 }
 
 /// The coefficients of each found term, and the half widths of the intervals of its numbers.

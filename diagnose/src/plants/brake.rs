@@ -10,6 +10,10 @@ use rigproof_spec::units::RAD_PER_DEG;
 
 /// What a nominal brake computes from its current.
 #[derive(Clone, Copy)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "it lives for the length of a call"
+)]
 pub enum BrakeLaw<'a> {
     /// The thesis's equations, with the numbers of a table.
     Thesis(BrakeTable),

@@ -227,3 +227,19 @@ pub(super) const COMMAND_EXPONENT: Entry = Entry {
         )
     },
 };
+
+/// How often the rising and the falling time constants of a brake are what they were, by the numbers of their effect.
+pub fn slower(numbers: &[f64]) -> [f64; 2] {
+    let rising = numbers.first().copied().unwrap_or(1.0);
+    [rising, numbers.get(1).copied().unwrap_or(rising)]
+}
+
+/// A command on another curve that ends at the same greatest one, by the numbers of its effect.
+pub fn bent_command(command: f64, numbers: &[f64]) -> f64 {
+    match numbers {
+        [exponent, full, ..] => {
+            full * libm::pow((command / full).abs(), *exponent).copysign(command)
+        }
+        _ => command,
+    }
+}

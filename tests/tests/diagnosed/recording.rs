@@ -161,10 +161,13 @@ impl Noise {
             .collect()
     }
 
+    /// From 0 to below 1, alike.
+    pub fn uniform(&mut self) -> f64 {
+        (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
     fn draw(&mut self) -> f64 {
-        let uniform =
-            |random: &mut Pcg64Mcg| (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
-        (0..12).map(|_| uniform(&mut self.0)).sum::<f64>() - 6.0
+        (0..12).map(|_| self.uniform()).sum::<f64>() - 6.0
     }
 }
 

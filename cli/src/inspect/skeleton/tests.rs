@@ -107,3 +107,28 @@ fn noise_is_that_of_the_samples_and_stands_beside_the_quantum() {
         );
     }
 }
+
+#[test]
+fn a_metered_damper_under_volts_is_begun_with_its_characteristic() {
+    let signals = [
+        view("x", "m", 1e-3, 0.0),
+        view("force", "N", 1e-3, 0.0),
+        view("u", "V", 1e-3, 0.0),
+    ];
+    let rig = begun(&signals);
+    assert!(
+        rig.contains("\ncommand = { channel = \"u\", unit = \"V\""),
+        "{rig}"
+    );
+    let refused = |text: &str| rigproof_trace::rig::Rig::parse(text, Path::new("begun.toml"));
+    let message = refused(&rig).unwrap_err().to_string();
+    assert!(
+        message.contains("`points` of `command` is still to be filled in"),
+        "{message}"
+    );
+    let filled = rig
+        .replacen("points = \"fill in\"", "points = [0, 2, 5]", 1)
+        .replacen("points = \"fill in\"", "points = [10, 120, 180]", 1);
+    let own = refused(&filled).unwrap().characteristic.unwrap();
+    assert_eq!(own.points, [[0.0, 10.0], [2.0, 120.0], [5.0, 180.0]]);
+}

@@ -6,7 +6,7 @@ use super::from_rig;
 use super::inertia::Inertia;
 use super::run::JointRun;
 use crate::align::Fault;
-use crate::cause::Cause;
+use crate::cause::{Cause, Scales};
 use crate::evidence::{Intervals, coefficients_by_term, intervals};
 use crate::problem::Problem;
 use crate::regression::Fit;
@@ -59,17 +59,19 @@ pub fn another_drive(problem: &Problem, selection: &Selection) -> Option<Fault> 
 /// The index of a found gain outside the range of real drives, and the gain.
 fn impossible_gain(problem: &Problem, selection: &Selection) -> Option<(usize, f64)> {
     let (_, coefficients) = coefficients_by_term(problem, selection);
-    let found = coefficients.iter().skip(selection.nominal.len());
-    let (index, (_, own)) = selection
-        .found
+    let own = coefficients.iter().skip(selection.nominal.len());
+    let found: Vec<_> = selection.found.iter().zip(own).collect();
+    let is_gain = |cause: Cause| cause.mechanism == Mechanism::GainError;
+    let index = found.iter().position(|(own, _)| is_gain(own.term.cause))?;
+    let (gained, fraction) = found.get(index)?;
+    let fraction = problem.run.linear(gained.term.cause.mechanism, fraction);
+    // What else is a share of a brake's torque gives back what the gain takes: the brake's own
+    // friction follows another law.
+    let shares = found
         .iter()
-        .zip(found)
-        .enumerate()
-        .find(|(_, (found, _))| found.term.cause.mechanism == Mechanism::GainError)?;
-    // The column is the known effort: y = e + c·e, so the applied gain is 1/(1 + c) of the stated
-    // one.
-    let fraction = *own.first()?;
-    let gain = 1.0 - fraction / (1.0 + fraction);
+        .filter(|(own, _)| own.term.cause.scales == Scales::Torque);
+    let shares: f64 = shares.filter_map(|(_, shares)| shares.first()).sum();
+    let gain = 1.0 + fraction.first()? + shares;
     let is_possible = (1.0 / ANOTHER_UNIT..ANOTHER_UNIT).contains(&gain);
     (!is_possible).then_some((index, gain))
 }
