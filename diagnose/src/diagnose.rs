@@ -15,12 +15,14 @@ use crate::align::Fault;
 use crate::cause::{Cause, Place};
 use crate::evidence::intervals;
 use crate::explain::{Explanations, explain, explain_many};
+use crate::filter::rms;
 use crate::plant::{At, Plant, Run};
 use crate::problem::{Problem, Term};
 use crate::report::Report;
 use crate::rules::{EXPLAINED_LEFT, FEWEST_WINDOWS, FLOOR_RATIO, HOLD_OUT_SHARE};
 use crate::scatter::{Trials, left_over};
-use crate::selection::{Selection, refs, usable_rms};
+use crate::selection::{Selection, refs};
+use crate::weak::Windows;
 use bound::{bound, untenable};
 use ended::{faulty, not_excited};
 use parts::Parts;
@@ -171,8 +173,7 @@ pub fn diagnose<P: Plant>(
     selection.withdraw(&problem, beyond.as_slice());
     let mut withdrawn: Vec<Cause> = beyond.into_iter().collect();
     let trials = scattered(&problem, &selection);
-    if let Some(trials) = trials.clone() {
-        let windows = problem.windows.clone();
+    if let Some((trials, windows)) = trials.clone() {
         problem = Problem::new(train, windows).within(trials);
         let terms = nominal(plant, &problem).unwrap_or_default();
         (selection, explanations) = named(&mut problem, terms);
@@ -197,7 +198,7 @@ pub fn diagnose<P: Plant>(
         test_from_s: parts.test_from_s,
         other_recording: parts.other_recording,
         options,
-        trials: trials.as_ref(),
+        trials: trials.as_ref().map(|(trials, _)| trials),
         explanations: &explanations,
     }
     .report(&numbers)
@@ -238,10 +239,14 @@ fn nominal<P: Plant>(plant: &P, problem: &Problem) -> Result<Vec<Term>, (At, Fau
     Ok(terms)
 }
 
-/// The trials of a brake, if their gains differ and hide other effects.
-fn scattered(problem: &Problem, selection: &Selection) -> Option<Trials> {
-    let trials = Trials::of(problem.run, &problem.windows)?;
-    let usable = &problem.windows.usable;
+/// The trials of a brake with the windows in which it has settled, if their gains differ and hide
+/// other effects.
+fn scattered(problem: &Problem, selection: &Selection) -> Option<(Trials, Windows)> {
+    let (predicted, _) = problem.run.brake()?;
+    let mut windows = problem.windows.clone();
+    windows.keep_steady(predicted, problem.floor);
+    let trials = Trials::of(problem.run, &windows)?;
+    let usable = &windows.usable;
     let terms = refs(&selection.nominal, &selection.found);
     let residual = left_over(problem, &terms, &selection.after);
     let least = FLOOR_RATIO * problem.floor;
@@ -252,6 +257,9 @@ fn scattered(problem: &Problem, selection: &Selection) -> Option<Trials> {
     let bare = left_over(problem, &nominal, &selection.before);
     let mut by_gains = bare.clone();
     trials.take_out(&mut by_gains, usable);
-    let [laws, gains, bare] = [&residual, &by_gains, &bare].map(|rows| usable_rms(problem, rows));
-    (laws >= gains && laws > EXPLAINED_LEFT * bare).then_some(trials)
+    let [laws, gains, bare] = [residual, by_gains, bare].map(|rows| {
+        let pairs = rows.into_iter().zip(usable).filter(|(_, usable)| **usable);
+        rms(&pairs.map(|(row, _)| row).collect::<Vec<f64>>())
+    });
+    (laws >= gains && laws > EXPLAINED_LEFT * bare).then_some((trials, windows))
 }

@@ -7,7 +7,7 @@ use crate::plant::Run;
 use crate::problem::{Problem, Term, less};
 use crate::regression::Fit;
 use crate::report::Unknown;
-use crate::rules::{FEWEST_TRIALS, TRIAL_JUMP_A, TRIALS_SHARE, WINDOWS_A_TRIAL};
+use crate::rules::{FEWEST_TRIALS, TRIAL_JUMP, TRIALS_SHARE, WINDOWS_A_TRIAL};
 use crate::weak::Windows;
 
 /// The trials of a brake on a bench. Each begins at a jump of the current.
@@ -43,7 +43,7 @@ impl Trials {
         let mut jumps = vec![0];
         for (k, pair) in current.windows(2).enumerate() {
             if let [before, after] = pair
-                && (after - before).abs() > TRIAL_JUMP_A
+                && (after - before).abs() > TRIAL_JUMP * run.full_current()
             {
                 jumps.push(k + 1);
                 start_s.push(clock.start_s + (k + 1) as f64 * clock.step_s);

@@ -3,7 +3,7 @@
 //! differentiated.
 
 use crate::regression::dot;
-use crate::rules::{BUMP_ORDER, MOST_DOUBT};
+use crate::rules::{BUMP_ORDER, MOST_DOUBT, MOST_STEP};
 use rigproof_model::effects::Instant;
 
 /// The test function and the windows it is applied to.
@@ -96,6 +96,19 @@ impl Windows {
         let doubts = self.average(doubt);
         let pairs = self.usable.iter_mut().zip(doubts);
         pairs.for_each(|(usable, doubt)| *usable &= doubt <= MOST_DOUBT * floor);
+    }
+
+    /// Keeps windows in which a predicted effort hardly changes: those of a settled brake.
+    pub fn keep_steady(&mut self, predicted: &[f64], floor: f64) {
+        let next = predicted.iter().skip(1).chain(predicted.last());
+        let steps: Vec<f64> = predicted
+            .iter()
+            .zip(next)
+            .map(|(own, next)| (next - own).abs())
+            .collect();
+        let changes = self.average(&steps);
+        let pairs = self.usable.iter_mut().zip(changes);
+        pairs.for_each(|(usable, change)| *usable &= change <= MOST_STEP * floor);
     }
 
     fn apply(&self, weights: &[f64], signal: &[f64], combinations: &[Vec<f64>]) -> Vec<f64> {

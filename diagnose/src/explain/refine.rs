@@ -91,7 +91,12 @@ impl Refining<'_> {
         let others = self.bare.of(self.folds, others);
         let mut best = (before, others.with(self.folds, own));
         let evidence = |fitted: &Fitted| self.judge.evidence(self.folds, fitted);
-        for place in 0..own.numbers().len() {
+        // A law that begins late is no more exact than its beginning.
+        let numbers = match own.onset_s {
+            Some(_) => 0,
+            None => own.numbers().len(),
+        };
+        for place in 0..numbers {
             let Some(own) = best.1.terms.last() else {
                 break;
             };

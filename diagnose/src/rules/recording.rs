@@ -141,8 +141,8 @@ rules! {
     SWITCHED_S: f64 = 0.025, "s", "five-bar, golden cases and seeds 8300 to 8339 (decision 0153)";
     /// Change of current within that time that may stop a joint or release it.
     SWITCHED_A: f64 = 0.02, "A", "five-bar, golden cases and seeds 8300 to 8339 (decision 0153)";
-    /// A trial of a brake begins with a change of current of at least this between two samples.
-    TRIAL_JUMP_A: f64 = 0.05, "A", REASON;
+    /// A trial of a brake begins with a change of current of at least this share of the greatest one between two samples.
+    TRIAL_JUMP: f64 = 0.05, "share", REASON;
     /// Fewest trials from which a spread of their gains is estimated.
     FEWEST_TRIALS: usize = 8, "trials", REASON;
     /// Fewest usable windows in each of these trials.

@@ -25,6 +25,8 @@ rules! {
     MOST_AMBIGUOUS: f64 = 0.002, "share", AXIS_BENCH;
     /// Greatest contribution, in noise floors, of a friction as large as the whole effort (axis, bench) or of the brakes (five-bar) where the direction of motion is unknown.
     MOST_UNTOLD: f64 = 0.5, "floors", BOTH;
+    /// A brake has settled in a window if its predicted effort changes from sample to sample by at most this on average: the windows that are used of the thesis's brake, and of every brake where its trials differ, since in between it is of two of them.
+    MOST_STEP: f64 = 0.5, "floors", AXIS_BENCH;
     /// A window is used if the predicted effort may be wrong by at most this on average.
     MOST_DOUBT: f64 = 0.5, "floors", "bench, brakes that change as foreseen (decision 0153)";
     /// Fewest windows from which anything is concluded.

@@ -16,8 +16,8 @@ use crate::plant::{Clock, Columns, Run};
 use crate::plants::brake::{BrakeLaw, Braked};
 use crate::problem::add;
 use crate::rules::{
-    LEAST_STEPS_AXIS, LEAST_STEPS_BENCH, MOST_AMBIGUOUS, MOST_NOISE, MOST_UNTOLD, PERIODS_A_WIDTH,
-    QUIET, WIDTHS_S,
+    FEWEST_WINDOWS, LEAST_STEPS_AXIS, LEAST_STEPS_BENCH, MOST_AMBIGUOUS, MOST_NOISE, MOST_UNTOLD,
+    PERIODS_A_WIDTH, QUIET, WIDTHS_S,
 };
 use crate::signals::second_difference;
 use crate::weak::{Windows, is_recorded, untold};
@@ -327,8 +327,18 @@ impl Run for JointRun {
         if self.plant == PlantKind::Axis {
             windows.keep(most(MOST_UNTOLD * floor / rms(&self.effort).max(1e-300)));
         }
-        if let Some(doubt) = self.brake_doubt() {
-            windows.keep_foreseen(&doubt, floor);
+        let (Some((predicted, _)), Some(doubt)) = (self.brake(), self.brake_doubt()) else {
+            return;
+        };
+        let mut steady = windows.clone();
+        steady.keep_steady(predicted, floor);
+        let are_enough = steady.usable.iter().filter(|own| **own).count() >= FEWEST_WINDOWS;
+        match &self.law {
+            // Its torque is known while it changes. The thesis's goes by the speed and by backlash
+            // then.
+            Some(JointBrake::Characteristic(..)) => windows.keep_foreseen(&doubt, floor),
+            _ if are_enough => *windows = steady,
+            _ => windows.keep_foreseen(&doubt, floor),
         }
     }
 
