@@ -6,9 +6,11 @@ use rigproof_diagnose::report::Report;
 
 use super::recording::{Noise, Recording, counted};
 
+const EXAMPLE: &str = include_str!("../../../rigs/damper.toml");
 const STEP_S: f64 = 1e-3;
 const COUNT: usize = 16_000;
 const FULL_V: f64 = 5.0;
+// The numbers that the example states.
 /// The settled force without and with the full command, N.
 const FORCES_N: [f64; 2] = [20.0, 200.0];
 /// Rising and falling, s.
@@ -92,7 +94,7 @@ fn commands_v(noise: &mut Noise) -> Vec<f64> {
     all
 }
 
-/// The recording, whose description says nothing of the noise of its force.
+/// The recording of the example, whose description says nothing of the noise of its force.
 pub fn recording(hidden: Hidden, seed: u64) -> Recording {
     let mut noise = Noise::new(seed);
     let commands_v = commands_v(&mut noise);
@@ -132,17 +134,17 @@ pub fn recording(hidden: Hidden, seed: u64) -> Recording {
         };
         force_n += (settled_n - force_n) * -libm::expm1(-STEP_S / follows_s);
     }
-    let rig = format!(
-        "name = \"damper\"\nplant = \"bench\"\nmotion = \"linear\"\n[channels]\n\
-         position = {{ channel = \"x\", unit = \"m\", quantum = 1e-6 }}\n\
-         force = {{ channel = \"f\", unit = \"N\" }}\ncommand = {{ channel = \"u\", unit = \"V\" }}\n\
-         [characteristic]\ncommand = {{ points = [0, {FULL_V}], unit = \"V\" }}\n\
-         effort = {{ points = {FORCES_N:?}, unit = \"N\" }}\n\
-         rising = {{ value = {}, unit = \"s\" }}\nfalling = {{ value = {}, unit = \"s\" }}\n\
-         [[effect]]\nmechanism = \"viscous\"\ncoefficient = {{ value = {DRAG_N_S_PER_M}, unit = \"N·s/m\" }}\n\
-         [protocol]\ndrive = \"held\"\n",
-        FOLLOWS_S[0], FOLLOWS_S[1],
-    );
+    // The example, as a brake of two points.
+    let rig = [
+        ("unit = \"mm\"", "unit = \"m\", quantum = 1e-6"),
+        ("[0, 1, 2, 5]", "[0, 5]"),
+        ("[20, 70, 110, 200]", "[20, 200]"),
+    ]
+    .into_iter()
+    .fold(EXAMPLE.to_owned(), |rig, (from, to)| {
+        assert!(rig.contains(from), "{from}");
+        rig.replace(from, to)
+    });
     let columns = vec![
         ("x", "m", counted(positions_m, 1e-6)),
         ("f", "N", noise.on(forces_n, NOISE_N)),
