@@ -15,7 +15,7 @@ use crate::align::Fault;
 use crate::cause::{Cause, Place};
 use crate::evidence::intervals;
 use crate::explain::{Explanations, explain, explain_many};
-use crate::filter::rms;
+use crate::filter::usable_rms;
 use crate::plant::{At, Plant, Run};
 use crate::problem::{Problem, Term};
 use crate::report::Report;
@@ -257,9 +257,6 @@ fn scattered(problem: &Problem, selection: &Selection) -> Option<(Trials, Window
     let bare = left_over(problem, &nominal, &selection.before);
     let mut by_gains = bare.clone();
     trials.take_out(&mut by_gains, usable);
-    let [laws, gains, bare] = [residual, by_gains, bare].map(|rows| {
-        let pairs = rows.into_iter().zip(usable).filter(|(_, usable)| **usable);
-        rms(&pairs.map(|(row, _)| row).collect::<Vec<f64>>())
-    });
+    let [laws, gains, bare] = [&residual, &by_gains, &bare].map(|rows| usable_rms(rows, usable));
     (laws >= gains && laws > EXPLAINED_LEFT * bare).then_some((trials, windows))
 }

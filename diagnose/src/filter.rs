@@ -136,6 +136,12 @@ pub fn rms(values: &[f64]) -> f64 {
     (sum / values.len().max(1) as f64).sqrt()
 }
 
+/// Root mean square of the usable ones among values.
+pub fn usable_rms(values: &[f64], usable: &[bool]) -> f64 {
+    let kept = values.iter().zip(usable).filter(|(_, usable)| **usable);
+    rms(&kept.map(|(value, _)| *value).collect::<Vec<f64>>())
+}
+
 /// About the standard deviation of the noise of a sample that is white, from sixth differences.
 ///
 /// They take away what changes slowly from sample to sample, and their median what jumps now and then. `None` where

@@ -2,7 +2,7 @@
 //! trial has more or less of it.
 
 use crate::candidates::modelled_effort;
-use crate::filter::rms;
+use crate::filter::{rms, usable_rms};
 use crate::plant::Run;
 use crate::problem::{Problem, Term, less};
 use crate::regression::Fit;
@@ -90,10 +90,7 @@ impl Trials {
     /// The scatter of the trials; `None` if the residual is below `least`, N·m, or if gains do not
     /// explain it.
     pub fn scatter(&self, residual: &[f64], usable: &[bool], least: f64) -> Option<Scatter> {
-        let size = |rows: &[f64]| {
-            let kept = rows.iter().zip(usable).filter(|(_, u)| **u);
-            rms(&kept.map(|(r, _)| *r).collect::<Vec<f64>>())
-        };
+        let size = |rows: &[f64]| usable_rms(rows, usable);
         let mut within = residual.to_vec();
         self.take_out(&mut within, usable);
         let (all, rest) = (size(residual), size(&within));

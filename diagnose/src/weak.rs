@@ -93,9 +93,7 @@ impl Windows {
 
     /// Keeps windows in which the uncertainty of a predicted effort is small beside `floor`.
     pub fn keep_foreseen(&mut self, doubt: &[f64], floor: f64) {
-        let doubts = self.average(doubt);
-        let pairs = self.usable.iter_mut().zip(doubts);
-        pairs.for_each(|(usable, doubt)| *usable &= doubt <= MOST_DOUBT * floor);
+        self.keep_below(doubt, MOST_DOUBT * floor);
     }
 
     /// Keeps windows in which a predicted effort hardly changes: those of a settled brake.
@@ -106,9 +104,14 @@ impl Windows {
             .zip(next)
             .map(|(own, next)| (next - own).abs())
             .collect();
-        let changes = self.average(&steps);
-        let pairs = self.usable.iter_mut().zip(changes);
-        pairs.for_each(|(usable, change)| *usable &= change <= MOST_STEP * floor);
+        self.keep_below(&steps, MOST_STEP * floor);
+    }
+
+    /// Keeps windows in which a signal is at most so much on average.
+    fn keep_below(&mut self, signal: &[f64], most: f64) {
+        let averages = self.average(signal);
+        let pairs = self.usable.iter_mut().zip(averages);
+        pairs.for_each(|(usable, average)| *usable &= average <= most);
     }
 
     fn apply(&self, weights: &[f64], signal: &[f64], combinations: &[Vec<f64>]) -> Vec<f64> {

@@ -127,6 +127,17 @@ pub struct Channels {
 }
 
 impl Channels {
+    /// What drives the plant: a command, or the current of a bench.
+    pub(crate) fn drive(&self) -> Option<&ChannelMap> {
+        self.command.as_ref().or(self.current.as_ref())
+    }
+
+    /// What drives a brake: the dimension of the command of a bench; a current where it has none.
+    pub(crate) fn driving(&self, plant: Plant) -> Dimension {
+        let command = self.command.as_ref().filter(|_| plant == Plant::Bench);
+        command.map_or(Dimension::CURRENT, ChannelMap::dimension)
+    }
+
     /// Every channel that is named.
     pub(crate) fn maps(&self) -> Vec<&ChannelMap> {
         let optional = [
@@ -282,12 +293,7 @@ fn dimension(
 }
 
 impl RigEffect {
-    /// The dimension of one of its parameters, on a plant that slides or turns and whose brakes are driven by currents.
-    pub fn dimension(&self, parameter: &Parameter, motion: Motion) -> Dimension {
-        self.driven(parameter, motion, Dimension::CURRENT)
-    }
-
-    /// The same where something else drives the brake.
+    /// The dimension of one of its parameters, on a plant that slides or turns and whose brakes this drives.
     pub fn driven(&self, parameter: &Parameter, motion: Motion, driving: Dimension) -> Dimension {
         dimension(parameter, motion, self.of_torque, driving)
     }
@@ -345,9 +351,7 @@ impl Rig {
 
     /// What drives a brake: the dimension of its command; a current where it has none.
     pub fn driving(&self) -> Dimension {
-        let command = self.channels.command.as_ref();
-        let command = command.filter(|_| self.plant == Plant::Bench);
-        command.map_or(Dimension::CURRENT, ChannelMap::dimension)
+        self.channels.driving(self.plant)
     }
 
     /// The dimension of the command gain, when the rig has a command.

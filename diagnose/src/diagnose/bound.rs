@@ -42,23 +42,17 @@ fn given_back(selection: &Selection, numbers: &[(Vec<f64>, &Vec<f64>)]) -> Optio
     let first = |(values, halves): &(Vec<f64>, &Vec<f64>)| {
         values.first().copied().zip(halves.first().copied())
     };
-    let mut found = selection
-        .found
-        .iter()
-        .map(|own| own.term.cause)
-        .zip(numbers);
-    let (gain, own) = found.find(|(own, _)| own.mechanism == Mechanism::GainError)?;
+    let causes = selection.found.iter().map(|own| own.term.cause);
+    let found: Vec<_> = causes.zip(numbers).collect();
+    let is_gain = |(own, _): &&(Cause, _)| own.mechanism == Mechanism::GainError;
+    let (gain, own) = *found.iter().find(is_gain)?;
     let (loss, half) = first(own)?;
-    let causes = selection
-        .found
-        .iter()
-        .map(|own| own.term.cause)
-        .zip(numbers);
-    let mut shares = causes.filter(|(own, _)| own.scales == Scales::Torque && own.at == gain.at);
+    let is_share = |own: Cause| own.scales == Scales::Torque && own.at == gain.at;
     let is_as_much =
         |(share, its_half): (f64, f64)| share > 0.0 && (share + loss).abs() < half + its_half;
-    shares
-        .any(|(_, own)| first(own).is_some_and(is_as_much))
+    found
+        .iter()
+        .any(|(cause, own)| is_share(*cause) && first(own).is_some_and(is_as_much))
         .then_some(gain)
 }
 

@@ -100,25 +100,27 @@ impl Refining<'_> {
             let Some(own) = best.1.terms.last() else {
                 break;
             };
-            let of_place = |(by, _): &(Move, Term)| by.place == place;
-            let beside: Vec<f64> = moves(self.problem, own, stride)
-                .iter()
-                .filter(|tried| of_place(tried))
-                .map(|(_, term)| evidence(&others.with(self.folds, term)))
-                .collect();
-            let [up, down] = beside[..] else { continue };
+            let beside = [true, false].map(|up| {
+                let term = moved_by(self.problem, own, Move { place, up }, stride)?;
+                Some(evidence(&others.with(self.folds, &term)))
+            });
+            let [Some(up), Some(down)] = beside else {
+                continue;
+            };
             let bend = 2.0 * best.0 - up - down;
             let part = 0.5 * (up - down) / bend;
             // No top where the evidence grows to one side.
             if bend <= 0.0 || part == 0.0 || part.abs() >= 1.0 {
                 continue;
             }
-            let up = part > 0.0;
-            let tried = moves(self.problem, own, stride * part.abs());
-            let tried = tried
-                .into_iter()
-                .filter(|(by, _)| by.place == place && by.up == up);
-            if let Some((_, better)) = self.better(&others, tried.collect(), best.0, evidence) {
+            let by = Move {
+                place,
+                up: part > 0.0,
+            };
+            let tried = moved_by(self.problem, own, by, stride * part.abs()).map(|own| (by, own));
+            if let Some((_, better)) =
+                self.better(&others, tried.into_iter().collect(), best.0, evidence)
+            {
                 best = better;
             }
         }
@@ -252,33 +254,36 @@ impl Move {
     }
 }
 
-/// A term with one shape parameter moved by a stride, up or down; of an anchor its distance and its
-/// direction from the middle of what is searched.
+/// A term with one shape parameter moved by a stride, up or down, for each parameter.
 fn moves(problem: &Problem, own: &Term, stride: f64) -> Vec<(Move, Term)> {
+    let each =
+        (0..own.numbers().len()).flat_map(|place| [true, false].map(|up| Move { place, up }));
+    each.filter_map(|by| Some((by, moved_by(problem, own, by, stride)?)))
+        .collect()
+}
+
+/// A term with one shape parameter moved by a stride; of an anchor its distance and its direction
+/// from the middle of what is searched. `None` outside the bounds.
+fn moved_by(problem: &Problem, own: &Term, by: Move, stride: f64) -> Option<Term> {
     let bounds = shape_bounds(problem, own.cause, &own.shape);
-    let is_anchor = is_anchored(own);
     // The grid already knows a period to within a few percent, and a longer stride leads to another
     // period.
     let stride = match is_periodic(own.cause) {
         true => PERIOD_STRIDE * stride,
         false => stride,
     };
-    let each =
-        (0..own.numbers().len()).flat_map(|place| [true, false].map(|up| Move { place, up }));
-    let shapes = each.filter_map(|by| {
-        let shape = match is_anchor {
-            true => moved_anchor(&own.shape, &bounds, by, stride)?,
-            false => scaled(&own.shape, by, stride)?,
-        };
-        let mut moved = shape.iter().zip(&own.shape).zip(&bounds[..]);
-        let stays = moved.all(|((to, from), &(low, high))| {
-            to == from || (low.min(high)..=high.max(low)).contains(to)
-        });
-        stays.then_some((by, shape))
+    let shape = match is_anchored(own) {
+        true => moved_anchor(&own.shape, &bounds, by, stride)?,
+        false => scaled(&own.shape, by, stride)?,
+    };
+    let mut moved = shape.iter().zip(&own.shape).zip(&bounds[..]);
+    let stays = moved.all(|((to, from), &(low, high))| {
+        to == from || (low.min(high)..=high.max(low)).contains(to)
     });
-    shapes
-        .filter_map(|(by, shape)| Some((by, unfitted(problem, own.cause, &shape, own.onset_s)?)))
-        .collect()
+    match stays {
+        true => unfitted(problem, own.cause, &shape, own.onset_s),
+        false => None,
+    }
 }
 
 /// A shape with one parameter longer or shorter by a share.

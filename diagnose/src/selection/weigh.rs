@@ -2,7 +2,7 @@
 
 use super::floor_limit;
 use crate::candidates::modelled_effort;
-use crate::filter::rms;
+use crate::filter;
 use crate::problem::{Problem, Term, add};
 use crate::regression::{Blocks, Fit, fit, loss_of};
 use crate::rules::RELINEARISE;
@@ -35,13 +35,7 @@ pub(super) fn acting(term: &Term, coefficients: &[f64]) -> Vec<f64> {
 
 /// Root mean square over the usable windows.
 pub fn usable_rms(problem: &Problem, values: &[f64]) -> f64 {
-    let usable: Vec<f64> = values
-        .iter()
-        .zip(&problem.windows.usable)
-        .filter(|(_, u)| **u)
-        .map(|(v, _)| *v)
-        .collect();
-    rms(&usable)
+    filter::usable_rms(values, &problem.windows.usable)
 }
 
 /// Whether a fit leaves nothing but sensor noise.

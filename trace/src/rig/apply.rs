@@ -127,33 +127,25 @@ impl Rig {
     /// As [`Rig::apply`].
     pub fn taken(&self, trace: Trace, origin: &Path) -> Result<Recording, TraceError> {
         let channels = &self.channels;
-        let drive = match self.plant {
-            Plant::Axis => &channels.command,
-            Plant::Bench if channels.command.is_some() => &channels.command,
-            Plant::Bench => &channels.current,
-        };
-        let others = [
-            drive,
-            &channels.enabled,
-            &channels.force,
-            &channels.simulated,
-        ];
+        let drive = channels.drive();
+        let others = [&channels.enabled, &channels.force, &channels.simulated];
         let mut maps = vec![&channels.position];
+        maps.extend(drive);
         maps.extend(others.into_iter().flatten());
         let (time_s, mut recorded) = Recorded::of(trace, &maps, &self.name, origin);
         let position = recorded.signal(&channels.position)?;
         let mut optional =
-            |map: &Option<ChannelMap>| map.as_ref().map(|own| recorded.signal(own)).transpose();
+            |map: Option<&ChannelMap>| map.map(|own| recorded.signal(own)).transpose();
         Ok(Recording {
             plant: self.plant,
             motion: self.motion,
             time_s,
             position,
             drive: optional(drive)?,
-            enabled: optional(&channels.enabled)?,
+            enabled: optional(channels.enabled.as_ref())?,
             servo: self.servo.map(|servo| servo.of(&self.recordings, origin)),
-            force: optional(&channels.force)?,
-            simulated: optional(&channels.simulated)?,
+            force: optional(channels.force.as_ref())?,
+            simulated: optional(channels.simulated.as_ref())?,
         })
     }
 }

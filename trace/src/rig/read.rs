@@ -60,10 +60,7 @@ impl Rig {
             check_servo(&root, &channels, motion)?;
         }
         let characteristic = read_characteristic(&root, plant, motion, &channels)?;
-        let driving = match (plant, &channels.command) {
-            (Plant::Bench, Some(command)) => command.dimension(),
-            _ => Dimension::CURRENT,
-        };
+        let driving = channels.driving(plant);
         Ok(Rig {
             name,
             plant,
@@ -111,8 +108,8 @@ fn read_characteristic(
     channels: &Channels,
 ) -> Result<Option<Characteristic>, TraceError> {
     let is_bench = plant == Plant::Bench;
-    let drive = channels.command.as_ref().or(channels.current.as_ref());
-    let driving = drive.filter(|_| is_bench).map(ChannelMap::dimension);
+    let drive = channels.drive().filter(|_| is_bench);
+    let driving = drive.map(ChannelMap::dimension);
     let effort = is_bench.then(|| Quantity::Effort.dimension(motion));
     let own = Characteristic::read(root, [driving, effort])?;
     if own.is_some() && root.has("brake") {

@@ -330,16 +330,17 @@ impl Run for JointRun {
         let (Some((predicted, _)), Some(doubt)) = (self.brake(), self.brake_doubt()) else {
             return;
         };
-        let mut steady = windows.clone();
-        steady.keep_steady(predicted, floor);
-        let are_enough = steady.usable.iter().filter(|own| **own).count() >= FEWEST_WINDOWS;
-        match &self.law {
-            // Its torque is known while it changes. The thesis's goes by the speed and by backlash
-            // then.
-            Some(JointBrake::Characteristic(..)) => windows.keep_foreseen(&doubt, floor),
-            _ if are_enough => *windows = steady,
-            _ => windows.keep_foreseen(&doubt, floor),
+        // The torque of a characteristic is known while it changes. The thesis's goes by the speed
+        // and by backlash then.
+        if !matches!(self.law, Some(JointBrake::Characteristic(..))) {
+            let mut steady = windows.clone();
+            steady.keep_steady(predicted, floor);
+            if steady.usable.iter().filter(|own| **own).count() >= FEWEST_WINDOWS {
+                *windows = steady;
+                return;
+            }
         }
+        windows.keep_foreseen(&doubt, floor);
     }
 
     fn sensors(&self) -> [f64; 2] {
