@@ -176,6 +176,11 @@ pub fn standard_shapes<R: Run + ?Sized>(
             MOST_GAP * travel,
             GAPS,
         )),
+        Shapes::OfTravel { low, high, count } => {
+            let middle = middle(run.motion(cause.at));
+            let widths = geometric(low * travel, high * travel, count).into_iter();
+            widths.flat_map(|own| [vec![own], vec![own, middle]]).collect()
+        }
         Shapes::Resonance => resonances(step_s),
         Shapes::EffortLimit => limits(greatest(&run.effort()), EFFORT_LIMIT_SHARES, EFFORT_LIMITS),
         Shapes::EffortRate => one(effort_rates(&run.effort())),
@@ -241,6 +246,13 @@ fn edges(times: &[f64]) -> Vec<Vec<f64>> {
     let each = times.iter();
     each.flat_map(|own| [vec![*own], vec![*own, 1.0], vec![1.0, *own]])
         .collect()
+}
+
+/// The middle of the range of a motion.
+fn middle(motion: &[Instant]) -> f64 {
+    let positions = motion.iter().map(|now| now.position);
+    let low = positions.clone().fold(f64::INFINITY, f64::min);
+    0.5 * (low + positions.fold(f64::NEG_INFINITY, f64::max))
 }
 
 /// Trial travels of presliding, from the least that can be observed.

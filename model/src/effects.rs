@@ -31,6 +31,7 @@ mod settling;
 mod spring;
 mod stribeck;
 mod torque_drift;
+mod transmission;
 mod uneven_friction;
 mod velocity_power;
 mod viscous;
@@ -292,6 +293,8 @@ pub const LIBRARY: &[Entry] = &[
     driven::LINK_INERTIA,
     driven::COMPLIANCE,
     driven::LOAD_BACKLASH,
+    transmission::STIFFNESS,
+    transmission::BACKLASH,
     linkage::GRAVITY,
     linkage::INERTIA_ERROR,
     linkage::INERTIA_SCALE,

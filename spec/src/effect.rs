@@ -209,6 +209,14 @@ vocabulary! {
         needed("inertia", Inertia).not_below_zero(),
         needed("gap", Travel).above_zero(),
     ],
+    /// Another stiffness between a motor and its link than the stated one.
+    TransmissionStiffness = "transmission_stiffness" called "wrong stiffness of a transmission" | "gear stiffness" | "joint stiffness" [needed("stiffness", EffortPerTravel)],
+    /// A gap between a motor and its link, where the twist is recorded.
+    TransmissionBacklash = "transmission_backlash" called "backlash in a transmission" | "gear backlash" [
+        needed("stiffness", EffortPerTravel),
+        needed("gap", Travel).above_zero(),
+        optional("centre", Travel),
+    ],
     /// Friction in proportion to the effort that a joint transmits, or to a power of it.
     LoadFriction = "load_friction" called "friction under load" | "gear efficiency" [
         needed("share", Number).not_below_zero(),

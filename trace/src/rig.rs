@@ -19,6 +19,7 @@ mod servo;
 mod signals;
 pub mod table;
 mod text;
+pub mod transmission;
 mod write;
 
 use std::collections::BTreeMap;

@@ -4,6 +4,7 @@
 mod align;
 mod beside;
 mod joined;
+mod parts;
 mod plant;
 mod run;
 mod simulated;

@@ -38,6 +38,8 @@ pub struct Facts {
     pub of_torque: bool,
     /// Whether it is a candidate at each joint of a serial arm.
     pub at_arm: bool,
+    /// Whether it is a candidate at a transmission whose twist is recorded.
+    pub at_transmission: bool,
     /// Whether it is compared in sets of mechanisms only, not one at a time.
     pub in_sets: bool,
     /// The value of its first number at which a mechanism without a coefficient does nothing, if
@@ -67,6 +69,7 @@ impl Facts {
             form_of: None,
             of_torque: false,
             at_arm: false,
+            at_transmission: false,
             in_sets: false,
             nothing: None,
             both: None,
@@ -248,6 +251,16 @@ pub enum Shapes {
     Anchor,
     /// Widths of a gap, as shares of the travel.
     Gap,
+    /// A geometric progression in shares of the travel, about zero and about the middle of the
+    /// travel.
+    OfTravel {
+        /// The least.
+        low: f64,
+        /// The greatest.
+        high: f64,
+        /// Their number.
+        count: usize,
+    },
     /// Resonances and damping ratios.
     Resonance,
     /// Half widths of a current hysteresis, A: a geometric progression. A plant may add the current

@@ -156,6 +156,7 @@ pub(super) const ENCODER_OFFSET: Entry = Entry {
     equation: "recorded angle = angle + `angle`",
     facts: Facts {
         shapes: Shapes::Values(&[0.01, -0.01, 0.06, -0.06]),
+        at_transmission: true,
         ..Facts::of(
             Family::Sensor,
             Asked {

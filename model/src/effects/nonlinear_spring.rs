@@ -17,6 +17,7 @@ pub(super) const ENTRY: Entry = Entry {
     equation: "cubic·q³",
     facts: Facts {
         usual: Usual::Exceptional,
+        at_transmission: true,
         ..Facts::of(
             Family::Position,
             Asked {

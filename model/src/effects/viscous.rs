@@ -17,6 +17,7 @@ pub(super) const ENTRY: Entry = Entry {
     equation: "coefficient·q̇",
     facts: Facts {
         at_arm: true,
+        at_transmission: true,
         usual: Usual::Plain,
         ..Facts::of(
             Family::FrictionOfMotion,

@@ -10,6 +10,7 @@ use super::apply::{Signal, read_applied, those};
 use super::read::{choice, read_channel, read_effect, read_provenance, read_time};
 use super::signals::Recorded;
 use super::table::{Source, Table};
+use super::transmission::{KEYS, Transmission, part};
 use super::write::{channel, effect_lines, provenance_lines, string, time_line};
 use super::{ChannelMap, RigEffect, SCHEMA_LINE, state_units, text};
 use crate::csv::{Dialect, Hints, TimeColumn};
@@ -82,14 +83,16 @@ pub struct ChainJoint {
     pub motion: Motion,
     /// Its position.
     pub position: ChannelMap,
-    /// Its effort, N·m or N.
+    /// The effort of its motor, N·m or N.
     pub effort: ChannelMap,
+    /// What is recorded and known between its motor and its link.
+    pub transmission: Transmission,
 }
 
 /// A mechanism at a joint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AtJoint {
-    /// The joint's name; of a link that of the joint that moves it.
+    /// The name of the joint or of a part of it; of a link that of the joint that moves it.
     pub joint: String,
     /// The mechanism with its numbers.
     pub effect: RigEffect,
@@ -104,16 +107,26 @@ pub struct ChainRecording {
     pub position: Vec<Signal>,
     /// Efforts, N·m or N.
     pub effort: Vec<Signal>,
+    /// Positions of motors, where they are recorded.
+    pub motor: Vec<Option<Signal>>,
+    /// Efforts that pass transmissions, where sensors show them.
+    pub torque: Vec<Option<Signal>>,
 }
 
 impl ChainRecording {
     /// The recording at the samples that are kept.
     pub fn only(&self, kept: &[bool]) -> ChainRecording {
         let each = |signals: &[Signal]| signals.iter().map(|s| s.only(kept)).collect();
+        let some = |signals: &[Option<Signal>]| {
+            let each = signals.iter();
+            each.map(|s| s.as_ref().map(|s| s.only(kept))).collect()
+        };
         ChainRecording {
             time_s: those(&self.time_s, kept),
             position: each(&self.position),
             effort: each(&self.effort),
+            motor: some(&self.motor),
+            torque: some(&self.torque),
         }
     }
 }
@@ -180,8 +193,7 @@ impl ChainRig {
         let effects = root.tables("effect")?;
         let effects = effects.iter().map(|table| {
             let joint = table.need("joint", table.text("joint")?)?;
-            let own = joints.iter().find(|own| own.name == joint);
-            let own = own.ok_or_else(|| {
+            let (own, _) = part(joint, &joints).ok_or_else(|| {
                 table.error_at("joint", format!("`{joint}` is no joint of this arm"))
             })?;
             Ok(AtJoint {
@@ -212,8 +224,11 @@ impl ChainRig {
     /// Every channel that is named.
     pub fn maps(&self) -> Vec<&ChannelMap> {
         let each = self.joints.iter();
-        each.flat_map(|joint| [&joint.position, &joint.effort])
-            .collect()
+        each.flat_map(|joint| {
+            let own = [&joint.position, &joint.effort].into_iter();
+            own.chain(joint.transmission.maps())
+        })
+        .collect()
     }
 
     /// Reads a text recording whose dialect is partly known, and says in which it was, and what was guessed, passed over or mended.
@@ -237,7 +252,10 @@ impl ChainRig {
     pub fn with_column_units(&self, units: &[(String, String)]) -> Result<ChainRig, String> {
         let mut rig = self.clone();
         let joints = rig.joints.iter_mut();
-        let maps = joints.flat_map(|joint| [&mut joint.position, &mut joint.effort]);
+        let maps = joints.flat_map(|joint| {
+            let own = [&mut joint.position, &mut joint.effort].into_iter();
+            own.chain(joint.transmission.maps_mut())
+        });
         state_units(maps, &self.name, units)?;
         Ok(rig)
     }
@@ -264,6 +282,14 @@ impl ChainRig {
                 .collect::<Result<_, _>>()?,
             effort: joints()
                 .map(|j| recorded.signal(&j.effort))
+                .collect::<Result<_, _>>()?,
+            motor: joints()
+                .map(|j| j.transmission.motor.as_ref())
+                .map(|map| map.map(|map| recorded.signal(map)).transpose())
+                .collect::<Result<_, _>>()?,
+            torque: joints()
+                .map(|j| j.transmission.torque.as_ref())
+                .map(|map| map.map(|map| recorded.signal(map)).transpose())
                 .collect::<Result<_, _>>()?,
         })
     }
@@ -293,10 +319,10 @@ impl ChainRig {
             lines.push(format!("motion = {}", string(motion_word(joint.motion))));
             lines.push(format!("position = {}", channel(&joint.position)));
             lines.push(format!("effort = {}", channel(&joint.effort)));
+            lines.extend(joint.transmission.lines(joint.motion));
         }
         for own in &self.effects {
-            let joint = self.joints.iter().find(|joint| joint.name == own.joint);
-            let motion = joint.map_or(Motion::Rotary, |joint| joint.motion);
+            let motion = part(&own.joint, &self.joints).map_or(Motion::Rotary, |(j, _)| j.motion);
             let mut effect = effect_lines(&own.effect, (motion, Dimension::CURRENT)).into_iter();
             lines.extend(effect.by_ref().take(2));
             lines.push(format!("joint = {}", string(&own.joint)));
@@ -319,7 +345,8 @@ fn read_model(written: &str, origin: &Path) -> Result<(Option<String>, String), 
 }
 
 fn read_joint(table: &Table<'_>) -> Result<ChainJoint, TraceError> {
-    table.only(&["name", "motion", "position", "effort"])?;
+    let own = ["name", "motion", "position", "effort"];
+    table.only(&own.into_iter().chain(KEYS).collect::<Vec<_>>())?;
     let motion = match table.has("motion") {
         true => choice(
             table,
@@ -339,5 +366,6 @@ fn read_joint(table: &Table<'_>) -> Result<ChainJoint, TraceError> {
         motion,
         position: need("position", travel)?,
         effort: need("effort", effort)?,
+        transmission: Transmission::read(table, motion)?,
     })
 }

@@ -473,7 +473,7 @@ fn read_unit(
     }
 }
 
-fn above_zero(
+pub(super) fn above_zero(
     table: &Table<'_>,
     key: &str,
     value: &Value,

@@ -193,6 +193,10 @@ fn chain() -> Value {
         ),
         ("position", defined("channel")),
         ("effort", defined("channel")),
+        ("motor", defined("channel")),
+        ("torque", defined("channel")),
+        ("stiffness", defined("value")),
+        ("rotor", defined("value")),
     ];
     let mut joints = list(
         "The moving joints, each with what is recorded of it.",
@@ -201,7 +205,7 @@ fn chain() -> Value {
     joints["minItems"] = json!(1);
     let more = [(
         "joint",
-        text("The joint at which it acts; of a link the joint that moves it."),
+        text("The joint at which it acts, of a link the joint that moves it; of a part of a joint `elbow.motor` or `elbow.transmission`."),
     )];
     let mut keys = common("chain");
     keys.extend([

@@ -1,6 +1,7 @@
 //! This file resamples a recording of an arm to a regular clock and sets up the equations of its
 //! joints.
 
+use super::parts::ArmPlace;
 use super::run::ChainRun;
 use crate::align::{
     Fault, check_clock, check_missing, cutoff_hz, forget_sense_at_rest, forget_sense_at_reversals,
@@ -12,7 +13,9 @@ use core::f64::consts::TAU;
 use rigproof_model::chain::{Chain, INERTIAL, Inertial};
 use rigproof_model::effects::Instant;
 use rigproof_spec::effect::Motion;
+use rigproof_trace::rig::Signal;
 use rigproof_trace::rig::chain::{ChainRecording, ChainRig, ModelFormat};
+use rigproof_trace::rig::transmission::Part;
 use std::collections::BTreeSet;
 use std::sync::{Mutex, PoisonError};
 
@@ -73,14 +76,28 @@ pub(super) fn arm(rig: &ChainRig) -> Result<Chain, String> {
     Ok(chain)
 }
 
-/// The channels of one joint on regular samples.
-struct Aligned {
+/// A position on regular samples, with its smoothed motion.
+pub(super) struct Moving {
     position: Vec<f64>,
-    effort: Vec<f64>,
-    recorded: Vec<bool>,
-    motion: Vec<Instant>,
+    pub(super) motion: Vec<Instant>,
     floor: f64,
-    noise: [f64; 2],
+    pub(super) noise: f64,
+}
+
+/// An effort on regular samples.
+#[derive(Clone)]
+pub(super) struct Metered {
+    pub(super) signal: Vec<f64>,
+    pub(super) noise: f64,
+}
+
+/// The channels of one joint on regular samples.
+pub(super) struct Aligned {
+    pub(super) link: Moving,
+    pub(super) effort: Metered,
+    pub(super) motor: Option<Moving>,
+    pub(super) torque: Option<Metered>,
+    recorded: Vec<bool>,
 }
 
 /// Aligns a recording.
@@ -96,7 +113,7 @@ pub(super) fn aligned(rig: &ChainRig, recording: &ChainRecording) -> Result<Chai
     let each = each.map(|k| joint(recording, k, step_s));
     let joints: Vec<Aligned> = each.collect::<Result<_, Fault>>()?;
     for (own, joint) in chain.joints.iter().zip(&joints) {
-        let most = joint.position.iter().fold(0.0, |m: f64, q| m.max(q.abs()));
+        let most = joint.link.position.iter().fold(0.0, |m: f64, q| m.max(q.abs()));
         if own.kind == rigproof_model::chain::Kind::Revolute && most > 4.0 * TAU {
             let reason = format!(
                 "joint `{}` goes to {most:.0} rad, beyond four turns: are these degrees? say `unit = \"deg\"`",
@@ -105,39 +122,92 @@ pub(super) fn aligned(rig: &ChainRig, recording: &ChainRecording) -> Result<Chai
             return Err(fault("position", reason));
         }
     }
-    Ok(equations(&chain, &joints, step_s))
+    Ok(equations(rig, &chain, &joints, step_s))
 }
 
 fn joint(recording: &ChainRecording, k: usize, step_s: f64) -> Result<Aligned, Fault> {
-    let time_s = &recording.time_s;
     let (Some(position), Some(effort)) = (recording.position.get(k), recording.effort.get(k))
     else {
         return Err(fault("position", "a joint has no channel".to_owned()));
     };
-    check_missing("position", time_s, &position.samples)?;
-    check_missing("effort", time_s, &effort.samples)?;
-    let count = regular_count(time_s, step_s);
-    let (q, recorded) = resample(time_s, &position.samples, step_s, count);
-    let (tau, also) = resample(time_s, &effort.samples, step_s, count);
-    let quantum = position.quantum.unwrap_or_else(|| smallest_step(&q));
-    let noise = (quantum / 12f64.sqrt()).hypot(position.noise.unwrap_or(0.0));
-    let of_effort = effort
-        .noise
-        .unwrap_or_else(|| (smallest_step(&tau) / 12f64.sqrt()).max(scatter(&tau)));
-    let most_hz = cutoff_hz(step_s, ARM_PERIODS / ARM_WIDTH_S);
-    let cutoff_hz = quiet_cutoff_hz(&q, step_s, most_hz, noise);
-    let (mut motion, floor) = smoothed_motion(&q, step_s, cutoff_hz, noise);
-    let still = (STILL_QUANTA * quantum).max(STILL_SIGMAS * noise);
-    forget_sense_at_rest(&mut motion, &q, step_s, still);
-    forget_sense_at_reversals(&mut motion);
+    let (motor, torque) = (recording.motor.get(k), recording.torque.get(k));
+    let (motor, torque) = (motor.and_then(Option::as_ref), torque.and_then(Option::as_ref));
+    let mut recorded = vec![true; regular_count(&recording.time_s, step_s)];
+    let mut regular = |channel, own: &Signal| -> Result<Vec<f64>, Fault> {
+        check_missing(channel, &recording.time_s, &own.samples)?;
+        let (signal, told) = resample(&recording.time_s, &own.samples, step_s, recorded.len());
+        recorded.iter_mut().zip(told).for_each(|(a, b)| *a = *a && b);
+        Ok(signal)
+    };
+    let link = moving(regular("position", position)?, position, step_s);
+    let effort = metered(regular("effort", effort)?, effort);
+    let motor = motor.map(|own| Ok(moving(regular("motor", own)?, own, step_s)));
+    let torque = torque.map(|own| Ok(metered(regular("torque", own)?, own)));
     Ok(Aligned {
-        position: q,
-        effort: tau,
-        recorded: recorded.iter().zip(also).map(|(a, b)| *a && b).collect(),
+        link,
+        effort,
+        motor: motor.transpose()?,
+        torque: torque.transpose()?,
+        recorded,
+    })
+}
+
+fn moving(position: Vec<f64>, of: &Signal, step_s: f64) -> Moving {
+    let quantum = of.quantum.unwrap_or_else(|| smallest_step(&position));
+    let noise = (quantum / 12f64.sqrt()).hypot(of.noise.unwrap_or(0.0));
+    moved(position, step_s, noise, STILL_QUANTA * quantum)
+}
+
+/// A position with this noise that may rest within this distance.
+fn moved(position: Vec<f64>, step_s: f64, noise: f64, rest: f64) -> Moving {
+    let most_hz = cutoff_hz(step_s, ARM_PERIODS / ARM_WIDTH_S);
+    let cutoff_hz = quiet_cutoff_hz(&position, step_s, most_hz, noise);
+    let (mut motion, floor) = smoothed_motion(&position, step_s, cutoff_hz, noise);
+    forget_sense_at_rest(&mut motion, &position, step_s, rest.max(STILL_SIGMAS * noise));
+    forget_sense_at_reversals(&mut motion);
+    Moving {
+        position,
         motion,
         floor,
-        noise: [noise, of_effort],
-    })
+        noise,
+    }
+}
+
+fn metered(signal: Vec<f64>, of: &Signal) -> Metered {
+    let seen = || (smallest_step(&signal) / 12f64.sqrt()).max(scatter(&signal));
+    let noise = of.noise.unwrap_or_else(seen);
+    Metered { signal, noise }
+}
+
+impl Aligned {
+    /// The position of the motor less that of the link.
+    pub(super) fn twist(&self, step_s: f64) -> Option<Moving> {
+        let motor = self.motor.as_ref()?;
+        let pairs = motor.position.iter().zip(&self.link.position);
+        let position: Vec<f64> = pairs.map(|(motor, link)| motor - link).collect();
+        let noise = motor.noise.hypot(self.link.noise);
+        Some(moved(position, step_s, noise, 0.0))
+    }
+
+    /// The motor's position where no encoder shows it: that of the link, and the twist of a
+    /// transmission of this stiffness under the torque that a sensor shows.
+    pub(super) fn wound(&self, stiffness: f64, step_s: f64) -> Option<Moving> {
+        let torque = self.torque.as_ref().filter(|_| stiffness > 0.0)?;
+        let pairs = self.link.position.iter().zip(&torque.signal);
+        let position = pairs.map(|(link, torque)| link + torque / stiffness).collect();
+        let noise = self.link.noise.hypot(torque.noise / stiffness);
+        Some(moved(position, step_s, noise, 0.0))
+    }
+}
+
+impl Moving {
+    /// The torque of a spring of this deflection.
+    pub(super) fn sprung(&self, stiffness: f64) -> Metered {
+        Metered {
+            signal: self.position.iter().map(|own| stiffness * own).collect(),
+            noise: stiffness * self.noise,
+        }
+    }
 }
 
 /// The standard deviation of a signal's noise, from the median of its second differences. Motion
@@ -162,7 +232,7 @@ const NORMAL_MEDIAN: f64 = 0.674_489_750_196_081_7;
 fn efforts(chain: &Chain, joints: &[Aligned], step_s: f64, sets: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let (count, samples) = (
         joints.len(),
-        joints.first().map_or(0, |own| own.motion.len()),
+        joints.first().map_or(0, |own| own.link.motion.len()),
     );
     let columns = chain.of_each_link();
     let all = columns.len();
@@ -171,7 +241,7 @@ fn efforts(chain: &Chain, joints: &[Aligned], step_s: f64, sets: &[Vec<f64>]) ->
     for k in 0..samples {
         let at = |of: fn(&Instant) -> f64| -> Vec<f64> {
             let each = joints.iter();
-            each.map(|own| own.motion.get(k).map_or(0.0, of)).collect()
+            each.map(|own| own.link.motion.get(k).map_or(0.0, of)).collect()
         };
         let own = chain.momentum(&at(|now| now.position), &at(|now| now.speed));
         for (from, to) in [(&own.momentum, &mut momentum), (&own.rest, &mut rest)] {
@@ -205,20 +275,17 @@ fn body(link: &Inertial) -> [f64; 2] {
 
 /// The equations along a motion: the effort of the described inertias, and the effort per unit of
 /// each inertial parameter.
-fn equations(chain: &Chain, joints: &[Aligned], step_s: f64) -> ChainRun {
-    let samples = joints.first().map_or(0, |own| own.motion.len());
+fn equations(rig: &ChainRig, chain: &Chain, joints: &[Aligned], step_s: f64) -> ChainRun {
+    let samples = joints.first().map_or(0, |own| own.link.motion.len());
     let sets = [chain.of_a_payload(), chain.parameters()];
     let mut signals = efforts(chain, joints, step_s, &sets);
     let mut known = signals.pop().unwrap_or_default();
     let payload = signals.pop().unwrap_or_default();
-    for ((stretch, joint), own) in known
-        .chunks_mut(samples.max(1))
-        .zip(joints)
-        .zip(&chain.joints)
-    {
-        let speeds: Vec<f64> = joint.motion.iter().map(|now| now.speed).collect();
-        let faster = gradient(&speeds, step_s);
-        for ((slot, now), faster) in stretch.iter_mut().zip(&joint.motion).zip(faster) {
+    let bare = chain.joints.iter().zip(joints);
+    for (stretch, (own, joint)) in known.chunks_mut(samples.max(1)).zip(bare) {
+        let motion = &joint.link.motion;
+        let faster = accelerations(motion, step_s);
+        for ((slot, now), faster) in stretch.iter_mut().zip(motion).zip(faster) {
             let friction = own.damping * now.speed + own.friction * now.sense;
             *slot += friction + own.armature * faster;
         }
@@ -230,14 +297,18 @@ fn equations(chain: &Chain, joints: &[Aligned], step_s: f64) -> ChainRun {
             .zip(&joint.recorded)
             .for_each(|(a, b)| *a = *a && *b);
     }
-    ChainRun {
+    let middle = joints.iter();
+    let middle = middle.map(|own| own.link.position.get(samples / 2).copied().unwrap_or(0.0));
+    let masses = chain.mass_matrix(&middle.collect::<Vec<_>>()).diagonal();
+    let mut run = ChainRun {
         step_s,
         start_s: 0.0,
-        names: chain.joints.iter().map(|own| lasting(&own.name)).collect(),
-        motions: joints.iter().map(|own| own.motion.clone()).collect(),
+        equations: (0..joints.len()).collect(),
+        places: each_link(chain),
+        motions: joints.iter().map(|own| own.link.motion.clone()).collect(),
         effort: joints
             .iter()
-            .flat_map(|own| own.effort.iter().copied())
+            .flat_map(|own| own.effort.signal.iter().copied())
             .collect(),
         known,
         payload,
@@ -245,7 +316,7 @@ fn equations(chain: &Chain, joints: &[Aligned], step_s: f64) -> ChainRun {
         described: chain
             .joints
             .iter()
-            .map(|own| [own.friction, own.damping, own.armature])
+            .map(|own| [own.friction, own.damping, own.armature, 0.0])
             .collect(),
         links: chain
             .of_each_link()
@@ -253,21 +324,31 @@ fn equations(chain: &Chain, joints: &[Aligned], step_s: f64) -> ChainRun {
             .map(|c| (c / INERTIAL, c % INERTIAL))
             .zip(signals)
             .collect(),
-        noise: joints.iter().map(|own| own.noise).collect(),
-        masses: {
-            let middle: Vec<f64> = joints
-                .iter()
-                .map(|own| own.position.get(samples / 2).copied().unwrap_or(0.0))
-                .collect();
-            chain
-                .mass_matrix(&middle)
-                .diagonal()
-                .iter()
-                .copied()
-                .collect()
-        },
-        speed_floor: joints.iter().map(|own| own.floor).fold(0.0, f64::max),
+        noise: joints
+            .iter()
+            .map(|own| [own.link.noise, own.effort.noise])
+            .collect(),
+        masses: masses.iter().copied().collect(),
+        speed_floor: joints.iter().map(|own| own.link.floor).fold(0.0, f64::max),
         recorded,
         seams: Vec::new(),
-    }
+    };
+    run.split_joints(rig, chain, joints);
+    run
+}
+
+fn each_link(chain: &Chain) -> Vec<ArmPlace> {
+    let each = chain.joints.iter().enumerate();
+    let links = each.map(|(joint, own)| ArmPlace {
+        name: lasting(&own.name),
+        part: Part::Link,
+        is_split: false,
+        rows: vec![(joint, 1.0)],
+    });
+    links.collect()
+}
+
+pub(super) fn accelerations(motion: &[Instant], step_s: f64) -> Vec<f64> {
+    let speeds: Vec<f64> = motion.iter().map(|now| now.speed).collect();
+    gradient(&speeds, step_s)
 }

@@ -7,6 +7,7 @@ use rigproof_model::effects::{Drive, Form, OfJoint, OfLinkage, form};
 use rigproof_spec::effect::{Mechanism, Motion};
 use rigproof_trace::rig::RigEffect;
 use rigproof_trace::rig::chain::{AtJoint, ChainRig, ModelFormat};
+use rigproof_trace::rig::transmission::part;
 use std::collections::BTreeMap;
 
 /// The calibrated model, and the table of what it cannot hold.
@@ -42,6 +43,7 @@ pub(super) fn beside(rig: &ChainRig) -> Vec<(&'static str, String)> {
         });
         match slot {
             Some(slot) => *slot = (*slot + first(&own.effect)).max(0.0),
+            None if joint.is_none() => left.push((own, no_part(rig.format))),
             None => left.push((own, reason(own.effect.mechanism, rig.format))),
         }
     }
@@ -158,6 +160,12 @@ fn named(chain: &Chain, links: Vec<Inertial>) -> BTreeMap<String, Inertial> {
         .collect()
 }
 
+/// Why a format cannot hold what is before the link of a joint.
+fn no_part(format: ModelFormat) -> String {
+    let format = format.name();
+    format!("a joint of {format} has no motor behind a transmission; keep it in your own simulation")
+}
+
 /// Why a format cannot hold this mechanism.
 fn reason(mechanism: Mechanism, format: ModelFormat) -> String {
     let format = format.name();
@@ -196,8 +204,7 @@ fn said(rig: &ChainRig, left: &[(&AtJoint, String)]) -> Vec<String> {
 fn table(rig: &ChainRig, left: &[(&AtJoint, String)]) -> String {
     let mut text = "joint,mechanism,number,value,unit,why\n".to_owned();
     for (own, why) in left {
-        let joint = rig.joints.iter().find(|joint| joint.name == own.joint);
-        let motion = joint.map_or(Motion::Rotary, |joint| joint.motion);
+        let motion = part(&own.joint, &rig.joints).map_or(Motion::Rotary, |(own, _)| own.motion);
         let mechanism = own.effect.mechanism;
         for (number, value) in mechanism.parameters().iter().zip(&own.effect.values) {
             text += &format!(

@@ -2,6 +2,7 @@
 
 use super::align::{aligned, arm};
 use super::beside::beside;
+use super::parts::place_names;
 use super::run::ChainRun;
 use super::simulated::simulated;
 use crate::align::Fault;
@@ -48,9 +49,7 @@ impl Plant for ChainRig {
     /// The effects in the description besides the model. Joints are numbered in the arm's order, not
     /// the file's.
     fn nominal(&self) -> Vec<Effect> {
-        let chain = arm(self).ok();
-        let joints = chain.iter().flat_map(|chain| &chain.joints);
-        let names: Vec<&str> = joints.map(|own| own.name.as_str()).collect();
+        let names = arm(self).map_or_else(|_| Vec::new(), |chain| place_names(self, &chain));
         let each = self.effects.iter().filter_map(|own| {
             let joint = names.iter().position(|name| *name == own.joint)?;
             let values = &own.effect.values;
@@ -168,7 +167,11 @@ impl Described for ChainRig {
         for signal in &mut out.position {
             *signal = sensed(signal, position, random);
         }
-        for signal in &mut out.effort {
+        for signal in out.motor.iter_mut().flatten() {
+            *signal = sensed(signal, position, random);
+        }
+        let torques = out.torque.iter_mut().flatten();
+        for signal in out.effort.iter_mut().chain(torques) {
             *signal = sensed(signal, effort, random);
         }
         out

@@ -2,6 +2,7 @@
 //! another's.
 
 use crate::candidates::{is_plain, standard_shapes};
+use super::parts::ArmPlace;
 use crate::cause::{Cause, JointId, Place};
 use crate::filter::{gradient, rms};
 use crate::plant::{Clock, Columns, Rules, Run, resistances};
@@ -12,8 +13,9 @@ use crate::whiten::Whitener;
 use nalgebra::{DMatrix, DVector};
 use rigproof_model::bench::column;
 use rigproof_model::chain::INERTIAL;
-use rigproof_model::effects::{Drive, Form, Instant, OfJoint, OfLinkage, facts, form};
+use rigproof_model::effects::{Drive, Form, Instant, OfJoint, OfLinkage, OfSensor, form};
 use rigproof_spec::effect::Mechanism;
+use rigproof_trace::rig::transmission::Part;
 
 /// An aligned recording in SI units.
 #[derive(Clone, Debug)]
@@ -22,9 +24,11 @@ pub struct ChainRun {
     pub step_s: f64,
     /// Time of the first sample, s.
     pub start_s: f64,
-    /// The names of the joints.
-    pub names: Vec<&'static str>,
-    /// The smoothed motion of each joint.
+    /// Where mechanisms may act: the links first, joint by joint.
+    pub places: Vec<ArmPlace>,
+    /// The place of each equation, by which it is named.
+    pub equations: Vec<usize>,
+    /// The smoothed motion at each place.
     pub motions: Vec<Vec<Instant>>,
     /// The recorded efforts.
     pub effort: Vec<f64>,
@@ -36,11 +40,11 @@ pub struct ChainRun {
     pub bodies: Vec<[f64; 2]>,
     /// The effort per kilogram at the tip.
     pub payload: Vec<f64>,
-    /// Coulomb and viscous friction and the rotor of each joint as described.
-    pub described: Vec<[f64; 3]>,
-    /// Noise of the position and of the effort of each joint, standard deviation.
+    /// Coulomb and viscous friction, rotor and stiffness of each place as described.
+    pub described: Vec<[f64; 4]>,
+    /// Noise of the position and of the effort of each equation, standard deviation.
     pub noise: Vec<[f64; 2]>,
-    /// The inertia that each joint moves when it moves alone, kg·m² or kg.
+    /// The inertia that the joint of each equation moves when it moves alone, kg·m² or kg.
     pub masses: Vec<f64>,
     /// Speed below which the direction of motion cannot be told.
     pub speed_floor: f64,
@@ -54,12 +58,6 @@ pub struct ChainRun {
 /// recording are differenced one-sidedly. What is left to 1 is also the share of a signal's energy
 /// that is rounding.
 const SAME: f64 = 1.0 - 1e-6;
-
-/// The mechanisms that are candidates at every joint.
-fn looked_for() -> impl Iterator<Item = Mechanism> {
-    let at_arm = |own: &Mechanism| facts(*own).is_some_and(|facts| facts.at_arm);
-    Mechanism::ALL.into_iter().filter(at_arm)
-}
 
 impl ChainRun {
     /// The number of samples.
@@ -102,7 +100,8 @@ impl ChainRun {
                 inside.map(|own| own - from).collect()
             },
             step_s: self.step_s,
-            names: self.names.clone(),
+            places: self.places.clone(),
+            equations: self.equations.clone(),
             noise: self.noise.clone(),
             masses: self.masses.clone(),
             speed_floor: self.speed_floor,
@@ -121,21 +120,31 @@ impl ChainRun {
         each.collect()
     }
 
-    /// The samples of one joint in a signal of all joints.
-    fn stretch<'a>(&self, signal: &'a [f64], joint: usize) -> &'a [f64] {
-        let mut stretches = signal.chunks(self.len().max(1));
-        stretches.nth(joint).unwrap_or_default()
+    /// The causes that are looked for at a place.
+    fn causes_at(&self, at: Place) -> impl Iterator<Item = Cause> {
+        let place = joint_at(at).and_then(|place| self.places.get(place));
+        let asked = move |own: &Mechanism| place.is_some_and(|place| place.asks(*own));
+        let all = Mechanism::ALL.into_iter().filter(asked);
+        all.map(move |mechanism| Cause::at(mechanism, at))
     }
 
-    /// A signal of all joints that is `own` at one joint and 0 elsewhere.
-    fn at_joint(&self, joint: usize, own: &[f64]) -> Vec<f64> {
-        let mut all = vec![0.0; self.names.len() * self.len()];
-        let stretch = all.chunks_mut(self.len().max(1)).nth(joint);
-        stretch
-            .into_iter()
-            .flatten()
-            .zip(own)
-            .for_each(|(slot, x)| *slot = *x);
+    /// The samples of a signal in the first equation in which a place stands.
+    fn stretch<'a>(&self, signal: &'a [f64], place: usize) -> &'a [f64] {
+        let rows = self.places.get(place).map(|own| own.rows.as_slice());
+        let row = rows.and_then(<[_]>::first).map(|(row, _)| *row);
+        let mut stretches = signal.chunks(self.len().max(1));
+        row.and_then(|row| stretches.nth(row)).unwrap_or_default()
+    }
+
+    /// A signal of all equations that is `own`, with its sign, where a place stands, and 0
+    /// elsewhere.
+    fn at_place(&self, place: usize, own: &[f64]) -> Vec<f64> {
+        let mut all = vec![0.0; self.effort.len()];
+        let rows = self.places.get(place).into_iter();
+        for (row, sign) in rows.flat_map(|own| &own.rows) {
+            let slots = all.iter_mut().skip(row * self.len()).zip(own);
+            slots.for_each(|(slot, x)| *slot = sign * x);
+        }
         all
     }
 
@@ -169,7 +178,7 @@ impl ChainRun {
     /// The relative noise of each joint: the residual with every common mechanism free, scaled to
     /// mean square 1.
     fn uneven(&self, windows: &Windows) -> Vec<f64> {
-        let outputs = self.names.len();
+        let outputs = self.outputs();
         let target = windows.average(&less(&self.effort, &self.known));
         let level = |values: &[f64], joint: usize| {
             let rows = values
@@ -182,9 +191,8 @@ impl ChainRun {
         };
         let mut columns: Vec<Vec<f64>> =
             self.links.iter().map(|(_, s)| windows.average(s)).collect();
-        for joint in 0..outputs {
-            for mechanism in looked_for().filter(|own| is_plain(*own)) {
-                let cause = Cause::at(mechanism, Place::Joint(JointId(joint)));
+        for at in self.moving_places() {
+            for cause in self.causes_at(at).filter(|own| is_plain(own.mechanism)) {
                 if let Some(Columns::Free(signals)) = self.columns(cause, &[], None) {
                     columns.extend(signals.iter().map(|signal| windows.average(signal)));
                 }
@@ -248,11 +256,13 @@ impl Run for ChainRun {
     }
 
     fn outputs(&self) -> usize {
-        self.names.len()
+        self.equations.len()
     }
 
     fn output_name(&self, output: usize) -> &'static str {
-        self.names.get(output).copied().unwrap_or("effort")
+        let place = self.equations.get(output);
+        let place = place.and_then(|place| self.places.get(*place));
+        place.map_or("effort", |own| own.name)
     }
 
     fn rules(&self) -> &'static Rules {
@@ -279,12 +289,16 @@ impl Run for ChainRun {
         self.windows_of(ARM_WIDTH_S)
     }
 
-    /// A joint's row is unusable where the direction of its own motion cannot be told.
+    /// A row of a joint is unusable where the direction of its own motion cannot be told. What a
+    /// transmission does has no direction.
     fn keep_told(&self, windows: &mut Windows) {
         windows.keep(|centre, bump| is_recorded(&self.recorded, centre, bump));
         let rows = windows.centres.iter().zip(&mut windows.usable);
-        for ((&centre, usable), motion) in rows.zip(self.motions.iter().cycle()) {
-            *usable = *usable && untold(motion, centre, &windows.bump) <= MOST_AMBIGUOUS;
+        for ((&centre, usable), &place) in rows.zip(self.equations.iter().cycle()) {
+            let motion = self.motions.get(place).map_or(&[][..], Vec::as_slice);
+            let part = self.places.get(place).map(|own| own.part);
+            let is_told = || untold(motion, centre, &windows.bump) <= MOST_AMBIGUOUS;
+            *usable = *usable && (part == Some(Part::Transmission) || is_told());
         }
     }
 
@@ -298,7 +312,7 @@ impl Run for ChainRun {
     /// The unexplained residual is slower than a window. Modelled as white effort it would be
     /// spread over frequencies that the windows suppress.
     fn whitener(&self, windows: &Windows, excess: f64) -> Whitener {
-        let outputs = self.names.len();
+        let outputs = self.outputs();
         let uneven = self.uneven(windows);
         let each = self.noise.iter().zip(&self.masses).zip(uneven);
         let each = each.map(|(([position, effort], mass), uneven)| {
@@ -327,11 +341,11 @@ impl Run for ChainRun {
     }
 
     fn joints(&self) -> usize {
-        self.names.len()
+        self.places.len()
     }
 
     fn place_name(&self, at: Place) -> Option<&'static str> {
-        joint_at(at).and_then(|joint| self.names.get(joint).copied())
+        joint_at(at).and_then(|place| self.places.get(place).map(|own| own.name))
     }
 
     fn motion(&self, at: Place) -> &[Instant] {
@@ -356,15 +370,21 @@ impl Run for ChainRun {
     }
 
     /// All candidates at the joints that moved, without links that the inertia of their joint stands
-    /// for.
+    /// for. A twist is small wherever it acts.
     fn causes(&self) -> Vec<Cause> {
-        let moved = self.moving_places().into_iter();
-        let moved = moved.filter(|at| self.travel(*at) > 100.0 * self.position_noise());
-        let each = moved.flat_map(|at| looked_for().map(move |mechanism| Cause::at(mechanism, at)));
-        let last = Place::Joint(JointId(self.names.len().saturating_sub(1)));
+        let part = |at: Place| joint_at(at).and_then(|k| self.places.get(k)).map(|own| own.part);
+        let moved = |at: &Place| {
+            part(*at) == Some(Part::Transmission)
+                || self.travel(*at) > 100.0 * self.position_noise()
+        };
+        let moved = self.moving_places().into_iter().filter(moved);
+        let links = self.places.iter().filter(|own| own.part == Part::Link);
+        let last = Place::Joint(JointId(links.count().saturating_sub(1)));
         let is_payload =
             |own: Mechanism| matches!(form(own), Some(Form::Linkage(OfLinkage::Payload)));
-        each.filter(|cause| !is_payload(cause.mechanism) || cause.at == last)
+        moved
+            .flat_map(|at| self.causes_at(at))
+            .filter(|cause| !is_payload(cause.mechanism) || cause.at == last)
             .filter(|cause| !self.is_inertia_alone(*cause))
             .collect()
     }
@@ -381,8 +401,9 @@ impl Run for ChainRun {
         let joint = joint_at(cause.at).and_then(|joint| self.described.get(joint));
         match (cause.mechanism, joint) {
             (Mechanism::DryOffset, Some([dry, ..])) => *dry,
-            (Mechanism::Viscous, Some([_, viscous, _])) => *viscous,
-            (Mechanism::AddedInertia, Some([.., rotor])) => *rotor,
+            (Mechanism::Viscous, Some([_, viscous, ..])) => *viscous,
+            (Mechanism::AddedInertia, Some([.., rotor, _])) => *rotor,
+            (Mechanism::TransmissionStiffness, Some([.., stiffness])) => *stiffness,
             _ => 0.0,
         }
     }
@@ -427,12 +448,17 @@ impl Run for ChainRun {
                 .collect(),
             Form::Joint(OfJoint::Inertia) => {
                 let speeds: Vec<f64> = motion.iter().map(|now| now.speed).collect();
-                vec![self.at_joint(joint, &self.rate(&speeds))]
+                vec![self.at_place(joint, &self.rate(&speeds))]
             }
             Form::Linkage(OfLinkage::Payload) => vec![self.payload.clone()],
             // The true effort is (1 + fraction) times the recorded one.
             Form::Drive(Drive::Gain) => {
-                vec![self.at_joint(joint, self.stretch(&self.known, joint))]
+                vec![self.at_place(joint, self.stretch(&self.known, joint))]
+            }
+            // A twist that is recorded too great by an angle lacks the stiffness times the angle.
+            Form::Sensor(OfSensor::EncoderOffset) => {
+                let [.., stiffness] = self.described.get(joint)?;
+                vec![self.at_place(joint, &vec![-stiffness; self.len()])]
             }
             // An effort recorded with a delay lacks the delay times its rate. Averaged over a
             // window, the rate is no noisier than the effort itself.
@@ -440,7 +466,7 @@ impl Run for ChainRun {
                 let rate = self.rate(self.stretch(&self.effort, joint));
                 let delay = shape.first().copied();
                 let late: Vec<f64> = rate.iter().map(|x| -x * delay.unwrap_or(1.0)).collect();
-                let late = self.at_joint(joint, &late);
+                let late = self.at_place(joint, &late);
                 match delay {
                     None => vec![late],
                     Some(_) => return Some(Columns::Fixed(late)),
@@ -448,16 +474,20 @@ impl Run for ChainRun {
             }
             _ => resistances(cause, shape, |law| column(law, motion, self.step_s))?
                 .iter()
-                .map(|own| self.at_joint(joint, own))
+                .map(|own| self.at_place(joint, own))
                 .collect(),
         };
         Some(Columns::Free(signals))
     }
 
     fn shares(&self, at: Place, windows: &Windows) -> Vec<f64> {
-        let (joint, outputs) = (joint_at(at), self.names.len());
+        let outputs = self.outputs();
+        let place = joint_at(at).and_then(|place| self.places.get(place));
+        let stands = |row: usize| {
+            let mut rows = place.iter().flat_map(|own| &own.rows);
+            place.is_none() || rows.any(|(own, _)| *own == row % outputs)
+        };
         let rows = 0..windows.centres.len();
-        rows.map(|row| f64::from(u8::from(joint.is_none_or(|own| own == row % outputs))))
-            .collect()
+        rows.map(|row| f64::from(u8::from(stands(row)))).collect()
     }
 }

@@ -9,6 +9,7 @@ use crate::signals::shifted;
 use rigproof_model::effects::{Drive, Form, entry, form};
 use rigproof_spec::effect::Motion;
 use rigproof_trace::rig::chain::{ChainRecording, ChainRig};
+use rigproof_trace::rig::transmission::part;
 
 /// The efforts of a model beside the recorded ones, N·m or N, an output a joint in the arm's order.
 ///
@@ -31,9 +32,9 @@ pub(super) fn simulated(
     let samples = run.len().max(1);
     let recorded = run.effort();
     let each = efforts.chunks(samples).zip(recorded.chunks(samples));
-    let outputs = each.zip(&run.names).map(|((own, recorded), name)| {
-        let joint = model.joints.iter().find(|joint| joint.name == *name);
-        let slides = joint.is_some_and(|joint| joint.motion == Motion::Linear);
+    let outputs = each.enumerate().map(|(output, (own, recorded))| {
+        let name = run.output_name(output);
+        let slides = part(name, &model.joints).is_some_and(|(own, _)| own.motion == Motion::Linear);
         SimulatedOutput {
             name: lasting(&format!("effort_{name}")),
             unit: if slides { "N" } else { "N·m" }.to_owned(),

@@ -244,6 +244,7 @@ pub fn shapes(
         | Shapes::EffortRate
         | Shapes::Pitch
         | Shapes::Gap
+        | Shapes::OfTravel { .. }
         | Shapes::Resonance
         | Shapes::BristleCurve => vec![vec![]],
         Shapes::Anchor => anchors(run),
