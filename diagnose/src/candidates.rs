@@ -176,21 +176,19 @@ pub fn standard_shapes<R: Run + ?Sized>(
             MOST_GAP * travel,
             GAPS,
         )),
-        Shapes::OfTravel { low, high, count } => {
-            let middle = middle(run.motion(cause.at));
-            let widths = geometric(low * travel, high * travel, count).into_iter();
-            widths.flat_map(|own| [vec![own], vec![own, middle]]).collect()
-        }
+        Shapes::OfTravel { low, high, count } => lashes(
+            &geometric(low * travel, high * travel, count),
+            middle(run.motion(cause.at)),
+        ),
         Shapes::Resonance => resonances(step_s),
         Shapes::EffortLimit => limits(greatest(&run.effort()), EFFORT_LIMIT_SHARES, EFFORT_LIMITS),
         Shapes::EffortRate => one(effort_rates(&run.effort())),
         Shapes::Period => one(all_periods(run, cause, windows, residual)),
         Shapes::Pitch => pitches(run, cause, windows, residual),
-        Shapes::Lag => one(geometric(
-            LEAST_LAG_STEPS * step_s,
-            MOST_LAG_S_JOINT,
-            LAGS_JOINT,
-        )),
+        Shapes::Lag => {
+            let least_s = LEAST_LAG_STEPS * step_s;
+            one(geometric(least_s, MOST_LAG_S_JOINT, LAGS_JOINT))
+        }
         Shapes::Shift => one(both_signs(geometric(
             LEAST_SHIFT_STEPS_JOINT * step_s,
             MOST_SHIFT_S_JOINT.max(MOST_SHIFT_STEPS * step_s),
@@ -245,6 +243,13 @@ pub fn plays(widths: &[f64], closing_a: &[f64], full: f64) -> Vec<Vec<f64>> {
 fn edges(times: &[f64]) -> Vec<Vec<f64>> {
     let each = times.iter();
     each.flat_map(|own| [vec![*own], vec![*own, 1.0], vec![1.0, *own]])
+        .collect()
+}
+
+/// Gaps about zero and about a middle.
+fn lashes(widths: &[f64], middle: f64) -> Vec<Vec<f64>> {
+    let each = widths.iter();
+    each.flat_map(|own| [vec![*own], vec![*own, middle]])
         .collect()
 }
 

@@ -25,6 +25,7 @@ mod lugre_bristle;
 mod nonlinear_spring;
 mod play;
 mod presliding;
+mod resisting;
 mod reversal_overshoot;
 mod ripple;
 mod settling;
@@ -332,17 +333,8 @@ pub fn law(mechanism: Mechanism, parameters: &[f64]) -> Option<Box<dyn Law>> {
 pub fn law_of_torque(mechanism: Mechanism, parameters: &[f64]) -> Option<Box<dyn Law>> {
     let own = law(mechanism, parameters)?;
     match facts(mechanism)?.family {
-        Family::Position => Some(Box::new(Resisting(own))),
+        Family::Position => Some(Box::new(resisting::Resisting(own))),
         _ => Some(own),
-    }
-}
-
-/// A law of the position as a resistance.
-struct Resisting(Box<dyn Law>);
-
-impl Law for Resisting {
-    fn dry(&self, now: &Instant) -> f64 {
-        self.0.smooth(now, 0.0)
     }
 }
 

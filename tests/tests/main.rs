@@ -13,6 +13,7 @@ mod control_choice;
 mod control_laws;
 mod diagnosed;
 mod displays;
+mod elastic;
 mod experiments;
 mod faults;
 mod force_limit;

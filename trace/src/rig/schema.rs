@@ -205,7 +205,9 @@ fn chain() -> Value {
     joints["minItems"] = json!(1);
     let more = [(
         "joint",
-        text("The joint at which it acts, of a link the joint that moves it; of a part of a joint `elbow.motor` or `elbow.transmission`."),
+        text(
+            "The joint at which it acts, of a link the joint that moves it; of a part of a joint `elbow.motor` or `elbow.transmission`.",
+        ),
     )];
     let mut keys = common("chain");
     keys.extend([

@@ -42,12 +42,7 @@ pub enum Part {
 
 impl Part {
     /// All of them.
-    pub const ALL: [Part; 4] = [
-        Part::Link,
-        Part::Motor,
-        Part::Transmission,
-        Part::Sensor,
-    ];
+    pub const ALL: [Part; 4] = [Part::Link, Part::Motor, Part::Transmission, Part::Sensor];
 
     const fn suffix(self) -> &'static str {
         match self {
@@ -117,7 +112,10 @@ impl Transmission {
         ];
         let values = values.into_iter().filter_map(|(key, own, quantity)| {
             let own = own.as_ref()?;
-            Some(format!("{key} = {}", value(own, quantity.dimension(motion))))
+            Some(format!(
+                "{key} = {}",
+                value(own, quantity.dimension(motion))
+            ))
         });
         channels.chain(values).collect()
     }
@@ -144,7 +142,8 @@ fn stated(
         return Ok(None);
     };
     if own.status != Status::Known {
-        let said = format!("`{key}` has no status: a wrong one is looked for anyway, leave `status` out");
+        let said =
+            format!("`{key}` has no status: a wrong one is looked for anyway, leave `status` out");
         return Err(table.error_at(key, said));
     }
     above_zero(table, key, &own, quantity.dimension(motion))?;
@@ -156,4 +155,62 @@ pub fn part<'a>(name: &str, joints: &'a [ChainJoint]) -> Option<(&'a ChainJoint,
     let each = joints.iter();
     let mut parts = each.flat_map(|joint| Part::ALL.map(|part| (joint, part)));
     parts.find(|(joint, part)| joint.transmission.has(*part) && part.of(&joint.name) == name)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::rig::chain::ChainRig;
+
+    /// An arm whose one joint has these lines more.
+    fn arm(more: &str) -> Result<ChainRig, String> {
+        let text = format!(
+            "name = \"arm\"\nplant = \"chain\"\nurdf = '''<robot/>'''\n[[joint]]\nname = \"elbow\"\n\
+             position = {{ channel = \"q\", unit = \"rad\" }}\neffort = {{ channel = \"tau\", unit = \"N·m\" }}\n{more}"
+        );
+        ChainRig::parse(&text, Path::new("arm.toml")).map_err(|error| error.to_string())
+    }
+
+    const MOTOR: &str = "motor = { channel = \"theta\", unit = \"rad\", scale = 0.01 }\n";
+    const STIFFNESS: &str = "stiffness = { value = 9, unit = \"kN·m/rad\" }\n";
+    const TORQUE: &str = "torque = { channel = \"s\", unit = \"N·m\" }\n";
+
+    #[test]
+    fn a_transmission_is_read_and_written_again() {
+        let rotor = "rotor = { value = 0.4, unit = \"kg·m^2\" }\n";
+        let effect = "[[effect]]\nmechanism = \"viscous\"\njoint = \"elbow.motor\"\ncoefficient = { value = 2, unit = \"N·m·s/rad\" }\n";
+        let rig = arm(&[MOTOR, STIFFNESS, TORQUE, rotor, effect].concat()).unwrap();
+        let own = &rig.joints[0].transmission;
+        assert_eq!(own.stiffness.unwrap().value, 9000.0);
+        assert_eq!(rig.maps().len(), 4);
+        assert!(Part::ALL.into_iter().all(|part| own.has(part)));
+        assert_eq!(part("elbow.motor", &rig.joints).unwrap().1, Part::Motor);
+        let again = ChainRig::parse(&rig.to_toml(), Path::new("arm.toml")).unwrap();
+        assert_eq!(again, rig);
+    }
+
+    #[test]
+    fn what_is_missing_of_a_transmission_is_said() {
+        let refused = |lines: &[&str]| arm(&lines.concat()).unwrap_err();
+        let rotor = "rotor = { value = 0.4, unit = \"kg·m^2\" }\n";
+        let guessed = "stiffness = { value = 9, unit = \"N·m/rad\", status = \"unknown\" }\n";
+        let none = "stiffness = { value = 0, unit = \"N·m/rad\" }\n";
+        let nowhere = "[[effect]]\nmechanism = \"viscous\"\njoint = \"elbow.motor\"\ncoefficient = { value = 2, unit = \"N·m·s/rad\" }\n";
+        for (lines, said) in [
+            (&[MOTOR][..], "`motor` needs `stiffness`"),
+            (&[STIFFNESS], "`stiffness` needs `motor` or `torque`"),
+            (&[rotor], "`rotor` needs `motor` or `torque`"),
+            (&[MOTOR, guessed], "leave `status` out"),
+            (&[MOTOR, none], "it must be above 0"),
+            (&[nowhere], "`elbow.motor` is no joint of this arm"),
+        ] {
+            let error = refused(lines);
+            assert!(
+                error.contains(said) && error.contains("arm.toml"),
+                "{error}"
+            );
+        }
+    }
 }

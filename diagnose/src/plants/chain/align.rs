@@ -12,7 +12,7 @@ use crate::rules::{ARM_PERIODS, ARM_WIDTH_S, STILL_QUANTA, STILL_SIGMAS};
 use core::f64::consts::TAU;
 use rigproof_model::chain::{Chain, INERTIAL, Inertial};
 use rigproof_model::effects::Instant;
-use rigproof_spec::effect::Motion;
+use rigproof_spec::effect::{Mechanism, Motion};
 use rigproof_trace::rig::Signal;
 use rigproof_trace::rig::chain::{ChainRecording, ChainRig, ModelFormat};
 use rigproof_trace::rig::transmission::Part;
@@ -113,7 +113,11 @@ pub(super) fn aligned(rig: &ChainRig, recording: &ChainRecording) -> Result<Chai
     let each = each.map(|k| joint(recording, k, step_s));
     let joints: Vec<Aligned> = each.collect::<Result<_, Fault>>()?;
     for (own, joint) in chain.joints.iter().zip(&joints) {
-        let most = joint.link.position.iter().fold(0.0, |m: f64, q| m.max(q.abs()));
+        let most = joint
+            .link
+            .position
+            .iter()
+            .fold(0.0, |m: f64, q| m.max(q.abs()));
         if own.kind == rigproof_model::chain::Kind::Revolute && most > 4.0 * TAU {
             let reason = format!(
                 "joint `{}` goes to {most:.0} rad, beyond four turns: are these degrees? say `unit = \"deg\"`",
@@ -131,12 +135,18 @@ fn joint(recording: &ChainRecording, k: usize, step_s: f64) -> Result<Aligned, F
         return Err(fault("position", "a joint has no channel".to_owned()));
     };
     let (motor, torque) = (recording.motor.get(k), recording.torque.get(k));
-    let (motor, torque) = (motor.and_then(Option::as_ref), torque.and_then(Option::as_ref));
+    let (motor, torque) = (
+        motor.and_then(Option::as_ref),
+        torque.and_then(Option::as_ref),
+    );
     let mut recorded = vec![true; regular_count(&recording.time_s, step_s)];
     let mut regular = |channel, own: &Signal| -> Result<Vec<f64>, Fault> {
         check_missing(channel, &recording.time_s, &own.samples)?;
         let (signal, told) = resample(&recording.time_s, &own.samples, step_s, recorded.len());
-        recorded.iter_mut().zip(told).for_each(|(a, b)| *a = *a && b);
+        recorded
+            .iter_mut()
+            .zip(told)
+            .for_each(|(a, b)| *a = *a && b);
         Ok(signal)
     };
     let link = moving(regular("position", position)?, position, step_s);
@@ -163,7 +173,12 @@ fn moved(position: Vec<f64>, step_s: f64, noise: f64, rest: f64) -> Moving {
     let most_hz = cutoff_hz(step_s, ARM_PERIODS / ARM_WIDTH_S);
     let cutoff_hz = quiet_cutoff_hz(&position, step_s, most_hz, noise);
     let (mut motion, floor) = smoothed_motion(&position, step_s, cutoff_hz, noise);
-    forget_sense_at_rest(&mut motion, &position, step_s, rest.max(STILL_SIGMAS * noise));
+    forget_sense_at_rest(
+        &mut motion,
+        &position,
+        step_s,
+        rest.max(STILL_SIGMAS * noise),
+    );
     forget_sense_at_reversals(&mut motion);
     Moving {
         position,
@@ -194,7 +209,9 @@ impl Aligned {
     pub(super) fn wound(&self, stiffness: f64, step_s: f64) -> Option<Moving> {
         let torque = self.torque.as_ref().filter(|_| stiffness > 0.0)?;
         let pairs = self.link.position.iter().zip(&torque.signal);
-        let position = pairs.map(|(link, torque)| link + torque / stiffness).collect();
+        let position = pairs
+            .map(|(link, torque)| link + torque / stiffness)
+            .collect();
         let noise = self.link.noise.hypot(torque.noise / stiffness);
         Some(moved(position, step_s, noise, 0.0))
     }
@@ -241,7 +258,8 @@ fn efforts(chain: &Chain, joints: &[Aligned], step_s: f64, sets: &[Vec<f64>]) ->
     for k in 0..samples {
         let at = |of: fn(&Instant) -> f64| -> Vec<f64> {
             let each = joints.iter();
-            each.map(|own| own.link.motion.get(k).map_or(0.0, of)).collect()
+            each.map(|own| own.link.motion.get(k).map_or(0.0, of))
+                .collect()
         };
         let own = chain.momentum(&at(|now| now.position), &at(|now| now.speed));
         for (from, to) in [(&own.momentum, &mut momentum), (&own.rest, &mut rest)] {
@@ -313,11 +331,6 @@ fn equations(rig: &ChainRig, chain: &Chain, joints: &[Aligned], step_s: f64) -> 
         known,
         payload,
         bodies: chain.joints.iter().map(|own| body(&own.inertial)).collect(),
-        described: chain
-            .joints
-            .iter()
-            .map(|own| [own.friction, own.damping, own.armature, 0.0])
-            .collect(),
         links: chain
             .of_each_link()
             .iter()
@@ -343,6 +356,11 @@ fn each_link(chain: &Chain) -> Vec<ArmPlace> {
         name: lasting(&own.name),
         part: Part::Link,
         is_split: false,
+        described: vec![
+            (Mechanism::DryOffset, own.friction),
+            (Mechanism::Viscous, own.damping),
+            (Mechanism::AddedInertia, own.armature),
+        ],
         rows: vec![(joint, 1.0)],
     });
     links.collect()

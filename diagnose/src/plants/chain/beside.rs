@@ -163,7 +163,9 @@ fn named(chain: &Chain, links: Vec<Inertial>) -> BTreeMap<String, Inertial> {
 /// Why a format cannot hold what is before the link of a joint.
 fn no_part(format: ModelFormat) -> String {
     let format = format.name();
-    format!("a joint of {format} has no motor behind a transmission; keep it in your own simulation")
+    format!(
+        "a joint of {format} has no motor behind a transmission; keep it in your own simulation"
+    )
 }
 
 /// Why a format cannot hold this mechanism.

@@ -25,11 +25,19 @@ pub struct ArmPlace {
     pub part: Part,
     /// Whether the motor of this joint is told from its link.
     pub is_split: bool,
+    /// What the description says of it.
+    pub described: Vec<(Mechanism, f64)>,
     /// The equations in which an effort at this place stands, with its sign.
     pub rows: Vec<(usize, f64)>,
 }
 
 impl ArmPlace {
+    /// The described number of a mechanism; 0 if there is none.
+    pub fn described(&self, mechanism: Mechanism) -> f64 {
+        let own = self.described.iter().find(|(own, _)| *own == mechanism);
+        own.map_or(0.0, |(_, number)| *number)
+    }
+
     /// Whether a mechanism is a candidate here.
     pub fn asks(&self, mechanism: Mechanism) -> bool {
         let Some(facts) = facts(mechanism) else {
@@ -67,6 +75,9 @@ pub(super) fn place_names(rig: &ChainRig, chain: &Chain) -> Vec<String> {
     links.chain(parts).collect()
 }
 
+/// The motion at a place, what is described there, and the equations in which it stands.
+type Stands<'a> = (&'a [Instant], Vec<(Mechanism, f64)>, Vec<(usize, f64)>);
+
 /// What is known of the parts of a joint.
 struct Split<'a> {
     name: &'a str,
@@ -81,7 +92,10 @@ impl ChainRun {
     /// Adds the equations and the places of the joints whose motors are told from their links.
     pub(super) fn split_joints(&mut self, rig: &ChainRig, chain: &Chain, joints: &[Aligned]) {
         for (joint, (of_model, own)) in chain.joints.iter().zip(joints).enumerate() {
-            let stated = rig.joints.iter().find(|stated| stated.name == of_model.name);
+            let stated = rig
+                .joints
+                .iter()
+                .find(|stated| stated.name == of_model.name);
             let Some(stated) = stated.map(|own| &own.transmission) else {
                 continue;
             };
@@ -111,7 +125,9 @@ impl ChainRun {
         let wound = own.wound(stiffness, step_s);
         let motor = own.motor.as_ref().or(wound.as_ref()).unwrap_or(&own.link);
         let known = accelerations(&motor.motion, step_s).into_iter();
-        let known = known.zip(&passed.signal).map(|(faster, passed)| split.rotor * faster + passed);
+        let known = known
+            .zip(&passed.signal)
+            .map(|(faster, passed)| split.rotor * faster + passed);
         let noise = [motor.noise, own.effort.noise.hypot(passed.noise)];
         let effort = (own.effort.signal.as_slice(), noise, split.rotor);
         let motor_row = self.add_equation(effort, known.collect());
@@ -128,24 +144,40 @@ impl ChainRun {
             }
             _ => None,
         };
-        let described = [0.0, 0.0, split.rotor, 0.0];
+        let described = vec![(Mechanism::AddedInertia, split.rotor)];
         let rows = vec![(motor_row, 1.0)];
-        self.add_place(split, Part::Motor, (&motor.motion, described, rows), Some(motor_row));
+        self.add_place(
+            split,
+            Part::Motor,
+            (&motor.motion, described, rows),
+            Some(motor_row),
+        );
         if let Some(twist) = &twist {
-            let described = [0.0, 0.0, 0.0, stiffness];
-            self.add_place(split, Part::Transmission, (&twist.motion, described, between), twist_row);
+            let described = vec![(Mechanism::TransmissionStiffness, stiffness)];
+            self.add_place(
+                split,
+                Part::Transmission,
+                (&twist.motion, described, between),
+                twist_row,
+            );
         }
         if own.torque.is_some() {
-            self.add_place(split, Part::Sensor, (&own.link.motion, [0.0; 4], sensor), None);
+            self.add_place(
+                split,
+                Part::Sensor,
+                (&own.link.motion, Vec::new(), sensor),
+                None,
+            );
         }
     }
 
     /// A link is driven by what passes its transmission, and the rotor is not behind it.
     fn passes_to_link(&mut self, joint: usize, passed: &Metered, armature: f64) {
         let from = joint * self.len();
-        let faster = self.motions.get(joint).map_or_else(Vec::new, |motion| {
-            accelerations(motion, self.step_s)
-        });
+        let faster = self
+            .motions
+            .get(joint)
+            .map_or_else(Vec::new, |motion| accelerations(motion, self.step_s));
         let efforts = self.effort.iter_mut().skip(from).zip(&passed.signal);
         efforts.for_each(|(slot, passed)| *slot = *passed);
         let known = self.known.iter_mut().skip(from).zip(faster);
@@ -155,9 +187,8 @@ impl ChainRun {
         }
         if let Some(place) = self.places.get_mut(joint) {
             place.is_split = true;
-        }
-        if let Some([.., rotor, _]) = self.described.get_mut(joint) {
-            *rotor = 0.0;
+            let is_of_link = |own: &(Mechanism, f64)| own.0 != Mechanism::AddedInertia;
+            place.described.retain(is_of_link);
         }
     }
 
@@ -172,7 +203,9 @@ impl ChainRun {
         self.known.extend(known);
         let all = self.effort.len();
         self.payload.resize(all, 0.0);
-        self.links.iter_mut().for_each(|(_, own)| own.resize(all, 0.0));
+        self.links
+            .iter_mut()
+            .for_each(|(_, own)| own.resize(all, 0.0));
         self.noise.push(noise);
         self.masses.push(mass);
         self.masses.len() - 1
@@ -184,16 +217,16 @@ impl ChainRun {
         &mut self,
         split: &Split<'_>,
         part: Part,
-        (motion, described, rows): (&[Instant], [f64; 4], Vec<(usize, f64)>),
+        (motion, described, rows): Stands<'_>,
         equation: Option<usize>,
     ) {
         self.equations.extend(equation.map(|_| self.places.len()));
         self.motions.push(motion.to_vec());
-        self.described.push(described);
         self.places.push(ArmPlace {
             name: lasting(&part.of(split.name)),
             part,
             is_split: true,
+            described,
             rows,
         });
     }

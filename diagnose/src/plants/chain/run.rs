@@ -1,8 +1,8 @@
 //! This file is an aligned recording of an arm. Its signals hold one joint's samples after
 //! another's.
 
-use crate::candidates::{is_plain, standard_shapes};
 use super::parts::ArmPlace;
+use crate::candidates::{is_plain, standard_shapes};
 use crate::cause::{Cause, JointId, Place};
 use crate::filter::{gradient, rms};
 use crate::plant::{Clock, Columns, Rules, Run, resistances};
@@ -40,8 +40,6 @@ pub struct ChainRun {
     pub bodies: Vec<[f64; 2]>,
     /// The effort per kilogram at the tip.
     pub payload: Vec<f64>,
-    /// Coulomb and viscous friction, rotor and stiffness of each place as described.
-    pub described: Vec<[f64; 4]>,
     /// Noise of the position and of the effort of each equation, standard deviation.
     pub noise: Vec<[f64; 2]>,
     /// The inertia that the joint of each equation moves when it moves alone, kg·m² or kg.
@@ -88,7 +86,6 @@ impl ChainRun {
             known: own(&self.known),
             payload: own(&self.payload),
             bodies: self.bodies.clone(),
-            described: self.described.clone(),
             links: self
                 .links
                 .iter()
@@ -372,7 +369,11 @@ impl Run for ChainRun {
     /// All candidates at the joints that moved, without links that the inertia of their joint stands
     /// for. A twist is small wherever it acts.
     fn causes(&self) -> Vec<Cause> {
-        let part = |at: Place| joint_at(at).and_then(|k| self.places.get(k)).map(|own| own.part);
+        let part = |at: Place| {
+            joint_at(at)
+                .and_then(|k| self.places.get(k))
+                .map(|own| own.part)
+        };
         let moved = |at: &Place| {
             part(*at) == Some(Part::Transmission)
                 || self.travel(*at) > 100.0 * self.position_noise()
@@ -398,14 +399,8 @@ impl Run for ChainRun {
     }
 
     fn described(&self, cause: Cause) -> f64 {
-        let joint = joint_at(cause.at).and_then(|joint| self.described.get(joint));
-        match (cause.mechanism, joint) {
-            (Mechanism::DryOffset, Some([dry, ..])) => *dry,
-            (Mechanism::Viscous, Some([_, viscous, ..])) => *viscous,
-            (Mechanism::AddedInertia, Some([.., rotor, _])) => *rotor,
-            (Mechanism::TransmissionStiffness, Some([.., stiffness])) => *stiffness,
-            _ => 0.0,
-        }
+        let place = joint_at(cause.at).and_then(|place| self.places.get(place));
+        place.map_or(0.0, |own| own.described(cause.mechanism))
     }
 
     /// Of the inertial numbers of a link: its own mass, times its radius of gyration for a moment of
@@ -457,7 +452,8 @@ impl Run for ChainRun {
             }
             // A twist that is recorded too great by an angle lacks the stiffness times the angle.
             Form::Sensor(OfSensor::EncoderOffset) => {
-                let [.., stiffness] = self.described.get(joint)?;
+                let place = self.places.get(joint)?;
+                let stiffness = place.described(Mechanism::TransmissionStiffness);
                 vec![self.at_place(joint, &vec![-stiffness; self.len()])]
             }
             // An effort recorded with a delay lacks the delay times its rate. Averaged over a
