@@ -168,6 +168,11 @@ enum Beside {
 use Beside::{Both, Encoder, Sensor};
 
 fn diagnosed(joint: &Joint, beside: Beside) -> Report {
+    told(joint, beside, &|text| text)
+}
+
+/// The report on a joint whose description was changed.
+fn told(joint: &Joint, beside: Beside, change: &dyn Fn(String) -> String) -> Report {
     let keeps = |line: &&str| match beside {
         Beside::Encoder => !line.starts_with("torque"),
         Beside::Sensor => !line.starts_with("motor"),
@@ -178,7 +183,7 @@ fn diagnosed(joint: &Joint, beside: Beside) -> Report {
     let text = text
         .join("\n")
         .replace("urdf = \"elastic-joint.urdf\"", &inside);
-    let rig = ChainRig::parse(&text, Path::new("elastic.toml")).unwrap();
+    let rig = ChainRig::parse(&change(text), Path::new("elastic.toml")).unwrap();
     let recording = rig
         .taken(joint.recorded(), Path::new("elastic.csv"))
         .unwrap();
@@ -300,4 +305,15 @@ fn friction_on_both_sides_of_a_soft_gear_is_told_apart() {
         ("transmission_stiffness", Some("elbow.transmission")),
     ];
     assert_eq!(named, expected, "{}", report.summary);
+}
+
+#[test]
+fn a_forgotten_gear_ratio_or_sign_is_a_fault_that_says_so() {
+    for (other, times) in [("scale = 1", "99.9"), ("scale = 0.01, sign = -1", "-0.99")] {
+        let change = |text: String| text.replace("scale = 0.01", other);
+        let report = told(&TRUE, Encoder, &change);
+        let reason = report.fault.unwrap().reason;
+        let said = format!("moves {times}");
+        assert!(reason.contains(&said), "{reason}");
+    }
 }

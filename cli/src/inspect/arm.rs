@@ -91,9 +91,10 @@ impl Model {
             .into_iter()
             .filter(|name| !used.contains(name))
             .collect();
-        let unused =
-            (!unused.is_empty()).then(|| format!("\n# not used: {}", plain(&unused.join(", "))));
-        lines.extend(unused);
+        if !unused.is_empty() {
+            lines.push(format!("\n# not used: {}", plain(&unused.join(", "))));
+            lines.push("# A second encoder or a torque sensor of a joint is `motor` or `torque` in its block, with `stiffness` and `rotor`.".to_owned());
+        }
         Ok(Some(lines.join("\n") + "\n"))
     }
 }

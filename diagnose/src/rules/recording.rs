@@ -89,6 +89,8 @@ rules! {
     NEAR_UNIT: f64 = 0.005, "share", REASON;
     /// A scatter of this many times the stated noise means samples in thousandths of the unit.
     THOUSANDFOLD: core::ops::RangeInclusive<f64> = 500.0..=2000.0, "times", REASON;
+    /// An arm: how far a motor goes, in travels of its link. A gear takes up less than it passes; a gear ratio that was forgotten, or a wrong sign, is far outside.
+    MOTOR_FOLLOWS: core::ops::RangeInclusive<f64> = 0.5..=2.0, "times", REASON;
     /// The most that a sensor's noise is of what it measures: what scatters more is a signal.
     MOST_SCATTER: f64 = 0.1, "share", REASON;
     /// A gain is taken for a wrong unit, and laws stand against a gain for every trial, if they leave at most this share of the nominal model's residual; a round of search that leaves at most this share of its noise is followed by another.

@@ -8,9 +8,9 @@ use crate::align::{
     median_step, quiet_cutoff_hz, regular_count, resample, smallest_step, smoothed_motion,
 };
 use crate::filter::gradient;
-use crate::rules::{ARM_PERIODS, ARM_WIDTH_S, STILL_QUANTA, STILL_SIGMAS};
+use crate::rules::{ARM_PERIODS, ARM_WIDTH_S, MOTOR_FOLLOWS, STILL_QUANTA, STILL_SIGMAS};
 use core::f64::consts::TAU;
-use rigproof_model::chain::{Chain, INERTIAL, Inertial};
+use rigproof_model::chain::{Chain, INERTIAL, Inertial, Joint, Kind};
 use rigproof_model::effects::Instant;
 use rigproof_spec::effect::{Mechanism, Motion};
 use rigproof_trace::rig::Signal;
@@ -67,7 +67,7 @@ pub(super) fn arm(rig: &ChainRig) -> Result<Chain, String> {
                 own.name, rig.file
             ));
         };
-        let slides = own.kind == rigproof_model::chain::Kind::Prismatic;
+        let slides = own.kind == Kind::Prismatic;
         if slides != (joint.motion == Motion::Linear) {
             let word = if slides { "linear" } else { "rotary" };
             return Err(format!("joint `{}` needs `motion = \"{word}\"`", own.name));
@@ -113,20 +113,54 @@ pub(super) fn aligned(rig: &ChainRig, recording: &ChainRecording) -> Result<Chai
     let each = each.map(|k| joint(recording, k, step_s));
     let joints: Vec<Aligned> = each.collect::<Result<_, Fault>>()?;
     for (own, joint) in chain.joints.iter().zip(&joints) {
-        let most = joint
-            .link
-            .position
-            .iter()
-            .fold(0.0, |m: f64, q| m.max(q.abs()));
-        if own.kind == rigproof_model::chain::Kind::Revolute && most > 4.0 * TAU {
-            let reason = format!(
-                "joint `{}` goes to {most:.0} rad, beyond four turns: are these degrees? say `unit = \"deg\"`",
-                own.name
-            );
-            return Err(fault("position", reason));
-        }
+        check_position(own, joint)?;
+        check_motor(own, joint)?;
     }
     Ok(equations(rig, &chain, &joints, step_s))
+}
+
+fn check_position(of: &Joint, own: &Aligned) -> Result<(), Fault> {
+    let positions = own.link.position.iter();
+    let most = positions.fold(0.0, |most: f64, q| most.max(q.abs()));
+    if of.kind == Kind::Prismatic || most <= 4.0 * TAU {
+        return Ok(());
+    }
+    let reason = format!(
+        "joint `{}` goes to {most:.0} rad, beyond four turns: are these degrees? say `unit = \"deg\"`",
+        of.name
+    );
+    Err(fault("position", reason))
+}
+
+/// A motor goes as far as its link and in the same sense, but for the twist.
+fn check_motor(of: &Joint, own: &Aligned) -> Result<(), Fault> {
+    let Some(motor) = &own.motor else {
+        return Ok(());
+    };
+    let slope = slope(&own.link.position, &motor.position);
+    if slope.is_nan() || MOTOR_FOLLOWS.contains(&slope) {
+        return Ok(());
+    }
+    let reason = format!(
+        "the motor of joint `{}` moves {slope:.4} times as far as its link: give the gear ratio as `scale` of `motor`, a motor that counts the other way `sign = -1`, and check both units",
+        of.name
+    );
+    Err(fault("motor", reason))
+}
+
+/// The slope of the straight line through the points of one signal over another; NaN if that one
+/// does not change.
+fn slope(of: &[f64], over: &[f64]) -> f64 {
+    let mean = |own: &[f64]| own.iter().sum::<f64>() / own.len().max(1) as f64;
+    let means = [mean(of), mean(over)];
+    let pairs = of
+        .iter()
+        .zip(over)
+        .map(|(x, y)| [x - means[0], y - means[1]]);
+    let [square, both] = pairs.fold([0.0; 2], |[square, both], [x, y]| {
+        [square + x * x, both + x * y]
+    });
+    both / square
 }
 
 fn joint(recording: &ChainRecording, k: usize, step_s: f64) -> Result<Aligned, Fault> {
