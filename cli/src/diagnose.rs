@@ -19,6 +19,9 @@ use crate::{folder, keep, page, progress, shell, text, threads};
 pub struct Args {
     #[command(flatten)]
     pub source: Source,
+    /// More recordings of the same rig, diagnosed together with the first
+    #[arg(value_name = "MORE")]
+    more: Vec<PathBuf>,
     /// Another recording of the rig, on which the result is shown
     #[arg(long, value_name = "CSV", conflicts_with = "hold_out_share")]
     hold_out: Option<PathBuf>,
@@ -59,8 +62,9 @@ Examples:
   rigproof diagnose ensaio.A.1.csv --rig rigs/mr-damper.toml --from-s 2.5 --out damper --json
   rigproof diagnose recording.csv --rig rig.toml --calibrate 40
   rigproof diagnose recordings/ --rig rig.toml
+  rigproof diagnose slow.csv fast.csv --rig rig.toml
 
-Of a folder of recordings of one rig all are diagnosed together, and the result is shown on the end of the second of two, on the last of more.";
+Several recordings of one rig, or a folder of them, are diagnosed together, and the result is shown on the end of the second of two, on the last of more.";
 
 impl Args {
     /// The arguments for one recording and its rig, with every option at its default.
@@ -72,6 +76,7 @@ impl Args {
                 cut: Cut::default(),
                 reading: Default::default(),
             },
+            more: Vec::new(),
             hold_out: None,
             hold_out_share: Options::default().hold_out_share,
             out: Some(out.to_path_buf()),
@@ -108,7 +113,8 @@ pub struct Made {
 pub fn made(args: &Args) -> Result<Made, Failure> {
     let out = out(args)?;
     let Source { recording, rig, .. } = &args.source;
-    keep::check(&out, [recording, rig].into_iter().chain(&args.hold_out))?;
+    let inputs = [recording, rig].into_iter().chain(&args.more);
+    keep::check(&out, inputs.chain(&args.hold_out))?;
     // An unusable folder is refused before the work, not after it.
     drop(Folder::begin(&out)?);
     let rig = Description::read(&args.source.rig)?;
@@ -130,7 +136,7 @@ pub fn written(
     watch: Option<Watch>,
 ) -> Result<Made, Failure> {
     if args.calibrate.is_some() && given.recordings.len() > 1 {
-        let problem = "--calibrate simulates a single recording: give one, not a folder of several";
+        let problem = "--calibrate simulates a single recording: give one, not several";
         return Err(Failure::Usage(problem.to_owned()));
     }
     let is_told = watch.is_some();
@@ -202,8 +208,11 @@ pub struct Given {
 
 impl Given {
     fn read(args: &Args, rig: &Description, rig_file: InputFile) -> Result<Given, Failure> {
-        let files = input::recordings(&args.source.recording)?;
-        let fitted = files.into_iter().map(Taken::File).collect();
+        let paths = [&args.source.recording].into_iter().chain(&args.more);
+        let files: Vec<_> = paths
+            .map(|path| input::recordings(path))
+            .collect::<Result<_, _>>()?;
+        let fitted = files.into_iter().flatten().map(Taken::File).collect();
         Given::of(
             args,
             (rig, rig_file),

@@ -102,7 +102,7 @@ const RECORDINGS: [&str; 3] = ["csv", "txt", "mcap"];
 /// A recording, the rig it is of, and the part that counts.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Source {
-    /// The recording: CSV in any dialect or MCAP, told apart by its content; for `diagnose` also a folder of a five-bar's recordings
+    /// The recording: CSV in any dialect or MCAP, told apart by its content; for `diagnose` also a folder of recordings of one rig
     pub recording: PathBuf,
     /// The rig description: what the channels mean and which physics the nominal model has
     #[arg(long, value_name = "TOML")]

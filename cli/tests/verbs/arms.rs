@@ -187,3 +187,35 @@ fn degrees_that_are_said_to_be_radians_are_asked_about() {
         );
     }
 }
+
+#[test]
+fn several_recordings_are_a_folder_of_them() {
+    let desk = desk();
+    std::fs::create_dir(desk.path("runs")).unwrap();
+    // The recording has no noise.
+    desk.put("quiet.toml", &RIG.replace(", noise = 0.02", ""));
+    let slower = recording(0.6);
+    desk.put("slower.csv", &slower);
+    desk.put("runs/1.csv", &recording(1.0));
+    desk.put("runs/2.csv", &slower);
+    let told = |line: &str, out: &str| {
+        let answer = desk.rigproof(&format!(
+            "diagnose {line} --rig quiet.toml --out {out} --quiet"
+        ));
+        let report = desk.read(&format!("{out}/report.json"));
+        let report: serde_json::Value = serde_json::from_str(&report).unwrap();
+        (
+            answer.status.code(),
+            report["verdict"].clone(),
+            report["effects"].clone(),
+        )
+    };
+    let apart = told("run.csv slower.csv", "apart");
+    assert_eq!(apart, told("runs", "together"));
+    assert_ne!(apart.2, told("run.csv", "one").2);
+    refused(
+        &desk,
+        "diagnose run.csv none.csv --rig quiet.toml",
+        &["none.csv"],
+    );
+}
