@@ -32,7 +32,7 @@ mod settling;
 mod spring;
 mod stribeck;
 mod torque_drift;
-mod transmission;
+pub mod transmission;
 mod uneven_friction;
 mod velocity_power;
 mod viscous;
@@ -138,6 +138,10 @@ pub enum OfJoint {
     Compliance,
     /// An inertia behind a gap.
     Gap,
+    /// Another stiffness of its transmission.
+    Stiffness,
+    /// A gap in its transmission.
+    Lash,
     /// Other masses of a link of an arm.
     Link,
 }

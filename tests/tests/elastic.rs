@@ -74,8 +74,8 @@ impl Joint {
         let [viscous_motor, _, viscous_link] = self.viscous;
         let passes = self.passes(state);
         let lost =
-            |dry: f64, viscous: f64, speed: f64| dry * (speed / TURNS).tanh() + viscous * speed;
-        let weight = MASS_KG * GRAVITY * ARM_M * link.sin();
+            |dry: f64, viscous: f64, speed: f64| dry * libm::tanh(speed / TURNS) + viscous * speed;
+        let weight = MASS_KG * GRAVITY * ARM_M * libm::sin(link);
         let inertia = ABOUT_CENTRE + MASS_KG * ARM_M * ARM_M;
         [
             motor_speed,
@@ -143,7 +143,7 @@ impl Joint {
 fn wanted(time_s: f64) -> [f64; 2] {
     let sines = [(0.5, 0.23, 0.4), (0.35, 0.61, 2.1), (0.25, 1.17, 4.4)];
     let each = sines.map(|(high, hz, phase)| {
-        let (sine, cosine) = (TAU * hz * time_s + phase).sin_cos();
+        let (sine, cosine) = libm::sincos(TAU * hz * time_s + phase);
         [high * sine, high * TAU * hz * cosine]
     });
     each.into_iter()
@@ -153,7 +153,7 @@ fn wanted(time_s: f64) -> [f64; 2] {
 /// The motor's torque: a proportional and derivative controller with the weight fed forward.
 fn driven([motor, speed, ..]: State, time_s: f64) -> f64 {
     let [position, wanted_speed] = wanted(time_s);
-    let weight = MASS_KG * GRAVITY * ARM_M * motor.sin();
+    let weight = MASS_KG * GRAVITY * ARM_M * libm::sin(motor);
     130.0 * (position - motor) + 15.0 * (wanted_speed - speed) + weight
 }
 

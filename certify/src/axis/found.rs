@@ -209,7 +209,9 @@ fn why_not(effect: &RigEffect) -> Option<&'static str> {
         Form::Joint(OfJoint::Fade) => {
             Some("friction that falls with time is a law of one recording, not of the next trial")
         }
-        Form::Joint(OfJoint::Link) => Some("it is of a link of an arm"),
+        Form::Joint(OfJoint::Link | OfJoint::Stiffness | OfJoint::Lash) => {
+            Some("it is of a joint of an arm")
+        }
         Form::ShareOfBrake(_) | Form::Brake(_) => Some("it is of a brake, and the axis has none"),
         Form::Linkage(_) => Some("it is of a linkage"),
         Form::Sensor(_) => Some("it is of a force sensor"),

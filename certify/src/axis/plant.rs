@@ -118,7 +118,7 @@ impl Plant {
                     half_gap: 0.0,
                 });
             }
-            OfJoint::Gap | OfJoint::Fade | OfJoint::Link => {}
+            OfJoint::Gap | OfJoint::Fade | OfJoint::Link | OfJoint::Stiffness | OfJoint::Lash => {}
         }
     }
 

@@ -2,7 +2,7 @@
 //! motor's position less the link's.
 
 use super::facts::{Alone, Asked, Facts, Family, Shapes, Usual, Where, Words};
-use super::{Entry, Form, Instant, Law, parameter};
+use super::{Entry, Form, OfJoint};
 use rigproof_spec::effect::Mechanism;
 
 const ASKED: Asked = Asked {
@@ -12,13 +12,7 @@ const ASKED: Asked = Asked {
 
 pub(super) const STIFFNESS: Entry = Entry {
     mechanism: Mechanism::TransmissionStiffness,
-    form: Form::Resistance(|p| {
-        Box::new(Lash {
-            stiffness: -parameter(p, 0),
-            gap: f64::INFINITY,
-            centre: 0.0,
-        })
-    }),
+    form: Form::Joint(OfJoint::Stiffness),
     linear: 1,
     passive: true,
     refuted_by: "the stated twist under a known torque, the motor held",
@@ -39,13 +33,7 @@ pub(super) const STIFFNESS: Entry = Entry {
 
 pub(super) const BACKLASH: Entry = Entry {
     mechanism: Mechanism::TransmissionBacklash,
-    form: Form::Resistance(|p| {
-        Box::new(Lash {
-            stiffness: parameter(p, 0),
-            gap: parameter(p, 1),
-            centre: parameter(p, 2),
-        })
-    }),
+    form: Form::Joint(OfJoint::Lash),
     linear: 1,
     passive: true,
     refuted_by: "a torque that follows the twist through its middle",
@@ -69,37 +57,22 @@ pub(super) const BACKLASH: Entry = Entry {
     },
 };
 
-/// What a spring lacks where it has a gap, as a resistance to the twist.
-struct Lash {
-    stiffness: f64,
-    gap: f64,
-    centre: f64,
-}
-
-impl Law for Lash {
-    fn smooth(&self, now: &Instant, _memory: f64) -> f64 {
-        let (twist, most) = (now.position - self.centre, 0.5 * self.gap);
-        -self.stiffness * twist.clamp(-most, most)
-    }
+/// The part of a twist that is within a gap about a centre: what a spring with that gap lacks of
+/// its deflection, rad or m.
+pub fn within_gap(twist: f64, gap: f64, centre: f64) -> f64 {
+    let most = 0.5 * gap;
+    (twist - centre).clamp(-most, most)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::law;
-    use super::*;
+    use super::within_gap;
 
     #[test]
     fn a_spring_with_a_gap_gives_nothing_within_it() {
-        let at = |position: f64| Instant {
-            position,
-            ..Instant::default()
-        };
-        let lacks = law(Mechanism::TransmissionBacklash, &[300.0, 0.02, 0.005]).unwrap();
-        let passes = |twist: f64| 300.0 * twist + lacks.smooth(&at(twist), 0.0);
-        for (twist, torque) in [(0.0, 1.5), (0.01, 1.5), (0.03, 6.0), (-0.02, -3.0)] {
+        let passes = |twist: f64| 300.0 * (twist - 0.005 - within_gap(twist, 0.02, 0.005));
+        for (twist, torque) in [(0.0, 0.0), (0.01, 0.0), (0.03, 4.5), (-0.02, -4.5)] {
             assert!((passes(twist) - torque).abs() < 1e-12, "{twist}");
         }
-        let softer = law(Mechanism::TransmissionStiffness, &[-40.0]).unwrap();
-        assert_eq!(softer.smooth(&at(0.5), 0.0), -20.0);
     }
 }

@@ -85,7 +85,6 @@ pub(super) struct Moving {
 }
 
 /// An effort on regular samples.
-#[derive(Clone)]
 pub(super) struct Metered {
     pub(super) signal: Vec<f64>,
     pub(super) noise: f64,

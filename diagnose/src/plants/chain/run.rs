@@ -13,6 +13,7 @@ use crate::whiten::Whitener;
 use nalgebra::{DMatrix, DVector};
 use rigproof_model::bench::column;
 use rigproof_model::chain::INERTIAL;
+use rigproof_model::effects::transmission::within_gap;
 use rigproof_model::effects::{Drive, Form, Instant, OfJoint, OfLinkage, OfSensor, form};
 use rigproof_spec::effect::Mechanism;
 use rigproof_trace::rig::transmission::Part;
@@ -449,6 +450,16 @@ impl Run for ChainRun {
             // The true effort is (1 + fraction) times the recorded one.
             Form::Drive(Drive::Gain) => {
                 vec![self.at_place(joint, self.stretch(&self.known, joint))]
+            }
+            Form::Joint(OfJoint::Stiffness) => {
+                let twist: Vec<f64> = motion.iter().map(|now| now.position).collect();
+                vec![self.at_place(joint, &twist)]
+            }
+            Form::Joint(OfJoint::Lash) => {
+                let (gap, centre) = (shape.first()?, shape.get(1).unwrap_or(&0.0));
+                let lacks = motion.iter();
+                let lacks = lacks.map(|now| -within_gap(now.position, *gap, *centre));
+                vec![self.at_place(joint, &lacks.collect::<Vec<_>>())]
             }
             // A twist that is recorded too great by an angle lacks the stiffness times the angle.
             Form::Sensor(OfSensor::EncoderOffset) => {

@@ -86,15 +86,16 @@ fn taken(run: &ChainRun, effect: &Effect) -> Option<Vec<f64>> {
     Some(sum)
 }
 
-/// Shifts the effort of a joint to when it is recorded. Before the first sample it stands still.
+/// Shifts the efforts that a delayed channel shows to when they are recorded. Before the first
+/// sample they stand still.
 fn delay(run: &ChainRun, effect: &Effect, efforts: &mut [f64]) {
     let late = effect.parameters.first().copied().unwrap_or(0.0) / run.step_s;
-    let Some(joint) = joint_at(effect.cause.at) else {
-        return;
-    };
-    let Some(own) = efforts.chunks_mut(run.len().max(1)).nth(joint) else {
-        return;
-    };
-    let moved = shifted(own, -late);
-    own.copy_from_slice(&moved);
+    let place = joint_at(effect.cause.at).and_then(|place| run.places.get(place));
+    let shows = place.iter().flat_map(|own| &own.rows);
+    for (row, _) in shows.filter(|(_, sign)| *sign > 0.0) {
+        if let Some(own) = efforts.chunks_mut(run.len().max(1)).nth(*row) {
+            let moved = shifted(own, -late);
+            own.copy_from_slice(&moved);
+        }
+    }
 }

@@ -177,7 +177,7 @@ impl Free {
                 }
                 OfJoint::Gap => gap = Some(effect),
                 // These act through the laws.
-                OfJoint::Fade | OfJoint::Link => {}
+                OfJoint::Fade | OfJoint::Link | OfJoint::Stiffness | OfJoint::Lash => {}
             }
         }
         self.axis.inertia = self.axis.inertia.max(LEAST_INERTIA * self.inertia);
