@@ -75,7 +75,7 @@ fn every_verb_has_a_manual_page_and_every_shell_its_completions() {
     let synopsis = synopsis.lines().next().unwrap();
     assert_eq!(
         synopsis,
-        "rigproof diagnose [OPTIONS] \\-\\-rig <TOML> <RECORDING>"
+        "rigproof diagnose [OPTIONS] \\-\\-rig <TOML> <RECORDING> [MORE]..."
     );
     assert!(!pages.iter().any(|name| name.contains("host")));
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {

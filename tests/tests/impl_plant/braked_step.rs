@@ -266,11 +266,12 @@ impl Followed {
                 }
                 _ => [reference.smooth(at, memory), reference.dry(at)],
             };
-            let smooth = |at| parts(at, effect.memory)[0];
-            let is_still = speed.abs() < 1e-9;
-            looked.is_anyones |= is_still && smooth(&now) != smooth(&other);
             let own = Law::new(effect.mechanism, &effect.parameters).unwrap();
             let [_, halfway] = own.remember(effect.memory, speed, step_s);
+            let is_still = speed.abs() < 1e-9;
+            // A memory at the edge of a gap is left by a rate that is rounding.
+            let asks = |memory| parts(&now, memory)[0] != parts(&other, memory)[0];
+            looked.is_anyones |= is_still && (asks(effect.memory) || asks(halfway));
             let [smooth, dry] = parts(&now, halfway);
             looked.drive -= looked.form.joints.row(i).transpose() * smooth;
             looked.bounds_nm[i] += dry;
