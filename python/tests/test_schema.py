@@ -144,8 +144,9 @@ def test_every_description_passes_and_what_is_spoilt_in_it_is_refused_by_both(tm
     validator = jsonschema.Draft202012Validator(schema)
     validator.check_schema(schema)
     (tmp_path / "short.csv").write_text("t,x\n0,1\n")
-    (tmp_path / "arm.urdf").write_bytes((RIGS / "arm.urdf").read_bytes())
-    # The description of the arm names its URDF without a folder.
+    for model in RIGS.glob("*.urdf"):
+        (tmp_path / model.name).write_bytes(model.read_bytes())
+    # Descriptions of arms name their URDF without a folder.
     monkeypatch.chdir(tmp_path)
 
     def refusal(keys: dict[str, Any]) -> str | None:
