@@ -8,7 +8,7 @@ use super::{Role, role};
 /// Where a mechanism runs in a scenario; `None` where it does not.
 pub fn runs(mechanism: Mechanism) -> Option<&'static str> {
     Some(match role(mechanism)? {
-        Role::Resistance => "the plant: a torque at its joint, in every step",
+        Role::Resistance => "the plant: a torque at its joint",
         Role::Brake => "the plant: the table of its brake",
         Role::Drive => "between command and brake",
         Role::Masses => "the plant: its masses",
