@@ -6,7 +6,7 @@ mod reversals;
 mod units;
 
 use crate::filter::rms;
-use crate::filter::{LowPass, gradient};
+use crate::filter::{LowPass, ends, gradient};
 use crate::rules::{
     AT_LIMIT, BAND_SHARE, JUMP_AROUND, JUMP_SHARE, JUMP_TIMES, LEAST_CUTOFF_HZ, LEVEL_SAMPLES,
     LONGEST_FREEZE_S, LONGEST_GAP_S, LOUD_SPEED, MOST_CLIPPED, MOST_CLIPPED_SHARE, MOST_MISSING,
@@ -167,8 +167,7 @@ pub(crate) fn check_clipped(
     effort_limit: Option<f64>,
 ) -> Result<(), Fault> {
     let live = || effort.iter().copied().filter(|x| !x.is_nan());
-    let high = live().fold(f64::NEG_INFINITY, f64::max);
-    let low = live().fold(f64::INFINITY, f64::min);
+    let [low, high] = ends(live());
     for extreme in [high, low] {
         let stated = effort_limit.is_some_and(|limit| extreme.abs() >= AT_LIMIT * limit);
         let count = live().filter(|&x| x == extreme).count();
@@ -382,8 +381,7 @@ pub(crate) fn forget_sense_at_rest(
         if moves_through(around, still) {
             continue;
         }
-        let low = around.iter().copied().fold(f64::INFINITY, f64::min);
-        let high = around.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let [low, high] = ends(around.iter().copied());
         if high - low <= still {
             now.sense = 0.0;
         }

@@ -6,6 +6,7 @@ mod periods;
 pub use periods::{is_periodic, longest_period, of_a_turn, periodic_part, periods};
 
 use crate::cause::{Cause, Place};
+use crate::filter::ends;
 use crate::plant::Run;
 use crate::problem::{Bounds, Problem, Term, add};
 use crate::regression::Fit;
@@ -255,9 +256,8 @@ fn lashes(widths: &[f64], middle: f64) -> Vec<Vec<f64>> {
 
 /// The middle of the range of a motion.
 fn middle(motion: &[Instant]) -> f64 {
-    let positions = motion.iter().map(|now| now.position);
-    let low = positions.clone().fold(f64::INFINITY, f64::min);
-    0.5 * (low + positions.fold(f64::NEG_INFINITY, f64::max))
+    let [low, high] = ends(motion.iter().map(|now| now.position));
+    0.5 * (low + high)
 }
 
 /// Trial travels of presliding, from the least that can be observed.

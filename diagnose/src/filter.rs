@@ -136,6 +136,13 @@ pub fn rms(values: &[f64]) -> f64 {
     (sum / values.len().max(1) as f64).sqrt()
 }
 
+/// The least and the greatest of the values; NaN counts for neither.
+pub fn ends(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
+    let start = [f64::INFINITY, f64::NEG_INFINITY];
+    let each = values.into_iter();
+    each.fold(start, |[low, high], x| [low.min(x), high.max(x)])
+}
+
 /// Root mean square of the usable ones among values.
 pub fn usable_rms(values: &[f64], usable: &[bool]) -> f64 {
     let kept = values.iter().zip(usable).filter(|(_, usable)| **usable);

@@ -9,6 +9,7 @@ mod simulated;
 use crate::candidates::standard_shapes;
 use crate::cause::{Cause, JointId, Place, Scales};
 use crate::continuity::Remark;
+use crate::filter::ends;
 use crate::locate::{self, Regimes};
 use crate::rules::{MOST_AMBIGUOUS, NOISE_ORDER, WIDTHS_S};
 use crate::signals::unit_parameters;
@@ -229,9 +230,8 @@ pub trait Run: Debug + Send + Sync {
 
     /// The range of the position at a place, m or rad.
     fn travel(&self, at: Place) -> f64 {
-        let positions = self.motion(at).iter().map(|now| now.position);
-        let low = positions.clone().fold(f64::INFINITY, f64::min);
-        (positions.fold(f64::NEG_INFINITY, f64::max) - low).max(0.0)
+        let [low, high] = ends(self.motion(at).iter().map(|now| now.position));
+        (high - low).max(0.0)
     }
 
     /// Speed below which the direction of motion cannot be told.
@@ -349,8 +349,7 @@ pub trait Run: Debug + Send + Sync {
     /// The regimes in which unexplained energy is located.
     fn regimes(&self, windows: &Windows) -> Regimes {
         let motion = self.motion(Place::Whole);
-        let positions = motion.iter().map(|now| now.position);
-        let low = positions.fold(f64::INFINITY, f64::min);
+        let [low, _] = ends(motion.iter().map(|now| now.position));
         locate::along(
             "effort balance",
             motion,

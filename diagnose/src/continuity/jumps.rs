@@ -4,6 +4,7 @@
 use super::steps::Steps;
 use super::{Position, Remark, Stamps, few};
 use crate::align::Fault;
+use crate::filter::ends;
 use crate::rules::{LONGEST_DROPOUT, WRAP_NEAR, WRAP_RANGE};
 use core::f64::consts::TAU;
 
@@ -81,8 +82,8 @@ fn agreed(large: &[(usize, f64, f64)], by: f64, limit: f64) -> Option<f64> {
 }
 
 fn range(samples: &[f64]) -> f64 {
-    let live = || samples.iter().copied().filter(|x| !x.is_nan());
-    live().fold(f64::NEG_INFINITY, f64::max) - live().fold(f64::INFINITY, f64::min)
+    let [low, high] = ends(samples.iter().copied());
+    high - low
 }
 
 /// Leaves out a few samples that lie far off, if the motion before continues after them.

@@ -3,6 +3,7 @@
 use crate::candidates::is_periodic;
 use crate::cause::{Cause, Scales};
 use crate::evidence::{Intervals, coefficients_by_term};
+use crate::filter::ends;
 use crate::problem::{Problem, Term};
 use crate::rules::{LEAST_BESIDE_POSITION, PERIOD_KNOWN, POSITION_BINS, SUSPECTED};
 use crate::selection::{Selection, is_noise};
@@ -145,8 +146,7 @@ fn weighted<'a>(signals: impl Iterator<Item = (&'a [f64], &'a f64)>, len: usize)
 
 /// The share of the variance of `effort` that its mean in each of `POSITION_BINS` bins of the position leaves.
 fn left_beside(position: &[f64], effort: &[f64]) -> f64 {
-    let low = position.iter().copied().fold(f64::INFINITY, f64::min);
-    let high = position.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let [low, high] = ends(position.iter().copied());
     let width = (high - low) / POSITION_BINS as f64;
     let mut bins = vec![Vec::new(); POSITION_BINS + 1];
     for (position, effort) in position.iter().zip(effort) {

@@ -221,6 +221,16 @@ impl ChainRig {
         })
     }
 
+    /// The joint of this name.
+    pub fn joint(&self, name: &str) -> Option<&ChainJoint> {
+        self.joints.iter().find(|joint| joint.name == name)
+    }
+
+    /// Whether the joint to which a place belongs slides or turns; of an unknown place that it turns.
+    pub fn motion_at(&self, place: &str) -> Motion {
+        part(place, &self.joints).map_or(Motion::Rotary, |(joint, _)| joint.motion)
+    }
+
     /// Every channel that is named.
     pub fn maps(&self) -> Vec<&ChannelMap> {
         let each = self.joints.iter();
@@ -322,7 +332,7 @@ impl ChainRig {
             lines.extend(joint.transmission.lines(joint.motion));
         }
         for own in &self.effects {
-            let motion = part(&own.joint, &self.joints).map_or(Motion::Rotary, |(j, _)| j.motion);
+            let motion = self.motion_at(&own.joint);
             let mut effect = effect_lines(&own.effect, (motion, Dimension::CURRENT)).into_iter();
             lines.extend(effect.by_ref().take(2));
             lines.push(format!("joint = {}", string(&own.joint)));

@@ -1,7 +1,7 @@
 //! This file resamples a recording of an arm to a regular clock and sets up the equations of its
 //! joints.
 
-use super::parts::ArmPlace;
+use super::parts::{ArmPlace, stated};
 use super::run::ChainRun;
 use crate::align::{
     Fault, check_clock, check_missing, cutoff_hz, forget_sense_at_rest, forget_sense_at_reversals,
@@ -61,7 +61,7 @@ pub(super) fn arm(rig: &ChainRig) -> Result<Chain, String> {
         }
     }
     for own in &chain.joints {
-        let Some(joint) = rig.joints.iter().find(|joint| joint.name == own.name) else {
+        let Some(joint) = rig.joint(&own.name) else {
             return Err(format!(
                 "joint `{}` of {} has no `[[joint]]`: its position and effort are needed, or end the arm before it (`tip`)",
                 own.name, rig.file
@@ -335,10 +335,11 @@ fn equations(rig: &ChainRig, chain: &Chain, joints: &[Aligned], step_s: f64) -> 
     let bare = chain.joints.iter().zip(joints);
     for (stretch, (own, joint)) in known.chunks_mut(samples.max(1)).zip(bare) {
         let motion = &joint.link.motion;
+        let rotor = rotor_at_link(rig, own);
         let faster = accelerations(motion, step_s);
         for ((slot, now), faster) in stretch.iter_mut().zip(motion).zip(faster) {
             let friction = own.damping * now.speed + own.friction * now.sense;
-            *slot += friction + own.armature * faster;
+            *slot += friction + rotor * faster;
         }
     }
     let mut recorded = vec![true; samples];
@@ -355,7 +356,7 @@ fn equations(rig: &ChainRig, chain: &Chain, joints: &[Aligned], step_s: f64) -> 
         step_s,
         start_s: 0.0,
         equations: (0..joints.len()).collect(),
-        places: each_link(chain),
+        places: each_link(rig, chain),
         motions: joints.iter().map(|own| own.link.motion.clone()).collect(),
         effort: joints
             .iter()
@@ -383,16 +384,25 @@ fn equations(rig: &ChainRig, chain: &Chain, joints: &[Aligned], step_s: f64) -> 
     run
 }
 
-fn each_link(chain: &Chain) -> Vec<ArmPlace> {
+/// The described inertia of the motor that moves with a link: none where the motor has an equation
+/// of its own.
+fn rotor_at_link(rig: &ChainRig, joint: &Joint) -> f64 {
+    match stated(rig, joint) {
+        Some(_) => 0.0,
+        None => joint.armature,
+    }
+}
+
+fn each_link(rig: &ChainRig, chain: &Chain) -> Vec<ArmPlace> {
     let each = chain.joints.iter().enumerate();
     let links = each.map(|(joint, own)| ArmPlace {
         name: lasting(&own.name),
         part: Part::Link,
-        is_split: false,
+        is_split: stated(rig, own).is_some(),
         described: vec![
             (Mechanism::DryOffset, own.friction),
             (Mechanism::Viscous, own.damping),
-            (Mechanism::AddedInertia, own.armature),
+            (Mechanism::AddedInertia, rotor_at_link(rig, own)),
         ],
         rows: vec![(joint, 1.0)],
     });

@@ -4,10 +4,9 @@
 use super::align::arm;
 use rigproof_model::chain::{Chain, Changes, INERTIAL, Inertial, Joint, Stated};
 use rigproof_model::effects::{Drive, Form, OfJoint, OfLinkage, form};
-use rigproof_spec::effect::{Mechanism, Motion};
+use rigproof_spec::effect::Mechanism;
 use rigproof_trace::rig::RigEffect;
 use rigproof_trace::rig::chain::{AtJoint, ChainRig, ModelFormat};
-use rigproof_trace::rig::transmission::part;
 use std::collections::BTreeMap;
 
 /// The calibrated model, and the table of what it cannot hold.
@@ -206,7 +205,7 @@ fn said(rig: &ChainRig, left: &[(&AtJoint, String)]) -> Vec<String> {
 fn table(rig: &ChainRig, left: &[(&AtJoint, String)]) -> String {
     let mut text = "joint,mechanism,number,value,unit,why\n".to_owned();
     for (own, why) in left {
-        let motion = part(&own.joint, &rig.joints).map_or(Motion::Rotary, |(own, _)| own.motion);
+        let motion = rig.motion_at(&own.joint);
         let mechanism = own.effect.mechanism;
         for (number, value) in mechanism.parameters().iter().zip(&own.effect.values) {
             text += &format!(

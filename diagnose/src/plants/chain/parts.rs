@@ -10,7 +10,7 @@
 
 use super::align::{Aligned, Metered, accelerations, lasting};
 use super::run::ChainRun;
-use rigproof_model::chain::Chain;
+use rigproof_model::chain::{Chain, Joint};
 use rigproof_model::effects::{Drive, Form, Instant, OfJoint, OfLinkage, facts, form};
 use rigproof_spec::effect::Mechanism;
 use rigproof_trace::rig::chain::ChainRig;
@@ -63,11 +63,17 @@ impl ArmPlace {
     }
 }
 
+/// What the description says of the transmission of a joint whose motor is told from its link.
+pub(super) fn stated<'a>(rig: &'a ChainRig, joint: &Joint) -> Option<&'a Transmission> {
+    let own = &rig.joint(&joint.name)?.transmission;
+    own.is_seen().then_some(own)
+}
+
 /// The names of the places of an arm, in the order of a run.
 pub(super) fn place_names(rig: &ChainRig, chain: &Chain) -> Vec<String> {
     let links = chain.joints.iter().map(|own| own.name.clone());
     let parts = chain.joints.iter().flat_map(|own| {
-        let stated = rig.joints.iter().find(|stated| stated.name == own.name);
+        let stated = rig.joint(&own.name);
         let parts = [Part::Motor, Part::Transmission, Part::Sensor].into_iter();
         let has = move |part: &Part| stated.is_some_and(|own| own.transmission.has(*part));
         parts.filter(has).map(|part| part.of(&own.name))
@@ -92,11 +98,7 @@ impl ChainRun {
     /// Adds the equations and the places of the joints whose motors are told from their links.
     pub(super) fn split_joints(&mut self, rig: &ChainRig, chain: &Chain, joints: &[Aligned]) {
         for (joint, (of_model, own)) in chain.joints.iter().zip(joints).enumerate() {
-            let stated = rig
-                .joints
-                .iter()
-                .find(|stated| stated.name == of_model.name);
-            let Some(stated) = stated.map(|own| &own.transmission) else {
+            let Some(stated) = stated(rig, of_model) else {
                 continue;
             };
             let rotor = stated.rotor.map_or(of_model.armature, |rotor| rotor.value);
@@ -107,13 +109,11 @@ impl ChainRun {
                 stated,
                 rotor,
             };
-            if stated.is_seen() {
-                self.split(&split, of_model.armature);
-            }
+            self.split(&split);
         }
     }
 
-    fn split(&mut self, split: &Split<'_>, armature: f64) {
+    fn split(&mut self, split: &Split<'_>) {
         let (joint, own, step_s) = (split.joint, split.own, self.step_s);
         let twist = own.twist(step_s);
         let stiffness = split.stated.stiffness.map_or(0.0, |own| own.value);
@@ -121,7 +121,7 @@ impl ChainRun {
         let Some(passed) = own.torque.as_ref().or(sprung.as_ref()) else {
             return;
         };
-        self.passes_to_link(joint, passed, armature);
+        self.passes_to_link(joint, passed);
         let wound = own.wound(stiffness, step_s);
         let motor = own.motor.as_ref().or(wound.as_ref()).unwrap_or(&own.link);
         let known = accelerations(&motor.motion, step_s).into_iter();
@@ -171,24 +171,13 @@ impl ChainRun {
         }
     }
 
-    /// A link is driven by what passes its transmission, and the rotor is not behind it.
-    fn passes_to_link(&mut self, joint: usize, passed: &Metered, armature: f64) {
-        let from = joint * self.len();
-        let faster = self
-            .motions
-            .get(joint)
-            .map_or_else(Vec::new, |motion| accelerations(motion, self.step_s));
-        let efforts = self.effort.iter_mut().skip(from).zip(&passed.signal);
+    /// A link is driven by what passes its transmission.
+    fn passes_to_link(&mut self, joint: usize, passed: &Metered) {
+        let efforts = self.effort.iter_mut().skip(joint * self.recorded.len());
+        let efforts = efforts.zip(&passed.signal);
         efforts.for_each(|(slot, passed)| *slot = *passed);
-        let known = self.known.iter_mut().skip(from).zip(faster);
-        known.for_each(|(slot, faster)| *slot -= armature * faster);
         if let Some([_, noise]) = self.noise.get_mut(joint) {
             *noise = passed.noise;
-        }
-        if let Some(place) = self.places.get_mut(joint) {
-            place.is_split = true;
-            let is_of_link = |own: &(Mechanism, f64)| own.0 != Mechanism::AddedInertia;
-            place.described.retain(is_of_link);
         }
     }
 

@@ -4,7 +4,7 @@
 use super::parts::ArmPlace;
 use crate::candidates::{is_plain, standard_shapes};
 use crate::cause::{Cause, JointId, Place};
-use crate::filter::{gradient, rms};
+use crate::filter::{ends, gradient, rms};
 use crate::plant::{Clock, Columns, Rules, Run, resistances};
 use crate::problem::less;
 use crate::rules::{ARM_WIDTH_S, DESCRIBED_WITHIN, MOST_AMBIGUOUS, NOISE_ORDER};
@@ -354,8 +354,8 @@ impl Run for ChainRun {
     /// The range of motion of a joint; the greatest one for the whole arm.
     fn travel(&self, at: Place) -> f64 {
         let range = |own: &Vec<Instant>| {
-            let q = || own.iter().map(|now| now.position);
-            (q().fold(f64::NEG_INFINITY, f64::max) - q().fold(f64::INFINITY, f64::min)).max(0.0)
+            let [low, high] = ends(own.iter().map(|now| now.position));
+            (high - low).max(0.0)
         };
         match joint_at(at) {
             Some(joint) => self.motions.get(joint).map_or(0.0, range),

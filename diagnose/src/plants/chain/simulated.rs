@@ -9,7 +9,6 @@ use crate::signals::shifted;
 use rigproof_model::effects::{Drive, Form, entry, form};
 use rigproof_spec::effect::Motion;
 use rigproof_trace::rig::chain::{ChainRecording, ChainRig};
-use rigproof_trace::rig::transmission::part;
 
 /// The efforts of a model beside the recorded ones, N·m or N, an output a joint in the arm's order.
 ///
@@ -34,7 +33,7 @@ pub(super) fn simulated(
     let each = efforts.chunks(samples).zip(recorded.chunks(samples));
     let outputs = each.enumerate().map(|(output, (own, recorded))| {
         let name = run.output_name(output);
-        let slides = part(name, &model.joints).is_some_and(|(own, _)| own.motion == Motion::Linear);
+        let slides = model.motion_at(name) == Motion::Linear;
         SimulatedOutput {
             name: lasting(&format!("effort_{name}")),
             unit: if slides { "N" } else { "N·m" }.to_owned(),

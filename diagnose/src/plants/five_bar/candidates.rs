@@ -7,6 +7,7 @@ use crate::candidates::{
     periodic_part, periods, plays, stribeck_shapes,
 };
 use crate::cause::{Cause, Place};
+use crate::filter::ends;
 use crate::plant::Run;
 use crate::rules::{
     ANCHORS, BENDS_FIVE_BAR, CLOSING_A, DELAYS, DELAYS_RAD, LAGS_FIVE_BAR, LEAST_BEND,
@@ -106,9 +107,7 @@ fn standing_for(run: &FiveBarRun, at: Place) -> Place {
 fn anchors(run: &FiveBarRun) -> Vec<Vec<f64>> {
     let [(x, wide), (y, high)] = [0, 1].map(|axis| {
         let tips = run.poses.iter();
-        let tips = tips.filter_map(|pose| pose.tip_m.get(axis).copied());
-        let low = tips.clone().fold(f64::INFINITY, f64::min);
-        let high = tips.fold(f64::NEG_INFINITY, f64::max);
+        let [low, high] = ends(tips.filter_map(|pose| pose.tip_m.get(axis).copied()));
         (0.5 * (low + high), high - low)
     });
     let [distances, directions] = ANCHORS;

@@ -1,6 +1,7 @@
 //! This file marks the direction of a joint as unknown where it may stop and start again: at low
 //! speed, while brakes switch.
 
+use crate::filter::ends;
 use crate::rules::{STOP_S, SWITCHED_A, SWITCHED_S};
 use rigproof_model::effects::Instant;
 
@@ -43,9 +44,9 @@ fn around(values: &[f64], k: usize, reach: usize) -> &[f64] {
 }
 
 /// The greatest value less the least.
-fn range(values: impl Iterator<Item = f64> + Clone) -> f64 {
-    let low = values.clone().fold(f64::INFINITY, f64::min);
-    values.fold(f64::NEG_INFINITY, f64::max) - low
+fn range(values: impl Iterator<Item = f64>) -> f64 {
+    let [low, high] = ends(values);
+    high - low
 }
 
 #[cfg(test)]

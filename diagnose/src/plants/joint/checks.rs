@@ -6,6 +6,7 @@ use super::run::PlantKind;
 use crate::align::{
     Fault, Metered, Stated, check_clipped, check_metered, check_units, longest_freeze,
 };
+use crate::filter::ends;
 use crate::rules::{DIES_AWAY, GROWS, LEAST_WAY, MOST_TURNS};
 
 /// Checks the channels as recorded, and after repair.
@@ -71,8 +72,8 @@ fn check_commanded(signals: &Signals) -> Result<(), Fault> {
 fn starts_by_itself(position: &[f64]) -> bool {
     let stretch = (position.len() / 20).max(2);
     let ways = position.chunks(stretch).map(|own| {
-        let live = || own.iter().copied().filter(|x| !x.is_nan());
-        live().fold(f64::NEG_INFINITY, f64::max) - live().fold(f64::INFINITY, f64::min)
+        let [low, high] = ends(own.iter().copied());
+        high - low
     });
     let ways: Vec<f64> = ways.collect();
     let greatest = ways.iter().copied().fold(0.0, f64::max);
@@ -94,8 +95,7 @@ fn to_and_fro(position: &[f64]) -> ([f64; 2], usize) {
             .filter_map(|pair| Some(pair.last()? - pair.first()?));
         pairs.map(f64::abs).sum()
     };
-    let low = live.iter().copied().fold(f64::INFINITY, f64::min);
-    let high = live.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let [low, high] = ends(live.iter().copied());
     let (mut turns, mut extreme, mut upward) = (0, low, true);
     for x in &live {
         extreme = if upward {

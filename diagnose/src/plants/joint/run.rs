@@ -10,7 +10,7 @@ use crate::cause::{Cause, Place};
 use crate::continuity::Remark;
 use crate::doubt::{greatest_change, jumps_late, turning};
 use crate::effect::Effect;
-use crate::filter::rms;
+use crate::filter::{ends, rms};
 use crate::locate::{self, Regimes};
 use crate::plant::{Clock, Columns, Run};
 use crate::plants::brake::{BrakeLaw, Braked};
@@ -216,12 +216,7 @@ impl JointRun {
 
     /// The range of positions, m or rad.
     pub fn travel(&self) -> f64 {
-        let low = self.position.iter().copied().fold(f64::INFINITY, f64::min);
-        let high = self
-            .position
-            .iter()
-            .copied()
-            .fold(f64::NEG_INFINITY, f64::max);
+        let [low, high] = ends(self.position.iter().copied());
         (high - low).max(0.0)
     }
 }
@@ -427,7 +422,7 @@ impl Run for JointRun {
             PlantKind::Axis => "effort balance",
             PlantKind::Bench => "metered effort",
         };
-        let low = self.position.iter().copied().fold(f64::INFINITY, f64::min);
+        let [low, _] = ends(self.position.iter().copied());
         locate::along(output, &self.motion, windows, [low, self.travel()])
     }
 }
