@@ -161,6 +161,14 @@ impl Grid {
 
 /// How to treat stamps that never decrease, whose last printed digit is worth `resolution_s`.
 pub fn settle(time_s: &[f64], resolution_s: f64) -> Settled {
+    match settle_on_grid(time_s, resolution_s) {
+        // A step that is nothing beside the stamps, or that rounding makes nothing, tells no time.
+        Settled::Even(times, _) if !times.is_sorted_by(|a, b| a < b) => Settled::Refused,
+        settled => settled,
+    }
+}
+
+fn settle_on_grid(time_s: &[f64], resolution_s: f64) -> Settled {
     let repeated = time_s
         .windows(2)
         .filter(|pair| pair.first() == pair.get(1))
@@ -322,6 +330,13 @@ mod tests {
             let mean_hz = places / (times[times.len() - 1] - times[0]);
             assert!((mean_hz / rate_hz - 1.0).abs() < 2e-5, "{mean_hz}");
             assert!(remark.contains("rounded to"), "{remark}");
+        }
+    }
+
+    #[test]
+    fn stamps_that_stand_still_are_no_time() {
+        for stamp in [-0.006, 0.0, 1.7e9] {
+            assert_eq!(settle(&[stamp; 40], 1e-3), Settled::Refused);
         }
     }
 

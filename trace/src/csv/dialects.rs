@@ -127,6 +127,17 @@ fn a_rigol_counts_samples_and_says_its_step() {
 }
 
 #[test]
+fn a_rigol_whose_increment_is_nothing_is_refused() {
+    let rows: String = (0..20).map(|k| format!("{k},0.5,1.25,,\n")).collect();
+    let text = format!("X,CH1,CH2,Start,Increment\nSequence,Volt,Volt,-6.0e-3,2.5e-420\n{rows}");
+    let said = read_text(&text, &Hints::default()).unwrap_err().to_string();
+    assert!(
+        said.contains("line 4") && said.contains("column 1"),
+        "{said}"
+    );
+}
+
+#[test]
 fn sixteen_bit_text_and_quoted_decimal_commas_are_read() {
     let text = format!("\u{feff}t_s;x [mm];µ\r\n{}", table(";", true, "", ";"));
     let units = text.encode_utf16();
