@@ -87,6 +87,10 @@ fn heading(report: &Report) -> String {
     let verdict = report.verdict.name().replace('_', " ");
     match names.as_slice() {
         [] => format!("Verdict: {verdict}, nothing is named"),
+        [first, second, third, rest @ ..] if rest.len() > 1 => format!(
+            "Verdict: {verdict}, named: {first}, {second}, {third} and {} more",
+            rest.len()
+        ),
         names => format!("Verdict: {verdict}, named: {}", names.join(", ")),
     }
 }

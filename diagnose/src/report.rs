@@ -1,6 +1,7 @@
 //! This file is the report of a diagnosis, with the fields of `report.json`.
 
 mod agreement;
+mod arm;
 mod fault;
 mod read_as;
 mod verdict;
@@ -10,6 +11,7 @@ use std::collections::BTreeMap;
 
 pub use crate::continuity::Remark;
 pub use agreement::Agreement;
+pub use arm::{ArmReport, JointReport};
 pub use fault::FaultReport;
 pub use read_as::ReadAs;
 pub use verdict::Verdict;
@@ -60,6 +62,8 @@ pub struct Report {
     /// What joints of a five-bar at rest bound; none on other plants, where an encoder error was
     /// named, or where nothing was concluded.
     pub held: Option<HeldReport>,
+    /// What is left over joint by joint; none on other plants than arms.
+    pub arm: Option<ArmReport>,
     /// Combinations of parameters that this recording does not identify.
     pub null_directions: Vec<NullDirection>,
     /// The shape of the residual, if it is more than noise.

@@ -68,6 +68,12 @@ class Report:
         return Names(self.json["located"])
 
     @property
+    def joints(self) -> Names:
+        """An arm's joints: joint, effort left over before and after (root mean square, held out), unit, share of it before; none on other plants."""
+        arm = self.json["arm"] or {"joints": []}
+        return Names({key: own[key] for key in ("joint", "before", "after", "unit", "share")} for own in arm["joints"])
+
+    @property
     def remaining(self) -> Row:
         """What is left: `floor` (residual against noise), `unknown` (its shape, or None)."""
         return {key: self.json[key] for key in ("floor", "unknown")}

@@ -60,6 +60,7 @@ def test_an_arms_friction_and_constants_come_back_into_its_model(tmp_path: Path)
     report = rigproof.diagnose({"t": t, "q1": q[:, 0], "q2": q[:, 1], "f1": f[:, 0], "f2": f[:, 1]}, rig)
     found = {(row["mechanism"], row["where"]): row["value"] for row in report.names}
     assert set(found) == {("viscous", "j1"), ("dry_offset", "j2"), ("constant_bias", "j2")}, report.names
+    assert [row["joint"] for row in report.joints] == ["j1", "j2"] and all(row["after"] < 0.1 * row["before"] for row in report.joints), report.joints
     fresh = mujoco.MjModel.from_xml_string(ARM)
     held = slice(4500, None)
     before = own.effort(fresh, t[held], q[held], f[held])

@@ -1,6 +1,7 @@
 //! This file is the page of a diagnosis: what is wrong, where, what it is, how sure that is, before and after, and what to do next.
 
 mod after;
+mod arm;
 mod drawing;
 mod headline;
 mod left_over;

@@ -1,6 +1,6 @@
 //! This file says physics in the words of somebody who mends machines.
 
-use rigproof_diagnose::report::HeldJoint;
+use rigproof_diagnose::report::{EffectReport, HeldJoint, Report};
 use rigproof_model::effects::words;
 use rigproof_spec::effect::Mechanism;
 
@@ -18,10 +18,15 @@ pub fn plain_cause(cause: &str) -> String {
 
 /// A mechanism's name and its place in plain words; a name that is not in the vocabulary stands as it is.
 pub fn plain_at(name: &str, joint: Option<&str>) -> String {
-    let what = Mechanism::from_name(name).map_or_else(
-        || name.to_owned(),
-        |mechanism| words(mechanism).what.to_owned(),
-    );
+    placed(plain(name).to_owned(), name, joint)
+}
+
+/// A mechanism in plain words; a name that is not in the vocabulary stands as it is.
+fn plain(name: &str) -> &str {
+    Mechanism::from_name(name).map_or(name, |mechanism| words(mechanism).what)
+}
+
+fn placed(what: String, name: &str, joint: Option<&str>) -> String {
     match joint {
         Some("every brake") => format!("{what}, the same at every brake"),
         Some(axis) if is_axis(name, axis) => format!("{what}, along {axis}"),
@@ -47,20 +52,53 @@ pub fn plain_each<'a>(
             None => groups.push((name, vec![place], added)),
         }
     }
+    let are_many = groups.len() > KINDS;
     let said = groups.into_iter().map(|(name, places, added)| {
+        let whole = plain(name);
+        let what = match whole.split_once(" (") {
+            Some((brief, _)) if are_many => brief,
+            _ => whole,
+        };
         let joints: Vec<&str> = places.iter().flatten().copied().collect();
         match joints.as_slice() {
             [first @ .., last] if !first.is_empty() => {
-                format!(
-                    "{}, at joints {} and {last}",
-                    plain_at(name, None),
-                    first.join(", ")
-                )
+                let names = format!("joints {} and {last}", first.join(", "));
+                match names.len() > ROOM {
+                    true => format!("{what}, at {} joints", joints.len()),
+                    false => format!("{what}, at {names}"),
+                }
             }
-            _ => plain_at(name, places.first().copied().flatten()) + &added,
+            _ => placed(what.to_owned(), name, places.first().copied().flatten()) + &added,
         }
     });
     said.collect()
+}
+
+/// Kinds of mechanisms that are explained in one sentence.
+const KINDS: usize = 2;
+/// Letters for the joints of a mechanism; more joints are counted.
+const ROOM: usize = 40;
+
+/// What a report names and what it suspects, each in one phrase. Beside names, many suspicions are counted.
+pub fn named_and_suspected(
+    report: &Report,
+    added: impl Fn(&EffectReport) -> String,
+) -> [String; 2] {
+    let statuses = report.by_status();
+    let [named, _] = &statuses;
+    let is_named = !named.is_empty();
+    statuses.map(|effects| {
+        let count = effects.len();
+        let is_sure = effects.iter().all(|own| own.status == "named");
+        let each = effects
+            .into_iter()
+            .map(|own| (own.mechanism, own.joint, added(own)));
+        let each = plain_each(each);
+        match is_named && !is_sure && each.len() > KINDS {
+            true => format!("{count} more that are less sure"),
+            false => list(&each),
+        }
+    })
 }
 
 fn is_joint(name: &str, place: Option<&str>) -> bool {
@@ -70,6 +108,11 @@ fn is_joint(name: &str, place: Option<&str>) -> bool {
 /// Whether a place is an axis of the force sensor.
 fn is_axis(name: &str, place: &str) -> bool {
     name.starts_with("force_") && matches!(place, "x" | "y")
+}
+
+/// What the field calls a mechanism; a name that is not in the vocabulary stands as it is.
+pub fn called(name: &str) -> &str {
+    Mechanism::from_name(name).map_or(name, |mechanism| mechanism.called())
 }
 
 /// What the field calls a mechanism, with its name in files where the one does not hold the other: `Coulomb friction (dry_offset) at 3`.
@@ -146,6 +189,9 @@ mod tests {
         assert!(said[1].ends_with(", at joint A (+3 %)"), "{}", said[1]);
         assert!(said[2].ends_with("the same at every brake"), "{}", said[2]);
         assert_eq!(said[3], plain_at("payload", None));
+        let long = ["upper_arm_roll", "lower_arm_roll", "wrist_flex"];
+        let said = plain_each(long.map(|at| ("dry_offset", Some(at), String::new())));
+        assert!(said[0].ends_with("speed), at 3 joints"), "{}", said[0]);
     }
 
     #[test]

@@ -51,14 +51,18 @@ fn a_panda_lacks_friction_at_its_joints_and_masses_of_its_links() {
     };
     let report = diagnose(&rig, &[&recording], None, &options).report;
     for (joint, most) in (1..).zip(LEFT) {
-        let start = format!("panda_joint{joint}: ");
-        let mut lines = report.protocol.iter();
-        let line = lines.find_map(|own| own.strip_prefix(&start)).unwrap();
-        let after = line.split("→ ").nth(1).unwrap();
-        let left: f64 = after.split(',').next().unwrap().parse().unwrap();
+        let name = format!("panda_joint{joint}");
+        let mut joints = report.arm.iter().flat_map(|arm| &arm.joints);
+        let left = joints.find(|own| own.joint == name).unwrap().after;
         println!("joint {joint}: {left} N·m of at most {most}");
         assert!(left <= most, "joint {joint}: {left} N·m");
     }
+    let arm = report.arm.as_ref().unwrap();
+    let shares: f64 = arm.joints.iter().map(|own| own.share).sum();
+    assert!((shares - 1.0).abs() < 1e-9 && arm.part == "held_out");
+    // Base, seven joints, flange; the shoulder's height as the maker states it.
+    assert!(arm.line_m.len() == 9 && (arm.line_m[2][2] - 0.333).abs() < 1e-9);
+    assert!(arm.joints.iter().all(|own| own.after < own.before));
     let named = |mechanism: &str| {
         let all = report.effects.iter();
         all.filter(|own| own.mechanism == mechanism).count()

@@ -6,7 +6,7 @@ use std::path::Path;
 use rigproof_diagnose::report::{EffectReport, Number, Report, Verdict};
 use rigproof_model::effects::entry;
 use rigproof_report::number::{interval, percent, probability, told};
-use rigproof_report::words::{called_at, list, plain_cause, plain_each};
+use rigproof_report::words::{called_at, named_and_suspected, plain_cause};
 use rigproof_spec::effect::Mechanism;
 
 use super::found::regime;
@@ -47,15 +47,7 @@ impl Style {
 /// The diagnosis in at most [`MOST_LINES`] lines.
 pub fn summary(report: &Report, next: &str, page: &Path) -> String {
     let mut lines = vec![verdict(report)];
-    let place = report.located.first();
-    let shown = place.filter(|_| !report.agrees());
-    lines.extend(shown.map(|place| {
-        let share = percent(place.share);
-        line(
-            "where",
-            &format!("{}: {share} of the unexplained energy", regime(place)),
-        )
-    }));
+    lines.extend(place(report).filter(|_| !report.agrees()));
     lines.extend(names(report));
     lines.extend(error(report));
     lines.extend(doubt(report));
@@ -65,14 +57,31 @@ pub fn summary(report: &Report, next: &str, page: &Path) -> String {
     lines.join("\n")
 }
 
+/// Where most of what the model leaves over is: the joint of an arm, or the kind of motion.
+fn place(report: &Report) -> Option<String> {
+    let joints = report.arm.iter().flat_map(|arm| &arm.joints);
+    let worst = joints.max_by(|a, b| a.share.total_cmp(&b.share));
+    let said = match (worst, report.located.first()) {
+        (Some(worst), _) => format!(
+            "{}: {} of the unexplained effort; {} → {} {}",
+            worst.joint,
+            percent(worst.share),
+            rounded(worst.before),
+            rounded(worst.after),
+            worst.unit
+        ),
+        (None, Some(place)) => {
+            let share = percent(place.share);
+            format!("{}: {share} of the unexplained energy", regime(place))
+        }
+        (None, None) => return None,
+    };
+    Some(line("where", &said))
+}
+
 /// One sentence on what is wrong.
 fn verdict(report: &Report) -> String {
-    let [named, suspected] = report.by_status().map(|effects| {
-        let each = effects
-            .iter()
-            .map(|own| (own.mechanism, own.joint, String::new()));
-        list(&plain_each(each))
-    });
+    let [named, suspected] = named_and_suspected(report, |_| String::new());
     match report.verdict {
         Verdict::Consistent => {
             "The model agrees with the recording to within sensor noise.".to_owned()
@@ -127,13 +136,13 @@ fn open(looks_the_same: bool, named: &str, suspected: &str) -> String {
 /// A line for each name; where they are too many for the page, the last line says how many are left out.
 fn names(report: &Report) -> Vec<String> {
     let room = MOST_LINES - FRAME;
-    let effects = report.effects.as_slice();
+    let effects = report.by_status().concat();
     let shown = if effects.len() > room {
         room - 1
     } else {
         effects.len()
     };
-    let mut lines: Vec<String> = effects.iter().take(shown).map(name).collect();
+    let mut lines: Vec<String> = effects.iter().take(shown).map(|own| name(own)).collect();
     let more = effects.len() - shown;
     if more > 0 {
         lines.push(line("names", &format!("{more} more with --verbose")));
@@ -141,13 +150,24 @@ fn names(report: &Report) -> Vec<String> {
     lines
 }
 
+/// Numbers of a name that are all shown; of more, those that are told from 0.
+const MOST_NUMBERS: usize = 4;
+
 /// A name, its numbers with their intervals, when it begins, and how probable it is.
 fn name(effect: &EffectReport) -> String {
-    let mut parts: Vec<String> = effect
-        .parameters
-        .iter()
+    let all = effect.parameters.iter();
+    let (told, open): (Vec<_>, Vec<_>) = all.partition(|(_, number)| {
+        let interval = interval(number);
+        effect.parameters.len() <= MOST_NUMBERS
+            || interval.is_some_and(|[low, high]| low > 0.0 || high < 0.0)
+    });
+    let told = told.into_iter();
+    let mut parts: Vec<String> = told
         .map(|(name, number)| format!("{} {}", name.replace('_', " "), with_interval(number)))
         .collect();
+    if !open.is_empty() {
+        parts.push(format!("{} numbers not told from 0", open.len()));
+    }
     if let Some(onset) = effect.onset_s {
         parts.push(format!("from {} s on", rounded(onset)));
     }

@@ -71,6 +71,7 @@ pub(crate) fn blank(plant: &'static str, verdict: Verdict, summary: String) -> R
         explanations: Vec::new(),
         not_seen: Vec::new(),
         held: None,
+        arm: None,
         null_directions: Vec::new(),
         unknown: None,
         fit: None,

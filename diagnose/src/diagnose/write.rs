@@ -135,6 +135,7 @@ impl<P: Plant> Stand<'_, P> {
             inverse_model: self.inverse_model(&[]),
             not_seen: not_seen(problem, selection),
             held: P::held(self),
+            arm: P::arm(self),
             null_directions: null_directions(problem, selection),
             unknown,
             fit,

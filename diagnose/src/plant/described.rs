@@ -10,7 +10,9 @@ use crate::diagnose::{Curves, balance};
 use crate::effect::Effect;
 use crate::evidence::Intervals;
 use crate::problem::Problem;
-use crate::report::{FitReport, HeldReport, Horizon, InverseReport, NextExperiment, Number};
+use crate::report::{
+    ArmReport, FitReport, HeldReport, Horizon, InverseReport, NextExperiment, Number,
+};
 use crate::selection::Selection;
 use core::fmt::Debug;
 use rand_pcg::Pcg64Mcg;
@@ -197,6 +199,12 @@ pub trait Plant: Clone + Debug + Send + Sync + Sized {
 
     /// What joints at rest bound.
     fn held(stand: &Stand<'_, Self>) -> Option<HeldReport> {
+        let _ = stand;
+        None
+    }
+
+    /// What the models of an arm leave over, joint by joint.
+    fn arm(stand: &Stand<'_, Self>) -> Option<ArmReport> {
         let _ = stand;
         None
     }

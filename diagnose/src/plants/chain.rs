@@ -3,6 +3,7 @@
 
 mod align;
 mod beside;
+mod by_joint;
 mod joined;
 mod parts;
 mod plant;

@@ -5,7 +5,7 @@ use rigproof_diagnose::report::{BeforeAfter, EffectReport, Report, Verdict};
 
 use crate::document::{Headline, Tone};
 use crate::number::{probability, significant, with_unit};
-use crate::words::{list, plain_each};
+use crate::words::named_and_suspected;
 
 /// The top of the page.
 pub fn headline(report: &Report, next: Option<&str>) -> Headline {
@@ -41,14 +41,10 @@ fn mood(report: &Report) -> (Tone, &'static str) {
 fn sentence(report: &Report) -> String {
     let device = match report.plant {
         "rig" => "linkage",
+        "chain" => "arm",
         other => other,
     };
-    let [named, suspected] = report.by_status().map(|effects| {
-        let each = effects
-            .into_iter()
-            .map(|own| (own.mechanism, own.joint, how_wrong(own)));
-        list(&plain_each(each))
-    });
+    let [named, suspected] = named_and_suspected(report, how_wrong);
     match report.verdict {
         Verdict::Consistent => format!(
             "Nothing is missing: the model describes this {device} as well as its sensors can tell."

@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 use rigproof_diagnose::report::{Located, Report};
 
-use super::drawing;
+use super::{arm, drawing};
 use crate::number::{percent, significant};
 
 /// Drawing, heat map and time line; nothing where nothing was concluded.
@@ -12,7 +12,8 @@ pub fn body(report: &Report, when: Option<Markup>) -> Option<Markup> {
         return None;
     }
     Some(html! {
-        p.lead { (worst(report)) }
+        p.lead { (report.arm.as_ref().and_then(arm::worst).unwrap_or_else(|| worst(report))) }
+        @if let Some(arm) = &report.arm { (arm::body(arm, report)) }
         // Where something is named the names are what to act on; else the place is.
         details open[report.effects.is_empty()] { summary { "Place by place" }
             @if report.plant == "rig" { (drawing::figure(report)) }

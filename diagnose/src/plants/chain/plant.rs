@@ -2,22 +2,19 @@
 
 use super::align::{aligned, arm};
 use super::beside::beside;
+use super::by_joint::by_joint;
 use super::parts::place_names;
 use super::run::ChainRun;
 use super::simulated::simulated;
 use crate::align::Fault;
 use crate::cause::{Cause, JointId, Place};
-use crate::diagnose::balance::modelled;
 use crate::diagnose::numbers::fitted;
 use crate::diagnose::write::Stand;
 use crate::effect::Effect;
 use crate::evidence::Intervals;
-use crate::filter::rms;
-use crate::plant::{Described, Plant, Run, Simulated, Unsimulated};
+use crate::plant::{Described, Plant, Simulated, Unsimulated};
 use crate::plants::joined::joined;
-use crate::problem::Problem;
-use crate::report::FitReport;
-use crate::rules::ARM_WIDTH_S;
+use crate::report::ArmReport;
 use crate::sensor::sensed;
 use rand_pcg::Pcg64Mcg;
 use rigproof_trace::csv::{Dialect, Hints};
@@ -78,32 +75,8 @@ impl Plant for ChainRig {
         rig
     }
 
-    /// States the residual of each joint's effort on the held-out part, with the nominal and with
-    /// the calibrated model.
-    fn protocol(stand: &Stand<'_, ChainRig>, fit: Option<&FitReport>) -> Vec<String> {
-        let mut lines: Vec<String> = fit.iter().map(|fit| fit.protocol.clone()).collect();
-        let test = stand.test;
-        if test.clock().duration_s() <= ARM_WIDTH_S {
-            return lines;
-        }
-        let problem = Problem::new(test, test.all_windows(ARM_WIDTH_S));
-        let recorded = problem.windows.average(&test.effort());
-        let before = modelled(&problem, &stand.bare(), |_| true);
-        let after = modelled(&problem, stand.selection, |_| true);
-        let outputs = test.outputs();
-        for joint in 0..outputs {
-            let left = |model: &[f64]| {
-                let rows = recorded.iter().zip(model).skip(joint).step_by(outputs);
-                rms(&rows.map(|(r, m)| r - m).collect::<Vec<_>>())
-            };
-            lines.push(format!(
-                "{}: {:.3} → {:.3}, root mean square of the effort left over by inverse dynamics on the held-out part, all windows",
-                test.output_name(joint),
-                left(&before),
-                left(&after)
-            ));
-        }
-        lines
+    fn arm(stand: &Stand<'_, ChainRig>) -> Option<ArmReport> {
+        by_joint(stand)
     }
 }
 
