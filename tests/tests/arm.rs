@@ -324,8 +324,10 @@ fn several_recordings_of_an_arm_are_diagnosed_together() {
     assert!(found.report.fault.is_none(), "{:?}", found.report.fault);
     let names = |rig: &ChainRig| -> Vec<(String, &'static str)> {
         let each = rig.effects.iter();
-        each.map(|own| (own.joint.clone(), own.effect.mechanism.name()))
-            .collect()
+        let each = each.map(|own| (own.joint.clone(), own.effect.mechanism.name()));
+        let mut all: Vec<_> = each.collect();
+        all.sort();
+        all
     };
     assert_eq!(names(&found.calibration), names(&alone));
     let fit = found.report.fit.unwrap();

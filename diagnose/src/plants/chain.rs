@@ -4,6 +4,7 @@
 mod align;
 mod beside;
 mod by_joint;
+mod columns;
 mod joined;
 mod parts;
 mod plant;

@@ -19,6 +19,7 @@ pub(super) const LOAD_FRICTION: Entry = Entry {
             high: 0.5,
             count: 7,
         },
+        at_arm: true,
         ..Facts::of(
             Family::FrictionOfMotion,
             Asked {

@@ -27,6 +27,7 @@ pub(super) const ENTRY: Entry = Entry {
             leads: false,
             sizes: &[1.0, 1.0, 1.0],
         },
+        at_arm: true,
         ..Facts::of(
             Family::Position,
             Asked {

@@ -24,6 +24,7 @@ pub(super) const ENTRY: Entry = Entry {
             end: End::Nothing,
         }),
         zero: Some(Mechanism::ConstantBias),
+        at_arm: true,
         ..Facts::of(
             Family::Position,
             Asked {

@@ -24,6 +24,7 @@ pub(super) const ENTRY: Entry = Entry {
         in_sets: true,
         usual: Usual::Seldom,
         shapes: Shapes::Values(&[0.25, 0.5, 2.0, 3.0]),
+        at_arm: true,
         ..Facts::of(
             Family::FrictionOfMotion,
             Asked {

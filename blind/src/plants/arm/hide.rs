@@ -5,6 +5,7 @@ use crate::draw::Draw;
 use crate::effect::{At, Effect};
 use crate::form::Form;
 use crate::stratum::Stratum;
+use std::f64::consts::TAU;
 
 /// What is hidden as one: at a joint, of a link, or at every joint with numbers of their own.
 const KINDS: &[Kind] = &[
@@ -21,6 +22,16 @@ const KINDS: &[Kind] = &[
     Kind::Everywhere(Form::Coulomb),
     Kind::Everywhere(Form::Viscous),
 ];
+
+/// Physics of a joint in several forms, one of which may stand in place of what was drawn last.
+const ELSE: &[&[Form]] = &[
+    &[Form::Root, Form::Square, Form::Tanh],
+    &[Form::Spring, Form::Anchored],
+    &[Form::Ripple, Form::Toothed, Form::TwoOrders],
+    &[Form::LoadShare, Form::LoadSided, Form::LoadSquare],
+];
+/// How often it does.
+const INSTEAD: f64 = 0.3;
 
 #[derive(Clone, Copy)]
 enum Kind {
@@ -70,6 +81,16 @@ pub fn draw(setup: &Setup, stratum: Stratum, draw: &mut Draw) -> Vec<Effect> {
         let drawn: Vec<Effect> = drawn.into_iter().filter(is_new).collect();
         hidden.extend(drawn);
     }
+    if !hidden.is_empty() && draw.chance(INSTEAD) {
+        hidden.pop();
+        let forms = ELSE
+            .get(draw.below(ELSE.len()))
+            .copied()
+            .unwrap_or_default();
+        let form = forms.get(draw.below(forms.len()));
+        let joint = draw.below(joints);
+        hidden.extend(form.and_then(|form| effect(setup, *form, joint, draw)));
+    }
     hidden
 }
 
@@ -77,6 +98,8 @@ fn effect(setup: &Setup, form: Form, joint: usize, draw: &mut Draw) -> Option<Ef
     let [effort, speed] = *setup.usual.get(joint)?;
     let link = setup.body.joints.get(joint)?.link;
     let level = effort * draw.log_uniform(0.06, 0.4);
+    let swing = setup.paths.get(joint)?.swing();
+    let period = |draw: &mut Draw| swing * draw.log_uniform(0.15, 1.5);
     let values = match form {
         Form::Viscous => [level / speed, 0.0, 0.0],
         Form::Stribeck => [level, speed * draw.log_uniform(0.05, 0.3), 1.0],
@@ -95,6 +118,22 @@ fn effect(setup: &Setup, form: Form, joint: usize, draw: &mut Draw) -> Option<Ef
         Form::Payload => [link.mass * draw.uniform(0.15, 0.8), 0.0, 0.0],
         Form::Skew => [draw.log_uniform(0.004, 0.02), 0.0, 0.0],
         Form::Rotor => [setup.inertia(joint) * draw.uniform(0.15, 0.6), 0.0, 0.0],
+        Form::Root | Form::Square | Form::Tanh => [level, speed, 0.0],
+        Form::Spring => [level / swing, 0.0, 0.0],
+        Form::Anchored => [
+            level / swing,
+            draw.sign() * swing * draw.uniform(0.3, 2.0),
+            0.0,
+        ],
+        Form::Ripple => {
+            let (sine, cosine) = libm::sincos(draw.uniform(0.0, TAU));
+            [level * sine, level * cosine, period(draw)]
+        }
+        Form::Toothed => [level, period(draw), draw.uniform(1.5, 4.0)],
+        Form::TwoOrders => [level, period(draw), draw.uniform(0.3, 0.7)],
+        Form::LoadShare => [draw.uniform(0.05, 0.3), 0.0, 0.0],
+        Form::LoadSided => [draw.uniform(0.05, 0.3), draw.uniform(0.02, 0.15), 0.0],
+        Form::LoadSquare => [level, effort, 0.0],
         _ => [level, 0.0, 0.0],
     };
     Some(form.of(values).at(At::Arm(joint)))

@@ -4,6 +4,7 @@ use super::body::Body;
 use super::dynamics::{State, efforts};
 use super::setup::Setup;
 use crate::effect::{At, Effect};
+use crate::element::{Element, Instant};
 use crate::form::Form;
 use crate::size::{BLOCK_S, Size, Sizes, remainder};
 
@@ -56,28 +57,34 @@ fn changed(body: &Body, hidden: &[Effect]) -> Body {
 fn shown(body: &Body, states: &[State], hidden: &[Effect]) -> Vec<f64> {
     let rigid = efforts(body, states).into_iter();
     let each = rigid.zip(&body.joints).zip(states).enumerate();
-    each.map(|(joint, ((rigid, member), [_, speed, acceleration]))| {
-        let sense = match *speed {
-            0.0 => 0.0,
-            _ => speed.signum(),
-        };
-        let here = || hidden.iter().filter(|own| own.at == At::Arm(joint));
-        let more = here().map(|own| {
-            let [a, b, ..] = own.values;
-            match own.form {
-                Form::Coulomb => a * sense,
-                Form::Viscous => a * speed,
-                Form::Stribeck => a * libm::exp(-speed.abs() / b) * sense,
-                Form::Bias => a,
-                Form::Rotor => a * acceleration,
-                _ => 0.0,
-            }
-        });
-        let whole = rigid + member.dry * sense + member.viscous * speed + more.sum::<f64>();
-        // The true effort is so much more than what the current says.
-        let gains = here().filter(|own| own.form == Form::Gain);
-        gains.fold(whole, |effort, own| effort / (1.0 + own.first()))
-    })
+    each.map(
+        |(joint, ((rigid, member), [position, speed, acceleration]))| {
+            let sense = match *speed {
+                0.0 => 0.0,
+                _ => speed.signum(),
+            };
+            let at = Instant {
+                time_s: 0.0,
+                position: *position,
+                velocity: *speed,
+                direction: sense,
+                load: rigid,
+                brake: 0.0,
+            };
+            let here = || hidden.iter().filter(|own| own.at == At::Arm(joint));
+            let more = here().map(|own| match own.form {
+                Form::Rotor => own.first() * acceleration,
+                _ => {
+                    let law = Element::new(*own);
+                    law.bound(&at) * sense + law.force(&at, 0.0, 0.0)
+                }
+            });
+            let whole = rigid + member.dry * sense + member.viscous * speed + more.sum::<f64>();
+            // The true effort is so much more than what the current says.
+            let gains = here().filter(|own| own.form == Form::Gain);
+            gains.fold(whole, |effort, own| effort / (1.0 + own.first()))
+        },
+    )
     .collect()
 }
 

@@ -52,6 +52,12 @@ impl Path {
         }
     }
 
+    /// Standard deviation of the position.
+    pub fn swing(&self) -> f64 {
+        let squares = self.lines.iter().map(|line| 0.5 * line.size * line.size);
+        squares.sum::<f64>().sqrt()
+    }
+
     /// Position, speed and acceleration.
     pub fn at(&self, time_s: f64) -> State {
         let start = [self.middle, 0.0, 0.0];

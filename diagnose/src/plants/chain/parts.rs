@@ -11,6 +11,7 @@
 use super::align::{Aligned, Metered, accelerations, lasting};
 use super::run::ChainRun;
 use rigproof_model::chain::{Chain, Joint};
+use rigproof_model::effects::facts::Family;
 use rigproof_model::effects::{Drive, Form, Instant, OfJoint, OfLinkage, facts, form};
 use rigproof_spec::effect::Mechanism;
 use rigproof_trace::rig::chain::ChainRig;
@@ -49,6 +50,10 @@ impl ArmPlace {
             own,
             Some(Form::Joint(OfJoint::Link) | Form::Linkage(OfLinkage::Payload))
         );
+        // What a twist is wrong by looks like an effort by the position on either side.
+        if self.is_split && self.part != Part::Transmission && facts.family == Family::Position {
+            return false;
+        }
         let is_rotor = matches!(own, Some(Form::Joint(OfJoint::Inertia)));
         match self.part {
             // A bias of what passes cannot be told from one of its sensor or of the motor.

@@ -5,16 +5,13 @@ use super::parts::ArmPlace;
 use crate::candidates::{is_plain, standard_shapes};
 use crate::cause::{Cause, JointId, Place};
 use crate::filter::{ends, gradient, rms};
-use crate::plant::{Clock, Columns, Rules, Run, resistances};
+use crate::plant::{Clock, Columns, Rules, Run};
 use crate::problem::less;
 use crate::rules::{ARM_WIDTH_S, DESCRIBED_WITHIN, MOST_AMBIGUOUS, NOISE_ORDER};
 use crate::weak::{Windows, is_recorded, untold};
 use crate::whiten::Whitener;
 use nalgebra::{DMatrix, DVector};
-use rigproof_model::bench::column;
-use rigproof_model::chain::INERTIAL;
-use rigproof_model::effects::transmission::within_gap;
-use rigproof_model::effects::{Drive, Form, Instant, OfJoint, OfLinkage, OfSensor, form};
+use rigproof_model::effects::{Drive, Form, Instant, OfJoint, OfLinkage, form};
 use rigproof_spec::effect::Mechanism;
 use rigproof_trace::rig::transmission::Part;
 
@@ -107,7 +104,7 @@ impl ChainRun {
     }
 
     /// The rate of change of a signal of one joint, of each recording by itself.
-    fn rate(&self, signal: &[f64]) -> Vec<f64> {
+    pub(super) fn rate(&self, signal: &[f64]) -> Vec<f64> {
         let ends = self.seams.iter().copied().chain([signal.len()]);
         let mut from = 0;
         let each = ends.flat_map(|to| {
@@ -127,7 +124,7 @@ impl ChainRun {
     }
 
     /// The samples of a signal in the first equation in which a place stands.
-    fn stretch<'a>(&self, signal: &'a [f64], place: usize) -> &'a [f64] {
+    pub(super) fn stretch<'a>(&self, signal: &'a [f64], place: usize) -> &'a [f64] {
         let rows = self.places.get(place).map(|own| own.rows.as_slice());
         let row = rows.and_then(<[_]>::first).map(|(row, _)| *row);
         let mut stretches = signal.chunks(self.len().max(1));
@@ -136,7 +133,7 @@ impl ChainRun {
 
     /// A signal of all equations that is `own`, with its sign, where a place stands, and 0
     /// elsewhere.
-    fn at_place(&self, place: usize, own: &[f64]) -> Vec<f64> {
+    pub(super) fn at_place(&self, place: usize, own: &[f64]) -> Vec<f64> {
         let mut all = vec![0.0; self.effort.len()];
         let rows = self.places.get(place).into_iter();
         for (row, sign) in rows.flat_map(|own| &own.rows) {
@@ -391,10 +388,10 @@ impl Run for ChainRun {
             .collect()
     }
 
-    /// A small delay enters linearly.
+    /// A small delay and a friction by the effort enter linearly.
     fn shapes(&self, cause: Cause, windows: &Windows, residual: &[f64]) -> Vec<Vec<f64>> {
         match form(cause.mechanism) {
-            Some(Form::Drive(Drive::Skew)) => vec![Vec::new()],
+            Some(Form::Drive(Drive::Skew) | Form::Joint(OfJoint::Load)) => vec![Vec::new()],
             _ => standard_shapes(self, cause, windows, residual),
         }
     }
@@ -431,60 +428,7 @@ impl Run for ChainRun {
     }
 
     fn columns(&self, cause: Cause, shape: &[f64], _: Option<&[f64]>) -> Option<Columns> {
-        let joint = joint_at(cause.at)?;
-        let motion = self.motions.get(joint)?;
-        let signals = match form(cause.mechanism)? {
-            // Inertial parameters that no effort depends on have an empty column.
-            Form::Joint(OfJoint::Link) => (0..INERTIAL)
-                .map(|number| {
-                    let own = self.links.iter().find(|(of, _)| *of == (joint, number));
-                    let none = || vec![0.0; self.effort.len()];
-                    own.map_or_else(none, |(_, signal)| signal.clone())
-                })
-                .collect(),
-            Form::Joint(OfJoint::Inertia) => {
-                let speeds: Vec<f64> = motion.iter().map(|now| now.speed).collect();
-                vec![self.at_place(joint, &self.rate(&speeds))]
-            }
-            Form::Linkage(OfLinkage::Payload) => vec![self.payload.clone()],
-            // The true effort is (1 + fraction) times the recorded one.
-            Form::Drive(Drive::Gain) => {
-                vec![self.at_place(joint, self.stretch(&self.known, joint))]
-            }
-            Form::Joint(OfJoint::Stiffness) => {
-                let twist: Vec<f64> = motion.iter().map(|now| now.position).collect();
-                vec![self.at_place(joint, &twist)]
-            }
-            Form::Joint(OfJoint::Lash) => {
-                let (gap, centre) = (shape.first()?, shape.get(1).unwrap_or(&0.0));
-                let lacks = motion.iter();
-                let lacks = lacks.map(|now| -within_gap(now.position, *gap, *centre));
-                vec![self.at_place(joint, &lacks.collect::<Vec<_>>())]
-            }
-            // A twist that is recorded too great by an angle lacks the stiffness times the angle.
-            Form::Sensor(OfSensor::EncoderOffset) => {
-                let place = self.places.get(joint)?;
-                let stiffness = place.described(Mechanism::TransmissionStiffness);
-                vec![self.at_place(joint, &vec![-stiffness; self.len()])]
-            }
-            // An effort recorded with a delay lacks the delay times its rate. Averaged over a
-            // window, the rate is no noisier than the effort itself.
-            Form::Drive(Drive::Skew) => {
-                let rate = self.rate(self.stretch(&self.effort, joint));
-                let delay = shape.first().copied();
-                let late: Vec<f64> = rate.iter().map(|x| -x * delay.unwrap_or(1.0)).collect();
-                let late = self.at_place(joint, &late);
-                match delay {
-                    None => vec![late],
-                    Some(_) => return Some(Columns::Fixed(late)),
-                }
-            }
-            _ => resistances(cause, shape, |law| column(law, motion, self.step_s))?
-                .iter()
-                .map(|own| self.at_place(joint, own))
-                .collect(),
-        };
-        Some(Columns::Free(signals))
+        self.lacked(cause, shape)
     }
 
     fn shares(&self, at: Place, windows: &Windows) -> Vec<f64> {

@@ -68,13 +68,17 @@ fn taken(run: &ChainRun, effect: &Effect) -> Option<Vec<f64>> {
     let (linear, shape) = effect
         .parameters
         .split_at_checked(entry(mechanism)?.linear)?;
-    let Columns::Free(signals) = run.columns(effect.cause, shape, None)? else {
-        return None;
+    let mut sum = match run.columns(effect.cause, shape, None)? {
+        Columns::Fixed(signal) => signal,
+        Columns::Free(signals) => {
+            let mut sum = vec![0.0; run.effort.len()];
+            for (signal, own) in signals.iter().zip(run.coefficients(mechanism, linear)) {
+                sum.iter_mut().zip(signal).for_each(|(s, x)| *s += own * x);
+            }
+            sum
+        }
+        _ => return None,
     };
-    let mut sum = vec![0.0; run.effort.len()];
-    for (signal, own) in signals.iter().zip(run.coefficients(mechanism, linear)) {
-        sum.iter_mut().zip(signal).for_each(|(s, x)| *s += own * x);
-    }
     let samples = run.len().max(1);
     let begins = |k: usize| run.start_s + (k % samples) as f64 * run.step_s;
     if let Some(onset_s) = effect.onset_s {
