@@ -8,6 +8,7 @@ is absent. Written are NAME.csv (t, q1, effort1, ...), NAME.urdf and NAME.toml (
 much of it shows in the noise of the sensors, and which names are right).
 
     python mujoco_arms.py FOLDER --seed 0 --count 30
+    python mujoco_arms.py FOLDER --seed 0 --count 30 --kinds stiffness frictionloss damping
 """
 import argparse
 import json
@@ -54,7 +55,7 @@ def draw_arm(rng):
         if k == 0:
             angles = [math.pi / 2, 0, 0] if rng.random() < 0.5 else [0, 0, rng.uniform(-3, 3)]
         joints.append({"name": f"joint{k + 1}", "place": np.array(place), "angles": np.array(angles, float), "slides": k > 0 and rng.random() < 0.1,
-                       "link": box(long, heavy * outward**2, rng), "friction": 0.0, "damping": 0.0, "armature": 0.0, "gear": 1.0})
+                       "link": box(long, heavy * outward**2, rng), "friction": 0.0, "damping": 0.0, "armature": 0.0, "gear": 1.0, "stiffness": 0.0})
     return joints, np.array([0, 0, size * rng.uniform(0.08, 0.2)])
 
 
@@ -84,7 +85,7 @@ def compiled(joints):
     """The arm as MuJoCo has it."""
     bodies = "".join(
         f'<body pos="{numbers(own["place"])}" euler="{numbers(own["angles"])}"><joint name="{own["name"]}" type="{"slide" if own["slides"] else "hinge"}"'
-        f' axis="0 0 1" frictionloss="{own["friction"]:.17g}" damping="{own["damping"]:.17g}" armature="{own["armature"]:.17g}"'
+        f' axis="0 0 1" frictionloss="{own["friction"]:.17g}" damping="{own["damping"]:.17g}" armature="{own["armature"]:.17g}" stiffness="{own["stiffness"]:.17g}"'
         f' solreffriction="0.0005 1" solimpfriction="0.999 0.9999 0.001"/><inertial pos="{numbers(own["link"]["centre"])}" mass="{own["link"]["mass"]:.17g}"'
         f' fullinertia="{numbers(six(own["link"]["moments"]))}"/>' for own in joints)
     motors = "".join(f'<motor joint="{own["name"]}" gear="{own["gear"]:.17g}"/>' for own in joints)
@@ -146,20 +147,20 @@ def mass_at(joints, k):
     return (inverse(model, data, rest, rest, one) - inverse(model, data, rest, rest, rest))[k]
 
 
-def hide(rng, lab):
+def hide(rng, lab, kinds):
     """None, one or two causes, each with its joint, its amount and the names that are right."""
     joints, last = lab["joints"], len(lab["joints"]) - 1
-    kinds = ["frictionloss", "damping", "armature", "mass", "payload", "gear", "delay"] + ["absent"] * lab["stated"]
+    kinds = kinds or ["frictionloss", "damping", "armature", "mass", "payload", "gear", "delay"] + ["absent"] * lab["stated"]
     count = rng.choice([0, 1, 1, 1, 1, 1, 2, 2, 2, 2])
     hidden = []
-    for kind in rng.choice(kinds, size=count, replace=False):
+    for kind in rng.choice(kinds, size=min(count, len(kinds)), replace=False):
         k = last if kind == "payload" else int(rng.integers(last + 1))
         level, sign = lab["usual"][k] * rng.uniform(0.06, 0.4), float(rng.choice([-1, 1]))
         amount = {
             "frictionloss": level, "damping": level / lab["speed"][k], "armature": mass_at(joints, k) * rng.uniform(0.15, 0.6),
             "mass": joints[k]["link"]["mass"] * (rng.uniform(0.1, 0.5) if sign > 0 else -rng.uniform(0.1, 0.3)),
             "payload": joints[k]["link"]["mass"] * rng.uniform(0.15, 0.8), "gear": sign * rng.uniform(0.05, 0.25),
-            "delay": int(rng.integers(2, 9)) / RATE_HZ, "absent": -joints[k]["friction"],
+            "delay": int(rng.integers(2, 9)) / RATE_HZ, "absent": -joints[k]["friction"], "stiffness": level / np.std(lab["paths"][0, k]),
         }[str(kind)]
         if {"frictionloss", "absent"} <= {str(kind), *(own["kind"] for own in hidden if own["joint"] == k)}:
             continue
@@ -178,7 +179,7 @@ def right(own, last):
         "armature": at("added_inertia", [k]) + (at("link_inertia", [0]) if k == 0 else []),
         "mass": links + at("added_inertia", [0]) + (at("payload", [k]) if k == last else []),
         "payload": at("payload", [k]) + links + at("added_inertia", [0]),
-        "gear": at("gain_error", [k]), "delay": at("channel_skew", [k]),
+        "gear": at("gain_error", [k]), "stiffness": at("spring", [k]), "delay": at("channel_skew", [k]),
     }[own["kind"]]
 
 
@@ -188,7 +189,7 @@ def true_arm(lab, hidden):
         own, amount = joints[cause["joint"]], cause["amount"]
         if cause["kind"] in ("frictionloss", "absent"):
             own["friction"] += amount
-        elif cause["kind"] in ("damping", "armature"):
+        elif cause["kind"] in ("damping", "armature", "stiffness"):
             own[cause["kind"]] += amount
         elif cause["kind"] == "mass":
             own["link"] = heavier(own["link"], own["link"]["mass"] + amount)
@@ -298,12 +299,13 @@ def main():
     parser.add_argument("folder", type=pathlib.Path)
     for name, default in (("--seed", 0), ("--count", 30)):
         parser.add_argument(name, type=int, default=default)
+    parser.add_argument("--kinds", nargs="*", help="hide these only, for example stiffness: a spring at a joint")
     args = parser.parse_args()
     (args.folder / "key").mkdir(parents=True, exist_ok=True)
     for seed in range(args.seed, args.seed + args.count):
         rng = np.random.default_rng(seed)
         lab = draw(rng)
-        hidden = hide(rng, lab)
+        hidden = hide(rng, lab, args.kinds)
         positions, efforts = simulate(lab, hidden, rng)
         name, count = f"mja_{seed:03}", len(lab["joints"])
         head = "t," + ",".join(f"q{k + 1}" for k in range(count)) + "," + ",".join(f"effort{k + 1}" for k in range(count))

@@ -130,18 +130,51 @@ fn a_calibrated_arm_simulates_what_was_recorded() {
         assert_eq!(after.len(), rig.joints.len());
         for ((joint, before), after) in rig.joints.iter().zip(before).zip(after) {
             assert_eq!(after.name, format!("effort_{}", joint.name));
-            let left = |own: &SimulatedOutput| {
-                let pairs = own.recorded.as_ref().unwrap().iter().zip(&own.simulated);
-                // At a reversal friction jumps between samples.
-                let mut off: Vec<f64> = pairs.map(|(a, b)| (a - b).abs()).collect();
-                off.sort_by(f64::total_cmp);
-                off[off.len() / 2] / 0.6745
-            };
-            let (before, after) = (left(&before), left(&after));
+            let (before, after) = (median_left(&before), median_left(&after));
             println!("{seed} {}: {before} → {after}", joint.name);
             assert!(after < 0.25 * before, "{seed} {}: {after}", joint.name);
         }
     }
+}
+
+/// Springs, ripple, drag by the speed's square and friction by the load are named at their joint, and the calibrated arm simulates them.
+#[test]
+fn what_else_a_joint_of_an_arm_lacks_is_named_and_simulated() {
+    for (seed, name, joint) in [
+        (14, "spring", "joint2"),
+        (24, "load_friction", "joint1"),
+        (40, "velocity_power", "joint2"),
+        (45, "ripple", "joint2"),
+    ] {
+        let (rig, trace) = made(seed);
+        let recording = rig.apply(&trace, Path::new("case.csv")).unwrap();
+        let found = whole(&rig, &trace);
+        let mut effects = found.report.effects.iter();
+        assert!(
+            effects.any(|own| own.mechanism == name && own.joint == Some(joint)),
+            "{seed}: {}",
+            found.report.summary
+        );
+        let [before, after] = [&rig, &found.calibration].map(|model| {
+            let outputs = rig.simulated(model, &recording, 1.0).unwrap().outputs;
+            median_left(
+                outputs
+                    .iter()
+                    .find(|own| own.name.ends_with(joint))
+                    .unwrap(),
+            )
+        });
+        println!("{seed} {name} at {joint}: {before} → {after}");
+        assert!(after < 0.25 * before, "{seed}: {after}");
+    }
+}
+
+/// The middle of what a simulation leaves over, as a standard deviation. At a reversal friction jumps between samples.
+fn median_left(own: &SimulatedOutput) -> f64 {
+    let pairs = own.recorded.as_ref().unwrap().iter().zip(&own.simulated);
+    let mut off: Vec<f64> = pairs.map(|(a, b)| (a - b).abs()).collect();
+    off.sort_by(f64::total_cmp);
+    off[off.len() / 2] / 0.6745
 }
 
 /// The same arm in MJCF: a body a joint with all that is fixed to it, and one at the tip.

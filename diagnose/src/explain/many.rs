@@ -8,12 +8,17 @@ use super::discrepancy::rows_a_sample;
 use super::fitted::{Fitted, Folds};
 use super::score::{Judge, is_impossible, prior};
 use super::{Explanation, Explanations, living, selected, shapes_of};
+use crate::candidates::is_plain;
+use crate::cause::Place;
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, fit, free_columns, reduced_target};
 use crate::rules::MOST_OF_MANY;
 use crate::selection::{Selection, usable_rms};
 use rayon::prelude::*;
+use rigproof_model::effects::facts;
+use rigproof_model::effects::facts::Family;
 use rigproof_spec::effect::Mechanism;
+use std::collections::BTreeSet;
 
 /// Explains a recording of many places on top of the terms of its nominal model.
 pub fn explain_many(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection, Explanations) {
@@ -101,7 +106,8 @@ impl Round {
     }
 
     /// Adds terms as long as one makes the explanation more probable. If `prunes`, removes terms in
-    /// the same way after each addition, and exchanges one where none helps.
+    /// the same way after each addition, and exchanges one, or laws with shapes at one place, where
+    /// none helps.
     fn climbed(&self, problem: &Problem, mut best: (f64, Fitted), prunes: bool) -> (f64, Fitted) {
         let mut hopeful = vec![true; self.tried.len()];
         while best.1.terms.len() < MOST_OF_MANY {
@@ -111,7 +117,9 @@ impl Round {
                 self.grown(problem, &best, &mut hopeful)
             });
             let better = match prunes {
-                true => grown.or_else(|| self.exchanged(problem, &best)),
+                true => grown
+                    .or_else(|| self.exchanged(problem, &best))
+                    .or_else(|| self.plainer(problem, &best)),
                 false => grown,
             };
             let Some(better) = better else { break };
@@ -160,6 +168,32 @@ impl Round {
         let of_each =
             of_each.filter_map(|term| self.with_instead(problem, &best.1, term, |_| true));
         let better = of_each.max_by(|a, b| a.0.total_cmp(&b.0));
+        better.filter(|own| own.0 > best.0)
+    }
+
+    /// The explanation with the plain laws of friction at a place in place of those with a shape:
+    /// two of these together pass for two plain ones. `None` where it makes none more probable.
+    fn plainer(&self, problem: &Problem, best: &(f64, Fitted)) -> Option<(f64, Fitted)> {
+        let is_shaped = |term: &Term| {
+            let family = facts(term.cause.mechanism).map(|own| own.family);
+            !term.shape.is_empty() && family == Some(Family::FrictionOfMotion)
+        };
+        let shaped = || best.1.terms.iter().filter(|term| is_shaped(term));
+        let places = shaped().map(|term| term.cause.at);
+        let places: BTreeSet<Place> = places.collect();
+        let plainer = places.into_iter().map(|at| {
+            let is_plain = |term: &&Term| term.cause.at == at && is_plain(term.cause.mechanism);
+            let kept = best
+                .1
+                .terms
+                .iter()
+                .filter(|term| term.cause.at != at || !(is_shaped(term) || is_plain(term)));
+            let terms = kept.chain(self.tried.iter().filter(is_plain)).cloned();
+            let fitted = self.bare.of(&self.folds, &terms.collect::<Vec<_>>());
+            self.pruned(problem, (self.score(problem, &fitted), fitted))
+        });
+        let possible = plainer.filter(|own| !is_impossible(problem, &own.1));
+        let better = possible.max_by(|a, b| a.0.total_cmp(&b.0));
         better.filter(|own| own.0 > best.0)
     }
 

@@ -3,7 +3,8 @@
 
 use super::align::arm;
 use rigproof_model::chain::{Chain, Changes, INERTIAL, Inertial, Joint, Stated};
-use rigproof_model::effects::{Drive, Form, OfJoint, OfLinkage, form};
+use rigproof_model::effects::facts::Family;
+use rigproof_model::effects::{Drive, Form, OfJoint, OfLinkage, facts, form};
 use rigproof_spec::effect::Mechanism;
 use rigproof_trace::rig::RigEffect;
 use rigproof_trace::rig::chain::{AtJoint, ChainRig, ModelFormat};
@@ -183,6 +184,9 @@ fn reason(mechanism: Mechanism, format: ModelFormat) -> String {
         _ if mechanism == Mechanism::ConstantBias => {
             format!("{format} has no constant effort; take it off the recorded one")
         }
+        _ if facts(mechanism).is_some_and(|own| own.family == Family::Position) => format!(
+            "{format} has no effort over a joint's position, but for a spring in MJCF: its `stiffness` and `springref`, to be written by hand"
+        ),
         _ => format!("friction of {format} is a Coulomb level and a damping only"),
     }
 }
