@@ -165,8 +165,10 @@ fn name(effect: &EffectReport) -> String {
     let mut parts: Vec<String> = told
         .map(|(name, number)| format!("{} {}", name.replace('_', " "), with_interval(number)))
         .collect();
-    if !open.is_empty() {
-        parts.push(format!("{} numbers not told from 0", open.len()));
+    match (parts.is_empty(), open.len()) {
+        (_, 0) => {}
+        (true, count) => parts.push(format!("none of its {count} numbers is told from 0 alone")),
+        (false, count) => parts.push(format!("{count} numbers not told from 0")),
     }
     if let Some(onset) = effect.onset_s {
         parts.push(format!("from {} s on", rounded(onset)));
