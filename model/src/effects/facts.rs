@@ -403,8 +403,14 @@ mod tests {
             Where::Encoders => "at encoders",
             Where::Whole => "as a whole",
         };
+        let arm = match (facts.at_arm, facts.at_transmission) {
+            (true, true) => "at joints and in gears",
+            (true, false) => "at joints",
+            (false, true) => "in gears",
+            (false, false) => "no",
+        };
         format!(
-            "| `{}` | {} | {forms} | {limit} | {alone} | {five_bar} | {} |",
+            "| `{}` | {} | {forms} | {limit} | {alone} | {five_bar} | {arm} | {} |",
             entry.mechanism.name(),
             facts.family.name(),
             once(&entry.mechanism.called())
