@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 
 pub use crate::continuity::Remark;
 pub use agreement::Agreement;
-pub use arm::{ArmReport, JointReport};
+pub use arm::{ArmReport, JointReport, is_of_joint};
 pub use fault::FaultReport;
 pub use read_as::ReadAs;
 pub use verdict::Verdict;
@@ -28,7 +28,7 @@ pub struct Report {
     pub tool: String,
     /// The files that were read.
     pub inputs: Vec<InputFile>,
-    /// `axis`, `bench` or `rig`.
+    /// `axis`, `bench`, `rig` or `chain`.
     pub plant: &'static str,
     /// One of the seven verdicts.
     pub verdict: Verdict,

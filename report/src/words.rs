@@ -84,21 +84,18 @@ pub fn named_and_suspected(
     report: &Report,
     added: impl Fn(&EffectReport) -> String,
 ) -> [String; 2] {
-    let statuses = report.by_status();
-    let [named, _] = &statuses;
-    let is_named = !named.is_empty();
-    statuses.map(|effects| {
-        let count = effects.len();
-        let is_sure = effects.iter().all(|own| own.status == "named");
-        let each = effects
-            .into_iter()
-            .map(|own| (own.mechanism, own.joint, added(own)));
-        let each = plain_each(each);
-        match is_named && !is_sure && each.len() > KINDS {
-            true => format!("{count} more that are less sure"),
-            false => list(&each),
-        }
-    })
+    let [named, suspected] = report.by_status();
+    let each = |effects: &[&EffectReport]| {
+        let effects = effects.iter();
+        plain_each(effects.map(|own| (own.mechanism, own.joint, added(own))))
+    };
+    let perhaps = each(&suspected);
+    let are_counted = !named.is_empty() && perhaps.len() > KINDS;
+    let perhaps = match are_counted {
+        true => format!("{} more that are less sure", suspected.len()),
+        false => list(&perhaps),
+    };
+    [list(&each(&named)), perhaps]
 }
 
 fn is_joint(name: &str, place: Option<&str>) -> bool {

@@ -59,8 +59,7 @@ pub fn summary(report: &Report, next: &str, page: &Path) -> String {
 
 /// Where most of what the model leaves over is: the joint of an arm, or the kind of motion.
 fn place(report: &Report) -> Option<String> {
-    let joints = report.arm.iter().flat_map(|arm| &arm.joints);
-    let worst = joints.max_by(|a, b| a.share.total_cmp(&b.share));
+    let worst = report.arm.as_ref().and_then(|arm| arm.worst());
     let said = match (worst, report.located.first()) {
         (Some(worst), _) => format!(
             "{}: {} of the unexplained effort; {} → {} {}",

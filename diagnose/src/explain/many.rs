@@ -182,13 +182,10 @@ impl Round {
         let places = shaped().map(|term| term.cause.at);
         let places: BTreeSet<Place> = places.collect();
         let plainer = places.into_iter().map(|at| {
-            let is_plain = |term: &&Term| term.cause.at == at && is_plain(term.cause.mechanism);
-            let kept = best
-                .1
-                .terms
-                .iter()
-                .filter(|term| term.cause.at != at || !(is_shaped(term) || is_plain(term)));
-            let terms = kept.chain(self.tried.iter().filter(is_plain)).cloned();
+            let here = |term: &&Term| term.cause.at == at && is_plain(term.cause.mechanism);
+            let gives_way = |term: &&Term| here(term) || term.cause.at == at && is_shaped(term);
+            let kept = best.1.terms.iter().filter(|term| !gives_way(term));
+            let terms = kept.chain(self.tried.iter().filter(here)).cloned();
             let fitted = self.bare.of(&self.folds, &terms.collect::<Vec<_>>());
             self.pruned(problem, (self.score(problem, &fitted), fitted))
         });

@@ -150,6 +150,7 @@ pub fn is_impossible(problem: &Problem, fitted: &Fitted) -> bool {
         let passive = entry(mechanism).filter(|entry| entry.passive);
         let least = -GIVEN_BACK * problem.run.described(term.cause);
         let mut parts = mechanism.parameters().iter().zip(own);
+        // A shape that enters linearly, as the share of friction under load at an arm, is one too.
         passive.is_some_and(|entry| own.iter().take(entry.linear.max(1)).any(|c| *c < least))
             || parts.any(|(number, part)| number.range == Range::Part && *part > 1.0)
             || mechanism == Mechanism::InertiaScale

@@ -16,13 +16,27 @@ pub struct ArmReport {
     pub line_m: Vec<[f64; 3]>,
 }
 
+impl ArmReport {
+    /// The joint that has most of what the nominal model leaves over.
+    pub fn worst(&self) -> Option<&JointReport> {
+        let joints = self.joints.iter();
+        joints.max_by(|a, b| a.share.total_cmp(&b.share))
+    }
+}
+
+/// Whether a place is a joint or a part of it, as `elbow.motor` is of `elbow`.
+pub fn is_of_joint(place: &str, joint: &str) -> bool {
+    let rest = place.strip_prefix(joint);
+    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+}
+
 /// A joint of an arm.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct JointReport {
     /// Its name.
     pub joint: &'static str,
     /// Unit of its effort.
-    pub unit: &'static str,
+    pub unit: String,
     /// Root mean square of the effort that inverse dynamics leaves over with the nominal model, all
     /// windows.
     pub before: f64,

@@ -1,7 +1,7 @@
 //! This file draws an arm from its description and goes through it joint by joint.
 
 use maud::{Markup, html};
-use rigproof_diagnose::report::{ArmReport, JointReport, Report};
+use rigproof_diagnose::report::{ArmReport, JointReport, Report, is_of_joint};
 
 use crate::number::{percent, probability, with_unit};
 use crate::table::table;
@@ -28,8 +28,7 @@ pub fn body(arm: &ArmReport, report: &Report) -> Markup {
 
 /// The joint that has most of what is not explained, in a sentence.
 pub fn worst(arm: &ArmReport) -> Option<String> {
-    let joints = arm.joints.iter();
-    let worst = joints.max_by(|a, b| a.share.total_cmp(&b.share))?;
+    let worst = arm.worst()?;
     Some(format!(
         "The old model fails most at {}: {} of the effort that it cannot explain is there.",
         worst.joint,
@@ -61,8 +60,8 @@ fn rows(arm: &ArmReport, report: &Report) -> Vec<Vec<String>> {
             .collect();
         vec![
             own.joint.to_owned(),
-            with_unit(own.before, own.unit),
-            with_unit(own.after, own.unit),
+            with_unit(own.before, &own.unit),
+            with_unit(own.after, &own.unit),
             percent(own.share),
             named.join(", "),
         ]
@@ -75,23 +74,29 @@ fn is_at(arm: &ArmReport, row: &JointReport, place: Option<&str>) -> bool {
     let Some(place) = place else {
         return false;
     };
-    let mut rows = arm.joints.iter();
-    let own = rows.find(|own| own.joint == place).or_else(|| {
-        let mut rows = arm.joints.iter();
-        rows.find(|own| {
-            let rest = place.strip_prefix(own.joint);
-            rest.is_some_and(|rest| rest.starts_with('.'))
-        })
-    });
+    let rows = || arm.joints.iter();
+    let own = rows().find(|own| own.joint == place);
+    let own = own.or_else(|| rows().find(|own| is_of_joint(place, own.joint)));
     own.is_some_and(|own| own.joint == row.joint)
+}
+
+/// Between which places the arm stands along an axis of the base, m.
+fn ends(arm: &ArmReport, axis: usize) -> [f64; 2] {
+    let along = || {
+        arm.line_m
+            .iter()
+            .filter_map(move |point| point.get(axis))
+            .copied()
+    };
+    let low = along().fold(f64::INFINITY, f64::min);
+    [low, along().fold(f64::NEG_INFINITY, f64::max)]
 }
 
 /// The axes of the base that go to the right and up in the drawing: those along which the arm reaches furthest.
 fn axes(arm: &ArmReport) -> [usize; 2] {
     let extent = |axis: usize| {
-        let along = || arm.line_m.iter().filter_map(move |point| point.get(axis));
-        let high = along().copied().fold(f64::NEG_INFINITY, f64::max);
-        high - along().copied().fold(f64::INFINITY, f64::min)
+        let [low, high] = ends(arm, axis);
+        high - low
     };
     let [x, y, z] = [0, 1, 2].map(extent);
     match (z < x.min(y), x < y) {
@@ -112,21 +117,7 @@ fn seen_along(arm: &ArmReport) -> &'static str {
 /// The points of the arm in the drawing.
 fn points(arm: &ArmReport) -> Vec<[f64; 2]> {
     let axes = axes(arm);
-    let flat: Vec<[f64; 2]> = arm
-        .line_m
-        .iter()
-        .map(|point| axes.map(|axis| point.get(axis).copied().unwrap_or(0.0)))
-        .collect();
-    let ends = |axis: usize| {
-        let along = || {
-            flat.iter()
-                .filter_map(move |point| point.get(axis))
-                .copied()
-        };
-        let low = along().fold(f64::INFINITY, f64::min);
-        [low, along().fold(f64::NEG_INFINITY, f64::max)]
-    };
-    let [[left, right], [low, high]] = [ends(0), ends(1)];
+    let [[left, right], [low, high]] = axes.map(|axis| ends(arm, axis));
     let [width, height] = ARM;
     let scale = (width / (right - left).max(1e-9)).min(height / (high - low).max(1e-9));
     let margin = 0.5 * (SIZE[1] - height);
@@ -137,7 +128,9 @@ fn points(arm: &ArmReport) -> Vec<[f64; 2]> {
             margin + scale * (high - y),
         ]
     };
-    flat.into_iter().map(place).collect()
+    let each = arm.line_m.iter();
+    let flat = each.map(|point| axes.map(|axis| point.get(axis).copied().unwrap_or(0.0)));
+    flat.map(place).collect()
 }
 
 fn drawing(arm: &ArmReport) -> Markup {
@@ -205,7 +198,7 @@ mod tests {
     fn arm(names: &[&'static str], line_m: &[[f64; 3]]) -> ArmReport {
         let joint = |(at, joint): (usize, &&'static str)| JointReport {
             joint,
-            unit: "N·m",
+            unit: "N·m".to_owned(),
             before: 1.0,
             after: 0.5,
             share: 1.0 / names.len() as f64,

@@ -7,9 +7,9 @@ use crate::diagnose::write::Stand;
 use crate::filter::rms;
 use crate::plant::Run;
 use crate::problem::Problem;
-use crate::report::{ArmReport, JointReport};
+use crate::report::{ArmReport, JointReport, is_of_joint};
 use crate::rules::ARM_WIDTH_S;
-use rigproof_spec::effect::Motion;
+use rigproof_spec::effect::Quantity;
 use rigproof_trace::rig::chain::ChainRig;
 
 /// The effort that inverse dynamics leaves over at each joint, on the held-out part where it is
@@ -37,14 +37,12 @@ pub(super) fn by_joint(stand: &Stand<'_, ChainRig>) -> Option<ArmReport> {
     let mut joints: Vec<JointReport> = (0..outputs)
         .map(|output| {
             let joint = run.output_name(output);
-            let slides = stand.plant.motion_at(joint) == Motion::Linear;
-            let at = chain.joints.iter().position(|own| {
-                let rest = joint.strip_prefix(own.name.as_str());
-                rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
-            });
+            let motion = stand.plant.motion_at(joint);
+            let mut names = chain.joints.iter().map(|own| own.name.as_str());
+            let at = names.position(|name| is_of_joint(joint, name));
             JointReport {
                 joint,
-                unit: if slides { "N" } else { "N·m" },
+                unit: Quantity::Effort.dimension(motion).to_string(),
                 before: left(&before, output),
                 after: left(&after, output),
                 share: 0.0,
@@ -74,15 +72,14 @@ pub(super) fn by_joint(stand: &Stand<'_, ChainRig>) -> Option<ArmReport> {
 
 /// Shares the squares of what is left over, torques and forces by themselves.
 fn share(joints: &mut [JointReport]) {
-    for unit in ["N", "N·m"] {
-        let own = |joint: &&JointReport| joint.unit == unit;
-        let squares = joints
-            .iter()
-            .filter(own)
-            .map(|joint| joint.before * joint.before);
-        let all = squares.sum::<f64>().max(f64::MIN_POSITIVE);
-        let own = joints.iter_mut().filter(|joint| joint.unit == unit);
-        own.for_each(|joint| joint.share = joint.before * joint.before / all);
+    let squares: Vec<(String, f64)> = joints
+        .iter()
+        .map(|own| (own.unit.clone(), own.before * own.before))
+        .collect();
+    for joint in joints {
+        let like = squares.iter().filter(|(unit, _)| *unit == joint.unit);
+        let all: f64 = like.map(|(_, square)| square).sum();
+        joint.share = joint.before * joint.before / all.max(f64::MIN_POSITIVE);
     }
 }
 

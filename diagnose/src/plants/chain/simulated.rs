@@ -7,7 +7,7 @@ use crate::effect::Effect;
 use crate::plant::{Columns, Plant, Run, Simulated, SimulatedOutput, Unsimulated};
 use crate::signals::shifted;
 use rigproof_model::effects::{Drive, Form, entry, form};
-use rigproof_spec::effect::Motion;
+use rigproof_spec::effect::Quantity;
 use rigproof_trace::rig::chain::{ChainRecording, ChainRig};
 
 /// The efforts of a model beside the recorded ones, N·m or N, an output a joint in the arm's order.
@@ -33,10 +33,11 @@ pub(super) fn simulated(
     let each = efforts.chunks(samples).zip(recorded.chunks(samples));
     let outputs = each.enumerate().map(|(output, (own, recorded))| {
         let name = run.output_name(output);
-        let slides = model.motion_at(name) == Motion::Linear;
         SimulatedOutput {
             name: lasting(&format!("effort_{name}")),
-            unit: if slides { "N" } else { "N·m" }.to_owned(),
+            unit: Quantity::Effort
+                .dimension(model.motion_at(name))
+                .to_string(),
             recorded: Some(recorded.to_vec()),
             simulated: own.to_vec(),
             counts: run.recorded.clone(),
