@@ -201,7 +201,7 @@ fn text_recording(args: &Args) -> Result<(Trace, Dialect), Failure> {
     let known = Known {
         time: time.as_ref(),
         hints: args.reading.hints(),
-        wanted: None,
+        ..csv::Known::default()
     };
     let text = csv::read_text(&args.input, &known)?;
     outcome::note(&args.input, &text.remarks);

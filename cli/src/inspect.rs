@@ -101,7 +101,7 @@ fn text(args: &Args) -> Result<Outcome, Failure> {
     let known = Known {
         time: time.as_ref(),
         hints,
-        wanted: None,
+        ..csv::Known::default()
     };
     let text = csv::read_text(&args.recording, &known)?;
     let (trace, dialect, remarks) = (text.trace, text.dialect, text.remarks);

@@ -154,8 +154,9 @@ pub fn diagnose<P: Plant>(
     let mut problem = Problem::new(train, train.windows());
     let usable = problem.windows.usable.iter().filter(|u| **u).count() / problem.windows.outputs;
     let (travel, noise) = (train.travel(Place::Whole), train.position_noise());
-    if usable < FEWEST_WINDOWS || travel < problem.rules.least_travel * noise {
-        return not_excited(plant, usable, travel, noise);
+    let fewest = problem.windows.as_many_as(FEWEST_WINDOWS);
+    if usable < fewest || travel < problem.rules.least_travel * noise {
+        return not_excited(plant, [usable, fewest], travel, noise);
     }
     let terms = plant.check(&parts.train, &problem);
     let terms = match terms.and_then(|()| nominal(plant, &problem)) {

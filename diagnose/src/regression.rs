@@ -19,9 +19,14 @@ impl Blocks {
     pub fn new(problem: &Problem) -> Blocks {
         let outputs = problem.windows.outputs;
         let windows = problem.windows.centres.len() / outputs;
-        let count = ((problem.run.clock().duration_s() / BLOCK_S) as usize)
-            .clamp(FEWEST_BLOCKS, MOST_BLOCKS);
-        let purge = PURGE.min(windows / (4 * count));
+        let lasting = (problem.run.clock().duration_s() / BLOCK_S) as usize;
+        let (count, purge) = match problem.windows.are_alone() {
+            true => (FEWEST_BLOCKS, 0),
+            false => {
+                let count = lasting.clamp(FEWEST_BLOCKS, MOST_BLOCKS);
+                (count, PURGE.min(windows / (4 * count)))
+            }
+        };
         let ranges = (0..count)
             .map(|b| (b * windows / count, (b + 1) * windows / count - purge))
             .map(|(first, end)| (outputs * first, outputs * end))

@@ -63,6 +63,35 @@ impl Windows {
         }
     }
 
+    /// Samples that stand alone, as the rows of a static sweep do: each is a window of its own.
+    pub fn alone(samples: usize, (step_s, start_s): (f64, f64)) -> Windows {
+        Windows {
+            bump: vec![1.0],
+            curvature: vec![0.0; 3],
+            hop: 1,
+            outputs: 1,
+            centres: (0..samples).collect(),
+            usable: vec![true; samples],
+            combined: vec![None; samples],
+            combinations: Vec::new(),
+            step_s,
+            start_s,
+        }
+    }
+
+    /// So many windows that overlap by three quarters, or as many that stand alone.
+    pub fn as_many_as(&self, overlapping: usize) -> usize {
+        match self.are_alone() {
+            true => overlapping.div_ceil(4),
+            false => overlapping,
+        }
+    }
+
+    /// Whether each window is a single sample.
+    pub fn are_alone(&self) -> bool {
+        self.bump.len() == 1
+    }
+
     /// Marks rows as unusable whose window fails a rule. The rule takes the window's centre and its
     /// weights.
     pub fn keep(&mut self, rule: impl Fn(usize, &[f64]) -> bool) {
@@ -238,8 +267,11 @@ fn second_difference(weights: &[f64], step_s: f64) -> Vec<f64> {
 
 /// Whether all samples of a window were recorded.
 pub fn is_recorded(recorded: &[bool], centre: usize, bump: &[f64]) -> bool {
-    let start = centre - bump.len() / 2 - 1;
-    let mut samples = recorded.iter().skip(start).take(bump.len() + 2);
+    let reach = match bump.len() {
+        1 => 0,
+        own => own / 2 + 1,
+    };
+    let mut samples = recorded.iter().skip(centre - reach).take(2 * reach + 1);
     samples.all(|&r| r)
 }
 

@@ -113,8 +113,10 @@ pub const fn motion_name(motion: Motion) -> &'static str {
 pub struct Channels {
     /// The time, where the header of a recording does not say it.
     pub time: Option<TimeColumn>,
-    /// Displacement, m or rad.
-    pub position: ChannelMap,
+    /// Displacement, m or rad. A static sweep has none.
+    pub position: Option<ChannelMap>,
+    /// The steady speed of each row of a static sweep, m/s or rad/s.
+    pub speed: Option<ChannelMap>,
     /// Command of the drive of an `axis` or of the brake of a `bench`, in any unit.
     pub command: Option<ChannelMap>,
     /// Whether the servo of an `axis` is switched on: 1 or 0; on throughout where it is not recorded.
@@ -142,14 +144,15 @@ impl Channels {
     /// Every channel that is named.
     pub(crate) fn maps(&self) -> Vec<&ChannelMap> {
         let optional = [
+            &self.position,
+            &self.speed,
             &self.command,
             &self.enabled,
             &self.force,
             &self.current,
             &self.simulated,
         ];
-        let optional = optional.into_iter().flatten();
-        std::iter::once(&self.position).chain(optional).collect()
+        optional.into_iter().flatten().collect()
     }
 }
 
@@ -326,6 +329,8 @@ impl Rig {
         let mut rig = self.clone();
         let channels = &mut rig.channels;
         let optional = [
+            &mut channels.position,
+            &mut channels.speed,
             &mut channels.command,
             &mut channels.enabled,
             &mut channels.force,
@@ -333,7 +338,7 @@ impl Rig {
             &mut channels.simulated,
         ];
         let maps = optional.into_iter().flatten();
-        state_units(maps.chain([&mut channels.position]), &self.name, units)?;
+        state_units(maps, &self.name, units)?;
         Ok(rig)
     }
 
@@ -343,6 +348,11 @@ impl Rig {
     /// The system refuses.
     pub fn write(&self, path: &Path) -> Result<(), TraceError> {
         store::write_aside(path, self.to_toml().as_bytes())
+    }
+
+    /// Whether its recordings are static sweeps: settled rows without a time.
+    pub fn is_sweep(&self) -> bool {
+        self.plant == Plant::Bench && self.protocol.drive == Drive::Static
     }
 
     /// The dimension of force or torque, whichever the rig has.

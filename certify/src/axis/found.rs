@@ -6,7 +6,7 @@ use rigproof_model::axis::MOST_LAWS;
 use rigproof_model::effects::{Drive, Entry, Form, OfJoint, OfSensor, entry};
 use rigproof_spec::effect::{Mechanism, Motion};
 use rigproof_spec::units::Unit;
-use rigproof_trace::rig::{Plant, Rig, RigEffect, Value};
+use rigproof_trace::rig::{ChannelMap, Plant, Rig, RigEffect, Value};
 use serde::{Deserialize, Serialize};
 
 use crate::digest;
@@ -112,9 +112,13 @@ impl Found {
             let problem = format!("more than {MOST_LAWS} resistances act together: take some out");
             return Err(refused(&problem));
         }
-        let position = &rig.channels.position;
-        let to_si = Unit::parse(&position.unit).map_or(1.0, |unit| unit.to_si);
-        let in_si = |own: Option<f64>| (own.unwrap_or(0.0) * to_si * position.scale).abs();
+        let position = rig.channels.position.as_ref();
+        let in_si = |own: fn(&ChannelMap) -> Option<f64>| {
+            position.map_or(0.0, |map| {
+                let to_si = Unit::parse(&map.unit).map_or(1.0, |unit| unit.to_si);
+                (own(map).unwrap_or(0.0) * to_si * map.scale).abs()
+            })
+        };
         let name = file.file_name().unwrap_or(file.as_os_str());
         Ok(Found {
             name: name.to_string_lossy().into_owned(),
@@ -124,8 +128,8 @@ impl Found {
             command_gain: number(&parameters.command_gain, true),
             effects,
             not_run,
-            quantum: in_si(position.quantum),
-            noise: in_si(position.noise),
+            quantum: in_si(|map| map.quantum),
+            noise: in_si(|map| map.noise),
         })
     }
 

@@ -4,7 +4,6 @@ use super::{Curves, Diagnosis};
 use crate::align::Fault;
 use crate::plant::Plant;
 use crate::report::{FaultReport, Report, SCHEMA, Verdict};
-use crate::rules::FEWEST_WINDOWS;
 
 /// The answer for a faulty channel. `which` names the recording.
 pub(crate) fn faulty<P: Plant>(plant: &P, which: &str, fault: Fault) -> Diagnosis<P> {
@@ -28,7 +27,7 @@ pub(crate) fn faulty<P: Plant>(plant: &P, which: &str, fault: Fault) -> Diagnosi
 /// The answer for too little motion, or too short a recording.
 pub(crate) fn not_excited<P: Plant>(
     plant: &P,
-    usable: usize,
+    [usable, fewest]: [usize; 2],
     travel: f64,
     noise: f64,
 ) -> Diagnosis<P> {
@@ -36,7 +35,7 @@ pub(crate) fn not_excited<P: Plant>(
         plant,
         Verdict::NotExcited,
         format!(
-            "too little can be told: {usable} windows are usable (at least {FEWEST_WINDOWS} are needed), the rest hold a reversal, a rest, a brake that changes or a gap; travel {travel:.3e}, position noise {noise:.3e}"
+            "too little can be told: {usable} windows are usable (at least {fewest} are needed), the rest hold a reversal, a rest, a brake that changes or a gap; travel {travel:.3e}, position noise {noise:.3e}"
         ),
     )
 }

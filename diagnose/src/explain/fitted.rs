@@ -38,7 +38,11 @@ impl Folds {
         let blocks = blocks.iter().map(of_block);
         let mut rows: Vec<usize> = Vec::new();
         let mut ranges = Vec::new();
-        for block in blocks.filter(|block| block.len() > FEWEST_ROWS) {
+        let fewest = match problem.windows.are_alone() {
+            true => 0,
+            false => FEWEST_ROWS,
+        };
+        for block in blocks.filter(|block| block.len() > fewest) {
             ranges.push((rows.len(), rows.len() + block.len()));
             rows.extend(block);
         }

@@ -34,6 +34,8 @@ pub struct Braked<'a> {
     pub held: bool,
     /// Sample interval, s.
     pub step_s: f64,
+    /// Of a static sweep, where each sample stood in it. Everything has settled at each of them.
+    pub rows: Option<&'a [usize]>,
 }
 
 impl Braked<'_> {
@@ -74,10 +76,29 @@ impl Braked<'_> {
     /// The current that acts between each sample and the next, A.
     fn acting(&self) -> impl Iterator<Item = f64> {
         let currents = self.current.iter().zip(self.current.iter().skip(1));
-        currents.map(|(before, current)| match self.held {
-            true => *before,
-            false => 0.5 * (before + current),
+        currents.map(|(before, current)| match (self.rows, self.held) {
+            (Some(_), _) => *current,
+            (None, true) => *before,
+            (None, false) => 0.5 * (before + current),
         })
+    }
+
+    /// What a current becomes by its past: that of a static sweep goes row by row.
+    fn in_order(&self, of: impl Fn(&[f64]) -> Vec<f64>) -> Vec<f64> {
+        let Some(rows) = self.rows else {
+            return of(self.current);
+        };
+        let mut order: Vec<usize> = (0..rows.len()).collect();
+        order.sort_by_key(|sample| rows.get(*sample));
+        let at = |sample: &usize| self.current.get(*sample).copied().unwrap_or(0.0);
+        let changed = of(&order.iter().map(at).collect::<Vec<f64>>());
+        let mut own = self.current.to_vec();
+        for (sample, changed) in order.into_iter().zip(changed) {
+            if let Some(own) = own.get_mut(sample) {
+                *own = changed;
+            }
+        }
+        own
     }
 
     /// The change that a mechanism makes to the yield torque `own`, N·m.
@@ -117,7 +138,7 @@ impl Braked<'_> {
                     spread: number(3),
                     top_a: number(4),
                 };
-                given(&through_play(self.current, play, number(1)))
+                given(&self.in_order(|current| through_play(current, play, number(1))))
             }
             OfBrake::ThermalFade => self.faded(own, value),
         })

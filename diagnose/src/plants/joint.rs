@@ -31,6 +31,7 @@ mod servo;
 mod shapes;
 pub mod simulate;
 mod start;
+mod sweep;
 #[cfg(test)]
 mod tests;
 mod undone;

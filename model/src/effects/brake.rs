@@ -40,6 +40,7 @@ pub(super) const CURRENT_HYSTERESIS: Entry = Entry {
     refuted_by: "the same torque on the way up and on the way down of a slow current triangle",
     equation: "τ follows I + share·(p − I), p the play of half width `half_width` that the current moves; its sides meet at 0 from `closing` down; with `spread` the mean of plays whose half widths reach down to (1 − spread)·half_width; with `top` in the scale in which it is I where I has risen to `top`",
     facts: Facts {
+        in_a_sweep: true,
         turn: 6,
         has_forms: true,
         shapes: Shapes::CurrentPlay {
@@ -94,6 +95,7 @@ pub(super) const SATURATION: Entry = Entry {
     refuted_by: "a torque that grows with the current beyond the limit",
     equation: "τ follows I cut at limit, or I/(1 + (I/limit)^sharpness)^(1/sharpness) where it bends towards it",
     facts: Facts {
+        in_a_sweep: true,
         usual: Usual::Common,
         turn: 5,
         shapes: Shapes::CurrentLimit,
@@ -180,6 +182,7 @@ pub(super) const CURRENT_GAIN: Entry = Entry {
     refuted_by: "the commanded current through the coil",
     equation: "τ follows scale·I",
     facts: Facts {
+        in_a_sweep: true,
         in_sets: true,
         usual: Usual::Frequent,
         shapes: Shapes::Geometric {
@@ -210,6 +213,7 @@ pub(super) const COMMAND_EXPONENT: Entry = Entry {
     refuted_by: "settled efforts on the stated curve at several commands",
     equation: "τ follows full·(u/full)^exponent in place of u",
     facts: Facts {
+        in_a_sweep: true,
         in_sets: true,
         usual: Usual::Common,
         shapes: Shapes::CommandExponent(&[0.5, 0.7, 0.85, 1.2, 1.5, 2.0, 2.5]),

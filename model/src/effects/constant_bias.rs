@@ -16,6 +16,7 @@ pub(super) const ENTRY: Entry = Entry {
     refuted_by: "an offset that differs between slow motion in the two directions by more than its sign",
     equation: "level",
     facts: Facts {
+        in_a_sweep: true,
         at_arm: true,
         usual: Usual::Frequent,
         twin: Some(Mechanism::DirectionAsymmetry),

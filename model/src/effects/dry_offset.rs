@@ -16,6 +16,7 @@ pub(super) const ENTRY: Entry = Entry {
     refuted_by: "a resistance that stays the same when the motion reverses, or that vanishes with speed",
     equation: "level·sgn(q̇)",
     facts: Facts {
+        in_a_sweep: true,
         at_arm: true,
         usual: Usual::Plain,
         at_rest: AtRest::Dry(first),

@@ -36,6 +36,8 @@ pub struct Facts {
     pub form_of: Option<Mechanism>,
     /// Whether it is also a candidate as a share of a brake's torque.
     pub of_torque: bool,
+    /// Whether settled rows show it, without a time between them: a candidate of a static sweep.
+    pub in_a_sweep: bool,
     /// Whether it is a candidate at each joint of a serial arm.
     pub at_arm: bool,
     /// Whether it is a candidate at a transmission whose twist is recorded.
@@ -68,6 +70,7 @@ impl Facts {
             twin: None,
             form_of: None,
             of_torque: false,
+            in_a_sweep: false,
             at_arm: false,
             at_transmission: false,
             in_sets: false,

@@ -40,6 +40,7 @@ pub(super) const GAIN_ENTRY: Entry = Entry {
     refuted_by: "the same effort error at small and at large command",
     equation: "e = (1 + fraction)·gain·u",
     facts: Facts {
+        in_a_sweep: true,
         at_arm: true,
         usual: Usual::Frequent,
         turn: 1,

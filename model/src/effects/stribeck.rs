@@ -23,6 +23,7 @@ pub(super) const ENTRY: Entry = Entry {
     refuted_by: "the same resistance while slowing down to rest as in fast motion",
     equation: "peak·exp(−|q̇/speed|^exponent)·sgn(q̇), reached within `travel` where there is one",
     facts: Facts {
+        in_a_sweep: true,
         at_arm: true,
         of_torque: true,
         usual: Usual::Frequent,

@@ -21,6 +21,7 @@ pub(super) const ENTRY: Entry = Entry {
     refuted_by: "a resistance that grows in proportion to speed, or not at all",
     equation: "coefficient·|q̇/(1 rad/s)|^exponent·sgn(q̇)",
     facts: Facts {
+        in_a_sweep: true,
         in_sets: true,
         usual: Usual::Seldom,
         shapes: Shapes::Values(&[0.25, 0.5, 2.0, 3.0]),

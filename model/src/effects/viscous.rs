@@ -16,6 +16,7 @@ pub(super) const ENTRY: Entry = Entry {
     refuted_by: "a resistance that does not grow on a speed ramp",
     equation: "coefficient·q̇",
     facts: Facts {
+        in_a_sweep: true,
         at_arm: true,
         at_transmission: true,
         usual: Usual::Plain,

@@ -13,6 +13,13 @@ pub(super) struct TimeBase {
 }
 
 impl TimeBase {
+    /// Rows without a time, counted from 0, one a second.
+    pub(super) const COUNTED: TimeBase = TimeBase {
+        start_s: 0.0,
+        step_s: 1.0,
+        has_column: false,
+    };
+
     /// Whether the rows are counted as they come.
     pub(super) fn has_no_column(&self) -> bool {
         !self.has_column

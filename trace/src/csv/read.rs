@@ -11,6 +11,7 @@ use super::columns::{Header, Role, TimeColumn};
 use super::dialect::{Decimal, Dialect, Encoding, Hints, is_missing};
 use super::layout::Layout;
 use super::lines::{Lines, Splitter};
+use super::logger::TimeBase;
 use crate::budget;
 use crate::clock::{self, Settled};
 use crate::error::{Place, TraceError};
@@ -44,6 +45,8 @@ pub struct Known<'a> {
     pub hints: Hints,
     /// The channels that are needed; all that hold numbers, if that is not known.
     pub wanted: Option<&'a [&'a str]>,
+    /// Whether the rows are those of a sweep, which has no time: they are counted, one a second.
+    pub is_sweep: bool,
 }
 
 /// Reads a recording; the time column is the first one that is called like time (`t`, `time (ms)`, `t_s`, …).
@@ -69,7 +72,7 @@ pub fn read_as(
     let known = Known {
         time,
         hints: *hints,
-        wanted: None,
+        ..Known::default()
     };
     read_text(path, &known).map(|text| (text.trace, text.dialect))
 }
@@ -109,7 +112,7 @@ pub fn parse_as(
     let known = Known {
         time,
         hints: *hints,
-        wanted: None,
+        ..Known::default()
     };
     parse_text(source, file, &known).map(|text| (text.trace, text.dialect))
 }
@@ -153,9 +156,12 @@ fn parse_plain(source: impl Read, file: &Path, known: &Known<'_>) -> Result<Text
     let probe = start.get(..=whole.unwrap_or(start.len())).unwrap_or(&start);
     let layout = Layout::find(probe, encoding, file, &known.hints, known.time);
     let mut lines = Lines::new(Cursor::new(start).chain(text), file);
-    let Some(layout) = layout else {
+    let Some(mut layout) = layout else {
         return Err(no_layout(&mut lines, file, &known.hints)?);
     };
+    if known.is_sweep {
+        layout.time_base = Some(TimeBase::COUNTED);
+    }
     let header = Header::new(&layout, file, known.time, known.wanted)?;
     Rows::new(header, &layout).read(&mut lines, file)
 }

@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use rigproof_spec::effect::Motion;
+use rigproof_spec::effect::{Motion, Quantity};
 use rigproof_spec::units::{Dimension, Unit};
 
 use super::signals::Recorded;
 use super::{ChannelMap, Plant, Rig, Servo};
-use crate::csv::{self, Dialect, Hints, Known, Text, TimeColumn};
+use crate::csv::{self, Dialect, Hints, Known, Text};
 use crate::error::TraceError;
 use crate::mcap;
 use crate::series::Trace;
@@ -21,8 +21,10 @@ pub struct Recording {
     pub motion: Motion,
     /// Time stamps, s, strictly growing, not always evenly.
     pub time_s: Vec<f64>,
-    /// Displacement, m or rad.
+    /// Displacement, m or rad. A static sweep has none, and stands still.
     pub position: Signal,
+    /// The steady speed of each row of a static sweep, m/s or rad/s, where it is recorded.
+    pub speed: Option<Signal>,
     /// What drives the plant: the command of an axis or a bench in its SI unit, or the current of a bench in A.
     pub drive: Option<Signal>,
     /// Whether the servo is switched on: 1 or 0.
@@ -53,6 +55,18 @@ pub struct Signal {
 }
 
 impl Signal {
+    /// The position where none is recorded.
+    fn nowhere(motion: Motion, samples: usize) -> Signal {
+        Signal {
+            channel: String::new(),
+            dimension: Quantity::Travel.dimension(motion),
+            samples: vec![0.0; samples],
+            quantum: None,
+            noise: None,
+            limit: None,
+        }
+    }
+
     /// The signal at the samples that are kept.
     pub fn only(&self, kept: &[bool]) -> Signal {
         Signal {
@@ -75,6 +89,7 @@ impl Recording {
         Recording {
             time_s: those(&self.time_s, kept),
             position: self.position.only(kept),
+            speed: signal(&self.speed),
             drive: signal(&self.drive),
             enabled: signal(&self.enabled),
             force: signal(&self.force),
@@ -109,8 +124,13 @@ impl Rig {
         hints: &Hints,
     ) -> Result<(Recording, Dialect, Vec<String>), TraceError> {
         let channels = &self.channels;
-        let (time, hints) = (channels.time.as_ref(), hints.or(self.text));
-        read_applied(path, time, hints, &channels.maps(), |t| self.taken(t, path))
+        let known = Known {
+            time: channels.time.as_ref(),
+            hints: hints.or(self.text),
+            is_sweep: self.is_sweep(),
+            ..Known::default()
+        };
+        read_applied(path, known, &channels.maps(), |t| self.taken(t, path))
     }
 
     /// Turns a recording into SI quantities; `origin` is the file that messages name.
@@ -127,21 +147,18 @@ impl Rig {
     /// As [`Rig::apply`].
     pub fn taken(&self, trace: Trace, origin: &Path) -> Result<Recording, TraceError> {
         let channels = &self.channels;
-        let drive = channels.drive();
-        let others = [&channels.enabled, &channels.force, &channels.simulated];
-        let mut maps = vec![&channels.position];
-        maps.extend(drive);
-        maps.extend(others.into_iter().flatten());
-        let (time_s, mut recorded) = Recorded::of(trace, &maps, &self.name, origin);
-        let position = recorded.signal(&channels.position)?;
+        let (time_s, mut recorded) = Recorded::of(trace, &channels.maps(), &self.name, origin);
         let mut optional =
             |map: Option<&ChannelMap>| map.map(|own| recorded.signal(own)).transpose();
+        let samples = time_s.len();
+        let position = optional(channels.position.as_ref())?;
         Ok(Recording {
             plant: self.plant,
             motion: self.motion,
             time_s,
-            position,
-            drive: optional(drive)?,
+            position: position.unwrap_or_else(|| Signal::nowhere(self.motion, samples)),
+            speed: optional(channels.speed.as_ref())?,
+            drive: optional(channels.drive())?,
             enabled: optional(channels.enabled.as_ref())?,
             servo: self.servo.map(|servo| servo.of(&self.recordings, origin)),
             force: optional(channels.force.as_ref())?,
@@ -153,15 +170,13 @@ impl Rig {
 /// Reads the channels of a rig from a text, and says how: where a name suggests another unit than the rig states, too.
 fn read_text(
     path: &Path,
-    time: Option<&TimeColumn>,
-    hints: Hints,
+    known: Known<'_>,
     maps: &[&ChannelMap],
 ) -> Result<(Text, Vec<String>), TraceError> {
     let wanted: Vec<&str> = maps.iter().map(|map| map.channel.as_str()).collect();
     let known = Known {
-        time,
-        hints,
         wanted: Some(&wanted),
+        ..known
     };
     let mut text = csv::read_text(path, &known)?;
     let mut remarks = std::mem::take(&mut text.remarks);
@@ -185,30 +200,23 @@ fn read_text(
 /// Reads a text and applies a description to it: the recording, how the text was read, and what is to be said of it.
 pub(super) fn read_applied<T>(
     path: &Path,
-    time: Option<&TimeColumn>,
-    hints: Hints,
+    known: Known<'_>,
     maps: &[&ChannelMap],
     apply: impl Fn(Trace) -> Result<T, TraceError>,
 ) -> Result<(T, Dialect, Vec<String>), TraceError> {
-    let (text, remarks) = read_text(path, time, hints, maps)?;
+    let (text, remarks) = read_text(path, known, maps)?;
     let applied = apply(text.trace);
-    let applied = applied.map_err(|error| with_all_columns(path, time, hints, error, &apply))?;
+    let applied = applied.map_err(|error| with_all_columns(path, known, error, &apply))?;
     Ok((applied, text.dialect, remarks))
 }
 
 /// What is wrong with a recording, told with the columns that were passed over: one of them may be the channel that is missing.
 fn with_all_columns<T>(
     path: &Path,
-    time: Option<&TimeColumn>,
-    hints: Hints,
+    known: Known<'_>,
     error: TraceError,
     apply: impl Fn(Trace) -> Result<T, TraceError>,
 ) -> TraceError {
-    let known = Known {
-        time,
-        hints,
-        wanted: None,
-    };
     let all = csv::read_text(path, &known).ok();
     all.and_then(|all| apply(all.trace).err()).unwrap_or(error)
 }

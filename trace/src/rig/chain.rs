@@ -13,7 +13,7 @@ use super::table::{Source, Table};
 use super::transmission::{KEYS, Transmission, part};
 use super::write::{channel, effect_lines, provenance_lines, string, time_line};
 use super::{ChannelMap, RigEffect, SCHEMA_LINE, state_units, text};
-use crate::csv::{Dialect, Hints, TimeColumn};
+use crate::csv::{Dialect, Hints, Known, TimeColumn};
 use crate::error::TraceError;
 use crate::series::Trace;
 use crate::store;
@@ -250,9 +250,12 @@ impl ChainRig {
         path: &Path,
         hints: &Hints,
     ) -> Result<(ChainRecording, Dialect, Vec<String>), TraceError> {
-        let time = self.time.as_ref();
-        let hints = hints.or(self.text);
-        read_applied(path, time, hints, &self.maps(), |t| self.taken(t, path))
+        let known = Known {
+            time: self.time.as_ref(),
+            hints: hints.or(self.text),
+            ..Known::default()
+        };
+        read_applied(path, known, &self.maps(), |t| self.taken(t, path))
     }
 
     /// The description with the units that some columns are said to be in, whatever their headers say.

@@ -15,7 +15,7 @@ use super::signals::{Recorded, printed};
 use super::table::{Source, Table};
 use super::write::{channel, effect_lines, string, time_line};
 use super::{ChannelMap, Protocol, RigEffect, SCHEMA_LINE, state_units, text};
-use crate::csv::{Dialect, Hints, TimeColumn};
+use crate::csv::{Dialect, Hints, Known, TimeColumn};
 use crate::error::TraceError;
 use crate::series::Trace;
 use crate::store;
@@ -204,9 +204,12 @@ impl FiveBar {
         path: &Path,
         hints: &Hints,
     ) -> Result<(FiveBarRecording, Dialect, Vec<String>), TraceError> {
-        let time = self.channels.time.as_ref();
-        let hints = hints.or(self.text);
-        read_applied(path, time, hints, &self.maps(), |t| self.taken(t, path))
+        let known = Known {
+            time: self.channels.time.as_ref(),
+            hints: hints.or(self.text),
+            ..Known::default()
+        };
+        read_applied(path, known, &self.maps(), |t| self.taken(t, path))
     }
 
     /// Every channel that is named.

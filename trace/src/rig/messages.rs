@@ -26,8 +26,13 @@ impl Rig {
 
     fn selection(&self) -> Selection {
         let channels = &self.channels;
-        let measured = [&channels.force, &channels.current, &channels.simulated];
-        let measured = core::iter::once(&channels.position).chain(measured.into_iter().flatten());
+        let measured = [
+            &channels.position,
+            &channels.force,
+            &channels.current,
+            &channels.simulated,
+        ];
+        let measured = measured.into_iter().flatten();
         let commands = channels.command.iter().chain(&channels.enabled);
         selected(measured, commands, &channels.time)
     }

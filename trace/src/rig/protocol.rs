@@ -12,11 +12,13 @@ pub enum Drive {
     Straight,
     /// It is band-limited and repeats after the recording.
     Periodic,
+    /// Each row of a bench was taken after everything had settled: a sweep, without a time.
+    Static,
 }
 
 impl Drive {
     /// All of them.
-    pub const ALL: [Drive; 3] = [Drive::Held, Drive::Straight, Drive::Periodic];
+    pub const ALL: [Drive; 4] = [Drive::Held, Drive::Straight, Drive::Periodic, Drive::Static];
 
     /// The name in files.
     pub const fn name(self) -> &'static str {
@@ -24,6 +26,7 @@ impl Drive {
             Drive::Held => "held",
             Drive::Straight => "straight",
             Drive::Periodic => "periodic",
+            Drive::Static => "static",
         }
     }
 }

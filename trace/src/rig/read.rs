@@ -1,5 +1,7 @@
 //! This file reads a rig description from TOML and refuses what it does not know.
 
+mod channels;
+
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -9,8 +11,8 @@ use rigproof_spec::units::{Dimension, Unit};
 use super::PLANTS;
 use super::table::{Source, Table};
 use super::{
-    Brake, ChannelMap, Channels, Characteristic, Parameters, Plant, Protocol, RecordingEntry, Rig,
-    RigEffect, Servo, Status, Value, dimension, motion_name, text,
+    Brake, ChannelMap, Channels, Characteristic, Drive, Parameters, Plant, Protocol,
+    RecordingEntry, Rig, RigEffect, Servo, Status, Value, dimension, motion_name, text,
 };
 use crate::csv::TimeColumn;
 use crate::error::TraceError;
@@ -50,16 +52,22 @@ impl Rig {
             [Motion::Linear, Motion::Rotary],
             motion_name,
         )?;
-        let channels = read_channels(
-            &root.need("channels", root.table("channels")?)?,
-            plant,
-            motion,
-        )?;
+        let protocol = Protocol::read(&root)?;
+        let table = root.need("channels", root.table("channels")?)?;
+        let channels = match protocol.drive {
+            Drive::Static => channels::of_sweep(&table, plant, motion)?,
+            _ => channels::read(&table, plant, motion)?,
+        };
         let servo = Servo::read(&root)?;
         if servo.is_some() {
             check_servo(&root, &channels, motion)?;
         }
-        let characteristic = read_characteristic(&root, plant, motion, &channels)?;
+        let is_sweep = protocol.drive == Drive::Static;
+        let characteristic = read_characteristic(&root, (plant, motion), &channels, is_sweep)?;
+        if is_sweep && root.has("brake") {
+            let problem = "a static sweep is compared with a `[characteristic]`: give the settled torques there, in place of `[brake]`";
+            return Err(root.error_at("brake", problem));
+        }
         let driving = channels.driving(plant);
         Ok(Rig {
             name,
@@ -79,7 +87,7 @@ impl Rig {
                     Plant::Axis => read_effect(table, (motion, driving), &[]),
                 })
                 .collect::<Result<_, _>>()?,
-            protocol: Protocol::read(&root)?,
+            protocol,
             text: text::read(&root)?,
             provenance: read_provenance(&root)?,
             channels,
@@ -100,12 +108,13 @@ fn plant(root: &Table<'_>) -> Result<Plant, TraceError> {
     })
 }
 
-/// The characteristic of a brake. A command of a bench acts through one, and a brake has one description.
+/// The characteristic of a brake. A command of a bench acts through one, as does what a static sweep
+/// is over, and a brake has one description.
 fn read_characteristic(
     root: &Table<'_>,
-    plant: Plant,
-    motion: Motion,
+    (plant, motion): (Plant, Motion),
     channels: &Channels,
+    is_sweep: bool,
 ) -> Result<Option<Characteristic>, TraceError> {
     let is_bench = plant == Plant::Bench;
     let drive = channels.drive().filter(|_| is_bench);
@@ -116,7 +125,11 @@ fn read_characteristic(
         let problem = "`[characteristic]` and `[brake]` describe the same brake; give one";
         return Err(root.error_at("characteristic", problem));
     }
-    match is_bench && channels.command.is_some() {
+    let of_command = match is_sweep {
+        true => drive,
+        false => channels.command.as_ref(),
+    };
+    match is_bench && of_command.is_some() {
         true => root.need("characteristic", own).map(Some),
         false => Ok(own),
     }
@@ -162,51 +175,6 @@ pub(super) fn choice<T: Copy, const N: usize>(
             format!("`{word}` is no {key}; {}", advice(word, "words", &names)),
         )
     })
-}
-
-fn read_channels(table: &Table<'_>, plant: Plant, motion: Motion) -> Result<Channels, TraceError> {
-    table.only(match plant {
-        Plant::Axis => &["time", "position", "command", "enabled"],
-        Plant::Bench => &[
-            "time",
-            "position",
-            "force",
-            "torque",
-            "command",
-            "current",
-            "simulated",
-        ],
-    })?;
-    let effort = Quantity::Effort.dimension(motion);
-    let force_key = if table.has("torque") {
-        "torque"
-    } else {
-        "force"
-    };
-    if table.has("torque") && table.has("force") {
-        return Err(table.error_at("torque", "`force` and `torque` are the same role; give one"));
-    }
-    if plant == Plant::Bench && table.has("command") && table.has("current") {
-        let problem =
-            "`command` and `current` are the same role; give what the characteristic is over";
-        return Err(table.error_at("command", problem));
-    }
-    let travel = Quantity::Travel.dimension(motion);
-    let position = read_channel(table, "position", Some(travel))?;
-    let channels = Channels {
-        time: read_time(table)?,
-        position: table.need("position", position)?,
-        command: read_channel(table, "command", None)?,
-        enabled: read_channel(table, "enabled", Some(Dimension::NUMBER))?,
-        force: read_channel(table, force_key, Some(effort))?,
-        current: read_channel(table, "current", Some(Dimension::CURRENT))?,
-        simulated: read_channel(table, "simulated", Some(effort))?,
-    };
-    match plant {
-        Plant::Axis => table.need("command", channels.command.as_ref()).map(drop)?,
-        Plant::Bench => table.need(force_key, channels.force.as_ref()).map(drop)?,
-    }
-    Ok(channels)
 }
 
 pub(super) fn read_provenance(root: &Table<'_>) -> Result<BTreeMap<String, String>, TraceError> {

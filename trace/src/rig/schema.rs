@@ -59,13 +59,14 @@ fn one_joint(is_axis: bool) -> Value {
     } else {
         let roles = [
             "position",
+            "speed",
             "force",
             "torque",
             "command",
             "current",
             "simulated",
         ];
-        let mut own = channels("What the channels mean.", &roles, &["position"]);
+        let mut own = channels("What the channels mean.", &roles, &[]);
         own["oneOf"] = json!([{ "required": ["force"] }, { "required": ["torque"] }]);
         own["dependentSchemas"] = json!({ "command": { "properties": { "current": false } } });
         keys.push(("channels", own));
@@ -74,13 +75,40 @@ fn one_joint(is_axis: bool) -> Value {
     }
     let mut whole = object(None, keys, &required);
     if !is_axis {
-        let commanded = json!({ "properties": { "channels": { "required": ["command"] } } });
-        whole["if"] = commanded;
-        whole["then"] = json!({ "required": ["characteristic"] });
+        whole["allOf"] = json!([of_commanded(), of_sweep()]);
         whole["dependentSchemas"] =
             json!({ "characteristic": { "properties": { "brake": false } } });
     }
     whole
+}
+
+/// A command of a bench acts through a characteristic.
+fn of_commanded() -> Value {
+    json!({
+        "if": { "properties": { "channels": { "required": ["command"] } } },
+        "then": { "required": ["characteristic"] }
+    })
+}
+
+/// A static sweep is over a speed, or over what a characteristic is over; other benches record the
+/// position.
+fn of_sweep() -> Value {
+    let has = |role: &str| json!({ "required": [role] });
+    let over = json!({ "anyOf": [has("speed"), has("command"), has("current")] });
+    let of_current = json!({ "properties": { "channels": has("current") } });
+    let sweep = json!({ "drive": { "const": "static" } });
+    json!({
+        "if": {
+            "properties": { "protocol": { "properties": sweep, "required": ["drive"] } },
+            "required": ["protocol"]
+        },
+        "then": {
+            "properties": { "brake": false, "channels": over },
+            "if": of_current,
+            "then": { "required": ["characteristic"] }
+        },
+        "else": { "properties": { "channels": has("position") } }
+    })
 }
 
 /// A position servo as the drive of a joint.

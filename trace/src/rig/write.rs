@@ -60,7 +60,8 @@ impl Rig {
             Motion::Rotary => "torque",
         };
         let roles = [
-            ("position", Some(&self.channels.position)),
+            ("position", self.channels.position.as_ref()),
+            ("speed", self.channels.speed.as_ref()),
             ("command", self.channels.command.as_ref()),
             ("enabled", self.channels.enabled.as_ref()),
             (effort, self.channels.force.as_ref()),

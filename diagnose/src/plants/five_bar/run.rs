@@ -159,6 +159,7 @@ impl FiveBarRun {
             motion: self.motion_of(joint),
             current: self.currents.get(place(joint))?.as_ref()?,
             held: true,
+            rows: None,
             step_s: self.step_s,
         })
     }

@@ -102,6 +102,7 @@ pub fn align(recorded: &Signals) -> Result<JointRun, Fault> {
         step_s,
         start_s: 0.0,
         held: signals.held,
+        rows: None,
         position,
         motion,
         effort,

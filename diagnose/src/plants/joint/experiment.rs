@@ -37,7 +37,8 @@ pub(super) fn next(
     rivals: &[Vec<Cause>],
 ) -> Option<(NextExperiment, Option<Trace>)> {
     let run = stand.train;
-    if !run.parts.is_empty() || run.servo.is_some() || run.load().is_some() {
+    let is_sweep = run.rows.is_some();
+    if is_sweep || !run.parts.is_empty() || run.servo.is_some() || run.load().is_some() {
         return None;
     }
     let (index, all) = contested(stand.problem, stand.selection, rivals)?;

@@ -3,6 +3,7 @@
 use super::align::{Signals, align};
 use super::inertia::Inertia;
 use super::servo::Servoed;
+use super::sweep;
 use crate::align::{Fault, forget_sense_near_reversals};
 use crate::cause::Cause;
 use crate::effect::Effect;
@@ -28,7 +29,14 @@ pub(super) fn bare(
     behind: impl Fn(&[f64], Clock) -> Vec<f64>,
 ) -> Result<JointRun, Fault> {
     let gain = rig.parameters.map_or(1.0, |p| p.command_gain.value);
-    let mut run = align(&signals(rig, recording, gain, behind))?;
+    let signals = signals(rig, recording, gain, behind);
+    let mut run = match rig.is_sweep() {
+        true => sweep::align(
+            &signals,
+            recording.speed.as_ref().map(|s| s.samples.as_slice()),
+        )?,
+        false => align(&signals)?,
+    };
     run.servo = Servoed::of(recording, gain, &run);
     if let Some(servo) = &run.servo {
         run.effort = servo.along(&run);
@@ -41,7 +49,9 @@ pub(super) fn bare(
         // yield torque through a reversal.
         run.predicted = run.braked(current);
         let still = STILL_NOISES * run.position_noise;
-        forget_sense_near_reversals(&mut run.motion, &run.position, still);
+        if run.rows.is_none() {
+            forget_sense_near_reversals(&mut run.motion, &run.position, still);
+        }
     }
     Ok(run)
 }
@@ -184,7 +194,7 @@ pub fn protocol(rig: &Rig) -> Protocol {
     Protocol {
         interpolation: match rig.protocol.drive {
             Drive::Held => Interpolation::Hold,
-            Drive::Straight => Interpolation::Linear,
+            Drive::Straight | Drive::Static => Interpolation::Linear,
             Drive::Periodic => Interpolation::Band,
         },
         start_samples: rig.protocol.start_samples,

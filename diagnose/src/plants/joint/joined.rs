@@ -7,9 +7,14 @@ use core::ops::Range;
 
 impl Joins for JointRun {
     fn append(&mut self, run: &JointRun) {
-        // No window may span the seam.
-        if let Some(last) = self.recorded.last_mut() {
+        // No window may span the seam. The rows of a sweep stand alone.
+        let seam = self.recorded.last_mut().filter(|_| self.rows.is_none());
+        if let Some(last) = seam {
             *last = false;
+        }
+        let before = self.position.len();
+        if let (Some(own), Some(new)) = (&mut self.rows, &run.rows) {
+            own.extend(new.iter().map(|row| before + row));
         }
         self.recorded.extend_from_slice(&run.recorded);
         self.remarks.extend_from_slice(&run.remarks);

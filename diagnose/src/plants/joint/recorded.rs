@@ -139,6 +139,7 @@ fn run(plant: PlantKind, motion: Vec<Instant>, effort: Vec<f64>, held: bool) -> 
         step_s: STEP_S,
         start_s: 0.0,
         held,
+        rows: None,
         position: motion.iter().map(|now| now.position).collect(),
         recorded: vec![true; motion.len()],
         untold_speed: vec![1e-4; motion.len()],

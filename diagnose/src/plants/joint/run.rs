@@ -20,6 +20,7 @@ use crate::rules::{
     PERIODS_A_WIDTH, QUIET, WIDTHS_S,
 };
 use crate::signals::second_difference;
+use crate::unknown::{Variable, variables};
 use crate::weak::{Windows, is_recorded, untold};
 use rigproof_model::brake::Characteristic;
 use rigproof_model::effects::facts::Shapes;
@@ -64,6 +65,8 @@ pub struct JointRun {
     /// Whether the drive holds its value between samples, so that it acts half a sample late on
     /// average.
     pub held: bool,
+    /// Of a static sweep, where each sample stood in it.
+    pub rows: Option<Vec<usize>>,
     /// Recorded position, m or rad.
     pub position: Vec<f64>,
     /// Smoothed motion: what the laws are evaluated on.
@@ -164,6 +167,7 @@ impl JointRun {
             current,
             held: self.held,
             step_s: self.step_s,
+            rows: self.rows.as_deref(),
         })
     }
 
@@ -196,6 +200,10 @@ impl JointRun {
             step_s: self.step_s,
             start_s: self.start_s + from as f64 * self.step_s,
             held: self.held,
+            rows: self
+                .rows
+                .as_ref()
+                .map(|rows| rows.get(from..to).unwrap_or_default().to_vec()),
             position: part(&self.position),
             motion: self.motion.get(from..to).unwrap_or_default().to_vec(),
             effort: part(&self.effort),
@@ -310,6 +318,15 @@ impl Run for JointRun {
         self.windows_of(self.width_s())
     }
 
+    /// Each row of a static sweep stands alone.
+    fn all_windows(&self, width_s: f64) -> Windows {
+        let times = (self.step_s, self.start_s);
+        match self.rows {
+            Some(_) => Windows::alone(self.len(), times),
+            None => Windows::over(self.len(), self.outputs(), times, width_s),
+        }
+    }
+
     /// Keeps windows in which the direction of motion is known throughout. On an axis they must not
     /// hide the start or end of a rest; with a brake, its torque must be predictable.
     fn keep_told(&self, windows: &mut Windows) {
@@ -318,6 +335,9 @@ impl Run for JointRun {
         };
         windows.keep(|centre, bump| is_recorded(&self.recorded, centre, bump));
         windows.keep(most(MOST_AMBIGUOUS));
+        if self.rows.is_some() {
+            return;
+        }
         let floor = self.floor(windows);
         if self.plant == PlantKind::Axis {
             windows.keep(most(MOST_UNTOLD * floor / rms(&self.effort).max(1e-300)));
@@ -410,14 +430,27 @@ impl Run for JointRun {
 
     /// Without a reversal, a constant may be a bias or a direction asymmetry.
     fn twin(&self, cause: Cause) -> Option<Cause> {
-        facts(cause.mechanism)?.twin.map(Cause::of)
+        facts(cause.mechanism)?
+            .twin
+            .map(|twin| self.twin_here(twin))
     }
 
     fn brake(&self) -> Option<(&[f64], &[f64])> {
         JointRun::brake(self)
     }
 
+    /// No curve over a position or a time that a static sweep does not have.
+    fn variables(&self, windows: &Windows) -> Vec<Variable> {
+        let shares = self.shares(Place::Whole, windows);
+        let mut all = variables(self, windows, Place::Whole, &shares);
+        all.retain(|own| self.rows.is_none() || ["speed", "effort"].contains(&own.name));
+        all
+    }
+
     fn regimes(&self, windows: &Windows) -> Regimes {
+        if self.rows.is_some() {
+            return self.regimes_of_sweep(windows);
+        }
         let output = match self.plant {
             PlantKind::Axis => "effort balance",
             PlantKind::Bench => "metered effort",

@@ -34,7 +34,7 @@ pub fn causes(run: &JointRun) -> Vec<Cause> {
         .any(|e| e.unknown && e.cause.mechanism == Mechanism::Viscous);
     let asked_for = library.filter(|entry| {
         let is_twin = entry.mechanism == Mechanism::LugreBristle && is_drag_free;
-        asked(entry.facts.asked.alone) && !is_twin
+        asked(entry.facts.asked.alone) && !is_twin && run.shows(&entry.facts)
     });
     let asked_for: Vec<Cause> = asked_for.map(|entry| Cause::of(entry.mechanism)).collect();
     let is_share =

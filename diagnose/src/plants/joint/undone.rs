@@ -40,9 +40,10 @@ pub(super) fn aligned(rig: &Rig, recording: &Recording, before_s: f64) -> Result
     for onset_s in undone.iter_mut().filter_map(|own| own.onset_s.as_mut()) {
         *onset_s -= before_s;
     }
-    let mut run = bare(rig, recording, |position, clock| {
+    let run = bare(rig, recording, |position, clock| {
         behind(&undone, position, clock)
     })?;
+    let mut run = run.dealt();
     run.described = left(rig);
     let clock = run.clock();
     if run.plant == PlantKind::Axis {

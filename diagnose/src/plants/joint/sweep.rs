@@ -1,0 +1,266 @@
+//! This file aligns a static sweep: rows that were taken after everything had settled, without a
+//! time.
+
+use super::align::Signals;
+use super::inertia::Inertia;
+use super::run::JointRun;
+use crate::align::{Fault, check_missing, smallest_step};
+use crate::cause::{Cause, Place};
+use crate::continuity::Remark;
+use crate::filter::ends;
+use crate::locate::{Cell, Regimes};
+use crate::rules::FEWEST_BLOCKS;
+use crate::weak::Windows;
+use rigproof_model::effects::Instant;
+use rigproof_model::effects::facts::{Facts, Family};
+use rigproof_spec::effect::Mechanism;
+
+/// The time from row to row, s. No law of a sweep goes by time.
+const ROW_S: f64 = 1.0;
+
+/// The rows of a sweep in their order. Those that lack a number are left out.
+///
+/// # Errors
+/// Too many efforts are missing.
+pub(super) fn align(signals: &Signals, speeds: Option<&[f64]>) -> Result<JointRun, Fault> {
+    let all = signals.effort.len();
+    check_missing("effort", &signals.time_s, &signals.effort)?;
+    let others = [&signals.current, &signals.predicted];
+    let whole = |k: &usize| {
+        let others = others.into_iter().flatten().map(Vec::as_slice);
+        let mut each = others.chain(speeds).chain([signals.effort.as_slice()]);
+        each.all(|own| own.get(*k).is_some_and(|x| x.is_finite()))
+    };
+    let kept: Vec<usize> = (0..all).filter(whole).collect();
+    let of = |own: &[f64]| -> Vec<f64> {
+        let values = kept.iter().filter_map(|k| own.get(*k));
+        values.copied().collect()
+    };
+    let speeds = speeds.map(of);
+    let effort = of(&signals.effort);
+    let current = signals.current.as_deref().map(of);
+    let scatter = scatter(&effort, current.as_deref(), speeds.as_deref()).unwrap_or(0.0);
+    let rounding = smallest_step(&effort) / 12f64.sqrt();
+    let motion = (0..kept.len()).map(|k| {
+        let speed = speeds.as_ref().and_then(|own| own.get(k)).copied();
+        Instant {
+            time_s: k as f64 * ROW_S,
+            position: 0.0,
+            speed: speed.unwrap_or(0.0),
+            sense: speed.map_or(1.0, sense),
+        }
+    });
+    Ok(JointRun {
+        plant: signals.plant,
+        kind: signals.kind,
+        inertia: Inertia::None,
+        described: Vec::new(),
+        step_s: ROW_S,
+        start_s: 0.0,
+        held: false,
+        rows: Some((0..kept.len()).collect()),
+        position: vec![0.0; kept.len()],
+        motion: motion.collect(),
+        predicted: signals.predicted.as_deref().map(of),
+        current,
+        law: None,
+        position_noise: 0.0,
+        effort_noise: signals.effort_noise.unwrap_or(scatter.max(rounding)),
+        recorded: vec![true; kept.len()],
+        speed_floor: 0.0,
+        untold_speed: vec![0.0; kept.len()],
+        metered_by: Vec::new(),
+        servo: None,
+        parts: Vec::new(),
+        remarks: vec![said(kept.len(), all)],
+        effort,
+    })
+}
+
+/// About the standard deviation of the noise of an effort: how far a row lies from the straight line
+/// between its neighbours (Gasser, Sroka and Jennen-Steinmetz, Biometrika 73, 1986).
+///
+/// Neighbours are rows of about one speed, next to each other in command, on the same way of the
+/// sweep, up or down; without a command, next to each other in speed. `None` where no row has two.
+fn scatter(effort: &[f64], command: Option<&[f64]>, speed: Option<&[f64]>) -> Option<f64> {
+    let over = command.or(speed)?;
+    let [low, high] = ends(speed.unwrap_or_default().iter().copied());
+    let alike = SPEEDS_ALIKE * high.abs().max(low.abs());
+    let near = |k: usize| match (command, speed) {
+        (Some(_), Some(speed)) => speed.get(k).map_or(0.0, |own| (own / alike).round()),
+        _ => 0.0,
+    };
+    let at = |k: usize| over.get(k).copied().unwrap_or(0.0);
+    let way = |k: usize| match k {
+        0 => at(1) >= at(0),
+        _ => at(k) >= at(k - 1),
+    };
+    let mut order: Vec<usize> = (0..effort.len()).collect();
+    let place = |k: usize| (near(k), f64::from(u8::from(way(k))), at(k));
+    let by = |a: &usize, b: &usize| {
+        let (one, other) = (place(*a), place(*b));
+        let firsts = one.0.total_cmp(&other.0).then(one.1.total_cmp(&other.1));
+        firsts.then(one.2.total_cmp(&other.2))
+    };
+    order.sort_by(by);
+    let mut off: Vec<f64> = Vec::new();
+    for three in order.windows(3) {
+        let &[a, b, c] = three else { continue };
+        if (near(a), way(a)) != (near(c), way(c)) {
+            continue;
+        }
+        let width = at(c) - at(a);
+        let share = match width > 0.0 {
+            true => (at(b) - at(a)) / width,
+            false => 0.5,
+        };
+        let value = |k: usize| effort.get(k).copied().unwrap_or(0.0);
+        let line = (1.0 - share) * value(a) + share * value(c);
+        let spread = (1.0 + share.powi(2) + (1.0 - share).powi(2)).sqrt();
+        off.push((value(b) - line).abs() / spread);
+    }
+    off.sort_by(f64::total_cmp);
+    Some(off.get(off.len() / 2)? / MEDIAN_OF_NORMAL)
+}
+
+/// Speeds within this share of the greatest are about one.
+const SPEEDS_ALIKE: f64 = 0.05;
+
+/// The median magnitude of a normal variable of standard deviation 1.
+const MEDIAN_OF_NORMAL: f64 = 0.674_489_750_196_081_7;
+
+/// The direction of a speed; 0 of none.
+fn sense(speed: f64) -> f64 {
+    match speed == 0.0 {
+        true => 0.0,
+        false => speed.signum(),
+    }
+}
+
+/// What is to be said of a sweep of which so many rows of all are kept.
+fn said(kept: usize, all: usize) -> Remark {
+    let lacking = match all - kept {
+        0 => String::new(),
+        lacking => format!("; {lacking} rows lack a number and are left out"),
+    };
+    Remark {
+        channel: "effort",
+        what: "swept",
+        from_s: 0.0,
+        to_s: ROW_S * kept.saturating_sub(1) as f64,
+        count: kept,
+        words: format!(
+            "a static sweep of {kept} settled rows: what acts by time or travel is no candidate, and the rows are dealt like cards, every {FEWEST_BLOCKS}th first, so that each part covers the whole sweep; a time is the place of a row in that order{lacking}"
+        ),
+        cause: None,
+    }
+}
+
+impl JointRun {
+    /// The rows of a static sweep, dealt like cards, so that each part of them covers the sweep. What
+    /// was recorded over time stays as it is.
+    pub(super) fn dealt(self) -> JointRun {
+        let Some(rows) = &self.rows else {
+            return self;
+        };
+        let order: Vec<usize> = (0..FEWEST_BLOCKS)
+            .flat_map(|first| (first..rows.len()).step_by(FEWEST_BLOCKS))
+            .collect();
+        let of = |own: &Vec<f64>| -> Vec<f64> {
+            let values = order.iter().filter_map(|k| own.get(*k));
+            values.copied().collect()
+        };
+        let motion = order.iter().filter_map(|k| self.motion.get(*k)).enumerate();
+        JointRun {
+            motion: motion
+                .map(|(k, now)| Instant {
+                    time_s: k as f64 * ROW_S,
+                    ..*now
+                })
+                .collect(),
+            effort: of(&self.effort),
+            predicted: self.predicted.as_ref().map(of),
+            current: self.current.as_ref().map(of),
+            rows: Some(order),
+            ..self
+        }
+    }
+
+    /// Whether a mechanism shows in this recording: in a static sweep only what needs neither time
+    /// nor travel, and friction of motion only where the speed is recorded.
+    pub(super) fn shows(&self, facts: &Facts) -> bool {
+        let is_of_motion = facts.family == Family::FrictionOfMotion;
+        self.rows.is_none() || facts.in_a_sweep && (!is_of_motion || self.is_turned())
+    }
+
+    /// Whether a speed is recorded.
+    fn is_turned(&self) -> bool {
+        self.motion.iter().any(|now| now.speed != 0.0)
+    }
+
+    /// What a constant cannot be told from: in a sweep at one unrecorded speed, dry friction.
+    pub(super) fn twin_here(&self, twin: Mechanism) -> Cause {
+        Cause::of(match self.rows.is_some() && !self.is_turned() {
+            true => Mechanism::DryOffset,
+            false => twin,
+        })
+    }
+
+    /// The regimes of a static sweep: by command and the way it goes, and by speed.
+    pub(super) fn regimes_of_sweep(&self, windows: &Windows) -> Regimes {
+        let none = Vec::new();
+        let commands = self.current.as_ref().unwrap_or(&none);
+        let [low, high] = ends(commands.iter().copied());
+        let third = |k: usize| {
+            let share = commands
+                .get(k)
+                .map_or(-1.0, |own| (own - low) / (high - low).max(1e-300));
+            (3.0 * share).floor().clamp(-1.0, 2.0) as i32
+        };
+        let before = self.before();
+        let way = |k: usize| -> f64 {
+            let pair = commands.get(k).zip(before.get(k).copied().flatten());
+            pair.map_or(0.0, |(now, before)| now - before)
+        };
+        let speed = |k: usize| self.motion.get(k).map_or(0.0, |now| now.speed);
+        let [slowest, fastest] = ends(self.motion.iter().map(|now| now.speed.abs()));
+        let cell = |label, rule: &dyn Fn(usize) -> bool| Cell {
+            label,
+            at: Place::Whole,
+            member: windows.centres.iter().map(|row| rule(*row)).collect(),
+        };
+        let middle = 0.5 * (slowest + fastest);
+        Regimes {
+            output: "metered effort",
+            counted: vec![true; windows.centres.len()],
+            cells: vec![
+                cell("lowest third of the command", &|k| third(k) == 0),
+                cell("middle third of the command", &|k| third(k) == 1),
+                cell("highest third of the command", &|k| third(k) == 2),
+                cell("rows where the command rises", &|k| way(k) > 0.0),
+                cell("rows where the command falls", &|k| way(k) < 0.0),
+                cell("slower half of the speeds", &|k| speed(k).abs() < middle),
+                cell("faster half of the speeds", &|k| speed(k).abs() > middle),
+                cell("rows in the positive sense", &|k| speed(k) > 0.0),
+                cell("rows in the negative sense", &|k| speed(k) < 0.0),
+            ],
+        }
+    }
+
+    /// The command of the row before each in the sweep, where it is here.
+    fn before(&self) -> Vec<Option<f64>> {
+        let (Some(rows), Some(commands)) = (&self.rows, &self.current) else {
+            return Vec::new();
+        };
+        let mut of_row = vec![None; rows.iter().max().map_or(0, |last| last + 1)];
+        for (row, command) in rows.iter().zip(commands) {
+            if let Some(own) = of_row.get_mut(*row) {
+                *own = Some(*command);
+            }
+        }
+        let each = rows
+            .iter()
+            .map(|row| of_row.get(row.checked_sub(1)?).copied());
+        each.map(Option::flatten).collect()
+    }
+}
